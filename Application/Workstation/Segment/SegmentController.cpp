@@ -93,7 +93,10 @@ SegmentController::SegmentController(presenters::WorkstationModel& model, SliceC
   m_editor.events.voxelsChanged = [this](const core::IndexBox& box)
   {
     if (m_model.hasCase() && !box.empty())
+    {
       m_slices.draftChanged(m_model.value().ct.geometry.cropped(box).patientBounds());
+      m_panel->showVolume();
+    }
   };
   m_surfaceLater.setSingleShot(true);
   m_surfaceLater.setInterval(kSurfaceAfter);
@@ -306,6 +309,7 @@ void SegmentController::changed()
   m_step->setEnabled(open && m_editor.whyNotStep().empty());
   m_create->setEnabled(open && draft);
   m_escape->setEnabled(open && (draft || tool != Tool::None));
+  m_slices.setHidden(m_editor.edited());
   m_slices.setTool(hasClicks(tool)
                        ? std::optional(SliceTool{hasBrushOf(tool) ? m_editor.values().brush : 0.0,
                                                  tool == Tool::Erase ? kEraser

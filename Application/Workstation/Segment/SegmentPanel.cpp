@@ -481,6 +481,13 @@ void SegmentPanel::appearanceChanged()
 void SegmentPanel::showSources()
 {
   const auto sources = m_editor.sources();
+  QStringList names, shown;
+  for (const auto& source : sources)
+    names << words(source.name) + words(source.why);
+  for (int n = 0; n < m_source->count(); ++n)
+    shown << m_source->itemData(n).toString() + m_source->itemData(n, Qt::ToolTipRole).toString();
+  if (names == shown)
+    return;
   m_bound.quietly(
       [&]
       {
@@ -490,10 +497,11 @@ void SegmentPanel::showSources()
           const QString name = source.name == "ct" ? tr("CT") : words(source.name);
           m_source->addItem(source.why.empty() ? name : tr("%1 (%2)").arg(name, words(source.why)),
                             words(source.name));
-          auto* item = static_cast<QStandardItemModel*>(m_source->model())
-                           ->item(m_source->count() - 1);
-          item->setEnabled(source.why.empty());
-          item->setToolTip(words(source.why));
+          const int row = m_source->count() - 1;
+          m_source->setItemData(row, words(source.why), Qt::ToolTipRole);
+          static_cast<QStandardItemModel*>(m_source->model())
+              ->item(row)
+              ->setEnabled(source.why.empty());
         }
       });
 }
@@ -502,6 +510,10 @@ void SegmentPanel::showSources()
 void SegmentPanel::showRange()
 {
   const presenters::IntensityDisplay display = m_editor.display();
+  if (display.least == m_display.least && display.most == m_display.most &&
+      display.decimals == m_display.decimals && display.hounsfield == m_display.hounsfield)
+    return; // setting a range would drop what is being typed
+  m_display = display;
   m_bound.quietly(
       [&]
       {
@@ -541,6 +553,11 @@ void SegmentPanel::showPoints()
   m_removePoint->setEnabled(!points.empty());
 }
 
+void SegmentPanel::showVolume()
+{
+  m_volume->setText(volumeText(m_editor));
+}
+
 void SegmentPanel::refresh()
 {
   showSources();
@@ -551,7 +568,7 @@ void SegmentPanel::refresh()
     m_name->setText(words(m_editor.name()));
   m_pages->setCurrentIndex(static_cast<int>(m_editor.tool()));
   const bool free = !m_editor.stepping();
-  m_volume->setText(volumeText(m_editor));
+  showVolume();
   m_remark->setText(words(m_editor.warning()));
   m_remark->setVisible(!m_editor.warning().empty());
   m_note->setText(words(m_editor.note()));

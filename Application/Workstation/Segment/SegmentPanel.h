@@ -36,6 +36,7 @@ public:
   void caseChanged() override;
   void appearanceChanged() override;
   void refresh();
+  void showVolume(); ///< alone, while a stroke is painted
   void setProgress(double fraction, const QString& text);
   void say(const QString& line); ///< a refusal, or what was done; empty: nothing
   void focusName();
@@ -73,6 +74,7 @@ private:
   QComboBox* m_source;
   QStackedWidget* m_pages;
   std::vector<QDoubleSpinBox*> m_ranges;
+  presenters::IntensityDisplay m_display; // of m_ranges
   std::vector<QPushButton*> m_steps;
   QTreeWidget* m_points = nullptr;
   QPushButton* m_removePoint = nullptr;

@@ -46,8 +46,11 @@ void SliceColumn::caseChanged()
 
 void SliceColumn::appearanceChanged()
 {
+  scene::Case value = m_model.presentable();
+  if (auto* hidden = scene::findStructure(value, m_hidden))
+    hidden->look.shown = false;
   const auto presenter = std::make_shared<const presenters::SlicePresenter>(
-      m_model.presentable(), m_model.value().dissection.sharedMask());
+      value, m_model.value().dissection.sharedMask());
   for (SliceView* view : m_views)
   {
     view->setPresenter(presenter, m_model.value().ct.geometry);
@@ -141,6 +144,15 @@ void SliceColumn::setDraft(const std::shared_ptr<const presenters::DraftLayer>& 
 {
   for (SliceView* view : m_views)
     view->setDraft(draft);
+}
+
+void SliceColumn::setHidden(const std::string& structure)
+{
+  if (structure == m_hidden)
+    return;
+  m_hidden = structure;
+  if (m_model.hasCase())
+    appearanceChanged();
 }
 
 void SliceColumn::draftChanged(const core::PatientBox& box)

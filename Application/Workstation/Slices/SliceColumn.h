@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <QSplitter>
@@ -42,6 +43,8 @@ public:
   void setTool(const std::optional<SliceTool>& tool); ///< as SliceView, and the next three
   void setDrawing(const SliceDrawing& drawing);
   void setDraft(const std::shared_ptr<const presenters::DraftLayer>& draft);
+  /// A structure that is not shown, as its draft is; empty: none.
+  void setHidden(const std::string& structure);
   void draftChanged(const core::PatientBox& box);
 
 signals:
@@ -57,6 +60,7 @@ private:
 
   presenters::WorkstationModel& m_model;
   std::array<SliceView*, 3> m_views;
+  std::string m_hidden;
 };
 
 } // namespace petrous::workstation

@@ -1110,7 +1110,19 @@ DraftLayer SegmentEditor::layer() const
   for (float& channel : stroke)
     channel = 0.5F * (channel + 255.0F);
   layer.colors = {{}, bright, stroke, kBeside};
-  if (preview)
+  const bool range = m_tool == Tool::Threshold && !m_values.connected && previewPending() &&
+                     !m_proposeDue && m_image && m_image->onCt;
+  if (range) // until it is computed
+    layer.indexAt = [draft = m_draft, image = m_image->onCt, lower = m_values.lower,
+                     upper = m_values.upper, how = m_values.combine](const core::Index3& at)
+    {
+      const double value = image->at(at[0], at[1], at[2]);
+      const bool in = value >= lower && value <= upper;
+      const bool drawn = draft->mask.voxels().at(at[0], at[1], at[2]) != 0;
+      const bool both = how == Combine::Replace ? in : how == Combine::Add ? in || drawn : in && drawn;
+      return both ? kInDraft : std::uint16_t{0};
+    };
+  else if (preview)
     layer.indexAt = [mask = *m_preview->result](const core::Index3& at)
     { return mask.at(at) ? kInDraft : std::uint16_t{0}; };
   else

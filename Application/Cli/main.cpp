@@ -66,6 +66,7 @@ void addCommands(CLI::App& app, cli::Context& context)
                                           "program; install the package petrous-bench");
                   })
       ->allow_extras();
+  cli::addSegmentCommand(app, context);
   cli::addDoctorCommand(app, context);
   for (const char* name : kNotBuilt)
     context

@@ -502,6 +502,38 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
   return value;
 }
 
+std::vector<std::array<float, 3>> structureColors(const scene::Case& value)
+{
+  return colorsOf(value);
+}
+
+void addStructures(scene::Case& value, volume::LabelMap labels)
+{
+  const auto presets = appearance::StructurePresets::builtIn();
+  scene::LabelPart part;
+  for (const volume::Segment& segment : labels.segments)
+  {
+    scene::checkPartName(segment.name);
+    if (scene::findStructure(value, segment.name) || scene::findMesh(value, segment.name))
+      throw core::InvalidParameter("structure '" + segment.name +
+                                   "' is in the case already; give it another name");
+    if (segment.voxels == 0)
+      throw core::InvalidParameter("structure '" + segment.name + "' has no voxel yet");
+    scene::StructurePart structure;
+    structure.name = segment.name;
+    structure.index = segment.index;
+    structure.voxels = segment.voxels;
+    structure.volume = labels.volume(segment);
+    structure.look = presets.lookFor(structure.name);
+    if (isUnknown(structure.look))
+      structure.look.color = appearance::distinctColor(colorsOf(value, part.structures));
+    part.structures.push_back(std::move(structure));
+  }
+  part.drawnOn = std::string();
+  part.labels = std::make_shared<const volume::LabelMap>(std::move(labels));
+  value.labels.push_back(std::move(part));
+}
+
 void addParts(scene::Case& value, const PartSources& parts, const core::Progress& progress)
 {
   scene::Case next = value;

@@ -16,6 +16,7 @@
 #include "petrous/Imaging/ImageFile.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
+#include "petrous/Imaging/StructureSet.h"
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Scene/Placement.h"
 #include "petrous/Volume/IntensityScale.h"
@@ -320,13 +321,34 @@ void settleFrame(const scene::Case& value, PartSource& source, const std::string
                                "say FILE@ct, or add the MR on which it was drawn");
 }
 
+// An RT structure set becomes voxels of the image on which it was drawn.
+imaging::LoadedLabels loadStructureSet(const scene::Case& value, PartSource& source,
+                                       const std::function<std::string(const std::string&)>& salted,
+                                       const core::Progress& progress)
+{
+  const imaging::StructureSet set = imaging::readStructureSet(source.path);
+  settleFrame(value, source, set.frameOfReferenceUid, salted);
+  const scene::ImagePart* mr = nullptr;
+  if (!source.drawnOn.empty() && source.drawnOn != "ct")
+    mr = scene::findMr(value, drawnOnNamed(value, source));
+  if (source.drawnOn.empty())
+    source.drawnOn = "ct"; // not an MR of the same grid
+  return imaging::labelsOf(set, mr ? mr->geometry : value.ct.geometry, source.path, progress);
+}
+
 void addLabels(scene::Case& value, PartSource source,
                const std::function<std::string(const std::string&)>& salted,
                const core::Progress& progress)
 {
   const auto presets = appearance::StructurePresets::builtIn();
-  auto loaded = imaging::loadLabels(source.path, progress);
-  settleFrame(value, source, loaded.frameOfReferenceUid, salted);
+  imaging::LoadedLabels loaded;
+  if (imaging::isStructureSet(source.path))
+    loaded = loadStructureSet(value, source, salted, progress);
+  else
+  {
+    loaded = imaging::loadLabels(source.path, progress);
+    settleFrame(value, source, loaded.frameOfReferenceUid, salted);
+  }
   std::vector<std::string> notes = std::move(loaded.notes);
   std::vector<std::string> empty;
   const std::size_t before = value.labels.size();

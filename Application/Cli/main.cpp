@@ -15,7 +15,7 @@ namespace
 using namespace petrous;
 
 // Specified command-line names, not implemented yet.
-constexpr std::array<const char*, 5> kNotBuilt{"archive", "restore", "send", "receive", "nodes"};
+constexpr std::array<const char*, 3> kNotBuilt{"send", "receive", "nodes"};
 
 // The window is a separate program, so that the command starts without Qt.
 int openWorkstation(char** arguments)

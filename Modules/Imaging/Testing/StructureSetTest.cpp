@@ -270,13 +270,19 @@ TEST(StructureSet, OverlappingStructuresLieInLayersAndEmptyOnesAreNamed)
   EXPECT_DOUBLE_EQ(loaded.maps[1].volume(loaded.maps[1].segments[0]), 6.0);
 }
 
-TEST(StructureSet, OutsideTheImageNothingIsMarked)
+TEST(StructureSet, WhatLiesOutsideTheImageIsNoted)
 {
-  const volume::LabelMap labels =
-      labelsOf({named("far", {circle({500.0, 0.0, 10.0}, 4.0)}),
-                named("half", {square(-20.0, -9.25, -15.25, -14.25, 10.0)})});
-  EXPECT_EQ(labels.segments[0].voxels, 0U);
-  EXPECT_EQ(labels.segments[1].voxels, 4U);
+  StructureSet set;
+  set.rois = {named("far", {circle({500.0, 0.0, 10.0}, 4.0)}),
+              named("half", {square(-20.0, -9.25, -15.25, -14.25, 10.0)}),
+              named("inside", {square(-5.25, -2.25, -15.25, -14.25, 10.0)})};
+  const LoadedLabels loaded = imaging::labelsOf(set, grid(), "set.dcm");
+  const auto& segments = loaded.maps[0].segments;
+  EXPECT_EQ(segments[0].voxels, 0U);
+  EXPECT_EQ(segments[1].voxels, 4U);
+  ASSERT_EQ(loaded.notes.size(), 2U);
+  EXPECT_NE(loaded.notes[0].find("'far': 100 %"), std::string::npos) << loaded.notes[0];
+  EXPECT_NE(loaded.notes[1].find("'half': 91 %"), std::string::npos) << loaded.notes[1];
 }
 
 TEST(StructureSet, IsReadInEitherEncoding)

@@ -223,6 +223,14 @@ double areaOf(const Plane& plane) // voxels
   return area;
 }
 
+double volumeOf(const Placed& placed) // voxels
+{
+  double volume = 0.0;
+  for (const Plane& plane : placed.planes)
+    volume += areaOf(plane) * (plane.upper - plane.lower);
+  return volume;
+}
+
 /// The box of the voxels that a structure's slabs touch, within the grid.
 core::IndexBox boxOf(const Placed& placed, const core::GridGeometry& grid)
 {
@@ -506,11 +514,7 @@ StructureSet readStructureSet(const std::filesystem::path& path)
 double contourVolume(const StructureSet::Roi& roi, const core::GridGeometry& grid)
 {
   const auto placed = roi.contours.empty() ? std::nullopt : place(roi, grid);
-  double voxels = 0.0;
-  if (placed)
-    for (const Plane& plane : placed->planes)
-      voxels += areaOf(plane) * (plane.upper - plane.lower);
-  return voxels * grid.voxelVolume();
+  return placed ? volumeOf(*placed) * grid.voxelVolume() : 0.0;
 }
 
 LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
@@ -549,6 +553,12 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
       if (placed->step > kGap)
         coarse.push_back("'" + roi.name + "'");
       const Shares shares = sharesOf(*placed, grid, part);
+      constexpr double kNoted = 0.01; // of the volume
+      const double whole = volumeOf(*placed);
+      if (shares.sum < (1.0 - kNoted) * whole)
+        loaded.notes.push_back("'" + roi.name + "': " +
+                               std::to_string(std::lround(100.0 * (1.0 - shares.sum / whole))) +
+                               " % of it lies outside this image and became no voxels");
       if (!shares.box.empty())
       {
         std::vector<char> in = chosen(shares);

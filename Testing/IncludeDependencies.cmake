@@ -14,6 +14,7 @@ set(allowed_Appearance Core Volume)
 set(allowed_Imaging Core Volume)
 set(allowed_Phantom Core Volume Imaging)
 set(allowed_Registration Core Volume)
+set(allowed_Segmentation Core Volume)
 set(allowed_Haptics Core Volume)
 set(allowed_Devices Core Volume Haptics)
 set(allowed_Dissection Core Volume)
@@ -25,11 +26,11 @@ set(allowed_Interaction
   Core Volume Appearance Haptics Dissection Session Scene Rendering)
 # The application's view models: built like a module, and independent of Qt (no toolkit below).
 set(allowed_Presenters
-  Core Volume Appearance Imaging Phantom Registration Haptics Devices Dissection Session Scene
+  Core Volume Appearance Imaging Phantom Registration Segmentation Haptics Devices Dissection Session Scene
   Library Rendering Interaction)
 set(folder_Presenters Application/Presenters)
 set(known_modules
-  Core Volume Appearance Imaging Phantom Registration Haptics Devices Dissection Session Scene
+  Core Volume Appearance Imaging Phantom Registration Segmentation Haptics Devices Dissection Session Scene
   Library Rendering Interaction Presenters)
 
 # The toolkits whose headers a module may include; modules not listed here include none. Qt is
@@ -37,6 +38,7 @@ set(known_modules
 set(toolkits_Imaging ITK GDCM)
 set(toolkits_Phantom GDCM)
 set(toolkits_Registration ITK)
+set(toolkits_Segmentation ITK)
 set(toolkits_Library GDCM)
 set(toolkits_Rendering VTK)
 set(toolkits_Interaction VTK)

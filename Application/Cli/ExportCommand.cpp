@@ -1,13 +1,10 @@
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <optional>
 #include <type_traits>
 #include <utility>
-
-#include <tbb/parallel_for.h>
 
 #include "CaseJson.h"
 #include "CaseWarnings.h"
@@ -20,6 +17,7 @@
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/VolumeFile.h"
+#include "petrous/Presenters/MrOnCt.h"
 #include "petrous/Rendering/SurfaceExtraction.h"
 #include "petrous/Scene/CaseField.h"
 #include "petrous/Scene/Placement.h"
@@ -147,37 +145,6 @@ volume::LabelMap mergedLabels(const Context& context, const scene::Case& value,
     throw core::InvalidParameter("case '" + value.name + "' has no " +
                                  (only.empty() ? "structures" : "structure '" + only + "'"));
   return volume::makeLabelMap(std::move(voxels), std::move(segments));
-}
-
-// The MR on the CT's grid, trilinear; beyond the MR its padding, or else its smallest value.
-template <class T>
-volume::Volume<T> resampled(const volume::IntensityVolume& mr, const core::GridGeometry& ct,
-                            const core::RigidTransform& mrFromCt, const core::Progress& progress)
-{
-  volume::Volume<T> result(ct);
-  const T outside = rounded<T>(mr.padding() ? *mr.padding() : mr.range().min);
-  const core::GridGeometry& grid = mr.geometry();
-  const Eigen::Vector3d last(grid.dims()[0] - 1.0, grid.dims()[1] - 1.0, grid.dims()[2] - 1.0);
-  constexpr double kRounding = 1e-6; // voxels; so that a grid on the CT's keeps its border
-  const core::Index3& n = ct.dims();
-  std::atomic<int> done{0};
-  tbb::parallel_for(
-      0, n[2],
-      [&](int k)
-      {
-        progress.report(static_cast<double>(done.fetch_add(1)) / n[2], "resampling");
-        for (int j = 0; j < n[1]; ++j)
-          for (int i = 0; i < n[0]; ++i)
-          {
-            const Eigen::Vector3d patient = ct.patientFromVoxel(Eigen::Vector3d(i, j, k));
-            const Eigen::Vector3d at = grid.voxelFromPatient(mrFromCt * patient);
-            const bool isInside =
-                at.minCoeff() >= -kRounding && (last - at).minCoeff() >= -kRounding;
-            result.at(i, j, k) =
-                isInside ? rounded<T>(mr.sample(at.cwiseMax(0.0).cwiseMin(last))) : outside;
-          }
-      });
-  return result;
 }
 
 template <class T>
@@ -342,15 +309,9 @@ void exportCase(const Context& context, const Options& options)
     if (!options.onCt)
       writeImage(*image, "MR " + mr.name);
     else
-      image->visit(
-          [&](const auto& voxels)
-          {
-            using T = typename std::decay_t<decltype(voxels)>::Value;
-            writeImage(*shared(resampled<T>(*image, value.ct.geometry, mr.mrFromCt,
-                                            progress.part(0.0, 0.5)),
-                               image->padding()),
-                       "CT");
-          });
+      writeImage(*presenters::mrOnCt(*image, value.ct.geometry, mr.mrFromCt,
+                                     progress.part(0.0, 0.5)),
+                 "CT");
   }
   else if (options.what == "labels")
     imaging::writeLabelFile(options.out, mergedLabels(context, value, options.part, leftOut));

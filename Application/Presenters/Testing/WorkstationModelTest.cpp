@@ -713,3 +713,91 @@ TEST_F(WorkstationModelTest, AnMrThatMovedAStructureHasThatPreparedAgain)
   model.prepareNow();
   EXPECT_FALSE(model.preparationHelps());
 }
+
+namespace
+{
+
+// A box of voxels [first, last] on the block's grid.
+volume::LabelMap boxLabels(const std::string& name, int first, int last)
+{
+  const core::GridGeometry grid({40, 40, 40}, Vector3d::Constant(0.3), Vector3d::Zero());
+  auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
+  for (int k = first; k <= last; ++k)
+    for (int j = first; j <= last; ++j)
+      for (int i = first; i <= last; ++i)
+        voxels->at(i, j, k) = 1;
+  return volume::makeLabelMap(voxels, {{name, 1, {}, 0}});
+}
+
+} // namespace
+
+TEST_F(WorkstationModelTest, AStructureMadeHereIsOneOfTheCaseAndComesBackFromTheDisk)
+{
+  const library::Library library(folder);
+  WorkstationModel model{library};
+  model.adopt(block("block"));
+  int parts = 0;
+  model.events.partsChanged = [&parts] { ++parts; };
+  model.addStructure(boxLabels("facial nerve", 4, 7));
+  EXPECT_EQ(parts, 1);
+  EXPECT_TRUE(model.unsaved());
+  const auto* made = scene::findStructure(model.value(), "facial nerve");
+  ASSERT_TRUE(made);
+  EXPECT_EQ(made->voxels, 64U);
+  EXPECT_NEAR(made->volume, 64 * 0.027, 1e-9);
+  EXPECT_EQ(made->look.preset, "nerve");
+  EXPECT_THROW(model.addStructure(boxLabels("facial nerve", 9, 9)), core::InvalidParameter);
+  EXPECT_THROW(model.addStructure(boxLabels("", 9, 9)), core::InvalidParameter);
+  EXPECT_THROW(model.addStructure(boxLabels("nothing", 1, 0)), core::InvalidParameter);
+  EXPECT_EQ(parts, 1) << "what is refused changes nothing";
+  EXPECT_EQ(model.value().labels.size(), 1U);
+  model.save();
+  const scene::Case saved = library.open("block");
+  ASSERT_EQ(saved.labels.size(), 1U);
+  EXPECT_EQ(saved.labels.front().labels.get()->voxels->at(7, 4, 5), 1);
+  EXPECT_EQ(saved.labels.front().labels.get()->voxels->at(8, 4, 5), 0);
+}
+
+TEST_F(WorkstationModelTest, AStructureIsReplacedTakenOutAndPutBackAsItWas)
+{
+  WorkstationModel model{library::Library(folder)};
+  model.adopt(block("block"));
+  model.addStructure(boxLabels("dura", 4, 7));
+  model.addStructure(boxLabels("tumour", 20, 22));
+  auto look = scene::findStructure(model.value(), "dura")->look;
+  look.opacity = 0.25F;
+  model.setLook("dura", look);
+  const auto before = model.addStructure(boxLabels("dura", 4, 8), "dura");
+  ASSERT_TRUE(before);
+  EXPECT_EQ(scene::findStructure(model.value(), "dura")->voxels, 125U);
+  EXPECT_EQ(scene::findStructure(model.value(), "dura")->look.opacity, 0.25F);
+  EXPECT_TRUE(scene::findStructure(model.value(), "tumour"));
+  EXPECT_THROW(model.putStructure(*before), core::InvalidParameter);
+  ASSERT_TRUE(model.takeStructure("dura"));
+  EXPECT_FALSE(scene::findStructure(model.value(), "dura"));
+  EXPECT_FALSE(model.takeStructure("dura"));
+  model.putStructure(*before);
+  EXPECT_EQ(scene::findStructure(model.value(), "dura")->voxels, 64U);
+  EXPECT_THROW(model.addStructure(boxLabels("tumour", 1, 2), "dura"), core::InvalidParameter);
+  EXPECT_TRUE(scene::findStructure(model.value(), "dura")) << "refused: nothing is removed either";
+}
+
+TEST_F(WorkstationModelTest, AStructureReplacedDuringASaveIsStoredByTheNextOne)
+{
+  const library::Library library(folder);
+  WorkstationModel model{library};
+  model.adopt(block("block"));
+  model.addStructure(boxLabels("incus", 2, 3));
+  model.addStructure(boxLabels("dura", 4, 7));
+  StoreTask task = model.beginStore();
+  model.takeStructure("incus");
+  model.addStructure(boxLabels("dura", 4, 8), "dura");
+  task.run();
+  model.stored(task);
+  EXPECT_TRUE(model.unsaved());
+  model.save();
+  const scene::Case saved = library.open("block");
+  EXPECT_FALSE(scene::findStructure(saved, "incus"));
+  ASSERT_EQ(saved.labels.size(), 1U);
+  EXPECT_EQ(saved.labels.front().labels.get()->voxels->at(8, 8, 8), 1);
+}

@@ -292,6 +292,8 @@ void CaseDocumentController::endWork()
 bool CaseDocumentController::leaveCase()
 {
   const QScopedValueRollback<bool> asking(m_asking, true); // no other operation can start meanwhile
+  if (mayDropDraft && !mayDropDraft())
+    return false;
   m_model.beginLeave(); // all removal is in the case, and no more follows
   if (m_saver.flush())
     return true;
@@ -757,6 +759,8 @@ bool CaseDocumentController::mayLeave()
   if (m_leaving) // called again while saving
     return false;
   m_leaving = true;
+  if (mayDropDraft && !mayDropDraft())
+    return m_leaving = false;
   m_work.drop(); // a cancelled import leaves nothing behind
   endWork();
   m_preparation.drop();

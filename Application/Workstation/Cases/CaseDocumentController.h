@@ -48,6 +48,9 @@ public:
   void prepare();               ///< the slow part of the open case (WorkstationModel::preparation)
   void prepareUnlessUnderWay(); ///< as prepare, after it was stopped or failed
 
+  /// Asks what becomes of what is not part of the case yet; false: the user wants to stay.
+  std::function<bool()> mayDropDraft;
+
   /// Cancels imports, saves what is unsaved. Returns false if that failed, which the banner shows:
   /// the window stays open.
   bool mayLeave();

@@ -75,13 +75,25 @@ void PictureController::appearanceChanged()
   showScene();
 }
 
+void PictureController::setDraft(const rendering::MeshContents& surface)
+{
+  if (!surface.mesh && !m_draft.mesh)
+    return;
+  m_draft = surface;
+  if (m_model.hasCase())
+    showScene();
+}
+
 void PictureController::showScene()
 {
   if (m_model.loaded() && !m_model.drawable())
     return; // the old picture stays until the new one is prepared
   try
   {
-    m_view.display().setContents(m_model.sceneContents());
+    rendering::SceneContents contents = m_model.sceneContents();
+    if (m_draft.mesh)
+      contents.meshes.push_back(m_draft);
+    m_view.display().setContents(contents);
   }
   catch (const core::Error& error) // too much to draw; the slices still show it
   {

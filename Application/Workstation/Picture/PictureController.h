@@ -8,6 +8,7 @@
 
 #include "petrous/Presenters/ViewSettings.h"
 #include "petrous/Presenters/WorkstationModel.h"
+#include "petrous/Rendering/SceneContents.h"
 
 class QLabel;
 class QWidget;
@@ -41,6 +42,8 @@ public:
   void caseChanged();
   void appearanceChanged();
   void closeSurgeonWindow();
+  /// A surface that is not of the case, shown with it; without triangles: none.
+  void setDraft(const rendering::MeshContents& surface);
 
 signals:
   void statusMessage(const QString& line); ///< for the status bar
@@ -60,6 +63,7 @@ private:
   PicturePanel* m_panel;
   QLabel* m_speed;
   QPointer<SurgeonWindow> m_surgeon;
+  rendering::MeshContents m_draft;
 };
 
 } // namespace petrous::workstation

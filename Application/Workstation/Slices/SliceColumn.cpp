@@ -30,6 +30,9 @@ SliceColumn::SliceColumn(presenters::WorkstationModel& model, QWidget* parent)
     connect(view, &SliceView::pointed, this, &SliceColumn::pointed);
     connect(view, &SliceView::moveAsked, this, &SliceColumn::moveAsked);
     connect(view, &SliceView::turnAsked, this, &SliceColumn::turnAsked);
+    connect(view, &SliceView::toolPressed, this, &SliceColumn::toolPressed);
+    connect(view, &SliceView::toolDragged, this, &SliceColumn::toolDragged);
+    connect(view, &SliceView::toolReleased, this, &SliceColumn::toolReleased);
   }
 }
 
@@ -43,8 +46,11 @@ void SliceColumn::caseChanged()
 
 void SliceColumn::appearanceChanged()
 {
+  scene::Case value = m_model.presentable();
+  if (auto* hidden = scene::findStructure(value, m_hidden))
+    hidden->look.shown = false;
   const auto presenter = std::make_shared<const presenters::SlicePresenter>(
-      m_model.presentable(), m_model.value().dissection.sharedMask());
+      value, m_model.value().dissection.sharedMask());
   for (SliceView* view : m_views)
   {
     view->setPresenter(presenter, m_model.value().ct.geometry);
@@ -120,6 +126,39 @@ void SliceColumn::setMarks(const std::vector<SliceMark>& marks)
 {
   for (SliceView* view : m_views)
     view->setMarks(marks);
+}
+
+void SliceColumn::setTool(const std::optional<SliceTool>& tool)
+{
+  for (SliceView* view : m_views)
+    view->setTool(tool);
+}
+
+void SliceColumn::setDrawing(const SliceDrawing& drawing)
+{
+  for (SliceView* view : m_views)
+    view->setDrawing(drawing);
+}
+
+void SliceColumn::setDraft(const std::shared_ptr<const presenters::DraftLayer>& draft)
+{
+  for (SliceView* view : m_views)
+    view->setDraft(draft);
+}
+
+void SliceColumn::setHidden(const std::string& structure)
+{
+  if (structure == m_hidden)
+    return;
+  m_hidden = structure;
+  if (m_model.hasCase())
+    appearanceChanged();
+}
+
+void SliceColumn::draftChanged(const core::PatientBox& box)
+{
+  for (SliceView* view : m_views)
+    view->draftChanged(box);
 }
 
 void SliceColumn::fit()

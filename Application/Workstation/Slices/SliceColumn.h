@@ -1,6 +1,10 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <QSplitter>
 
@@ -11,7 +15,9 @@ namespace petrous::workstation
 {
 
 class SliceView;
+struct SliceDrawing;
 struct SliceMark;
+struct SliceTool;
 
 /// The axial, coronal and sagittal view stacked vertically, with one crosshair and grey window.
 class SliceColumn : public QSplitter
@@ -34,17 +40,27 @@ public:
   void setNotice(const QString& text);
   void setRegion(double edge); ///< as SliceView
   void setMarks(const std::vector<SliceMark>& marks);
+  void setTool(const std::optional<SliceTool>& tool); ///< as SliceView, and the next three
+  void setDrawing(const SliceDrawing& drawing);
+  void setDraft(const std::shared_ptr<const presenters::DraftLayer>& draft);
+  /// A structure that is not shown, as its draft is; empty: none.
+  void setHidden(const std::string& structure);
+  void draftChanged(const core::PatientBox& box);
 
 signals:
   void pointed(const Eigen::Vector3d& patient);
   void moveAsked(const Eigen::Vector3d& millimetres); ///< of the MR over the CT
   void turnAsked(const Eigen::Vector3d& axis, double degrees);
+  void toolPressed(const Eigen::Vector3d& patient, petrous::presenters::SliceOrientation plane);
+  void toolDragged(const Eigen::Vector3d& patient);
+  void toolReleased();
 
 private:
   void setGreyWindow(const presenters::GreyWindow& window);
 
   presenters::WorkstationModel& m_model;
   std::array<SliceView*, 3> m_views;
+  std::string m_hidden;
 };
 
 } // namespace petrous::workstation

@@ -25,6 +25,11 @@ struct SliceMark
 void paintMarks(QPainter& painter, const std::vector<SliceMark>& marks,
                 const presenters::SliceGeometry& slice, const Eigen::Vector3d& at);
 
+/// A curve of patient points (LPS mm), projected onto the slice: full where it runs within a
+/// millimetre of it, fading out to 4 mm.
+void paintCurve(QPainter& painter, const std::vector<Eigen::Vector3d>& points, const QColor& color,
+                const presenters::SliceGeometry& slice, const Eigen::Vector3d& at);
+
 /// Intersection of the slice with a cube of this edge (mm) centred at `at`.
 void paintCube(QPainter& painter, double edge, const presenters::SliceGeometry& slice,
                const Eigen::Vector3d& at);

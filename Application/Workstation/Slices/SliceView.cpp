@@ -128,6 +128,36 @@ void SliceView::maskChanged(const core::PatientBox& box)
     stale();
 }
 
+void SliceView::setTool(const std::optional<SliceTool>& tool)
+{
+  if (m_toolDown && !tool)
+  {
+    m_toolDown = false;
+    emit toolReleased();
+  }
+  m_tool = tool;
+  update();
+}
+
+void SliceView::setDrawing(SliceDrawing drawing)
+{
+  m_drawing = std::move(drawing);
+  update();
+}
+
+void SliceView::setDraft(std::shared_ptr<const presenters::DraftLayer> draft)
+{
+  if (!draft && !m_draft)
+    return;
+  m_draft = std::move(draft);
+  stale();
+}
+
+void SliceView::draftChanged(const core::PatientBox& box)
+{
+  maskChanged(box);
+}
+
 void SliceView::stale()
 {
   m_stale = true;
@@ -156,7 +186,9 @@ void SliceView::paintEvent(QPaintEvent*)
   const auto picture = slice();
   if (m_stale)
   {
-    const auto pixels = m_presenter->draw(picture, m_window, m_overlay.get());
+    auto pixels = m_presenter->draw(picture, m_window, m_overlay.get());
+    if (m_draft)
+      m_draft->paint(picture, pixels);
     m_image = QImage(pixels.rgb.data(), pixels.width, pixels.height, 3 * pixels.width,
                      QImage::Format_RGB888)
                   .copy();
@@ -167,9 +199,12 @@ void SliceView::paintEvent(QPaintEvent*)
   if (m_region > 0.0)
     paintCube(painter, m_region, picture, m_crosshair);
   paintMarks(painter, m_marks, picture, m_crosshair);
+  paintCurve(painter, m_drawing.curve, m_drawing.color, picture, m_crosshair);
+  paintMarks(painter, m_drawing.marks, picture, m_crosshair);
   paintCrosshair(painter);
   paintLetters(painter);
   paintScaleBar(painter);
+  paintTool(painter);
   if (hasFocus())
   {
     painter.setPen(QPen(planeColor(m_orientation), 1.0));
@@ -262,6 +297,19 @@ void SliceView::paintScaleBar(QPainter& painter) const
   drawText(painter, {at, bottom - 8.0}, text, QColor("#f2f5f8"));
 }
 
+void SliceView::paintTool(QPainter& painter) const
+{
+  if (!m_tool || !m_pointer || m_tool->radius <= 0.0)
+    return;
+  const double radius = m_tool->radius / slice().mmPerPixel();
+  painter.setBrush(Qt::NoBrush);
+  for (const auto& pen : {QPen(QColor(0, 0, 0, 200), 3.0), QPen(m_tool->color, 1.5)})
+  {
+    painter.setPen(pen);
+    painter.drawEllipse(*m_pointer, radius, radius);
+  }
+}
+
 void SliceView::resizeEvent(QResizeEvent*)
 {
   stale();
@@ -271,17 +319,46 @@ void SliceView::mousePressEvent(QMouseEvent* event)
 {
   setFocus(Qt::MouseFocusReason);
   m_dragged = event->localPos();
-  if (m_presenter && event->button() == Qt::LeftButton)
+  if (!m_presenter || event->button() != Qt::LeftButton)
+    return;
+  if (m_tool && !(event->modifiers() & Qt::ShiftModifier))
+  {
+    m_toolDown = true;
+    emit toolPressed(patientAt(event->localPos()), m_orientation);
+  }
+  else
     emit crosshairMoved(patientAt(event->localPos()));
+}
+
+void SliceView::mouseReleaseEvent(QMouseEvent* event)
+{
+  if (event->button() != Qt::LeftButton || !m_toolDown)
+    return;
+  m_toolDown = false;
+  emit toolReleased();
+}
+
+void SliceView::leaveEvent(QEvent* event)
+{
+  QWidget::leaveEvent(event);
+  m_pointer.reset();
+  update();
 }
 
 void SliceView::mouseMoveEvent(QMouseEvent* event)
 {
   if (!m_presenter)
     return;
+  if (m_tool)
+  {
+    m_pointer = event->localPos();
+    update();
+  }
   const QPointF step = event->localPos() - m_dragged;
   m_dragged = event->localPos();
-  if (event->buttons() & Qt::LeftButton)
+  if (m_toolDown)
+    emit toolDragged(patientAt(event->localPos()));
+  else if (event->buttons() & Qt::LeftButton)
     emit crosshairMoved(patientAt(event->localPos()));
   else if (event->buttons() & Qt::RightButton)
   {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <QImage>
@@ -13,10 +14,26 @@
 namespace petrous::workstation
 {
 
+/// A tool that works in the slices with the left button.
+struct SliceTool
+{
+  double radius = 0.0; ///< mm, of the ball that follows the pointer; 0: none is drawn
+  QColor color;        ///< of its outline
+};
+
+/// What a tool shows in the slices besides its draft.
+struct SliceDrawing
+{
+  std::vector<SliceMark> marks;
+  std::vector<Eigen::Vector3d> curve; ///< patient LPS mm
+  QColor color;                       ///< of the curve
+};
+
 /// One slice with its crosshair, orientation letters, scale bar and read-out; painted, no OpenGL.
 ///
 /// Left drag moves the crosshair, the wheel scrolls, right drag sets the grey window, Ctrl+wheel
-/// zooms, middle drag pans. Alt+arrow and Alt+Page up or down translate and rotate an MR overlay.
+/// zooms, middle drag pans. With a tool the left button is the tool's, and with Shift it moves the
+/// crosshair. Alt+arrow and Alt+Page up or down translate and rotate an MR overlay.
 class SliceView : public QWidget
 {
   Q_OBJECT
@@ -36,6 +53,11 @@ public:
   void setMarks(std::vector<SliceMark> marks);
   void setRegion(double edge); ///< edge of the cube about the crosshair to fit in, mm; 0: none
   void maskChanged(const core::PatientBox& box);
+  void setTool(const std::optional<SliceTool>& tool);
+  void setDrawing(SliceDrawing drawing);
+  /// What is being segmented; nullptr: nothing.
+  void setDraft(std::shared_ptr<const presenters::DraftLayer> draft);
+  void draftChanged(const core::PatientBox& box); ///< its voxels, in this box
 
   /// The displayed slice; requires a presenter.
   presenters::SliceGeometry slice() const;
@@ -46,12 +68,18 @@ signals:
   void pointed(const Eigen::Vector3d& patient);
   void moveAsked(const Eigen::Vector3d& millimetres); ///< of the MR over the CT
   void turnAsked(const Eigen::Vector3d& axis, double degrees);
+  /// With a tool: where the left button went down, was dragged to, and that it was released.
+  void toolPressed(const Eigen::Vector3d& patient, petrous::presenters::SliceOrientation plane);
+  void toolDragged(const Eigen::Vector3d& patient);
+  void toolReleased();
 
 protected:
   void paintEvent(QPaintEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void leaveEvent(QEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
 
@@ -63,6 +91,7 @@ private:
   void paintCrosshair(QPainter& painter) const;
   void paintLetters(QPainter& painter) const;
   void paintScaleBar(QPainter& painter) const;
+  void paintTool(QPainter& painter) const;
   bool moveMr(const QKeyEvent& event);
 
   presenters::SliceOrientation m_orientation;
@@ -81,6 +110,11 @@ private:
   QImage m_image;
   bool m_stale = true;
   QPointF m_dragged;
+  std::shared_ptr<const presenters::DraftLayer> m_draft;
+  std::optional<SliceTool> m_tool;
+  SliceDrawing m_drawing;
+  std::optional<QPointF> m_pointer; // where the tool's ball is drawn
+  bool m_toolDown = false;
 };
 
 } // namespace petrous::workstation

@@ -40,6 +40,7 @@
 #include "PictureController.h"
 #include "ProbeLabel.h"
 #include "RegistrationController.h"
+#include "SegmentController.h"
 #include "SliceColumn.h"
 #include "StartPage.h"
 #include "StructuresPanel.h"
@@ -122,6 +123,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
         new PictureController(m_model, *m_view, *m_actions, *m_settings, *this, options.quadBuffer))
   , m_branches(new BranchController(m_model, *m_actions->approaches, *this))
   , m_registration(new RegistrationController(m_model, *m_slices, *this))
+  , m_segment(new SegmentController(m_model, *m_slices, *this))
 {
   addPanels();
   m_thickness = new ThicknessController(m_model, *m_view, *findChild<StructuresPanel*>(),
@@ -138,6 +140,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   layOut();
   connectModel();
   connectActions();
+  connectSegment();
   guardBoxes();
   stateChanged();
 }
@@ -147,6 +150,7 @@ MainWindow::~MainWindow()
   m_model.events = {};
   m_drill->releaseTool(); // before the devices that control it
   delete m_registration;  // ends its threads
+  delete m_segment;       // likewise
   delete m_drill;
   delete m_devices;
   for (const auto& [entry, panel] : m_panels)
@@ -196,6 +200,7 @@ void MainWindow::layOut()
   setCentralWidget(whole);
 
   menuBar()->insertMenu(menuBar()->actions().last(), m_registration->menu());
+  menuBar()->insertMenu(menuBar()->actions().last(), m_segment->menu());
 
   m_sum->setObjectName("dim");
   m_sum->setToolTip(tr("What was drilled so far"));
@@ -236,6 +241,17 @@ void MainWindow::guardBoxes()
 bool MainWindow::eventFilter(QObject* watched, QEvent* event)
 {
   auto* widget = static_cast<QWidget*>(watched);
+  if (event->type() == QEvent::ShortcutOverride) // a number is entered or dropped first
+    switch (static_cast<QKeyEvent*>(event)->key())
+    {
+    case Qt::Key_Escape:
+    case Qt::Key_Return:
+    case Qt::Key_Enter:
+      event->accept();
+      return true;
+    default:
+      break;
+    }
   if (event->type() == QEvent::Wheel && !widget->hasFocus())
   {
     event->ignore(); // a panel may scroll
@@ -254,7 +270,7 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event)
 
 void MainWindow::addPanels()
 {
-  const PanelContext context{m_model, *m_picture, *m_registration};
+  const PanelContext context{m_model, *m_picture, *m_registration, *m_segment};
   std::map<Qt::DockWidgetArea, QDockWidget*> tabs;
   for (const PanelEntry& entry : panelEntries())
   {
@@ -337,7 +353,11 @@ void MainWindow::connectModel()
     connect(application, &Application::faulted, this, &MainWindow::showFault);
   m_model.events.maskChanged = [this](const core::IndexBox& box) { maskChanged(box); };
   m_model.events.crosshairMoved = [this] { m_slices->crosshairMoved(); };
-  m_model.events.mrMoved = [this] { m_registration->mrMoved(); };
+  m_model.events.mrMoved = [this]
+  {
+    m_registration->mrMoved();
+    m_segment->mrMoved();
+  };
   m_model.events.toolPutAway = [this]
   { statusBar()->showMessage(tr("Tool put away: what was drawn on the MR moved"), kMessage); };
   m_model.events.stateChanged = [this] { stateChanged(); };
@@ -411,8 +431,12 @@ void MainWindow::connectActions()
         },
         refused);
   };
-  on(m_actions->undo, [step] { step(&presenters::WorkstationModel::undo); });
-  on(m_actions->redo, [step] { step(&presenters::WorkstationModel::redo); });
+  on(m_actions->undo,
+     [this, step]
+     { m_segment->active() ? m_segment->undo() : step(&presenters::WorkstationModel::undo); });
+  on(m_actions->redo,
+     [this, step]
+     { m_segment->active() ? m_segment->redo() : step(&presenters::WorkstationModel::redo); });
   on(m_actions->centerView,
      [this]
      {
@@ -424,14 +448,56 @@ void MainWindow::connectActions()
   on(m_actions->boneWindow, [this] { m_slices->boneWindow(); });
   on(m_actions->softWindow, [this] { m_slices->softWindow(); });
   on(m_actions->fitSlices, [this] { m_slices->fit(); });
-  on(m_actions->smallerBurr, [this] { m_bar->stepDiameter(-1); });
-  on(m_actions->largerBurr, [this] { m_bar->stepDiameter(1); });
+  on(m_actions->smallerBurr,
+     [this] { m_segment->hasBrush() ? m_segment->stepBrush(-1) : m_bar->stepDiameter(-1); });
+  on(m_actions->largerBurr,
+     [this] { m_segment->hasBrush() ? m_segment->stepBrush(1) : m_bar->stepDiameter(1); });
   on(m_actions->about, [this] { QMessageBox::about(this, tr("About Petrous"), aboutText()); });
   m_bound.add(
       m_actions->record, [this] { return !m_model.recording().empty(); },
       [this](bool chosen) { record(chosen); });
   connect(m_actions->slicesFollow, &QAction::toggled, m_drill, &DrillController::setSlicesFollow);
   connect(m_actions, &WindowActions::viewChosen, this, &MainWindow::showView);
+}
+
+// One tool at a time: the drill's or a segment tool.
+void MainWindow::connectSegment()
+{
+  connect(m_segment, &SegmentController::toolTaken, this,
+          [this]
+          {
+            const bool drilled = m_view->tool().GetDrillMode() || m_view->tool().GetProbeMode();
+            m_drill->releaseTool();
+            if (drilled)
+              statusBar()->showMessage(
+                  tr("The drill is off while a segment tool is in use; Esc puts that away"),
+                  kMessage);
+            auto* dock = findChild<QDockWidget*>("segmentDock");
+            dock->show();
+            dock->raise();
+          });
+  connect(m_view, &ThreeDView::toolModeSet, m_segment,
+          [this]
+          {
+            if (m_segment->active() &&
+                (m_view->tool().GetDrillMode() || m_view->tool().GetProbeMode()))
+              m_segment->leaveTool();
+          });
+  connect(m_segment, &SegmentController::stateChanged, this, &MainWindow::showUndo);
+  connect(m_segment, &SegmentController::structureCreated, m_saver, &CaseSaver::save);
+  connect(m_segment, &SegmentController::statusMessage, this,
+          [this](const QString& line) { statusBar()->showMessage(line, kMessage); });
+  connect(m_segment, &SegmentController::surfaceChanged, m_picture,
+          &PictureController::setDraft);
+  m_keeper->mayDropDraft = [this] { return m_segment->mayLeave(); };
+  m_segment->addKeysTo(*m_view);
+  m_segment->addKeysTo(*m_slices);
+}
+
+void MainWindow::showUndo()
+{
+  m_actions->undo->setEnabled(m_segment->active() ? m_segment->canUndo() : m_model.canUndo());
+  m_actions->redo->setEnabled(m_segment->active() ? m_segment->canRedo() : m_model.canRedo());
 }
 
 void MainWindow::begin(const QString& what)
@@ -460,6 +526,7 @@ void MainWindow::caseClosed()
   m_drill->releaseTool();
   m_view->display().setContents({});
   m_slices->clear();
+  m_segment->caseChanged();
   tellPanels();
   m_place->clear();
   m_sum->clear();
@@ -474,6 +541,7 @@ void MainWindow::partsChanged()
   m_drill->releaseTool();
   m_picture->appearanceChanged();
   m_slices->appearanceChanged();
+  m_segment->partsChanged();
   tellPanels();
   notifyNotes();
 }
@@ -491,6 +559,7 @@ void MainWindow::caseChanged()
   m_picture->caseChanged();
   m_view->setCamera(presenters::currentCamera(value));
   m_slices->caseChanged();
+  m_segment->caseChanged();
   tellPanels();
   m_view->setFocus();
   m_notesBanner->hide();
@@ -539,8 +608,7 @@ void MainWindow::stateChanged()
   const bool open = m_model.hasCase();
   m_actions->setCaseOpen(open);
   m_branches->stateChanged();
-  m_actions->undo->setEnabled(m_model.canUndo());
-  m_actions->redo->setEnabled(m_model.canRedo());
+  showUndo();
   if (!open)
     return setWindowTitle("Petrous");
   for (const auto& [entry, panel] : m_panels)

@@ -33,6 +33,7 @@ class ActiveDeviceController;
 class PictureController;
 class ProbeLabel;
 class RegistrationController;
+class SegmentController;
 class SliceColumn;
 class ThicknessController;
 class ThreeDView;
@@ -74,6 +75,7 @@ private:
   void layOut();
   void connectModel();
   void connectActions();
+  void connectSegment();
   void caseChanged();
   void caseClosed();
   void partsChanged();
@@ -82,6 +84,7 @@ private:
   void offerBurrs();
   void maskChanged(const core::IndexBox& box);
   void stateChanged();
+  void showUndo();
   void notice(const QString& text);
   void showView(rendering::StandardView view);
   void stepped(bool back); // by an undo or a redo
@@ -122,6 +125,7 @@ private:
   PictureController* m_picture;
   BranchController* m_branches;
   RegistrationController* m_registration;
+  SegmentController* m_segment;
   std::vector<std::pair<PanelEntry, Panel*>> m_panels;
   ThicknessController* m_thickness;
   Bindings m_bound;

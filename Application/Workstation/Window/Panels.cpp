@@ -7,6 +7,8 @@
 #include "PicturePanel.h"
 #include "RegistrationController.h"
 #include "RegistrationPanel.h"
+#include "SegmentController.h"
+#include "SegmentPanel.h"
 #include "StructuresPanel.h"
 
 namespace petrous::workstation
@@ -29,6 +31,8 @@ std::vector<PanelEntry> panelEntries()
        kNeedsCase, [](C c) -> Panel* { return new NearbyPanel(c.model); }},
       {"registrationDock", tr("Registration"), Qt::Key_F5, Qt::LeftDockWidgetArea, kTabbed, kHidden,
        kNeedsCase, [](C c) -> Panel* { return c.registration.panel(); }},
+      {"segmentDock", tr("Segment"), Qt::Key_F4, Qt::LeftDockWidgetArea, kTabbed, kHidden,
+       kNeedsCase, [](C c) -> Panel* { return c.segment.panel(); }},
   };
 }
 

@@ -16,6 +16,7 @@ namespace petrous::workstation
 
 class PictureController;
 class RegistrationController;
+class SegmentController;
 
 /// The widget of a dock. A panel overrides what it wants to hear.
 class Panel : public QWidget
@@ -37,6 +38,7 @@ struct PanelContext
   presenters::WorkstationModel& model;
   PictureController& picture;
   RegistrationController& registration;
+  SegmentController& segment;
 };
 
 struct PanelEntry

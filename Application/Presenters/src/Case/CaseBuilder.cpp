@@ -16,6 +16,7 @@
 #include "petrous/Imaging/ImageFile.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
+#include "petrous/Imaging/StructureSet.h"
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Scene/Placement.h"
 #include "petrous/Volume/IntensityScale.h"
@@ -320,13 +321,34 @@ void settleFrame(const scene::Case& value, PartSource& source, const std::string
                                "say FILE@ct, or add the MR on which it was drawn");
 }
 
+// An RT structure set becomes voxels of the image on which it was drawn.
+imaging::LoadedLabels loadStructureSet(const scene::Case& value, PartSource& source,
+                                       const std::function<std::string(const std::string&)>& salted,
+                                       const core::Progress& progress)
+{
+  const imaging::StructureSet set = imaging::readStructureSet(source.path);
+  settleFrame(value, source, set.frameOfReferenceUid, salted);
+  const scene::ImagePart* mr = nullptr;
+  if (!source.drawnOn.empty() && source.drawnOn != "ct")
+    mr = scene::findMr(value, drawnOnNamed(value, source));
+  if (source.drawnOn.empty())
+    source.drawnOn = "ct"; // not an MR of the same grid
+  return imaging::labelsOf(set, mr ? mr->geometry : value.ct.geometry, source.path, progress);
+}
+
 void addLabels(scene::Case& value, PartSource source,
                const std::function<std::string(const std::string&)>& salted,
                const core::Progress& progress)
 {
   const auto presets = appearance::StructurePresets::builtIn();
-  auto loaded = imaging::loadLabels(source.path, progress);
-  settleFrame(value, source, loaded.frameOfReferenceUid, salted);
+  imaging::LoadedLabels loaded;
+  if (imaging::isStructureSet(source.path))
+    loaded = loadStructureSet(value, source, salted, progress);
+  else
+  {
+    loaded = imaging::loadLabels(source.path, progress);
+    settleFrame(value, source, loaded.frameOfReferenceUid, salted);
+  }
   std::vector<std::string> notes = std::move(loaded.notes);
   std::vector<std::string> empty;
   const std::size_t before = value.labels.size();
@@ -500,6 +522,38 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
   placeSurface(value);
   addParts(value, sources.parts, progress.part(0.7, 1.0));
   return value;
+}
+
+std::vector<std::array<float, 3>> structureColors(const scene::Case& value)
+{
+  return colorsOf(value);
+}
+
+void addStructures(scene::Case& value, volume::LabelMap labels)
+{
+  const auto presets = appearance::StructurePresets::builtIn();
+  scene::LabelPart part;
+  for (const volume::Segment& segment : labels.segments)
+  {
+    scene::checkPartName(segment.name);
+    if (scene::findStructure(value, segment.name) || scene::findMesh(value, segment.name))
+      throw core::InvalidParameter("structure '" + segment.name +
+                                   "' is in the case already; give it another name");
+    if (segment.voxels == 0)
+      throw core::InvalidParameter("structure '" + segment.name + "' has no voxel yet");
+    scene::StructurePart structure;
+    structure.name = segment.name;
+    structure.index = segment.index;
+    structure.voxels = segment.voxels;
+    structure.volume = labels.volume(segment);
+    structure.look = presets.lookFor(structure.name);
+    if (isUnknown(structure.look))
+      structure.look.color = appearance::distinctColor(colorsOf(value, part.structures));
+    part.structures.push_back(std::move(structure));
+  }
+  part.drawnOn = std::string();
+  part.labels = std::make_shared<const volume::LabelMap>(std::move(labels));
+  value.labels.push_back(std::move(part));
 }
 
 void addParts(scene::Case& value, const PartSources& parts, const core::Progress& progress)

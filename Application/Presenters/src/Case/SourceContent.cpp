@@ -9,6 +9,7 @@
 #include "petrous/Imaging/ImageFile.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
+#include "petrous/Imaging/StructureSet.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Volume/IntensityScale.h"
 
@@ -162,6 +163,12 @@ SourceContent lookAt(const fs::path& path, const core::Progress& progress)
   {
     result.content = Content::Labels;
     result.why = "is a DICOM segmentation";
+    return result;
+  }
+  if ((!format || format->reads == imaging::kDicom) && imaging::isStructureSet(path))
+  {
+    result.content = Content::Labels;
+    result.why = "is a DICOM RT structure set";
     return result;
   }
   if (!format || format->reads == imaging::kDicom)

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "Notify.h"
+#include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
 // WorkstationModel: loading from and saving to the library.
@@ -104,6 +105,101 @@ void WorkstationModel::adopt(scene::Case value)
   m_library.loadDissection(*next);
   show(std::move(next), true);
   setUnsaved(true);
+}
+
+namespace
+{
+bool sameLabels(const scene::LabelPart& a, const scene::LabelPart& b)
+{
+  return a.labels.peek() == b.labels.peek() &&
+         std::equal(a.structures.begin(), a.structures.end(), b.structures.begin(),
+                    b.structures.end(),
+                    [](const auto& x, const auto& y) { return x.name == y.name; });
+}
+} // namespace
+
+// The map stays whole: its other structures, and its object in the library, are as they were.
+std::optional<scene::LabelPart> WorkstationModel::removeLabels(const std::string& structure)
+{
+  for (std::size_t n = 0; n < m_case->labels.size(); ++n)
+  {
+    auto& structures = m_case->labels[n].structures;
+    const auto found = std::find_if(structures.begin(), structures.end(),
+                                    [&](const auto& one) { return one.name == structure; });
+    if (found == structures.end())
+      continue;
+    scene::LabelPart taken = m_case->labels[n];
+    taken.structures = {*found};
+    structures.erase(found);
+    if (structures.empty())
+    {
+      m_case->labels.erase(m_case->labels.begin() + static_cast<std::ptrdiff_t>(n));
+      for (LeftOut& parts : m_leftOut)
+        parts.labelsRemoved(n);
+    }
+    return taken;
+  }
+  return std::nullopt;
+}
+
+void WorkstationModel::labelsChanged()
+{
+  forgetTissue();
+  m_nearby.reset();
+  const std::string over = thicknessOver();
+  m_assembly.showThickness({}); // measured anew
+  if (scene::findStructure(*m_case, over) || scene::findMesh(*m_case, over))
+    m_assembly.showThickness(over);
+  waitForParts();
+  notify(events.partsChanged);
+  setUnsaved(true);
+  notify(events.preparationWanted);
+}
+
+std::optional<scene::LabelPart> WorkstationModel::addStructure(volume::LabelMap labels,
+                                                               const std::string& replaced)
+{
+  if (!m_case)
+    return std::nullopt;
+  const auto before = m_case->labels;
+  const auto leftOut = m_leftOut;
+  auto taken = removeLabels(replaced);
+  try
+  {
+    addStructures(*m_case, std::move(labels));
+  }
+  catch (...)
+  {
+    m_case->labels = before;
+    m_leftOut = leftOut;
+    throw;
+  }
+  if (taken)
+    for (scene::StructurePart& structure : m_case->labels.back().structures)
+      if (structure.name == replaced)
+        structure.look = taken->structures.front().look;
+  labelsChanged();
+  return taken;
+}
+
+std::optional<scene::LabelPart> WorkstationModel::takeStructure(const std::string& name)
+{
+  auto taken = m_case ? removeLabels(name) : std::nullopt;
+  if (taken)
+    labelsChanged();
+  return taken;
+}
+
+void WorkstationModel::putStructure(scene::LabelPart part)
+{
+  if (!m_case)
+    return;
+  for (const scene::StructurePart& structure : part.structures)
+    if (scene::findStructure(*m_case, structure.name))
+      throw core::InvalidParameter("structure '" + structure.name +
+                                   "' is in the case already; remove it first");
+  m_case->labels.push_back(std::move(part));
+  labelsChanged();
 }
 
 void WorkstationModel::takeParts(scene::Case with)
@@ -223,7 +319,11 @@ void WorkstationModel::stored(const StoreTask& done)
   takeFrame(m_case->ct, saved.ct);
   for (std::size_t n = 0; n < std::min(m_case->mr.size(), saved.mr.size()); ++n)
     takeFrame(m_case->mr[n], saved.mr[n]);
-  takeObjects(m_case->labels, saved.labels);
+  // Structures may have been added, replaced or removed meanwhile.
+  for (scene::LabelPart& part : m_case->labels)
+    for (const scene::LabelPart& from : saved.labels)
+      if (sameLabels(part, from))
+        part.object = from.object;
   takeObjects(m_case->meshes, saved.meshes);
   const auto& strokes = saved.dissection.strokes();
   for (std::size_t n = 0; n < std::min(m_case->dissection.strokes().size(), strokes.size()); ++n)

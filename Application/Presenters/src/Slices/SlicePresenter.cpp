@@ -35,6 +35,43 @@ void forEachPixel(const SliceGeometry& slice, const core::GridGeometry& grid, co
     for (int column = 0; column < slice.width(); ++column, ++pixel)
       body(pixel, Eigen::Vector3d(origin + column * across + row * down));
 }
+// Tints the voxels for which indexAt(voxel) is not 0, with an outline in their full colour.
+template <class IndexAt>
+void tint(const SliceGeometry& slice, const core::GridGeometry& grid, const IndexAt& indexAt,
+          const std::vector<std::array<float, 3>>& colors, SlicePixels& pixels)
+{
+  const core::Index3& dims = grid.dims();
+  std::vector<std::uint16_t> found(pixels.rgb.size() / 3, 0);
+  forEachPixel(slice, grid,
+               [&](std::size_t pixel, const Eigen::Vector3d& voxel)
+               {
+                 core::Index3 nearest;
+                 for (std::size_t a = 0; a < 3; ++a)
+                 {
+                   nearest[a] =
+                       static_cast<int>(std::floor(voxel[static_cast<Eigen::Index>(a)] + 0.5));
+                   if (nearest[a] < 0 || nearest[a] >= dims[a])
+                     return;
+                 }
+                 found[pixel] = indexAt(nearest);
+               });
+  const int width = slice.width();
+  for (int row = 0; row < slice.height(); ++row)
+    for (int column = 0; column < width; ++column)
+    {
+      const std::size_t pixel = static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                                static_cast<std::size_t>(column);
+      const std::uint16_t index = found[pixel];
+      if (index == 0)
+        continue;
+      const bool border =
+          (column > 0 && found[pixel - 1] != index) ||
+          (column + 1 < width && found[pixel + 1] != index) ||
+          (row > 0 && found[pixel - static_cast<std::size_t>(width)] != index) ||
+          (row + 1 < slice.height() && found[pixel + static_cast<std::size_t>(width)] != index);
+      blend(&pixels.rgb[3 * pixel], colors[index], border ? kOutline : kTint);
+    }
+}
 } // namespace
 
 SlicePresenter::SlicePresenter(const scene::Case& value,
@@ -97,39 +134,19 @@ void SlicePresenter::drawLayer(const Layer& layer, const SliceGeometry& slice,
                                SlicePixels& pixels) const
 {
   const auto& voxels = *layer.labels->voxels;
-  const core::Index3& dims = voxels.geometry().dims();
-  std::vector<std::uint16_t> found(pixels.rgb.size() / 3, 0);
-  forEachPixel(slice, voxels.geometry(),
-               [&](std::size_t pixel, const Eigen::Vector3d& voxel)
-               {
-                 core::Index3 nearest;
-                 for (std::size_t a = 0; a < 3; ++a)
-                 {
-                   nearest[a] =
-                       static_cast<int>(std::floor(voxel[static_cast<Eigen::Index>(a)] + 0.5));
-                   if (nearest[a] < 0 || nearest[a] >= dims[a])
-                     return;
-                 }
-                 const std::uint16_t index = voxels.at(nearest[0], nearest[1], nearest[2]);
-                 if (index < layer.shown.size() && layer.shown[index])
-                   found[pixel] = index;
-               });
-  const int width = slice.width();
-  for (int row = 0; row < slice.height(); ++row)
-    for (int column = 0; column < width; ++column)
-    {
-      const std::size_t pixel = static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
-                                static_cast<std::size_t>(column);
-      const std::uint16_t index = found[pixel];
-      if (index == 0)
-        continue;
-      const bool border =
-          (column > 0 && found[pixel - 1] != index) ||
-          (column + 1 < width && found[pixel + 1] != index) ||
-          (row > 0 && found[pixel - static_cast<std::size_t>(width)] != index) ||
-          (row + 1 < slice.height() && found[pixel + static_cast<std::size_t>(width)] != index);
-      blend(&pixels.rgb[3 * pixel], layer.colors[index], border ? kOutline : kTint);
-    }
+  tint(slice, voxels.geometry(),
+       [&](const core::Index3& at)
+       {
+         const std::uint16_t index = voxels.at(at[0], at[1], at[2]);
+         return index < layer.shown.size() && layer.shown[index] ? index : std::uint16_t{0};
+       },
+       layer.colors, pixels);
+}
+
+void DraftLayer::paint(const SliceGeometry& slice, SlicePixels& pixels) const
+{
+  if (indexAt)
+    tint(slice, geometry, indexAt, colors, pixels);
 }
 
 void SlicePresenter::drawCut(const SliceGeometry& slice, SlicePixels& pixels) const

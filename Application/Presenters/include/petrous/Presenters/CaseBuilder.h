@@ -77,4 +77,13 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
 /// volume::maxReach.
 void addParts(scene::Case& value, const PartSources& parts, const core::Progress& progress);
 
+/// Adds structures made in this program, on a grid in the CT's patient space, as if they had been
+/// read from a file: each looks as its name says. Their names are those of the map's segments.
+/// Throws InvalidParameter for a name that is not valid or is in the case already, and for a
+/// structure without a voxel; the case is unchanged then.
+void addStructures(scene::Case& value, volume::LabelMap labels);
+
+/// The colours of all structures and meshes, for one that is to differ (distinctColor).
+std::vector<std::array<float, 3>> structureColors(const scene::Case& value);
+
 } // namespace petrous::presenters

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -50,6 +51,16 @@ private:
   EdgeLevels m_edges;
   std::shared_ptr<const volume::CutMask> m_mask;
   std::vector<Layer> m_layers;
+};
+
+/// Voxels that are being segmented, drawn over a slice as a visible structure is.
+struct DraftLayer
+{
+  core::GridGeometry geometry;
+  std::function<std::uint16_t(const core::Index3&)> indexAt; ///< of a voxel of the grid; 0: none
+  std::vector<std::array<float, 3>> colors;                  ///< 0 to 255, by index
+
+  void paint(const SliceGeometry& slice, SlicePixels& pixels) const;
 };
 
 } // namespace petrous::presenters

@@ -106,6 +106,17 @@ public:
   /// of this one (see addParts). What was drilled and set since then stays.
   void takeParts(scene::Case with);
 
+  /// Adds structures made in this program (addStructures). The one called `replaced`, if that is not
+  /// empty, is removed and returned, and a new one of its name has its appearance. Ends the touch
+  /// session. Throws as addStructures does, without effect.
+  std::optional<scene::LabelPart> addStructure(volume::LabelMap labels,
+                                               const std::string& replaced = {});
+  /// Removes a structure of a label map and returns it as a part of its own, for `putStructure`;
+  /// none if there is none. Ends the touch session, as that does.
+  std::optional<scene::LabelPart> takeStructure(const std::string& name);
+  /// Throws InvalidParameter, without effect, if its name has been taken meanwhile.
+  void putStructure(scene::LabelPart part);
+
   /// Closes the case. Unsaved changes are lost.
   void close();
 
@@ -243,6 +254,8 @@ private:
   void listen();
   void show(std::unique_ptr<scene::Case> next, bool unsaved);
   void waitForParts();
+  std::optional<scene::LabelPart> removeLabels(const std::string& structure);
+  void labelsChanged();
   void forgetTissue();
   void notifyMask(const std::vector<std::size_t>& bricks);
   session::TouchSession::News hear(session::TouchSession::News news);

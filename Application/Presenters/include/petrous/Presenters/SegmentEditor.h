@@ -1,0 +1,215 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "petrous/Core/Progress.h"
+#include "petrous/Core/TriangleMesh.h"
+#include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/SliceGeometry.h"
+#include "petrous/Presenters/SlicePresenter.h"
+#include "petrous/Presenters/WorkstationModel.h"
+
+namespace petrous::presenters
+{
+
+/// What the segment tools are set to. One set for all, so that a range of intensities chosen for
+/// the threshold also limits the brush.
+struct SegmentValues
+{
+  enum class Combine
+  {
+    Replace, ///< the draft becomes the result
+    Add,
+    Intersect ///< only what is in both stays
+  };
+  double lower = 0.0;     ///< of the source image, in its unit
+  double upper = 0.0;     ///< likewise, inclusive
+  bool connected = false; ///< threshold: only what hangs together with a clicked point
+  Combine combine = Combine::Replace;
+  double brush = 1.5;     ///< mm, radius
+  bool ball = true;       ///< false: a disk in the slice that is painted
+  bool within = false;    ///< paint only voxels from lower to upper
+  bool largest = true;    ///< islands: keep the largest; false: those of at least `smallest`
+  double smallest = 10.0; ///< mm^3
+  double margin = 0.5;    ///< mm; negative: shrink
+  double smoothing = 0.5; ///< mm
+  bool inside = true;     ///< strokes to grow from: of the structure; false: of what is beside it
+  std::optional<double> tubeRadius; ///< mm; none: estimated along the path
+};
+
+/// Makes a structure, or edits one of the case: a draft on the CT's grid, tools that change it with
+/// undo, and the structure that it becomes. Without Qt; not thread-safe.
+///
+/// What takes long is handed out as a Work for another thread, one at a time. While it is a step,
+/// the draft does not change until its Apply is called, or `workEnded`.
+class SegmentEditor
+{
+public:
+  enum class Tool
+  {
+    None,
+    Threshold,
+    Paint,
+    Erase,
+    Islands,
+    Margin,
+    Smooth,
+    Fill,
+    Grow,
+    Nerve
+  };
+  using Apply = std::function<void()>; ///< in this thread, while the editor lives
+  /// In any thread. Throws CancelledError, and what the tool refuses.
+  using Work = std::function<Apply(const core::Progress&)>;
+
+  struct Events
+  {
+    std::function<void()> changed;                            ///< anything that a panel shows
+    std::function<void(const core::IndexBox&)> voxelsChanged; ///< of the draft, CT voxels
+  };
+
+  static constexpr double kGrip = 1.0; ///< mm about a nerve point within which a press grips it
+
+  /// The model must outlive this.
+  explicit SegmentEditor(WorkstationModel& model);
+  ~SegmentEditor();
+  SegmentEditor(const SegmentEditor&) = delete;
+  SegmentEditor& operator=(const SegmentEditor&) = delete;
+
+  Events events;
+
+  void caseChanged();  ///< another case, or none: drops the draft
+  void partsChanged(); ///< the case's images or structures are others
+  void mrMoved();      ///< the registration of an MR changed
+
+  bool hasDraft() const;  ///< something is begun: voxels, strokes, points
+  bool isUnsaved() const; ///< and would be lost
+  const std::string& name() const noexcept;
+  void setName(const std::string& name);
+  /// Why the draft cannot become a structure now, one sentence; empty: it can.
+  std::string whyNotCreate() const;
+  /// The structure of the case that is edited; empty: a new one.
+  const std::string& edited() const noexcept;
+  std::vector<std::string> editable() const; ///< labels of the case with a place on the CT
+  /// A step that takes a structure of the case as the draft. Throws InvalidParameter if there is a
+  /// draft already, or for a name that is not `editable`.
+  Work edit(const std::string& structure);
+
+  Tool tool() const noexcept { return m_tool; }
+  void setTool(Tool tool); ///< no effect without a case; the draft stays
+
+  /// The image that threshold, range, growing and tracing read: "ct" or an MR's name.
+  const std::string& source() const noexcept { return m_source; }
+  struct Source
+  {
+    std::string name;
+    std::string why; ///< it cannot be used; empty: it can
+  };
+  std::vector<Source> sources() const;
+  void setSource(const std::string& name); ///< throws InvalidParameter with Source::why
+  IntensityDisplay display() const;        ///< unit, decimals and range of the source's intensities
+
+  const SegmentValues& values() const noexcept { return m_values; }
+  void setValues(const SegmentValues& values);
+  void proposeRange(); ///< lower and upper, from the source's histogram; with the next preview
+
+  /// The left button in a slice; patient, LPS mm.
+  void press(const Eigen::Vector3d& patient, SliceOrientation plane);
+  void drag(const Eigen::Vector3d& patient);
+  void release();
+
+  struct TubePoint
+  {
+    Eigen::Vector3d patient;        ///< LPS mm
+    std::optional<double> distance; ///< mm from the path; none while there is none
+    std::string problem;            ///< what the scan does not show here, in words; usually empty
+  };
+  std::vector<TubePoint> tubePoints() const;
+  void removeTubePoint(std::size_t index);
+  const std::vector<Eigen::Vector3d>& path() const noexcept; ///< LPS mm
+  const std::vector<Eigen::Vector3d>& seeds() const noexcept; ///< of the connected threshold
+  /// Length and radius of the tube, or what is to be done next; a sentence or two, or empty.
+  const std::string& note() const noexcept { return m_note; }
+  /// What is wrong with the tool's result, in words; usually empty.
+  const std::string& warning() const noexcept { return m_warning; }
+
+  /// Work that is due: a preview to be brought up to date, or a step begun by a click. None if there
+  /// is none, or while a step is under way.
+  std::optional<Work> dueWork();
+  /// The tool's step on the draft, with the preview. None where `whyNotStep` says why.
+  std::optional<Work> stepWork();
+  std::string whyNotStep() const;
+  void workEnded(); ///< it failed or was cancelled: the draft is as before
+  bool stepping() const noexcept { return m_stepping; }
+
+  bool canUndo() const;
+  bool canRedo() const;
+  /// A step, or the structure just created: it is taken out of the case and is the draft again.
+  /// True in the latter case.
+  bool undo();
+  void redo();
+
+  /// The preview is outdated: a Work for it is due or under way.
+  bool previewPending() const noexcept { return m_previewDue || m_previewRunning; }
+
+  /// The draft, with the preview, becomes a structure of the case. Throws InvalidParameter with
+  /// `whyNotCreate`.
+  void create();
+  void discard();
+
+  std::uint64_t voxels() const; ///< of what would be created
+  double volume() const;        ///< mm^3, likewise
+  std::array<float, 3> color() const; ///< 0 to 1
+  /// Of draft, preview and strokes; without indexAt: none. Valid until the next change.
+  DraftLayer layer() const;
+
+  /// Computes the surface of what would be created, for the 3D view: see `surface`.
+  Work surfaceWork();
+  static constexpr std::uint64_t kMostSurfaceVoxels = 8'000'000; ///< more are not shown in 3D
+  /// nullptr: none, or too large.
+  const std::shared_ptr<const core::TriangleMesh>& surface() const noexcept { return m_surface; }
+
+private:
+  struct Draft;
+  struct Created;
+  struct SourceImage;
+  struct Preview;
+  using Points = std::vector<Eigen::Vector3d>;
+  using Computed = std::function<Preview(const core::Progress&)>;
+
+  SourceImage& image();
+  Computed computed() const;
+  std::optional<Work> previewWork();
+  Work replacing(std::function<Preview(const core::Progress&)> compute, bool endsTool);
+  void show(const Preview& preview);
+  void dropPreview();
+  void setPoints(Points points);
+  void dab(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+  void refuse(const std::string& why);
+  void reset();
+  void touched(); // something that a panel shows has changed
+
+  WorkstationModel& m_model;
+  Tool m_tool = Tool::None;
+  std::string m_source = "ct";
+  std::unique_ptr<SourceImage> m_image; // made on demand
+  SegmentValues m_values;
+  std::shared_ptr<Draft> m_draft; // never null
+  std::unique_ptr<Created> m_created; // the last one
+  std::unique_ptr<Preview> m_preview; // none: the draft alone
+  std::string m_note, m_warning;
+  bool m_proposeDue = false;
+  bool m_previewDue = false;
+  bool m_previewRunning = false;
+  bool m_stepping = false;
+  std::optional<Work> m_stepDue; // begun by a click
+  std::shared_ptr<const core::TriangleMesh> m_surface;
+};
+
+} // namespace petrous::presenters

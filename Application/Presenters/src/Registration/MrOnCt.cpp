@@ -1,0 +1,75 @@
+#include "petrous/Presenters/MrOnCt.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include <tbb/parallel_for.h>
+
+namespace petrous::presenters
+{
+
+namespace
+{
+
+template <class T>
+T rounded(double value)
+{
+  if constexpr (std::is_integral_v<T>)
+    return static_cast<T>(std::lround(std::clamp(value, double{std::numeric_limits<T>::min()},
+                                                 double{std::numeric_limits<T>::max()})));
+  else
+    return static_cast<T>(value);
+}
+
+template <class T>
+volume::Volume<T> resampled(const volume::IntensityVolume& mr, const core::GridGeometry& ct,
+                            const core::RigidTransform& mrFromCt, const core::Progress& progress)
+{
+  volume::Volume<T> result(ct);
+  const T outside = rounded<T>(mr.padding() ? *mr.padding() : mr.range().min);
+  const core::GridGeometry& grid = mr.geometry();
+  const Eigen::Vector3d last(grid.dims()[0] - 1.0, grid.dims()[1] - 1.0, grid.dims()[2] - 1.0);
+  constexpr double kRounding = 1e-6; // voxels; so that a grid on the CT's keeps its border
+  const core::Index3& n = ct.dims();
+  std::atomic<int> done{0};
+  tbb::parallel_for(
+      0, n[2],
+      [&](int k)
+      {
+        progress.report(static_cast<double>(done.fetch_add(1)) / n[2], "resampling the MR");
+        for (int j = 0; j < n[1]; ++j)
+          for (int i = 0; i < n[0]; ++i)
+          {
+            const Eigen::Vector3d patient = ct.patientFromVoxel(Eigen::Vector3d(i, j, k));
+            const Eigen::Vector3d at = grid.voxelFromPatient(mrFromCt * patient);
+            const bool isInside =
+                at.minCoeff() >= -kRounding && (last - at).minCoeff() >= -kRounding;
+            result.at(i, j, k) =
+                isInside ? rounded<T>(mr.sample(at.cwiseMax(0.0).cwiseMin(last))) : outside;
+          }
+      });
+  return result;
+}
+
+} // namespace
+
+std::shared_ptr<const volume::IntensityVolume> mrOnCt(const volume::IntensityVolume& mr,
+                                                      const core::GridGeometry& ct,
+                                                      const core::RigidTransform& mrFromCt,
+                                                      const core::Progress& progress)
+{
+  return mr.visit(
+      [&](const auto& voxels)
+      {
+        using T = typename std::decay_t<decltype(voxels)>::Value;
+        return std::make_shared<const volume::IntensityVolume>(
+            std::make_shared<const volume::Volume<T>>(resampled<T>(mr, ct, mrFromCt, progress)),
+            mr.padding());
+      });
+}
+
+} // namespace petrous::presenters

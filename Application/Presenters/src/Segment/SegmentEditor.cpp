@@ -1,0 +1,1173 @@
+#include "petrous/Presenters/SegmentEditor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "Notify.h"
+#include "petrous/Appearance/DistinctColors.h"
+#include "petrous/Appearance/StructurePresets.h"
+#include "petrous/Core/NumberText.h"
+#include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Presenters/MrOnCt.h"
+#include "petrous/Rendering/SurfaceExtraction.h"
+#include "petrous/Scene/Placement.h"
+#include "petrous/Segmentation/MaskOperations.h"
+#include "petrous/Segmentation/TubeTrace.h"
+
+namespace petrous::presenters
+{
+
+namespace
+{
+
+using segmentation::Combination;
+using segmentation::EditableMask;
+using segmentation::Mask;
+using segmentation::Tube;
+using Image = std::shared_ptr<const volume::IntensityVolume>;
+using Combine = SegmentValues::Combine;
+
+constexpr std::size_t kLeastTubePoints = 2;
+constexpr std::array<float, 3> kBeside{98.0F, 176.0F, 236.0F}; // strokes beside the structure
+constexpr int kSurfaceMargin = 2;                              // voxels
+constexpr std::uint16_t kInDraft = 1, kStrokeInside = 2, kStrokeBeside = 3; // DraftLayer's
+
+Mask united(const Mask& a, const Mask& b, Combine how)
+{
+  switch (how)
+  {
+  case Combine::Replace:
+    return b;
+  case Combine::Add:
+    return segmentation::combined(a, b, Combination::Union);
+  case Combine::Intersect:
+    break;
+  }
+  return segmentation::combined(a, b, Combination::Intersection);
+}
+
+core::Index3 nearestVoxel(const core::GridGeometry& grid, const Eigen::Vector3d& patient)
+{
+  const Eigen::Vector3d voxel = grid.voxelFromPatient(patient);
+  core::Index3 nearest;
+  for (std::size_t a = 0; a < 3; ++a)
+    nearest[a] = static_cast<int>(std::floor(voxel[static_cast<Eigen::Index>(a)] + 0.5));
+  return nearest;
+}
+
+// The voxels of a structure on another grid: those of the CT whose centre it contains.
+Mask onGrid(const volume::LabelMap& labels, std::uint16_t index, const core::GridGeometry& ct,
+            const core::Progress& progress)
+{
+  if (core::sameGrid(labels.voxels->geometry(), ct))
+    return segmentation::maskOf(labels, index);
+  const auto& from = *labels.voxels;
+  const core::IndexBox extent = volume::extentOf(labels);
+  auto voxels = volume::makeZeroVolume<std::uint8_t>(ct);
+  if (extent.empty())
+    return segmentation::emptyMask(ct);
+  // One voxel more, so that the nearest ones at its border are in the box.
+  core::IndexBox wider = extent;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    wider.lower[a] = std::max(extent.lower[a] - 1, 0);
+    wider.upper[a] = std::min(extent.upper[a] + 1, from.geometry().dims()[a]);
+  }
+  const core::PatientBox patient = from.geometry().cropped(wider).patientBounds();
+  const core::IndexBox box = ct.boxCovering(patient.min(), patient.max());
+  for (int k = box.lower[2]; k < box.upper[2]; ++k)
+  {
+    progress.report(static_cast<double>(k - box.lower[2]) / box.size()[2], "reading the structure");
+    for (int j = box.lower[1]; j < box.upper[1]; ++j)
+      for (int i = box.lower[0]; i < box.upper[0]; ++i)
+      {
+        const core::Index3 at =
+            nearestVoxel(from.geometry(), ct.patientFromVoxel(Eigen::Vector3d(i, j, k)));
+        voxels->at(i, j, k) = extent.contains(at) && from.at(at[0], at[1], at[2]) == index;
+      }
+  }
+  return segmentation::makeMask(voxels, box);
+}
+
+std::string millimetres(double value, int decimals)
+{
+  return core::fixedText(value, decimals) + " mm";
+}
+
+std::string noteOf(const Tube& tube)
+{
+  std::string text = millimetres(tube.length, 1) + " long, radius " + millimetres(tube.radius, 2);
+  if (tube.largestRadius - tube.smallestRadius > 0.01)
+    text += " (" + core::fixedText(tube.smallestRadius, 2) + " to " +
+            core::fixedText(tube.largestRadius, 2) + ")";
+  return text + ".";
+}
+
+std::string warningOf(const Tube& tube)
+{
+  const double left = tube.length - tube.resolvedLength;
+  if (left < 0.05 * tube.length)
+    return {};
+  return "The scan does not resolve it along " + millimetres(left, 1) + " of " +
+         millimetres(tube.length, 1) + ": there the path and its radius are a guess between your "
+         "points.";
+}
+
+// In CT space, from a trace in the patient space of another image.
+Tube moved(Tube tube, const core::RigidTransform& ctFromImage)
+{
+  for (auto* points : {&tube.line, &tube.points})
+    for (Eigen::Vector3d& point : *points)
+      point = ctFromImage * point;
+  for (auto& leg : tube.legs)
+    for (Eigen::Vector3d& point : leg)
+      point = ctFromImage * point;
+  return tube;
+}
+
+} // namespace
+
+/// The image that the tools read, as it is and on the CT's grid.
+struct SegmentEditor::SourceImage
+{
+  Image own;   ///< on its own grid
+  Image onCt;  ///< nullptr: to be made
+  core::RigidTransform ownFromCt;
+  core::GridGeometry ct;
+
+  const Image& made(const core::Progress& progress)
+  {
+    if (!onCt)
+      onCt = mrOnCt(*own, ct, ownFromCt, progress);
+    return onCt;
+  }
+};
+
+/// What the draft would be with the tool's result.
+struct SegmentEditor::Preview
+{
+  std::optional<Mask> result; ///< none: computed only in slices, `range`
+  std::shared_ptr<const Tube> tube;
+  std::optional<volume::ValueRange> range; ///< that was used
+  Image image;                             ///< the source on the CT's grid, if it was made
+  std::string note, warning;
+};
+
+/// Everything that a draft consists of.
+struct SegmentEditor::Draft
+{
+  explicit Draft(const core::GridGeometry& grid)
+    : mask(grid)
+  {
+  }
+
+  struct Step // that can be undone
+  {
+    bool mask = false;
+    bool inside = false;
+    bool beside = false;
+    std::optional<std::pair<Points, Points>> points; ///< before and after
+  };
+
+  void did(Step step)
+  {
+    if (!step.mask && !step.inside && !step.beside && !step.points)
+      return;
+    undo.push_back(std::move(step));
+    redo.clear();
+  }
+
+  std::string name;
+  std::string edited;
+  std::optional<std::array<float, 3>> editedColor;
+  EditableMask mask;
+  std::unique_ptr<EditableMask> inside, beside; ///< strokes to grow from; nullptr: none
+  SliceOrientation plane = SliceOrientation::Axial; ///< last painted in
+  Points seeds;                                     ///< of the connected threshold
+  Points points;                                    ///< of the nerve
+  std::vector<Step> undo, redo;
+  // A stroke or a point that is dragged.
+  bool stroking = false;
+  Eigen::Vector3d last = Eigen::Vector3d::Zero();
+  std::optional<std::size_t> gripped;
+  Points before;
+};
+
+/// A structure just created, to be undone.
+struct SegmentEditor::Created
+{
+  std::string name;
+  std::shared_ptr<Draft> draft;
+  std::optional<scene::LabelPart> replaced;
+};
+
+SegmentEditor::SegmentEditor(WorkstationModel& model)
+  : m_model(model)
+  , m_draft(std::make_shared<Draft>(core::GridGeometry()))
+{
+}
+
+SegmentEditor::~SegmentEditor() = default;
+
+void SegmentEditor::touched()
+{
+  notify(events.changed);
+}
+
+void SegmentEditor::reset()
+{
+  m_draft = std::make_shared<Draft>(m_model.hasCase() ? m_model.value().ct.geometry
+                                                      : core::GridGeometry());
+  m_stepping = m_proposeDue = m_previewRunning = false;
+  m_stepDue.reset();
+  m_surface.reset();
+  dropPreview();
+}
+
+void SegmentEditor::caseChanged()
+{
+  m_tool = Tool::None;
+  m_source = "ct";
+  m_image.reset();
+  m_created.reset();
+  m_values = {};
+  reset();
+  touched();
+}
+
+void SegmentEditor::partsChanged()
+{
+  if (m_model.hasCase())
+  {
+    if (m_source != "ct" && !scene::findMr(m_model.value(), m_source))
+    {
+      m_source = "ct";
+      m_image.reset();
+    }
+    if (!scene::findStructure(m_model.value(), m_draft->edited))
+      m_draft->edited.clear();
+  }
+  touched();
+}
+
+void SegmentEditor::mrMoved()
+{
+  if (m_source == "ct")
+    return;
+  m_image.reset();
+  const scene::ImagePart* mr = scene::findMr(m_model.value(), m_source);
+  if (!mr || !mr->registered)
+    m_source = "ct";
+  m_previewDue = m_preview != nullptr;
+  touched();
+}
+
+bool SegmentEditor::hasDraft() const
+{
+  return m_draft->mask.count() > 0 || !m_draft->edited.empty() || !m_draft->undo.empty() ||
+         !m_draft->points.empty() || !m_draft->seeds.empty() ||
+         (m_preview && m_preview->result && m_preview->result->count > 0);
+}
+
+bool SegmentEditor::isUnsaved() const
+{
+  return m_draft->edited.empty() ? hasDraft()
+                                 : !m_draft->undo.empty() || !m_draft->points.empty() ||
+                                       (m_preview && m_preview->result);
+}
+
+const std::string& SegmentEditor::name() const noexcept
+{
+  return m_draft->name;
+}
+
+const std::string& SegmentEditor::edited() const noexcept
+{
+  return m_draft->edited;
+}
+
+void SegmentEditor::setName(const std::string& name)
+{
+  if (name == m_draft->name)
+    return;
+  m_draft->name = name;
+  touched();
+}
+
+std::string SegmentEditor::whyNotCreate() const
+{
+  if (!m_model.hasCase())
+    return "No case is open.";
+  if (m_stepping)
+    return "A step is under way.";
+  if (previewPending())
+    return "The preview is being computed.";
+  if (voxels() == 0)
+    return "There is no voxel yet: paint, or use another tool.";
+  if (m_draft->name.empty())
+    return "Give the structure a name.";
+  try
+  {
+    scene::checkPartName(m_draft->name);
+  }
+  catch (const core::Error& error)
+  {
+    return error.what();
+  }
+  const bool taken = scene::findStructure(m_model.value(), m_draft->name) ||
+                     [this]
+  {
+    for (const scene::MeshPart& mesh : m_model.value().meshes)
+      if (mesh.name == m_draft->name)
+        return true;
+    return false;
+  }();
+  return taken && m_draft->name != m_draft->edited
+             ? "The case has a structure '" + m_draft->name + "' already; choose another name."
+             : std::string();
+}
+
+std::vector<std::string> SegmentEditor::editable() const
+{
+  std::vector<std::string> names;
+  if (m_model.hasCase() && m_model.loaded())
+    for (const scene::LabelPart& part : m_model.value().labels)
+      if (scene::placementOf(m_model.value(), part).missing.empty())
+        for (const scene::StructurePart& structure : part.structures)
+          names.push_back(structure.name);
+  return names;
+}
+
+SegmentEditor::Work SegmentEditor::edit(const std::string& structure)
+{
+  if (hasDraft())
+    throw core::InvalidParameter("there is a draft already; create or discard it first");
+  const auto names = editable();
+  if (std::find(names.begin(), names.end(), structure) == names.end())
+    throw core::InvalidParameter("structure '" + structure + "' is not on the CT");
+  const scene::LabelPart* part = nullptr;
+  const scene::StructurePart* found = nullptr;
+  for (const scene::LabelPart& labels : m_model.value().labels)
+    for (const scene::StructurePart& one : labels.structures)
+      if (one.name == structure)
+      {
+        part = &labels;
+        found = &one;
+      }
+  m_stepping = true;
+  dropPreview();
+  touched();
+  return [this, draft = m_draft, labels = scene::labelsOnCt(m_model.value(), *part),
+          index = found->index, color = found->look.color, structure,
+          ct = m_model.value().ct.geometry](const core::Progress& progress) -> Apply
+  {
+    const Mask mask = onGrid(*labels, index, ct, progress);
+    return [this, draft, mask, structure, color]
+    {
+      m_stepping = false;
+      if (draft != m_draft)
+        return;
+      draft->mask = EditableMask(mask);
+      draft->name = draft->edited = structure;
+      draft->editedColor = color;
+      touched();
+    };
+  };
+}
+
+void SegmentEditor::setTool(Tool tool)
+{
+  if (tool == m_tool || (tool != Tool::None && !m_model.hasCase()))
+    return;
+  release();
+  m_tool = tool;
+  dropPreview();
+  if (tool == Tool::Threshold && m_values.lower == 0.0 && m_values.upper == 0.0)
+    m_proposeDue = true;
+  m_previewDue = tool == Tool::Threshold || (tool == Tool::Nerve && !m_draft->points.empty()) ||
+                 (m_values.within && m_source != "ct");
+  touched();
+}
+
+std::vector<SegmentEditor::Source> SegmentEditor::sources() const
+{
+  std::vector<Source> all;
+  if (!m_model.hasCase())
+    return all;
+  all.push_back({"ct", {}});
+  for (const scene::ImagePart& mr : m_model.value().mr)
+    all.push_back({mr.name, mr.registered ? "" : "not registered to the CT; see Registration, F5"});
+  return all;
+}
+
+void SegmentEditor::setSource(const std::string& name)
+{
+  for (const Source& source : sources())
+    if (source.name == name)
+    {
+      if (!source.why.empty())
+        throw core::InvalidParameter("'" + name + "' is " + source.why);
+      if (name == m_source || m_stepping)
+        return;
+      m_source = name;
+      m_image.reset();
+      m_proposeDue = true; // another unit
+      m_previewDue = true;
+      return touched();
+    }
+  throw core::InvalidParameter("the case has no image '" + name + "'");
+}
+
+IntensityDisplay SegmentEditor::display() const
+{
+  if (!m_model.hasCase())
+    return {};
+  const scene::Case& value = m_model.value();
+  const scene::ImagePart* mr = scene::findMr(value, m_source);
+  IntensityDisplay display = displayOf(value);
+  const volume::ValueRange range = mr ? mr->range : value.ct.range;
+  const double span = range.max - range.min;
+  if (mr)
+  {
+    display.hounsfield = false;
+    display.decimals = span >= 100.0 ? 0 : span >= 1.0 ? 2 : 4;
+    display.step = std::pow(10.0, -display.decimals);
+  }
+  display.least = span > 0.0 ? range.min : std::min(-1024.0, display.least);
+  display.most = span > 0.0 ? range.max : std::max(4096.0, display.most);
+  return display;
+}
+
+void SegmentEditor::setValues(const SegmentValues& values)
+{
+  const SegmentValues before = std::exchange(m_values, values);
+  if (m_values.lower > m_values.upper) // the one that was set pushes the other
+    (m_values.lower != before.lower ? m_values.upper : m_values.lower) =
+        m_values.lower != before.lower ? m_values.lower : m_values.upper;
+  const bool range = m_values.lower != before.lower || m_values.upper != before.upper;
+  if (range)
+    m_proposeDue = false;
+  if (m_tool == Tool::Threshold && !m_values.connected && before.connected)
+    m_draft->seeds.clear();
+  m_previewDue = m_previewDue ||
+                 (m_tool == Tool::Threshold &&
+                  (range || m_values.connected != before.connected ||
+                   m_values.combine != before.combine)) ||
+                 (m_tool == Tool::Nerve && m_values.tubeRadius != before.tubeRadius) ||
+                 (m_values.within && !before.within && m_source != "ct");
+  touched();
+}
+
+void SegmentEditor::proposeRange()
+{
+  if (!m_model.hasCase() || m_stepping)
+    return;
+  m_proposeDue = m_previewDue = true;
+  touched();
+}
+
+SegmentEditor::SourceImage& SegmentEditor::image()
+{
+  if (!m_image)
+  {
+    const scene::Case& value = m_model.value();
+    m_image = std::make_unique<SourceImage>();
+    m_image->ct = value.ct.geometry;
+    if (const scene::ImagePart* mr = scene::findMr(value, m_source))
+    {
+      m_image->own = mr->volume.get();
+      m_image->ownFromCt = mr->mrFromCt;
+    }
+    else
+      m_image->own = m_image->onCt = value.ct.volume.get();
+  }
+  return *m_image;
+}
+
+void SegmentEditor::refuse(const std::string& why)
+{
+  m_warning = why;
+  touched();
+}
+
+// From the pointer's last place, so that a fast stroke has no gaps.
+void SegmentEditor::dab(const Eigen::Vector3d& from, const Eigen::Vector3d& to)
+{
+  segmentation::Brush brush;
+  brush.from = from;
+  brush.to = to;
+  brush.radius = m_values.brush;
+  if (!m_values.ball)
+    brush.normal = axesOf(m_draft->plane).next;
+  if (m_tool == Tool::Grow)
+  {
+    EditableMask& mine = m_values.inside ? *m_draft->inside : *m_draft->beside;
+    EditableMask& other = m_values.inside ? *m_draft->beside : *m_draft->inside;
+    const core::IndexBox changed = segmentation::paint(mine, brush, true);
+    notify(events.voxelsChanged, changed.united(segmentation::paint(other, brush, false)));
+    return;
+  }
+  if (m_values.within)
+  {
+    brush.range = volume::ValueRange{m_values.lower, m_values.upper};
+    brush.image = image().onCt.get();
+  }
+  notify(events.voxelsChanged, segmentation::paint(m_draft->mask, brush, m_tool == Tool::Paint));
+}
+
+void SegmentEditor::press(const Eigen::Vector3d& patient, SliceOrientation plane)
+{
+  if (!m_model.hasCase() || m_tool == Tool::None)
+    return;
+  if (m_stepping)
+    return refuse("A step is under way; wait, or stop it.");
+  m_warning.clear();
+  Draft& draft = *m_draft;
+  switch (m_tool)
+  {
+  case Tool::Paint:
+  case Tool::Erase:
+  case Tool::Grow:
+    if (m_tool != Tool::Grow && m_values.within && !image().onCt)
+      return refuse("The MR is being brought onto the CT's grid; then its range can be used.");
+    if (m_tool == Tool::Grow && !draft.inside)
+    {
+      draft.inside = std::make_unique<EditableMask>(draft.mask.geometry());
+      draft.beside = std::make_unique<EditableMask>(draft.mask.geometry());
+    }
+    draft.plane = plane;
+    draft.stroking = true;
+    draft.last = patient;
+    if (m_tool == Tool::Grow)
+    {
+      draft.inside->beginStep();
+      draft.beside->beginStep();
+    }
+    else
+      draft.mask.beginStep();
+    return dab(patient, patient);
+  case Tool::Threshold:
+    m_values.connected = true;
+    draft.seeds.push_back(patient);
+    m_previewDue = true;
+    return touched();
+  case Tool::Islands:
+  {
+    if (draft.mask.count() == 0)
+      return refuse("There is nothing yet of which an island could be kept.");
+    m_stepDue = replacing(
+        [base = draft.mask.snapshot(), patient](const core::Progress& progress)
+        {
+          Preview preview;
+          preview.result = segmentation::islandsAt(base, {patient}, progress);
+          return preview;
+        },
+        false);
+    return touched();
+  }
+  case Tool::Nerve:
+  {
+    draft.before = draft.points;
+    draft.stroking = true;
+    double nearest = kGrip;
+    draft.gripped.reset();
+    for (std::size_t n = 0; n < draft.points.size(); ++n)
+      if (const double away = (draft.points[n] - patient).norm(); away <= nearest)
+      {
+        nearest = away;
+        draft.gripped = n;
+      }
+    if (draft.gripped)
+      return;
+    std::size_t at = draft.points.size();
+    if (m_preview && m_preview->tube && m_preview->tube->points == draft.points)
+      at = segmentation::insertionIndex(*m_preview->tube, patient);
+    draft.points.insert(draft.points.begin() + static_cast<std::ptrdiff_t>(at), patient);
+    draft.gripped = at;
+    return touched();
+  }
+  default:
+    return;
+  }
+}
+
+void SegmentEditor::drag(const Eigen::Vector3d& patient)
+{
+  Draft& draft = *m_draft;
+  if (!draft.stroking)
+    return;
+  if (m_tool == Tool::Nerve)
+  {
+    if (draft.gripped)
+      draft.points[*draft.gripped] = patient;
+    return touched();
+  }
+  dab(draft.last, patient);
+  draft.last = patient;
+}
+
+void SegmentEditor::release()
+{
+  Draft& draft = *m_draft;
+  if (!std::exchange(draft.stroking, false))
+    return;
+  Draft::Step step;
+  if (m_tool == Tool::Nerve)
+  {
+    draft.gripped.reset();
+    if (draft.points != draft.before)
+    {
+      step.points = {draft.before, draft.points};
+      m_previewDue = true;
+    }
+  }
+  else if (m_tool == Tool::Grow)
+  {
+    step.inside = draft.inside->endStep();
+    step.beside = draft.beside->endStep();
+  }
+  else
+    step.mask = draft.mask.endStep();
+  draft.did(std::move(step));
+  touched();
+}
+
+std::vector<SegmentEditor::TubePoint> SegmentEditor::tubePoints() const
+{
+  std::vector<TubePoint> all;
+  const Tube* tube = m_preview ? m_preview->tube.get() : nullptr;
+  if (tube && tube->points != m_draft->points)
+    tube = nullptr;
+  for (std::size_t n = 0; n < m_draft->points.size(); ++n)
+  {
+    TubePoint point{m_draft->points[n], std::nullopt, {}};
+    if (tube)
+    {
+      point.distance = tube->pointDistances[n];
+      if (tube->resolved[tube->pointVertices[n]] == 0)
+        point.problem = "cannot be resolved here";
+      else if (tube->heldAtPoint[n] != 0)
+        point.problem = "no axis nearby: the path is held at the point";
+    }
+    all.push_back(std::move(point));
+  }
+  return all;
+}
+
+void SegmentEditor::setPoints(Points points)
+{
+  m_draft->points = std::move(points);
+  m_previewDue = true;
+  touched();
+}
+
+void SegmentEditor::removeTubePoint(std::size_t index)
+{
+  if (index >= m_draft->points.size() || m_stepping || m_draft->stroking)
+    return;
+  const Points before = m_draft->points;
+  Points after = before;
+  after.erase(after.begin() + static_cast<std::ptrdiff_t>(index));
+  Draft::Step step;
+  step.points = {before, after};
+  m_draft->did(std::move(step));
+  setPoints(after);
+}
+
+const std::vector<Eigen::Vector3d>& SegmentEditor::path() const noexcept
+{
+  static const Points kNone;
+  return m_preview && m_preview->tube ? m_preview->tube->line : kNone;
+}
+
+const std::vector<Eigen::Vector3d>& SegmentEditor::seeds() const noexcept
+{
+  return m_draft->seeds;
+}
+
+void SegmentEditor::dropPreview()
+{
+  m_preview.reset();
+  m_previewDue = false;
+  m_note.clear();
+  m_warning.clear();
+}
+
+// What the tool makes of the draft: computed without the editor, of copies.
+SegmentEditor::Computed SegmentEditor::computed() const
+{
+  const Mask base = m_draft->mask.snapshot();
+  const SegmentValues values = m_values;
+  const auto only = [](Mask mask)
+  {
+    Preview preview;
+    preview.result = std::move(mask);
+    return preview;
+  };
+  switch (m_tool)
+  {
+  case Tool::Threshold:
+    return [base, values, image = *m_image, seeds = m_draft->seeds, propose = m_proposeDue,
+            iso = m_source == "ct" ? std::optional(m_model.value().iso) : std::nullopt](
+               const core::Progress& progress) mutable
+    {
+      Preview preview;
+      preview.image = image.made(progress.part(0.0, 0.4));
+      volume::ValueRange range{values.lower, values.upper};
+      if (propose)
+        range = segmentation::proposedRange(volume::IntensityHistogram(*image.own), iso);
+      preview.range = range;
+      const core::Progress rest = progress.part(0.4, 1.0);
+      if (values.connected && seeds.empty())
+        preview.note = "Click a point of the structure in a slice.";
+      else
+        preview.result =
+            united(base,
+                   values.connected
+                       ? segmentation::connectedThreshold(*preview.image, range, seeds, rest)
+                       : segmentation::threshold(*preview.image, range, rest),
+                   values.combine);
+      return preview;
+    };
+  case Tool::Nerve:
+    return [base, values, image = *m_image, points = m_draft->points,
+            before = m_preview ? m_preview->tube : nullptr](const core::Progress& progress)
+    {
+      Preview preview;
+      Points own = points;
+      for (Eigen::Vector3d& point : own)
+        point = image.ownFromCt * point;
+      segmentation::TubeOptions options;
+      options.radius = values.tubeRadius;
+      Tube tube = moved(segmentation::traceTube(*image.own, own, options, progress.part(0.0, 0.8)),
+                        image.ownFromCt.inverse());
+      tube.points = points; // to the bit
+      volume::Segment segment;
+      segment.name = "tube";
+      segment.index = 1;
+      const volume::LabelMap labels = segmentation::labelTube(
+          tube, base.geometry(), segment, 1.0, progress.part(0.8, 1.0));
+      preview.note = noteOf(tube);
+      preview.warning = warningOf(tube);
+      preview.tube = std::make_shared<const Tube>(std::move(tube));
+      preview.result = united(base, segmentation::maskOf(labels, 1), Combine::Add);
+      return preview;
+    };
+  case Tool::Islands:
+    return [base, values, only](const core::Progress& progress)
+    {
+      return only(values.largest
+                      ? segmentation::largestIsland(base, progress)
+                      : segmentation::withoutSmallIslands(base, values.smallest, progress));
+    };
+  case Tool::Margin:
+    return [base, values, only](const core::Progress& progress)
+    { return only(segmentation::margin(base, values.margin, progress)); };
+  case Tool::Smooth:
+    return [base, values, only](const core::Progress& progress)
+    { return only(segmentation::smoothed(base, values.smoothing, progress)); };
+  case Tool::Fill:
+  {
+    Eigen::Index axis = 0;
+    (base.geometry().voxelFromPatientLinear() * axesOf(m_draft->plane).next)
+        .cwiseProduct(base.geometry().spacing())
+        .cwiseAbs()
+        .maxCoeff(&axis);
+    return [base, only, axis](const core::Progress& progress)
+    { return only(segmentation::filledBetweenSlices(base, static_cast<int>(axis), progress)); };
+  }
+  case Tool::Grow:
+    return [image = *m_image, inside = m_draft->inside->snapshot(),
+            beside = m_draft->beside->snapshot()](const core::Progress& progress) mutable
+    {
+      Preview preview;
+      preview.image = image.made(progress.part(0.0, 0.4));
+      preview.result = segmentation::grownFromSeeds(*preview.image, inside, beside, {},
+                                                    progress.part(0.4, 1.0));
+      return preview;
+    };
+  default:
+    return {};
+  }
+}
+
+void SegmentEditor::show(const Preview& preview)
+{
+  if (preview.image && m_image)
+    m_image->onCt = preview.image;
+  if (preview.range && m_proposeDue)
+  {
+    m_values.lower = preview.range->min;
+    m_values.upper = preview.range->max;
+    m_proposeDue = false;
+  }
+  m_note = preview.note;
+  m_warning = preview.warning;
+}
+
+std::optional<SegmentEditor::Work> SegmentEditor::dueWork()
+{
+  if (m_stepping || !m_model.hasCase())
+    return std::nullopt;
+  if (m_stepDue)
+  {
+    m_stepping = true;
+    m_previewRunning = false;
+    return std::exchange(m_stepDue, std::nullopt);
+  }
+  if (!m_previewDue || m_draft->stroking)
+    return std::nullopt;
+  return previewWork();
+}
+
+std::optional<SegmentEditor::Work> SegmentEditor::previewWork()
+{
+  m_previewDue = false;
+  image();
+  if (m_tool == Tool::Nerve && m_draft->points.size() < kLeastTubePoints)
+  {
+    m_previewRunning = false;
+    dropPreview();
+    if (!m_draft->points.empty())
+      m_note = "Click the next point along the nerve.";
+    touched();
+    return std::nullopt;
+  }
+  m_previewRunning = true;
+  Computed compute;
+  if (m_tool == Tool::Threshold || m_tool == Tool::Nerve)
+    compute = computed();
+  else // only the image is needed
+    compute = [image = *m_image](const core::Progress& progress) mutable
+    {
+      Preview preview;
+      preview.image = image.made(progress);
+      return preview;
+    };
+  return [this, draft = m_draft, tool = m_tool,
+          compute = std::move(compute)](const core::Progress& progress) -> Apply
+  {
+    const auto preview = std::make_shared<Preview>();
+    std::string refused;
+    try
+    {
+      *preview = compute(progress);
+    }
+    catch (const core::InvalidParameter& error)
+    {
+      refused = error.what();
+    }
+    return [this, draft, tool, preview, refused]
+    {
+      m_previewRunning = false;
+      if (draft != m_draft || tool != m_tool)
+        return;
+      show(*preview);
+      m_warning = refused.empty() ? m_warning : refused;
+      m_preview = preview->result ? std::make_unique<Preview>(std::move(*preview)) : nullptr;
+      touched();
+    };
+  };
+}
+
+std::string SegmentEditor::whyNotStep() const
+{
+  if (!m_model.hasCase())
+    return "No case is open.";
+  if (m_stepping)
+    return "A step is under way.";
+  const auto strokes = [](const std::unique_ptr<EditableMask>& mask)
+  { return mask && mask->count() > 0; };
+  switch (m_tool)
+  {
+  case Tool::None:
+    return "Choose a tool first.";
+  case Tool::Paint:
+  case Tool::Erase:
+    return "This tool works while you drag in a slice.";
+  case Tool::Threshold:
+    return m_values.connected && m_draft->seeds.empty()
+               ? "Click a point of the structure in a slice first."
+               : "";
+  case Tool::Nerve:
+    return m_draft->points.size() < kLeastTubePoints
+               ? "Click at least two points along the nerve first."
+               : "";
+  case Tool::Grow:
+    return strokes(m_draft->inside) && strokes(m_draft->beside)
+               ? ""
+               : "Paint a stroke inside the structure and one beside it first.";
+  case Tool::Margin:
+    if (m_values.margin == 0.0)
+      return "A margin of 0 mm changes nothing.";
+    break;
+  default:
+    break;
+  }
+  return m_draft->mask.count() == 0 ? "There is nothing yet that could be changed." : "";
+}
+
+// `endsTool`: seeds and points have served their purpose.
+SegmentEditor::Work
+SegmentEditor::replacing(std::function<Preview(const core::Progress&)> compute, bool endsTool)
+{
+  return [this, draft = m_draft, endsTool,
+          compute = std::move(compute)](const core::Progress& progress) -> Apply
+  {
+    const auto preview = std::make_shared<Preview>(compute(progress));
+    return [this, draft, endsTool, preview]
+    {
+      m_stepping = false;
+      if (draft != m_draft)
+        return;
+      show(*preview);
+      if (!preview->result)
+        return touched();
+      Draft::Step step;
+      draft->mask.beginStep();
+      const core::IndexBox box = draft->mask.replace(*preview->result);
+      step.mask = draft->mask.endStep();
+      if (endsTool)
+      {
+        draft->seeds.clear();
+        if (!draft->points.empty())
+          step.points = {std::exchange(draft->points, {}), Points()};
+      }
+      const bool changed = step.mask;
+      draft->did(std::move(step));
+      const std::string note = m_note, warning = m_warning;
+      dropPreview();
+      m_note = changed ? note : "This changes nothing.";
+      m_warning = warning;
+      notify(events.voxelsChanged, box);
+      touched();
+    };
+  };
+}
+
+std::optional<SegmentEditor::Work> SegmentEditor::stepWork()
+{
+  if (m_draft->stroking || !whyNotStep().empty())
+    return std::nullopt;
+  image();
+  Work work = replacing(computed(), m_tool == Tool::Threshold || m_tool == Tool::Nerve);
+  m_stepping = true;
+  m_previewDue = m_previewRunning = false;
+  touched();
+  return work;
+}
+
+void SegmentEditor::workEnded()
+{
+  m_stepping = m_previewRunning = false;
+  touched();
+}
+
+bool SegmentEditor::canUndo() const
+{
+  if (m_stepping || m_draft->stroking)
+    return false;
+  if (m_draft->undo.empty())
+    return m_created && !hasDraft();
+  return !m_draft->undo.back().mask || m_draft->mask.canUndo(); // old steps are forgotten
+}
+
+bool SegmentEditor::canRedo() const
+{
+  return !m_stepping && !m_draft->stroking && !m_draft->redo.empty();
+}
+
+bool SegmentEditor::undo()
+{
+  if (!canUndo())
+    return false;
+  Draft& draft = *m_draft;
+  if (draft.undo.empty())
+  {
+    const std::unique_ptr<Created> created = std::exchange(m_created, nullptr);
+    m_draft = created->draft;
+    dropPreview();
+    m_model.takeStructure(created->name);
+    if (created->replaced)
+    {
+      m_draft->edited = created->replaced->structures.front().name;
+      m_model.putStructure(*created->replaced);
+    }
+    touched();
+    return true;
+  }
+  Draft::Step step = std::move(draft.undo.back());
+  draft.undo.pop_back();
+  core::IndexBox box;
+  if (step.mask)
+    box = draft.mask.undo();
+  if (step.inside)
+    box = box.united(draft.inside->undo());
+  if (step.beside)
+    box = box.united(draft.beside->undo());
+  if (step.points)
+    draft.points = step.points->first;
+  m_previewDue = m_tool == Tool::Threshold || m_tool == Tool::Nerve;
+  draft.redo.push_back(std::move(step));
+  notify(events.voxelsChanged, box);
+  touched();
+  return false;
+}
+
+void SegmentEditor::redo()
+{
+  if (!canRedo())
+    return;
+  Draft& draft = *m_draft;
+  Draft::Step step = std::move(draft.redo.back());
+  draft.redo.pop_back();
+  core::IndexBox box;
+  if (step.mask)
+    box = draft.mask.redo();
+  if (step.inside)
+    box = box.united(draft.inside->redo());
+  if (step.beside)
+    box = box.united(draft.beside->redo());
+  if (step.points)
+    draft.points = step.points->second;
+  m_previewDue = m_tool == Tool::Threshold || m_tool == Tool::Nerve;
+  draft.undo.push_back(std::move(step));
+  notify(events.voxelsChanged, box);
+  touched();
+}
+
+void SegmentEditor::create()
+{
+  release();
+  if (const std::string why = whyNotCreate(); !why.empty())
+    throw core::InvalidParameter(why);
+  const Mask mask =
+      m_preview && m_preview->result ? *m_preview->result : m_draft->mask.snapshot();
+  volume::Segment segment;
+  segment.name = m_draft->name;
+  segment.index = 1;
+  const std::string edited = m_draft->edited;
+  if (m_preview && m_preview->result) // an undo gives the draft with what was a preview
+  {
+    Draft::Step step;
+    m_draft->mask.beginStep();
+    m_draft->mask.replace(mask);
+    step.mask = m_draft->mask.endStep();
+    m_draft->did(std::move(step));
+    dropPreview();
+  }
+  auto replaced = m_model.addStructure(segmentation::labelMapOf(mask, segment), edited);
+  m_created = std::make_unique<Created>(
+      Created{segment.name, std::exchange(m_draft, nullptr), std::move(replaced)});
+  m_tool = Tool::None;
+  reset();
+  touched();
+}
+
+void SegmentEditor::discard()
+{
+  release();
+  reset();
+  touched();
+}
+
+std::uint64_t SegmentEditor::voxels() const
+{
+  return m_preview && m_preview->result ? m_preview->result->count : m_draft->mask.count();
+}
+
+double SegmentEditor::volume() const
+{
+  return static_cast<double>(voxels()) * m_draft->mask.geometry().voxelVolume();
+}
+
+std::array<float, 3> SegmentEditor::color() const
+{
+  if (m_draft->editedColor)
+    return *m_draft->editedColor;
+  const auto look = appearance::StructurePresets::builtIn().lookFor(m_draft->name);
+  if (look.preset != "other" || !m_model.hasCase())
+    return look.color;
+  return appearance::distinctColor(structureColors(m_model.value()));
+}
+
+DraftLayer SegmentEditor::layer() const
+{
+  DraftLayer layer;
+  if (!m_model.hasCase())
+    return layer;
+  const bool strokes = m_tool == Tool::Grow && m_draft->inside;
+  const bool preview = m_preview && m_preview->result;
+  if (!strokes && !preview && m_draft->mask.count() == 0 && !m_draft->stroking &&
+      m_draft->undo.empty() && m_tool == Tool::None)
+    return layer;
+  layer.geometry = m_draft->mask.geometry();
+  std::array<float, 3> bright = color();
+  for (float& channel : bright)
+    channel *= 255.0F;
+  std::array<float, 3> stroke = bright;
+  for (float& channel : stroke)
+    channel = 0.5F * (channel + 255.0F);
+  layer.colors = {{}, bright, stroke, kBeside};
+  const bool range = m_tool == Tool::Threshold && !m_values.connected && previewPending() &&
+                     !m_proposeDue && m_image && m_image->onCt;
+  if (range) // until it is computed
+    layer.indexAt = [draft = m_draft, image = m_image->onCt, lower = m_values.lower,
+                     upper = m_values.upper, how = m_values.combine](const core::Index3& at)
+    {
+      const double value = image->at(at[0], at[1], at[2]);
+      const bool in = value >= lower && value <= upper;
+      const bool drawn = draft->mask.voxels().at(at[0], at[1], at[2]) != 0;
+      const bool both = how == Combine::Replace ? in : how == Combine::Add ? in || drawn : in && drawn;
+      return both ? kInDraft : std::uint16_t{0};
+    };
+  else if (preview)
+    layer.indexAt = [mask = *m_preview->result](const core::Index3& at)
+    { return mask.at(at) ? kInDraft : std::uint16_t{0}; };
+  else
+    layer.indexAt = [draft = m_draft, strokes](const core::Index3& at) -> std::uint16_t
+    {
+      const auto in = [&at](const EditableMask& mask)
+      { return mask.voxels().at(at[0], at[1], at[2]) != 0; };
+      if (strokes && draft->inside && in(*draft->inside))
+        return kStrokeInside;
+      if (strokes && draft->beside && in(*draft->beside))
+        return kStrokeBeside;
+      return in(draft->mask) ? kInDraft : std::uint16_t{0};
+    };
+  return layer;
+}
+
+SegmentEditor::Work SegmentEditor::surfaceWork()
+{
+  std::optional<Mask> mask;
+  if (m_model.hasCase() && voxels() > 0 && voxels() <= kMostSurfaceVoxels)
+    mask = m_preview && m_preview->result ? *m_preview->result : m_draft->mask.snapshot();
+  return [this, mask](const core::Progress& progress) -> Apply
+  {
+    std::shared_ptr<const core::TriangleMesh> surface;
+    if (mask && !mask->extent.empty())
+    {
+      core::IndexBox box;
+      for (std::size_t a = 0; a < 3; ++a)
+      {
+        box.lower[a] = std::max(mask->extent.lower[a] - kSurfaceMargin, 0);
+        box.upper[a] =
+            std::min(mask->extent.upper[a] + kSurfaceMargin, mask->geometry().dims()[a]);
+      }
+      volume::Volume<std::uint16_t> labels(mask->geometry().cropped(box));
+      const core::Index3 size = box.size();
+      for (int k = 0; k < size[2]; ++k)
+        for (int j = 0; j < size[1]; ++j)
+          for (int i = 0; i < size[0]; ++i)
+            labels.at(i, j, k) = mask->voxels->at(box.lower[0] + i, box.lower[1] + j,
+                                                  box.lower[2] + k);
+      surface = std::make_shared<const core::TriangleMesh>(
+          rendering::extractLabel(labels, 1, progress));
+    }
+    return [this, surface] { m_surface = surface; };
+  };
+}
+
+} // namespace petrous::presenters

@@ -1,0 +1,494 @@
+#include "SegmentController.h"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <QAction>
+#include <QActionGroup>
+#include <QMenu>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QScopedValueRollback>
+
+#include "Application.h"
+#include "BackgroundWork.h"
+#include "SegmentPanel.h"
+#include "SliceColumn.h"
+#include "SliceView.h"
+#include "Theme.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+using presenters::SegmentEditor;
+using Tool = SegmentEditor::Tool;
+
+constexpr int kSurfaceAfter = 400;   // ms after the last change
+constexpr double kBrushStep = 1.2;   // factor
+constexpr double kLeastBrush = 0.1;  // mm
+const QColor kPoint("#ffd040");
+const QColor kPath("#ffd040");
+const QColor kEraser("#f2f5f8");
+const QColor kBeside("#62b0ec");
+
+struct ToolEntry
+{
+  Tool tool;
+  const char* name;
+  int key;
+  const char* tip;
+};
+// In the order of the panel's buttons.
+constexpr ToolEntry kTools[] = {
+    {Tool::Threshold, "&Threshold", Qt::SHIFT + Qt::Key_T,
+     "All voxels in a range of intensities, or those connected to a clicked point"},
+    {Tool::Paint, "&Paint", Qt::SHIFT + Qt::Key_P, "Paints with a ball or a disk in the slices"},
+    {Tool::Erase, "&Erase", Qt::SHIFT + Qt::Key_E, "Erases with a ball or a disk in the slices"},
+    {Tool::Grow, "&Grow", Qt::SHIFT + Qt::Key_G,
+     "From strokes inside the structure and beside it, by the image"},
+    {Tool::Fill, "&Fill", Qt::SHIFT + Qt::Key_F, "The slices between those that were painted"},
+    {Tool::Nerve, "&Nerve", Qt::SHIFT + Qt::Key_N,
+     "A tube along a few clicked points: facial nerve, chorda, vessels"},
+    {Tool::Islands, "&Islands", Qt::SHIFT + Qt::Key_I, "Removes small parts"},
+    {Tool::Margin, "&Margin", Qt::SHIFT + Qt::Key_M, "Wider or narrower by some millimetres"},
+    {Tool::Smooth, "&Smooth", Qt::SHIFT + Qt::Key_S, "Rounds the surface"},
+};
+
+bool hasBrushOf(Tool tool)
+{
+  return tool == Tool::Paint || tool == Tool::Erase || tool == Tool::Grow;
+}
+
+bool hasClicks(Tool tool)
+{
+  return hasBrushOf(tool) || tool == Tool::Threshold || tool == Tool::Nerve ||
+         tool == Tool::Islands;
+}
+
+QColor colorOf(const std::array<float, 3>& color)
+{
+  return QColor::fromRgbF(double(color[0]), double(color[1]), double(color[2]));
+}
+} // namespace
+
+SegmentController::SegmentController(presenters::WorkstationModel& model, SliceColumn& slices,
+                                     QWidget& window)
+  : QObject(&window)
+  , m_model(model)
+  , m_slices(slices)
+  , m_window(window)
+  , m_editor(model)
+  , m_menu(new QMenu(tr("Seg&ment"), &window))
+  , m_tools(new QActionGroup(this))
+  , m_work(std::make_unique<BackgroundWork>())
+  , m_surfaceWork(std::make_unique<BackgroundWork>())
+{
+  addTools();
+  connectPanel();
+  connectSlices();
+  m_editor.events.changed = [this] { changed(); };
+  m_editor.events.voxelsChanged = [this](const core::IndexBox& box)
+  {
+    if (m_model.hasCase() && !box.empty())
+    {
+      m_slices.draftChanged(m_model.value().ct.geometry.cropped(box).patientBounds());
+      m_panel->showVolume();
+    }
+  };
+  m_surfaceLater.setSingleShot(true);
+  m_surfaceLater.setInterval(kSurfaceAfter);
+  connect(&m_surfaceLater, &QTimer::timeout, this, &SegmentController::showSurface);
+  changed();
+}
+
+SegmentController::~SegmentController()
+{
+  m_editor.events = {};
+}
+
+QAction* SegmentController::addAction(const QString& text, const QKeySequence& keys,
+                                      const QString& tip)
+{
+  QAction* action = m_menu->addAction(text);
+  action->setShortcut(keys);
+  action->setToolTip(tip + " (" + keys.toString(QKeySequence::NativeText) + ")");
+  action->setStatusTip(tip);
+  return action;
+}
+
+void SegmentController::addTools()
+{
+  std::vector<QAction*> tools;
+  m_tools->setExclusionPolicy(QActionGroup::ExclusionPolicy::ExclusiveOptional);
+  for (const ToolEntry& entry : kTools)
+  {
+    QAction* action = addAction(tr(entry.name), entry.key, tr(entry.tip));
+    action->setCheckable(true);
+    action->setData(static_cast<int>(entry.tool));
+    m_tools->addAction(action);
+    tools.push_back(action);
+    connect(action, &QAction::triggered, this,
+            [this, tool = entry.tool](bool on) { choose(on ? tool : Tool::None); });
+  }
+  m_menu->addSeparator();
+  m_step = addAction(tr("&Apply the tool"), Qt::SHIFT + Qt::Key_Return,
+                     tr("One step on the draft, which can be undone"));
+  m_create = addAction(tr("&Create the structure"), Qt::Key_Return,
+                       tr("The draft becomes a structure of the case"));
+  m_create->setShortcuts({Qt::Key_Return, Qt::Key_Enter});
+  m_escape = addAction(tr("&Leave the tool, or discard the draft"), Qt::Key_Escape,
+                       tr("Puts the tool away; without a tool asks whether the draft is dropped"));
+  connect(m_step, &QAction::triggered, this, &SegmentController::step);
+  connect(m_create, &QAction::triggered, this, &SegmentController::create);
+  connect(m_escape, &QAction::triggered, this, &SegmentController::escape);
+  for (QAction* action : {m_step, m_create, m_escape})
+    action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+  m_panel = new SegmentPanel(m_editor, tools);
+  addKeysTo(*m_panel);
+}
+
+void SegmentController::addKeysTo(QWidget& widget)
+{
+  widget.addActions({m_step, m_create, m_escape});
+}
+
+void SegmentController::connectPanel()
+{
+  connect(m_panel, &SegmentPanel::stepAsked, this, &SegmentController::step);
+  connect(m_panel, &SegmentPanel::cancelAsked, this, [this] { m_work->cancel(); });
+  connect(m_panel, &SegmentPanel::undoAsked, this, &SegmentController::undo);
+  connect(m_panel, &SegmentPanel::redoAsked, this, &SegmentController::redo);
+  connect(m_panel, &SegmentPanel::createAsked, this, &SegmentController::create);
+  connect(m_panel, &SegmentPanel::discardAsked, this, &SegmentController::discard);
+  connect(m_panel, &SegmentPanel::editAsked, this,
+          [this](const QString& structure) { edit(bytes(structure)); });
+  connect(m_work.get(), &BackgroundWork::progressed, m_panel, &SegmentPanel::setProgress);
+  connect(m_work.get(), &BackgroundWork::failed, this,
+          [this](const QString& why)
+          {
+            m_editor.workEnded();
+            m_panel->say(why);
+          });
+  connect(m_work.get(), &BackgroundWork::cancelled, this,
+          [this]
+          {
+            m_editor.workEnded();
+            m_panel->say(tr("Stopped; the draft is as before."));
+          });
+}
+
+void SegmentController::connectSlices()
+{
+  connect(&m_slices, &SliceColumn::toolPressed, this,
+          [this](const Eigen::Vector3d& patient, presenters::SliceOrientation plane)
+          {
+            m_panel->say({});
+            m_editor.press(patient, plane);
+          });
+  connect(&m_slices, &SliceColumn::toolDragged, this,
+          [this](const Eigen::Vector3d& patient) { m_editor.drag(patient); });
+  connect(&m_slices, &SliceColumn::toolReleased, this, [this] { m_editor.release(); });
+}
+
+void SegmentController::caseChanged()
+{
+  m_work->drop();
+  m_surfaceWork->drop();
+  m_editor.caseChanged();
+  m_panel->caseChanged();
+}
+
+void SegmentController::partsChanged()
+{
+  m_editor.partsChanged();
+}
+
+void SegmentController::mrMoved()
+{
+  m_editor.mrMoved();
+}
+
+bool SegmentController::active() const
+{
+  return m_editor.tool() != Tool::None;
+}
+
+bool SegmentController::busy() const
+{
+  return m_work->busy();
+}
+
+bool SegmentController::canUndo() const
+{
+  return m_editor.canUndo() && !m_editor.stepping();
+}
+
+bool SegmentController::canRedo() const
+{
+  return m_editor.canRedo() && !m_editor.stepping();
+}
+
+bool SegmentController::hasBrush() const
+{
+  return hasBrushOf(m_editor.tool());
+}
+
+void SegmentController::stepBrush(int steps)
+{
+  presenters::SegmentValues values = m_editor.values();
+  // Steps that are seen and end in a round tenth of a millimetre.
+  const double wanted = values.brush * std::pow(kBrushStep, steps);
+  const double tenths = steps > 0 ? std::max(std::round(10.0 * wanted),
+                                             std::round(10.0 * values.brush) + 1.0)
+                                  : std::min(std::round(10.0 * wanted),
+                                             std::round(10.0 * values.brush) - 1.0);
+  values.brush = std::max(0.1 * tenths, kLeastBrush);
+  m_editor.setValues(values);
+}
+
+bool SegmentController::attempt(const std::function<void()>& what)
+{
+  m_panel->say({});
+  try
+  {
+    what();
+    return true;
+  }
+  catch (const std::exception& error)
+  {
+    m_panel->say(toString(error));
+    return false;
+  }
+}
+
+void SegmentController::choose(Tool tool)
+{
+  m_panel->say({});
+  if (tool != Tool::None && m_model.hasCase())
+    emit toolTaken(); // before, as putting the drill away leaves the tool of this
+  m_editor.setTool(tool);
+  changed();
+}
+
+void SegmentController::leaveTool()
+{
+  if (active())
+    choose(Tool::None);
+}
+
+void SegmentController::undo()
+{
+  if (canUndo())
+    attempt(
+        [this]
+        {
+          if (m_editor.undo())
+            emit structureCreated();
+        });
+}
+
+void SegmentController::redo()
+{
+  if (canRedo())
+    attempt([this] { m_editor.redo(); });
+}
+
+void SegmentController::changed()
+{
+  const bool open = m_model.hasCase();
+  const Tool tool = m_editor.tool();
+  for (QAction* action : m_tools->actions())
+  {
+    action->setEnabled(open);
+    action->setChecked(action->data().toInt() == static_cast<int>(tool));
+  }
+  const bool draft = m_editor.hasDraft();
+  m_step->setEnabled(open && m_editor.whyNotStep().empty());
+  m_create->setEnabled(open && draft);
+  m_escape->setEnabled(open && (draft || tool != Tool::None));
+  m_slices.setHidden(m_editor.edited());
+  m_slices.setTool(hasClicks(tool)
+                       ? std::optional(SliceTool{hasBrushOf(tool) ? m_editor.values().brush : 0.0,
+                                                 tool == Tool::Erase ? kEraser
+                                                 : tool == Tool::Grow && !m_editor.values().inside
+                                                     ? kBeside
+                                                     : colorOf(m_editor.color())})
+                       : std::nullopt);
+  presenters::DraftLayer layer = m_editor.layer();
+  m_slices.setDraft(
+      layer.indexAt ? std::make_shared<const presenters::DraftLayer>(std::move(layer)) : nullptr);
+  drawing();
+  m_panel->refresh();
+  emit stateChanged();
+  m_surfaceLater.start();
+  askWork();
+}
+
+// Clicked points and the path between them.
+void SegmentController::drawing()
+{
+  SliceDrawing drawing;
+  drawing.color = kPath;
+  if (m_editor.tool() == Tool::Nerve)
+  {
+    drawing.curve = m_editor.path();
+    const auto points = m_editor.tubePoints();
+    for (std::size_t n = 0; n < points.size(); ++n)
+      drawing.marks.push_back({points[n].patient, QString::number(n + 1), kPoint});
+  }
+  if (m_editor.tool() == Tool::Threshold)
+    for (const Eigen::Vector3d& seed : m_editor.seeds())
+      drawing.marks.push_back({seed, {}, kPoint});
+  m_slices.setDrawing(drawing);
+}
+
+void SegmentController::askWork()
+{
+  if (auto work = m_editor.dueWork())
+    run(std::move(*work), false);
+}
+
+void SegmentController::run(SegmentEditor::Work work, bool step)
+{
+  m_panel->setProgress(0.0, {});
+  m_work->start(
+      [work = std::move(work)](const core::Progress& progress) -> BackgroundWork::Reply
+      { return work(progress); });
+  if (step)
+    m_panel->refresh();
+}
+
+void SegmentController::step()
+{
+  m_panel->say({});
+  m_work->drop(); // a preview
+  m_editor.workEnded();
+  if (auto work = m_editor.stepWork())
+    run(std::move(*work), true);
+  else
+    m_panel->say(words(m_editor.whyNotStep()));
+}
+
+void SegmentController::edit(const std::string& structure)
+{
+  attempt([&] { run(m_editor.edit(structure), true); });
+}
+
+void SegmentController::create()
+{
+  if (m_asking || !m_model.hasCase())
+    return;
+  if (m_editor.stepping())
+    return m_panel->say(tr("A step is under way; then the structure can be created."));
+  if (m_editor.name().empty() && m_editor.hasDraft())
+  {
+    m_panel->say(tr("Give the structure a name."));
+    return m_panel->focusName();
+  }
+  const QString name = words(m_editor.name());
+  if (attempt([this] { m_editor.create(); }))
+  {
+    emit structureCreated();
+    emit statusMessage(tr("%1 is a structure of the case now; Undo in the panel makes it a draft "
+                          "again")
+                           .arg(name));
+  }
+}
+
+void SegmentController::discard()
+{
+  if (!m_editor.hasDraft() || m_asking)
+    return;
+  if (!m_editor.isUnsaved()) // a structure of the case, not changed
+  {
+    m_work->drop();
+    return m_editor.discard();
+  }
+  const QScopedValueRollback<bool> asking(m_asking, true);
+  QMessageBox box(QMessageBox::Question, tr("Discard the draft?"),
+                  tr("The draft of “%1” is dropped.")
+                      .arg(m_editor.name().empty() ? tr("a structure without a name")
+                                                   : words(m_editor.name())),
+                  QMessageBox::NoButton, &m_window);
+  box.setTextFormat(Qt::PlainText);
+  box.setObjectName("askDiscard");
+  auto* drop = box.addButton(tr("Discard"), QMessageBox::DestructiveRole);
+  box.setDefaultButton(box.addButton(QMessageBox::Cancel));
+  box.exec();
+  if (box.clickedButton() != drop)
+    return;
+  m_work->drop();
+  m_editor.discard();
+}
+
+void SegmentController::escape()
+{
+  if (active())
+    leaveTool();
+  else
+    discard();
+}
+
+bool SegmentController::mayLeave()
+{
+  if (!m_editor.isUnsaved())
+    return true;
+  if (m_asking)
+    return false;
+  const QScopedValueRollback<bool> asking(m_asking, true);
+  m_work->drop();
+  m_editor.workEnded();
+  const std::string whyNot = m_editor.whyNotCreate();
+  QMessageBox box(QMessageBox::Question, tr("A structure is not finished"),
+                  tr("The draft of “%1” is not a structure of the case yet.")
+                      .arg(m_editor.name().empty() ? tr("a structure without a name")
+                                                   : words(m_editor.name())),
+                  QMessageBox::NoButton, &m_window);
+  box.setTextFormat(Qt::PlainText);
+  box.setObjectName("askDraft");
+  if (!whyNot.empty())
+    box.setInformativeText(tr("It cannot be created as it is: %1").arg(words(whyNot)));
+  auto* create = box.addButton(tr("Create"), QMessageBox::AcceptRole);
+  create->setEnabled(whyNot.empty());
+  auto* drop = box.addButton(tr("Discard"), QMessageBox::DestructiveRole);
+  auto* stay = box.addButton(QMessageBox::Cancel);
+  box.setEscapeButton(stay);
+  box.exec();
+  if (box.clickedButton() == create)
+    return attempt(
+        [this]
+        {
+          m_editor.create();
+          emit structureCreated();
+        });
+  if (box.clickedButton() != drop)
+    return false;
+  m_editor.discard();
+  return true;
+}
+
+// The preview in 3D follows when nothing has changed for a while.
+void SegmentController::showSurface()
+{
+  if (m_work->busy() && m_editor.stepping())
+    return m_surfaceLater.start();
+  m_surfaceWork->start(
+      [this, work = m_editor.surfaceWork()](const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        auto apply = work(progress);
+        return [this, apply = std::move(apply)]
+        {
+          apply();
+          rendering::MeshContents contents;
+          contents.name = "draft";
+          contents.mesh = m_editor.surface();
+          contents.look.color = m_editor.color();
+          emit surfaceChanged(contents);
+        };
+      });
+}
+
+} // namespace petrous::workstation

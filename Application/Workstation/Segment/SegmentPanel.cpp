@@ -1,0 +1,600 @@
+#include "SegmentPanel.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <QAction>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QFormLayout>
+#include <QGridLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMenu>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QStackedWidget>
+#include <QStandardItemModel>
+#include <QToolButton>
+#include <QTreeWidget>
+#include <QVBoxLayout>
+
+#include "Application.h"
+#include "Theme.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+using presenters::SegmentEditor;
+using presenters::SegmentValues;
+
+constexpr int kToolsInRow = 3;
+
+QHBoxLayout* rowOf(std::initializer_list<QWidget*> widgets)
+{
+  auto* row = new QHBoxLayout;
+  row->setSpacing(4);
+  for (QWidget* widget : widgets)
+    row->addWidget(widget);
+  return row;
+}
+
+QLabel* dimLabel(const QString& text)
+{
+  auto* label = new QLabel(text);
+  label->setObjectName("dim");
+  label->setWordWrap(true);
+  label->setTextFormat(Qt::PlainText);
+  return label;
+}
+
+QCheckBox* checkBox(const QString& text, const char* name, const QString& tip)
+{
+  auto* box = new QCheckBox(text);
+  box->setObjectName(name);
+  box->setToolTip(tip);
+  return box;
+}
+
+QString volumeText(const SegmentEditor& editor)
+{
+  const std::uint64_t voxels = editor.voxels();
+  if (voxels == 0)
+    return SegmentPanel::tr("Nothing yet");
+  const double volume = editor.volume();
+  return SegmentPanel::tr("%1 mm³  (%2 voxels)")
+      .arg(volume, 0, 'f', volume < 100.0 ? 2 : volume < 10000.0 ? 1 : 0)
+      .arg(voxels);
+}
+} // namespace
+
+SegmentPanel::SegmentPanel(SegmentEditor& editor, const std::vector<QAction*>& tools,
+                           QWidget* parent)
+  : Panel(parent)
+  , m_editor(editor)
+  , m_name(new QLineEdit)
+  , m_edit(new QPushButton(tr("Edit…")))
+  , m_editable(new QMenu(m_edit))
+  , m_source(choiceBox("segmentSource", tr("The image that threshold, growing and the nerve tool "
+                                           "read; an MR once it is registered")))
+  , m_pages(new QStackedWidget)
+  , m_volume(new QLabel)
+  , m_line(new QLabel)
+  , m_remark(new QLabel)
+  , m_note(new QLabel)
+  , m_progress(new QProgressBar)
+{
+  auto* inside = new QWidget;
+  auto* layout = new QVBoxLayout(inside);
+  layout->setContentsMargins(10, 8, 10, 8);
+  layout->setSpacing(6);
+  addHead(*layout);
+  addTools(*layout, tools);
+  addPages(*layout);
+  layout->addStretch(1);
+  auto* area = new QScrollArea;
+  area->setWidgetResizable(true);
+  area->setFrameShape(QFrame::NoFrame);
+  area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  area->setWidget(inside);
+  auto* outer = new QVBoxLayout(this);
+  outer->setContentsMargins(0, 0, 0, 0);
+  outer->setSpacing(0);
+  outer->addWidget(area, 1);
+  outer->addWidget(addFoot()); // always visible
+  setMinimumWidth(340);
+  say({});
+  refresh();
+}
+
+void SegmentPanel::addHead(QVBoxLayout& layout)
+{
+  m_name->setObjectName("segmentName");
+  m_name->setPlaceholderText(tr("Name, such as sigmoid sinus"));
+  m_name->setToolTip(tr("What the structure is called; its colour and behaviour follow from it"));
+  m_name->setMaxLength(100);
+  connect(m_name, &QLineEdit::textEdited, this,
+          [this](const QString& text) { m_editor.setName(bytes(text.trimmed())); });
+  m_edit->setObjectName("segmentEdit");
+  m_edit->setToolTip(tr("Take a structure of the case as the draft, to change it"));
+  m_edit->setMenu(m_editable);
+  connect(m_editable, &QMenu::aboutToShow, this,
+          [this]
+          {
+            m_editable->clear();
+            for (const std::string& name : m_editor.editable())
+              connect(m_editable->addAction(words(name).replace('_', ' ')), &QAction::triggered,
+                      this, [this, name] { emit editAsked(words(name)); });
+            if (m_editable->isEmpty())
+              m_editable->addAction(tr("The case has no structure on the CT"))->setEnabled(false);
+          });
+  m_bound.add(
+      m_source,
+      [this] { return m_source->findData(words(m_editor.source())); },
+      [this](int row)
+      {
+        say({});
+        try
+        {
+          m_editor.setSource(bytes(m_source->itemData(row).toString()));
+        }
+        catch (const std::exception& error)
+        {
+          say(toString(error));
+        }
+      });
+  auto* form = new QFormLayout;
+  form->addRow(tr("Stru&cture"), rowOf({m_name, m_edit}));
+  static_cast<QLabel*>(form->labelForField(form->itemAt(0, QFormLayout::FieldRole)->layout()))
+      ->setBuddy(m_name);
+  form->addRow(tr("&Image"), m_source);
+  layout.addLayout(form);
+}
+
+void SegmentPanel::addTools(QVBoxLayout& layout, const std::vector<QAction*>& tools)
+{
+  auto* grid = new QGridLayout;
+  grid->setSpacing(4);
+  for (std::size_t n = 0; n < tools.size(); ++n)
+  {
+    auto* tool = new QToolButton;
+    tool->setDefaultAction(tools[n]);
+    tool->setObjectName("segmentTool");
+    tool->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    tool->setFocusPolicy(Qt::TabFocus);
+    grid->addWidget(tool, static_cast<int>(n) / kToolsInRow, static_cast<int>(n) % kToolsInRow);
+  }
+  layout.addLayout(grid);
+}
+
+void SegmentPanel::change(const std::function<void(Values&)>& what)
+{
+  Values values = m_editor.values();
+  what(values);
+  m_editor.setValues(values);
+}
+
+QWidget* SegmentPanel::page(const QString& help, const std::function<void(QFormLayout&)>& fill,
+                            const QString& step)
+{
+  auto* whole = new QWidget;
+  auto* layout = new QVBoxLayout(whole);
+  layout->setContentsMargins(0, 4, 0, 0);
+  layout->setSpacing(6);
+  layout->addWidget(dimLabel(help));
+  auto* form = new QFormLayout;
+  if (fill)
+    fill(*form);
+  layout->addLayout(form);
+  if (!step.isEmpty())
+  {
+    auto* apply = button(step, "segmentStep", tr("One step, which can be undone (Shift+Return)"));
+    connect(apply, &QPushButton::clicked, this, &SegmentPanel::stepAsked);
+    m_steps.push_back(apply);
+    layout->addWidget(apply);
+  }
+  layout->addStretch(1);
+  return whole;
+}
+
+void SegmentPanel::addRange(QFormLayout& form, const char* lower, const char* upper)
+{
+  auto* low = m_bound.add(
+      numberBox(lower, tr("The least intensity that belongs to it"), {-1e5, 1e5}),
+      [this] { return m_editor.values().lower; },
+      [this](double value) { change([=](Values& values) { values.lower = value; }); },
+      Bindings::kSettle);
+  auto* high = m_bound.add(
+      numberBox(upper, tr("The greatest intensity that belongs to it"), {-1e5, 1e5}),
+      [this] { return m_editor.values().upper; },
+      [this](double value) { change([=](Values& values) { values.upper = value; }); },
+      Bindings::kSettle);
+  m_ranges.push_back(low);
+  m_ranges.push_back(high);
+  form.addRow(tr("F&rom"), low);
+  form.addRow(tr("&To"), high);
+}
+
+void SegmentPanel::addBrush(QFormLayout& form, const char* radius, const char* shape,
+                            const char* within)
+{
+  form.addRow(tr("Ra&dius"),
+              m_bound.add(
+                  numberBox(radius, tr("Of the ball, or disk ([ smaller, ] larger)"),
+                            {0.1, 20.0, tr(" mm"), 1, 0.1}),
+                  [this] { return m_editor.values().brush; },
+                  [this](double mm) { change([=](Values& values) { values.brush = mm; }); }));
+  auto* ball = choiceBox(shape, tr("A ball reaches into the slices beside; a disk stays in the "
+                                   "slice"));
+  ball->addItem(tr("ball"));
+  ball->addItem(tr("disk in the slice"));
+  form.addRow(tr("S&hape"),
+              m_bound.add(
+                  ball, [this] { return m_editor.values().ball ? 0 : 1; },
+                  [this](int row) { change([=](Values& values) { values.ball = row == 0; }); }));
+  if (within)
+    form.addRow({}, m_bound.add(checkBox(tr("&Only intensities in this range"), within,
+                                         tr("The brush leaves other voxels as they are")),
+                                [this] { return m_editor.values().within; },
+                                [this](bool on)
+                                { change([=](Values& values) { values.within = on; }); }));
+}
+
+void SegmentPanel::addPages(QVBoxLayout& layout)
+{
+  // In the order of SegmentEditor::Tool.
+  m_pages->addWidget(page(tr("Choose a tool. It works in the slices with the left button; with "
+                             "Shift the left button moves the crosshair. Esc puts it away, and "
+                             "the draft stays."),
+                          {}, {}));
+  m_pages->addWidget(page(
+      tr("All voxels of these intensities; the slices show it at once."),
+      [this](QFormLayout& form)
+      {
+        addRange(form, "segmentLower", "segmentUpper");
+        auto* propose = button(tr("&Propose"), "segmentPropose",
+                               tr("Range from the image's histogram"));
+        connect(propose, &QPushButton::clicked, this, [this] { m_editor.proposeRange(); });
+        form.addRow({}, propose);
+        form.addRow({}, m_bound.add(
+                            checkBox(tr("Connected to a clic&ked point"), "segmentConnected",
+                                     tr("Only what hangs together with the points that you click")),
+                            [this] { return m_editor.values().connected; },
+                            [this](bool on)
+                            { change([=](Values& values) { values.connected = on; }); }));
+        auto* combine = choiceBox("segmentCombine", tr("What becomes of what is there already"));
+        combine->addItems({tr("replaces the draft"), tr("is added to it"),
+                           tr("limits it: only what is in both")});
+        form.addRow(tr("Resul&t"),
+                    m_bound.add(
+                        combine, [this] { return static_cast<int>(m_editor.values().combine); },
+                        [this](int row)
+                        {
+                          change([=](Values& values)
+                                 { values.combine = static_cast<Values::Combine>(row); });
+                        }));
+      },
+      tr("Apply the threshold")));
+  for (const bool erase : {false, true})
+    m_pages->addWidget(page(
+        erase ? tr("Drag in a slice to erase.") : tr("Drag in a slice to paint."),
+        [this, erase](QFormLayout& form)
+        {
+          addBrush(form, erase ? "eraseRadius" : "paintRadius", erase ? "eraseShape" : "paintShape",
+                   erase ? "eraseWithin" : "paintWithin");
+          addRange(form, erase ? "eraseLower" : "paintLower", erase ? "eraseUpper" : "paintUpper");
+        },
+        {}));
+  m_pages->addWidget(page(
+      tr("Removes what does not hang together with the rest. Click a part in a slice to keep that "
+         "alone."),
+      [this](QFormLayout& form)
+      {
+        auto* keep = choiceBox("islandsKeep", tr("Which connected parts stay"));
+        keep->addItems({tr("the largest"), tr("all of at least")});
+        form.addRow(tr("&Keep"),
+                    m_bound.add(
+                        keep, [this] { return m_editor.values().largest ? 0 : 1; },
+                        [this](int row)
+                        { change([=](Values& values) { values.largest = row == 0; }); }));
+        m_smallest = m_bound.add(
+            numberBox("islandsSmallest", tr("Smaller parts are removed"),
+                      {0.01, 1e6, tr(" mm³"), 2}),
+            [this] { return m_editor.values().smallest; },
+            [this](double value) { change([=](Values& values) { values.smallest = value; }); });
+        form.addRow(tr("Si&ze"), m_smallest);
+      },
+      tr("Remove islands")));
+  m_pages->addWidget(page(
+      tr("Moves the whole surface outwards, or with a minus inwards."),
+      [this](QFormLayout& form)
+      {
+        form.addRow(tr("&Margin"),
+                    m_bound.add(
+                        numberBox("marginWidth", tr("How far; below 0: inwards"),
+                                  {-20.0, 20.0, tr(" mm"), 2, 0.1}),
+                        [this] { return m_editor.values().margin; },
+                        [this](double mm)
+                        { change([=](Values& values) { values.margin = mm; }); }));
+      },
+      tr("Apply the margin")));
+  m_pages->addWidget(page(
+      tr("Rounds the surface and removes what is thinner than the width."),
+      [this](QFormLayout& form)
+      {
+        form.addRow(tr("&Width"),
+                    m_bound.add(
+                        numberBox("smoothingWidth", tr("Details of this size are smoothed"),
+                                  {0.05, 10.0, tr(" mm"), 2, 0.1}),
+                        [this] { return m_editor.values().smoothing; },
+                        [this](double mm)
+                        { change([=](Values& values) { values.smoothing = mm; }); }));
+      },
+      tr("Smooth")));
+  m_pages->addWidget(page(tr("Paint the structure in some slices of one view, with a disk; this "
+                             "makes the slices between them. What was painted stays."),
+                          {}, tr("Fill between slices")));
+  m_pages->addWidget(page(
+      tr("Paint some strokes inside the structure and some beside it; the rest is decided by the "
+         "image."),
+      [this](QFormLayout& form)
+      {
+        auto* inside = choiceBox("growSide", tr("What the next stroke marks"));
+        inside->addItems({tr("inside the structure"), tr("beside it")});
+        form.addRow(tr("Stro&kes"),
+                    m_bound.add(
+                        inside, [this] { return m_editor.values().inside ? 0 : 1; },
+                        [this](int row)
+                        { change([=](Values& values) { values.inside = row == 0; }); }));
+        addBrush(form, "growRadius", "growShape", nullptr);
+      },
+      tr("Grow from the strokes")));
+  m_pages->addWidget(nervePage());
+  layout.addWidget(m_pages);
+}
+
+QWidget* SegmentPanel::nervePage()
+{
+  QWidget* whole = page(
+      tr("Click four to six points along the nerve, from one end to the other. A point can be "
+         "dragged; Delete removes it."),
+      [this](QFormLayout& form)
+      {
+        m_points = new QTreeWidget;
+        m_points->setObjectName("nervePoints");
+        m_points->setRootIsDecorated(false);
+        m_points->setAllColumnsShowFocus(true);
+        m_points->setHeaderLabels({tr("#"), tr("To the path"), tr("What the scan shows here")});
+        m_points->header()->setStretchLastSection(true);
+        m_points->setFixedHeight(150);
+        form.addRow(m_points);
+        m_removePoint = button(tr("Remove the point"), "removeNervePoint", tr("The chosen one (Delete)"));
+        const auto remove = [this]
+        {
+          if (const int row = m_points->indexOfTopLevelItem(m_points->currentItem()); row >= 0)
+            m_editor.removeTubePoint(static_cast<std::size_t>(row));
+        };
+        connect(m_removePoint, &QPushButton::clicked, this, remove);
+        auto* key = new QAction(m_points);
+        key->setShortcut(QKeySequence::Delete);
+        key->setShortcutContext(Qt::WidgetShortcut);
+        connect(key, &QAction::triggered, this, remove);
+        m_points->addAction(key);
+        form.addRow(m_removePoint);
+        auto* estimated = m_bound.add(
+            checkBox(tr("&Estimate the radius"), "nerveEstimate",
+                     tr("From the image, along the path; else one radius everywhere")),
+            [this] { return !m_editor.values().tubeRadius; },
+            [this](bool on)
+            {
+              change([=](Values& values)
+                     { values.tubeRadius = on ? std::nullopt : std::optional(0.6); });
+            });
+        form.addRow({}, estimated);
+        form.addRow(tr("Ra&dius"),
+                    m_bound.add(
+                        numberBox("nerveRadius", tr("Of the tube, everywhere"),
+                                  {0.1, 5.0, tr(" mm"), 2, 0.05}),
+                        [this] { return m_editor.values().tubeRadius.value_or(0.6); },
+                        [this](double mm)
+                        { change([=](Values& values) { values.tubeRadius = mm; }); }));
+      },
+      tr("Add the tube to the draft"));
+  return whole;
+}
+
+QWidget* SegmentPanel::addFoot()
+{
+  auto* box = new QWidget;
+  auto* layout = new QVBoxLayout(box);
+  layout->setContentsMargins(10, 4, 10, 8);
+  layout->setSpacing(5);
+  m_remark->setObjectName("segmentRemark");
+  m_line->setObjectName("segmentLine");
+  m_note->setObjectName("segmentNote");
+  for (QLabel* label : {m_remark, m_note, m_line})
+  {
+    label->setWordWrap(true);
+    label->setTextFormat(Qt::PlainText);
+    label->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  }
+  m_remark->setStyleSheet("color: #ffb454;");
+  m_volume->setObjectName("segmentVolume");
+  m_volume->setToolTip(tr("Volume of the structure as it is now, with the preview"));
+  m_progress->setObjectName("segmentProgress");
+  m_progress->setRange(0, 1000);
+  m_cancel = button(tr("Stop"), "segmentCancel", tr("Ends what is being computed; the draft stays"));
+  m_undo = button(tr("Undo"), "segmentUndo", tr("The last step (Ctrl+Z while a tool is in use)"));
+  m_redo = button(tr("Redo"), "segmentRedo", tr("Again (Ctrl+Shift+Z while a tool is in use)"));
+  m_create = button(tr("Create structure"), "primary",
+                    tr("The draft becomes a structure of the case (Return)"));
+  m_discard = button(tr("Discard"), "segmentDiscard", tr("Drops the draft (Esc without a tool)"));
+  connect(m_cancel, &QPushButton::clicked, this, &SegmentPanel::cancelAsked);
+  connect(m_undo, &QPushButton::clicked, this, &SegmentPanel::undoAsked);
+  connect(m_redo, &QPushButton::clicked, this, &SegmentPanel::redoAsked);
+  connect(m_create, &QPushButton::clicked, this, &SegmentPanel::createAsked);
+  connect(m_discard, &QPushButton::clicked, this, &SegmentPanel::discardAsked);
+  layout->addWidget(m_note);
+  layout->addWidget(m_remark);
+  layout->addWidget(m_line);
+  layout->addLayout(rowOf({m_progress, m_cancel}));
+  layout->addLayout(rowOf({m_volume, m_undo, m_redo}));
+  layout->addLayout(rowOf({m_create, m_discard}));
+  return box;
+}
+
+void SegmentPanel::focusName()
+{
+  m_name->setFocus();
+  m_name->selectAll();
+}
+
+void SegmentPanel::setProgress(double fraction, const QString& text)
+{
+  m_progress->setValue(static_cast<int>(std::lround(1000.0 * fraction)));
+  m_progress->setFormat(text);
+}
+
+void SegmentPanel::say(const QString& line)
+{
+  m_line->setText(line);
+  m_line->setVisible(!line.isEmpty());
+}
+
+void SegmentPanel::caseChanged()
+{
+  m_bound.drop();
+  say({});
+  refresh();
+}
+
+void SegmentPanel::appearanceChanged()
+{
+  refresh();
+}
+
+void SegmentPanel::showSources()
+{
+  const auto sources = m_editor.sources();
+  QStringList names, shown;
+  for (const auto& source : sources)
+    names << words(source.name) + words(source.why);
+  for (int n = 0; n < m_source->count(); ++n)
+    shown << m_source->itemData(n).toString() + m_source->itemData(n, Qt::ToolTipRole).toString();
+  if (names == shown)
+    return;
+  m_bound.quietly(
+      [&]
+      {
+        m_source->clear();
+        for (const auto& source : sources)
+        {
+          const QString name = source.name == "ct" ? tr("CT") : words(source.name);
+          m_source->addItem(source.why.empty() ? name : tr("%1 (%2)").arg(name, words(source.why)),
+                            words(source.name));
+          const int row = m_source->count() - 1;
+          m_source->setItemData(row, words(source.why), Qt::ToolTipRole);
+          static_cast<QStandardItemModel*>(m_source->model())
+              ->item(row)
+              ->setEnabled(source.why.empty());
+        }
+      });
+}
+
+// In the unit of the source image, within its range.
+void SegmentPanel::showRange()
+{
+  const presenters::IntensityDisplay display = m_editor.display();
+  if (display.least == m_display.least && display.most == m_display.most &&
+      display.decimals == m_display.decimals && display.hounsfield == m_display.hounsfield)
+    return; // setting a range would drop what is being typed
+  m_display = display;
+  m_bound.quietly(
+      [&]
+      {
+        for (QDoubleSpinBox* box : m_ranges)
+        {
+          box->setDecimals(display.decimals);
+          box->setRange(display.least, display.most);
+          box->setSingleStep(10.0 * display.step);
+          box->setSuffix(words(display.suffix()));
+        }
+      });
+}
+
+void SegmentPanel::showPoints()
+{
+  const auto points = m_editor.tubePoints();
+  const int chosen = m_points->indexOfTopLevelItem(m_points->currentItem());
+  while (m_points->topLevelItemCount() > static_cast<int>(points.size()))
+    delete m_points->takeTopLevelItem(m_points->topLevelItemCount() - 1);
+  for (std::size_t n = 0; n < points.size(); ++n)
+  {
+    const int row = static_cast<int>(n);
+    if (row == m_points->topLevelItemCount())
+      m_points->addTopLevelItem(new QTreeWidgetItem);
+    QTreeWidgetItem* item = m_points->topLevelItem(row);
+    item->setText(0, QString::number(row + 1));
+    item->setText(1, points[n].distance ? tr("%1 mm").arg(*points[n].distance, 0, 'f', 2)
+                                        : QString::fromUtf8("–"));
+    item->setText(2, words(points[n].problem));
+    item->setToolTip(2, words(points[n].problem));
+    item->setForeground(2, QColor("#ffb454"));
+  }
+  if (chosen < 0 && m_points->topLevelItemCount() > 0)
+    m_points->setCurrentItem(m_points->topLevelItem(m_points->topLevelItemCount() - 1));
+  m_points->resizeColumnToContents(0);
+  m_points->resizeColumnToContents(1);
+  m_removePoint->setEnabled(!points.empty());
+}
+
+void SegmentPanel::showVolume()
+{
+  m_volume->setText(volumeText(m_editor));
+}
+
+void SegmentPanel::refresh()
+{
+  showSources();
+  showRange();
+  showPoints();
+  m_bound.refresh();
+  if (bytes(m_name->text().trimmed()) != m_editor.name())
+    m_name->setText(words(m_editor.name()));
+  m_pages->setCurrentIndex(static_cast<int>(m_editor.tool()));
+  const bool free = !m_editor.stepping();
+  showVolume();
+  m_remark->setText(words(m_editor.warning()));
+  m_remark->setVisible(!m_editor.warning().empty());
+  m_note->setText(words(m_editor.note()));
+  m_note->setVisible(!m_editor.note().empty());
+  m_progress->setVisible(!free);
+  m_cancel->setVisible(!free);
+  const std::string whyNot = m_editor.whyNotStep();
+  for (QPushButton* step : m_steps)
+  {
+    step->setEnabled(free && whyNot.empty());
+    step->setToolTip(whyNot.empty() ? tr("One step, which can be undone (Shift+Return)")
+                                    : words(whyNot));
+  }
+  m_smallest->setEnabled(!m_editor.values().largest);
+  findChild<QDoubleSpinBox*>("nerveRadius")->setEnabled(m_editor.values().tubeRadius.has_value());
+  for (const char* name : {"paintLower", "paintUpper", "eraseLower", "eraseUpper"})
+    findChild<QDoubleSpinBox*>(name)->setEnabled(m_editor.values().within);
+  m_undo->setEnabled(free && m_editor.canUndo());
+  m_redo->setEnabled(free && m_editor.canRedo());
+  const std::string why = m_editor.whyNotCreate();
+  m_create->setText(m_editor.edited().empty() ? tr("Create structure") : tr("Save the changes"));
+  m_create->setEnabled(free && why.empty());
+  m_create->setToolTip(why.empty() ? tr("The draft becomes a structure of the case (Return)")
+                                   : words(why));
+  m_discard->setEnabled(m_editor.hasDraft());
+  m_edit->setEnabled(free && !m_editor.hasDraft());
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <array>
+#include <functional>
+
+#include "Bind.h"
+#include "Panels.h"
+#include "petrous/Presenters/SegmentEditor.h"
+
+class QAction;
+class QFormLayout;
+class QLabel;
+class QLineEdit;
+class QMenu;
+class QProgressBar;
+class QPushButton;
+class QStackedWidget;
+class QToolButton;
+class QTreeWidget;
+class QVBoxLayout;
+
+namespace petrous::workstation
+{
+
+/// The structure that is being made: name, tools with their values, volume, and what becomes of it.
+class SegmentPanel : public Panel
+{
+  Q_OBJECT
+public:
+  using Tool = presenters::SegmentEditor::Tool;
+
+  /// `tools` are shown as buttons, in their order.
+  SegmentPanel(presenters::SegmentEditor& editor, const std::vector<QAction*>& tools,
+               QWidget* parent = nullptr);
+
+  void caseChanged() override;
+  void appearanceChanged() override;
+  void refresh();
+  void showVolume(); ///< alone, while a stroke is painted
+  void setProgress(double fraction, const QString& text);
+  void say(const QString& line); ///< a refusal, or what was done; empty: nothing
+  void focusName();
+
+signals:
+  void stepAsked();
+  void cancelAsked(); ///< of the work under way
+  void undoAsked();
+  void redoAsked();
+  void createAsked();
+  void discardAsked();
+  void editAsked(const QString& structure);
+
+private:
+  using Values = presenters::SegmentValues;
+
+  void addHead(QVBoxLayout& layout);
+  void addTools(QVBoxLayout& layout, const std::vector<QAction*>& tools);
+  void addPages(QVBoxLayout& layout);
+  QWidget* addFoot();
+  QWidget* page(const QString& help, const std::function<void(QFormLayout&)>& fill,
+                const QString& step);
+  void addRange(QFormLayout& form, const char* lower, const char* upper);
+  void addBrush(QFormLayout& form, const char* radius, const char* shape, const char* within);
+  QWidget* nervePage();
+  void change(const std::function<void(Values&)>& what);
+  void showRange();
+  void showSources();
+  void showPoints();
+
+  presenters::SegmentEditor& m_editor;
+  QLineEdit* m_name;
+  QPushButton* m_edit;
+  QMenu* m_editable;
+  QComboBox* m_source;
+  QStackedWidget* m_pages;
+  std::vector<QDoubleSpinBox*> m_ranges;
+  presenters::IntensityDisplay m_display; // of m_ranges
+  std::vector<QPushButton*> m_steps;
+  QTreeWidget* m_points = nullptr;
+  QPushButton* m_removePoint = nullptr;
+  QDoubleSpinBox* m_smallest = nullptr;
+  QLabel* m_volume;
+  QLabel* m_line;
+  QLabel* m_remark;
+  QLabel* m_note;
+  QProgressBar* m_progress;
+  QPushButton* m_cancel;
+  QPushButton* m_undo;
+  QPushButton* m_redo;
+  QPushButton* m_create;
+  QPushButton* m_discard;
+  Bindings m_bound;
+};
+
+} // namespace petrous::workstation

@@ -1,0 +1,124 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "petrous/Core/GridGeometry.h"
+#include "petrous/Core/NumberText.h"
+#include "petrous/Core/Progress.h"
+#include "petrous/Volume/IntensityVolume.h"
+#include "petrous/Volume/LabelMap.h"
+
+namespace petrous::segmentation
+{
+
+/// How a tubular structure (facial nerve in its canal, chorda tympani, vessel, sinus) is traced
+/// through a few points.
+struct TubeOptions
+{
+  static constexpr core::NumberRange kRadii{0.1, 15.0, "mm"};
+  static constexpr core::NumberRange kBlurs{0.0, 3.0, "mm"};
+  static constexpr core::NumberRange kReaches{0.0, 5.0, "mm"};
+  static constexpr core::NumberRange kContrasts{0.0, 100.0};
+  static constexpr double kLongestLeg = 60.0; ///< mm between neighbouring points
+  static constexpr std::size_t kMostPoints = 100;
+
+  enum class Contrast
+  {
+    Automatic, ///< as most of the points' surroundings show it
+    Dark,      ///< darker than its surroundings, e.g. a nerve in its bony canal on CT
+    Bright
+  };
+
+  Contrast contrast = Contrast::Automatic;
+
+  /// mm, of the whole tube. Unset: estimated at each place.
+  std::optional<double> radius;
+
+  /// Sigma of the scan's Gaussian point spread with the voxel's own, mm. Unset: 0.7 voxels.
+  std::optional<double> blur;
+
+  /// How far the line may leave a point for the structure's axis, mm. Beyond that the point itself
+  /// is on the line: the surgeon knows better than an image that shows nothing nearby.
+  double reach = 1.5;
+
+  /// Contrast, in standard deviations of the noise, from which on the structure counts as resolved.
+  double resolvedContrast = 3.0;
+};
+
+/// What the points' surroundings say of the tube as a whole; the minimal paths depend on it. The
+/// numbers are rounded coarsely, so that moving one point seldom changes them.
+struct TubeModel
+{
+  bool isBright = false;
+  double radius = 0.0;   ///< mm
+  double contrast = 0.0; ///< in the image's units, > 0; 0: nothing stands out from the noise
+  double lumen = 0.0;    ///< in the image's units
+
+  bool operator==(const TubeModel& other) const noexcept
+  {
+    return isBright == other.isBright && radius == other.radius && contrast == other.contrast &&
+           lumen == other.lumen;
+  }
+};
+
+/// A traced tube. All positions in patient LPS, mm. `line`, `radii`, `contrast` and `resolved` have
+/// one entry for each vertex of the line.
+struct Tube
+{
+  std::vector<Eigen::Vector3d> line;  ///< from the first point to the last, <= half a voxel apart
+  std::vector<double> radii;          ///< mm, free of the scan's blur as far as it is known
+  std::vector<double> contrast;       ///< surroundings against lumen, in sigma of the noise, >= 0
+  std::vector<std::uint8_t> resolved; ///< 1: contrast and diameter (two voxels) suffice
+
+  std::vector<Eigen::Vector3d> points;    ///< as given
+  std::vector<double> pointDistances;     ///< from each point to the line, mm
+  std::vector<std::size_t> pointVertices; ///< the vertex nearest to each point, ascending
+  std::vector<std::uint8_t> heldAtPoint;  ///< 1: no axis within reach, so the line was kept there
+
+  /// The minimal path between each pair of neighbouring points, before refinement.
+  std::vector<std::vector<Eigen::Vector3d>> legs;
+  TubeModel model; ///< of the legs
+
+  double radius = 0.0;         ///< median, mm; the given one where one was given
+  double smallestRadius = 0.0; ///< mm
+  double largestRadius = 0.0;  ///< mm
+  double length = 0.0;         ///< of the line, mm
+  double resolvedLength = 0.0; ///< mm
+  double noise = 0.0;          ///< standard deviation around the line, in the image's units
+  double blur = 0.0;           ///< mm, the one the radii were corrected for
+};
+
+/// Traces a tube through points in order (patient LPS, mm), typically four to six.
+///
+/// Only a neighbourhood of the points is read. Between points a minimal path is found on the
+/// optimally oriented flux of the image [Law and Chung 2008, doi 10.1007/978-3-540-88693-8_27];
+/// the line is then moved to the centre of its cross-sections' half-maximum borders.
+///
+/// before  an earlier result on the same image with the same options: where neighbouring points
+///         are the same (after a point was moved, inserted or removed) its minimal path is taken.
+///         The result does not depend on it.
+///
+/// Throws InvalidParameter: fewer than two points or too many, a point that is not finite, outside
+/// of the image, equal to its neighbour or too far from it, an option outside its range, an image
+/// without contrast or without valid voxels around the points. Throws CancelledError.
+Tube traceTube(const volume::IntensityVolume& image, const std::vector<Eigen::Vector3d>& points,
+               const TubeOptions& options = {}, const core::Progress& progress = {},
+               const Tube* before = nullptr);
+
+/// Where a new point belongs in the order of tube.points: 0 before the first, points.size() after
+/// the last.
+std::size_t insertionIndex(const Tube& tube, const Eigen::Vector3d& point);
+
+/// The tube as one segment on a grid: a voxel belongs if the tube covers at least half of it.
+/// `scale` widens or narrows all radii. A tube thinner than the voxels may be empty or in pieces.
+/// Throws InvalidParameter if the tube has no line or the index is 0.
+volume::LabelMap labelTube(const Tube& tube, const core::GridGeometry& geometry,
+                           const volume::Segment& segment, double scale = 1.0,
+                           const core::Progress& progress = {});
+
+} // namespace petrous::segmentation

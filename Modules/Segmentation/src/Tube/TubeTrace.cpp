@@ -1,0 +1,305 @@
+#include "petrous/Segmentation/TubeTrace.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include <Eigen/Geometry>
+#include <tbb/parallel_for.h>
+
+#include "TubePath.h"
+#include "TubeRefinement.h"
+#include "petrous/Core/Error.h"
+
+namespace petrous::segmentation
+{
+namespace
+{
+
+using core::InvalidParameter;
+using Eigen::Vector3d;
+
+std::string pointText(std::size_t index)
+{
+  return "tube: point " + std::to_string(index + 1);
+}
+
+void checkOptions(const TubeOptions& options)
+{
+  if (options.radius && !TubeOptions::kRadii.contains(*options.radius))
+    throw InvalidParameter("tube: the radius " + TubeOptions::kRadii.refusal(*options.radius));
+  if (options.blur && !TubeOptions::kBlurs.contains(*options.blur))
+    throw InvalidParameter("tube: the blur " + TubeOptions::kBlurs.refusal(*options.blur));
+  if (!TubeOptions::kReaches.contains(options.reach))
+    throw InvalidParameter("tube: the reach " + TubeOptions::kReaches.refusal(options.reach));
+  if (!TubeOptions::kContrasts.contains(options.resolvedContrast))
+    throw InvalidParameter("tube: the contrast from which a structure counts as resolved " +
+                           TubeOptions::kContrasts.refusal(options.resolvedContrast));
+}
+
+void checkPoints(const core::GridGeometry& geometry, const std::vector<Vector3d>& points)
+{
+  if (points.size() < 2 || points.size() > TubeOptions::kMostPoints)
+    throw InvalidParameter("tube: " + std::to_string(points.size()) +
+                           (points.size() == 1 ? " point is" : " points are") +
+                           " given; it needs 2 to " + std::to_string(TubeOptions::kMostPoints) +
+                           ", typically 4 to 6 along the structure");
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    if (!points[i].allFinite())
+      throw InvalidParameter(pointText(i) + " is not a position; three finite numbers are needed");
+    if (!geometry.hullContains(geometry.voxelFromPatient(points[i])))
+      throw InvalidParameter(pointText(i) + " lies outside of the image; set it inside");
+    if (i == 0)
+      continue;
+    const double leg = (points[i] - points[i - 1]).norm();
+    if (leg < 0.01)
+      throw InvalidParameter(pointText(i) + " is where point " + std::to_string(i) +
+                             " is; move or remove one of them");
+    if (leg > TubeOptions::kLongestLeg)
+      throw InvalidParameter(pointText(i) + " is " + core::fixedText(leg, 1) + " mm from point " +
+                             std::to_string(i) + "; neighbouring points may be " +
+                             core::fixedText(TubeOptions::kLongestLeg, 0) +
+                             " mm apart: add points between them");
+  }
+}
+
+/// The voxels that any leg, and the cross-sections along it, may ask for.
+core::IndexBox boxAround(const core::GridGeometry& geometry, const std::vector<Vector3d>& points,
+                         double radius)
+{
+  Vector3d lower = Vector3d::Constant(std::numeric_limits<double>::max());
+  Vector3d upper = -lower;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+  {
+    const double reach = legReach((points[i + 1] - points[i]).norm(), radius) + 2.0 * radius +
+                         2.0 * geometry.spacing().maxCoeff();
+    for (const Vector3d& p : {points[i], points[i + 1]})
+    {
+      lower = lower.cwiseMin((p.array() - reach).matrix());
+      upper = upper.cwiseMax((p.array() + reach).matrix());
+    }
+  }
+  return geometry.boxCovering(lower, upper);
+}
+
+struct Foot
+{
+  std::size_t segment = 0;
+  double fraction = 0.0; ///< along the segment
+  Vector3d position = Vector3d::Zero();
+  double distance = std::numeric_limits<double>::max();
+};
+
+/// The nearest position of the line, from a vertex on.
+Foot nearestOn(const std::vector<Vector3d>& line, const Vector3d& point, std::size_t from = 0)
+{
+  Foot best;
+  for (std::size_t i = from; i + 1 < line.size(); ++i)
+  {
+    const Vector3d run = line[i + 1] - line[i];
+    const double length2 = run.squaredNorm();
+    const double t = length2 > 0.0 ? std::clamp((point - line[i]).dot(run) / length2, 0.0, 1.0) : 0;
+    const Vector3d p = line[i] + t * run;
+    const double distance = (point - p).norm();
+    if (distance < best.distance)
+      best = {i, t, p, distance};
+  }
+  return best;
+}
+
+/// The part of the line between the feet of the first and the last point.
+void trimEnds(CentreLine& line, const Vector3d& first, const Vector3d& last)
+{
+  const auto trimFront = [&](const Vector3d& point)
+  {
+    const Foot foot = nearestOn(line.vertices, point);
+    const std::size_t i = foot.segment;
+    if (line.vertices.size() - i < 3) // nothing would be left
+      return;
+    const auto cut = [&](auto& values)
+    { values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(i)); };
+    cut(line.vertices);
+    cut(line.halfRadius);
+    cut(line.contrast);
+    line.vertices.front() = foot.position;
+  };
+  const auto reverse = [&]
+  {
+    std::reverse(line.vertices.begin(), line.vertices.end());
+    std::reverse(line.halfRadius.begin(), line.halfRadius.end());
+    std::reverse(line.contrast.begin(), line.contrast.end());
+  };
+  trimFront(first);
+  reverse();
+  trimFront(last);
+  reverse();
+}
+
+/// Cubic interpolation between the vertices, `pieces` to a segment (Catmull-Rom; both ends
+/// linear); numbers along the line linearly.
+void densify(CentreLine& line, std::size_t pieces)
+{
+  if (pieces < 2)
+    return;
+  CentreLine dense;
+  const std::vector<Vector3d>& v = line.vertices;
+  const std::size_t n = v.size();
+  for (std::size_t i = 0; i + 1 < n; ++i)
+  {
+    const Vector3d before = i > 0 ? v[i - 1] : Vector3d(2.0 * v[i] - v[i + 1]);
+    const Vector3d after = i + 2 < n ? v[i + 2] : Vector3d(2.0 * v[i + 1] - v[i]);
+    const Vector3d start = 0.5 * (v[i + 1] - before);
+    const Vector3d end = 0.5 * (after - v[i]);
+    for (std::size_t p = 0; p < pieces; ++p)
+    {
+      const double t = static_cast<double>(p) / static_cast<double>(pieces);
+      const double t2 = t * t;
+      const double t3 = t2 * t;
+      dense.vertices.emplace_back((2 * t3 - 3 * t2 + 1) * v[i] + (t3 - 2 * t2 + t) * start +
+                                  (3 * t2 - 2 * t3) * v[i + 1] + (t3 - t2) * end);
+      const auto mix = [&](const std::vector<double>& values)
+      { return (1.0 - t) * values[i] + t * values[i + 1]; };
+      dense.halfRadius.push_back(mix(line.halfRadius));
+      dense.contrast.push_back(mix(line.contrast));
+    }
+  }
+  dense.vertices.push_back(v.back());
+  dense.halfRadius.push_back(line.halfRadius.back());
+  dense.contrast.push_back(line.contrast.back());
+  line = std::move(dense);
+}
+
+/// The width of a voxel across the line, mm: the largest over the directions across it.
+double voxelAcross(const core::GridGeometry& geometry, const Vector3d& tangent)
+{
+  const Vector3d t = (geometry.direction().transpose() * tangent).cwiseAbs();
+  double widest = 0.0;
+  for (int a = 0; a < 3; ++a)
+    widest = std::max(widest, geometry.spacing()[a] * std::sqrt(std::max(1.0 - t[a] * t[a], 0.0)));
+  return widest;
+}
+
+} // namespace
+
+Tube traceTube(const volume::IntensityVolume& image, const std::vector<Vector3d>& points,
+               const TubeOptions& options, const core::Progress& progress, const Tube* before)
+{
+  const core::GridGeometry& geometry = image.geometry();
+  checkOptions(options);
+  checkPoints(geometry, points);
+  progress.report(0.0, "trace tube");
+
+  constexpr double kWidest = 6.0; // mm, of the radii that are tried
+  const TubeImage local(image, boxAround(geometry, points, options.radius.value_or(kWidest)));
+  progress.report(0.1, "trace tube");
+  const TubeModel model = estimateModel(local, points, options, progress);
+  const std::vector<SnappedPoint> snapped = snapPoints(local, points, model, options);
+  progress.report(0.3, "trace tube");
+
+  Tube tube;
+  tube.points = points;
+  tube.model = model;
+  tube.noise = local.noise();
+  tube.blur = options.blur.value_or(0.7 * geometry.spacing().mean());
+  tube.legs.resize(points.size() - 1);
+  tbb::parallel_for(
+      std::size_t{0}, tube.legs.size(),
+      [&](std::size_t leg)
+      {
+        if (before && before->model == model)
+          for (std::size_t i = 0; i < before->legs.size(); ++i)
+            if (before->points[i] == points[leg] && before->points[i + 1] == points[leg + 1])
+            {
+              tube.legs[leg] = before->legs[i];
+              return;
+            }
+        tube.legs[leg] =
+            findLeg(local, snapped[leg].position, snapped[leg + 1].position, model, progress);
+      });
+  progress.report(0.6, "trace tube");
+
+  std::vector<Vector3d> path;
+  std::vector<Vector3d> held;
+  for (const auto& leg : tube.legs)
+    path.insert(path.end(), leg.begin() + (path.empty() ? 0 : 1), leg.end());
+  for (const SnappedPoint& point : snapped)
+  {
+    tube.heldAtPoint.push_back(point.held ? 1 : 0);
+    if (point.held)
+      held.push_back(point.position);
+  }
+  // trilinear interpolation blurs as well: h^2 / 6 on average
+  const double voxel = geometry.spacing().mean();
+  const double sigma = std::sqrt(tube.blur * tube.blur + voxel * voxel / 6.0);
+  CentreLine line = refineLine(local, path, model, halfMaximumRadius(model.radius, sigma),
+                               options.radius.has_value(), held, progress.part(0.6, 0.95));
+  trimEnds(line, points.front(), points.back());
+
+  double widestStep = 0.0;
+  for (std::size_t i = 0; i + 1 < line.vertices.size(); ++i)
+    widestStep = std::max(widestStep, (line.vertices[i + 1] - line.vertices[i]).norm());
+  densify(line, static_cast<std::size_t>(std::ceil(widestStep / (0.45 * geometry.minSpacing()))));
+
+  tube.line = std::move(line.vertices);
+  tube.radii = radiiFromHalfMaximum(line.halfRadius, sigma);
+  if (options.radius)
+    std::fill(tube.radii.begin(), tube.radii.end(), *options.radius);
+  const std::size_t n = tube.line.size();
+  const std::vector<double> lengths = arcLengths(tube.line);
+  tube.length = lengths.back();
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    constexpr double kMost = 1e6; // of images without noise
+    tube.contrast.push_back(
+        std::min(tube.noise > 0.0 ? line.contrast[i] / tube.noise : kMost, kMost));
+    const Vector3d tangent =
+        (tube.line[std::min(i + 1, n - 1)] - tube.line[i > 0 ? i - 1 : 0]).normalized();
+    const bool resolved = model.contrast > 0.0 && tube.contrast[i] >= options.resolvedContrast &&
+                          tube.radii[i] >= voxelAcross(geometry, tangent);
+    tube.resolved.push_back(resolved ? 1 : 0);
+    // half of each neighbouring segment
+    if (resolved)
+      tube.resolvedLength += 0.5 * (lengths[std::min(i + 1, n - 1)] - lengths[i > 0 ? i - 1 : 0]);
+  }
+  std::vector<double> ordered = tube.radii;
+  std::sort(ordered.begin(), ordered.end());
+  tube.radius = ordered[ordered.size() / 2];
+  tube.smallestRadius = ordered.front();
+  tube.largestRadius = ordered.back();
+
+  std::size_t from = 0;
+  for (std::size_t p = 0; p < points.size(); ++p)
+  {
+    const Foot foot = nearestOn(tube.line, points[p], std::min(from, n - 2));
+    const std::size_t vertex =
+        p == 0 ? 0
+               : (p + 1 == points.size() ? n - 1 : foot.segment + (foot.fraction > 0.5 ? 1 : 0));
+    tube.pointDistances.push_back(foot.distance);
+    tube.pointVertices.push_back(std::max(vertex, from));
+    from = tube.pointVertices.back();
+  }
+  progress.report(1.0, "trace tube");
+  return tube;
+}
+
+std::size_t insertionIndex(const Tube& tube, const Vector3d& point)
+{
+  if (tube.line.size() < 2)
+    return tube.points.size();
+  const Foot foot = nearestOn(tube.line, point);
+  const std::size_t last = tube.line.size() - 2;
+  if (foot.segment == 0 && foot.fraction <= 0.0)
+    return 0;
+  if (foot.segment == last && foot.fraction >= 1.0)
+    return tube.points.size();
+  std::size_t index = 1;
+  while (index + 1 < tube.points.size() && tube.pointVertices[index] <= foot.segment)
+    ++index;
+  return index;
+}
+
+} // namespace petrous::segmentation

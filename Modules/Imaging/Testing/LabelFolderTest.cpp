@@ -92,7 +92,6 @@ TEST(LabelFolder, ReadsAStructureAFileOfEveryFormatIntoOneMap)
   EXPECT_EQ(contentsOf(loaded), "cochlea=8 facial_nerve=8 incus=27 stapes=1 vein=0 | ");
   EXPECT_TRUE(loaded.isNamedAfterFile);
   EXPECT_TRUE(loaded.leftOut.empty());
-  EXPECT_TRUE(loaded.notes.empty());
   ASSERT_EQ(loaded.maps.size(), 1U);
   const auto& voxels = *loaded.maps[0].voxels;
   EXPECT_EQ(voxels.at(1, 1, 1), 1);

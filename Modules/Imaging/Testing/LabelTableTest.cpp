@@ -159,8 +159,9 @@ TEST(LabelTable, NamesALabelFileAndTellsWhatItDoesNot)
   naming.table = putFile(folder / "names.csv", "index,name\n4,incus\n7,stapes\n9,malleus\n");
   const LoadedLabels loaded = loadLabels(labels, {}, naming);
   EXPECT_EQ(namesOf(loaded), "3:label 3;4:incus;7:stapes;9:malleus-;");
-  ASSERT_EQ(loaded.notes.size(), 1U);
-  EXPECT_EQ(loaded.notes[0], "label 3 has no name in the table of names");
+  const auto tells = [&loaded](const std::string& note)
+  { return std::count(loaded.notes.begin(), loaded.notes.end(), note) == 1; };
+  EXPECT_TRUE(tells("label 3 has no name in the table of names"));
   EXPECT_EQ(loaded.maps[0].segments[1].voxels, 2U);
 
   naming.table = putFile(folder / "bad.csv", "index,name\n4,incus\n4,stapes\n");
@@ -191,7 +192,10 @@ TEST(LabelTable, IsFoundBesideTheFileUnderItsName)
                    : "4 incus 1 2 3 255\n9 malleus 1 2 3 255\n9 again 1 2 3 255\n");
     const LoadedLabels loaded = loadLabels(labels);
     EXPECT_EQ(namesOf(loaded), "3:label 3;4:incus;7:label 7;9:malleus-;") << end;
-    EXPECT_EQ(loaded.notes.size(), isJson ? 1U : 2U) << end << ": what was left out is told of";
+    const auto ofTable = std::count_if(loaded.notes.begin(), loaded.notes.end(),
+                                       [](const std::string& note)
+                                       { return note.find("table of names") != note.npos; });
+    EXPECT_EQ(ofTable, isJson ? 1 : 2) << end << ": what was left out is told of";
     std::filesystem::remove(folder / ("scan" + std::string(end)));
   }
   // What converters write beside an image is no table.

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "FileHelpers.h"
+#include "LabelFolder.h"
 #include "LabelNames.h"
 #include "SegmentationReader.h"
 #include "VoxelSource.h"
@@ -95,35 +96,83 @@ std::vector<bool> valuesIn(const volume::Volume<std::uint16_t>& labels)
   return {seen.begin(), seen.end()};
 }
 
-/// Names for a file that contains none; may renumber a single structure to 1, and reports whether
-/// only the file name names it.
+/// "label 3", "labels 3, 5 and 7 more"
+std::string labelsText(const std::vector<std::uint16_t>& indices)
+{
+  constexpr std::size_t kMax = 6;
+  std::string text = indices.size() == 1 ? "label " : "labels ";
+  for (std::size_t n = 0; n < std::min(kMax, indices.size()); ++n)
+    text += (n == 0 ? "" : ", ") + std::to_string(indices[n]);
+  if (indices.size() > kMax)
+    text += " and " + std::to_string(indices.size() - kMax) + " more";
+  return text;
+}
+
+/// The entries of a table whose values occur; tells of the others.
+std::vector<volume::Segment> namesFromTable(LabelTable table, const std::vector<bool>& seen,
+                                            LoadedLabels& loaded)
+{
+  loaded.notes.insert(loaded.notes.end(), table.notes.begin(), table.notes.end());
+  for (const std::string& problem : table.problems)
+    loaded.notes.push_back("of the table of names beside it, " + problem +
+                           "; that entry was left out");
+  std::vector<volume::Segment> names;
+  std::vector<bool> nameless = seen;
+  for (volume::Segment& segment : table.segments)
+  {
+    nameless[segment.index] = false;
+    if (seen[segment.index])
+      names.push_back(std::move(segment));
+    else
+      loaded.unread.push_back({segment.name, segment.index});
+  }
+  std::vector<std::uint16_t> indices;
+  for (std::size_t index = 1; index < nameless.size(); ++index)
+    if (nameless[index])
+      indices.push_back(static_cast<std::uint16_t>(index));
+  if (!indices.empty())
+    loaded.notes.push_back(labelsText(indices) + (indices.size() == 1 ? " has" : " have") +
+                           " no name in the table of names");
+  return names;
+}
+
+/// Names for a file that contains none; may renumber a single structure to 1.
 std::vector<volume::Segment> namesFromOutside(const std::filesystem::path& path,
+                                              const LabelNaming& naming,
                                               volume::Volume<std::uint16_t>& labels,
-                                              bool& isNamedAfterFile)
+                                              LoadedLabels& loaded)
 {
   const std::vector<bool> seen = valuesIn(labels);
   const auto count = std::count(seen.begin() + 1, seen.end(), true);
   if (count == 0)
     fail(FileError::Reason::Unsupported, path,
          "holds no structure, every voxel is 0; voxels of a structure need a value from 1 on");
-  LabelTable table = findLabelTable(path);
+  const bool isGiven = !naming.table.empty();
+  LabelTable table = isGiven ? readLabelTable(naming.table) : findLabelTable(path);
+  const bool isOwn = table.sameName || (isGiven && naming.namesSingle);
+  const bool fits = std::any_of(table.segments.begin(), table.segments.end(),
+                                [&seen](const auto& segment) { return seen[segment.index]; });
   // A table of another name matches a single structure only by chance.
-  if (count > 1 || table.sameName)
+  if (count > 1 || (isOwn && fits))
   {
+    if (isGiven || table.sameName)
+      return namesFromTable(std::move(table), seen, loaded);
     auto& list = table.segments;
     list.erase(std::remove_if(list.begin(), list.end(),
                               [&seen](const auto& segment) { return !seen[segment.index]; }),
                list.end());
-    if (!list.empty() || count > 1)
-      return std::move(list);
+    return std::move(list);
   }
+  if (isGiven && naming.namesSingle)
+    loaded.notes.emplace_back("its one value has no name in the table of names, so it is named by "
+                              "its file");
   std::for_each(labels.data(), labels.data() + labels.size(),
                 [](std::uint16_t& v)
                 {
                   if (v > 1)
                     v = 1;
                 });
-  isNamedAfterFile = true;
+  loaded.isNamedAfterFile = true;
   volume::Segment segment;
   segment.name = baseName(path);
   segment.index = 1;
@@ -143,13 +192,18 @@ bool hasSegments(const VoxelSource& source)
            " layers; one layer is needed here");
 }
 
+constexpr const char* kTableUnused =
+    "names its structures itself, so the table of names was not used for it";
+
 LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
-                        const core::Progress& progress)
+                        const core::Progress& progress, const LabelNaming& naming)
 {
   progress.report(0.0, "reading labels");
   if (isDicomSegmentation(path))
   {
     LoadedLabels loaded = readSegmentation(path, progress);
+    if (!naming.table.empty())
+      loaded.notes.emplace_back(kTableUnused);
     if (oneOnly && loaded.maps.size() > 1)
       failOverlap(path, loaded.maps.size());
     return loaded;
@@ -167,9 +221,14 @@ LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
   loaded.notes = source.notes();
   if (named)
     for (const std::string& name : segmentsWithoutLayer(*source.nrrd(), source.components()))
+    {
       loaded.notes.push_back("'" + name +
                              "' was left out: the file puts it in a layer that it has "
                              "not; save it again in 3D Slicer");
+      loaded.unread.push_back({name, 0, false});
+    }
+  if (named && !naming.table.empty())
+    loaded.notes.emplace_back(kTableUnused);
   for (std::size_t layer = 0; layer < source.components(); ++layer)
   {
     progress.report(0.7, "reading labels");
@@ -177,7 +236,7 @@ LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
         visitComponent(source.component(), [&](auto type)
                        { return toLabels<decltype(type)>(source, path, raw, layer); });
     auto names = named ? segmentsOfLayer(path, *source.nrrd(), layer)
-                       : namesFromOutside(path, *labels, loaded.isNamedAfterFile);
+                       : namesFromOutside(path, naming, *labels, loaded);
     loaded.maps.push_back(volume::makeLabelMap(labels, std::move(names)));
   }
   progress.report(1.0, "reading labels");
@@ -192,14 +251,18 @@ bool isDicomSegmentation(const std::filesystem::path& path)
   return format && format->reads == kDicom && isSegmentationClass(sopClassOf(path));
 }
 
-LoadedLabels loadLabels(const std::filesystem::path& path, const core::Progress& progress)
+LoadedLabels loadLabels(const std::filesystem::path& path, const core::Progress& progress,
+                        const LabelNaming& naming)
 {
-  return readLayers(path, false, progress);
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error))
+    return readLabelFolder(path, progress);
+  return readLayers(path, false, progress, naming);
 }
 
 volume::LabelMap readLabelFile(const std::filesystem::path& path, const core::Progress& progress)
 {
-  return std::move(readLayers(path, true, progress).maps.front());
+  return std::move(readLayers(path, true, progress, {}).maps.front());
 }
 
 void writeLabelFile(const std::filesystem::path& path, const volume::LabelMap& labels)

@@ -16,7 +16,6 @@ namespace
 {
 
 constexpr std::size_t kMaxSegments = 65535;
-constexpr std::uintmax_t kLargestTable = std::uintmax_t{4} << 20;
 
 std::array<float, 3> colorOf(const std::string* text)
 {
@@ -54,52 +53,6 @@ std::vector<std::array<int, 6>> extents(const volume::LabelMap& labels)
   return boxes;
 }
 
-/// 3D Slicer: index name r g b a (0 to 255).
-std::optional<volume::Segment> slicerEntry(std::string_view line, std::uint16_t index)
-{
-  volume::Segment segment;
-  segment.index = index;
-  line = trimmed(line);
-  if (!line.empty() && line.front() == '"')
-  {
-    const std::size_t end = line.find('"', 1);
-    if (end == line.npos)
-      return std::nullopt;
-    segment.name = line.substr(1, end - 1);
-    line.remove_prefix(end + 1);
-  }
-  else
-    segment.name = takeWord(line);
-  for (float& channel : segment.color)
-  {
-    const auto value = parseDouble(takeWord(line));
-    if (!value)
-      return std::nullopt;
-    channel = static_cast<float>(std::clamp(*value / 255.0, 0.0, 1.0));
-  }
-  return segment.name.empty() ? std::nullopt : std::optional(segment);
-}
-
-/// ITK-SNAP: index r g b opacity visible mesh "name".
-std::optional<volume::Segment> snapEntry(std::string_view line, std::uint16_t index)
-{
-  volume::Segment segment;
-  segment.index = index;
-  for (std::size_t column = 0; column < 6; ++column)
-  {
-    const auto value = parseDouble(takeWord(line));
-    if (!value)
-      return std::nullopt;
-    if (column < 3)
-      segment.color[column] = static_cast<float>(std::clamp(*value / 255.0, 0.0, 1.0));
-  }
-  line = trimmed(line);
-  if (line.size() < 3 || line.front() != '"' || line.back() != '"')
-    return std::nullopt;
-  segment.name = line.substr(1, line.size() - 2);
-  return segment;
-}
-
 /// Lower-case words of a file name: split at punctuation, digits and capitals ("HeadAndNeck").
 std::vector<std::string> wordsOf(const std::string& name)
 {
@@ -131,13 +84,15 @@ bool shareAWord(const std::string& a, const std::string& b)
   return false;
 }
 
-std::vector<volume::Segment> readTable(const std::filesystem::path& path)
+/// What a file near the labels holds, in so far as it is a table.
+LabelTable tableIn(const std::filesystem::path& path)
 {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error || size == 0 || size > kLargestTable)
     return {};
-  return parseLabelTable(readBytes(path, kLargestTable));
+  LabelTable table = parseTable(readBytes(path, kLargestTable));
+  return table.segments.empty() ? LabelTable{} : table;
 }
 
 std::string prefixOf(std::size_t segment)
@@ -233,39 +188,17 @@ std::string segmentKeys(const volume::LabelMap& labels)
          nrrdKeyText("Segmentation_ReferenceImageExtentOffset", "0 0 0");
 }
 
-std::vector<volume::Segment> parseLabelTable(const std::string& text)
-{
-  std::vector<volume::Segment> segments;
-  std::vector<bool> seen(65536, false);
-  std::string_view rest = text;
-  while (!rest.empty())
-  {
-    std::string_view line = trimmed(takeLine(rest));
-    if (line.empty() || line.front() == '#')
-      continue;
-    const auto value = parseInteger(takeWord(line));
-    if (!value || *value < 1 || *value > 65535 || seen[static_cast<std::size_t>(*value)])
-      continue;
-    const auto index = static_cast<std::uint16_t>(*value);
-    auto segment = snapEntry(line, index);
-    if (!segment)
-      segment = slicerEntry(line, index);
-    if (!segment)
-      continue;
-    seen[index] = true;
-    segments.push_back(std::move(*segment));
-  }
-  return segments;
-}
-
 LabelTable findLabelTable(const std::filesystem::path& labelFile)
 {
   const std::filesystem::path folder =
       labelFile.has_parent_path() ? labelFile.parent_path() : std::filesystem::path(".");
   const std::string base = baseName(labelFile);
-  for (const char* end : {".ctbl", ".txt", ".label"})
-    if (auto segments = readTable(folder / (base + end)); !segments.empty())
-      return {std::move(segments), true};
+  for (const char* end : {".ctbl", ".txt", ".label", ".csv", ".tsv", ".json"})
+    if (LabelTable table = tableIn(folder / (base + end)); !table.segments.empty())
+    {
+      table.sameName = true;
+      return table;
+    }
 
   std::vector<std::filesystem::path> tables;
   std::error_code error;
@@ -274,7 +207,7 @@ LabelTable findLabelTable(const std::filesystem::path& labelFile)
     if (endsWith(lowerName(entry->path()), ".ctbl"))
       tables.push_back(entry->path());
   if (tables.size() == 1 && shareAWord(base, baseName(tables.front())))
-    return {readTable(tables.front()), false};
+    return tableIn(tables.front());
   return {};
 }
 

@@ -7,6 +7,7 @@
 
 #include "petrous/Volume/LabelMap.h"
 
+#include "LabelTable.h"
 #include "NrrdHeader.h"
 
 namespace petrous::imaging
@@ -24,16 +25,8 @@ std::vector<std::string> segmentsWithoutLayer(const NrrdHeader& header, std::siz
 /// The key/value lines that define the structures of a map, as written by 3D Slicer.
 std::string segmentKeys(const volume::LabelMap& labels);
 
-/// Names from a colour table (3D Slicer) or label description (ITK-SNAP) next to a label file.
-struct LabelTable
-{
-  std::vector<volume::Segment> segments; ///< empty if there is no table
-  bool sameName = false;                 ///< the table has the base name of the label file
-};
+/// The table of names beside a label file: one of its base name (.ctbl, .txt, .label, .csv, .tsv,
+/// .json), or the only .ctbl in the folder if its name shares a word with the file's.
 LabelTable findLabelTable(const std::filesystem::path& labelFile);
-
-/// Parses the segments of a table; lines that are not entries are skipped, the first entry of an
-/// index wins, index 0 is background.
-std::vector<volume::Segment> parseLabelTable(const std::string& text);
 
 } // namespace petrous::imaging

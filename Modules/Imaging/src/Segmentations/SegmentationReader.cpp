@@ -52,8 +52,9 @@ struct Segmentation
   std::filesystem::path path;
   Type type = Type::Binary;
   int rows = 0, columns = 0, bits = 0;
-  int padding = 0;       ///< LABELMAP: the value of voxels of no segment
-  int maxFraction = 255; ///< FRACTIONAL
+  int padding = 0;          ///< LABELMAP: the value of voxels of no segment
+  int maxFraction = 255;    ///< FRACTIONAL
+  bool isOccupancy = false; ///< FRACTIONAL: how much of a voxel is in the segment
   DicomElements::Pixels pixels;
   std::vector<Frame> frames;
   Eigen::Vector3d row = Eigen::Vector3d::UnitX(), column = Eigen::Vector3d::UnitY();
@@ -303,6 +304,7 @@ struct Layers
 {
   std::vector<std::shared_ptr<LabelVolume>> voxels;
   std::map<int, std::size_t> layerOf; ///< by segment number
+  std::map<int, double> pixels;       ///< in the frames of each segment; of occupancy, their sum
 };
 
 /// Paints one segment into the first layer in which it overlaps no other.
@@ -321,9 +323,13 @@ void paintSegment(const Segmentation& file, ByteSource& source, const core::Grid
       layers.voxels.push_back(volume::makeZeroVolume<std::uint16_t>(grid));
     }
     const Frame* frame = first;
+    double pixels = 0.0;
     for (; frame != last; ++frame)
     {
       const std::size_t bit = readPixels(file, source, *frame, bytes);
+      if (file.isOccupancy)
+        for (const unsigned char fraction : bytes)
+          pixels += static_cast<double>(fraction) / file.maxFraction;
       std::uint16_t* slice = &layers.voxels[layer]->at(0, 0, frame->slice);
       if (!forEachPixel(file, bytes, bit,
                         [&](std::size_t p)
@@ -331,6 +337,7 @@ void paintSegment(const Segmentation& file, ByteSource& source, const core::Grid
                           if (slice[p] != 0 && slice[p] != label)
                             return false;
                           slice[p] = label;
+                          pixels += file.isOccupancy ? 0.0 : 1.0;
                           return true;
                         }))
         break;
@@ -338,6 +345,7 @@ void paintSegment(const Segmentation& file, ByteSource& source, const core::Grid
     if (frame == last)
     {
       layers.layerOf[label] = layer;
+      layers.pixels[label] = pixels;
       return;
     }
     for (const Frame* painted = first; painted <= frame; ++painted)
@@ -480,6 +488,7 @@ LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Pro
   file.bits = data.integer(0x00280100).value_or(0);
   file.padding = data.integer(0x00280120).value_or(0);
   file.maxFraction = std::max(data.integer(0x0062000e).value_or(255), 1);
+  file.isOccupancy = file.type == Type::Fractional && data.text(0x00620010) == "OCCUPANCY";
   const DicomItem shared = data.item(0x52009229);
   const std::vector<DicomItem> own = data.items(0x52009230);
   const double stated = data.number(0x00280008).value_or(static_cast<double>(own.size()));
@@ -500,7 +509,7 @@ LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Pro
   const core::GridGeometry grid = placeFrames(file, loaded.notes);
   if (file.type == Type::Fractional)
     loaded.notes.push_back(std::string("holds fractions (") +
-                           (data.text(0x00620010) == "OCCUPANCY" ? "occupancy" : "probability") +
+                           (file.isOccupancy ? "occupancy" : "probability") +
                            "): voxels of 50 % and more were taken as the structure");
   const core::Progress painting = progress.part(0.1, 0.9);
   Layers layers = file.type == Type::Labelmap ? copyLabelmap(file, source, grid, painting)
@@ -525,6 +534,8 @@ LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Pro
       segment.name = "label " + std::to_string(*number);
     segment.color = colorFromCieLab(item.shorts(0x0062000d));
     loaded.meanings[segment.name] = meaningOf(item, characters);
+    if (const auto pixels = layers.pixels.find(*number); pixels != layers.pixels.end())
+      loaded.fileVolumes[segment.name] = pixels->second * grid.voxelVolume();
     const auto layer = layers.layerOf.find(*number);
     names[layer == layers.layerOf.end() ? 0 : layer->second].push_back(std::move(segment));
   }

@@ -1,0 +1,376 @@
+#include "GuiTest.h"
+
+#include <QDockWidget>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QStatusBar>
+#include <QTreeWidget>
+
+#include "SliceView.h"
+#include "petrous/Phantom/Phantom.h"
+#include "petrous/Segmentation/MaskOperations.h"
+
+using namespace petrous;
+using namespace petrous::workstation;
+using Eigen::Vector3d;
+
+namespace
+{
+
+class Segment : public GuiTest
+{
+protected:
+  template <class Widget>
+  Widget& find(const char* name)
+  {
+    auto* found = window().findChild<Widget*>(name);
+    EXPECT_TRUE(found) << name;
+    return *found;
+  }
+  SliceView& axial() { return find<SliceView>("axialView"); }
+  presenters::WorkstationModel& model()
+  {
+    return const_cast<presenters::WorkstationModel&>(window().model());
+  }
+  void choose(int key) { QTest::keyClick(&window(), static_cast<Qt::Key>(key), Qt::ShiftModifier); }
+  QString volume() { return find<QLabel>("segmentVolume").text(); }
+  void setNumber(const char* name, double value) { find<QDoubleSpinBox>(name).setValue(value); }
+  /// Set once the numbers have rested for a while; the brush has the same range.
+  void setRange(double lower, double upper)
+  {
+    setNumber("segmentLower", lower);
+    setNumber("segmentUpper", upper);
+    EXPECT_TRUE(waitFor(
+        [&]
+        {
+          return find<QDoubleSpinBox>("paintLower").value() == lower &&
+                 find<QDoubleSpinBox>("paintUpper").value() == upper;
+        }));
+  }
+  QPoint pixelOf(const Vector3d& patient)
+  {
+    const Eigen::Vector2d at =
+        axial().slice().pixelFromPatient(patient) + Eigen::Vector2d(0.5, 0.5);
+    return {static_cast<int>(std::floor(at[0])), static_cast<int>(std::floor(at[1]))};
+  }
+  Vector3d patientOf(const QPoint& pixel)
+  {
+    return axial().slice().patientFromPixel(pixel.x() - 0.5, pixel.y() - 0.5);
+  }
+  void click(const Vector3d& patient)
+  {
+    model().setCrosshair(patient);
+    QTest::mouseClick(&axial(), Qt::LeftButton, Qt::NoModifier, pixelOf(patient));
+  }
+  void name(const QString& text)
+  {
+    auto& line = find<QLineEdit>("segmentName");
+    line.clear();
+    QTest::keyClicks(&line, text);
+  }
+  /// Waits until nothing is computed, and creates the structure.
+  void create(const QString& as)
+  {
+    name(as);
+    EXPECT_TRUE(waitFor([this] { return find<QPushButton>("primary").isEnabled(); }))
+        << find<QPushButton>("primary").toolTip().toStdString();
+    find<QPushButton>("primary").click();
+    EXPECT_TRUE(settled());
+  }
+  const volume::Volume<std::uint16_t>* voxelsOf(const std::string& structure)
+  {
+    for (const auto& part : window().model().value().labels)
+      if (part.structures.front().name == structure)
+        return part.labels.get()->voxels.get();
+    return nullptr;
+  }
+  static void answer(QMessageBox& box, const QString& text)
+  {
+    for (QAbstractButton* button : box.buttons())
+      if (button->text().remove('&') == text)
+        return button->click();
+    ADD_FAILURE() << "no button " << text.toStdString();
+    box.reject();
+  }
+  bool isDraft() { return find<QPushButton>("segmentDiscard").isEnabled(); }
+};
+
+} // namespace
+
+TEST_F(Segment, AThresholdFromAClickMakesTheStructureThatTheEngineFinds)
+{
+  saveBall("ball");
+  openWindow("ball");
+  choose(Qt::Key_T);
+  EXPECT_TRUE(find<QDockWidget>("segmentDock").isVisible());
+  ASSERT_TRUE(waitFor([this] { return volume().contains("mm"); })) << "a range is proposed";
+  setRange(1000.0, 1600.0);
+  const Vector3d seed = kBallCenter + Vector3d(6, 0, 0);
+  click(seed);
+  create("tumour");
+  const auto& value = window().model().value();
+  const auto mask = segmentation::connectedThreshold(*value.ct.volume.get(), {1000.0, 1600.0},
+                                                     {kBallCenter});
+  const auto* made = scene::findStructure(value, "tumour");
+  ASSERT_TRUE(made);
+  EXPECT_EQ(made->voxels, mask.count);
+  EXPECT_EQ(made->look.preset, "tumour");
+  const auto* voxels = voxelsOf("tumour");
+  for (std::size_t n = 0; n < voxels->size(); ++n)
+    ASSERT_EQ(voxels->data()[n] != 0, mask.voxels->data()[n] != 0) << n;
+  EXPECT_FALSE(isDraft());
+  EXPECT_TRUE(scene::findStructure(library().open("ball"), "tumour")) << "saved";
+}
+
+TEST_F(Segment, AStrokePaintsTheBallThatIsSeenAndUndoTakesItBack)
+{
+  saveBall("ball");
+  openWindow("ball");
+  choose(Qt::Key_P);
+  setNumber("paintRadius", 2.0);
+  const QImage before = axial().grab().toImage();
+  const QPoint at = pixelOf(kBallCenter + Vector3d(3, 4, 0));
+  const Vector3d center = patientOf(at);
+  QTest::mousePress(&axial(), Qt::LeftButton, Qt::NoModifier, at);
+  EXPECT_TRUE(volume().contains("mm")) << "live";
+  QTest::mouseRelease(&axial(), Qt::LeftButton, Qt::NoModifier, at);
+  EXPECT_GT(differentPixels(before, axial().grab().toImage(), 10), 50);
+  const Vector3d crosshair = window().model().crosshair();
+  EXPECT_LT((crosshair - center).norm(), 10.0);
+  EXPECT_NE(crosshair, center) << "the left button paints";
+  QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(volume(), "Nothing yet");
+  EXPECT_FALSE(isDraft());
+  QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  create("glomus");
+  const auto* voxels = voxelsOf("glomus");
+  ASSERT_TRUE(voxels);
+  const auto& grid = window().model().value().ct.geometry;
+  for (int k = 0; k < 64; ++k)
+    for (int j = 0; j < 64; ++j)
+      for (int i = 0; i < 64; ++i)
+        ASSERT_EQ(voxels->at(i, j, k) != 0,
+                  (grid.patientFromVoxel(Vector3d(i, j, k)) - center).norm() <= 2.0)
+            << i << ' ' << j << ' ' << k;
+}
+
+TEST_F(Segment, BracketsChangeTheBrushAndTheWheelScrollsStill)
+{
+  saveBall("ball");
+  openWindow("ball");
+  auto& radius = find<QDoubleSpinBox>("paintRadius");
+  auto& burr = find<QDoubleSpinBox>("burrDiameter");
+  const double diameter = burr.value();
+  choose(Qt::Key_P);
+  const double first = radius.value();
+  QTest::keyClick(&window(), Qt::Key_BracketRight);
+  EXPECT_GT(radius.value(), first);
+  QTest::keyClick(&window(), Qt::Key_BracketLeft);
+  QTest::keyClick(&window(), Qt::Key_BracketLeft);
+  EXPECT_LT(radius.value(), first);
+  EXPECT_EQ(burr.value(), diameter);
+  const Vector3d before = window().model().crosshair();
+  QWheelEvent wheel(QPointF(50, 50), axial().mapToGlobal(QPoint(50, 50)), {}, {0, 120},
+                    Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
+  QApplication::sendEvent(&axial(), &wheel);
+  EXPECT_NE(window().model().crosshair(), before);
+  QTest::keyClick(&axial(), Qt::Key_Escape);
+  QTest::keyClick(&window(), Qt::Key_BracketRight);
+  EXPECT_NE(burr.value(), diameter) << "without a tool they are the burr's";
+}
+
+TEST_F(Segment, OneToolAtATimeAndTheDraftStays)
+{
+  saveBall("ball");
+  openWindow("ball");
+  QTest::keyClick(&view(), Qt::Key_D);
+  ASSERT_TRUE(action("Drill")->isChecked());
+  choose(Qt::Key_P);
+  EXPECT_FALSE(action("Drill")->isChecked());
+  EXPECT_TRUE(window().statusBar()->currentMessage().contains("drill is off"));
+  click(kBallCenter);
+  EXPECT_TRUE(isDraft());
+  QTest::keyClick(&window(), Qt::Key_D);
+  EXPECT_TRUE(action("Drill")->isChecked());
+  EXPECT_FALSE(action("Paint")->isChecked());
+  EXPECT_TRUE(isDraft());
+  const Vector3d aside = kBallCenter + Vector3d(3, 3, 0);
+  QTest::mouseClick(&axial(), Qt::LeftButton, Qt::NoModifier, pixelOf(aside));
+  EXPECT_LT((window().model().crosshair() - aside).norm(), 1.0) << "the left button as ever";
+  onMessage([](QMessageBox& box) { answer(box, "Discard"); });
+  closeWindow();
+}
+
+TEST_F(Segment, ADraftIsNotLostWithoutAQuestion)
+{
+  saveBall("ball");
+  saveBall("other");
+  openWindow("ball");
+  choose(Qt::Key_P);
+  click(kBallCenter);
+  name("tumour");
+  onMessage([](QMessageBox& box) { answer(box, "Cancel"); });
+  window().close();
+  EXPECT_TRUE(window().isVisible());
+  EXPECT_TRUE(isDraft());
+  onMessage([](QMessageBox& box) { answer(box, "Cancel"); });
+  window().begin("other");
+  EXPECT_TRUE(settled());
+  EXPECT_EQ(window().model().value().name, "ball");
+  EXPECT_TRUE(isDraft());
+  onMessage([](QMessageBox& box) { answer(box, "Create"); });
+  window().begin("other");
+  EXPECT_TRUE(waitFor([this] { return window().model().value().name == "other"; }));
+  EXPECT_TRUE(settled());
+  EXPECT_TRUE(scene::findStructure(library().open("ball"), "tumour"));
+  EXPECT_FALSE(isDraft());
+
+  choose(Qt::Key_P);
+  click(kBallCenter);
+  onMessage(
+      [](QMessageBox& box)
+      {
+        for (QAbstractButton* button : box.buttons())
+          if (button->text().remove('&') == "Create")
+          {
+            EXPECT_FALSE(button->isEnabled()) << "it has no name";
+          }
+        answer(box, "Discard");
+      });
+  window().close();
+  EXPECT_FALSE(window().isVisible());
+  EXPECT_EQ(library().open("other").labels.size(), 1U);
+}
+
+TEST_F(Segment, WhatWasCreatedIsUndoneFromThePanel)
+{
+  saveBall("ball");
+  openWindow("ball");
+  choose(Qt::Key_P);
+  click(kBallCenter);
+  const QString painted = volume();
+  create("tumour");
+  EXPECT_EQ(volume(), "Nothing yet");
+  find<QPushButton>("segmentUndo").click();
+  EXPECT_TRUE(settled());
+  EXPECT_FALSE(scene::findStructure(window().model().value(), "tumour"));
+  EXPECT_FALSE(scene::findStructure(library().open("ball"), "tumour"));
+  EXPECT_EQ(volume(), painted);
+  onMessage([](QMessageBox& box) { answer(box, "Discard"); });
+  closeWindow();
+}
+
+TEST_F(Segment, OddOrdersOfClicksChangeNothing)
+{
+  openWindow();
+  for (const int key : {Qt::Key_T, Qt::Key_P, Qt::Key_N, Qt::Key_G})
+    choose(key); // no case
+  for (const char* text : {"Apply the tool", "Create the structure"})
+    action(text)->trigger();
+  EXPECT_FALSE(action("Paint")->isChecked());
+  saveBall("ball");
+  saveBall("other");
+  window().begin("ball");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase(); }));
+  EXPECT_TRUE(settled());
+  choose(Qt::Key_N);
+  action("Apply the tool")->trigger(); // no points
+  action("Create the structure")->trigger();
+  EXPECT_FALSE(isDraft());
+  choose(Qt::Key_P);
+  QTest::mousePress(&axial(), Qt::LeftButton, Qt::NoModifier, axial().rect().center());
+  choose(Qt::Key_E); // the stroke ends with its tool
+  QTest::mouseRelease(&axial(), Qt::LeftButton, Qt::NoModifier, axial().rect().center());
+  EXPECT_TRUE(isDraft());
+  QTest::keyClick(&axial(), Qt::Key_Escape);
+  EXPECT_TRUE(isDraft());
+  onMessage([](QMessageBox& box) { answer(box, "Discard"); });
+  QTest::keyClick(&axial(), Qt::Key_Escape);
+  EXPECT_FALSE(isDraft());
+
+  choose(Qt::Key_T); // another case while the preview is computed
+  setNumber("segmentLower", 0.0);
+  model().open("other");
+  EXPECT_FALSE(isDraft());
+  EXPECT_FALSE(action("Threshold")->isChecked());
+  choose(Qt::Key_P);
+  QTest::mousePress(&axial(), Qt::LeftButton, Qt::NoModifier, axial().rect().center());
+  model().close(); // in the middle of a stroke
+  QTest::mouseMove(&axial(), QPoint(10, 10));
+  QTest::mouseRelease(&axial(), Qt::LeftButton, Qt::NoModifier, QPoint(10, 10));
+  EXPECT_FALSE(isDraft());
+}
+
+TEST_F(Segment, TheFacialNerveOfThePhantomIsFoundFromClicks)
+{
+  const phantom::Phantom patient;
+  const std::size_t nerve = patient.indexOf("facial_nerve");
+  const auto& structure = patient.structures()[nerve];
+  const double spacing = 0.3;
+  const Vector3d extent = structure.upper - structure.lower + Vector3d::Constant(6.0);
+  const core::GridGeometry grid({static_cast<int>(extent.x() / spacing),
+                                 static_cast<int>(extent.y() / spacing),
+                                 static_cast<int>(extent.z() / spacing)},
+                                Vector3d::Constant(spacing),
+                                structure.lower - Vector3d::Constant(3.0));
+  scene::Case value;
+  value.name = "ear";
+  value.ct.name = "ct";
+  value.ct.geometry = grid;
+  value.ct.volume = std::make_shared<const volume::IntensityVolume>(
+      std::make_shared<const volume::Volume<std::int16_t>>(
+          phantom::samplePhantom(patient, grid, {})));
+  value.ct.range = value.ct.volume.get()->range();
+  library().save(value);
+  openWindow("ear");
+  choose(Qt::Key_N);
+  // What a surgeon clicks: the middle of the canal in axial slices.
+  std::vector<Vector3d> points;
+  for (double z = structure.lower.z() + 1.5; z < structure.upper.z() - 1.5 && points.size() < 5;
+       z += 3.0)
+  {
+    Vector3d best = Vector3d::Zero();
+    double least = -0.3;
+    for (double y = structure.lower.y(); y <= structure.upper.y(); y += 0.1)
+      for (double x = structure.lower.x(); x <= structure.upper.x(); x += 0.1)
+        if (const double d = patient.signedDistance(nerve, {x, y, z}); d < least)
+        {
+          least = d;
+          best = {x, y, z};
+        }
+    if (least < -0.3)
+      points.push_back(best);
+  }
+  ASSERT_GE(points.size(), 3U);
+  for (const Vector3d& point : points)
+    click(point);
+  auto& table = find<QTreeWidget>("nervePoints");
+  EXPECT_EQ(table.topLevelItemCount(), static_cast<int>(points.size()));
+  ASSERT_TRUE(waitFor([&] { return table.topLevelItem(0)->text(1).contains("mm"); }));
+  for (int row = 0; row < table.topLevelItemCount(); ++row)
+    EXPECT_LT(table.topLevelItem(row)->text(1).remove(" mm").toDouble(), 0.8);
+  picture();
+  create("facial nerve");
+  const auto* voxels = voxelsOf("facial nerve");
+  ASSERT_TRUE(voxels);
+  // The centre of the tube's section lies on the nerve's axis.
+  for (std::size_t n = 1; n + 1 < points.size(); ++n)
+  {
+    const int k = static_cast<int>(std::lround(grid.voxelFromPatient(points[n])[2]));
+    Vector3d sum = Vector3d::Zero();
+    int count = 0;
+    for (int j = 0; j < grid.dims()[1]; ++j)
+      for (int i = 0; i < grid.dims()[0]; ++i)
+        if (voxels->at(i, j, k) != 0 &&
+            (grid.patientFromVoxel(Vector3d(i, j, k)) - points[n]).norm() < 2.0)
+        {
+          sum += grid.patientFromVoxel(Vector3d(i, j, k));
+          ++count;
+        }
+    ASSERT_GT(count, 3);
+    const Vector3d middle = sum / count;
+    EXPECT_LT((middle - points[n]).head<2>().norm(), 0.44) << n;
+  }
+}

@@ -181,7 +181,7 @@ TEST_F(SegmentEditorTest, OnlyWhatHangsTogetherWithTheClickedPointCounts)
   editor.setTool(Tool::Threshold);
   set([](SegmentValues& values)
       {
-        values.lower = 1500.0;
+        values.lower = 1950.0;
         values.upper = 2000.0;
       });
   editor.press(kBall, SliceOrientation::Coronal);
@@ -336,6 +336,8 @@ TEST_F(SegmentEditorTest, AStructureOfTheCaseIsEditedAndUndoGivesItBack)
   const std::uint64_t first = editor.voxels();
   editor.setName("dura plate");
   editor.create();
+  EXPECT_TRUE(editor.editable().empty()) << "not loaded yet";
+  model.prepareNow();
   EXPECT_EQ(editor.editable(), std::vector<std::string>{"dura plate"});
   editor.edit("dura plate")({})();
   EXPECT_EQ(editor.voxels(), first);
@@ -471,65 +473,58 @@ TEST_F(SegmentEditorTest, PointsOfANerveAreAddedMovedRemovedAndUndone)
   editor.undo();
   EXPECT_EQ(editor.tubePoints().size(), 2U);
   while (editor.canUndo())
+  {
     editor.undo();
+    work();
+  }
   EXPECT_FALSE(editor.hasDraft());
 }
 
 TEST_F(SegmentEditorTest, TheNerveToolFindsThePhantomsFacialNerve)
 {
-  // Mastoid and tympanic segment of the phantom, at 0.3 mm with noise.
+  // Tympanic and mastoid segment of the phantom at 0.3 mm, with noise. The points are knots of its
+  // axis (PhantomEar.cpp), clicked half a millimetre beside it; its radius there is 0.6 mm.
   const phantom::Phantom patient;
   const std::size_t nerve = patient.indexOf("facial_nerve");
-  const auto& structure = patient.structures()[nerve];
-  const double spacing = 0.3;
-  const Vector3d extent = structure.upper - structure.lower + Vector3d::Constant(6.0);
-  const core::Index3 dims{static_cast<int>(extent.x() / spacing),
-                          static_cast<int>(extent.y() / spacing),
-                          static_cast<int>(extent.z() / spacing)};
-  const core::GridGeometry place(dims, Vector3d::Constant(spacing),
-                                 structure.lower - Vector3d::Constant(3.0));
+  constexpr double kRadius = 0.6;
+  const std::vector<Vector3d> axis{{-41.8, -2.1, 4.1},
+                                   {-44.8, 3.2, 2.1},
+                                   {-45.5, 4.7, 0.2},
+                                   {-46.0, 5.4, -4.0},
+                                   {-46.6, 6.0, -10.0}};
   scene::Case value;
   value.name = "ear";
   value.ct.name = "ct";
-  value.ct.geometry = place;
+  value.ct.geometry =
+      core::GridGeometry({60, 70, 90}, Vector3d::Constant(0.3), Vector3d(-54, -10, -16));
   value.ct.volume = std::make_shared<const volume::IntensityVolume>(
       std::make_shared<const volume::Volume<std::int16_t>>(
-          phantom::samplePhantom(patient, place, {})));
+          phantom::samplePhantom(patient, value.ct.geometry, {})));
   value.ct.range = value.ct.volume.get()->range();
   model.adopt(std::move(value));
   editor.caseChanged();
-  // Points on the axis: where the signed distance is least in slices across z.
-  std::vector<Vector3d> axis;
-  for (double z = structure.lower.z() + 1.5; z < structure.upper.z() - 1.5; z += 3.0)
-  {
-    Vector3d best = structure.lower;
-    double least = 1e9;
-    for (double y = structure.lower.y(); y <= structure.upper.y(); y += 0.1)
-      for (double x = structure.lower.x(); x <= structure.upper.x(); x += 0.1)
-        if (const double d = patient.signedDistance(nerve, {x, y, z}); d < least)
-        {
-          least = d;
-          best = {x, y, z};
-        }
-    if (least < -0.3)
-      axis.push_back(best);
-  }
-  ASSERT_GE(axis.size(), 3U);
   editor.setTool(Tool::Nerve);
-  for (std::size_t n = 0; n < axis.size() && n < 5; ++n)
-    stroke(axis[n] + Vector3d(0.25, -0.2, 0.0), axis[n] + Vector3d(0.25, -0.2, 0.0)); // by hand
+  for (const Vector3d& point : axis)
+  {
+    ASSERT_NEAR(patient.signedDistance(nerve, point), -kRadius, 0.02);
+    stroke(point + Vector3d(0.3, 0.4, 0.0), point + Vector3d(0.3, 0.4, 0.0));
+  }
   ASSERT_FALSE(editor.path().empty()) << editor.warning();
-  const double radius = -patient.signedDistance(nerve, axis[1]);
-  double sum = 0.0;
-  std::size_t inner = 0;
-  const auto& path = editor.path();
-  for (std::size_t n = path.size() / 8; n < path.size() - path.size() / 8; ++n, ++inner)
-    sum += radius + patient.signedDistance(nerve, path[n]); // off the axis, about
-  EXPECT_LT(sum / static_cast<double>(inner), 0.3);
+  double sum = 0.0, most = 0.0;
+  for (const Vector3d& at : editor.path())
+  {
+    const double off = kRadius + patient.signedDistance(nerve, at); // from the axis
+    sum += off;
+    most = std::max(most, off);
+  }
+  EXPECT_LT(sum / static_cast<double>(editor.path().size()), 0.15);
+  EXPECT_LT(most, 0.44);
+  EXPECT_EQ(editor.warning(), "");
   for (const auto& point : editor.tubePoints())
   {
     ASSERT_TRUE(point.distance);
-    EXPECT_LT(*point.distance, 1.0);
+    EXPECT_NEAR(*point.distance, 0.4, 0.3);
+    EXPECT_EQ(point.problem, "");
   }
   EXPECT_NE(editor.note(), "");
   EXPECT_GT(editor.voxels(), 0U);
@@ -538,7 +533,7 @@ TEST_F(SegmentEditorTest, TheNerveToolFindsThePhantomsFacialNerve)
   const std::uint64_t tube = editor.voxels();
   EXPECT_GT(tube, 0U);
   editor.undo();
-  EXPECT_EQ(editor.tubePoints().size(), std::min<std::size_t>(axis.size(), 5));
+  EXPECT_EQ(editor.tubePoints().size(), axis.size());
   editor.redo();
   EXPECT_EQ(editor.voxels(), tube);
 }

@@ -305,45 +305,24 @@ TEST_F(Segment, OddOrdersOfClicksChangeNothing)
 
 TEST_F(Segment, TheFacialNerveOfThePhantomIsFoundFromClicks)
 {
-  const phantom::Phantom patient;
-  const std::size_t nerve = patient.indexOf("facial_nerve");
-  const auto& structure = patient.structures()[nerve];
-  const double spacing = 0.3;
-  const Vector3d extent = structure.upper - structure.lower + Vector3d::Constant(6.0);
-  const core::GridGeometry grid({static_cast<int>(extent.x() / spacing),
-                                 static_cast<int>(extent.y() / spacing),
-                                 static_cast<int>(extent.z() / spacing)},
-                                Vector3d::Constant(spacing),
-                                structure.lower - Vector3d::Constant(3.0));
+  // Tympanic and mastoid segment at 0.3 mm; the points are knots of the axis (PhantomEar.cpp).
+  const std::vector<Vector3d> points{{-41.8, -2.1, 4.1},
+                                     {-44.8, 3.2, 2.1},
+                                     {-45.5, 4.7, 0.2},
+                                     {-46.0, 5.4, -4.0},
+                                     {-46.6, 6.0, -10.0}};
+  const core::GridGeometry grid({60, 70, 90}, Vector3d::Constant(0.3), Vector3d(-54, -10, -16));
   scene::Case value;
   value.name = "ear";
   value.ct.name = "ct";
   value.ct.geometry = grid;
   value.ct.volume = std::make_shared<const volume::IntensityVolume>(
       std::make_shared<const volume::Volume<std::int16_t>>(
-          phantom::samplePhantom(patient, grid, {})));
+          phantom::samplePhantom(phantom::Phantom(), grid, {})));
   value.ct.range = value.ct.volume.get()->range();
   library().save(value);
   openWindow("ear");
   choose(Qt::Key_N);
-  // What a surgeon clicks: the middle of the canal in axial slices.
-  std::vector<Vector3d> points;
-  for (double z = structure.lower.z() + 1.5; z < structure.upper.z() - 1.5 && points.size() < 5;
-       z += 3.0)
-  {
-    Vector3d best = Vector3d::Zero();
-    double least = -0.3;
-    for (double y = structure.lower.y(); y <= structure.upper.y(); y += 0.1)
-      for (double x = structure.lower.x(); x <= structure.upper.x(); x += 0.1)
-        if (const double d = patient.signedDistance(nerve, {x, y, z}); d < least)
-        {
-          least = d;
-          best = {x, y, z};
-        }
-    if (least < -0.3)
-      points.push_back(best);
-  }
-  ASSERT_GE(points.size(), 3U);
   for (const Vector3d& point : points)
     click(point);
   auto& table = find<QTreeWidget>("nervePoints");
@@ -355,22 +334,17 @@ TEST_F(Segment, TheFacialNerveOfThePhantomIsFoundFromClicks)
   create("facial nerve");
   const auto* voxels = voxelsOf("facial nerve");
   ASSERT_TRUE(voxels);
-  // The centre of the tube's section lies on the nerve's axis.
-  for (std::size_t n = 1; n + 1 < points.size(); ++n)
-  {
-    const int k = static_cast<int>(std::lround(grid.voxelFromPatient(points[n])[2]));
-    Vector3d sum = Vector3d::Zero();
-    int count = 0;
-    for (int j = 0; j < grid.dims()[1]; ++j)
-      for (int i = 0; i < grid.dims()[0]; ++i)
-        if (voxels->at(i, j, k) != 0 &&
-            (grid.patientFromVoxel(Vector3d(i, j, k)) - points[n]).norm() < 2.0)
-        {
-          sum += grid.patientFromVoxel(Vector3d(i, j, k));
-          ++count;
-        }
-    ASSERT_GT(count, 3);
-    const Vector3d middle = sum / count;
-    EXPECT_LT((middle - points[n]).head<2>().norm(), 0.44) << n;
-  }
+  // Where the nerve runs across the axial slice, the middle of the tube lies on its axis.
+  const int k = static_cast<int>(std::lround(grid.voxelFromPatient(points[3])[2]));
+  Vector3d sum = Vector3d::Zero();
+  int count = 0;
+  for (int j = 0; j < grid.dims()[1]; ++j)
+    for (int i = 0; i < grid.dims()[0]; ++i)
+      if (voxels->at(i, j, k) != 0)
+      {
+        sum += grid.patientFromVoxel(Vector3d(i, j, k));
+        ++count;
+      }
+  ASSERT_GT(count, 3);
+  EXPECT_LT((sum / count - points[3]).head<2>().norm(), 0.25);
 }

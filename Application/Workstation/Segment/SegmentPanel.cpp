@@ -34,6 +34,7 @@ using presenters::SegmentEditor;
 using presenters::SegmentValues;
 
 constexpr int kToolsInRow = 3;
+constexpr double kTubeRadius = 0.6; // mm, until another one is entered
 
 QHBoxLayout* rowOf(std::initializer_list<QWidget*> widgets)
 {
@@ -361,8 +362,8 @@ void SegmentPanel::addPages(QVBoxLayout& layout)
 QWidget* SegmentPanel::nervePage()
 {
   QWidget* whole = page(
-      tr("Click four to six points along the nerve, from one end to the other. A point can be "
-         "dragged; Delete removes it."),
+      tr("Click four to six points along the nerve. Drag one to move it; Delete removes the chosen "
+         "one."),
       [this](QFormLayout& form)
       {
         m_points = new QTreeWidget;
@@ -371,9 +372,10 @@ QWidget* SegmentPanel::nervePage()
         m_points->setAllColumnsShowFocus(true);
         m_points->setHeaderLabels({tr("#"), tr("To the path"), tr("What the scan shows here")});
         m_points->header()->setStretchLastSection(true);
-        m_points->setFixedHeight(150);
+        m_points->setFixedHeight(136);
         form.addRow(m_points);
-        m_removePoint = button(tr("Remove the point"), "removeNervePoint", tr("The chosen one (Delete)"));
+        m_removePoint =
+            button(tr("Remove the point"), "removeNervePoint", tr("The chosen one (Delete)"));
         const auto remove = [this]
         {
           if (const int row = m_points->indexOfTopLevelItem(m_points->currentItem()); row >= 0)
@@ -386,23 +388,20 @@ QWidget* SegmentPanel::nervePage()
         connect(key, &QAction::triggered, this, remove);
         m_points->addAction(key);
         form.addRow(m_removePoint);
-        auto* estimated = m_bound.add(
-            checkBox(tr("&Estimate the radius"), "nerveEstimate",
-                     tr("From the image, along the path; else one radius everywhere")),
-            [this] { return !m_editor.values().tubeRadius; },
+        auto* estimated = checkBox(tr("&estimated"), "nerveEstimate",
+                                   tr("From the image, along the path; else one everywhere"));
+        m_bound.add(
+            estimated, [this] { return !m_editor.values().tubeRadius; },
             [this](bool on)
             {
               change([=](Values& values)
-                     { values.tubeRadius = on ? std::nullopt : std::optional(0.6); });
+                     { values.tubeRadius = on ? std::nullopt : std::optional(kTubeRadius); });
             });
-        form.addRow({}, estimated);
-        form.addRow(tr("Ra&dius"),
-                    m_bound.add(
-                        numberBox("nerveRadius", tr("Of the tube, everywhere"),
-                                  {0.1, 5.0, tr(" mm"), 2, 0.05}),
-                        [this] { return m_editor.values().tubeRadius.value_or(0.6); },
-                        [this](double mm)
-                        { change([=](Values& values) { values.tubeRadius = mm; }); }));
+        auto* radius = m_bound.add(
+            numberBox("nerveRadius", tr("Of the tube, everywhere"), {0.1, 5.0, tr(" mm"), 2, 0.05}),
+            [this] { return m_editor.values().tubeRadius.value_or(kTubeRadius); },
+            [this](double mm) { change([=](Values& values) { values.tubeRadius = mm; }); });
+        form.addRow(tr("Ra&dius"), rowOf({radius, estimated}));
       },
       tr("Add the tube to the draft"));
   return whole;

@@ -109,6 +109,7 @@ TEST_F(Segment, AThresholdFromAClickMakesTheStructureThatTheEngineFinds)
   setRange(1000.0, 1600.0);
   const Vector3d seed = kBallCenter + Vector3d(6, 0, 0);
   click(seed);
+  picture();
   create("tumour");
   const auto& value = window().model().value();
   const auto mask = segmentation::connectedThreshold(*value.ct.volume.get(), {1000.0, 1600.0},
@@ -135,6 +136,7 @@ TEST_F(Segment, AStrokePaintsTheBallThatIsSeenAndUndoTakesItBack)
   const Vector3d center = patientOf(at);
   QTest::mousePress(&axial(), Qt::LeftButton, Qt::NoModifier, at);
   EXPECT_TRUE(volume().contains("mm")) << "live";
+  picture();
   QTest::mouseRelease(&axial(), Qt::LeftButton, Qt::NoModifier, at);
   EXPECT_GT(differentPixels(before, axial().grab().toImage(), 10), 50);
   const Vector3d crosshair = window().model().crosshair();

@@ -45,6 +45,14 @@ QHBoxLayout* rowOf(std::initializer_list<QWidget*> widgets)
   return row;
 }
 
+// Two widgets in a row; the label's key goes to the first.
+void addRow(QFormLayout& form, const QString& text, QWidget* first, QWidget* second)
+{
+  auto* label = new QLabel(text);
+  label->setBuddy(first);
+  form.addRow(label, rowOf({first, second}));
+}
+
 QLabel* dimLabel(const QString& text)
 {
   auto* label = new QLabel(text);
@@ -150,9 +158,7 @@ void SegmentPanel::addHead(QVBoxLayout& layout)
         }
       });
   auto* form = new QFormLayout;
-  form->addRow(tr("Stru&cture"), rowOf({m_name, m_edit}));
-  static_cast<QLabel*>(form->labelForField(form->itemAt(0, QFormLayout::FieldRole)->layout()))
-      ->setBuddy(m_name);
+  addRow(*form, tr("Stru&cture"), m_name, m_edit);
   form->addRow(tr("&Image"), m_source);
   layout.addLayout(form);
 }
@@ -401,7 +407,7 @@ QWidget* SegmentPanel::nervePage()
             numberBox("nerveRadius", tr("Of the tube, everywhere"), {0.1, 5.0, tr(" mm"), 2, 0.05}),
             [this] { return m_editor.values().tubeRadius.value_or(kTubeRadius); },
             [this](double mm) { change([=](Values& values) { values.tubeRadius = mm; }); });
-        form.addRow(tr("Ra&dius"), rowOf({radius, estimated}));
+        addRow(form, tr("Ra&dius"), radius, estimated);
       },
       tr("Add the tube to the draft"));
   return whole;

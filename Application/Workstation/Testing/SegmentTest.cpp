@@ -158,6 +158,19 @@ TEST_F(Segment, AStrokePaintsTheBallThatIsSeenAndUndoTakesItBack)
             << i << ' ' << j << ' ' << k;
 }
 
+TEST_F(Segment, TheDraftIsSeenInThePictureAndGoesWithIt)
+{
+  saveBall("ball");
+  openWindow("ball");
+  const QImage before = picture();
+  choose(Qt::Key_P);
+  setNumber("paintRadius", 3.0);
+  click(kBallCenter + Vector3d(0, -12, 0)); // half of it stands out of the bone
+  EXPECT_TRUE(waitFor([&] { return differentPixels(before, picture(), 20) > 300; }));
+  QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_TRUE(waitFor([&] { return differentPixels(before, picture()) == 0; }));
+}
+
 TEST_F(Segment, BracketsChangeTheBrushAndTheWheelScrollsStill)
 {
   saveBall("ball");

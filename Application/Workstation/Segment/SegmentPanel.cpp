@@ -34,6 +34,7 @@ using presenters::SegmentEditor;
 using presenters::SegmentValues;
 
 constexpr int kToolsInRow = 3;
+constexpr double kTubeRadius = 0.6; // mm, until another one is entered
 
 QHBoxLayout* rowOf(std::initializer_list<QWidget*> widgets)
 {
@@ -42,6 +43,14 @@ QHBoxLayout* rowOf(std::initializer_list<QWidget*> widgets)
   for (QWidget* widget : widgets)
     row->addWidget(widget);
   return row;
+}
+
+// Two widgets in a row; the label's key goes to the first.
+void addRow(QFormLayout& form, const QString& text, QWidget* first, QWidget* second)
+{
+  auto* label = new QLabel(text);
+  label->setBuddy(first);
+  form.addRow(label, rowOf({first, second}));
 }
 
 QLabel* dimLabel(const QString& text)
@@ -149,9 +158,7 @@ void SegmentPanel::addHead(QVBoxLayout& layout)
         }
       });
   auto* form = new QFormLayout;
-  form->addRow(tr("Stru&cture"), rowOf({m_name, m_edit}));
-  static_cast<QLabel*>(form->labelForField(form->itemAt(0, QFormLayout::FieldRole)->layout()))
-      ->setBuddy(m_name);
+  addRow(*form, tr("Stru&cture"), m_name, m_edit);
   form->addRow(tr("&Image"), m_source);
   layout.addLayout(form);
 }
@@ -361,8 +368,8 @@ void SegmentPanel::addPages(QVBoxLayout& layout)
 QWidget* SegmentPanel::nervePage()
 {
   QWidget* whole = page(
-      tr("Click four to six points along the nerve, from one end to the other. A point can be "
-         "dragged; Delete removes it."),
+      tr("Click four to six points along the nerve. Drag one to move it; Delete removes the chosen "
+         "one."),
       [this](QFormLayout& form)
       {
         m_points = new QTreeWidget;
@@ -371,9 +378,10 @@ QWidget* SegmentPanel::nervePage()
         m_points->setAllColumnsShowFocus(true);
         m_points->setHeaderLabels({tr("#"), tr("To the path"), tr("What the scan shows here")});
         m_points->header()->setStretchLastSection(true);
-        m_points->setFixedHeight(150);
+        m_points->setFixedHeight(136);
         form.addRow(m_points);
-        m_removePoint = button(tr("Remove the point"), "removeNervePoint", tr("The chosen one (Delete)"));
+        m_removePoint =
+            button(tr("Remove the point"), "removeNervePoint", tr("The chosen one (Delete)"));
         const auto remove = [this]
         {
           if (const int row = m_points->indexOfTopLevelItem(m_points->currentItem()); row >= 0)
@@ -386,23 +394,20 @@ QWidget* SegmentPanel::nervePage()
         connect(key, &QAction::triggered, this, remove);
         m_points->addAction(key);
         form.addRow(m_removePoint);
-        auto* estimated = m_bound.add(
-            checkBox(tr("&Estimate the radius"), "nerveEstimate",
-                     tr("From the image, along the path; else one radius everywhere")),
-            [this] { return !m_editor.values().tubeRadius; },
+        auto* estimated = checkBox(tr("&estimated"), "nerveEstimate",
+                                   tr("From the image, along the path; else one everywhere"));
+        m_bound.add(
+            estimated, [this] { return !m_editor.values().tubeRadius; },
             [this](bool on)
             {
               change([=](Values& values)
-                     { values.tubeRadius = on ? std::nullopt : std::optional(0.6); });
+                     { values.tubeRadius = on ? std::nullopt : std::optional(kTubeRadius); });
             });
-        form.addRow({}, estimated);
-        form.addRow(tr("Ra&dius"),
-                    m_bound.add(
-                        numberBox("nerveRadius", tr("Of the tube, everywhere"),
-                                  {0.1, 5.0, tr(" mm"), 2, 0.05}),
-                        [this] { return m_editor.values().tubeRadius.value_or(0.6); },
-                        [this](double mm)
-                        { change([=](Values& values) { values.tubeRadius = mm; }); }));
+        auto* radius = m_bound.add(
+            numberBox("nerveRadius", tr("Of the tube, everywhere"), {0.1, 5.0, tr(" mm"), 2, 0.05}),
+            [this] { return m_editor.values().tubeRadius.value_or(kTubeRadius); },
+            [this](double mm) { change([=](Values& values) { values.tubeRadius = mm; }); });
+        addRow(form, tr("Ra&dius"), radius, estimated);
       },
       tr("Add the tube to the draft"));
   return whole;

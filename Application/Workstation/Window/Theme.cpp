@@ -30,6 +30,10 @@ QToolButton#pointerButton:checked { background: #2f79b5; border-color: #62b0ec; 
 QToolButton#wheelButton { border: 1px solid #4a525c; }
 QToolButton#wheelButton:checked { background: #2f79b5; border-color: #62b0ec; color: #ffffff; }
 QToolButton#drillButton:checked { background: #d96b27; border-color: #f08a48; color: #ffffff; }
+QToolButton#segmentTool { border: 1px solid #3a424c; background: #232930; padding: 6px 4px; }
+QToolButton#segmentTool:hover { background: #2b3139; }
+QToolButton#segmentTool:focus { border-color: #3d8fd1; }
+QToolButton#segmentTool:checked { background: #2f79b5; border-color: #62b0ec; color: #ffffff; }
 QMenuBar { background: #1c2026; }
 QMenuBar::item:selected, QMenu::item:selected { background: #2f6ea3; }
 QMenu { background: #20252b; border: 1px solid #343b44; }
@@ -51,6 +55,7 @@ QPushButton#primary { background: #2f79b5; border: 1px solid #4a98d6; border-rad
                       color: #ffffff; padding: 9px 22px; font-weight: 600; }
 QPushButton#primary:hover { background: #3a8acb; }
 QPushButton#primary:focus { border-color: #b9dcf8; }
+QPushButton#primary:disabled { background: #262c33; border-color: #343b44; color: #5c646e; }
 QLabel#direction { color: #c9d2dc; font-size: 15px; font-weight: 700;
                    background: rgba(16, 19, 23, 150); border-radius: 4px; padding: 1px 6px; }
 QFrame[banner="notice"] { background: #24384a; border-bottom: 1px solid #3d6b92; }

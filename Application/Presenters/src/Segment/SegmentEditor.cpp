@@ -223,6 +223,7 @@ void SegmentEditor::reset()
   m_stepDue.reset();
   m_surface.reset();
   dropPreview();
+  chooseColor();
 }
 
 void SegmentEditor::caseChanged()
@@ -248,6 +249,7 @@ void SegmentEditor::partsChanged()
     if (!scene::findStructure(m_model.value(), m_draft->edited))
       m_draft->edited.clear();
   }
+  chooseColor();
   touched();
 }
 
@@ -292,6 +294,7 @@ void SegmentEditor::setName(const std::string& name)
   if (name == m_draft->name)
     return;
   m_draft->name = name;
+  chooseColor();
   touched();
 }
 
@@ -371,6 +374,7 @@ SegmentEditor::Work SegmentEditor::edit(const std::string& structure)
       draft->mask = EditableMask(mask);
       draft->name = draft->edited = structure;
       draft->editedColor = color;
+      chooseColor();
       touched();
     };
   };
@@ -455,7 +459,9 @@ void SegmentEditor::setValues(const SegmentValues& values)
                   (range || m_values.connected != before.connected ||
                    m_values.combine != before.combine)) ||
                  (m_tool == Tool::Nerve && m_values.tubeRadius != before.tubeRadius) ||
-                 (m_values.within && !before.within && m_source != "ct");
+                 (m_values.within && !before.within);
+  if (m_values.within && m_values.lower == 0.0 && m_values.upper == 0.0)
+    m_proposeDue = true;
   touched();
 }
 
@@ -483,6 +489,12 @@ SegmentEditor::SourceImage& SegmentEditor::image()
       m_image->own = m_image->onCt = value.ct.volume.get();
   }
   return *m_image;
+}
+
+// That of bone, on the CT.
+std::optional<double> SegmentEditor::surfaceIntensity() const
+{
+  return m_source == "ct" ? std::optional(m_model.value().iso) : std::nullopt;
 }
 
 void SegmentEditor::refuse(const std::string& why)
@@ -709,7 +721,7 @@ SegmentEditor::Computed SegmentEditor::computed() const
   {
   case Tool::Threshold:
     return [base, values, image = *m_image, seeds = m_draft->seeds, propose = m_proposeDue,
-            iso = m_source == "ct" ? std::optional(m_model.value().iso) : std::nullopt](
+            iso = surfaceIntensity()](
                const core::Progress& progress) mutable
     {
       Preview preview;
@@ -838,11 +850,14 @@ std::optional<SegmentEditor::Work> SegmentEditor::previewWork()
   Computed compute;
   if (m_tool == Tool::Threshold || m_tool == Tool::Nerve)
     compute = computed();
-  else // only the image is needed
-    compute = [image = *m_image](const core::Progress& progress) mutable
+  else // only the image and a range are needed
+    compute = [image = *m_image, propose = m_proposeDue, iso = surfaceIntensity()](
+                  const core::Progress& progress) mutable
     {
       Preview preview;
       preview.image = image.made(progress);
+      if (propose)
+        preview.range = segmentation::proposedRange(volume::IntensityHistogram(*image.own), iso);
       return preview;
     };
   return [this, draft = m_draft, tool = m_tool,
@@ -988,6 +1003,7 @@ bool SegmentEditor::undo()
     const std::unique_ptr<Created> created = std::exchange(m_created, nullptr);
     m_draft = created->draft;
     dropPreview();
+    chooseColor();
     m_model.takeStructure(created->name);
     if (created->replaced)
     {
@@ -1082,7 +1098,13 @@ double SegmentEditor::volume() const
   return static_cast<double>(voxels()) * m_draft->mask.geometry().voxelVolume();
 }
 
-std::array<float, 3> SegmentEditor::color() const
+void SegmentEditor::chooseColor()
+{
+  m_color = colorNow();
+}
+
+// As the structure will have it.
+std::array<float, 3> SegmentEditor::colorNow() const
 {
   if (m_draft->editedColor)
     return *m_draft->editedColor;

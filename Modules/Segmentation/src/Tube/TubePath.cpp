@@ -333,7 +333,9 @@ TubeModel estimateModel(const TubeImage& image, const std::vector<Vector3d>& poi
                       progress.check("trace tube");
                       Candidate& c = candidates[n / points.size()];
                       const std::size_t p = n % points.size();
-                      const double reach = std::max(options.reach, c.radius);
+                      // As far as a point may be off the axis, also for wide tubes: with more, the
+                      // deeper contrast of a cavity beside the tube would win.
+                      const double reach = std::max(options.reach, 0.3);
                       const TubeFlux flux(image, c.isBright, {c.radius}, kInfinity);
                       double best = 0.0;
                       for (const Vector3d& offset :

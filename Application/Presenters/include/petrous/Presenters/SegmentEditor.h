@@ -165,7 +165,7 @@ public:
 
   std::uint64_t voxels() const; ///< of what would be created
   double volume() const;        ///< mm^3, likewise
-  std::array<float, 3> color() const; ///< 0 to 1
+  const std::array<float, 3>& color() const noexcept { return m_color; } ///< 0 to 1
   /// Of draft, preview and strokes; without indexAt: none. Valid until the next change.
   DraftLayer layer() const;
 
@@ -192,6 +192,9 @@ private:
   void setPoints(Points points);
   void dab(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
   void refuse(const std::string& why);
+  std::optional<double> surfaceIntensity() const;
+  void chooseColor();
+  std::array<float, 3> colorNow() const;
   void reset();
   void touched(); // something that a panel shows has changed
 
@@ -204,6 +207,7 @@ private:
   std::unique_ptr<Created> m_created; // the last one
   std::unique_ptr<Preview> m_preview; // none: the draft alone
   std::string m_note, m_warning;
+  std::array<float, 3> m_color{};
   bool m_proposeDue = false;
   bool m_previewDue = false;
   bool m_previewRunning = false;

@@ -1,0 +1,544 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include <unistd.h>
+
+#include "petrous/Phantom/Phantom.h"
+#include "petrous/Presenters/SegmentEditor.h"
+#include "petrous/Segmentation/MaskOperations.h"
+
+using namespace petrous;
+using namespace petrous::presenters;
+using Eigen::Vector3d;
+using Tool = SegmentEditor::Tool;
+
+namespace
+{
+
+// A cube of 0.5 mm voxels, with intensity x (mm) times 100, and a bright ball of 4 mm radius, 2000,
+// at kBall.
+class SegmentEditorTest : public ::testing::Test
+{
+protected:
+  static constexpr int kSize = 40;
+  static const Vector3d kBall;
+
+  SegmentEditorTest()
+    : folder(std::filesystem::temp_directory_path() /
+             ("petrous-segment-" + std::to_string(::getpid()) + "-" +
+              ::testing::UnitTest::GetInstance()->current_test_info()->name()))
+    , model(library::Library(folder))
+    , editor(model)
+  {
+    std::filesystem::remove_all(folder);
+    editor.events.voxelsChanged = [this](const core::IndexBox& box) { changed = box; };
+  }
+  ~SegmentEditorTest() override { std::filesystem::remove_all(folder); }
+
+  static core::GridGeometry grid()
+  {
+    return {{kSize, kSize, kSize}, Vector3d::Constant(0.5), Vector3d(-3, 5, 7)};
+  }
+  static scene::Case ballCase()
+  {
+    scene::Case value;
+    value.name = "ball";
+    value.ct.name = "ct";
+    value.ct.geometry = grid();
+    auto ct = std::make_shared<volume::Volume<std::int16_t>>(value.ct.geometry);
+    for (int k = 0; k < kSize; ++k)
+      for (int j = 0; j < kSize; ++j)
+        for (int i = 0; i < kSize; ++i)
+        {
+          const Vector3d at = grid().patientFromVoxel(Vector3d(i, j, k));
+          ct->at(i, j, k) = (at - kBall).norm() <= 4.0
+                                ? std::int16_t{2000}
+                                : static_cast<std::int16_t>(std::lround(100.0 * (at.x() + 3.0)));
+        }
+    value.ct.volume = std::make_shared<const volume::IntensityVolume>(
+        std::shared_ptr<const volume::Volume<std::int16_t>>(ct));
+    value.ct.range = {0.0, 2000.0};
+    return value;
+  }
+  void open()
+  {
+    model.adopt(ballCase());
+    editor.caseChanged();
+  }
+  // As the window does, in one thread.
+  void work()
+  {
+    while (auto due = editor.dueWork())
+      (*due)({})();
+  }
+  void step()
+  {
+    auto work = editor.stepWork();
+    ASSERT_TRUE(work) << editor.whyNotStep();
+    (*work)({})();
+  }
+  void set(const std::function<void(SegmentValues&)>& change)
+  {
+    SegmentValues values = editor.values();
+    change(values);
+    editor.setValues(values);
+    work();
+  }
+  void stroke(const Vector3d& from, const Vector3d& to)
+  {
+    editor.press(from, SliceOrientation::Axial);
+    editor.drag(to);
+    editor.release();
+    work();
+  }
+  bool drawn(const Vector3d& patient) const
+  {
+    const DraftLayer layer = editor.layer();
+    if (!layer.indexAt)
+      return false;
+    const Vector3d voxel = grid().voxelFromPatient(patient);
+    return layer.indexAt({static_cast<int>(std::lround(voxel[0])),
+                          static_cast<int>(std::lround(voxel[1])),
+                          static_cast<int>(std::lround(voxel[2]))}) == 1;
+  }
+  static std::uint64_t count(const std::function<bool(const Vector3d&)>& inside)
+  {
+    std::uint64_t found = 0;
+    for (int k = 0; k < kSize; ++k)
+      for (int j = 0; j < kSize; ++j)
+        for (int i = 0; i < kSize; ++i)
+          found += inside(grid().patientFromVoxel(Vector3d(i, j, k)));
+    return found;
+  }
+  static bool inBall(const Vector3d& at) { return (at - kBall).norm() <= 4.0; }
+
+  std::filesystem::path folder;
+  WorkstationModel model;
+  SegmentEditor editor;
+  core::IndexBox changed;
+};
+
+const Vector3d SegmentEditorTest::kBall{9.0, 15.0, 17.0};
+
+} // namespace
+
+TEST_F(SegmentEditorTest, DoesNothingWithoutACase)
+{
+  editor.setTool(Tool::Paint);
+  EXPECT_EQ(editor.tool(), Tool::None);
+  editor.press({1, 2, 3}, SliceOrientation::Axial);
+  editor.drag({1, 2, 3});
+  editor.release();
+  editor.undo();
+  editor.redo();
+  editor.proposeRange();
+  editor.removeTubePoint(0);
+  editor.discard();
+  EXPECT_FALSE(editor.dueWork());
+  EXPECT_FALSE(editor.stepWork());
+  EXPECT_FALSE(editor.hasDraft());
+  EXPECT_FALSE(editor.layer().indexAt);
+  EXPECT_THROW(editor.create(), core::InvalidParameter);
+  EXPECT_THROW(editor.setSource("ct"), core::InvalidParameter);
+  EXPECT_TRUE(editor.editable().empty());
+}
+
+TEST_F(SegmentEditorTest, AThresholdIsProposedSeenAndBecomesAStructure)
+{
+  open();
+  editor.setTool(Tool::Threshold);
+  work();
+  EXPECT_GT(editor.values().upper, editor.values().lower) << "proposed";
+  set([](SegmentValues& values)
+      {
+        values.lower = 1950.0;
+        values.upper = 2000.0;
+      });
+  const auto truth = [](const Vector3d& at)
+  { return inBall(at) || (at.x() + 3.0) * 100.0 >= 1949.5; };
+  EXPECT_EQ(editor.voxels(), count(truth));
+  EXPECT_NEAR(editor.volume(), 0.125 * static_cast<double>(count(truth)), 1e-9);
+  EXPECT_TRUE(drawn(kBall));
+  EXPECT_FALSE(drawn(kBall + Vector3d(4.6, 0, 0)));
+  EXPECT_FALSE(editor.canUndo()) << "a preview is no step";
+  EXPECT_NE(editor.whyNotCreate(), "") << "no name";
+  EXPECT_THROW(editor.create(), core::InvalidParameter);
+  editor.setName("sigmoid sinus");
+  EXPECT_EQ(editor.whyNotCreate(), "");
+  editor.create();
+  const auto* made = scene::findStructure(model.value(), "sigmoid sinus");
+  ASSERT_TRUE(made);
+  EXPECT_EQ(made->voxels, count(truth));
+  EXPECT_FALSE(editor.hasDraft());
+  EXPECT_EQ(editor.tool(), Tool::None);
+}
+
+TEST_F(SegmentEditorTest, OnlyWhatHangsTogetherWithTheClickedPointCounts)
+{
+  open();
+  editor.setTool(Tool::Threshold);
+  set([](SegmentValues& values)
+      {
+        values.lower = 1950.0;
+        values.upper = 2000.0;
+      });
+  editor.press(kBall, SliceOrientation::Coronal);
+  editor.release();
+  work();
+  EXPECT_TRUE(editor.values().connected);
+  EXPECT_EQ(editor.voxels(), count(inBall));
+  editor.press(kBall + Vector3d(-8, 0, 0), SliceOrientation::Coronal); // out of range
+  editor.release();
+  work();
+  EXPECT_NE(editor.warning(), "") << "in words";
+}
+
+TEST_F(SegmentEditorTest, ABrushPaintsTheBallThatIsSeenAndUndoRestoresEveryVoxel)
+{
+  open();
+  editor.setTool(Tool::Paint);
+  set([](SegmentValues& values) { values.brush = 2.0; });
+  const Vector3d at = grid().patientFromVoxel(Vector3d(20, 20, 20));
+  editor.press(at, SliceOrientation::Axial);
+  EXPECT_FALSE(changed.empty());
+  editor.release();
+  const auto ball = [&](const Vector3d& p) { return (p - at).norm() <= 2.0 + 1e-9; };
+  EXPECT_EQ(editor.voxels(), count(ball));
+  stroke(at, at + Vector3d(4, 0, 0));
+  const std::uint64_t both = editor.voxels();
+  EXPECT_GT(both, count(ball));
+  EXPECT_TRUE(drawn(at + Vector3d(2, 0, 0))) << "no gap on a fast stroke";
+  editor.setTool(Tool::Erase);
+  stroke(at, at);
+  EXPECT_FALSE(drawn(at));
+  EXPECT_TRUE(drawn(at + Vector3d(4, 0, 0)));
+  editor.undo();
+  EXPECT_EQ(editor.voxels(), both);
+  editor.undo();
+  EXPECT_EQ(editor.voxels(), count(ball));
+  editor.undo();
+  EXPECT_EQ(editor.voxels(), 0U);
+  EXPECT_FALSE(editor.canUndo());
+  for (int n = 0; n < 3; ++n)
+    editor.redo();
+  EXPECT_FALSE(drawn(at));
+  EXPECT_FALSE(editor.canRedo());
+}
+
+TEST_F(SegmentEditorTest, ADiskStaysInItsSliceAndARangeInItsIntensities)
+{
+  open();
+  editor.setTool(Tool::Paint);
+  set([](SegmentValues& values)
+      {
+        values.brush = 3.0;
+        values.ball = false;
+      });
+  stroke(kBall, kBall);
+  EXPECT_EQ(editor.voxels(),
+            count([](const Vector3d& p)
+                  { return std::abs(p.z() - kBall.z()) < 0.1 && (p - kBall).norm() <= 3.0; }));
+  editor.undo();
+  set([](SegmentValues& values)
+      {
+        values.brush = 6.0;
+        values.ball = true;
+        values.lower = 1990.0;
+        values.upper = 2000.0;
+        values.within = true;
+      });
+  stroke(kBall, kBall);
+  EXPECT_EQ(editor.voxels(), count(inBall));
+}
+
+TEST_F(SegmentEditorTest, StepsChangeTheDraftAndEachIsUndone)
+{
+  open();
+  editor.setTool(Tool::Paint);
+  set([](SegmentValues& values) { values.brush = 2.0; });
+  const Vector3d left = grid().patientFromVoxel(Vector3d(8, 20, 20));
+  const Vector3d right = grid().patientFromVoxel(Vector3d(30, 20, 20));
+  stroke(left, left);
+  set([](SegmentValues& values) { values.brush = 3.0; });
+  stroke(right, right);
+  const std::uint64_t both = editor.voxels();
+  editor.setTool(Tool::Islands);
+  step();
+  EXPECT_TRUE(drawn(right));
+  EXPECT_FALSE(drawn(left));
+  editor.undo();
+  EXPECT_EQ(editor.voxels(), both);
+  editor.press(left, SliceOrientation::Axial); // keeps that one alone
+  editor.release();
+  work();
+  EXPECT_TRUE(drawn(left));
+  EXPECT_FALSE(drawn(right));
+  const std::uint64_t small = editor.voxels();
+  editor.setTool(Tool::Margin);
+  set([](SegmentValues& values) { values.margin = 1.0; });
+  step();
+  EXPECT_GT(editor.voxels(), small);
+  editor.setTool(Tool::Smooth);
+  step();
+  EXPECT_TRUE(drawn(left));
+  while (editor.canUndo())
+    editor.undo();
+  EXPECT_EQ(editor.voxels(), 0U);
+  editor.setTool(Tool::Fill);
+  EXPECT_NE(editor.whyNotStep(), "");
+  EXPECT_FALSE(editor.stepWork());
+}
+
+TEST_F(SegmentEditorTest, SlicesBetweenThosePaintedAreFilled)
+{
+  open();
+  editor.setTool(Tool::Paint);
+  set([](SegmentValues& values)
+      {
+        values.brush = 3.0;
+        values.ball = false;
+      });
+  const Vector3d low = grid().patientFromVoxel(Vector3d(20, 20, 10));
+  const Vector3d high = grid().patientFromVoxel(Vector3d(20, 20, 16));
+  stroke(low, low);
+  stroke(high, high);
+  const std::uint64_t disks = editor.voxels();
+  editor.setTool(Tool::Fill);
+  step();
+  EXPECT_TRUE(drawn(0.5 * (low + high)));
+  EXPECT_NEAR(static_cast<double>(editor.voxels()), 3.5 * static_cast<double>(disks),
+              0.02 * 3.5 * static_cast<double>(disks));
+}
+
+TEST_F(SegmentEditorTest, GrowsFromStrokesInsideAndBeside)
+{
+  open();
+  editor.setTool(Tool::Grow);
+  set([](SegmentValues& values) { values.brush = 1.0; });
+  EXPECT_FALSE(editor.stepWork()) << "no stroke yet";
+  stroke(kBall, kBall + Vector3d(1, 0, 0));
+  EXPECT_FALSE(editor.stepWork()) << "none beside";
+  set([](SegmentValues& values) { values.inside = false; });
+  for (const Vector3d& off : {Vector3d(6, 0, 0), Vector3d(-6, 0, 0), Vector3d(0, 6, 0),
+                              Vector3d(0, -6, 0), Vector3d(0, 0, 6), Vector3d(0, 0, -6)})
+    stroke(kBall + off, kBall + off);
+  step();
+  EXPECT_EQ(editor.voxels(), count(inBall));
+}
+
+TEST_F(SegmentEditorTest, AStructureOfTheCaseIsEditedAndUndoGivesItBack)
+{
+  open();
+  editor.setTool(Tool::Paint);
+  stroke(kBall, kBall);
+  const std::uint64_t first = editor.voxels();
+  editor.setName("dura plate");
+  editor.create();
+  EXPECT_TRUE(editor.editable().empty()) << "not loaded yet";
+  model.prepareNow();
+  EXPECT_EQ(editor.editable(), std::vector<std::string>{"dura plate"});
+  editor.edit("dura plate")({})();
+  EXPECT_EQ(editor.voxels(), first);
+  EXPECT_FALSE(editor.isUnsaved());
+  EXPECT_THROW(editor.edit("dura plate"), core::InvalidParameter) << "one at a time";
+  editor.setTool(Tool::Paint);
+  stroke(kBall + Vector3d(4, 0, 0), kBall + Vector3d(4, 0, 0));
+  EXPECT_TRUE(editor.isUnsaved());
+  const std::uint64_t second = editor.voxels();
+  editor.create();
+  ASSERT_EQ(model.value().labels.size(), 1U);
+  EXPECT_EQ(scene::findStructure(model.value(), "dura plate")->voxels, second);
+  ASSERT_TRUE(editor.canUndo());
+  EXPECT_TRUE(editor.undo());
+  EXPECT_EQ(scene::findStructure(model.value(), "dura plate")->voxels, first);
+  EXPECT_EQ(editor.voxels(), second) << "the draft is there again";
+  EXPECT_EQ(editor.edited(), "dura plate");
+}
+
+TEST_F(SegmentEditorTest, WhatWasCreatedIsTakenBackAsTheDraftItWas)
+{
+  open();
+  editor.setTool(Tool::Paint);
+  stroke(kBall, kBall);
+  const std::uint64_t voxels = editor.voxels();
+  editor.setName("glomus");
+  editor.create();
+  EXPECT_TRUE(editor.undo());
+  EXPECT_FALSE(scene::findStructure(model.value(), "glomus"));
+  EXPECT_EQ(editor.voxels(), voxels);
+  EXPECT_EQ(editor.name(), "glomus");
+  EXPECT_FALSE(editor.undo());
+  EXPECT_EQ(editor.voxels(), 0U);
+}
+
+TEST_F(SegmentEditorTest, AnMrMustBeRegisteredAndIsReadOnTheCtsGrid)
+{
+  scene::Case value = ballCase();
+  scene::ImagePart mr = value.ct;
+  mr.name = "T2";
+  // The same image 3 mm to the left of where the CT has it.
+  auto moved = std::make_shared<volume::Volume<std::int16_t>>(
+      core::GridGeometry(grid().dims(), grid().spacing(), grid().origin() + Vector3d(3, 0, 0)));
+  value.ct.volume.get()->visit(
+      [&](const auto& ct)
+      {
+        for (std::size_t n = 0; n < ct.size(); ++n)
+          moved->data()[n] = static_cast<std::int16_t>(ct.data()[n]);
+      });
+  mr.geometry = moved->geometry();
+  mr.volume = std::make_shared<const volume::IntensityVolume>(
+      std::shared_ptr<const volume::Volume<std::int16_t>>(moved));
+  value.mr.push_back(mr);
+  model.adopt(std::move(value));
+  editor.caseChanged();
+  ASSERT_EQ(editor.sources().size(), 2U);
+  EXPECT_NE(editor.sources().back().why, "");
+  try
+  {
+    editor.setSource("T2");
+    FAIL() << "not registered";
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("not registered"), std::string::npos);
+  }
+  model.changeMr([](scene::Case& with)
+                 {
+                   with.mr.front().registered = true;
+                   with.mr.front().mrFromCt =
+                       core::RigidTransform(Eigen::Quaterniond::Identity(), Vector3d(3, 0, 0));
+                 });
+  editor.mrMoved();
+  editor.setSource("T2");
+  editor.setTool(Tool::Threshold);
+  work();
+  set([](SegmentValues& values)
+      {
+        values.lower = 1960.0;
+        values.upper = 2000.0;
+      });
+  EXPECT_EQ(editor.voxels(), count(inBall)) << "where the CT has it";
+}
+
+TEST_F(SegmentEditorTest, NothingIsLostOrTakenWhileAStepIsUnderWay)
+{
+  open();
+  editor.setTool(Tool::Paint);
+  stroke(kBall, kBall);
+  const std::uint64_t voxels = editor.voxels();
+  editor.setTool(Tool::Margin);
+  auto work = editor.stepWork();
+  ASSERT_TRUE(work);
+  EXPECT_TRUE(editor.stepping());
+  EXPECT_FALSE(editor.stepWork());
+  EXPECT_FALSE(editor.canUndo());
+  editor.setTool(Tool::Paint);
+  editor.press(kBall + Vector3d(4, 0, 0), SliceOrientation::Axial);
+  editor.release();
+  EXPECT_EQ(editor.voxels(), voxels);
+  editor.workEnded(); // stopped
+  EXPECT_EQ(editor.voxels(), voxels);
+  EXPECT_TRUE(editor.canUndo());
+
+  editor.setTool(Tool::Margin);
+  work = editor.stepWork();
+  ASSERT_TRUE(work);
+  const auto late = (*work)({});
+  model.adopt(ballCase());
+  editor.caseChanged();
+  late(); // of the previous case
+  EXPECT_EQ(editor.voxels(), 0U);
+  EXPECT_FALSE(editor.hasDraft());
+}
+
+TEST_F(SegmentEditorTest, PointsOfANerveAreAddedMovedRemovedAndUndone)
+{
+  open();
+  editor.setTool(Tool::Nerve);
+  const auto click = [this](const Vector3d& at) { stroke(at, at); };
+  click(kBall + Vector3d(-8, 0, 0));
+  EXPECT_EQ(editor.tubePoints().size(), 1U);
+  EXPECT_FALSE(editor.stepWork());
+  click(kBall + Vector3d(-8, 4, 0));
+  stroke(kBall + Vector3d(-8, 4, 0.4), kBall + Vector3d(-8, 5, 0)); // moved
+  ASSERT_EQ(editor.tubePoints().size(), 2U);
+  EXPECT_NEAR((editor.tubePoints()[1].patient - (kBall + Vector3d(-8, 5, 0))).norm(), 0.0, 1e-9);
+  editor.undo();
+  EXPECT_NEAR((editor.tubePoints()[1].patient - (kBall + Vector3d(-8, 4, 0))).norm(), 0.0, 1e-9);
+  editor.removeTubePoint(0);
+  editor.removeTubePoint(7);
+  EXPECT_EQ(editor.tubePoints().size(), 1U);
+  editor.undo();
+  EXPECT_EQ(editor.tubePoints().size(), 2U);
+  while (editor.canUndo())
+  {
+    editor.undo();
+    work();
+  }
+  EXPECT_FALSE(editor.hasDraft());
+}
+
+TEST_F(SegmentEditorTest, TheNerveToolFindsThePhantomsFacialNerve)
+{
+  // Tympanic and mastoid segment of the phantom at 0.3 mm, with noise. The points are knots of its
+  // axis (PhantomEar.cpp), clicked there and half a millimetre beside it; its radius is 0.6 mm.
+  const phantom::Phantom patient;
+  const std::size_t nerve = patient.indexOf("facial_nerve");
+  constexpr double kRadius = 0.6;
+  const std::vector<Vector3d> axis{{-41.8, -2.1, 4.1},
+                                   {-44.8, 3.2, 2.1},
+                                   {-45.5, 4.7, 0.2},
+                                   {-46.0, 5.4, -4.0},
+                                   {-46.6, 6.0, -10.0}};
+  scene::Case value;
+  value.name = "ear";
+  value.ct.name = "ct";
+  value.ct.geometry =
+      core::GridGeometry({60, 70, 90}, Vector3d::Constant(0.3), Vector3d(-54, -10, -16));
+  value.ct.volume = std::make_shared<const volume::IntensityVolume>(
+      std::make_shared<const volume::Volume<std::int16_t>>(
+          phantom::samplePhantom(patient, value.ct.geometry, {})));
+  value.ct.range = value.ct.volume.get()->range();
+  model.adopt(std::move(value));
+  editor.caseChanged();
+  for (const Vector3d& beside : {Vector3d(0, 0, 0), Vector3d(0.3, 0.4, 0.0)})
+  {
+    editor.discard();
+    editor.setTool(Tool::None);
+    editor.setTool(Tool::Nerve);
+    for (const Vector3d& point : axis)
+    {
+      ASSERT_NEAR(patient.signedDistance(nerve, point), -kRadius, 0.02);
+      stroke(point + beside, point + beside);
+    }
+    ASSERT_FALSE(editor.path().empty()) << editor.warning();
+    double sum = 0.0, most = 0.0;
+    for (const Vector3d& at : editor.path())
+    {
+      const double off = kRadius + patient.signedDistance(nerve, at); // from the axis
+      sum += off;
+      most = std::max(most, off);
+    }
+    EXPECT_LT(sum / static_cast<double>(editor.path().size()), 0.15);
+    EXPECT_LT(most, 0.44);
+    EXPECT_EQ(editor.warning(), "");
+    for (const auto& point : editor.tubePoints())
+    {
+      ASSERT_TRUE(point.distance);
+      EXPECT_LT(std::abs(*point.distance - beside.norm()), 0.35);
+      EXPECT_EQ(point.problem, "");
+    }
+  }
+  EXPECT_NE(editor.note(), "");
+  EXPECT_GT(editor.voxels(), 0U);
+  step();
+  EXPECT_TRUE(editor.tubePoints().empty()) << "the tube is in the draft now";
+  const std::uint64_t tube = editor.voxels();
+  EXPECT_GT(tube, 0U);
+  editor.undo();
+  EXPECT_EQ(editor.tubePoints().size(), axis.size());
+  editor.redo();
+  EXPECT_EQ(editor.voxels(), tube);
+}

@@ -1,0 +1,365 @@
+#include "GuiTest.h"
+
+#include <QDockWidget>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QStatusBar>
+#include <QTreeWidget>
+
+#include "SliceView.h"
+#include "petrous/Phantom/Phantom.h"
+#include "petrous/Segmentation/MaskOperations.h"
+
+using namespace petrous;
+using namespace petrous::workstation;
+using Eigen::Vector3d;
+
+namespace
+{
+
+class Segment : public GuiTest
+{
+protected:
+  template <class Widget>
+  Widget& find(const char* name)
+  {
+    auto* found = window().findChild<Widget*>(name);
+    EXPECT_TRUE(found) << name;
+    return *found;
+  }
+  SliceView& axial() { return find<SliceView>("axialView"); }
+  presenters::WorkstationModel& model()
+  {
+    return const_cast<presenters::WorkstationModel&>(window().model());
+  }
+  void choose(int key) { QTest::keyClick(&window(), static_cast<Qt::Key>(key), Qt::ShiftModifier); }
+  QString volume() { return find<QLabel>("segmentVolume").text(); }
+  void setNumber(const char* name, double value) { find<QDoubleSpinBox>(name).setValue(value); }
+  /// Set once the numbers have rested for a while; the brush has the same range.
+  void setRange(double lower, double upper)
+  {
+    setNumber("segmentLower", lower);
+    setNumber("segmentUpper", upper);
+    EXPECT_TRUE(waitFor(
+        [&]
+        {
+          return find<QDoubleSpinBox>("paintLower").value() == lower &&
+                 find<QDoubleSpinBox>("paintUpper").value() == upper;
+        }));
+  }
+  QPoint pixelOf(const Vector3d& patient)
+  {
+    const Eigen::Vector2d at =
+        axial().slice().pixelFromPatient(patient) + Eigen::Vector2d(0.5, 0.5);
+    return {static_cast<int>(std::floor(at[0])), static_cast<int>(std::floor(at[1]))};
+  }
+  Vector3d patientOf(const QPoint& pixel)
+  {
+    return axial().slice().patientFromPixel(pixel.x() - 0.5, pixel.y() - 0.5);
+  }
+  void click(const Vector3d& patient)
+  {
+    model().setCrosshair(patient);
+    QTest::mouseClick(&axial(), Qt::LeftButton, Qt::NoModifier, pixelOf(patient));
+  }
+  void name(const QString& text)
+  {
+    auto& line = find<QLineEdit>("segmentName");
+    line.clear();
+    QTest::keyClicks(&line, text);
+  }
+  /// Waits until nothing is computed, and creates the structure.
+  void create(const QString& as)
+  {
+    name(as);
+    EXPECT_TRUE(waitFor([this] { return find<QPushButton>("primary").isEnabled(); }))
+        << find<QPushButton>("primary").toolTip().toStdString();
+    find<QPushButton>("primary").click();
+    EXPECT_TRUE(settled());
+  }
+  const volume::Volume<std::uint16_t>* voxelsOf(const std::string& structure)
+  {
+    for (const auto& part : window().model().value().labels)
+      if (part.structures.front().name == structure)
+        return part.labels.get()->voxels.get();
+    return nullptr;
+  }
+  static void answer(QMessageBox& box, const QString& text)
+  {
+    for (QAbstractButton* button : box.buttons())
+      if (button->text().remove('&') == text)
+        return button->click();
+    ADD_FAILURE() << "no button " << text.toStdString();
+    box.reject();
+  }
+  bool isDraft() { return find<QPushButton>("segmentDiscard").isEnabled(); }
+};
+
+} // namespace
+
+TEST_F(Segment, AThresholdFromAClickMakesTheStructureThatTheEngineFinds)
+{
+  saveBall("ball");
+  openWindow("ball");
+  choose(Qt::Key_T);
+  EXPECT_TRUE(find<QDockWidget>("segmentDock").isVisible());
+  ASSERT_TRUE(waitFor([this] { return volume().contains("mm"); })) << "a range is proposed";
+  setRange(1000.0, 1600.0);
+  const Vector3d seed = kBallCenter + Vector3d(6, 0, 0);
+  click(seed);
+  picture();
+  create("tumour");
+  const auto& value = window().model().value();
+  const auto mask = segmentation::connectedThreshold(*value.ct.volume.get(), {1000.0, 1600.0},
+                                                     {kBallCenter});
+  const auto* made = scene::findStructure(value, "tumour");
+  ASSERT_TRUE(made);
+  EXPECT_EQ(made->voxels, mask.count);
+  EXPECT_EQ(made->look.preset, "tumour");
+  const auto* voxels = voxelsOf("tumour");
+  for (std::size_t n = 0; n < voxels->size(); ++n)
+    ASSERT_EQ(voxels->data()[n] != 0, mask.voxels->data()[n] != 0) << n;
+  EXPECT_FALSE(isDraft());
+  EXPECT_TRUE(scene::findStructure(library().open("ball"), "tumour")) << "saved";
+}
+
+TEST_F(Segment, AStrokePaintsTheBallThatIsSeenAndUndoTakesItBack)
+{
+  saveBall("ball");
+  openWindow("ball");
+  choose(Qt::Key_P);
+  setNumber("paintRadius", 2.0);
+  const QImage before = axial().grab().toImage();
+  const QPoint at = pixelOf(kBallCenter + Vector3d(3, 4, 0));
+  const Vector3d center = patientOf(at);
+  QTest::mousePress(&axial(), Qt::LeftButton, Qt::NoModifier, at);
+  EXPECT_TRUE(volume().contains("mm")) << "live";
+  picture();
+  QTest::mouseRelease(&axial(), Qt::LeftButton, Qt::NoModifier, at);
+  EXPECT_GT(differentPixels(before, axial().grab().toImage(), 10), 50);
+  const Vector3d crosshair = window().model().crosshair();
+  EXPECT_LT((crosshair - center).norm(), 10.0);
+  EXPECT_NE(crosshair, center) << "the left button paints";
+  QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(volume(), "Nothing yet");
+  EXPECT_FALSE(isDraft());
+  QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  create("glomus");
+  const auto* voxels = voxelsOf("glomus");
+  ASSERT_TRUE(voxels);
+  const auto& grid = window().model().value().ct.geometry;
+  for (int k = 0; k < 64; ++k)
+    for (int j = 0; j < 64; ++j)
+      for (int i = 0; i < 64; ++i)
+        ASSERT_EQ(voxels->at(i, j, k) != 0,
+                  (grid.patientFromVoxel(Vector3d(i, j, k)) - center).norm() <= 2.0)
+            << i << ' ' << j << ' ' << k;
+}
+
+TEST_F(Segment, TheDraftIsSeenInThePictureAndGoesWithIt)
+{
+  saveBall("ball");
+  openWindow("ball");
+  const QImage before = picture();
+  choose(Qt::Key_P);
+  setNumber("paintRadius", 3.0);
+  click(kBallCenter + Vector3d(0, -12, 0)); // half of it stands out of the bone
+  EXPECT_TRUE(waitFor([&] { return differentPixels(before, picture(), 20) > 300; }));
+  QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_TRUE(waitFor([&] { return differentPixels(before, picture()) == 0; }));
+}
+
+TEST_F(Segment, BracketsChangeTheBrushAndTheWheelScrollsStill)
+{
+  saveBall("ball");
+  openWindow("ball");
+  auto& radius = find<QDoubleSpinBox>("paintRadius");
+  auto& burr = find<QDoubleSpinBox>("burrDiameter");
+  const double diameter = burr.value();
+  choose(Qt::Key_P);
+  const double first = radius.value();
+  QTest::keyClick(&window(), Qt::Key_BracketRight);
+  EXPECT_GT(radius.value(), first);
+  QTest::keyClick(&window(), Qt::Key_BracketLeft);
+  QTest::keyClick(&window(), Qt::Key_BracketLeft);
+  EXPECT_LT(radius.value(), first);
+  EXPECT_EQ(burr.value(), diameter);
+  const Vector3d before = window().model().crosshair();
+  QWheelEvent wheel(QPointF(50, 50), axial().mapToGlobal(QPoint(50, 50)), {}, {0, 120},
+                    Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
+  QApplication::sendEvent(&axial(), &wheel);
+  EXPECT_NE(window().model().crosshair(), before);
+  QTest::keyClick(&axial(), Qt::Key_Escape);
+  QTest::keyClick(&window(), Qt::Key_BracketRight);
+  EXPECT_NE(burr.value(), diameter) << "without a tool they are the burr's";
+}
+
+TEST_F(Segment, OneToolAtATimeAndTheDraftStays)
+{
+  saveBall("ball");
+  openWindow("ball");
+  QTest::keyClick(&view(), Qt::Key_D);
+  ASSERT_TRUE(action("Drill")->isChecked());
+  choose(Qt::Key_P);
+  EXPECT_FALSE(action("Drill")->isChecked());
+  EXPECT_TRUE(window().statusBar()->currentMessage().contains("drill is off"));
+  click(kBallCenter);
+  EXPECT_TRUE(isDraft());
+  QTest::keyClick(&window(), Qt::Key_D);
+  EXPECT_TRUE(action("Drill")->isChecked());
+  EXPECT_FALSE(action("Paint")->isChecked());
+  EXPECT_TRUE(isDraft());
+  const Vector3d aside = kBallCenter + Vector3d(3, 3, 0);
+  QTest::mouseClick(&axial(), Qt::LeftButton, Qt::NoModifier, pixelOf(aside));
+  EXPECT_LT((window().model().crosshair() - aside).norm(), 1.0) << "the left button as ever";
+  onMessage([](QMessageBox& box) { answer(box, "Discard"); });
+  closeWindow();
+}
+
+TEST_F(Segment, ADraftIsNotLostWithoutAQuestion)
+{
+  saveBall("ball");
+  saveBall("other");
+  openWindow("ball");
+  choose(Qt::Key_P);
+  click(kBallCenter);
+  name("tumour");
+  onMessage([](QMessageBox& box) { answer(box, "Cancel"); });
+  window().close();
+  EXPECT_TRUE(window().isVisible());
+  EXPECT_TRUE(isDraft());
+  onMessage([](QMessageBox& box) { answer(box, "Cancel"); });
+  window().begin("other");
+  EXPECT_TRUE(settled());
+  EXPECT_EQ(window().model().value().name, "ball");
+  EXPECT_TRUE(isDraft());
+  onMessage([](QMessageBox& box) { answer(box, "Create"); });
+  window().begin("other");
+  EXPECT_TRUE(waitFor([this] { return window().model().value().name == "other"; }));
+  EXPECT_TRUE(settled());
+  EXPECT_TRUE(scene::findStructure(library().open("ball"), "tumour"));
+  EXPECT_FALSE(isDraft());
+
+  choose(Qt::Key_P);
+  click(kBallCenter);
+  onMessage(
+      [](QMessageBox& box)
+      {
+        for (QAbstractButton* button : box.buttons())
+          if (button->text().remove('&') == "Create")
+          {
+            EXPECT_FALSE(button->isEnabled()) << "it has no name";
+          }
+        answer(box, "Discard");
+      });
+  window().close();
+  EXPECT_FALSE(window().isVisible());
+  EXPECT_EQ(library().open("other").labels.size(), 1U);
+}
+
+TEST_F(Segment, WhatWasCreatedIsUndoneFromThePanel)
+{
+  saveBall("ball");
+  openWindow("ball");
+  choose(Qt::Key_P);
+  click(kBallCenter);
+  const QString painted = volume();
+  create("tumour");
+  EXPECT_EQ(volume(), "Nothing yet");
+  find<QPushButton>("segmentUndo").click();
+  EXPECT_TRUE(settled());
+  EXPECT_FALSE(scene::findStructure(window().model().value(), "tumour"));
+  EXPECT_FALSE(scene::findStructure(library().open("ball"), "tumour"));
+  EXPECT_EQ(volume(), painted);
+  onMessage([](QMessageBox& box) { answer(box, "Discard"); });
+  closeWindow();
+}
+
+TEST_F(Segment, OddOrdersOfClicksChangeNothing)
+{
+  openWindow();
+  for (const int key : {Qt::Key_T, Qt::Key_P, Qt::Key_N, Qt::Key_G})
+    choose(key); // no case
+  for (const char* text : {"Apply the tool", "Create the structure"})
+    action(text)->trigger();
+  EXPECT_FALSE(action("Paint")->isChecked());
+  saveBall("ball");
+  saveBall("other");
+  window().begin("ball");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase(); }));
+  EXPECT_TRUE(settled());
+  choose(Qt::Key_N);
+  action("Apply the tool")->trigger(); // no points
+  action("Create the structure")->trigger();
+  EXPECT_FALSE(isDraft());
+  choose(Qt::Key_P);
+  QTest::mousePress(&axial(), Qt::LeftButton, Qt::NoModifier, axial().rect().center());
+  choose(Qt::Key_E); // the stroke ends with its tool
+  QTest::mouseRelease(&axial(), Qt::LeftButton, Qt::NoModifier, axial().rect().center());
+  EXPECT_TRUE(isDraft());
+  QTest::keyClick(&axial(), Qt::Key_Escape);
+  EXPECT_TRUE(isDraft());
+  onMessage([](QMessageBox& box) { answer(box, "Discard"); });
+  QTest::keyClick(&axial(), Qt::Key_Escape);
+  EXPECT_FALSE(isDraft());
+
+  choose(Qt::Key_T); // another case while the preview is computed
+  setNumber("segmentLower", 0.0);
+  model().open("other");
+  EXPECT_FALSE(isDraft());
+  EXPECT_FALSE(action("Threshold")->isChecked());
+  choose(Qt::Key_P);
+  QTest::mousePress(&axial(), Qt::LeftButton, Qt::NoModifier, axial().rect().center());
+  model().close(); // in the middle of a stroke
+  QTest::mouseMove(&axial(), QPoint(10, 10));
+  QTest::mouseRelease(&axial(), Qt::LeftButton, Qt::NoModifier, QPoint(10, 10));
+  EXPECT_FALSE(isDraft());
+}
+
+TEST_F(Segment, TheFacialNerveOfThePhantomIsFoundFromClicks)
+{
+  // Tympanic and mastoid segment at 0.3 mm; the points are knots of the axis (PhantomEar.cpp).
+  const std::vector<Vector3d> points{{-41.8, -2.1, 4.1},
+                                     {-44.8, 3.2, 2.1},
+                                     {-45.5, 4.7, 0.2},
+                                     {-46.0, 5.4, -4.0},
+                                     {-46.6, 6.0, -10.0}};
+  const core::GridGeometry grid({60, 70, 90}, Vector3d::Constant(0.3), Vector3d(-54, -10, -16));
+  scene::Case value;
+  value.name = "ear";
+  value.ct.name = "ct";
+  value.ct.geometry = grid;
+  value.ct.volume = std::make_shared<const volume::IntensityVolume>(
+      std::make_shared<const volume::Volume<std::int16_t>>(
+          phantom::samplePhantom(phantom::Phantom(), grid, {})));
+  value.ct.range = value.ct.volume.get()->range();
+  library().save(value);
+  openWindow("ear");
+  choose(Qt::Key_N);
+  for (const Vector3d& point : points)
+    click(point);
+  auto& table = find<QTreeWidget>("nervePoints");
+  EXPECT_EQ(table.topLevelItemCount(), static_cast<int>(points.size()));
+  ASSERT_TRUE(waitFor([&] { return table.topLevelItem(0)->text(1).contains("mm"); }));
+  for (int row = 0; row < table.topLevelItemCount(); ++row)
+    EXPECT_LT(table.topLevelItem(row)->text(1).remove(" mm").toDouble(), 0.8);
+  picture();
+  create("facial nerve");
+  const auto* voxels = voxelsOf("facial nerve");
+  ASSERT_TRUE(voxels);
+  // Where the nerve runs across the axial slice, the middle of the tube lies on its axis.
+  const int k = static_cast<int>(std::lround(grid.voxelFromPatient(points[3])[2]));
+  Vector3d sum = Vector3d::Zero();
+  int count = 0;
+  for (int j = 0; j < grid.dims()[1]; ++j)
+    for (int i = 0; i < grid.dims()[0]; ++i)
+      if (voxels->at(i, j, k) != 0)
+      {
+        sum += grid.patientFromVoxel(Vector3d(i, j, k));
+        ++count;
+      }
+  ASSERT_GT(count, 3);
+  EXPECT_LT((sum / count - points[3]).head<2>().norm(), 0.25);
+}

@@ -106,28 +106,6 @@ void WorkstationModel::adopt(scene::Case value)
   setUnsaved(true);
 }
 
-void WorkstationModel::takeParts(scene::Case with)
-{
-  if (!m_case)
-    return;
-  const auto append = [](auto& parts, auto& more)
-  {
-    for (std::size_t n = parts.size(); n < more.size(); ++n)
-      parts.push_back(std::move(more[n]));
-  };
-  for (std::size_t n = 0; n < std::min(m_case->labels.size(), with.labels.size()); ++n)
-    m_case->labels[n].drawnOn = with.labels[n].drawnOn; // another MR may have the same grid
-  forgetTissue();
-  m_nearby.reset();
-  append(m_case->mr, with.mr);
-  append(m_case->labels, with.labels);
-  append(m_case->meshes, with.meshes);
-  waitForParts();
-  notify(events.partsChanged);
-  setUnsaved(true);
-  notify(events.preparationWanted);
-}
-
 void WorkstationModel::close()
 {
   if (!m_case)
@@ -142,6 +120,7 @@ void WorkstationModel::close()
   m_unsaved = m_leaving = false;
   m_loaded = m_drawable = m_feelable = m_checked = true;
   m_leftOut.clear();
+  m_removed.clear();
   m_damagedStrokes.clear();
   m_undoneForDamage = 0;
   ++m_parts;
@@ -180,6 +159,7 @@ StoreTask WorkstationModel::beginStore()
   for (const LeftOut& parts : m_leftOut)
     parts.putBack(task.value);
   m_beingStored = true;
+  m_partsMoved = false;
   return task;
 }
 
@@ -216,15 +196,32 @@ void WorkstationModel::stored(const StoreTask& done)
     image.frameOfReference = from.frameOfReference;
     image.isFrameSalted = from.isFrameSalted;
   };
+  if (done.source) // what was removed before is in the other library
+    m_removed.clear();
+  if (m_partsMoved && done.source)
+  {
+    const auto storeAnew = [](auto& parts)
+    {
+      for (auto& part : parts)
+        part.object.clear();
+    };
+    storeAnew(m_case->mr);
+    storeAnew(m_case->labels);
+    storeAnew(m_case->meshes);
+  }
   m_case->id = saved.id;
   m_case->revision = saved.revision;
   m_case->ct.object = saved.ct.object;
-  takeObjects(m_case->mr, saved.mr);
   takeFrame(m_case->ct, saved.ct);
-  for (std::size_t n = 0; n < std::min(m_case->mr.size(), saved.mr.size()); ++n)
-    takeFrame(m_case->mr[n], saved.mr[n]);
-  takeObjects(m_case->labels, saved.labels);
-  takeObjects(m_case->meshes, saved.meshes);
+  for (scene::ImagePart& mr : m_case->mr)
+    if (const scene::ImagePart* same = scene::findMr(saved, mr.name))
+      takeFrame(mr, *same);
+  if (!m_partsMoved) // else the next save finds what is stored by its content
+  {
+    takeObjects(m_case->mr, saved.mr);
+    takeObjects(m_case->labels, saved.labels);
+    takeObjects(m_case->meshes, saved.meshes);
+  }
   const auto& strokes = saved.dissection.strokes();
   for (std::size_t n = 0; n < std::min(m_case->dissection.strokes().size(), strokes.size()); ++n)
     m_case->dissection.setStored(n, strokes[n]->object, strokes[n]->packed);

@@ -155,8 +155,7 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress,
   }
   // If none is readable, the reader reports why.
   const auto only = std::find_if(scan.series.begin(), scan.series.end(), wanted);
-  const imaging::DicomSeries& series =
-      readable == 1 ? *only : imaging::chooseSeries(scan, path);
+  const imaging::DicomSeries& series = readable == 1 ? *only : imaging::chooseSeries(scan, path);
   result.content = contentOf(series.modality);
   result.why = whyOf(series.modality);
   result.name = sequenceName(series.description);
@@ -182,24 +181,29 @@ std::string sequenceName(const std::string& description)
 {
   // Sequences, weightings, contrast, planes and regions as scanners name them.
   static constexpr std::string_view kWords[] = {
-      "2d",   "3d",    "adc",       "ax",      "axial",   "b",        "blade", "bravo",
-      "ce",   "ciss",  "contrast",  "cor",     "coronal", "cube",     "dixon", "drive",
-      "dti",  "dwi",   "echo",      "epi",     "fatsat",  "fiesta",   "flair", "flash",
-      "fs",   "fse",   "fspgr",     "gad",     "gd",      "gre",      "haste", "iac",
-      "iam",  "mpr",   "mprage",    "mra",     "mrv",     "pd",       "petra", "phase",
-      "post", "pre",   "propeller", "resolve", "sag",     "sagittal", "se",    "space",
-      "spgr", "stir",  "swi",       "t1",      "t1w",     "t2",       "t2w",   "tof",
-      "tra",  "trace", "trufi",     "tse",     "vibe",    "vista",    "zte"};
-  static constexpr std::string_view kNumbered[] = {"b", "echo", "phase"};
+      "2d",       "3d",     "adc",     "ax",        "axial",   "blade",  "bravo",    "ce",  "ciss",
+      "contrast", "cor",    "coronal", "cube",      "dixon",   "drive",  "dti",      "dwi", "epi",
+      "fatsat",   "fiesta", "flair",   "flash",     "fs",      "fse",    "fspgr",    "gad", "gd",
+      "gre",      "haste",  "iac",     "iam",       "mpr",     "mprage", "mra",      "mrv", "pd",
+      "petra",    "post",   "pre",     "propeller", "resolve", "sag",    "sagittal", "se",  "space",
+      "spgr",     "stir",   "swi",     "t1",        "t1w",     "t2",     "t2w",      "tof", "tra",
+      "trace",    "trufi",  "tse",     "vibe",      "vista",   "zte"};
+  static constexpr std::string_view kNumbered[] = {"b", "echo", "phase"}; // "b 1000"
   const auto isIn = [](const auto& list, const std::string& text)
   { return std::find(std::begin(list), std::end(list), text) != std::end(list); };
+  const auto isNumber = [](const std::string& text, std::size_t from)
+  {
+    return text.size() > from && text.size() <= from + 4 &&
+           text.find_first_not_of("0123456789", from) == std::string::npos;
+  };
   std::string name;
   std::string before;
   for (std::size_t at = 0; at < description.size();)
   {
-    const auto isWord = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
     std::string word;
-    for (; at < description.size() && isWord(description[at]); ++at)
+    for (;
+         at < description.size() && std::isalnum(static_cast<unsigned char>(description[at])) != 0;
+         ++at)
       word += description[at];
     if (word.empty())
     {
@@ -209,17 +213,14 @@ std::string sequenceName(const std::string& description)
     std::string lower = word;
     std::transform(lower.begin(), lower.end(), lower.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    const bool digits = lower.find_first_not_of("0123456789") == std::string::npos;
-    const bool value = lower.size() <= 5 && lower[0] == 'b' && lower.size() > 1 &&
-                       lower.find_first_not_of("0123456789", 1) == std::string::npos;
-    if (isIn(kWords, lower) || value || (digits && lower.size() <= 4 && isIn(kNumbered, before)))
+    if (isIn(kNumbered, before) && isNumber(lower, 0))
+      word = before + " " + word;
+    else if (!isIn(kWords, lower) && !(lower[0] == 'b' && isNumber(lower, 1)))
+      word.clear();
+    if (!word.empty())
       name += (name.empty() ? "" : " ") + word;
     before = lower;
   }
-  for (const std::string_view lone : kNumbered) // without its number it says nothing
-    if (name.size() >= lone.size() && name.substr(name.size() - lone.size()) == lone &&
-        (name.size() == lone.size() || name[name.size() - lone.size() - 1] == ' '))
-      name.resize(name.size() - std::min(name.size(), lone.size() + 1));
   return name;
 }
 

@@ -458,6 +458,14 @@ TEST_F(Import, ATiltedScanIsStraightenedOnlyWithConsent)
 namespace
 {
 
+void trigger(QWidget& window, const char* text)
+{
+  for (QAction* action : window.findChildren<QAction*>())
+    if (action->text().remove('&') == QString::fromUtf8(text))
+      return action->trigger();
+  ADD_FAILURE() << text;
+}
+
 void choose(QFileDialog& dialog, const fs::path& path)
 {
   dialog.findChild<QLineEdit*>("fileNameEdit")->setText(QString::fromStdString(path.string()));
@@ -564,7 +572,7 @@ TEST_F(Import, ARegionIsDrawnBeforeTheScanIsRead)
         {
           if (auto* files = qobject_cast<QFileDialog*>(&dialog))
           {
-            choose(*files, folder() / "sample" / QString("ct").toStdString());
+            choose(*files, folder() / "sample" / "ct");
             return false;
           }
           auto* region = qobject_cast<RegionDialog*>(&dialog);
@@ -575,9 +583,7 @@ TEST_F(Import, ARegionIsDrawnBeforeTheScanIsRead)
           act(*region);
           return true;
         });
-    for (QAction* action : window().findChildren<QAction*>())
-      if (action->text().contains("region"))
-        action->trigger();
+    trigger(window(), "Open a region…");
     EXPECT_TRUE(waitFor([this] { return !window().busy(); }));
   };
   openRegion([](RegionDialog& dialog) { dialog.reject(); });
@@ -644,7 +650,7 @@ TEST_F(Import, PartsComeByTheCaseMenu)
           if (auto* files = qobject_cast<QFileDialog*>(&dialog))
           {
             filters = files->nameFilters();
-            choose(*files, folder() / "sample" / QString(file).toStdString());
+            choose(*files, folder() / "sample" / file.toStdString());
             return false;
           }
           auto* button = buttonOf(dialog, "Add to");
@@ -656,9 +662,7 @@ TEST_F(Import, PartsComeByTheCaseMenu)
           button->click();
           return true;
         });
-    for (QAction* action : window().findChildren<QAction*>())
-      if (action->text().remove('&') == QString::fromUtf8(entry))
-        action->trigger();
+    trigger(window(), entry);
     EXPECT_TRUE(waitFor([this] { return !window().busy(); }));
   };
   const auto isInFront = [this](const char* dock)
@@ -680,16 +684,14 @@ TEST_F(Import, PartsComeByTheCaseMenu)
       {
         if (auto* files = qobject_cast<QFileDialog*>(&dialog))
         {
-          choose(*files, folder() / "sample" / QString("ct").toStdString());
+          choose(*files, folder() / "sample" / "ct");
           return false;
         }
         told = textOf(dialog);
         dialog.accept();
         return true;
       });
-  for (QAction* action : window().findChildren<QAction*>())
-    if (action->text().remove('&') == QString::fromUtf8("Add MR…"))
-      action->trigger();
+  trigger(window(), "Add MR…");
   ASSERT_TRUE(waitFor([&told] { return !told.isEmpty(); }));
   EXPECT_TRUE(told.contains("CT") && told.contains("MR")) << told.toStdString();
   EXPECT_EQ(window().model().value().mr.size(), 1u);

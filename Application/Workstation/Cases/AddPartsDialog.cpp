@@ -36,6 +36,8 @@ AddPartsDialog::AddPartsDialog(const QString& title, const QString& more, const 
   };
   auto* rows = new QWidget;
   auto* grid = new QGridLayout(rows);
+  grid->setColumnMinimumWidth(0, 220);
+  grid->setColumnStretch(0, 1);
   grid->setColumnStretch(1, 1);
   int row = 0;
   for (const Part& part : parts)

@@ -359,6 +359,8 @@ bool CaseDocumentController::chooseSeries(const SourceContent& source, const Pur
     item.source.selector = series.selector;
     item.source.content = series.content;
     item.source.name = series.name;
+    if (!series.file.empty())
+      item.source.path = series.file;
     if (series.verdict == imaging::Verdict::Repairable)
       item.source.repair = series.findings;
     item.source.why =

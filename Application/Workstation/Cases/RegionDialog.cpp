@@ -34,8 +34,8 @@ QString sizeText(std::size_t voxels, std::size_t bytes)
 {
   const double mb = static_cast<double>(bytes) / 1e6;
   return RegionDialog::tr("%1 million voxels, %2 MB")
-      .arg(static_cast<double>(voxels) / 1e6, 0, 'f', 1)
-      .arg(mb, 0, 'f', mb < 10.0 ? 1 : 0);
+      .arg(static_cast<double>(voxels) / 1e6, 0, 'f', voxels < 10000000 ? 2 : 0)
+      .arg(mb, 0, 'f', mb < 10.0 ? 2 : 0);
 }
 
 } // namespace

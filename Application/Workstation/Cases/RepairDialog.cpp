@@ -122,10 +122,12 @@ void RepairDialog::show(const presenters::RepairPreview& preview)
     view->setObjectName(name);
     view->setAttribute(Qt::WA_TransparentForMouseEvents);
     view->setFocusPolicy(Qt::NoFocus);
-    view->setPresenter(std::make_shared<const presenters::SlicePresenter>(scan.value), scan.grid);
+    // The same place at the same scale in both.
+    view->setPresenter(std::make_shared<const presenters::SlicePresenter>(scan.value),
+                       preview.after.grid);
     view->setIntensityDisplay(display);
     view->setGreyWindow(display.bone);
-    view->setCrosshair(scan.grid.center());
+    view->setCrosshair(preview.after.grid.center());
     view->setInterpolated(presenters::interpolatedSlices(scan.value.ct));
     auto* column = new QVBoxLayout;
     column->addWidget(plain(title));

@@ -64,7 +64,8 @@ void fillLine(QTreeWidgetItem& line, const SeriesContent& series)
   const auto spacing = [&series](Eigen::Index axis)
   { return QString::number(series.spacing[axis], 'g', 3); };
   line.setText(Series, (words(series.modality) + "  " + words(series.description)).trimmed());
-  line.setText(Images, QString::number(series.slices));
+  if (series.file.empty())
+    line.setText(Images, QString::number(series.slices));
   line.setTextAlignment(Images, Qt::AlignRight | Qt::AlignVCenter);
   if (series.spacing[0] > 0.0)
     line.setText(Voxel,
@@ -77,7 +78,8 @@ void fillLine(QTreeWidgetItem& line, const SeriesContent& series)
   if (!series.folder.empty())
     more += SeriesDialog::tr("in “%1”").arg(QFile::decodeName(series.folder.c_str()));
   line.setText(More, more.join(", "));
-  line.setText(VerdictColumn, verdictText(series));
+  line.setText(VerdictColumn,
+               series.file.empty() ? verdictText(series) : SeriesDialog::tr("structures"));
   QStringList why;
   for (const imaging::Finding& finding : series.findings)
     why += words(finding.text);
@@ -104,8 +106,8 @@ SeriesDialog::SeriesDialog(const presenters::SourceContent& source, bool hasCase
   resize(860, 380);
   const auto path = source.path.lexically_normal();
   auto* title = new QLabel(
-      tr("“%1” holds more than one series. A CT begins a case; MRs go with it, or come to the open "
-         "case.")
+      tr("“%1” holds more than one series. A CT begins a case; MRs and structures go with it, or "
+         "come to the open case.")
           .arg(QFile::decodeName(
               (path.has_filename() ? path : path.parent_path()).filename().c_str())));
   title->setTextFormat(Qt::PlainText);
@@ -189,7 +191,7 @@ void SeriesDialog::check()
   else if (cts > 1)
     advice = tr("A case has one CT; open the other one afterwards.");
   else if (cts == 0 && count(Content::Image) == 0 && !m_hasCase)
-    advice = tr("No case is open: an MR needs the patient's CT; tick that, too.");
+    advice = tr("No case is open, and one begins with the patient's CT; tick that, too.");
   m_advice->setText(advice);
   m_open->setEnabled(!all.empty() && advice.isEmpty());
   m_region->setEnabled(cts == 1);

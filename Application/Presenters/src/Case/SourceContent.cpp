@@ -4,7 +4,9 @@
 #include <cctype>
 #include <cmath>
 #include <cstdint>
+#include <set>
 #include <string_view>
+#include <vector>
 
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/FileFormats.h"
@@ -119,6 +121,43 @@ SeriesContent contentOf(const imaging::DicomSeries& series)
   return result;
 }
 
+// DICOM segmentations below a folder in which the scan met some: it keeps no file of theirs.
+std::vector<SeriesContent> segmentationsIn(const fs::path& folder, const imaging::ScanResult& scan,
+                                           const core::Progress& progress)
+{
+  std::vector<SeriesContent> found;
+  if (!fs::is_directory(folder) ||
+      std::none_of(scan.series.begin(), scan.series.end(),
+                   [](const imaging::DicomSeries& series)
+                   { return series.modality == "SEG" || series.modality == "RTSTRUCT"; }))
+    return found;
+  std::set<fs::path> slices;
+  for (const imaging::DicomSeries& series : scan.series)
+    for (const imaging::SliceHeader& slice : series.geometry.slices)
+      slices.insert(slice.file.lexically_normal());
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
+       at.increment(error))
+  {
+    progress.check("looking for segmentations");
+    std::error_code unreadable;
+    if (!fs::is_regular_file(at->path(), unreadable) ||
+        slices.count(at->path().lexically_normal()) > 0 ||
+        !imaging::isDicomSegmentation(at->path()))
+      continue;
+    SeriesContent segmentation;
+    segmentation.content = Content::Labels;
+    segmentation.modality = "SEG";
+    segmentation.description = at->path().filename().string();
+    segmentation.folder = at->path().parent_path().filename().string();
+    segmentation.file = at->path();
+    found.push_back(std::move(segmentation));
+  }
+  std::sort(found.begin(), found.end(),
+            [](const SeriesContent& a, const SeriesContent& b) { return a.file < b.file; });
+  return found;
+}
+
 // `uid`: this series alone; empty: all.
 SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress,
                           const std::string& uid = {})
@@ -146,11 +185,21 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress,
     return lookAtDicom(fs::absolute(path).parent_path(), progress.part(0.1, 1.0),
                        scan.series.front().uid);
   const auto readable = std::count_if(scan.series.begin(), scan.series.end(), wanted);
-  if (readable > 1)
+  const auto segmentations =
+      uid.empty() ? segmentationsIn(path, scan, progress) : std::vector<SeriesContent>();
+  if (readable == 0 && segmentations.size() == 1)
+  {
+    result.path = segmentations.front().file;
+    result.content = Content::Labels;
+    result.why = "is a DICOM segmentation";
+    return result;
+  }
+  if (readable > 1 || !segmentations.empty())
   {
     for (const imaging::DicomSeries& series : scan.series)
       if (!series.geometry.slices.empty())
         result.series.push_back(contentOf(series));
+    result.series.insert(result.series.end(), segmentations.begin(), segmentations.end());
     return result;
   }
   // If none is readable, the reader reports why.

@@ -22,11 +22,11 @@ enum class Content
   Mesh
 };
 
-/// A DICOM series, or one of its volumes.
+/// A DICOM series, or one of its volumes; or a DICOM segmentation, which is a file.
 struct SeriesContent
 {
   std::string selector;             ///< of imaging::chooseSeries
-  Content content = Content::Image; ///< Ct, Mr or Image
+  Content content = Content::Image; ///< Ct, Mr or Image; Labels: a segmentation
   std::string modality;             ///< DICOM (0008,0060); may be empty
   std::string description;          ///< may identify the patient: for local display only
   std::size_t slices = 0;
@@ -39,6 +39,7 @@ struct SeriesContent
   imaging::Verdict verdict = imaging::Verdict::Ok; ///< Refused: cannot be chosen
   std::vector<imaging::Finding> findings;          ///< the reasons for it
   std::string name;                                ///< see sequenceName
+  std::filesystem::path file;                      ///< of a segmentation; else empty
 };
 
 /// A file or folder that the user opens or drops, and its content.

@@ -509,6 +509,9 @@ void exportCase(const Context& context, const Options& options)
       const std::size_t before = mesh.triangles.size();
       auto fewer = rendering::decimated(mesh, *options.triangles, progress.part(0.7, 1.0));
       mesh = std::move(fewer.mesh);
+      if (mesh.triangles.size() > *options.triangles)
+        context.warn("it keeps " + std::to_string(mesh.triangles.size()) +
+                     " triangles: with fewer it would not stay closed");
       json["decimation"] = {{"triangles_before", before}, {"hausdorff_mm", fewer.error}};
       decimation = "decimated from " + std::to_string(before) + ", at most " +
                    core::generalText(fewer.error, 3) + " mm from it";

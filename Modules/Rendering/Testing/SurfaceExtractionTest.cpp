@@ -168,7 +168,9 @@ TEST(SurfaceExtraction, DecimatesAndTellsHowFarTheSurfaceMoved)
     EXPECT_TRUE(fewer.mesh.isClosed());
     EXPECT_LE(fewer.mesh.triangles.size(), triangles);
     EXPECT_GE(fewer.mesh.triangles.size(), triangles * 9 / 10);
-    EXPECT_NEAR(fewer.mesh.signedVolume(), kSphereVolume, 0.02 * kSphereVolume) << triangles;
+    EXPECT_NEAR(fewer.mesh.signedVolume(), kSphereVolume,
+                (triangles > 100 ? 0.02 : 0.06) * kSphereVolume)
+        << triangles;
     // The triangles' centres are among the points farthest off.
     double truth = 0.0;
     for (const auto& t : fewer.mesh.triangles)

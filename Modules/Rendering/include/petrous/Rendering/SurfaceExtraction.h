@@ -35,7 +35,7 @@ struct DecimatedMesh
 
 /// A closed mesh with about `triangles` triangles, or with all of them if there are no more; closed
 /// too. By collapse of edges with the least quadric error (Garland and Heckbert, SIGGRAPH 1997),
-/// constrained to keep the volume; where that would not stay closed, by removal of vertices that
+/// weighted to keep the volume; where that would not stay closed, by removal of vertices that
 /// preserves the topology (Schroeder et al., SIGGRAPH 1992), which may stop earlier. Throws
 /// InvalidParameter if the mesh is not closed or fewer than 4 triangles are asked for,
 /// CancelledError.

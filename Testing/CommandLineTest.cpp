@@ -443,6 +443,28 @@ TEST_F(CommandLine, ExportsASegmentationThatBelongsToTheSeries)
   expectRefused("export ear --what mask --on-ct --out " + quoted(m_folder / "x.nrrd"), 2,
                 "--on-ct");
 
+  if (!answerOf("/usr/bin/python3 -c 'import pydicom, numpy'").empty())
+    GTEST_SKIP() << "pydicom is not there to count the voxels";
+  std::ofstream(m_folder / "count.py") << R"(
+import sys, numpy, pydicom
+data = pydicom.dcmread(sys.argv[1])
+bits = numpy.unpackbits(numpy.frombuffer(data.PixelData, numpy.uint8), bitorder='little')
+size = data.Rows * data.Columns
+counts = {s.SegmentLabel: 0 for s in data.SegmentSequence}
+names = {s.SegmentNumber: s.SegmentLabel for s in data.SegmentSequence}
+for n, frame in enumerate(data.PerFrameFunctionalGroupsSequence):
+    number = frame.SegmentIdentificationSequence[0].ReferencedSegmentNumber
+    counts[names[number]] += int(bits[n * size:(n + 1) * size].sum())
+for name, count in counts.items():
+    print(name, count, sep=':', end=';')
+)";
+  std::string wanted;
+  for (const auto& label : labels) // voxels of 1 mm
+    wanted += label["name"].get<std::string>() + ":" +
+              std::to_string(std::lround(label["volume_mm3"].get<double>())) + ";";
+  EXPECT_EQ(answerOf("/usr/bin/python3 " + quoted(m_folder / "count.py") + " " + quoted(seg)),
+            wanted);
+
   if (!isThere("dciodvfy") || !isThere("dcentvfy"))
     GTEST_SKIP() << "dicom3tools is not there to check what was written";
   json("export ear --what mr --out " + quoted(m_folder / "mr/"));
@@ -491,6 +513,21 @@ TEST_F(CommandLine, ExportsLabelsOfSeveralGridsOnTheGridOfTheCt)
        quoted(m_folder / "x.dcm"));
   const auto back = json("info again")["labels"];
   ASSERT_EQ(back.size(), 2U) << "both, though they overlap";
+  // The same in two layers, which come back alike; a format of one layer says what it leaves out.
+  EXPECT_EQ(
+      json("export ear --what labels --on-ct --out " + quoted(m_folder / "x.seg.nrrd"))["layers"],
+      2);
+  json("new layered --ct " + quoted(m_folder / "bone.nrrd") + " --labels " +
+       quoted(m_folder / "x.seg.nrrd"));
+  const auto layered = json("info layered")["labels"];
+  ASSERT_EQ(layered.size(), 2U);
+  for (std::size_t n = 0; n < 2; ++n)
+    for (const char* key : {"name", "volume_mm3"})
+      EXPECT_EQ(layered[n][key], back[n][key]);
+  const petrous::testing::Outcome flat =
+      run("export ear --what labels --on-ct --out " + quoted(m_folder / "x.nii.gz"));
+  EXPECT_EQ(flat.code, 0);
+  EXPECT_NE(flat.err.find("voxels are not written"), std::string::npos) << flat.err;
   EXPECT_NEAR(back[0]["volume_mm3"].get<double>(), 512.0, 0.1 * 512.0);
   EXPECT_NEAR(back[1]["volume_mm3"].get<double>(), 315 * 0.768, 0.15 * 315 * 0.768);
 }

@@ -205,28 +205,58 @@ std::vector<PlacedLabels> placedLabels(const Context& context, const scene::Case
   return placed;
 }
 
-// All structures merged into one map and numbered in order; where two overlap the earlier one is
-// kept.
-volume::LabelMap mergedLabels(const std::vector<PlacedLabels>& placed)
+// All structures, numbered in order, in layers within which none overlaps another; with
+// `inOneLayer` in a single one, in which the earlier structure keeps the voxel, and a warning.
+std::vector<volume::LabelMap> layersOf(const Context& context,
+                                       const std::vector<PlacedLabels>& placed, bool inOneLayer)
 {
-  auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(
-      placed.front().map->voxels->geometry(), std::uint16_t{0});
-  std::vector<volume::Segment> segments;
+  struct Layer
+  {
+    std::shared_ptr<volume::Volume<std::uint16_t>> voxels;
+    std::vector<volume::Segment> segments;
+  };
+  std::vector<Layer> layers;
+  std::uint16_t index = 0;
   for (const PlacedLabels& labels : placed)
     for (const auto* structure : labels.structures)
     {
-      const auto index = static_cast<std::uint16_t>(segments.size() + 1);
-      std::transform(voxels->data(), voxels->data() + voxels->size(), labels.map->voxels->data(),
-                     voxels->data(),
-                     [structure, index](std::uint16_t present, std::uint16_t own)
-                     { return present == 0 && own == structure->index ? index : present; });
+      const volume::Volume<std::uint16_t>& source = *labels.map->voxels;
+      const auto overlap = [&](const Layer& layer)
+      {
+        std::size_t count = 0;
+        for (std::size_t p = 0; p < source.size(); ++p)
+          count += source.data()[p] == structure->index && layer.voxels->data()[p] != 0 ? 1 : 0;
+        return count;
+      };
+      auto layer = layers.begin();
+      if (inOneLayer && layer != layers.end())
+      {
+        if (const std::size_t lost = overlap(*layer); lost > 0)
+          context.warn("'" + structure->name + "': " + std::to_string(lost) +
+                       " voxels are not written, as structures before it have them; .seg.nrrd "
+                       "and .dcm keep structures that overlap");
+      }
+      else
+        layer = std::find_if(layers.begin(), layers.end(),
+                             [&](const Layer& each) { return overlap(each) == 0; });
+      if (layer == layers.end())
+        layer = layers.insert(layers.end(),
+                              {volume::makeZeroVolume<std::uint16_t>(source.geometry()), {}});
+      ++index;
+      std::uint16_t* voxels = layer->voxels->data();
+      for (std::size_t p = 0; p < source.size(); ++p)
+        if (source.data()[p] == structure->index && voxels[p] == 0)
+          voxels[p] = index;
       volume::Segment segment;
       segment.name = structure->name;
       segment.index = index;
       segment.color = structure->look.color;
-      segments.push_back(std::move(segment));
+      layer->segments.push_back(std::move(segment));
     }
-  return volume::makeLabelMap(std::move(voxels), std::move(segments));
+  std::vector<volume::LabelMap> maps;
+  for (Layer& layer : layers)
+    maps.push_back(volume::makeLabelMap(std::move(layer.voxels), std::move(layer.segments)));
+  return maps;
 }
 
 // The MR on the CT's grid, trilinear; beyond the MR its padding, or else its smallest value.
@@ -560,7 +590,12 @@ void exportCase(const Context& context, const Options& options)
       json["segments"] = writeSegmentation(options, value, placed, series, progress.part(0.5, 1.0));
     }
     else
-      imaging::writeLabelFile(options.out, mergedLabels(placed));
+    {
+      const bool holdsLayers = imaging::formatOf(options.out)->ending == ".seg.nrrd";
+      const auto layers = layersOf(context, placed, !holdsLayers);
+      json["layers"] = layers.size();
+      imaging::writeLabelLayers(options.out, layers, progress.part(0.5, 1.0));
+    }
   }
   else if (options.what == "mask")
     imaging::writeVolume(options.out, mask().dense(), progress);

@@ -21,8 +21,9 @@ std::vector<volume::Segment> segmentsOfLayer(const std::filesystem::path& path,
 /// Names of the segments that lie in none of the first `layers` layers.
 std::vector<std::string> segmentsWithoutLayer(const NrrdHeader& header, std::size_t layers);
 
-/// The key/value lines that define the structures of a map, as written by 3D Slicer.
-std::string segmentKeys(const volume::LabelMap& labels);
+/// The key/value lines that define the structures of a map, or of several that are layers of one
+/// file, as written by 3D Slicer.
+std::string segmentKeys(const std::vector<volume::LabelMap>& layers);
 
 /// Names from a colour table (3D Slicer) or label description (ITK-SNAP) next to a label file.
 struct LabelTable

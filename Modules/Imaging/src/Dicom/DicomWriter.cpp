@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <fstream>
 #include <limits>
-#include <sstream>
 #include <system_error>
 #include <type_traits>
 #include <utility>
@@ -20,8 +19,8 @@
 #include <gdcmMediaStorage.h>
 #include <gdcmWriter.h>
 
+#include "DicomDataSet.h"
 #include "petrous/Core/Error.h"
-#include "petrous/Core/NumberText.h"
 #include "petrous/Core/SplitMix64.h"
 
 namespace petrous::imaging
@@ -30,62 +29,6 @@ namespace
 {
 
 using Modality = SeriesDescription::Modality;
-
-/// A decimal string (DS) has at most 16 characters, the last possibly a space for even length:
-/// writes as many digits as fit.
-std::string decimal(double value)
-{
-  if (value == 0.0)
-    return "0"; // also for -0
-  std::string text;
-  for (int digits = 15; digits > 0; --digits)
-    if (text = core::generalText(value, digits); text.size() <= 15)
-      break;
-  return text;
-}
-
-std::string decimals(std::initializer_list<double> values)
-{
-  std::string text;
-  for (const double value : values)
-    text += (text.empty() ? "" : "\\") + decimal(value);
-  return text;
-}
-
-/// Adds an element with a text value, padded to even length as required by its VR.
-void put(gdcm::DataSet& data, std::uint16_t group, std::uint16_t element, gdcm::VR::VRType vr,
-         std::string text)
-{
-  if (text.size() % 2 != 0)
-    text += vr == gdcm::VR::UI ? '\0' : ' ';
-  gdcm::DataElement de(gdcm::Tag(group, element));
-  de.SetVR(vr);
-  de.SetByteValue(text.data(), static_cast<std::uint32_t>(text.size()));
-  data.Replace(de);
-}
-
-void put(gdcm::DataSet& data, std::uint16_t group, std::uint16_t element, std::uint16_t value,
-         gdcm::VR::VRType vr = gdcm::VR::US)
-{
-  gdcm::DataElement de(gdcm::Tag(group, element));
-  de.SetVR(vr);
-  const std::array<char, 2> bytes{static_cast<char>(value & 0xFF), static_cast<char>(value >> 8)};
-  de.SetByteValue(bytes.data(), 2);
-  data.Replace(de);
-}
-
-struct TextElement
-{
-  std::uint16_t group, element;
-  gdcm::VR::VRType vr;
-  std::string text;
-};
-
-void put(gdcm::DataSet& data, const std::vector<TextElement>& elements)
-{
-  for (const TextElement& e : elements)
-    put(data, e.group, e.element, e.vr, e.text);
-}
 
 /// The attributes common to all slices of a series.
 gdcm::DataSet commonPart(const SeriesDescription& series, const core::GridGeometry& grid,
@@ -170,13 +113,6 @@ gdcm::DataSet commonPart(const SeriesDescription& series, const core::GridGeomet
   return d;
 }
 
-void checkUid(const std::string& uid, const char* what)
-{
-  if (uid.empty() || uid.size() > 64 || uid.find_first_not_of("0123456789.") != std::string::npos)
-    throw core::InvalidParameter(std::string("DICOM series: the ") + what +
-                                 " is no UID (digits and dots, at most 64)");
-}
-
 template <class T>
 std::vector<char> storedValues(const volume::Volume<T>& image, int k, double slope,
                                double intercept)
@@ -224,6 +160,11 @@ std::string deterministicUid(std::uint64_t seed, const std::string& role)
     digits.insert(digits.begin(), static_cast<char>('0' + rest));
   }
   return "2.25." + digits;
+}
+
+std::string instanceUid(const std::string& seriesUid, int k)
+{
+  return deterministicUid(0, seriesUid + "/" + std::to_string(k));
 }
 
 void writeDicomSeries(const std::filesystem::path& folder, const volume::IntensityVolume& image,
@@ -286,10 +227,8 @@ void writeDicomSeries(const std::filesystem::path& folder, const volume::Intensi
                   decimal(lean * 180.0 / 3.14159265358979323846));
             }
             const Eigen::Vector3d position = grid.origin() + k * step;
-            const std::string uid =
-                deterministicUid(0, description.seriesUid + "/" + std::to_string(k));
             put(data, {{0x0008, 0x0016, gdcm::VR::UI, storage.GetString()},
-                       {0x0008, 0x0018, gdcm::VR::UI, uid},
+                       {0x0008, 0x0018, gdcm::VR::UI, instanceUid(description.seriesUid, k)},
                        {0x0020, 0x0013, gdcm::VR::IS, std::to_string(k + 1)},
                        {0x0020, 0x0032, gdcm::VR::DS,
                         decimals({position.x(), position.y(), position.z()})},
@@ -300,19 +239,10 @@ void writeDicomSeries(const std::filesystem::path& folder, const volume::Intensi
                 storedValues(voxels, k, description.rescaleSlope, description.rescaleIntercept);
             pixels.SetByteValue(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
             data.Replace(pixels);
-            writer.GetFile().GetHeader().SetDataSetTransferSyntax(
-                gdcm::TransferSyntax::ExplicitVRLittleEndian);
-
             std::array<char, 32> name{};
             std::snprintf(name.data(), name.size(), "slice-%04d.dcm", k + 1);
             const std::filesystem::path file = folder / name.data();
-            // into memory first: GDCM aborts the program on a full disk
-            std::ostringstream encoded;
-            encoded.imbue(std::locale::classic());
-            writer.SetStream(encoded);
-            if (!writer.Write())
-              throw core::Error(core::Fault::Internal, file.string() + ": cannot be encoded");
-            const std::string content = encoded.str();
+            const std::string content = encoded(writer, file);
             std::ofstream stream(file, std::ios::binary | std::ios::trunc);
             stream.write(content.data(), static_cast<std::streamsize>(content.size()));
             stream.close();

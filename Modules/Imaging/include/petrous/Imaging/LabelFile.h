@@ -86,4 +86,11 @@ volume::LabelMap readLabelFile(const std::filesystem::path& path,
 /// map has no voxels.
 void writeLabelFile(const std::filesystem::path& path, const volume::LabelMap& labels);
 
+/// Writes structures that overlap, each map a layer of one .seg.nrrd file (3D Slicer); a single map
+/// as writeLabelFile does. Layers are on one grid. Throws like it, FileError (UnknownFormat) for
+/// several layers in another format, CancelledError.
+void writeLabelLayers(const std::filesystem::path& path,
+                      const std::vector<volume::LabelMap>& layers,
+                      const core::Progress& progress = {});
+
 } // namespace petrous::imaging

@@ -69,9 +69,9 @@ struct StructureReport
   std::string name;
   Status status = Status::Read;
   std::uint64_t voxels = 0;
-  double volume = 0.0;              ///< mm^3, of the voxels
-  std::optional<double> fileVolume; ///< mm^3, by the file's own contours or frames
-  std::size_t layer = 0;            ///< of its source's overlapping structures
+  double volume = 0.0;                             ///< mm^3, of the voxels
+  std::optional<double> fileVolume = std::nullopt; ///< mm^3, by the file's own contours or frames
+  std::size_t layer = 0;                           ///< of its source's overlapping structures
 };
 
 struct CaseSources

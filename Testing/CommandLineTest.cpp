@@ -503,9 +503,9 @@ TEST_F(CommandLine, ExportsLabelsOfSeveralGridsOnTheGridOfTheCt)
            512) +
        " --labels " +
        map("vein.nrrd",
-           "sizes: 9 7 5\nspace directions: (0.8,0,0) (0,0.8,0) (0,0,1.2)\nspace origin: (" + at +
+           "sizes: 9 12 5\nspace directions: (0.8,0,0) (0,0.8,0) (0,0,1.2)\nspace origin: (" + at +
                ")\n",
-           315));
+           540));
   expectRefused("export ear --what labels --out " + quoted(m_folder / "x.dcm"), 2, "--on-ct");
   const auto told = json("export ear --what labels --on-ct --out " + quoted(m_folder / "x.dcm"));
   EXPECT_EQ(told["segments"], 2);
@@ -528,8 +528,15 @@ TEST_F(CommandLine, ExportsLabelsOfSeveralGridsOnTheGridOfTheCt)
       run("export ear --what labels --on-ct --out " + quoted(m_folder / "x.nii.gz"));
   EXPECT_EQ(flat.code, 0);
   EXPECT_NE(flat.err.find("voxels are not written"), std::string::npos) << flat.err;
+  // NIfTI has no names: they lie beside it, and are found there.
+  json("new named --ct " + quoted(m_folder / "bone.nrrd") + " --labels " +
+       quoted(m_folder / "x.nii.gz"));
+  const auto named = json("info named")["labels"];
+  ASSERT_EQ(named.size(), 2U);
+  for (std::size_t n = 0; n < 2; ++n)
+    EXPECT_EQ(named[n]["name"], back[n]["name"]);
   EXPECT_NEAR(back[0]["volume_mm3"].get<double>(), 512.0, 0.1 * 512.0);
-  EXPECT_NEAR(back[1]["volume_mm3"].get<double>(), 315 * 0.768, 0.15 * 315 * 0.768);
+  EXPECT_NEAR(back[1]["volume_mm3"].get<double>(), 540 * 0.768, 0.15 * 540 * 0.768);
 }
 
 TEST_F(CommandLine, DecimatesASurfaceAndSaysHowFarItLies)

@@ -48,6 +48,16 @@ struct Options
            (what == "ct" || what == "mr" || what == "dissected");
   }
 
+  /// The file for the names of labels in a format without names.
+  std::optional<std::string> labelTable() const
+  {
+    const imaging::FileFormat* format = imaging::formatOf(out);
+    if (what != "labels" || !format || format->name != "NIfTI")
+      return std::nullopt;
+    const std::filesystem::path path(out);
+    return (path.parent_path() / (imaging::baseName(path) + ".label")).string();
+  }
+
   /// Whether --out is a DICOM segmentation.
   bool isSegmentation() const
   {
@@ -465,7 +475,10 @@ void exportCase(const Context& context, const Options& options)
     throw UsageError("--triangles is for --what surface and structure");
   if (options.what == "structure" && options.part.empty())
     throw UsageError("export structure: give --part NAME");
-  context.refuseOverwriting({options.out});
+  std::vector<std::string> files{options.out};
+  if (options.labelTable())
+    files.push_back(*options.labelTable());
+  context.refuseOverwriting({files.begin(), files.end()});
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
   const core::Progress progress = context.progress();
@@ -557,6 +570,12 @@ void exportCase(const Context& context, const Options& options)
       const auto layers = layersOf(context, placed, !holdsLayers);
       json["layers"] = layers.size();
       imaging::writeLabelLayers(options.out, layers, progress.part(0.5, 1.0));
+      if (const auto table = options.labelTable())
+      {
+        imaging::writeLabelTable(*table, layers.front().segments);
+        json["names"] = *table;
+        words = ", its names in " + *table;
+      }
     }
   }
   else if (options.what == "mask")

@@ -2,10 +2,13 @@
 
 #include <array>
 #include <sstream>
+#include <string_view>
 
+#include <gdcmDataSet.h>
 #include <gdcmFile.h>
 #include <gdcmSequenceOfItems.h>
 #include <gdcmTransferSyntax.h>
+#include <gdcmWriter.h>
 
 #include "petrous/Core/Error.h"
 #include "petrous/Core/NumberText.h"
@@ -33,22 +36,22 @@ std::string decimals(std::initializer_list<double> values)
   return text;
 }
 
-void put(gdcm::DataSet& data, std::uint16_t group, std::uint16_t element, gdcm::VR::VRType vr,
+void put(gdcm::DataSet& data, std::uint16_t group, std::uint16_t element, const char* vr,
          std::string text)
 {
   if (text.size() % 2 != 0)
-    text += vr == gdcm::VR::UI ? '\0' : ' ';
+    text += std::string_view(vr) == "UI" ? '\0' : ' ';
   gdcm::DataElement de(gdcm::Tag(group, element));
-  de.SetVR(vr);
+  de.SetVR(gdcm::VR::GetVRType(vr));
   de.SetByteValue(text.data(), static_cast<std::uint32_t>(text.size()));
   data.Replace(de);
 }
 
 void put(gdcm::DataSet& data, std::uint16_t group, std::uint16_t element, std::uint16_t value,
-         gdcm::VR::VRType vr)
+         const char* vr)
 {
   gdcm::DataElement de(gdcm::Tag(group, element));
-  de.SetVR(vr);
+  de.SetVR(gdcm::VR::GetVRType(vr));
   const std::array<char, 2> bytes{static_cast<char>(value & 0xFF), static_cast<char>(value >> 8)};
   de.SetByteValue(bytes.data(), 2);
   data.Replace(de);
@@ -60,11 +63,11 @@ void put(gdcm::DataSet& data, const std::vector<TextElement>& elements)
     put(data, e.group, e.element, e.vr, e.text);
 }
 
-void putBytes(gdcm::DataSet& data, std::uint16_t group, std::uint16_t element, gdcm::VR::VRType vr,
+void putBytes(gdcm::DataSet& data, std::uint16_t group, std::uint16_t element, const char* vr,
               const std::vector<char>& bytes)
 {
   gdcm::DataElement de(gdcm::Tag(group, element));
-  de.SetVR(vr);
+  de.SetVR(gdcm::VR::GetVRType(vr));
   de.SetByteValue(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
   data.Replace(de);
 }

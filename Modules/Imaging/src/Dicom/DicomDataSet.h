@@ -6,14 +6,16 @@
 #include <string>
 #include <vector>
 
-#include <gdcmDataSet.h>
-#include <gdcmVR.h>
-#include <gdcmWriter.h>
+namespace gdcm
+{
+class DataSet;
+class Writer;
+} // namespace gdcm
 
 namespace petrous::imaging
 {
 
-// Elements of DICOM files that are written. For source files of this module only.
+// Elements of DICOM files that are written; `vr` is the value representation ("UI").
 
 /// A decimal string (DS): as many digits as its 16 characters hold.
 std::string decimal(double value);
@@ -21,23 +23,23 @@ std::string decimal(double value);
 std::string decimals(std::initializer_list<double> values);
 
 /// Adds an element with a text value, padded to even length as required by its VR.
-void put(gdcm::DataSet& data, std::uint16_t group, std::uint16_t element, gdcm::VR::VRType vr,
+void put(gdcm::DataSet& data, std::uint16_t group, std::uint16_t element, const char* vr,
          std::string text);
 
 /// Adds an element with a value of 16 bits.
 void put(gdcm::DataSet& data, std::uint16_t group, std::uint16_t element, std::uint16_t value,
-         gdcm::VR::VRType vr = gdcm::VR::US);
+         const char* vr = "US");
 
 struct TextElement
 {
   std::uint16_t group, element;
-  gdcm::VR::VRType vr;
+  const char* vr;
   std::string text;
 };
 void put(gdcm::DataSet& data, const std::vector<TextElement>& elements);
 
 /// Adds an element with the bytes of its value as they are.
-void putBytes(gdcm::DataSet& data, std::uint16_t group, std::uint16_t element, gdcm::VR::VRType vr,
+void putBytes(gdcm::DataSet& data, std::uint16_t group, std::uint16_t element, const char* vr,
               const std::vector<char>& bytes);
 
 /// Adds a sequence of these items.

@@ -16,6 +16,7 @@
 #include "SegmentationReader.h"
 #include "VoxelSource.h"
 #include "VoxelWriter.h"
+#include "petrous/Core/OutputFile.h"
 
 namespace petrous::imaging
 {
@@ -324,6 +325,25 @@ void writeLabelLayers(const std::filesystem::path& path,
                             segmentKeys(layers), progress, layers.size()});
   progress.check("writing labels");
   file.commit();
+}
+
+void writeLabelTable(const std::filesystem::path& path,
+                     const std::vector<volume::Segment>& segments)
+{
+  std::string text = "# ITK-SnAP Label Description File\n"
+                     "# IDX -R- -G- -B- -A- VIS MSH LABEL\n"
+                     "0 0 0 0 0 0 0 \"Clear Label\"\n";
+  for (const volume::Segment& segment : segments)
+  {
+    text += std::to_string(segment.index);
+    for (const float channel : segment.color)
+      text += " " + std::to_string(std::lround(std::clamp(channel, 0.0F, 1.0F) * 255.0F));
+    std::string name = segment.name;
+    for (char& c : name)
+      c = c == '"' ? '\'' : static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    text += " 1 1 1 \"" + name + "\"\n";
+  }
+  core::writeFile(path, text);
 }
 
 } // namespace petrous::imaging

@@ -8,8 +8,10 @@
 #include <vector>
 
 #include <Eigen/LU>
+#include <gdcmDataSet.h>
 #include <gdcmFile.h>
 #include <gdcmMediaStorage.h>
+#include <gdcmWriter.h>
 
 #include "DicomDataSet.h"
 #include "OutputFile.h"
@@ -23,7 +25,6 @@ namespace
 {
 
 using gdcm::DataSet;
-using gdcm::VR;
 using Algorithm = SegmentationDescription::Algorithm;
 using Modality = SeriesDescription::Modality;
 
@@ -36,13 +37,13 @@ struct Frame
 DataSet code(const CodedConcept& concept)
 {
   DataSet d;
-  put(d, {{0x0008, 0x0100, VR::SH, concept.value},
-          {0x0008, 0x0102, VR::SH, concept.scheme},
-          {0x0008, 0x0104, VR::LO, concept.meaning}});
+  put(d, {{0x0008, 0x0100, "SH", concept.value},
+          {0x0008, 0x0102, "SH", concept.scheme},
+          {0x0008, 0x0104, "LO", concept.meaning}});
   return d;
 }
 
-void putShorts(DataSet& data, std::uint16_t group, std::uint16_t element, VR::VRType vr,
+void putShorts(DataSet& data, std::uint16_t group, std::uint16_t element, const char* vr,
                const std::vector<std::uint16_t>& values)
 {
   std::vector<char> bytes;
@@ -82,12 +83,12 @@ DataSet segmentItem(const SegmentationDescription::Segment& segment, std::size_t
                                  std::to_string(number) + " has no name");
   DataSet d;
   put(d, 0x0062, 0x0004, static_cast<std::uint16_t>(number));
-  put(d, {{0x0062, 0x0005, VR::LO, longString(segment.label)},
-          {0x0062, 0x0008, VR::CS, kAlgorithms[static_cast<std::size_t>(segment.algorithm)]}});
+  put(d, {{0x0062, 0x0005, "LO", longString(segment.label)},
+          {0x0062, 0x0008, "CS", kAlgorithms[static_cast<std::size_t>(segment.algorithm)]}});
   if (segment.algorithm != Algorithm::Manual)
-    put(d, 0x0062, 0x0009, VR::LO, longString(segment.algorithmName));
+    put(d, 0x0062, 0x0009, "LO", longString(segment.algorithmName));
   const std::array<std::uint16_t, 3> lab = cieLabFromColor(segment.color);
-  putShorts(d, 0x0062, 0x000D, VR::US, {lab.begin(), lab.end()});
+  putShorts(d, 0x0062, 0x000D, "US", {lab.begin(), lab.end()});
   putSequence(d, 0x0062, 0x0003, {code(segment.category)});
   putSequence(d, 0x0062, 0x000F, {code(segment.type)});
   return d;
@@ -96,7 +97,7 @@ DataSet segmentItem(const SegmentationDescription::Segment& segment, std::size_t
 DataSet instance(const std::string& sopClass, const std::string& uid)
 {
   DataSet d;
-  put(d, {{0x0008, 0x1150, VR::UI, sopClass}, {0x0008, 0x1155, VR::UI, uid}});
+  put(d, {{0x0008, 0x1150, "UI", sopClass}, {0x0008, 0x1155, "UI", uid}});
   return d;
 }
 
@@ -112,11 +113,11 @@ DataSet sharedGroups(const core::GridGeometry& grid)
 {
   const Eigen::Matrix3d& axes = grid.direction();
   DataSet orientation, measures, d;
-  put(orientation, 0x0020, 0x0037, VR::DS,
+  put(orientation, 0x0020, 0x0037, "DS",
       decimals({axes(0, 0), axes(1, 0), axes(2, 0), axes(0, 1), axes(1, 1), axes(2, 1)}));
-  put(measures, {{0x0018, 0x0050, VR::DS, decimal(grid.spacing()[2])},
-                 {0x0018, 0x0088, VR::DS, decimal(grid.spacing()[2])},
-                 {0x0028, 0x0030, VR::DS, decimals({grid.spacing()[1], grid.spacing()[0]})}});
+  put(measures, {{0x0018, 0x0050, "DS", decimal(grid.spacing()[2])},
+                 {0x0018, 0x0088, "DS", decimal(grid.spacing()[2])},
+                 {0x0028, 0x0030, "DS", decimals({grid.spacing()[1], grid.spacing()[0]})}});
   putSequence(d, 0x0020, 0x9116, {orientation});
   putSequence(d, 0x0028, 0x9110, {measures});
   return d;
@@ -128,10 +129,10 @@ DataSet frameGroups(const Frame& frame, const core::GridGeometry& grid,
   DataSet content, position, segment, d;
   const std::array<std::uint16_t, 2> index{static_cast<std::uint16_t>(frame.segment + 1),
                                            static_cast<std::uint16_t>(frame.slice + 1)};
-  putShorts(content, 0x0020, 0x9157, VR::UL, {index[0], 0, index[1], 0}); // 32 bits each
+  putShorts(content, 0x0020, 0x9157, "UL", {index[0], 0, index[1], 0}); // 32 bits each
   const Eigen::Vector3d at =
       grid.origin() + frame.slice * grid.spacing()[2] * grid.direction().col(2);
-  put(position, 0x0020, 0x0032, VR::DS, decimals({at.x(), at.y(), at.z()}));
+  put(position, 0x0020, 0x0032, "DS", decimals({at.x(), at.y(), at.z()}));
   put(segment, 0x0062, 0x000B, index[0]);
   if (description.source && description.source->onSlices)
   {
@@ -139,7 +140,7 @@ DataSet frameGroups(const Frame& frame, const core::GridGeometry& grid,
                              instanceUid(description.source->seriesUid, frame.slice));
     putSequence(image, 0x0040, 0xA170,
                 {code({"121322", "DCM", "Source image for image processing operation"})});
-    put(image, 0x0028, 0x135A, VR::CS, "YES");
+    put(image, 0x0028, 0x135A, "CS", "YES");
     DataSet derivation;
     putSequence(derivation, 0x0008, 0x2112, {image});
     putSequence(derivation, 0x0008, 0x9215, {code({"113076", "DCM", "Segmentation"})});
@@ -155,16 +156,16 @@ DataSet frameGroups(const Frame& frame, const core::GridGeometry& grid,
 void putDimensions(DataSet& d, const std::string& uid)
 {
   DataSet organization;
-  put(organization, 0x0020, 0x9164, VR::UI, uid);
+  put(organization, 0x0020, 0x9164, "UI", uid);
   putSequence(d, 0x0020, 0x9221, {organization});
   const auto dimension = [&uid](std::uint16_t group, std::uint16_t element, std::uint16_t inGroup,
                                 std::uint16_t inElement, const char* label)
   {
     DataSet item;
-    put(item, 0x0020, 0x9164, VR::UI, uid);
-    putShorts(item, 0x0020, 0x9165, VR::AT, {group, element});
-    putShorts(item, 0x0020, 0x9167, VR::AT, {inGroup, inElement});
-    put(item, 0x0020, 0x9421, VR::LO, label);
+    put(item, 0x0020, 0x9164, "UI", uid);
+    putShorts(item, 0x0020, 0x9165, "AT", {group, element});
+    putShorts(item, 0x0020, 0x9167, "AT", {inGroup, inElement});
+    put(item, 0x0020, 0x9421, "LO", label);
     return item;
   };
   putSequence(d, 0x0020, 0x9222,
@@ -176,44 +177,44 @@ void putHeader(DataSet& d, const SegmentationDescription& description,
                const core::GridGeometry& grid, std::size_t frames)
 {
   const std::string instanceOf = instanceUid(description.seriesUid, 0);
-  put(d, {{0x0008, 0x0005, VR::CS, "ISO_IR 192"},
-          {0x0008, 0x0008, VR::CS, "DERIVED\\PRIMARY"},
-          {0x0008, 0x0016, VR::UI,
+  put(d, {{0x0008, 0x0005, "CS", "ISO_IR 192"},
+          {0x0008, 0x0008, "CS", "DERIVED\\PRIMARY"},
+          {0x0008, 0x0016, "UI",
            gdcm::MediaStorage(gdcm::MediaStorage::SegmentationStorage).GetString()},
-          {0x0008, 0x0018, VR::UI, instanceOf},
-          {0x0008, 0x0020, VR::DA, ""},
-          {0x0008, 0x0023, VR::DA, "19000101"},
-          {0x0008, 0x0030, VR::TM, ""},
-          {0x0008, 0x0033, VR::TM, "000000"},
-          {0x0008, 0x0050, VR::SH, ""},
-          {0x0008, 0x0060, VR::CS, "SEG"},
-          {0x0008, 0x0070, VR::LO, "Petrous"},
-          {0x0008, 0x0090, VR::PN, ""},
-          {0x0008, 0x1030, VR::LO, ""},
-          {0x0008, 0x103E, VR::LO, longString(description.description)},
-          {0x0008, 0x1090, VR::LO, "Petrous"},
-          {0x0010, 0x0010, VR::PN, description.patientName},
-          {0x0010, 0x0020, VR::LO, description.patientId},
-          {0x0010, 0x0030, VR::DA, ""},
-          {0x0010, 0x0040, VR::CS, "O"},
-          {0x0012, 0x0062, VR::CS, "YES"},
-          {0x0012, 0x0063, VR::LO, "written from voxels and geometry alone"},
-          {0x0018, 0x1000, VR::LO, "0"},
-          {0x0018, 0x1020, VR::LO, "1"},
-          {0x0020, 0x000D, VR::UI, description.studyUid},
-          {0x0020, 0x000E, VR::UI, description.seriesUid},
-          {0x0020, 0x0010, VR::SH, "1"},
-          {0x0020, 0x0011, VR::IS, std::to_string(description.seriesNumber)},
-          {0x0020, 0x0013, VR::IS, "1"},
-          {0x0020, 0x0052, VR::UI, description.frameOfReferenceUid},
-          {0x0020, 0x1040, VR::LO, ""},
-          {0x0028, 0x0004, VR::CS, "MONOCHROME2"},
-          {0x0028, 0x0008, VR::IS, std::to_string(frames)},
-          {0x0028, 0x2110, VR::CS, "00"},
-          {0x0062, 0x0001, VR::CS, "BINARY"},
-          {0x0070, 0x0080, VR::CS, "SEGMENTATION"},
-          {0x0070, 0x0081, VR::LO, ""},
-          {0x0070, 0x0084, VR::PN, ""}});
+          {0x0008, 0x0018, "UI", instanceOf},
+          {0x0008, 0x0020, "DA", ""},
+          {0x0008, 0x0023, "DA", "19000101"},
+          {0x0008, 0x0030, "TM", ""},
+          {0x0008, 0x0033, "TM", "000000"},
+          {0x0008, 0x0050, "SH", ""},
+          {0x0008, 0x0060, "CS", "SEG"},
+          {0x0008, 0x0070, "LO", "Petrous"},
+          {0x0008, 0x0090, "PN", ""},
+          {0x0008, 0x1030, "LO", ""},
+          {0x0008, 0x103E, "LO", longString(description.description)},
+          {0x0008, 0x1090, "LO", "Petrous"},
+          {0x0010, 0x0010, "PN", description.patientName},
+          {0x0010, 0x0020, "LO", description.patientId},
+          {0x0010, 0x0030, "DA", ""},
+          {0x0010, 0x0040, "CS", "O"},
+          {0x0012, 0x0062, "CS", "YES"},
+          {0x0012, 0x0063, "LO", "written from voxels and geometry alone"},
+          {0x0018, 0x1000, "LO", "0"},
+          {0x0018, 0x1020, "LO", "1"},
+          {0x0020, 0x000D, "UI", description.studyUid},
+          {0x0020, 0x000E, "UI", description.seriesUid},
+          {0x0020, 0x0010, "SH", "1"},
+          {0x0020, 0x0011, "IS", std::to_string(description.seriesNumber)},
+          {0x0020, 0x0013, "IS", "1"},
+          {0x0020, 0x0052, "UI", description.frameOfReferenceUid},
+          {0x0020, 0x1040, "LO", ""},
+          {0x0028, 0x0004, "CS", "MONOCHROME2"},
+          {0x0028, 0x0008, "IS", std::to_string(frames)},
+          {0x0028, 0x2110, "CS", "00"},
+          {0x0062, 0x0001, "CS", "BINARY"},
+          {0x0070, 0x0080, "CS", "SEGMENTATION"},
+          {0x0070, 0x0081, "LO", ""},
+          {0x0070, 0x0084, "PN", ""}});
   const std::pair<std::uint16_t, int> numbers[] = {{0x0002, 1},
                                                    {0x0010, grid.dims()[1]},
                                                    {0x0011, grid.dims()[0]},
@@ -231,7 +232,7 @@ void putHeader(DataSet& d, const SegmentationDescription& description,
     for (int k = 0; k < source->slices; ++k)
       instances.push_back(instance(sourceClass(*source), instanceUid(source->seriesUid, k)));
     putSequence(series, 0x0008, 0x114A, instances);
-    put(series, 0x0020, 0x000E, VR::UI, source->seriesUid);
+    put(series, 0x0020, 0x000E, "UI", source->seriesUid);
     putSequence(d, 0x0008, 0x1115, {series});
   }
   std::vector<DataSet> segments;
@@ -347,7 +348,7 @@ void writeDicomSegmentation(const std::filesystem::path& path,
   for (const Frame& frame : frames)
     groups.push_back(frameGroups(frame, grid, description));
   putSequence(data, 0x5200, 0x9230, groups);
-  putBytes(data, 0x7FE0, 0x0010, VR::OB,
+  putBytes(data, 0x7FE0, 0x0010, "OB",
            pixelsOf(frames, maps, description, progress.part(0.4, 0.5)));
   OutputFile file(path);
   file.write(encoded(writer, path));

@@ -93,4 +93,9 @@ void writeLabelLayers(const std::filesystem::path& path,
                       const std::vector<volume::LabelMap>& layers,
                       const core::Progress& progress = {});
 
+/// Names and colours as an ITK-SNAP label description (.label), which loadLabels finds beside a
+/// file of the same base name. Throws core::OutputFileError.
+void writeLabelTable(const std::filesystem::path& path,
+                     const std::vector<volume::Segment>& segments);
+
 } // namespace petrous::imaging

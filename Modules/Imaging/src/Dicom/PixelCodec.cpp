@@ -226,6 +226,20 @@ private:
 
 thread_local CodecMessages* CodecMessages::t_listener = nullptr;
 
+/// Decodes in this process. GetBuffer would also hand a stream that its own codecs refuse to a
+/// program of another package (pvrg-jpeg), by a shell and a temporary file with the patient's
+/// image.
+class InProcessImage : public gdcm::Image
+{
+public:
+  bool decode(char* buffer) const
+  {
+    bool isLossy = false;
+    return TryJPEGCodec(buffer, isLossy) || TryJPEGLSCodec(buffer, isLossy) ||
+           TryJPEG2000Codec(buffer, isLossy) || TryRLECodec(buffer, isLossy);
+  }
+};
+
 void decompress(ByteSource& source, const SliceHeader& slice, StoredPixels& pixels)
 {
   const CodecMessages messages;
@@ -241,7 +255,7 @@ void decompress(ByteSource& source, const SliceHeader& slice, StoredPixels& pixe
   fragments->AddFragment(fragment);
   element.SetValue(*fragments);
 
-  gdcm::Image image;
+  InProcessImage image;
   image.SetNumberOfDimensions(2);
   image.SetDimension(0, static_cast<unsigned int>(slice.columns));
   image.SetDimension(1, static_cast<unsigned int>(slice.rows));
@@ -262,7 +276,7 @@ void decompress(ByteSource& source, const SliceHeader& slice, StoredPixels& pixe
     if (image.GetBufferLength() == needed)
     {
       pixels.scratch.assign(needed, 0);
-      decoded = image.GetBuffer(reinterpret_cast<char*>(pixels.scratch.data()));
+      decoded = image.decode(reinterpret_cast<char*>(pixels.scratch.data()));
     }
   }
   catch (const std::exception&) // the text may contain patient data

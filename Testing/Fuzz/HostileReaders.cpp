@@ -15,6 +15,8 @@
 #include "petrous/Imaging/ImageFile.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
+#include "petrous/Imaging/StructureSet.h"
+#include "petrous/Library/Archive.h"
 #include "petrous/Scene/Manifest.h"
 
 namespace petrous::testing
@@ -42,8 +44,9 @@ HostileReaders::~HostileReaders()
 
 std::vector<std::string> HostileReaders::names()
 {
-  return {"nifti", "nifti-pair", "nifti-gz", "nrrd", "segments", "metaimage", "obj",
-          "stl",   "ply",        "table",    "csv",  "manifest", "dicom",     "segmentation"};
+  return {"nifti", "nifti-pair",   "nifti-gz", "nrrd",   "segments", "metaimage",
+          "obj",   "stl",          "ply",      "table",  "csv",      "manifest",
+          "dicom", "segmentation", "rtstruct", "archive"};
 }
 
 fs::path HostileReaders::put(const char* name, std::string_view bytes) const
@@ -96,6 +99,17 @@ try
   }
   else if (reader == "segmentation")
     imaging::loadLabels(put("a.dcm", bytes));
+  else if (reader == "rtstruct")
+  {
+    const fs::path path = put("a.dcm", bytes);
+    const core::GridGeometry grid({24, 24, 8}, Eigen::Vector3d(0.5, 0.5, 1.0),
+                                  Eigen::Vector3d::Zero());
+    if (!imaging::isStructureSet(path))
+      return false;
+    imaging::labelsOf(imaging::readStructureSet(path), grid, path);
+  }
+  else if (reader == "archive")
+    library::inspectArchive(put("a.petrous", bytes));
   else
     throw std::logic_error("no reader '" + reader + "'");
   return true;

@@ -30,17 +30,13 @@ constexpr double kGap = 1.5;        // of the usual distance of planes: a part o
 constexpr int kLines = 32;          // in a row of voxels
 
 /// A data set of a structure set, which has no pixels.
-std::string dataSet(const std::filesystem::path& path, bool& isExplicit)
+std::string dataSet(const std::filesystem::path& path, DicomItem::Encoding& encoding)
 {
   ByteSource source(path);
   const DicomElements elements(source);
   if (elements.state() != DicomElements::State::Complete || elements.pixels().tag != 0 ||
       elements.dataStart() > source.size())
     fail(Reason::Unreadable, path, "is cut short or damaged; copy or export it again");
-  if (elements.isBigEndian())
-    fail(Reason::Unsupported, path,
-         "is a big-endian structure set, which is not read; convert it to explicit VR little "
-         "endian");
   const std::uint64_t size = source.size() - elements.dataStart();
   if (size > kLargest)
     fail(Reason::Unsupported, path,
@@ -48,7 +44,7 @@ std::string dataSet(const std::filesystem::path& path, bool& isExplicit)
   std::string bytes(static_cast<std::size_t>(size), '\0');
   if (!source.read(elements.dataStart(), bytes.data(), bytes.size()))
     fail(Reason::Unreadable, path, "cannot be read to its end; copy it again");
-  isExplicit = elements.isExplicit();
+  encoding = {elements.isExplicit(), elements.isBigEndian()};
   return bytes;
 }
 
@@ -430,9 +426,9 @@ bool isStructureSet(const std::filesystem::path& path)
 
 StructureSet readStructureSet(const std::filesystem::path& path)
 {
-  bool isExplicit = true;
-  const std::string bytes = dataSet(path, isExplicit);
-  const DicomItem data(bytes, isExplicit);
+  DicomItem::Encoding encoding;
+  const std::string bytes = dataSet(path, encoding);
+  const DicomItem data(bytes, encoding);
   if (data.isDamaged())
     fail(Reason::Unreadable, path, "is cut short or damaged; copy or export it again");
   const std::string characters = data.text(0x00080005);
@@ -548,6 +544,7 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
       if (!placed)
       {
         oblique.push_back("'" + roi.name + "'");
+        loaded.unread.push_back({roi.name, label, false});
         continue;
       }
       if (placed->step > kGap)
@@ -555,6 +552,7 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
       const Shares shares = sharesOf(*placed, grid, part);
       constexpr double kNoted = 0.01; // of the volume
       const double whole = volumeOf(*placed);
+      loaded.fileVolumes[roi.name] = whole * grid.voxelVolume();
       if (shares.sum < (1.0 - kNoted) * whole)
         loaded.notes.push_back("'" + roi.name + "': " +
                                std::to_string(std::lround(100.0 * (1.0 - shares.sum / whole))) +

@@ -40,6 +40,38 @@ std::string deflated(const std::string& bytes)
   return out;
 }
 
+/// A frame in RLE (PS3.5 annex G): a segment for each byte of a pixel, the most significant first.
+std::string runLengths(const std::string& frame, int columns, int rows, int bits)
+{
+  const auto segments = static_cast<std::size_t>(bits / 8);
+  std::string data;
+  std::vector<std::uint32_t> head{static_cast<std::uint32_t>(segments)};
+  for (std::size_t n = 0; n < segments; ++n)
+  {
+    head.push_back(static_cast<std::uint32_t>(64 + data.size()));
+    for (int j = 0; j < rows; ++j)
+      for (int i = 0; i < columns;)
+      {
+        const auto at = [&](int column) {
+          return frame[static_cast<std::size_t>(j * columns + column) * segments + segments - 1 -
+                       n];
+        };
+        int run = 1;
+        while (i + run < columns && at(i + run) == at(i))
+          ++run;
+        data += static_cast<char>(run > 1 ? 1 - run : 0); // repeated, or one literal byte
+        data += at(i);
+        i += run;
+      }
+    data += std::string(data.size() % 2, '\x80'); // -128: nothing
+  }
+  head.resize(16);
+  std::string out;
+  for (const std::uint32_t value : head)
+    TestSlice().append(out, value, 4);
+  return out + data;
+}
+
 /// A frame as GDCM's encoders compress it.
 std::string encoded(const std::string& frame, int columns, int rows, int bits,
                     gdcm::TransferSyntax::TSType syntax)
@@ -491,6 +523,11 @@ std::vector<TestSegmentation> oneOfEachType(const TestSlice& code = {})
                      {0, 6.0, none}};
     files.push_back(labels);
   }
+  for (TestSegmentation& file : files) // GDCM's encoder of JPEG 2000 overruns on smaller images
+  {
+    file.columns = 41;
+    file.rows = 31;
+  }
   return files;
 }
 
@@ -540,7 +577,11 @@ TEST(DicomSegmentation, EqualsItsTwinInAnyLosslessTransferSyntax)
         continue;
       }
       file.compress = [&, by = codec](const std::string& frame)
-      { return encoded(frame, file.columns, file.rows, file.bits, by); };
+      {
+        return by == gdcm::TransferSyntax::RLELossless
+                   ? runLengths(frame, file.columns, file.rows, file.bits)
+                   : encoded(frame, file.columns, file.rows, file.bits, by);
+      };
       expectTwin(file, uid);
     }
   }

@@ -248,6 +248,8 @@ std::vector<DicomItem> DicomItem::items(Tag tag) const
   while (element && readHead(element->value, at, element->items, head) && head.tag == kItem &&
          takeValue(element->value, at, head, element->items, value))
     result.emplace_back(value, element->items);
+  if (element && at < element->value.size())
+    result.emplace_back().m_isDamaged = true;
   return result;
 }
 

@@ -38,7 +38,8 @@ public:
   /// Binary values of two bytes (US); empty if absent.
   std::vector<int> shorts(Tag tag) const;
   std::optional<int> integer(Tag tag) const;
-  /// The items of a sequence, and its first one (an item without elements if there is none).
+  /// The items of a sequence, the last one damaged if more follows that is none, and its first one
+  /// (an item without elements if there is none).
   std::vector<DicomItem> items(Tag tag) const;
   DicomItem item(Tag tag) const;
 

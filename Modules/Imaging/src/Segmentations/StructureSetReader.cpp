@@ -429,10 +429,13 @@ StructureSet readStructureSet(const std::filesystem::path& path)
   DicomItem::Encoding encoding;
   const std::string bytes = dataSet(path, encoding);
   const DicomItem data(bytes, encoding);
-  if (data.isDamaged())
-    fail(Reason::Unreadable, path, "is cut short or damaged; copy or export it again");
+  const auto checkDamage = [&path](const DicomItem& item)
+  {
+    if (item.isDamaged())
+      fail(Reason::Unreadable, path, "is cut short or damaged; copy or export it again");
+  };
+  checkDamage(data);
   const std::string characters = data.text(0x00080005);
-
   StructureSet set;
   std::map<int, std::size_t> places; // by ROI Number
   const auto numberOf = [&](const DicomItem& item, Tag tag)
@@ -444,6 +447,7 @@ StructureSet readStructureSet(const std::filesystem::path& path)
   };
   for (const DicomItem& item : data.items(0x30060020))
   {
+    checkDamage(item);
     const auto number = numberOf(item, 0x30060022);
     if (!number || !places.emplace(*number, set.rois.size()).second)
       fail(Reason::Unreadable, path,
@@ -474,6 +478,7 @@ StructureSet readStructureSet(const std::filesystem::path& path)
     }
   for (const DicomItem& item : data.items(0x30060039))
   {
+    checkDamage(item);
     const auto number = numberOf(item, 0x30060084);
     const auto found = number ? places.find(*number) : places.end();
     if (found == places.end())
@@ -486,6 +491,7 @@ StructureSet readStructureSet(const std::filesystem::path& path)
         roi.color[c] = static_cast<float>(std::clamp(color[c] / 255.0, 0.0, 1.0));
     for (const DicomItem& contour : item.items(0x30060040))
     {
+      checkDamage(contour);
       const std::string type = contour.text(0x30060042);
       if (type != "CLOSED_PLANAR" && type != "CLOSEDPLANAR_XOR")
       {
@@ -493,7 +499,7 @@ StructureSet readStructureSet(const std::filesystem::path& path)
         continue;
       }
       std::vector<Eigen::Vector3d> points;
-      if (!readPoints(contour, points) || contour.isDamaged())
+      if (!readPoints(contour, points))
         fail(Reason::Unreadable, path,
              "has a contour whose points are no numbers, three a point; export it again");
       if (points.size() < 3)
@@ -502,8 +508,6 @@ StructureSet readStructureSet(const std::filesystem::path& path)
         roi.contours.push_back(std::move(points));
     }
   }
-  if (data.isDamaged())
-    fail(Reason::Unreadable, path, "is cut short or damaged; copy or export it again");
   return set;
 }
 

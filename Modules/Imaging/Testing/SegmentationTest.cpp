@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <functional>
 
+#include <Eigen/Geometry>
 #include <gdcmImage.h>
 #include <gdcmImageChangeTransferSyntax.h>
 #include <gdcmSequenceOfFragments.h>
@@ -10,6 +11,7 @@
 #include "SegmentationReader.h"
 #include "TestDicom.h"
 #include "TestFiles.h"
+#include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Imaging/LabelFile.h"
 
 namespace petrous::imaging
@@ -625,6 +627,148 @@ TEST(DicomSegmentation, SurvivesEveryTruncation)
     const auto path = putFile(folder / "a.dcm", whole.substr(0, size));
     EXPECT_THROW(loadLabels(path), FileError) << size;
   }
+}
+
+/// Two overlapping layers on an oblique grid whose slices are no whole number of bytes.
+std::vector<volume::LabelMap> overlappingMaps()
+{
+  const Eigen::Matrix3d turn =
+      (Eigen::AngleAxisd(0.4, Eigen::Vector3d(1.0, 2.0, -0.5).normalized())).toRotationMatrix();
+  const core::GridGeometry grid({7, 5, 6}, {0.31, 0.4, 1.25}, {-20.0, 31.5, 7.75}, turn);
+  std::vector<volume::LabelMap> maps;
+  for (int map = 0; map < 2; ++map)
+  {
+    auto voxels = volume::makeZeroVolume<std::uint16_t>(grid);
+    for (int k = 0; k < 6; ++k)
+      for (int j = 0; j < 5; ++j)
+        for (int i = 0; i < 7; ++i)
+          if ((i * 31 + j * 17 + k * 7 + map) % 5 == 0)
+            voxels->at(i, j, k) = static_cast<std::uint16_t>(k == 2 ? 40 : 3);
+    maps.push_back(volume::makeLabelMap(std::move(voxels), {}));
+  }
+  return maps;
+}
+
+SegmentationDescription overlappingSegments()
+{
+  SegmentationDescription description;
+  description.studyUid = "1.2.3";
+  description.seriesUid = "1.2.4";
+  description.frameOfReferenceUid = "1.2.9";
+  for (std::size_t map = 0; map < 2; ++map)
+    for (const int index : {3, 40})
+    {
+      SegmentationDescription::Segment segment;
+      segment.map = map;
+      segment.index = static_cast<std::uint16_t>(index);
+      segment.label = "N\xc3\xa9rf " + std::to_string(map) + " " + std::to_string(index);
+      segment.color = {0.25F, static_cast<float>(map), static_cast<float>(index) / 64.0F};
+      segment.type = {"119410002", "SCT", "Nerve"};
+      description.segments.push_back(segment);
+    }
+  return description;
+}
+
+TEST(DicomSegmentationWriter, WritesWhatComesBackToTheBit)
+{
+  const TestFolder folder;
+  const auto maps = overlappingMaps();
+  const auto description = overlappingSegments();
+  writeDicomSegmentation(folder / "a.dcm", maps, description);
+  const LoadedLabels loaded = loadLabels(folder / "a.dcm");
+  EXPECT_TRUE(loaded.notes.empty());
+  EXPECT_EQ(loaded.frameOfReferenceUid, "1.2.9");
+  std::size_t found = 0;
+  for (const volume::LabelMap& map : loaded.maps)
+  {
+    const core::GridGeometry& grid = map.voxels->geometry();
+    EXPECT_LT((grid.origin() - maps[0].voxels->geometry().origin()).norm(), 1e-9);
+    EXPECT_LT((grid.direction() - maps[0].voxels->geometry().direction()).norm(), 1e-9);
+    ASSERT_EQ(grid.dims(), maps[0].voxels->geometry().dims());
+    for (const volume::Segment& segment : map.segments)
+    {
+      const auto& wanted = description.segments[static_cast<std::size_t>(segment.index - 1)];
+      EXPECT_EQ(segment.name, wanted.label);
+      EXPECT_EQ(loaded.meanings.at(segment.name), "Nerve");
+      for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(segment.color[c], wanted.color[c], 0.5 / 255.0) << segment.name;
+      ++found;
+      for (std::size_t p = 0; p < map.voxels->size(); ++p)
+        ASSERT_EQ(map.voxels->data()[p] == segment.index,
+                  maps[wanted.map].voxels->data()[p] == wanted.index)
+            << segment.name << " " << p;
+    }
+  }
+  EXPECT_EQ(found, 4U);
+  // equal input, equal bytes; names without what would split them
+  writeDicomSegmentation(folder / "b.dcm", maps, description);
+  EXPECT_TRUE(fileBytes(folder / "a.dcm") == fileBytes(folder / "b.dcm"));
+  auto odd = description;
+  odd.segments[0].label = std::string(70, 'x') + "\\";
+  odd.segments[1].label = "a\\b";
+  writeDicomSegmentation(folder / "c.dcm", maps, odd);
+  const LoadedLabels renamed = loadLabels(folder / "c.dcm");
+  EXPECT_EQ(renamed.meanings.count(std::string(64, 'x')), 1U);
+  EXPECT_EQ(renamed.meanings.count("a/b"), 1U);
+}
+
+TEST(DicomSegmentationWriter, RefusesWhatWouldBeNoSegmentation)
+{
+  const TestFolder folder;
+  const auto maps = overlappingMaps();
+  const auto refused = [&](const auto& change)
+  {
+    auto description = overlappingSegments();
+    change(description);
+    EXPECT_THROW(writeDicomSegmentation(folder / "a.dcm", maps, description),
+                 core::InvalidParameter);
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.dcm"));
+  };
+  using Description = SegmentationDescription;
+  refused([](Description& d) { d.segments.clear(); });
+  refused([](Description& d) { d.studyUid = "a"; });
+  refused([](Description& d) { d.segments[0].label.clear(); });
+  refused([](Description& d) { d.segments[0].map = 2; });
+  refused([](Description& d) { d.segments[0].index = 0; });
+  refused([](Description& d) { d.segments[0].algorithm = Description::Algorithm::Automatic; });
+  refused(
+      [](Description& d) {
+        d.source = Description::Source{SeriesDescription::Modality::Ct, "1.2", 5, true};
+      });
+  refused(
+      [](Description& d)
+      {
+        for (auto& segment : d.segments)
+          segment.index = 77;
+      });
+  std::vector<volume::LabelMap> other{maps[0], maps[1]};
+  other[1] = volume::makeLabelMap(
+      volume::makeZeroVolume<std::uint16_t>(core::GridGeometry({7, 5, 6}, {1, 1, 1}, {0, 0, 0})),
+      {});
+  EXPECT_THROW(writeDicomSegmentation(folder / "a.dcm", other, overlappingSegments()),
+               core::InvalidParameter);
+}
+
+// Each displayable colour comes back within half a step of 8 bits.
+TEST(DicomSegmentationWriter, KeepsColoursThroughCieLab)
+{
+  for (int r = 0; r <= 255; r += 15)
+    for (int g = 0; g <= 255; g += 15)
+      for (int b = 0; b <= 255; b += 15)
+      {
+        const std::array<float, 3> color{static_cast<float>(r) / 255.0F,
+                                         static_cast<float>(g) / 255.0F,
+                                         static_cast<float>(b) / 255.0F};
+        const auto lab = cieLabFromColor(color);
+        const auto back = colorFromCieLab({lab[0], lab[1], lab[2]});
+        for (std::size_t c = 0; c < 3; ++c)
+          ASSERT_NEAR(back[c], color[c], 0.5 / 255.0) << r << ' ' << g << ' ' << b;
+      }
+  // PS3.3 C.10.7.1.1: white is L* = 100, a* = b* = 0, which is 32896 (8080H).
+  const auto white = cieLabFromColor({1.0F, 1.0F, 1.0F});
+  EXPECT_EQ(white[0], 65535);
+  EXPECT_NEAR(white[1], 32896, 3);
+  EXPECT_NEAR(white[2], 32896, 3);
 }
 
 } // namespace

@@ -194,6 +194,20 @@ private:
 
 thread_local CodecMessages* CodecMessages::t_listener = nullptr;
 
+/// Decodes in this process. GetBuffer would also hand a stream that its own codecs refuse to a
+/// program of another package (pvrg-jpeg), by a shell and a temporary file with the patient's
+/// image.
+class InProcessImage : public gdcm::Image
+{
+public:
+  bool decode(char* buffer) const
+  {
+    bool isLossy = false;
+    return TryJPEGCodec(buffer, isLossy) || TryJPEGLSCodec(buffer, isLossy) ||
+           TryJPEG2000Codec(buffer, isLossy) || TryRLECodec(buffer, isLossy);
+  }
+};
+
 } // namespace
 
 std::vector<Fragment> readFragments(ByteSource& source, const SliceHeader& slice)
@@ -246,7 +260,7 @@ void decodeFrame(ByteSource& source, const SliceHeader& slice,
   sequence->AddFragment(fragment);
   element.SetValue(*sequence);
 
-  gdcm::Image image;
+  InProcessImage image;
   image.SetNumberOfDimensions(2);
   image.SetDimension(0, static_cast<unsigned int>(slice.columns));
   image.SetDimension(1, static_cast<unsigned int>(slice.rows));
@@ -267,7 +281,7 @@ void decodeFrame(ByteSource& source, const SliceHeader& slice,
     if (image.GetBufferLength() == needed)
     {
       pixels.scratch.assign(needed, 0);
-      decoded = image.GetBuffer(reinterpret_cast<char*>(pixels.scratch.data()));
+      decoded = image.decode(reinterpret_cast<char*>(pixels.scratch.data()));
     }
   }
   catch (const std::exception&) // the text may contain patient data

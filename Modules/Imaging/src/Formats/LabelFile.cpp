@@ -12,9 +12,11 @@
 #include "FileHelpers.h"
 #include "LabelFolder.h"
 #include "LabelNames.h"
+#include "OutputFile.h"
 #include "SegmentationReader.h"
 #include "VoxelSource.h"
 #include "VoxelWriter.h"
+#include "petrous/Core/OutputFile.h"
 
 namespace petrous::imaging
 {
@@ -271,7 +273,7 @@ void writeLabelFile(const std::filesystem::path& path, const volume::LabelMap& l
     throw core::InvalidParameter("label map: no voxels given to write");
   const volume::Volume<std::uint16_t>& voxels = *labels.voxels;
   const bool named = writingFormat(path, kLabels).writeVoxels == writeNrrd;
-  const std::string keys = named ? segmentKeys(labels) : std::string();
+  const std::string keys = named ? segmentKeys({labels}) : std::string();
   const bool small = std::all_of(voxels.data(), voxels.data() + voxels.size(),
                                  [](std::uint16_t v) { return v <= 255; });
   if (!small)
@@ -285,6 +287,63 @@ void writeLabelFile(const std::filesystem::path& path, const volume::LabelMap& l
                  [](std::uint16_t v) { return static_cast<std::uint8_t>(v); });
   writeVoxelFile(path, kLabels, voxels.geometry(), voxelTypeOf<std::uint8_t>(), bytes.data(), keys,
                  {});
+}
+
+void writeLabelLayers(const std::filesystem::path& path,
+                      const std::vector<volume::LabelMap>& layers, const core::Progress& progress)
+{
+  if (layers.empty() || std::any_of(layers.begin(), layers.end(),
+                                    [&](const volume::LabelMap& map)
+                                    {
+                                      return !map.voxels ||
+                                             !core::sameGrid(map.voxels->geometry(),
+                                                             layers.front().voxels->geometry());
+                                    }))
+    throw core::InvalidParameter("label layers: none given to write, or on different grids");
+  if (layers.size() == 1)
+    return writeLabelFile(path, layers.front());
+  const FileFormat& format = writingFormat(path, kLabels);
+  if (format.ending != ".seg.nrrd")
+    fail(FileError::Reason::UnknownFormat, path,
+         "holds one layer, and structures overlap; write .seg.nrrd");
+  const std::size_t count = layers.front().voxels->size();
+  std::vector<std::uint16_t> voxels(count * layers.size());
+  for (std::size_t layer = 0; layer < layers.size(); ++layer)
+    for (std::size_t p = 0; p < count; ++p)
+      voxels[p * layers.size() + layer] = layers[layer].voxels->data()[p];
+  std::vector<std::uint8_t> bytes;
+  if (*std::max_element(voxels.begin(), voxels.end()) <= 255)
+  {
+    bytes.resize(voxels.size());
+    std::transform(voxels.begin(), voxels.end(), bytes.begin(),
+                   [](std::uint16_t v) { return static_cast<std::uint8_t>(v); });
+  }
+  const VoxelType type = bytes.empty() ? voxelTypeOf<std::uint16_t>() : voxelTypeOf<std::uint8_t>();
+  const void* data = bytes.empty() ? static_cast<const void*>(voxels.data()) : bytes.data();
+  OutputFile file(path);
+  format.writeVoxels(file, {path, layers.front().voxels->geometry(), type, data,
+                            segmentKeys(layers), progress, layers.size()});
+  progress.check("writing labels");
+  file.commit();
+}
+
+void writeLabelTable(const std::filesystem::path& path,
+                     const std::vector<volume::Segment>& segments)
+{
+  std::string text = "# ITK-SnAP Label Description File\n"
+                     "# IDX -R- -G- -B- -A- VIS MSH LABEL\n"
+                     "0 0 0 0 0 0 0 \"Clear Label\"\n";
+  for (const volume::Segment& segment : segments)
+  {
+    text += std::to_string(segment.index);
+    for (const float channel : segment.color)
+      text += " " + std::to_string(std::lround(std::clamp(channel, 0.0F, 1.0F) * 255.0F));
+    std::string name = segment.name;
+    for (char& c : name)
+      c = c == '"' ? '\'' : static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    text += " 1 1 1 \"" + name + "\"\n";
+  }
+  core::writeFile(path, text);
 }
 
 } // namespace petrous::imaging

@@ -22,8 +22,9 @@ std::vector<volume::Segment> segmentsOfLayer(const std::filesystem::path& path,
 /// Names of the segments that lie in none of the first `layers` layers.
 std::vector<std::string> segmentsWithoutLayer(const NrrdHeader& header, std::size_t layers);
 
-/// The key/value lines that define the structures of a map, as written by 3D Slicer.
-std::string segmentKeys(const volume::LabelMap& labels);
+/// The key/value lines that define the structures of a map, or of several that are layers of one
+/// file, as written by 3D Slicer.
+std::string segmentKeys(const std::vector<volume::LabelMap>& layers);
 
 /// The table of names beside a label file: one of its base name (.ctbl, .txt, .label, .csv, .tsv,
 /// .json), or the only .ctbl in the folder if its name shares a word with the file's.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <zlib.h>
 
 #include "ByteSource.h"
@@ -531,6 +532,19 @@ Layers copyLabelmap(Segmentation& file, ByteSource& source, const core::GridGeom
   return layers;
 }
 
+// XYZ of white, of illuminant D50; Y is 1
+constexpr double kWhiteX = 0.96422;
+constexpr double kWhiteZ = 0.82521;
+
+/// Linear sRGB (IEC 61966-2-1) from XYZ relative to D50, adapted to D65 (Bradford).
+Eigen::Matrix3d rgbFromXyz()
+{
+  Eigen::Matrix3d matrix;
+  matrix << 3.1338561, -1.6168667, -0.4906146, -0.9787684, 1.9161415, 0.0334540, 0.0719453,
+      -0.2289914, 1.4052427;
+  return matrix;
+}
+
 /// What a segment is, by its codes: its anatomic region, if stated, and its type.
 std::string meaningOf(const DicomItem& segment, const std::string& characters)
 {
@@ -569,12 +583,9 @@ std::array<float, 3> colorFromCieLab(const std::vector<int>& value)
   const auto inverse = [](double t)
   { return t > 6.0 / 29.0 ? t * t * t : 3.0 * (6.0 / 29.0) * (6.0 / 29.0) * (t - 4.0 / 29.0); };
   const double fy = (l + 16.0) / 116.0;
-  const Eigen::Vector3d xyz(0.96422 * inverse(fy + a / 500.0), inverse(fy),
-                            0.82521 * inverse(fy - b / 200.0)); // D50
-  Eigen::Matrix3d toRgb; // adapted to D65 (Bradford), linear sRGB (IEC 61966-2-1)
-  toRgb << 3.1338561, -1.6168667, -0.4906146, -0.9787684, 1.9161415, 0.0334540, 0.0719453,
-      -0.2289914, 1.4052427;
-  const Eigen::Vector3d linear = toRgb * xyz;
+  const Eigen::Vector3d xyz(kWhiteX * inverse(fy + a / 500.0), inverse(fy),
+                            kWhiteZ * inverse(fy - b / 200.0));
+  const Eigen::Vector3d linear = rgbFromXyz() * xyz;
   std::array<float, 3> color{};
   for (int c = 0; c < 3; ++c)
   {
@@ -583,6 +594,29 @@ std::array<float, 3> colorFromCieLab(const std::vector<int>& value)
     color[static_cast<std::size_t>(c)] = static_cast<float>(std::clamp(encoded, 0.0, 1.0));
   }
   return color;
+}
+
+std::array<std::uint16_t, 3> cieLabFromColor(const std::array<float, 3>& color)
+{
+  Eigen::Vector3d linear;
+  for (int c = 0; c < 3; ++c)
+  {
+    const double x = std::clamp(static_cast<double>(color[static_cast<std::size_t>(c)]), 0.0, 1.0);
+    linear[c] = x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+  }
+  const Eigen::Vector3d xyz = rgbFromXyz().inverse() * linear;
+  const auto cubeRoot = [](double t)
+  {
+    constexpr double kKnee = 6.0 / 29.0;
+    return t > kKnee * kKnee * kKnee ? std::cbrt(t) : t / (3.0 * kKnee * kKnee) + 4.0 / 29.0;
+  };
+  const double fx = cubeRoot(xyz.x() / kWhiteX);
+  const double fy = cubeRoot(xyz.y());
+  const double fz = cubeRoot(xyz.z() / kWhiteZ);
+  const auto scaled = [](double share)
+  { return static_cast<std::uint16_t>(std::lround(std::clamp(share, 0.0, 1.0) * 65535.0)); };
+  return {scaled((116.0 * fy - 16.0) / 100.0), scaled((500.0 * (fx - fy) + 128.0) / 255.0),
+          scaled((200.0 * (fy - fz) + 128.0) / 255.0)};
 }
 
 LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Progress& progress)

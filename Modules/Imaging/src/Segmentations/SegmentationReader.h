@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -25,5 +26,8 @@ LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Pro
 
 /// sRGB (0 to 1) of a Recommended Display CIELab Value (PS3.3 C.10.7.1.1, relative to D50).
 std::array<float, 3> colorFromCieLab(const std::vector<int>& value);
+
+/// The inverse of colorFromCieLab.
+std::array<std::uint16_t, 3> cieLabFromColor(const std::array<float, 3>& color);
 
 } // namespace petrous::imaging

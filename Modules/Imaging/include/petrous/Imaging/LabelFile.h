@@ -86,4 +86,16 @@ volume::LabelMap readLabelFile(const std::filesystem::path& path,
 /// map has no voxels.
 void writeLabelFile(const std::filesystem::path& path, const volume::LabelMap& labels);
 
+/// Writes structures that overlap, each map a layer of one .seg.nrrd file (3D Slicer); a single map
+/// as writeLabelFile does. Layers are on one grid. Throws like it, FileError (UnknownFormat) for
+/// several layers in another format, CancelledError.
+void writeLabelLayers(const std::filesystem::path& path,
+                      const std::vector<volume::LabelMap>& layers,
+                      const core::Progress& progress = {});
+
+/// Names and colours as an ITK-SNAP label description (.label), which loadLabels finds beside a
+/// file of the same base name. Throws core::OutputFileError.
+void writeLabelTable(const std::filesystem::path& path,
+                     const std::vector<volume::Segment>& segments);
+
 } // namespace petrous::imaging

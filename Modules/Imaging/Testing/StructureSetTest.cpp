@@ -154,6 +154,8 @@ TEST(StructureSet, BallsKeepTheVolumeOfTheirContours)
                (contour[0] - Vector3d(center[0], center[1], contour[0][2])).squaredNorm();
     EXPECT_NEAR(contours, discs, 2e-3 * discs) << radius;
     EXPECT_NEAR(volumeOf(roi), contours, 0.5 * 0.25 + 1e-3 * contours) << radius;
+    EXPECT_DOUBLE_EQ(imaging::labelsOf({{roi}, ""}, grid(), "set.dcm").fileVolumes.at("ball"),
+                     contours);
   }
 }
 
@@ -285,13 +287,14 @@ TEST(StructureSet, WhatLiesOutsideTheImageIsNoted)
   EXPECT_NE(loaded.notes[1].find("'half': 91 %"), std::string::npos) << loaded.notes[1];
 }
 
-TEST(StructureSet, IsReadInEitherEncoding)
+TEST(StructureSet, IsReadInEveryEncoding)
 {
   const TemporaryFolder folder;
-  for (const bool implicitVr : {false, true})
+  for (const char* encoding : {"explicit", "implicit", "big endian"})
   {
     TestSet file;
-    file.code.implicitVr = implicitVr;
+    file.code.implicitVr = encoding[0] == 'i';
+    file.code.bigEndian = encoding[0] == 'b';
     file.add(4, "Nervus facialis \xe4", {"1\\2\\3\\4\\2\\3\\4\\6.5\\3\\1\\6.5\\3\\1\\2\\3"});
     file.add(-2, "marker", {"1\\2\\3"}, "POINT");
     file.add(9, "empty", {});
@@ -328,7 +331,7 @@ TEST(StructureSet, WhatMakesNoSenseIsRefusedInOneLine)
   EXPECT_NE(with([](TestSet& file) { file.add(2, "b", {"1\\2\\1e30\\1\\2\\3\\4\\5\\6"}); }), "");
   EXPECT_NE(with([](TestSet& file) { file.add(2, "b", {}, "CLOSED_PLANAR", "1.2.77"); }), "");
   EXPECT_NE(with([](TestSet& file) { file.rois.clear(); }), "");
-  EXPECT_NE(with([](TestSet& file) { file.code.bigEndian = true; }), "");
+  EXPECT_NE(with([](TestSet& file) { file.code.bigEndian = true; }), "") << "items are not";
 
   TestSet file;
   file.add(1, "a", {"1\\2\\3\\4\\2\\3\\4\\6\\3", "1\\2\\4\\4\\2\\4\\4\\6\\4"});

@@ -16,7 +16,8 @@ std::string sopClassOf(const std::filesystem::path& path);
 bool isSegmentationClass(const std::string& sopClass);
 
 /// Reads a DICOM segmentation (PS3.3 A.51): BINARY, FRACTIONAL (voxels of at least half the
-/// maximum) and LABELMAP, uncompressed.
+/// maximum) and LABELMAP, in any byte order, uncompressed, deflated or losslessly compressed (RLE,
+/// JPEG, JPEG-LS, JPEG 2000; frames of single bits: deflated only, as DICOM has it).
 ///
 /// The grid is the frames' own: their orientation, and positions at even steps along the normal;
 /// places without a frame are empty. Frames are read one at a time, straight into the grid.

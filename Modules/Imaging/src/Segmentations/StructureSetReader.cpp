@@ -30,17 +30,13 @@ constexpr double kGap = 1.5;        // of the usual distance of planes: a part o
 constexpr int kLines = 32;          // in a row of voxels
 
 /// A data set of a structure set, which has no pixels.
-std::string dataSet(const std::filesystem::path& path, bool& isExplicit)
+std::string dataSet(const std::filesystem::path& path, DicomItem::Encoding& encoding)
 {
   ByteSource source(path);
   const DicomElements elements(source);
   if (elements.state() != DicomElements::State::Complete || elements.pixels().tag != 0 ||
       elements.dataStart() > source.size())
     fail(Reason::Unreadable, path, "is cut short or damaged; copy or export it again");
-  if (elements.isBigEndian())
-    fail(Reason::Unsupported, path,
-         "is a big-endian structure set, which is not read; convert it to explicit VR little "
-         "endian");
   const std::uint64_t size = source.size() - elements.dataStart();
   if (size > kLargest)
     fail(Reason::Unsupported, path,
@@ -48,7 +44,7 @@ std::string dataSet(const std::filesystem::path& path, bool& isExplicit)
   std::string bytes(static_cast<std::size_t>(size), '\0');
   if (!source.read(elements.dataStart(), bytes.data(), bytes.size()))
     fail(Reason::Unreadable, path, "cannot be read to its end; copy it again");
-  isExplicit = elements.isExplicit();
+  encoding = {elements.isExplicit(), elements.isBigEndian()};
   return bytes;
 }
 
@@ -430,13 +426,16 @@ bool isStructureSet(const std::filesystem::path& path)
 
 StructureSet readStructureSet(const std::filesystem::path& path)
 {
-  bool isExplicit = true;
-  const std::string bytes = dataSet(path, isExplicit);
-  const DicomItem data(bytes, isExplicit);
-  if (data.isDamaged())
-    fail(Reason::Unreadable, path, "is cut short or damaged; copy or export it again");
+  DicomItem::Encoding encoding;
+  const std::string bytes = dataSet(path, encoding);
+  const DicomItem data(bytes, encoding);
+  const auto checkDamage = [&path](const DicomItem& item)
+  {
+    if (item.isDamaged())
+      fail(Reason::Unreadable, path, "is cut short or damaged; copy or export it again");
+  };
+  checkDamage(data);
   const std::string characters = data.text(0x00080005);
-
   StructureSet set;
   std::map<int, std::size_t> places; // by ROI Number
   const auto numberOf = [&](const DicomItem& item, Tag tag)
@@ -448,6 +447,7 @@ StructureSet readStructureSet(const std::filesystem::path& path)
   };
   for (const DicomItem& item : data.items(0x30060020))
   {
+    checkDamage(item);
     const auto number = numberOf(item, 0x30060022);
     if (!number || !places.emplace(*number, set.rois.size()).second)
       fail(Reason::Unreadable, path,
@@ -478,6 +478,7 @@ StructureSet readStructureSet(const std::filesystem::path& path)
     }
   for (const DicomItem& item : data.items(0x30060039))
   {
+    checkDamage(item);
     const auto number = numberOf(item, 0x30060084);
     const auto found = number ? places.find(*number) : places.end();
     if (found == places.end())
@@ -490,6 +491,7 @@ StructureSet readStructureSet(const std::filesystem::path& path)
         roi.color[c] = static_cast<float>(std::clamp(color[c] / 255.0, 0.0, 1.0));
     for (const DicomItem& contour : item.items(0x30060040))
     {
+      checkDamage(contour);
       const std::string type = contour.text(0x30060042);
       if (type != "CLOSED_PLANAR" && type != "CLOSEDPLANAR_XOR")
       {
@@ -497,7 +499,7 @@ StructureSet readStructureSet(const std::filesystem::path& path)
         continue;
       }
       std::vector<Eigen::Vector3d> points;
-      if (!readPoints(contour, points) || contour.isDamaged())
+      if (!readPoints(contour, points))
         fail(Reason::Unreadable, path,
              "has a contour whose points are no numbers, three a point; export it again");
       if (points.size() < 3)
@@ -506,8 +508,6 @@ StructureSet readStructureSet(const std::filesystem::path& path)
         roi.contours.push_back(std::move(points));
     }
   }
-  if (data.isDamaged())
-    fail(Reason::Unreadable, path, "is cut short or damaged; copy or export it again");
   return set;
 }
 
@@ -548,6 +548,7 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
       if (!placed)
       {
         oblique.push_back("'" + roi.name + "'");
+        loaded.unread.push_back({roi.name, label, false});
         continue;
       }
       if (placed->step > kGap)
@@ -555,6 +556,7 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
       const Shares shares = sharesOf(*placed, grid, part);
       constexpr double kNoted = 0.01; // of the volume
       const double whole = volumeOf(*placed);
+      loaded.fileVolumes[roi.name] = whole * grid.voxelVolume();
       if (shares.sum < (1.0 - kNoted) * whole)
         loaded.notes.push_back("'" + roi.name + "': " +
                                std::to_string(std::lround(100.0 * (1.0 - shares.sum / whole))) +

@@ -8,6 +8,8 @@
 #include <type_traits>
 #include <utility>
 
+#include <tbb/parallel_for.h>
+
 #include "CaseJson.h"
 #include "CaseWarnings.h"
 #include "Commands.h"
@@ -549,9 +551,8 @@ void exportCase(const Context& context, const Options& options)
     if (!options.onCt)
       writeImage(*image, mr.name);
     else
-      writeImage(*presenters::mrOnCt(*image, value.ct.geometry, mr.mrFromCt,
-                                     progress.part(0.0, 0.5)),
-                 "");
+      writeImage(
+          *presenters::mrOnCt(*image, value.ct.geometry, mr.mrFromCt, progress.part(0.0, 0.5)), "");
   }
   else if (options.what == "labels")
   {

@@ -170,6 +170,26 @@ TEST_F(SegmentCommand, IsUndoneByRemovingAndReplacesOnlyWhenTold)
   EXPECT_EQ(json("info ear")["labels"].size(), 0U);
 }
 
+TEST_F(SegmentCommand, TakesNoMeshAndNoMrForTheStructureOfItsName)
+{
+  json("segment ear ball --threshold 200,650 --seed 22,22,13.35");
+  std::ofstream(m_folder / "ball.obj") << "v 20 20 12\nv 24 20 12\nv 20 24 12\nv 20 20 16\n"
+                                       << "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  json("add ear --mesh ball=" + quoted(m_folder / "ball.obj") +
+       " --mr T2=" + quoted(m_folder / "bone.nrrd"));
+  const auto before = json("info ear");
+  ASSERT_EQ(before["meshes"].size(), 1U);
+  ASSERT_EQ(before["mr"].size(), 1U);
+  for (const std::string name : {"ball", "T2"})
+    for (const std::string more : {"", " --replace"})
+    {
+      const Outcome outcome = run("segment ear " + name + " --threshold -100,525" + more);
+      EXPECT_EQ(outcome.code, 3) << name << more;
+      EXPECT_NE(outcome.err.find("another name"), std::string::npos) << outcome.err;
+    }
+  EXPECT_EQ(json("info ear"), before);
+}
+
 TEST_F(SegmentCommand, RefusesWhatMakesNoStructureAndChangesNothing)
 {
   const auto before = json("info ear");

@@ -147,10 +147,17 @@ Made tube(const SegmentOptions& options, const volume::IntensityVolume& image,
   return made;
 }
 
-/// Takes the structure of that name out of the case; its look, if there was one.
+/// Takes the structure of that name out of the case; its look, if there was one. A mesh or an MR
+/// may have the name of a structure, and removePart would take these too.
 std::optional<appearance::StructureAppearance> takeOut(scene::Case& value,
                                                        const SegmentOptions& options)
 {
+  const bool isMesh = scene::findMesh(value, options.name) != nullptr;
+  if (isMesh || scene::findMr(value, options.name))
+    throw core::InvalidParameter(std::string(isMesh ? "a mesh" : "an MR") + " of case '" +
+                                 value.name + "' is called '" + options.name +
+                                 "'; give the structure another name (--replace replaces "
+                                 "structures only)");
   const scene::StructurePart* there = scene::findStructure(value, options.name);
   if (!there)
     return std::nullopt;

@@ -19,6 +19,7 @@
 #include "Banner.h"
 #include "RegionDialog.h"
 #include "RepairDialog.h"
+#include "StartPage.h"
 #include "WindowTexts.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/VolumeFile.h"
@@ -146,7 +147,8 @@ TEST_F(Import, AFolderWithoutImagesIsRefusedInOneLine)
 TEST_F(Import, CancelLeavesNoCase)
 {
   openWindow();
-  window().findChild<QPushButton*>("primary")->click(); // making the sample patient takes seconds
+  // Making the sample patient takes seconds.
+  window().findChild<StartPage*>()->findChild<QPushButton*>("primary")->click();
   QProgressDialog* progress = nullptr;
   ASSERT_TRUE(waitFor(
       [&]

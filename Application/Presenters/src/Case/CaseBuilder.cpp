@@ -428,10 +428,13 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
   for (auto& map : loaded.maps)
   {
     scene::LabelPart part;
-    for (const volume::Segment& segment : map.segments)
+    for (volume::Segment& segment : map.segments)
     {
       if (segment.voxels == 0)
       {
+        if (isFolder) // also in the map, which is stored
+          segment.name =
+              ofFolder.at(segment.name).empty() ? "structure" : ofFolder.at(segment.name);
         empty.push_back(segment.name);
         reports.push_back({segment.name, StructureReport::Status::Empty});
         continue;
@@ -480,6 +483,8 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
         one.fileVolume = found->second;
       one.layer = layer;
       reports.push_back(std::move(one));
+      if (loaded.isNamedAfterFile)
+        segment.name = structure.name; // the map is stored, and a file's name may be a patient's
       part.structures.push_back(std::move(structure));
     }
     ++layer;

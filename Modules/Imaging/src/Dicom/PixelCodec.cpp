@@ -204,7 +204,7 @@ public:
   {
     bool isLossy = false;
     return TryJPEGCodec(buffer, isLossy) || TryJPEGLSCodec(buffer, isLossy) ||
-           TryJPEG2000Codec(buffer, isLossy) || TryRLECodec(buffer, isLossy);
+           TryJPEG2000Codec(buffer, isLossy);
   }
 };
 
@@ -242,6 +242,55 @@ std::vector<char> readCodestream(ByteSource& source, const SliceHeader& slice,
   return bytes;
 }
 
+constexpr const char* kRleLossless = "1.2.840.10008.1.2.5";
+
+/// RLE Lossless (PS3.5 Annex G): one segment of PackBits for each byte of a pixel, the most
+/// significant first. `cells`: little-endian pixels of `bytes` bytes. False if the stream is
+/// damaged; GDCM's decoder, as Debian builds it, would abort the program.
+bool decodeRle(const std::vector<char>& stream, std::size_t bytes,
+               std::vector<unsigned char>& cells)
+{
+  constexpr std::size_t kHead = 64; // the number of segments, and 15 offsets
+  const std::size_t count = cells.size() / bytes;
+  if (stream.size() < kHead)
+    return false;
+  const auto number = [&stream](std::size_t at)
+  {
+    std::size_t value = 0;
+    for (std::size_t b = 4; b-- > 0;)
+      value = value << 8 | static_cast<unsigned char>(stream[at + b]);
+    return value;
+  };
+  if (number(0) != bytes)
+    return false;
+  for (std::size_t segment = 0; segment < bytes; ++segment)
+  {
+    std::size_t at = number(4 + 4 * segment);
+    const std::size_t end = segment + 1 < bytes ? number(8 + 4 * segment) : stream.size();
+    if (at < kHead || at > end || end > stream.size())
+      return false;
+    unsigned char* to = cells.data() + (bytes - 1 - segment);
+    std::size_t done = 0;
+    while (done < count)
+    {
+      if (at >= end)
+        return false;
+      const auto control = static_cast<unsigned char>(stream[at++]);
+      if (control == 128)
+        continue;
+      const bool isRun = control > 128;
+      const std::size_t length = isRun ? 257U - control : control + 1U;
+      if (length > count - done || (isRun ? 1 : length) > end - at)
+        return false;
+      for (std::size_t n = 0; n < length; ++n)
+        to[(done + n) * bytes] = static_cast<unsigned char>(stream[isRun ? at : at + n]);
+      at += isRun ? 1 : length;
+      done += length;
+    }
+  }
+  return true;
+}
+
 void decodeFrame(ByteSource& source, const SliceHeader& slice,
                  const std::vector<Fragment>& fragments, StoredPixels& pixels)
 {
@@ -254,6 +303,16 @@ void decodeFrame(ByteSource& source, const SliceHeader& slice,
   const std::vector<char> codestream = readCodestream(source, slice, fragments);
   if (codestream.empty() || !codestreamFits(codestream, slice))
     fail(slice, "has a damaged compressed image");
+  if (format.transferSyntax == kRleLossless)
+  {
+    const auto bytes = static_cast<std::size_t>(format.bitsAllocated / 8);
+    pixels.scratch.assign(pixels.values.size() * bytes, 0);
+    if (!decodeRle(codestream, bytes, pixels.scratch))
+      fail(slice, "has a damaged compressed image");
+    unpackCells(slice, format.bitsAllocated,
+                bitField(format.bitsStored, format.highBit, format.isSigned), false, pixels);
+    return;
+  }
   gdcm::Fragment fragment;
   fragment.SetByteValue(codestream.data(), gdcm::VL(static_cast<std::uint32_t>(codestream.size())));
   const gdcm::SmartPointer<gdcm::SequenceOfFragments> sequence = gdcm::SequenceOfFragments::New();

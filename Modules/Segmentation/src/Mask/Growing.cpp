@@ -231,7 +231,7 @@ Mask grownFromSeeds(const volume::IntensityVolume& image, const Mask& inside, co
                                               std::clamp((values[n] - low) * scale, 0.0F, 255.0F)))
                                         : std::uint8_t{0};
                     });
-  values = {};
+  std::vector<float>().swap(values);
 
   // Dijkstra with a ring of buckets [Dial 1969, doi 10.1145/363269.363610]: costs are integers.
   constexpr std::uint32_t kFar = 0xffffffffU;

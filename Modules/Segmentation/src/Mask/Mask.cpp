@@ -274,7 +274,8 @@ bool EditableMask::endStep()
     if (std::any_of(brick.bits.begin(), brick.bits.end(), [](auto bits) { return bits != 0; }))
       step.push_back(brick); // else changed there and back
   }
-  m_open = {};
+  m_open.clear();
+  step.shrink_to_fit();
   if (step.empty())
     return false;
   while (m_steps.size() > m_position)

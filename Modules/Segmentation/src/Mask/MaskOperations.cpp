@@ -174,19 +174,13 @@ Mask combined(const Mask& a, const Mask& b, Combination how)
   return makeMask(std::move(voxels), box);
 }
 
-core::IndexBox paint(EditableMask& mask, const Brush& brush, bool value)
+namespace
+{
+
+/// One piece of a stroke; the brush is a sound one.
+core::IndexBox paintPiece(EditableMask& mask, const Brush& brush, bool value)
 {
   const core::GridGeometry& grid = mask.geometry();
-  if (!(brush.radius > 0.0) || !std::isfinite(brush.radius) || !brush.from.allFinite() ||
-      !brush.to.allFinite())
-    throw core::InvalidParameter("brush: give a radius above 0 mm, and finite positions");
-  if (brush.range && !brush.image)
-    throw core::InvalidParameter("brush: a range of intensities needs an image");
-  if (brush.range)
-    requireRange(*brush.range);
-  if (brush.image)
-    requireSameGrid(brush.image->geometry(), grid, "brush");
-
   // The voxel box of the ball swept from `from` to `to`: a ball's extent along voxel axis a is
   // radius / spacing[a], since the axes are orthonormal.
   const Eigen::Vector3d start = grid.voxelFromPatient(brush.from);
@@ -250,6 +244,43 @@ core::IndexBox paint(EditableMask& mask, const Brush& brush, bool value)
                              voxels.at(i, j, k) = value ? 1 : 0;
                            }
                      });
+}
+
+} // namespace
+
+core::IndexBox paint(EditableMask& mask, const Brush& brush, bool value)
+{
+  if (!(brush.radius > 0.0) || !std::isfinite(brush.radius) || !brush.from.allFinite() ||
+      !brush.to.allFinite())
+    throw core::InvalidParameter("brush: give a radius above 0 mm, and finite positions");
+  if (brush.range && !brush.image)
+    throw core::InvalidParameter("brush: a range of intensities needs an image");
+  if (brush.range)
+    requireRange(*brush.range);
+  if (brush.image)
+    requireSameGrid(brush.image->geometry(), mask.geometry(), "brush");
+
+  // The box of a long oblique stroke is mostly empty: it is painted in pieces of a few radii.
+  constexpr double kLongest = 4.0; // radii
+  const double pieces = std::ceil((brush.to - brush.from).norm() / (kLongest * brush.radius));
+  if (pieces > 1.0)
+  {
+    constexpr double kMost = 1e5;
+    const int count = static_cast<int>(std::min(pieces, kMost));
+    core::IndexBox changed;
+    for (int n = 0; n < count; ++n)
+    {
+      Brush piece = brush;
+      piece.from = brush.from + (brush.to - brush.from) * (static_cast<double>(n) / count);
+      piece.to = brush.from + (brush.to - brush.from) * (static_cast<double>(n + 1) / count);
+      if (brush.normal && n > 0) // all in the slice of the first
+        piece.from -=
+            brush.normal->normalized() * (piece.from - brush.from).dot(brush.normal->normalized());
+      changed = changed.united(paintPiece(mask, piece, value));
+    }
+    return changed;
+  }
+  return paintPiece(mask, brush, value);
 }
 
 } // namespace petrous::segmentation

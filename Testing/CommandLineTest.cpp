@@ -364,6 +364,204 @@ TEST_F(CommandLine, ExportsAStructureAsAClosedSurface)
                 "no structure");
 }
 
+/// What another program prints; empty if it fails or is not there.
+std::string answerOf(const std::string& command)
+{
+  std::string answer;
+  if (FILE* pipe = ::popen((command + " 2>&1").c_str(), "r"))
+  {
+    std::array<char, 4096> buffer{};
+    while (const std::size_t got = std::fread(buffer.data(), 1, buffer.size(), pipe))
+      answer.append(buffer.data(), got);
+    ::pclose(pipe);
+  }
+  return answer;
+}
+
+bool isThere(const std::string& program)
+{
+  return std::system(("command -v " + program + " >/dev/null").c_str()) == 0;
+}
+
+TEST_F(CommandLine, ExportsASegmentationThatBelongsToTheSeries)
+{
+  makePatient();
+  const auto patient = m_folder / "patient";
+  json("new ear --ct " + quoted(patient / "ct") + " --mr " + quoted(patient / "mr") + " --labels " +
+       quoted(patient / "labels.seg.nrrd"));
+  const auto seg = m_folder / "seg.dcm";
+  const auto told = json("export ear --what labels --out " + quoted(seg));
+  json("export ear --what ct --out " + quoted(m_folder / "ct/"));
+  const auto labels = json("info ear")["labels"];
+  EXPECT_EQ(told["segments"], labels.size());
+
+  // each instance that it refers to is a file of the series, in the same study and frame
+  const std::string bytes = textOf(seg);
+  std::size_t instances = 0;
+  for (const auto& file : std::filesystem::directory_iterator(m_folder / "ct"))
+  {
+    const std::string slice = textOf(file.path());
+    const auto uid = [&slice](const std::string& tag) // explicit VR: tag, "UI", length, value
+    {
+      const std::size_t at = slice.find(tag + "UI", 132);
+      EXPECT_NE(at, slice.npos);
+      const auto size = static_cast<unsigned char>(slice[at + 6]);
+      return slice.substr(at + 8, size);
+    };
+    for (const std::string& tag : {std::string("\x08\0\x18\0", 4), std::string("\x20\0\x0d\0", 4),
+                                   std::string("\x20\0\x0e\0", 4), std::string("\x20\0\x52\0", 4)})
+      EXPECT_NE(bytes.find(uid(tag)), bytes.npos) << file.path();
+    ++instances;
+  }
+  EXPECT_EQ(instances, json("info ear")["ct"]["dims"][2]);
+  EXPECT_EQ(bytes.find("Phantom"), bytes.npos) << "nothing of the source's patient";
+
+  // It comes back to the bit: written once more from what was read, on the CT's grid.
+  json("new again --ct " + quoted(m_folder / "ct") + " --labels " + quoted(seg));
+  const auto back = json("info again")["labels"];
+  ASSERT_EQ(back.size(), labels.size());
+  for (std::size_t n = 0; n < labels.size(); ++n)
+  {
+    EXPECT_EQ(back[n]["name"], labels[n]["name"]);
+    EXPECT_NEAR(back[n]["volume_mm3"].get<double>(), labels[n]["volume_mm3"].get<double>(),
+                1e-6 * labels[n]["volume_mm3"].get<double>());
+  }
+  json("export ear --what labels --out " + quoted(m_folder / "a.nii"));
+  json("export again --what labels --on-ct --out " + quoted(m_folder / "b.nii"));
+  const std::string a = textOf(m_folder / "a.nii");
+  const std::string b = textOf(m_folder / "b.nii");
+  ASSERT_EQ(a.size(), b.size());
+  EXPECT_TRUE(a.compare(352, a.npos, b, 352, b.npos) == 0);
+
+  // the same file at another time; one structure alone is another file
+  json("export ear --what labels --out " + quoted(m_folder / "twice.dcm"));
+  EXPECT_TRUE(textOf(m_folder / "twice.dcm") == bytes);
+  json("export ear --what labels --part '" + labels[0]["name"].get<std::string>() + "' --out " +
+       quoted(m_folder / "one.dcm"));
+  EXPECT_FALSE(textOf(m_folder / "one.dcm") == bytes);
+  expectRefused("export ear --what ct --out " + quoted(m_folder / "ct.dcm"), 3, ".nrrd");
+  expectRefused("export ear --what mask --on-ct --out " + quoted(m_folder / "x.nrrd"), 2,
+                "--on-ct");
+
+  if (!answerOf("/usr/bin/python3 -c 'import pydicom, numpy'").empty())
+    GTEST_SKIP() << "pydicom is not there to count the voxels";
+  std::ofstream(m_folder / "count.py") << R"(
+import sys, numpy, pydicom
+data = pydicom.dcmread(sys.argv[1])
+bits = numpy.unpackbits(numpy.frombuffer(data.PixelData, numpy.uint8), bitorder='little')
+size = data.Rows * data.Columns
+counts = {s.SegmentLabel: 0 for s in data.SegmentSequence}
+names = {s.SegmentNumber: s.SegmentLabel for s in data.SegmentSequence}
+for n, frame in enumerate(data.PerFrameFunctionalGroupsSequence):
+    number = frame.SegmentIdentificationSequence[0].ReferencedSegmentNumber
+    counts[names[number]] += int(bits[n * size:(n + 1) * size].sum())
+for name, count in counts.items():
+    print(name, count, sep=':', end=';')
+)";
+  std::string wanted;
+  for (const auto& label : labels) // voxels of 1 mm
+    wanted += label["name"].get<std::string>() + ":" +
+              std::to_string(std::lround(label["volume_mm3"].get<double>())) + ";";
+  EXPECT_EQ(answerOf("/usr/bin/python3 " + quoted(m_folder / "count.py") + " " + quoted(seg)),
+            wanted);
+
+  if (!isThere("dciodvfy") || !isThere("dcentvfy"))
+    GTEST_SKIP() << "dicom3tools is not there to check what was written";
+  json("export ear --what mr --out " + quoted(m_folder / "mr/"));
+  json("export ear --what dissected --out " + quoted(m_folder / "dissected/"));
+  for (const std::string file :
+       {"seg.dcm", "one.dcm", "ct/slice-0001.dcm", "mr/slice-0001.dcm", "dissected/slice-0001.dcm"})
+  {
+    const std::string report = answerOf("dciodvfy " + quoted(m_folder / file));
+    EXPECT_FALSE(report.empty());
+    EXPECT_EQ(report.find("Error"), report.npos) << file << ": " << report;
+  }
+  const std::string together =
+      answerOf("dcentvfy " + quoted(seg) + " " + quoted(m_folder / "ct") + "/*.dcm");
+  EXPECT_EQ(together.find("Error"), together.npos) << together;
+}
+
+// Label maps on two grids go into one file only on the CT's.
+TEST_F(CommandLine, ExportsLabelsOfSeveralGridsOnTheGridOfTheCt)
+{
+  json("new bone --ct " + quoted(writeBone(m_folder)));
+  const auto ct = json("info bone")["ct"];
+  const auto map = [&](const std::string& name, const std::string& grid, std::size_t voxels)
+  {
+    std::ofstream(m_folder / name, std::ios::binary)
+        << "NRRD0004\ntype: uchar\ndimension: 3\nspace: left-posterior-superior\n"
+        << grid << "kinds: domain domain domain\nencoding: raw\n\n"
+        << std::string(voxels, '\1');
+    return quoted(m_folder / name);
+  };
+  const std::string at = std::to_string(ct["origin_mm"][0].get<double>() + 3.0) + "," +
+                         std::to_string(ct["origin_mm"][1].get<double>() + 3.0) + "," +
+                         std::to_string(ct["origin_mm"][2].get<double>() + 3.0);
+  json("new ear --ct " + quoted(m_folder / "bone.nrrd") + " --labels " +
+       map("nerve.nrrd",
+           "sizes: 8 8 8\nspace directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (" + at + ")\n",
+           512) +
+       " --labels " +
+       map("vein.nrrd",
+           "sizes: 9 12 5\nspace directions: (0.8,0,0) (0,0.8,0) (0,0,1.2)\nspace origin: (" + at +
+               ")\n",
+           540));
+  expectRefused("export ear --what labels --out " + quoted(m_folder / "x.dcm"), 2, "--on-ct");
+  const auto told = json("export ear --what labels --on-ct --out " + quoted(m_folder / "x.dcm"));
+  EXPECT_EQ(told["segments"], 2);
+  json("new again --ct " + quoted(m_folder / "bone.nrrd") + " --labels " +
+       quoted(m_folder / "x.dcm"));
+  const auto back = json("info again")["labels"];
+  ASSERT_EQ(back.size(), 2U) << "both, though they overlap";
+  // The same in two layers, which come back alike; a format of one layer says what it leaves out.
+  EXPECT_EQ(
+      json("export ear --what labels --on-ct --out " + quoted(m_folder / "x.seg.nrrd"))["layers"],
+      2);
+  json("new layered --ct " + quoted(m_folder / "bone.nrrd") + " --labels " +
+       quoted(m_folder / "x.seg.nrrd"));
+  const auto layered = json("info layered")["labels"];
+  ASSERT_EQ(layered.size(), 2U);
+  for (std::size_t n = 0; n < 2; ++n)
+    for (const char* key : {"name", "volume_mm3"})
+      EXPECT_EQ(layered[n][key], back[n][key]);
+  const petrous::testing::Outcome flat =
+      run("export ear --what labels --on-ct --out " + quoted(m_folder / "x.nii.gz"));
+  EXPECT_EQ(flat.code, 0);
+  EXPECT_NE(flat.err.find("voxels are not written"), std::string::npos) << flat.err;
+  // NIfTI has no names: they lie beside it, and are found there.
+  json("new named --ct " + quoted(m_folder / "bone.nrrd") + " --labels " +
+       quoted(m_folder / "x.nii.gz"));
+  const auto named = json("info named")["labels"];
+  ASSERT_EQ(named.size(), 2U);
+  for (std::size_t n = 0; n < 2; ++n)
+    EXPECT_EQ(named[n]["name"], back[n]["name"]);
+  EXPECT_NEAR(back[0]["volume_mm3"].get<double>(), 512.0, 0.1 * 512.0);
+  EXPECT_NEAR(back[1]["volume_mm3"].get<double>(), 540 * 0.768, 0.15 * 540 * 0.768);
+}
+
+TEST_F(CommandLine, DecimatesASurfaceAndSaysHowFarItLies)
+{
+  json("new ear --ct " + quoted(writeBone(m_folder)));
+  const auto whole = json("export ear --what surface --out " + quoted(m_folder / "a.ply"));
+  const auto fewer =
+      json("export ear --what surface --triangles 400 --out " + quoted(m_folder / "b.ply"));
+  EXPECT_EQ(fewer["closed"], true);
+  EXPECT_LE(fewer["triangles"], 400);
+  EXPECT_GE(fewer["triangles"], 12);
+  EXPECT_EQ(fewer["decimation"]["triangles_before"], whole["triangles"]);
+  const double error = fewer["decimation"]["hausdorff_mm"];
+  EXPECT_GT(error, 0.0);
+  EXPECT_LT(error, 0.6) << "a voxel";
+  EXPECT_NEAR(fewer["volume_mm3"].get<double>(), whole["volume_mm3"].get<double>(),
+              0.01 * whole["volume_mm3"].get<double>());
+  EXPECT_NE(textOf(m_folder / "b.ply").find("property uchar red"), std::string::npos);
+  EXPECT_EQ(json("export ear --what surface --triangles 9999999 --out " +
+                 quoted(m_folder / "c.ply"))["decimation"],
+            "none");
+  expectRefused("export ear --what ct --triangles 9 --out " + quoted(m_folder / "x.nrrd"), 2,
+                "--triangles");
+}
+
 TEST_F(CommandLine, CropsToARegionOnLoad)
 {
   json("new part --ct " + quoted(writeBone(m_folder)) + " --roi -40,-30,-5,5,-5,5");
@@ -427,7 +625,7 @@ TEST_F(CommandLine, WrongUsageExitsWithTwo)
   expectRefused("zebra", 2, "zebra");
   expectRefused("new", 2, "CASE");
   expectRefused("render x --out a.png --size big", 2, "--size");
-  expectRefused("archive x x.petrous", 2, "not implemented yet");
+  expectRefused("send x --to pacs", 2, "not implemented yet");
   expectRefused("library zebra", 2, "rename A B");
   expectRefused("library rename a", 2, "library rename A B");
   const auto help = run("--help");

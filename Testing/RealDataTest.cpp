@@ -96,3 +96,27 @@ TEST_F(RealData, ASegmentationOfAnotherFrameOfReferenceIsRefusedAlsoByAStoredCas
                 "frame of reference");
   EXPECT_EQ(json("info abdomen")["labels"].size(), 6u);
 }
+
+// Areas of the polygons by the shoelace formula, with numpy, in the planes that the CT has; 5 mm
+// apart.
+TEST_F(RealData, AnRtStructureSetHasTheVolumesOfItsContours)
+{
+  const auto folder = m_data / "seg_rt" / "rt-utils" / "tests" / "mock_data";
+  if (!std::filesystem::exists(folder / "invalid_reference_rt.dcm"))
+    GTEST_SKIP() << folder << " is not there";
+  json("new a --ct " + quoted(folder));
+  const auto added = json("add a --labels " + quoted(folder / "invalid_reference_rt.dcm"));
+  const std::map<std::string, double> volumes{{"ROI-1", 5.0 * (468.6 + 717.5)},
+                                              {"ROI-2", 5.0 * (544.0 + 337.2)},
+                                              {"ROI-3", 5.0 * (422.4 + 654.8)},
+                                              {"ROI-4", 5.0 * (1081.2 + 576.7)}};
+  ASSERT_EQ(added["structures"].size(), volumes.size());
+  for (const auto& one : added["structures"])
+  {
+    const double truth = volumes.at(one["name"]);
+    EXPECT_NEAR(one["volume_mm3"].get<double>(), truth, 1e-3 * truth) << one["name"];
+    EXPECT_GT(one["volume_file_mm3"].get<double>(), truth) << "a third of it lies outside the CT";
+  }
+  // Of another patient's frame of reference.
+  EXPECT_EQ(run("add a --labels " + quoted(folder / "rt.dcm")).code, 3);
+}

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "CaseJson.h"
 #include "CaseWarnings.h"
@@ -21,6 +22,7 @@ struct PartOptions
   std::vector<std::string> mr;
   std::vector<std::string> labels;
   std::vector<std::string> meshes;
+  std::string labelNames;
   bool repair = false;
 
   void addTo(CLI::App& command)
@@ -35,9 +37,14 @@ struct PartOptions
                      "Resample tilted, uneven or gapped DICOM slices to a straight volume");
     command
         .add_option("--labels", labels,
-                    "Structures: one a file, or one an index; @MR: drawn on that MR")
+                    "Structures: one a file, or one an index; a DICOM SEG or RT structure set; a "
+                    "folder of masks; @MR: drawn on that MR")
         ->allow_extra_args(false)
         ->type_name("[NAME=]FILE[@MR]");
+    command
+        .add_option("--label-names", labelNames,
+                    "Names and colours of the indices: .ctbl, ITK-SNAP, CSV, TSV or JSON")
+        ->type_name("TABLE");
     command
         .add_option("--mesh", meshes, "Surface: OBJ, STL or PLY, mm LPS; @MR: of that MR's patient")
         ->allow_extra_args(false)
@@ -46,6 +53,8 @@ struct PartOptions
 
   presenters::PartSources sources() const
   {
+    if (!labelNames.empty() && labels.empty())
+      throw UsageError("--label-names goes with --labels");
     presenters::PartSources result;
     for (const std::string& text : mr)
     {
@@ -54,6 +63,7 @@ struct PartOptions
     }
     for (const std::string& text : labels)
       result.labels.push_back(presenters::PartSource::parseDrawn(text));
+    result.labelNames = labelNames;
     for (const std::string& text : meshes)
       result.meshes.push_back(presenters::PartSource::parseDrawn(text));
     return result;
@@ -93,6 +103,33 @@ void printCase(const Context& context, const scene::Case& value)
   context.print("  " + std::to_string(value.applied()) + " strokes done, " +
                 std::to_string(value.dissection.history().ahead()) + " to redo, " +
                 fixed(value.removedVolume(), 1) + " mm3 removed");
+}
+
+// What became of each structure of the files.
+void printStructures(const Context& context, const std::vector<presenters::StructureReport>& all,
+                     nlohmann::json& info)
+{
+  using Status = presenters::StructureReport::Status;
+  nlohmann::json list = nlohmann::json::array();
+  for (const presenters::StructureReport& one : all)
+  {
+    nlohmann::json entry = {{"name", one.name},
+                            {"status", one.status == Status::Read    ? "read"
+                                       : one.status == Status::Empty ? "empty"
+                                                                     : "unread"},
+                            {"voxels", one.voxels},
+                            {"volume_mm3", one.volume},
+                            {"layer", one.layer}};
+    if (one.fileVolume)
+      entry["volume_file_mm3"] = *one.fileVolume;
+    list.push_back(std::move(entry));
+    // Thin structures lose or gain by voxels: said where it is more than a hundredth.
+    constexpr double kNoted = 0.01;
+    if (one.fileVolume && std::abs(one.volume - *one.fileVolume) > kNoted * *one.fileVolume)
+      context.print("  '" + one.name + "': " + fixed(*one.fileVolume, 1) + " mm3 in the file, " +
+                    fixed(one.volume, 1) + " mm3 of voxels");
+  }
+  info["structures"] = std::move(list);
 }
 
 // What was accepted or assumed when the parts were read.
@@ -141,11 +178,15 @@ void addNew(CLI::App& app, Context& context)
                                       "case '" + options->name + "' is there already in " +
                                           library.folder().string() + "; choose another name");
         const core::Progress progress = context.progress();
-        scene::Case value = presenters::buildCase(options->name, sources, progress.part(0.0, 0.8));
+        std::vector<presenters::StructureReport> structures;
+        scene::Case value =
+            presenters::buildCase(options->name, sources, progress.part(0.0, 0.8), &structures);
         library.save(value, progress.part(0.8, 1.0));
         warnNotes(context, value);
         printCase(context, value);
-        context.printJson(infoJson(value));
+        nlohmann::json info = infoJson(value);
+        printStructures(context, structures, info);
+        context.printJson(info);
       });
   command->add_option("CASE", options->name, "Name of the new case")->required();
   command->add_option("--ct", options->ct, "DICOM folder, or NIfTI, NRRD or MetaImage file")
@@ -180,11 +221,14 @@ void addAdd(CLI::App& app, Context& context)
         sources.salted = [&library](const std::string& frame)
         { return library::saltedFrame(library, frame); };
         scene::Case value = library.open(options->name);
-        presenters::addParts(value, sources, context.progress());
+        std::vector<presenters::StructureReport> structures;
+        presenters::addParts(value, sources, context.progress(), &structures);
         library.save(value);
         warnNotes(context, value);
         printCase(context, value);
-        context.printJson(infoJson(value));
+        nlohmann::json info = infoJson(value);
+        printStructures(context, structures, info);
+        context.printJson(info);
       });
   command->add_option("CASE", options->name)->required();
   options->parts.addTo(*command);

@@ -9,6 +9,7 @@ namespace petrous::cli
 void addSampleCommand(CLI::App& app, Context& context);
 void addScanCommand(CLI::App& app, Context& context);
 void addCaseCommands(CLI::App& app, Context& context); ///< new, add, remove, info
+void addArchiveCommands(CLI::App& app, Context& context); ///< archive, restore
 void addLibraryCommand(CLI::App& app, Context& context);
 void addAppearanceCommand(CLI::App& app, Context& context);
 void addRenderCommand(CLI::App& app, Context& context);
@@ -18,6 +19,7 @@ void addDrillCommand(CLI::App& app, Context& context);
 void addHistoryCommands(CLI::App& app, Context& context); ///< undo, redo, history, branch
 void addExportCommand(CLI::App& app, Context& context);
 void addRegisterCommand(CLI::App& app, Context& context);
+void addSegmentCommand(CLI::App& app, Context& context);
 void addDoctorCommand(CLI::App& app, Context& context);
 
 } // namespace petrous::cli

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -6,10 +8,13 @@
 #include <type_traits>
 #include <utility>
 
+#include <tbb/parallel_for.h>
+
 #include "CaseJson.h"
 #include "CaseWarnings.h"
 #include "Commands.h"
 #include "Numbers.h"
+#include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Core/Fingerprint.h"
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Imaging/DicomWriter.h"
@@ -35,6 +40,7 @@ struct Options
   std::string caseName, what, out, part;
   bool onCt = false;
   bool withoutDamaged = false;
+  std::optional<std::size_t> triangles; // of a surface, at most
 
   /// Whether --out is a folder, for a DICOM series.
   bool isSeries() const
@@ -42,6 +48,23 @@ struct Options
     std::error_code ignored;
     return !out.empty() && (out.back() == '/' || std::filesystem::is_directory(out, ignored)) &&
            (what == "ct" || what == "mr" || what == "dissected");
+  }
+
+  /// The file for the names of labels in a format without names.
+  std::optional<std::string> labelTable() const
+  {
+    const imaging::FileFormat* format = imaging::formatOf(out);
+    if (what != "labels" || !format || format->name != "NIfTI")
+      return std::nullopt;
+    const std::filesystem::path path(out);
+    return (path.parent_path() / (imaging::baseName(path) + ".label")).string();
+  }
+
+  /// Whether --out is a DICOM segmentation.
+  bool isSegmentation() const
+  {
+    const imaging::FileFormat* format = imaging::formatOf(out);
+    return what == "labels" && format && (format->writes & imaging::kSegmentation) != 0;
   }
 };
 
@@ -96,55 +119,155 @@ const scene::ImagePart& chooseMr(const scene::Case& value, const std::string& na
   throw UsageError("export mr: give --part NAME; there are: " + there);
 }
 
-// All structures of label maps that share a grid, merged into one map and numbered in order; where
-// two overlap the earlier one is kept.
-volume::LabelMap mergedLabels(const Context& context, const scene::Case& value,
-                              const std::string& only, const presenters::LeftOut& leftOut)
+// A label map as it is written: in one space, with those of its structures that are asked for.
+struct PlacedLabels
 {
+  std::shared_ptr<const volume::LabelMap> map;
+  std::string drawnOn; // the MR in whose space it lies; empty: in the CT's
+  std::vector<const scene::StructurePart*> structures;
+};
+
+// The nearest voxel of the labels, for each voxel of the CT.
+volume::LabelMap onGrid(const volume::LabelMap& labels, const core::GridGeometry& ct,
+                        const core::Progress& progress)
+{
+  const volume::Volume<std::uint16_t>& source = *labels.voxels;
+  auto result = volume::makeZeroVolume<std::uint16_t>(ct);
+  const core::GridGeometry& grid = source.geometry();
+  const core::Index3& m = grid.dims();
+  const core::Index3& n = ct.dims();
+  std::atomic<int> done{0};
+  tbb::parallel_for(0, n[2],
+                    [&](int k)
+                    {
+                      progress.report(static_cast<double>(done.fetch_add(1)) / n[2], "resampling");
+                      for (int j = 0; j < n[1]; ++j)
+                        for (int i = 0; i < n[0]; ++i)
+                        {
+                          const Eigen::Vector3d at =
+                              grid.voxelFromPatient(ct.patientFromVoxel(Eigen::Vector3d(i, j, k)));
+                          const Eigen::Array3d nearest = at.array().round();
+                          if ((nearest >= 0.0).all() && nearest[0] < m[0] && nearest[1] < m[1] &&
+                              nearest[2] < m[2])
+                            result->at(i, j, k) = source.at(static_cast<int>(nearest[0]),
+                                                            static_cast<int>(nearest[1]),
+                                                            static_cast<int>(nearest[2]));
+                        }
+                    });
+  return volume::makeLabelMap(std::move(result), labels.segments);
+}
+
+// The label maps with structures that are asked for (all, or the one named), all on one grid in one
+// space.
+std::vector<PlacedLabels> placedLabels(const Context& context, const scene::Case& value,
+                                       const Options& options, const presenters::LeftOut& leftOut,
+                                       const core::Progress& progress)
+{
+  const std::string& only = options.part;
   const auto isLeftOut = [&](const scene::LabelPart& labels)
   {
     return std::any_of(leftOut.labels.begin(), leftOut.labels.end(),
                        [&](const auto& part) { return &value.labels[part.index] == &labels; });
   };
-  std::shared_ptr<volume::Volume<std::uint16_t>> voxels;
-  std::vector<volume::Segment> segments;
+  std::vector<PlacedLabels> placed;
   for (const auto& part : value.labels)
+  {
+    PlacedLabels labels;
     for (const auto& structure : part.structures)
+      if (only.empty() || structure.name == only)
+        labels.structures.push_back(&structure);
+    if (labels.structures.empty())
+      continue;
+    if (isLeftOut(part))
     {
-      if (!only.empty() && structure.name != only)
-        continue;
-      if (isLeftOut(part))
-      {
-        if (!only.empty())
-          throw core::InvalidParameter("export labels: '" + only +
-                                       "' is missing or damaged, and nothing else is asked for");
-        continue;
-      }
-      const auto placed = scene::labelsOnCt(value, part);
-      if (!placed)
-        context.warn("'" + structure.name + "' is written where its MR has it, not on the CT: " +
-                     scene::missingPlace(value, structure.name));
-      const auto& source = *(placed ? placed : part.labels.get())->voxels;
-      if (!voxels)
-        voxels =
-            std::make_shared<volume::Volume<std::uint16_t>>(source.geometry(), std::uint16_t{0});
-      if (!core::sameGrid(voxels->geometry(), source.geometry()))
-        throw UsageError("export labels: '" + structure.name +
-                         "' lies on another grid; export it alone with --part");
-      const auto index = static_cast<std::uint16_t>(segments.size() + 1);
-      std::transform(voxels->data(), voxels->data() + voxels->size(), source.data(), voxels->data(),
-                     [&structure, index](std::uint16_t present, std::uint16_t own)
-                     { return present == 0 && own == structure.index ? index : present; });
-      volume::Segment segment;
-      segment.name = structure.name;
-      segment.index = index;
-      segment.color = structure.look.color;
-      segments.push_back(std::move(segment));
+      if (!only.empty())
+        throw core::InvalidParameter("export labels: '" + only +
+                                     "' is missing or damaged, and nothing else is asked for");
+      continue;
     }
-  if (!voxels)
+    const std::string& name = labels.structures.front()->name;
+    labels.map = scene::labelsOnCt(value, part);
+    if (!labels.map)
+    {
+      if (options.onCt)
+        throw core::InvalidParameter("export labels: '" + name + "' " +
+                                     scene::missingPlace(value, name));
+      for (const auto* structure : labels.structures)
+        context.warn("'" + structure->name + "' is written where its MR has it, not on the CT: " +
+                     scene::missingPlace(value, structure->name));
+      labels.map = part.labels.get();
+      labels.drawnOn = scene::placementOf(value, part).drawnOn;
+    }
+    const bool isFirst = placed.empty();
+    if (options.onCt && !core::sameGrid(labels.map->voxels->geometry(), value.ct.geometry))
+      labels.map = std::make_shared<const volume::LabelMap>(
+          onGrid(*labels.map, value.ct.geometry, progress));
+    if (!isFirst &&
+        (labels.drawnOn != placed.front().drawnOn ||
+         !core::sameGrid(labels.map->voxels->geometry(), placed.front().map->voxels->geometry())))
+      throw UsageError("export labels: '" + name +
+                       "' lies on another grid; export it alone with --part, or all on the CT's "
+                       "grid with --on-ct");
+    placed.push_back(std::move(labels));
+  }
+  if (placed.empty())
     throw core::InvalidParameter("case '" + value.name + "' has no " +
                                  (only.empty() ? "structures" : "structure '" + only + "'"));
-  return volume::makeLabelMap(std::move(voxels), std::move(segments));
+  return placed;
+}
+
+// All structures, numbered in order, in layers within which none overlaps another; with
+// `inOneLayer` in a single one, in which the earlier structure keeps the voxel, and a warning.
+std::vector<volume::LabelMap> layersOf(const Context& context,
+                                       const std::vector<PlacedLabels>& placed, bool inOneLayer)
+{
+  struct Layer
+  {
+    std::shared_ptr<volume::Volume<std::uint16_t>> voxels;
+    std::vector<volume::Segment> segments;
+  };
+  std::vector<Layer> layers;
+  std::uint16_t index = 0;
+  for (const PlacedLabels& labels : placed)
+    for (const auto* structure : labels.structures)
+    {
+      const volume::Volume<std::uint16_t>& source = *labels.map->voxels;
+      const auto overlap = [&](const Layer& layer)
+      {
+        std::size_t count = 0;
+        for (std::size_t p = 0; p < source.size(); ++p)
+          count += source.data()[p] == structure->index && layer.voxels->data()[p] != 0 ? 1 : 0;
+        return count;
+      };
+      auto layer = layers.begin();
+      if (inOneLayer && layer != layers.end())
+      {
+        if (const std::size_t lost = overlap(*layer); lost > 0)
+          context.warn("'" + structure->name + "': " + std::to_string(lost) +
+                       " voxels are not written, as structures before it have them; .seg.nrrd "
+                       "and .dcm keep structures that overlap");
+      }
+      else
+        layer = std::find_if(layers.begin(), layers.end(),
+                             [&](const Layer& each) { return overlap(each) == 0; });
+      if (layer == layers.end())
+        layer = layers.insert(layers.end(),
+                              {volume::makeZeroVolume<std::uint16_t>(source.geometry()), {}});
+      ++index;
+      std::uint16_t* voxels = layer->voxels->data();
+      for (std::size_t p = 0; p < source.size(); ++p)
+        if (source.data()[p] == structure->index && voxels[p] == 0)
+          voxels[p] = index;
+      volume::Segment segment;
+      segment.name = structure->name;
+      segment.index = index;
+      segment.color = structure->look.color;
+      layer->segments.push_back(std::move(segment));
+    }
+  std::vector<volume::LabelMap> maps;
+  for (Layer& layer : layers)
+    maps.push_back(volume::makeLabelMap(std::move(layer.voxels), std::move(layer.segments)));
+  return maps;
 }
 
 template <class T>
@@ -155,19 +278,66 @@ std::shared_ptr<const volume::IntensityVolume> shared(volume::Volume<T> voxels,
       std::make_shared<const volume::Volume<T>>(std::move(voxels)), padding);
 }
 
-imaging::FileContent contentOf(const std::string& what)
+unsigned contentOf(const std::string& what)
 {
   if (what == "labels")
-    return imaging::kLabels;
+    return imaging::kLabels | imaging::kSegmentation;
   if (what == "surface" || what == "structure")
     return imaging::kMesh;
   return imaging::kImage;
 }
 
-// A DICOM series with identifiers of its own and nothing of the patient's. Images of one case share
-// study and, in the CT's space, frame of reference; equal voxels give equal files.
+// Identifiers of DICOM files that are written of a case: derived from the case's and the voxels, so
+// that what is written at different times belongs together. Images and segmentations of one case
+// share the study and, in one space, the frame of reference.
+class CaseIdentifiers
+{
+public:
+  explicit CaseIdentifiers(const scene::Case& value)
+  {
+    const std::string& id = value.id.empty() ? value.name : value.id;
+    m_case.add(id.data(), id.size());
+  }
+
+  std::string study() const { return imaging::deterministicUid(m_case.value(), "study"); }
+
+  // `drawnOn`: the MR whose space it is; empty: the CT's.
+  std::string frameOfReference(const std::string& drawnOn) const
+  {
+    return imaging::deterministicUid(m_case.value(),
+                                     drawnOn.empty() ? "frame CT" : "frame MR " + drawnOn);
+  }
+
+  template <class Voxels>
+  std::string series(const std::string& what, const core::GridGeometry& grid,
+                     const Voxels& addVoxels) const
+  {
+    core::Fingerprint all = m_case;
+    all.add(what.data(), what.size());
+    all.add(grid.patientFromVoxelLinear().data(), 9 * sizeof(double));
+    all.add(grid.origin().data(), 3 * sizeof(double));
+    addVoxels(all);
+    return imaging::deterministicUid(all.value(), "series");
+  }
+
+  std::string series(const std::string& what, const volume::IntensityVolume& image) const
+  {
+    return series(what, image.geometry(),
+                  [&image](core::Fingerprint& all)
+                  {
+                    image.visit([&all](const auto& voxels)
+                                { all.add(voxels.data(), voxels.size() * sizeof *voxels.data()); });
+                  });
+  }
+
+private:
+  core::Fingerprint m_case;
+};
+
+// A DICOM series with identifiers of its own and nothing of the patient's. Equal voxels give equal
+// files.
 void writeSeries(const Options& options, const scene::Case& value,
-                 const volume::IntensityVolume& image, const std::string& space,
+                 const volume::IntensityVolume& image, const std::string& drawnOn,
                  const core::Progress& progress)
 {
   if (std::holds_alternative<std::shared_ptr<const volume::Volume<float>>>(image.voxels()))
@@ -176,17 +346,7 @@ void writeSeries(const Options& options, const scene::Case& value,
         ": its voxels are fractions, and a DICOM series holds whole numbers; write " +
         imaging::orText(imaging::writtenEndings(imaging::kImage)));
   using Modality = imaging::SeriesDescription::Modality;
-  const std::string& id = value.id.empty() ? value.name : value.id;
-  core::Fingerprint ofCase;
-  ofCase.add(id.data(), id.size());
-  core::Fingerprint ofImage = ofCase;
-  ofImage.add(options.what.data(), options.what.size());
-  const core::GridGeometry& grid = image.geometry();
-  ofImage.add(grid.patientFromVoxelLinear().data(), 9 * sizeof(double));
-  ofImage.add(grid.origin().data(), 3 * sizeof(double));
-  image.visit([&](const auto& voxels)
-              { ofImage.add(voxels.data(), voxels.size() * sizeof *voxels.data()); });
-
+  const CaseIdentifiers identifiers(value);
   imaging::SeriesDescription series;
   series.modality = options.what == "mr" ? Modality::Mr : Modality::Ct;
   series.derived = true;
@@ -197,9 +357,9 @@ void writeSeries(const Options& options, const scene::Case& value,
   series.seriesNumber = options.what == "ct" ? 1 : options.what == "mr" ? 2 : 3;
   series.patientId = "ANONYMOUS";
   series.patientName = "Anonymous";
-  series.studyUid = imaging::deterministicUid(ofCase.value(), "study");
-  series.seriesUid = imaging::deterministicUid(ofImage.value(), "series");
-  series.frameOfReferenceUid = imaging::deterministicUid(ofCase.value(), "frame " + space);
+  series.studyUid = identifiers.study();
+  series.seriesUid = identifiers.series(options.what, image);
+  series.frameOfReferenceUid = identifiers.frameOfReference(drawnOn);
   if (value.denseBone != volume::IntensityScale{}.dense)
     series.rescaleType = "US";
   if (series.modality == Modality::Mr)
@@ -214,10 +374,73 @@ void writeSeries(const Options& options, const scene::Case& value,
   folder.commit();
 }
 
-// One structure as a surface: of its voxels on the CT, or the mesh that it is.
-core::TriangleMesh structureMesh(const Context& context, const scene::Case& value,
-                                 const std::string& name, const core::Progress& progress,
-                                 nlohmann::json& json)
+// The structures as a DICOM segmentation that belongs to the series of the CT, or of the MR, which
+// `export --what ct` or `mr` writes. Returns the number of segments.
+std::size_t writeSegmentation(const Options& options, const scene::Case& value,
+                              const std::vector<PlacedLabels>& placed,
+                              const std::string& sourceSeries, const core::Progress& progress)
+{
+  using Segmentation = imaging::SegmentationDescription;
+  const std::string& drawnOn = placed.front().drawnOn;
+  const core::GridGeometry& grid = placed.front().map->voxels->geometry();
+  const CaseIdentifiers identifiers(value);
+  const auto presets = appearance::StructurePresets::builtIn();
+  Segmentation segmentation;
+  std::vector<volume::LabelMap> maps;
+  for (const PlacedLabels& labels : placed)
+  {
+    for (const auto* structure : labels.structures)
+    {
+      const auto code = presets.codeFor(structure->name, structure->look.preset);
+      Segmentation::Segment segment;
+      segment.map = maps.size();
+      segment.index = structure->index;
+      segment.label = structure->name;
+      segment.color = structure->look.color;
+      segment.category = {code.category, "SCT", code.categoryMeaning};
+      segment.type = {code.type, "SCT", code.typeMeaning};
+      // A case does not record how its structures were drawn.
+      segment.algorithm = Segmentation::Algorithm::SemiAutomatic;
+      segment.algorithmName = "not recorded";
+      segmentation.segments.push_back(std::move(segment));
+    }
+    maps.push_back(*labels.map);
+  }
+  const scene::ImagePart* source = drawnOn.empty() ? &value.ct : nullptr;
+  for (const auto& mr : value.mr)
+    if (!source && mr.name == drawnOn)
+      source = &mr;
+  if (source)
+    segmentation.source = Segmentation::Source{
+        drawnOn.empty() ? imaging::SeriesDescription::Modality::Ct
+                        : imaging::SeriesDescription::Modality::Mr,
+        sourceSeries, source->geometry.dims()[2], core::sameGrid(source->geometry, grid)};
+  segmentation.description = "Segmentation";
+  segmentation.studyUid = identifiers.study();
+  segmentation.frameOfReferenceUid = identifiers.frameOfReference(drawnOn);
+  segmentation.seriesUid = identifiers.series(
+      "labels", grid,
+      [&](core::Fingerprint& all)
+      {
+        for (const auto& map : maps)
+          all.add(map.voxels->data(), map.voxels->size() * sizeof(std::uint16_t));
+        for (const auto& segment : segmentation.segments)
+        {
+          all.add(segment.label.c_str(), segment.label.size() + 1);
+          all.add(segment.color.data(), sizeof segment.color);
+          all.add(segment.type.value.c_str(), segment.type.value.size() + 1);
+          all.add(&segment.map, sizeof segment.map);
+          all.add(&segment.index, sizeof segment.index);
+        }
+      });
+  imaging::writeDicomSegmentation(options.out, maps, segmentation, progress);
+  return segmentation.segments.size();
+}
+
+// One structure as a surface, with its colour: of its voxels on the CT, or the mesh that it is.
+std::pair<core::TriangleMesh, std::array<float, 3>>
+structureMesh(const Context& context, const scene::Case& value, const std::string& name,
+              const core::Progress& progress, nlohmann::json& json)
 {
   for (const auto& part : value.labels)
     for (const auto& structure : part.structures)
@@ -229,7 +452,8 @@ core::TriangleMesh structureMesh(const Context& context, const scene::Case& valu
                        scene::missingPlace(value, name));
         const volume::LabelMap& map = *(placed ? placed : part.labels.get());
         json["voxels_mm3"] = structure.volume;
-        return rendering::extractLabel(*map.voxels, structure.index, progress);
+        return {rendering::extractLabel(*map.voxels, structure.index, progress),
+                structure.look.color};
       }
   for (const auto& part : value.meshes)
     if (part.name == name)
@@ -238,7 +462,7 @@ core::TriangleMesh structureMesh(const Context& context, const scene::Case& valu
       if (!placed)
         context.warn("'" + name + "' is written where its MR has it, not on the CT: " +
                      scene::missingPlace(value, name));
-      return *(placed ? placed : part.mesh.get());
+      return {*(placed ? placed : part.mesh.get()), part.look.color};
     }
   throw core::InvalidParameter("case '" + value.name + "' has no structure '" + name + "'");
 }
@@ -247,11 +471,16 @@ void exportCase(const Context& context, const Options& options)
 {
   if (!options.isSeries()) // before anything is computed
     imaging::writingFormat(options.out, contentOf(options.what));
-  if (options.onCt && options.what != "mr")
-    throw UsageError("--on-ct is for --what mr");
+  if (options.onCt && options.what != "mr" && options.what != "labels")
+    throw UsageError("--on-ct is for --what mr and labels");
+  if (options.triangles && options.what != "surface" && options.what != "structure")
+    throw UsageError("--triangles is for --what surface and structure");
   if (options.what == "structure" && options.part.empty())
     throw UsageError("export structure: give --part NAME");
-  context.refuseOverwriting({options.out});
+  std::vector<std::string> files{options.out};
+  if (options.labelTable())
+    files.push_back(*options.labelTable());
+  context.refuseOverwriting({files.begin(), files.end()});
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
   const core::Progress progress = context.progress();
@@ -273,32 +502,45 @@ void exportCase(const Context& context, const Options& options)
     leftOut = leaveOutDamaged(context, library, value, options.withoutDamaged);
   nlohmann::json json{{"case", value.name}, {"what", options.what}, {"out", options.out}};
   std::string words;
-  const auto writeImage = [&](const volume::IntensityVolume& image, const std::string& space)
+  const auto writeImage = [&](const volume::IntensityVolume& image, const std::string& drawnOn)
   {
     if (options.isSeries())
     {
-      writeSeries(options, value, image, space, progress.part(0.5, 1.0));
+      writeSeries(options, value, image, drawnOn, progress.part(0.5, 1.0));
       json["instances"] = image.geometry().dims()[2];
       words = ", " + std::to_string(image.geometry().dims()[2]) + " DICOM files";
     }
     else
       imaging::writeVolume(options.out, image, progress.part(0.5, 1.0));
   };
-  const auto writeSurface = [&](const core::TriangleMesh& mesh)
+  const auto writeSurface = [&](core::TriangleMesh mesh, const std::array<float, 3>& color)
   {
+    json["decimation"] = "none";
+    std::string decimation = "not decimated";
+    if (options.triangles && mesh.triangles.size() > *options.triangles)
+    {
+      const std::size_t before = mesh.triangles.size();
+      auto fewer = rendering::decimated(mesh, *options.triangles, progress.part(0.7, 1.0));
+      mesh = std::move(fewer.mesh);
+      if (mesh.triangles.size() > *options.triangles)
+        context.warn("it keeps " + std::to_string(mesh.triangles.size()) +
+                     " triangles: with fewer it would not stay closed");
+      json["decimation"] = {{"triangles_before", before}, {"hausdorff_mm", fewer.error}};
+      decimation = "decimated from " + std::to_string(before) + ", at most " +
+                   core::generalText(fewer.error, 3) + " mm from it";
+    }
     const bool closed = mesh.isClosed();
     json["triangles"] = mesh.triangles.size();
     json["closed"] = closed;
-    json["decimation"] = "none";
     words =
-        ", " + std::to_string(mesh.triangles.size()) + " triangles, not decimated, " +
+        ", " + std::to_string(mesh.triangles.size()) + " triangles, " + decimation + ", " +
         (closed ? "closed, " + core::generalText(mesh.signedVolume(), 5) + " mm3" : "not closed");
     if (closed)
       json["volume_mm3"] = mesh.signedVolume();
-    imaging::writeMesh(options.out, mesh);
+    imaging::writeMesh(options.out, mesh, color);
   };
   if (options.what == "ct")
-    writeImage(*checked(value.ct), "CT");
+    writeImage(*checked(value.ct), "");
   else if (options.what == "mr")
   {
     const scene::ImagePart& mr = chooseMr(value, options.part);
@@ -307,31 +549,58 @@ void exportCase(const Context& context, const Options& options)
                                    "' is not registered with the CT; register it first");
     const auto image = checked(mr);
     if (!options.onCt)
-      writeImage(*image, "MR " + mr.name);
+      writeImage(*image, mr.name);
     else
-      writeImage(*presenters::mrOnCt(*image, value.ct.geometry, mr.mrFromCt,
-                                     progress.part(0.0, 0.5)),
-                 "CT");
+      writeImage(
+          *presenters::mrOnCt(*image, value.ct.geometry, mr.mrFromCt, progress.part(0.0, 0.5)), "");
   }
   else if (options.what == "labels")
-    imaging::writeLabelFile(options.out, mergedLabels(context, value, options.part, leftOut));
+  {
+    const auto placed = placedLabels(context, value, options, leftOut, progress.part(0.0, 0.5));
+    if (options.isSegmentation())
+    {
+      const std::string& drawnOn = placed.front().drawnOn;
+      const std::string series = CaseIdentifiers(value).series(
+          drawnOn.empty() ? "ct" : "mr",
+          *checked(drawnOn.empty() ? value.ct : chooseMr(value, drawnOn)));
+      json["segments"] = writeSegmentation(options, value, placed, series, progress.part(0.5, 1.0));
+    }
+    else
+    {
+      const bool holdsLayers = imaging::formatOf(options.out)->ending == ".seg.nrrd";
+      const auto layers = layersOf(context, placed, !holdsLayers);
+      json["layers"] = layers.size();
+      imaging::writeLabelLayers(options.out, layers, progress.part(0.5, 1.0));
+      if (const auto table = options.labelTable())
+      {
+        imaging::writeLabelTable(*table, layers.front().segments);
+        json["names"] = *table;
+        words = ", its names in " + *table;
+      }
+    }
+  }
   else if (options.what == "mask")
     imaging::writeVolume(options.out, mask().dense(), progress);
   else if (options.what == "dissected")
   {
     const auto image = checked(value.ct);
-    image->visit(
-        [&](const auto& ct)
-        { writeImage(*shared(dissected(ct, mask(), value.iso), image->padding()), "CT"); });
+    image->visit([&](const auto& ct)
+                 { writeImage(*shared(dissected(ct, mask(), value.iso), image->padding()), ""); });
   }
   else if (options.what == "structure")
-    writeSurface(structureMesh(context, value, options.part, progress, json));
+  {
+    const core::Progress making = progress.part(0.0, 0.7);
+    auto [mesh, color] = structureMesh(context, value, options.part, making, json);
+    writeSurface(std::move(mesh), color);
+  }
   else // surface
   {
     mask();
     checked(value.ct);
     const volume::TissueField field = scene::tissueField(value);
-    writeSurface(rendering::extractSurface(field, field.geometry().fullBox(), progress));
+    writeSurface(
+        rendering::extractSurface(field, field.geometry().fullBox(), progress.part(0.0, 0.7)),
+        value.boneLook.color);
   }
   context.print(options.out + ": " + options.what + " of '" + value.name + "'" + words);
   json["left_out"] = leftOutJson(value, leftOut);
@@ -354,7 +623,7 @@ void addExportCommand(CLI::App& app, Context& context)
       ->add_option(
           "--out", options->out,
           "Voxels: " + imaging::orText(imaging::writtenEndings(imaging::kImage)) +
-              "; labels: " + imaging::orText(imaging::writtenEndings(imaging::kLabels)) +
+              "; labels: " + imaging::orText(imaging::writtenEndings(contentOf("labels"))) +
               "; surface, structure: " + imaging::orText(imaging::writtenEndings(imaging::kMesh)) +
               "; mm LPS. FOLDER/: ct, mr or dissected as a DICOM series")
       ->type_name("F")
@@ -363,7 +632,12 @@ void addExportCommand(CLI::App& app, Context& context)
                    ->type_name("NAME");
   command->add_option("NAME", options->part, "As --part: 'export ear --what structure NAME'")
       ->excludes(part);
-  command->add_flag("--on-ct", options->onCt, "An MR resampled on the CT's grid");
+  command->add_flag("--on-ct", options->onCt, "An MR, or the labels, resampled on the CT's grid");
+  command
+      ->add_option("--triangles", options->triangles,
+                   "A surface of at most about N triangles; how far it lies off is printed")
+      ->type_name("N")
+      ->check(CLI::Range(std::size_t{4}, std::size_t{1} << 32));
   addWithoutDamaged(*command, options->withoutDamaged);
 }
 

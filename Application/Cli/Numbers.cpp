@@ -10,6 +10,8 @@
 #include <string_view>
 
 #include "Context.h"
+#include "petrous/Core/CsvTable.h"
+#include "petrous/Core/InputFile.h"
 
 namespace petrous::cli
 {
@@ -105,6 +107,16 @@ core::PatientBox parseBox(const std::string& text, const std::string& option)
     if (n[2 * axis] >= n[2 * axis + 1])
       throw UsageError(name + ": each first number must be the smaller one");
   return {Eigen::Vector3d(n[0], n[2], n[4]), Eigen::Vector3d(n[1], n[3], n[5])};
+}
+
+std::vector<Eigen::Vector3d> readPoints(const std::filesystem::path& path)
+{
+  std::ifstream file = core::openInput(path, kLargestInput);
+  std::vector<Eigen::Vector3d> points;
+  core::readCsv(file, path.string(), {"x_mm", "y_mm", "z_mm"},
+                [&points](std::size_t, const std::vector<double>& row)
+                { points.emplace_back(row[0], row[1], row[2]); });
+  return points;
 }
 
 int toInt(double value, const std::string& option)

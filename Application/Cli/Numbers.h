@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <Eigen/Core>
 
 #include "petrous/Core/NumberText.h"
 #include "petrous/Core/PatientBox.h"
@@ -37,6 +39,10 @@ std::vector<double> parseNumbers(const std::string& text, std::size_t count,
 
 /// "x0,x1,y0,y1,z0,z1", minimum before maximum; otherwise throws UsageError naming `option`.
 core::PatientBox parseBox(const std::string& text, const std::string& option);
+
+/// Patient points, LPS mm, from a CSV file with columns x_mm, y_mm and z_mm. Throws
+/// InvalidParameter naming file and line.
+std::vector<Eigen::Vector3d> readPoints(const std::filesystem::path& path);
 
 /// An integer within the range of int; otherwise throws UsageError naming `option`.
 int toInt(double value, const std::string& option);

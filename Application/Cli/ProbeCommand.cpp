@@ -7,8 +7,7 @@
 #include "CaseWarnings.h"
 #include "Commands.h"
 #include "Context.h"
-#include "petrous/Core/CsvTable.h"
-#include "petrous/Core/InputFile.h"
+#include "Numbers.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Scene/CaseField.h"
@@ -20,18 +19,6 @@ namespace petrous::cli
 
 namespace
 {
-
-// Patient points, LPS mm, from a CSV file with columns x_mm, y_mm and z_mm. Throws
-// InvalidParameter naming file and line.
-std::vector<Eigen::Vector3d> readPoints(const std::filesystem::path& path)
-{
-  std::ifstream file = core::openInput(path, kLargestInput);
-  std::vector<Eigen::Vector3d> points;
-  core::readCsv(file, path.string(), {"x_mm", "y_mm", "z_mm"},
-                [&points](std::size_t, const std::vector<double>& row)
-                { points.emplace_back(row[0], row[1], row[2]); });
-  return points;
-}
 
 // Search distance for a surface, mm.
 constexpr double kReach = 20.0;

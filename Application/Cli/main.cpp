@@ -15,7 +15,7 @@ namespace
 using namespace petrous;
 
 // Specified command-line names, not implemented yet.
-constexpr std::array<const char*, 5> kNotBuilt{"archive", "restore", "send", "receive", "nodes"};
+constexpr std::array<const char*, 3> kNotBuilt{"send", "receive", "nodes"};
 
 // The window is a separate program, so that the command starts without Qt.
 int openWorkstation(char** arguments)
@@ -48,6 +48,7 @@ void addCommands(CLI::App& app, cli::Context& context)
   cli::addSampleCommand(app, context);
   cli::addScanCommand(app, context);
   cli::addCaseCommands(app, context);
+  cli::addArchiveCommands(app, context);
   cli::addLibraryCommand(app, context);
   cli::addAppearanceCommand(app, context);
   cli::addRenderCommand(app, context);
@@ -65,6 +66,7 @@ void addCommands(CLI::App& app, cli::Context& context)
                                           "program; install the package petrous-bench");
                   })
       ->allow_extras();
+  cli::addSegmentCommand(app, context);
   cli::addDoctorCommand(app, context);
   for (const char* name : kNotBuilt)
     context

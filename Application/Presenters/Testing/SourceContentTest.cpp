@@ -4,10 +4,13 @@
 
 #include <unistd.h>
 
+#include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/VolumeFile.h"
 #include "petrous/Phantom/SamplePatient.h"
+#include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Presenters/SeriesPreview.h"
 #include "petrous/Presenters/SourceContent.h"
 
 using namespace petrous;
@@ -155,4 +158,126 @@ TEST_F(SourceContent, OfAFolderWithCtAndMrTheUserSaysWhich)
   EXPECT_EQ(found.series[1].folder, "mr");
   EXPECT_EQ(found.series[0].taken, "20200101 1200"); // as written by the test
   EXPECT_EQ(found.series[0].patientPosition, "HFS");
+}
+
+TEST(SequenceName, KeepsOnlyWhatNamesASequence)
+{
+  using presenters::sequenceName;
+  EXPECT_EQ(sequenceName("T2_CISS_3D tra IAC Doe^John 1962"), "T2 CISS 3D tra IAC");
+  EXPECT_EQ(sequenceName("DOE JOHN"), "");
+  EXPECT_EQ(sequenceName("ep2d_diff b1000 Mueller"), "b1000");
+  EXPECT_EQ(sequenceName("DWI b 1000"), "DWI b 1000");
+  EXPECT_EQ(sequenceName("T1 echo 2"), "T1 echo 2");
+  EXPECT_EQ(sequenceName("T2 B. Smith"), "T2") << "an initial";
+  EXPECT_EQ(sequenceName("phase Jones"), "");
+  EXPECT_EQ(sequenceName("19620131"), "");
+}
+
+namespace
+{
+
+// The sample's CT without its slice `missing`, counted along the stack.
+std::filesystem::path withoutSlice(const std::filesystem::path& folder, std::size_t missing)
+{
+  phantom::SampleOptions options;
+  options.spacing = 1.5;
+  phantom::writeSamplePatient(folder, options);
+  const auto scan = imaging::scanDicom(folder / "ct", {});
+  std::filesystem::remove(scan.series.at(0).geometry.slices.at(missing).file);
+  return folder / "ct";
+}
+
+} // namespace
+
+TEST_F(SourceContent, WhatRepairInterpolatedIsKnownFromTheCase)
+{
+  const auto ct = withoutSlice(m_folder, 11);
+  presenters::CaseSources sources;
+  sources.ct = ct;
+  sources.repair = true;
+  auto value = presenters::buildCase("ear", sources, {});
+  EXPECT_EQ(presenters::interpolatedSlices(value.ct), std::vector<int>{11});
+  const auto found = presenters::lookAt(ct, {});
+  EXPECT_FALSE(found.repair.empty());
+  EXPECT_TRUE(std::any_of(found.repair.begin(), found.repair.end(),
+                          [](const imaging::Finding& one)
+                          { return one.kind == imaging::FindingKind::MissingSlice; }));
+  // In a region the slices are counted anew.
+  const Vector3d from = value.ct.geometry.patientFromVoxel(Vector3d(2, 2, 5));
+  const Vector3d to = value.ct.geometry.patientFromVoxel(Vector3d(20, 20, 15));
+  core::PatientBox box;
+  box.extend(from);
+  box.extend(to);
+  sources.roi = box;
+  value = presenters::buildCase("ear", sources, {});
+  EXPECT_EQ(presenters::interpolatedSlices(value.ct), std::vector<int>{6});
+
+  scene::ImagePart many;
+  many.geometry = core::GridGeometry({4, 4, 60}, Vector3d::Ones(), Vector3d::Zero());
+  many.notes = {"Repaired: slices 3, 7 to 9 of 60 were interpolated between neighbours, up to "
+                "0.50 mm from what was measured."};
+  EXPECT_EQ(presenters::interpolatedSlices(many), (std::vector<int>{2, 6, 7, 8}));
+  many.notes = {"Repaired: slices 3 of 61 were interpolated between neighbours"};
+  EXPECT_TRUE(presenters::interpolatedSlices(many).empty()) << "of another grid";
+}
+
+TEST_F(SourceContent, ThePreviewOfARegionCountsWhatWouldBeRead)
+{
+  phantom::SampleOptions options;
+  options.spacing = 0.3; // more slices than a preview takes
+  options.dims = {24, 24, 300};
+  phantom::writeSamplePatient(m_folder, options);
+  const auto preview = presenters::previewScan(m_folder / "ct", {}, false, {});
+  presenters::CaseSources sources;
+  sources.ct = m_folder / "ct";
+  const auto whole = presenters::buildCase("ear", sources, {});
+  EXPECT_TRUE(core::sameGrid(preview.grid, whole.ct.geometry));
+  EXPECT_LT(preview.value.ct.geometry.dims()[2], 160);
+  EXPECT_EQ(preview.voxelsIn(preview.grid.patientBounds()), whole.ct.geometry.voxelCount());
+  core::PatientBox box(preview.grid.center() - Vector3d(1.9, 2.3, 11.0),
+                       preview.grid.center() + Vector3d(2.6, 1.1, 20.0));
+  sources.roi = box;
+  const auto part = presenters::buildCase("ear", sources, {});
+  EXPECT_EQ(preview.voxelsIn(box), part.ct.geometry.voxelCount());
+  EXPECT_EQ(preview.bytesPerVoxel * part.ct.geometry.voxelCount(), part.ct.volume.get()->bytes());
+}
+
+// Before, the tilted stack is sheared: seen from the side a landmark is elsewhere than after.
+TEST_F(SourceContent, ThePreviewOfARepairShowsTheSlicesAsTheyLieAndAsTheyBelong)
+{
+  phantom::SampleOptions options;
+  options.spacing = 1.5;
+  options.tilt = 15.0;
+  phantom::writeSamplePatient(m_folder, options);
+  const auto preview = presenters::previewRepair(m_folder / "ct", {}, {});
+  EXPECT_EQ(preview.orientation, presenters::SliceOrientation::Sagittal) << "where the tilt shows";
+  presenters::CaseSources sources;
+  sources.ct = m_folder / "ct";
+  sources.repair = true;
+  const auto truth = presenters::buildCase("ear", sources, {});
+  const auto& after = preview.after.value.ct;
+  const auto& before = preview.before.value.ct;
+  const auto& image = *truth.ct.volume.get();
+  double most = 0.0;
+  double sheared = 0.0;
+  const Vector3d middle = after.geometry.center();
+  for (double y = -20.0; y <= 20.0; y += 1.0)
+    for (double z = -20.0; z <= 20.0; z += 1.0)
+    {
+      const Vector3d at = middle + Vector3d(0.0, y, z);
+      const auto value = [&at](const scene::ImagePart& part, const volume::IntensityVolume& from)
+      { return from.sample(part.geometry.voxelFromPatient(at)); };
+      if (!truth.ct.geometry.hullContains(truth.ct.geometry.voxelFromPatient(at)) ||
+          !before.geometry.hullContains(before.geometry.voxelFromPatient(at)) ||
+          !after.geometry.hullContains(after.geometry.voxelFromPatient(at)))
+        continue;
+      const double right = value(truth.ct, image);
+      most = std::max(most, std::abs(value(after, *after.volume.get()) - right));
+      sheared = std::max(sheared, std::abs(value(before, *before.volume.get()) - right));
+    }
+  EXPECT_LT(most, 1e-6);
+  EXPECT_GT(sheared, 300.0);
+  EXPECT_TRUE(std::any_of(preview.notes.begin(), preview.notes.end(),
+                          [](const std::string& note)
+                          { return note.find("15.0 degrees") != std::string::npos; }));
 }

@@ -801,3 +801,178 @@ TEST_F(WorkstationModelTest, AStructureReplacedDuringASaveIsStoredByTheNextOne)
   ASSERT_EQ(saved.labels.size(), 1U);
   EXPECT_EQ(saved.labels.front().labels.get()->voxels->at(8, 8, 8), 1);
 }
+
+namespace
+{
+
+// A map with structures 1 to 3, each a voxel more than the one before, at `place`.
+scene::LabelPart threeStructures(const core::GridGeometry& grid, const std::string& prefix,
+                                 int place)
+{
+  auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
+  for (int n = 1; n <= 3; ++n)
+    for (int i = 0; i < n; ++i)
+      voxels->at(i, n, place) = static_cast<std::uint16_t>(n);
+  auto map = std::make_shared<const volume::LabelMap>(volume::makeLabelMap(voxels, {}));
+  scene::LabelPart part;
+  for (std::uint16_t n = 1; n <= 3; ++n)
+  {
+    scene::StructurePart structure;
+    structure.name = prefix + std::to_string(n);
+    structure.index = n;
+    structure.voxels = n;
+    part.structures.push_back(structure);
+  }
+  part.drawnOn = "";
+  part.labels = map;
+  return part;
+}
+
+std::vector<std::string> namesIn(const scene::Case& value)
+{
+  return scene::partNames(value);
+}
+
+} // namespace
+
+TEST_F(WorkstationModelTest, WhatIsRemovedComesBackToItsPlace)
+{
+  library::Library library(folder);
+  scene::Case value = block("block");
+  for (const char* prefix : {"a", "b"})
+    value.labels.push_back(
+        threeStructures(value.ct.geometry, prefix, 30 + static_cast<int>(value.labels.size())));
+  scene::ImagePart mr = value.ct;
+  mr.name = "T2";
+  value.mr = {mr, mr};
+  value.mr[1].name = "T1";
+  value.labels[1].structures[0].look.sourceImage = "T2";
+  WorkstationModel model{library};
+  model.adopt(std::move(value));
+  model.prepareNow();
+  model.save();
+  const auto before = namesIn(model.value());
+  const std::vector<std::string> steps{"a2", "T2", "b1", "a1", "a3"}; // the last empties its map
+  for (const std::string& name : steps)
+  {
+    model.removePart(name);
+    EXPECT_EQ(model.removedPart(), name);
+    model.prepareNow();
+  }
+  EXPECT_EQ(namesIn(model.value()), (std::vector<std::string>{"ct", "T1", "b2", "b3"}));
+  model.save();
+  EXPECT_EQ(namesIn(library.open("block")), namesIn(model.value()));
+  EXPECT_THROW(model.removePart("nothing"), core::InvalidParameter);
+  EXPECT_EQ(model.removedPart(), "a3");
+  for (std::size_t n = 0; n < steps.size(); ++n)
+    model.restorePart();
+  EXPECT_EQ(model.removedPart(), "");
+  EXPECT_EQ(namesIn(model.value()), before);
+  EXPECT_EQ(model.value().labels.size(), 2u);
+  EXPECT_EQ(model.value().labels[1].structures[0].look.sourceImage, "T2");
+  model.prepareNow();
+  model.save();
+  const auto again = library.open("block");
+  EXPECT_EQ(namesIn(again), before);
+  for (const auto& part : again.labels)
+    for (std::size_t n = 0; n < 3; ++n)
+      EXPECT_EQ(part.labels.get()->segments[n].voxels, n + 1);
+  // Each in its own map: voxels are not exchanged.
+  EXPECT_EQ(again.labels[0].labels.get()->voxels->at(0, 1, 30), 1);
+  EXPECT_EQ(again.labels[1].labels.get()->voxels->at(0, 1, 31), 1);
+  model.close();
+  EXPECT_EQ(model.removedPart(), "");
+}
+
+// The task knows the parts by their order.
+TEST_F(WorkstationModelTest, AStructureRemovedDuringASaveExchangesNothing)
+{
+  library::Library library(folder);
+  scene::Case value = block("block");
+  for (const char* prefix : {"a", "b"})
+  {
+    value.labels.push_back(
+        threeStructures(value.ct.geometry, prefix, 30 + static_cast<int>(value.labels.size())));
+    value.labels.back().structures.resize(1);
+  }
+  WorkstationModel model{library};
+  model.adopt(std::move(value));
+  model.prepareNow();
+  presenters::StoreTask task = model.beginStore();
+  model.removePart("a1");
+  task.run();
+  model.stored(task);
+  EXPECT_TRUE(model.unsaved());
+  model.save();
+  const auto one = library.open("block");
+  ASSERT_EQ(one.labels.size(), 1u);
+  EXPECT_EQ(one.labels[0].structures[0].name, "b1");
+  EXPECT_EQ(one.labels[0].labels.get()->voxels->at(0, 1, 31), 1);
+  task = model.beginStore();
+  model.restorePart();
+  task.run();
+  model.stored(task);
+  model.save();
+  const auto both = library.open("block");
+  ASSERT_EQ(both.labels.size(), 2u);
+  EXPECT_EQ(both.labels[0].labels.get()->voxels->at(0, 1, 30), 1);
+  EXPECT_EQ(both.labels[1].labels.get()->voxels->at(0, 1, 31), 1);
+}
+
+TEST_F(WorkstationModelTest, ANewNameHoldsWhereverThePartIsNamed)
+{
+  library::Library library(folder);
+  scene::Case value = block("block");
+  value.labels.push_back(threeStructures(value.ct.geometry, "a", 30));
+  value.labels[0].drawnOn = "T2";
+  scene::ImagePart mr = value.ct;
+  mr.name = "T2";
+  value.mr = {mr};
+  value.boneLook.sourceImage = "T2";
+  WorkstationModel model{library};
+  model.adopt(std::move(value));
+  model.prepareNow();
+  model.renamePart("T2", "T2 CISS");
+  EXPECT_EQ(model.value().mr[0].name, "T2 CISS");
+  EXPECT_EQ(model.value().labels[0].drawnOn, "T2 CISS");
+  EXPECT_EQ(model.value().boneLook.sourceImage, "T2 CISS");
+  EXPECT_THROW(model.renamePart("a1", "a2"), core::InvalidParameter);
+  EXPECT_THROW(model.renamePart("a1", "ct"), core::InvalidParameter);
+  EXPECT_THROW(model.renamePart("ct", "scan"), core::InvalidParameter);
+  EXPECT_THROW(model.removePart("T2 CISS"), core::Error) << "structures hang on it";
+  EXPECT_EQ(namesIn(model.value()), (std::vector<std::string>{"ct", "T2 CISS", "a1", "a2", "a3"}));
+  model.removePart("a1");
+  model.renamePart("a2", "a1");
+  EXPECT_THROW(model.restorePart(), core::InvalidParameter) << "its name is taken";
+  model.renamePart("a1", "a4");
+  model.restorePart();
+  EXPECT_EQ(namesIn(model.value()), (std::vector<std::string>{"ct", "T2 CISS", "a1", "a4", "a3"}));
+}
+
+TEST_F(WorkstationModelTest, WhatWasDrilledKeepsItsName)
+{
+  library::Library library(folder);
+  scene::Case value = block("block");
+  auto part = threeStructures(value.ct.geometry, "a", 30);
+  auto voxels =
+      std::make_shared<volume::Volume<std::uint16_t>>(value.ct.geometry, std::uint16_t{1});
+  part.labels = std::make_shared<const volume::LabelMap>(volume::makeLabelMap(voxels, {}));
+  part.structures.resize(1);
+  part.structures[0].look.drillable = true;
+  value.labels.push_back(part);
+  WorkstationModel model{library};
+  model.adopt(std::move(value));
+  model.prepareNow();
+  stroke(model);
+  ASSERT_FALSE(model.value().dissection.strokes()[0]->info.structures.empty());
+  try
+  {
+    model.renamePart("a1", "nerve");
+    FAIL() << "the record of what was removed would be lost";
+  }
+  catch (const core::Error& error)
+  {
+    EXPECT_EQ(error.fault(), core::Fault::Refused);
+  }
+  EXPECT_EQ(namesIn(model.value()), (std::vector<std::string>{"ct", "a1"}));
+}

@@ -1,10 +1,10 @@
 #include "CaseDocumentController.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include <QApplication>
-#include <QDate>
 #include <QFileDialog>
 #include <QInputDialog>
 #include <QMessageBox>
@@ -14,10 +14,14 @@
 #include <QTemporaryDir>
 #include <QTimer>
 
+#include "AddPartsDialog.h"
 #include "Application.h"
 #include "Banner.h"
 #include "CaseSaver.h"
 #include "OpenCaseDialog.h"
+#include "RegionDialog.h"
+#include "RepairDialog.h"
+#include "SeriesDialog.h"
 #include "Theme.h"
 #include "WindowTexts.h"
 #include "petrous/Imaging/FileFormats.h"
@@ -51,57 +55,41 @@ QString nameOf(const fs::path& path)
       (plain.has_filename() ? plain : plain.parent_path()).filename().string().c_str());
 }
 
-// "20200131 1205" as "2020-01-31 12:05"; other formats unchanged.
-QString takenIn(const QString& text)
+QString patternsOf(unsigned contents)
 {
-  const QStringList parts = text.split(' ');
-  const QDate day = QDate::fromString(parts.front(), "yyyyMMdd");
-  if (!day.isValid())
-    return text;
-  const QTime time = parts.size() > 1 ? QTime::fromString(parts[1], "HHmm") : QTime();
-  return day.toString(Qt::ISODate) + (time.isValid() ? time.toString(" HH:mm") : QString());
+  QStringList patterns;
+  for (const std::string_view ending : imaging::readEndings(contents))
+    patterns += "*" + words(std::string(ending));
+  return patterns.join(' ');
 }
 
-QString lineOf(const presenters::SeriesContent& series, int number)
+QString lineOf(const SourceContent& source)
 {
-  const auto spacing = [&series](Eigen::Index axis)
-  { return QString::number(series.spacing[axis], 'g', 3); };
-  QStringList more{CaseDocumentController::tr("%1 images, %2 × %3 × %4 mm")
-                       .arg(series.slices)
-                       .arg(spacing(0), spacing(1), spacing(2))};
-  if (!series.taken.empty())
-    more += takenIn(words(series.taken));
-  for (const std::string& one : {series.patientPosition, series.kernel})
-    if (!one.empty())
-      more += words(one);
-  if (!series.folder.empty())
-    more += CaseDocumentController::tr("in “%1”").arg(QFile::decodeName(series.folder.c_str()));
-  return CaseDocumentController::tr("%1.  %2  %3  (%4)")
-      .arg(number)
-      .arg(words(series.modality), words(series.description), more.join(", "));
+  return CaseDocumentController::tr("%1 “%2”").arg(words(presenters::nameOf(source.content)),
+                                                   nameOf(source.path));
 }
 
-// "MR 't2', structures 'labels.seg.nrrd'"
-QString listOf(const std::vector<SourceContent>& sources)
+// `wanted`, with a number if it is taken.
+std::string freeName(const std::string& wanted, const std::vector<std::string>& taken)
 {
-  QStringList items;
-  for (const SourceContent& source : sources)
-    items += CaseDocumentController::tr("%1 “%2”").arg(words(presenters::nameOf(source.content)),
-                                                       nameOf(source.path));
-  return items.join(", ");
+  std::string name = wanted;
+  for (int n = 2; std::find(taken.begin(), taken.end(), name) != taken.end(); ++n)
+    name = wanted + " " + std::to_string(n);
+  return name;
 }
 
 } // namespace
 
 CaseDocumentController::CaseDocumentController(presenters::WorkstationModel& model,
                                                CaseSaver& saver, QWidget& window, Banner& unsaved,
-                                               Banner& loading, Banner& damaged)
+                                               Banner& loading, Banner& damaged, Banner& removed)
   : m_model(model)
   , m_saver(saver)
   , m_window(window)
   , m_unsaved(unsaved)
   , m_loading(loading)
   , m_damaged(damaged)
+  , m_removed(removed)
 {
   connect(&m_work, &BackgroundWork::failed, this,
           [this](const QString& why)
@@ -160,6 +148,9 @@ void CaseDocumentController::connectBanners()
               emit statusMessage(tr("Saved as %1").arg(name));
           });
 
+  m_removed.addButton("restorePart", tr("Put back"), [this] { restorePart(); });
+  m_removed.addButton("dismissRemoved", tr("Close"), [this] { m_removed.hide(); });
+
   m_loading.addButton("loadStructures", tr("Prepare them"), [this] { prepare(); });
   m_loading.addButton("cancelLoading", tr("Cancel"), [this] { m_preparation.cancel(); });
   connect(&m_preparation, &BackgroundWork::progressed, this,
@@ -206,13 +197,18 @@ void CaseDocumentController::notSaved(const QString& why)
 
 void CaseDocumentController::refuse(const QString& why)
 {
-  QMessageBox box(QMessageBox::Warning, tr("Petrous"), why, QMessageBox::Ok, &m_window);
+  QMessageBox box(QMessageBox::Warning, tr("Petrous"), windowText(why), QMessageBox::Ok, &m_window);
   box.setTextFormat(Qt::PlainText);
   box.setTextInteractionFlags(Qt::TextSelectableByMouse);
   box.exec();
 }
 
 void CaseDocumentController::open(const QStringList& what)
+{
+  open(what, Purpose());
+}
+
+void CaseDocumentController::open(const QStringList& what, const Purpose& purpose)
 {
   if (what.isEmpty())
     return;
@@ -224,11 +220,12 @@ void CaseDocumentController::open(const QStringList& what)
     std::error_code error;
     for (const QString& one : what)
       paths.push_back(pathOf(one));
-    if (what.size() == 1 && (presenters::namesCase(m_model.library(), bytes(what.front())) ||
-                             !fs::exists(paths.front(), error)))
+    if (what.size() == 1 && !purpose.content &&
+        (presenters::namesCase(m_model.library(), bytes(what.front())) ||
+         !fs::exists(paths.front(), error)))
       openCase(bytes(what.front()));
     else
-      lookAt(paths);
+      lookAt(paths, purpose);
   }
   catch (const std::exception& fault)
   {
@@ -316,6 +313,7 @@ void CaseDocumentController::openCase(const std::string& name)
          return [this, read, name]
          {
            endWork();
+           m_removed.hide();
            m_model.opened(std::move(*read));
            emit statusMessage(
                tr("Opened %1.  Drag turns the patient, the wheel zooms, D switches to the drill.")
@@ -324,45 +322,53 @@ void CaseDocumentController::openCase(const std::string& name)
        });
 }
 
-void CaseDocumentController::lookAt(const std::vector<fs::path>& paths)
+void CaseDocumentController::lookAt(const std::vector<fs::path>& paths, const Purpose& purpose)
 {
   work(tr("Looking at the files"),
-       [this, paths](const core::Progress& progress) -> BackgroundWork::Reply
+       [this, paths, purpose](const core::Progress& progress) -> BackgroundWork::Reply
        {
          Sources found;
+         const auto expected = purpose.content == Content::Mesh ? std::nullopt : purpose.content;
          const auto count = static_cast<double>(paths.size());
          for (const fs::path& path : paths)
          {
            const auto n = static_cast<double>(found.size());
-           found.push_back(presenters::lookAt(path, progress.part(n / count, (n + 1.0) / count)));
+           found.push_back(
+               presenters::lookAt(path, progress.part(n / count, (n + 1.0) / count), expected));
          }
-         return [this, found = std::move(found)]
+         return [this, found = std::move(found), purpose]
          {
            endWork();
-           decide(found);
+           decide(found, purpose);
          };
        });
 }
 
-bool CaseDocumentController::chooseSeries(SourceContent& source, std::string& uid)
+bool CaseDocumentController::chooseSeries(const SourceContent& source, const Purpose& purpose,
+                                          std::vector<Item>& items)
 {
-  QStringList lines;
-  for (const auto& series : source.series)
-    lines += lineOf(series, lines.size() + 1);
-  bool chosen = false;
-  const QString line = QInputDialog::getItem(
-      &m_window, tr("Which series?"),
-      tr("“%1” holds more than one series. A CT begins a case, an MR comes to the open one.")
-          .arg(nameOf(source.path)),
-      lines, 0, false, &chosen);
-  const int index = lines.indexOf(line);
-  if (!chosen || index < 0)
+  if (source.series.empty())
+  {
+    items.push_back({source, purpose.region});
+    return true;
+  }
+  SeriesDialog dialog(source, m_model.hasCase(), &m_window);
+  if (dialog.exec() != QDialog::Accepted)
     return false;
-  const auto& series = source.series[static_cast<std::size_t>(index)];
-  uid = series.selector;
-  source.content = series.content;
-  source.repair = series.repair;
-  source.why = series.modality.empty() ? "says no modality" : "says modality " + series.modality;
+  for (const presenters::SeriesContent& series : dialog.chosen())
+  {
+    Item item{source, purpose.region || dialog.wantsRegion()};
+    item.source.selector = series.selector;
+    item.source.content = series.content;
+    item.source.name = series.name;
+    if (!series.file.empty())
+      item.source.path = series.file;
+    if (series.verdict == imaging::Verdict::Repairable)
+      item.source.repair = series.findings;
+    item.source.why =
+        series.modality.empty() ? "says no modality" : "says modality " + series.modality;
+    items.push_back(std::move(item));
+  }
   return true;
 }
 
@@ -399,57 +405,131 @@ bool CaseDocumentController::askRepair(const SourceContent& source)
 {
   if (source.repair.empty())
     return true;
-  QMessageBox box(
-      QMessageBox::Question, tr("Straighten the scan?"),
-      tr("“%1” cannot be used as it is. %2").arg(nameOf(source.path), words(source.repair)),
-      QMessageBox::NoButton, &m_window);
-  box.setTextFormat(Qt::PlainText);
-  box.setObjectName("askRepair");
-  box.setInformativeText(
-      tr("Straightened, each slice is put where its position says, by linear interpolation. What "
-         "was changed and guessed is written in the case. Small structures may be absent where "
-         "slices were interpolated."));
-  const auto* repair = box.addButton(tr("Straighten and open"), QMessageBox::AcceptRole);
-  box.addButton(QMessageBox::Cancel);
-  box.exec();
-  return box.clickedButton() == repair;
-}
-
-bool CaseDocumentController::askName(const SourceContent& source, std::string& name)
-{
-  if (!source.isNameless)
+  RepairDialog dialog(source, source.selector, &m_window);
+  if (dialog.exec() == QDialog::Accepted)
     return true;
-  bool given = false;
-  const QString text = QInputDialog::getText(
-      &m_window, tr("Name of the structure"),
-      tr("What is the structure in “%1” called?\nThe file's own name is not kept: it may be a "
-         "patient's.")
-          .arg(nameOf(source.path)),
-      QLineEdit::Normal, words(presenters::fileName(source.path).name), &given);
-  name = bytes(text.trimmed());
-  return given;
+  if (dialog.wantsAnother())
+    QTimer::singleShot(0, this, &CaseDocumentController::openFolder);
+  return false;
 }
 
-void CaseDocumentController::decide(const Sources& found)
+bool CaseDocumentController::askRegion(Item& item)
+{
+  if (!item.region || item.source.content != Content::Ct)
+    return true;
+  RegionDialog dialog(item.source.path, item.source.selector, !item.source.repair.empty(),
+                      &m_window);
+  if (dialog.exec() != QDialog::Accepted)
+    return false;
+  item.roi = dialog.region();
+  return true;
+}
+
+// False: the user gave up, or was told why it cannot be.
+bool CaseDocumentController::ask(Item& item, const Purpose& purpose)
+{
+  SourceContent& source = item.source;
+  if (source.content == Content::Image && purpose.content == Content::Mr)
+    source.content = Content::Mr;
+  if (purpose.content && source.content != *purpose.content)
+  {
+    refuse(tr("“%1” is no %2: it %3. File > Open takes it for what it is.")
+               .arg(nameOf(source.path), words(presenters::nameOf(*purpose.content)),
+                    words(source.why)));
+    return false;
+  }
+  if (!askRepair(source) || (source.content == Content::Image && !askContent(source)))
+    return false;
+  if (source.content == Content::Image)
+    source.content = Content::Ct;
+  return askRegion(item);
+}
+
+// Names of parts, and consent to add them to the open case. A new case (its name is `newCase`) asks
+// only where a file is named after nothing.
+bool CaseDocumentController::askNames(presenters::CaseSources& sources,
+                                      const std::vector<Item>& others, const std::string& newCase)
+{
+  std::vector<std::string> taken{"ct"};
+  std::vector<std::string> mrs;
+  if (newCase.empty())
+  {
+    taken = scene::partNames(m_model.value());
+    for (const scene::ImagePart& mr : m_model.value().mr)
+      mrs.push_back(mr.name);
+  }
+  std::vector<std::string> proposed = taken;
+  std::vector<AddPartsDialog::Part> parts;
+  bool isNameless = false;
+  for (const Item& item : others)
+  {
+    const SourceContent& source = item.source;
+    AddPartsDialog::Part part;
+    part.what = lineOf(source);
+    part.isPlaced = source.content != Content::Mr;
+    if (source.content == Content::Mr)
+      part.name = freeName(source.name.empty() ? "mr" : source.name, proposed);
+    else if (source.isNameless || source.content == Content::Mesh)
+    {
+      const std::string name = presenters::fileName(source.path).name;
+      isNameless = isNameless || source.isNameless;
+      // An empty name asks for one; that of a whole file name is kept as it is.
+      part.name = name.empty() || !source.isNameless ? name : freeName(name, proposed);
+    }
+    else
+      part.isNamed = false;
+    proposed.push_back(part.name);
+    parts.push_back(std::move(part));
+  }
+  std::vector<AddPartsDialog::Answer> answers;
+  if (newCase.empty() || isNameless)
+  {
+    const QString name = words(newCase.empty() ? m_model.value().name : newCase);
+    AddPartsDialog dialog(
+        newCase.empty() ? tr("Add to the case “%1”?").arg(name)
+                        : tr("Make the case “%1”").arg(name),
+        tr("It must be of the same patient.%1")
+            .arg(sources.parts.mr.empty()
+                     ? QString()
+                     : tr(" An MR is shown over the CT once it is registered (F5).")),
+        newCase.empty() ? tr("Add to “%1”").arg(name) : tr("Make the case"), parts, taken, mrs,
+        &m_window);
+    if (dialog.exec() != QDialog::Accepted)
+      return false;
+    answers = dialog.answers();
+  }
+  else
+    for (const AddPartsDialog::Part& part : parts)
+      answers.push_back({part.name, {}});
+  std::size_t next[3] = {0, 0, 0};
+  for (std::size_t n = 0; n < others.size(); ++n)
+  {
+    const Content content = others[n].source.content;
+    presenters::PartSource& part = content == Content::Mr     ? sources.parts.mr[next[0]++]
+                                   : content == Content::Mesh ? sources.parts.meshes[next[1]++]
+                                                              : sources.parts.labels[next[2]++];
+    part.name = answers[n].name;
+    part.drawnOn = answers[n].drawnOn;
+  }
+  return true;
+}
+
+void CaseDocumentController::decide(const Sources& found, const Purpose& purpose)
 {
   const QScopedValueRollback<bool> asking(m_asking, true);
-  Sources others;
+  std::vector<Item> items;
+  for (const SourceContent& source : found)
+    if (!chooseSeries(source, purpose, items))
+      return;
+  std::vector<Item> others;
   const SourceContent* ct = nullptr;
   presenters::CaseSources sources;
-  Sources known = found;
-  for (SourceContent& source : known)
+  for (Item& item : items)
   {
-    std::string uid;
-    if (!source.series.empty() && !chooseSeries(source, uid))
+    if (!ask(item, purpose))
       return;
-    if (!askRepair(source))
-      return;
-    if (source.content == Content::Image && !askContent(source))
-      return;
+    const SourceContent& source = item.source;
     const bool repair = !source.repair.empty();
-    std::string name;
-    if (!askName(source, name))
-      return;
     switch (source.content)
     {
     case Content::Ct:
@@ -460,45 +540,38 @@ void CaseDocumentController::decide(const Sources& found)
                           .arg(nameOf(ct->path), nameOf(source.path)));
       ct = &source;
       sources.ct = source.path;
-      sources.series = uid;
+      sources.series = source.selector;
       sources.repair = repair;
+      sources.roi = item.roi;
       continue;
     case Content::Mr:
-      sources.parts.mr.push_back({{}, source.path, {}, uid, repair});
+      sources.parts.mr.push_back({{}, source.path, {}, source.selector, repair});
       break;
     case Content::Labels:
-      sources.parts.labels.push_back({name, source.path});
+      sources.parts.labels.push_back({{}, source.path});
       break;
     case Content::Mesh:
-      sources.parts.meshes.push_back({name, source.path});
+      sources.parts.meshes.push_back({{}, source.path});
       break;
     }
-    others.push_back(source);
+    others.push_back(item);
   }
-  if (ct)
-    return makeCase(presenters::freeCaseName(m_model.library(), presenters::caseNameFrom(ct->path)),
-                    [sources](const core::Progress&) { return sources; });
-  if (!m_model.hasCase())
+  QStringList what;
+  for (const Item& item : others)
+    what += lineOf(item.source);
+  if (!ct && !m_model.hasCase())
     return refuse(tr("A case begins with a CT, and there is none here: %1. Open the patient's CT "
                      "first, then this.")
-                      .arg(listOf(others)));
-
-  const QString name = words(m_model.value().name);
-  QMessageBox box(QMessageBox::Question, tr("Add to the open case"),
-                  tr("Add to the case “%1”: %2?").arg(name, listOf(others)), QMessageBox::NoButton,
-                  &m_window);
-  box.setTextFormat(Qt::PlainText);
-  box.setObjectName("askAdd");
-  box.setInformativeText(tr("It must be of the same patient.%1")
-                             .arg(sources.parts.mr.empty()
-                                      ? QString()
-                                      : tr(" An MR is shown over the CT once it is registered "
-                                           "(F5).")));
-  const auto* add = box.addButton(tr("Add to “%1”").arg(name), QMessageBox::AcceptRole);
-  box.addButton(QMessageBox::Cancel);
-  box.exec();
-  if (box.clickedButton() == add)
-    addParts(sources.parts, listOf(others));
+                      .arg(what.join(", ")));
+  const std::string name =
+      ct ? presenters::freeCaseName(m_model.library(), presenters::caseNameFrom(ct->path))
+         : std::string();
+  if (!askNames(sources, others, name))
+    return;
+  if (ct)
+    makeCase(name, [sources](const core::Progress&) { return sources; });
+  else
+    addParts(sources.parts, what.join(", "));
 }
 
 void CaseDocumentController::makeCase(
@@ -542,6 +615,7 @@ void CaseDocumentController::adopt(scene::Case value)
     m_model.notOpened();
     throw;
   }
+  m_removed.hide();
   m_sayWhenSaved = true;
   m_saver.save();
   emit statusMessage(tr("Saving %1 in the library…").arg(words(m_model.value().name)));
@@ -559,7 +633,8 @@ void CaseDocumentController::addParts(const presenters::PartSources& parts, cons
          sources.salted = [&library](const std::string& frame)
          { return library::saltedFrame(library, frame); };
          presenters::addParts(*value, sources, progress);
-         return [this, value, what, shownAs]
+         const bool onlyImages = parts.labels.empty() && parts.meshes.empty();
+         return [this, value, what, shownAs, onlyImages]
          {
            endWork();
            if (!m_model.hasCase() || m_model.shownAs() != shownAs)
@@ -568,9 +643,65 @@ void CaseDocumentController::addParts(const presenters::PartSources& parts, cons
            const QString name = words(m_model.value().name);
            m_model.takeParts(std::move(*value));
            m_saver.save();
+           emit added(onlyImages);
            emit statusMessage(tr("Added to %1: %2").arg(name, what));
          };
        });
+}
+
+// Not while parts are being added to a copy of the case, or another case is coming.
+bool CaseDocumentController::changeParts(const std::function<void()>& change)
+{
+  if (!m_model.hasCase() || m_model.drilling())
+    return false;
+  if (m_work.busy() || m_asking)
+  {
+    emit statusMessage(tr("One at a time: something is being read already"));
+    return false;
+  }
+  try
+  {
+    change();
+  }
+  catch (const std::exception& fault)
+  {
+    refuse(toString(fault));
+    return false;
+  }
+  m_removed.setVisible(!m_model.removedPart().empty());
+  m_removed.setText(tr("“%1” was taken out of the case. Until the case is closed it can be put "
+                       "back.")
+                        .arg(words(m_model.removedPart())));
+  m_saver.save();
+  return true;
+}
+
+void CaseDocumentController::removePart(const std::string& name)
+{
+  if (changeParts([this, &name] { m_model.removePart(name); }))
+    emit statusMessage(tr("“%1” was taken out of the case").arg(words(name)));
+}
+
+void CaseDocumentController::restorePart()
+{
+  const std::string name = m_model.removedPart();
+  if (!name.empty() && changeParts([this] { m_model.restorePart(); }))
+    emit statusMessage(tr("“%1” is in the case again").arg(words(name)));
+}
+
+void CaseDocumentController::renamePart(const std::string& name)
+{
+  if (!m_model.hasCase() || m_work.busy() || m_asking)
+    return;
+  const QScopedValueRollback<bool> asking(m_asking, true);
+  const std::string to =
+      bytes(QInputDialog::getText(&m_window, tr("Rename"), tr("New name of “%1”:").arg(words(name)),
+                                  QLineEdit::Normal, words(name))
+                .trimmed());
+  m_asking = false;
+  if (!to.empty() && to != name &&
+      changeParts([this, &name, &to] { m_model.renamePart(name, to); }))
+    emit statusMessage(tr("“%1” is called “%2” now").arg(words(name), words(to)));
 }
 
 // One at a time. A request during a run cancels and repeats it, without waiting.
@@ -644,15 +775,44 @@ void CaseDocumentController::openFolder()
     open({folder});
 }
 
+void CaseDocumentController::openRegion()
+{
+  const QString folder = QFileDialog::getExistingDirectory(
+      &m_window, tr("Open a DICOM folder, and choose a region of the CT"));
+  if (!folder.isEmpty())
+    open({folder}, {std::nullopt, true});
+}
+
+void CaseDocumentController::add(Content content, bool folder)
+{
+  if (!m_model.hasCase())
+    return;
+  if (folder)
+  {
+    const QString chosen =
+        QFileDialog::getExistingDirectory(&m_window, tr("Add an MR from a DICOM folder"));
+    if (!chosen.isEmpty())
+      open({chosen}, {content});
+    return;
+  }
+  const unsigned reads = content == Content::Mesh     ? imaging::kMesh
+                         : content == Content::Labels ? imaging::kLabels | imaging::kDicom
+                                                      : imaging::kImage | imaging::kDicom;
+  const QString what = content == Content::Mesh     ? tr("Meshes")
+                       : content == Content::Labels ? tr("Segmentations and label maps")
+                                                    : tr("MR images");
+  open(QFileDialog::getOpenFileNames(
+           &m_window, tr("Add to “%1”").arg(words(m_model.value().name)), {},
+           QString("%1 (%2);;").arg(what, patternsOf(reads)) + tr("All files (*)")),
+       {content});
+}
+
 void CaseDocumentController::openFiles()
 {
-  QStringList patterns;
-  for (const std::string_view ending :
-       imaging::readEndings(imaging::kImage | imaging::kLabels | imaging::kMesh | imaging::kDicom))
-    patterns += "*" + words(std::string(ending));
   open(QFileDialog::getOpenFileNames(
       &m_window, tr("Open images, labels or meshes"), {},
-      tr("Images, labels, meshes (%1);;All files (*)").arg(patterns.join(' '))));
+      tr("Images, labels, meshes (%1);;All files (*)")
+          .arg(patternsOf(imaging::kImage | imaging::kLabels | imaging::kMesh | imaging::kDicom))));
 }
 
 void CaseDocumentController::chooseCase()

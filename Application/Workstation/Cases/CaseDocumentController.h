@@ -32,14 +32,23 @@ class CaseDocumentController : public QObject
 public:
   /// `window` is the parent of dialogs and owns the banners.
   CaseDocumentController(presenters::WorkstationModel& model, CaseSaver& saver, QWidget& window,
-                         Banner& unsaved, Banner& loading, Banner& damaged);
+                         Banner& unsaved, Banner& loading, Banner& damaged, Banner& removed);
   ~CaseDocumentController() override;
 
   /// A case's name; or folders and files: a CT starts a case, anything else is added to it, or to
   /// the open one.
   void open(const QStringList& what);
   void openFolder(); ///< with a dialog
+  void openRegion(); ///< likewise, and a region of the CT is chosen first
   void openFiles();  ///< with a dialog
+  /// With a dialog, to the open case. `folder`: of DICOM.
+  void add(presenters::Content content, bool folder = false);
+
+  /// A structure, a mesh or an MR of the open case.
+  void removePart(const std::string& name);
+  void restorePart();                       ///< the one that was removed last
+  void renamePart(const std::string& name); ///< with a dialog
+
   void chooseCase();
   void makeSample();
 
@@ -60,17 +69,36 @@ public:
 signals:
   void statusMessage(const QString& line); ///< for the status bar
   void ready();                            ///< the case's structures are loaded
+  void added(bool onlyImages);             ///< parts came to the open case
 
 private:
   using Sources = std::vector<presenters::SourceContent>;
+  /// How files were chosen.
+  struct Purpose
+  {
+    std::optional<presenters::Content> content = {}; ///< as the user says
+    bool region = false;                             ///< of the CT, to be chosen
+  };
+  /// A series or a file, and what was asked about it.
+  struct Item
+  {
+    presenters::SourceContent source;
+    bool region = false;
+    std::optional<core::PatientBox> roi = {};
+  };
 
+  void open(const QStringList& what, const Purpose& purpose);
   void openCase(const std::string& name);
-  void lookAt(const std::vector<std::filesystem::path>& paths);
-  void decide(const Sources& found);
-  bool chooseSeries(presenters::SourceContent& source, std::string& uid);
+  void lookAt(const std::vector<std::filesystem::path>& paths, const Purpose& purpose);
+  void decide(const Sources& found, const Purpose& purpose);
+  bool ask(Item& item, const Purpose& purpose);
+  bool chooseSeries(const presenters::SourceContent& source, const Purpose& purpose,
+                    std::vector<Item>& items);
   bool askContent(presenters::SourceContent& source);
   bool askRepair(const presenters::SourceContent& source);
-  bool askName(const presenters::SourceContent& source, std::string& name);
+  bool askRegion(Item& item);
+  bool askNames(presenters::CaseSources& sources, const std::vector<Item>& others,
+                const std::string& newCase);
   void makeCase(const std::string& name,
                 std::function<presenters::CaseSources(const core::Progress&)> sources);
   void addParts(const presenters::PartSources& parts, const QString& what);
@@ -83,6 +111,7 @@ private:
   void notSaved(const QString& why);
   bool leaveCase();
   void refuse(const QString& why);
+  bool changeParts(const std::function<void()>& change);
 
   presenters::WorkstationModel& m_model;
   CaseSaver& m_saver;
@@ -90,6 +119,7 @@ private:
   Banner& m_unsaved;
   Banner& m_loading;
   Banner& m_damaged;
+  Banner& m_removed;
   BackgroundWork m_work;
   BackgroundWork m_preparation;
   std::unique_ptr<QProgressDialog> m_progress; // of m_work

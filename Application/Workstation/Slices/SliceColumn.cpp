@@ -5,6 +5,7 @@
 #include "SliceView.h"
 #include "Theme.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/SeriesPreview.h"
 
 namespace petrous::workstation
 {
@@ -55,6 +56,7 @@ void SliceColumn::appearanceChanged()
   {
     view->setPresenter(presenter, m_model.value().ct.geometry);
     view->setIntensityDisplay(presenters::displayOf(m_model.value()));
+    view->setInterpolated(presenters::interpolatedSlices(m_model.value().ct));
   }
 }
 

@@ -23,6 +23,8 @@ constexpr double kMinHu = 10.0; // of a grey window
 constexpr int kMargin = 8;
 constexpr double kReadout = 0.68; // of the width; the rest is the scale bar's
 constexpr double kGap = 9.0;      // of the crosshair, pixels
+constexpr double kAlong = 0.7;    // cosine: a slice of the view is one of the grid
+const QColor kGuessed("#ff8c2b"); // interpolated slices
 
 // The planes represented by a view's vertical and horizontal line.
 std::pair<SliceOrientation, SliceOrientation> linesOf(SliceOrientation view)
@@ -106,6 +108,12 @@ void SliceView::setNotice(const QString& text)
 void SliceView::setMarks(std::vector<SliceMark> marks)
 {
   m_marks = std::move(marks);
+  update();
+}
+
+void SliceView::setInterpolated(std::vector<int> slices)
+{
+  m_interpolated = std::move(slices);
   update();
 }
 
@@ -201,6 +209,7 @@ void SliceView::paintEvent(QPaintEvent*)
   paintMarks(painter, m_marks, picture, m_crosshair);
   paintCurve(painter, m_drawing.curve, m_drawing.color, picture, m_crosshair);
   paintMarks(painter, m_drawing.marks, picture, m_crosshair);
+  paintInterpolated(painter);
   paintCrosshair(painter);
   paintLetters(painter);
   paintScaleBar(painter);
@@ -231,6 +240,58 @@ void SliceView::paintCrosshair(QPainter& painter) const
   painter.drawLine(QPointF(at[0] + kGap, at[1]), QPointF(width(), at[1]));
 }
 
+// Whether the slice under the crosshair was interpolated when the scan was repaired.
+bool SliceView::showsInterpolated() const
+{
+  const int slice = static_cast<int>(std::lround(m_grid.voxelFromPatient(m_crosshair)[2]));
+  return std::binary_search(m_interpolated.begin(), m_interpolated.end(), slice);
+}
+
+// An edge around the view if it shows such a slice itself, and bands where it crosses them.
+void SliceView::paintInterpolated(QPainter& painter) const
+{
+  if (m_interpolated.empty())
+    return;
+  const Eigen::Vector3d next = presenters::axesOf(m_orientation).next;
+  const Eigen::Matrix3d& axes = m_grid.direction();
+  if (std::abs(axes.col(2).dot(next)) > kAlong)
+  {
+    if (!showsInterpolated())
+      return;
+    painter.setPen(QPen(kGuessed, 5.0));
+    painter.setBrush(Qt::NoBrush);
+    painter.drawRect(QRectF(rect()).adjusted(2.5, 2.5, -2.5, -2.5));
+    return;
+  }
+  const Eigen::Index along =
+      std::abs(axes.col(0).dot(next)) < std::abs(axes.col(1).dot(next)) ? 0 : 1;
+  const auto picture = slice();
+  const auto at = [&](double end, double k)
+  {
+    Eigen::Vector3d voxel = m_grid.voxelFromPatient(m_grid.center());
+    voxel[along] = end * (m_grid.dims()[static_cast<std::size_t>(along)] - 1);
+    voxel[2] = k;
+    const Eigen::Vector2d pixel = picture.pixelFromPatient(m_grid.patientFromVoxel(voxel));
+    return QPointF(pixel[0] + 0.5, pixel[1] + 0.5);
+  };
+  QColor fill = kGuessed;
+  fill.setAlpha(50);
+  QColor edge = kGuessed;
+  edge.setAlpha(170);
+  painter.setPen(QPen(edge, 1.0));
+  painter.setBrush(fill);
+  for (std::size_t n = 0; n < m_interpolated.size();)
+  {
+    std::size_t last = n;
+    while (last + 1 < m_interpolated.size() && m_interpolated[last + 1] == m_interpolated[last] + 1)
+      ++last;
+    const double from = m_interpolated[n] - 0.5;
+    const double to = m_interpolated[last] + 0.5;
+    painter.drawPolygon(QPolygonF({at(0.0, from), at(1.0, from), at(1.0, to), at(0.0, to)}));
+    n = last + 1;
+  }
+}
+
 void SliceView::paintLetters(QPainter& painter) const
 {
   QFont font = painter.font();
@@ -259,6 +320,10 @@ void SliceView::paintLetters(QPainter& painter) const
   const double whole = width() - 2.0 * kMargin;
   drawText(painter, {double(kMargin), kMargin + 27.0},
            small.elidedText(m_notice, Qt::ElideMiddle, whole), QColor("#f0a04d"));
+  if (showsInterpolated())
+    drawText(painter, {double(kMargin), kMargin + 43.0},
+             small.elidedText(tr("interpolated slice: not measured here"), Qt::ElideRight, whole),
+             kGuessed);
   // Above the letter where it is too long to stand beside it, and always left of the scale bar.
   const bool beside = small.horizontalAdvance(m_readout) <= across - 2.0 * kMargin;
   drawText(painter, {double(kMargin), height() - kMargin - (beside ? 0.0 : 1.4 * small.height())},

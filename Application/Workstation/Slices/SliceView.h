@@ -51,6 +51,7 @@ public:
   void setOverlay(std::shared_ptr<const presenters::SliceOverlay> overlay); ///< nullptr: CT alone
   void setNotice(const QString& text); ///< a note on what is shown
   void setMarks(std::vector<SliceMark> marks);
+  void setInterpolated(std::vector<int> slices); ///< of the grid (presenters::interpolatedSlices)
   void setRegion(double edge); ///< edge of the cube about the crosshair to fit in, mm; 0: none
   void maskChanged(const core::PatientBox& box);
   void setTool(const std::optional<SliceTool>& tool);
@@ -92,6 +93,8 @@ private:
   void paintLetters(QPainter& painter) const;
   void paintScaleBar(QPainter& painter) const;
   void paintTool(QPainter& painter) const;
+  void paintInterpolated(QPainter& painter) const;
+  bool showsInterpolated() const;
   bool moveMr(const QKeyEvent& event);
 
   presenters::SliceOrientation m_orientation;
@@ -105,6 +108,7 @@ private:
   std::shared_ptr<const presenters::SliceOverlay> m_overlay;
   QString m_notice;
   std::vector<SliceMark> m_marks;
+  std::vector<int> m_interpolated; // increasing
   double m_region = 0.0;
   QString m_readout;
   QImage m_image;

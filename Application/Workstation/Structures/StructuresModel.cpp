@@ -5,6 +5,7 @@
 #include <QPixmap>
 
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Scene/CaseField.h"
 #include "petrous/Scene/Placement.h"
@@ -169,7 +170,7 @@ QVariant StructuresModel::data(const QModelIndex& index, int role) const
       return swatch(row.look);
     if (role == Qt::ToolTipRole && !row.missing.empty())
       return tr("%1 is nowhere on the CT, and neither drawn nor felt nor warned of: %2")
-          .arg(words(row.name), words(row.missing));
+          .arg(words(row.name), windowText(words(row.missing)));
     if (role == Qt::ToolTipRole)
       return row.look.solid ? words(row.name)
                             : tr("%1 (a space without tissue)").arg(words(row.name));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <QAction>
 #include <QDoubleSpinBox>
 #include <QEvent>
 #include <QHBoxLayout>
@@ -88,6 +89,23 @@ void StructuresPanel::addList(QVBoxLayout& layout)
           });
   m_list->viewport()->installEventFilter(this);
 
+  const auto addAction = [this](const QString& text, int key, const char* name, auto signal)
+  {
+    auto* action = new QAction(text, m_list);
+    action->setObjectName(name);
+    action->setShortcut(key);
+    action->setShortcutContext(Qt::WidgetShortcut);
+    connect(action, &QAction::triggered, this,
+            [this, signal]
+            {
+              if (const QString part = chosen(); !part.isEmpty())
+                emit(this->*signal)(part);
+            });
+    m_list->addAction(action);
+  };
+  addAction(tr("&Rename…"), Qt::Key_F2, "renamePart", &StructuresPanel::renamingAsked);
+  addAction(tr("Re&move from the case"), Qt::Key_Delete, "removePart",
+            &StructuresPanel::removalAsked);
   m_list->setContextMenuPolicy(Qt::CustomContextMenu);
   connect(m_list, &QTreeView::customContextMenuRequested, this, &StructuresPanel::offer);
   layout.addWidget(m_list, 1);
@@ -150,6 +168,9 @@ void StructuresPanel::offer(const QPoint& position)
       tr("Colour bone by its thickness over %1").arg(QString(name).replace('_', ' ')));
   thickness->setCheckable(true);
   thickness->setChecked(m_model.thicknessOver() == bytes(name));
+  menu.addSeparator();
+  m_list->setCurrentIndex(m_list->indexAt(position));
+  menu.addActions(m_list->actions());
   if (menu.exec(m_list->viewport()->mapToGlobal(position)) == thickness)
     emit thicknessAsked(name);
 }

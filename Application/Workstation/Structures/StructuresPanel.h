@@ -30,6 +30,8 @@ public:
 
 signals:
   void thicknessAsked(const QString& structure); ///< a second request turns it off
+  void removalAsked(const QString& part);
+  void renamingAsked(const QString& part);
 
 protected:
   bool eventFilter(QObject* watched, QEvent* event) override;

@@ -10,7 +10,9 @@
 #include <QFileDialog>
 #include <QJsonDocument>
 #include <QMimeData>
+#include <QPointer>
 #include <QProcess>
+#include <QProgressDialog>
 #include <QScreen>
 
 #include "Application.h"
@@ -234,6 +236,28 @@ void GuiTest::onMessage(const std::function<void(QMessageBox&)>& react)
                      poll->stop();
                      poll->deleteLater();
                      react(*box);
+                   });
+  poll->start(20);
+}
+
+void GuiTest::onDialog(const std::function<bool(QDialog&)>& react)
+{
+  auto* poll = new QTimer(m_window.get());
+  const auto busy = std::make_shared<bool>(false); // `react` may process events
+  QObject::connect(poll, &QTimer::timeout, poll,
+                   [poll, react, busy]
+                   {
+                     auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
+                     if (*busy || !dialog || qobject_cast<QProgressDialog*>(dialog))
+                       return;
+                     *busy = true;
+                     const QPointer<QTimer> alive(poll);
+                     if (react(*dialog) && alive)
+                     {
+                       poll->stop();
+                       poll->deleteLater();
+                     }
+                     *busy = false;
                    });
   poll->start(20);
 }

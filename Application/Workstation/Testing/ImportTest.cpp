@@ -3,15 +3,28 @@
 #include <algorithm>
 #include <fstream>
 
+#include <QDialogButtonBox>
+#include <QDockWidget>
+#include <QDoubleSpinBox>
+#include <QFileDialog>
 #include <QInputDialog>
+#include <QLabel>
+#include <QLineEdit>
 #include <QMimeData>
 #include <QProgressDialog>
 #include <QPushButton>
+#include <QTreeView>
+#include <QTreeWidget>
 
 #include "Banner.h"
+#include "RegionDialog.h"
+#include "RepairDialog.h"
+#include "WindowTexts.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/VolumeFile.h"
 #include "petrous/Phantom/SamplePatient.h"
+#include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Presenters/SeriesPreview.h"
 
 using namespace petrous;
 using namespace petrous::workstation;
@@ -51,7 +64,7 @@ TEST_F(Import, ADroppedDicomFolderCanBeDrilledAtOnce)
   EXPECT_EQ(library().open("ct").dissection.strokes().size(), 1u);
 }
 
-TEST_F(Import, AFolderOfSeveralSeriesAsksWhichOne)
+TEST_F(Import, AFolderOfSeveralSeriesAsksWhich)
 {
   phantom::SampleOptions options;
   options.spacing = 1.5;
@@ -59,28 +72,41 @@ TEST_F(Import, AFolderOfSeveralSeriesAsksWhichOne)
   fs::remove_all(folder() / "visit" / "labels");
   openWindow();
   QStringList offered;
-  QTimer answer;
-  QObject::connect(&answer, &QTimer::timeout, &answer,
-                   [&]
-                   {
-                     auto* ask = qobject_cast<QInputDialog*>(QApplication::activeModalWidget());
-                     if (!ask)
-                       return;
-                     answer.stop();
-                     offered = ask->comboBoxItems();
-                     for (const QString& item : offered)
-                       if (item.contains("CT"))
-                         ask->setTextValue(item);
-                     ask->accept();
-                   });
-  answer.start(20);
+  onDialog(
+      [&offered](QDialog& dialog)
+      {
+        auto* list = dialog.findChild<QTreeWidget*>("series");
+        if (!list)
+          return false;
+        for (int n = 0; n < list->topLevelItemCount(); ++n)
+        {
+          QStringList line;
+          for (int column = 0; column < list->columnCount(); ++column)
+            line += list->topLevelItem(n)->text(column);
+          offered += line.join(" | ");
+        }
+        EXPECT_EQ(list->topLevelItem(0)->checkState(0), Qt::Checked) << "the only CT";
+        EXPECT_EQ(list->topLevelItem(1)->checkState(0), Qt::Unchecked);
+        list->topLevelItem(0)->setCheckState(0, Qt::Unchecked);
+        list->topLevelItem(1)->setCheckState(0, Qt::Checked);
+        auto* open = dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Open);
+        EXPECT_FALSE(open->isEnabled()) << "an MR without a CT";
+        list->topLevelItem(0)->setCheckState(0, Qt::Checked);
+        EXPECT_TRUE(open->isEnabled());
+        open->click();
+        return true;
+      });
   dropPath(folder() / "visit");
   ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
   ASSERT_EQ(offered.size(), 2);
-  for (const char* told : {" images, ", "2020-01-01 12:00", "HFS", "in “ct”"})
+  for (const char* told :
+       {"CT", "1.5 × 1.5 × 1.5 mm", "2020-01-01 12:00", "HFS", "in “ct”", "sound"})
     EXPECT_TRUE(offered[0].contains(QString::fromUtf8(told))) << offered[0].toStdString();
-  EXPECT_EQ(window().model().value().name, "visit");
-  EXPECT_GT(window().model().value().ct.range.max, 1000.0); // HU: the CT, not the MR
+  const scene::Case& value = window().model().value();
+  EXPECT_EQ(value.name, "visit");
+  EXPECT_GT(value.ct.range.max, 1000.0); // HU: the CT, not the MR
+  ASSERT_EQ(value.mr.size(), 1u) << "both were ticked";
+  EXPECT_EQ(value.mr[0].name, "T2 3D") << "of “T2 3D inner ear right” what names a sequence";
 }
 
 TEST_F(Import, ADroppedWordOpensTheCaseOfThatName)
@@ -156,19 +182,37 @@ void writePatient(const fs::path& folder)
   phantom::writeSamplePatient(folder, options);
 }
 
-// Clicks the button of the next message box whose text contains `button`; returns the box's text.
-QString answered(const std::function<void(const std::function<void(QMessageBox&)>&)>& onMessage,
-                 const QString& button, const std::function<void()>& act)
+using OnDialog = std::function<void(const std::function<bool(QDialog&)>&)>;
+
+QString textOf(const QDialog& dialog)
+{
+  QStringList text;
+  for (const auto* label : dialog.findChildren<QLabel*>())
+    text += label->text();
+  return text.join('\n');
+}
+
+QAbstractButton* buttonOf(const QDialog& dialog, const QString& text)
+{
+  for (auto* candidate : dialog.findChildren<QAbstractButton*>())
+    if (candidate->text().remove('&').contains(text))
+      return candidate;
+  return nullptr;
+}
+
+// Clicks the button of the next dialog whose text contains `button`; returns the dialog's text.
+QString answered(const OnDialog& onDialog, const QString& button, const std::function<void()>& act)
 {
   QString text;
-  onMessage(
-      [&text, button](QMessageBox& box)
+  onDialog(
+      [&text, button](QDialog& dialog)
       {
-        text = box.text();
-        for (QAbstractButton* candidate : box.buttons())
-          if (candidate->text().contains(button))
-            return candidate->click();
-        box.reject();
+        text = textOf(dialog);
+        if (auto* found = buttonOf(dialog, button))
+          found->click();
+        else
+          dialog.reject();
+        return true;
       });
   act();
   EXPECT_TRUE(QTest::qWaitFor([&text] { return !text.isEmpty(); }, 60000));
@@ -183,7 +227,7 @@ TEST_F(Import, AnMrComesToTheOpenCase)
   openWindow();
   dropPath(folder() / "sample" / "ct");
   ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
-  const QString asked = answered([this](const auto& react) { onMessage(react); }, "Add to",
+  const QString asked = answered([this](const auto& react) { onDialog(react); }, "Add to",
                                  [this] { dropPath(folder() / "sample" / "mr"); });
   EXPECT_TRUE(asked.contains("MR") && asked.contains("ct")) << asked.toStdString();
   ASSERT_TRUE(waitFor([this] { return window().model().value().mr.size() == 1; }));
@@ -201,7 +245,7 @@ TEST_F(Import, LabelsAndMeshesComeToTheOpenCaseAndCanBeDropped)
   dropPath(folder() / "sample" / "ct");
   ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
   const auto camera = view().picture().camera();
-  answered([this](const auto& react) { onMessage(react); }, "Add to",
+  answered([this](const auto& react) { onDialog(react); }, "Add to",
            [this] { dropPath(folder() / "sample" / "labels.seg.nrrd"); });
   ASSERT_TRUE(waitFor([this] { return !window().model().value().labels.empty(); }));
   EXPECT_TRUE(settled());
@@ -210,7 +254,7 @@ TEST_F(Import, LabelsAndMeshesComeToTheOpenCaseAndCanBeDropped)
   EXPECT_FALSE(library().open("ct").labels.empty());
   // Cancelling has no effect.
   const auto parts = window().model().value().meshes.size();
-  answered([this](const auto& react) { onMessage(react); }, "Cancel",
+  answered([this](const auto& react) { onDialog(react); }, "Cancel",
            [this] { dropPath(folder() / "sample" / "meshes" / "facial_nerve.obj"); });
   EXPECT_TRUE(settled());
   EXPECT_EQ(window().model().value().meshes.size(), parts);
@@ -226,7 +270,7 @@ TEST_F(Import, LabelsThatLieOutsideTheCtAreToldInALine)
   vein.index = 1;
   imaging::writeLabelFile(folder() / "other.seg.nrrd", volume::makeLabelMap(voxels, {vein}));
   openWindow();
-  answered([this](const auto& react) { onMessage(react); }, "Add to",
+  answered([this](const auto& react) { onDialog(react); }, "Add to",
            [this] { dropPath(folder() / "other.seg.nrrd"); });
   ASSERT_TRUE(waitFor([this] { return window().model().value().labels.size() == 2; }));
   EXPECT_TRUE(settled());
@@ -243,7 +287,7 @@ TEST_F(Import, WithoutACaseAnMrAndLabelsSayWhatIsNeeded)
   openWindow();
   for (const char* what : {"mr", "labels.seg.nrrd"})
   {
-    const QString told = answered([this](const auto& react) { onMessage(react); }, "OK",
+    const QString told = answered([this](const auto& react) { onDialog(react); }, "OK",
                                   [&] { dropPath(folder() / "sample" / what); });
     EXPECT_TRUE(told.contains("CT") && told.contains(what)) << told.toStdString();
     EXPECT_TRUE(settled());
@@ -276,16 +320,16 @@ TEST_F(Import, InDoubtTheUserIsAsked)
       [this, &text](QMessageBox& box)
       {
         text = box.text();
-        onMessage(
-            [](QMessageBox& add)
+        onDialog(
+            [](QDialog& add)
             {
-              for (QAbstractButton* button : add.buttons())
-                if (button->text().contains("Add to"))
-                  return button->click();
+              auto* button = buttonOf(add, "Add to");
+              if (!button)
+                return false;
+              button->click();
+              return true;
             });
-        for (QAbstractButton* button : box.buttons())
-          if (button->text().contains("MR of"))
-            return button->click();
+        buttonOf(box, "MR of")->click();
       });
   dropPath(file);
   ASSERT_TRUE(waitFor([this] { return !window().model().value().mr.empty(); }));
@@ -293,7 +337,7 @@ TEST_F(Import, InDoubtTheUserIsAsked)
   EXPECT_EQ(window().model().value().name, "ball");
   EXPECT_TRUE(settled());
   // As a CT it is a case of its own.
-  answered([this](const auto& react) { onMessage(react); }, "CT",
+  answered([this](const auto& react) { onDialog(react); }, "CT",
            [&] { dropPath(plain("beam.nrrd")); });
   ASSERT_TRUE(waitFor([this] { return window().model().value().name == "beam"; }));
 }
@@ -342,21 +386,24 @@ TEST_F(Import, AStructureWithoutANameIsAskedForOne)
   fs::copy(folder() / "sample/meshes/incus.obj", folder() / "Doe John.obj");
   openWindow();
   QString asked;
-  QTimer answer;
-  QObject::connect(&answer, &QTimer::timeout, &answer,
-                   [&]
-                   {
-                     auto* ask = qobject_cast<QInputDialog*>(QApplication::activeModalWidget());
-                     if (!ask)
-                       return;
-                     answer.stop();
-                     asked = ask->labelText();
-                     ask->setTextValue("tumour");
-                     ask->accept();
-                   });
-  answer.start(20);
-  answered([this](const auto& react) { onMessage(react); }, "Add to",
-           [this] { dropPath(folder() / "Doe John.obj"); });
+  onDialog(
+      [&asked](QDialog& dialog)
+      {
+        auto* name = dialog.findChild<QLineEdit*>("partName");
+        if (!name)
+          return false;
+        asked = textOf(dialog);
+        auto* add = buttonOf(dialog, "Add to");
+        EXPECT_TRUE(name->text().isEmpty()) << name->text().toStdString();
+        EXPECT_FALSE(add->isEnabled()) << "nothing of the file's name is kept";
+        name->setText("nerve");
+        EXPECT_FALSE(add->isEnabled()) << "taken";
+        name->setText("tumour");
+        EXPECT_TRUE(add->isEnabled());
+        add->click();
+        return true;
+      });
+  dropPath(folder() / "Doe John.obj");
   ASSERT_TRUE(waitFor([this] { return !window().model().value().meshes.empty(); }));
   EXPECT_TRUE(asked.contains("Doe John.obj")) << asked.toStdString();
   EXPECT_EQ(window().model().value().meshes[0].name, "tumour");
@@ -372,7 +419,7 @@ TEST_F(Import, WhatWasAssumedIsToldUntilSomebodyHasReadIt)
     image->data()[n] = static_cast<std::int16_t>(n % 64 < 32 ? n % 97 : 2000 + n * 7919 % 3001);
   imaging::writeVolume(file, *image);
   openWindow();
-  answered([this](const auto& react) { onMessage(react); }, "CT", [&] { dropPath(file); });
+  answered([this](const auto& react) { onDialog(react); }, "CT", [&] { dropPath(file); });
   ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
   auto* banner = window().findChild<Banner*>("notesBanner");
   ASSERT_TRUE(banner);
@@ -391,7 +438,7 @@ TEST_F(Import, ATiltedScanIsStraightenedOnlyWithConsent)
   openWindow();
   const auto drop = [this](const QString& button)
   {
-    const QString asked = answered([this](const auto& react) { onMessage(react); }, button,
+    const QString asked = answered([this](const auto& react) { onDialog(react); }, button,
                                    [this] { dropPath(folder() / "tilted" / "ct"); });
     EXPECT_TRUE(asked.contains("12.0 degrees")) << asked.toStdString();
     EXPECT_FALSE(asked.contains("--repair")) << asked.toStdString();
@@ -400,10 +447,323 @@ TEST_F(Import, ATiltedScanIsStraightenedOnlyWithConsent)
   drop("Cancel");
   EXPECT_FALSE(window().model().hasCase());
   EXPECT_TRUE(library().list().empty());
-  drop("Straighten");
+  drop("Repair and open");
   ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
   const auto& notes = window().model().value().ct.notes;
   EXPECT_TRUE(std::any_of(notes.begin(), notes.end(),
                           [](const std::string& note)
                           { return note.find("tilt of 12.0 degrees") != std::string::npos; }));
+}
+
+namespace
+{
+
+void trigger(QWidget& window, const char* text)
+{
+  for (QAction* action : window.findChildren<QAction*>())
+    if (action->text().remove('&') == QString::fromUtf8(text))
+      return action->trigger();
+  ADD_FAILURE() << text;
+}
+
+void choose(QFileDialog& dialog, const fs::path& path)
+{
+  dialog.findChild<QLineEdit*>("fileNameEdit")->setText(QString::fromStdString(path.string()));
+  static_cast<QDialog&>(dialog).accept();
+}
+
+bool hasColor(const QImage& image, const QColor& color)
+{
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x)
+      if (image.pixelColor(x, y) == color)
+        return true;
+  return false;
+}
+
+void keepPicture(QWidget& widget, const char* name)
+{
+  const QString pictures = qEnvironmentVariable("PETROUS_GUI_PICTURES"); // for visual inspection
+  if (!pictures.isEmpty())
+    widget.grab().save(QString("%1/%2.png").arg(pictures, name));
+}
+
+} // namespace
+
+// One slice of the stack is gone: the page shows it, and so does the case.
+TEST_F(Import, TheRepairPageShowsBeforeAndAfterAndTheCaseMarksWhatWasGuessed)
+{
+  writePatient(folder() / "sample");
+  std::vector<fs::path> slices;
+  for (const auto& entry : fs::directory_iterator(folder() / "sample" / "ct"))
+    slices.push_back(entry.path());
+  std::sort(slices.begin(), slices.end());
+  fs::remove(slices[slices.size() / 2]);
+  openWindow();
+  QString remains;
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        auto* page = qobject_cast<RepairDialog*>(&dialog);
+        if (!page || !page->isPictured())
+          return false;
+        auto* before = dialog.findChild<SliceView*>("before");
+        auto* after = dialog.findChild<SliceView*>("after");
+        if (!before->isVisible() || !after->isVisible())
+          return false;
+        remains = dialog.findChild<QLabel*>("remains")->text();
+        const QImage one = before->grab().toImage();
+        const QImage other = after->grab().toImage();
+        EXPECT_GT(pixelsUnlikeTheCorner(one), one.width() * one.height() / 20);
+        EXPECT_GT(differentPixels(one, other), one.width() * one.height() / 100);
+        keepPicture(dialog, "repair");
+        buttonOf(dialog, "Repair and open")->click();
+        return true;
+      });
+  dropPath(folder() / "sample" / "ct");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  EXPECT_TRUE(remains.contains("missing from the files")) << remains.toStdString();
+  EXPECT_TRUE(
+      window().findChild<Banner*>("notesBanner")->text().contains("missing from the files"));
+  const scene::Case& value = window().model().value();
+  const auto guessed = presenters::interpolatedSlices(value.ct);
+  ASSERT_EQ(guessed.size(), 1u);
+  auto* axial = window().findChild<SliceView*>("axialView");
+  auto* coronal = window().findChild<SliceView*>("coronalView");
+  const QColor mark("#ff8c2b");
+  const auto showSlice = [&](int slice)
+  {
+    Eigen::Vector3d voxel = value.ct.geometry.voxelFromPatient(value.ct.geometry.center());
+    voxel[2] = slice;
+    for (SliceView* view : {axial, coronal})
+      view->setCrosshair(value.ct.geometry.patientFromVoxel(voxel));
+  };
+  showSlice(guessed[0]);
+  EXPECT_TRUE(hasColor(axial->grab().toImage(), mark));
+  keepPicture(*axial, "interpolated-axial");
+  keepPicture(*coronal, "interpolated-coronal");
+  showSlice(guessed[0] + 2);
+  EXPECT_FALSE(hasColor(axial->grab().toImage(), mark));
+  const QImage marked = coronal->grab().toImage();
+  coronal->setInterpolated({});
+  EXPECT_GT(differentPixels(marked, coronal->grab().toImage(), 8), coronal->width() / 4);
+}
+
+TEST_F(Import, OneSliceStandsForItsSeries)
+{
+  writePatient(folder() / "sample");
+  openWindow();
+  dropPath(fs::directory_iterator(folder() / "sample" / "ct")->path());
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  const auto count =
+      std::distance(fs::directory_iterator(folder() / "sample" / "ct"), fs::directory_iterator());
+  EXPECT_EQ(window().model().value().ct.geometry.dims()[2], count);
+}
+
+TEST_F(Import, ARegionIsDrawnBeforeTheScanIsRead)
+{
+  writePatient(folder() / "sample");
+  openWindow();
+  core::PatientBox box;
+  const auto openRegion = [&](const std::function<void(RegionDialog&)>& act)
+  {
+    onDialog(
+        [&, act](QDialog& dialog)
+        {
+          if (auto* files = qobject_cast<QFileDialog*>(&dialog))
+          {
+            choose(*files, folder() / "sample" / "ct");
+            return false;
+          }
+          auto* region = qobject_cast<RegionDialog*>(&dialog);
+          if (!region || !region->isPictured() ||
+              !region->findChild<SliceView*>("axialView")->isVisible())
+            return false;
+          EXPECT_FALSE(region->region()) << "all of it, unless the user says otherwise";
+          act(*region);
+          return true;
+        });
+    trigger(window(), "Open a region…");
+    EXPECT_TRUE(waitFor([this] { return !window().busy(); }));
+  };
+  openRegion([](RegionDialog& dialog) { dialog.reject(); });
+  EXPECT_FALSE(window().model().hasCase());
+  openRegion(
+      [&](RegionDialog& dialog)
+      {
+        const QString whole = dialog.findChild<QLabel*>("regionSize")->text();
+        auto* left = dialog.findChild<QDoubleSpinBox*>("x0");
+        left->setValue(left->minimum() + 12.0);
+        // The axial view's lower edge is posterior: dragged up by 60 pixels.
+        auto* view = dialog.findChild<RegionView*>("axialView");
+        const auto slice = view->slice();
+        const Eigen::Vector3d back = dialog.region()->max();
+        const Eigen::Vector2d edge = slice.pixelFromPatient(back);
+        const QPoint from(view->width() / 2, static_cast<int>(edge[1]));
+        QTest::mousePress(view, Qt::LeftButton, Qt::NoModifier, from);
+        QMouseEvent move(QEvent::MouseMove, from - QPoint(0, 60), Qt::LeftButton, Qt::LeftButton,
+                         Qt::NoModifier);
+        QApplication::sendEvent(view, &move);
+        QTest::mouseRelease(view, Qt::LeftButton, Qt::NoModifier, from - QPoint(0, 60));
+        ASSERT_TRUE(dialog.region());
+        box = *dialog.region();
+        EXPECT_NEAR(box.max()[1], back[1] - 60 * slice.mmPerPixel(), 1e-6);
+        EXPECT_EQ(box.max()[0], back[0]);
+        const QString part = dialog.findChild<QLabel*>("regionSize")->text();
+        EXPECT_NE(part, whole);
+        EXPECT_TRUE(part.contains("million voxels") && part.contains("MB")) << part.toStdString();
+        keepPicture(dialog, "region");
+        dialog.findChild<QPushButton*>("wholeScan")->click();
+        EXPECT_FALSE(dialog.region());
+        EXPECT_EQ(dialog.findChild<QLabel*>("regionSize")->text(), whole);
+        for (int n = 0; n < 6; ++n)
+          dialog.findChild<QDoubleSpinBox*>(QString("%1%2").arg("xyz"[n / 2]).arg(n % 2))
+              ->setValue(n % 2 == 0 ? box.min()[n / 2] : box.max()[n / 2]);
+        box = *dialog.region(); // in the boxes' tenths of a millimetre
+        dialog.accept();
+      });
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  presenters::CaseSources sources;
+  sources.ct = folder() / "sample" / "ct";
+  sources.roi = box; // as --roi
+  const auto truth = presenters::buildCase("truth", sources, {});
+  EXPECT_TRUE(core::sameGrid(window().model().value().ct.geometry, truth.ct.geometry));
+  sources.roi.reset();
+  EXPECT_LT(truth.ct.geometry.voxelCount(),
+            presenters::buildCase("whole", sources, {}).ct.geometry.voxelCount());
+}
+
+// By the Case menu: the file dialog offers DICOM for labels, the names can be edited, and the panel
+// with what came is in front.
+TEST_F(Import, PartsComeByTheCaseMenu)
+{
+  writePatient(folder() / "sample");
+  openWindow();
+  dropPath(folder() / "sample" / "ct");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  QStringList filters;
+  const auto add = [&](const char* entry, const QString& file, const QString& name)
+  {
+    onDialog(
+        [&, file, name](QDialog& dialog)
+        {
+          if (auto* files = qobject_cast<QFileDialog*>(&dialog))
+          {
+            filters = files->nameFilters();
+            choose(*files, folder() / "sample" / file.toStdString());
+            return false;
+          }
+          auto* button = buttonOf(dialog, "Add to");
+          if (!button)
+            return false;
+          if (!name.isEmpty())
+            dialog.findChild<QLineEdit*>("partName")->setText(name);
+          keepPicture(dialog, "add");
+          button->click();
+          return true;
+        });
+    trigger(window(), entry);
+    EXPECT_TRUE(waitFor([this] { return !window().busy(); }));
+  };
+  const auto isInFront = [this](const char* dock)
+  { return !window().findChild<QDockWidget*>(dock)->visibleRegion().isEmpty(); };
+  add("Add MR…", "mr", "T2 of 2024");
+  ASSERT_TRUE(waitFor([this] { return window().model().value().mr.size() == 1; }));
+  EXPECT_EQ(window().model().value().mr[0].name, "T2 of 2024");
+  EXPECT_TRUE(waitFor([&] { return isInFront("registrationDock"); }));
+  add("Add labels…", "labels.seg.nrrd", {});
+  ASSERT_TRUE(waitFor([this] { return !window().model().value().labels.empty(); }));
+  EXPECT_TRUE(filters.join(' ').contains("*.dcm")) << filters.join(' ').toStdString();
+  EXPECT_TRUE(waitFor([&] { return isInFront("structuresDock"); }));
+  EXPECT_FALSE(isInFront("registrationDock"));
+  EXPECT_TRUE(settled());
+  // What is something else is said to be.
+  QString told;
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        if (auto* files = qobject_cast<QFileDialog*>(&dialog))
+        {
+          choose(*files, folder() / "sample" / "ct");
+          return false;
+        }
+        told = textOf(dialog);
+        dialog.accept();
+        return true;
+      });
+  trigger(window(), "Add MR…");
+  ASSERT_TRUE(waitFor([&told] { return !told.isEmpty(); }));
+  EXPECT_TRUE(told.contains("CT") && told.contains("MR")) << told.toStdString();
+  EXPECT_EQ(window().model().value().mr.size(), 1u);
+  EXPECT_TRUE(settled());
+}
+
+TEST_F(Import, StructuresAreTakenOutPutBackAndRenamed)
+{
+  saveBall("ball");
+  openWindow();
+  auto* list = window().findChild<QTreeView*>("structures");
+  const auto structures = [this]
+  {
+    QStringList names;
+    for (const auto& part : window().model().value().labels)
+      for (const auto& structure : part.structures)
+        names += QString::fromStdString(structure.name);
+    return names;
+  };
+  const auto press = [&](int key)
+  {
+    QApplication::setActiveWindow(&window());
+    list->setFocus();
+    list->setCurrentIndex(list->model()->index(0, 0));
+    QTest::keyClick(list, static_cast<Qt::Key>(key));
+  };
+  press(Qt::Key_Delete);
+  EXPECT_TRUE(structures().isEmpty());
+  EXPECT_TRUE(settled());
+  EXPECT_TRUE(library().open("ball").labels.empty());
+  auto* banner = window().findChild<Banner*>("removedBanner");
+  EXPECT_TRUE(banner->isVisible());
+  EXPECT_TRUE(banner->text().contains("nerve")) << banner->text().toStdString();
+  banner->findChild<QPushButton*>("restorePart")->click();
+  EXPECT_EQ(structures(), QStringList{"nerve"});
+  EXPECT_FALSE(banner->isVisible());
+  EXPECT_TRUE(settled());
+  EXPECT_EQ(library().open("ball").labels.size(), 1u);
+  EXPECT_EQ(library().open("ball").labels[0].labels.get()->segments.front().voxels,
+            window().model().value().labels[0].structures[0].voxels);
+  onDialog(
+      [](QDialog& dialog)
+      {
+        auto* ask = qobject_cast<QInputDialog*>(&dialog);
+        if (!ask)
+          return false;
+        ask->setTextValue("facial nerve");
+        ask->accept();
+        return true;
+      });
+  press(Qt::Key_F2);
+  EXPECT_EQ(structures(), QStringList{"facial nerve"});
+  EXPECT_TRUE(settled());
+  EXPECT_EQ(library().open("ball").labels[0].structures[0].name, "facial nerve");
+}
+
+// A hint for the command line is no help to who has none.
+TEST(WindowText, SaysWhatToDoInTheWindow)
+{
+  for (const char* text :
+       {"structure: named so and not as its file, whose name may be a patient's; NAME=FILE gives "
+        "another name",
+        "x.nii: structure 'a' is in the case already; give it another name with NAME=FILE",
+        "CT: the surface of bone is put at 5; 'petrous appearance --iso' moves the surface.",
+        "x: several MR images have its grid; say on which it was drawn with FILE@T2 or FILE@DWI",
+        "x: was drawn in another frame of reference than the CT's; if it is this CT's all the "
+        "same, "
+        "say FILE@ct, or add the MR on which it was drawn"})
+  {
+    const QString said = windowText(text);
+    EXPECT_FALSE(said.contains("FILE") || said.contains("petrous") || said.contains("--"))
+        << said.toStdString();
+    EXPECT_TRUE(said.startsWith(QString(text).left(12)));
+  }
 }

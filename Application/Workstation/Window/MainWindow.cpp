@@ -81,7 +81,7 @@ QStringList notesOf(const scene::Case& value)
   const auto add = [&notes](const std::string& part, const std::vector<std::string>& more)
   {
     for (const std::string& note : more)
-      notes += words(part) + ": " + words(note);
+      notes += words(part) + ": " + windowText(words(note));
   };
   add("CT", value.ct.notes);
   for (const auto& mr : value.mr)
@@ -108,6 +108,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_notesBanner(new Banner("notesBanner", Banner::Kind::Notice))
   , m_damageBanner(new Banner("damageBanner", Banner::Kind::Warning))
   , m_recordingBanner(new Banner("recordingBanner", Banner::Kind::Warning))
+  , m_removedBanner(new Banner("removedBanner", Banner::Kind::Notice))
   , m_place(new ProbeLabel(m_model))
   , m_sum(new QLabel)
   , m_touch(new QLabel)
@@ -115,7 +116,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_actions(new WindowActions(*this, *m_bar, *m_deviceBar, options.quadBuffer))
   , m_saver(new CaseSaver(m_model))
   , m_keeper(new CaseDocumentController(m_model, *m_saver, *this, *m_unsavedBanner,
-                                        *m_loadingBanner, *m_damageBanner))
+                                        *m_loadingBanner, *m_damageBanner, *m_removedBanner))
   , m_watcher(new DeviceWatcher(options.devices, options.lookForDevicesEvery, this))
   , m_devices(new ActiveDeviceController(*m_watcher, *m_deviceBar, *m_settings, this))
   , m_drill(new DrillController(m_model, *m_view, *m_bar, *m_devices, this))
@@ -184,7 +185,7 @@ void MainWindow::layOut()
   auto* whole = new QWidget;
   auto* banners = new BannerStack(*whole);
   for (Banner* banner : {m_damageBanner, m_faultBanner, m_unsavedBanner, m_recordingBanner,
-                         m_loadingBanner, m_notesBanner})
+                         m_loadingBanner, m_removedBanner, m_notesBanner})
     banners->add(banner);
   connect(m_view, &ThreeDView::toolModeSet, banners,
           [this, banners]
@@ -412,6 +413,22 @@ void MainWindow::connectActions()
   const auto on = [this](QAction* action, auto what)
   { connect(action, &QAction::triggered, this, what); };
   on(m_actions->openDicom, [this] { m_keeper->openFolder(); });
+  on(m_actions->openRegion, [this] { m_keeper->openRegion(); });
+  using presenters::Content;
+  on(m_actions->addMrFolder, [this] { m_keeper->add(Content::Mr, true); });
+  on(m_actions->addMrFile, [this] { m_keeper->add(Content::Mr); });
+  on(m_actions->addLabels, [this] { m_keeper->add(Content::Labels); });
+  on(m_actions->addMesh, [this] { m_keeper->add(Content::Mesh); });
+  on(m_actions->restorePart, [this] { m_keeper->restorePart(); });
+  connect(m_actions->casePart, &QMenu::aboutToShow, this, &MainWindow::fillCaseMenu);
+  auto* structures = findChild<StructuresPanel*>();
+  connect(structures, &StructuresPanel::removalAsked, this,
+          [this](const QString& name) { m_keeper->removePart(bytes(name)); });
+  connect(structures, &StructuresPanel::renamingAsked, this,
+          [this](const QString& name) { m_keeper->renamePart(bytes(name)); });
+  connect(m_keeper, &CaseDocumentController::added, this,
+          [this](bool onlyImages)
+          { raisePanel(onlyImages ? "registrationDock" : "structuresDock"); });
   on(m_actions->openImage, [this] { m_keeper->openFiles(); });
   on(m_actions->openCase, [this] { m_keeper->chooseCase(); });
   on(m_actions->sample, [this] { m_keeper->makeSample(); });
@@ -528,6 +545,7 @@ void MainWindow::caseClosed()
   m_slices->clear();
   m_segment->caseChanged();
   tellPanels();
+  m_removedBanner->hide();
   m_place->clear();
   m_sum->clear();
   m_picture->speed()->clear();
@@ -657,6 +675,40 @@ void MainWindow::strokeEnded(const std::shared_ptr<const dissection::Stroke>& st
   if (m_model.hasCase() && m_model.value().dissection.history().ahead() == 0)
     statusBar()->showMessage(text); // else an undo has ended it, and says so
   m_saver->save();
+}
+
+// The MRs are in no list.
+void MainWindow::fillCaseMenu()
+{
+  QMenu& menu = *m_actions->casePart;
+  const QList<QAction*> actions = menu.actions();
+  for (int n = actions.indexOf(m_actions->restorePart) + 1; n < actions.size(); ++n)
+    delete actions[n];
+  const std::string removed = m_model.removedPart();
+  m_actions->restorePart->setEnabled(!removed.empty());
+  m_actions->restorePart->setText(
+      removed.empty() ? tr("Put &back")
+                      : tr("Put &back “%1”").arg(words(removed).replace('&', "&&")));
+  if (!m_model.hasCase() || m_model.value().mr.empty())
+    return;
+  menu.addSeparator();
+  for (const scene::ImagePart& mr : m_model.value().mr)
+  {
+    const QString shown = words(mr.name).replace('&', "&&");
+    connect(menu.addAction(tr("Rename the MR “%1”…").arg(shown)), &QAction::triggered, this,
+            [this, name = mr.name] { m_keeper->renamePart(name); });
+    connect(menu.addAction(tr("Remove the MR “%1”").arg(shown)), &QAction::triggered, this,
+            [this, name = mr.name] { m_keeper->removePart(name); });
+  }
+}
+
+void MainWindow::raisePanel(const char* dock)
+{
+  if (auto* panel = findChild<QDockWidget*>(dock))
+  {
+    panel->show();
+    panel->raise();
+  }
 }
 
 // Begins with the tool: in use, it is taken up again.

@@ -92,6 +92,8 @@ private:
   QDockWidget* addDock(const PanelEntry& entry, Panel* panel);
   void showPanels();
   void tellPanels();
+  void fillCaseMenu();
+  void raisePanel(const char* dock);
   void record(bool on);
   std::filesystem::path chooseRecording();
   void showRecording(const QString& fault);
@@ -111,6 +113,7 @@ private:
   Banner* m_notesBanner;
   Banner* m_damageBanner;
   Banner* m_recordingBanner;
+  Banner* m_removedBanner;
   QStringList m_notesTold;
   ProbeLabel* m_place;
   QLabel* m_sum;

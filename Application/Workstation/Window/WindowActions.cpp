@@ -57,6 +57,9 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
       make(file, tr("Open &files…"), {},
            tr("A CT as NRRD, NIfTI or MetaImage: a new case; MR, label maps and meshes: for "
               "the open case"));
+  openRegion = make(file, tr("Open a &region…"), {},
+                    tr("A DICOM folder, of whose CT only a box is read that you draw: the ear of a "
+                       "whole head"));
   openCase =
       make(file, tr("Open &case…"), Qt::CTRL + Qt::SHIFT + Qt::Key_O, tr("A case of the library"));
   sample = make(file, tr("&Make the sample patient"), {}, tr("An artificial temporal bone"));
@@ -74,6 +77,17 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   strokeCamera = make(edit, tr("Undo goes back to the stroke's &view"), {},
                       tr("Turn the patient as they lay when the stroke was drilled"));
   strokeCamera->setCheckable(true);
+
+  casePart = window.menuBar()->addMenu(tr("&Case"));
+  addMrFolder = make(casePart, tr("Add &MR…"), {}, tr("A DICOM folder with an MR of this patient"));
+  addMrFile = make(casePart, tr("Add MR &file…"), {},
+                   tr("An MR of this patient as NIfTI, NRRD, MetaImage or multi-frame DICOM"));
+  addLabels = make(casePart, tr("Add &labels…"), {},
+                   tr("Structures of this patient: label maps and segmentations"));
+  addMesh = make(casePart, tr("Add m&esh…"), {}, tr("Surfaces of this patient, in mm"));
+  casePart->addSeparator();
+  restorePart = make(casePart, tr("Put &back"), {}, tr("What was taken out of the case last"));
+  restorePart->setEnabled(false);
 
   approaches = window.menuBar()->addMenu(tr("&Approach"));
 
@@ -157,9 +171,9 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   window.addToolBar(&drillBar);
   window.addToolBar(&deviceBar);
 
-  m_needCase.insert(m_needCase.end(),
-                    {save, saveAs, centerView, boneThickness, boneWindow, softWindow, fitSlices,
-                     drillBar.drillAction(), drillBar.pointerAction(), record});
+  m_needCase.insert(m_needCase.end(), {save, saveAs, addMrFolder, addMrFile, addLabels, addMesh,
+                                       centerView, boneThickness, boneWindow, softWindow, fitSlices,
+                                       drillBar.drillAction(), drillBar.pointerAction(), record});
 }
 
 QMenu* WindowActions::addStereo(bool quadBuffer)

@@ -31,12 +31,19 @@ public:
   void setCaseOpen(bool open);                          ///< disables what needs a case
 
   QAction* openDicom;
+  QAction* openRegion;
   QAction* openImage;
   QAction* openCase;
   QAction* sample;
   QAction* save;
   QAction* saveAs;
   QAction* quit;
+  QMenu* casePart; ///< the Case menu; the window completes it
+  QAction* addMrFolder;
+  QAction* addMrFile;
+  QAction* addLabels;
+  QAction* addMesh;
+  QAction* restorePart;
   QAction* undo;
   QAction* redo;
   QAction* centerView;

@@ -1,5 +1,7 @@
 #include "WindowTexts.h"
 
+#include <QRegularExpression>
+
 #include <QObject>
 
 #include "Theme.h"
@@ -29,6 +31,35 @@ QString strokeText(const dissection::Stroke* stroke)
                 .arg(words(touched.name).replace('_', ' '))
                 .arg(touched.volume, 0, 'f', 2);
   return text;
+}
+
+QString windowText(const QString& text)
+{
+  struct Hint
+  {
+    const char* command; ///< a regular expression
+    const char* window;
+  };
+  static constexpr Hint kHints[] = {
+      {"; NAME=FILE gives another name", "; F2 in the list gives it another name"},
+      {"; give it another name with NAME=FILE", "; give it another name"},
+      {"; give one with NAME=FILE", ""},
+      {"; 'petrous scan' says what\\.", "."},
+      {" Give a series that 'petrous scan' finds ok\\.", ""},
+      {" With --repair it is resampled to a straight volume\\.",
+       " Opened alone, it can be repaired."},
+      {"; 'petrous appearance --iso' moves the surface", "; Bone threshold (F9) moves the surface"},
+      {"say FILE@ct, or add", "add it again and choose “on the CT”, or add"},
+      {"; say on which it was drawn with FILE@.* or FILE@.*$",
+       "; add it again and choose the one on which it was drawn"},
+      {"; remove it and add it again as FILE@MR",
+       "; remove it, add it again and choose the one on which it was drawn"},
+      {"; name one by --series.*$", ""},
+  };
+  QString result = text;
+  for (const Hint& hint : kHints)
+    result.replace(QRegularExpression(hint.command), QString::fromUtf8(hint.window));
+  return result;
 }
 
 QString sentence(const QString& text)

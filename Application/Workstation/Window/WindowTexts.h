@@ -13,6 +13,9 @@ QString removedText(const scene::Case& value, bool drilling);
 /// What a stroke removed; "Nothing was cut" for nullptr.
 QString strokeText(const dissection::Stroke* stroke);
 
+/// A message with what to do in the window in place of what it says to do with the command.
+QString windowText(const QString& text);
+
 /// Adds a full stop if there is none.
 QString sentence(const QString& text);
 

@@ -44,6 +44,15 @@ std::string plainWords(std::string name)
   return name;
 }
 
+// Whether a word of the name begins as one of these: "mastoid", not "sternocleidomastoid".
+bool hasWord(const std::string& structureName, const std::vector<std::string>& words)
+{
+  const std::string name = " " + plainWords(structureName) + " ";
+  return std::any_of(words.begin(), words.end(),
+                     [&name](const std::string& word)
+                     { return name.find(" " + word) != std::string::npos; });
+}
+
 // Runs of letters or digits, in lower case; split also at camelCase boundaries.
 std::vector<std::string> wordsOf(const std::string& name)
 {
@@ -98,6 +107,28 @@ StructurePresets::StructurePresets(std::string_view text)
       first.push_back({entry.at("words").get<std::vector<std::string>>(), index});
     }
     m_words.insert(m_words.begin(), first.begin(), first.end());
+    for (const auto& entry : catalogue.value("codes", json::array()))
+    {
+      StructureCode code;
+      const std::string category = entry.value("category", "");
+      if (category == "abnormal")
+      {
+        code.category = "49755003";
+        code.categoryMeaning = "Morphologically Abnormal Structure";
+      }
+      else if (category == "tissue")
+      {
+        code.category = "85756007";
+        code.categoryMeaning = "Tissue";
+      }
+      else if (!category.empty())
+        throw core::InvalidParameter("structure presets: a code has no category '" + category +
+                                     "'; there are abnormal and tissue");
+      code.type = entry.at("code").get<std::string>();
+      code.typeMeaning = entry.at("meaning").get<std::string>();
+      m_codes.push_back({entry.value("words", std::vector<std::string>()),
+                         entry.value("preset", ""), std::move(code)});
+    }
     m_neutral = catalogue.value("neutral", std::vector<std::string>());
   }
   catch (const json::exception& error)
@@ -115,13 +146,22 @@ const StructureAppearance* StructurePresets::find(const std::string& name) const
 
 const StructureAppearance* StructurePresets::lookByWord(const std::string& structureName) const
 {
-  const std::string name = " " + plainWords(structureName) + " ";
   for (const Words& entry : m_words)
-    for (const std::string& word : entry.words)
-      // At the start of a word: "mastoid", not "sternocleidomastoid".
-      if (name.find(" " + word) != std::string::npos)
-        return entry.preset < m_presets.size() ? &m_presets[entry.preset] : &m_other;
+    if (hasWord(structureName, entry.words))
+      return entry.preset < m_presets.size() ? &m_presets[entry.preset] : &m_other;
   return nullptr;
+}
+
+StructureCode StructurePresets::codeFor(const std::string& structureName,
+                                        const std::string& preset) const
+{
+  const auto found = std::find_if(m_codes.begin(), m_codes.end(),
+                                  [&](const Code& entry)
+                                  {
+                                    return hasWord(structureName, entry.words) ||
+                                           (!entry.preset.empty() && entry.preset == preset);
+                                  });
+  return found == m_codes.end() ? StructureCode() : found->code;
 }
 
 StructureAppearance StructurePresets::lookFor(const std::string& structureName) const

@@ -391,5 +391,120 @@ TEST_F(DicomData, EnhancedMrOfTwoMakersEqualsDcm2niix)
   }
 }
 
+/// Whether a volume of a NIfTI file by dcm2niix is this image: each voxel's place within 1e-3 mm
+/// and its value, stored or as scaled by the file, to the bit of the smaller type.
+bool isVolumeOf(const DicomSeries& series, const IntensityVolume& image, const fs::path& reference)
+{
+  std::ifstream file(reference, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (bytes.size() < 352)
+    return false;
+  const auto number = [&bytes](auto value, std::size_t at)
+  {
+    std::memcpy(&value, bytes.data() + at, sizeof value);
+    return value;
+  };
+  const auto value = [&](std::size_t n) -> double
+  {
+    switch (number(std::int16_t{}, 70))
+    {
+    case 2:
+      return number(std::uint8_t{}, 352 + n);
+    case 4:
+      return number(std::int16_t{}, 352 + 2 * n);
+    case 512:
+      return number(std::uint16_t{}, 352 + 2 * n);
+    case 16:
+      return static_cast<double>(number(0.0F, 352 + 4 * n));
+    default:
+      return std::nan("");
+    }
+  };
+  std::array<int, 3> n{};
+  for (std::size_t a = 0; a < 3; ++a)
+    n[a] = number(std::int16_t{}, 42 + 2 * a);
+  const core::GridGeometry& to = image.geometry();
+  const auto count = static_cast<std::size_t>(n[0]) * static_cast<std::size_t>(n[1]) *
+                     static_cast<std::size_t>(n[2]);
+  if (count != to.voxelCount())
+    return false;
+  const std::size_t bytesOfVoxel = static_cast<std::size_t>(number(std::int16_t{}, 72)) / 8;
+  const std::size_t volumes =
+      (bytes.size() - 352) / (count * std::max<std::size_t>(bytesOfVoxel, 1));
+  Eigen::Matrix<double, 3, 4> affine; // of the sform, RAS turned to LPS
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 4; ++c)
+      affine(r, c) =
+          static_cast<double>(number(0.0F, static_cast<std::size_t>(280 + 16 * r + 4 * c))) *
+          (r < 2 ? -1.0 : 1.0);
+  const SliceHeader& slice = series.geometry.slices.front();
+  const double slope = static_cast<double>(number(0.0F, 112));
+  const double intercept = static_cast<double>(number(0.0F, 116));
+  for (std::size_t t = 0; t < volumes; ++t)
+  {
+    bool same = true;
+    std::size_t at = t * count;
+    for (int k = 0; same && k < n[2]; ++k)
+      for (int j = 0; same && j < n[1]; ++j)
+        for (int i = 0; same && i < n[0]; ++i, ++at)
+        {
+          const Eigen::Vector3d place = to.voxelFromPatient(affine * Eigen::Vector4d(i, j, k, 1.0));
+          const Eigen::Vector3i v = place.array().round().cast<int>();
+          for (int a = 0; a < 3; ++a)
+            same = same && v[a] >= 0 && v[a] < to.dims()[static_cast<std::size_t>(a)];
+          same = same && (place - v.cast<double>()).cwiseProduct(to.spacing()).norm() < 1e-3;
+          if (!same)
+            break;
+          const double ours = image.at(v[0], v[1], v[2]);
+          const double stored = std::nearbyint((ours - slice.intercept) / slice.slope);
+          same = stored == value(at) ||
+                 std::abs(ours - (slope * value(at) + intercept)) <= 1e-6 * (1.0 + std::abs(ours));
+        }
+    if (same)
+      return true;
+  }
+  return false;
+}
+
+// Every stack of the real data: the image that dcm2niix makes of it, or refused, or repairable with
+// the finding that says so. Nothing differs in silence.
+TEST_F(DicomData, EverySeriesEqualsDcm2niixOrIsRefusedWithItsFinding)
+{
+  if (run("command -v dcm2niix").empty())
+    GTEST_SKIP() << "dcm2niix is not there to compare with";
+  const test::TemporaryFolder work;
+  run("dcm2niix -f %j -z n -b n -w 2 -d 9 -o '" + work.path().string() + "' '" + m_root.string() +
+      "' 2>/dev/null");
+  int equal = 0;
+  int unmatched = 0;
+  for (const DicomSeries& series : scanDicom(m_root, {}).series)
+  {
+    if (series.geometry.verdict != Verdict::Ok)
+    {
+      EXPECT_FALSE(series.geometry.findings.empty()) << series.uid;
+      continue;
+    }
+    const IntensityVolume image = readSeries(series, {}, {});
+    bool found = false;
+    bool any = false;
+    for (const auto& file : fs::directory_iterator(work.path()))
+      if (file.path().filename().string().rfind(series.uid, 0) == 0)
+      {
+        any = true;
+        found = found || isVolumeOf(series, image, file.path());
+      }
+    if (!any) // dcm2niix does not read it
+      ++unmatched;
+    else if (found)
+      ++equal;
+    else
+      ADD_FAILURE() << series.uid << " " << series.volume << " differs from dcm2niix's";
+  }
+  RecordProperty("equal", equal);
+  RecordProperty("unmatched", unmatched);
+  std::cout << equal << " equal, " << unmatched << " not read by dcm2niix\n";
+  EXPECT_GE(equal, 10);
+}
+
 } // namespace
 } // namespace petrous::imaging

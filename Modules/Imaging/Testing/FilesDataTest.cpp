@@ -2,13 +2,18 @@
 #include <array>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
+
+#include <unistd.h>
 
 #include <gtest/gtest.h>
 
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Imaging/ImageFile.h"
 #include "petrous/Imaging/LabelFile.h"
+#include "petrous/Imaging/StructureSet.h"
 
 #include "ItkReader.h"
 
@@ -207,6 +212,82 @@ TEST(FilesData, EverySegmentationOfDcmqiReads)
       ++read;
     }
   EXPECT_GT(read, 5);
+}
+
+/// Volume in voxels and in the file, mm^3.
+std::pair<double, double> volumes(const fs::path& path, const std::string& name,
+                                  const core::GridGeometry& grid)
+{
+  const LoadedLabels loaded = labelsOf(readStructureSet(path), grid, path);
+  for (const volume::LabelMap& map : loaded.maps)
+    if (const volume::Segment* segment = find(map, name))
+      return {map.volume(*segment), loaded.fileVolumes.at(name)};
+  return {0.0, 0.0};
+}
+
+// Areas by the shoelace formula from the points as strings(1) shows them.
+TEST(FilesData, StructureSetsHaveTheVolumeOfTheirPolygons)
+{
+  PETROUS_NEED(ring, "seg_rt/rt-utils/tests/mock_data/rt.dcm");
+  for (const double spacing : {0.4, 1.0, 1.7})
+  {
+    // A square of 24 mm around a hole of 15 mm without a corner, on one plane
+    const double area = 24.0 * 24.0 - (15.0 * 15.0 - 0.5);
+    const core::GridGeometry grid({200, 200, 5}, Eigen::Vector3d(spacing, spacing, 2.0),
+                                  Eigen::Vector3d(-60.13, -60.29, 56.0));
+    const auto [voxels, file] = volumes(ring, "ROI-1", grid);
+    EXPECT_NEAR(file, area * 2.0, 1e-2 * area * 2.0) << spacing;
+    EXPECT_NEAR(voxels, area * 2.0, 1e-2 * area * 2.0) << spacing;
+  }
+  PETROUS_NEED(box, "dicom_odd/pydicom_test_files/test_files/rtstruct.dcm");
+  const core::GridGeometry grid({90, 70, 20}, Eigen::Vector3d(5.0, 5.0, 2.5),
+                                Eigen::Vector3d(-221.0, -173.0, -212.0));
+  const auto [voxels, file] = volumes(box, "patient", grid);
+  EXPECT_NEAR(file, 400.0 * 300.0 * 30.0, 1.0); // three planes, 10 mm apart
+  EXPECT_NEAR(voxels, 400.0 * 300.0 * 30.0, 1e-3 * file);
+}
+
+TEST(FilesData, TruncatedSegmentationsAndStructureSetsAreRefusedInOneLine)
+{
+  const char* folder = std::getenv("PETROUS_DATA");
+  if (!folder || !fs::is_directory(folder))
+    GTEST_SKIP() << "no folder of real data; name it in PETROUS_DATA";
+  std::string name = (fs::temp_directory_path() / "petrous-cut-XXXXXX").string();
+  ASSERT_NE(::mkdtemp(name.data()), nullptr);
+  const fs::path cut = fs::path(name) / "cut.dcm";
+  int files = 0;
+  for (const char* part : {"seg_rt", "dicom_odd/pydicom_test_files/test_files"})
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(folder) / part))
+    {
+      if (!entry.is_regular_file() ||
+          (!isStructureSet(entry.path()) && !isDicomSegmentation(entry.path())))
+        continue;
+      ++files;
+      std::ifstream stream(entry.path(), std::ios::binary);
+      const std::string whole((std::istreambuf_iterator<char>(stream)),
+                              std::istreambuf_iterator<char>());
+      for (std::size_t hundredths = 0; hundredths < 100; ++hundredths)
+      {
+        std::ofstream(cut, std::ios::binary)
+            .write(whole.data(), static_cast<std::streamsize>(whole.size() * hundredths / 100));
+        try
+        {
+          if (isStructureSet(cut))
+            readStructureSet(cut);
+          else if (isDicomSegmentation(cut))
+            loadLabels(cut);
+        }
+        catch (const FileError& error)
+        {
+          const std::string what = error.what();
+          EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+          EXPECT_EQ(what.find("PHANTOM"), std::string::npos); // a patient's name
+        }
+      }
+    }
+  std::error_code ignored;
+  fs::remove_all(name, ignored);
+  EXPECT_GE(files, 5);
 }
 
 } // namespace

@@ -63,6 +63,18 @@ TEST(MeshFile, EveryFormatKeepsTheSurface)
   }
 }
 
+TEST(MeshFile, PlyKeepsTheSurfaceBesideAColour)
+{
+  const TestFolder folder;
+  writeMesh(folder / "a.ply", boxOf(folder), std::array<float, 3>{1.0F, 0.5F, 0.0F});
+  expectBox(readMesh(folder / "a.ply"));
+  const std::string bytes = fileBytes(folder / "a.ply");
+  EXPECT_NE(bytes.find("property uchar red\nproperty uchar green\nproperty uchar blue\n"),
+            bytes.npos);
+  const std::size_t first = bytes.find("end_header\n") + 11;
+  EXPECT_EQ(bytes.substr(first + 12, 3), std::string("\xff\x80\0", 3));
+}
+
 TEST(MeshFile, ObjAndPlyKeepEveryBitOfAVertex)
 {
   const TestFolder folder;

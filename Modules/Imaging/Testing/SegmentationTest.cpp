@@ -1,11 +1,17 @@
 #include <algorithm>
 #include <functional>
 
+#include <Eigen/Geometry>
+#include <gdcmImage.h>
+#include <gdcmImageChangeTransferSyntax.h>
+#include <gdcmSequenceOfFragments.h>
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include "SegmentationReader.h"
 #include "TestDicom.h"
 #include "TestFiles.h"
+#include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Imaging/LabelFile.h"
 
 namespace petrous::imaging
@@ -15,6 +21,91 @@ namespace
 
 using Reason = FileError::Reason;
 using test::TestSlice;
+
+constexpr const char* kDeflatedFile = "1.2.840.10008.1.2.1.99";
+constexpr const char* kDeflatedFrames = "1.2.840.10008.1.2.8.1";
+
+/// Raw DEFLATE, as DICOM has it.
+std::string deflated(const std::string& bytes)
+{
+  z_stream stream = {};
+  std::string out(compressBound(bytes.size()) + 64, '\0');
+  EXPECT_EQ(deflateInit2(&stream, 9, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY), Z_OK);
+  std::string in = bytes;
+  stream.next_in = reinterpret_cast<Bytef*>(in.data());
+  stream.avail_in = static_cast<uInt>(in.size());
+  stream.next_out = reinterpret_cast<Bytef*>(out.data());
+  stream.avail_out = static_cast<uInt>(out.size());
+  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+  out.resize(out.size() - stream.avail_out);
+  deflateEnd(&stream);
+  return out;
+}
+
+/// A frame in RLE (PS3.5 annex G): a segment for each byte of a pixel, the most significant first.
+std::string runLengths(const std::string& frame, int columns, int rows, int bits)
+{
+  const auto segments = static_cast<std::size_t>(bits / 8);
+  std::string data;
+  std::vector<std::uint32_t> head{static_cast<std::uint32_t>(segments)};
+  for (std::size_t n = 0; n < segments; ++n)
+  {
+    head.push_back(static_cast<std::uint32_t>(64 + data.size()));
+    for (int j = 0; j < rows; ++j)
+      for (int i = 0; i < columns;)
+      {
+        const auto at = [&](int column) {
+          return frame[static_cast<std::size_t>(j * columns + column) * segments + segments - 1 -
+                       n];
+        };
+        int run = 1;
+        while (i + run < columns && at(i + run) == at(i))
+          ++run;
+        data += static_cast<char>(run > 1 ? 1 - run : 0); // repeated, or one literal byte
+        data += at(i);
+        i += run;
+      }
+    data += std::string(data.size() % 2, '\x80'); // -128: nothing
+  }
+  head.resize(16);
+  std::string out;
+  for (const std::uint32_t value : head)
+    TestSlice().append(out, value, 4);
+  return out + data;
+}
+
+/// A frame as GDCM's encoders compress it.
+std::string encoded(const std::string& frame, int columns, int rows, int bits,
+                    gdcm::TransferSyntax::TSType syntax)
+{
+  gdcm::DataElement element(gdcm::Tag(0x7fe0, 0x0010));
+  element.SetVR(bits == 8 ? gdcm::VR::OB : gdcm::VR::OW);
+  element.SetByteValue(frame.data(), gdcm::VL(static_cast<std::uint32_t>(frame.size())));
+  const gdcm::SmartPointer<gdcm::Image> image = new gdcm::Image;
+  image->SetNumberOfDimensions(2);
+  image->SetDimension(0, static_cast<unsigned>(columns));
+  image->SetDimension(1, static_cast<unsigned>(rows));
+  const auto width = static_cast<unsigned short>(bits);
+  image->SetPixelFormat(
+      gdcm::PixelFormat(1, width, width, static_cast<unsigned short>(width - 1), 0));
+  image->SetPhotometricInterpretation(gdcm::PhotometricInterpretation::MONOCHROME2);
+  image->SetTransferSyntax(gdcm::TransferSyntax::ExplicitVRLittleEndian);
+  image->SetDataElement(element);
+  gdcm::ImageChangeTransferSyntax change;
+  change.SetTransferSyntax(syntax);
+  change.SetInput(*image);
+  EXPECT_TRUE(change.Change());
+  const gdcm::SequenceOfFragments* fragments =
+      change.GetOutput().GetDataElement().GetSequenceOfFragments();
+  std::string out;
+  for (std::size_t n = 0; fragments && n < fragments->GetNumberOfFragments(); ++n)
+  {
+    const gdcm::ByteValue* bytes = fragments->GetFragment(n).GetByteValue();
+    out.append(bytes->GetPointer(), bytes->GetLength());
+  }
+  EXPECT_FALSE(out.empty());
+  return out;
+}
 
 /// A segmentation written byte by byte according to PS3.5 and PS3.3 A.51, sharing no code with the
 /// reader.
@@ -39,6 +130,10 @@ struct TestSegmentation
   std::vector<Frame> frames;
   std::string extra;
   TestSlice code; ///< how elements are encoded
+  std::string syntax;
+  const char* pixelVr = "OB";
+  /// Makes the item of a frame from its bytes; empty: not encapsulated.
+  std::function<std::string(const std::string&)> compress;
 
   std::string element(std::uint32_t tag, const char* vr, const std::string& value) const
   {
@@ -52,6 +147,14 @@ struct TestSegmentation
     code.number(out, tag, static_cast<std::uint32_t>(value));
     return out;
   }
+  std::string delimiter(std::uint32_t element) const
+  {
+    std::string out;
+    code.append(out, 0xfffe, 2);
+    code.append(out, element, 2);
+    code.append(out, 0, 4);
+    return out;
+  }
   std::string item(const std::string& content) const
   {
     std::string out;
@@ -60,7 +163,7 @@ struct TestSegmentation
     code.append(out, undefinedLength ? 0xffffffffU : static_cast<std::uint32_t>(content.size()), 4);
     out += content;
     if (undefinedLength)
-      out += std::string("\xfe\xff\x0d\xe0\0\0\0\0", 8);
+      out += delimiter(0xe00d);
     return out;
   }
   std::string sequence(std::uint32_t tag, const std::string& items) const
@@ -70,7 +173,7 @@ struct TestSegmentation
     {
       const std::size_t at = code.implicitVr ? 4 : 8;
       out.replace(at, 4, "\xff\xff\xff\xff");
-      out += std::string("\xfe\xff\xdd\xe0\0\0\0\0", 8);
+      out += delimiter(0xe0dd);
     }
     return out;
   }
@@ -85,8 +188,12 @@ struct TestSegmentation
     TestSlice meta;
     std::string out;
     meta.element(out, 0x00020010, "UI",
-                 code.implicitVr ? "1.2.840.10008.1.2" : "1.2.840.10008.1.2.1");
-    out = std::string(128, '\0') + "DICM" + out;
+                 !syntax.empty()   ? syntax
+                 : code.bigEndian  ? "1.2.840.10008.1.2.2"
+                 : code.implicitVr ? "1.2.840.10008.1.2"
+                                   : "1.2.840.10008.1.2.1");
+    const std::string head = std::string(128, '\0') + "DICM" + out;
+    out.clear();
     out += element(0x00080005, "CS", "ISO_IR 100");
     out += element(0x00080016, "UI",
                    type == "LABELMAP" ? "1.2.840.10008.5.1.4.1.1.66.7"
@@ -112,8 +219,10 @@ struct TestSegmentation
                               : sequence(0x0062000a, item(number(0x0062000b, frame.segment)))));
     out += sequence(0x52009230, groups);
     std::string pixels;
+    std::string items = item("");
     std::size_t bit = 0;
     for (const Frame& frame : frames)
+    {
       for (int j = 0; j < rows; ++j)
         for (int i = 0; i < columns; ++i)
         {
@@ -128,7 +237,23 @@ struct TestSegmentation
             for (int b = 0; b < bits; b += 8)
               pixels += static_cast<char>(value >> b);
         }
-    return out + element(0x7fe00010, "OB", pixels + std::string(pixels.size() % 2, '\0'));
+      if (compress)
+      {
+        const std::string packed = compress(pixels);
+        items += item(packed + std::string(packed.size() % 2, '\0'));
+        pixels.clear();
+        bit = 0;
+      }
+    }
+    pixels += std::string(pixels.size() % 2, '\0');
+    if (code.bigEndian && std::string(pixelVr) == "OW")
+      for (std::size_t at = 0; at < pixels.size(); at += 2)
+        std::swap(pixels[at], pixels[at + 1]);
+    if (!compress)
+      out += element(0x7fe00010, pixelVr, pixels);
+    else
+      out += std::string("\xe0\x7f\x10\0OB\0\0\xff\xff\xff\xff", 12) + items + delimiter(0xe0dd);
+    return head + (syntax == kDeflatedFile ? deflated(out) : out);
   }
 };
 
@@ -149,9 +274,10 @@ int none(int, int)
   return 0;
 }
 
-TestSegmentation twoSegments()
+TestSegmentation twoSegments(const TestSlice& code = {})
 {
   TestSegmentation file;
+  file.code = code;
   file.addSegment(1, "chorda");
   file.addSegment(7, "stapes");
   // out of order, one slice left out, and a frame without a voxel
@@ -354,6 +480,144 @@ TEST(DicomSegmentation, RefusesWhatCannotBeTrue)
   refused(strange, Reason::Unsupported, "BINARY");
 }
 
+void expectEqualMaps(const LoadedLabels& a, const LoadedLabels& b, const std::string& which)
+{
+  ASSERT_EQ(a.maps.size(), b.maps.size()) << which;
+  for (std::size_t m = 0; m < a.maps.size(); ++m)
+  {
+    ASSERT_TRUE(core::sameGrid(a.maps[m].voxels->geometry(), b.maps[m].voxels->geometry()))
+        << which;
+    EXPECT_TRUE(std::equal(a.maps[m].voxels->data(),
+                           a.maps[m].voxels->data() + a.maps[m].voxels->size(),
+                           b.maps[m].voxels->data()))
+        << which;
+    ASSERT_EQ(a.maps[m].segments.size(), b.maps[m].segments.size()) << which;
+    for (std::size_t n = 0; n < a.maps[m].segments.size(); ++n)
+      EXPECT_EQ(a.maps[m].segments[n].name, b.maps[m].segments[n].name) << which;
+  }
+  EXPECT_EQ(a.fileVolumes, b.fileVolumes) << which;
+}
+
+/// One file of each type, with frames of an odd number of pixels.
+std::vector<TestSegmentation> oneOfEachType(const TestSlice& code = {})
+{
+  std::vector<TestSegmentation> files{twoSegments(code)};
+  TestSegmentation fractional = twoSegments(code);
+  fractional.type = "FRACTIONAL";
+  fractional.bits = 8;
+  fractional.extra = fractional.number(0x0062000e, 200);
+  for (auto& frame : fractional.frames)
+    frame.value = [of = frame.segment](int i, int j) { return (61 * i + 40 * j * of) % 201; };
+  files.push_back(fractional);
+  for (const int bits : {8, 16})
+  {
+    TestSegmentation labels;
+    labels.code = code;
+    labels.type = "LABELMAP";
+    labels.bits = bits;
+    const int label = bits == 8 ? 200 : 3000;
+    labels.addSegment(label, "cochlea");
+    labels.addSegment(3, "stapes");
+    labels.frames = {{0, 0.0, [label](int i, int j) { return i == j  ? label
+                                                             : i > 2 ? 3
+                                                                     : 0; }},
+                     {0, 2.0, [label](int i, int j) { return i > j ? label : 0; }},
+                     {0, 6.0, none}};
+    files.push_back(labels);
+  }
+  for (TestSegmentation& file : files) // GDCM's encoder of JPEG 2000 overruns on smaller images
+  {
+    file.columns = 41;
+    file.rows = 31;
+  }
+  return files;
+}
+
+TEST(DicomSegmentation, EqualsItsTwinInAnyLosslessTransferSyntax)
+{
+  const TestFolder folder;
+  TestSlice bigEndian;
+  bigEndian.bigEndian = true;
+  const auto files = oneOfEachType();
+  const auto bigFiles = oneOfEachType(bigEndian);
+  for (std::size_t n = 0; n < files.size(); ++n)
+  {
+    const TestSegmentation& plain = files[n];
+    const std::string type = plain.type + " " + std::to_string(plain.bits) + " ";
+    const auto truth = loadLabels(putFile(folder / "plain.dcm", plain.bytes()));
+    const auto expectTwin = [&](const TestSegmentation& file, const std::string& which) {
+      expectEqualMaps(loadLabels(putFile(folder / "twin.dcm", file.bytes())), truth, type + which);
+    };
+    for (const bool undefinedLength : {false, true})
+      for (const char* vr : {"OB", "OW"})
+        if (plain.bits < 16 || std::string(vr) == "OW")
+        {
+          TestSegmentation file = bigFiles[n];
+          file.undefinedLength = undefinedLength;
+          file.pixelVr = vr;
+          expectTwin(file, "big endian " + std::string(vr));
+        }
+    TestSegmentation file = plain;
+    file.syntax = kDeflatedFile;
+    expectTwin(file, "deflated");
+    file.syntax = kDeflatedFrames;
+    file.compress = deflated;
+    expectTwin(file, "deflated frames");
+    const std::pair<const char*, gdcm::TransferSyntax::TSType> codecs[] = {
+        {"1.2.840.10008.1.2.5", gdcm::TransferSyntax::RLELossless},
+        {"1.2.840.10008.1.2.4.70", gdcm::TransferSyntax::JPEGLosslessProcess14_1},
+        {"1.2.840.10008.1.2.4.80", gdcm::TransferSyntax::JPEGLSLossless},
+        {"1.2.840.10008.1.2.4.90", gdcm::TransferSyntax::JPEG2000Lossless}};
+    for (const auto& [uid, codec] : codecs)
+    {
+      file.syntax = uid;
+      if (plain.bits == 1)
+      {
+        file.compress = [](const std::string& frame) { return frame; };
+        expectRefused(refusalOf([&] { loadLabels(putFile(folder / "a.dcm", file.bytes())); }),
+                      Reason::Unsupported, "uncompressed");
+        continue;
+      }
+      file.compress = [&, by = codec](const std::string& frame)
+      {
+        return by == gdcm::TransferSyntax::RLELossless
+                   ? runLengths(frame, file.columns, file.rows, file.bits)
+                   : encoded(frame, file.columns, file.rows, file.bits, by);
+      };
+      expectTwin(file, uid);
+    }
+  }
+}
+
+TEST(DicomSegmentation, RefusesDamagedCompressedFrames)
+{
+  const TestFolder folder;
+  for (TestSegmentation file : oneOfEachType())
+  {
+    file.extra += file.element(0x00100010, "PN", "SECRET^NAME");
+    file.compress = [](const std::string& frame) { return "SECRET^NAME" + frame; };
+    for (const char* syntax : {kDeflatedFrames, "1.2.840.10008.1.2.5", "1.2.840.10008.1.2.4.70",
+                               "1.2.840.10008.1.2.4.80", "1.2.840.10008.1.2.4.90"})
+    {
+      file.syntax = syntax;
+      const auto refusal = refusalOf([&] { loadLabels(putFile(folder / "a.dcm", file.bytes())); });
+      EXPECT_NE(refusal.text, "") << syntax;
+      EXPECT_EQ(refusal.text.find("SECRET"), std::string::npos) << syntax;
+    }
+    file.syntax = "1.2.840.10008.1.2.4.50"; // JPEG with loss
+    expectRefused(refusalOf([&] { loadLabels(putFile(folder / "a.dcm", file.bytes())); }),
+                  Reason::Unsupported, "lossless");
+    file.syntax = kDeflatedFrames;
+    file.compress = deflated;
+    const std::string whole = file.bytes();
+    for (std::size_t hundredths = 0; hundredths < 100; ++hundredths)
+    {
+      const auto path = putFile(folder / "a.dcm", whole.substr(0, whole.size() * hundredths / 100));
+      EXPECT_THROW(loadLabels(path), FileError) << hundredths;
+    }
+  }
+}
+
 TEST(DicomSegmentation, SurvivesEveryTruncation)
 {
   const TestFolder folder;
@@ -363,6 +627,148 @@ TEST(DicomSegmentation, SurvivesEveryTruncation)
     const auto path = putFile(folder / "a.dcm", whole.substr(0, size));
     EXPECT_THROW(loadLabels(path), FileError) << size;
   }
+}
+
+/// Two overlapping layers on an oblique grid whose slices are no whole number of bytes.
+std::vector<volume::LabelMap> overlappingMaps()
+{
+  const Eigen::Matrix3d turn =
+      (Eigen::AngleAxisd(0.4, Eigen::Vector3d(1.0, 2.0, -0.5).normalized())).toRotationMatrix();
+  const core::GridGeometry grid({7, 5, 6}, {0.31, 0.4, 1.25}, {-20.0, 31.5, 7.75}, turn);
+  std::vector<volume::LabelMap> maps;
+  for (int map = 0; map < 2; ++map)
+  {
+    auto voxels = volume::makeZeroVolume<std::uint16_t>(grid);
+    for (int k = 0; k < 6; ++k)
+      for (int j = 0; j < 5; ++j)
+        for (int i = 0; i < 7; ++i)
+          if ((i * 31 + j * 17 + k * 7 + map) % 5 == 0)
+            voxels->at(i, j, k) = static_cast<std::uint16_t>(k == 2 ? 40 : 3);
+    maps.push_back(volume::makeLabelMap(std::move(voxels), {}));
+  }
+  return maps;
+}
+
+SegmentationDescription overlappingSegments()
+{
+  SegmentationDescription description;
+  description.studyUid = "1.2.3";
+  description.seriesUid = "1.2.4";
+  description.frameOfReferenceUid = "1.2.9";
+  for (std::size_t map = 0; map < 2; ++map)
+    for (const int index : {3, 40})
+    {
+      SegmentationDescription::Segment segment;
+      segment.map = map;
+      segment.index = static_cast<std::uint16_t>(index);
+      segment.label = "N\xc3\xa9rf " + std::to_string(map) + " " + std::to_string(index);
+      segment.color = {0.25F, static_cast<float>(map), static_cast<float>(index) / 64.0F};
+      segment.type = {"119410002", "SCT", "Nerve"};
+      description.segments.push_back(segment);
+    }
+  return description;
+}
+
+TEST(DicomSegmentationWriter, WritesWhatComesBackToTheBit)
+{
+  const TestFolder folder;
+  const auto maps = overlappingMaps();
+  const auto description = overlappingSegments();
+  writeDicomSegmentation(folder / "a.dcm", maps, description);
+  const LoadedLabels loaded = loadLabels(folder / "a.dcm");
+  EXPECT_TRUE(loaded.notes.empty());
+  EXPECT_EQ(loaded.frameOfReferenceUid, "1.2.9");
+  std::size_t found = 0;
+  for (const volume::LabelMap& map : loaded.maps)
+  {
+    const core::GridGeometry& grid = map.voxels->geometry();
+    EXPECT_LT((grid.origin() - maps[0].voxels->geometry().origin()).norm(), 1e-9);
+    EXPECT_LT((grid.direction() - maps[0].voxels->geometry().direction()).norm(), 1e-9);
+    ASSERT_EQ(grid.dims(), maps[0].voxels->geometry().dims());
+    for (const volume::Segment& segment : map.segments)
+    {
+      const auto& wanted = description.segments[static_cast<std::size_t>(segment.index - 1)];
+      EXPECT_EQ(segment.name, wanted.label);
+      EXPECT_EQ(loaded.meanings.at(segment.name), "Nerve");
+      for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(segment.color[c], wanted.color[c], 0.5 / 255.0) << segment.name;
+      ++found;
+      for (std::size_t p = 0; p < map.voxels->size(); ++p)
+        ASSERT_EQ(map.voxels->data()[p] == segment.index,
+                  maps[wanted.map].voxels->data()[p] == wanted.index)
+            << segment.name << " " << p;
+    }
+  }
+  EXPECT_EQ(found, 4U);
+  // equal input, equal bytes; names without what would split them
+  writeDicomSegmentation(folder / "b.dcm", maps, description);
+  EXPECT_TRUE(fileBytes(folder / "a.dcm") == fileBytes(folder / "b.dcm"));
+  auto odd = description;
+  odd.segments[0].label = std::string(70, 'x') + "\\";
+  odd.segments[1].label = "a\\b";
+  writeDicomSegmentation(folder / "c.dcm", maps, odd);
+  const LoadedLabels renamed = loadLabels(folder / "c.dcm");
+  EXPECT_EQ(renamed.meanings.count(std::string(64, 'x')), 1U);
+  EXPECT_EQ(renamed.meanings.count("a/b"), 1U);
+}
+
+TEST(DicomSegmentationWriter, RefusesWhatWouldBeNoSegmentation)
+{
+  const TestFolder folder;
+  const auto maps = overlappingMaps();
+  const auto refused = [&](const auto& change)
+  {
+    auto description = overlappingSegments();
+    change(description);
+    EXPECT_THROW(writeDicomSegmentation(folder / "a.dcm", maps, description),
+                 core::InvalidParameter);
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.dcm"));
+  };
+  using Description = SegmentationDescription;
+  refused([](Description& d) { d.segments.clear(); });
+  refused([](Description& d) { d.studyUid = "a"; });
+  refused([](Description& d) { d.segments[0].label.clear(); });
+  refused([](Description& d) { d.segments[0].map = 2; });
+  refused([](Description& d) { d.segments[0].index = 0; });
+  refused([](Description& d) { d.segments[0].algorithm = Description::Algorithm::Automatic; });
+  refused(
+      [](Description& d) {
+        d.source = Description::Source{SeriesDescription::Modality::Ct, "1.2", 5, true};
+      });
+  refused(
+      [](Description& d)
+      {
+        for (auto& segment : d.segments)
+          segment.index = 77;
+      });
+  std::vector<volume::LabelMap> other{maps[0], maps[1]};
+  other[1] = volume::makeLabelMap(
+      volume::makeZeroVolume<std::uint16_t>(core::GridGeometry({7, 5, 6}, {1, 1, 1}, {0, 0, 0})),
+      {});
+  EXPECT_THROW(writeDicomSegmentation(folder / "a.dcm", other, overlappingSegments()),
+               core::InvalidParameter);
+}
+
+// Each displayable colour comes back within half a step of 8 bits.
+TEST(DicomSegmentationWriter, KeepsColoursThroughCieLab)
+{
+  for (int r = 0; r <= 255; r += 15)
+    for (int g = 0; g <= 255; g += 15)
+      for (int b = 0; b <= 255; b += 15)
+      {
+        const std::array<float, 3> color{static_cast<float>(r) / 255.0F,
+                                         static_cast<float>(g) / 255.0F,
+                                         static_cast<float>(b) / 255.0F};
+        const auto lab = cieLabFromColor(color);
+        const auto back = colorFromCieLab({lab[0], lab[1], lab[2]});
+        for (std::size_t c = 0; c < 3; ++c)
+          ASSERT_NEAR(back[c], color[c], 0.5 / 255.0) << r << ' ' << g << ' ' << b;
+      }
+  // PS3.3 C.10.7.1.1: white is L* = 100, a* = b* = 0, which is 32896 (8080H).
+  const auto white = cieLabFromColor({1.0F, 1.0F, 1.0F});
+  EXPECT_EQ(white[0], 65535);
+  EXPECT_NEAR(white[1], 32896, 3);
+  EXPECT_NEAR(white[2], 32896, 3);
 }
 
 } // namespace

@@ -537,13 +537,19 @@ TEST(SeriesRepair, SaysWhatItGuessed)
   const SeriesGeometry geometry = assess(slices);
   const SeriesRepair repair(geometry);
   EXPECT_EQ(repair.grid().dims(), (core::Index3{100, 80, 30}));
-  ASSERT_EQ(repair.notes().size(), 1U);
-  EXPECT_NE(repair.notes().front().find("slice 8 of 30 is missing from the files"),
+  core::IndexBox box = repair.grid().fullBox();
+  ASSERT_EQ(repair.notes(box).size(), 1U);
+  EXPECT_NE(repair.notes(box).front().find("slice 8 of 30 is missing from the files"),
             std::string::npos)
-      << repair.notes().front();
+      << repair.notes(box).front();
+  box.lower[2] = 3; // as the stored volume counts them
+  EXPECT_NE(repair.notes(box).front().find("slice 5 of 27 is missing"), std::string::npos);
+  box.lower[2] = 8;
+  EXPECT_TRUE(repair.notes(box).empty());
   const SeriesRepair tilt(assess(tilted(-18.5, {1, 0, 0})));
-  ASSERT_EQ(tilt.notes().size(), 1U);
-  EXPECT_NE(tilt.notes().front().find("18.5 degrees"), std::string::npos);
+  const auto tiltNotes = tilt.notes(tilt.grid().fullBox());
+  ASSERT_EQ(tiltNotes.size(), 1U);
+  EXPECT_NE(tiltNotes.front().find("18.5 degrees"), std::string::npos);
 }
 
 } // namespace

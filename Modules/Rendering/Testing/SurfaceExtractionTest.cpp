@@ -155,3 +155,43 @@ TEST(SurfaceExtraction, StopsWhenCancelled)
                               core::Progress({}, token)),
                core::CancelledError);
 }
+
+// Against the true sphere, which the whole mesh follows within 0.01 mm.
+TEST(SurfaceExtraction, DecimatesAndTellsHowFarTheSurfaceMoved)
+{
+  const Eigen::Vector3d center(80.0, -120.0, 1100.0);
+  const core::TriangleMesh whole = extractWhole(ballScene(Eigen::Matrix3d::Identity(), center));
+  double before = 0.0;
+  for (const std::size_t triangles : {2000U, 400U, 100U})
+  {
+    const DecimatedMesh fewer = decimated(whole, triangles);
+    EXPECT_TRUE(fewer.mesh.isClosed());
+    EXPECT_LE(fewer.mesh.triangles.size(), triangles);
+    EXPECT_GE(fewer.mesh.triangles.size(), triangles * 9 / 10);
+    EXPECT_NEAR(fewer.mesh.signedVolume(), kSphereVolume,
+                (triangles > 100 ? 0.02 : 0.06) * kSphereVolume)
+        << triangles;
+    // The triangles' centres are among the points farthest off.
+    double truth = 0.0;
+    for (const auto& t : fewer.mesh.triangles)
+    {
+      Eigen::Vector3d at = Eigen::Vector3d::Zero();
+      for (const std::uint32_t corner : t)
+      {
+        const Eigen::Vector3d vertex = fewer.mesh.vertices[corner].cast<double>();
+        truth = std::max(truth, std::abs((vertex - center).norm() - kRadius));
+        at += vertex / 3.0;
+      }
+      truth = std::max(truth, std::abs((at - center).norm() - kRadius));
+    }
+    EXPECT_GT(fewer.error, truth - 0.02) << triangles;
+    EXPECT_LT(fewer.error, 2.0 * truth + 0.02) << triangles;
+    EXPECT_GT(fewer.error, before);
+    before = fewer.error;
+  }
+  EXPECT_EQ(decimated(whole, whole.triangles.size()).error, 0.0);
+  EXPECT_THROW(decimated(whole, 3), core::InvalidParameter);
+  core::TriangleMesh open = whole;
+  open.triangles.pop_back();
+  EXPECT_THROW(decimated(open, 100), core::InvalidParameter);
+}

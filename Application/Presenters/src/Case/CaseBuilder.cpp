@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <set>
 
 #include <Eigen/Geometry>
@@ -16,6 +17,7 @@
 #include "petrous/Imaging/ImageFile.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
+#include "petrous/Imaging/StructureSet.h"
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Scene/Placement.h"
 #include "petrous/Volume/IntensityScale.h"
@@ -320,15 +322,108 @@ void settleFrame(const scene::Case& value, PartSource& source, const std::string
                                "say FILE@ct, or add the MR on which it was drawn");
 }
 
-void addLabels(scene::Case& value, PartSource source,
-               const std::function<std::string(const std::string&)>& salted,
-               const core::Progress& progress)
+// An RT structure set becomes voxels of the image on which it was drawn.
+imaging::LoadedLabels loadStructureSet(const scene::Case& value, PartSource& source,
+                                       const std::function<std::string(const std::string&)>& salted,
+                                       const core::Progress& progress)
+{
+  const imaging::StructureSet set = imaging::readStructureSet(source.path);
+  settleFrame(value, source, set.frameOfReferenceUid, salted);
+  const scene::ImagePart* mr = nullptr;
+  if (!source.drawnOn.empty() && source.drawnOn != "ct")
+    mr = scene::findMr(value, drawnOnNamed(value, source));
+  if (source.drawnOn.empty())
+    source.drawnOn = "ct"; // not an MR of the same grid
+  const core::GridGeometry& grid = mr ? mr->geometry : value.ct.geometry;
+  imaging::LoadedLabels loaded = imaging::labelsOf(set, grid, source.path, progress);
+  for (const imaging::StructureSet::Roi& roi : set.rois)
+    if (!roi.contours.empty())
+      loaded.fileVolumes[roi.name] = imaging::contourVolume(roi, grid);
+  return loaded;
+}
+
+// Names of the files of a folder, as the structures' names. A word that most of the files share and
+// that is of no structure may be the patient's name, and is left out.
+std::map<std::string, std::string> namesInFolder(const imaging::LoadedLabels& loaded)
 {
   const auto presets = appearance::StructurePresets::builtIn();
-  auto loaded = imaging::loadLabels(source.path, progress);
-  settleFrame(value, source, loaded.frameOfReferenceUid, salted);
+  const auto isWordChar = [](unsigned char c) { return c >= 0x80 || std::isalnum(c) != 0; };
+  const auto wordsOf = [&](const std::string& text)
+  {
+    std::vector<std::string> words;
+    for (auto at = text.begin(); at != text.end();)
+    {
+      const auto from = std::find_if(at, text.end(), isWordChar);
+      at = std::find_if_not(from, text.end(), isWordChar);
+      if (from != at)
+        words.emplace_back(from, at);
+    }
+    return words;
+  };
+  std::map<std::string, std::size_t> counts;
+  std::size_t files = 0;
+  for (const auto& map : loaded.maps)
+    for (const volume::Segment& segment : map.segments)
+    {
+      ++files;
+      const auto words = wordsOf(segment.name);
+      for (const std::string& word : std::set<std::string>(words.begin(), words.end()))
+        ++counts[word];
+    }
+  constexpr std::size_t kTelling = 3; // files, from which on what they share means something
+  std::map<std::string, std::string> names;
+  for (const auto& map : loaded.maps)
+    for (const volume::Segment& segment : map.segments)
+    {
+      std::string kept;
+      bool isWhole = true;
+      for (const std::string& word : wordsOf(segment.name))
+      {
+        // "left" alone names nothing, so it is asked beside a word that does.
+        const bool isKnown = !presets.knownWords(word + " nerve").empty() &&
+                             presets.knownWords(word + " nerve") != "nerve";
+        if (isKnown || (files >= kTelling && 2 * counts[word] <= files))
+          kept += (kept.empty() ? "" : "_") + word;
+        else
+          isWhole = false;
+      }
+      names[segment.name] = isWhole ? segment.name : kept;
+    }
+  return names;
+}
+
+void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
+               const core::Progress& progress, std::vector<StructureReport>* report)
+{
+  const auto& salted = parts.salted;
+  const auto presets = appearance::StructurePresets::builtIn();
+  imaging::LoadedLabels loaded;
+  if (imaging::isStructureSet(source.path))
+    loaded = loadStructureSet(value, source, salted, progress);
+  else
+  {
+    loaded =
+        imaging::loadLabels(source.path, progress, {parts.labelNames, parts.labels.size() == 1});
+    settleFrame(value, source, loaded.frameOfReferenceUid, salted);
+  }
   std::vector<std::string> notes = std::move(loaded.notes);
   std::vector<std::string> empty;
+  const bool isFolder = fs::is_directory(source.path);
+  const auto ofFolder = isFolder ? namesInFolder(loaded) : std::map<std::string, std::string>();
+  if (!loaded.leftOut.empty()) // their names may be a patient's
+    notes.push_back(
+        std::to_string(loaded.leftOut.size()) +
+        (loaded.leftOut.size() == 1 ? " file of the folder is" : " files of the folder are") +
+        " no mask of one structure, and left out");
+  std::vector<StructureReport> reports;
+  for (const imaging::UnreadStructure& unread : loaded.unread)
+  {
+    reports.push_back({unread.name, unread.isEmpty ? StructureReport::Status::Empty
+                                                   : StructureReport::Status::Unread});
+    if (unread.isEmpty)
+      empty.push_back(unread.name);
+  }
+  std::size_t layer = 0;
   const std::size_t before = value.labels.size();
   for (auto& map : loaded.maps)
   {
@@ -338,13 +433,28 @@ void addLabels(scene::Case& value, PartSource source,
       if (segment.voxels == 0)
       {
         empty.push_back(segment.name);
+        reports.push_back({segment.name, StructureReport::Status::Empty});
         continue;
       }
       scene::StructurePart structure;
       structure.name = source.name.empty()        ? segment.name
                        : map.segments.size() == 1 ? source.name
                                                   : source.name + " " + segment.name;
-      if (source.name.empty() && loaded.isNamedAfterFile)
+      if (isFolder)
+      {
+        const std::string& own = ofFolder.at(segment.name);
+        structure.name = source.name.empty() ? own : source.name + (own.empty() ? "" : " " + own);
+        if (structure.name.empty() || structure.name == source.name)
+          structure.name =
+              freeName(structure.name.empty() ? "structure" : structure.name,
+                       [&](const std::string& name)
+                       {
+                         return scene::findStructure(value, name) ||
+                                std::any_of(part.structures.begin(), part.structures.end(),
+                                            [&](const auto& one) { return one.name == name; });
+                       });
+      }
+      else if (source.name.empty() && loaded.isNamedAfterFile)
         structure.name = nameFromFile(
             source.path, "structure",
             [&value](const std::string& name) { return scene::findStructure(value, name); }, notes);
@@ -363,8 +473,16 @@ void addLabels(scene::Case& value, PartSource source,
       checkName(source.path, structure.name);
       if (scene::findStructure(value, structure.name))
         nameTaken(source.path, "structure", structure.name);
+      StructureReport one{structure.name, StructureReport::Status::Read, structure.voxels,
+                          structure.volume};
+      if (const auto found = loaded.fileVolumes.find(segment.name);
+          found != loaded.fileVolumes.end())
+        one.fileVolume = found->second;
+      one.layer = layer;
+      reports.push_back(std::move(one));
       part.structures.push_back(std::move(structure));
     }
+    ++layer;
     if (part.structures.empty())
       continue;
     std::set<std::string> names;
@@ -392,6 +510,8 @@ void addLabels(scene::Case& value, PartSource source,
                     (empty.size() == 1 ? "it" : "them"));
   auto& first = value.labels[before].notes;
   first.insert(first.begin(), notes.begin(), notes.end());
+  if (report)
+    report->insert(report->end(), reports.begin(), reports.end());
 }
 
 // Catches a lost decimal point or a wrong unit. `what` names the image.
@@ -489,7 +609,7 @@ FileName fileName(const fs::path& path)
 }
 
 scene::Case buildCase(const std::string& name, const CaseSources& sources,
-                      const core::Progress& progress)
+                      const core::Progress& progress, std::vector<StructureReport>* report)
 {
   scene::checkCaseName(name);
   scene::Case value;
@@ -498,7 +618,7 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
       readImage(sources.ct, sources.series, sources.repair, sources.roi, progress.part(0.0, 0.7));
   value.ct.name = "ct";
   placeSurface(value);
-  addParts(value, sources.parts, progress.part(0.7, 1.0));
+  addParts(value, sources.parts, progress.part(0.7, 1.0), report);
   return value;
 }
 
@@ -534,8 +654,10 @@ void addStructures(scene::Case& value, volume::LabelMap labels)
   value.labels.push_back(std::move(part));
 }
 
-void addParts(scene::Case& value, const PartSources& parts, const core::Progress& progress)
+void addParts(scene::Case& value, const PartSources& parts, const core::Progress& progress,
+              std::vector<StructureReport>* report)
 {
+  std::vector<StructureReport> reports;
   scene::Case next = value;
   const std::size_t count = parts.mr.size() + parts.labels.size() + parts.meshes.size();
   std::size_t done = 0;
@@ -550,13 +672,15 @@ void addParts(scene::Case& value, const PartSources& parts, const core::Progress
   for (const PartSource& source : parts.mr)
     addMr(next, source, share());
   for (const PartSource& source : parts.labels)
-    addLabels(next, source, parts.salted, share());
+    addLabels(next, source, parts, share(), &reports);
   for (const PartSource& source : parts.meshes)
   {
     share().report(0.0, "reading meshes");
     addMesh(next, source);
   }
   value = std::move(next);
+  if (report)
+    report->insert(report->end(), reports.begin(), reports.end());
 }
 
 } // namespace petrous::presenters

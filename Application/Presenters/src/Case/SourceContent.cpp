@@ -1,14 +1,19 @@
 #include "petrous/Presenters/SourceContent.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
+#include <set>
+#include <string_view>
+#include <vector>
 
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Imaging/ImageFile.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
+#include "petrous/Imaging/StructureSet.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Volume/IntensityScale.h"
 
@@ -94,11 +99,78 @@ std::string whyOf(const std::string& modality)
   return modality.empty() ? "says no modality" : "says modality " + modality;
 }
 
-SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress)
+SeriesContent contentOf(const imaging::DicomSeries& series)
+{
+  const imaging::SliceHeader& first = series.geometry.slices.front();
+  SeriesContent result;
+  result.selector = imaging::selectorOf(series);
+  result.content = contentOf(series.modality);
+  result.modality = series.modality;
+  result.description = series.description;
+  result.name = sequenceName(series.description + " " + series.volume);
+  if (!series.volume.empty())
+    result.description += (result.description.empty() ? "" : ", ") + series.volume;
+  result.slices = series.geometry.slices.size();
+  if (series.geometry.grid)
+    result.spacing = series.geometry.grid->spacing();
+  result.taken = first.taken;
+  result.patientPosition = first.patientPosition;
+  result.kernel = first.kernel;
+  result.folder = first.file.parent_path().filename().string();
+  result.verdict = series.geometry.grid ? series.geometry.verdict : imaging::Verdict::Refused;
+  result.findings = series.geometry.findings;
+  return result;
+}
+
+// DICOM segmentations below a folder in which the scan met some: it keeps no file of theirs.
+std::vector<SeriesContent> segmentationsIn(const fs::path& folder, const imaging::ScanResult& scan,
+                                           const core::Progress& progress)
+{
+  std::vector<SeriesContent> found;
+  if (!fs::is_directory(folder) ||
+      std::none_of(scan.series.begin(), scan.series.end(),
+                   [](const imaging::DicomSeries& series)
+                   { return series.modality == "SEG" || series.modality == "RTSTRUCT"; }))
+    return found;
+  std::set<fs::path> slices;
+  for (const imaging::DicomSeries& series : scan.series)
+    for (const imaging::SliceHeader& slice : series.geometry.slices)
+      slices.insert(slice.file.lexically_normal());
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
+       at.increment(error))
+  {
+    progress.check("looking for segmentations");
+    std::error_code unreadable;
+    if (!fs::is_regular_file(at->path(), unreadable) ||
+        slices.count(at->path().lexically_normal()) > 0 ||
+        !imaging::isDicomSegmentation(at->path()))
+      continue;
+    SeriesContent segmentation;
+    segmentation.content = Content::Labels;
+    segmentation.modality = "SEG";
+    segmentation.description = at->path().filename().string();
+    segmentation.folder = at->path().parent_path().filename().string();
+    segmentation.file = at->path();
+    found.push_back(std::move(segmentation));
+  }
+  std::sort(found.begin(), found.end(),
+            [](const SeriesContent& a, const SeriesContent& b) { return a.file < b.file; });
+  return found;
+}
+
+// `uid`: this series alone; empty: all.
+SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress,
+                          const std::string& uid = {})
 {
   SourceContent result;
   result.path = path;
-  const auto scan = imaging::scanDicom(path, progress);
+  auto scan = imaging::scanDicom(path, progress);
+  if (!uid.empty())
+    scan.series.erase(std::remove_if(scan.series.begin(), scan.series.end(),
+                                     [&uid](const imaging::DicomSeries& series)
+                                     { return series.uid != uid; }),
+                      scan.series.end());
   const auto isVerdict = [](imaging::Verdict verdict)
   {
     return [verdict](const imaging::DicomSeries& series)
@@ -106,32 +178,41 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress)
   };
   const bool sound =
       std::any_of(scan.series.begin(), scan.series.end(), isVerdict(imaging::Verdict::Ok));
-  const auto isListed = isVerdict(sound ? imaging::Verdict::Ok : imaging::Verdict::Repairable);
-  for (const imaging::DicomSeries& series : scan.series)
-    if (isListed(series))
-    {
-      std::string repair;
-      for (const imaging::Finding& finding : series.geometry.findings)
-        repair += sound ? "" : (repair.empty() ? "" : " ") + finding.text;
-      const imaging::SliceHeader& first = series.geometry.slices.front();
-      std::string description = series.description;
-      if (!series.volume.empty())
-        description += (description.empty() ? "" : ", ") + series.volume;
-      result.series.push_back({imaging::selectorOf(series), contentOf(series.modality),
-                               series.modality, description, series.geometry.slices.size(),
-                               series.geometry.grid->spacing(), first.taken, first.patientPosition,
-                               first.kernel, first.file.parent_path().filename().string(), repair});
-    }
-  if (result.series.size() > 1)
+  const auto wanted = isVerdict(sound ? imaging::Verdict::Ok : imaging::Verdict::Repairable);
+  // One slice stands for its series, which lies beside it.
+  if (!sound && fs::is_regular_file(path) && scan.series.size() == 1 &&
+      !scan.series.front().uid.empty() && scan.series.front().geometry.slices.size() == 1 &&
+      scan.series.front().geometry.slices.front().pixels.frameCount == 1)
+    return lookAtDicom(fs::absolute(path).parent_path(), progress.part(0.1, 1.0),
+                       scan.series.front().uid);
+  const auto readable = std::count_if(scan.series.begin(), scan.series.end(), wanted);
+  const auto segmentations =
+      uid.empty() ? segmentationsIn(path, scan, progress) : std::vector<SeriesContent>();
+  if (readable == 0 && segmentations.size() == 1)
+  {
+    result.path = segmentations.front().file;
+    result.content = Content::Labels;
+    result.why = "is a DICOM segmentation";
     return result;
+  }
+  if (readable > 1 || !segmentations.empty())
+  {
+    for (const imaging::DicomSeries& series : scan.series)
+      if (!series.geometry.slices.empty())
+        result.series.push_back(contentOf(series));
+    result.series.insert(result.series.end(), segmentations.begin(), segmentations.end());
+    return result;
+  }
   // If none is readable, the reader reports why.
-  const std::string modality = result.series.empty() ? imaging::chooseSeries(scan, path).modality
-                                                     : result.series.front().modality;
-  result.content = contentOf(modality);
-  result.why = whyOf(modality);
-  if (!result.series.empty())
-    result.repair = result.series.front().repair;
-  result.series.clear();
+  const auto only = std::find_if(scan.series.begin(), scan.series.end(), wanted);
+  const imaging::DicomSeries& series = readable == 1 ? *only : imaging::chooseSeries(scan, path);
+  result.content = contentOf(series.modality);
+  result.why = whyOf(series.modality);
+  result.name = sequenceName(series.description);
+  if (series.geometry.verdict == imaging::Verdict::Repairable)
+    result.repair = series.geometry.findings;
+  if (!uid.empty() || !result.repair.empty())
+    result.selector = imaging::selectorOf(series);
   return result;
 }
 
@@ -146,7 +227,55 @@ Content contentOf(const volume::IntensityVolume& image)
   return air && volume::suggestScale(histogram).calibrated ? Content::Ct : Content::Image;
 }
 
-SourceContent lookAt(const fs::path& path, const core::Progress& progress)
+std::string sequenceName(const std::string& description)
+{
+  // Sequences, weightings, contrast, planes and regions as scanners name them.
+  static constexpr std::string_view kWords[] = {
+      "2d",       "3d",     "adc",     "ax",        "axial",   "blade",  "bravo",    "ce",  "ciss",
+      "contrast", "cor",    "coronal", "cube",      "dixon",   "drive",  "dti",      "dwi", "epi",
+      "fatsat",   "fiesta", "flair",   "flash",     "fs",      "fse",    "fspgr",    "gad", "gd",
+      "gre",      "haste",  "iac",     "iam",       "mpr",     "mprage", "mra",      "mrv", "pd",
+      "petra",    "post",   "pre",     "propeller", "resolve", "sag",    "sagittal", "se",  "space",
+      "spgr",     "stir",   "swi",     "t1",        "t1w",     "t2",     "t2w",      "tof", "tra",
+      "trace",    "trufi",  "tse",     "vibe",      "vista",   "zte"};
+  static constexpr std::string_view kNumbered[] = {"b", "echo", "phase"}; // "b 1000"
+  const auto isIn = [](const auto& list, const std::string& text)
+  { return std::find(std::begin(list), std::end(list), text) != std::end(list); };
+  const auto isNumber = [](const std::string& text, std::size_t from)
+  {
+    return text.size() > from && text.size() <= from + 4 &&
+           text.find_first_not_of("0123456789", from) == std::string::npos;
+  };
+  std::string name;
+  std::string before;
+  for (std::size_t at = 0; at < description.size();)
+  {
+    std::string word;
+    for (;
+         at < description.size() && std::isalnum(static_cast<unsigned char>(description[at])) != 0;
+         ++at)
+      word += description[at];
+    if (word.empty())
+    {
+      ++at;
+      continue;
+    }
+    std::string lower = word;
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (isIn(kNumbered, before) && isNumber(lower, 0))
+      word = before + " " + word;
+    else if (!isIn(kWords, lower) && !(lower[0] == 'b' && isNumber(lower, 1)))
+      word.clear();
+    if (!word.empty())
+      name += (name.empty() ? "" : " ") + word;
+    before = lower;
+  }
+  return name;
+}
+
+SourceContent lookAt(const fs::path& path, const core::Progress& progress,
+                     std::optional<Content> expected)
 {
   SourceContent result;
   result.path = path;
@@ -164,6 +293,12 @@ SourceContent lookAt(const fs::path& path, const core::Progress& progress)
     result.why = "is a DICOM segmentation";
     return result;
   }
+  if ((!format || format->reads == imaging::kDicom) && imaging::isStructureSet(path))
+  {
+    result.content = Content::Labels;
+    result.why = "is a DICOM RT structure set";
+    return result;
+  }
   if (!format || format->reads == imaging::kDicom)
     return lookAtDicom(path, progress);
   if (format->reads == imaging::kLabels)
@@ -172,10 +307,14 @@ SourceContent lookAt(const fs::path& path, const core::Progress& progress)
     result.why = "is a segmentation of 3D Slicer";
     return result;
   }
-  const auto image = imaging::readImageFile(path, std::nullopt, progress);
-  result.content = contentOf(*image.volume);
+  if (expected)
+    result.content = *expected;
+  else
+    result.content =
+        contentOf(*imaging::readImageFile(path, std::nullopt, progress.part(0.0, 0.8)).volume);
+  result.name = sequenceName(imaging::baseName(path));
   result.isNameless = result.content == Content::Labels && !fileName(path).isWhole &&
-                      imaging::loadLabels(path, progress).isNamedAfterFile;
+                      imaging::loadLabels(path, progress.part(0.8, 1.0)).isNamedAfterFile;
   result.why = result.content == Content::Labels
                    ? "has a few whole numbers in patches, as labels do"
                : result.content == Content::Ct ? "is in Hounsfield units"

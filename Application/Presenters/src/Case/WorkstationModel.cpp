@@ -35,6 +35,7 @@ void WorkstationModel::show(std::unique_ptr<scene::Case> next, bool unsaved)
   m_nearby.reset();
   m_assembly = {}; // its cache is of the previous case
   m_leftOut.clear();
+  m_removed.clear();
   m_damagedStrokes.clear();
   m_undoneForDamage = 0;
   m_case = std::move(next);

@@ -118,112 +118,6 @@ bool sameLabels(const scene::LabelPart& a, const scene::LabelPart& b)
 }
 } // namespace
 
-// The map stays whole: its other structures, and its object in the library, are as they were.
-std::optional<scene::LabelPart> WorkstationModel::removeLabels(const std::string& structure)
-{
-  for (std::size_t n = 0; n < m_case->labels.size(); ++n)
-  {
-    auto& structures = m_case->labels[n].structures;
-    const auto found = std::find_if(structures.begin(), structures.end(),
-                                    [&](const auto& one) { return one.name == structure; });
-    if (found == structures.end())
-      continue;
-    scene::LabelPart taken = m_case->labels[n];
-    taken.structures = {*found};
-    structures.erase(found);
-    if (structures.empty())
-    {
-      m_case->labels.erase(m_case->labels.begin() + static_cast<std::ptrdiff_t>(n));
-      for (LeftOut& parts : m_leftOut)
-        parts.labelsRemoved(n);
-    }
-    return taken;
-  }
-  return std::nullopt;
-}
-
-void WorkstationModel::labelsChanged()
-{
-  forgetTissue();
-  m_nearby.reset();
-  const std::string over = thicknessOver();
-  m_assembly.showThickness({}); // measured anew
-  if (scene::findStructure(*m_case, over) || scene::findMesh(*m_case, over))
-    m_assembly.showThickness(over);
-  waitForParts();
-  notify(events.partsChanged);
-  setUnsaved(true);
-  notify(events.preparationWanted);
-}
-
-std::optional<scene::LabelPart> WorkstationModel::addStructure(volume::LabelMap labels,
-                                                               const std::string& replaced)
-{
-  if (!m_case)
-    return std::nullopt;
-  const auto before = m_case->labels;
-  const auto leftOut = m_leftOut;
-  auto taken = removeLabels(replaced);
-  try
-  {
-    addStructures(*m_case, std::move(labels));
-  }
-  catch (...)
-  {
-    m_case->labels = before;
-    m_leftOut = leftOut;
-    throw;
-  }
-  if (taken)
-    for (scene::StructurePart& structure : m_case->labels.back().structures)
-      if (structure.name == replaced)
-        structure.look = taken->structures.front().look;
-  labelsChanged();
-  return taken;
-}
-
-std::optional<scene::LabelPart> WorkstationModel::takeStructure(const std::string& name)
-{
-  auto taken = m_case ? removeLabels(name) : std::nullopt;
-  if (taken)
-    labelsChanged();
-  return taken;
-}
-
-void WorkstationModel::putStructure(scene::LabelPart part)
-{
-  if (!m_case)
-    return;
-  for (const scene::StructurePart& structure : part.structures)
-    if (scene::findStructure(*m_case, structure.name))
-      throw core::InvalidParameter("structure '" + structure.name +
-                                   "' is in the case already; remove it first");
-  m_case->labels.push_back(std::move(part));
-  labelsChanged();
-}
-
-void WorkstationModel::takeParts(scene::Case with)
-{
-  if (!m_case)
-    return;
-  const auto append = [](auto& parts, auto& more)
-  {
-    for (std::size_t n = parts.size(); n < more.size(); ++n)
-      parts.push_back(std::move(more[n]));
-  };
-  for (std::size_t n = 0; n < std::min(m_case->labels.size(), with.labels.size()); ++n)
-    m_case->labels[n].drawnOn = with.labels[n].drawnOn; // another MR may have the same grid
-  forgetTissue();
-  m_nearby.reset();
-  append(m_case->mr, with.mr);
-  append(m_case->labels, with.labels);
-  append(m_case->meshes, with.meshes);
-  waitForParts();
-  notify(events.partsChanged);
-  setUnsaved(true);
-  notify(events.preparationWanted);
-}
-
 void WorkstationModel::close()
 {
   if (!m_case)
@@ -238,6 +132,7 @@ void WorkstationModel::close()
   m_unsaved = m_leaving = false;
   m_loaded = m_drawable = m_feelable = m_checked = true;
   m_leftOut.clear();
+  m_removed.clear();
   m_damagedStrokes.clear();
   m_undoneForDamage = 0;
   ++m_parts;
@@ -276,6 +171,7 @@ StoreTask WorkstationModel::beginStore()
   for (const LeftOut& parts : m_leftOut)
     parts.putBack(task.value);
   m_beingStored = true;
+  m_partsMoved = false;
   return task;
 }
 
@@ -312,19 +208,36 @@ void WorkstationModel::stored(const StoreTask& done)
     image.frameOfReference = from.frameOfReference;
     image.isFrameSalted = from.isFrameSalted;
   };
+  if (done.source) // what was removed before is in the other library
+    m_removed.clear();
+  if (m_partsMoved && done.source)
+  {
+    const auto storeAnew = [](auto& parts)
+    {
+      for (auto& part : parts)
+        part.object.clear();
+    };
+    storeAnew(m_case->mr);
+    storeAnew(m_case->labels);
+    storeAnew(m_case->meshes);
+  }
   m_case->id = saved.id;
   m_case->revision = saved.revision;
   m_case->ct.object = saved.ct.object;
-  takeObjects(m_case->mr, saved.mr);
   takeFrame(m_case->ct, saved.ct);
-  for (std::size_t n = 0; n < std::min(m_case->mr.size(), saved.mr.size()); ++n)
-    takeFrame(m_case->mr[n], saved.mr[n]);
+  for (scene::ImagePart& mr : m_case->mr)
+    if (const scene::ImagePart* same = scene::findMr(saved, mr.name))
+      takeFrame(mr, *same);
   // Structures may have been added, replaced or removed meanwhile.
   for (scene::LabelPart& part : m_case->labels)
     for (const scene::LabelPart& from : saved.labels)
       if (sameLabels(part, from))
         part.object = from.object;
-  takeObjects(m_case->meshes, saved.meshes);
+  if (!m_partsMoved) // else the next save finds what is stored by its content
+  {
+    takeObjects(m_case->mr, saved.mr);
+    takeObjects(m_case->meshes, saved.meshes);
+  }
   const auto& strokes = saved.dissection.strokes();
   for (std::size_t n = 0; n < std::min(m_case->dissection.strokes().size(), strokes.size()); ++n)
     m_case->dissection.setStored(n, strokes[n]->object, strokes[n]->packed);

@@ -17,12 +17,19 @@ constexpr Tag kItemEnd = 0xfffee00d;
 constexpr Tag kSequenceEnd = 0xfffee0dd;
 constexpr int kDeepest = 32; // nested sequences; malicious files may nest endlessly
 
-std::uint32_t number(std::string_view bytes, std::size_t at, std::size_t count)
+std::uint32_t number(std::string_view bytes, std::size_t at, std::size_t count, bool isBigEndian)
 {
   std::uint32_t value = 0;
   for (std::size_t b = 0; b < count; ++b)
-    value |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[at + b])) << 8 * b;
+    value |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[at + b]))
+             << 8 * (isBigEndian ? count - 1 - b : b);
   return value;
+}
+
+/// That of the items of a sequence without a known VR is implicit VR little endian (PS3.5 6.2.2).
+DicomItem::Encoding within(DicomItem::Encoding encoding, bool isUnknown)
+{
+  return isUnknown ? DicomItem::Encoding{false, false} : encoding;
 }
 
 struct Head
@@ -33,16 +40,17 @@ struct Head
   bool isUnknown = false;
 };
 
-bool readHead(std::string_view bytes, std::size_t at, bool isExplicit, Head& head)
+bool readHead(std::string_view bytes, std::size_t at, DicomItem::Encoding encoding, Head& head)
 {
   if (at > bytes.size() || bytes.size() - at < 8)
     return false;
-  head.tag = (number(bytes, at, 2) << 16) | number(bytes, at + 2, 2);
+  const bool big = encoding.isBigEndian;
+  head.tag = (number(bytes, at, 2, big) << 16) | number(bytes, at + 2, 2, big);
   head.isUnknown = false;
   head.value = at + 8;
-  if (!isExplicit || (head.tag >> 16) == 0xfffe)
+  if (!encoding.isExplicit || (head.tag >> 16) == 0xfffe)
   {
-    head.length = number(bytes, at + 4, 4);
+    head.length = number(bytes, at + 4, 4, big);
     return true;
   }
   const std::string_view vr = bytes.substr(at + 4, 2);
@@ -53,23 +61,23 @@ bool readHead(std::string_view bytes, std::size_t at, bool isExplicit, Head& hea
                                                "SV", "UC", "UN", "UR", "UT", "UV"};
   if (std::find(std::begin(kLong), std::end(kLong), vr) == std::end(kLong))
   {
-    head.length = number(bytes, at + 6, 2);
+    head.length = number(bytes, at + 6, 2, big);
     return true;
   }
   if (bytes.size() - at < 12)
     return false;
-  head.length = number(bytes, at + 8, 4);
+  head.length = number(bytes, at + 8, 4, big);
   head.value = at + 12;
   return true;
 }
 
 /// Moves `at` from the first content of a sequence or item of undefined length to after its
 /// delimiter; `end` becomes the position of the delimiter.
-bool skipUndefined(std::string_view bytes, std::size_t& at, std::size_t& end, bool isExplicit,
-                   Tag delimiter, int depth)
+bool skipUndefined(std::string_view bytes, std::size_t& at, std::size_t& end,
+                   DicomItem::Encoding encoding, Tag delimiter, int depth)
 {
   Head head;
-  while (depth < kDeepest && readHead(bytes, at, isExplicit, head))
+  while (depth < kDeepest && readHead(bytes, at, encoding, head))
   {
     end = at;
     at = head.value;
@@ -83,7 +91,7 @@ bool skipUndefined(std::string_view bytes, std::size_t& at, std::size_t& end, bo
       continue;
     }
     std::size_t inner = 0;
-    if (!skipUndefined(bytes, at, inner, isExplicit && !head.isUnknown,
+    if (!skipUndefined(bytes, at, inner, within(encoding, head.isUnknown),
                        head.tag == kItem ? kItemEnd : kSequenceEnd, depth + 1))
       return false;
   }
@@ -91,8 +99,8 @@ bool skipUndefined(std::string_view bytes, std::size_t& at, std::size_t& end, bo
 }
 
 /// The value of an element; `at` moves after it.
-bool takeValue(std::string_view bytes, std::size_t& at, const Head& head, bool isExplicit,
-               std::string_view& value)
+bool takeValue(std::string_view bytes, std::size_t& at, const Head& head,
+               DicomItem::Encoding encoding, std::string_view& value)
 {
   at = head.value;
   if (head.length != DicomElements::kUndefinedLength)
@@ -104,7 +112,7 @@ bool takeValue(std::string_view bytes, std::size_t& at, const Head& head, bool i
     return true;
   }
   std::size_t end = at;
-  if (!skipUndefined(bytes, at, end, isExplicit && !head.isUnknown,
+  if (!skipUndefined(bytes, at, end, within(encoding, head.isUnknown),
                      head.tag == kItem ? kItemEnd : kSequenceEnd, 0))
     return false;
   value = bytes.substr(head.value, end - head.value);
@@ -142,21 +150,22 @@ bool isUtf8(const std::string& text)
 
 } // namespace
 
-DicomItem::DicomItem(std::string_view bytes, bool isExplicit)
+DicomItem::DicomItem(std::string_view bytes, Encoding encoding)
 {
   std::size_t at = 0;
   Head head;
   while (at < bytes.size())
   {
     Element element;
-    if (!readHead(bytes, at, isExplicit, head) || head.tag == kItemEnd ||
-        !takeValue(bytes, at, head, isExplicit, element.value))
+    if (!readHead(bytes, at, encoding, head) || head.tag == kItemEnd ||
+        !takeValue(bytes, at, head, encoding, element.value))
     {
       m_isDamaged = true;
       break;
     }
     element.tag = head.tag;
-    element.isExplicit = isExplicit && !head.isUnknown;
+    element.items = within(encoding, head.isUnknown);
+    element.isBigEndian = encoding.isBigEndian;
     m_elements.push_back(element);
   }
   std::stable_sort(m_elements.begin(), m_elements.end(),
@@ -218,7 +227,8 @@ std::vector<int> DicomItem::shorts(Tag tag) const
   std::vector<int> result;
   if (const Element* element = find(tag))
     for (std::size_t at = 0; at + 2 <= element->value.size(); at += 2)
-      result.push_back(static_cast<int>(imaging::number(element->value, at, 2)));
+      result.push_back(
+          static_cast<int>(imaging::number(element->value, at, 2, element->isBigEndian)));
   return result;
 }
 
@@ -235,9 +245,11 @@ std::vector<DicomItem> DicomItem::items(Tag tag) const
   std::size_t at = 0;
   Head head;
   std::string_view value;
-  while (element && readHead(element->value, at, element->isExplicit, head) && head.tag == kItem &&
-         takeValue(element->value, at, head, element->isExplicit, value))
-    result.emplace_back(value, element->isExplicit);
+  while (element && readHead(element->value, at, element->items, head) && head.tag == kItem &&
+         takeValue(element->value, at, head, element->items, value))
+    result.emplace_back(value, element->items);
+  if (element && at < element->value.size())
+    result.emplace_back().m_isDamaged = true;
   return result;
 }
 

@@ -12,14 +12,20 @@
 namespace petrous::imaging
 {
 
-/// A data set in memory, or an item of one of its sequences (PS3.5 section 7.5): little endian,
-/// with or without VRs. Values are views of the bytes it was made from; sequences are parsed when
-/// they are asked for. An element that does not fit ends the item and sets `isDamaged`.
+/// A data set in memory, or an item of one of its sequences (PS3.5 section 7.5). Values are views
+/// of the bytes it was made from; sequences are parsed when they are asked for. An element that
+/// does not fit ends the item and sets `isDamaged`.
 class DicomItem
 {
 public:
+  struct Encoding
+  {
+    bool isExplicit = true; ///< elements state their VR
+    bool isBigEndian = false;
+  };
+
   DicomItem() = default;
-  DicomItem(std::string_view bytes, bool isExplicit);
+  DicomItem(std::string_view bytes, Encoding encoding);
 
   bool isDamaged() const noexcept { return m_isDamaged; }
   bool has(Tag tag) const noexcept { return find(tag) != nullptr; }
@@ -32,7 +38,8 @@ public:
   /// Binary values of two bytes (US); empty if absent.
   std::vector<int> shorts(Tag tag) const;
   std::optional<int> integer(Tag tag) const;
-  /// The items of a sequence, and its first one (an item without elements if there is none).
+  /// The items of a sequence, the last one damaged if more follows that is none, and its first one
+  /// (an item without elements if there is none).
   std::vector<DicomItem> items(Tag tag) const;
   DicomItem item(Tag tag) const;
 
@@ -40,7 +47,8 @@ private:
   struct Element
   {
     Tag tag = 0;
-    bool isExplicit = true; ///< of its items
+    Encoding items; ///< of its items
+    bool isBigEndian = false;
     std::string_view value;
   };
   const Element* find(Tag tag) const noexcept;

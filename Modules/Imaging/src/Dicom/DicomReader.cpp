@@ -370,7 +370,8 @@ IntensityVolume readSeries(const DicomSeries& series, const ReadOptions& options
   const IntensityVolume stacked =
       SeriesReader(series, geometry.grid->fullBox(), progress.part(0.0, 0.7)).read(notes);
   if (notes)
-    notes->insert(notes->end(), repair.notes().begin(), repair.notes().end());
+    for (std::string& note : repair.notes(box))
+      notes->push_back(std::move(note));
   return repair.resample(stacked, box, progress.part(0.7, 1.0));
 }
 

@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <fstream>
 #include <limits>
-#include <sstream>
 #include <system_error>
 #include <type_traits>
 #include <utility>
@@ -20,8 +19,8 @@
 #include <gdcmMediaStorage.h>
 #include <gdcmWriter.h>
 
+#include "DicomDataSet.h"
 #include "petrous/Core/Error.h"
-#include "petrous/Core/NumberText.h"
 #include "petrous/Core/SplitMix64.h"
 
 namespace petrous::imaging
@@ -31,62 +30,6 @@ namespace
 
 using Modality = SeriesDescription::Modality;
 
-/// A decimal string (DS) has at most 16 characters, the last possibly a space for even length:
-/// writes as many digits as fit.
-std::string decimal(double value)
-{
-  if (value == 0.0)
-    return "0"; // also for -0
-  std::string text;
-  for (int digits = 15; digits > 0; --digits)
-    if (text = core::generalText(value, digits); text.size() <= 15)
-      break;
-  return text;
-}
-
-std::string decimals(std::initializer_list<double> values)
-{
-  std::string text;
-  for (const double value : values)
-    text += (text.empty() ? "" : "\\") + decimal(value);
-  return text;
-}
-
-/// Adds an element with a text value, padded to even length as required by its VR.
-void put(gdcm::DataSet& data, std::uint16_t group, std::uint16_t element, gdcm::VR::VRType vr,
-         std::string text)
-{
-  if (text.size() % 2 != 0)
-    text += vr == gdcm::VR::UI ? '\0' : ' ';
-  gdcm::DataElement de(gdcm::Tag(group, element));
-  de.SetVR(vr);
-  de.SetByteValue(text.data(), static_cast<std::uint32_t>(text.size()));
-  data.Replace(de);
-}
-
-void put(gdcm::DataSet& data, std::uint16_t group, std::uint16_t element, std::uint16_t value,
-         gdcm::VR::VRType vr = gdcm::VR::US)
-{
-  gdcm::DataElement de(gdcm::Tag(group, element));
-  de.SetVR(vr);
-  const std::array<char, 2> bytes{static_cast<char>(value & 0xFF), static_cast<char>(value >> 8)};
-  de.SetByteValue(bytes.data(), 2);
-  data.Replace(de);
-}
-
-struct TextElement
-{
-  std::uint16_t group, element;
-  gdcm::VR::VRType vr;
-  std::string text;
-};
-
-void put(gdcm::DataSet& data, const std::vector<TextElement>& elements)
-{
-  for (const TextElement& e : elements)
-    put(data, e.group, e.element, e.vr, e.text);
-}
-
 /// The attributes common to all slices of a series.
 gdcm::DataSet commonPart(const SeriesDescription& series, const core::GridGeometry& grid,
                          bool isSigned)
@@ -94,52 +37,51 @@ gdcm::DataSet commonPart(const SeriesDescription& series, const core::GridGeomet
   const bool ct = series.modality == Modality::Ct;
   const Eigen::Matrix3d& axes = grid.direction();
   gdcm::DataSet d;
-  using gdcm::VR;
   // study, series, acquisition, content, instance creation
   const std::pair<std::uint16_t, std::uint16_t> dated[] = {
       {0x0020, 0x0030}, {0x0021, 0x0031}, {0x0022, 0x0032}, {0x0023, 0x0033}, {0x0012, 0x0013}};
   for (const auto& [date, time] : dated)
-    put(d, {{0x0008, date, VR::DA, series.derived ? "" : "20200101"},
-            {0x0008, time, VR::TM, series.derived ? "" : "120000"}});
+    put(d, {{0x0008, date, "DA", series.derived ? "" : "20200101"},
+            {0x0008, time, "TM", series.derived ? "" : "120000"}});
   if (series.derived) // instance creation may not be empty
   {
     d.Remove(gdcm::Tag(0x0008, 0x0012));
     d.Remove(gdcm::Tag(0x0008, 0x0013));
   }
   put(d, {// patient, study
-          {0x0010, 0x0010, VR::PN, series.patientName},
-          {0x0010, 0x0020, VR::LO, series.patientId},
-          {0x0010, 0x0030, VR::DA, ""},
-          {0x0010, 0x0040, VR::CS, "O"},
-          {0x0020, 0x000D, VR::UI, series.studyUid},
-          {0x0008, 0x0090, VR::PN, ""},
-          {0x0020, 0x0010, VR::SH, "1"},
-          {0x0008, 0x0050, VR::SH, ""},
-          {0x0008, 0x1030, VR::LO, series.derived ? "" : "Phantom temporal bone"},
+          {0x0010, 0x0010, "PN", series.patientName},
+          {0x0010, 0x0020, "LO", series.patientId},
+          {0x0010, 0x0030, "DA", ""},
+          {0x0010, 0x0040, "CS", "O"},
+          {0x0020, 0x000D, "UI", series.studyUid},
+          {0x0008, 0x0090, "PN", ""},
+          {0x0020, 0x0010, "SH", "1"},
+          {0x0008, 0x0050, "SH", ""},
+          {0x0008, 0x1030, "LO", series.derived ? "" : "Phantom temporal bone"},
           // series, frame of reference, equipment
-          {0x0008, 0x0060, VR::CS, ct ? "CT" : "MR"},
-          {0x0020, 0x000E, VR::UI, series.seriesUid},
-          {0x0020, 0x0011, VR::IS, std::to_string(series.seriesNumber)},
-          {0x0008, 0x103E, VR::LO, series.description},
-          {0x0018, 0x0015, VR::CS, "SKULL"},
-          {0x0018, 0x5100, VR::CS, series.derived ? "" : "HFS"},
-          {0x0020, 0x0052, VR::UI, series.frameOfReferenceUid},
-          {0x0020, 0x1040, VR::LO, ""},
-          {0x0008, 0x0070, VR::LO, "Petrous"},
-          {0x0008, 0x1090, VR::LO, series.derived ? "" : "Phantom"},
-          {0x0018, 0x1020, VR::LO, "1"},
+          {0x0008, 0x0060, "CS", ct ? "CT" : "MR"},
+          {0x0020, 0x000E, "UI", series.seriesUid},
+          {0x0020, 0x0011, "IS", std::to_string(series.seriesNumber)},
+          {0x0008, 0x103E, "LO", series.description},
+          {0x0018, 0x0015, "CS", "SKULL"},
+          {0x0018, 0x5100, "CS", series.derived ? "" : "HFS"},
+          {0x0020, 0x0052, "UI", series.frameOfReferenceUid},
+          {0x0020, 0x1040, "LO", ""},
+          {0x0008, 0x0070, "LO", "Petrous"},
+          {0x0008, 0x1090, "LO", series.derived ? "" : "Phantom"},
+          {0x0018, 0x1020, "LO", "1"},
           // image
-          {0x0008, 0x0008, VR::CS,
+          {0x0008, 0x0008, "CS",
            std::string(series.derived ? "DERIVED\\SECONDARY" : "ORIGINAL\\PRIMARY") +
                (ct ? "\\AXIAL" : "\\OTHER")},
-          {0x0020, 0x0012, VR::IS, "1"},
-          {0x0020, 0x0037, VR::DS,
+          {0x0020, 0x0012, "IS", "1"},
+          {0x0020, 0x0037, "DS",
            decimals({axes(0, 0), axes(1, 0), axes(2, 0), axes(0, 1), axes(1, 1), axes(2, 1)})},
-          {0x0028, 0x0030, VR::DS, decimals({grid.spacing()[1], grid.spacing()[0]})},
-          {0x0018, 0x0050, VR::DS, decimal(grid.spacing()[2])},
-          {0x0028, 0x0004, VR::CS, "MONOCHROME2"},
-          {0x0028, 0x1050, VR::DS, decimal(series.windowCenter)},
-          {0x0028, 0x1051, VR::DS, decimal(series.windowWidth)}});
+          {0x0028, 0x0030, "DS", decimals({grid.spacing()[1], grid.spacing()[0]})},
+          {0x0018, 0x0050, "DS", decimal(grid.spacing()[2])},
+          {0x0028, 0x0004, "CS", "MONOCHROME2"},
+          {0x0028, 0x1050, "DS", decimal(series.windowCenter)},
+          {0x0028, 0x1051, "DS", decimal(series.windowWidth)}});
   // samples per pixel, rows, columns, bits allocated and stored, high bit, representation
   const std::pair<std::uint16_t, int> numbers[] = {
       {0x0002, 1},  {0x0010, grid.dims()[1]},  {0x0011, grid.dims()[0]}, {0x0100, 16}, {0x0101, 16},
@@ -147,34 +89,27 @@ gdcm::DataSet commonPart(const SeriesDescription& series, const core::GridGeomet
   for (const auto& [element, value] : numbers)
     put(d, 0x0028, element, static_cast<std::uint16_t>(value));
   if (series.derived)
-    put(d, {{0x0012, 0x0062, VR::CS, "YES"},
-            {0x0012, 0x0063, VR::LO, "written from voxels and geometry alone"}});
+    put(d, {{0x0012, 0x0062, "CS", "YES"},
+            {0x0012, 0x0063, "LO", "written from voxels and geometry alone"}});
   else
-    put(d, 0x0020, 0x0060, VR::CS, "R");
+    put(d, 0x0020, 0x0060, "CS", "R");
   if (ct)
-    put(d, {{0x0028, 0x1052, VR::DS, decimal(series.rescaleIntercept)},
-            {0x0028, 0x1053, VR::DS, decimal(series.rescaleSlope)},
-            {0x0028, 0x1054, VR::LO, series.rescaleType},
-            {0x0018, 0x0060, VR::DS, series.derived ? "" : "120"}});
+    put(d, {{0x0028, 0x1052, "DS", decimal(series.rescaleIntercept)},
+            {0x0028, 0x1053, "DS", decimal(series.rescaleSlope)},
+            {0x0028, 0x1054, "LO", series.rescaleType},
+            {0x0018, 0x0060, "DS", series.derived ? "" : "120"}});
   if (ct && !series.derived)
-    put(d, 0x0018, 0x1210, VR::SH, "BONE");
+    put(d, 0x0018, 0x1210, "SH", "BONE");
   if (!ct)
-    put(d, {{0x0018, 0x0020, VR::CS, series.derived ? "RM" : "SE"},
-            {0x0018, 0x0021, VR::CS, series.derived ? "NONE" : "SK"},
-            {0x0018, 0x0022, VR::CS, ""},
-            {0x0018, 0x0023, VR::CS, series.derived ? "" : "3D"},
-            {0x0018, 0x0080, VR::DS, series.derived ? "" : "2000"},
-            {0x0018, 0x0081, VR::DS, series.derived ? "" : "250"},
-            {0x0018, 0x0091, VR::IS, series.derived ? "" : "100"},
-            {0x0018, 0x0088, VR::DS, decimal(grid.spacing()[2])}});
+    put(d, {{0x0018, 0x0020, "CS", series.derived ? "RM" : "SE"},
+            {0x0018, 0x0021, "CS", series.derived ? "NONE" : "SK"},
+            {0x0018, 0x0022, "CS", ""},
+            {0x0018, 0x0023, "CS", series.derived ? "" : "3D"},
+            {0x0018, 0x0080, "DS", series.derived ? "" : "2000"},
+            {0x0018, 0x0081, "DS", series.derived ? "" : "250"},
+            {0x0018, 0x0091, "IS", series.derived ? "" : "100"},
+            {0x0018, 0x0088, "DS", decimal(grid.spacing()[2])}});
   return d;
-}
-
-void checkUid(const std::string& uid, const char* what)
-{
-  if (uid.empty() || uid.size() > 64 || uid.find_first_not_of("0123456789.") != std::string::npos)
-    throw core::InvalidParameter(std::string("DICOM series: the ") + what +
-                                 " is no UID (digits and dots, at most 64)");
 }
 
 template <class T>
@@ -224,6 +159,11 @@ std::string deterministicUid(std::uint64_t seed, const std::string& role)
     digits.insert(digits.begin(), static_cast<char>('0' + rest));
   }
   return "2.25." + digits;
+}
+
+std::string instanceUid(const std::string& seriesUid, int k)
+{
+  return deterministicUid(0, seriesUid + "/" + std::to_string(k));
 }
 
 void writeDicomSeries(const std::filesystem::path& folder, const volume::IntensityVolume& image,
@@ -276,43 +216,28 @@ void writeDicomSeries(const std::filesystem::path& folder, const volume::Intensi
               const double stored =
                   (*image.padding() - description.rescaleIntercept) / description.rescaleSlope;
               put(data, 0x0028, 0x0120, static_cast<std::uint16_t>(static_cast<T>(stored)),
-                  std::is_signed_v<T> ? gdcm::VR::SS : gdcm::VR::US);
+                  std::is_signed_v<T> ? "SS" : "US");
             }
             if (ct && sliceStep)
             {
               const double lean =
                   std::acos(std::clamp(step.normalized().dot(grid.direction().col(2)), -1.0, 1.0));
-              put(data, 0x0018, 0x1120, gdcm::VR::DS,
-                  decimal(lean * 180.0 / 3.14159265358979323846));
+              put(data, 0x0018, 0x1120, "DS", decimal(lean * 180.0 / 3.14159265358979323846));
             }
             const Eigen::Vector3d position = grid.origin() + k * step;
-            const std::string uid =
-                deterministicUid(0, description.seriesUid + "/" + std::to_string(k));
-            put(data, {{0x0008, 0x0016, gdcm::VR::UI, storage.GetString()},
-                       {0x0008, 0x0018, gdcm::VR::UI, uid},
-                       {0x0020, 0x0013, gdcm::VR::IS, std::to_string(k + 1)},
-                       {0x0020, 0x0032, gdcm::VR::DS,
-                        decimals({position.x(), position.y(), position.z()})},
-                       {0x0020, 0x1041, gdcm::VR::DS, decimal(position.z())}});
-            gdcm::DataElement pixels(gdcm::Tag(0x7FE0, 0x0010));
-            pixels.SetVR(gdcm::VR::OW);
-            const std::vector<char> bytes =
-                storedValues(voxels, k, description.rescaleSlope, description.rescaleIntercept);
-            pixels.SetByteValue(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-            data.Replace(pixels);
-            writer.GetFile().GetHeader().SetDataSetTransferSyntax(
-                gdcm::TransferSyntax::ExplicitVRLittleEndian);
+            put(data, {{0x0008, 0x0016, "UI", storage.GetString()},
+                       {0x0008, 0x0018, "UI", instanceUid(description.seriesUid, k)},
+                       {0x0020, 0x0013, "IS", std::to_string(k + 1)},
+                       {0x0020, 0x0032, "DS", decimals({position.x(), position.y(), position.z()})},
+                       {0x0020, 0x1041, "DS", decimal(position.z())}});
+            putBytes(
+                data, 0x7FE0, 0x0010, "OW",
+                storedValues(voxels, k, description.rescaleSlope, description.rescaleIntercept));
 
             std::array<char, 32> name{};
             std::snprintf(name.data(), name.size(), "slice-%04d.dcm", k + 1);
             const std::filesystem::path file = folder / name.data();
-            // into memory first: GDCM aborts the program on a full disk
-            std::ostringstream encoded;
-            encoded.imbue(std::locale::classic());
-            writer.SetStream(encoded);
-            if (!writer.Write())
-              throw core::Error(core::Fault::Internal, file.string() + ": cannot be encoded");
-            const std::string content = encoded.str();
+            const std::string content = encoded(writer, file);
             std::ofstream stream(file, std::ios::binary | std::ios::trunc);
             stream.write(content.data(), static_cast<std::streamsize>(content.size()));
             stream.close();

@@ -109,12 +109,6 @@ BitField bitField(int bitsStored, int highBit, bool isSigned)
   return {highBit + 1 - bitsStored, 32 - bitsStored, isSigned};
 }
 
-struct Fragment
-{
-  std::uint64_t offset = 0;
-  std::uint32_t length = 0;
-};
-
 std::uint32_t littleEndian(const unsigned char* bytes)
 {
   return static_cast<std::uint32_t>(bytes[0] | (bytes[1] << 8)) |
@@ -123,59 +117,33 @@ std::uint32_t littleEndian(const unsigned char* bytes)
 
 /// The fragments of the slice's frame (PS3.5 A.4): all of them if it is the only one, one each if
 /// there are as many as frames, else those that the basic offset table gives it.
-std::vector<Fragment> fragmentsOf(ByteSource& source, const SliceHeader& slice)
+std::vector<Fragment> fragmentsOf(ByteSource& source, const SliceHeader& slice,
+                                  const std::vector<Fragment>& items)
 {
-  const PixelFormat& pixels = slice.pixels;
-  std::uint64_t offset = pixels.offset;
-  std::array<unsigned char, 8> item{};
-  std::vector<Fragment> items; // the first is the table
-  while (source.readNear(offset, item.data(), item.size()) && item[0] == 0xfe && item[1] == 0xff &&
-         item[2] == 0x00)
-  {
-    const std::uint32_t length = littleEndian(item.data() + 4);
-    offset += item.size();
-    if (offset + length > source.size())
-      fail(slice, "is cut short");
-    items.push_back({offset, length});
-    offset += length;
-  }
   if (items.empty())
     return items;
-  const Fragment table = items.front();
-  items.erase(items.begin());
-  const auto frame = static_cast<std::size_t>(pixels.frame);
-  const auto count = static_cast<std::size_t>(pixels.frameCount);
+  constexpr std::uint64_t kItemHead = 8; // bytes before the value
+  const Fragment& table = items.front();
+  const auto frame = static_cast<std::size_t>(slice.pixels.frame);
+  const auto count = static_cast<std::size_t>(slice.pixels.frameCount);
   if (count == 1)
-    return items;
-  if (items.size() == count)
-    return {items[frame]};
-  if (items.empty() || table.length != 4 * count)
+    return {items.begin() + 1, items.end()};
+  if (items.size() == count + 1)
+    return {items[frame + 1]};
+  if (items.size() == 1 || table.length != 4 * count)
     fail(slice, "does not say where its compressed frames begin");
-  std::vector<unsigned char> starts(table.length);
-  if (!source.read(table.offset, starts.data(), starts.size()))
+  std::array<unsigned char, 8> starts{}; // of this frame and the next
+  const std::size_t known = frame + 1 < count ? 8 : 4;
+  if (!source.read(table.offset + 4 * frame, starts.data(), known))
     fail(slice, "cannot be read");
-  const std::uint64_t first = items.front().offset - item.size();
-  const std::uint64_t begin = first + littleEndian(starts.data() + 4 * frame);
-  const std::uint64_t end =
-      frame + 1 < count ? first + littleEndian(starts.data() + 4 * (frame + 1)) : source.size();
+  const std::uint64_t first = items[1].offset - kItemHead;
+  const std::uint64_t begin = first + littleEndian(starts.data());
+  const std::uint64_t end = known == 8 ? first + littleEndian(starts.data() + 4) : source.size();
   std::vector<Fragment> own;
-  for (const Fragment& one : items)
-    if (one.offset - item.size() >= begin && one.offset - item.size() < end)
-      own.push_back(one);
+  for (auto one = items.begin() + 1; one != items.end(); ++one)
+    if (one->offset - kItemHead >= begin && one->offset - kItemHead < end)
+      own.push_back(*one);
   return own;
-}
-
-std::vector<char> readCodestream(ByteSource& source, const SliceHeader& slice)
-{
-  std::vector<char> bytes;
-  for (const Fragment& fragment : fragmentsOf(source, slice))
-  {
-    const std::size_t filled = bytes.size();
-    bytes.resize(filled + fragment.length);
-    if (!source.read(fragment.offset, bytes.data() + filled, fragment.length))
-      fail(slice, "cannot be read");
-  }
-  return bytes;
 }
 
 /// Suppresses stderr output of the codecs used by GDCM, on this thread and during its lifetime: it
@@ -226,22 +194,73 @@ private:
 
 thread_local CodecMessages* CodecMessages::t_listener = nullptr;
 
-void decompress(ByteSource& source, const SliceHeader& slice, StoredPixels& pixels)
+/// Decodes in this process. GetBuffer would also hand a stream that its own codecs refuse to a
+/// program of another package (pvrg-jpeg), by a shell and a temporary file with the patient's
+/// image.
+class InProcessImage : public gdcm::Image
 {
+public:
+  bool decode(char* buffer) const
+  {
+    bool isLossy = false;
+    return TryJPEGCodec(buffer, isLossy) || TryJPEGLSCodec(buffer, isLossy) ||
+           TryJPEG2000Codec(buffer, isLossy) || TryRLECodec(buffer, isLossy);
+  }
+};
+
+} // namespace
+
+std::vector<Fragment> readFragments(ByteSource& source, const SliceHeader& slice)
+{
+  std::uint64_t offset = slice.pixels.offset;
+  std::array<unsigned char, 8> item{};
+  std::vector<Fragment> items;
+  while (source.readNear(offset, item.data(), item.size()) && item[0] == 0xfe && item[1] == 0xff &&
+         item[2] == 0x00)
+  {
+    const std::uint32_t length = littleEndian(item.data() + 4);
+    offset += item.size();
+    if (offset + length > source.size())
+      fail(slice, "is cut short");
+    items.push_back({offset, length});
+    offset += length;
+  }
+  return items;
+}
+
+std::vector<char> readCodestream(ByteSource& source, const SliceHeader& slice,
+                                 const std::vector<Fragment>& fragments)
+{
+  std::vector<char> bytes;
+  for (const Fragment& fragment : fragmentsOf(source, slice, fragments))
+  {
+    const std::size_t filled = bytes.size();
+    bytes.resize(filled + fragment.length);
+    if (!source.read(fragment.offset, bytes.data() + filled, fragment.length))
+      fail(slice, "cannot be read");
+  }
+  return bytes;
+}
+
+void decodeFrame(ByteSource& source, const SliceHeader& slice,
+                 const std::vector<Fragment>& fragments, StoredPixels& pixels)
+{
+  pixels.values.resize(static_cast<std::size_t>(slice.rows) *
+                       static_cast<std::size_t>(slice.columns));
   const CodecMessages messages;
   const PixelFormat& format = slice.pixels;
   gdcm::DataElement element(gdcm::Tag(0x7fe0, 0x0010));
   element.SetVR(gdcm::VR::OB);
-  const std::vector<char> codestream = readCodestream(source, slice);
+  const std::vector<char> codestream = readCodestream(source, slice, fragments);
   if (codestream.empty() || !codestreamFits(codestream, slice))
     fail(slice, "has a damaged compressed image");
   gdcm::Fragment fragment;
   fragment.SetByteValue(codestream.data(), gdcm::VL(static_cast<std::uint32_t>(codestream.size())));
-  const gdcm::SmartPointer<gdcm::SequenceOfFragments> fragments = gdcm::SequenceOfFragments::New();
-  fragments->AddFragment(fragment);
-  element.SetValue(*fragments);
+  const gdcm::SmartPointer<gdcm::SequenceOfFragments> sequence = gdcm::SequenceOfFragments::New();
+  sequence->AddFragment(fragment);
+  element.SetValue(*sequence);
 
-  gdcm::Image image;
+  InProcessImage image;
   image.SetNumberOfDimensions(2);
   image.SetDimension(0, static_cast<unsigned int>(slice.columns));
   image.SetDimension(1, static_cast<unsigned int>(slice.rows));
@@ -262,7 +281,7 @@ void decompress(ByteSource& source, const SliceHeader& slice, StoredPixels& pixe
     if (image.GetBufferLength() == needed)
     {
       pixels.scratch.assign(needed, 0);
-      decoded = image.GetBuffer(reinterpret_cast<char*>(pixels.scratch.data()));
+      decoded = image.decode(reinterpret_cast<char*>(pixels.scratch.data()));
     }
   }
   catch (const std::exception&) // the text may contain patient data
@@ -279,8 +298,6 @@ void decompress(ByteSource& source, const SliceHeader& slice, StoredPixels& pixe
   unpackCells(slice, format.bitsAllocated, field, false, pixels);
 }
 
-} // namespace
-
 void decodePixels(const SliceHeader& slice, StoredPixels& pixels)
 {
   ByteSource source(slice.file);
@@ -293,7 +310,7 @@ void decodePixels(const SliceHeader& slice, StoredPixels& pixels)
     const DicomElements inflated(source); // side effect: inflates the source
   if (format.isEncapsulated)
   {
-    decompress(source, slice, pixels);
+    decodeFrame(source, slice, readFragments(source, slice), pixels);
     return;
   }
   pixels.scratch.resize(pixels.values.size() * static_cast<std::size_t>(format.bitsAllocated / 8));

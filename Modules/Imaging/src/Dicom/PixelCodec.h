@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "ByteSource.h"
 #include "petrous/Imaging/SeriesGeometry.h"
 
 namespace petrous::imaging
@@ -14,6 +15,26 @@ struct StoredPixels
   std::vector<std::int32_t> values;
   std::vector<unsigned char> scratch;
 };
+
+/// An item of encapsulated pixel data (PS3.5 A.4).
+struct Fragment
+{
+  std::uint64_t offset = 0; ///< of its value
+  std::uint32_t length = 0;
+};
+
+/// All items of the file's encapsulated pixel data; the first is the basic offset table. Throws
+/// DicomError (Unreadable).
+std::vector<Fragment> readFragments(ByteSource& source, const SliceHeader& slice);
+
+/// The compressed bytes of the slice's frame. Throws DicomError (Unreadable).
+std::vector<char> readCodestream(ByteSource& source, const SliceHeader& slice,
+                                 const std::vector<Fragment>& fragments);
+
+/// Decodes the slice's frame of an encapsulated file, whose fragments are known: for many frames of
+/// one file. Throws DicomError (Unreadable).
+void decodeFrame(ByteSource& source, const SliceHeader& slice,
+                 const std::vector<Fragment>& fragments, StoredPixels& pixels);
 
 /// Reads and decodes the pixels that `slice` describes.
 ///

@@ -5,6 +5,8 @@
 #include <limits>
 #include <memory>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Geometry>
 #include <tbb/blocked_range.h>
@@ -20,7 +22,7 @@ namespace
 
 constexpr double kWhole = 1e-3;     // pixels; a smaller shift moves nothing
 constexpr double kOnPlace = 1e-3;   // mm
-constexpr std::size_t kNamed = 5;   // places named in a note
+constexpr std::size_t kNamed = 24;  // ranges of slices named in a note
 constexpr double kFinest = 0.25;    // of the mean spacing
 constexpr double kDuplicate = 0.01; // of the spacing: closer slices share one place
 
@@ -102,6 +104,7 @@ SeriesRepair::SeriesRepair(const SeriesGeometry& geometry)
   const double same = std::max(kOnPlace, kDuplicate * nominal.spacing()[2]);
   const bool isTilted = hasFinding(geometry, FindingKind::GantryTilt);
   m_isUneven = hasFinding(geometry, FindingKind::UnevenSpacing);
+  m_isMissing = hasFinding(geometry, FindingKind::MissingSlice) && !m_isUneven;
 
   std::vector<double> places;
   for (std::size_t k = 0; k < geometry.slices.size(); ++k)
@@ -163,7 +166,14 @@ SeriesRepair::SeriesRepair(const SeriesGeometry& geometry)
   }
   if (hasFinding(geometry, FindingKind::MixedRescale))
     m_notes.push_back("Repaired: each slice's own rescale slope and intercept were applied.");
-  noteBlends(geometry);
+}
+
+std::vector<std::string> SeriesRepair::notes(const core::IndexBox& box) const
+{
+  std::vector<std::string> notes = m_notes;
+  if (std::string blends = blendNote(box); !blends.empty())
+    notes.push_back(std::move(blends));
+  return notes;
 }
 
 SeriesRepair::Blend SeriesRepair::blendAt(int m) const
@@ -186,34 +196,43 @@ SeriesRepair::Blend SeriesRepair::blendAt(int m) const
   return {&a, &b, (place - a.place) / (b.place - a.place)};
 }
 
-void SeriesRepair::noteBlends(const SeriesGeometry& geometry)
+std::string SeriesRepair::blendNote(const core::IndexBox& box) const
 {
-  std::size_t guessed = 0;
+  std::vector<std::pair<int, int>> ranges; // first and last, numbered from 1
+  int guessed = 0;
   double farthest = 0.0;
-  std::string where;
-  for (int m = 0; m < m_grid.dims()[2]; ++m)
+  for (int m = box.lower[2]; m < box.upper[2]; ++m)
   {
     const Blend blend = blendAt(m);
     if (blend.a == blend.b)
       continue;
     const double place = m * m_grid.spacing()[2];
     farthest = std::max(farthest, std::min(place - blend.a->place, blend.b->place - place));
-    if (guessed < kNamed)
-      where += (guessed == 0 ? "" : ", ") + std::to_string(m + 1);
-    else if (guessed == kNamed)
-      where += " and others";
     ++guessed;
+    const int number = m - box.lower[2] + 1;
+    if (!ranges.empty() && ranges.back().second + 1 == number)
+      ranges.back().second = number;
+    else
+      ranges.emplace_back(number, number);
   }
   if (guessed == 0)
-    return;
-  const bool isMissing = hasFinding(geometry, FindingKind::MissingSlice) && !m_isUneven;
-  m_notes.push_back(
-      std::string("Repaired: ") + (guessed == 1 ? "slice " : "slices ") + where + " of " +
-      std::to_string(m_grid.dims()[2]) +
-      (isMissing ? (guessed == 1 ? " is missing from the files and was" : " are missing and were")
-                 : (guessed == 1 ? " was" : " were")) +
-      " interpolated between neighbours, up to " + decimals(farthest, 2) +
-      " mm from what was measured; small structures may be absent there.");
+    return {};
+  const bool isMany = ranges.size() > kNamed;
+  if (isMany)
+    ranges = {{ranges.front().first, ranges.back().second}};
+  std::string where;
+  for (const auto& [first, last] : ranges)
+    where += (where.empty() ? "" : ", ") + std::to_string(first) +
+             (last > first ? " to " + std::to_string(last) : "");
+  return std::string("Repaired: ") + (guessed == 1 ? "slice " : "slices ") + where + " of " +
+         std::to_string(box.upper[2] - box.lower[2]) +
+         (m_isMissing
+              ? (guessed == 1 ? " is missing from the files and was" : " are missing and were")
+          : isMany       ? " were in part"
+          : guessed == 1 ? " was"
+                         : " were") +
+         " interpolated between neighbours, up to " + decimals(farthest, 2) +
+         " mm from what was measured; small structures may be absent there.";
 }
 
 volume::IntensityVolume SeriesRepair::resample(const volume::IntensityVolume& stacked,

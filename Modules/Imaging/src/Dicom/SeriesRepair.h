@@ -30,8 +30,8 @@ public:
   volume::IntensityVolume resample(const volume::IntensityVolume& stacked,
                                    const core::IndexBox& box, const core::Progress& progress) const;
 
-  /// What was changed and guessed, one sentence each.
-  const std::vector<std::string>& notes() const noexcept { return m_notes; }
+  /// What was changed and guessed, one sentence each. Slices are numbered from 1, as in `box`.
+  std::vector<std::string> notes(const core::IndexBox& box) const;
 
 private:
   struct Slice
@@ -48,10 +48,11 @@ private:
     double weight = 0.0; ///< of b
   };
   Blend blendAt(int m) const;
-  void noteBlends(const SeriesGeometry& geometry);
+  std::string blendNote(const core::IndexBox& box) const; ///< empty: nothing was interpolated
 
   std::vector<Slice> m_slices; ///< without duplicates
   bool m_isUneven = false;
+  bool m_isMissing = false; ///< and not uneven
   core::GridGeometry m_grid;
   std::vector<std::string> m_notes;
 };

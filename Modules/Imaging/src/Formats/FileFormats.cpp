@@ -78,7 +78,7 @@ constexpr FileFormat kFormats[] = {
     {"NIfTI", ".img", kVoxels, 0, {}, &Source::openNifti, {}, {}, {}},
     {"MetaImage", ".mha", kVoxels, kImage, startsMeta, &Source::openMeta, writeMeta, {}, {}},
     {"MetaImage", ".mhd", kVoxels, 0, startsMeta, &Source::openMeta, {}, {}, {}},
-    {"DICOM", ".dcm", kDicom, 0, startsDicom, {}, {}, {}, {}},
+    {"DICOM", ".dcm", kDicom, kSegmentation, startsDicom, {}, {}, {}, {}},
     {"OBJ", ".obj", kMesh, kMesh, {}, {}, {}, parseObj, objText},
     {"STL", ".stl", kMesh, kMesh, startsStl, {}, {}, parseStl, stlBytes},
     {"PLY", ".ply", kMesh, kMesh, startsPly, {}, {}, parsePly, plyBytes},
@@ -185,7 +185,7 @@ std::string orText(const std::vector<std::string_view>& endings)
   return text;
 }
 
-const FileFormat& writingFormat(const std::filesystem::path& path, FileContent content)
+const FileFormat& writingFormat(const std::filesystem::path& path, unsigned content)
 {
   const FileFormat* format = formatOf(path);
   if (!format || (format->writes & content) == 0)

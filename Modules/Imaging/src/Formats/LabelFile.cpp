@@ -10,10 +10,13 @@
 #include <utility>
 
 #include "FileHelpers.h"
+#include "LabelFolder.h"
 #include "LabelNames.h"
+#include "OutputFile.h"
 #include "SegmentationReader.h"
 #include "VoxelSource.h"
 #include "VoxelWriter.h"
+#include "petrous/Core/OutputFile.h"
 
 namespace petrous::imaging
 {
@@ -95,35 +98,83 @@ std::vector<bool> valuesIn(const volume::Volume<std::uint16_t>& labels)
   return {seen.begin(), seen.end()};
 }
 
-/// Names for a file that contains none; may renumber a single structure to 1, and reports whether
-/// only the file name names it.
+/// "label 3", "labels 3, 5 and 7 more"
+std::string labelsText(const std::vector<std::uint16_t>& indices)
+{
+  constexpr std::size_t kMax = 6;
+  std::string text = indices.size() == 1 ? "label " : "labels ";
+  for (std::size_t n = 0; n < std::min(kMax, indices.size()); ++n)
+    text += (n == 0 ? "" : ", ") + std::to_string(indices[n]);
+  if (indices.size() > kMax)
+    text += " and " + std::to_string(indices.size() - kMax) + " more";
+  return text;
+}
+
+/// The entries of a table whose values occur; tells of the others.
+std::vector<volume::Segment> namesFromTable(LabelTable table, const std::vector<bool>& seen,
+                                            LoadedLabels& loaded)
+{
+  loaded.notes.insert(loaded.notes.end(), table.notes.begin(), table.notes.end());
+  for (const std::string& problem : table.problems)
+    loaded.notes.push_back("of the table of names beside it, " + problem +
+                           "; that entry was left out");
+  std::vector<volume::Segment> names;
+  std::vector<bool> nameless = seen;
+  for (volume::Segment& segment : table.segments)
+  {
+    nameless[segment.index] = false;
+    if (seen[segment.index])
+      names.push_back(std::move(segment));
+    else
+      loaded.unread.push_back({segment.name, segment.index});
+  }
+  std::vector<std::uint16_t> indices;
+  for (std::size_t index = 1; index < nameless.size(); ++index)
+    if (nameless[index])
+      indices.push_back(static_cast<std::uint16_t>(index));
+  if (!indices.empty())
+    loaded.notes.push_back(labelsText(indices) + (indices.size() == 1 ? " has" : " have") +
+                           " no name in the table of names");
+  return names;
+}
+
+/// Names for a file that contains none; may renumber a single structure to 1.
 std::vector<volume::Segment> namesFromOutside(const std::filesystem::path& path,
+                                              const LabelNaming& naming,
                                               volume::Volume<std::uint16_t>& labels,
-                                              bool& isNamedAfterFile)
+                                              LoadedLabels& loaded)
 {
   const std::vector<bool> seen = valuesIn(labels);
   const auto count = std::count(seen.begin() + 1, seen.end(), true);
   if (count == 0)
     fail(FileError::Reason::Unsupported, path,
          "holds no structure, every voxel is 0; voxels of a structure need a value from 1 on");
-  LabelTable table = findLabelTable(path);
+  const bool isGiven = !naming.table.empty();
+  LabelTable table = isGiven ? readLabelTable(naming.table) : findLabelTable(path);
+  const bool isOwn = table.sameName || (isGiven && naming.namesSingle);
+  const bool fits = std::any_of(table.segments.begin(), table.segments.end(),
+                                [&seen](const auto& segment) { return seen[segment.index]; });
   // A table of another name matches a single structure only by chance.
-  if (count > 1 || table.sameName)
+  if (count > 1 || (isOwn && fits))
   {
+    if (isGiven || table.sameName)
+      return namesFromTable(std::move(table), seen, loaded);
     auto& list = table.segments;
     list.erase(std::remove_if(list.begin(), list.end(),
                               [&seen](const auto& segment) { return !seen[segment.index]; }),
                list.end());
-    if (!list.empty() || count > 1)
-      return std::move(list);
+    return std::move(list);
   }
+  if (isGiven && naming.namesSingle)
+    loaded.notes.emplace_back("its one value has no name in the table of names, so it is named by "
+                              "its file");
   std::for_each(labels.data(), labels.data() + labels.size(),
                 [](std::uint16_t& v)
                 {
                   if (v > 1)
                     v = 1;
                 });
-  isNamedAfterFile = true;
+  loaded.isNamedAfterFile = true;
   volume::Segment segment;
   segment.name = baseName(path);
   segment.index = 1;
@@ -143,13 +194,18 @@ bool hasSegments(const VoxelSource& source)
            " layers; one layer is needed here");
 }
 
+constexpr const char* kTableUnused =
+    "names its structures itself, so the table of names was not used for it";
+
 LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
-                        const core::Progress& progress)
+                        const core::Progress& progress, const LabelNaming& naming)
 {
   progress.report(0.0, "reading labels");
   if (isDicomSegmentation(path))
   {
     LoadedLabels loaded = readSegmentation(path, progress);
+    if (!naming.table.empty())
+      loaded.notes.emplace_back(kTableUnused);
     if (oneOnly && loaded.maps.size() > 1)
       failOverlap(path, loaded.maps.size());
     return loaded;
@@ -167,9 +223,14 @@ LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
   loaded.notes = source.notes();
   if (named)
     for (const std::string& name : segmentsWithoutLayer(*source.nrrd(), source.components()))
+    {
       loaded.notes.push_back("'" + name +
                              "' was left out: the file puts it in a layer that it has "
                              "not; save it again in 3D Slicer");
+      loaded.unread.push_back({name, 0, false});
+    }
+  if (named && !naming.table.empty())
+    loaded.notes.emplace_back(kTableUnused);
   for (std::size_t layer = 0; layer < source.components(); ++layer)
   {
     progress.report(0.7, "reading labels");
@@ -177,7 +238,7 @@ LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
         visitComponent(source.component(), [&](auto type)
                        { return toLabels<decltype(type)>(source, path, raw, layer); });
     auto names = named ? segmentsOfLayer(path, *source.nrrd(), layer)
-                       : namesFromOutside(path, *labels, loaded.isNamedAfterFile);
+                       : namesFromOutside(path, naming, *labels, loaded);
     loaded.maps.push_back(volume::makeLabelMap(labels, std::move(names)));
   }
   progress.report(1.0, "reading labels");
@@ -192,14 +253,18 @@ bool isDicomSegmentation(const std::filesystem::path& path)
   return format && format->reads == kDicom && isSegmentationClass(sopClassOf(path));
 }
 
-LoadedLabels loadLabels(const std::filesystem::path& path, const core::Progress& progress)
+LoadedLabels loadLabels(const std::filesystem::path& path, const core::Progress& progress,
+                        const LabelNaming& naming)
 {
-  return readLayers(path, false, progress);
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error))
+    return readLabelFolder(path, progress);
+  return readLayers(path, false, progress, naming);
 }
 
 volume::LabelMap readLabelFile(const std::filesystem::path& path, const core::Progress& progress)
 {
-  return std::move(readLayers(path, true, progress).maps.front());
+  return std::move(readLayers(path, true, progress, {}).maps.front());
 }
 
 void writeLabelFile(const std::filesystem::path& path, const volume::LabelMap& labels)
@@ -208,7 +273,7 @@ void writeLabelFile(const std::filesystem::path& path, const volume::LabelMap& l
     throw core::InvalidParameter("label map: no voxels given to write");
   const volume::Volume<std::uint16_t>& voxels = *labels.voxels;
   const bool named = writingFormat(path, kLabels).writeVoxels == writeNrrd;
-  const std::string keys = named ? segmentKeys(labels) : std::string();
+  const std::string keys = named ? segmentKeys({labels}) : std::string();
   const bool small = std::all_of(voxels.data(), voxels.data() + voxels.size(),
                                  [](std::uint16_t v) { return v <= 255; });
   if (!small)
@@ -222,6 +287,63 @@ void writeLabelFile(const std::filesystem::path& path, const volume::LabelMap& l
                  [](std::uint16_t v) { return static_cast<std::uint8_t>(v); });
   writeVoxelFile(path, kLabels, voxels.geometry(), voxelTypeOf<std::uint8_t>(), bytes.data(), keys,
                  {});
+}
+
+void writeLabelLayers(const std::filesystem::path& path,
+                      const std::vector<volume::LabelMap>& layers, const core::Progress& progress)
+{
+  if (layers.empty() || std::any_of(layers.begin(), layers.end(),
+                                    [&](const volume::LabelMap& map)
+                                    {
+                                      return !map.voxels ||
+                                             !core::sameGrid(map.voxels->geometry(),
+                                                             layers.front().voxels->geometry());
+                                    }))
+    throw core::InvalidParameter("label layers: none given to write, or on different grids");
+  if (layers.size() == 1)
+    return writeLabelFile(path, layers.front());
+  const FileFormat& format = writingFormat(path, kLabels);
+  if (format.ending != ".seg.nrrd")
+    fail(FileError::Reason::UnknownFormat, path,
+         "holds one layer, and structures overlap; write .seg.nrrd");
+  const std::size_t count = layers.front().voxels->size();
+  std::vector<std::uint16_t> voxels(count * layers.size());
+  for (std::size_t layer = 0; layer < layers.size(); ++layer)
+    for (std::size_t p = 0; p < count; ++p)
+      voxels[p * layers.size() + layer] = layers[layer].voxels->data()[p];
+  std::vector<std::uint8_t> bytes;
+  if (*std::max_element(voxels.begin(), voxels.end()) <= 255)
+  {
+    bytes.resize(voxels.size());
+    std::transform(voxels.begin(), voxels.end(), bytes.begin(),
+                   [](std::uint16_t v) { return static_cast<std::uint8_t>(v); });
+  }
+  const VoxelType type = bytes.empty() ? voxelTypeOf<std::uint16_t>() : voxelTypeOf<std::uint8_t>();
+  const void* data = bytes.empty() ? static_cast<const void*>(voxels.data()) : bytes.data();
+  OutputFile file(path);
+  format.writeVoxels(file, {path, layers.front().voxels->geometry(), type, data,
+                            segmentKeys(layers), progress, layers.size()});
+  progress.check("writing labels");
+  file.commit();
+}
+
+void writeLabelTable(const std::filesystem::path& path,
+                     const std::vector<volume::Segment>& segments)
+{
+  std::string text = "# ITK-SnAP Label Description File\n"
+                     "# IDX -R- -G- -B- -A- VIS MSH LABEL\n"
+                     "0 0 0 0 0 0 0 \"Clear Label\"\n";
+  for (const volume::Segment& segment : segments)
+  {
+    text += std::to_string(segment.index);
+    for (const float channel : segment.color)
+      text += " " + std::to_string(std::lround(std::clamp(channel, 0.0F, 1.0F) * 255.0F));
+    std::string name = segment.name;
+    for (char& c : name)
+      c = c == '"' ? '\'' : static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    text += " 1 1 1 \"" + name + "\"\n";
+  }
+  core::writeFile(path, text);
 }
 
 } // namespace petrous::imaging

@@ -41,19 +41,23 @@ std::string unescaped(std::string_view text)
 } // namespace
 
 std::string nrrdHeaderText(const core::GridGeometry& geometry, const std::string& type,
-                           const std::string& encoding)
+                           const std::string& encoding, std::size_t layers)
 {
   const auto& n = geometry.dims();
   const Eigen::Matrix3d& step = geometry.patientFromVoxelLinear();
+  const bool isList = layers != 1;
   return "NRRD0004\n"
          "# Complete NRRD file format specification at:\n"
          "# http://teem.sourceforge.net/nrrd/format.html\n"
          "type: " +
-         type + "\ndimension: 3\nspace: left-posterior-superior\nsizes: " + std::to_string(n[0]) +
-         " " + std::to_string(n[1]) + " " + std::to_string(n[2]) +
-         "\nspace directions: " + vectorText(step.col(0)) + " " + vectorText(step.col(1)) + " " +
-         vectorText(step.col(2)) +
-         "\nkinds: domain domain domain\nspace units: \"mm\" \"mm\" \"mm\"\nendian: little\n"
+         type + "\ndimension: " + (isList ? "4" : "3") +
+         "\nspace: left-posterior-superior\nsizes: " +
+         (isList ? std::to_string(layers) + " " : "") + std::to_string(n[0]) + " " +
+         std::to_string(n[1]) + " " + std::to_string(n[2]) +
+         "\nspace directions: " + (isList ? "none " : "") + vectorText(step.col(0)) + " " +
+         vectorText(step.col(1)) + " " + vectorText(step.col(2)) +
+         "\nkinds: " + (isList ? "list " : "") +
+         "domain domain domain\nspace units: \"mm\" \"mm\" \"mm\"\nendian: little\n"
          "encoding: " +
          encoding + "\nspace origin: " + vectorText(geometry.origin()) + "\n";
 }

@@ -12,9 +12,10 @@ namespace petrous::imaging
 {
 
 /// NRRD header up to and including "space origin": type, sizes, directions, kinds, units, endian,
-/// encoding. `type` as named by NRRD. Further fields, key/value pairs and a blank line follow.
+/// encoding. `type` as named by NRRD; more than one layer is a first axis of kind "list". Further
+/// fields, key/value pairs and a blank line follow.
 std::string nrrdHeaderText(const core::GridGeometry& geometry, const std::string& type,
-                           const std::string& encoding);
+                           const std::string& encoding, std::size_t layers = 1);
 
 /// A key/value line; line ends and backslashes in the value are escaped.
 std::string nrrdKeyText(const std::string& key, const std::string& value);

@@ -87,7 +87,8 @@ void writeMeta(OutputFile& file, const VoxelsToWrite& voxels)
 
 void writeNrrd(OutputFile& file, const VoxelsToWrite& voxels)
 {
-  file.write(nrrdHeaderText(voxels.geometry, voxels.type.nrrd, "gzip") + voxels.nrrdKeys + "\n");
+  file.write(nrrdHeaderText(voxels.geometry, voxels.type.nrrd, "gzip", voxels.layers) +
+             voxels.nrrdKeys + "\n");
   file.writeCompressed("", voxels.voxels, voxels.bytes(), voxels.progress);
 }
 

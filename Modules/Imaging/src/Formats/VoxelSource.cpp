@@ -217,6 +217,36 @@ std::shared_ptr<void> VoxelSource::read(const core::IndexBox& box,
   return rescaled() ? rescaledCopy(memory.get(), box.count()) : memory;
 }
 
+void VoxelSource::forEachSlice(const std::function<bool(int k, const void* values)>& visit,
+                               const core::Progress& progress) const
+{
+  const core::Index3& dims = m_geometry->dims();
+  const std::size_t numberBytes = visitComponent(m_stored, [](auto type) { return sizeof type; });
+  const std::size_t count =
+      static_cast<std::size_t>(dims[0]) * static_cast<std::size_t>(dims[1]) * m_components;
+  if (m_isText)
+  {
+    const auto all = read(m_geometry->fullBox(), progress);
+    const std::size_t bytes = count * (rescaled() ? sizeof(float) : numberBytes);
+    for (int k = 0; k < dims[2]; ++k)
+      if (!visit(k, static_cast<const char*>(all.get()) + static_cast<std::size_t>(k) * bytes))
+        return;
+    return;
+  }
+  const auto memory = allocate(m_path, count * numberBytes);
+  VoxelStream stream(m_place);
+  for (int k = 0; k < dims[2]; ++k)
+  {
+    progress.check("reading voxels");
+    stream.read(memory.get(), count * numberBytes);
+    if (m_swapped)
+      swapBytes(memory.get(), count, numberBytes);
+    if (!visit(k, rescaled() ? rescaledCopy(memory.get(), count).get() : memory.get()))
+      return;
+  }
+  stream.finish(progress);
+}
+
 void VoxelSource::readText(const core::IndexBox& box, void* out) const
 {
   std::string bytes = readWholeFile(m_place.parts.front().file);

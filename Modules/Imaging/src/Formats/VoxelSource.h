@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -39,6 +40,12 @@ public:
   /// The voxels of a box, components interleaved, first axis fastest. Reads no more than the box if
   /// the format allows it, and keeps no more.
   std::shared_ptr<void> read(const core::IndexBox& box, const core::Progress& progress) const;
+
+  /// Calls visit(k, values) for one slice after the other along the third axis, components
+  /// interleaved, until it returns false; the values are valid during the call. Keeps one slice,
+  /// except of text.
+  void forEachSlice(const std::function<bool(int k, const void* values)>& visit,
+                    const core::Progress& progress) const;
 
   // Of the table of formats, called by the constructor.
   void openNifti();

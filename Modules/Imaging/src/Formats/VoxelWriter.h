@@ -32,10 +32,11 @@ struct VoxelsToWrite
   const void* voxels;
   const std::string& nrrdKeys; ///< complete key/value lines for NRRD
   const core::Progress& progress;
+  std::size_t layers = 1; ///< values of a voxel, which adjoin; for NRRD
 
   std::size_t bytes() const
   {
-    return geometry.voxelCount() * static_cast<std::size_t>(type.bits / 8);
+    return layers * geometry.voxelCount() * static_cast<std::size_t>(type.bits / 8);
   }
 };
 

@@ -1,5 +1,6 @@
 #include "petrous/Imaging/MeshFile.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -55,7 +56,7 @@ void dropUnusedVertices(core::TriangleMesh& mesh)
 
 } // namespace
 
-std::string objText(const core::TriangleMesh& mesh)
+std::string objText(const core::TriangleMesh& mesh, const MeshColor&)
 {
   std::string text = "# " + std::string(kStatement) + "\n";
   for (const auto& v : mesh.vertices)
@@ -66,7 +67,7 @@ std::string objText(const core::TriangleMesh& mesh)
   return text;
 }
 
-std::string stlBytes(const core::TriangleMesh& mesh)
+std::string stlBytes(const core::TriangleMesh& mesh, const MeshColor&)
 {
   std::string bytes(kStatement); // not "solid", which starts a text STL
   bytes.resize(80, ' ');
@@ -88,17 +89,26 @@ std::string stlBytes(const core::TriangleMesh& mesh)
   return bytes;
 }
 
-std::string plyBytes(const core::TriangleMesh& mesh)
+std::string plyBytes(const core::TriangleMesh& mesh, const MeshColor& color)
 {
-  std::string bytes = "ply\nformat binary_little_endian 1.0\ncomment " + std::string(kStatement) +
-                      "\nelement vertex " + std::to_string(mesh.vertices.size()) +
-                      "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
-                      std::to_string(mesh.triangles.size()) +
-                      "\nproperty list uchar uint vertex_indices\nend_header\n";
-  bytes.reserve(bytes.size() + mesh.vertices.size() * 12 + mesh.triangles.size() * 13);
+  std::string rgb;
+  for (std::size_t c = 0; color && c < 3; ++c)
+    rgb += static_cast<char>(std::lround(std::clamp((*color)[c], 0.0F, 1.0F) * 255.0F));
+  std::string bytes =
+      "ply\nformat binary_little_endian 1.0\ncomment " + std::string(kStatement) +
+      "\nelement vertex " + std::to_string(mesh.vertices.size()) +
+      "\nproperty float x\nproperty float y\nproperty float z" +
+      (color ? "\nproperty uchar red\nproperty uchar green\nproperty uchar blue" : "") +
+      "\nelement face " + std::to_string(mesh.triangles.size()) +
+      "\nproperty list uchar uint vertex_indices\nend_header\n";
+  bytes.reserve(bytes.size() + mesh.vertices.size() * (12 + rgb.size()) +
+                mesh.triangles.size() * 13);
   for (const auto& v : mesh.vertices)
+  {
     for (int n = 0; n < 3; ++n)
       append(bytes, v[n]);
+    bytes += rgb;
+  }
   for (const auto& t : mesh.triangles)
   {
     append(bytes, std::uint8_t{3});
@@ -195,14 +205,15 @@ core::TriangleMesh readMesh(const std::filesystem::path& path)
   return loadMesh(path).mesh;
 }
 
-void writeMesh(const std::filesystem::path& path, const core::TriangleMesh& mesh)
+void writeMesh(const std::filesystem::path& path, const core::TriangleMesh& mesh,
+               const MeshColor& color)
 {
   mesh.validate();
   if (mesh.triangles.empty())
     throw core::InvalidParameter("mesh: it has no triangle to write");
   const FileFormat& format = writingFormat(path, kMesh);
   OutputFile file(path);
-  file.write(format.meshBytes(mesh));
+  file.write(format.meshBytes(mesh, color));
   file.commit();
 }
 

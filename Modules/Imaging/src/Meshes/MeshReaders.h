@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "petrous/Core/TriangleMesh.h"
+#include "petrous/Imaging/MeshFile.h"
 
 namespace petrous::imaging
 {
@@ -39,8 +40,8 @@ private:
 core::TriangleMesh parseObj(const std::filesystem::path& path, std::string_view bytes);
 core::TriangleMesh parseStl(const std::filesystem::path& path, std::string_view bytes);
 core::TriangleMesh parsePly(const std::filesystem::path& path, std::string_view bytes);
-std::string objText(const core::TriangleMesh& mesh);
-std::string stlBytes(const core::TriangleMesh& mesh);
-std::string plyBytes(const core::TriangleMesh& mesh);
+std::string objText(const core::TriangleMesh& mesh, const MeshColor& color);
+std::string stlBytes(const core::TriangleMesh& mesh, const MeshColor& color);
+std::string plyBytes(const core::TriangleMesh& mesh, const MeshColor& color);
 
 } // namespace petrous::imaging

@@ -9,12 +9,16 @@
 #include <utility>
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <zlib.h>
 
 #include "ByteSource.h"
 #include "DicomElements.h"
 #include "DicomItem.h"
 #include "FileHelpers.h"
 #include "GridFromAffine.h"
+#include "PixelCodec.h"
+#include "petrous/Imaging/DicomScan.h"
 
 namespace petrous::imaging
 {
@@ -29,8 +33,18 @@ constexpr std::uint64_t kMaxHeader = std::uint64_t{512} << 20; // bytes before t
 constexpr std::uint64_t kMaxVoxels = std::uint64_t{1} << 31;   // of all layers
 constexpr double kMaxTurn = 1e-4;      // between the orientations of two frames, of unit vectors
 constexpr double kMinTolerance = 0.05; // mm, of a frame's place
-constexpr double kRelativeTolerance = 0.1; // of the spacing of slices
-constexpr double kNotedError = 1e-3;       // mm
+constexpr double kRelativeTolerance = 0.1;                   // of the spacing of slices
+constexpr double kNotedError = 1e-3;                         // mm
+constexpr std::size_t kMaxCompressed = std::size_t{1} << 26; // pixels of a frame
+
+/// Deflated Image Frame Compression (PS3.5 A.4.13): the only one for frames of single bits.
+constexpr const char* kDeflatedFrames = "1.2.840.10008.1.2.8.1";
+constexpr const char* kLossless[] = {kDeflatedFrames,
+                                     "1.2.840.10008.1.2.5",     // RLE
+                                     "1.2.840.10008.1.2.4.57",  // JPEG
+                                     "1.2.840.10008.1.2.4.70",  // JPEG, first-order prediction
+                                     "1.2.840.10008.1.2.4.80",  // JPEG-LS
+                                     "1.2.840.10008.1.2.4.90"}; // JPEG 2000
 
 enum class Type
 {
@@ -52,9 +66,14 @@ struct Segmentation
   std::filesystem::path path;
   Type type = Type::Binary;
   int rows = 0, columns = 0, bits = 0;
-  int padding = 0;       ///< LABELMAP: the value of voxels of no segment
-  int maxFraction = 255; ///< FRACTIONAL
+  int padding = 0;          ///< LABELMAP: the value of voxels of no segment
+  int maxFraction = 255;    ///< FRACTIONAL
+  bool isOccupancy = false; ///< FRACTIONAL: how much of a voxel is in the segment
   DicomElements::Pixels pixels;
+  bool swapsWords = false;         ///< big endian, written as words of 16 bits
+  std::vector<Fragment> fragments; ///< of compressed frames; none: uncompressed
+  SliceHeader compressed;          ///< of these, for the decoder
+  StoredPixels decoded;            ///< of one frame; reused
   std::vector<Frame> frames;
   Eigen::Vector3d row = Eigen::Vector3d::UnitX(), column = Eigen::Vector3d::UnitY();
   Eigen::Vector2d pixelSpacing = Eigen::Vector2d::Zero(); ///< between rows, between columns; mm
@@ -128,8 +147,53 @@ void readFrame(Segmentation& file, const DicomItem& own, const DicomItem& shared
              " names no segment; export the segmentation again");
 }
 
+/// What `read` returns; errors of the codec become the file's.
+template <class Read>
+auto decoding(const Segmentation& file, const Read& read)
+{
+  try
+  {
+    return read();
+  }
+  catch (const DicomError&)
+  {
+    fail(Reason::Unreadable, file.path, "has a damaged compressed frame; copy or export it again");
+  }
+}
+
+/// Finds the compressed frames.
+void findFragments(Segmentation& file, ByteSource& source, const DicomElements& elements)
+{
+  const std::string& syntax = elements.transferSyntax();
+  const bool isDeflated = syntax == kDeflatedFrames;
+  if (pixelsPerFrame(file) > kMaxCompressed)
+    fail(Reason::Unsupported, file.path,
+         "holds compressed frames of more than 64 million pixels; export it uncompressed");
+  if (std::find(std::begin(kLossless), std::end(kLossless), syntax) == std::end(kLossless) ||
+      (file.bits == 1 && !isDeflated))
+    fail(Reason::Unsupported, file.path,
+         "is a DICOM segmentation of a compression that is not read or not lossless; export it "
+         "uncompressed (explicit VR little endian)");
+  file.compressed.file = file.path;
+  file.compressed.rows = file.rows;
+  file.compressed.columns = file.columns;
+  PixelFormat& format = file.compressed.pixels;
+  format.bitsAllocated = file.bits;
+  format.bitsStored = file.bits;
+  format.highBit = file.bits - 1;
+  format.transferSyntax = syntax;
+  format.isEncapsulated = true;
+  format.offset = file.pixels.offset;
+  format.frameCount = static_cast<int>(file.frames.size());
+  file.fragments = decoding(file, [&] { return readFragments(source, file.compressed); });
+  if (file.fragments.size() < file.frames.size() + 1)
+    fail(Reason::Unreadable, file.path,
+         "holds fewer pixels than its " + std::to_string(file.frames.size()) +
+             " frames need; copy or export it again");
+}
+
 /// Checks that the pixels of all frames are there.
-void checkPixels(const Segmentation& file, const ByteSource& source, const DicomElements& elements)
+void checkPixels(Segmentation& file, ByteSource& source, const DicomElements& elements)
 {
   const int bits = file.bits;
   const bool fits = file.type == Type::Binary       ? bits == 1
@@ -142,13 +206,16 @@ void checkPixels(const Segmentation& file, const ByteSource& source, const Dicom
   if (file.pixels.tag != kPixelData)
     fail(Reason::Unreadable, file.path, "holds no pixel data; copy or export it again");
   if (file.pixels.length == DicomElements::kUndefinedLength)
-    fail(Reason::Unsupported, file.path,
-         "is a compressed DICOM segmentation, which is not read; export it uncompressed (explicit "
-         "VR little endian)");
+  {
+    findFragments(file, source, elements);
+    return;
+  }
   if (elements.isBigEndian())
-    fail(Reason::Unsupported, file.path,
-         "is a big-endian DICOM segmentation, which is not read; convert it to explicit VR little "
-         "endian");
+  {
+    std::array<char, 2> vr{}; // before two bytes that are reserved, and the length
+    file.swapsWords = file.pixels.offset >= 8 &&
+                      source.read(file.pixels.offset - 8, vr.data(), vr.size()) && vr[1] == 'W';
+  }
   // 65535 squared, 16 bits and frames of 8 bytes a header at least: below 2^64
   const std::uint64_t needed =
       (std::uint64_t{pixelsPerFrame(file)} * file.frames.size() * static_cast<unsigned>(bits) + 7) /
@@ -287,26 +354,87 @@ bool forEachPixel(const Segmentation& file, const std::vector<unsigned char>& by
   return true;
 }
 
-/// Reads the bytes of a frame; returns where its first pixel lies in them, in bits.
-std::size_t readPixels(const Segmentation& file, ByteSource& source, const Frame& frame,
+/// Inflates raw DEFLATE data to just `bytes`.
+bool inflateTo(const std::vector<char>& packed, std::vector<unsigned char>& bytes)
+{
+  z_stream stream = {};
+  if (inflateInit2(&stream, -MAX_WBITS) != Z_OK) // negative: no zlib header
+    return false;
+  // zlib does not write to it
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
+  stream.avail_in = static_cast<uInt>(packed.size());
+  stream.next_out = bytes.data();
+  stream.avail_out = static_cast<uInt>(bytes.size());
+  const int state = inflate(&stream, Z_FINISH);
+  inflateEnd(&stream);
+  return state == Z_STREAM_END && stream.avail_out == 0;
+}
+
+void decompress(Segmentation& file, ByteSource& source, const Frame& frame,
+                std::vector<unsigned char>& bytes)
+{
+  file.compressed.pixels.frame = static_cast<int>(frame.number);
+  const auto bits = static_cast<std::size_t>(file.bits);
+  bytes.resize((pixelsPerFrame(file) * bits + 7) / 8);
+  if (file.compressed.pixels.transferSyntax == kDeflatedFrames)
+  {
+    if (!inflateTo(
+            decoding(file, [&] { return readCodestream(source, file.compressed, file.fragments); }),
+            bytes))
+      fail(Reason::Unreadable, file.path,
+           "has a damaged compressed frame; copy or export it again");
+    return;
+  }
+  decoding(file, [&] { decodeFrame(source, file.compressed, file.fragments, file.decoded); });
+  for (std::size_t p = 0; p < pixelsPerFrame(file); ++p)
+    for (std::size_t b = 0; b < bits / 8; ++b)
+      bytes[p * bits / 8 + b] = static_cast<unsigned char>(file.decoded.values[p] >> 8 * b);
+}
+
+/// Reads the bytes of a frame, little endian; returns where its first pixel lies in them, in bits.
+std::size_t readPixels(Segmentation& file, ByteSource& source, const Frame& frame,
                        std::vector<unsigned char>& bytes)
 {
+  if (!file.fragments.empty())
+  {
+    decompress(file, source, frame, bytes);
+    return 0;
+  }
   const std::uint64_t bits = std::uint64_t{pixelsPerFrame(file)} * static_cast<unsigned>(file.bits);
   const std::uint64_t first = bits * frame.number;
-  bytes.resize(static_cast<std::size_t>((first + bits + 7) / 8 - first / 8));
-  if (!source.read(file.pixels.offset + first / 8, bytes.data(), bytes.size()))
+  std::uint64_t begin = first / 8;
+  std::uint64_t end = (first + bits + 7) / 8;
+  if (file.swapsWords)
+  {
+    begin -= begin % 2;
+    end = std::min<std::uint64_t>(end + end % 2, file.pixels.length);
+  }
+  bytes.resize(static_cast<std::size_t>(end - begin));
+  if (!source.read(file.pixels.offset + begin, bytes.data(), bytes.size()))
     fail(Reason::Unreadable, file.path, "cannot be read to its end; copy it again");
-  return static_cast<std::size_t>(first % 8);
+  if (file.swapsWords)
+  {
+    for (std::size_t at = 0; at + 1 < bytes.size(); at += 2)
+      std::swap(bytes[at], bytes[at + 1]);
+    if (file.bits > 1) // whole bytes, of this frame only
+    {
+      bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(first / 8 - begin));
+      bytes.resize(static_cast<std::size_t>(bits / 8));
+      return 0;
+    }
+  }
+  return static_cast<std::size_t>(first - 8 * begin);
 }
 
 struct Layers
 {
   std::vector<std::shared_ptr<LabelVolume>> voxels;
   std::map<int, std::size_t> layerOf; ///< by segment number
+  std::map<int, double> pixels;       ///< in the frames of each segment; of occupancy, their sum
 };
 
 /// Paints one segment into the first layer in which it overlaps no other.
-void paintSegment(const Segmentation& file, ByteSource& source, const core::GridGeometry& grid,
+void paintSegment(Segmentation& file, ByteSource& source, const core::GridGeometry& grid,
                   const Frame* first, const Frame* last, Layers& layers)
 {
   const auto label = static_cast<std::uint16_t>(first->segment);
@@ -321,9 +449,13 @@ void paintSegment(const Segmentation& file, ByteSource& source, const core::Grid
       layers.voxels.push_back(volume::makeZeroVolume<std::uint16_t>(grid));
     }
     const Frame* frame = first;
+    double pixels = 0.0;
     for (; frame != last; ++frame)
     {
       const std::size_t bit = readPixels(file, source, *frame, bytes);
+      if (file.isOccupancy)
+        for (const unsigned char fraction : bytes)
+          pixels += static_cast<double>(fraction) / file.maxFraction;
       std::uint16_t* slice = &layers.voxels[layer]->at(0, 0, frame->slice);
       if (!forEachPixel(file, bytes, bit,
                         [&](std::size_t p)
@@ -331,6 +463,7 @@ void paintSegment(const Segmentation& file, ByteSource& source, const core::Grid
                           if (slice[p] != 0 && slice[p] != label)
                             return false;
                           slice[p] = label;
+                          pixels += file.isOccupancy ? 0.0 : 1.0;
                           return true;
                         }))
         break;
@@ -338,6 +471,7 @@ void paintSegment(const Segmentation& file, ByteSource& source, const core::Grid
     if (frame == last)
     {
       layers.layerOf[label] = layer;
+      layers.pixels[label] = pixels;
       return;
     }
     for (const Frame* painted = first; painted <= frame; ++painted)
@@ -372,7 +506,7 @@ Layers paintSegments(Segmentation& file, ByteSource& source, const core::GridGeo
   return layers;
 }
 
-Layers copyLabelmap(const Segmentation& file, ByteSource& source, const core::GridGeometry& grid,
+Layers copyLabelmap(Segmentation& file, ByteSource& source, const core::GridGeometry& grid,
                     const core::Progress& progress)
 {
   Layers layers;
@@ -396,6 +530,19 @@ Layers copyLabelmap(const Segmentation& file, ByteSource& source, const core::Gr
     }
   }
   return layers;
+}
+
+// XYZ of white, of illuminant D50; Y is 1
+constexpr double kWhiteX = 0.96422;
+constexpr double kWhiteZ = 0.82521;
+
+/// Linear sRGB (IEC 61966-2-1) from XYZ relative to D50, adapted to D65 (Bradford).
+Eigen::Matrix3d rgbFromXyz()
+{
+  Eigen::Matrix3d matrix;
+  matrix << 3.1338561, -1.6168667, -0.4906146, -0.9787684, 1.9161415, 0.0334540, 0.0719453,
+      -0.2289914, 1.4052427;
+  return matrix;
 }
 
 /// What a segment is, by its codes: its anatomic region, if stated, and its type.
@@ -436,12 +583,9 @@ std::array<float, 3> colorFromCieLab(const std::vector<int>& value)
   const auto inverse = [](double t)
   { return t > 6.0 / 29.0 ? t * t * t : 3.0 * (6.0 / 29.0) * (6.0 / 29.0) * (t - 4.0 / 29.0); };
   const double fy = (l + 16.0) / 116.0;
-  const Eigen::Vector3d xyz(0.96422 * inverse(fy + a / 500.0), inverse(fy),
-                            0.82521 * inverse(fy - b / 200.0)); // D50
-  Eigen::Matrix3d toRgb; // adapted to D65 (Bradford), linear sRGB (IEC 61966-2-1)
-  toRgb << 3.1338561, -1.6168667, -0.4906146, -0.9787684, 1.9161415, 0.0334540, 0.0719453,
-      -0.2289914, 1.4052427;
-  const Eigen::Vector3d linear = toRgb * xyz;
+  const Eigen::Vector3d xyz(kWhiteX * inverse(fy + a / 500.0), inverse(fy),
+                            kWhiteZ * inverse(fy - b / 200.0));
+  const Eigen::Vector3d linear = rgbFromXyz() * xyz;
   std::array<float, 3> color{};
   for (int c = 0; c < 3; ++c)
   {
@@ -450,6 +594,29 @@ std::array<float, 3> colorFromCieLab(const std::vector<int>& value)
     color[static_cast<std::size_t>(c)] = static_cast<float>(std::clamp(encoded, 0.0, 1.0));
   }
   return color;
+}
+
+std::array<std::uint16_t, 3> cieLabFromColor(const std::array<float, 3>& color)
+{
+  Eigen::Vector3d linear;
+  for (int c = 0; c < 3; ++c)
+  {
+    const double x = std::clamp(static_cast<double>(color[static_cast<std::size_t>(c)]), 0.0, 1.0);
+    linear[c] = x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+  }
+  const Eigen::Vector3d xyz = rgbFromXyz().inverse() * linear;
+  const auto cubeRoot = [](double t)
+  {
+    constexpr double kKnee = 6.0 / 29.0;
+    return t > kKnee * kKnee * kKnee ? std::cbrt(t) : t / (3.0 * kKnee * kKnee) + 4.0 / 29.0;
+  };
+  const double fx = cubeRoot(xyz.x() / kWhiteX);
+  const double fy = cubeRoot(xyz.y());
+  const double fz = cubeRoot(xyz.z() / kWhiteZ);
+  const auto scaled = [](double share)
+  { return static_cast<std::uint16_t>(std::lround(std::clamp(share, 0.0, 1.0) * 65535.0)); };
+  return {scaled((116.0 * fy - 16.0) / 100.0), scaled((500.0 * (fx - fy) + 128.0) / 255.0),
+          scaled((200.0 * (fy - fz) + 128.0) / 255.0)};
 }
 
 LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Progress& progress)
@@ -464,15 +631,13 @@ LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Pro
       file.pixels.tag != 0 ? file.pixels.offset - (elements.isExplicit() ? 12 : 8) : source.size();
   if (elements.state() != DicomElements::State::Complete || end < elements.dataStart())
     fail(Reason::Unreadable, path, "is cut short or damaged; copy or export it again");
-  if (elements.isBigEndian())
-    checkPixels(file, source, elements); // which refuses it
   if (end - elements.dataStart() > kMaxHeader)
     fail(Reason::Unsupported, path,
          "describes its frames in more than 512 MB; export fewer of its segments at a time");
   std::string head(static_cast<std::size_t>(end - elements.dataStart()), '\0');
   if (!source.read(elements.dataStart(), head.data(), head.size()))
     fail(Reason::Unreadable, path, "cannot be read to its end; copy it again");
-  const DicomItem data(head, elements.isExplicit());
+  const DicomItem data(head, {elements.isExplicit(), elements.isBigEndian()});
 
   file.type = typeOf(path, data);
   file.rows = data.integer(0x00280010).value_or(0);
@@ -480,6 +645,7 @@ LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Pro
   file.bits = data.integer(0x00280100).value_or(0);
   file.padding = data.integer(0x00280120).value_or(0);
   file.maxFraction = std::max(data.integer(0x0062000e).value_or(255), 1);
+  file.isOccupancy = file.type == Type::Fractional && data.text(0x00620010) == "OCCUPANCY";
   const DicomItem shared = data.item(0x52009229);
   const std::vector<DicomItem> own = data.items(0x52009230);
   const double stated = data.number(0x00280008).value_or(static_cast<double>(own.size()));
@@ -500,7 +666,7 @@ LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Pro
   const core::GridGeometry grid = placeFrames(file, loaded.notes);
   if (file.type == Type::Fractional)
     loaded.notes.push_back(std::string("holds fractions (") +
-                           (data.text(0x00620010) == "OCCUPANCY" ? "occupancy" : "probability") +
+                           (file.isOccupancy ? "occupancy" : "probability") +
                            "): voxels of 50 % and more were taken as the structure");
   const core::Progress painting = progress.part(0.1, 0.9);
   Layers layers = file.type == Type::Labelmap ? copyLabelmap(file, source, grid, painting)
@@ -525,6 +691,8 @@ LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Pro
       segment.name = "label " + std::to_string(*number);
     segment.color = colorFromCieLab(item.shorts(0x0062000d));
     loaded.meanings[segment.name] = meaningOf(item, characters);
+    if (const auto pixels = layers.pixels.find(*number); pixels != layers.pixels.end())
+      loaded.fileVolumes[segment.name] = pixels->second * grid.voxelVolume();
     const auto layer = layers.layerOf.find(*number);
     names[layer == layers.layerOf.end() ? 0 : layer->second].push_back(std::move(segment));
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -15,7 +16,8 @@ std::string sopClassOf(const std::filesystem::path& path);
 bool isSegmentationClass(const std::string& sopClass);
 
 /// Reads a DICOM segmentation (PS3.3 A.51): BINARY, FRACTIONAL (voxels of at least half the
-/// maximum) and LABELMAP, uncompressed.
+/// maximum) and LABELMAP, in any byte order, uncompressed, deflated or losslessly compressed (RLE,
+/// JPEG, JPEG-LS, JPEG 2000; frames of single bits: deflated only, as DICOM has it).
 ///
 /// The grid is the frames' own: their orientation, and positions at even steps along the normal;
 /// places without a frame are empty. Frames are read one at a time, straight into the grid.
@@ -24,5 +26,8 @@ LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Pro
 
 /// sRGB (0 to 1) of a Recommended Display CIELab Value (PS3.3 C.10.7.1.1, relative to D50).
 std::array<float, 3> colorFromCieLab(const std::vector<int>& value);
+
+/// The inverse of colorFromCieLab.
+std::array<std::uint16_t, 3> cieLabFromColor(const std::array<float, 3>& color);
 
 } // namespace petrous::imaging

@@ -470,6 +470,16 @@ std::string saltedFrame(const Library& library, const std::string& frameOfRefere
 
 void Library::save(scene::Case& value, const core::Progress& progress)
 {
+  saveWith(
+      value,
+      [&progress](scene::Case& next, ObjectStore& store) { storeParts(next, store, progress); },
+      progress);
+}
+
+void Library::saveWith(scene::Case& value,
+                       const std::function<void(scene::Case&, ObjectStore&)>& storeObjects,
+                       const core::Progress& progress)
+{
   scene::checkCaseName(value.name);
   makeFolder(m_folder / "cases");
   makeFolder(objectFolder());
@@ -500,7 +510,7 @@ void Library::save(scene::Case& value, const core::Progress& progress)
   try
   {
     scene::Case next = value;
-    storeParts(next, store, progress);
+    storeObjects(next, store);
     if (next.revision == 0)
       next.id = randomId();
     saltFrames(next, m_folder);

@@ -24,23 +24,6 @@ namespace
 
 constexpr const char* kIndex = "library.sqlite";
 
-// The objects of a case, each with a description.
-std::map<std::string, std::string> objectsOf(const scene::Case& value)
-{
-  std::map<std::string, std::string> objects;
-  objects[value.ct.object] = "the CT";
-  for (const auto& mr : value.mr)
-    objects[mr.object] = "MR '" + mr.name + "'";
-  for (const auto& part : value.labels)
-    objects[part.object] = "structures";
-  for (const auto& mesh : value.meshes)
-    objects[mesh.object] = "mesh '" + mesh.name + "'";
-  const auto& strokes = value.dissection.strokes();
-  for (std::size_t n = 0; n < strokes.size(); ++n)
-    objects[strokes[n]->object] = "stroke " + std::to_string(n + 1);
-  return objects;
-}
-
 std::string lower(std::string text)
 {
   for (char& c : text)
@@ -227,10 +210,10 @@ Inspection Library::verify(const core::Progress& progress) const
     ++result.cases;
     try
     {
-      for (const auto& [object, what] : objectsOf(readManifest(name)))
+      for (const ObjectUse& use : objectsOf(readManifest(name)))
       {
-        uses[object].cases.push_back(name);
-        uses[object].what = what + " of case '" + name + "'";
+        uses[use.object].cases.push_back(name);
+        uses[use.object].what = use.what + " of case '" + name + "'";
       }
     }
     catch (const core::Error& error)
@@ -276,8 +259,8 @@ Collected Library::collectGarbage()
   for (const std::string& name : namesIn(m_folder / "cases"))
     try
     {
-      for (const auto& [object, what] : objectsOf(readManifest(name)))
-        used.insert(object);
+      for (const ObjectUse& use : objectsOf(readManifest(name)))
+        used.insert(use.object);
     }
     catch (const core::Error& error)
     {

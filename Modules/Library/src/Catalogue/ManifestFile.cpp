@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <set>
 
 #include <sys/stat.h>
 
@@ -34,6 +35,31 @@ scene::Case manifestIn(const fs::path& path, const std::string& name)
   scene::Case value = scene::fromManifest(text, core::printable(path));
   value.name = name;
   return value;
+}
+
+std::vector<ObjectUse> objectsOf(const scene::Case& value)
+{
+  std::vector<ObjectUse> uses;
+  std::set<std::string> seen;
+  const auto add = [&](const std::string& object, ObjectUse::Kind kind, const std::string& name,
+                       const std::string& what)
+  {
+    if (seen.insert(object).second)
+      uses.push_back({object, kind, name, what});
+  };
+  add(value.ct.object, ObjectUse::Kind::Image, "ct", "the CT");
+  for (const auto& mr : value.mr)
+    add(mr.object, ObjectUse::Kind::Image, mr.name, "MR '" + mr.name + "'");
+  for (const auto& part : value.labels)
+    add(part.object, ObjectUse::Kind::Structures,
+        part.structures.empty() ? "" : part.structures.front().name, "structures");
+  for (const auto& mesh : value.meshes)
+    add(mesh.object, ObjectUse::Kind::Mesh, mesh.name, "mesh '" + mesh.name + "'");
+  const auto& strokes = value.dissection.strokes();
+  for (std::size_t n = 0; n < strokes.size(); ++n)
+    add(strokes[n]->object, ObjectUse::Kind::Stroke, std::to_string(n + 1),
+        "stroke " + std::to_string(n + 1));
+  return uses;
 }
 
 std::vector<std::string> namesIn(const fs::path& folder)

@@ -17,6 +17,25 @@ namespace petrous::library
 /// LibraryError and ManifestError.
 scene::Case manifestIn(const std::filesystem::path& path, const std::string& name);
 
+/// An object that a case refers to.
+struct ObjectUse
+{
+  enum class Kind
+  {
+    Image,
+    Structures,
+    Mesh,
+    Stroke
+  };
+  std::string object;
+  Kind kind;
+  std::string name; ///< of the part; of a stroke, its number
+  std::string what; ///< for messages
+};
+
+/// The objects of a case in the order CT, MRs, structures, meshes, strokes; each once.
+std::vector<ObjectUse> objectsOf(const scene::Case& value);
+
 /// Names of all cases, sorted, including damaged ones. Empty if the folder does not exist; throws
 /// LibraryError (Damaged) if it cannot be read.
 std::vector<std::string> namesIn(const std::filesystem::path& folder);

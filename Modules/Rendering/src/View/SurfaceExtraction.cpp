@@ -1,24 +1,34 @@
 #include "petrous/Rendering/SurfaceExtraction.h"
 
 #include <vtkCellArray.h>
+#include <vtkDecimatePro.h>
 #include <vtkFloatArray.h>
 #include <vtkFlyingEdges3D.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkQuadricDecimation.h>
+#include <vtkSmartPointer.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <limits>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <Eigen/LU>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
+#include "petrous/Core/Error.h"
 #include "petrous/Core/TriangleMesh.h"
+#include "petrous/Volume/MeshTree.h"
 #include "petrous/Volume/Volume.h"
 
 namespace petrous::rendering
@@ -189,6 +199,125 @@ core::TriangleMesh extractLabel(const volume::Volume<std::uint16_t>& labels, std
   }
   progress.report(1.0, "surface");
   return mesh;
+}
+
+namespace
+{
+
+vtkSmartPointer<vtkPolyData> polyDataOf(const core::TriangleMesh& mesh)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble(); // so that quadrics far from the origin stay precise
+  points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.vertices.size()));
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    points->SetPoint(static_cast<vtkIdType>(v), mesh.vertices[v].cast<double>().eval().data());
+  vtkNew<vtkCellArray> cells;
+  for (const auto& triangle : mesh.triangles)
+    cells->InsertNextCell({vtkIdType{triangle[0]}, vtkIdType{triangle[1]}, vtkIdType{triangle[2]}});
+  auto poly = vtkSmartPointer<vtkPolyData>::New();
+  poly->SetPoints(points);
+  poly->SetPolys(cells);
+  return poly;
+}
+
+core::TriangleMesh meshOf(vtkPolyData& poly)
+{
+  core::TriangleMesh mesh;
+  constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> place(static_cast<std::size_t>(poly.GetNumberOfPoints()), kUnused);
+  vtkIdType count = 0;
+  const vtkIdType* corners = nullptr;
+  vtkCellArray* cells = poly.GetPolys();
+  for (cells->InitTraversal(); cells->GetNextCell(count, corners);)
+  {
+    std::array<std::uint32_t, 3> triangle{};
+    for (std::size_t c = 0; c < 3; ++c)
+    {
+      std::uint32_t& vertex = place[static_cast<std::size_t>(corners[c])];
+      if (vertex == kUnused)
+      {
+        vertex = static_cast<std::uint32_t>(mesh.vertices.size());
+        Eigen::Vector3d at;
+        poly.GetPoint(corners[c], at.data());
+        mesh.vertices.push_back(at.cast<float>());
+      }
+      triangle[c] = vertex;
+    }
+    mesh.triangles.push_back(triangle);
+  }
+  return mesh;
+}
+
+// The largest distance of the points from the mesh.
+double farthest(const std::vector<Eigen::Vector3d>& points, const volume::MeshTree& tree,
+                const core::Progress& progress)
+{
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  constexpr std::size_t kPiece = 4096;
+  return tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, points.size(), kPiece), 0.0,
+      [&](const tbb::blocked_range<std::size_t>& range, double worst)
+      {
+        progress.check("decimation");
+        for (std::size_t n = range.begin(); n < range.end(); ++n)
+          worst = std::max(worst, tree.distance(points[n], kFar));
+        return worst;
+      },
+      [](double a, double b) { return std::max(a, b); });
+}
+
+std::vector<Eigen::Vector3d> verticesOf(const core::TriangleMesh& mesh)
+{
+  std::vector<Eigen::Vector3d> points;
+  for (const auto& vertex : mesh.vertices)
+    points.push_back(vertex.cast<double>());
+  return points;
+}
+
+} // namespace
+
+DecimatedMesh decimated(const core::TriangleMesh& mesh, std::size_t triangles,
+                        const core::Progress& progress)
+{
+  constexpr std::size_t kFewest = 4; // of a closed surface
+  if (triangles < kFewest)
+    throw core::InvalidParameter("decimation: a closed surface has at least 4 triangles");
+  if (!mesh.isClosed())
+    throw core::InvalidParameter("decimation: the surface is not closed");
+  if (mesh.triangles.size() <= triangles)
+    return {mesh, 0.0};
+  progress.report(0.0, "decimation");
+  const auto poly = polyDataOf(mesh);
+  const double reduction =
+      1.0 - static_cast<double>(triangles) / static_cast<double>(mesh.triangles.size());
+  vtkNew<vtkQuadricDecimation> quadric;
+  quadric->SetInputData(poly);
+  quadric->SetTargetReduction(reduction);
+  quadric->VolumePreservationOn();
+  quadric->Update();
+  progress.report(0.5, "decimation");
+  DecimatedMesh result{meshOf(*quadric->GetOutput())};
+  if (!result.mesh.isClosed() || result.mesh.triangles.empty())
+  {
+    vtkNew<vtkDecimatePro> topological;
+    topological->SetInputData(poly);
+    topological->SetTargetReduction(reduction);
+    topological->PreserveTopologyOn();
+    topological->SplittingOff();
+    topological->Update();
+    result.mesh = meshOf(*topological->GetOutput());
+    if (!result.mesh.isClosed() || result.mesh.triangles.empty())
+      throw core::InvalidParameter("decimation: the surface would not stay closed with " +
+                                   std::to_string(triangles) + " triangles; ask for more");
+  }
+  progress.report(0.7, "decimation");
+  std::vector<Eigen::Vector3d> points = verticesOf(result.mesh);
+  for (const auto& t : result.mesh.triangles)
+    points.emplace_back((points[t[0]] + points[t[1]] + points[t[2]]) / 3.0);
+  const double there = farthest(verticesOf(mesh), volume::MeshTree(result.mesh), progress);
+  result.error = std::max(there, farthest(points, volume::MeshTree(mesh), progress));
+  progress.report(1.0, "decimation");
+  return result;
 }
 
 } // namespace petrous::rendering

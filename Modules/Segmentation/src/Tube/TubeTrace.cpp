@@ -185,6 +185,36 @@ double voxelAcross(const core::GridGeometry& geometry, const Vector3d& tangent)
 
 } // namespace
 
+namespace
+{
+
+/// Where the image does not resolve the tube, its half-maximum width says nothing of the radius,
+/// and less the blur may leave none: there the radius of what is resolved on either side goes on,
+/// linearly. If nothing is resolved, no radius is below `least`.
+void bridgeUnresolved(Tube& tube, const std::vector<double>& lengths, double least)
+{
+  const std::size_t n = tube.radii.size();
+  std::size_t before = n; // the last resolved vertex; n: none yet
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    if (tube.resolved[i] == 0)
+      continue;
+    const std::size_t from = before == n ? 0 : before + 1;
+    for (std::size_t k = from; k < i; ++k)
+    {
+      const double t =
+          before == n ? 1.0 : (lengths[k] - lengths[before]) / (lengths[i] - lengths[before]);
+      tube.radii[k] =
+          before == n ? tube.radii[i] : (1.0 - t) * tube.radii[before] + t * tube.radii[i];
+    }
+    before = i;
+  }
+  for (std::size_t k = before == n ? 0 : before + 1; k < n; ++k)
+    tube.radii[k] = before == n ? std::max(tube.radii[k], least) : tube.radii[before];
+}
+
+} // namespace
+
 Tube traceTube(const volume::IntensityVolume& image, const std::vector<Vector3d>& points,
                const TubeOptions& options, const core::Progress& progress, const Tube* before)
 {
@@ -265,6 +295,8 @@ Tube traceTube(const volume::IntensityVolume& image, const std::vector<Vector3d>
     if (resolved)
       tube.resolvedLength += 0.5 * (lengths[std::min(i + 1, n - 1)] - lengths[i > 0 ? i - 1 : 0]);
   }
+  if (!options.radius)
+    bridgeUnresolved(tube, lengths, 0.5 * geometry.minSpacing());
   std::vector<double> ordered = tube.radii;
   std::sort(ordered.begin(), ordered.end());
   tube.radius = ordered[ordered.size() / 2];

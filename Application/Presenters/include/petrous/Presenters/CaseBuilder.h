@@ -45,12 +45,33 @@ FileName fileName(const std::filesystem::path& path);
 
 struct PartSources
 {
-  std::vector<PartSource> mr;     ///< DICOM folders, NIfTI, NRRD, MetaImage
-  std::vector<PartSource> labels; ///< NIfTI, NRRD (.seg.nrrd too), MetaImage, DICOM SEG
+  std::vector<PartSource> mr; ///< DICOM folders, NIfTI, NRRD, MetaImage
+  /// NIfTI, NRRD (.seg.nrrd too), MetaImage, DICOM SEG and RT structure sets; a folder of masks
+  std::vector<PartSource> labels;
+  /// A table of names for those of `labels` that have none (imaging::loadLabels); empty: none. Of
+  /// several sources, one of a single structure keeps its own.
+  std::filesystem::path labelNames = {};
   std::vector<PartSource> meshes; ///< OBJ, STL, PLY
   /// A frame of reference as the library of a stored case keeps it (library::saltedFrame), so that
   /// a DICOM SEG's can be compared with it; empty: only cases that are not stored are compared.
   std::function<std::string(const std::string&)> salted = {};
+};
+
+/// What became of a structure of a file.
+struct StructureReport
+{
+  enum class Status
+  {
+    Read,
+    Empty, ///< no voxel
+    Unread ///< what describes it is damaged or not read here; the part's notes say why
+  };
+  std::string name;
+  Status status = Status::Read;
+  std::uint64_t voxels = 0;
+  double volume = 0.0;                             ///< mm^3, of the voxels
+  std::optional<double> fileVolume = std::nullopt; ///< mm^3, by the file's own contours or frames
+  std::size_t layer = 0;                           ///< of its source's overlapping structures
 };
 
 struct CaseSources
@@ -68,14 +89,17 @@ struct CaseSources
 /// in neither is refused unless "FILE@ct" says otherwise. Throws the imaging module's errors,
 /// InvalidParameter (also if several MR images have that grid), CancelledError.
 scene::Case buildCase(const std::string& name, const CaseSources& sources,
-                      const core::Progress& progress);
+                      const core::Progress& progress,
+                      std::vector<StructureReport>* report = nullptr);
 
 /// Adds parts to a case; strong exception guarantee. Structure names must be new to the case's
 /// labels, mesh names to its meshes. A part without a given name is named by the structure words of
 /// its file name (fileName), and its notes say so. Throws InvalidParameter for labels without a
 /// voxel, and for a mesh that extends beyond the image on which it was drawn by more than
 /// volume::maxReach.
-void addParts(scene::Case& value, const PartSources& parts, const core::Progress& progress);
+/// `report`, if given, gets every structure of `parts.labels`.
+void addParts(scene::Case& value, const PartSources& parts, const core::Progress& progress,
+              std::vector<StructureReport>* report = nullptr);
 
 /// Adds structures made in this program, on a grid in the CT's patient space, as if they had been
 /// read from a file: each looks as its name says. Their names are those of the map's segments.

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "petrous/Core/Progress.h"
+#include "petrous/Imaging/SeriesGeometry.h"
 #include "petrous/Volume/IntensityVolume.h"
 
 namespace petrous::presenters
@@ -20,21 +22,24 @@ enum class Content
   Mesh
 };
 
-/// A readable DICOM series. One that needs repair is listed only where none is readable without.
+/// A DICOM series, or one of its volumes; or a DICOM segmentation, which is a file.
 struct SeriesContent
 {
   std::string selector;             ///< of imaging::chooseSeries
-  Content content = Content::Image; ///< Ct, Mr or Image
+  Content content = Content::Image; ///< Ct, Mr or Image; Labels: a segmentation
   std::string modality;             ///< DICOM (0008,0060); may be empty
   std::string description;          ///< may identify the patient: for local display only
   std::size_t slices = 0;
   Eigen::Vector3d spacing = Eigen::Vector3d::Zero(); ///< mm
   // These distinguish series of the same description; likewise for local display only.
-  std::string taken;           ///< imaging::SliceHeader
-  std::string patientPosition; ///< likewise
-  std::string kernel;          ///< reconstruction kernel; may be empty
-  std::string folder;          ///< name of its first slice's folder
-  std::string repair;          ///< why it can be read only with repair; empty: as it is
+  std::string taken;                               ///< imaging::SliceHeader
+  std::string patientPosition;                     ///< likewise
+  std::string kernel;                              ///< reconstruction kernel; may be empty
+  std::string folder;                              ///< name of its first slice's folder
+  imaging::Verdict verdict = imaging::Verdict::Ok; ///< Refused: cannot be chosen
+  std::vector<imaging::Finding> findings;          ///< the reasons for it
+  std::string name;                                ///< see sequenceName
+  std::filesystem::path file;                      ///< of a segmentation; else empty
 };
 
 /// A file or folder that the user opens or drops, and its content.
@@ -42,18 +47,27 @@ struct SourceContent
 {
   std::filesystem::path path;
   Content content = Content::Image;
-  std::string why;         ///< the reason for `content`: a phrase that follows "it", for the user
-  bool isNameless = false; ///< only the file names its structure, possibly after a patient
-  std::string repair;      ///< as SeriesContent, where it has one series
-  /// Of a DICOM folder with several readable series: the user chooses. `content` is then
-  /// meaningless.
-  std::vector<SeriesContent> series;
+  std::string why;           ///< the reason for `content`: a phrase that follows "it", for the user
+  bool isNameless = false;   ///< only the file names its structure, possibly after a patient
+  std::string selector = {}; ///< of imaging::chooseSeries; empty: the only one
+  std::string name = {};     ///< proposed for an MR, see sequenceName; may be empty
+  /// A DICOM series that can be read only with repair (CaseSources): why. Else empty.
+  std::vector<imaging::Finding> repair = {};
+  /// Of a DICOM folder with several readable series: all of them, and those that are refused; the
+  /// user chooses. `content` is then meaningless.
+  std::vector<SeriesContent> series = {};
 };
 
 /// Determines the content of `path`: meshes and 3D Slicer segmentations by their file names, DICOM
 /// by SOP class and modality, other images by their voxels (see contentOf), which are read. Throws
-/// as the readers do, and CancelledError.
-SourceContent lookAt(const std::filesystem::path& path, const core::Progress& progress);
+/// as the readers do, and CancelledError. `expected`, Mr or Labels: what the user says of an image
+/// file; its voxels then decide nothing.
+SourceContent lookAt(const std::filesystem::path& path, const core::Progress& progress,
+                     std::optional<Content> expected = std::nullopt);
+
+/// What a series description or a file name says about an MR sequence ("T2 CISS", "DWI b 1000"),
+/// without anything that may be a patient's name. May be empty.
+std::string sequenceName(const std::string& description);
 
 /// By the voxels alone.
 ///

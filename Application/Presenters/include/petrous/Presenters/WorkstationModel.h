@@ -116,6 +116,18 @@ public:
   std::optional<scene::LabelPart> takeStructure(const std::string& name);
   /// Throws InvalidParameter, without effect, if its name has been taken meanwhile.
   void putStructure(scene::LabelPart part);
+  /// Takes a structure, a mesh or an MR out of the case, and puts the tool away. Throws as
+  /// scene::removePart does. No effect while drilling.
+  void removePart(const std::string& name);
+  /// The part that restorePart brings back: the last one removed since the case was opened; empty:
+  /// none.
+  std::string removedPart() const;
+  /// Brings it back to its place. Throws InvalidParameter if its name was given to another part, or
+  /// the MR on which it was drawn is gone.
+  void restorePart();
+  /// Gives a part another name, everywhere in the case. Throws InvalidParameter if it is not valid
+  /// or taken, Error (Refused) if strokes record what was removed from the part.
+  void renamePart(const std::string& name, const std::string& to);
 
   /// Closes the case. Unsaved changes are lost.
   void close();
@@ -249,7 +261,26 @@ public:
   const std::filesystem::path& recording() const noexcept { return m_recording; }
 
 private:
+  /// What was taken out under one name, with its place among the case's parts of its kind. A
+  /// structure is a label part that holds it alone.
+  struct RemovedPart
+  {
+    template <class T>
+    struct At
+    {
+      std::size_t index = 0;
+      T part;
+    };
+    std::string name;
+    std::optional<At<scene::ImagePart>> mr = {};
+    std::optional<At<scene::LabelPart>> labels = {};
+    std::optional<At<scene::MeshPart>> mesh = {};
+    std::size_t structure = 0;             ///< place in its label part
+    bool wasAlone = true;                  ///< the label part went with it
+    std::vector<std::string> colored = {}; ///< structures whose appearance read the MR
+  };
   session::DrillSession& session();
+  void partsMoved();
   bool measureNearby(); ///< true when done
   void listen();
   void show(std::unique_ptr<scene::Case> next, bool unsaved);
@@ -289,8 +320,10 @@ private:
   bool m_loaded = true;
   bool m_drawable = true;
   bool m_feelable = true;
-  bool m_checked = true;          ///< the CT was checked against its hash
-  std::vector<LeftOut> m_leftOut; ///< of m_case, by each preparation that found some
+  bool m_checked = true;              ///< the CT was checked against its hash
+  std::vector<LeftOut> m_leftOut;     ///< of m_case, by each preparation that found some
+  std::vector<RemovedPart> m_removed; ///< latest last
+  bool m_partsMoved = false;          ///< since beginStore: the stored parts have other indices
   std::vector<std::string> m_damagedStrokes;
   std::size_t m_undoneForDamage = 0;
   std::uint64_t m_shown = 0;

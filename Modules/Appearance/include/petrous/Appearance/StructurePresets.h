@@ -9,6 +9,15 @@
 namespace petrous::appearance
 {
 
+/// What a structure is, as SNOMED CT codes with their meanings.
+struct StructureCode
+{
+  std::string category = "123037004";
+  std::string categoryMeaning = "Anatomical Structure";
+  std::string type = "123037004";
+  std::string typeMeaning = "Anatomical Structure";
+};
+
 /// The catalogue of appearance presets, selected by structure name (Resources/structures.json).
 class StructurePresets
 {
@@ -31,6 +40,10 @@ public:
   /// artery. Throws InvalidParameter listing the presets.
   StructureAppearance preset(const std::string& name) const;
 
+  /// The code of a structure by its name or else by its preset; an anatomical structure if neither
+  /// says more.
+  StructureCode codeFor(const std::string& structureName, const std::string& preset) const;
+
   /// Every preset, "other" last.
   std::vector<StructureAppearance> all() const;
 
@@ -40,12 +53,19 @@ private:
     std::vector<std::string> words;
     std::size_t preset; ///< index in `m_presets`
   };
+  struct Code
+  {
+    std::vector<std::string> words;
+    std::string preset;
+    StructureCode code;
+  };
   const StructureAppearance* find(const std::string& name) const; ///< nullptr: no such preset
   const StructureAppearance* lookByWord(const std::string& structureName) const;
 
   std::vector<StructureAppearance> m_presets;
   std::vector<Words> m_words;
   std::vector<std::string> m_neutral; ///< words accepted besides those of structures
+  std::vector<Code> m_codes;
   StructureAppearance m_other;
 };
 

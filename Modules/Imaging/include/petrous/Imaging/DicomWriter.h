@@ -1,14 +1,17 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
 #include "petrous/Core/Progress.h"
 #include "petrous/Volume/IntensityVolume.h"
+#include "petrous/Volume/LabelMap.h"
 
 namespace petrous::imaging
 {
@@ -41,9 +44,12 @@ struct SeriesDescription
   /// position on the table or date, which are not known, and stated to be without identity. Else a
   /// phantom's.
   bool derived = false;
-  double windowCenter = 700.0;     ///< in the image's units
+  double windowCenter = 700.0; ///< in the image's units
   double windowWidth = 4000.0;
 };
+
+/// SOP Instance UID of slice k (from 0) of a series that writeDicomSeries wrote.
+std::string instanceUid(const std::string& seriesUid, int k);
 
 /// Writes one file per slice, `slice-0001.dcm` onwards, as CT or MR Image Storage, explicit VR
 /// little endian, 16 bits, in parallel. Dates are fixed: same input, same bytes.
@@ -60,5 +66,69 @@ void writeDicomSeries(const std::filesystem::path& folder, const volume::Intensi
                       const SeriesDescription& description,
                       const std::optional<Eigen::Vector3d>& sliceStep = std::nullopt,
                       const core::Progress& progress = {});
+
+/// A coded concept (PS3.3 Table 8.8-1a), e.g. 123037004, SCT, "Anatomical Structure".
+struct CodedConcept
+{
+  std::string value;
+  std::string scheme;
+  std::string meaning;
+};
+
+/// Attributes of a DICOM segmentation to be written. None of them is a person's.
+struct SegmentationDescription
+{
+  enum class Algorithm
+  {
+    Manual,
+    SemiAutomatic,
+    Automatic
+  };
+
+  struct Segment
+  {
+    std::size_t map = 0;          ///< which of the label maps
+    std::uint16_t index = 0;      ///< its voxel value there
+    std::string label;            ///< UTF-8, not empty; what is beyond 64 characters is cut off
+    std::array<float, 3> color{}; ///< sRGB, 0 to 1
+    CodedConcept category{"123037004", "SCT", "Anatomical Structure"}; ///< CID 7150
+    CodedConcept type{"123037004", "SCT", "Anatomical Structure"};
+    Algorithm algorithm = Algorithm::Manual;
+    std::string algorithmName; ///< required unless Manual
+  };
+
+  /// The series that writeDicomSeries wrote from the image on which the segments are drawn.
+  struct Source
+  {
+    SeriesDescription::Modality modality = SeriesDescription::Modality::Ct;
+    std::string seriesUid;
+    int slices = 0;
+    bool onSlices = false; ///< the label maps' grid is the image's: frames refer to their slices
+  };
+
+  std::string description;
+  int seriesNumber = 10;
+  std::string patientId = "ANONYMOUS";
+  std::string patientName = "Anonymous";
+  std::string studyUid;            ///< required
+  std::string seriesUid;           ///< required; the instance's UID is derived from it
+  std::string frameOfReferenceUid; ///< required
+  std::optional<Source> source;
+  std::vector<Segment> segments; ///< numbered from 1 in this order
+};
+
+/// Writes segments as one DICOM segmentation (PS3.3 A.51, BINARY), atomically: a frame for each
+/// slice in which a segment has voxels, in the order of segments and slices, so that segments may
+/// overlap. No date is known: the required content date is a fixed one (1 January 1900), and equal
+/// input gives equal bytes.
+///
+/// maps   on one grid, patient LPS mm
+///
+/// Throws InvalidParameter for an invalid description, for maps on different grids and if no
+/// segment has a voxel, FileError if the file cannot be written, CancelledError.
+void writeDicomSegmentation(const std::filesystem::path& path,
+                            const std::vector<volume::LabelMap>& maps,
+                            const SegmentationDescription& description,
+                            const core::Progress& progress = {});
 
 } // namespace petrous::imaging

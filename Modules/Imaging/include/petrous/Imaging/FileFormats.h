@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,7 +23,8 @@ enum FileContent : unsigned
   kImage = 1,
   kLabels = 2,
   kMesh = 4,
-  kDicom = 8 ///< a slice of a series; see DicomScan.h
+  kDicom = 8,        ///< a slice of a series; see DicomScan.h
+  kSegmentation = 16 ///< labels with identifiers, a DICOM SEG; see DicomWriter.h
 };
 
 /// A file format under one ending of a file's name: a row of the one table of formats, from which
@@ -41,7 +44,8 @@ struct FileFormat
   void (VoxelSource::*openVoxels)();
   void (*writeVoxels)(OutputFile& file, const VoxelsToWrite& voxels);
   core::TriangleMesh (*parseMesh)(const std::filesystem::path& path, std::string_view bytes);
-  std::string (*meshBytes)(const core::TriangleMesh& mesh);
+  std::string (*meshBytes)(const core::TriangleMesh& mesh,
+                           const std::optional<std::array<float, 3>>& color);
 };
 
 /// The format by the ending of a file's name, case-insensitive, the longest that fits; else null.
@@ -63,9 +67,9 @@ std::vector<std::string_view> writtenEndings(unsigned contents);
 /// ".obj, .stl or .ply"
 std::string orText(const std::vector<std::string_view>& endings);
 
-/// The row with which to write `content` under this name. Throws FileError (UnknownFormat), which
-/// lists the endings that would be right.
-const FileFormat& writingFormat(const std::filesystem::path& path, FileContent content);
+/// The row with which to write `content` (one of several, combined as bits) under this name. Throws
+/// FileError (UnknownFormat), which lists the endings that would be right.
+const FileFormat& writingFormat(const std::filesystem::path& path, unsigned content);
 
 /// File name without the ending of its format, or otherwise without its last extension.
 std::string baseName(const std::filesystem::path& path);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -12,36 +13,67 @@
 namespace petrous::imaging
 {
 
+/// A structure that a file, or its table of names, lists and that is in none of the maps.
+struct UnreadStructure
+{
+  std::string name;
+  std::uint16_t index = 0; ///< 0: not known
+  bool isEmpty = true;     ///< it has no voxel; otherwise it could not be read
+};
+
 struct LoadedLabels
 {
-  /// One map; for a file with overlapping structures (.seg.nrrd, DICOM SEG) one per layer.
+  /// One map; for overlapping structures (.seg.nrrd, DICOM SEG, a folder) one per layer, and for a
+  /// folder with several grids at least one for each.
   std::vector<volume::LabelMap> maps;
   std::vector<std::string> notes; ///< what was assumed or left out, one sentence each
-  bool isNamedAfterFile = false;  ///< the single structure is named only by the file name
+  bool isNamedAfterFile = false;  ///< structures are named only by the names of their files
   /// DICOM: what structures are, by the codes of the file; by name. An appearance may be chosen by
   /// it where the name says nothing.
   std::map<std::string, std::string> meanings = {};
   std::string frameOfReferenceUid = {}; ///< DICOM; identifies the patient's study: not to be shown
+  std::vector<UnreadStructure> unread = {};
+  /// mm^3 by the file itself, by name: what its frames, masks or contours enclose, counted or
+  /// computed before they became voxels here. None for a label map, whose voxels are kept.
+  std::map<std::string, double> fileVolumes = {};
+  /// What was left out of a folder, one sentence each. They name files, possibly after a patient:
+  /// for the user at once, and not to be stored.
+  std::vector<std::string> leftOut = {};
+};
+
+/// Where the names of label values come from.
+struct LabelNaming
+{
+  std::filesystem::path table; ///< a table of names (README.md); empty: the one beside the file
+  /// Whether `table` also names a file of a single structure, which otherwise its own name does.
+  bool namesSingle = true;
 };
 
 /// Whether a file is a DICOM segmentation (SEG, also of label maps), whatever its name.
 bool isDicomSegmentation(const std::filesystem::path& path);
 
-/// Reads structures from a NIfTI, NRRD or MetaImage file of integers (0 is background) or from a
-/// DICOM segmentation, on the grid of the file.
+/// Reads structures from a NIfTI, NRRD or MetaImage file of integers (0 is background), from a
+/// DICOM segmentation, on the grid of the file, or from a folder of such files, one structure each.
 ///
 /// A DICOM segmentation is BINARY, FRACTIONAL (voxels of 50 % and more, noted) or LABELMAP; places
 /// without a frame are empty. It is known by its first bytes, under any name.
 ///
-/// Names and colours are taken from the file itself (3D Slicer's .seg.nrrd), else from a 3D Slicer
-/// colour table (.ctbl, .txt) or an ITK-SNAP label description (.label, .txt) in the same folder
-/// that has the same base name, or that is the only .ctbl in the folder and shares a word with the
-/// file name. A file with a single nonzero value is one structure, index 1, named after the file
-/// ("facial_nerve.nii.gz": "facial_nerve"). Structures without a name become "label N".
+/// Names and colours are taken from the file itself (3D Slicer's .seg.nrrd), else from the table
+/// given in `naming`, else from a table in the same folder that has the same base name (.ctbl,
+/// .txt, .label, .csv, .tsv, .json), or that is the only .ctbl in the folder and shares a word with
+/// the file name. A file with a single nonzero value is one structure, index 1, named after the
+/// file ("facial_nerve.nii.gz": "facial_nerve"). Structures without a name become "label N", which
+/// is noted if there is a table.
 ///
-/// Throws FileError; Unsupported reports a value below 0, above 65535 or not integral.
-/// CancelledError.
-LoadedLabels loadLabels(const std::filesystem::path& path, const core::Progress& progress = {});
+/// In a folder each file with one nonzero value is a structure, named after the file and numbered
+/// from 1 in the order of names; other files are left out and told of. Structures on one grid share
+/// a map unless they overlap; different grids are kept apart. Files are read in parallel, one slice
+/// at a time.
+///
+/// Throws FileError; Unsupported reports a value below 0, above 65535 or not integral, and a folder
+/// without a structure. CancelledError.
+LoadedLabels loadLabels(const std::filesystem::path& path, const core::Progress& progress = {},
+                        const LabelNaming& naming = {});
 
 /// Like loadLabels, without the notes, for a file whose structures do not overlap. Throws FileError
 /// (Unsupported) for several layers.
@@ -53,5 +85,17 @@ volume::LabelMap readLabelFile(const std::filesystem::path& path,
 /// written atomically, and equal maps give equal bytes. Throws FileError; InvalidParameter if the
 /// map has no voxels.
 void writeLabelFile(const std::filesystem::path& path, const volume::LabelMap& labels);
+
+/// Writes structures that overlap, each map a layer of one .seg.nrrd file (3D Slicer); a single map
+/// as writeLabelFile does. Layers are on one grid. Throws like it, FileError (UnknownFormat) for
+/// several layers in another format, CancelledError.
+void writeLabelLayers(const std::filesystem::path& path,
+                      const std::vector<volume::LabelMap>& layers,
+                      const core::Progress& progress = {});
+
+/// Names and colours as an ITK-SNAP label description (.label), which loadLabels finds beside a
+/// file of the same base name. Throws core::OutputFileError.
+void writeLabelTable(const std::filesystem::path& path,
+                     const std::vector<volume::Segment>& segments);
 
 } // namespace petrous::imaging

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,9 +31,14 @@ LoadedMesh loadMesh(const std::filesystem::path& path);
 /// Like loadMesh, without the notes.
 core::TriangleMesh readMesh(const std::filesystem::path& path);
 
+/// sRGB of a surface, 0 to 1.
+using MeshColor = std::optional<std::array<float, 3>>;
+
 /// Writes .obj, .stl or .ply (the latter two binary, little endian) in patient LPS mm, and states
-/// the frame in the file. The file is written atomically, and equal meshes give equal bytes. Throws
-/// FileError; InvalidParameter if the mesh is empty or invalid.
-void writeMesh(const std::filesystem::path& path, const core::TriangleMesh& mesh);
+/// frame and unit in the file; the colour, if given, in .ply, one of 8 bits a vertex. The file is
+/// written atomically, and equal meshes give equal bytes. Throws FileError; InvalidParameter if the
+/// mesh is empty or invalid.
+void writeMesh(const std::filesystem::path& path, const core::TriangleMesh& mesh,
+               const MeshColor& color = std::nullopt);
 
 } // namespace petrous::imaging

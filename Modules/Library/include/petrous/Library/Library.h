@@ -28,6 +28,7 @@ struct CaseSummary
 };
 
 class ObjectChecks;
+class ObjectStore;
 struct SavedState;
 
 /// Result of Library::verify.
@@ -142,6 +143,12 @@ public:
   /// Recovers unsaved drilling, removes leftovers of killed writers, and rebuilds the index.
   /// Returns what was done, one sentence each.
   std::vector<std::string> repair();
+
+  /// Like `save`; `storeObjects` adds the objects of the case, whose names it completes, while the
+  /// library is locked. What it added is removed again if anything throws.
+  void saveWith(scene::Case& value,
+                const std::function<void(scene::Case&, ObjectStore&)>& storeObjects,
+                const core::Progress& progress = {});
 
 private:
   std::filesystem::path manifestPath(const std::string& name) const;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "petrous/Core/Progress.h"
@@ -23,5 +24,22 @@ core::TriangleMesh extractSurface(const volume::TissueField& field, const core::
 /// CancelledError.
 core::TriangleMesh extractLabel(const volume::Volume<std::uint16_t>& labels, std::uint16_t label,
                                 const core::Progress& progress = {});
+
+struct DecimatedMesh
+{
+  core::TriangleMesh mesh;
+  /// mm: the largest distance of a vertex of the given mesh from the decimated one, and of a vertex
+  /// or triangle's centre of the decimated mesh from the given one; a sampled Hausdorff distance.
+  double error = 0.0;
+};
+
+/// A closed mesh with about `triangles` triangles, or with all of them if there are no more; closed
+/// too. By collapse of edges with the least quadric error (Garland and Heckbert, SIGGRAPH 1997),
+/// weighted to keep the volume; where that would not stay closed, by removal of vertices that
+/// preserves the topology (Schroeder et al., SIGGRAPH 1992), which may stop earlier. Throws
+/// InvalidParameter if the mesh is not closed or fewer than 4 triangles are asked for,
+/// CancelledError.
+DecimatedMesh decimated(const core::TriangleMesh& mesh, std::size_t triangles,
+                        const core::Progress& progress = {});
 
 } // namespace petrous::rendering

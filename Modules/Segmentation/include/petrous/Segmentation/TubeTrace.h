@@ -70,8 +70,10 @@ struct TubeModel
 /// one entry for each vertex of the line.
 struct Tube
 {
-  std::vector<Eigen::Vector3d> line;  ///< from the first point to the last, <= half a voxel apart
-  std::vector<double> radii;          ///< mm, free of the scan's blur as far as it is known
+  std::vector<Eigen::Vector3d> line; ///< from the first point to the last, <= half a voxel apart
+  /// mm, free of the scan's blur as far as it is known; where not resolved, interpolated from where
+  /// it is.
+  std::vector<double> radii;
   std::vector<double> contrast;       ///< surroundings against lumen, in sigma of the noise, >= 0
   std::vector<std::uint8_t> resolved; ///< 1: contrast and diameter (two voxels) suffice
 

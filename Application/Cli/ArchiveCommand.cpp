@@ -1,0 +1,93 @@
+#include "Commands.h"
+#include "Numbers.h"
+#include "petrous/Library/Archive.h"
+
+namespace petrous::cli
+{
+
+namespace
+{
+
+struct ArchiveCommandOptions
+{
+  std::string caseName, file;
+  int level = library::ArchiveOptions{}.level;
+  bool planOnly = false, keepIdentity = false;
+};
+
+struct RestoreCommandOptions
+{
+  std::string file, name, ct;
+};
+
+std::string megabytes(std::uintmax_t bytes)
+{
+  return fixed(1e-6 * static_cast<double>(bytes), 1) + " MB";
+}
+
+void archive(const Context& context, const ArchiveCommandOptions& options)
+{
+  context.refuseOverwriting({options.file});
+  const library::Library library = context.openLibrary();
+  const library::ArchiveSummary done =
+      library::archiveCase(library, options.caseName, options.file,
+                           {options.planOnly, options.level}, context.progress());
+  if (options.keepIdentity)
+    context.warn("--keep-identity: a case holds no identity that an archive could keep");
+  if (!done.durable)
+    context.warn(options.file + ": is written, but the disk reported an error; check the disk");
+  context.print((done.planOnly ? "the plan of case '" : "case '") + done.name + "' is in " +
+                options.file + ": " + std::to_string(done.parts) +
+                (done.parts == 1 ? " part, " : " parts, ") + megabytes(done.archiveBytes) +
+                " for " + megabytes(done.inputBytes));
+  context.printJson({{"case", done.name},
+                     {"file", options.file},
+                     {"parts", done.parts},
+                     {"input_bytes", done.inputBytes},
+                     {"bytes", done.archiveBytes},
+                     {"plan_only", done.planOnly}});
+}
+
+void restore(const Context& context, const RestoreCommandOptions& options)
+{
+  library::Library library = context.openLibrary();
+  const library::RestoreSummary done =
+      library::restoreCase(library, options.file, {options.name, options.ct}, context.progress());
+  for (const std::string& note : done.notes)
+    context.warn(note);
+  context.print("case '" + done.name + "' is restored: " + std::to_string(done.parts) +
+                (done.parts == 1 ? " part, " : " parts, ") + std::to_string(done.newParts) +
+                " of them new to the library");
+  context.printJson({{"case", done.name},
+                     {"parts", done.parts},
+                     {"new_parts", done.newParts},
+                     {"plan_only", done.planOnly},
+                     {"notes", done.notes}});
+}
+
+} // namespace
+
+void addArchiveCommands(CLI::App& app, Context& context)
+{
+  auto out = std::make_shared<ArchiveCommandOptions>();
+  CLI::App* command = context.addCommand(app, "archive", "Write a case to one file, to hand it on",
+                                         [out, &context] { archive(context, *out); });
+  command->add_option("CASE", out->caseName, "Name of the case")->required();
+  command->add_option("FILE", out->file, "The archive, NAME.petrous")->required();
+  command->add_flag("--plan-only", out->planOnly,
+                    "Strokes, views and appearance without voxels; restored where the same CT is");
+  command->add_flag("--keep-identity", out->keepIdentity,
+                    "Keep what identifies the patient (a case holds nothing of the kind)");
+  command->add_option("--level", out->level, "Compression of images, 1 (fast) to 12 (small)")
+      ->check(CLI::Range(1, 12))
+      ->capture_default_str();
+
+  auto in = std::make_shared<RestoreCommandOptions>();
+  command = context.addCommand(app, "restore", "Add the case of an archive to the library",
+                               [in, &context] { restore(context, *in); });
+  command->add_option("FILE", in->file, "The archive")->required();
+  command->add_option("--as", in->name, "Name of the new case, instead of that of the archive");
+  command->add_option("--ct", in->ct, "For an archive of a plan: a case with the very same CT");
+}
+
+} // namespace petrous::cli

@@ -1,0 +1,169 @@
+#include "petrous/Presenters/SeriesPreview.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <Eigen/Geometry>
+
+#include "petrous/Imaging/DicomReader.h"
+#include "petrous/Imaging/DicomScan.h"
+#include "petrous/Imaging/FileFormats.h"
+#include "petrous/Imaging/ImageFile.h"
+#include "petrous/Volume/IntensityScale.h"
+
+namespace petrous::presenters
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+constexpr std::size_t kSlices = 128; // of a preview, at most twice as many
+constexpr double kSlab = 3.0;        // mm, half its thickness
+
+ScanPreview previewOf(volume::IntensityVolume image, const core::GridGeometry& grid)
+{
+  ScanPreview preview;
+  preview.grid = grid;
+  preview.bytesPerVoxel = image.bytes() / std::max<std::size_t>(image.geometry().voxelCount(), 1);
+  scene::ImagePart& ct = preview.value.ct;
+  ct.geometry = image.geometry();
+  ct.range = image.range();
+  const auto scale = volume::suggestScale(volume::IntensityHistogram(image));
+  if (!scale.calibrated)
+  {
+    preview.value.iso = scale.iso;
+    preview.value.denseBone = scale.dense;
+  }
+  ct.volume = std::make_shared<const volume::IntensityVolume>(std::move(image));
+  return preview;
+}
+
+// Every few of the slices. An uneven step at the end would not be straight.
+imaging::DicomSeries thinnedOut(const imaging::DicomSeries& series)
+{
+  const auto& slices = series.geometry.slices;
+  const std::size_t step = std::max<std::size_t>(slices.size() / kSlices, 1);
+  if (step == 1)
+    return series;
+  std::vector<imaging::SliceHeader> few;
+  for (std::size_t n = 0; n < slices.size(); n += step)
+    few.push_back(slices[n]);
+  imaging::DicomSeries thin = series;
+  thin.geometry = imaging::assess(std::move(few));
+  return thin.geometry.verdict == imaging::Verdict::Ok ? thin : series;
+}
+
+// The orientation of the picture that shows the stack's normal, and the in-plane axis along which
+// its slices are shifted more.
+SliceOrientation sideOf(const imaging::SeriesGeometry& geometry)
+{
+  const Eigen::Matrix3d& axes = geometry.grid->direction();
+  const Eigen::Vector3d shift =
+      axes.transpose() * (*geometry.slices.back().position - *geometry.slices.front().position);
+  Eigen::Index across = 0;
+  axes.col(std::abs(shift[0]) > std::abs(shift[1]) ? 1 : 0).cwiseAbs().maxCoeff(&across);
+  return across == 0   ? SliceOrientation::Sagittal
+         : across == 1 ? SliceOrientation::Coronal
+                       : SliceOrientation::Axial;
+}
+
+core::PatientBox slabOf(const core::GridGeometry& grid, SliceOrientation orientation)
+{
+  core::PatientBox box = grid.patientBounds();
+  const Eigen::Vector3d center = grid.center();
+  const Eigen::Vector3d across = axesOf(orientation).next.cwiseAbs();
+  const double half = std::max(kSlab, grid.spacing().maxCoeff());
+  for (Eigen::Index a = 0; a < 3; ++a)
+  {
+    box.min()[a] = across[a] > 0.5 ? center[a] - half : box.min()[a] - grid.spacing().sum();
+    box.max()[a] = across[a] > 0.5 ? center[a] + half : box.max()[a] + grid.spacing().sum();
+  }
+  return box;
+}
+
+} // namespace
+
+std::size_t ScanPreview::voxelsIn(const core::PatientBox& box) const
+{
+  return grid.boxCovering(box.min(), box.max()).count();
+}
+
+ScanPreview previewScan(const fs::path& path, const std::string& selector, bool repair,
+                        const core::Progress& progress)
+{
+  if (!fs::is_directory(path) && imaging::isReadAs(path, imaging::kImage | imaging::kLabels))
+  {
+    const auto image = imaging::readImageFile(path, std::nullopt, progress);
+    return previewOf(*image.volume, image.volume->geometry());
+  }
+  const auto scan = imaging::scanDicom(path, progress.part(0.0, 0.3));
+  const auto& series = imaging::chooseSeries(scan, path, selector);
+  imaging::ReadOptions options;
+  options.repair = repair;
+  const bool isSound = series.geometry.verdict == imaging::Verdict::Ok;
+  auto image =
+      imaging::readSeries(isSound ? thinnedOut(series) : series, options, progress.part(0.3, 1.0));
+  const core::GridGeometry grid = isSound ? *series.geometry.grid : image.geometry();
+  return previewOf(std::move(image), grid);
+}
+
+RepairPreview previewRepair(const fs::path& path, const std::string& selector,
+                            const core::Progress& progress)
+{
+  const auto scan = imaging::scanDicom(path, progress.part(0.0, 0.2));
+  const auto& series = imaging::chooseSeries(scan, path, selector);
+  const core::GridGeometry& grid = *series.geometry.grid; // none that is repairable is without
+  RepairPreview preview;
+  preview.orientation = sideOf(series.geometry);
+  imaging::ReadOptions options;
+  options.roi = slabOf(grid, preview.orientation);
+  options.acceptDefects = true;
+  preview.before = previewOf(imaging::readSeries(series, options, progress.part(0.2, 0.5)), grid);
+  options.acceptDefects = false;
+  options.repair = true;
+  auto after = imaging::readSeries(series, options, progress.part(0.5, 1.0), &preview.notes);
+  const core::GridGeometry straight = after.geometry();
+  preview.after = previewOf(std::move(after), straight);
+  preview.after.value.ct.notes = preview.notes;
+  // One grey window for both.
+  preview.after.value.iso = preview.before.value.iso;
+  preview.after.value.denseBone = preview.before.value.denseBone;
+  return preview;
+}
+
+std::vector<int> interpolatedSlices(const scene::ImagePart& image)
+{
+  // "Repaired: slices 3, 7 to 9 of 60 were interpolated between neighbours, ..."
+  const std::string begins[] = {"Repaired: slices ", "Repaired: slice "};
+  std::vector<int> found;
+  for (const std::string& note : image.notes)
+    for (const std::string& begin : begins)
+    {
+      const auto of = note.find(" of ");
+      if (note.rfind(begin, 0) != 0 || of == std::string::npos ||
+          note.find("interpolated between neighbours") == std::string::npos)
+        continue;
+      int count = 0;
+      if (std::sscanf(note.c_str() + of, " of %d", &count) != 1 ||
+          count != image.geometry.dims()[2])
+        continue;
+      for (std::size_t at = begin.size(); at < of;)
+      {
+        int first = 0;
+        int last = 0;
+        const int read = std::sscanf(note.c_str() + at, "%d to %d", &first, &last);
+        if (read < 1)
+          break;
+        for (int n = std::max(first, 1); n <= std::min(read == 2 ? last : first, count); ++n)
+          found.push_back(n - 1);
+        const auto comma = note.find(", ", at);
+        at = comma == std::string::npos ? of : comma + 2;
+      }
+    }
+  return found;
+}
+
+} // namespace petrous::presenters

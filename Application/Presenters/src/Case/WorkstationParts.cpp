@@ -1,0 +1,359 @@
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "Notify.h"
+#include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Presenters/WorkstationModel.h"
+#include "petrous/Scene/Placement.h"
+
+// WorkstationModel: parts of the open case are added, removed, brought back and renamed.
+namespace petrous::presenters
+{
+
+namespace
+{
+
+// The appearances of a case, with the names of their parts.
+template <class Case, class Act>
+void forEachLook(Case& value, const Act& act)
+{
+  for (auto& part : value.labels)
+    for (auto& structure : part.structures)
+      act(structure.name, structure.look);
+  for (auto& mesh : value.meshes)
+    act(mesh.name, mesh.look);
+}
+
+template <class Parts>
+std::size_t indexOf(const Parts& parts, const std::string& name)
+{
+  return static_cast<std::size_t>(std::find_if(parts.begin(), parts.end(),
+                                               [&name](const auto& part)
+                                               { return part.name == name; }) -
+                                  parts.begin());
+}
+
+// The left-out part at `index`, which is about to be removed: as the library has it.
+template <class T>
+void forgetLeftOut(std::vector<LeftOut::Part<T>>& parts, std::size_t index, core::Lazy<T>& whole)
+{
+  for (auto part = parts.begin(); part != parts.end();)
+  {
+    if (part->index == index)
+    {
+      whole = part->whole;
+      part = parts.erase(part);
+      continue;
+    }
+    part->index -= part->index > index;
+    ++part;
+  }
+}
+
+template <class T>
+void makeRoom(std::vector<LeftOut::Part<T>>& parts, std::size_t index)
+{
+  for (auto& part : parts)
+    part.index += part.index >= index;
+}
+
+template <class Parts, class At>
+std::size_t putBack(Parts& parts, At& removed)
+{
+  const std::size_t index = std::min(removed.index, parts.size());
+  parts.insert(parts.begin() + static_cast<std::ptrdiff_t>(index), std::move(removed.part));
+  return index;
+}
+
+bool isRecorded(const scene::Case& value, const std::string& name)
+{
+  for (const auto& stroke : value.dissection.strokes())
+    for (const auto& touched : stroke->info.structures)
+      if (touched.name == name)
+        return true;
+  return false;
+}
+
+} // namespace
+
+void WorkstationModel::takeParts(scene::Case with)
+{
+  if (!m_case)
+    return;
+  const auto append = [](auto& parts, auto& more)
+  {
+    for (std::size_t n = parts.size(); n < more.size(); ++n)
+      parts.push_back(std::move(more[n]));
+  };
+  for (std::size_t n = 0; n < std::min(m_case->labels.size(), with.labels.size()); ++n)
+    m_case->labels[n].drawnOn = with.labels[n].drawnOn; // another MR may have the same grid
+  forgetTissue();
+  append(m_case->mr, with.mr);
+  append(m_case->labels, with.labels);
+  append(m_case->meshes, with.meshes);
+  partsMoved();
+}
+
+// The case's parts are others; what was derived from its tissue is gone.
+void WorkstationModel::partsMoved()
+{
+  m_nearby.reset();
+  waitForParts();
+  notify(events.partsChanged);
+  setUnsaved(true);
+  notify(events.preparationWanted);
+}
+
+void WorkstationModel::removePart(const std::string& name)
+{
+  if (!m_case || drilling())
+    return;
+  scene::Case next = *m_case;
+  RemovedPart removed;
+  removed.name = name;
+  if (const std::size_t at = indexOf(next.mr, name); at < next.mr.size())
+  {
+    removed.mr = {at, next.mr[at]};
+    forEachLook(next,
+                [&](const std::string& part, const appearance::StructureAppearance& look)
+                {
+                  if (look.sourceImage == name)
+                    removed.colored.push_back(part);
+                });
+  }
+  for (std::size_t n = 0; n < next.labels.size(); ++n)
+    if (const std::size_t at = indexOf(next.labels[n].structures, name);
+        at < next.labels[n].structures.size())
+    {
+      removed.labels = {n, next.labels[n]};
+      removed.labels->part.structures = {next.labels[n].structures[at]};
+      removed.structure = at;
+      removed.wasAlone = next.labels[n].structures.size() == 1;
+    }
+  if (const std::size_t at = indexOf(next.meshes, name); at < next.meshes.size())
+    removed.mesh = {at, next.meshes[at]};
+  scene::removePart(next, name);
+
+  forgetTissue();
+  for (LeftOut& parts : m_leftOut)
+  {
+    if (removed.labels && removed.wasAlone)
+      forgetLeftOut(parts.labels, removed.labels->index, removed.labels->part.labels);
+    if (removed.mesh)
+      forgetLeftOut(parts.meshes, removed.mesh->index, removed.mesh->part.mesh);
+  }
+  m_case->mr = std::move(next.mr);
+  m_case->labels = std::move(next.labels);
+  m_case->meshes = std::move(next.meshes);
+  m_case->boneLook = next.boneLook;
+  m_removed.push_back(std::move(removed));
+  m_partsMoved = true;
+  if (m_assembly.thicknessOver() == name)
+    m_assembly.showThickness({});
+  partsMoved();
+}
+
+std::string WorkstationModel::removedPart() const
+{
+  return m_removed.empty() ? std::string() : m_removed.back().name;
+}
+
+void WorkstationModel::restorePart()
+{
+  if (!m_case || drilling() || m_removed.empty())
+    return;
+  RemovedPart& removed = m_removed.back();
+  const auto names = scene::partNames(*m_case);
+  if (std::find(names.begin(), names.end(), removed.name) != names.end())
+    throw core::InvalidParameter("'" + removed.name +
+                                 "' cannot come back: another part has its name now; rename that "
+                                 "one first");
+  for (const std::string& mr :
+       {removed.labels ? removed.labels->part.drawnOn.value_or(std::string()) : std::string(),
+        removed.mesh ? removed.mesh->part.drawnOn : std::string()})
+    if (!mr.empty() && !scene::findMr(*m_case, mr))
+      throw core::InvalidParameter("'" + removed.name + "' cannot come back: the MR '" + mr +
+                                   "' on which it was drawn is not in the case any more");
+  forgetTissue();
+  if (removed.mr)
+  {
+    putBack(m_case->mr, *removed.mr);
+    forEachLook(*m_case,
+                [&](const std::string& part, appearance::StructureAppearance& look)
+                {
+                  if (std::count(removed.colored.begin(), removed.colored.end(), part) > 0)
+                    look.sourceImage = removed.name;
+                });
+  }
+  if (removed.labels)
+  {
+    scene::LabelPart& part = removed.labels->part;
+    const auto rest = std::find_if(m_case->labels.begin(), m_case->labels.end(),
+                                   [&part](const scene::LabelPart& one)
+                                   {
+                                     if (!one.object.empty() && !part.object.empty())
+                                       return one.object == part.object;
+                                     const auto voxels = part.labels.peek(); // made in memory
+                                     return voxels && one.labels.peek() == voxels;
+                                   });
+    if (!removed.wasAlone && rest != m_case->labels.end())
+    {
+      const std::size_t at = std::min(removed.structure, rest->structures.size());
+      rest->structures.insert(rest->structures.begin() + static_cast<std::ptrdiff_t>(at),
+                              part.structures.front());
+    }
+    else
+    {
+      const std::size_t at = putBack(m_case->labels, *removed.labels);
+      for (LeftOut& parts : m_leftOut)
+        makeRoom(parts.labels, at);
+    }
+  }
+  if (removed.mesh)
+  {
+    const std::size_t at = putBack(m_case->meshes, *removed.mesh);
+    for (LeftOut& parts : m_leftOut)
+      makeRoom(parts.meshes, at);
+  }
+  m_removed.pop_back();
+  m_partsMoved = true;
+  partsMoved();
+}
+
+void WorkstationModel::renamePart(const std::string& name, const std::string& to)
+{
+  if (!m_case || drilling() || name == to)
+    return;
+  scene::checkPartName(to);
+  const auto names = scene::partNames(*m_case);
+  if (name == "ct" || std::find(names.begin(), names.end(), name) == names.end())
+    throw core::InvalidParameter("the case has no part '" + name + "' that can be renamed");
+  if (std::find(names.begin(), names.end(), to) != names.end())
+    throw core::InvalidParameter("'" + to + "' is in the case already; take another name");
+  if (isRecorded(*m_case, name))
+    throw core::Error(core::Fault::Refused,
+                      "'" + name +
+                          "' keeps its name: strokes of this case record under it what was "
+                          "removed from it");
+  forgetTissue();
+  const auto rename = [&](std::string& text)
+  {
+    if (text == name)
+      text = to;
+  };
+  if (scene::findMr(*m_case, name))
+  {
+    for (scene::ImagePart& mr : m_case->mr)
+    {
+      rename(mr.name);
+      if (mr.registration)
+        rename(mr.registration->through);
+    }
+    for (scene::LabelPart& part : m_case->labels)
+      if (part.drawnOn)
+        rename(*part.drawnOn);
+    for (scene::MeshPart& mesh : m_case->meshes)
+      rename(mesh.drawnOn);
+    forEachLook(*m_case, [&](const std::string&, appearance::StructureAppearance& look)
+                { rename(look.sourceImage); });
+    rename(m_case->boneLook.sourceImage);
+    for (RemovedPart& removed : m_removed) // may come back
+    {
+      if (removed.labels && removed.labels->part.drawnOn)
+        rename(*removed.labels->part.drawnOn);
+      if (removed.mesh)
+        rename(removed.mesh->part.drawnOn);
+    }
+  }
+  for (scene::LabelPart& part : m_case->labels)
+    for (scene::StructurePart& structure : part.structures)
+      rename(structure.name);
+  for (scene::MeshPart& mesh : m_case->meshes)
+    rename(mesh.name);
+  if (m_assembly.thicknessOver() == name)
+    m_assembly.showThickness({});
+  partsMoved();
+}
+
+// The map stays whole: its other structures, and its object in the library, are as they were.
+std::optional<scene::LabelPart> WorkstationModel::removeLabels(const std::string& structure)
+{
+  for (std::size_t n = 0; n < m_case->labels.size(); ++n)
+  {
+    auto& structures = m_case->labels[n].structures;
+    const auto found = std::find_if(structures.begin(), structures.end(),
+                                    [&](const auto& one) { return one.name == structure; });
+    if (found == structures.end())
+      continue;
+    scene::LabelPart taken = m_case->labels[n];
+    taken.structures = {*found};
+    structures.erase(found);
+    if (structures.empty())
+    {
+      m_case->labels.erase(m_case->labels.begin() + static_cast<std::ptrdiff_t>(n));
+      for (LeftOut& parts : m_leftOut)
+        parts.labelsRemoved(n);
+    }
+    return taken;
+  }
+  return std::nullopt;
+}
+
+void WorkstationModel::labelsChanged()
+{
+  forgetTissue();
+  const std::string over = thicknessOver();
+  m_assembly.showThickness({}); // measured anew
+  if (scene::findStructure(*m_case, over) || scene::findMesh(*m_case, over))
+    m_assembly.showThickness(over);
+  partsMoved();
+}
+
+std::optional<scene::LabelPart> WorkstationModel::addStructure(volume::LabelMap labels,
+                                                               const std::string& replaced)
+{
+  if (!m_case)
+    return std::nullopt;
+  const auto before = m_case->labels;
+  const auto leftOut = m_leftOut;
+  auto taken = removeLabels(replaced);
+  try
+  {
+    addStructures(*m_case, std::move(labels));
+  }
+  catch (...)
+  {
+    m_case->labels = before;
+    m_leftOut = leftOut;
+    throw;
+  }
+  if (taken)
+    for (scene::StructurePart& structure : m_case->labels.back().structures)
+      if (structure.name == replaced)
+        structure.look = taken->structures.front().look;
+  labelsChanged();
+  return taken;
+}
+
+std::optional<scene::LabelPart> WorkstationModel::takeStructure(const std::string& name)
+{
+  auto taken = m_case ? removeLabels(name) : std::nullopt;
+  if (taken)
+    labelsChanged();
+  return taken;
+}
+
+void WorkstationModel::putStructure(scene::LabelPart part)
+{
+  if (!m_case)
+    return;
+  for (const scene::StructurePart& structure : part.structures)
+    if (scene::findStructure(*m_case, structure.name))
+      throw core::InvalidParameter("structure '" + structure.name +
+                                   "' is in the case already; remove it first");
+  m_case->labels.push_back(std::move(part));
+  labelsChanged();
+}
+
+} // namespace petrous::presenters

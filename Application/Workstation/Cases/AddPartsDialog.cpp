@@ -1,0 +1,133 @@
+#include "AddPartsDialog.h"
+
+#include <algorithm>
+
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QGridLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QVBoxLayout>
+
+#include "Theme.h"
+#include "WindowTexts.h"
+#include "petrous/Scene/Case.h"
+
+namespace petrous::workstation
+{
+
+AddPartsDialog::AddPartsDialog(const QString& title, const QString& more, const QString& accept,
+                               const std::vector<Part>& parts, std::vector<std::string> taken,
+                               const std::vector<std::string>& mr, QWidget* parent)
+  : QDialog(parent)
+  , m_taken(std::move(taken))
+  , m_advice(new QLabel)
+{
+  setObjectName("addParts");
+  setWindowTitle(title);
+  const auto plain = [](const QString& text)
+  {
+    auto* label = new QLabel(text);
+    label->setTextFormat(Qt::PlainText);
+    label->setWordWrap(true);
+    return label;
+  };
+  auto* rows = new QWidget;
+  auto* grid = new QGridLayout(rows);
+  grid->setColumnMinimumWidth(0, 220);
+  grid->setColumnStretch(0, 1);
+  grid->setColumnStretch(1, 1);
+  int row = 0;
+  for (const Part& part : parts)
+  {
+    Row widgets;
+    grid->addWidget(plain(part.what), row, 0);
+    if (part.isNamed)
+    {
+      widgets.name = new QLineEdit(words(part.name));
+      widgets.name->setObjectName("partName");
+      widgets.name->setPlaceholderText(tr("name"));
+      widgets.name->setMinimumWidth(160);
+      widgets.name->setToolTip(tr("The name in the case. The file's own is not kept: it may be a "
+                                  "patient's."));
+      connect(widgets.name, &QLineEdit::textChanged, this, &AddPartsDialog::check);
+      grid->addWidget(widgets.name, row, 1);
+    }
+    else
+      grid->addWidget(plain(tr("named by the file")), row, 1);
+    if (part.isPlaced)
+    {
+      widgets.place = new QComboBox;
+      widgets.place->setObjectName("partPlace");
+      widgets.place->addItem(tr("where the file says"), QString());
+      widgets.place->addItem(tr("on the CT"), QString("ct"));
+      for (const std::string& name : mr)
+        widgets.place->addItem(tr("on the MR %1").arg(words(name)), words(name));
+      widgets.place->setToolTip(tr("The image on which it was drawn"));
+      grid->addWidget(widgets.place, row, 2);
+    }
+    m_rows.push_back(widgets);
+    ++row;
+  }
+  grid->setRowStretch(row, 1);
+  auto* scroll = new QScrollArea;
+  scroll->setWidget(rows);
+  scroll->setWidgetResizable(true);
+  scroll->setFrameShape(QFrame::NoFrame);
+  m_advice->setTextFormat(Qt::PlainText);
+  m_advice->setObjectName("dim");
+  m_advice->setWordWrap(true);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
+  m_accept = buttons->addButton(accept, QDialogButtonBox::AcceptRole);
+  connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  auto* layout = new QVBoxLayout(this);
+  layout->addWidget(plain(title));
+  layout->addWidget(scroll, 1);
+  layout->addWidget(plain(more));
+  layout->addWidget(m_advice);
+  layout->addWidget(buttons);
+  resize(620, std::min(520, 190 + 40 * row));
+  check();
+}
+
+std::vector<AddPartsDialog::Answer> AddPartsDialog::answers() const
+{
+  std::vector<Answer> answers;
+  for (const Row& row : m_rows)
+    answers.push_back({row.name ? bytes(row.name->text().trimmed()) : std::string(),
+                       row.place ? bytes(row.place->currentData().toString()) : std::string()});
+  return answers;
+}
+
+void AddPartsDialog::check()
+{
+  QString advice;
+  std::vector<std::string> taken = m_taken;
+  for (const Row& row : m_rows)
+  {
+    if (!row.name)
+      continue;
+    const std::string name = bytes(row.name->text().trimmed());
+    if (name.empty())
+      advice = tr("Each part needs a name.");
+    else if (std::find(taken.begin(), taken.end(), name) != taken.end())
+      advice = tr("“%1” is taken; give another name.").arg(words(name));
+    else
+      try
+      {
+        scene::checkPartName(name);
+      }
+      catch (const core::InvalidParameter& fault)
+      {
+        advice = windowText(words(fault.what()));
+      }
+    taken.push_back(name);
+  }
+  m_advice->setText(advice);
+  m_accept->setEnabled(advice.isEmpty());
+}
+
+} // namespace petrous::workstation

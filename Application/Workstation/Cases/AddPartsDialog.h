@@ -1,0 +1,56 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <QDialog>
+
+class QComboBox;
+class QLabel;
+class QLineEdit;
+class QPushButton;
+
+namespace petrous::workstation
+{
+
+/// Names of parts that come to a case, and in whose patient space structures were drawn.
+class AddPartsDialog : public QDialog
+{
+  Q_OBJECT
+public:
+  struct Part
+  {
+    QString what;          ///< "MR “t2.nii”"
+    std::string name;      ///< proposed; may be empty
+    bool isNamed = true;   ///< by the user; else the file names its structures
+    bool isPlaced = false; ///< structures and meshes: in the space of the CT or an MR
+  };
+  struct Answer
+  {
+    std::string name;    ///< empty: the file's own
+    std::string drawnOn; ///< PartSource::drawnOn
+  };
+
+  /// `title` asks, `accept` is the button's text; `taken` are names of other parts, `mr` those of
+  /// MRs on which structures may have been drawn.
+  AddPartsDialog(const QString& title, const QString& more, const QString& accept,
+                 const std::vector<Part>& parts, std::vector<std::string> taken,
+                 const std::vector<std::string>& mr, QWidget* parent = nullptr);
+
+  std::vector<Answer> answers() const; ///< for each part
+
+private:
+  void check();
+
+  struct Row
+  {
+    QLineEdit* name = nullptr;  ///< nullptr: not named
+    QComboBox* place = nullptr; ///< nullptr: not placed
+  };
+  std::vector<Row> m_rows;
+  std::vector<std::string> m_taken;
+  QLabel* m_advice;
+  QPushButton* m_accept;
+};
+
+} // namespace petrous::workstation

@@ -1,0 +1,152 @@
+#include "RepairDialog.h"
+
+#include <cmath>
+
+#include <QDialogButtonBox>
+#include <QFile>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include "SliceView.h"
+#include "Theme.h"
+#include "petrous/Presenters/IntensityDisplay.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+
+QLabel* plain(const QString& text)
+{
+  auto* label = new QLabel(text);
+  label->setTextFormat(Qt::PlainText);
+  label->setWordWrap(true);
+  return label;
+}
+
+QString findingsText(const std::vector<imaging::Finding>& findings)
+{
+  QStringList lines;
+  for (const imaging::Finding& finding : findings)
+  {
+    QString line = QString::fromUtf8("• ") + words(finding.text);
+    if (finding.errorMm > 0.0 && finding.text.find(" mm") == std::string::npos)
+      line += RepairDialog::tr(" At stake: %1 mm.").arg(finding.errorMm, 0, 'f', 1);
+    lines += line;
+  }
+  return lines.join('\n');
+}
+
+} // namespace
+
+RepairDialog::RepairDialog(const presenters::SourceContent& source, const std::string& selector,
+                           QWidget* parent)
+  : QDialog(parent)
+  , m_remains(plain(tr("The pictures of it before and after are being made. In any case each slice "
+                       "is put where its position says, by linear interpolation.")))
+  , m_progress(new QProgressBar)
+  , m_pictures(new QWidget)
+  , m_work(std::make_unique<BackgroundWork>())
+{
+  setObjectName("askRepair");
+  setWindowTitle(tr("Repair the scan?"));
+  resize(860, 680);
+  const auto path = source.path.lexically_normal();
+  auto* title =
+      plain(tr("“%1” would mislead as it is. What is wrong:")
+                .arg(QFile::decodeName(
+                    (path.has_filename() ? path : path.parent_path()).filename().c_str())));
+  auto* findings = plain(findingsText(source.repair));
+  findings->setObjectName("findings");
+  m_remains->setObjectName("remains");
+  m_progress->setObjectName("previewProgress");
+  m_progress->setRange(0, 1000);
+  auto* pictures = new QHBoxLayout(m_pictures);
+  pictures->setContentsMargins(0, 0, 0, 0);
+  m_pictures->setMinimumHeight(300);
+
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
+  auto* repair = buttons->addButton(tr("&Repair and open"), QDialogButtonBox::AcceptRole);
+  auto* another = buttons->addButton(tr("Open &another…"), QDialogButtonBox::ActionRole);
+  repair->setObjectName("primary");
+  connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  connect(another, &QPushButton::clicked, this,
+          [this]
+          {
+            m_wantsAnother = true;
+            reject();
+          });
+  auto* layout = new QVBoxLayout(this);
+  layout->addWidget(title);
+  layout->addWidget(findings);
+  layout->addWidget(m_pictures, 1);
+  layout->addWidget(m_progress);
+  layout->addWidget(m_remains);
+  layout->addWidget(buttons);
+
+  connect(m_work.get(), &BackgroundWork::progressed, this,
+          [this](double fraction, const QString&)
+          { m_progress->setValue(static_cast<int>(std::lround(1000.0 * fraction))); });
+  connect(m_work.get(), &BackgroundWork::failed, this,
+          [this](const QString& why)
+          {
+            m_progress->hide();
+            m_remains->setText(tr("There is no picture of it: %1").arg(why));
+          });
+  m_work->start(
+      [this, file = source.path, selector](const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        const auto preview = std::make_shared<presenters::RepairPreview>(
+            presenters::previewRepair(file, selector, progress));
+        return [this, preview] { show(*preview); };
+      });
+}
+
+RepairDialog::~RepairDialog()
+{
+  m_work->drop();
+}
+
+void RepairDialog::show(const presenters::RepairPreview& preview)
+{
+  m_progress->hide();
+  const auto display = presenters::displayOf(preview.before.value);
+  const auto add = [&](const presenters::ScanPreview& scan, const char* name, const QString& title)
+  {
+    auto* view = new SliceView(preview.orientation);
+    view->setObjectName(name);
+    view->setAttribute(Qt::WA_TransparentForMouseEvents);
+    view->setFocusPolicy(Qt::NoFocus);
+    // The same place at the same scale in both.
+    view->setPresenter(std::make_shared<const presenters::SlicePresenter>(scan.value),
+                       preview.after.grid);
+    view->setIntensityDisplay(display);
+    view->setGreyWindow(display.bone);
+    view->setCrosshair(preview.after.grid.center());
+    view->setInterpolated(presenters::interpolatedSlices(scan.value.ct));
+    auto* column = new QVBoxLayout;
+    column->addWidget(plain(title));
+    column->addWidget(view, 1);
+    static_cast<QHBoxLayout*>(m_pictures->layout())->addLayout(column, 1);
+  };
+  add(preview.before, "before", tr("Before: the slices as they lie in the files"));
+  add(preview.after, "after", tr("After: repaired"));
+
+  QStringList remains{tr("What remains:")};
+  for (const std::string& note : preview.notes)
+    remains += QString::fromUtf8("• ") + words(note);
+  const Eigen::Vector3d& spacing = preview.after.grid.spacing();
+  remains += tr("• Linear interpolation smooths detail below about %1 mm.")
+                 .arg(spacing.maxCoeff(), 0, 'f', 2);
+  if (!presenters::interpolatedSlices(preview.after.value.ct).empty())
+    remains += tr("• Interpolated slices are orange here, and marked wherever the case is shown.");
+  m_remains->setText(remains.join('\n'));
+  m_isPictured = true;
+}
+
+} // namespace petrous::workstation

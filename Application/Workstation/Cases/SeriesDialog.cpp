@@ -1,0 +1,200 @@
+#include "SeriesDialog.h"
+
+#include <algorithm>
+
+#include <QCheckBox>
+#include <QDate>
+#include <QDialogButtonBox>
+#include <QFile>
+#include <QHeaderView>
+#include <QLabel>
+#include <QPushButton>
+#include <QTreeWidget>
+#include <QVBoxLayout>
+
+#include "Theme.h"
+
+namespace petrous::workstation
+{
+
+using presenters::Content;
+using presenters::SeriesContent;
+
+namespace
+{
+
+enum Column
+{
+  Series,
+  Images,
+  Voxel,
+  Taken,
+  More,
+  VerdictColumn,
+  Columns
+};
+
+// "20200131 1205" as "2020-01-31 12:05"; other formats unchanged.
+QString takenIn(const QString& text)
+{
+  const QStringList parts = text.split(' ');
+  const QDate day = QDate::fromString(parts.front(), "yyyyMMdd");
+  if (!day.isValid())
+    return text;
+  const QTime time = parts.size() > 1 ? QTime::fromString(parts[1], "HHmm") : QTime();
+  return day.toString(Qt::ISODate) + (time.isValid() ? time.toString(" HH:mm") : QString());
+}
+
+QString verdictText(const SeriesContent& series)
+{
+  switch (series.verdict)
+  {
+  case imaging::Verdict::Ok:
+    return SeriesDialog::tr("sound");
+  case imaging::Verdict::Repairable:
+    return SeriesDialog::tr("needs repair");
+  case imaging::Verdict::Refused:
+    break;
+  }
+  return SeriesDialog::tr("cannot be used");
+}
+
+void fillLine(QTreeWidgetItem& line, const SeriesContent& series)
+{
+  const auto spacing = [&series](Eigen::Index axis)
+  { return QString::number(series.spacing[axis], 'g', 3); };
+  line.setText(Series, (words(series.modality) + "  " + words(series.description)).trimmed());
+  if (series.file.empty())
+    line.setText(Images, QString::number(series.slices));
+  line.setTextAlignment(Images, Qt::AlignRight | Qt::AlignVCenter);
+  if (series.spacing[0] > 0.0)
+    line.setText(Voxel,
+                 SeriesDialog::tr("%1 × %2 × %3 mm").arg(spacing(0), spacing(1), spacing(2)));
+  line.setText(Taken, takenIn(words(series.taken)));
+  QStringList more;
+  for (const std::string& one : {series.patientPosition, series.kernel})
+    if (!one.empty())
+      more += words(one);
+  if (!series.folder.empty())
+    more += SeriesDialog::tr("in “%1”").arg(QFile::decodeName(series.folder.c_str()));
+  line.setText(More, more.join(", "));
+  line.setText(VerdictColumn,
+               series.file.empty() ? verdictText(series) : SeriesDialog::tr("structures"));
+  QStringList why;
+  for (const imaging::Finding& finding : series.findings)
+    why += words(finding.text);
+  for (int column = 0; column < Columns; ++column)
+    line.setToolTip(column, why.isEmpty() ? line.text(column) : why.join('\n'));
+  if (series.verdict == imaging::Verdict::Refused)
+    line.setDisabled(true);
+  else
+    line.setCheckState(Series, Qt::Unchecked);
+}
+
+} // namespace
+
+SeriesDialog::SeriesDialog(const presenters::SourceContent& source, bool hasCase, QWidget* parent)
+  : QDialog(parent)
+  , m_series(source.series)
+  , m_hasCase(hasCase)
+  , m_list(new QTreeWidget)
+  , m_region(new QCheckBox(tr("Choose a &region of the CT first")))
+  , m_advice(new QLabel)
+{
+  setObjectName("chooseSeries");
+  setWindowTitle(tr("Which series?"));
+  resize(860, 380);
+  const auto path = source.path.lexically_normal();
+  auto* title = new QLabel(
+      tr("“%1” holds more than one series. A CT begins a case; MRs and structures go with it, or "
+         "come to the open case.")
+          .arg(QFile::decodeName(
+              (path.has_filename() ? path : path.parent_path()).filename().c_str())));
+  title->setTextFormat(Qt::PlainText);
+  title->setWordWrap(true);
+  m_list->setObjectName("series");
+  m_list->setRootIsDecorated(false);
+  m_list->setAlternatingRowColors(true);
+  m_list->setHeaderLabels({tr("Series"), tr("Images"), tr("Voxel"), tr("Taken"),
+                           tr("Position, kernel, folder"), tr("Geometry")});
+  for (const SeriesContent& series : m_series)
+    fillLine(*new QTreeWidgetItem(m_list), series);
+  m_list->header()->setStretchLastSection(false);
+  m_list->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  m_list->header()->setSectionResizeMode(More, QHeaderView::Stretch);
+  m_region->setObjectName("wantsRegion");
+  m_region->setToolTip(tr("Only that region is read: a whole head then takes no more memory than "
+                          "the ear alone"));
+  m_advice->setObjectName("dim");
+  m_advice->setWordWrap(true);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Open | QDialogButtonBox::Cancel);
+  m_open = buttons->button(QDialogButtonBox::Open);
+  connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  connect(m_list, &QTreeWidget::itemChanged, this, &SeriesDialog::check);
+  connect(m_list, &QTreeWidget::itemDoubleClicked, this,
+          [this](QTreeWidgetItem* item)
+          {
+            if (item->isDisabled())
+              return;
+            for (int n = 0; n < m_list->topLevelItemCount(); ++n)
+              if (auto* other = m_list->topLevelItem(n); !other->isDisabled())
+                other->setCheckState(Series, other == item ? Qt::Checked : Qt::Unchecked);
+            if (m_open->isEnabled())
+              accept();
+          });
+  auto* layout = new QVBoxLayout(this);
+  layout->addWidget(title);
+  layout->addWidget(m_list, 1);
+  layout->addWidget(m_advice);
+  layout->addWidget(m_region);
+  layout->addWidget(buttons);
+  // The only sound CT is what is most likely wanted.
+  const auto isCt = [](const SeriesContent& series)
+  { return series.content == Content::Ct && series.verdict == imaging::Verdict::Ok; };
+  if (std::count_if(m_series.begin(), m_series.end(), isCt) == 1)
+    m_list
+        ->topLevelItem(static_cast<int>(std::find_if(m_series.begin(), m_series.end(), isCt) -
+                                        m_series.begin()))
+        ->setCheckState(Series, Qt::Checked);
+  check();
+}
+
+std::vector<SeriesContent> SeriesDialog::chosen() const
+{
+  std::vector<SeriesContent> chosen;
+  for (std::size_t n = 0; n < m_series.size(); ++n)
+    if (m_list->topLevelItem(static_cast<int>(n))->checkState(Series) == Qt::Checked)
+      chosen.push_back(m_series[n]);
+  return chosen;
+}
+
+bool SeriesDialog::wantsRegion() const
+{
+  return m_region->isEnabled() && m_region->isChecked();
+}
+
+void SeriesDialog::check()
+{
+  const auto all = chosen();
+  const auto count = [&all](Content content)
+  {
+    return std::count_if(all.begin(), all.end(),
+                         [content](const SeriesContent& series)
+                         { return series.content == content; });
+  };
+  const auto cts = count(Content::Ct);
+  QString advice;
+  if (all.empty())
+    advice = tr("Tick what is to be opened. Why a series cannot be used, or what its repair would "
+                "change, is in its tooltip.");
+  else if (cts > 1)
+    advice = tr("A case has one CT; open the other one afterwards.");
+  else if (cts == 0 && count(Content::Image) == 0 && !m_hasCase)
+    advice = tr("No case is open, and one begins with the patient's CT; tick that, too.");
+  m_advice->setText(advice);
+  m_open->setEnabled(!all.empty() && advice.isEmpty());
+  m_region->setEnabled(cts == 1);
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include <QDialog>
+
+#include "petrous/Presenters/SourceContent.h"
+
+class QCheckBox;
+class QLabel;
+class QPushButton;
+class QTreeWidget;
+
+namespace petrous::workstation
+{
+
+/// The series and volumes of a DICOM folder with their verdicts, to be ticked: at most one CT,
+/// which begins a case, and any number of MRs.
+class SeriesDialog : public QDialog
+{
+  Q_OBJECT
+public:
+  /// `hasCase`: an MR alone can be chosen for the open case.
+  SeriesDialog(const presenters::SourceContent& source, bool hasCase, QWidget* parent = nullptr);
+
+  std::vector<presenters::SeriesContent> chosen() const;
+  bool wantsRegion() const; ///< a region of the CT is to be chosen before it is read
+
+private:
+  void check();
+
+  std::vector<presenters::SeriesContent> m_series;
+  bool m_hasCase;
+  QTreeWidget* m_list;
+  QCheckBox* m_region;
+  QLabel* m_advice;
+  QPushButton* m_open;
+};
+
+} // namespace petrous::workstation

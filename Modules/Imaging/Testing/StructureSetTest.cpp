@@ -1,0 +1,359 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "TestDicom.h"
+#include "petrous/Imaging/StructureSet.h"
+
+namespace petrous::imaging
+{
+namespace
+{
+
+using Eigen::Vector3d;
+using Reason = FileError::Reason;
+using Roi = StructureSet::Roi;
+using test::TemporaryFolder;
+using test::TestSlice;
+
+constexpr double kPi = 3.14159265358979323846;
+
+core::GridGeometry grid()
+{
+  return {{80, 80, 40}, Vector3d(0.5, 0.5, 1.0), Vector3d(-10.0, -20.0, 5.0)};
+}
+
+std::vector<Vector3d> circle(const Vector3d& center, double radius, int points = 200)
+{
+  std::vector<Vector3d> contour;
+  for (int n = 0; n < points; ++n)
+    contour.push_back(center + radius * Vector3d(std::cos(2.0 * kPi * n / points),
+                                                 std::sin(2.0 * kPi * n / points), 0.0));
+  return contour;
+}
+
+std::vector<Vector3d> square(double x0, double x1, double y0, double y1, double z)
+{
+  return {{x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}};
+}
+
+volume::LabelMap labelsOf(const std::vector<Roi>& rois, const core::GridGeometry& on = grid())
+{
+  StructureSet set;
+  set.rois = rois;
+  LoadedLabels loaded = imaging::labelsOf(set, on, "set.dcm");
+  EXPECT_EQ(loaded.maps.size(), 1U);
+  return loaded.maps.front();
+}
+
+double volumeOf(const Roi& roi, const core::GridGeometry& on = grid())
+{
+  const volume::LabelMap labels = labelsOf({roi}, on);
+  return labels.volume(labels.segments.front());
+}
+
+Roi named(const std::string& name, std::vector<std::vector<Vector3d>> contours)
+{
+  Roi roi;
+  roi.name = name;
+  roi.contours = std::move(contours);
+  return roi;
+}
+
+/// A structure set written byte by byte (PS3.5, PS3.3 C.8.8.5 and C.8.8.6).
+struct TestSet
+{
+  TestSlice code;
+  std::string rois, contours, observations;
+
+  std::string element(std::uint32_t tag, const char* vr, const std::string& value) const
+  {
+    std::string out;
+    code.element(out, tag, vr, value);
+    return out;
+  }
+  std::string item(const std::string& content) const
+  {
+    std::string out;
+    code.append(out, 0xfffe, 2);
+    code.append(out, 0xe000, 2);
+    code.append(out, static_cast<std::uint32_t>(content.size()), 4);
+    return out + content;
+  }
+  void add(int number, const std::string& name, const std::vector<std::string>& points,
+           const std::string& type = "CLOSED_PLANAR", const std::string& frame = "1.2.3.9")
+  {
+    rois += item(element(0x30060022, "IS", std::to_string(number)) +
+                 element(0x30060024, "UI", frame) + element(0x30060026, "LO", name));
+    std::string sequence;
+    for (const std::string& text : points)
+      sequence += item(element(0x30060042, "CS", type) + element(0x30060050, "DS", text));
+    contours += item(element(0x3006002a, "IS", "255\\128\\0") +
+                     (points.empty() ? "" : element(0x30060040, "SQ", sequence)) +
+                     element(0x30060084, "IS", std::to_string(number)));
+    observations += item(element(0x30060084, "IS", std::to_string(number)) +
+                         element(0x300600a4, "CS", "ORGAN"));
+  }
+  std::string bytes() const
+  {
+    TestSlice meta;
+    std::string out;
+    meta.element(out, 0x00020010, "UI",
+                 code.implicitVr  ? "1.2.840.10008.1.2"
+                 : code.bigEndian ? "1.2.840.10008.1.2.2"
+                                  : "1.2.840.10008.1.2.1");
+    out = std::string(128, '\0') + "DICM" + out;
+    out += element(0x00080005, "CS", "ISO_IR 100");
+    out += element(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.481.3");
+    out += element(0x00080060, "CS", "RTSTRUCT");
+    out += element(0x00100010, "PN", "SECRET^NAME");
+    out += element(0x30060020, "SQ", rois);
+    out += element(0x30060039, "SQ", contours);
+    return out + element(0x30060080, "SQ", observations);
+  }
+  std::filesystem::path write(const TemporaryFolder& folder) const
+  {
+    const std::filesystem::path path = folder.path() / "set.dcm";
+    const std::string all = bytes();
+    std::ofstream(path, std::ios::binary).write(all.data(), static_cast<long>(all.size()));
+    return path;
+  }
+};
+
+std::string refusal(const std::filesystem::path& path)
+{
+  try
+  {
+    readStructureSet(path);
+  }
+  catch (const FileError& error)
+  {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    EXPECT_EQ(std::string(error.what()).find("SECRET"), std::string::npos);
+    return error.what();
+  }
+  return {};
+}
+
+} // namespace
+
+TEST(StructureSet, BallsKeepTheVolumeOfTheirContours)
+{
+  for (const double radius : {1.7, 3.3, 8.0})
+  {
+    Roi roi;
+    roi.name = "ball";
+    const Vector3d center(9.83, 0.27, 25.0);
+    for (double z = 5.0; z <= 44.0; z += 1.0)
+      if (const double inside = radius * radius - (z - center[2]) * (z - center[2]); inside > 0.0)
+        roi.contours.push_back(circle({center[0], center[1], z}, std::sqrt(inside)));
+    const double contours = contourVolume(roi, grid());
+    double discs = 0.0; // of polygons of 200 corners
+    for (const auto& contour : roi.contours)
+      discs += 100.0 * std::sin(2.0 * kPi / 200.0) *
+               (contour[0] - Vector3d(center[0], center[1], contour[0][2])).squaredNorm();
+    EXPECT_NEAR(contours, discs, 2e-3 * discs) << radius;
+    EXPECT_NEAR(volumeOf(roi), contours, 0.5 * 0.25 + 1e-3 * contours) << radius;
+    EXPECT_DOUBLE_EQ(imaging::labelsOf({{roi}, ""}, grid(), "set.dcm").fileVolumes.at("ball"),
+                     contours);
+  }
+}
+
+TEST(StructureSet, ASquareOnVoxelBordersIsExact)
+{
+  // Voxel centres at -10 + i/2: borders at -10.25 + i/2.
+  const volume::LabelMap labels =
+      labelsOf({named("square", {square(-5.25, -2.25, -15.25, -14.25, 10.0)})});
+  EXPECT_EQ(labels.segments[0].voxels, 12U);
+  for (int i = 0; i < 80; ++i)
+    for (int j = 0; j < 80; ++j)
+      EXPECT_EQ(labels.voxels->at(i, j, 5) != 0, i >= 10 && i < 16 && j >= 10 && j < 12);
+}
+
+TEST(StructureSet, InnerContoursAreHolesWhicheverWayTheyTurn)
+{
+  auto inner = square(-4.25, -3.25, -14.75, -13.75, 10.0);
+  const auto outer = square(-5.25, -2.25, -15.75, -12.75, 10.0);
+  EXPECT_DOUBLE_EQ(volumeOf(named("ring", {outer, inner})), 8.0);
+  std::reverse(inner.begin(), inner.end());
+  EXPECT_DOUBLE_EQ(volumeOf(named("ring", {outer, inner})), 8.0);
+  // A keyhole: one contour that goes in to the hole and back along the same line.
+  const std::vector<Vector3d> keyhole{
+      {-5.25, -15.75, 10}, {-2.25, -15.75, 10}, {-2.25, -12.75, 10}, {-5.25, -12.75, 10},
+      {-5.25, -14.25, 10}, {-4.25, -14.25, 10}, {-4.25, -13.75, 10}, {-3.25, -13.75, 10},
+      {-3.25, -14.75, 10}, {-4.25, -14.75, 10}, {-4.25, -14.25, 10}, {-5.25, -14.25, 10}};
+  EXPECT_DOUBLE_EQ(volumeOf(named("keyhole", {keyhole})), 8.0);
+  // A figure of eight: two triangles of 2 mm by 1 mm.
+  EXPECT_NEAR(
+      volumeOf(named("eight", {{{-5, -15, 10}, {-1, -13, 10}, {-1, -15, 10}, {-5, -13, 10}}})), 4.0,
+      0.2);
+}
+
+TEST(StructureSet, ContoursOnSomeSlicesFillTheOthers)
+{
+  Roi roi = named("box", {});
+  for (double z = 10.0; z <= 22.0; z += 3.0)
+    roi.contours.push_back(square(-5.25, -2.25, -15.25, -12.25, z));
+  const LoadedLabels loaded = imaging::labelsOf({{roi}, ""}, grid(), "set.dcm");
+  EXPECT_DOUBLE_EQ(loaded.maps[0].volume(loaded.maps[0].segments[0]), 9.0 * 15.0);
+  ASSERT_EQ(loaded.notes.size(), 1U);
+  EXPECT_NE(loaded.notes[0].find("some of the slices"), std::string::npos);
+  for (int k = 0; k < 40; ++k)
+    EXPECT_EQ(loaded.maps[0].voxels->at(12, 12, k) != 0, k >= 4 && k <= 18) << k;
+
+  // Twice as dense as the slices: each stands for half a slice.
+  Roi dense = named("dense", {});
+  for (double z = 9.75; z <= 14.3; z += 0.5)
+    dense.contours.push_back(square(-5.25, -2.25, -15.25, -12.25, z));
+  EXPECT_DOUBLE_EQ(volumeOf(dense), 9.0 * 5.0);
+
+  // Two parts far apart are not joined.
+  Roi parts = named("parts", {});
+  for (const double z : {10.0, 11.0, 12.0, 20.0, 21.0, 22.0})
+    parts.contours.push_back(square(-5.25, -2.25, -15.25, -12.25, z));
+  EXPECT_DOUBLE_EQ(volumeOf(parts), 9.0 * 6.0);
+}
+
+TEST(StructureSet, ContoursSmallerThanAVoxelAreKept)
+{
+  const Roi roi = named("dot", {circle({-5.0, -15.0, 10.0}, 0.1), circle({0.0, -15.0, 10.0}, 0.1)});
+  const LoadedLabels loaded = imaging::labelsOf({{roi}, ""}, grid(), "set.dcm");
+  EXPECT_EQ(loaded.maps[0].segments[0].voxels, 2U);
+  EXPECT_NE(loaded.maps[0].voxels->at(10, 10, 5), 0);
+  EXPECT_NE(loaded.maps[0].voxels->at(20, 10, 5), 0);
+  ASSERT_EQ(loaded.notes.size(), 1U);
+  EXPECT_NE(loaded.notes[0].find("smaller than a voxel"), std::string::npos);
+}
+
+TEST(StructureSet, FollowsATurnedGridAndPlanesAcrossAnyAxis)
+{
+  const Eigen::Matrix3d turn =
+      (Eigen::AngleAxisd(0.5, Vector3d::UnitX()) * Eigen::AngleAxisd(0.2, Vector3d::UnitZ()))
+          .toRotationMatrix();
+  const core::GridGeometry turned({60, 60, 60}, Vector3d(0.5, 0.6, 0.8), Vector3d(1, 2, 3), turn);
+  for (const int normal : {0, 1, 2})
+  {
+    Roi roi = named("cylinder", {});
+    Vector3d a = turn.col((normal + 1) % 3);
+    Vector3d b = turn.col((normal + 2) % 3);
+    for (int slice = 20; slice < 30; ++slice)
+    {
+      Vector3d voxel = Vector3d::Constant(29.3);
+      voxel[normal] = slice;
+      const Vector3d center = turned.patientFromVoxel(voxel);
+      roi.contours.emplace_back();
+      for (int n = 0; n < 100; ++n)
+        roi.contours.back().push_back(center + 5.0 * std::cos(2 * kPi * n / 100) * a +
+                                      5.0 * std::sin(2 * kPi * n / 100) * b);
+    }
+    const double expected =
+        50.0 * std::sin(2.0 * kPi / 100.0) * 25.0 * 10.0 * turned.spacing()[normal];
+    EXPECT_NEAR(volumeOf(roi, turned), expected, 2e-3 * expected) << normal;
+  }
+  // Oblique to all axes.
+  Roi roi = named("oblique", {circle({15.0, 15.0, 15.0}, 4.0)});
+  EXPECT_THROW(imaging::labelsOf({{roi}, ""}, turned, "set.dcm"), FileError);
+}
+
+TEST(StructureSet, OverlappingStructuresLieInLayersAndEmptyOnesAreNamed)
+{
+  const std::vector<Roi> rois{named("a", {square(-5.25, -2.25, -15.25, -12.25, 10.0)}),
+                              named("b", {square(-3.25, -1.25, -15.25, -12.25, 10.0)}),
+                              named("nothing", {}),
+                              named("c", {square(5.75, 6.75, -15.25, -12.25, 10.0)})};
+  StructureSet set;
+  set.rois = rois;
+  const LoadedLabels loaded = imaging::labelsOf(set, grid(), "set.dcm");
+  ASSERT_EQ(loaded.maps.size(), 2U);
+  ASSERT_EQ(loaded.maps[0].segments.size(), 3U);
+  EXPECT_EQ(loaded.maps[0].segments[1].name, "nothing");
+  EXPECT_EQ(loaded.maps[0].segments[1].voxels, 0U);
+  EXPECT_EQ(loaded.maps[1].segments[0].name, "b");
+  EXPECT_DOUBLE_EQ(loaded.maps[1].volume(loaded.maps[1].segments[0]), 6.0);
+}
+
+TEST(StructureSet, WhatLiesOutsideTheImageIsNoted)
+{
+  StructureSet set;
+  set.rois = {named("far", {circle({500.0, 0.0, 10.0}, 4.0)}),
+              named("half", {square(-20.0, -9.25, -15.25, -14.25, 10.0)}),
+              named("inside", {square(-5.25, -2.25, -15.25, -14.25, 10.0)})};
+  const LoadedLabels loaded = imaging::labelsOf(set, grid(), "set.dcm");
+  const auto& segments = loaded.maps[0].segments;
+  EXPECT_EQ(segments[0].voxels, 0U);
+  EXPECT_EQ(segments[1].voxels, 4U);
+  ASSERT_EQ(loaded.notes.size(), 2U);
+  EXPECT_NE(loaded.notes[0].find("'far': 100 %"), std::string::npos) << loaded.notes[0];
+  EXPECT_NE(loaded.notes[1].find("'half': 91 %"), std::string::npos) << loaded.notes[1];
+}
+
+TEST(StructureSet, IsReadInEveryEncoding)
+{
+  const TemporaryFolder folder;
+  for (const char* encoding : {"explicit", "implicit", "big endian"})
+  {
+    TestSet file;
+    file.code.implicitVr = encoding[0] == 'i';
+    file.code.bigEndian = encoding[0] == 'b';
+    file.add(4, "Nervus facialis \xe4", {"1\\2\\3\\4\\2\\3\\4\\6.5\\3\\1\\6.5\\3\\1\\2\\3"});
+    file.add(-2, "marker", {"1\\2\\3"}, "POINT");
+    file.add(9, "empty", {});
+    const auto path = file.write(folder);
+    EXPECT_TRUE(isStructureSet(path));
+    const StructureSet set = readStructureSet(path);
+    ASSERT_EQ(set.rois.size(), 3U);
+    EXPECT_EQ(set.frameOfReferenceUid, "1.2.3.9");
+    EXPECT_EQ(set.rois[0].name, "Nervus facialis \xc3\xa4");
+    EXPECT_EQ(set.rois[0].meaning, "ORGAN");
+    EXPECT_FLOAT_EQ(set.rois[0].color[1], 128.0F / 255.0F);
+    ASSERT_EQ(set.rois[0].contours.size(), 1U);
+    ASSERT_EQ(set.rois[0].contours[0].size(), 4U) << "the first point is not repeated";
+    EXPECT_EQ(set.rois[0].contours[0][2], Vector3d(4.0, 6.5, 3.0));
+    EXPECT_EQ(set.rois[1].otherContours, 1U);
+    EXPECT_TRUE(set.rois[2].contours.empty());
+  }
+}
+
+TEST(StructureSet, WhatMakesNoSenseIsRefusedInOneLine)
+{
+  const TemporaryFolder folder;
+  const auto with = [&](const auto& change)
+  {
+    TestSet file;
+    file.add(1, "a", {"1\\2\\3\\4\\2\\3\\4\\6\\3"});
+    change(file);
+    return refusal(file.write(folder));
+  };
+  EXPECT_EQ(with([](TestSet&) {}), "");
+  EXPECT_NE(with([](TestSet& file) { file.add(1, "b", {}); }), "");
+  EXPECT_NE(with([](TestSet& file) { file.add(2, "b", {"1\\2\\3\\4"}); }), "");
+  EXPECT_NE(with([](TestSet& file) { file.add(2, "b", {"1\\2\\nan\\1\\2\\3\\4\\5\\6"}); }), "");
+  EXPECT_NE(with([](TestSet& file) { file.add(2, "b", {"1\\2\\1e30\\1\\2\\3\\4\\5\\6"}); }), "");
+  EXPECT_NE(with([](TestSet& file) { file.add(2, "b", {}, "CLOSED_PLANAR", "1.2.77"); }), "");
+  EXPECT_NE(with([](TestSet& file) { file.rois.clear(); }), "");
+  EXPECT_NE(with([](TestSet& file) { file.code.bigEndian = true; }), "") << "items are not";
+
+  TestSet file;
+  file.add(1, "a", {"1\\2\\3\\4\\2\\3\\4\\6\\3", "1\\2\\4\\4\\2\\4\\4\\6\\4"});
+  const std::string whole = file.bytes();
+  const auto path = folder.path() / "cut.dcm";
+  for (std::size_t hundredths = 0; hundredths < 100; ++hundredths)
+  {
+    std::ofstream(path, std::ios::binary)
+        .write(whole.data(), static_cast<long>(whole.size() * hundredths / 100));
+    try
+    {
+      if (!isStructureSet(path))
+        continue;
+      // Cut between two elements of the top level, it is a shorter file without fault.
+      const StructureSet set = readStructureSet(path);
+      EXPECT_LE(set.rois.size(), 1U);
+    }
+    catch (const FileError& error)
+    {
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    }
+  }
+}
+
+} // namespace petrous::imaging

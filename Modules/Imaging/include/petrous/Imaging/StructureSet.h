@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "petrous/Core/Progress.h"
+#include "petrous/Imaging/FileError.h"
+#include "petrous/Imaging/LabelFile.h"
+
+namespace petrous::imaging
+{
+
+/// A DICOM RT structure set (PS3.3 A.19.3): structures as planar contours in patient space.
+struct StructureSet
+{
+  struct Roi
+  {
+    std::string name;
+    std::array<float, 3> color{}; ///< 0 to 1; black if the file has none
+    std::string meaning;          ///< RT ROI Interpreted Type, or its code's meaning; may be empty
+    /// Closed contours, patient LPS mm; the last point is not the first again.
+    std::vector<std::vector<Eigen::Vector3d>> contours;
+    std::size_t otherContours = 0; ///< points and open contours, which enclose nothing
+  };
+  std::vector<Roi> rois;
+  std::string frameOfReferenceUid; ///< identifies the patient's study: not to be shown
+};
+
+/// Whether a file is an RT structure set, whatever its name.
+bool isStructureSet(const std::filesystem::path& path);
+
+/// Throws FileError.
+StructureSet readStructureSet(const std::filesystem::path& path);
+
+/// The structures as voxels of `grid`, that of the image on which they were drawn. `path` names the
+/// file in errors.
+///
+/// A contour stands for a slab: as thick as the structure's contours are apart, and one slice where
+/// there is one plane only. Contours of one plane enclose what an odd number of them surrounds. The
+/// share of each voxel that lies within is computed (32 lines a row of voxels, exact along them),
+/// and as many voxels as the shares amount to, those with the largest, are the structure: its
+/// volume is that of its contours to half a voxel. A contour that encloses less than a voxel keeps
+/// the one with the largest share. Overlapping structures lie in several maps.
+///
+/// Planes may be across any axis of the grid. Throws FileError (Unsupported) if all structures with
+/// contours are oblique to it, or if none has a contour; CancelledError.
+LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
+                      const std::filesystem::path& path, const core::Progress& progress = {});
+
+/// mm^3, of the slabs of a structure's contours as labelsOf places them, before they become voxels;
+/// 0 where they are oblique to the grid.
+double contourVolume(const StructureSet::Roi& roi, const core::GridGeometry& grid);
+
+} // namespace petrous::imaging

@@ -1,0 +1,471 @@
+#include "LabelTable.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "DicomItem.h"
+#include "FileHelpers.h"
+
+namespace petrous::imaging
+{
+
+namespace
+{
+
+constexpr std::int64_t kLargestIndex = 65535;
+constexpr std::size_t kMissing = static_cast<std::size_t>(-1);
+
+/// Entries so far, with the line of each index.
+class Entries
+{
+public:
+  explicit Entries(LabelTable& table)
+    : m_table(table)
+  {
+  }
+
+  void problem(std::size_t line, const std::string& what)
+  {
+    m_table.problems.push_back((line == 0 ? "it " : "line " + std::to_string(line) + " ") + what);
+  }
+
+  void add(std::size_t line, std::int64_t index, volume::Segment segment)
+  {
+    // FreeSurfer's own table ends with a marker that no voxel can have.
+    if (index == 999999 && segment.name == "SUSPICIOUS")
+      return;
+    if (index < 0 || index > kLargestIndex)
+      return problem(line, "gives the index " + std::to_string(index) +
+                               "; an index is a whole number from 0 to 65535");
+    if (index == 0)
+      return; // background
+    if (segment.name.empty())
+      return problem(line, "gives index " + std::to_string(index) + " no name");
+    const auto [before, isNew] = m_lines.emplace(index, line);
+    if (!isNew)
+      return problem(
+          line, "gives index " + std::to_string(index) + " a second name" +
+                    (line == 0 ? std::string()
+                               : " (the first is in line " + std::to_string(before->second) + ")") +
+                    "; each index has one");
+    segment.index = static_cast<std::uint16_t>(index);
+    m_table.segments.push_back(std::move(segment));
+  }
+
+private:
+  LabelTable& m_table;
+  std::map<std::int64_t, std::size_t> m_lines;
+};
+
+bool takeQuoted(std::string_view& line, std::string& name)
+{
+  if (line.empty() || line.front() != '"')
+    return false;
+  const std::size_t end = line.find('"', 1);
+  if (end == line.npos)
+    return false;
+  name = trimmed(line.substr(1, end - 1));
+  line.remove_prefix(end + 1);
+  return true;
+}
+
+std::vector<std::string_view> wordsIn(std::string_view line)
+{
+  std::vector<std::string_view> words;
+  for (std::string_view word = takeWord(line); !word.empty(); word = takeWord(line))
+    words.push_back(word);
+  return words;
+}
+
+float byteColor(double value)
+{
+  return static_cast<float>(std::clamp(value / 255.0, 0.0, 1.0));
+}
+
+/// 3D Slicer and FreeSurfer: index name r g b [a] (0 to 255).
+std::optional<volume::Segment> slicerEntry(std::string_view line)
+{
+  volume::Segment segment;
+  line = trimmed(line);
+  const bool isQuoted = takeQuoted(line, segment.name);
+  const std::vector<std::string_view> words = wordsIn(line);
+  std::size_t numbers = 0; // at the end
+  while (numbers < 4 && numbers < words.size() &&
+         parseDouble(words[words.size() - 1 - numbers]).has_value())
+    ++numbers;
+  const std::size_t first = words.size() - numbers;
+  if (numbers < 3 || (isQuoted ? first != 0 : first == 0))
+    return std::nullopt;
+  if (first > 0 && core::parseDouble(words[first - 1]).has_value() && numbers < 4)
+    return std::nullopt; // "nan", a colour and no part of the name
+  if (!isQuoted)
+    segment.name = std::string(words[0].data(),
+                               static_cast<std::size_t>(words[first - 1].data() - words[0].data()) +
+                                   words[first - 1].size());
+  for (std::size_t c = 0; c < 3; ++c)
+    segment.color[c] = byteColor(*parseDouble(words[first + c]));
+  return segment;
+}
+
+/// ITK-SNAP: index r g b opacity visible mesh "name".
+std::optional<volume::Segment> snapEntry(std::string_view line)
+{
+  volume::Segment segment;
+  for (std::size_t column = 0; column < 6; ++column)
+  {
+    const auto value = parseDouble(takeWord(line));
+    if (!value)
+      return std::nullopt;
+    if (column < 3)
+      segment.color[column] = byteColor(*value);
+  }
+  line = trimmed(line);
+  if (!takeQuoted(line, segment.name) || !trimmed(line).empty())
+    return std::nullopt;
+  return segment;
+}
+
+/// The cells of a row; quotes around a cell are taken off, and a doubled one in it is one.
+std::vector<std::string> cellsOf(std::string_view line, char delimiter)
+{
+  std::vector<std::string> cells(1);
+  bool isQuoted = false;
+  for (std::size_t n = 0; n < line.size(); ++n)
+  {
+    const char c = line[n];
+    if (c == '"' && isQuoted && n + 1 < line.size() && line[n + 1] == '"')
+    {
+      cells.back() += c;
+      ++n;
+    }
+    else if (c == '"' && (isQuoted || trimmed(cells.back()).empty()))
+      isQuoted = !isQuoted;
+    else if (c == delimiter && !isQuoted)
+      cells.emplace_back();
+    else
+      cells.back() += c;
+  }
+  for (std::string& cell : cells)
+    cell = std::string(trimmed(cell));
+  return cells;
+}
+
+std::optional<double> cellNumber(std::string cell)
+{
+  std::replace(cell.begin(), cell.end(), ',', '.');
+  return parseDouble(cell);
+}
+
+std::optional<std::int64_t> cellIndex(const std::string& cell)
+{
+  const auto number = cellNumber(cell); // "3.0" too, as tables of floats are written
+  if (!number || *number != std::floor(*number) || std::abs(*number) > 1e15)
+    return std::nullopt;
+  return static_cast<std::int64_t>(*number);
+}
+
+/// Which cell of a row is what.
+struct Columns
+{
+  char delimiter = '\0'; ///< 0: not such a table
+  bool hasHeader = false;
+  std::size_t index = kMissing, name = kMissing, color = kMissing;
+  std::array<std::size_t, 3> channels{kMissing, kMissing, kMissing};
+};
+
+/// Letters and digits of a header cell, in lower case.
+std::string plainHeader(const std::string& cell)
+{
+  std::string plain;
+  for (const char c : cell)
+    if (const auto letter = static_cast<unsigned char>(c); std::isalnum(letter) != 0 || c == '#')
+      plain += static_cast<char>(std::tolower(letter));
+  return plain;
+}
+
+std::size_t columnNamed(const std::vector<std::string>& header,
+                        std::initializer_list<const char*> names)
+{
+  for (const char* name : names)
+    for (std::size_t n = 0; n < header.size(); ++n)
+      if (header[n] == name)
+        return n;
+  return kMissing;
+}
+
+bool readHeader(const std::vector<std::string>& cells, Columns& columns)
+{
+  std::vector<std::string> header;
+  std::transform(cells.begin(), cells.end(), std::back_inserter(header), plainHeader);
+  columns.index =
+      columnNamed(header, {"index", "labelvalue", "labelindex", "labelid", "value", "id", "idx",
+                           "number", "labelnumber", "no", "nr", "#", "key"});
+  columns.name = columnNamed(header, {"name", "labelname", "structure", "structurename", "segment",
+                                      "segmentname", "anatomy", "description", "text"});
+  const std::size_t label = columnNamed(header, {"label"});
+  if (columns.index == kMissing)
+    columns.index = label;
+  else if (columns.name == kMissing)
+    columns.name = label;
+  columns.channels = {columnNamed(header, {"r", "red", "colorr"}),
+                      columnNamed(header, {"g", "green", "colorg"}),
+                      columnNamed(header, {"b", "blue", "colorb"})};
+  columns.color = columnNamed(header, {"color", "colour", "rgb", "hex", "hexcolor"});
+  return columns.index != kMissing && columns.name != kMissing && columns.index != columns.name;
+}
+
+/// The columns by the first row that is no comment; a header may stand behind '#'.
+Columns columnsOf(std::string_view text)
+{
+  while (!text.empty())
+  {
+    std::string_view line = trimmed(takeLine(text));
+    const bool isComment = !line.empty() && line.front() == '#';
+    if (isComment)
+      line.remove_prefix(1);
+    if (trimmed(line).empty())
+      continue;
+    for (const char delimiter : {'\t', ';', ','})
+    {
+      const std::vector<std::string> cells = cellsOf(line, delimiter);
+      Columns columns;
+      columns.delimiter = delimiter;
+      if (cells.size() < 2)
+        continue;
+      columns.hasHeader = readHeader(cells, columns);
+      if (columns.hasHeader)
+        return columns;
+      if (isComment || !cellIndex(cells[0]))
+        continue;
+      columns = {};
+      columns.delimiter = delimiter;
+      columns.index = 0;
+      columns.name = 1;
+      if (cells.size() >= 5 && cellNumber(cells[2]))
+        columns.channels = {2, 3, 4};
+      else if (cells.size() >= 3)
+        columns.color = 2;
+      // "1<tab>255 .." of ITK-SNAP has no name in its second cell.
+      if (!cellNumber(cells[1]))
+        return columns;
+    }
+    if (!isComment)
+      return {};
+  }
+  return {};
+}
+
+/// "#rrggbb", with or without '#'; or three numbers. In 0 to 255.
+bool readColor(const std::string& cell, std::array<double, 3>& color)
+{
+  std::string_view digits = cell;
+  if (!digits.empty() && digits.front() == '#')
+    digits.remove_prefix(1);
+  if (digits.size() == 6 && std::all_of(digits.begin(), digits.end(),
+                                        [](unsigned char c) { return std::isxdigit(c) != 0; }))
+  {
+    for (std::size_t c = 0; c < 3; ++c)
+      color[c] = std::stoi(std::string(digits.substr(2 * c, 2)), nullptr, 16);
+    return true;
+  }
+  std::string plain = cell;
+  for (char& c : plain)
+    if (std::string_view("()[],;").find(c) != std::string_view::npos)
+      c = ' ';
+  const std::vector<std::string_view> words = wordsIn(plain);
+  for (std::size_t c = 0; c < 3; ++c)
+  {
+    const auto value = c < words.size() ? parseDouble(words[c]) : std::nullopt;
+    if (!value)
+      return false;
+    color[c] = *value;
+  }
+  return true;
+}
+
+void readRows(std::string_view text, const Columns& columns, Entries& entries, LabelTable& table)
+{
+  std::vector<std::array<double, 3>> colors; // of the segments added, as written
+  double largest = 0.0;
+  bool isFirst = columns.hasHeader;
+  for (std::size_t number = 1; !text.empty(); ++number)
+  {
+    std::string_view line = takeLine(text);
+    if (trimmed(line).empty())
+      continue;
+    if (isFirst) // the header, which may stand behind '#' below other comments
+    {
+      std::string_view head = trimmed(line);
+      if (head.front() == '#')
+        head.remove_prefix(1);
+      Columns again;
+      isFirst = !readHeader(cellsOf(head, columns.delimiter), again);
+      continue;
+    }
+    if (trimmed(line).front() == '#')
+      continue;
+    const std::vector<std::string> cells = cellsOf(line, columns.delimiter);
+    if (std::all_of(cells.begin(), cells.end(),
+                    [](const std::string& cell) { return cell.empty(); }))
+      continue; // as spreadsheets end a sheet
+    const auto cell = [&cells](std::size_t column)
+    { return column < cells.size() ? cells[column] : std::string(); };
+    const auto index = cellIndex(cell(columns.index));
+    if (!index)
+    {
+      entries.problem(number, "gives an index that is not a whole number from 0 to 65535");
+      continue;
+    }
+    volume::Segment segment;
+    segment.name = cell(columns.name);
+    std::array<double, 3> color{};
+    bool isBad = false;
+    if (columns.channels[0] != kMissing && columns.channels[1] != kMissing &&
+        columns.channels[2] != kMissing)
+      for (std::size_t c = 0; c < 3; ++c)
+      {
+        const std::string& text_ = cell(columns.channels[c]);
+        const auto value = text_.empty() ? std::optional(0.0) : cellNumber(text_);
+        isBad = isBad || !value;
+        color[c] = value.value_or(0.0);
+      }
+    else if (const std::string text_ = cell(columns.color); !text_.empty())
+      isBad = !readColor(text_, color);
+    for (const double channel : color)
+      isBad = isBad || !(channel >= 0.0 && channel <= 255.0);
+    if (isBad)
+    {
+      entries.problem(number, "gives a colour that is neither three numbers from 0 to 255 (or 0 to "
+                              "1) nor #rrggbb");
+      continue;
+    }
+    const std::size_t before = table.segments.size();
+    entries.add(number, *index, std::move(segment));
+    if (table.segments.size() == before)
+      continue;
+    colors.push_back(color);
+    largest = std::max({largest, color[0], color[1], color[2]});
+  }
+  const double scale = largest > 1.0 ? 255.0 : 1.0;
+  for (std::size_t n = 0; n < colors.size(); ++n)
+    for (std::size_t c = 0; c < 3; ++c)
+      table.segments[n].color[c] = static_cast<float>(colors[n][c] / scale);
+}
+
+void readWordLines(std::string_view text, Entries& entries)
+{
+  for (std::size_t number = 1; !text.empty(); ++number)
+  {
+    std::string_view line = trimmed(takeLine(text));
+    if (line.empty() || line.front() == '#')
+      continue;
+    const auto index = parseInteger(takeWord(line));
+    if (!index)
+    {
+      entries.problem(number, "does not start with an index; an entry is index, name, r, g, b");
+      continue;
+    }
+    auto segment = snapEntry(line);
+    if (!segment)
+      segment = slicerEntry(line);
+    if (segment)
+      entries.add(number, *index, std::move(*segment));
+    else
+      entries.problem(number, "is no entry; it needs index, name and the colour r, g, b");
+  }
+}
+
+void readJson(std::string_view text, Entries& entries)
+{
+  const auto document = nlohmann::json::parse(text, nullptr, false);
+  const char* const expected = "is JSON, but no table of names; {\"1\": \"name\"} or {\"name\": 1} "
+                               "would be";
+  if (!document.is_object())
+    return entries.problem(0, expected);
+  const auto inner = document.find("labels");
+  const nlohmann::json& map = inner != document.end() && inner->is_object() ? *inner : document;
+  std::vector<std::pair<std::int64_t, volume::Segment>> found;
+  for (const auto& [key, value] : map.items())
+  {
+    volume::Segment segment;
+    std::optional<std::int64_t> index;
+    if (value.is_string())
+    {
+      index = parseInteger(key);
+      segment.name = value.get<std::string>();
+    }
+    else if (value.is_number_integer())
+    {
+      index = value.get<std::int64_t>();
+      segment.name = key;
+    }
+    if (!index) // such files lie beside images for other reasons: all or nothing
+      return entries.problem(0, expected);
+    found.emplace_back(*index, std::move(segment));
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (auto& [index, segment] : found)
+    entries.add(0, index, std::move(segment));
+}
+
+} // namespace
+
+LabelTable parseTable(std::string_view text)
+{
+  LabelTable table;
+  Entries entries(table);
+  if (text.substr(0, 2) == "\xff\xfe" || text.substr(0, 2) == "\xfe\xff")
+  {
+    entries.problem(0, "is text in UTF-16; save it as UTF-8");
+    return table;
+  }
+  std::string recoded;
+  if (text.substr(0, 3) == "\xef\xbb\xbf")
+    text.remove_prefix(3);
+  if (!core::isUtf8(text))
+  {
+    recoded = toUtf8(std::string(text), "ISO_IR 100");
+    text = recoded;
+    table.notes.push_back("the table of names is not in UTF-8 and was read as Latin-1");
+  }
+  if (const std::string_view start = trimmed(text); !start.empty() && start.front() == '{')
+    readJson(start, entries);
+  else if (const Columns columns = columnsOf(text); columns.delimiter != '\0')
+    readRows(text, columns, entries, table);
+  else
+    readWordLines(text, entries);
+  return table;
+}
+
+LabelTable readLabelTable(const std::filesystem::path& path)
+{
+  if (checkedFileSize(path) > kLargestTable)
+    fail(FileError::Reason::Unsupported, path,
+         "is too large for a table of names; give a colour table, a label description or a CSV");
+  LabelTable table = parseTable(readBytes(path, kLargestTable));
+  // A file of another kind fails in its first line, and is not to be told of one bad entry.
+  if (table.segments.empty())
+    fail(FileError::Reason::Unreadable, path,
+         "holds no names of label values" +
+             (table.problems.empty() ? std::string() : ": " + table.problems.front()) +
+             "; a 3D Slicer colour table, an ITK-SNAP label description or a CSV with the columns "
+             "index and name would be right");
+  if (!table.problems.empty())
+    fail(FileError::Reason::Unreadable, path, "its " + table.problems.front());
+  return table;
+}
+
+std::vector<volume::Segment> parseLabelTable(const std::string& text)
+{
+  return parseTable(text).segments;
+}
+
+} // namespace petrous::imaging

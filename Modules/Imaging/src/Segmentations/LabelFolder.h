@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+
+#include "petrous/Imaging/LabelFile.h"
+
+namespace petrous::imaging
+{
+
+/// Reads a folder of masks, one structure a file (loadLabels). Throws FileError (Unsupported) if
+/// none of its files is one, CancelledError.
+LoadedLabels readLabelFolder(const std::filesystem::path& folder, const core::Progress& progress);
+
+} // namespace petrous::imaging

@@ -1,0 +1,635 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <optional>
+
+#include "ByteSource.h"
+#include "DicomElements.h"
+#include "DicomItem.h"
+#include "FileHelpers.h"
+#include "SegmentationReader.h"
+#include "petrous/Imaging/FileFormats.h"
+#include "petrous/Imaging/StructureSet.h"
+
+namespace petrous::imaging
+{
+
+namespace
+{
+
+using Reason = FileError::Reason;
+
+constexpr const char* kStructureSetClass = "1.2.840.10008.5.1.4.1.1.481.3";
+constexpr std::uint64_t kLargest = std::uint64_t{1} << 30; // bytes
+constexpr std::size_t kMostRois = 65535;
+constexpr double kFarthest = 1e5;   // mm, of a point
+constexpr double kPlanar = 0.1;     // slices, by which a contour may leave its plane
+constexpr double kSamePlane = 0.02; // slices, between contours of one plane
+constexpr double kGap = 1.5;        // of the usual distance of planes: a part of its own
+constexpr int kLines = 32;          // in a row of voxels
+
+/// A data set of a structure set, which has no pixels.
+std::string dataSet(const std::filesystem::path& path, DicomItem::Encoding& encoding)
+{
+  ByteSource source(path);
+  const DicomElements elements(source);
+  if (elements.state() != DicomElements::State::Complete || elements.pixels().tag != 0 ||
+      elements.dataStart() > source.size())
+    fail(Reason::Unreadable, path, "is cut short or damaged; copy or export it again");
+  const std::uint64_t size = source.size() - elements.dataStart();
+  if (size > kLargest)
+    fail(Reason::Unsupported, path,
+         "holds more than 1 GB of contours; export fewer structures at a time");
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  if (!source.read(elements.dataStart(), bytes.data(), bytes.size()))
+    fail(Reason::Unreadable, path, "cannot be read to its end; copy it again");
+  encoding = {elements.isExplicit(), elements.isBigEndian()};
+  return bytes;
+}
+
+/// The points of a contour; false if they are no numbers, or not three a point.
+bool readPoints(const DicomItem& contour, std::vector<Eigen::Vector3d>& points)
+{
+  const std::vector<double> values = contour.numbers(0x30060050);
+  if (values.empty() || values.size() % 3 != 0)
+    return false;
+  for (std::size_t n = 0; n < values.size(); n += 3)
+  {
+    const Eigen::Vector3d p(values[n], values[n + 1], values[n + 2]);
+    if (!(p.cwiseAbs().maxCoeff() < kFarthest)) // NaN too
+      return false;
+    if (points.empty() || p != points.back())
+      points.push_back(p);
+  }
+  while (points.size() > 1 && points.back() == points.front())
+    points.pop_back();
+  return true;
+}
+
+/// Axes of the grid: contours lie in planes across `normal`.
+struct Axes
+{
+  std::size_t normal = 2, first = 0, second = 1;
+};
+
+Axes axesAcross(std::size_t normal)
+{
+  return {normal, normal == 0 ? std::size_t{1} : std::size_t{0},
+          normal == 2 ? std::size_t{1} : std::size_t{2}};
+}
+
+/// The contours of a plane, in voxel coordinates of the two axes in it.
+struct Plane
+{
+  double at = 0.0;    ///< voxel coordinate along the normal
+  double lower = 0.0; ///< of its slab
+  double upper = 0.0;
+  std::vector<std::vector<Eigen::Vector2d>> contours;
+};
+
+struct Placed
+{
+  Axes axes;
+  std::vector<Plane> planes; ///< ascending
+  double step = 1.0;         ///< slices, between neighbouring planes
+};
+
+/// The contours of a structure as slabs on the grid; nullopt if they lie across none of its axes.
+std::optional<Placed> place(const StructureSet::Roi& roi, const core::GridGeometry& grid)
+{
+  std::vector<std::vector<Eigen::Vector3d>> contours;
+  for (const auto& contour : roi.contours)
+  {
+    contours.emplace_back();
+    for (const Eigen::Vector3d& p : contour)
+      contours.back().push_back(grid.voxelFromPatient(p));
+  }
+  for (const std::size_t normal : {std::size_t{2}, std::size_t{1}, std::size_t{0}})
+  {
+    const auto axis = static_cast<int>(normal);
+    Placed placed;
+    placed.axes = axesAcross(normal);
+    std::vector<std::pair<double, const std::vector<Eigen::Vector3d>*>> planes;
+    bool isAcross = true;
+    for (const auto& contour : contours)
+    {
+      double lowest = contour.front()[axis];
+      double highest = lowest;
+      double sum = 0.0;
+      for (const Eigen::Vector3d& p : contour)
+      {
+        lowest = std::min(lowest, p[axis]);
+        highest = std::max(highest, p[axis]);
+        sum += p[axis];
+      }
+      isAcross = isAcross && highest - lowest <= kPlanar;
+      planes.emplace_back(sum / static_cast<double>(contour.size()), &contour);
+    }
+    if (!isAcross)
+      continue;
+    std::sort(planes.begin(), planes.end(),
+              [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& [at, contour] : planes)
+    {
+      if (placed.planes.empty() || at > placed.planes.back().at + kSamePlane)
+        placed.planes.push_back({at, 0.0, 0.0, {}});
+      auto& flat = placed.planes.back().contours.emplace_back();
+      for (const Eigen::Vector3d& p : *contour)
+        flat.emplace_back(p[static_cast<int>(placed.axes.first)],
+                          p[static_cast<int>(placed.axes.second)]);
+    }
+    std::vector<double> steps;
+    for (std::size_t n = 1; n < placed.planes.size(); ++n)
+      steps.push_back(placed.planes[n].at - placed.planes[n - 1].at);
+    if (!steps.empty())
+    {
+      std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
+                       steps.end());
+      placed.step = steps[steps.size() / 2];
+    }
+    for (std::size_t n = 0; n < placed.planes.size(); ++n)
+    {
+      Plane& plane = placed.planes[n];
+      const auto half = [&](std::size_t other) // towards a neighbour
+      {
+        const double gap = std::abs(placed.planes[other].at - plane.at);
+        return gap <= kGap * placed.step ? 0.5 * gap : 0.5 * placed.step;
+      };
+      plane.lower = plane.at - (n > 0 ? half(n - 1) : 0.5 * placed.step);
+      plane.upper = plane.at + (n + 1 < placed.planes.size() ? half(n + 1) : 0.5 * placed.step);
+    }
+    return placed;
+  }
+  return std::nullopt;
+}
+
+/// Calls span(row, x0, x1, share) for the parts of lines that lie within the contours of a plane,
+/// in voxel coordinates; `share`: of a row's height for which a line stands.
+template <class Span>
+void forEachSpan(const Plane& plane, const Span& span)
+{
+  double lowest = plane.contours.front().front()[1];
+  double highest = lowest;
+  for (const auto& contour : plane.contours)
+    for (const Eigen::Vector2d& p : contour)
+    {
+      lowest = std::min(lowest, p[1]);
+      highest = std::max(highest, p[1]);
+    }
+  // Line n lies at (n + 1/2) / kLines - 1/2; row j holds lines j kLines to (j + 1) kLines - 1.
+  const auto lineAbove = [](double y)
+  { return static_cast<std::int64_t>(std::ceil((y + 0.5) * kLines - 0.5)); };
+  const std::int64_t begin = lineAbove(lowest);
+  const std::int64_t end = lineAbove(highest);
+  std::vector<std::vector<double>> crossings(
+      static_cast<std::size_t>(std::max<std::int64_t>(0, end - begin)));
+  for (const auto& contour : plane.contours)
+    for (std::size_t n = 0; n < contour.size(); ++n)
+    {
+      Eigen::Vector2d a = contour[n];
+      Eigen::Vector2d b = contour[(n + 1) % contour.size()];
+      if (a[1] > b[1])
+        std::swap(a, b);
+      const std::int64_t last = lineAbove(b[1]); // half-open: a point on a line counts once
+      for (std::int64_t line = lineAbove(a[1]); line < last; ++line)
+      {
+        const double y = (static_cast<double>(line) + 0.5) / kLines - 0.5;
+        const double t = (y - a[1]) / (b[1] - a[1]);
+        crossings[static_cast<std::size_t>(line - begin)].push_back(a[0] + t * (b[0] - a[0]));
+      }
+    }
+  for (std::size_t n = 0; n < crossings.size(); ++n)
+  {
+    auto& at = crossings[n];
+    std::sort(at.begin(), at.end());
+    const std::int64_t line = begin + static_cast<std::int64_t>(n);
+    const std::int64_t row = line >= 0 ? line / kLines : -((-line + kLines - 1) / kLines);
+    for (std::size_t c = 0; c + 1 < at.size(); c += 2)
+      if (at[c + 1] > at[c])
+        span(row, at[c], at[c + 1], 1.0 / kLines);
+  }
+}
+
+double areaOf(const Plane& plane) // voxels
+{
+  double area = 0.0;
+  forEachSpan(plane, [&area](std::int64_t, double x0, double x1, double share)
+              { area += (x1 - x0) * share; });
+  return area;
+}
+
+double volumeOf(const Placed& placed) // voxels
+{
+  double volume = 0.0;
+  for (const Plane& plane : placed.planes)
+    volume += areaOf(plane) * (plane.upper - plane.lower);
+  return volume;
+}
+
+/// The box of the voxels that a structure's slabs touch, within the grid.
+core::IndexBox boxOf(const Placed& placed, const core::GridGeometry& grid)
+{
+  std::array<double, 3> lower;
+  std::array<double, 3> upper;
+  lower.fill(1e30);
+  upper.fill(-1e30);
+  const auto include = [&](std::size_t axis, double value)
+  {
+    lower[axis] = std::min(lower[axis], value);
+    upper[axis] = std::max(upper[axis], value);
+  };
+  for (const Plane& plane : placed.planes)
+  {
+    include(placed.axes.normal, plane.lower);
+    include(placed.axes.normal, plane.upper);
+    for (const auto& contour : plane.contours)
+      for (const Eigen::Vector2d& p : contour)
+      {
+        include(placed.axes.first, p[0]);
+        include(placed.axes.second, p[1]);
+      }
+  }
+  core::IndexBox box;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    const double most = grid.dims()[a];
+    box.lower[a] = static_cast<int>(std::clamp(std::floor(lower[a] + 0.5), 0.0, most));
+    box.upper[a] = static_cast<int>(std::clamp(std::floor(upper[a] + 0.5) + 1.0, 0.0, most));
+  }
+  return box.intersected(grid.fullBox());
+}
+
+/// Shares of the voxels of a box, in 1/kWhole.
+struct Shares
+{
+  static constexpr double kWhole = 65535.0;
+
+  core::IndexBox box;
+  std::vector<std::uint16_t> values; ///< first axis fastest
+  double sum = 0.0;                  ///< of the shares, voxels
+
+  std::size_t placeOf(const core::Index3& at) const
+  {
+    const core::Index3 size = box.size();
+    return static_cast<std::size_t>(at[0] - box.lower[0]) +
+           static_cast<std::size_t>(size[0]) *
+               (static_cast<std::size_t>(at[1] - box.lower[1]) +
+                static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(at[2] - box.lower[2]));
+  }
+};
+
+/// Adds slabs to slices of the box one after the other, so that only one is kept in full precision.
+Shares sharesOf(const Placed& placed, const core::GridGeometry& grid,
+                const core::Progress& progress)
+{
+  Shares shares;
+  shares.box = boxOf(placed, grid);
+  if (shares.box.empty())
+    return shares;
+  shares.values.assign(shares.box.count(), 0);
+  const auto [normal, first, second] = placed.axes;
+  const core::IndexBox& box = shares.box;
+  const int width = box.size()[first];
+  const auto height = static_cast<std::size_t>(box.size()[second]);
+  std::vector<double> slice(static_cast<std::size_t>(width) * height);
+  std::size_t from = 0; // the first plane whose slab may reach the slice
+  for (int k = box.lower[normal]; k < box.upper[normal]; ++k)
+  {
+    progress.check("reading contours");
+    std::fill(slice.begin(), slice.end(), 0.0);
+    while (from < placed.planes.size() && placed.planes[from].upper <= k - 0.5)
+      ++from;
+    for (std::size_t n = from; n < placed.planes.size() && placed.planes[n].lower < k + 0.5; ++n)
+    {
+      const Plane& plane = placed.planes[n];
+      const double part = std::min(plane.upper, k + 0.5) - std::max(plane.lower, k - 0.5);
+      if (part <= 0.0)
+        continue;
+      forEachSpan(plane,
+                  [&](std::int64_t row, double x0, double x1, double share)
+                  {
+                    if (row < box.lower[second] || row >= box.upper[second])
+                      return;
+                    double* line =
+                        slice.data() + static_cast<std::size_t>(row - box.lower[second]) *
+                                           static_cast<std::size_t>(width);
+                    const double left = std::max(x0, box.lower[first] - 0.5);
+                    const double right = std::min(x1, box.upper[first] - 0.5);
+                    if (right <= left)
+                      return;
+                    const int begin = static_cast<int>(std::floor(left + 0.5));
+                    const int end =
+                        std::min(static_cast<int>(std::floor(right + 0.5)), box.upper[first] - 1);
+                    for (int i = begin; i <= end; ++i)
+                      line[i - box.lower[first]] +=
+                          share * part * (std::min(right, i + 0.5) - std::max(left, i - 0.5));
+                  });
+    }
+    for (std::size_t n = 0; n < slice.size(); ++n)
+    {
+      if (slice[n] <= 0.0)
+        continue;
+      shares.sum += slice[n];
+      core::Index3 at;
+      at[normal] = k;
+      at[first] = box.lower[first] + static_cast<int>(n % static_cast<std::size_t>(width));
+      at[second] = box.lower[second] + static_cast<int>(n / static_cast<std::size_t>(width));
+      // Never 0 where there is something.
+      shares.values[shares.placeOf(at)] = static_cast<std::uint16_t>(
+          std::clamp(std::round(slice[n] * Shares::kWhole), 1.0, Shares::kWhole));
+    }
+  }
+  return shares;
+}
+
+/// Which voxels of the box are the structure's.
+std::vector<char> chosen(const Shares& shares)
+{
+  std::vector<std::size_t> counts(65536, 0);
+  for (const std::uint16_t share : shares.values)
+    ++counts[share];
+  auto wanted = static_cast<std::size_t>(std::llround(shares.sum));
+  std::size_t level = 65535;
+  std::size_t above = 0; // voxels of a larger share
+  while (level > 0 && above + counts[level] <= wanted)
+    above += counts[level--];
+  std::size_t rest = level == 0 ? 0 : wanted - above; // of those at the level, in order
+  std::vector<char> in(shares.values.size(), 0);
+  for (std::size_t n = 0; n < in.size(); ++n)
+    if (shares.values[n] > level)
+      in[n] = 1;
+    else if (level > 0 && shares.values[n] == level && rest > 0)
+    {
+      in[n] = 1;
+      --rest;
+    }
+  return in;
+}
+
+/// Keeps a voxel for each contour of which none is in; returns their number.
+std::size_t keepSmall(const Placed& placed, const Shares& shares, std::vector<char>& in)
+{
+  std::size_t kept = 0;
+  const auto [normal, first, second] = placed.axes;
+  for (const Plane& plane : placed.planes)
+    for (const auto& contour : plane.contours)
+    {
+      Eigen::Vector2d lower = contour.front();
+      Eigen::Vector2d upper = lower;
+      for (const Eigen::Vector2d& p : contour)
+      {
+        lower = lower.cwiseMin(p);
+        upper = upper.cwiseMax(p);
+      }
+      core::IndexBox near;
+      near.lower[normal] = static_cast<int>(std::floor(plane.lower + 0.5));
+      near.upper[normal] = static_cast<int>(std::ceil(plane.upper + 0.5));
+      near.lower[first] = static_cast<int>(std::floor(lower[0] + 0.5));
+      near.upper[first] = static_cast<int>(std::floor(upper[0] + 0.5)) + 1;
+      near.lower[second] = static_cast<int>(std::floor(lower[1] + 0.5));
+      near.upper[second] = static_cast<int>(std::floor(upper[1] + 0.5)) + 1;
+      near = near.intersected(shares.box);
+      constexpr std::size_t kSmall = 4096; // voxels; a larger contour has some
+      if (near.empty() || near.count() > kSmall)
+        continue;
+      std::size_t best = 0;
+      std::uint16_t most = 0;
+      bool has = false;
+      for (int k = near.lower[2]; k < near.upper[2]; ++k)
+        for (int j = near.lower[1]; j < near.upper[1]; ++j)
+          for (int i = near.lower[0]; i < near.upper[0]; ++i)
+          {
+            const std::size_t at = shares.placeOf({i, j, k});
+            has = has || in[at] != 0;
+            if (shares.values[at] > most)
+            {
+              most = shares.values[at];
+              best = at;
+            }
+          }
+      if (has || most == 0)
+        continue;
+      in[best] = 1;
+      ++kept;
+    }
+  return kept;
+}
+
+} // namespace
+
+bool isStructureSet(const std::filesystem::path& path)
+{
+  const FileFormat* format = recognisedFormat(path);
+  return (!format || format->reads == kDicom) && sopClassOf(path) == kStructureSetClass;
+}
+
+StructureSet readStructureSet(const std::filesystem::path& path)
+{
+  DicomItem::Encoding encoding;
+  const std::string bytes = dataSet(path, encoding);
+  const DicomItem data(bytes, encoding);
+  const auto checkDamage = [&path](const DicomItem& item)
+  {
+    if (item.isDamaged())
+      fail(Reason::Unreadable, path, "is cut short or damaged; copy or export it again");
+  };
+  checkDamage(data);
+  const std::string characters = data.text(0x00080005);
+  StructureSet set;
+  std::map<int, std::size_t> places; // by ROI Number
+  const auto numberOf = [&](const DicomItem& item, Tag tag)
+  {
+    const auto value = item.number(tag);
+    return value && *value == std::floor(*value) && std::abs(*value) < 1e9
+               ? std::optional<int>(static_cast<int>(*value))
+               : std::nullopt;
+  };
+  for (const DicomItem& item : data.items(0x30060020))
+  {
+    checkDamage(item);
+    const auto number = numberOf(item, 0x30060022);
+    if (!number || !places.emplace(*number, set.rois.size()).second)
+      fail(Reason::Unreadable, path,
+           "describes a structure without a number, or two of one number; export it again");
+    StructureSet::Roi roi;
+    roi.name = toUtf8(item.text(0x30060026), characters);
+    if (roi.name.empty())
+      roi.name = "label " + std::to_string(*number);
+    const std::string frame = item.text(0x30060024);
+    if (set.frameOfReferenceUid.empty())
+      set.frameOfReferenceUid = frame;
+    else if (!frame.empty() && frame != set.frameOfReferenceUid)
+      fail(Reason::Unsupported, path,
+           "holds structures of several frames of reference; export those of each image in a file "
+           "of their own");
+    set.rois.push_back(std::move(roi));
+    if (set.rois.size() > kMostRois)
+      fail(Reason::Unsupported, path, "holds more than 65535 structures; export fewer at a time");
+  }
+  for (const DicomItem& item : data.items(0x30060080))
+    if (const auto number = numberOf(item, 0x30060084); number && places.count(*number) > 0)
+    {
+      const DicomItem code = item.item(0x30060086); // RT ROI Identification Code
+      StructureSet::Roi& roi = set.rois[places.at(*number)];
+      roi.meaning = toUtf8(code.text(0x00080104), characters);
+      if (roi.meaning.empty())
+        roi.meaning = toUtf8(item.text(0x300600a4), characters);
+    }
+  for (const DicomItem& item : data.items(0x30060039))
+  {
+    checkDamage(item);
+    const auto number = numberOf(item, 0x30060084);
+    const auto found = number ? places.find(*number) : places.end();
+    if (found == places.end())
+      fail(Reason::Unreadable, path,
+           "has contours of a structure that it does not describe; export it again");
+    StructureSet::Roi& roi = set.rois[found->second];
+    const std::vector<double> color = item.numbers(0x3006002a);
+    if (color.size() == 3)
+      for (std::size_t c = 0; c < 3; ++c)
+        roi.color[c] = static_cast<float>(std::clamp(color[c] / 255.0, 0.0, 1.0));
+    for (const DicomItem& contour : item.items(0x30060040))
+    {
+      checkDamage(contour);
+      const std::string type = contour.text(0x30060042);
+      if (type != "CLOSED_PLANAR" && type != "CLOSEDPLANAR_XOR")
+      {
+        ++roi.otherContours;
+        continue;
+      }
+      std::vector<Eigen::Vector3d> points;
+      if (!readPoints(contour, points))
+        fail(Reason::Unreadable, path,
+             "has a contour whose points are no numbers, three a point; export it again");
+      if (points.size() < 3)
+        ++roi.otherContours;
+      else
+        roi.contours.push_back(std::move(points));
+    }
+  }
+  return set;
+}
+
+double contourVolume(const StructureSet::Roi& roi, const core::GridGeometry& grid)
+{
+  const auto placed = roi.contours.empty() ? std::nullopt : place(roi, grid);
+  return placed ? volumeOf(*placed) * grid.voxelVolume() : 0.0;
+}
+
+LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
+                      const std::filesystem::path& path, const core::Progress& progress)
+{
+  LoadedLabels loaded;
+  loaded.frameOfReferenceUid = set.frameOfReferenceUid;
+  std::vector<std::shared_ptr<volume::Volume<std::uint16_t>>> layers;
+  std::vector<std::vector<volume::Segment>> names;
+  std::vector<std::string> oblique;
+  std::vector<std::string> coarse; // drawn on every second slice or fewer
+  std::size_t others = 0;
+  std::size_t drawn = 0;
+  for (std::size_t n = 0; n < set.rois.size(); ++n)
+  {
+    const StructureSet::Roi& roi = set.rois[n];
+    const core::Progress part =
+        progress.part(static_cast<double>(n) / static_cast<double>(set.rois.size()),
+                      static_cast<double>(n + 1) / static_cast<double>(set.rois.size()));
+    part.report(0.0, "reading contours");
+    const auto label = static_cast<std::uint16_t>(n + 1);
+    volume::Segment segment{roi.name, label, roi.color, 0};
+    if (!roi.meaning.empty())
+      loaded.meanings[roi.name] = roi.meaning;
+    others += roi.otherContours;
+    std::size_t layer = 0;
+    if (!roi.contours.empty())
+    {
+      ++drawn;
+      const auto placed = place(roi, grid);
+      if (!placed)
+      {
+        oblique.push_back("'" + roi.name + "'");
+        loaded.unread.push_back({roi.name, label, false});
+        continue;
+      }
+      if (placed->step > kGap)
+        coarse.push_back("'" + roi.name + "'");
+      const Shares shares = sharesOf(*placed, grid, part);
+      constexpr double kNoted = 0.01; // of the volume
+      const double whole = volumeOf(*placed);
+      loaded.fileVolumes[roi.name] = whole * grid.voxelVolume();
+      if (shares.sum < (1.0 - kNoted) * whole)
+        loaded.notes.push_back("'" + roi.name + "': " +
+                               std::to_string(std::lround(100.0 * (1.0 - shares.sum / whole))) +
+                               " % of it lies outside this image and became no voxels");
+      if (!shares.box.empty())
+      {
+        std::vector<char> in = chosen(shares);
+        if (const std::size_t kept = keepSmall(*placed, shares, in); kept > 0)
+          loaded.notes.push_back("'" + roi.name + "' has " + std::to_string(kept) +
+                                 (kept == 1 ? " contour" : " contours") +
+                                 " smaller than a voxel, which became one voxel each");
+        const auto forEach = [&](const auto& visit)
+        {
+          std::size_t at = 0;
+          for (int k = shares.box.lower[2]; k < shares.box.upper[2]; ++k)
+            for (int j = shares.box.lower[1]; j < shares.box.upper[1]; ++j)
+              for (int i = shares.box.lower[0]; i < shares.box.upper[0]; ++i, ++at)
+                if (in[at] != 0 && !visit(i, j, k))
+                  return false;
+          return true;
+        };
+        while (layer < layers.size() &&
+               !forEach([&](int i, int j, int k) { return layers[layer]->at(i, j, k) == 0; }))
+          ++layer;
+        if (layer == layers.size())
+        {
+          layers.push_back(volume::makeZeroVolume<std::uint16_t>(grid));
+          names.emplace_back();
+        }
+        forEach(
+            [&](int i, int j, int k)
+            {
+              layers[layer]->at(i, j, k) = label;
+              return true;
+            });
+      }
+    }
+    if (layers.empty())
+    {
+      layers.push_back(volume::makeZeroVolume<std::uint16_t>(grid));
+      names.emplace_back();
+    }
+    names[layer].push_back(std::move(segment));
+  }
+  const auto list = [](const std::vector<std::string>& texts)
+  {
+    std::string all;
+    for (const std::string& text : texts)
+      all += (all.empty() ? "" : ", ") + text;
+    return all;
+  };
+  if (drawn == 0)
+    fail(Reason::Unsupported, path,
+         "has no closed contour in any structure; export it again with what was drawn");
+  if (oblique.size() == drawn)
+    fail(Reason::Unsupported, path,
+         "was drawn on planes oblique to this image's slices; resample the image or the contours "
+         "where they were drawn, or export the structures as a segmentation");
+  if (!oblique.empty())
+    loaded.notes.push_back(list(oblique) + " left out: drawn on planes oblique to this image's "
+                                           "slices");
+  if (!coarse.empty())
+    loaded.notes.push_back(list(coarse) + ": drawn on some of the slices only; each contour stands "
+                                          "for the slices half-way to the next");
+  if (others > 0)
+    loaded.notes.push_back(
+        std::to_string(others) +
+        (others == 1 ? " point or open contour encloses" : " points and open contours enclose") +
+        " nothing and became no voxels");
+  for (std::size_t layer = 0; layer < layers.size(); ++layer)
+    loaded.maps.push_back(volume::makeLabelMap(std::move(layers[layer]), std::move(names[layer])));
+  progress.report(1.0, "reading contours");
+  return loaded;
+}
+
+} // namespace petrous::imaging

@@ -1,0 +1,432 @@
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "TestCase.h"
+#include "petrous/Library/Archive.h"
+#include "petrous/Library/ObjectStore.h"
+#include "petrous/Scene/Manifest.h"
+
+using namespace petrous;
+using namespace petrous::library;
+using test::contentOf;
+using test::drill;
+using test::refusal;
+using test::TemporaryFolder;
+
+namespace
+{
+
+namespace fs = std::filesystem;
+using Reason = LibraryError::Reason;
+
+/// A zip file, read and written byte by byte according to APPNOTE 6.3.9, sharing no code with the
+/// program; stored entries only.
+struct TestZip
+{
+  struct Entry
+  {
+    std::string name;
+    std::string bytes;
+    std::string localName = {};   ///< if it differs
+    std::uint32_t size = 0;       ///< stated, if it differs
+    std::uint32_t mode = 0100644; ///< Unix file mode
+    std::uint16_t flags = 0;
+  };
+  std::vector<Entry> entries;
+
+  static std::uint32_t crc(const std::string& bytes)
+  {
+    std::uint32_t value = 0xffffffffU;
+    for (const char c : bytes)
+    {
+      value ^= static_cast<unsigned char>(c);
+      for (int bit = 0; bit < 8; ++bit)
+        value = (value >> 1) ^ ((value & 1) != 0 ? 0xedb88320U : 0U);
+    }
+    return ~value;
+  }
+  static void put(std::string& out, std::uint64_t value, int bytes)
+  {
+    for (int n = 0; n < bytes; ++n)
+      out += static_cast<char>(value >> (8 * n));
+  }
+
+  std::string bytes() const
+  {
+    std::string out;
+    std::string directory;
+    for (const Entry& entry : entries)
+    {
+      const std::string& local = entry.localName.empty() ? entry.name : entry.localName;
+      const std::size_t size = entry.size == 0 ? entry.bytes.size() : entry.size;
+      const auto common = [&](std::string& to)
+      {
+        put(to, entry.flags, 2);
+        put(to, 0, 2);           // stored
+        put(to, 0x00210000U, 4); // time and date
+        put(to, crc(entry.bytes), 4);
+        put(to, entry.bytes.size(), 4);
+        put(to, size, 4);
+      };
+      directory += std::string("PK\1\2", 4);
+      put(directory, 0x031e, 2); // made by Unix
+      put(directory, 20, 2);
+      common(directory);
+      put(directory, entry.name.size(), 2);
+      put(directory, 0, 8); // no extra field, comment, disk, internal attributes
+      put(directory, static_cast<std::uint64_t>(entry.mode) << 16, 4);
+      put(directory, out.size(), 4);
+      directory += entry.name;
+      out += std::string("PK\3\4", 4);
+      put(out, 20, 2);
+      common(out);
+      put(out, local.size(), 2);
+      put(out, 0, 2);
+      out += local + entry.bytes;
+    }
+    const std::size_t start = out.size();
+    out += directory + std::string("PK\5\6", 4);
+    put(out, 0, 4);
+    put(out, entries.size(), 2);
+    put(out, entries.size(), 2);
+    put(out, directory.size(), 4);
+    put(out, start, 4);
+    put(out, 0, 2);
+    return out;
+  }
+};
+
+std::string bytesOf(const fs::path& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class Archives : public ::testing::Test
+{
+protected:
+  Archives()
+  {
+    scene::Case value = test::savedCase(m_library, "ear");
+    drill(value, {8, 8, 8});
+    drill(value, {12, 12, 12});
+    value.dissection.undo(1);
+    value.iso = 412.5;
+    m_library.save(value);
+  }
+
+  void write(const std::string& bytes) const
+  {
+    std::ofstream(m_file, std::ios::binary).write(bytes.data(), static_cast<long>(bytes.size()));
+  }
+
+  /// The archive's entries, unpacked by Python's zipfile.
+  TestZip unpacked() const
+  {
+    TestZip zip;
+    const fs::path to = m_folder.path() / "unpacked";
+    fs::remove_all(to);
+    const std::string command =
+        "python3 -m zipfile -e '" + m_file.string() + "' '" + to.string() + "' >/dev/null 2>&1";
+    if (std::system(command.c_str()) != 0)
+      return zip;
+    for (const auto& entry : fs::recursive_directory_iterator(to))
+      if (entry.is_regular_file())
+        zip.entries.push_back({fs::relative(entry.path(), to).string(), bytesOf(entry.path())});
+    return zip;
+  }
+
+  static TestZip::Entry& find(TestZip& zip, const std::string& name)
+  {
+    return *std::find_if(zip.entries.begin(), zip.entries.end(),
+                         [&](const auto& entry) { return entry.name == name; });
+  }
+
+  /// Restoring the file is refused, and changes nothing.
+  std::string refused(const RestoreOptions& options = {"copy", ""})
+  {
+    // Nothing is known there: every object is read.
+    Library other(m_folder.path() / "empty");
+    const auto [reason, text] = refusal([&] { restoreCase(other, m_file, options); });
+    EXPECT_FALSE(other.contains("copy"));
+    EXPECT_EQ(other.verify().objects, 0U);
+    EXPECT_EQ(text.find('\n'), text.npos);
+    return text;
+  }
+
+  TemporaryFolder m_folder;
+  Library m_library{m_folder.path() / "library"};
+  fs::path m_file = m_folder.path() / "ear.petrous";
+};
+
+} // namespace
+
+TEST_F(Archives, AreRestoredToTheByteInAnotherLibrary)
+{
+  const ArchiveSummary written = archiveCase(m_library, "ear", m_file);
+  EXPECT_EQ(written.parts, 5U);
+  EXPECT_EQ(written.archiveBytes, fs::file_size(m_file));
+  Library other(m_folder.path() / "other");
+  const RestoreSummary restored = restoreCase(other, m_file);
+  EXPECT_EQ(restored.name, "ear");
+  EXPECT_EQ(restored.newParts, 5U);
+
+  auto there = contentOf(other.folder());
+  auto here = contentOf(m_library.folder());
+  std::size_t objects = 0;
+  for (const auto& [name, bytes] : here)
+    if (name.rfind("objects/", 0) == 0)
+    {
+      ++objects;
+      EXPECT_EQ(there[name], bytes) << name;
+    }
+  EXPECT_EQ(objects, 5U);
+  scene::Case a = m_library.open("ear");
+  scene::Case b = other.open("ear");
+  EXPECT_NE(a.id, b.id);
+  b.id = a.id;
+  b.revision = a.revision;
+  EXPECT_EQ(scene::toManifest(a), scene::toManifest(b));
+  EXPECT_TRUE(other.verify().damaged.empty());
+}
+
+TEST_F(Archives, OfEqualCasesAreEqual)
+{
+  archiveCase(m_library, "ear", m_file);
+  const std::string first = bytesOf(m_file);
+  archiveCase(m_library, "ear", m_file);
+  EXPECT_EQ(bytesOf(m_file), first);
+}
+
+TEST_F(Archives, ArePackedInSeveralMembers)
+{
+  // 160^3 voxels of 2 bytes are more than one member of 4 MiB.
+  scene::Case value = test::smallCase("large", 160);
+  m_library.save(value);
+  const ArchiveSummary written = archiveCase(m_library, "large", m_file);
+  EXPECT_LT(written.archiveBytes, written.inputBytes / 2);
+  Library other(m_folder.path() / "other");
+  restoreCase(other, m_file, {"large too", ""});
+  EXPECT_TRUE(other.verify().damaged.empty());
+  EXPECT_EQ(other.open("large too").ct.object, m_library.open("large").ct.object);
+}
+
+TEST_F(Archives, ATakenNameIsRefused)
+{
+  archiveCase(m_library, "ear", m_file);
+  const auto [reason, text] = refusal([&] { restoreCase(m_library, m_file); });
+  EXPECT_EQ(reason, Reason::NameTaken);
+  const RestoreSummary copy = restoreCase(m_library, m_file, {"copy", ""});
+  EXPECT_EQ(copy.newParts, 0U);
+  EXPECT_TRUE(m_library.contains("copy"));
+}
+
+TEST_F(Archives, ADamagedObjectIsNotArchived)
+{
+  write("what was there before");
+  const fs::path object =
+      m_library.folder() / "objects" / m_library.open("ear").labels.front().object;
+  std::fstream(object, std::ios::in | std::ios::out | std::ios::binary).seekp(100).put('!');
+  const auto [reason, text] = refusal([&] { archiveCase(m_library, "ear", m_file); });
+  EXPECT_EQ(reason, Reason::Damaged);
+  EXPECT_NE(text.find("structures of case 'ear'"), text.npos) << text;
+  EXPECT_EQ(bytesOf(m_file), "what was there before");
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(m_folder.path()))
+    files += entry.is_regular_file() ? 1 : 0;
+  EXPECT_EQ(files, 1U) << "nothing is left behind";
+}
+
+TEST_F(Archives, ADamagedImageIsNotArchived)
+{
+  const fs::path object = m_library.folder() / "objects" / m_library.open("ear").ct.object;
+  std::fstream(object, std::ios::in | std::ios::out | std::ios::binary)
+      .seekp(-5, std::ios::end)
+      .put('!');
+  const auto [reason, text] = refusal([&] { archiveCase(m_library, "ear", m_file); });
+  EXPECT_EQ(reason, Reason::Damaged);
+  EXPECT_FALSE(fs::exists(m_file));
+}
+
+TEST_F(Archives, CanBeCancelled)
+{
+  auto token = std::make_shared<core::CancelToken>();
+  token->cancel();
+  const core::Progress cancelled([](double, const std::string&) {}, token);
+  EXPECT_THROW(archiveCase(m_library, "ear", m_file, {}, cancelled), core::CancelledError);
+  EXPECT_FALSE(fs::exists(m_file));
+  archiveCase(m_library, "ear", m_file);
+  Library other(m_folder.path() / "other");
+  EXPECT_THROW(restoreCase(other, m_file, {}, cancelled), core::CancelledError);
+  EXPECT_FALSE(other.contains("ear"));
+  EXPECT_EQ(other.verify().objects, 0U);
+}
+
+TEST_F(Archives, OfAPlanBringNoVoxels)
+{
+  const ArchiveSummary written = archiveCase(m_library, "ear", m_file, {true});
+  EXPECT_TRUE(written.planOnly);
+  EXPECT_EQ(written.parts, 2U) << "the strokes";
+
+  Library other(m_folder.path() / "other");
+  const auto [reason, text] = refusal([&] { restoreCase(other, m_file); });
+  EXPECT_EQ(reason, Reason::NotFound);
+  EXPECT_NE(text.find("CT is not in this library"), text.npos) << text;
+
+  scene::Case another = test::smallCase("another", 20);
+  other.save(another);
+  EXPECT_NE(refusal(
+                [&] {
+                  restoreCase(other, m_file, {"", "another"});
+                })
+                .second.find("another CT"),
+            std::string::npos);
+
+  scene::Case same = test::smallCase("same");
+  same.labels.clear();
+  other.save(same);
+  const RestoreSummary restored = restoreCase(other, m_file, {"", "same"});
+  ASSERT_EQ(restored.notes.size(), 1U) << "the mesh is there, the structure is not";
+  EXPECT_NE(restored.notes[0].find("'nerve'"), std::string::npos);
+  scene::Case value = other.open("ear");
+  other.loadDissection(value);
+  EXPECT_EQ(value.dissection.strokes().size(), 2U);
+  EXPECT_EQ(value.applied(), 1U);
+  EXPECT_EQ(value.iso, 412.5);
+  EXPECT_TRUE(value.labels.empty());
+  EXPECT_EQ(value.meshes.size(), 1U);
+}
+
+TEST_F(Archives, CutShortAnywhereAreRefused)
+{
+  archiveCase(m_library, "ear", m_file);
+  const std::string whole = bytesOf(m_file);
+  for (int hundredths = 0; hundredths < 100; ++hundredths)
+  {
+    write(whole.substr(0, whole.size() * static_cast<std::size_t>(hundredths) / 100));
+    refused();
+    ASSERT_FALSE(HasFailure()) << hundredths << " %";
+  }
+}
+
+TEST_F(Archives, WithAnyBitFlippedAreRefusedOrWhole)
+{
+  archiveCase(m_library, "ear", m_file);
+  const std::string whole = bytesOf(m_file);
+  std::uint32_t random = 7;
+  std::size_t sound = 0;
+  for (int n = 0; n < 100; ++n)
+  {
+    Library other(m_folder.path() / ("other" + std::to_string(n)));
+    std::string spoilt = whole;
+    random = random * 1664525U + 1013904223U;
+    spoilt[(random >> 4) % spoilt.size()] ^= static_cast<char>(1 << (random >> 29));
+    write(spoilt);
+    try
+    {
+      restoreCase(other, m_file);
+      ++sound; // e.g. a time in a header
+    }
+    catch (const core::Error&)
+    {
+      EXPECT_FALSE(other.contains("ear"));
+    }
+    const Inspection state = other.verify();
+    EXPECT_TRUE(state.damaged.empty());
+    EXPECT_EQ(state.objects, other.contains("ear") ? 5U : 0U);
+  }
+  EXPECT_LT(sound, 30U);
+}
+
+TEST_F(Archives, ThatAreHostileAreRefused)
+{
+  archiveCase(m_library, "ear", m_file);
+  const TestZip whole = unpacked();
+  if (whole.entries.empty())
+    GTEST_SKIP() << "no python3 to unpack the archive with";
+
+  write(whole.bytes());
+  EXPECT_EQ(restoreCase(m_library, m_file, {"packed again", ""}).parts, 5U)
+      << "an archive that another program packed is as good";
+
+  const auto with = [&](const auto& change)
+  {
+    TestZip zip = whole;
+    change(zip);
+    write(zip.bytes());
+    const std::string text = refused();
+    return text;
+  };
+  const auto contains = [](const std::string& text, const char* words)
+  { return text.find(words) != text.npos; };
+  const std::string escape = with([](TestZip& zip) { zip.entries.push_back({"../x", "x"}); });
+  EXPECT_TRUE(contains(escape, "leads out of its folder")) << escape;
+  EXPECT_FALSE(fs::exists(m_folder.path() / "x"));
+  EXPECT_TRUE(contains(with(
+                           [](TestZip& zip) {
+                             zip.entries.push_back({"/tmp/x", "x"});
+                           }),
+                       "no relative path"));
+  EXPECT_TRUE(contains(with(
+                           [](TestZip& zip) {
+                             zip.entries.push_back({"a\\b", "x"});
+                           }),
+                       "no relative path"));
+  EXPECT_TRUE(contains(with(
+                           [](TestZip& zip) {
+                             zip.entries.push_back({"extra", "x"});
+                           }),
+                       "not listed"));
+  EXPECT_TRUE(contains(with([](TestZip& zip) { find(zip, "ct.nrrd").mode = 0120777; }),
+                       "link or a device"));
+  EXPECT_TRUE(contains(with([](TestZip& zip) { zip.entries.push_back(zip.entries.front()); }),
+                       "two entries of one name"));
+  with([](TestZip& zip) { find(zip, "ct.nrrd").localName = "ct.nrrx"; });
+  with([](TestZip& zip) { find(zip, "ct.nrrd").size = 4000000000U; });
+  with([](TestZip& zip) { find(zip, "ct.nrrd").flags = 1; }); // encrypted
+  with([](TestZip& zip) { find(zip, "ct.nrrd").bytes.back() ^= 1; });
+  with([](TestZip& zip) { find(zip, "ct.nrrd").bytes.resize(3000); });
+  with([](TestZip& zip) { find(zip, "strokes/0001.stroke").bytes[9] ^= 1; });
+  with([](TestZip& zip) { zip.entries.erase(zip.entries.begin()); });
+  EXPECT_TRUE(contains(with([](TestZip& zip) { find(zip, "case.json").bytes += " "; }), "hash"));
+
+  const auto index = [&](const auto& change)
+  {
+    return with(
+        [&](TestZip& zip)
+        {
+          std::string& text = find(zip, "petrous.json").bytes;
+          nlohmann::json all = nlohmann::json::parse(text);
+          change(all);
+          text = all.dump();
+        });
+  };
+  EXPECT_TRUE(contains(index([](auto& all) { all["petrous_archive"] = 2; }), "newer version"));
+  index([](auto& all) { all["objects"][0]["bytes"] = std::uint64_t{1} << 60; });
+  index([](auto& all) { all["objects"][0]["bytes"] = 5; });
+  index([](auto& all) { all["objects"][0]["file"] = "../../etc/passwd"; });
+  index([](auto& all) { all["objects"].erase(1); });
+  index([](auto& all) { all["objects"].push_back(all["objects"][0]); });
+  index([](auto& all) { all["objects"][0]["object"] = "../" + std::string(64, 'a') + ".nrrd"; });
+  index([](auto& all) { all["case"] = "../../x"; });
+  index([](auto& all) { all.erase("case"); });
+}
+
+TEST_F(Archives, OfAnotherFrameOfReferenceAreNotMistaken)
+{
+  scene::Case value = m_library.open("ear");
+  value.ct.frameOfReference = "some hash";
+  value.ct.isFrameSalted = false;
+  m_library.save(value);
+  archiveCase(m_library, "ear", m_file);
+  Library other(m_folder.path() / "other");
+  restoreCase(other, m_file);
+  EXPECT_TRUE(other.open("ear").ct.frameOfReference.empty())
+      << "the salt of the other library is not known";
+  restoreCase(m_library, m_file, {"copy", ""});
+  EXPECT_EQ(m_library.open("copy").ct.frameOfReference, m_library.open("ear").ct.frameOfReference);
+}

@@ -1,0 +1,410 @@
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "ArchiveIndex.h"
+#include "GzipMembers.h"
+#include "LibraryFolder.h"
+#include "ManifestFile.h"
+#include "ZipEntries.h"
+#include "petrous/Library/Archive.h"
+#include "petrous/Library/FrameSalt.h"
+#include "petrous/Library/ObjectStore.h"
+#include "petrous/Scene/Manifest.h"
+
+namespace petrous::library
+{
+
+namespace fs = std::filesystem;
+using Reason = LibraryError::Reason;
+
+namespace
+{
+
+constexpr std::uint64_t kLargestIndex = 64U << 20;
+constexpr std::uint64_t kLargestManifest = 256U << 20;
+constexpr std::size_t kLongestHeader = 1U << 20;
+constexpr std::size_t kBatch = 16; // members unpacked at once, 64 MiB
+constexpr std::uint64_t kBlock = 1U << 20;
+
+/// Whether a name is that of an object whose content can be what `use` needs.
+bool fits(const std::string& object, const ObjectUse& use)
+{
+  constexpr std::size_t kDigits = 64;
+  const auto hex = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
+  if (object.size() <= kDigits || !std::all_of(object.begin(), object.begin() + kDigits, hex))
+    return false;
+  const std::string ending = object.substr(kDigits);
+  switch (use.kind)
+  {
+  case ObjectUse::Kind::Image:
+    return ending == ".nrrd";
+  case ObjectUse::Kind::Structures:
+    return ending == ".seg.nrrd";
+  case ObjectUse::Kind::Mesh:
+    return ending == ".obj";
+  case ObjectUse::Kind::Stroke:
+    return ending == ".stroke";
+  }
+  return false;
+}
+
+/// An archive whose directory, index and manifest are sound and agree.
+struct Archive
+{
+  explicit Archive(const fs::path& path)
+    : file(path)
+    , zip(path)
+    , index(archiveIndex(zip.text(kIndexEntry, kLargestIndex), path))
+  {
+    const std::string text = zip.text(kManifestEntry, kLargestManifest);
+    if (sha256Of(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()) != index.manifest)
+      throwUnsound(path, std::string("'") + kManifestEntry + "' is not what its hash says");
+    value = scene::fromManifest(text, core::printable(path));
+    try
+    {
+      scene::checkCaseName(index.name);
+    }
+    catch (const core::InvalidParameter&)
+    {
+      throwUnsound(path, "the name of its case is not a valid one");
+    }
+
+    std::set<std::string> listed{kIndexEntry, kManifestEntry};
+    for (const ArchiveIndex::Object& one : index.objects)
+    {
+      const auto entry = zip.entries().find(one.file);
+      if (entry == zip.entries().end())
+        throwUnsound(path, "it lacks '" + one.file + "'");
+      if (!listed.insert(one.file).second || !objects.emplace(one.object, &one).second)
+        throwUnsound(path, "it lists '" + one.file + "' twice");
+      // Packed voxels may be 1032 times their entry's size, and no more.
+      if (one.packed ? one.bytes / 1032 > entry->second.bytes + 4096
+                     : one.bytes != entry->second.bytes)
+        throwUnsound(path, "'" + one.file + "' cannot have the size that is stated");
+      bytes += one.bytes;
+      if (bytes < one.bytes)
+        throwUnsound(path, "it states impossible sizes");
+    }
+    for (const auto& [name, entry] : zip.entries())
+      if (listed.count(name) == 0)
+        throwUnsound(path, "'" + name + "' is not listed in it");
+    for (const ObjectUse& use : objectsOf(value))
+    {
+      if (!fits(use.object, use))
+        throwUnsound(path, use.what + " has no valid name of an object");
+      if (objects.count(use.object) == 0 &&
+          (!index.planOnly || use.kind == ObjectUse::Kind::Stroke))
+        throwUnsound(path, "it lacks " + use.what);
+      needed.insert(use.object);
+    }
+    for (const auto& [object, one] : objects)
+      if (needed.count(object) == 0)
+        throwUnsound(path, "'" + one->file + "' belongs to nothing in the case");
+  }
+
+  fs::path file;
+  ZipReader zip;
+  ArchiveIndex index;
+  scene::Case value; ///< without voxels
+  std::map<std::string, const ArchiveIndex::Object*> objects;
+  std::set<std::string> needed;
+  std::uint64_t bytes = 0; ///< of all objects, unpacked
+};
+
+/// Writes an entry as it is.
+void copyEntry(ZipReader::Stream& in, core::OutputFile& out, const core::Progress& progress)
+{
+  std::vector<char> block(kBlock);
+  for (std::size_t got = block.size(); got == block.size();)
+  {
+    progress.check("restoring");
+    got = in.read(block.data(), block.size());
+    out.write(block.data(), got);
+  }
+}
+
+/// Writes the NRRD that was packed (PackedImage in ArchiveWriter.cpp). At most `bytes` bytes are
+/// written; the hash tells whether they are the right ones.
+void unpackImage(ZipReader::Stream& in, core::OutputFile& out, std::uint64_t bytes,
+                 const fs::path& file, const std::string& entry, const core::Progress& progress)
+{
+  const std::string damaged = "'" + entry + "' is damaged";
+  std::string head;
+  std::size_t end = head.npos;
+  while (end == head.npos && head.size() < kLongestHeader)
+  {
+    char block[4096];
+    const std::size_t got = in.read(block, sizeof block);
+    head.append(block, got);
+    end = head.find("\n\n");
+    if (got < sizeof block)
+      break;
+  }
+  constexpr std::string_view kGzip = "\nencoding: gzip\n";
+  const std::size_t encoding = head.find(kGzip);
+  if (end == head.npos || encoding == head.npos || encoding > end)
+    throwUnsound(file, damaged);
+  std::string packed = head.substr(end + 2);
+  head.resize(end + 2);
+  head.replace(encoding, kGzip.size(), "\nencoding: raw\n");
+  out.write(head);
+  std::uint64_t written = head.size();
+
+  std::vector<char> raw;
+  for (bool more = true; more;)
+  {
+    progress.report(static_cast<double>(written) /
+                        static_cast<double>(std::max<std::uint64_t>(bytes, 1)),
+                    "restoring");
+    std::vector<std::size_t> ends; // of whole members in `packed`
+    for (std::size_t at = 0; ends.size() < kBatch;)
+    {
+      const auto need = [&](std::size_t count)
+      {
+        if (packed.size() - at >= count)
+          return true;
+        const std::size_t had = packed.size();
+        packed.resize(at + count);
+        const std::size_t got = in.read(packed.data() + had, packed.size() - had);
+        packed.resize(had + got);
+        return packed.size() - at >= count;
+      };
+      if (!need(kMemberHead))
+      {
+        more = false;
+        if (packed.size() != at)
+          throwUnsound(file, damaged);
+        break;
+      }
+      const std::size_t length = memberLength(packed.data() + at);
+      if (length == 0 || !need(length))
+        throwUnsound(file, damaged);
+      at += length;
+      ends.push_back(at);
+    }
+    std::vector<std::string_view> members;
+    std::size_t from = 0;
+    for (const std::size_t to : ends)
+    {
+      members.push_back(std::string_view(packed).substr(from, to - from));
+      from = to;
+    }
+    if (!unpackMembers(members, raw))
+      throwUnsound(file, damaged);
+    written += raw.size();
+    if (written > bytes)
+      throwUnsound(file, "'" + entry + "' is larger than stated");
+    out.write(raw.data(), raw.size());
+    packed.erase(0, from);
+  }
+}
+
+/// Adds the objects that the store lacks; returns their number.
+std::size_t addObjects(const Archive& archive, ObjectStore& store, const core::Progress& progress)
+{
+  std::size_t added = 0;
+  std::uint64_t done = 0;
+  for (const auto& [object, one] : archive.objects)
+  {
+    const double from =
+        static_cast<double>(done) / static_cast<double>(std::max<std::uint64_t>(archive.bytes, 1));
+    done += one->bytes;
+    const core::Progress part =
+        progress.part(from, static_cast<double>(done) /
+                                static_cast<double>(std::max<std::uint64_t>(archive.bytes, 1)));
+    part.report(0.0, "restoring");
+    if (store.contains(object))
+      try
+      {
+        checkObject(store.path(object), "an object", part);
+        continue;
+      }
+      catch (const LibraryError&)
+      {
+        // damaged here: replaced by the archive's
+      }
+    constexpr std::size_t kDot = 65;
+    const std::string name =
+        store.add(object.substr(kDot),
+                  [&, one = one](const fs::path& path)
+                  {
+                    ZipReader::Stream in = archive.zip.open(one->file);
+                    core::OutputFile out(path);
+                    if (one->packed)
+                      unpackImage(in, out, one->bytes, archive.file, one->file, part);
+                    else
+                      copyEntry(in, out, part);
+                    out.commit();
+                  });
+    if (name != object)
+      throwUnsound(archive.file, "'" + one->file + "' is not what its hash says");
+    ++added;
+  }
+  return added;
+}
+
+void refuseWithoutRoom(const fs::path& folder, std::uint64_t bytes)
+{
+  fs::path place = folder;
+  std::error_code error;
+  while (!fs::exists(place, error) && place.has_parent_path() && place != place.parent_path())
+    place = place.parent_path();
+  const fs::space_info space = fs::space(place, error);
+  constexpr std::uint64_t kReserve = 16U << 20;
+  if (!error && (space.available < kReserve || space.available - kReserve < bytes))
+    throw LibraryError(Reason::DiskFull, core::printable(folder) + ": the case needs " +
+                                             std::to_string((bytes >> 20) + 1) + " MB, " +
+                                             std::to_string(space.available >> 20) +
+                                             " MB are free; nothing was restored; free some space");
+}
+
+/// Takes from the case of a plan what the library does not have; returns a note for each part.
+std::vector<std::string> leaveOutMissing(scene::Case& value, const ObjectStore& store)
+{
+  std::vector<std::string> notes;
+  const auto missing = [&](const std::string& object, const std::string& what)
+  {
+    if (store.contains(object))
+      return false;
+    notes.push_back(what + ": left out, since a plan brings no voxels; add it to the case");
+    return true;
+  };
+  for (auto part = value.labels.begin(); part != value.labels.end();)
+  {
+    std::string names;
+    for (const auto& structure : part->structures)
+      names += (names.empty() ? "'" : ", '") + structure.name + "'";
+    part = missing(part->object, "structures " + names) ? value.labels.erase(part) : part + 1;
+  }
+  for (auto mesh = value.meshes.begin(); mesh != value.meshes.end();)
+    mesh = missing(mesh->object, "mesh '" + mesh->name + "'") ? value.meshes.erase(mesh) : mesh + 1;
+  std::vector<std::string> lost;
+  for (const auto& mr : value.mr)
+    if (missing(mr.object, "MR '" + mr.name + "'"))
+      lost.push_back(mr.name);
+  for (const std::string& name : lost)
+    scene::removePart(value, name);
+  return notes;
+}
+
+/// The library's salt is not this one's: hashes of frames of reference cannot be compared with
+/// those of images that are added here.
+void forgetFrames(scene::Case& value, std::vector<std::string>& notes)
+{
+  bool shared = false;
+  for (auto& mr : value.mr)
+  {
+    shared = shared ||
+             (!mr.frameOfReference.empty() && mr.frameOfReference == value.ct.frameOfReference);
+    mr.frameOfReference.clear();
+  }
+  value.ct.frameOfReference.clear();
+  if (shared)
+    notes.push_back("that CT and MR were acquired in one position is not known in this library; "
+                    "registrations that the case has are kept");
+}
+
+} // namespace
+
+ArchiveIndex archiveIndex(std::string_view text, const fs::path& file)
+{
+  ArchiveIndex index;
+  try
+  {
+    const nlohmann::json all = nlohmann::json::parse(text);
+    const int format = all.at("petrous_archive").get<int>();
+    if (format > kArchiveFormat)
+      throw LibraryError(Reason::Damaged, core::printable(file) +
+                                              ": was written by a newer version "
+                                              "of this program; update it");
+    if (format < 1)
+      throwUnsound(file, "its format is unknown");
+    index.name = all.at("case").get<std::string>();
+    index.planOnly = all.at("plan_only").get<bool>();
+    index.manifest = all.at("manifest_sha256").get<std::string>();
+    index.library = all.at("library_sha256").get<std::string>();
+    for (const nlohmann::json& one : all.at("objects"))
+      index.objects.push_back({one.at("object").get<std::string>(),
+                               one.at("file").get<std::string>(),
+                               one.at("bytes").get<std::uint64_t>(), one.at("packed").get<bool>()});
+  }
+  catch (const nlohmann::json::exception&)
+  {
+    throwUnsound(file, std::string("'") + kIndexEntry + "' cannot be read");
+  }
+  return index;
+}
+
+ArchiveSummary inspectArchive(const fs::path& file)
+{
+  const Archive archive(file);
+  ArchiveSummary summary;
+  summary.name = archive.index.name;
+  summary.parts = archive.objects.size();
+  summary.inputBytes = archive.bytes;
+  summary.archiveBytes = fs::file_size(file);
+  summary.planOnly = archive.index.planOnly;
+  return summary;
+}
+
+RestoreSummary restoreCase(Library& library, const fs::path& file, const RestoreOptions& options,
+                           const core::Progress& progress)
+{
+  Archive archive(file);
+  scene::Case value = std::move(archive.value);
+  value.name = options.name.empty() ? archive.index.name : options.name;
+  value.id.clear();
+  value.revision = 0;
+  scene::checkCaseName(value.name);
+  if (library.contains(value.name))
+    throw LibraryError(Reason::NameTaken, "case '" + value.name + "' is there already in " +
+                                              core::printable(library.folder()) +
+                                              "; give the restored one another name (--as NAME)");
+  const ObjectStore present(library.folder() / "objects");
+  if (archive.index.planOnly)
+  {
+    const std::string needed = "the plan of case '" + archive.index.name + "'";
+    if (!options.ct.empty() && library.open(options.ct).ct.object != value.ct.object)
+      throw LibraryError(Reason::Damaged, core::printable(file) + ": " + needed +
+                                              " was made on another CT than that of case '" +
+                                              options.ct +
+                                              "'; import the very same series, with the same "
+                                              "region and repair, and give that case");
+    if (!present.contains(value.ct.object))
+      throw LibraryError(Reason::NotFound,
+                         core::printable(file) + ": " + needed +
+                             " brings no voxels, and its CT is not in this library; import the "
+                             "same series into a case first, or ask for a whole archive");
+  }
+  else if (!options.ct.empty())
+    throw core::InvalidParameter(core::printable(file) +
+                                 ": has a CT of its own; --ct is for an archive of a plan");
+  refuseWithoutRoom(library.folder(), archive.bytes);
+
+  RestoreSummary summary;
+  summary.parts = archive.objects.size();
+  summary.planOnly = archive.index.planOnly;
+  library.saveWith(
+      value,
+      [&](scene::Case& next, ObjectStore& store)
+      {
+        if (archive.index.library != saltedFrame(library, "archive"))
+          forgetFrames(next, summary.notes);
+        if (archive.index.planOnly)
+        {
+          checkObject(store.path(next.ct.object, "the CT"), "the CT", progress.part(0.0, 0.5));
+          const auto notes = leaveOutMissing(next, store);
+          summary.notes.insert(summary.notes.end(), notes.begin(), notes.end());
+        }
+        summary.newParts = addObjects(archive, store, progress);
+      },
+      progress);
+  summary.name = value.name;
+  return summary;
+}
+
+} // namespace petrous::library

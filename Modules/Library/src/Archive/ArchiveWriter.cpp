@@ -1,0 +1,278 @@
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <set>
+
+#include <nlohmann/json.hpp>
+#include <openssl/evp.h>
+#include <unistd.h>
+
+#include "ArchiveIndex.h"
+#include "GzipMembers.h"
+#include "LibraryFolder.h"
+#include "ManifestFile.h"
+#include "ZipEntries.h"
+#include "petrous/Core/NumberText.h"
+#include "petrous/Library/Archive.h"
+#include "petrous/Library/FrameSalt.h"
+#include "petrous/Library/ObjectStore.h"
+#include "petrous/Scene/Manifest.h"
+
+namespace petrous::library
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+constexpr std::size_t kLongestHeader = 1U << 20;
+constexpr std::size_t kBatch = 16; // members packed at once, 64 MiB
+
+/// The parts of a producer's bytes that do not fit the reader's buffer wait here.
+Produce fromMemory(std::vector<std::uint8_t> bytes)
+{
+  auto state =
+      std::make_shared<std::pair<std::vector<std::uint8_t>, std::size_t>>(std::move(bytes), 0);
+  return [state](char* buffer, std::size_t room)
+  {
+    auto& [all, at] = *state;
+    const std::size_t count = std::min(room, all.size() - at);
+    std::memcpy(buffer, all.data() + at, count);
+    at += count;
+    return count;
+  };
+}
+
+/// An NRRD object with gzip encoding, its voxels packed as they are read; verified against its
+/// hash.
+class PackedImage
+{
+public:
+  PackedImage(fs::path path, std::string what, int level)
+    : m_file(path)
+    , m_what(std::move(what))
+    , m_level(level)
+    , m_hash(EVP_MD_CTX_new(), &EVP_MD_CTX_free)
+  {
+    if (!m_hash || EVP_DigestInit_ex(m_hash.get(), EVP_sha256(), nullptr) != 1)
+      throw std::bad_alloc();
+    std::string head = next(std::min<std::uintmax_t>(kLongestHeader, m_file.size()));
+    const std::size_t end = head.find("\n\n");
+    const std::size_t encoding = head.find("\nencoding: raw\n");
+    if (end == head.npos || encoding == head.npos || encoding > end)
+      throw LibraryError(LibraryError::Reason::Damaged,
+                         core::printable(path) + ": is no image as this program stores it; "
+                                                 "'petrous library verify' lists what is damaged");
+    m_pending = packedHeader(head.substr(0, end + 2));
+    m_carried = head.substr(end + 2);
+  }
+
+  /// The header of the packed file. `raw`: that of the object.
+  static std::string packedHeader(std::string raw)
+  {
+    constexpr std::string_view kRaw = "\nencoding: raw\n";
+    return raw.replace(raw.find(kRaw), kRaw.size(), "\nencoding: gzip\n");
+  }
+
+  std::size_t produce(char* buffer, std::size_t room)
+  {
+    if (m_given == m_pending.size())
+    {
+      m_given = 0;
+      m_pending.clear();
+      std::string raw = std::move(m_carried);
+      m_carried.clear();
+      const std::size_t wanted = kBatch * kMemberBytes;
+      if (raw.size() < wanted)
+        raw += next(std::min<std::uintmax_t>(wanted - raw.size(), m_file.size() - m_read));
+      if (raw.empty())
+        check();
+      const std::vector<char> packed = packMembers(raw, m_level);
+      m_pending.assign(packed.begin(), packed.end());
+    }
+    const std::size_t count = std::min(room, m_pending.size() - m_given);
+    std::memcpy(buffer, m_pending.data() + m_given, count);
+    m_given += count;
+    return count;
+  }
+
+private:
+  std::string next(std::uintmax_t count)
+  {
+    std::string bytes(count, '\0');
+    for (std::size_t done = 0; done < bytes.size();)
+    {
+      const ssize_t got = ::pread(m_file.descriptor(), bytes.data() + done, bytes.size() - done,
+                                  static_cast<off_t>(m_read + done));
+      if (got < 0 && errno == EINTR)
+        continue;
+      if (got <= 0)
+        throw LibraryError(LibraryError::Reason::Damaged,
+                           core::printable(m_file.path()) + ": cannot be read to its end");
+      done += static_cast<std::size_t>(got);
+    }
+    EVP_DigestUpdate(m_hash.get(), bytes.data(), bytes.size());
+    m_read += count;
+    return bytes;
+  }
+
+  void check()
+  {
+    if (m_checked)
+      return;
+    m_checked = true;
+    std::array<unsigned char, 32> digest{};
+    EVP_DigestFinal_ex(m_hash.get(), digest.data(), nullptr);
+    std::string text;
+    for (const unsigned char byte : digest)
+      for (const int shift : {4, 0})
+        text += "0123456789abcdef"[(byte >> shift) & 15];
+    if (m_file.path().filename().string().rfind(text, 0) != 0)
+      checkObject(m_file.path(), m_what); // throws, naming what to do
+  }
+
+  core::InputFile m_file;
+  std::string m_what;
+  int m_level;
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> m_hash;
+  std::uintmax_t m_read = 0;
+  std::string m_carried; ///< read, not packed
+  std::string m_pending; ///< packed, not given
+  std::size_t m_given = 0;
+  bool m_checked = false;
+};
+
+/// A part's name as a file name: valid on every system, unique among `used`.
+std::string fileName(const std::string& name, const std::string& ending,
+                     std::set<std::string>& used)
+{
+  std::string stem = core::utf8Prefix(name, 100);
+  for (char& c : stem)
+    if (static_cast<unsigned char>(c) < 32 || c == 127 || std::strchr("/\\:*?\"<>|", c))
+      c = '_';
+  while (!stem.empty() && (stem.back() == ' ' || stem.back() == '.'))
+    stem.pop_back();
+  if (stem.empty() || stem.front() == '.')
+    stem = "_" + stem;
+  const auto key = [&ending](const std::string& text) // on systems that ignore case, too
+  {
+    std::string lower = text + ending;
+    for (char& c : lower)
+      c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return lower;
+  };
+  std::string unique = stem;
+  for (int n = 2; !used.insert(key(unique)).second; ++n)
+    unique = stem + "-" + std::to_string(n);
+  return unique + ending;
+}
+
+std::string entryOf(const ObjectUse& use, bool isCt, std::set<std::string>& used)
+{
+  switch (use.kind)
+  {
+  case ObjectUse::Kind::Image:
+    return isCt ? "ct.nrrd" : "mr/" + fileName(use.name, ".nrrd", used);
+  case ObjectUse::Kind::Structures:
+    return "labels/" + fileName(use.name, ".seg.nrrd", used);
+  case ObjectUse::Kind::Mesh:
+    return "meshes/" + fileName(use.name, ".obj", used);
+  case ObjectUse::Kind::Stroke:
+    break;
+  }
+  const std::string number = std::to_string(std::stoul(use.name));
+  return "strokes/" + std::string(number.size() < 4 ? 4 - number.size() : 0, '0') + number +
+         ".stroke";
+}
+
+} // namespace
+
+std::string toText(const ArchiveIndex& index)
+{
+  nlohmann::json objects = nlohmann::json::array();
+  for (const ArchiveIndex::Object& one : index.objects)
+    objects.push_back(
+        {{"object", one.object}, {"file", one.file}, {"bytes", one.bytes}, {"packed", one.packed}});
+  const nlohmann::json all = {
+      {"petrous_archive", kArchiveFormat}, {"case", index.name},
+      {"plan_only", index.planOnly},       {"manifest_sha256", index.manifest},
+      {"library_sha256", index.library},   {"objects", std::move(objects)}};
+  return all.dump(1) + "\n";
+}
+
+ArchiveSummary archiveCase(const Library& library, const std::string& name, const fs::path& file,
+                           const ArchiveOptions& options, const core::Progress& progress)
+try
+{
+  if (options.level < 1 || options.level > 12)
+    throw core::InvalidParameter("archive: the level of compression is 1 to 12");
+  scene::Case value = library.open(name);               // recovers unsaved drilling
+  const auto salt = [&library](scene::ImagePart& image) // older manifests have plain hashes
+  {
+    if (!image.isFrameSalted && !image.frameOfReference.empty())
+      image.frameOfReference = saltedFrame(library, image.frameOfReference);
+    image.isFrameSalted = true;
+  };
+  salt(value.ct);
+  std::for_each(value.mr.begin(), value.mr.end(), salt);
+  const std::string manifest = scene::toManifest(value);
+  const ObjectStore store(library.folder() / "objects");
+
+  ArchiveSummary summary;
+  summary.name = name;
+  summary.planOnly = options.planOnly;
+  ArchiveIndex index;
+  index.name = name;
+  index.planOnly = options.planOnly;
+  index.manifest =
+      sha256Of(reinterpret_cast<const std::uint8_t*>(manifest.data()), manifest.size());
+  index.library = saltedFrame(library, "archive");
+  std::set<std::string> used;
+  const std::vector<ObjectUse> uses = objectsOf(value);
+  std::vector<const ObjectUse*> stored;
+  for (const ObjectUse& use : uses)
+  {
+    if (options.planOnly && use.kind != ObjectUse::Kind::Stroke)
+      continue;
+    const fs::path path = store.path(use.object, use.what + " of case '" + name + "'");
+    const std::uintmax_t bytes = core::InputFile(path).size();
+    index.objects.push_back({use.object, entryOf(use, &use == &uses.front(), used), bytes,
+                             use.kind == ObjectUse::Kind::Image});
+    stored.push_back(&use);
+    summary.inputBytes += bytes;
+  }
+  summary.parts = stored.size();
+
+  ZipWriter zip(file);
+  const auto bytesOf = [](const std::string& text)
+  { return std::vector<std::uint8_t>(text.begin(), text.end()); };
+  zip.add(kIndexEntry, true, [bytes = bytesOf(toText(index))] { return fromMemory(bytes); });
+  zip.add(kManifestEntry, true, [bytes = bytesOf(manifest)] { return fromMemory(bytes); });
+  for (std::size_t n = 0; n < stored.size(); ++n)
+  {
+    const ObjectUse& use = *stored[n];
+    const std::string what = use.what + " of case '" + name + "'";
+    if (use.kind == ObjectUse::Kind::Image)
+      zip.add(index.objects[n].file, false,
+              [path = store.path(use.object, what), what, level = options.level]() -> Produce
+              {
+                auto image = std::make_shared<PackedImage>(path, what, level);
+                return [image](char* buffer, std::size_t room)
+                { return image->produce(buffer, room); };
+              });
+    else
+      zip.add(index.objects[n].file, use.kind == ObjectUse::Kind::Mesh,
+              [&store, object = use.object, what]
+              { return fromMemory(store.readChecked(object, what)); });
+  }
+  summary.durable = zip.commit(progress);
+  summary.archiveBytes = fs::file_size(file);
+  return summary;
+}
+catch (const core::InputFileError& error)
+{
+  throw libraryError(error);
+}
+
+} // namespace petrous::library

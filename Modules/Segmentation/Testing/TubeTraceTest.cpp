@@ -1,0 +1,257 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "petrous/Segmentation/TubeTrace.h"
+
+using namespace petrous;
+using namespace petrous::segmentation;
+using Eigen::Vector3d;
+
+namespace
+{
+
+constexpr double kPi = 3.14159265358979323846;
+
+using Curve = std::function<Vector3d(double t)>; ///< 0 to 1
+
+/// Bone of 1200 with a canal of 50 along a curve, blurred across about a voxel, in noise.
+struct Scan
+{
+  core::GridGeometry grid;
+  Curve curve;
+  double radius = 0.8; ///< mm
+  double noise = 50.0;
+  double inside = 50.0, outside = 1200.0;
+
+  std::vector<Vector3d> dense() const
+  {
+    std::vector<Vector3d> points;
+    for (int n = 0; n <= 2000; ++n)
+      points.push_back(curve(n / 2000.0));
+    return points;
+  }
+
+  volume::IntensityVolume image(std::uint32_t seed = 1) const
+  {
+    const auto line = dense();
+    auto voxels = std::make_shared<volume::Volume<std::int16_t>>(grid);
+    // Only voxels near the curve are compared with it.
+    std::vector<float> nearest(voxels->size(), 1e6F);
+    const double reach = radius + 2.5;
+    for (const Vector3d& p : line)
+    {
+      const Vector3d v = grid.voxelFromPatient(p);
+      core::IndexBox box;
+      for (int a = 0; a < 3; ++a)
+      {
+        const double r = reach / grid.spacing()[a];
+        box.lower[static_cast<std::size_t>(a)] = static_cast<int>(std::floor(v[a] - r));
+        box.upper[static_cast<std::size_t>(a)] = static_cast<int>(std::ceil(v[a] + r)) + 1;
+      }
+      box = box.intersected(grid.fullBox());
+      for (int k = box.lower[2]; k < box.upper[2]; ++k)
+        for (int j = box.lower[1]; j < box.upper[1]; ++j)
+          for (int i = box.lower[0]; i < box.upper[0]; ++i)
+          {
+            float& best = nearest[grid.linearIndex(i, j, k)];
+            best = std::min(
+                best, static_cast<float>((grid.patientFromVoxel(Vector3d(i, j, k)) - p).norm()));
+          }
+    }
+    std::mt19937 random(seed);
+    std::normal_distribution<double> gauss(0.0, noise > 0.0 ? noise : 1.0);
+    const double blur = 0.7 * grid.spacing().mean();
+    for (std::size_t n = 0; n < voxels->size(); ++n)
+    {
+      const double share =
+          0.5 * std::erfc((static_cast<double>(nearest[n]) - radius) / (std::sqrt(2.0) * blur));
+      voxels->data()[n] = static_cast<std::int16_t>(
+          std::lround(outside + (inside - outside) * share + (noise > 0.0 ? gauss(random) : 0.0)));
+    }
+    return volume::IntensityVolume(std::shared_ptr<const volume::Volume<std::int16_t>>(voxels));
+  }
+
+  std::vector<Vector3d> clicks(int count, double jitter, std::uint32_t seed = 2) const
+  {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> off(-1.0, 1.0);
+    std::vector<Vector3d> points;
+    for (int n = 0; n < count; ++n)
+    {
+      Vector3d d(off(random), off(random), off(random));
+      points.push_back(curve(0.03 + 0.94 * n / (count - 1)) + jitter * d.normalized());
+    }
+    return points;
+  }
+
+  /// Mean and largest distance of the tube's line from the curve, its ends left out, mm.
+  std::pair<double, double> errors(const Tube& tube) const
+  {
+    const auto line = dense();
+    double sum = 0.0;
+    double most = 0.0;
+    std::size_t count = 0;
+    for (std::size_t n = tube.line.size() / 20; n < tube.line.size() - tube.line.size() / 20; ++n)
+    {
+      double best = 1e9;
+      for (const Vector3d& p : line)
+        best = std::min(best, (tube.line[n] - p).norm());
+      sum += best;
+      most = std::max(most, best);
+      ++count;
+    }
+    return {sum / static_cast<double>(count), most};
+  }
+};
+
+core::GridGeometry cube(double spacing, const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity())
+{
+  const int n = static_cast<int>(std::lround(26.0 / spacing));
+  return {{n, n, n}, Vector3d::Constant(spacing), Vector3d(-3.0, 4.0, 5.0), axes};
+}
+
+/// Like the facial nerve: straight, a bend of a centimetre, straight on.
+Curve bend(const core::GridGeometry& grid)
+{
+  return [grid](double t)
+  {
+    const double angle = kPi * t;
+    const Vector3d local(13.0 + 7.5 * std::cos(angle), 9.0 + 8.0 * std::sin(angle),
+                         13.0 + 2.0 * std::sin(2.0 * angle));
+    return Vector3d(grid.origin() + grid.direction() * local);
+  };
+}
+
+} // namespace
+
+TEST(TubeTrace, FollowsABendInNoiseBelowAVoxel)
+{
+  for (const double spacing : {0.25, 0.4, 0.6})
+  {
+    const auto grid = cube(spacing);
+    const Scan scan{grid, bend(grid)};
+    const Tube tube = traceTube(scan.image(), scan.clicks(5, 0.5));
+    const auto [mean, most] = scan.errors(tube);
+    EXPECT_LE(mean, 0.15) << spacing;
+    EXPECT_LE(most, 0.44) << spacing;
+    EXPECT_NEAR(tube.radius, 0.8, 0.2) << spacing;
+    EXPECT_GE(tube.smallestRadius, 0.3) << spacing << ": nowhere thin as a thread";
+    ASSERT_EQ(tube.pointDistances.size(), 5U);
+    for (const double distance : tube.pointDistances)
+      EXPECT_LT(distance, 0.8);
+  }
+}
+
+TEST(TubeTrace, FollowsATurnedAnisotropicGrid)
+{
+  const Eigen::Matrix3d axes =
+      (Eigen::AngleAxisd(0.6, Vector3d::UnitX()) * Eigen::AngleAxisd(-0.4, Vector3d::UnitY()))
+          .toRotationMatrix();
+  const core::GridGeometry grid({87, 87, 44}, Vector3d(0.3, 0.3, 0.6), Vector3d(10, -20, 30), axes);
+  const Scan scan{grid, bend(grid)};
+  const Tube tube = traceTube(scan.image(), scan.clicks(6, 0.4));
+  const auto [mean, most] = scan.errors(tube);
+  EXPECT_LE(mean, 0.15);
+  EXPECT_LE(most, 0.44);
+}
+
+TEST(TubeTrace, FindsABrightVesselAsWell)
+{
+  const auto grid = cube(0.4);
+  Scan scan{grid, bend(grid)};
+  scan.inside = 900.0;
+  scan.outside = 100.0;
+  scan.radius = 1.5;
+  const Tube tube = traceTube(scan.image(), scan.clicks(5, 0.5));
+  EXPECT_TRUE(tube.model.isBright);
+  const auto [mean, most] = scan.errors(tube);
+  EXPECT_LE(mean, 0.15);
+  EXPECT_LE(most, 0.44);
+  EXPECT_NEAR(tube.radius, 1.5, 0.25);
+}
+
+TEST(TubeTrace, SaysWhereTheImageShowsNothing)
+{
+  const auto grid = cube(0.4);
+  Scan scan{grid, bend(grid)};
+  scan.inside = scan.outside; // noise alone
+  const Tube tube = traceTube(scan.image(), scan.clicks(5, 0.0));
+  EXPECT_LT(tube.resolvedLength, 0.2 * tube.length);
+  EXPECT_GE(tube.smallestRadius, 0.2);
+}
+
+TEST(TubeTrace, AGivenRadiusIsTakenAndLabelled)
+{
+  const auto grid = cube(0.4);
+  const Scan scan{grid, bend(grid)};
+  TubeOptions options;
+  options.radius = 0.6;
+  const Tube tube = traceTube(scan.image(), scan.clicks(5, 0.3), options);
+  EXPECT_EQ(tube.smallestRadius, 0.6);
+  EXPECT_EQ(tube.largestRadius, 0.6);
+  const volume::LabelMap labels = labelTube(tube, grid, {"nerve", 3, {}, 0});
+  const double volume = kPi * 0.36 * tube.length + 4.0 / 3.0 * kPi * 0.216;
+  EXPECT_NEAR(labels.volume(labels.segments.front()), volume, 0.08 * volume);
+}
+
+TEST(TubeTrace, IsTheSameWhetherAPointWasMovedOrAllWereGiven)
+{
+  const auto grid = cube(0.4);
+  const Scan scan{grid, bend(grid)};
+  const auto image = scan.image();
+  auto points = scan.clicks(5, 0.3);
+  const Tube before = traceTube(image, points);
+  points[2] += Vector3d(0.2, 0.1, 0.0);
+  const Tube moved = traceTube(image, points, {}, {}, &before);
+  const Tube anew = traceTube(image, points);
+  ASSERT_EQ(moved.line.size(), anew.line.size());
+  for (std::size_t n = 0; n < anew.line.size(); ++n)
+    EXPECT_EQ(moved.line[n], anew.line[n]);
+  EXPECT_EQ(insertionIndex(anew, scan.curve(0.5 * (0.03 + 0.265))), 1U);
+}
+
+TEST(TubeTrace, RefusesPointsThatMakeNoTube)
+{
+  const auto grid = cube(0.6);
+  const Scan scan{grid, bend(grid)};
+  const auto image = scan.image();
+  const Vector3d a = scan.curve(0.1);
+  const Vector3d b = scan.curve(0.4);
+  const auto refuses = [&](const std::vector<Vector3d>& points)
+  {
+    try
+    {
+      traceTube(image, points);
+      return std::string();
+    }
+    catch (const core::InvalidParameter& error)
+    {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(refuses({a, b}), "");
+  EXPECT_NE(refuses({}), "");
+  EXPECT_NE(refuses({a}), "");
+  EXPECT_NE(refuses({a, a}), "");
+  EXPECT_NE(refuses({a, Vector3d(NAN, 0, 0)}), "");
+  EXPECT_NE(refuses({a, a + Vector3d(500, 0, 0)}), "");
+  EXPECT_NE(refuses({a, Vector3d(1e300, 0, 0)}), "");
+
+  const volume::IntensityVolume flat(std::shared_ptr<const volume::Volume<std::int16_t>>(
+      std::make_shared<volume::Volume<std::int16_t>>(grid, std::int16_t{7})));
+  EXPECT_THROW(traceTube(flat, {a, b}), core::InvalidParameter);
+  const volume::IntensityVolume padded(
+      std::shared_ptr<const volume::Volume<std::int16_t>>(
+          std::make_shared<volume::Volume<std::int16_t>>(grid, std::int16_t{-2000})),
+      -2000.0);
+  EXPECT_THROW(traceTube(padded, {a, b}), core::InvalidParameter);
+  auto token = std::make_shared<core::CancelToken>();
+  token->cancel();
+  EXPECT_THROW(
+      traceTube(image, {a, b}, {}, core::Progress([](double, const std::string&) {}, token)),
+      core::CancelledError);
+}

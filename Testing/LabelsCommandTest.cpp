@@ -1,0 +1,91 @@
+#include <vector>
+
+#include "CommandRunner.h"
+
+using namespace petrous::testing;
+
+namespace
+{
+
+// A block of bone of 20^3 voxels of 1 mm, and label maps on its grid.
+class LabelsCommand : public CommandLine
+{
+protected:
+  void SetUp() override
+  {
+    CommandLine::SetUp();
+    put("ct.nrrd", "short", [](int, int, int) { return 700; });
+    json("new ear --ct " + quoted(m_folder / "ct.nrrd"));
+  }
+
+  template <class Value>
+  std::filesystem::path put(const std::string& name, const std::string& type,
+                            const Value& value) const
+  {
+    std::filesystem::create_directories((m_folder / name).parent_path());
+    std::ofstream file(m_folder / name, std::ios::binary);
+    file << "NRRD0004\ntype: " << type << "\ndimension: 3\nspace: left-posterior-superior\n"
+         << "sizes: 20 20 20\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n"
+         << "space origin: (0,0,0)\nspace units: \"mm\" \"mm\" \"mm\"\nencoding: raw\n"
+         << "endian: little\n\n";
+    for (int k = 0; k < 20; ++k)
+      for (int j = 0; j < 20; ++j)
+        for (int i = 0; i < 20; ++i)
+        {
+          const auto cell = static_cast<std::int16_t>(value(i, j, k));
+          file.write(reinterpret_cast<const char*>(&cell), sizeof cell);
+        }
+    return m_folder / name;
+  }
+
+  static int slabs(int, int, int k) { return k < 3 ? 4 : k < 8 ? 7 : 0; }
+
+  static std::string statusOf(const nlohmann::json& all, const std::string& name)
+  {
+    for (const auto& one : all["structures"])
+      if (one["name"] == name)
+        return one["status"].get<std::string>() + " " + std::to_string(one["voxels"].get<int>());
+    return "none";
+  }
+};
+
+} // namespace
+
+TEST_F(LabelsCommand, NamesTheIndicesByATableAndTellsWhatBecameOfEach)
+{
+  const auto labels = put("seg.nrrd", "short", slabs);
+  std::ofstream(m_folder / "names.csv") << "index;name;color\n4;facial nerve;#ffff00\n"
+                                           "7;sigmoid sinus;#0000ff\n9;cochlea;#00ff00\n";
+  const auto added = json("add ear --labels " + quoted(labels) + " --label-names " +
+                          quoted(m_folder / "names.csv"));
+  EXPECT_EQ(statusOf(added, "facial nerve"), "read 1200");
+  EXPECT_EQ(statusOf(added, "sigmoid sinus"), "read 2000");
+  EXPECT_EQ(statusOf(added, "cochlea"), "empty 0");
+  ASSERT_EQ(added["labels"].size(), 2U);
+  EXPECT_EQ(added["labels"][0]["name"], "facial nerve");
+
+  std::ofstream(m_folder / "bad.csv") << "index,name\n4,a\n4,b\n";
+  expectRefused("add ear --labels x=" + quoted(labels) + " --label-names " +
+                    quoted(m_folder / "bad.csv"),
+                3, "line 3");
+  expectRefused("add ear --label-names " + quoted(m_folder / "names.csv"), 2, "--label-names");
+  expectRefused("add ear --labels x=" + quoted(labels) + " --label-names " +
+                    quoted(m_folder / "none.csv"),
+                3, "none.csv");
+}
+
+TEST_F(LabelsCommand, TakesAFolderOfMasksAndNoPatientsNameFromIt)
+{
+  put("masks/MUELLER_cochlea.nrrd", "short", [](int i, int, int) { return i < 5; });
+  put("masks/MUELLER_facial_nerve_left.nrrd", "short", [](int i, int, int) { return i > 12; });
+  put("masks/MUELLER_frobnicle.nrrd", "short", [](int i, int, int) { return i == 7; });
+  put("masks/MUELLER_incus.nrrd", "short", [](int, int, int) { return 0; });
+  std::ofstream(m_folder / "masks" / "notes.txt") << "not a mask";
+  const auto added = json("add ear --labels " + quoted(m_folder / "masks"));
+  EXPECT_EQ(statusOf(added, "cochlea"), "read 2000");
+  EXPECT_EQ(statusOf(added, "facial_nerve_left"), "read 2800");
+  EXPECT_EQ(statusOf(added, "frobnicle"), "read 400");
+  EXPECT_EQ(json("info ear")["labels"].size(), 3U);
+  for (const auto& [name, content] : libraryContent())
+    EXPECT_EQ(content.find("MUELLER"), std::string::npos) << name;
+}

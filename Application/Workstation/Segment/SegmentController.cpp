@@ -98,6 +98,13 @@ SegmentController::SegmentController(presenters::WorkstationModel& model, SliceC
       m_panel->showVolume();
     }
   };
+  m_editor.events.created = [this](const std::string& name)
+  {
+    emit structureCreated();
+    emit statusMessage(
+        tr("%1 is a structure of the case now; Undo in the panel makes it a draft again")
+            .arg(words(name)));
+  };
   m_surfaceLater.setSingleShot(true);
   m_surfaceLater.setInterval(kSurfaceAfter);
   connect(&m_surfaceLater, &QTimer::timeout, this, &SegmentController::showSurface);
@@ -347,6 +354,8 @@ void SegmentController::drawing()
 
 void SegmentController::askWork()
 {
+  if (m_asking)
+    return;
   if (auto work = m_editor.dueWork())
     run(std::move(*work), false);
 }
@@ -364,6 +373,8 @@ void SegmentController::run(SegmentEditor::Work work, bool step)
 void SegmentController::step()
 {
   m_panel->say({});
+  if (m_editor.stepping())
+    return m_panel->say(tr("A step is under way; wait, or stop it."));
   m_work->drop(); // a preview
   m_editor.workEnded();
   if (auto work = m_editor.stepWork())
@@ -388,14 +399,7 @@ void SegmentController::create()
     m_panel->say(tr("Give the structure a name."));
     return m_panel->focusName();
   }
-  const QString name = words(m_editor.name());
-  if (attempt([this] { m_editor.create(); }))
-  {
-    emit structureCreated();
-    emit statusMessage(tr("%1 is a structure of the case now; Undo in the panel makes it a draft "
-                          "again")
-                           .arg(name));
-  }
+  attempt([this] { run(m_editor.createWork(), true); });
 }
 
 void SegmentController::discard()
@@ -440,7 +444,16 @@ bool SegmentController::mayLeave()
     return false;
   const QScopedValueRollback<bool> asking(m_asking, true);
   m_work->drop();
-  m_editor.workEnded();
+  m_editor.workDropped();
+  try // the preview is what would be created
+  {
+    while (const auto work = m_editor.dueWork())
+      (*work)({})();
+  }
+  catch (const std::exception&)
+  {
+    m_editor.workEnded();
+  }
   const std::string whyNot = m_editor.whyNotCreate();
   QMessageBox box(QMessageBox::Question, tr("A structure is not finished"),
                   tr("The draft of “%1” is not a structure of the case yet.")
@@ -458,12 +471,7 @@ bool SegmentController::mayLeave()
   box.setEscapeButton(stay);
   box.exec();
   if (box.clickedButton() == create)
-    return attempt(
-        [this]
-        {
-          m_editor.create();
-          emit structureCreated();
-        });
+    return attempt([this] { m_editor.create(); });
   if (box.clickedButton() != drop)
     return false;
   m_editor.discard();

@@ -436,7 +436,7 @@ QWidget* SegmentPanel::addFoot()
   m_cancel = button(tr("Stop"), "segmentCancel", tr("Ends what is being computed; the draft stays"));
   m_undo = button(tr("Undo"), "segmentUndo", tr("The last step (Ctrl+Z while a tool is in use)"));
   m_redo = button(tr("Redo"), "segmentRedo", tr("Again (Ctrl+Shift+Z while a tool is in use)"));
-  m_create = button(tr("Create structure"), "primary",
+  m_create = button(tr("Create structure"), "segmentCreate",
                     tr("The draft becomes a structure of the case (Return)"));
   m_discard = button(tr("Discard"), "segmentDiscard", tr("Drops the draft (Esc without a tool)"));
   connect(m_cancel, &QPushButton::clicked, this, &SegmentPanel::cancelAsked);

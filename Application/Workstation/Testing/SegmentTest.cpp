@@ -74,9 +74,10 @@ protected:
   void create(const QString& as)
   {
     name(as);
-    EXPECT_TRUE(waitFor([this] { return find<QPushButton>("primary").isEnabled(); }))
-        << find<QPushButton>("primary").toolTip().toStdString();
-    find<QPushButton>("primary").click();
+    EXPECT_TRUE(waitFor([this] { return find<QPushButton>("segmentCreate").isEnabled(); }))
+        << find<QPushButton>("segmentCreate").toolTip().toStdString();
+    find<QPushButton>("segmentCreate").click();
+    EXPECT_TRUE(waitFor([this] { return !isDraft(); })); // made in another thread
     EXPECT_TRUE(settled());
   }
   const volume::Volume<std::uint16_t>* voxelsOf(const std::string& structure)

@@ -51,11 +51,11 @@ QTreeView::indicator:checked { background: #3d8fd1; border-color: #7fbdf0; }
 QTreeView::indicator:disabled { border-color: #343b44; }
 QToolTip { background: #2b3139; color: #e4e8ed; border: 1px solid #4a525c; padding: 4px; }
 QPushButton { padding: 6px 18px; }
-QPushButton#primary { background: #2f79b5; border: 1px solid #4a98d6; border-radius: 5px;
-                      color: #ffffff; padding: 9px 22px; font-weight: 600; }
-QPushButton#primary:hover { background: #3a8acb; }
-QPushButton#primary:focus { border-color: #b9dcf8; }
-QPushButton#primary:disabled { background: #262c33; border-color: #343b44; color: #5c646e; }
+QPushButton#primary, QPushButton#segmentCreate { background: #2f79b5; border: 1px solid #4a98d6;
+                      border-radius: 5px; color: #ffffff; padding: 9px 22px; font-weight: 600; }
+QPushButton#primary:hover, QPushButton#segmentCreate:hover { background: #3a8acb; }
+QPushButton#primary:focus, QPushButton#segmentCreate:focus { border-color: #b9dcf8; }
+QPushButton#segmentCreate:disabled { background: #262c33; border-color: #343b44; color: #5c646e; }
 QLabel#direction { color: #c9d2dc; font-size: 15px; font-weight: 700;
                    background: rgba(16, 19, 23, 150); border-radius: 4px; padding: 1px 6px; }
 QFrame[banner="notice"] { background: #24384a; border-bottom: 1px solid #3d6b92; }

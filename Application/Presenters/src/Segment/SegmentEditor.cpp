@@ -30,6 +30,7 @@ using Combine = SegmentValues::Combine;
 
 constexpr std::size_t kLeastTubePoints = 2;
 constexpr std::array<float, 3> kBeside{98.0F, 176.0F, 236.0F}; // strokes beside the structure
+constexpr std::size_t kMostAtOnce = 4'000'000;                 // voxels; more: in another thread
 constexpr int kSurfaceMargin = 2;                              // voxels
 constexpr std::uint16_t kInDraft = 1, kStrokeInside = 2, kStrokeBeside = 3; // DraftLayer's
 
@@ -187,6 +188,7 @@ struct SegmentEditor::Draft
   Points seeds;                                     ///< of the connected threshold
   Points points;                                    ///< of the nerve
   std::vector<Step> undo, redo;
+  std::function<void()> pending; ///< what a Work has done to the masks, to be recorded
   // A stroke or a point that is dragged.
   bool stroking = false;
   Eigen::Vector3d last = Eigen::Vector3d::Zero();
@@ -215,11 +217,29 @@ void SegmentEditor::touched()
   notify(events.changed);
 }
 
+// While another thread has the draft, this is shown.
+void SegmentEditor::beginStep()
+{
+  m_stepping = true;
+  m_frozen = std::make_unique<Preview>();
+  m_frozen->result = m_preview && m_preview->result ? *m_preview->result : m_draft->mask.snapshot();
+  m_previewDue = m_previewRunning = false;
+}
+
+void SegmentEditor::endStep()
+{
+  m_stepping = false;
+  m_frozen.reset();
+  if (const auto record = std::exchange(m_draft->pending, nullptr))
+    record();
+}
+
 void SegmentEditor::reset()
 {
   m_draft = std::make_shared<Draft>(m_model.hasCase() ? m_model.value().ct.geometry
                                                       : core::GridGeometry());
   m_stepping = m_proposeDue = m_previewRunning = false;
+  m_frozen.reset();
   m_stepDue.reset();
   m_surface.reset();
   dropPreview();
@@ -267,7 +287,7 @@ void SegmentEditor::mrMoved()
 
 bool SegmentEditor::hasDraft() const
 {
-  return m_draft->mask.count() > 0 || !m_draft->edited.empty() || !m_draft->undo.empty() ||
+  return m_stepping || m_draft->mask.count() > 0 || !m_draft->edited.empty() || !m_draft->undo.empty() ||
          !m_draft->points.empty() || !m_draft->seeds.empty() ||
          (m_preview && m_preview->result && m_preview->result->count > 0);
 }
@@ -358,20 +378,20 @@ SegmentEditor::Work SegmentEditor::edit(const std::string& structure)
         part = &labels;
         found = &one;
       }
-  m_stepping = true;
   dropPreview();
+  beginStep();
   touched();
   return [this, draft = m_draft, labels = scene::labelsOnCt(m_model.value(), *part),
           index = found->index, color = found->look.color, structure,
           ct = m_model.value().ct.geometry](const core::Progress& progress) -> Apply
   {
-    const Mask mask = onGrid(*labels, index, ct, progress);
+    const auto mask = std::make_shared<EditableMask>(onGrid(*labels, index, ct, progress));
     return [this, draft, mask, structure, color]
     {
-      m_stepping = false;
       if (draft != m_draft)
         return;
-      draft->mask = EditableMask(mask);
+      endStep();
+      draft->mask = std::move(*mask);
       draft->name = draft->edited = structure;
       draft->editedColor = color;
       chooseColor();
@@ -709,7 +729,7 @@ void SegmentEditor::dropPreview()
 // What the tool makes of the draft: computed without the editor, of copies.
 SegmentEditor::Computed SegmentEditor::computed() const
 {
-  const Mask base = m_draft->mask.snapshot();
+  const Mask base = m_frozen && !m_preview ? *m_frozen->result : m_draft->mask.snapshot();
   const SegmentValues values = m_values;
   const auto only = [](Mask mask)
   {
@@ -824,9 +844,11 @@ std::optional<SegmentEditor::Work> SegmentEditor::dueWork()
     return std::nullopt;
   if (m_stepDue)
   {
-    m_stepping = true;
-    m_previewRunning = false;
-    return std::exchange(m_stepDue, std::nullopt);
+    Work work = std::move(*m_stepDue);
+    m_stepDue.reset();
+    beginStep();
+    touched();
+    return work;
   }
   if (!m_previewDue || m_draft->stroking)
     return std::nullopt;
@@ -931,30 +953,39 @@ SegmentEditor::replacing(std::function<Preview(const core::Progress&)> compute, 
           compute = std::move(compute)](const core::Progress& progress) -> Apply
   {
     const auto preview = std::make_shared<Preview>(compute(progress));
-    return [this, draft, endsTool, preview]
+    bool changed = false;
+    core::IndexBox box;
+    if (preview->result)
     {
-      m_stepping = false;
+      draft->mask.beginStep();
+      box = draft->mask.replace(*preview->result);
+      changed = draft->mask.endStep();
+      draft->pending = [draft = draft.get(), changed, endsTool]
+      {
+        Draft::Step step;
+        step.mask = changed;
+        if (endsTool)
+        {
+          draft->seeds.clear();
+          if (!draft->points.empty())
+            step.points = {std::exchange(draft->points, {}), Points()};
+        }
+        draft->did(std::move(step));
+      };
+    }
+    return [this, draft, preview, changed, box]
+    {
       if (draft != m_draft)
         return;
+      endStep();
       show(*preview);
-      if (!preview->result)
-        return touched();
-      Draft::Step step;
-      draft->mask.beginStep();
-      const core::IndexBox box = draft->mask.replace(*preview->result);
-      step.mask = draft->mask.endStep();
-      if (endsTool)
-      {
-        draft->seeds.clear();
-        if (!draft->points.empty())
-          step.points = {std::exchange(draft->points, {}), Points()};
-      }
-      const bool changed = step.mask;
-      draft->did(std::move(step));
       const std::string note = m_note, warning = m_warning;
-      dropPreview();
-      m_note = changed ? note : "This changes nothing.";
-      m_warning = warning;
+      if (preview->result)
+      {
+        dropPreview();
+        m_note = changed ? note : "This changes nothing.";
+        m_warning = warning;
+      }
       notify(events.voxelsChanged, box);
       touched();
     };
@@ -966,17 +997,24 @@ std::optional<SegmentEditor::Work> SegmentEditor::stepWork()
   if (m_draft->stroking || !whyNotStep().empty())
     return std::nullopt;
   image();
+  beginStep();
   Work work = replacing(computed(), m_tool == Tool::Threshold || m_tool == Tool::Nerve);
-  m_stepping = true;
-  m_previewDue = m_previewRunning = false;
   touched();
   return work;
 }
 
 void SegmentEditor::workEnded()
 {
-  m_stepping = m_previewRunning = false;
+  m_previewRunning = false;
+  if (m_stepping)
+    endStep();
   touched();
+}
+
+void SegmentEditor::workDropped()
+{
+  m_previewDue = m_previewDue || m_previewRunning;
+  workEnded();
 }
 
 bool SegmentEditor::canUndo() const
@@ -1013,22 +1051,54 @@ bool SegmentEditor::undo()
     touched();
     return true;
   }
-  Draft::Step step = std::move(draft.undo.back());
-  draft.undo.pop_back();
-  core::IndexBox box;
-  if (step.mask)
-    box = draft.mask.undo();
-  if (step.inside)
-    box = box.united(draft.inside->undo());
-  if (step.beside)
-    box = box.united(draft.beside->undo());
-  if (step.points)
-    draft.points = step.points->first;
-  m_previewDue = m_tool == Tool::Threshold || m_tool == Tool::Nerve;
-  draft.redo.push_back(std::move(step));
-  notify(events.voxelsChanged, box);
+  if (draft.undo.back().mask && draft.mask.extent().count() > kMostAtOnce)
+    m_stepDue = stepping(true);
+  else
+    step(draft, true)();
   touched();
   return false;
+}
+
+// Undoes or redoes; what is returned belongs to this thread, after that.
+std::function<void()> SegmentEditor::step(Draft& draft, bool back)
+{
+  auto& from = back ? draft.undo : draft.redo;
+  auto& to = back ? draft.redo : draft.undo;
+  const Draft::Step step = from.back();
+  const auto turn = [back](EditableMask& mask) { return back ? mask.undo() : mask.redo(); };
+  core::IndexBox box;
+  if (step.mask)
+    box = turn(draft.mask);
+  if (step.inside)
+    box = box.united(turn(*draft.inside));
+  if (step.beside)
+    box = box.united(turn(*draft.beside));
+  if (step.points)
+    draft.points = back ? step.points->first : step.points->second;
+  to.push_back(std::move(from.back()));
+  from.pop_back();
+  return [this, box]
+  {
+    m_previewDue = m_tool == Tool::Threshold || m_tool == Tool::Nerve;
+    notify(events.voxelsChanged, box);
+  };
+}
+
+SegmentEditor::Work SegmentEditor::stepping(bool back)
+{
+  dropPreview();
+  return [this, draft = m_draft, back](const core::Progress& progress) -> Apply
+  {
+    progress.report(0.0, back ? "undoing" : "redoing");
+    draft->pending = step(*draft, back); // recorded also if nobody takes it over
+    return [this, draft]
+    {
+      if (draft != m_draft)
+        return;
+      endStep();
+      touched();
+    };
+  };
 }
 
 void SegmentEditor::redo()
@@ -1036,49 +1106,70 @@ void SegmentEditor::redo()
   if (!canRedo())
     return;
   Draft& draft = *m_draft;
-  Draft::Step step = std::move(draft.redo.back());
-  draft.redo.pop_back();
-  core::IndexBox box;
-  if (step.mask)
-    box = draft.mask.redo();
-  if (step.inside)
-    box = box.united(draft.inside->redo());
-  if (step.beside)
-    box = box.united(draft.beside->redo());
-  if (step.points)
-    draft.points = step.points->second;
-  m_previewDue = m_tool == Tool::Threshold || m_tool == Tool::Nerve;
-  draft.undo.push_back(std::move(step));
-  notify(events.voxelsChanged, box);
+  if (draft.redo.back().mask && draft.mask.extent().count() > kMostAtOnce)
+    m_stepDue = stepping(false);
+  else
+    step(draft, false)();
   touched();
 }
 
 void SegmentEditor::create()
 {
+  createWork()({})();
+}
+
+SegmentEditor::Work SegmentEditor::createWork()
+{
   release();
   if (const std::string why = whyNotCreate(); !why.empty())
     throw core::InvalidParameter(why);
-  const Mask mask =
-      m_preview && m_preview->result ? *m_preview->result : m_draft->mask.snapshot();
+  const std::optional<Mask> preview = m_preview ? m_preview->result : std::nullopt;
+  beginStep();
   volume::Segment segment;
   segment.name = m_draft->name;
   segment.index = 1;
-  const std::string edited = m_draft->edited;
-  if (m_preview && m_preview->result) // an undo gives the draft with what was a preview
-  {
-    Draft::Step step;
-    m_draft->mask.beginStep();
-    m_draft->mask.replace(mask);
-    step.mask = m_draft->mask.endStep();
-    m_draft->did(std::move(step));
-    dropPreview();
-  }
-  auto replaced = m_model.addStructure(segmentation::labelMapOf(mask, segment), edited);
-  m_created = std::make_unique<Created>(
-      Created{segment.name, std::exchange(m_draft, nullptr), std::move(replaced)});
-  m_tool = Tool::None;
-  reset();
   touched();
+  return [this, draft = m_draft, mask = *m_frozen->result, preview = preview.has_value(),
+          segment](const core::Progress& progress) -> Apply
+  {
+    progress.report(0.0, "making the structure");
+    const auto labels =
+        std::make_shared<volume::LabelMap>(segmentation::labelMapOf(mask, segment));
+    if (preview) // an undo gives the draft with what was a preview
+    {
+      progress.report(0.5, "making the structure");
+      draft->mask.beginStep();
+      draft->mask.replace(mask);
+      const bool changed = draft->mask.endStep();
+      draft->pending = [draft = draft.get(), changed]
+      {
+        Draft::Step step;
+        step.mask = changed;
+        draft->did(std::move(step));
+      };
+    }
+    return [this, draft, labels, name = segment.name]
+    {
+      if (draft != m_draft)
+        return;
+      endStep();
+      dropPreview();
+      std::optional<scene::LabelPart> replaced;
+      try
+      {
+        replaced = m_model.addStructure(std::move(*labels), draft->edited);
+      }
+      catch (const core::InvalidParameter& error) // its name has been taken meanwhile
+      {
+        return refuse(error.what());
+      }
+      m_created = std::make_unique<Created>(Created{name, draft, std::move(replaced)});
+      m_tool = Tool::None;
+      reset();
+      touched();
+      notify(events.created, name);
+    };
+  };
 }
 
 void SegmentEditor::discard()
@@ -1090,6 +1181,8 @@ void SegmentEditor::discard()
 
 std::uint64_t SegmentEditor::voxels() const
 {
+  if (m_frozen)
+    return m_frozen->result->count;
   return m_preview && m_preview->result ? m_preview->result->count : m_draft->mask.count();
 }
 
@@ -1121,7 +1214,7 @@ DraftLayer SegmentEditor::layer() const
     return layer;
   const bool strokes = m_tool == Tool::Grow && m_draft->inside;
   const bool preview = m_preview && m_preview->result;
-  if (!strokes && !preview && m_draft->mask.count() == 0 && !m_draft->stroking &&
+  if (!m_frozen && !strokes && !preview && m_draft->mask.count() == 0 && !m_draft->stroking &&
       m_draft->undo.empty() && m_tool == Tool::None)
     return layer;
   layer.geometry = m_draft->mask.geometry();
@@ -1134,7 +1227,10 @@ DraftLayer SegmentEditor::layer() const
   layer.colors = {{}, bright, stroke, kBeside};
   const bool range = m_tool == Tool::Threshold && !m_values.connected && previewPending() &&
                      !m_proposeDue && m_image && m_image->onCt;
-  if (range) // until it is computed
+  if (m_frozen)
+    layer.indexAt = [mask = *m_frozen->result](const core::Index3& at)
+    { return mask.at(at) ? kInDraft : std::uint16_t{0}; };
+  else if (range) // until it is computed
     layer.indexAt = [draft = m_draft, image = m_image->onCt, lower = m_values.lower,
                      upper = m_values.upper, how = m_values.combine](const core::Index3& at)
     {
@@ -1164,7 +1260,7 @@ DraftLayer SegmentEditor::layer() const
 SegmentEditor::Work SegmentEditor::surfaceWork()
 {
   std::optional<Mask> mask;
-  if (m_model.hasCase() && voxels() > 0 && voxels() <= kMostSurfaceVoxels)
+  if (m_model.hasCase() && !m_stepping && voxels() > 0 && voxels() <= kMostSurfaceVoxels)
     mask = m_preview && m_preview->result ? *m_preview->result : m_draft->mask.snapshot();
   return [this, mask](const core::Progress& progress) -> Apply
   {

@@ -72,6 +72,7 @@ public:
   {
     std::function<void()> changed;                            ///< anything that a panel shows
     std::function<void(const core::IndexBox&)> voxelsChanged; ///< of the draft, CT voxels
+    std::function<void(const std::string& name)> created;     ///< and no draft is left
   };
 
   static constexpr double kGrip = 1.0; ///< mm about a nerve point within which a press grips it
@@ -146,6 +147,7 @@ public:
   std::optional<Work> stepWork();
   std::string whyNotStep() const;
   void workEnded(); ///< it failed or was cancelled: the draft is as before
+  void workDropped(); ///< nobody waits for it any more; a preview is due again
   bool stepping() const noexcept { return m_stepping; }
 
   bool canUndo() const;
@@ -160,7 +162,8 @@ public:
 
   /// The draft, with the preview, becomes a structure of the case. Throws InvalidParameter with
   /// `whyNotCreate`.
-  void create();
+  Work createWork();
+  void create(); ///< at once
   void discard();
 
   std::uint64_t voxels() const; ///< of what would be created
@@ -188,6 +191,10 @@ private:
   std::optional<Work> previewWork();
   Work replacing(std::function<Preview(const core::Progress&)> compute, bool endsTool);
   void show(const Preview& preview);
+  void beginStep();
+  void endStep();
+  std::function<void()> step(Draft& draft, bool back);
+  Work stepping(bool back);
   void dropPreview();
   void setPoints(Points points);
   void dab(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
@@ -206,6 +213,7 @@ private:
   std::shared_ptr<Draft> m_draft; // never null
   std::unique_ptr<Created> m_created; // the last one
   std::unique_ptr<Preview> m_preview; // none: the draft alone
+  std::unique_ptr<Preview> m_frozen; // what is shown while a step is under way
   std::string m_note, m_warning;
   std::array<float, 3> m_color{};
   bool m_proposeDue = false;

@@ -151,7 +151,8 @@ TEST_F(SegmentEditorTest, AThresholdIsProposedSeenAndBecomesAStructure)
   editor.setTool(Tool::Threshold);
   work();
   EXPECT_GT(editor.values().upper, editor.values().lower) << "proposed";
-  set([](SegmentValues& values)
+  set(
+      [](SegmentValues& values)
       {
         values.lower = 1950.0;
         values.upper = 2000.0;
@@ -179,7 +180,8 @@ TEST_F(SegmentEditorTest, OnlyWhatHangsTogetherWithTheClickedPointCounts)
 {
   open();
   editor.setTool(Tool::Threshold);
-  set([](SegmentValues& values)
+  set(
+      [](SegmentValues& values)
       {
         values.lower = 1950.0;
         values.upper = 2000.0;
@@ -231,7 +233,8 @@ TEST_F(SegmentEditorTest, ADiskStaysInItsSliceAndARangeInItsIntensities)
 {
   open();
   editor.setTool(Tool::Paint);
-  set([](SegmentValues& values)
+  set(
+      [](SegmentValues& values)
       {
         values.brush = 3.0;
         values.ball = false;
@@ -241,7 +244,8 @@ TEST_F(SegmentEditorTest, ADiskStaysInItsSliceAndARangeInItsIntensities)
             count([](const Vector3d& p)
                   { return std::abs(p.z() - kBall.z()) < 0.1 && (p - kBall).norm() <= 3.0; }));
   editor.undo();
-  set([](SegmentValues& values)
+  set(
+      [](SegmentValues& values)
       {
         values.brush = 6.0;
         values.ball = true;
@@ -295,7 +299,8 @@ TEST_F(SegmentEditorTest, SlicesBetweenThosePaintedAreFilled)
 {
   open();
   editor.setTool(Tool::Paint);
-  set([](SegmentValues& values)
+  set(
+      [](SegmentValues& values)
       {
         values.brush = 3.0;
         values.ball = false;
@@ -404,17 +409,19 @@ TEST_F(SegmentEditorTest, AnMrMustBeRegisteredAndIsReadOnTheCtsGrid)
   {
     EXPECT_NE(std::string(error.what()).find("not registered"), std::string::npos);
   }
-  model.changeMr([](scene::Case& with)
-                 {
-                   with.mr.front().registered = true;
-                   with.mr.front().mrFromCt =
-                       core::RigidTransform(Eigen::Quaterniond::Identity(), Vector3d(3, 0, 0));
-                 });
+  model.changeMr(
+      [](scene::Case& with)
+      {
+        with.mr.front().registered = true;
+        with.mr.front().mrFromCt =
+            core::RigidTransform(Eigen::Quaterniond::Identity(), Vector3d(3, 0, 0));
+      });
   editor.mrMoved();
   editor.setSource("T2");
   editor.setTool(Tool::Threshold);
   work();
-  set([](SegmentValues& values)
+  set(
+      [](SegmentValues& values)
       {
         values.lower = 1960.0;
         values.upper = 2000.0;

@@ -26,9 +26,9 @@ namespace
 using presenters::SegmentEditor;
 using Tool = SegmentEditor::Tool;
 
-constexpr int kSurfaceAfter = 400;   // ms after the last change
-constexpr double kBrushStep = 1.2;   // factor
-constexpr double kLeastBrush = 0.1;  // mm
+constexpr int kSurfaceAfter = 400;  // ms after the last change
+constexpr double kBrushStep = 1.2;  // factor
+constexpr double kLeastBrush = 0.1; // mm
 const QColor kPoint("#ffd040");
 const QColor kPath("#ffd040");
 const QColor kEraser("#f2f5f8");
@@ -248,10 +248,9 @@ void SegmentController::stepBrush(int steps)
   presenters::SegmentValues values = m_editor.values();
   // Steps that are seen and end in a round tenth of a millimetre.
   const double wanted = values.brush * std::pow(kBrushStep, steps);
-  const double tenths = steps > 0 ? std::max(std::round(10.0 * wanted),
-                                             std::round(10.0 * values.brush) + 1.0)
-                                  : std::min(std::round(10.0 * wanted),
-                                             std::round(10.0 * values.brush) - 1.0);
+  const double tenths =
+      steps > 0 ? std::max(std::round(10.0 * wanted), std::round(10.0 * values.brush) + 1.0)
+                : std::min(std::round(10.0 * wanted), std::round(10.0 * values.brush) - 1.0);
   values.brush = std::max(0.1 * tenths, kLeastBrush);
   m_editor.setValues(values);
 }
@@ -325,8 +324,8 @@ void SegmentController::changed()
                                                      : colorOf(m_editor.color())})
                        : std::nullopt);
   presenters::DraftLayer layer = m_editor.layer();
-  m_slices.setDraft(
-      layer.indexAt ? std::make_shared<const presenters::DraftLayer>(std::move(layer)) : nullptr);
+  m_slices.setDraft(layer.indexAt ? std::make_shared<const presenters::DraftLayer>(std::move(layer))
+                                  : nullptr);
   drawing();
   m_panel->refresh();
   emit stateChanged();
@@ -363,9 +362,8 @@ void SegmentController::askWork()
 void SegmentController::run(SegmentEditor::Work work, bool step)
 {
   m_panel->setProgress(0.0, {});
-  m_work->start(
-      [work = std::move(work)](const core::Progress& progress) -> BackgroundWork::Reply
-      { return work(progress); });
+  m_work->start([work = std::move(work)](const core::Progress& progress) -> BackgroundWork::Reply
+                { return work(progress); });
   if (step)
     m_panel->refresh();
 }
@@ -412,11 +410,11 @@ void SegmentController::discard()
     return m_editor.discard();
   }
   const QScopedValueRollback<bool> asking(m_asking, true);
-  QMessageBox box(QMessageBox::Question, tr("Discard the draft?"),
-                  tr("The draft of “%1” is dropped.")
-                      .arg(m_editor.name().empty() ? tr("a structure without a name")
-                                                   : words(m_editor.name())),
-                  QMessageBox::NoButton, &m_window);
+  QMessageBox box(
+      QMessageBox::Question, tr("Discard the draft?"),
+      tr("The draft of “%1” is dropped.")
+          .arg(m_editor.name().empty() ? tr("a structure without a name") : words(m_editor.name())),
+      QMessageBox::NoButton, &m_window);
   box.setTextFormat(Qt::PlainText);
   box.setObjectName("askDiscard");
   auto* drop = box.addButton(tr("Discard"), QMessageBox::DestructiveRole);
@@ -455,11 +453,11 @@ bool SegmentController::mayLeave()
     m_editor.workEnded();
   }
   const std::string whyNot = m_editor.whyNotCreate();
-  QMessageBox box(QMessageBox::Question, tr("A structure is not finished"),
-                  tr("The draft of “%1” is not a structure of the case yet.")
-                      .arg(m_editor.name().empty() ? tr("a structure without a name")
-                                                   : words(m_editor.name())),
-                  QMessageBox::NoButton, &m_window);
+  QMessageBox box(
+      QMessageBox::Question, tr("A structure is not finished"),
+      tr("The draft of “%1” is not a structure of the case yet.")
+          .arg(m_editor.name().empty() ? tr("a structure without a name") : words(m_editor.name())),
+      QMessageBox::NoButton, &m_window);
   box.setTextFormat(Qt::PlainText);
   box.setObjectName("askDraft");
   if (!whyNot.empty())

@@ -56,9 +56,9 @@ public:
   bool busy() const;
 
 signals:
-  void toolTaken();                         ///< of the drill, which must be put away
-  void stateChanged();                      ///< what can be undone
-  void structureCreated();                  ///< or changed, or undone: to be saved
+  void toolTaken();        ///< of the drill, which must be put away
+  void stateChanged();     ///< what can be undone
+  void structureCreated(); ///< or changed, or undone: to be saved
   void statusMessage(const QString& line);
   /// Preview in the 3D view; without triangles: none.
   void surfaceChanged(const petrous::rendering::MeshContents& surface);

@@ -77,7 +77,10 @@ QString volumeText(const SegmentEditor& editor)
     return SegmentPanel::tr("Nothing yet");
   const double volume = editor.volume();
   return SegmentPanel::tr("%1 mm³  (%2 voxels)")
-      .arg(volume, 0, 'f', volume < 100.0 ? 2 : volume < 10000.0 ? 1 : 0)
+      .arg(volume, 0, 'f',
+           volume < 100.0     ? 2
+           : volume < 10000.0 ? 1
+                              : 0)
       .arg(voxels);
 }
 } // namespace
@@ -143,8 +146,7 @@ void SegmentPanel::addHead(QVBoxLayout& layout)
               m_editable->addAction(tr("The case has no structure on the CT"))->setEnabled(false);
           });
   m_bound.add(
-      m_source,
-      [this] { return m_source->findData(words(m_editor.source())); },
+      m_source, [this] { return m_source->findData(words(m_editor.source())); },
       [this](int row)
       {
         say({});
@@ -245,11 +247,11 @@ void SegmentPanel::addBrush(QFormLayout& form, const char* radius, const char* s
                   ball, [this] { return m_editor.values().ball ? 0 : 1; },
                   [this](int row) { change([=](Values& values) { values.ball = row == 0; }); }));
   if (within)
-    form.addRow({}, m_bound.add(checkBox(tr("&Only intensities in this range"), within,
-                                         tr("The brush leaves other voxels as they are")),
-                                [this] { return m_editor.values().within; },
-                                [this](bool on)
-                                { change([=](Values& values) { values.within = on; }); }));
+    form.addRow({}, m_bound.add(
+                        checkBox(tr("&Only intensities in this range"), within,
+                                 tr("The brush leaves other voxels as they are")),
+                        [this] { return m_editor.values().within; },
+                        [this](bool on) { change([=](Values& values) { values.within = on; }); }));
 }
 
 void SegmentPanel::addPages(QVBoxLayout& layout)
@@ -264,8 +266,8 @@ void SegmentPanel::addPages(QVBoxLayout& layout)
       [this](QFormLayout& form)
       {
         addRange(form, "segmentLower", "segmentUpper");
-        auto* propose = button(tr("&Propose"), "segmentPropose",
-                               tr("Range from the image's histogram"));
+        auto* propose =
+            button(tr("&Propose"), "segmentPropose", tr("Range from the image's histogram"));
         connect(propose, &QPushButton::clicked, this, [this] { m_editor.proposeRange(); });
         form.addRow({}, propose);
         form.addRow({}, m_bound.add(
@@ -280,8 +282,7 @@ void SegmentPanel::addPages(QVBoxLayout& layout)
         form.addRow(tr("Resul&t"),
                     m_bound.add(
                         combine, [this] { return static_cast<int>(m_editor.values().combine); },
-                        [this](int row)
-                        {
+                        [this](int row) {
                           change([=](Values& values)
                                  { values.combine = static_cast<Values::Combine>(row); });
                         }));
@@ -304,11 +305,11 @@ void SegmentPanel::addPages(QVBoxLayout& layout)
       {
         auto* keep = choiceBox("islandsKeep", tr("Which connected parts stay"));
         keep->addItems({tr("the largest"), tr("all of at least")});
-        form.addRow(tr("&Keep"),
-                    m_bound.add(
-                        keep, [this] { return m_editor.values().largest ? 0 : 1; },
-                        [this](int row)
-                        { change([=](Values& values) { values.largest = row == 0; }); }));
+        form.addRow(tr("&Keep"), m_bound.add(
+                                     keep, [this] { return m_editor.values().largest ? 0 : 1; },
+                                     [this](int row) {
+                                       change([=](Values& values) { values.largest = row == 0; });
+                                     }));
         m_smallest = m_bound.add(
             numberBox("islandsSmallest", tr("Smaller parts are removed"),
                       {0.01, 1e6, tr(" mm³"), 2}),
@@ -321,13 +322,12 @@ void SegmentPanel::addPages(QVBoxLayout& layout)
       tr("Moves the whole surface outwards, or with a minus inwards."),
       [this](QFormLayout& form)
       {
-        form.addRow(tr("&Margin"),
-                    m_bound.add(
-                        numberBox("marginWidth", tr("How far; below 0: inwards"),
-                                  {-20.0, 20.0, tr(" mm"), 2, 0.1}),
-                        [this] { return m_editor.values().margin; },
-                        [this](double mm)
-                        { change([=](Values& values) { values.margin = mm; }); }));
+        form.addRow(tr("&Margin"), m_bound.add(
+                                       numberBox("marginWidth", tr("How far; below 0: inwards"),
+                                                 {-20.0, 20.0, tr(" mm"), 2, 0.1}),
+                                       [this] { return m_editor.values().margin; },
+                                       [this](double mm)
+                                       { change([=](Values& values) { values.margin = mm; }); }));
       },
       tr("Apply the margin")));
   m_pages->addWidget(page(
@@ -353,11 +353,11 @@ void SegmentPanel::addPages(QVBoxLayout& layout)
       {
         auto* inside = choiceBox("growSide", tr("What the next stroke marks"));
         inside->addItems({tr("inside the structure"), tr("beside it")});
-        form.addRow(tr("Stro&kes"),
-                    m_bound.add(
-                        inside, [this] { return m_editor.values().inside ? 0 : 1; },
-                        [this](int row)
-                        { change([=](Values& values) { values.inside = row == 0; }); }));
+        form.addRow(tr("Stro&kes"), m_bound.add(
+                                        inside, [this] { return m_editor.values().inside ? 0 : 1; },
+                                        [this](int row) {
+                                          change([=](Values& values) { values.inside = row == 0; });
+                                        }));
         addBrush(form, "growRadius", "growShape", nullptr);
       },
       tr("Grow from the strokes")));
@@ -433,7 +433,8 @@ QWidget* SegmentPanel::addFoot()
   m_volume->setToolTip(tr("Volume of the structure as it is now, with the preview"));
   m_progress->setObjectName("segmentProgress");
   m_progress->setRange(0, 1000);
-  m_cancel = button(tr("Stop"), "segmentCancel", tr("Ends what is being computed; the draft stays"));
+  m_cancel =
+      button(tr("Stop"), "segmentCancel", tr("Ends what is being computed; the draft stays"));
   m_undo = button(tr("Undo"), "segmentUndo", tr("The last step (Ctrl+Z while a tool is in use)"));
   m_redo = button(tr("Redo"), "segmentRedo", tr("Again (Ctrl+Shift+Z while a tool is in use)"));
   m_create = button(tr("Create structure"), "segmentCreate",

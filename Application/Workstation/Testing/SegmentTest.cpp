@@ -113,8 +113,8 @@ TEST_F(Segment, AThresholdFromAClickMakesTheStructureThatTheEngineFinds)
   picture();
   create("tumour");
   const auto& value = window().model().value();
-  const auto mask = segmentation::connectedThreshold(*value.ct.volume.get(), {1000.0, 1600.0},
-                                                     {kBallCenter});
+  const auto mask =
+      segmentation::connectedThreshold(*value.ct.volume.get(), {1000.0, 1600.0}, {kBallCenter});
   const auto* made = scene::findStructure(value, "tumour");
   ASSERT_TRUE(made);
   EXPECT_EQ(made->voxels, mask.count);

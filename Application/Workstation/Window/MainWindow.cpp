@@ -448,11 +448,9 @@ void MainWindow::connectActions()
         },
         refused);
   };
-  on(m_actions->undo,
-     [this, step]
+  on(m_actions->undo, [this, step]
      { m_segment->active() ? m_segment->undo() : step(&presenters::WorkstationModel::undo); });
-  on(m_actions->redo,
-     [this, step]
+  on(m_actions->redo, [this, step]
      { m_segment->active() ? m_segment->redo() : step(&presenters::WorkstationModel::redo); });
   on(m_actions->centerView,
      [this]
@@ -504,8 +502,7 @@ void MainWindow::connectSegment()
   connect(m_segment, &SegmentController::structureCreated, m_saver, &CaseSaver::save);
   connect(m_segment, &SegmentController::statusMessage, this,
           [this](const QString& line) { statusBar()->showMessage(line, kMessage); });
-  connect(m_segment, &SegmentController::surfaceChanged, m_picture,
-          &PictureController::setDraft);
+  connect(m_segment, &SegmentController::surfaceChanged, m_picture, &PictureController::setDraft);
   m_keeper->mayDropDraft = [this] { return m_segment->mayLeave(); };
   m_segment->addKeysTo(*m_view);
   m_segment->addKeysTo(*m_slices);

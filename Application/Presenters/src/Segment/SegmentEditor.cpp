@@ -111,7 +111,8 @@ std::string warningOf(const Tube& tube)
   if (left < 0.05 * tube.length)
     return {};
   return "The scan does not resolve it along " + millimetres(left, 1) + " of " +
-         millimetres(tube.length, 1) + ": there the path and its radius are a guess between your "
+         millimetres(tube.length, 1) +
+         ": there the path and its radius are a guess between your "
          "points.";
 }
 
@@ -132,8 +133,8 @@ Tube moved(Tube tube, const core::RigidTransform& ctFromImage)
 /// The image that the tools read, as it is and on the CT's grid.
 struct SegmentEditor::SourceImage
 {
-  Image own;   ///< on its own grid
-  Image onCt;  ///< nullptr: to be made
+  Image own;  ///< on its own grid
+  Image onCt; ///< nullptr: to be made
   core::RigidTransform ownFromCt;
   core::GridGeometry ct;
 
@@ -183,7 +184,7 @@ struct SegmentEditor::Draft
   std::string edited;
   std::optional<std::array<float, 3>> editedColor;
   EditableMask mask;
-  std::unique_ptr<EditableMask> inside, beside; ///< strokes to grow from; nullptr: none
+  std::unique_ptr<EditableMask> inside, beside;     ///< strokes to grow from; nullptr: none
   SliceOrientation plane = SliceOrientation::Axial; ///< last painted in
   Points seeds;                                     ///< of the connected threshold
   Points points;                                    ///< of the nerve
@@ -287,8 +288,8 @@ void SegmentEditor::mrMoved()
 
 bool SegmentEditor::hasDraft() const
 {
-  return m_stepping || m_draft->mask.count() > 0 || !m_draft->edited.empty() || !m_draft->undo.empty() ||
-         !m_draft->points.empty() || !m_draft->seeds.empty() ||
+  return m_stepping || m_draft->mask.count() > 0 || !m_draft->edited.empty() ||
+         !m_draft->undo.empty() || !m_draft->points.empty() || !m_draft->seeds.empty() ||
          (m_preview && m_preview->result && m_preview->result->count > 0);
 }
 
@@ -338,8 +339,7 @@ std::string SegmentEditor::whyNotCreate() const
   {
     return error.what();
   }
-  const bool taken = scene::findStructure(m_model.value(), m_draft->name) ||
-                     [this]
+  const bool taken = scene::findStructure(m_model.value(), m_draft->name) || [this]
   {
     for (const scene::MeshPart& mesh : m_model.value().meshes)
       if (mesh.name == m_draft->name)
@@ -475,9 +475,8 @@ void SegmentEditor::setValues(const SegmentValues& values)
   if (m_tool == Tool::Threshold && !m_values.connected && before.connected)
     m_draft->seeds.clear();
   m_previewDue = m_previewDue ||
-                 (m_tool == Tool::Threshold &&
-                  (range || m_values.connected != before.connected ||
-                   m_values.combine != before.combine)) ||
+                 (m_tool == Tool::Threshold && (range || m_values.connected != before.connected ||
+                                                m_values.combine != before.combine)) ||
                  (m_tool == Tool::Nerve && m_values.tubeRadius != before.tubeRadius) ||
                  (m_values.within && !before.within);
   if (m_values.within && m_values.lower == 0.0 && m_values.upper == 0.0)
@@ -741,8 +740,7 @@ SegmentEditor::Computed SegmentEditor::computed() const
   {
   case Tool::Threshold:
     return [base, values, image = *m_image, seeds = m_draft->seeds, propose = m_proposeDue,
-            iso = surfaceIntensity()](
-               const core::Progress& progress) mutable
+            iso = surfaceIntensity()](const core::Progress& progress) mutable
     {
       Preview preview;
       preview.image = image.made(progress.part(0.0, 0.4));
@@ -754,12 +752,11 @@ SegmentEditor::Computed SegmentEditor::computed() const
       if (values.connected && seeds.empty())
         preview.note = "Click a point of the structure in a slice.";
       else
-        preview.result =
-            united(base,
-                   values.connected
-                       ? segmentation::connectedThreshold(*preview.image, range, seeds, rest)
-                       : segmentation::threshold(*preview.image, range, rest),
-                   values.combine);
+        preview.result = united(
+            base,
+            values.connected ? segmentation::connectedThreshold(*preview.image, range, seeds, rest)
+                             : segmentation::threshold(*preview.image, range, rest),
+            values.combine);
       return preview;
     };
   case Tool::Nerve:
@@ -778,8 +775,8 @@ SegmentEditor::Computed SegmentEditor::computed() const
       volume::Segment segment;
       segment.name = "tube";
       segment.index = 1;
-      const volume::LabelMap labels = segmentation::labelTube(
-          tube, base.geometry(), segment, 1.0, progress.part(0.8, 1.0));
+      const volume::LabelMap labels =
+          segmentation::labelTube(tube, base.geometry(), segment, 1.0, progress.part(0.8, 1.0));
       preview.note = noteOf(tube);
       preview.warning = warningOf(tube);
       preview.tube = std::make_shared<const Tube>(std::move(tube));
@@ -815,8 +812,8 @@ SegmentEditor::Computed SegmentEditor::computed() const
     {
       Preview preview;
       preview.image = image.made(progress.part(0.0, 0.4));
-      preview.result = segmentation::grownFromSeeds(*preview.image, inside, beside, {},
-                                                    progress.part(0.4, 1.0));
+      preview.result =
+          segmentation::grownFromSeeds(*preview.image, inside, beside, {}, progress.part(0.4, 1.0));
       return preview;
     };
   default:
@@ -873,8 +870,8 @@ std::optional<SegmentEditor::Work> SegmentEditor::previewWork()
   if (m_tool == Tool::Threshold || m_tool == Tool::Nerve)
     compute = computed();
   else // only the image and a range are needed
-    compute = [image = *m_image, propose = m_proposeDue, iso = surfaceIntensity()](
-                  const core::Progress& progress) mutable
+    compute = [image = *m_image, propose = m_proposeDue,
+               iso = surfaceIntensity()](const core::Progress& progress) mutable
     {
       Preview preview;
       preview.image = image.made(progress);
@@ -946,8 +943,8 @@ std::string SegmentEditor::whyNotStep() const
 }
 
 // `endsTool`: seeds and points have served their purpose.
-SegmentEditor::Work
-SegmentEditor::replacing(std::function<Preview(const core::Progress&)> compute, bool endsTool)
+SegmentEditor::Work SegmentEditor::replacing(std::function<Preview(const core::Progress&)> compute,
+                                             bool endsTool)
 {
   return [this, draft = m_draft, endsTool,
           compute = std::move(compute)](const core::Progress& progress) -> Apply
@@ -1133,8 +1130,7 @@ SegmentEditor::Work SegmentEditor::createWork()
           segment](const core::Progress& progress) -> Apply
   {
     progress.report(0.0, "making the structure");
-    const auto labels =
-        std::make_shared<volume::LabelMap>(segmentation::labelMapOf(mask, segment));
+    const auto labels = std::make_shared<volume::LabelMap>(segmentation::labelMapOf(mask, segment));
     if (preview) // an undo gives the draft with what was a preview
     {
       progress.report(0.5, "making the structure");
@@ -1237,7 +1233,9 @@ DraftLayer SegmentEditor::layer() const
       const double value = image->at(at[0], at[1], at[2]);
       const bool in = value >= lower && value <= upper;
       const bool drawn = draft->mask.voxels().at(at[0], at[1], at[2]) != 0;
-      const bool both = how == Combine::Replace ? in : how == Combine::Add ? in || drawn : in && drawn;
+      const bool both = how == Combine::Replace ? in
+                        : how == Combine::Add   ? in || drawn
+                                                : in && drawn;
       return both ? kInDraft : std::uint16_t{0};
     };
   else if (preview)
@@ -1271,18 +1269,17 @@ SegmentEditor::Work SegmentEditor::surfaceWork()
       for (std::size_t a = 0; a < 3; ++a)
       {
         box.lower[a] = std::max(mask->extent.lower[a] - kSurfaceMargin, 0);
-        box.upper[a] =
-            std::min(mask->extent.upper[a] + kSurfaceMargin, mask->geometry().dims()[a]);
+        box.upper[a] = std::min(mask->extent.upper[a] + kSurfaceMargin, mask->geometry().dims()[a]);
       }
       volume::Volume<std::uint16_t> labels(mask->geometry().cropped(box));
       const core::Index3 size = box.size();
       for (int k = 0; k < size[2]; ++k)
         for (int j = 0; j < size[1]; ++j)
           for (int i = 0; i < size[0]; ++i)
-            labels.at(i, j, k) = mask->voxels->at(box.lower[0] + i, box.lower[1] + j,
-                                                  box.lower[2] + k);
-      surface = std::make_shared<const core::TriangleMesh>(
-          rendering::extractLabel(labels, 1, progress));
+            labels.at(i, j, k) =
+                mask->voxels->at(box.lower[0] + i, box.lower[1] + j, box.lower[2] + k);
+      surface =
+          std::make_shared<const core::TriangleMesh>(rendering::extractLabel(labels, 1, progress));
     }
     return [this, surface] { m_surface = surface; };
   };

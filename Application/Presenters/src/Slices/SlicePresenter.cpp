@@ -134,13 +134,14 @@ void SlicePresenter::drawLayer(const Layer& layer, const SliceGeometry& slice,
                                SlicePixels& pixels) const
 {
   const auto& voxels = *layer.labels->voxels;
-  tint(slice, voxels.geometry(),
-       [&](const core::Index3& at)
-       {
-         const std::uint16_t index = voxels.at(at[0], at[1], at[2]);
-         return index < layer.shown.size() && layer.shown[index] ? index : std::uint16_t{0};
-       },
-       layer.colors, pixels);
+  tint(
+      slice, voxels.geometry(),
+      [&](const core::Index3& at)
+      {
+        const std::uint16_t index = voxels.at(at[0], at[1], at[2]);
+        return index < layer.shown.size() && layer.shown[index] ? index : std::uint16_t{0};
+      },
+      layer.colors, pixels);
 }
 
 void DraftLayer::paint(const SliceGeometry& slice, SlicePixels& pixels) const

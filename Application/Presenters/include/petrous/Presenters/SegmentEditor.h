@@ -133,20 +133,20 @@ public:
   };
   std::vector<TubePoint> tubePoints() const;
   void removeTubePoint(std::size_t index);
-  const std::vector<Eigen::Vector3d>& path() const noexcept; ///< LPS mm
+  const std::vector<Eigen::Vector3d>& path() const noexcept;  ///< LPS mm
   const std::vector<Eigen::Vector3d>& seeds() const noexcept; ///< of the connected threshold
   /// Length and radius of the tube, or what is to be done next; a sentence or two, or empty.
   const std::string& note() const noexcept { return m_note; }
   /// What is wrong with the tool's result, in words; usually empty.
   const std::string& warning() const noexcept { return m_warning; }
 
-  /// Work that is due: a preview to be brought up to date, or a step begun by a click. None if there
-  /// is none, or while a step is under way.
+  /// Work that is due: a preview to be brought up to date, or a step begun by a click. None if
+  /// there is none, or while a step is under way.
   std::optional<Work> dueWork();
   /// The tool's step on the draft, with the preview. None where `whyNotStep` says why.
   std::optional<Work> stepWork();
   std::string whyNotStep() const;
-  void workEnded(); ///< it failed or was cancelled: the draft is as before
+  void workEnded();   ///< it failed or was cancelled: the draft is as before
   void workDropped(); ///< nobody waits for it any more; a preview is due again
   bool stepping() const noexcept { return m_stepping; }
 
@@ -210,10 +210,10 @@ private:
   std::string m_source = "ct";
   std::unique_ptr<SourceImage> m_image; // made on demand
   SegmentValues m_values;
-  std::shared_ptr<Draft> m_draft; // never null
+  std::shared_ptr<Draft> m_draft;     // never null
   std::unique_ptr<Created> m_created; // the last one
   std::unique_ptr<Preview> m_preview; // none: the draft alone
-  std::unique_ptr<Preview> m_frozen; // what is shown while a step is under way
+  std::unique_ptr<Preview> m_frozen;  // what is shown while a step is under way
   std::string m_note, m_warning;
   std::array<float, 3> m_color{};
   bool m_proposeDue = false;

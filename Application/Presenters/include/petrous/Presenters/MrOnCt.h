@@ -9,9 +9,9 @@
 namespace petrous::presenters
 {
 
-/// The MR on the CT's grid, trilinear, in its own voxel type; beyond the MR its padding, or else its
-/// smallest value. `mrFromCt` maps CT patient points to those of the MR, LPS mm. In parallel. Throws
-/// CancelledError.
+/// The MR on the CT's grid, trilinear, in its own voxel type; beyond the MR its padding, or else
+/// its smallest value. `mrFromCt` maps CT patient points to those of the MR, LPS mm. In parallel.
+/// Throws CancelledError.
 std::shared_ptr<const volume::IntensityVolume> mrOnCt(const volume::IntensityVolume& mr,
                                                       const core::GridGeometry& ct,
                                                       const core::RigidTransform& mrFromCt,

@@ -106,9 +106,9 @@ public:
   /// of this one (see addParts). What was drilled and set since then stays.
   void takeParts(scene::Case with);
 
-  /// Adds structures made in this program (addStructures). The one called `replaced`, if that is not
-  /// empty, is removed and returned, and a new one of its name has its appearance. Ends the touch
-  /// session. Throws as addStructures does, without effect.
+  /// Adds structures made in this program (addStructures). The one called `replaced`, if that is
+  /// not empty, is removed and returned, and a new one of its name has its appearance. Ends the
+  /// touch session. Throws as addStructures does, without effect.
   std::optional<scene::LabelPart> addStructure(volume::LabelMap labels,
                                                const std::string& replaced = {});
   /// Removes a structure of a label map and returns it as a part of its own, for `putStructure`;

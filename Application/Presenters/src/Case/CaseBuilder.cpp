@@ -335,11 +335,7 @@ imaging::LoadedLabels loadStructureSet(const scene::Case& value, PartSource& sou
   if (source.drawnOn.empty())
     source.drawnOn = "ct"; // not an MR of the same grid
   const core::GridGeometry& grid = mr ? mr->geometry : value.ct.geometry;
-  imaging::LoadedLabels loaded = imaging::labelsOf(set, grid, source.path, progress);
-  for (const imaging::StructureSet::Roi& roi : set.rois)
-    if (!roi.contours.empty())
-      loaded.fileVolumes[roi.name] = imaging::contourVolume(roi, grid);
-  return loaded;
+  return imaging::labelsOf(set, grid, source.path, progress);
 }
 
 // Names of the files of a folder, as the structures' names. A word that most of the files share and

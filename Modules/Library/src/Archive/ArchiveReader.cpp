@@ -119,15 +119,21 @@ struct Archive
   std::uint64_t bytes = 0; ///< of all objects, unpacked
 };
 
-/// Writes an entry as it is.
-void copyEntry(ZipReader::Stream& in, core::OutputFile& out, const core::Progress& progress)
+/// Writes an entry as it is, at most `bytes` bytes: what is stated may be less than what it unpacks
+/// to, and its checksum is known only at its end.
+void copyEntry(ZipReader::Stream& in, core::OutputFile& out, std::uint64_t bytes,
+               const fs::path& file, const std::string& entry, const core::Progress& progress)
 {
   std::vector<char> block(kBlock);
+  std::uint64_t written = 0;
   for (std::size_t got = block.size(); got == block.size();)
   {
     progress.check("restoring");
     got = in.read(block.data(), block.size());
+    if (got > bytes - written)
+      throwUnsound(file, "'" + entry + "' is larger than stated");
     out.write(block.data(), got);
+    written += got;
   }
 }
 
@@ -241,7 +247,7 @@ std::size_t addObjects(const Archive& archive, ObjectStore& store, const core::P
                     if (one->packed)
                       unpackImage(in, out, one->bytes, archive.file, one->file, part);
                     else
-                      copyEntry(in, out, part);
+                      copyEntry(in, out, one->bytes, archive.file, one->file, part);
                     out.commit();
                   });
     if (name != object)

@@ -4,13 +4,13 @@
 #include <set>
 
 #include <nlohmann/json.hpp>
-#include <openssl/evp.h>
 #include <unistd.h>
 
 #include "ArchiveIndex.h"
 #include "GzipMembers.h"
 #include "LibraryFolder.h"
 #include "ManifestFile.h"
+#include "Sha256.h"
 #include "ZipEntries.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Library/Archive.h"
@@ -53,10 +53,7 @@ public:
     : m_file(path)
     , m_what(std::move(what))
     , m_level(level)
-    , m_hash(EVP_MD_CTX_new(), &EVP_MD_CTX_free)
   {
-    if (!m_hash || EVP_DigestInit_ex(m_hash.get(), EVP_sha256(), nullptr) != 1)
-      throw std::bad_alloc();
     std::string head = next(std::min<std::uintmax_t>(kLongestHeader, m_file.size()));
     const std::size_t end = head.find("\n\n");
     const std::size_t encoding = head.find("\nencoding: raw\n");
@@ -112,7 +109,7 @@ private:
                            core::printable(m_file.path()) + ": cannot be read to its end");
       done += static_cast<std::size_t>(got);
     }
-    EVP_DigestUpdate(m_hash.get(), bytes.data(), bytes.size());
+    m_hash.add(bytes.data(), bytes.size());
     m_read += count;
     return bytes;
   }
@@ -122,20 +119,17 @@ private:
     if (m_checked)
       return;
     m_checked = true;
-    std::array<unsigned char, 32> digest{};
-    EVP_DigestFinal_ex(m_hash.get(), digest.data(), nullptr);
-    std::string text;
-    for (const unsigned char byte : digest)
-      for (const int shift : {4, 0})
-        text += "0123456789abcdef"[(byte >> shift) & 15];
-    if (m_file.path().filename().string().rfind(text, 0) != 0)
-      checkObject(m_file.path(), m_what); // throws, naming what to do
+    if (m_file.path().filename().string().rfind(m_hash.hexadecimal(), 0) == 0)
+      return;
+    checkObject(m_file.path(), m_what); // throws, naming what to do
+    throw LibraryError(LibraryError::Reason::Damaged,
+                       core::printable(m_file.path()) + ": changed while it was read; try again");
   }
 
   core::InputFile m_file;
   std::string m_what;
   int m_level;
-  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> m_hash;
+  Sha256 m_hash;
   std::uintmax_t m_read = 0;
   std::string m_carried; ///< read, not packed
   std::string m_pending; ///< packed, not given

@@ -5,10 +5,10 @@
 #include <cerrno>
 #include <memory>
 
-#include <openssl/evp.h>
 #include <unistd.h>
 
 #include "LibraryFolder.h"
+#include "Sha256.h"
 
 namespace petrous::library
 {
@@ -30,20 +30,6 @@ struct TemporaryFile
     fs::remove(path, ignored);
   }
 };
-
-using Digest = std::array<unsigned char, 32>;
-
-std::string hexadecimal(const Digest& digest)
-{
-  constexpr const char* digits = "0123456789abcdef";
-  std::string text;
-  for (const unsigned char byte : digest)
-  {
-    text += digits[byte >> 4];
-    text += digits[byte & 15];
-  }
-  return text;
-}
 
 bool isObjectName(const std::string& name)
 {
@@ -72,14 +58,37 @@ std::string remedyFor(const fs::path& object)
 
 } // namespace
 
+Sha256::Sha256()
+  : m_context(EVP_MD_CTX_new(), &EVP_MD_CTX_free)
+{
+  if (!m_context || EVP_DigestInit_ex(m_context.get(), EVP_sha256(), nullptr) != 1)
+    throw std::bad_alloc();
+}
+
+void Sha256::add(const void* bytes, std::size_t count)
+{
+  EVP_DigestUpdate(m_context.get(), bytes, count);
+}
+
+std::string Sha256::hexadecimal()
+{
+  std::array<unsigned char, 32> digest{};
+  EVP_DigestFinal_ex(m_context.get(), digest.data(), nullptr);
+  constexpr const char* digits = "0123456789abcdef";
+  std::string text;
+  for (const unsigned char byte : digest)
+  {
+    text += digits[byte >> 4];
+    text += digits[byte & 15];
+  }
+  return text;
+}
+
 std::string sha256OfFile(const fs::path& path, const core::Progress& progress)
 try
 {
   const core::InputFile file(path);
-  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(),
-                                                                        &EVP_MD_CTX_free);
-  if (!context || EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) != 1)
-    throw std::bad_alloc();
+  Sha256 hash;
   std::vector<char> block(1 << 20);
   for (std::uintmax_t done = 0; done < file.size();)
   {
@@ -91,12 +100,10 @@ try
     if (got <= 0)
       throw LibraryError(LibraryError::Reason::Damaged,
                          core::printable(path) + ": cannot be read to its end");
-    EVP_DigestUpdate(context.get(), block.data(), static_cast<std::size_t>(got));
+    hash.add(block.data(), static_cast<std::size_t>(got));
     done += static_cast<std::uintmax_t>(got);
   }
-  Digest digest{};
-  EVP_DigestFinal_ex(context.get(), digest.data(), nullptr);
-  return hexadecimal(digest);
+  return hash.hexadecimal();
 }
 catch (const core::InputFileError& error)
 {
@@ -105,9 +112,9 @@ catch (const core::InputFileError& error)
 
 std::string sha256Of(const std::uint8_t* bytes, std::size_t count)
 {
-  Digest digest{};
-  EVP_Digest(bytes, count, digest.data(), nullptr, EVP_sha256(), nullptr);
-  return hexadecimal(digest);
+  Sha256 hash;
+  hash.add(bytes, count);
+  return hash.hexadecimal();
 }
 
 void checkObject(const fs::path& object, const std::string& what, const core::Progress& progress)

@@ -35,6 +35,7 @@ struct TestZip
     std::uint32_t size = 0;       ///< stated, if it differs
     std::uint32_t mode = 0100644; ///< Unix file mode
     std::uint16_t flags = 0;
+    std::uint16_t method = 0; ///< 8: `bytes` are a deflate stream
   };
   std::vector<Entry> entries;
 
@@ -66,7 +67,7 @@ struct TestZip
       const auto common = [&](std::string& to)
       {
         put(to, entry.flags, 2);
-        put(to, 0, 2);           // stored
+        put(to, entry.method, 2);
         put(to, 0x00210000U, 4); // time and date
         put(to, crc(entry.bytes), 4);
         put(to, entry.bytes.size(), 4);
@@ -388,6 +389,32 @@ TEST_F(Archives, ThatAreHostileAreRefused)
   with([](TestZip& zip) { find(zip, "ct.nrrd").localName = "ct.nrrx"; });
   with([](TestZip& zip) { find(zip, "ct.nrrd").size = 4000000000U; });
   with([](TestZip& zip) { find(zip, "ct.nrrd").flags = 1; }); // encrypted
+  // More than is stated, in stored blocks of a deflate stream (RFC 1951, 3.2.4).
+  const std::string more = with(
+      [](TestZip& zip)
+      {
+        constexpr std::size_t kStated = 64;
+        TestZip::Entry& entry = find(zip, "strokes/0001.stroke");
+        std::string stream;
+        for (int n = 0; n < 40; ++n)
+        {
+          constexpr std::uint16_t kLength = 60000;
+          stream += static_cast<char>(n == 39);
+          TestZip::put(stream, kLength, 2);
+          TestZip::put(stream, static_cast<std::uint16_t>(~kLength), 2);
+          stream += std::string(kLength, 'x');
+        }
+        entry.bytes = stream;
+        entry.method = 8;
+        entry.size = kStated;
+        std::string& text = find(zip, "petrous.json").bytes;
+        nlohmann::json all = nlohmann::json::parse(text);
+        for (auto& one : all["objects"])
+          if (one["file"] == "strokes/0001.stroke")
+            one["bytes"] = kStated;
+        text = all.dump();
+      });
+  EXPECT_TRUE(contains(more, "larger than stated")) << more;
   with([](TestZip& zip) { find(zip, "ct.nrrd").bytes.back() ^= 1; });
   with([](TestZip& zip) { find(zip, "ct.nrrd").bytes.resize(3000); });
   with([](TestZip& zip) { find(zip, "strokes/0001.stroke").bytes[9] ^= 1; });

@@ -29,12 +29,11 @@ struct SegmentOptions
 
 constexpr const char* kAutomatic = "auto";
 
-/// The image on the CT's grid.
-std::shared_ptr<const volume::IntensityVolume>
-sourceImage(const scene::Case& value, const std::string& name, const core::Progress& progress)
+/// The image of that name, which has a place on the CT.
+const scene::ImagePart& sourceOf(const scene::Case& value, const std::string& name)
 {
   if (name == "ct")
-    return value.ct.volume.get();
+    return value.ct;
   const scene::ImagePart* mr = scene::findMr(value, name);
   if (!mr)
   {
@@ -49,7 +48,7 @@ sourceImage(const scene::Case& value, const std::string& name, const core::Progr
                                  "' is not registered, so its place on the CT is not known; "
                                  "register it first (petrous register '" +
                                  value.name + "' --mr '" + name + "')");
-  return presenters::mrOnCt(*mr->volume.get(), value.ct.geometry, mr->mrFromCt, progress);
+  return *mr;
 }
 
 /// The result of either way, and what is said of it.
@@ -60,9 +59,15 @@ struct Made
   std::vector<std::string> lines, warnings;
 };
 
-Made region(const SegmentOptions& options, const scene::Case& value,
-            const volume::IntensityVolume& image, const core::Progress& progress)
+Made region(const SegmentOptions& options, const scene::Case& value, const scene::ImagePart& source,
+            const core::Progress& progress)
 {
+  const auto own = source.volume.get();
+  const auto onCt =
+      &source == &value.ct
+          ? own
+          : presenters::mrOnCt(*own, value.ct.geometry, source.mrFromCt, progress.part(0.0, 0.2));
+  const volume::IntensityVolume& image = *onCt;
   Made made;
   volume::ValueRange range;
   std::vector<Eigen::Vector3d> seeds;
@@ -103,7 +108,7 @@ Made region(const SegmentOptions& options, const scene::Case& value,
   return made;
 }
 
-Made tube(const SegmentOptions& options, const volume::IntensityVolume& image,
+Made tube(const SegmentOptions& options, const scene::Case& value, const scene::ImagePart& source,
           const core::Progress& progress)
 {
   segmentation::TubeOptions tracing;
@@ -117,9 +122,10 @@ Made tube(const SegmentOptions& options, const volume::IntensityVolume& image,
     tracing.radius = radius;
   }
   const segmentation::Tube tube =
-      segmentation::traceTube(image, readPoints(options.tube), tracing, progress.part(0.0, 0.6));
+      presenters::traceOnCt(*source.volume.get(), source.mrFromCt, readPoints(options.tube),
+                            tracing, progress.part(0.0, 0.6));
   const volume::LabelMap labels = segmentation::labelTube(
-      tube, image.geometry(), {options.name, 1, {}, 0}, 1.0, progress.part(0.6, 0.8));
+      tube, value.ct.geometry, {options.name, 1, {}, 0}, 1.0, progress.part(0.6, 0.8));
   Made made;
   made.mask = segmentation::maskOf(labels, 1);
   if (made.mask.count == 0)
@@ -186,9 +192,10 @@ void segment(Context& context, const SegmentOptions& options)
   scene::checkPartName(options.name);
   const auto look = takeOut(value, options); // before the work
   const core::Progress progress = context.progress();
-  const auto image = sourceImage(value, options.source, progress.part(0.0, 0.2));
-  const core::Progress making = progress.part(0.2, 0.7);
-  Made made = isTube ? tube(options, *image, making) : region(options, value, *image, making);
+  const scene::ImagePart& source = sourceOf(value, options.source);
+  const core::Progress making = progress.part(0.0, 0.7);
+  Made made =
+      isTube ? tube(options, value, source, making) : region(options, value, source, making);
 
   segmentation::Mask& mask = made.mask;
   const core::Progress shaping = progress.part(0.7, 0.9);

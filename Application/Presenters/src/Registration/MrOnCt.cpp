@@ -72,4 +72,24 @@ std::shared_ptr<const volume::IntensityVolume> mrOnCt(const volume::IntensityVol
       });
 }
 
+segmentation::Tube traceOnCt(const volume::IntensityVolume& image,
+                             const core::RigidTransform& imageFromCt,
+                             const std::vector<Eigen::Vector3d>& points,
+                             const segmentation::TubeOptions& options,
+                             const core::Progress& progress)
+{
+  std::vector<Eigen::Vector3d> own = points;
+  for (Eigen::Vector3d& point : own)
+    point = imageFromCt * point;
+  segmentation::Tube tube = segmentation::traceTube(image, own, options, progress);
+  const core::RigidTransform ctFromImage = imageFromCt.inverse();
+  for (Eigen::Vector3d& point : tube.line)
+    point = ctFromImage * point;
+  for (auto& leg : tube.legs)
+    for (Eigen::Vector3d& point : leg)
+      point = ctFromImage * point;
+  tube.points = points; // to the bit
+  return tube;
+}
+
 } // namespace petrous::presenters

@@ -116,18 +116,6 @@ std::string warningOf(const Tube& tube)
          "points.";
 }
 
-// In CT space, from a trace in the patient space of another image.
-Tube moved(Tube tube, const core::RigidTransform& ctFromImage)
-{
-  for (auto* points : {&tube.line, &tube.points})
-    for (Eigen::Vector3d& point : *points)
-      point = ctFromImage * point;
-  for (auto& leg : tube.legs)
-    for (Eigen::Vector3d& point : leg)
-      point = ctFromImage * point;
-  return tube;
-}
-
 } // namespace
 
 /// The image that the tools read, as it is and on the CT's grid.
@@ -761,19 +749,13 @@ SegmentEditor::Computed SegmentEditor::computed() const
     };
   case Tool::Nerve:
     return [base, values, image = *m_image, points = m_draft->points,
-            widest = segmentation::widestFor(m_draft->name),
-            before = m_preview ? m_preview->tube : nullptr](const core::Progress& progress)
+            widest = segmentation::widestFor(m_draft->name)](const core::Progress& progress)
     {
       Preview preview;
-      Points own = points;
-      for (Eigen::Vector3d& point : own)
-        point = image.ownFromCt * point;
       segmentation::TubeOptions options;
       options.radius = values.tubeRadius;
       options.widest = widest;
-      Tube tube = moved(segmentation::traceTube(*image.own, own, options, progress.part(0.0, 0.8)),
-                        image.ownFromCt.inverse());
-      tube.points = points; // to the bit
+      Tube tube = traceOnCt(*image.own, image.ownFromCt, points, options, progress.part(0.0, 0.8));
       volume::Segment segment;
       segment.name = "tube";
       segment.index = 1;

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "petrous/Core/Progress.h"
 #include "petrous/Core/RigidTransform.h"
+#include "petrous/Segmentation/TubeTrace.h"
 #include "petrous/Volume/IntensityVolume.h"
 
 namespace petrous::presenters
@@ -16,5 +18,14 @@ std::shared_ptr<const volume::IntensityVolume> mrOnCt(const volume::IntensityVol
                                                       const core::GridGeometry& ct,
                                                       const core::RigidTransform& mrFromCt,
                                                       const core::Progress& progress = {});
+
+/// A tube traced in an image of its own space through points of the CT (patient LPS, mm), in the
+/// CT's space; `tube.points` are those given. Traced on the image's own grid: radii, noise and what
+/// is resolved depend on it. Throws as segmentation::traceTube.
+segmentation::Tube traceOnCt(const volume::IntensityVolume& image,
+                             const core::RigidTransform& imageFromCt,
+                             const std::vector<Eigen::Vector3d>& points,
+                             const segmentation::TubeOptions& options,
+                             const core::Progress& progress = {});
 
 } // namespace petrous::presenters

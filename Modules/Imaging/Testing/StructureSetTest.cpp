@@ -225,6 +225,24 @@ TEST(StructureSet, ContoursSmallerThanAVoxelAreKept)
   EXPECT_NE(loaded.notes[0].find("smaller than a voxel"), std::string::npos);
 }
 
+TEST(StructureSet, ASheetThinnerThanAVoxelIsThereInEverySlice)
+{
+  // 0.4 voxels thick, 40 voxels wide, parallel to the grid.
+  Roi roi = named("eardrum", {});
+  for (int k = 5; k < 35; ++k)
+    roi.contours.push_back(square(-5.25, 14.75, -15.1, -14.9, 5.0 + k));
+  const volume::LabelMap labels = labelsOf({roi});
+  for (int k = 5; k < 35; ++k)
+  {
+    int count = 0;
+    for (int i = 0; i < 80; ++i)
+      count += labels.voxels->at(i, 10, k) != 0;
+    EXPECT_NEAR(count, 16, 2) << k;
+  }
+  // Of 32 lines a row the sheet holds 12 or 13: a thickness along the rows is known to a line.
+  EXPECT_NEAR(labels.volume(labels.segments[0]), 20.0 * 0.2 * 30.0, 1.0 / 32.0 / 0.4 * 120.0);
+}
+
 TEST(StructureSet, FollowsATurnedGridAndPlanesAcrossAnyAxis)
 {
   const Eigen::Matrix3d turn =

@@ -354,15 +354,19 @@ std::vector<char> chosen(const Shares& shares)
   std::size_t above = 0; // voxels of a larger share
   while (level > 0 && above + counts[level] <= wanted)
     above += counts[level--];
-  std::size_t rest = level == 0 ? 0 : wanted - above; // of those at the level, in order
+  // Of those at the level a part, evenly spread: in order, a sheet thinner than a voxel would be
+  // whole in its first slices and missing in the others.
+  const std::size_t rest = level == 0 ? 0 : wanted - above;
+  const std::size_t ties = counts[level];
+  std::size_t tie = 0;
   std::vector<char> in(shares.values.size(), 0);
   for (std::size_t n = 0; n < in.size(); ++n)
     if (shares.values[n] > level)
       in[n] = 1;
-    else if (level > 0 && shares.values[n] == level && rest > 0)
+    else if (level > 0 && shares.values[n] == level)
     {
-      in[n] = 1;
-      --rest;
+      in[n] = (tie + 1) * rest / ties > tie * rest / ties ? 1 : 0;
+      ++tie;
     }
   return in;
 }

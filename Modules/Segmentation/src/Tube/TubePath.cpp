@@ -300,9 +300,30 @@ TubeFlux::Response TubeFlux::at(const Vector3d& patient) const
   return best;
 }
 
+double TubeFlux::unevenness(const Vector3d& patient) const
+{
+  const Vector3f center = m_image.voxelOf(patient);
+  double sum = 0.0;
+  double squares = 0.0;
+  int count = 0;
+  for (const float depth : {1.0F, 0.5F})
+    for (const Vector3f& offset : m_scales.front().inner)
+    {
+      const auto value = static_cast<double>(m_image.sample(center + depth * offset));
+      sum += value;
+      squares += value * value;
+      ++count;
+    }
+  const double mean = sum / count;
+  return std::sqrt(std::max(squares / count - mean * mean, 0.0));
+}
+
 TubeModel estimateModel(const TubeImage& image, const std::vector<Vector3d>& points,
                         const TubeOptions& options, const core::Progress& progress)
 {
+  // As far as a point may be off the axis, also for wide tubes: with more, the deeper contrast of a
+  // cavity beside the tube would win.
+  const double reach = std::max(options.reach, 0.3);
   std::vector<double> radii;
   if (options.radius)
     radii = {*options.radius};
@@ -333,16 +354,16 @@ TubeModel estimateModel(const TubeImage& image, const std::vector<Vector3d>& poi
                       progress.check("trace tube");
                       Candidate& c = candidates[n / points.size()];
                       const std::size_t p = n % points.size();
-                      // As far as a point may be off the axis, also for wide tubes: with more, the
-                      // deeper contrast of a cavity beside the tube would win.
-                      const double reach = std::max(options.reach, 0.3);
                       const TubeFlux flux(image, c.isBright, {c.radius}, kInfinity);
                       double best = 0.0;
                       for (const Vector3d& offset :
-                           ball(reach, std::clamp(0.45 * c.radius, 0.2, 1.0)))
+                           ball(reach, std::clamp(0.45 * c.radius, 0.2, 0.6)))
                       {
                         const Vector3d q = points[p] + offset;
-                        const double value = flux.at(q).value * nearness(offset.norm(), reach);
+                        double value = flux.at(q).value * nearness(offset.norm(), reach);
+                        if (value <= best)
+                          continue;
+                        value -= std::max(flux.unevenness(q) - image.noise(), 0.0);
                         if (value > best)
                         {
                           best = value;

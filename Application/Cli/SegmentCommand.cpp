@@ -107,6 +107,7 @@ Made tube(const SegmentOptions& options, const volume::IntensityVolume& image,
           const core::Progress& progress)
 {
   segmentation::TubeOptions tracing;
+  tracing.widest = segmentation::widestFor(options.name);
   if (options.radius != kAutomatic)
   {
     const double radius = parseNumbers(options.radius, 1, "--radius")[0];

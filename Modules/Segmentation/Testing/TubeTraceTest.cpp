@@ -184,6 +184,20 @@ TEST(TubeTrace, SaysWhereTheImageShowsNothing)
   EXPECT_GE(tube.smallestRadius, 0.2);
 }
 
+TEST(TubeTrace, WhatIsWiderThanTheStructureCanBeDoesNotResolveIt)
+{
+  const auto grid = cube(0.4);
+  const Scan scan{grid, bend(grid)};
+  TubeOptions options;
+  options.widest = 0.5; // the canal has 0.8
+  const Tube tube = traceTube(scan.image(), scan.clicks(5, 0.3), options);
+  EXPECT_LE(tube.largestRadius, 0.5);
+  EXPECT_EQ(tube.resolvedLength, 0.0);
+  EXPECT_EQ(widestFor("Chorda tympani left"), 0.5);
+  EXPECT_EQ(widestFor("facial_nerve"), 1.3);
+  EXPECT_EQ(widestFor("sigmoid sinus"), TubeOptions{}.widest);
+}
+
 TEST(TubeTrace, AGivenRadiusIsTakenAndLabelled)
 {
   const auto grid = cube(0.4);

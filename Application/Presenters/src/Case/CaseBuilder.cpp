@@ -392,6 +392,25 @@ std::map<std::string, std::string> namesInFolder(const imaging::LoadedLabels& lo
   return names;
 }
 
+// The name that a file of several structures gives one, made valid: one odd name must not refuse
+// the others.
+template <class IsTaken>
+std::string validName(const std::string& name, const IsTaken& isTaken,
+                      std::vector<std::string>& notes)
+{
+  constexpr std::size_t kLongest = 200; // bytes (checkPartName)
+  std::string valid = core::utf8Prefix(name, kLongest);
+  if (valid == "ct")
+    valid = "structure ct";
+  if (isTaken(valid))
+    valid = freeName(core::utf8Prefix(valid, kLongest - 8), isTaken);
+  if (valid != name)
+    notes.push_back("structure '" + valid +
+                    "' has this name since its own is too long, taken or "
+                    "reserved");
+  return valid;
+}
+
 void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
                const core::Progress& progress, std::vector<StructureReport>* report)
 {
@@ -461,6 +480,15 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
         structure.name = nameFromFile(
             source.path, "structure",
             [&value](const std::string& name) { return scene::findStructure(value, name); }, notes);
+      else if (source.name.empty())
+        structure.name = validName(
+            structure.name,
+            [&](const std::string& name)
+            {
+              return std::any_of(part.structures.begin(), part.structures.end(),
+                                 [&](const auto& one) { return one.name == name; });
+            },
+            notes);
       structure.index = segment.index;
       structure.voxels = segment.voxels;
       structure.volume = map.volume(segment);

@@ -761,6 +761,7 @@ SegmentEditor::Computed SegmentEditor::computed() const
     };
   case Tool::Nerve:
     return [base, values, image = *m_image, points = m_draft->points,
+            widest = segmentation::widestFor(m_draft->name),
             before = m_preview ? m_preview->tube : nullptr](const core::Progress& progress)
     {
       Preview preview;
@@ -769,6 +770,7 @@ SegmentEditor::Computed SegmentEditor::computed() const
         point = image.ownFromCt * point;
       segmentation::TubeOptions options;
       options.radius = values.tubeRadius;
+      options.widest = widest;
       Tube tube = moved(segmentation::traceTube(*image.own, own, options, progress.part(0.0, 0.8)),
                         image.ownFromCt.inverse());
       tube.points = points; // to the bit

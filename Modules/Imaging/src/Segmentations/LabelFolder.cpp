@@ -224,11 +224,12 @@ LoadedLabels readLabelFolder(const fs::path& folder, const core::Progress& progr
   {
     const std::string file = mask.path.filename().string();
     const std::string name = baseName(mask.path);
+    if (mask.isDamaged) // the rest without it would look complete
+      fail(FileError::Reason::Unreadable, mask.path,
+           mask.why + "; copy it again, or take it out of the folder");
     if (!mask.why.empty())
     {
       loaded.leftOut.push_back(file + " was left out: it " + mask.why);
-      if (mask.isDamaged)
-        loaded.unread.push_back({name, 0, false});
       continue;
     }
     if (index == 65535)

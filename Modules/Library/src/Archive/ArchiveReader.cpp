@@ -10,6 +10,7 @@
 #include "LibraryFolder.h"
 #include "ManifestFile.h"
 #include "ZipEntries.h"
+#include "petrous/Imaging/NrrdFile.h"
 #include "petrous/Library/Archive.h"
 #include "petrous/Library/FrameSalt.h"
 #include "petrous/Library/ObjectStore.h"
@@ -67,10 +68,13 @@ struct Archive
     try
     {
       scene::checkCaseName(index.name);
+      for (const std::string& part : scene::partNames(value))
+        if (part != "ct")
+          scene::checkPartName(part);
     }
     catch (const core::InvalidParameter&)
     {
-      throwUnsound(path, "the name of its case is not a valid one");
+      throwUnsound(path, "it has a name that is not a valid one");
     }
 
     std::set<std::string> listed{kIndexEntry, kManifestEntry};
@@ -262,6 +266,26 @@ void refuseWithoutRoom(const fs::path& folder, std::uint64_t bytes)
                                              " MB are free; nothing was restored; free some space");
 }
 
+/// The manifest's geometry is that of the voxels: everything is placed by it.
+void checkImages(const scene::Case& value, const ObjectStore& store, const fs::path& file)
+{
+  const auto check = [&](const scene::ImagePart& image, const std::string& what)
+  {
+    try
+    {
+      if (core::sameGrid(imaging::mapRawNrrd(store.path(image.object))->geometry(), image.geometry))
+        return;
+    }
+    catch (const imaging::FileError&)
+    {
+    }
+    throwUnsound(file, what + " does not lie where its voxels say");
+  };
+  check(value.ct, "the CT");
+  for (const scene::ImagePart& mr : value.mr)
+    check(mr, "an MR");
+}
+
 /// Takes from the case of a plan what the library does not have; returns a note for each part.
 std::vector<std::string> leaveOutMissing(scene::Case& value, const ObjectStore& store)
 {
@@ -401,6 +425,7 @@ RestoreSummary restoreCase(Library& library, const fs::path& file, const Restore
           summary.notes.insert(summary.notes.end(), notes.begin(), notes.end());
         }
         summary.newParts = addObjects(archive, store, progress);
+        checkImages(next, store, file);
       },
       progress);
   summary.name = value.name;

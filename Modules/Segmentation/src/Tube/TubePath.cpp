@@ -328,7 +328,10 @@ TubeModel estimateModel(const TubeImage& image, const std::vector<Vector3d>& poi
   if (options.radius)
     radii = {*options.radius};
   else
-    radii.assign(std::begin(kRadiusLadder), std::end(kRadiusLadder));
+    std::copy_if(std::begin(kRadiusLadder), std::end(kRadiusLadder), std::back_inserter(radii),
+                 [&options](double r) { return r <= options.widest; });
+  if (radii.empty())
+    radii = {options.widest};
   const double finest = 0.6 * image.geometry().spacing().minCoeff();
   if (!options.radius) // what is thinner than a voxel cannot be told apart
     radii.erase(radii.begin(), std::find_if(radii.begin(), radii.end() - 1,

@@ -31,6 +31,9 @@ void checkOptions(const TubeOptions& options)
 {
   if (options.radius && !TubeOptions::kRadii.contains(*options.radius))
     throw InvalidParameter("tube: the radius " + TubeOptions::kRadii.refusal(*options.radius));
+  if (!TubeOptions::kRadii.contains(options.widest))
+    throw InvalidParameter("tube: the largest radius " +
+                           TubeOptions::kRadii.refusal(options.widest));
   if (options.blur && !TubeOptions::kBlurs.contains(*options.blur))
     throw InvalidParameter("tube: the blur " + TubeOptions::kBlurs.refusal(*options.blur));
   if (!TubeOptions::kReaches.contains(options.reach))
@@ -223,8 +226,8 @@ Tube traceTube(const volume::IntensityVolume& image, const std::vector<Vector3d>
   checkPoints(geometry, points);
   progress.report(0.0, "trace tube");
 
-  constexpr double kWidest = 6.0; // mm, of the radii that are tried
-  const TubeImage local(image, boxAround(geometry, points, options.radius.value_or(kWidest)));
+  const TubeImage local(image,
+                        boxAround(geometry, points, options.radius.value_or(options.widest)));
   progress.report(0.1, "trace tube");
   const TubeModel model = estimateModel(local, points, options, progress);
   const std::vector<SnappedPoint> snapped = snapPoints(local, points, model, options);
@@ -277,6 +280,9 @@ Tube traceTube(const volume::IntensityVolume& image, const std::vector<Vector3d>
 
   tube.line = std::move(line.vertices);
   tube.radii = radiiFromHalfMaximum(line.halfRadius, sigma);
+  constexpr double kAtLimit = 0.97; // of the largest radius: what is seen there is something else
+  const double limit =
+      options.radius ? std::numeric_limits<double>::infinity() : kAtLimit * options.widest;
   if (options.radius)
     std::fill(tube.radii.begin(), tube.radii.end(), *options.radius);
   const std::size_t n = tube.line.size();
@@ -290,14 +296,18 @@ Tube traceTube(const volume::IntensityVolume& image, const std::vector<Vector3d>
     const Vector3d tangent =
         (tube.line[std::min(i + 1, n - 1)] - tube.line[i > 0 ? i - 1 : 0]).normalized();
     const bool resolved = model.contrast > 0.0 && tube.contrast[i] >= options.resolvedContrast &&
-                          tube.radii[i] >= voxelAcross(geometry, tangent);
+                          tube.radii[i] >= voxelAcross(geometry, tangent) && tube.radii[i] < limit;
     tube.resolved.push_back(resolved ? 1 : 0);
     // half of each neighbouring segment
     if (resolved)
       tube.resolvedLength += 0.5 * (lengths[std::min(i + 1, n - 1)] - lengths[i > 0 ? i - 1 : 0]);
   }
   if (!options.radius)
+  {
+    for (double& radius : tube.radii)
+      radius = std::min(radius, options.widest);
     bridgeUnresolved(tube, lengths, 0.5 * geometry.minSpacing());
+  }
   std::vector<double> ordered = tube.radii;
   std::sort(ordered.begin(), ordered.end());
   tube.radius = ordered[ordered.size() / 2];
@@ -317,6 +327,17 @@ Tube traceTube(const volume::IntensityVolume& image, const std::vector<Vector3d>
   }
   progress.report(1.0, "trace tube");
   return tube;
+}
+
+double widestFor(std::string_view name)
+{
+  std::string lower(name);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](char c)
+                 { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  if (lower.find("chorda") != lower.npos)
+    return 0.5;
+  return lower.find("facial") != lower.npos ? 1.3 : TubeOptions{}.widest;
 }
 
 std::size_t insertionIndex(const Tube& tube, const Vector3d& point)

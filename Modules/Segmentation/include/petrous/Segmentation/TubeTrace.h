@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -38,6 +39,10 @@ struct TubeOptions
 
   /// mm, of the whole tube. Unset: estimated at each place.
   std::optional<double> radius;
+
+  /// The largest radius that the structure can have, mm: wider ones are not tried, and where the
+  /// image shows nothing narrower, the tube is not resolved. See widestFor.
+  double widest = 6.0;
 
   /// Sigma of the scan's Gaussian point spread with the voxel's own, mm. Unset: 0.7 voxels.
   std::optional<double> blur;
@@ -111,6 +116,11 @@ struct Tube
 Tube traceTube(const volume::IntensityVolume& image, const std::vector<Eigen::Vector3d>& points,
                const TubeOptions& options = {}, const core::Progress& progress = {},
                const Tube* before = nullptr);
+
+/// TubeOptions::widest for a structure of this name, mm: a chorda tympani or its canal is below 0.5
+/// [normal canals are up to about 0.9 mm wide], a facial nerve in its canal below 1.3; else the
+/// option's default.
+double widestFor(std::string_view name);
 
 /// Where a new point belongs in the order of tube.points: 0 before the first, points.size() after
 /// the last.

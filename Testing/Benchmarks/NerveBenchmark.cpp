@@ -247,6 +247,7 @@ Image canalImage(const Axis& axis, double h, double noise, std::uint64_t seed)
 struct Scene
 {
   std::string name;
+  std::string structure; ///< as `petrous segment --name`: it limits the radii
   Axis axis;
   int points;
   double margin; ///< mm, of the axis' ends that are left out
@@ -302,7 +303,8 @@ core::BenchmarkReport runNerveBenchmark(bool quick, const core::Progress& progre
   report.title = "A nerve traced through points set by hand: voxels of 0.15 to 0.6 mm";
   std::map<std::uint64_t, std::unique_ptr<phantom::Phantom>> phantoms;
   std::vector<Scene> scenes;
-  scenes.push_back({"facial nerve of the phantom", phantom::Phantom::facialCanalAxis(), 6, 0.8, 1.0,
+  scenes.push_back({"facial nerve of the phantom", "facial_nerve",
+                    phantom::Phantom::facialCanalAxis(), 6, 0.8, 1.0,
                     quick ? std::vector<double>{50.0} : std::vector<double>{0.0, 25.0, 50.0, 100.0},
                     nullptr});
   scenes.back().image = [&](double h, double noise, std::uint64_t seed)
@@ -316,7 +318,7 @@ core::BenchmarkReport runNerveBenchmark(bool quick, const core::Progress& progre
     return std::make_shared<const volume::Volume<std::int16_t>>(
         phantom::samplePhantom(*phantom, gridAround(scenes.front().axis, h, seed), settings));
   };
-  scenes.push_back({"canal of 0.5 mm", chordaAxis(), 5, 0.5, 0.3,
+  scenes.push_back({"canal of 0.5 mm", "chorda_tympani", chordaAxis(), 5, 0.5, 0.3,
                     quick ? std::vector<double>{50.0} : std::vector<double>{0.0, 50.0, 100.0},
                     [&](double h, double noise, std::uint64_t seed)
                     { return canalImage(scenes.back().axis, h, noise, seed); }});
@@ -326,6 +328,9 @@ core::BenchmarkReport runNerveBenchmark(bool quick, const core::Progress& progre
   const std::uint32_t clicks = quick ? 3 : 6;
   double done = 0.0;
   for (const Scene& scene : scenes)
+  {
+    segmentation::TubeOptions options;
+    options.widest = segmentation::widestFor(scene.structure);
     for (const double noise : scene.noises)
       for (const double h : spacings)
       {
@@ -340,7 +345,7 @@ core::BenchmarkReport runNerveBenchmark(bool quick, const core::Progress& progre
             const auto points = pointsAlong(scene.axis, scene.points, scene.margin, scene.off,
                                             static_cast<std::uint32_t>(1000 * seed + n));
             auto start = Clock::now();
-            const auto tube = segmentation::traceTube(image, points);
+            const auto tube = segmentation::traceTube(image, points, options);
             ours.add(errorsOf(tube.line, scene.axis),
                      std::chrono::duration<double>(Clock::now() - start).count());
             std::vector<Vector3d> truth;
@@ -364,6 +369,7 @@ core::BenchmarkReport runNerveBenchmark(bool quick, const core::Progress& progre
               curve.point(scene, h, noise, "curve through the points, " + scene.name));
         done += 1.0 / static_cast<double>(7 * spacings.size());
       }
+  }
   return report;
 }
 

@@ -112,6 +112,13 @@ double snapStep(const TubeModel& model)
   return std::clamp(0.3 * model.radius, 0.12, 0.5);
 }
 
+/// Whether the voxels do not resolve the tube. Then the points are followed rather than the image:
+/// marrow spaces beside a faint tube stand out more than it does.
+bool isThin(const TubeImage& image, const TubeModel& model)
+{
+  return model.radius < 0.8 * image.geometry().spacing().mean();
+}
+
 /// Response relative to the model's contrast, 0 to about 1.
 double relativeResponse(const TubeImage& image, const TubeFlux& flux, const TubeModel& model,
                         const Vector3d& p)
@@ -403,7 +410,10 @@ std::vector<SnappedPoint> snapPoints(const TubeImage& image, const std::vector<V
     return snapped;
   constexpr double kFaint = 0.25; // of the model's contrast: no axis
   const TubeFlux flux(image, model.isBright, legRadii(model), model.contrast);
-  const std::vector<Vector3d> offsets = ball(options.reach, snapStep(model));
+  const double reach = isThin(image, model)
+                           ? std::min(options.reach, 1.25 * image.geometry().spacing().mean())
+                           : options.reach;
+  const std::vector<Vector3d> offsets = ball(reach, snapStep(model));
   tbb::parallel_for(std::size_t{0}, points.size(),
                     [&](std::size_t p)
                     {
@@ -414,7 +424,7 @@ std::vector<SnappedPoint> snapPoints(const TubeImage& image, const std::vector<V
                       {
                         const Vector3d q = points[p] + offset;
                         const double m = relativeResponse(image, flux, model, q);
-                        const double value = m * nearness(offset.norm(), options.reach);
+                        const double value = m * nearness(offset.norm(), reach);
                         if (value > best)
                         {
                           best = value;
@@ -441,7 +451,9 @@ std::vector<Vector3d> findLeg(const TubeImage& image, const Vector3d& from, cons
     return {from, to};
 
   // lattice over the capsule around the straight line; no finer than a few million nodes
-  const double reach = legReach(length, model.radius);
+  double reach = legReach(length, model.radius);
+  if (isThin(image, model))
+    reach = std::min(reach, std::max(0.75, 0.2 * length));
   const Vector3d lower = from.cwiseMin(to).array() - reach;
   const Vector3d extent = (from - to).cwiseAbs().array() + 2.0 * reach;
   constexpr double kMostNodes = 4e6;

@@ -117,6 +117,38 @@ TEST_F(BenchCommand, MeasuresRemovalBesideTheLawAndWholeVoxels)
   expectPlots(out, {"removal.svg", "removal-5.svg"});
 }
 
+// Against the phantom's formula, beside a curve through the same points.
+TEST_F(BenchCommand, TracesTheFacialNerveWithinTheErrorAllowed)
+{
+  const auto out = m_folder / "figures";
+  const auto report = json("bench nerve --quick --out " + quoted(out));
+  int nerves = 0;
+  int curves = 0;
+  for (const auto& point : report.at("points"))
+  {
+    const std::string scene = point.at("setting").at("scene");
+    if (scene.find("facial nerve") == std::string::npos)
+      continue;
+    const double mean = point.at("error");
+    const double largest = point.at("extra").at("max_mm");
+    EXPECT_LE(mean, largest);
+    if (!point.at("peer").is_null())
+    {
+      ++curves;
+      EXPECT_GT(mean, 0.15) << "the points lie up to 1 mm off";
+      continue;
+    }
+    ++nerves;
+    EXPECT_LE(mean, 0.15) << scene;
+    EXPECT_LE(largest, 0.44) << scene;
+    EXPECT_GT(point.at("extra").at("resolved").get<double>(), 0.9) << scene;
+  }
+  EXPECT_EQ(nerves, 2);
+  EXPECT_EQ(curves, 2);
+  EXPECT_TRUE(std::filesystem::exists(out / "nerve.json"));
+  expectPlots(out, {"nerve.svg"});
+}
+
 // A plot that cannot be drawn costs no figures.
 TEST_F(BenchCommand, NamesWhatDrawsThePlotsThatCouldNotBeDrawn)
 {

@@ -11,6 +11,7 @@
 #include "DistanceBenchmark.h"
 #include "HistoryBenchmark.h"
 #include "ImportBenchmark.h"
+#include "NerveBenchmark.h"
 #include "Numbers.h"
 #include "Program.h"
 #include "QpBenchmark.h"
@@ -101,6 +102,8 @@ constexpr Benchmark kBenchmarks[] = {
        report.machine.insert(notes.begin(), notes.end());
        return report;
      }},
+    {"nerve", [](const auto&, const BenchOptions& options, const core::Progress& progress)
+     { return runNerveBenchmark(options.quick, progress); }},
     {"renderer", [](const auto&, const BenchOptions& options, const core::Progress& progress) {
        return runRendererBenchmark({options.quick, options.edges, options.data}, progress);
      }}};
@@ -233,7 +236,7 @@ void addBenchCommand(CLI::App& app, Context& context)
   command
       ->add_option("NAME", options->name,
                    "import, cut, distance, history, save, qp, touch, servo, removal, registration, "
-                   "renderer or all")
+                   "nerve, renderer or all")
       ->required();
   command
       ->add_option("--out", options->out,

@@ -619,6 +619,8 @@ def pages_of(report):
         return registration(report)
     if report.name == "history":
         return {"": growth(report, "strokes", "memory_mb", "memory, MB")}
+    if report.name == "nerve":
+        return {"": growth(report, "spacing_mm", "max_mm", "largest distance from the axis, mm")}
     plain = [point for point in report.points if not point.series]
     scenes = unique(point.scene for point in report.points if point.series)
     if not scenes:

@@ -213,6 +213,28 @@ TEST(Phantom, AnatomyLiesAsInARightEar)
   EXPECT_LT(stapes.z(), 3.2 - 1.0);
 }
 
+TEST(Phantom, FacialCanalIsSoftTissueInBoneAroundItsAxis)
+{
+  const auto axis = Phantom::facialCanalAxis();
+  int walls = 0;
+  int bony = 0;
+  for (std::size_t i = 5; i + 5 < axis.size(); ++i) // its ends are open
+  {
+    EXPECT_LE((axis[i + 1].position - axis[i].position).norm(), 0.45);
+    const Eigen::Vector3d along = (axis[i + 1].position - axis[i - 1].position).normalized();
+    const Eigen::Vector3d u = along.unitOrthogonal();
+    const Eigen::Vector3d v = along.cross(u);
+    for (int a = 0; a < 8; ++a)
+    {
+      const Eigen::Vector3d n = std::cos(a * kPi / 4.0) * u + std::sin(a * kPi / 4.0) * v;
+      EXPECT_LT(phantom().hounsfield(axis[i].position + (axis[i].radius - 0.1) * n), 100.0) << i;
+      ++walls;
+      bony += phantom().hounsfield(axis[i].position + (axis[i].radius + 0.15) * n) > 700.0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(bony, 0.95 * walls) << "but for the niche of the oval window";
+}
+
 TEST(Phantom, SemicircularCanalsAreNearlyPerpendicular)
 {
   const auto planes = anatomy::canalPlanes();

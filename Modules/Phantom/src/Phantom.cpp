@@ -60,6 +60,14 @@ Eigen::Vector3d Phantom::extent() noexcept
   return {66.0, 66.0, 60.0};
 }
 
+std::vector<AxisPoint> Phantom::facialCanalAxis()
+{
+  std::vector<AxisPoint> axis;
+  for (const shapes::Knot& knot : anatomy::facialCanalAxis())
+    axis.push_back({knot.center, knot.radius});
+  return axis;
+}
+
 double Phantom::hounsfield(const Eigen::Vector3d& patient) const
 {
   return m_scene->look(patient, 0.0, Modality::Ct, m_scene->stackAround(patient, 0.0));

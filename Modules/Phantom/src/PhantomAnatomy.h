@@ -65,6 +65,9 @@ struct CanalPlane
 };
 std::array<CanalPlane, 3> canalPlanes(); ///< lateral, superior, posterior
 
+/// Axis of the facial nerve's bony canal, and the radius of its lumen.
+std::vector<shapes::Knot> facialCanalAxis();
+
 /// Region of the mastoid, perilabyrinthine and zygomatic cells, without cortex and plates.
 shapes::Shape cellRegion(const Skull& skull, const Ear& ear);
 

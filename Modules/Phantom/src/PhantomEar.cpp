@@ -173,27 +173,22 @@ void addOssicles(Ear& ear)
                      0.2);
 }
 
-void addNerves(Ear& ear)
+std::vector<Knot> facialKnots()
 {
   // Labyrinthine segment, geniculate ganglion, tympanic segment above the oval window, second genu
   // below the lateral canal, mastoid segment, stylomastoid foramen.
-  const std::vector<Knot> meatal{
-      {{-20.0, 0.0, 2.6}, 0.6},   {{-27.0, -0.4, 2.3}, 0.6},  {{-33.5, -1.2, 2.5}, 0.6},
-      {{-35.4, -2.2, 3.4}, 0.5},  {{-37.3, -4.0, 4.6}, 0.55}, {{-38.6, -5.6, 5.2}, 0.9},
-      {{-40.1, -4.6, 4.9}, 0.6},  {{-41.8, -2.1, 4.1}, 0.6},  {{-43.3, 0.7, 3.2}, 0.6},
-      {{-44.8, 3.2, 2.1}, 0.6},   {{-45.5, 4.7, 0.2}, 0.6},   {{-46.0, 5.4, -4.0}, 0.6},
-      {{-46.6, 6.0, -10.0}, 0.6}, {{-46.9, 6.0, -15.0}, 0.6}, {{-47.6, 4.6, -19.5}, 0.65},
-      {{-50.0, 0.0, -24.0}, 0.7}, {{-54.0, -7.0, -30.0}, 0.7}};
-  ear.facialNerve = tube(spline(meatal, 0.3));
-  const std::vector<Knot> bony(meatal.begin() + 3, meatal.begin() + 14);
-  const auto widened = [&](double by)
-  {
-    std::vector<Knot> knots = spline(bony, 0.3);
-    for (Knot& knot : knots)
-      knot.radius += by;
-    return tube(knots);
-  };
-  ear.facialCanal = remembered(widened(0.3));
+  return {{{-20.0, 0.0, 2.6}, 0.6},   {{-27.0, -0.4, 2.3}, 0.6},  {{-33.5, -1.2, 2.5}, 0.6},
+          {{-35.4, -2.2, 3.4}, 0.5},  {{-37.3, -4.0, 4.6}, 0.55}, {{-38.6, -5.6, 5.2}, 0.9},
+          {{-40.1, -4.6, 4.9}, 0.6},  {{-41.8, -2.1, 4.1}, 0.6},  {{-43.3, 0.7, 3.2}, 0.6},
+          {{-44.8, 3.2, 2.1}, 0.6},   {{-45.5, 4.7, 0.2}, 0.6},   {{-46.0, 5.4, -4.0}, 0.6},
+          {{-46.6, 6.0, -10.0}, 0.6}, {{-46.9, 6.0, -15.0}, 0.6}, {{-47.6, 4.6, -19.5}, 0.65},
+          {{-50.0, 0.0, -24.0}, 0.7}, {{-54.0, -7.0, -30.0}, 0.7}};
+}
+
+void addNerves(Ear& ear)
+{
+  ear.facialNerve = tube(spline(facialKnots(), 0.3));
+  ear.facialCanal = remembered(tube(facialCanalAxis()));
   ear.facialWall = remembered(grown(ear.facialCanal, 0.35));
   ear.chorda = tube(spline({{{-46.5, 5.9, -9.0}, 0.25},
                             {{-47.6, 4.5, -4.0}, 0.25},
@@ -218,6 +213,15 @@ void addNerves(Ear& ear)
 std::array<CanalPlane, 3> canalPlanes()
 {
   return {lateralArc().plane, superiorArc().plane, posteriorArc().plane};
+}
+
+std::vector<Knot> facialCanalAxis()
+{
+  const std::vector<Knot> nerve = facialKnots();
+  std::vector<Knot> axis = spline({nerve.begin() + 3, nerve.begin() + 14}, 0.3);
+  for (Knot& knot : axis)
+    knot.radius += 0.3;
+  return axis;
 }
 
 Ear makeEar(const Skull& skull)

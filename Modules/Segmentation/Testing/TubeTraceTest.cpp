@@ -174,6 +174,92 @@ TEST(TubeTrace, FindsABrightVesselAsWell)
   EXPECT_NEAR(tube.radius, 1.5, 0.25);
 }
 
+// The tympanic segment: 0.4 mm of bone between the canal and the tympanic cavity.
+TEST(TubeTrace, IsNotDrawnIntoACavityBehindAThinWall)
+{
+  for (const double spacing : {0.3, 0.4})
+  {
+    const auto grid = cube(spacing);
+    const Scan scan{grid, bend(grid), 0.9, 30.0};
+    const auto line = scan.dense();
+    auto voxels = std::make_shared<volume::Volume<std::int16_t>>(grid);
+    std::mt19937 random(5);
+    std::normal_distribution<double> gauss(0.0, scan.noise);
+    const auto tissue = [&](const Vector3d& p)
+    {
+      double nearest = 1e9;
+      for (std::size_t n = 0; n < line.size(); n += 20)
+        nearest = std::min(nearest, (p - line[n]).norm());
+      if (nearest < 0.9)
+        return 50.0;
+      return nearest > 1.3 && p.z() > 13.0 + grid.origin().z() + 0.3 ? -1000.0 : 1500.0;
+    };
+    for (int k = 0; k < grid.dims()[2]; ++k)
+      for (int j = 0; j < grid.dims()[1]; ++j)
+        for (int i = 0; i < grid.dims()[0]; ++i)
+        {
+          double sum = 0.0; // a voxel is the mean of what it covers
+          for (int part = 0; part < 8; ++part)
+            sum += tissue(grid.patientFromVoxel(Vector3d(i + 0.5 * (part & 1) - 0.25,
+                                                         j + 0.5 * (part >> 1 & 1) - 0.25,
+                                                         k + 0.5 * (part >> 2) - 0.25)));
+          voxels->at(i, j, k) = static_cast<std::int16_t>(std::lround(sum / 8.0 + gauss(random)));
+        }
+    const volume::IntensityVolume image(
+        std::shared_ptr<const volume::Volume<std::int16_t>>(std::move(voxels)));
+    const auto [mean, most] = scan.errors(traceTube(image, scan.clicks(6, 0.6)));
+    EXPECT_LE(mean, 0.15) << spacing;
+    EXPECT_LE(most, 0.44) << spacing;
+  }
+}
+
+TEST(TubeTrace, AnyVoxelTypeAndItsPaddingGiveTheSameLine)
+{
+  const auto grid = cube(0.4);
+  const Scan scan{grid, bend(grid)};
+  const auto image = scan.image();
+  const auto points = scan.clicks(5, 0.4);
+  const Tube tube = traceTube(image, points);
+
+  auto unsigned16 = std::make_shared<volume::Volume<std::uint16_t>>(grid);
+  auto real = std::make_shared<volume::Volume<float>>(grid);
+  for (int k = 0; k < grid.dims()[2]; ++k)
+    for (int j = 0; j < grid.dims()[1]; ++j)
+      for (int i = 0; i < grid.dims()[0]; ++i)
+      {
+        const double value = image.at(i, j, k);
+        const bool outside = k < 2; // far from the canal
+        unsigned16->at(i, j, k) = static_cast<std::uint16_t>(outside ? 65535 : value + 2000.0);
+        real->at(i, j, k) = outside ? NAN : static_cast<float>(0.001 * value);
+      }
+  const volume::IntensityVolume images[] = {
+      volume::IntensityVolume(std::shared_ptr<const volume::Volume<std::uint16_t>>(unsigned16),
+                              65535.0),
+      volume::IntensityVolume(std::shared_ptr<const volume::Volume<float>>(real))};
+  for (const auto& other : images)
+  {
+    const Tube same = traceTube(other, points);
+    EXPECT_FALSE(same.model.isBright);
+    EXPECT_NEAR(same.radius, tube.radius, 0.03);
+    const auto [mean, most] = scan.errors(same);
+    EXPECT_LE(mean, 0.15);
+    EXPECT_LE(most, 0.44);
+  }
+}
+
+TEST(TubeTrace, AFarPointKeepsTheLine)
+{
+  const auto grid = cube(0.4);
+  const Scan scan{grid, bend(grid)};
+  auto points = scan.clicks(5, 0.0);
+  points[2] += Vector3d(0.0, 3.0, 0.0); // in solid bone, 3 mm from the canal
+  const Tube tube = traceTube(scan.image(), points);
+  EXPECT_EQ(tube.heldAtPoint[2], 1);
+  EXPECT_LT(tube.pointDistances[2], 0.3);
+  EXPECT_EQ(tube.heldAtPoint[1], 0);
+  EXPECT_LT(tube.pointDistances[1], 0.2);
+}
+
 TEST(TubeTrace, SaysWhereTheImageShowsNothing)
 {
   const auto grid = cube(0.4);

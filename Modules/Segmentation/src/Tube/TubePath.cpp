@@ -112,6 +112,13 @@ double snapStep(const TubeModel& model)
   return std::clamp(0.3 * model.radius, 0.12, 0.5);
 }
 
+/// Whether the voxels do not resolve the tube. Then the points are followed rather than the image:
+/// marrow spaces beside a faint tube stand out more than it does.
+bool isThin(const TubeImage& image, const TubeModel& model)
+{
+  return model.radius < 0.8 * image.geometry().spacing().mean();
+}
+
 /// Response relative to the model's contrast, 0 to about 1.
 double relativeResponse(const TubeImage& image, const TubeFlux& flux, const TubeModel& model,
                         const Vector3d& p)
@@ -300,9 +307,30 @@ TubeFlux::Response TubeFlux::at(const Vector3d& patient) const
   return best;
 }
 
+double TubeFlux::unevenness(const Vector3d& patient) const
+{
+  const Vector3f center = m_image.voxelOf(patient);
+  double sum = 0.0;
+  double squares = 0.0;
+  int count = 0;
+  for (const float depth : {1.0F, 0.5F})
+    for (const Vector3f& offset : m_scales.front().inner)
+    {
+      const auto value = static_cast<double>(m_image.sample(center + depth * offset));
+      sum += value;
+      squares += value * value;
+      ++count;
+    }
+  const double mean = sum / count;
+  return std::sqrt(std::max(squares / count - mean * mean, 0.0));
+}
+
 TubeModel estimateModel(const TubeImage& image, const std::vector<Vector3d>& points,
                         const TubeOptions& options, const core::Progress& progress)
 {
+  // As far as a point may be off the axis, also for wide tubes: with more, the deeper contrast of a
+  // cavity beside the tube would win.
+  const double reach = std::max(options.reach, 0.3);
   std::vector<double> radii;
   if (options.radius)
     radii = {*options.radius};
@@ -336,16 +364,16 @@ TubeModel estimateModel(const TubeImage& image, const std::vector<Vector3d>& poi
                       progress.check("trace tube");
                       Candidate& c = candidates[n / points.size()];
                       const std::size_t p = n % points.size();
-                      // As far as a point may be off the axis, also for wide tubes: with more, the
-                      // deeper contrast of a cavity beside the tube would win.
-                      const double reach = std::max(options.reach, 0.3);
                       const TubeFlux flux(image, c.isBright, {c.radius}, kInfinity);
                       double best = 0.0;
                       for (const Vector3d& offset :
-                           ball(reach, std::clamp(0.45 * c.radius, 0.2, 1.0)))
+                           ball(reach, std::clamp(0.45 * c.radius, 0.2, 0.6)))
                       {
                         const Vector3d q = points[p] + offset;
-                        const double value = flux.at(q).value * nearness(offset.norm(), reach);
+                        double value = flux.at(q).value * nearness(offset.norm(), reach);
+                        if (value <= best)
+                          continue;
+                        value -= std::max(flux.unevenness(q) - image.noise(), 0.0);
                         if (value > best)
                         {
                           best = value;
@@ -382,7 +410,10 @@ std::vector<SnappedPoint> snapPoints(const TubeImage& image, const std::vector<V
     return snapped;
   constexpr double kFaint = 0.25; // of the model's contrast: no axis
   const TubeFlux flux(image, model.isBright, legRadii(model), model.contrast);
-  const std::vector<Vector3d> offsets = ball(options.reach, snapStep(model));
+  const double reach = isThin(image, model)
+                           ? std::min(options.reach, 1.25 * image.geometry().spacing().mean())
+                           : options.reach;
+  const std::vector<Vector3d> offsets = ball(reach, snapStep(model));
   tbb::parallel_for(std::size_t{0}, points.size(),
                     [&](std::size_t p)
                     {
@@ -393,7 +424,7 @@ std::vector<SnappedPoint> snapPoints(const TubeImage& image, const std::vector<V
                       {
                         const Vector3d q = points[p] + offset;
                         const double m = relativeResponse(image, flux, model, q);
-                        const double value = m * nearness(offset.norm(), options.reach);
+                        const double value = m * nearness(offset.norm(), reach);
                         if (value > best)
                         {
                           best = value;
@@ -420,7 +451,9 @@ std::vector<Vector3d> findLeg(const TubeImage& image, const Vector3d& from, cons
     return {from, to};
 
   // lattice over the capsule around the straight line; no finer than a few million nodes
-  const double reach = legReach(length, model.radius);
+  double reach = legReach(length, model.radius);
+  if (isThin(image, model))
+    reach = std::min(reach, std::max(0.75, 0.2 * length));
   const Vector3d lower = from.cwiseMin(to).array() - reach;
   const Vector3d extent = (from - to).cwiseAbs().array() + 2.0 * reach;
   constexpr double kMostNodes = 4e6;

@@ -65,6 +65,10 @@ public:
   /// The best over the radii at a patient position.
   Response at(const Eigen::Vector3d& patient) const;
 
+  /// Standard deviation of the values inside the tube of the first radius: large where the tube
+  /// is none.
+  double unevenness(const Eigen::Vector3d& patient) const;
+
 private:
   struct Scale
   {

@@ -113,6 +113,20 @@ struct Section
   double weight = 0.0; ///< of the shift
 };
 
+/// How the walls of a cross-section are sought. The centre needs the nearest wall, also a faint
+/// one: beside a thin wall lies another cavity. The radius needs the walls' full height.
+struct WallSearch
+{
+  double relativeReach; ///< beyond the expected border, in radii
+  double blurredReach;  ///< the same, in voxels, or in 1.25 sigma of the blur; the larger counts
+  double dip;           ///< relative fall behind a wall that ends the search
+  double faint;         ///< relative height of a wall that is not trusted
+  double firm;          ///< the same, of one that is trusted fully
+};
+
+constexpr WallSearch kForCentre{0.3, 0.8, 0.1, 0.15, 0.5};
+constexpr WallSearch kForRadius{0.5, 2.0, 10.0, 0.4, 0.8};
+
 struct ProfileGrid
 {
   double step = 0.1; ///< mm along a ray
@@ -120,7 +134,7 @@ struct ProfileGrid
 };
 
 Section fitSection(const float* profiles, const ProfileGrid& grid, double expected,
-                   double noiseLevel, bool isRadiusGiven)
+                   double noiseLevel, bool isRadiusGiven, const WallSearch& search)
 {
   Section section;
   section.halfRadius = expected;
@@ -140,10 +154,14 @@ Section fitSection(const float* profiles, const ProfileGrid& grid, double expect
   std::array<std::size_t, kAngles> peak{};
   for (std::size_t a = 0; a < kAngles; ++a)
   {
+    // the first wall: behind a thin one there may be another cavity, and the wall of that
     peak[a] = indexAt(0.6 * expected);
     for (std::size_t k = peak[a]; k < grid.count; ++k)
       if (value(a, k) > value(a, peak[a]))
         peak[a] = k;
+      else if (value(a, k) <
+               value(a, peak[a]) - search.dip * std::max(value(a, peak[a]) - lumen, 0.0))
+        break;
     wall[a] = value(a, peak[a]);
   }
   std::array<double, kAngles> ordered = wall;
@@ -159,7 +177,8 @@ Section fitSection(const float* profiles, const ProfileGrid& grid, double expect
   for (std::size_t a = 0; a < kAngles; ++a)
   {
     const double height = wall[a] - lumen;
-    trust[a] = std::clamp((height / typical - 0.4) / 0.4, 0.0, 1.0);
+    trust[a] =
+        std::clamp((height / typical - search.faint) / (search.firm - search.faint), 0.0, 1.0);
     if (trust[a] <= 0.0)
       continue;
     const double half = lumen + 0.5 * std::min(height, 1.5 * typical);
@@ -241,7 +260,7 @@ std::vector<Vector3d> resampled(const std::vector<Vector3d>& line, double step)
 }
 
 CentreLine refineLine(const TubeImage& image, const std::vector<Vector3d>& path,
-                      const TubeModel& model, double halfRadius, bool isRadiusGiven,
+                      const TubeModel& model, double halfRadius, double blur, bool isRadiusGiven,
                       const std::vector<Vector3d>& held, const core::Progress& progress)
 {
   const double voxel = image.geometry().spacing().maxCoeff();
@@ -265,7 +284,9 @@ CentreLine refineLine(const TubeImage& image, const std::vector<Vector3d>& path,
     const double largest = *std::max_element(radii.begin(), radii.end());
     ProfileGrid grid;
     grid.step = std::min(0.15 * typicalRadius, 0.4 * voxel);
-    const double reach = largest + std::max(0.5 * largest, 2.0 * voxel);
+    const WallSearch& search = round + 1 < kRounds ? kForCentre : kForRadius;
+    const double reach = largest + std::max(search.relativeReach * largest,
+                                            search.blurredReach * std::max(voxel, 1.25 * blur));
     grid.count = static_cast<std::size_t>(std::ceil(reach / grid.step)) + 1;
     const std::size_t size = kAngles * grid.count;
     std::vector<float> raw(n * size);
@@ -307,8 +328,8 @@ CentreLine refineLine(const TubeImage& image, const std::vector<Vector3d>& path,
                         }
                         for (float& m : mean)
                           m /= total;
-                        sections[i] =
-                            fitSection(mean.data(), grid, radii[i], image.noise(), isRadiusGiven);
+                        sections[i] = fitSection(mean.data(), grid, radii[i], image.noise(),
+                                                 isRadiusGiven, search);
                       });
     std::vector<double> weights(n);
     std::vector<Vector3d> shifts(n);

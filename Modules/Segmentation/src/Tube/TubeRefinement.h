@@ -26,9 +26,11 @@ std::vector<Eigen::Vector3d> resampled(const std::vector<Eigen::Vector3d>& line,
 
 /// Moves the line to the centre of the half-maximum borders of its cross-sections.
 ///
-/// held  positions the line must pass
+/// halfRadius  expected, of the half-maximum border, mm
+/// blur        sigma of the scan's point spread, mm
+/// held        positions the line must pass
 CentreLine refineLine(const TubeImage& image, const std::vector<Eigen::Vector3d>& path,
-                      const TubeModel& model, double halfRadius, bool isRadiusGiven,
+                      const TubeModel& model, double halfRadius, double blur, bool isRadiusGiven,
                       const std::vector<Eigen::Vector3d>& held, const core::Progress& progress);
 
 /// Half-maximum radius of the cross-section of a cylinder of radius R, mm, in an image with a

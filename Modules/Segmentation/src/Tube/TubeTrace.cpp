@@ -268,8 +268,9 @@ Tube traceTube(const volume::IntensityVolume& image, const std::vector<Vector3d>
   // trilinear interpolation blurs as well: h^2 / 6 on average
   const double voxel = geometry.spacing().mean();
   const double sigma = std::sqrt(tube.blur * tube.blur + voxel * voxel / 6.0);
-  CentreLine line = refineLine(local, path, model, halfMaximumRadius(model.radius, sigma),
-                               options.radius.has_value(), held, progress.part(0.6, 0.95));
+  CentreLine line =
+      refineLine(local, path, model, halfMaximumRadius(model.radius, sigma), tube.blur,
+                 options.radius.has_value(), held, progress.part(0.6, 0.95));
   trimEnds(line, points.front(), points.back());
 
   double widestStep = 0.0;

@@ -39,6 +39,13 @@ struct PhantomStructure
   Eigen::Vector3d upper;
 };
 
+/// A vertex of a tube's axis.
+struct AxisPoint
+{
+  Eigen::Vector3d position; ///< patient LPS mm
+  double radius = 0.0;      ///< mm
+};
+
 /// Sample positions, not necessarily a rectangular grid: p_P = origin + step * index.
 struct ScanGrid
 {
@@ -96,6 +103,10 @@ public:
   /// needs.
   core::TriangleMesh surface(std::size_t structure, const core::PatientBox& within,
                              double resolution = 0.0) const;
+
+  /// Axis of the bony canal of the facial nerve, from the internal auditory canal to the
+  /// stylomastoid foramen, with the radius of its lumen: a polyline, the same for every recipe.
+  static std::vector<AxisPoint> facialCanalAxis();
 
   /// X_MR_CT: maps CT patient points to MR patient points, mm. Depends only on the seed.
   core::RigidTransform mrFromCt() const;

@@ -158,10 +158,20 @@ TEST(DicomScan, NamesAFileWhosePixelsAreCutShort)
   const ScanResult result = scanDicom(folder.path(), {});
   ASSERT_EQ(result.series.size(), 1U);
   const SeriesGeometry& geometry = result.series.front().geometry;
-  EXPECT_EQ(geometry.verdict, Verdict::Refused);
+  // Its position says which slice is lost, so that consent can be given to interpolate it.
+  EXPECT_EQ(geometry.verdict, Verdict::Repairable);
   ASSERT_TRUE(has(geometry, FindingKind::Unreadable));
   EXPECT_EQ(geometry.findings.front().text, "s2.dcm is cut short.");
   EXPECT_TRUE(has(geometry, FindingKind::MissingSlice));
+
+  for (const char* name : {"s0.dcm", "s4.dcm"})
+  {
+    const TemporaryFolder other;
+    writeSeries(other.path(), 5);
+    fs::resize_file(other.path() / name, fs::file_size(other.path() / name) - 10);
+    const ScanResult end = scanDicom(other.path(), {});
+    EXPECT_EQ(end.series.front().geometry.verdict, Verdict::Refused) << name;
+  }
 }
 
 TEST(DicomScan, HoldsADamagedFileAgainstTheOnlySeriesOfItsFolder)
@@ -405,6 +415,107 @@ TEST(DicomScan, LeavesWhatWasNeverASliceAlone)
   const ScanResult result = scanDicom(folder.path(), {});
   EXPECT_EQ(result.series.front().geometry.verdict, Verdict::Ok);
   EXPECT_EQ(result.foreignFiles, 3U);
+}
+
+/// The series of a folder with eight slices, numbered from `first`, to which `spoil` adds files.
+ScanResult scanNumbered(
+    const std::function<void(const fs::path&)>& spoil, int first = 1,
+    const std::function<void(int, TestSlice&)>& change = [](int, TestSlice&) {})
+{
+  const TemporaryFolder folder;
+  writeSeries(folder.path(), 8,
+              [&](int k, TestSlice& s)
+              {
+                s.element(s.extra, 0x00200013, "IS", std::to_string(first + k));
+                change(k, s);
+              });
+  spoil(folder.path());
+  ScanResult result = scanDicom(folder.path(), {});
+  EXPECT_EQ(result.series.size(), 1U);
+  return result;
+}
+
+void cutHeader(const fs::path& folder)
+{
+  writeText(folder / "s8.dcm", TestSlice().bytes().substr(0, 190)); // before the series UID
+}
+
+// The numbers say that the stack is whole, unless the file was the slice after the last.
+TEST(DicomScan, SetsABrokenOrForeignFileBesideAWholeStackAside)
+{
+  const std::function<void(const fs::path&)> spoilers[] = {
+      cutHeader, [](const fs::path& folder) { writeText(folder / "s8.dcm", ""); },
+      [](const fs::path& folder) { writeText(folder / "s8.dcm", "this is no DICOM"); },
+      [](const fs::path& folder) { fs::create_symlink("gone", folder / "s8.dcm"); }};
+  for (const auto& spoil : spoilers)
+    for (const int first : {0, 1})
+    {
+      const ScanResult result = scanNumbered(spoil, first);
+      const SeriesGeometry& geometry = result.series.front().geometry;
+      EXPECT_EQ(geometry.verdict, Verdict::Ok);
+      EXPECT_EQ(geometry.slices.size(), 8U);
+      EXPECT_TRUE(geometry.findings.empty());
+      ASSERT_EQ(geometry.notes.size(), 1U);
+      EXPECT_NE(geometry.notes.front().find("ends 0.5 mm too early"), std::string::npos)
+          << geometry.notes.front();
+      EXPECT_EQ(geometry.notes.front().find("s8"), std::string::npos) << "stored with the case";
+      ASSERT_EQ(result.notes.size(), 1U);
+      EXPECT_EQ(result.notes.front().find("s8.dcm "), 0U);
+    }
+}
+
+TEST(DicomScan, HoldsABrokenFileAgainstAStackThatItsNumbersDoNotShowToBeWhole)
+{
+  const auto verdictOf = [](const ScanResult& result)
+  { return result.series.front().geometry.verdict; };
+  const auto stating = [](const char* count)
+  { return [count](int, TestSlice& s) { s.element(s.extra, 0x00201209, "IS", count); }; };
+  EXPECT_EQ(verdictOf(scanNumbered(cutHeader, 1)), Verdict::Ok);
+  EXPECT_EQ(verdictOf(scanNumbered(cutHeader, 2)), Verdict::Refused) << "number 1 is missing";
+  EXPECT_EQ(verdictOf(scanNumbered(cutHeader, 1, stating("9"))), Verdict::Refused);
+  const ScanResult counted = scanNumbered(cutHeader, 1, stating("8"));
+  EXPECT_EQ(verdictOf(counted), Verdict::Ok);
+  EXPECT_NE(counted.series.front().geometry.notes.front().find("as many as the header states"),
+            std::string::npos);
+  // Number 4 is missing, but no slice: the broken file may be it, and lie anywhere.
+  EXPECT_EQ(verdictOf(scanNumbered(cutHeader, 1,
+                                   [](int k, TestSlice& s)
+                                   {
+                                     s.extra.clear();
+                                     s.element(s.extra, 0x00200013, "IS",
+                                               std::to_string(k < 3 ? k + 1 : k + 2));
+                                   })),
+            Verdict::Refused);
+  EXPECT_EQ(verdictOf(scanNumbered(
+                cutHeader, 1, [](int k, TestSlice& s) { s.z = k < 4 ? 0.5 * k : 0.5 * (k + 1); })),
+            Verdict::Refused)
+      << "a slice is missing";
+  EXPECT_EQ(verdictOf(scanNumbered(
+                [](const fs::path& folder)
+                {
+                  cutHeader(folder);
+                  writeText(folder / "s9.dcm", "");
+                })),
+            Verdict::Refused)
+      << "a copy that failed more than once";
+}
+
+TEST(DicomScan, LeavesOutADamagedFileWhoseSliceIsThereWhole)
+{
+  for (const int k : {0, 3, 7})
+  {
+    const ScanResult result = scanNumbered(
+        [k](const fs::path& folder)
+        {
+          const fs::path copy = folder / ("copy of s" + std::to_string(k) + ".dcm");
+          fs::copy_file(folder / ("s" + std::to_string(k) + ".dcm"), copy);
+          fs::resize_file(copy, fs::file_size(copy) - 10);
+        });
+    const SeriesGeometry& geometry = result.series.front().geometry;
+    EXPECT_EQ(geometry.verdict, Verdict::Ok) << k;
+    ASSERT_EQ(geometry.notes.size(), 1U);
+    EXPECT_NE(geometry.notes.front().find("the same slice is there whole"), std::string::npos);
+  }
 }
 
 TEST(DicomScan, NotesALostSliceThatMayBeOfSeveralSeries)

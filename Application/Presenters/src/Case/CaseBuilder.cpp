@@ -104,7 +104,8 @@ scene::ImagePart readImage(const fs::path& path, const std::string& selector, bo
     options.repair = repair;
     std::vector<std::string> notes = series.geometry.notes;
     for (const imaging::Finding& finding : series.geometry.findings) // accepted
-      notes.push_back(finding.text);
+      if (finding.kind != imaging::FindingKind::Unreadable)          // these name files
+        notes.push_back(finding.text);
     if (!scan.notes.empty()) // which name files and folders, possibly after patients
       notes.push_back("Of what lies beside its slices, something was left out in " +
                       std::to_string(scan.notes.size()) +

@@ -158,6 +158,9 @@ void readOrigin(const DicomElements& elements, SliceHeader& slice)
     const auto value = elements.number(tag);
     return value && std::abs(*value) < 1e9 ? std::optional(static_cast<int>(*value)) : std::nullopt;
   };
+  slice.declaredCount = whole(0x00201209); // of the series
+  if (!slice.declaredCount)
+    slice.declaredCount = whole(0x00201002); // of the acquisition
   slice.seriesNumber = whole(0x00200011);
   slice.acquisition = whole(0x00200012);
   slice.hasModalityLut = elements.hasModalityLut();

@@ -78,6 +78,7 @@ struct SliceHeader
   std::string taken;
   std::string patientPosition; ///< (0018,5100), e.g. HFS; likewise
   int instanceNumber = 0;
+  std::optional<int> declaredCount;   ///< images of the series or acquisition, as the file states
   bool isImage = true;                ///< has pixel data
   std::vector<std::string> imageType; ///< values, e.g. ORIGINAL PRIMARY AXIAL
   std::string frameOfReferenceUid;
@@ -146,7 +147,8 @@ struct SeriesGeometry
 
   bool singleGaps = true; ///< no two missing slices adjoin
   Verdict verdict = Verdict::Refused;
-  std::vector<Finding> findings;  ///< the reasons for the verdict, and localizers set aside
+  /// The reasons for the verdict, and localizers set aside. Those of kind Unreadable name files.
+  std::vector<Finding> findings;
   std::vector<std::string> notes; ///< accepted but worth knowing, e.g. jitter
 };
 

@@ -18,6 +18,7 @@
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/StructureSet.h"
+#include "petrous/Library/DerivedCache.h"
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Scene/Placement.h"
 #include "petrous/Volume/IntensityScale.h"
@@ -97,7 +98,7 @@ scene::ImagePart readImage(const fs::path& path, const std::string& selector, bo
   }
   else
   {
-    const auto scan = imaging::scanDicom(path, progress.part(0.0, 0.2));
+    const auto scan = imaging::scanDicom(path, progress.part(0.0, 0.2), library::scanCache().get());
     const auto& series = imaging::chooseSeries(scan, path, selector);
     imaging::ReadOptions options;
     options.roi = roi;

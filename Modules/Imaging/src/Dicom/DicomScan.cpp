@@ -14,7 +14,9 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "ByteSource.h"
 #include "DicomHeader.h"
+#include "HeaderCache.h"
 #include "SeriesVolumes.h"
 #include "SliceStack.h"
 #include "petrous/Core/Log.h"
@@ -60,10 +62,11 @@ public:
       for (const fs::path& each : entries)
         visit(each, false);
     }
-    std::sort(files.begin(), files.end());
+    std::sort(files.begin(), files.end(),
+              [](const ListedFile& a, const ListedFile& b) { return a.path < b.path; });
   }
 
-  std::vector<fs::path> files;
+  std::vector<ListedFile> files;
   std::vector<FileHeader> lost;   ///< names without a file: dangling links
   std::vector<Finding> findings;  ///< about folders
   std::vector<std::string> notes; ///< the same, and about links
@@ -97,7 +100,7 @@ private:
     if (S_ISDIR(status.st_mode))
       m_folders.push_back(path);
     else if (S_ISREG(status.st_mode)) // a pipe or device would block
-      files.push_back(path);
+      files.push_back({path, stampOf(status)});
     else
       notes.push_back("'" + path.filename().string() +
                       "' is not an ordinary file (a pipe or a device) and was not read.");
@@ -130,7 +133,7 @@ private:
   std::set<std::pair<dev_t, ino_t>> m_seen;
 };
 
-std::vector<FileHeader> readHeaders(const std::vector<fs::path>& files,
+std::vector<FileHeader> readHeaders(const std::vector<ListedFile>& files,
                                     const core::Progress& progress)
 {
   std::vector<FileHeader> headers(files.size());
@@ -139,12 +142,25 @@ std::vector<FileHeader> readHeaders(const std::vector<fs::path>& files,
                     [&](const auto& range)
                     {
                       for (std::size_t i = range.begin(); i != range.end(); ++i)
-                        headers[i] = readHeader(files[i]);
+                        headers[i] = readHeader(files[i].path);
                       done += range.size();
                       progress.report(static_cast<double>(done.load()) /
                                           static_cast<double>(files.size()),
                                       "reading DICOM headers");
                     });
+  return headers;
+}
+
+std::vector<FileHeader> headersOf(const std::vector<ListedFile>& files, std::int64_t listed,
+                                  const core::Progress& progress, core::DerivedStore* cache)
+{
+  if (!cache || files.empty())
+    return readHeaders(files, progress);
+  HeaderCache kept(*cache, files);
+  if (auto found = kept.find())
+    return std::move(*found);
+  std::vector<FileHeader> headers = readHeaders(files, progress);
+  kept.put(headers, listed);
   return headers;
 }
 
@@ -533,7 +549,8 @@ std::string uidList(const std::vector<const DicomSeries*>& series)
 
 } // namespace
 
-ScanResult scanDicom(const fs::path& path, const core::Progress& progress)
+ScanResult scanDicom(const fs::path& path, const core::Progress& progress,
+                     core::DerivedStore* cache)
 {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -554,8 +571,9 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress)
   // A DICOMDIR indexes the files beside and below it.
   const bool isIndex = fs::is_regular_file(status) && readHeader(path).kind == FileKind::Directory;
   FileList list(progress);
+  const std::int64_t listed = timeNow();
   list.read(isIndex ? fs::absolute(path).parent_path() : path);
-  std::vector<FileHeader> headers = readHeaders(list.files, progress);
+  std::vector<FileHeader> headers = headersOf(list.files, listed, progress, cache);
   std::move(list.lost.begin(), list.lost.end(), std::back_inserter(headers));
 
   ScanResult result;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "petrous/Core/DerivedStore.h"
 #include "petrous/Core/Error.h"
 #include "petrous/Core/Progress.h"
 #include "petrous/Imaging/SeriesGeometry.h"
@@ -73,8 +74,13 @@ struct ScanResult
 /// millimetres by which the volume would be too short. An unreadable folder, which may hold any
 /// number of slices, refuses all series. Links that are not followed are listed in `notes`.
 ///
+/// With a `cache`, the headers of files that have not changed since an earlier scan of the same
+/// path are taken from it; the result is the same. What it holds can be read only by someone who
+/// has the files themselves.
+///
 /// Throws DicomError (NotFound) and CancelledError.
-ScanResult scanDicom(const std::filesystem::path& path, const core::Progress& progress);
+ScanResult scanDicom(const std::filesystem::path& path, const core::Progress& progress,
+                     core::DerivedStore* cache = nullptr);
 
 /// Selects the series meant by a user who gave `path`, by "UID", "UID#VOLUME" or "#VOLUME"; without
 /// a UID the only series that is Ok, else the largest image series (reading it reports its

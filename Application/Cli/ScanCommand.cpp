@@ -6,6 +6,7 @@
 #include "Commands.h"
 #include "Numbers.h"
 #include "petrous/Imaging/DicomScan.h"
+#include "petrous/Library/DerivedCache.h"
 
 namespace petrous::cli
 {
@@ -77,6 +78,7 @@ struct Options
 {
   std::string path;
   bool strict = false;
+  bool noCache = false;
 };
 
 // Why --strict fails; empty if every series is sound.
@@ -95,7 +97,8 @@ std::string complaintOf(const imaging::ScanResult& result)
 void scan(const Context& context, const Options& options)
 {
   const std::string& path = options.path;
-  const auto result = imaging::scanDicom(path, context.progress());
+  const auto cache = options.noCache ? nullptr : library::scanCache();
+  const auto result = imaging::scanDicom(path, context.progress(), cache.get());
   if (result.series.empty() && result.unreadable.empty())
     imaging::chooseSeries(result, path); // throws, reporting what was found instead
   json list = json::array();
@@ -145,6 +148,8 @@ void addScanCommand(CLI::App& app, Context& context)
   command->add_option("PATH", options->path, "Folder or file")->required();
   command->add_flag("--strict", options->strict,
                     "Exit 3 unless every series is ok and every DICOM file readable");
+  command->add_flag("--no-cache", options->noCache,
+                    "Read every header, and remember none for the next scan of the same files");
 }
 
 } // namespace petrous::cli

@@ -1,9 +1,13 @@
 #include "petrous/Imaging/DicomScan.h"
 
 #include <algorithm>
+#include <chrono>
 #include <functional>
+#include <map>
+#include <sstream>
 #include <stdexcept>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -158,10 +162,20 @@ TEST(DicomScan, NamesAFileWhosePixelsAreCutShort)
   const ScanResult result = scanDicom(folder.path(), {});
   ASSERT_EQ(result.series.size(), 1U);
   const SeriesGeometry& geometry = result.series.front().geometry;
-  EXPECT_EQ(geometry.verdict, Verdict::Refused);
+  // Its position says which slice is lost, so that consent can be given to interpolate it.
+  EXPECT_EQ(geometry.verdict, Verdict::Repairable);
   ASSERT_TRUE(has(geometry, FindingKind::Unreadable));
   EXPECT_EQ(geometry.findings.front().text, "s2.dcm is cut short.");
   EXPECT_TRUE(has(geometry, FindingKind::MissingSlice));
+
+  for (const char* name : {"s0.dcm", "s4.dcm"})
+  {
+    const TemporaryFolder other;
+    writeSeries(other.path(), 5);
+    fs::resize_file(other.path() / name, fs::file_size(other.path() / name) - 10);
+    const ScanResult end = scanDicom(other.path(), {});
+    EXPECT_EQ(end.series.front().geometry.verdict, Verdict::Refused) << name;
+  }
 }
 
 TEST(DicomScan, HoldsADamagedFileAgainstTheOnlySeriesOfItsFolder)
@@ -407,6 +421,107 @@ TEST(DicomScan, LeavesWhatWasNeverASliceAlone)
   EXPECT_EQ(result.foreignFiles, 3U);
 }
 
+/// The series of a folder with eight slices, numbered from `first`, to which `spoil` adds files.
+ScanResult scanNumbered(
+    const std::function<void(const fs::path&)>& spoil, int first = 1,
+    const std::function<void(int, TestSlice&)>& change = [](int, TestSlice&) {})
+{
+  const TemporaryFolder folder;
+  writeSeries(folder.path(), 8,
+              [&](int k, TestSlice& s)
+              {
+                s.element(s.extra, 0x00200013, "IS", std::to_string(first + k));
+                change(k, s);
+              });
+  spoil(folder.path());
+  ScanResult result = scanDicom(folder.path(), {});
+  EXPECT_EQ(result.series.size(), 1U);
+  return result;
+}
+
+void cutHeader(const fs::path& folder)
+{
+  writeText(folder / "s8.dcm", TestSlice().bytes().substr(0, 190)); // before the series UID
+}
+
+// The numbers say that the stack is whole, unless the file was the slice after the last.
+TEST(DicomScan, SetsABrokenOrForeignFileBesideAWholeStackAside)
+{
+  const std::function<void(const fs::path&)> spoilers[] = {
+      cutHeader, [](const fs::path& folder) { writeText(folder / "s8.dcm", ""); },
+      [](const fs::path& folder) { writeText(folder / "s8.dcm", "this is no DICOM"); },
+      [](const fs::path& folder) { fs::create_symlink("gone", folder / "s8.dcm"); }};
+  for (const auto& spoil : spoilers)
+    for (const int first : {0, 1})
+    {
+      const ScanResult result = scanNumbered(spoil, first);
+      const SeriesGeometry& geometry = result.series.front().geometry;
+      EXPECT_EQ(geometry.verdict, Verdict::Ok);
+      EXPECT_EQ(geometry.slices.size(), 8U);
+      EXPECT_TRUE(geometry.findings.empty());
+      ASSERT_EQ(geometry.notes.size(), 1U);
+      EXPECT_NE(geometry.notes.front().find("ends 0.5 mm too early"), std::string::npos)
+          << geometry.notes.front();
+      EXPECT_EQ(geometry.notes.front().find("s8"), std::string::npos) << "stored with the case";
+      ASSERT_EQ(result.notes.size(), 1U);
+      EXPECT_EQ(result.notes.front().find("s8.dcm "), 0U);
+    }
+}
+
+TEST(DicomScan, HoldsABrokenFileAgainstAStackThatItsNumbersDoNotShowToBeWhole)
+{
+  const auto verdictOf = [](const ScanResult& result)
+  { return result.series.front().geometry.verdict; };
+  const auto stating = [](const char* count)
+  { return [count](int, TestSlice& s) { s.element(s.extra, 0x00201209, "IS", count); }; };
+  EXPECT_EQ(verdictOf(scanNumbered(cutHeader, 1)), Verdict::Ok);
+  EXPECT_EQ(verdictOf(scanNumbered(cutHeader, 2)), Verdict::Refused) << "number 1 is missing";
+  EXPECT_EQ(verdictOf(scanNumbered(cutHeader, 1, stating("9"))), Verdict::Refused);
+  const ScanResult counted = scanNumbered(cutHeader, 1, stating("8"));
+  EXPECT_EQ(verdictOf(counted), Verdict::Ok);
+  EXPECT_NE(counted.series.front().geometry.notes.front().find("as many as the header states"),
+            std::string::npos);
+  // Number 4 is missing, but no slice: the broken file may be it, and lie anywhere.
+  EXPECT_EQ(verdictOf(scanNumbered(cutHeader, 1,
+                                   [](int k, TestSlice& s)
+                                   {
+                                     s.extra.clear();
+                                     s.element(s.extra, 0x00200013, "IS",
+                                               std::to_string(k < 3 ? k + 1 : k + 2));
+                                   })),
+            Verdict::Refused);
+  EXPECT_EQ(verdictOf(scanNumbered(
+                cutHeader, 1, [](int k, TestSlice& s) { s.z = k < 4 ? 0.5 * k : 0.5 * (k + 1); })),
+            Verdict::Refused)
+      << "a slice is missing";
+  EXPECT_EQ(verdictOf(scanNumbered(
+                [](const fs::path& folder)
+                {
+                  cutHeader(folder);
+                  writeText(folder / "s9.dcm", "");
+                })),
+            Verdict::Refused)
+      << "a copy that failed more than once";
+}
+
+TEST(DicomScan, LeavesOutADamagedFileWhoseSliceIsThereWhole)
+{
+  for (const int k : {0, 3, 7})
+  {
+    const ScanResult result = scanNumbered(
+        [k](const fs::path& folder)
+        {
+          const fs::path copy = folder / ("copy of s" + std::to_string(k) + ".dcm");
+          fs::copy_file(folder / ("s" + std::to_string(k) + ".dcm"), copy);
+          fs::resize_file(copy, fs::file_size(copy) - 10);
+        });
+    const SeriesGeometry& geometry = result.series.front().geometry;
+    EXPECT_EQ(geometry.verdict, Verdict::Ok) << k;
+    ASSERT_EQ(geometry.notes.size(), 1U);
+    EXPECT_NE(geometry.notes.front().find("the same slice is there whole"), std::string::npos);
+  }
+}
+
 TEST(DicomScan, NotesALostSliceThatMayBeOfSeveralSeries)
 {
   const TemporaryFolder folder;
@@ -596,6 +711,191 @@ TEST(DicomScan, RefusesAModalityLut)
             Kinds{FindingKind::ModalityLut});
   EXPECT_EQ(kindsOf([&](int, TestSlice& s) { s.extra = undefined + itemEnd; }), Kinds());
   EXPECT_EQ(kindsOf([&](int, TestSlice& s) { s.element(s.extra, 0x00283000, "SQ", ""); }), Kinds());
+}
+
+/// A cache in memory that counts.
+class Shelf : public core::DerivedStore
+{
+public:
+  std::optional<Bytes> find(const std::string& key) noexcept override
+  {
+    const auto found = entries.find(key);
+    found == entries.end() ? ++misses : ++hits;
+    return found == entries.end() ? std::nullopt : std::optional(found->second);
+  }
+  void put(const std::string& key, const Bytes& bytes) noexcept override { entries[key] = bytes; }
+  std::uintmax_t bytes() const noexcept override { return 0; }
+
+  std::map<std::string, Bytes> entries;
+  int hits = 0;
+  int misses = 0;
+};
+
+/// As if all files had been written an hour ago.
+void settle(const fs::path& folder)
+{
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file())
+      fs::last_write_time(entry.path(), fs::file_time_type::clock::now() - std::chrono::hours(1));
+}
+
+/// What a scan says, as text.
+std::string textOf(const ScanResult& result)
+{
+  std::ostringstream text;
+  for (const DicomSeries& series : result.series)
+  {
+    text << series.uid << series.volume << series.modality << series.description << series.files
+         << series.frameOfReferenceUid << verdictName(series.geometry.verdict);
+    for (const Finding& finding : series.geometry.findings)
+      text << kindName(finding.kind) << finding.text;
+    for (const std::string& note : series.geometry.notes)
+      text << note;
+    for (const SliceHeader& s : series.geometry.slices)
+      text << s.file << s.position->transpose() << s.rows << s.slope << s.intercept << s.taken
+           << s.patient.id << s.patient.name << s.studyUid << s.kernel << s.pixels.offset
+           << s.pixels.length << s.pixels.transferSyntax << s.instanceNumber << s.positionStep
+           << s.padding.value_or(-1.0) << s.traits.echoTime.value_or(-1.0);
+  }
+  for (const Finding& finding : result.unreadable)
+    text << finding.text;
+  for (const std::string& note : result.notes)
+    text << note;
+  text << result.foreignFiles;
+  return text.str();
+}
+
+void writeMany(const fs::path& folder)
+{
+  writeSeries(folder / "a", 5,
+              [](int, TestSlice& s)
+              {
+                s.padding = 7;
+                s.element(s.extra, 0x00080022, "DA", "20200131");
+                s.element(s.extra, 0x00181210, "SH", "H70");
+              });
+  writeSeries(folder / "b", 6,
+              [](int k, TestSlice& s)
+              {
+                s.seriesUid = "7.7";
+                s.z = 0.5 * (k / 2);
+                s.element(s.extra, 0x00180081, "DS", k % 2 == 0 ? "10" : "20");
+              });
+  fs::resize_file(folder / "b" / "s5.dcm", fs::file_size(folder / "b" / "s5.dcm") - 10);
+  writeText(folder / "readme.txt", "this is no DICOM");
+  settle(folder);
+}
+
+TEST(DicomScan, ReadsUnchangedHeadersFromTheCache)
+{
+  const TemporaryFolder folder;
+  writeMany(folder.path());
+  const std::string plain = textOf(scanDicom(folder.path(), {}));
+  Shelf shelf;
+  EXPECT_EQ(textOf(scanDicom(folder.path(), {}, &shelf)), plain);
+  EXPECT_EQ(shelf.misses, 1);
+  ASSERT_EQ(shelf.entries.size(), 1U);
+  EXPECT_EQ(textOf(scanDicom(folder.path(), {}, &shelf)), plain);
+  EXPECT_EQ(shelf.hits, 1);
+  EXPECT_EQ(shelf.entries.size(), 1U);
+}
+
+TEST(DicomScan, ReadsHeadersAnewIfAnyFileWasTouched)
+{
+  const fs::path changed("a/s2.dcm");
+  // Of the same size and, by utimensat, the same age.
+  const auto rewrite = [&](const fs::path& folder)
+  {
+    struct stat before = {};
+    struct stat now = {};
+    ASSERT_EQ(::stat((folder / changed).c_str(), &before), 0);
+    TestSlice slice;
+    slice.z = 1.1;
+    slice.padding = 7;
+    slice.element(slice.extra, 0x00080022, "DA", "20200131");
+    slice.element(slice.extra, 0x00181210, "SH", "H70");
+    do // until the clock of the file system has moved on
+    {
+      slice.write(folder / changed);
+      const struct timespec times[2] = {before.st_atim, before.st_mtim};
+      ASSERT_EQ(::utimensat(AT_FDCWD, (folder / changed).c_str(), times, 0), 0);
+      ASSERT_EQ(::stat((folder / changed).c_str(), &now), 0);
+    } while (now.st_ctim.tv_sec == before.st_ctim.tv_sec &&
+             now.st_ctim.tv_nsec == before.st_ctim.tv_nsec);
+    ASSERT_EQ(now.st_size, before.st_size);
+  };
+  const std::function<void(const fs::path&)> changes[] = {
+      rewrite, [&](const fs::path& folder) { fs::remove(folder / changed); },
+      [&](const fs::path& folder) { fs::rename(folder / changed, folder / "a" / "s9.dcm"); },
+      [&](const fs::path& folder) { fs::resize_file(folder / changed, 200); },
+      [&](const fs::path& folder) { TestSlice().write(folder / "c" / "s0.dcm"); }};
+  for (const auto& change : changes)
+  {
+    const TemporaryFolder folder;
+    writeMany(folder.path());
+    Shelf shelf;
+    const std::string before = textOf(scanDicom(folder.path(), {}, &shelf));
+    ASSERT_EQ(shelf.entries.size(), 1U);
+    change(folder.path());
+    const std::string after = textOf(scanDicom(folder.path(), {}));
+    EXPECT_NE(after, before);
+    EXPECT_EQ(textOf(scanDicom(folder.path(), {}, &shelf)), after);
+    EXPECT_EQ(shelf.hits, 0);
+  }
+}
+
+TEST(DicomScan, KeepsNothingOfFilesThatMayStillBeChanging)
+{
+  const TemporaryFolder folder;
+  writeSeries(folder.path(), 3);
+  Shelf shelf;
+  scanDicom(folder.path(), {}, &shelf);
+  EXPECT_TRUE(shelf.entries.empty()) << "written just now";
+  settle(folder.path());
+  fs::last_write_time(folder.path() / "s1.dcm",
+                      fs::file_time_type::clock::now() + std::chrono::hours(1));
+  scanDicom(folder.path(), {}, &shelf);
+  EXPECT_TRUE(shelf.entries.empty()) << "a clock that is fast";
+}
+
+TEST(DicomScan, IgnoresADamagedCache)
+{
+  const TemporaryFolder folder;
+  writeMany(folder.path());
+  Shelf shelf;
+  const std::string plain = textOf(scanDicom(folder.path(), {}, &shelf));
+  ASSERT_EQ(shelf.entries.size(), 1U);
+  const auto whole = *shelf.entries.begin();
+  for (std::size_t n = 0; n < 64; ++n)
+  {
+    auto bytes = whole.second;
+    if (n % 2 == 0)
+      bytes[n * (bytes.size() - 1) / 63] ^= 1;
+    else
+      bytes.resize(n * bytes.size() / 64);
+    shelf.entries[whole.first] = bytes;
+    ASSERT_EQ(textOf(scanDicom(folder.path(), {}, &shelf)), plain) << n;
+    ASSERT_EQ(shelf.entries.size(), 1U);
+  }
+}
+
+TEST(DicomScan, KeepsThePatientOutOfTheCache)
+{
+  const TemporaryFolder folder;
+  const fs::path root = folder.path() / "MILLER";
+  writeMany(root);
+  Shelf shelf;
+  scanDicom(root, {}, &shelf);
+  ASSERT_EQ(shelf.entries.size(), 1U);
+  const auto& [key, bytes] = *shelf.entries.begin();
+  const std::string all = key + std::string(bytes.begin(), bytes.end());
+  for (const char* word : {"SECRET", "MILLER", "[31mTEST", "1.2.3.4", "1.2.3.8", "20200131", "s2.dcm"})
+    EXPECT_EQ(all.find(word), std::string::npos) << word;
+  const std::string first(bytes.begin(), bytes.end());
+  shelf.entries.clear();
+  scanDicom(root, {}, &shelf);
+  const auto& again = shelf.entries.begin()->second;
+  EXPECT_NE(std::string(again.begin(), again.end()), first) << "a nonce of its own";
 }
 
 TEST(DicomScan, StopsWhenCancelled)

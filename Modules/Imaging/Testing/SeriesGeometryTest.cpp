@@ -197,7 +197,41 @@ TEST(SeriesGeometry, CallsRepairableWhatThePositionsSettle)
             Verdict::Refused);
   EXPECT_EQ(verdictOf([](Headers& s) { s[4].slope = 2.0; }), Verdict::Repairable);
   EXPECT_EQ(verdictOf([](Headers& s) { s[4].rows = 12; }), Verdict::Refused);
-  EXPECT_EQ(verdictOf([](Headers& s) { s[4].damage = "is cut short"; }), Verdict::Refused);
+  // A damaged slice that says where it stands is as good as missing, unless it is an end.
+  EXPECT_EQ(verdictOf([](Headers& s) { s[4].damage = "is cut short"; }), Verdict::Repairable);
+  EXPECT_EQ(verdictOf([](Headers& s) { s[0].damage = "is cut short"; }), Verdict::Refused);
+  EXPECT_EQ(verdictOf([](Headers& s) { s[39].damage = "is cut short"; }), Verdict::Refused);
+  EXPECT_EQ(verdictOf([](Headers& s) { s[4].damage = s[5].damage = "is cut short"; }),
+            Verdict::Refused);
+  EXPECT_EQ(verdictOf(
+                [](Headers& s)
+                {
+                  s[4].damage = "is cut short";
+                  s[4].position.reset();
+                }),
+            Verdict::Refused);
+  EXPECT_EQ(verdictOf(
+                [](Headers& s)
+                {
+                  s[4].damage = "is cut short";
+                  std::swap(s[4].rowDirection, s[4].columnDirection);
+                }),
+            Verdict::Refused)
+      << "a slice of another stack";
+}
+
+TEST(SeriesGeometry, LeavesOutPicturesInColour)
+{
+  Headers slices = stack(6);
+  SliceHeader page = slices.back();
+  page.pixels.samplesPerPixel = 3;
+  page.position.reset();
+  slices.push_back(page);
+  const SeriesGeometry series = assess(slices);
+  EXPECT_EQ(series.verdict, Verdict::Ok);
+  EXPECT_EQ(series.slices.size(), 6U);
+  ASSERT_EQ(series.notes.size(), 1U);
+  EXPECT_NE(series.notes.front().find("1 of 7 slices"), std::string::npos) << series.notes.front();
 }
 
 TEST(SeriesGeometry, StatesTheMillimetresOfAGantryTilt)

@@ -5,15 +5,20 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 
+#include <gdcmDirectory.h>
+#include <gdcmScanner.h>
 #include <itkGDCMImageIO.h>
 #include <itkGDCMSeriesFileNames.h>
 #include <itkImageSeriesReader.h>
 
+#include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/DicomReader.h"
 #include "petrous/Imaging/DicomWriter.h"
+#include "petrous/Library/DerivedCache.h"
 
 namespace petrous::imaging
 {
@@ -73,8 +78,8 @@ std::shared_ptr<const Voxels> makeImage(int size, int slices)
 class SeriesFolder
 {
 public:
-  explicit SeriesFolder(const fs::path& parent)
-    : m_path(parent / "import-benchmark")
+  explicit SeriesFolder(const fs::path& parent, const char* name = "import-benchmark")
+    : m_path(parent / name)
   {
   }
   ~SeriesFolder()
@@ -203,6 +208,125 @@ core::BenchmarkPoint makePoint(const std::string& scene, const Trial& trial)
   return point;
 }
 
+constexpr int kSeriesSlices = 500;
+
+/// Series of small slices in folders of their own, an hour old. Returns their grid.
+core::GridGeometry writeTree(const fs::path& folder, int series)
+{
+  const std::shared_ptr<const Voxels> image = makeImage(64, kSeriesSlices);
+  for (int n = 0; n < series; ++n)
+  {
+    const auto uid = static_cast<std::uint64_t>(n);
+    SeriesDescription description;
+    description.description = "scan benchmark";
+    description.studyUid = deterministicUid(uid, "scan.study");
+    description.seriesUid = deterministicUid(uid, "scan.series");
+    description.frameOfReferenceUid = deterministicUid(uid, "scan.frame");
+    writeDicomSeries(folder / ("study" + std::to_string(n / 4)) / ("series" + std::to_string(n)),
+                     volume::IntensityVolume(image), description);
+  }
+  const auto then = fs::file_time_type::clock::now() - std::chrono::hours(1);
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file())
+      fs::last_write_time(entry.path(), then);
+  return image->geometry();
+}
+
+struct ScanTrial
+{
+  std::vector<double> seconds;
+  double worst = 0.0; ///< mm
+};
+
+void runScan(const fs::path& folder, const core::GridGeometry& truth, int series,
+             core::DerivedStore* cache, ScanTrial& trial)
+{
+  const Clock::time_point start = Clock::now();
+  const ScanResult scan = scanDicom(folder, {}, cache);
+  trial.seconds.push_back(secondsSince(start));
+  if (static_cast<int>(scan.series.size()) != series)
+    trial.worst = std::numeric_limits<double>::infinity();
+  for (const DicomSeries& one : scan.series)
+    trial.worst =
+        std::max(trial.worst, one.geometry.grid
+                                  ? cornerDifference(truth,
+                                                     [&](const core::Index3& i) {
+                                                       return one.geometry.grid->patientFromVoxel(
+                                                           Eigen::Vector3d(i[0], i[1], i[2]));
+                                                     })
+                                  : std::numeric_limits<double>::infinity());
+}
+
+/// The values that a series needs, read by gdcm::Scanner, which works on one thread.
+void runScanner(const fs::path& folder, const core::GridGeometry& truth, ScanTrial& trial)
+{
+  const Clock::time_point start = Clock::now();
+  gdcm::Directory directory;
+  directory.Load(folder.string(), true);
+  gdcm::Scanner scanner;
+  const gdcm::Tag place(0x0020, 0x0032);
+  for (const gdcm::Tag& tag :
+       {place, gdcm::Tag(0x0020, 0x000e), gdcm::Tag(0x0020, 0x0013), gdcm::Tag(0x0020, 0x0037),
+        gdcm::Tag(0x0020, 0x0052), gdcm::Tag(0x0028, 0x0010), gdcm::Tag(0x0028, 0x0011),
+        gdcm::Tag(0x0028, 0x0030), gdcm::Tag(0x0028, 0x1052), gdcm::Tag(0x0028, 0x1053)})
+    scanner.AddTag(tag);
+  scanner.Scan(directory.GetFilenames());
+  trial.seconds.push_back(secondsSince(start));
+  for (const std::string& file : directory.GetFilenames())
+  {
+    const std::string name = fs::path(file).stem().string(); // "slice-0001"
+    const auto k = core::parseDouble(name.substr(name.find('-') + 1));
+    const char* position = scanner.GetValue(file.c_str(), place);
+    std::string text(position ? position : "");
+    text = text.substr(text.rfind('\\') + 1);
+    text.erase(text.find_last_not_of(' ') + 1);
+    const auto z = core::parseDouble(text);
+    trial.worst = std::max(trial.worst,
+                           k && z ? std::abs(truth.patientFromVoxel({0.0, 0.0, *k - 1.0})[2] - *z)
+                                  : std::numeric_limits<double>::infinity());
+  }
+}
+
+void addScanPoints(const fs::path& workFolder, bool quick, int rounds,
+                   core::BenchmarkReport& report)
+{
+  const SeriesFolder folder(workFolder, "scan-benchmark");
+  const int series = quick ? 1 : 10;
+  const core::GridGeometry truth = writeTree(folder.path() / "files", series);
+  fs::create_directories(folder.path() / "cache");
+  library::DerivedCache cache(folder.path() / "cache" / "scans");
+  ScanTrial first;
+  ScanTrial second;
+  ScanTrial peer;
+  runScan(folder.path() / "files", truth, series, &cache, second); // fills the cache
+  for (int round = -1; round < rounds; ++round)                    // the first fills the page cache
+  {
+    if (round == 0)
+      first = second = peer = {};
+    runScanner(folder.path() / "files", truth, peer);
+    runScan(folder.path() / "files", truth, series, nullptr, first);
+    runScan(folder.path() / "files", truth, series, &cache, second);
+  }
+  const std::string scene =
+      std::to_string(series * kSeriesSlices) + " files, " + std::to_string(series) + " series";
+  const auto add = [&](const ScanTrial& trial, const char* scanner, const char* name)
+  {
+    core::BenchmarkPoint point;
+    point.scene = scene;
+    point.setting["scanner"] = scanner;
+    point.seconds = median(trial.seconds);
+    point.error = trial.worst;
+    point.errorUnit = "mm";
+    point.peer = name;
+    point.isDefault = *name == '\0' && &trial == &second;
+    point.extra["slowest_seconds"] = *std::max_element(trial.seconds.begin(), trial.seconds.end());
+    report.points.push_back(point);
+  };
+  add(first, "petrous, first scan", "");
+  add(second, "petrous, second scan", "");
+  add(peer, "gdcm, one thread", "gdcm::Scanner");
+}
+
 } // namespace
 
 core::BenchmarkReport runImportBenchmark(const fs::path& workFolder, bool quick,
@@ -248,6 +372,7 @@ core::BenchmarkReport runImportBenchmark(const fs::path& workFolder, bool quick,
   theirs.setting["reader"] = "itk";
   theirs.peer = "ITK series reader";
   report.points = {ours, theirs};
+  addScanPoints(workFolder, quick, rounds, report);
   return report;
 }
 

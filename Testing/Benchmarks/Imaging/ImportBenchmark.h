@@ -15,8 +15,12 @@ namespace petrous::imaging
 /// of a grid corner (mm), voxel difference from ITK, time of the header scan, and peak
 /// memory beyond the volume itself (MB; 0 in `extra` is a measured 0).
 ///
+/// Then the scan of 5,000 small files in 10 series (quick: 500 in one) against gdcm::Scanner on one
+/// thread, which reads ten values of each; a second scan takes the headers from the cache. Error:
+/// largest distance of a grid's corner (gdcm: of a slice) from where it was written, mm.
+///
 /// workFolder  temporary location of the series (quick: 64 slices of 256 x 256, 8 MB; otherwise 512
-///             of 512 x 512, 268 MB)
+///             of 512 x 512, 268 MB), and then of the 5,000 files (45 MB)
 core::BenchmarkReport runImportBenchmark(const std::filesystem::path& workFolder, bool quick,
                                          const core::Progress& progress);
 

@@ -18,6 +18,7 @@
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/StructureSet.h"
+#include "petrous/Library/DerivedCache.h"
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Scene/Placement.h"
 #include "petrous/Volume/IntensityScale.h"
@@ -97,14 +98,15 @@ scene::ImagePart readImage(const fs::path& path, const std::string& selector, bo
   }
   else
   {
-    const auto scan = imaging::scanDicom(path, progress.part(0.0, 0.2));
+    const auto scan = imaging::scanDicom(path, progress.part(0.0, 0.2), library::scanCache().get());
     const auto& series = imaging::chooseSeries(scan, path, selector);
     imaging::ReadOptions options;
     options.roi = roi;
     options.repair = repair;
     std::vector<std::string> notes = series.geometry.notes;
     for (const imaging::Finding& finding : series.geometry.findings) // accepted
-      notes.push_back(finding.text);
+      if (finding.kind != imaging::FindingKind::Unreadable)          // these name files
+        notes.push_back(finding.text);
     if (!scan.notes.empty()) // which name files and folders, possibly after patients
       notes.push_back("Of what lies beside its slices, something was left out in " +
                       std::to_string(scan.notes.size()) +

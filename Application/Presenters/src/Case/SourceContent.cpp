@@ -14,6 +14,7 @@
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/StructureSet.h"
+#include "petrous/Library/DerivedCache.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Volume/IntensityScale.h"
 
@@ -165,7 +166,7 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress,
 {
   SourceContent result;
   result.path = path;
-  auto scan = imaging::scanDicom(path, progress);
+  auto scan = imaging::scanDicom(path, progress, library::scanCache().get());
   if (!uid.empty())
     scan.series.erase(std::remove_if(scan.series.begin(), scan.series.end(),
                                      [&uid](const imaging::DicomSeries& series)

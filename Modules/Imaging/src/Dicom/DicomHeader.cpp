@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "DicomElements.h"
+#include "petrous/Core/Fingerprint.h"
 #include "petrous/Core/NumberText.h"
 
 namespace petrous::imaging
@@ -17,6 +18,7 @@ namespace
 {
 
 constexpr const char* kCutShort = "is cut short";
+constexpr const char* kReadError = "could not be read: the disk or medium reports an error";
 
 const char* const kDeflated = "1.2.840.10008.1.2.1.99";
 const char* const kImplicit = "1.2.840.10008.1.2";
@@ -120,13 +122,16 @@ void readPlace(const DicomElements& elements, SliceHeader& slice)
       static_cast<int>(std::clamp(elements.number(0x00200013).value_or(0.0), -1e9, 1e9));
 }
 
-/// 0 for an empty text. Writers differ in case and in trailing name delimiters.
+/// 0 for an empty text; the same in every run of the program. Writers differ in case and in
+/// trailing name delimiters.
 std::size_t keyOf(std::string text)
 {
   text.erase(text.find_last_not_of(" ^") + 1);
   for (char& c : text)
     c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  return text.empty() ? 0 : std::max<std::size_t>(std::hash<std::string>{}(text), 1);
+  core::Fingerprint hash;
+  hash.add(text.data(), text.size());
+  return text.empty() ? 0 : std::max<std::size_t>(hash.value(), 1);
 }
 
 // The first date present, with its time to the minute.
@@ -158,6 +163,9 @@ void readOrigin(const DicomElements& elements, SliceHeader& slice)
     const auto value = elements.number(tag);
     return value && std::abs(*value) < 1e9 ? std::optional(static_cast<int>(*value)) : std::nullopt;
   };
+  slice.declaredCount = whole(0x00201209); // of the series
+  if (!slice.declaredCount)
+    slice.declaredCount = whole(0x00201002); // of the acquisition
   slice.seriesNumber = whole(0x00200011);
   slice.acquisition = whole(0x00200012);
   slice.hasModalityLut = elements.hasModalityLut();
@@ -378,22 +386,32 @@ FileHeader readHeader(const std::filesystem::path& file)
   if (!source.isOpen())
   {
     header.kind = FileKind::Broken;
+    header.hasFailed = true;
     header.slice.damage = "cannot be opened";
     return header;
   }
+  header.slice.stamp = source.stamp();
   DicomElements elements(source);
   if (elements.state() == DicomElements::State::Foreign)
-  {
     header.slice.damage = shortDamage(source);
-    return header;
-  }
-  std::string sopClass = elements.text(0x00080016);
-  if (sopClass.empty())
-    sopClass = elements.text(0x00020002);
-  if (sopClass == kDirectoryClass)
-    header.kind = FileKind::Directory;
   else
-    readSlice(source, elements, sopClass, header);
+  {
+    std::string sopClass = elements.text(0x00080016);
+    if (sopClass.empty())
+      sopClass = elements.text(0x00020002);
+    if (sopClass == kDirectoryClass)
+      header.kind = FileKind::Directory;
+    else
+      readSlice(source, elements, sopClass, header);
+  }
+  if (source.hasFailed())
+  {
+    header.hasFailed = true;
+    if (header.kind == FileKind::Foreign)
+      header.kind = FileKind::Broken; // nobody knows
+    header.frames.clear();
+    header.slice.damage = kReadError;
+  }
   return header;
 }
 

@@ -21,6 +21,7 @@ enum class FileKind
 struct FileHeader
 {
   FileKind kind = FileKind::Foreign;
+  bool hasFailed = false; ///< opening or reading failed: another attempt may succeed
   std::string seriesUid;
   std::string modality;
   std::string description;

@@ -14,8 +14,11 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "ByteSource.h"
 #include "DicomHeader.h"
+#include "HeaderCache.h"
 #include "SeriesVolumes.h"
+#include "SliceStack.h"
 #include "petrous/Core/Log.h"
 
 namespace petrous::imaging
@@ -59,10 +62,11 @@ public:
       for (const fs::path& each : entries)
         visit(each, false);
     }
-    std::sort(files.begin(), files.end());
+    std::sort(files.begin(), files.end(),
+              [](const ListedFile& a, const ListedFile& b) { return a.path < b.path; });
   }
 
-  std::vector<fs::path> files;
+  std::vector<ListedFile> files;
   std::vector<FileHeader> lost;   ///< names without a file: dangling links
   std::vector<Finding> findings;  ///< about folders
   std::vector<std::string> notes; ///< the same, and about links
@@ -96,7 +100,7 @@ private:
     if (S_ISDIR(status.st_mode))
       m_folders.push_back(path);
     else if (S_ISREG(status.st_mode)) // a pipe or device would block
-      files.push_back(path);
+      files.push_back({path, stampOf(status)});
     else
       notes.push_back("'" + path.filename().string() +
                       "' is not an ordinary file (a pipe or a device) and was not read.");
@@ -129,7 +133,7 @@ private:
   std::set<std::pair<dev_t, ino_t>> m_seen;
 };
 
-std::vector<FileHeader> readHeaders(const std::vector<fs::path>& files,
+std::vector<FileHeader> readHeaders(const std::vector<ListedFile>& files,
                                     const core::Progress& progress)
 {
   std::vector<FileHeader> headers(files.size());
@@ -138,12 +142,25 @@ std::vector<FileHeader> readHeaders(const std::vector<fs::path>& files,
                     [&](const auto& range)
                     {
                       for (std::size_t i = range.begin(); i != range.end(); ++i)
-                        headers[i] = readHeader(files[i]);
+                        headers[i] = readHeader(files[i].path);
                       done += range.size();
                       progress.report(static_cast<double>(done.load()) /
                                           static_cast<double>(files.size()),
                                       "reading DICOM headers");
                     });
+  return headers;
+}
+
+std::vector<FileHeader> headersOf(const std::vector<ListedFile>& files, std::int64_t listed,
+                                  const core::Progress& progress, core::DerivedStore* cache)
+{
+  if (!cache || files.empty())
+    return readHeaders(files, progress);
+  HeaderCache kept(*cache, files);
+  if (auto found = kept.find())
+    return std::move(*found);
+  std::vector<FileHeader> headers = readHeaders(files, progress);
+  kept.put(headers, listed);
   return headers;
 }
 
@@ -206,15 +223,20 @@ bool isLostSlice(const FileHeader& header, const std::map<fs::path, FolderNames>
           folder->second.endings.count(ending) > 0);
 }
 
-/// Unreadable data that may belong to a series, so that it may be incomplete.
-using Doubts = std::map<std::string, std::vector<Finding>>;
+/// What may be missing from a series.
+struct Doubts
+{
+  std::vector<Finding> files; ///< that may have been its slices
+  std::size_t own = 0;        ///< so many of them are of no other series
+};
 
 /// A damaged file that does not state its series is presumed to belong to the only series in its
 /// folder, or to the only one there with files named like it.
-void placeOrphans(const std::vector<const FileHeader*>& orphans,
-                  const std::map<fs::path, FolderNames>& folders, Groups& groups, Doubts& doubts,
-                  ScanResult& result)
+std::map<std::string, Doubts> placeOrphans(const std::vector<const FileHeader*>& orphans,
+                                           const std::map<fs::path, FolderNames>& folders,
+                                           ScanResult& result)
 {
+  std::map<std::string, Doubts> doubts;
   for (const FileHeader* orphan : orphans)
   {
     const auto folder = folders.find(orphan->slice.file.parent_path());
@@ -226,20 +248,23 @@ void placeOrphans(const std::vector<const FileHeader*>& orphans,
           alike != folder->second.byPattern.end() ? &alike->second : &folder->second.series;
     }
     if (candidates && candidates->size() == 1)
-      groups[*candidates->begin()].push_back(orphan);
-    else
     {
-      result.unreadable.push_back(unreadable(*orphan));
-      result.notes.push_back(result.unreadable.back().text +
-                             " It may be a slice of any series in its folder.");
-      Finding doubt = result.unreadable.back();
-      doubt.text += " It may be a slice of this series: copy it again from where it came from, or "
-                    "take it out of the folder if it is none.";
-      if (candidates)
-        for (const std::string& key : *candidates)
-          doubts[key].push_back(doubt);
+      Doubts& one = doubts[*candidates->begin()];
+      one.files.push_back(unreadable(*orphan));
+      ++one.own;
+      continue;
     }
+    result.unreadable.push_back(unreadable(*orphan));
+    result.notes.push_back(result.unreadable.back().text +
+                           " It may be a slice of any series in its folder.");
+    Finding doubt = result.unreadable.back();
+    doubt.text += " It may be a slice of this series: copy it again from where it came from, or "
+                  "take it out of the folder if it is none.";
+    if (candidates)
+      for (const std::string& key : *candidates)
+        doubts[key].files.push_back(doubt);
   }
+  return doubts;
 }
 
 std::string firstNotEmpty(const std::vector<const FileHeader*>& members,
@@ -304,6 +329,66 @@ std::size_t dropCopies(std::vector<SliceHeader>& slices)
   return copies.size();
 }
 
+/// Removes damaged files whose slice is also there whole, as after a copy that was begun twice;
+/// their number.
+std::size_t dropReplaced(std::vector<SliceHeader>& slices)
+{
+  const auto isWhole = [&slices](const SliceHeader& damaged)
+  {
+    const auto key = [](const SliceHeader& s)
+    {
+      return std::tie(s.instanceNumber, s.acquisition, s.seriesNumber, s.kernel, s.imageType,
+                      s.studyUid, s.traits.bValue, s.traits.echo, s.traits.echoTime,
+                      s.traits.temporal, s.traits.triggerTime);
+    };
+    return std::any_of(slices.begin(), slices.end(),
+                       [&](const SliceHeader& s) {
+                         return s.damage.empty() && s.position == damaged.position &&
+                                key(s) == key(damaged);
+                       });
+  };
+  std::vector<bool> isReplaced(slices.size(), false);
+  for (std::size_t i = 0; i < slices.size(); ++i)
+    isReplaced[i] = !slices[i].damage.empty() && slices[i].position &&
+                    slices[i].instanceNumber > 0 && isWhole(slices[i]);
+  std::size_t at = 0;
+  const auto before = slices.size();
+  slices.erase(std::remove_if(slices.begin(), slices.end(),
+                              [&](const SliceHeader&) { return isReplaced[at++]; }),
+               slices.end());
+  return before - slices.size();
+}
+
+/// What the instance numbers of a series say.
+struct Numbering
+{
+  bool isComplete = false; ///< from 0 or 1 without a gap, up to the count that the header states
+  bool isCounted = false;  ///< it states one
+  int first = 0;
+  int last = 0;
+};
+
+Numbering numberingOf(const std::vector<SliceHeader>& slices)
+{
+  Numbering result;
+  std::set<int> numbers;
+  int declared = 0;
+  for (const SliceHeader& slice : slices)
+  {
+    numbers.insert(slice.instanceNumber);
+    declared = std::max(declared, slice.declaredCount.value_or(0));
+  }
+  const auto count = static_cast<int>(slices.size());
+  if (numbers.empty() || numbers.size() != slices.size())
+    return result;
+  result.first = *numbers.begin();
+  result.last = *numbers.rbegin();
+  result.isComplete = (result.first == 0 || result.first == 1) &&
+                      result.last - result.first + 1 == count && declared <= count;
+  result.isCounted = declared == count;
+  return result;
+}
+
 bool hasFinding(const SeriesGeometry& geometry, std::initializer_list<FindingKind> kinds)
 {
   return std::any_of(geometry.findings.begin(), geometry.findings.end(),
@@ -334,14 +419,53 @@ std::vector<std::pair<std::string, SeriesGeometry>> assessVolumes(std::vector<Sl
   return volumes;
 }
 
+/// Whether a stack is whole without files that may have been its slices.
+bool isWholeWithout(std::size_t files, const SeriesGeometry& geometry, const Numbering& numbering)
+{
+  constexpr std::size_t kFew = 10; // one in so many: with more, the copy went wrong
+  return geometry.verdict != Verdict::Refused && geometry.grid && numbering.isComplete &&
+         !hasFinding(geometry, {FindingKind::MissingSlice, FindingKind::Unreadable}) &&
+         (files == 1 || files * kFew <= geometry.slices.size());
+}
+
+std::string setAsideNote(std::size_t files, const SeriesGeometry& geometry,
+                         const Numbering& numbering)
+{
+  std::string text = std::to_string(files) + (files == 1 ? " file" : " files") +
+                     " beside the slices cannot be read and " + (files == 1 ? "was" : "were") +
+                     " set aside: the slices stand without a gap and are numbered " +
+                     std::to_string(numbering.first) + " to " + std::to_string(numbering.last);
+  if (numbering.isCounted)
+    return text + ", as many as the header states.";
+  return text + ". If " + (files == 1 ? "it was a slice" : "they were slices") +
+         " beyond that, the volume ends " +
+         decimals(static_cast<double>(files) * geometry.grid->spacing()[2], 1) + " mm too early.";
+}
+
+/// The findings of files held against a series: the first of them by name.
+std::vector<Finding> heldAgainst(const std::vector<Finding>& files)
+{
+  constexpr std::size_t kNamed = 3; // keeps findings readable if a whole disc is bad
+  std::vector<Finding> named(
+      files.begin(), files.begin() + static_cast<std::ptrdiff_t>(std::min(files.size(), kNamed)));
+  if (files.size() > kNamed)
+    named.push_back({FindingKind::Unreadable,
+                     std::to_string(files.size() - kNamed) + " more files in the folder cannot be "
+                                                             "read.",
+                     0.0});
+  return named;
+}
+
+/// `folders`: findings about unreadable folders, in which any series may go on.
 std::vector<DicomSeries> makeSeries(const std::vector<const FileHeader*>& members,
-                                    const std::vector<Finding>& doubts)
+                                    const Doubts& doubts, const std::vector<Finding>& folders,
+                                    ScanResult& result)
 {
   DicomSeries series;
   series.uid = firstNotEmpty(members, &FileHeader::seriesUid);
   series.modality = firstNotEmpty(members, &FileHeader::modality);
   series.description = firstNotEmpty(members, &FileHeader::description);
-  series.files = members.size();
+  series.files = members.size() + doubts.own;
   std::vector<SliceHeader> slices;
   for (const FileHeader* member : members)
     if (member->frames.empty())
@@ -349,7 +473,10 @@ std::vector<DicomSeries> makeSeries(const std::vector<const FileHeader*>& member
     else
       slices.insert(slices.end(), member->frames.begin(), member->frames.end());
   const std::size_t copies = dropCopies(slices);
-  std::vector<DicomSeries> result;
+  const std::size_t replaced = dropReplaced(slices);
+  const Numbering numbering = numberingOf(slices);
+  std::vector<DicomSeries> made;
+  bool isSetAside = !doubts.files.empty();
   for (auto& [name, geometry] : assessVolumes(std::move(slices)))
   {
     DicomSeries one = series;
@@ -359,14 +486,32 @@ std::vector<DicomSeries> makeSeries(const std::vector<const FileHeader*>& member
       one.geometry.notes.push_back(std::to_string(copies) +
                                    (copies == 1 ? " file is a copy" : " files are copies") +
                                    " of another, byte by byte, and left out.");
-    if (!doubts.empty())
+    if (replaced > 0)
+      one.geometry.notes.push_back(std::to_string(replaced) +
+                                   (replaced == 1 ? " damaged file was" : " damaged files were") +
+                                   " left out: the same slice is there whole.");
+    std::vector<Finding>& findings = one.geometry.findings;
+    const std::size_t lost = doubts.files.size();
+    if (lost > 0 && isWholeWithout(lost, one.geometry, numbering))
+      one.geometry.notes.push_back(setAsideNote(lost, one.geometry, numbering));
+    else if (lost > 0)
+    {
+      isSetAside = false;
+      const std::vector<Finding> held = heldAgainst(doubts.files);
+      findings.insert(findings.begin(), held.begin(), held.end());
       one.geometry.verdict = Verdict::Refused;
-    one.geometry.findings.insert(one.geometry.findings.end(), doubts.begin(), doubts.end());
+    }
+    findings.insert(findings.end(), folders.begin(), folders.end());
+    if (!folders.empty())
+      one.geometry.verdict = Verdict::Refused;
     if (!one.geometry.slices.empty())
       one.frameOfReferenceUid = one.geometry.slices.front().frameOfReferenceUid;
-    result.push_back(std::move(one));
+    made.push_back(std::move(one));
   }
-  return result;
+  for (std::size_t n = 0; isSetAside && doubts.own == doubts.files.size() && n < doubts.own; ++n)
+    result.notes.push_back(doubts.files[n].text +
+                           " It was set aside: the slices beside it are whole without it.");
+  return made;
 }
 
 bool isImageSeries(const DicomSeries& series)
@@ -404,7 +549,8 @@ std::string uidList(const std::vector<const DicomSeries*>& series)
 
 } // namespace
 
-ScanResult scanDicom(const fs::path& path, const core::Progress& progress)
+ScanResult scanDicom(const fs::path& path, const core::Progress& progress,
+                     core::DerivedStore* cache)
 {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -425,8 +571,9 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress)
   // A DICOMDIR indexes the files beside and below it.
   const bool isIndex = fs::is_regular_file(status) && readHeader(path).kind == FileKind::Directory;
   FileList list(progress);
+  const std::int64_t listed = timeNow();
   list.read(isIndex ? fs::absolute(path).parent_path() : path);
-  std::vector<FileHeader> headers = readHeaders(list.files, progress);
+  std::vector<FileHeader> headers = headersOf(list.files, listed, progress, cache);
   std::move(list.lost.begin(), list.lost.end(), std::back_inserter(headers));
 
   ScanResult result;
@@ -460,16 +607,15 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress)
       header->slice.damage = "is not DICOM, although it is named as a slice";
     orphans.push_back(header);
   }
-  Doubts doubts;
-  placeOrphans(orphans, folders, groups, doubts, result);
+  const std::map<std::string, Doubts> doubts = placeOrphans(orphans, folders, result);
 
   std::vector<std::vector<DicomSeries>> made;
   for (const auto& [key, members] : groups)
   {
     progress.check(kTask);
-    std::vector<Finding>& open = doubts[key];
-    open.insert(open.end(), folderDoubts.begin(), folderDoubts.end());
-    made.push_back(makeSeries(members, open));
+    const auto open = doubts.find(key);
+    made.push_back(
+        makeSeries(members, open == doubts.end() ? Doubts() : open->second, folderDoubts, result));
   }
   // By first file: the order in which file managers show them.
   std::vector<std::pair<fs::path, std::size_t>> order;

@@ -133,6 +133,7 @@ public:
     setAsideMinorities();
     judgeRescale();
     judgeStack();
+    judgeDamaged();
     judgeAcquisitions();
     m_result.verdict = verdict();
     m_result.slices = std::move(m_slices);
@@ -170,6 +171,8 @@ private:
       return true;
     case FindingKind::MissingSlice:
       return m_result.singleGaps;
+    case FindingKind::Unreadable:
+      return m_damageIsMissing;
     case FindingKind::DuplicateSlice:
       return m_duplicates * kFew <= m_slices.size();
     default:
@@ -179,8 +182,8 @@ private:
 
   void setAsideUnreadable()
   {
-    const Headers damaged =
-        takeOut(m_slices, [](const SliceHeader& s) { return !s.damage.empty(); });
+    m_damaged = takeOut(m_slices, [](const SliceHeader& s) { return !s.damage.empty(); });
+    const Headers& damaged = m_damaged;
     constexpr std::size_t kNamed = 3; // keeps findings readable if a whole disc is bad
     for (std::size_t i = 0; i < std::min(damaged.size(), kNamed); ++i)
       find(FindingKind::Unreadable,
@@ -210,7 +213,10 @@ private:
                                         "or MR; a DICOM segmentation is "
                                         "read as structures (--labels).");
     const Headers colour = takeOut(m_slices, isColour);
-    if (!colour.empty())
+    if (!colour.empty() && m_slices.size() > colour.size())
+      m_result.notes.push_back(countOf(colour.size(), m_all) +
+                               " are pictures in colour (a report or a screenshot), and left out.");
+    else if (!colour.empty())
       find(FindingKind::NotAnImage, "Colours instead of one CT or MR value a pixel in " +
                                         countOf(colour.size(), m_all) + ".");
   }
@@ -363,6 +369,37 @@ private:
                "files of one in the folder.");
   }
 
+  /// A damaged file is a slice as good as missing if it says that it stands in a gap of the stack.
+  /// Anywhere else it may have been an end of the stack, or of another one.
+  void judgeDamaged()
+  {
+    const bool hasGap =
+        std::any_of(m_result.findings.begin(), m_result.findings.end(),
+                    [](const Finding& f) { return f.kind == FindingKind::MissingSlice; });
+    m_damageIsMissing =
+        hasGap && m_result.grid &&
+        std::all_of(m_damaged.begin(), m_damaged.end(),
+                    [this](const SliceHeader& slice) { return standsInGap(slice); });
+  }
+
+  bool standsInGap(const SliceHeader& slice) const
+  {
+    const SliceHeader& first = m_slices.front();
+    if (!isPlaced(slice) || !sameTurn(first, slice) || !sameSize(first, slice) ||
+        slice.frameOfReferenceUid != first.frameOfReferenceUid || !samePatient(first, slice))
+      return false;
+    const Eigen::Vector3d normal = first.rowDirection->cross(*first.columnDirection).normalized();
+    const double place = normal.dot(*slice.position);
+    const auto above =
+        std::find_if(m_slices.begin(), m_slices.end(),
+                     [&](const SliceHeader& s) { return normal.dot(*s.position) > place; });
+    if (above == m_slices.begin() || above == m_slices.end())
+      return false;
+    const double apart = 0.5 * m_result.grid->spacing()[2];
+    return normal.dot(*above->position) - place > apart &&
+           place - normal.dot(*std::prev(above)->position) > apart;
+  }
+
   /// Whether an acquisition number reappears after another one. Scanners that acquire a stack in
   /// steps number the steps consecutively. Interleaving within one MR scan is usual: there the
   /// slices must also overlap.
@@ -406,6 +443,8 @@ private:
   }
 
   Headers m_slices;
+  Headers m_damaged;
+  bool m_damageIsMissing = false; ///< each damaged file is one of the missing slices
   std::size_t m_all;
   std::size_t m_scouts = 0;
   std::size_t m_duplicates = 0;

@@ -1,6 +1,7 @@
 #include "ByteSource.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 
 #include <fcntl.h>
@@ -20,6 +21,14 @@ constexpr std::size_t kLargestDeflated = kLargestInflated;
 
 } // namespace
 
+FileStamp stampOf(const struct stat& status)
+{
+  const auto ns = [](const struct timespec& time)
+  { return static_cast<std::int64_t>(time.tv_sec) * 1'000'000'000 + time.tv_nsec; };
+  return {static_cast<std::uint64_t>(status.st_dev), static_cast<std::uint64_t>(status.st_ino),
+          static_cast<std::uint64_t>(status.st_size), ns(status.st_mtim), ns(status.st_ctim)};
+}
+
 ByteSource::ByteSource(const std::filesystem::path& file)
   : m_descriptor(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) // a pipe would block
 {
@@ -29,6 +38,7 @@ ByteSource::ByteSource(const std::filesystem::path& file)
   if (::fstat(m_descriptor, &status) == 0 && S_ISREG(status.st_mode))
   {
     m_size = static_cast<std::uint64_t>(status.st_size);
+    m_stamp = stampOf(status);
     return;
   }
   ::close(m_descriptor);
@@ -54,8 +64,13 @@ bool ByteSource::read(std::uint64_t offset, void* bytes, std::size_t count)
   while (count > 0)
   {
     const ssize_t got = ::pread(m_descriptor, target, count, static_cast<off_t>(offset));
+    if (got < 0 && errno == EINTR)
+      continue;
     if (got <= 0)
+    {
+      m_hasFailed = true;
       return false;
+    }
     target += got;
     offset += static_cast<std::uint64_t>(got);
     count -= static_cast<std::size_t>(got);

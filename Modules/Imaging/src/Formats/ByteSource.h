@@ -5,8 +5,14 @@
 #include <filesystem>
 #include <vector>
 
+#include "petrous/Imaging/SeriesGeometry.h"
+
+struct stat;
+
 namespace petrous::imaging
 {
+
+FileStamp stampOf(const struct stat& status);
 
 /// The bytes of a regular file, or of a file inflated in memory. Not open if the file is missing,
 /// or is a pipe or device. Reading beyond the end fails; throws nothing but bad_alloc.
@@ -20,6 +26,11 @@ public:
 
   bool isOpen() const noexcept { return m_descriptor >= 0; }
   std::uint64_t size() const noexcept { return m_size; }
+  const FileStamp& stamp() const noexcept { return m_stamp; } ///< when it was opened
+
+  /// Whether reading failed although the file should have had the bytes: the medium was removed or
+  /// is bad, or the file was made shorter meanwhile.
+  bool hasFailed() const noexcept { return m_hasFailed; }
 
   /// Reads exactly `count` bytes from `offset`, or returns false.
   bool read(std::uint64_t offset, void* bytes, std::size_t count);
@@ -34,6 +45,8 @@ public:
 private:
   int m_descriptor = -1;
   std::uint64_t m_size = 0;
+  FileStamp m_stamp;
+  bool m_hasFailed = false;
   std::vector<unsigned char> m_memory; ///< the inflated file; if empty, the file is read
   std::vector<unsigned char> m_window;
   std::uint64_t m_windowStart = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <system_error>
@@ -103,6 +104,25 @@ std::vector<Entry> entriesOf(const fs::path& folder)
 fs::path derivedFolder(const fs::path& library)
 {
   return library / "derived";
+}
+
+std::unique_ptr<core::DerivedStore> scanCache()
+{
+  constexpr std::uintmax_t kScans = std::uintmax_t{256} << 20;
+  const auto folderFrom = [](const char* name)
+  {
+    const char* value = std::getenv(name);
+    const fs::path path(value ? value : "");
+    return path.is_absolute() ? path : fs::path();
+  };
+  fs::path folder = folderFrom("XDG_CACHE_HOME");
+  if (folder.empty() && !folderFrom("HOME").empty())
+    folder = folderFrom("HOME") / ".cache";
+  if (folder.empty())
+    return nullptr;
+  std::error_code error; // then nothing is cached
+  fs::create_directories(folder / "petrous", error);
+  return std::make_unique<DerivedCache>(folder / "petrous" / "scans", kScans);
 }
 
 DerivedCache::DerivedCache(fs::path folder, std::uintmax_t limit)

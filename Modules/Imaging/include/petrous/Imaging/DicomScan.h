@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "petrous/Core/DerivedStore.h"
 #include "petrous/Core/Error.h"
 #include "petrous/Core/Progress.h"
 #include "petrous/Imaging/SeriesGeometry.h"
@@ -67,11 +68,19 @@ struct ScanResult
 /// Files are recognized by content, not by name; each file is read once. Symbolic links to files
 /// are followed, links to folders only if they stay below `path`. A file that is not DICOM but is
 /// named like the slices beside it is a lost slice; so is an empty one with their extension. A
-/// series is refused if a lost slice in its folder, or an unreadable folder, may belong to it.
-/// Links that are not followed are listed in `notes`.
+/// series is refused if a lost slice in its folder may belong to it, unless it is whole without it:
+/// its stack has no gap, and its instance numbers run from 0 or 1 without one (and to the number of
+/// images that the header states, if it does). The lost slice is then set aside and noted, with the
+/// millimetres by which the volume would be too short. An unreadable folder, which may hold any
+/// number of slices, refuses all series. Links that are not followed are listed in `notes`.
+///
+/// With a `cache`, the headers of files that have not changed since an earlier scan of the same
+/// path are taken from it; the result is the same. What it holds can be read only by someone who
+/// has the files themselves.
 ///
 /// Throws DicomError (NotFound) and CancelledError.
-ScanResult scanDicom(const std::filesystem::path& path, const core::Progress& progress);
+ScanResult scanDicom(const std::filesystem::path& path, const core::Progress& progress,
+                     core::DerivedStore* cache = nullptr);
 
 /// Selects the series meant by a user who gave `path`, by "UID", "UID#VOLUME" or "#VOLUME"; without
 /// a UID the only series that is Ok, else the largest image series (reading it reports its

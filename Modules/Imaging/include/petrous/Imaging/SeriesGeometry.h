@@ -54,10 +54,21 @@ struct SliceTraits
   std::string stack;           ///< StackID of a multi-frame file
 };
 
+/// What tells that a file was replaced or changed.
+struct FileStamp
+{
+  std::uint64_t device = 0;
+  std::uint64_t inode = 0;
+  std::uint64_t size = 0;    ///< bytes
+  std::int64_t modified = 0; ///< contents, ns since 1970
+  std::int64_t changed = 0;  ///< contents, name or rights, ns since 1970
+};
+
 /// Header of one slice. Absent or malformed numbers are nullopt.
 struct SliceHeader
 {
   std::filesystem::path file;
+  FileStamp stamp;                                ///< of the file when its header was read
   std::optional<Eigen::Vector3d> position;        ///< centre of the first pixel, patient LPS mm
   std::optional<Eigen::Vector3d> rowDirection;    ///< along a row, increasing column index
   std::optional<Eigen::Vector3d> columnDirection; ///< along a column, increasing row index
@@ -78,6 +89,7 @@ struct SliceHeader
   std::string taken;
   std::string patientPosition; ///< (0018,5100), e.g. HFS; likewise
   int instanceNumber = 0;
+  std::optional<int> declaredCount;   ///< images of the series or acquisition, as the file states
   bool isImage = true;                ///< has pixel data
   std::vector<std::string> imageType; ///< values, e.g. ORIGINAL PRIMARY AXIAL
   std::string frameOfReferenceUid;
@@ -146,7 +158,8 @@ struct SeriesGeometry
 
   bool singleGaps = true; ///< no two missing slices adjoin
   Verdict verdict = Verdict::Refused;
-  std::vector<Finding> findings;  ///< the reasons for the verdict, and localizers set aside
+  /// The reasons for the verdict, and localizers set aside. Those of kind Unreadable name files.
+  std::vector<Finding> findings;
   std::vector<std::string> notes; ///< accepted but worth knowing, e.g. jitter
 };
 

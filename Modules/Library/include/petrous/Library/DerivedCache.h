@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 
 #include "petrous/Core/DerivedStore.h"
 
@@ -39,5 +40,9 @@ private:
 
 /// The derived-data folder of a library.
 std::filesystem::path derivedFolder(const std::filesystem::path& library);
+
+/// The headers of scanned folders (imaging::scanDicom), at most 256 MB, in the user's cache folder:
+/// $XDG_CACHE_HOME/petrous/scans, by default in ~/.cache. Null without a home folder.
+std::unique_ptr<core::DerivedStore> scanCache();
 
 } // namespace petrous::library

@@ -35,7 +35,7 @@ function(petrous_add_tests target)
     PROPERTIES
       LABELS "${ARG_LABELS}"
       TIMEOUT 600
-      ENVIRONMENT "PETROUS_DATA=${data_dir}")
+      ENVIRONMENT "PETROUS_DATA=${data_dir};XDG_CACHE_HOME=${CMAKE_BINARY_DIR}/Testing/cache")
 endfunction()
 
 # petrous_add_module(<Name>

@@ -137,6 +137,28 @@ bool DicomElements::readElement(std::uint64_t offset, Element& element, bool exp
   return true;
 }
 
+void DicomElements::set(Values& values, Tag tag, std::string value)
+{
+  if (values.empty() || values.back().first < tag) // files state them in this order
+  {
+    values.emplace_back(tag, std::move(value));
+    return;
+  }
+  const auto at = std::lower_bound(values.begin(), values.end(), tag,
+                                   [](const auto& one, Tag wanted) { return one.first < wanted; });
+  if (at->first == tag)
+    at->second = std::move(value);
+  else
+    values.emplace(at, tag, std::move(value));
+}
+
+const std::string* DicomElements::find(const Values& values, Tag tag)
+{
+  const auto at = std::lower_bound(values.begin(), values.end(), tag,
+                                   [](const auto& one, Tag wanted) { return one.first < wanted; });
+  return at == values.end() || at->first != tag ? nullptr : &at->second;
+}
+
 bool DicomElements::keep(const Element& element, Values& values)
 {
   if (element.length > m_source.size() || element.value > m_source.size() - element.length)
@@ -146,7 +168,7 @@ bool DicomElements::keep(const Element& element, Values& values)
   std::string value(element.length, '\0');
   if (!m_source.readNear(element.value, value.data(), value.size()))
     return false;
-  values[element.tag] = std::move(value);
+  set(values, element.tag, std::move(value));
   return true;
 }
 
@@ -310,7 +332,9 @@ bool DicomElements::readGroupItem(std::uint64_t& offset, std::uint64_t end, bool
       if (!readGroups(element, offset, explicitVr && !element.isUnknown, depth + 1, items))
         return false;
       for (Values& item : items)
-        values.merge(item);
+        for (auto& [tag, value] : item)
+          if (!find(values, tag))
+            set(values, tag, std::move(value));
     }
     else if (element.length == kUndefinedLength)
     {
@@ -329,19 +353,14 @@ bool DicomElements::readGroupItem(std::uint64_t& offset, std::uint64_t end, bool
 
 const std::string* DicomElements::find(Tag tag) const
 {
-  const auto in = [tag](const Values& values) -> const std::string*
-  {
-    const auto found = values.find(tag);
-    return found == values.end() ? nullptr : &found->second;
-  };
   if (m_frame < m_frames.size())
   {
-    if (const std::string* value = in(m_frames[m_frame]))
+    if (const std::string* value = find(m_frames[m_frame], tag))
       return value;
-    if (const std::string* value = m_shared.empty() ? nullptr : in(m_shared.front()))
+    if (const std::string* value = m_shared.empty() ? nullptr : find(m_shared.front(), tag))
       return value;
   }
-  return in(m_values);
+  return find(m_values, tag);
 }
 
 std::string DicomElements::bytes(Tag tag) const

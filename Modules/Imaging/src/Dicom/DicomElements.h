@@ -2,10 +2,10 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "ByteSource.h"
@@ -95,7 +95,9 @@ private:
   bool readElement(std::uint64_t offset, Element& element, bool explicitVr);
   bool skipItems(std::uint64_t& offset, bool explicitVr, int depth);
   bool skipItemContent(std::uint64_t& offset, bool explicitVr, int depth);
-  using Values = std::map<Tag, std::string>;
+  using Values = std::vector<std::pair<Tag, std::string>>; ///< ascending, each tag once
+  static void set(Values& values, Tag tag, std::string value);
+  static const std::string* find(const Values& values, Tag tag);
   bool keep(const Element& element, Values& values);
   bool readGroups(const Element& sequence, std::uint64_t& offset, bool explicitVr, int depth,
                   std::vector<Values>& items);

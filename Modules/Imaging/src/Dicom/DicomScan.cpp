@@ -45,25 +45,35 @@ public:
   {
     std::error_code error;
     m_root = fs::canonical(path, error);
-    visit(path, true);
+    Entry root{path};
+    root.look();
+    visit(root, true);
     while (!m_folders.empty())
     {
       const fs::path folder = std::move(m_folders.back());
       m_folders.pop_back();
       m_progress.check(kTask);
       // Sorted, so that the path under which a file is found does not depend on the file system.
-      std::vector<fs::path> entries;
+      std::vector<Entry> entries;
       fs::directory_iterator entry(folder, error);
       for (const fs::directory_iterator end; !error && entry != end; entry.increment(error))
-        entries.push_back(entry->path());
+        entries.push_back({entry->path()});
       if (error)
         unreadable(folder);
-      std::sort(entries.begin(), entries.end());
-      for (const fs::path& each : entries)
+      std::sort(entries.begin(), entries.end(),
+                [](const Entry& a, const Entry& b) { return a.path.native() < b.path.native(); });
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, entries.size(), 64),
+                        [&entries](const auto& range)
+                        {
+                          for (std::size_t n = range.begin(); n != range.end(); ++n)
+                            entries[n].look();
+                        });
+      for (const Entry& each : entries)
         visit(each, false);
     }
     std::sort(files.begin(), files.end(),
-              [](const ListedFile& a, const ListedFile& b) { return a.path < b.path; });
+              [](const ListedFile& a, const ListedFile& b)
+              { return precedes(a.path.native(), b.path.native()); });
   }
 
   std::vector<ListedFile> files;
@@ -72,12 +82,32 @@ public:
   std::vector<std::string> notes; ///< the same, and about links
 
 private:
-  void visit(const fs::path& path, bool isRoot)
+  struct Entry
   {
+    fs::path path;
     struct stat status = {};
-    if (::stat(path.c_str(), &status) != 0)
+    int problem = 0; ///< errno
+
+    void look() { problem = ::stat(path.c_str(), &status) == 0 ? 0 : errno; }
+  };
+
+  /// As paths are ordered, by their components; many times faster.
+  static bool precedes(const std::string& a, const std::string& b)
+  {
+    const auto [one, other] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+    if (one == a.end() || other == b.end())
+      return one == a.end() && other != b.end();
+    const auto rank = [](char c) { return c == '/' ? 0 : 1 + static_cast<unsigned char>(c); };
+    return rank(*one) < rank(*other);
+  }
+
+  void visit(const Entry& entry, bool isRoot)
+  {
+    const fs::path& path = entry.path;
+    const struct stat& status = entry.status;
+    if (entry.problem != 0)
     {
-      const bool denied = errno == EACCES;
+      const bool denied = entry.problem == EACCES;
       std::error_code none;
       if (denied && !fs::is_symlink(path, none)) // its folder can be listed but not searched
         return unreadable(path.parent_path());
@@ -170,14 +200,16 @@ Finding unreadable(const FileHeader& header)
           header.slice.file.filename().string() + " " + header.slice.damage + ".", 0.0};
 }
 
-using Groups = std::map<std::string, std::vector<const FileHeader*>>;
+using Groups = std::map<std::string, std::vector<FileHeader*>>;
 
 /// A file name with "#" for each number: what the slices of one export have in common.
 std::string patternOf(const fs::path& file)
 {
   std::string pattern;
-  for (const char c : file.filename().string())
+  const std::string& path = file.native();
+  for (std::size_t at = path.rfind('/') + 1; at < path.size(); ++at)
   {
+    const char c = path[at];
     const bool isDigit = c >= '0' && c <= '9';
     if (!isDigit)
       pattern += c;
@@ -199,14 +231,31 @@ std::map<fs::path, FolderNames> namesOf(const Groups& groups)
 {
   std::map<fs::path, FolderNames> folders;
   for (const auto& [key, members] : groups)
+  {
+    // Most files of a series lie in one folder and are named alike.
+    std::string last;
+    FolderNames* folder = nullptr;
+    std::set<std::string> known;
     for (const FileHeader* member : members)
     {
       const fs::path& file = member->slice.file;
-      FolderNames& folder = folders[file.parent_path()];
-      folder.series.insert(key);
-      folder.byPattern[patternOf(file)].insert(key);
-      folder.endings.insert(file.extension().string());
+      const std::string& native = file.native();
+      std::string parent = native.substr(0, native.rfind('/') + 1);
+      if (!folder || parent != last)
+      {
+        folder = &folders[file.parent_path()];
+        folder->series.insert(key);
+        last = std::move(parent);
+        known.clear();
+      }
+      folder->endings.insert(file.extension().string());
+      std::string pattern = patternOf(file);
+      if (known.count(pattern) > 0)
+        continue;
+      folder->byPattern[pattern].insert(key);
+      known.insert(std::move(pattern));
     }
+  }
   return folders;
 }
 
@@ -267,8 +316,7 @@ std::map<std::string, Doubts> placeOrphans(const std::vector<const FileHeader*>&
   return doubts;
 }
 
-std::string firstNotEmpty(const std::vector<const FileHeader*>& members,
-                          std::string FileHeader::*field)
+std::string firstNotEmpty(const std::vector<FileHeader*>& members, std::string FileHeader::*field)
 {
   const auto found = std::find_if(members.begin(), members.end(),
                                   [field](const auto* m) { return !(m->*field).empty(); });
@@ -456,10 +504,16 @@ std::vector<Finding> heldAgainst(const std::vector<Finding>& files)
   return named;
 }
 
-/// `folders`: findings about unreadable folders, in which any series may go on.
-std::vector<DicomSeries> makeSeries(const std::vector<const FileHeader*>& members,
-                                    const Doubts& doubts, const std::vector<Finding>& folders,
-                                    ScanResult& result)
+struct MadeSeries
+{
+  std::vector<DicomSeries> volumes;
+  std::vector<std::string> notes; ///< of the scan
+};
+
+/// `folders`: findings about unreadable folders, in which any series may go on. The slices of
+/// `members` are moved from.
+MadeSeries makeSeries(const std::vector<FileHeader*>& members, const Doubts& doubts,
+                      const std::vector<Finding>& folders)
 {
   DicomSeries series;
   series.uid = firstNotEmpty(members, &FileHeader::seriesUid);
@@ -467,15 +521,16 @@ std::vector<DicomSeries> makeSeries(const std::vector<const FileHeader*>& member
   series.description = firstNotEmpty(members, &FileHeader::description);
   series.files = members.size() + doubts.own;
   std::vector<SliceHeader> slices;
-  for (const FileHeader* member : members)
+  slices.reserve(members.size());
+  for (FileHeader* member : members)
     if (member->frames.empty())
-      slices.push_back(member->slice);
+      slices.push_back(std::move(member->slice));
     else
-      slices.insert(slices.end(), member->frames.begin(), member->frames.end());
+      std::move(member->frames.begin(), member->frames.end(), std::back_inserter(slices));
   const std::size_t copies = dropCopies(slices);
   const std::size_t replaced = dropReplaced(slices);
   const Numbering numbering = numberingOf(slices);
-  std::vector<DicomSeries> made;
+  MadeSeries made;
   bool isSetAside = !doubts.files.empty();
   for (auto& [name, geometry] : assessVolumes(std::move(slices)))
   {
@@ -506,11 +561,11 @@ std::vector<DicomSeries> makeSeries(const std::vector<const FileHeader*>& member
       one.geometry.verdict = Verdict::Refused;
     if (!one.geometry.slices.empty())
       one.frameOfReferenceUid = one.geometry.slices.front().frameOfReferenceUid;
-    made.push_back(std::move(one));
+    made.volumes.push_back(std::move(one));
   }
   for (std::size_t n = 0; isSetAside && doubts.own == doubts.files.size() && n < doubts.own; ++n)
-    result.notes.push_back(doubts.files[n].text +
-                           " It was set aside: the slices beside it are whole without it.");
+    made.notes.push_back(doubts.files[n].text +
+                         " It was set aside: the slices beside it are whole without it.");
   return made;
 }
 
@@ -609,22 +664,33 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress,
   }
   const std::map<std::string, Doubts> doubts = placeOrphans(orphans, folders, result);
 
-  std::vector<std::vector<DicomSeries>> made;
-  for (const auto& [key, members] : groups)
-  {
-    progress.check(kTask);
-    const auto open = doubts.find(key);
-    made.push_back(
-        makeSeries(members, open == doubts.end() ? Doubts() : open->second, folderDoubts, result));
-  }
   // By first file: the order in which file managers show them.
   std::vector<std::pair<fs::path, std::size_t>> order;
-  std::size_t index = 0;
-  for (const auto& [key, members] : groups)
-    order.emplace_back(members.front()->slice.file, index++);
+  std::vector<const Groups::value_type*> all;
+  for (const auto& group : groups)
+  {
+    order.emplace_back(group.second.front()->slice.file, all.size());
+    all.push_back(&group);
+  }
   std::sort(order.begin(), order.end());
-  for (const auto& [file, i] : order)
-    std::move(made[i].begin(), made[i].end(), std::back_inserter(result.series));
+  std::vector<MadeSeries> made(all.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, all.size(), 1),
+                    [&](const auto& range)
+                    {
+                      for (std::size_t n = range.begin(); n != range.end(); ++n)
+                      {
+                        progress.check(kTask);
+                        const auto open = doubts.find(all[n]->first);
+                        made[n] = makeSeries(all[n]->second,
+                                             open == doubts.end() ? Doubts() : open->second,
+                                             folderDoubts);
+                      }
+                    });
+  for (const auto& [file, n] : order)
+  {
+    std::move(made[n].volumes.begin(), made[n].volumes.end(), std::back_inserter(result.series));
+    std::move(made[n].notes.begin(), made[n].notes.end(), std::back_inserter(result.notes));
+  }
   logScan(result, headers.size());
   progress.report(1.0, "reading DICOM headers");
   return result;

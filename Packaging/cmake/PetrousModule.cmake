@@ -35,7 +35,8 @@ function(petrous_add_tests target)
     PROPERTIES
       LABELS "${ARG_LABELS}"
       TIMEOUT 600
-      ENVIRONMENT "PETROUS_DATA=${data_dir};XDG_CACHE_HOME=${CMAKE_BINARY_DIR}/Testing/cache")
+      ENVIRONMENT "PETROUS_DATA=${data_dir}"
+      ENVIRONMENT_MODIFICATION "XDG_CACHE_HOME=set:${CMAKE_BINARY_DIR}/Testing/cache")
 endfunction()
 
 # petrous_add_module(<Name>

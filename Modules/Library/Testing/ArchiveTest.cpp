@@ -195,6 +195,52 @@ TEST_F(Archives, AreRestoredToTheByteInAnotherLibrary)
   EXPECT_TRUE(other.verify().damaged.empty());
 }
 
+TEST_F(Archives, HoldNamesAndVoxelsOnlyOfStructuresThatTheCaseHas)
+{
+  scene::Case value = test::smallCase("two");
+  auto voxels =
+      std::make_shared<volume::Volume<std::uint16_t>>(*value.labels.front().labels.get()->voxels);
+  for (int i = 4; i < 10; ++i)
+    voxels->at(i, 12, 12) = 7;
+  volume::Segment nerve;
+  nerve.name = "first name of the nerve";
+  nerve.index = 3;
+  volume::Segment taken;
+  taken.name = "taken away";
+  taken.index = 7;
+  value.labels.front().labels = std::make_shared<const volume::LabelMap>(
+      volume::makeLabelMap(std::move(voxels), {nerve, taken}));
+  value.labels.front().structures.push_back({"taken away", 7, 6, 0.384, {}});
+  m_library.save(value);
+  value = m_library.open("two");
+  scene::removePart(value, "taken away");
+  m_library.save(value);
+  const std::string stored = value.labels.front().object;
+
+  archiveCase(m_library, "two", m_file);
+  EXPECT_EQ(bytesOf(m_file).find("taken away"), std::string::npos);
+  EXPECT_EQ(bytesOf(m_file).find("first name"), std::string::npos);
+  for (const auto& entry : fs::directory_iterator(m_folder.path()))
+    EXPECT_TRUE(entry.path() == m_file || entry.path() == m_library.folder()) << entry.path();
+  EXPECT_EQ(m_library.open("two").labels.front().object, stored) << "the case is as it was";
+
+  Library other(m_folder.path() / "other");
+  restoreCase(other, m_file);
+  const auto map = other.open("two").labels.front().labels.get();
+  ASSERT_EQ(map->segments.size(), 1U);
+  EXPECT_EQ(map->segments[0].name, "nerve");
+  EXPECT_EQ(map->segments[0].voxels, 6U);
+  EXPECT_EQ(map->voxels->at(5, 8, 8), 3);
+  EXPECT_EQ(map->voxels->at(5, 12, 12), 0);
+  EXPECT_TRUE(other.verify().damaged.empty());
+
+  // The plan refers to the map as the segmentation's import stores it, there as here.
+  const fs::path plan = m_folder.path() / "plan.petrous";
+  archiveCase(m_library, "two", plan, {true});
+  restoreCase(m_library, plan, {"three", ""});
+  EXPECT_EQ(m_library.open("three").labels.front().object, stored);
+}
+
 TEST_F(Archives, OfEqualCasesAreEqual)
 {
   archiveCase(m_library, "ear", m_file);
@@ -234,7 +280,7 @@ TEST_F(Archives, ADamagedObjectIsNotArchived)
   std::fstream(object, std::ios::in | std::ios::out | std::ios::binary).seekp(100).put('!');
   const auto [reason, text] = refusal([&] { archiveCase(m_library, "ear", m_file); });
   EXPECT_EQ(reason, Reason::Damaged);
-  EXPECT_NE(text.find("structures of case 'ear'"), text.npos) << text;
+  EXPECT_NE(text.find("structure 'nerve' of case 'ear'"), text.npos) << text;
   EXPECT_EQ(bytesOf(m_file), "what was there before");
   std::size_t files = 0;
   for (const auto& entry : fs::directory_iterator(m_folder.path()))
@@ -300,6 +346,32 @@ TEST_F(Archives, OfAPlanBringNoVoxels)
   EXPECT_EQ(value.iso, 412.5);
   EXPECT_TRUE(value.labels.empty());
   EXPECT_EQ(value.meshes.size(), 1U);
+}
+
+TEST_F(Archives, OfAPlanLeaveOutWhatIsDrawnOnAMissingMr)
+{
+  scene::Case value = m_library.open("ear");
+  scene::ImagePart mr = test::smallCase("mr", 20).ct;
+  mr.name = "t2";
+  value.mr.push_back(mr);
+  scene::LabelPart drawn = test::smallCase("drawn").labels.front();
+  drawn.structures.front().name = "tumour";
+  drawn.drawnOn = "t2";
+  value.labels.push_back(std::move(drawn));
+  m_library.save(value);
+  archiveCase(m_library, "ear", m_file, {true});
+
+  Library other(m_folder.path() / "other");
+  scene::Case same = test::smallCase("same");
+  other.save(same); // whose map of labels is that of the tumour as well
+  const RestoreSummary restored = restoreCase(other, m_file, {"", "same"});
+  ASSERT_EQ(restored.notes.size(), 2U);
+  EXPECT_NE(restored.notes[0].find("MR 't2'"), std::string::npos) << restored.notes[0];
+  EXPECT_NE(restored.notes[1].find("'tumour'"), std::string::npos) << restored.notes[1];
+  const scene::Case there = other.open("ear");
+  EXPECT_TRUE(there.mr.empty());
+  ASSERT_EQ(there.labels.size(), 1U);
+  EXPECT_EQ(there.labels[0].structures[0].name, "nerve");
 }
 
 TEST_F(Archives, CutShortAnywhereAreRefused)
@@ -441,6 +513,37 @@ TEST_F(Archives, ThatAreHostileAreRefused)
   index([](auto& all) { all["objects"][0]["object"] = "../" + std::string(64, 'a') + ".nrrd"; });
   index([](auto& all) { all["case"] = "../../x"; });
   index([](auto& all) { all.erase("case"); });
+
+  // A case that lies where its MR says, and no other may be called as the CT is.
+  scene::Case value = m_library.open("ear");
+  scene::ImagePart mr = test::smallCase("mr", 20).ct;
+  for (const char* name : {"t1", "t2"})
+  {
+    mr.name = name;
+    value.mr.push_back(mr);
+  }
+  value.name = "mrs";
+  value.revision = 0;
+  m_library.save(value);
+  archiveCase(m_library, "mrs", m_file);
+  const TestZip mrs = unpacked();
+  for (const char* name : {"ct", "t1"})
+  {
+    TestZip zip = mrs;
+    std::string& manifest = find(zip, "case.json").bytes;
+    for (std::size_t at = manifest.find("\"t2\""); at != manifest.npos;
+         at = manifest.find("\"t2\""))
+      manifest.replace(at, 4, "\"" + std::string(name) + "\"");
+    std::string& text = find(zip, "petrous.json").bytes;
+    nlohmann::json all = nlohmann::json::parse(text);
+    all["manifest_sha256"] =
+        sha256Of(reinterpret_cast<const std::uint8_t*>(manifest.data()), manifest.size());
+    text = all.dump();
+    write(zip.bytes());
+    const std::string words = refused();
+    EXPECT_TRUE(contains(words, name == std::string("ct") ? "not a valid one" : "one name"))
+        << words;
+  }
 }
 
 TEST_F(Archives, OfAnotherFrameOfReferenceAreNotMistaken)
@@ -456,4 +559,13 @@ TEST_F(Archives, OfAnotherFrameOfReferenceAreNotMistaken)
       << "the salt of the other library is not known";
   restoreCase(m_library, m_file, {"copy", ""});
   EXPECT_EQ(m_library.open("copy").ct.frameOfReference, m_library.open("ear").ct.frameOfReference);
+}
+
+TEST_F(Archives, AreRestoredInAnEmptyFolder)
+{
+  archiveCase(m_library, "ear", m_file);
+  fs::create_directory(m_folder.path() / "empty"); // without a salt
+  Library other(m_folder.path() / "empty");
+  restoreCase(other, m_file);
+  EXPECT_TRUE(other.verify().damaged.empty());
 }

@@ -59,7 +59,10 @@ inline scene::Case smallCase(const std::string& name, int n = 24)
       std::shared_ptr<const volume::Volume<std::int16_t>>(std::move(ct)), -2000.0);
   value.ct.range = value.ct.volume.get()->range();
   scene::LabelPart part;
-  auto map = volume::makeLabelMap(std::move(labels), {});
+  volume::Segment nerve;
+  nerve.name = "nerve";
+  nerve.index = 3;
+  auto map = volume::makeLabelMap(std::move(labels), {nerve});
   part.structures.push_back({"nerve", 3, 6, map.volume(map.segments.front()), {}});
   part.labels = std::make_shared<const volume::LabelMap>(std::move(map));
   value.labels.push_back(std::move(part));

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
+#include <optional>
 #include <set>
 
 #include <nlohmann/json.hpp>
@@ -68,14 +69,17 @@ struct Archive
     try
     {
       scene::checkCaseName(index.name);
-      for (const std::string& part : scene::partNames(value))
-        if (part != "ct")
-          scene::checkPartName(part);
+      const std::vector<std::string> names = scene::partNames(value);
+      std::for_each(names.begin() + 1, names.end(), scene::checkPartName); // after the CT's own
     }
     catch (const core::InvalidParameter&)
     {
       throwUnsound(path, "it has a name that is not a valid one");
     }
+    std::set<std::string> images; // by which structures say where they lie
+    for (const scene::ImagePart& mr : value.mr)
+      if (!images.insert(mr.name).second)
+        throwUnsound(path, "it has two MRs of one name");
 
     std::set<std::string> listed{kIndexEntry, kManifestEntry};
     for (const ArchiveIndex::Object& one : index.objects)
@@ -257,8 +261,11 @@ std::size_t addObjects(const Archive& archive, ObjectStore& store, const core::P
   return added;
 }
 
-void refuseWithoutRoom(const fs::path& folder, std::uint64_t bytes)
+void refuseWithoutRoom(const fs::path& folder, const Archive& archive, const ObjectStore& present)
 {
+  std::uint64_t bytes = 0;
+  for (const auto& [object, one] : archive.objects)
+    bytes += present.contains(object) ? 0 : one->bytes;
   fs::path place = folder;
   std::error_code error;
   while (!fs::exists(place, error) && place.has_parent_path() && place != place.parent_path())
@@ -292,15 +299,29 @@ void checkImages(const scene::Case& value, const ObjectStore& store, const fs::p
     check(mr, "an MR");
 }
 
+constexpr const char* kLeftOut = ": left out, since a plan brings no voxels; add it to the case";
+
 /// Takes from the case of a plan what the library does not have; returns a note for each part.
 std::vector<std::string> leaveOutMissing(scene::Case& value, const ObjectStore& store)
 {
   std::vector<std::string> notes;
-  const auto missing = [&](const std::string& object, const std::string& what)
+  std::set<std::string> lost; // MRs
+  for (const auto& mr : value.mr)
+    if (!store.contains(mr.object))
+    {
+      lost.insert(mr.name);
+      notes.push_back("MR '" + mr.name + "'" + kLeftOut);
+    }
+  const auto missing = [&](const std::string& object, const std::optional<std::string>& drawnOn,
+                           const std::string& what)
   {
-    if (store.contains(object))
+    if (!store.contains(object))
+      notes.push_back(what + kLeftOut);
+    else if (drawnOn && lost.count(*drawnOn) > 0)
+      notes.push_back(what + ": left out with MR '" + *drawnOn +
+                      "', on which it was drawn; add both to the case");
+    else
       return false;
-    notes.push_back(what + ": left out, since a plan brings no voxels; add it to the case");
     return true;
   };
   for (auto part = value.labels.begin(); part != value.labels.end();)
@@ -308,14 +329,13 @@ std::vector<std::string> leaveOutMissing(scene::Case& value, const ObjectStore& 
     std::string names;
     for (const auto& structure : part->structures)
       names += (names.empty() ? "'" : ", '") + structure.name + "'";
-    part = missing(part->object, "structures " + names) ? value.labels.erase(part) : part + 1;
+    part = missing(part->object, part->drawnOn, "structures " + names) ? value.labels.erase(part)
+                                                                       : part + 1;
   }
   for (auto mesh = value.meshes.begin(); mesh != value.meshes.end();)
-    mesh = missing(mesh->object, "mesh '" + mesh->name + "'") ? value.meshes.erase(mesh) : mesh + 1;
-  std::vector<std::string> lost;
-  for (const auto& mr : value.mr)
-    if (missing(mr.object, "MR '" + mr.name + "'"))
-      lost.push_back(mr.name);
+    mesh = missing(mesh->object, mesh->drawnOn, "mesh '" + mesh->name + "'")
+               ? value.meshes.erase(mesh)
+               : mesh + 1;
   for (const std::string& name : lost)
     scene::removePart(value, name);
   return notes;
@@ -413,7 +433,10 @@ RestoreSummary restoreCase(Library& library, const fs::path& file, const Restore
   else if (!options.ct.empty())
     throw core::InvalidParameter(core::printable(file) +
                                  ": has a CT of its own; --ct is for an archive of a plan");
-  refuseWithoutRoom(library.folder(), archive.bytes);
+  refuseWithoutRoom(library.folder(), archive, present);
+
+  const bool isFrameKnown =
+      fs::exists(library.folder()) && archive.index.library == saltedFrame(library, "archive");
 
   RestoreSummary summary;
   summary.parts = archive.objects.size();
@@ -422,7 +445,7 @@ RestoreSummary restoreCase(Library& library, const fs::path& file, const Restore
       value,
       [&](scene::Case& next, ObjectStore& store)
       {
-        if (archive.index.library != saltedFrame(library, "archive"))
+        if (!isFrameKnown)
           forgetFrames(next, summary.notes);
         if (archive.index.planOnly)
         {

@@ -1,9 +1,12 @@
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
+#include <optional>
 #include <set>
 
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "ArchiveIndex.h"
@@ -13,6 +16,7 @@
 #include "Sha256.h"
 #include "ZipEntries.h"
 #include "petrous/Core/NumberText.h"
+#include "petrous/Imaging/LabelFile.h"
 #include "petrous/Library/Archive.h"
 #include "petrous/Library/FrameSalt.h"
 #include "petrous/Library/ObjectStore.h"
@@ -162,6 +166,74 @@ std::string fileName(const std::string& name, const std::string& ending,
   return unique + ending;
 }
 
+/// A label map as the case shows it: with current names, and without the voxels of structures that
+/// were removed. nullopt where the stored object says just that.
+std::optional<volume::LabelMap> asShown(const scene::LabelPart& part)
+{
+  const std::shared_ptr<const volume::LabelMap> stored = part.labels.get();
+  std::vector<volume::Segment> segments;
+  std::set<std::uint16_t> kept;
+  bool changed = false;
+  for (const volume::Segment& segment : stored->segments)
+  {
+    const auto shown = std::find_if(part.structures.begin(), part.structures.end(),
+                                    [&segment](const scene::StructurePart& structure)
+                                    { return structure.index == segment.index; });
+    if (shown == part.structures.end())
+    {
+      changed = true;
+      continue;
+    }
+    changed = changed || shown->name != segment.name;
+    segments.push_back(segment);
+    segments.back().name = shown->name;
+    kept.insert(segment.index);
+  }
+  if (!changed)
+    return std::nullopt;
+  auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(*stored->voxels);
+  std::array<bool, 65536> stays{};
+  for (const std::uint16_t index : kept)
+    stays[index] = true;
+  std::transform(voxels->data(), voxels->data() + voxels->size(), voxels->data(),
+                 [&stays](std::uint16_t label) { return stays[label] ? label : std::uint16_t{0}; });
+  return volume::makeLabelMap(std::move(voxels), std::move(segments));
+}
+
+/// Objects that are made for an archive, beside it until it is written.
+class PassingObjects
+{
+public:
+  explicit PassingObjects(const fs::path& archive)
+    : m_folder(core::temporaryBeside(archive))
+  {
+  }
+  ~PassingObjects()
+  {
+    std::error_code ignored;
+    fs::remove_all(m_folder, ignored);
+  }
+  PassingObjects(const PassingObjects&) = delete;
+  PassingObjects& operator=(const PassingObjects&) = delete;
+
+  ObjectStore& store()
+  {
+    if (!m_store)
+    {
+      if (::mkdir(m_folder.c_str(), 0700) != 0)
+        core::throwOutputError(errno, m_folder);
+      m_store.emplace(m_folder);
+    }
+    return *m_store;
+  }
+
+  bool contains(const std::string& object) const { return m_store && m_store->contains(object); }
+
+private:
+  fs::path m_folder;
+  std::optional<ObjectStore> m_store;
+};
+
 std::string entryOf(const ObjectUse& use, bool isCt, std::set<std::string>& used)
 {
   switch (use.kind)
@@ -210,8 +282,19 @@ try
   };
   salt(value.ct);
   std::for_each(value.mr.begin(), value.mr.end(), salt);
+  PassingObjects passing(file);
+  if (!options.planOnly)
+    for (scene::LabelPart& part : value.labels)
+    {
+      progress.check("archiving");
+      if (const auto shown = asShown(part))
+        part.object = passing.store().add("seg.nrrd", [&shown](const fs::path& path)
+                                          { imaging::writeLabelFile(path, *shown); });
+    }
   const std::string manifest = scene::toManifest(value);
-  const ObjectStore store(library.folder() / "objects");
+  const ObjectStore kept(library.folder() / "objects");
+  const auto storeOf = [&](const std::string& object) -> const ObjectStore&
+  { return passing.contains(object) ? passing.store() : kept; };
 
   ArchiveSummary summary;
   summary.name = name;
@@ -229,7 +312,8 @@ try
   {
     if (options.planOnly && use.kind != ObjectUse::Kind::Stroke)
       continue;
-    const fs::path path = store.path(use.object, use.what + " of case '" + name + "'");
+    const fs::path path =
+        storeOf(use.object).path(use.object, use.what + " of case '" + name + "'");
     const std::uintmax_t bytes = core::InputFile(path).size();
     index.objects.push_back({use.object, entryOf(use, &use == &uses.front(), used), bytes,
                              use.kind == ObjectUse::Kind::Image});
@@ -249,7 +333,7 @@ try
     const std::string what = use.what + " of case '" + name + "'";
     if (use.kind == ObjectUse::Kind::Image)
       zip.add(index.objects[n].file, false,
-              [path = store.path(use.object, what), what, level = options.level]() -> Produce
+              [path = kept.path(use.object, what), what, level = options.level]() -> Produce
               {
                 auto image = std::make_shared<PackedImage>(path, what, level);
                 return [image](char* buffer, std::size_t room)
@@ -257,7 +341,7 @@ try
               });
     else
       zip.add(index.objects[n].file, use.kind == ObjectUse::Kind::Mesh,
-              [&store, object = use.object, what]
+              [&store = storeOf(use.object), object = use.object, what]
               { return fromMemory(store.readChecked(object, what)); });
   }
   summary.durable = zip.commit(progress);

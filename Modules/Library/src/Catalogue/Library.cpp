@@ -465,6 +465,11 @@ std::vector<std::string> Library::damageFound(const scene::Case& value) const
 
 std::string saltedFrame(const Library& library, const std::string& frameOfReference)
 {
+  std::error_code error;
+  if (fs::exists(library.folder() / "salt", error))
+    return withSalt(frameOfReference, library.folder());
+  makeFolder(library.folder());
+  const FolderLock lock(library.folder() / ".lock");
   return withSalt(frameOfReference, library.folder());
 }
 

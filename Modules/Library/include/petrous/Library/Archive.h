@@ -18,8 +18,8 @@ namespace petrous::library
 ///     labels/NAME.seg.nrrd, meshes/NAME.obj, strokes/NUMBER.stroke    objects as they are
 ///
 /// Other programs open the parts as they are unzipped. What is restored is the library's objects
-/// to the byte: their names are the SHA-256 of their content. Label maps keep the names that their
-/// files gave, and structures that were removed from a map of several.
+/// to the byte: their names are the SHA-256 of their content. Label maps are as the case shows
+/// them: one whose structures were renamed, or removed in part, is written anew for the archive.
 constexpr int kArchiveFormat = 1;
 constexpr const char* kArchiveEnding = ".petrous";
 

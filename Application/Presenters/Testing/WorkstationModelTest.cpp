@@ -949,6 +949,29 @@ TEST_F(WorkstationModelTest, ANewNameHoldsWhereverThePartIsNamed)
   EXPECT_EQ(namesIn(model.value()), (std::vector<std::string>{"ct", "T2 CISS", "a1", "a4", "a3"}));
 }
 
+TEST_F(WorkstationModelTest, AnMrThatComesBackColorsWhatItColored)
+{
+  library::Library library(folder);
+  scene::Case value = block("block");
+  value.labels.push_back(threeStructures(value.ct.geometry, "a", 30));
+  value.labels[0].structures[1].look.sourceImage = "T2";
+  scene::ImagePart mr = value.ct;
+  mr.name = "T2";
+  value.mr = {mr};
+  value.boneLook.sourceImage = "T2";
+  WorkstationModel model{library};
+  model.adopt(std::move(value));
+  model.prepareNow();
+  model.removePart("T2");
+  EXPECT_EQ(model.value().boneLook.sourceImage, "");
+  EXPECT_EQ(model.value().labels[0].structures[1].look.sourceImage, "");
+  model.renamePart("a2", "facial nerve");
+  model.restorePart();
+  EXPECT_EQ(model.value().boneLook.sourceImage, "T2");
+  EXPECT_EQ(model.value().labels[0].structures[1].look.sourceImage, "T2");
+  EXPECT_EQ(model.value().labels[0].structures[0].look.sourceImage, "");
+}
+
 TEST_F(WorkstationModelTest, WhatWasDrilledKeepsItsName)
 {
   library::Library library(folder);

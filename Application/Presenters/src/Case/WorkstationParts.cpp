@@ -121,6 +121,8 @@ void WorkstationModel::removePart(const std::string& name)
                   if (look.sourceImage == name)
                     removed.colored.push_back(part);
                 });
+    if (next.boneLook.sourceImage == name)
+      removed.colored.emplace_back("ct"); // which no other part can be called
   }
   for (std::size_t n = 0; n < next.labels.size(); ++n)
     if (const std::size_t at = indexOf(next.labels[n].structures, name);
@@ -185,6 +187,8 @@ void WorkstationModel::restorePart()
                   if (std::count(removed.colored.begin(), removed.colored.end(), part) > 0)
                     look.sourceImage = removed.name;
                 });
+    if (std::count(removed.colored.begin(), removed.colored.end(), "ct") > 0)
+      m_case->boneLook.sourceImage = removed.name;
   }
   if (removed.labels)
   {
@@ -271,6 +275,8 @@ void WorkstationModel::renamePart(const std::string& name, const std::string& to
       rename(structure.name);
   for (scene::MeshPart& mesh : m_case->meshes)
     rename(mesh.name);
+  for (RemovedPart& removed : m_removed)
+    std::for_each(removed.colored.begin(), removed.colored.end(), rename);
   if (m_assembly.thicknessOver() == name)
     m_assembly.showThickness({});
   partsMoved();

@@ -288,7 +288,9 @@ Shares sharesOf(const Placed& placed, const core::GridGeometry& grid,
   if (shares.box.empty())
     return shares;
   shares.values.assign(shares.box.count(), 0);
-  const auto [normal, first, second] = placed.axes;
+  const std::size_t normal = placed.axes.normal;
+  const std::size_t first = placed.axes.first;
+  const std::size_t second = placed.axes.second;
   const core::IndexBox& box = shares.box;
   const int width = box.size()[first];
   const auto height = static_cast<std::size_t>(box.size()[second]);

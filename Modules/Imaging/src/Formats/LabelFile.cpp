@@ -267,6 +267,13 @@ volume::LabelMap readLabelFile(const std::filesystem::path& path, const core::Pr
   return std::move(readLayers(path, true, progress, {}).maps.front());
 }
 
+std::vector<volume::Segment> readSegments(const std::filesystem::path& path)
+{
+  const VoxelSource source(path);
+  return hasSegments(source) ? segmentsOfLayer(path, *source.nrrd(), 0)
+                             : std::vector<volume::Segment>();
+}
+
 void writeLabelFile(const std::filesystem::path& path, const volume::LabelMap& labels)
 {
   if (!labels.voxels)

@@ -167,37 +167,39 @@ std::string fileName(const std::string& name, const std::string& ending,
 }
 
 /// A label map as the case shows it: with current names, and without the voxels of structures that
-/// were removed. nullopt where the stored object says just that.
-std::optional<volume::LabelMap> asShown(const scene::LabelPart& part)
+/// were removed. nullopt where the object says just that. `object`: its file.
+std::optional<volume::LabelMap> asShown(const scene::LabelPart& part, const fs::path& object)
 {
-  const std::shared_ptr<const volume::LabelMap> stored = part.labels.get();
-  std::vector<volume::Segment> segments;
-  std::set<std::uint16_t> kept;
-  bool changed = false;
-  for (const volume::Segment& segment : stored->segments)
+  const auto shown = [&part](const volume::Segment& segment)
   {
-    const auto shown = std::find_if(part.structures.begin(), part.structures.end(),
-                                    [&segment](const scene::StructurePart& structure)
-                                    { return structure.index == segment.index; });
-    if (shown == part.structures.end())
-    {
-      changed = true;
-      continue;
-    }
-    changed = changed || shown->name != segment.name;
-    segments.push_back(segment);
-    segments.back().name = shown->name;
-    kept.insert(segment.index);
-  }
-  if (!changed)
+    return std::find_if(part.structures.begin(), part.structures.end(),
+                        [&segment](const scene::StructurePart& structure)
+                        { return structure.index == segment.index; });
+  };
+  const auto isShown = [&](const volume::Segment& segment)
+  {
+    const auto structure = shown(segment);
+    return structure != part.structures.end() && structure->name == segment.name;
+  };
+  const auto segments = imaging::readSegments(object);
+  if (segments.size() == part.structures.size() &&
+      std::all_of(segments.begin(), segments.end(), isShown))
     return std::nullopt;
-  auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(*stored->voxels);
+
+  const std::shared_ptr<const volume::LabelMap> stored = part.labels.get();
+  std::vector<volume::Segment> kept;
   std::array<bool, 65536> stays{};
-  for (const std::uint16_t index : kept)
-    stays[index] = true;
+  for (const volume::Segment& segment : stored->segments)
+    if (const auto structure = shown(segment); structure != part.structures.end())
+    {
+      kept.push_back(segment);
+      kept.back().name = structure->name;
+      stays[segment.index] = true;
+    }
+  auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(*stored->voxels);
   std::transform(voxels->data(), voxels->data() + voxels->size(), voxels->data(),
                  [&stays](std::uint16_t label) { return stays[label] ? label : std::uint16_t{0}; });
-  return volume::makeLabelMap(std::move(voxels), std::move(segments));
+  return volume::makeLabelMap(std::move(voxels), std::move(kept));
 }
 
 /// Objects that are made for an archive, beside it until it is written.
@@ -282,17 +284,18 @@ try
   };
   salt(value.ct);
   std::for_each(value.mr.begin(), value.mr.end(), salt);
+  const ObjectStore kept(library.folder() / "objects");
   PassingObjects passing(file);
   if (!options.planOnly)
     for (scene::LabelPart& part : value.labels)
     {
       progress.check("archiving");
-      if (const auto shown = asShown(part))
+      if (const auto shown =
+              asShown(part, kept.path(part.object, "a label map of case '" + name + "'")))
         part.object = passing.store().add("seg.nrrd", [&shown](const fs::path& path)
                                           { imaging::writeLabelFile(path, *shown); });
     }
   const std::string manifest = scene::toManifest(value);
-  const ObjectStore kept(library.folder() / "objects");
   const auto storeOf = [&](const std::string& object) -> const ObjectStore&
   { return passing.contains(object) ? passing.store() : kept; };
 

@@ -80,6 +80,10 @@ LoadedLabels loadLabels(const std::filesystem::path& path, const core::Progress&
 volume::LabelMap readLabelFile(const std::filesystem::path& path,
                                const core::Progress& progress = {});
 
+/// The structures of a .seg.nrrd (its first layer) by its header alone: the number of their voxels
+/// is not known, 0. None for other files. Throws FileError.
+std::vector<volume::Segment> readSegments(const std::filesystem::path& path);
+
 /// Writes .nii, .nii.gz, .nrrd or .seg.nrrd (3D Slicer segmentation with names and colours); uint8
 /// if every index is at most 255, else uint16; .nrrd and .seg.nrrd are gzip-compressed. The file is
 /// written atomically, and equal maps give equal bytes. Throws FileError; InvalidParameter if the

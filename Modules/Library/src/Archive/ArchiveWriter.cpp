@@ -168,7 +168,8 @@ std::string fileName(const std::string& name, const std::string& ending,
 
 /// A label map as the case shows it: with current names, and without the voxels of structures that
 /// were removed. nullopt where the object says just that. `object`: its file.
-std::optional<volume::LabelMap> asShown(const scene::LabelPart& part, const fs::path& object)
+std::optional<volume::LabelMap> asShown(const scene::LabelPart& part, const fs::path& object,
+                                        const std::string& what)
 {
   const auto shown = [&part](const volume::Segment& segment)
   {
@@ -181,7 +182,16 @@ std::optional<volume::LabelMap> asShown(const scene::LabelPart& part, const fs::
     const auto structure = shown(segment);
     return structure != part.structures.end() && structure->name == segment.name;
   };
-  const auto segments = imaging::readSegments(object);
+  std::vector<volume::Segment> segments;
+  try
+  {
+    segments = imaging::readSegments(object);
+  }
+  catch (const imaging::FileError&)
+  {
+    checkObject(object, what); // throws, naming what to do
+    throw;
+  }
   if (segments.size() == part.structures.size() &&
       std::all_of(segments.begin(), segments.end(), isShown))
     return std::nullopt;
@@ -290,8 +300,8 @@ try
     for (scene::LabelPart& part : value.labels)
     {
       progress.check("archiving");
-      if (const auto shown =
-              asShown(part, kept.path(part.object, "a label map of case '" + name + "'")))
+      const std::string what = "structures of case '" + name + "'";
+      if (const auto shown = asShown(part, kept.path(part.object, what), what))
         part.object = passing.store().add("seg.nrrd", [&shown](const fs::path& path)
                                           { imaging::writeLabelFile(path, *shown); });
     }

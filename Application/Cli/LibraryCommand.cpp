@@ -62,13 +62,18 @@ void verify(const Context& context, const library::Library& library)
 void collect(const Context& context, library::Library& library)
 {
   const library::Collected removed = library.collectGarbage();
+  if (removed.cases > 0)
+    context.print(std::to_string(removed.cases) +
+                  (removed.cases == 1 ? " deleted case" : " deleted cases") + " removed for good");
   context.print(std::to_string(removed.objects) + " unreferenced objects removed, " +
                 std::to_string(removed.bytes) + " bytes");
   library::DerivedCache derived(library::derivedFolder(library.folder()));
   const std::uintmax_t freed = derived.prune(0);
   context.print("derived data removed: " + fixed(1e-6 * static_cast<double>(freed), 1) + " MB");
-  context.printJson(
-      {{"removed", removed.objects}, {"bytes", removed.bytes}, {"derived_bytes", freed}});
+  context.printJson({{"cases", removed.cases},
+                     {"removed", removed.objects},
+                     {"bytes", removed.bytes},
+                     {"derived_bytes", freed}});
 }
 
 void repair(const Context& context, library::Library& library)
@@ -132,13 +137,34 @@ void run(const Context& context, const Options& options)
     names(1, "delete NAME");
     library.remove(options.names[0]);
     context.print("case '" + options.names[0] +
-                  "' is deleted; 'petrous library gc' frees what no other case needs");
+                  "' is deleted; 'petrous library undelete' brings it back, until 'petrous library "
+                  "gc' frees what no other case needs");
     context.printJson({{"case", options.names[0]}, {"deleted", true}});
+  }
+  else if (action == "undelete")
+  {
+    names(1, "undelete NAME");
+    library.undelete(options.names[0]);
+    context.print("case '" + options.names[0] + "' is back");
+    context.printJson({{"case", options.names[0]}, {"deleted", false}});
+  }
+  else if (action == "deleted")
+  {
+    names(0, "deleted");
+    nlohmann::json cases = nlohmann::json::array();
+    for (const auto& one : library.deleted())
+    {
+      cases.push_back({{"name", one.name}, {"deleted", one.deleted}});
+      context.print(one.name + "  deleted " + one.deleted);
+    }
+    if (cases.empty())
+      context.print("no deleted case in " + library.folder().string() + " can be brought back");
+    context.printJson({{"library", library.folder().string()}, {"cases", std::move(cases)}});
   }
   else
     throw UsageError("library: '" + action +
                      "' is unknown; there are list, search TEXT, verify, gc, repair, rename A B, "
-                     "copy A B and delete NAME");
+                     "copy A B, delete NAME, deleted and undelete NAME");
 }
 
 } // namespace
@@ -151,7 +177,8 @@ void addLibraryCommand(CLI::App& app, Context& context)
                          [options, &context] { run(context, *options); });
   command
       ->add_option("ACTION", options->action,
-                   "list, search TEXT, verify, gc, repair, rename A B, copy A B, delete NAME")
+                   "list, search TEXT, verify, gc, repair, rename A B, copy A B, delete NAME, "
+                   "deleted, undelete NAME")
       ->required();
   command->add_option("NAMES", options->names, "Arguments of the action");
 }

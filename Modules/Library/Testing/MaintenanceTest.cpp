@@ -205,7 +205,84 @@ TEST_F(Maintenance, DeletionTakesJournalsAlong)
   journal.leave();
   std::ofstream(m_folder.path() / "cases/a.journal.aside-1") << "x";
   m_library.remove("a");
+  EXPECT_NO_THROW(make("a")) << "no journal is in its way";
+  EXPECT_EQ(m_library.open("a").dissection.strokes().size(), 0u);
+  m_library.remove("a");
+  m_library.collectGarbage();
   EXPECT_TRUE(fs::is_empty(m_folder.path() / "cases"));
+}
+
+TEST_F(Maintenance, ADeletedCaseComesBackWithWhatWasNotSaved)
+{
+  scene::Case value = make("a");
+  Journal journal(m_library, value);
+  drill(value, {8, 8, 8});
+  journal.follow(value.dissection);
+  journal.leave();
+  std::ofstream(m_folder.path() / "cases/a.journal.aside-1") << "x";
+  const auto before = contentOf(m_folder.path());
+  m_library.remove("a");
+  EXPECT_TRUE(m_library.list().empty());
+  EXPECT_TRUE(m_library.search("a").empty());
+  EXPECT_EQ(refusal([&] { m_library.open("a"); }).first, LibraryError::Reason::NotFound);
+  EXPECT_TRUE(m_library.verify().damaged.empty());
+  const auto deleted = m_library.deleted();
+  ASSERT_EQ(deleted.size(), 1u);
+  EXPECT_EQ(deleted[0].name, "a");
+  EXPECT_EQ(deleted[0].deleted.size(), 20u) << deleted[0].deleted;
+
+  m_library.undelete("a");
+  EXPECT_EQ(contentOf(m_folder.path()), before);
+  EXPECT_TRUE(m_library.deleted().empty());
+  EXPECT_EQ(m_library.open("a").dissection.strokes().size(), 1u);
+  EXPECT_EQ(refusal([&] { m_library.undelete("a"); }).first, LibraryError::Reason::NotFound);
+}
+
+TEST_F(Maintenance, TheCaseOfANameThatWasDeletedLastComesBackFirst)
+{
+  for (const int n : {16, 20, 24})
+  {
+    make("ear.1", n);
+    m_library.remove("ear.1");
+  }
+  make("ear.1", 28);
+  EXPECT_EQ(refusal([&] { m_library.undelete("ear.1"); }).first, LibraryError::Reason::NameTaken);
+  m_library.rename("ear.1", "ear");
+  for (const int n : {24, 20, 16})
+  {
+    m_library.undelete("ear.1");
+    EXPECT_EQ(m_library.open("ear.1").ct.geometry.dims()[0], n);
+    m_library.rename("ear.1", "ear " + std::to_string(n));
+  }
+  EXPECT_EQ(m_library.list().size(), 4u);
+  EXPECT_EQ(m_library.collectGarbage().objects, 0u);
+  EXPECT_TRUE(m_library.verify().damaged.empty());
+}
+
+TEST_F(Maintenance, WhatIsCollectedCannotComeBack)
+{
+  make("a");
+  const auto objects = ObjectStore(m_folder.path() / "objects").list();
+  m_library.remove("a");
+  EXPECT_EQ(ObjectStore(m_folder.path() / "objects").list(), objects);
+  const Collected removed = m_library.collectGarbage();
+  EXPECT_EQ(removed.cases, 1u);
+  EXPECT_EQ(removed.objects, objects.size());
+  EXPECT_EQ(refusal([&] { m_library.undelete("a"); }).first, LibraryError::Reason::NotFound);
+}
+
+// Killed between the two renames of a deletion: the journal is still in its place.
+TEST_F(Maintenance, AJournalThatADeletionLeftBehindBelongsToTheCaseThatComesBack)
+{
+  scene::Case value = make("a");
+  Journal journal(m_library, value);
+  drill(value, {8, 8, 8});
+  journal.follow(value.dissection);
+  journal.leave();
+  m_library.remove("a");
+  fs::rename(m_folder.path() / "cases/a.journal.deleted-1", m_folder.path() / "cases/a.journal");
+  m_library.undelete("a");
+  EXPECT_EQ(m_library.open("a").dissection.strokes().size(), 1u);
 }
 
 TEST_F(Maintenance, OneFlippedBitOfAnyObjectIsFound)
@@ -364,6 +441,25 @@ TEST_F(Maintenance, SearchesCaseAndPartNames)
   EXPECT_EQ(m_library.search("EAR").size(), 1u);
   EXPECT_EQ(m_library.search("incus").size(), 2u);
   EXPECT_TRUE(m_library.search("cochlea").empty());
+  EXPECT_EQ(m_library.search("incus ear").size(), 1u) << "both words";
+  make("\u00dcbung \u00d7 2");
+  EXPECT_EQ(m_library.search("\u00fcBUNG").size(), 1u);
+  EXPECT_EQ(m_library.search("\u00d7").size(), 1u);
+  // The index of an older or newer program is made anew.
+  for (const char* version : {"0", "99"})
+  {
+    sqlite3* database = nullptr;
+    ASSERT_EQ(sqlite3_open((m_folder.path() / "library.sqlite").c_str(), &database), SQLITE_OK);
+    const std::string change = "DROP TABLE cases; CREATE TABLE cases (name TEXT PRIMARY KEY); "
+                               "INSERT INTO cases VALUES ('x'); PRAGMA user_version = " +
+                               std::string(version);
+    ASSERT_EQ(sqlite3_exec(database, change.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
+    sqlite3_close(database);
+    EXPECT_EQ(m_library.search("incus").size(), 3u);
+    make("more " + std::string(version));
+    m_library.remove("more " + std::string(version));
+    EXPECT_EQ(m_library.search("incus").size(), 3u);
+  }
 }
 
 TEST_F(Maintenance, RepairBringsStrokesBackAndMakesTheIndexAgain)

@@ -11,6 +11,7 @@ namespace
 
 constexpr int kWriterWaits = 2000; // ms
 constexpr int kReaderWaits = 500;  // ms; the manifests are read instead
+constexpr int kVersion = 2;        // of the table: 2 has the text for searches
 
 // Rollback journal instead of WAL: WAL can be read from a read-only medium only with `immutable`,
 // which is wrong while others write, and leaves files behind even if only read.
@@ -20,10 +21,18 @@ SQLite::Database openForWriting(const std::filesystem::path& file)
                             kWriterWaits);
   database.exec("PRAGMA journal_mode=DELETE");
   database.exec("PRAGMA synchronous=NORMAL");
-  database.exec("CREATE TABLE IF NOT EXISTS cases ("
-                "name TEXT PRIMARY KEY, size INTEGER, changed INTEGER, modified TEXT,"
-                "nx INTEGER, ny INTEGER, nz INTEGER, structures INTEGER, strokes INTEGER,"
-                "removed_mm3 REAL)");
+  // Of another version, older or newer: what it holds is in the manifests.
+  if (database.execAndGet("PRAGMA user_version").getInt() != kVersion)
+  {
+    SQLite::Transaction change(database);
+    database.exec("DROP TABLE IF EXISTS cases");
+    database.exec("CREATE TABLE cases ("
+                  "name TEXT PRIMARY KEY, size INTEGER, changed INTEGER, modified TEXT,"
+                  "nx INTEGER, ny INTEGER, nz INTEGER, structures INTEGER, strokes INTEGER,"
+                  "removed_mm3 REAL, text TEXT)");
+    database.exec("PRAGMA user_version = " + std::to_string(kVersion));
+    change.commit();
+  }
   return database;
 }
 
@@ -71,8 +80,10 @@ try
   if (!isRegular(m_file))
     return entries;
   SQLite::Database database(m_file.string(), SQLite::OPEN_READONLY, kReaderWaits);
+  if (database.execAndGet("PRAGMA user_version").getInt() != kVersion)
+    return entries;
   SQLite::Statement query(database, "SELECT name, size, changed, modified, nx, ny, nz, structures, "
-                                    "strokes, removed_mm3 FROM cases");
+                                    "strokes, removed_mm3, text FROM cases");
   while (query.executeStep())
   {
     Entry entry;
@@ -86,6 +97,7 @@ try
     summary.structures = static_cast<std::size_t>(query.getColumn(7).getInt64());
     summary.strokes = static_cast<std::size_t>(query.getColumn(8).getInt64());
     summary.removed = query.getColumn(9).getDouble();
+    entry.text = query.getColumn(10).getString();
     entries[summary.name] = std::move(entry);
   }
   return entries;
@@ -95,23 +107,25 @@ catch (const std::exception&)
   return {};
 }
 
-void Catalogue::put(const CaseSummary& summary, const Stamp& stamp) noexcept
+void Catalogue::put(const Entry& entry) noexcept
 try
 {
   write(m_file,
         [&](SQLite::Database& database)
         {
           SQLite::Statement insert(
-              database, "INSERT OR REPLACE INTO cases VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+              database, "INSERT OR REPLACE INTO cases VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+          const CaseSummary& summary = entry.summary;
           insert.bind(1, summary.name);
-          insert.bind(2, static_cast<std::int64_t>(stamp.size));
-          insert.bind(3, stamp.changed);
+          insert.bind(2, static_cast<std::int64_t>(entry.stamp.size));
+          insert.bind(3, entry.stamp.changed);
           insert.bind(4, summary.modified);
           for (int a = 0; a < 3; ++a)
             insert.bind(5 + a, summary.dims[static_cast<std::size_t>(a)]);
           insert.bind(8, static_cast<std::int64_t>(summary.structures));
           insert.bind(9, static_cast<std::int64_t>(summary.strokes));
           insert.bind(10, summary.removed);
+          insert.bind(11, entry.text);
           insert.exec();
         });
 }

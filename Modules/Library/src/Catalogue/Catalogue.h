@@ -29,11 +29,13 @@ public:
   {
     CaseSummary summary;
     Stamp stamp;
+    std::string
+        text; ///< for searches: the names of the case and its parts, a line each, lower case
   };
 
   /// Keyed by name; one consistent read that locks out writers. Creates no files.
   std::map<std::string, Entry> entries() const noexcept;
-  void put(const CaseSummary& summary, const Stamp& stamp) noexcept;
+  void put(const Entry& entry) noexcept;
   void remove(const std::string& name) noexcept;
 
 private:

@@ -4,8 +4,10 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
+#include <iterator>
 #include <optional>
 #include <random>
+#include <sstream>
 
 #include <sys/stat.h>
 
@@ -180,6 +182,40 @@ std::shared_ptr<const volume::LabelMap> unpackedLabels(const ObjectStore& store,
   return labels;
 }
 
+std::vector<Catalogue::Entry> entriesIn(const fs::path& folder)
+{
+  std::vector<Catalogue::Entry> cases;
+  auto known = Catalogue(folder / "library.sqlite").entries();
+  for (const std::string& name : namesIn(folder / "cases"))
+  {
+    const fs::path path = folder / "cases" / (name + ".json");
+    const auto state = stateOf(path);
+    if (!state)
+      continue; // removed in the meantime
+    const auto entry = known.find(name);
+    if (entry != known.end() && entry->second.stamp.size == state->stamp.size &&
+        entry->second.stamp.changed == state->stamp.changed)
+    {
+      cases.push_back(std::move(entry->second));
+      continue;
+    }
+    try
+    {
+      cases.push_back(entryOf(manifestIn(path, name), *state));
+    }
+    catch (const core::Error&)
+    {
+      Catalogue::Entry damaged;
+      damaged.summary.name = name;
+      damaged.summary.modified = state->modified;
+      damaged.summary.damaged = true;
+      damaged.text = lowerCase(name);
+      cases.push_back(std::move(damaged));
+    }
+  }
+  return cases;
+}
+
 template <class Read>
 auto structure(const Read& read)
 {
@@ -233,33 +269,22 @@ scene::Case Library::readManifest(const std::string& name) const
 std::vector<CaseSummary> Library::list() const
 {
   std::vector<CaseSummary> cases;
-  const auto known = Catalogue(m_folder / "library.sqlite").entries();
-  for (const std::string& name : namesIn(m_folder / "cases"))
-  {
-    const auto state = stateOf(manifestPath(name));
-    if (!state)
-      continue; // removed in the meantime
-    const auto entry = known.find(name);
-    if (entry != known.end() && entry->second.stamp.size == state->stamp.size &&
-        entry->second.stamp.changed == state->stamp.changed)
-    {
-      cases.push_back(entry->second.summary);
-      continue;
-    }
-    try
-    {
-      cases.push_back(summaryOf(readManifest(name), state->modified));
-    }
-    catch (const core::Error&)
-    {
-      CaseSummary damaged;
-      damaged.name = name;
-      damaged.modified = state->modified;
-      damaged.damaged = true;
-      cases.push_back(std::move(damaged));
-    }
-  }
+  for (Catalogue::Entry& entry : entriesIn(m_folder))
+    cases.push_back(std::move(entry.summary));
   return cases;
+}
+
+std::vector<CaseSummary> Library::search(const std::string& text) const
+{
+  std::istringstream stream(lowerCase(text));
+  const std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
+  std::vector<CaseSummary> found;
+  for (Catalogue::Entry& entry : entriesIn(m_folder))
+    if (std::all_of(words.begin(), words.end(),
+                    [&entry](const std::string& word)
+                    { return entry.text.find(word) != entry.text.npos; }))
+      found.push_back(std::move(entry.summary));
+  return found;
 }
 
 bool Library::contains(const std::string& name) const
@@ -553,7 +578,7 @@ void Library::saveWith(scene::Case& value,
                     std::to_string(value.meshes.size()) + " meshes" +
                     (onDisk ? "" : "; the disk reported an error"));
     if (const auto state = stateOf(path))
-      Catalogue(m_folder / "library.sqlite").put(summaryOf(value, state->modified), state->stamp);
+      Catalogue(m_folder / "library.sqlite").put(entryOf(value, *state));
   }
   catch (const std::exception& error) // the case is saved, whatever is said of it
   {

@@ -24,16 +24,9 @@ namespace
 
 constexpr const char* kIndex = "library.sqlite";
 
-std::string lower(std::string text)
-{
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z')
-      c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
-// The journals of a case, including those set aside.
-std::vector<fs::path> journalsOf(const fs::path& library, const std::string& name)
+// The journals of a case, including those set aside. `ending`: of a deleted case's (deletedEnding).
+std::vector<fs::path> journalsOf(const fs::path& library, const std::string& name,
+                                 const std::string& ending = {})
 {
   const fs::path journal = journalPath(library, name);
   std::vector<fs::path> journals;
@@ -41,7 +34,11 @@ std::vector<fs::path> journalsOf(const fs::path& library, const std::string& nam
   for (fs::directory_iterator entry(journal.parent_path(), error), end; !error && entry != end;
        entry.increment(error))
   {
-    const std::string file = entry->path().filename().string();
+    std::string file = entry->path().filename().string();
+    const std::string last = entry->path().extension().string();
+    if (ending.empty() ? last.rfind(kDeletedEnding, 0) == 0 : last != ending)
+      continue;
+    file.resize(file.size() - ending.size());
     const std::string own = journal.filename().string();
     if (file == own || file == own + ".new" || file.rfind(own + ".aside-", 0) == 0)
       journals.push_back(entry->path());
@@ -134,7 +131,7 @@ void Library::rename(const std::string& from, const std::string& to)
   try
   {
     if (const auto state = stateOf(manifestPath(to)); state && !damaged)
-      index.put(summaryOf(readManifest(to), state->modified), state->stamp);
+      index.put(entryOf(readManifest(to), *state));
   }
   catch (const core::Error&)
   {
@@ -150,15 +147,82 @@ void Library::remove(const std::string& name)
   const fs::path path = checkedManifestPath(name);
   const FolderLock lock(m_folder / ".lock");
   refuseWhereDrilled(name);
-  // The journals first: one left behind would be taken for that of the next case of this name.
-  for (const fs::path& journal : journalsOf(m_folder, name))
-    removeFile(journal);
   std::error_code error;
   if (fs::is_directory(fs::symlink_status(path, error)))
     throw LibraryError(Reason::Damaged, core::printable(path) + ": is a folder; remove it by hand");
-  removeFile(path);
-  core::syncFolder(m_folder / "cases");
+  const std::vector<DeletedFile> earlier = deletedIn(m_folder / "cases");
+  const std::string ending = deletedEnding(earlier.empty() ? 1 : earlier.front().number + 1);
+  // The manifest first: a kill then leaves journals that are set aside when the name is used again,
+  // or are still in place when the case is brought back.
+  bool onDisk = moveFile(path, m_folder / "cases" / (name + ending));
+  for (const fs::path& journal : journalsOf(m_folder, name))
+    try
+    {
+      onDisk = moveFile(journal, journal.string() + ending) && onDisk;
+    }
+    catch (const LibraryError&)
+    {
+      onDisk = false;
+    }
   Catalogue(m_folder / kIndex).remove(name);
+  if (!onDisk && m_notice)
+    m_notice("case '" + name + "' is deleted, but the disk reported an error; check the disk");
+}
+
+std::vector<DeletedCase> Library::deleted() const
+{
+  std::vector<DeletedCase> cases;
+  for (const DeletedFile& file : deletedIn(m_folder / "cases"))
+    if (const auto state = stateOf(file.manifest))
+      cases.push_back({file.name, state->renamed});
+  return cases;
+}
+
+void Library::undelete(const std::string& name)
+{
+  scene::checkCaseName(name);
+  if (!fs::is_directory(m_folder / "cases"))
+    throw LibraryError(Reason::NotFound, "no case '" + name + "' was deleted here");
+  const FolderLock lock(m_folder / ".lock");
+  const std::vector<DeletedFile> files = deletedIn(m_folder / "cases");
+  const auto file = std::find_if(files.begin(), files.end(),
+                                 [&name](const DeletedFile& one) { return one.name == name; });
+  if (file == files.end())
+  {
+    std::string there;
+    for (const DeletedFile& one : files)
+      there += (there.empty() ? "; there are: " : ", ") + one.name;
+    throw LibraryError(Reason::NotFound, "no deleted case '" + name + "' in " +
+                                             core::printable(m_folder) + " can be brought back" +
+                                             there);
+  }
+  if (contains(name))
+    throw LibraryError(Reason::NameTaken, "case '" + name + "' is there already in " +
+                                              m_folder.string() +
+                                              "; rename that one, then bring the other back");
+  const std::string ending = deletedEnding(file->number);
+  refuseWhereDrilled(name);
+  for (const fs::path& journal : journalsOf(m_folder, name, ending))
+  {
+    const std::string text = journal.string();
+    const fs::path back = text.substr(0, text.size() - ending.size());
+    if (back == journalPath(m_folder, name))
+      setOrphanAside(m_folder, name);
+    if (!fs::exists(fs::symlink_status(back)))
+      moveFile(journal, back);
+  }
+  const bool onDisk = moveFile(file->manifest, manifestPath(name));
+  try
+  {
+    if (const auto state = stateOf(manifestPath(name)))
+      Catalogue(m_folder / kIndex).put(entryOf(readManifest(name), *state));
+  }
+  catch (const core::Error&)
+  {
+    // Without an entry the manifest is read, and says what is wrong.
+  }
+  if (!onDisk && m_notice)
+    m_notice("case '" + name + "' is back, but the disk reported an error; check the disk");
 }
 
 void Library::copy(const std::string& from, const std::string& to, const core::Progress& progress)
@@ -168,32 +232,6 @@ void Library::copy(const std::string& from, const std::string& to, const core::P
   value.name = to;
   value.revision = 0;
   save(value, progress);
-}
-
-std::vector<CaseSummary> Library::search(const std::string& text) const
-{
-  const std::string wanted = lower(text);
-  const auto matches = [&wanted](const std::string& name)
-  { return lower(name).find(wanted) != std::string::npos; };
-  std::vector<CaseSummary> found;
-  for (CaseSummary& summary : list())
-  {
-    bool hit = matches(summary.name);
-    if (!hit && !summary.damaged)
-    {
-      const scene::Case value = readManifest(summary.name);
-      for (const auto& mr : value.mr)
-        hit = hit || matches(mr.name);
-      for (const auto& part : value.labels)
-        for (const auto& structure : part.structures)
-          hit = hit || matches(structure.name);
-      for (const auto& mesh : value.meshes)
-        hit = hit || matches(mesh.name);
-    }
-    if (hit)
-      found.push_back(std::move(summary));
-  }
-  return found;
 }
 
 Inspection Library::verify(const core::Progress& progress) const
@@ -252,7 +290,8 @@ Inspection Library::verify(const core::Progress& progress) const
 Collected Library::collectGarbage()
 {
   Collected result;
-  if (namesIn(m_folder / "cases").empty() && ObjectStore(objectFolder()).list().empty())
+  if (namesIn(m_folder / "cases").empty() && deletedIn(m_folder / "cases").empty() &&
+      ObjectStore(objectFolder()).list().empty())
     return result;
   const FolderLock lock(m_folder / ".lock");
   std::set<std::string> used;
@@ -269,6 +308,14 @@ Collected Library::collectGarbage()
                              "' needs is not known, so nothing was removed: delete the case first, "
                              "or restore its manifest");
     }
+  for (const DeletedFile& file : deletedIn(m_folder / "cases"))
+  {
+    removeFile(file.manifest);
+    for (const fs::path& journal : journalsOf(m_folder, file.name, deletedEnding(file.number)))
+      removeFile(journal);
+    ++result.cases;
+  }
+  core::syncFolder(m_folder / "cases");
   removeLeftovers(objectFolder());
   removeLeftovers(m_folder / "cases");
   ObjectStore store(objectFolder());
@@ -310,7 +357,7 @@ std::vector<std::string> Library::repair()
     try
     {
       if (const auto state = stateOf(manifestPath(name)))
-        index.put(summaryOf(readManifest(name), state->modified), state->stamp);
+        index.put(entryOf(readManifest(name), *state));
     }
     catch (const core::Error&)
     {

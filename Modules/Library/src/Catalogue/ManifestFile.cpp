@@ -82,32 +82,86 @@ std::vector<std::string> namesIn(const fs::path& folder)
   return names;
 }
 
+std::string deletedEnding(std::uint64_t number)
+{
+  return kDeletedEnding + std::to_string(number);
+}
+
+std::vector<DeletedFile> deletedIn(const fs::path& folder)
+{
+  std::vector<DeletedFile> found;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+  {
+    constexpr std::string_view kEnding = kDeletedEnding;
+    constexpr std::size_t kMostDigits = 18;
+    const std::string ending = entry->path().extension().string();
+    const std::string digits = ending.substr(std::min(kEnding.size(), ending.size()));
+    if (ending.rfind(kEnding, 0) != 0 || digits.empty() || digits.size() > kMostDigits ||
+        digits.find_first_not_of("0123456789") != digits.npos)
+      continue;
+    const std::string name = entry->path().stem().string();
+    if (fs::path(name).extension() != ".journal" && name.find(".journal.aside-") == name.npos)
+      found.push_back({name, std::stoull(digits), entry->path()});
+  }
+  std::sort(found.begin(), found.end(),
+            [](const DeletedFile& a, const DeletedFile& b) { return a.number > b.number; });
+  return found;
+}
+
+std::string lowerCase(std::string text)
+{
+  bool isLatin = false; // the second byte of U+00C0 to U+00FF
+  for (char& c : text)
+  {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c >= 'A' && c <= 'Z')
+      c = static_cast<char>(c - 'A' + 'a');
+    else if (isLatin && byte >= 0x80 && byte <= 0x9e && byte != 0x97) // not the sign of times
+      c = static_cast<char>(byte + 0x20);
+    isLatin = byte == 0xc3;
+  }
+  return text;
+}
+
 std::optional<FileState> stateOf(const fs::path& path)
 {
   struct stat info = {};
   if (::stat(path.c_str(), &info) != 0 && ::lstat(path.c_str(), &info) != 0)
     return std::nullopt;
-  std::tm utc{};
-  ::gmtime_r(&info.st_mtim.tv_sec, &utc);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  const auto text = [](std::time_t time)
+  {
+    std::tm utc{};
+    ::gmtime_r(&time, &utc);
+    char words[32];
+    std::strftime(words, sizeof words, "%Y-%m-%dT%H:%M:%SZ", &utc);
+    return std::string(words);
+  };
   return FileState{
       {static_cast<std::uintmax_t>(info.st_size),
        static_cast<std::int64_t>(info.st_mtim.tv_sec) * 1000000000 + info.st_mtim.tv_nsec},
-      text};
+      text(info.st_mtim.tv_sec),
+      text(info.st_ctim.tv_sec)};
 }
 
-CaseSummary summaryOf(const scene::Case& value, const std::string& modified)
+Catalogue::Entry entryOf(const scene::Case& value, const FileState& state)
 {
-  CaseSummary summary;
-  summary.name = value.name;
-  summary.modified = modified;
-  summary.dims = value.ct.geometry.dims();
+  Catalogue::Entry entry;
+  entry.stamp = state.stamp;
+  entry.summary.name = value.name;
+  entry.summary.modified = state.modified;
+  entry.summary.dims = value.ct.geometry.dims();
   for (const auto& part : value.labels)
-    summary.structures += part.structures.size();
-  summary.strokes = value.applied();
-  summary.removed = value.removedVolume();
-  return summary;
+    entry.summary.structures += part.structures.size();
+  entry.summary.strokes = value.applied();
+  entry.summary.removed = value.removedVolume();
+  entry.text = value.name;
+  const std::vector<std::string> names = scene::partNames(value);
+  for (auto name = names.begin() + 1; name != names.end(); ++name) // after the CT's
+    entry.text += "\n" + *name;
+  entry.text = lowerCase(std::move(entry.text));
+  return entry;
 }
 
 void setOrphanAside(const fs::path& library, const std::string& name)

@@ -40,14 +40,34 @@ std::vector<ObjectUse> objectsOf(const scene::Case& value);
 /// LibraryError (Damaged) if it cannot be read.
 std::vector<std::string> namesIn(const std::filesystem::path& folder);
 
+/// A deleted case: its files stay in the folder, with ".deleted-NUMBER" after their names (instead
+/// of the manifest's ".json").
+struct DeletedFile
+{
+  std::string name;         ///< of the case
+  std::uint64_t number = 0; ///< ascending in the order of deletion
+  std::filesystem::path manifest;
+};
+
+/// The manifests of deleted cases in the folder, the newest first.
+std::vector<DeletedFile> deletedIn(const std::filesystem::path& folder);
+
+/// What the names of files of a deleted case end in.
+constexpr const char* kDeletedEnding = ".deleted-";
+std::string deletedEnding(std::uint64_t number);
+
 struct FileState
 {
   Catalogue::Stamp stamp;
   std::string modified; ///< UTC, ISO 8601
+  std::string renamed;  ///< the same, of the last change of the file's name, content or rights
 };
 std::optional<FileState> stateOf(const std::filesystem::path& path);
 
-CaseSummary summaryOf(const scene::Case& value, const std::string& modified);
+/// Lower case of ASCII and of the accented letters of Latin-1, in UTF-8.
+std::string lowerCase(std::string text);
+
+Catalogue::Entry entryOf(const scene::Case& value, const FileState& state);
 
 /// Sets aside a journal without a case, which must not be taken for that of a new case of this
 /// name. Throws LibraryError, Conflict if another process is still writing it.

@@ -45,9 +45,17 @@ struct Inspection
   std::vector<Damage> damaged;
 };
 
+/// A case that was deleted and can be brought back.
+struct DeletedCase
+{
+  std::string name;
+  std::string deleted; ///< when; UTC, ISO 8601
+};
+
 /// What Library::collectGarbage removed.
 struct Collected
 {
+  std::size_t cases = 0; ///< deleted ones, which could have been brought back
   std::size_t objects = 0;
   std::uintmax_t bytes = 0;
 };
@@ -74,7 +82,8 @@ public:
   void onNotice(std::function<void(const std::string&)> notice) { m_notice = std::move(notice); }
 
   std::vector<CaseSummary> list() const; ///< sorted by name
-  /// Cases whose name, or the name of a part, contains the text; ASCII case-insensitive.
+  /// Cases that contain each word of the text in their name or the name of a part;
+  /// case-insensitive.
   std::vector<CaseSummary> search(const std::string& text) const;
   bool contains(const std::string& name) const; ///< including damaged ones
 
@@ -124,18 +133,26 @@ public:
   /// Throws LibraryError (Conflict) if another process is drilling in the case.
   void refuseWhereDrilled(const std::string& name) const;
 
-  /// Both also accept a damaged case. `rename` recovers unsaved drilling first, `remove` deletes
-  /// it. Throw LibraryError: NotFound; NameTaken; Conflict while another process is drilling in the
-  /// case, or for a rename if recovery failed.
+  /// Both also accept a damaged case. `rename` recovers unsaved drilling first, `remove` takes it
+  /// along. Throw LibraryError: NotFound; NameTaken; Conflict while another process is drilling in
+  /// the case, or for a rename if recovery failed.
   void rename(const std::string& from, const std::string& to);
   void remove(const std::string& name);
+
+  /// Until collectGarbage a deleted case stays in the library, with what was drilled and not saved.
+  std::vector<DeletedCase> deleted() const; ///< newest first
+  /// Brings back the case of this name that was deleted last. Throws LibraryError: NotFound,
+  /// NameTaken.
+  void undelete(const std::string& name);
+
   /// The copy shares the objects. Throws like `open` and `save`.
   void copy(const std::string& from, const std::string& to, const core::Progress& progress = {});
 
   /// Reads and verifies everything. Throws LibraryError if the library cannot be read at all.
   Inspection verify(const core::Progress& progress = {}) const;
 
-  /// Removes objects that no manifest references, and leftovers of killed writers. Throws
+  /// Removes deleted cases, objects that no manifest references, and leftovers of killed writers.
+  /// Throws
   /// LibraryError (Damaged) without removing anything if a manifest cannot be read, since its
   /// references are unknown.
   Collected collectGarbage();

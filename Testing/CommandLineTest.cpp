@@ -857,7 +857,15 @@ TEST_F(CommandLine, CasesAreRenamedCopiedAndDeleted)
   EXPECT_EQ(json("library gc")["removed"], 0);
   for (const std::string name : {"by hand", "left ear", "right ear"})
     json("library delete '" + name + "'");
-  EXPECT_GT(json("library gc")["removed"], 0);
+  EXPECT_EQ(json("library deleted")["cases"][0]["name"], "right ear");
+  json("library undelete 'right ear'");
+  EXPECT_EQ(json("info 'right ear'")["case"], "right ear");
+  expectRefused("library undelete 'right ear'", 3, "no deleted case");
+  json("library delete 'right ear'");
+  const auto collected = json("library gc");
+  EXPECT_EQ(collected["cases"], 3);
+  EXPECT_GT(collected["removed"], 0);
+  EXPECT_TRUE(json("library deleted")["cases"].empty());
   EXPECT_TRUE(json("library verify")["damaged"].empty());
   EXPECT_TRUE(json("library list")["cases"].empty());
   EXPECT_TRUE(std::filesystem::is_empty(library() / "objects"));

@@ -844,7 +844,14 @@ void CaseDocumentController::chooseCase()
         [&released](const std::string& name, const std::string& to)
         { released(name, to, [&](library::Library& library) { library.rename(name, to); }); },
         [&released](const std::string& name)
-        { released(name, {}, [&](library::Library& library) { library.remove(name); }); }};
+        { released(name, {}, [&](library::Library& library) { library.remove(name); }); },
+        [&released](const std::string& name, const std::string& to)
+        { released(name, name, [&](library::Library& library) { library.copy(name, to); }); },
+        [this](const std::string& name)
+        {
+          library::Library library = m_model.library();
+          library.undelete(name);
+        }};
     OpenCaseDialog dialog(m_model.library(), changes, &m_window);
     dialog.setObjectName("openCase");
     if (dialog.exec() == QDialog::Accepted)

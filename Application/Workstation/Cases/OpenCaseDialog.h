@@ -6,13 +6,16 @@
 
 #include "petrous/Library/Library.h"
 
+class QLineEdit;
+class QMenu;
 class QPushButton;
 class QTreeWidget;
 
 namespace petrous::workstation
 {
 
-/// Lists the library's cases to open, rename (F2) and delete (Del).
+/// Lists the library's cases to search (Ctrl+F), open, rename (F2), copy (Ctrl+C) and delete (Del);
+/// deleted ones can be brought back.
 class OpenCaseDialog : public QDialog
 {
   Q_OBJECT
@@ -22,6 +25,8 @@ public:
   {
     std::function<void(const std::string& name, const std::string& to)> rename;
     std::function<void(const std::string& name)> remove;
+    std::function<void(const std::string& name, const std::string& to)> copy;
+    std::function<void(const std::string& name)> undelete;
   };
   OpenCaseDialog(const library::Library& library, Changes changes, QWidget* parent = nullptr);
 
@@ -32,11 +37,16 @@ private:
   std::string current() const; ///< damaged or not
   void rename();
   void remove();
+  void copy();
+  void listDeleted();
   void attempt(const std::function<void()>& change);
 
   const library::Library& m_library;
   Changes m_changes;
+  QLineEdit* m_search;
   QTreeWidget* m_list;
+  QMenu* m_deleted;
+  QPushButton* m_undelete = nullptr;
 };
 
 } // namespace petrous::workstation

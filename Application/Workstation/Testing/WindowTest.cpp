@@ -8,6 +8,8 @@
 #include <QDockWidget>
 #include <QHeaderView>
 #include <QInputDialog>
+#include <QLineEdit>
+#include <QMenu>
 #include <QMenuBar>
 #include <QPushButton>
 #include <QScrollBar>
@@ -447,4 +449,33 @@ TEST_F(Window, CasesAreRenamedAndDeletedWhereTheyAreChosen)
   remove("third", "Delete");
   EXPECT_FALSE(library().contains("third"));
   EXPECT_FALSE(window().model().hasCase());
+
+  // Brought back with its stroke, found by a search, and opened.
+  QTimer::singleShot(0, &window(),
+                     [=]
+                     {
+                       inList(
+                           [&](QDialog& dialog, QTreeWidget& cases)
+                           {
+                             EXPECT_EQ(cases.topLevelItemCount(), 0);
+                             auto* deleted = dialog.findChild<QMenu*>("deletedCases");
+                             ASSERT_EQ(deleted->actions().size(), 2);
+                             EXPECT_TRUE(deleted->actions()[0]->text().startsWith("third, "));
+                             deleted->actions()[1]->trigger();
+                             deleted->actions()[0]->trigger();
+                             EXPECT_FALSE(
+                                 dialog.findChild<QPushButton*>("undeleteCase")->isEnabled());
+                             ASSERT_EQ(cases.topLevelItemCount(), 2);
+                             dialog.findChild<QLineEdit*>("searchCases")->setText("HIRD");
+                             ASSERT_EQ(cases.topLevelItemCount(), 1);
+                             EXPECT_EQ(cases.currentItem()->text(0), "third");
+                             dialog.accept();
+                           });
+                     });
+  action("Open case…")->trigger();
+  ASSERT_TRUE(settled());
+  ASSERT_TRUE(window().model().hasCase());
+  EXPECT_EQ(window().model().value().name, "third");
+  EXPECT_EQ(window().model().value().dissection.strokes().size(), 1u);
+  EXPECT_TRUE(library().contains("second"));
 }

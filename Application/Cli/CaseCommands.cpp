@@ -122,7 +122,11 @@ void printStructures(const Context& context, const std::vector<presenters::Struc
                             {"layer", one.layer}};
     if (one.fileVolume)
       entry["volume_file_mm3"] = *one.fileVolume;
+    if (!one.why.empty())
+      entry["why"] = one.why;
     list.push_back(std::move(entry));
+    if (one.status == Status::Unread)
+      context.warn("'" + one.name + "' was not read" + (one.why.empty() ? "" : ": " + one.why));
     // Thin structures lose or gain by voxels: said where it is more than a hundredth.
     constexpr double kNoted = 0.01;
     if (one.fileVolume && std::abs(one.volume - *one.fileVolume) > kNoted * *one.fileVolume)

@@ -22,6 +22,7 @@
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/VolumeFile.h"
+#include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/MrOnCt.h"
 #include "petrous/Rendering/SurfaceExtraction.h"
 #include "petrous/Scene/CaseField.h"
@@ -294,6 +295,7 @@ class CaseIdentifiers
 {
 public:
   explicit CaseIdentifiers(const scene::Case& value)
+    : m_value(value)
   {
     const std::string& id = value.id.empty() ? value.name : value.id;
     m_case.add(id.data(), id.size());
@@ -304,8 +306,7 @@ public:
   // `drawnOn`: the MR whose space it is; empty: the CT's.
   std::string frameOfReference(const std::string& drawnOn) const
   {
-    return imaging::deterministicUid(m_case.value(),
-                                     drawnOn.empty() ? "frame CT" : "frame MR " + drawnOn);
+    return presenters::exportedFrame(m_value, drawnOn);
   }
 
   template <class Voxels>
@@ -331,6 +332,7 @@ public:
   }
 
 private:
+  const scene::Case& m_value;
   core::Fingerprint m_case;
 };
 

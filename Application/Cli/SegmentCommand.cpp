@@ -161,16 +161,18 @@ std::optional<appearance::StructureAppearance> takeOut(scene::Case& value,
 {
   const bool isMesh = scene::findMesh(value, options.name) != nullptr;
   if (isMesh || scene::findMr(value, options.name))
-    throw core::InvalidParameter(std::string(isMesh ? "a mesh" : "an MR") + " of case '" +
-                                 value.name + "' is called '" + options.name +
-                                 "'; give the structure another name (--replace replaces "
-                                 "structures only)");
+    throw core::Error(core::Fault::Refused,
+                      std::string(isMesh ? "a mesh" : "an MR") + " of case '" + value.name +
+                          "' is called '" + options.name +
+                          "'; give the structure another name (--replace replaces "
+                          "structures only)");
   const scene::StructurePart* there = scene::findStructure(value, options.name);
   if (!there)
     return std::nullopt;
   if (!options.replace)
-    throw core::InvalidParameter("structure '" + options.name + "' is in case '" + value.name +
-                                 "' already; give another name, or --replace");
+    throw core::Error(core::Fault::Refused, "structure '" + options.name + "' is in case '" +
+                                                value.name +
+                                                "' already; give another name, or --replace");
   const appearance::StructureAppearance look = there->look;
   scene::removePart(value, options.name);
   return look;

@@ -244,7 +244,15 @@ TEST_F(CaseBuilder, RefusesAStructureTwiceAndLeavesTheCase)
   presenters::PartSources more;
   more.labels = {{"second", m_folder / "facial_nerve.nii.gz"},
                  {"", m_folder / "facial_nerve.nii.gz"}};
-  EXPECT_THROW(presenters::addParts(value, more, {}), core::InvalidParameter);
+  try
+  {
+    presenters::addParts(value, more, {});
+    ADD_FAILURE() << "took a name twice";
+  }
+  catch (const core::Error& error)
+  {
+    EXPECT_EQ(error.fault(), core::Fault::Refused) << error.what();
+  }
   EXPECT_EQ(value.labels.size(), 1u);
 }
 
@@ -421,6 +429,79 @@ TEST_F(CaseBuilder, SaysWhatOfLabelsIsEmptyOrOutsideTheCt)
             value.labels[1].notes);
   m_sources.parts.labels = {{"", m_folder / "none.seg.nrrd"}};
   EXPECT_THROW(presenters::buildCase("ear", m_sources, {}), core::InvalidParameter);
+}
+
+TEST_F(CaseBuilder, KnowsTheFrameOfReferenceOfWhatItsCaseExports)
+{
+  const core::GridGeometry grid({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3));
+  auto value = presenters::buildCase("ear", m_sources, {});
+  value.ct.frameOfReference = std::string(64, 'a'); // of a DICOM series
+  value.id = "0123456789abcdef";
+  value.mr.push_back(value.ct);
+  value.mr.back().name = "T2";
+  const auto write = [&](const char* name, const std::string& frame)
+  {
+    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
+    voxels->at(1, 1, 1) = 1;
+    volume::Segment incus;
+    incus.name = name;
+    incus.index = 1;
+    imaging::SegmentationDescription segmentation;
+    segmentation.studyUid = "1.2.3";
+    segmentation.seriesUid = "1.2.3.4";
+    segmentation.frameOfReferenceUid = frame;
+    imaging::SegmentationDescription::Segment segment;
+    segment.index = 1;
+    segment.label = name;
+    segmentation.segments = {segment};
+    imaging::writeDicomSegmentation(m_folder / name, {volume::makeLabelMap(voxels, {incus})},
+                                    segmentation);
+    presenters::PartSources parts;
+    parts.labels = {{"", m_folder / name}};
+    presenters::addParts(value, parts, {});
+    return value.labels.back().drawnOn;
+  };
+  EXPECT_EQ(write("incus", presenters::exportedFrame(value, "")), "");
+  EXPECT_EQ(write("stapes", presenters::exportedFrame(value, "T2")), "T2");
+  auto other = value;
+  other.id = "another case's";
+  EXPECT_THROW(write("malleus", presenters::exportedFrame(other, "")), core::InvalidParameter);
+}
+
+TEST_F(CaseBuilder, NamesTheMasksOfAFolderThatItLeavesOut)
+{
+  const core::GridGeometry grid({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3));
+  const std::filesystem::path masks = m_folder / "masks";
+  std::filesystem::create_directory(masks);
+  const auto write = [&](const std::string& name, bool isOne)
+  {
+    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
+    voxels->at(1, 1, 1) = 1;
+    voxels->at(2, 1, 1) = isOne ? 1 : 2;
+    imaging::writeLabelFile(masks / name, volume::makeLabelMap(voxels, {}));
+  };
+  write("cochlea.nii", true);
+  write("facial_nerve.nii", false);
+  write("Doe_John.nii", false);
+  m_sources.parts.labels = {{"", masks}};
+  std::vector<presenters::StructureReport> reports;
+  const auto value = presenters::buildCase("ear", m_sources, {}, &reports);
+  ASSERT_FALSE(value.labels[0].notes.empty());
+  EXPECT_NE(value.labels[0].notes[0].find("2 files of the folder"), std::string::npos);
+  EXPECT_NE(value.labels[0].notes[0].find("'facial_nerve'"), std::string::npos)
+      << value.labels[0].notes[0];
+  EXPECT_EQ(scene::toManifest(value).find("Doe"), std::string::npos);
+  const auto unread = [&reports](const std::string& name)
+  {
+    return std::any_of(reports.begin(), reports.end(),
+                       [&name](const auto& one)
+                       {
+                         return one.name == name && !one.why.empty() &&
+                                one.status == presenters::StructureReport::Status::Unread;
+                       });
+  };
+  EXPECT_TRUE(unread("facial_nerve"));
+  EXPECT_TRUE(unread("Doe_John")) << "told at once, and not stored";
 }
 
 TEST_F(CaseBuilder, RefusesAMeshWithAFarVertex)

@@ -342,6 +342,21 @@ TEST(DicomSegmentation, KeepsOverlappingSegmentsInLayers)
   expectRefused(refusalOf([&] { readLabelFile(path); }), Reason::Unsupported, "overlap");
 }
 
+TEST(DicomSegmentation, SegmentsOfOneNameAreNumbered)
+{
+  const TestFolder folder;
+  TestSegmentation file = twoSegments();
+  file.addSegment(9, "chorda");
+  file.frames.push_back({9, 4.0, most}); // in a layer of its own
+  const LoadedLabels loaded = loadLabels(putFile(folder / "a.dcm", file.bytes()));
+  ASSERT_EQ(loaded.maps.size(), 2u);
+  EXPECT_EQ(loaded.maps[1].segments[0].name, "chorda 2");
+  EXPECT_DOUBLE_EQ(loaded.fileVolumes.at("chorda"), 12 * 0.4);
+  EXPECT_DOUBLE_EQ(loaded.fileVolumes.at("chorda 2"), 12 * 0.4);
+  ASSERT_EQ(loaded.notes.size(), 1u);
+  EXPECT_NE(loaded.notes[0].find("'chorda 2'"), std::string::npos);
+}
+
 TEST(DicomSegmentation, TakesHalfOfTheLargestFraction)
 {
   const TestFolder folder;

@@ -231,6 +231,7 @@ LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
     }
   if (named && !naming.table.empty())
     loaded.notes.emplace_back(kTableUnused);
+  UniqueNames unique;
   for (std::size_t layer = 0; layer < source.components(); ++layer)
   {
     progress.report(0.7, "reading labels");
@@ -239,6 +240,8 @@ LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
                        { return toLabels<decltype(type)>(source, path, raw, layer); });
     auto names = named ? segmentsOfLayer(path, *source.nrrd(), layer)
                        : namesFromOutside(path, naming, *labels, loaded);
+    for (volume::Segment& segment : names)
+      segment.name = unique.take(segment.name, loaded.notes);
     loaded.maps.push_back(volume::makeLabelMap(labels, std::move(names)));
   }
   progress.report(1.0, "reading labels");

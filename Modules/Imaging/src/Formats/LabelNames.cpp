@@ -116,6 +116,17 @@ std::int64_t layerOf(const NrrdHeader& header, std::size_t segment)
 
 } // namespace
 
+std::string UniqueNames::take(const std::string& wanted, std::vector<std::string>& notes)
+{
+  std::string name = wanted;
+  for (int n = 2; !m_taken.insert(name).second; ++n)
+    name = wanted + " " + std::to_string(n);
+  if (name != wanted)
+    notes.push_back("several structures are called '" + wanted + "'; one of them was named '" +
+                    name + "'");
+  return name;
+}
+
 std::vector<std::string> segmentsWithoutLayer(const NrrdHeader& header, std::size_t layers)
 {
   std::vector<std::string> names;

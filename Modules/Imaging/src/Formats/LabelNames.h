@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,18 @@
 
 namespace petrous::imaging
 {
+
+/// Names of the structures of a file, each of which has its own: what is read of a structure is
+/// kept by its name.
+class UniqueNames
+{
+public:
+  /// `wanted`, or with a number if it is taken ("nerve 2"), which a note says.
+  std::string take(const std::string& wanted, std::vector<std::string>& notes);
+
+private:
+  std::set<std::string> m_taken;
+};
 
 /// The segments that a .seg.nrrd defines in one layer, as written by 3D Slicer (SegmentN_Name,
 /// _LabelValue, _Color, _Layer). Throws FileError for invalid label values and for two segments

@@ -17,6 +17,7 @@
 #include "DicomItem.h"
 #include "FileHelpers.h"
 #include "GridFromAffine.h"
+#include "LabelNames.h"
 #include "PixelCodec.h"
 #include "petrous/Imaging/DicomScan.h"
 
@@ -675,6 +676,7 @@ LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Pro
   const std::string characters = data.text(0x00080005);
   std::vector<std::vector<volume::Segment>> names(layers.voxels.size());
   std::vector<char> isKnown(65536, 0);
+  UniqueNames unique;
   for (const DicomItem& item : data.items(0x00620002))
   {
     const auto number = item.integer(0x00620004);
@@ -689,6 +691,7 @@ LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Pro
     segment.name = toUtf8(item.text(0x00620005), characters);
     if (segment.name.empty())
       segment.name = "label " + std::to_string(*number);
+    segment.name = unique.take(segment.name, loaded.notes);
     segment.color = colorFromCieLab(item.shorts(0x0062000d));
     loaded.meanings[segment.name] = meaningOf(item, characters);
     if (const auto pixels = layers.pixels.find(*number); pixels != layers.pixels.end())

@@ -19,12 +19,14 @@ struct UnreadStructure
   std::string name;
   std::uint16_t index = 0; ///< 0: not known
   bool isEmpty = true;     ///< it has no voxel; otherwise it could not be read
+  std::string why = {};    ///< it could not be read: "it ..", if known; names no file
 };
 
 struct LoadedLabels
 {
-  /// One map; for overlapping structures (.seg.nrrd, DICOM SEG, a folder) one per layer, and for a
-  /// folder with several grids at least one for each.
+  /// Structures have different names: of several with one name the later ones are numbered
+  /// ("nerve 2"), which a note says. One map; for overlapping structures (.seg.nrrd, DICOM SEG, a
+  /// folder) one per layer, and for a folder with several grids at least one for each.
   std::vector<volume::LabelMap> maps;
   std::vector<std::string> notes; ///< what was assumed or left out, one sentence each
   bool isNamedAfterFile = false;  ///< structures are named only by the names of their files
@@ -44,7 +46,8 @@ struct LoadedLabels
 /// Where the names of label values come from.
 struct LabelNaming
 {
-  std::filesystem::path table; ///< a table of names (README.md); empty: the one beside the file
+  std::filesystem::path
+      table; ///< a table of names (formats: README.md); empty: the one beside the file
   /// Whether `table` also names a file of a single structure, which otherwise its own name does.
   bool namesSingle = true;
 };
@@ -66,7 +69,8 @@ bool isDicomSegmentation(const std::filesystem::path& path);
 /// is noted if there is a table.
 ///
 /// In a folder each file with one nonzero value is a structure, named after the file and numbered
-/// from 1 in the order of names; other files are left out and told of. Structures on one grid share
+/// from 1 in the order of names; other files, and links to what lies outside the folder, are left
+/// out and told of. Structures on one grid share
 /// a map unless they overlap; different grids are kept apart. Files are read in parallel, one slice
 /// at a time.
 ///

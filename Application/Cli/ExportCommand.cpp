@@ -376,6 +376,39 @@ void writeSeries(const Options& options, const scene::Case& value,
   folder.commit();
 }
 
+// What the file said from which a structure was read, where it says more than its name does:
+// "Tissue" is what 3D Slicer gives to every segment.
+void describe(imaging::SegmentationDescription::Segment& segment, const volume::SegmentCodes& codes)
+{
+  using From = volume::SegmentCodes::Algorithm;
+  using To = imaging::SegmentationDescription::Algorithm;
+  const auto isGeneral = [](const volume::CodedConcept& code)
+  {
+    for (const char* general : {"123037004", "85756007", "T-D000A", "T-D0050"})
+      if (code.value == general)
+        return true;
+    return code.empty();
+  };
+  const auto isWhole = [](const volume::CodedConcept& code)
+  { return !code.value.empty() && !code.scheme.empty() && !code.meaning.empty(); };
+  if (isWhole(codes.type) && !(isGeneral(codes.type) && !isGeneral(segment.type)))
+  {
+    segment.type = codes.type;
+    if (isWhole(codes.category))
+      segment.category = codes.category;
+  }
+  if (isWhole(codes.typeModifier))
+    segment.typeModifier = codes.typeModifier;
+  if (isWhole(codes.region))
+    segment.region = codes.region;
+  if (isWhole(codes.regionModifier))
+    segment.regionModifier = codes.regionModifier;
+  segment.algorithm = codes.algorithm == From::Manual      ? To::Manual
+                      : codes.algorithm == From::Automatic ? To::Automatic
+                                                           : To::SemiAutomatic;
+  segment.algorithmName = codes.algorithmName.empty() ? "not recorded" : codes.algorithmName;
+}
+
 // The structures as a DICOM segmentation that belongs to the series of the CT, or of the MR, which
 // `export --what ct` or `mr` writes. Returns the number of segments.
 std::size_t writeSegmentation(const Options& options, const scene::Case& value,
@@ -401,9 +434,7 @@ std::size_t writeSegmentation(const Options& options, const scene::Case& value,
       segment.color = structure->look.color;
       segment.category = {code.category, "SCT", code.categoryMeaning};
       segment.type = {code.type, "SCT", code.typeMeaning};
-      // A case does not record how its structures were drawn.
-      segment.algorithm = Segmentation::Algorithm::SemiAutomatic;
-      segment.algorithmName = "not recorded";
+      describe(segment, structure->codes);
       segmentation.segments.push_back(std::move(segment));
     }
     maps.push_back(*labels.map);
@@ -430,7 +461,11 @@ std::size_t writeSegmentation(const Options& options, const scene::Case& value,
         {
           all.add(segment.label.c_str(), segment.label.size() + 1);
           all.add(segment.color.data(), sizeof segment.color);
-          all.add(segment.type.value.c_str(), segment.type.value.size() + 1);
+          for (const auto* concept : {&segment.type, &segment.typeModifier, &segment.region})
+            if (!concept->empty())
+              all.add(concept->value.c_str(), concept->value.size() + 1);
+          all.add(&segment.algorithm, sizeof segment.algorithm);
+          all.add(segment.algorithmName.c_str(), segment.algorithmName.size() + 1);
           all.add(&segment.map, sizeof segment.map);
           all.add(&segment.index, sizeof segment.index);
         }

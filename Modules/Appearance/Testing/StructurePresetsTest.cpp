@@ -265,6 +265,35 @@ TEST(StructurePresets, LeavesNeutralWhatItDoesNotKnow)
     EXPECT_EQ(presets.lookFor(name).preset, "other") << name;
 }
 
+TEST(StructurePresets, ACodeChoosesTheLookInAnyLanguage)
+{
+  const auto presets = StructurePresets::builtIn();
+  const auto preset = [&presets](const petrous::volume::SegmentCodes& codes)
+  {
+    const auto look = presets.lookForCodes(codes);
+    return look ? look->preset : std::string();
+  };
+  petrous::volume::SegmentCodes codes;
+  EXPECT_EQ(preset(codes), "");
+  codes.type = {"86117002", "SCT", "A. c. int."};
+  EXPECT_EQ(preset(codes), "artery");
+  codes.type = {"56052001", "SCT", "nerf"};
+  EXPECT_EQ(preset(codes), "nerve");
+  codes.type = {"56052001", "99LOCAL", "nerf"};
+  EXPECT_EQ(preset(codes), "") << "a number means something in its scheme only";
+  codes.type = {"T-A8150", "SRT", "Facial nerve"};
+  EXPECT_EQ(preset(codes), "nerve") << "by its meaning";
+  codes.type = {"85756007", "SCT", "Tissue"};
+  EXPECT_EQ(preset(codes), "") << "what 3D Slicer gives to all";
+  codes.region = {"86117002", "SCT", "Internal carotid artery"};
+  EXPECT_EQ(preset(codes), "artery");
+  codes.category = {"49755003", "SCT", "Morphologically Abnormal Structure"};
+  codes.type = {"4147007", "SCT", "Mass"};
+  EXPECT_EQ(preset(codes), "") << "a mass at an artery is none";
+  codes.type = {"0", "99", "Vestibular schwannoma"};
+  EXPECT_EQ(preset(codes), "tumour");
+}
+
 TEST(StructurePresets, TakesNoInitialOfAFileNameForAStructure)
 {
   const auto presets = StructurePresets::builtIn();

@@ -269,6 +269,28 @@ StructureAppearance StructurePresets::lookFor(const std::string& structureName) 
   return look ? *look : m_other;
 }
 
+std::optional<StructureAppearance>
+StructurePresets::lookForCodes(const volume::SegmentCodes& codes) const
+{
+  const auto ofConcept = [this](const volume::CodedConcept& concept) -> const StructureAppearance*
+  {
+    const auto known =
+        std::find_if(m_codes.begin(), m_codes.end(),
+                     [&concept](const Code& entry)
+                     { return concept.scheme == "SCT" && entry.code.type == concept.value; });
+    const StructureAppearance* look =
+        known == m_codes.end() ? nullptr : lookByWord(known->code.typeMeaning);
+    return look ? look : lookByWord(concept.meaning);
+  };
+  const bool isAbnormal = codes.category.value == "49755003" || codes.category.value == "M-01000";
+  const StructureAppearance* look = ofConcept(codes.type);
+  if (!look && !isAbnormal)
+    look = lookByWord(codes.region.meaning + " " + codes.type.meaning);
+  if (!look && !isAbnormal)
+    look = ofConcept(codes.region);
+  return look && look != &m_other ? std::optional(*look) : std::nullopt;
+}
+
 std::string StructurePresets::knownWords(const std::string& name) const
 {
   // A catalogue word may be a stem ("cerebell" of "cerebellum"), followed by one of these endings

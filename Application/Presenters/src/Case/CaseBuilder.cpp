@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -528,7 +529,11 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
       structure.voxels = segment.voxels;
       structure.volume = map.volume(segment);
       structure.look = presets.lookFor(structure.name);
+      if (const auto codes = loaded.codes.find(segment.name); codes != loaded.codes.end())
+        structure.codes = codes->second;
       if (isUnknown(structure.look))
+        structure.look = presets.lookForCodes(structure.codes).value_or(structure.look);
+      if (isUnknown(structure.look) && structure.codes.type.empty())
         if (const auto meaning = loaded.meanings.find(segment.name);
             meaning != loaded.meanings.end())
           structure.look = presets.lookFor(meaning->second);
@@ -685,6 +690,44 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
   return value;
 }
 
+std::optional<double> StructureReport::volumeError() const
+{
+  if (status != Status::Read || !fileVolume || *fileVolume <= 0.0)
+    return std::nullopt;
+  return volume / *fileVolume - 1.0;
+}
+
+const char* nameOf(StructureReport::Status status)
+{
+  return status == StructureReport::Status::Read    ? "read"
+         : status == StructureReport::Status::Empty ? "empty"
+                                                    : "unread";
+}
+
+StructureSummary summaryOf(const std::vector<StructureReport>& reports)
+{
+  StructureSummary summary;
+  double largest = -1.0;
+  for (const StructureReport& one : reports)
+  {
+    ++(one.status == StructureReport::Status::Read    ? summary.read
+       : one.status == StructureReport::Status::Empty ? summary.empty
+                                                      : summary.unread);
+    if (const auto error = one.volumeError(); error && std::abs(*error) > largest)
+    {
+      largest = std::abs(*error);
+      summary.worst = &one;
+    }
+  }
+  summary.text =
+      std::to_string(summary.read) + (summary.read == 1 ? " structure read" : " structures read");
+  if (summary.empty > 0)
+    summary.text += ", " + std::to_string(summary.empty) + " empty";
+  if (summary.unread > 0)
+    summary.text += ", " + std::to_string(summary.unread) + " not read";
+  return summary;
+}
+
 std::string exportedFrame(const scene::Case& value, const std::string& drawnOn)
 {
   core::Fingerprint all;
@@ -716,6 +759,8 @@ void addStructures(scene::Case& value, volume::LabelMap labels)
     structure.index = segment.index;
     structure.voxels = segment.voxels;
     structure.volume = labels.volume(segment);
+    structure.codes.algorithm = volume::SegmentCodes::Algorithm::SemiAutomatic;
+    structure.codes.algorithmName = "Petrous";
     structure.look = presets.lookFor(structure.name);
     if (isUnknown(structure.look))
       structure.look.color = appearance::distinctColor(colorsOf(value, part.structures));

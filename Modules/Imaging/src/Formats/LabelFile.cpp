@@ -241,7 +241,12 @@ LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
     auto names = named ? segmentsOfLayer(path, *source.nrrd(), layer)
                        : namesFromOutside(path, naming, *labels, loaded);
     for (volume::Segment& segment : names)
+    {
       segment.name = unique.take(segment.name, loaded.notes);
+      if (named)
+        if (auto codes = codesOfSegment(*source.nrrd(), layer, segment.index); !codes.empty())
+          loaded.codes[segment.name] = std::move(codes);
+    }
     loaded.maps.push_back(volume::makeLabelMap(labels, std::move(names)));
   }
   progress.report(1.0, "reading labels");

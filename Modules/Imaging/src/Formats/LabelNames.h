@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "petrous/Volume/LabelMap.h"
+#include "petrous/Volume/SegmentCodes.h"
 
 #include "LabelTable.h"
 #include "NrrdHeader.h"
@@ -31,6 +33,11 @@ private:
 /// with the same value.
 std::vector<volume::Segment> segmentsOfLayer(const std::filesystem::path& path,
                                              const NrrdHeader& header, std::size_t layer);
+
+/// The codes of the segment of a layer with this label value: 3D Slicer's TerminologyEntry, a tag
+/// of SegmentN_Tags.
+volume::SegmentCodes codesOfSegment(const NrrdHeader& header, std::size_t layer,
+                                    std::uint16_t index);
 
 /// Names of the segments that lie in none of the first `layers` layers.
 std::vector<std::string> segmentsWithoutLayer(const NrrdHeader& header, std::size_t layers);

@@ -487,6 +487,7 @@ StructureSet readStructureSet(const std::filesystem::path& path)
     roi.name = toUtf8(item.text(0x30060026), characters);
     if (roi.name.empty())
       roi.name = "label " + std::to_string(*number);
+    roi.codes.algorithm = algorithmFrom(item.text(0x30060036));
     const std::string frame = item.text(0x30060024);
     if (set.frameOfReferenceUid.empty())
       set.frameOfReferenceUid = frame;
@@ -503,6 +504,7 @@ StructureSet readStructureSet(const std::filesystem::path& path)
     {
       const DicomItem code = item.item(0x30060086); // RT ROI Identification Code
       StructureSet::Roi& roi = set.rois[places.at(*number)];
+      roi.codes.type = codedConcept(code, characters);
       roi.meaning = toUtf8(code.text(0x00080104), characters);
       if (roi.meaning.empty())
         roi.meaning = toUtf8(item.text(0x300600a4), characters);
@@ -569,6 +571,8 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
     volume::Segment segment{name, label, roi.color, 0};
     if (!roi.meaning.empty())
       loaded.meanings[name] = roi.meaning;
+    if (!roi.codes.empty())
+      loaded.codes[name] = roi.codes;
     others += roi.otherContours;
     std::size_t layer = 0;
     if (!roi.contours.empty())

@@ -73,7 +73,25 @@ struct StructureReport
   std::optional<double> fileVolume = std::nullopt; ///< mm^3, by the file's own contours or frames
   std::size_t layer = 0;                           ///< of its source's overlapping structures
   std::string why = {};                            ///< of Unread: "it holds ..", if known
+
+  /// How far the voxels' volume is from the file's, in parts of the file's (0.01: 1 % more);
+  /// nullopt if the file encloses none.
+  std::optional<double> volumeError() const;
 };
+
+/// "read", "empty" or "unread"
+const char* nameOf(StructureReport::Status status);
+
+/// Counts over the structures of files.
+struct StructureSummary
+{
+  std::size_t read = 0, empty = 0, unread = 0;
+  /// The structure whose voxels are farthest from the volume by the file, of those with one;
+  /// nullptr if there is none. Into the reports.
+  const StructureReport* worst = nullptr;
+  std::string text; ///< one line, e.g. "58 structures read, 1 empty, 1 not read"
+};
+StructureSummary summaryOf(const std::vector<StructureReport>& reports);
 
 struct CaseSources
 {

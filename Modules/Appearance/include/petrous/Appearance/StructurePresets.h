@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "petrous/Appearance/StructureAppearance.h"
+#include "petrous/Volume/SegmentCodes.h"
 
 namespace petrous::appearance
 {
@@ -31,6 +33,11 @@ public:
   /// The default appearance of a structure of this name, e.g. "facial_nerve", "N. facialis" or
   /// "Gesichtsnerv links" -> nerve; "other" if the catalogue does not know the name.
   StructureAppearance lookFor(const std::string& structureName) const;
+
+  /// The appearance by what a file says that a structure is: by the codes that the catalogue has,
+  /// else by the words of their meanings; nullopt if neither says more. Of what is abnormal, the
+  /// region does not count: a mass at an artery is none.
+  std::optional<StructureAppearance> lookForCodes(const volume::SegmentCodes& codes) const;
 
   /// The words of a name that denote structures, sides and parts, and short numbers, in order and
   /// in lower case: "Doe_John-FacialNerve_left" -> "facial nerve left". Empty if none of them

@@ -9,6 +9,7 @@
 #include "petrous/Core/Progress.h"
 #include "petrous/Imaging/FileError.h"
 #include "petrous/Volume/LabelMap.h"
+#include "petrous/Volume/SegmentCodes.h"
 
 namespace petrous::imaging
 {
@@ -33,6 +34,8 @@ struct LoadedLabels
   /// DICOM: what structures are, by the codes of the file; by name. An appearance may be chosen by
   /// it where the name says nothing.
   std::map<std::string, std::string> meanings = {};
+  /// The codes themselves, of DICOM and of 3D Slicer's .seg.nrrd, by name.
+  std::map<std::string, volume::SegmentCodes> codes = {};
   std::string frameOfReferenceUid = {}; ///< DICOM; identifies the patient's study: not to be shown
   std::vector<UnreadStructure> unread = {};
   /// mm^3 by the file itself, by name: what its frames, masks or contours enclose, counted or

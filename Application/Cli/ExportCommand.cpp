@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -607,7 +608,12 @@ void exportCase(const Context& context, const Options& options)
       const bool holdsLayers = imaging::formatOf(options.out)->ending == ".seg.nrrd";
       const auto layers = layersOf(context, placed, !holdsLayers);
       json["layers"] = layers.size();
-      imaging::writeLabelLayers(options.out, layers, progress.part(0.5, 1.0));
+      std::map<std::uint16_t, volume::SegmentCodes> codes; // numbered as by layersOf
+      std::uint16_t index = 0;
+      for (const PlacedLabels& labels : placed)
+        for (const auto* structure : labels.structures)
+          codes[++index] = structure->codes;
+      imaging::writeLabelLayers(options.out, layers, progress.part(0.5, 1.0), codes);
       if (const auto table = options.labelTable())
       {
         imaging::writeLabelTable(*table, layers.front().segments);

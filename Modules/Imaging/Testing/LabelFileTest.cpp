@@ -214,6 +214,10 @@ TEST(LabelFile, ReadsTheTerminologyOfSlicersSegments)
   EXPECT_EQ(codes.typeModifier, (volume::CodedConcept{"7771000", "SCT", "Left"}));
   EXPECT_EQ(codes.region, (volume::CodedConcept{"60911003", "SCT", "Temporal bone"}));
   EXPECT_TRUE(codes.regionModifier.empty());
+
+  writeLabelLayers(folder / "b.seg.nrrd", loaded.maps, {}, {{4, codes}});
+  const LoadedLabels back = loadLabels(folder / "b.seg.nrrd");
+  EXPECT_EQ(back.codes, loaded.codes) << "written and read again";
 }
 
 // By hand: voxel (2, 1, 1) lies at (1 + 1, 2 + 0.5, 3 + 1) in the file's own frame.

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -43,8 +44,9 @@ volume::SegmentCodes codesOfSegment(const NrrdHeader& header, std::size_t layer,
 std::vector<std::string> segmentsWithoutLayer(const NrrdHeader& header, std::size_t layers);
 
 /// The key/value lines that define the structures of a map, or of several that are layers of one
-/// file, as written by 3D Slicer.
-std::string segmentKeys(const std::vector<volume::LabelMap>& layers);
+/// file, as written by 3D Slicer. `codes`: by label value.
+std::string segmentKeys(const std::vector<volume::LabelMap>& layers,
+                        const std::map<std::uint16_t, volume::SegmentCodes>& codes = {});
 
 /// The table of names beside a label file: one of its base name (.ctbl, .txt, .label, .csv, .tsv,
 /// .json), or the only .ctbl in the folder if its name shares a word with the file's.

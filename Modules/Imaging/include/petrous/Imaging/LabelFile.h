@@ -96,9 +96,12 @@ void writeLabelFile(const std::filesystem::path& path, const volume::LabelMap& l
 /// Writes structures that overlap, each map a layer of one .seg.nrrd file (3D Slicer); a single map
 /// as writeLabelFile does. Layers are on one grid. Throws like it, FileError (UnknownFormat) for
 /// several layers in another format, CancelledError.
+///
+/// codes  by label value, which then differ between layers: written as 3D Slicer's TerminologyEntry
 void writeLabelLayers(const std::filesystem::path& path,
                       const std::vector<volume::LabelMap>& layers,
-                      const core::Progress& progress = {});
+                      const core::Progress& progress = {},
+                      const std::map<std::uint16_t, volume::SegmentCodes>& codes = {});
 
 /// Names and colours as an ITK-SNAP label description (.label), which loadLabels finds beside a
 /// file of the same base name. Throws core::OutputFileError.

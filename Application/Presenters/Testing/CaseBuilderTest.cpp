@@ -511,6 +511,23 @@ TEST_F(CaseBuilder, TakesCodesFromASegmentationAndLooksByThem)
   }
 }
 
+TEST_F(CaseBuilder, AReplacementIsTheSameStructureMadeOtherwise)
+{
+  scene::StructurePart before;
+  before.look.preset = "nerve";
+  before.codes.type = {"56052001", "SCT", "Facial nerve"};
+  before.codes.algorithm = volume::SegmentCodes::Algorithm::Automatic;
+  before.codes.algorithmName = "a network";
+  scene::StructurePart after;
+  after.codes.algorithm = volume::SegmentCodes::Algorithm::SemiAutomatic;
+  after.codes.algorithmName = "Petrous";
+  presenters::keepIdentity(after, before);
+  EXPECT_EQ(after.look.preset, "nerve");
+  EXPECT_EQ(after.codes.type, before.codes.type);
+  EXPECT_EQ(after.codes.algorithm, volume::SegmentCodes::Algorithm::SemiAutomatic);
+  EXPECT_EQ(after.codes.algorithmName, "Petrous");
+}
+
 TEST_F(CaseBuilder, ReportsEachOfSixtyStructures)
 {
   const core::GridGeometry grid({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3));

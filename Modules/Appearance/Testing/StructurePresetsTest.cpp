@@ -300,6 +300,8 @@ TEST(StructurePresets, TakesNoInitialOfAFileNameForAStructure)
   EXPECT_EQ(presets.knownWords("Doe_N_facial_nerve"), "facial nerve");
   EXPECT_EQ(presets.knownWords("Steigb\xc3\xbcgel_links"), "steigb\xc3\xbcgel links");
   EXPECT_EQ(presets.knownWords("Duran_cochlea"), "cochlea");
+  EXPECT_EQ(presets.knownWords("Linke_Dexter_Nervus_facialis_rechts"), "nervus facialis rechts");
+  EXPECT_EQ(presets.knownWords("Sinus_sigmoideus"), "sinus sigmoideus");
 }
 
 TEST(StructurePresets, AWholeWordIsNoBeginningOfAnother)

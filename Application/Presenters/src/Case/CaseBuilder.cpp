@@ -742,6 +742,15 @@ std::vector<std::array<float, 3>> structureColors(const scene::Case& value)
   return colorsOf(value);
 }
 
+void keepIdentity(scene::StructurePart& structure, const scene::StructurePart& replaced)
+{
+  structure.look = replaced.look;
+  volume::SegmentCodes codes = replaced.codes;
+  codes.algorithm = structure.codes.algorithm;
+  codes.algorithmName = structure.codes.algorithmName;
+  structure.codes = std::move(codes);
+}
+
 void addStructures(scene::Case& value, volume::LabelMap labels)
 {
   const auto presets = appearance::StructurePresets::builtIn();

@@ -132,6 +132,10 @@ std::string exportedFrame(const scene::Case& value, const std::string& drawnOn);
 /// structure without a voxel; the case is unchanged then.
 void addStructures(scene::Case& value, volume::LabelMap labels);
 
+/// What `structure` keeps of the one that it replaces: the look, and what it is; how it was made is
+/// its own.
+void keepIdentity(scene::StructurePart& structure, const scene::StructurePart& replaced);
+
 /// The colours of all structures and meshes, for one that is to differ (distinctColor).
 std::vector<std::array<float, 3>> structureColors(const scene::Case& value);
 

@@ -131,8 +131,9 @@ TEST(StructurePresets, KnowsNamesInEnglishGermanAndLatin)
         "superior_vena_cava", "Venen", "venous_sinuses", "pulmonary_vein", "IJV"}},
       {"artery",
        {"internal_carotid_artery_left", "Arteria carotis interna", "A. carotis interna re",
-        "Carotis", "ICA", "common_carotid_artery_right", "subclavian_artery_left", "carotid sinus",
-        "Halsschlagader links Schlagader", "aorta", "brachiocephalic_trunk",
+        "Carotis", "A. meningea media", "ICA", "common_carotid_artery_right",
+        "subclavian_artery_left", "carotid sinus", "Halsschlagader links Schlagader", "aorta",
+        "brachiocephalic_trunk",
         "Gef\xc3\xa4\xc3\x9f"
         "e",
         "arteries"}},

@@ -443,6 +443,10 @@ TEST_F(CommandLine, ExportsASegmentationThatBelongsToTheSeries)
   expectRefused("export ear --what mask --on-ct --out " + quoted(m_folder / "x.nrrd"), 2,
                 "--on-ct");
 
+  // It belongs to the case that wrote it, without @ct.
+  expectRefused("add ear --labels " + quoted(seg), 4, "in the case already");
+  EXPECT_EQ(json("add ear --labels back=" + quoted(seg))["labels"].size(), 2 * labels.size());
+
   if (!answerOf("/usr/bin/python3 -c 'import pydicom, numpy'").empty())
     GTEST_SKIP() << "pydicom is not there to count the voxels";
   std::ofstream(m_folder / "count.py") << R"(

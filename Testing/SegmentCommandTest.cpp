@@ -161,7 +161,7 @@ TEST_F(SegmentCommand, IsUndoneByRemovingAndReplacesOnlyWhenTold)
 {
   json("segment ear ball --threshold 200,650 --seed 22,22,13.35");
   json("appearance ear --set ball=nerve");
-  EXPECT_EQ(run("segment ear ball --threshold 200,400").code, 3);
+  EXPECT_EQ(run("segment ear ball --threshold 200,400").code, 4) << "the name is taken";
   json("segment ear ball --replace --threshold -100,525 --seed 8,17,13.35");
   EXPECT_EQ(json("info ear")["labels"].size(), 1U);
   const auto listed = json("appearance ear --list").dump();
@@ -184,7 +184,7 @@ TEST_F(SegmentCommand, TakesNoMeshAndNoMrForTheStructureOfItsName)
     for (const std::string more : {"", " --replace"})
     {
       const Outcome outcome = run("segment ear " + name + " --threshold -100,525" + more);
-      EXPECT_EQ(outcome.code, 3) << name << more;
+      EXPECT_EQ(outcome.code, 4) << name << more;
       EXPECT_NE(outcome.err.find("another name"), std::string::npos) << outcome.err;
     }
   EXPECT_EQ(json("info ear"), before);

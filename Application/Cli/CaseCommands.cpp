@@ -114,18 +114,20 @@ void printStructures(const Context& context, const std::vector<presenters::Struc
   for (const presenters::StructureReport& one : all)
   {
     nlohmann::json entry = {{"name", one.name},
-                            {"status", one.status == Status::Read    ? "read"
-                                       : one.status == Status::Empty ? "empty"
-                                                                     : "unread"},
+                            {"status", presenters::nameOf(one.status)},
                             {"voxels", one.voxels},
                             {"volume_mm3", one.volume},
                             {"layer", one.layer}};
     if (one.fileVolume)
       entry["volume_file_mm3"] = *one.fileVolume;
+    if (!one.why.empty())
+      entry["why"] = one.why;
     list.push_back(std::move(entry));
+    if (one.status == Status::Unread)
+      context.warn("'" + one.name + "' was not read" + (one.why.empty() ? "" : ": " + one.why));
     // Thin structures lose or gain by voxels: said where it is more than a hundredth.
     constexpr double kNoted = 0.01;
-    if (one.fileVolume && std::abs(one.volume - *one.fileVolume) > kNoted * *one.fileVolume)
+    if (const auto error = one.volumeError(); error && std::abs(*error) > kNoted)
       context.print("  '" + one.name + "': " + fixed(*one.fileVolume, 1) + " mm3 in the file, " +
                     fixed(one.volume, 1) + " mm3 of voxels");
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -22,6 +23,7 @@
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/VolumeFile.h"
+#include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/MrOnCt.h"
 #include "petrous/Rendering/SurfaceExtraction.h"
 #include "petrous/Scene/CaseField.h"
@@ -294,6 +296,7 @@ class CaseIdentifiers
 {
 public:
   explicit CaseIdentifiers(const scene::Case& value)
+    : m_value(value)
   {
     const std::string& id = value.id.empty() ? value.name : value.id;
     m_case.add(id.data(), id.size());
@@ -304,8 +307,7 @@ public:
   // `drawnOn`: the MR whose space it is; empty: the CT's.
   std::string frameOfReference(const std::string& drawnOn) const
   {
-    return imaging::deterministicUid(m_case.value(),
-                                     drawnOn.empty() ? "frame CT" : "frame MR " + drawnOn);
+    return presenters::exportedFrame(m_value, drawnOn);
   }
 
   template <class Voxels>
@@ -331,6 +333,7 @@ public:
   }
 
 private:
+  const scene::Case& m_value;
   core::Fingerprint m_case;
 };
 
@@ -374,6 +377,39 @@ void writeSeries(const Options& options, const scene::Case& value,
   folder.commit();
 }
 
+// What the file said from which a structure was read, where it says more than its name does:
+// "Tissue" is what 3D Slicer gives to every segment.
+void describe(imaging::SegmentationDescription::Segment& segment, const volume::SegmentCodes& codes)
+{
+  using From = volume::SegmentCodes::Algorithm;
+  using To = imaging::SegmentationDescription::Algorithm;
+  const auto isGeneral = [](const volume::CodedConcept& code)
+  {
+    for (const char* general : {"123037004", "85756007", "T-D000A", "T-D0050"})
+      if (code.value == general)
+        return true;
+    return code.empty();
+  };
+  const auto isWhole = [](const volume::CodedConcept& code)
+  { return !code.value.empty() && !code.scheme.empty() && !code.meaning.empty(); };
+  if (isWhole(codes.type) && !(isGeneral(codes.type) && !isGeneral(segment.type)))
+  {
+    segment.type = codes.type;
+    if (isWhole(codes.category))
+      segment.category = codes.category;
+  }
+  if (isWhole(codes.typeModifier))
+    segment.typeModifier = codes.typeModifier;
+  if (isWhole(codes.region))
+    segment.region = codes.region;
+  if (isWhole(codes.regionModifier))
+    segment.regionModifier = codes.regionModifier;
+  segment.algorithm = codes.algorithm == From::Manual      ? To::Manual
+                      : codes.algorithm == From::Automatic ? To::Automatic
+                                                           : To::SemiAutomatic;
+  segment.algorithmName = codes.algorithmName.empty() ? "not recorded" : codes.algorithmName;
+}
+
 // The structures as a DICOM segmentation that belongs to the series of the CT, or of the MR, which
 // `export --what ct` or `mr` writes. Returns the number of segments.
 std::size_t writeSegmentation(const Options& options, const scene::Case& value,
@@ -399,9 +435,7 @@ std::size_t writeSegmentation(const Options& options, const scene::Case& value,
       segment.color = structure->look.color;
       segment.category = {code.category, "SCT", code.categoryMeaning};
       segment.type = {code.type, "SCT", code.typeMeaning};
-      // A case does not record how its structures were drawn.
-      segment.algorithm = Segmentation::Algorithm::SemiAutomatic;
-      segment.algorithmName = "not recorded";
+      describe(segment, structure->codes);
       segmentation.segments.push_back(std::move(segment));
     }
     maps.push_back(*labels.map);
@@ -428,7 +462,11 @@ std::size_t writeSegmentation(const Options& options, const scene::Case& value,
         {
           all.add(segment.label.c_str(), segment.label.size() + 1);
           all.add(segment.color.data(), sizeof segment.color);
-          all.add(segment.type.value.c_str(), segment.type.value.size() + 1);
+          for (const auto* concept : {&segment.type, &segment.typeModifier, &segment.region})
+            if (!concept->empty())
+              all.add(concept->value.c_str(), concept->value.size() + 1);
+          all.add(&segment.algorithm, sizeof segment.algorithm);
+          all.add(segment.algorithmName.c_str(), segment.algorithmName.size() + 1);
           all.add(&segment.map, sizeof segment.map);
           all.add(&segment.index, sizeof segment.index);
         }
@@ -570,7 +608,12 @@ void exportCase(const Context& context, const Options& options)
       const bool holdsLayers = imaging::formatOf(options.out)->ending == ".seg.nrrd";
       const auto layers = layersOf(context, placed, !holdsLayers);
       json["layers"] = layers.size();
-      imaging::writeLabelLayers(options.out, layers, progress.part(0.5, 1.0));
+      std::map<std::uint16_t, volume::SegmentCodes> codes; // numbered as by layersOf
+      std::uint16_t index = 0;
+      for (const PlacedLabels& labels : placed)
+        for (const auto* structure : labels.structures)
+          codes[++index] = structure->codes;
+      imaging::writeLabelLayers(options.out, layers, progress.part(0.5, 1.0), codes);
       if (const auto table = options.labelTable())
       {
         imaging::writeLabelTable(*table, layers.front().segments);

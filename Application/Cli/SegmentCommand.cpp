@@ -154,26 +154,27 @@ Made tube(const SegmentOptions& options, const scene::Case& value, const scene::
   return made;
 }
 
-/// Takes the structure of that name out of the case; its look, if there was one. A mesh or an MR
-/// may have the name of a structure, and removePart would take these too.
-std::optional<appearance::StructureAppearance> takeOut(scene::Case& value,
-                                                       const SegmentOptions& options)
+/// Takes the structure of that name out of the case and returns it, if there was one. A mesh or an
+/// MR may have the name of a structure, and removePart would take these too.
+std::optional<scene::StructurePart> takeOut(scene::Case& value, const SegmentOptions& options)
 {
   const bool isMesh = scene::findMesh(value, options.name) != nullptr;
   if (isMesh || scene::findMr(value, options.name))
-    throw core::InvalidParameter(std::string(isMesh ? "a mesh" : "an MR") + " of case '" +
-                                 value.name + "' is called '" + options.name +
-                                 "'; give the structure another name (--replace replaces "
-                                 "structures only)");
+    throw core::Error(core::Fault::Refused,
+                      std::string(isMesh ? "a mesh" : "an MR") + " of case '" + value.name +
+                          "' is called '" + options.name +
+                          "'; give the structure another name (--replace replaces "
+                          "structures only)");
   const scene::StructurePart* there = scene::findStructure(value, options.name);
   if (!there)
     return std::nullopt;
   if (!options.replace)
-    throw core::InvalidParameter("structure '" + options.name + "' is in case '" + value.name +
-                                 "' already; give another name, or --replace");
-  const appearance::StructureAppearance look = there->look;
+    throw core::Error(core::Fault::Refused, "structure '" + options.name + "' is in case '" +
+                                                value.name +
+                                                "' already; give another name, or --replace");
+  const scene::StructurePart taken = *there;
   scene::removePart(value, options.name);
-  return look;
+  return taken;
 }
 
 void segment(Context& context, const SegmentOptions& options)
@@ -190,7 +191,7 @@ void segment(Context& context, const SegmentOptions& options)
   library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
   scene::checkPartName(options.name);
-  const auto look = takeOut(value, options); // before the work
+  const auto replaced = takeOut(value, options); // before the work
   const core::Progress progress = context.progress();
   const scene::ImagePart& source = sourceOf(value, options.source);
   const core::Progress making = progress.part(0.0, 0.7);
@@ -214,8 +215,8 @@ void segment(Context& context, const SegmentOptions& options)
                                  "'; use a smaller --min-volume or --margin");
 
   presenters::addStructures(value, segmentation::labelMapOf(mask, {options.name, 1, {}, 0}));
-  if (look)
-    scene::findStructure(value, options.name)->look = *look;
+  if (replaced)
+    presenters::keepIdentity(*scene::findStructure(value, options.name), *replaced);
   context.refuseDamaged();
   library.save(value, progress.part(0.9, 1.0));
   const scene::StructurePart& structure = *scene::findStructure(value, options.name);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -244,7 +245,15 @@ TEST_F(CaseBuilder, RefusesAStructureTwiceAndLeavesTheCase)
   presenters::PartSources more;
   more.labels = {{"second", m_folder / "facial_nerve.nii.gz"},
                  {"", m_folder / "facial_nerve.nii.gz"}};
-  EXPECT_THROW(presenters::addParts(value, more, {}), core::InvalidParameter);
+  try
+  {
+    presenters::addParts(value, more, {});
+    ADD_FAILURE() << "took a name twice";
+  }
+  catch (const core::Error& error)
+  {
+    EXPECT_EQ(error.fault(), core::Fault::Refused) << error.what();
+  }
   EXPECT_EQ(value.labels.size(), 1u);
 }
 
@@ -421,6 +430,174 @@ TEST_F(CaseBuilder, SaysWhatOfLabelsIsEmptyOrOutsideTheCt)
             value.labels[1].notes);
   m_sources.parts.labels = {{"", m_folder / "none.seg.nrrd"}};
   EXPECT_THROW(presenters::buildCase("ear", m_sources, {}), core::InvalidParameter);
+}
+
+TEST_F(CaseBuilder, KnowsTheFrameOfReferenceOfWhatItsCaseExports)
+{
+  const core::GridGeometry grid({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3));
+  auto value = presenters::buildCase("ear", m_sources, {});
+  value.ct.frameOfReference = std::string(64, 'a'); // of a DICOM series
+  value.id = "0123456789abcdef";
+  value.mr.push_back(value.ct);
+  value.mr.back().name = "T2";
+  const auto write = [&](const char* name, const std::string& frame)
+  {
+    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
+    voxels->at(1, 1, 1) = 1;
+    volume::Segment incus;
+    incus.name = name;
+    incus.index = 1;
+    imaging::SegmentationDescription segmentation;
+    segmentation.studyUid = "1.2.3";
+    segmentation.seriesUid = "1.2.3.4";
+    segmentation.frameOfReferenceUid = frame;
+    imaging::SegmentationDescription::Segment segment;
+    segment.index = 1;
+    segment.label = name;
+    segmentation.segments = {segment};
+    imaging::writeDicomSegmentation(m_folder / name, {volume::makeLabelMap(voxels, {incus})},
+                                    segmentation);
+    presenters::PartSources parts;
+    parts.labels = {{"", m_folder / name}};
+    presenters::addParts(value, parts, {});
+    return value.labels.back().drawnOn;
+  };
+  EXPECT_EQ(write("incus", presenters::exportedFrame(value, "")), "");
+  EXPECT_EQ(write("stapes", presenters::exportedFrame(value, "T2")), "T2");
+  auto other = value;
+  other.id = "another case's";
+  EXPECT_THROW(write("malleus", presenters::exportedFrame(other, "")), core::InvalidParameter);
+}
+
+TEST_F(CaseBuilder, TakesCodesFromASegmentationAndLooksByThem)
+{
+  const core::GridGeometry grid({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3));
+  auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
+  imaging::SegmentationDescription segmentation;
+  segmentation.studyUid = "1.2.3";
+  segmentation.seriesUid = "1.2.3.4";
+  segmentation.frameOfReferenceUid = "1.2.3.9";
+  const std::pair<const char*, imaging::CodedConcept> given[] = {
+      {"Segment_1", {"56052001", "SCT", "nerf facial"}}, // in a language that is not known
+      {"Segment_2", {"99", "LOCAL", "Internal carotid artery"}},
+      {"cochlea", {"85756007", "SCT", "Tissue"}},
+      {"Segment_3", {"85756007", "SCT", "Tissue"}}};
+  for (const auto& [name, type] : given)
+  {
+    imaging::SegmentationDescription::Segment segment;
+    segment.index = static_cast<std::uint16_t>(segmentation.segments.size() + 1);
+    voxels->at(segment.index, 1, 1) = segment.index;
+    segment.label = name;
+    segment.type = type;
+    segment.color = {0.1F, 0.9F, 0.1F};
+    segment.algorithm = imaging::SegmentationDescription::Algorithm::Automatic;
+    segment.algorithmName = "a network";
+    segmentation.segments.push_back(segment);
+  }
+  imaging::writeDicomSegmentation(m_folder / "a.dcm", {volume::makeLabelMap(voxels, {})},
+                                  segmentation);
+  m_sources.parts.labels = {{"", m_folder / "a.dcm"}};
+  const auto value =
+      scene::fromManifest(scene::toManifest(presenters::buildCase("ear", m_sources, {})), "m");
+  const auto& structures = value.labels.at(0).structures;
+  ASSERT_EQ(structures.size(), 4U);
+  const char* const looks[] = {"nerve", "artery", "inner-ear", "other"};
+  for (std::size_t n = 0; n < structures.size(); ++n)
+  {
+    EXPECT_EQ(structures[n].look.preset, looks[n]) << structures[n].name;
+    EXPECT_EQ(structures[n].codes.type, given[n].second);
+    EXPECT_EQ(structures[n].codes.algorithm, volume::SegmentCodes::Algorithm::Automatic);
+    EXPECT_EQ(structures[n].codes.algorithmName, "a network");
+  }
+}
+
+TEST_F(CaseBuilder, AReplacementIsTheSameStructureMadeOtherwise)
+{
+  scene::StructurePart before;
+  before.look.preset = "nerve";
+  before.codes.type = {"56052001", "SCT", "Facial nerve"};
+  before.codes.algorithm = volume::SegmentCodes::Algorithm::Automatic;
+  before.codes.algorithmName = "a network";
+  scene::StructurePart after;
+  after.codes.algorithm = volume::SegmentCodes::Algorithm::SemiAutomatic;
+  after.codes.algorithmName = "Petrous";
+  presenters::keepIdentity(after, before);
+  EXPECT_EQ(after.look.preset, "nerve");
+  EXPECT_EQ(after.codes.type, before.codes.type);
+  EXPECT_EQ(after.codes.algorithm, volume::SegmentCodes::Algorithm::SemiAutomatic);
+  EXPECT_EQ(after.codes.algorithmName, "Petrous");
+}
+
+TEST_F(CaseBuilder, ReportsEachOfSixtyStructures)
+{
+  const core::GridGeometry grid({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3));
+  auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
+  std::vector<volume::Segment> segments;
+  for (std::uint16_t n = 1; n <= 60; ++n)
+  {
+    segments.push_back({"region " + std::to_string(n), n, {}, 0});
+    for (int i = 0; i < n % 10; ++i) // every tenth is empty
+      voxels->at(i, n % 12, n / 12) = n;
+  }
+  imaging::writeLabelFile(m_folder / "a.seg.nrrd", volume::makeLabelMap(voxels, segments));
+  m_sources.parts.labels = {{"", m_folder / "a.seg.nrrd"}};
+  std::vector<presenters::StructureReport> reports;
+  const auto value = presenters::buildCase("ear", m_sources, {}, &reports);
+  ASSERT_EQ(reports.size(), 60U);
+  std::set<std::array<float, 3>> colors;
+  for (const auto& structure : value.labels.at(0).structures)
+    colors.insert(structure.look.color);
+  EXPECT_EQ(colors.size(), 54U) << "each has a colour of its own";
+  for (std::size_t n = 0; n < reports.size(); ++n)
+  {
+    EXPECT_EQ(reports[n].name, "region " + std::to_string(n + 1));
+    EXPECT_EQ(reports[n].voxels, (n + 1) % 10);
+    EXPECT_STREQ(presenters::nameOf(reports[n].status), (n + 1) % 10 == 0 ? "empty" : "read");
+  }
+  reports[3].fileVolume = 3.2; // of 4 mm^3
+  reports[4].fileVolume = 5.0;
+  reports[5].status = presenters::StructureReport::Status::Unread;
+  const auto summary = presenters::summaryOf(reports);
+  EXPECT_EQ(summary.text, "53 structures read, 6 empty, 1 not read");
+  ASSERT_EQ(summary.worst, &reports[3]);
+  EXPECT_NEAR(*summary.worst->volumeError(), 0.25, 1e-12);
+  EXPECT_EQ(presenters::summaryOf({}).worst, nullptr);
+}
+
+TEST_F(CaseBuilder, NamesTheMasksOfAFolderThatItLeavesOut)
+{
+  const core::GridGeometry grid({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3));
+  const std::filesystem::path masks = m_folder / "masks";
+  std::filesystem::create_directory(masks);
+  const auto write = [&](const std::string& name, bool isOne)
+  {
+    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
+    voxels->at(1, 1, 1) = 1;
+    voxels->at(2, 1, 1) = isOne ? 1 : 2;
+    imaging::writeLabelFile(masks / name, volume::makeLabelMap(voxels, {}));
+  };
+  write("cochlea.nii", true);
+  write("facial_nerve.nii", false);
+  write("Doe_John.nii", false);
+  m_sources.parts.labels = {{"", masks}};
+  std::vector<presenters::StructureReport> reports;
+  const auto value = presenters::buildCase("ear", m_sources, {}, &reports);
+  ASSERT_FALSE(value.labels[0].notes.empty());
+  EXPECT_NE(value.labels[0].notes[0].find("2 files of the folder"), std::string::npos);
+  EXPECT_NE(value.labels[0].notes[0].find("'facial_nerve'"), std::string::npos)
+      << value.labels[0].notes[0];
+  EXPECT_EQ(scene::toManifest(value).find("Doe"), std::string::npos);
+  const auto unread = [&reports](const std::string& name)
+  {
+    return std::any_of(reports.begin(), reports.end(),
+                       [&name](const auto& one)
+                       {
+                         return one.name == name && !one.why.empty() &&
+                                one.status == presenters::StructureReport::Status::Unread;
+                       });
+  };
+  EXPECT_TRUE(unread("facial_nerve"));
+  EXPECT_TRUE(unread("Doe_John")) << "told at once, and not stored";
 }
 
 TEST_F(CaseBuilder, RefusesAMeshWithAFarVertex)

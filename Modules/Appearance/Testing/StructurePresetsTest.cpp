@@ -84,6 +84,227 @@ TEST(StructurePresets, KnowsTheNamesThatSegmentationProgramsGive)
     EXPECT_EQ(presets.lookFor(name).preset, preset) << name;
 }
 
+// Each row: the preset, and names that get it.
+TEST(StructurePresets, KnowsNamesInEnglishGermanAndLatin)
+{
+  const std::pair<const char*, std::vector<const char*>> table[] = {
+      {"nerve",
+       {"Nervus facialis",
+        "N. facialis",
+        "N.facialis li",
+        "nervus_facialis_sinister",
+        "Facialis",
+        "facial",
+        "Facial L",
+        "facial_left_1",
+        "FacialNerveLeft",
+        "facialnerve",
+        "FACIAL_NERVE_R",
+        "Gesichtsnerv",
+        "Gesichtsnerv links",
+        "Fazialis",
+        "N. fazialis",
+        "Fazialisnerv rechts",
+        "Fazialiskanal",
+        "fallopian canal",
+        "Chorda tympani",
+        "CHORDA_TYMPANI",
+        "chorda",
+        "Paukensaite",
+        "Nerv",
+        "Nerven",
+        "Nervus vestibulocochlearis",
+        "vestibular_nerve",
+        "cochlear nerve",
+        "H\xc3\xb6rnerv",
+        "Hoernerv",
+        "CN VII",
+        "CN7",
+        "cranial_nerve_VII",
+        "Ganglion geniculi",
+        "optic_nerve_left",
+        "left_inferior_alveolar_canal"}},
+      {"vein",
+       {"Sinus sigmoideus", "sigmoid_sinus_left", "SigmoidSinus", "sigmoidsinus",
+        "Sinus transversus", "Vena jugularis interna", "V. jugularis int.",
+        "bulbus venae jugularis", "jugular_bulb", "internal_jugular_vein_right", "iliac_vena_left",
+        "superior_vena_cava", "Venen", "venous_sinuses", "pulmonary_vein", "IJV"}},
+      {"artery",
+       {"internal_carotid_artery_left", "Arteria carotis interna", "A. carotis interna re",
+        "Carotis", "A. meningea media", "ICA", "common_carotid_artery_right",
+        "subclavian_artery_left", "carotid sinus", "Halsschlagader links Schlagader", "aorta",
+        "brachiocephalic_trunk",
+        "Gef\xc3\xa4\xc3\x9f"
+        "e",
+        "arteries"}},
+      {"ossicle",
+       {"Hammer", "Amboss", "Steigb\xc3\xbcgel", "Steigbuegel", "STEIGB\xc3\x9cGEL",
+        "Steigbu\xcc\x88gel", "Malleus", "incus_left", "Stapes", "ossicles",
+        "Geh\xc3\xb6rkn\xc3\xb6"
+        "chelchen",
+        "Ossicula auditus"}},
+      {"inner-ear",
+       {"Cochlea", "Schnecke", "Bogengang", "Bogeng\xc3\xa4nge", "lateraler Bogengang",
+        "Canalis semicircularis lateralis", "superior_semicircular_canal", "lateral canal",
+        "canals", "Labyrinth", "Labyrinthus", "Vestibulum", "vestibule", "Innenohr", "IAC",
+        "Innerer Geh\xc3\xb6rgang", "Meatus acusticus internus", "SCC", "scala tympani"}},
+      {"ear-canal",
+       {"\xc3\x84u\xc3\x9f"
+        "erer Geh\xc3\xb6rgang",
+        "Meatus acusticus externus", "auditory_canal_right", "EAC"}},
+      {"dura",
+       {"Dura", "dura mater", "DURA_MATER", "dural", "Durae", "Hirnhaut", "Hirnh\xc3\xa4ute",
+        "tegmen", "cerebellum", "Kleinhirn", "brain", "brainstem", "frontal_lobe", "temporal_lobe",
+        "meninges", "cerebrum"}},
+      {"bone",
+       {"skull",
+        "Sch\xc3\xa4"
+        "del",
+        "mandible",
+        "Unterkiefer",
+        "lower_jawbone",
+        "facial_bone",
+        "Facial Bones",
+        "vertebrae_C1",
+        "clavicula_left",
+        "zygomatic_arch_right",
+        "styloid_process_left",
+        "hyoid",
+        "rib_left_7",
+        "humerus_left",
+        "hip_right",
+        "sternum",
+        "Felsenbein",
+        "Os temporale",
+        "temporal bone",
+        "Processus mastoideus",
+        "mastoid",
+        "Knochen",
+        "teeth_upper"}},
+      {"muscle",
+       {"masseter_right",
+        "temporalis_left",
+        "lateral_pterygoid_left",
+        "digastric_left",
+        "tongue",
+        "sternocleidomastoid_right",
+        "middle_pharyngeal_constrictor",
+        "anterior_scalene_left",
+        "levator_scapulae_right",
+        "thyrohyoid_left",
+        "prevertebral_right",
+        "gluteus_maximus_left",
+        "iliopsoas_right",
+        "autochthon_left",
+        "superior_rectus_muscle_left",
+        "skeletal_muscle",
+        "M. stapedius",
+        "Musculus tensor tympani",
+        "facial muscles",
+        "Muskeln"}},
+      {"air-cells",
+       {"Cellulae mastoideae", "mastoid air cells", "Mastoidzellen", "Paukenh\xc3\xb6hle",
+        "Cavum tympani", "Mittelohr", "sinus_frontal", "paranasal sinuses", "larynx_air",
+        "nasal_cavity_left", "Sinus tympani", "antrum"}},
+      {"tumour", {"Akustikus Neurinom", "vestibular schwannoma", "Meningeom", "acoustic neuroma"}},
+      {"cholesteatoma", {"Cholesteatom", "Cholesteatoma"}}};
+  const auto presets = StructurePresets::builtIn();
+  for (const auto& [preset, names] : table)
+    for (const char* name : names)
+      EXPECT_EQ(presets.lookFor(name).preset, preset) << name;
+}
+
+TEST(StructurePresets, LeavesNeutralWhatItDoesNotKnow)
+{
+  const auto presets = StructurePresets::builtIn();
+  for (const char* name : {"durable",
+                           "duration",
+                           "Durango",
+                           "facial_fat",
+                           "facial skin",
+                           "face",
+                           "facialist",
+                           "nervous system",
+                           "spinal canal",
+                           "spinal_cord",
+                           "thyroid_gland",
+                           "parotid_gland_left",
+                           "eyeball_left",
+                           "soft_palate",
+                           "thyroid_cartilage",
+                           "costal_cartilages",
+                           "lymph_node",
+                           "lymphatic vessel",
+                           "cochlear_implant",
+                           "hip_implant",
+                           "electrode",
+                           "cerebro-spinal fluid",
+                           "boneless",
+
+                           "veinte",
+                           "incumbent",
+                           "hammerhead",
+                           "tribe",
+                           "ribbon",
+                           "chip",
+                           "icarus",
+                           "skin",
+                           "fat",
+                           "tissue",
+                           "mass",
+                           "blood",
+                           "liver",
+                           "subcutaneous_fat",
+                           "Segment_1",
+                           "label 3",
+                           "intracerebral_hemorrhage",
+                           "structure",
+                           "left",
+                           "x",
+                           "",
+                           "_"})
+    EXPECT_EQ(presets.lookFor(name).preset, "other") << name;
+}
+
+TEST(StructurePresets, ACodeChoosesTheLookInAnyLanguage)
+{
+  const auto presets = StructurePresets::builtIn();
+  const auto preset = [&presets](const petrous::volume::SegmentCodes& codes)
+  {
+    const auto look = presets.lookForCodes(codes);
+    return look ? look->preset : std::string();
+  };
+  petrous::volume::SegmentCodes codes;
+  EXPECT_EQ(preset(codes), "");
+  codes.type = {"86117002", "SCT", "A. c. int."};
+  EXPECT_EQ(preset(codes), "artery");
+  codes.type = {"56052001", "SCT", "nerf"};
+  EXPECT_EQ(preset(codes), "nerve");
+  codes.type = {"56052001", "99LOCAL", "nerf"};
+  EXPECT_EQ(preset(codes), "") << "a number means something in its scheme only";
+  codes.type = {"T-A8150", "SRT", "Facial nerve"};
+  EXPECT_EQ(preset(codes), "nerve") << "by its meaning";
+  codes.type = {"85756007", "SCT", "Tissue"};
+  EXPECT_EQ(preset(codes), "") << "what 3D Slicer gives to all";
+  codes.region = {"86117002", "SCT", "Internal carotid artery"};
+  EXPECT_EQ(preset(codes), "artery");
+  codes.category = {"49755003", "SCT", "Morphologically Abnormal Structure"};
+  codes.type = {"4147007", "SCT", "Mass"};
+  EXPECT_EQ(preset(codes), "") << "a mass at an artery is none";
+  codes.type = {"0", "99", "Vestibular schwannoma"};
+  EXPECT_EQ(preset(codes), "tumour");
+}
+
+TEST(StructurePresets, TakesNoInitialOfAFileNameForAStructure)
+{
+  const auto presets = StructurePresets::builtIn();
+  EXPECT_EQ(presets.knownWords("Doe_N_facial_nerve"), "facial nerve");
+  EXPECT_EQ(presets.knownWords("Steigb\xc3\xbcgel_links"), "steigb\xc3\xbcgel links");
+  EXPECT_EQ(presets.knownWords("Duran_cochlea"), "cochlea");
+  EXPECT_EQ(presets.knownWords("Linke_Dexter_Nervus_facialis_rechts"), "nervus facialis rechts");
+  EXPECT_EQ(presets.knownWords("Sinus_sigmoideus"), "sinus sigmoideus");
+}
+
 TEST(StructurePresets, AWholeWordIsNoBeginningOfAnother)
 {
   EXPECT_EQ(StructurePresets::builtIn().lookFor("icarus").preset, "other");

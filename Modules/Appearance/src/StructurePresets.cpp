@@ -34,25 +34,6 @@ StructureAppearance lookFrom(json entry)
   }
 }
 
-std::string plainWords(std::string name)
-{
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) {
-                   return c == '_' || c == '-' || c == '.' ? ' '
-                                                           : static_cast<char>(std::tolower(c));
-                 });
-  return name;
-}
-
-// Whether a word of the name begins as one of these: "mastoid", not "sternocleidomastoid".
-bool hasWord(const std::string& structureName, const std::vector<std::string>& words)
-{
-  const std::string name = " " + plainWords(structureName) + " ";
-  return std::any_of(words.begin(), words.end(),
-                     [&name](const std::string& word)
-                     { return name.find(" " + word) != std::string::npos; });
-}
-
 // Runs of letters or digits, in lower case; split also at camelCase boundaries.
 std::vector<std::string> wordsOf(const std::string& name)
 {
@@ -76,6 +57,69 @@ std::vector<std::string> wordsOf(const std::string& name)
   return words;
 }
 
+bool isShortNumber(const std::string& word)
+{
+  return word.size() <= 2 && std::isdigit(static_cast<unsigned char>(word[0])) != 0;
+}
+
+// ASCII letters that stand for those of Latin-1: lower-case letters without accents, umlauts as
+// German writes them without ("ae"), also where they are composed of a letter and a mark.
+std::string folded(const std::string& word)
+{
+  static const char* const kLetters[] = {
+      // from U+00C0
+      "a", "a", "a", "a", "ae", "a", "ae", "c", "e", "e", "e", "e", "i",  "i", "i",  "i",
+      "d", "n", "o", "o", "o",  "o", "oe", "",  "o", "u", "u", "u", "ue", "y", "th", "ss",
+      "a", "a", "a", "a", "ae", "a", "ae", "c", "e", "e", "e", "e", "i",  "i", "i",  "i",
+      "d", "n", "o", "o", "o",  "o", "oe", "",  "o", "u", "u", "u", "ue", "y", "th", "y"};
+  std::string result;
+  for (std::size_t n = 0; n < word.size(); ++n)
+  {
+    const auto c = static_cast<unsigned char>(word[n]);
+    const auto next = static_cast<unsigned char>(n + 1 < word.size() ? word[n + 1] : 0);
+    if (c == 0xC3 && next >= 0x80 && next < 0xC0)
+    {
+      result += kLetters[next - 0x80];
+      ++n;
+    }
+    else if (c == 0xCC && next >= 0x80 && next < 0xC0) // a combining mark
+    {
+      if (next == 0x88 && !result.empty() && std::string("aou").find(result.back()) != result.npos)
+        result += 'e';
+      ++n;
+    }
+    else
+      result += static_cast<char>(c < 0x80 ? std::tolower(c) : c);
+  }
+  return result;
+}
+
+std::vector<std::string> foldedWords(const std::string& name)
+{
+  std::vector<std::string> words = wordsOf(name);
+  std::transform(words.begin(), words.end(), words.begin(), folded);
+  return words;
+}
+
+// Whether a word is a stem of the catalogue with an ending of English, Latin or German, if any:
+// "dural" of "dura", and not "durable".
+bool isFormOf(const std::string& word, const std::string& stem)
+{
+  static const char* const kEndings[] = {
+      "s",    "es",   "i",   "y",    "al",   "ar",    "ae",    "um",   "le",    "is",
+      "els",  "oma",  "ium", "ule",  "ine",  "ic",    "us",    "a",    "e",     "en",
+      "n",    "er",   "eus", "ea",   "eal",  "alis",  "aris",  "ales", "ares",  "r",
+      "l",    "as",   "ma",  "mas",  "ulum", "ula",   "ulae",  "ular", "ulare", "ularis",
+      "arum", "orum", "ata", "atic", "idea", "oidea", "oideus"};
+  constexpr std::size_t kShortestStem = 4;
+  if (word.compare(0, stem.size(), stem) != 0)
+    return false;
+  const std::string ending = word.substr(stem.size());
+  return ending.empty() || ending == "s" ||
+         (stem.size() >= kShortestStem &&
+          std::find(std::begin(kEndings), std::end(kEndings), ending) != std::end(kEndings));
+}
+
 } // namespace
 
 StructurePresets StructurePresets::builtIn()
@@ -88,10 +132,18 @@ StructurePresets::StructurePresets(std::string_view text)
   try
   {
     const auto catalogue = json::parse(text);
+    m_neutral = catalogue.value("neutral", std::vector<std::string>());
+    const auto phrases = [](const json& entry)
+    {
+      Phrases result;
+      addPhrases(result, entry.value("words", std::vector<std::string>()), false);
+      addPhrases(result, entry.value("alone", std::vector<std::string>()), true);
+      return result;
+    };
     m_other = lookFrom(catalogue.at("other"));
     for (const auto& entry : catalogue.at("presets"))
     {
-      m_words.push_back({entry.at("words").get<std::vector<std::string>>(), m_presets.size()});
+      m_words.push_back({phrases(entry), m_presets.size()});
       m_presets.push_back(lookFrom(entry));
     }
     std::vector<Words> first;
@@ -104,7 +156,7 @@ StructurePresets::StructurePresets(std::string_view text)
       // "other" has the index after the last preset.
       const auto index =
           look == &m_other ? m_presets.size() : static_cast<std::size_t>(look - m_presets.data());
-      first.push_back({entry.at("words").get<std::vector<std::string>>(), index});
+      first.push_back({phrases(entry), index});
     }
     m_words.insert(m_words.begin(), first.begin(), first.end());
     for (const auto& entry : catalogue.value("codes", json::array()))
@@ -126,10 +178,8 @@ StructurePresets::StructurePresets(std::string_view text)
                                      "'; there are abnormal and tissue");
       code.type = entry.at("code").get<std::string>();
       code.typeMeaning = entry.at("meaning").get<std::string>();
-      m_codes.push_back({entry.value("words", std::vector<std::string>()),
-                         entry.value("preset", ""), std::move(code)});
+      m_codes.push_back({phrases(entry), entry.value("preset", ""), std::move(code)});
     }
-    m_neutral = catalogue.value("neutral", std::vector<std::string>());
   }
   catch (const json::exception& error)
   {
@@ -144,10 +194,59 @@ const StructureAppearance* StructurePresets::find(const std::string& name) const
   return found != m_presets.end() ? &*found : name == m_other.preset ? &m_other : nullptr;
 }
 
+void StructurePresets::addPhrases(Phrases& phrases, const std::vector<std::string>& texts,
+                                  bool isAlone)
+{
+  for (const std::string& text : texts)
+    phrases.push_back({foldedWords(text), !text.empty() && text.back() == ' ', isAlone});
+}
+
+bool StructurePresets::isNeutral(const std::string& word) const
+{
+  return isShortNumber(word) ||
+         std::find(m_neutral.begin(), m_neutral.end(), word) != m_neutral.end();
+}
+
+bool StructurePresets::hasPhrase(const std::vector<std::string>& name, const Phrases& phrases) const
+{
+  const auto matches = [&](const Phrase& phrase, std::size_t at, std::size_t& length)
+  {
+    const auto isLast = [&phrase](const std::string& word, const std::string& stem)
+    { return phrase.isWhole ? word == stem : isFormOf(word, stem); };
+    length = phrase.words.size();
+    if (length == 0)
+      return false;
+    if (at + length <= name.size() &&
+        std::equal(phrase.words.begin(), phrase.words.end() - 1,
+                   name.begin() + static_cast<std::ptrdiff_t>(at)) &&
+        isLast(name[at + length - 1], phrase.words.back()))
+      return true;
+    std::string joined; // "facialnerve"
+    for (const std::string& word : phrase.words)
+      joined += word;
+    const bool isJoined = length > 1 && isLast(name[at], joined);
+    length = 1;
+    return isJoined;
+  };
+  for (const Phrase& phrase : phrases)
+    for (std::size_t at = 0; at < name.size(); ++at)
+      if (std::size_t length = 0; matches(phrase, at, length))
+      {
+        bool isRight = true;
+        for (std::size_t n = 0; phrase.isAlone && n < name.size(); ++n)
+          isRight = isRight && ((n >= at && n < at + length) || name[n].size() == 1 || // "n."
+                                isNeutral(name[n]));
+        if (isRight)
+          return true;
+      }
+  return false;
+}
+
 const StructureAppearance* StructurePresets::lookByWord(const std::string& structureName) const
 {
+  const std::vector<std::string> name = foldedWords(structureName);
   for (const Words& entry : m_words)
-    if (hasWord(structureName, entry.words))
+    if (hasPhrase(name, entry.phrases))
       return entry.preset < m_presets.size() ? &m_presets[entry.preset] : &m_other;
   return nullptr;
 }
@@ -155,10 +254,10 @@ const StructureAppearance* StructurePresets::lookByWord(const std::string& struc
 StructureCode StructurePresets::codeFor(const std::string& structureName,
                                         const std::string& preset) const
 {
+  const std::vector<std::string> name = foldedWords(structureName);
   const auto found = std::find_if(m_codes.begin(), m_codes.end(),
-                                  [&](const Code& entry)
-                                  {
-                                    return hasWord(structureName, entry.words) ||
+                                  [&](const Code& entry) {
+                                    return hasPhrase(name, entry.phrases) ||
                                            (!entry.preset.empty() && entry.preset == preset);
                                   });
   return found == m_codes.end() ? StructureCode() : found->code;
@@ -170,14 +269,37 @@ StructureAppearance StructurePresets::lookFor(const std::string& structureName) 
   return look ? *look : m_other;
 }
 
+std::optional<StructureAppearance>
+StructurePresets::lookForCodes(const volume::SegmentCodes& codes) const
+{
+  const auto ofConcept = [this](const volume::CodedConcept& concept) -> const StructureAppearance*
+  {
+    const auto known =
+        std::find_if(m_codes.begin(), m_codes.end(),
+                     [&concept](const Code& entry)
+                     { return concept.scheme == "SCT" && entry.code.type == concept.value; });
+    const StructureAppearance* look =
+        known == m_codes.end() ? nullptr : lookByWord(known->code.typeMeaning);
+    return look ? look : lookByWord(concept.meaning);
+  };
+  const bool isAbnormal = codes.category.value == "49755003" || codes.category.value == "M-01000";
+  const StructureAppearance* look = ofConcept(codes.type);
+  if (!look && !isAbnormal)
+    look = lookByWord(codes.region.meaning + " " + codes.type.meaning);
+  if (!look && !isAbnormal)
+    look = ofConcept(codes.region);
+  return look && look != &m_other ? std::optional(*look) : std::nullopt;
+}
+
 std::string StructurePresets::knownWords(const std::string& name) const
 {
   // A catalogue word may be a stem ("cerebell" of "cerebellum"), followed by one of these endings
   // only, so that surnames do not match.
   const auto is = [](const std::string& word, const std::string& known)
   {
-    static const char* const kEndings[] = {"s",  "es", "i",   "y",   "al",  "ar",  "ae",  "um",
-                                           "le", "is", "els", "oma", "ium", "ule", "ine", "ic"};
+    static const char* const kEndings[] = {"s",   "es", "i",   "y",    "al",   "ar",     "ae",
+                                           "um",  "le", "is",  "els",  "oma",  "ium",    "ule",
+                                           "ine", "ic", "eus", "alis", "aris", "ularis", "ulare"};
     constexpr std::size_t kShortestStem = 4;
     if (word == known || known.size() < kShortestStem)
       return word == known;
@@ -189,17 +311,15 @@ std::string StructurePresets::knownWords(const std::string& name) const
   bool isStructure = false;
   for (const std::string& word : wordsOf(name))
   {
-    const bool isNumber =
-        word.size() <= 2 && std::isdigit(static_cast<unsigned char>(word[0])) != 0;
-    const bool isNeutral =
-        isNumber || std::find(m_neutral.begin(), m_neutral.end(), word) != m_neutral.end();
+    const std::string plain = folded(word);
+    const bool isBeside = isNeutral(plain);
     bool isOfStructure = false;
     for (const Words& entry : m_words)
-      for (const std::string& phrase : entry.words)
-        for (const std::string& known : wordsOf(phrase))
-          isOfStructure = isOfStructure || is(word, known);
-    isStructure = isStructure || (isOfStructure && !isNeutral);
-    if (isNeutral || isOfStructure)
+      for (const Phrase& phrase : entry.phrases)
+        for (const std::string& known : phrase.words)
+          isOfStructure = isOfStructure || (known.size() > 1 && is(plain, known)); // no initial
+    isStructure = isStructure || (isOfStructure && !isBeside);
+    if (isBeside || isOfStructure)
       result += (result.empty() ? "" : " ") + word;
   }
   return isStructure ? result : std::string();

@@ -194,6 +194,32 @@ TEST(LabelFile, ReadsOverlappingStructuresAsOneMapALayer)
   expectRefused(refusalOf([&] { readLabelFile(path); }), Reason::Unsupported, "overlap");
 }
 
+TEST(LabelFile, ReadsTheTerminologyOfSlicersSegments)
+{
+  const TestFolder folder;
+  const std::vector<std::uint8_t> values{0, 4, 4, 0, 0, 7, 0, 0, 0, 0, 0, 4};
+  const auto path = putFile(
+      folder / "a.seg.nrrd",
+      nrrd("uchar", values,
+           slicerKeys(0, "incus", 4, 0) + slicerKeys(1, "drum", 7, 0) +
+               "Segment0_Tags:=Segmentation.Status:completed|TerminologyEntry:Segmentation "
+               "category and type - a list~SCT^123037004^Anatomical Structure~SCT^56052001^Facial "
+               "nerve~SCT^7771000^Left~Anatomic codes - a list~SCT^60911003^Temporal bone~^^|\n"
+               "Segment1_Tags:=TerminologyEntry:cut short~SCT^1|\n"));
+  const LoadedLabels loaded = loadLabels(path);
+  ASSERT_EQ(loaded.codes.size(), 1U) << "what is damaged says nothing";
+  const volume::SegmentCodes& codes = loaded.codes.at("incus");
+  EXPECT_EQ(codes.category, (volume::CodedConcept{"123037004", "SCT", "Anatomical Structure"}));
+  EXPECT_EQ(codes.type, (volume::CodedConcept{"56052001", "SCT", "Facial nerve"}));
+  EXPECT_EQ(codes.typeModifier, (volume::CodedConcept{"7771000", "SCT", "Left"}));
+  EXPECT_EQ(codes.region, (volume::CodedConcept{"60911003", "SCT", "Temporal bone"}));
+  EXPECT_TRUE(codes.regionModifier.empty());
+
+  writeLabelLayers(folder / "b.seg.nrrd", loaded.maps, {}, {{4, codes}});
+  const LoadedLabels back = loadLabels(folder / "b.seg.nrrd");
+  EXPECT_EQ(back.codes, loaded.codes) << "written and read again";
+}
+
 // By hand: voxel (2, 1, 1) lies at (1 + 1, 2 + 0.5, 3 + 1) in the file's own frame.
 TEST(LabelFile, LiesWhereEverySpaceSays)
 {

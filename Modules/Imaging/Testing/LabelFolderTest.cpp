@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -141,6 +142,62 @@ TEST(LabelFolder, TellsOfEachFileThatIsNoStructure)
   EXPECT_TRUE(tellsOf(loaded.leftOut, "half.nrrd was left out: it holds a value"));
   EXPECT_TRUE(tellsOf(loaded.leftOut, "statistics.json is no "));
   EXPECT_TRUE(tellsOf(loaded.leftOut, "more is not a file"));
+}
+
+TEST(LabelFolder, SaysThatAVoxelIsNotANumber)
+{
+  const TestFolder folder;
+  putFile(folder / "incus.nrrd", nrrd("uchar", cube<std::uint8_t>(0, 4, 1)));
+  auto first = cube<float>(0, 4, 1.0F);
+  first[0] = std::numeric_limits<float>::quiet_NaN();
+  putFile(folder / "first.nrrd", nrrd("float", first));
+  auto last = cube<float>(0, 4, 1.0F);
+  last.back() = std::numeric_limits<float>::quiet_NaN();
+  putFile(folder / "last.nrrd", nrrd("float", last));
+  const LoadedLabels loaded = loadLabels(folder.path());
+  EXPECT_EQ(contentsOf(loaded), "incus=64 | ");
+  for (const std::string name : {"first", "last"})
+    EXPECT_TRUE(
+        tellsOf(loaded.leftOut, name + ".nrrd was left out: it holds a voxel that is not a number"))
+        << name;
+  ASSERT_EQ(loaded.unread.size(), 2U) << "masks that are left out are structures that are not read";
+  EXPECT_EQ(loaded.unread[0].name, "first");
+  EXPECT_FALSE(loaded.unread[0].isEmpty);
+  EXPECT_NE(loaded.unread[0].why.find("not a number"), std::string::npos);
+}
+
+TEST(LabelFolder, FollowsNoLinkOutOfTheFolder)
+{
+  const TestFolder folder;
+  const TestFolder elsewhere;
+  putFile(folder / "incus.nrrd", nrrd("uchar", cube<std::uint8_t>(0, 4, 1)));
+  putFile(elsewhere / "a.nrrd", nrrd("uchar", cube<std::uint8_t>(0, 3, 1)));
+  std::filesystem::create_symlink(elsewhere / "a.nrrd", folder / "stapes.nrrd");
+  std::filesystem::create_symlink("incus.nrrd", folder / "malleus.nrrd");
+  const std::string whole = nrrd("uchar", cube<std::uint8_t>(0, 2, 1));
+  const std::size_t end = whole.find("\n\n") + 2;
+  putFile(folder / "vein.nhdr", whole.substr(0, end - 1) + "data file: vein.raw\n\n");
+  putFile(elsewhere / "vein.raw", whole.substr(end));
+  std::filesystem::create_symlink(elsewhere / "vein.raw", folder / "vein.raw");
+  const LoadedLabels loaded = loadLabels(folder.path());
+  EXPECT_EQ(contentsOf(loaded), "incus=64 | malleus=64 | ") << "a link within the folder is read";
+  EXPECT_TRUE(tellsOf(loaded.leftOut, "stapes.nrrd is a link to a file outside the folder"));
+  EXPECT_TRUE(tellsOf(loaded.leftOut, "vein.nhdr belongs to a link"));
+  // The folder itself may be reached by a link.
+  std::filesystem::create_directory_symlink(folder.path(), elsewhere / "masks");
+  EXPECT_EQ(contentsOf(loadLabels(elsewhere / "masks")), "incus=64 | malleus=64 | ");
+}
+
+TEST(LabelFolder, NumbersFilesThatDifferInTheirEndingOnly)
+{
+  const TestFolder folder;
+  putFile(folder / "incus.nrrd", nrrd("uchar", cube<std::uint8_t>(0, 2, 1)));
+  putFile(folder / "incus.mha", metaImage(cube<std::uint16_t>(4, 3, 7)));
+  const LoadedLabels loaded = loadLabels(folder.path());
+  EXPECT_EQ(contentsOf(loaded), "incus=27 incus 2=8 | ");
+  EXPECT_DOUBLE_EQ(loaded.fileVolumes.at("incus"), 27 * 0.125);
+  EXPECT_DOUBLE_EQ(loaded.fileVolumes.at("incus 2"), 8 * 0.125);
+  EXPECT_TRUE(tellsOf(loaded.notes, "several of its files"));
 }
 
 TEST(LabelFolder, ADamagedMaskRefusesTheFolder)

@@ -91,6 +91,53 @@ TEST(LabelTable, KeepsNamesAsTheyAreWritten)
   EXPECT_NE(latin.notes[0].find("Latin-1"), std::string::npos);
 }
 
+TEST(LabelTable, ANumberThatEndsANameIsNoColour)
+{
+  const char* const kNumbered = "1:nerve 7(255 0 0);2:nerve 8(0 0 255);3:cochlea(7 8 9);";
+  EXPECT_EQ(entriesOf(parseTable("1 nerve 7 255 0 0\n2 nerve 8 0 0 255\n3 cochlea 7 8 9\n")),
+            kNumbered)
+      << "no column of opacity, as an entry without a number shows";
+  EXPECT_EQ(entriesOf(parseTable("1 nerve 7 255 0 0\n2 nerve 8 0 0 255\n")),
+            "1:nerve 7(255 0 0);2:nerve 8(0 0 255);");
+  EXPECT_EQ(entriesIn("# index name r g b\n1 nerve 7 255 0 0\n2 nerve 300 9 0 9\n"),
+            "1:nerve 7(255 0 0);2:nerve 300(9 0 9);");
+  EXPECT_EQ(entriesIn("1 \"nerve 7\" 255 0 0\n2 \"nerve 8\" 0 0 255\n3 \"cochlea\" 7 8 9\n"),
+            kNumbered);
+  EXPECT_EQ(entriesIn("0 black 0 0 0 0\n1 nerve 7 255 0 0 255\n2 nerve 8 0 0 255 255\n"
+                      "3 cochlea 7 8 9 255\n"),
+            kNumbered)
+      << "3D Slicer";
+  EXPECT_EQ(entriesIn("#No. Label Name: R G B A\n1 nerve 7 255 0 0 0\n2 nerve 8 0 0 255 0\n"
+                      "3 cochlea 7 8 9 0\n"),
+            kNumbered)
+      << "FreeSurfer";
+  EXPECT_EQ(entriesIn("1 255 0 0 1 1 1 \"nerve 7\"\n2 0 0 255 1 1 1 \"nerve 8\"\n"
+                      "3 7 8 9 1 1 1 \"cochlea\"\n"),
+            kNumbered)
+      << "ITK-SNAP";
+  for (const char delimiter : {',', '\t', ';'})
+  {
+    std::string rows = "1,nerve 7,255,0,0\n2,nerve 8,0,0,255\n3,cochlea,7,8,9\n";
+    std::replace(rows.begin(), rows.end(), ',', delimiter);
+    EXPECT_EQ(entriesIn(rows), kNumbered) << delimiter;
+  }
+  // Opacity and no number: colours of a whole table with an opacity stay what they are.
+  EXPECT_EQ(entriesIn("1 nerve 7 8 9 255\n2 cochlea 10 11 12 255\n"),
+            "1:nerve(7 8 9);2:cochlea(10 11 12);");
+  const LabelTable table = parseTable("1 nerve 7 255 0 0\n3 cochlea 7 8 9\n");
+  ASSERT_EQ(table.notes.size(), 1U);
+  EXPECT_NE(table.notes[0].find("'nerve 7'"), std::string::npos) << table.notes[0];
+}
+
+TEST(LabelTable, ReadsQuotesWithinANameOfItkSnap)
+{
+  EXPECT_EQ(entriesIn("1 1 2 3 1 1 1 \"the \\\"big\\\" nerve\"\n"
+                      "2 1 2 3 1 1 1 \"the \"\"other\"\" nerve\"\n"
+                      "3 1 2 3 1 1 1 \"a\"b\"\n4 1 2 3 1 1 1 \"C:\\\\scan\\\"\n"),
+            "1:the \"big\" nerve(1 2 3);2:the \"other\" nerve(1 2 3);3:a\"b(1 2 3);"
+            "4:C:\\scan\\(1 2 3);");
+}
+
 TEST(LabelTable, RefusesWithTheLineThatIsWrong)
 {
   const TestFolder folder;
@@ -115,6 +162,9 @@ TEST(LabelTable, RefusesWithTheLineThatIsWrong)
   expectRefused(refused("{\"EchoTime\": 0.02, \"SeriesNumber\": 5}"), Reason::Unreadable,
                 "no names of label values");
   expectRefused(refused("{\"1\": "), Reason::Unreadable, "no names of label values");
+  const auto twice = refusalOf(
+      [&] { readLabelTable(putFile(folder / "a.json", "{\"incus\": 1, \"stapes\": 1}")); });
+  expectRefused(twice, Reason::Unreadable, "a.json: gives index 1 a second name");
   expectRefused(refused(std::string("\xff\xfe"
                                     "1\0,\0",
                                     6)),
@@ -167,6 +217,20 @@ TEST(LabelTable, NamesALabelFileAndTellsWhatItDoesNot)
   naming.table = putFile(folder / "bad.csv", "index,name\n4,incus\n4,stapes\n");
   expectRefused(refusalOf([&] { loadLabels(labels, {}, naming); }), Reason::Unreadable,
                 "bad.csv: its line 3");
+}
+
+TEST(LabelTable, StructuresOfOneNameAreNumbered)
+{
+  const TestFolder folder;
+  const auto labels = putLabels(folder / "a.nrrd");
+  LabelNaming naming;
+  naming.table = putFile(folder / "names.csv", "index,name\n3,nerve\n4,nerve\n7,incus\n");
+  const LoadedLabels loaded = loadLabels(labels, {}, naming);
+  EXPECT_EQ(namesOf(loaded), "3:nerve;4:nerve 2;7:incus;");
+  EXPECT_EQ(std::count_if(loaded.notes.begin(), loaded.notes.end(),
+                          [](const std::string& note)
+                          { return note.find("'nerve 2'") != note.npos; }),
+            1);
 }
 
 TEST(LabelTable, NamesASingleStructureOnlyIfAsked)

@@ -342,6 +342,79 @@ TEST(DicomSegmentation, KeepsOverlappingSegmentsInLayers)
   expectRefused(refusalOf([&] { readLabelFile(path); }), Reason::Unsupported, "overlap");
 }
 
+TEST(DicomSegmentation, KeepsCodesAndAlgorithm)
+{
+  const TestFolder folder;
+  TestSegmentation file;
+  const auto code = [&file](const char* tagOfValue, const std::string& value,
+                            const std::string& scheme, const std::string& meaning,
+                            const std::string& more = "")
+  {
+    const bool isLong = std::string(tagOfValue) == "long";
+    return file.item((isLong ? "" : file.element(0x00080100, "SH", value)) +
+                     file.element(0x00080102, "SH", scheme) +
+                     file.element(0x00080104, "LO", meaning) +
+                     (isLong ? file.element(0x00080119, "UC", value) : "") + more);
+  };
+  const std::string isLeft = file.sequence(0x00620011, code("short", "7771000", "SCT", "Left"));
+  const std::string isRight = file.sequence(0x00082220, code("short", "24028007", "SCT", "Right"));
+  file.addSegment(
+      1, "a",
+      file.sequence(0x00082218, code("short", "60911003", "SCT", "Temporal bone", isRight)) +
+          file.sequence(0x00620003, code("short", "123037004", "SCT", "Anatomical Structure")) +
+          file.element(0x00620008, "CS", "AUTOMATIC") +
+          file.element(0x00620009, "LO", "a network") +
+          file.sequence(0x0062000f,
+                        code("long", "12345678901234567890", "99X", "N. facialis", isLeft)));
+  file.addSegment(2, "b", file.element(0x00620008, "CS", "MANUAL"));
+  file.frames = {{1, 0.0, left}, {2, 0.0, right}};
+  const LoadedLabels loaded = loadLabels(putFile(folder / "a.dcm", file.bytes()));
+  const volume::SegmentCodes& codes = loaded.codes.at("a");
+  using volume::CodedConcept;
+  EXPECT_EQ(codes.category, (CodedConcept{"123037004", "SCT", "Anatomical Structure"}));
+  EXPECT_EQ(codes.type, (CodedConcept{"12345678901234567890", "99X", "N. facialis"}));
+  EXPECT_EQ(codes.typeModifier, (CodedConcept{"7771000", "SCT", "Left"}));
+  EXPECT_EQ(codes.region, (CodedConcept{"60911003", "SCT", "Temporal bone"}));
+  EXPECT_EQ(codes.regionModifier, (CodedConcept{"24028007", "SCT", "Right"}));
+  EXPECT_EQ(codes.algorithm, volume::SegmentCodes::Algorithm::Automatic);
+  EXPECT_EQ(codes.algorithmName, "a network");
+  EXPECT_EQ(loaded.codes.at("b").algorithm, volume::SegmentCodes::Algorithm::Manual);
+
+  // Written and read again.
+  SegmentationDescription description;
+  description.studyUid = "1.2.3";
+  description.seriesUid = "1.2.3.4";
+  description.frameOfReferenceUid = "1.2.3.9";
+  SegmentationDescription::Segment segment;
+  segment.index = 1;
+  segment.label = "a";
+  segment.category = codes.category;
+  segment.type = codes.type;
+  segment.typeModifier = codes.typeModifier;
+  segment.region = codes.region;
+  segment.regionModifier = codes.regionModifier;
+  segment.algorithm = SegmentationDescription::Algorithm::Automatic;
+  segment.algorithmName = codes.algorithmName;
+  description.segments = {segment};
+  writeDicomSegmentation(folder / "b.dcm", loaded.maps, description);
+  EXPECT_EQ(loadLabels(folder / "b.dcm").codes.at("a"), codes);
+}
+
+TEST(DicomSegmentation, SegmentsOfOneNameAreNumbered)
+{
+  const TestFolder folder;
+  TestSegmentation file = twoSegments();
+  file.addSegment(9, "chorda");
+  file.frames.push_back({9, 4.0, most}); // in a layer of its own
+  const LoadedLabels loaded = loadLabels(putFile(folder / "a.dcm", file.bytes()));
+  ASSERT_EQ(loaded.maps.size(), 2u);
+  EXPECT_EQ(loaded.maps[1].segments[0].name, "chorda 2");
+  EXPECT_DOUBLE_EQ(loaded.fileVolumes.at("chorda"), 12 * 0.4);
+  EXPECT_DOUBLE_EQ(loaded.fileVolumes.at("chorda 2"), 12 * 0.4);
+  ASSERT_EQ(loaded.notes.size(), 1u);
+  EXPECT_NE(loaded.notes[0].find("'chorda 2'"), std::string::npos);
+}
+
 TEST(DicomSegmentation, TakesHalfOfTheLargestFraction)
 {
   const TestFolder folder;

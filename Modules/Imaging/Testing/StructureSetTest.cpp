@@ -239,6 +239,13 @@ TEST(StructureSet, ASheetThinnerThanAVoxelIsThereInEverySlice)
       count += labels.voxels->at(i, 10, k) != 0;
     EXPECT_NEAR(count, 16, 2) << k;
   }
+  const LoadedLabels loaded = imaging::labelsOf({{roi}, ""}, grid(), "set.dcm");
+  ASSERT_EQ(loaded.notes.size(), 1U);
+  EXPECT_NE(loaded.notes[0].find("'eardrum' is thinner than the voxels"), std::string::npos);
+  roi = named("plate", {}); // three voxels thick
+  for (int k = 5; k < 35; ++k)
+    roi.contours.push_back(square(-5.25, 14.75, -15.6, -14.1, 5.0 + k));
+  EXPECT_TRUE(imaging::labelsOf({{roi}, ""}, grid(), "set.dcm").notes.empty());
   // Of 32 lines a row the sheet holds 12 or 13: a thickness along the rows is known to a line.
   EXPECT_NEAR(labels.volume(labels.segments[0]), 20.0 * 0.2 * 30.0, 1.0 / 32.0 / 0.4 * 120.0);
 }
@@ -288,6 +295,49 @@ TEST(StructureSet, OverlappingStructuresLieInLayersAndEmptyOnesAreNamed)
   EXPECT_EQ(loaded.maps[0].segments[1].voxels, 0U);
   EXPECT_EQ(loaded.maps[1].segments[0].name, "b");
   EXPECT_DOUBLE_EQ(loaded.maps[1].volume(loaded.maps[1].segments[0]), 6.0);
+}
+
+TEST(StructureSet, StructuresOfOneNameAreNumbered)
+{
+  StructureSet set;
+  set.rois = {named("nerve", {square(-5.25, -2.25, -15.25, -12.25, 10.0)}),
+              named("nerve", {square(-3.25, -1.25, -15.25, -12.25, 10.0)})};
+  set.rois[1].meaning = "Facial nerve";
+  const LoadedLabels loaded = imaging::labelsOf(set, grid(), "set.dcm");
+  ASSERT_EQ(loaded.maps.size(), 2U);
+  EXPECT_EQ(loaded.maps[0].segments[0].name, "nerve");
+  EXPECT_EQ(loaded.maps[1].segments[0].name, "nerve 2");
+  EXPECT_NEAR(loaded.fileVolumes.at("nerve"), 9.0, 1e-9);
+  EXPECT_NEAR(loaded.fileVolumes.at("nerve 2"), 6.0, 1e-9);
+  EXPECT_EQ(loaded.meanings.count("nerve"), 0U);
+  EXPECT_EQ(loaded.meanings.at("nerve 2"), "Facial nerve");
+  ASSERT_EQ(loaded.notes.size(), 1U);
+}
+
+TEST(StructureSet, RefusesMoreLayersThanItReads)
+{
+  // Voxels of a layer take memory only where something is drawn.
+  const core::GridGeometry large({1024, 1024, 1024}, Vector3d(0.5, 0.5, 0.5), Vector3d::Zero());
+  StructureSet set;
+  for (int n = 0; n < 3; ++n)
+    set.rois.push_back(named("a" + std::to_string(n), {square(1.25, 2.25, 1.25, 2.25, 10.0)}));
+  try
+  {
+    imaging::labelsOf(set, large, "set.dcm");
+    FAIL() << "6 GB of layers";
+  }
+  catch (const FileError& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("overlap in more layers"), std::string::npos);
+  }
+}
+
+TEST(StructureSet, AFarContourKeepsItsAreaWithoutALineForEachRow)
+{
+  // 10 m at 0.1 mm: 3.2 million lines, which are not kept at once.
+  const core::GridGeometry fine({64, 64, 8}, Vector3d(0.1, 0.1, 1.0), Vector3d::Zero());
+  const Roi roi = named("tall", {square(0.0, 1.0, -5000.0, 5000.0, 4.0)});
+  EXPECT_NEAR(contourVolume(roi, fine), 10000.0, 0.01);
 }
 
 TEST(StructureSet, WhatLiesOutsideTheImageIsNoted)
@@ -346,7 +396,12 @@ TEST(StructureSet, WhatMakesNoSenseIsRefusedInOneLine)
   EXPECT_NE(with([](TestSet& file) { file.add(1, "b", {}); }), "");
   EXPECT_NE(with([](TestSet& file) { file.add(2, "b", {"1\\2\\3\\4"}); }), "");
   EXPECT_NE(with([](TestSet& file) { file.add(2, "b", {"1\\2\\nan\\1\\2\\3\\4\\5\\6"}); }), "");
-  EXPECT_NE(with([](TestSet& file) { file.add(2, "b", {"1\\2\\1e30\\1\\2\\3\\4\\5\\6"}); }), "");
+  for (const std::string far : {"1e30", "1e6", "-20000"})
+  {
+    const std::string why =
+        with([&far](TestSet& file) { file.add(2, "b", {"1\\2\\" + far + "\\1\\2\\3\\4\\5\\6"}); });
+    EXPECT_NE(why.find("more than 10 m from the origin"), std::string::npos) << far << why;
+  }
   EXPECT_NE(with([](TestSet& file) { file.add(2, "b", {}, "CLOSED_PLANAR", "1.2.77"); }), "");
   EXPECT_NE(with([](TestSet& file) { file.rois.clear(); }), "");
   EXPECT_NE(with([](TestSet& file) { file.code.bigEndian = true; }), "") << "items are not";

@@ -80,7 +80,8 @@ struct TestSlice
       value += std::string(vr) == "UI" ? '\0' : ' ';
     append(out, tag >> 16, 2);
     append(out, tag & 0xffff, 2);
-    const bool isLong = vr[0] == 'O' || std::string(vr) == "SQ" || std::string(vr) == "UN";
+    const std::string type = vr;
+    const bool isLong = vr[0] == 'O' || type == "SQ" || type == "UN" || type == "UC";
     if (!implicitVr)
       out += vr;
     if (!implicitVr && isLong)

@@ -437,6 +437,36 @@ TEST(Manifest, NamesANumberThatIsNotFiniteAndWritesNothing)
   }
 }
 
+TEST(Manifest, KeepsTheCodesOfStructures)
+{
+  scene::Case value = fullCase();
+  ASSERT_FALSE(value.labels.empty());
+  ASSERT_FALSE(value.labels[0].structures.empty());
+  EXPECT_NE(scene::toManifest(value).find("\"petrous_case\": 3"), std::string::npos)
+      << "without codes older programs open it";
+  volume::SegmentCodes& codes = value.labels[0].structures[0].codes;
+  codes.category = {"123037004", "SCT", "Anatomical Structure"};
+  codes.type = {"56052001", "SCT", "Facial nerve"};
+  codes.typeModifier = {"7771000", "SCT", "Left"};
+  codes.region = {"60911003", "SCT", "Temporal bone"};
+  codes.regionModifier = {"24028007", "SCT", "Right"};
+  codes.algorithm = volume::SegmentCodes::Algorithm::Automatic;
+  codes.algorithmName = "a network";
+  const std::string text = scene::toManifest(value);
+  EXPECT_NE(text.find("\"petrous_case\": 4"), std::string::npos)
+      << "older programs would lose the codes, and refuse it";
+  const scene::Case again = scene::fromManifest(text, "m");
+  EXPECT_EQ(again.labels[0].structures[0].codes, codes);
+  EXPECT_EQ(scene::toManifest(again), text);
+
+  std::string wrong = text;
+  wrong.replace(wrong.find("\"automatic\""), 11, "\"by magic!\"");
+  EXPECT_THROW(scene::fromManifest(wrong, "m"), scene::ManifestError);
+  wrong = text;
+  wrong.replace(wrong.find("\"56052001\""), 10, "56052001.5");
+  EXPECT_THROW(scene::fromManifest(wrong, "m"), scene::ManifestError);
+}
+
 TEST(Manifest, KeepsTheNotesOfLabelsAndWhetherAFrameIsSalted)
 {
   scene::Case value = fullCase();

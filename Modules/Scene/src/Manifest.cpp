@@ -113,6 +113,7 @@ namespace
 using nlohmann::json;
 
 constexpr int kFirstFormatWithBranches = 2;
+constexpr int kFormatWithoutCodes = 3;
 constexpr const char* kFrame = "frame_of_reference_salted_sha256";
 constexpr const char* kUnsaltedFrame = "frame_of_reference_sha256"; // written by older programs
 
@@ -164,15 +165,62 @@ appearance::StructureAppearance lookIn(const json& j, const appearance::Structur
   return appearance::appearanceFrom(j, presets.lookFor(j.at("preset").get<std::string>()));
 }
 
+using Concept = volume::CodedConcept volume::SegmentCodes::*;
+constexpr std::pair<const char*, Concept> kConcepts[] = {
+    {"category", &volume::SegmentCodes::category},
+    {"type", &volume::SegmentCodes::type},
+    {"type_modifier", &volume::SegmentCodes::typeModifier},
+    {"region", &volume::SegmentCodes::region},
+    {"region_modifier", &volume::SegmentCodes::regionModifier}};
+constexpr const char* kAlgorithms[] = {"", "manual", "semiautomatic", "automatic"};
+
+json codesOut(const volume::SegmentCodes& codes)
+{
+  json j = json::object();
+  for (const auto& [key, concept] : kConcepts)
+    if (const volume::CodedConcept& code = codes.*concept; !code.empty())
+      j[key] = {{"value", code.value}, {"scheme", code.scheme}, {"meaning", code.meaning}};
+  if (codes.algorithm != volume::SegmentCodes::Algorithm::Unknown)
+    j["algorithm"] = kAlgorithms[static_cast<std::size_t>(codes.algorithm)];
+  if (!codes.algorithmName.empty())
+    j["algorithm_name"] = codes.algorithmName;
+  return j;
+}
+
+volume::SegmentCodes codesIn(const json& j)
+{
+  volume::SegmentCodes codes;
+  for (const auto& [key, concept] : kConcepts)
+    if (j.contains(key))
+    {
+      const json& code = j.at(key);
+      codes.*concept = {code.at("value").get<std::string>(), code.at("scheme").get<std::string>(),
+                        code.at("meaning").get<std::string>()};
+    }
+  const auto algorithm = j.value("algorithm", std::string());
+  const auto* found = std::find(std::begin(kAlgorithms), std::end(kAlgorithms), algorithm);
+  if (found == std::end(kAlgorithms))
+    throw core::InvalidParameter("a structure's algorithm is none of manual, semiautomatic and "
+                                 "automatic");
+  codes.algorithm =
+      static_cast<volume::SegmentCodes::Algorithm>(std::distance(std::begin(kAlgorithms), found));
+  codes.algorithmName = j.value("algorithm_name", std::string());
+  return codes;
+}
+
 json labelsOut(const LabelPart& part)
 {
   json structures = json::array();
   for (const StructurePart& s : part.structures)
+  {
     structures.push_back({{"name", s.name},
                           {"index", s.index},
                           {"voxels", s.voxels},
                           {"volume_mm3", s.volume},
                           {"look", appearance::appearanceJson(s.look)}});
+    if (!s.codes.empty())
+      structures.back()["codes"] = codesOut(s.codes);
+  }
   json j{{"object", part.object}, {"structures", structures}};
   if (part.drawnOn)
     j["drawn_on"] = *part.drawnOn;
@@ -189,9 +237,11 @@ LabelPart labelsIn(const json& j, const appearance::StructurePresets& presets)
     part.drawnOn = j.at("drawn_on").get<std::string>();
   part.notes = j.value("notes", std::vector<std::string>());
   for (const json& s : j.at("structures"))
-    part.structures.push_back({s.at("name").get<std::string>(), s.at("index").get<std::uint16_t>(),
-                               s.at("voxels").get<std::uint64_t>(),
-                               s.at("volume_mm3").get<double>(), lookIn(s.at("look"), presets)});
+    part.structures.push_back(
+        {s.at("name").get<std::string>(), s.at("index").get<std::uint16_t>(),
+         s.at("voxels").get<std::uint64_t>(), s.at("volume_mm3").get<double>(),
+         lookIn(s.at("look"), presets),
+         s.contains("codes") ? codesIn(s.at("codes")) : volume::SegmentCodes()});
   return part;
 }
 
@@ -285,7 +335,14 @@ ManifestError::ManifestError(Reason r, const std::string& message)
 
 std::string toManifest(const Case& value)
 {
-  json j{{"petrous_case", kManifestFormat},
+  const bool hasCodes =
+      std::any_of(value.labels.begin(), value.labels.end(),
+                  [](const LabelPart& part)
+                  {
+                    return std::any_of(part.structures.begin(), part.structures.end(),
+                                       [](const auto& s) { return !s.codes.empty(); });
+                  });
+  json j{{"petrous_case", hasCodes ? kManifestFormat : kFormatWithoutCodes},
          {"name", value.name},
          {"revision", value.revision},
          {"iso_hu", value.iso},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -9,10 +10,12 @@
 
 #include "petrous/Appearance/DistinctColors.h"
 #include "petrous/Appearance/StructurePresets.h"
+#include "petrous/Core/Fingerprint.h"
 #include "petrous/Core/Log.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/DicomReader.h"
 #include "petrous/Imaging/DicomScan.h"
+#include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Imaging/ImageFile.h"
 #include "petrous/Imaging/LabelFile.h"
@@ -158,8 +161,9 @@ void checkName(const fs::path& path, const std::string& name)
 
 [[noreturn]] void nameTaken(const fs::path& path, const std::string& what, const std::string& name)
 {
-  throw core::InvalidParameter(path.string() + ": " + what + " '" + name +
-                               "' is in the case already; give it another name with NAME=FILE");
+  throw core::Error(core::Fault::Refused,
+                    path.string() + ": " + what + " '" + name +
+                        "' is in the case already; give it another name with NAME=FILE");
 }
 
 void addMr(scene::Case& value, const PartSource& source, const core::Progress& progress)
@@ -306,11 +310,24 @@ void settleFrame(const scene::Case& value, PartSource& source, const std::string
                  const std::function<std::string(const std::string&)>& salted)
 {
   const std::string frame = withoutIdentity(frameUid);
+  if (!source.drawnOn.empty() || frame.empty())
+    return;
+  if (frame == withoutIdentity(exportedFrame(value, "")))
+  {
+    source.drawnOn = "ct";
+    return;
+  }
+  for (const scene::ImagePart& mr : value.mr)
+    if (frame == withoutIdentity(exportedFrame(value, mr.name)))
+    {
+      source.drawnOn = mr.name;
+      return;
+    }
   const auto isKnown = [&salted](const scene::ImagePart& image)
   { return !image.frameOfReference.empty() && (!image.isFrameSalted || salted); };
   const auto isOf = [&](const scene::ImagePart& image)
   { return image.frameOfReference == (image.isFrameSalted ? salted(frame) : frame); };
-  if (!source.drawnOn.empty() || frame.empty() || !isKnown(value.ct) || isOf(value.ct))
+  if (!isKnown(value.ct) || isOf(value.ct))
     return;
   for (const scene::ImagePart& mr : value.mr)
     if (isKnown(mr) && isOf(mr))
@@ -428,15 +445,25 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
   const bool isFolder = fs::is_directory(source.path);
   const auto ofFolder = isFolder ? namesInFolder(loaded) : std::map<std::string, std::string>();
   if (!loaded.leftOut.empty()) // their names may be a patient's
-    notes.push_back(
-        std::to_string(loaded.leftOut.size()) +
-        (loaded.leftOut.size() == 1 ? " file of the folder is" : " files of the folder are") +
-        " no mask of one structure, and left out");
+  {
+    std::vector<std::string> known;
+    for (const imaging::UnreadStructure& unread : loaded.unread)
+      if (isFolder && fileName(unread.name).isWhole)
+        known.push_back(unread.name);
+    const std::size_t count = loaded.leftOut.size();
+    notes.push_back(std::to_string(count) +
+                    (count == 1 ? " file of the folder is" : " files of the folder are") +
+                    " not a mask of one structure, and left out" +
+                    (known.empty()           ? std::string()
+                     : known.size() == count ? ": " + scene::listed(known)
+                                             : ", among them " + scene::listed(known)));
+  }
   std::vector<StructureReport> reports;
   for (const imaging::UnreadStructure& unread : loaded.unread)
   {
     reports.push_back({unread.name, unread.isEmpty ? StructureReport::Status::Empty
                                                    : StructureReport::Status::Unread});
+    reports.back().why = unread.why;
     if (unread.isEmpty)
       empty.push_back(unread.name);
   }
@@ -464,7 +491,12 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
       {
         const std::string& own = ofFolder.at(segment.name);
         structure.name = source.name.empty() ? own : source.name + (own.empty() ? "" : " " + own);
-        if (structure.name.empty() || structure.name == source.name)
+        const bool isTwice = std::any_of(reports.begin(), reports.end(),
+                                         [&](const StructureReport& one) {
+                                           return one.status == StructureReport::Status::Read &&
+                                                  one.name == structure.name;
+                                         });
+        if (structure.name.empty() || structure.name == source.name || isTwice)
           structure.name =
               freeName(structure.name.empty() ? "structure" : structure.name,
                        [&](const std::string& name)
@@ -483,15 +515,25 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
             structure.name,
             [&](const std::string& name)
             {
-              return std::any_of(part.structures.begin(), part.structures.end(),
-                                 [&](const auto& one) { return one.name == name; });
+              const auto isCalled = [&name](const auto& one) { return one.name == name; };
+              return std::any_of(part.structures.begin(), part.structures.end(), isCalled) ||
+                     std::any_of(value.labels.begin() + static_cast<std::ptrdiff_t>(before),
+                                 value.labels.end(),
+                                 [&](const scene::LabelPart& other) {
+                                   return std::any_of(other.structures.begin(),
+                                                      other.structures.end(), isCalled);
+                                 });
             },
             notes);
       structure.index = segment.index;
       structure.voxels = segment.voxels;
       structure.volume = map.volume(segment);
       structure.look = presets.lookFor(structure.name);
+      if (const auto codes = loaded.codes.find(segment.name); codes != loaded.codes.end())
+        structure.codes = codes->second;
       if (isUnknown(structure.look))
+        structure.look = presets.lookForCodes(structure.codes).value_or(structure.look);
+      if (isUnknown(structure.look) && structure.codes.type.empty())
         if (const auto meaning = loaded.meanings.find(segment.name);
             meaning != loaded.meanings.end())
           structure.look = presets.lookFor(meaning->second);
@@ -516,11 +558,6 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     ++layer;
     if (part.structures.empty())
       continue;
-    std::set<std::string> names;
-    for (const auto& structure : part.structures)
-      if (!names.insert(structure.name).second)
-        throw core::InvalidParameter(source.path.string() + ": two structures are called '" +
-                                     structure.name + "'; rename one");
     part.drawnOn = drawnOn(value, source, map.voxels->geometry());
     noteOutside(value, part, map);
     part.labels = std::make_shared<const volume::LabelMap>(std::move(map));
@@ -653,9 +690,65 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
   return value;
 }
 
+std::optional<double> StructureReport::volumeError() const
+{
+  if (status != Status::Read || !fileVolume || *fileVolume <= 0.0)
+    return std::nullopt;
+  return volume / *fileVolume - 1.0;
+}
+
+const char* nameOf(StructureReport::Status status)
+{
+  return status == StructureReport::Status::Read    ? "read"
+         : status == StructureReport::Status::Empty ? "empty"
+                                                    : "unread";
+}
+
+StructureSummary summaryOf(const std::vector<StructureReport>& reports)
+{
+  StructureSummary summary;
+  double largest = -1.0;
+  for (const StructureReport& one : reports)
+  {
+    ++(one.status == StructureReport::Status::Read    ? summary.read
+       : one.status == StructureReport::Status::Empty ? summary.empty
+                                                      : summary.unread);
+    if (const auto error = one.volumeError(); error && std::abs(*error) > largest)
+    {
+      largest = std::abs(*error);
+      summary.worst = &one;
+    }
+  }
+  summary.text =
+      std::to_string(summary.read) + (summary.read == 1 ? " structure read" : " structures read");
+  if (summary.empty > 0)
+    summary.text += ", " + std::to_string(summary.empty) + " empty";
+  if (summary.unread > 0)
+    summary.text += ", " + std::to_string(summary.unread) + " not read";
+  return summary;
+}
+
+std::string exportedFrame(const scene::Case& value, const std::string& drawnOn)
+{
+  core::Fingerprint all;
+  const std::string& id = value.id.empty() ? value.name : value.id;
+  all.add(id.data(), id.size());
+  return imaging::deterministicUid(all.value(),
+                                   drawnOn.empty() ? "frame CT" : "frame MR " + drawnOn);
+}
+
 std::vector<std::array<float, 3>> structureColors(const scene::Case& value)
 {
   return colorsOf(value);
+}
+
+void keepIdentity(scene::StructurePart& structure, const scene::StructurePart& replaced)
+{
+  structure.look = replaced.look;
+  volume::SegmentCodes codes = replaced.codes;
+  codes.algorithm = structure.codes.algorithm;
+  codes.algorithmName = structure.codes.algorithmName;
+  structure.codes = std::move(codes);
 }
 
 void addStructures(scene::Case& value, volume::LabelMap labels)
@@ -675,6 +768,8 @@ void addStructures(scene::Case& value, volume::LabelMap labels)
     structure.index = segment.index;
     structure.voxels = segment.voxels;
     structure.volume = labels.volume(segment);
+    structure.codes.algorithm = volume::SegmentCodes::Algorithm::SemiAutomatic;
+    structure.codes.algorithmName = "Petrous";
     structure.look = presets.lookFor(structure.name);
     if (isUnknown(structure.look))
       structure.look.color = appearance::distinctColor(colorsOf(value, part.structures));

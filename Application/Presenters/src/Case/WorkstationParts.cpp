@@ -337,7 +337,7 @@ std::optional<scene::LabelPart> WorkstationModel::addStructure(volume::LabelMap 
   if (taken)
     for (scene::StructurePart& structure : m_case->labels.back().structures)
       if (structure.name == replaced)
-        structure.look = taken->structures.front().look;
+        keepIdentity(structure, taken->structures.front());
   labelsChanged();
   return taken;
 }

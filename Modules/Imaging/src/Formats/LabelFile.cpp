@@ -231,6 +231,7 @@ LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
     }
   if (named && !naming.table.empty())
     loaded.notes.emplace_back(kTableUnused);
+  UniqueNames unique;
   for (std::size_t layer = 0; layer < source.components(); ++layer)
   {
     progress.report(0.7, "reading labels");
@@ -239,6 +240,13 @@ LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
                        { return toLabels<decltype(type)>(source, path, raw, layer); });
     auto names = named ? segmentsOfLayer(path, *source.nrrd(), layer)
                        : namesFromOutside(path, naming, *labels, loaded);
+    for (volume::Segment& segment : names)
+    {
+      segment.name = unique.take(segment.name, loaded.notes);
+      if (named)
+        if (auto codes = codesOfSegment(*source.nrrd(), layer, segment.index); !codes.empty())
+          loaded.codes[segment.name] = std::move(codes);
+    }
     loaded.maps.push_back(volume::makeLabelMap(labels, std::move(names)));
   }
   progress.report(1.0, "reading labels");
@@ -276,11 +284,20 @@ std::vector<volume::Segment> readSegments(const std::filesystem::path& path)
 
 void writeLabelFile(const std::filesystem::path& path, const volume::LabelMap& labels)
 {
+  writeLabelLayers(path, {labels});
+}
+
+namespace
+{
+
+void writeOneLayer(const std::filesystem::path& path, const volume::LabelMap& labels,
+                   const std::map<std::uint16_t, volume::SegmentCodes>& codes)
+{
   if (!labels.voxels)
     throw core::InvalidParameter("label map: no voxels given to write");
   const volume::Volume<std::uint16_t>& voxels = *labels.voxels;
   const bool named = writingFormat(path, kLabels).writeVoxels == writeNrrd;
-  const std::string keys = named ? segmentKeys({labels}) : std::string();
+  const std::string keys = named ? segmentKeys({labels}, codes) : std::string();
   const bool small = std::all_of(voxels.data(), voxels.data() + voxels.size(),
                                  [](std::uint16_t v) { return v <= 255; });
   if (!small)
@@ -296,9 +313,14 @@ void writeLabelFile(const std::filesystem::path& path, const volume::LabelMap& l
                  {});
 }
 
+} // namespace
+
 void writeLabelLayers(const std::filesystem::path& path,
-                      const std::vector<volume::LabelMap>& layers, const core::Progress& progress)
+                      const std::vector<volume::LabelMap>& layers, const core::Progress& progress,
+                      const std::map<std::uint16_t, volume::SegmentCodes>& codes)
 {
+  if (layers.size() == 1)
+    return writeOneLayer(path, layers.front(), codes);
   if (layers.empty() || std::any_of(layers.begin(), layers.end(),
                                     [&](const volume::LabelMap& map)
                                     {
@@ -307,8 +329,6 @@ void writeLabelLayers(const std::filesystem::path& path,
                                                              layers.front().voxels->geometry());
                                     }))
     throw core::InvalidParameter("label layers: none given to write, or on different grids");
-  if (layers.size() == 1)
-    return writeLabelFile(path, layers.front());
   const FileFormat& format = writingFormat(path, kLabels);
   if (format.ending != ".seg.nrrd")
     fail(FileError::Reason::UnknownFormat, path,
@@ -329,7 +349,7 @@ void writeLabelLayers(const std::filesystem::path& path,
   const void* data = bytes.empty() ? static_cast<const void*>(voxels.data()) : bytes.data();
   OutputFile file(path);
   format.writeVoxels(file, {path, layers.front().voxels->geometry(), type, data,
-                            segmentKeys(layers), progress, layers.size()});
+                            segmentKeys(layers, codes), progress, layers.size()});
   progress.check("writing labels");
   file.commit();
 }

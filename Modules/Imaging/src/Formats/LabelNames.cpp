@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "FileHelpers.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/FileFormats.h"
 
 namespace petrous::imaging
@@ -114,7 +115,97 @@ std::int64_t layerOf(const NrrdHeader& header, std::size_t segment)
   return stated ? parseInteger(trimmed(*stated)).value_or(-1) : 0;
 }
 
+/// The parts of a text between separators.
+std::vector<std::string_view> partsOf(std::string_view text, char separator)
+{
+  std::vector<std::string_view> parts;
+  for (;;)
+  {
+    const std::size_t end = text.find(separator);
+    parts.push_back(text.substr(0, end));
+    if (end == text.npos)
+      return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+/// "scheme^value^meaning"
+volume::CodedConcept conceptFrom(std::string_view text)
+{
+  const auto parts = partsOf(text, '^');
+  if (parts.size() != 3 || parts[1].empty() || !core::isUtf8(text))
+    return {};
+  return {std::string(parts[1]), std::string(parts[0]), std::string(parts[2])};
+}
+
+/// A TerminologyEntry; "|" without a type.
+std::string tagsOf(const volume::SegmentCodes& codes)
+{
+  if (codes.type.empty())
+    return "|";
+  const auto text = [](const volume::CodedConcept& code)
+  {
+    std::string all = code.scheme + "^" + code.value + "^";
+    for (const char c : code.meaning)
+      all += c == '^' || c == '~' || c == '|' ? ' ' : c;
+    return all;
+  };
+  return "TerminologyEntry:Segmentation category and type - DICOM master list~" +
+         text(codes.category) + "~" + text(codes.type) + "~" + text(codes.typeModifier) +
+         "~Anatomic codes - DICOM master list~" + text(codes.region) + "~" +
+         text(codes.regionModifier) + "|";
+}
+
+/// The label value of a segment. Before Slicer supported layers it wrote none: structures are
+/// numbered from 1.
+std::int64_t labelValueOf(const NrrdHeader& header, std::size_t segment)
+{
+  const std::string* value = header.key(prefixOf(segment) + "LabelValue");
+  return value ? parseInteger(trimmed(*value)).value_or(0) : static_cast<std::int64_t>(segment) + 1;
+}
+
 } // namespace
+
+volume::SegmentCodes codesOfSegment(const NrrdHeader& header, std::size_t layer,
+                                    std::uint16_t index)
+{
+  constexpr std::string_view kEntry = "TerminologyEntry:";
+  volume::SegmentCodes codes;
+  for (std::size_t s = 0; s < kMaxSegments && hasSegment(header, s); ++s)
+  {
+    const std::string* tags = header.key(prefixOf(s) + "Tags");
+    if (!tags || layerOf(header, s) != static_cast<std::int64_t>(layer) ||
+        labelValueOf(header, s) != index)
+      continue;
+    for (const std::string_view tag : partsOf(*tags, '|'))
+    {
+      if (tag.substr(0, kEntry.size()) != kEntry)
+        continue;
+      // context ~ category ~ type ~ modifier ~ anatomic context ~ region ~ modifier
+      const auto parts = partsOf(tag, '~');
+      const auto part = [&parts](std::size_t n)
+      { return n < parts.size() ? conceptFrom(parts[n]) : volume::CodedConcept(); };
+      codes.category = part(1);
+      codes.type = part(2);
+      codes.typeModifier = part(3);
+      codes.region = part(5);
+      codes.regionModifier = part(6);
+    }
+    break;
+  }
+  return codes;
+}
+
+std::string UniqueNames::take(const std::string& wanted, std::vector<std::string>& notes)
+{
+  std::string name = wanted;
+  for (int n = 2; !m_taken.insert(name).second; ++n)
+    name = wanted + " " + std::to_string(n);
+  if (name != wanted)
+    notes.push_back("several structures are called '" + wanted + "'; one of them was named '" +
+                    name + "'");
+  return name;
+}
 
 std::vector<std::string> segmentsWithoutLayer(const NrrdHeader& header, std::size_t layers)
 {
@@ -138,12 +229,9 @@ std::vector<volume::Segment> segmentsOfLayer(const std::filesystem::path& path,
   {
     const std::string prefix = prefixOf(s);
     const std::string* name = header.key(prefix + "Name");
-    const std::string* value = header.key(prefix + "LabelValue");
     if (layerOf(header, s) != static_cast<std::int64_t>(layer))
       continue;
-    // Before Slicer supported layers it wrote no LabelValue: structures are numbered from 1.
-    const auto index =
-        value ? parseInteger(trimmed(*value)).value_or(0) : static_cast<std::int64_t>(s) + 1;
+    const std::int64_t index = labelValueOf(header, s);
     if (index < 1 || index > 65535)
       fail(FileError::Reason::Unreadable, path,
            "its structure number " + std::to_string(s) +
@@ -162,7 +250,8 @@ std::vector<volume::Segment> segmentsOfLayer(const std::filesystem::path& path,
   return segments;
 }
 
-std::string segmentKeys(const std::vector<volume::LabelMap>& layers)
+std::string segmentKeys(const std::vector<volume::LabelMap>& layers,
+                        const std::map<std::uint16_t, volume::SegmentCodes>& codes)
 {
   std::string keys;
   std::size_t number = 0;
@@ -188,7 +277,9 @@ std::string segmentKeys(const std::vector<volume::LabelMap>& layers)
               nrrdKeyText(prefix + "LabelValue", std::to_string(segment.index)) +
               nrrdKeyText(prefix + "Layer", std::to_string(layer)) +
               nrrdKeyText(prefix + "Name", segment.name) +
-              nrrdKeyText(prefix + "NameAutoGenerated", "0") + nrrdKeyText(prefix + "Tags", "|");
+              nrrdKeyText(prefix + "NameAutoGenerated", "0") +
+              nrrdKeyText(prefix + "Tags",
+                          codes.count(segment.index) > 0 ? tagsOf(codes.at(segment.index)) : "|");
     }
   }
   return keys + nrrdKeyText("Segmentation_ContainedRepresentationNames", "Binary labelmap|") +

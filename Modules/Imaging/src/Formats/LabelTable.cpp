@@ -64,16 +64,31 @@ private:
   std::map<std::int64_t, std::size_t> m_lines;
 };
 
+/// Takes a name in quotes. A quote within it is written \" or "", and one that neither white space
+/// nor the end follows is a part of it; a backslash before another one, \\, is one.
 bool takeQuoted(std::string_view& line, std::string& name)
 {
   if (line.empty() || line.front() != '"')
     return false;
-  const std::size_t end = line.find('"', 1);
-  if (end == line.npos)
-    return false;
-  name = trimmed(line.substr(1, end - 1));
-  line.remove_prefix(end + 1);
-  return true;
+  std::string text;
+  for (std::size_t n = 1; n < line.size(); ++n)
+  {
+    const char next = n + 1 < line.size() ? line[n + 1] : ' ';
+    if (line[n] == '\\' && (next == '"' || next == '\\') &&
+        !(next == '"' && trimmed(line.substr(n + 2)).empty()))
+      text += line[++n];
+    else if (line[n] == '"' && next == '"')
+      text += line[++n];
+    else if (line[n] == '"' && (next == ' ' || next == '\t'))
+    {
+      name = trimmed(text);
+      line.remove_prefix(std::min(n + 1, line.size()));
+      return true;
+    }
+    else
+      text += line[n];
+  }
+  return false;
 }
 
 std::vector<std::string_view> wordsIn(std::string_view line)
@@ -90,25 +105,114 @@ float byteColor(double value)
 }
 
 /// 3D Slicer and FreeSurfer: index name r g b [a] (0 to 255).
-std::optional<volume::Segment> slicerEntry(std::string_view line)
+struct WordEntry
 {
-  volume::Segment segment;
-  line = trimmed(line);
-  const bool isQuoted = takeQuoted(line, segment.name);
-  const std::vector<std::string_view> words = wordsIn(line);
-  std::size_t numbers = 0; // at the end
-  while (numbers < 4 && numbers < words.size() &&
-         parseDouble(words[words.size() - 1 - numbers]).has_value())
-    ++numbers;
+  std::size_t line = 0;
+  std::int64_t index = 0;
+  bool isQuoted = false;
+  std::string name; ///< in quotes
+  std::string_view rest;
+  std::vector<std::string_view> words; ///< of `rest`
+  std::size_t numbers = 0;             ///< of `words`, at the end
+
+  double fromEnd(std::size_t n) const { return *parseDouble(words[words.size() - n]); }
+
+  /// Four numbers behind a name without quotes: the first may belong to the name ("nerve 7").
+  bool isAmbiguous() const { return !isQuoted && numbers == 4 && words.size() > 4; }
+  /// Whether that number may be one: 1 to 99, as structures are numbered.
+  bool mayEndInNumber() const
+  {
+    const double value = fromEnd(4);
+    return value == std::floor(value) && value >= 1.0 && value <= 99.0;
+  }
+};
+
+WordEntry wordEntry(std::string_view line)
+{
+  WordEntry entry;
+  entry.rest = trimmed(line);
+  entry.isQuoted = takeQuoted(entry.rest, entry.name);
+  entry.words = wordsIn(entry.rest);
+  while (entry.numbers < entry.words.size() && entry.numbers < 5 &&
+         parseDouble(entry.words[entry.words.size() - 1 - entry.numbers]).has_value())
+    ++entry.numbers;
+  return entry;
+}
+
+/// Whether the comments of a table name the columns r, g, b, and then a (opacity).
+std::optional<bool> statedOpacity(std::string_view text)
+{
+  while (!text.empty())
+  {
+    const std::string_view line = trimmed(takeLine(text));
+    if (line.empty() || line.front() != '#')
+      continue;
+    std::vector<std::string> words;
+    for (const std::string_view word : wordsIn(line))
+    {
+      std::string plain;
+      for (const char c : word)
+        if (std::isalpha(static_cast<unsigned char>(c)) != 0)
+          plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      if (!plain.empty())
+        words.push_back(std::move(plain));
+    }
+    for (std::size_t n = 0; n + 2 < words.size(); ++n)
+      if ((words[n] == "r" && words[n + 1] == "g" && words[n + 2] == "b") ||
+          (words[n] == "red" && words[n + 1] == "green" && words[n + 2] == "blue"))
+        return n + 3 < words.size() &&
+               (words[n + 3] == "a" || words[n + 3] == "alpha" || words[n + 3] == "opacity");
+  }
+  return std::nullopt;
+}
+
+/// Whether names that a number ends were read with it: the table has no column of opacity. Without
+/// names of columns that is so if entries have no fourth number, or if the last numbers are no
+/// opacity: not the same in all entries, or 0 in all. A number above 255 is no colour anyway.
+bool namesEndInNumbers(const std::vector<WordEntry>& entries, std::optional<bool> stated)
+{
+  if (stated)
+    return !*stated;
+  bool areNumbered = true;
+  bool isMixed = false;
+  std::vector<double> last;
+  for (const WordEntry& entry : entries)
+    if (entry.isAmbiguous() && entry.index != 0)
+    {
+      areNumbered = areNumbered && entry.mayEndInNumber();
+      last.push_back(entry.fromEnd(1));
+    }
+    else if (entry.numbers == 3)
+      isMixed = true;
+    else if (entry.numbers > 3 && entry.index != 0)
+      return false; // with an opacity for sure
+  if (last.empty() || isMixed)
+    return isMixed;
+  const bool areEqual = std::all_of(last.begin(), last.end(),
+                                    [&last](double value) { return value == last.front(); });
+  return areNumbered && (!areEqual || last.front() == 0.0);
+}
+
+std::optional<volume::Segment> slicerEntry(const WordEntry& entry, bool isNumbered)
+{
+  const std::vector<std::string_view>& words = entry.words;
+  std::size_t numbers = std::min<std::size_t>(entry.numbers, 4); // of the colour
+  if (numbers == 4 && !entry.isQuoted &&
+      ((isNumbered && (entry.numbers > 4 || entry.mayEndInNumber())) ||
+       (entry.isAmbiguous() && entry.fromEnd(4) > 255.0)))
+    numbers = 3;
   const std::size_t first = words.size() - numbers;
-  if (numbers < 3 || (isQuoted ? first != 0 : first == 0))
+  if (numbers < 3 || (entry.isQuoted ? first != 0 : first == 0))
     return std::nullopt;
-  if (first > 0 && core::parseDouble(words[first - 1]).has_value() && numbers < 4)
+  if (first > 0 && core::parseDouble(words[first - 1]).has_value() && entry.numbers < 4)
     return std::nullopt; // "nan", a colour and no part of the name
-  if (!isQuoted)
-    segment.name = std::string(words[0].data(),
-                               static_cast<std::size_t>(words[first - 1].data() - words[0].data()) +
-                                   words[first - 1].size());
+  volume::Segment segment;
+  segment.name =
+      entry.isQuoted
+          ? entry.name
+          : std::string(words[0].data(),
+                        static_cast<std::size_t>(words[first - 1].data() - words[0].data()) +
+                            words[first - 1].size());
   for (std::size_t c = 0; c < 3; ++c)
     segment.color[c] = byteColor(*parseDouble(words[first + c]));
   return segment;
@@ -359,27 +463,55 @@ void readRows(std::string_view text, const Columns& columns, Entries& entries, L
       table.segments[n].color[c] = static_cast<float>(colors[n][c] / scale);
 }
 
-void readWordLines(std::string_view text, Entries& entries)
+void readWordLines(std::string_view whole, Entries& entries, LabelTable& table)
 {
-  for (std::size_t number = 1; !text.empty(); ++number)
+  const auto forEachEntry = [whole](const auto& visit)
   {
-    std::string_view line = trimmed(takeLine(text));
-    if (line.empty() || line.front() == '#')
-      continue;
-    const auto index = parseInteger(takeWord(line));
-    if (!index)
+    std::string_view text = whole;
+    for (std::size_t number = 1; !text.empty(); ++number)
     {
-      entries.problem(number, "does not start with an index; an entry is index, name, r, g, b");
-      continue;
+      std::string_view line = trimmed(takeLine(text));
+      if (line.empty() || line.front() == '#')
+        continue;
+      const auto index = parseInteger(takeWord(line));
+      visit(number, index, line);
     }
-    auto segment = snapEntry(line);
-    if (!segment)
-      segment = slicerEntry(line);
-    if (segment)
-      entries.add(number, *index, std::move(*segment));
-    else
-      entries.problem(number, "is no entry; it needs index, name and the colour r, g, b");
-  }
+  };
+  std::vector<WordEntry> words; // of 3D Slicer and FreeSurfer
+  forEachEntry(
+      [&](std::size_t number, const auto& index, std::string_view line)
+      {
+        if (!index || snapEntry(line))
+          return;
+        words.push_back(wordEntry(line));
+        words.back().line = number;
+        words.back().index = *index;
+      });
+  const bool isNumbered = namesEndInNumbers(words, statedOpacity(whole));
+  std::string example; // of a name that would be another with an opacity
+  std::size_t next = 0;
+  forEachEntry(
+      [&](std::size_t number, const auto& index, std::string_view line)
+      {
+        if (!index)
+          return entries.problem(number,
+                                 "does not start with an index; an entry is index, name, r, g, b");
+        const bool isWords = next < words.size() && words[next].line == number;
+        auto segment = isWords ? slicerEntry(words[next], isNumbered) : snapEntry(line);
+        if (!segment)
+          entries.problem(number, "is no entry; it needs index, name and the colour r, g, b");
+        else
+        {
+          if (isWords && isNumbered && words[next].isAmbiguous() && example.empty() && *index != 0)
+            example = segment->name;
+          entries.add(number, *index, std::move(*segment));
+        }
+        next += isWords ? 1 : 0;
+      });
+  if (!example.empty())
+    table.notes.push_back("the table of names has no column of opacity, so a number before the "
+                          "colour was read as part of the name ('" +
+                          example + "')");
 }
 
 void readJson(std::string_view text, Entries& entries)
@@ -441,7 +573,7 @@ LabelTable parseTable(std::string_view text)
   else if (const Columns columns = columnsOf(text); columns.delimiter != '\0')
     readRows(text, columns, entries, table);
   else
-    readWordLines(text, entries);
+    readWordLines(text, entries, table);
   return table;
 }
 
@@ -459,7 +591,12 @@ LabelTable readLabelTable(const std::filesystem::path& path)
              "; a 3D Slicer colour table, an ITK-SNAP label description or a CSV with the columns "
              "index and name would be right");
   if (!table.problems.empty())
-    fail(FileError::Reason::Unreadable, path, "its " + table.problems.front());
+  {
+    // "line 3 gives ..", or "it gives .." of a table without lines
+    const std::string& problem = table.problems.front();
+    fail(FileError::Reason::Unreadable, path,
+         problem.compare(0, 3, "it ") == 0 ? problem.substr(3) : "its " + problem);
+  }
   return table;
 }
 

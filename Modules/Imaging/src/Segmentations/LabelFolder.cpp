@@ -14,6 +14,7 @@
 #include <tbb/parallel_for.h>
 
 #include "FileHelpers.h"
+#include "LabelNames.h"
 #include "VoxelSource.h"
 #include "petrous/Imaging/FileFormats.h"
 
@@ -53,7 +54,8 @@ bool isLabel(T value)
   return number >= 1.0 && number <= 65535.0 && number == std::floor(number);
 }
 
-/// Adds the voxels of a slice that begins at voxel `first`; false if it holds a second value.
+/// Adds the voxels of a slice that begins at voxel `first`; false at a second value, or at one that
+/// is not a number, which is then in `label`.
 template <class T>
 bool addSlice(const T* values, std::uint64_t count, std::uint64_t first, T& label,
               std::vector<Run>& runs)
@@ -77,8 +79,12 @@ bool addSlice(const T* values, std::uint64_t count, std::uint64_t first, T& labe
       label = values[v];
     while (v < count && values[v] == label)
       ++v;
-    if (v == start) // also for NaN
+    if (v == start)
+    {
+      if (values[v] != values[v])
+        label = values[v];
       return false;
+    }
     if (!runs.empty() && runs.back().first + runs.back().count == first + start)
       runs.back().count += v - start;
     else
@@ -114,11 +120,14 @@ void readMask(Mask& mask, const core::Progress& progress)
                          return isOne;
                        },
                        progress);
-                   if (!isOne)
+                   if (label != label)
+                     mask.why = "holds a voxel that is not a number (NaN); a mask holds 0 and one "
+                                "whole number";
+                   else if (!isOne)
                      mask.why = "holds more than one value (an image, or several structures, which "
                                 "are given by themselves)";
                    else if (label != T{0} && !isLabel(label))
-                     mask.why = "holds a value that is no whole number from 1 to 65535";
+                     mask.why = "holds a value that is not a whole number from 1 to 65535";
                  });
   if (!mask.why.empty())
     mask.runs = {};
@@ -136,6 +145,34 @@ std::vector<Mask> candidates(const fs::path& folder, std::vector<std::string>& l
   if (error)
     fail(FileError::Reason::Unreadable, folder, "is a folder that cannot be listed; allow it");
   std::sort(paths.begin(), paths.end());
+  // What a link leads to elsewhere is no part of the folder: neither a mask nor its voxels.
+  const auto leadsOut = [root = fs::canonical(folder, error)](const fs::path& path)
+  {
+    std::error_code ofLink;
+    if (!fs::is_symlink(fs::symlink_status(path, ofLink)))
+      return false;
+    const fs::path target = fs::canonical(path, ofLink);
+    return !ofLink && std::mismatch(root.begin(), root.end(), target.begin(), target.end()).first !=
+                          root.end();
+  };
+  std::vector<std::string> linked; // base names
+  for (const fs::path& path : paths)
+    if (leadsOut(path))
+      linked.push_back(baseName(path));
+  if (!linked.empty())
+    paths.erase(std::remove_if(paths.begin(), paths.end(),
+                               [&](const fs::path& path)
+                               {
+                                 const bool isOut = std::find(linked.begin(), linked.end(),
+                                                              baseName(path)) != linked.end();
+                                 if (isOut)
+                                   leftOut.push_back(path.filename().string() +
+                                                     (leadsOut(path) ? " is" : " belongs to") +
+                                                     " a link to a file outside the folder, and "
+                                                     "was left out");
+                                 return isOut;
+                               }),
+                paths.end());
   const auto hasHeader = [&paths](const fs::path& path)
   {
     return std::any_of(paths.begin(), paths.end(),
@@ -220,6 +257,7 @@ LoadedLabels readLabelFolder(const fs::path& folder, const core::Progress& progr
   std::vector<Layer> layers;
   std::uint64_t voxels = 0;
   std::uint16_t index = 0;
+  UniqueNames names; // "incus.nrrd" and "incus.nii.gz" may lie side by side
   for (Mask& mask : masks)
   {
     const std::string file = mask.path.filename().string();
@@ -230,13 +268,20 @@ LoadedLabels readLabelFolder(const fs::path& folder, const core::Progress& progr
     if (!mask.why.empty())
     {
       loaded.leftOut.push_back(file + " was left out: it " + mask.why);
+      loaded.unread.push_back({name, 0, false, "it " + mask.why});
       continue;
     }
     if (index == 65535)
       fail(FileError::Reason::Unsupported, folder, "holds more than 65535 structures");
     progress.report(0.8, "reading labels");
     volume::Segment segment;
-    segment.name = name;
+    std::vector<std::string> renamed; // names a file, and is not to be stored
+    segment.name = names.take(name, renamed);
+    const char* const kAlike = "several of its files differ in their ending only; their structures "
+                               "were numbered";
+    if (!renamed.empty() &&
+        std::find(loaded.notes.begin(), loaded.notes.end(), kAlike) == loaded.notes.end())
+      loaded.notes.emplace_back(kAlike);
     segment.index = ++index;
     for (const std::string& note : mask.notes)
       if (std::find(loaded.notes.begin(), loaded.notes.end(), note) == loaded.notes.end())
@@ -250,7 +295,7 @@ LoadedLabels readLabelFolder(const fs::path& folder, const core::Progress& progr
     std::uint64_t count = 0;
     for (const Run& run : mask.runs)
       count += run.count;
-    loaded.fileVolumes[name] = static_cast<double>(count) * mask.grid->voxelVolume();
+    loaded.fileVolumes[segment.name] = static_cast<double>(count) * mask.grid->voxelVolume();
     auto layer = std::find_if(layers.begin(), layers.end(),
                               [&](const Layer& one)
                               { return one.grid == grid && isFree(*one.voxels, mask.runs); });

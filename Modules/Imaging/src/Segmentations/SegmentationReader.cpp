@@ -17,6 +17,7 @@
 #include "DicomItem.h"
 #include "FileHelpers.h"
 #include "GridFromAffine.h"
+#include "LabelNames.h"
 #include "PixelCodec.h"
 #include "petrous/Imaging/DicomScan.h"
 
@@ -556,7 +557,42 @@ std::string meaningOf(const DicomItem& segment, const std::string& characters)
   return toUtf8(text, characters);
 }
 
+volume::SegmentCodes codesOf(const DicomItem& segment, const std::string& characters)
+{
+  volume::SegmentCodes codes;
+  codes.category = codedConcept(segment.item(0x00620003), characters);
+  const DicomItem type = segment.item(0x0062000f);
+  codes.type = codedConcept(type, characters);
+  codes.typeModifier = codedConcept(type.item(0x00620011), characters);
+  const DicomItem region = segment.item(0x00082218);
+  codes.region = codedConcept(region, characters);
+  codes.regionModifier = codedConcept(region.item(0x00082220), characters);
+  codes.algorithm = algorithmFrom(segment.text(0x00620008));
+  codes.algorithmName = toUtf8(segment.text(0x00620009), characters);
+  return codes;
+}
+
 } // namespace
+
+volume::CodedConcept codedConcept(const DicomItem& item, const std::string& characters)
+{
+  volume::CodedConcept code;
+  for (const Tag tag : {Tag{0x00080100}, Tag{0x00080119}, Tag{0x00080120}})
+    if (code.value.empty())
+      code.value = toUtf8(item.text(tag), characters);
+  code.scheme = toUtf8(item.text(0x00080102), characters);
+  code.meaning = toUtf8(item.text(0x00080104), characters);
+  return code;
+}
+
+volume::SegmentCodes::Algorithm algorithmFrom(const std::string& text)
+{
+  using Algorithm = volume::SegmentCodes::Algorithm;
+  return text == "MANUAL"          ? Algorithm::Manual
+         : text == "SEMIAUTOMATIC" ? Algorithm::SemiAutomatic
+         : text == "AUTOMATIC"     ? Algorithm::Automatic
+                                   : Algorithm::Unknown;
+}
 
 std::string sopClassOf(const std::filesystem::path& path)
 {
@@ -675,6 +711,7 @@ LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Pro
   const std::string characters = data.text(0x00080005);
   std::vector<std::vector<volume::Segment>> names(layers.voxels.size());
   std::vector<char> isKnown(65536, 0);
+  UniqueNames unique;
   for (const DicomItem& item : data.items(0x00620002))
   {
     const auto number = item.integer(0x00620004);
@@ -689,8 +726,10 @@ LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Pro
     segment.name = toUtf8(item.text(0x00620005), characters);
     if (segment.name.empty())
       segment.name = "label " + std::to_string(*number);
+    segment.name = unique.take(segment.name, loaded.notes);
     segment.color = colorFromCieLab(item.shorts(0x0062000d));
     loaded.meanings[segment.name] = meaningOf(item, characters);
+    loaded.codes[segment.name] = codesOf(item, characters);
     if (const auto pixels = layers.pixels.find(*number); pixels != layers.pixels.end())
       loaded.fileVolumes[segment.name] = pixels->second * grid.voxelVolume();
     const auto layer = layers.layerOf.find(*number);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "DicomItem.h"
 #include "petrous/Imaging/LabelFile.h"
 
 namespace petrous::imaging
@@ -23,6 +24,13 @@ bool isSegmentationClass(const std::string& sopClass);
 /// places without a frame are empty. Frames are read one at a time, straight into the grid.
 /// Segments that overlap lie in several maps. Throws FileError, CancelledError.
 LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Progress& progress);
+
+/// The code in an item of a code sequence (short, long or URN); its texts are in the character set
+/// `characters` (0008,0005).
+volume::CodedConcept codedConcept(const DicomItem& item, const std::string& characters);
+
+/// MANUAL, SEMIAUTOMATIC or AUTOMATIC; otherwise Unknown.
+volume::SegmentCodes::Algorithm algorithmFrom(const std::string& text);
 
 /// sRGB (0 to 1) of a Recommended Display CIELab Value (PS3.3 C.10.7.1.1, relative to D50).
 std::array<float, 3> colorFromCieLab(const std::vector<int>& value);

@@ -34,15 +34,6 @@ struct Frame
   int slice;
 };
 
-DataSet code(const CodedConcept& concept)
-{
-  DataSet d;
-  put(d, {{0x0008, 0x0100, "SH", concept.value},
-          {0x0008, 0x0102, "SH", concept.scheme},
-          {0x0008, 0x0104, "LO", concept.meaning}});
-  return d;
-}
-
 void putShorts(DataSet& data, std::uint16_t group, std::uint16_t element, const char* vr,
                const std::vector<std::uint16_t>& values)
 {
@@ -72,6 +63,20 @@ std::string longString(const std::string& text)
   return result;
 }
 
+/// A code of more than 16 characters is a Long Code Value.
+DataSet code(const CodedConcept& concept)
+{
+  constexpr std::size_t kLongestShort = 16;
+  DataSet d;
+  if (concept.value.size() <= kLongestShort)
+    put(d, 0x0008, 0x0100, "SH", longString(concept.value));
+  put(d, 0x0008, 0x0102, "SH", longString(concept.scheme).substr(0, kLongestShort));
+  put(d, 0x0008, 0x0104, "LO", longString(concept.meaning));
+  if (concept.value.size() > kLongestShort)
+    put(d, 0x0008, 0x0119, "UC", longString(concept.value));
+  return d;
+}
+
 DataSet segmentItem(const SegmentationDescription::Segment& segment, std::size_t number)
 {
   static constexpr std::array<const char*, 3> kAlgorithms{"MANUAL", "SEMIAUTOMATIC", "AUTOMATIC"};
@@ -90,7 +95,17 @@ DataSet segmentItem(const SegmentationDescription::Segment& segment, std::size_t
   const std::array<std::uint16_t, 3> lab = cieLabFromColor(segment.color);
   putShorts(d, 0x0062, 0x000D, "US", {lab.begin(), lab.end()});
   putSequence(d, 0x0062, 0x0003, {code(segment.category)});
-  putSequence(d, 0x0062, 0x000F, {code(segment.type)});
+  DataSet type = code(segment.type);
+  if (!segment.typeModifier.empty())
+    putSequence(type, 0x0062, 0x0011, {code(segment.typeModifier)});
+  putSequence(d, 0x0062, 0x000F, {type});
+  if (!segment.region.empty())
+  {
+    DataSet region = code(segment.region);
+    if (!segment.regionModifier.empty())
+      putSequence(region, 0x0008, 0x2220, {code(segment.regionModifier)});
+    putSequence(d, 0x0008, 0x2218, {region});
+  }
   return d;
 }
 

@@ -8,6 +8,7 @@
 #include "DicomElements.h"
 #include "DicomItem.h"
 #include "FileHelpers.h"
+#include "LabelNames.h"
 #include "SegmentationReader.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Imaging/StructureSet.h"
@@ -23,9 +24,11 @@ using Reason = FileError::Reason;
 constexpr const char* kStructureSetClass = "1.2.840.10008.5.1.4.1.1.481.3";
 constexpr std::uint64_t kLargest = std::uint64_t{1} << 30; // bytes
 constexpr std::size_t kMostRois = 65535;
-constexpr double kFarthest = 1e5;   // mm, of a point
+constexpr double kFarthest = 1e4; // mm, of a point; scanners put the patient within 2 m
+constexpr std::uint64_t kMaxVoxels = std::uint64_t{1} << 31; // of all layers
 constexpr double kPlanar = 0.1;     // slices, by which a contour may leave its plane
 constexpr double kSamePlane = 0.02; // slices, between contours of one plane
+constexpr double kThinVoxels = 4.0; // volume from which on a shape is judged
 constexpr double kGap = 1.5;        // of the usual distance of planes: a part of its own
 constexpr int kLines = 32;          // in a row of voxels
 
@@ -48,23 +51,27 @@ std::string dataSet(const std::filesystem::path& path, DicomItem::Encoding& enco
   return bytes;
 }
 
-/// The points of a contour; false if they are no numbers, or not three a point.
-bool readPoints(const DicomItem& contour, std::vector<Eigen::Vector3d>& points)
+/// The points of a contour.
+std::vector<Eigen::Vector3d> readPoints(const DicomItem& contour, const std::filesystem::path& path)
 {
+  std::vector<Eigen::Vector3d> points;
   const std::vector<double> values = contour.numbers(0x30060050);
   if (values.empty() || values.size() % 3 != 0)
-    return false;
+    fail(Reason::Unreadable, path,
+         "has a contour whose points are not numbers, three a point; export it again");
   for (std::size_t n = 0; n < values.size(); n += 3)
   {
     const Eigen::Vector3d p(values[n], values[n + 1], values[n + 2]);
-    if (!(p.cwiseAbs().maxCoeff() < kFarthest)) // NaN too
-      return false;
+    if (!(p.cwiseAbs().maxCoeff() <= kFarthest)) // NaN too
+      fail(Reason::Unreadable, path,
+           "has a contour with a point more than 10 m from the origin; contours are in mm within "
+           "the patient: look for a coordinate without its decimal point, and export it again");
     if (points.empty() || p != points.back())
       points.push_back(p);
   }
   while (points.size() > 1 && points.back() == points.front())
     points.pop_back();
-  return true;
+  return points;
 }
 
 /// Axes of the grid: contours lie in planes across `normal`.
@@ -180,34 +187,39 @@ void forEachSpan(const Plane& plane, const Span& span)
   // Line n lies at (n + 1/2) / kLines - 1/2; row j holds lines j kLines to (j + 1) kLines - 1.
   const auto lineAbove = [](double y)
   { return static_cast<std::int64_t>(std::ceil((y + 0.5) * kLines - 0.5)); };
-  const std::int64_t begin = lineAbove(lowest);
   const std::int64_t end = lineAbove(highest);
-  std::vector<std::vector<double>> crossings(
-      static_cast<std::size_t>(std::max<std::int64_t>(0, end - begin)));
-  for (const auto& contour : plane.contours)
-    for (std::size_t n = 0; n < contour.size(); ++n)
-    {
-      Eigen::Vector2d a = contour[n];
-      Eigen::Vector2d b = contour[(n + 1) % contour.size()];
-      if (a[1] > b[1])
-        std::swap(a, b);
-      const std::int64_t last = lineAbove(b[1]); // half-open: a point on a line counts once
-      for (std::int64_t line = lineAbove(a[1]); line < last; ++line)
-      {
-        const double y = (static_cast<double>(line) + 0.5) / kLines - 0.5;
-        const double t = (y - a[1]) / (b[1] - a[1]);
-        crossings[static_cast<std::size_t>(line - begin)].push_back(a[0] + t * (b[0] - a[0]));
-      }
-    }
-  for (std::size_t n = 0; n < crossings.size(); ++n)
+  constexpr std::int64_t kLinesAtOnce = 1 << 15; // bounds the memory, whatever the contours' extent
+  std::vector<std::vector<double>> crossings;
+  for (std::int64_t begin = lineAbove(lowest); begin < end; begin += kLinesAtOnce)
   {
-    auto& at = crossings[n];
-    std::sort(at.begin(), at.end());
-    const std::int64_t line = begin + static_cast<std::int64_t>(n);
-    const std::int64_t row = line >= 0 ? line / kLines : -((-line + kLines - 1) / kLines);
-    for (std::size_t c = 0; c + 1 < at.size(); c += 2)
-      if (at[c + 1] > at[c])
-        span(row, at[c], at[c + 1], 1.0 / kLines);
+    const std::int64_t blockEnd = std::min(end, begin + kLinesAtOnce);
+    crossings.assign(static_cast<std::size_t>(blockEnd - begin), {});
+    for (const auto& contour : plane.contours)
+      for (std::size_t n = 0; n < contour.size(); ++n)
+      {
+        Eigen::Vector2d a = contour[n];
+        Eigen::Vector2d b = contour[(n + 1) % contour.size()];
+        if (a[1] > b[1])
+          std::swap(a, b);
+        // half-open: a point on a line counts once
+        const std::int64_t last = std::min(lineAbove(b[1]), blockEnd);
+        for (std::int64_t line = std::max(lineAbove(a[1]), begin); line < last; ++line)
+        {
+          const double y = (static_cast<double>(line) + 0.5) / kLines - 0.5;
+          const double t = (y - a[1]) / (b[1] - a[1]);
+          crossings[static_cast<std::size_t>(line - begin)].push_back(a[0] + t * (b[0] - a[0]));
+        }
+      }
+    for (std::size_t n = 0; n < crossings.size(); ++n)
+    {
+      auto& at = crossings[n];
+      std::sort(at.begin(), at.end());
+      const std::int64_t line = begin + static_cast<std::int64_t>(n);
+      const std::int64_t row = line >= 0 ? line / kLines : -((-line + kLines - 1) / kLines);
+      for (std::size_t c = 0; c + 1 < at.size(); c += 2)
+        if (at[c + 1] > at[c])
+          span(row, at[c], at[c + 1], 1.0 / kLines);
+    }
   }
 }
 
@@ -373,6 +385,21 @@ std::vector<char> chosen(const Shares& shares)
   return in;
 }
 
+/// How much of a chosen voxel lies within the structure, on average: near 1 for a body of many
+/// voxels, and the thickness in voxels for a sheet thinner than one.
+double meanShare(const Shares& shares, const std::vector<char>& in)
+{
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::size_t n = 0; n < in.size(); ++n)
+    if (in[n] != 0)
+    {
+      sum += shares.values[n] / Shares::kWhole;
+      ++count;
+    }
+  return count == 0 ? 1.0 : sum / static_cast<double>(count);
+}
+
 /// Keeps a voxel for each contour of which none is in; returns their number.
 std::size_t keepSmall(const Placed& placed, const Shares& shares, std::vector<char>& in)
 {
@@ -462,6 +489,7 @@ StructureSet readStructureSet(const std::filesystem::path& path)
     roi.name = toUtf8(item.text(0x30060026), characters);
     if (roi.name.empty())
       roi.name = "label " + std::to_string(*number);
+    roi.codes.algorithm = algorithmFrom(item.text(0x30060036));
     const std::string frame = item.text(0x30060024);
     if (set.frameOfReferenceUid.empty())
       set.frameOfReferenceUid = frame;
@@ -478,6 +506,7 @@ StructureSet readStructureSet(const std::filesystem::path& path)
     {
       const DicomItem code = item.item(0x30060086); // RT ROI Identification Code
       StructureSet::Roi& roi = set.rois[places.at(*number)];
+      roi.codes.type = codedConcept(code, characters);
       roi.meaning = toUtf8(code.text(0x00080104), characters);
       if (roi.meaning.empty())
         roi.meaning = toUtf8(item.text(0x300600a4), characters);
@@ -504,10 +533,7 @@ StructureSet readStructureSet(const std::filesystem::path& path)
         ++roi.otherContours;
         continue;
       }
-      std::vector<Eigen::Vector3d> points;
-      if (!readPoints(contour, points))
-        fail(Reason::Unreadable, path,
-             "has a contour whose points are no numbers, three a point; export it again");
+      std::vector<Eigen::Vector3d> points = readPoints(contour, path);
       if (points.size() < 3)
         ++roi.otherContours;
       else
@@ -534,17 +560,21 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
   std::vector<std::string> coarse; // drawn on every second slice or fewer
   std::size_t others = 0;
   std::size_t drawn = 0;
+  UniqueNames unique;
   for (std::size_t n = 0; n < set.rois.size(); ++n)
   {
     const StructureSet::Roi& roi = set.rois[n];
+    const std::string name = unique.take(roi.name, loaded.notes);
     const core::Progress part =
         progress.part(static_cast<double>(n) / static_cast<double>(set.rois.size()),
                       static_cast<double>(n + 1) / static_cast<double>(set.rois.size()));
     part.report(0.0, "reading contours");
     const auto label = static_cast<std::uint16_t>(n + 1);
-    volume::Segment segment{roi.name, label, roi.color, 0};
+    volume::Segment segment{name, label, roi.color, 0};
     if (!roi.meaning.empty())
-      loaded.meanings[roi.name] = roi.meaning;
+      loaded.meanings[name] = roi.meaning;
+    if (!roi.codes.empty())
+      loaded.codes[name] = roi.codes;
     others += roi.otherContours;
     std::size_t layer = 0;
     if (!roi.contours.empty())
@@ -553,27 +583,36 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
       const auto placed = place(roi, grid);
       if (!placed)
       {
-        oblique.push_back("'" + roi.name + "'");
-        loaded.unread.push_back({roi.name, label, false});
+        oblique.push_back("'" + name + "'");
+        loaded.unread.push_back({name, label, false});
         continue;
       }
       if (placed->step > kGap)
-        coarse.push_back("'" + roi.name + "'");
+        coarse.push_back("'" + name + "'");
       const Shares shares = sharesOf(*placed, grid, part);
       constexpr double kNoted = 0.01; // of the volume
       const double whole = volumeOf(*placed);
-      loaded.fileVolumes[roi.name] = whole * grid.voxelVolume();
+      loaded.fileVolumes[name] = whole * grid.voxelVolume();
       if (shares.sum < (1.0 - kNoted) * whole)
-        loaded.notes.push_back("'" + roi.name + "': " +
-                               std::to_string(std::lround(100.0 * (1.0 - shares.sum / whole))) +
-                               " % of it lies outside this image and became no voxels");
+        loaded.notes.push_back(
+            "'" + name + "': " + std::to_string(std::lround(100.0 * (1.0 - shares.sum / whole))) +
+            " % of it lies outside this image and became no voxels");
       if (!shares.box.empty())
       {
         std::vector<char> in = chosen(shares);
         if (const std::size_t kept = keepSmall(*placed, shares, in); kept > 0)
-          loaded.notes.push_back("'" + roi.name + "' has " + std::to_string(kept) +
+          loaded.notes.push_back("'" + name + "' has " + std::to_string(kept) +
                                  (kept == 1 ? " contour" : " contours") +
                                  " smaller than a voxel, which became one voxel each");
+        constexpr double kThin = 0.7;
+        if (const double inside = meanShare(shares, in);
+            shares.sum >= kThinVoxels && inside < kThin)
+          loaded.notes.push_back("'" + name +
+                                 "' is thinner than the voxels: those that it became "
+                                 "lie on average " +
+                                 std::to_string(std::lround(100.0 * inside)) +
+                                 " % within its contours and are scattered; its volume is right, "
+                                 "its shape is not");
         const auto forEach = [&](const auto& visit)
         {
           std::size_t at = 0;
@@ -589,6 +628,10 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
           ++layer;
         if (layer == layers.size())
         {
+          if ((layer + 1) * grid.voxelCount() > kMaxVoxels)
+            fail(Reason::Unsupported, path,
+                 "its structures overlap in more layers than are read; export fewer of them at a "
+                 "time");
           layers.push_back(volume::makeZeroVolume<std::uint16_t>(grid));
           names.emplace_back();
         }

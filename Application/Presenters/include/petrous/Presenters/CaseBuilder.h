@@ -72,7 +72,26 @@ struct StructureReport
   double volume = 0.0;                             ///< mm^3, of the voxels
   std::optional<double> fileVolume = std::nullopt; ///< mm^3, by the file's own contours or frames
   std::size_t layer = 0;                           ///< of its source's overlapping structures
+  std::string why = {};                            ///< of Unread: "it holds ..", if known
+
+  /// How far the voxels' volume is from the file's, in parts of the file's (0.01: 1 % more);
+  /// nullopt if the file encloses none.
+  std::optional<double> volumeError() const;
 };
+
+/// "read", "empty" or "unread"
+const char* nameOf(StructureReport::Status status);
+
+/// Counts over the structures of files.
+struct StructureSummary
+{
+  std::size_t read = 0, empty = 0, unread = 0;
+  /// The structure whose voxels are farthest from the volume by the file, of those with one;
+  /// nullptr if there is none. Into the reports.
+  const StructureReport* worst = nullptr;
+  std::string text; ///< one line, e.g. "58 structures read, 1 empty, 1 not read"
+};
+StructureSummary summaryOf(const std::vector<StructureReport>& reports);
 
 struct CaseSources
 {
@@ -86,7 +105,8 @@ struct CaseSources
 /// A case built in memory, not saved. What was accepted or assumed is in the parts' notes. Labels
 /// whose image is unspecified, and whose grid is that of one MR and not the CT's, are taken as
 /// drawn on that MR; so is a DICOM SEG in the frame of reference of an MR and not the CT's, and one
-/// in neither is refused unless "FILE@ct" says otherwise. Throws the imaging module's errors,
+/// in neither, nor in that of files exported from the case (exportedFrame), is refused unless
+/// "FILE@ct" says otherwise. Throws the imaging module's errors,
 /// InvalidParameter (also if several MR images have that grid), CancelledError.
 scene::Case buildCase(const std::string& name, const CaseSources& sources,
                       const core::Progress& progress,
@@ -94,18 +114,27 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
 
 /// Adds parts to a case; strong exception guarantee. Structure names must be new to the case's
 /// labels, mesh names to its meshes. A part without a given name is named by the structure words of
-/// its file name (fileName), and its notes say so. Throws InvalidParameter for labels without a
+/// its file name (fileName), and its notes say so. Throws Error (Refused) for a name that is taken,
+/// InvalidParameter for labels without a
 /// voxel, and for a mesh that extends beyond the image on which it was drawn by more than
 /// volume::maxReach.
 /// `report`, if given, gets every structure of `parts.labels`.
 void addParts(scene::Case& value, const PartSources& parts, const core::Progress& progress,
               std::vector<StructureReport>* report = nullptr);
 
+/// The frame of reference UID of DICOM files that are exported from a case: of those in the CT's
+/// space, or of those in the space of the MR `drawnOn`.
+std::string exportedFrame(const scene::Case& value, const std::string& drawnOn);
+
 /// Adds structures made in this program, on a grid in the CT's patient space, as if they had been
 /// read from a file: each looks as its name says. Their names are those of the map's segments.
 /// Throws InvalidParameter for a name that is not valid or is in the case already, and for a
 /// structure without a voxel; the case is unchanged then.
 void addStructures(scene::Case& value, volume::LabelMap labels);
+
+/// What `structure` keeps of the one that it replaces: the look, and what it is; how it was made is
+/// its own.
+void keepIdentity(scene::StructurePart& structure, const scene::StructurePart& replaced);
 
 /// The colours of all structures and meshes, for one that is to differ (distinctColor).
 std::vector<std::array<float, 3>> structureColors(const scene::Case& value);

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "petrous/Appearance/StructureAppearance.h"
+#include "petrous/Volume/SegmentCodes.h"
 
 namespace petrous::appearance
 {
@@ -28,8 +30,14 @@ public:
   /// From JSON text. Throws InvalidParameter naming the invalid entry.
   explicit StructurePresets(std::string_view json);
 
-  /// The default appearance of a structure of this name, e.g. "facial_nerve" -> nerve.
+  /// The default appearance of a structure of this name, e.g. "facial_nerve", "N. facialis" or
+  /// "Gesichtsnerv links" -> nerve; "other" if the catalogue does not know the name.
   StructureAppearance lookFor(const std::string& structureName) const;
+
+  /// The appearance by what a file says that a structure is: by the codes that the catalogue has,
+  /// else by the words of their meanings; nullopt if neither says more. Of what is abnormal, the
+  /// region does not count: a mass at an artery is none.
+  std::optional<StructureAppearance> lookForCodes(const volume::SegmentCodes& codes) const;
 
   /// The words of a name that denote structures, sides and parts, and short numbers, in order and
   /// in lower case: "Doe_John-FacialNerve_left" -> "facial nerve left". Empty if none of them
@@ -48,19 +56,30 @@ public:
   std::vector<StructureAppearance> all() const;
 
 private:
-  struct Words
+  /// Words that follow one another in a name, folded (lower case, ASCII: "steigbuegel").
+  struct Phrase
   {
     std::vector<std::string> words;
+    bool isWhole = false; ///< the last word has no other ending
+    bool isAlone = false; ///< nothing but neutral words stands beside them
+  };
+  using Phrases = std::vector<Phrase>;
+  struct Words
+  {
+    Phrases phrases;
     std::size_t preset; ///< index in `m_presets`
   };
   struct Code
   {
-    std::vector<std::string> words;
+    Phrases phrases;
     std::string preset;
     StructureCode code;
   };
   const StructureAppearance* find(const std::string& name) const; ///< nullptr: no such preset
   const StructureAppearance* lookByWord(const std::string& structureName) const;
+  bool hasPhrase(const std::vector<std::string>& name, const Phrases& phrases) const;
+  bool isNeutral(const std::string& foldedWord) const;
+  static void addPhrases(Phrases& phrases, const std::vector<std::string>& texts, bool isAlone);
 
   std::vector<StructureAppearance> m_presets;
   std::vector<Words> m_words;

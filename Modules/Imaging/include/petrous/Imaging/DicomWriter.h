@@ -12,6 +12,7 @@
 #include "petrous/Core/Progress.h"
 #include "petrous/Volume/IntensityVolume.h"
 #include "petrous/Volume/LabelMap.h"
+#include "petrous/Volume/SegmentCodes.h"
 
 namespace petrous::imaging
 {
@@ -67,13 +68,7 @@ void writeDicomSeries(const std::filesystem::path& folder, const volume::Intensi
                       const std::optional<Eigen::Vector3d>& sliceStep = std::nullopt,
                       const core::Progress& progress = {});
 
-/// A coded concept (PS3.3 Table 8.8-1a), e.g. 123037004, SCT, "Anatomical Structure".
-struct CodedConcept
-{
-  std::string value;
-  std::string scheme;
-  std::string meaning;
-};
+using CodedConcept = volume::CodedConcept;
 
 /// Attributes of a DICOM segmentation to be written. None of them is a person's.
 struct SegmentationDescription
@@ -93,6 +88,9 @@ struct SegmentationDescription
     std::array<float, 3> color{}; ///< sRGB, 0 to 1
     CodedConcept category{"123037004", "SCT", "Anatomical Structure"}; ///< CID 7150
     CodedConcept type{"123037004", "SCT", "Anatomical Structure"};
+    CodedConcept typeModifier = {}; ///< these are written if they are not empty
+    CodedConcept region = {};
+    CodedConcept regionModifier = {}; ///< of `region`, without which it is not written
     Algorithm algorithm = Algorithm::Manual;
     std::string algorithmName; ///< required unless Manual
   };

@@ -9,6 +9,7 @@
 #include "petrous/Core/Progress.h"
 #include "petrous/Imaging/FileError.h"
 #include "petrous/Volume/LabelMap.h"
+#include "petrous/Volume/SegmentCodes.h"
 
 namespace petrous::imaging
 {
@@ -19,18 +20,22 @@ struct UnreadStructure
   std::string name;
   std::uint16_t index = 0; ///< 0: not known
   bool isEmpty = true;     ///< it has no voxel; otherwise it could not be read
+  std::string why = {};    ///< it could not be read: "it ..", if known; names no file
 };
 
 struct LoadedLabels
 {
-  /// One map; for overlapping structures (.seg.nrrd, DICOM SEG, a folder) one per layer, and for a
-  /// folder with several grids at least one for each.
+  /// Structures have different names: of several with one name the later ones are numbered
+  /// ("nerve 2"), which a note says. One map; for overlapping structures (.seg.nrrd, DICOM SEG, a
+  /// folder) one per layer, and for a folder with several grids at least one for each.
   std::vector<volume::LabelMap> maps;
   std::vector<std::string> notes; ///< what was assumed or left out, one sentence each
   bool isNamedAfterFile = false;  ///< structures are named only by the names of their files
   /// DICOM: what structures are, by the codes of the file; by name. An appearance may be chosen by
   /// it where the name says nothing.
   std::map<std::string, std::string> meanings = {};
+  /// The codes themselves, of DICOM and of 3D Slicer's .seg.nrrd, by name.
+  std::map<std::string, volume::SegmentCodes> codes = {};
   std::string frameOfReferenceUid = {}; ///< DICOM; identifies the patient's study: not to be shown
   std::vector<UnreadStructure> unread = {};
   /// mm^3 by the file itself, by name: what its frames, masks or contours enclose, counted or
@@ -44,7 +49,8 @@ struct LoadedLabels
 /// Where the names of label values come from.
 struct LabelNaming
 {
-  std::filesystem::path table; ///< a table of names (README.md); empty: the one beside the file
+  std::filesystem::path
+      table; ///< a table of names (formats: README.md); empty: the one beside the file
   /// Whether `table` also names a file of a single structure, which otherwise its own name does.
   bool namesSingle = true;
 };
@@ -66,7 +72,8 @@ bool isDicomSegmentation(const std::filesystem::path& path);
 /// is noted if there is a table.
 ///
 /// In a folder each file with one nonzero value is a structure, named after the file and numbered
-/// from 1 in the order of names; other files are left out and told of. Structures on one grid share
+/// from 1 in the order of names; other files, and links to what lies outside the folder, are left
+/// out and told of. Structures on one grid share
 /// a map unless they overlap; different grids are kept apart. Files are read in parallel, one slice
 /// at a time.
 ///
@@ -93,9 +100,12 @@ void writeLabelFile(const std::filesystem::path& path, const volume::LabelMap& l
 /// Writes structures that overlap, each map a layer of one .seg.nrrd file (3D Slicer); a single map
 /// as writeLabelFile does. Layers are on one grid. Throws like it, FileError (UnknownFormat) for
 /// several layers in another format, CancelledError.
+///
+/// codes  by label value, which then differ between layers: written as 3D Slicer's TerminologyEntry
 void writeLabelLayers(const std::filesystem::path& path,
                       const std::vector<volume::LabelMap>& layers,
-                      const core::Progress& progress = {});
+                      const core::Progress& progress = {},
+                      const std::map<std::uint16_t, volume::SegmentCodes>& codes = {});
 
 /// Names and colours as an ITK-SNAP label description (.label), which loadLabels finds beside a
 /// file of the same base name. Throws core::OutputFileError.

@@ -22,6 +22,7 @@ struct StructureSet
     std::string name;
     std::array<float, 3> color{}; ///< 0 to 1; black if the file has none
     std::string meaning;          ///< RT ROI Interpreted Type, or its code's meaning; may be empty
+    volume::SegmentCodes codes;   ///< RT ROI Identification Code as the type, and the algorithm
     /// Closed contours, patient LPS mm; the last point is not the first again.
     std::vector<std::vector<Eigen::Vector3d>> contours;
     std::size_t otherContours = 0; ///< points and open contours, which enclose nothing

@@ -17,6 +17,7 @@
 #include "petrous/Scene/TransformedPart.h"
 #include "petrous/Volume/IntensityScale.h"
 #include "petrous/Volume/LabelMap.h"
+#include "petrous/Volume/SegmentCodes.h"
 
 namespace petrous::scene
 {
@@ -29,6 +30,7 @@ struct StructurePart
   std::uint64_t voxels = 0;
   double volume = 0.0; ///< mm^3, number of voxels times voxel volume
   appearance::StructureAppearance look;
+  volume::SegmentCodes codes = {}; ///< as the file said that it was read from
 };
 
 /// A label map with the structures that the case uses.

@@ -31,8 +31,8 @@ struct SegmentCodes
     Automatic
   };
 
-  CodedConcept category; ///< Segmented Property Category, CID 7150
-  CodedConcept type;     ///< Segmented Property Type
+  CodedConcept category;     ///< Segmented Property Category, CID 7150
+  CodedConcept type;         ///< Segmented Property Type
   CodedConcept typeModifier; ///< e.g. left
   CodedConcept region;       ///< Anatomic Region
   CodedConcept regionModifier;

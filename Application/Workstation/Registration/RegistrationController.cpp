@@ -166,6 +166,8 @@ void RegistrationController::mrMoved()
 
 void RegistrationController::begin(Way way)
 {
+  if (m_model.hasCase() && !m_model.drilling())
+    emit panelWanted(); // its verdict, or why nothing can be registered
   if (!m_session.part() || running() || m_model.drilling())
     return;
   if (way == Way::Refine && !m_session.part()->registered)

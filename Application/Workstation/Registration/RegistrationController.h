@@ -43,6 +43,7 @@ public:
 signals:
   void sceneStale(); ///< views of the MR or of what was drawn on it are outdated; throttled
   void statusMessage(const QString& line);
+  void panelWanted(); ///< it says something that must be seen
 
 private:
   using Best = std::optional<core::RigidTransform>;

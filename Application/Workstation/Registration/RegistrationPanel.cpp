@@ -7,7 +7,6 @@
 #include <QLineEdit>
 #include <QProgressBar>
 #include <QPushButton>
-#include <QScrollArea>
 #include <QSlider>
 #include <QVBoxLayout>
 
@@ -17,6 +16,7 @@
 #include "HandlesBox.h"
 #include "LandmarksBox.h"
 #include "MetricCurve.h"
+#include "PanelLayout.h"
 #include "RegistrationTargetBox.h"
 #include "Theme.h"
 
@@ -117,17 +117,7 @@ RegistrationPanel::RegistrationPanel(presenters::RegistrationSession& session, Q
   connect(m_points, &LandmarksBox::fitAsked, this, &RegistrationPanel::landmarksAsked);
   connect(m_aim, &RegistrationTargetBox::chosen, this, &RegistrationPanel::aimChosen);
   connect(m_points, &LandmarksBox::changed, this, &RegistrationPanel::landmarksChanged);
-  auto* area = new QScrollArea;
-  area->setWidgetResizable(true);
-  area->setFrameShape(QFrame::NoFrame);
-  area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  area->setWidget(inside);
-  auto* outer = new QVBoxLayout(this);
-  outer->setContentsMargins(0, 0, 0, 0);
-  outer->setSpacing(0);
-  outer->addWidget(area, 1);
-  outer->addWidget(signOff()); // always visible
-  setMinimumWidth(340);
+  layOutPanel(*this, inside, signOff());
   setOverlay(std::nullopt, 0.5);
   setRunning(false);
   say({});

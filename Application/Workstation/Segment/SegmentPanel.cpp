@@ -15,7 +15,6 @@
 #include <QMenu>
 #include <QProgressBar>
 #include <QPushButton>
-#include <QScrollArea>
 #include <QStackedWidget>
 #include <QStandardItemModel>
 #include <QToolButton>
@@ -23,6 +22,7 @@
 #include <QVBoxLayout>
 
 #include "Application.h"
+#include "PanelLayout.h"
 #include "Theme.h"
 
 namespace petrous::workstation
@@ -109,17 +109,7 @@ SegmentPanel::SegmentPanel(SegmentEditor& editor, const std::vector<QAction*>& t
   addTools(*layout, tools);
   addPages(*layout);
   layout->addStretch(1);
-  auto* area = new QScrollArea;
-  area->setWidgetResizable(true);
-  area->setFrameShape(QFrame::NoFrame);
-  area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  area->setWidget(inside);
-  auto* outer = new QVBoxLayout(this);
-  outer->setContentsMargins(0, 0, 0, 0);
-  outer->setSpacing(0);
-  outer->addWidget(area, 1);
-  outer->addWidget(addFoot()); // always visible
-  setMinimumWidth(340);
+  layOutPanel(*this, inside, addFoot());
   say({});
   refresh();
 }

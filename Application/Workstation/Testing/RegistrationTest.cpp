@@ -69,7 +69,8 @@ protected:
   /// Starts a registration and cancels it; `react` handles the message box.
   void stop(const std::function<void(QMessageBox&)>& react)
   {
-    click("register");
+    if (find<QAbstractButton>("register").isEnabled())
+      click("register");
     ASSERT_TRUE(waitFor([this] { return find<MetricCurve>("metricCurve").points() > 3; }));
     bool asked = false;
     onMessage(
@@ -165,6 +166,15 @@ TEST_F(RegistrationWindow, RegistersWithProgressAndStatesTheError)
   const scene::Case saved = library().open("ear");
   ASSERT_TRUE(saved.mr.front().registered);
   EXPECT_TRUE(saved.mr.front().registration.has_value());
+}
+
+TEST_F(RegistrationWindow, SaysWhatItDoesWhereItCanBeSeen)
+{
+  EXPECT_FALSE(find<QDockWidget>("registrationDock").isVisible());
+  action("Register the MR")->trigger();
+  EXPECT_TRUE(find<QDockWidget>("registrationDock").isVisible());
+  EXPECT_FALSE(find<QDockWidget>("registrationDock").visibleRegion().isEmpty());
+  stop([](QMessageBox& box) { answer(box, QMessageBox::RejectRole); });
 }
 
 TEST_F(RegistrationWindow, CancelOffersToKeepWhatWasReached)

@@ -5,6 +5,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QScrollArea>
 #include <QStatusBar>
 #include <QTreeWidget>
 
@@ -124,6 +125,23 @@ TEST_F(Segment, AThresholdFromAClickMakesTheStructureThatTheEngineFinds)
     ASSERT_EQ(voxels->data()[n] != 0, mask.voxels->data()[n] != 0) << n;
   EXPECT_FALSE(isDraft());
   EXPECT_TRUE(scene::findStructure(library().open("ball"), "tumour")) << "saved";
+}
+
+TEST_F(Segment, ThePanelIsNeverCutOff)
+{
+  saveBall("ball");
+  openWindow("ball");
+  choose(Qt::Key_T);
+  auto& dock = find<QDockWidget>("segmentDock");
+  for (const int width : {200, 395, 600})
+  {
+    window().resizeDocks({&dock}, {width}, Qt::Horizontal);
+    QCoreApplication::processEvents();
+    auto* area = dock.findChild<QScrollArea*>();
+    ASSERT_TRUE(area);
+    EXPECT_LE(area->widget()->width(), area->viewport()->width()) << width;
+    EXPECT_GE(area->widget()->width(), area->widget()->minimumSizeHint().width()) << width;
+  }
 }
 
 TEST_F(Segment, AStrokePaintsTheBallThatIsSeenAndUndoTakesItBack)

@@ -399,6 +399,8 @@ void MainWindow::connectModel()
   connect(m_keeper, &CaseDocumentController::statusMessage, this, showMessage);
   connect(m_thickness, &ThicknessController::statusMessage, this, showMessage);
   connect(m_registration, &RegistrationController::statusMessage, this, showMessage);
+  connect(m_registration, &RegistrationController::panelWanted, this,
+          [this] { raisePanel("registrationDock"); });
   connect(m_keeper, &CaseDocumentController::ready, m_drill, &DrillController::tissueCame);
   connect(m_drill, &DrillController::tissueWanted, m_keeper,
           &CaseDocumentController::prepareUnlessUnderWay);
@@ -487,9 +489,7 @@ void MainWindow::connectSegment()
               statusBar()->showMessage(
                   tr("The drill is off while a segment tool is in use; Esc puts that away"),
                   kMessage);
-            auto* dock = findChild<QDockWidget*>("segmentDock");
-            dock->show();
-            dock->raise();
+            raisePanel("segmentDock");
           });
   connect(m_view, &ThreeDView::toolModeSet, m_segment,
           [this]

@@ -45,10 +45,13 @@ QHeaderView::section { background: #1c2026; color: #9aa4af; border: 0;
                        border-bottom: 1px solid #2e343c; padding: 4px 6px; }
 QTreeView { border: 0; background: #171a1f; alternate-background-color: #1a1e23; }
 QTreeView::item { padding: 3px 2px; }
-QTreeView::indicator { width: 12px; height: 12px; border: 1px solid #66707c; border-radius: 3px;
-                       background: #14171b; }
-QTreeView::indicator:checked { background: #3d8fd1; border-color: #7fbdf0; }
-QTreeView::indicator:disabled { border-color: #343b44; }
+QTreeView::indicator, QCheckBox::indicator { width: 12px; height: 12px; background: #14171b;
+                       border: 1px solid #66707c; border-radius: 3px; }
+QTreeView::indicator:checked, QCheckBox::indicator:checked { background: #3d8fd1;
+                       border-color: #7fbdf0; }
+QTreeView::indicator:disabled, QCheckBox::indicator:disabled { border-color: #343b44; }
+QCheckBox::indicator:checked:disabled { background: #2b4558; }
+QCheckBox:focus { color: #b9dcf8; }
 QToolTip { background: #2b3139; color: #e4e8ed; border: 1px solid #4a525c; padding: 4px; }
 QPushButton { padding: 6px 18px; }
 QPushButton#primary, QPushButton#segmentCreate { background: #2f79b5; border: 1px solid #4a98d6;

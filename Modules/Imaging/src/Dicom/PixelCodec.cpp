@@ -252,7 +252,7 @@ bool decodeRle(const std::vector<char>& stream, std::size_t bytes,
 {
   constexpr std::size_t kHead = 64; // the number of segments, and 15 offsets
   const std::size_t count = cells.size() / bytes;
-  if (stream.size() < kHead)
+  if (count == 0 || stream.size() < kHead)
     return false;
   const auto number = [&stream](std::size_t at)
   {

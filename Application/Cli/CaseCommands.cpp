@@ -23,6 +23,8 @@ struct PartOptions
   std::vector<std::string> labels;
   std::vector<std::string> meshes;
   std::string labelNames;
+  std::string meshFrame;
+  std::string meshUnit;
   bool repair = false;
 
   void addTo(CLI::App& command)
@@ -49,6 +51,12 @@ struct PartOptions
         .add_option("--mesh", meshes, "Surface: OBJ, STL or PLY, mm LPS; @MR: of that MR's patient")
         ->allow_extra_args(false)
         ->type_name("[NAME=]FILE[@MR]");
+    command
+        .add_option("--mesh-frame", meshFrame,
+                    "How the meshes count: lps (left, back, up) or ras (right, front, up)")
+        ->check(oneOf({"lps", "ras"}));
+    command.add_option("--mesh-unit", meshUnit, "Of the meshes: mm, cm, m or inch (mm)")
+        ->check(oneOf({"mm", "cm", "m", "inch"}));
   }
 
   presenters::PartSources sources() const
@@ -64,8 +72,19 @@ struct PartOptions
     for (const std::string& text : labels)
       result.labels.push_back(presenters::PartSource::parseDrawn(text));
     result.labelNames = labelNames;
+    if (meshes.empty() && !(meshFrame.empty() && meshUnit.empty()))
+      throw UsageError("--mesh-frame and --mesh-unit go with --mesh");
     for (const std::string& text : meshes)
+    {
       result.meshes.push_back(presenters::PartSource::parseDrawn(text));
+      if (!meshFrame.empty())
+        result.meshes.back().isRas = meshFrame == "ras";
+      if (!meshUnit.empty())
+        result.meshes.back().unit = meshUnit == "cm"     ? 10.0
+                                    : meshUnit == "m"    ? 1000.0
+                                    : meshUnit == "inch" ? 25.4
+                                                         : 1.0;
+    }
     return result;
   }
 };

@@ -600,6 +600,114 @@ TEST_F(CaseBuilder, NamesTheMasksOfAFolderThatItLeavesOut)
   EXPECT_TRUE(unread("Doe_John")) << "told at once, and not stored";
 }
 
+// A ball of 1000 HU and its surface, written as other programs do.
+TEST_F(CaseBuilder, AsksHowAMeshCountsWhereItWouldLieElsewhere)
+{
+  constexpr double kRadius = 12.0;
+  const auto writeCt = [this](const Vector3d& origin, const Vector3d& center, double hu)
+  {
+    const core::GridGeometry grid({80, 80, 60}, Vector3d::Ones(), origin);
+    auto ct = std::make_shared<volume::Volume<std::int16_t>>(grid, std::int16_t{0});
+    for (int k = 0; k < 60; ++k)
+      for (int j = 0; j < 80; ++j)
+        for (int i = 0; i < 80; ++i)
+          if ((grid.patientFromVoxel(Vector3d(i, j, k)) - center).norm() < kRadius)
+            ct->at(i, j, k) = static_cast<std::int16_t>(hu);
+    imaging::writeVolume(m_folder / "ct.nrrd", *ct);
+  };
+  const auto writeBall =
+      [this](const Vector3d& center, const Vector3d& scale, const std::string& head)
+  {
+    std::ofstream file(m_folder / "ball.obj");
+    file << head;
+    constexpr int kSteps = 24;
+    for (int b = 0; b <= kSteps; ++b)
+      for (int a = 0; a < kSteps; ++a)
+      {
+        const double theta = M_PI * b / kSteps;
+        const double phi = 2.0 * M_PI * a / kSteps;
+        const Vector3d p = scale.cwiseProduct(
+            center + kRadius * Vector3d(std::sin(theta) * std::cos(phi),
+                                        std::sin(theta) * std::sin(phi), std::cos(theta)));
+        file << "v " << p[0] << " " << p[1] << " " << p[2] << "\n";
+      }
+    for (int b = 0; b < kSteps; ++b)
+      for (int a = 0; a < kSteps; ++a)
+      {
+        const int next = (a + 1) % kSteps;
+        const int corners[4] = {b * kSteps + a, b * kSteps + next, (b + 1) * kSteps + next,
+                                (b + 1) * kSteps + a};
+        file << "f " << corners[0] + 1 << " " << corners[1] + 1 << " " << corners[2] + 1 << " "
+             << corners[3] + 1 << "\n";
+      }
+  };
+  const auto add = [this](std::optional<bool> isRas = {}, std::optional<double> unit = {})
+  {
+    auto value = presenters::buildCase("ear", m_sources, {});
+    presenters::PartSources more;
+    more.meshes = {{"ball", m_folder / "ball.obj"}};
+    more.meshes[0].isRas = isRas;
+    more.meshes[0].unit = unit;
+    presenters::addParts(value, more, {});
+    return value.meshes.at(0);
+  };
+  const auto refusal = [&](std::optional<bool> isRas = {}, std::optional<double> unit = {})
+  {
+    try
+    {
+      add(isRas, unit);
+    }
+    catch (const presenters::MeshSpaceUnclear& unclear)
+    {
+      return std::string(unclear.what());
+    }
+    return std::string("was accepted");
+  };
+  const auto expectCentered = [](const scene::MeshPart& part, const Vector3d& center)
+  {
+    for (const auto& vertex : part.mesh.get()->vertices)
+      ASSERT_NEAR((vertex.cast<double>() - center).norm(), kRadius, 1e-3);
+  };
+  const Vector3d ras(-1, -1, 1);
+  const Vector3d lps(1, 1, 1);
+
+  // The CT of one ear: any other frame or unit is beyond it.
+  Vector3d center(-60, 25, 40);
+  writeCt({-100, -10, 10}, center, 1000.0);
+  writeBall(center, lps, "");
+  EXPECT_TRUE(add().notes.empty());
+  writeBall(center, ras, "");
+  EXPECT_NE(refusal().find("as RAS mm it would lie inside"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find("ball.obj"), std::string::npos);
+  expectCentered(add(true), center);
+  expectCentered(add(true, 1.0), center);
+  writeBall(center, ras, "# SPACE=RAS\n");
+  expectCentered(add(), center);
+  writeBall(center, 0.001 * lps, "");
+  EXPECT_NE(refusal().find("as LPS m it would lie inside"), std::string::npos) << refusal();
+  expectCentered(add({}, 1000.0), center);
+  writeBall(center, 0.001 * ras, "");
+  EXPECT_NE(refusal().find("as RAS m it would lie inside"), std::string::npos) << refusal();
+  expectCentered(add(true, 1000.0), center);
+  writeBall(center, 0.1 * lps, "# SPACE=LPS\n");
+  EXPECT_NE(refusal().find("as LPS cm"), std::string::npos) << refusal();
+  writeBall(center, 0.1 * lps, "# SPACE=LPS, unit mm\n");
+  EXPECT_NO_THROW(add()) << "stated";
+
+  // A whole head around the origin: the surface has to follow the image.
+  center = {-20, 14, 3};
+  writeCt({-40, -40, -30}, center, 1000.0);
+  writeBall(center, lps, "");
+  EXPECT_TRUE(add().notes.empty());
+  writeBall(center, ras, "");
+  EXPECT_NE(refusal().find("of the edges of the CT, as RAS mm 9"), std::string::npos) << refusal();
+  expectCentered(add(true), center);
+  writeCt({-40, -40, -30}, center, 0.0); // not to be seen in this image
+  writeBall(center, lps, "");
+  ASSERT_FALSE(add().notes.empty());
+  EXPECT_NE(add().notes.back().find("also as RAS mm"), std::string::npos) << add().notes.back();
+}
+
 TEST_F(CaseBuilder, RefusesAMeshWithAFarVertex)
 {
   const auto write = [this](const char* name, float x)

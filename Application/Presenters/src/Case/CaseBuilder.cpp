@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include "MeshSpace.h"
 #include "petrous/Appearance/DistinctColors.h"
 #include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Core/Fingerprint.h"
@@ -19,7 +20,6 @@
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Imaging/ImageFile.h"
 #include "petrous/Imaging/LabelFile.h"
-#include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/StructureSet.h"
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Library/ObjectStore.h"
@@ -611,10 +611,13 @@ void addMesh(scene::Case& value, const PartSource& source)
     nameTaken(source.path, "mesh", part.name);
   if (!source.drawnOn.empty())
     part.drawnOn = drawnOnNamed(value, source);
-  auto loaded = imaging::loadMesh(source.path);
+  auto loaded = imaging::loadMesh(source.path, source.isRas, source.unit);
   const scene::ImagePart* mr = scene::findMr(value, part.drawnOn);
-  requireNear(source.path, loaded.mesh, mr ? mr->geometry : value.ct.geometry,
-              mr ? "the MR on which it was drawn" : "the CT");
+  const std::string image = mr ? "the MR on which it was drawn" : "the CT";
+  if (std::string note = judgeMeshSpace(source.path, loaded, mr ? *mr : value.ct, image);
+      !note.empty())
+    notes.push_back(std::move(note));
+  requireNear(source.path, loaded.mesh, mr ? mr->geometry : value.ct.geometry, image);
   part.notes = std::move(loaded.notes);
   part.notes.insert(part.notes.begin(), notes.begin(), notes.end());
   auto mesh = std::make_shared<core::TriangleMesh>(std::move(loaded.mesh));

@@ -11,6 +11,7 @@
 #include "FileHelpers.h"
 #include "MeshReaders.h"
 #include "OutputFile.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/FileFormats.h"
 
 namespace petrous::imaging
@@ -175,7 +176,8 @@ core::TriangleMesh MeshBuilder::take()
   return std::move(m_mesh);
 }
 
-LoadedMesh loadMesh(const std::filesystem::path& path)
+LoadedMesh loadMesh(const std::filesystem::path& path, const std::optional<bool>& isRas,
+                    const std::optional<double>& unit)
 {
   checkedFileSize(path);
   const FileFormat* format = formatOf(path);
@@ -187,16 +189,25 @@ LoadedMesh loadMesh(const std::filesystem::path& path)
   LoadedMesh loaded;
   loaded.mesh = format->parseMesh(path, bytes);
   const std::string_view start = std::string_view(bytes).substr(0, kFrameWithin);
-  if (start.find("SPACE=RAS") != start.npos)
-  {
-    for (auto& v : loaded.mesh.vertices)
-    {
-      v[0] = -v[0];
-      v[1] = -v[1];
-    }
-    loaded.notes.emplace_back(
-        "counts to the right and front (SPACE=RAS); x and y were negated to the patient's LPS");
-  }
+  const bool saysRas = start.find("SPACE=RAS") != start.npos;
+  const bool saysFrame = saysRas || start.find("SPACE=LPS") != start.npos;
+  loaded.isFrameStated = saysFrame || isRas;
+  loaded.isUnitStated = unit || start.find("unit mm") != start.npos;
+  loaded.isRas = isRas.value_or(saysRas);
+  const auto mm = static_cast<float>(unit.value_or(1.0));
+  const float side = loaded.isRas ? -mm : mm;
+  for (auto& v : loaded.mesh.vertices)
+    v = {side * v[0], side * v[1], mm * v[2]};
+  if (loaded.isRas)
+    loaded.notes.emplace_back(std::string("counts to the right and front (") +
+                              (saysRas ? "SPACE=RAS" : "as given") +
+                              "); x and y were negated to the patient's LPS");
+  if (saysFrame && loaded.isRas != saysRas)
+    loaded.notes.emplace_back(std::string("states SPACE=") + (saysRas ? "RAS" : "LPS") +
+                              ", and was read otherwise, as given");
+  if (mm != 1.0F)
+    loaded.notes.emplace_back("counts in units of " + core::generalText(*unit) +
+                              " mm, as given; brought to mm");
   return loaded;
 }
 

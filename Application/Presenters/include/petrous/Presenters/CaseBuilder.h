@@ -8,6 +8,7 @@
 
 #include "petrous/Core/Progress.h"
 #include "petrous/Imaging/ImageFile.h"
+#include "petrous/Imaging/MeshFile.h"
 #include "petrous/Scene/Case.h"
 
 namespace petrous::presenters
@@ -24,6 +25,10 @@ struct PartSource
   /// MR: which series and volume of a DICOM folder (imaging::chooseSeries); empty: automatic.
   std::string series = {};
   bool repair = false; ///< MR: as CaseSources
+  /// Meshes: whether the file counts to RAS (else LPS), and its unit in mm; nullopt: as it states,
+  /// else LPS mm if that fits the image.
+  std::optional<bool> isRas = std::nullopt;
+  std::optional<double> unit = std::nullopt;
 
   /// "NAME=FILE" or "FILE". A string that is the path of an existing file is a FILE.
   static PartSource parse(const std::string& text);
@@ -56,6 +61,20 @@ struct PartSources
   /// a DICOM SEG's can be compared with it; empty: only cases that are not stored are compared.
   std::function<std::string(const std::string&)> salted = {};
 };
+
+/// A mesh that probably counts otherwise than it was read: the user has to say how.
+struct MeshSpaceUnclear : core::InvalidParameter
+{
+  MeshSpaceUnclear(std::filesystem::path file, const std::string& problem,
+                   std::vector<imaging::MeshSpace> spaces);
+  std::filesystem::path path;
+  /// In which it would lie in its image; the first is the one in which it was read. Relative to
+  /// what the file states.
+  std::vector<imaging::MeshSpace> likely;
+};
+
+/// "LPS mm", "RAS m", ..
+std::string textOf(const imaging::MeshSpace& space);
 
 /// What became of a structure of a file.
 struct StructureReport
@@ -117,7 +136,7 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
 /// its file name (fileName), and its notes say so. Throws Error (Refused) for a name that is taken,
 /// InvalidParameter for labels without a
 /// voxel, and for a mesh that extends beyond the image on which it was drawn by more than
-/// volume::maxReach.
+/// volume::maxReach; MeshSpaceUnclear for one that lies in it only in another frame or unit.
 /// `report`, if given, gets every structure of `parts.labels`.
 void addParts(scene::Case& value, const PartSources& parts, const core::Progress& progress,
               std::vector<StructureReport>* report = nullptr);

@@ -12,21 +12,34 @@
 namespace petrous::imaging
 {
 
+/// How the coordinates of a surface file count.
+struct MeshSpace
+{
+  bool isRas = false; ///< to the patient's right and front; false: LPS, to the left and back
+  double mm = 1.0;    ///< of a unit
+};
+
 struct LoadedMesh
 {
-  core::TriangleMesh mesh;
+  core::TriangleMesh mesh;        ///< LPS, mm
   std::vector<std::string> notes; ///< what was assumed or changed, one sentence each
+  bool isFrameStated = false;     ///< by the file, or given
+  bool isUnitStated = false;      ///< the same
+  bool isRas = false;             ///< how it counts, as stated or given
 };
 
 /// Reads a surface from OBJ, STL (text or binary) or PLY (text or binary).
 ///
 /// Coordinates are taken as patient LPS mm unless a comment or header says "SPACE=RAS" (as written
-/// by 3D Slicer): then x and y are negated, which is noted. Polygons are triangulated; coincident
+/// by 3D Slicer): then x and y are negated, which is noted. `isRas` and `unit`
+/// (mm), if given, override that. Polygons are triangulated; coincident
 /// STL corners become one vertex.
 ///
 /// Throws FileError: Unreadable for a damaged file and for counts that exceed the file size,
 /// Unsupported for a file without triangles.
-LoadedMesh loadMesh(const std::filesystem::path& path);
+LoadedMesh loadMesh(const std::filesystem::path& path,
+                    const std::optional<bool>& isRas = std::nullopt,
+                    const std::optional<double>& unit = std::nullopt);
 
 /// Like loadMesh, without the notes.
 core::TriangleMesh readMesh(const std::filesystem::path& path);

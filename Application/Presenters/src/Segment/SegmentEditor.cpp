@@ -91,6 +91,15 @@ Mask onGrid(const volume::LabelMap& labels, std::uint16_t index, const core::Gri
   return segmentation::makeMask(voxels, box);
 }
 
+// False: left out, as it cannot be read; its map is an empty stand-in.
+bool isThere(const scene::LabelPart& part, const scene::StructurePart& structure)
+{
+  const auto labels = part.labels.peek();
+  return !labels || std::any_of(labels->segments.begin(), labels->segments.end(),
+                                [&structure](const volume::Segment& segment)
+                                { return segment.index == structure.index; });
+}
+
 std::string millimetres(double value, int decimals)
 {
   return core::fixedText(value, decimals) + " mm";
@@ -166,6 +175,7 @@ struct SegmentEditor::Draft
       return;
     undo.push_back(std::move(step));
     redo.clear();
+    ++changes;
   }
 
   std::string name;
@@ -177,7 +187,10 @@ struct SegmentEditor::Draft
   Points seeds;                                     ///< of the connected threshold
   Points points;                                    ///< of the nerve
   std::vector<Step> undo, redo;
-  std::function<void()> pending; ///< what a Work has done to the masks, to be recorded
+  std::uint64_t changes = 0; ///< steps ever made
+  /// What a Work has done to the masks, to be recorded. While a step is under way this and the
+  /// masks are the Work's, and all else is the editor's.
+  std::function<void()> pending;
   // A stroke or a point that is dragged.
   bool stroking = false;
   Eigen::Vector3d last = Eigen::Vector3d::Zero();
@@ -185,12 +198,14 @@ struct SegmentEditor::Draft
   Points before;
 };
 
-/// A structure just created, to be undone.
+/// A structure just created, to be undone, and redone.
 struct SegmentEditor::Created
 {
-  std::string name;
+  std::shared_ptr<const volume::LabelMap> labels; ///< tells it from others, whatever its name
   std::shared_ptr<Draft> draft;
   std::optional<scene::LabelPart> replaced;
+  std::optional<scene::LabelPart> taken; ///< undone: as it was in the case
+  std::uint64_t changes = 0;             ///< of the draft, when it was undone
 };
 
 SegmentEditor::SegmentEditor(WorkstationModel& model)
@@ -346,7 +361,8 @@ std::vector<std::string> SegmentEditor::editable() const
     for (const scene::LabelPart& part : m_model.value().labels)
       if (scene::placementOf(m_model.value(), part).missing.empty())
         for (const scene::StructurePart& structure : part.structures)
-          names.push_back(structure.name);
+          if (isThere(part, structure))
+            names.push_back(structure.name);
   return names;
 }
 
@@ -821,7 +837,7 @@ void SegmentEditor::show(const Preview& preview)
 
 std::optional<SegmentEditor::Work> SegmentEditor::dueWork()
 {
-  if (m_stepping || !m_model.hasCase())
+  if (m_stepping || m_draft->stroking || !m_model.hasCase())
     return std::nullopt;
   if (m_stepDue)
   {
@@ -831,7 +847,7 @@ std::optional<SegmentEditor::Work> SegmentEditor::dueWork()
     touched();
     return work;
   }
-  if (!m_previewDue || m_draft->stroking)
+  if (!m_previewDue)
     return std::nullopt;
   return previewWork();
 }
@@ -1003,13 +1019,22 @@ bool SegmentEditor::canUndo() const
   if (m_stepping || m_draft->stroking)
     return false;
   if (m_draft->undo.empty())
-    return m_created && !hasDraft();
+    return m_created && !m_created->taken && !hasDraft();
   return !m_draft->undo.back().mask || m_draft->mask.canUndo(); // old steps are forgotten
 }
 
 bool SegmentEditor::canRedo() const
 {
-  return !m_stepping && !m_draft->stroking && !m_draft->redo.empty();
+  return !m_stepping && !m_draft->stroking && (!m_draft->redo.empty() || canCreateAgain());
+}
+
+// The draft is still the one that the structure was.
+bool SegmentEditor::canCreateAgain() const
+{
+  return m_created && m_created->taken && m_created->draft == m_draft &&
+         m_created->changes == m_draft->changes && m_draft->redo.empty() &&
+         m_created->taken->structures.front().name == m_draft->name && !previewPending() &&
+         !(m_preview && m_preview->result);
 }
 
 bool SegmentEditor::undo()
@@ -1019,17 +1044,7 @@ bool SegmentEditor::undo()
   Draft& draft = *m_draft;
   if (draft.undo.empty())
   {
-    const std::unique_ptr<Created> created = std::exchange(m_created, nullptr);
-    m_draft = created->draft;
-    dropPreview();
-    chooseColor();
-    m_model.takeStructure(created->name);
-    if (created->replaced)
-    {
-      m_draft->edited = created->replaced->structures.front().name;
-      m_model.putStructure(*created->replaced);
-    }
-    touched();
+    undoCreated();
     return true;
   }
   if (draft.undo.back().mask && draft.mask.extent().count() > kMostAtOnce)
@@ -1040,12 +1055,71 @@ bool SegmentEditor::undo()
   return false;
 }
 
-// Undoes or redoes; what is returned belongs to this thread, after that.
+// The structure may have another name by now, and its name another structure.
+void SegmentEditor::undoCreated()
+{
+  Created& created = *m_created;
+  const scene::Case& value = m_model.value();
+  const auto found = std::find_if(value.labels.begin(), value.labels.end(),
+                                  [&created](const scene::LabelPart& part)
+                                  { return part.labels.peek() == created.labels; });
+  if (found == value.labels.end())
+    throw core::InvalidParameter("the structure that was created is not in the case any more");
+  const std::string name = found->structures.front().name;
+  if (created.replaced)
+  {
+    const std::string& before = created.replaced->structures.front().name;
+    if (before != name)
+      checkFree(before);
+    const std::string mr = created.replaced->drawnOn.value_or(std::string());
+    if (!mr.empty() && !scene::findMr(value, mr))
+      throw core::InvalidParameter("'" + before + "' cannot come back: the MR '" + mr +
+                                   "' on which it was drawn is not in the case any more");
+  }
+  created.taken = m_model.takeStructure(name);
+  m_draft = created.draft;
+  m_draft->name = name;
+  m_draft->edited.clear();
+  created.changes = m_draft->changes;
+  dropPreview();
+  if (created.replaced)
+  {
+    m_model.putStructure(*created.replaced);
+    m_draft->edited = created.replaced->structures.front().name;
+  }
+  chooseColor();
+  touched();
+}
+
+void SegmentEditor::createAgain()
+{
+  Created& created = *m_created;
+  const std::string name = created.taken->structures.front().name;
+  const std::string edited = m_draft->edited;
+  if (name != edited)
+    checkFree(name);
+  created.replaced = edited.empty() ? std::nullopt : m_model.takeStructure(edited);
+  m_model.putStructure(*std::exchange(created.taken, std::nullopt));
+  m_tool = Tool::None;
+  reset();
+  touched();
+  notify(events.created, name);
+}
+
+void SegmentEditor::checkFree(const std::string& name) const
+{
+  const auto names = scene::partNames(m_model.value());
+  if (std::find(names.begin(), names.end(), name) != names.end())
+    throw core::InvalidParameter("'" + name +
+                                 "' cannot come back: another part has its name now; rename that "
+                                 "one first");
+}
+
+// Undoes or redoes. Changes the masks alone, so that another thread may call it while a step is
+// under way; what is returned does the rest, in the editor's.
 std::function<void()> SegmentEditor::step(Draft& draft, bool back)
 {
-  auto& from = back ? draft.undo : draft.redo;
-  auto& to = back ? draft.redo : draft.undo;
-  const Draft::Step step = from.back();
+  const Draft::Step step = (back ? draft.undo : draft.redo).back();
   const auto turn = [back](EditableMask& mask) { return back ? mask.undo() : mask.redo(); };
   core::IndexBox box;
   if (step.mask)
@@ -1054,12 +1128,13 @@ std::function<void()> SegmentEditor::step(Draft& draft, bool back)
     box = box.united(turn(*draft.inside));
   if (step.beside)
     box = box.united(turn(*draft.beside));
-  if (step.points)
-    draft.points = back ? step.points->first : step.points->second;
-  to.push_back(std::move(from.back()));
-  from.pop_back();
-  return [this, box]
+  return [this, draft = &draft, step, back, box]
   {
+    if (step.points)
+      draft->points = back ? step.points->first : step.points->second;
+    auto& from = back ? draft->undo : draft->redo;
+    from.pop_back();
+    (back ? draft->redo : draft->undo).push_back(step);
     m_previewDue = m_tool == Tool::Threshold || m_tool == Tool::Nerve;
     notify(events.voxelsChanged, box);
   };
@@ -1087,6 +1162,8 @@ void SegmentEditor::redo()
   if (!canRedo())
     return;
   Draft& draft = *m_draft;
+  if (draft.redo.empty())
+    return createAgain();
   if (draft.redo.back().mask && draft.mask.extent().count() > kMostAtOnce)
     m_stepDue = stepping(false);
   else
@@ -1143,7 +1220,10 @@ SegmentEditor::Work SegmentEditor::createWork()
       {
         return refuse(error.what());
       }
-      m_created = std::make_unique<Created>(Created{name, draft, std::move(replaced)});
+      m_created = std::make_unique<Created>();
+      m_created->labels = m_model.value().labels.back().labels.peek();
+      m_created->draft = draft;
+      m_created->replaced = std::move(replaced);
       m_tool = Tool::None;
       reset();
       touched();
@@ -1155,6 +1235,8 @@ SegmentEditor::Work SegmentEditor::createWork()
 void SegmentEditor::discard()
 {
   release();
+  if (m_created && m_created->taken)
+    m_created.reset();
   reset();
   touched();
 }

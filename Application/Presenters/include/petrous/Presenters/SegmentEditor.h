@@ -152,9 +152,12 @@ public:
 
   bool canUndo() const;
   bool canRedo() const;
-  /// A step, or the structure just created: it is taken out of the case and is the draft again.
-  /// True in the latter case.
+  /// A step, or the structure just created: it is taken out of the case and is the draft again,
+  /// under the name that it has by then. True in the latter case. Throws InvalidParameter where
+  /// that structure is gone, or where the one that it replaced cannot come back.
   bool undo();
+  /// A step, or the structure whose creation was undone, as long as the draft is unchanged. Throws
+  /// InvalidParameter where its name has been taken.
   void redo();
 
   /// The preview is outdated: a Work for it is due or under way.
@@ -193,6 +196,10 @@ private:
   void show(const Preview& preview);
   void beginStep();
   void endStep();
+  void undoCreated();
+  bool canCreateAgain() const;
+  void createAgain();
+  void checkFree(const std::string& name) const;
   std::function<void()> step(Draft& draft, bool back);
   Work stepping(bool back);
   void dropPreview();

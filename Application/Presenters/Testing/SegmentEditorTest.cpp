@@ -499,6 +499,44 @@ TEST_F(SegmentEditorTest, WhileAnotherThreadStepsTheWindowSeesTheDraftAsItWas)
   EXPECT_TRUE(editor.canUndo());
 }
 
+TEST_F(SegmentEditorTest, ALargeDraftIsShownInCoarserCells)
+{
+  scene::Case value = ballCase();
+  const core::GridGeometry large({212, 212, 212}, Vector3d::Constant(0.5), Vector3d(-3, 5, 7));
+  value.ct.geometry = large;
+  auto ct = std::make_shared<volume::Volume<std::int16_t>>(large, std::int16_t{0});
+  for (int k = 4; k < 208; ++k)
+    for (int j = 4; j < 208; ++j)
+      for (int i = 4; i < 208; ++i)
+        ct->at(i, j, k) = 100;
+  value.ct.volume = std::make_shared<const volume::IntensityVolume>(
+      std::shared_ptr<const volume::Volume<std::int16_t>>(ct));
+  model.adopt(std::move(value));
+  editor.caseChanged();
+  editor.setTool(Tool::Threshold);
+  set(
+      [](SegmentValues& values)
+      {
+        values.lower = 50.0;
+        values.upper = 150.0;
+      });
+  ASSERT_GT(editor.voxels(), SegmentEditor::kMostSurfaceVoxels);
+  editor.surfaceWork()({})();
+  ASSERT_TRUE(editor.surface());
+  EXPECT_EQ(editor.surfaceStep(), 2);
+  Vector3d least = Vector3d::Constant(1e9), most = Vector3d::Constant(-1e9);
+  for (const auto& vertex : editor.surface()->vertices)
+  {
+    const Vector3d at{double(vertex[0]), double(vertex[1]), double(vertex[2])};
+    least = least.cwiseMin(at);
+    most = most.cwiseMax(at);
+  }
+  const Vector3d first = large.patientFromVoxel(Vector3d::Constant(3.5));
+  const Vector3d last = large.patientFromVoxel(Vector3d::Constant(207.5));
+  EXPECT_LE((least - first).cwiseAbs().maxCoeff(), 0.5) << "within half a cell";
+  EXPECT_LE((most - last).cwiseAbs().maxCoeff(), 0.5);
+}
+
 TEST_F(SegmentEditorTest, AnMrMustBeRegisteredAndIsReadOnTheCtsGrid)
 {
   scene::Case value = ballCase();

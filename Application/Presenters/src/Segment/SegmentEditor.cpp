@@ -100,6 +100,42 @@ bool isThere(const scene::LabelPart& part, const scene::StructurePart& structure
                                 { return segment.index == structure.index; });
 }
 
+// The mask's extent in cells of step^3 voxels: 1 where at least half of the voxels belong to it.
+volume::Volume<std::uint16_t> coarseLabels(const Mask& mask, int step,
+                                           const core::Progress& progress)
+{
+  core::IndexBox box;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    box.lower[a] = std::max(mask.extent.lower[a] - kSurfaceMargin * step, 0);
+    box.upper[a] =
+        std::min(mask.extent.upper[a] + kSurfaceMargin * step, mask.geometry().dims()[a]);
+  }
+  const core::GridGeometry full = mask.geometry().cropped(box);
+  core::Index3 cells = box.size();
+  for (int& size : cells)
+    size = (size + step - 1) / step;
+  volume::Volume<std::uint16_t> labels(core::GridGeometry(
+      cells, step * full.spacing(),
+      full.patientFromVoxel(Eigen::Vector3d::Constant(0.5 * (step - 1))), full.direction()));
+  const int half = (step * step * step + 1) / 2;
+  for (int k = 0; k < cells[2]; ++k)
+  {
+    progress.report(static_cast<double>(k) / cells[2], "making the surface");
+    for (int j = 0; j < cells[1]; ++j)
+      for (int i = 0; i < cells[0]; ++i)
+      {
+        int inside = 0;
+        for (int n = 0; n < step * step * step; ++n)
+          inside += mask.at({box.lower[0] + i * step + n % step,
+                             box.lower[1] + j * step + n / step % step,
+                             box.lower[2] + k * step + n / step / step});
+        labels.at(i, j, k) = inside >= half;
+      }
+  }
+  return labels;
+}
+
 std::string millimetres(double value, int decimals)
 {
   return core::fixedText(value, decimals) + " mm";
@@ -1324,30 +1360,24 @@ DraftLayer SegmentEditor::layer() const
 SegmentEditor::Work SegmentEditor::surfaceWork()
 {
   std::optional<Mask> mask;
-  if (m_model.hasCase() && !m_stepping && voxels() > 0 && voxels() <= kMostSurfaceVoxels)
+  if (m_model.hasCase() && !m_stepping && voxels() > 0)
     mask = m_preview && m_preview->result ? *m_preview->result : m_draft->mask.snapshot();
   return [this, mask](const core::Progress& progress) -> Apply
   {
     std::shared_ptr<const core::TriangleMesh> surface;
+    int step = 1;
     if (mask && !mask->extent.empty())
     {
-      core::IndexBox box;
-      for (std::size_t a = 0; a < 3; ++a)
-      {
-        box.lower[a] = std::max(mask->extent.lower[a] - kSurfaceMargin, 0);
-        box.upper[a] = std::min(mask->extent.upper[a] + kSurfaceMargin, mask->geometry().dims()[a]);
-      }
-      volume::Volume<std::uint16_t> labels(mask->geometry().cropped(box));
-      const core::Index3 size = box.size();
-      for (int k = 0; k < size[2]; ++k)
-        for (int j = 0; j < size[1]; ++j)
-          for (int i = 0; i < size[0]; ++i)
-            labels.at(i, j, k) =
-                mask->voxels->at(box.lower[0] + i, box.lower[1] + j, box.lower[2] + k);
-      surface =
-          std::make_shared<const core::TriangleMesh>(rendering::extractLabel(labels, 1, progress));
+      while (mask->count / (static_cast<std::uint64_t>(step) * step * step) > kMostSurfaceVoxels)
+        ++step;
+      surface = std::make_shared<const core::TriangleMesh>(rendering::extractLabel(
+          coarseLabels(*mask, step, progress.part(0.0, 0.3)), 1, progress.part(0.3, 1.0)));
     }
-    return [this, surface] { m_surface = surface; };
+    return [this, surface, step]
+    {
+      m_surface = surface;
+      m_surfaceStep = step;
+    };
   };
 }
 

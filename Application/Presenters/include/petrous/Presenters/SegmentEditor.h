@@ -177,9 +177,12 @@ public:
 
   /// Computes the surface of what would be created, for the 3D view: see `surface`.
   Work surfaceWork();
-  static constexpr std::uint64_t kMostSurfaceVoxels = 8'000'000; ///< more are not shown in 3D
-  /// nullptr: none, or too large.
+  /// Above it the surface is that of larger cells, see `surfaceStep`.
+  static constexpr std::uint64_t kMostSurfaceVoxels = 8'000'000;
+  /// nullptr: none.
   const std::shared_ptr<const core::TriangleMesh>& surface() const noexcept { return m_surface; }
+  /// Edge of the surface's cells in voxels; 1: it is that of the voxels.
+  int surfaceStep() const noexcept { return m_surfaceStep; }
 
 private:
   struct Draft;
@@ -229,6 +232,7 @@ private:
   bool m_stepping = false;
   std::optional<Work> m_stepDue; // begun by a click
   std::shared_ptr<const core::TriangleMesh> m_surface;
+  int m_surfaceStep = 1;
 };
 
 } // namespace petrous::presenters

@@ -499,6 +499,31 @@ TEST_F(SegmentEditorTest, WhileAnotherThreadStepsTheWindowSeesTheDraftAsItWas)
   EXPECT_TRUE(editor.canUndo());
 }
 
+TEST_F(SegmentEditorTest, AStructureThatIsLeftOutAsDamagedCannotBeEdited)
+{
+  open();
+  for (const char* name : {"dura plate", "glomus"})
+  {
+    editor.setTool(Tool::Paint);
+    stroke(kBall, kBall + Vector3d(name[0] == 'g' ? 3 : 0, 0, 0));
+    editor.setName(name);
+    editor.create();
+  }
+  model.save();
+  std::string object;
+  for (const scene::LabelPart& part : model.value().labels)
+    if (part.structures.front().name == "glomus")
+      object = part.object;
+  ASSERT_FALSE(object.empty());
+  std::filesystem::remove(folder / "objects" / object);
+  model.open("ball");
+  editor.caseChanged();
+  model.prepareNow();
+  ASSERT_EQ(model.leftOut().size(), 1U);
+  EXPECT_EQ(editor.editable(), std::vector<std::string>{"dura plate"});
+  EXPECT_THROW(editor.edit("glomus"), core::InvalidParameter);
+}
+
 TEST_F(SegmentEditorTest, ALargeDraftIsShownInCoarserCells)
 {
   scene::Case value = ballCase();

@@ -378,6 +378,190 @@ TEST_F(SegmentEditorTest, WhatWasCreatedIsTakenBackAsTheDraftItWas)
   EXPECT_EQ(editor.voxels(), 0U);
 }
 
+TEST_F(SegmentEditorTest, UndoTakesBackTheVeryStructureWhateverItIsCalledNow)
+{
+  open();
+  editor.setTool(Tool::Paint);
+  stroke(kBall, kBall);
+  const std::uint64_t voxels = editor.voxels();
+  editor.setName("glomus");
+  editor.create();
+  model.renamePart("glomus", "tumour");
+  volume::LabelMap other = *model.value().labels.front().labels.get();
+  other.segments.front().name = "glomus";
+  model.addStructure(std::move(other));
+  EXPECT_TRUE(editor.undo());
+  EXPECT_FALSE(scene::findStructure(model.value(), "tumour"));
+  EXPECT_TRUE(scene::findStructure(model.value(), "glomus")) << "another one";
+  EXPECT_EQ(editor.name(), "tumour");
+  EXPECT_EQ(editor.voxels(), voxels);
+}
+
+TEST_F(SegmentEditorTest, AStructureThatIsGoneIsNotUndoneAndWhatItReplacedIsKept)
+{
+  open();
+  editor.setTool(Tool::Paint);
+  stroke(kBall, kBall);
+  const std::uint64_t first = editor.voxels();
+  editor.setName("dura plate");
+  editor.create();
+  model.prepareNow();
+  editor.edit("dura plate")({})();
+  editor.setTool(Tool::Paint);
+  stroke(kBall + Vector3d(4, 0, 0), kBall + Vector3d(4, 0, 0));
+  const std::uint64_t second = editor.voxels();
+  editor.create();
+  model.renamePart("dura plate", "dura");
+  volume::LabelMap other = *model.value().labels.front().labels.get();
+  other.segments.front().name = "dura plate";
+  model.addStructure(std::move(other)); // the name that the first one needs
+  EXPECT_THROW(editor.undo(), core::InvalidParameter);
+  EXPECT_EQ(model.value().labels.size(), 2U) << "nothing is lost";
+  EXPECT_FALSE(editor.hasDraft());
+  model.removePart("dura plate");
+  EXPECT_TRUE(editor.undo());
+  EXPECT_EQ(scene::findStructure(model.value(), "dura plate")->voxels, first);
+  EXPECT_EQ(editor.voxels(), second);
+  editor.discard();
+  EXPECT_EQ(scene::findStructure(model.value(), "dura plate")->voxels, first);
+}
+
+TEST_F(SegmentEditorTest, ACreatedStructureIsUndoneAndRedone)
+{
+  open();
+  editor.setTool(Tool::Paint);
+  stroke(kBall, kBall);
+  const std::uint64_t voxels = editor.voxels();
+  editor.setName("glomus");
+  editor.create();
+  EXPECT_FALSE(editor.canRedo());
+  for (int n = 0; n < 2; ++n)
+  {
+    EXPECT_TRUE(editor.undo());
+    EXPECT_FALSE(editor.undo()); // the stroke
+    ASSERT_TRUE(editor.canRedo());
+    editor.redo();
+    EXPECT_EQ(editor.voxels(), voxels);
+    ASSERT_TRUE(editor.canRedo()) << "the structure";
+    editor.redo();
+    ASSERT_TRUE(scene::findStructure(model.value(), "glomus"));
+    EXPECT_EQ(scene::findStructure(model.value(), "glomus")->voxels, voxels);
+    EXPECT_FALSE(editor.hasDraft());
+    EXPECT_FALSE(editor.canRedo());
+  }
+  editor.undo();
+  editor.setTool(Tool::Erase);
+  stroke(kBall, kBall);
+  EXPECT_FALSE(editor.canRedo()) << "it is another draft now";
+}
+
+TEST_F(SegmentEditorTest, WhileAnotherThreadStepsTheWindowSeesTheDraftAsItWas)
+{
+  scene::Case value = ballCase();
+  const core::GridGeometry large({164, 164, 164}, Vector3d::Constant(0.5), Vector3d(-3, 5, 7));
+  value.ct.geometry = large;
+  auto ct = std::make_shared<volume::Volume<std::int16_t>>(large, std::int16_t{100});
+  value.ct.volume = std::make_shared<const volume::IntensityVolume>(
+      std::shared_ptr<const volume::Volume<std::int16_t>>(ct));
+  model.adopt(std::move(value));
+  editor.caseChanged();
+  editor.setTool(Tool::Threshold);
+  set(
+      [](SegmentValues& values)
+      {
+        values.lower = 50.0;
+        values.upper = 150.0;
+      });
+  editor.setName("block");
+  editor.create();
+  model.prepareNow();
+  editor.edit("block")({})();
+  ASSERT_GT(editor.voxels(), 4'000'000U) << "stepped in another thread";
+  editor.setTool(Tool::Erase);
+  stroke(kBall, kBall);
+  const std::uint64_t erased = editor.voxels();
+  EXPECT_TRUE(editor.isUnsaved());
+  editor.undo();
+  auto due = editor.dueWork();
+  ASSERT_TRUE(due);
+  const auto apply = (*due)({}); // what the other thread does
+  EXPECT_TRUE(editor.isUnsaved()) << "this thread's state is not the other's";
+  EXPECT_EQ(editor.voxels(), erased);
+  apply();
+  EXPECT_FALSE(editor.isUnsaved());
+  EXPECT_EQ(editor.voxels(), 164U * 164 * 164);
+  editor.redo();
+  (*editor.dueWork())({}); // ended, but nobody takes it over
+  EXPECT_FALSE(editor.isUnsaved());
+  editor.workEnded();
+  EXPECT_TRUE(editor.isUnsaved());
+  EXPECT_EQ(editor.voxels(), erased);
+  EXPECT_TRUE(editor.canUndo());
+}
+
+TEST_F(SegmentEditorTest, AStructureThatIsLeftOutAsDamagedCannotBeEdited)
+{
+  open();
+  for (const char* name : {"dura plate", "glomus"})
+  {
+    editor.setTool(Tool::Paint);
+    stroke(kBall, kBall + Vector3d(name[0] == 'g' ? 3 : 0, 0, 0));
+    editor.setName(name);
+    editor.create();
+  }
+  model.save();
+  std::string object;
+  for (const scene::LabelPart& part : model.value().labels)
+    if (part.structures.front().name == "glomus")
+      object = part.object;
+  ASSERT_FALSE(object.empty());
+  std::filesystem::remove(folder / "objects" / object);
+  model.open("ball");
+  editor.caseChanged();
+  model.prepareNow();
+  ASSERT_EQ(model.leftOut().size(), 1U);
+  EXPECT_EQ(editor.editable(), std::vector<std::string>{"dura plate"});
+  EXPECT_THROW(editor.edit("glomus"), core::InvalidParameter);
+}
+
+TEST_F(SegmentEditorTest, ALargeDraftIsShownInCoarserCells)
+{
+  scene::Case value = ballCase();
+  const core::GridGeometry large({212, 212, 212}, Vector3d::Constant(0.5), Vector3d(-3, 5, 7));
+  value.ct.geometry = large;
+  auto ct = std::make_shared<volume::Volume<std::int16_t>>(large, std::int16_t{0});
+  for (int k = 4; k < 208; ++k)
+    for (int j = 4; j < 208; ++j)
+      for (int i = 4; i < 208; ++i)
+        ct->at(i, j, k) = 100;
+  value.ct.volume = std::make_shared<const volume::IntensityVolume>(
+      std::shared_ptr<const volume::Volume<std::int16_t>>(ct));
+  model.adopt(std::move(value));
+  editor.caseChanged();
+  editor.setTool(Tool::Threshold);
+  set(
+      [](SegmentValues& values)
+      {
+        values.lower = 50.0;
+        values.upper = 150.0;
+      });
+  ASSERT_GT(editor.voxels(), SegmentEditor::kMostSurfaceVoxels);
+  editor.surfaceWork()({})();
+  ASSERT_TRUE(editor.surface());
+  EXPECT_EQ(editor.surfaceStep(), 2);
+  Vector3d least = Vector3d::Constant(1e9), most = Vector3d::Constant(-1e9);
+  for (const auto& vertex : editor.surface()->vertices)
+  {
+    const Vector3d at{double(vertex[0]), double(vertex[1]), double(vertex[2])};
+    least = least.cwiseMin(at);
+    most = most.cwiseMax(at);
+  }
+  const Vector3d first = large.patientFromVoxel(Vector3d::Constant(3.5));
+  const Vector3d last = large.patientFromVoxel(Vector3d::Constant(207.5));
+  EXPECT_LE((least - first).cwiseAbs().maxCoeff(), 0.5) << "within half a cell";
+  EXPECT_LE((most - last).cwiseAbs().maxCoeff(), 0.5);
+}
+
 TEST_F(SegmentEditorTest, AnMrMustBeRegisteredAndIsReadOnTheCtsGrid)
 {
   scene::Case value = ballCase();

@@ -628,6 +628,28 @@ TEST_F(WorkstationModelTest, AStructureThatCannotBeReadIsLeftOutAndStaysAsItIs)
       << "nothing was kept of the case without what was left out";
 }
 
+TEST_F(WorkstationModelTest, AStructureThatWasLeftOutIsWholeWhenItIsTakenOutAndPutBack)
+{
+  library::Library library(folder / "library");
+  scene::Case value = block("block");
+  value.labels.push_back(ballOf(value.ct.geometry, "tumour"));
+  library.save(value);
+  const auto object = folder / "library/objects" / value.labels[0].object;
+  std::filesystem::rename(object, folder / "tumour");
+  WorkstationModel model{library};
+  model.open("block");
+  ASSERT_EQ(model.leftOut().size(), 1U);
+  const auto taken = model.takeStructure("tumour");
+  ASSERT_TRUE(taken);
+  model.putStructure(*taken);
+  model.prepareNow();
+  model.save();
+  std::filesystem::rename(folder / "tumour", object);
+  const auto saved = library.open("block");
+  EXPECT_EQ(saved.labels.at(0).object, value.labels[0].object);
+  EXPECT_EQ(saved.labels[0].labels.get()->segments.size(), 1U);
+}
+
 TEST_F(WorkstationModelTest, NoToolIsTakenUpInACaseThatIsLeft)
 {
   WorkstationModel model{library::Library(folder)};

@@ -493,6 +493,11 @@ void SegmentController::showSurface()
           contents.mesh = m_editor.surface();
           contents.look.color = m_editor.color();
           emit surfaceChanged(contents);
+          if (const int voxels = m_editor.surfaceStep(); contents.mesh && voxels > 1)
+            emit statusMessage(
+                tr("The draft is large: the 3D view shows it in cells of %1 voxels along each "
+                   "axis; what is created has all its voxels")
+                    .arg(voxels));
         };
       });
 }

@@ -323,6 +323,55 @@ TEST(GrowingFromSeeds, FindsTheBorderOfTwoTissuesInNoise)
   EXPECT_THROW(grownFromSeeds(noisy, emptyMask(grid), out), core::InvalidParameter);
 }
 
+// Where the image says nothing, the border lies half way between the strokes in millimetres along
+// the axes, whichever of them has the larger step.
+TEST(GrowingFromSeeds, CountsMillimetresAndNotVoxels)
+{
+  const Eigen::Matrix3d turn =
+      (Eigen::AngleAxisd(0.4, Vector3d::UnitZ()) * Eigen::AngleAxisd(0.3, Vector3d::UnitX()))
+          .toRotationMatrix();
+  // Rods along x, one inside, one beside 6 mm along `axis` and 3 mm along the other one. How far
+  // along `axis` the structure reaches, mm: 4.5, as 4.5 = (6 - 4.5) + 3.
+  const auto reachOn = [](const core::GridGeometry& grid, Eigen::Index axis)
+  {
+    const auto rod = [&grid](const Vector3d& offset)
+    {
+      const Vector3d center = grid.center() + grid.direction() * offset;
+      const Vector3d x = grid.direction().col(0);
+      return maskOf(grid, [&, center, x](const Vector3d& p)
+                    { return (p - center).cross(x).norm() <= 0.1; });
+    };
+    Vector3d offset(0, 3, 3);
+    offset[axis] = 6;
+    const auto flat = image<std::int16_t>(grid, [](const Vector3d&) { return 100.0; });
+    const Mask grown = grownFromSeeds(flat, rod(Vector3d::Zero()), rod(offset), grid.fullBox());
+    core::Index3 at{4, grid.dims()[1] / 2, grid.dims()[2] / 2};
+    const auto a = static_cast<std::size_t>(axis);
+    const int middle = at[a];
+    while (at[a] < grid.dims()[a] && grown.at(at))
+      ++at[a];
+    return (at[a] - 0.5 - middle) * grid.spacing()[axis];
+  };
+  const core::GridGeometry fine({8, 61, 61}, Vector3d::Constant(0.3), Vector3d(-3, 4, 5));
+  for (const bool turned : {false, true})
+    for (const Eigen::Index coarse : {1, 2})
+    {
+      Vector3d spacing = Vector3d::Constant(0.3);
+      core::Index3 dims{8, 61, 61};
+      spacing[coarse] = 0.6;
+      dims[static_cast<std::size_t>(coarse)] = 31; // the same extent
+      const core::GridGeometry grid(dims, spacing, Vector3d(-3, 4, 5),
+                                    turned ? turn : Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
+      for (const Eigen::Index axis : {1, 2})
+      {
+        const double reach = reachOn(grid, axis);
+        EXPECT_NEAR(reach, reachOn(fine, axis), spacing[axis])
+            << "axis " << axis << ", coarse " << coarse << ", turned " << turned;
+        EXPECT_NEAR(reach, 4.5, spacing[axis]) << axis;
+      }
+    }
+}
+
 TEST(Brush, PaintsTheVoxelsOfABallSweptAlongALine)
 {
   const core::GridGeometry grid = turnedGrid();

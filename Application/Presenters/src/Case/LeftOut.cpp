@@ -59,18 +59,6 @@ std::vector<std::string> LeftOut::sentences() const
   return all;
 }
 
-void LeftOut::labelsRemoved(std::size_t index)
-{
-  for (auto part = labels.begin(); part != labels.end();)
-    if (part->index == index)
-      part = labels.erase(part);
-    else
-    {
-      part->index -= part->index > index;
-      ++part;
-    }
-}
-
 void LeftOut::takeOut(scene::Case& value) const
 {
   if (!empty())

@@ -295,11 +295,15 @@ std::optional<scene::LabelPart> WorkstationModel::removeLabels(const std::string
     scene::LabelPart taken = m_case->labels[n];
     taken.structures = {*found};
     structures.erase(found);
+    for (const LeftOut& parts : m_leftOut) // as the library has it, not the empty stand-in
+      for (const auto& part : parts.labels)
+        if (part.index == n)
+          taken.labels = part.whole;
     if (structures.empty())
     {
       m_case->labels.erase(m_case->labels.begin() + static_cast<std::ptrdiff_t>(n));
       for (LeftOut& parts : m_leftOut)
-        parts.labelsRemoved(n);
+        forgetLeftOut(parts.labels, n, taken.labels);
     }
     return taken;
   }

@@ -91,6 +91,51 @@ Mask onGrid(const volume::LabelMap& labels, std::uint16_t index, const core::Gri
   return segmentation::makeMask(voxels, box);
 }
 
+// False: left out, as it cannot be read; its map is an empty stand-in.
+bool isThere(const scene::LabelPart& part, const scene::StructurePart& structure)
+{
+  const auto labels = part.labels.peek();
+  return !labels || std::any_of(labels->segments.begin(), labels->segments.end(),
+                                [&structure](const volume::Segment& segment)
+                                { return segment.index == structure.index; });
+}
+
+// The mask's extent in cells of step^3 voxels: 1 where at least half of the voxels belong to it.
+volume::Volume<std::uint16_t> coarseLabels(const Mask& mask, int step,
+                                           const core::Progress& progress)
+{
+  core::IndexBox box;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    box.lower[a] = std::max(mask.extent.lower[a] - kSurfaceMargin * step, 0);
+    box.upper[a] =
+        std::min(mask.extent.upper[a] + kSurfaceMargin * step, mask.geometry().dims()[a]);
+  }
+  const core::GridGeometry full = mask.geometry().cropped(box);
+  core::Index3 cells = box.size();
+  for (int& size : cells)
+    size = (size + step - 1) / step;
+  volume::Volume<std::uint16_t> labels(core::GridGeometry(
+      cells, step * full.spacing(),
+      full.patientFromVoxel(Eigen::Vector3d::Constant(0.5 * (step - 1))), full.direction()));
+  const int half = (step * step * step + 1) / 2;
+  for (int k = 0; k < cells[2]; ++k)
+  {
+    progress.report(static_cast<double>(k) / cells[2], "making the surface");
+    for (int j = 0; j < cells[1]; ++j)
+      for (int i = 0; i < cells[0]; ++i)
+      {
+        int inside = 0;
+        for (int n = 0; n < step * step * step; ++n)
+          inside += mask.at({box.lower[0] + i * step + n % step,
+                             box.lower[1] + j * step + n / step % step,
+                             box.lower[2] + k * step + n / step / step});
+        labels.at(i, j, k) = inside >= half;
+      }
+  }
+  return labels;
+}
+
 std::string millimetres(double value, int decimals)
 {
   return core::fixedText(value, decimals) + " mm";
@@ -166,6 +211,7 @@ struct SegmentEditor::Draft
       return;
     undo.push_back(std::move(step));
     redo.clear();
+    ++changes;
   }
 
   std::string name;
@@ -177,7 +223,10 @@ struct SegmentEditor::Draft
   Points seeds;                                     ///< of the connected threshold
   Points points;                                    ///< of the nerve
   std::vector<Step> undo, redo;
-  std::function<void()> pending; ///< what a Work has done to the masks, to be recorded
+  std::uint64_t changes = 0; ///< steps ever made
+  /// What a Work has done to the masks, to be recorded. While a step is under way this and the
+  /// masks are the Work's, and all else is the editor's.
+  std::function<void()> pending;
   // A stroke or a point that is dragged.
   bool stroking = false;
   Eigen::Vector3d last = Eigen::Vector3d::Zero();
@@ -185,12 +234,14 @@ struct SegmentEditor::Draft
   Points before;
 };
 
-/// A structure just created, to be undone.
+/// A structure just created, to be undone, and redone.
 struct SegmentEditor::Created
 {
-  std::string name;
+  std::shared_ptr<const volume::LabelMap> labels; ///< tells it from others, whatever its name
   std::shared_ptr<Draft> draft;
   std::optional<scene::LabelPart> replaced;
+  std::optional<scene::LabelPart> taken; ///< undone: as it was in the case
+  std::uint64_t changes = 0;             ///< of the draft, when it was undone
 };
 
 SegmentEditor::SegmentEditor(WorkstationModel& model)
@@ -346,7 +397,8 @@ std::vector<std::string> SegmentEditor::editable() const
     for (const scene::LabelPart& part : m_model.value().labels)
       if (scene::placementOf(m_model.value(), part).missing.empty())
         for (const scene::StructurePart& structure : part.structures)
-          names.push_back(structure.name);
+          if (isThere(part, structure))
+            names.push_back(structure.name);
   return names;
 }
 
@@ -821,7 +873,7 @@ void SegmentEditor::show(const Preview& preview)
 
 std::optional<SegmentEditor::Work> SegmentEditor::dueWork()
 {
-  if (m_stepping || !m_model.hasCase())
+  if (m_stepping || m_draft->stroking || !m_model.hasCase())
     return std::nullopt;
   if (m_stepDue)
   {
@@ -831,7 +883,7 @@ std::optional<SegmentEditor::Work> SegmentEditor::dueWork()
     touched();
     return work;
   }
-  if (!m_previewDue || m_draft->stroking)
+  if (!m_previewDue)
     return std::nullopt;
   return previewWork();
 }
@@ -1003,13 +1055,22 @@ bool SegmentEditor::canUndo() const
   if (m_stepping || m_draft->stroking)
     return false;
   if (m_draft->undo.empty())
-    return m_created && !hasDraft();
+    return m_created && !m_created->taken && !hasDraft();
   return !m_draft->undo.back().mask || m_draft->mask.canUndo(); // old steps are forgotten
 }
 
 bool SegmentEditor::canRedo() const
 {
-  return !m_stepping && !m_draft->stroking && !m_draft->redo.empty();
+  return !m_stepping && !m_draft->stroking && (!m_draft->redo.empty() || canCreateAgain());
+}
+
+// The draft is still the one that the structure was.
+bool SegmentEditor::canCreateAgain() const
+{
+  return m_created && m_created->taken && m_created->draft == m_draft &&
+         m_created->changes == m_draft->changes && m_draft->redo.empty() &&
+         m_created->taken->structures.front().name == m_draft->name && !previewPending() &&
+         !(m_preview && m_preview->result);
 }
 
 bool SegmentEditor::undo()
@@ -1019,17 +1080,7 @@ bool SegmentEditor::undo()
   Draft& draft = *m_draft;
   if (draft.undo.empty())
   {
-    const std::unique_ptr<Created> created = std::exchange(m_created, nullptr);
-    m_draft = created->draft;
-    dropPreview();
-    chooseColor();
-    m_model.takeStructure(created->name);
-    if (created->replaced)
-    {
-      m_draft->edited = created->replaced->structures.front().name;
-      m_model.putStructure(*created->replaced);
-    }
-    touched();
+    undoCreated();
     return true;
   }
   if (draft.undo.back().mask && draft.mask.extent().count() > kMostAtOnce)
@@ -1040,12 +1091,71 @@ bool SegmentEditor::undo()
   return false;
 }
 
-// Undoes or redoes; what is returned belongs to this thread, after that.
+// The structure may have another name by now, and its name another structure.
+void SegmentEditor::undoCreated()
+{
+  Created& created = *m_created;
+  const scene::Case& value = m_model.value();
+  const auto found = std::find_if(value.labels.begin(), value.labels.end(),
+                                  [&created](const scene::LabelPart& part)
+                                  { return part.labels.peek() == created.labels; });
+  if (found == value.labels.end())
+    throw core::InvalidParameter("the structure that was created is not in the case any more");
+  const std::string name = found->structures.front().name;
+  if (created.replaced)
+  {
+    const std::string& before = created.replaced->structures.front().name;
+    if (before != name)
+      checkFree(before);
+    const std::string mr = created.replaced->drawnOn.value_or(std::string());
+    if (!mr.empty() && !scene::findMr(value, mr))
+      throw core::InvalidParameter("'" + before + "' cannot come back: the MR '" + mr +
+                                   "' on which it was drawn is not in the case any more");
+  }
+  created.taken = m_model.takeStructure(name);
+  m_draft = created.draft;
+  m_draft->name = name;
+  m_draft->edited.clear();
+  created.changes = m_draft->changes;
+  dropPreview();
+  if (created.replaced)
+  {
+    m_model.putStructure(*created.replaced);
+    m_draft->edited = created.replaced->structures.front().name;
+  }
+  chooseColor();
+  touched();
+}
+
+void SegmentEditor::createAgain()
+{
+  Created& created = *m_created;
+  const std::string name = created.taken->structures.front().name;
+  const std::string edited = m_draft->edited;
+  if (name != edited)
+    checkFree(name);
+  created.replaced = edited.empty() ? std::nullopt : m_model.takeStructure(edited);
+  m_model.putStructure(*std::exchange(created.taken, std::nullopt));
+  m_tool = Tool::None;
+  reset();
+  touched();
+  notify(events.created, name);
+}
+
+void SegmentEditor::checkFree(const std::string& name) const
+{
+  const auto names = scene::partNames(m_model.value());
+  if (std::find(names.begin(), names.end(), name) != names.end())
+    throw core::InvalidParameter("'" + name +
+                                 "' cannot come back: another part has its name now; rename that "
+                                 "one first");
+}
+
+// Undoes or redoes. Changes the masks alone, so that another thread may call it while a step is
+// under way; what is returned does the rest, in the editor's.
 std::function<void()> SegmentEditor::step(Draft& draft, bool back)
 {
-  auto& from = back ? draft.undo : draft.redo;
-  auto& to = back ? draft.redo : draft.undo;
-  const Draft::Step step = from.back();
+  const Draft::Step step = (back ? draft.undo : draft.redo).back();
   const auto turn = [back](EditableMask& mask) { return back ? mask.undo() : mask.redo(); };
   core::IndexBox box;
   if (step.mask)
@@ -1054,12 +1164,13 @@ std::function<void()> SegmentEditor::step(Draft& draft, bool back)
     box = box.united(turn(*draft.inside));
   if (step.beside)
     box = box.united(turn(*draft.beside));
-  if (step.points)
-    draft.points = back ? step.points->first : step.points->second;
-  to.push_back(std::move(from.back()));
-  from.pop_back();
-  return [this, box]
+  return [this, draft = &draft, step, back, box]
   {
+    if (step.points)
+      draft->points = back ? step.points->first : step.points->second;
+    auto& from = back ? draft->undo : draft->redo;
+    from.pop_back();
+    (back ? draft->redo : draft->undo).push_back(step);
     m_previewDue = m_tool == Tool::Threshold || m_tool == Tool::Nerve;
     notify(events.voxelsChanged, box);
   };
@@ -1087,6 +1198,8 @@ void SegmentEditor::redo()
   if (!canRedo())
     return;
   Draft& draft = *m_draft;
+  if (draft.redo.empty())
+    return createAgain();
   if (draft.redo.back().mask && draft.mask.extent().count() > kMostAtOnce)
     m_stepDue = stepping(false);
   else
@@ -1143,7 +1256,10 @@ SegmentEditor::Work SegmentEditor::createWork()
       {
         return refuse(error.what());
       }
-      m_created = std::make_unique<Created>(Created{name, draft, std::move(replaced)});
+      m_created = std::make_unique<Created>();
+      m_created->labels = m_model.value().labels.back().labels.peek();
+      m_created->draft = draft;
+      m_created->replaced = std::move(replaced);
       m_tool = Tool::None;
       reset();
       touched();
@@ -1155,6 +1271,8 @@ SegmentEditor::Work SegmentEditor::createWork()
 void SegmentEditor::discard()
 {
   release();
+  if (m_created && m_created->taken)
+    m_created.reset();
   reset();
   touched();
 }
@@ -1242,30 +1360,24 @@ DraftLayer SegmentEditor::layer() const
 SegmentEditor::Work SegmentEditor::surfaceWork()
 {
   std::optional<Mask> mask;
-  if (m_model.hasCase() && !m_stepping && voxels() > 0 && voxels() <= kMostSurfaceVoxels)
+  if (m_model.hasCase() && !m_stepping && voxels() > 0)
     mask = m_preview && m_preview->result ? *m_preview->result : m_draft->mask.snapshot();
   return [this, mask](const core::Progress& progress) -> Apply
   {
     std::shared_ptr<const core::TriangleMesh> surface;
+    int step = 1;
     if (mask && !mask->extent.empty())
     {
-      core::IndexBox box;
-      for (std::size_t a = 0; a < 3; ++a)
-      {
-        box.lower[a] = std::max(mask->extent.lower[a] - kSurfaceMargin, 0);
-        box.upper[a] = std::min(mask->extent.upper[a] + kSurfaceMargin, mask->geometry().dims()[a]);
-      }
-      volume::Volume<std::uint16_t> labels(mask->geometry().cropped(box));
-      const core::Index3 size = box.size();
-      for (int k = 0; k < size[2]; ++k)
-        for (int j = 0; j < size[1]; ++j)
-          for (int i = 0; i < size[0]; ++i)
-            labels.at(i, j, k) =
-                mask->voxels->at(box.lower[0] + i, box.lower[1] + j, box.lower[2] + k);
-      surface =
-          std::make_shared<const core::TriangleMesh>(rendering::extractLabel(labels, 1, progress));
+      while (mask->count / (static_cast<std::uint64_t>(step) * step * step) > kMostSurfaceVoxels)
+        ++step;
+      surface = std::make_shared<const core::TriangleMesh>(rendering::extractLabel(
+          coarseLabels(*mask, step, progress.part(0.0, 0.3)), 1, progress.part(0.3, 1.0)));
     }
-    return [this, surface] { m_surface = surface; };
+    return [this, surface, step]
+    {
+      m_surface = surface;
+      m_surfaceStep = step;
+    };
   };
 }
 

@@ -192,7 +192,9 @@ Mask grownFromSeeds(const volume::IntensityVolume& image, const Mask& inside, co
         " million voxels, more than the " + std::to_string(kMostGrowVoxels / 1'000'000) +
         " million possible; draw them closer to the structure");
 
-  // Intensities in 8 bits, between the 0.5 and 99.5 percentiles of the box: a step costs 1 to 256.
+  // Intensities in 8 bits, between the 0.5 and 99.5 percentiles of the box. A step to a neighbour
+  // costs their difference and its length in mm, a millimetre as much as kLevelsPerMm; in whole
+  // kPerLevel-ths of a level.
   const core::Index3 size = box.size();
   const std::size_t count = box.count();
   const std::array<std::size_t, 3> steps{1, static_cast<std::size_t>(size[0]),
@@ -234,11 +236,22 @@ Mask grownFromSeeds(const volume::IntensityVolume& image, const Mask& inside, co
   std::vector<float>().swap(values);
 
   // Dijkstra with a ring of buckets [Dial 1969, doi 10.1145/363269.363610]: costs are integers.
+  constexpr double kLevelsPerMm = 2.0;
+  constexpr std::uint32_t kPerLevel = 32;
+  constexpr double kLongestStep = 64.0; // levels
+  std::array<std::uint32_t, 3> lengths{};
+  for (std::size_t a = 0; a < 3; ++a)
+    lengths[a] = std::max(
+        std::uint32_t{1},
+        static_cast<std::uint32_t>(std::lround(
+            kPerLevel *
+            std::min(kLevelsPerMm * grid.spacing()[static_cast<Eigen::Index>(a)], kLongestStep))));
   constexpr std::uint32_t kFar = 0xffffffffU;
-  constexpr std::uint32_t kRing = 257;
+  const std::uint32_t ringSize =
+      255 * kPerLevel + *std::max_element(lengths.begin(), lengths.end()) + 1;
   std::vector<std::uint32_t> costs(count, kFar);
   std::vector<std::uint8_t> owner(count, 0); // 1: inside, 2: outside
-  std::vector<std::vector<std::uint32_t>> ring(kRing);
+  std::vector<std::vector<std::uint32_t>> ring(ringSize);
   std::size_t waiting = 0;
   const auto addSeeds = [&](const Mask& seeds, std::uint8_t label)
   {
@@ -266,7 +279,7 @@ Mask grownFromSeeds(const volume::IntensityVolume& image, const Mask& inside, co
   std::size_t done = 0;
   for (std::uint32_t cost = 0; waiting > 0; ++cost)
   {
-    auto& bucket = ring[cost % kRing];
+    auto& bucket = ring[cost % ringSize];
     for (std::size_t n = 0; n < bucket.size(); ++n) // none is added to it meanwhile
     {
       const std::uint32_t at = bucket[n];
@@ -288,12 +301,12 @@ Mask grownFromSeeds(const volume::IntensityVolume& image, const Mask& inside, co
           const std::size_t to = direction > 0 ? at + steps[a] : at - steps[a];
           const auto change = static_cast<std::uint32_t>(
               std::abs(static_cast<int>(levels[at]) - static_cast<int>(levels[to])));
-          const std::uint32_t total = cost + 1 + change;
+          const std::uint32_t total = cost + lengths[a] + kPerLevel * change;
           if (total < costs[to])
           {
             costs[to] = total;
             owner[to] = owner[at];
-            ring[total % kRing].push_back(static_cast<std::uint32_t>(to));
+            ring[total % ringSize].push_back(static_cast<std::uint32_t>(to));
             ++waiting;
           }
         }

@@ -27,8 +27,6 @@ struct LeftOut
   bool empty() const noexcept { return labels.empty() && meshes.empty(); }
   std::vector<std::string> sentences() const;
 
-  void labelsRemoved(std::size_t index); ///< a part of the case; those after it move up
-
   /// For another copy of the case.
   void takeOut(scene::Case& value) const;
   /// Before a save: an empty part must not replace what is on the disk.

@@ -152,9 +152,12 @@ public:
 
   bool canUndo() const;
   bool canRedo() const;
-  /// A step, or the structure just created: it is taken out of the case and is the draft again.
-  /// True in the latter case.
+  /// A step, or the structure just created: it is taken out of the case and is the draft again,
+  /// under the name that it has by then. True in the latter case. Throws InvalidParameter where
+  /// that structure is gone, or where the one that it replaced cannot come back.
   bool undo();
+  /// A step, or the structure whose creation was undone, as long as the draft is unchanged. Throws
+  /// InvalidParameter where its name has been taken.
   void redo();
 
   /// The preview is outdated: a Work for it is due or under way.
@@ -174,9 +177,12 @@ public:
 
   /// Computes the surface of what would be created, for the 3D view: see `surface`.
   Work surfaceWork();
-  static constexpr std::uint64_t kMostSurfaceVoxels = 8'000'000; ///< more are not shown in 3D
-  /// nullptr: none, or too large.
+  /// Above it the surface is that of larger cells, see `surfaceStep`.
+  static constexpr std::uint64_t kMostSurfaceVoxels = 8'000'000;
+  /// nullptr: none.
   const std::shared_ptr<const core::TriangleMesh>& surface() const noexcept { return m_surface; }
+  /// Edge of the surface's cells in voxels; 1: it is that of the voxels.
+  int surfaceStep() const noexcept { return m_surfaceStep; }
 
 private:
   struct Draft;
@@ -193,6 +199,10 @@ private:
   void show(const Preview& preview);
   void beginStep();
   void endStep();
+  void undoCreated();
+  bool canCreateAgain() const;
+  void createAgain();
+  void checkFree(const std::string& name) const;
   std::function<void()> step(Draft& draft, bool back);
   Work stepping(bool back);
   void dropPreview();
@@ -222,6 +232,7 @@ private:
   bool m_stepping = false;
   std::optional<Work> m_stepDue; // begun by a click
   std::shared_ptr<const core::TriangleMesh> m_surface;
+  int m_surfaceStep = 1;
 };
 
 } // namespace petrous::presenters

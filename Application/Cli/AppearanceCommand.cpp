@@ -199,11 +199,16 @@ void setIso(const Context& context, scene::Case& value, const std::string& text)
 {
   if (text == "auto")
   {
-    const auto scale = volume::suggestScale(volume::IntensityHistogram(*value.ct.volume.get()));
+    const volume::IntensityHistogram histogram(*value.ct.volume.get());
+    const bool isMr = value.ct.modality == scene::Modality::Mr;
+    const auto scale = isMr ? volume::suggestMrScale(histogram) : volume::suggestScale(histogram);
     context.refuseDamaged();
     value.iso = scale.iso;
     value.denseBone = scale.dense;
-    if (!scale.calibrated)
+    if (isMr)
+      context.warn("the image is an MR; tissue is taken to begin at " + fixed(scale.iso, 1) +
+                   ", and bone is as dark as air");
+    else if (!scale.calibrated)
       context.warn("the image is not in Hounsfield units; bone is taken to begin at " +
                    fixed(scale.iso, 1) + " and to be dense at " + fixed(scale.dense, 1));
     return;

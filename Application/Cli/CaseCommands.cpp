@@ -101,8 +101,9 @@ void printCase(const Context& context, const scene::Case& value)
 {
   context.print("case '" + value.name + "'");
   const presenters::IntensityDisplay display = presenters::displayOf(value);
-  context.print("  CT " + sizeText(value.ct.geometry) + ", " + display.number(value.ct.range.min) +
-                " to " + display.text(value.ct.range.max) +
+  const bool isMr = value.ct.modality == scene::Modality::Mr;
+  context.print((isMr ? "  MR as primary image " : "  CT ") + sizeText(value.ct.geometry) + ", " +
+                display.number(value.ct.range.min) + " to " + display.text(value.ct.range.max) +
                 (display.hounsfield ? "" : " (not in Hounsfield units)") + ", surface at " +
                 display.text(value.iso));
   for (const auto& mr : value.mr)
@@ -175,7 +176,7 @@ void addNew(CLI::App& app, Context& context)
 {
   struct Options
   {
-    std::string name, ct, series, volume, roi;
+    std::string name, ct, series, volume, roi, modality;
     PartOptions parts;
   };
   auto options = std::make_shared<Options>();
@@ -189,6 +190,9 @@ void addNew(CLI::App& app, Context& context)
         if (!options->volume.empty())
           sources.series += "#" + options->volume;
         sources.repair = options->parts.repair;
+        sources.modality = options->modality == "MR"   ? scene::Modality::Mr
+                           : options->modality == "CT" ? scene::Modality::Ct
+                                                       : scene::Modality::Unknown;
         if (!options->roi.empty())
           sources.roi = parseBox(options->roi, "--roi");
         sources.parts = options->parts.sources();
@@ -213,6 +217,10 @@ void addNew(CLI::App& app, Context& context)
   command->add_option("--ct", options->ct, "DICOM folder, or NIfTI, NRRD or MetaImage file")
       ->type_name("PATH")
       ->required();
+  command
+      ->add_option("--modality", options->modality,
+                   "What the primary image is, if the file does not say: CT (cone beam too) or MR")
+      ->check(oneOf({"CT", "MR"}));
   command->add_option("--series", options->series, "Which series of the folder")->type_name("UID");
   command
       ->add_option("--volume", options->volume,

@@ -161,6 +161,9 @@ json infoJson(const scene::Case& value)
     if (!refusal.empty())
       meshes.back()["touchable_reason"] = refusal;
   }
+  ct["modality"] = value.ct.modality == scene::Modality::Mr   ? json("MR")
+                   : value.ct.modality == scene::Modality::Ct ? json("CT")
+                                                              : json(nullptr);
   return {{"case", value.name},
           {"iso_hu", value.iso},
           {"dense_bone_hu", value.denseBone},

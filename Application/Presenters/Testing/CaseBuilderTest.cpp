@@ -14,6 +14,7 @@
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/VolumeFile.h"
 #include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/Manifest.h"
 #include "petrous/Scene/Placement.h"
 
@@ -169,6 +170,51 @@ TEST_F(CaseBuilder, PutsTheSurfaceWhereBoneIsInUnitsOfItsOwn)
   EXPECT_EQ(calibrated.iso, 300.0);
   for (const std::string& note : calibrated.ct.notes)
     EXPECT_EQ(note.find("Hounsfield"), std::string::npos);
+}
+
+TEST_F(CaseBuilder, PutsTheSurfaceOfAnMrWhereTissueBegins)
+{
+  // Air of 10, a head of 400 with a skull of 20 and fluid of 1500 in it.
+  const core::GridGeometry grid({40, 40, 40}, Vector3d::Constant(1.0), Vector3d::Zero());
+  auto scan = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{10});
+  for (int k = 0; k < 40; ++k)
+    for (int j = 0; j < 40; ++j)
+      for (int i = 0; i < 40; ++i)
+      {
+        const double r = Vector3d(i - 20, j - 20, k - 20).norm();
+        if (r < 17.0)
+          scan->at(i, j, k) = r > 14.0 && r < 15.0 ? 20 : r < 6.0 ? 1500 : 400;
+      }
+  imaging::writeVolume(m_folder / "t2.nrrd", *scan);
+  presenters::CaseSources sources;
+  sources.ct = m_folder / "t2.nrrd";
+  const auto unstated = presenters::buildCase("ear", sources, {});
+  EXPECT_EQ(unstated.ct.modality, scene::Modality::Unknown);
+  const auto says = [](const scene::Case& value, const char* words)
+  {
+    return std::any_of(value.ct.notes.begin(), value.ct.notes.end(),
+                       [words](const auto& note) { return note.find(words) != std::string::npos; });
+  };
+  EXPECT_TRUE(says(unstated, "does not say whether it is a CT or an MR"));
+
+  sources.modality = scene::Modality::Mr;
+  const auto mr = presenters::buildCase("ear", sources, {});
+  EXPECT_EQ(mr.ct.modality, scene::Modality::Mr);
+  EXPECT_GT(mr.iso, 20.0);
+  EXPECT_LT(mr.iso, 400.0);
+  EXPECT_GT(mr.denseBone, mr.iso);
+  EXPECT_TRUE(says(mr, "An MR"));
+  EXPECT_FALSE(says(mr, "surface of bone"));
+  const auto display = presenters::displayOf(mr);
+  EXPECT_FALSE(display.hounsfield);
+  EXPECT_EQ(display.text(400.0).find("HU"), std::string::npos);
+  EXPECT_GE(display.bone.level - 0.5 * display.bone.width, mr.ct.range.min);
+  EXPECT_LE(display.bone.level + 0.5 * display.bone.width, mr.ct.range.max);
+
+  // What it is outlives the case on disk.
+  EXPECT_EQ(scene::fromManifest(scene::toManifest(mr), "case").ct.modality, scene::Modality::Mr);
+  EXPECT_EQ(scene::fromManifest(scene::toManifest(unstated), "case").ct.modality,
+            scene::Modality::Unknown);
 }
 
 TEST_F(CaseBuilder, TellsImagesOfOneFrameOfReferenceWithoutItsUid)

@@ -309,6 +309,40 @@ TEST(DicomReader, NamesAFileThatVanishedAfterTheScan)
             DicomError::Reason::Unreadable);
 }
 
+TEST(DicomReader, RefusesAFileThatWasReplacedAfterTheScan)
+{
+  const TemporaryFolder folder;
+  const auto value = [](std::uint32_t number)
+  { return [number](int, TestSlice& s) { s.cell = [number](int, int) { return number; }; }; };
+  writeSeries(folder.path(), 3, value(7));
+  const ScanResult result = scanDicom(folder.path(), {});
+  const auto readAgain = [&] { return readSeries(chooseSeries(result, folder.path()), {}, {}); };
+  EXPECT_EQ(readAgain().at(0, 0, 1), 7.0);
+  // The same header with other pixels, and the same size: another slice under this name.
+  writeSeries(folder.path() / "other", 3, value(9));
+  fs::rename(folder.path() / "other" / "s1.dcm", folder.path() / "s1.dcm");
+  try
+  {
+    readAgain();
+    FAIL() << "read";
+  }
+  catch (const DicomError& error)
+  {
+    EXPECT_EQ(error.reason(), DicomError::Reason::Unreadable);
+    EXPECT_NE(std::string(error.what()).find("s1.dcm was changed"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(DicomReader, ReadsAFileWhoseRightsAloneWereChanged)
+{
+  const TemporaryFolder folder;
+  writeSeries(folder.path(), 2);
+  const ScanResult result = scanDicom(folder.path(), {});
+  fs::permissions(folder.path() / "s1.dcm", fs::perms::owner_read | fs::perms::owner_write);
+  EXPECT_NO_THROW(readSeries(chooseSeries(result, folder.path()), {}, {}));
+}
+
 TEST(DicomReader, StopsWhenCancelled)
 {
   const TemporaryFolder folder;

@@ -1,5 +1,6 @@
 // Compressed pixels, written by GDCM's encoders from the same uncompressed files.
 #include <fstream>
+#include <functional>
 #include <iterator>
 
 #include <gdcmImageChangeTransferSyntax.h>
@@ -158,11 +159,189 @@ TEST_P(PixelCodec, SaysNothingOfItsOwnAboutSpoiltBytes)
   EXPECT_EQ(said, "");
 }
 
+// A file that is whole, with a codestream that ends too early.
+TEST_P(PixelCodec, RefusesACodestreamThatEndsEarlyAndNamesTheFile)
+{
+  const TemporaryFolder folder;
+  writeSeries(folder.path() / "raw", 2,
+              [](int k, TestSlice& s)
+              {
+                s.columns = 40;
+                s.rows = 30;
+                s.cell = [k](int i, int j) { return 0xFFFU & (ramp(i, j, k) * 2654435761U >> 7); };
+              });
+  for (const char* name : {"s0.dcm", "s1.dcm"})
+    compress(folder.path() / "raw" / name, folder.path() / name, GetParam());
+  fs::remove_all(folder.path() / "raw");
+  std::ifstream stream(folder.path() / "s1.dcm", std::ios::binary);
+  const std::string whole((std::istreambuf_iterator<char>(stream)),
+                          std::istreambuf_iterator<char>());
+  const auto length = [&whole](std::size_t at)
+  {
+    std::size_t value = 0;
+    for (std::size_t b = 4; b-- > 0;)
+      value = value << 8 | static_cast<unsigned char>(whole[at + b]);
+    return value;
+  };
+  const std::size_t table = whole.find(std::string("\xe0\x7f\x10\x00OB", 6)) + 12;
+  ASSERT_LT(table, whole.size());
+  const std::size_t item = table + 8 + length(table + 4);
+  const std::size_t bytes = length(item + 4);
+  ASSERT_LE(item + 8 + bytes, whole.size());
+  for (int percent = 1; percent < 95; percent += 7)
+  {
+    const std::size_t left = bytes * static_cast<std::size_t>(percent) / 100 / 2 * 2;
+    std::string cut = whole.substr(0, item + 4);
+    for (int b = 0; b < 4; ++b)
+      cut += static_cast<char>(left >> 8 * b);
+    cut += whole.substr(item + 8, left) + std::string("\xfe\xff\xdd\xe0\0\0\0\0", 8);
+    test::writeText(folder.path() / "s1.dcm", cut);
+    try
+    {
+      readFolder(folder.path());
+      ADD_FAILURE() << percent << " % of the codestream was read as a whole slice";
+    }
+    catch (const DicomError& error)
+    {
+      EXPECT_NE(std::string(error.what()).find("s1.dcm"), std::string::npos) << error.what();
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Syntaxes, PixelCodec,
                          testing::Values(gdcm::TransferSyntax::RLELossless,
                                          gdcm::TransferSyntax::JPEGLosslessProcess14_1,
                                          gdcm::TransferSyntax::JPEGLSLossless,
                                          gdcm::TransferSyntax::JPEG2000Lossless));
+
+struct PixelForm
+{
+  const char* name;
+  std::function<void(int k, TestSlice&)> change; ///< of a series of values in 0 to 100
+};
+
+// The photometric interpretation says how the values that rescale slope and intercept give are
+// shown (PS3.3 C.7.6.3.1.2, PS3.4 N.2), so MONOCHROME1 leaves Hounsfield units as they are.
+TEST(PixelForms, EqualTheExplicitLittleEndianSeriesToTheBit)
+{
+  const auto value = [](int i, int j, int k) { return ramp(i, j, k) % 101U; };
+  const auto shifted = [value](int k, TestSlice& s)
+  {
+    s.bitsStored = 12;
+    s.highBit = 15;
+    // Values from -50, with rubbish in the four bits below.
+    s.isSigned = true;
+    s.intercept += 50.0;
+    s.cell = [value, k](int i, int j)
+    { return ((value(i, j, k) - 50U) & 0xFFFU) << 4 | (ramp(j, i, k) & 0xFU); };
+  };
+  const std::vector<PixelForm> forms = {
+      {"MONOCHROME1", [](int, TestSlice& s) { s.photometric = "MONOCHROME1"; }},
+      {"implicit", [](int, TestSlice& s) { s.implicitVr = true; }},
+      {"big endian", [](int, TestSlice& s) { s.bigEndian = true; }},
+      {"unsigned", [](int, TestSlice& s) { s.isSigned = false; }},
+      {"8 bits", [](int, TestSlice& s) { s.bitsAllocated = s.bitsStored = 8; }},
+      {"12 in 16 bits", [](int, TestSlice& s) { s.bitsStored = 12; }},
+      {"12 bits with a high bit of 15", shifted},
+      {"12 bits with a high bit of 15, big endian",
+       [shifted](int k, TestSlice& s)
+       {
+         s.bigEndian = true;
+         shifted(k, s);
+       }},
+      {"32 bits", [](int, TestSlice& s) { s.bitsAllocated = s.bitsStored = 32; }},
+      {"32 bits, big endian",
+       [](int, TestSlice& s)
+       {
+         s.bitsAllocated = s.bitsStored = 32;
+         s.bigEndian = true;
+       }},
+      {"signs that differ between slices", [](int k, TestSlice& s) { s.isSigned = k % 2 == 0; }},
+      {"a padding value that no pixel has",
+       [](int, TestSlice& s) { s.padding = std::uint16_t{0xF830}; }},
+      {"a transfer syntax that differs between slices",
+       [](int k, TestSlice& s) { (k % 2 == 0 ? s.bigEndian : s.implicitVr) = true; }},
+  };
+  for (const PixelForm& form : forms)
+  {
+    SCOPED_TRACE(form.name);
+    const TemporaryFolder folder;
+    writeSeries(folder.path(), 3,
+                [&](int k, TestSlice& s)
+                {
+                  s.intercept = -1000.0;
+                  s.cell = [value, k](int i, int j) { return value(i, j, k); };
+                  form.change(k, s);
+                });
+    const IntensityVolume image = readFolder(folder.path());
+    for (int k = 0; k < 3; ++k)
+      for (int j = 0; j < 6; ++j)
+        for (int i = 0; i < 8; ++i)
+          ASSERT_EQ(image.at(i, j, k), static_cast<double>(value(i, j, k)) - 1000.0)
+              << i << " " << j << " " << k;
+  }
+}
+
+TEST(PixelForms, FloatingPointIsRefusedByName)
+{
+  for (const std::uint32_t tag : {0x7fe00008U, 0x7fe00009U})
+  {
+    const TemporaryFolder folder;
+    writeSeries(folder.path(), 2,
+                [tag](int, TestSlice& s)
+                {
+                  s.bitsAllocated = s.bitsStored = 32;
+                  s.pixelTag = tag;
+                });
+    try
+    {
+      readFolder(folder.path());
+      FAIL() << "read";
+    }
+    catch (const DicomError& error)
+    {
+      EXPECT_NE(std::string(error.what()).find("floating-point"), std::string::npos)
+          << error.what();
+    }
+  }
+}
+
+TEST(PixelForms, FewerPixelsThanTheHeaderSaysAreRefusedByName)
+{
+  for (const int bits : {8, 16, 32})
+    for (const bool isBigEndian : {false, true})
+    {
+      if (bits == 8 && isBigEndian)
+        continue;
+      const TemporaryFolder folder;
+      writeSeries(folder.path(), 2,
+                  [&](int, TestSlice& s)
+                  {
+                    s.bitsAllocated = s.bitsStored = bits;
+                    s.bigEndian = isBigEndian;
+                  });
+      TestSlice tall;
+      tall.z = 0.5;
+      tall.bitsAllocated = tall.bitsStored = bits;
+      tall.bigEndian = isBigEndian;
+      std::string bytes = tall.bytes();
+      const std::string rows = isBigEndian ? std::string("\0\x28\0\x10US\0\2\0\6", 10)
+                                           : std::string("\x28\0\x10\0US\2\0\6\0", 10);
+      const std::size_t at = bytes.find(rows);
+      ASSERT_NE(at, std::string::npos);
+      bytes[at + (isBigEndian ? 9 : 8)] = 7;
+      test::writeText(folder.path() / "s1.dcm", bytes);
+      try
+      {
+        readFolder(folder.path());
+        ADD_FAILURE() << "read";
+      }
+      catch (const DicomError& error)
+      {
+        EXPECT_NE(std::string(error.what()).find("s1.dcm"), std::string::npos) << error.what();
+      }
+    }
+}
 
 TEST(PixelCodecDeflated, ReadsADeflatedSeries)
 {

@@ -65,6 +65,9 @@ struct TestSlice
   bool pixels = true;
   std::string extra;  ///< encoded elements appended after the first group
   std::string syntax; ///< declares another one than is used
+  std::string photometric = "MONOCHROME2";
+  int highBit = -1;                    ///< -1: bitsStored - 1
+  std::uint32_t pixelTag = 0x7fe00010; ///< 0x7fe00008: float, 0x7fe00009: double
   /// The cell of a pixel, including unused bits.
   std::function<std::uint32_t(int i, int j)> cell = [](int, int) { return 0U; };
 
@@ -124,13 +127,13 @@ struct TestSlice
     element(out, 0x00200037, "DS", "1\\0\\0\\0\\1\\0");
     element(out, 0x00200052, "UI", "1.2.3.9");
     number(out, 0x00280002, 1);
-    element(out, 0x00280004, "CS", "MONOCHROME2");
+    element(out, 0x00280004, "CS", photometric);
     number(out, 0x00280010, static_cast<std::uint32_t>(rows));
     number(out, 0x00280011, static_cast<std::uint32_t>(columns));
     element(out, 0x00280030, "DS", "0.5\\0.4");
     number(out, 0x00280100, static_cast<std::uint32_t>(bitsAllocated));
     number(out, 0x00280101, static_cast<std::uint32_t>(bitsStored));
-    number(out, 0x00280102, static_cast<std::uint32_t>(bitsStored - 1));
+    number(out, 0x00280102, static_cast<std::uint32_t>(highBit < 0 ? bitsStored - 1 : highBit));
     number(out, 0x00280103, isSigned ? 1 : 0);
     if (padding)
       number(out, 0x00280120, *padding);
@@ -147,7 +150,11 @@ struct TestSlice
     for (int j = 0; j < rows; ++j)
       for (int i = 0; i < columns; ++i)
         append(data, cell(i, j), bitsAllocated / 8);
-    element(out, 0x7fe00010, bitsAllocated == 8 ? "OB" : "OW", data);
+    const char* vr = pixelTag == 0x7fe00008   ? "OF"
+                     : pixelTag == 0x7fe00009 ? "OD"
+                     : bitsAllocated == 8     ? "OB"
+                                              : "OW";
+    element(out, pixelTag, vr, data);
     return out;
   }
 

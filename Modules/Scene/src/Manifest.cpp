@@ -115,6 +115,7 @@ using nlohmann::json;
 constexpr int kFirstFormatWithBranches = 2;
 constexpr int kFormatWithoutCodes = 3;
 constexpr const char* kFrame = "frame_of_reference_salted_sha256";
+constexpr const char* kModality = "modality"; // "CT" or "MR"; absent: not known
 constexpr const char* kUnsaltedFrame = "frame_of_reference_sha256"; // written by older programs
 
 json gridOut(const core::GridGeometry& grid)
@@ -144,6 +145,8 @@ json imageOut(const ImagePart& image)
          {"min", image.range.min}, {"max", image.range.max}, {"notes", image.notes}};
   if (!image.frameOfReference.empty())
     j[image.isFrameSalted ? kFrame : kUnsaltedFrame] = image.frameOfReference;
+  if (image.modality != Modality::Unknown)
+    j[kModality] = image.modality == Modality::Mr ? "MR" : "CT";
   return j;
 }
 
@@ -157,6 +160,10 @@ ImagePart imageIn(const json& j)
   image.notes = j.at("notes").get<std::vector<std::string>>();
   image.isFrameSalted = !j.contains(kUnsaltedFrame);
   image.frameOfReference = j.value(image.isFrameSalted ? kFrame : kUnsaltedFrame, std::string());
+  const std::string modality = j.value(kModality, std::string());
+  image.modality = modality == "MR"   ? Modality::Mr
+                   : modality == "CT" ? Modality::Ct
+                                      : Modality::Unknown;
   return image;
 }
 

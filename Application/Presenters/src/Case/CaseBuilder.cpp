@@ -1,6 +1,7 @@
 #include "petrous/Presenters/CaseBuilder.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <map>
@@ -34,6 +35,8 @@ namespace fs = std::filesystem;
 
 namespace
 {
+
+constexpr std::array<float, 3> kMrColor{0.80F, 0.80F, 0.80F}; // of its surface, which is not bone
 
 /// `wanted`, with a number appended if it is taken.
 template <class IsTaken>
@@ -119,6 +122,9 @@ scene::ImagePart readImage(const fs::path& path, const std::string& selector, bo
         readNamed(path, series, options, progress.part(0.2, 0.9), notes));
     part.notes = std::move(notes);
     part.frameOfReference = withoutIdentity(series.frameOfReferenceUid);
+    part.modality = series.modality == "MR"   ? scene::Modality::Mr
+                    : series.modality == "CT" ? scene::Modality::Ct
+                                              : scene::Modality::Unknown;
   }
   const auto image = part.volume.get();
   part.geometry = image->geometry();
@@ -132,15 +138,48 @@ scene::ImagePart readImage(const fs::path& path, const std::string& selector, bo
   return part;
 }
 
-// Cone-beam and micro-CT have units of their own, in which 300 may be air or nothing at all.
-void placeSurface(scene::Case& value)
+// Cone-beam and micro-CT have units of their own, in which 300 may be air or nothing at all; an MR
+// always has, and shows no surface of bone.
+void placeSurface(scene::Case& value, scene::Modality wanted)
 {
-  const auto scale = volume::suggestScale(volume::IntensityHistogram(*value.ct.volume.get()));
-  if (scale.calibrated)
+  using scene::Modality;
+  scene::ImagePart& image = value.ct;
+  const bool isStated = image.modality != Modality::Unknown;
+  if (wanted != Modality::Unknown && isStated && wanted != image.modality)
+    image.notes.push_back(std::string("The file says that it is ") +
+                          (image.modality == Modality::Mr ? "an MR" : "a CT") +
+                          "; it is taken for " + (wanted == Modality::Mr ? "an MR" : "a CT") +
+                          ", as asked.");
+  if (wanted != Modality::Unknown)
+    image.modality = wanted;
+  const volume::IntensityHistogram histogram(*image.volume.get());
+  if (image.modality == Modality::Mr)
+  {
+    const auto scale = volume::suggestMrScale(histogram);
+    value.iso = scale.iso;
+    value.denseBone = scale.dense;
+    value.boneLook.color = kMrColor;
+    image.notes.push_back(
+        "An MR: its intensities are not Hounsfield units, and bone is as dark as air in it. The "
+        "surface is where tissue begins, put at " +
+        core::generalText(scale.iso) +
+        " by the image's histogram; what is drilled is this tissue, not bone. 'petrous appearance "
+        "--iso' moves the surface.");
     return;
+  }
+  const auto scale = volume::suggestScale(histogram);
+  if (scale.calibrated)
+  {
+    image.modality = Modality::Ct;
+    return;
+  }
   value.iso = scale.iso;
   value.denseBone = scale.dense;
-  value.ct.notes.push_back(
+  if (image.modality == Modality::Unknown)
+    image.notes.push_back("The file does not say whether it is a CT or an MR; it is taken for a CT "
+                          "with units of its own, such as cone beam. Build the case with "
+                          "--modality MR if it is an MR, --modality CT if it is not.");
+  image.notes.push_back(
       "The intensities are not Hounsfield units: the surface of bone is put at " +
       core::generalText(scale.iso) + ", and dense bone taken for " +
       core::generalText(scale.dense) +
@@ -186,6 +225,7 @@ void addMr(scene::Case& value, const PartSource& source, const core::Progress& p
   scene::ImagePart part =
       readImage(source.path, source.series, source.repair, std::nullopt, progress);
   part.name = name;
+  part.modality = scene::Modality::Unknown;
   value.mr.push_back(std::move(part));
 }
 
@@ -688,7 +728,7 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
   value.ct =
       readImage(sources.ct, sources.series, sources.repair, sources.roi, progress.part(0.0, 0.7));
   value.ct.name = "ct";
-  placeSurface(value);
+  placeSurface(value, sources.modality);
   addParts(value, sources.parts, progress.part(0.7, 1.0), report);
   return value;
 }

@@ -56,7 +56,8 @@ std::string IntensityDisplay::text(double value) const
 volume::IntensityScale calibratedScale(const scene::Case& value)
 {
   volume::IntensityScale scale = value.intensityScale();
-  scale.calibrated = scale.dense == volume::IntensityScale{}.dense;
+  scale.calibrated =
+      value.ct.modality != scene::Modality::Mr && scale.dense == volume::IntensityScale{}.dense;
   return scale;
 }
 
@@ -79,6 +80,14 @@ IntensityDisplay displayOf(const scene::Case& value)
     display.unit = at(1.0) - at(0.0);
     display.bone = windowOf(at(-1300.0), at(2700.0), range);
     display.soft = windowOf(at(-160.0), at(240.0), range);
+    if (value.ct.modality == scene::Modality::Mr && scale.dense > scale.iso)
+    {
+      // From what is as dark below the surface as tissue is bright above it, to the 99th percentile
+      // of tissue (volume::suggestMrScale); the narrow one leaves out the bright half.
+      const double reach = scale.dense - scale.iso;
+      display.bone = windowOf(scale.iso - reach, scale.dense, range);
+      display.soft = windowOf(scale.iso - reach, scale.iso + 0.5 * reach, range);
+    }
     display.least = range.min;
     display.most = range.max;
     display.step = roundStep((range.max - range.min) / kSteps);

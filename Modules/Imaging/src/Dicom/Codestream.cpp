@@ -1,5 +1,6 @@
 #include "Codestream.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace petrous::imaging
@@ -57,6 +58,16 @@ bool scanFits(const Head& head, std::size_t at, std::uint32_t frame)
   const std::uint32_t predictor = head.number(at + 7, 1);
   return head.number(at + 2, 2) == 8 && head.number(at + 4, 1) == 1 &&
          (!isLossless || (predictor >= 1 && predictor <= 7));
+}
+
+/// Whether the stream ends with the marker EOI, but for padding. On a JPEG-LS stream that ends
+/// earlier GDCM's decoder may not return.
+bool hasEnd(const std::vector<char>& bytes)
+{
+  const auto last =
+      std::find_if(bytes.rbegin(), bytes.rend(), [](char byte) { return byte != '\0'; });
+  return bytes.rend() - last >= 2 && static_cast<unsigned char>(*last) == 0xd9 &&
+         static_cast<unsigned char>(*(last + 1)) == 0xff;
 }
 
 /// The frame header (SOFn) of ITU-T T.81 B.2.2 and T.87 C.2.2, and the scan header after it.
@@ -118,7 +129,7 @@ bool codestreamFits(const std::vector<char>& bytes, const SliceHeader& slice)
     return true;
   if (syntax == "1.2.840.10008.1.2.4.90" || syntax == "1.2.840.10008.1.2.4.91")
     return jpeg2000Fits(head, slice);
-  return jpegFits(head, slice);
+  return hasEnd(bytes) && jpegFits(head, slice);
 }
 
 } // namespace petrous::imaging

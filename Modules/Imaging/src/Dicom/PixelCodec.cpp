@@ -33,6 +33,14 @@ namespace
                                                        "came from");
 }
 
+[[noreturn]] void failChanged(const SliceHeader& slice)
+{
+  throw DicomError(DicomError::Reason::Unreadable,
+                   slice.file.filename().string() +
+                       " was changed or replaced after its header was read; wait until the copying "
+                       "is done, then read the folder again");
+}
+
 /// Extraction of the stored value from its allocated bits: shift, mask, sign extension.
 struct BitField
 {
@@ -357,11 +365,11 @@ void decodeFrame(ByteSource& source, const SliceHeader& slice,
   unpackCells(slice, format.bitsAllocated, field, false, pixels);
 }
 
-void decodePixels(const SliceHeader& slice, StoredPixels& pixels)
+namespace
 {
-  ByteSource source(slice.file);
-  if (!source.isOpen())
-    fail(slice, "cannot be opened");
+
+void decodeUnchecked(ByteSource& source, const SliceHeader& slice, StoredPixels& pixels)
+{
   const PixelFormat& format = slice.pixels;
   pixels.values.resize(static_cast<std::size_t>(slice.rows) *
                        static_cast<std::size_t>(slice.columns));
@@ -378,6 +386,36 @@ void decodePixels(const SliceHeader& slice, StoredPixels& pixels)
   unpackCells(slice, format.bitsAllocated,
               bitField(format.bitsStored, format.highBit, format.isSigned), format.isBigEndian,
               pixels);
+}
+
+} // namespace
+
+void decodePixels(const SliceHeader& slice, StoredPixels& pixels)
+{
+  ByteSource source(slice.file);
+  if (!source.isOpen())
+    fail(slice, "cannot be opened");
+  // What the header says of another file places these pixels wrongly, also where they can be read.
+  const bool isKnown = slice.stamp.inode != 0 || slice.stamp.size != 0;
+  if (isKnown && !sameContents(source.stamp(), slice.stamp))
+    failChanged(slice);
+  try
+  {
+    decodeUnchecked(source, slice, pixels);
+  }
+  catch (const DicomError&)
+  {
+    if (!source.isUnchanged())
+      failChanged(slice);
+    if (source.hasFailed())
+      throw DicomError(
+          DicomError::Reason::Unreadable,
+          slice.file.filename().string() +
+              " could not be read: the disk or medium was removed or reports an error");
+    throw;
+  }
+  if (!source.isUnchanged())
+    failChanged(slice);
 }
 
 } // namespace petrous::imaging

@@ -29,6 +29,11 @@ FileStamp stampOf(const struct stat& status)
           static_cast<std::uint64_t>(status.st_size), ns(status.st_mtim), ns(status.st_ctim)};
 }
 
+bool sameContents(const FileStamp& a, const FileStamp& b)
+{
+  return a.device == b.device && a.inode == b.inode && a.size == b.size && a.modified == b.modified;
+}
+
 ByteSource::ByteSource(const std::filesystem::path& file)
   : m_descriptor(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) // a pipe would block
 {
@@ -49,6 +54,12 @@ ByteSource::~ByteSource()
 {
   if (m_descriptor >= 0)
     ::close(m_descriptor);
+}
+
+bool ByteSource::isUnchanged() const
+{
+  struct stat status = {};
+  return ::fstat(m_descriptor, &status) == 0 && sameContents(stampOf(status), m_stamp);
 }
 
 bool ByteSource::read(std::uint64_t offset, void* bytes, std::size_t count)

@@ -14,6 +14,9 @@ namespace petrous::imaging
 
 FileStamp stampOf(const struct stat& status);
 
+/// Whether both are of the same file with the same contents; a change of rights or links is none.
+bool sameContents(const FileStamp& a, const FileStamp& b);
+
 /// The bytes of a regular file, or of a file inflated in memory. Not open if the file is missing,
 /// or is a pipe or device. Reading beyond the end fails; throws nothing but bad_alloc.
 class ByteSource
@@ -27,6 +30,9 @@ public:
   bool isOpen() const noexcept { return m_descriptor >= 0; }
   std::uint64_t size() const noexcept { return m_size; }
   const FileStamp& stamp() const noexcept { return m_stamp; } ///< when it was opened
+
+  /// Whether the file still is as it was when it was opened: same size and time of modification.
+  bool isUnchanged() const;
 
   /// Whether reading failed although the file should have had the bytes: the medium was removed or
   /// is bad, or the file was made shorter meanwhile.

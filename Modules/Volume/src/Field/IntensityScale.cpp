@@ -257,6 +257,15 @@ bool isFlank(const IntensityHistogram& histogram, double air)
   return 2 * bins[1] > *std::max_element(bins.begin() + 1, last);
 }
 
+// Puts iso within the range, and dense bone at `dense` or, if more, at the 99th percentile above
+// it.
+void placeDense(const IntensityHistogram& histogram, double dense, IntensityScale& scale)
+{
+  scale.iso = std::clamp(scale.iso, histogram.range().min, histogram.range().max);
+  const double least = std::max(histogram.binWidth(), 1e-6 * std::abs(scale.iso));
+  scale.dense = std::max({dense, histogram.percentile(0.99, scale.iso), scale.iso + least});
+}
+
 } // namespace
 
 IntensityScale suggestScale(const IntensityHistogram& histogram)
@@ -302,9 +311,21 @@ IntensityScale suggestScale(const IntensityHistogram& histogram)
     const std::size_t t = twoClasses(moments, levels);
     scale.iso = density.value(0.5 * (moments.mean(0, t) + moments.mean(t, levels)));
   }
-  scale.iso = std::clamp(scale.iso, histogram.range().min, histogram.range().max);
-  const double least = std::max(histogram.binWidth(), 1e-6 * std::abs(scale.iso));
-  scale.dense = std::max({dense, histogram.percentile(0.99, scale.iso), scale.iso + least});
+  placeDense(histogram, dense, scale);
+  return scale;
+}
+
+IntensityScale suggestMrScale(const IntensityHistogram& histogram)
+{
+  if (histogram.count() == 0)
+    return {0.0, 1.0, false};
+  const Density density(histogram, false);
+  const Moments moments(density.counts);
+  const std::size_t first = threeClasses(moments, density.counts.size())[0];
+  IntensityScale scale;
+  scale.calibrated = false;
+  scale.iso = density.value(static_cast<double>(first) - 0.5);
+  placeDense(histogram, -std::numeric_limits<double>::infinity(), scale);
   return scale;
 }
 

@@ -114,7 +114,10 @@ StructureSummary summaryOf(const std::vector<StructureReport>& reports);
 
 struct CaseSources
 {
-  std::filesystem::path ct; ///< DICOM folder or file, NIfTI, NRRD or MetaImage
+  std::filesystem::path ct; ///< primary image: DICOM folder or file, NIfTI, NRRD or MetaImage
+  /// What it is, if the file does not say or is wrong; Unknown: by the DICOM modality, else by the
+  /// values, and the image's notes say so.
+  scene::Modality modality = scene::Modality::Unknown;
   std::string series;  ///< which of a folder (imaging::chooseSeries); empty: chosen automatically
   bool repair = false; ///< resamples what imaging::ReadOptions::repair can
   std::optional<core::PatientBox> roi; ///< crops the CT on load

@@ -72,7 +72,7 @@ struct Case
   double iso = 300.0;         ///< HU
   /// HU of dense bone, to which presets are scaled; different in an uncalibrated image.
   double denseBone = volume::IntensityScale{}.dense;
-  ImagePart ct;
+  ImagePart ct; ///< the primary image: a CT, or an MR (ImagePart::modality)
   appearance::StructureAppearance boneLook = appearance::boneLook(); ///< of the CT itself
   std::vector<ImagePart> mr;
   std::vector<LabelPart> labels;

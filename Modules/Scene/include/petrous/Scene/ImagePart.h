@@ -12,6 +12,15 @@
 namespace petrous::scene
 {
 
+/// What the primary image was taken with. Cone beam and micro-CT are CTs whose values may be in
+/// units of their own; an MR's always are.
+enum class Modality
+{
+  Unknown, ///< neither the file nor the user said; treated as a CT
+  Ct,
+  Mr
+};
+
 /// A CT or MR image of the case. Voxels are loaded on demand; the rest is available without them.
 struct ImagePart
 {
@@ -19,7 +28,8 @@ struct ImagePart
   std::string object; ///< name in the object store; empty until saved
   core::GridGeometry geometry;
   volume::ValueRange range;
-  std::vector<std::string> notes; ///< what was accepted on reading the image, for the user
+  std::vector<std::string> notes;        ///< what was accepted on reading the image, for the user
+  Modality modality = Modality::Unknown; ///< of the primary image (Case::ct); others: Unknown
   core::Lazy<volume::IntensityVolume> volume;
   /// X_MC: CT patient points to this image's patient points, LPS mm; identity until registered.
   core::RigidTransform mrFromCt;

@@ -49,6 +49,9 @@ public:
   void restorePart();                       ///< the one that was removed last
   void renamePart(const std::string& name); ///< with a dialog
 
+  void archive();                           ///< the open case to one file, with a dialog
+  void restore();                           ///< the case of an archive, with a dialog
+
   void chooseCase();
   void makeSample();
 
@@ -89,6 +92,7 @@ private:
 
   void open(const QStringList& what, const Purpose& purpose);
   void openCase(const std::string& name);
+  void restore(const std::filesystem::path& file, const std::string& name);
   void lookAt(const std::vector<std::filesystem::path>& paths, const Purpose& purpose);
   void decide(const Sources& found, const Purpose& purpose);
   bool ask(Item& item, const Purpose& purpose);

@@ -44,6 +44,8 @@ public:
   QAction* addLabels;
   QAction* addMesh;
   QAction* restorePart;
+  QAction* archive;
+  QAction* restore;
   QAction* undo;
   QAction* redo;
   QAction* centerView;

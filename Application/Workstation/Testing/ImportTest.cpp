@@ -581,10 +581,9 @@ TEST_F(Import, ARegionIsDrawnBeforeTheScanIsRead)
           auto* region = qobject_cast<RegionDialog*>(&dialog);
           if (region)
           {
-            EXPECT_EQ(region->findChild<QDialogButtonBox*>()
-                          ->button(QDialogButtonBox::Open)
-                          ->isEnabled(),
-                      region->isPictured());
+            EXPECT_EQ(
+                region->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Open)->isEnabled(),
+                region->isPictured());
           }
           if (!region || !region->isPictured() ||
               !region->findChild<SliceView*>("axialView")->isVisible())
@@ -599,8 +598,7 @@ TEST_F(Import, ARegionIsDrawnBeforeTheScanIsRead)
   {
     // Its picture comes with an event at the earliest.
     const RegionDialog early(folder() / "sample" / "ct", {}, false);
-    EXPECT_FALSE(
-        early.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Open)->isEnabled());
+    EXPECT_FALSE(early.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Open)->isEnabled());
   }
   openRegion([](RegionDialog& dialog) { dialog.reject(); });
   EXPECT_FALSE(window().model().hasCase());
@@ -791,7 +789,7 @@ TEST_F(Import, ACaseIsArchivedAndRestored)
   saveBall("ball");
   openWindow("ball");
   drill(600);
-  const double removed = window().model().value().dissection.removedVolume();
+  const double removed = window().model().value().removedVolume();
   ASSERT_GT(removed, 0.0);
   const fs::path whole = folder() / "whole.petrous";
   const fs::path plan = folder() / "plan.petrous";
@@ -843,7 +841,7 @@ TEST_F(Import, ACaseIsArchivedAndRestored)
   onName("by drop");
   dropPath(whole);
   ASSERT_TRUE(isOpen("by drop"));
-  EXPECT_NEAR(window().model().value().dissection.removedVolume(), removed, 1e-9);
+  EXPECT_NEAR(window().model().value().removedVolume(), removed, 1e-9);
   closeWindow();
   library().remove("ball");
 

@@ -19,6 +19,7 @@
 #include "Application.h"
 #include "Banner.h"
 #include "CaseSaver.h"
+#include "ExportDialog.h"
 #include "OpenCaseDialog.h"
 #include "RegionDialog.h"
 #include "RepairDialog.h"
@@ -216,6 +217,17 @@ void CaseDocumentController::refuse(const QString& why)
   box.setTextFormat(Qt::PlainText);
   box.setTextInteractionFlags(Qt::TextSelectableByMouse);
   box.exec();
+}
+
+// Non-modal.
+void CaseDocumentController::inform(const QString& text)
+{
+  auto* box =
+      new QMessageBox(QMessageBox::Information, tr("Petrous"), text, QMessageBox::Ok, &m_window);
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  box->setTextFormat(Qt::PlainText);
+  box->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  box->open();
 }
 
 void CaseDocumentController::open(const QStringList& what)
@@ -836,6 +848,56 @@ void CaseDocumentController::openFiles()
       &m_window, tr("Open images, labels or meshes"), {},
       tr("Images, labels, meshes (%1);;All files (*)")
           .arg(patternsOf(imaging::kImage | imaging::kLabels | imaging::kMesh | imaging::kDicom))));
+}
+
+// What is written is what the command would write: the case as it is saved.
+void CaseDocumentController::exportPart()
+{
+  if (!m_model.hasCase())
+    return;
+  if (m_work.busy() || m_asking)
+    return emit statusMessage(tr("One at a time: something is being read already"));
+  presenters::ExportOptions options;
+  std::string name;
+  {
+    const QScopedValueRollback<bool> asking(m_asking, true);
+    if (mayDropDraft && !mayDropDraft())
+      return;
+    ExportDialog dialog(m_model.value(), &m_window);
+    if (dialog.exec() != QDialog::Accepted || !m_model.hasCase())
+      return;
+    options = dialog.options();
+    m_model.stopTouch();
+    if (!m_saver.flush())
+      return emit statusMessage(tr("The case is not saved yet, so nothing was exported"));
+    name = m_model.value().name; // a save after a conflict may have changed it
+  }
+  work(tr("Exporting from %1").arg(words(name)),
+       [this, library = m_model.library(), name,
+        options](const core::Progress& progress) -> BackgroundWork::Reply
+       {
+         scene::Case value = library.open(name);
+         if (options.what == "surface") // that of all structures
+           library.checkStructures(value, progress.part(0.0, 0.1));
+         std::vector<std::string> warnings;
+         const auto done = presenters::exportCase(
+             library, value, options, {},
+             [&warnings](const std::string& line) { warnings.push_back(line); },
+             progress.part(0.1, 1.0));
+         return [this, done, warnings, out = options.out]
+         {
+           endWork();
+           QString text =
+               tr("Written: %1%2").arg(QFile::decodeName(out.c_str()), words(done.words));
+           if (done.volume)
+             text += tr("\nVolume of the surface: %1 mL").arg(1e-3 * *done.volume, 0, 'f', 3);
+           if (done.voxelsVolume)
+             text += tr("\nVolume of the voxels: %1 mL").arg(1e-3 * *done.voxelsVolume, 0, 'f', 3);
+           for (const std::string& line : warnings)
+             text += '\n' + sentence(windowText(words(line)));
+           inform(text);
+         };
+       });
 }
 
 // An archive contains what is saved, so the case is saved first.

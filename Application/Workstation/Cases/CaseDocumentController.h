@@ -49,8 +49,9 @@ public:
   void restorePart();                       ///< the one that was removed last
   void renamePart(const std::string& name); ///< with a dialog
 
-  void archive();                           ///< the open case to one file, with a dialog
-  void restore();                           ///< the case of an archive, with a dialog
+  void exportPart(); ///< for other programs, with a dialog
+  void archive();    ///< the open case to one file, with a dialog
+  void restore();    ///< the case of an archive, with a dialog
 
   void chooseCase();
   void makeSample();
@@ -115,6 +116,7 @@ private:
   void notSaved(const QString& why);
   bool leaveCase();
   void refuse(const QString& why);
+  void inform(const QString& text);
   bool changeParts(const std::function<void()>& change);
 
   presenters::WorkstationModel& m_model;

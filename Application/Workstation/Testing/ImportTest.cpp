@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include <QComboBox>
 #include <QDialogButtonBox>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
@@ -872,4 +873,67 @@ TEST_F(Import, ACaseIsArchivedAndRestored)
   EXPECT_TRUE(why.contains("broken.petrous")) << why.toStdString();
   EXPECT_TRUE(isOpen("ball"));
   closeWindow();
+}
+
+// By the dialog of the Case menu; the voxels are those of the case, and what is there is replaced
+// only with consent.
+TEST_F(Import, APartIsExportedForOtherPrograms)
+{
+  saveBall("ball");
+  openWindow("ball");
+  const fs::path ct = folder() / "out.nrrd";
+  const auto write = [&](const char* what, const char* ending, const fs::path& path)
+  {
+    onDialog(
+        [&, what, ending, path](QDialog& dialog)
+        {
+          if (dialog.objectName() != "exportCase")
+            return false;
+          const auto pick = [&](const char* box, const char* data)
+          {
+            auto* choice = dialog.findChild<QComboBox*>(box);
+            choice->setCurrentIndex(choice->findData(QString(data)));
+            EXPECT_EQ(choice->currentData().toString(), data);
+          };
+          pick("exportWhat", what);
+          pick("exportFormat", ending);
+          auto* place = dialog.findChild<QLineEdit*>("exportPath");
+          auto* button = dialog.findChild<QPushButton*>("primary");
+          EXPECT_TRUE(button->isEnabled()) << "what is proposed can be written";
+          place->setText(QString::fromStdString((folder() / "nowhere" / "x").string()));
+          EXPECT_FALSE(button->isEnabled());
+          place->setText(QString::fromStdString(path.string()));
+          keepPicture(dialog, "export");
+          EXPECT_TRUE(button->isEnabled());
+          button->click();
+          return true;
+        });
+    QString told;
+    onMessage(
+        [&told](QMessageBox& box)
+        {
+          told = box.text();
+          box.accept();
+        });
+    trigger(window(), "Export…");
+    EXPECT_TRUE(waitFor([&] { return !told.isEmpty() && !window().busy(); }));
+    return told;
+  };
+  QString told = write("ct", ".nrrd", ct);
+  EXPECT_TRUE(told.contains("out.nrrd")) << told.toStdString();
+  presenters::CaseSources sources;
+  sources.ct = ct;
+  const auto read = presenters::buildCase("read", sources, {});
+  const auto image = read.ct.volume.get();
+  const auto truth = window().model().value().ct.volume.get();
+  ASSERT_TRUE(core::sameGrid(image->geometry(), truth->geometry()));
+  for (int n = 0; n < 64; ++n)
+    EXPECT_EQ(image->sample(Eigen::Vector3d(n, 31, 63 - n)),
+              truth->sample(Eigen::Vector3d(n, 31, 63 - n)));
+  told = write("structure", ".stl", folder() / "nerve.stl");
+  EXPECT_TRUE(told.contains("closed") && told.contains("mL")) << told.toStdString();
+  EXPECT_TRUE(fs::exists(folder() / "nerve.stl"));
+  told = write("dissected", "/", folder() / "series");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder() / "series"), fs::directory_iterator()),
+            64);
 }

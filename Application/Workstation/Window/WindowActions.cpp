@@ -86,7 +86,9 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                    tr("Structures of this patient: label maps and segmentations"));
   addMesh = make(casePart, tr("Add m&esh…"), {}, tr("Surfaces of this patient, in mm"));
   casePart->addSeparator();
-  archive = make(casePart, tr("Archi&ve…"), Qt::CTRL + Qt::Key_E,
+  exportPart = make(casePart, tr("E&xport…"), Qt::CTRL + Qt::Key_E,
+                    tr("Images, structures or surfaces as files for other programs"));
+  archive = make(casePart, tr("Archi&ve…"), Qt::CTRL + Qt::SHIFT + Qt::Key_A,
                  tr("The case in one file, to hand it on: whole, or only the plan"));
   restore = make(casePart, tr("&Restore…"), Qt::CTRL + Qt::SHIFT + Qt::Key_E,
                  tr("The case of an archive comes to the library and is opened"));
@@ -177,9 +179,9 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   window.addToolBar(&deviceBar);
 
   m_needCase.insert(m_needCase.end(),
-                    {save, saveAs, archive, addMrFolder, addMrFile, addLabels, addMesh, centerView,
-                     boneThickness, boneWindow, softWindow, fitSlices, drillBar.drillAction(),
-                     drillBar.pointerAction(), record});
+                    {save, saveAs, exportPart, archive, addMrFolder, addMrFile, addLabels, addMesh,
+                     centerView, boneThickness, boneWindow, softWindow, fitSlices,
+                     drillBar.drillAction(), drillBar.pointerAction(), record});
 }
 
 QMenu* WindowActions::addStereo(bool quadBuffer)

@@ -44,6 +44,7 @@ public:
   QAction* addLabels;
   QAction* addMesh;
   QAction* restorePart;
+  QAction* exportPart;
   QAction* archive;
   QAction* restore;
   QAction* undo;

@@ -205,7 +205,7 @@ void ExportDialog::check()
   {
     isFine = true;
     const QStorageInfo disk(folder.filePath());
-    advice = tr("%1 GB are free there. Nothing in it names the patient.")
+    advice = tr("%1 GB are free there.")
                  .arg(1e-9 * static_cast<double>(disk.bytesAvailable()), 0, 'f', 1);
   }
   m_advice->setText(advice);

@@ -1,33 +1,11 @@
-#include <algorithm>
-#include <array>
-#include <atomic>
-#include <cmath>
-#include <filesystem>
-#include <limits>
-#include <map>
-#include <optional>
-#include <type_traits>
 #include <utility>
-
-#include <tbb/parallel_for.h>
 
 #include "CaseJson.h"
 #include "CaseWarnings.h"
 #include "Commands.h"
 #include "Numbers.h"
-#include "petrous/Appearance/StructurePresets.h"
-#include "petrous/Core/Fingerprint.h"
-#include "petrous/Core/OutputFile.h"
-#include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Imaging/FileFormats.h"
-#include "petrous/Imaging/LabelFile.h"
-#include "petrous/Imaging/MeshFile.h"
-#include "petrous/Imaging/VolumeFile.h"
-#include "petrous/Presenters/CaseBuilder.h"
-#include "petrous/Presenters/MrOnCt.h"
-#include "petrous/Rendering/SurfaceExtraction.h"
-#include "petrous/Scene/CaseField.h"
-#include "petrous/Scene/Placement.h"
+#include "petrous/Presenters/CaseExport.h"
 
 namespace petrous::cli
 {
@@ -35,619 +13,61 @@ namespace petrous::cli
 namespace
 {
 
-constexpr double kAirHu = -1000.0;
-
-struct Options
+struct Options : presenters::ExportOptions
 {
-  std::string caseName, what, out, part;
-  bool onCt = false;
+  std::string caseName;
   bool withoutDamaged = false;
-  std::optional<std::size_t> triangles; // of a surface, at most
-
-  /// Whether --out is a folder, for a DICOM series.
-  bool isSeries() const
-  {
-    std::error_code ignored;
-    return !out.empty() && (out.back() == '/' || std::filesystem::is_directory(out, ignored)) &&
-           (what == "ct" || what == "mr" || what == "dissected");
-  }
-
-  /// The file for the names of labels in a format without names.
-  std::optional<std::string> labelTable() const
-  {
-    const imaging::FileFormat* format = imaging::formatOf(out);
-    if (what != "labels" || !format || format->name != "NIfTI")
-      return std::nullopt;
-    const std::filesystem::path path(out);
-    return (path.parent_path() / (imaging::baseName(path) + ".label")).string();
-  }
-
-  /// Whether --out is a DICOM segmentation.
-  bool isSegmentation() const
-  {
-    const imaging::FileFormat* format = imaging::formatOf(out);
-    return what == "labels" && format && (format->writes & imaging::kSegmentation) != 0;
-  }
 };
 
-template <class T>
-T rounded(double value)
+void printSummary(const Context& context, const scene::Case& value, const Options& options,
+                  const presenters::ExportSummary& done, const presenters::LeftOut& leftOut)
 {
-  if constexpr (std::is_integral_v<T>)
-    return static_cast<T>(std::lround(std::clamp(value, double{std::numeric_limits<T>::min()},
-                                                 double{std::numeric_limits<T>::max()})));
-  else
-    return static_cast<T>(value);
-}
-
-// The CT after removal: untouched voxels keep their value, removed ones are air, and in between the
-// value is capped so that the surface at `iso` is the cut surface of f.
-template <class T>
-volume::Volume<T> dissected(const volume::Volume<T>& ct, const volume::CutMask& mask, double iso)
-{
-  volume::Volume<T> result(ct.geometry());
-  const core::Index3 n = ct.geometry().dims();
-  for (int k = 0; k < n[2]; ++k)
-    for (int j = 0; j < n[1]; ++j)
-      for (int i = 0; i < n[0]; ++i)
-      {
-        const std::uint16_t left = mask.at(i, j, k);
-        T value = ct.at(i, j, k);
-        if (left != volume::CutMask::kUntouched)
-        {
-          const double share = static_cast<double>(left) / volume::CutMask::kUntouched;
-          const double cap = iso + (share - 0.5) * 2.0 * (iso - kAirHu);
-          if (cap < static_cast<double>(value))
-            value = rounded<T>(cap);
-        }
-        result.at(i, j, k) = value;
-      }
-  return result;
-}
-
-const scene::ImagePart& chooseMr(const scene::Case& value, const std::string& name)
-{
-  if (value.mr.empty())
-    throw core::InvalidParameter("case '" + value.name + "' has no MR");
-  if (name.empty() && value.mr.size() == 1)
-    return value.mr.front();
-  std::string there;
-  for (const auto& mr : value.mr)
+  nlohmann::json json{{"case", value.name}, {"what", options.what}, {"out", options.out}};
+  const auto give = [&json](const char* key, const auto& number)
   {
-    if (mr.name == name)
-      return mr;
-    there += (there.empty() ? "" : ", ") + mr.name;
-  }
-  throw UsageError("export mr: give --part NAME; there are: " + there);
-}
-
-// A label map as it is written: in one space, with those of its structures that are asked for.
-struct PlacedLabels
-{
-  std::shared_ptr<const volume::LabelMap> map;
-  std::string drawnOn; // the MR in whose space it lies; empty: in the CT's
-  std::vector<const scene::StructurePart*> structures;
-};
-
-// The nearest voxel of the labels, for each voxel of the CT.
-volume::LabelMap onGrid(const volume::LabelMap& labels, const core::GridGeometry& ct,
-                        const core::Progress& progress)
-{
-  const volume::Volume<std::uint16_t>& source = *labels.voxels;
-  auto result = volume::makeZeroVolume<std::uint16_t>(ct);
-  const core::GridGeometry& grid = source.geometry();
-  const core::Index3& m = grid.dims();
-  const core::Index3& n = ct.dims();
-  std::atomic<int> done{0};
-  tbb::parallel_for(0, n[2],
-                    [&](int k)
-                    {
-                      progress.report(static_cast<double>(done.fetch_add(1)) / n[2], "resampling");
-                      for (int j = 0; j < n[1]; ++j)
-                        for (int i = 0; i < n[0]; ++i)
-                        {
-                          const Eigen::Vector3d at =
-                              grid.voxelFromPatient(ct.patientFromVoxel(Eigen::Vector3d(i, j, k)));
-                          const Eigen::Array3d nearest = at.array().round();
-                          if ((nearest >= 0.0).all() && nearest[0] < m[0] && nearest[1] < m[1] &&
-                              nearest[2] < m[2])
-                            result->at(i, j, k) = source.at(static_cast<int>(nearest[0]),
-                                                            static_cast<int>(nearest[1]),
-                                                            static_cast<int>(nearest[2]));
-                        }
-                    });
-  return volume::makeLabelMap(std::move(result), labels.segments);
-}
-
-// The label maps with structures that are asked for (all, or the one named), all on one grid in one
-// space.
-std::vector<PlacedLabels> placedLabels(const Context& context, const scene::Case& value,
-                                       const Options& options, const presenters::LeftOut& leftOut,
-                                       const core::Progress& progress)
-{
-  const std::string& only = options.part;
-  const auto isLeftOut = [&](const scene::LabelPart& labels)
-  {
-    return std::any_of(leftOut.labels.begin(), leftOut.labels.end(),
-                       [&](const auto& part) { return &value.labels[part.index] == &labels; });
+    if (number)
+      json[key] = *number;
   };
-  std::vector<PlacedLabels> placed;
-  for (const auto& part : value.labels)
+  give("instances", done.instances);
+  give("segments", done.segments);
+  give("layers", done.layers);
+  give("names", done.names);
+  give("triangles", done.triangles);
+  give("volume_mm3", done.volume);
+  give("voxels_mm3", done.voxelsVolume);
+  if (done.triangles)
   {
-    PlacedLabels labels;
-    for (const auto& structure : part.structures)
-      if (only.empty() || structure.name == only)
-        labels.structures.push_back(&structure);
-    if (labels.structures.empty())
-      continue;
-    if (isLeftOut(part))
-    {
-      if (!only.empty())
-        throw core::InvalidParameter("export labels: '" + only +
-                                     "' is missing or damaged, and nothing else is asked for");
-      continue;
-    }
-    const std::string& name = labels.structures.front()->name;
-    labels.map = scene::labelsOnCt(value, part);
-    if (!labels.map)
-    {
-      if (options.onCt)
-        throw core::InvalidParameter("export labels: '" + name + "' " +
-                                     scene::missingPlace(value, name));
-      for (const auto* structure : labels.structures)
-        context.warn("'" + structure->name + "' is written where its MR has it, not on the CT: " +
-                     scene::missingPlace(value, structure->name));
-      labels.map = part.labels.get();
-      labels.drawnOn = scene::placementOf(value, part).drawnOn;
-    }
-    const bool isFirst = placed.empty();
-    if (options.onCt && !core::sameGrid(labels.map->voxels->geometry(), value.ct.geometry))
-      labels.map = std::make_shared<const volume::LabelMap>(
-          onGrid(*labels.map, value.ct.geometry, progress));
-    if (!isFirst &&
-        (labels.drawnOn != placed.front().drawnOn ||
-         !core::sameGrid(labels.map->voxels->geometry(), placed.front().map->voxels->geometry())))
-      throw UsageError("export labels: '" + name +
-                       "' lies on another grid; export it alone with --part, or all on the CT's "
-                       "grid with --on-ct");
-    placed.push_back(std::move(labels));
+    json["closed"] = done.closed;
+    json["decimation"] = "none";
   }
-  if (placed.empty())
-    throw core::InvalidParameter("case '" + value.name + "' has no " +
-                                 (only.empty() ? "structures" : "structure '" + only + "'"));
-  return placed;
-}
-
-// All structures, numbered in order, in layers within which none overlaps another; with
-// `inOneLayer` in a single one, in which the earlier structure keeps the voxel, and a warning.
-std::vector<volume::LabelMap> layersOf(const Context& context,
-                                       const std::vector<PlacedLabels>& placed, bool inOneLayer)
-{
-  struct Layer
-  {
-    std::shared_ptr<volume::Volume<std::uint16_t>> voxels;
-    std::vector<volume::Segment> segments;
-  };
-  std::vector<Layer> layers;
-  std::uint16_t index = 0;
-  for (const PlacedLabels& labels : placed)
-    for (const auto* structure : labels.structures)
-    {
-      const volume::Volume<std::uint16_t>& source = *labels.map->voxels;
-      const auto overlap = [&](const Layer& layer)
-      {
-        std::size_t count = 0;
-        for (std::size_t p = 0; p < source.size(); ++p)
-          count += source.data()[p] == structure->index && layer.voxels->data()[p] != 0 ? 1 : 0;
-        return count;
-      };
-      auto layer = layers.begin();
-      if (inOneLayer && layer != layers.end())
-      {
-        if (const std::size_t lost = overlap(*layer); lost > 0)
-          context.warn("'" + structure->name + "': " + std::to_string(lost) +
-                       " voxels are not written, as structures before it have them; .seg.nrrd "
-                       "and .dcm keep structures that overlap");
-      }
-      else
-        layer = std::find_if(layers.begin(), layers.end(),
-                             [&](const Layer& each) { return overlap(each) == 0; });
-      if (layer == layers.end())
-        layer = layers.insert(layers.end(),
-                              {volume::makeZeroVolume<std::uint16_t>(source.geometry()), {}});
-      ++index;
-      std::uint16_t* voxels = layer->voxels->data();
-      for (std::size_t p = 0; p < source.size(); ++p)
-        if (source.data()[p] == structure->index && voxels[p] == 0)
-          voxels[p] = index;
-      volume::Segment segment;
-      segment.name = structure->name;
-      segment.index = index;
-      segment.color = structure->look.color;
-      layer->segments.push_back(std::move(segment));
-    }
-  std::vector<volume::LabelMap> maps;
-  for (Layer& layer : layers)
-    maps.push_back(volume::makeLabelMap(std::move(layer.voxels), std::move(layer.segments)));
-  return maps;
-}
-
-template <class T>
-std::shared_ptr<const volume::IntensityVolume> shared(volume::Volume<T> voxels,
-                                                      std::optional<double> padding)
-{
-  return std::make_shared<const volume::IntensityVolume>(
-      std::make_shared<const volume::Volume<T>>(std::move(voxels)), padding);
-}
-
-unsigned contentOf(const std::string& what)
-{
-  if (what == "labels")
-    return imaging::kLabels | imaging::kSegmentation;
-  if (what == "surface" || what == "structure")
-    return imaging::kMesh;
-  return imaging::kImage;
-}
-
-// Identifiers of DICOM files that are written of a case: derived from the case's and the voxels, so
-// that what is written at different times belongs together. Images and segmentations of one case
-// share the study and, in one space, the frame of reference.
-class CaseIdentifiers
-{
-public:
-  explicit CaseIdentifiers(const scene::Case& value)
-    : m_value(value)
-  {
-    const std::string& id = value.id.empty() ? value.name : value.id;
-    m_case.add(id.data(), id.size());
-  }
-
-  std::string study() const { return imaging::deterministicUid(m_case.value(), "study"); }
-
-  // `drawnOn`: the MR whose space it is; empty: the CT's.
-  std::string frameOfReference(const std::string& drawnOn) const
-  {
-    return presenters::exportedFrame(m_value, drawnOn);
-  }
-
-  template <class Voxels>
-  std::string series(const std::string& what, const core::GridGeometry& grid,
-                     const Voxels& addVoxels) const
-  {
-    core::Fingerprint all = m_case;
-    all.add(what.data(), what.size());
-    all.add(grid.patientFromVoxelLinear().data(), 9 * sizeof(double));
-    all.add(grid.origin().data(), 3 * sizeof(double));
-    addVoxels(all);
-    return imaging::deterministicUid(all.value(), "series");
-  }
-
-  std::string series(const std::string& what, const volume::IntensityVolume& image) const
-  {
-    return series(what, image.geometry(),
-                  [&image](core::Fingerprint& all)
-                  {
-                    image.visit([&all](const auto& voxels)
-                                { all.add(voxels.data(), voxels.size() * sizeof *voxels.data()); });
-                  });
-  }
-
-private:
-  const scene::Case& m_value;
-  core::Fingerprint m_case;
-};
-
-// A DICOM series with identifiers of its own and nothing of the patient's. Equal voxels give equal
-// files.
-void writeSeries(const Options& options, const scene::Case& value,
-                 const volume::IntensityVolume& image, const std::string& drawnOn,
-                 const core::Progress& progress)
-{
-  if (std::holds_alternative<std::shared_ptr<const volume::Volume<float>>>(image.voxels()))
-    throw core::InvalidParameter(
-        "export " + options.what +
-        ": its voxels are fractions, and a DICOM series holds whole numbers; write " +
-        imaging::orText(imaging::writtenEndings(imaging::kImage)));
-  using Modality = imaging::SeriesDescription::Modality;
-  const CaseIdentifiers identifiers(value);
-  imaging::SeriesDescription series;
-  series.modality = options.what == "mr" ? Modality::Mr : Modality::Ct;
-  series.derived = true;
-  series.description = options.what == "dissected" ? "CT, dissected"
-                       : options.what == "ct"      ? "CT"
-                       : options.onCt              ? "MR, resampled on the CT"
-                                                   : "MR";
-  series.seriesNumber = options.what == "ct" ? 1 : options.what == "mr" ? 2 : 3;
-  series.patientId = "ANONYMOUS";
-  series.patientName = "Anonymous";
-  series.studyUid = identifiers.study();
-  series.seriesUid = identifiers.series(options.what, image);
-  series.frameOfReferenceUid = identifiers.frameOfReference(drawnOn);
-  if (value.denseBone != volume::IntensityScale{}.dense)
-    series.rescaleType = "US";
-  if (series.modality == Modality::Mr)
-  {
-    const volume::ValueRange range = image.range();
-    series.windowCenter = 0.5 * (range.min + range.max);
-    series.windowWidth = std::max(range.max - range.min, 1.0);
-  }
-  core::OutputFolder folder(options.out);
-  imaging::writeDicomSeries(folder.path(), image, series, std::nullopt, progress);
-  progress.check("writing DICOM slices");
-  folder.commit();
-}
-
-// What the file said from which a structure was read, where it says more than its name does:
-// "Tissue" is what 3D Slicer gives to every segment.
-void describe(imaging::SegmentationDescription::Segment& segment, const volume::SegmentCodes& codes)
-{
-  using From = volume::SegmentCodes::Algorithm;
-  using To = imaging::SegmentationDescription::Algorithm;
-  const auto isGeneral = [](const volume::CodedConcept& code)
-  {
-    for (const char* general : {"123037004", "85756007", "T-D000A", "T-D0050"})
-      if (code.value == general)
-        return true;
-    return code.empty();
-  };
-  const auto isWhole = [](const volume::CodedConcept& code)
-  { return !code.value.empty() && !code.scheme.empty() && !code.meaning.empty(); };
-  if (isWhole(codes.type) && !(isGeneral(codes.type) && !isGeneral(segment.type)))
-  {
-    segment.type = codes.type;
-    if (isWhole(codes.category))
-      segment.category = codes.category;
-  }
-  if (isWhole(codes.typeModifier))
-    segment.typeModifier = codes.typeModifier;
-  if (isWhole(codes.region))
-    segment.region = codes.region;
-  if (isWhole(codes.regionModifier))
-    segment.regionModifier = codes.regionModifier;
-  segment.algorithm = codes.algorithm == From::Manual      ? To::Manual
-                      : codes.algorithm == From::Automatic ? To::Automatic
-                                                           : To::SemiAutomatic;
-  segment.algorithmName = codes.algorithmName.empty() ? "not recorded" : codes.algorithmName;
-}
-
-// The structures as a DICOM segmentation that belongs to the series of the CT, or of the MR, which
-// `export --what ct` or `mr` writes. Returns the number of segments.
-std::size_t writeSegmentation(const Options& options, const scene::Case& value,
-                              const std::vector<PlacedLabels>& placed,
-                              const std::string& sourceSeries, const core::Progress& progress)
-{
-  using Segmentation = imaging::SegmentationDescription;
-  const std::string& drawnOn = placed.front().drawnOn;
-  const core::GridGeometry& grid = placed.front().map->voxels->geometry();
-  const CaseIdentifiers identifiers(value);
-  const auto presets = appearance::StructurePresets::builtIn();
-  Segmentation segmentation;
-  std::vector<volume::LabelMap> maps;
-  for (const PlacedLabels& labels : placed)
-  {
-    for (const auto* structure : labels.structures)
-    {
-      const auto code = presets.codeFor(structure->name, structure->look.preset);
-      Segmentation::Segment segment;
-      segment.map = maps.size();
-      segment.index = structure->index;
-      segment.label = structure->name;
-      segment.color = structure->look.color;
-      segment.category = {code.category, "SCT", code.categoryMeaning};
-      segment.type = {code.type, "SCT", code.typeMeaning};
-      describe(segment, structure->codes);
-      segmentation.segments.push_back(std::move(segment));
-    }
-    maps.push_back(*labels.map);
-  }
-  const scene::ImagePart* source = drawnOn.empty() ? &value.ct : nullptr;
-  for (const auto& mr : value.mr)
-    if (!source && mr.name == drawnOn)
-      source = &mr;
-  if (source)
-    segmentation.source = Segmentation::Source{
-        drawnOn.empty() ? imaging::SeriesDescription::Modality::Ct
-                        : imaging::SeriesDescription::Modality::Mr,
-        sourceSeries, source->geometry.dims()[2], core::sameGrid(source->geometry, grid)};
-  segmentation.description = "Segmentation";
-  segmentation.studyUid = identifiers.study();
-  segmentation.frameOfReferenceUid = identifiers.frameOfReference(drawnOn);
-  segmentation.seriesUid = identifiers.series(
-      "labels", grid,
-      [&](core::Fingerprint& all)
-      {
-        for (const auto& map : maps)
-          all.add(map.voxels->data(), map.voxels->size() * sizeof(std::uint16_t));
-        for (const auto& segment : segmentation.segments)
-        {
-          all.add(segment.label.c_str(), segment.label.size() + 1);
-          all.add(segment.color.data(), sizeof segment.color);
-          for (const auto* concept : {&segment.type, &segment.typeModifier, &segment.region})
-            if (!concept->empty())
-              all.add(concept->value.c_str(), concept->value.size() + 1);
-          all.add(&segment.algorithm, sizeof segment.algorithm);
-          all.add(segment.algorithmName.c_str(), segment.algorithmName.size() + 1);
-          all.add(&segment.map, sizeof segment.map);
-          all.add(&segment.index, sizeof segment.index);
-        }
-      });
-  imaging::writeDicomSegmentation(options.out, maps, segmentation, progress);
-  return segmentation.segments.size();
-}
-
-// One structure as a surface, with its colour: of its voxels on the CT, or the mesh that it is.
-std::pair<core::TriangleMesh, std::array<float, 3>>
-structureMesh(const Context& context, const scene::Case& value, const std::string& name,
-              const core::Progress& progress, nlohmann::json& json)
-{
-  for (const auto& part : value.labels)
-    for (const auto& structure : part.structures)
-      if (structure.name == name)
-      {
-        const auto placed = scene::labelsOnCt(value, part);
-        if (!placed)
-          context.warn("'" + name + "' is written where its MR has it, not on the CT: " +
-                       scene::missingPlace(value, name));
-        const volume::LabelMap& map = *(placed ? placed : part.labels.get());
-        json["voxels_mm3"] = structure.volume;
-        return {rendering::extractLabel(*map.voxels, structure.index, progress),
-                structure.look.color};
-      }
-  for (const auto& part : value.meshes)
-    if (part.name == name)
-    {
-      const auto placed = scene::meshOnCt(value, part);
-      if (!placed)
-        context.warn("'" + name + "' is written where its MR has it, not on the CT: " +
-                     scene::missingPlace(value, name));
-      return {*(placed ? placed : part.mesh.get()), part.look.color};
-    }
-  throw core::InvalidParameter("case '" + value.name + "' has no structure '" + name + "'");
+  if (done.decimation)
+    json["decimation"] = {{"triangles_before", done.decimation->trianglesBefore},
+                          {"hausdorff_mm", done.decimation->error}};
+  context.print(options.out + ": " + options.what + " of '" + value.name + "'" + done.words);
+  json["left_out"] = leftOutJson(value, leftOut);
+  context.printJson(json);
 }
 
 void exportCase(const Context& context, const Options& options)
 {
-  if (!options.isSeries()) // before anything is computed
-    imaging::writingFormat(options.out, contentOf(options.what));
-  if (options.onCt && options.what != "mr" && options.what != "labels")
-    throw UsageError("--on-ct is for --what mr and labels");
-  if (options.triangles && options.what != "surface" && options.what != "structure")
-    throw UsageError("--triangles is for --what surface and structure");
-  if (options.what == "structure" && options.part.empty())
-    throw UsageError("export structure: give --part NAME");
-  std::vector<std::string> files{options.out};
-  if (options.labelTable())
-    files.push_back(*options.labelTable());
-  context.refuseOverwriting({files.begin(), files.end()});
-  const library::Library library = context.openLibrary();
-  scene::Case value = library.open(options.caseName);
-  const core::Progress progress = context.progress();
-  // Voxels mapped for the file must be what was stored.
-  const auto checked = [&](const scene::ImagePart& image)
+  try
   {
-    auto volume = image.volume.get();
-    library.checkVoxels(value, progress);
-    return volume;
-  };
-  const auto mask = [&]() -> const volume::CutMask&
-  {
-    library.loadDissection(value);
-    return value.dissection.mask();
-  };
-  presenters::LeftOut leftOut;
-  // Labels that are written are read, and thus checked; the surface is that of all structures.
-  if (options.what == "surface" || (options.what == "labels" && options.withoutDamaged))
-    leftOut = leaveOutDamaged(context, library, value, options.withoutDamaged);
-  nlohmann::json json{{"case", value.name}, {"what", options.what}, {"out", options.out}};
-  std::string words;
-  const auto writeImage = [&](const volume::IntensityVolume& image, const std::string& drawnOn)
-  {
-    if (options.isSeries())
-    {
-      writeSeries(options, value, image, drawnOn, progress.part(0.5, 1.0));
-      json["instances"] = image.geometry().dims()[2];
-      words = ", " + std::to_string(image.geometry().dims()[2]) + " DICOM files";
-    }
-    else
-      imaging::writeVolume(options.out, image, progress.part(0.5, 1.0));
-  };
-  const auto writeSurface = [&](core::TriangleMesh mesh, const std::array<float, 3>& color)
-  {
-    json["decimation"] = "none";
-    std::string decimation = "not decimated";
-    if (options.triangles && mesh.triangles.size() > *options.triangles)
-    {
-      const std::size_t before = mesh.triangles.size();
-      auto fewer = rendering::decimated(mesh, *options.triangles, progress.part(0.7, 1.0));
-      mesh = std::move(fewer.mesh);
-      if (mesh.triangles.size() > *options.triangles)
-        context.warn("it keeps " + std::to_string(mesh.triangles.size()) +
-                     " triangles: with fewer it would not stay closed");
-      json["decimation"] = {{"triangles_before", before}, {"hausdorff_mm", fewer.error}};
-      decimation = "decimated from " + std::to_string(before) + ", at most " +
-                   core::generalText(fewer.error, 3) + " mm from it";
-    }
-    const bool closed = mesh.isClosed();
-    json["triangles"] = mesh.triangles.size();
-    json["closed"] = closed;
-    words =
-        ", " + std::to_string(mesh.triangles.size()) + " triangles, " + decimation + ", " +
-        (closed ? "closed, " + core::generalText(mesh.signedVolume(), 5) + " mm3" : "not closed");
-    if (closed)
-      json["volume_mm3"] = mesh.signedVolume();
-    imaging::writeMesh(options.out, mesh, color);
-  };
-  if (options.what == "ct")
-    writeImage(*checked(value.ct), "");
-  else if (options.what == "mr")
-  {
-    const scene::ImagePart& mr = chooseMr(value, options.part);
-    if (options.onCt && !mr.registered)
-      throw core::InvalidParameter("export mr: '" + mr.name +
-                                   "' is not registered with the CT; register it first");
-    const auto image = checked(mr);
-    if (!options.onCt)
-      writeImage(*image, mr.name);
-    else
-      writeImage(
-          *presenters::mrOnCt(*image, value.ct.geometry, mr.mrFromCt, progress.part(0.0, 0.5)), "");
+    context.refuseOverwriting(presenters::exportedFiles(options)); // before anything is computed
+    const library::Library library = context.openLibrary();
+    scene::Case value = library.open(options.caseName);
+    presenters::LeftOut leftOut;
+    // Labels that are written are read, and thus checked; the surface is that of all structures.
+    if (options.what == "surface" || (options.what == "labels" && options.withoutDamaged))
+      leftOut = leaveOutDamaged(context, library, value, options.withoutDamaged);
+    const auto done = presenters::exportCase(
+        library, value, options, leftOut,
+        [&context](const std::string& line) { context.warn(line); }, context.progress());
+    printSummary(context, value, options, done, leftOut);
   }
-  else if (options.what == "labels")
+  catch (const presenters::ExportChoiceError& error)
   {
-    const auto placed = placedLabels(context, value, options, leftOut, progress.part(0.0, 0.5));
-    if (options.isSegmentation())
-    {
-      const std::string& drawnOn = placed.front().drawnOn;
-      const std::string series = CaseIdentifiers(value).series(
-          drawnOn.empty() ? "ct" : "mr",
-          *checked(drawnOn.empty() ? value.ct : chooseMr(value, drawnOn)));
-      json["segments"] = writeSegmentation(options, value, placed, series, progress.part(0.5, 1.0));
-    }
-    else
-    {
-      const bool holdsLayers = imaging::formatOf(options.out)->ending == ".seg.nrrd";
-      const auto layers = layersOf(context, placed, !holdsLayers);
-      json["layers"] = layers.size();
-      std::map<std::uint16_t, volume::SegmentCodes> codes; // numbered as by layersOf
-      std::uint16_t index = 0;
-      for (const PlacedLabels& labels : placed)
-        for (const auto* structure : labels.structures)
-          codes[++index] = structure->codes;
-      imaging::writeLabelLayers(options.out, layers, progress.part(0.5, 1.0), codes);
-      if (const auto table = options.labelTable())
-      {
-        imaging::writeLabelTable(*table, layers.front().segments);
-        json["names"] = *table;
-        words = ", its names in " + *table;
-      }
-    }
+    throw UsageError(error.what());
   }
-  else if (options.what == "mask")
-    imaging::writeVolume(options.out, mask().dense(), progress);
-  else if (options.what == "dissected")
-  {
-    const auto image = checked(value.ct);
-    image->visit([&](const auto& ct)
-                 { writeImage(*shared(dissected(ct, mask(), value.iso), image->padding()), ""); });
-  }
-  else if (options.what == "structure")
-  {
-    const core::Progress making = progress.part(0.0, 0.7);
-    auto [mesh, color] = structureMesh(context, value, options.part, making, json);
-    writeSurface(std::move(mesh), color);
-  }
-  else // surface
-  {
-    mask();
-    checked(value.ct);
-    const volume::TissueField field = scene::tissueField(value);
-    writeSurface(
-        rendering::extractSurface(field, field.geometry().fullBox(), progress.part(0.0, 0.7)),
-        value.boneLook.color);
-  }
-  context.print(options.out + ": " + options.what + " of '" + value.name + "'" + words);
-  json["left_out"] = leftOutJson(value, leftOut);
-  context.printJson(json);
 }
 
 } // namespace
@@ -665,8 +85,8 @@ void addExportCommand(CLI::App& app, Context& context)
   command
       ->add_option(
           "--out", options->out,
-          "Voxels: " + imaging::orText(imaging::writtenEndings(imaging::kImage)) +
-              "; labels: " + imaging::orText(imaging::writtenEndings(contentOf("labels"))) +
+          "Voxels: " + imaging::orText(imaging::writtenEndings(imaging::kImage)) + "; labels: " +
+              imaging::orText(imaging::writtenEndings(presenters::exportContent("labels"))) +
               "; surface, structure: " + imaging::orText(imaging::writtenEndings(imaging::kMesh)) +
               "; mm LPS. FOLDER/: ct, mr or dissected as a DICOM series")
       ->type_name("F")

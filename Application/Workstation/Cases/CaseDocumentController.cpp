@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <QApplication>
+#include <QDir>
 #include <QFileDialog>
 #include <QInputDialog>
 #include <QMessageBox>
@@ -18,6 +19,7 @@
 #include "Application.h"
 #include "Banner.h"
 #include "CaseSaver.h"
+#include "ExportDialog.h"
 #include "OpenCaseDialog.h"
 #include "RegionDialog.h"
 #include "RepairDialog.h"
@@ -25,6 +27,7 @@
 #include "Theme.h"
 #include "WindowTexts.h"
 #include "petrous/Imaging/FileFormats.h"
+#include "petrous/Library/Archive.h"
 #include "petrous/Library/FrameSalt.h"
 #include "petrous/Phantom/SamplePatient.h"
 #include "petrous/Presenters/CaseNaming.h"
@@ -67,6 +70,19 @@ QString lineOf(const SourceContent& source)
 {
   return CaseDocumentController::tr("%1 “%2”").arg(words(presenters::nameOf(source.content)),
                                                    nameOf(source.path));
+}
+
+bool isArchive(const fs::path& path)
+{
+  const QString name = nameOf(path);
+  std::error_code ignored;
+  return name.endsWith(library::kArchiveEnding, Qt::CaseInsensitive) &&
+         fs::is_regular_file(path, ignored);
+}
+
+QString megabytes(std::uintmax_t bytes)
+{
+  return CaseDocumentController::tr("%1 MB").arg(1e-6 * static_cast<double>(bytes), 0, 'f', 1);
 }
 
 // `wanted`, with a number if it is taken.
@@ -203,6 +219,17 @@ void CaseDocumentController::refuse(const QString& why)
   box.exec();
 }
 
+// Non-modal.
+void CaseDocumentController::inform(const QString& text)
+{
+  auto* box =
+      new QMessageBox(QMessageBox::Information, tr("Petrous"), text, QMessageBox::Ok, &m_window);
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  box->setTextFormat(Qt::PlainText);
+  box->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  box->open();
+}
+
 void CaseDocumentController::open(const QStringList& what)
 {
   open(what, Purpose());
@@ -220,6 +247,14 @@ void CaseDocumentController::open(const QStringList& what, const Purpose& purpos
     std::error_code error;
     for (const QString& one : what)
       paths.push_back(pathOf(one));
+    const auto archive = std::find_if(paths.begin(), paths.end(), isArchive);
+    if (archive != paths.end())
+    {
+      if (paths.size() > 1 || purpose.content)
+        return refuse(
+            tr("“%1” is the archive of a whole case; open it alone.").arg(nameOf(*archive)));
+      return restore(*archive, {});
+    }
     if (what.size() == 1 && !purpose.content &&
         (presenters::namesCase(m_model.library(), bytes(what.front())) ||
          !fs::exists(paths.front(), error)))
@@ -813,6 +848,176 @@ void CaseDocumentController::openFiles()
       &m_window, tr("Open images, labels or meshes"), {},
       tr("Images, labels, meshes (%1);;All files (*)")
           .arg(patternsOf(imaging::kImage | imaging::kLabels | imaging::kMesh | imaging::kDicom))));
+}
+
+// What is written is what the command would write: the case as it is saved.
+void CaseDocumentController::exportPart()
+{
+  if (!m_model.hasCase())
+    return;
+  if (m_work.busy() || m_asking)
+    return emit statusMessage(tr("One at a time: something is being read already"));
+  presenters::ExportOptions options;
+  std::string name;
+  {
+    const QScopedValueRollback<bool> asking(m_asking, true);
+    if (mayDropDraft && !mayDropDraft())
+      return;
+    ExportDialog dialog(m_model.value(), &m_window);
+    if (dialog.exec() != QDialog::Accepted || !m_model.hasCase())
+      return;
+    options = dialog.options();
+    m_model.stopTouch();
+    if (!m_saver.flush())
+      return emit statusMessage(tr("The case is not saved yet, so nothing was exported"));
+    name = m_model.value().name; // a save after a conflict may have changed it
+  }
+  work(tr("Exporting from %1").arg(words(name)),
+       [this, library = m_model.library(), name,
+        options](const core::Progress& progress) -> BackgroundWork::Reply
+       {
+         scene::Case value = library.open(name);
+         if (options.what == "surface") // that of all structures
+           library.checkStructures(value, progress.part(0.0, 0.1));
+         std::vector<std::string> warnings;
+         const auto done = presenters::exportCase(
+             library, value, options, {},
+             [&warnings](const std::string& line) { warnings.push_back(line); },
+             progress.part(0.1, 1.0));
+         return [this, done, warnings, out = options.out]
+         {
+           endWork();
+           QString text =
+               tr("Written: %1%2").arg(QFile::decodeName(out.c_str()), words(done.words));
+           if (done.volume)
+             text += tr("\nVolume of the surface: %1 mL").arg(1e-3 * *done.volume, 0, 'f', 3);
+           if (done.voxelsVolume)
+             text += tr("\nVolume of the voxels: %1 mL").arg(1e-3 * *done.voxelsVolume, 0, 'f', 3);
+           for (const std::string& line : warnings)
+             text += '\n' + sentence(windowText(words(line)));
+           inform(text);
+         };
+       });
+}
+
+// An archive contains what is saved, so the case is saved first.
+void CaseDocumentController::archive()
+{
+  if (!m_model.hasCase())
+    return;
+  if (m_work.busy() || m_asking)
+    return emit statusMessage(tr("One at a time: something is being read already"));
+  fs::path file;
+  library::ArchiveOptions options;
+  std::string name;
+  {
+    const QScopedValueRollback<bool> asking(m_asking, true);
+    if (mayDropDraft && !mayDropDraft())
+      return;
+    const QString whole = tr("Case archives (*.petrous)");
+    const QString plan = tr("Plan only, without images and structures (*.petrous)");
+    QFileDialog dialog(&m_window, tr("Archive “%1”").arg(words(m_model.value().name)));
+    dialog.setObjectName("archiveCase");
+    dialog.setAcceptMode(QFileDialog::AcceptSave);
+    dialog.setNameFilters({whole, plan});
+    dialog.setDefaultSuffix(QString(library::kArchiveEnding).mid(1));
+    dialog.setDirectory(QDir::homePath());
+    dialog.selectFile(words(m_model.value().name) + library::kArchiveEnding);
+    if (dialog.exec() != QDialog::Accepted || !m_model.hasCase())
+      return;
+    file = pathOf(dialog.selectedFiles().first());
+    options.planOnly = dialog.selectedNameFilter() == plan;
+    m_model.stopTouch();
+    if (!m_saver.flush())
+      return emit statusMessage(tr("The case is not saved yet, so it was not archived"));
+    name = m_model.value().name; // a save after a conflict may have changed it
+  }
+  work(tr("Archiving %1").arg(words(name)),
+       [this, library = m_model.library(), name, file,
+        options](const core::Progress& progress) -> BackgroundWork::Reply
+       {
+         const library::ArchiveSummary done =
+             library::archiveCase(library, name, file, options, progress);
+         return [this, done, file]
+         {
+           endWork();
+           emit statusMessage(
+               (done.planOnly ? tr("The plan of %1 is in %2: %3") : tr("%1 is in %2: %3"))
+                   .arg(words(done.name), QFile::decodeName(file.c_str()),
+                        megabytes(done.archiveBytes)));
+           if (!done.durable)
+             refuse(tr("%1 is written, but the disk reported an error; check the disk.")
+                        .arg(nameOf(file)));
+         };
+       });
+}
+
+void CaseDocumentController::restore()
+{
+  const QString file = QFileDialog::getOpenFileName(
+      &m_window, tr("Restore a case from its archive"), {},
+      tr("Case archives (*%1);;All files (*)").arg(library::kArchiveEnding));
+  if (file.isEmpty())
+    return;
+  if (m_work.busy() || m_asking)
+    return emit statusMessage(tr("One at a time: something is being read already"));
+  restore(pathOf(file), {});
+}
+
+// `name`: of the restored case; empty: as the archive says. Asked for where that is taken.
+void CaseDocumentController::restore(const fs::path& file, const std::string& name)
+{
+  if (!leaveCase())
+    return;
+  m_model.notOpened(); // it stays usable while the other one is restored
+  work(tr("Restoring %1").arg(nameOf(file)),
+       [this, library = m_model.library(), file,
+        name](const core::Progress& progress) mutable -> BackgroundWork::Reply
+       {
+         try
+         {
+           const library::RestoreSummary done =
+               library::restoreCase(library, file, {name, {}}, progress);
+           return [this, done]
+           {
+             endWork();
+             QStringList notes;
+             for (const std::string& note : done.notes)
+               notes += words(note);
+             if (!notes.isEmpty())
+             {
+               const QScopedValueRollback<bool> asking(m_asking, true);
+               refuse(notes.join('\n'));
+             }
+             openCase(done.name);
+           };
+         }
+         catch (const library::LibraryError& error)
+         {
+           if (error.reason != library::LibraryError::Reason::NameTaken)
+             throw;
+           const std::string taken =
+               name.empty() ? library::inspectArchive(file).name : name; // still in this thread
+           return [this, file, taken]
+           {
+             endWork();
+             std::string other;
+             {
+               const QScopedValueRollback<bool> asking(m_asking, true);
+               other = bytes(QInputDialog::getText(
+                                 &m_window, tr("Restore"),
+                                 tr("The library has a case “%1”. Name of the restored one:")
+                                     .arg(words(taken)),
+                                 QLineEdit::Normal,
+                                 words(presenters::freeCaseName(m_model.library(), taken)))
+                                 .trimmed());
+             }
+             if (other.empty())
+               return emit statusMessage(tr("Stopped; nothing was changed"));
+             restore(file, other);
+           };
+         }
+       });
 }
 
 void CaseDocumentController::chooseCase()

@@ -49,6 +49,10 @@ public:
   void restorePart();                       ///< the one that was removed last
   void renamePart(const std::string& name); ///< with a dialog
 
+  void exportPart(); ///< for other programs, with a dialog
+  void archive();    ///< the open case to one file, with a dialog
+  void restore();    ///< the case of an archive, with a dialog
+
   void chooseCase();
   void makeSample();
 
@@ -89,6 +93,7 @@ private:
 
   void open(const QStringList& what, const Purpose& purpose);
   void openCase(const std::string& name);
+  void restore(const std::filesystem::path& file, const std::string& name);
   void lookAt(const std::vector<std::filesystem::path>& paths, const Purpose& purpose);
   void decide(const Sources& found, const Purpose& purpose);
   bool ask(Item& item, const Purpose& purpose);
@@ -111,6 +116,7 @@ private:
   void notSaved(const QString& why);
   bool leaveCase();
   void refuse(const QString& why);
+  void inform(const QString& text);
   bool changeParts(const std::function<void()>& change);
 
   presenters::WorkstationModel& m_model;

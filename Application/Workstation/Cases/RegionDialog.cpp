@@ -223,6 +223,8 @@ RegionDialog::RegionDialog(const std::filesystem::path& path, const std::string&
   m_progress->setRange(0, 1000);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Open | QDialogButtonBox::Cancel);
   buttons->addButton(m_reset, QDialogButtonBox::ActionRole);
+  m_open = buttons->button(QDialogButtonBox::Open);
+  m_open->setEnabled(false);
   connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   auto* layout = new QVBoxLayout(this);
@@ -278,6 +280,7 @@ void RegionDialog::show(std::shared_ptr<const presenters::ScanPreview> preview)
     m_numbers[n]->setEnabled(true);
   }
   m_reset->setEnabled(true);
+  m_open->setEnabled(true);
   setBox(bounds);
 }
 

@@ -75,6 +75,7 @@ private:
   QLabel* m_size;
   QProgressBar* m_progress;
   QPushButton* m_reset;
+  QPushButton* m_open; ///< once there is a picture in which to choose
   std::unique_ptr<BackgroundWork> m_work;
 };
 

@@ -24,6 +24,10 @@ StartPage::StartPage(QWidget* parent)
   sample->setToolTip(tr("Computes an artificial right temporal bone (0.3 mm voxels) and opens it"));
   auto* folder = new QPushButton(tr("Open DICOM…"));
   auto* known = new QPushButton(tr("Open case…"));
+  auto* archive = new QPushButton(tr("Restore…"));
+  archive->setObjectName("restoreArchive");
+  archive->setToolTip(tr("Brings the case of an archive (.petrous) to the library and opens it"));
+  connect(archive, &QPushButton::clicked, this, &StartPage::restoreAsked);
   connect(sample, &QPushButton::clicked, this, &StartPage::sampleAsked);
   connect(folder, &QPushButton::clicked, this, &StartPage::openFolderAsked);
   connect(known, &QPushButton::clicked, this, &StartPage::openCaseAsked);
@@ -33,6 +37,7 @@ StartPage::StartPage(QWidget* parent)
   buttons->addStretch();
   buttons->addWidget(folder);
   buttons->addWidget(known);
+  buttons->addWidget(archive);
   buttons->addWidget(sample);
   buttons->addStretch();
   auto* layout = new QVBoxLayout(this);

@@ -15,6 +15,7 @@ public:
 signals:
   void openFolderAsked();
   void openCaseAsked();
+  void restoreAsked();
   void sampleAsked();
 };
 

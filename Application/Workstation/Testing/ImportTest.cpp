@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include <QComboBox>
 #include <QDialogButtonBox>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
@@ -23,6 +24,7 @@
 #include "WindowTexts.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/VolumeFile.h"
+#include "petrous/Library/Archive.h"
 #include "petrous/Phantom/SamplePatient.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/SeriesPreview.h"
@@ -578,6 +580,12 @@ TEST_F(Import, ARegionIsDrawnBeforeTheScanIsRead)
             return false;
           }
           auto* region = qobject_cast<RegionDialog*>(&dialog);
+          if (region)
+          {
+            EXPECT_EQ(
+                region->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Open)->isEnabled(),
+                region->isPictured());
+          }
           if (!region || !region->isPictured() ||
               !region->findChild<SliceView*>("axialView")->isVisible())
             return false;
@@ -588,6 +596,11 @@ TEST_F(Import, ARegionIsDrawnBeforeTheScanIsRead)
     trigger(window(), "Open a region…");
     EXPECT_TRUE(waitFor([this] { return !window().busy(); }));
   };
+  {
+    // Its picture comes with an event at the earliest.
+    const RegionDialog early(folder() / "sample" / "ct", {}, false);
+    EXPECT_FALSE(early.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Open)->isEnabled());
+  }
   openRegion([](RegionDialog& dialog) { dialog.reject(); });
   EXPECT_FALSE(window().model().hasCase());
   openRegion(
@@ -768,4 +781,159 @@ TEST(WindowText, SaysWhatToDoInTheWindow)
         << said.toStdString();
     EXPECT_TRUE(said.startsWith(QString(text).left(12)));
   }
+}
+
+// What was drilled is saved before it is archived; restored beside the first it takes another name,
+// and the archive is restored by drop, by the menu and by the start page.
+TEST_F(Import, ACaseIsArchivedAndRestored)
+{
+  saveBall("ball");
+  openWindow("ball");
+  drill(600);
+  const double removed = window().model().value().removedVolume();
+  ASSERT_GT(removed, 0.0);
+  const fs::path whole = folder() / "whole.petrous";
+  const fs::path plan = folder() / "plan.petrous";
+  const auto archive = [&](const fs::path& file, int kind)
+  {
+    onDialog(
+        [&, file, kind](QDialog& dialog)
+        {
+          auto* files = qobject_cast<QFileDialog*>(&dialog);
+          if (!files)
+            return false;
+          files->selectNameFilter(files->nameFilters().value(kind));
+          choose(*files, file);
+          return true;
+        });
+    trigger(window(), "Archive…");
+    EXPECT_TRUE(waitFor([&] { return fs::exists(file) && !window().busy(); }));
+  };
+  archive(whole, 0);
+  archive(plan, 1);
+  EXPECT_FALSE(library::inspectArchive(whole).planOnly);
+  EXPECT_TRUE(library::inspectArchive(plan).planOnly);
+  EXPECT_EQ(library::inspectArchive(whole).name, "ball");
+
+  // A name that the library has is asked for.
+  const auto onName = [&](const QString& name)
+  {
+    onDialog(
+        [name](QDialog& dialog)
+        {
+          auto* ask = qobject_cast<QInputDialog*>(&dialog);
+          if (!ask)
+            return false;
+          EXPECT_EQ(ask->textValue(), "ball 2");
+          ask->setTextValue(name);
+          ask->accept();
+          return true;
+        });
+  };
+  const auto isOpen = [&](const char* name)
+  {
+    return waitFor(
+        [&]
+        {
+          return window().model().hasCase() && window().model().value().name == name &&
+                 !window().busy();
+        });
+  };
+  onName("by drop");
+  dropPath(whole);
+  ASSERT_TRUE(isOpen("by drop"));
+  EXPECT_NEAR(window().model().value().removedVolume(), removed, 1e-9);
+  closeWindow();
+  library().remove("ball");
+
+  openWindow("by drop");
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        auto* files = qobject_cast<QFileDialog*>(&dialog);
+        if (files)
+          choose(*files, whole);
+        return files != nullptr;
+      });
+  trigger(window(), "Restore…");
+  ASSERT_TRUE(isOpen("ball"));
+
+  // A file that is no archive is refused, and what is open stays.
+  const fs::path broken = folder() / "broken.petrous";
+  std::ofstream(broken) << "no zip";
+  QString why;
+  onMessage(
+      [&](QMessageBox& box)
+      {
+        why = box.text();
+        box.accept();
+      });
+  dropPath(broken);
+  ASSERT_TRUE(waitFor([&] { return !why.isEmpty() && !window().busy(); }));
+  EXPECT_TRUE(why.contains("broken.petrous")) << why.toStdString();
+  EXPECT_TRUE(isOpen("ball"));
+  closeWindow();
+}
+
+// By the dialog of the Case menu; the voxels are those of the case, and what is there is replaced
+// only with consent.
+TEST_F(Import, APartIsExportedForOtherPrograms)
+{
+  saveBall("ball");
+  openWindow("ball");
+  const fs::path ct = folder() / "out.nrrd";
+  const auto write = [&](const char* what, const char* ending, const fs::path& path)
+  {
+    onDialog(
+        [&, what, ending, path](QDialog& dialog)
+        {
+          if (dialog.objectName() != "exportCase")
+            return false;
+          const auto pick = [&](const char* box, const char* data)
+          {
+            auto* choice = dialog.findChild<QComboBox*>(box);
+            choice->setCurrentIndex(choice->findData(QString(data)));
+            EXPECT_EQ(choice->currentData().toString(), data);
+          };
+          pick("exportWhat", what);
+          pick("exportFormat", ending);
+          auto* place = dialog.findChild<QLineEdit*>("exportPath");
+          auto* button = dialog.findChild<QPushButton*>("primary");
+          EXPECT_TRUE(button->isEnabled()) << "what is proposed can be written";
+          place->setText(QString::fromStdString((folder() / "nowhere" / "x").string()));
+          EXPECT_FALSE(button->isEnabled());
+          place->setText(QString::fromStdString(path.string()));
+          keepPicture(dialog, "export");
+          EXPECT_TRUE(button->isEnabled());
+          button->click();
+          return true;
+        });
+    QString told;
+    onMessage(
+        [&told](QMessageBox& box)
+        {
+          told = box.text();
+          box.accept();
+        });
+    trigger(window(), "Export…");
+    EXPECT_TRUE(waitFor([&] { return !told.isEmpty() && !window().busy(); }));
+    return told;
+  };
+  QString told = write("ct", ".nrrd", ct);
+  EXPECT_TRUE(told.contains("out.nrrd")) << told.toStdString();
+  presenters::CaseSources sources;
+  sources.ct = ct;
+  const auto read = presenters::buildCase("read", sources, {});
+  const auto image = read.ct.volume.get();
+  const auto truth = window().model().value().ct.volume.get();
+  ASSERT_TRUE(core::sameGrid(image->geometry(), truth->geometry()));
+  for (int n = 0; n < 64; ++n)
+    EXPECT_EQ(image->sample(Eigen::Vector3d(n, 31, 63 - n)),
+              truth->sample(Eigen::Vector3d(n, 31, 63 - n)));
+  told = write("structure", ".stl", folder() / "nerve.stl");
+  EXPECT_TRUE(told.contains("closed") && told.contains("mL")) << told.toStdString();
+  EXPECT_TRUE(fs::exists(folder() / "nerve.stl"));
+  told = write("dissected", "/", folder() / "series");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder() / "series"), fs::directory_iterator()),
+            64);
 }

@@ -89,7 +89,20 @@ protected:
       if (box.buttonRole(button) == role)
         return button->click();
   }
-  void showPanel() { QTest::keyClick(&window(), Qt::Key_F5); }
+  /// Or hides it.
+  void showPanel()
+  {
+    // Without a window manager a late focus event can have taken it: then no shortcut works.
+    QApplication::setActiveWindow(&window());
+    QTest::keyClick(&window(), Qt::Key_F5);
+    layOut();
+  }
+  /// The dock's coming changes the slices' size by posted events, which a grab does not wait for.
+  static void layOut()
+  {
+    QApplication::sendPostedEvents(nullptr, QEvent::LayoutRequest);
+    QApplication::processEvents();
+  }
   const scene::ImagePart& mr() { return window().model().value().mr.front(); }
   QString state() { return find<QLabel>("registrationState").text(); }
   QImage axial() { return find<SliceView>("axialView").grab().toImage(); }

@@ -168,6 +168,7 @@ void MainWindow::layOut()
   connect(start, &StartPage::sampleAsked, m_keeper, &CaseDocumentController::makeSample);
   connect(start, &StartPage::openFolderAsked, m_keeper, &CaseDocumentController::openFolder);
   connect(start, &StartPage::openCaseAsked, m_keeper, &CaseDocumentController::chooseCase);
+  connect(start, &StartPage::restoreAsked, m_keeper, qOverload<>(&CaseDocumentController::restore));
 
   auto* across = new QSplitter(Qt::Horizontal);
   across->setHandleWidth(3);
@@ -436,6 +437,19 @@ void MainWindow::connectActions()
   on(m_actions->sample, [this] { m_keeper->makeSample(); });
   on(m_actions->save, [this] { m_keeper->save(); });
   on(m_actions->saveAs, [this] { m_keeper->saveAs(); });
+  on(m_actions->exportPart,
+     [this]
+     {
+       m_drill->releaseTool(); // ends an open stroke
+       m_keeper->exportPart();
+     });
+  on(m_actions->archive,
+     [this]
+     {
+       m_drill->releaseTool(); // ends an open stroke
+       m_keeper->archive();
+     });
+  on(m_actions->restore, [this] { m_keeper->restore(); });
   on(m_actions->quit, [this] { close(); });
   // A damaged stroke is refused.
   const auto refused = [this](const QString& why) { statusBar()->showMessage(why); };

@@ -86,6 +86,13 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                    tr("Structures of this patient: label maps and segmentations"));
   addMesh = make(casePart, tr("Add m&esh…"), {}, tr("Surfaces of this patient, in mm"));
   casePart->addSeparator();
+  exportPart = make(casePart, tr("E&xport…"), Qt::CTRL + Qt::Key_E,
+                    tr("Images, structures or surfaces as files for other programs"));
+  archive = make(casePart, tr("Archi&ve…"), Qt::CTRL + Qt::SHIFT + Qt::Key_A,
+                 tr("The case in one file, to hand it on: whole, or only the plan"));
+  restore = make(casePart, tr("&Restore…"), Qt::CTRL + Qt::SHIFT + Qt::Key_E,
+                 tr("The case of an archive comes to the library and is opened"));
+  casePart->addSeparator();
   restorePart = make(casePart, tr("Put &back"), {}, tr("What was taken out of the case last"));
   restorePart->setEnabled(false);
 
@@ -171,9 +178,10 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   window.addToolBar(&drillBar);
   window.addToolBar(&deviceBar);
 
-  m_needCase.insert(m_needCase.end(), {save, saveAs, addMrFolder, addMrFile, addLabels, addMesh,
-                                       centerView, boneThickness, boneWindow, softWindow, fitSlices,
-                                       drillBar.drillAction(), drillBar.pointerAction(), record});
+  m_needCase.insert(m_needCase.end(),
+                    {save, saveAs, exportPart, archive, addMrFolder, addMrFile, addLabels, addMesh,
+                     centerView, boneThickness, boneWindow, softWindow, fitSlices,
+                     drillBar.drillAction(), drillBar.pointerAction(), record});
 }
 
 QMenu* WindowActions::addStereo(bool quadBuffer)

@@ -44,6 +44,9 @@ public:
   QAction* addLabels;
   QAction* addMesh;
   QAction* restorePart;
+  QAction* exportPart;
+  QAction* archive;
+  QAction* restore;
   QAction* undo;
   QAction* redo;
   QAction* centerView;

@@ -55,6 +55,9 @@ QString windowText(const QString& text)
       {"; remove it and add it again as FILE@MR",
        "; remove it, add it again and choose the one on which it was drawn"},
       {"; name one by --series.*$", ""},
+      {"; give the restored one another name \\(--as NAME\\)", "; restore it under another name"},
+      {"; export it alone with --part, or all on the CT's grid with --on-ct",
+       "; export it alone, or all on the CT's grid"},
   };
   QString result = text;
   for (const Hint& hint : kHints)

@@ -1,13 +1,12 @@
 #include "petrous/Presenters/MrOnCt.h"
 
-#include <algorithm>
 #include <atomic>
-#include <cmath>
-#include <limits>
 #include <type_traits>
 #include <utility>
 
 #include <tbb/parallel_for.h>
+
+#include "petrous/Volume/Rounded.h"
 
 namespace petrous::presenters
 {
@@ -16,21 +15,11 @@ namespace
 {
 
 template <class T>
-T rounded(double value)
-{
-  if constexpr (std::is_integral_v<T>)
-    return static_cast<T>(std::lround(std::clamp(value, double{std::numeric_limits<T>::min()},
-                                                 double{std::numeric_limits<T>::max()})));
-  else
-    return static_cast<T>(value);
-}
-
-template <class T>
 volume::Volume<T> resampled(const volume::IntensityVolume& mr, const core::GridGeometry& ct,
                             const core::RigidTransform& mrFromCt, const core::Progress& progress)
 {
   volume::Volume<T> result(ct);
-  const T outside = rounded<T>(mr.padding() ? *mr.padding() : mr.range().min);
+  const T outside = volume::rounded<T>(mr.padding() ? *mr.padding() : mr.range().min);
   const core::GridGeometry& grid = mr.geometry();
   const Eigen::Vector3d last(grid.dims()[0] - 1.0, grid.dims()[1] - 1.0, grid.dims()[2] - 1.0);
   constexpr double kRounding = 1e-6; // voxels; so that a grid on the CT's keeps its border
@@ -49,7 +38,7 @@ volume::Volume<T> resampled(const volume::IntensityVolume& mr, const core::GridG
             const bool isInside =
                 at.minCoeff() >= -kRounding && (last - at).minCoeff() >= -kRounding;
             result.at(i, j, k) =
-                isInside ? rounded<T>(mr.sample(at.cwiseMax(0.0).cwiseMin(last))) : outside;
+                isInside ? volume::rounded<T>(mr.sample(at.cwiseMax(0.0).cwiseMin(last))) : outside;
           }
       });
   return result;

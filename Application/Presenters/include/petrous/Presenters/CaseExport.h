@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "petrous/Core/Progress.h"
+#include "petrous/Library/Library.h"
+#include "petrous/Presenters/LeftOut.h"
+
+namespace petrous::presenters
+{
+
+/// Choices that do not go together, or one that is missing.
+struct ExportChoiceError : core::InvalidParameter
+{
+  using InvalidParameter::InvalidParameter;
+};
+
+/// What of a case is written for other programs, and where: `petrous export`.
+struct ExportOptions
+{
+  /// "ct", "mr", "labels", "mask" (of the dissection), "dissected" (the CT after it), "surface" (of
+  /// what is left of the bone, with all structures) or "structure" (the surface of one)
+  std::string what;
+  /// A file, whose ending is its format; a folder that is there, or a name with a slash at its end:
+  /// a DICOM series (ct, mr and dissected).
+  std::string out;
+  std::string part;                          ///< one MR or structure of several
+  bool onCt = false;                         ///< an MR, or labels, resampled on the CT's grid
+  std::optional<std::size_t> triangles = {}; ///< of a surface, at most
+};
+
+/// What was written. All surfaces and voxels in patient LPS, mm.
+struct ExportSummary
+{
+  struct Decimation
+  {
+    std::size_t trianglesBefore;
+    double error; ///< Hausdorff distance, mm
+  };
+  std::string words;                         ///< ", 12 DICOM files": after a file's name
+  std::optional<std::size_t> instances = {}; ///< of a DICOM series
+  std::optional<std::size_t> segments = {};  ///< of a DICOM segmentation
+  std::optional<std::size_t> layers = {};    ///< of label maps
+  std::optional<std::string> names = {};     ///< the file with the labels' names
+  std::optional<std::size_t> triangles = {}; ///< of a surface
+  std::optional<Decimation> decimation = {}; ///< of a surface that has fewer than it had
+  bool closed = false;                       ///< of a surface
+  std::optional<double> volume = {};         ///< mm^3, of a closed surface
+  std::optional<double> voxelsVolume = {};   ///< mm^3, of the structure's voxels
+};
+
+/// imaging::FileContent, the formats in which it is written.
+unsigned exportContent(const std::string& what);
+
+/// The files that will be written. Throws ExportChoiceError, FileError (UnknownFormat): before
+/// anything is computed.
+std::vector<std::string> exportedFiles(const ExportOptions& options);
+
+/// Writes a part of a case that was opened in this library; complete or not at all. Images are
+/// checked against their hash before they are written. `leftOut` of the case is not written.
+/// `warn` gets one sentence each of what is not as one would expect. Throws ExportChoiceError,
+/// InvalidParameter, LibraryError, core::OutputFileError, CancelledError.
+ExportSummary exportCase(const library::Library& library, scene::Case& value,
+                         const ExportOptions& options, const LeftOut& leftOut,
+                         const std::function<void(const std::string&)>& warn,
+                         const core::Progress& progress);
+
+} // namespace petrous::presenters

@@ -1,0 +1,251 @@
+#include "ExportDialog.h"
+
+#include <algorithm>
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QDir>
+#include <QFile>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QSpinBox>
+#include <QStorageInfo>
+#include <QVBoxLayout>
+
+#include "Theme.h"
+#include "petrous/Imaging/FileFormats.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+
+constexpr int kTriangleStep = 10000;
+constexpr int kMostTriangles = 100000000;
+
+// The table's data: a format's ending, or this for a folder of DICOM files.
+const QString kSeries = QStringLiteral("/");
+
+} // namespace
+
+ExportDialog::ExportDialog(const scene::Case& value, QWidget* parent)
+  : QDialog(parent)
+  , m_caseName(words(value.name))
+  , m_what(new QComboBox)
+  , m_part(new QComboBox)
+  , m_format(new QComboBox)
+  , m_onCt(new QCheckBox(tr("Resampled on the &CT's grid")))
+  , m_triangles(new QSpinBox)
+  , m_path(new QLineEdit)
+  , m_advice(new QLabel)
+{
+  setObjectName("exportCase");
+  setWindowTitle(tr("Export from “%1”").arg(m_caseName));
+  for (const scene::ImagePart& mr : value.mr)
+    m_mr.emplace_back(mr.name, mr.registered);
+  for (const scene::LabelPart& part : value.labels)
+    for (const scene::StructurePart& structure : part.structures)
+      m_labels.push_back(structure.name);
+  m_surfaces = m_labels;
+  for (const scene::MeshPart& mesh : value.meshes)
+    m_surfaces.push_back(mesh.name);
+
+  m_what->setObjectName("exportWhat");
+  m_what->addItem(tr("CT"), "ct");
+  m_what->addItem(tr("CT after drilling"), "dissected");
+  if (!m_mr.empty())
+    m_what->addItem(tr("MR"), "mr");
+  if (!m_labels.empty())
+    m_what->addItem(tr("Structures as labels"), "labels");
+  if (!m_surfaces.empty())
+    m_what->addItem(tr("Surface of a structure"), "structure");
+  m_what->addItem(tr("Surface of the bone after drilling"), "surface");
+  m_what->addItem(tr("What is left of each voxel (mask)"), "mask");
+  m_part->setObjectName("exportPart");
+  m_format->setObjectName("exportFormat");
+  m_onCt->setObjectName("exportOnCt");
+  m_onCt->setToolTip(tr("Otherwise on its own grid"));
+  m_triangles->setObjectName("exportTriangles");
+  m_triangles->setRange(0, kMostTriangles);
+  m_triangles->setSingleStep(kTriangleStep);
+  m_triangles->setGroupSeparatorShown(true);
+  m_triangles->setSpecialValueText(tr("all"));
+  m_triangles->setToolTip(tr("With fewer triangles than it has, how far the surface lies off is "
+                             "stated in mm"));
+  m_path->setObjectName("exportPath");
+  m_path->setMinimumWidth(320);
+  auto* browse = new QPushButton(tr("&Browse…"));
+  browse->setAutoDefault(false);
+  auto* place = new QHBoxLayout;
+  place->addWidget(m_path, 1);
+  place->addWidget(browse);
+  m_advice->setObjectName("dim");
+  m_advice->setTextFormat(Qt::PlainText);
+  m_advice->setWordWrap(true);
+
+  auto* form = new QFormLayout;
+  form->addRow(tr("&What:"), m_what);
+  form->addRow(tr("&Part:"), m_part);
+  form->addRow(tr("&Format:"), m_format);
+  form->addRow({}, m_onCt);
+  form->addRow(tr("At most &triangles:"), m_triangles);
+  form->addRow(tr("&To:"), place);
+  static_cast<QLabel*>(form->labelForField(place))->setBuddy(m_path);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
+  m_accept = buttons->addButton(tr("&Export"), QDialogButtonBox::AcceptRole);
+  m_accept->setObjectName("primary");
+  auto* layout = new QVBoxLayout(this);
+  layout->addLayout(form);
+  layout->addWidget(m_advice);
+  layout->addWidget(buttons);
+
+  connect(m_what, qOverload<int>(&QComboBox::currentIndexChanged), this,
+          &ExportDialog::whatChanged);
+  connect(m_part, qOverload<int>(&QComboBox::currentIndexChanged), this,
+          &ExportDialog::formatChanged);
+  connect(m_format, qOverload<int>(&QComboBox::currentIndexChanged), this,
+          &ExportDialog::formatChanged);
+  connect(m_path, &QLineEdit::textChanged, this, &ExportDialog::check);
+  connect(browse, &QPushButton::clicked, this, &ExportDialog::browse);
+  connect(buttons, &QDialogButtonBox::accepted, this, &ExportDialog::askAndAccept);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  whatChanged();
+}
+
+bool ExportDialog::isSeries() const
+{
+  return m_format->currentData().toString() == kSeries;
+}
+
+void ExportDialog::whatChanged()
+{
+  const std::string what = bytes(m_what->currentData().toString());
+  const QSignalBlocker quietPart(m_part);
+  const QSignalBlocker quietFormat(m_format);
+  m_part->clear();
+  if (what == "labels")
+    m_part->addItem(tr("all structures"), QString());
+  if (what == "mr")
+    for (const auto& [name, registered] : m_mr)
+      m_part->addItem(words(name), words(name));
+  else if (what == "labels" || what == "structure")
+    for (const std::string& name : what == "labels" ? m_labels : m_surfaces)
+      m_part->addItem(words(name), words(name));
+  m_part->setEnabled(m_part->count() > 0);
+  m_format->clear();
+  for (const std::string_view ending : imaging::writtenEndings(presenters::exportContent(what)))
+  {
+    const QString text = words(std::string(ending));
+    const imaging::FileFormat* format = imaging::formatOf("x" + std::string(ending));
+    m_format->addItem(QString("%1 (%2)").arg(words(std::string(format->name)), text), text);
+  }
+  if (what == "ct" || what == "mr" || what == "dissected")
+    m_format->addItem(tr("DICOM series (a folder)"), kSeries);
+  m_triangles->setEnabled(what == "surface" || what == "structure");
+  formatChanged();
+}
+
+// The proposed name follows the choice; the folder is kept.
+void ExportDialog::formatChanged()
+{
+  const QString what = m_what->currentData().toString();
+  const std::string part = bytes(m_part->currentData().toString());
+  bool canBeOnCt = what == "labels";
+  for (const auto& [name, registered] : m_mr)
+    canBeOnCt = canBeOnCt || (what == "mr" && name == part && registered);
+  m_onCt->setEnabled(canBeOnCt);
+  const QString folder = m_path->text().isEmpty()
+                             ? QDir::homePath()
+                             : QFileInfo(QDir::cleanPath(m_path->text())).absolutePath();
+  QString name = m_caseName + ' ' + (part.empty() ? what : words(part));
+  name.replace('/', '_');
+  m_path->setText(
+      QDir(folder).filePath(isSeries() ? name : name + m_format->currentData().toString()));
+  check();
+}
+
+presenters::ExportOptions ExportDialog::options() const
+{
+  presenters::ExportOptions options;
+  options.what = bytes(m_what->currentData().toString());
+  options.part = bytes(m_part->currentData().toString());
+  options.out = QFile::encodeName(QDir::cleanPath(m_path->text().trimmed())).toStdString();
+  if (isSeries())
+    options.out += '/';
+  options.onCt = m_onCt->isEnabled() && m_onCt->isChecked();
+  if (m_triangles->isEnabled() && m_triangles->value() > 0)
+    options.triangles = static_cast<std::size_t>(std::max(m_triangles->value(), 4));
+  return options;
+}
+
+void ExportDialog::check()
+{
+  const QString path = m_path->text().trimmed();
+  const QFileInfo folder(QFileInfo(QDir::cleanPath(path)).absolutePath());
+  QString advice;
+  bool isFine = false;
+  if (path.isEmpty() || !QDir::isAbsolutePath(path))
+    advice = tr("Give a file with its whole path, or choose one.");
+  else if (!folder.isDir())
+    advice = tr("There is no folder %1.").arg(folder.filePath());
+  else if (!folder.isWritable())
+    advice = tr("Nothing can be written in %1.").arg(folder.filePath());
+  else if (!isSeries() && !path.endsWith(m_format->currentData().toString(), Qt::CaseInsensitive))
+    advice = tr("The name must end in %1.").arg(m_format->currentData().toString());
+  else
+  {
+    isFine = true;
+    const QStorageInfo disk(folder.filePath());
+    advice = tr("%1 GB are free there.")
+                 .arg(1e-9 * static_cast<double>(disk.bytesAvailable()), 0, 'f', 1);
+  }
+  m_advice->setText(advice);
+  m_accept->setEnabled(isFine);
+}
+
+void ExportDialog::browse()
+{
+  QFileDialog dialog(this, windowTitle());
+  dialog.setAcceptMode(QFileDialog::AcceptSave);
+  dialog.setOption(QFileDialog::DontConfirmOverwrite); // asked when this dialog is accepted
+  if (!isSeries())
+    dialog.setNameFilter(
+        QString("%1 (*%2)")
+            .arg(m_format->currentText().section(" (", 0, 0), m_format->currentData().toString()));
+  dialog.setDirectory(QFileInfo(m_path->text()).absolutePath());
+  dialog.selectFile(QFileInfo(m_path->text()).fileName());
+  if (dialog.exec() == QDialog::Accepted)
+    m_path->setText(dialog.selectedFiles().first());
+}
+
+void ExportDialog::askAndAccept()
+{
+  QStringList there;
+  if (!isSeries()) // a folder with files in it is refused
+    for (const std::string& file : presenters::exportedFiles(options()))
+      if (QFileInfo::exists(QFile::decodeName(file.c_str())))
+        there += QFileInfo(QFile::decodeName(file.c_str())).fileName();
+  if (!there.isEmpty())
+  {
+    QMessageBox ask(QMessageBox::Question, windowTitle(),
+                    tr("%1 is there already. Replace it?").arg(there.join(", ")),
+                    QMessageBox::Cancel, this);
+    ask.setTextFormat(Qt::PlainText);
+    auto* replace = ask.addButton(tr("&Replace"), QMessageBox::AcceptRole);
+    ask.exec();
+    if (ask.clickedButton() != replace)
+      return;
+  }
+  accept();
+}
+
+} // namespace petrous::workstation

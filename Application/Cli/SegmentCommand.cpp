@@ -146,6 +146,9 @@ Made tube(const SegmentOptions& options, const scene::Case& value, const scene::
                        fixed(tube.smallestRadius, 2) + " to " + fixed(tube.largestRadius, 2) +
                        " mm, median " + fixed(tube.radius, 2) + " mm; the points lie up to " +
                        fixed(farthest, 2) + " mm from its path");
+  if (const std::string order = presenters::likelyOrderText(tube.points); !order.empty())
+    made.warnings.push_back("the points seem not to be in their order along the structure: " +
+                            order + " would make a much shorter line");
   constexpr double kTenth = 0.1;
   if (tube.resolvedLength < tube.length * (1.0 - kTenth))
     made.warnings.push_back("the image resolves " + fixed(tube.resolvedLength, 1) + " of " +

@@ -197,6 +197,35 @@ TEST_F(SegmentEditorTest, OnlyWhatHangsTogetherWithTheClickedPointCounts)
   EXPECT_NE(editor.warning(), "") << "in words";
 }
 
+TEST_F(SegmentEditorTest, AClickOutsideProposedLimitsSetsThemAroundIt)
+{
+  open();
+  editor.setTool(Tool::Threshold);
+  work();
+  EXPECT_LT(editor.values().lower, 1000.0);
+  editor.proposeRange();
+  work();
+  const double proposed = editor.values().lower;
+  const Vector3d dark = grid().patientFromVoxel(Vector3d(2, 20, 20));
+  ASSERT_LT(100.0 * (dark.x() + 3.0), proposed);
+  editor.press(dark, SliceOrientation::Coronal);
+  editor.release();
+  work();
+  EXPECT_EQ(editor.warning(), "");
+  EXPECT_LT(editor.values().lower, 100.0 * (dark.x() + 3.0));
+  EXPECT_GT(editor.values().upper, 100.0 * (dark.x() + 3.0));
+  EXPECT_LT(editor.values().upper, 2000.0);
+  EXPECT_TRUE(drawn(dark));
+  EXPECT_FALSE(drawn(kBall));
+  // The point counts for a proposal, too.
+  set([](SegmentValues& values) { values.upper = 1500.0; });
+  EXPECT_EQ(editor.values().upper, 1500.0);
+  editor.proposeRange();
+  work();
+  EXPECT_LT(editor.values().upper, 1500.0);
+  EXPECT_TRUE(drawn(dark));
+}
+
 TEST_F(SegmentEditorTest, ABrushPaintsTheBallThatIsSeenAndUndoRestoresEveryVoxel)
 {
   open();

@@ -146,6 +146,29 @@ TEST(TubeTrace, FollowsABendInNoiseBelowAVoxel)
   }
 }
 
+TEST(TubeTrace, PointsOutOfTheirOrderAreNoticed)
+{
+  // A helix of two turns, closer along its axis than along the line.
+  std::vector<Vector3d> helix;
+  for (int n = 0; n < 8; ++n)
+    helix.emplace_back(4.0 * std::cos(0.7 * n), 4.0 * std::sin(0.7 * n), 1.5 * n);
+  EXPECT_TRUE(segmentation::likelyOrder(helix).empty());
+  EXPECT_TRUE(segmentation::likelyOrder({helix.rbegin(), helix.rend()}).empty());
+  const std::vector<std::size_t> shuffle{3, 0, 6, 1, 7, 4, 2, 5};
+  std::vector<Vector3d> points;
+  for (const std::size_t n : shuffle)
+    points.push_back(helix[n]);
+  const auto order = segmentation::likelyOrder(points);
+  ASSERT_EQ(order.size(), helix.size());
+  const bool isForth = shuffle[order.front()] == 0;
+  for (std::size_t n = 0; n < order.size(); ++n)
+    EXPECT_EQ(shuffle[order[n]], isForth ? n : 7 - n);
+  EXPECT_LT(order.front(), order.back());
+  // The sharp bend at the geniculate ganglion is no reason.
+  EXPECT_TRUE(segmentation::likelyOrder({{0, 0, 0}, {4, 0, 0}, {1, 1, 0}, {-4, 3, 0}}).empty());
+  EXPECT_TRUE(segmentation::likelyOrder({{0, 0, 0}, {1, 0, 0}}).empty());
+}
+
 TEST(TubeTrace, FollowsATurnedAnisotropicGrid)
 {
   const Eigen::Matrix3d axes =

@@ -81,4 +81,12 @@ segmentation::Tube traceOnCt(const volume::IntensityVolume& image,
   return tube;
 }
 
+std::string likelyOrderText(const std::vector<Eigen::Vector3d>& points)
+{
+  std::string text;
+  for (const std::size_t n : segmentation::likelyOrder(points))
+    text += (text.empty() ? "" : ", ") + std::to_string(n + 1);
+  return text;
+}
+
 } // namespace petrous::presenters

@@ -31,6 +31,7 @@ using Combine = SegmentValues::Combine;
 constexpr std::size_t kLeastTubePoints = 2;
 constexpr std::array<float, 3> kBeside{98.0F, 176.0F, 236.0F}; // strokes beside the structure
 constexpr std::size_t kMostAtOnce = 4'000'000;                 // voxels; more: in another thread
+constexpr double kDeviations = 2.5;                            // of a range around a click
 constexpr int kSurfaceMargin = 2;                              // voxels
 constexpr std::uint16_t kInDraft = 1, kStrokeInside = 2, kStrokeBeside = 3; // DraftLayer's
 
@@ -55,6 +56,16 @@ core::Index3 nearestVoxel(const core::GridGeometry& grid, const Eigen::Vector3d&
   for (std::size_t a = 0; a < 3; ++a)
     nearest[a] = static_cast<int>(std::floor(voxel[static_cast<Eigen::Index>(a)] + 0.5));
   return nearest;
+}
+
+bool isWithin(const volume::IntensityVolume& image, const Eigen::Vector3d& patient,
+              const volume::ValueRange& range)
+{
+  const core::Index3 at = nearestVoxel(image.geometry(), patient);
+  if (!image.geometry().fullBox().contains(at))
+    return false;
+  const double value = image.at(at[0], at[1], at[2]);
+  return value >= range.min && value <= range.max;
 }
 
 // The voxels of a structure on another grid: those of the CT whose centre it contains.
@@ -152,6 +163,9 @@ std::string noteOf(const Tube& tube)
 
 std::string warningOf(const Tube& tube)
 {
+  if (const std::string order = likelyOrderText(tube.points); !order.empty())
+    return "The points seem not to be in their order along the structure: " + order +
+           " would make a much shorter line.";
   const double left = tube.length - tube.resolvedLength;
   if (left < 0.05 * tube.length)
     return {};
@@ -477,6 +491,7 @@ void SegmentEditor::setSource(const std::string& name)
       m_source = name;
       m_image.reset();
       m_proposeDue = true; // another unit
+      m_isOwnRange = false;
       m_previewDue = true;
       return touched();
     }
@@ -511,7 +526,10 @@ void SegmentEditor::setValues(const SegmentValues& values)
         m_values.lower != before.lower ? m_values.lower : m_values.upper;
   const bool range = m_values.lower != before.lower || m_values.upper != before.upper;
   if (range)
+  {
     m_proposeDue = false;
+    m_isOwnRange = true;
+  }
   if (m_tool == Tool::Threshold && !m_values.connected && before.connected)
     m_draft->seeds.clear();
   m_previewDue = m_previewDue ||
@@ -529,6 +547,7 @@ void SegmentEditor::proposeRange()
   if (!m_model.hasCase() || m_stepping)
     return;
   m_proposeDue = m_previewDue = true;
+  m_isOwnRange = false;
   touched();
 }
 
@@ -780,15 +799,22 @@ SegmentEditor::Computed SegmentEditor::computed() const
   {
   case Tool::Threshold:
     return [base, values, image = *m_image, seeds = m_draft->seeds, propose = m_proposeDue,
-            iso = surfaceIntensity()](const core::Progress& progress) mutable
+            isOwn = m_isOwnRange, iso = surfaceIntensity()](const core::Progress& progress) mutable
     {
       Preview preview;
       preview.image = image.made(progress.part(0.0, 0.4));
       volume::ValueRange range{values.lower, values.upper};
-      if (propose)
+      const core::Progress rest = progress.part(0.4, 1.0);
+      // The clicked point says what is looked for, unless the limits were entered.
+      const bool isClicked = values.connected && !seeds.empty();
+      if (isClicked && (propose || (!isOwn && !isWithin(*preview.image, seeds.back(), range))))
+      {
+        range = segmentation::rangeAround(*preview.image, seeds.back(), kDeviations, rest);
+        preview.note = "The limits were set around the clicked point.";
+      }
+      else if (propose)
         range = segmentation::proposedRange(volume::IntensityHistogram(*image.own), iso);
       preview.range = range;
-      const core::Progress rest = progress.part(0.4, 1.0);
       if (values.connected && seeds.empty())
         preview.note = "Click a point of the structure in a slice.";
       else
@@ -861,7 +887,7 @@ void SegmentEditor::show(const Preview& preview)
 {
   if (preview.image && m_image)
     m_image->onCt = preview.image;
-  if (preview.range && m_proposeDue)
+  if (preview.range && (m_proposeDue || !m_isOwnRange))
   {
     m_values.lower = preview.range->min;
     m_values.upper = preview.range->max;

@@ -218,6 +218,52 @@ void bridgeUnresolved(Tube& tube, const std::vector<double>& lengths, double lea
 
 } // namespace
 
+std::vector<std::size_t> likelyOrder(const std::vector<Vector3d>& points)
+{
+  constexpr std::size_t kMost = 12;
+  constexpr double kShorter = 0.75;
+  const std::size_t count = points.size();
+  if (count < 3 || count > kMost)
+    return {};
+  double own = 0.0;
+  for (std::size_t n = 1; n < count; ++n)
+    own += (points[n] - points[n - 1]).norm();
+  // The shortest path through each set of points that ends in each of them [Held and Karp 1962,
+  // doi 10.1137/0110015].
+  const std::size_t sets = std::size_t{1} << count;
+  std::vector<double> length(sets * count, std::numeric_limits<double>::infinity());
+  std::vector<std::size_t> before(sets * count, count);
+  for (std::size_t n = 0; n < count; ++n)
+    length[(std::size_t{1} << n) * count + n] = 0.0;
+  for (std::size_t set = 1; set < sets; ++set)
+    for (std::size_t last = 0; last < count; ++last)
+      for (std::size_t next = 0; next < count; ++next)
+      {
+        const std::size_t wider = set | std::size_t{1} << next;
+        const double sum = length[set * count + last] + (points[next] - points[last]).norm();
+        if (wider != set && sum < length[wider * count + next])
+        {
+          length[wider * count + next] = sum;
+          before[wider * count + next] = last;
+        }
+      }
+  const double* ends = &length[(sets - 1) * count];
+  std::size_t last = static_cast<std::size_t>(std::min_element(ends, ends + count) - ends);
+  if (!(ends[last] < kShorter * own))
+    return {};
+  std::vector<std::size_t> order;
+  for (std::size_t set = sets - 1; last < count;)
+  {
+    order.push_back(last);
+    const std::size_t previous = before[set * count + last];
+    set &= ~(std::size_t{1} << last);
+    last = previous;
+  }
+  if (order.front() > order.back())
+    std::reverse(order.begin(), order.end());
+  return order;
+}
+
 Tube traceTube(const volume::IntensityVolume& image, const std::vector<Vector3d>& points,
                const TubeOptions& options, const core::Progress& progress, const Tube* before)
 {

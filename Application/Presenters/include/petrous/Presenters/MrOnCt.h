@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "petrous/Core/Progress.h"
@@ -27,5 +28,9 @@ segmentation::Tube traceOnCt(const volume::IntensityVolume& image,
                              const std::vector<Eigen::Vector3d>& points,
                              const segmentation::TubeOptions& options,
                              const core::Progress& progress = {});
+
+/// The numbers of the points, from 1, in segmentation::likelyOrder: "1, 3, 2, 4". Empty if their
+/// own order is as likely.
+std::string likelyOrderText(const std::vector<Eigen::Vector3d>& points);
 
 } // namespace petrous::presenters

@@ -118,7 +118,9 @@ public:
 
   const SegmentValues& values() const noexcept { return m_values; }
   void setValues(const SegmentValues& values);
-  void proposeRange(); ///< lower and upper, from the source's histogram; with the next preview
+  /// Lower and upper, around the clicked point if one counts, else from the source's histogram;
+  /// with the next preview. A click outside limits that were not entered does the same.
+  void proposeRange();
 
   /// The left button in a slice; patient, LPS mm.
   void press(const Eigen::Vector3d& patient, SliceOrientation plane);
@@ -227,6 +229,7 @@ private:
   std::string m_note, m_warning;
   std::array<float, 3> m_color{};
   bool m_proposeDue = false;
+  bool m_isOwnRange = false; ///< the limits were entered, not proposed
   bool m_previewDue = false;
   bool m_previewRunning = false;
   bool m_stepping = false;

@@ -122,6 +122,11 @@ Tube traceTube(const volume::IntensityVolume& image, const std::vector<Eigen::Ve
 /// option's default.
 double widestFor(std::string_view name);
 
+/// The order in which 3 to 12 points make the shortest line, first and last as near to theirs as
+/// possible, if it is shorter than their own order's by more than a quarter: they were probably not
+/// given in their order along the structure. Else empty.
+std::vector<std::size_t> likelyOrder(const std::vector<Eigen::Vector3d>& points);
+
 /// Where a new point belongs in the order of tube.points: 0 before the first, points.size() after
 /// the last.
 std::size_t insertionIndex(const Tube& tube, const Eigen::Vector3d& point);

@@ -7,6 +7,7 @@
 #include "Commands.h"
 #include "Numbers.h"
 #include "petrous/Core/Log.h"
+#include "petrous/Core/SystemMemory.h"
 #include "petrous/Devices/DeviceCatalogue.h"
 #include "petrous/Rendering/GraphicsReport.h"
 #include "petrous/Rendering/RenderingError.h"
@@ -16,15 +17,6 @@ namespace petrous::cli
 
 namespace
 {
-
-double memoryMiB(const std::string& key)
-{
-  std::ifstream file("/proc/meminfo");
-  for (std::string line; std::getline(file, line);)
-    if (line.rfind(key + ":", 0) == 0)
-      return static_cast<double>(std::atoll(line.c_str() + key.size() + 1)) / 1024.0;
-  return 0.0;
-}
 
 // The nearest existing folder: where the library would be created.
 std::filesystem::path existingFolder(std::filesystem::path path)
@@ -123,8 +115,9 @@ void doctor(const Context& context)
   const double freeMiB = error ? 0.0 : static_cast<double>(space.available) / (1 << 20);
   if (freeMiB < 2048.0)
     advise("less than 2 GiB are free where the library lies; a head CT takes about 0.3 GiB");
-  const double total = memoryMiB("MemTotal");
-  const double available = memoryMiB("MemAvailable");
+  const core::SystemMemory memory = core::systemMemory();
+  const double total = std::ldexp(static_cast<double>(memory.total), -20);
+  const double available = std::ldexp(static_cast<double>(memory.available), -20);
   if (available < 2048.0)
     advise("less than 2 GiB of memory are free; load only the ear with --roi");
 

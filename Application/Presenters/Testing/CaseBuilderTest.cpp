@@ -649,7 +649,7 @@ TEST_F(CaseBuilder, NamesTheMasksOfAFolderThatItLeavesOut)
 // A ball of 1000 HU and its surface, written as other programs do.
 TEST_F(CaseBuilder, AsksHowAMeshCountsWhereItWouldLieElsewhere)
 {
-  constexpr double kRadius = 12.0;
+  static constexpr double kRadius = 12.0;
   const auto writeCt = [this](const Vector3d& origin, const Vector3d& center, double hu)
   {
     const core::GridGeometry grid({80, 80, 60}, Vector3d::Ones(), origin);

@@ -279,6 +279,31 @@ TEST(DicomReader, CropsToTheRegionAndReadsOnlyItsSlices)
             DicomError::Reason::OutsideRoi);
 }
 
+TEST(DicomReader, RefusesWhatDoesNotFitTheMemoryBeforeItIsRead)
+{
+  const TemporaryFolder folder;
+  writeSeries(folder.path(), 10);
+  const ScanResult result = scanDicom(folder.path(), {});
+  const DicomSeries& series = result.series.front();
+  const std::size_t bytes = 2 * series.geometry.grid->fullBox().count();
+  ReadOptions options;
+  options.memory = bytes;
+  EXPECT_NO_THROW(readSeries(series, options, {}));
+  options.memory = bytes - 1;
+  for (int k = 0; k < 10; ++k)
+    fs::remove(folder.path() / ("s" + std::to_string(k) + ".dcm")); // none is read
+  EXPECT_EQ(reasonOf([&] { readSeries(series, options, {}); }), DicomError::Reason::TooLarge);
+  options.memory = 0; // what this machine has is enough
+  EXPECT_EQ(reasonOf([&] { readSeries(series, options, {}); }), DicomError::Reason::Unreadable);
+
+  writeSeries(folder.path(), 10);
+  const ScanResult again = scanDicom(folder.path(), {});
+  options.memory = bytes / 2;
+  options.roi =
+      core::PatientBox(Eigen::Vector3d(-9.3, 21.2, 1.1), Eigen::Vector3d(-8.5, 22.3, 2.4));
+  EXPECT_NO_THROW(readSeries(again.series.front(), options, {}));
+}
+
 TEST(DicomReader, NamesTheFindingWhenItRefuses)
 {
   const TemporaryFolder folder;

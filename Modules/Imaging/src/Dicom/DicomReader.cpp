@@ -15,6 +15,7 @@
 #include "PixelCodec.h"
 #include "SeriesRepair.h"
 #include "SliceStack.h"
+#include "petrous/Core/SystemMemory.h"
 
 namespace petrous::imaging
 {
@@ -344,6 +345,31 @@ IndexBox boxToRead(const GridGeometry& grid, const ReadOptions& options)
                                                        " mm, patient LPS)");
 }
 
+/// Before memory is touched: the system would promise any size and end the program later.
+void requireMemory(const DicomSeries& series, const GridGeometry& grid, const IndexBox& box,
+                   bool isRepaired, const ReadOptions& options)
+{
+  const std::uint64_t most = options.memory > 0 ? options.memory : core::systemMemory().available;
+  const auto isInteger = [](const SliceHeader& slice)
+  { return isWhole(slice.slope) && isWhole(slice.intercept); };
+  const auto& slices = series.geometry.slices;
+  const double bytes = std::all_of(slices.begin(), slices.end(), isInteger) ? 2.0 : 4.0;
+  const double needed =
+      bytes * (static_cast<double>(box.count()) +
+               (isRepaired ? static_cast<double>(series.geometry.grid->fullBox().count()) : 0.0));
+  if (most == 0 || needed <= static_cast<double>(most))
+    return;
+  const auto gigabytes = [](double count) { return decimals(1e-9 * count, 1) + " GB"; };
+  const auto& dims = grid.dims();
+  throw DicomError(DicomError::Reason::TooLarge,
+                   "series " + series.uid + ": " + std::to_string(dims[0]) + " x " +
+                       std::to_string(dims[1]) + " x " + std::to_string(dims[2]) + " voxels" +
+                       (options.roi ? ", of which the region" : "") + " need " + gigabytes(needed) +
+                       " of memory, and " + gigabytes(static_cast<double>(most)) +
+                       " are free; choose a " + (options.roi ? "smaller " : "") +
+                       "region of it (--roi)");
+}
+
 } // namespace
 
 IntensityVolume readSeries(const DicomSeries& series, const ReadOptions& options,
@@ -364,9 +390,14 @@ IntensityVolume readSeries(const DicomSeries& series, const ReadOptions& options
   }
   progress.check("reading slices");
   if (geometry.verdict != Verdict::Repairable || options.acceptDefects)
-    return SeriesReader(series, boxToRead(*geometry.grid, options), progress).read(notes);
+  {
+    const IndexBox box = boxToRead(*geometry.grid, options);
+    requireMemory(series, *geometry.grid, box, false, options);
+    return SeriesReader(series, box, progress).read(notes);
+  }
   const SeriesRepair repair(geometry);
-  const IndexBox box = boxToRead(repair.grid(), options); // before anything is read
+  const IndexBox box = boxToRead(repair.grid(), options);
+  requireMemory(series, repair.grid(), box, true, options);
   const IntensityVolume stacked =
       SeriesReader(series, geometry.grid->fullBox(), progress.part(0.0, 0.7)).read(notes);
   if (notes)

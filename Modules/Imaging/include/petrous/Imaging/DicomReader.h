@@ -27,6 +27,9 @@ struct ReadOptions
   /// placed on geometry.grid. For repair code that knows the true slice positions; never for
   /// display.
   bool acceptDefects = false;
+
+  /// Bytes that the voxels may take while they are read; 0: what the machine has left.
+  std::uint64_t memory = 0;
 };
 
 /// Decodes a series in parallel, each slice directly into the volume.
@@ -36,7 +39,7 @@ struct ReadOptions
 /// real value; padding that would be mistaken for tissue is replaced by the smallest real value (at
 /// most -1024 for CT) and reported in `notes`.
 ///
-/// Throws DicomError (Misleading, Unreadable, Unsupported, OutsideRoi) and CancelledError.
+/// Throws DicomError (Misleading, Unreadable, Unsupported, OutsideRoi, TooLarge) and CancelledError.
 volume::IntensityVolume readSeries(const DicomSeries& series, const ReadOptions& options,
                                    const core::Progress& progress,
                                    std::vector<std::string>* notes = nullptr);

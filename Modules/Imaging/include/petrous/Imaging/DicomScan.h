@@ -25,7 +25,8 @@ struct DicomError : core::Error
     Misleading,   ///< the geometry verdict is not Ok
     Unreadable,   ///< a file is damaged, or has disappeared since the scan
     Unsupported,  ///< colour, palette, or an unknown compression
-    OutsideRoi    ///< the requested box does not intersect the volume
+    OutsideRoi,   ///< the requested box does not intersect the volume
+    TooLarge      ///< more than fits the memory that is free
   };
   DicomError(Reason reason, const std::string& message)
     : core::Error(core::Fault::BadInput, message)

@@ -436,6 +436,21 @@ bool CaseDocumentController::askContent(SourceContent& source)
   return true;
 }
 
+bool CaseDocumentController::askMrAlone(const SourceContent& source)
+{
+  QMessageBox box(QMessageBox::Question, tr("A case without a CT?"),
+                  tr("There is no CT here. Begin the case with the MR “%1”?").arg(lineOf(source)),
+                  QMessageBox::NoButton, &m_window);
+  box.setTextFormat(Qt::PlainText);
+  box.setObjectName("askMrAlone");
+  box.setInformativeText(tr("Its surface is then where tissue begins, not bone. If there is a CT "
+                            "of the patient, open that first, and the MR comes to it."));
+  const auto* yes = box.addButton(tr("Begin with the MR"), QMessageBox::AcceptRole);
+  box.setDefaultButton(box.addButton(QMessageBox::Cancel));
+  box.exec();
+  return box.clickedButton() == yes;
+}
+
 bool CaseDocumentController::askRepair(const SourceContent& source)
 {
   if (source.repair.empty())
@@ -595,9 +610,27 @@ void CaseDocumentController::decide(const Sources& found, const Purpose& purpose
   for (const Item& item : others)
     what += lineOf(item.source);
   if (!ct && !m_model.hasCase())
-    return refuse(tr("A case begins with a CT, and there is none here: %1. Open the patient's CT "
-                     "first, then this.")
-                      .arg(what.join(", ")));
+  {
+    const auto mr =
+        std::find_if(others.begin(), others.end(),
+                     [](const Item& item) { return item.source.content == Content::Mr; });
+    if (mr == others.end())
+      return refuse(tr("A case begins with a CT, and there is none here: %1. Open the patient's CT "
+                       "first, then this.")
+                        .arg(what.join(", ")));
+    if (!askMrAlone(mr->source))
+      return;
+    ct = &mr->source;
+    sources.modality = scene::Modality::Mr;
+    sources.ct = mr->source.path;
+    sources.series = mr->source.selector;
+    sources.repair = !mr->source.repair.empty();
+    sources.parts.mr.erase(sources.parts.mr.begin()); // the first of them
+    const Item first = *mr;
+    others.erase(mr);
+    items = {first};
+    ct = &items.front().source;
+  }
   const std::string name =
       ct ? presenters::freeCaseName(m_model.library(), presenters::caseNameFrom(ct->path))
          : std::string();
@@ -626,13 +659,19 @@ void CaseDocumentController::makeCase(
                reached = 0.5;
                progress.report(0.5 * fraction, text);
              });
-         const auto from = sources(first);
+         auto from = sources(first);
+         const presenters::PartSources parts = std::exchange(from.parts, {});
+         const double image = reached + 0.5 * (1.0 - reached);
          const auto value = std::make_shared<scene::Case>(
-             presenters::buildCase(name, from, progress.part(reached, 1.0)));
-         return [this, value]
+             presenters::buildCase(name, from, progress.part(reached, image)));
+         std::vector<presenters::StructureReport> report;
+         const auto failures =
+             presenters::addSoundParts(*value, parts, progress.part(image, 1.0), &report);
+         return [this, value, failures, report]
          {
            endWork();
            adopt(std::move(*value));
+           tell(failures, report);
          };
        });
 }
@@ -667,21 +706,94 @@ void CaseDocumentController::addParts(const presenters::PartSources& parts, cons
          presenters::PartSources sources = parts;
          sources.salted = [&library](const std::string& frame)
          { return library::saltedFrame(library, frame); };
-         presenters::addParts(*value, sources, progress);
+         std::vector<presenters::StructureReport> report;
+         const auto failures = presenters::addSoundParts(*value, sources, progress, &report);
          const bool onlyImages = parts.labels.empty() && parts.meshes.empty();
-         return [this, value, what, shownAs, onlyImages]
+         const bool isAny =
+             failures.size() < parts.mr.size() + parts.labels.size() + parts.meshes.size();
+         return [this, value, what, shownAs, onlyImages, isAny, failures, report]
          {
            endWork();
            if (!m_model.hasCase() || m_model.shownAs() != shownAs)
              return refuse(tr("%1 was not added: the case “%2” is not open any more.")
                                .arg(what, words(value->name)));
-           const QString name = words(m_model.value().name);
-           m_model.takeParts(std::move(*value));
-           m_saver.save();
-           emit added(onlyImages);
-           emit statusMessage(tr("Added to %1: %2").arg(name, what));
+           if (isAny)
+           {
+             const QString name = words(m_model.value().name);
+             m_model.takeParts(std::move(*value));
+             m_saver.save();
+             emit added(onlyImages);
+             emit statusMessage(
+                 report.empty() ? tr("Added to %1: %2").arg(name, what)
+                                : tr("Added to %1: %2; %3")
+                                      .arg(name, what, words(presenters::summaryOf(report).text)));
+           }
+           tell(failures, report);
          };
        });
+}
+
+// What did not come into the case, and structures that are not as their file says.
+void CaseDocumentController::tell(const std::vector<presenters::PartFailure>& failures,
+                                  const std::vector<presenters::StructureReport>& report)
+{
+  using Status = presenters::StructureReport::Status;
+  constexpr double kTolerance = 0.05; // of the volume by the file
+  QStringList lines;
+  bool isWhole = true;
+  for (const presenters::StructureReport& one : report)
+  {
+    const auto error = one.volumeError();
+    isWhole = isWhole && one.status == Status::Read && (!error || std::abs(*error) <= kTolerance);
+    QString line = words(one.name) + ": " + presenters::nameOf(one.status);
+    if (one.status == Status::Read)
+      line += ", " + QString::number(one.volume, 'f', 1) + " mm³";
+    if (one.fileVolume)
+      line += tr(" (%1 mm³ by the file)").arg(*one.fileVolume, 0, 'f', 1);
+    if (!one.why.empty())
+      line += ", " + words(one.why);
+    lines += line;
+  }
+  if (!isWhole)
+  {
+    QMessageBox box(QMessageBox::Warning, tr("Structures"),
+                    words(presenters::summaryOf(report).text) + ".", QMessageBox::Ok, &m_window);
+    box.setTextFormat(Qt::PlainText);
+    box.setObjectName("structuresRead");
+    box.setInformativeText(tr("Not all are as the file has them."));
+    box.setDetailedText(lines.join("\n"));
+    box.exec();
+  }
+  for (const presenters::PartFailure& failure : failures)
+    if (failure.likely.empty())
+      refuse(words(failure.why));
+    else
+      askMeshSpace(failure);
+}
+
+void CaseDocumentController::askMeshSpace(const presenters::PartFailure& failure)
+{
+  QMessageBox box(QMessageBox::Question, tr("How does the mesh count?"),
+                  tr("“%1” would not lie where it belongs.").arg(nameOf(failure.source.path)),
+                  QMessageBox::NoButton, &m_window);
+  box.setTextFormat(Qt::PlainText);
+  box.setObjectName("askMeshSpace");
+  box.setInformativeText(windowText(words(failure.why)));
+  std::vector<QAbstractButton*> buttons;
+  for (const imaging::MeshSpace& space : failure.likely)
+    buttons.push_back(box.addButton(tr("Add as %1").arg(words(presenters::textOf(space))),
+                                    QMessageBox::ActionRole));
+  box.setDefaultButton(box.addButton(QMessageBox::Cancel));
+  box.exec();
+  const auto chosen = std::find(buttons.begin(), buttons.end(), box.clickedButton());
+  if (chosen == buttons.end())
+    return;
+  const auto& space = failure.likely[static_cast<std::size_t>(chosen - buttons.begin())];
+  presenters::PartSources again;
+  again.meshes = {failure.source};
+  again.meshes[0].isRas = space.isRas;
+  again.meshes[0].unit = space.mm;
+  addParts(again, nameOf(failure.source.path));
 }
 
 // Not while parts are being added to a copy of the case, or another case is coming.

@@ -100,6 +100,7 @@ private:
   bool chooseSeries(const presenters::SourceContent& source, const Purpose& purpose,
                     std::vector<Item>& items);
   bool askContent(presenters::SourceContent& source);
+  bool askMrAlone(const presenters::SourceContent& source);
   bool askRepair(const presenters::SourceContent& source);
   bool askRegion(Item& item);
   bool askNames(presenters::CaseSources& sources, const std::vector<Item>& others,
@@ -107,6 +108,9 @@ private:
   void makeCase(const std::string& name,
                 std::function<presenters::CaseSources(const core::Progress&)> sources);
   void addParts(const presenters::PartSources& parts, const QString& what);
+  void tell(const std::vector<presenters::PartFailure>& failures,
+            const std::vector<presenters::StructureReport>& report);
+  void askMeshSpace(const presenters::PartFailure& failure);
   void adopt(scene::Case value);
   void work(const QString& title, BackgroundWork::Work work);
   void endWork();

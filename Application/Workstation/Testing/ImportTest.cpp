@@ -23,6 +23,7 @@
 #include "StartPage.h"
 #include "WindowTexts.h"
 #include "petrous/Imaging/LabelFile.h"
+#include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/VolumeFile.h"
 #include "petrous/Library/Archive.h"
 #include "petrous/Phantom/SamplePatient.h"
@@ -289,15 +290,65 @@ TEST_F(Import, WithoutACaseAnMrAndLabelsSayWhatIsNeeded)
 {
   writePatient(folder() / "sample");
   openWindow();
-  for (const char* what : {"mr", "labels.seg.nrrd"})
+  const auto told = [this](const char* what, const char* answer)
   {
-    const QString told = answered([this](const auto& react) { onDialog(react); }, "OK",
+    const QString text = answered([this](const auto& react) { onDialog(react); }, answer,
                                   [&] { dropPath(folder() / "sample" / what); });
-    EXPECT_TRUE(told.contains("CT") && told.contains(what)) << told.toStdString();
+    EXPECT_TRUE(text.contains("CT") && text.contains(what)) << text.toStdString();
     EXPECT_TRUE(settled());
-  }
+  };
+  told("labels.seg.nrrd", "OK");
+  told("mr", "Cancel");
   EXPECT_FALSE(window().model().hasCase());
   EXPECT_TRUE(library().list().empty());
+  told("mr", "Begin with the MR");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  const scene::Case& value = window().model().value();
+  EXPECT_EQ(value.ct.modality, scene::Modality::Mr);
+  EXPECT_TRUE(value.mr.empty());
+  EXPECT_TRUE(settled());
+  EXPECT_EQ(library().list().size(), 1u);
+}
+
+TEST_F(Import, AMeshThatCountsOtherwiseIsAskedAbout)
+{
+  writePatient(folder() / "sample");
+  auto mesh = imaging::readMesh(folder() / "sample" / "meshes" / "facial_nerve.obj");
+  std::ofstream file(folder() / "facial_nerve.obj"); // right, front, up; states nothing
+  for (const auto& v : mesh.vertices)
+    file << "v " << -v[0] << " " << -v[1] << " " << v[2] << "\n";
+  for (const auto& t : mesh.triangles)
+    file << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";
+  file.close();
+  openWindow();
+  dropPath(folder() / "sample" / "ct");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  for (const char* answer : {"Cancel", "Add as RAS mm"})
+  {
+    EXPECT_TRUE(window().model().value().meshes.empty());
+    bool isAsked = false;
+    answered([this](const auto& react) { onDialog(react); }, "Add to",
+             [this] { dropPath(folder() / "facial_nerve.obj"); });
+    onMessage(
+        [&](QMessageBox& box)
+        {
+          isAsked = true;
+          EXPECT_TRUE(box.informativeText().contains("RAS mm")) << box.text().toStdString();
+          EXPECT_FALSE(box.informativeText().contains("--")) << "an option of the command";
+          for (QAbstractButton* button : box.buttons())
+            if (button->text().remove('&') == answer)
+              return button->click();
+          ADD_FAILURE() << "no button " << answer;
+          box.reject();
+        });
+    ASSERT_TRUE(waitFor([&] { return isAsked; }));
+    EXPECT_TRUE(settled());
+  }
+  ASSERT_TRUE(waitFor([this] { return window().model().value().meshes.size() == 1; }));
+  const auto added = window().model().value().meshes[0].mesh.get();
+  for (int axis = 0; axis < 3; ++axis)
+    EXPECT_NEAR(added->vertices[0][axis], mesh.vertices[0][axis], 1e-3);
+  EXPECT_TRUE(settled());
 }
 
 // An MR or a cone beam as a plain file: undetermined.

@@ -49,6 +49,8 @@ QString windowText(const QString& text)
       {" With --repair it is resampled to a straight volume\\.",
        " Opened alone, it can be repaired."},
       {"; 'petrous appearance --iso' moves the surface", "; Bone threshold (F9) moves the surface"},
+      {"; say how it counts \\(--mesh-frame, --mesh-unit\\)", ""},
+      {"region of it \\(--roi\\)", "region of it"},
       {"say FILE@ct, or add", "add it again and choose “on the CT”, or add"},
       {"; say on which it was drawn with FILE@.* or FILE@.*$",
        "; add it again and choose the one on which it was drawn"},

@@ -852,4 +852,48 @@ void addParts(scene::Case& value, const PartSources& parts, const core::Progress
     report->insert(report->end(), reports.begin(), reports.end());
 }
 
+std::vector<PartFailure> addSoundParts(scene::Case& value, const PartSources& parts,
+                                       const core::Progress& progress,
+                                       std::vector<StructureReport>* report)
+{
+  std::vector<PartFailure> failures;
+  scene::Case next = value;
+  const std::size_t count = parts.mr.size() + parts.labels.size() + parts.meshes.size();
+  std::size_t done = 0;
+  const auto add = [&](std::vector<PartSource> PartSources::*kind)
+  {
+    for (const PartSource& source : parts.*kind)
+    {
+      PartSources one;
+      one.labelNames = parts.labelNames;
+      one.salted = parts.salted;
+      one.*kind = {source};
+      const auto first = static_cast<double>(done++) / static_cast<double>(count);
+      const core::Progress part =
+          progress.part(first, static_cast<double>(done) / static_cast<double>(count));
+      try
+      {
+        addParts(next, one, part, report);
+      }
+      catch (const core::CancelledError&)
+      {
+        throw;
+      }
+      catch (const MeshSpaceUnclear& unclear)
+      {
+        failures.push_back({source, unclear.what(), unclear.likely});
+      }
+      catch (const core::Error& error)
+      {
+        failures.push_back({source, error.what()});
+      }
+    }
+  };
+  add(&PartSources::mr);
+  add(&PartSources::labels);
+  add(&PartSources::meshes);
+  value = std::move(next);
+  return failures;
+}
+
 } // namespace petrous::presenters

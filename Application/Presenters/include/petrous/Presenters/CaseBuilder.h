@@ -68,8 +68,8 @@ struct MeshSpaceUnclear : core::InvalidParameter
   MeshSpaceUnclear(std::filesystem::path file, const std::string& problem,
                    std::vector<imaging::MeshSpace> spaces);
   std::filesystem::path path;
-  /// In which it would lie in its image; the first is the one in which it was read. Relative to
-  /// what the file states.
+  /// How the file may count; the first is how it was read, with the others the mesh lies in its
+  /// image.
   std::vector<imaging::MeshSpace> likely;
 };
 
@@ -143,6 +143,20 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
 /// `report`, if given, gets every structure of `parts.labels`.
 void addParts(scene::Case& value, const PartSources& parts, const core::Progress& progress,
               std::vector<StructureReport>* report = nullptr);
+
+/// A part that could not be added.
+struct PartFailure
+{
+  PartSource source;
+  std::string why;                             ///< names the file
+  std::vector<imaging::MeshSpace> likely = {}; ///< of MeshSpaceUnclear
+};
+
+/// As addParts, one part after the other: those that can be added are, the others are returned.
+/// Throws CancelledError; the case is unchanged then.
+std::vector<PartFailure> addSoundParts(scene::Case& value, const PartSources& parts,
+                                       const core::Progress& progress,
+                                       std::vector<StructureReport>* report = nullptr);
 
 /// The frame of reference UID of DICOM files that are exported from a case: of those in the CT's
 /// space, or of those in the space of the MR `drawnOn`.

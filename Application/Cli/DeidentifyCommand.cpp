@@ -65,9 +65,8 @@ std::string passphraseFor(const std::string& map, const std::string& file)
     return text.substr(0, text.find_first_of("\r\n"));
   }
   std::string passphrase = askedPassphrase("Passphrase of the pseudonym map: ");
-  if (std::error_code error;
-      !std::filesystem::exists(map, error) &&
-      askedPassphrase("The same once more, for the new map: ") != passphrase)
+  if (std::error_code error; !std::filesystem::exists(map, error) &&
+                             askedPassphrase("The same once more, for the new map: ") != passphrase)
     throw UsageError("the two passphrases differ");
   return passphrase;
 }
@@ -118,7 +117,8 @@ void deidentify(const Context& context, DeidentifyCommandOptions options)
   for (const std::string& line : done.leftOut)
     context.warn("left out: " + line);
   for (const auto& [what, files] : done.report.warnings)
-    context.warn("warning: " + std::to_string(files) + (files == 1 ? " file: " : " files: ") + what);
+    context.warn("warning: " + std::to_string(files) + (files == 1 ? " file: " : " files: ") +
+                 what);
   if (!done.report.durable)
     context.warn(options.output + ": is written, but the disk reported an error; check the disk");
   if (!options.report.empty())
@@ -133,8 +133,7 @@ void deidentify(const Context& context, DeidentifyCommandOptions options)
 void listPseudonyms(const Context& context, const PseudonymsCommandOptions& options)
 {
   core::InputFile exists(options.map);
-  const library::PseudonymMap map(options.map,
-                                  passphraseFor(options.map, options.passphraseFile));
+  const library::PseudonymMap map(options.map, passphraseFor(options.map, options.passphraseFile));
   json list = json::array();
   for (const library::Pseudonym& entry : map.entries())
   {

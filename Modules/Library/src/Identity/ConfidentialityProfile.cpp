@@ -101,14 +101,14 @@ DeidAction actionOf(char code)
 IodKind iodKindOf(const std::string& sopClass)
 {
   static const std::unordered_map<std::string, IodKind> kKinds{
-      {"1.2.840.10008.5.1.4.1.1.2", IodKind::Plain},          // CT
-      {"1.2.840.10008.5.1.4.1.1.4", IodKind::Plain},          // MR
-      {"1.2.840.10008.5.1.4.1.1.2.1", IodKind::Enhanced},     // Enhanced CT
-      {"1.2.840.10008.5.1.4.1.1.2.2", IodKind::Enhanced},     // Legacy Converted Enhanced CT
-      {"1.2.840.10008.5.1.4.1.1.4.1", IodKind::Enhanced},     // Enhanced MR
-      {"1.2.840.10008.5.1.4.1.1.4.4", IodKind::Enhanced},     // Legacy Converted Enhanced MR
-      {"1.2.840.10008.5.1.4.1.1.66.4", IodKind::Enhanced},    // Segmentation
-      {"1.2.840.10008.5.1.4.1.1.128", IodKind::Pet},          // PET
+      {"1.2.840.10008.5.1.4.1.1.2", IodKind::Plain},           // CT
+      {"1.2.840.10008.5.1.4.1.1.4", IodKind::Plain},           // MR
+      {"1.2.840.10008.5.1.4.1.1.2.1", IodKind::Enhanced},      // Enhanced CT
+      {"1.2.840.10008.5.1.4.1.1.2.2", IodKind::Enhanced},      // Legacy Converted Enhanced CT
+      {"1.2.840.10008.5.1.4.1.1.4.1", IodKind::Enhanced},      // Enhanced MR
+      {"1.2.840.10008.5.1.4.1.1.4.4", IodKind::Enhanced},      // Legacy Converted Enhanced MR
+      {"1.2.840.10008.5.1.4.1.1.66.4", IodKind::Enhanced},     // Segmentation
+      {"1.2.840.10008.5.1.4.1.1.128", IodKind::Pet},           // PET
       {"1.2.840.10008.5.1.4.1.1.481.3", IodKind::StructureSet} // RT Structure Set
   };
   const auto found = kKinds.find(sopClass);
@@ -157,7 +157,7 @@ ConfidentialityProfile::ConfidentialityProfile()
       continue;
     const auto columns = split(line, '\t');
     for (const std::string& element : split(columns[2], ' '))
-      m_safe[columns[0]].push_back(hex(columns[1]) << 16 | hex(element));
+      m_safe[columns[0]][hex(columns[1]) << 16 | hex(element.substr(0, 2))] = element.substr(3);
   }
 }
 
@@ -170,8 +170,9 @@ DeidAction ConfidentialityProfile::action(std::uint32_t tag, IodKind iod, bool n
   if (found == m_rows.end())
     return DeidAction::Unlisted;
   const Row& row = found->second;
-  const auto optional = [](char code)
-  { return code == 'K' ? DeidAction::Keep : code == 'C' ? DeidAction::Clean : DeidAction::Unlisted; };
+  const auto optional = [](char code) {
+    return code == 'K' ? DeidAction::Keep : code == 'C' ? DeidAction::Clean : DeidAction::Unlisted;
+  };
   std::vector<DeidAction> chosen;
   if (options.dates == DeidentificationOptions::Dates::Keep)
     chosen.push_back(optional(row.dates));
@@ -200,22 +201,14 @@ DeidAction ConfidentialityProfile::action(std::uint32_t tag, IodKind iod, bool n
   return required == DeidAction::Unlisted ? actionOf(row.basic.front()) : required;
 }
 
-bool ConfidentialityProfile::isSafePrivate(const std::string& creator, std::uint16_t group,
-                                           std::uint16_t element) const
+std::string ConfidentialityProfile::safePrivateVr(const std::string& creator, std::uint16_t group,
+                                                  std::uint16_t element) const
 {
   const auto found = m_safe.find(creator);
-  const std::uint32_t wanted = std::uint32_t{group} << 16 | element;
-  return found != m_safe.end() &&
-         std::find(found->second.begin(), found->second.end(), wanted) != found->second.end();
-}
-
-std::vector<std::uint32_t> ConfidentialityProfile::tags() const
-{
-  std::vector<std::uint32_t> tags;
-  for (const auto& [tag, row] : m_rows)
-    tags.push_back(tag);
-  std::sort(tags.begin(), tags.end());
-  return tags;
+  if (found == m_safe.end())
+    return {};
+  const auto entry = found->second.find(std::uint32_t{group} << 16 | element);
+  return entry == found->second.end() ? std::string() : entry->second;
 }
 
 } // namespace petrous::library

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <unordered_map>
-#include <vector>
 
 #include "petrous/Library/Deidentification.h"
 
@@ -48,16 +46,15 @@ public:
   ///
   /// Combined actions (X/Z, X/D, Z/D, X/Z/D, X/Z/U) at the top level of a known IOD: the first,
   /// which removes most, unless the attribute's type in that IOD requires more (type 2: Z, type 1:
-  /// D). Elsewhere, within sequences too, the last one, which is valid whatever the type. References to
-  /// images (X/Z/U*) are kept with new UIDs; Patient ID (Z/D) is a pseudonym.
+  /// D). Elsewhere, within sequences too, the last one, which is valid whatever the type.
+  /// References to images (X/Z/U*) are kept with new UIDs; Patient ID (Z/D) is a pseudonym.
   DeidAction action(std::uint32_t tag, IodKind iod, bool nested,
                     const DeidentificationOptions& options) const;
 
-  /// element: 0 to 0xff, within the block of `creator`.
-  bool isSafePrivate(const std::string& creator, std::uint16_t group, std::uint16_t element) const;
-
-  /// All tags of the table that are not patterns, ascending.
-  std::vector<std::uint32_t> tags() const;
+  /// The VR of a safe private attribute; empty: it is none. element: 0 to 0xff, within the block of
+  /// `creator`.
+  std::string safePrivateVr(const std::string& creator, std::uint16_t group,
+                            std::uint16_t element) const;
 
 private:
   struct Row
@@ -68,7 +65,8 @@ private:
 
   std::string m_edition;
   std::unordered_map<std::uint32_t, Row> m_rows;
-  std::unordered_map<std::string, std::vector<std::uint32_t>> m_safe; ///< group << 16 | element
+  /// VR by creator, and by group << 16 | element.
+  std::unordered_map<std::string, std::unordered_map<std::uint32_t, std::string>> m_safe;
 };
 
 } // namespace petrous::library

@@ -200,16 +200,16 @@ DeidentificationResult deidentify(const fs::path& input, const fs::path& output,
   {
     return core::Error(core::Fault::BadInput,
                        core::printable(input) + ": holds no DICOM file that can be de-identified" +
-                           (result.leftOut.empty() ? std::string()
-                                                   : "; the first " +
-                                                         result.report.leftOut.begin()->first));
+                           (result.leftOut.empty()
+                                ? std::string()
+                                : "; the first " + result.report.leftOut.begin()->first));
   };
 
   if (!isFolder)
   {
     core::OutputFile out(output);
-    const auto outcome = cleaner.clean(
-        input, [&out](const std::string&, const std::string&) { return out.temporary(); });
+    const auto outcome = cleaner.clean(input, [&out](const std::string&, const std::string&)
+                                       { return out.temporary(); });
     if (!outcome.leftOut.empty())
     {
       noteLeftOut(input, outcome.leftOut);

@@ -213,10 +213,10 @@ bool isNeededText(std::uint32_t tag)
 bool isWellKnownUid(const std::string& uid)
 {
   static const std::set<std::string> kNewer{
-      "1.2.840.10008.5.1.4.1.1.66.7",       // Label Map Segmentation
-      "1.2.840.10008.5.1.4.1.1.66.8",       // Height Map Segmentation
-      "1.2.840.10008.5.1.4.1.1.2.3",        // Photon-Counting CT (draft)
-      "1.2.840.10008.1.2.4.201", "1.2.840.10008.1.2.4.202", "1.2.840.10008.1.2.4.203"};
+      "1.2.840.10008.5.1.4.1.1.66.7", // Label Map Segmentation
+      "1.2.840.10008.5.1.4.1.1.66.8", // Height Map Segmentation
+      "1.2.840.10008.5.1.4.1.1.2.3",  // Photon-Counting CT (draft)
+      "1.2.840.10008.1.2.4.201",      "1.2.840.10008.1.2.4.202", "1.2.840.10008.1.2.4.203"};
   return dcmFindNameOfUID(uid.c_str()) != nullptr || kNewer.count(uid) > 0;
 }
 
@@ -453,9 +453,9 @@ private:
         }
       }
       else if (m_options.retainSafePrivate && creator != creators.end() &&
-               m_cleaner.profile.isSafePrivate(creator->second, tag.getGroup(),
-                                               tag.getElement() & 0xff) &&
-               isCleanPrivate(*element))
+               isCleanPrivate(*element,
+                              m_cleaner.profile.safePrivateVr(creator->second, tag.getGroup(),
+                                                              tag.getElement() & 0xff)))
       {
         used.insert(block);
         note(path, *element, creator->second, "kept: safe private attribute", true);
@@ -467,15 +467,41 @@ private:
     }
   }
 
-  bool isCleanPrivate(DcmElement& element)
+  // What the list says of it holds, also if the file has no VR (UN).
+  bool isCleanPrivate(DcmElement& element, const std::string& listedVr)
   {
-    const DcmEVR vr = element.getVR();
-    if (isNumber(vr))
-      return true;
-    if (vr == EVR_DS || vr == EVR_IS)
-      return keepString(element, hasOnly(valueOf(element), "0123456789+-eE. \\"));
-    return (vr == EVR_CS || vr == EVR_LO || vr == EVR_SH) &&
-           keepString(element, !m_words.foundIn(valueOf(element)) && valueOf(element).size() <= 16);
+    if (listedVr.empty())
+      return false;
+    const DcmEVR listed = DcmVR(listedVr.c_str()).getEVR(), own = element.getVR();
+    const bool isUnknown = own == EVR_UN || own == EVR_UNKNOWN || own == EVR_UNKNOWN2B;
+    const DcmEVR vr = isUnknown ? EVR_UN : own;
+    std::string value;
+    if (isUnknown)
+    {
+      Uint8* bytes = nullptr;
+      if (element.getUint8Array(bytes).bad() || !bytes)
+        return false;
+      value.assign(reinterpret_cast<const char*>(bytes), element.getLength());
+    }
+    else if (vr != listed)
+      return false;
+    if (isNumber(listed))
+    {
+      constexpr std::size_t kMatrix = 9 * 8;
+      const auto isPrint = [](unsigned char c) { return c >= 0x20 && c < 0x7f; };
+      return vr == listed ||
+             (value.size() <= kMatrix && value.size() % DcmVR(listed).getValueWidth() == 0 &&
+              !std::all_of(value.begin(), value.end(), isPrint));
+    }
+    if (vr != EVR_UN)
+      value = valueOf(element);
+    while (!value.empty() && (value.back() == ' ' || value.back() == '\0'))
+      value.pop_back();
+    const bool isClean = listed == EVR_DS || listed == EVR_IS
+                             ? hasOnly(value, "0123456789+-eE. \\")
+                             : value.size() <= 16 && value.find('\0') == std::string::npos &&
+                                   !m_words.foundIn(value);
+    return isClean && (vr == EVR_UN || keepString(element, true));
   }
 
   // Writes the value anew, so that nothing after a NUL remains.
@@ -563,8 +589,8 @@ private:
     case DeidAction::Dummy:
       if (!madeDummy(element, tag, entry.vr))
         return remove("");
-      note(path, element, name, tag == 0x00100020 ? "replaced by a pseudonym" : "replaced by a dummy",
-           false);
+      note(path, element, name,
+           tag == 0x00100020 ? "replaced by a pseudonym" : "replaced by a dummy", false);
       return true;
     default:
       return remove("");
@@ -717,11 +743,10 @@ private:
     case EVR_CS:
     {
       const auto parts = split(value);
-      const bool isCoded =
-          hasOnly(value, "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789 _\\") &&
-          std::all_of(parts.begin(), parts.end(),
-                      [](const std::string& part) { return part.size() <= 16; }) &&
-          !m_words.foundIn(value);
+      const bool isCoded = hasOnly(value, "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789 _\\") &&
+                           std::all_of(parts.begin(), parts.end(),
+                                       [](const std::string& part) { return part.size() <= 16; }) &&
+                           !m_words.foundIn(value);
       return keepString(element, isCoded) ? done("kept: coded string", true)
                                           : done("removed: not a coded string", false);
     }
@@ -768,10 +793,12 @@ private:
   bool isIdentity(DcmItem& item, std::uint32_t tag, const std::string& value)
   {
     const std::string scheme = valueOf(item, DCM_CodingSchemeDesignator);
-    static const std::set<std::string> kSchemes{"DCM", "SCT", "SRT", "SNM3", "LN", "UCUM", "FMA",
-                                                "RADLEX", "NCIt", "UMLS", "MDC", "BI", "I10", "ICD10"};
+    static const std::set<std::string> kSchemes{"DCM",  "SCT", "SRT",    "SNM3", "LN",
+                                                "UCUM", "FMA", "RADLEX", "NCIt", "UMLS",
+                                                "MDC",  "BI",  "I10",    "ICD10"};
     if (tag == 0x00080100 && kSchemes.count(scheme) > 0)
-      return !hasOnly(value, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-./[]{}") ||
+      return !hasOnly(value,
+                      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-./[]{}") ||
              value.size() > 16;
     if (tag == 0x00080102)
       return kSchemes.count(value) == 0;
@@ -935,8 +962,9 @@ bool isSuspectedOfText(DcmItem& item)
 void putCode(DcmItem& dataSet, unsigned long number, const char* value, const char* meaning)
 {
   DcmItem* item = nullptr;
-  if (dataSet.findOrCreateSequenceItem(DCM_DeidentificationMethodCodeSequence, item,
-                                       static_cast<signed long>(number))
+  if (dataSet
+          .findOrCreateSequenceItem(DCM_DeidentificationMethodCodeSequence, item,
+                                    static_cast<signed long>(number))
           .bad())
     return;
   item->putAndInsertString(DCM_CodeValue, value);
@@ -957,8 +985,7 @@ void putMethod(DcmDataset& dataSet, const DeidentificationOptions& options,
   if (options.cleanDescriptors)
     putCode(dataSet, n++, "113105", "Clean Descriptors Option");
   if (options.dates == Dates::Keep)
-    putCode(dataSet, n++, "113106",
-            "Retain Longitudinal Temporal Information Full Dates Option");
+    putCode(dataSet, n++, "113106", "Retain Longitudinal Temporal Information Full Dates Option");
   if (options.dates == Dates::Shift)
     putCode(dataSet, n++, "113107",
             "Retain Longitudinal Temporal Information Modified Dates Option");
@@ -994,8 +1021,7 @@ DicomCleaner::Outcome DicomCleaner::clean(const std::filesystem::path& input,
                                           const Placement& placed)
 {
   auto file = std::make_unique<DcmFileFormat>();
-  if (file->loadFile(input.c_str(), EXS_Unknown, EGL_noChange, DCM_MaxReadLength,
-                     ERM_autoDetect)
+  if (file->loadFile(input.c_str(), EXS_Unknown, EGL_noChange, DCM_MaxReadLength, ERM_autoDetect)
           .bad())
     return {"is not DICOM, or damaged", false};
   const std::string metaClass = valueOf(*file->getMetaInfo(), DCM_MediaStorageSOPClassUID);
@@ -1040,8 +1066,8 @@ DicomCleaner::Outcome DicomCleaner::clean(const std::filesystem::path& input,
   const std::filesystem::path target = placed(newSeries, valueOf(*dataSet, DCM_Modality));
   DcmFileFormat clean(dataSet.get(), OFFalse);
   const OFCondition saved =
-      clean.saveFile(target.c_str(), syntax, EET_UndefinedLength, EGL_withoutGL,
-                     EPD_withoutPadding, 0, 0, EWM_createNewMeta);
+      clean.saveFile(target.c_str(), syntax, EET_UndefinedLength, EGL_withoutGL, EPD_withoutPadding,
+                     0, 0, EWM_createNewMeta);
   dataSet.release(); // owned by `clean`
   if (saved.bad())
     throw core::OutputFileError(core::OutputFileError::Reason::Failed, target,

@@ -23,8 +23,8 @@ public:
     bool isDicom = true;
   };
   /// Where a file of this new Series Instance UID and modality is written.
-  using Placement = std::function<std::filesystem::path(const std::string& series,
-                                                        const std::string& modality)>;
+  using Placement =
+      std::function<std::filesystem::path(const std::string& series, const std::string& modality)>;
 
   DicomCleaner(const DeidentificationOptions& options, const PseudonymKey& key);
 

@@ -91,7 +91,8 @@ void clearJpeg2000(std::uint8_t* bytes, std::size_t count)
     }
     if (at + 4 > count)
       return;
-    const std::size_t end = std::min(count, at + 2 + std::max<std::size_t>(2, number(bytes + at + 2, 2)));
+    const std::size_t end =
+        std::min(count, at + 2 + std::max<std::size_t>(2, number(bytes + at + 2, 2)));
     if (marker == 0xff90 && at + 12 <= count) // SOT
     {
       tile = at;

@@ -189,8 +189,10 @@ void PseudonymMap::add(const std::vector<Pseudonym>& entries)
   for (const Pseudonym& entry : entries)
   {
     const auto isSame = [&entry](const Pseudonym& other)
-    { return other.kind == entry.kind && other.pseudonym == entry.pseudonym &&
-             other.identity == entry.identity; };
+    {
+      return other.kind == entry.kind && other.pseudonym == entry.pseudonym &&
+             other.identity == entry.identity;
+    };
     if (std::none_of(m_entries.begin(), m_entries.end(), isSame))
       m_entries.push_back(entry);
   }

@@ -96,8 +96,8 @@ struct DeidentificationReport
 struct DeidentificationResult
 {
   DeidentificationReport report;
-  /// What was not written and why. Has the names of input files, which may identify the patient: for
-  /// the user's own screen only.
+  /// What was not written and why. Has the names of input files, which may identify the patient:
+  /// for the user's own screen only.
   std::vector<std::string> leftOut;
   std::vector<Pseudonym> pseudonyms; ///< for the map at home
 };

@@ -27,10 +27,10 @@ struct PseudonymMapError : core::Error
 
 /// Who is behind the pseudonyms, and the key that made them: an encrypted file that stays at home.
 ///
-/// The file is a header (format, cost, salt, nonce), the entries as JSON encrypted and authenticated
-/// together with the header by XChaCha20-Poly1305, and a BLAKE2b checksum that tells damage from a
-/// wrong passphrase. The encryption key is the passphrase's Argon2id hash. Replaced as a whole by
-/// `save`; locked (FILE.lock) from construction to destruction.
+/// The file is a header (format, cost, salt, nonce), the entries as JSON encrypted and
+/// authenticated together with the header by XChaCha20-Poly1305, and a BLAKE2b checksum that tells
+/// damage from a wrong passphrase. The encryption key is the passphrase's Argon2id hash. Replaced
+/// as a whole by `save`; locked (FILE.lock) from construction to destruction.
 class PseudonymMap
 {
 public:

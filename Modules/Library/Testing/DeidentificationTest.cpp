@@ -319,7 +319,8 @@ TEST_F(Deidentification, LeavesNoPlantedIdentifierInAnyByteThatIsWritten)
       0x00181030, 0x00185100, 0x00200010, 0x00200013, 0x00204000, 0x00201002, 0x00284000,
       0x00321032, 0x00380300, 0x00400275, 0x00401400, 0x0040a160, 0x00880140, 0x04000550,
       0x20300020, 0x40080115, 0x50001001, 0x50003000, 0x60000022, 0x60001500, 0x60003000,
-      0x60004000, 0x00690101, 0x0018a001, 0x00880906};
+      0x60004000, 0x00081090, 0x00180024, 0x00181250, 0x00080104, 0x00690101, 0x0018a001,
+      0x00880906};
   std::string body, inner;
   for (const std::uint32_t tag : places)
   {
@@ -437,6 +438,7 @@ TEST_F(Deidentification, FindsTheNameInTextThatWouldStay)
                            element(0x00181250, "HEAD AURELIA");
   const Elements found = cleaned(body);
   EXPECT_EQ(found.at("00180024"), "se");
+  EXPECT_EQ(cleaned(element(0x00181210, "Br64h\\3")).at("00181210"), "Br64h\\3");
   EXPECT_EQ(found.at("00181250"), "HEAD");
 }
 

@@ -179,30 +179,19 @@ bool areNeededBytes(std::uint32_t tag)
   }
 }
 
-// Text of equipment, codes and quantities that programs need to the letter.
-bool isNeededText(std::uint32_t tag)
+// What a device is and runs: kept with its identity only, as anything can be written there.
+bool describesDevice(std::uint32_t tag)
 {
   switch (tag)
   {
-  case 0x00080100: // Code Value
-  case 0x00080119: // Long Code Value
-  case 0x00080102: // Coding Scheme Designator
-  case 0x00080103: // Coding Scheme Version
-  case 0x00080104: // Code Meaning
   case 0x00081090: // Manufacturer's Model Name
   case 0x00180024: // Sequence Name
-  case 0x00180085: // Imaged Nucleus
   case 0x00181020: // Software Versions
   case 0x00181160: // Filter Type
   case 0x00181210: // Convolution Kernel
   case 0x00181250: // Receive Coil Name
   case 0x00181251: // Transmit Coil Name
   case 0x00189005: // Pulse Sequence Name
-  case 0x00201040: // Position Reference Indicator
-  case 0x00281054: // Rescale Type
-  case 0x00281055: // Window Center & Width Explanation
-  case 0x00540412: // Real World Value
-  case 0x00620009: // Segment Algorithm Name
     return true;
   default:
     return false;
@@ -773,8 +762,10 @@ private:
     }
     if (tag == 0x00080070 && isKnownManufacturer(value)) // Manufacturer
       return keepString(element, true) && done("kept: known manufacturer", true);
-    if (isNeededText(tag) && !isIdentity(item, tag, value))
-      return keepString(element, true) && done("kept: needed text, no identity found in it", true);
+    if (isTechnical(item, tag, value))
+      return keepString(element, true) && done("kept: code or unit of a known form", true);
+    if (m_options.retainDevice && describesDevice(tag) && !m_words.foundIn(value))
+      return keepString(element, true) && done("kept by option", true);
     if (isText(vr))
     {
       const std::string rest = eachPart(value, reducedToVocabulary);
@@ -789,20 +780,42 @@ private:
     return true;
   }
 
-  // Values of codes are numbers of many digits.
-  bool isIdentity(DcmItem& item, std::uint32_t tag, const std::string& value)
+  // By its form: text of up to three characters (units, nuclei), names of kernels, codes of
+  // schemes that are published.
+  bool isTechnical(DcmItem& item, std::uint32_t tag, const std::string& value)
   {
+    constexpr const char* kDigits = "0123456789";
+    static const std::set<std::string> kNumbered{"DCM", "SCT", "FMA", "LN", "MDC", "UMLS"};
+    static const std::set<std::string> kLettered{"SRT", "SNM3", "RADLEX", "NCIt", "UCUM"};
+    if (tag == 0x00080102) // Coding Scheme Designator
+      return kNumbered.count(value) + kLettered.count(value) > 0;
     const std::string scheme = valueOf(item, DCM_CodingSchemeDesignator);
-    static const std::set<std::string> kSchemes{"DCM",  "SCT", "SRT",    "SNM3", "LN",
-                                                "UCUM", "FMA", "RADLEX", "NCIt", "UMLS",
-                                                "MDC",  "BI",  "I10",    "ICD10"};
-    if (tag == 0x00080100 && kSchemes.count(scheme) > 0)
-      return !hasOnly(value,
-                      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-./[]{}") ||
-             value.size() > 16;
-    if (tag == 0x00080102)
-      return kSchemes.count(value) == 0;
-    return m_words.foundIn(value);
+    if (tag == 0x00080103) // Coding Scheme Version
+      return value.size() <= 8 && hasOnly(value, "0123456789.");
+    if (tag == 0x00080100) // Code Value
+    {
+      if (kNumbered.count(scheme) > 0)
+        return value.size() <= 16 && hasOnly(value, "0123456789-");
+      constexpr std::size_t kLongest = 10;
+      return kLettered.count(scheme) > 0 && value.size() <= kLongest && !m_words.foundIn(value) &&
+             (scheme == "UCUM" ? value.size() <= 6
+                               : value.find_first_of(kDigits) != std::string::npos &&
+                                     hasOnly(value, "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-"));
+    }
+    if (m_words.foundIn(value))
+      return false;
+    const auto parts = split(value);
+    // Two letters, two digits, one letter (H60s, Br64h, FC81), or a number.
+    const auto isKernel = [&](const std::string& part)
+    {
+      const std::size_t digit = part.find_first_of(kDigits);
+      const std::size_t end = part.find_first_not_of(kDigits, digit);
+      return digit != std::string::npos && part.size() <= 5 && digit <= 2 &&
+             (end == std::string::npos || end + 1 == part.size());
+    };
+    return std::all_of(parts.begin(), parts.end(),
+                       [&](const std::string& part)
+                       { return part.size() <= 3 || (tag == 0x00181210 && isKernel(part)); });
   }
 
   DicomCleaner& m_cleaner;

@@ -16,8 +16,8 @@ namespace petrous::library
 
 /// De-identification of DICOM files by the Basic Application Level Confidentiality Profile (PS3.15
 /// Annex E) and options to it. What Table E.1-1 does not list stays only if it cannot carry an
-/// identity (numbers, coded strings, well-known UIDs) or is on a list of descriptions of equipment
-/// and image; other text is reduced to a vocabulary.
+/// identity (numbers, coded strings, well-known UIDs, codes and units of a known form,
+/// manufacturers of a list); other text is reduced to a vocabulary.
 struct DeidentificationOptions
 {
   enum class Dates
@@ -29,7 +29,7 @@ struct DeidentificationOptions
 
   Dates dates = Dates::Remove;
   bool cleanDescriptors = false; ///< descriptions reduced to a vocabulary, instead of removed
-  bool retainDevice = false;
+  bool retainDevice = false;     ///< also model, software, names of sequences, kernels and coils
   bool retainPatientCharacteristics = false; ///< sex, age, size, weight
   bool retainSafePrivate = false;            ///< PS3.15 Table E.3.10-1
   bool keepBurnedIn = false; ///< also images that state, or are suspected of, burned-in text

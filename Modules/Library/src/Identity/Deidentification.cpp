@@ -157,7 +157,7 @@ int PseudonymKey::daysEarlier(const std::string& patientId) const
 
 std::string DeidentificationReport::text() const
 {
-  std::string text = "De-identified by DICOM " + edition + "\n";
+  std::string text = "De-identified by " + edition + "\n";
   for (const std::string& option : options)
     text += "- " + option + "\n";
   text += std::to_string(filesWritten) + " files of " + std::to_string(patients) +

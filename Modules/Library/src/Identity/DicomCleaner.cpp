@@ -401,12 +401,16 @@ private:
       case 0x00102154: // Patient's Telephone Numbers
       case 0x00181000: // Device Serial Number
       case 0x00200010: // Study ID
-      case 0x00400275:
         m_words.add(valueOf(*element));
+        if (tagOf(element->getTag()) >> 16 == 0x0010)
+          m_people.add(valueOf(*element));
         break;
       default:
         if (element->getVR() == EVR_PN)
+        {
           m_words.add(valueOf(*element));
+          m_people.add(valueOf(*element));
+        }
       }
     }
   }
@@ -735,9 +739,10 @@ private:
       const bool isCoded = hasOnly(value, "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789 _\\") &&
                            std::all_of(parts.begin(), parts.end(),
                                        [](const std::string& part) { return part.size() <= 16; }) &&
-                           !m_words.foundIn(value);
-      return keepString(element, isCoded) ? done("kept: coded string", true)
-                                          : done("removed: not a coded string", false);
+                           !m_people.foundIn(value);
+      if (keepString(element, isCoded))
+        return done("kept: coded string", true);
+      break;
     }
     case EVR_DA:
     case EVR_DT:
@@ -823,7 +828,8 @@ private:
   const PseudonymKey& m_key;
   IodKind m_iod;
   std::string m_patientId, m_patient;
-  IdentityWords m_words;
+  IdentityWords m_words;  ///< of people, places, devices and visits
+  IdentityWords m_people; ///< of people alone
   std::set<std::string> m_noted;
 };
 

@@ -450,9 +450,12 @@ TEST_F(Deidentification, LeavesOutWhatItCannotClean)
   write(in / "d.dcm", ofClass("1.2.840.10008.5.1.4.1.1.104.1"));
   write(in / "e.dcm", ofClass("1.2.840.10008.5.1.4.1.1.7", "OT"));
   imaging::test::writeText(in / "notes.txt", "Jane Doe");
+  Given frames = withBody(element(0x00280008, "1A")); // of two
+  frames.pixels = std::string(64, '\1');
+  write(in / "f.dcm", frames);
   const DeidentificationResult done = run();
   EXPECT_EQ(done.report.filesWritten, 1U);
-  EXPECT_EQ(done.leftOut.size(), 5U);
+  EXPECT_EQ(done.leftOut.size(), 6U);
   EXPECT_EQ(done.report.text().find("notes"), std::string::npos);
   EXPECT_EQ(done.report.leftOut.at("has burned-in annotation"), 1U);
 }

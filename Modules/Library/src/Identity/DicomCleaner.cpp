@@ -322,6 +322,14 @@ const char* dummyOf(DcmEVR vr)
   }
 }
 
+std::string firstOf(DcmItem& item, const std::vector<DcmTagKey>& keys)
+{
+  for (const DcmTagKey& key : keys)
+    if (std::string value = valueOf(item, key); !value.empty())
+      return value;
+  return {};
+}
+
 // One file on its way through.
 class FileCleaner
 {
@@ -332,8 +340,7 @@ public:
     , m_options(options)
     , m_key(key)
     , m_iod(iodKindOf(valueOf(dataSet, DCM_SOPClassUID)))
-    , m_patientId(valueOf(dataSet, DCM_PatientID))
-    , m_patient(m_patientId.empty() ? valueOf(dataSet, DCM_PatientName) : m_patientId)
+    , m_patient(firstOf(dataSet, {DCM_PatientID, DCM_PatientName, DCM_StudyInstanceUID}))
   {
     collect(dataSet);
   }
@@ -827,7 +834,7 @@ private:
   const DeidentificationOptions& m_options;
   const PseudonymKey& m_key;
   IodKind m_iod;
-  std::string m_patientId, m_patient;
+  std::string m_patient;  ///< what tells patients apart
   IdentityWords m_words;  ///< of people, places, devices and visits
   IdentityWords m_people; ///< of people alone
   std::set<std::string> m_noted;
@@ -862,7 +869,9 @@ std::string cleanPixels(DcmItem& item, E_TransferSyntax syntax)
   {
     const std::uint64_t wanted = (whole * static_cast<std::uint64_t>(allocated) + 7) / 8;
     const std::uint64_t bytes = element->getLength();
-    if (whole == 0 || wanted > bytes)
+    // A whole frame too many is not padding: voxels are not dropped silently.
+    const std::uint64_t frame = wanted / static_cast<std::uint64_t>(frames);
+    if (whole == 0 || wanted > bytes || bytes - wanted >= std::max<std::uint64_t>(frame, 16))
       return damaged;
     if (allocated == 16)
     {

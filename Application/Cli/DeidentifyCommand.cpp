@@ -126,7 +126,7 @@ void deidentify(const Context& context, DeidentifyCommandOptions options)
                                         ? jsonText(reportJson(done.report))
                                         : done.report.text());
   context.print(std::to_string(done.report.filesWritten) + " files are de-identified in " +
-                options.output + "; the faces of whole heads can still be recognised");
+                options.output);
   context.printJson(reportJson(done.report));
 }
 

@@ -460,6 +460,15 @@ TEST_F(Deidentification, LeavesOutWhatItCannotClean)
   EXPECT_EQ(done.report.leftOut.at("has burned-in annotation"), 1U);
 }
 
+TEST_F(Deidentification, WarnsOfAWholeHead)
+{
+  const std::string head = "slices wide enough for a whole head: a face can be recognised";
+  cleaned(element(0x00280030, "60\\60")); // 4 x 4 pixels
+  EXPECT_EQ(report.warnings.count(head), 1U);
+  cleaned(element(0x00280030, "20\\20"));
+  EXPECT_EQ(report.warnings.count(head), 0U);
+}
+
 TEST_F(Deidentification, LeavesNothingWhereItIsCancelledOrRefused)
 {
   write(in / "a.dcm", {});

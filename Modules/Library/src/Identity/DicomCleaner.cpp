@@ -987,6 +987,17 @@ bool isSuspectedOfText(DcmItem& item)
          item.tagExists(DCM_ConversionType);
 }
 
+// A head is some 150 mm wide and 180 mm long.
+bool coversAHead(DcmItem& item)
+{
+  constexpr double kHead = 140.0; // mm
+  Float64 down = 0.0, across = 0.0;
+  return item.findAndGetFloat64(DCM_PixelSpacing, down, 0, OFTrue).good() &&
+         item.findAndGetFloat64(DCM_PixelSpacing, across, 1, OFTrue).good() &&
+         down * static_cast<double>(numberIn(item, DCM_Rows, 0)) > kHead &&
+         across * static_cast<double>(numberIn(item, DCM_Columns, 0)) > kHead;
+}
+
 void putCode(DcmItem& dataSet, unsigned long number, const char* value, const char* meaning)
 {
   DcmItem* item = nullptr;
@@ -1073,6 +1084,9 @@ DicomCleaner::Outcome DicomCleaner::clean(const std::filesystem::path& input,
                       : "not stated to be free of burned-in annotation: look at the images"];
   if (sopClass.find(".1.1.88.") != std::string::npos)
     ++warnings["a structured report: its content is replaced by dummies"];
+
+  if (coversAHead(*dataSet))
+    ++warnings["slices wide enough for a whole head: a face can be recognised"];
 
   const std::string study = valueOf(*dataSet, DCM_StudyInstanceUID);
   const std::string series = valueOf(*dataSet, DCM_SeriesInstanceUID);

@@ -49,6 +49,7 @@ void addCommands(CLI::App& app, cli::Context& context)
   cli::addScanCommand(app, context);
   cli::addCaseCommands(app, context);
   cli::addArchiveCommands(app, context);
+  cli::addDeidentifyCommands(app, context);
   cli::addLibraryCommand(app, context);
   cli::addAppearanceCommand(app, context);
   cli::addRenderCommand(app, context);

@@ -28,6 +28,12 @@ target_include_directories(petrous_gdcm SYSTEM INTERFACE ${GDCM_INCLUDE_DIRS})
 target_link_libraries(petrous_gdcm INTERFACE gdcmMSFF gdcmDICT gdcmDSED gdcmCommon)
 add_library(Petrous::gdcm ALIAS petrous_gdcm)
 
+# dcmdata alone, as headers and libraries of the system: DCMTK's CMake targets name all that it was
+# built with.
+add_library(petrous_dcmtk INTERFACE)
+target_link_libraries(petrous_dcmtk INTERFACE dcmdata oflog ofstd)
+add_library(Petrous::dcmtk ALIAS petrous_dcmtk)
+
 find_package(VTK 9.1 REQUIRED COMPONENTS
   CommonCore CommonDataModel CommonColor CommonTransforms FiltersCore FiltersGeneral FiltersGeometry
   FiltersSources ImagingCore ImagingHybrid InteractionStyle IOImage IOGeometry IOPLY RenderingCore

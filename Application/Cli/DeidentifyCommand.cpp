@@ -1,0 +1,189 @@
+#include <iostream>
+#include <memory>
+
+#include <termios.h>
+#include <unistd.h>
+
+#include "Commands.h"
+#include "petrous/Core/InputFile.h"
+#include "petrous/Core/OutputFile.h"
+#include "petrous/Library/Deidentification.h"
+#include "petrous/Library/PseudonymMap.h"
+
+namespace petrous::cli
+{
+
+namespace
+{
+
+using nlohmann::json;
+
+struct DeidentifyCommandOptions
+{
+  std::string input, output, dates = "remove", map, passphraseFile, report;
+  library::DeidentificationOptions profile;
+};
+
+struct PseudonymsCommandOptions
+{
+  std::string map, passphraseFile;
+};
+
+/// A line from the terminal, without echo.
+std::string askedPassphrase(const std::string& prompt)
+{
+  if (::isatty(STDIN_FILENO) == 0)
+    throw UsageError("the pseudonym map needs a passphrase; give --passphrase-file FILE");
+  struct NoEcho
+  {
+    termios before{};
+    NoEcho()
+    {
+      ::tcgetattr(STDIN_FILENO, &before);
+      termios silent = before;
+      silent.c_lflag &= ~static_cast<tcflag_t>(ECHO);
+      ::tcsetattr(STDIN_FILENO, TCSAFLUSH, &silent);
+    }
+    ~NoEcho()
+    {
+      ::tcsetattr(STDIN_FILENO, TCSAFLUSH, &before);
+      std::cerr << '\n';
+    }
+  } noEcho;
+  std::cerr << prompt << std::flush;
+  std::string line;
+  std::getline(std::cin, line);
+  return line;
+}
+
+std::string passphraseFor(const std::string& map, const std::string& file)
+{
+  constexpr std::uintmax_t kLargest = 4096;
+  if (!file.empty())
+  {
+    const std::string text = core::readFile(file, kLargest);
+    return text.substr(0, text.find_first_of("\r\n"));
+  }
+  std::string passphrase = askedPassphrase("Passphrase of the pseudonym map: ");
+  if (std::error_code error; !std::filesystem::exists(map, error) &&
+                             askedPassphrase("The same once more, for the new map: ") != passphrase)
+    throw UsageError("the two passphrases differ");
+  return passphrase;
+}
+
+json reportJson(const library::DeidentificationReport& report)
+{
+  json stays = json::array(), changed = json::array();
+  for (const auto& line : report.lines)
+    (line.stays ? stays : changed)
+        .push_back({{"attribute", line.attribute},
+                    {"name", line.name},
+                    {"why", line.action},
+                    {"files", line.files}});
+  return {{"table", report.edition},
+          {"options", report.options},
+          {"files", report.filesWritten},
+          {"patients", report.patients},
+          {"left_out", report.leftOut},
+          {"warnings", report.warnings},
+          {"stays", stays},
+          {"removed_or_replaced", changed}};
+}
+
+void deidentify(const Context& context, DeidentifyCommandOptions options)
+{
+  using Dates = library::DeidentificationOptions::Dates;
+  context.refuseOverwriting({options.output, options.map, options.report},
+                            {options.input, options.passphraseFile});
+  options.profile.dates = options.dates == "keep"    ? Dates::Keep
+                          : options.dates == "shift" ? Dates::Shift
+                                                     : Dates::Remove;
+  std::unique_ptr<library::PseudonymMap> map;
+  if (!options.map.empty())
+    map = std::make_unique<library::PseudonymMap>(
+        options.map, passphraseFor(options.map, options.passphraseFile));
+  else if (!options.passphraseFile.empty())
+    throw UsageError("--passphrase-file: there is no --map that it could open");
+  const library::PseudonymKey once;
+  if (map)
+    map->save(); // a key that is lost would leave files that nobody can assign
+  const library::DeidentificationResult done = library::deidentify(
+      options.input, options.output, options.profile, map ? map->key() : once, context.progress());
+  if (map)
+  {
+    map->add(done.pseudonyms);
+    map->save();
+  }
+  for (const std::string& line : done.leftOut)
+    context.warn("left out: " + line);
+  for (const auto& [what, files] : done.report.warnings)
+    context.warn("warning: " + std::to_string(files) + (files == 1 ? " file: " : " files: ") +
+                 what);
+  if (!done.report.durable)
+    context.warn(options.output + ": is written, but the disk reported an error; check the disk");
+  if (!options.report.empty())
+    core::writeFile(options.report, std::filesystem::path(options.report).extension() == ".json"
+                                        ? jsonText(reportJson(done.report))
+                                        : done.report.text());
+  context.print(std::to_string(done.report.filesWritten) + " files are de-identified in " +
+                options.output);
+  context.printJson(reportJson(done.report));
+}
+
+void listPseudonyms(const Context& context, const PseudonymsCommandOptions& options)
+{
+  core::InputFile exists(options.map);
+  const library::PseudonymMap map(options.map, passphraseFor(options.map, options.passphraseFile));
+  json list = json::array();
+  for (const library::Pseudonym& entry : map.entries())
+  {
+    context.print(entry.kind + " " + entry.pseudonym + ": " + entry.identity);
+    list.push_back(
+        {{"kind", entry.kind}, {"pseudonym", entry.pseudonym}, {"identity", entry.identity}});
+  }
+  context.printJson({{"pseudonyms", list}});
+}
+
+} // namespace
+
+void addDeidentifyCommands(CLI::App& app, Context& context)
+{
+  auto options = std::make_shared<DeidentifyCommandOptions>();
+  CLI::App* command =
+      context.addCommand(app, "deidentify", "De-identify DICOM files by PS3.15, Basic Profile",
+                         [options, &context] { deidentify(context, *options); });
+  command->add_option("IN", options->input, "A DICOM file, or a folder of any depth")->required();
+  command->add_option("OUT", options->output, "The new file, or a new or empty folder")->required();
+  command
+      ->add_option("--dates", options->dates,
+                   "remove; shift by days of each patient's own; or keep them")
+      ->check(CLI::IsMember({"remove", "shift", "keep"}))
+      ->capture_default_str();
+  command->add_flag("--clean-descriptors", options->profile.cleanDescriptors,
+                    "Reduce descriptions to a medical vocabulary, instead of removing them");
+  command->add_flag("--retain-device", options->profile.retainDevice,
+                    "Keep what identifies the device");
+  command->add_flag("--retain-patient-characteristics",
+                    options->profile.retainPatientCharacteristics,
+                    "Keep sex, age, size and weight");
+  command->add_flag("--retain-safe-private", options->profile.retainSafePrivate,
+                    "Keep the private attributes that PS3.15 lists as safe");
+  command->add_flag("--keep-burned-in", options->profile.keepBurnedIn,
+                    "Also write images that have, or may have, text in their pixels");
+  command->add_option("--map", options->map,
+                      "Encrypted file of the pseudonyms, which stays at home; the same map gives "
+                      "the same pseudonyms, UIDs and date shifts again");
+  command->add_option("--passphrase-file", options->passphraseFile,
+                      "File with the map's passphrase in its first line; else it is asked for");
+  command->add_option("--report", options->report,
+                      "What stays and why, and what was removed: F.json or F.txt");
+
+  auto list = std::make_shared<PseudonymsCommandOptions>();
+  command = context.addCommand(app, "pseudonyms", "List who is behind the pseudonyms of a map",
+                               [list, &context] { listPseudonyms(context, *list); });
+  command->add_option("MAP", list->map, "The encrypted file")->required();
+  command->add_option("--passphrase-file", list->passphraseFile,
+                      "File with its passphrase; else it is asked for");
+}
+
+} // namespace petrous::cli

@@ -1,0 +1,545 @@
+#include <map>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "../../Imaging/Testing/TestDicom.h"
+#include "ConfidentialityProfile.h"
+#include "ConfidentialityTable.h"
+#include "PixelMetadata.h"
+#include "Vocabulary.h"
+#include "petrous/Core/InputFile.h"
+#include "petrous/Library/Deidentification.h"
+
+namespace petrous::library
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+using Dates = DeidentificationOptions::Dates;
+using imaging::test::TemporaryFolder;
+using imaging::test::TestSlice;
+
+constexpr std::uint32_t kItem = 0xfffee000, kItemEnd = 0xfffee00d, kSequenceEnd = 0xfffee0dd;
+
+/// Implicit VR little endian, as PS3.5 has it, written and read without any library.
+std::string little(std::uint32_t value, int bytes)
+{
+  std::string out;
+  for (int n = 0; n < bytes; ++n)
+    out += static_cast<char>(value >> 8 * n & 0xffU);
+  return out;
+}
+
+std::string tagBytes(std::uint32_t tag)
+{
+  return little(tag >> 16, 2) + little(tag & 0xffff, 2);
+}
+
+std::string element(std::uint32_t tag, std::string value)
+{
+  if (value.size() % 2 != 0)
+    value += ' ';
+  return tagBytes(tag) + little(static_cast<std::uint32_t>(value.size()), 4) + value;
+}
+
+std::string sequence(std::uint32_t tag, const std::string& item)
+{
+  return element(tag, tagBytes(kItem) + little(static_cast<std::uint32_t>(item.size()), 4) + item);
+}
+
+std::string unsignedShort(std::uint32_t tag, std::uint32_t value)
+{
+  return element(tag, little(value, 2));
+}
+
+/// "00080050" or "00081115/00080050" to value; sequences have the value "SQ".
+using Elements = std::map<std::string, std::string>;
+
+std::string hexOf(std::uint32_t tag)
+{
+  char text[9];
+  std::snprintf(text, sizeof text, "%08x", tag);
+  return text;
+}
+
+std::size_t parse(const std::string& bytes, std::size_t at, const std::string& path,
+                  Elements& found)
+{
+  const auto number = [&bytes](std::size_t from, int count)
+  {
+    std::uint32_t value = 0;
+    for (int n = count; n-- > 0;)
+      value = value << 8 | static_cast<unsigned char>(bytes.at(from + n));
+    return value;
+  };
+  while (at + 8 <= bytes.size())
+  {
+    const std::uint32_t tag = number(at, 2) << 16 | number(at + 2, 2), length = number(at + 4, 4);
+    at += 8;
+    if (tag == kItemEnd || tag == kSequenceEnd)
+      return at;
+    if (tag == kItem)
+    {
+      at = parse(bytes, at, path, found);
+      continue;
+    }
+    if (length == 0xffffffff)
+    {
+      found[path + hexOf(tag)] = "SQ";
+      at = parse(bytes, at, path + hexOf(tag) + "/", found);
+      continue;
+    }
+    std::string value = bytes.substr(at, length);
+    while (!value.empty() && (value.back() == ' ' || value.back() == '\0'))
+      value.pop_back();
+    found[path + hexOf(tag)] = value;
+    at += length;
+  }
+  return at;
+}
+
+Elements elementsOf(const fs::path& file)
+{
+  const std::string bytes = core::readFile(file);
+  EXPECT_EQ(bytes.substr(0, 132), std::string(128, '\0') + "DICM");
+  std::uint32_t length = 0; // of group 2, which is explicit
+  for (int n = 4; n-- > 0;)
+    length = length << 8 | static_cast<unsigned char>(bytes.at(140 + n));
+  Elements found;
+  parse(bytes, 144 + length, "", found);
+  return found;
+}
+
+struct Given
+{
+  std::string sopClass = "1.2.840.10008.5.1.4.1.1.2";
+  std::string body;     ///< elements in any order
+  std::string preamble; ///< up to 128 bytes
+  std::string meta;     ///< explicit elements of group 2
+  std::string trailer;
+  std::string instance = "1.2.3.4.5";
+  std::string pixels = std::string(32, '\1'); ///< of 4 x 4
+  std::string modality = "CT";
+  int bitsStored = 16;
+};
+
+void write(const fs::path& file, const Given& given)
+{
+  TestSlice meta;
+  std::string group;
+  meta.element(group, 0x00020010, "UI", "1.2.840.10008.1.2");
+  std::string preamble = given.preamble;
+  preamble.resize(128, '\0');
+  fs::create_directories(file.parent_path());
+  imaging::test::writeText(
+      file, preamble + "DICM" + group + given.meta + element(0x00080016, given.sopClass) +
+                element(0x00080018, given.instance) + element(0x00080060, given.modality) +
+                given.body + element(0x0020000d, "1.2.3.8") + element(0x0020000e, "1.2.3.9") +
+                unsignedShort(0x00280002, 1) + unsignedShort(0x00280010, 4) +
+                unsignedShort(0x00280011, 4) + unsignedShort(0x00280100, 16) +
+                unsignedShort(0x00280101, static_cast<std::uint32_t>(given.bitsStored)) +
+                unsignedShort(0x00280102, static_cast<std::uint32_t>(given.bitsStored - 1)) +
+                unsignedShort(0x00280103, 0) + element(0x7fe00010, given.pixels) + given.trailer);
+}
+
+Given withBody(const std::string& body)
+{
+  Given given;
+  given.body = body;
+  return given;
+}
+
+Given ofClass(const std::string& sopClass, const std::string& modality = "CT")
+{
+  Given given;
+  given.sopClass = sopClass;
+  given.modality = modality;
+  return given;
+}
+
+DeidentificationOptions withDates(Dates dates)
+{
+  DeidentificationOptions options;
+  options.dates = dates;
+  return options;
+}
+
+struct TableRow
+{
+  std::uint32_t tag = 0;
+  std::string action, name;
+};
+
+// Read by itself, not by ConfidentialityProfile.
+std::vector<TableRow> tableRows()
+{
+  std::vector<TableRow> rows;
+  std::istringstream table{std::string(kConfidentialityTable)};
+  for (std::string line; std::getline(table, line);)
+  {
+    if (line.empty() || line[0] == '#')
+      continue;
+    std::istringstream columns(line);
+    std::string tag, action, options, name;
+    std::getline(columns, tag, '\t');
+    std::getline(columns, action, '\t');
+    std::getline(columns, options, '\t');
+    std::getline(columns, name, '\t');
+    if (tag == "odd")
+      tag = "00091001";
+    for (char& c : tag)
+      c = c == 'x' ? '0' : c;
+    rows.push_back({static_cast<std::uint32_t>(std::stoul(tag, nullptr, 16)), action, name});
+  }
+  return rows;
+}
+
+bool endsWith(const std::string& text, const std::string& end)
+{
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+bool isSequence(const TableRow& row)
+{
+  return endsWith(row.name, "Sequence") || endsWith(row.name, "Sequence (Trial)");
+}
+
+bool isUid(const TableRow& row)
+{
+  return endsWith(row.name, "UID") || endsWith(row.name, "UIDs") || row.action == "U";
+}
+
+std::string planted(const TableRow& row, int n)
+{
+  if (isSequence(row))
+    return sequence(row.tag, element(0x00080104, "PLANT" + std::to_string(n)) +
+                                 element(0x00081155, "1.2.77." + std::to_string(n)));
+  return element(row.tag, (isUid(row) ? "1.2.77." : "PLANT") + std::to_string(n));
+}
+
+class Deidentification : public testing::Test
+{
+protected:
+  DeidentificationResult run(const DeidentificationOptions& options = {})
+  {
+    return deidentify(in, out, options, key);
+  }
+
+  Elements cleaned(const std::string& body, const DeidentificationOptions& options = {})
+  {
+    write(in / "a.dcm", withBody(body));
+    fs::remove_all(out);
+    report = run(options).report;
+    return elementsOf(out / "series-001-CT" / "00001.dcm");
+  }
+
+  TemporaryFolder folder;
+  fs::path in = folder.path() / "in", out = folder.path() / "out";
+  PseudonymKey key;
+  DeidentificationReport report;
+};
+
+} // namespace
+
+TEST_F(Deidentification, TreatsEachAttributeOfTheTableAtTheTopNestedAndInPrivateSequences)
+{
+  const auto rows = tableRows();
+  ASSERT_EQ(rows.size(), 621U);
+  std::size_t right = 0;
+  for (const std::string place : {"", "00081115/", "00081115/00081199/"})
+  {
+    std::string body;
+    int n = 0;
+    for (const TableRow& row : rows)
+      if (++n, row.tag >> 16 >= 8 && row.tag != 0x0020000d && row.tag != 0x0020000e &&
+                   row.tag != 0x00080018)
+        body += planted(row, n);
+    const std::string hidden = sequence(0x00091002, body);
+    if (place.size() > 9)
+      body = sequence(0x00081199, body);
+    if (!place.empty())
+      body = sequence(0x00081115, body);
+    const Elements found = cleaned(element(0x00090010, "ACME") + body + hidden);
+    n = 0;
+    right = 0;
+    for (const TableRow& row : rows)
+    {
+      ++n;
+      const std::string path = (row.tag >> 16 < 8 || row.tag == 0x0020000d ||
+                                row.tag == 0x0020000e || row.tag == 0x00080018)
+                                   ? hexOf(row.tag)
+                                   : place + hexOf(row.tag);
+      if (row.tag >> 16 < 8)
+      {
+        right += found.count(path) == 0;
+        continue; // of commands, file meta and directories: not in a data set
+      }
+      const bool stays = found.count(path) > 0;
+      const std::string value = stays ? found.at(path) : "";
+      bool isRight = value.find("PLANT") == std::string::npos &&
+                     value.find("1.2.77") == std::string::npos && value != "1.2.3.8";
+      const auto may = [&row](char code) { return row.action.find(code) != std::string::npos; };
+      const bool isNewUid = value.rfind("2.25.", 0) == 0 || value == "SQ";
+      isRight = isRight &&
+                ((may('X') && !stays) || (may('Z') && stays && (value.empty() || value == "SQ")) ||
+                 (may('D') && stays && !(value.empty() && row.tag != 0x0072006d && isUid(row))) ||
+                 (may('U') && stays && isNewUid));
+      right += isRight;
+      EXPECT_TRUE(isRight) << path << " " << row.name << " " << row.action << " '" << value << "'";
+    }
+    EXPECT_EQ(right, 621U) << place;
+    for (const auto& [path, value] : found)
+      EXPECT_EQ(value.find("PLANT"), std::string::npos) << path;
+  }
+}
+
+TEST_F(Deidentification, LeavesNoPlantedIdentifierInAnyByteThatIsWritten)
+{
+  std::vector<std::string> plants;
+  const auto plant = [&plants]
+  {
+    plants.push_back("Zq" + std::to_string(1000 + plants.size()) + "kX");
+    return plants.back();
+  };
+  Given given;
+  given.preamble = plant();
+  TestSlice meta;
+  meta.element(given.meta, 0x00020016, "AE", plant());
+  meta.element(given.meta, 0x00020017, "AE", plant());
+  meta.element(given.meta, 0x00020100, "UI", "1.2.3");
+  meta.element(given.meta, 0x00020102, "OB", plant());
+  const std::vector<std::uint32_t> places{
+      0x00080005, 0x00080008, 0x00080050, 0x00080070, 0x00080080, 0x00080081, 0x00080090,
+      0x00081010, 0x00081030, 0x0008103e, 0x00081040, 0x00081048, 0x00081070, 0x00082111,
+      0x00100010, 0x00100020, 0x00100030, 0x00100040, 0x00101000, 0x00101001, 0x00101010,
+      0x00101040, 0x001021b0, 0x00104000, 0x00120010, 0x00180015, 0x00180050, 0x00181000,
+      0x00181030, 0x00185100, 0x00200010, 0x00200013, 0x00204000, 0x00201002, 0x00284000,
+      0x00321032, 0x00380300, 0x00400275, 0x00401400, 0x0040a160, 0x00880140, 0x04000550,
+      0x20300020, 0x40080115, 0x50001001, 0x50003000, 0x60000022, 0x60001500, 0x60003000,
+      0x60004000, 0x00081090, 0x00180024, 0x00181250, 0x00080104, 0x00690101, 0x0018a001,
+      0x00880906};
+  std::string body, inner;
+  for (const std::uint32_t tag : places)
+  {
+    const bool isItems = tag == 0x00400275 || tag == 0x04000550 || tag == 0x0018a001;
+    body += isItems ? sequence(tag, element(0x00400007, plant()) + element(0x00080080, plant()))
+                    : element(tag, plant());
+    if (!isItems)
+      inner += element(tag, plant());
+  }
+  body += element(0x00181020, "1.0" + std::string(1, '\0') + plant()); // after a NUL
+  body += element(0x00181210, "H30 ").substr(0, 12);
+  body += element(0x00290010, plant()) + element(0x00291001, plant()) +
+          sequence(0x00291002, element(0x00100010, plant()));
+  body += sequence(0x00081115, sequence(0x00081199, sequence(0x00082218, inner)));
+  given.body = body;
+  given.trailer = element(0xfffcfffc, plant());
+  given.pixels = std::string(32, '\1') + plant() + " ";
+  given.instance = "1.2.777777.1";
+  plants.emplace_back("1.2.777777");
+  plants.emplace_back("1.2.3.8");
+  plants.emplace_back("SMITH");
+  write(in / "SMITH" / "SMITH.dcm", given);
+  ASSERT_GE(plants.size(), 50U);
+  for (const auto dates : {Dates::Remove, Dates::Shift, Dates::Keep})
+  {
+    fs::remove_all(out);
+    DeidentificationOptions options{dates, true, false, false, true, false};
+    const DeidentificationReport done = run(options).report;
+    std::string all = done.text();
+    for (const auto& entry : fs::recursive_directory_iterator(out))
+      all += entry.path().filename().string() +
+             (entry.is_regular_file() ? core::readFile(entry.path()) : "");
+    for (const std::string& identifier : plants)
+      EXPECT_EQ(all.find(identifier), std::string::npos) << identifier;
+  }
+}
+
+TEST_F(Deidentification, ReplacesUidsConsistentlyAndKeepsThoseOfTheStandard)
+{
+  const Elements found =
+      cleaned(sequence(0x00081140, element(0x00081150, "1.2.840.10008.5.1.4.1.1.2") +
+                                       element(0x00081155, "1.2.3.4.5")));
+  EXPECT_EQ(found.at("00081140/00081155"), found.at("00080018"));
+  EXPECT_EQ(found.at("00081140/00081150"), "1.2.840.10008.5.1.4.1.1.2");
+  EXPECT_EQ(found.at("00080018"), key.uid("1.2.3.4.5"));
+  EXPECT_EQ(found.at("0020000d"), key.uid("1.2.3.8"));
+}
+
+TEST_F(Deidentification, StatesItsMethod)
+{
+  Elements found = cleaned("");
+  EXPECT_EQ(found.at("00120062"), "YES");
+  EXPECT_NE(found.at("00120063").find("E.1-1"), std::string::npos);
+  EXPECT_EQ(found.at("00120064/00080100"), "113100");
+  EXPECT_EQ(found.at("00280303"), "REMOVED");
+  found = cleaned("", withDates(Dates::Shift));
+  EXPECT_EQ(found.at("00120064/00080100"), "113107") << "the last of its items";
+  EXPECT_EQ(found.at("00280303"), "MODIFIED");
+  EXPECT_EQ(cleaned("", withDates(Dates::Keep)).at("00280303"), "UNMODIFIED");
+}
+
+TEST_F(Deidentification, ShiftsAllDatesOfAPatientByTheSameDays)
+{
+  const std::string body = element(0x00080020, "20240301") + element(0x00080021, "20240229") +
+                           element(0x00080030, "101112.5") + element(0x0008002a, "20240301101112") +
+                           element(0x00100020, "4711");
+  const Elements found = cleaned(body, withDates(Dates::Shift));
+  const std::string day = found.at("00080020");
+  ASSERT_EQ(day.size(), 8U);
+  EXPECT_LT(day, "20240301");
+  EXPECT_EQ(found.at("0008002a"), day + "101112");
+  EXPECT_EQ(found.at("00080030"), "101112.5");
+  EXPECT_NE(found.at("00080021"), day);
+  EXPECT_EQ(found.at("00100020"), key.patient("4711"));
+  EXPECT_EQ(cleaned(body, withDates(Dates::Keep)).at("00080020"), "20240301");
+  EXPECT_EQ(cleaned(body).at("00080020"), "");
+  EXPECT_EQ(cleaned(element(0x00080020, "1.3.2024 Doe"), withDates(Dates::Shift)).at("00080020"),
+            "19000101");
+}
+
+TEST_F(Deidentification, KeepsSafePrivateAttributesOnlyOnRequest)
+{
+  const std::string body = element(0x00190010, "SIEMENS MR HEADER") + element(0x0019100c, "1000") +
+                           element(0x00191008, "Doe") + element(0x00290010, "SIEMENS CSA HEADER") +
+                           element(0x00291010, "Doe");
+  const Elements none = cleaned(body);
+  for (const char* tag : {"00190010", "0019100c", "00191008", "00290010", "00291010"})
+    EXPECT_EQ(none.count(tag), 0U) << tag;
+  DeidentificationOptions options;
+  options.retainSafePrivate = true;
+  const Elements safe = cleaned(body, options);
+  EXPECT_EQ(safe.at("0019100c"), "1000");
+  EXPECT_EQ(safe.at("00190010"), "SIEMENS MR HEADER");
+  for (const char* tag : {"00191008", "00290010", "00291010"})
+    EXPECT_EQ(safe.count(tag), 0U) << tag;
+}
+
+TEST_F(Deidentification, ReducesDescriptionsToTheVocabulary)
+{
+  const std::string body = element(0x0008103e, "CT temporal bone Jane Doe 0.6 mm") +
+                           element(0x00181000, "SN4711") + element(0x00100040, "F");
+  EXPECT_EQ(cleaned(body).count("0008103e"), 0U);
+  DeidentificationOptions options;
+  options.cleanDescriptors = options.retainDevice = options.retainPatientCharacteristics = true;
+  const Elements found = cleaned(body, options);
+  EXPECT_EQ(found.at("0008103e"), "CT temporal bone 0 6 mm");
+  EXPECT_EQ(found.at("00181000"), "SN4711");
+  EXPECT_EQ(found.at("00100040"), "F");
+}
+
+TEST_F(Deidentification, FindsTheNameInTextThatWouldStay)
+{
+  const std::string body = element(0x00100010, "Lindqvist^Aurelia") +
+                           element(0x00180024, "se_Lindqvist") +
+                           element(0x00181250, "HEAD AURELIA");
+  const Elements found = cleaned(body);
+  EXPECT_EQ(found.at("00180024"), "se");
+  EXPECT_EQ(cleaned(element(0x00181210, "Br64h\\3")).at("00181210"), "Br64h\\3");
+  EXPECT_EQ(found.at("00181250"), "HEAD");
+}
+
+TEST_F(Deidentification, LeavesOutWhatItCannotClean)
+{
+  write(in / "a.dcm", {});
+  write(in / "b.dcm", withBody(element(0x00280301, "YES")));
+  write(in / "c.dcm", ofClass("1.2.3.4.99"));
+  write(in / "d.dcm", ofClass("1.2.840.10008.5.1.4.1.1.104.1"));
+  write(in / "e.dcm", ofClass("1.2.840.10008.5.1.4.1.1.7", "OT"));
+  imaging::test::writeText(in / "notes.txt", "Jane Doe");
+  Given frames = withBody(element(0x00280008, "1A")); // of two
+  frames.pixels = std::string(64, '\1');
+  write(in / "f.dcm", frames);
+  const DeidentificationResult done = run();
+  EXPECT_EQ(done.report.filesWritten, 1U);
+  EXPECT_EQ(done.leftOut.size(), 6U);
+  EXPECT_EQ(done.report.text().find("notes"), std::string::npos);
+  EXPECT_EQ(done.report.leftOut.at("has burned-in annotation"), 1U);
+}
+
+TEST_F(Deidentification, WarnsOfAWholeHead)
+{
+  const std::string head = "slices wide enough for a whole head: a face can be recognised";
+  cleaned(element(0x00280030, "60\\60")); // 4 x 4 pixels
+  EXPECT_EQ(report.warnings.count(head), 1U);
+  cleaned(element(0x00280030, "20\\20"));
+  EXPECT_EQ(report.warnings.count(head), 0U);
+}
+
+TEST_F(Deidentification, LeavesNothingWhereItIsCancelledOrRefused)
+{
+  write(in / "a.dcm", {});
+  EXPECT_THROW(deidentify(in, in / "out", {}, key), core::Error);
+  const auto token = std::make_shared<core::CancelToken>();
+  const core::Progress progress([&token](double, const std::string&) { token->cancel(); }, token);
+  write(in / "b.dcm", {});
+  EXPECT_THROW(deidentify(in, out, {}, key, progress), core::CancelledError);
+  EXPECT_THROW(deidentify(in / "a.dcm", in / "a.dcm", {}, key), core::Error);
+  imaging::test::writeText(folder.path() / "t" / "x.txt", "Jane");
+  EXPECT_THROW(deidentify(folder.path() / "t", out, {}, key), core::Error);
+  EXPECT_FALSE(fs::exists(out));
+}
+
+TEST_F(Deidentification, KeepsVoxelsAndClearsWhatLiesBesideThem)
+{
+  Given given;
+  given.bitsStored = 12;
+  given.pixels.clear();
+  for (std::uint32_t n = 0; n < 16; ++n)
+    given.pixels += little(n * 100 | 0x8000U, 2); // an overlay in bit 15
+  write(in / "a.dcm", given);
+  run();
+  std::string expected;
+  for (std::uint32_t n = 0; n < 16; ++n)
+    expected += little(n * 100, 2);
+  std::string pixels = elementsOf(out / "series-001-CT" / "00001.dcm").at("7fe00010");
+  pixels.resize(32, '\0');
+  EXPECT_EQ(pixels, expected);
+}
+
+TEST(PixelMetadata, ClearsCommentsAndWhatFollowsTheImage)
+{
+  const auto clear = [](const std::string& text, bool& sound)
+  {
+    std::vector<std::uint8_t> bytes(text.begin(), text.end());
+    sound = clearCodestreamMetadata(bytes.data(), bytes.size());
+    return std::string(bytes.begin(), bytes.end());
+  };
+  bool sound = false;
+  const std::string scan = std::string("\xff\xda\0\x03x", 5) + "pixels\xff" + std::string(1, '\0');
+  std::string jpeg = "\xff\xd8" + std::string("\xff\xfe\0\x06name", 8) +
+                     std::string("\xff\xe1\0\x06"
+                                 "exif",
+                                 8) +
+                     scan + "\xff\xd9 trailing";
+  std::string cleared = clear(jpeg, sound);
+  EXPECT_TRUE(sound);
+  EXPECT_EQ(cleared.size(), jpeg.size());
+  for (const char* gone : {"name", "exif", "trailing"})
+    EXPECT_EQ(cleared.find(gone), std::string::npos) << gone;
+  EXPECT_NE(cleared.find("pixels"), std::string::npos);
+
+  const std::string tile = std::string("\xff\x90\0\x0a\0\0\0\0\0\0\0\x01", 12) + "\xff\x93 data";
+  std::string wavelet =
+      "\xff\x4f" + std::string("\xff\x64\0\x08\0\x01name", 10) + tile + "\xff\xd9 trailing";
+  cleared = clear(wavelet, sound);
+  EXPECT_TRUE(sound);
+  EXPECT_EQ(cleared.find("name"), std::string::npos);
+  EXPECT_EQ(cleared.find("trailing"), std::string::npos);
+  EXPECT_NE(cleared.find("data"), std::string::npos);
+  clear("MPEG stream", sound);
+  EXPECT_FALSE(sound);
+
+  std::string rle =
+      little(1, 4) + little(64, 4) + std::string(56, 'n') + std::string("\x03pixl") + "name";
+  std::vector<std::uint8_t> bytes(rle.begin(), rle.end());
+  EXPECT_TRUE(clearRleMetadata(bytes.data(), bytes.size(), 4));
+  rle.assign(bytes.begin(), bytes.end());
+  EXPECT_EQ(rle.find('n'), std::string::npos);
+  EXPECT_NE(rle.find("pixl"), std::string::npos);
+}
+
+} // namespace petrous::library

@@ -1,0 +1,1120 @@
+#include <dcmtk/config/osconfig.h> // before any other header of DCMTK
+
+#include <dcmtk/dcmdata/dcpxitem.h>
+#include <dcmtk/dcmdata/dctk.h>
+#include <dcmtk/oflog/oflog.h>
+
+#include "DicomCleaner.h"
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include "PixelMetadata.h"
+#include "Vocabulary.h"
+#include "petrous/Core/OutputFile.h"
+
+namespace petrous::library
+{
+
+namespace
+{
+
+using Dates = DeidentificationOptions::Dates;
+
+constexpr const char* kDummyText = "Anonymized";
+
+std::uint32_t tagOf(const DcmTagKey& key)
+{
+  return std::uint32_t{key.getGroup()} << 16 | key.getElement();
+}
+
+std::string hexOf(unsigned value)
+{
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string text(4, '0');
+  for (int n = 3; n >= 0; --n, value >>= 4U)
+    text[static_cast<std::size_t>(n)] = kDigits[value & 15U];
+  return text;
+}
+
+std::string pathOf(const DcmTagKey& key)
+{
+  return "(" + hexOf(key.getGroup()) + "," + hexOf(key.getElement()) + ")";
+}
+
+struct DictionaryEntry
+{
+  DcmEVR vr = EVR_UNKNOWN;
+  std::string name;
+};
+
+/// Of the standard's dictionary only.
+DictionaryEntry dictionaryEntry(const DcmTagKey& key)
+{
+  DictionaryEntry found;
+  const DcmDataDictionary& dictionary = dcmDataDict.rdlock();
+  if (const DcmDictEntry* entry = dictionary.findEntry(key, nullptr))
+  {
+    found.vr = entry->getEVR();
+    found.name = entry->getTagName();
+  }
+  dcmDataDict.rdunlock();
+  return found;
+}
+
+bool isText(DcmEVR vr)
+{
+  switch (vr)
+  {
+  case EVR_LO:
+  case EVR_SH:
+  case EVR_ST:
+  case EVR_LT:
+  case EVR_UT:
+  case EVR_UC:
+  case EVR_UR:
+    return true;
+  default:
+    return false;
+  }
+}
+
+bool isString(DcmEVR vr)
+{
+  switch (vr)
+  {
+  case EVR_AE:
+  case EVR_AS:
+  case EVR_CS:
+  case EVR_DA:
+  case EVR_DS:
+  case EVR_DT:
+  case EVR_IS:
+  case EVR_PN:
+  case EVR_TM:
+  case EVR_UI:
+    return true;
+  default:
+    return isText(vr);
+  }
+}
+
+bool isNumber(DcmEVR vr)
+{
+  switch (vr)
+  {
+  case EVR_US:
+  case EVR_SS:
+  case EVR_UL:
+  case EVR_SL:
+  case EVR_UV:
+  case EVR_SV:
+  case EVR_FL:
+  case EVR_FD:
+  case EVR_AT:
+    return true;
+  default:
+    return false;
+  }
+}
+
+bool isBytes(DcmEVR vr)
+{
+  switch (vr)
+  {
+  case EVR_OB:
+  case EVR_OW:
+  case EVR_OF:
+  case EVR_OD:
+  case EVR_OL:
+  case EVR_OV:
+  case EVR_PixelData:
+    return true;
+  default:
+    return false;
+  }
+}
+
+// The VR in the file is one that the dictionary permits for this attribute.
+bool agrees(DcmEVR file, DcmEVR dictionary)
+{
+  switch (dictionary)
+  {
+  case EVR_xs:
+    return file == EVR_US || file == EVR_SS || file == EVR_xs;
+  case EVR_lt:
+    return file == EVR_US || file == EVR_SS || file == EVR_OW || file == EVR_lt;
+  case EVR_ox:
+  case EVR_px:
+    return isBytes(file) || file == EVR_ox || file == EVR_px;
+  case EVR_up:
+    return file == EVR_UL || file == EVR_up;
+  default:
+    return file == dictionary;
+  }
+}
+
+// Bytes that are voxels, lookup tables or geometry.
+bool areNeededBytes(std::uint32_t tag)
+{
+  switch (tag)
+  {
+  case 0x7fe00010: // Pixel Data
+  case 0x7fe00008: // Float Pixel Data
+  case 0x7fe00009: // Double Float Pixel Data
+  case 0x00283006: // LUT Data
+  case 0x00281201: // palette lookup tables
+  case 0x00281202:
+  case 0x00281203:
+  case 0x00660016: // Point Coordinates Data
+  case 0x00660021: // Vector Coordinate Data
+  case 0x00660040: // Long Primitive Point Index List
+  case 0x00660041: // Long Triangle Point Index List
+  case 0x00660042: // Long Edge Point Index List
+    return true;
+  default:
+    return false;
+  }
+}
+
+// What a device is and runs: kept with its identity only, as anything can be written there.
+bool describesDevice(std::uint32_t tag)
+{
+  switch (tag)
+  {
+  case 0x00081090: // Manufacturer's Model Name
+  case 0x00180024: // Sequence Name
+  case 0x00181020: // Software Versions
+  case 0x00181160: // Filter Type
+  case 0x00181210: // Convolution Kernel
+  case 0x00181250: // Receive Coil Name
+  case 0x00181251: // Transmit Coil Name
+  case 0x00189005: // Pulse Sequence Name
+    return true;
+  default:
+    return false;
+  }
+}
+
+// UIDs of the standard in PS3.6 that are newer than the toolkit.
+bool isWellKnownUid(const std::string& uid)
+{
+  static const std::set<std::string> kNewer{
+      "1.2.840.10008.5.1.4.1.1.66.7", // Label Map Segmentation
+      "1.2.840.10008.5.1.4.1.1.66.8", // Height Map Segmentation
+      "1.2.840.10008.5.1.4.1.1.2.3",  // Photon-Counting CT (draft)
+      "1.2.840.10008.1.2.4.201",      "1.2.840.10008.1.2.4.202", "1.2.840.10008.1.2.4.203"};
+  return dcmFindNameOfUID(uid.c_str()) != nullptr || kNewer.count(uid) > 0;
+}
+
+/// Up to the first NUL, without padding.
+std::string valueOf(DcmElement& element)
+{
+  char* text = nullptr;
+  Uint32 count = 0;
+  if (element.getString(text, count).bad() || !text)
+    return {};
+  std::string value(text, ::strnlen(text, count));
+  const std::size_t last = value.find_last_not_of(' ');
+  return value.substr(0, last == std::string::npos ? 0 : last + 1);
+}
+
+std::string valueOf(DcmItem& item, const DcmTagKey& key)
+{
+  DcmElement* element = nullptr;
+  return item.findAndGetElement(key, element).good() && element && isString(element->getVR())
+             ? valueOf(*element)
+             : std::string();
+}
+
+std::vector<std::string> split(const std::string& text)
+{
+  std::vector<std::string> parts(1);
+  for (const char c : text)
+    if (c == '\\')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  return parts;
+}
+
+template <typename Change>
+std::string eachPart(const std::string& text, Change change)
+{
+  std::string whole;
+  bool isFirst = true;
+  for (const std::string& part : split(text))
+  {
+    whole += (isFirst ? "" : "\\") + change(part);
+    isFirst = false;
+  }
+  return whole;
+}
+
+bool hasOnly(const std::string& text, const char* allowed)
+{
+  return text.find_first_not_of(allowed) == std::string::npos;
+}
+
+// Days since 1 January 1970 of the proleptic Gregorian calendar, and back (H. Hinnant, "chrono-
+// Compatible Low-Level Date Algorithms", 2013).
+long daysOf(long y, long m, long d)
+{
+  y -= m <= 2 ? 1 : 0;
+  const long era = (y >= 0 ? y : y - 399) / 400;
+  const long yearOfEra = y - era * 400;
+  const long dayOfYear = (153 * (m + (m > 2 ? -3 : 9)) + 2) / 5 + d - 1;
+  return era * 146097 + yearOfEra * 365 + yearOfEra / 4 - yearOfEra / 100 + dayOfYear - 719468;
+}
+
+std::string dateOf(long days)
+{
+  days += 719468;
+  const long era = (days >= 0 ? days : days - 146096) / 146097;
+  const long dayOfEra = days - era * 146097;
+  const long yearOfEra = (dayOfEra - dayOfEra / 1460 + dayOfEra / 36524 - dayOfEra / 146096) / 365;
+  const long dayOfYear = dayOfEra - (365 * yearOfEra + yearOfEra / 4 - yearOfEra / 100);
+  const long part = (5 * dayOfYear + 2) / 153;
+  const long day = dayOfYear - (153 * part + 2) / 5 + 1;
+  const long month = part < 10 ? part + 3 : part - 9;
+  const long year = yearOfEra + era * 400 + (month <= 2 ? 1 : 0);
+  std::string text = std::to_string(year * 10000 + month * 100 + day);
+  return std::string(text.size() < 8 ? 8 - text.size() : 0, '0') + text;
+}
+
+// YYYYMMDD with whatever follows; empty if it is not a date.
+std::string shifted(const std::string& value, int daysEarlier)
+{
+  const std::string date = value.substr(0, 8);
+  if (date.size() < 8 || !hasOnly(date, "0123456789") || !hasOnly(value, "0123456789.+-"))
+    return {};
+  const long year = std::stol(date.substr(0, 4)), month = std::stol(date.substr(4, 2)),
+             day = std::stol(date.substr(6, 2));
+  if (year < 1 || month < 1 || month > 12 || day < 1 || day > 31)
+    return {};
+  return dateOf(daysOf(year, month, day) - daysEarlier) + value.substr(8);
+}
+
+const char* dummyOf(DcmEVR vr)
+{
+  switch (vr)
+  {
+  case EVR_DA:
+    return "19000101";
+  case EVR_DT:
+    return "19000101000000";
+  case EVR_TM:
+    return "000000";
+  case EVR_AS:
+    return "000Y";
+  case EVR_DS:
+  case EVR_IS:
+    return "0";
+  case EVR_AE:
+  case EVR_CS:
+    return "ANONYMIZED";
+  case EVR_UR:
+    return "urn:anonymized";
+  default:
+    return kDummyText;
+  }
+}
+
+std::string firstOf(DcmItem& item, const std::vector<DcmTagKey>& keys)
+{
+  for (const DcmTagKey& key : keys)
+    if (std::string value = valueOf(item, key); !value.empty())
+      return value;
+  return {};
+}
+
+// One file on its way through.
+class FileCleaner
+{
+public:
+  FileCleaner(DicomCleaner& cleaner, const DeidentificationOptions& options,
+              const PseudonymKey& key, DcmDataset& dataSet)
+    : m_cleaner(cleaner)
+    , m_options(options)
+    , m_key(key)
+    , m_iod(iodKindOf(valueOf(dataSet, DCM_SOPClassUID)))
+    , m_patient(firstOf(dataSet, {DCM_PatientID, DCM_PatientName, DCM_StudyInstanceUID}))
+  {
+    collect(dataSet);
+  }
+
+  void clean(DcmItem& item, const std::string& path = {})
+  {
+    keepPrivate(item, path);
+    for (unsigned long n = 0; n < item.card();)
+    {
+      DcmElement* element = item.getElement(n);
+      if (tagOf(element->getTag()) >> 16 & 1U) // private, already decided
+      {
+        ++n;
+        continue;
+      }
+      if (cleaned(item, *element, path))
+        ++n;
+      else
+        delete item.remove(element);
+    }
+  }
+
+  const std::string& patient() const { return m_patient; }
+
+private:
+  void note(const std::string& path, const DcmElement& element, const std::string& name,
+            const std::string& action, bool stays)
+  {
+    const std::string whole = path + pathOf(element.getTag());
+    if (!m_noted.insert(whole + action).second)
+      return;
+    auto& done = m_cleaner.done[{whole, action}];
+    done.name = name;
+    done.action = action;
+    done.stays = stays;
+    ++done.files;
+  }
+
+  // Words that name people and places, from anywhere in the file.
+  void collect(DcmItem& item)
+  {
+    for (unsigned long n = 0; n < item.card(); ++n)
+    {
+      DcmElement* element = item.getElement(n);
+      if (auto* sequence = dynamic_cast<DcmSequenceOfItems*>(element); sequence)
+      {
+        if (element->getVR() != EVR_SQ)
+          continue;
+        for (unsigned long i = 0; i < sequence->card(); ++i)
+          collect(*sequence->getItem(i));
+        continue;
+      }
+      switch (tagOf(element->getTag()))
+      {
+      case 0x00080050: // Accession Number
+      case 0x00080080: // Institution Name
+      case 0x00080081: // Institution Address
+      case 0x00081010: // Station Name
+      case 0x00081040: // Institutional Department Name
+      case 0x00100020: // Patient ID
+      case 0x00100021: // Issuer of Patient ID
+      case 0x00100030: // Patient's Birth Date
+      case 0x00101000: // Other Patient IDs
+      case 0x00101040: // Patient's Address
+      case 0x00102154: // Patient's Telephone Numbers
+      case 0x00181000: // Device Serial Number
+      case 0x00200010: // Study ID
+        m_words.add(valueOf(*element));
+        if (tagOf(element->getTag()) >> 16 == 0x0010)
+          m_people.add(valueOf(*element));
+        break;
+      default:
+        if (element->getVR() == EVR_PN)
+        {
+          m_words.add(valueOf(*element));
+          m_people.add(valueOf(*element));
+        }
+      }
+    }
+  }
+
+  // Removes private elements but for safe ones, and blocks of which none remains.
+  void keepPrivate(DcmItem& item, const std::string& path)
+  {
+    std::map<std::uint32_t, std::string> creators; // group << 16 | block
+    for (unsigned long n = 0; n < item.card(); ++n)
+    {
+      DcmElement* element = item.getElement(n);
+      const DcmTag& tag = element->getTag();
+      if ((tag.getGroup() & 1) != 0 && tag.getElement() >= 0x10 && tag.getElement() <= 0xff)
+        creators[std::uint32_t{tag.getGroup()} << 16 | tag.getElement()] = valueOf(*element);
+    }
+    std::set<std::uint32_t> used;
+    for (unsigned long n = item.card(); n-- > 0;)
+    {
+      DcmElement* element = item.getElement(n);
+      const DcmTag tag = element->getTag();
+      if ((tag.getGroup() & 1) == 0)
+        continue;
+      const std::uint32_t block =
+          std::uint32_t{tag.getGroup()} << 16 | static_cast<std::uint32_t>(tag.getElement() >> 8);
+      const auto creator = creators.find(block);
+      if (tag.getElement() >= 0x10 && tag.getElement() <= 0xff)
+      {
+        if (used.count(tagOf(tag)) > 0)
+        {
+          element->putString(creators[tagOf(tag)].c_str());
+          note(path, *element, "Private Creator", "kept: block of safe private attributes", true);
+          continue;
+        }
+      }
+      else if (m_options.retainSafePrivate && creator != creators.end() &&
+               isCleanPrivate(*element,
+                              m_cleaner.profile.safePrivateVr(creator->second, tag.getGroup(),
+                                                              tag.getElement() & 0xff)))
+      {
+        used.insert(block);
+        note(path, *element, creator->second, "kept: safe private attribute", true);
+        continue;
+      }
+      const bool isCreator = tag.getElement() <= 0xff;
+      note(path, *element, isCreator ? "Private Creator" : "Private", "removed: private", false);
+      delete item.remove(element);
+    }
+  }
+
+  // What the list says of it holds, also if the file has no VR (UN).
+  bool isCleanPrivate(DcmElement& element, const std::string& listedVr)
+  {
+    if (listedVr.empty())
+      return false;
+    const DcmEVR listed = DcmVR(listedVr.c_str()).getEVR(), own = element.getVR();
+    const bool isUnknown = own == EVR_UN || own == EVR_UNKNOWN || own == EVR_UNKNOWN2B;
+    const DcmEVR vr = isUnknown ? EVR_UN : own;
+    std::string value;
+    if (isUnknown)
+    {
+      Uint8* bytes = nullptr;
+      if (element.getUint8Array(bytes).bad() || !bytes)
+        return false;
+      value.assign(reinterpret_cast<const char*>(bytes), element.getLength());
+    }
+    else if (vr != listed)
+      return false;
+    if (isNumber(listed))
+    {
+      constexpr std::size_t kMatrix = 9 * 8;
+      const auto isPrint = [](unsigned char c) { return c >= 0x20 && c < 0x7f; };
+      return vr == listed ||
+             (value.size() <= kMatrix && value.size() % DcmVR(listed).getValueWidth() == 0 &&
+              !std::all_of(value.begin(), value.end(), isPrint));
+    }
+    if (vr != EVR_UN)
+      value = valueOf(element);
+    while (!value.empty() && (value.back() == ' ' || value.back() == '\0'))
+      value.pop_back();
+    const bool isClean = listed == EVR_DS || listed == EVR_IS
+                             ? hasOnly(value, "0123456789+-eE. \\")
+                             : value.size() <= 16 && value.find('\0') == std::string::npos &&
+                                   !m_words.foundIn(value);
+    return isClean && (vr == EVR_UN || keepString(element, true));
+  }
+
+  // Writes the value anew, so that nothing after a NUL remains.
+  static bool keepString(DcmElement& element, bool wanted)
+  {
+    return wanted && element.putString(valueOf(element).c_str()).good();
+  }
+
+  std::string newUids(const std::string& value)
+  {
+    return eachPart(value, [this](const std::string& uid)
+                    { return uid.empty() || isWellKnownUid(uid) ? uid : m_key.uid(uid); });
+  }
+
+  // False: to be removed.
+  bool cleaned(DcmItem& item, DcmElement& element, const std::string& path)
+  {
+    const DcmTagKey key = element.getTag();
+    const std::uint32_t tag = tagOf(key);
+    const DictionaryEntry entry = dictionaryEntry(key);
+    const std::string& name = entry.name;
+    const auto remove = [&](const std::string& why)
+    {
+      note(path, element, name, "removed" + why, false);
+      return false;
+    };
+    DeidAction action = m_cleaner.profile.action(tag, m_iod, !path.empty(), m_options);
+    const bool isMisplaced =
+        key.getGroup() < 4 || (key.getGroup() < 8 && action == DeidAction::Unlisted);
+    if (isMisplaced || key.getElement() == 0)
+      return remove(": group length, command or file meta information");
+    if (action == DeidAction::Unlisted)
+      return cleanedUnlisted(item, element, entry, path);
+    const DcmEVR vr = element.getVR();
+    if (action == DeidAction::Keep)
+    {
+      if (vr == EVR_SQ)
+        return recursed(element, path, name, "kept by option, cleaned within");
+      if (!agrees(vr, entry.vr) || (!isNumber(vr) && !keepString(element, isString(vr))))
+        action = basicAction(tag, path);
+      else
+      {
+        note(path, element, name, "kept by option", true);
+        return true;
+      }
+    }
+    if (action == DeidAction::Shift)
+    {
+      if (vr == EVR_SQ)
+        return recursed(element, path, name, "kept by option, cleaned within");
+      if ((vr == EVR_DA || vr == EVR_DT) && agrees(vr, entry.vr))
+        return shiftedDates(element, path, name);
+      if (vr == EVR_TM || tag == 0x00080201)
+        return keptTime(element, path, name);
+      action = basicAction(tag, path);
+    }
+    if (action == DeidAction::Clean)
+    {
+      if (vr == EVR_SQ)
+        return recursed(element, path, name, "kept by option, cleaned within");
+      const std::string rest =
+          isText(vr) ? eachPart(valueOf(element), reducedToVocabulary) : std::string();
+      if (!rest.empty() && !hasOnly(rest, "\\"))
+      {
+        element.putString(rest.c_str());
+        note(path, element, name, "cleaned: words of the vocabulary stay", true);
+        return true;
+      }
+      action = basicAction(tag, path);
+    }
+    switch (action)
+    {
+    case DeidAction::NewUid:
+      if (vr == EVR_SQ)
+        return recursed(element, path, name, "kept, UIDs replaced");
+      if (vr != EVR_UI)
+        return remove(": not a UID");
+      element.putString(newUids(valueOf(element)).c_str());
+      note(path, element, name, "replaced by a new UID", false);
+      return true;
+    case DeidAction::Empty:
+      makeEmpty(element);
+      note(path, element, name, "emptied", false);
+      return true;
+    case DeidAction::Dummy:
+      if (!madeDummy(element, tag, entry.vr))
+        return remove("");
+      note(path, element, name,
+           tag == 0x00100020 ? "replaced by a pseudonym" : "replaced by a dummy", false);
+      return true;
+    default:
+      return remove("");
+    }
+  }
+
+  DeidAction basicAction(std::uint32_t tag, const std::string& path) const
+  {
+    return m_cleaner.profile.action(tag, m_iod, !path.empty(), {});
+  }
+
+  bool shiftedDates(DcmElement& element, const std::string& path, const std::string& name)
+  {
+    const int days = m_key.daysEarlier(m_patient);
+    bool sound = true;
+    const std::string dates = eachPart(valueOf(element),
+                                       [&](const std::string& value)
+                                       {
+                                         const std::string date =
+                                             value.empty() ? value : shifted(value, days);
+                                         sound = sound && (value.empty() || !date.empty());
+                                         return date;
+                                       });
+    element.putString(sound ? dates.c_str() : dummyOf(element.getVR()));
+    note(path, element, name, sound ? "date shifted" : "replaced by a dummy", sound);
+    return true;
+  }
+
+  bool keptTime(DcmElement& element, const std::string& path, const std::string& name)
+  {
+    if (!keepString(element, hasOnly(valueOf(element), "0123456789.:+-\\")))
+    {
+      note(path, element, name, "removed: not a time", false);
+      return false;
+    }
+    note(path, element, name, "kept by option", true);
+    return true;
+  }
+
+  bool recursed(DcmElement& element, const std::string& path, const std::string& name,
+                const std::string& why)
+  {
+    auto& sequence = dynamic_cast<DcmSequenceOfItems&>(element);
+    note(path, element, name, why, true);
+    for (unsigned long n = 0; n < sequence.card(); ++n)
+      clean(*sequence.getItem(n), path + pathOf(element.getTag()) + "/");
+    return true;
+  }
+
+  static void makeEmpty(DcmElement& element)
+  {
+    if (auto* sequence = dynamic_cast<DcmSequenceOfItems*>(&element); sequence)
+      while (sequence->card() > 0)
+        delete sequence->remove(0UL);
+    else
+      element.clear();
+  }
+
+  // Sequences: the same elements, each with a dummy.
+  bool madeDummy(DcmElement& element, std::uint32_t tag, DcmEVR expected)
+  {
+    const DcmEVR vr = element.getVR();
+    if (vr == EVR_SQ)
+    {
+      auto& sequence = dynamic_cast<DcmSequenceOfItems&>(element);
+      for (unsigned long n = 0; n < sequence.card(); ++n)
+      {
+        DcmItem& inner = *sequence.getItem(n);
+        for (unsigned long i = 0; i < inner.card();)
+        {
+          DcmElement* one = inner.getElement(i);
+          const DcmTagKey key = one->getTag();
+          const bool isKnown = key.getGroup() >= 8 && (key.getGroup() & 1) == 0 &&
+                               key.getElement() != 0 && key.getGroup() >> 8 != 0x60 &&
+                               key.getGroup() >> 8 != 0x50 &&
+                               agrees(one->getVR(), dictionaryEntry(key).vr);
+          if (isKnown && madeDummy(*one, tagOf(key), one->getVR()))
+            ++i;
+          else
+            delete inner.remove(one);
+        }
+      }
+      return true;
+    }
+    if (vr != expected && !agrees(vr, expected))
+      return false;
+    if (tag == 0x00100020)
+    {
+      const std::string pseudonym = m_key.patient(m_patient);
+      return element.putString(pseudonym.c_str()).good();
+    }
+    if (vr == EVR_UI)
+    {
+      const std::string uids = newUids(valueOf(element));
+      return element.putString((uids.empty() ? m_key.uid("") : uids).c_str()).good();
+    }
+    if (isString(vr))
+      return element.putString(dummyOf(vr)).good();
+    if (vr == EVR_OB || vr == EVR_UN)
+    {
+      const Uint8 nothing[2] = {0, 0};
+      return element.putUint8Array(nothing, 2).good();
+    }
+    if (vr == EVR_US)
+    {
+      const Uint16 nothing = 0;
+      return element.putUint16Array(&nothing, 1).good();
+    }
+    return false;
+  }
+
+  bool cleanedUnlisted(DcmItem& item, DcmElement& element, const DictionaryEntry& entry,
+                       const std::string& path)
+  {
+    const std::uint32_t tag = tagOf(element.getTag());
+    const DcmEVR vr = element.getVR();
+    const auto done = [&](const char* what, bool stays)
+    {
+      note(path, element, entry.name, what, stays);
+      return stays;
+    };
+    if (entry.vr == EVR_UNKNOWN)
+      return done("removed: not in the standard's dictionary", false);
+    if (!agrees(vr, entry.vr) && !(vr == EVR_SQ && entry.vr == EVR_SQ))
+      return done("removed: not of the attribute's VR", false);
+    if (vr == EVR_SQ)
+      return recursed(element, path, entry.name, "kept, cleaned within");
+    if (isNumber(vr))
+      return done("kept: number", true);
+    if (isBytes(vr))
+      return areNeededBytes(tag) ? done("kept: voxels or geometry", true)
+                                 : done("removed: bytes that are not needed", false);
+    const std::string value = valueOf(element);
+    switch (vr)
+    {
+    case EVR_UI:
+    {
+      const std::string uids = newUids(value);
+      element.putString(uids.c_str());
+      if (uids == value)
+        return done("kept: UID of the standard", true);
+      note(path, element, entry.name, "replaced by a new UID", false);
+      return true;
+    }
+    case EVR_DS:
+    case EVR_IS:
+      return keepString(element, hasOnly(value, "0123456789+-eE. \\"))
+                 ? done("kept: number", true)
+                 : done("removed: not a number", false);
+    case EVR_CS:
+    {
+      const auto parts = split(value);
+      const bool isCoded = hasOnly(value, "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789 _\\") &&
+                           std::all_of(parts.begin(), parts.end(),
+                                       [](const std::string& part) { return part.size() <= 16; }) &&
+                           !m_people.foundIn(value);
+      if (keepString(element, isCoded))
+        return done("kept: coded string", true);
+      break;
+    }
+    case EVR_DA:
+    case EVR_DT:
+      if (m_options.dates == Dates::Shift)
+        return shiftedDates(element, path, entry.name);
+      break;
+    case EVR_TM:
+      if (m_options.dates == Dates::Shift)
+        return keptTime(element, path, entry.name);
+      break;
+    default:
+      break;
+    }
+    const bool isTime = vr == EVR_DA || vr == EVR_DT || vr == EVR_TM;
+    if (isTime && m_options.dates == Dates::Keep &&
+        keepString(element, hasOnly(value, "0123456789.:+-\\")))
+      return done("kept by option", true);
+    if (value.empty())
+    {
+      makeEmpty(element);
+      return done("kept: empty", true);
+    }
+    if (tag == 0x00080070 && isKnownManufacturer(value)) // Manufacturer
+      return keepString(element, true) && done("kept: known manufacturer", true);
+    if (isTechnical(item, tag, value))
+      return keepString(element, true) && done("kept: code or unit of a known form", true);
+    if (m_options.retainDevice && describesDevice(tag) && !m_words.foundIn(value))
+      return keepString(element, true) && done("kept by option", true);
+    if (isText(vr))
+    {
+      const std::string rest = eachPart(value, reducedToVocabulary);
+      if (!rest.empty() && !hasOnly(rest, "\\"))
+      {
+        element.putString(rest.c_str());
+        return done("cleaned: words of the vocabulary stay", true);
+      }
+    }
+    element.putString(dummyOf(vr));
+    note(path, element, entry.name, "replaced by a dummy", false);
+    return true;
+  }
+
+  // By its form: text of up to three characters (units, nuclei), names of kernels, codes of
+  // schemes that are published.
+  bool isTechnical(DcmItem& item, std::uint32_t tag, const std::string& value)
+  {
+    constexpr const char* kDigits = "0123456789";
+    static const std::set<std::string> kNumbered{"DCM", "SCT", "FMA", "LN", "MDC", "UMLS"};
+    static const std::set<std::string> kLettered{"SRT", "SNM3", "RADLEX", "NCIt", "UCUM"};
+    if (tag == 0x00080102) // Coding Scheme Designator
+      return kNumbered.count(value) + kLettered.count(value) > 0;
+    const std::string scheme = valueOf(item, DCM_CodingSchemeDesignator);
+    if (tag == 0x00080103) // Coding Scheme Version
+      return value.size() <= 8 && hasOnly(value, "0123456789.");
+    if (tag == 0x00080100) // Code Value
+    {
+      if (kNumbered.count(scheme) > 0)
+        return value.size() <= 16 && hasOnly(value, "0123456789-");
+      constexpr std::size_t kLongest = 10;
+      return kLettered.count(scheme) > 0 && value.size() <= kLongest && !m_words.foundIn(value) &&
+             (scheme == "UCUM" ? value.size() <= 6
+                               : value.find_first_of(kDigits) != std::string::npos &&
+                                     hasOnly(value, "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-"));
+    }
+    if (m_words.foundIn(value))
+      return false;
+    const auto parts = split(value);
+    // Two letters, two digits, one letter (H60s, Br64h, FC81), or a number.
+    const auto isKernel = [&](const std::string& part)
+    {
+      const std::size_t digit = part.find_first_of(kDigits);
+      const std::size_t end = part.find_first_not_of(kDigits, digit);
+      return digit != std::string::npos && part.size() <= 5 && digit <= 2 &&
+             (end == std::string::npos || end + 1 == part.size());
+    };
+    return std::all_of(parts.begin(), parts.end(),
+                       [&](const std::string& part)
+                       { return part.size() <= 3 || (tag == 0x00181210 && isKernel(part)); });
+  }
+
+  DicomCleaner& m_cleaner;
+  const DeidentificationOptions& m_options;
+  const PseudonymKey& m_key;
+  IodKind m_iod;
+  std::string m_patient;  ///< what tells patients apart
+  IdentityWords m_words;  ///< of people, places, devices and visits
+  IdentityWords m_people; ///< of people alone
+  std::set<std::string> m_noted;
+};
+
+long numberIn(DcmItem& item, const DcmTagKey& key, long otherwise)
+{
+  Uint16 value = 0;
+  return item.findAndGetUint16(key, value).good() ? static_cast<long>(value) : otherwise;
+}
+
+// The item's own Pixel Data. Returns why it cannot leave.
+std::string cleanPixels(DcmItem& item, E_TransferSyntax syntax)
+{
+  DcmElement* element = nullptr;
+  if (item.findAndGetElement(DCM_PixelData, element).bad() || !element)
+    return {};
+  auto* pixels = dynamic_cast<DcmPixelData*>(element);
+  const long rows = numberIn(item, DCM_Rows, 0), columns = numberIn(item, DCM_Columns, 0);
+  const long samples = numberIn(item, DCM_SamplesPerPixel, 1);
+  const long allocated = numberIn(item, DCM_BitsAllocated, 16);
+  Sint32 frames = 1;
+  if (item.findAndGetSint32(DCM_NumberOfFrames, frames).bad() || frames < 1)
+    frames = 1;
+  const auto whole = static_cast<std::uint64_t>(rows) * static_cast<std::uint64_t>(columns) *
+                     static_cast<std::uint64_t>(samples) * static_cast<std::uint64_t>(frames);
+  const std::string damaged = "the pixel data do not match rows, columns and frames";
+  DcmPixelSequence* sequence = nullptr;
+  if (pixels && DcmXfer(syntax).isEncapsulated())
+    pixels->getEncapsulatedRepresentation(syntax, nullptr, sequence);
+  if (!sequence)
+  {
+    const std::uint64_t wanted = (whole * static_cast<std::uint64_t>(allocated) + 7) / 8;
+    const std::uint64_t bytes = element->getLength();
+    // A whole frame too many is not padding: voxels are not dropped silently.
+    const std::uint64_t frame = wanted / static_cast<std::uint64_t>(frames);
+    if (whole == 0 || wanted > bytes || bytes - wanted >= std::max<std::uint64_t>(frame, 16))
+      return damaged;
+    if (allocated == 16)
+    {
+      Uint16* cells = nullptr;
+      if (element->getUint16Array(cells).bad() || !cells)
+        return damaged;
+      clearUnusedBits(cells, static_cast<std::size_t>(whole),
+                      static_cast<int>(numberIn(item, DCM_BitsStored, 16)),
+                      static_cast<int>(numberIn(item, DCM_HighBit, 15)),
+                      numberIn(item, DCM_PixelRepresentation, 0) != 0);
+      if (bytes > wanted)
+      {
+        const std::vector<Uint16> copy(cells, cells + whole);
+        element->putUint16Array(copy.data(), static_cast<unsigned long>(whole));
+      }
+    }
+    else if (bytes > wanted + wanted % 2 || (bytes > wanted && element->getVR() == EVR_OB))
+    {
+      if (element->getVR() == EVR_OW)
+      {
+        Uint16* cells = nullptr;
+        if (element->getUint16Array(cells).bad() || !cells)
+          return damaged;
+        const std::vector<Uint16> copy(cells, cells + (wanted + 1) / 2);
+        element->putUint16Array(copy.data(), copy.size());
+      }
+      else
+      {
+        Uint8* at = nullptr;
+        if (element->getUint8Array(at).bad() || !at)
+          return damaged;
+        const std::vector<Uint8> copy(at, at + wanted);
+        element->putUint8Array(copy.data(), copy.size());
+      }
+    }
+    return {};
+  }
+  const unsigned long parts = sequence->card();
+  for (unsigned long n = 0; n < parts; ++n)
+  {
+    DcmPixelItem* part = nullptr;
+    if (sequence->getItem(part, n).bad() || !part)
+      return damaged;
+    const std::size_t count = part->getLength();
+    if (count == 0)
+      continue;
+    Uint8* bytes = nullptr;
+    if (part->getUint8Array(bytes).bad() || !bytes)
+      return damaged;
+    if (n == 0) // Basic Offset Table
+    {
+      if (count != 4 * static_cast<std::size_t>(frames))
+        return damaged;
+      continue;
+    }
+    if (syntax == EXS_RLELossless)
+    {
+      if (!clearRleMetadata(bytes, count, static_cast<std::size_t>(rows * columns)))
+        return "its RLE pixel data are damaged";
+    }
+    else if (!clearCodestreamMetadata(bytes, count))
+    {
+      if (n == 1 || parts == static_cast<unsigned long>(frames) + 1)
+        return "its compression cannot be checked for text";
+      clearAfterEndOfImage(bytes, count);
+    }
+  }
+  return {};
+}
+
+// In sequences as well (icons).
+std::string cleanAllPixels(DcmItem& item, E_TransferSyntax syntax, bool nested)
+{
+  if (std::string why = cleanPixels(item, syntax); !why.empty())
+    return nested ? "an icon: " + why : why;
+  for (unsigned long n = 0; n < item.card(); ++n)
+    if (item.getElement(n)->getVR() == EVR_SQ)
+      if (auto* sequence = dynamic_cast<DcmSequenceOfItems*>(item.getElement(n)); sequence)
+        for (unsigned long i = 0; i < sequence->card(); ++i)
+          if (std::string why = cleanAllPixels(*sequence->getItem(i), syntax, true); !why.empty())
+            return why;
+  return {};
+}
+
+/// Why a file of this SOP class cannot be de-identified; empty: it can.
+std::string unsuitable(const std::string& sopClass)
+{
+  const std::string name = [&]
+  {
+    const char* known = dcmFindNameOfUID(sopClass.c_str());
+    return std::string(known ? known : "");
+  }();
+  if (sopClass == UID_MediaStorageDirectoryStorage)
+    return "a DICOMDIR, which names patients";
+  if (!isWellKnownUid(sopClass))
+    return "of a private SOP class";
+  if (name.rfind("Encapsulated", 0) == 0)
+    return "an encapsulated document, whose text cannot be de-identified";
+  if (name.find("RawData") != std::string::npos)
+    return "raw data of a manufacturer, which may hold anything";
+  return {};
+}
+
+bool isSuspectedOfText(DcmItem& item)
+{
+  const std::string modality = valueOf(item, DCM_Modality);
+  for (const char* suspected : {"SC", "OT", "US", "ES", "XC", "GM", "DOC", "SM", "IVUS"})
+    if (modality == suspected)
+      return true;
+  const std::string sopClass = valueOf(item, DCM_SOPClassUID);
+  return sopClass.rfind("1.2.840.10008.5.1.4.1.1.7", 0) == 0 ||
+         valueOf(item, DCM_ImageType).find("SCREEN") != std::string::npos ||
+         item.tagExists(DCM_ConversionType);
+}
+
+// A head is some 150 mm wide and 180 mm long.
+bool coversAHead(DcmItem& item)
+{
+  constexpr double kHead = 140.0; // mm
+  Float64 down = 0.0, across = 0.0;
+  return item.findAndGetFloat64(DCM_PixelSpacing, down, 0, OFTrue).good() &&
+         item.findAndGetFloat64(DCM_PixelSpacing, across, 1, OFTrue).good() &&
+         down * static_cast<double>(numberIn(item, DCM_Rows, 0)) > kHead &&
+         across * static_cast<double>(numberIn(item, DCM_Columns, 0)) > kHead;
+}
+
+void putCode(DcmItem& dataSet, unsigned long number, const char* value, const char* meaning)
+{
+  DcmItem* item = nullptr;
+  if (dataSet
+          .findOrCreateSequenceItem(DCM_DeidentificationMethodCodeSequence, item,
+                                    static_cast<signed long>(number))
+          .bad())
+    return;
+  item->putAndInsertString(DCM_CodeValue, value);
+  item->putAndInsertString(DCM_CodingSchemeDesignator, "DCM");
+  item->putAndInsertString(DCM_CodeMeaning, meaning);
+}
+
+// PS3.3 C.7.1.1, PS3.16 CID 7050.
+void putMethod(DcmDataset& dataSet, const DeidentificationOptions& options,
+               const std::string& edition)
+{
+  dataSet.putAndInsertString(DCM_PatientIdentityRemoved, "YES");
+  std::string method = "Petrous: " + edition;
+  dataSet.putAndInsertString(DCM_DeidentificationMethod, method.substr(0, 64).c_str());
+  delete dataSet.remove(DCM_DeidentificationMethodCodeSequence);
+  unsigned long n = 0;
+  putCode(dataSet, n++, "113100", "Basic Application Confidentiality Profile");
+  if (options.cleanDescriptors)
+    putCode(dataSet, n++, "113105", "Clean Descriptors Option");
+  if (options.dates == Dates::Keep)
+    putCode(dataSet, n++, "113106", "Retain Longitudinal Temporal Information Full Dates Option");
+  if (options.dates == Dates::Shift)
+    putCode(dataSet, n++, "113107",
+            "Retain Longitudinal Temporal Information Modified Dates Option");
+  if (options.retainPatientCharacteristics)
+    putCode(dataSet, n++, "113108", "Retain Patient Characteristics Option");
+  if (options.retainDevice)
+    putCode(dataSet, n++, "113109", "Retain Device Identity Option");
+  if (options.retainSafePrivate)
+    putCode(dataSet, n++, "113111", "Retain Safe Private Option");
+  dataSet.putAndInsertString(DCM_LongitudinalTemporalInformationModified,
+                             options.dates == Dates::Keep    ? "UNMODIFIED"
+                             : options.dates == Dates::Shift ? "MODIFIED"
+                                                             : "REMOVED");
+}
+
+} // namespace
+
+DicomCleaner::DicomCleaner(const DeidentificationOptions& options, const PseudonymKey& key)
+  : m_options(options)
+  , m_key(key)
+{
+  OFLog::configure(OFLogger::OFF_LOG_LEVEL); // its messages hold values of attributes
+  dcmEnableUnknownVRConversion.set(OFTrue);  // UN in place of a VR of the dictionary
+  const bool isLoaded = dcmDataDict.rdlock().isDictionaryLoaded();
+  dcmDataDict.rdunlock();
+  if (!isLoaded)
+    throw core::Error(core::Fault::Internal,
+                      "the data dictionary of DCMTK is missing; install package libdcmtk17, and "
+                      "unset DCMDICTPATH");
+}
+
+DicomCleaner::Outcome DicomCleaner::clean(const std::filesystem::path& input,
+                                          const Placement& placed)
+{
+  auto file = std::make_unique<DcmFileFormat>();
+  if (file->loadFile(input.c_str(), EXS_Unknown, EGL_noChange, DCM_MaxReadLength, ERM_autoDetect)
+          .bad())
+    return {"is not DICOM, or damaged", false};
+  const std::string metaClass = valueOf(*file->getMetaInfo(), DCM_MediaStorageSOPClassUID);
+  std::unique_ptr<DcmDataset> dataSet(file->getAndRemoveDataset());
+  file.reset(); // preamble and group 2 go with it
+  if (metaClass == UID_MediaStorageDirectoryStorage)
+    return {unsuitable(metaClass), true};
+  const std::string sopClass = valueOf(*dataSet, DCM_SOPClassUID);
+  if (sopClass.empty() || valueOf(*dataSet, DCM_SOPInstanceUID).empty())
+    return {"is not DICOM, or damaged", false};
+  if (std::string why = unsuitable(sopClass); !why.empty())
+    return {why, true};
+  const E_TransferSyntax syntax = dataSet->getOriginalXfer();
+
+  const std::string burnedIn = valueOf(*dataSet, DCM_BurnedInAnnotation);
+  const bool states = burnedIn == "YES";
+  if (!m_options.keepBurnedIn && (states || (burnedIn != "NO" && isSuspectedOfText(*dataSet))))
+    return {states ? "has burned-in annotation" : "may have burned-in annotation", true};
+  if (burnedIn != "NO" && dataSet->tagExists(DCM_PixelData))
+    ++warnings[states ? "burned-in annotation is stated, and kept"
+                      : "not stated to be free of burned-in annotation: look at the images"];
+  if (sopClass.find(".1.1.88.") != std::string::npos)
+    ++warnings["a structured report: its content is replaced by dummies"];
+
+  if (coversAHead(*dataSet))
+    ++warnings["slices wide enough for a whole head: a face can be recognised"];
+
+  const std::string study = valueOf(*dataSet, DCM_StudyInstanceUID);
+  const std::string series = valueOf(*dataSet, DCM_SeriesInstanceUID);
+  const std::string patientId = valueOf(*dataSet, DCM_PatientID);
+  const std::string patientName = valueOf(*dataSet, DCM_PatientName);
+  const std::string newSeries = m_key.uid(series), newStudy = m_key.uid(study);
+
+  FileCleaner cleaner(*this, m_options, m_key, *dataSet);
+  cleaner.clean(*dataSet);
+  if (std::string why = cleanAllPixels(*dataSet, syntax, false); !why.empty())
+    return {why, true};
+  putMethod(*dataSet, m_options, profile.edition());
+
+  const std::string pseudonym = m_key.patient(cleaner.patient());
+  pseudonyms["patient " + pseudonym] = {"patient", pseudonym, patientId + " " + patientName};
+  pseudonyms["study " + newStudy] = {"study", newStudy, study};
+  pseudonyms["series " + newSeries] = {"series", newSeries, series};
+
+  const std::filesystem::path target = placed(newSeries, valueOf(*dataSet, DCM_Modality));
+  DcmFileFormat clean(dataSet.get(), OFFalse);
+  const OFCondition saved =
+      clean.saveFile(target.c_str(), syntax, EET_UndefinedLength, EGL_withoutGL, EPD_withoutPadding,
+                     0, 0, EWM_createNewMeta);
+  dataSet.release(); // owned by `clean`
+  if (saved.bad())
+    throw core::OutputFileError(core::OutputFileError::Reason::Failed, target,
+                                "cannot be written (is the disk full?)");
+  return {};
+}
+
+} // namespace petrous::library

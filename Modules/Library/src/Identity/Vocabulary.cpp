@@ -1,0 +1,146 @@
+#include "Vocabulary.h"
+
+#include <algorithm>
+#include <cctype>
+#include <functional>
+#include <string_view>
+
+namespace petrous::library
+{
+
+namespace
+{
+
+// Spaces around each word.
+constexpr std::string_view kVocabulary =
+    " 2D 3D AC ACOUSTIC ADC AIR ANGIO ANGLE ANTERIOR ARTERIAL AX AXIAL BILATERAL BONE BRAIN CANAL "
+    "CBCT CE CERVICAL CISS CLEAR CM CONE CONTRAST COR CORONAL COW CP CPA CT CTA CTV CUBE DELAYED "
+    "DIR DRIVE DTI "
+    "DUAL DWI EAR ECHO ENERGY EPI FA FACE FAST FAT FFE FIESTA FILTERED FISP FLAIR FLASH FOV FS FSE "
+    "GD "
+    "GRADIENT GRE HEAD HELICAL HIGH HIRES HR HU IAC IAM IMAGE INFERIOR INNER INTERNAL INVERSION IR "
+    "JUGULAR KERNEL KV LATERAL LEFT LOCALIZER LOCALISER LOW LUNG MA MAP MASK MASTOID MAX MEDIUM "
+    "MIDDLE MIN MIP MM MPR MPRAGE MR MRA MRI MRV MULTI NASAL NATIVE NECK NERVE NON OBL OBLIQUE "
+    "ORBIT "
+    "OSSICLES PD PELVIS PERFUSION PET PETROUS PHASE PLAIN POST POSTERIOR PRE PROTON RECON REFORMAT "
+    "RESOLUTION "
+    "RESTRICTED RIGHT SAG SAGITTAL SCAN SCOUT SE SERIES SHARP SIGMOID SINUS SKULL SLICE SLICES "
+    "SMOOTH "
+    "SOFT SPACE SPGR SPIN SPINE SPIRAL SSFP STANDARD STD STEALTH STIR STUDY SUPERIOR SURVEY SWI T1 "
+    "T1W T2 T2W "
+    "TE TEMPORAL TEST THICK THIN THORAX TIR TISSUE TOF TR TRANSVERSE TRA TSE TUMOR TUMOUR TYMPANIC "
+    "UHR ULTRA "
+    "VENOUS VIBE VOLUME VRT WATER WINDOW WITH WITHOUT WO "
+    "ARTERY AUDITORY BASILAR BULB CAROTID CELLS CEREBELLUM CHOLESTEATOMA CHORDA COCHLEA COCHLEAR "
+    "DURA EXTERNAL FACIAL INCUS LABYRINTH MALLEUS MENINGIOMA OSSICLE PLATE SCHWANNOMA SEMICIRCULAR "
+    "STAPES STEM TEGMEN TYMPANI UTRICLE VEIN VERTEBRAL VESTIBULAR VESTIBULE "
+    "FELSENBEIN INNENOHR KNOCHEN KOPF LINKS MIT MITTELOHR NATIV OHNE OHR RECHTS SCHAEDEL "
+    "SCHLAEFENBEIN "
+    "AVEC CRANE DROIT GAUCHE OREILLE OS ROCHER ROCHERS SANS TETE ";
+
+constexpr std::string_view kManufacturers =
+    "|AGFA|ANALOGIC|BRUKER|CANON|CANON_MCA|CARESTREAM|CARESTREAM HEALTH|ELSCINT|FUJIFILM|"
+    "FUJIFILM CORPORATION|FUJIFILM HEALTHCARE CORPORATION|FONAR|GE|GE HEALTHCARE|GE MEDICAL "
+    "SYSTEMS|"
+    "HITACHI|HITACHI MEDICAL CORPORATION|HITACHI, LTD.|IMAGING SCIENCES "
+    "INTERNATIONAL|J.MORITA.MFG.CORP.|KAVO|MARCONI MEDICAL SYSTEMS|"
+    "MEDTRONIC|MINFOUND|NEUROLOGICA|NEUSOFT|NEUSOFT MEDICAL SYSTEMS|PHILIPS|PHILIPS HEALTHCARE|"
+    "PHILIPS MEDICAL SYSTEMS|PICKER INTERNATIONAL, INC.|PLANMECA|PLANMED|PETROUS|SAMSUNG|"
+    "SAMSUNG ELECTRONICS|SHIMADZU|SIEMENS|SIEMENS HEALTHCARE|SIEMENS HEALTHINEERS|SIRONA|SOREDEX|"
+    "TOSHIBA|TOSHIBA_MEC|UIH|UNITED IMAGING|XORAN|CUREFAB|QR "
+    "S.R.L.|NEWTOM|OFFIS|QIICR|NIH|MEVISLAB|BRAINLAB|VARIAN MEDICAL SYSTEMS|ELEKTA|RAYSEARCH "
+    "LABORATORIES|";
+
+std::string upper(std::string text)
+{
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
+bool isPartOfWord(unsigned char c)
+{
+  return std::isalnum(c) != 0 || c >= 0x80; // letters of other character sets
+}
+
+// Calls `use(word)` for each word of letters and digits.
+void forEachWord(const std::string& text, const std::function<void(const std::string&)>& use)
+{
+  std::string word;
+  for (const char c : text + " ")
+    if (isPartOfWord(static_cast<unsigned char>(c)))
+      word += c;
+    else if (!word.empty())
+    {
+      use(word);
+      word.clear();
+    }
+}
+
+bool isShortNumber(const std::string& word)
+{
+  return word.size() <= 3 && std::all_of(word.begin(), word.end(),
+                                         [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+} // namespace
+
+bool isInVocabulary(const std::string& word)
+{
+  return kVocabulary.find(" " + word + " ") != std::string_view::npos;
+}
+
+bool isKnownManufacturer(const std::string& text)
+{
+  std::string name = upper(text);
+  while (!name.empty() && name.back() == ' ')
+    name.pop_back();
+  return !name.empty() && name.find('|') == std::string::npos &&
+         kManufacturers.find("|" + name + "|") != std::string_view::npos;
+}
+
+std::string reducedToVocabulary(const std::string& text)
+{
+  std::string kept;
+  bool hasWord = false;
+  forEachWord(text,
+              [&](const std::string& word)
+              {
+                const bool known = isInVocabulary(upper(word));
+                if (!known && !isShortNumber(word))
+                  return;
+                hasWord = hasWord || known;
+                kept += (kept.empty() ? "" : " ") + word;
+              });
+  return hasWord ? kept : std::string();
+}
+
+void IdentityWords::add(const std::string& text)
+{
+  forEachWord(text,
+              [this](const std::string& word)
+              {
+                const std::string known = upper(word);
+                if (known.size() >= 3 && !isInVocabulary(known))
+                  m_words.insert(known);
+              });
+}
+
+bool IdentityWords::foundIn(const std::string& text) const
+{
+  if (text.find('^') != std::string::npos || text.find('@') != std::string::npos)
+    return true;
+  std::size_t digits = 0;
+  for (const char c : text)
+  {
+    digits = std::isdigit(static_cast<unsigned char>(c)) != 0 ? digits + 1 : 0;
+    if (digits >= 6)
+      return true;
+  }
+  bool found = false;
+  forEachWord(text,
+              [&](const std::string& word) { found = found || m_words.count(upper(word)) > 0; });
+  return found;
+}
+
+} // namespace petrous::library

@@ -21,17 +21,18 @@ set(allowed_Dissection Core Volume)
 set(allowed_Scene Core Volume Appearance Dissection)
 set(allowed_Session Core Volume Haptics Dissection Scene)
 set(allowed_Library Core Volume Appearance Dissection Scene Imaging)
+set(allowed_Network Core Volume Scene Imaging Library)
 set(allowed_Rendering Core Volume Appearance)
 set(allowed_Interaction
   Core Volume Appearance Haptics Dissection Session Scene Rendering)
 # The application's view models: built like a module, and independent of Qt (no toolkit below).
 set(allowed_Presenters
   Core Volume Appearance Imaging Phantom Registration Segmentation Haptics Devices Dissection Session Scene
-  Library Rendering Interaction)
+  Library Network Rendering Interaction)
 set(folder_Presenters Application/Presenters)
 set(known_modules
   Core Volume Appearance Imaging Phantom Registration Segmentation Haptics Devices Dissection Session Scene
-  Library Rendering Interaction Presenters)
+  Library Network Rendering Interaction Presenters)
 
 # The toolkits whose headers a module may include; modules not listed here include none. Qt is
 # reserved for the application.
@@ -40,6 +41,7 @@ set(toolkits_Phantom GDCM)
 set(toolkits_Registration ITK)
 set(toolkits_Segmentation ITK)
 set(toolkits_Library GDCM)
+set(toolkits_Network DCMTK)
 set(toolkits_Rendering VTK)
 set(toolkits_Interaction VTK)
 
@@ -67,6 +69,8 @@ function(toolkit_of header result)
     set(toolkit ITK)
   elseif(header MATCHES "^(gdcm-[0-9.]+/)?gdcm[A-Za-z0-9_]*\\.h$")
     set(toolkit GDCM)
+  elseif(header MATCHES "^dcmtk/")
+    set(toolkit DCMTK)
   elseif(header MATCHES "^(Qt[A-Z][A-Za-z]*/.*|Q[A-Z][A-Za-z0-9]*|QVTK[A-Za-z]*\\.h|q[a-z]+\\.h)$")
     set(toolkit Qt)
   endif()
@@ -133,7 +137,7 @@ foreach(module IN LISTS PETROUS_MODULES)
       if(NOT toolkit IN_LIST toolkits_${module})
         violation(${file} "${include}"
           "includes ${header}, but module ${module} must not include headers of ${toolkit}")
-      elseif(toolkit MATCHES "^(ITK|GDCM)$" AND NOT file MATCHES "\\.(cpp|cxx)$")
+      elseif(toolkit MATCHES "^(ITK|GDCM|DCMTK)$" AND NOT file MATCHES "\\.(cpp|cxx)$")
         violation(${file} "${include}"
           "includes ${header}, but headers of ${toolkit} belong in .cpp files only")
       endif()
@@ -153,7 +157,7 @@ foreach(file IN LISTS files)
       violation(${file} "${include}" "includes ${header}, but there is no module ${CMAKE_MATCH_1}")
     endif()
     toolkit_of("${header}" toolkit)
-    if(toolkit MATCHES "^(ITK|GDCM)$" AND NOT file MATCHES "\\.(cpp|cxx)$")
+    if(toolkit MATCHES "^(ITK|GDCM|DCMTK)$" AND NOT file MATCHES "\\.(cpp|cxx)$")
       violation(${file} "${include}"
         "includes ${header}, but headers of ${toolkit} belong in .cpp files only")
     endif()

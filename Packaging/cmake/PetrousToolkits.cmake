@@ -1,4 +1,4 @@
-# ITK, GDCM and VTK as targets with SYSTEM includes, so that only modules that link them can include
+# ITK, GDCM, DCMTK and VTK as targets with SYSTEM includes, so that only modules that link them can include
 # them, and their headers cause no warnings.
 
 find_package(ITK 5.2 REQUIRED COMPONENTS
@@ -27,6 +27,13 @@ add_library(petrous_gdcm INTERFACE)
 target_include_directories(petrous_gdcm SYSTEM INTERFACE ${GDCM_INCLUDE_DIRS})
 target_link_libraries(petrous_gdcm INTERFACE gdcmMSFF gdcmDICT gdcmDSED gdcmCommon)
 add_library(Petrous::gdcm ALIAS petrous_gdcm)
+
+# DCMTK's own targets name every library of the toolkit.
+find_package(DCMTK 3.6.7 CONFIG REQUIRED)
+add_library(petrous_dcmtk INTERFACE)
+target_include_directories(petrous_dcmtk SYSTEM INTERFACE ${DCMTK_INCLUDE_DIRS})
+target_link_libraries(petrous_dcmtk INTERFACE DCMTK::dcmtls DCMTK::dcmnet DCMTK::dcmdata OpenSSL::SSL)
+add_library(Petrous::dcmtk ALIAS petrous_dcmtk)
 
 find_package(VTK 9.1 REQUIRED COMPONENTS
   CommonCore CommonDataModel CommonColor CommonTransforms FiltersCore FiltersGeneral FiltersGeometry

@@ -11,6 +11,7 @@ void addScanCommand(CLI::App& app, Context& context);
 void addCaseCommands(CLI::App& app, Context& context);    ///< new, add, remove, info
 void addArchiveCommands(CLI::App& app, Context& context); ///< archive, restore
 void addLibraryCommand(CLI::App& app, Context& context);
+void addNodeCommands(CLI::App& app, Context& context); ///< nodes, send, receive
 void addAppearanceCommand(CLI::App& app, Context& context);
 void addRenderCommand(CLI::App& app, Context& context);
 void addSliceCommand(CLI::App& app, Context& context);

@@ -14,14 +14,12 @@
 #include "CaseWarnings.h"
 #include "Commands.h"
 #include "Numbers.h"
-#include "petrous/Appearance/StructurePresets.h"
-#include "petrous/Core/Fingerprint.h"
 #include "petrous/Core/OutputFile.h"
-#include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/VolumeFile.h"
+#include "petrous/Presenters/CaseDicom.h"
 #include "petrous/Presenters/MrOnCt.h"
 #include "petrous/Rendering/SurfaceExtraction.h"
 #include "petrous/Scene/CaseField.h"
@@ -119,13 +117,8 @@ const scene::ImagePart& chooseMr(const scene::Case& value, const std::string& na
   throw UsageError("export mr: give --part NAME; there are: " + there);
 }
 
-// A label map as it is written: in one space, with those of its structures that are asked for.
-struct PlacedLabels
-{
-  std::shared_ptr<const volume::LabelMap> map;
-  std::string drawnOn; // the MR in whose space it lies; empty: in the CT's
-  std::vector<const scene::StructurePart*> structures;
-};
+using presenters::CaseIdentifiers;
+using presenters::PlacedLabels;
 
 // The nearest voxel of the labels, for each voxel of the CT.
 volume::LabelMap onGrid(const volume::LabelMap& labels, const core::GridGeometry& ct,
@@ -287,154 +280,16 @@ unsigned contentOf(const std::string& what)
   return imaging::kImage;
 }
 
-// Identifiers of DICOM files that are written of a case: derived from the case's and the voxels, so
-// that what is written at different times belongs together. Images and segmentations of one case
-// share the study and, in one space, the frame of reference.
-class CaseIdentifiers
-{
-public:
-  explicit CaseIdentifiers(const scene::Case& value)
-  {
-    const std::string& id = value.id.empty() ? value.name : value.id;
-    m_case.add(id.data(), id.size());
-  }
-
-  std::string study() const { return imaging::deterministicUid(m_case.value(), "study"); }
-
-  // `drawnOn`: the MR whose space it is; empty: the CT's.
-  std::string frameOfReference(const std::string& drawnOn) const
-  {
-    return imaging::deterministicUid(m_case.value(),
-                                     drawnOn.empty() ? "frame CT" : "frame MR " + drawnOn);
-  }
-
-  template <class Voxels>
-  std::string series(const std::string& what, const core::GridGeometry& grid,
-                     const Voxels& addVoxels) const
-  {
-    core::Fingerprint all = m_case;
-    all.add(what.data(), what.size());
-    all.add(grid.patientFromVoxelLinear().data(), 9 * sizeof(double));
-    all.add(grid.origin().data(), 3 * sizeof(double));
-    addVoxels(all);
-    return imaging::deterministicUid(all.value(), "series");
-  }
-
-  std::string series(const std::string& what, const volume::IntensityVolume& image) const
-  {
-    return series(what, image.geometry(),
-                  [&image](core::Fingerprint& all)
-                  {
-                    image.visit([&all](const auto& voxels)
-                                { all.add(voxels.data(), voxels.size() * sizeof *voxels.data()); });
-                  });
-  }
-
-private:
-  core::Fingerprint m_case;
-};
-
-// A DICOM series with identifiers of its own and nothing of the patient's. Equal voxels give equal
-// files.
+// A DICOM series, whole or not at all.
 void writeSeries(const Options& options, const scene::Case& value,
                  const volume::IntensityVolume& image, const std::string& drawnOn,
                  const core::Progress& progress)
 {
-  if (std::holds_alternative<std::shared_ptr<const volume::Volume<float>>>(image.voxels()))
-    throw core::InvalidParameter(
-        "export " + options.what +
-        ": its voxels are fractions, and a DICOM series holds whole numbers; write " +
-        imaging::orText(imaging::writtenEndings(imaging::kImage)));
-  using Modality = imaging::SeriesDescription::Modality;
-  const CaseIdentifiers identifiers(value);
-  imaging::SeriesDescription series;
-  series.modality = options.what == "mr" ? Modality::Mr : Modality::Ct;
-  series.derived = true;
-  series.description = options.what == "dissected" ? "CT, dissected"
-                       : options.what == "ct"      ? "CT"
-                       : options.onCt              ? "MR, resampled on the CT"
-                                                   : "MR";
-  series.seriesNumber = options.what == "ct" ? 1 : options.what == "mr" ? 2 : 3;
-  series.patientId = "ANONYMOUS";
-  series.patientName = "Anonymous";
-  series.studyUid = identifiers.study();
-  series.seriesUid = identifiers.series(options.what, image);
-  series.frameOfReferenceUid = identifiers.frameOfReference(drawnOn);
-  if (value.denseBone != volume::IntensityScale{}.dense)
-    series.rescaleType = "US";
-  if (series.modality == Modality::Mr)
-  {
-    const volume::ValueRange range = image.range();
-    series.windowCenter = 0.5 * (range.min + range.max);
-    series.windowWidth = std::max(range.max - range.min, 1.0);
-  }
   core::OutputFolder folder(options.out);
-  imaging::writeDicomSeries(folder.path(), image, series, std::nullopt, progress);
+  presenters::writeCaseSeries(folder.path(), value, options.what, image, drawnOn, options.onCt, {},
+                              progress);
   progress.check("writing DICOM slices");
   folder.commit();
-}
-
-// The structures as a DICOM segmentation that belongs to the series of the CT, or of the MR, which
-// `export --what ct` or `mr` writes. Returns the number of segments.
-std::size_t writeSegmentation(const Options& options, const scene::Case& value,
-                              const std::vector<PlacedLabels>& placed,
-                              const std::string& sourceSeries, const core::Progress& progress)
-{
-  using Segmentation = imaging::SegmentationDescription;
-  const std::string& drawnOn = placed.front().drawnOn;
-  const core::GridGeometry& grid = placed.front().map->voxels->geometry();
-  const CaseIdentifiers identifiers(value);
-  const auto presets = appearance::StructurePresets::builtIn();
-  Segmentation segmentation;
-  std::vector<volume::LabelMap> maps;
-  for (const PlacedLabels& labels : placed)
-  {
-    for (const auto* structure : labels.structures)
-    {
-      const auto code = presets.codeFor(structure->name, structure->look.preset);
-      Segmentation::Segment segment;
-      segment.map = maps.size();
-      segment.index = structure->index;
-      segment.label = structure->name;
-      segment.color = structure->look.color;
-      segment.category = {code.category, "SCT", code.categoryMeaning};
-      segment.type = {code.type, "SCT", code.typeMeaning};
-      // A case does not record how its structures were drawn.
-      segment.algorithm = Segmentation::Algorithm::SemiAutomatic;
-      segment.algorithmName = "not recorded";
-      segmentation.segments.push_back(std::move(segment));
-    }
-    maps.push_back(*labels.map);
-  }
-  const scene::ImagePart* source = drawnOn.empty() ? &value.ct : nullptr;
-  for (const auto& mr : value.mr)
-    if (!source && mr.name == drawnOn)
-      source = &mr;
-  if (source)
-    segmentation.source = Segmentation::Source{
-        drawnOn.empty() ? imaging::SeriesDescription::Modality::Ct
-                        : imaging::SeriesDescription::Modality::Mr,
-        sourceSeries, source->geometry.dims()[2], core::sameGrid(source->geometry, grid)};
-  segmentation.description = "Segmentation";
-  segmentation.studyUid = identifiers.study();
-  segmentation.frameOfReferenceUid = identifiers.frameOfReference(drawnOn);
-  segmentation.seriesUid = identifiers.series(
-      "labels", grid,
-      [&](core::Fingerprint& all)
-      {
-        for (const auto& map : maps)
-          all.add(map.voxels->data(), map.voxels->size() * sizeof(std::uint16_t));
-        for (const auto& segment : segmentation.segments)
-        {
-          all.add(segment.label.c_str(), segment.label.size() + 1);
-          all.add(segment.color.data(), sizeof segment.color);
-          all.add(segment.type.value.c_str(), segment.type.value.size() + 1);
-          all.add(&segment.map, sizeof segment.map);
-          all.add(&segment.index, sizeof segment.index);
-        }
-      });
-  imaging::writeDicomSegmentation(options.out, maps, segmentation, progress);
-  return segmentation.segments.size();
 }
 
 // One structure as a surface, with its colour: of its voxels on the CT, or the mesh that it is.
@@ -563,7 +418,8 @@ void exportCase(const Context& context, const Options& options)
       const std::string series = CaseIdentifiers(value).series(
           drawnOn.empty() ? "ct" : "mr",
           *checked(drawnOn.empty() ? value.ct : chooseMr(value, drawnOn)));
-      json["segments"] = writeSegmentation(options, value, placed, series, progress.part(0.5, 1.0));
+      json["segments"] = presenters::writeCaseSegmentation(options.out, value, placed, series, {},
+                                                           progress.part(0.5, 1.0));
     }
     else
     {

@@ -614,6 +614,7 @@ std::vector<Series> seriesIn(const Association& association, const std::string& 
   put(query, DCM_SeriesInstanceUID, "");
   put(query, DCM_Modality, "");
   put(query, DCM_SeriesDescription, "");
+  put(query, DCM_SeriesNumber, "");
   put(query, DCM_NumberOfSeriesRelatedInstances, "");
   std::map<std::string, Series> found;
   find(association, query,
@@ -623,6 +624,7 @@ std::vector<Series> seriesIn(const Association& association, const std::string& 
          series.uid = text(answer, DCM_SeriesInstanceUID);
          series.modality = text(answer, DCM_Modality);
          series.description = text(answer, DCM_SeriesDescription);
+         series.number = count(answer, DCM_SeriesNumber);
          series.instances = count(answer, DCM_NumberOfSeriesRelatedInstances);
          if (!series.uid.empty())
            found.emplace(series.uid, series);

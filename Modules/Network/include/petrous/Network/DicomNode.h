@@ -97,6 +97,7 @@ struct Series
   std::string uid;
   std::string modality;
   std::string description; ///< may identify the patient: for the user's own screen only
+  int number = -1;         ///< Series Number; -1: none
   int instances = -1;      ///< as the node states; -1: it does not
 };
 

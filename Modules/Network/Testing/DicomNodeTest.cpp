@@ -252,7 +252,8 @@ TEST_F(OrthancNode, EndsWhenTheServerFallsSilent)
   const CtSeries ct(m_folder.path() / "ct", 256);
   Node node = server.node();
   node.timeouts.reply = std::chrono::milliseconds(300);
-  const BreakingProxy proxy(server.node().port, 300000, BreakingProxy::Fault::Stall, 100);
+  // Before a slice is through: what gets on is asked for again for as long as it gets on.
+  const BreakingProxy proxy(server.node().port, 40000, BreakingProxy::Fault::Stall, 100);
   node.port = proxy.port();
   const NetworkError error = failure([&] { store(node, ct.files); });
   EXPECT_EQ(error.reason, Reason::TimedOut) << error.what();

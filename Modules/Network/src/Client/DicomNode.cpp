@@ -15,6 +15,7 @@
 #include <netinet/tcp.h>
 #include <openssl/evp.h>
 #include <openssl/ssl.h>
+#include <openssl/sslerr.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -351,7 +352,9 @@ public:
         failSilent(task);
       failCut(task);
     }
-    if (result.module() != OFM_dcmnet && result.module() != OFM_dcmtls)
+    if (result.module() == OFM_dcmtls)
+      failTls(result.code());
+    if (result.module() != OFM_dcmnet)
       throw NetworkError(Reason::Protocol, place(m_node) +
                                                ": what it answers is not valid DICOM; " + task +
                                                " was ended");
@@ -363,7 +366,7 @@ public:
                          place(m_node) + ": nothing answers there; check host, port, network and "
                                          "firewall");
     case DULC_TLSERROR:
-      failTls();
+      failTls(0);
     case DULC_ASSOCIATIONREJECTED:
       throw NetworkError(Reason::Rejected,
                          rejection(m_node, m_association ? m_association->params : m_parameters));
@@ -396,12 +399,17 @@ private:
                                                         "certificate of this program?"
                                                       : "; does it expect TLS?"));
   }
-  [[noreturn]] void failTls() const
+  /// `code`: of OpenSSL, with the library's bit of DCMTK.
+  [[noreturn]] void failTls(int code) const
   {
-    throw NetworkError(Reason::Tls, place(m_node) +
-                                        ": no secure connection; its certificate is not one of a "
-                                        "trusted authority, it refuses that of this program, or it "
-                                        "does not speak TLS 1.2 or later");
+    const std::string text = place(m_node) + ": no secure connection; ";
+    if ((code & 0x7FF) == SSL_R_CERTIFICATE_VERIFY_FAILED)
+      throw NetworkError(Reason::Tls, text +
+                                          "its certificate is not of a trusted authority, or has "
+                                          "expired");
+    throw NetworkError(Reason::Tls, text +
+                                        "it refuses the certificate of this program, or does not "
+                                        "speak TLS 1.2 or later");
   }
 
   void open(std::unique_ptr<DcmTransportLayer> layer, const std::vector<Context>& contexts)

@@ -131,6 +131,10 @@ void send(const Context& context, const SendOptions& options)
                                          context.progress());
   for (const std::string& note : done.notes)
     context.warn(note);
+  if (!done.transfer.verified)
+    context.warn("node '" + options.node +
+                 "' confirmed every instance, but lists none of them (yet), so they could not be "
+                 "counted there");
   context.print("case '" + options.caseName + "' is at node '" + options.node +
                 "': " + transferText(done.transfer));
   context.print("study " + done.studyUid);
@@ -138,6 +142,7 @@ void send(const Context& context, const SendOptions& options)
   answer["case"] = options.caseName;
   answer["node"] = options.node;
   answer["study"] = done.studyUid;
+  answer["verified"] = done.transfer.verified;
   context.printJson(answer);
 }
 
@@ -191,6 +196,11 @@ void addNodeCommands(CLI::App& app, Context& context)
                    "AE title by which the node knows this program")
       ->type_name("C")
       ->capture_default_str();
+  command
+      ->add_option("--move-port", nodes->node.movePort,
+                   "Port at which this program listens for a node that offers C-MOVE only; the "
+                   "node must know this program's AE title at this host and port")
+      ->type_name("P");
   command->add_flag("--tls", nodes->tls,
                     "TLS 1.2 or later; implied by the options below. The node's certificate is "
                     "always verified");

@@ -103,6 +103,7 @@ void roundTrip(const Node& node, const fs::path& folder)
   EXPECT_EQ(sent.completed, kSlices);
   EXPECT_EQ(sent.present, 0U);
   EXPECT_EQ(sent.asked, 1U);
+  EXPECT_TRUE(sent.verified);
   EXPECT_GT(sent.bytes, ct.voxels->size() * 2);
   const Transfer again = store(node, ct.files);
   EXPECT_EQ(again.completed, kSlices);
@@ -161,7 +162,7 @@ TEST_F(OrthancNode, SpeaksTlsWithCertificatesOfBothSides)
 {
   const Certificate own(m_folder.path(), "server"), client(m_folder.path(), "client"),
       stranger(m_folder.path(), "stranger");
-  const Orthanc server(m_folder.path(), {&own, &client, 0});
+  const Orthanc server(m_folder.path(), {&own, &client, 0, 0});
   roundTrip(server.node(), m_folder.path());
 
   Node node = server.node();
@@ -188,7 +189,25 @@ TEST_F(OrthancNode, KeepsASeriesInPostgreSql)
   const auto database = Postgres::start(m_folder.path(), whyNot);
   if (!database)
     GTEST_SKIP() << whyNot;
-  const Orthanc server(m_folder.path(), {nullptr, nullptr, database->port()});
+  const Orthanc server(m_folder.path(), {nullptr, nullptr, database->port(), 0});
+  roundTrip(server.node(), m_folder.path());
+}
+
+TEST_F(OrthancNode, SendsByMoveWhereItAllowsNoGet)
+{
+  const Orthanc server(m_folder.path(), {nullptr, nullptr, 0, freePort()});
+  roundTrip(server.node(), m_folder.path());
+  Node node = server.node();
+  node.movePort = 0;
+  const std::string study = imaging::deterministicUid(7, "test study");
+  EXPECT_NO_FATAL_FAILURE(failure([&] { retrieve(node, study, {}, m_folder.path() / "none"); }));
+  EXPECT_EQ(filesIn(m_folder.path() / "none"), 0U);
+}
+
+TEST_F(OrthancNode, SendsByMoveOverTls)
+{
+  const Certificate own(m_folder.path(), "server"), client(m_folder.path(), "client");
+  const Orthanc server(m_folder.path(), {&own, &client, 0, freePort()});
   roundTrip(server.node(), m_folder.path());
 }
 

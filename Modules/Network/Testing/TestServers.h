@@ -308,6 +308,7 @@ public:
     const Certificate* own = nullptr; ///< with TLS
     const Certificate* client = nullptr;
     int postgres = 0; ///< port
+    int movePort = 0; ///< offers C-MOVE to this port only, no C-GET
   };
 
   static bool installed() { return fs::exists(kProgram); }
@@ -321,13 +322,15 @@ public:
   }
 
   const Node& node() const { return m_node; }
+  const fs::path& storage() const { return m_storage; }
 
 private:
   static constexpr const char* kProgram = "/usr/sbin/Orthanc";
 
   void start(const fs::path& folder, const Options& options)
   {
-    fs::create_directories(folder / "storage");
+    m_storage = folder / "storage";
+    fs::create_directories(m_storage);
     m_node = Node();
     m_node.name = "orthanc";
     m_node.host = "127.0.0.1";
@@ -338,9 +341,12 @@ private:
          << "\",\"IndexDirectory\":\"" << (folder / "storage").string()
          << "\",\"HttpServerEnabled\":false,\"DicomServerEnabled\":true,\"DicomAet\":\"ORTHANC\""
          << ",\"DicomCheckCalledAet\":true,\"DicomPort\":" << m_node.port
-         << ",\"DicomAlwaysAllowStore\":false,\"DicomModalities\":{\"petrous\":{\"AET\":"
-            "\"PETROUS\",\"Host\":\"127.0.0.1\",\"Port\":104,\"AllowEcho\":true,\"AllowFind\":true,"
-            "\"AllowGet\":true,\"AllowStore\":true}}";
+         << R"(,"DicomAlwaysAllowStore":false,"DicomModalities":{"petrous":{"AET":"PETROUS",)"
+         << R"("Host":"127.0.0.1","Port":)" << (options.movePort != 0 ? options.movePort : 104)
+         << R"(,"AllowEcho":true,"AllowFind":true,"AllowStore":true,"AllowMove":true,"AllowGet":)"
+         << (options.movePort != 0 ? "false" : "true") << R"(,"UseDicomTls":)"
+         << (options.own ? "true" : "false") << "}}";
+    m_node.movePort = options.movePort;
     if (options.own)
     {
       file << ",\"DicomTlsEnabled\":true,\"DicomTlsCertificate\":\"" << options.own->certificate()
@@ -373,6 +379,7 @@ private:
   }
 
   Node m_node;
+  fs::path m_storage;
   std::unique_ptr<ServerProcess> m_process;
 };
 

@@ -16,6 +16,7 @@
 #include <openssl/evp.h>
 #include <openssl/ssl.h>
 #include <openssl/sslerr.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -502,6 +503,8 @@ std::string statusText(DIC_US status)
     return "it is out of resources" + code;
   if ((status & 0xFF00) == 0xA900)
     return "the request does not match its model, or it refuses the object" + code;
+  if (status == 0xA801)
+    return "it does not know this program's AE title as a destination; have it added there" + code;
   if (status == 0x0122 || status == 0xA800)
     return "it does not support this kind of object" + code;
   if (status == 0x0124)
@@ -939,30 +942,29 @@ private:
   std::size_t m_foreign = 0;
 };
 
-/// Receives the data set of a C-STORE request to the disk, and answers it.
-void receiveInstance(const Association& association, T_ASC_PresentationContextID context,
-                     T_DIMSE_C_StoreRQ& request, Reception& reception, ByteCounter& counter,
-                     Transfer& transfer)
+/// Receives the data set of a C-STORE request to the disk, and answers it. Throws if the disk does
+/// not take it.
+OFCondition receiveInstance(T_ASC_Association* association, int timeout,
+                            T_ASC_PresentationContextID context, T_DIMSE_C_StoreRQ& request,
+                            Reception& reception, ByteCounter& counter, Transfer& transfer)
 {
-  const std::string task = "receiving";
   const fs::path part = reception.folder() / ("part-" + std::to_string(::getpid()) + ".tmp");
   const std::string uid = request.AffectedSOPInstanceUID;
   DcmOutputFileStream* opened = nullptr;
   const OFCondition made =
-      DIMSE_createFilestream(part.c_str(), &request, association.get(), context, 1, &opened);
+      DIMSE_createFilestream(part.c_str(), &request, association, context, 1, &opened);
   std::unique_ptr<DcmOutputFileStream> stream(opened);
   if (made.bad())
     throw core::Error(core::Fault::Refused,
                       reception.folder().string() + ": cannot be written; is the disk full?");
-  OFCondition result =
-      DIMSE_receiveDataSetInFile(association.get(), DIMSE_NONBLOCKING, association.timeout(),
-                                 &context, stream.get(), onReceiveProgress, &counter);
+  const OFCondition result = DIMSE_receiveDataSetInFile(
+      association, DIMSE_NONBLOCKING, timeout, &context, stream.get(), onReceiveProgress, &counter);
   stream.reset();
   std::error_code ignored;
   if (result.bad())
   {
     fs::remove(part, ignored);
-    association.require(result, task);
+    return result;
   }
   const std::uintmax_t bytes = fs::file_size(part, ignored);
   transfer.bytes += bytes;
@@ -979,8 +981,7 @@ void receiveInstance(const Association& association, T_ASC_PresentationContextID
   OFStandard::strlcpy(response.AffectedSOPInstanceUID, request.AffectedSOPInstanceUID,
                       sizeof response.AffectedSOPInstanceUID);
   response.opts = O_STORE_AFFECTEDSOPCLASSUID | O_STORE_AFFECTEDSOPINSTANCEUID;
-  association.require(
-      DIMSE_sendStoreResponse(association.get(), context, &request, &response, nullptr), task);
+  return DIMSE_sendStoreResponse(association, context, &request, &response, nullptr);
 }
 
 DcmDataset retrieveRequest(const Reception& reception, const std::string& seriesUid,
@@ -1030,7 +1031,9 @@ DIC_US getInstances(const Association& association, DcmDataset& query, Reception
     association.require(result, task);
     if (answer.CommandField == DIMSE_C_STORE_RQ)
     {
-      receiveInstance(association, on, answer.msg.CStoreRQ, reception, counter, transfer);
+      association.require(receiveInstance(association.get(), association.timeout(), on,
+                                          answer.msg.CStoreRQ, reception, counter, transfer),
+                          task);
       if (reception.foreign() > 0)
         return STATUS_Success; // ended by the caller
       continue;
@@ -1061,11 +1064,12 @@ DIC_US getInstances(const Association& association, DcmDataset& query, Reception
 
 std::vector<Context> getContexts(const Reception& reception)
 {
-  std::vector<Context> contexts{{UID_GETStudyRootQueryRetrieveInformationModel, kUncompressed}};
+  std::vector<Context> contexts{{UID_GETStudyRootQueryRetrieveInformationModel, kUncompressed},
+                                {UID_MOVEStudyRootQueryRetrieveInformationModel, kUncompressed}};
   const std::set<std::string> classes = reception.sopClasses();
   // One context per class and syntax, so that each object can come as it is stored.
   const std::size_t syntaxes =
-      std::clamp((kMaxContexts - 1) / std::max<std::size_t>(classes.size(), 1), std::size_t{1},
+      std::clamp((kMaxContexts - 2) / std::max<std::size_t>(classes.size(), 1), std::size_t{1},
                  kTransferSyntaxes.size());
   for (const std::string& sopClass : classes)
     for (std::size_t n = 0; n < syntaxes; ++n)
@@ -1073,34 +1077,214 @@ std::vector<Context> getContexts(const Reception& reception)
   return contexts;
 }
 
+/// Storage provider for what a node sends by C-MOVE, on a thread of its own: one association at a
+/// time, as nodes open one per request.
+class MoveReceiver
+{
+public:
+  MoveReceiver(const Node& node, Reception& reception, ByteCounter& counter, Transfer& transfer,
+               const core::Progress& progress)
+    : m_node(node)
+    , m_reception(reception)
+    , m_counter(counter)
+    , m_transfer(transfer)
+    , m_watch(progress, node.timeouts.reply)
+  {
+    if (node.tls && node.tls->certificate.empty())
+      throw NetworkError(Reason::Tls, place(node) + ": C-MOVE with TLS needs a certificate of this "
+                                                    "program; see 'petrous nodes add --tls-cert'");
+    if (node.tls)
+      m_layer = tlsLayer(node, m_watch, NET_ACCEPTOR);
+    else
+      m_layer = std::make_unique<WatchedLayer<DcmTransportLayer>>(m_watch);
+    if (ASC_initializeNetwork(NET_ACCEPTOR, node.movePort, 30, &m_network).bad())
+      throw NetworkError(Reason::Unreachable, place(node) +
+                                                  ": this program cannot listen at port " +
+                                                  std::to_string(node.movePort) +
+                                                  " for C-MOVE; is it in use, or below 1024?");
+    ASC_setTransportLayer(m_network, m_layer.get(), 0);
+    m_thread = std::thread([this] { run(); });
+  }
+  ~MoveReceiver() { stop(); }
+  MoveReceiver(const MoveReceiver&) = delete;
+  MoveReceiver& operator=(const MoveReceiver&) = delete;
+
+  /// After this the reception is the caller's again. Throws what the disk did.
+  void finish()
+  {
+    stop();
+    if (m_fault)
+      std::rethrow_exception(m_fault);
+  }
+
+private:
+  void stop()
+  {
+    m_stop = true;
+    if (m_thread.joinable())
+      m_thread.join();
+    if (m_network)
+      ASC_dropNetwork(&m_network);
+  }
+
+  void run()
+  {
+    while (!m_stop)
+    {
+      // In slices, so that it can be stopped.
+      if (!ASC_associationWaiting(m_network, 0))
+      {
+        ::poll(nullptr, 0, 5);
+        continue;
+      }
+      T_ASC_Association* association = nullptr;
+      if (ASC_receiveAssociation(m_network, &association, ASC_MAXIMUMPDUSIZE, nullptr, nullptr,
+                                 m_node.tls ? OFTrue : OFFalse)
+              .good())
+        try
+        {
+          serve(association);
+        }
+        catch (...)
+        {
+          m_fault = std::current_exception();
+          ASC_abortAssociation(association);
+        }
+      m_watch.forget();
+      ASC_dropSCPAssociation(association, 0);
+      ASC_destroyAssociation(&association);
+    }
+  }
+
+  void serve(T_ASC_Association* association)
+  {
+    std::vector<std::string> classes{UID_VerificationSOPClass};
+    for (const std::string& sopClass : m_reception.sopClasses())
+      classes.push_back(sopClass);
+    for (const std::string& sopClass : classes)
+    {
+      const char* syntax = sopClass.c_str();
+      ASC_acceptContextsWithPreferredTransferSyntaxes(
+          association->params, &syntax, 1, const_cast<const char**>(kTransferSyntaxes.data()),
+          static_cast<int>(kTransferSyntaxes.size()));
+    }
+    if (ASC_acknowledgeAssociation(association).bad())
+      return;
+    while (!m_stop)
+    {
+      T_ASC_PresentationContextID context = 0;
+      T_DIMSE_Message message{};
+      DcmDataset* detail = nullptr;
+      const OFCondition result =
+          DIMSE_receiveCommand(association, DIMSE_NONBLOCKING, 1, &context, &message, &detail);
+      delete detail;
+      if (result == DIMSE_NODATAAVAILABLE)
+        continue;
+      if (result == DUL_PEERREQUESTEDRELEASE)
+        ASC_acknowledgeRelease(association);
+      if (result.bad())
+        return;
+      m_watch.active();
+      if (message.CommandField == DIMSE_C_ECHO_RQ)
+        DIMSE_sendEchoResponse(association, context, &message.msg.CEchoRQ, STATUS_Success, nullptr);
+      else if (message.CommandField != DIMSE_C_STORE_RQ ||
+               receiveInstance(association, 2, context, message.msg.CStoreRQ, m_reception,
+                               m_counter, m_transfer)
+                   .bad())
+        return;
+    }
+  }
+
+  const Node& m_node;
+  Reception& m_reception;
+  ByteCounter& m_counter;
+  Transfer& m_transfer;
+  ConnectionWatch m_watch;
+  std::unique_ptr<DcmTransportLayer> m_layer;
+  T_ASC_Network* m_network = nullptr;
+  std::atomic<bool> m_stop{false};
+  std::exception_ptr m_fault;
+  std::thread m_thread;
+};
+
+struct MoveCall
+{
+  const Association* association;
+};
+
+void onMoveAnswer(void* data, T_DIMSE_C_MoveRQ*, int, T_DIMSE_C_MoveRSP*)
+{
+  static_cast<MoveCall*>(data)->association->watch().active();
+}
+
+DIC_US moveInstances(const Association& association, DcmDataset& query)
+{
+  T_DIMSE_C_MoveRQ request{};
+  request.MessageID = association.get()->nextMsgID++;
+  OFStandard::strlcpy(request.AffectedSOPClassUID, UID_MOVEStudyRootQueryRetrieveInformationModel,
+                      sizeof request.AffectedSOPClassUID);
+  OFStandard::strlcpy(request.MoveDestination, association.node().callingAeTitle.c_str(),
+                      sizeof request.MoveDestination);
+  request.Priority = DIMSE_PRIORITY_MEDIUM;
+  request.DataSetType = DIMSE_DATASET_PRESENT;
+  T_DIMSE_C_MoveRSP response{};
+  MoveCall call{&association};
+  DcmDataset* detail = nullptr;
+  DcmDataset* failed = nullptr;
+  const OFCondition result = DIMSE_moveUser(
+      association.get(), association.context(UID_MOVEStudyRootQueryRetrieveInformationModel),
+      &request, &query, onMoveAnswer, &call, DIMSE_NONBLOCKING, association.timeout(), nullptr,
+      nullptr, nullptr, &response, &detail, &failed);
+  delete detail;
+  delete failed;
+  association.require(result, "receiving");
+  return response.DimseStatus;
+}
+
 /// Asks for everything that is missing, once.
 void fetchMissing(const Node& node, Reception& reception, ByteCounter& counter, Transfer& transfer,
                   const core::Progress& progress)
 {
-  const Association association(node, getContexts(reception), progress);
-  if (association.context(UID_GETStudyRootQueryRetrieveInformationModel) == 0)
-    throw NetworkError(Reason::Unsupported, place(node) + ": does not offer retrieval by C-GET");
+  Association association(node, getContexts(reception), progress);
+  const bool canGet = association.context(UID_GETStudyRootQueryRetrieveInformationModel) != 0;
+  const bool canMove = association.context(UID_MOVEStudyRootQueryRetrieveInformationModel) != 0;
+  const bool gets = canGet && (node.movePort == 0 || !canMove);
+  if (!gets && (node.movePort == 0 || !canMove))
+    throw NetworkError(
+        Reason::Unsupported,
+        place(node) + (canMove ? ": offers retrieval by C-MOVE only; add it with --move-port, and "
+                                 "have this program's AE title, host and port added there"
+                               : ": offers no retrieval (C-GET or C-MOVE)"));
   counter.watch = &association.watch();
   DIC_US refusal = STATUS_Success;
   for (const auto& [series, uids] : reception.missing())
   {
     const bool whole = uids.size() == reception.sizeOf(series);
-    for (std::size_t first = 0; first < uids.size(); first += whole ? uids.size() : kMaxUidsAsked)
+    const std::size_t most = whole ? uids.size() : kMaxUidsAsked;
+    for (std::size_t first = 0; first < uids.size(); first += most)
     {
-      const std::size_t last = whole ? 0 : std::min(first + kMaxUidsAsked, uids.size());
-      DcmDataset query = retrieveRequest(
-          reception, series,
-          whole ? std::vector<std::string>()
-                : std::vector<std::string>(uids.begin() + static_cast<std::ptrdiff_t>(first),
-                                           uids.begin() + static_cast<std::ptrdiff_t>(last)));
-      const DIC_US status = getInstances(association, query, reception, counter, transfer);
+      std::vector<std::string> these;
+      if (!whole)
+        these.assign(uids.begin() + static_cast<std::ptrdiff_t>(first),
+                     uids.begin() +
+                         static_cast<std::ptrdiff_t>(std::min(first + most, uids.size())));
+      DcmDataset query = retrieveRequest(reception, series, these);
+      DIC_US status = STATUS_Success;
+      if (gets)
+        status = getInstances(association, query, reception, counter, transfer);
+      else
+      {
+        MoveReceiver receiver(node, reception, counter, transfer, progress);
+        status = moveInstances(association, query);
+        receiver.finish();
+      }
       if (reception.foreign() > 0)
         failForeign(node);
       if (status != STATUS_Success && !isWarning(status))
         refusal = status;
     }
   }
-  const_cast<Association&>(association).release();
+  association.release();
   if (refusal != STATUS_Success && !reception.missing().empty())
     throw NetworkError(Reason::Failed, place(node) + ": ended the retrieval, " +
                                            std::to_string(reception.arrived()) + " of " +
@@ -1261,12 +1445,18 @@ Transfer store(const Node& node, const std::vector<fs::path>& files, const core:
         }
       }
       sendAgain();
-      // A node may answer Success and keep nothing.
+      // A node may answer Success and not keep it. One that lists none of them has no index of
+      // them, or not yet.
       if (waiting.empty())
         if (const auto held = heldThere(association, all))
+        {
           for (const OutgoingFile& file : all)
             if (held->count(file.uid) == 0)
               waiting.push_back(file);
+          transfer.verified = waiting.empty();
+          if (waiting.size() == all.size())
+            waiting.clear();
+        }
       association.release();
     }
     catch (const NetworkError& error)

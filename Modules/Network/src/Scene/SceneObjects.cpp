@@ -194,6 +194,7 @@ std::vector<fs::path> writeSceneObjects(const fs::path& archive, const fs::path&
     put(data, DCM_Manufacturer, "Petrous");
     put(data, DCM_ReferringPhysicianName, "");
     put(data, DCM_SeriesDescription, kSceneDescription);
+    put(data, DCM_BodyPartExamined, "SKULL"); // as the images: not a paired part, no laterality
     put(data, DCM_CreatorVersionUID, imaging::deterministicUid(0, "petrous-scene creator"));
     put(data, DCM_PatientName, description.patientName);
     put(data, DCM_PatientID, description.patientId);
@@ -209,7 +210,6 @@ std::vector<fs::path> writeSceneObjects(const fs::path& archive, const fs::path&
     data.insertEmptyElement(DCM_AcquisitionContextSequence);
     put(data, DCM_ContentLabel, "PETROUS");
     put(data, DCM_ContentDescription, "");
-    put(data, DCM_ContentCreatorName, "");
     data.putAndInsertString(DcmTag(kCreatorTag, EVR_LO), kCreator);
     if (data.putAndInsertUint8Array(DcmTag(kPartTag, DcmVR(EVR_OB)),
                                     reinterpret_cast<const Uint8*>(payload.data()),

@@ -65,8 +65,9 @@ struct Node
   /// TLS 1.2 or later by the profile of PS3.15 B.9 (BCP 195, non-downgrading). The node's
   /// certificate is always verified against the trusted ones.
   std::optional<TlsFiles> tls;
-  /// Port at which this program listens for what a node without C-GET sends by C-MOVE; the node
-  /// must know `callingAeTitle` at this host and port. 0: C-GET only.
+  /// Port at which this program listens for what the node sends by C-MOVE, where that is preferred,
+  /// as by a node without C-GET; the node must know `callingAeTitle` at this host and port. 0: by
+  /// C-GET only, which needs no port.
   int movePort = 0;
   Timeouts timeouts;
 };
@@ -125,6 +126,7 @@ struct Transfer
   std::size_t present = 0;   ///< of these, which were there already
   std::size_t warning = 0;   ///< of these, which the node stored with a warning
   std::size_t asked = 1;     ///< how often it took: 1, or more if something had to be asked again
+  bool verified = false;     ///< sent: the node lists all of them; some of them: Incomplete
   std::uintmax_t bytes = 0;  ///< transferred
   double seconds = 0.0;
 };
@@ -132,12 +134,12 @@ struct Transfer
 /// Sends DICOM files (C-STORE) and asks the node which it then has (C-FIND, where it offers that).
 /// Instances that the node has already are not sent again; after a cut, only what the node did not
 /// confirm. Throws InvalidParameter for a file that is not DICOM, NetworkError (Incomplete) if the
-/// node refuses one, with the number that it has.
+/// node refuses one, or lists only some of those that it confirmed, with the number that it has.
 Transfer store(const Node& node, const std::vector<std::filesystem::path>& files,
                const core::Progress& progress = {});
 
 /// Fetches series of a study into a folder, one file per instance (`kInstanceEnding`), by C-GET,
-/// or C-MOVE where the node offers only that. Which instances there are is asked first (C-FIND);
+/// or C-MOVE (Node::movePort). Which instances there are is asked first (C-FIND);
 /// what does not arrive is asked for again, also after a cut. What a complete earlier or a cut
 /// transfer left in the folder is used. Files whose study, series, patient or instance is not what
 /// was asked for are not kept, and the transfer fails (Foreign).

@@ -630,7 +630,7 @@ TEST_F(CommandLine, WrongUsageExitsWithTwo)
   expectRefused("library rename a", 2, "library rename A B");
   const auto help = run("--help");
   EXPECT_EQ(help.code, 0);
-  EXPECT_EQ(help.out.find("receive"), std::string::npos);
+  EXPECT_NE(help.out.find("receive"), std::string::npos);
   EXPECT_NE(help.out.find("render"), std::string::npos);
 }
 

@@ -53,8 +53,11 @@ protected:
     auto here = json("info ear");
     auto there = json("info " + name + other());
     EXPECT_GT(here["dissection"]["strokes"], 0);
-    here.erase("case");
-    there.erase("case");
+    for (const char* own : {"case", "resources"})
+    {
+      here.erase(own);
+      there.erase(own);
+    }
     EXPECT_EQ(here, there);
     auto history = json("history ear");
     auto received = json("history " + name + other());
@@ -115,7 +118,9 @@ TEST_F(NodeCommand, SendsACaseThatIsTheSameWhenReceived)
   json("undo ear");
   json("send ear --to pacs --what scene");
   json("receive --from pacs --as later --study " + sent["study"].get<std::string>() + other());
-  EXPECT_EQ(json("info later" + other())["dissection"]["strokes"], 0);
+  const auto later = json("info later" + other())["dissection"];
+  EXPECT_EQ(later["redo"], 1);
+  EXPECT_EQ(later, json("info ear")["dissection"]);
   expectRefused("receive --from pacs --as later --case ear" + other(), 4, "there already");
   EXPECT_EQ(logText().find(sent["study"].get<std::string>()), std::string::npos);
 }

@@ -3,21 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <condition_variable>
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <thread>
 #include <utility>
 
-#include <netinet/in.h>
-#include <netinet/tcp.h>
 #include <openssl/evp.h>
-#include <openssl/ssl.h>
-#include <openssl/sslerr.h>
 #include <poll.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 #include <dcmtk/config/osconfig.h>
@@ -25,9 +18,9 @@
 #include <dcmtk/dcmdata/dcostrmf.h>
 #include <dcmtk/dcmdata/dctk.h>
 #include <dcmtk/dcmnet/dcmlayer.h>
-#include <dcmtk/dcmnet/dcmtrans.h>
 #include <dcmtk/dcmnet/dimse.h>
-#include <dcmtk/dcmtls/tlslayer.h>
+
+#include "Association.h"
 
 namespace petrous::network
 {
@@ -57,426 +50,10 @@ constexpr std::array<const char*, 9> kTransferSyntaxes{
     UID_JPEG2000TransferSyntax,
     UID_DeflatedExplicitVRLittleEndianTransferSyntax};
 
-std::string place(const Node& node)
-{
-  return "node '" + node.name + "' (" + node.host + ":" + std::to_string(node.port) + ")";
-}
-
 std::string numberOf(std::size_t count, const std::string& what)
 {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
-
-/// DCMTK logs data sets and addresses; nothing of it is shown.
-void prepareToolkit()
-{
-  static std::once_flag once;
-  std::call_once(once,
-                 []
-                 {
-                   OFLog::configure(OFLogger::OFF_LOG_LEVEL);
-                   DcmTLSTransportLayer::initializeOpenSSL();
-                   dcmConnectionTimeout.set(10); // seconds; the default is that of the system
-                 });
-}
-
-// --- connection ---
-
-/// Ends the connection, from a thread of its own, when the user cancels or the node is silent for
-/// too long: the blocking call of DCMTK then returns.
-class ConnectionWatch
-{
-public:
-  enum class End
-  {
-    None,
-    Cancelled,
-    TimedOut,
-    TooLarge
-  };
-
-  ConnectionWatch(const core::Progress& progress, std::chrono::milliseconds limit)
-    : m_progress(progress)
-    , m_limit(limit)
-    , m_thread([this] { run(); })
-  {
-  }
-  ~ConnectionWatch()
-  {
-    {
-      const std::lock_guard<std::mutex> lock(m_mutex);
-      m_done = true;
-    }
-    m_wake.notify_all();
-    m_thread.join();
-    forget();
-  }
-  ConnectionWatch(const ConnectionWatch&) = delete;
-  ConnectionWatch& operator=(const ConnectionWatch&) = delete;
-
-  /// A duplicate: DCMTK may close its own at any time, and its number be used again.
-  void watch(int descriptor)
-  {
-    const std::lock_guard<std::mutex> lock(m_mutex);
-    if (m_descriptor >= 0)
-      ::close(m_descriptor);
-    m_descriptor = ::dup(descriptor);
-    active();
-    if (m_end != End::None)
-      ::shutdown(m_descriptor, SHUT_RDWR);
-  }
-  void forget()
-  {
-    const std::lock_guard<std::mutex> lock(m_mutex);
-    if (m_descriptor >= 0)
-      ::close(m_descriptor);
-    m_descriptor = -1;
-  }
-
-  void active() { m_last.store(Clock::now().time_since_epoch().count()); }
-  void end(End why)
-  {
-    const std::lock_guard<std::mutex> lock(m_mutex);
-    endLocked(why);
-  }
-  End ended() const
-  {
-    const std::lock_guard<std::mutex> lock(m_mutex);
-    return m_end;
-  }
-
-private:
-  void endLocked(End why)
-  {
-    if (m_end != End::None)
-      return;
-    m_end = why;
-    if (m_descriptor >= 0)
-      ::shutdown(m_descriptor, SHUT_RDWR);
-  }
-
-  void run()
-  {
-    std::unique_lock<std::mutex> lock(m_mutex);
-    while (!m_wake.wait_for(lock, std::chrono::milliseconds(50), [this] { return m_done; }))
-    {
-      try
-      {
-        m_progress.check("network");
-      }
-      catch (const core::CancelledError&)
-      {
-        endLocked(End::Cancelled);
-      }
-      const Clock::duration since(Clock::now().time_since_epoch().count() - m_last.load());
-      if (m_descriptor >= 0 && since > m_limit)
-        endLocked(End::TimedOut);
-    }
-  }
-
-  const core::Progress& m_progress;
-  const std::chrono::milliseconds m_limit;
-  mutable std::mutex m_mutex;
-  std::condition_variable m_wake;
-  bool m_done = false;
-  int m_descriptor = -1;
-  End m_end = End::None;
-  std::atomic<Clock::rep> m_last{Clock::now().time_since_epoch().count()};
-  std::thread m_thread; // last: it uses the others
-};
-
-/// Nagle's algorithm costs 40 ms an instance: DIMSE answers each message.
-template <class Layer>
-class WatchedLayer : public Layer
-{
-public:
-  template <class... Arguments>
-  explicit WatchedLayer(ConnectionWatch& watch, Arguments... arguments)
-    : Layer(arguments...)
-    , m_watch(watch)
-  {
-  }
-
-  DcmTransportConnection* createConnection(DcmNativeSocketType socket, OFBool secure) override
-  {
-    const int on = 1;
-    ::setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-    m_watch.watch(socket);
-    return Layer::createConnection(socket, secure);
-  }
-
-private:
-  ConnectionWatch& m_watch;
-};
-
-std::unique_ptr<DcmTransportLayer> tlsLayer(const Node& node, ConnectionWatch& watch,
-                                            T_ASC_NetworkRole role)
-{
-  const auto refuse = [&node](const std::string& why)
-  { throw NetworkError(Reason::Tls, "node '" + node.name + "': " + why); };
-  auto layer = std::make_unique<WatchedLayer<DcmTLSTransportLayer>>(
-      watch, role, static_cast<const char*>(nullptr), OFFalse);
-  const TlsFiles& files = *node.tls;
-  // BCP 195, non-downgrading: never below TLS 1.2.
-  if (layer->setTLSProfile(TSP_Profile_BCP195_ND).bad() || layer->activateCipherSuites().bad())
-    refuse("TLS 1.2 is not available here");
-  layer->setCertificateVerification(DCV_requireCertificate);
-  layer->setPrivateKeyPasswd(""); // never asked for on the terminal
-  if (files.authority.empty())
-  {
-    if (!SSL_CTX_set_default_verify_paths(layer->getNativeHandle()))
-      refuse("the system's trusted certificates cannot be read; give a file of certificates");
-  }
-  else if (layer->addTrustedCertificateFile(files.authority.c_str(), DCF_Filetype_PEM).bad())
-    refuse(files.authority + ": is not a PEM file of certificates to trust");
-  if (!files.certificate.empty())
-  {
-    if (layer->setPrivateKeyFile(files.key.c_str(), DCF_Filetype_PEM).bad())
-      refuse(files.key + ": is not a PEM file of a private key without a passphrase");
-    if (layer->setCertificateFile(files.certificate.c_str(), DCF_Filetype_PEM).bad())
-      refuse(files.certificate + ": is not a PEM file of a certificate of at least 2048 bits");
-    if (!layer->checkPrivateKeyMatchesCertificate())
-      refuse(files.key + ": is not the key of " + files.certificate);
-  }
-  return layer;
-}
-
-struct Context
-{
-  std::string sopClass;
-  std::vector<const char*> transferSyntaxes;
-  bool receives = false; ///< the node sends these to this program (C-GET)
-};
-
-std::string rejection(const Node& node, T_ASC_Parameters* parameters)
-{
-  T_ASC_RejectParameters why{};
-  ASC_getRejectParameters(parameters, &why);
-  const std::string text = place(node) + ": refuses the association";
-  switch (why.reason)
-  {
-  case ASC_REASON_SU_CALLINGAETITLENOTRECOGNIZED:
-    return text + ", as it does not know '" + node.callingAeTitle +
-           "'; have that AE title added there";
-  case ASC_REASON_SU_CALLEDAETITLENOTRECOGNIZED:
-    return text + ", as it is not called '" + node.aeTitle + "'; correct the AE title";
-  case ASC_REASON_SP_PRES_TEMPORARYCONGESTION:
-  case ASC_REASON_SP_PRES_LOCALLIMITEXCEEDED:
-    return text + ", as it is busy; try again later";
-  default:
-    return text + "; ask its administrator whether this program may call it";
-  }
-}
-
-/// An association with the node; released by `release`, aborted by the destructor otherwise.
-class Association
-{
-public:
-  Association(const Node& node, const std::vector<Context>& contexts,
-              const core::Progress& progress)
-    : m_node(node)
-    , m_progress(progress)
-    , m_watch(std::make_unique<ConnectionWatch>(progress, node.timeouts.reply))
-  {
-    progress.check("network");
-    std::unique_ptr<DcmTransportLayer> layer;
-    if (node.tls)
-      layer = tlsLayer(node, *m_watch, NET_REQUESTOR);
-    else
-      layer = std::make_unique<WatchedLayer<DcmTransportLayer>>(*m_watch);
-    try
-    {
-      open(std::move(layer), contexts);
-    }
-    catch (...)
-    {
-      close();
-      throw;
-    }
-  }
-  ~Association() { close(); }
-  Association(const Association&) = delete;
-  Association& operator=(const Association&) = delete;
-
-  T_ASC_Association* get() const noexcept { return m_association; }
-  ConnectionWatch& watch() const noexcept { return *m_watch; }
-  const Node& node() const noexcept { return m_node; }
-  const core::Progress& progress() const noexcept { return m_progress; }
-  int timeout() const ///< seconds, for DCMTK; the watch is the finer one
-  {
-    return static_cast<int>(m_node.timeouts.reply.count() / 1000 + 2);
-  }
-
-  /// The accepted context, or 0.
-  T_ASC_PresentationContextID context(const std::string& sopClass) const
-  {
-    return ASC_findAcceptedPresentationContextID(m_association, sopClass.c_str());
-  }
-  T_ASC_PresentationContextID context(const std::string& sopClass, const char* transferSyntax) const
-  {
-    return ASC_findAcceptedPresentationContextID(m_association, sopClass.c_str(), transferSyntax);
-  }
-
-  void release()
-  {
-    if (ASC_releaseAssociation(m_association).good())
-      m_released = true;
-  }
-
-  /// Throws for a failed call of DCMTK.
-  void require(const OFCondition& result, const std::string& task) const
-  {
-    m_watch->active();
-    if (result.bad())
-      fail(result, task);
-  }
-
-  [[noreturn]] void fail(const OFCondition& result, const std::string& task) const
-  {
-    switch (m_watch->ended())
-    {
-    case ConnectionWatch::End::Cancelled:
-      throw core::CancelledError(task);
-    case ConnectionWatch::End::TimedOut:
-      failSilent(task);
-    case ConnectionWatch::End::TooLarge:
-      throw NetworkError(Reason::Protocol, place(m_node) +
-                                               ": sends an instance of more than 4 GB; " + task +
-                                               " was ended");
-    case ConnectionWatch::End::None:
-      break;
-    }
-    if (result == DIMSE_NODATAAVAILABLE || result == DIMSE_READPDVFAILED ||
-        (result.module() == OFM_dcmnet && result.code() == DULC_READTIMEOUT))
-    {
-      if (result != DIMSE_READPDVFAILED)
-        failSilent(task);
-      failCut(task);
-    }
-    if (result.module() == OFM_dcmtls)
-      failTls(result.code());
-    if (result.module() != OFM_dcmnet)
-      throw NetworkError(Reason::Protocol, place(m_node) +
-                                               ": what it answers is not valid DICOM; " + task +
-                                               " was ended");
-    switch (result.code())
-    {
-    case DULC_UNKNOWNHOST:
-    case DULC_TCPINITERROR:
-      throw NetworkError(Reason::Unreachable,
-                         place(m_node) + ": nothing answers there; check host, port, network and "
-                                         "firewall");
-    case DULC_TLSERROR:
-      failTls(0);
-    case DULC_ASSOCIATIONREJECTED:
-      throw NetworkError(Reason::Rejected,
-                         rejection(m_node, m_association ? m_association->params : m_parameters));
-    case DULC_PEERABORTEDASSOCIATION:
-    case DULC_PEERREQUESTEDRELEASE:
-    case DULC_NETWORKCLOSED:
-    case DULC_TCPIOERROR:
-      failCut(task);
-    default:
-      break;
-    }
-    if (result == DIMSE_SENDFAILED || result == DIMSE_RECEIVEFAILED)
-      failCut(task);
-    throw NetworkError(Reason::Protocol, place(m_node) + ": what it answers is not valid DICOM; " +
-                                             task + " was ended");
-  }
-
-private:
-  [[noreturn]] void failSilent(const std::string& task) const
-  {
-    throw NetworkError(Reason::TimedOut, place(m_node) + ": has not answered for " +
-                                             std::to_string(m_node.timeouts.reply.count() / 1000) +
-                                             " s; " + task + " was ended");
-  }
-  [[noreturn]] void failCut(const std::string& task) const
-  {
-    throw NetworkError(Reason::Cut, place(m_node) + ": the connection was lost during " + task +
-                                        (m_opened     ? ""
-                                         : m_node.tls ? "; does it expect TLS, and the "
-                                                        "certificate of this program?"
-                                                      : "; does it expect TLS?"));
-  }
-  /// `code`: of OpenSSL, with the library's bit of DCMTK.
-  [[noreturn]] void failTls(int code) const
-  {
-    const std::string text = place(m_node) + ": no secure connection; ";
-    if ((code & 0x7FF) == SSL_R_CERTIFICATE_VERIFY_FAILED)
-      throw NetworkError(Reason::Tls, text +
-                                          "its certificate is not of a trusted authority, or has "
-                                          "expired");
-    throw NetworkError(Reason::Tls, text +
-                                        "it refuses the certificate of this program, or does not "
-                                        "speak TLS 1.2 or later");
-  }
-
-  void open(std::unique_ptr<DcmTransportLayer> layer, const std::vector<Context>& contexts)
-  {
-    const std::string task = "connecting";
-    require(ASC_initializeNetwork(NET_REQUESTOR, 0, timeout(), &m_network), task);
-    // Owned here: the network keeps a pointer only.
-    m_layer = std::move(layer);
-    ASC_setTransportLayer(m_network, m_layer.get(), 0);
-    require(ASC_createAssociationParameters(&m_parameters, ASC_MAXIMUMPDUSIZE), task);
-    ASC_setAPTitles(m_parameters, m_node.callingAeTitle.c_str(), m_node.aeTitle.c_str(), nullptr);
-    ASC_setTransportLayerType(m_parameters, m_node.tls ? OFTrue : OFFalse);
-    const std::string address = m_node.host + ":" + std::to_string(m_node.port);
-    ASC_setPresentationAddresses(m_parameters, "localhost", address.c_str());
-    int id = 1;
-    for (const Context& context : contexts)
-    {
-      if (id > 255)
-        break;
-      std::vector<const char*> syntaxes = context.transferSyntaxes;
-      require(ASC_addPresentationContext(m_parameters, static_cast<T_ASC_PresentationContextID>(id),
-                                         context.sopClass.c_str(), syntaxes.data(),
-                                         static_cast<int>(syntaxes.size()),
-                                         context.receives ? ASC_SC_ROLE_SCP : ASC_SC_ROLE_DEFAULT),
-              task);
-      id += 2;
-    }
-    m_watch->active();
-    const OFCondition result = ASC_requestAssociation(m_network, m_parameters, &m_association,
-                                                      nullptr, nullptr, DUL_NOBLOCK, timeout());
-    if (result.good())
-      m_opened = true;
-    else
-      fail(result, task);
-    if (ASC_countAcceptedPresentationContexts(m_association->params) == 0)
-      throw NetworkError(Reason::Unsupported,
-                         place(m_node) + ": accepts nothing of what was asked for; it is not a "
-                                         "node for this purpose");
-  }
-
-  void close() noexcept
-  {
-    if (m_association)
-    {
-      if (m_opened && !m_released)
-        ASC_abortAssociation(m_association);
-      ASC_destroyAssociation(&m_association); // and its parameters
-    }
-    else if (m_parameters)
-      ASC_destroyAssociationParameters(&m_parameters);
-    m_watch->forget();
-    if (m_network)
-      ASC_dropNetwork(&m_network);
-    m_watch.reset(); // joins
-  }
-
-  const Node& m_node;
-  const core::Progress& m_progress;
-  std::unique_ptr<ConnectionWatch> m_watch;
-  std::unique_ptr<DcmTransportLayer> m_layer;
-  T_ASC_Network* m_network = nullptr;
-  T_ASC_Parameters* m_parameters = nullptr;
-  T_ASC_Association* m_association = nullptr;
-  bool m_opened = false;
-  bool m_released = false;
-};
 
 const std::vector<const char*> kUncompressed{UID_LittleEndianExplicitTransferSyntax,
                                              UID_LittleEndianImplicitTransferSyntax};
@@ -923,6 +500,13 @@ private:
       return 0xC000; // cannot understand
     DcmDataset& data = *file.getDataset();
     const std::string patient = text(data, DCM_PatientID);
+    // The answer to the query may lack it, or be in another character set: then all are compared
+    // with the first.
+    const auto isAscii = [](char c) { return static_cast<unsigned char>(c) < 128; };
+    if (m_arrived.empty() &&
+        (m_study.patientId.empty() ||
+         !std::all_of(m_study.patientId.begin(), m_study.patientId.end(), isAscii)))
+      m_study.patientId = patient;
     if (text(data, DCM_StudyInstanceUID) != m_study.uid ||
         m_series.count(text(data, DCM_SeriesInstanceUID)) == 0 ||
         text(data, DCM_SOPInstanceUID) != uid || patient != m_study.patientId)
@@ -1093,10 +677,7 @@ public:
     if (node.tls && node.tls->certificate.empty())
       throw NetworkError(Reason::Tls, place(node) + ": C-MOVE with TLS needs a certificate of this "
                                                     "program; see 'petrous nodes add --tls-cert'");
-    if (node.tls)
-      m_layer = tlsLayer(node, m_watch, NET_ACCEPTOR);
-    else
-      m_layer = std::make_unique<WatchedLayer<DcmTransportLayer>>(m_watch);
+    m_layer = transportLayer(node, m_watch, true);
     if (ASC_initializeNetwork(NET_ACCEPTOR, node.movePort, 30, &m_network).bad())
       throw NetworkError(Reason::Unreachable, place(node) +
                                                   ": this program cannot listen at port " +

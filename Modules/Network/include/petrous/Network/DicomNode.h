@@ -50,8 +50,7 @@ struct TlsFiles
 
 struct Timeouts
 {
-  std::chrono::milliseconds connect{10000};
-  std::chrono::milliseconds reply{60000}; ///< without a byte from the node
+  std::chrono::milliseconds reply{60000}; ///< without a byte from the node; to connect: 10 s
 };
 
 /// A DICOM application entity (PS3.8) that this program may call.

@@ -77,7 +77,6 @@ public:
     return node;
   }
   int requests() const { return m_requests; }
-  const std::vector<DIC_US>& answers() const { return m_answers; } ///< after the association
 
 private:
   void run()
@@ -219,7 +218,6 @@ private:
               .bad())
         return;
       delete detail;
-      m_answers.push_back(response.DimseStatus);
     }
     T_DIMSE_C_GetRSP response{};
     response.MessageIDBeingRespondedTo = request.MessageID;
@@ -246,7 +244,6 @@ private:
   T_ASC_Network* m_network = nullptr;
   std::atomic<bool> m_stop{false};
   std::atomic<int> m_requests{0};
-  std::vector<DIC_US> m_answers;
   std::thread m_thread;
 };
 

@@ -157,16 +157,30 @@ inline int listenOn(int port, int& chosen)
   if (::bind(descriptor, reinterpret_cast<sockaddr*>(&address), size) != 0 ||
       ::listen(descriptor, 16) != 0 ||
       ::getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &size) != 0)
+  {
+    ::close(descriptor);
     throw std::runtime_error("no free port");
+  }
   chosen = ntohs(address.sin_port);
   return descriptor;
 }
 
+/// Below the ports that the system gives to outgoing connections, so that none of these takes it
+/// before the server does.
 inline int freePort()
 {
-  int port = 0;
-  ::close(listenOn(0, port));
-  return port;
+  std::random_device random;
+  for (int attempt = 0; attempt < 100; ++attempt)
+    try
+    {
+      int port = 0;
+      ::close(listenOn(20000 + static_cast<int>(random() % 12000), port));
+      return port;
+    }
+    catch (const std::runtime_error&)
+    {
+    }
+  throw std::runtime_error("no free port");
 }
 
 inline int connectTo(int port)

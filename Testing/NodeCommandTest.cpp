@@ -136,10 +136,18 @@ TEST_F(NodeCommand, BuildsACaseOfImages)
   expectRefused("receive --from pacs" + study + other(), 3, "--as");
   json("receive --from pacs --as ct" + study + other());
   json("send ear --to pacs --what mr");
+  EXPECT_EQ(json("send ear --to pacs --what labels")["instances"], 1);
   const auto got = json("receive --from pacs --as both" + study + other());
   EXPECT_EQ(got["scene"], false);
   const auto info = json("info both" + other());
   EXPECT_EQ(info["mr"].size(), 1U);
+  const auto labels = json("info ear")["labels"];
+  ASSERT_EQ(info["labels"].size(), labels.size());
+  for (std::size_t n = 0; n < labels.size(); ++n)
+  {
+    EXPECT_EQ(info["labels"][n]["name"], labels[n]["name"]);
+    EXPECT_EQ(info["labels"][n]["voxels"], labels[n]["voxels"]);
+  }
   for (const char* name : {"ear", "both"})
     json(std::string("export ") + name + " --what ct --out " +
          quoted(m_folder / (std::string(name) + ".nrrd")) + (name[0] == 'e' ? "" : other()));

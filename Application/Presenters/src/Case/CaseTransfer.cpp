@@ -243,8 +243,8 @@ std::string freeName(const library::Library& library, const std::string& name)
 
 /// A case of what imaging finds in the folder.
 scene::Case builtCase(const fs::path& folder, const std::string& name,
-                      const ReceiveRequest& request, const std::vector<network::Series>& series,
-                      std::vector<std::string>& notes, const core::Progress& progress)
+                      const ReceiveRequest& request, std::vector<std::string>& notes,
+                      const core::Progress& progress)
 {
   const imaging::ScanResult scan = imaging::scanDicom(folder, progress.part(0.0, 0.2));
   CaseSources sources;
@@ -277,8 +277,43 @@ scene::Case builtCase(const fs::path& folder, const std::string& name,
       mr.repair = request.repair;
       sources.parts.mr.push_back(std::move(mr));
     }
-  (void)series;
   return buildCase(name, sources, progress.part(0.2, 1.0));
+}
+
+/// The structures of DICOM segmentations. One that does not belong to the images is left out.
+void addSegmentations(scene::Case& value, const fs::path& folder, std::vector<std::string>& notes,
+                      const core::Progress& progress)
+{
+  std::vector<fs::path> files;
+  addFiles(folder, files);
+  for (const fs::path& file : files)
+    try
+    {
+      PartSources sources;
+      sources.labels.push_back({{}, file});
+      addParts(value, sources, progress);
+    }
+    catch (const core::CancelledError&)
+    {
+      throw;
+    }
+    catch (const core::Error&)
+    {
+      notes.push_back(
+          "a segmentation of the study is left out: it does not belong to these images, "
+          "cannot be read, or names structures that are there already");
+    }
+}
+
+void add(network::Transfer& sum, const network::Transfer& more)
+{
+  sum.instances += more.instances;
+  sum.completed += more.completed;
+  sum.present += more.present;
+  sum.warning += more.warning;
+  sum.asked = std::max(sum.asked, more.asked);
+  sum.bytes += more.bytes;
+  sum.seconds += more.seconds;
 }
 
 } // namespace
@@ -359,13 +394,19 @@ ReceiveSummary receiveCase(library::Library& library, const network::Node& node,
   if (wanted.empty())
     throw NetworkError(NetworkError::Reason::NotFound,
                        "node '" + node.name + "': the study has no CT");
-  for (const auto& one : series)
-    if (one.modality == "SEG" || one.modality == "RTSTRUCT")
-      summary.notes.push_back("the study also has segmentations; add them with 'petrous add'");
   summary.transfer =
-      network::retrieve(node, study, wanted, folder / "images", progress.part(0.0, 0.7));
-  scene::Case value = builtCase(folder / "images", request.as, request, series, summary.notes,
-                                progress.part(0.7, 0.9));
+      network::retrieve(node, study, wanted, folder / "images", progress.part(0.0, 0.6));
+  std::vector<std::string> segmentations;
+  for (const auto& one : series)
+    if (one.modality == "SEG")
+      segmentations.push_back(one.uid);
+  if (!segmentations.empty())
+    add(summary.transfer, network::retrieve(node, study, segmentations, folder / "segmentations",
+                                            progress.part(0.6, 0.7)));
+  scene::Case value =
+      builtCase(folder / "images", request.as, request, summary.notes, progress.part(0.7, 0.85));
+  if (!segmentations.empty())
+    addSegmentations(value, folder / "segmentations", summary.notes, progress.part(0.85, 0.9));
   library.save(value, progress.part(0.9, 1.0));
   summary.name = value.name;
   return summary;

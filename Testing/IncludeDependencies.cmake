@@ -21,17 +21,18 @@ set(allowed_Dissection Core Volume)
 set(allowed_Scene Core Volume Appearance Dissection)
 set(allowed_Session Core Volume Haptics Dissection Scene)
 set(allowed_Library Core Volume Appearance Dissection Scene Imaging)
+set(allowed_Network Core Volume Scene Imaging Library)
 set(allowed_Rendering Core Volume Appearance)
 set(allowed_Interaction
   Core Volume Appearance Haptics Dissection Session Scene Rendering)
 # The application's view models: built like a module, and independent of Qt (no toolkit below).
 set(allowed_Presenters
   Core Volume Appearance Imaging Phantom Registration Segmentation Haptics Devices Dissection Session Scene
-  Library Rendering Interaction)
+  Library Network Rendering Interaction)
 set(folder_Presenters Application/Presenters)
 set(known_modules
   Core Volume Appearance Imaging Phantom Registration Segmentation Haptics Devices Dissection Session Scene
-  Library Rendering Interaction Presenters)
+  Library Network Rendering Interaction Presenters)
 
 # The toolkits whose headers a module may include; modules not listed here include none. Qt is
 # reserved for the application.
@@ -40,6 +41,7 @@ set(toolkits_Phantom GDCM)
 set(toolkits_Registration ITK)
 set(toolkits_Segmentation ITK)
 set(toolkits_Library GDCM DCMTK)
+set(toolkits_Network DCMTK)
 set(toolkits_Rendering VTK)
 set(toolkits_Interaction VTK)
 

@@ -12,6 +12,7 @@ void addCaseCommands(CLI::App& app, Context& context);    ///< new, add, remove,
 void addArchiveCommands(CLI::App& app, Context& context); ///< archive, restore
 void addDeidentifyCommands(CLI::App& app, Context& context); ///< deidentify, pseudonyms
 void addLibraryCommand(CLI::App& app, Context& context);
+void addNodeCommands(CLI::App& app, Context& context); ///< nodes, send, receive
 void addAppearanceCommand(CLI::App& app, Context& context);
 void addRenderCommand(CLI::App& app, Context& context);
 void addSliceCommand(CLI::App& app, Context& context);

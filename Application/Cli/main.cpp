@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <iostream>
 
 #include <unistd.h>
@@ -13,9 +12,6 @@ namespace
 {
 
 using namespace petrous;
-
-// Specified command-line names, not implemented yet.
-constexpr std::array<const char*, 3> kNotBuilt{"send", "receive", "nodes"};
 
 // The window is a separate program, so that the command starts without Qt.
 int openWorkstation(char** arguments)
@@ -51,6 +47,7 @@ void addCommands(CLI::App& app, cli::Context& context)
   cli::addArchiveCommands(app, context);
   cli::addDeidentifyCommands(app, context);
   cli::addLibraryCommand(app, context);
+  cli::addNodeCommands(app, context);
   cli::addAppearanceCommand(app, context);
   cli::addRenderCommand(app, context);
   cli::addSliceCommand(app, context);
@@ -69,13 +66,6 @@ void addCommands(CLI::App& app, cli::Context& context)
       ->allow_extras();
   cli::addSegmentCommand(app, context);
   cli::addDoctorCommand(app, context);
-  for (const char* name : kNotBuilt)
-    context
-        .addCommand(
-            app, name, "Not implemented yet",
-            [name] { throw cli::UsageError(std::string("'") + name + "' is not implemented yet"); })
-        ->allow_extras()
-        ->group(""); // hidden from the help
 }
 
 } // namespace

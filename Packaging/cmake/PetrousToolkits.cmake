@@ -1,4 +1,4 @@
-# ITK, GDCM and VTK as targets with SYSTEM includes, so that only modules that link them can include
+# ITK, GDCM, DCMTK and VTK as targets with SYSTEM includes, so that only modules that link them can include
 # them, and their headers cause no warnings.
 
 find_package(ITK 5.2 REQUIRED COMPONENTS
@@ -28,11 +28,14 @@ target_include_directories(petrous_gdcm SYSTEM INTERFACE ${GDCM_INCLUDE_DIRS})
 target_link_libraries(petrous_gdcm INTERFACE gdcmMSFF gdcmDICT gdcmDSED gdcmCommon)
 add_library(Petrous::gdcm ALIAS petrous_gdcm)
 
-# dcmdata alone, as headers and libraries of the system: DCMTK's CMake targets name all that it was
-# built with.
+# DCMTK as headers and libraries of the system: its own CMake targets name all that it was built
+# with.
 add_library(petrous_dcmtk INTERFACE)
 target_link_libraries(petrous_dcmtk INTERFACE dcmdata oflog ofstd)
+add_library(petrous_dcmtk_network INTERFACE)
+target_link_libraries(petrous_dcmtk_network INTERFACE dcmtls dcmnet petrous_dcmtk OpenSSL::SSL OpenSSL::Crypto)
 add_library(Petrous::dcmtk ALIAS petrous_dcmtk)
+add_library(Petrous::dcmtk_network ALIAS petrous_dcmtk_network)
 
 find_package(VTK 9.1 REQUIRED COMPONENTS
   CommonCore CommonDataModel CommonColor CommonTransforms FiltersCore FiltersGeneral FiltersGeometry

@@ -10,16 +10,13 @@
 
 #include <tbb/parallel_for.h>
 
-#include "petrous/Appearance/StructurePresets.h"
-#include "petrous/Core/Fingerprint.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Core/OutputFile.h"
-#include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/VolumeFile.h"
-#include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Presenters/CaseDicom.h"
 #include "petrous/Presenters/MrOnCt.h"
 #include "petrous/Rendering/SurfaceExtraction.h"
 #include "petrous/Scene/CaseField.h"
@@ -102,14 +99,6 @@ const scene::ImagePart& chooseMr(const scene::Case& value, const std::string& na
   }
   throw ExportChoiceError("export mr: give --part NAME; there are: " + there);
 }
-
-// A label map as it is written: in one space, with those of its structures that are asked for.
-struct PlacedLabels
-{
-  std::shared_ptr<const volume::LabelMap> map;
-  std::string drawnOn; // the MR in whose space it lies; empty: in the CT's
-  std::vector<const scene::StructurePart*> structures;
-};
 
 // The nearest voxel of the labels, for each voxel of the CT.
 volume::LabelMap onGrid(const volume::LabelMap& labels, const core::GridGeometry& ct,
@@ -263,190 +252,15 @@ std::shared_ptr<const volume::IntensityVolume> shared(volume::Volume<T> voxels,
       std::make_shared<const volume::Volume<T>>(std::move(voxels)), padding);
 }
 
-// Identifiers of DICOM files that are written of a case: derived from the case's and the voxels, so
-// that what is written at different times belongs together. Images and segmentations of one case
-// share the study and, in one space, the frame of reference.
-class CaseIdentifiers
-{
-public:
-  explicit CaseIdentifiers(const scene::Case& value)
-    : m_value(value)
-  {
-    const std::string& id = value.id.empty() ? value.name : value.id;
-    m_case.add(id.data(), id.size());
-  }
-
-  std::string study() const { return imaging::deterministicUid(m_case.value(), "study"); }
-
-  // `drawnOn`: the MR whose space it is; empty: the CT's.
-  std::string frameOfReference(const std::string& drawnOn) const
-  {
-    return presenters::exportedFrame(m_value, drawnOn);
-  }
-
-  template <class Voxels>
-  std::string series(const std::string& what, const core::GridGeometry& grid,
-                     const Voxels& addVoxels) const
-  {
-    core::Fingerprint all = m_case;
-    all.add(what.data(), what.size());
-    all.add(grid.patientFromVoxelLinear().data(), 9 * sizeof(double));
-    all.add(grid.origin().data(), 3 * sizeof(double));
-    addVoxels(all);
-    return imaging::deterministicUid(all.value(), "series");
-  }
-
-  std::string series(const std::string& what, const volume::IntensityVolume& image) const
-  {
-    return series(what, image.geometry(),
-                  [&image](core::Fingerprint& all)
-                  {
-                    image.visit([&all](const auto& voxels)
-                                { all.add(voxels.data(), voxels.size() * sizeof *voxels.data()); });
-                  });
-  }
-
-private:
-  const scene::Case& m_value;
-  core::Fingerprint m_case;
-};
-
-// A DICOM series with identifiers of its own and nothing of the patient's. Equal voxels give equal
-// files.
+// A DICOM series, whole or not at all.
 void writeSeries(const ExportOptions& options, const scene::Case& value,
                  const volume::IntensityVolume& image, const std::string& drawnOn,
                  const core::Progress& progress)
 {
-  if (std::holds_alternative<std::shared_ptr<const volume::Volume<float>>>(image.voxels()))
-    throw core::InvalidParameter(
-        "export " + options.what +
-        ": its voxels are fractions, and a DICOM series holds whole numbers; write " +
-        imaging::orText(imaging::writtenEndings(imaging::kImage)));
-  using Modality = imaging::SeriesDescription::Modality;
-  const CaseIdentifiers identifiers(value);
-  imaging::SeriesDescription series;
-  series.modality = options.what == "mr" ? Modality::Mr : Modality::Ct;
-  series.derived = true;
-  series.description = options.what == "dissected" ? "CT, dissected"
-                       : options.what == "ct"      ? "CT"
-                       : options.onCt              ? "MR, resampled on the CT"
-                                                   : "MR";
-  series.seriesNumber = options.what == "ct" ? 1 : options.what == "mr" ? 2 : 3;
-  series.patientId = "ANONYMOUS";
-  series.patientName = "Anonymous";
-  series.studyUid = identifiers.study();
-  series.seriesUid = identifiers.series(options.what, image);
-  series.frameOfReferenceUid = identifiers.frameOfReference(drawnOn);
-  if (value.denseBone != volume::IntensityScale{}.dense)
-    series.rescaleType = "US";
-  if (series.modality == Modality::Mr)
-  {
-    const volume::ValueRange range = image.range();
-    series.windowCenter = 0.5 * (range.min + range.max);
-    series.windowWidth = std::max(range.max - range.min, 1.0);
-  }
   core::OutputFolder folder(options.out);
-  imaging::writeDicomSeries(folder.path(), image, series, std::nullopt, progress);
+  writeCaseSeries(folder.path(), value, options.what, image, drawnOn, options.onCt, {}, progress);
   progress.check("writing DICOM slices");
   folder.commit();
-}
-
-// What the file said from which a structure was read, where it says more than its name does:
-// "Tissue" is what 3D Slicer gives to every segment.
-void describe(imaging::SegmentationDescription::Segment& segment, const volume::SegmentCodes& codes)
-{
-  using From = volume::SegmentCodes::Algorithm;
-  using To = imaging::SegmentationDescription::Algorithm;
-  const auto isGeneral = [](const volume::CodedConcept& code)
-  {
-    for (const char* general : {"123037004", "85756007", "T-D000A", "T-D0050"})
-      if (code.value == general)
-        return true;
-    return code.empty();
-  };
-  const auto isWhole = [](const volume::CodedConcept& code)
-  { return !code.value.empty() && !code.scheme.empty() && !code.meaning.empty(); };
-  if (isWhole(codes.type) && !(isGeneral(codes.type) && !isGeneral(segment.type)))
-  {
-    segment.type = codes.type;
-    if (isWhole(codes.category))
-      segment.category = codes.category;
-  }
-  if (isWhole(codes.typeModifier))
-    segment.typeModifier = codes.typeModifier;
-  if (isWhole(codes.region))
-    segment.region = codes.region;
-  if (isWhole(codes.regionModifier))
-    segment.regionModifier = codes.regionModifier;
-  segment.algorithm = codes.algorithm == From::Manual      ? To::Manual
-                      : codes.algorithm == From::Automatic ? To::Automatic
-                                                           : To::SemiAutomatic;
-  segment.algorithmName = codes.algorithmName.empty() ? "not recorded" : codes.algorithmName;
-}
-
-// The structures as a DICOM segmentation that belongs to the series of the CT, or of the MR, which
-// `export --what ct` or `mr` writes. Returns the number of segments.
-std::size_t writeSegmentation(const ExportOptions& options, const scene::Case& value,
-                              const std::vector<PlacedLabels>& placed,
-                              const std::string& sourceSeries, const core::Progress& progress)
-{
-  using Segmentation = imaging::SegmentationDescription;
-  const std::string& drawnOn = placed.front().drawnOn;
-  const core::GridGeometry& grid = placed.front().map->voxels->geometry();
-  const CaseIdentifiers identifiers(value);
-  const auto presets = appearance::StructurePresets::builtIn();
-  Segmentation segmentation;
-  std::vector<volume::LabelMap> maps;
-  for (const PlacedLabels& labels : placed)
-  {
-    for (const auto* structure : labels.structures)
-    {
-      const auto code = presets.codeFor(structure->name, structure->look.preset);
-      Segmentation::Segment segment;
-      segment.map = maps.size();
-      segment.index = structure->index;
-      segment.label = structure->name;
-      segment.color = structure->look.color;
-      segment.category = {code.category, "SCT", code.categoryMeaning};
-      segment.type = {code.type, "SCT", code.typeMeaning};
-      describe(segment, structure->codes);
-      segmentation.segments.push_back(std::move(segment));
-    }
-    maps.push_back(*labels.map);
-  }
-  const scene::ImagePart* source = drawnOn.empty() ? &value.ct : nullptr;
-  for (const auto& mr : value.mr)
-    if (!source && mr.name == drawnOn)
-      source = &mr;
-  if (source)
-    segmentation.source = Segmentation::Source{
-        drawnOn.empty() ? imaging::SeriesDescription::Modality::Ct
-                        : imaging::SeriesDescription::Modality::Mr,
-        sourceSeries, source->geometry.dims()[2], core::sameGrid(source->geometry, grid)};
-  segmentation.description = "Segmentation";
-  segmentation.studyUid = identifiers.study();
-  segmentation.frameOfReferenceUid = identifiers.frameOfReference(drawnOn);
-  segmentation.seriesUid = identifiers.series(
-      "labels", grid,
-      [&](core::Fingerprint& all)
-      {
-        for (const auto& map : maps)
-          all.add(map.voxels->data(), map.voxels->size() * sizeof(std::uint16_t));
-        for (const auto& segment : segmentation.segments)
-        {
-          all.add(segment.label.c_str(), segment.label.size() + 1);
-          all.add(segment.color.data(), sizeof segment.color);
-          for (const auto* concept : {&segment.type, &segment.typeModifier, &segment.region})
-            if (!concept->empty())
-              all.add(concept->value.c_str(), concept->value.size() + 1);
-          all.add(&segment.algorithm, sizeof segment.algorithm);
-          all.add(segment.algorithmName.c_str(), segment.algorithmName.size() + 1);
-          all.add(&segment.map, sizeof segment.map);
-          all.add(&segment.index, sizeof segment.index);
-        }
-      });
-  imaging::writeDicomSegmentation(options.out, maps, segmentation, progress);
-  return segmentation.segments.size();
 }
 
 // One structure as a surface, with its colour: of its voxels on the CT, or the mesh that it is.
@@ -583,7 +397,8 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
       const std::string series = CaseIdentifiers(value).series(
           drawnOn.empty() ? "ct" : "mr",
           *checked(drawnOn.empty() ? value.ct : chooseMr(value, drawnOn)));
-      summary.segments = writeSegmentation(options, value, placed, series, progress.part(0.5, 1.0));
+      summary.segments =
+          writeCaseSegmentation(options.out, value, placed, series, {}, progress.part(0.5, 1.0));
     }
     else
     {

@@ -55,7 +55,7 @@ gdcm::DataSet commonPart(const SeriesDescription& series, const core::GridGeomet
           {0x0010, 0x0040, "CS", "O"},
           {0x0020, 0x000D, "UI", series.studyUid},
           {0x0008, 0x0090, "PN", ""},
-          {0x0020, 0x0010, "SH", "1"},
+          {0x0020, 0x0010, "SH", series.studyId},
           {0x0008, 0x0050, "SH", ""},
           {0x0008, 0x1030, "LO", series.derived ? "" : "Phantom temporal bone"},
           // series, frame of reference, equipment

@@ -35,7 +35,8 @@ struct SeriesDescription
   int seriesNumber = 1;
   std::string patientId = "PHANTOM";
   std::string patientName = "Phantom^Petrous";
-  std::string studyUid;            ///< required
+  std::string studyUid; ///< required
+  std::string studyId = "1";
   std::string seriesUid;           ///< required; instance UIDs are derived from it
   std::string frameOfReferenceUid; ///< required
   double rescaleIntercept = 0.0;   ///< CT: -1024; MR: 0 (its image module has no rescale)
@@ -108,7 +109,8 @@ struct SegmentationDescription
   int seriesNumber = 10;
   std::string patientId = "ANONYMOUS";
   std::string patientName = "Anonymous";
-  std::string studyUid;            ///< required
+  std::string studyUid; ///< required
+  std::string studyId = "1";
   std::string seriesUid;           ///< required; the instance's UID is derived from it
   std::string frameOfReferenceUid; ///< required
   std::optional<Source> source;

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "petrous/Core/Fingerprint.h"
+#include "petrous/Core/Progress.h"
+#include "petrous/Scene/Case.h"
+
+namespace petrous::presenters
+{
+
+/// Identifiers of DICOM files that are written of a case: derived from the case's and the voxels,
+/// so that what is written at different times belongs together. Images and segmentations of one
+/// case share the study and, in one space, the frame of reference (exportedFrame). Refers to the
+/// case.
+class CaseIdentifiers
+{
+public:
+  explicit CaseIdentifiers(const scene::Case& value);
+
+  std::string study() const;
+
+  /// `drawnOn`: the MR whose space it is; empty: the CT's.
+  std::string frameOfReference(const std::string& drawnOn) const;
+
+  /// `what`: "ct", "mr" or "dissected".
+  std::string series(const std::string& what, const volume::IntensityVolume& image) const;
+
+  core::Fingerprint fingerprint() const { return m_case; }
+
+private:
+  const scene::Case& m_value;
+  core::Fingerprint m_case;
+};
+
+/// A label map as it is written: in one space, with those of its structures that are asked for.
+struct PlacedLabels
+{
+  std::shared_ptr<const volume::LabelMap> map;
+  std::string drawnOn; ///< the MR in whose space it lies; empty: in the CT's
+  std::vector<const scene::StructurePart*> structures;
+};
+
+/// What all objects of a case state.
+struct CaseDicomOptions
+{
+  std::string studyId = "1";
+};
+
+/// Writes a DICOM series (imaging::writeDicomSeries) with identifiers of its own and nothing of the
+/// patient's into a folder that is to be committed by the caller. Equal voxels give equal files.
+///
+/// what     "ct", "mr" or "dissected"
+/// drawnOn  the MR whose space it is; empty: the CT's
+/// onCt     an MR, resampled on the CT's grid
+///
+/// Throws InvalidParameter for voxels that are not whole numbers, and like writeDicomSeries.
+void writeCaseSeries(const std::filesystem::path& folder, const scene::Case& value,
+                     const std::string& what, const volume::IntensityVolume& image,
+                     const std::string& drawnOn, bool onCt, const CaseDicomOptions& options,
+                     const core::Progress& progress);
+
+/// Writes structures as a DICOM segmentation that belongs to the series of the CT, or of the MR,
+/// which writeCaseSeries writes; `placed`: on one grid in one space. Returns the number of
+/// segments. Throws like imaging::writeDicomSegmentation.
+std::size_t writeCaseSegmentation(const std::filesystem::path& path, const scene::Case& value,
+                                  const std::vector<PlacedLabels>& placed,
+                                  const std::string& sourceSeries, const CaseDicomOptions& options,
+                                  const core::Progress& progress);
+
+} // namespace petrous::presenters

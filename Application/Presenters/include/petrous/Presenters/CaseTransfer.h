@@ -1,0 +1,69 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "petrous/Core/Progress.h"
+#include "petrous/Library/Library.h"
+#include "petrous/Network/DicomNode.h"
+
+namespace petrous::presenters
+{
+
+/// Study ID (0020,0010) under which the scene of a case of this name is found at a node: a hash,
+/// as the name is the user's and stays in the scene.
+std::string studyIdOf(const std::string& caseName);
+
+struct SendParts
+{
+  bool ct = false;
+  bool mr = false;
+  bool labels = false;
+  bool scene = false;
+};
+
+struct SendSummary
+{
+  network::Transfer transfer;
+  std::string studyUid;           ///< made by this program; nobody's identity
+  std::vector<std::string> notes; ///< for the user: what was left out, and why
+};
+
+/// Sends a case of the library to a DICOM node: CT and MR as series, structures as DICOM
+/// segmentations that refer to them, and the scene as Raw Data (network::writeSceneObjects), from
+/// which receiveCase restores the very same case. Every object is written from the case, which
+/// holds no identity, and belongs to one study. Throws InvalidParameter if a part that is asked for
+/// by itself cannot be written, NetworkError, LibraryError, CancelledError.
+SendSummary sendCase(const library::Library& library, const std::string& name,
+                     const network::Node& node, const SendParts& parts,
+                     const core::Progress& progress = {});
+
+struct ReceiveRequest
+{
+  std::string studyUid; ///< empty: by `caseName`
+  std::string caseName; ///< the case of which a scene was sent
+  std::string series;   ///< of a study without a scene: the CT; empty: chosen
+  std::string as;       ///< name of the new case; empty: that of the scene
+  bool repair = false;  ///< as CaseSources
+  /// Keeps what arrives, and takes from there what arrived before; empty: a folder of its own,
+  /// which is removed. DICOM files of a hospital's study hold the patient's identity.
+  std::filesystem::path partial;
+};
+
+struct ReceiveSummary
+{
+  network::Transfer transfer;
+  std::string name;   ///< of the new case
+  bool scene = false; ///< restored from a scene; else built from images
+  std::vector<std::string> notes;
+};
+
+/// Adds a case that a DICOM node has to the library: the latest scene of the study, or, where there
+/// is none, a case built from its CT, MR and segmentations. The library is unchanged unless
+/// everything arrived. Throws NetworkError, LibraryError, DicomError, InvalidParameter,
+/// CancelledError.
+ReceiveSummary receiveCase(library::Library& library, const network::Node& node,
+                           const ReceiveRequest& request, const core::Progress& progress = {});
+
+} // namespace petrous::presenters

@@ -1,0 +1,415 @@
+#include "petrous/Presenters/CaseTransfer.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+#include <variant>
+
+#include "petrous/Imaging/DicomScan.h"
+#include "petrous/Library/Archive.h"
+#include "petrous/Library/ObjectStore.h"
+#include "petrous/Network/SceneObjects.h"
+#include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Presenters/CaseDicom.h"
+#include "petrous/Scene/Placement.h"
+
+namespace petrous::presenters
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+using network::NetworkError;
+
+/// For DICOM files on their way; readable by this user only, and removed.
+class ScratchFolder
+{
+public:
+  ScratchFolder()
+  {
+    std::error_code ignored;
+    std::string name = (fs::temp_directory_path(ignored) / "petrous-transfer-XXXXXX").string();
+    if (!::mkdtemp(name.data()))
+      throw core::Error(core::Fault::Refused,
+                        name + ": cannot be created; is the disk full, or TMPDIR wrong?");
+    m_path = name;
+  }
+  ~ScratchFolder()
+  {
+    std::error_code ignored;
+    fs::remove_all(m_path, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const fs::path& path() const noexcept { return m_path; }
+
+private:
+  fs::path m_path;
+};
+
+void addFiles(const fs::path& folder, std::vector<fs::path>& files)
+{
+  std::vector<fs::path> here;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.is_regular_file())
+      here.push_back(entry.path());
+  std::sort(here.begin(), here.end());
+  files.insert(files.end(), here.begin(), here.end());
+}
+
+bool hasFractions(const volume::IntensityVolume& image)
+{
+  return std::holds_alternative<std::shared_ptr<const volume::Volume<float>>>(image.voxels());
+}
+
+/// The structures by space and grid: a segmentation has one of each.
+std::vector<std::vector<PlacedLabels>> labelGroups(const scene::Case& value)
+{
+  std::vector<std::vector<PlacedLabels>> groups;
+  for (const auto& part : value.labels)
+  {
+    PlacedLabels labels;
+    for (const auto& structure : part.structures)
+      labels.structures.push_back(&structure);
+    if (labels.structures.empty())
+      continue;
+    labels.map = scene::labelsOnCt(value, part);
+    if (!labels.map)
+    {
+      labels.map = part.labels.get();
+      labels.drawnOn = scene::placementOf(value, part).drawnOn;
+    }
+    const auto belongs = [&](const std::vector<PlacedLabels>& group)
+    {
+      return group.front().drawnOn == labels.drawnOn &&
+             core::sameGrid(group.front().map->voxels->geometry(), labels.map->voxels->geometry());
+    };
+    auto group = std::find_if(groups.begin(), groups.end(), belongs);
+    if (group == groups.end())
+      group = groups.insert(groups.end(), std::vector<PlacedLabels>());
+    group->push_back(std::move(labels));
+  }
+  return groups;
+}
+
+/// Writes the parts below `folder`.
+class Outgoing
+{
+public:
+  Outgoing(const library::Library& library, const scene::Case& value, const SendParts& parts,
+           const fs::path& folder)
+    : m_library(library)
+    , m_value(value)
+    , m_parts(parts)
+    , m_folder(folder)
+    , m_alone(parts.ct + parts.mr + parts.labels + parts.scene == 1)
+  {
+    if (parts.scene)
+      m_options.studyId = studyIdOf(value.name);
+  }
+
+  std::vector<fs::path> write(const core::Progress& progress)
+  {
+    if (m_parts.ct)
+      image(m_value.ct, "ct", "", progress.part(0.0, 0.3));
+    if (m_parts.mr)
+      for (const auto& mr : m_value.mr)
+        image(mr, "mr", mr.name, progress.part(0.3, 0.5));
+    if (m_parts.mr && m_value.mr.empty())
+      leaveOut("case '" + m_value.name + "' has no MR");
+    if (m_parts.labels)
+      labels(progress.part(0.5, 0.6));
+    if (m_parts.scene)
+      scene(progress.part(0.6, 1.0));
+    return m_files;
+  }
+
+  const std::vector<std::string>& notes() const noexcept { return m_notes; }
+
+private:
+  // What was asked for by itself is refused, else noted.
+  void leaveOut(const std::string& why)
+  {
+    if (m_alone)
+      throw core::InvalidParameter("send: " + why);
+    m_notes.push_back(why + "; it is not sent by itself");
+  }
+
+  fs::path freshFolder()
+  {
+    const fs::path folder = m_folder / std::to_string(++m_folders);
+    fs::create_directory(folder);
+    return folder;
+  }
+
+  void image(const scene::ImagePart& part, const std::string& what, const std::string& drawnOn,
+             const core::Progress& progress)
+  {
+    const auto volume = part.volume.get();
+    m_library.checkVoxels(m_value, progress);
+    if (hasFractions(*volume))
+    {
+      leaveOut("the voxels of '" + part.name +
+               "' are fractions, and a DICOM series holds whole numbers");
+      return;
+    }
+    const fs::path folder = freshFolder();
+    writeCaseSeries(folder, m_value, what, *volume, drawnOn, false, m_options, progress);
+    addFiles(folder, m_files);
+  }
+
+  void labels(const core::Progress& progress)
+  {
+    const auto groups = labelGroups(m_value);
+    if (groups.empty())
+      leaveOut("case '" + m_value.name + "' has no structures");
+    for (const auto& group : groups)
+    {
+      const std::string& drawnOn = group.front().drawnOn;
+      const scene::ImagePart* source = &m_value.ct;
+      for (const auto& mr : m_value.mr)
+        if (!drawnOn.empty() && mr.name == drawnOn)
+          source = &mr;
+      const auto volume = source->volume.get();
+      m_library.checkVoxels(m_value, progress);
+      const std::string series =
+          CaseIdentifiers(m_value).series(drawnOn.empty() ? "ct" : "mr", *volume);
+      const fs::path file = freshFolder() / "segmentation.dcm";
+      writeCaseSegmentation(file, m_value, group, series, m_options, progress);
+      m_files.push_back(file);
+    }
+  }
+
+  void scene(const core::Progress& progress)
+  {
+    const fs::path folder = freshFolder();
+    const fs::path archive = m_folder / (std::string("scene") + library::kArchiveEnding);
+    library::archiveCase(m_library, m_value.name, archive, {}, progress.part(0.0, 0.8));
+    network::SceneDescription description;
+    description.studyUid = CaseIdentifiers(m_value).study();
+    description.studyId = m_options.studyId;
+    constexpr std::uint64_t kMaxRevision = 1000000000; // of an integer string
+    description.seriesNumber =
+        1000 + static_cast<int>(std::min<std::uint64_t>(m_value.revision, kMaxRevision));
+    const auto files =
+        network::writeSceneObjects(archive, folder, description, progress.part(0.8, 1.0));
+    fs::remove(archive);
+    m_files.insert(m_files.end(), files.begin(), files.end());
+  }
+
+  const library::Library& m_library;
+  const scene::Case& m_value;
+  SendParts m_parts;
+  fs::path m_folder;
+  bool m_alone;
+  CaseDicomOptions m_options;
+  int m_folders = 0;
+  std::vector<fs::path> m_files;
+  std::vector<std::string> m_notes;
+};
+
+std::string studyOf(const library::Library& library, const network::Node& node,
+                    const ReceiveRequest& request, const core::Progress& progress)
+{
+  if (!request.studyUid.empty())
+    return request.studyUid;
+  const auto studies = network::findStudies(node, {{}, studyIdOf(request.caseName)}, progress);
+  if (studies.empty())
+    throw NetworkError(NetworkError::Reason::NotFound,
+                       "node '" + node.name + "': has no scene of a case '" + request.caseName +
+                           "'; give --study UID for a study that was not sent by Petrous");
+  if (studies.size() == 1)
+    return studies.front().uid;
+  if (library.contains(request.caseName)) // the one of this very case
+  {
+    const std::string own = CaseIdentifiers(library.open(request.caseName)).study();
+    for (const auto& study : studies)
+      if (study.uid == own)
+        return own;
+  }
+  throw core::InvalidParameter("node '" + node.name + "': has " + std::to_string(studies.size()) +
+                               " cases named '" + request.caseName +
+                               "'; give --study UID, which 'petrous send' printed");
+}
+
+std::string freeName(const library::Library& library, const std::string& name)
+{
+  if (library.contains(name)) // before anything is transferred
+    throw library::LibraryError(library::LibraryError::Reason::NameTaken,
+                                "case '" + name + "' is there already in " +
+                                    library.folder().string() + "; choose another name with --as");
+  return name;
+}
+
+/// A case of what imaging finds in the folder.
+scene::Case builtCase(const fs::path& folder, const std::string& name,
+                      const ReceiveRequest& request, std::vector<std::string>& notes,
+                      const core::Progress& progress)
+{
+  const imaging::ScanResult scan = imaging::scanDicom(folder, progress.part(0.0, 0.2));
+  CaseSources sources;
+  sources.ct = folder;
+  sources.repair = request.repair;
+  sources.series = request.series;
+  if (sources.series.empty())
+  {
+    std::vector<const imaging::DicomSeries*> cts;
+    for (const auto& one : scan.series)
+      if (one.modality == "CT" && one.geometry.verdict == imaging::Verdict::Ok)
+        cts.push_back(&one);
+    if (cts.size() == 1)
+      sources.series = imaging::selectorOf(*cts.front());
+  }
+  int number = 0;
+  for (const auto& one : scan.series)
+    if (one.modality == "MR")
+    {
+      if (one.geometry.verdict != imaging::Verdict::Ok && !request.repair)
+      {
+        notes.push_back("an MR series is left out, as its geometry is doubtful; try --repair");
+        continue;
+      }
+      ++number;
+      PartSource mr;
+      mr.name = number == 1 ? "MR" : "MR " + std::to_string(number);
+      mr.path = folder;
+      mr.series = imaging::selectorOf(one);
+      mr.repair = request.repair;
+      sources.parts.mr.push_back(std::move(mr));
+    }
+  return buildCase(name, sources, progress.part(0.2, 1.0));
+}
+
+/// The structures of DICOM segmentations. One that does not belong to the images is left out.
+void addSegmentations(scene::Case& value, const fs::path& folder, std::vector<std::string>& notes,
+                      const core::Progress& progress)
+{
+  std::vector<fs::path> files;
+  addFiles(folder, files);
+  for (const fs::path& file : files)
+    try
+    {
+      PartSources sources;
+      sources.labels.push_back({{}, file});
+      addParts(value, sources, progress);
+    }
+    catch (const core::CancelledError&)
+    {
+      throw;
+    }
+    catch (const core::Error&)
+    {
+      notes.push_back(
+          "a segmentation of the study is left out: it does not belong to these images, "
+          "cannot be read, or names structures that are there already");
+    }
+}
+
+void add(network::Transfer& sum, const network::Transfer& more)
+{
+  sum.instances += more.instances;
+  sum.completed += more.completed;
+  sum.present += more.present;
+  sum.warning += more.warning;
+  sum.asked = std::max(sum.asked, more.asked);
+  sum.bytes += more.bytes;
+  sum.seconds += more.seconds;
+}
+
+} // namespace
+
+std::string studyIdOf(const std::string& caseName)
+{
+  const std::string text = "petrous case " + caseName;
+  return library::sha256Of(reinterpret_cast<const std::uint8_t*>(text.data()), text.size())
+      .substr(0, 16); // a short string (SH)
+}
+
+SendSummary sendCase(const library::Library& library, const std::string& name,
+                     const network::Node& node, const SendParts& parts,
+                     const core::Progress& progress)
+{
+  network::echo(node, progress); // before minutes of writing
+  const scene::Case value = library.open(name);
+  const ScratchFolder scratch;
+  Outgoing outgoing(library, value, parts, scratch.path());
+  const auto files = outgoing.write(progress.part(0.0, 0.4));
+  SendSummary summary;
+  summary.notes = outgoing.notes();
+  summary.studyUid = CaseIdentifiers(value).study();
+  library.checkVoxels(value, progress);
+  summary.transfer = network::store(node, files, progress.part(0.4, 1.0));
+  return summary;
+}
+
+ReceiveSummary receiveCase(library::Library& library, const network::Node& node,
+                           const ReceiveRequest& request, const core::Progress& progress)
+{
+  if (!request.as.empty())
+  {
+    scene::checkCaseName(request.as);
+    freeName(library, request.as);
+  }
+  const std::string study = studyOf(library, node, request, progress);
+  const auto series = network::findSeries(node, study, progress);
+  std::optional<ScratchFolder> scratch;
+  if (request.partial.empty())
+    scratch.emplace();
+  const fs::path folder = scratch ? scratch->path() / "received" : request.partial;
+
+  ReceiveSummary summary;
+  const network::Series* scene = nullptr;
+  if (request.series.empty())
+    for (const auto& one : series)
+      if (one.description == network::kSceneDescription &&
+          one.modality == network::kSceneModality && (!scene || one.number > scene->number))
+        scene = &one;
+  if (scene)
+  {
+    const fs::path parts = folder / "scene";
+    summary.transfer = network::retrieve(node, study, {scene->uid}, parts, progress.part(0.0, 0.7));
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(parts))
+      if (entry.path().extension() == network::kInstanceEnding)
+        files.push_back(entry.path());
+    const fs::path archive = folder / (std::string("scene") + library::kArchiveEnding);
+    network::readSceneObjects(files, archive, progress.part(0.7, 0.8));
+    library::RestoreOptions options;
+    options.name = request.as;
+    auto restored = library::restoreCase(library, archive, options, progress.part(0.8, 1.0));
+    summary.name = restored.name;
+    summary.scene = true;
+    summary.notes = std::move(restored.notes);
+    return summary;
+  }
+
+  if (request.as.empty())
+    throw core::InvalidParameter(
+        "receive: the study has no Petrous scene; give --as NAME for the case that is built of it");
+  std::vector<std::string> wanted;
+  for (const auto& one : series)
+    if (one.modality == "MR" ||
+        (one.modality == "CT" && (request.series.empty() || one.uid == request.series)))
+      wanted.push_back(one.uid);
+  if (wanted.empty())
+    throw NetworkError(NetworkError::Reason::NotFound,
+                       "node '" + node.name + "': the study has no CT");
+  summary.transfer =
+      network::retrieve(node, study, wanted, folder / "images", progress.part(0.0, 0.6));
+  std::vector<std::string> segmentations;
+  for (const auto& one : series)
+    if (one.modality == "SEG")
+      segmentations.push_back(one.uid);
+  if (!segmentations.empty())
+    add(summary.transfer, network::retrieve(node, study, segmentations, folder / "segmentations",
+                                            progress.part(0.6, 0.7)));
+  scene::Case value =
+      builtCase(folder / "images", request.as, request, summary.notes, progress.part(0.7, 0.85));
+  if (!segmentations.empty())
+    addSegmentations(value, folder / "segmentations", summary.notes, progress.part(0.85, 0.9));
+  library.save(value, progress.part(0.9, 1.0));
+  summary.name = value.name;
+  return summary;
+}
+
+} // namespace petrous::presenters

@@ -1,0 +1,331 @@
+#include "petrous/Network/DicomNode.h"
+
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "TestServers.h"
+#include "petrous/Imaging/DicomReader.h"
+#include "petrous/Imaging/DicomScan.h"
+#include "petrous/Imaging/DicomWriter.h"
+#include "petrous/Network/SceneObjects.h"
+
+namespace petrous::network
+{
+namespace
+{
+
+using namespace test;
+using Reason = NetworkError::Reason;
+
+constexpr int kSlices = 12;
+
+/// A CT series with pseudo-random voxels in a folder, and what it is at a node.
+struct CtSeries
+{
+  std::string study = imaging::deterministicUid(7, "test study");
+  std::string series = imaging::deterministicUid(7, "test series");
+  std::vector<fs::path> files;
+  std::shared_ptr<volume::Volume<std::int16_t>> voxels;
+
+  explicit CtSeries(const fs::path& folder, int n = 64)
+  {
+    const core::GridGeometry grid({n, n, kSlices}, Eigen::Vector3d(0.5, 0.5, 0.75),
+                                  Eigen::Vector3d(-10, 20, -30));
+    voxels = std::make_shared<volume::Volume<std::int16_t>>(grid);
+    std::mt19937 random(5);
+    for (std::size_t i = 0; i < voxels->size(); ++i)
+      voxels->data()[i] = static_cast<std::int16_t>(random() % 4000) - 1000;
+    imaging::SeriesDescription description;
+    description.studyUid = study;
+    description.seriesUid = series;
+    description.frameOfReferenceUid = imaging::deterministicUid(7, "frame");
+    description.patientId = "SECRET-PATIENT-ID";
+    imaging::writeDicomSeries(
+        folder,
+        volume::IntensityVolume(std::shared_ptr<const volume::Volume<std::int16_t>>(voxels)),
+        description);
+    for (const auto& entry : fs::directory_iterator(folder))
+      files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+  }
+
+  /// Expects these very voxels.
+  void expectIn(const fs::path& folder) const
+  {
+    const auto scan = imaging::scanDicom(folder, {});
+    ASSERT_EQ(scan.series.size(), 1U);
+    EXPECT_EQ(scan.series.front().geometry.verdict, imaging::Verdict::Ok);
+    const auto read = imaging::readSeries(scan.series.front(), {}, {});
+    const auto image = std::get<std::shared_ptr<const volume::Volume<std::int16_t>>>(read.voxels());
+    ASSERT_EQ(image->size(), voxels->size());
+    EXPECT_EQ(std::memcmp(image->data(), voxels->data(), voxels->size() * sizeof(std::int16_t)), 0);
+  }
+};
+
+std::size_t filesIn(const fs::path& folder)
+{
+  std::error_code ignored;
+  std::size_t count = 0;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    count += entry.path().extension() == kInstanceEnding ? 1U : 0U;
+  return count;
+}
+
+template <class Action>
+NetworkError failure(const Action& action)
+{
+  try
+  {
+    action();
+  }
+  catch (const NetworkError& error)
+  {
+    const std::string text = error.what();
+    EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+    EXPECT_EQ(text.find("SECRET"), std::string::npos) << text;
+    EXPECT_EQ(text.find("2.25."), std::string::npos) << text;
+    return error;
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return {Reason::Protocol, ""};
+}
+
+void roundTrip(const Node& node, const fs::path& folder)
+{
+  const CtSeries ct(folder / "ct");
+  echo(node);
+  EXPECT_EQ(failure([&] { retrieve(node, ct.study, {}, folder / "none"); }).reason,
+            Reason::NotFound);
+
+  const Transfer sent = store(node, ct.files);
+  EXPECT_EQ(sent.instances, kSlices);
+  EXPECT_EQ(sent.completed, kSlices);
+  EXPECT_EQ(sent.present, 0U);
+  EXPECT_EQ(sent.asked, 1U);
+  EXPECT_TRUE(sent.verified);
+  EXPECT_GT(sent.bytes, ct.voxels->size() * 2);
+  const Transfer again = store(node, ct.files);
+  EXPECT_EQ(again.completed, kSlices);
+  EXPECT_EQ(again.present, kSlices) << "not sent again";
+  EXPECT_EQ(again.bytes, 0U);
+
+  const auto studies = findStudies(node, {ct.study, {}});
+  ASSERT_EQ(studies.size(), 1U);
+  EXPECT_EQ(studies.front().patientId, "SECRET-PATIENT-ID");
+  const auto series = findSeries(node, ct.study);
+  ASSERT_EQ(series.size(), 1U);
+  EXPECT_EQ(series.front().uid, ct.series);
+  EXPECT_EQ(series.front().modality, "CT");
+  EXPECT_EQ(findInstances(node, ct.study, {ct.series}).size(), std::size_t{kSlices});
+
+  const fs::path back = folder / "back";
+  const Transfer got = retrieve(node, ct.study, {}, back);
+  EXPECT_EQ(got.instances, kSlices);
+  EXPECT_EQ(got.completed, kSlices);
+  EXPECT_EQ(got.asked, 1U);
+  ct.expectIn(back);
+
+  // Some are there already: only the rest is fetched.
+  std::vector<fs::path> received;
+  for (const auto& entry : fs::directory_iterator(back))
+    received.push_back(entry.path());
+  for (int n = 0; n < 5; ++n)
+    fs::remove(received[static_cast<std::size_t>(n)]);
+  fs::resize_file(received[6], 200); // damaged
+  const Transfer rest = retrieve(node, ct.study, {ct.series}, back);
+  EXPECT_EQ(rest.completed, kSlices);
+  EXPECT_EQ(rest.present, std::size_t{kSlices - 6});
+  ct.expectIn(back);
+}
+
+class OrthancNode : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    if (!Orthanc::installed())
+      GTEST_SKIP() << "Orthanc (package orthanc) is not installed";
+  }
+  TemporaryFolder m_folder;
+};
+
+} // namespace
+
+TEST_F(OrthancNode, KeepsASeriesAndGivesItBack)
+{
+  const Orthanc server(m_folder.path(), {});
+  roundTrip(server.node(), m_folder.path());
+}
+
+TEST_F(OrthancNode, SpeaksTlsWithCertificatesOfBothSides)
+{
+  const Certificate own(m_folder.path(), "server"), client(m_folder.path(), "client"),
+      stranger(m_folder.path(), "stranger");
+  const Orthanc server(m_folder.path(), {&own, &client, 0, 0});
+  roundTrip(server.node(), m_folder.path());
+
+  Node node = server.node();
+  node.tls->authority = stranger.certificate();
+  EXPECT_EQ(failure([&] { echo(node); }).reason, Reason::Tls) << "an unknown server";
+  node = server.node();
+  node.tls->authority.clear();
+  EXPECT_EQ(failure([&] { echo(node); }).reason, Reason::Tls) << "not of the system's authorities";
+  node = server.node();
+  node.tls->certificate = stranger.certificate();
+  EXPECT_EQ(failure([&] { echo(node); }).reason, Reason::Tls) << "the key is of another one";
+  node.tls->key = stranger.key();
+  EXPECT_NO_FATAL_FAILURE(failure([&] { echo(node); })) << "an unknown client";
+  node.tls.reset();
+  node.timeouts.reply = std::chrono::seconds(5);
+  EXPECT_NO_FATAL_FAILURE(failure([&] { echo(node); })) << "no TLS at all";
+}
+
+TEST_F(OrthancNode, KeepsASeriesInPostgreSql)
+{
+  if (!fs::exists("/usr/share/orthanc/plugins/libOrthancPostgreSQLIndex.so"))
+    GTEST_SKIP() << "Orthanc's plugin (package orthanc-postgresql) is not installed";
+  std::string whyNot;
+  const auto database = Postgres::start(m_folder.path(), whyNot);
+  if (!database)
+    GTEST_SKIP() << whyNot;
+  const Orthanc server(m_folder.path(), {nullptr, nullptr, database->port(), 0});
+  roundTrip(server.node(), m_folder.path());
+}
+
+TEST_F(OrthancNode, SendsByMoveWhereItAllowsNoGet)
+{
+  const Orthanc server(m_folder.path(), {nullptr, nullptr, 0, freePort()});
+  roundTrip(server.node(), m_folder.path());
+  Node node = server.node();
+  node.movePort = 0;
+  const std::string study = imaging::deterministicUid(7, "test study");
+  EXPECT_NO_FATAL_FAILURE(failure([&] { retrieve(node, study, {}, m_folder.path() / "none"); }));
+  EXPECT_EQ(filesIn(m_folder.path() / "none"), 0U);
+}
+
+TEST_F(OrthancNode, SendsByMoveOverTls)
+{
+  const Certificate own(m_folder.path(), "server"), client(m_folder.path(), "client");
+  const Orthanc server(m_folder.path(), {&own, &client, 0, freePort()});
+  roundTrip(server.node(), m_folder.path());
+}
+
+TEST_F(OrthancNode, RefusesWrongTitlesByName)
+{
+  const Orthanc server(m_folder.path(), {});
+  Node node = server.node();
+  node.aeTitle = "NOBODY";
+  NetworkError error = failure([&] { echo(node); });
+  EXPECT_EQ(error.reason, Reason::Rejected);
+  EXPECT_NE(std::string(error.what()).find("'NOBODY'"), std::string::npos) << error.what();
+  node = server.node();
+  node.port = freePort();
+  error = failure([&] { echo(node); });
+  EXPECT_EQ(error.reason, Reason::Unreachable);
+  EXPECT_NE(std::string(error.what()).find(std::to_string(node.port)), std::string::npos);
+}
+
+TEST_F(OrthancNode, GoesOnAfterACut)
+{
+  const Orthanc server(m_folder.path(), {});
+  const CtSeries ct(m_folder.path() / "ct", 256);
+  Node node = server.node();
+  {
+    const BreakingProxy proxy(server.node().port, 600000, BreakingProxy::Fault::Cut, 2);
+    node.port = proxy.port();
+    const Transfer sent = store(node, ct.files);
+    EXPECT_EQ(sent.completed, kSlices);
+    EXPECT_EQ(sent.asked, 3U);
+    EXPECT_EQ(proxy.broken(), 2);
+  }
+  {
+    const BreakingProxy proxy(server.node().port, 600000, BreakingProxy::Fault::Cut, 2);
+    node.port = proxy.port();
+    const Transfer got = retrieve(node, ct.study, {}, m_folder.path() / "back");
+    EXPECT_EQ(got.completed, kSlices);
+    EXPECT_EQ(got.asked, 3U);
+    EXPECT_EQ(proxy.broken(), 2);
+  }
+  ct.expectIn(m_folder.path() / "back");
+}
+
+TEST_F(OrthancNode, NamesACutThatStays)
+{
+  const Orthanc server(m_folder.path(), {});
+  const CtSeries ct(m_folder.path() / "ct", 256);
+  Node node = server.node();
+  // Before a slice is through.
+  const BreakingProxy proxy(server.node().port, 40000, BreakingProxy::Fault::Cut, 100);
+  node.port = proxy.port();
+  EXPECT_EQ(failure([&] { store(node, ct.files); }).reason, Reason::Cut);
+  store(server.node(), ct.files);
+  EXPECT_EQ(failure([&] { retrieve(node, ct.study, {}, m_folder.path() / "back"); }).reason,
+            Reason::Cut);
+  EXPECT_EQ(filesIn(m_folder.path() / "back"), 0U);
+}
+
+TEST_F(OrthancNode, EndsWhenTheServerFallsSilent)
+{
+  const Orthanc server(m_folder.path(), {});
+  const CtSeries ct(m_folder.path() / "ct", 256);
+  Node node = server.node();
+  node.timeouts.reply = std::chrono::milliseconds(300);
+  // Before a slice is through: what gets on is asked for again for as long as it gets on.
+  const BreakingProxy proxy(server.node().port, 40000, BreakingProxy::Fault::Stall, 100);
+  node.port = proxy.port();
+  const NetworkError error = failure([&] { store(node, ct.files); });
+  EXPECT_EQ(error.reason, Reason::TimedOut) << error.what();
+}
+
+TEST_F(OrthancNode, IsLeftWhenTheUserCancels)
+{
+  const Orthanc server(m_folder.path(), {});
+  const CtSeries ct(m_folder.path() / "ct", 256);
+  Node node = server.node(); // a minute until it is given up
+  const BreakingProxy proxy(server.node().port, 300000, BreakingProxy::Fault::Stall, 100);
+  node.port = proxy.port();
+  const auto token = std::make_shared<core::CancelToken>();
+  const core::Progress progress([](double, const std::string&) {}, token);
+  std::thread user(
+      [&]
+      {
+        waitFor([&] { return proxy.stalled(); });
+        token->cancel();
+      });
+  EXPECT_THROW(store(node, ct.files, progress), core::CancelledError);
+  user.join();
+}
+
+TEST_F(OrthancNode, KeepsASceneInParts)
+{
+  const Orthanc server(m_folder.path(), {});
+  std::string content(300001, '\0');
+  std::mt19937 random(3);
+  for (char& c : content)
+    c = static_cast<char>(random());
+  const fs::path archive = m_folder.path() / "ear.petrous";
+  std::ofstream(archive, std::ios::binary) << content;
+  fs::create_directories(m_folder.path() / "parts");
+  SceneDescription description;
+  description.studyUid = imaging::deterministicUid(9, "study");
+  const auto files = writeSceneObjects(archive, m_folder.path() / "parts", description, {}, 100000);
+  ASSERT_EQ(files.size(), 4U);
+  store(server.node(), files);
+  const fs::path back = m_folder.path() / "back";
+  EXPECT_EQ(retrieve(server.node(), description.studyUid, {}, back).completed, 4U);
+  std::vector<fs::path> received;
+  for (const auto& entry : fs::directory_iterator(back))
+    received.push_back(entry.path());
+  const fs::path restored = m_folder.path() / "restored.petrous";
+  readSceneObjects(received, restored);
+  std::ifstream stream(restored, std::ios::binary);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(stream), {}), content);
+
+  received.pop_back();
+  fs::remove(restored);
+  EXPECT_THROW(readSceneObjects(received, restored), core::InvalidParameter);
+  EXPECT_FALSE(fs::exists(restored));
+}
+
+} // namespace petrous::network

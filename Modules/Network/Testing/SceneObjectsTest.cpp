@@ -1,0 +1,140 @@
+#include "petrous/Network/SceneObjects.h"
+
+#include <gtest/gtest.h>
+
+#include "TestServers.h"
+#include "petrous/Imaging/DicomWriter.h"
+#include "petrous/Network/NodeList.h"
+
+namespace petrous::network
+{
+namespace
+{
+
+using test::TemporaryFolder;
+namespace fs = std::filesystem;
+
+std::string contentOf(const fs::path& path)
+{
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+class SceneObjects : public ::testing::Test
+{
+protected:
+  std::vector<fs::path> write(const std::string& content, std::uintmax_t partBytes,
+                              const std::string& folder = "parts")
+  {
+    const fs::path archive = m_folder.path() / "a.petrous";
+    std::ofstream(archive, std::ios::binary) << content;
+    fs::create_directories(m_folder.path() / folder);
+    SceneDescription description;
+    description.studyUid = imaging::deterministicUid(1, "study");
+    return writeSceneObjects(archive, m_folder.path() / folder, description, {}, partBytes);
+  }
+  std::string read(const std::vector<fs::path>& files)
+  {
+    const fs::path archive = m_folder.path() / "b.petrous";
+    fs::remove(archive);
+    readSceneObjects(files, archive);
+    return contentOf(archive);
+  }
+  void expectRefused(const std::vector<fs::path>& files)
+  {
+    EXPECT_THROW(read(files), core::InvalidParameter);
+    EXPECT_FALSE(fs::exists(m_folder.path() / "b.petrous"));
+  }
+
+  TemporaryFolder m_folder;
+};
+
+} // namespace
+
+TEST_F(SceneObjects, GiveTheArchiveBackInAnyOrder)
+{
+  for (const std::size_t size : {1U, 999U, 1000U, 1001U, 4321U})
+  {
+    std::string content;
+    for (std::size_t n = 0; n < size; ++n)
+      content += static_cast<char>(n * n % 251);
+    auto files = write(content, 1000, "of " + std::to_string(size));
+    EXPECT_EQ(files.size(), (size + 999) / 1000);
+    std::reverse(files.begin(), files.end());
+    EXPECT_EQ(read(files), content);
+  }
+}
+
+TEST_F(SceneObjects, AreEqualForEqualArchives)
+{
+  const auto first = write("the same", 5), second = write("the same", 5, "again");
+  ASSERT_EQ(first.size(), 2U);
+  for (std::size_t n = 0; n < 2; ++n)
+    EXPECT_EQ(contentOf(first[n]), contentOf(second[n]));
+}
+
+TEST_F(SceneObjects, OfAnotherSceneMissingTwiceOrDamagedAreRefused)
+{
+  const std::string content(5000, 'x');
+  const auto files = write(content, 1000);
+  EXPECT_EQ(read(files), content);
+  const auto other = write(std::string(5000, 'y'), 1000, "other");
+  expectRefused({});
+  expectRefused({files.begin(), files.end() - 1});
+  auto mixed = files;
+  mixed[2] = other[2];
+  expectRefused(mixed);
+  mixed[2] = files[1];
+  expectRefused(mixed);
+  std::string bytes = contentOf(files[3]);
+  bytes[bytes.size() - 100] = 'z'; // of the content
+  std::ofstream(files[3], std::ios::binary) << bytes;
+  expectRefused(files);
+  std::ofstream(files[3], std::ios::binary) << bytes.substr(0, bytes.size() - 500);
+  expectRefused(files);
+  const std::size_t head = bytes.find("petrous-scene 1 ");
+  ASSERT_NE(head, std::string::npos);
+  bytes.replace(head, 16, "petrous-scene 2 ");
+  std::ofstream(files[3], std::ios::binary) << bytes;
+  expectRefused(files);
+  std::ofstream(files[3], std::ios::binary) << "no DICOM file";
+  expectRefused(files);
+}
+
+TEST(NodeList, IsKeptAndHoldsNoKey)
+{
+  const TemporaryFolder folder;
+  Node node;
+  node.name = "b";
+  node.host = "pacs";
+  node.port = 2762;
+  node.aeTitle = "ARCHIVE";
+  node.movePort = 11113;
+  node.tls = TlsFiles{"/ca.pem", "/own.pem", "/own.key"};
+  {
+    NodeList list(folder.path());
+    list.add(node);
+    node.name = "a";
+    node.tls.reset();
+    NodeList(folder.path()).add(node); // by another program meanwhile
+    EXPECT_THROW(list.add(node), core::InvalidParameter);
+  }
+  const NodeList list(folder.path());
+  ASSERT_EQ(list.nodes().size(), 2U);
+  EXPECT_EQ(list.nodes()[0].name, "a");
+  EXPECT_FALSE(list.nodes()[0].tls);
+  EXPECT_EQ(list.at("b").port, 2762);
+  EXPECT_EQ(list.at("b").movePort, 11113);
+  ASSERT_TRUE(list.at("b").tls);
+  EXPECT_EQ(list.at("b").tls->key, "/own.key");
+  EXPECT_THROW(list.at("c"), core::InvalidParameter);
+}
+
+TEST(NodeList, OfANewerVersionIsRefused)
+{
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "nodes.json") << R"({"format":2,"nodes":[]})";
+  EXPECT_THROW(NodeList(folder.path()), core::InvalidParameter);
+}
+
+} // namespace petrous::network

@@ -1,0 +1,1138 @@
+#include "petrous/Network/DicomNode.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <functional>
+#include <map>
+#include <memory>
+#include <thread>
+#include <utility>
+
+#include <openssl/evp.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <dcmtk/config/osconfig.h>
+
+#include <dcmtk/dcmdata/dcostrmf.h>
+#include <dcmtk/dcmdata/dctk.h>
+#include <dcmtk/dcmnet/dcmlayer.h>
+#include <dcmtk/dcmnet/dimse.h>
+
+#include "Association.h"
+
+namespace petrous::network
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+using Reason = NetworkError::Reason;
+
+constexpr const char* kImageLevel = "IMAGE";
+constexpr std::size_t kMaxUidsAsked = 400; ///< of one request: a UI value holds 64 KB
+constexpr std::size_t kMaxContexts = 128;  ///< PS3.8 9.3.2: odd numbers of one byte
+constexpr int kMaxIdleRounds = 2;          ///< transfers without a new instance before giving up
+constexpr std::uintmax_t kMaxInstanceBytes = std::uintmax_t{4} << 30;
+
+/// What is retrieved may be stored in any of these; Imaging reads them all. Explicit little endian
+/// first: what has no compressed form comes as it is.
+constexpr std::array<const char*, 9> kTransferSyntaxes{
+    UID_LittleEndianExplicitTransferSyntax,
+    UID_LittleEndianImplicitTransferSyntax,
+    UID_JPEGProcess14SV1TransferSyntax,
+    UID_JPEGProcess14TransferSyntax,
+    UID_JPEGLSLosslessTransferSyntax,
+    UID_JPEG2000LosslessOnlyTransferSyntax,
+    UID_RLELosslessTransferSyntax,
+    UID_JPEG2000TransferSyntax,
+    UID_DeflatedExplicitVRLittleEndianTransferSyntax};
+
+std::string numberOf(std::size_t count, const std::string& what)
+{
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+const std::vector<const char*> kUncompressed{UID_LittleEndianExplicitTransferSyntax,
+                                             UID_LittleEndianImplicitTransferSyntax};
+
+bool isWarning(DIC_US status)
+{
+  return (status & 0xF000) == 0xB000 || status == 0x0001 || status == 0x0107 || status == 0x0116;
+}
+
+std::string hexadecimal(DIC_US status)
+{
+  constexpr const char* kDigits = "0123456789ABCDEF";
+  std::string text;
+  for (int shift = 12; shift >= 0; shift -= 4)
+    text += kDigits[(status >> shift) & 0xF];
+  return text;
+}
+
+/// PS3.4 C.4, B.2.3.
+std::string statusText(DIC_US status)
+{
+  const std::string code = " (status " + hexadecimal(status) + ")";
+  if ((status & 0xFF00) == 0xA700)
+    return "it is out of resources" + code;
+  if ((status & 0xFF00) == 0xA900)
+    return "the request does not match its model, or it refuses the object" + code;
+  if (status == 0xA801)
+    return "it does not know this program's AE title as a destination; have it added there" + code;
+  if (status == 0x0122 || status == 0xA800)
+    return "it does not support this kind of object" + code;
+  if (status == 0x0124)
+    return "this program may not do that there" + code;
+  if (status == 0xFE00)
+    return "it cancelled the request" + code;
+  return "it cannot process the request" + code;
+}
+
+// --- C-FIND ---
+
+std::string text(DcmItem& item, const DcmTagKey& key)
+{
+  OFString value;
+  if (item.findAndGetOFStringArray(key, value).bad())
+    return {};
+  const std::size_t last = value.find_last_not_of(std::string(" \0", 2).c_str());
+  return last == OFString_npos ? std::string() : std::string(value.c_str(), last + 1);
+}
+
+int count(DcmItem& item, const DcmTagKey& key)
+{
+  const std::string digits = text(item, key);
+  if (digits.empty() || digits.size() > 9 ||
+      digits.find_first_not_of("0123456789") != std::string::npos)
+    return -1;
+  return std::stoi(digits);
+}
+
+struct FindCall
+{
+  const Association* association;
+  std::function<void(DcmDataset&)> each;
+  std::size_t answers = 0;
+};
+
+void onFindAnswer(void* data, T_DIMSE_C_FindRQ*, int, T_DIMSE_C_FindRSP*, DcmDataset* answer)
+{
+  constexpr std::size_t kMaxAnswers = 1000000;
+  auto& call = *static_cast<FindCall*>(data);
+  call.association->watch().active();
+  if (++call.answers > kMaxAnswers)
+    call.association->watch().end(ConnectionWatch::End::TooLarge);
+  else if (answer)
+    call.each(*answer);
+}
+
+void find(const Association& association, DcmDataset& query,
+          const std::function<void(DcmDataset&)>& each)
+{
+  const std::string task = "the query";
+  const auto context = association.context(UID_FINDStudyRootQueryRetrieveInformationModel);
+  if (context == 0)
+    throw NetworkError(Reason::Unsupported,
+                       place(association.node()) + ": does not offer queries (C-FIND, study root)");
+  T_DIMSE_C_FindRQ request{};
+  request.MessageID = association.get()->nextMsgID++;
+  OFStandard::strlcpy(request.AffectedSOPClassUID, UID_FINDStudyRootQueryRetrieveInformationModel,
+                      sizeof request.AffectedSOPClassUID);
+  request.DataSetType = DIMSE_DATASET_PRESENT;
+  request.Priority = DIMSE_PRIORITY_MEDIUM;
+  T_DIMSE_C_FindRSP response{};
+  FindCall call{&association, each};
+  int answers = 0;
+  DcmDataset* detail = nullptr;
+  const OFCondition result =
+      DIMSE_findUser(association.get(), context, &request, &query, answers, onFindAnswer, &call,
+                     DIMSE_NONBLOCKING, association.timeout(), &response, &detail);
+  delete detail;
+  association.require(result, task);
+  if (response.DimseStatus != STATUS_Success)
+    throw NetworkError(Reason::Failed, place(association.node()) + ": refuses the query: " +
+                                           statusText(response.DimseStatus));
+}
+
+std::vector<Context> findContexts()
+{
+  return {{UID_FINDStudyRootQueryRetrieveInformationModel, kUncompressed}};
+}
+
+void put(DcmItem& item, const DcmTagKey& key, const std::string& value)
+{
+  item.putAndInsertString(key, value.c_str());
+}
+
+std::vector<Study> studiesIn(const Association& association, const StudyFilter& filter)
+{
+  DcmDataset query;
+  put(query, DCM_QueryRetrieveLevel, "STUDY");
+  put(query, DCM_StudyInstanceUID, filter.uid);
+  put(query, DCM_StudyID, filter.studyId);
+  put(query, DCM_PatientID, "");
+  put(query, DCM_NumberOfStudyRelatedInstances, "");
+  std::map<std::string, Study> found;
+  find(association, query,
+       [&](DcmDataset& answer)
+       {
+         Study study;
+         study.uid = text(answer, DCM_StudyInstanceUID);
+         study.patientId = text(answer, DCM_PatientID);
+         study.instances = count(answer, DCM_NumberOfStudyRelatedInstances);
+         // A node may ignore a key that it does not know.
+         if (!study.uid.empty() && (filter.uid.empty() || study.uid == filter.uid) &&
+             (filter.studyId.empty() || text(answer, DCM_StudyID) == filter.studyId))
+           found.emplace(study.uid, study);
+       });
+  std::vector<Study> studies;
+  for (auto& [uid, study] : found)
+    studies.push_back(std::move(study));
+  return studies;
+}
+
+std::vector<Series> seriesIn(const Association& association, const std::string& studyUid)
+{
+  DcmDataset query;
+  put(query, DCM_QueryRetrieveLevel, "SERIES");
+  put(query, DCM_StudyInstanceUID, studyUid);
+  put(query, DCM_SeriesInstanceUID, "");
+  put(query, DCM_Modality, "");
+  put(query, DCM_SeriesDescription, "");
+  put(query, DCM_SeriesNumber, "");
+  put(query, DCM_NumberOfSeriesRelatedInstances, "");
+  std::map<std::string, Series> found;
+  find(association, query,
+       [&](DcmDataset& answer)
+       {
+         Series series;
+         series.uid = text(answer, DCM_SeriesInstanceUID);
+         series.modality = text(answer, DCM_Modality);
+         series.description = text(answer, DCM_SeriesDescription);
+         series.number = count(answer, DCM_SeriesNumber);
+         series.instances = count(answer, DCM_NumberOfSeriesRelatedInstances);
+         if (!series.uid.empty())
+           found.emplace(series.uid, series);
+       });
+  std::vector<Series> list;
+  for (auto& [uid, series] : found)
+    list.push_back(std::move(series));
+  return list;
+}
+
+using Instances = std::map<std::string, Instance>; // by UID
+
+Instances instancesIn(const Association& association, const std::string& studyUid,
+                      const std::vector<std::string>& seriesUids)
+{
+  Instances found;
+  for (const std::string& series : seriesUids)
+  {
+    DcmDataset query;
+    put(query, DCM_QueryRetrieveLevel, kImageLevel);
+    put(query, DCM_StudyInstanceUID, studyUid);
+    put(query, DCM_SeriesInstanceUID, series);
+    put(query, DCM_SOPInstanceUID, "");
+    put(query, DCM_SOPClassUID, "");
+    find(association, query,
+         [&](DcmDataset& answer)
+         {
+           Instance instance;
+           instance.uid = text(answer, DCM_SOPInstanceUID);
+           instance.seriesUid = series;
+           instance.sopClass = text(answer, DCM_SOPClassUID);
+           if (!instance.uid.empty())
+             found.emplace(instance.uid, instance);
+         });
+  }
+  return found;
+}
+
+// --- C-STORE ---
+
+struct OutgoingFile
+{
+  fs::path path;
+  std::string sopClass, uid, studyUid, seriesUid;
+  const char* transferSyntax = nullptr;
+  std::uintmax_t bytes = 0;
+};
+
+OutgoingFile outgoing(const fs::path& path)
+{
+  DcmFileFormat file;
+  const auto refuse = [&path]
+  { throw core::InvalidParameter(path.string() + ": is not a DICOM file that can be sent"); };
+  if (file.loadFile(path.c_str(), EXS_Unknown, EGL_noChange, 4096).bad())
+    refuse();
+  DcmDataset& data = *file.getDataset();
+  OutgoingFile result;
+  result.path = path;
+  result.sopClass = text(data, DCM_SOPClassUID);
+  result.uid = text(data, DCM_SOPInstanceUID);
+  result.studyUid = text(data, DCM_StudyInstanceUID);
+  result.seriesUid = text(data, DCM_SeriesInstanceUID);
+  result.transferSyntax = DcmXfer(data.getOriginalXfer()).getXferID();
+  std::error_code fault;
+  result.bytes = fs::file_size(path, fault);
+  if (result.sopClass.empty() || result.uid.empty() || result.studyUid.empty() ||
+      result.seriesUid.empty() || fault)
+    refuse();
+  return result;
+}
+
+std::vector<Context> storeContexts(const std::vector<OutgoingFile>& files)
+{
+  std::set<std::pair<std::string, std::string>> kinds;
+  for (const OutgoingFile& file : files)
+    kinds.emplace(file.sopClass, file.transferSyntax);
+  std::vector<Context> contexts = findContexts();
+  for (const auto& [sopClass, syntax] : kinds)
+  {
+    const DcmXfer xfer(syntax.c_str());
+    contexts.push_back({sopClass, {xfer.getXferID()}});
+    if (!xfer.isEncapsulated()) // DCMTK converts between these
+      contexts.push_back({sopClass, kUncompressed});
+  }
+  if (contexts.size() > kMaxContexts)
+    throw core::InvalidParameter("DICOM: too many kinds of objects for one transfer; send fewer");
+  return contexts;
+}
+
+/// Counts bytes over all instances of a transfer, for the user and for the watch.
+struct ByteCounter
+{
+  ConnectionWatch* watch = nullptr;
+  const core::Progress* progress = nullptr;
+  std::string task;
+  std::uintmax_t total = 0; ///< 0: unknown
+  std::size_t done = 0, of = 0;
+  std::uintmax_t before = 0;
+
+  void at(std::uintmax_t bytes) noexcept
+  {
+    watch->active();
+    if (bytes > kMaxInstanceBytes)
+      watch->end(ConnectionWatch::End::TooLarge);
+    const double fraction = total > 0
+                                ? static_cast<double>(before + bytes) / static_cast<double>(total)
+                            : of > 0 ? static_cast<double>(done) / static_cast<double>(of)
+                                     : 0.0;
+    try
+    {
+      progress->report(std::min(fraction, 1.0),
+                       task + ", " + std::to_string(done) + " of " + std::to_string(of));
+    }
+    catch (const core::CancelledError&) // not through DCMTK
+    {
+      watch->end(ConnectionWatch::End::Cancelled);
+    }
+  }
+};
+
+void onStoreProgress(void* data, T_DIMSE_StoreProgress* progress, T_DIMSE_C_StoreRQ*)
+{
+  static_cast<ByteCounter*>(data)->at(
+      static_cast<std::uintmax_t>(std::max(progress->progressBytes, 0L)));
+}
+
+void onReceiveProgress(void* data, unsigned long bytes)
+{
+  static_cast<ByteCounter*>(data)->at(bytes);
+}
+
+DIC_US sendFile(const Association& association, const OutgoingFile& file, ByteCounter& counter)
+{
+  auto context = association.context(file.sopClass, file.transferSyntax);
+  if (context == 0)
+    context = association.context(file.sopClass);
+  if (context == 0)
+    return 0x0122; // SOP class not supported
+  T_DIMSE_C_StoreRQ request{};
+  request.MessageID = association.get()->nextMsgID++;
+  OFStandard::strlcpy(request.AffectedSOPClassUID, file.sopClass.c_str(),
+                      sizeof request.AffectedSOPClassUID);
+  OFStandard::strlcpy(request.AffectedSOPInstanceUID, file.uid.c_str(),
+                      sizeof request.AffectedSOPInstanceUID);
+  request.DataSetType = DIMSE_DATASET_PRESENT;
+  request.Priority = DIMSE_PRIORITY_MEDIUM;
+  DcmFileFormat content;
+  if (content.loadFile(file.path.c_str()).bad())
+    throw core::InvalidParameter(file.path.string() + ": cannot be read any more");
+  T_DIMSE_C_StoreRSP response{};
+  DcmDataset* detail = nullptr;
+  const OFCondition result = DIMSE_storeUser(
+      association.get(), context, &request, nullptr, content.getDataset(), onStoreProgress,
+      &counter, DIMSE_NONBLOCKING, association.timeout(), &response, &detail);
+  delete detail;
+  association.require(result, "sending");
+  return response.DimseStatus;
+}
+
+/// Whether trying again may help.
+bool isTransient(const NetworkError& error)
+{
+  return error.reason == Reason::Cut || error.reason == Reason::TimedOut ||
+         error.reason == Reason::Incomplete;
+}
+
+/// The instances of the files that the node says that it has; nullopt if it offers no queries.
+std::optional<std::set<std::string>> heldThere(const Association& association,
+                                               const std::vector<OutgoingFile>& files)
+{
+  if (association.context(UID_FINDStudyRootQueryRetrieveInformationModel) == 0)
+    return std::nullopt;
+  std::set<std::pair<std::string, std::string>> series;
+  for (const OutgoingFile& file : files)
+    series.emplace(file.studyUid, file.seriesUid);
+  std::set<std::string> held;
+  for (const auto& [studyUid, seriesUid] : series)
+    for (const auto& [uid, instance] : instancesIn(association, studyUid, {seriesUid}))
+      held.insert(uid);
+  return held;
+}
+
+// --- C-GET ---
+
+std::string fileNameOf(const std::string& instanceUid)
+{
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned length = 0;
+  EVP_Digest(instanceUid.data(), instanceUid.size(), digest.data(), &length, EVP_sha256(), nullptr);
+  std::string name;
+  constexpr const char* kDigits = "0123456789abcdef";
+  for (unsigned n = 0; n < 16; ++n)
+  {
+    name += kDigits[digest[n] >> 4];
+    name += kDigits[digest[n] & 0xF];
+  }
+  return name + kInstanceEnding;
+}
+
+/// What is asked for, and what of it has arrived.
+class Reception
+{
+public:
+  Reception(const Node& node, Study study, Instances expected, fs::path folder)
+    : m_node(node)
+    , m_study(std::move(study))
+    , m_expected(std::move(expected))
+    , m_folder(std::move(folder))
+  {
+    for (const auto& [uid, instance] : m_expected)
+      m_series.insert(instance.seriesUid);
+  }
+
+  const Study& study() const noexcept { return m_study; }
+  std::size_t expected() const noexcept { return m_expected.size(); }
+  std::size_t arrived() const noexcept { return m_arrived.size(); }
+  std::size_t foreign() const noexcept { return m_foreign; }
+  const std::set<std::string>& series() const noexcept { return m_series; }
+  const fs::path& folder() const noexcept { return m_folder; }
+
+  std::set<std::string> sopClasses() const
+  {
+    std::set<std::string> classes;
+    for (const auto& [uid, instance] : m_expected)
+      classes.insert(instance.sopClass);
+    return classes;
+  }
+
+  /// By series.
+  std::map<std::string, std::vector<std::string>> missing() const
+  {
+    std::map<std::string, std::vector<std::string>> result;
+    for (const auto& [uid, instance] : m_expected)
+      if (m_arrived.count(uid) == 0)
+        result[instance.seriesUid].push_back(uid);
+    return result;
+  }
+  std::size_t sizeOf(const std::string& seriesUid) const
+  {
+    return static_cast<std::size_t>(std::count_if(m_expected.begin(), m_expected.end(),
+                                                  [&](const auto& one)
+                                                  { return one.second.seriesUid == seriesUid; }));
+  }
+
+  /// Takes what an earlier transfer left.
+  void resume()
+  {
+    for (const auto& [uid, instance] : m_expected)
+    {
+      const fs::path file = m_folder / fileNameOf(uid);
+      std::error_code ignored;
+      if (fs::is_regular_file(file, ignored) && check(file, uid) == STATUS_Success)
+        m_arrived.insert(uid);
+    }
+    m_foreign = 0;
+  }
+
+  /// The status that answers a file which was received in whole; keeps or removes it.
+  DIC_US take(const fs::path& received, const std::string& uid)
+  {
+    const DIC_US status = check(received, uid);
+    std::error_code fault;
+    if (status != STATUS_Success)
+    {
+      fs::remove(received, fault);
+      return status;
+    }
+    if (m_expected.count(uid) == 0) // arrived at the node since it was asked
+    {
+      fs::remove(received, fault);
+      return STATUS_Success;
+    }
+    fs::rename(received, m_folder / fileNameOf(uid), fault);
+    if (fault)
+      return 0xA700; // out of resources
+    m_arrived.insert(uid);
+    return STATUS_Success;
+  }
+
+private:
+  DIC_US check(const fs::path& path, const std::string& uid)
+  {
+    DcmFileFormat file;
+    if (file.loadFile(path.c_str(), EXS_Unknown, EGL_noChange, 4096).bad())
+      return 0xC000; // cannot understand
+    DcmDataset& data = *file.getDataset();
+    const std::string patient = text(data, DCM_PatientID);
+    // The answer to the query may lack it, or be in another character set: then all are compared
+    // with the first.
+    const auto isAscii = [](char c) { return static_cast<unsigned char>(c) < 128; };
+    if (m_arrived.empty() &&
+        (m_study.patientId.empty() ||
+         !std::all_of(m_study.patientId.begin(), m_study.patientId.end(), isAscii)))
+      m_study.patientId = patient;
+    if (text(data, DCM_StudyInstanceUID) != m_study.uid ||
+        m_series.count(text(data, DCM_SeriesInstanceUID)) == 0 ||
+        text(data, DCM_SOPInstanceUID) != uid || patient != m_study.patientId)
+    {
+      ++m_foreign;
+      return 0xA900; // data set does not match
+    }
+    return STATUS_Success;
+  }
+
+  const Node& m_node;
+  Study m_study;
+  Instances m_expected;
+  fs::path m_folder;
+  std::set<std::string> m_series;
+  std::set<std::string> m_arrived;
+  std::size_t m_foreign = 0;
+};
+
+/// Receives the data set of a C-STORE request to the disk, and answers it. Throws if the disk does
+/// not take it.
+OFCondition receiveInstance(T_ASC_Association* association, int timeout,
+                            T_ASC_PresentationContextID context, T_DIMSE_C_StoreRQ& request,
+                            Reception& reception, ByteCounter& counter, Transfer& transfer)
+{
+  const fs::path part = reception.folder() / ("part-" + std::to_string(::getpid()) + ".tmp");
+  const std::string uid = request.AffectedSOPInstanceUID;
+  DcmOutputFileStream* opened = nullptr;
+  const OFCondition made =
+      DIMSE_createFilestream(part.c_str(), &request, association, context, 1, &opened);
+  std::unique_ptr<DcmOutputFileStream> stream(opened);
+  if (made.bad())
+    throw core::Error(core::Fault::Refused,
+                      reception.folder().string() + ": cannot be written; is the disk full?");
+  const OFCondition result = DIMSE_receiveDataSetInFile(
+      association, DIMSE_NONBLOCKING, timeout, &context, stream.get(), onReceiveProgress, &counter);
+  stream.reset();
+  std::error_code ignored;
+  if (result.bad())
+  {
+    fs::remove(part, ignored);
+    return result;
+  }
+  const std::uintmax_t bytes = fs::file_size(part, ignored);
+  transfer.bytes += bytes;
+  counter.before += bytes;
+  const DIC_US status = reception.take(part, uid);
+  counter.done = reception.arrived();
+  counter.at(0);
+  T_DIMSE_C_StoreRSP response{};
+  response.MessageIDBeingRespondedTo = request.MessageID;
+  response.DimseStatus = status;
+  response.DataSetType = DIMSE_DATASET_NULL;
+  OFStandard::strlcpy(response.AffectedSOPClassUID, request.AffectedSOPClassUID,
+                      sizeof response.AffectedSOPClassUID);
+  OFStandard::strlcpy(response.AffectedSOPInstanceUID, request.AffectedSOPInstanceUID,
+                      sizeof response.AffectedSOPInstanceUID);
+  response.opts = O_STORE_AFFECTEDSOPCLASSUID | O_STORE_AFFECTEDSOPINSTANCEUID;
+  return DIMSE_sendStoreResponse(association, context, &request, &response, nullptr);
+}
+
+DcmDataset retrieveRequest(const Reception& reception, const std::string& seriesUid,
+                           const std::vector<std::string>& uids)
+{
+  DcmDataset query;
+  put(query, DCM_QueryRetrieveLevel, uids.empty() ? "SERIES" : kImageLevel);
+  put(query, DCM_StudyInstanceUID, reception.study().uid);
+  put(query, DCM_SeriesInstanceUID, seriesUid);
+  if (!uids.empty())
+  {
+    std::string list;
+    for (const std::string& uid : uids)
+      list += (list.empty() ? "" : "\\") + uid;
+    put(query, DCM_SOPInstanceUID, list);
+  }
+  return query;
+}
+
+/// One C-GET request until its final response. Returns the final status; the node's counts of
+/// sub-operations are not believed, only what arrives is.
+DIC_US getInstances(const Association& association, DcmDataset& query, Reception& reception,
+                    ByteCounter& counter, Transfer& transfer)
+{
+  const std::string task = "receiving";
+  const auto context = association.context(UID_GETStudyRootQueryRetrieveInformationModel);
+  T_DIMSE_Message message{};
+  message.CommandField = DIMSE_C_GET_RQ;
+  message.msg.CGetRQ.MessageID = association.get()->nextMsgID++;
+  OFStandard::strlcpy(message.msg.CGetRQ.AffectedSOPClassUID,
+                      UID_GETStudyRootQueryRetrieveInformationModel,
+                      sizeof message.msg.CGetRQ.AffectedSOPClassUID);
+  message.msg.CGetRQ.Priority = DIMSE_PRIORITY_MEDIUM;
+  message.msg.CGetRQ.DataSetType = DIMSE_DATASET_PRESENT;
+  const DIC_US id = message.msg.CGetRQ.MessageID;
+  association.require(DIMSE_sendMessageUsingMemoryData(association.get(), context, &message,
+                                                       nullptr, &query, nullptr, nullptr),
+                      task);
+  for (;;)
+  {
+    T_ASC_PresentationContextID on = 0;
+    T_DIMSE_Message answer{};
+    DcmDataset* detail = nullptr;
+    const OFCondition result = DIMSE_receiveCommand(association.get(), DIMSE_NONBLOCKING,
+                                                    association.timeout(), &on, &answer, &detail);
+    delete detail;
+    association.require(result, task);
+    if (answer.CommandField == DIMSE_C_STORE_RQ)
+    {
+      association.require(receiveInstance(association.get(), association.timeout(), on,
+                                          answer.msg.CStoreRQ, reception, counter, transfer),
+                          task);
+      if (reception.foreign() > 0)
+        return STATUS_Success; // ended by the caller
+      continue;
+    }
+    if (answer.CommandField != DIMSE_C_GET_RSP ||
+        answer.msg.CGetRSP.MessageIDBeingRespondedTo != id)
+      association.fail(DIMSE_BADCOMMANDTYPE, task);
+    if (answer.msg.CGetRSP.DataSetType != DIMSE_DATASET_NULL) // the list of those that failed
+    {
+      DcmDataset* failed = nullptr;
+      const OFCondition read =
+          DIMSE_receiveDataSetInMemory(association.get(), DIMSE_NONBLOCKING, association.timeout(),
+                                       &on, &failed, nullptr, nullptr);
+      delete failed;
+      association.require(read, task);
+    }
+    if (!DICOM_PENDING_STATUS(answer.msg.CGetRSP.DimseStatus))
+      return answer.msg.CGetRSP.DimseStatus;
+  }
+}
+
+[[noreturn]] void failForeign(const Node& node)
+{
+  throw NetworkError(Reason::Foreign,
+                     place(node) + ": sent an instance of another patient, study or series than "
+                                   "was asked for; the transfer was ended");
+}
+
+std::vector<Context> getContexts(const Reception& reception)
+{
+  std::vector<Context> contexts{{UID_GETStudyRootQueryRetrieveInformationModel, kUncompressed},
+                                {UID_MOVEStudyRootQueryRetrieveInformationModel, kUncompressed}};
+  const std::set<std::string> classes = reception.sopClasses();
+  // One context per class and syntax, so that each object can come as it is stored.
+  const std::size_t syntaxes =
+      std::clamp((kMaxContexts - 2) / std::max<std::size_t>(classes.size(), 1), std::size_t{1},
+                 kTransferSyntaxes.size());
+  for (const std::string& sopClass : classes)
+    for (std::size_t n = 0; n < syntaxes; ++n)
+      contexts.push_back({sopClass, {kTransferSyntaxes[n]}, true});
+  return contexts;
+}
+
+/// Storage provider for what a node sends by C-MOVE, on a thread of its own: one association at a
+/// time, as nodes open one per request.
+class MoveReceiver
+{
+public:
+  MoveReceiver(const Node& node, Reception& reception, ByteCounter& counter, Transfer& transfer,
+               const core::Progress& progress)
+    : m_node(node)
+    , m_reception(reception)
+    , m_counter(counter)
+    , m_transfer(transfer)
+    , m_watch(progress, node.timeouts.reply)
+  {
+    if (node.tls && node.tls->certificate.empty())
+      throw NetworkError(Reason::Tls, place(node) + ": C-MOVE with TLS needs a certificate of this "
+                                                    "program; see 'petrous nodes add --tls-cert'");
+    m_layer = transportLayer(node, m_watch, true);
+    if (ASC_initializeNetwork(NET_ACCEPTOR, node.movePort, 30, &m_network).bad())
+      throw NetworkError(Reason::Unreachable, place(node) +
+                                                  ": this program cannot listen at port " +
+                                                  std::to_string(node.movePort) +
+                                                  " for C-MOVE; is it in use, or below 1024?");
+    ASC_setTransportLayer(m_network, m_layer.get(), 0);
+    m_thread = std::thread([this] { run(); });
+  }
+  ~MoveReceiver() { stop(); }
+  MoveReceiver(const MoveReceiver&) = delete;
+  MoveReceiver& operator=(const MoveReceiver&) = delete;
+
+  /// After this the reception is the caller's again. Throws what the disk did.
+  void finish()
+  {
+    stop();
+    if (m_fault)
+      std::rethrow_exception(m_fault);
+  }
+
+private:
+  void stop()
+  {
+    m_stop = true;
+    if (m_thread.joinable())
+      m_thread.join();
+    if (m_network)
+      ASC_dropNetwork(&m_network);
+  }
+
+  void run()
+  {
+    while (!m_stop)
+    {
+      // In slices, so that it can be stopped.
+      if (!ASC_associationWaiting(m_network, 0))
+      {
+        ::poll(nullptr, 0, 5);
+        continue;
+      }
+      T_ASC_Association* association = nullptr;
+      if (ASC_receiveAssociation(m_network, &association, ASC_MAXIMUMPDUSIZE, nullptr, nullptr,
+                                 m_node.tls ? OFTrue : OFFalse)
+              .good())
+        try
+        {
+          serve(association);
+        }
+        catch (...)
+        {
+          m_fault = std::current_exception();
+          ASC_abortAssociation(association);
+        }
+      m_watch.forget();
+      ASC_dropSCPAssociation(association, 0);
+      ASC_destroyAssociation(&association);
+    }
+  }
+
+  void serve(T_ASC_Association* association)
+  {
+    std::vector<std::string> classes{UID_VerificationSOPClass};
+    for (const std::string& sopClass : m_reception.sopClasses())
+      classes.push_back(sopClass);
+    for (const std::string& sopClass : classes)
+    {
+      const char* syntax = sopClass.c_str();
+      ASC_acceptContextsWithPreferredTransferSyntaxes(
+          association->params, &syntax, 1, const_cast<const char**>(kTransferSyntaxes.data()),
+          static_cast<int>(kTransferSyntaxes.size()));
+    }
+    if (ASC_acknowledgeAssociation(association).bad())
+      return;
+    while (!m_stop)
+    {
+      T_ASC_PresentationContextID context = 0;
+      T_DIMSE_Message message{};
+      DcmDataset* detail = nullptr;
+      const OFCondition result =
+          DIMSE_receiveCommand(association, DIMSE_NONBLOCKING, 1, &context, &message, &detail);
+      delete detail;
+      if (result == DIMSE_NODATAAVAILABLE)
+        continue;
+      if (result == DUL_PEERREQUESTEDRELEASE)
+        ASC_acknowledgeRelease(association);
+      if (result.bad())
+        return;
+      m_watch.active();
+      if (message.CommandField == DIMSE_C_ECHO_RQ)
+        DIMSE_sendEchoResponse(association, context, &message.msg.CEchoRQ, STATUS_Success, nullptr);
+      else if (message.CommandField != DIMSE_C_STORE_RQ ||
+               receiveInstance(association, 2, context, message.msg.CStoreRQ, m_reception,
+                               m_counter, m_transfer)
+                   .bad())
+        return;
+    }
+  }
+
+  const Node& m_node;
+  Reception& m_reception;
+  ByteCounter& m_counter;
+  Transfer& m_transfer;
+  ConnectionWatch m_watch;
+  std::unique_ptr<DcmTransportLayer> m_layer;
+  T_ASC_Network* m_network = nullptr;
+  std::atomic<bool> m_stop{false};
+  std::exception_ptr m_fault;
+  std::thread m_thread;
+};
+
+struct MoveCall
+{
+  const Association* association;
+};
+
+void onMoveAnswer(void* data, T_DIMSE_C_MoveRQ*, int, T_DIMSE_C_MoveRSP*)
+{
+  static_cast<MoveCall*>(data)->association->watch().active();
+}
+
+DIC_US moveInstances(const Association& association, DcmDataset& query)
+{
+  T_DIMSE_C_MoveRQ request{};
+  request.MessageID = association.get()->nextMsgID++;
+  OFStandard::strlcpy(request.AffectedSOPClassUID, UID_MOVEStudyRootQueryRetrieveInformationModel,
+                      sizeof request.AffectedSOPClassUID);
+  OFStandard::strlcpy(request.MoveDestination, association.node().callingAeTitle.c_str(),
+                      sizeof request.MoveDestination);
+  request.Priority = DIMSE_PRIORITY_MEDIUM;
+  request.DataSetType = DIMSE_DATASET_PRESENT;
+  T_DIMSE_C_MoveRSP response{};
+  MoveCall call{&association};
+  DcmDataset* detail = nullptr;
+  DcmDataset* failed = nullptr;
+  const OFCondition result = DIMSE_moveUser(
+      association.get(), association.context(UID_MOVEStudyRootQueryRetrieveInformationModel),
+      &request, &query, onMoveAnswer, &call, DIMSE_NONBLOCKING, association.timeout(), nullptr,
+      nullptr, nullptr, &response, &detail, &failed);
+  delete detail;
+  delete failed;
+  association.require(result, "receiving");
+  return response.DimseStatus;
+}
+
+/// Asks for everything that is missing, once.
+void fetchMissing(const Node& node, Reception& reception, ByteCounter& counter, Transfer& transfer,
+                  const core::Progress& progress)
+{
+  Association association(node, getContexts(reception), progress);
+  const bool canGet = association.context(UID_GETStudyRootQueryRetrieveInformationModel) != 0;
+  const bool canMove = association.context(UID_MOVEStudyRootQueryRetrieveInformationModel) != 0;
+  const bool gets = canGet && (node.movePort == 0 || !canMove);
+  if (!gets && (node.movePort == 0 || !canMove))
+    throw NetworkError(
+        Reason::Unsupported,
+        place(node) + (canMove ? ": offers retrieval by C-MOVE only; add it with --move-port, and "
+                                 "have this program's AE title, host and port added there"
+                               : ": offers no retrieval (C-GET or C-MOVE)"));
+  counter.watch = &association.watch();
+  DIC_US refusal = STATUS_Success;
+  for (const auto& [series, uids] : reception.missing())
+  {
+    const bool whole = uids.size() == reception.sizeOf(series);
+    const std::size_t most = whole ? uids.size() : kMaxUidsAsked;
+    for (std::size_t first = 0; first < uids.size(); first += most)
+    {
+      std::vector<std::string> these;
+      if (!whole)
+        these.assign(uids.begin() + static_cast<std::ptrdiff_t>(first),
+                     uids.begin() +
+                         static_cast<std::ptrdiff_t>(std::min(first + most, uids.size())));
+      DcmDataset query = retrieveRequest(reception, series, these);
+      DIC_US status = STATUS_Success;
+      if (gets)
+        status = getInstances(association, query, reception, counter, transfer);
+      else
+      {
+        MoveReceiver receiver(node, reception, counter, transfer, progress);
+        status = moveInstances(association, query);
+        receiver.finish();
+      }
+      if (reception.foreign() > 0)
+        failForeign(node);
+      if (status != STATUS_Success && !isWarning(status))
+        refusal = status;
+    }
+  }
+  association.release();
+  if (refusal != STATUS_Success && !reception.missing().empty())
+    throw NetworkError(Reason::Failed, place(node) + ": ended the retrieval, " +
+                                           std::to_string(reception.arrived()) + " of " +
+                                           numberOf(reception.expected(), "instance") +
+                                           " arrived: " + statusText(refusal));
+}
+
+double secondsSince(Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+} // namespace
+
+void checkNode(const Node& node)
+{
+  const auto refuse = [&node](const std::string& what)
+  { throw core::InvalidParameter("DICOM node '" + node.name + "': " + what); };
+  if (node.name.empty())
+    throw core::InvalidParameter("DICOM node: give it a name");
+  if (node.host.empty() || node.host.find_first_of(" /:\t\n") != std::string::npos)
+    refuse("the host is a name or an IPv4 address, without a port");
+  if (node.port < 1 || node.port > 65535)
+    refuse("the port is between 1 and 65535");
+  if (node.movePort < 0 || node.movePort > 65535)
+    refuse("the port for C-MOVE is between 1 and 65535, or 0");
+  for (const std::string& title : {node.aeTitle, node.callingAeTitle})
+  {
+    const bool printable = std::all_of(title.begin(), title.end(),
+                                       [](char c) { return c > 31 && c < 127 && c != '\\'; });
+    if (title.find_first_not_of(' ') == std::string::npos || title.size() > 16 || !printable)
+      refuse("an AE title has 1 to 16 ASCII characters");
+  }
+  if (node.tls && node.tls->certificate.empty() != node.tls->key.empty())
+    refuse("a TLS certificate and its key are given together");
+}
+
+void echo(const Node& node, const core::Progress& progress)
+{
+  prepareToolkit();
+  checkNode(node);
+  Association association(node, {{UID_VerificationSOPClass, kUncompressed}}, progress);
+  DIC_US status = STATUS_Success;
+  DcmDataset* detail = nullptr;
+  const OFCondition result =
+      DIMSE_echoUser(association.get(), association.get()->nextMsgID++, DIMSE_NONBLOCKING,
+                     association.timeout(), &status, &detail);
+  delete detail;
+  association.require(result, "C-ECHO");
+  association.release();
+  if (status != STATUS_Success)
+    throw NetworkError(Reason::Failed, place(node) + ": C-ECHO failed: " + statusText(status));
+}
+
+std::vector<Study> findStudies(const Node& node, const StudyFilter& filter,
+                               const core::Progress& progress)
+{
+  prepareToolkit();
+  checkNode(node);
+  Association association(node, findContexts(), progress);
+  auto found = studiesIn(association, filter);
+  association.release();
+  return found;
+}
+
+std::vector<Series> findSeries(const Node& node, const std::string& studyUid,
+                               const core::Progress& progress)
+{
+  prepareToolkit();
+  checkNode(node);
+  Association association(node, findContexts(), progress);
+  auto found = seriesIn(association, studyUid);
+  association.release();
+  return found;
+}
+
+std::vector<Instance> findInstances(const Node& node, const std::string& studyUid,
+                                    const std::vector<std::string>& seriesUids,
+                                    const core::Progress& progress)
+{
+  prepareToolkit();
+  checkNode(node);
+  Association association(node, findContexts(), progress);
+  std::vector<Instance> list;
+  for (auto& [uid, instance] : instancesIn(association, studyUid, seriesUids))
+    list.push_back(instance);
+  association.release();
+  return list;
+}
+
+Transfer store(const Node& node, const std::vector<fs::path>& files, const core::Progress& progress)
+{
+  prepareToolkit();
+  checkNode(node);
+  const Clock::time_point start = Clock::now();
+  std::vector<OutgoingFile> all, waiting;
+  std::set<std::string> uids;
+  ByteCounter counter;
+  for (const fs::path& path : files)
+  {
+    progress.check("sending");
+    all.push_back(outgoing(path));
+    if (!uids.insert(all.back().uid).second)
+      throw core::InvalidParameter(path.string() + ": has the SOP Instance UID of another file");
+    counter.total += all.back().bytes;
+  }
+  Transfer transfer;
+  transfer.instances = all.size();
+  transfer.asked = 0;
+  if (all.empty())
+    return transfer;
+  counter.progress = &progress;
+  counter.task = "sending";
+  counter.of = all.size();
+  waiting = all;
+  DIC_US refusal = STATUS_Success;
+  std::size_t refused = 0;
+  for (int idle = 0; !waiting.empty();)
+  {
+    const std::size_t before = waiting.size();
+    ++transfer.asked;
+    std::vector<OutgoingFile> unconfirmed;
+    const auto sendAgain = [&]
+    {
+      waiting.insert(waiting.end(), unconfirmed.begin(), unconfirmed.end());
+      unconfirmed.clear();
+    };
+    try
+    {
+      Association association(node, storeContexts(all), progress);
+      counter.watch = &association.watch();
+      if (const auto held = heldThere(association, waiting))
+      {
+        const auto isHeld = [&](const OutgoingFile& file) { return held->count(file.uid) != 0; };
+        const auto end = std::remove_if(waiting.begin(), waiting.end(), isHeld);
+        if (transfer.asked == 1)
+          transfer.present = static_cast<std::size_t>(waiting.end() - end);
+        waiting.erase(end, waiting.end());
+      }
+      refused = 0;
+      while (!waiting.empty())
+      {
+        const OutgoingFile file = waiting.back();
+        counter.done = all.size() - waiting.size() - unconfirmed.size();
+        const DIC_US status = sendFile(association, file, counter);
+        waiting.pop_back();
+        counter.before += file.bytes;
+        if (status == STATUS_Success || isWarning(status))
+        {
+          transfer.bytes += file.bytes;
+          transfer.warning += status == STATUS_Success ? 0 : 1;
+        }
+        else
+        {
+          refusal = status;
+          ++refused;
+          unconfirmed.push_back(file);
+        }
+      }
+      sendAgain();
+      // A node may answer Success and not keep it. One that lists none of them has no index of
+      // them, or not yet.
+      if (waiting.empty())
+        if (const auto held = heldThere(association, all))
+        {
+          for (const OutgoingFile& file : all)
+            if (held->count(file.uid) == 0)
+              waiting.push_back(file);
+          transfer.verified = waiting.empty();
+          if (waiting.size() == all.size())
+            waiting.clear();
+        }
+      association.release();
+    }
+    catch (const NetworkError& error)
+    {
+      sendAgain();
+      if (!isTransient(error) || (waiting.size() == before && ++idle >= kMaxIdleRounds))
+        throw;
+      continue;
+    }
+    if (waiting.size() == before && ++idle >= kMaxIdleRounds)
+      throw NetworkError(
+          Reason::Incomplete,
+          place(node) + ": has " + std::to_string(all.size() - waiting.size()) + " of " +
+              numberOf(all.size(), "instance") + " after " + std::to_string(transfer.asked) +
+              " attempts" +
+              (refused > 0 ? ": " + statusText(refusal) : ", although it confirmed them"));
+  }
+  transfer.completed = all.size();
+  transfer.seconds = secondsSince(start);
+  return transfer;
+}
+
+Transfer retrieve(const Node& node, const std::string& studyUid,
+                  const std::vector<std::string>& seriesUids, const fs::path& folder,
+                  const core::Progress& progress)
+{
+  prepareToolkit();
+  checkNode(node);
+  const Clock::time_point start = Clock::now();
+  std::error_code fault;
+  fs::create_directories(folder, fault);
+  if (fault)
+    throw core::Error(core::Fault::Refused, folder.string() + ": cannot be created");
+  Study study;
+  Instances expected;
+  {
+    Association association(node, findContexts(), progress);
+    const auto studies = studiesIn(association, {studyUid, {}});
+    if (studies.empty())
+      throw NetworkError(Reason::NotFound, place(node) + ": has no such study");
+    study = studies.front();
+    std::vector<std::string> wanted = seriesUids;
+    std::size_t stated = 0;
+    for (const Series& series : seriesIn(association, studyUid))
+    {
+      if (seriesUids.empty())
+        wanted.push_back(series.uid);
+      if (seriesUids.empty() ||
+          std::find(seriesUids.begin(), seriesUids.end(), series.uid) != seriesUids.end())
+        stated += static_cast<std::size_t>(std::max(series.instances, 0));
+    }
+    expected = instancesIn(association, studyUid, wanted);
+    association.release();
+    if (expected.empty())
+      throw NetworkError(Reason::NotFound, place(node) + ": has no instances of that study");
+    if (expected.size() < stated)
+      throw NetworkError(Reason::Incomplete,
+                         place(node) + ": states " + numberOf(stated, "instance") +
+                             " of the study, but lists " + std::to_string(expected.size()) +
+                             "; it may still be receiving them, try again later");
+  }
+  Reception reception(node, std::move(study), std::move(expected), folder);
+  reception.resume();
+  Transfer transfer;
+  transfer.instances = reception.expected();
+  transfer.present = reception.arrived();
+  transfer.asked = 0;
+  ByteCounter counter;
+  counter.progress = &progress;
+  counter.task = "receiving";
+  counter.of = reception.expected();
+  for (int idle = 0; reception.arrived() < reception.expected();)
+  {
+    const std::size_t before = reception.arrived();
+    ++transfer.asked;
+    try
+    {
+      fetchMissing(node, reception, counter, transfer, progress);
+    }
+    catch (const NetworkError& error)
+    {
+      if (!isTransient(error) || (reception.arrived() == before && ++idle >= kMaxIdleRounds))
+        throw;
+      continue;
+    }
+    if (reception.arrived() == before && ++idle >= kMaxIdleRounds)
+      throw NetworkError(Reason::Incomplete, place(node) + ": sent " +
+                                                 std::to_string(reception.arrived()) + " of " +
+                                                 numberOf(reception.expected(), "instance") +
+                                                 "; the rest was asked for " +
+                                                 std::to_string(transfer.asked) + " times");
+  }
+  transfer.completed = reception.arrived();
+  transfer.seconds = secondsSince(start);
+  return transfer;
+}
+
+} // namespace petrous::network

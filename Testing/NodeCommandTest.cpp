@@ -1,0 +1,184 @@
+#include "CommandRunner.h"
+
+#include "TestServers.h"
+
+using namespace petrous::testing;
+namespace servers = petrous::network::test;
+
+namespace
+{
+
+// A drilled sample patient, and a node; TLS with certificates of both sides if asked for.
+class NodeCommand : public CommandLine
+{
+protected:
+  void start(bool tls)
+  {
+    std::string security;
+    std::unique_ptr<servers::Certificate> own, client;
+    if (tls)
+    {
+      own = std::make_unique<servers::Certificate>(m_folder, "server");
+      client = std::make_unique<servers::Certificate>(m_folder, "client");
+      security = " --tls-ca " + quoted(std::filesystem::path(own->certificate())) + " --tls-cert " +
+                 quoted(std::filesystem::path(client->certificate())) + " --tls-key " +
+                 quoted(std::filesystem::path(client->key()));
+    }
+    m_server = std::make_unique<servers::Orthanc>(
+        m_folder, servers::Orthanc::Options{own.get(), client.get(), 0, 0});
+    const std::string node = "nodes add pacs --host 127.0.0.1 --aet ORTHANC --port " +
+                             std::to_string(m_server->node().port) + security;
+    json(node);
+    json(node + other());
+    makePatient();
+    json("new ear --ct " + quoted(m_folder / "patient/ct") +
+         " --mr T2=" + quoted(m_folder / "patient/mr") + " --labels " +
+         quoted(m_folder / "patient/labels.seg.nrrd"));
+    json("appearance ear --iso 345.25");
+    const auto box = json("info ear")["ct"];
+    std::array<double, 3> centre{};
+    for (std::size_t a = 0; a < 3; ++a)
+      centre[a] = box["origin_mm"][a].get<double>() +
+                  0.5 * box["dims"][a].get<double>() * box["spacing_mm"][a].get<double>();
+    std::array<double, 3> outside = centre;
+    outside[0] += 25.0;
+    json("drill ear --path " + quoted(writePath(outside, centre)) + " --diameter 6");
+  }
+
+  std::string other() const { return " --library " + quoted(m_folder / "other"); }
+
+  // What a window shows and an expert asks for.
+  void expectSameCase(const std::string& name) const
+  {
+    auto here = json("info ear");
+    auto there = json("info " + name + other());
+    EXPECT_GT(here["dissection"]["strokes"], 0);
+    for (const char* own : {"case", "resources"})
+    {
+      here.erase(own);
+      there.erase(own);
+    }
+    EXPECT_EQ(here, there);
+    auto history = json("history ear");
+    auto received = json("history " + name + other());
+    history.erase("case");
+    received.erase("case");
+    EXPECT_EQ(history, received);
+    json("render ear --size 120x90 --out " + quoted(m_folder / "here.png"));
+    json("render " + name + " --size 120x90 --out " + quoted(m_folder / "there.png") + other());
+    EXPECT_EQ(textOf(m_folder / "here.png"), textOf(m_folder / "there.png"));
+    json("export ear --what dissected --out " + quoted(m_folder / "here.nrrd"));
+    json("export " + name + " --what dissected --out " + quoted(m_folder / "there.nrrd") + other());
+    EXPECT_EQ(textOf(m_folder / "here.nrrd"), textOf(m_folder / "there.nrrd"));
+    EXPECT_EQ(json("library verify" + other())["damaged"].size(), 0U);
+  }
+
+  // Everything that the node was sent, by a validator of its own.
+  void expectValidDicom() const
+  {
+    if (std::system("command -v dciodvfy >/dev/null") != 0)
+      return;
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(m_server->storage()))
+    {
+      if (!entry.is_regular_file() || textOf(entry.path()).substr(0, 132).find("DICM") != 128)
+        continue;
+      ++count;
+      const auto report = m_folder / "dciodvfy.txt";
+      std::system(("dciodvfy " + quoted(entry.path()) + " >" + quoted(report) + " 2>&1").c_str());
+      EXPECT_NE(textOf(report), "");
+      EXPECT_EQ(textOf(report).find("Error"), std::string::npos) << textOf(report);
+    }
+    EXPECT_GT(count, 100U);
+  }
+
+  std::unique_ptr<servers::Orthanc> m_server;
+};
+
+} // namespace
+
+TEST_F(NodeCommand, SendsACaseThatIsTheSameWhenReceived)
+{
+  if (!servers::Orthanc::installed())
+    GTEST_SKIP() << "Orthanc (package orthanc) is not installed";
+  start(true);
+  EXPECT_EQ(json("nodes test pacs")["tls"], true);
+  const auto sent = json("send ear --to pacs");
+  EXPECT_EQ(sent["completed"], sent["instances"]);
+  EXPECT_EQ(sent["failed"], 0);
+  const auto got = json("receive --from pacs --case ear" + other());
+  EXPECT_EQ(got["case"], "ear");
+  EXPECT_EQ(got["scene"], true);
+  expectSameCase("ear");
+  expectValidDicom();
+  const auto again = json("send ear --to pacs");
+  EXPECT_EQ(again["present"], again["instances"]) << "all there already";
+
+  // A later state is another scene, and the one that is received.
+  json("undo ear");
+  json("send ear --to pacs --what scene");
+  json("receive --from pacs --as later --study " + sent["study"].get<std::string>() + other());
+  const auto later = json("info later" + other())["dissection"];
+  EXPECT_EQ(later["redo"], 1);
+  EXPECT_EQ(later, json("info ear")["dissection"]);
+  expectRefused("receive --from pacs --as later --case ear" + other(), 4, "there already");
+  EXPECT_EQ(logText().find(sent["study"].get<std::string>()), std::string::npos);
+}
+
+TEST_F(NodeCommand, BuildsACaseOfImages)
+{
+  if (!servers::Orthanc::installed())
+    GTEST_SKIP() << "Orthanc (package orthanc) is not installed";
+  start(false);
+  const auto sent = json("send ear --to pacs --what ct");
+  EXPECT_EQ(sent["instances"], 60);
+  const std::string study = " --study " + sent["study"].get<std::string>();
+  expectRefused("receive --from pacs" + study + other(), 3, "--as");
+  json("receive --from pacs --as ct" + study + other());
+  json("send ear --to pacs --what mr");
+  EXPECT_EQ(json("send ear --to pacs --what labels")["instances"], 1);
+  const auto got = json("receive --from pacs --as both" + study + other());
+  EXPECT_EQ(got["scene"], false);
+  const auto info = json("info both" + other());
+  EXPECT_EQ(info["mr"].size(), 1U);
+  const auto labels = json("info ear")["labels"];
+  ASSERT_EQ(info["labels"].size(), labels.size());
+  for (std::size_t n = 0; n < labels.size(); ++n)
+  {
+    EXPECT_EQ(info["labels"][n]["name"], labels[n]["name"]);
+    EXPECT_EQ(info["labels"][n]["voxels"], labels[n]["voxels"]);
+  }
+  for (const char* name : {"ear", "both"})
+    json(std::string("export ") + name + " --what ct --out " +
+         quoted(m_folder / (std::string(name) + ".nrrd")) + (name[0] == 'e' ? "" : other()));
+  EXPECT_EQ(textOf(m_folder / "ear.nrrd"), textOf(m_folder / "both.nrrd"));
+}
+
+TEST_F(NodeCommand, KeepsNodesInTheLibrary)
+{
+  json("nodes add b --host pacs.example --port 11112 --aet ARCHIVE --calling ME");
+  json("nodes add a --host 127.0.0.1 --port " + std::to_string(servers::freePort()) +
+       " --aet ARCHIVE --tls");
+  const auto nodes = json("nodes list")["nodes"];
+  ASSERT_EQ(nodes.size(), 2U);
+  EXPECT_EQ(nodes[0]["name"], "a");
+  EXPECT_EQ(nodes[0]["tls"], true);
+  EXPECT_EQ(nodes[1]["ae_title"], "ARCHIVE");
+  EXPECT_EQ(nodes[1]["calling_ae_title"], "ME");
+  expectRefused("nodes add a --host h --port 1 --aet A", 3, "there already");
+  expectRefused("nodes add c --host h:104 --aet A", 3, "host");
+  expectRefused("nodes add c --host h --port 70000 --aet A", 3, "65535");
+  expectRefused("nodes add c --host h --aet 'LONGER THAN SIXTEEN'", 3, "16");
+  expectRefused("nodes add c --host h --aet A --tls-cert x.pem", 3, "together");
+  expectRefused("nodes add c --host h", 2, "--aet");
+  expectRefused("nodes test nobody", 3, "there are: a, b");
+  expectRefused("nodes test a", 4, "nothing answers");
+  expectRefused("send ear --to nobody", 3, "nobody");
+  expectRefused("receive --from a", 2, "--study");
+  json("nodes remove a");
+  EXPECT_EQ(json("nodes list")["nodes"].size(), 1U);
+  expectRefused("nodes remove a", 3, "there are: b");
+  EXPECT_EQ(json("library verify")["damaged"].size(), 0U);
+  std::ofstream(library() / "nodes.json") << "{";
+  expectRefused("nodes list", 3, "nodes.json");
+}

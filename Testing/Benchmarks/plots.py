@@ -427,6 +427,17 @@ def rows(report, title, points, name_of, label):
     return page
 
 
+def measured_rows(report):
+    """A row for each scene and program: its time, labelled with that and the error."""
+    def label(point):
+        unit = point.unit.split(",")[0].split()[0] if point.unit else ""
+        error = "" if point.error is None else f", {number(point.error)} {unit}"
+        return duration(point.seconds) + error
+
+    return rows(report, report.title, report.points,
+                lambda p: p.scene + ("" if p.ours() else f" ({p.program})"), label)
+
+
 def growth(report, by, extra, unit):
     """x: the setting `by` (points without a numeric value are omitted); y: time, and the figure
     `extra`. One line per program and scene."""
@@ -621,6 +632,8 @@ def pages_of(report):
         return {"": growth(report, "strokes", "memory_mb", "memory, MB")}
     if report.name == "nerve":
         return {"": growth(report, "spacing_mm", "max_mm", "largest distance from the axis, mm")}
+    if report.name == "segment":
+        return {"": measured_rows(report)}
     plain = [point for point in report.points if not point.series]
     scenes = unique(point.scene for point in report.points if point.series)
     if not scenes:

@@ -15,6 +15,7 @@
 #include <itkGDCMSeriesFileNames.h>
 #include <itkImageSeriesReader.h>
 
+#include "ProcessMemory.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/DicomReader.h"
 #include "petrous/Imaging/DicomWriter.h"
@@ -40,21 +41,6 @@ double median(std::vector<double> values)
 {
   std::sort(values.begin(), values.end());
   return values[values.size() / 2];
-}
-
-/// A value from /proc/self/status in MB (1e6 bytes); 0 if unavailable.
-double memoryMb(const std::string& name)
-{
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.rfind(name + ":", 0) == 0)
-      return static_cast<double>(std::stoll(line.substr(name.size() + 1))) * 1024.0 / 1e6;
-  return 0.0;
-}
-
-void resetPeakMemory()
-{
-  std::ofstream("/proc/self/clear_refs") << "5";
 }
 
 /// Smooth shapes and noise over the full CT range, so that readers cannot take shortcuts.
@@ -161,14 +147,14 @@ struct OwnTrial : Trial
 void runOwn(const fs::path& folder, const Voxels& truth, OwnTrial& trial, const short* peer)
 {
   resetPeakMemory();
-  const double before = memoryMb("VmRSS");
+  const double before = residentMb();
   const Clock::time_point start = Clock::now();
   const ScanResult scan = scanDicom(folder, {});
   trial.scanSeconds.push_back(secondsSince(start));
   const volume::IntensityVolume image = readSeries(chooseSeries(scan, folder), {}, {});
   trial.seconds.push_back(secondsSince(start));
   const double volumeMb = static_cast<double>(image.bytes()) / 1e6;
-  trial.peakMb = std::max(trial.peakMb, memoryMb("VmHWM") - before - volumeMb);
+  trial.peakMb = std::max(trial.peakMb, peakMb() - before - volumeMb);
 
   const auto& voxels = std::get<std::shared_ptr<const Voxels>>(image.voxels());
   trial.difference = largestDifference(voxels->data(), truth.data(), truth.size());

@@ -179,8 +179,8 @@ StructureSet writtenSet(const core::GridGeometry& grid)
       [&](std::vector<Contour>& contours, double z)
       {
         if (std::abs(z - center[2]) < 10.0)
-          contours.push_back(
-              circle({center[0] + 4.0 * std::sin(0.3 * z), center[1] + 0.2 * z, z}, 0.6));
+          contours.push_back(circle(
+              {center[0] + 4.0 * std::sin(0.3 * z), center[1] + 0.2 * (z - center[2]), z}, 0.6));
       });
   return set;
 }
@@ -230,7 +230,8 @@ bool surrounds(const Planar& contour, const Vector3d& q)
 }
 
 /// Voxels that a structure's polygons enclose: areas, those in others subtracted, times the least
-/// distance of two planes. nullopt: not planar across an axis of the grid.
+/// distance of two planes; without planes outside the grid. nullopt: not planar across an axis of
+/// the grid, or partly beside it.
 std::optional<double> voxelsByShoelace(const StructureSet::Roi& roi, const core::GridGeometry& grid)
 {
   std::vector<Planar> contours;
@@ -260,6 +261,14 @@ std::optional<double> voxelsByShoelace(const StructureSet::Roi& roi, const core:
     if (flattest > 0.1 || (!contours.empty() && planar.across != contours.front().across))
       return std::nullopt;
     planes.push_back(planar.plane);
+    const core::Index3& dims = grid.dims();
+    if (planar.plane < -0.5 || planar.plane > dims[planar.across] - 0.5)
+      continue;
+    for (const std::size_t a : {planar.u(), planar.v()})
+      for (const Vector3d& p : planar.corners)
+        if (p[static_cast<Eigen::Index>(a)] < -0.5 ||
+            p[static_cast<Eigen::Index>(a)] > dims[a] - 0.5)
+          return std::nullopt;
     contours.push_back(std::move(planar));
   }
   std::sort(planes.begin(), planes.end());

@@ -149,6 +149,97 @@ TEST_F(BenchCommand, TracesTheFacialNerveWithinTheErrorAllowed)
   expectPlots(out, {"nerve.svg"});
 }
 
+// Against balls, beside ITK's filters.
+TEST_F(BenchCommand, MakesStructuresWithinTheErrorAllowed)
+{
+  const auto out = m_folder / "figures";
+  const auto report = json("bench segment --quick --out " + quoted(out));
+  int operations = 0;
+  int strokes = 0;
+  std::set<std::string> peers;
+  for (const auto& point : report.at("points"))
+  {
+    const std::string scene = point.at("setting").at("scene");
+    const double error = point.at("error");
+    const auto& extra = point.at("extra");
+    if (!point.at("peer").is_null())
+      peers.insert(point.at("peer"));
+    else if (scene.find("paint") == 0)
+    {
+      ++strokes;
+      EXPECT_LE(error, 5.0) << scene;
+      EXPECT_LE(extra.at("undo_percent").get<double>(), 5.0) << scene;
+      EXPECT_EQ(extra.at("differing_voxels").get<double>(), 0.0) << scene;
+    }
+    else
+    {
+      ++operations;
+      EXPECT_LE(error, scene.find("0.9 mm") == std::string::npos ? 0.13 : 0.25) << scene;
+      EXPECT_LE(extra.at("volume_percent").get<double>(), 5.0) << scene;
+    }
+  }
+  EXPECT_EQ(operations, 9);
+  EXPECT_EQ(strokes, 4);
+  EXPECT_EQ(peers.size(), 8U);
+  expectPlots(out, {"segment.svg"});
+}
+
+TEST_F(BenchCommand, ReadsStructuresOfTheVolumeThatTheirFilesEnclose)
+{
+  const auto out = m_folder / "figures";
+  const auto report = json("bench structures --quick --out " + quoted(out));
+  int sets = 0;
+  int segmentations = 0;
+  for (const auto& point : report.at("points"))
+  {
+    if (!point.at("peer").is_null())
+      continue;
+    const std::string scene = point.at("setting").at("scene");
+    EXPECT_LE(point.at("error").get<double>(), 1.0) << point;
+    (scene.find("DICOM SEG") == 0 ? segmentations : sets) += 1;
+  }
+  EXPECT_EQ(sets, 6);
+  EXPECT_EQ(segmentations, 1);
+  expectPlots(out, {"structures.svg"});
+}
+
+TEST_F(BenchCommand, FindsLandmarksOfATiltedScanWhereTheyAre)
+{
+  const auto out = m_folder / "figures";
+  const auto report = json("bench tilt --quick --out " + quoted(out));
+  std::set<std::string> angles;
+  double ignored = 0.0;
+  for (const auto& point : report.at("points"))
+  {
+    if (point.at("peer").is_null())
+    {
+      angles.insert(point.at("setting").at("tilt_degrees"));
+      EXPECT_LE(point.at("error").get<double>(), 0.1) << point;
+    }
+    else if (point.at("peer") == "itk::ImageSeriesReader")
+      ignored = std::max(ignored, point.at("error").get<double>());
+  }
+  EXPECT_EQ(angles, (std::set<std::string>{"-30", "-15", "0", "15", "30"}));
+  EXPECT_GT(ignored, 10.0) << "the slices are tilted";
+  expectPlots(out, {"tilt.svg"});
+}
+
+// Every voxel, also of compressed slices.
+TEST_F(BenchCommand, ImportsWhatWasWritten)
+{
+  const auto out = m_folder / "figures";
+  const auto report = json("bench import --quick --out " + quoted(out));
+  int series = 0;
+  for (const auto& point : report.at("points"))
+    if (point.at("peer").is_null())
+    {
+      ++series;
+      EXPECT_LE(point.at("error").get<double>(), 1e-9) << point;
+    }
+  EXPECT_EQ(series, 1 + 4 + 2) << "uncompressed, four codecs, and two scans";
+  expectPlots(out, {"import.svg"});
+}
+
 // A plot that cannot be drawn costs no figures.
 TEST_F(BenchCommand, NamesWhatDrawsThePlotsThatCouldNotBeDrawn)
 {

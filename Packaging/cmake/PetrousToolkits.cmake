@@ -23,6 +23,15 @@ target_include_directories(petrous_itk_registration SYSTEM INTERFACE ${ITK_INCLU
 target_link_libraries(petrous_itk_registration INTERFACE ${ITK_LIBRARIES})
 add_library(Petrous::itk_registration ALIAS petrous_itk_registration)
 
+# ITK's filters of masks, only as peers of the segmentation benchmark.
+find_package(ITK 5.2 REQUIRED COMPONENTS
+  ITKBinaryMathematicalMorphology ITKConnectedComponents ITKDistanceMap ITKLabelMap
+  ITKMathematicalMorphology ITKRegionGrowing ITKSmoothing ITKThresholding)
+add_library(petrous_itk_segmentation INTERFACE)
+target_include_directories(petrous_itk_segmentation SYSTEM INTERFACE ${ITK_INCLUDE_DIRS})
+target_link_libraries(petrous_itk_segmentation INTERFACE ${ITK_LIBRARIES})
+add_library(Petrous::itk_segmentation ALIAS petrous_itk_segmentation)
+
 add_library(petrous_gdcm INTERFACE)
 target_include_directories(petrous_gdcm SYSTEM INTERFACE ${GDCM_INCLUDE_DIRS})
 target_link_libraries(petrous_gdcm INTERFACE gdcmMSFF gdcmDICT gdcmDSED gdcmCommon)

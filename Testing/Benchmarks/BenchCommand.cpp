@@ -19,7 +19,10 @@
 #include "RemovalBenchmark.h"
 #include "RendererBenchmark.h"
 #include "SaveBenchmark.h"
+#include "SegmentBenchmark.h"
 #include "ServoBenchmark.h"
+#include "StructuresBenchmark.h"
+#include "TiltBenchmark.h"
 #include "TouchBenchmark.h"
 #include "TouchBenchmarkScenes.h"
 #include "UndoBenchmark.h"
@@ -53,6 +56,10 @@ struct Benchmark
 constexpr Benchmark kBenchmarks[] = {
     {"import", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
      { return imaging::runImportBenchmark(work, options.quick, progress); }},
+    {"structures", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
+     { return imaging::runStructuresBenchmark(work, options.data, options.quick, progress); }},
+    {"tilt", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
+     { return imaging::runTiltBenchmark(work, options.quick, progress); }},
     {"cut", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
      { return dissection::runCutBenchmark(work, options.quick, progress); }},
     {"distance", [](const auto&, const BenchOptions& options, const core::Progress& progress)
@@ -104,6 +111,8 @@ constexpr Benchmark kBenchmarks[] = {
      }},
     {"nerve", [](const auto&, const BenchOptions& options, const core::Progress& progress)
      { return runNerveBenchmark(options.quick, progress); }},
+    {"segment", [](const auto&, const BenchOptions& options, const core::Progress& progress)
+     { return segmentation::runSegmentBenchmark(options.quick, progress); }},
     {"renderer", [](const auto&, const BenchOptions& options, const core::Progress& progress) {
        return runRendererBenchmark({options.quick, options.edges, options.data}, progress);
      }}};
@@ -235,8 +244,9 @@ void addBenchCommand(CLI::App& app, Context& context)
                          [options, &context] { bench(context, *options); });
   command
       ->add_option("NAME", options->name,
-                   "import, cut, distance, history, save, qp, touch, servo, removal, registration, "
-                   "nerve, renderer or all")
+                   "import, structures, tilt, cut, distance, history, save, qp, touch, servo, "
+                   "removal, registration, "
+                   "nerve, segment, renderer or all")
       ->required();
   command
       ->add_option("--out", options->out,
@@ -245,7 +255,8 @@ void addBenchCommand(CLI::App& app, Context& context)
       ->required();
   command
       ->add_option("--data", options->data,
-                   "Folder that holds a real CT, for renderer, touch and registration")
+                   "Folder that holds a real CT, for renderer, touch and registration, and "
+                   "structure sets, for structures")
       ->type_name("DIR");
   command
       ->add_option("--edge", options->edges, "Voxels of the phantom's edge, for renderer (256,512)")

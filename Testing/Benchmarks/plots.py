@@ -427,6 +427,39 @@ def rows(report, title, points, name_of, label):
     return page
 
 
+def measured_rows(report):
+    """A row for each scene and program: its time, labelled with that and the error."""
+    def label(point):
+        unit = point.unit.split(",")[0].split()[0] if point.unit else ""
+        error = "" if point.error is None else f", {number(point.error)} {unit}"
+        return duration(point.seconds) + error
+
+    words = distinguishing(report.points)
+    return rows(report, report.title, report.points,
+                lambda p: ", ".join(filter(None, (p.scene, words(p)))) +
+                ("" if p.ours() else f" ({p.program})"), label)
+
+
+def tilt(report):
+    """x: angle of the gantry; y: the largest error, one line per program."""
+    points = [point for point in report.points if point.error is not None]
+    page = Page(report, LEFT + 600, TOP + 420, report.title)
+    axes = page.axes(LEFT, TOP, 560, 280)
+    y = LogAxis((point.error for point in points), 12, number)
+    y.apply(axes.yaxis)
+    axes.set_xlabel("tilt, degrees")
+    axes.set_ylabel("largest error, voxels")
+    axes.grid(True)
+    for program in report.programs:
+        line = [point for point in points if point.program == program]
+        axes.plot([float(point.set("tilt_degrees")) for point in line],
+                  [y.place(point.error) for point in line],
+                  **style_of(report.programs, program), clip_on=False, zorder=3)
+    page.legend({name: style_of(report.programs, name) for name in report.programs},
+                LEFT - 8, TOP + 324)
+    return page
+
+
 def growth(report, by, extra, unit):
     """x: the setting `by` (points without a numeric value are omitted); y: time, and the figure
     `extra`. One line per program and scene."""
@@ -621,6 +654,10 @@ def pages_of(report):
         return {"": growth(report, "strokes", "memory_mb", "memory, MB")}
     if report.name == "nerve":
         return {"": growth(report, "spacing_mm", "max_mm", "largest distance from the axis, mm")}
+    if report.name in ("segment", "structures"):
+        return {"": measured_rows(report)}
+    if report.name == "tilt":
+        return {"": tilt(report)}
     plain = [point for point in report.points if not point.series]
     scenes = unique(point.scene for point in report.points if point.series)
     if not scenes:

@@ -10,11 +10,15 @@
 #include <string>
 
 #include <gdcmDirectory.h>
+#include <gdcmImageChangeTransferSyntax.h>
+#include <gdcmImageReader.h>
+#include <gdcmImageWriter.h>
 #include <gdcmScanner.h>
 #include <itkGDCMImageIO.h>
 #include <itkGDCMSeriesFileNames.h>
 #include <itkImageSeriesReader.h>
 
+#include "ProcessMemory.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/DicomReader.h"
 #include "petrous/Imaging/DicomWriter.h"
@@ -40,21 +44,6 @@ double median(std::vector<double> values)
 {
   std::sort(values.begin(), values.end());
   return values[values.size() / 2];
-}
-
-/// A value from /proc/self/status in MB (1e6 bytes); 0 if unavailable.
-double memoryMb(const std::string& name)
-{
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.rfind(name + ":", 0) == 0)
-      return static_cast<double>(std::stoll(line.substr(name.size() + 1))) * 1024.0 / 1e6;
-  return 0.0;
-}
-
-void resetPeakMemory()
-{
-  std::ofstream("/proc/self/clear_refs") << "5";
 }
 
 /// Smooth shapes and noise over the full CT range, so that readers cannot take shortcuts.
@@ -161,14 +150,14 @@ struct OwnTrial : Trial
 void runOwn(const fs::path& folder, const Voxels& truth, OwnTrial& trial, const short* peer)
 {
   resetPeakMemory();
-  const double before = memoryMb("VmRSS");
+  const double before = residentMb();
   const Clock::time_point start = Clock::now();
   const ScanResult scan = scanDicom(folder, {});
   trial.scanSeconds.push_back(secondsSince(start));
   const volume::IntensityVolume image = readSeries(chooseSeries(scan, folder), {}, {});
   trial.seconds.push_back(secondsSince(start));
   const double volumeMb = static_cast<double>(image.bytes()) / 1e6;
-  trial.peakMb = std::max(trial.peakMb, memoryMb("VmHWM") - before - volumeMb);
+  trial.peakMb = std::max(trial.peakMb, peakMb() - before - volumeMb);
 
   const auto& voxels = std::get<std::shared_ptr<const Voxels>>(image.voxels());
   trial.difference = largestDifference(voxels->data(), truth.data(), truth.size());
@@ -327,6 +316,79 @@ void addScanPoints(const fs::path& workFolder, bool quick, int rounds,
   add(peer, "gdcm, one thread", "gdcm::Scanner");
 }
 
+struct Syntax
+{
+  const char* name;
+  gdcm::TransferSyntax::TSType type;
+};
+
+constexpr Syntax kSyntaxes[] = {{"RLE", gdcm::TransferSyntax::RLELossless},
+                                {"JPEG lossless", gdcm::TransferSyntax::JPEGLosslessProcess14_1},
+                                {"JPEG-LS lossless", gdcm::TransferSyntax::JPEGLSLossless},
+                                {"JPEG 2000 lossless", gdcm::TransferSyntax::JPEG2000Lossless}};
+
+/// False if GDCM cannot write it.
+bool compress(const fs::path& from, const fs::path& to, gdcm::TransferSyntax::TSType type)
+{
+  gdcm::ImageReader reader;
+  reader.SetFileName(from.c_str());
+  gdcm::ImageChangeTransferSyntax change;
+  change.SetTransferSyntax(type);
+  if (!reader.Read())
+    return false;
+  change.SetInput(reader.GetImage());
+  if (!change.Change())
+    return false;
+  gdcm::ImageWriter writer;
+  writer.SetFileName(to.c_str());
+  writer.SetFile(reader.GetFile());
+  writer.SetImage(change.GetOutput());
+  return writer.Write();
+}
+
+/// The same slices in each lossless transfer syntax.
+void addSyntaxPoints(const fs::path& workFolder, bool quick, int rounds,
+                     core::BenchmarkReport& report)
+{
+  const int size = quick ? 128 : 512;
+  const int slices = quick ? 8 : 64;
+  const std::shared_ptr<const Voxels> truth = makeImage(size, slices);
+  const SeriesFolder raw(workFolder, "syntax-benchmark");
+  writeSeries(raw.path(), truth, {});
+  for (const Syntax& syntax : kSyntaxes)
+  {
+    const SeriesFolder folder(workFolder, "packed-benchmark");
+    fs::create_directories(folder.path());
+    for (const auto& entry : fs::directory_iterator(raw.path()))
+      if (!compress(entry.path(), folder.path() / entry.path().filename(), syntax.type))
+        throw core::Error(core::Fault::Internal, std::string("GDCM does not write ") + syntax.name);
+    OwnTrial own;
+    Trial peer;
+    for (int round = -1; round < rounds; ++round)
+    {
+      if (round == 0)
+      {
+        own = {};
+        peer = {};
+      }
+      runPeer(folder.path(), *truth, peer);
+      runOwn(folder.path(), *truth, own, nullptr);
+    }
+    const std::string scene = "CT " + std::to_string(size) + " x " + std::to_string(size) + " x " +
+                              std::to_string(slices) + ", " + syntax.name;
+    for (const bool isOurs : {true, false})
+    {
+      core::BenchmarkPoint point = makePoint(scene, isOurs ? own : peer);
+      point.isDefault = isOurs;
+      point.setting["reader"] = isOurs ? "petrous" : "itk";
+      if (!isOurs)
+        point.peer = "ITK series reader";
+      point.extra["mb_per_second"] = static_cast<double>(truth->size()) * 2.0 / 1e6 / point.seconds;
+      report.points.push_back(point);
+    }
+  }
+}
+
 } // namespace
 
 core::BenchmarkReport runImportBenchmark(const fs::path& workFolder, bool quick,
@@ -372,6 +434,7 @@ core::BenchmarkReport runImportBenchmark(const fs::path& workFolder, bool quick,
   theirs.setting["reader"] = "itk";
   theirs.peer = "ITK series reader";
   report.points = {ours, theirs};
+  addSyntaxPoints(workFolder, quick, rounds, report);
   addScanPoints(workFolder, quick, rounds, report);
   return report;
 }

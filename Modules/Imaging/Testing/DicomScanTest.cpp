@@ -889,7 +889,8 @@ TEST(DicomScan, KeepsThePatientOutOfTheCache)
   ASSERT_EQ(shelf.entries.size(), 1U);
   const auto& [key, bytes] = *shelf.entries.begin();
   const std::string all = key + std::string(bytes.begin(), bytes.end());
-  for (const char* word : {"SECRET", "MILLER", "[31mTEST", "1.2.3.4", "1.2.3.8", "20200131", "s2.dcm"})
+  for (const char* word :
+       {"SECRET", "MILLER", "[31mTEST", "1.2.3.4", "1.2.3.8", "20200131", "s2.dcm"})
     EXPECT_EQ(all.find(word), std::string::npos) << word;
   const std::string first(bytes.begin(), bytes.end());
   shelf.entries.clear();

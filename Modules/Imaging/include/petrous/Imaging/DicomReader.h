@@ -39,7 +39,8 @@ struct ReadOptions
 /// real value; padding that would be mistaken for tissue is replaced by the smallest real value (at
 /// most -1024 for CT) and reported in `notes`.
 ///
-/// Throws DicomError (Misleading, Unreadable, Unsupported, OutsideRoi, TooLarge) and CancelledError.
+/// Throws DicomError (Misleading, Unreadable, Unsupported, OutsideRoi, TooLarge) and
+/// CancelledError.
 volume::IntensityVolume readSeries(const DicomSeries& series, const ReadOptions& options,
                                    const core::Progress& progress,
                                    std::vector<std::string>* notes = nullptr);

@@ -28,9 +28,9 @@ struct IntensityScale
 IntensityScale suggestScale(const IntensityHistogram& histogram);
 
 /// The surface of the patient in an MR, which shows cortical bone as dark as air: iso is the lower
-/// of Otsu's two thresholds for three classes (air and bone, tissue, bright fluid or fat), dense the
-/// 99th percentile above it. Never calibrated. Without voxels: iso 0, dense 1. Never throws; all
-/// values are finite, and dense is above iso.
+/// of Otsu's two thresholds for three classes (air and bone, tissue, bright fluid or fat), dense
+/// the 99th percentile above it. Never calibrated. Without voxels: iso 0, dense 1. Never throws;
+/// all values are finite, and dense is above iso.
 IntensityScale suggestMrScale(const IntensityHistogram& histogram);
 
 } // namespace petrous::volume

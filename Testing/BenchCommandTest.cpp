@@ -178,7 +178,7 @@ TEST_F(BenchCommand, MakesStructuresWithinTheErrorAllowed)
       EXPECT_LE(extra.at("volume_percent").get<double>(), 5.0) << scene;
     }
   }
-  EXPECT_EQ(operations, 9);
+  EXPECT_EQ(operations, 10);
   EXPECT_EQ(strokes, 4);
   EXPECT_EQ(peers.size(), 8U);
   expectPlots(out, {"segment.svg"});

@@ -190,6 +190,27 @@ TEST(SurfaceExtraction, DecimatesAndTellsHowFarTheSurfaceMoved)
     before = fewer.error;
   }
   EXPECT_EQ(decimated(whole, whole.triangles.size()).error, 0.0);
+  // Every piece needs its 4 triangles: 20 tetrahedra cannot become one of 60.
+  core::TriangleMesh many;
+  for (std::uint32_t n = 0; n < 20; ++n)
+  {
+    const float x = 5.0F * static_cast<float>(n);
+    many.vertices.insert(many.vertices.end(), {{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}, {x, 0, 1}});
+    const std::uint32_t v = 4 * n;
+    many.triangles.insert(
+        many.triangles.end(),
+        {{v, v + 2, v + 1}, {v, v + 1, v + 3}, {v, v + 3, v + 2}, {v + 1, v + 2, v + 3}});
+  }
+  EXPECT_EQ(decimated(many, 100).pieces, 20U);
+  try
+  {
+    decimated(many, 60);
+    ADD_FAILURE() << "was accepted";
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("20 pieces"), std::string::npos) << error.what();
+  }
   EXPECT_THROW(decimated(whole, 3), core::InvalidParameter);
   core::TriangleMesh open = whole;
   open.triangles.pop_back();

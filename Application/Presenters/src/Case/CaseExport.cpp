@@ -359,7 +359,10 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
       mesh = std::move(fewer.mesh);
       if (mesh.triangles.size() > *options.triangles)
         warn("it keeps " + std::to_string(mesh.triangles.size()) +
-             " triangles: with fewer it would not stay closed");
+             " triangles: with fewer it would not stay closed" +
+             (fewer.pieces > 1
+                  ? " (it is of " + std::to_string(fewer.pieces) + " pieces that are not connected)"
+                  : std::string()));
       summary.decimation = ExportSummary::Decimation{before, fewer.error};
       decimation = "decimated from " + std::to_string(before) + ", at most " +
                    core::generalText(fewer.error, 3) + " mm from it";

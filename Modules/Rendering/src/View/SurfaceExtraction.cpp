@@ -17,6 +17,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -266,6 +267,30 @@ double farthest(const std::vector<Eigen::Vector3d>& points, const volume::MeshTr
       [](double a, double b) { return std::max(a, b); });
 }
 
+// Pieces that share no vertex.
+std::size_t piecesOf(const core::TriangleMesh& mesh)
+{
+  std::vector<std::uint32_t> parent(mesh.vertices.size());
+  std::iota(parent.begin(), parent.end(), 0U);
+  const auto root = [&parent](std::uint32_t v)
+  {
+    while (parent[v] != v)
+      v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  std::vector<char> isUsed(mesh.vertices.size(), 0);
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t corner : triangle)
+    {
+      isUsed[corner] = 1;
+      parent[root(corner)] = root(triangle[0]);
+    }
+  std::size_t pieces = 0;
+  for (std::uint32_t v = 0; v < parent.size(); ++v)
+    pieces += isUsed[v] != 0 && parent[v] == v ? 1 : 0;
+  return pieces;
+}
+
 std::vector<Eigen::Vector3d> verticesOf(const core::TriangleMesh& mesh)
 {
   std::vector<Eigen::Vector3d> points;
@@ -284,8 +309,15 @@ DecimatedMesh decimated(const core::TriangleMesh& mesh, std::size_t triangles,
     throw core::InvalidParameter("decimation: a closed surface has at least 4 triangles");
   if (!mesh.isClosed())
     throw core::InvalidParameter("decimation: the surface is not closed");
+  const std::size_t pieces = piecesOf(mesh);
   if (mesh.triangles.size() <= triangles)
-    return {mesh, 0.0};
+    return {mesh, 0.0, pieces};
+  if (triangles < kFewest * pieces)
+    throw core::InvalidParameter("decimation: the surface has " + std::to_string(pieces) +
+                                 " pieces that are not connected, and each needs at least 4 "
+                                 "triangles; ask for " +
+                                 std::to_string(kFewest * pieces) +
+                                 " or more, or choose a threshold with less noise");
   progress.report(0.0, "decimation");
   const auto poly = polyDataOf(mesh);
   const double reduction =
@@ -296,7 +328,7 @@ DecimatedMesh decimated(const core::TriangleMesh& mesh, std::size_t triangles,
   quadric->VolumePreservationOn();
   quadric->Update();
   progress.report(0.5, "decimation");
-  DecimatedMesh result{meshOf(*quadric->GetOutput())};
+  DecimatedMesh result{meshOf(*quadric->GetOutput()), 0.0, pieces};
   if (!result.mesh.isClosed() || result.mesh.triangles.empty())
   {
     vtkNew<vtkDecimatePro> topological;

@@ -156,14 +156,14 @@ TEST_F(BenchCommand, MakesStructuresWithinTheErrorAllowed)
   const auto report = json("bench segment --quick --out " + quoted(out));
   int operations = 0;
   int strokes = 0;
-  std::set<std::string> peers;
+  std::set<std::string> filters;
   for (const auto& point : report.at("points"))
   {
     const std::string scene = point.at("setting").at("scene");
     const double error = point.at("error");
     const auto& extra = point.at("extra");
     if (!point.at("peer").is_null())
-      peers.insert(point.at("peer"));
+      filters.insert(point.at("setting").value("filter", "copy"));
     else if (scene.find("paint") == 0)
     {
       ++strokes;
@@ -180,7 +180,7 @@ TEST_F(BenchCommand, MakesStructuresWithinTheErrorAllowed)
   }
   EXPECT_EQ(operations, 10);
   EXPECT_EQ(strokes, 4);
-  EXPECT_EQ(peers.size(), 8U);
+  EXPECT_EQ(filters.size(), 8U);
   expectPlots(out, {"segment.svg"});
 }
 

@@ -437,15 +437,19 @@ def measured_rows(report):
     words = distinguishing(report.points)
     return rows(report, report.title, report.points,
                 lambda p: ", ".join(filter(None, (p.scene, words(p)))) +
-                ("" if p.ours() else f" ({p.program})"), label)
+                ("" if p.ours() or "filter" in p.setting else f" ({p.program})"), label)
 
 
 def tilt(report):
-    """x: angle of the gantry; y: the largest error, one line per program."""
+    """x: angle of the gantry; y: the largest error, one line per program. Below 1e-5 voxel there is
+    but rounding."""
+    def height(point):
+        return max(point.error, 1e-5)
+
     points = [point for point in report.points if point.error is not None]
     page = Page(report, LEFT + 600, TOP + 420, report.title)
     axes = page.axes(LEFT, TOP, 560, 280)
-    y = LogAxis((point.error for point in points), 12, number)
+    y = LogAxis(map(height, points), 12, number)
     y.apply(axes.yaxis)
     axes.set_xlabel("tilt, degrees")
     axes.set_ylabel("largest error, voxels")
@@ -453,7 +457,7 @@ def tilt(report):
     for program in report.programs:
         line = [point for point in points if point.program == program]
         axes.plot([float(point.set("tilt_degrees")) for point in line],
-                  [y.place(point.error) for point in line],
+                  [y.place(height(point)) for point in line],
                   **style_of(report.programs, program), clip_on=False, zorder=3)
     page.legend({name: style_of(report.programs, name) for name in report.programs},
                 LEFT - 8, TOP + 324)

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -185,8 +186,9 @@ Labels::Pointer thresholded(const Input* image, double lower, double upper)
 
 struct Peer
 {
-  std::string name;
+  std::string filter;
   std::function<Labels::Pointer()> work;
+  std::string program = "ITK";
 };
 
 class Trials
@@ -224,32 +226,35 @@ public:
       }
     }
     itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(cores);
-    add(scene, "", median(own), errorsOf(mask.voxels->data(), grid, truth), 0.0);
+    add(scene, {}, median(own), errorsOf(mask.voxels->data(), grid, truth), 0.0);
     for (std::size_t p = 0; p < peers.size(); ++p)
     {
       std::size_t best = p * threads.size();
       for (std::size_t n = best; n < (p + 1) * threads.size(); ++n)
         if (median(theirs[n]) < median(theirs[best]))
           best = n;
-      add(scene, peers[p].name, median(theirs[best]),
+      add(scene, peers[p], median(theirs[best]),
           errorsOf(images[p]->GetBufferPointer(), grid, truth), threads[best % threads.size()]);
     }
   }
 
 private:
-  void add(const std::string& scene, const std::string& peer, double seconds, const Errors& errors,
-           double threads)
+  void add(const std::string& scene, const std::optional<Peer>& peer, double seconds,
+           const Errors& errors, double threads)
   {
     core::BenchmarkPoint point;
     point.scene = scene;
-    point.peer = peer;
-    point.isDefault = peer.empty();
+    point.isDefault = !peer;
+    if (peer)
+    {
+      point.peer = peer->program;
+      point.setting["filter"] = peer->filter;
+      point.extra["threads"] = threads;
+    }
     point.seconds = seconds;
     point.error = errors.surface;
     point.errorUnit = "mm, mean distance from the surface";
     point.extra["volume_percent"] = errors.volume;
-    if (!peer.empty())
-      point.extra["threads"] = threads;
     m_report.points.push_back(point);
   }
 
@@ -393,7 +398,8 @@ void measureOperations(bool quick, const core::Progress& progress, core::Benchma
     trials.measure(std::string("margin of ") + (distance > 0.0 ? "+2.75 mm" : "-2.75 mm") + slabs,
                    thick, grownBy({ball}, distance), [&] { return margin(solid, distance); },
                    {{"itk::SignedMaurerDistanceMap", [&] { return maurer(distance); }},
-                    {"itk::BinaryDilate, BinaryErode", [&]
+                    {"itk::BinaryDilate, BinaryErode",
+                     [&]
                      {
                        const auto kernel = element(std::abs(distance));
                        const auto morphed = [&](auto filter)
@@ -408,7 +414,8 @@ void measureOperations(bool quick, const core::Progress& progress, core::Benchma
                          return morphed(
                              itk::BinaryDilateImageFilter<Labels, Labels, Element>::New());
                        return morphed(itk::BinaryErodeImageFilter<Labels, Labels, Element>::New());
-                     }}});
+                     },
+                     "ITK, ball as element"}});
     progress.report(distance > 0.0 ? 0.65 : 0.8, "measure margins");
   }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <locale>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -665,6 +666,7 @@ TEST_F(CaseBuilder, AsksHowAMeshCountsWhereItWouldLieElsewhere)
       [this](const Vector3d& center, const Vector3d& scale, const std::string& head)
   {
     std::ofstream file(m_folder / "ball.obj");
+    file.imbue(std::locale::classic());
     file << head;
     constexpr int kSteps = 24;
     for (int b = 0; b <= kSteps; ++b)

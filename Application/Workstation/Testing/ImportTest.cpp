@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <locale>
 
 #include <QComboBox>
 #include <QDialogButtonBox>
@@ -315,6 +316,7 @@ TEST_F(Import, AMeshThatCountsOtherwiseIsAskedAbout)
   writePatient(folder() / "sample");
   auto mesh = imaging::readMesh(folder() / "sample" / "meshes" / "facial_nerve.obj");
   std::ofstream file(folder() / "facial_nerve.obj"); // right, front, up; states nothing
+  file.imbue(std::locale::classic());
   for (const auto& v : mesh.vertices)
     file << "v " << -v[0] << " " << -v[1] << " " << v[2] << "\n";
   for (const auto& t : mesh.triangles)

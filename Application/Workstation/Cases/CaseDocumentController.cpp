@@ -744,7 +744,8 @@ void CaseDocumentController::tell(const std::vector<presenters::PartFailure>& fa
   for (const presenters::StructureReport& one : report)
   {
     const auto error = one.volumeError();
-    isWhole = isWhole && one.status == Status::Read && (!error || std::abs(*error) <= kTolerance);
+    // What is empty is said with the notes.
+    isWhole = isWhole && one.status != Status::Unread && (!error || std::abs(*error) <= kTolerance);
     QString line = words(one.name) + ": " + presenters::nameOf(one.status);
     if (one.status == Status::Read)
       line += ", " + QString::number(one.volume, 'f', 1) + " mm³";
@@ -756,13 +757,16 @@ void CaseDocumentController::tell(const std::vector<presenters::PartFailure>& fa
   }
   if (!isWhole)
   {
-    QMessageBox box(QMessageBox::Warning, tr("Structures"),
-                    words(presenters::summaryOf(report).text) + ".", QMessageBox::Ok, &m_window);
-    box.setTextFormat(Qt::PlainText);
-    box.setObjectName("structuresRead");
-    box.setInformativeText(tr("Not all are as the file has them."));
-    box.setDetailedText(lines.join("\n"));
-    box.exec();
+    auto* box = new QMessageBox(QMessageBox::Warning, tr("Structures"),
+                                words(presenters::summaryOf(report).text) + ".", QMessageBox::Ok,
+                                &m_window);
+    box->setAttribute(Qt::WA_DeleteOnClose);
+    box->setTextFormat(Qt::PlainText);
+    box->setObjectName("structuresRead");
+    box->setInformativeText(tr("Not all are as the file has them."));
+    box->setDetailedText(lines.join("\n"));
+    box->setModal(false);
+    box->show();
   }
   for (const presenters::PartFailure& failure : failures)
     if (failure.likely.empty())

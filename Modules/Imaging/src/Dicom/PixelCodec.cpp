@@ -259,9 +259,9 @@ bool decodeRle(const std::vector<char>& stream, std::size_t bytes,
                std::vector<unsigned char>& cells)
 {
   constexpr std::size_t kHead = 64; // the number of segments, and 15 offsets
-  const std::size_t count = cells.size() / bytes;
-  if (count == 0 || stream.size() < kHead)
+  if (bytes == 0 || cells.size() < bytes || stream.size() < kHead)
     return false;
+  const std::size_t count = cells.size() / bytes;
   const auto number = [&stream](std::size_t at)
   {
     std::size_t value = 0;

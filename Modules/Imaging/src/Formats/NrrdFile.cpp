@@ -17,6 +17,7 @@
 #include "NrrdHeader.h"
 #include "OutputFile.h"
 #include "VoxelWriter.h"
+#include "petrous/Core/SystemMemory.h"
 
 namespace petrous::imaging
 {
@@ -157,7 +158,8 @@ std::shared_ptr<char> openBytes(const std::filesystem::path& path, std::size_t s
   struct stat now = {};
   const bool asChecked = fstat(file, &now) == 0 && static_cast<std::size_t>(now.st_size) == size;
   const bool isCopied =
-      access == VoxelAccess::Copied || (access == VoxelAccess::Automatic && mayVanish(file));
+      access == VoxelAccess::Copied || (access == VoxelAccess::Automatic && mayVanish(file) &&
+                                        size <= core::systemMemory().available);
   void* start = MAP_FAILED;
   if (asChecked)
     start = isCopied

@@ -22,7 +22,8 @@ void writeRawNrrd(const std::filesystem::path& path, const volume::Volume<std::u
 
 enum class VoxelAccess
 {
-  Automatic, ///< Copied from network and user-space file systems and those of removable media
+  Automatic, ///< Copied from network and user-space file systems and those of removable media,
+             ///< where memory allows
   Mapped,    ///< read from disk when accessed; a page that cannot be read then ends the program
   Copied     ///< read whole; unplugging the medium afterwards changes nothing
 };

@@ -43,7 +43,10 @@ add_library(petrous_dcmtk INTERFACE)
 target_link_libraries(petrous_dcmtk INTERFACE dcmdata oflog ofstd)
 add_library(petrous_dcmtk_network INTERFACE)
 target_link_libraries(petrous_dcmtk_network INTERFACE dcmtls dcmnet petrous_dcmtk OpenSSL::SSL OpenSSL::Crypto)
+add_library(petrous_dcmtk_jpeg INTERFACE)
+target_link_libraries(petrous_dcmtk_jpeg INTERFACE dcmjpeg ijg8 ijg12 ijg16 dcmimgle petrous_dcmtk)
 add_library(Petrous::dcmtk ALIAS petrous_dcmtk)
+add_library(Petrous::dcmtk_jpeg ALIAS petrous_dcmtk_jpeg)
 add_library(Petrous::dcmtk_network ALIAS petrous_dcmtk_network)
 
 find_package(VTK 9.1 REQUIRED COMPONENTS

@@ -70,11 +70,13 @@ bool hasEnd(const std::vector<char>& bytes)
          static_cast<unsigned char>(*(last + 1)) == 0xff;
 }
 
-/// The frame header (SOFn) of ITU-T T.81 B.2.2 and T.87 C.2.2, and the scan header after it.
-bool jpegFits(const Head& head, const SliceHeader& slice)
+/// The sample precision by the frame header (SOFn) of ITU-T T.81 B.2.2 and T.87 C.2.2; 0 if that or
+/// the scan header after it does not fit.
+int precisionOf(const Head& head, const SliceHeader& slice)
 {
   if (head.number(0, 2) != 0xffd8)
-    return false;
+    return 0;
+  std::uint32_t precision = 0;
   std::size_t at = 2;
   std::uint32_t frame = 0;
   while (at + 4 <= head.size())
@@ -88,20 +90,22 @@ bool jpegFits(const Head& head, const SliceHeader& slice)
     const bool isFrame = (marker >= 0xffc0 && marker <= 0xffcf && marker != 0xffc4 &&
                           marker != 0xffc8 && marker != 0xffcc) ||
                          marker == 0xfff7;
-    if (isFrame &&
-        (frame != 0 || !bitsFit(head.number(at + 4, 1), slice) ||
-         !sizeFits(head.number(at + 7, 2), head.number(at + 5, 2), head.number(at + 9, 1), slice)))
-      return false;
     if (isFrame)
+    {
+      if (frame != 0 || !bitsFit(head.number(at + 4, 1), slice) ||
+          !sizeFits(head.number(at + 7, 2), head.number(at + 5, 2), head.number(at + 9, 1), slice))
+        return 0;
+      precision = head.number(at + 4, 1);
       frame = marker;
+    }
     if (marker == 0xffda)
-      return frame != 0 && scanFits(head, at, frame);
+      return frame != 0 && scanFits(head, at, frame) ? static_cast<int>(precision) : 0;
     const std::uint32_t length = head.number(at + 2, 2);
     if ((!isFrame && !isTable(marker)) || length < 2)
-      return false;
+      return 0;
     at += 2 + length;
   }
-  return false;
+  return 0;
 }
 
 /// The SIZ segment of ITU-T T.800 A.5.1, always the second marker.
@@ -129,7 +133,12 @@ bool codestreamFits(const std::vector<char>& bytes, const SliceHeader& slice)
     return true;
   if (syntax == "1.2.840.10008.1.2.4.90" || syntax == "1.2.840.10008.1.2.4.91")
     return jpeg2000Fits(head, slice);
-  return hasEnd(bytes) && jpegFits(head, slice);
+  return jpegPrecision(bytes, slice) > 0;
+}
+
+int jpegPrecision(const std::vector<char>& bytes, const SliceHeader& slice)
+{
+  return hasEnd(bytes) ? precisionOf(Head(bytes), slice) : 0;
 }
 
 } // namespace petrous::imaging

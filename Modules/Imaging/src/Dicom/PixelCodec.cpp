@@ -18,6 +18,7 @@
 #include "ByteSource.h"
 #include "Codestream.h"
 #include "DicomElements.h"
+#include "JpegDecoder.h"
 #include "petrous/Imaging/DicomScan.h"
 
 namespace petrous::imaging
@@ -156,7 +157,7 @@ std::vector<Fragment> fragmentsOf(ByteSource& source, const SliceHeader& slice,
 
 /// Suppresses stderr output of the codecs used by GDCM, on this thread and during its lifetime: it
 /// is not part of this program's output. Codecs print nothing for a valid image; on damage they
-/// print a warning ("Corrupt JPEG data: premature end of data segment") and continue decoding.
+/// print a warning and continue decoding.
 class CodecMessages
 {
 public:
@@ -202,17 +203,16 @@ private:
 
 thread_local CodecMessages* CodecMessages::t_listener = nullptr;
 
-/// Decodes in this process. GetBuffer would also hand a stream that its own codecs refuse to a
-/// program of another package (pvrg-jpeg), by a shell and a temporary file with the patient's
-/// image.
+/// JPEG-LS and JPEG 2000, decoded in this process. GetBuffer would also hand a stream that its own
+/// codecs refuse to a program of another package (pvrg-jpeg), by a shell and a temporary file with
+/// the patient's image.
 class InProcessImage : public gdcm::Image
 {
 public:
   bool decode(char* buffer) const
   {
     bool isLossy = false;
-    return TryJPEGCodec(buffer, isLossy) || TryJPEGLSCodec(buffer, isLossy) ||
-           TryJPEG2000Codec(buffer, isLossy);
+    return TryJPEGLSCodec(buffer, isLossy) || TryJPEG2000Codec(buffer, isLossy);
   }
 };
 
@@ -321,7 +321,7 @@ void decodeFrame(ByteSource& source, const SliceHeader& slice,
   const PixelFormat& format = slice.pixels;
   gdcm::DataElement element(gdcm::Tag(0x7fe0, 0x0010));
   element.SetVR(gdcm::VR::OB);
-  const std::vector<char> codestream = readCodestream(source, slice, fragments);
+  std::vector<char> codestream = readCodestream(source, slice, fragments);
   if (codestream.empty() || !codestreamFits(codestream, slice))
     fail(slice, "has a damaged compressed image");
   if (format.transferSyntax == kRleLossless)
@@ -329,6 +329,18 @@ void decodeFrame(ByteSource& source, const SliceHeader& slice,
     const auto bytes = static_cast<std::size_t>(format.bitsAllocated / 8);
     pixels.scratch.assign(pixels.values.size() * bytes, 0);
     if (!decodeRle(codestream, bytes, pixels.scratch))
+      fail(slice, "has a damaged compressed image");
+    unpackCells(slice, format.bitsAllocated,
+                bitField(format.bitsStored, format.highBit, format.isSigned), false, pixels);
+    return;
+  }
+  if (isJpeg(format.transferSyntax))
+  {
+    const int precision = jpegPrecision(codestream, slice);
+    const std::size_t bytes = precision <= 8 ? 1 : 2;
+    pixels.scratch.assign(pixels.values.size() * bytes, 0);
+    if (format.bitsAllocated != static_cast<int>(8 * bytes) ||
+        !decodeJpeg(codestream, precision, pixels.scratch))
       fail(slice, "has a damaged compressed image");
     unpackCells(slice, format.bitsAllocated,
                 bitField(format.bitsStored, format.highBit, format.isSigned), false, pixels);

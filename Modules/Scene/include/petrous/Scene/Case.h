@@ -12,6 +12,7 @@
 #include "petrous/Core/Lazy.h"
 #include "petrous/Core/TriangleMesh.h"
 #include "petrous/Dissection/Dissection.h"
+#include "petrous/Scene/Description.h"
 #include "petrous/Scene/ImagePart.h"
 #include "petrous/Scene/MeshTouch.h"
 #include "petrous/Scene/TransformedPart.h"
@@ -78,6 +79,7 @@ struct Case
   std::vector<LabelPart> labels;
   std::vector<MeshPart> meshes;
   std::optional<core::CameraPose> camera; ///< last view; nullopt: lateral view
+  Description description;
 
   dissection::Dissection dissection; ///< the strokes, their history and the mask
 

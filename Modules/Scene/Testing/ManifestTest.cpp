@@ -625,3 +625,38 @@ TEST(Manifest, RefusesAHostileDescription)
   value.description.note = "\xff";
   EXPECT_THROW(scene::toManifest(value), core::InvalidParameter);
 }
+
+// Programs that know nothing of it read the case: the format stays.
+TEST(Manifest, KeepsHowTheCaseWasLookedAt)
+{
+  scene::Case value = fullCase();
+  EXPECT_FALSE(nlohmann::json::parse(scene::toManifest(value)).contains("view"));
+  value.view.slices = {Vector3d(1.0 / 3.0, -2.5, 1e-7), 4000.0 / 7.0, -0.1};
+  value.view.branchCameras["main"].position = Vector3d(0.1, 0.2, 0.3);
+  value.view.branchCameras["no branch"].position = Vector3d(9, 9, 9);
+  const std::string text = scene::toManifest(value);
+  EXPECT_NE(text.find("\"petrous_case\": 3"), std::string::npos);
+  const scene::Case back = scene::fromManifest(text, "m.json");
+  ASSERT_TRUE(back.view.slices);
+  EXPECT_EQ(back.view.slices->crosshair, value.view.slices->crosshair);
+  EXPECT_EQ(back.view.slices->width, 4000.0 / 7.0);
+  EXPECT_EQ(back.view.slices->level, -0.1);
+  ASSERT_EQ(back.view.branchCameras.size(), 1U);
+  EXPECT_EQ(back.view.branchCameras.at("main").position, Vector3d(0.1, 0.2, 0.3));
+
+  const auto refused = [&text](const char* pointer, const nlohmann::json& bad)
+  {
+    auto j = nlohmann::json::parse(text);
+    j[nlohmann::json::json_pointer(std::string("/view") + pointer)] = bad;
+    EXPECT_FALSE(refusalOf(j).empty()) << pointer << bad;
+  };
+  refused("/slices/window_width", 0.0);
+  refused("/slices/window_width", -4.0);
+  refused("/slices/window_level", nullptr);
+  refused("/slices/crosshair_mm", {1, 2});
+  refused("/slices", 7);
+  refused("/branches/main", "from above");
+  refused("/branches", 7);
+  value.view.slices->width = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(scene::toManifest(value), core::InvalidParameter);
+}

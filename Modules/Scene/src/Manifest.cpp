@@ -297,6 +297,36 @@ Description descriptionIn(const json& j)
   return description;
 }
 
+json viewOut(const Case& value)
+{
+  json j = json::object();
+  for (const auto& [name, camera] : value.view.branchCameras)
+    if (value.dissection.history().find(name) != nullptr)
+      j["branches"][name] = cameraOut(camera);
+  if (const auto& slices = value.view.slices)
+    j["slices"] = {{"crosshair_mm", vectorOut(slices->crosshair)},
+                   {"window_width", slices->width},
+                   {"window_level", slices->level}};
+  return j;
+}
+
+ViewState viewIn(const json& j)
+{
+  ViewState view;
+  if (j.contains("branches"))
+    for (const auto& [name, camera] : j.at("branches").items())
+      view.branchCameras[name] = cameraIn(camera);
+  if (j.contains("slices"))
+  {
+    const json& slices = j.at("slices");
+    view.slices = {vectorIn(slices.at("crosshair_mm")), slices.at("window_width").get<double>(),
+                   slices.at("window_level").get<double>()};
+    if (!(view.slices->width > 0.0))
+      throw core::InvalidParameter("the grey window of the slices must be wider than 0");
+  }
+  return view;
+}
+
 bool isFinite(const json& j)
 {
   if (j.is_structured())
@@ -352,6 +382,8 @@ Case caseIn(const json& j)
   }
   if (j.contains("camera"))
     value.camera = cameraIn(j.at("camera"));
+  if (j.contains("view"))
+    value.view = viewIn(j.at("view"));
   if (j.contains("description"))
     value.description = descriptionIn(j.at("description"));
   const json& drilled = j.at("dissection");
@@ -415,6 +447,8 @@ std::string toManifest(const Case& value)
     j["id"] = value.id;
   if (value.camera)
     j["camera"] = cameraOut(*value.camera);
+  if (json view = viewOut(value); !view.empty())
+    j["view"] = std::move(view);
   if (isDescribed)
     j["description"] = descriptionOut(value.description);
   json strokes = json::array();

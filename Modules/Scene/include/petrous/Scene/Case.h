@@ -16,6 +16,7 @@
 #include "petrous/Scene/ImagePart.h"
 #include "petrous/Scene/MeshTouch.h"
 #include "petrous/Scene/TransformedPart.h"
+#include "petrous/Scene/ViewState.h"
 #include "petrous/Volume/IntensityScale.h"
 #include "petrous/Volume/LabelMap.h"
 #include "petrous/Volume/SegmentCodes.h"
@@ -79,6 +80,7 @@ struct Case
   std::vector<LabelPart> labels;
   std::vector<MeshPart> meshes;
   std::optional<core::CameraPose> camera; ///< last view; nullopt: lateral view
+  ViewState view;
   Description description;
 
   dissection::Dissection dissection; ///< the strokes, their history and the mask

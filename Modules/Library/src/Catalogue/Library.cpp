@@ -7,6 +7,7 @@
 #include <iterator>
 #include <optional>
 #include <random>
+#include <set>
 #include <sstream>
 
 #include <sys/stat.h>
@@ -18,6 +19,7 @@
 #include "ManifestFile.h"
 #include "ObjectChecks.h"
 #include "Recovery.h"
+#include "Thumbnail.h"
 #include "petrous/Core/Log.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/LabelFile.h"
@@ -186,6 +188,7 @@ std::vector<Catalogue::Entry> entriesIn(const fs::path& folder)
 {
   std::vector<Catalogue::Entry> cases;
   auto known = Catalogue(folder / "library.sqlite").entries();
+  const std::set<std::string> thumbnails = thumbnailIds(folder);
   for (const std::string& name : namesIn(folder / "cases"))
   {
     const fs::path path = folder / "cases" / (name + ".json");
@@ -213,6 +216,8 @@ std::vector<Catalogue::Entry> entriesIn(const fs::path& folder)
       cases.push_back(std::move(damaged));
     }
   }
+  for (Catalogue::Entry& entry : cases)
+    entry.summary.hasThumbnail = thumbnails.count(entry.summary.id) > 0;
   return cases;
 }
 

@@ -283,8 +283,8 @@ Inspection Library::verify(const core::Progress& progress) const
       result.damaged.push_back({path.lexically_relative(m_folder).string(),
                                 {name},
                                 core::printable(path) + ": the thumbnail of case '" + name +
-                                    "' is damaged; 'petrous describe NAME --thumbnail' makes it "
-                                    "anew"});
+                                    "' is damaged; make it anew: petrous describe '" + name +
+                                    "' --thumbnail"});
   }
   const ObjectStore store(objectFolder());
   std::map<std::string, std::uintmax_t> sizes;
@@ -322,12 +322,12 @@ Collected Library::collectGarbage()
     return result;
   const FolderLock lock(m_folder / ".lock");
   std::set<std::string> used;
-  std::set<fs::path> pictures;
+  std::set<std::string> ids;
   for (const std::string& name : namesIn(m_folder / "cases"))
     try
     {
       const scene::Case value = readManifest(name);
-      pictures.insert(thumbnailPath(m_folder, value.id));
+      ids.insert(value.id);
       for (const ObjectUse& use : objectsOf(value))
         used.insert(use.object);
     }
@@ -358,13 +358,9 @@ Collected Library::collectGarbage()
     }
   core::syncFolder(objectFolder());
   removeLeftovers(m_folder / kThumbnailFolder);
-  std::vector<fs::path> unused;
-  std::error_code error;
-  for (fs::directory_iterator entry(m_folder / kThumbnailFolder, error), end;
-       !error && entry != end; entry.increment(error))
-    if (entry->path().extension() == ".png" && pictures.count(entry->path()) == 0)
-      unused.push_back(entry->path());
-  std::for_each(unused.begin(), unused.end(), removeFile);
+  for (const std::string& id : thumbnailIds(m_folder))
+    if (ids.count(id) == 0)
+      removeFile(thumbnailPath(m_folder, id));
   return result;
 }
 

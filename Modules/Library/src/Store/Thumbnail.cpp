@@ -105,6 +105,18 @@ fs::path thumbnailPath(const fs::path& library, const std::string& id)
   return library / kThumbnailFolder / (id + ".png");
 }
 
+std::set<std::string> thumbnailIds(const fs::path& library)
+{
+  std::set<std::string> ids;
+  std::error_code error;
+  for (fs::directory_iterator entry(library / kThumbnailFolder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (const std::string id = entry->path().stem().string();
+        thumbnailPath(library, id) == entry->path())
+      ids.insert(id);
+  return ids;
+}
+
 std::vector<std::uint8_t> readThumbnail(const fs::path& library, const std::string& id) noexcept
 try
 {

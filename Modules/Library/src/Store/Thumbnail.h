@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ constexpr std::uintmax_t kLargestThumbnail = 1U << 20; ///< bytes; uncompressed 
 /// takes the name of another never shows that one's picture. Empty if the id is none that Library
 /// gave (a manifest is not trusted with a path).
 std::filesystem::path thumbnailPath(const std::filesystem::path& library, const std::string& id);
+
+/// The ids of all pictures that are there, sound or not.
+std::set<std::string> thumbnailIds(const std::filesystem::path& library);
 
 /// The picture of that id; empty if there is none, or none that is sound.
 std::vector<std::uint8_t> readThumbnail(const std::filesystem::path& library,

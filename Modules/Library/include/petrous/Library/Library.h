@@ -30,6 +30,7 @@ struct CaseSummary
   bool damaged = false;    ///< the manifest cannot be read; the other fields are then empty
   Description description; ///< without its note
   bool hasNote = false;
+  bool hasThumbnail = false;
 };
 
 /// What Library::search looks for: cases to which everything applies that is not empty. All text is

@@ -149,6 +149,12 @@ Made tube(const SegmentOptions& options, const scene::Case& value, const scene::
   if (const std::string order = presenters::likelyOrderText(tube.points); !order.empty())
     made.warnings.push_back("the points seem not to be in their order along the structure: " +
                             order + " would make a much shorter line");
+  for (std::size_t n = 0; n < tube.points.size(); ++n)
+    if (tube.outsideAtPoint[n] != 0)
+      made.warnings.push_back("point " + std::to_string(n + 1) + " lies " +
+                              fixed(tube.pointDistances[n], 2) +
+                              " mm from the path, outside of the tube: move the point, or add one "
+                              "beside it");
   constexpr double kTenth = 0.1;
   if (tube.resolvedLength < tube.length * (1.0 - kTenth))
     made.warnings.push_back("the image resolves " + fixed(tube.resolvedLength, 1) + " of " +

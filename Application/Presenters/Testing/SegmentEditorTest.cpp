@@ -692,6 +692,30 @@ TEST_F(SegmentEditorTest, PointsOfANerveAreAddedMovedRemovedAndUndone)
   EXPECT_EQ(editor.tubePoints().size(), 1U);
   editor.undo();
   EXPECT_EQ(editor.tubePoints().size(), 2U);
+  const auto orderOf = [this]
+  {
+    std::vector<double> y;
+    for (const auto& point : editor.tubePoints())
+      y.push_back(std::round(10.0 * (point.patient - kBall).y()) / 10.0);
+    return y;
+  };
+  click(kBall + Vector3d(-7, 6, 0)); // goes on where the last one was
+  EXPECT_EQ(orderOf(), (std::vector<double>{0.0, 4.0, 6.0}));
+  click(kBall + Vector3d(-8, 2, 0)); // between two
+  EXPECT_EQ(orderOf(), (std::vector<double>{0.0, 2.0, 4.0, 6.0}));
+  editor.undo();
+  EXPECT_EQ(orderOf(), (std::vector<double>{0.0, 4.0, 6.0})) << "one click";
+  editor.reorderTubePoint(2, 0);
+  EXPECT_EQ(orderOf(), (std::vector<double>{6.0, 0.0, 4.0}));
+  editor.moveTubePoint(0, kBall + Vector3d(-8, -3, 0));
+  EXPECT_EQ(orderOf(), (std::vector<double>{-3.0, 0.0, 4.0}));
+  editor.moveTubePoint(3, kBall);
+  editor.reorderTubePoint(0, 3);
+  editor.reorderTubePoint(3, 0);
+  EXPECT_EQ(orderOf(), (std::vector<double>{-3.0, 0.0, 4.0})) << "there is no such point";
+  editor.undo();
+  editor.undo();
+  EXPECT_EQ(orderOf(), (std::vector<double>{0.0, 4.0, 6.0}));
   while (editor.canUndo())
   {
     editor.undo();
@@ -753,6 +777,15 @@ TEST_F(SegmentEditorTest, TheNerveToolFindsThePhantomsFacialNerve)
   }
   EXPECT_NE(editor.note(), "");
   EXPECT_GT(editor.voxels(), 0U);
+  editor.moveTubePoint(3, axis[3] + Vector3d(1.2, 0, 0)); // out of the nerve
+  work();
+  for (std::size_t n = 0; n < axis.size(); ++n)
+  {
+    EXPECT_EQ(editor.tubePoints()[n].isOutside, n == 3) << n;
+    EXPECT_EQ(editor.tubePoints()[n].problem.empty(), n != 3) << n;
+  }
+  editor.undo();
+  work();
   step();
   EXPECT_TRUE(editor.tubePoints().empty()) << "the tube is in the draft now";
   const std::uint64_t tube = editor.voxels();

@@ -31,6 +31,7 @@ constexpr double kBrushStep = 1.2;  // factor
 constexpr double kLeastBrush = 0.1; // mm
 const QColor kPoint("#ffd040");
 const QColor kPath("#ffd040");
+const QColor kOutside("#ff6a3c"); // a point beside the path
 const QColor kEraser("#f2f5f8");
 const QColor kBeside("#62b0ec");
 
@@ -172,6 +173,14 @@ void SegmentController::connectPanel()
   connect(m_panel, &SegmentPanel::discardAsked, this, &SegmentController::discard);
   connect(m_panel, &SegmentPanel::editAsked, this,
           [this](const QString& structure) { edit(bytes(structure)); });
+  connect(m_panel, &SegmentPanel::pointChosen, this,
+          [this](const Eigen::Vector3d& patient) { m_model.setCrosshair(patient); });
+  connect(m_panel, &SegmentPanel::pointToCrosshairAsked, this,
+          [this](int row)
+          {
+            if (row >= 0)
+              m_editor.moveTubePoint(static_cast<std::size_t>(row), m_model.crosshair());
+          });
   connect(m_work.get(), &BackgroundWork::progressed, m_panel, &SegmentPanel::setProgress);
   connect(m_work.get(), &BackgroundWork::failed, this,
           [this](const QString& why)
@@ -343,7 +352,9 @@ void SegmentController::drawing()
     drawing.curve = m_editor.path();
     const auto points = m_editor.tubePoints();
     for (std::size_t n = 0; n < points.size(); ++n)
-      drawing.marks.push_back({points[n].patient, QString::number(n + 1), kPoint});
+      drawing.marks.push_back({points[n].patient,
+                               QString::number(n + 1) + (points[n].isOutside ? "!" : ""),
+                               points[n].isOutside ? kOutside : kPoint});
   }
   if (m_editor.tool() == Tool::Threshold)
     for (const Eigen::Vector3d& seed : m_editor.seeds())

@@ -15,6 +15,7 @@
 #include <QMenu>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QSignalBlocker>
 #include <QStackedWidget>
 #include <QStandardItemModel>
 #include <QToolButton>
@@ -35,6 +36,9 @@ using presenters::SegmentValues;
 
 constexpr int kToolsInRow = 3;
 constexpr double kTubeRadius = 0.6; // mm, until another one is entered
+constexpr int kLeastPointRows = 6;  // of the nerve's list, as many as are usually clicked
+constexpr int kMostPointRows = 12;  // then it scrolls
+constexpr int kNarrowButton = 34;   // px
 
 QHBoxLayout* rowOf(std::initializer_list<QWidget*> widgets)
 {
@@ -358,8 +362,9 @@ void SegmentPanel::addPages(QVBoxLayout& layout)
 QWidget* SegmentPanel::nervePage()
 {
   QWidget* whole = page(
-      tr("Click four to six points along the nerve. Drag one to move it; Delete removes the chosen "
-         "one."),
+      tr("Click along the nerve from one end, four to six points; a click between two points is "
+         "put "
+         "between them. Drag a point in a slice to move it."),
       [this](QFormLayout& form)
       {
         m_points = new QTreeWidget;
@@ -368,22 +373,63 @@ QWidget* SegmentPanel::nervePage()
         m_points->setAllColumnsShowFocus(true);
         m_points->setHeaderLabels({tr("#"), tr("To the path"), tr("What the scan shows here")});
         m_points->header()->setStretchLastSection(true);
-        m_points->setFixedHeight(136);
+        m_points->setUniformRowHeights(true);
+        m_points->setToolTip(tr("The crosshair goes to the chosen point. Delete removes it; Alt+Up "
+                                "and Alt+Down change its place along the nerve"));
+        const auto choose = [this]
+        {
+          if (const int row = chosenPoint(); row >= 0)
+            emit pointChosen(m_editor.tubePoints()[static_cast<std::size_t>(row)].patient);
+        };
+        connect(m_points, &QTreeWidget::itemClicked, this, choose);
+        connect(m_points, &QTreeWidget::currentItemChanged, this,
+                [this, choose]
+                {
+                  if (m_points->hasFocus()) // else it was not the user's choice
+                    choose();
+                  enablePoints();
+                });
         form.addRow(m_points);
-        m_removePoint =
-            button(tr("Remove the point"), "removeNervePoint", tr("The chosen one (Delete)"));
+        m_removePoint = button(tr("Remove"), "removeNervePoint", tr("The chosen point (Delete)"));
+        m_movePoint = button(tr("To the crosshair"), "moveNervePoint",
+                             tr("Moves the chosen point to the crosshair"));
+        m_pointUp = button(QString::fromUtf8("↑"), "nervePointUp",
+                           tr("The chosen point earlier along the nerve (Alt+Up)"));
+        m_pointDown = button(QString::fromUtf8("↓"), "nervePointDown",
+                             tr("The chosen point later along the nerve (Alt+Down)"));
+        for (QPushButton* narrow : {m_pointUp, m_pointDown})
+          narrow->setMaximumWidth(kNarrowButton);
         const auto remove = [this]
         {
-          if (const int row = m_points->indexOfTopLevelItem(m_points->currentItem()); row >= 0)
+          if (const int row = chosenPoint(); row >= 0)
             m_editor.removeTubePoint(static_cast<std::size_t>(row));
         };
+        const auto reorder = [this](int by)
+        {
+          const int row = chosenPoint();
+          if (row < 0 || row + by < 0 || row + by >= m_points->topLevelItemCount())
+            return;
+          m_points->setCurrentItem(m_points->topLevelItem(row + by));
+          m_editor.reorderTubePoint(static_cast<std::size_t>(row),
+                                    static_cast<std::size_t>(row + by));
+        };
         connect(m_removePoint, &QPushButton::clicked, this, remove);
-        auto* key = new QAction(m_points);
-        key->setShortcut(QKeySequence::Delete);
-        key->setShortcutContext(Qt::WidgetShortcut);
-        connect(key, &QAction::triggered, this, remove);
-        m_points->addAction(key);
-        form.addRow(m_removePoint);
+        connect(m_movePoint, &QPushButton::clicked, this,
+                [this] { emit pointToCrosshairAsked(chosenPoint()); });
+        connect(m_pointUp, &QPushButton::clicked, this, [reorder] { reorder(-1); });
+        connect(m_pointDown, &QPushButton::clicked, this, [reorder] { reorder(1); });
+        const auto key = [this](int keys, auto what)
+        {
+          auto* action = new QAction(m_points);
+          action->setShortcut(keys);
+          action->setShortcutContext(Qt::WidgetShortcut);
+          connect(action, &QAction::triggered, this, what);
+          m_points->addAction(action);
+        };
+        key(Qt::Key_Delete, remove);
+        key(Qt::ALT + Qt::Key_Up, [reorder] { reorder(-1); });
+        key(Qt::ALT + Qt::Key_Down, [reorder] { reorder(1); });
+        form.addRow(rowOf({m_removePoint, m_movePoint, m_pointUp, m_pointDown}));
         auto* estimated = checkBox(tr("&estimated"), "nerveEstimate",
                                    tr("From the image, along the path; else one everywhere"));
         m_bound.add(
@@ -526,7 +572,8 @@ void SegmentPanel::showRange()
 void SegmentPanel::showPoints()
 {
   const auto points = m_editor.tubePoints();
-  const int chosen = m_points->indexOfTopLevelItem(m_points->currentItem());
+  const QSignalBlocker quiet(m_points); // rows that come and go are nobody's choice
+  const int chosen = chosenPoint();
   while (m_points->topLevelItemCount() > static_cast<int>(points.size()))
     delete m_points->takeTopLevelItem(m_points->topLevelItemCount() - 1);
   for (std::size_t n = 0; n < points.size(); ++n)
@@ -535,18 +582,42 @@ void SegmentPanel::showPoints()
     if (row == m_points->topLevelItemCount())
       m_points->addTopLevelItem(new QTreeWidgetItem);
     QTreeWidgetItem* item = m_points->topLevelItem(row);
-    item->setText(0, QString::number(row + 1));
+    const bool isOutside = points[n].isOutside;
+    item->setText(0, QString::number(row + 1) + (isOutside ? "!" : ""));
     item->setText(1, points[n].distance ? tr("%1 mm").arg(*points[n].distance, 0, 'f', 2)
                                         : QString::fromUtf8("–"));
     item->setText(2, words(points[n].problem));
     item->setToolTip(2, words(points[n].problem));
-    item->setForeground(2, QColor("#ffb454"));
+    const QColor warned("#ffb454");
+    for (int column = 0; column < 2; ++column)
+      item->setForeground(column, isOutside ? QBrush(warned) : palette().text());
+    item->setForeground(2, warned);
   }
   if (chosen < 0 && m_points->topLevelItemCount() > 0)
     m_points->setCurrentItem(m_points->topLevelItem(m_points->topLevelItemCount() - 1));
   m_points->resizeColumnToContents(0);
   m_points->resizeColumnToContents(1);
-  m_removePoint->setEnabled(!points.empty());
+  const int rows = std::clamp(m_points->topLevelItemCount(), kLeastPointRows, kMostPointRows);
+  const int row = m_points->topLevelItemCount() > 0
+                      ? m_points->visualItemRect(m_points->topLevelItem(0)).height()
+                      : m_points->fontMetrics().height() + 4;
+  m_points->setFixedHeight(m_points->header()->sizeHint().height() + rows * row +
+                           2 * m_points->frameWidth());
+  enablePoints();
+}
+
+int SegmentPanel::chosenPoint() const
+{
+  return m_points->indexOfTopLevelItem(m_points->currentItem());
+}
+
+void SegmentPanel::enablePoints()
+{
+  const int chosen = chosenPoint();
+  m_removePoint->setEnabled(chosen >= 0);
+  m_movePoint->setEnabled(chosen >= 0);
+  m_pointUp->setEnabled(chosen > 0);
+  m_pointDown->setEnabled(chosen >= 0 && chosen + 1 < m_points->topLevelItemCount());
 }
 
 void SegmentPanel::showVolume()

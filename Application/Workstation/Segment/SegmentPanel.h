@@ -49,6 +49,8 @@ signals:
   void createAsked();
   void discardAsked();
   void editAsked(const QString& structure);
+  void pointChosen(const Eigen::Vector3d& patient); ///< of the nerve
+  void pointToCrosshairAsked(int row);              ///< likewise
 
 private:
   using Values = presenters::SegmentValues;
@@ -66,6 +68,8 @@ private:
   void showRange();
   void showSources();
   void showPoints();
+  int chosenPoint() const; ///< -1: none
+  void enablePoints();
 
   presenters::SegmentEditor& m_editor;
   QLineEdit* m_name;
@@ -78,6 +82,9 @@ private:
   std::vector<QPushButton*> m_steps;
   QTreeWidget* m_points = nullptr;
   QPushButton* m_removePoint = nullptr;
+  QPushButton* m_movePoint = nullptr;
+  QPushButton* m_pointUp = nullptr;
+  QPushButton* m_pointDown = nullptr;
   QDoubleSpinBox* m_smallest = nullptr;
   QLabel* m_volume;
   QLabel* m_line;

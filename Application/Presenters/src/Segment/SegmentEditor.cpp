@@ -670,9 +670,11 @@ void SegmentEditor::press(const Eigen::Vector3d& patient, SliceOrientation plane
       }
     if (draft.gripped)
       return;
-    std::size_t at = draft.points.size();
-    if (m_preview && m_preview->tube && m_preview->tube->points == draft.points)
-      at = segmentation::insertionIndex(*m_preview->tube, patient);
+    Tube bare;
+    bare.points = draft.points;
+    const bool isTraced = m_preview && m_preview->tube && m_preview->tube->points == draft.points;
+    const std::size_t at =
+        segmentation::insertionIndex(isTraced ? *m_preview->tube : bare, patient);
     draft.points.insert(draft.points.begin() + static_cast<std::ptrdiff_t>(at), patient);
     draft.gripped = at;
     return touched();
@@ -731,11 +733,15 @@ std::vector<SegmentEditor::TubePoint> SegmentEditor::tubePoints() const
     tube = nullptr;
   for (std::size_t n = 0; n < m_draft->points.size(); ++n)
   {
-    TubePoint point{m_draft->points[n], std::nullopt, {}};
+    TubePoint point;
+    point.patient = m_draft->points[n];
     if (tube)
     {
       point.distance = tube->pointDistances[n];
-      if (tube->resolved[tube->pointVertices[n]] == 0)
+      point.isOutside = tube->outsideAtPoint[n] != 0;
+      if (point.isOutside)
+        point.problem = "beside the tube: move or remove it";
+      else if (tube->resolved[tube->pointVertices[n]] == 0)
         point.problem = "cannot be resolved here";
       else if (tube->heldAtPoint[n] != 0)
         point.problem = "no axis nearby: the path is held at the point";
@@ -745,8 +751,13 @@ std::vector<SegmentEditor::TubePoint> SegmentEditor::tubePoints() const
   return all;
 }
 
-void SegmentEditor::setPoints(Points points)
+void SegmentEditor::changePoints(Points points)
 {
+  if (m_stepping || m_draft->stroking || points == m_draft->points)
+    return;
+  Draft::Step step;
+  step.points = {m_draft->points, points};
+  m_draft->did(std::move(step));
   m_draft->points = std::move(points);
   m_previewDue = true;
   touched();
@@ -754,15 +765,31 @@ void SegmentEditor::setPoints(Points points)
 
 void SegmentEditor::removeTubePoint(std::size_t index)
 {
-  if (index >= m_draft->points.size() || m_stepping || m_draft->stroking)
+  Points points = m_draft->points;
+  if (index >= points.size())
     return;
-  const Points before = m_draft->points;
-  Points after = before;
-  after.erase(after.begin() + static_cast<std::ptrdiff_t>(index));
-  Draft::Step step;
-  step.points = {before, after};
-  m_draft->did(std::move(step));
-  setPoints(after);
+  points.erase(points.begin() + static_cast<std::ptrdiff_t>(index));
+  changePoints(std::move(points));
+}
+
+void SegmentEditor::moveTubePoint(std::size_t index, const Eigen::Vector3d& patient)
+{
+  Points points = m_draft->points;
+  if (index >= points.size())
+    return;
+  points[index] = patient;
+  changePoints(std::move(points));
+}
+
+void SegmentEditor::reorderTubePoint(std::size_t from, std::size_t to)
+{
+  Points points = m_draft->points;
+  if (from >= points.size() || to >= points.size())
+    return;
+  const Eigen::Vector3d moved = points[from];
+  points.erase(points.begin() + static_cast<std::ptrdiff_t>(from));
+  points.insert(points.begin() + static_cast<std::ptrdiff_t>(to), moved);
+  changePoints(std::move(points));
 }
 
 const std::vector<Eigen::Vector3d>& SegmentEditor::path() const noexcept

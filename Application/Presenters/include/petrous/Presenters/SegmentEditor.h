@@ -132,9 +132,13 @@ public:
     Eigen::Vector3d patient;        ///< LPS mm
     std::optional<double> distance; ///< mm from the path; none while there is none
     std::string problem;            ///< what the scan does not show here, in words; usually empty
+    bool isOutside = false;         ///< it lies beside the tube, and `problem` says so
   };
   std::vector<TubePoint> tubePoints() const;
+  // Each can be undone; without effect for an index that there is not.
   void removeTubePoint(std::size_t index);
+  void moveTubePoint(std::size_t index, const Eigen::Vector3d& patient);
+  void reorderTubePoint(std::size_t from, std::size_t to);    ///< its place along the nerve
   const std::vector<Eigen::Vector3d>& path() const noexcept;  ///< LPS mm
   const std::vector<Eigen::Vector3d>& seeds() const noexcept; ///< of the connected threshold
   /// Length and radius of the tube, or what is to be done next; a sentence or two, or empty.
@@ -208,7 +212,7 @@ private:
   std::function<void()> step(Draft& draft, bool back);
   Work stepping(bool back);
   void dropPreview();
-  void setPoints(Points points);
+  void changePoints(Points points);
   void dab(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
   void refuse(const std::string& why);
   std::optional<double> surfaceIntensity() const;

@@ -642,6 +642,102 @@ TEST_F(SegmentEditorTest, AnMrMustBeRegisteredAndIsReadOnTheCtsGrid)
   EXPECT_EQ(editor.voxels(), count(inBall)) << "where the CT has it";
 }
 
+TEST_F(SegmentEditorTest, TheSourceIsWhatTheSlicesShowOrSaysThatItIsNot)
+{
+  scene::Case value = ballCase();
+  scene::ImagePart mr = value.ct;
+  mr.name = "T2";
+  value.mr.push_back(mr);
+  model.adopt(std::move(value));
+  editor.caseChanged();
+  editor.setShown({false, "T2"});
+  EXPECT_EQ(editor.source(), "ct") << "not registered";
+  EXPECT_EQ(editor.notShown(), "The slices show the MR 'T2', but the tools work on the CT.");
+  EXPECT_EQ(editor.shownInstead(), "");
+  model.changeMr([](scene::Case& with) { with.mr.front().registered = true; });
+  editor.mrMoved();
+  EXPECT_EQ(editor.source(), "T2") << "what is shown";
+  EXPECT_EQ(editor.notShown(), "");
+  editor.setShown({true, "T2"});
+  EXPECT_EQ(editor.source(), "T2") << "both are shown";
+  editor.setShown({true, {}});
+  EXPECT_EQ(editor.source(), "ct");
+
+  // With a tool nothing follows in silence: no click counts on an image that is not seen.
+  for (const Tool tool : {Tool::Threshold, Tool::Nerve, Tool::Grow})
+  {
+    editor.setTool(tool);
+    work();
+    editor.setShown({false, "T2"});
+    EXPECT_EQ(editor.source(), "ct");
+    EXPECT_EQ(editor.shownInstead(), "T2");
+    stroke(kBall, kBall);
+    EXPECT_TRUE(editor.seeds().empty());
+    EXPECT_TRUE(editor.tubePoints().empty());
+    EXPECT_FALSE(editor.canUndo());
+    EXPECT_NE(editor.warning(), "");
+    editor.setShown({true, {}});
+    EXPECT_EQ(editor.warning(), "");
+    editor.setTool(Tool::None);
+    editor.discard();
+  }
+  // What is painted depends on no image, unless it is limited to a range of intensities.
+  editor.setTool(Tool::Paint);
+  editor.setShown({false, "T2"});
+  stroke(kBall, kBall);
+  const std::uint64_t painted = editor.voxels();
+  EXPECT_GT(painted, 0U);
+  set(
+      [](SegmentValues& values)
+      {
+        values.within = true;
+        values.upper = 3000.0;
+      });
+  stroke(kBall + Vector3d(3, 0, 0), kBall);
+  EXPECT_EQ(editor.voxels(), painted);
+  EXPECT_NE(editor.warning(), "");
+  editor.setTool(Tool::None);
+  EXPECT_EQ(editor.source(), "ct") << "a draft of the CT";
+  EXPECT_NE(editor.notShown(), "");
+  editor.discard();
+  EXPECT_EQ(editor.source(), "T2");
+  EXPECT_EQ(editor.notShown(), "");
+}
+
+TEST_F(SegmentEditorTest, UndoAndRedoNameTheirTarget)
+{
+  open();
+  EXPECT_EQ(editor.undoText(), "");
+  editor.setTool(Tool::Paint);
+  stroke(kBall, kBall);
+  EXPECT_EQ(editor.undoText(), "paint stroke");
+  editor.undo();
+  EXPECT_EQ(editor.undoText(), "");
+  EXPECT_EQ(editor.redoText(), "paint stroke");
+  editor.redo();
+  editor.setTool(Tool::Margin);
+  step();
+  EXPECT_EQ(editor.undoText(), "margin");
+  editor.setName("Sigmoid sinus");
+  editor.create();
+  EXPECT_EQ(editor.undoText(), "create Sigmoid sinus");
+  editor.undo();
+  EXPECT_EQ(editor.undoText(), "margin") << "the draft as it was";
+  EXPECT_EQ(editor.redoText(), "create Sigmoid sinus");
+  editor.redo();
+  auto edit = editor.edit("Sigmoid sinus");
+  edit({})();
+  editor.setTool(Tool::Paint);
+  stroke(kBall, kBall + Vector3d(4, 0, 0));
+  editor.create();
+  EXPECT_EQ(editor.undoText(), "change of Sigmoid sinus");
+  editor.setTool(Tool::Nerve);
+  stroke(kBall, kBall);
+  EXPECT_EQ(editor.undoText(), "point");
+  editor.removeTubePoint(0);
+  EXPECT_EQ(editor.undoText(), "removal of a point");
+}
+
 TEST_F(SegmentEditorTest, NothingIsLostOrTakenWhileAStepIsUnderWay)
 {
   open();

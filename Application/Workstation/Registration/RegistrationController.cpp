@@ -94,14 +94,8 @@ void RegistrationController::connectPanel()
   connect(m_overlay, &MrOverlay::changed, this,
           [this] { m_panel->setOverlay(m_overlay->mode(), m_overlay->opacity()); });
   connect(m_overlay, &MrOverlay::statusMessage, m_panel, &RegistrationPanel::say);
-  connect(m_panel, &RegistrationPanel::mrChosen, this,
-          [this]
-          {
-            m_firstMetric.reset();
-            m_panel->setMetric({});
-            m_overlay->refresh();
-            showMarks();
-          });
+  connect(m_overlay, &MrOverlay::drawn, this, &RegistrationController::shownChanged);
+  connect(m_panel, &RegistrationPanel::mrChosen, this, &RegistrationController::chosen);
   connect(m_panel, &RegistrationPanel::registerAsked, this, [this] { begin(Way::Register); });
   connect(m_panel, &RegistrationPanel::refineAsked, this, [this] { begin(Way::Refine); });
   connect(m_panel, &RegistrationPanel::cancelAsked, this, &RegistrationController::cancel);
@@ -126,6 +120,47 @@ void RegistrationController::connectPanel()
   connect(m_run.get(), &BackgroundWork::progressed, m_panel, &RegistrationPanel::setProgress);
   connect(m_run.get(), &BackgroundWork::failed, this, &RegistrationController::endRun);
   connect(m_run.get(), &BackgroundWork::cancelled, this, &RegistrationController::stopped);
+}
+
+// Another MR.
+void RegistrationController::chosen()
+{
+  m_firstMetric.reset();
+  m_panel->setMetric({});
+  m_overlay->refresh();
+  showMarks();
+}
+
+presenters::ShownImages RegistrationController::shown() const
+{
+  return m_overlay->shown();
+}
+
+void RegistrationController::show(const std::string& image)
+{
+  const presenters::ShownImages now = shown();
+  if (image == "ct")
+  {
+    if (!now.ct)
+      m_overlay->set(std::nullopt, m_overlay->opacity());
+    return;
+  }
+  if (now.mr == image)
+    return;
+  if (image != m_session.mr())
+  {
+    if (running() || !m_session.landmarks().rows().empty()) // which are of the other MR
+    {
+      emit statusMessage(tr("The slices go on showing %1, which is being registered; choose the MR "
+                            "under Registration (F5)")
+                             .arg(words(m_session.mr())));
+      return;
+    }
+    m_session.choose(image);
+    m_panel->refresh();
+    chosen();
+  }
+  m_overlay->showAlone(true);
 }
 
 void RegistrationController::moveManually(const std::function<void()>& move)
@@ -153,6 +188,14 @@ void RegistrationController::caseChanged()
   m_panel->setRunning(false);
   m_overlay->reset();
   showMarks();
+}
+
+void RegistrationController::partsChanged()
+{
+  if (!m_session.partsChanged())
+    return caseChanged();
+  m_overlay->refresh();
+  showMarks(); // and the panel
 }
 
 void RegistrationController::mrMoved()

@@ -270,6 +270,12 @@ void RegistrationPanel::caseChanged()
   refresh();
 }
 
+// What was typed and said stays.
+void RegistrationPanel::partsChanged()
+{
+  refresh();
+}
+
 void RegistrationPanel::refresh()
 {
   QStringList names;

@@ -17,6 +17,7 @@
 #include "SliceColumn.h"
 #include "SliceView.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 
 namespace petrous::workstation
 {
@@ -102,9 +103,13 @@ SegmentController::SegmentController(presenters::WorkstationModel& model, SliceC
   m_editor.events.created = [this](const std::string& name)
   {
     emit structureCreated();
-    emit statusMessage(
-        tr("%1 is a structure of the case now; Undo in the panel makes it a draft again")
-            .arg(words(name)));
+    const scene::StructurePart* made = scene::findStructure(m_model.value(), name);
+    const double volume =
+        made ? static_cast<double>(made->voxels) * m_model.value().ct.geometry.voxelVolume() : 0.0;
+    const QString line = tr("%1 is a structure of the case now, %2; Undo makes it a draft again")
+                             .arg(words(name), volumeText(volume));
+    m_panel->say(line);
+    emit statusMessage(line);
   };
   m_surfaceLater.setSingleShot(true);
   m_surfaceLater.setInterval(kSurfaceAfter);
@@ -173,6 +178,7 @@ void SegmentController::connectPanel()
   connect(m_panel, &SegmentPanel::discardAsked, this, &SegmentController::discard);
   connect(m_panel, &SegmentPanel::editAsked, this,
           [this](const QString& structure) { edit(bytes(structure)); });
+  connect(m_panel, &SegmentPanel::imageWanted, this, &SegmentController::imageWanted);
   connect(m_panel, &SegmentPanel::pointChosen, this,
           [this](const Eigen::Vector3d& patient) { m_model.setCrosshair(patient); });
   connect(m_panel, &SegmentPanel::pointToCrosshairAsked, this,
@@ -227,6 +233,11 @@ void SegmentController::mrMoved()
   m_editor.mrMoved();
 }
 
+void SegmentController::setShown(const presenters::ShownImages& shown)
+{
+  m_editor.setShown(shown);
+}
+
 bool SegmentController::active() const
 {
   return m_editor.tool() != Tool::None;
@@ -245,6 +256,16 @@ bool SegmentController::canUndo() const
 bool SegmentController::canRedo() const
 {
   return m_editor.canRedo() && !m_editor.stepping();
+}
+
+QString SegmentController::undoText() const
+{
+  return words(m_editor.undoText());
+}
+
+QString SegmentController::redoText() const
+{
+  return words(m_editor.redoText());
 }
 
 bool SegmentController::hasBrush() const
@@ -300,8 +321,11 @@ void SegmentController::undo()
     attempt(
         [this]
         {
-          if (m_editor.undo())
-            emit structureCreated();
+          const QString what = undoText();
+          if (!m_editor.undo())
+            return;
+          emit structureCreated();
+          emit statusMessage(tr("Undone: %1; it is a draft again").arg(what));
         });
 }
 

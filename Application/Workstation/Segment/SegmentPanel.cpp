@@ -25,6 +25,7 @@
 #include "Application.h"
 #include "PanelLayout.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 
 namespace petrous::workstation
 {
@@ -74,18 +75,12 @@ QCheckBox* checkBox(const QString& text, const char* name, const QString& tip)
   return box;
 }
 
-QString volumeText(const SegmentEditor& editor)
+QString draftText(const SegmentEditor& editor)
 {
   const std::uint64_t voxels = editor.voxels();
   if (voxels == 0)
     return SegmentPanel::tr("Nothing yet");
-  const double volume = editor.volume();
-  return SegmentPanel::tr("%1 mm³  (%2 voxels)")
-      .arg(volume, 0, 'f',
-           volume < 100.0     ? 2
-           : volume < 10000.0 ? 1
-                              : 0)
-      .arg(voxels);
+  return SegmentPanel::tr("%1  (%2 voxels)").arg(volumeText(editor.volume())).arg(voxels);
 }
 } // namespace
 
@@ -99,6 +94,7 @@ SegmentPanel::SegmentPanel(SegmentEditor& editor, const std::vector<QAction*>& t
   , m_source(choiceBox("segmentSource", tr("The image that threshold, growing and the nerve tool "
                                            "read; an MR once it is registered")))
   , m_pages(new QStackedWidget)
+  , m_shown(new QLabel)
   , m_volume(new QLabel)
   , m_line(new QLabel)
   , m_remark(new QLabel)
@@ -141,22 +137,43 @@ void SegmentPanel::addHead(QVBoxLayout& layout)
           });
   m_bound.add(
       m_source, [this] { return m_source->findData(words(m_editor.source())); },
-      [this](int row)
-      {
-        say({});
-        try
-        {
-          m_editor.setSource(bytes(m_source->itemData(row).toString()));
-        }
-        catch (const std::exception& error)
-        {
-          say(toString(error));
-        }
-      });
+      [this](int row) { takeSource(bytes(m_source->itemData(row).toString())); });
   auto* form = new QFormLayout;
   addRow(*form, tr("Stru&cture"), m_name, m_edit);
   form->addRow(tr("&Image"), m_source);
   layout.addLayout(form);
+  m_shown->setObjectName("segmentShown");
+  m_shown->setWordWrap(true);
+  m_shown->setTextFormat(Qt::PlainText);
+  m_shown->setStyleSheet("color: #ffb454;");
+  m_showSource = button({}, "segmentShowSource", tr("The slices show what the tools work on"));
+  m_takeShown = button({}, "segmentTakeShown", tr("The tools work on what the slices show"));
+  connect(m_showSource, &QPushButton::clicked, this,
+          [this] { emit imageWanted(words(m_editor.source())); });
+  connect(m_takeShown, &QPushButton::clicked, this,
+          [this] { takeSource(m_editor.shownInstead()); });
+  layout.addWidget(m_shown);
+  layout.addLayout(rowOf({m_showSource, m_takeShown}));
+}
+
+QString SegmentPanel::imageName(const std::string& source) const
+{
+  return words(m_editor.sourceName(source));
+}
+
+// The slices show it from now on.
+void SegmentPanel::takeSource(const std::string& source)
+{
+  say({});
+  try
+  {
+    m_editor.setSource(source);
+    emit imageWanted(words(m_editor.source()));
+  }
+  catch (const std::exception& error)
+  {
+    say(toString(error));
+  }
 }
 
 void SegmentPanel::addTools(QVBoxLayout& layout, const std::vector<QAction*>& tools)
@@ -515,6 +532,12 @@ void SegmentPanel::caseChanged()
   refresh();
 }
 
+// What is being typed, and what was said of the structure that was created, stays.
+void SegmentPanel::partsChanged()
+{
+  refresh();
+}
+
 void SegmentPanel::appearanceChanged()
 {
   refresh();
@@ -525,9 +548,10 @@ void SegmentPanel::showSources()
   const auto sources = m_editor.sources();
   QStringList names, shown;
   for (const auto& source : sources)
-    names << words(source.name) + words(source.why);
+    names << imageName(source.name) + words(source.why);
   for (int n = 0; n < m_source->count(); ++n)
-    shown << m_source->itemData(n).toString() + m_source->itemData(n, Qt::ToolTipRole).toString();
+    shown << imageName(bytes(m_source->itemData(n).toString())) +
+                 m_source->itemData(n, Qt::ToolTipRole).toString();
   if (names == shown)
     return;
   m_bound.quietly(
@@ -536,7 +560,7 @@ void SegmentPanel::showSources()
         m_source->clear();
         for (const auto& source : sources)
         {
-          const QString name = source.name == "ct" ? tr("CT") : words(source.name);
+          const QString name = imageName(source.name);
           m_source->addItem(source.why.empty() ? name : tr("%1 (%2)").arg(name, words(source.why)),
                             words(source.name));
           const int row = m_source->count() - 1;
@@ -622,7 +646,7 @@ void SegmentPanel::enablePoints()
 
 void SegmentPanel::showVolume()
 {
-  m_volume->setText(volumeText(m_editor));
+  m_volume->setText(draftText(m_editor));
 }
 
 void SegmentPanel::refresh()
@@ -636,6 +660,14 @@ void SegmentPanel::refresh()
   m_pages->setCurrentIndex(static_cast<int>(m_editor.tool()));
   const bool free = !m_editor.stepping();
   showVolume();
+  const QString notShown = words(m_editor.notShown());
+  m_shown->setText(notShown);
+  m_showSource->setText(tr("Show %1").arg(imageName(m_editor.source())));
+  const std::string instead = m_editor.shownInstead();
+  m_takeShown->setText(tr("Work on %1").arg(imageName(instead)));
+  m_shown->setVisible(!notShown.isEmpty());
+  m_showSource->setVisible(!notShown.isEmpty());
+  m_takeShown->setVisible(!instead.empty());
   m_remark->setText(words(m_editor.warning()));
   m_remark->setVisible(!m_editor.warning().empty());
   m_note->setText(words(m_editor.note()));
@@ -655,6 +687,14 @@ void SegmentPanel::refresh()
     findChild<QDoubleSpinBox*>(name)->setEnabled(m_editor.values().within);
   m_undo->setEnabled(free && m_editor.canUndo());
   m_redo->setEnabled(free && m_editor.canRedo());
+  m_undo->setToolTip(tr("%1 (Ctrl+Z while a tool is in use)")
+                         .arg(m_editor.undoText().empty()
+                                  ? tr("The last step")
+                                  : tr("Undo %1").arg(words(m_editor.undoText()))));
+  m_redo->setToolTip(tr("%1 (Ctrl+Shift+Z while a tool is in use)")
+                         .arg(m_editor.redoText().empty()
+                                  ? tr("Again")
+                                  : tr("Redo %1").arg(words(m_editor.redoText()))));
   const std::string why = m_editor.whyNotCreate();
   m_create->setText(m_editor.edited().empty() ? tr("Create structure") : tr("Save the changes"));
   m_create->setEnabled(free && why.empty());

@@ -9,6 +9,12 @@
 namespace petrous::workstation
 {
 
+QString volumeText(double volume)
+{
+  const int decimals = volume < 100.0 ? 2 : volume < 10000.0 ? 1 : 0;
+  return QObject::tr("%1 mm³").arg(volume, 0, 'f', decimals);
+}
+
 QString removedText(const scene::Case& value, bool drilling)
 {
   if (value.applied() == 0)

@@ -33,8 +33,20 @@ void RegistrationSession::caseChanged()
   m_redo.clear();
   m_name.clear();
   m_aim = {};
+  m_mrs = mrNames();
   choose(m_model.hasCase() && !m_model.value().mr.empty() ? m_model.value().mr.front().name
                                                           : std::string());
+}
+
+bool RegistrationSession::partsChanged()
+{
+  if (mrNames() == m_mrs)
+  {
+    checkAim(); // a structure may be gone
+    return true;
+  }
+  caseChanged();
+  return false;
 }
 
 void RegistrationSession::choose(const std::string& mr)

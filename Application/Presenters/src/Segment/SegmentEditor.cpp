@@ -29,6 +29,8 @@ using Image = std::shared_ptr<const volume::IntensityVolume>;
 using Combine = SegmentValues::Combine;
 
 constexpr std::size_t kLeastTubePoints = 2;
+constexpr char kNotShown[] = "Nothing was done: the slices do not show the image that this tool "
+                             "reads.";
 constexpr std::array<float, 3> kBeside{98.0F, 176.0F, 236.0F}; // strokes beside the structure
 constexpr std::size_t kMostAtOnce = 4'000'000;                 // voxels; more: in another thread
 constexpr double kDeviations = 2.5;                            // of a range around a click
@@ -147,6 +149,36 @@ volume::Volume<std::uint16_t> coarseLabels(const Mask& mask, int step,
   return labels;
 }
 
+// As a step in the Undo entry.
+const char* nameOf(SegmentEditor::Tool tool)
+{
+  using Tool = SegmentEditor::Tool;
+  switch (tool)
+  {
+  case Tool::Threshold:
+    return "threshold";
+  case Tool::Paint:
+    return "paint stroke";
+  case Tool::Erase:
+    return "erase stroke";
+  case Tool::Islands:
+    return "islands";
+  case Tool::Margin:
+    return "margin";
+  case Tool::Smooth:
+    return "smoothing";
+  case Tool::Fill:
+    return "filling between slices";
+  case Tool::Grow:
+    return "growing";
+  case Tool::Nerve:
+    return "tube";
+  case Tool::None:
+    break;
+  }
+  return "";
+}
+
 std::string millimetres(double value, int decimals)
 {
   return core::fixedText(value, decimals) + " mm";
@@ -213,6 +245,7 @@ struct SegmentEditor::Draft
 
   struct Step // that can be undone
   {
+    const char* what = ""; ///< to the user
     bool mask = false;
     bool inside = false;
     bool beside = false;
@@ -304,6 +337,7 @@ void SegmentEditor::caseChanged()
 {
   m_tool = Tool::None;
   m_source = "ct";
+  m_shown = {};
   m_image.reset();
   m_created.reset();
   m_values = {};
@@ -324,18 +358,20 @@ void SegmentEditor::partsChanged()
       m_draft->edited.clear();
   }
   chooseColor();
+  followShown();
   touched();
 }
 
 void SegmentEditor::mrMoved()
 {
   if (m_source == "ct")
-    return;
+    return followShown();
   m_image.reset();
   const scene::ImagePart* mr = scene::findMr(m_model.value(), m_source);
   if (!mr || !mr->registered)
     m_source = "ct";
   m_previewDue = m_preview != nullptr;
+  followShown();
   touched();
 }
 
@@ -459,8 +495,10 @@ void SegmentEditor::setTool(Tool tool)
   if (tool == m_tool || (tool != Tool::None && !m_model.hasCase()))
     return;
   release();
+  followShown();
   m_tool = tool;
   dropPreview();
+  followShown();
   if (tool == Tool::Threshold && m_values.lower == 0.0 && m_values.upper == 0.0)
     m_proposeDue = true;
   m_previewDue = tool == Tool::Threshold || (tool == Tool::Nerve && !m_draft->points.empty()) ||
@@ -479,6 +517,11 @@ std::vector<SegmentEditor::Source> SegmentEditor::sources() const
   return all;
 }
 
+std::string SegmentEditor::sourceName(const std::string& source) const
+{
+  return source == "ct" && m_model.hasCase() ? primaryName(m_model.value()) : source;
+}
+
 void SegmentEditor::setSource(const std::string& name)
 {
   for (const Source& source : sources())
@@ -488,14 +531,67 @@ void SegmentEditor::setSource(const std::string& name)
         throw core::InvalidParameter("'" + name + "' is " + source.why);
       if (name == m_source || m_stepping)
         return;
-      m_source = name;
-      m_image.reset();
-      m_proposeDue = true; // another unit
-      m_isOwnRange = false;
-      m_previewDue = true;
+      takeSource(name);
       return touched();
     }
   throw core::InvalidParameter("the case has no image '" + name + "'");
+}
+
+void SegmentEditor::takeSource(const std::string& name)
+{
+  m_source = name;
+  m_image.reset();
+  m_proposeDue = true; // another unit
+  m_isOwnRange = false;
+  m_previewDue = true;
+}
+
+void SegmentEditor::setShown(const ShownImages& shown)
+{
+  if (shown == m_shown)
+    return;
+  m_shown = shown;
+  followShown();
+  if (m_warning == kNotShown)
+    m_warning.clear();
+  touched();
+}
+
+std::string SegmentEditor::shownInstead() const
+{
+  const std::string shown = m_shown.mr.empty() ? "ct" : m_shown.mr;
+  if (notShown().empty() || m_stepping)
+    return {};
+  for (const Source& source : sources())
+    if (source.name == shown && source.why.empty())
+      return shown;
+  return {};
+}
+
+void SegmentEditor::followShown()
+{
+  if (m_tool != Tool::None || hasDraft())
+    return;
+  if (const std::string shown = shownInstead(); !shown.empty())
+    takeSource(shown);
+}
+
+std::string SegmentEditor::notShown() const
+{
+  if (!m_model.hasCase() || (m_source == "ct" ? m_shown.ct : m_shown.mr == m_source))
+    return {};
+  const std::string ct = std::string("the ") + primaryName(m_model.value());
+  const auto nameOf = [&ct](const std::string& mr)
+  { return mr.empty() || mr == "ct" ? ct : "the MR '" + mr + "'"; };
+  return "The slices show " + nameOf(m_shown.mr) + ", but the tools work on " + nameOf(m_source) +
+         ".";
+}
+
+// The rest draws or changes what is there, whatever the image.
+bool SegmentEditor::readsSource() const
+{
+  return m_tool == Tool::Threshold || m_tool == Tool::Grow || m_tool == Tool::Nerve ||
+         ((m_tool == Tool::Paint || m_tool == Tool::Erase) && m_values.within);
 }
 
 IntensityDisplay SegmentEditor::display() const
@@ -612,6 +708,8 @@ void SegmentEditor::press(const Eigen::Vector3d& patient, SliceOrientation plane
     return;
   if (m_stepping)
     return refuse("A step is under way; wait, or stop it.");
+  if (readsSource() && !notShown().empty())
+    return refuse(kNotShown);
   m_warning.clear();
   Draft& draft = *m_draft;
   switch (m_tool)
@@ -647,6 +745,7 @@ void SegmentEditor::press(const Eigen::Vector3d& patient, SliceOrientation plane
     if (draft.mask.count() == 0)
       return refuse("There is nothing yet of which an island could be kept.");
     m_stepDue = replacing(
+        nameOf(m_tool),
         [base = draft.mask.snapshot(), patient](const core::Progress& progress)
         {
           Preview preview;
@@ -705,17 +804,20 @@ void SegmentEditor::release()
   if (!std::exchange(draft.stroking, false))
     return;
   Draft::Step step;
+  step.what = nameOf(m_tool);
   if (m_tool == Tool::Nerve)
   {
     draft.gripped.reset();
     if (draft.points != draft.before)
     {
+      step.what = draft.points.size() > draft.before.size() ? "point" : "move of a point";
       step.points = {draft.before, draft.points};
       m_previewDue = true;
     }
   }
   else if (m_tool == Tool::Grow)
   {
+    step.what = "stroke";
     step.inside = draft.inside->endStep();
     step.beside = draft.beside->endStep();
   }
@@ -751,11 +853,12 @@ std::vector<SegmentEditor::TubePoint> SegmentEditor::tubePoints() const
   return all;
 }
 
-void SegmentEditor::changePoints(Points points)
+void SegmentEditor::changePoints(const char* what, Points points)
 {
   if (m_stepping || m_draft->stroking || points == m_draft->points)
     return;
   Draft::Step step;
+  step.what = what;
   step.points = {m_draft->points, points};
   m_draft->did(std::move(step));
   m_draft->points = std::move(points);
@@ -769,7 +872,7 @@ void SegmentEditor::removeTubePoint(std::size_t index)
   if (index >= points.size())
     return;
   points.erase(points.begin() + static_cast<std::ptrdiff_t>(index));
-  changePoints(std::move(points));
+  changePoints("removal of a point", std::move(points));
 }
 
 void SegmentEditor::moveTubePoint(std::size_t index, const Eigen::Vector3d& patient)
@@ -778,7 +881,7 @@ void SegmentEditor::moveTubePoint(std::size_t index, const Eigen::Vector3d& pati
   if (index >= points.size())
     return;
   points[index] = patient;
-  changePoints(std::move(points));
+  changePoints("move of a point", std::move(points));
 }
 
 void SegmentEditor::reorderTubePoint(std::size_t from, std::size_t to)
@@ -789,7 +892,7 @@ void SegmentEditor::reorderTubePoint(std::size_t from, std::size_t to)
   const Eigen::Vector3d moved = points[from];
   points.erase(points.begin() + static_cast<std::ptrdiff_t>(from));
   points.insert(points.begin() + static_cast<std::ptrdiff_t>(to), moved);
-  changePoints(std::move(points));
+  changePoints("order of the points", std::move(points));
 }
 
 const std::vector<Eigen::Vector3d>& SegmentEditor::path() const noexcept
@@ -1032,10 +1135,11 @@ std::string SegmentEditor::whyNotStep() const
 }
 
 // `endsTool`: seeds and points have served their purpose.
-SegmentEditor::Work SegmentEditor::replacing(std::function<Preview(const core::Progress&)> compute,
+SegmentEditor::Work SegmentEditor::replacing(const char* what,
+                                             std::function<Preview(const core::Progress&)> compute,
                                              bool endsTool)
 {
-  return [this, draft = m_draft, endsTool,
+  return [this, draft = m_draft, endsTool, what,
           compute = std::move(compute)](const core::Progress& progress) -> Apply
   {
     const auto preview = std::make_shared<Preview>(compute(progress));
@@ -1046,9 +1150,10 @@ SegmentEditor::Work SegmentEditor::replacing(std::function<Preview(const core::P
       draft->mask.beginStep();
       box = draft->mask.replace(*preview->result);
       changed = draft->mask.endStep();
-      draft->pending = [draft = draft.get(), changed, endsTool]
+      draft->pending = [draft = draft.get(), changed, endsTool, what]
       {
         Draft::Step step;
+        step.what = what;
         step.mask = changed;
         if (endsTool)
         {
@@ -1084,7 +1189,8 @@ std::optional<SegmentEditor::Work> SegmentEditor::stepWork()
     return std::nullopt;
   image();
   beginStep();
-  Work work = replacing(computed(), m_tool == Tool::Threshold || m_tool == Tool::Nerve);
+  Work work =
+      replacing(nameOf(m_tool), computed(), m_tool == Tool::Threshold || m_tool == Tool::Nerve);
   touched();
   return work;
 }
@@ -1115,6 +1221,38 @@ bool SegmentEditor::canUndo() const
 bool SegmentEditor::canRedo() const
 {
   return !m_stepping && !m_draft->stroking && (!m_draft->redo.empty() || canCreateAgain());
+}
+
+// nullptr: it is not in the case any more.
+const scene::LabelPart* SegmentEditor::createdPart() const
+{
+  if (m_created && m_model.hasCase())
+    for (const scene::LabelPart& part : m_model.value().labels)
+      if (part.labels.peek() == m_created->labels)
+        return &part;
+  return nullptr;
+}
+
+std::string SegmentEditor::undoText() const
+{
+  if (!canUndo())
+    return {};
+  if (!m_draft->undo.empty())
+    return m_draft->undo.back().what;
+  const scene::LabelPart* part = createdPart();
+  if (!part)
+    return "create"; // says why it cannot be undone
+  return (m_created->replaced ? "change of " : "create ") + part->structures.front().name;
+}
+
+std::string SegmentEditor::redoText() const
+{
+  if (!canRedo())
+    return {};
+  if (!m_draft->redo.empty())
+    return m_draft->redo.back().what;
+  return (m_draft->edited.empty() ? "create " : "change of ") +
+         m_created->taken->structures.front().name;
 }
 
 // The draft is still the one that the structure was.
@@ -1149,10 +1287,8 @@ void SegmentEditor::undoCreated()
 {
   Created& created = *m_created;
   const scene::Case& value = m_model.value();
-  const auto found = std::find_if(value.labels.begin(), value.labels.end(),
-                                  [&created](const scene::LabelPart& part)
-                                  { return part.labels.peek() == created.labels; });
-  if (found == value.labels.end())
+  const scene::LabelPart* found = createdPart();
+  if (!found)
     throw core::InvalidParameter("the structure that was created is not in the case any more");
   const std::string name = found->structures.front().name;
   if (created.replaced)
@@ -1191,6 +1327,7 @@ void SegmentEditor::createAgain()
   m_model.putStructure(*std::exchange(created.taken, std::nullopt));
   m_tool = Tool::None;
   reset();
+  followShown();
   touched();
   notify(events.created, name);
 }
@@ -1276,8 +1413,8 @@ SegmentEditor::Work SegmentEditor::createWork()
   segment.name = m_draft->name;
   segment.index = 1;
   touched();
-  return [this, draft = m_draft, mask = *m_frozen->result, preview = preview.has_value(),
-          segment](const core::Progress& progress) -> Apply
+  return [this, draft = m_draft, mask = *m_frozen->result, preview = preview.has_value(), segment,
+          what = nameOf(m_tool)](const core::Progress& progress) -> Apply
   {
     progress.report(0.0, "making the structure");
     const auto labels = std::make_shared<volume::LabelMap>(segmentation::labelMapOf(mask, segment));
@@ -1287,9 +1424,10 @@ SegmentEditor::Work SegmentEditor::createWork()
       draft->mask.beginStep();
       draft->mask.replace(mask);
       const bool changed = draft->mask.endStep();
-      draft->pending = [draft = draft.get(), changed]
+      draft->pending = [draft = draft.get(), changed, what]
       {
         Draft::Step step;
+        step.what = what;
         step.mask = changed;
         draft->did(std::move(step));
       };
@@ -1315,6 +1453,7 @@ SegmentEditor::Work SegmentEditor::createWork()
       m_created->replaced = std::move(replaced);
       m_tool = Tool::None;
       reset();
+      followShown();
       touched();
       notify(events.created, name);
     };
@@ -1327,6 +1466,7 @@ void SegmentEditor::discard()
   if (m_created && m_created->taken)
     m_created.reset();
   reset();
+  followShown();
   touched();
 }
 

@@ -113,8 +113,18 @@ public:
     std::string why; ///< it cannot be used; empty: it can
   };
   std::vector<Source> sources() const;
+  /// What the user calls it: "CT", "MR" for a primary image that is one, an MR's name.
+  std::string sourceName(const std::string& source) const;
   void setSource(const std::string& name); ///< throws InvalidParameter with Source::why
-  IntensityDisplay display() const;        ///< unit, decimals and range of the source's intensities
+  /// What the slices show. Without a tool and a draft the source follows: it becomes the only image
+  /// that is shown, if that can be used.
+  void setShown(const ShownImages& shown);
+  /// Where the slices do not show the source: that, and what they show, one sentence; clicks of
+  /// tools that read the source are refused then. Else empty.
+  std::string notShown() const;
+  /// The shown image that could be the source instead; empty: none.
+  std::string shownInstead() const;
+  IntensityDisplay display() const; ///< unit, decimals and range of the source's intensities
 
   const SegmentValues& values() const noexcept { return m_values; }
   void setValues(const SegmentValues& values);
@@ -158,6 +168,9 @@ public:
 
   bool canUndo() const;
   bool canRedo() const;
+  /// What undo or redo would take on next: "threshold", "create sigmoid sinus"; empty: nothing.
+  std::string undoText() const;
+  std::string redoText() const;
   /// A step, or the structure just created: it is taken out of the case and is the draft again,
   /// under the name that it has by then. True in the latter case. Throws InvalidParameter where
   /// that structure is gone, or where the one that it replaced cannot come back.
@@ -201,20 +214,25 @@ private:
   SourceImage& image();
   Computed computed() const;
   std::optional<Work> previewWork();
-  Work replacing(std::function<Preview(const core::Progress&)> compute, bool endsTool);
+  Work replacing(const char* what, std::function<Preview(const core::Progress&)> compute,
+                 bool endsTool);
   void show(const Preview& preview);
   void beginStep();
   void endStep();
   void undoCreated();
   bool canCreateAgain() const;
+  const scene::LabelPart* createdPart() const;
   void createAgain();
   void checkFree(const std::string& name) const;
   std::function<void()> step(Draft& draft, bool back);
   Work stepping(bool back);
   void dropPreview();
-  void changePoints(Points points);
+  void changePoints(const char* what, Points points);
   void dab(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
   void refuse(const std::string& why);
+  bool readsSource() const;
+  void followShown();
+  void takeSource(const std::string& name);
   std::optional<double> surfaceIntensity() const;
   void chooseColor();
   std::array<float, 3> colorNow() const;
@@ -224,6 +242,7 @@ private:
   WorkstationModel& m_model;
   Tool m_tool = Tool::None;
   std::string m_source = "ct";
+  ShownImages m_shown;
   std::unique_ptr<SourceImage> m_image; // made on demand
   SegmentValues m_values;
   std::shared_ptr<Draft> m_draft;     // never null

@@ -725,6 +725,7 @@ TEST_F(SegmentEditorTest, UndoAndRedoNameTheirTarget)
   EXPECT_EQ(editor.undoText(), "margin") << "the draft as it was";
   EXPECT_EQ(editor.redoText(), "create Sigmoid sinus");
   editor.redo();
+  model.prepareNow();
   auto edit = editor.edit("Sigmoid sinus");
   edit({})();
   editor.setTool(Tool::Paint);

@@ -45,29 +45,26 @@ RegistrationController::RegistrationController(presenters::WorkstationModel& mod
 {
   const auto on = [this](QAction* action, auto what)
   { connect(action, &QAction::triggered, this, what); };
-  on(addAction(tr("&Register the MR"), Qt::CTRL + Qt::Key_R,
-               tr("Lays the MR on the CT by mutual information, as the panel says")),
+  on(m_register = addAction(tr("&Register the MR"), Qt::CTRL + Qt::Key_R, {}),
      [this] { begin(Way::Register); });
   on(addAction(tr("Re&fine"), {}, tr("The same from where the MR lies now")),
      [this] { begin(Way::Refine); });
   on(addAction(tr("&Cancel"), {}, tr("Stops the registration; what it reached can be kept")),
      [this] { cancel(); });
   m_menu->addSeparator();
-  on(addAction(tr("CT or MR alone, by &turns"), Qt::Key_V, tr("To see whether they agree")),
+  on(m_flick = addAction({}, Qt::Key_V, tr("To see whether they agree")),
      [this] { m_overlay->flick(); });
-  on(addAction(tr("Ne&xt way to show the MR"), Qt::Key_O,
-               tr("CT alone, blend, the CT's edges over the MR, checkerboard")),
+  on(m_next = addAction(tr("Ne&xt way to show the MR"), Qt::Key_O, {}),
      [this] { m_overlay->next(); });
   m_menu->addSeparator();
-  on(addAction(tr("&Point here"), Qt::Key_K,
-               tr("The crosshair marks a point of the CT, then the same point of the MR")),
-     [this] { addPoint(); });
+  on(m_point = addAction(tr("&Point here"), Qt::Key_K, {}), [this] { addPoint(); });
   m_menu->addSeparator();
   on(addAction(tr("&Undo the MR's move"), Qt::CTRL + Qt::ALT + Qt::Key_Z,
                tr("Back to how the MR lay before")),
      [this] { moveManually([this] { m_session.undo(); }); });
   on(addAction(tr("Red&o the MR's move"), Qt::CTRL + Qt::ALT + Qt::Key_Y, tr("Forth again")),
      [this] { moveManually([this] { m_session.redo(); }); });
+  nameImages();
   connectPanel();
   m_sceneLater.setSingleShot(true);
   m_sceneLater.setInterval(kSceneAfter);
@@ -83,6 +80,19 @@ QAction* RegistrationController::addAction(const QString& text, const QKeySequen
   action->setShortcut(keys);
   action->setStatusTip(tip);
   return action;
+}
+
+// The primary image may be an MR itself.
+void RegistrationController::nameImages()
+{
+  const QString primary = words(m_session.primary());
+  m_register->setStatusTip(
+      tr("Lays the MR on the %1 by mutual information, as the panel says").arg(primary));
+  m_flick->setText(tr("%1 or MR alone, by &turns").arg(primary));
+  m_next->setStatusTip(
+      tr("%1 alone, blend, the edges of the %1 over the MR, checkerboard").arg(primary));
+  m_point->setStatusTip(
+      tr("The crosshair marks a point of the %1, then the same point of the MR").arg(primary));
 }
 
 void RegistrationController::connectPanel()
@@ -185,6 +195,7 @@ void RegistrationController::caseChanged()
   m_metric.reset();
   m_firstMetric.reset();
   m_session.caseChanged();
+  nameImages();
   m_panel->setRunning(false);
   m_overlay->reset();
   showMarks();
@@ -362,7 +373,8 @@ void RegistrationController::addPoint()
   showMarks();
   m_panel->say(m_session.landmarks().waitsForMr()
                    ? tr("Now the same point in the MR: crosshair there, then K.")
-                   : tr("The next point in the CT; three pairs at least, far apart."));
+                   : tr("The next point in the %1; three pairs at least, far apart.")
+                         .arg(words(m_session.primary())));
 }
 
 void RegistrationController::askMetric()
@@ -399,7 +411,7 @@ void RegistrationController::showMetric()
   const auto moved = m_session.movedByHand();
   if (!m_firstMetric || (moved.shift == 0.0 && moved.turn == 0.0))
     m_firstMetric = now;
-  QString text = tr("Metric with the CT %1").arg(now, 0, 'f', 4);
+  QString text = tr("Metric with the %1 %2").arg(words(m_session.primary())).arg(now, 0, 'f', 4);
   if (moved.shift > 0.0 || moved.turn > 0.0)
     text += tr(" (%1%2 by hand)")
                 .arg(now < *m_firstMetric ? "" : "+")

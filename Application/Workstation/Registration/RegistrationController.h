@@ -57,6 +57,7 @@ private:
   QAction* addAction(const QString& text, const QKeySequence& keys, const QString& tip);
   void connectPanel();
   void chosen();
+  void nameImages();
   void moveManually(const std::function<void()>& move);
   void begin(presenters::RegistrationSession::Way way);
   void heard(const registration::MetricSample& sample, const core::RigidTransform& best);
@@ -79,6 +80,10 @@ private:
   RegistrationPanel* m_panel;
   MrOverlay* m_overlay;
   QMenu* m_menu;
+  QAction* m_register;
+  QAction* m_flick;
+  QAction* m_next;
+  QAction* m_point;
   std::unique_ptr<BackgroundWork> m_run;
   std::unique_ptr<BackgroundWork> m_metricWork;
   std::shared_ptr<const registration::LiveMetric> m_metric; // of m_metricOf, loaded on demand

@@ -133,7 +133,8 @@ void SegmentPanel::addHead(QVBoxLayout& layout)
               connect(m_editable->addAction(words(name).replace('_', ' ')), &QAction::triggered,
                       this, [this, name] { emit editAsked(words(name)); });
             if (m_editable->isEmpty())
-              m_editable->addAction(tr("The case has no structure on the CT"))->setEnabled(false);
+              m_editable->addAction(tr("The case has no structure on the %1").arg(imageName("ct")))
+                  ->setEnabled(false);
           });
   m_bound.add(
       m_source, [this] { return m_source->findData(words(m_editor.source())); },

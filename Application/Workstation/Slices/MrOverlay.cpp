@@ -115,7 +115,8 @@ void MrOverlay::draw()
   if (!part || ctAlone || !seen())
   {
     m_slices.setOverlay(nullptr);
-    m_slices.setNotice(part && ctAlone ? tr("CT alone (V)") : QString());
+    m_slices.setNotice(part && ctAlone ? tr("%1 alone (V)").arg(words(m_session.primary()))
+                                       : QString());
     return;
   }
   if (!load(*part))

@@ -52,6 +52,7 @@
 #include "WindowTexts.h"
 #include "petrous/Dissection/Catalogues.h"
 #include "petrous/Presenters/CasePicture.h"
+#include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/Recordings.h"
 
 namespace petrous::workstation
@@ -83,7 +84,7 @@ QStringList notesOf(const scene::Case& value)
     for (const std::string& note : more)
       notes += words(part) + ": " + windowText(words(note));
   };
-  add("CT", value.ct.notes);
+  add(presenters::primaryName(value), value.ct.notes);
   for (const auto& mr : value.mr)
     add(mr.name, mr.notes);
   for (const auto& part : value.labels)
@@ -672,6 +673,7 @@ void MainWindow::stateChanged()
 {
   const bool open = m_model.hasCase();
   m_actions->setCaseOpen(open);
+  m_actions->setOnMr(open && m_model.value().ct.modality == scene::Modality::Mr);
   m_branches->stateChanged();
   showUndo();
   if (!open)

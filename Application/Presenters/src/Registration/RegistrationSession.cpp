@@ -71,6 +71,12 @@ std::vector<std::string> RegistrationSession::mrNames() const
   return names;
 }
 
+std::string RegistrationSession::primary() const
+{
+  const bool isMr = m_model.hasCase() && m_model.value().ct.modality == scene::Modality::Mr;
+  return isMr ? "primary MR" : "CT";
+}
+
 std::string RegistrationSession::stateText() const
 {
   return part() ? scene::registrationToString(*part()) : std::string();

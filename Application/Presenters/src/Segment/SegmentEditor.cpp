@@ -458,7 +458,8 @@ SegmentEditor::Work SegmentEditor::edit(const std::string& structure)
     throw core::InvalidParameter("there is a draft already; create or discard it first");
   const auto names = editable();
   if (std::find(names.begin(), names.end(), structure) == names.end())
-    throw core::InvalidParameter("structure '" + structure + "' is not on the CT");
+    throw core::InvalidParameter("structure '" + structure + "' is not on the " +
+                                 primaryName(m_model.value()));
   const scene::LabelPart* part = nullptr;
   const scene::StructurePart* found = nullptr;
   for (const scene::LabelPart& labels : m_model.value().labels)
@@ -513,7 +514,10 @@ std::vector<SegmentEditor::Source> SegmentEditor::sources() const
     return all;
   all.push_back({"ct", {}});
   for (const scene::ImagePart& mr : m_model.value().mr)
-    all.push_back({mr.name, mr.registered ? "" : "not registered to the CT; see Registration, F5"});
+    all.push_back({mr.name, mr.registered
+                                ? std::string()
+                                : std::string("not registered to the ") +
+                                      primaryName(m_model.value()) + "; see Registration, F5"});
   return all;
 }
 
@@ -718,7 +722,8 @@ void SegmentEditor::press(const Eigen::Vector3d& patient, SliceOrientation plane
   case Tool::Erase:
   case Tool::Grow:
     if (m_tool != Tool::Grow && m_values.within && !image().onCt)
-      return refuse("The MR is being brought onto the CT's grid; then its range can be used.");
+      return refuse(std::string("The MR is being brought onto the grid of the ") +
+                    primaryName(m_model.value()) + "; then its range can be used.");
     if (m_tool == Tool::Grow && !draft.inside)
     {
       draft.inside = std::make_unique<EditableMask>(draft.mask.geometry());

@@ -90,15 +90,17 @@ Made region(const SegmentOptions& options, const scene::Case& value, const scene
     range = segmentation::proposedRange(volume::IntensityHistogram(image),
                                         options.source == "ct" ? std::optional(value.iso)
                                                                : std::nullopt);
-  made.mask = seeds.empty()
-                  ? segmentation::threshold(image, range, progress.part(0.3, 0.6))
-                  : segmentation::connectedThreshold(image, range, seeds, progress.part(0.3, 0.6));
+  const std::string unit =
+      options.source == "ct" && presenters::displayOf(value).hounsfield ? " HU" : "";
+  made.mask = seeds.empty() ? segmentation::threshold(image, range, progress.part(0.3, 0.6))
+                            : segmentation::connectedThreshold(image, range, seeds,
+                                                               progress.part(0.3, 0.6), unit);
   if (made.mask.count == 0)
   {
     const volume::ValueRange all = image.range();
     throw core::InvalidParameter("nothing lies between " + fixed(range.min, 1) + " and " +
-                                 fixed(range.max, 1) + "; the image has " + fixed(all.min, 1) +
-                                 " to " + fixed(all.max, 1));
+                                 fixed(range.max, 1) + unit + "; the image has " +
+                                 fixed(all.min, 1) + " to " + fixed(all.max, 1) + unit);
   }
   made.facts["threshold"] = {range.min, range.max};
   made.lines.push_back(

@@ -358,8 +358,61 @@ TEST_F(SegmentEditorTest, GrowsFromStrokesInsideAndBeside)
   for (const Vector3d& off : {Vector3d(6, 0, 0), Vector3d(-6, 0, 0), Vector3d(0, 6, 0),
                               Vector3d(0, -6, 0), Vector3d(0, 0, 6), Vector3d(0, 0, -6)})
     stroke(kBall + off, kBall + off);
+  EXPECT_TRUE(editor.hasStrokes());
+  const DraftLayer layer = editor.layer();
+  const auto indexAt = [&layer](const Vector3d& patient)
+  {
+    const Vector3d voxel = grid().voxelFromPatient(patient);
+    return layer.indexAt({static_cast<int>(std::lround(voxel[0])),
+                          static_cast<int>(std::lround(voxel[1])),
+                          static_cast<int>(std::lround(voxel[2]))});
+  };
+  const std::uint16_t inside = indexAt(kBall), beside = indexAt(kBall + Vector3d(6, 0, 0));
+  EXPECT_EQ(layer.colors[inside], SegmentEditor::kInsideStroke);
+  EXPECT_EQ(layer.colors[beside], SegmentEditor::kBesideStroke);
+  EXPECT_EQ(layer.hatched, beside);
   step();
   EXPECT_EQ(editor.voxels(), count(inBall));
+  EXPECT_FALSE(editor.pieces()) << "one";
+}
+
+TEST_F(SegmentEditorTest, PiecesLeftByGrowingAreToldAndRemovedInAStep)
+{
+  open();
+  editor.setTool(Tool::Grow);
+  set([](SegmentValues& values) { values.brush = 0.6; });
+  const Vector3d aside = kBall + Vector3d(0, 0, -8);
+  stroke(kBall, kBall);
+  stroke(aside, aside); // enclosed by strokes beside, and so a piece of its own
+  set(
+      [](SegmentValues& values)
+      {
+        values.inside = false;
+        values.brush = 1.0;
+      });
+  for (int n = 0; n < 40; ++n)
+    for (int m = 0; m < 6; ++m)
+    {
+      const double angle = 2.0 * 3.14159265358979 * n / 40.0;
+      const double height = 3.14159265358979 * (m + 0.5) / 6.0;
+      const Vector3d off(std::cos(angle) * std::sin(height), std::sin(angle) * std::sin(height),
+                         std::cos(height));
+      stroke(aside + 2.2 * off, aside + 2.2 * off);
+      stroke(kBall + 5.2 * off, kBall + 5.2 * off);
+    }
+  step();
+  const auto pieces = editor.pieces();
+  ASSERT_TRUE(pieces);
+  EXPECT_EQ(pieces->count, 2U);
+  EXPECT_GT(pieces->outside, 0.5);
+  const double before = editor.volume();
+  editor.keepLargest();
+  work();
+  EXPECT_FALSE(editor.pieces());
+  EXPECT_NEAR(editor.volume(), before - pieces->outside, 1e-9);
+  editor.undo();
+  EXPECT_EQ(editor.volume(), before);
+  EXPECT_FALSE(editor.pieces()) << "of that step alone";
 }
 
 TEST_F(SegmentEditorTest, AStructureOfTheCaseIsEditedAndUndoGivesItBack)
@@ -589,6 +642,13 @@ TEST_F(SegmentEditorTest, ALargeDraftIsShownInCoarserCells)
   const Vector3d last = large.patientFromVoxel(Vector3d::Constant(207.5));
   EXPECT_LE((least - first).cwiseAbs().maxCoeff(), 0.5) << "within half a cell";
   EXPECT_LE((most - last).cwiseAbs().maxCoeff(), 0.5);
+  // What is drawn lies half a voxel farther out, so that bone of the same place does not cover it.
+  ASSERT_TRUE(editor.raisedSurface());
+  EXPECT_TRUE(editor.raisedSurface()->isClosed());
+  EXPECT_GT(editor.raisedSurface()->signedVolume(), editor.surface()->signedVolume());
+  for (std::size_t n = 0; n < editor.surface()->vertices.size(); ++n)
+    ASSERT_NEAR((editor.raisedSurface()->vertices[n] - editor.surface()->vertices[n]).norm(),
+                0.5 * large.spacing().maxCoeff(), 1e-4);
 }
 
 TEST_F(SegmentEditorTest, AnMrMustBeRegisteredAndIsReadOnTheCtsGrid)

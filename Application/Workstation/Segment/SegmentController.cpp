@@ -34,7 +34,6 @@ const QColor kPoint("#ffd040");
 const QColor kPath("#ffd040");
 const QColor kOutside("#ff6a3c"); // a point beside the path
 const QColor kEraser("#f2f5f8");
-const QColor kBeside("#62b0ec");
 
 struct ToolEntry
 {
@@ -73,6 +72,12 @@ bool hasClicks(Tool tool)
 QColor colorOf(const std::array<float, 3>& color)
 {
   return QColor::fromRgbF(double(color[0]), double(color[1]), double(color[2]));
+}
+QColor strokeColor(bool inside)
+{
+  const auto& color = inside ? SegmentEditor::kInsideStroke : SegmentEditor::kBesideStroke;
+  return QColor::fromRgbF(double(color[0]) / 255.0, double(color[1]) / 255.0,
+                          double(color[2]) / 255.0);
 }
 } // namespace
 
@@ -349,13 +354,13 @@ void SegmentController::changed()
   m_create->setEnabled(open && draft);
   m_escape->setEnabled(open && (draft || tool != Tool::None));
   m_slices.setHidden(m_editor.edited());
-  m_slices.setTool(hasClicks(tool)
-                       ? std::optional(SliceTool{hasBrushOf(tool) ? m_editor.values().brush : 0.0,
-                                                 tool == Tool::Erase ? kEraser
-                                                 : tool == Tool::Grow && !m_editor.values().inside
-                                                     ? kBeside
-                                                     : colorOf(m_editor.color())})
-                       : std::nullopt);
+  m_slices.setTool(
+      hasClicks(tool)
+          ? std::optional(SliceTool{hasBrushOf(tool) ? m_editor.values().brush : 0.0,
+                                    tool == Tool::Erase  ? kEraser
+                                    : tool == Tool::Grow ? strokeColor(m_editor.values().inside)
+                                                         : colorOf(m_editor.color())})
+          : std::nullopt);
   presenters::DraftLayer layer = m_editor.layer();
   m_slices.setDraft(layer.indexAt ? std::make_shared<const presenters::DraftLayer>(std::move(layer))
                                   : nullptr);
@@ -525,7 +530,7 @@ void SegmentController::showSurface()
           apply();
           rendering::MeshContents contents;
           contents.name = "draft";
-          contents.mesh = m_editor.surface();
+          contents.mesh = m_editor.raisedSurface();
           contents.look.color = m_editor.color();
           emit surfaceChanged(contents);
           if (const int voxels = m_editor.surfaceStep(); contents.mesh && voxels > 1)

@@ -79,7 +79,9 @@ QString draftText(const SegmentEditor& editor)
 {
   const std::uint64_t voxels = editor.voxels();
   if (voxels == 0)
-    return SegmentPanel::tr("Nothing yet");
+    return editor.tool() == SegmentEditor::Tool::Grow && editor.hasStrokes()
+               ? SegmentPanel::tr("Strokes; nothing grown yet")
+               : SegmentPanel::tr("Nothing yet");
   return SegmentPanel::tr("%1  (%2 voxels)").arg(volumeText(editor.volume())).arg(voxels);
 }
 } // namespace
@@ -99,6 +101,7 @@ SegmentPanel::SegmentPanel(SegmentEditor& editor, const std::vector<QAction*>& t
   , m_line(new QLabel)
   , m_remark(new QLabel)
   , m_note(new QLabel)
+  , m_pieces(new QLabel)
   , m_progress(new QProgressBar)
 {
   auto* inside = new QWidget;
@@ -502,6 +505,13 @@ QWidget* SegmentPanel::addFoot()
   layout->addWidget(m_note);
   layout->addWidget(m_remark);
   layout->addWidget(m_line);
+  m_pieces->setObjectName("segmentPieces");
+  m_pieces->setWordWrap(true);
+  m_keepLargest =
+      button(tr("Keep the largest"), "segmentKeepLargest", tr("Removes the other pieces; a step"));
+  m_keepLargest->setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Fixed);
+  connect(m_keepLargest, &QPushButton::clicked, this, [this] { m_editor.keepLargest(); });
+  layout->addLayout(rowOf({m_pieces, m_keepLargest}));
   layout->addLayout(rowOf({m_progress, m_cancel}));
   layout->addLayout(rowOf({m_volume, m_undo, m_redo}));
   layout->addLayout(rowOf({m_create, m_discard}));
@@ -673,6 +683,13 @@ void SegmentPanel::refresh()
   m_remark->setVisible(!m_editor.warning().empty());
   m_note->setText(words(m_editor.note()));
   m_note->setVisible(!m_editor.note().empty());
+  const auto pieces = m_editor.pieces();
+  if (pieces)
+    m_pieces->setText(tr("%1 pieces, %2 outside the largest")
+                          .arg(pieces->count)
+                          .arg(volumeText(pieces->outside)));
+  m_pieces->setVisible(pieces.has_value());
+  m_keepLargest->setVisible(pieces.has_value());
   m_progress->setVisible(!free);
   m_cancel->setVisible(!free);
   const std::string whyNot = m_editor.whyNotStep();

@@ -97,6 +97,8 @@ private:
   QLabel* m_line;
   QLabel* m_remark;
   QLabel* m_note;
+  QLabel* m_pieces;
+  QPushButton* m_keepLargest = nullptr;
   QProgressBar* m_progress;
   QPushButton* m_cancel;
   QPushButton* m_undo;

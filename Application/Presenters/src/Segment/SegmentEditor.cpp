@@ -31,10 +31,9 @@ using Combine = SegmentValues::Combine;
 constexpr std::size_t kLeastTubePoints = 2;
 constexpr char kNotShown[] = "Nothing was done: the slices do not show the image that this tool "
                              "reads.";
-constexpr std::array<float, 3> kBeside{98.0F, 176.0F, 236.0F}; // strokes beside the structure
-constexpr std::size_t kMostAtOnce = 4'000'000;                 // voxels; more: in another thread
-constexpr double kDeviations = 2.5;                            // of a range around a click
-constexpr int kSurfaceMargin = 2;                              // voxels
+constexpr std::size_t kMostAtOnce = 4'000'000; // voxels; more: in another thread
+constexpr double kDeviations = 2.5;            // of a range around a click
+constexpr int kSurfaceMargin = 2;              // voxels
 constexpr std::uint16_t kInDraft = 1, kStrokeInside = 2, kStrokeBeside = 3; // DraftLayer's
 
 Mask united(const Mask& a, const Mask& b, Combine how)
@@ -149,6 +148,24 @@ volume::Volume<std::uint16_t> coarseLabels(const Mask& mask, int step,
   return labels;
 }
 
+// Each vertex moved along its normal, the mean of its triangles' by area.
+core::TriangleMesh raised(core::TriangleMesh mesh, float millimetres)
+{
+  std::vector<Eigen::Vector3f> normals(mesh.vertices.size(), Eigen::Vector3f::Zero());
+  for (const auto& triangle : mesh.triangles)
+  {
+    const Eigen::Vector3f& a = mesh.vertices[triangle[0]];
+    const Eigen::Vector3f normal =
+        (mesh.vertices[triangle[1]] - a).cross(mesh.vertices[triangle[2]] - a);
+    for (const std::uint32_t corner : triangle)
+      normals[corner] += normal;
+  }
+  for (std::size_t n = 0; n < normals.size(); ++n)
+    if (const float length = normals[n].norm(); length > 0.0F)
+      mesh.vertices[n] += millimetres / length * normals[n];
+  return mesh;
+}
+
 // As a step in the Undo entry.
 const char* nameOf(SegmentEditor::Tool tool)
 {
@@ -233,6 +250,7 @@ struct SegmentEditor::Preview
   std::optional<volume::ValueRange> range; ///< that was used
   Image image;                             ///< the source on the CT's grid, if it was made
   std::string note, warning;
+  std::optional<Pieces> pieces; ///< of the result; one: none
 };
 
 /// Everything that a draft consists of.
@@ -270,7 +288,8 @@ struct SegmentEditor::Draft
   Points seeds;                                     ///< of the connected threshold
   Points points;                                    ///< of the nerve
   std::vector<Step> undo, redo;
-  std::uint64_t changes = 0; ///< steps ever made
+  std::uint64_t changes = 0;                              ///< steps ever made
+  std::optional<std::pair<Pieces, std::uint64_t>> pieces; ///< and `changes` by then
   /// What a Work has done to the masks, to be recorded. While a step is under way this and the
   /// masks are the Work's, and all else is the editor's.
   std::function<void()> pending;
@@ -329,6 +348,7 @@ void SegmentEditor::reset()
   m_frozen.reset();
   m_stepDue.reset();
   m_surface.reset();
+  m_raised.reset();
   dropPreview();
   chooseColor();
 }
@@ -934,7 +954,8 @@ SegmentEditor::Computed SegmentEditor::computed() const
   {
   case Tool::Threshold:
     return [base, values, image = *m_image, seeds = m_draft->seeds, propose = m_proposeDue,
-            isOwn = m_isOwnRange, iso = surfaceIntensity()](const core::Progress& progress) mutable
+            isOwn = m_isOwnRange, iso = surfaceIntensity(),
+            unit = display().suffix()](const core::Progress& progress) mutable
     {
       Preview preview;
       preview.image = image.made(progress.part(0.0, 0.4));
@@ -953,11 +974,12 @@ SegmentEditor::Computed SegmentEditor::computed() const
       if (values.connected && seeds.empty())
         preview.note = "Click a point of the structure in a slice.";
       else
-        preview.result = united(
-            base,
-            values.connected ? segmentation::connectedThreshold(*preview.image, range, seeds, rest)
-                             : segmentation::threshold(*preview.image, range, rest),
-            values.combine);
+        preview.result =
+            united(base,
+                   values.connected
+                       ? segmentation::connectedThreshold(*preview.image, range, seeds, rest, unit)
+                       : segmentation::threshold(*preview.image, range, rest),
+                   values.combine);
       return preview;
     };
   case Tool::Nerve:
@@ -992,7 +1014,7 @@ SegmentEditor::Computed SegmentEditor::computed() const
     { return only(segmentation::margin(base, values.margin, progress)); };
   case Tool::Smooth:
     return [base, values, only](const core::Progress& progress)
-    { return only(segmentation::smoothed(base, values.smoothing, progress)); };
+    { return only(segmentation::smoothedOutline(base, values.smoothing, progress)); };
   case Tool::Fill:
   {
     Eigen::Index axis = 0;
@@ -1010,7 +1032,12 @@ SegmentEditor::Computed SegmentEditor::computed() const
       Preview preview;
       preview.image = image.made(progress.part(0.0, 0.4));
       preview.result =
-          segmentation::grownFromSeeds(*preview.image, inside, beside, {}, progress.part(0.4, 1.0));
+          segmentation::grownFromSeeds(*preview.image, inside, beside, {}, progress.part(0.4, 0.9));
+      const auto islands = segmentation::islandsOf(*preview.result, progress.part(0.9, 1.0));
+      if (islands.count > 1)
+        preview.pieces =
+            Pieces{islands.count, static_cast<double>(preview.result->count - islands.largest) *
+                                      preview.result->geometry().voxelVolume()};
       return preview;
     };
   default:
@@ -1155,7 +1182,7 @@ SegmentEditor::Work SegmentEditor::replacing(const char* what,
       draft->mask.beginStep();
       box = draft->mask.replace(*preview->result);
       changed = draft->mask.endStep();
-      draft->pending = [draft = draft.get(), changed, endsTool, what]
+      draft->pending = [draft = draft.get(), changed, endsTool, what, pieces = preview->pieces]
       {
         Draft::Step step;
         step.what = what;
@@ -1167,6 +1194,9 @@ SegmentEditor::Work SegmentEditor::replacing(const char* what,
             step.points = {std::exchange(draft->points, {}), Points()};
         }
         draft->did(std::move(step));
+        draft->pieces.reset();
+        if (pieces)
+          draft->pieces = {*pieces, draft->changes};
       };
     }
     return [this, draft, preview, changed, box]
@@ -1475,6 +1505,36 @@ void SegmentEditor::discard()
   touched();
 }
 
+bool SegmentEditor::hasStrokes() const
+{
+  const auto drawn = [](const std::unique_ptr<EditableMask>& mask)
+  { return mask && mask->count() > 0; };
+  return !m_stepping && (drawn(m_draft->inside) || drawn(m_draft->beside)); // else the Work's
+}
+
+std::optional<SegmentEditor::Pieces> SegmentEditor::pieces() const
+{
+  const bool isOf = m_draft->pieces && m_draft->pieces->second == m_draft->changes &&
+                    m_draft->redo.empty() && !m_stepping;
+  return isOf ? std::optional(m_draft->pieces->first) : std::nullopt;
+}
+
+void SegmentEditor::keepLargest()
+{
+  if (!pieces() || m_draft->stroking)
+    return;
+  m_stepDue = replacing(
+      nameOf(Tool::Islands),
+      [base = m_draft->mask.snapshot()](const core::Progress& progress)
+      {
+        Preview preview;
+        preview.result = segmentation::largestIsland(base, progress);
+        return preview;
+      },
+      false);
+  touched();
+}
+
 std::uint64_t SegmentEditor::voxels() const
 {
   if (m_frozen)
@@ -1517,10 +1577,8 @@ DraftLayer SegmentEditor::layer() const
   std::array<float, 3> bright = color();
   for (float& channel : bright)
     channel *= 255.0F;
-  std::array<float, 3> stroke = bright;
-  for (float& channel : stroke)
-    channel = 0.5F * (channel + 255.0F);
-  layer.colors = {{}, bright, stroke, kBeside};
+  layer.colors = {{}, bright, kInsideStroke, kBesideStroke};
+  layer.hatched = kStrokeBeside;
   const bool range = m_tool == Tool::Threshold && !m_values.connected && previewPending() &&
                      !m_proposeDue && m_image && m_image->onCt;
   if (m_frozen)
@@ -1562,7 +1620,7 @@ SegmentEditor::Work SegmentEditor::surfaceWork()
     mask = m_preview && m_preview->result ? *m_preview->result : m_draft->mask.snapshot();
   return [this, mask](const core::Progress& progress) -> Apply
   {
-    std::shared_ptr<const core::TriangleMesh> surface;
+    std::shared_ptr<const core::TriangleMesh> surface, lifted;
     int step = 1;
     if (mask && !mask->extent.empty())
     {
@@ -1570,10 +1628,13 @@ SegmentEditor::Work SegmentEditor::surfaceWork()
         ++step;
       surface = std::make_shared<const core::TriangleMesh>(rendering::extractLabel(
           coarseLabels(*mask, step, progress.part(0.0, 0.3)), 1, progress.part(0.3, 1.0)));
+      lifted = std::make_shared<const core::TriangleMesh>(
+          raised(*surface, static_cast<float>(0.5 * mask->geometry().spacing().maxCoeff())));
     }
-    return [this, surface, step]
+    return [this, surface, lifted, step]
     {
       m_surface = surface;
+      m_raised = lifted;
       m_surfaceStep = step;
     };
   };

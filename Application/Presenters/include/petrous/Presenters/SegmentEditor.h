@@ -75,6 +75,10 @@ public:
     std::function<void(const std::string& name)> created;     ///< and no draft is left
   };
 
+  /// Of the strokes to grow from, 0 to 255: orange inside and blue beside, which all colour vision
+  /// tells apart [Okabe and Ito 2008]; those beside are hatched, too.
+  static constexpr std::array<float, 3> kInsideStroke{240.0F, 164.0F, 0.0F};
+  static constexpr std::array<float, 3> kBesideStroke{40.0F, 120.0F, 255.0F};
   static constexpr double kGrip = 1.0; ///< mm about a nerve point within which a press grips it
 
   /// The model must outlive this.
@@ -188,6 +192,17 @@ public:
   void create(); ///< at once
   void discard();
 
+  bool hasStrokes() const; ///< to grow from
+  /// What of the draft hangs together with its largest part by no face; after the step that left
+  /// it, until the next change.
+  struct Pieces
+  {
+    std::size_t count = 1; ///< with the largest
+    double outside = 0.0;  ///< mm^3, of all but the largest
+  };
+  std::optional<Pieces> pieces() const;
+  /// A step, due at once. No effect without `pieces`.
+  void keepLargest();
   std::uint64_t voxels() const; ///< of what would be created
   double volume() const;        ///< mm^3, likewise
   const std::array<float, 3>& color() const noexcept { return m_color; } ///< 0 to 1
@@ -200,6 +215,11 @@ public:
   static constexpr std::uint64_t kMostSurfaceVoxels = 8'000'000;
   /// nullptr: none.
   const std::shared_ptr<const core::TriangleMesh>& surface() const noexcept { return m_surface; }
+  /// The same half a voxel farther out, so that it is seen where it lies on the surface of bone.
+  const std::shared_ptr<const core::TriangleMesh>& raisedSurface() const noexcept
+  {
+    return m_raised;
+  }
   /// Edge of the surface's cells in voxels; 1: it is that of the voxels.
   int surfaceStep() const noexcept { return m_surfaceStep; }
 
@@ -258,6 +278,7 @@ private:
   bool m_stepping = false;
   std::optional<Work> m_stepDue; // begun by a click
   std::shared_ptr<const core::TriangleMesh> m_surface;
+  std::shared_ptr<const core::TriangleMesh> m_raised;
   int m_surfaceStep = 1;
 };
 

@@ -70,20 +70,24 @@ std::string describe(const StructureAppearance& look, const volume::IntensitySca
 // Prints each part of a case with its appearance and flags, or as JSON.
 void listAppearance(const Context& context, const scene::Case& value)
 {
-  const auto entry = [&context, scale = value.intensityScale()](const std::string& name,
-                                                                const std::string& kind,
-                                                                const StructureAppearance& look)
+  const bool isMr = value.ct.modality == scene::Modality::Mr;
+  const auto entry =
+      [&context, isMr, scale = value.intensityScale()](
+          const std::string& name, const std::string& kind, const StructureAppearance& look)
   {
     nlohmann::json j = lookJson(look);
     j["name"] = name;
     j["kind"] = kind;
-    context.print("  " + name + " (" + kind + "): " + look.preset + " " + hex(look.color) + ", " +
+    const bool isSurface = isMr && name == "ct";
+    context.print("  " + name + " (" + (isSurface ? "the MR's tissue" : kind) +
+                  "): " + (isSurface ? "" : look.preset + " ") + hex(look.color) + ", " +
                   appearance::flagsOf(look) + describe(look, scale));
     return j;
   };
   presenters::IntensityDisplay display = presenters::displayOf(value);
   display.decimals = std::max(display.decimals, 1);
-  context.print("surface at " + display.text(value.iso) + ", dense bone at " +
+  context.print("surface at " + display.text(value.iso) +
+                (isMr ? ", bright tissue at " : ", dense bone at ") +
                 display.text(value.denseBone) +
                 (display.hounsfield ? "" : " (not in Hounsfield units)"));
   nlohmann::json bone = entry("ct", "bone", value.boneLook);

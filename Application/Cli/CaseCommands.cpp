@@ -116,13 +116,13 @@ void printCase(const Context& context, const scene::Case& value)
   for (const auto& part : value.labels)
     for (const auto& s : part.structures)
       context.print("  structure '" + s.name + "', " + fixed(s.volume, 1) + " mm3, " +
-                    s.look.preset + placeText(scene::placementOf(value, part)));
+                    s.look.preset + placeText(value, scene::placementOf(value, part)));
   for (const auto& mesh : value.meshes)
   {
     const scene::Placement place = scene::placementOf(value, mesh);
     const std::string refusal = place.missing.empty() ? touchRefusal(value, mesh) : "";
     context.print("  mesh '" + mesh.name + "', " + std::to_string(mesh.triangles) + " triangles" +
-                  placeText(place) + (refusal.empty() ? "" : ", not touchable: " + refusal));
+                  placeText(value, place) + (refusal.empty() ? "" : ", not touchable: " + refusal));
   }
   context.print("  " + std::to_string(value.applied()) + " strokes done, " +
                 std::to_string(value.dissection.history().ahead()) + " to redo, " +
@@ -166,7 +166,8 @@ void warnNotes(const Context& context, const scene::Case& value)
     for (const std::string& note : part.notes)
       context.warn(part.name + ": " + note);
   };
-  remark(value.ct);
+  for (const std::string& note : value.ct.notes)
+    context.warn((value.ct.modality == scene::Modality::Mr ? "MR" : value.ct.name) + ": " + note);
   std::for_each(value.mr.begin(), value.mr.end(), remark);
   for (const auto& part : value.labels)
     for (const std::string& note : part.notes)

@@ -1,21 +1,26 @@
 #include "CaseWarnings.h"
 
+#include "petrous/Presenters/IntensityDisplay.h"
+
 namespace petrous::cli
 {
 
-std::string placeText(const scene::Placement& placement)
+std::string placeText(const scene::Case& value, const scene::Placement& placement)
 {
   if (!placement.missing.empty())
-    return ", nowhere on the CT: " + placement.missing;
+    return std::string(", nowhere on the ") + presenters::primaryName(value) + ": " +
+           placement.missing;
   return placement.drawnOn.empty() ? "" : ", drawn on the MR '" + placement.drawnOn + "'";
 }
 
 void warnMissingPlaces(const Context& context, const scene::Case& value)
 {
-  const auto remark = [&context](const std::string& name, const scene::Placement& placement)
+  const std::string primary = presenters::primaryName(value);
+  const auto remark = [&](const std::string& name, const scene::Placement& placement)
   {
     if (!placement.missing.empty())
-      context.warn("'" + name + "' is left out, as it is nowhere on the CT: " + placement.missing);
+      context.warn("'" + name + "' is left out, as it is nowhere on the " + primary + ": " +
+                   placement.missing);
   };
   for (const scene::LabelPart& part : value.labels)
   {

@@ -11,7 +11,7 @@ namespace petrous::cli
 
 /// ", drawn on the MR 'T2'", ", nowhere on the CT: it was drawn on ..."; empty if it is in the CT's
 /// patient space.
-std::string placeText(const scene::Placement& placement);
+std::string placeText(const scene::Case& value, const scene::Placement& placement);
 
 /// Warns of parts that cannot be placed on the CT and are therefore ignored.
 void warnMissingPlaces(const Context& context, const scene::Case& value);

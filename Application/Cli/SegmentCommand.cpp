@@ -90,15 +90,17 @@ Made region(const SegmentOptions& options, const scene::Case& value, const scene
     range = segmentation::proposedRange(volume::IntensityHistogram(image),
                                         options.source == "ct" ? std::optional(value.iso)
                                                                : std::nullopt);
-  made.mask = seeds.empty()
-                  ? segmentation::threshold(image, range, progress.part(0.3, 0.6))
-                  : segmentation::connectedThreshold(image, range, seeds, progress.part(0.3, 0.6));
+  const std::string unit =
+      options.source == "ct" && presenters::displayOf(value).hounsfield ? " HU" : "";
+  made.mask = seeds.empty() ? segmentation::threshold(image, range, progress.part(0.3, 0.6))
+                            : segmentation::connectedThreshold(image, range, seeds,
+                                                               progress.part(0.3, 0.6), unit);
   if (made.mask.count == 0)
   {
     const volume::ValueRange all = image.range();
     throw core::InvalidParameter("nothing lies between " + fixed(range.min, 1) + " and " +
-                                 fixed(range.max, 1) + "; the image has " + fixed(all.min, 1) +
-                                 " to " + fixed(all.max, 1));
+                                 fixed(range.max, 1) + unit + "; the image has " +
+                                 fixed(all.min, 1) + " to " + fixed(all.max, 1) + unit);
   }
   made.facts["threshold"] = {range.min, range.max};
   made.lines.push_back(
@@ -149,6 +151,12 @@ Made tube(const SegmentOptions& options, const scene::Case& value, const scene::
   if (const std::string order = presenters::likelyOrderText(tube.points); !order.empty())
     made.warnings.push_back("the points seem not to be in their order along the structure: " +
                             order + " would make a much shorter line");
+  for (std::size_t n = 0; n < tube.points.size(); ++n)
+    if (tube.outsideAtPoint[n] != 0)
+      made.warnings.push_back("point " + std::to_string(n + 1) + " lies " +
+                              fixed(tube.pointDistances[n], 2) +
+                              " mm from the path, outside of the tube: move the point, or add one "
+                              "beside it");
   constexpr double kTenth = 0.1;
   if (tube.resolvedLength < tube.length * (1.0 - kTenth))
     made.warnings.push_back("the image resolves " + fixed(tube.resolvedLength, 1) + " of " +

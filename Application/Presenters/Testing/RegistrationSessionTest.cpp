@@ -206,6 +206,27 @@ TEST_F(RegistrationSessionTest, TakesAResultWithItsErrorButNotAFailedOne)
   EXPECT_EQ(t2().registration->text, "because");
 }
 
+TEST_F(RegistrationSessionTest, OtherPartsOfTheCaseLeaveItAsItIs)
+{
+  session.choose("DWI");
+  session.shift({1, 0, 0});
+  session.addLandmark();
+  volume::LabelMap map;
+  auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(model.value().ct.geometry);
+  voxels->at(3, 3, 3) = 1;
+  map.voxels = voxels;
+  map.segments = {{"sinus", 1, {}, 1}};
+  model.addStructure(std::move(map), {});
+  EXPECT_TRUE(session.partsChanged());
+  EXPECT_EQ(session.mr(), "DWI");
+  EXPECT_EQ(session.landmarks().rows().size(), 1U);
+  EXPECT_TRUE(session.canUndo());
+  model.removePart("T2");
+  EXPECT_FALSE(session.partsChanged());
+  EXPECT_EQ(session.mr(), "DWI");
+  EXPECT_FALSE(session.canUndo());
+}
+
 TEST_F(RegistrationSessionTest, AnotherMrKeepsItsOwnPlace)
 {
   session.shift({1, 0, 0});

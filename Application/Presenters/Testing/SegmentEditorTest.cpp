@@ -358,8 +358,61 @@ TEST_F(SegmentEditorTest, GrowsFromStrokesInsideAndBeside)
   for (const Vector3d& off : {Vector3d(6, 0, 0), Vector3d(-6, 0, 0), Vector3d(0, 6, 0),
                               Vector3d(0, -6, 0), Vector3d(0, 0, 6), Vector3d(0, 0, -6)})
     stroke(kBall + off, kBall + off);
+  EXPECT_TRUE(editor.hasStrokes());
+  const DraftLayer layer = editor.layer();
+  const auto indexAt = [&layer](const Vector3d& patient)
+  {
+    const Vector3d voxel = grid().voxelFromPatient(patient);
+    return layer.indexAt({static_cast<int>(std::lround(voxel[0])),
+                          static_cast<int>(std::lround(voxel[1])),
+                          static_cast<int>(std::lround(voxel[2]))});
+  };
+  const std::uint16_t inside = indexAt(kBall), beside = indexAt(kBall + Vector3d(6, 0, 0));
+  EXPECT_EQ(layer.colors[inside], SegmentEditor::kInsideStroke);
+  EXPECT_EQ(layer.colors[beside], SegmentEditor::kBesideStroke);
+  EXPECT_EQ(layer.hatched, beside);
   step();
   EXPECT_EQ(editor.voxels(), count(inBall));
+  EXPECT_FALSE(editor.pieces()) << "one";
+}
+
+TEST_F(SegmentEditorTest, PiecesLeftByGrowingAreToldAndRemovedInAStep)
+{
+  open();
+  editor.setTool(Tool::Grow);
+  set([](SegmentValues& values) { values.brush = 0.6; });
+  const Vector3d aside = kBall + Vector3d(0, 0, -8);
+  stroke(kBall, kBall);
+  stroke(aside, aside); // enclosed by strokes beside, and so a piece of its own
+  set(
+      [](SegmentValues& values)
+      {
+        values.inside = false;
+        values.brush = 1.0;
+      });
+  for (int n = 0; n < 40; ++n)
+    for (int m = 0; m < 6; ++m)
+    {
+      const double angle = 2.0 * 3.14159265358979 * n / 40.0;
+      const double height = 3.14159265358979 * (m + 0.5) / 6.0;
+      const Vector3d off(std::cos(angle) * std::sin(height), std::sin(angle) * std::sin(height),
+                         std::cos(height));
+      stroke(aside + 2.2 * off, aside + 2.2 * off);
+      stroke(kBall + 5.2 * off, kBall + 5.2 * off);
+    }
+  step();
+  const auto pieces = editor.pieces();
+  ASSERT_TRUE(pieces);
+  EXPECT_EQ(pieces->count, 2U);
+  EXPECT_GT(pieces->outside, 0.5);
+  const double before = editor.volume();
+  editor.keepLargest();
+  work();
+  EXPECT_FALSE(editor.pieces());
+  EXPECT_NEAR(editor.volume(), before - pieces->outside, 1e-9);
+  editor.undo();
+  EXPECT_EQ(editor.volume(), before);
+  EXPECT_FALSE(editor.pieces()) << "of that step alone";
 }
 
 TEST_F(SegmentEditorTest, AStructureOfTheCaseIsEditedAndUndoGivesItBack)
@@ -589,6 +642,13 @@ TEST_F(SegmentEditorTest, ALargeDraftIsShownInCoarserCells)
   const Vector3d last = large.patientFromVoxel(Vector3d::Constant(207.5));
   EXPECT_LE((least - first).cwiseAbs().maxCoeff(), 0.5) << "within half a cell";
   EXPECT_LE((most - last).cwiseAbs().maxCoeff(), 0.5);
+  // What is drawn lies half a voxel farther out, so that bone of the same place does not cover it.
+  ASSERT_TRUE(editor.raisedSurface());
+  EXPECT_TRUE(editor.raisedSurface()->isClosed());
+  EXPECT_GT(editor.raisedSurface()->signedVolume(), editor.surface()->signedVolume());
+  for (std::size_t n = 0; n < editor.surface()->vertices.size(); ++n)
+    ASSERT_NEAR((editor.raisedSurface()->vertices[n] - editor.surface()->vertices[n]).norm(),
+                0.5 * large.spacing().maxCoeff(), 1e-4);
 }
 
 TEST_F(SegmentEditorTest, AnMrMustBeRegisteredAndIsReadOnTheCtsGrid)
@@ -642,6 +702,103 @@ TEST_F(SegmentEditorTest, AnMrMustBeRegisteredAndIsReadOnTheCtsGrid)
   EXPECT_EQ(editor.voxels(), count(inBall)) << "where the CT has it";
 }
 
+TEST_F(SegmentEditorTest, TheSourceIsWhatTheSlicesShowOrSaysThatItIsNot)
+{
+  scene::Case value = ballCase();
+  scene::ImagePart mr = value.ct;
+  mr.name = "T2";
+  value.mr.push_back(mr);
+  model.adopt(std::move(value));
+  editor.caseChanged();
+  editor.setShown({false, "T2"});
+  EXPECT_EQ(editor.source(), "ct") << "not registered";
+  EXPECT_EQ(editor.notShown(), "The slices show the MR 'T2', but the tools work on the CT.");
+  EXPECT_EQ(editor.shownInstead(), "");
+  model.changeMr([](scene::Case& with) { with.mr.front().registered = true; });
+  editor.mrMoved();
+  EXPECT_EQ(editor.source(), "T2") << "what is shown";
+  EXPECT_EQ(editor.notShown(), "");
+  editor.setShown({true, "T2"});
+  EXPECT_EQ(editor.source(), "T2") << "both are shown";
+  editor.setShown({true, {}});
+  EXPECT_EQ(editor.source(), "ct");
+
+  // With a tool nothing follows in silence: no click counts on an image that is not seen.
+  for (const Tool tool : {Tool::Threshold, Tool::Nerve, Tool::Grow})
+  {
+    editor.setTool(tool);
+    work();
+    editor.setShown({false, "T2"});
+    EXPECT_EQ(editor.source(), "ct");
+    EXPECT_EQ(editor.shownInstead(), "T2");
+    stroke(kBall, kBall);
+    EXPECT_TRUE(editor.seeds().empty());
+    EXPECT_TRUE(editor.tubePoints().empty());
+    EXPECT_FALSE(editor.canUndo());
+    EXPECT_NE(editor.warning(), "");
+    editor.setShown({true, {}});
+    EXPECT_EQ(editor.warning(), "");
+    editor.setTool(Tool::None);
+    editor.discard();
+  }
+  // What is painted depends on no image, unless it is limited to a range of intensities.
+  editor.setTool(Tool::Paint);
+  editor.setShown({false, "T2"});
+  stroke(kBall, kBall);
+  const std::uint64_t painted = editor.voxels();
+  EXPECT_GT(painted, 0U);
+  set(
+      [](SegmentValues& values)
+      {
+        values.within = true;
+        values.upper = 3000.0;
+      });
+  stroke(kBall + Vector3d(3, 0, 0), kBall);
+  EXPECT_EQ(editor.voxels(), painted);
+  EXPECT_NE(editor.warning(), "");
+  editor.setTool(Tool::None);
+  EXPECT_EQ(editor.source(), "ct") << "a draft of the CT";
+  EXPECT_NE(editor.notShown(), "");
+  editor.discard();
+  EXPECT_EQ(editor.source(), "T2");
+  EXPECT_EQ(editor.notShown(), "");
+}
+
+TEST_F(SegmentEditorTest, UndoAndRedoNameTheirTarget)
+{
+  open();
+  EXPECT_EQ(editor.undoText(), "");
+  editor.setTool(Tool::Paint);
+  stroke(kBall, kBall);
+  EXPECT_EQ(editor.undoText(), "paint stroke");
+  editor.undo();
+  EXPECT_EQ(editor.undoText(), "");
+  EXPECT_EQ(editor.redoText(), "paint stroke");
+  editor.redo();
+  editor.setTool(Tool::Margin);
+  step();
+  EXPECT_EQ(editor.undoText(), "margin");
+  editor.setName("Sigmoid sinus");
+  editor.create();
+  EXPECT_EQ(editor.undoText(), "create Sigmoid sinus");
+  editor.undo();
+  EXPECT_EQ(editor.undoText(), "margin") << "the draft as it was";
+  EXPECT_EQ(editor.redoText(), "create Sigmoid sinus");
+  editor.redo();
+  model.prepareNow();
+  auto edit = editor.edit("Sigmoid sinus");
+  edit({})();
+  editor.setTool(Tool::Paint);
+  stroke(kBall, kBall + Vector3d(4, 0, 0));
+  editor.create();
+  EXPECT_EQ(editor.undoText(), "change of Sigmoid sinus");
+  editor.setTool(Tool::Nerve);
+  stroke(kBall, kBall);
+  EXPECT_EQ(editor.undoText(), "point");
+  editor.removeTubePoint(0);
+  EXPECT_EQ(editor.undoText(), "removal of a point");
+}
+
 TEST_F(SegmentEditorTest, NothingIsLostOrTakenWhileAStepIsUnderWay)
 {
   open();
@@ -692,6 +849,30 @@ TEST_F(SegmentEditorTest, PointsOfANerveAreAddedMovedRemovedAndUndone)
   EXPECT_EQ(editor.tubePoints().size(), 1U);
   editor.undo();
   EXPECT_EQ(editor.tubePoints().size(), 2U);
+  const auto orderOf = [this]
+  {
+    std::vector<double> y;
+    for (const auto& point : editor.tubePoints())
+      y.push_back(std::round(10.0 * (point.patient - kBall).y()) / 10.0);
+    return y;
+  };
+  click(kBall + Vector3d(-7, 6, 0)); // goes on where the last one was
+  EXPECT_EQ(orderOf(), (std::vector<double>{0.0, 4.0, 6.0}));
+  click(kBall + Vector3d(-8, 2, 0)); // between two
+  EXPECT_EQ(orderOf(), (std::vector<double>{0.0, 2.0, 4.0, 6.0}));
+  editor.undo();
+  EXPECT_EQ(orderOf(), (std::vector<double>{0.0, 4.0, 6.0})) << "one click";
+  editor.reorderTubePoint(2, 0);
+  EXPECT_EQ(orderOf(), (std::vector<double>{6.0, 0.0, 4.0}));
+  editor.moveTubePoint(0, kBall + Vector3d(-8, -3, 0));
+  EXPECT_EQ(orderOf(), (std::vector<double>{-3.0, 0.0, 4.0}));
+  editor.moveTubePoint(3, kBall);
+  editor.reorderTubePoint(0, 3);
+  editor.reorderTubePoint(3, 0);
+  EXPECT_EQ(orderOf(), (std::vector<double>{-3.0, 0.0, 4.0})) << "there is no such point";
+  editor.undo();
+  editor.undo();
+  EXPECT_EQ(orderOf(), (std::vector<double>{0.0, 4.0, 6.0}));
   while (editor.canUndo())
   {
     editor.undo();
@@ -753,6 +934,15 @@ TEST_F(SegmentEditorTest, TheNerveToolFindsThePhantomsFacialNerve)
   }
   EXPECT_NE(editor.note(), "");
   EXPECT_GT(editor.voxels(), 0U);
+  editor.moveTubePoint(3, axis[3] + Vector3d(1.2, 0, 0)); // out of the nerve
+  work();
+  for (std::size_t n = 0; n < axis.size(); ++n)
+  {
+    EXPECT_EQ(editor.tubePoints()[n].isOutside, n == 3) << n;
+    EXPECT_EQ(editor.tubePoints()[n].problem.empty(), n != 3) << n;
+  }
+  editor.undo();
+  work();
   step();
   EXPECT_TRUE(editor.tubePoints().empty()) << "the tube is in the draft now";
   const std::uint64_t tube = editor.voxels();

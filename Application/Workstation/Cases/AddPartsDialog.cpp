@@ -20,7 +20,8 @@ namespace petrous::workstation
 
 AddPartsDialog::AddPartsDialog(const QString& title, const QString& more, const QString& accept,
                                const std::vector<Part>& parts, std::vector<std::string> taken,
-                               const std::vector<std::string>& mr, QWidget* parent)
+                               const std::vector<std::string>& mr, const QString& primary,
+                               QWidget* parent)
   : QDialog(parent)
   , m_taken(std::move(taken))
   , m_advice(new QLabel)
@@ -62,7 +63,7 @@ AddPartsDialog::AddPartsDialog(const QString& title, const QString& more, const 
       widgets.place = new QComboBox;
       widgets.place->setObjectName("partPlace");
       widgets.place->addItem(tr("where the file says"), QString());
-      widgets.place->addItem(tr("on the CT"), QString("ct"));
+      widgets.place->addItem(tr("on the %1").arg(primary), QString("ct"));
       for (const std::string& name : mr)
         widgets.place->addItem(tr("on the MR %1").arg(words(name)), words(name));
       widgets.place->setToolTip(tr("The image on which it was drawn"));

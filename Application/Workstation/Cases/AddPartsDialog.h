@@ -32,10 +32,11 @@ public:
   };
 
   /// `title` asks, `accept` is the button's text; `taken` are names of other parts, `mr` those of
-  /// MRs on which structures may have been drawn.
+  /// MRs on which structures may have been drawn, `primary` "CT" or "MR".
   AddPartsDialog(const QString& title, const QString& more, const QString& accept,
                  const std::vector<Part>& parts, std::vector<std::string> taken,
-                 const std::vector<std::string>& mr, QWidget* parent = nullptr);
+                 const std::vector<std::string>& mr, const QString& primary,
+                 QWidget* parent = nullptr);
 
   std::vector<Answer> answers() const; ///< for each part
 

@@ -31,6 +31,7 @@
 #include "petrous/Library/FrameSalt.h"
 #include "petrous/Phantom/SamplePatient.h"
 #include "petrous/Presenters/CaseNaming.h"
+#include "petrous/Presenters/IntensityDisplay.h"
 
 namespace petrous::workstation
 {
@@ -420,9 +421,11 @@ bool CaseDocumentController::askContent(SourceContent& source)
       open ? tr("A CT or cone beam begins a case of its own; “%1” is saved and stays in the "
                 "library.")
                  .arg(name)
-           : tr("A case begins with a CT or cone beam. An MR comes to a case that is open."));
+           : tr("A case begins with a CT or cone beam, to which an MR can come; with an MR alone "
+                "where there is no CT."));
   auto* ct = box.addButton(tr("CT: a new case"), QMessageBox::ActionRole);
-  auto* mr = open ? box.addButton(tr("MR of “%1”").arg(name), QMessageBox::ActionRole) : nullptr;
+  auto* mr = box.addButton(open ? tr("MR of “%1”").arg(name) : tr("MR: a new case"),
+                           QMessageBox::ActionRole);
   const bool file = !fs::is_directory(source.path);
   auto* labels = open && file
                      ? box.addButton(tr("Structures of “%1”").arg(name), QMessageBox::ActionRole)
@@ -438,9 +441,10 @@ bool CaseDocumentController::askContent(SourceContent& source)
 
 bool CaseDocumentController::askMrAlone(const SourceContent& source)
 {
-  QMessageBox box(QMessageBox::Question, tr("A case without a CT?"),
-                  tr("There is no CT here. Begin the case with the MR “%1”?").arg(lineOf(source)),
-                  QMessageBox::NoButton, &m_window);
+  QMessageBox box(
+      QMessageBox::Question, tr("A case without a CT?"),
+      tr("There is no CT here. Begin the case with the MR “%1”?").arg(nameOf(source.path)),
+      QMessageBox::NoButton, &m_window);
   box.setTextFormat(Qt::PlainText);
   box.setObjectName("askMrAlone");
   box.setInformativeText(tr("Its surface is then where tissue begins, not bone. If there is a CT "
@@ -535,15 +539,16 @@ bool CaseDocumentController::askNames(presenters::CaseSources& sources,
   if (newCase.empty() || isNameless)
   {
     const QString name = words(newCase.empty() ? m_model.value().name : newCase);
+    const QString primary = newCase.empty() ? presenters::primaryName(m_model.value()) : "CT";
     AddPartsDialog dialog(
         newCase.empty() ? tr("Add to the case “%1”?").arg(name)
                         : tr("Make the case “%1”").arg(name),
         tr("It must be of the same patient.%1")
             .arg(sources.parts.mr.empty()
                      ? QString()
-                     : tr(" An MR is shown over the CT once it is registered (F5).")),
+                     : tr(" An MR is shown over the %1 once it is registered (F5).").arg(primary)),
         newCase.empty() ? tr("Add to “%1”").arg(name) : tr("Make the case"), parts, taken, mrs,
-        &m_window);
+        primary, &m_window);
     if (dialog.exec() != QDialog::Accepted)
       return false;
     answers = dialog.answers();

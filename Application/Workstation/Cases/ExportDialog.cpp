@@ -22,6 +22,7 @@
 
 #include "Theme.h"
 #include "petrous/Imaging/FileFormats.h"
+#include "petrous/Presenters/IntensityDisplay.h"
 
 namespace petrous::workstation
 {
@@ -43,7 +44,9 @@ ExportDialog::ExportDialog(const scene::Case& value, QWidget* parent)
   , m_what(new QComboBox)
   , m_part(new QComboBox)
   , m_format(new QComboBox)
-  , m_onCt(new QCheckBox(tr("Resampled on the &CT's grid")))
+  , m_onCt(new QCheckBox(value.ct.modality == scene::Modality::Mr
+                             ? tr("Resampled on the &primary MR's grid")
+                             : tr("Resampled on the &CT's grid")))
   , m_triangles(new QSpinBox)
   , m_path(new QLineEdit)
   , m_advice(new QLabel)
@@ -60,15 +63,20 @@ ExportDialog::ExportDialog(const scene::Case& value, QWidget* parent)
     m_surfaces.push_back(mesh.name);
 
   m_what->setObjectName("exportWhat");
-  m_what->addItem(tr("CT"), "ct");
-  m_what->addItem(tr("CT after drilling"), "dissected");
+  const bool isOnMr = value.ct.modality == scene::Modality::Mr;
+  const QString primary =
+      isOnMr && !m_mr.empty() ? tr("MR of the case") : QString(presenters::primaryName(value));
+  m_what->addItem(primary, "ct");
+  m_what->addItem(tr("%1 after drilling").arg(primary), "dissected");
   if (!m_mr.empty())
-    m_what->addItem(tr("MR"), "mr");
+    m_what->addItem(isOnMr ? tr("MR beside it") : tr("MR"), "mr");
   if (!m_labels.empty())
     m_what->addItem(tr("Structures as labels"), "labels");
   if (!m_surfaces.empty())
     m_what->addItem(tr("Surface of a structure"), "structure");
-  m_what->addItem(tr("Surface of the bone after drilling"), "surface");
+  m_what->addItem(isOnMr ? tr("Surface of the tissue after drilling")
+                         : tr("Surface of the bone after drilling"),
+                  "surface");
   m_what->addItem(tr("What is left of each voxel (mask)"), "mask");
   m_part->setObjectName("exportPart");
   m_format->setObjectName("exportFormat");

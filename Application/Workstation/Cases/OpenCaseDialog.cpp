@@ -265,7 +265,7 @@ void OpenCaseDialog::remove()
   box.setObjectName("askDelete");
   box.setInformativeText(
       (strokes > 0 ? tr("%1 strokes were drilled in it. ").arg(strokes) : QString()) +
-      tr("It can be brought back here until the library is cleaned up (petrous library gc)."));
+      tr("It can be brought back here until the library is cleaned up."));
   const auto* yes = box.addButton(tr("Delete"), QMessageBox::DestructiveRole);
   box.setDefaultButton(box.addButton(QMessageBox::Cancel));
   box.exec();

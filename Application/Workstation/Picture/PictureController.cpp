@@ -165,8 +165,8 @@ void PictureController::fail(const QString& why)
   box.setInformativeText(
       (safe ? tr("The case is saved. ") : tr("The case could not be saved; save it first. ")) +
       tr("Close Petrous and start it again. If it fails again, close other programs that use the "
-         "graphics card, load only the ear, or install a newer driver; 'petrous doctor' says what "
-         "the machine offers. The slices go on working."));
+         "graphics card, load only the ear, or install a newer driver. The slices go on "
+         "working."));
   box.exec();
 }
 

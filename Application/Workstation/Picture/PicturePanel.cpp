@@ -47,7 +47,9 @@ PicturePanel::PicturePanel(presenters::WorkstationModel& model, presenters::View
                                  : m_bone->value();
       },
       [this](int percent) { setBoneOpacity(0.01 * percent); }, Bindings::kSettle);
-  addPercent(form, tr("&Bone opacity"), m_bone);
+  addPercent(form, {}, m_bone);
+  m_boneName = qobject_cast<QLabel*>(form->itemAt(0, QFormLayout::LabelRole)->widget());
+  showNames();
   form->addRow(tr("&Light falloff"),
                m_bound.add(
                    numberBox("lightFalloff",
@@ -136,8 +138,20 @@ void PicturePanel::caseChanged()
   appearanceChanged();
 }
 
+// An MR as primary image shows tissue, not bone.
+void PicturePanel::showNames()
+{
+  const bool isOnMr = m_model.hasCase() && m_model.value().ct.modality == scene::Modality::Mr;
+  m_boneName->setText(isOnMr ? tr("&Tissue opacity") : tr("&Bone opacity"));
+  m_bone->setToolTip(isOnMr ? tr("Below 100 % the inside of the tissue and the structures in it "
+                                 "shine through")
+                            : tr("Below 100 % the inside of the bone and the structures in it "
+                                 "shine through"));
+}
+
 void PicturePanel::appearanceChanged()
 {
+  showNames();
   m_bone->setEnabled(m_model.hasCase());
   m_bound.refresh();
 }

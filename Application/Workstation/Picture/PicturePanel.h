@@ -6,6 +6,7 @@
 #include "petrous/Presenters/WorkstationModel.h"
 
 class QFormLayout;
+class QLabel;
 class QSlider;
 
 namespace petrous::workstation
@@ -31,7 +32,10 @@ private:
 
   presenters::WorkstationModel& m_model;
   presenters::ViewSettings& m_settings;
+  void showNames();
+
   QSlider* m_bone;
+  QLabel* m_boneName;
   Bindings m_bound;
 };
 

@@ -1,5 +1,7 @@
 #include "LandmarkModel.h"
 
+#include "Theme.h"
+
 namespace petrous::workstation
 {
 
@@ -80,7 +82,7 @@ QVariant LandmarkModel::headerData(int section, Qt::Orientation orientation, int
   case Number:
     return tr("#");
   case Ct:
-    return tr("In the CT");
+    return tr("In the %1").arg(words(m_session.primary()));
   case Mr:
     return tr("In the MR");
   case Residual:

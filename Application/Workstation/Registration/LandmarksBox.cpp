@@ -8,6 +8,7 @@
 
 #include "Bind.h"
 #include "LandmarkModel.h"
+#include "Theme.h"
 
 namespace petrous::workstation
 {
@@ -58,8 +59,9 @@ LandmarksBox::LandmarksBox(presenters::RegistrationSession& session, QWidget* pa
 void LandmarksBox::refresh()
 {
   m_rows->refresh();
-  m_point->setText(m_session.landmarks().waitsForMr() ? tr("Point in MR (K)")
-                                                      : tr("Point in CT (K)"));
+  m_point->setText(m_session.landmarks().waitsForMr()
+                       ? tr("Point in MR (K)")
+                       : tr("Point in %1 (K)").arg(words(m_session.primary())));
   m_remove->setEnabled(!m_session.landmarks().rows().empty());
   m_fit->setEnabled(m_session.landmarks().pairs() >= 3);
 }

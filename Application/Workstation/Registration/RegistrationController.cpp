@@ -45,29 +45,26 @@ RegistrationController::RegistrationController(presenters::WorkstationModel& mod
 {
   const auto on = [this](QAction* action, auto what)
   { connect(action, &QAction::triggered, this, what); };
-  on(addAction(tr("&Register the MR"), Qt::CTRL + Qt::Key_R,
-               tr("Lays the MR on the CT by mutual information, as the panel says")),
+  on(m_register = addAction(tr("&Register the MR"), Qt::CTRL + Qt::Key_R, {}),
      [this] { begin(Way::Register); });
   on(addAction(tr("Re&fine"), {}, tr("The same from where the MR lies now")),
      [this] { begin(Way::Refine); });
   on(addAction(tr("&Cancel"), {}, tr("Stops the registration; what it reached can be kept")),
      [this] { cancel(); });
   m_menu->addSeparator();
-  on(addAction(tr("CT or MR alone, by &turns"), Qt::Key_V, tr("To see whether they agree")),
+  on(m_flick = addAction({}, Qt::Key_V, tr("To see whether they agree")),
      [this] { m_overlay->flick(); });
-  on(addAction(tr("Ne&xt way to show the MR"), Qt::Key_O,
-               tr("CT alone, blend, the CT's edges over the MR, checkerboard")),
+  on(m_next = addAction(tr("Ne&xt way to show the MR"), Qt::Key_O, {}),
      [this] { m_overlay->next(); });
   m_menu->addSeparator();
-  on(addAction(tr("&Point here"), Qt::Key_K,
-               tr("The crosshair marks a point of the CT, then the same point of the MR")),
-     [this] { addPoint(); });
+  on(m_point = addAction(tr("&Point here"), Qt::Key_K, {}), [this] { addPoint(); });
   m_menu->addSeparator();
   on(addAction(tr("&Undo the MR's move"), Qt::CTRL + Qt::ALT + Qt::Key_Z,
                tr("Back to how the MR lay before")),
      [this] { moveManually([this] { m_session.undo(); }); });
   on(addAction(tr("Red&o the MR's move"), Qt::CTRL + Qt::ALT + Qt::Key_Y, tr("Forth again")),
      [this] { moveManually([this] { m_session.redo(); }); });
+  nameImages();
   connectPanel();
   m_sceneLater.setSingleShot(true);
   m_sceneLater.setInterval(kSceneAfter);
@@ -85,6 +82,19 @@ QAction* RegistrationController::addAction(const QString& text, const QKeySequen
   return action;
 }
 
+// The primary image may be an MR itself.
+void RegistrationController::nameImages()
+{
+  const QString primary = words(m_session.primary());
+  m_register->setStatusTip(
+      tr("Lays the MR on the %1 by mutual information, as the panel says").arg(primary));
+  m_flick->setText(tr("%1 or MR alone, by &turns").arg(primary));
+  m_next->setStatusTip(
+      tr("%1 alone, blend, the edges of the %1 over the MR, checkerboard").arg(primary));
+  m_point->setStatusTip(
+      tr("The crosshair marks a point of the %1, then the same point of the MR").arg(primary));
+}
+
 void RegistrationController::connectPanel()
 {
   connect(m_panel, &RegistrationPanel::overlayChosen, this,
@@ -94,14 +104,8 @@ void RegistrationController::connectPanel()
   connect(m_overlay, &MrOverlay::changed, this,
           [this] { m_panel->setOverlay(m_overlay->mode(), m_overlay->opacity()); });
   connect(m_overlay, &MrOverlay::statusMessage, m_panel, &RegistrationPanel::say);
-  connect(m_panel, &RegistrationPanel::mrChosen, this,
-          [this]
-          {
-            m_firstMetric.reset();
-            m_panel->setMetric({});
-            m_overlay->refresh();
-            showMarks();
-          });
+  connect(m_overlay, &MrOverlay::drawn, this, &RegistrationController::shownChanged);
+  connect(m_panel, &RegistrationPanel::mrChosen, this, &RegistrationController::chosen);
   connect(m_panel, &RegistrationPanel::registerAsked, this, [this] { begin(Way::Register); });
   connect(m_panel, &RegistrationPanel::refineAsked, this, [this] { begin(Way::Refine); });
   connect(m_panel, &RegistrationPanel::cancelAsked, this, &RegistrationController::cancel);
@@ -128,6 +132,47 @@ void RegistrationController::connectPanel()
   connect(m_run.get(), &BackgroundWork::cancelled, this, &RegistrationController::stopped);
 }
 
+// Another MR.
+void RegistrationController::chosen()
+{
+  m_firstMetric.reset();
+  m_panel->setMetric({});
+  m_overlay->refresh();
+  showMarks();
+}
+
+presenters::ShownImages RegistrationController::shown() const
+{
+  return m_overlay->shown();
+}
+
+void RegistrationController::show(const std::string& image)
+{
+  const presenters::ShownImages now = shown();
+  if (image == "ct")
+  {
+    if (!now.ct)
+      m_overlay->set(std::nullopt, m_overlay->opacity());
+    return;
+  }
+  if (now.mr == image)
+    return;
+  if (image != m_session.mr())
+  {
+    if (running() || !m_session.landmarks().rows().empty()) // which are of the other MR
+    {
+      emit statusMessage(tr("The slices go on showing %1, which is being registered; choose the MR "
+                            "under Registration (F5)")
+                             .arg(words(m_session.mr())));
+      return;
+    }
+    m_session.choose(image);
+    m_panel->refresh();
+    chosen();
+  }
+  m_overlay->showAlone(true);
+}
+
 void RegistrationController::moveManually(const std::function<void()>& move)
 {
   if (running())
@@ -150,9 +195,18 @@ void RegistrationController::caseChanged()
   m_metric.reset();
   m_firstMetric.reset();
   m_session.caseChanged();
+  nameImages();
   m_panel->setRunning(false);
   m_overlay->reset();
   showMarks();
+}
+
+void RegistrationController::partsChanged()
+{
+  if (!m_session.partsChanged())
+    return caseChanged();
+  m_overlay->refresh();
+  showMarks(); // and the panel
 }
 
 void RegistrationController::mrMoved()
@@ -319,7 +373,8 @@ void RegistrationController::addPoint()
   showMarks();
   m_panel->say(m_session.landmarks().waitsForMr()
                    ? tr("Now the same point in the MR: crosshair there, then K.")
-                   : tr("The next point in the CT; three pairs at least, far apart."));
+                   : tr("The next point in the %1; three pairs at least, far apart.")
+                         .arg(words(m_session.primary())));
 }
 
 void RegistrationController::askMetric()
@@ -356,7 +411,7 @@ void RegistrationController::showMetric()
   const auto moved = m_session.movedByHand();
   if (!m_firstMetric || (moved.shift == 0.0 && moved.turn == 0.0))
     m_firstMetric = now;
-  QString text = tr("Metric with the CT %1").arg(now, 0, 'f', 4);
+  QString text = tr("Metric with the %1 %2").arg(words(m_session.primary())).arg(now, 0, 'f', 4);
   if (moved.shift > 0.0 || moved.turn > 0.0)
     text += tr(" (%1%2 by hand)")
                 .arg(now < *m_firstMetric ? "" : "+")

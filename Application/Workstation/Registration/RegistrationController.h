@@ -37,10 +37,16 @@ public:
   QMenu* menu() { return m_menu; }
 
   void caseChanged();
-  void mrMoved(); ///< or was signed off
+  void partsChanged(); ///< the view, points and a run stay as long as the MRs do
+  void mrMoved();      ///< or was signed off
   bool running() const;
 
+  presenters::ShownImages shown() const; ///< in the slices
+  /// Has the slices show the CT ("ct") or an MR of the case, if they do not yet.
+  void show(const std::string& image);
+
 signals:
+  void shownChanged();
   void sceneStale(); ///< views of the MR or of what was drawn on it are outdated; throttled
   void statusMessage(const QString& line);
   void panelWanted(); ///< it says something that must be seen
@@ -50,6 +56,8 @@ private:
 
   QAction* addAction(const QString& text, const QKeySequence& keys, const QString& tip);
   void connectPanel();
+  void chosen();
+  void nameImages();
   void moveManually(const std::function<void()>& move);
   void begin(presenters::RegistrationSession::Way way);
   void heard(const registration::MetricSample& sample, const core::RigidTransform& best);
@@ -72,6 +80,10 @@ private:
   RegistrationPanel* m_panel;
   MrOverlay* m_overlay;
   QMenu* m_menu;
+  QAction* m_register;
+  QAction* m_flick;
+  QAction* m_next;
+  QAction* m_point;
   std::unique_ptr<BackgroundWork> m_run;
   std::unique_ptr<BackgroundWork> m_metricWork;
   std::shared_ptr<const registration::LiveMetric> m_metric; // of m_metricOf, loaded on demand

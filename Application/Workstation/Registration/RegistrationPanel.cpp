@@ -270,6 +270,12 @@ void RegistrationPanel::caseChanged()
   refresh();
 }
 
+// What was typed and said stays.
+void RegistrationPanel::partsChanged()
+{
+  refresh();
+}
+
 void RegistrationPanel::refresh()
 {
   QStringList names;
@@ -285,9 +291,14 @@ void RegistrationPanel::refresh()
           m_mr->clear();
           m_mr->addItems(names);
         });
+  const QString primary = words(m_session.primary());
+  m_overlay->setItemText(0, tr("%1 alone").arg(primary));
+  m_overlay->setItemText(2, tr("%1's edges over the MR").arg(primary));
   m_bound.refresh();
-  m_state->setText(m_session.part()
-                       ? words(m_session.stateText())
+  m_state->setText(m_session.part() ? words(m_session.stateText())
+                   : m_session.primary() != "CT"
+                       ? tr("The case has no other MR; add one with File > Open DICOM… or Open "
+                            "files…")
                        : tr("The case has no MR; add one with File > Open DICOM… or Open files…"));
   m_state->setStyleSheet(stateStyle(m_session.part()));
   m_error->setText(m_session.part() ? errorText(*m_session.part()) : QString());

@@ -31,6 +31,7 @@ public:
   explicit RegistrationPanel(presenters::RegistrationSession& session, QWidget* parent = nullptr);
 
   void caseChanged() override;
+  void partsChanged() override;
   void refresh(); ///< registration, landmarks, undo state
   void setOverlay(const std::optional<presenters::OverlayMode>& mode, double opacity);
   void setRunning(bool running);

@@ -136,7 +136,7 @@ void RegistrationTargetBox::refresh()
       [this]
       {
         m_onto->clear();
-        m_onto->addItem(tr("the CT"));
+        m_onto->addItem(tr("the %1").arg(words(m_session.primary())));
         for (const std::string& name : m_session.ontoNames())
           m_onto->addItem(words(name), words(name));
         fillPlaces();

@@ -17,6 +17,7 @@
 #include "SliceColumn.h"
 #include "SliceView.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 
 namespace petrous::workstation
 {
@@ -31,8 +32,8 @@ constexpr double kBrushStep = 1.2;  // factor
 constexpr double kLeastBrush = 0.1; // mm
 const QColor kPoint("#ffd040");
 const QColor kPath("#ffd040");
+const QColor kOutside("#ff6a3c"); // a point beside the path
 const QColor kEraser("#f2f5f8");
-const QColor kBeside("#62b0ec");
 
 struct ToolEntry
 {
@@ -72,6 +73,12 @@ QColor colorOf(const std::array<float, 3>& color)
 {
   return QColor::fromRgbF(double(color[0]), double(color[1]), double(color[2]));
 }
+QColor strokeColor(bool inside)
+{
+  const auto& color = inside ? SegmentEditor::kInsideStroke : SegmentEditor::kBesideStroke;
+  return QColor::fromRgbF(double(color[0]) / 255.0, double(color[1]) / 255.0,
+                          double(color[2]) / 255.0);
+}
 } // namespace
 
 SegmentController::SegmentController(presenters::WorkstationModel& model, SliceColumn& slices,
@@ -101,9 +108,13 @@ SegmentController::SegmentController(presenters::WorkstationModel& model, SliceC
   m_editor.events.created = [this](const std::string& name)
   {
     emit structureCreated();
-    emit statusMessage(
-        tr("%1 is a structure of the case now; Undo in the panel makes it a draft again")
-            .arg(words(name)));
+    const scene::StructurePart* made = scene::findStructure(m_model.value(), name);
+    const double volume =
+        made ? static_cast<double>(made->voxels) * m_model.value().ct.geometry.voxelVolume() : 0.0;
+    const QString line = tr("%1 is a structure of the case now, %2; Undo makes it a draft again")
+                             .arg(words(name), volumeText(volume));
+    m_panel->say(line);
+    emit statusMessage(line);
   };
   m_surfaceLater.setSingleShot(true);
   m_surfaceLater.setInterval(kSurfaceAfter);
@@ -172,6 +183,15 @@ void SegmentController::connectPanel()
   connect(m_panel, &SegmentPanel::discardAsked, this, &SegmentController::discard);
   connect(m_panel, &SegmentPanel::editAsked, this,
           [this](const QString& structure) { edit(bytes(structure)); });
+  connect(m_panel, &SegmentPanel::imageWanted, this, &SegmentController::imageWanted);
+  connect(m_panel, &SegmentPanel::pointChosen, this,
+          [this](const Eigen::Vector3d& patient) { m_model.setCrosshair(patient); });
+  connect(m_panel, &SegmentPanel::pointToCrosshairAsked, this,
+          [this](int row)
+          {
+            if (row >= 0)
+              m_editor.moveTubePoint(static_cast<std::size_t>(row), m_model.crosshair());
+          });
   connect(m_work.get(), &BackgroundWork::progressed, m_panel, &SegmentPanel::setProgress);
   connect(m_work.get(), &BackgroundWork::failed, this,
           [this](const QString& why)
@@ -218,6 +238,11 @@ void SegmentController::mrMoved()
   m_editor.mrMoved();
 }
 
+void SegmentController::setShown(const presenters::ShownImages& shown)
+{
+  m_editor.setShown(shown);
+}
+
 bool SegmentController::active() const
 {
   return m_editor.tool() != Tool::None;
@@ -236,6 +261,16 @@ bool SegmentController::canUndo() const
 bool SegmentController::canRedo() const
 {
   return m_editor.canRedo() && !m_editor.stepping();
+}
+
+QString SegmentController::undoText() const
+{
+  return words(m_editor.undoText());
+}
+
+QString SegmentController::redoText() const
+{
+  return words(m_editor.redoText());
 }
 
 bool SegmentController::hasBrush() const
@@ -291,8 +326,11 @@ void SegmentController::undo()
     attempt(
         [this]
         {
-          if (m_editor.undo())
-            emit structureCreated();
+          const QString what = undoText();
+          if (!m_editor.undo())
+            return;
+          emit structureCreated();
+          emit statusMessage(tr("Undone: %1; it is a draft again").arg(what));
         });
 }
 
@@ -316,13 +354,13 @@ void SegmentController::changed()
   m_create->setEnabled(open && draft);
   m_escape->setEnabled(open && (draft || tool != Tool::None));
   m_slices.setHidden(m_editor.edited());
-  m_slices.setTool(hasClicks(tool)
-                       ? std::optional(SliceTool{hasBrushOf(tool) ? m_editor.values().brush : 0.0,
-                                                 tool == Tool::Erase ? kEraser
-                                                 : tool == Tool::Grow && !m_editor.values().inside
-                                                     ? kBeside
-                                                     : colorOf(m_editor.color())})
-                       : std::nullopt);
+  m_slices.setTool(
+      hasClicks(tool)
+          ? std::optional(SliceTool{hasBrushOf(tool) ? m_editor.values().brush : 0.0,
+                                    tool == Tool::Erase  ? kEraser
+                                    : tool == Tool::Grow ? strokeColor(m_editor.values().inside)
+                                                         : colorOf(m_editor.color())})
+          : std::nullopt);
   presenters::DraftLayer layer = m_editor.layer();
   m_slices.setDraft(layer.indexAt ? std::make_shared<const presenters::DraftLayer>(std::move(layer))
                                   : nullptr);
@@ -343,7 +381,9 @@ void SegmentController::drawing()
     drawing.curve = m_editor.path();
     const auto points = m_editor.tubePoints();
     for (std::size_t n = 0; n < points.size(); ++n)
-      drawing.marks.push_back({points[n].patient, QString::number(n + 1), kPoint});
+      drawing.marks.push_back({points[n].patient,
+                               QString::number(n + 1) + (points[n].isOutside ? "!" : ""),
+                               points[n].isOutside ? kOutside : kPoint});
   }
   if (m_editor.tool() == Tool::Threshold)
     for (const Eigen::Vector3d& seed : m_editor.seeds())
@@ -490,7 +530,7 @@ void SegmentController::showSurface()
           apply();
           rendering::MeshContents contents;
           contents.name = "draft";
-          contents.mesh = m_editor.surface();
+          contents.mesh = m_editor.raisedSurface();
           contents.look.color = m_editor.color();
           emit surfaceChanged(contents);
           if (const int voxels = m_editor.surfaceStep(); contents.mesh && voxels > 1)

@@ -40,12 +40,15 @@ public:
   void caseChanged(); ///< or closed
   void partsChanged();
   void mrMoved();
+  void setShown(const presenters::ShownImages& shown); ///< in the slices
 
   /// A tool is in use: left button, undo and brush size are its.
   bool active() const;
   void leaveTool(); ///< the draft stays
   bool canUndo() const;
   bool canRedo() const;
+  QString undoText() const; ///< as SegmentEditor's
+  QString redoText() const;
   void undo();
   void redo();
   bool hasBrush() const;
@@ -60,6 +63,7 @@ signals:
   void stateChanged();     ///< what can be undone
   void structureCreated(); ///< or changed, or undone: to be saved
   void statusMessage(const QString& line);
+  void imageWanted(const QString& image); ///< "ct" or an MR, in the slices
   /// Preview in the 3D view; without triangles: none.
   void surfaceChanged(const petrous::rendering::MeshContents& surface);
 

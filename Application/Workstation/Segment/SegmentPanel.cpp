@@ -15,6 +15,7 @@
 #include <QMenu>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QSignalBlocker>
 #include <QStackedWidget>
 #include <QStandardItemModel>
 #include <QToolButton>
@@ -24,6 +25,7 @@
 #include "Application.h"
 #include "PanelLayout.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 
 namespace petrous::workstation
 {
@@ -35,6 +37,9 @@ using presenters::SegmentValues;
 
 constexpr int kToolsInRow = 3;
 constexpr double kTubeRadius = 0.6; // mm, until another one is entered
+constexpr int kLeastPointRows = 6;  // of the nerve's list, as many as are usually clicked
+constexpr int kMostPointRows = 12;  // then it scrolls
+constexpr int kNarrowButton = 34;   // px
 
 QHBoxLayout* rowOf(std::initializer_list<QWidget*> widgets)
 {
@@ -70,18 +75,14 @@ QCheckBox* checkBox(const QString& text, const char* name, const QString& tip)
   return box;
 }
 
-QString volumeText(const SegmentEditor& editor)
+QString draftText(const SegmentEditor& editor)
 {
   const std::uint64_t voxels = editor.voxels();
   if (voxels == 0)
-    return SegmentPanel::tr("Nothing yet");
-  const double volume = editor.volume();
-  return SegmentPanel::tr("%1 mm³  (%2 voxels)")
-      .arg(volume, 0, 'f',
-           volume < 100.0     ? 2
-           : volume < 10000.0 ? 1
-                              : 0)
-      .arg(voxels);
+    return editor.tool() == SegmentEditor::Tool::Grow && editor.hasStrokes()
+               ? SegmentPanel::tr("Strokes; nothing grown yet")
+               : SegmentPanel::tr("Nothing yet");
+  return SegmentPanel::tr("%1  (%2 voxels)").arg(volumeText(editor.volume())).arg(voxels);
 }
 } // namespace
 
@@ -95,10 +96,12 @@ SegmentPanel::SegmentPanel(SegmentEditor& editor, const std::vector<QAction*>& t
   , m_source(choiceBox("segmentSource", tr("The image that threshold, growing and the nerve tool "
                                            "read; an MR once it is registered")))
   , m_pages(new QStackedWidget)
+  , m_shown(new QLabel)
   , m_volume(new QLabel)
   , m_line(new QLabel)
   , m_remark(new QLabel)
   , m_note(new QLabel)
+  , m_pieces(new QLabel)
   , m_progress(new QProgressBar)
 {
   auto* inside = new QWidget;
@@ -133,26 +136,48 @@ void SegmentPanel::addHead(QVBoxLayout& layout)
               connect(m_editable->addAction(words(name).replace('_', ' ')), &QAction::triggered,
                       this, [this, name] { emit editAsked(words(name)); });
             if (m_editable->isEmpty())
-              m_editable->addAction(tr("The case has no structure on the CT"))->setEnabled(false);
+              m_editable->addAction(tr("The case has no structure on the %1").arg(imageName("ct")))
+                  ->setEnabled(false);
           });
   m_bound.add(
       m_source, [this] { return m_source->findData(words(m_editor.source())); },
-      [this](int row)
-      {
-        say({});
-        try
-        {
-          m_editor.setSource(bytes(m_source->itemData(row).toString()));
-        }
-        catch (const std::exception& error)
-        {
-          say(toString(error));
-        }
-      });
+      [this](int row) { takeSource(bytes(m_source->itemData(row).toString())); });
   auto* form = new QFormLayout;
   addRow(*form, tr("Stru&cture"), m_name, m_edit);
   form->addRow(tr("&Image"), m_source);
   layout.addLayout(form);
+  m_shown->setObjectName("segmentShown");
+  m_shown->setWordWrap(true);
+  m_shown->setTextFormat(Qt::PlainText);
+  m_shown->setStyleSheet("color: #ffb454;");
+  m_showSource = button({}, "segmentShowSource", tr("The slices show what the tools work on"));
+  m_takeShown = button({}, "segmentTakeShown", tr("The tools work on what the slices show"));
+  connect(m_showSource, &QPushButton::clicked, this,
+          [this] { emit imageWanted(words(m_editor.source())); });
+  connect(m_takeShown, &QPushButton::clicked, this,
+          [this] { takeSource(m_editor.shownInstead()); });
+  layout.addWidget(m_shown);
+  layout.addLayout(rowOf({m_showSource, m_takeShown}));
+}
+
+QString SegmentPanel::imageName(const std::string& source) const
+{
+  return words(m_editor.sourceName(source));
+}
+
+// The slices show it from now on.
+void SegmentPanel::takeSource(const std::string& source)
+{
+  say({});
+  try
+  {
+    m_editor.setSource(source);
+    emit imageWanted(words(m_editor.source()));
+  }
+  catch (const std::exception& error)
+  {
+    say(toString(error));
+  }
 }
 
 void SegmentPanel::addTools(QVBoxLayout& layout, const std::vector<QAction*>& tools)
@@ -358,8 +383,9 @@ void SegmentPanel::addPages(QVBoxLayout& layout)
 QWidget* SegmentPanel::nervePage()
 {
   QWidget* whole = page(
-      tr("Click four to six points along the nerve. Drag one to move it; Delete removes the chosen "
-         "one."),
+      tr("Click along the nerve from one end, four to six points; a click between two points is "
+         "put "
+         "between them. Drag a point in a slice to move it."),
       [this](QFormLayout& form)
       {
         m_points = new QTreeWidget;
@@ -368,22 +394,63 @@ QWidget* SegmentPanel::nervePage()
         m_points->setAllColumnsShowFocus(true);
         m_points->setHeaderLabels({tr("#"), tr("To the path"), tr("What the scan shows here")});
         m_points->header()->setStretchLastSection(true);
-        m_points->setFixedHeight(136);
+        m_points->setUniformRowHeights(true);
+        m_points->setToolTip(tr("The crosshair goes to the chosen point. Delete removes it; Alt+Up "
+                                "and Alt+Down change its place along the nerve"));
+        const auto choose = [this]
+        {
+          if (const int row = chosenPoint(); row >= 0)
+            emit pointChosen(m_editor.tubePoints()[static_cast<std::size_t>(row)].patient);
+        };
+        connect(m_points, &QTreeWidget::itemClicked, this, choose);
+        connect(m_points, &QTreeWidget::currentItemChanged, this,
+                [this, choose]
+                {
+                  if (m_points->hasFocus()) // else it was not the user's choice
+                    choose();
+                  enablePoints();
+                });
         form.addRow(m_points);
-        m_removePoint =
-            button(tr("Remove the point"), "removeNervePoint", tr("The chosen one (Delete)"));
+        m_removePoint = button(tr("Remove"), "removeNervePoint", tr("The chosen point (Delete)"));
+        m_movePoint = button(tr("To the crosshair"), "moveNervePoint",
+                             tr("Moves the chosen point to the crosshair"));
+        m_pointUp = button(QString::fromUtf8("↑"), "nervePointUp",
+                           tr("The chosen point earlier along the nerve (Alt+Up)"));
+        m_pointDown = button(QString::fromUtf8("↓"), "nervePointDown",
+                             tr("The chosen point later along the nerve (Alt+Down)"));
+        for (QPushButton* narrow : {m_pointUp, m_pointDown})
+          narrow->setMaximumWidth(kNarrowButton);
         const auto remove = [this]
         {
-          if (const int row = m_points->indexOfTopLevelItem(m_points->currentItem()); row >= 0)
+          if (const int row = chosenPoint(); row >= 0)
             m_editor.removeTubePoint(static_cast<std::size_t>(row));
         };
+        const auto reorder = [this](int by)
+        {
+          const int row = chosenPoint();
+          if (row < 0 || row + by < 0 || row + by >= m_points->topLevelItemCount())
+            return;
+          m_points->setCurrentItem(m_points->topLevelItem(row + by));
+          m_editor.reorderTubePoint(static_cast<std::size_t>(row),
+                                    static_cast<std::size_t>(row + by));
+        };
         connect(m_removePoint, &QPushButton::clicked, this, remove);
-        auto* key = new QAction(m_points);
-        key->setShortcut(QKeySequence::Delete);
-        key->setShortcutContext(Qt::WidgetShortcut);
-        connect(key, &QAction::triggered, this, remove);
-        m_points->addAction(key);
-        form.addRow(m_removePoint);
+        connect(m_movePoint, &QPushButton::clicked, this,
+                [this] { emit pointToCrosshairAsked(chosenPoint()); });
+        connect(m_pointUp, &QPushButton::clicked, this, [reorder] { reorder(-1); });
+        connect(m_pointDown, &QPushButton::clicked, this, [reorder] { reorder(1); });
+        const auto key = [this](int keys, auto what)
+        {
+          auto* action = new QAction(m_points);
+          action->setShortcut(keys);
+          action->setShortcutContext(Qt::WidgetShortcut);
+          connect(action, &QAction::triggered, this, what);
+          m_points->addAction(action);
+        };
+        key(Qt::Key_Delete, remove);
+        key(Qt::ALT + Qt::Key_Up, [reorder] { reorder(-1); });
+        key(Qt::ALT + Qt::Key_Down, [reorder] { reorder(1); });
+        form.addRow(rowOf({m_removePoint, m_movePoint, m_pointUp, m_pointDown}));
         auto* estimated = checkBox(tr("&estimated"), "nerveEstimate",
                                    tr("From the image, along the path; else one everywhere"));
         m_bound.add(
@@ -438,6 +505,13 @@ QWidget* SegmentPanel::addFoot()
   layout->addWidget(m_note);
   layout->addWidget(m_remark);
   layout->addWidget(m_line);
+  m_pieces->setObjectName("segmentPieces");
+  m_pieces->setWordWrap(true);
+  m_keepLargest =
+      button(tr("Keep the largest"), "segmentKeepLargest", tr("Removes the other pieces; a step"));
+  m_keepLargest->setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Fixed);
+  connect(m_keepLargest, &QPushButton::clicked, this, [this] { m_editor.keepLargest(); });
+  layout->addLayout(rowOf({m_pieces, m_keepLargest}));
   layout->addLayout(rowOf({m_progress, m_cancel}));
   layout->addLayout(rowOf({m_volume, m_undo, m_redo}));
   layout->addLayout(rowOf({m_create, m_discard}));
@@ -469,6 +543,12 @@ void SegmentPanel::caseChanged()
   refresh();
 }
 
+// What is being typed, and what was said of the structure that was created, stays.
+void SegmentPanel::partsChanged()
+{
+  refresh();
+}
+
 void SegmentPanel::appearanceChanged()
 {
   refresh();
@@ -479,9 +559,10 @@ void SegmentPanel::showSources()
   const auto sources = m_editor.sources();
   QStringList names, shown;
   for (const auto& source : sources)
-    names << words(source.name) + words(source.why);
+    names << imageName(source.name) + words(source.why);
   for (int n = 0; n < m_source->count(); ++n)
-    shown << m_source->itemData(n).toString() + m_source->itemData(n, Qt::ToolTipRole).toString();
+    shown << imageName(bytes(m_source->itemData(n).toString())) +
+                 m_source->itemData(n, Qt::ToolTipRole).toString();
   if (names == shown)
     return;
   m_bound.quietly(
@@ -490,7 +571,7 @@ void SegmentPanel::showSources()
         m_source->clear();
         for (const auto& source : sources)
         {
-          const QString name = source.name == "ct" ? tr("CT") : words(source.name);
+          const QString name = imageName(source.name);
           m_source->addItem(source.why.empty() ? name : tr("%1 (%2)").arg(name, words(source.why)),
                             words(source.name));
           const int row = m_source->count() - 1;
@@ -526,7 +607,8 @@ void SegmentPanel::showRange()
 void SegmentPanel::showPoints()
 {
   const auto points = m_editor.tubePoints();
-  const int chosen = m_points->indexOfTopLevelItem(m_points->currentItem());
+  const QSignalBlocker quiet(m_points); // rows that come and go are nobody's choice
+  const int chosen = chosenPoint();
   while (m_points->topLevelItemCount() > static_cast<int>(points.size()))
     delete m_points->takeTopLevelItem(m_points->topLevelItemCount() - 1);
   for (std::size_t n = 0; n < points.size(); ++n)
@@ -535,23 +617,47 @@ void SegmentPanel::showPoints()
     if (row == m_points->topLevelItemCount())
       m_points->addTopLevelItem(new QTreeWidgetItem);
     QTreeWidgetItem* item = m_points->topLevelItem(row);
-    item->setText(0, QString::number(row + 1));
+    const bool isOutside = points[n].isOutside;
+    item->setText(0, QString::number(row + 1) + (isOutside ? "!" : ""));
     item->setText(1, points[n].distance ? tr("%1 mm").arg(*points[n].distance, 0, 'f', 2)
                                         : QString::fromUtf8("–"));
     item->setText(2, words(points[n].problem));
     item->setToolTip(2, words(points[n].problem));
-    item->setForeground(2, QColor("#ffb454"));
+    const QColor warned("#ffb454");
+    for (int column = 0; column < 2; ++column)
+      item->setForeground(column, isOutside ? QBrush(warned) : palette().text());
+    item->setForeground(2, warned);
   }
   if (chosen < 0 && m_points->topLevelItemCount() > 0)
     m_points->setCurrentItem(m_points->topLevelItem(m_points->topLevelItemCount() - 1));
   m_points->resizeColumnToContents(0);
   m_points->resizeColumnToContents(1);
-  m_removePoint->setEnabled(!points.empty());
+  const int rows = std::clamp(m_points->topLevelItemCount(), kLeastPointRows, kMostPointRows);
+  const int row = m_points->topLevelItemCount() > 0
+                      ? m_points->visualItemRect(m_points->topLevelItem(0)).height()
+                      : m_points->fontMetrics().height() + 4;
+  m_points->setFixedHeight(m_points->header()->sizeHint().height() + rows * row +
+                           2 * m_points->frameWidth());
+  enablePoints();
+}
+
+int SegmentPanel::chosenPoint() const
+{
+  return m_points->indexOfTopLevelItem(m_points->currentItem());
+}
+
+void SegmentPanel::enablePoints()
+{
+  const int chosen = chosenPoint();
+  m_removePoint->setEnabled(chosen >= 0);
+  m_movePoint->setEnabled(chosen >= 0);
+  m_pointUp->setEnabled(chosen > 0);
+  m_pointDown->setEnabled(chosen >= 0 && chosen + 1 < m_points->topLevelItemCount());
 }
 
 void SegmentPanel::showVolume()
 {
-  m_volume->setText(volumeText(m_editor));
+  m_volume->setText(draftText(m_editor));
 }
 
 void SegmentPanel::refresh()
@@ -565,10 +671,25 @@ void SegmentPanel::refresh()
   m_pages->setCurrentIndex(static_cast<int>(m_editor.tool()));
   const bool free = !m_editor.stepping();
   showVolume();
+  const QString notShown = words(m_editor.notShown());
+  m_shown->setText(notShown);
+  m_showSource->setText(tr("Show %1").arg(imageName(m_editor.source())));
+  const std::string instead = m_editor.shownInstead();
+  m_takeShown->setText(tr("Work on %1").arg(imageName(instead)));
+  m_shown->setVisible(!notShown.isEmpty());
+  m_showSource->setVisible(!notShown.isEmpty());
+  m_takeShown->setVisible(!instead.empty());
   m_remark->setText(words(m_editor.warning()));
   m_remark->setVisible(!m_editor.warning().empty());
   m_note->setText(words(m_editor.note()));
   m_note->setVisible(!m_editor.note().empty());
+  const auto pieces = m_editor.pieces();
+  if (pieces)
+    m_pieces->setText(tr("%1 pieces, %2 outside the largest")
+                          .arg(pieces->count)
+                          .arg(volumeText(pieces->outside)));
+  m_pieces->setVisible(pieces.has_value());
+  m_keepLargest->setVisible(pieces.has_value());
   m_progress->setVisible(!free);
   m_cancel->setVisible(!free);
   const std::string whyNot = m_editor.whyNotStep();
@@ -584,6 +705,14 @@ void SegmentPanel::refresh()
     findChild<QDoubleSpinBox*>(name)->setEnabled(m_editor.values().within);
   m_undo->setEnabled(free && m_editor.canUndo());
   m_redo->setEnabled(free && m_editor.canRedo());
+  m_undo->setToolTip(tr("%1 (Ctrl+Z while a tool is in use)")
+                         .arg(m_editor.undoText().empty()
+                                  ? tr("The last step")
+                                  : tr("Undo %1").arg(words(m_editor.undoText()))));
+  m_redo->setToolTip(tr("%1 (Ctrl+Shift+Z while a tool is in use)")
+                         .arg(m_editor.redoText().empty()
+                                  ? tr("Again")
+                                  : tr("Redo %1").arg(words(m_editor.redoText()))));
   const std::string why = m_editor.whyNotCreate();
   m_create->setText(m_editor.edited().empty() ? tr("Create structure") : tr("Save the changes"));
   m_create->setEnabled(free && why.empty());

@@ -38,6 +38,7 @@ public:
   void refresh();
   void showVolume(); ///< alone, while a stroke is painted
   void setProgress(double fraction, const QString& text);
+  void partsChanged() override;
   void say(const QString& line); ///< a refusal, or what was done; empty: nothing
   void focusName();
 
@@ -49,6 +50,9 @@ signals:
   void createAsked();
   void discardAsked();
   void editAsked(const QString& structure);
+  void imageWanted(const QString& image);           ///< in the slices
+  void pointChosen(const Eigen::Vector3d& patient); ///< of the nerve
+  void pointToCrosshairAsked(int row);              ///< likewise
 
 private:
   using Values = presenters::SegmentValues;
@@ -65,7 +69,11 @@ private:
   void change(const std::function<void(Values&)>& what);
   void showRange();
   void showSources();
+  QString imageName(const std::string& source) const;
+  void takeSource(const std::string& source);
   void showPoints();
+  int chosenPoint() const; ///< -1: none
+  void enablePoints();
 
   presenters::SegmentEditor& m_editor;
   QLineEdit* m_name;
@@ -78,11 +86,19 @@ private:
   std::vector<QPushButton*> m_steps;
   QTreeWidget* m_points = nullptr;
   QPushButton* m_removePoint = nullptr;
+  QPushButton* m_movePoint = nullptr;
+  QPushButton* m_pointUp = nullptr;
+  QPushButton* m_pointDown = nullptr;
   QDoubleSpinBox* m_smallest = nullptr;
+  QLabel* m_shown;
+  QPushButton* m_showSource;
+  QPushButton* m_takeShown;
   QLabel* m_volume;
   QLabel* m_line;
   QLabel* m_remark;
   QLabel* m_note;
+  QLabel* m_pieces;
+  QPushButton* m_keepLargest = nullptr;
   QProgressBar* m_progress;
   QPushButton* m_cancel;
   QPushButton* m_undo;

@@ -91,6 +91,23 @@ bool MrOverlay::load(const scene::ImagePart& part)
 
 void MrOverlay::refresh()
 {
+  draw();
+  emit drawn();
+}
+
+presenters::ShownImages MrOverlay::shown() const
+{
+  const scene::ImagePart* part = m_session.part();
+  if (!part || !seen() || !m_overlay)
+    return {};
+  if (!m_alone && m_mode == OverlayMode::Checker)
+    return {true, part->name};
+  const double opacity = m_alone.value_or(m_mode == OverlayMode::Blend ? m_opacity : 1.0);
+  return {opacity<1.0, opacity> 0.0 ? part->name : std::string()};
+}
+
+void MrOverlay::draw()
+{
   const scene::ImagePart* part = m_session.part();
   const bool ctAlone = m_alone && *m_alone == 0.0;
   if (!seen())
@@ -98,7 +115,8 @@ void MrOverlay::refresh()
   if (!part || ctAlone || !seen())
   {
     m_slices.setOverlay(nullptr);
-    m_slices.setNotice(part && ctAlone ? tr("CT alone (V)") : QString());
+    m_slices.setNotice(part && ctAlone ? tr("%1 alone (V)").arg(words(m_session.primary()))
+                                       : QString());
     return;
   }
   if (!load(*part))

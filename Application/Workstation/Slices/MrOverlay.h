@@ -33,14 +33,17 @@ public:
   void next();                                                       ///< next mode
   void flick();                                                      ///< toggles MR or CT alone
   void showAlone(bool mr);                                           ///< the MR, or the CT
+  presenters::ShownImages shown() const;                             ///< in the slices
   void setUnderWay(const std::optional<core::RigidTransform>& best); ///< X_MC of a run; or none
 
 signals:
   void changed(); ///< mode or opacity
+  void drawn();   ///< the slices may show other images: see `shown`
   void statusMessage(const QString& line);
 
 private:
   bool load(const scene::ImagePart& part);
+  void draw();
 
   presenters::RegistrationSession& m_session;
   SliceColumn& m_slices;

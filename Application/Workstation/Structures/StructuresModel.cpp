@@ -7,6 +7,7 @@
 #include "Theme.h"
 #include "WindowTexts.h"
 #include "petrous/Appearance/StructureProperties.h"
+#include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/CaseField.h"
 #include "petrous/Scene/Placement.h"
 
@@ -153,6 +154,11 @@ QString StructuresModel::untouchableText(const std::string& name) const
   return {};
 }
 
+QString StructuresModel::primary() const
+{
+  return m_model.hasCase() ? presenters::primaryName(m_model.value()) : "CT";
+}
+
 QVariant StructuresModel::data(const QModelIndex& index, int role) const
 {
   if (!index.isValid() || index.row() >= rowCount())
@@ -164,13 +170,13 @@ QVariant StructuresModel::data(const QModelIndex& index, int role) const
     if (role == Qt::DisplayRole)
     {
       const QString name = words(row.name).replace('_', ' ');
-      return row.missing.empty() ? name : tr("%1 (not on the CT)").arg(name);
+      return row.missing.empty() ? name : tr("%1 (not on the %2)").arg(name, primary());
     }
     if (role == Qt::DecorationRole)
       return swatch(row.look);
     if (role == Qt::ToolTipRole && !row.missing.empty())
-      return tr("%1 is nowhere on the CT, and neither drawn nor felt nor warned of: %2")
-          .arg(words(row.name), windowText(words(row.missing)));
+      return tr("%1 is nowhere on the %2, and neither drawn nor felt nor warned of: %3")
+          .arg(words(row.name), primary(), windowText(words(row.missing)));
     if (role == Qt::ToolTipRole)
       return row.look.solid ? words(row.name)
                             : tr("%1 (a space without tissue)").arg(words(row.name));

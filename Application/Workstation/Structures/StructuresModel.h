@@ -58,6 +58,7 @@ private:
   std::vector<Row> rows() const;
   QVariant propertyData(const Row& row, const appearance::StructureProperty& property,
                         int role) const;
+  QString primary() const; ///< image: "CT" or "MR"
   QString untouchableText(const std::string& mesh) const;
 
   presenters::WorkstationModel& m_model;

@@ -50,10 +50,11 @@ void StructuresPanel::addThreshold(QVBoxLayout& layout)
   m_bound.add(
       m_slider, [this] { return static_cast<int>(std::lround(m_box->value() / m_step)); },
       [this](int steps) { m_box->setValue(m_step * steps); });
-  auto* threshold = new QLabel(tr("&Bone threshold"));
-  threshold->setBuddy(m_box);
+  m_threshold = new QLabel;
+  m_threshold->setObjectName("thresholdName");
+  m_threshold->setBuddy(m_box);
   auto* top = new QHBoxLayout;
-  top->addWidget(threshold);
+  top->addWidget(m_threshold);
   top->addStretch();
   top->addWidget(m_box);
   auto* head = new QVBoxLayout;
@@ -151,7 +152,7 @@ void StructuresPanel::addTissues(QMenu& menu, const QString& name)
               m_model.setLook(bytes(name), next);
             });
   };
-  add(tr("Bone, by its density"), {});
+  add(isOnMr() ? tr("Tissue of the MR, all alike") : tr("Bone, by its density"), {});
   const auto catalogue = dissection::MaterialCatalogue::builtIn();
   for (const auto& material : catalogue.all())
     add(words(material.title), material.name);
@@ -164,8 +165,9 @@ void StructuresPanel::offer(const QPoint& position)
     return;
   QMenu menu;
   addTissues(menu, name);
-  QAction* thickness = menu.addAction(
-      tr("Colour bone by its thickness over %1").arg(QString(name).replace('_', ' ')));
+  QAction* thickness = menu.addAction((isOnMr() ? tr("Colour tissue by its thickness over %1")
+                                                : tr("Colour bone by its thickness over %1"))
+                                          .arg(QString(name).replace('_', ' ')));
   thickness->setCheckable(true);
   thickness->setChecked(m_model.thicknessOver() == bytes(name));
   menu.addSeparator();
@@ -191,13 +193,21 @@ void StructuresPanel::showRange()
         m_box->setSingleStep(10.0 * m_step);
         m_box->setSuffix(words(display.suffix()));
       });
-  const QString tip = display.hounsfield
-                          ? tr("Bone is what is denser than this, in Hounsfield units (HU)")
-                          : tr("Bone is what is denser than this, in the image's own unit: it is "
-                               "not in Hounsfield units");
+  m_threshold->setText(isOnMr() ? tr("S&urface threshold") : tr("&Bone threshold"));
+  const QString tip =
+      isOnMr()             ? tr("The surface is where the MR gets brighter than this, in its own "
+                                            "unit; it is that of tissue, not of bone")
+      : display.hounsfield ? tr("Bone is what is denser than this, in Hounsfield units (HU)")
+                           : tr("Bone is what is denser than this, in the image's own unit: it is "
+                                "not in Hounsfield units");
   m_slider->setToolTip(tip);
   m_box->setToolTip(tip);
   m_bound.refresh();
+}
+
+bool StructuresPanel::isOnMr() const
+{
+  return m_model.hasCase() && m_model.value().ct.modality == scene::Modality::Mr;
 }
 
 void StructuresPanel::caseChanged()

@@ -5,6 +5,7 @@
 #include "petrous/Presenters/WorkstationModel.h"
 
 class QDoubleSpinBox;
+class QLabel;
 class QMenu;
 class QSlider;
 class QTreeView;
@@ -43,13 +44,15 @@ private:
   void offer(const QPoint& position);
   void addTissues(QMenu& menu, const QString& name);
   void showRange();
+  bool isOnMr() const; // an MR is the primary image, and shows no bone
 
   presenters::WorkstationModel& m_model;
   StructuresModel* m_structures;
   QTreeView* m_list;
   QSlider* m_slider;
   QDoubleSpinBox* m_box;
-  double m_step = 1.0; // of the slider, in the CT's unit
+  QLabel* m_threshold;
+  double m_step = 1.0; // of the slider, in the primary image's unit
   int m_nameWidth = 0; // of the names' column as the user set it, px; 0: not set
   bool m_fitting = false;
   Bindings m_bound;

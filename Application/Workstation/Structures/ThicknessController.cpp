@@ -57,7 +57,8 @@ void ThicknessController::showOver(const QString& structure)
 void ThicknessController::bringUpToDate()
 {
   const QString over = words(m_model.thicknessOver()).replace('_', ' ');
-  m_legend->setStructure(over);
+  m_legend->setStructure(over,
+                         m_model.hasCase() && m_model.value().ct.modality == scene::Modality::Mr);
   m_bound.refresh();
 }
 

@@ -29,8 +29,9 @@ ThicknessLegend::ThicknessLegend(QWidget& view)
   hide();
 }
 
-void ThicknessLegend::setStructure(const QString& name)
+void ThicknessLegend::setStructure(const QString& name, bool onMr)
 {
+  m_isOnMr = onMr;
   m_structure = name;
   setVisible(!name.isEmpty());
   update();
@@ -52,10 +53,11 @@ void ThicknessLegend::paintEvent(QPaintEvent*)
         QColor::fromRgbF(double{colors[n][0]}, double{colors[n][1]}, double{colors[n][2]}));
   painter.fillRect(bar, scale);
   painter.setPen(QColor("#d7dce2"));
-  painter.drawText(QRect(kMargin, 4, kWidth - 2 * kMargin, kBarTop - 6),
-                   Qt::AlignLeft | Qt::AlignVCenter,
-                   painter.fontMetrics().elidedText(tr("Bone over %1, mm").arg(m_structure),
-                                                    Qt::ElideRight, kWidth - 2 * kMargin));
+  painter.drawText(
+      QRect(kMargin, 4, kWidth - 2 * kMargin, kBarTop - 6), Qt::AlignLeft | Qt::AlignVCenter,
+      painter.fontMetrics().elidedText(
+          (m_isOnMr ? tr("Tissue over %1, mm") : tr("Bone over %1, mm")).arg(m_structure),
+          Qt::ElideRight, kWidth - 2 * kMargin));
   const int last = static_cast<int>(presenters::kFarthestThickness);
   for (int mm = 0; mm <= last; ++mm)
   {

@@ -14,7 +14,8 @@ public:
   /// `view`: the widget that it overlays.
   explicit ThicknessLegend(QWidget& view);
 
-  void setStructure(const QString& name); ///< empty: hidden
+  /// Empty: hidden. `onMr`: it is tissue that is coloured.
+  void setStructure(const QString& name, bool onMr);
   const QString& structure() const noexcept { return m_structure; }
 
 protected:
@@ -22,6 +23,7 @@ protected:
 
 private:
   QString m_structure;
+  bool m_isOnMr = false;
 };
 
 } // namespace petrous::workstation

@@ -824,6 +824,17 @@ TEST(WindowText, SaysWhatToDoInTheWindow)
         "another name",
         "x.nii: structure 'a' is in the case already; give it another name with NAME=FILE",
         "CT: the surface of bone is put at 5; 'petrous appearance --iso' moves the surface.",
+        "MR: The surface is where tissue begins, put at 5 by the image's histogram; what is "
+        "drilled is this tissue, not bone. 'petrous appearance --iso' moves the surface.",
+        "CT: it is taken for a CT with units of its own, such as cone beam. Build the case with "
+        "--modality MR if it is an MR, --modality CT if it is not.",
+        "a.stroke: is damaged; restore this file from a copy of the library; 'petrous library "
+        "verify' lists all that is damaged",
+        "a.nrrd: is no image as this program stores it; 'petrous library verify' lists what is "
+        "damaged",
+        "a.stroke: is damaged; or go back to before it, which loses nothing: petrous undo 'ear' 12",
+        "structure 'a': there is no material 'b'; give it another one (appearance --tissue)",
+        "2 files hold many frames in one; a DICOM segmentation is read as structures (--labels).",
         "x: several MR images have its grid; say on which it was drawn with FILE@T2 or FILE@DWI",
         "x: was drawn in another frame of reference than the CT's; if it is this CT's all the "
         "same, "

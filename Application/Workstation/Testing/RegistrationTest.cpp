@@ -7,8 +7,10 @@
 #include <QPointer>
 #include <QPushButton>
 #include <QSpinBox>
+#include <QStatusBar>
 #include <QTableView>
 #include <QTimer>
+#include <QTreeWidget>
 
 #include "BackgroundWork.h"
 #include "LandmarkModel.h"
@@ -179,6 +181,88 @@ TEST_F(RegistrationWindow, RegistersWithProgressAndStatesTheError)
   const scene::Case saved = library().open("ear");
   ASSERT_TRUE(saved.mr.front().registered);
   EXPECT_TRUE(saved.mr.front().registration.has_value());
+}
+
+TEST_F(RegistrationWindow, TheSegmentPanelWorksOnWhatTheSlicesShow)
+{
+  auto& model = const_cast<presenters::WorkstationModel&>(window().model());
+  model.changeMr(
+      [this](scene::Case& value)
+      { scene::applyRegistration(value, "T2", phantom.mrFromCt(), scene::Registration()); });
+  auto& source = find<QComboBox>("segmentSource");
+  auto& note = find<QLabel>("segmentShown");
+  showPanel();
+  const QImage ct = axial();
+  choose(2); // as after a registration
+  EXPECT_EQ(source.currentText(), "T2");
+  choose(0);
+  EXPECT_EQ(source.currentText(), "CT");
+  source.setCurrentIndex(1);
+  EXPECT_NE(axial(), ct);
+  EXPECT_TRUE(note.isHidden());
+  source.setCurrentIndex(0);
+  EXPECT_EQ(axial(), ct);
+
+  QTest::keyClick(&window(), Qt::Key_N, Qt::ShiftModifier);
+  EXPECT_TRUE(note.isHidden());
+  QTest::keyClick(&view(), Qt::Key_V); // the MR alone
+  EXPECT_FALSE(note.isHidden());
+  EXPECT_TRUE(note.text().contains("T2")) << note.text().toStdString();
+  auto& slice = find<SliceView>("axialView");
+  QTest::mouseClick(&slice, Qt::LeftButton, Qt::NoModifier, slice.rect().center());
+  EXPECT_EQ(find<QTreeWidget>("nervePoints").topLevelItemCount(), 0) << "not on an unseen image";
+  EXPECT_FALSE(find<QLabel>("segmentRemark").text().isEmpty());
+  click("segmentTakeShown");
+  EXPECT_TRUE(note.isHidden());
+  EXPECT_EQ(source.currentText(), "T2");
+  QTest::mouseClick(&slice, Qt::LeftButton, Qt::NoModifier, slice.rect().center());
+  EXPECT_EQ(find<QTreeWidget>("nervePoints").topLevelItemCount(), 1);
+  QTest::keyClick(&view(), Qt::Key_V); // the CT alone
+  EXPECT_FALSE(note.isHidden());
+  click("segmentShowSource");
+  EXPECT_TRUE(note.isHidden());
+  find<QPushButton>("segmentUndo").click(); // no draft that the window asks about
+}
+
+TEST_F(RegistrationWindow, AStructureThatIsCreatedLeavesTheViewsAsTheyAre)
+{
+  auto& model = const_cast<presenters::WorkstationModel&>(window().model());
+  showPanel();
+  choose(2);
+  model.setCrosshair(Phantom::center() + Vector3d(3, 2, 1));
+  const Vector3d crosshair = model.crosshair();
+  const auto before = find<SliceView>("axialView").slice();
+  QTest::keyClick(&window(), Qt::Key_P, Qt::ShiftModifier);
+  auto& slice = find<SliceView>("axialView");
+  QTest::mouseClick(&slice, Qt::LeftButton, Qt::NoModifier, slice.rect().center());
+  QTest::keyClicks(&find<QLineEdit>("segmentName"), "Sigmoid sinus");
+  EXPECT_TRUE(action("Undo paint stroke"));
+  find<QPushButton>("segmentCreate").click();
+  ASSERT_TRUE(waitFor([&] { return scene::findStructure(model.value(), "Sigmoid sinus"); }));
+  const double volume =
+      static_cast<double>(scene::findStructure(model.value(), "Sigmoid sinus")->voxels) *
+      model.value().ct.geometry.voxelVolume();
+  for (const QString& said :
+       {window().statusBar()->currentMessage(), find<QLabel>("segmentLine").text()})
+  {
+    EXPECT_TRUE(said.contains("Sigmoid sinus")) << said.toStdString();
+    EXPECT_TRUE(said.contains(QString::number(volume, 'f', volume < 100.0 ? 2 : 1) +
+                              QString::fromUtf8(" mm³")))
+        << said.toStdString();
+    EXPECT_TRUE(said.contains("Undo")) << said.toStdString();
+  }
+  EXPECT_TRUE(settled());
+  EXPECT_EQ(find<QComboBox>("overlayMode").currentIndex(), 2);
+  EXPECT_EQ(model.crosshair(), crosshair);
+  EXPECT_EQ(find<SliceView>("axialView").slice().mmPerPixel(), before.mmPerPixel());
+  QAction* undo = action("Undo create Sigmoid sinus");
+  ASSERT_TRUE(undo);
+  EXPECT_EQ(undo->shortcut(), QKeySequence(Qt::CTRL + Qt::Key_Z));
+  undo->trigger();
+  EXPECT_FALSE(scene::findStructure(model.value(), "Sigmoid sinus"));
+  EXPECT_EQ(find<QComboBox>("overlayMode").currentIndex(), 2);
+  action("Redo create Sigmoid sinus")->trigger();
+  EXPECT_TRUE(scene::findStructure(model.value(), "Sigmoid sinus"));
 }
 
 TEST_F(RegistrationWindow, SaysWhatItDoesWhereItCanBeSeen)

@@ -364,6 +364,28 @@ TEST_F(Segment, TheFacialNerveOfThePhantomIsFoundFromClicks)
   ASSERT_TRUE(waitFor([&] { return table.topLevelItem(0)->text(1).contains("mm"); }));
   for (int row = 0; row < table.topLevelItemCount(); ++row)
     EXPECT_LT(table.topLevelItem(row)->text(1).remove(" mm").toDouble(), 0.8);
+  // In the order of the clicks; six rows are seen without scrolling.
+  EXPECT_GE(table.viewport()->height(), 6 * table.visualItemRect(table.topLevelItem(0)).height());
+  table.setFocus();
+  for (std::size_t n = points.size(); n-- > 0;)
+  {
+    table.setCurrentItem(table.topLevelItem(static_cast<int>(n)));
+    EXPECT_LT((window().model().crosshair() - points[n]).norm(), 0.5) << n;
+  }
+  // Moved to the crosshair, out of the nerve, a point is marked; undo takes it back.
+  table.setCurrentItem(table.topLevelItem(3));
+  model().setCrosshair(points[3] + Vector3d(1.2, 0, 0));
+  find<QPushButton>("moveNervePoint").click();
+  EXPECT_TRUE(waitFor([&] { return table.topLevelItem(3)->text(0) == "4!"; }));
+  EXPECT_NE(table.topLevelItem(3)->text(2), "");
+  QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_TRUE(waitFor([&] { return table.topLevelItem(3)->text(1).contains("mm"); }));
+  EXPECT_EQ(table.topLevelItem(3)->text(0), "4");
+  table.setFocus();
+  QTest::keyClick(&table, Qt::Key_Delete);
+  EXPECT_EQ(table.topLevelItemCount(), 4);
+  QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(table.topLevelItemCount(), 5);
   picture();
   create("facial nerve");
   const auto* voxels = voxelsOf("facial nerve");

@@ -5,13 +5,16 @@
 #include <thread>
 
 #include <QAbstractItemModelTester>
+#include <QComboBox>
 #include <QDockWidget>
 #include <QHeaderView>
 #include <QInputDialog>
+#include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
 #include <QMenuBar>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QScrollBar>
 #include <QSlider>
 #include <QSpinBox>
@@ -170,6 +173,55 @@ TEST_F(Window, ACaseIsOpenedThoughAFolderHereHasItsName)
   std::filesystem::current_path(before);
   EXPECT_TRUE(window().model().hasCase());
   EXPECT_FALSE(window().busy());
+}
+
+TEST_F(Window, AnMrAsPrimaryImageIsCalledSo)
+{
+  scene::Case value = ballCase("mr");
+  value.ct.modality = scene::Modality::Mr;
+  value.mr.push_back(value.ct);
+  value.mr.back().name = "DWI";
+  library().save(value);
+  saveBall("ct");
+  const auto texts = [this]
+  {
+    QStringList all;
+    for (const auto* label : window().findChildren<QLabel*>())
+      if (!label->window()->findChild<StartPage*>()->isAncestorOf(label))
+        all += label->text();
+    for (const auto* button : window().findChildren<QAbstractButton*>())
+      all += button->text();
+    for (const auto* action : window().findChildren<QAction*>())
+      all += action->text();
+    for (const auto* box : window().findChildren<QComboBox*>())
+      for (int n = 0; n < box->count(); ++n)
+        all += box->itemText(n);
+    return all.replaceInStrings("&", "");
+  };
+  const QRegularExpression names("\\bCT\\b|\\b[Bb]one\\b");
+  openWindow("mr");
+  for (const QString& text : texts())
+    EXPECT_FALSE(text.contains(names)) << text.toStdString();
+  EXPECT_TRUE(texts().contains("Surface threshold"));
+  EXPECT_TRUE(texts().contains("MR"));
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        auto* what = dialog.findChild<QComboBox*>("exportWhat");
+        if (!what)
+          return false;
+        for (int n = 0; n < what->count(); ++n)
+          EXPECT_FALSE(what->itemText(n).contains(names)) << what->itemText(n).toStdString();
+        dialog.reject();
+        return true;
+      });
+  action("Export…")->trigger();
+  window().begin("ct"); // a CT has its own words again
+  ASSERT_TRUE(waitFor([this] { return window().model().value().name == "ct"; }));
+  EXPECT_TRUE(settled());
+  EXPECT_TRUE(texts().contains("Bone threshold"));
+  EXPECT_TRUE(texts().contains("CT alone"));
+  EXPECT_TRUE(action("Bone window") && action("Bone thickness over the structure"));
 }
 
 TEST_F(Window, ADragTurnsThePatientAndAWheelZooms)

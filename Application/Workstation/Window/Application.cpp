@@ -3,6 +3,7 @@
 #include <new>
 
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Core/Error.h"
 #include "petrous/Core/Log.h"
 
@@ -67,7 +68,7 @@ QString toString(const std::exception& error)
 {
   core::log::error("window: " + core::log::typeOf(error));
   if (dynamic_cast<const core::Error*>(&error))
-    return words(error.what());
+    return windowText(words(error.what()));
   if (dynamic_cast<const std::bad_alloc*>(&error))
     return QObject::tr("There is not enough memory; close other programs.");
   return QObject::tr("An unexpected fault; the library is as it was before.");

@@ -52,6 +52,7 @@
 #include "WindowTexts.h"
 #include "petrous/Dissection/Catalogues.h"
 #include "petrous/Presenters/CasePicture.h"
+#include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/Recordings.h"
 
 namespace petrous::workstation
@@ -83,7 +84,7 @@ QStringList notesOf(const scene::Case& value)
     for (const std::string& note : more)
       notes += words(part) + ": " + windowText(words(note));
   };
-  add("CT", value.ct.notes);
+  add(presenters::primaryName(value), value.ct.notes);
   for (const auto& mr : value.mr)
     add(mr.name, mr.notes);
   for (const auto& part : value.labels)
@@ -329,7 +330,7 @@ void MainWindow::showPanels()
   resizeDocks({front}, {395}, Qt::Horizontal);
 }
 
-// Another case is open, or its parts are others, or none is open any more.
+// Another case is open, or none is any more.
 void MainWindow::tellPanels()
 {
   m_registration->caseChanged();
@@ -363,7 +364,12 @@ void MainWindow::connectModel()
   m_model.events.toolPutAway = [this]
   { statusBar()->showMessage(tr("Tool put away: what was drawn on the MR moved"), kMessage); };
   m_model.events.stateChanged = [this] { stateChanged(); };
-  m_model.events.stepped = [this](bool back) { stepped(back); };
+  m_model.events.stepped = [this](bool back)
+  {
+    m_segmentWasLast = false;
+    showUndo();
+    stepped(back);
+  };
   m_model.events.recordingChanged = [this](const std::string& fault)
   { showRecording(words(fault)); };
   m_model.events.noticed = [this](const std::string& text) { notice(words(text)); };
@@ -465,9 +471,9 @@ void MainWindow::connectActions()
         refused);
   };
   on(m_actions->undo, [this, step]
-     { m_segment->active() ? m_segment->undo() : step(&presenters::WorkstationModel::undo); });
+     { undoesSegment() ? m_segment->undo() : step(&presenters::WorkstationModel::undo); });
   on(m_actions->redo, [this, step]
-     { m_segment->active() ? m_segment->redo() : step(&presenters::WorkstationModel::redo); });
+     { redoesSegment() ? m_segment->redo() : step(&presenters::WorkstationModel::redo); });
   on(m_actions->centerView,
      [this]
      {
@@ -512,8 +518,19 @@ void MainWindow::connectSegment()
                 (m_view->tool().GetDrillMode() || m_view->tool().GetProbeMode()))
               m_segment->leaveTool();
           });
+  // The user segments on what the slices show.
+  connect(m_registration, &RegistrationController::shownChanged, this,
+          [this] { m_segment->setShown(m_registration->shown()); });
+  connect(m_segment, &SegmentController::imageWanted, this,
+          [this](const QString& image) { m_registration->show(bytes(image)); });
   connect(m_segment, &SegmentController::stateChanged, this, &MainWindow::showUndo);
   connect(m_segment, &SegmentController::structureCreated, m_saver, &CaseSaver::save);
+  connect(m_segment, &SegmentController::structureCreated, this,
+          [this]
+          {
+            m_segmentWasLast = true;
+            showUndo();
+          });
   connect(m_segment, &SegmentController::statusMessage, this,
           [this](const QString& line) { statusBar()->showMessage(line, kMessage); });
   connect(m_segment, &SegmentController::surfaceChanged, m_picture, &PictureController::setDraft);
@@ -524,8 +541,25 @@ void MainWindow::connectSegment()
 
 void MainWindow::showUndo()
 {
-  m_actions->undo->setEnabled(m_segment->active() ? m_segment->canUndo() : m_model.canUndo());
-  m_actions->redo->setEnabled(m_segment->active() ? m_segment->canRedo() : m_model.canRedo());
+  const bool undoes = undoesSegment();
+  const bool redoes = redoesSegment();
+  m_actions->undo->setEnabled(undoes ? m_segment->canUndo() : m_model.canUndo());
+  m_actions->redo->setEnabled(redoes ? m_segment->canRedo() : m_model.canRedo());
+  const auto entry = [](const QString& text, bool isStep, const QString& what)
+  { return isStep && !what.isEmpty() ? text + ' ' + QString(what).replace('&', "&&") : text; };
+  m_actions->undo->setText(entry(tr("&Undo"), undoes, m_segment->undoText()));
+  m_actions->redo->setText(entry(tr("&Redo"), redoes, m_segment->redoText()));
+}
+
+// A tool's steps; and the structure just created, until the drill is used.
+bool MainWindow::undoesSegment() const
+{
+  return m_segment->active() || (m_segmentWasLast && m_segment->canUndo());
+}
+
+bool MainWindow::redoesSegment() const
+{
+  return m_segment->active() || (m_segmentWasLast && m_segment->canRedo());
 }
 
 void MainWindow::begin(const QString& what)
@@ -571,7 +605,10 @@ void MainWindow::partsChanged()
   m_picture->appearanceChanged();
   m_slices->appearanceChanged();
   m_segment->partsChanged();
-  tellPanels();
+  m_registration->partsChanged();
+  m_thickness->caseChanged();
+  for (const auto& [entry, panel] : m_panels)
+    panel->partsChanged();
   notifyNotes();
 }
 
@@ -636,6 +673,7 @@ void MainWindow::stateChanged()
 {
   const bool open = m_model.hasCase();
   m_actions->setCaseOpen(open);
+  m_actions->setOnMr(open && m_model.value().ct.modality == scene::Modality::Mr);
   m_branches->stateChanged();
   showUndo();
   if (!open)
@@ -680,6 +718,8 @@ void MainWindow::stepped(bool back)
 
 void MainWindow::strokeEnded(const std::shared_ptr<const dissection::Stroke>& stroke)
 {
+  m_segmentWasLast = false;
+  showUndo();
   const QString text = strokeText(stroke.get());
   if (!stroke)
     return statusBar()->showMessage(text, kMessage);

@@ -85,6 +85,8 @@ private:
   void maskChanged(const core::IndexBox& box);
   void stateChanged();
   void showUndo();
+  bool undoesSegment() const;
+  bool redoesSegment() const;
   void notice(const QString& text);
   void showView(rendering::StandardView view);
   void stepped(bool back); // by an undo or a redo
@@ -115,6 +117,7 @@ private:
   Banner* m_recordingBanner;
   Banner* m_removedBanner;
   QStringList m_notesTold;
+  bool m_segmentWasLast = false; // a structure was created since the last stroke
   ProbeLabel* m_place;
   QLabel* m_sum;
   QLabel* m_touch;

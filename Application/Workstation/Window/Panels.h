@@ -24,9 +24,10 @@ class Panel : public QWidget
 public:
   using QWidget::QWidget;
 
-  virtual void caseChanged() {}       ///< another case or other parts of it, or none any more
-  virtual void appearanceChanged() {} ///< threshold, or a structure's appearance
-  virtual void stateChanged() {}      ///< strokes
+  virtual void caseChanged() {}                  ///< another case, or none any more
+  virtual void partsChanged() { caseChanged(); } ///< images, structures or meshes of the same case
+  virtual void appearanceChanged() {}            ///< threshold, or a structure's appearance
+  virtual void stateChanged() {}                 ///< strokes
   /// The burr's centre, patient LPS mm, and radius, mm; each frame.
   virtual void burrMoved(const Eigen::Vector3d& /*center*/, double /*radius*/) {}
   virtual void burrGone() {} ///< it was put away

@@ -40,10 +40,15 @@ QAction* WindowActions::make(QMenu* menu, const QString& text, const QKeySequenc
 {
   QAction* action = menu->addAction(text);
   action->setShortcut(keys);
-  const QString key = keys.toString(QKeySequence::NativeText);
-  action->setToolTip(key.isEmpty() ? tip : tip + " (" + key + ")");
-  action->setStatusTip(tip);
+  setTip(*action, tip);
   return action;
+}
+
+void WindowActions::setTip(QAction& action, const QString& tip)
+{
+  const QString key = action.shortcut().toString(QKeySequence::NativeText);
+  action.setToolTip(key.isEmpty() ? tip : tip + " (" + key + ")");
+  action.setStatusTip(tip);
 }
 
 WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceToolBar& deviceBar,
@@ -112,13 +117,12 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   }
   centerView = make(m_view, tr("&Centre on the crosshair"), Qt::Key_C,
                     tr("The 3D view turns and zooms about the crosshair from now on"));
-  boneThickness = make(m_view, tr("Bone &thickness over the structure"), Qt::Key_F6,
-                       tr("Colours bone by how much of it is left over the structure that is "
-                          "chosen in the list"));
+  boneThickness = make(m_view, {}, Qt::Key_F6, {});
   boneThickness->setCheckable(true);
   m_view->addSeparator();
-  boneWindow = make(m_view, tr("&Bone window"), Qt::Key_B, tr("Grey from -1300 to 2700 HU"));
-  softWindow = make(m_view, tr("Soft &tissue window"), Qt::Key_T, tr("Grey from -160 to 240 HU"));
+  boneWindow = make(m_view, {}, Qt::Key_B, {});
+  softWindow = make(m_view, {}, Qt::Key_T, {});
+  setOnMr(false);
   fitSlices = make(m_view, tr("&Fit slices"), Qt::Key_F, tr("Whole slices again"));
   m_view->addSeparator();
   viewMenu->addSeparator();
@@ -145,8 +149,8 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   drill->addSeparator();
   record =
       make(drill, tr("&Record session…"), Qt::CTRL + Qt::SHIFT + Qt::Key_R,
-           tr("Writes all that tool and drill do to a file, until it is chosen again; 'petrous "
-              "drill --replay' repeats it"));
+           tr("Writes all that tool and drill do to a file, until it is chosen again; the command "
+              "line can repeat it"));
   record->setCheckable(true);
 
   QMenu* help = window.menuBar()->addMenu(tr("&Help"));
@@ -220,6 +224,25 @@ void WindowActions::addPanelToggle(QAction* action, bool needsCase)
   m_view->addAction(action);
   if (needsCase)
     m_needCase.push_back(action);
+}
+
+void WindowActions::setOnMr(bool isMr)
+{
+  const auto set = [](QAction* action, const QString& text, const QString& tip)
+  {
+    action->setText(text);
+    setTip(*action, tip);
+  };
+  set(boneThickness,
+      isMr ? tr("Tissue &thickness over the structure") : tr("Bone &thickness over the structure"),
+      isMr ? tr("Colours tissue by how much of it is left over the structure that is chosen in the "
+                "list")
+           : tr("Colours bone by how much of it is left over the structure that is chosen in the "
+                "list"));
+  set(boneWindow, isMr ? tr("&Full window") : tr("&Bone window"),
+      isMr ? tr("Grey over all tissue of the MR") : tr("Grey from -1300 to 2700 HU"));
+  set(softWindow, isMr ? tr("&Dark half window") : tr("Soft &tissue window"),
+      isMr ? tr("Grey over the darker half of the MR's tissue") : tr("Grey from -160 to 240 HU"));
 }
 
 void WindowActions::setCaseOpen(bool open)

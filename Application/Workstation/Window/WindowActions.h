@@ -29,6 +29,7 @@ public:
 
   void addPanelToggle(QAction* action, bool needsCase); ///< to the View menu
   void setCaseOpen(bool open);                          ///< disables what needs a case
+  void setOnMr(bool isMr); ///< names what is seen and drilled: bone, or an MR's tissue
 
   QAction* openDicom;
   QAction* openRegion;
@@ -68,6 +69,7 @@ signals:
   void viewChosen(petrous::rendering::StandardView view);
 
 private:
+  static void setTip(QAction& action, const QString& tip);
   QAction* make(QMenu* menu, const QString& text, const QKeySequence& keys, const QString& tip);
   QMenu* addStereo(bool quadBuffer);
 

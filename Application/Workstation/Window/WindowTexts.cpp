@@ -9,6 +9,12 @@
 namespace petrous::workstation
 {
 
+QString volumeText(double volume)
+{
+  const int decimals = volume < 100.0 ? 2 : volume < 10000.0 ? 1 : 0;
+  return QObject::tr("%1 mm³").arg(volume, 0, 'f', decimals);
+}
+
 QString removedText(const scene::Case& value, bool drilling)
 {
   if (value.applied() == 0)
@@ -48,7 +54,18 @@ QString windowText(const QString& text)
       {" Give a series that 'petrous scan' finds ok\\.", ""},
       {" With --repair it is resampled to a straight volume\\.",
        " Opened alone, it can be repaired."},
+      {"; what is drilled is this tissue, not bone\\. 'petrous appearance --iso' moves the surface",
+       "; what is drilled is this tissue, not bone. Surface threshold (F9) moves the surface"},
       {"; 'petrous appearance --iso' moves the surface", "; Bone threshold (F9) moves the surface"},
+      {" Build the case with --modality MR if it is an MR, --modality CT if it is not\\.",
+       " If it is an MR, open it again and say so when you are asked."},
+      {"; 'petrous library verify' lists (all that|what) is damaged", ""},
+      {"; or go back to before it, which loses nothing: petrous undo '.*' [0-9]+$",
+       "; or undo the strokes from it on, which loses nothing"},
+      {"; give it another one \\(appearance --tissue\\)",
+       "; give it another one (“The drill meets” in the list's menu, F9)"},
+      {"; a DICOM segmentation is read as structures \\(--labels\\)",
+       "; a DICOM segmentation is read as structures"},
       {"; say how it counts \\(--mesh-frame, --mesh-unit\\)", ""},
       {"region of it \\(--roi\\)", "region of it"},
       {"say FILE@ct, or add", "add it again and choose “on the CT”, or add"},

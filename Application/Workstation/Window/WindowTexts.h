@@ -7,6 +7,9 @@
 namespace petrous::workstation
 {
 
+/// "12.34 mm³", with decimals as its size deserves.
+QString volumeText(double cubicMillimetres);
+
 /// What was drilled so far. `drilling`: a stroke is open, whose volume is known when it is closed.
 QString removedText(const scene::Case& value, bool drilling);
 

@@ -169,6 +169,51 @@ TEST(TubeTrace, PointsOutOfTheirOrderAreNoticed)
   EXPECT_TRUE(segmentation::likelyOrder({{0, 0, 0}, {1, 0, 0}}).empty());
 }
 
+TEST(TubeTrace, ANewPointGoesOnFromTheNearerEndUnlessItLiesBetweenTwo)
+{
+  // Points alone: in order along any of these, each next one goes to the end.
+  const std::vector<std::vector<Vector3d>> curves{
+      {{0, 0, 0}, {8, 0, 0}, {6.5, 2.6, 0}, {5, 5.2, 0}}, // turns back by 120 degrees
+      {{0, 0, 0}, {4, 0, 0}, {1, 3, 0}, {-4, 6, 0}},      // a short first leg
+      {{0, 0, 0}, {5, 1, 0}, {8, 5, 0}, {8, 10, 0}, {4, 14, 0}, {-1, 15, 0}, {-5, 11, 0}}};
+  for (const auto& curve : curves)
+    for (std::size_t n = 1; n < curve.size(); ++n)
+    {
+      Tube tube;
+      tube.points.assign(curve.begin(), curve.begin() + static_cast<std::ptrdiff_t>(n));
+      EXPECT_EQ(insertionIndex(tube, curve[n]), n);
+    }
+  Tube tube;
+  tube.points = {{0, 0, 0}, {10, 0, 0}, {20, 4, 0}};
+  EXPECT_EQ(insertionIndex(tube, {-5, 1, 0}), 0U);
+  EXPECT_EQ(insertionIndex(tube, {5, 1.5, 0}), 1U);
+  EXPECT_EQ(insertionIndex(tube, {15, 1, 1}), 2U);
+  EXPECT_EQ(insertionIndex(tube, {24, 9, 0}), 3U);
+  // With its line: the middle of a bend lies far from the chord.
+  const auto grid = cube(0.4);
+  const Scan scan{grid, bend(grid)};
+  const auto image = scan.image();
+  const auto all = scan.clicks(6, 0.3);
+  for (std::size_t n = 2; n < all.size(); ++n)
+    EXPECT_EQ(
+        insertionIndex(
+            traceTube(image, {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(n)}), all[n]),
+        n);
+  EXPECT_EQ(insertionIndex(traceTube(image, {all[0], all[3]}), all[2]), 1U);
+  EXPECT_EQ(insertionIndex(traceTube(image, {all[1], all[2], all[3]}), all[0]), 0U);
+}
+
+TEST(TubeTrace, APointOutsideOfTheTubeIsKnown)
+{
+  const auto grid = cube(0.4);
+  const Scan scan{grid, bend(grid)}; // radius 0.8 mm
+  auto points = scan.clicks(5, 0.3);
+  EXPECT_EQ(traceTube(scan.image(), points).outsideAtPoint, std::vector<std::uint8_t>(5, 0));
+  points[2] = scan.curve(0.5) + Vector3d(0, 0, 1.4);
+  EXPECT_EQ(traceTube(scan.image(), points).outsideAtPoint,
+            (std::vector<std::uint8_t>{0, 0, 1, 0, 0}));
+}
+
 TEST(TubeTrace, FollowsATurnedAnisotropicGrid)
 {
   const Eigen::Matrix3d axes =

@@ -160,7 +160,8 @@ void placeSurface(scene::Case& value, scene::Modality wanted)
     value.denseBone = scale.dense;
     value.boneLook.color = kMrColor;
     image.notes.push_back(
-        "An MR: its intensities are not Hounsfield units, and bone is as dark as air in it. The "
+        "An MR shows no bone: its intensities are not Hounsfield units, and bone is as dark as air "
+        "in it. The "
         "surface is where tissue begins, put at " +
         core::generalText(scale.iso) +
         " by the image's histogram; what is drilled is this tissue, not bone. 'petrous appearance "

@@ -61,6 +61,11 @@ volume::IntensityScale calibratedScale(const scene::Case& value)
   return scale;
 }
 
+const char* primaryName(const scene::Case& value)
+{
+  return value.ct.modality == scene::Modality::Mr ? "MR" : "CT";
+}
+
 IntensityDisplay displayOf(const scene::Case& value)
 {
   IntensityDisplay display;

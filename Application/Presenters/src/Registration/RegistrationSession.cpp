@@ -33,8 +33,20 @@ void RegistrationSession::caseChanged()
   m_redo.clear();
   m_name.clear();
   m_aim = {};
+  m_mrs = mrNames();
   choose(m_model.hasCase() && !m_model.value().mr.empty() ? m_model.value().mr.front().name
                                                           : std::string());
+}
+
+bool RegistrationSession::partsChanged()
+{
+  if (mrNames() == m_mrs)
+  {
+    checkAim(); // a structure may be gone
+    return true;
+  }
+  caseChanged();
+  return false;
 }
 
 void RegistrationSession::choose(const std::string& mr)
@@ -57,6 +69,12 @@ std::vector<std::string> RegistrationSession::mrNames() const
     for (const scene::ImagePart& mr : m_model.value().mr)
       names.push_back(mr.name);
   return names;
+}
+
+std::string RegistrationSession::primary() const
+{
+  const bool isMr = m_model.hasCase() && m_model.value().ct.modality == scene::Modality::Mr;
+  return isMr ? "primary MR" : "CT";
 }
 
 std::string RegistrationSession::stateText() const

@@ -29,10 +29,11 @@ using Image = std::shared_ptr<const volume::IntensityVolume>;
 using Combine = SegmentValues::Combine;
 
 constexpr std::size_t kLeastTubePoints = 2;
-constexpr std::array<float, 3> kBeside{98.0F, 176.0F, 236.0F}; // strokes beside the structure
-constexpr std::size_t kMostAtOnce = 4'000'000;                 // voxels; more: in another thread
-constexpr double kDeviations = 2.5;                            // of a range around a click
-constexpr int kSurfaceMargin = 2;                              // voxels
+constexpr char kNotShown[] = "Nothing was done: the slices do not show the image that this tool "
+                             "reads.";
+constexpr std::size_t kMostAtOnce = 4'000'000; // voxels; more: in another thread
+constexpr double kDeviations = 2.5;            // of a range around a click
+constexpr int kSurfaceMargin = 2;              // voxels
 constexpr std::uint16_t kInDraft = 1, kStrokeInside = 2, kStrokeBeside = 3; // DraftLayer's
 
 Mask united(const Mask& a, const Mask& b, Combine how)
@@ -147,6 +148,54 @@ volume::Volume<std::uint16_t> coarseLabels(const Mask& mask, int step,
   return labels;
 }
 
+// Each vertex moved along its normal, the mean of its triangles' by area.
+core::TriangleMesh raised(core::TriangleMesh mesh, float millimetres)
+{
+  std::vector<Eigen::Vector3f> normals(mesh.vertices.size(), Eigen::Vector3f::Zero());
+  for (const auto& triangle : mesh.triangles)
+  {
+    const Eigen::Vector3f& a = mesh.vertices[triangle[0]];
+    const Eigen::Vector3f normal =
+        (mesh.vertices[triangle[1]] - a).cross(mesh.vertices[triangle[2]] - a);
+    for (const std::uint32_t corner : triangle)
+      normals[corner] += normal;
+  }
+  for (std::size_t n = 0; n < normals.size(); ++n)
+    if (const float length = normals[n].norm(); length > 0.0F)
+      mesh.vertices[n] += millimetres / length * normals[n];
+  return mesh;
+}
+
+// As a step in the Undo entry.
+const char* nameOf(SegmentEditor::Tool tool)
+{
+  using Tool = SegmentEditor::Tool;
+  switch (tool)
+  {
+  case Tool::Threshold:
+    return "threshold";
+  case Tool::Paint:
+    return "paint stroke";
+  case Tool::Erase:
+    return "erase stroke";
+  case Tool::Islands:
+    return "islands";
+  case Tool::Margin:
+    return "margin";
+  case Tool::Smooth:
+    return "smoothing";
+  case Tool::Fill:
+    return "filling between slices";
+  case Tool::Grow:
+    return "growing";
+  case Tool::Nerve:
+    return "tube";
+  case Tool::None:
+    break;
+  }
+  return "";
+}
+
 std::string millimetres(double value, int decimals)
 {
   return core::fixedText(value, decimals) + " mm";
@@ -201,6 +250,7 @@ struct SegmentEditor::Preview
   std::optional<volume::ValueRange> range; ///< that was used
   Image image;                             ///< the source on the CT's grid, if it was made
   std::string note, warning;
+  std::optional<Pieces> pieces; ///< of the result; one: none
 };
 
 /// Everything that a draft consists of.
@@ -213,6 +263,7 @@ struct SegmentEditor::Draft
 
   struct Step // that can be undone
   {
+    const char* what = ""; ///< to the user
     bool mask = false;
     bool inside = false;
     bool beside = false;
@@ -237,7 +288,8 @@ struct SegmentEditor::Draft
   Points seeds;                                     ///< of the connected threshold
   Points points;                                    ///< of the nerve
   std::vector<Step> undo, redo;
-  std::uint64_t changes = 0; ///< steps ever made
+  std::uint64_t changes = 0;                              ///< steps ever made
+  std::optional<std::pair<Pieces, std::uint64_t>> pieces; ///< and `changes` by then
   /// What a Work has done to the masks, to be recorded. While a step is under way this and the
   /// masks are the Work's, and all else is the editor's.
   std::function<void()> pending;
@@ -296,6 +348,7 @@ void SegmentEditor::reset()
   m_frozen.reset();
   m_stepDue.reset();
   m_surface.reset();
+  m_raised.reset();
   dropPreview();
   chooseColor();
 }
@@ -304,6 +357,7 @@ void SegmentEditor::caseChanged()
 {
   m_tool = Tool::None;
   m_source = "ct";
+  m_shown = {};
   m_image.reset();
   m_created.reset();
   m_values = {};
@@ -324,18 +378,20 @@ void SegmentEditor::partsChanged()
       m_draft->edited.clear();
   }
   chooseColor();
+  followShown();
   touched();
 }
 
 void SegmentEditor::mrMoved()
 {
   if (m_source == "ct")
-    return;
+    return followShown();
   m_image.reset();
   const scene::ImagePart* mr = scene::findMr(m_model.value(), m_source);
   if (!mr || !mr->registered)
     m_source = "ct";
   m_previewDue = m_preview != nullptr;
+  followShown();
   touched();
 }
 
@@ -422,7 +478,8 @@ SegmentEditor::Work SegmentEditor::edit(const std::string& structure)
     throw core::InvalidParameter("there is a draft already; create or discard it first");
   const auto names = editable();
   if (std::find(names.begin(), names.end(), structure) == names.end())
-    throw core::InvalidParameter("structure '" + structure + "' is not on the CT");
+    throw core::InvalidParameter("structure '" + structure + "' is not on the " +
+                                 primaryName(m_model.value()));
   const scene::LabelPart* part = nullptr;
   const scene::StructurePart* found = nullptr;
   for (const scene::LabelPart& labels : m_model.value().labels)
@@ -459,8 +516,10 @@ void SegmentEditor::setTool(Tool tool)
   if (tool == m_tool || (tool != Tool::None && !m_model.hasCase()))
     return;
   release();
+  followShown();
   m_tool = tool;
   dropPreview();
+  followShown();
   if (tool == Tool::Threshold && m_values.lower == 0.0 && m_values.upper == 0.0)
     m_proposeDue = true;
   m_previewDue = tool == Tool::Threshold || (tool == Tool::Nerve && !m_draft->points.empty()) ||
@@ -475,8 +534,16 @@ std::vector<SegmentEditor::Source> SegmentEditor::sources() const
     return all;
   all.push_back({"ct", {}});
   for (const scene::ImagePart& mr : m_model.value().mr)
-    all.push_back({mr.name, mr.registered ? "" : "not registered to the CT; see Registration, F5"});
+    all.push_back({mr.name, mr.registered
+                                ? std::string()
+                                : std::string("not registered to the ") +
+                                      primaryName(m_model.value()) + "; see Registration, F5"});
   return all;
+}
+
+std::string SegmentEditor::sourceName(const std::string& source) const
+{
+  return source == "ct" && m_model.hasCase() ? primaryName(m_model.value()) : source;
 }
 
 void SegmentEditor::setSource(const std::string& name)
@@ -488,14 +555,67 @@ void SegmentEditor::setSource(const std::string& name)
         throw core::InvalidParameter("'" + name + "' is " + source.why);
       if (name == m_source || m_stepping)
         return;
-      m_source = name;
-      m_image.reset();
-      m_proposeDue = true; // another unit
-      m_isOwnRange = false;
-      m_previewDue = true;
+      takeSource(name);
       return touched();
     }
   throw core::InvalidParameter("the case has no image '" + name + "'");
+}
+
+void SegmentEditor::takeSource(const std::string& name)
+{
+  m_source = name;
+  m_image.reset();
+  m_proposeDue = true; // another unit
+  m_isOwnRange = false;
+  m_previewDue = true;
+}
+
+void SegmentEditor::setShown(const ShownImages& shown)
+{
+  if (shown == m_shown)
+    return;
+  m_shown = shown;
+  followShown();
+  if (m_warning == kNotShown)
+    m_warning.clear();
+  touched();
+}
+
+std::string SegmentEditor::shownInstead() const
+{
+  const std::string shown = m_shown.mr.empty() ? "ct" : m_shown.mr;
+  if (notShown().empty() || m_stepping)
+    return {};
+  for (const Source& source : sources())
+    if (source.name == shown && source.why.empty())
+      return shown;
+  return {};
+}
+
+void SegmentEditor::followShown()
+{
+  if (m_tool != Tool::None || hasDraft())
+    return;
+  if (const std::string shown = shownInstead(); !shown.empty())
+    takeSource(shown);
+}
+
+std::string SegmentEditor::notShown() const
+{
+  if (!m_model.hasCase() || (m_source == "ct" ? m_shown.ct : m_shown.mr == m_source))
+    return {};
+  const std::string ct = std::string("the ") + primaryName(m_model.value());
+  const auto nameOf = [&ct](const std::string& mr)
+  { return mr.empty() || mr == "ct" ? ct : "the MR '" + mr + "'"; };
+  return "The slices show " + nameOf(m_shown.mr) + ", but the tools work on " + nameOf(m_source) +
+         ".";
+}
+
+// The rest draws or changes what is there, whatever the image.
+bool SegmentEditor::readsSource() const
+{
+  return m_tool == Tool::Threshold || m_tool == Tool::Grow || m_tool == Tool::Nerve ||
+         ((m_tool == Tool::Paint || m_tool == Tool::Erase) && m_values.within);
 }
 
 IntensityDisplay SegmentEditor::display() const
@@ -612,6 +732,8 @@ void SegmentEditor::press(const Eigen::Vector3d& patient, SliceOrientation plane
     return;
   if (m_stepping)
     return refuse("A step is under way; wait, or stop it.");
+  if (readsSource() && !notShown().empty())
+    return refuse(kNotShown);
   m_warning.clear();
   Draft& draft = *m_draft;
   switch (m_tool)
@@ -620,7 +742,8 @@ void SegmentEditor::press(const Eigen::Vector3d& patient, SliceOrientation plane
   case Tool::Erase:
   case Tool::Grow:
     if (m_tool != Tool::Grow && m_values.within && !image().onCt)
-      return refuse("The MR is being brought onto the CT's grid; then its range can be used.");
+      return refuse(std::string("The MR is being brought onto the grid of the ") +
+                    primaryName(m_model.value()) + "; then its range can be used.");
     if (m_tool == Tool::Grow && !draft.inside)
     {
       draft.inside = std::make_unique<EditableMask>(draft.mask.geometry());
@@ -647,6 +770,7 @@ void SegmentEditor::press(const Eigen::Vector3d& patient, SliceOrientation plane
     if (draft.mask.count() == 0)
       return refuse("There is nothing yet of which an island could be kept.");
     m_stepDue = replacing(
+        nameOf(m_tool),
         [base = draft.mask.snapshot(), patient](const core::Progress& progress)
         {
           Preview preview;
@@ -670,9 +794,11 @@ void SegmentEditor::press(const Eigen::Vector3d& patient, SliceOrientation plane
       }
     if (draft.gripped)
       return;
-    std::size_t at = draft.points.size();
-    if (m_preview && m_preview->tube && m_preview->tube->points == draft.points)
-      at = segmentation::insertionIndex(*m_preview->tube, patient);
+    Tube bare;
+    bare.points = draft.points;
+    const bool isTraced = m_preview && m_preview->tube && m_preview->tube->points == draft.points;
+    const std::size_t at =
+        segmentation::insertionIndex(isTraced ? *m_preview->tube : bare, patient);
     draft.points.insert(draft.points.begin() + static_cast<std::ptrdiff_t>(at), patient);
     draft.gripped = at;
     return touched();
@@ -703,17 +829,20 @@ void SegmentEditor::release()
   if (!std::exchange(draft.stroking, false))
     return;
   Draft::Step step;
+  step.what = nameOf(m_tool);
   if (m_tool == Tool::Nerve)
   {
     draft.gripped.reset();
     if (draft.points != draft.before)
     {
+      step.what = draft.points.size() > draft.before.size() ? "point" : "move of a point";
       step.points = {draft.before, draft.points};
       m_previewDue = true;
     }
   }
   else if (m_tool == Tool::Grow)
   {
+    step.what = "stroke";
     step.inside = draft.inside->endStep();
     step.beside = draft.beside->endStep();
   }
@@ -731,11 +860,15 @@ std::vector<SegmentEditor::TubePoint> SegmentEditor::tubePoints() const
     tube = nullptr;
   for (std::size_t n = 0; n < m_draft->points.size(); ++n)
   {
-    TubePoint point{m_draft->points[n], std::nullopt, {}};
+    TubePoint point;
+    point.patient = m_draft->points[n];
     if (tube)
     {
       point.distance = tube->pointDistances[n];
-      if (tube->resolved[tube->pointVertices[n]] == 0)
+      point.isOutside = tube->outsideAtPoint[n] != 0;
+      if (point.isOutside)
+        point.problem = "beside the tube: move or remove it";
+      else if (tube->resolved[tube->pointVertices[n]] == 0)
         point.problem = "cannot be resolved here";
       else if (tube->heldAtPoint[n] != 0)
         point.problem = "no axis nearby: the path is held at the point";
@@ -745,8 +878,14 @@ std::vector<SegmentEditor::TubePoint> SegmentEditor::tubePoints() const
   return all;
 }
 
-void SegmentEditor::setPoints(Points points)
+void SegmentEditor::changePoints(const char* what, Points points)
 {
+  if (m_stepping || m_draft->stroking || points == m_draft->points)
+    return;
+  Draft::Step step;
+  step.what = what;
+  step.points = {m_draft->points, points};
+  m_draft->did(std::move(step));
   m_draft->points = std::move(points);
   m_previewDue = true;
   touched();
@@ -754,15 +893,31 @@ void SegmentEditor::setPoints(Points points)
 
 void SegmentEditor::removeTubePoint(std::size_t index)
 {
-  if (index >= m_draft->points.size() || m_stepping || m_draft->stroking)
+  Points points = m_draft->points;
+  if (index >= points.size())
     return;
-  const Points before = m_draft->points;
-  Points after = before;
-  after.erase(after.begin() + static_cast<std::ptrdiff_t>(index));
-  Draft::Step step;
-  step.points = {before, after};
-  m_draft->did(std::move(step));
-  setPoints(after);
+  points.erase(points.begin() + static_cast<std::ptrdiff_t>(index));
+  changePoints("removal of a point", std::move(points));
+}
+
+void SegmentEditor::moveTubePoint(std::size_t index, const Eigen::Vector3d& patient)
+{
+  Points points = m_draft->points;
+  if (index >= points.size())
+    return;
+  points[index] = patient;
+  changePoints("move of a point", std::move(points));
+}
+
+void SegmentEditor::reorderTubePoint(std::size_t from, std::size_t to)
+{
+  Points points = m_draft->points;
+  if (from >= points.size() || to >= points.size())
+    return;
+  const Eigen::Vector3d moved = points[from];
+  points.erase(points.begin() + static_cast<std::ptrdiff_t>(from));
+  points.insert(points.begin() + static_cast<std::ptrdiff_t>(to), moved);
+  changePoints("order of the points", std::move(points));
 }
 
 const std::vector<Eigen::Vector3d>& SegmentEditor::path() const noexcept
@@ -799,7 +954,8 @@ SegmentEditor::Computed SegmentEditor::computed() const
   {
   case Tool::Threshold:
     return [base, values, image = *m_image, seeds = m_draft->seeds, propose = m_proposeDue,
-            isOwn = m_isOwnRange, iso = surfaceIntensity()](const core::Progress& progress) mutable
+            isOwn = m_isOwnRange, iso = surfaceIntensity(),
+            unit = display().suffix()](const core::Progress& progress) mutable
     {
       Preview preview;
       preview.image = image.made(progress.part(0.0, 0.4));
@@ -818,11 +974,12 @@ SegmentEditor::Computed SegmentEditor::computed() const
       if (values.connected && seeds.empty())
         preview.note = "Click a point of the structure in a slice.";
       else
-        preview.result = united(
-            base,
-            values.connected ? segmentation::connectedThreshold(*preview.image, range, seeds, rest)
-                             : segmentation::threshold(*preview.image, range, rest),
-            values.combine);
+        preview.result =
+            united(base,
+                   values.connected
+                       ? segmentation::connectedThreshold(*preview.image, range, seeds, rest, unit)
+                       : segmentation::threshold(*preview.image, range, rest),
+                   values.combine);
       return preview;
     };
   case Tool::Nerve:
@@ -857,7 +1014,7 @@ SegmentEditor::Computed SegmentEditor::computed() const
     { return only(segmentation::margin(base, values.margin, progress)); };
   case Tool::Smooth:
     return [base, values, only](const core::Progress& progress)
-    { return only(segmentation::smoothed(base, values.smoothing, progress)); };
+    { return only(segmentation::smoothedOutline(base, values.smoothing, progress)); };
   case Tool::Fill:
   {
     Eigen::Index axis = 0;
@@ -875,7 +1032,12 @@ SegmentEditor::Computed SegmentEditor::computed() const
       Preview preview;
       preview.image = image.made(progress.part(0.0, 0.4));
       preview.result =
-          segmentation::grownFromSeeds(*preview.image, inside, beside, {}, progress.part(0.4, 1.0));
+          segmentation::grownFromSeeds(*preview.image, inside, beside, {}, progress.part(0.4, 0.9));
+      const auto islands = segmentation::islandsOf(*preview.result, progress.part(0.9, 1.0));
+      if (islands.count > 1)
+        preview.pieces =
+            Pieces{islands.count, static_cast<double>(preview.result->count - islands.largest) *
+                                      preview.result->geometry().voxelVolume()};
       return preview;
     };
   default:
@@ -1005,10 +1167,11 @@ std::string SegmentEditor::whyNotStep() const
 }
 
 // `endsTool`: seeds and points have served their purpose.
-SegmentEditor::Work SegmentEditor::replacing(std::function<Preview(const core::Progress&)> compute,
+SegmentEditor::Work SegmentEditor::replacing(const char* what,
+                                             std::function<Preview(const core::Progress&)> compute,
                                              bool endsTool)
 {
-  return [this, draft = m_draft, endsTool,
+  return [this, draft = m_draft, endsTool, what,
           compute = std::move(compute)](const core::Progress& progress) -> Apply
   {
     const auto preview = std::make_shared<Preview>(compute(progress));
@@ -1019,9 +1182,10 @@ SegmentEditor::Work SegmentEditor::replacing(std::function<Preview(const core::P
       draft->mask.beginStep();
       box = draft->mask.replace(*preview->result);
       changed = draft->mask.endStep();
-      draft->pending = [draft = draft.get(), changed, endsTool]
+      draft->pending = [draft = draft.get(), changed, endsTool, what, pieces = preview->pieces]
       {
         Draft::Step step;
+        step.what = what;
         step.mask = changed;
         if (endsTool)
         {
@@ -1030,6 +1194,9 @@ SegmentEditor::Work SegmentEditor::replacing(std::function<Preview(const core::P
             step.points = {std::exchange(draft->points, {}), Points()};
         }
         draft->did(std::move(step));
+        draft->pieces.reset();
+        if (pieces)
+          draft->pieces = {*pieces, draft->changes};
       };
     }
     return [this, draft, preview, changed, box]
@@ -1057,7 +1224,8 @@ std::optional<SegmentEditor::Work> SegmentEditor::stepWork()
     return std::nullopt;
   image();
   beginStep();
-  Work work = replacing(computed(), m_tool == Tool::Threshold || m_tool == Tool::Nerve);
+  Work work =
+      replacing(nameOf(m_tool), computed(), m_tool == Tool::Threshold || m_tool == Tool::Nerve);
   touched();
   return work;
 }
@@ -1088,6 +1256,38 @@ bool SegmentEditor::canUndo() const
 bool SegmentEditor::canRedo() const
 {
   return !m_stepping && !m_draft->stroking && (!m_draft->redo.empty() || canCreateAgain());
+}
+
+// nullptr: it is not in the case any more.
+const scene::LabelPart* SegmentEditor::createdPart() const
+{
+  if (m_created && m_model.hasCase())
+    for (const scene::LabelPart& part : m_model.value().labels)
+      if (part.labels.peek() == m_created->labels)
+        return &part;
+  return nullptr;
+}
+
+std::string SegmentEditor::undoText() const
+{
+  if (!canUndo())
+    return {};
+  if (!m_draft->undo.empty())
+    return m_draft->undo.back().what;
+  const scene::LabelPart* part = createdPart();
+  if (!part)
+    return "create"; // says why it cannot be undone
+  return (m_created->replaced ? "change of " : "create ") + part->structures.front().name;
+}
+
+std::string SegmentEditor::redoText() const
+{
+  if (!canRedo())
+    return {};
+  if (!m_draft->redo.empty())
+    return m_draft->redo.back().what;
+  return (m_draft->edited.empty() ? "create " : "change of ") +
+         m_created->taken->structures.front().name;
 }
 
 // The draft is still the one that the structure was.
@@ -1122,10 +1322,8 @@ void SegmentEditor::undoCreated()
 {
   Created& created = *m_created;
   const scene::Case& value = m_model.value();
-  const auto found = std::find_if(value.labels.begin(), value.labels.end(),
-                                  [&created](const scene::LabelPart& part)
-                                  { return part.labels.peek() == created.labels; });
-  if (found == value.labels.end())
+  const scene::LabelPart* found = createdPart();
+  if (!found)
     throw core::InvalidParameter("the structure that was created is not in the case any more");
   const std::string name = found->structures.front().name;
   if (created.replaced)
@@ -1164,6 +1362,7 @@ void SegmentEditor::createAgain()
   m_model.putStructure(*std::exchange(created.taken, std::nullopt));
   m_tool = Tool::None;
   reset();
+  followShown();
   touched();
   notify(events.created, name);
 }
@@ -1249,8 +1448,8 @@ SegmentEditor::Work SegmentEditor::createWork()
   segment.name = m_draft->name;
   segment.index = 1;
   touched();
-  return [this, draft = m_draft, mask = *m_frozen->result, preview = preview.has_value(),
-          segment](const core::Progress& progress) -> Apply
+  return [this, draft = m_draft, mask = *m_frozen->result, preview = preview.has_value(), segment,
+          what = nameOf(m_tool)](const core::Progress& progress) -> Apply
   {
     progress.report(0.0, "making the structure");
     const auto labels = std::make_shared<volume::LabelMap>(segmentation::labelMapOf(mask, segment));
@@ -1260,9 +1459,10 @@ SegmentEditor::Work SegmentEditor::createWork()
       draft->mask.beginStep();
       draft->mask.replace(mask);
       const bool changed = draft->mask.endStep();
-      draft->pending = [draft = draft.get(), changed]
+      draft->pending = [draft = draft.get(), changed, what]
       {
         Draft::Step step;
+        step.what = what;
         step.mask = changed;
         draft->did(std::move(step));
       };
@@ -1288,6 +1488,7 @@ SegmentEditor::Work SegmentEditor::createWork()
       m_created->replaced = std::move(replaced);
       m_tool = Tool::None;
       reset();
+      followShown();
       touched();
       notify(events.created, name);
     };
@@ -1300,6 +1501,37 @@ void SegmentEditor::discard()
   if (m_created && m_created->taken)
     m_created.reset();
   reset();
+  followShown();
+  touched();
+}
+
+bool SegmentEditor::hasStrokes() const
+{
+  const auto drawn = [](const std::unique_ptr<EditableMask>& mask)
+  { return mask && mask->count() > 0; };
+  return !m_stepping && (drawn(m_draft->inside) || drawn(m_draft->beside)); // else the Work's
+}
+
+std::optional<SegmentEditor::Pieces> SegmentEditor::pieces() const
+{
+  const bool isOf = m_draft->pieces && m_draft->pieces->second == m_draft->changes &&
+                    m_draft->redo.empty() && !m_stepping;
+  return isOf ? std::optional(m_draft->pieces->first) : std::nullopt;
+}
+
+void SegmentEditor::keepLargest()
+{
+  if (!pieces() || m_draft->stroking)
+    return;
+  m_stepDue = replacing(
+      nameOf(Tool::Islands),
+      [base = m_draft->mask.snapshot()](const core::Progress& progress)
+      {
+        Preview preview;
+        preview.result = segmentation::largestIsland(base, progress);
+        return preview;
+      },
+      false);
   touched();
 }
 
@@ -1345,10 +1577,8 @@ DraftLayer SegmentEditor::layer() const
   std::array<float, 3> bright = color();
   for (float& channel : bright)
     channel *= 255.0F;
-  std::array<float, 3> stroke = bright;
-  for (float& channel : stroke)
-    channel = 0.5F * (channel + 255.0F);
-  layer.colors = {{}, bright, stroke, kBeside};
+  layer.colors = {{}, bright, kInsideStroke, kBesideStroke};
+  layer.hatched = kStrokeBeside;
   const bool range = m_tool == Tool::Threshold && !m_values.connected && previewPending() &&
                      !m_proposeDue && m_image && m_image->onCt;
   if (m_frozen)
@@ -1390,7 +1620,7 @@ SegmentEditor::Work SegmentEditor::surfaceWork()
     mask = m_preview && m_preview->result ? *m_preview->result : m_draft->mask.snapshot();
   return [this, mask](const core::Progress& progress) -> Apply
   {
-    std::shared_ptr<const core::TriangleMesh> surface;
+    std::shared_ptr<const core::TriangleMesh> surface, lifted;
     int step = 1;
     if (mask && !mask->extent.empty())
     {
@@ -1398,10 +1628,13 @@ SegmentEditor::Work SegmentEditor::surfaceWork()
         ++step;
       surface = std::make_shared<const core::TriangleMesh>(rendering::extractLabel(
           coarseLabels(*mask, step, progress.part(0.0, 0.3)), 1, progress.part(0.3, 1.0)));
+      lifted = std::make_shared<const core::TriangleMesh>(
+          raised(*surface, static_cast<float>(0.5 * mask->geometry().spacing().maxCoeff())));
     }
-    return [this, surface, step]
+    return [this, surface, lifted, step]
     {
       m_surface = surface;
+      m_raised = lifted;
       m_surfaceStep = step;
     };
   };

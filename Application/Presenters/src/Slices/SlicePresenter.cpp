@@ -35,10 +35,12 @@ void forEachPixel(const SliceGeometry& slice, const core::GridGeometry& grid, co
     for (int column = 0; column < slice.width(); ++column, ++pixel)
       body(pixel, Eigen::Vector3d(origin + column * across + row * down));
 }
-// Tints the voxels for which indexAt(voxel) is not 0, with an outline in their full colour.
+// Tints the voxels for which indexAt(voxel) is not 0, with an outline in their full colour; those
+// of `hatched` with lines in it, too.
 template <class IndexAt>
 void tint(const SliceGeometry& slice, const core::GridGeometry& grid, const IndexAt& indexAt,
-          const std::vector<std::array<float, 3>>& colors, SlicePixels& pixels)
+          const std::vector<std::array<float, 3>>& colors, SlicePixels& pixels,
+          std::uint16_t hatched = 0)
 {
   const core::Index3& dims = grid.dims();
   std::vector<std::uint16_t> found(pixels.rgb.size() / 3, 0);
@@ -69,7 +71,8 @@ void tint(const SliceGeometry& slice, const core::GridGeometry& grid, const Inde
           (column + 1 < width && found[pixel + 1] != index) ||
           (row > 0 && found[pixel - static_cast<std::size_t>(width)] != index) ||
           (row + 1 < slice.height() && found[pixel + static_cast<std::size_t>(width)] != index);
-      blend(&pixels.rgb[3 * pixel], colors[index], border ? kOutline : kTint);
+      const bool line = index == hatched && (column + row) % kHatchPeriod < kHatchWidth;
+      blend(&pixels.rgb[3 * pixel], colors[index], border || line ? kOutline : kTint);
     }
 }
 } // namespace
@@ -147,7 +150,7 @@ void SlicePresenter::drawLayer(const Layer& layer, const SliceGeometry& slice,
 void DraftLayer::paint(const SliceGeometry& slice, SlicePixels& pixels) const
 {
   if (indexAt)
-    tint(slice, geometry, indexAt, colors, pixels);
+    tint(slice, geometry, indexAt, colors, pixels, hatched);
 }
 
 void SlicePresenter::drawCut(const SliceGeometry& slice, SlicePixels& pixels) const

@@ -72,11 +72,13 @@ core::IndexBox flood(Voxels& voxels, std::vector<core::Index3> open, const Test&
 } // namespace
 
 Mask connectedThreshold(const volume::IntensityVolume& image, const volume::ValueRange& range,
-                        const std::vector<Eigen::Vector3d>& seeds, const core::Progress& progress)
+                        const std::vector<Eigen::Vector3d>& seeds, const core::Progress& progress,
+                        const std::string& unit)
 {
   if (!(range.min <= range.max))
     throw core::InvalidParameter("threshold: the lower limit (" + core::fixedText(range.min, 1) +
-                                 ") is above the upper one (" + core::fixedText(range.max, 1) +
+                                 unit + ") is above the upper one (" +
+                                 core::fixedText(range.max, 1) + unit +
                                  "); give them in ascending order");
   if (seeds.empty())
     throw core::InvalidParameter("region: give a point inside the structure");
@@ -87,10 +89,10 @@ Mask connectedThreshold(const volume::IntensityVolume& image, const volume::Valu
     const double value = image.at(index[0], index[1], index[2]);
     if (!(value >= range.min && value <= range.max) || value == image.padding())
       throw core::InvalidParameter(
-          "the image has " + core::fixedText(value, 1) + " at the seed (" +
+          "the image has " + core::fixedText(value, 1) + unit + " at the seed (" +
           core::fixedText(seed[0], 1) + ", " + core::fixedText(seed[1], 1) + ", " +
           core::fixedText(seed[2], 1) + " mm), which is not between " +
-          core::fixedText(range.min, 1) + " and " + core::fixedText(range.max, 1) +
+          core::fixedText(range.min, 1) + " and " + core::fixedText(range.max, 1) + unit +
           "; choose a point inside the structure, or other limits");
     open.push_back(index);
   }

@@ -166,6 +166,21 @@ Mask kept(const Mask& mask, Components& components, const Keeps& keeps)
 
 } // namespace
 
+Islands islandsOf(const Mask& mask, const core::Progress& progress)
+{
+  Islands islands;
+  if (mask.count == 0)
+    return islands;
+  Components components(mask, mask.extent, 1, progress);
+  for (std::size_t n = 0; n < components.count(); ++n)
+    if (components.sizeOf(n) > 0) // else a run of another one
+    {
+      ++islands.count;
+      islands.largest = std::max<std::uint64_t>(islands.largest, components.sizeOf(n));
+    }
+  return islands;
+}
+
 Mask largestIsland(const Mask& mask, const core::Progress& progress)
 {
   Components components(mask, mask.extent, 1, progress);

@@ -115,6 +115,53 @@ void convolve(float* row, int count, std::size_t step, const std::vector<float>&
   }
 }
 
+constexpr double kReach = 3.0; // standard deviations, of a Gaussian
+
+core::IndexBox boxOf(const Mask& mask, double sigma)
+{
+  return padded(mask.extent, voxelsFor(kReach * sigma, mask.geometry()), mask.geometry());
+}
+
+/// The mask as 0 and 1, blurred by a Gaussian of `sigma` mm, in `boxOf`.
+std::vector<float> blurredMask(const Mask& mask, double sigma, const core::Progress& progress)
+{
+  const core::GridGeometry& grid = mask.geometry();
+  const core::IndexBox box = boxOf(mask, sigma);
+  const core::Index3 size = box.size();
+  std::vector<float> blurred;
+  {
+    const std::vector<std::uint8_t> binary = cropped(mask, box, false);
+    blurred.assign(binary.begin(), binary.end());
+  }
+  const std::array<std::size_t, 3> steps{1, static_cast<std::size_t>(size[0]),
+                                         static_cast<std::size_t>(size[0]) *
+                                             static_cast<std::size_t>(size[1])};
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    progress.report(0.25 * static_cast<double>(a), "smoothing");
+    const double inVoxels = sigma / grid.spacing()[static_cast<int>(a)];
+    std::vector<float> kernel;
+    for (int n = 0; n == 0 || n <= kReach * inVoxels; ++n)
+      kernel.push_back(static_cast<float>(std::exp(-0.5 * n * n / (inVoxels * inVoxels))));
+    const float sum = kernel[0] + 2.0F * std::accumulate(kernel.begin() + 1, kernel.end(), 0.0F);
+    for (float& weight : kernel)
+      weight /= sum;
+    const std::size_t b = a == 0 ? 1 : 0;
+    const std::size_t c = a == 2 ? 1 : 2;
+    tbb::parallel_for(0, size[c],
+                      [&](int m)
+                      {
+                        progress.check("smoothing");
+                        std::vector<float> scratch;
+                        for (int n = 0; n < size[b]; ++n)
+                          convolve(blurred.data() + static_cast<std::size_t>(m) * steps[c] +
+                                       static_cast<std::size_t>(n) * steps[b],
+                                   size[a], steps[a], kernel, scratch);
+                      });
+  }
+  return blurred;
+}
+
 } // namespace
 
 Mask margin(const Mask& mask, double distance, const core::Progress& progress)
@@ -151,48 +198,28 @@ Mask smoothed(const Mask& mask, double sigma, const core::Progress& progress)
     throw core::InvalidParameter("smoothing: give a standard deviation of 0 mm or more");
   if (mask.count == 0 || sigma == 0.0)
     return mask;
-  const core::GridGeometry& grid = mask.geometry();
-  constexpr double kReach = 3.0; // standard deviations
-  const core::IndexBox box = padded(mask.extent, voxelsFor(kReach * sigma, grid), grid);
-  const core::Index3 size = box.size();
-  std::vector<float> blurred;
-  {
-    const std::vector<std::uint8_t> binary = cropped(mask, box, false);
-    blurred.assign(binary.begin(), binary.end());
-  }
-  const std::array<std::size_t, 3> steps{1, static_cast<std::size_t>(size[0]),
-                                         static_cast<std::size_t>(size[0]) *
-                                             static_cast<std::size_t>(size[1])};
-  for (std::size_t a = 0; a < 3; ++a)
-  {
-    progress.report(0.25 * static_cast<double>(a), "smoothing");
-    const double inVoxels = sigma / grid.spacing()[static_cast<int>(a)];
-    std::vector<float> kernel;
-    for (int n = 0; n == 0 || n <= kReach * inVoxels; ++n)
-      kernel.push_back(static_cast<float>(std::exp(-0.5 * n * n / (inVoxels * inVoxels))));
-    const float sum = kernel[0] + 2.0F * std::accumulate(kernel.begin() + 1, kernel.end(), 0.0F);
-    for (float& weight : kernel)
-      weight /= sum;
-    const std::size_t b = a == 0 ? 1 : 0;
-    const std::size_t c = a == 2 ? 1 : 2;
-    tbb::parallel_for(0, size[c],
-                      [&](int m)
-                      {
-                        progress.check("smoothing");
-                        std::vector<float> scratch;
-                        for (int n = 0; n < size[b]; ++n)
-                          convolve(blurred.data() + static_cast<std::size_t>(m) * steps[c] +
-                                       static_cast<std::size_t>(n) * steps[b],
-                                   size[a], steps[a], kernel, scratch);
-                      });
-  }
+  const std::vector<float> blurred = blurredMask(mask, sigma, progress);
   std::vector<float> sorted = blurred;
   const auto nth = sorted.begin() + static_cast<std::ptrdiff_t>(mask.count - 1);
   std::nth_element(sorted.begin(), nth, sorted.end(), std::greater<>());
   const float level = *nth;
   progress.report(0.95, "smoothing");
-  return maskWhere(grid, box,
+  return maskWhere(mask.geometry(), boxOf(mask, sigma),
                    [&](std::size_t n) { return blurred[n] >= level && blurred[n] > 0.0F; });
+}
+
+Mask smoothedOutline(const Mask& mask, double sigma, const core::Progress& progress)
+{
+  const Mask whole = filled(mask, progress.part(0.0, 0.2));
+  const Mask outline = smoothed(whole, sigma, progress.part(0.2, 0.6));
+  if (whole.count == mask.count || sigma == 0.0)
+    return sigma == 0.0 ? mask : outline;
+  const Mask cavities = combined(whole, mask, Combination::Difference);
+  const std::vector<float> blurred = blurredMask(cavities, sigma, progress.part(0.6, 0.9));
+  constexpr float kHalf = 0.5F;
+  const Mask open = maskWhere(mask.geometry(), boxOf(cavities, sigma),
+                              [&](std::size_t n) { return blurred[n] >= kHalf; });
+  return combined(outline, open, Combination::Difference);
 }
 
 Mask filledBetweenSlices(const Mask& mask, int axis, const core::Progress& progress)

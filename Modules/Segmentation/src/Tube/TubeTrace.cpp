@@ -370,6 +370,8 @@ Tube traceTube(const volume::IntensityVolume& image, const std::vector<Vector3d>
     tube.pointDistances.push_back(foot.distance);
     tube.pointVertices.push_back(std::max(vertex, from));
     from = tube.pointVertices.back();
+    tube.outsideAtPoint.push_back(
+        foot.distance > std::max(tube.radii[from], geometry.spacing().maxCoeff()) ? 1 : 0);
   }
   progress.report(1.0, "trace tube");
   return tube;
@@ -388,18 +390,43 @@ double widestFor(std::string_view name)
 
 std::size_t insertionIndex(const Tube& tube, const Vector3d& point)
 {
-  if (tube.line.size() < 2)
-    return tube.points.size();
-  const Foot foot = nearestOn(tube.line, point);
-  const std::size_t last = tube.line.size() - 2;
-  if (foot.segment == 0 && foot.fraction <= 0.0)
-    return 0;
-  if (foot.segment == last && foot.fraction >= 1.0)
-    return tube.points.size();
-  std::size_t index = 1;
-  while (index + 1 < tube.points.size() && tube.pointVertices[index] <= foot.segment)
-    ++index;
-  return index;
+  constexpr double kHardlyLonger = 0.3; // of the distance from the nearer end: turns up to 45 deg
+  constexpr double kClose = 0.5;        // likewise
+  constexpr double kNearer = 2.0 / 3.0;
+  const std::vector<Vector3d>& points = tube.points;
+  if (points.size() < 2)
+    return points.size();
+  const double fromFirst = (point - points.front()).norm();
+  const double fromLast = (point - points.back()).norm();
+  const double fromEnd = std::min(fromFirst, fromLast);
+  if (tube.line.size() >= 2)
+  {
+    const Foot foot = nearestOn(tube.line, point);
+    const bool isBefore = foot.segment == 0 && foot.fraction <= 0.0;
+    const bool isAfter = foot.segment == tube.line.size() - 2 && foot.fraction >= 1.0;
+    if (!isBefore && !isAfter && foot.distance <= std::min(TubeOptions{}.reach, kClose * fromEnd))
+    {
+      std::size_t index = 1;
+      while (index + 1 < points.size() && tube.pointVertices[index] <= foot.segment)
+        ++index;
+      return index;
+    }
+  }
+  std::size_t best = 0;
+  double least = kHardlyLonger * fromEnd;
+  for (std::size_t n = 1; n < points.size(); ++n)
+  {
+    const double longer = (point - points[n - 1]).norm() + (points[n] - point).norm() -
+                          (points[n] - points[n - 1]).norm();
+    if (longer < least)
+    {
+      least = longer;
+      best = n;
+    }
+  }
+  if (best > 0)
+    return best;
+  return fromFirst < kNearer * fromLast ? 0 : points.size();
 }
 
 } // namespace petrous::segmentation

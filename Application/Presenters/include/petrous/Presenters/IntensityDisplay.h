@@ -12,6 +12,9 @@ namespace petrous::presenters
 /// which the histogram of any other image does not show (volume::suggestScale).
 volume::IntensityScale calibratedScale(const scene::Case& value);
 
+/// "CT", or "MR": what a user calls the primary image.
+const char* primaryName(const scene::Case& value);
+
 /// How intensities of a case's CT are displayed: in Hounsfield units if it is calibrated, else in
 /// its own (cone beam, micro-CT), with equivalent ranges.
 struct IntensityDisplay

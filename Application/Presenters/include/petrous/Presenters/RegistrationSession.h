@@ -45,11 +45,14 @@ public:
   explicit RegistrationSession(WorkstationModel& model);
 
   void caseChanged(); ///< resets everything; selects the first MR
+  /// Other parts of the same case. True if its MRs are the same: all is kept. Else as caseChanged.
+  bool partsChanged();
 
   void choose(const std::string& mr); ///< clears the landmarks; keeps the undo history
   const std::string& mr() const noexcept { return m_name; }
   std::vector<std::string> mrNames() const; ///< of the case
   const scene::ImagePart* part() const;     ///< nullptr if the case has no MR
+  std::string primary() const;              ///< "CT", or "primary MR": what MRs are registered to
   std::string stateText() const;            ///< "not registered", or how, how well, signed by
 
   /// Manual motion of the MR overlay on the CT, rotation about the crosshair; the user interface
@@ -104,6 +107,7 @@ private:
 
   WorkstationModel& m_model;
   std::string m_name;
+  std::vector<std::string> m_mrs; // known
   LandmarkList m_landmarks;
   core::RigidTransform m_fitted; // the last one not set by hand
   RegistrationAim m_aim;

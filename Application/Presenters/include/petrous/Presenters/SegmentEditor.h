@@ -75,6 +75,10 @@ public:
     std::function<void(const std::string& name)> created;     ///< and no draft is left
   };
 
+  /// Of the strokes to grow from, 0 to 255: orange inside and blue beside, which all colour vision
+  /// tells apart [Okabe and Ito 2008]; those beside are hatched, too.
+  static constexpr std::array<float, 3> kInsideStroke{240.0F, 164.0F, 0.0F};
+  static constexpr std::array<float, 3> kBesideStroke{40.0F, 120.0F, 255.0F};
   static constexpr double kGrip = 1.0; ///< mm about a nerve point within which a press grips it
 
   /// The model must outlive this.
@@ -113,8 +117,18 @@ public:
     std::string why; ///< it cannot be used; empty: it can
   };
   std::vector<Source> sources() const;
+  /// What the user calls it: "CT", "MR" for a primary image that is one, an MR's name.
+  std::string sourceName(const std::string& source) const;
   void setSource(const std::string& name); ///< throws InvalidParameter with Source::why
-  IntensityDisplay display() const;        ///< unit, decimals and range of the source's intensities
+  /// What the slices show. Without a tool and a draft the source follows: it becomes the only image
+  /// that is shown, if that can be used.
+  void setShown(const ShownImages& shown);
+  /// Where the slices do not show the source: that, and what they show, one sentence; clicks of
+  /// tools that read the source are refused then. Else empty.
+  std::string notShown() const;
+  /// The shown image that could be the source instead; empty: none.
+  std::string shownInstead() const;
+  IntensityDisplay display() const; ///< unit, decimals and range of the source's intensities
 
   const SegmentValues& values() const noexcept { return m_values; }
   void setValues(const SegmentValues& values);
@@ -132,9 +146,13 @@ public:
     Eigen::Vector3d patient;        ///< LPS mm
     std::optional<double> distance; ///< mm from the path; none while there is none
     std::string problem;            ///< what the scan does not show here, in words; usually empty
+    bool isOutside = false;         ///< it lies beside the tube, and `problem` says so
   };
   std::vector<TubePoint> tubePoints() const;
+  // Each can be undone; without effect for an index that there is not.
   void removeTubePoint(std::size_t index);
+  void moveTubePoint(std::size_t index, const Eigen::Vector3d& patient);
+  void reorderTubePoint(std::size_t from, std::size_t to);    ///< its place along the nerve
   const std::vector<Eigen::Vector3d>& path() const noexcept;  ///< LPS mm
   const std::vector<Eigen::Vector3d>& seeds() const noexcept; ///< of the connected threshold
   /// Length and radius of the tube, or what is to be done next; a sentence or two, or empty.
@@ -154,6 +172,9 @@ public:
 
   bool canUndo() const;
   bool canRedo() const;
+  /// What undo or redo would take on next: "threshold", "create sigmoid sinus"; empty: nothing.
+  std::string undoText() const;
+  std::string redoText() const;
   /// A step, or the structure just created: it is taken out of the case and is the draft again,
   /// under the name that it has by then. True in the latter case. Throws InvalidParameter where
   /// that structure is gone, or where the one that it replaced cannot come back.
@@ -171,6 +192,17 @@ public:
   void create(); ///< at once
   void discard();
 
+  bool hasStrokes() const; ///< to grow from
+  /// What of the draft hangs together with its largest part by no face; after the step that left
+  /// it, until the next change.
+  struct Pieces
+  {
+    std::size_t count = 1; ///< with the largest
+    double outside = 0.0;  ///< mm^3, of all but the largest
+  };
+  std::optional<Pieces> pieces() const;
+  /// A step, due at once. No effect without `pieces`.
+  void keepLargest();
   std::uint64_t voxels() const; ///< of what would be created
   double volume() const;        ///< mm^3, likewise
   const std::array<float, 3>& color() const noexcept { return m_color; } ///< 0 to 1
@@ -183,6 +215,11 @@ public:
   static constexpr std::uint64_t kMostSurfaceVoxels = 8'000'000;
   /// nullptr: none.
   const std::shared_ptr<const core::TriangleMesh>& surface() const noexcept { return m_surface; }
+  /// The same half a voxel farther out, so that it is seen where it lies on the surface of bone.
+  const std::shared_ptr<const core::TriangleMesh>& raisedSurface() const noexcept
+  {
+    return m_raised;
+  }
   /// Edge of the surface's cells in voxels; 1: it is that of the voxels.
   int surfaceStep() const noexcept { return m_surfaceStep; }
 
@@ -197,20 +234,25 @@ private:
   SourceImage& image();
   Computed computed() const;
   std::optional<Work> previewWork();
-  Work replacing(std::function<Preview(const core::Progress&)> compute, bool endsTool);
+  Work replacing(const char* what, std::function<Preview(const core::Progress&)> compute,
+                 bool endsTool);
   void show(const Preview& preview);
   void beginStep();
   void endStep();
   void undoCreated();
   bool canCreateAgain() const;
+  const scene::LabelPart* createdPart() const;
   void createAgain();
   void checkFree(const std::string& name) const;
   std::function<void()> step(Draft& draft, bool back);
   Work stepping(bool back);
   void dropPreview();
-  void setPoints(Points points);
+  void changePoints(const char* what, Points points);
   void dab(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
   void refuse(const std::string& why);
+  bool readsSource() const;
+  void followShown();
+  void takeSource(const std::string& name);
   std::optional<double> surfaceIntensity() const;
   void chooseColor();
   std::array<float, 3> colorNow() const;
@@ -220,6 +262,7 @@ private:
   WorkstationModel& m_model;
   Tool m_tool = Tool::None;
   std::string m_source = "ct";
+  ShownImages m_shown;
   std::unique_ptr<SourceImage> m_image; // made on demand
   SegmentValues m_values;
   std::shared_ptr<Draft> m_draft;     // never null
@@ -235,6 +278,7 @@ private:
   bool m_stepping = false;
   std::optional<Work> m_stepDue; // begun by a click
   std::shared_ptr<const core::TriangleMesh> m_surface;
+  std::shared_ptr<const core::TriangleMesh> m_raised;
   int m_surfaceStep = 1;
 };
 

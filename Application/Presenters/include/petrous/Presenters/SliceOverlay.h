@@ -54,6 +54,15 @@ struct SliceOverlay
   double opacity = 0.5; ///< of the MR in Blend, 0 to 1
 };
 
+/// The images of which slices show intensities; contours of one do not count.
+struct ShownImages
+{
+  bool ct = true;
+  std::string mr; ///< its name; empty: none
+
+  bool operator==(const ShownImages& other) const { return ct == other.ct && mr == other.mr; }
+};
+
 /// Loads the MR's voxels and scans them for the grey window.
 SliceOverlay overlayOf(const scene::ImagePart& mr);
 

@@ -59,6 +59,7 @@ struct DraftLayer
   core::GridGeometry geometry;
   std::function<std::uint16_t(const core::Index3&)> indexAt; ///< of a voxel of the grid; 0: none
   std::vector<std::array<float, 3>> colors;                  ///< 0 to 255, by index
+  std::uint16_t hatched = 0;                                 ///< this index is; 0: none
 
   void paint(const SliceGeometry& slice, SlicePixels& pixels) const;
 };

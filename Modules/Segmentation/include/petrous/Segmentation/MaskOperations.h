@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "petrous/Segmentation/Mask.h"
@@ -19,10 +21,11 @@ Mask threshold(const volume::IntensityVolume& image, const volume::ValueRange& r
                const core::Progress& progress = {});
 
 /// Of these, the voxels connected by faces with one of the seeds (patient, LPS mm). Throws if a
-/// seed lies outside the image or its voxel outside the range.
+/// seed lies outside the image or its voxel outside the range; `unit` is that of intensities in the
+/// message, such as " HU".
 Mask connectedThreshold(const volume::IntensityVolume& image, const volume::ValueRange& range,
                         const std::vector<Eigen::Vector3d>& seeds,
-                        const core::Progress& progress = {});
+                        const core::Progress& progress = {}, const std::string& unit = {});
 
 /// The range of intensities around a seed: mean +- `deviations` standard deviations of its 5^3
 /// neighbourhood, refined in the region that they connect (three rounds).
@@ -38,7 +41,13 @@ std::vector<double> otsuThresholds(const volume::IntensityHistogram& histogram, 
 volume::ValueRange proposedRange(const volume::IntensityHistogram& histogram,
                                  std::optional<double> iso);
 
-/// Connected by faces.
+/// How many parts the mask has, connected by faces, and the voxels of the largest.
+struct Islands
+{
+  std::size_t count = 0;
+  std::uint64_t largest = 0;
+};
+Islands islandsOf(const Mask& mask, const core::Progress& progress = {});
 Mask largestIsland(const Mask& mask, const core::Progress& progress = {});
 /// Without islands smaller than `volume` mm^3.
 Mask withoutSmallIslands(const Mask& mask, double volume, const core::Progress& progress = {});
@@ -55,6 +64,9 @@ Mask margin(const Mask& mask, double distance, const core::Progress& progress = 
 /// Gaussian of standard deviation `sigma` mm, and the level at which the number of voxels is the
 /// same; structures thinner than about two sigma lose their ends.
 Mask smoothed(const Mask& mask, double sigma, const core::Progress& progress = {});
+/// The same for the outline alone: with its cavities filled its volume stays, so that cavities that
+/// close do not make it smaller. Those of which the Gaussian leaves more than half stay cavities.
+Mask smoothedOutline(const Mask& mask, double sigma, const core::Progress& progress = {});
 
 enum class Combination
 {

@@ -86,6 +86,9 @@ struct Tube
   std::vector<double> pointDistances;     ///< from each point to the line, mm
   std::vector<std::size_t> pointVertices; ///< the vertex nearest to each point, ascending
   std::vector<std::uint8_t> heldAtPoint;  ///< 1: no axis within reach, so the line was kept there
+  /// 1: the point lies outside of the tube: farther from the line than the radius there, which is
+  /// where the structure ends, and than a voxel, which is as near as a point can be set.
+  std::vector<std::uint8_t> outsideAtPoint;
 
   /// The minimal path between each pair of neighbouring points, before refinement.
   std::vector<std::vector<Eigen::Vector3d>> legs;
@@ -128,7 +131,12 @@ double widestFor(std::string_view name);
 std::vector<std::size_t> likelyOrder(const std::vector<Eigen::Vector3d>& points);
 
 /// Where a new point belongs in the order of tube.points: 0 before the first, points.size() after
-/// the last.
+/// the last. The tube may consist of points alone; with its line, that is taken into account.
+///
+/// Points are given in their order along the structure unless the new one clearly lies between two
+/// neighbours: close to the line, or such that the way through it is hardly longer; both compared
+/// with its distance from the nearer end, so that a structure may turn back sharply. It goes before
+/// the first point only if that is nearer by a third, as points are given from one end.
 std::size_t insertionIndex(const Tube& tube, const Eigen::Vector3d& point);
 
 /// The tube as one segment on a grid: a voxel belongs if the tube covers at least half of it.

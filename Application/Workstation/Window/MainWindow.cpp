@@ -109,6 +109,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_damageBanner(new Banner("damageBanner", Banner::Kind::Warning))
   , m_recordingBanner(new Banner("recordingBanner", Banner::Kind::Warning))
   , m_removedBanner(new Banner("removedBanner", Banner::Kind::Notice))
+  , m_mrBanner(new Banner("mrBanner", Banner::Kind::Notice))
   , m_place(new ProbeLabel(m_model))
   , m_sum(new QLabel)
   , m_touch(new QLabel)
@@ -180,13 +181,20 @@ void MainWindow::layOut()
   m_pages->addWidget(start);
   m_pages->addWidget(across);
   m_notesBanner->addButton("dismissNotes", tr("Close"), [this] { m_notesBanner->hide(); });
+  m_mrBanner->addButton("registerMr", tr("Registration (F5)"),
+                        [this]
+                        {
+                          m_mrBanner->hide();
+                          raisePanel("registrationDock");
+                        });
+  m_mrBanner->addButton("dismissMr", tr("Close"), [this] { m_mrBanner->hide(); });
   m_faultBanner->addButton("dismissFault", tr("Close"), [this] { m_faultBanner->hide(); });
   m_recordingBanner->addButton("dismissRecording", tr("Close"),
                                [this] { m_recordingBanner->hide(); });
   auto* whole = new QWidget;
   auto* banners = new BannerStack(*whole);
   for (Banner* banner : {m_damageBanner, m_faultBanner, m_unsavedBanner, m_recordingBanner,
-                         m_loadingBanner, m_removedBanner, m_notesBanner})
+                         m_loadingBanner, m_removedBanner, m_mrBanner, m_notesBanner})
     banners->add(banner);
   connect(m_view, &ThreeDView::toolModeSet, banners,
           [this, banners]
@@ -357,6 +365,7 @@ void MainWindow::connectModel()
   m_model.events.crosshairMoved = [this] { m_slices->crosshairMoved(); };
   m_model.events.mrMoved = [this]
   {
+    showUnregistered(false);
     m_registration->mrMoved();
     m_segment->mrMoved();
   };
@@ -560,6 +569,7 @@ void MainWindow::caseClosed()
   m_place->clear();
   m_sum->clear();
   m_picture->speed()->clear();
+  m_mrBanner->hide();
   m_notesBanner->hide();
   m_pages->setCurrentIndex(0);
 }
@@ -572,6 +582,7 @@ void MainWindow::partsChanged()
   m_slices->appearanceChanged();
   m_segment->partsChanged();
   tellPanels();
+  showUnregistered(false);
   notifyNotes();
 }
 
@@ -594,6 +605,28 @@ void MainWindow::caseChanged()
   m_notesBanner->hide();
   m_notesTold = value.revision == 0 ? QStringList() : notesOf(value);
   notifyNotes();
+  showUnregistered(true);
+}
+
+// Without a registration an MR is not seen: that it came along is said until it is registered or
+// the user knows.
+void MainWindow::showUnregistered(bool opened)
+{
+  QStringList names;
+  for (const scene::ImagePart& mr : m_model.value().mr)
+    if (!mr.registered)
+      names += tr("“%1”").arg(words(mr.name));
+  if (names.isEmpty())
+    return m_mrBanner->hide();
+  m_mrBanner->setText(
+      (names.size() == 1
+           ? tr("The case has the MR %1, which is not registered with the CT and not shown yet. "
+                "Registration > Register the MR (Ctrl+R) brings it there.")
+           : tr("The case has the MRs %1, which are not registered with the CT and not shown yet. "
+                "Registration > Register the MR (Ctrl+R) brings them there."))
+          .arg(names.join(", ")));
+  if (opened)
+    m_mrBanner->show();
 }
 
 // What was assumed or left out when files were read, until it is acknowledged.

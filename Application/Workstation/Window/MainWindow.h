@@ -93,6 +93,7 @@ private:
   void showPanels();
   void tellPanels();
   void fillCaseMenu();
+  void showUnregistered(bool opened);
   void raisePanel(const char* dock);
   void record(bool on);
   std::filesystem::path chooseRecording();
@@ -114,6 +115,7 @@ private:
   Banner* m_damageBanner;
   Banner* m_recordingBanner;
   Banner* m_removedBanner;
+  Banner* m_mrBanner;
   QStringList m_notesTold;
   ProbeLabel* m_place;
   QLabel* m_sum;

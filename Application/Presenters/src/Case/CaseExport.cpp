@@ -16,6 +16,7 @@
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/VolumeFile.h"
+#include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CaseDicom.h"
 #include "petrous/Presenters/MrOnCt.h"
 #include "petrous/Rendering/SurfaceExtraction.h"
@@ -358,6 +359,12 @@ unsigned exportContent(const std::string& what)
   return imaging::kImage;
 }
 
+std::string coordinatesOf(const ExportOptions& options)
+{
+  const imaging::FileFormat* format = isSeries(options) ? nullptr : imaging::formatOf(options.out);
+  return coordinatesOf(imaging::MeshSpace{format && format->name == "NIfTI", 1.0});
+}
+
 std::vector<std::string> exportedFiles(const ExportOptions& options)
 {
   if (!isSeries(options))
@@ -426,7 +433,7 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
     summary.closed = closed;
     summary.words =
         ", " + std::to_string(mesh.triangles.size()) + " triangles, " + decimation + ", " +
-        (closed ? "closed, " + core::generalText(mesh.signedVolume(), 5) + " mm3" : "not closed");
+        (closed ? "closed, " + core::fixedText(mesh.signedVolume(), 2) + " mm3" : "not closed");
     if (closed)
       summary.volume = mesh.signedVolume();
     imaging::writeMesh(options.out, mesh, color);

@@ -42,7 +42,7 @@ struct ExportOptions
   std::optional<std::size_t> triangles = {}; ///< of a surface, at most
 };
 
-/// What was written. All surfaces and voxels in patient LPS, mm.
+/// What was written; in which coordinates: coordinatesOf.
 struct ExportSummary
 {
   struct Decimation
@@ -64,6 +64,10 @@ struct ExportSummary
 
 /// imaging::FileContent, the formats in which it is written.
 unsigned exportContent(const std::string& what);
+
+/// In which coordinates the file states positions: "LPS (DICOM, ITK), mm"; of NIfTI, which is so by
+/// definition, "RAS (Slicer, NIfTI), mm".
+std::string coordinatesOf(const ExportOptions& options);
 
 /// The files that will be written. Throws ExportChoiceError, FileError (UnknownFormat): before
 /// anything is computed.

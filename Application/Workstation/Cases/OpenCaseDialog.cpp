@@ -17,6 +17,7 @@
 #include <QVBoxLayout>
 
 #include "Application.h"
+#include "PanelLayout.h"
 #include "Theme.h"
 
 namespace petrous::workstation
@@ -67,7 +68,7 @@ OpenCaseDialog::OpenCaseDialog(const library::Library& library, Changes changes,
   , m_deleted(new QMenu(this))
 {
   setWindowTitle(tr("Open case"));
-  resize(760, 420);
+  resizeOnScreen(*this, {760, 420});
   m_search->setObjectName("searchCases");
   m_search->setPlaceholderText(tr("Search names of cases and structures"));
   m_search->setToolTip(

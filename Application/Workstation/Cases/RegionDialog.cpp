@@ -15,6 +15,7 @@
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 
+#include "PanelLayout.h"
 #include "PreviewBar.h"
 #include "Theme.h"
 #include "petrous/Presenters/IntensityDisplay.h"
@@ -165,7 +166,7 @@ RegionDialog::RegionDialog(const std::filesystem::path& path, const std::string&
 {
   setObjectName("chooseRegion");
   setWindowTitle(tr("Region of the scan"));
-  resize(1000, 560);
+  resizeOnScreen(*this, {1000, 560});
   auto* title = new QLabel(
       tr("Only what lies in the box is read: drag its edges, or give it in mm (patient LPS)."));
   title->setWordWrap(true);

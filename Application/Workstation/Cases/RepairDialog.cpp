@@ -7,6 +7,7 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include "PanelLayout.h"
 #include "PreviewBar.h"
 #include "SliceView.h"
 #include "Theme.h"
@@ -51,7 +52,7 @@ RepairDialog::RepairDialog(const presenters::SourceContent& source, const std::s
 {
   setObjectName("askRepair");
   setWindowTitle(tr("Repair the scan?"));
-  resize(860, 680);
+  resizeOnScreen(*this, {860, 680});
   const auto path = source.path.lexically_normal();
   auto* title =
       plain(tr("“%1” would mislead as it is. What is wrong:")
@@ -62,7 +63,7 @@ RepairDialog::RepairDialog(const presenters::SourceContent& source, const std::s
   m_remains->setObjectName("remains");
   auto* pictures = new QHBoxLayout(m_pictures);
   pictures->setContentsMargins(0, 0, 0, 0);
-  m_pictures->setMinimumHeight(300);
+  m_pictures->setMinimumHeight(200);
 
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
   auto* repair = buttons->addButton(tr("&Repair and open"), QDialogButtonBox::AcceptRole);

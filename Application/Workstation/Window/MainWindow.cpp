@@ -37,6 +37,7 @@
 #include "DeviceWatcher.h"
 #include "DrillBar.h"
 #include "DrillController.h"
+#include "PanelLayout.h"
 #include "PictureController.h"
 #include "ProbeLabel.h"
 #include "RegistrationController.h"
@@ -138,7 +139,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   m_saver->setParent(this);
   m_saver->camera = [this] { return m_view->picture().camera(); };
   setAcceptDrops(true);
-  resize(1440, 900);
+  resizeOnScreen(*this, {1440, 900});
   layOut();
   connectModel();
   connectActions();
@@ -334,7 +335,7 @@ void MainWindow::showPanels()
   if (!front)
     return;
   front->raise();
-  resizeDocks({front}, {395}, Qt::Horizontal);
+  resizeDocks({front}, {std::min(465, 2 * width() / 5)}, Qt::Horizontal);
 }
 
 // Another case is open, or its parts are others, or none is open any more.

@@ -559,7 +559,12 @@ bool CaseDocumentController::askNames(presenters::CaseSources& sources,
       part.name = name.empty() || !source.isNameless ? name : freeName(name, proposed);
     }
     else
+    {
       part.isNamed = false;
+      part.unnamed = source.unnamed;
+      part.folder = QFile::decodeName(source.path.parent_path().c_str());
+      isNameless = isNameless || source.unnamed > 0;
+    }
     proposed.push_back(part.name);
     parts.push_back(std::move(part));
   }
@@ -582,7 +587,7 @@ bool CaseDocumentController::askNames(presenters::CaseSources& sources,
   }
   else
     for (const AddPartsDialog::Part& part : parts)
-      answers.push_back({part.name, {}});
+      answers.push_back({part.name, {}, {}});
   std::size_t next[3] = {0, 0, 0};
   for (std::size_t n = 0; n < others.size(); ++n)
   {
@@ -592,6 +597,7 @@ bool CaseDocumentController::askNames(presenters::CaseSources& sources,
                                                               : sources.parts.labels[next[2]++];
     part.name = answers[n].name;
     part.drawnOn = answers[n].drawnOn;
+    part.labelNames = answers[n].labelNames;
   }
   return true;
 }

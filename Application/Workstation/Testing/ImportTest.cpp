@@ -1098,3 +1098,48 @@ TEST_F(Import, AnExportThatFailsKeepsItsChoicesAndOffersTheGridOfTheCt)
   EXPECT_TRUE(told.contains("all.seg.nrrd")) << told.toStdString();
   EXPECT_TRUE(fs::exists(folder() / "all.seg.nrrd"));
 }
+
+// A label map without names asks for a table of them.
+TEST_F(Import, NamesOfALabelMapComeFromATableThatIsChosen)
+{
+  saveBall("ball");
+  openWindow("ball");
+  auto voxels = volume::makeZeroVolume<std::uint16_t>(window().model().value().ct.geometry);
+  for (int i = 20; i < 40; ++i)
+    voxels->at(i, 30, 30) = voxels->at(i, 31, 30) = i < 30 ? 4 : 9;
+  imaging::writeLabelFile(folder() / "patient.nii.gz", volume::makeLabelMap(voxels, {}));
+  fs::create_directory(folder() / "tables");
+  std::ofstream(folder() / "tables" / "names.ctbl")
+      << "4 cochlea 255 0 0 255\n9 vein 0 0 255 255\n";
+  bool isAdded = false;
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        auto* table = dialog.findChild<QPushButton*>("namesTable");
+        if (dialog.objectName() != "addParts" || !table)
+          return false;
+        auto* state = dialog.findChild<QLabel*>("namesState");
+        EXPECT_TRUE(state->text().startsWith("2 ")) << state->text().toStdString();
+        onDialog(
+            [&](QDialog& inner)
+            {
+              auto* files = qobject_cast<QFileDialog*>(&inner);
+              if (files)
+                choose(*files, folder() / "tables" / "names.ctbl");
+              return files != nullptr;
+            });
+        table->click();
+        EXPECT_TRUE(state->text().contains("names.ctbl")) << state->text().toStdString();
+        isAdded = true;
+        dialog.accept();
+        return true;
+      });
+  dropPath(folder() / "patient.nii.gz");
+  ASSERT_TRUE(waitFor([&] { return isAdded && !window().busy(); }));
+  ASSERT_TRUE(waitFor([this] { return window().model().value().labels.size() == 2; }));
+  EXPECT_TRUE(settled());
+  const auto& structures = window().model().value().labels[1].structures;
+  ASSERT_EQ(structures.size(), 2U);
+  EXPECT_EQ(structures[0].name, "cochlea");
+  EXPECT_EQ(structures[1].name, "vein");
+}

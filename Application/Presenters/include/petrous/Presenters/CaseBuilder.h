@@ -29,6 +29,8 @@ struct PartSource
   /// else LPS mm if that fits the image.
   std::optional<bool> isRas = std::nullopt;
   std::optional<double> unit = std::nullopt;
+  /// Structures: a table of names for this file alone; empty: PartSources::labelNames.
+  std::filesystem::path labelNames = {};
 
   /// "NAME=FILE" or "FILE". A string that is the path of an existing file is a FILE.
   static PartSource parse(const std::string& text);

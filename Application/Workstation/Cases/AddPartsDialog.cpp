@@ -8,7 +8,6 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QGridLayout>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
@@ -96,7 +95,8 @@ AddPartsDialog::AddPartsDialog(const QString& title, const QString& more, const 
   layout->addWidget(plain(more));
   layout->addWidget(m_advice);
   layout->addWidget(buttons);
-  resizeOnScreen(*this, {620, std::min(520, 190 + 40 * row)});
+  const QSize needed = rows->sizeHint();
+  resizeOnScreen(*this, {std::max(620, needed.width() + 60), std::min(520, 170 + needed.height())});
   check();
 }
 
@@ -126,9 +126,9 @@ QWidget* AddPartsDialog::tableChoice(std::size_t row, const Part& part)
             state->setText(tr("named by “%1”").arg(QFileInfo(file).fileName()));
           });
   auto* box = new QWidget;
-  auto* layout = new QHBoxLayout(box);
+  auto* layout = new QVBoxLayout(box);
   layout->setContentsMargins(0, 0, 0, 0);
-  layout->addWidget(state, 1);
+  layout->addWidget(state);
   layout->addWidget(choose);
   return box;
 }

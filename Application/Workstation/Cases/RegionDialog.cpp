@@ -190,10 +190,11 @@ RegionDialog::RegionDialog(const std::filesystem::path& path, const std::string&
             });
   }
   auto* numbers = new QGridLayout;
-  const QString axes[] = {tr("x, to the left"), tr("y, to the back"), tr("z, to the head")};
+  const QString axes[] = {tr("&x, to the left"), tr("&y, to the back"), tr("&z, to the head")};
   for (int axis = 0; axis < 3; ++axis)
   {
-    numbers->addWidget(new QLabel(axes[axis]), axis, 0);
+    auto* label = new QLabel(axes[axis]);
+    numbers->addWidget(label, axis, 0);
     for (int end = 0; end < 2; ++end)
     {
       auto* box = new QDoubleSpinBox;
@@ -204,6 +205,8 @@ RegionDialog::RegionDialog(const std::filesystem::path& path, const std::string&
       box->setEnabled(false);
       m_numbers[static_cast<std::size_t>(2 * axis + end)] = box;
       numbers->addWidget(box, axis, 1 + end);
+      if (end == 0)
+        label->setBuddy(box);
       connect(box, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
               [this, axis, end](double value)
               {

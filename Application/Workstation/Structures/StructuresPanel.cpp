@@ -25,8 +25,10 @@ namespace petrous::workstation
 
 namespace
 {
-constexpr int kPadding = 4; // px, beside a column's text
-}
+constexpr int kPadding = 4;    // px, beside a column's text
+constexpr int kSwatch = 30;    // px, colour and margins of a name
+constexpr int kLeastName = 16; // characters; where the panel is narrower it scrolls sideways
+} // namespace
 
 StructuresPanel::StructuresPanel(presenters::WorkstationModel& model, QWidget* parent)
   : Panel(parent)
@@ -144,14 +146,16 @@ void StructuresPanel::fitColumns()
   fitNames();
 }
 
-// The names take what the other columns leave, or as much more as the user gave them.
+// The names take what the other columns leave, or as much more as the user gave them, and never so
+// little that none can be read.
 void StructuresPanel::fitNames()
 {
   const QScopedValueRollback<bool> fitting(m_fitting, true);
   QHeaderView* header = m_list->header();
   const int others = header->length() - header->sectionSize(StructuresModel::Name);
+  const int least = kSwatch + kLeastName * m_list->fontMetrics().averageCharWidth();
   header->resizeSection(StructuresModel::Name,
-                        std::max(m_list->viewport()->width() - others, m_nameWidth));
+                        std::max({m_list->viewport()->width() - others, m_nameWidth, least}));
 }
 
 QString StructuresPanel::chosen() const

@@ -622,9 +622,9 @@ void MainWindow::showUnregistered(bool opened)
   m_mrBanner->setText(
       (names.size() == 1
            ? tr("The case has the MR %1, which is not registered with the CT and not shown yet. "
-                "Registration > Register the MR (Ctrl+R) brings it there.")
+                "Registration > Register the MR (Ctrl+R) registers it.")
            : tr("The case has the MRs %1, which are not registered with the CT and not shown yet. "
-                "Registration > Register the MR (Ctrl+R) brings them there."))
+                "Registration > Register the MR (Ctrl+R) registers them."))
           .arg(names.join(", ")));
   if (opened)
     m_mrBanner->show();

@@ -453,11 +453,12 @@ bool CaseDocumentController::askContent(SourceContent& source)
                 "library.")
                  .arg(name)
            : tr("A case begins with a CT or cone beam. An MR comes to a case that is open."));
-  auto* ct = box.addButton(tr("CT: a new case"), QMessageBox::ActionRole);
-  auto* mr = open ? box.addButton(tr("MR of “%1”").arg(name), QMessageBox::ActionRole) : nullptr;
+  const QString shown = QString(name).replace('&', "&&"); // in a button
+  auto* ct = box.addButton(tr("&CT: a new case"), QMessageBox::ActionRole);
+  auto* mr = open ? box.addButton(tr("&MR of “%1”").arg(shown), QMessageBox::ActionRole) : nullptr;
   const bool file = !fs::is_directory(source.path);
   auto* labels = open && file
-                     ? box.addButton(tr("Structures of “%1”").arg(name), QMessageBox::ActionRole)
+                     ? box.addButton(tr("&Structures of “%1”").arg(shown), QMessageBox::ActionRole)
                      : nullptr;
   box.addButton(QMessageBox::Cancel);
   box.exec();
@@ -477,7 +478,7 @@ bool CaseDocumentController::askMrAlone(const SourceContent& source)
   box.setObjectName("askMrAlone");
   box.setInformativeText(tr("Its surface is then where tissue begins, not bone. If there is a CT "
                             "of the patient, open that first, and the MR comes to it."));
-  const auto* yes = box.addButton(tr("Begin with the MR"), QMessageBox::AcceptRole);
+  const auto* yes = box.addButton(tr("&Begin with the MR"), QMessageBox::AcceptRole);
   box.setDefaultButton(box.addButton(QMessageBox::Cancel));
   box.exec();
   return box.clickedButton() == yes;
@@ -579,8 +580,9 @@ bool CaseDocumentController::askNames(presenters::CaseSources& sources,
             .arg(sources.parts.mr.empty()
                      ? QString()
                      : tr(" An MR is shown over the CT once it is registered (F5).")),
-        newCase.empty() ? tr("Add to “%1”").arg(name) : tr("Make the case"), parts, taken, mrs,
-        &m_window);
+        newCase.empty() ? tr("&Add to “%1”").arg(QString(name).replace('&', "&&"))
+                        : tr("&Make the case"),
+        parts, taken, mrs, &m_window);
     if (dialog.exec() != QDialog::Accepted)
       return false;
     answers = dialog.answers();
@@ -824,7 +826,7 @@ void CaseDocumentController::askMeshSpace(const presenters::PartFailure& failure
   box.setInformativeText(windowText(words(failure.why)));
   std::vector<QAbstractButton*> buttons;
   for (const imaging::MeshSpace& space : failure.likely)
-    buttons.push_back(box.addButton(tr("Add as %1").arg(words(presenters::coordinatesOf(space))),
+    buttons.push_back(box.addButton(tr("Add as &%1").arg(words(presenters::coordinatesOf(space))),
                                     QMessageBox::ActionRole));
   box.setDefaultButton(box.addButton(QMessageBox::Cancel));
   box.exec();

@@ -267,7 +267,7 @@ void OpenCaseDialog::remove()
   box.setInformativeText(
       (strokes > 0 ? tr("%1 strokes were drilled in it. ").arg(strokes) : QString()) +
       tr("It can be brought back here until the library is cleaned up (petrous library gc)."));
-  const auto* yes = box.addButton(tr("Delete"), QMessageBox::DestructiveRole);
+  const auto* yes = box.addButton(tr("&Delete"), QMessageBox::DestructiveRole);
   box.setDefaultButton(box.addButton(QMessageBox::Cancel));
   box.exec();
   if (box.clickedButton() != yes)

@@ -1038,6 +1038,12 @@ TEST_F(Import, AnExportThatFailsKeepsItsChoicesAndOffersTheGridOfTheCt)
       {
         if (dialog.objectName() != "exportCase")
           return false;
+        QStringList order; // of the tabulator
+        QWidget* first = dialog.findChild<QComboBox*>("exportWhat");
+        for (QWidget* at = first; order.isEmpty() || at != first; at = at->nextInFocusChain())
+          if (at->objectName().startsWith("export") && at->focusPolicy() != Qt::NoFocus)
+            order += at->objectName().mid(6);
+        EXPECT_EQ(order.join(' ').toStdString(), "What Part Format OnCt Triangles Path");
         pick(dialog, "exportWhat", "labels");
         pick(dialog, "exportFormat", ".nii.gz");
         EXPECT_TRUE(dialog.findChild<QLabel*>("exportCoordinates")->text().startsWith("RAS"));

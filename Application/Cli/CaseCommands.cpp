@@ -53,9 +53,9 @@ struct PartOptions
         ->type_name("[NAME=]FILE[@MR]");
     command
         .add_option("--mesh-frame", meshFrame,
-                    "How the meshes count: lps (left, back, up) or ras (right, front, up)")
+                    "Coordinate system of the meshes: lps (DICOM, ITK) or ras (Slicer, NIfTI)")
         ->check(oneOf({"lps", "ras"}));
-    command.add_option("--mesh-unit", meshUnit, "Of the meshes: mm, cm, m or inch (mm)")
+    command.add_option("--mesh-unit", meshUnit, "Unit of the meshes: mm, cm, m or inch (mm)")
         ->check(oneOf({"mm", "cm", "m", "inch"}));
   }
 

@@ -43,7 +43,9 @@ void printSummary(const Context& context, const scene::Case& value, const Option
   if (done.decimation)
     json["decimation"] = {{"triangles_before", done.decimation->trianglesBefore},
                           {"hausdorff_mm", done.decimation->error}};
-  context.print(options.out + ": " + options.what + " of '" + value.name + "'" + done.words);
+  json["coordinates"] = presenters::coordinatesOf(options);
+  context.print(options.out + ": " + options.what + " of '" + value.name + "'" + done.words + "; " +
+                presenters::coordinatesOf(options));
   json["left_out"] = leftOutJson(value, leftOut);
   context.printJson(json);
 }
@@ -88,14 +90,15 @@ void addExportCommand(CLI::App& app, Context& context)
           "Voxels: " + imaging::orText(imaging::writtenEndings(imaging::kImage)) + "; labels: " +
               imaging::orText(imaging::writtenEndings(presenters::exportContent("labels"))) +
               "; surface, structure: " + imaging::orText(imaging::writtenEndings(imaging::kMesh)) +
-              "; mm LPS. FOLDER/: ct, mr or dissected as a DICOM series")
+              "; LPS (DICOM, ITK), mm, NIfTI RAS. FOLDER/: ct, mr or dissected as a DICOM series")
       ->type_name("F")
       ->required();
   auto* part = command->add_option("--part", options->part, "One MR or structure of several")
                    ->type_name("NAME");
   command->add_option("NAME", options->part, "As --part: 'export ear --what structure NAME'")
       ->excludes(part);
-  command->add_flag("--on-ct", options->onCt, "An MR, or the labels, resampled on the CT's grid");
+  command->add_flag("--on-ct", options->onCt,
+                    "An MR, or labels of several lattices, resampled on the CT's grid");
   command
       ->add_option("--triangles", options->triangles,
                    "A surface of at most about N triangles; how far it lies off is printed")

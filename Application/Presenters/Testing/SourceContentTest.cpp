@@ -1,3 +1,4 @@
+#include <fstream>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -139,6 +140,43 @@ TEST_F(SourceContent, IsKnownOfEachKindOfFile)
     EXPECT_EQ(presenters::lookAt(entry.path(), {}).content, Content::Mesh);
     break;
   }
+}
+
+// Structures that nothing names: a table can be asked for. One beside the file is found.
+TEST_F(SourceContent, CountsTheStructuresOfALabelMapThatNothingNames)
+{
+  const auto map =
+      volume::makeLabelMap(filled<std::uint16_t>(
+                               [](const Vector3d& at) {
+                                 return at.norm() > 0.8 ? 0.0 : at.x() < 0.0 ? 3.0 : 7.0;
+                               }),
+                           {});
+  imaging::writeLabelFile(m_folder / "ear.nii.gz", map);
+  EXPECT_EQ(presenters::lookAt(m_folder / "ear.nii.gz", {}).unnamed, 2U);
+  imaging::writeLabelFile(m_folder / "cochlea.nii.gz", map);
+  EXPECT_EQ(presenters::lookAt(m_folder / "cochlea.nii.gz", {}).unnamed, 2U);
+  std::ofstream(m_folder / "ear.csv") << "index,name\n3,cochlea\n";
+  EXPECT_EQ(presenters::lookAt(m_folder / "ear.nii.gz", {}).unnamed, 1U);
+  std::ofstream(m_folder / "ear.csv") << "index,name\n3,cochlea\n7,incus\n";
+  EXPECT_EQ(presenters::lookAt(m_folder / "ear.nii.gz", {}).unnamed, 0U);
+
+  const auto names = [this](const std::filesystem::path& table)
+  {
+    presenters::CaseSources sources;
+    auto ct = std::make_shared<volume::Volume<std::int16_t>>(kGrid, std::int16_t{-1000});
+    ct->at(7, 6, 5) = 1200;
+    imaging::writeVolume(m_folder / "ct.nrrd", *ct);
+    sources.ct = m_folder / "ct.nrrd";
+    sources.parts.labels.push_back({"", m_folder / "cochlea.nii.gz"});
+    sources.parts.labels.back().labelNames = table;
+    std::string all;
+    const scene::Case value = presenters::buildCase("c", sources, {});
+    for (const auto& structure : value.labels[0].structures)
+      all += structure.name + ";";
+    return all;
+  };
+  EXPECT_EQ(names({}), "label 3;label 7;");
+  EXPECT_EQ(names(m_folder / "ear.csv"), "cochlea;incus;");
 }
 
 TEST_F(SourceContent, OfAFolderWithCtAndMrTheUserSaysWhich)

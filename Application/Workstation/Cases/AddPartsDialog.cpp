@@ -4,6 +4,9 @@
 
 #include <QComboBox>
 #include <QDialogButtonBox>
+#include <QFile>
+#include <QFileDialog>
+#include <QFileInfo>
 #include <QGridLayout>
 #include <QLabel>
 #include <QLineEdit>
@@ -11,6 +14,7 @@
 #include <QScrollArea>
 #include <QVBoxLayout>
 
+#include "PanelLayout.h"
 #include "Theme.h"
 #include "WindowTexts.h"
 #include "petrous/Scene/Case.h"
@@ -56,6 +60,8 @@ AddPartsDialog::AddPartsDialog(const QString& title, const QString& more, const 
       connect(widgets.name, &QLineEdit::textChanged, this, &AddPartsDialog::check);
       grid->addWidget(widgets.name, row, 1);
     }
+    else if (part.unnamed > 0)
+      grid->addWidget(tableChoice(m_rows.size(), part), row, 1);
     else
       grid->addWidget(plain(tr("named by the file")), row, 1);
     if (part.isPlaced)
@@ -90,8 +96,42 @@ AddPartsDialog::AddPartsDialog(const QString& title, const QString& more, const 
   layout->addWidget(plain(more));
   layout->addWidget(m_advice);
   layout->addWidget(buttons);
-  resize(620, std::min(520, 190 + 40 * row));
+  const QSize needed = rows->sizeHint();
+  resizeOnScreen(*this, {std::max(620, needed.width() + 60), std::min(520, 170 + needed.height())});
   check();
+}
+
+// How many structures have no name, and the table that has them.
+QWidget* AddPartsDialog::tableChoice(std::size_t row, const Part& part)
+{
+  auto* state =
+      new QLabel(part.unnamed == 1 ? tr("1 structure without a name")
+                                   : tr("%1 structures without a name").arg(part.unnamed));
+  state->setObjectName("namesState");
+  state->setTextFormat(Qt::PlainText);
+  state->setWordWrap(true);
+  auto* choose = new QPushButton(tr("&Names from a table…"));
+  choose->setObjectName("namesTable");
+  choose->setAutoDefault(false);
+  choose->setToolTip(tr("A table of indices, names and colours: 3D Slicer (.ctbl), FreeSurfer or "
+                        "ITK-SNAP (.txt, .label), CSV, TSV, JSON"));
+  connect(choose, &QPushButton::clicked, this,
+          [this, row, state, folder = part.folder]
+          {
+            const QString file = QFileDialog::getOpenFileName(
+                this, tr("Table of names"), folder,
+                tr("Tables of names (*.ctbl *.txt *.label *.csv *.tsv *.json);;All files (*)"));
+            if (file.isEmpty())
+              return;
+            m_rows[row].table = QFile::encodeName(file).toStdString();
+            state->setText(tr("named by “%1”").arg(QFileInfo(file).fileName()));
+          });
+  auto* box = new QWidget;
+  auto* layout = new QVBoxLayout(box);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(state);
+  layout->addWidget(choose);
+  return box;
 }
 
 std::vector<AddPartsDialog::Answer> AddPartsDialog::answers() const
@@ -99,7 +139,8 @@ std::vector<AddPartsDialog::Answer> AddPartsDialog::answers() const
   std::vector<Answer> answers;
   for (const Row& row : m_rows)
     answers.push_back({row.name ? bytes(row.name->text().trimmed()) : std::string(),
-                       row.place ? bytes(row.place->currentData().toString()) : std::string()});
+                       row.place ? bytes(row.place->currentData().toString()) : std::string(),
+                       row.table});
   return answers;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -20,15 +21,18 @@ class AddPartsDialog : public QDialog
 public:
   struct Part
   {
-    QString what;          ///< "MR “t2.nii”"
-    std::string name;      ///< proposed; may be empty
-    bool isNamed = true;   ///< by the user; else the file names its structures
-    bool isPlaced = false; ///< structures and meshes: in the space of the CT or an MR
+    QString what;            ///< "MR “t2.nii”"
+    std::string name;        ///< proposed; may be empty
+    bool isNamed = true;     ///< by the user; else the file names its structures
+    bool isPlaced = false;   ///< structures and meshes: in the space of the CT or an MR
+    std::size_t unnamed = 0; ///< structures of the file without a name: a table can name them
+    QString folder;          ///< where such a table may be
   };
   struct Answer
   {
-    std::string name;    ///< empty: the file's own
-    std::string drawnOn; ///< PartSource::drawnOn
+    std::string name;                      ///< empty: the file's own
+    std::string drawnOn;                   ///< PartSource::drawnOn
+    std::filesystem::path labelNames = {}; ///< likewise
   };
 
   /// `title` asks, `accept` is the button's text; `taken` are names of other parts, `mr` those of
@@ -42,11 +46,13 @@ public:
 
 private:
   void check();
+  QWidget* tableChoice(std::size_t row, const Part& part);
 
   struct Row
   {
     QLineEdit* name = nullptr;  ///< nullptr: not named
     QComboBox* place = nullptr; ///< nullptr: not placed
+    std::filesystem::path table = {};
   };
   std::vector<Row> m_rows;
   std::vector<std::string> m_taken;

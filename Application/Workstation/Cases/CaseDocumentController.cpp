@@ -19,7 +19,6 @@
 #include "Application.h"
 #include "Banner.h"
 #include "CaseSaver.h"
-#include "ExportDialog.h"
 #include "OpenCaseDialog.h"
 #include "RegionDialog.h"
 #include "RepairDialog.h"
@@ -84,6 +83,39 @@ bool isArchive(const fs::path& path)
 QString megabytes(std::uintmax_t bytes)
 {
   return CaseDocumentController::tr("%1 MB").arg(1e-6 * static_cast<double>(bytes), 0, 'f', 1);
+}
+
+// "CT, MR “T2”, 12 structures, 1 mesh, 3 strokes (24.1 mm³ removed)".
+QString contentsOf(const scene::Case& value, bool planOnly)
+{
+  const auto counted = [](std::size_t count, const QString& one, const QString& many)
+  { return QString("%1 %2").arg(count).arg(count == 1 ? one : many); };
+  QStringList parts;
+  if (!planOnly)
+  {
+    parts += value.ct.modality == scene::Modality::Mr ? CaseDocumentController::tr("MR")
+                                                      : CaseDocumentController::tr("CT");
+    for (const scene::ImagePart& mr : value.mr)
+      parts += CaseDocumentController::tr("MR “%1”").arg(words(mr.name));
+    std::size_t structures = 0;
+    for (const scene::LabelPart& part : value.labels)
+      structures += part.structures.size();
+    if (structures > 0)
+      parts += counted(structures, CaseDocumentController::tr("structure"),
+                       CaseDocumentController::tr("structures"));
+    if (!value.meshes.empty())
+      parts += counted(value.meshes.size(), CaseDocumentController::tr("mesh"),
+                       CaseDocumentController::tr("meshes"));
+  }
+  const std::size_t strokes = value.dissection.strokes().size();
+  parts += strokes == 0 ? CaseDocumentController::tr("nothing drilled")
+                        : counted(strokes, CaseDocumentController::tr("stroke"),
+                                  CaseDocumentController::tr("strokes"));
+  QString text = parts.join(", ");
+  if (planOnly)
+    text += CaseDocumentController::tr(", looks and registrations; no images, structures or "
+                                       "meshes: it is restored where the very same CT is");
+  return text;
 }
 
 // `wanted`, with a number if it is taken.
@@ -423,12 +455,13 @@ bool CaseDocumentController::askContent(SourceContent& source)
                  .arg(name)
            : tr("A case begins with a CT or cone beam, to which an MR can come; with an MR alone "
                 "where there is no CT."));
-  auto* ct = box.addButton(tr("CT: a new case"), QMessageBox::ActionRole);
-  auto* mr = box.addButton(open ? tr("MR of “%1”").arg(name) : tr("MR: a new case"),
+  const QString shown = QString(name).replace('&', "&&"); // in a button
+  auto* ct = box.addButton(tr("&CT: a new case"), QMessageBox::ActionRole);
+  auto* mr = box.addButton(open ? tr("&MR of “%1”").arg(shown) : tr("&MR: a new case"),
                            QMessageBox::ActionRole);
   const bool file = !fs::is_directory(source.path);
   auto* labels = open && file
-                     ? box.addButton(tr("Structures of “%1”").arg(name), QMessageBox::ActionRole)
+                     ? box.addButton(tr("&Structures of “%1”").arg(shown), QMessageBox::ActionRole)
                      : nullptr;
   box.addButton(QMessageBox::Cancel);
   box.exec();
@@ -449,7 +482,7 @@ bool CaseDocumentController::askMrAlone(const SourceContent& source)
   box.setObjectName("askMrAlone");
   box.setInformativeText(tr("Its surface is then where tissue begins, not bone. If there is a CT "
                             "of the patient, open that first, and the MR comes to it."));
-  const auto* yes = box.addButton(tr("Begin with the MR"), QMessageBox::AcceptRole);
+  const auto* yes = box.addButton(tr("&Begin with the MR"), QMessageBox::AcceptRole);
   box.setDefaultButton(box.addButton(QMessageBox::Cancel));
   box.exec();
   return box.clickedButton() == yes;
@@ -531,7 +564,12 @@ bool CaseDocumentController::askNames(presenters::CaseSources& sources,
       part.name = name.empty() || !source.isNameless ? name : freeName(name, proposed);
     }
     else
+    {
       part.isNamed = false;
+      part.unnamed = source.unnamed;
+      part.folder = QFile::decodeName(source.path.parent_path().c_str());
+      isNameless = isNameless || source.unnamed > 0;
+    }
     proposed.push_back(part.name);
     parts.push_back(std::move(part));
   }
@@ -547,15 +585,16 @@ bool CaseDocumentController::askNames(presenters::CaseSources& sources,
             .arg(sources.parts.mr.empty()
                      ? QString()
                      : tr(" An MR is shown over the %1 once it is registered (F5).").arg(primary)),
-        newCase.empty() ? tr("Add to “%1”").arg(name) : tr("Make the case"), parts, taken, mrs,
-        primary, &m_window);
+        newCase.empty() ? tr("&Add to “%1”").arg(QString(name).replace('&', "&&"))
+                        : tr("&Make the case"),
+        parts, taken, mrs, primary, &m_window);
     if (dialog.exec() != QDialog::Accepted)
       return false;
     answers = dialog.answers();
   }
   else
     for (const AddPartsDialog::Part& part : parts)
-      answers.push_back({part.name, {}});
+      answers.push_back({part.name, {}, {}});
   std::size_t next[3] = {0, 0, 0};
   for (std::size_t n = 0; n < others.size(); ++n)
   {
@@ -565,6 +604,7 @@ bool CaseDocumentController::askNames(presenters::CaseSources& sources,
                                                               : sources.parts.labels[next[2]++];
     part.name = answers[n].name;
     part.drawnOn = answers[n].drawnOn;
+    part.labelNames = answers[n].labelNames;
   }
   return true;
 }
@@ -782,15 +822,16 @@ void CaseDocumentController::tell(const std::vector<presenters::PartFailure>& fa
 
 void CaseDocumentController::askMeshSpace(const presenters::PartFailure& failure)
 {
-  QMessageBox box(QMessageBox::Question, tr("How does the mesh count?"),
-                  tr("“%1” would not lie where it belongs.").arg(nameOf(failure.source.path)),
-                  QMessageBox::NoButton, &m_window);
+  QMessageBox box(
+      QMessageBox::Question, tr("Coordinates of a mesh"),
+      tr("Which coordinate system does the mesh “%1” use?").arg(nameOf(failure.source.path)),
+      QMessageBox::NoButton, &m_window);
   box.setTextFormat(Qt::PlainText);
   box.setObjectName("askMeshSpace");
   box.setInformativeText(windowText(words(failure.why)));
   std::vector<QAbstractButton*> buttons;
   for (const imaging::MeshSpace& space : failure.likely)
-    buttons.push_back(box.addButton(tr("Add as %1").arg(words(presenters::textOf(space))),
+    buttons.push_back(box.addButton(tr("Add as &%1").arg(words(presenters::coordinatesOf(space))),
                                     QMessageBox::ActionRole));
   box.setDefaultButton(box.addButton(QMessageBox::Cancel));
   box.exec();
@@ -979,20 +1020,25 @@ void CaseDocumentController::exportPart()
   if (m_work.busy() || m_asking)
     return emit statusMessage(tr("One at a time: something is being read already"));
   presenters::ExportOptions options;
-  std::string name;
   {
     const QScopedValueRollback<bool> asking(m_asking, true);
     if (mayDropDraft && !mayDropDraft())
       return;
-    ExportDialog dialog(m_model.value(), &m_window);
+    ExportDialog dialog(m_model.value(), m_exported, &m_window);
     if (dialog.exec() != QDialog::Accepted || !m_model.hasCase())
       return;
     options = dialog.options();
-    m_model.stopTouch();
-    if (!m_saver.flush())
-      return emit statusMessage(tr("The case is not saved yet, so nothing was exported"));
-    name = m_model.value().name; // a save after a conflict may have changed it
+    m_exported = dialog.choices();
   }
+  write(options);
+}
+
+void CaseDocumentController::write(const presenters::ExportOptions& options)
+{
+  m_model.stopTouch();
+  if (!m_saver.flush())
+    return emit statusMessage(tr("The case is not saved yet, so nothing was exported"));
+  const std::string name = m_model.value().name; // a save after a conflict may have changed it
   work(tr("Exporting from %1").arg(words(name)),
        [this, library = m_model.library(), name,
         options](const core::Progress& progress) -> BackgroundWork::Reply
@@ -1001,24 +1047,62 @@ void CaseDocumentController::exportPart()
          if (options.what == "surface") // that of all structures
            library.checkStructures(value, progress.part(0.0, 0.1));
          std::vector<std::string> warnings;
-         const auto done = presenters::exportCase(
-             library, value, options, {},
-             [&warnings](const std::string& line) { warnings.push_back(line); },
-             progress.part(0.1, 1.0));
-         return [this, done, warnings, out = options.out]
+         try
          {
-           endWork();
-           QString text =
-               tr("Written: %1%2").arg(QFile::decodeName(out.c_str()), words(done.words));
-           if (done.volume)
-             text += tr("\nVolume of the surface: %1 mL").arg(1e-3 * *done.volume, 0, 'f', 3);
-           if (done.voxelsVolume)
-             text += tr("\nVolume of the voxels: %1 mL").arg(1e-3 * *done.voxelsVolume, 0, 'f', 3);
-           for (const std::string& line : warnings)
-             text += '\n' + sentence(windowText(words(line)));
-           inform(text);
-         };
+           const auto done = presenters::exportCase(
+               library, value, options, {},
+               [&warnings](const std::string& line) { warnings.push_back(line); },
+               progress.part(0.1, 1.0));
+           return [this, done, warnings, options]
+           {
+             endWork();
+             QString text =
+                 tr("Written: %1%2")
+                     .arg(QFile::decodeName(options.out.c_str()), windowText(words(done.words)));
+             if (done.voxelsVolume)
+               text += tr("\nVolume of the voxels: %1 mm³").arg(*done.voxelsVolume, 0, 'f', 2);
+             text += tr("\nCoordinates: %1").arg(words(presenters::coordinatesOf(options)));
+             for (const std::string& line : warnings)
+               text += '\n' + sentence(windowText(words(line)));
+             inform(text);
+           };
+         }
+         catch (const presenters::ExportGridError& error)
+         {
+           return [this, options, why = windowText(words(error.what()))]
+           {
+             endWork();
+             offerCtGrid(options, why);
+           };
+         }
        });
+}
+
+// Non-modal.
+void CaseDocumentController::offerCtGrid(const presenters::ExportOptions& options,
+                                         const QString& why)
+{
+  auto* box = new QMessageBox(QMessageBox::Question, tr("Export"), sentence(why),
+                              QMessageBox::Cancel, &m_window);
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  box->setTextFormat(Qt::PlainText);
+  box->setObjectName("exportGrids");
+  box->setInformativeText(tr("On the CT's grid each of its voxels takes the nearest label, so that "
+                             "volumes change by the voxels at the border."));
+  auto* onCt = box->addButton(tr("Export on the CT's &grid"), QMessageBox::AcceptRole);
+  box->setDefaultButton(onCt);
+  connect(box, &QMessageBox::buttonClicked, this,
+          [this, options, onCt](QAbstractButton* clicked)
+          {
+            if (clicked != onCt || !m_model.hasCase() || m_work.busy() || m_asking)
+              return;
+            auto again = options;
+            again.onCt = true;
+            if (m_exported)
+              m_exported->onCt = true;
+            write(again);
+          });
+  box->open();
 }
 
 // An archive contains what is saved, so the case is saved first.
@@ -1059,16 +1143,19 @@ void CaseDocumentController::archive()
        {
          const library::ArchiveSummary done =
              library::archiveCase(library, name, file, options, progress);
-         return [this, done, file]
+         const QString contents = contentsOf(library.open(name), done.planOnly);
+         return [this, done, file, contents]
          {
            endWork();
-           emit statusMessage(
-               (done.planOnly ? tr("The plan of %1 is in %2: %3") : tr("%1 is in %2: %3"))
-                   .arg(words(done.name), QFile::decodeName(file.c_str()),
-                        megabytes(done.archiveBytes)));
+           QString text =
+               (done.planOnly ? tr("The plan of “%1” is archived.") : tr("“%1” is archived."))
+                   .arg(words(done.name));
+           text +=
+               tr("\nFile: %1, %2\nIn it: %3")
+                   .arg(QFile::decodeName(file.c_str()), megabytes(done.archiveBytes), contents);
            if (!done.durable)
-             refuse(tr("%1 is written, but the disk reported an error; check the disk.")
-                        .arg(nameOf(file)));
+             text += tr("\nThe disk reported an error; check the disk.");
+           inform(text);
          };
        });
 }

@@ -10,6 +10,7 @@
 #include <QStringList>
 
 #include "BackgroundWork.h"
+#include "ExportDialog.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/SourceContent.h"
 #include "petrous/Presenters/WorkstationModel.h"
@@ -112,6 +113,8 @@ private:
             const std::vector<presenters::StructureReport>& report);
   void askMeshSpace(const presenters::PartFailure& failure);
   void adopt(scene::Case value);
+  void write(const presenters::ExportOptions& options);
+  void offerCtGrid(const presenters::ExportOptions& options, const QString& why);
   void work(const QString& title, BackgroundWork::Work work);
   void endWork();
   void connectBanners();
@@ -132,7 +135,8 @@ private:
   Banner& m_removed;
   BackgroundWork m_work;
   BackgroundWork m_preparation;
-  std::unique_ptr<QProgressDialog> m_progress; // of m_work
+  std::unique_ptr<QProgressDialog> m_progress;     // of m_work
+  std::optional<ExportDialog::Choices> m_exported; // what was chosen last
   QString m_damageTold;
   bool m_prepareAgain = false;
   bool m_sayWhenSaved = false;

@@ -38,7 +38,8 @@ const QString kSeries = QStringLiteral("/");
 
 } // namespace
 
-ExportDialog::ExportDialog(const scene::Case& value, QWidget* parent)
+ExportDialog::ExportDialog(const scene::Case& value, const std::optional<Choices>& last,
+                           QWidget* parent)
   : QDialog(parent)
   , m_caseName(words(value.name))
   , m_what(new QComboBox)
@@ -48,6 +49,7 @@ ExportDialog::ExportDialog(const scene::Case& value, QWidget* parent)
                              ? tr("Resampled on the &primary MR's grid")
                              : tr("Resampled on the &CT's grid")))
   , m_triangles(new QSpinBox)
+  , m_coordinates(new QLabel)
   , m_path(new QLineEdit)
   , m_advice(new QLabel)
 {
@@ -89,6 +91,8 @@ ExportDialog::ExportDialog(const scene::Case& value, QWidget* parent)
   m_triangles->setSpecialValueText(tr("all"));
   m_triangles->setToolTip(tr("With fewer triangles than it has, how far the surface lies off is "
                              "stated in mm"));
+  m_coordinates->setObjectName("exportCoordinates");
+  m_coordinates->setTextFormat(Qt::PlainText);
   m_path->setObjectName("exportPath");
   m_path->setMinimumWidth(320);
   auto* browse = new QPushButton(tr("&Browse…"));
@@ -106,6 +110,7 @@ ExportDialog::ExportDialog(const scene::Case& value, QWidget* parent)
   form->addRow(tr("&Format:"), m_format);
   form->addRow({}, m_onCt);
   form->addRow(tr("At most &triangles:"), m_triangles);
+  form->addRow(tr("Coordinates:"), m_coordinates);
   form->addRow(tr("&To:"), place);
   static_cast<QLabel*>(form->labelForField(place))->setBuddy(m_path);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
@@ -127,6 +132,38 @@ ExportDialog::ExportDialog(const scene::Case& value, QWidget* parent)
   connect(buttons, &QDialogButtonBox::accepted, this, &ExportDialog::askAndAccept);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   whatChanged();
+  if (last)
+    choose(*last);
+}
+
+void ExportDialog::choose(const Choices& last)
+{
+  const auto pick = [](QComboBox* box, const QString& wanted)
+  {
+    if (const int index = box->findData(wanted); index >= 0)
+      box->setCurrentIndex(index);
+  };
+  pick(m_what, last.what);
+  pick(m_part, last.part);
+  pick(m_format, last.format);
+  m_onCt->setChecked(last.onCt);
+  m_triangles->setValue(last.triangles);
+  const QFileInfo file(last.path);
+  if (QFileInfo(file.absolutePath()).isDir())
+    m_path->setText(last.caseName == m_caseName
+                        ? last.path
+                        : QDir(file.absolutePath()).filePath(QFileInfo(m_path->text()).fileName()));
+}
+
+ExportDialog::Choices ExportDialog::choices() const
+{
+  return {m_caseName,
+          m_what->currentData().toString(),
+          m_part->currentData().toString(),
+          m_format->currentData().toString(),
+          QDir::cleanPath(m_path->text().trimmed()),
+          m_onCt->isChecked(),
+          m_triangles->value()};
 }
 
 bool ExportDialog::isSeries() const
@@ -178,6 +215,7 @@ void ExportDialog::formatChanged()
   name.replace('/', '_');
   m_path->setText(
       QDir(folder).filePath(isSeries() ? name : name + m_format->currentData().toString()));
+  m_coordinates->setText(words(presenters::coordinatesOf(options())));
   check();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,9 +24,20 @@ class ExportDialog : public QDialog
 {
   Q_OBJECT
 public:
-  explicit ExportDialog(const scene::Case& value, QWidget* parent = nullptr);
+  /// What was chosen, to be proposed again.
+  struct Choices
+  {
+    QString caseName, what, part, format, path;
+    bool onCt = false;
+    int triangles = 0;
+  };
+
+  /// `last`: as far as this case has it. Its file is proposed for the same case, else its folder.
+  explicit ExportDialog(const scene::Case& value, const std::optional<Choices>& last = {},
+                        QWidget* parent = nullptr);
 
   presenters::ExportOptions options() const;
+  Choices choices() const;
 
 private:
   void whatChanged();
@@ -33,6 +45,7 @@ private:
   void check();
   void browse();
   void askAndAccept();
+  void choose(const Choices& last);
   bool isSeries() const;
 
   QString m_caseName;
@@ -44,6 +57,7 @@ private:
   QComboBox* m_format;
   QCheckBox* m_onCt;
   QSpinBox* m_triangles;
+  QLabel* m_coordinates;
   QLineEdit* m_path;
   QLabel* m_advice;
   QPushButton* m_accept;

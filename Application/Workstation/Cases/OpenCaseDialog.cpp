@@ -17,6 +17,7 @@
 #include <QVBoxLayout>
 
 #include "Application.h"
+#include "PanelLayout.h"
 #include "Theme.h"
 
 namespace petrous::workstation
@@ -67,7 +68,7 @@ OpenCaseDialog::OpenCaseDialog(const library::Library& library, Changes changes,
   , m_deleted(new QMenu(this))
 {
   setWindowTitle(tr("Open case"));
-  resize(760, 420);
+  resizeOnScreen(*this, {760, 420});
   m_search->setObjectName("searchCases");
   m_search->setPlaceholderText(tr("Search names of cases and structures"));
   m_search->setToolTip(
@@ -266,7 +267,7 @@ void OpenCaseDialog::remove()
   box.setInformativeText(
       (strokes > 0 ? tr("%1 strokes were drilled in it. ").arg(strokes) : QString()) +
       tr("It can be brought back here until the library is cleaned up."));
-  const auto* yes = box.addButton(tr("Delete"), QMessageBox::DestructiveRole);
+  const auto* yes = box.addButton(tr("&Delete"), QMessageBox::DestructiveRole);
   box.setDefaultButton(box.addButton(QMessageBox::Cancel));
   box.exec();
   if (box.clickedButton() != yes)

@@ -11,11 +11,12 @@
 #include <QMouseEvent>
 #include <QPainter>
 #include <QPainterPath>
-#include <QProgressBar>
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 
+#include "PanelLayout.h"
+#include "PreviewBar.h"
 #include "Theme.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 
@@ -160,13 +161,12 @@ RegionDialog::RegionDialog(const std::filesystem::path& path, const std::string&
   , m_views{new RegionView(SliceOrientation::Axial), new RegionView(SliceOrientation::Coronal),
             new RegionView(SliceOrientation::Sagittal)}
   , m_size(new QLabel)
-  , m_progress(new QProgressBar)
+  , m_progress(new PreviewBar(*m_size))
   , m_reset(new QPushButton(tr("&Whole scan")))
-  , m_work(std::make_unique<BackgroundWork>())
 {
   setObjectName("chooseRegion");
   setWindowTitle(tr("Region of the scan"));
-  resize(1000, 560);
+  resizeOnScreen(*this, {1000, 560});
   auto* title = new QLabel(
       tr("Only what lies in the box is read: drag its edges, or give it in mm (patient LPS)."));
   title->setWordWrap(true);
@@ -190,10 +190,11 @@ RegionDialog::RegionDialog(const std::filesystem::path& path, const std::string&
             });
   }
   auto* numbers = new QGridLayout;
-  const QString axes[] = {tr("x, to the left"), tr("y, to the back"), tr("z, to the head")};
+  const QString axes[] = {tr("&x, to the left"), tr("&y, to the back"), tr("&z, to the head")};
   for (int axis = 0; axis < 3; ++axis)
   {
-    numbers->addWidget(new QLabel(axes[axis]), axis, 0);
+    auto* label = new QLabel(axes[axis]);
+    numbers->addWidget(label, axis, 0);
     for (int end = 0; end < 2; ++end)
     {
       auto* box = new QDoubleSpinBox;
@@ -204,6 +205,8 @@ RegionDialog::RegionDialog(const std::filesystem::path& path, const std::string&
       box->setEnabled(false);
       m_numbers[static_cast<std::size_t>(2 * axis + end)] = box;
       numbers->addWidget(box, axis, 1 + end);
+      if (end == 0)
+        label->setBuddy(box);
       connect(box, qOverload<double>(&QDoubleSpinBox::valueChanged), this,
               [this, axis, end](double value)
               {
@@ -219,8 +222,6 @@ RegionDialog::RegionDialog(const std::filesystem::path& path, const std::string&
   m_reset->setEnabled(false);
   connect(m_reset, &QPushButton::clicked, this,
           [this] { setBox(m_preview->grid.patientBounds()); });
-  m_progress->setObjectName("previewProgress");
-  m_progress->setRange(0, 1000);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Open | QDialogButtonBox::Cancel);
   buttons->addButton(m_reset, QDialogButtonBox::ActionRole);
   m_open = buttons->button(QDialogButtonBox::Open);
@@ -235,33 +236,15 @@ RegionDialog::RegionDialog(const std::filesystem::path& path, const std::string&
   layout->addWidget(m_size);
   layout->addWidget(buttons);
 
-  connect(m_work.get(), &BackgroundWork::progressed, this,
-          [this](double fraction, const QString&)
-          { m_progress->setValue(static_cast<int>(std::lround(1000.0 * fraction))); });
-  connect(m_work.get(), &BackgroundWork::failed, this,
-          [this](const QString& why)
-          {
-            m_progress->hide();
-            m_size->setText(tr("There is no picture of it: %1").arg(why));
-          });
-  m_work->start(
-      [this, path, selector, repair](const core::Progress& progress) -> BackgroundWork::Reply
-      {
-        const auto preview = std::make_shared<const presenters::ScanPreview>(
-            presenters::previewScan(path, selector, repair, progress));
-        return [this, preview] { show(preview); };
-      });
-}
-
-RegionDialog::~RegionDialog()
-{
-  m_work->drop();
+  m_progress->start([path, selector, repair](const core::Progress& progress)
+                    { return presenters::previewScan(path, selector, repair, progress); },
+                    [this](std::shared_ptr<const presenters::ScanPreview> preview)
+                    { show(std::move(preview)); });
 }
 
 void RegionDialog::show(std::shared_ptr<const presenters::ScanPreview> preview)
 {
   m_preview = std::move(preview);
-  m_progress->hide();
   const auto display = presenters::displayOf(m_preview->value);
   const auto presenter = std::make_shared<const presenters::SlicePresenter>(m_preview->value);
   for (RegionView* view : m_views)

@@ -6,18 +6,18 @@
 
 #include <QDialog>
 
-#include "BackgroundWork.h"
 #include "SliceView.h"
 #include "petrous/Core/PatientBox.h"
 #include "petrous/Presenters/SeriesPreview.h"
 
 class QDoubleSpinBox;
 class QLabel;
-class QProgressBar;
 class QPushButton;
 
 namespace petrous::workstation
 {
+
+class PreviewBar;
 
 /// A slice with a box whose edges can be dragged; dragged inside, it moves.
 class RegionView : public SliceView
@@ -58,7 +58,6 @@ public:
   /// `selector`: imaging::chooseSeries.
   RegionDialog(const std::filesystem::path& path, const std::string& selector, bool repair,
                QWidget* parent = nullptr);
-  ~RegionDialog() override; ///< stops reading
 
   /// Patient LPS mm; nullopt: all of it.
   std::optional<core::PatientBox> region() const;
@@ -73,10 +72,9 @@ private:
   std::array<RegionView*, 3> m_views;
   std::array<QDoubleSpinBox*, 6> m_numbers; ///< from and to, of x, y and z
   QLabel* m_size;
-  QProgressBar* m_progress;
+  PreviewBar* m_progress;
   QPushButton* m_reset;
   QPushButton* m_open; ///< once there is a picture in which to choose
-  std::unique_ptr<BackgroundWork> m_work;
 };
 
 } // namespace petrous::workstation

@@ -1,15 +1,14 @@
 #include "RepairDialog.h"
 
-#include <cmath>
-
 #include <QDialogButtonBox>
 #include <QFile>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QProgressBar>
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include "PanelLayout.h"
+#include "PreviewBar.h"
 #include "SliceView.h"
 #include "Theme.h"
 #include "petrous/Presenters/IntensityDisplay.h"
@@ -48,13 +47,12 @@ RepairDialog::RepairDialog(const presenters::SourceContent& source, const std::s
   : QDialog(parent)
   , m_remains(plain(tr("The pictures of it before and after are being made. In any case each slice "
                        "is put where its position says, by linear interpolation.")))
-  , m_progress(new QProgressBar)
+  , m_progress(new PreviewBar(*m_remains))
   , m_pictures(new QWidget)
-  , m_work(std::make_unique<BackgroundWork>())
 {
   setObjectName("askRepair");
   setWindowTitle(tr("Repair the scan?"));
-  resize(860, 680);
+  resizeOnScreen(*this, {860, 680});
   const auto path = source.path.lexically_normal();
   auto* title =
       plain(tr("“%1” would mislead as it is. What is wrong:")
@@ -63,11 +61,9 @@ RepairDialog::RepairDialog(const presenters::SourceContent& source, const std::s
   auto* findings = plain(findingsText(source.repair));
   findings->setObjectName("findings");
   m_remains->setObjectName("remains");
-  m_progress->setObjectName("previewProgress");
-  m_progress->setRange(0, 1000);
   auto* pictures = new QHBoxLayout(m_pictures);
   pictures->setContentsMargins(0, 0, 0, 0);
-  m_pictures->setMinimumHeight(300);
+  m_pictures->setMinimumHeight(200);
 
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
   auto* repair = buttons->addButton(tr("&Repair and open"), QDialogButtonBox::AcceptRole);
@@ -89,32 +85,14 @@ RepairDialog::RepairDialog(const presenters::SourceContent& source, const std::s
   layout->addWidget(m_remains);
   layout->addWidget(buttons);
 
-  connect(m_work.get(), &BackgroundWork::progressed, this,
-          [this](double fraction, const QString&)
-          { m_progress->setValue(static_cast<int>(std::lround(1000.0 * fraction))); });
-  connect(m_work.get(), &BackgroundWork::failed, this,
-          [this](const QString& why)
-          {
-            m_progress->hide();
-            m_remains->setText(tr("There is no picture of it: %1").arg(why));
-          });
-  m_work->start(
-      [this, file = source.path, selector](const core::Progress& progress) -> BackgroundWork::Reply
-      {
-        const auto preview = std::make_shared<presenters::RepairPreview>(
-            presenters::previewRepair(file, selector, progress));
-        return [this, preview] { show(*preview); };
-      });
-}
-
-RepairDialog::~RepairDialog()
-{
-  m_work->drop();
+  m_progress->start([file = source.path, selector](const core::Progress& progress)
+                    { return presenters::previewRepair(file, selector, progress); },
+                    [this](const std::shared_ptr<const presenters::RepairPreview>& preview)
+                    { show(*preview); });
 }
 
 void RepairDialog::show(const presenters::RepairPreview& preview)
 {
-  m_progress->hide();
   const auto display = presenters::displayOf(preview.before.value);
   const auto add = [&](const presenters::ScanPreview& scan, const char* name, const QString& title)
   {

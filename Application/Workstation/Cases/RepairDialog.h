@@ -1,19 +1,16 @@
 #pragma once
 
-#include <memory>
-
 #include <QDialog>
 
-#include "BackgroundWork.h"
 #include "petrous/Presenters/SeriesPreview.h"
 #include "petrous/Presenters/SourceContent.h"
 
 class QLabel;
-class QProgressBar;
 
 namespace petrous::workstation
 {
 
+class PreviewBar;
 class SliceView;
 
 /// Asks for consent to repair a series: what is wrong, the stack from the side as its slices lie in
@@ -26,7 +23,6 @@ public:
   /// `selector`: imaging::chooseSeries.
   RepairDialog(const presenters::SourceContent& source, const std::string& selector,
                QWidget* parent = nullptr);
-  ~RepairDialog() override; ///< stops reading
 
   bool isPictured() const noexcept { return m_isPictured; }     ///< the pictures are shown
   bool wantsAnother() const noexcept { return m_wantsAnother; } ///< rejected for another scan
@@ -35,11 +31,10 @@ private:
   void show(const presenters::RepairPreview& preview);
 
   QLabel* m_remains;
-  QProgressBar* m_progress;
+  PreviewBar* m_progress;
   QWidget* m_pictures;
   bool m_isPictured = false;
   bool m_wantsAnother = false;
-  std::unique_ptr<BackgroundWork> m_work;
 };
 
 } // namespace petrous::workstation

@@ -12,6 +12,7 @@
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
+#include "PanelLayout.h"
 #include "Theme.h"
 
 namespace petrous::workstation
@@ -103,7 +104,7 @@ SeriesDialog::SeriesDialog(const presenters::SourceContent& source, bool hasCase
 {
   setObjectName("chooseSeries");
   setWindowTitle(tr("Which series?"));
-  resize(860, 380);
+  resizeOnScreen(*this, {860, 380});
   const auto path = source.path.lexically_normal();
   auto* title = new QLabel(
       tr("“%1” holds more than one series. A CT begins a case; MRs and structures go with it, or "

@@ -182,12 +182,15 @@ QVariant StructuresModel::data(const QModelIndex& index, int role) const
                             : tr("%1 (a space without tissue)").arg(words(row.name));
     return {};
   case VolumeColumn:
-    if (role == Qt::DisplayRole && !row.isMesh)
-      return QString::number(row.volume, 'f', row.volume < 10.0 ? 2 : row.volume < 100.0 ? 1 : 0);
+    if (role == Qt::DisplayRole && row.volume > 0.0)
+      return tr("%1 mm³").arg(row.volume, 0, 'f',
+                              row.volume < 10.0    ? 2
+                              : row.volume < 100.0 ? 1
+                                                   : 0);
     if (role == Qt::TextAlignmentRole)
       return int(Qt::AlignRight | Qt::AlignVCenter);
     if (role == Qt::ToolTipRole)
-      return tr("Volume in mm³");
+      return tr("Volume, mm³");
     return {};
   default:
     return propertyData(row, propertyAt(index.column()), role);
@@ -202,8 +205,9 @@ QVariant StructuresModel::propertyData(const Row& row, const StructureProperty& 
     if (role == Qt::EditRole)
       return numberOf(row.look, property);
     if (role == Qt::DisplayRole)
-      return isOff(row.look, property) ? QString::fromUtf8("–")
-                                       : words(toString(row.look, property));
+      return isOff(row.look, property)
+                 ? QString::fromUtf8("–")
+                 : QString("%1 %2").arg(words(toString(row.look, property)), property.range.unit);
     if (role == Qt::TextAlignmentRole)
       return int(Qt::AlignRight | Qt::AlignVCenter);
     return {};
@@ -226,7 +230,7 @@ QVariant StructuresModel::headerData(int section, Qt::Orientation orientation, i
   if (role == Qt::DisplayRole)
     return tr(isProperty        ? propertyAt(section).column.title
               : section == Name ? "Structure"
-                                : "mm³");
+                                : "Volume");
   if (role == Qt::ToolTipRole)
     return tr(isProperty        ? propertyAt(section).column.tip
               : section == Name ? "Name and colour"

@@ -23,7 +23,7 @@ public:
   enum Column
   {
     Name,
-    VolumeColumn, ///< mm^3; empty for a mesh
+    VolumeColumn, ///< mm^3; empty where it is not known
     FirstProperty ///< and those after it: kStructureProperties with a column
   };
 
@@ -50,7 +50,7 @@ private:
   struct Row
   {
     std::string name;
-    double volume = 0.0; ///< mm^3
+    double volume = 0.0; ///< mm^3; 0: not known
     bool isMesh = false;
     appearance::StructureAppearance look;
     std::string missing; ///< why it cannot be placed on the CT (scene::Placement); usually empty

@@ -23,6 +23,13 @@
 namespace petrous::workstation
 {
 
+namespace
+{
+constexpr int kPadding = 4;    // px, beside a column's text
+constexpr int kSwatch = 30;    // px, colour and margins of a name
+constexpr int kLeastName = 16; // characters; where the panel is narrower it scrolls sideways
+} // namespace
+
 StructuresPanel::StructuresPanel(presenters::WorkstationModel& model, QWidget* parent)
   : Panel(parent)
   , m_model(model)
@@ -79,8 +86,7 @@ void StructuresPanel::addList(QVBoxLayout& layout)
   header->setSectionsMovable(false);
   header->setMinimumSectionSize(20);
   header->setSectionResizeMode(QHeaderView::Fixed);
-  for (int column = StructuresModel::VolumeColumn; column < m_structures->columnCount(); ++column)
-    header->resizeSection(column, column == StructuresModel::VolumeColumn ? 64 : 48);
+  header->setStyleSheet(QString("QHeaderView::section { padding: 4px %1px; }").arg(kPadding));
   header->setSectionResizeMode(StructuresModel::Name, QHeaderView::Interactive);
   connect(header, &QHeaderView::sectionResized, this,
           [this](int column, int, int width)
@@ -89,6 +95,9 @@ void StructuresPanel::addList(QVBoxLayout& layout)
               m_nameWidth = width;
           });
   m_list->viewport()->installEventFilter(this);
+  connect(m_structures, &QAbstractItemModel::modelReset, this, &StructuresPanel::fitColumns);
+  connect(m_structures, &QAbstractItemModel::dataChanged, this, &StructuresPanel::fitColumns);
+  fitColumns();
 
   const auto addAction = [this](const QString& text, int key, const char* name, auto signal)
   {
@@ -119,14 +128,35 @@ bool StructuresPanel::eventFilter(QObject* watched, QEvent* event)
   return Panel::eventFilter(watched, event);
 }
 
-// The names take what the other columns leave, or as much more as the user gave them.
+// Numbers, check boxes and titles get what they need, and names all that is left.
+void StructuresPanel::fitColumns()
+{
+  constexpr int kCheckBox = 14; // px
+  const auto textWidth = [](const QWidget& widget, const QVariant& text)
+  { return widget.fontMetrics().horizontalAdvance(text.toString()); };
+  QHeaderView* header = m_list->header();
+  for (int column = StructuresModel::VolumeColumn; column < m_structures->columnCount(); ++column)
+  {
+    int width = std::max(
+        kCheckBox,
+        textWidth(*header, m_structures->headerData(column, Qt::Horizontal, Qt::DisplayRole)));
+    for (int row = 0; row < m_structures->rowCount(); ++row)
+      width = std::max(width, textWidth(*m_list, m_structures->index(row, column).data()));
+    header->resizeSection(column, width + 2 * kPadding + 4);
+  }
+  fitNames();
+}
+
+// The names take what the other columns leave, or as much more as the user gave them, and never so
+// little that none can be read.
 void StructuresPanel::fitNames()
 {
   const QScopedValueRollback<bool> fitting(m_fitting, true);
   QHeaderView* header = m_list->header();
   const int others = header->length() - header->sectionSize(StructuresModel::Name);
+  const int least = kSwatch + kLeastName * m_list->fontMetrics().averageCharWidth();
   header->resizeSection(StructuresModel::Name,
-                        std::max(m_list->viewport()->width() - others, m_nameWidth));
+                        std::max({m_list->viewport()->width() - others, m_nameWidth, least}));
 }
 
 QString StructuresPanel::chosen() const

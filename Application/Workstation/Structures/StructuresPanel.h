@@ -40,6 +40,7 @@ protected:
 private:
   void addThreshold(QVBoxLayout& layout);
   void addList(QVBoxLayout& layout);
+  void fitColumns();
   void fitNames();
   void offer(const QPoint& position);
   void addTissues(QMenu& menu, const QString& name);

@@ -325,7 +325,7 @@ TEST_F(Import, AMeshThatCountsOtherwiseIsAskedAbout)
   openWindow();
   dropPath(folder() / "sample" / "ct");
   ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
-  for (const char* answer : {"Cancel", "Add as RAS mm"})
+  for (const char* answer : {"Cancel", "Add as RAS (Slicer, NIfTI), mm"})
   {
     EXPECT_TRUE(window().model().value().meshes.empty());
     bool isAsked = false;
@@ -870,8 +870,18 @@ TEST_F(Import, ACaseIsArchivedAndRestored)
           choose(*files, file);
           return true;
         });
+    QString told;
+    onMessage(
+        [&told](QMessageBox& box)
+        {
+          told = box.text();
+          box.accept();
+        });
     trigger(window(), "Archive…");
-    EXPECT_TRUE(waitFor([&] { return fs::exists(file) && !window().busy(); }));
+    EXPECT_TRUE(waitFor([&] { return fs::exists(file) && !told.isEmpty() && !window().busy(); }));
+    for (const QString& part : QStringList{"ball", QString::fromStdString(file.string()), " MB",
+                                           "1 stroke", kind == 0 ? "CT, " : "no images"})
+      EXPECT_TRUE(told.contains(part)) << told.toStdString();
   };
   archive(whole, 0);
   archive(plan, 1);
@@ -995,9 +1005,158 @@ TEST_F(Import, APartIsExportedForOtherPrograms)
     EXPECT_EQ(image->sample(Eigen::Vector3d(n, 31, 63 - n)),
               truth->sample(Eigen::Vector3d(n, 31, 63 - n)));
   told = write("structure", ".stl", folder() / "nerve.stl");
-  EXPECT_TRUE(told.contains("closed") && told.contains("mL")) << told.toStdString();
+  EXPECT_TRUE(told.contains("closed") && told.contains("mm³") &&
+              told.contains("Coordinates: LPS (DICOM, ITK), mm"))
+      << told.toStdString();
   EXPECT_TRUE(fs::exists(folder() / "nerve.stl"));
   told = write("dissected", "/", folder() / "series");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder() / "series"), fs::directory_iterator()),
             64);
+}
+
+// After a failure and when it is opened again, the dialog proposes what was chosen; structures on
+// two lattices are offered on the CT's grid.
+TEST_F(Import, AnExportThatFailsKeepsItsChoicesAndOffersTheGridOfTheCt)
+{
+  scene::Case value = ballCase("ball");
+  const core::GridGeometry& ct = value.ct.geometry;
+  auto voxels = volume::makeZeroVolume<std::uint16_t>(
+      core::GridGeometry({9, 8, 7}, 0.7 * ct.spacing(), ct.center()));
+  voxels->at(4, 4, 4) = 1;
+  scene::LabelPart part;
+  scene::StructurePart structure;
+  structure.name = "vein";
+  structure.index = 1;
+  structure.voxels = 1;
+  part.structures.push_back(structure);
+  volume::Segment segment;
+  segment.name = "vein";
+  segment.index = 1;
+  part.labels =
+      std::make_shared<const volume::LabelMap>(volume::makeLabelMap(std::move(voxels), {segment}));
+  part.drawnOn = "";
+  value.labels.push_back(std::move(part));
+  library().save(value);
+  openWindow("ball");
+  const QString out = QString::fromStdString((folder() / "all.seg.nrrd").string());
+  const auto pick = [](QDialog& dialog, const char* box, const char* data)
+  {
+    auto* choice = dialog.findChild<QComboBox*>(box);
+    choice->setCurrentIndex(choice->findData(QString(data)));
+  };
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        if (dialog.objectName() != "exportCase")
+          return false;
+        QStringList order; // of the tabulator
+        QWidget* first = dialog.findChild<QComboBox*>("exportWhat");
+        for (QWidget* at = first; order.isEmpty() || at != first; at = at->nextInFocusChain())
+          if (at->objectName().startsWith("export") && at->focusPolicy() != Qt::NoFocus)
+            order += at->objectName().mid(6);
+        EXPECT_EQ(order.join(' ').toStdString(), "What Part Format OnCt Triangles Path");
+        pick(dialog, "exportWhat", "labels");
+        pick(dialog, "exportFormat", ".nii.gz");
+        EXPECT_TRUE(dialog.findChild<QLabel*>("exportCoordinates")->text().startsWith("RAS"));
+        pick(dialog, "exportFormat", ".seg.nrrd");
+        EXPECT_TRUE(dialog.findChild<QLabel*>("exportCoordinates")->text().startsWith("LPS"));
+        dialog.findChild<QLineEdit*>("exportPath")->setText(out);
+        dialog.findChild<QPushButton*>("primary")->click();
+        return true;
+      });
+  QString asked;
+  bool isKept = false;
+  onMessage(
+      [&](QMessageBox& box)
+      {
+        asked = box.text();
+        EXPECT_EQ(box.objectName(), "exportGrids");
+        box.reject();
+      });
+  trigger(window(), "Export…");
+  ASSERT_TRUE(waitFor([&] { return !asked.isEmpty() && !window().busy(); }));
+  EXPECT_TRUE(asked.contains("'vein'") && !asked.contains("--")) << asked.toStdString();
+  EXPECT_FALSE(fs::exists(folder() / "all.seg.nrrd"));
+
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        if (dialog.objectName() != "exportCase")
+          return false;
+        isKept = dialog.findChild<QComboBox*>("exportWhat")->currentData() == "labels" &&
+                 dialog.findChild<QComboBox*>("exportFormat")->currentData() == ".seg.nrrd" &&
+                 dialog.findChild<QLineEdit*>("exportPath")->text() == out;
+        dialog.findChild<QPushButton*>("primary")->click();
+        return true;
+      });
+  bool isOffered = false;
+  onMessage(
+      [&](QMessageBox& box)
+      {
+        for (QAbstractButton* button : box.buttons())
+          if (button->text().contains("CT"))
+          {
+            isOffered = true;
+            return button->click();
+          }
+        box.reject();
+      });
+  trigger(window(), "Export…");
+  ASSERT_TRUE(waitFor([&] { return isOffered; }));
+  EXPECT_TRUE(isKept);
+  QString told;
+  onMessage(
+      [&told](QMessageBox& box)
+      {
+        told = box.text();
+        box.accept();
+      });
+  ASSERT_TRUE(waitFor([&] { return !told.isEmpty() && !window().busy(); }));
+  EXPECT_TRUE(told.contains("all.seg.nrrd")) << told.toStdString();
+  EXPECT_TRUE(fs::exists(folder() / "all.seg.nrrd"));
+}
+
+// A label map without names asks for a table of them.
+TEST_F(Import, NamesOfALabelMapComeFromATableThatIsChosen)
+{
+  saveBall("ball");
+  openWindow("ball");
+  auto voxels = volume::makeZeroVolume<std::uint16_t>(window().model().value().ct.geometry);
+  for (int i = 20; i < 40; ++i)
+    voxels->at(i, 30, 30) = voxels->at(i, 31, 30) = i < 30 ? 4 : 9;
+  imaging::writeLabelFile(folder() / "patient.nii.gz", volume::makeLabelMap(voxels, {}));
+  fs::create_directory(folder() / "tables");
+  std::ofstream(folder() / "tables" / "names.ctbl")
+      << "4 cochlea 255 0 0 255\n9 vein 0 0 255 255\n";
+  bool isAdded = false;
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        auto* table = dialog.findChild<QPushButton*>("namesTable");
+        if (dialog.objectName() != "addParts" || !table)
+          return false;
+        auto* state = dialog.findChild<QLabel*>("namesState");
+        EXPECT_TRUE(state->text().startsWith("2 ")) << state->text().toStdString();
+        onDialog(
+            [&](QDialog& inner)
+            {
+              auto* files = qobject_cast<QFileDialog*>(&inner);
+              if (files)
+                choose(*files, folder() / "tables" / "names.ctbl");
+              return files != nullptr;
+            });
+        table->click();
+        EXPECT_TRUE(state->text().contains("names.ctbl")) << state->text().toStdString();
+        isAdded = true;
+        dialog.accept();
+        return true;
+      });
+  dropPath(folder() / "patient.nii.gz");
+  ASSERT_TRUE(waitFor([&] { return isAdded && !window().busy(); }));
+  ASSERT_TRUE(waitFor([this] { return window().model().value().labels.size() == 2; }));
+  EXPECT_TRUE(settled());
+  const auto& structures = window().model().value().labels[1].structures;
+  ASSERT_EQ(structures.size(), 2U);
+  EXPECT_EQ(structures[0].name, "cochlea");
+  EXPECT_EQ(structures[1].name, "vein");
 }

@@ -13,6 +13,7 @@
 #include <QTreeWidget>
 
 #include "BackgroundWork.h"
+#include "Banner.h"
 #include "LandmarkModel.h"
 #include "MetricCurve.h"
 #include "SliceView.h"
@@ -118,6 +119,27 @@ protected:
 };
 
 } // namespace
+
+// What is not registered is not seen: it is said, with the way to it.
+TEST_F(RegistrationWindow, SaysThatAnMrCameAlongThatIsNotRegistered)
+{
+  auto& banner = find<Banner>("mrBanner");
+  ASSERT_TRUE(banner.isVisible());
+  EXPECT_TRUE(banner.text().contains("T2") && banner.text().contains("Register the MR"))
+      << banner.text().toStdString();
+  auto* dock = window().findChild<QDockWidget*>("registrationDock");
+  EXPECT_FALSE(dock->isVisible());
+  click("registerMr");
+  EXPECT_TRUE(dock->isVisible());
+  EXPECT_FALSE(banner.isVisible());
+  closeWindow();
+
+  scene::Case value = library().open("ear");
+  value.mr.front().registered = true;
+  library().save(value);
+  openWindow("ear");
+  EXPECT_FALSE(find<Banner>("mrBanner").isVisible());
+}
 
 TEST_F(RegistrationWindow, LoadsNothingOfTheMrUntilItIsShown)
 {

@@ -387,10 +387,41 @@ TEST_F(Window, TheListOfStructuresChangesTheCase)
   for (const double wrong : {-0.1, 50.1, std::nan("")})
     EXPECT_FALSE(list->model()->setData(cell("warn_mm"), wrong, Qt::EditRole)) << wrong;
   EXPECT_EQ(warning(), 1.25);
+  EXPECT_EQ(cell("warn_mm").data().toString(), "1.2 mm");
+  EXPECT_TRUE(
+      list->model()->index(0, StructuresModel::VolumeColumn).data().toString().endsWith(" mm³"));
   QTest::keyClick(&window(), Qt::Key_S, Qt::ControlModifier);
   EXPECT_TRUE(settled());
   const auto saved = library().open("ball");
   EXPECT_FALSE(scene::findStructure(saved, "nerve")->look.drillable);
+}
+
+// At the width that the list has at first nothing is cut off, in English and German; a tip has the
+// whole of a longer name.
+TEST_F(Window, NamesOfStructuresAreNotCutOff)
+{
+  for (const std::string name : {"Sigmoid sinus right", "Sinus sigmoideus links"})
+  {
+    scene::Case value = ballCase(name);
+    value.labels[0].structures[0].name = name;
+    value.labels[0].structures[0].volume = 2664.8;
+    value.labels[0].structures[0].look.warning = 12.5;
+    library().save(value);
+    openWindow(QString::fromStdString(name));
+    auto* list = window().findChild<QTreeView*>("structures");
+    const QAbstractItemView* view = list; // public there
+    for (int column = 0; column < list->model()->columnCount(); ++column)
+      EXPECT_GE(list->columnWidth(column), view->sizeHintForColumn(column)) << name << column;
+    for (int column = 0; column < list->model()->columnCount(); ++column)
+      EXPECT_GT(list->columnWidth(column),
+                list->header()->fontMetrics().horizontalAdvance(
+                    list->model()->headerData(column, Qt::Horizontal).toString()))
+          << column;
+    EXPECT_LE(list->header()->length(), list->viewport()->width()) << name;
+    EXPECT_EQ(list->model()->index(0, StructuresModel::Name).data(Qt::ToolTipRole).toString(),
+              QString::fromStdString(name));
+    closeWindow();
+  }
 }
 
 // Qt would end the program.

@@ -37,6 +37,7 @@
 #include "DeviceWatcher.h"
 #include "DrillBar.h"
 #include "DrillController.h"
+#include "PanelLayout.h"
 #include "PictureController.h"
 #include "ProbeLabel.h"
 #include "RegistrationController.h"
@@ -110,6 +111,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_damageBanner(new Banner("damageBanner", Banner::Kind::Warning))
   , m_recordingBanner(new Banner("recordingBanner", Banner::Kind::Warning))
   , m_removedBanner(new Banner("removedBanner", Banner::Kind::Notice))
+  , m_mrBanner(new Banner("mrBanner", Banner::Kind::Notice))
   , m_place(new ProbeLabel(m_model))
   , m_sum(new QLabel)
   , m_touch(new QLabel)
@@ -138,7 +140,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   m_saver->setParent(this);
   m_saver->camera = [this] { return m_view->picture().camera(); };
   setAcceptDrops(true);
-  resize(1440, 900);
+  resizeOnScreen(*this, {1440, 900});
   layOut();
   connectModel();
   connectActions();
@@ -181,13 +183,20 @@ void MainWindow::layOut()
   m_pages->addWidget(start);
   m_pages->addWidget(across);
   m_notesBanner->addButton("dismissNotes", tr("Close"), [this] { m_notesBanner->hide(); });
+  m_mrBanner->addButton("registerMr", tr("Registration (F5)"),
+                        [this]
+                        {
+                          m_mrBanner->hide();
+                          raisePanel("registrationDock");
+                        });
+  m_mrBanner->addButton("dismissMr", tr("Close"), [this] { m_mrBanner->hide(); });
   m_faultBanner->addButton("dismissFault", tr("Close"), [this] { m_faultBanner->hide(); });
   m_recordingBanner->addButton("dismissRecording", tr("Close"),
                                [this] { m_recordingBanner->hide(); });
   auto* whole = new QWidget;
   auto* banners = new BannerStack(*whole);
   for (Banner* banner : {m_damageBanner, m_faultBanner, m_unsavedBanner, m_recordingBanner,
-                         m_loadingBanner, m_removedBanner, m_notesBanner})
+                         m_loadingBanner, m_removedBanner, m_mrBanner, m_notesBanner})
     banners->add(banner);
   connect(m_view, &ThreeDView::toolModeSet, banners,
           [this, banners]
@@ -327,7 +336,7 @@ void MainWindow::showPanels()
   if (!front)
     return;
   front->raise();
-  resizeDocks({front}, {395}, Qt::Horizontal);
+  resizeDocks({front}, {std::min(465, 2 * width() / 5)}, Qt::Horizontal);
 }
 
 // Another case is open, or none is any more.
@@ -358,6 +367,7 @@ void MainWindow::connectModel()
   m_model.events.crosshairMoved = [this] { m_slices->crosshairMoved(); };
   m_model.events.mrMoved = [this]
   {
+    showUnregistered(false);
     m_registration->mrMoved();
     m_segment->mrMoved();
   };
@@ -594,6 +604,7 @@ void MainWindow::caseClosed()
   m_place->clear();
   m_sum->clear();
   m_picture->speed()->clear();
+  m_mrBanner->hide();
   m_notesBanner->hide();
   m_pages->setCurrentIndex(0);
 }
@@ -609,6 +620,7 @@ void MainWindow::partsChanged()
   m_thickness->caseChanged();
   for (const auto& [entry, panel] : m_panels)
     panel->partsChanged();
+  showUnregistered(false);
   notifyNotes();
 }
 
@@ -631,6 +643,28 @@ void MainWindow::caseChanged()
   m_notesBanner->hide();
   m_notesTold = value.revision == 0 ? QStringList() : notesOf(value);
   notifyNotes();
+  showUnregistered(true);
+}
+
+// Without a registration an MR is not seen: that it came along is said until it is registered or
+// the user knows.
+void MainWindow::showUnregistered(bool opened)
+{
+  QStringList names;
+  for (const scene::ImagePart& mr : m_model.value().mr)
+    if (!mr.registered)
+      names += tr("“%1”").arg(words(mr.name));
+  if (names.isEmpty())
+    return m_mrBanner->hide();
+  m_mrBanner->setText(
+      (names.size() == 1
+           ? tr("The case has the MR %1, which is not registered with the CT and not shown yet. "
+                "Registration > Register the MR (Ctrl+R) registers it.")
+           : tr("The case has the MRs %1, which are not registered with the CT and not shown yet. "
+                "Registration > Register the MR (Ctrl+R) registers them."))
+          .arg(names.join(", ")));
+  if (opened)
+    m_mrBanner->show();
 }
 
 // What was assumed or left out when files were read, until it is acknowledged.

@@ -95,6 +95,7 @@ private:
   void showPanels();
   void tellPanels();
   void fillCaseMenu();
+  void showUnregistered(bool opened);
   void raisePanel(const char* dock);
   void record(bool on);
   std::filesystem::path chooseRecording();
@@ -116,6 +117,7 @@ private:
   Banner* m_damageBanner;
   Banner* m_recordingBanner;
   Banner* m_removedBanner;
+  Banner* m_mrBanner;
   QStringList m_notesTold;
   bool m_segmentWasLast = false; // a structure was created since the last stroke
   ProbeLabel* m_place;

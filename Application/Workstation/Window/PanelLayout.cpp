@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include <QEvent>
+#include <QGuiApplication>
+#include <QScreen>
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QVBoxLayout>
@@ -50,6 +52,15 @@ void layOutPanel(QWidget& panel, QWidget* inside, QWidget* foot)
   outer->setSpacing(0);
   outer->addWidget(area, 1);
   outer->addWidget(foot);
+}
+
+void resizeOnScreen(QWidget& window, const QSize& wanted)
+{
+  constexpr int kTitleBar = 40; // px, that the window manager adds
+  const QWidget* parent = window.parentWidget();
+  const QScreen* screen = parent ? parent->screen() : QGuiApplication::primaryScreen();
+  const QSize room = screen ? screen->availableSize() - QSize(0, kTitleBar) : wanted;
+  window.resize(wanted.boundedTo(room));
 }
 
 } // namespace petrous::workstation

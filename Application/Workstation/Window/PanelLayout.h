@@ -1,5 +1,6 @@
 #pragma once
 
+class QSize;
 class QWidget;
 
 namespace petrous::workstation
@@ -8,5 +9,9 @@ namespace petrous::workstation
 /// Lays out a panel of a dock: `inside` scrolls up and down if the dock is too low for it, `foot`
 /// below it is always visible. The dock is never narrower than `inside` needs.
 void layOutPanel(QWidget& panel, QWidget* inside, QWidget* foot);
+
+/// Gives a window or dialog this size, or what fits on the screen: with large type or at 200 % a
+/// screen may have no more than 960 × 540 px.
+void resizeOnScreen(QWidget& window, const QSize& wanted);
 
 } // namespace petrous::workstation

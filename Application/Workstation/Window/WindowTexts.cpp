@@ -66,7 +66,7 @@ QString windowText(const QString& text)
        "; give it another one (“The drill meets” in the list's menu, F9)"},
       {"; a DICOM segmentation is read as structures \\(--labels\\)",
        "; a DICOM segmentation is read as structures"},
-      {"; say how it counts \\(--mesh-frame, --mesh-unit\\)", ""},
+      {"; state its coordinate system and unit \\(--mesh-frame, --mesh-unit\\)", ""},
       {"region of it \\(--roi\\)", "region of it"},
       {"say FILE@ct, or add", "add it again and choose “on the CT”, or add"},
       {"; say on which it was drawn with FILE@.* or FILE@.*$",
@@ -77,6 +77,9 @@ QString windowText(const QString& text)
       {"; give the restored one another name \\(--as NAME\\)", "; restore it under another name"},
       {"; export it alone with --part, or all on the CT's grid with --on-ct",
        "; export it alone, or all on the CT's grid"},
+      {"; register the MR first, or export it alone with --part",
+       "; register the MR first (F5), or export it alone"},
+      {"\\bmm3\\b", "mm³"},
   };
   QString result = text;
   for (const Hint& hint : kHints)

@@ -477,8 +477,10 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     loaded = loadStructureSet(value, source, salted, progress);
   else
   {
-    loaded =
-        imaging::loadLabels(source.path, progress, {parts.labelNames, parts.labels.size() == 1});
+    imaging::LabelNaming naming{parts.labelNames, parts.labels.size() == 1};
+    if (!source.labelNames.empty())
+      naming = {source.labelNames, true};
+    loaded = imaging::loadLabels(source.path, progress, naming);
     settleFrame(value, source, loaded.frameOfReferenceUid, salted);
   }
   std::vector<std::string> notes = std::move(loaded.notes);

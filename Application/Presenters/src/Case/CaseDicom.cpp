@@ -1,6 +1,7 @@
 #include "petrous/Presenters/CaseDicom.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -60,7 +61,117 @@ void describe(imaging::SegmentationDescription::Segment& segment, const volume::
   segment.algorithmName = codes.algorithmName.empty() ? "not recorded" : codes.algorithmName;
 }
 
+constexpr double kLatticeTolerance = 0.01; // mm
+
+// voxel of a lattice = axes * voxel of a grid + offset; axes: a signed permutation
+struct LatticeMap
+{
+  Eigen::Matrix3i axes;
+  Eigen::Vector3i offset;
+
+  Eigen::Vector3i operator()(int i, int j, int k) const
+  {
+    return axes * Eigen::Vector3i(i, j, k) + offset;
+  }
+};
+
+std::optional<LatticeMap> onLattice(const core::GridGeometry& lattice,
+                                    const core::GridGeometry& grid)
+{
+  constexpr double kFarthest = 1e6; // voxels
+  const Eigen::Matrix3d axes =
+      (lattice.voxelFromPatientLinear() * grid.patientFromVoxelLinear()).array().round();
+  const Eigen::Vector3d offset = lattice.voxelFromPatient(grid.origin()).array().round();
+  const Eigen::Matrix3d steps = axes.cwiseAbs();
+  if ((steps.rowwise().sum().array() != 1.0).any() ||
+      (steps.colwise().sum().array() != 1.0).any() || offset.cwiseAbs().maxCoeff() > kFarthest)
+    return std::nullopt;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    Eigen::Vector3d voxel;
+    for (int a = 0; a < 3; ++a)
+      voxel[a] = (corner >> a & 1) != 0 ? grid.dims()[static_cast<std::size_t>(a)] - 1 : 0;
+    const Eigen::Vector3d there = lattice.patientFromVoxel(axes * voxel + offset);
+    if ((there - grid.patientFromVoxel(voxel)).norm() > kLatticeTolerance)
+      return std::nullopt;
+  }
+  return LatticeMap{axes.cast<int>(), offset.cast<int>()};
+}
+
+core::IndexBox boxOf(const LatticeMap& map, const core::Index3& dims)
+{
+  const Eigen::Vector3i first = map(0, 0, 0);
+  const Eigen::Vector3i last = map(dims[0] - 1, dims[1] - 1, dims[2] - 1);
+  core::IndexBox box;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    const auto axis = static_cast<Eigen::Index>(a);
+    box.lower[a] = std::min(first[axis], last[axis]);
+    box.upper[a] = std::max(first[axis], last[axis]) + 1;
+  }
+  return box;
+}
+
 } // namespace
+
+std::optional<std::size_t> padToOneGrid(std::vector<PlacedLabels>& placed,
+                                        const core::GridGeometry& image,
+                                        const core::Progress& progress)
+{
+  const auto gridOf = [&placed](std::size_t n) -> const core::GridGeometry&
+  { return placed[n].map->voxels->geometry(); };
+  if (placed.empty())
+    return std::nullopt;
+  bool isOne = true;
+  for (std::size_t n = 1; n < placed.size(); ++n)
+    isOne = isOne && core::sameGrid(gridOf(0), gridOf(n));
+  if (isOne)
+    return std::nullopt;
+  const bool isImages = onLattice(image, gridOf(0)).has_value();
+  const core::GridGeometry lattice = isImages ? image : gridOf(0);
+  std::vector<LatticeMap> maps;
+  core::IndexBox all;
+  for (std::size_t n = 0; n < placed.size(); ++n)
+  {
+    const auto map = onLattice(lattice, gridOf(n));
+    if (!map)
+      return n;
+    maps.push_back(*map);
+    all = all.united(boxOf(*map, gridOf(n).dims()));
+  }
+  const core::IndexBox full = image.fullBox();
+  if (isImages && all.intersected(full) == all)
+    all = full;
+  const core::GridGeometry grid(
+      all.size(), lattice.spacing(),
+      lattice.patientFromVoxel(Eigen::Vector3d(all.lower[0], all.lower[1], all.lower[2])),
+      lattice.direction());
+  for (std::size_t n = 0; n < placed.size(); ++n)
+  {
+    if (core::sameGrid(gridOf(n), grid))
+      continue;
+    const volume::Volume<std::uint16_t>& from = *placed[n].map->voxels;
+    const core::Index3& dims = from.geometry().dims();
+    auto voxels = volume::makeZeroVolume<std::uint16_t>(grid);
+    for (int k = 0; k < dims[2]; ++k)
+    {
+      progress.report((static_cast<double>(n) + static_cast<double>(k) / dims[2]) /
+                          static_cast<double>(placed.size()),
+                      "bringing the structures onto one grid");
+      for (int j = 0; j < dims[1]; ++j)
+        volume::forEachLabel(&from.at(0, j, k), dims[0],
+                             [&](int i, std::uint16_t label)
+                             {
+                               const Eigen::Vector3i to = maps[n](i, j, k);
+                               voxels->at(to[0] - all.lower[0], to[1] - all.lower[1],
+                                          to[2] - all.lower[2]) = label;
+                             });
+    }
+    placed[n].map = std::make_shared<const volume::LabelMap>(
+        volume::makeLabelMap(std::move(voxels), placed[n].map->segments));
+  }
+  return std::nullopt;
+}
 
 CaseIdentifiers::CaseIdentifiers(const scene::Case& value)
   : m_value(value)

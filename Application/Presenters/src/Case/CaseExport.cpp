@@ -16,6 +16,7 @@
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/VolumeFile.h"
+#include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CaseDicom.h"
 #include "petrous/Presenters/MrOnCt.h"
 #include "petrous/Rendering/SurfaceExtraction.h"
@@ -130,6 +131,54 @@ volume::LabelMap onGrid(const volume::LabelMap& labels, const core::GridGeometry
   return volume::makeLabelMap(std::move(result), labels.segments);
 }
 
+// "'cochlea' lies on the CT".
+std::string spaceText(const PlacedLabels& labels)
+{
+  return "'" + labels.structures.front()->name + "' lies on " +
+         (labels.drawnOn.empty() ? "the CT"
+                                 : "the MR '" + labels.drawnOn + "', which is elsewhere");
+}
+
+// "'cochlea' has voxels of 0.3 x 0.3 x 0.6 mm from (12, 3.5, -8) mm on".
+std::string gridText(const PlacedLabels& labels)
+{
+  const core::GridGeometry& grid = labels.map->voxels->geometry();
+  const auto three = [](const Eigen::Vector3d& v, const char* between)
+  {
+    return core::generalText(v.x(), 5) + between + core::generalText(v.y(), 5) + between +
+           core::generalText(v.z(), 5);
+  };
+  return "'" + labels.structures.front()->name + "' has voxels of " + three(grid.spacing(), " x ") +
+         " mm from (" + three(grid.origin(), ", ") + ") on";
+}
+
+// Structures of which the CT's grid would not take all.
+void warnOfWhatIsBeyond(const Warn& warn, const PlacedLabels& labels, const core::GridGeometry& ct)
+{
+  const core::GridGeometry& grid = labels.map->voxels->geometry();
+  const auto boxes = volume::boxesOf(*labels.map);
+  for (const auto* structure : labels.structures)
+    for (std::size_t n = 0; n < boxes.size(); ++n)
+    {
+      if (labels.map->segments[n].index != structure->index || boxes[n].empty())
+        continue;
+      bool isInside = true;
+      for (int corner = 0; corner < 8; ++corner)
+      {
+        Eigen::Vector3d voxel;
+        for (std::size_t a = 0; a < 3; ++a)
+          voxel[static_cast<Eigen::Index>(a)] =
+              (corner >> a & 1) != 0 ? boxes[n].upper[a] - 1 : boxes[n].lower[a];
+        const Eigen::Array3d at = ct.voxelFromPatient(grid.patientFromVoxel(voxel)).array();
+        for (std::size_t a = 0; a < 3; ++a)
+          isInside = isInside && at[static_cast<Eigen::Index>(a)] > -0.5 &&
+                     at[static_cast<Eigen::Index>(a)] < ct.dims()[a] - 0.5;
+      }
+      if (!isInside)
+        warn("'" + structure->name + "' reaches beyond the CT; what is outside is not written");
+    }
+}
+
 // The label maps with structures that are asked for (all, or the one named), all on one grid in one
 // space.
 std::vector<PlacedLabels> placedLabels(const Warn& warn, const scene::Case& value,
@@ -171,22 +220,28 @@ std::vector<PlacedLabels> placedLabels(const Warn& warn, const scene::Case& valu
       labels.map = part.labels.get();
       labels.drawnOn = scene::placementOf(value, part).drawnOn;
     }
-    const bool isFirst = placed.empty();
     if (options.onCt && !core::sameGrid(labels.map->voxels->geometry(), value.ct.geometry))
+    {
+      warnOfWhatIsBeyond(warn, labels, value.ct.geometry);
       labels.map = std::make_shared<const volume::LabelMap>(
           onGrid(*labels.map, value.ct.geometry, progress));
-    if (!isFirst &&
-        (labels.drawnOn != placed.front().drawnOn ||
-         !core::sameGrid(labels.map->voxels->geometry(), placed.front().map->voxels->geometry())))
-      throw ExportChoiceError(
-          "export labels: '" + name +
-          "' lies on another grid; export it alone with --part, or all on the CT's "
-          "grid with --on-ct");
+    }
+    if (!placed.empty() && labels.drawnOn != placed.front().drawnOn)
+      throw ExportChoiceError("export labels: " + spaceText(labels) + ", and " +
+                              spaceText(placed.front()) +
+                              "; register the MR first, or export it alone with --part");
     placed.push_back(std::move(labels));
   }
   if (placed.empty())
     throw core::InvalidParameter("case '" + value.name + "' has no " +
                                  (only.empty() ? "structures" : "structure '" + only + "'"));
+  const std::string& drawnOn = placed.front().drawnOn;
+  const core::GridGeometry& image =
+      drawnOn.empty() ? value.ct.geometry : chooseMr(value, drawnOn).geometry;
+  if (const auto other = padToOneGrid(placed, image, progress))
+    throw ExportGridError("export labels: " + gridText(placed[*other]) +
+                          ", on another lattice than " + gridText(placed.front()) +
+                          "; export it alone with --part, or all on the CT's grid with --on-ct");
   return placed;
 }
 
@@ -304,6 +359,12 @@ unsigned exportContent(const std::string& what)
   return imaging::kImage;
 }
 
+std::string coordinatesOf(const ExportOptions& options)
+{
+  const imaging::FileFormat* format = isSeries(options) ? nullptr : imaging::formatOf(options.out);
+  return coordinatesOf(imaging::MeshSpace{format && format->name == "NIfTI", 1.0});
+}
+
 std::vector<std::string> exportedFiles(const ExportOptions& options)
 {
   if (!isSeries(options))
@@ -372,7 +433,7 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
     summary.closed = closed;
     summary.words =
         ", " + std::to_string(mesh.triangles.size()) + " triangles, " + decimation + ", " +
-        (closed ? "closed, " + core::generalText(mesh.signedVolume(), 5) + " mm3" : "not closed");
+        (closed ? "closed, " + core::fixedText(mesh.signedVolume(), 2) + " mm3" : "not closed");
     if (closed)
       summary.volume = mesh.signedVolume();
     imaging::writeMesh(options.out, mesh, color);

@@ -100,6 +100,11 @@ double edgesOf(const core::TriangleMesh& mesh, const MeshSpace& space,
   return all > 0.0 ? across / all : 0.0;
 }
 
+const char* unitOf(const MeshSpace& space)
+{
+  return space.mm == 1.0 ? "mm" : space.mm == 10.0 ? "cm" : space.mm == 25.4 ? "inch" : "m";
+}
+
 std::string percent(double share)
 {
   return core::fixedText(100.0 * share, 0) + " %";
@@ -109,11 +114,12 @@ std::string percent(double share)
 
 std::string textOf(const imaging::MeshSpace& space)
 {
-  const char* unit = space.mm == 1.0    ? "mm"
-                     : space.mm == 10.0 ? "cm"
-                     : space.mm == 25.4 ? "inch"
-                                        : "m";
-  return std::string(space.isRas ? "RAS " : "LPS ") + unit;
+  return std::string(space.isRas ? "RAS " : "LPS ") + unitOf(space);
+}
+
+std::string coordinatesOf(const imaging::MeshSpace& space)
+{
+  return std::string(space.isRas ? "RAS (Slicer, NIfTI), " : "LPS (DICOM, ITK), ") + unitOf(space);
 }
 
 MeshSpaceUnclear::MeshSpaceUnclear(std::filesystem::path file, const std::string& problem,
@@ -157,11 +163,11 @@ std::string judgeMeshSpace(const std::filesystem::path& path, const imaging::Loa
       spaces.push_back(one.space);
     return spaces;
   };
-  const auto asRead = [&loaded](const MeshSpace& space) // as the file counts
+  const auto asRead = [&loaded](const MeshSpace& space) // of the file's coordinates
   {
     return textOf({space.isRas != loaded.isRas, space.mm});
   };
-  const std::string say = "; say how it counts (--mesh-frame, --mesh-unit)";
+  const std::string say = "; state its coordinate system and unit (--mesh-frame, --mesh-unit)";
 
   if (given.inside < kMostlyInside || given.size < kSmallest || given.size > largest)
   {
@@ -191,8 +197,8 @@ std::string judgeMeshSpace(const std::filesystem::path& path, const imaging::Loa
                            spacesOf());
   if (given.edges >= kFollows)
     return {};
-  return "does not state how it counts, and would lie inside " + imageName + " also as " +
-         asRead(candidates[1].space) + "; it was taken as " + asRead(given.space) +
+  return "does not state its coordinate system and unit, and would lie inside " + imageName +
+         " also as " + asRead(candidates[1].space) + "; it was taken as " + asRead(given.space) +
          ", so look whether it lies where it belongs";
 }
 

@@ -90,6 +90,16 @@ bool isLabelMap(const volume::Volume<T>& image)
   return static_cast<double>(joined) >= kPatches * static_cast<double>(drawn);
 }
 
+// makeLabelMap names those without a name by their index.
+std::size_t unnamedIn(const imaging::LoadedLabels& labels)
+{
+  std::size_t count = 0;
+  for (const volume::LabelMap& map : labels.maps)
+    for (const volume::Segment& segment : map.segments)
+      count += segment.name == "label " + std::to_string(segment.index) ? 1 : 0;
+  return count;
+}
+
 Content contentOf(const std::string& modality)
 {
   return modality == "CT" ? Content::Ct : modality == "MR" ? Content::Mr : Content::Image;
@@ -314,8 +324,21 @@ SourceContent lookAt(const fs::path& path, const core::Progress& progress,
     result.content =
         contentOf(*imaging::readImageFile(path, std::nullopt, progress.part(0.0, 0.8)).volume);
   result.name = sequenceName(imaging::baseName(path));
-  result.isNameless = result.content == Content::Labels && !fileName(path).isWhole &&
-                      imaging::loadLabels(path, progress.part(0.8, 1.0)).isNamedAfterFile;
+  if (result.content == Content::Labels)
+  {
+    const bool isWhole = fileName(path).isWhole;
+    try
+    {
+      const imaging::LoadedLabels labels = imaging::loadLabels(path, progress.part(0.8, 1.0));
+      result.isNameless = !isWhole && labels.isNamedAfterFile;
+      result.unnamed = unnamedIn(labels);
+    }
+    catch (const imaging::FileError&)
+    {
+      if (!isWhole) // else it is told when it is added
+        throw;
+    }
+  }
   result.why = result.content == Content::Labels
                    ? "has a few whole numbers in patches, as labels do"
                : result.content == Content::Ct ? "is in Hounsfield units"

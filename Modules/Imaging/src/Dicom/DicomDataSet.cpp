@@ -3,6 +3,7 @@
 #include <array>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include <gdcmDataSet.h>
 #include <gdcmFile.h>
@@ -89,6 +90,22 @@ void putSequence(gdcm::DataSet& data, std::uint16_t group, std::uint16_t element
   de.SetValue(*sequence);
   de.SetVLToUndefined();
   data.Replace(de);
+}
+
+void putDeidentified(gdcm::DataSet& data)
+{
+  put(data, {{0x0012, 0x0062, "CS", "YES"},
+             {0x0012, 0x0063, "LO", "written from voxels and geometry alone"}});
+}
+
+void putPixelFormat(gdcm::DataSet& data, const core::GridGeometry& grid, int bits, bool isSigned)
+{
+  // samples per pixel, rows, columns, bits allocated and stored, high bit, representation
+  const std::pair<std::uint16_t, int> numbers[] = {
+      {0x0002, 1},    {0x0010, grid.dims()[1]}, {0x0011, grid.dims()[0]},  {0x0100, bits},
+      {0x0101, bits}, {0x0102, bits - 1},       {0x0103, isSigned ? 1 : 0}};
+  for (const auto& [element, value] : numbers)
+    put(data, 0x0028, element, static_cast<std::uint16_t>(value));
 }
 
 void checkUid(const std::string& uid, const char* what)

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "petrous/Core/GridGeometry.h"
+
 namespace gdcm
 {
 class DataSet;
@@ -45,6 +47,34 @@ void putBytes(gdcm::DataSet& data, std::uint16_t group, std::uint16_t element, c
 /// Adds a sequence of these items.
 void putSequence(gdcm::DataSet& data, std::uint16_t group, std::uint16_t element,
                  const std::vector<gdcm::DataSet>& items);
+
+/// Patient, study, series, frame of reference and equipment of a SeriesDescription or a
+/// SegmentationDescription; no date or physician is known.
+template <class Description>
+void putIdentification(gdcm::DataSet& data, const Description& of)
+{
+  put(data, {{0x0008, 0x0050, "SH", ""},
+             {0x0008, 0x0070, "LO", "Petrous"},
+             {0x0008, 0x0090, "PN", ""},
+             {0x0010, 0x0010, "PN", of.patientName},
+             {0x0010, 0x0020, "LO", of.patientId},
+             {0x0010, 0x0030, "DA", ""},
+             {0x0010, 0x0040, "CS", "O"},
+             {0x0018, 0x1020, "LO", "1"},
+             {0x0020, 0x000D, "UI", of.studyUid},
+             {0x0020, 0x000E, "UI", of.seriesUid},
+             {0x0020, 0x0010, "SH", of.studyId},
+             {0x0020, 0x0011, "IS", std::to_string(of.seriesNumber)},
+             {0x0020, 0x0052, "UI", of.frameOfReferenceUid},
+             {0x0020, 0x1040, "LO", ""},
+             {0x0028, 0x0004, "CS", "MONOCHROME2"}});
+}
+
+/// Patient Identity Removed, and how.
+void putDeidentified(gdcm::DataSet& data);
+
+/// Rows, columns and how a pixel is stored: one sample of `bits` bits.
+void putPixelFormat(gdcm::DataSet& data, const core::GridGeometry& grid, int bits, bool isSigned);
 
 /// Throws InvalidParameter for what is no UID; `what` names it ("study's UID").
 void checkUid(const std::string& uid, const char* what);

@@ -48,28 +48,13 @@ gdcm::DataSet commonPart(const SeriesDescription& series, const core::GridGeomet
     d.Remove(gdcm::Tag(0x0008, 0x0012));
     d.Remove(gdcm::Tag(0x0008, 0x0013));
   }
-  put(d, {// patient, study
-          {0x0010, 0x0010, "PN", series.patientName},
-          {0x0010, 0x0020, "LO", series.patientId},
-          {0x0010, 0x0030, "DA", ""},
-          {0x0010, 0x0040, "CS", "O"},
-          {0x0020, 0x000D, "UI", series.studyUid},
-          {0x0008, 0x0090, "PN", ""},
-          {0x0020, 0x0010, "SH", series.studyId},
-          {0x0008, 0x0050, "SH", ""},
-          {0x0008, 0x1030, "LO", series.derived ? "" : "Phantom temporal bone"},
-          // series, frame of reference, equipment
+  putIdentification(d, series);
+  put(d, {{0x0008, 0x1030, "LO", series.derived ? "" : "Phantom temporal bone"},
           {0x0008, 0x0060, "CS", ct ? "CT" : "MR"},
-          {0x0020, 0x000E, "UI", series.seriesUid},
-          {0x0020, 0x0011, "IS", std::to_string(series.seriesNumber)},
           {0x0008, 0x103E, "LO", series.description},
           {0x0018, 0x0015, "CS", "SKULL"},
           {0x0018, 0x5100, "CS", series.derived ? "" : "HFS"},
-          {0x0020, 0x0052, "UI", series.frameOfReferenceUid},
-          {0x0020, 0x1040, "LO", ""},
-          {0x0008, 0x0070, "LO", "Petrous"},
           {0x0008, 0x1090, "LO", series.derived ? "" : "Phantom"},
-          {0x0018, 0x1020, "LO", "1"},
           // image
           {0x0008, 0x0008, "CS",
            std::string(series.derived ? "DERIVED\\SECONDARY" : "ORIGINAL\\PRIMARY") +
@@ -79,18 +64,11 @@ gdcm::DataSet commonPart(const SeriesDescription& series, const core::GridGeomet
            decimals({axes(0, 0), axes(1, 0), axes(2, 0), axes(0, 1), axes(1, 1), axes(2, 1)})},
           {0x0028, 0x0030, "DS", decimals({grid.spacing()[1], grid.spacing()[0]})},
           {0x0018, 0x0050, "DS", decimal(grid.spacing()[2])},
-          {0x0028, 0x0004, "CS", "MONOCHROME2"},
           {0x0028, 0x1050, "DS", decimal(series.windowCenter)},
           {0x0028, 0x1051, "DS", decimal(series.windowWidth)}});
-  // samples per pixel, rows, columns, bits allocated and stored, high bit, representation
-  const std::pair<std::uint16_t, int> numbers[] = {
-      {0x0002, 1},  {0x0010, grid.dims()[1]},  {0x0011, grid.dims()[0]}, {0x0100, 16}, {0x0101, 16},
-      {0x0102, 15}, {0x0103, isSigned ? 1 : 0}};
-  for (const auto& [element, value] : numbers)
-    put(d, 0x0028, element, static_cast<std::uint16_t>(value));
+  putPixelFormat(d, grid, 16, isSigned);
   if (series.derived)
-    put(d, {{0x0012, 0x0062, "CS", "YES"},
-            {0x0012, 0x0063, "LO", "written from voxels and geometry alone"}});
+    putDeidentified(d);
   else
     put(d, 0x0020, 0x0060, "CS", "R");
   if (ct)

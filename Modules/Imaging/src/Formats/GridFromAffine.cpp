@@ -97,7 +97,7 @@ double unitInMillimetres(std::string name, std::vector<std::string>& notes)
         std::pair("microns", 1e-3), std::pair("cm", 10.0), std::pair("m", 1e3)})
     if (unit == known)
     {
-      notes.push_back("counts in " + unit + ", turned into mm");
+      notes.push_back("is in " + unit + "; converted to mm");
       return scale;
     }
   notes.emplace_back(unit.empty() ? "states no unit of length; taken as mm"

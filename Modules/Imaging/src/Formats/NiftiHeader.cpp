@@ -248,12 +248,12 @@ double unitInMillimetres(int code, std::vector<std::string>& notes)
   switch (code & 7)
   {
   case 1:
-    notes.emplace_back("counts in metres, turned into mm");
+    notes.emplace_back("is in metres; converted to mm");
     return 1e3;
   case 2:
     return 1.0;
   case 3:
-    notes.emplace_back("counts in micrometres, turned into mm");
+    notes.emplace_back("is in micrometres; converted to mm");
     return 1e-3;
   default:
     notes.emplace_back("states no unit of length; taken as mm");

@@ -199,14 +199,14 @@ LoadedMesh loadMesh(const std::filesystem::path& path, const std::optional<bool>
   for (auto& v : loaded.mesh.vertices)
     v = {side * v[0], side * v[1], mm * v[2]};
   if (loaded.isRas)
-    loaded.notes.emplace_back(std::string("counts to the right and front (") +
+    loaded.notes.emplace_back(std::string("is in RAS coordinates (") +
                               (saysRas ? "SPACE=RAS" : "as given") +
                               "); x and y were negated to the patient's LPS");
   if (saysFrame && loaded.isRas != saysRas)
     loaded.notes.emplace_back(std::string("states SPACE=") + (saysRas ? "RAS" : "LPS") +
                               ", and was read otherwise, as given");
   if (mm != 1.0F)
-    loaded.notes.emplace_back("counts in units of " + core::generalText(*unit) +
+    loaded.notes.emplace_back("has a unit of " + core::generalText(*unit) +
                               " mm, as given; brought to mm");
   return loaded;
 }

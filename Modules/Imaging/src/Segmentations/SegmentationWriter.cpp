@@ -192,6 +192,8 @@ void putHeader(DataSet& d, const SegmentationDescription& description,
                const core::GridGeometry& grid, std::size_t frames)
 {
   const std::string instanceOf = instanceUid(description.seriesUid, 0);
+  putIdentification(d, description);
+  putDeidentified(d);
   put(d, {{0x0008, 0x0005, "CS", "ISO_IR 192"},
           {0x0008, 0x0008, "CS", "DERIVED\\PRIMARY"},
           {0x0008, 0x0016, "UI",
@@ -201,44 +203,19 @@ void putHeader(DataSet& d, const SegmentationDescription& description,
           {0x0008, 0x0023, "DA", "19000101"},
           {0x0008, 0x0030, "TM", ""},
           {0x0008, 0x0033, "TM", "000000"},
-          {0x0008, 0x0050, "SH", ""},
           {0x0008, 0x0060, "CS", "SEG"},
-          {0x0008, 0x0070, "LO", "Petrous"},
-          {0x0008, 0x0090, "PN", ""},
           {0x0008, 0x1030, "LO", ""},
           {0x0008, 0x103E, "LO", longString(description.description)},
           {0x0008, 0x1090, "LO", "Petrous"},
-          {0x0010, 0x0010, "PN", description.patientName},
-          {0x0010, 0x0020, "LO", description.patientId},
-          {0x0010, 0x0030, "DA", ""},
-          {0x0010, 0x0040, "CS", "O"},
-          {0x0012, 0x0062, "CS", "YES"},
-          {0x0012, 0x0063, "LO", "written from voxels and geometry alone"},
           {0x0018, 0x1000, "LO", "0"},
-          {0x0018, 0x1020, "LO", "1"},
-          {0x0020, 0x000D, "UI", description.studyUid},
-          {0x0020, 0x000E, "UI", description.seriesUid},
-          {0x0020, 0x0010, "SH", description.studyId},
-          {0x0020, 0x0011, "IS", std::to_string(description.seriesNumber)},
           {0x0020, 0x0013, "IS", "1"},
-          {0x0020, 0x0052, "UI", description.frameOfReferenceUid},
-          {0x0020, 0x1040, "LO", ""},
-          {0x0028, 0x0004, "CS", "MONOCHROME2"},
           {0x0028, 0x0008, "IS", std::to_string(frames)},
           {0x0028, 0x2110, "CS", "00"},
           {0x0062, 0x0001, "CS", "BINARY"},
           {0x0070, 0x0080, "CS", "SEGMENTATION"},
           {0x0070, 0x0081, "LO", ""},
           {0x0070, 0x0084, "PN", ""}});
-  const std::pair<std::uint16_t, int> numbers[] = {{0x0002, 1},
-                                                   {0x0010, grid.dims()[1]},
-                                                   {0x0011, grid.dims()[0]},
-                                                   {0x0100, 1},
-                                                   {0x0101, 1},
-                                                   {0x0102, 0},
-                                                   {0x0103, 0}};
-  for (const auto& [element, value] : numbers)
-    put(d, 0x0028, element, static_cast<std::uint16_t>(value));
+  putPixelFormat(d, grid, 1, false);
   putDimensions(d, deterministicUid(0, description.seriesUid + "/dimensions"));
   if (const auto& source = description.source)
   {

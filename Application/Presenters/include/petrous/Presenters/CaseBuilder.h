@@ -25,10 +25,12 @@ struct PartSource
   /// MR: which series and volume of a DICOM folder (imaging::chooseSeries); empty: automatic.
   std::string series = {};
   bool repair = false; ///< MR: as CaseSources
-  /// Meshes: whether the file counts to RAS (else LPS), and its unit in mm; nullopt: as it states,
+  /// Meshes: whether the file is in RAS (else LPS), and its unit in mm; nullopt: as it states,
   /// else LPS mm if that fits the image.
   std::optional<bool> isRas = std::nullopt;
   std::optional<double> unit = std::nullopt;
+  /// Structures: a table of names for this file alone; empty: PartSources::labelNames.
+  std::filesystem::path labelNames = {};
 
   /// "NAME=FILE" or "FILE". A string that is the path of an existing file is a FILE.
   static PartSource parse(const std::string& text);
@@ -75,6 +77,8 @@ struct MeshSpaceUnclear : core::InvalidParameter
 
 /// "LPS mm", "RAS m", ..
 std::string textOf(const imaging::MeshSpace& space);
+/// "LPS (DICOM, ITK), mm", "RAS (Slicer, NIfTI), m", ..
+std::string coordinatesOf(const imaging::MeshSpace& space);
 
 /// What became of a structure of a file.
 struct StructureReport

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,15 @@ struct PlacedLabels
   std::string drawnOn; ///< the MR in whose space it lies; empty: in the CT's
   std::vector<const scene::StructurePart*> structures;
 };
+
+/// Brings label maps whose grids are parts of one lattice (equal axes, up to their order and sense,
+/// and voxel centres that coincide within 0.01 mm) onto one grid: that of `image`, where it is on
+/// the lattice and contains all of them, else the smallest that contains all. Voxels are copied,
+/// none is resampled or lost. Returns nullopt, or, changing nothing, the first map whose grid is
+/// not on the lattice of the first one.
+std::optional<std::size_t> padToOneGrid(std::vector<PlacedLabels>& placed,
+                                        const core::GridGeometry& image,
+                                        const core::Progress& progress = {});
 
 /// What all objects of a case state.
 struct CaseDicomOptions

@@ -19,6 +19,13 @@ struct ExportChoiceError : core::InvalidParameter
   using InvalidParameter::InvalidParameter;
 };
 
+/// Structures whose grids are not parts of one lattice go into one file on the CT's grid only
+/// (ExportOptions::onCt).
+struct ExportGridError : ExportChoiceError
+{
+  using ExportChoiceError::ExportChoiceError;
+};
+
 /// What of a case is written for other programs, and where: `petrous export`.
 struct ExportOptions
 {
@@ -28,12 +35,14 @@ struct ExportOptions
   /// A file, whose ending is its format; a folder that is there, or a name with a slash at its end:
   /// a DICOM series (ct, mr and dissected).
   std::string out;
-  std::string part;                          ///< one MR or structure of several
-  bool onCt = false;                         ///< an MR, or labels, resampled on the CT's grid
+  std::string part; ///< one MR or structure of several
+  /// An MR, or labels, resampled on the CT's grid. Labels on parts of one lattice are brought onto
+  /// one grid without resampling (padToOneGrid).
+  bool onCt = false;
   std::optional<std::size_t> triangles = {}; ///< of a surface, at most
 };
 
-/// What was written. All surfaces and voxels in patient LPS, mm.
+/// What was written; in which coordinates: coordinatesOf.
 struct ExportSummary
 {
   struct Decimation
@@ -55,6 +64,10 @@ struct ExportSummary
 
 /// imaging::FileContent, the formats in which it is written.
 unsigned exportContent(const std::string& what);
+
+/// In which coordinates the file states positions: "LPS (DICOM, ITK), mm"; of NIfTI, which is so by
+/// definition, "RAS (Slicer, NIfTI), mm".
+std::string coordinatesOf(const ExportOptions& options);
 
 /// The files that will be written. Throws ExportChoiceError, FileError (UnknownFormat): before
 /// anything is computed.

@@ -56,6 +56,8 @@ struct SourceContent
   /// Of a DICOM folder with several readable series: all of them, and those that are refused; the
   /// user chooses. `content` is then meaningless.
   std::vector<SeriesContent> series = {};
+  /// Structures of a label map that neither it nor a table beside it names.
+  std::size_t unnamed = 0;
 };
 
 /// Determines the content of `path`: meshes and 3D Slicer segmentations by their file names, DICOM

@@ -1,0 +1,214 @@
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include "BoneCase.h"
+#include "petrous/Imaging/LabelFile.h"
+#include "petrous/Presenters/CaseExport.h"
+
+using namespace petrous;
+using namespace petrous::presenters;
+using Eigen::Vector3d;
+
+namespace
+{
+
+/// Voxels and their mean position, patient LPS mm.
+struct Extent
+{
+  std::uint64_t voxels = 0;
+  Vector3d sum = Vector3d::Zero();
+
+  Vector3d center() const { return sum / static_cast<double>(voxels); }
+};
+
+class CaseExport : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    m_folder =
+        std::filesystem::temp_directory_path() / ("petrous-export-" + std::to_string(::getpid()));
+    std::filesystem::create_directories(m_folder);
+    m_case = presenters::testing::block();
+  }
+  void TearDown() override { std::filesystem::remove_all(m_folder); }
+
+  // Every voxel of `grid` in `box` whose indices pass a fixed pattern.
+  void add(const std::string& name, const core::GridGeometry& grid, const core::IndexBox& box)
+  {
+    auto voxels = volume::makeZeroVolume<std::uint16_t>(grid);
+    for (int k = box.lower[2]; k < box.upper[2]; ++k)
+      for (int j = box.lower[1]; j < box.upper[1]; ++j)
+        for (int i = box.lower[0]; i < box.upper[0]; ++i)
+          if ((i + 2 * j + 3 * k) % 5 != 0)
+          {
+            voxels->at(i, j, k) = 1;
+            ++m_truth[name].voxels;
+            m_truth[name].sum += grid.patientFromVoxel(Vector3d(i, j, k));
+          }
+    volume::Segment segment;
+    segment.name = name;
+    segment.index = 1;
+    scene::StructurePart structure;
+    structure.name = name;
+    structure.index = 1;
+    structure.voxels = m_truth[name].voxels;
+    scene::LabelPart part;
+    part.structures.push_back(structure);
+    part.drawnOn = "";
+    part.labels = std::make_shared<const volume::LabelMap>(
+        volume::makeLabelMap(std::move(voxels), {segment}));
+    m_case.labels.push_back(std::move(part));
+  }
+
+  // The grid of the CT's voxels in `box`; `order` and `sense` of its axes.
+  core::GridGeometry partOfCt(const core::IndexBox& box, const core::Index3& order = {0, 1, 2},
+                              const core::Index3& sense = {1, 1, 1}) const
+  {
+    const core::GridGeometry& ct = m_case.ct.geometry;
+    core::Index3 dims;
+    Vector3d spacing, first;
+    Eigen::Matrix3d direction;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      const std::size_t of = static_cast<std::size_t>(order[a]);
+      const auto axis = static_cast<Eigen::Index>(of);
+      const auto to = static_cast<Eigen::Index>(a);
+      dims[a] = box.size()[of];
+      spacing[to] = ct.spacing()[axis];
+      direction.col(to) = sense[a] * ct.direction().col(axis);
+      first[axis] = sense[a] > 0 ? box.lower[of] : box.upper[of] - 1;
+    }
+    return {dims, spacing, ct.patientFromVoxel(first), direction};
+  }
+
+  ExportSummary write(const std::string& file, bool onCt = false)
+  {
+    ExportOptions options;
+    options.what = "labels";
+    options.out = (m_folder / file).string();
+    options.onCt = onCt;
+    m_warnings.clear();
+    return exportCase(m_library, m_case, options, {},
+                      [this](const std::string& line) { m_warnings += line + '\n'; }, {});
+  }
+
+  std::map<std::string, Extent> read(const std::string& file, core::GridGeometry& grid) const
+  {
+    std::map<std::string, Extent> found;
+    for (const auto& map : imaging::loadLabels(m_folder / file).maps)
+    {
+      grid = map.voxels->geometry();
+      const core::Index3& n = grid.dims();
+      for (const auto& segment : map.segments)
+        for (int k = 0; k < n[2]; ++k)
+          for (int j = 0; j < n[1]; ++j)
+            for (int i = 0; i < n[0]; ++i)
+              if (map.voxels->at(i, j, k) == segment.index)
+              {
+                ++found[segment.name].voxels;
+                found[segment.name].sum += grid.patientFromVoxel(Vector3d(i, j, k));
+              }
+    }
+    return found;
+  }
+
+  void expectAll(const std::string& file)
+  {
+    SCOPED_TRACE(file);
+    core::GridGeometry grid;
+    const auto found = read(file, grid);
+    ASSERT_EQ(found.size(), m_truth.size());
+    for (const auto& one : m_truth)
+    {
+      SCOPED_TRACE(one.first);
+      ASSERT_TRUE(found.count(one.first));
+      EXPECT_EQ(found.at(one.first).voxels, one.second.voxels);
+      EXPECT_LT((found.at(one.first).center() - one.second.center()).norm(), 0.005);
+    }
+  }
+
+  std::filesystem::path m_folder;
+  library::Library m_library{std::filesystem::temp_directory_path() / "petrous-export-nothing"};
+  scene::Case m_case;
+  std::map<std::string, Extent> m_truth;
+  std::string m_warnings;
+};
+
+constexpr const char* kFiles[] = {"all.dcm", "all.seg.nrrd", "all.nrrd", "all.nii.gz"};
+
+} // namespace
+
+// A segmentation with the slices that have a structure, one counted downwards with other axes
+// first, and structures made on the CT: all on its lattice, so no voxel is lost or moved.
+TEST_F(CaseExport, BringsLabelsOnPartsOfTheCtsGridOntoIt)
+{
+  add("sinus", m_case.ct.geometry, {{1, 1, 1}, {9, 9, 9}});
+  add("nerve", partOfCt({{0, 0, 10}, {40, 40, 24}}), {{20, 3, 0}, {32, 9, 14}});
+  add("cochlea", partOfCt({{20, 12, 5}, {35, 30, 21}}, {2, 0, 1}, {-1, 1, -1}),
+      {{0, 0, 0}, {12, 9, 6}});
+  for (const std::string file : kFiles)
+  {
+    write(file);
+    EXPECT_EQ(m_warnings, "") << file;
+    expectAll(file);
+    core::GridGeometry grid;
+    read(file, grid);
+    if (file != "all.dcm") // it has the slices with a structure
+    {
+      EXPECT_TRUE(core::sameGrid(grid, m_case.ct.geometry)) << file;
+    }
+  }
+}
+
+TEST_F(CaseExport, WritesLabelsOfOneLatticeThatReachBeyondTheCtOnTheSmallestCommonGrid)
+{
+  core::GridGeometry ct = m_case.ct.geometry;
+  const core::GridGeometry above({40, 40, 8}, ct.spacing(),
+                                 ct.patientFromVoxel(Vector3d(0, 0, 36)));
+  add("inside", partOfCt({{0, 0, 30}, {40, 40, 38}}), {{3, 3, 0}, {20, 9, 8}});
+  add("beyond", above, {{20, 20, 1}, {30, 24, 8}});
+  for (const std::string file : kFiles)
+  {
+    write(file);
+    expectAll(file);
+    core::GridGeometry grid;
+    read(file, grid);
+    if (file != "all.dcm")
+    {
+      EXPECT_EQ(grid.dims(), (core::Index3{40, 40, 14})) << file;
+    }
+  }
+}
+
+TEST_F(CaseExport, NamesLabelsOnAnotherLatticeAndWritesThemOnTheCt)
+{
+  add("nerve", m_case.ct.geometry, {{1, 1, 1}, {9, 9, 9}});
+  add("vein", core::GridGeometry({10, 10, 10}, Vector3d::Constant(0.5), Vector3d(8, 8, 8.1)),
+      {{0, 0, 0}, {10, 10, 10}});
+  for (const std::string file : kFiles)
+    try
+    {
+      write(file);
+      FAIL() << "written on two lattices: " << file;
+    }
+    catch (const ExportGridError& error)
+    {
+      const std::string why = error.what();
+      for (const char* part : {"'vein'", "'nerve'", "0.5 x 0.5 x 0.5 mm", "--on-ct"})
+        EXPECT_NE(why.find(part), why.npos) << why;
+      EXPECT_FALSE(std::filesystem::exists(m_folder / file));
+    }
+  write("on.seg.nrrd", true);
+  EXPECT_NE(m_warnings.find("'vein' reaches beyond the CT"), m_warnings.npos) << m_warnings;
+  core::GridGeometry grid;
+  const auto found = read("on.seg.nrrd", grid);
+  EXPECT_TRUE(core::sameGrid(grid, m_case.ct.geometry));
+  EXPECT_EQ(found.at("nerve").voxels, m_truth["nerve"].voxels);
+  EXPECT_GT(found.at("vein").voxels, 0U);
+}

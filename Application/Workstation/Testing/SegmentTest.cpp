@@ -1,5 +1,6 @@
 #include "GuiTest.h"
 
+#include <QComboBox>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QLabel>
@@ -11,6 +12,7 @@
 
 #include "SliceView.h"
 #include "petrous/Phantom/Phantom.h"
+#include "petrous/Presenters/SegmentEditor.h"
 #include "petrous/Segmentation/MaskOperations.h"
 
 using namespace petrous;
@@ -175,6 +177,42 @@ TEST_F(Segment, AStrokePaintsTheBallThatIsSeenAndUndoTakesItBack)
         ASSERT_EQ(voxels->at(i, j, k) != 0,
                   (grid.patientFromVoxel(Vector3d(i, j, k)) - center).norm() <= 2.0)
             << i << ' ' << j << ' ' << k;
+}
+
+TEST_F(Segment, StrokesToGrowFromAreSeenAndTold)
+{
+  saveBall("ball");
+  openWindow("ball");
+  choose(Qt::Key_G);
+  setNumber("growRadius", 1.0);
+  EXPECT_EQ(volume(), "Nothing yet");
+  const auto pixelsOf = [this](const std::array<float, 3>& color)
+  {
+    const QImage image = axial().grab().toImage();
+    int count = 0;
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x)
+      {
+        const QColor at = image.pixelColor(x, y);
+        const auto isNear = [](int channel, float wanted)
+        { return std::abs(static_cast<float>(channel) - wanted) < 20.0F; };
+        count += isNear(at.red(), color[0]) && isNear(at.green(), color[1]) &&
+                 isNear(at.blue(), color[2]);
+      }
+    return count;
+  };
+  click(kBallCenter + Vector3d(2, 2, 0));
+  EXPECT_EQ(volume(), "Strokes; nothing grown yet");
+  EXPECT_GT(pixelsOf(presenters::SegmentEditor::kInsideStroke), 4);
+  EXPECT_EQ(pixelsOf(presenters::SegmentEditor::kBesideStroke), 0);
+  find<QComboBox>("growSide").setCurrentIndex(1);
+  click(kBallCenter + Vector3d(2, -13, 0));
+  EXPECT_GT(pixelsOf(presenters::SegmentEditor::kBesideStroke), 4);
+  EXPECT_TRUE(find<QPushButton>("segmentKeepLargest").isHidden());
+  find<QPushButton>("segmentUndo").click();
+  find<QPushButton>("segmentUndo").click();
+  EXPECT_EQ(volume(), "Nothing yet");
+  EXPECT_FALSE(isDraft());
 }
 
 TEST_F(Segment, TheDraftIsSeenInThePictureAndGoesWithIt)

@@ -212,3 +212,13 @@ TEST_F(CaseExport, NamesLabelsOnAnotherLatticeAndWritesThemOnTheCt)
   EXPECT_EQ(found.at("nerve").voxels, m_truth["nerve"].voxels);
   EXPECT_GT(found.at("vein").voxels, 0U);
 }
+
+// One grid of both would fill the memory.
+TEST_F(CaseExport, RefusesLabelsThatLieTooFarApartForOneGrid)
+{
+  add("nerve", m_case.ct.geometry, {{1, 1, 1}, {9, 9, 9}});
+  const core::GridGeometry& ct = m_case.ct.geometry;
+  add("far", core::GridGeometry({4, 4, 4}, ct.spacing(), ct.patientFromVoxel({9e4, 9e4, 9e4})),
+      {{0, 0, 0}, {4, 4, 4}});
+  EXPECT_THROW(write("far.seg.nrrd"), ExportGridError);
+}

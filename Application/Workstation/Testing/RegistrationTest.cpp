@@ -129,6 +129,12 @@ TEST_F(RegistrationWindow, SaysThatAnMrCameAlongThatIsNotRegistered)
       << banner.text().toStdString();
   auto* dock = window().findChild<QDockWidget*>("registrationDock");
   EXPECT_FALSE(dock->isVisible());
+  showPanel();
+  EXPECT_TRUE(dock->isVisible());
+  EXPECT_FALSE(banner.isVisible()) << "the panel says so itself";
+  showPanel(); // hides it
+  EXPECT_FALSE(dock->isVisible());
+  banner.show();
   click("registerMr");
   EXPECT_TRUE(dock->isVisible());
   EXPECT_FALSE(banner.isVisible());

@@ -294,6 +294,12 @@ void MainWindow::addPanels()
     if (QDockWidget* before = std::exchange(tabs[entry.area], dock))
       tabifyDockWidget(before, dock);
   }
+  connect(findChild<QDockWidget*>("registrationDock"), &QDockWidget::visibilityChanged, m_mrBanner,
+          [this](bool shown)
+          {
+            if (shown) // it says so itself
+              m_mrBanner->hide();
+          });
 }
 
 QDockWidget* MainWindow::addDock(const PanelEntry& entry, Panel* panel)

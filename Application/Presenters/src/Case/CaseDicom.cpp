@@ -62,6 +62,7 @@ void describe(imaging::SegmentationDescription::Segment& segment, const volume::
 }
 
 constexpr double kLatticeTolerance = 0.01; // mm
+constexpr std::size_t kLargestGrowth = 8;  // of the largest grid
 
 // voxel of a lattice = axes * voxel of a grid + offset; axes: a signed permutation
 struct LatticeMap
@@ -139,6 +140,11 @@ std::optional<std::size_t> padToOneGrid(std::vector<PlacedLabels>& placed,
     maps.push_back(*map);
     all = all.united(boxOf(*map, gridOf(n).dims()));
   }
+  std::size_t largest = image.voxelCount();
+  for (std::size_t n = 0; n < placed.size(); ++n)
+    largest = std::max(largest, gridOf(n).voxelCount());
+  if (all.count() / kLargestGrowth > largest)
+    return placed.size() - 1;
   const core::IndexBox full = image.fullBox();
   if (isImages && all.intersected(full) == all)
     all = full;

@@ -239,9 +239,10 @@ std::vector<PlacedLabels> placedLabels(const Warn& warn, const scene::Case& valu
   const core::GridGeometry& image =
       drawnOn.empty() ? value.ct.geometry : chooseMr(value, drawnOn).geometry;
   if (const auto other = padToOneGrid(placed, image, progress))
-    throw ExportGridError("export labels: " + gridText(placed[*other]) +
-                          ", on another lattice than " + gridText(placed.front()) +
-                          "; export it alone with --part, or all on the CT's grid with --on-ct");
+    throw ExportGridError(
+        "export labels: " + gridText(placed[*other]) + ", and " + gridText(placed.front()) +
+        ": no one grid holds both without resampling; export it alone with --part, or all on the "
+        "CT's grid with --on-ct");
   return placed;
 }
 

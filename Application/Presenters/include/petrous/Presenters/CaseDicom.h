@@ -49,8 +49,9 @@ struct PlacedLabels
 /// Brings label maps whose grids are parts of one lattice (equal axes, up to their order and sense,
 /// and voxel centres that coincide within 0.01 mm) onto one grid: that of `image`, where it is on
 /// the lattice and contains all of them, else the smallest that contains all. Voxels are copied,
-/// none is resampled or lost. Returns nullopt, or, changing nothing, the first map whose grid is
-/// not on the lattice of the first one.
+/// none is resampled or lost. Returns nullopt, or, changing nothing, a map that cannot be brought
+/// onto a grid with the first one: the lattices differ, or they lie so far apart that the grid
+/// would have more than eight times the voxels of the largest and of the image.
 std::optional<std::size_t> padToOneGrid(std::vector<PlacedLabels>& placed,
                                         const core::GridGeometry& image,
                                         const core::Progress& progress = {});

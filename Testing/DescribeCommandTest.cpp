@@ -22,7 +22,7 @@ protected:
   {
     std::vector<std::string> names;
     const Json answer = json(arguments);
-    for (const json& one : answer.at("cases"))
+    for (const Json& one : answer.at("cases"))
       names.push_back(one.at("name"));
     return names;
   }

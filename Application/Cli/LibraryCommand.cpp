@@ -23,18 +23,21 @@ void printCases(const Context& context, const library::Library& library,
   nlohmann::json cases = nlohmann::json::array();
   for (const auto& summary : summaries)
   {
-    cases.push_back({{"name", summary.name},
-                     {"modified", summary.modified},
-                     {"dims", summary.dims},
-                     {"structures", summary.structures},
-                     {"strokes", summary.strokes},
-                     {"removed_mm3", summary.removed},
-                     {"damaged", summary.damaged},
-                     {"has_note", summary.hasNote},
-                     {"thumbnail", summary.hasThumbnail}});
-    nlohmann::json description = descriptionJson(summary.description);
-    description.erase("note");
-    cases.back().update(description);
+    if (context.json()) // ten thousand objects take longer than the search
+    {
+      cases.push_back({{"name", summary.name},
+                       {"modified", summary.modified},
+                       {"dims", summary.dims},
+                       {"structures", summary.structures},
+                       {"strokes", summary.strokes},
+                       {"removed_mm3", summary.removed},
+                       {"damaged", summary.damaged},
+                       {"has_note", summary.hasNote},
+                       {"thumbnail", summary.hasThumbnail}});
+      nlohmann::json description = descriptionJson(summary.description);
+      description.erase("note");
+      cases.back().update(description);
+    }
     const std::string line = descriptionLine(summary.description);
     context.print(summary.name + "  " + summary.modified + "  " +
                   (summary.damaged ? "damaged: its manifest cannot be read"
@@ -43,7 +46,7 @@ void printCases(const Context& context, const library::Library& library,
                                          fixed(summary.removed, 1) + " mm3 removed") +
                   (line.empty() ? "" : "  " + line));
   }
-  if (cases.empty())
+  if (summaries.empty())
     context.print("no case in " + library.folder().string());
   context.printJson({{"library", library.folder().string()}, {"cases", std::move(cases)}});
 }

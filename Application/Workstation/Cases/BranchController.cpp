@@ -124,7 +124,11 @@ bool BranchController::change(const std::function<void()>& what)
     settle();
   try
   {
+    if (camera)
+      m_model.setCamera(camera());
     what();
+    if (showCamera && m_model.value().camera)
+      showCamera(*m_model.value().camera);
   }
   catch (const std::exception& fault)
   {

@@ -23,6 +23,9 @@ public:
 
   /// Called before the approach is left: ends an open stroke and puts the tool away.
   std::function<void()> settle;
+  /// The camera of the picture, which the approach is left with; and how to show that of another.
+  std::function<core::CameraPose()> camera;
+  std::function<void(const core::CameraPose&)> showCamera;
 
   void stateChanged(); ///< strokes, approaches or the case changed
 

@@ -136,6 +136,8 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
     m_bar->setThrust(*thrust);
   m_picture->flush = [this] { return flush(); };
   m_branches->settle = [this] { m_drill->releaseTool(); };
+  m_branches->camera = [this] { return m_view->picture().camera(); };
+  m_branches->showCamera = [this](const core::CameraPose& camera) { m_view->setCamera(camera); };
   m_keeper->setParent(this);
   m_saver->setParent(this);
   m_saver->camera = [this] { return m_view->picture().camera(); };

@@ -109,7 +109,7 @@ class Descriptions : public ::testing::Test
 protected:
   void save(const std::string& name, const Description& description = {})
   {
-    scene::Case value = smallCase(name, 8);
+    scene::Case value = smallCase(name, 12);
     value.description = description;
     m_library.save(value);
   }

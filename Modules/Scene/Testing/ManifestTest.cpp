@@ -660,3 +660,21 @@ TEST(Manifest, KeepsHowTheCaseWasLookedAt)
   value.view.slices->width = std::numeric_limits<double>::infinity();
   EXPECT_THROW(scene::toManifest(value), core::InvalidParameter);
 }
+
+TEST(Manifest, GivesTheDescriptionAlone)
+{
+  scene::Case value = fullCase();
+  EXPECT_TRUE(scene::descriptionFromManifest(scene::toManifest(value), "m").empty());
+  value.description = fullDescription();
+  const std::string text = scene::toManifest(value);
+  EXPECT_EQ(scene::descriptionFromManifest(text, "m"), value.description);
+  auto j = nlohmann::json::parse(text);
+  j["ct"]["description"] = {{"note", "of the CT"}}; // not the case's
+  EXPECT_EQ(scene::descriptionFromManifest(j.dump(), "m"), value.description);
+  j["description"]["side"] = "up";
+  EXPECT_THROW(scene::descriptionFromManifest(j.dump(), "m"), scene::ManifestError);
+  j["petrous_case"] = 9;
+  EXPECT_THROW(scene::descriptionFromManifest(j.dump(), "m"), scene::ManifestError);
+  EXPECT_THROW(scene::descriptionFromManifest(text.substr(0, text.size() / 2), "m"),
+               scene::ManifestError);
+}

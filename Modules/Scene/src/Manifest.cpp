@@ -460,18 +460,24 @@ std::string toManifest(const Case& value)
   return j.dump(1) + "\n";
 }
 
-Case fromManifest(std::string_view text, const std::string& source)
+namespace
+{
+
+// `read` of the parsed text, its failures as ManifestError.
+template <class Read>
+auto readManifest(std::string_view text, const std::string& source,
+                  const json::parser_callback_t& wanted, const Read& read)
 {
   using Reason = ManifestError::Reason;
   try
   {
-    const json j = json::parse(text);
+    const json j = json::parse(text, wanted);
     const int format = j.at("petrous_case").get<int>();
     if (format > kManifestFormat)
       throw ManifestError(Reason::NewerFormat,
                           source + ": written by format " + std::to_string(format) +
                               "; this program reads up to " + std::to_string(kManifestFormat));
-    return caseIn(j);
+    return read(j);
   }
   catch (const json::exception&)
   {
@@ -482,6 +488,27 @@ Case fromManifest(std::string_view text, const std::string& source)
   {
     throw ManifestError(Reason::Damaged, source + ": " + error.what());
   }
+}
+
+} // namespace
+
+Case fromManifest(std::string_view text, const std::string& source)
+{
+  return readManifest(text, source, nullptr, [](const json& j) { return caseIn(j); });
+}
+
+Description descriptionFromManifest(std::string_view text, const std::string& source)
+{
+  const auto wanted = [](int depth, json::parse_event_t event, json& parsed)
+  {
+    return event != json::parse_event_t::key || depth != 1 || parsed == "description" ||
+           parsed == "petrous_case";
+  };
+  return readManifest(text, source, wanted,
+                      [](const json& j) {
+                        return j.contains("description") ? descriptionIn(j.at("description"))
+                                                         : Description();
+                      });
 }
 
 } // namespace petrous::scene

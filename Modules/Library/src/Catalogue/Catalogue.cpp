@@ -127,9 +127,9 @@ try
   write(m_file,
         [&](SQLite::Database& database)
         {
-          SQLite::Statement insert(
-              database, "INSERT OR REPLACE INTO cases VALUES "
-                        "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+          SQLite::Statement insert(database,
+                                   "INSERT OR REPLACE INTO cases VALUES "
+                                   "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
           const CaseSummary& summary = entry.summary;
           insert.bind(1, summary.name);
           insert.bind(2, static_cast<std::int64_t>(entry.stamp.size));

@@ -334,7 +334,7 @@ std::vector<CaseSummary> Library::search(const CaseFilter& filter) const
       {
         if (!filter.inNotes || !entry.summary.hasNote ||
             !hasAll(entry.text + "\n" +
-                        scene::lowerCase(readManifest(entry.summary.name).description.note),
+                        scene::lowerCase(descriptionIn(manifestPath(entry.summary.name)).note),
                     words))
           continue;
       }
@@ -569,7 +569,7 @@ Description Library::description(const std::string& name) const
 {
   scene::checkCaseName(name);
   checkedManifestPath(name);
-  return readManifest(name).description;
+  return descriptionIn(manifestPath(name));
 }
 
 void Library::describe(const std::string& name, const Description& description)

@@ -22,18 +22,31 @@ namespace
 constexpr std::uintmax_t kLargestManifest = 256U << 20;
 } // namespace
 
-scene::Case manifestIn(const fs::path& path, const std::string& name)
+namespace
 {
-  std::string text;
+
+std::string textOf(const fs::path& path)
+{
   try
   {
-    text = core::readFile(path, kLargestManifest);
+    return core::readFile(path, kLargestManifest);
   }
   catch (const core::InputFileError& error)
   {
     throw libraryError(error);
   }
-  scene::Case value = scene::fromManifest(text, core::printable(path));
+}
+
+} // namespace
+
+Description descriptionIn(const fs::path& path)
+{
+  return scene::descriptionFromManifest(textOf(path), core::printable(path));
+}
+
+scene::Case manifestIn(const fs::path& path, const std::string& name)
+{
+  scene::Case value = scene::fromManifest(textOf(path), core::printable(path));
   value.name = name;
   return value;
 }

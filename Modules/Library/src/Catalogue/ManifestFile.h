@@ -17,6 +17,9 @@ namespace petrous::library
 /// LibraryError and ManifestError.
 scene::Case manifestIn(const std::filesystem::path& path, const std::string& name);
 
+/// The description in a manifest. Throws LibraryError and ManifestError.
+Description descriptionIn(const std::filesystem::path& path);
+
 /// An object that a case refers to.
 struct ObjectUse
 {

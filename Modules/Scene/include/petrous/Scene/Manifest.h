@@ -34,4 +34,7 @@ std::string toManifest(const Case& value);
 /// ManifestError if the text is damaged or of a newer format.
 Case fromManifest(std::string_view text, const std::string& source);
 
+/// The description alone, without the cost of the rest, which is not checked. Throws ManifestError.
+Description descriptionFromManifest(std::string_view text, const std::string& source);
+
 } // namespace petrous::scene

@@ -30,6 +30,7 @@ class DrillController;
 class DeviceToolBar;
 class DeviceWatcher;
 class ActiveDeviceController;
+class LibraryController;
 class PictureController;
 class ProbeLabel;
 class RegistrationController;
@@ -94,6 +95,7 @@ private:
   void tellPanels();
   void fillCaseMenu();
   void raisePanel(const char* dock);
+  void showLibrary();
   void record(bool on);
   std::filesystem::path chooseRecording();
   void showRecording(const QString& fault);
@@ -129,6 +131,7 @@ private:
   BranchController* m_branches;
   RegistrationController* m_registration;
   SegmentController* m_segment;
+  LibraryController* m_library;
   std::vector<std::pair<PanelEntry, Panel*>> m_panels;
   ThicknessController* m_thickness;
   Bindings m_bound;

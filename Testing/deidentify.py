@@ -3,6 +3,7 @@ in nested and in private sequences.
 
 deidentify.py PETROUS TABLE.tsv FOLDER    prints one line for each wrong attribute; exit 1 if any"""
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -37,11 +38,16 @@ def plant(tag, n):
     return DataElement(tag, vr, text + ".%d" % n if vr == "UI" else text)
 
 
+def without_uids(written):
+    """What is left without the new UIDs, whose random digits may hold a plant by chance."""
+    return re.sub(rb"2\.25\.[0-9]{1,39}", b"2.25", written)
+
+
 def is_right(action, planted, found):
     """Whether the action of the table was done."""
     if found is None:
         return "X" in action
-    text = str(found)
+    text = without_uids(str(found).encode()).decode()
     if "PLANT" in text or "77125" in text or "19310517" in text or found == planted:
         return False
     if found.VR == "SQ":
@@ -96,7 +102,7 @@ def main(program, table, folder):
         subprocess.run([program, "deidentify", source, result, "--library", folder / "library"],
                        check=True, stdout=subprocess.DEVNULL)
         out = pydicom.dcmread(result)
-        written = result.read_bytes()
+        written = without_uids(result.read_bytes())
         for text in (b"PLANT", b"77125", b"19310517"):
             if text in written:
                 wrong += 1

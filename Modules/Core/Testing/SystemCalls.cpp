@@ -8,6 +8,7 @@
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/types.h>
 #include <unistd.h>
 
@@ -108,6 +109,11 @@ extern "C"
   {
     static const auto real = original<int (*)(const char*)>("unlink");
     return refused("unlink") ? -1 : real(path);
+  }
+  int flock(int file, int operation) noexcept
+  {
+    static const auto real = original<int (*)(int, int)>("flock");
+    return refused("flock") ? -1 : real(file, operation);
   }
   int ftruncate(int file, off_t length) noexcept
   {

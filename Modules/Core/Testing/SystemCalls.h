@@ -7,7 +7,7 @@ namespace petrous::testing
 
 /// Interposes the C library calls that change files between the test program (with all its
 /// libraries) and the C library: open for writing, write, fsync, fdatasync, rename, unlink,
-/// ftruncate. Not thread-safe.
+/// flock, ftruncate. Not thread-safe.
 class SystemCalls
 {
 public:

@@ -73,6 +73,12 @@ void throwOutputError(int error, const fs::path& path)
                           "cannot be written, a file stands where its folder should be");
   case EISDIR:
     throw OutputFileError(Reason::WrongPlace, path, "is a folder; name a file in it");
+  case ENOSYS:
+  case EOPNOTSUPP:
+    throw OutputFileError(
+        Reason::WrongPlace, path,
+        "cannot be written: this drive cannot replace a file in one step, as some "
+        "network drives; choose a folder on a local disk");
   case ENAMETOOLONG:
     throw OutputFileError(Reason::WrongPlace, path,
                           "cannot be written, the name is too long; shorten it");

@@ -55,6 +55,19 @@ void expectRoundTrip(std::optional<double> padding)
   EXPECT_EQ(folder.fileCount(), 1U);
 }
 
+// A mapping would end the program here.
+TEST(NrrdFile, ACopyOutlivesItsMedium)
+{
+  const TestFolder folder;
+  const std::shared_ptr<const volume::Volume<std::int16_t>> voxels =
+      ramp<std::int16_t>(obliqueGrid());
+  writeRawNrrd(folder / "a.nrrd", volume::IntensityVolume(voxels));
+  const auto copy = mapRawNrrd(folder / "a.nrrd", VoxelAccess::Copied);
+  std::filesystem::resize_file(folder / "a.nrrd", 0);
+  const auto& back = *std::get<std::shared_ptr<const volume::Volume<std::int16_t>>>(copy->voxels());
+  EXPECT_EQ(std::memcmp(back.data(), voxels->data(), voxels->bytes()), 0);
+}
+
 TEST(NrrdFile, RoundTripIsExactToTheBit)
 {
   expectRoundTrip<std::int16_t>(std::nullopt);

@@ -147,6 +147,36 @@ TEST(Crash, KilledAtEachStepOfADeletionLeavesNoStrokesToTheNextCase)
       });
 }
 
+// As network drives answer that have no locks, or cannot replace a file.
+TEST(Crash, ADriveWithoutLocksOrRenameIsNamed)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = test::savedCase(library, "ear", 16);
+  const auto before = contentOf(folder.path());
+  for (const auto& [call, error, words] :
+       {std::tuple("flock", ENOLCK, "locks"), std::tuple("flock", EOPNOTSUPP, "locks"),
+        std::tuple("rename", ENOSYS, "replace a file"),
+        std::tuple("rename", EOPNOTSUPP, "replace a file")})
+  {
+    drill(value, {8, 8, 8});
+    SystemCalls::fail(call, 1, error);
+    try
+    {
+      library.save(value);
+      ADD_FAILURE() << call << " " << error;
+    }
+    catch (const LibraryError& refusal)
+    {
+      EXPECT_NE(std::string(refusal.what()).find(words), std::string::npos) << refusal.what();
+      EXPECT_NE(std::string(refusal.what()).find("local disk"), std::string::npos)
+          << refusal.what();
+    }
+    SystemCalls::reset();
+    EXPECT_EQ(contentOf(folder.path()), before);
+  }
+}
+
 // After the rename of the manifest nothing may be rolled back.
 TEST(Crash, ASyncThatFailsNeverCostsAnObjectOfAPublishedManifest)
 {

@@ -106,7 +106,7 @@ public:
     ::dup2(out, 2);
     for (int n = 3; n < 256; ++n)
       ::close(n);
-    ::setenv("TCP_NODELAY", "1", 1); // read by DCMTK, on which Orthanc stands
+    ::setenv("TCP_NODELAY", "1", 0); // read by DCMTK, on which Orthanc stands
     ::execv(arguments.front(), arguments.data());
     ::_exit(127);
   }

@@ -323,15 +323,15 @@ TEST(GrowingFromSeeds, FindsTheBorderOfTwoTissuesInNoise)
   EXPECT_THROW(grownFromSeeds(noisy, emptyMask(grid), out), core::InvalidParameter);
 }
 
-// Where the image says nothing, the border lies half way between the strokes in millimetres along
-// the axes, whichever of them has the larger step.
+// Where the image says nothing, the border lies half way between the strokes in millimetres,
+// whichever axis has the larger step. Paths of 26 directions are up to 8 % longer than straight.
 TEST(GrowingFromSeeds, CountsMillimetresAndNotVoxels)
 {
   const Eigen::Matrix3d turn =
       (Eigen::AngleAxisd(0.4, Vector3d::UnitZ()) * Eigen::AngleAxisd(0.3, Vector3d::UnitX()))
           .toRotationMatrix();
   // Rods along x, one inside, one beside 6 mm along `axis` and 3 mm along the other one. How far
-  // along `axis` the structure reaches, mm: 4.5, as 4.5 = (6 - 4.5) + 3.
+  // along `axis` the structure reaches, mm: 3.75, as 3.75^2 = (6 - 3.75)^2 + 3^2.
   const auto reachOn = [](const core::GridGeometry& grid, Eigen::Index axis)
   {
     const auto rod = [&grid](const Vector3d& offset)
@@ -367,7 +367,7 @@ TEST(GrowingFromSeeds, CountsMillimetresAndNotVoxels)
         const double reach = reachOn(grid, axis);
         EXPECT_NEAR(reach, reachOn(fine, axis), spacing[axis])
             << "axis " << axis << ", coarse " << coarse << ", turned " << turned;
-        EXPECT_NEAR(reach, 4.5, spacing[axis]) << axis;
+        EXPECT_NEAR(reach, 3.75, 0.08 * 3.75 + 0.5 * spacing[axis]) << axis;
       }
     }
 }

@@ -56,6 +56,26 @@ IntensityScale scaleOf(const std::vector<double>& values, double gain = 1.0, dou
       IntensityHistogram(volume::IntensityVolume(std::shared_ptr<const volume::Volume<T>>(v))));
 }
 
+// Magnitude images of a head: air and cortical bone have no signal, so that their noise is Rayleigh
+// distributed; muscle or brain lies at the patient's surface, the rest is fluid, fat and lesions.
+struct MrHead
+{
+  const char* sequence;
+  double noise;
+  double emptyShare;
+  Tissue tissue;
+  std::vector<Tissue> rest;
+};
+
+std::vector<double> drawMagnitude(const std::vector<Tissue>& tissues, double noise, Random& random)
+{
+  std::vector<double> values = draw(tissues, noise, random);
+  std::normal_distribution<double> imaginary(0.0, noise);
+  for (double& value : values)
+    value = std::hypot(value, imaginary(random));
+  return values;
+}
+
 void expectHounsfield(const IntensityScale& scale)
 {
   EXPECT_TRUE(scale.calibrated);
@@ -177,4 +197,51 @@ TEST(IntensityScale, StaysSaneWhereThereIsNoBone)
     EXPECT_TRUE(std::isfinite(scale.dense));
   }
   expectHounsfield(scaleOf<float>({std::nan(""), std::nan("")}));
+}
+
+TEST(IntensityScale, PartsThePatientFromAirInAnyMrContrast)
+{
+  // In scanner units, with the order of signals that each sequence gives.
+  const std::vector<MrHead> heads = {
+      {"T1, bright fat", 8, 0.55, {0.25, 170, 260}, {{0.10, 60, 90}, {0.10, 500, 700}}},
+      {"T1 with contrast agent", 8, 0.60, {0.33, 170, 260}, {{0.05, 60, 90}, {0.02, 900, 1300}}},
+      {"T2", 10, 0.50, {0.35, 120, 220}, {{0.05, 300, 420}, {0.10, 650, 900}}},
+      {"FIESTA, bright fluid", 12, 0.60, {0.33, 130, 220}, {{0.07, 800, 1100}}},
+      {"FIESTA of a region, little air", 12, 0.22, {0.68, 130, 220}, {{0.10, 800, 1100}}},
+      {"DWI, bright cholesteatoma", 15, 0.70, {0.297, 110, 190}, {{0.003, 500, 700}}},
+      {"proton density", 6, 0.45, {0.55, 280, 420}, {}},
+      {"FLAIR, dark fluid", 8, 0.55, {0.36, 180, 300}, {{0.04, 20, 50}, {0.05, 350, 450}}},
+  };
+  Random random(11);
+  for (const MrHead& head : heads)
+    for (const double gain : {0.02, 1.0, 30.0})
+    {
+      const auto empty = drawMagnitude({{head.emptyShare, 0, 0}}, head.noise, random);
+      const auto tissue = drawMagnitude({head.tissue}, head.noise, random);
+      const auto rest = drawMagnitude(head.rest, head.noise, random);
+      std::vector<float> values;
+      for (const auto* part : {&empty, &tissue, &rest})
+        for (const double value : *part)
+          values.push_back(static_cast<float>(gain * value));
+      const core::GridGeometry grid({static_cast<int>(values.size()), 1, 1},
+                                    Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero());
+      auto v = std::make_shared<volume::Volume<float>>(grid);
+      std::copy(values.begin(), values.end(), v->data());
+      const IntensityScale scale = volume::suggestMrScale(IntensityHistogram(
+          volume::IntensityVolume(std::shared_ptr<const volume::Volume<float>>(v))));
+      const auto above = [&](const std::vector<double>& part)
+      {
+        return static_cast<double>(std::count_if(part.begin(), part.end(),
+                                                 [&](double value)
+                                                 { return gain * value >= scale.iso; })) /
+               static_cast<double>(part.size());
+      };
+      EXPECT_FALSE(scale.calibrated);
+      EXPECT_LT(above(empty), 0.002) << head.sequence << ", gain " << gain << ", iso " << scale.iso;
+      EXPECT_GT(above(tissue), 0.98) << head.sequence << ", gain " << gain << ", iso " << scale.iso;
+      // A blurred edge is where it was at half of the signal beside it.
+      const double signal = gain * 0.5 * (head.tissue.low + head.tissue.high);
+      EXPECT_NEAR(scale.iso, 0.5 * signal, 0.2 * signal) << head.sequence << ", gain " << gain;
+      EXPECT_GT(scale.dense, scale.iso) << head.sequence;
+    }
 }

@@ -299,9 +299,22 @@ bool decodeRle(const std::vector<char>& stream, std::size_t bytes,
   return true;
 }
 
+/// The scan reports what is wrong with such slices in better words, and excludes them. GDCM's
+/// assertions would end the program.
+void requireWholePixels(const SliceHeader& slice)
+{
+  const PixelFormat& format = slice.pixels;
+  const int bits = format.bitsAllocated;
+  if ((bits != 8 && bits != 16 && bits != 32) || format.bitsStored < 1 ||
+      format.bitsStored > bits || format.highBit >= bits ||
+      format.highBit < format.bitsStored - 1 || format.samplesPerPixel != 1)
+    fail(slice, "does not have one pixel value of 1, 2 or 4 bytes");
+}
+
 void decodeFrame(ByteSource& source, const SliceHeader& slice,
                  const std::vector<Fragment>& fragments, StoredPixels& pixels)
 {
+  requireWholePixels(slice);
   pixels.values.resize(static_cast<std::size_t>(slice.rows) *
                        static_cast<std::size_t>(slice.columns));
   const CodecMessages messages;
@@ -370,6 +383,7 @@ namespace
 
 void decodeUnchecked(ByteSource& source, const SliceHeader& slice, StoredPixels& pixels)
 {
+  requireWholePixels(slice);
   const PixelFormat& format = slice.pixels;
   pixels.values.resize(static_cast<std::size_t>(slice.rows) *
                        static_cast<std::size_t>(slice.columns));

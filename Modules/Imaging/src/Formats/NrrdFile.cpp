@@ -7,14 +7,17 @@
 #include <vector>
 
 #include <fcntl.h>
+#include <linux/magic.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
 #include "FileHelpers.h"
 #include "NrrdHeader.h"
 #include "OutputFile.h"
 #include "VoxelWriter.h"
+#include "petrous/Core/SystemMemory.h"
 
 namespace petrous::imaging
 {
@@ -118,21 +121,70 @@ core::GridGeometry exactGeometry(const std::filesystem::path& path, const NrrdHe
   }
 }
 
-/// Maps the file; unmapped with the last volume that uses it.
-std::shared_ptr<char> mapFile(const std::filesystem::path& path, std::size_t size)
+/// Whether the file system is of a kind whose medium or server is taken away while files are open.
+bool mayVanish(int file)
+{
+  struct statfs system = {};
+  if (fstatfs(file, &system) != 0)
+    return true;
+  switch (static_cast<std::uint32_t>(system.f_type))
+  {
+  case NFS_SUPER_MAGIC:
+  case SMB_SUPER_MAGIC:
+  case CIFS_SUPER_MAGIC:
+  case SMB2_SUPER_MAGIC:
+  case CEPH_SUPER_MAGIC:
+  case AFS_SUPER_MAGIC:
+  case V9FS_MAGIC:
+  case FUSE_SUPER_MAGIC: // NTFS by ntfs-3g, sshfs
+  case MSDOS_SUPER_MAGIC:
+  case EXFAT_SUPER_MAGIC:
+  case ISOFS_SUPER_MAGIC:
+  case UDF_SUPER_MAGIC:
+    return true;
+  default:
+    return false;
+  }
+}
+
+/// The file's bytes, from a page onwards; released with the last volume that uses them.
+std::shared_ptr<char> openBytes(const std::filesystem::path& path, std::size_t size,
+                                VoxelAccess access)
 {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0)
     fail(FileError::Reason::Unreadable, path, "may not be opened; allow reading it");
+  const std::shared_ptr<const int> closing(&file, [](const int* open) { close(*open); });
   struct stat now = {};
   const bool asChecked = fstat(file, &now) == 0 && static_cast<std::size_t>(now.st_size) == size;
-  void* start = asChecked ? mmap(nullptr, size, PROT_READ, MAP_SHARED, file, 0) : MAP_FAILED;
-  close(file);
+  const bool isCopied =
+      access == VoxelAccess::Copied || (access == VoxelAccess::Automatic && mayVanish(file) &&
+                                        size <= core::systemMemory().available);
+  void* start = MAP_FAILED;
+  if (asChecked)
+    start = isCopied
+                ? mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0)
+                : mmap(nullptr, size, PROT_READ, MAP_SHARED, file, 0);
   if (start == MAP_FAILED)
     fail(FileError::Reason::Unreadable, path,
          "cannot be mapped into memory; close other cases or programs");
-  madvise(start, size, MADV_WILLNEED);
-  return {static_cast<char*>(start), [size](char* p) { munmap(p, size); }};
+  std::shared_ptr<char> bytes(static_cast<char*>(start), [size](char* p) { munmap(p, size); });
+  if (!isCopied)
+  {
+    madvise(start, size, MADV_WILLNEED);
+    return bytes;
+  }
+  for (std::size_t done = 0; done < size;)
+  {
+    const ssize_t got = pread(file, bytes.get() + done, size - done, static_cast<off_t>(done));
+    if (got < 0 && errno == EINTR)
+      continue;
+    if (got <= 0)
+      fail(FileError::Reason::Unreadable, path,
+           "could not be read: the disk or medium was removed or reports an error");
+    done += static_cast<std::size_t>(got);
+  }
+  return bytes;
 }
 
 template <class T>
@@ -165,7 +217,8 @@ void writeRawNrrd(const std::filesystem::path& path, const volume::Volume<std::u
            progress);
 }
 
-std::shared_ptr<const volume::IntensityVolume> mapRawNrrd(const std::filesystem::path& path)
+std::shared_ptr<const volume::IntensityVolume> mapRawNrrd(const std::filesystem::path& path,
+                                                          VoxelAccess access)
 {
   const NrrdHeader header = readNrrdHeader(path);
   const std::pair<const char*, const char*> fixed[] = {{"dimension", "3"},
@@ -207,7 +260,7 @@ std::shared_ptr<const volume::IntensityVolume> mapRawNrrd(const std::filesystem:
   if (header.key(kPaddingKey))
     padding = numbers<1>(path, header.key(kPaddingKey), kPaddingKey)[0];
 
-  const std::shared_ptr<char> map = mapFile(path, static_cast<std::size_t>(size));
+  const std::shared_ptr<char> map = openBytes(path, static_cast<std::size_t>(size), access);
   auto voxels = type == "float"   ? adopt<float>(geometry, map, header.dataOffset)
                 : type == "short" ? adopt<std::int16_t>(geometry, map, header.dataOffset)
                                   : adopt<std::uint16_t>(geometry, map, header.dataOffset);

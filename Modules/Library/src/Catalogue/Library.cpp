@@ -494,7 +494,7 @@ std::string saltedFrame(const Library& library, const std::string& frameOfRefere
   if (fs::exists(library.folder() / "salt", error))
     return withSalt(frameOfReference, library.folder());
   makeFolder(library.folder());
-  const FolderLock lock(library.folder() / ".lock");
+  const core::FileLock lock = lockFolder(library.folder());
   return withSalt(frameOfReference, library.folder());
 }
 
@@ -513,7 +513,7 @@ void Library::saveWith(scene::Case& value,
   scene::checkCaseName(value.name);
   makeFolder(m_folder / "cases");
   makeFolder(objectFolder());
-  const FolderLock lock(m_folder / ".lock");
+  const core::FileLock lock = lockFolder(m_folder);
 
   const fs::path path = manifestPath(value.name);
   const bool there = contains(value.name);

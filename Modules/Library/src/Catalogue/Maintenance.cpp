@@ -101,7 +101,7 @@ void Library::rename(const std::string& from, const std::string& to)
       return true;
     }
   }();
-  const FolderLock lock(m_folder / ".lock");
+  const core::FileLock lock = lockFolder(m_folder);
   refuseWhereDrilled(from);
   refuseWhereUnrecovered(m_folder, from);
   checkedManifestPath(from);
@@ -145,7 +145,7 @@ void Library::remove(const std::string& name)
 {
   scene::checkCaseName(name);
   const fs::path path = checkedManifestPath(name);
-  const FolderLock lock(m_folder / ".lock");
+  const core::FileLock lock = lockFolder(m_folder);
   refuseWhereDrilled(name);
   std::error_code error;
   if (fs::is_directory(fs::symlink_status(path, error)))
@@ -183,7 +183,7 @@ void Library::undelete(const std::string& name)
   scene::checkCaseName(name);
   if (!fs::is_directory(m_folder / "cases"))
     throw LibraryError(Reason::NotFound, "no case '" + name + "' was deleted here");
-  const FolderLock lock(m_folder / ".lock");
+  const core::FileLock lock = lockFolder(m_folder);
   const std::vector<DeletedFile> files = deletedIn(m_folder / "cases");
   const auto file = std::find_if(files.begin(), files.end(),
                                  [&name](const DeletedFile& one) { return one.name == name; });
@@ -293,7 +293,7 @@ Collected Library::collectGarbage()
   if (namesIn(m_folder / "cases").empty() && deletedIn(m_folder / "cases").empty() &&
       ObjectStore(objectFolder()).list().empty())
     return result;
-  const FolderLock lock(m_folder / ".lock");
+  const core::FileLock lock = lockFolder(m_folder);
   std::set<std::string> used;
   for (const std::string& name : namesIn(m_folder / "cases"))
     try
@@ -347,7 +347,7 @@ std::vector<std::string> Library::repair()
     }
   if (names.empty())
     return done;
-  const FolderLock lock(m_folder / ".lock");
+  const core::FileLock lock = lockFolder(m_folder);
   removeLeftovers(objectFolder());
   removeLeftovers(m_folder / "cases");
   for (const char* ending : {"", "-journal", "-wal", "-shm"})

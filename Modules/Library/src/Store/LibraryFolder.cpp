@@ -4,8 +4,6 @@
 #include <cstdio>
 #include <vector>
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 namespace petrous::library
@@ -102,23 +100,16 @@ void removeLeftovers(const fs::path& folder) noexcept
   }
 }
 
-FolderLock::FolderLock(const fs::path& file)
-  : m_descriptor(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666))
+core::FileLock lockFolder(const fs::path& library)
 {
-  if (m_descriptor < 0)
-    throwForErrno(errno, file);
-  while (::flock(m_descriptor, LOCK_EX) != 0)
-    if (errno != EINTR)
-    {
-      const int error = errno;
-      ::close(m_descriptor);
-      throwForErrno(error, file);
-    }
-}
-
-FolderLock::~FolderLock()
-{
-  ::close(m_descriptor);
+  try
+  {
+    return core::FileLock(library / ".lock");
+  }
+  catch (const core::OutputFileError& error)
+  {
+    throw libraryError(error);
+  }
 }
 
 } // namespace petrous::library

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "petrous/Core/FileLock.h"
 #include "petrous/Core/InputFile.h"
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Library/LibraryError.h"
@@ -27,17 +28,7 @@ void makeFolder(const std::filesystem::path& path);
 /// Removes leftovers of killed writers. Only while no other process writes there.
 void removeLeftovers(const std::filesystem::path& folder) noexcept;
 
-/// Exclusive inter-process lock during its lifetime; waits for it. Throws LibraryError.
-class FolderLock
-{
-public:
-  explicit FolderLock(const std::filesystem::path& file);
-  ~FolderLock();
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
-private:
-  int m_descriptor;
-};
+/// The lock that every writer of the library holds. Throws LibraryError.
+core::FileLock lockFolder(const std::filesystem::path& library);
 
 } // namespace petrous::library

@@ -1,14 +1,10 @@
 #include "petrous/Network/NodeList.h"
 
 #include <algorithm>
-#include <cerrno>
-
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
+#include "petrous/Core/FileLock.h"
 #include "petrous/Core/InputFile.h"
 #include "petrous/Core/OutputFile.h"
 
@@ -93,29 +89,13 @@ void writeNodes(const fs::path& library, std::vector<Node>& nodes)
                   json{{"format", kFormat}, {"nodes", std::move(list)}}.dump(2) + "\n");
 }
 
-/// Exclusive between processes, for reading and writing the list.
-class ListLock
+/// For reading and writing the list.
+core::FileLock lockList(const fs::path& library)
 {
-public:
-  explicit ListLock(const fs::path& library)
-  {
-    std::error_code fault;
-    fs::create_directories(library, fault);
-    const fs::path file = library / ".nodes.lock";
-    m_descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-    if (m_descriptor < 0)
-      core::throwOutputError(errno, file);
-    while (::flock(m_descriptor, LOCK_EX) != 0 && errno == EINTR)
-    {
-    }
-  }
-  ~ListLock() { ::close(m_descriptor); }
-  ListLock(const ListLock&) = delete;
-  ListLock& operator=(const ListLock&) = delete;
-
-private:
-  int m_descriptor = -1;
-};
+  std::error_code fault;
+  fs::create_directories(library, fault);
+  return core::FileLock(library / ".nodes.lock");
+}
 
 auto named(const std::string& name)
 {
@@ -151,7 +131,7 @@ const Node& NodeList::at(const std::string& name) const
 void NodeList::add(const Node& node)
 {
   checkNode(node);
-  const ListLock lock(m_library);
+  const core::FileLock lock = lockList(m_library);
   std::vector<Node> nodes = readNodes(m_library);
   if (std::any_of(nodes.begin(), nodes.end(), named(node.name)))
     throw core::InvalidParameter("a DICOM node '" + node.name +
@@ -163,7 +143,7 @@ void NodeList::add(const Node& node)
 
 void NodeList::remove(const std::string& name)
 {
-  const ListLock lock(m_library);
+  const core::FileLock lock = lockList(m_library);
   std::vector<Node> nodes = readNodes(m_library);
   const auto found = std::find_if(nodes.begin(), nodes.end(), named(name));
   if (found == nodes.end())

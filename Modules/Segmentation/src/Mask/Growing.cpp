@@ -239,16 +239,34 @@ Mask grownFromSeeds(const volume::IntensityVolume& image, const Mask& inside, co
   constexpr double kLevelsPerMm = 2.0;
   constexpr std::uint32_t kPerLevel = 32;
   constexpr double kLongestStep = 64.0; // levels
-  std::array<std::uint32_t, 3> lengths{};
-  for (std::size_t a = 0; a < 3; ++a)
-    lengths[a] = std::max(
-        std::uint32_t{1},
-        static_cast<std::uint32_t>(std::lround(
-            kPerLevel *
-            std::min(kLevelsPerMm * grid.spacing()[static_cast<Eigen::Index>(a)], kLongestStep))));
+  struct Step
+  {
+    core::Index3 offset;
+    std::ptrdiff_t places;
+    std::uint32_t cost;
+  };
+  std::vector<Step> neighbors;
+  std::uint32_t longest = 0;
+  for (int n = 0; n < 27; ++n)
+  {
+    const core::Index3 offset{n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
+    if (offset == core::Index3{0, 0, 0})
+      continue;
+    std::ptrdiff_t places = 0;
+    double squares = 0.0;
+    for (std::size_t a = 0; a < 3; ++a)
+    {
+      places += offset[a] * static_cast<std::ptrdiff_t>(steps[a]);
+      squares += std::pow(offset[a] * grid.spacing()[static_cast<Eigen::Index>(a)], 2);
+    }
+    const double levelsLong = std::min(kLevelsPerMm * std::sqrt(squares), kLongestStep);
+    const auto cost =
+        std::max(std::uint32_t{1}, static_cast<std::uint32_t>(std::lround(kPerLevel * levelsLong)));
+    neighbors.push_back({offset, places, cost});
+    longest = std::max(longest, cost);
+  }
   constexpr std::uint32_t kFar = 0xffffffffU;
-  const std::uint32_t ringSize =
-      255 * kPerLevel + *std::max_element(lengths.begin(), lengths.end()) + 1;
+  const std::uint32_t ringSize = 255 * kPerLevel + longest + 1;
   std::vector<std::uint32_t> costs(count, kFar);
   std::vector<std::uint8_t> owner(count, 0); // 1: inside, 2: outside
   std::vector<std::vector<std::uint32_t>> ring(ringSize);
@@ -292,24 +310,28 @@ Mask grownFromSeeds(const volume::IntensityVolume& image, const Mask& inside, co
       const core::Index3 place{static_cast<int>(at % steps[1]),
                                static_cast<int>(at % steps[2] / steps[1]),
                                static_cast<int>(at / steps[2])};
+      bool inner = true; // so that no neighbour need be checked
       for (std::size_t a = 0; a < 3; ++a)
-        for (const int direction : {-1, 1})
+        inner = inner && place[a] > 0 && place[a] + 1 < size[a];
+      for (const Step& step : neighbors)
+      {
+        bool within = true;
+        for (std::size_t a = 0; !inner && a < 3; ++a)
+          within = within && place[a] + step.offset[a] >= 0 && place[a] + step.offset[a] < size[a];
+        if (!within)
+          continue;
+        const auto to = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(at) + step.places);
+        const auto change = static_cast<std::uint32_t>(
+            std::abs(static_cast<int>(levels[at]) - static_cast<int>(levels[to])));
+        const std::uint32_t total = cost + step.cost + kPerLevel * change;
+        if (total < costs[to])
         {
-          const int next = place[a] + direction;
-          if (next < 0 || next >= size[a])
-            continue;
-          const std::size_t to = direction > 0 ? at + steps[a] : at - steps[a];
-          const auto change = static_cast<std::uint32_t>(
-              std::abs(static_cast<int>(levels[at]) - static_cast<int>(levels[to])));
-          const std::uint32_t total = cost + lengths[a] + kPerLevel * change;
-          if (total < costs[to])
-          {
-            costs[to] = total;
-            owner[to] = owner[at];
-            ring[total % ringSize].push_back(static_cast<std::uint32_t>(to));
-            ++waiting;
-          }
+          costs[to] = total;
+          owner[to] = owner[at];
+          ring[total % ringSize].push_back(static_cast<std::uint32_t>(to));
+          ++waiting;
         }
+      }
     }
     bucket.clear();
   }

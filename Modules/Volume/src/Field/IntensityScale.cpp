@@ -321,10 +321,12 @@ IntensityScale suggestMrScale(const IntensityHistogram& histogram)
     return {0.0, 1.0, false};
   const Density density(histogram, false);
   const Moments moments(density.counts);
-  const std::size_t first = threeClasses(moments, density.counts.size())[0];
+  const auto [first, second] = threeClasses(moments, density.counts.size());
   IntensityScale scale;
   scale.calibrated = false;
-  scale.iso = density.value(static_cast<double>(first) - 0.5);
+  // A threshold anywhere between two classes parts them, but only half of the step leaves a blurred
+  // edge in its place.
+  scale.iso = density.value(0.5 * (moments.mean(0, first) + moments.mean(first, second)));
   placeDense(histogram, -std::numeric_limits<double>::infinity(), scale);
   return scale;
 }

@@ -20,9 +20,18 @@ void writeRawNrrd(const std::filesystem::path& path, const volume::IntensityVolu
 void writeRawNrrd(const std::filesystem::path& path, const volume::Volume<std::uint16_t>& volume,
                   const core::Progress& progress = {});
 
-/// Maps a file written by writeRawNrrd: voxels are read from disk when accessed, and the mapping
-/// lives as long as the volume. The file must not be truncated meanwhile. Throws FileError if the
-/// header is from another writer or the size is not exact.
-std::shared_ptr<const volume::IntensityVolume> mapRawNrrd(const std::filesystem::path& path);
+enum class VoxelAccess
+{
+  Automatic, ///< Copied from network and user-space file systems and those of removable media,
+             ///< where memory allows
+  Mapped,    ///< read from disk when accessed; a page that cannot be read then ends the program
+  Copied     ///< read whole; unplugging the medium afterwards changes nothing
+};
+
+/// Opens a file written by writeRawNrrd. A mapping lives as long as the volume; its file must not
+/// be truncated meanwhile. Throws FileError if the header is from another writer, the size is not
+/// exact or the voxels cannot be read.
+std::shared_ptr<const volume::IntensityVolume>
+mapRawNrrd(const std::filesystem::path& path, VoxelAccess access = VoxelAccess::Automatic);
 
 } // namespace petrous::imaging

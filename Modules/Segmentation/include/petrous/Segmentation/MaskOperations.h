@@ -70,11 +70,12 @@ Mask combined(const Mask& a, const Mask& b, Combination how);
 Mask filledBetweenSlices(const Mask& mask, int axis, const core::Progress& progress = {});
 
 /// Every voxel of `box` becomes part of the seeds that reach it by the path of least cost: the
-/// total change of intensity, in 1/255 of the range in the box, and 2 a millimetre along the grid's
-/// axes, so that anisotropic voxels do not favour their long side; `inside` and `outside` are
-/// voxels drawn in what is to be segmented and beside it [grow-cut as shortest paths: Zhu et al.
-/// 2014, doi 10.1117/12.2043742]. Empty box: the seeds' with a quarter of its size on each side.
-/// Throws without seeds of both kinds, and above kMostGrowVoxels.
+/// total change of intensity, in 1/255 of the range in the box, and 2 a millimetre, over steps to
+/// the 26 neighbours, so that anisotropic voxels do not favour their long side, nor diagonals
+/// themselves; `inside` and `outside` are voxels drawn in what is to be segmented and beside it
+/// [grow-cut as shortest paths: Zhu et al. 2014, doi 10.1117/12.2043742]. Empty box: the seeds'
+/// with a quarter of its size on each side. Throws without seeds of both kinds, and above
+/// kMostGrowVoxels.
 constexpr std::size_t kMostGrowVoxels = 64'000'000;
 Mask grownFromSeeds(const volume::IntensityVolume& image, const Mask& inside, const Mask& outside,
                     const core::IndexBox& box = {}, const core::Progress& progress = {});

@@ -27,10 +27,10 @@ struct IntensityScale
 /// Without voxels: 300 and 1800, calibrated. Never throws; all values are finite.
 IntensityScale suggestScale(const IntensityHistogram& histogram);
 
-/// The surface of the patient in an MR, which shows cortical bone as dark as air: iso is the lower
-/// of Otsu's two thresholds for three classes (air and bone, tissue, bright fluid or fat), dense
-/// the 99th percentile above it. Never calibrated. Without voxels: iso 0, dense 1. Never throws;
-/// all values are finite, and dense is above iso.
+/// The surface of the patient in an MR, which shows cortical bone as dark as air: of the three
+/// classes of Otsu's two thresholds (air and bone, tissue, bright fluid or fat), iso is the
+/// midpoint of the means of the lower two, dense the 99th percentile above it. Never calibrated.
+/// Without voxels: iso 0, dense 1. Never throws; all values are finite, and dense is above iso.
 IntensityScale suggestMrScale(const IntensityHistogram& histogram);
 
 } // namespace petrous::volume

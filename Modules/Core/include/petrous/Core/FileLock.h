@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+
+namespace petrous::core
+{
+
+/// Exclusive lock between processes during its lifetime (flock), on a file that is made if it is
+/// missing and stays. Waits for it. Throws OutputFileError, also where the file system has no
+/// locks, as some network drives: two programs would overwrite each other there.
+class FileLock
+{
+public:
+  explicit FileLock(const std::filesystem::path& file);
+  ~FileLock();
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+
+private:
+  int m_descriptor;
+};
+
+} // namespace petrous::core

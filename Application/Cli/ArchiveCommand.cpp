@@ -12,7 +12,7 @@ struct ArchiveCommandOptions
 {
   std::string caseName, file;
   int level = library::ArchiveOptions{}.level;
-  bool planOnly = false, keepIdentity = false;
+  bool planOnly = false, keepIdentity = false, withoutNotes = false;
 };
 
 struct RestoreCommandOptions
@@ -29,11 +29,12 @@ void archive(const Context& context, const ArchiveCommandOptions& options)
 {
   context.refuseOverwriting({options.file});
   const library::Library library = context.openLibrary();
-  const library::ArchiveSummary done =
-      library::archiveCase(library, options.caseName, options.file,
-                           {options.planOnly, options.level}, context.progress());
-  if (options.keepIdentity)
-    context.warn("--keep-identity: a case holds no identity that an archive could keep");
+  const library::ArchiveSummary done = library::archiveCase(
+      library, options.caseName, options.file,
+      {options.planOnly, options.level, options.withoutNotes, options.keepIdentity},
+      context.progress());
+  for (const std::string& note : done.notes)
+    context.warn(note);
   if (!done.durable)
     context.warn(options.file + ": is written, but the disk reported an error; check the disk");
   context.print((done.planOnly ? "the plan of case '" : "case '") + done.name + "' is in " +
@@ -45,7 +46,8 @@ void archive(const Context& context, const ArchiveCommandOptions& options)
                      {"parts", done.parts},
                      {"input_bytes", done.inputBytes},
                      {"bytes", done.archiveBytes},
-                     {"plan_only", done.planOnly}});
+                     {"plan_only", done.planOnly},
+                     {"notes", done.notes}});
 }
 
 void restore(const Context& context, const RestoreCommandOptions& options)
@@ -77,7 +79,9 @@ void addArchiveCommands(CLI::App& app, Context& context)
   command->add_flag("--plan-only", out->planOnly,
                     "Strokes, views and appearance without voxels; restored where the same CT is");
   command->add_flag("--keep-identity", out->keepIdentity,
-                    "Keep what identifies the patient (a case holds nothing of the kind)");
+                    "Keep what may identify the patient: the date of the planned operation");
+  command->add_flag("--without-notes", out->withoutNotes,
+                    "Leave out the note of the description, which else goes along as it is");
   command->add_option("--level", out->level, "Compression of images, 1 (fast) to 12 (small)")
       ->check(CLI::Range(1, 12))
       ->capture_default_str();

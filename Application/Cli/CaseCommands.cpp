@@ -100,6 +100,10 @@ std::string sizeText(const core::GridGeometry& grid)
 void printCase(const Context& context, const scene::Case& value)
 {
   context.print("case '" + value.name + "'");
+  if (const std::string line = descriptionLine(value.description); !line.empty())
+    context.print("  " + line);
+  if (!value.description.note.empty())
+    context.print(indented(value.description.note));
   const presenters::IntensityDisplay display = presenters::displayOf(value);
   const bool isMr = value.ct.modality == scene::Modality::Mr;
   context.print((isMr ? "  MR as primary image " : "  CT ") + sizeText(value.ct.geometry) + ", " +

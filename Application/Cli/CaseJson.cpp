@@ -114,6 +114,47 @@ void addPlace(json& part, const scene::Placement& place)
 
 } // namespace
 
+json descriptionJson(const scene::Description& description)
+{
+  return {{"note", description.note},
+          {"tags", description.tags},
+          {"diagnosis", description.diagnosis},
+          {"procedure", description.procedure},
+          {"side", scene::nameOf(description.side)},
+          {"date", description.date.empty() ? json() : json(description.date)}};
+}
+
+std::string indented(const std::string& note)
+{
+  std::string text = "  | ";
+  const std::size_t end = note.find_last_not_of('\n') + 1;
+  for (std::size_t n = 0; n < end; ++n)
+    text += note[n] == '\n' ? std::string("\n  | ") : std::string(1, note[n]);
+  return text;
+}
+
+std::string descriptionLine(const scene::Description& description)
+{
+  std::string line;
+  const auto add = [&line](const std::string& text)
+  {
+    if (!text.empty())
+      line += (line.empty() ? "" : "; ") + text;
+  };
+  add(description.diagnosis);
+  add(description.procedure);
+  if (description.side != scene::Side::Unknown)
+    add(description.side == scene::Side::Both ? std::string("both sides")
+                                              : std::string(scene::nameOf(description.side)));
+  if (!description.date.empty())
+    add("planned for " + description.date);
+  std::string tags;
+  for (const std::string& tag : description.tags)
+    tags += (tags.empty() ? "tags " : ", ") + tag;
+  add(tags);
+  return line;
+}
+
 json infoJson(const scene::Case& value)
 {
   json ct = gridJson(value.ct.geometry);
@@ -165,6 +206,7 @@ json infoJson(const scene::Case& value)
                    : value.ct.modality == scene::Modality::Ct ? json("CT")
                                                               : json(nullptr);
   return {{"case", value.name},
+          {"description", descriptionJson(value.description)},
           {"iso_hu", value.iso},
           {"dense_bone_hu", value.denseBone},
           {"hounsfield", presenters::calibratedScale(value).calibrated},

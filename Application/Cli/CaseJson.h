@@ -33,6 +33,15 @@ nlohmann::json transformJson(const core::RigidTransform& transform);
 /// How an MR was registered to the CT; null if it is not.
 nlohmann::json registrationJson(const scene::ImagePart& mr);
 
+/// note, tags, diagnosis, procedure, side, date; text that is not given is "", the date null.
+nlohmann::json descriptionJson(const scene::Description& description);
+
+/// A note for the terminal, its lines indented.
+std::string indented(const std::string& note);
+
+/// A line, without the note; empty if there is nothing to say.
+std::string descriptionLine(const scene::Description& description);
+
 /// Output of `petrous info`.
 nlohmann::json infoJson(const scene::Case& value);
 

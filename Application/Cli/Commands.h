@@ -8,8 +8,9 @@ namespace petrous::cli
 // Each adds its subcommands to the program; the context must outlive the parse.
 void addSampleCommand(CLI::App& app, Context& context);
 void addScanCommand(CLI::App& app, Context& context);
-void addCaseCommands(CLI::App& app, Context& context);       ///< new, add, remove, info
-void addArchiveCommands(CLI::App& app, Context& context);    ///< archive, restore
+void addCaseCommands(CLI::App& app, Context& context);    ///< new, add, remove, info
+void addArchiveCommands(CLI::App& app, Context& context); ///< archive, restore
+void addDescribeCommand(CLI::App& app, Context& context);
 void addDeidentifyCommands(CLI::App& app, Context& context); ///< deidentify, pseudonyms
 void addLibraryCommand(CLI::App& app, Context& context);
 void addNodeCommands(CLI::App& app, Context& context); ///< nodes, send, receive

@@ -164,8 +164,8 @@ bool isOfLibrary(const fs::path& file, const fs::path& library)
 {
   const fs::path below = resolved(file).lexically_relative(resolved(library));
   const std::string first = below.empty() ? "" : below.begin()->string();
-  for (const char* own :
-       {"cases", "objects", "derived", "salt", ".lock", "materials.json", "burrs.json"})
+  for (const char* own : {"cases", "objects", "thumbnails", "derived", "salt", ".lock",
+                          "materials.json", "burrs.json"})
     if (first == own)
       return true;
   return first.rfind("library.sqlite", 0) == 0;

@@ -1,3 +1,4 @@
+#include "CaseJson.h"
 #include "Commands.h"
 #include "Numbers.h"
 #include "petrous/Library/DerivedCache.h"
@@ -12,6 +13,8 @@ struct Options
 {
   std::string action;
   std::vector<std::string> names;
+  library::CaseFilter filter;
+  std::string side;
 };
 
 void printCases(const Context& context, const library::Library& library,
@@ -26,16 +29,41 @@ void printCases(const Context& context, const library::Library& library,
                      {"structures", summary.structures},
                      {"strokes", summary.strokes},
                      {"removed_mm3", summary.removed},
-                     {"damaged", summary.damaged}});
+                     {"damaged", summary.damaged},
+                     {"has_note", summary.hasNote},
+                     {"thumbnail", summary.hasThumbnail}});
+    nlohmann::json description = descriptionJson(summary.description);
+    description.erase("note");
+    cases.back().update(description);
+    const std::string line = descriptionLine(summary.description);
     context.print(summary.name + "  " + summary.modified + "  " +
                   (summary.damaged ? "damaged: its manifest cannot be read"
                                    : std::to_string(summary.structures) + " structures, " +
                                          std::to_string(summary.strokes) + " strokes, " +
-                                         fixed(summary.removed, 1) + " mm3 removed"));
+                                         fixed(summary.removed, 1) + " mm3 removed") +
+                  (line.empty() ? "" : "  " + line));
   }
   if (cases.empty())
     context.print("no case in " + library.folder().string());
   context.printJson({{"library", library.folder().string()}, {"cases", std::move(cases)}});
+}
+
+void find(const Context& context, const library::Library& library, const Options& options)
+{
+  library::CaseFilter filter = options.filter;
+  for (const auto& [option, date] : {std::pair{"--from", filter.from}, {"--to", filter.to}})
+    if (!date.empty() && !scene::isDate(date))
+      throw UsageError(std::string(option) + ": give a day as YYYY-MM-DD, not '" + date + "'");
+  if (!filter.to.empty() && filter.from > filter.to)
+    throw UsageError("--from is later than --to");
+  if (!options.side.empty())
+    filter.side = scene::sideFromName(options.side);
+  if (!options.names.empty())
+    filter.text = options.names[0];
+  if (filter.inNotes && filter.text.empty())
+    throw UsageError("--notes: give the text to be found in them, 'petrous library search TEXT "
+                     "--notes'");
+  printCases(context, library, library.search(filter));
 }
 
 void verify(const Context& context, const library::Library& library)
@@ -93,15 +121,24 @@ void run(const Context& context, const Options& options)
       throw UsageError("library " + action + ": give 'petrous library " + form + "'");
   };
   library::Library library = context.openLibrary();
+  const library::CaseFilter& filter = options.filter;
+  const bool isFiltered = filter.inNotes || !filter.tags.empty() || !filter.diagnosis.empty() ||
+                          !filter.procedure.empty() || !options.side.empty() ||
+                          !filter.from.empty() || !filter.to.empty();
+  if (isFiltered && action != "list" && action != "search")
+    throw UsageError("library " + action +
+                     ": --notes, --tag, --diagnosis, --procedure, --side, "
+                     "--from and --to go with list and search");
   if (action == "list")
   {
     names(0, "list");
-    printCases(context, library, library.list());
+    find(context, library, options);
   }
   else if (action == "search")
   {
-    names(1, "search TEXT");
-    printCases(context, library, library.search(options.names[0]));
+    if (!isFiltered || !options.names.empty())
+      names(1, "search TEXT");
+    find(context, library, options);
   }
   else if (action == "verify")
   {
@@ -181,6 +218,31 @@ void addLibraryCommand(CLI::App& app, Context& context)
                    "deleted, undelete NAME")
       ->required();
   command->add_option("NAMES", options->names, "Arguments of the action");
+  command->add_flag("--notes", options->filter.inNotes,
+                    "Search: TEXT in the notes too (slower: they are not in the index)");
+  command
+      ->add_option("--tag", options->filter.tags,
+                   "List, search: cases with this tag (and each more)")
+      ->allow_extra_args(false)
+      ->type_name("TAG");
+  command
+      ->add_option("--diagnosis", options->filter.diagnosis,
+                   "List, search: cases with these words in the diagnosis")
+      ->type_name("TEXT");
+  command
+      ->add_option("--procedure", options->filter.procedure,
+                   "List, search: cases with these words in the procedure")
+      ->type_name("TEXT");
+  command->add_option("--side", options->side, "List, search: left, right, both or unknown")
+      ->check(oneOf({"left", "right", "both", "unknown"}));
+  command
+      ->add_option("--from", options->filter.from,
+                   "List, search: cases planned for this day or later")
+      ->type_name("YYYY-MM-DD");
+  command
+      ->add_option("--to", options->filter.to,
+                   "List, search: cases planned for this day or earlier")
+      ->type_name("YYYY-MM-DD");
 }
 
 } // namespace petrous::cli

@@ -44,6 +44,7 @@ void addCommands(CLI::App& app, cli::Context& context)
   cli::addSampleCommand(app, context);
   cli::addScanCommand(app, context);
   cli::addCaseCommands(app, context);
+  cli::addDescribeCommand(app, context);
   cli::addArchiveCommands(app, context);
   cli::addDeidentifyCommands(app, context);
   cli::addLibraryCommand(app, context);

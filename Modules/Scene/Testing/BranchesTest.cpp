@@ -3,6 +3,7 @@
 #include "DrilledCase.h"
 #include "MaskComparison.h"
 #include "petrous/Scene/Branches.h"
+#include "petrous/Scene/Manifest.h"
 
 using namespace petrous;
 using scene::test::drill;
@@ -98,4 +99,61 @@ TEST(Branches, TellWhatEachTook)
   EXPECT_EQ(both.structures[0].name, "nerve");
   EXPECT_DOUBLE_EQ(both.structures[0].volume, 0.75);
   EXPECT_TRUE(scene::summaryOf(value, dissection::History::kStart).structures.empty());
+}
+
+TEST(Branches, AreShownAsTheyWereLeft)
+{
+  const auto from = [](double x)
+  {
+    core::CameraPose camera;
+    camera.position = {x, 1.0 / 3.0, -7.0};
+    return camera;
+  };
+  const auto x = [](const scene::Case& value) { return value.camera->position.x(); };
+  scene::Case value = drilledCase(2);
+  value.camera = from(1.0);
+  scene::startBranch(value, "second", 1);
+  EXPECT_EQ(x(value), 1.0) << "the view stays";
+  value.camera = from(2.0);
+  scene::goToBranch(value, "second");
+  EXPECT_EQ(x(value), 2.0) << "it is there already";
+  scene::goToBranch(value, "main");
+  EXPECT_EQ(x(value), 1.0);
+  value.camera = from(3.0);
+
+  // Also after a save, and under another name.
+  value.dissection.unload();
+  scene::Case back = scene::fromManifest(scene::toManifest(value), "m.json");
+  EXPECT_EQ(scene::toManifest(back), scene::toManifest(value));
+  scene::renameBranch(back, "second", "zweiter Zugang ü");
+  scene::goToBranch(back, "zweiter Zugang ü");
+  EXPECT_EQ(x(back), 2.0);
+  EXPECT_EQ(back.camera->position.y(), 1.0 / 3.0);
+  scene::goToBranch(back, "main");
+  EXPECT_EQ(x(back), 3.0);
+
+  scene::removeBranch(back, "zweiter Zugang ü");
+  EXPECT_TRUE(back.view.branchCameras.empty());
+}
+
+// A branch that nobody left: as its last stroke was drilled.
+TEST(Branches, WithoutAViewAreShownFromThatOfTheirLastStroke)
+{
+  scene::Case value = drilledCase(2);
+  std::vector<std::shared_ptr<const dissection::Stroke>> strokes;
+  for (const auto& stroke : value.dissection.strokes())
+  {
+    dissection::Stroke seen = *stroke;
+    seen.info.camera = core::CameraPose{};
+    seen.info.camera->viewAngle = 20.0 + static_cast<double>(strokes.size());
+    strokes.push_back(std::make_shared<const dissection::Stroke>(seen));
+  }
+  dissection::History history = value.dissection.history();
+  history.start("first", 0);
+  value.dissection = dissection::Dissection(strokes, history);
+  scene::goToBranch(value, "main");
+  ASSERT_TRUE(value.camera);
+  EXPECT_EQ(value.camera->viewAngle, 21.0);
+  scene::goToBranch(value, "first");
+  EXPECT_EQ(value.camera->viewAngle, 20.0);
 }

@@ -479,3 +479,184 @@ TEST(Manifest, KeepsTheNotesOfLabelsAndWhetherAFrameIsSalted)
   value.mr[0].isFrameSalted = false;
   EXPECT_FALSE(scene::fromManifest(scene::toManifest(value), "x").mr[0].isFrameSalted);
 }
+
+namespace
+{
+
+scene::Description fullDescription()
+{
+  scene::Description description;
+  description.note = "Erste Zeile: \"hoher Bulbus\" ü\n\n\tdritte \\ Zeile\n";
+  description.tags = {"cholesteatoma", "Lehre ü"};
+  description.diagnosis = "Cholesteatoma, attic";
+  description.procedure = "Canal-wall-up mastoidectomy";
+  description.side = scene::Side::Both;
+  description.date = "2028-02-29";
+  return description;
+}
+
+} // namespace
+
+TEST(Manifest, KeepsTheDescription)
+{
+  scene::Case value = fullCase();
+  value.description = fullDescription();
+  const std::string text = scene::toManifest(value);
+  EXPECT_NE(text.find("\"petrous_case\": 5"), std::string::npos)
+      << "older programs would lose the description, and refuse it";
+  const scene::Case back = scene::fromManifest(text, "m");
+  EXPECT_EQ(back.description, value.description);
+  EXPECT_EQ(scene::toManifest(back), text);
+
+  for (const scene::Side side : {scene::Side::Left, scene::Side::Right, scene::Side::Unknown})
+  {
+    value.description.side = side;
+    EXPECT_EQ(scene::fromManifest(scene::toManifest(value), "m").description.side, side);
+  }
+  value.description.note = std::string(scene::Description::kLongestNote, 'n');
+  value.description.tags.clear();
+  for (std::size_t n = 0; n < scene::Description::kMaxTags; ++n)
+    value.description.tags.push_back("tag " + std::to_string(n));
+  value.description.diagnosis = std::string(scene::Description::kLongestLine, 'd');
+  EXPECT_EQ(scene::fromManifest(scene::toManifest(value), "m").description, value.description);
+}
+
+// What is written without a description is what programs wrote that knew none.
+TEST(Manifest, IsWrittenInTheLowestFormatThatHoldsTheCase)
+{
+  scene::Case value = fullCase();
+  const auto formatOf = [](const scene::Case& one)
+  { return nlohmann::json::parse(scene::toManifest(one)).at("petrous_case").get<int>(); };
+  EXPECT_EQ(formatOf(value), 3);
+  EXPECT_FALSE(nlohmann::json::parse(scene::toManifest(value)).contains("description"));
+  value.labels[0].structures[0].codes.algorithmName = "a network";
+  EXPECT_EQ(formatOf(value), 4);
+  EXPECT_FALSE(nlohmann::json::parse(scene::toManifest(value)).contains("description"));
+  value.description.tags = {"a"};
+  EXPECT_EQ(formatOf(value), 5);
+  value.labels[0].structures[0].codes = {};
+  EXPECT_EQ(formatOf(value), 5);
+  value.description = {};
+  EXPECT_EQ(formatOf(value), 3);
+}
+
+TEST(Manifest, OpensEachEarlierFormatWithoutADescription)
+{
+  scene::Case value = fullCase();
+  value.dissection =
+      dissection::Dissection({value.dissection.strokes()[0]}, dissection::History::line(1, 1));
+  const auto written = nlohmann::json::parse(scene::toManifest(value));
+  for (int format = 1; format <= 4; ++format)
+  {
+    auto j = written;
+    j["petrous_case"] = format;
+    if (format == 1)
+    {
+      j["dissection"].erase("history");
+      j["dissection"]["applied"] = 1;
+    }
+    if (format < 3)
+      j["mr"][0].erase("registration");
+    if (format == 4)
+      j["labels"][0]["structures"][0]["codes"] = {{"algorithm", "manual"}};
+    const scene::Case back = scene::fromManifest(j.dump(), "m.json");
+    EXPECT_TRUE(back.description.empty()) << format;
+    EXPECT_EQ(back.applied(), 1u) << format;
+    // Saved again it is described by nothing, and stays readable for older programs.
+    EXPECT_LE(nlohmann::json::parse(scene::toManifest(back)).at("petrous_case").get<int>(), 4);
+    scene::Case described = back;
+    described.description = fullDescription();
+    EXPECT_EQ(scene::fromManifest(scene::toManifest(described), "m").description,
+              fullDescription());
+  }
+}
+
+TEST(Manifest, RefusesAHostileDescription)
+{
+  scene::Case value = fullCase();
+  value.description = fullDescription();
+  const auto good = nlohmann::json::parse(scene::toManifest(value));
+  const auto refused = [&good](const char* key, const nlohmann::json& bad)
+  {
+    auto j = good;
+    j["description"][key] = bad;
+    EXPECT_FALSE(refusalOf(j).empty()) << key << " " << bad.dump().substr(0, 80);
+  };
+  refused("note", 7);
+  refused("note", std::string(scene::Description::kLongestNote + 1, 'n'));
+  refused("note", "\x1b[2Jall is well");
+  refused("note", std::string("zero\0", 5));
+  refused("note", "carriage\rreturn");
+  refused("note", "\xc2\x9b"
+                  "31m"); // CSI as one character
+  refused("diagnosis", "two\nlines");
+  refused("diagnosis", std::string(scene::Description::kLongestLine + 1, 'd'));
+  refused("procedure", "tab\t");
+  refused("procedure", " blank in front");
+  refused("procedure", {"a"});
+  refused("side", "up");
+  refused("side", nullptr);
+  refused("side", "Left");
+  refused("tags", "one");
+  refused("tags", {"a", ""});
+  refused("tags", {"Ä", "ä"});
+  refused("tags", {"a", 7});
+  refused("tags", {std::string(scene::Description::kLongestTag + 1, 't')});
+  nlohmann::json many = nlohmann::json::array();
+  for (std::size_t n = 0; n <= scene::Description::kMaxTags; ++n)
+    many.push_back(std::to_string(n));
+  refused("tags", many);
+  for (const char* date :
+       {"2027-02-29", "2026-13-01", "2026-00-10", "2026-01-32", "2026-1-1", "20260101",
+        "2026-01-01T10:00", "1899-12-31", "3000-01-01", "2100-02-29", "+026-01-01", "2026/01/01"})
+    refused("planned_on", date);
+  for (const nlohmann::json& none : {nlohmann::json(nullptr), nlohmann::json::array(),
+                                     nlohmann::json("text"), nlohmann::json(1)})
+  {
+    auto j = good;
+    j["description"] = none;
+    EXPECT_FALSE(refusalOf(j).empty()) << none;
+  }
+
+  // Nor is it written.
+  value.description.diagnosis = "two\nlines";
+  EXPECT_THROW(scene::toManifest(value), core::InvalidParameter);
+  value.description = fullDescription();
+  value.description.note = "\xff";
+  EXPECT_THROW(scene::toManifest(value), core::InvalidParameter);
+}
+
+// Programs that know nothing of it read the case: the format stays.
+TEST(Manifest, KeepsHowTheCaseWasLookedAt)
+{
+  scene::Case value = fullCase();
+  EXPECT_FALSE(nlohmann::json::parse(scene::toManifest(value)).contains("view"));
+  value.view.slices = {Vector3d(1.0 / 3.0, -2.5, 1e-7), 4000.0 / 7.0, -0.1};
+  value.view.branchCameras["main"].position = Vector3d(0.1, 0.2, 0.3);
+  value.view.branchCameras["no branch"].position = Vector3d(9, 9, 9);
+  const std::string text = scene::toManifest(value);
+  EXPECT_NE(text.find("\"petrous_case\": 3"), std::string::npos);
+  const scene::Case back = scene::fromManifest(text, "m.json");
+  ASSERT_TRUE(back.view.slices);
+  EXPECT_EQ(back.view.slices->crosshair, value.view.slices->crosshair);
+  EXPECT_EQ(back.view.slices->width, 4000.0 / 7.0);
+  EXPECT_EQ(back.view.slices->level, -0.1);
+  ASSERT_EQ(back.view.branchCameras.size(), 1U);
+  EXPECT_EQ(back.view.branchCameras.at("main").position, Vector3d(0.1, 0.2, 0.3));
+
+  const auto refused = [&text](const char* pointer, const nlohmann::json& bad)
+  {
+    auto j = nlohmann::json::parse(text);
+    j[nlohmann::json::json_pointer(std::string("/view") + pointer)] = bad;
+    EXPECT_FALSE(refusalOf(j).empty()) << pointer << bad;
+  };
+  refused("/slices/window_width", 0.0);
+  refused("/slices/window_width", -4.0);
+  refused("/slices/window_level", nullptr);
+  refused("/slices/crosshair_mm", {1, 2});
+  refused("/slices", 7);
+  refused("/branches/main", "from above");
+  refused("/branches", 7);
+  value.view.slices->width = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(scene::toManifest(value), core::InvalidParameter);
+}

@@ -114,6 +114,7 @@ using nlohmann::json;
 
 constexpr int kFirstFormatWithBranches = 2;
 constexpr int kFormatWithoutCodes = 3;
+constexpr int kFormatWithoutDescription = 4;
 constexpr const char* kFrame = "frame_of_reference_salted_sha256";
 constexpr const char* kModality = "modality"; // "CT" or "MR"; absent: not known
 constexpr const char* kUnsaltedFrame = "frame_of_reference_sha256"; // written by older programs
@@ -264,6 +265,68 @@ json meshOut(const MeshPart& mesh)
   return j;
 }
 
+json descriptionOut(const Description& description)
+{
+  json j = json::object();
+  const auto add = [&j](const char* key, const std::string& text)
+  {
+    if (!text.empty())
+      j[key] = text;
+  };
+  add("note", description.note);
+  add("diagnosis", description.diagnosis);
+  add("procedure", description.procedure);
+  add("planned_on", description.date);
+  if (!description.tags.empty())
+    j["tags"] = description.tags;
+  if (description.side != Side::Unknown)
+    j["side"] = nameOf(description.side);
+  return j;
+}
+
+Description descriptionIn(const json& j)
+{
+  Description description;
+  description.note = j.value("note", std::string());
+  description.tags = j.value("tags", std::vector<std::string>());
+  description.diagnosis = j.value("diagnosis", std::string());
+  description.procedure = j.value("procedure", std::string());
+  description.side = sideFromName(j.value("side", std::string(nameOf(Side::Unknown))));
+  description.date = j.value("planned_on", std::string());
+  checkDescription(description);
+  return description;
+}
+
+json viewOut(const Case& value)
+{
+  json j = json::object();
+  for (const auto& [name, camera] : value.view.branchCameras)
+    if (value.dissection.history().find(name) != nullptr)
+      j["branches"][name] = cameraOut(camera);
+  if (const auto& slices = value.view.slices)
+    j["slices"] = {{"crosshair_mm", vectorOut(slices->crosshair)},
+                   {"window_width", slices->width},
+                   {"window_level", slices->level}};
+  return j;
+}
+
+ViewState viewIn(const json& j)
+{
+  ViewState view;
+  if (j.contains("branches"))
+    for (const auto& [name, camera] : j.at("branches").items())
+      view.branchCameras[name] = cameraIn(camera);
+  if (j.contains("slices"))
+  {
+    const json& slices = j.at("slices");
+    view.slices = {vectorIn(slices.at("crosshair_mm")), slices.at("window_width").get<double>(),
+                   slices.at("window_level").get<double>()};
+    if (!(view.slices->width > 0.0))
+      throw core::InvalidParameter("the grey window of the slices must be wider than 0");
+  }
+  return view;
+}
+
 bool isFinite(const json& j)
 {
   if (j.is_structured())
@@ -319,6 +382,10 @@ Case caseIn(const json& j)
   }
   if (j.contains("camera"))
     value.camera = cameraIn(j.at("camera"));
+  if (j.contains("view"))
+    value.view = viewIn(j.at("view"));
+  if (j.contains("description"))
+    value.description = descriptionIn(j.at("description"));
   const json& drilled = j.at("dissection");
   dissection::Dissection::Strokes strokes;
   for (const json& stroke : drilled.at("strokes"))
@@ -349,7 +416,11 @@ std::string toManifest(const Case& value)
                     return std::any_of(part.structures.begin(), part.structures.end(),
                                        [](const auto& s) { return !s.codes.empty(); });
                   });
-  json j{{"petrous_case", hasCodes ? kManifestFormat : kFormatWithoutCodes},
+  checkDescription(value.description);
+  const bool isDescribed = !value.description.empty();
+  json j{{"petrous_case", isDescribed ? kManifestFormat
+                          : hasCodes  ? kFormatWithoutDescription
+                                      : kFormatWithoutCodes},
          {"name", value.name},
          {"revision", value.revision},
          {"iso_hu", value.iso},
@@ -376,6 +447,10 @@ std::string toManifest(const Case& value)
     j["id"] = value.id;
   if (value.camera)
     j["camera"] = cameraOut(*value.camera);
+  if (json view = viewOut(value); !view.empty())
+    j["view"] = std::move(view);
+  if (isDescribed)
+    j["description"] = descriptionOut(value.description);
   json strokes = json::array();
   for (const auto& stroke : value.dissection.strokes())
     strokes.push_back(strokeOut(*stroke));

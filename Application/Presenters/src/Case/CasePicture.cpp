@@ -1,6 +1,14 @@
 #include "petrous/Presenters/CasePicture.h"
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "petrous/Appearance/StructurePresets.h"
+#include "petrous/Library/Library.h"
 #include "petrous/Presenters/SceneAssembly.h"
+#include "petrous/Rendering/OffscreenView.h"
+#include "petrous/Volume/IntensityHistogram.h"
 #include "petrous/Volume/TissueExtent.h"
 
 namespace petrous::presenters
@@ -20,6 +28,69 @@ core::CameraPose standardCamera(const scene::Case& value, rendering::StandardVie
 core::CameraPose currentCamera(const scene::Case& value)
 {
   return value.camera ? *value.camera : standardCamera(value, rendering::StandardView::Lateral);
+}
+
+namespace
+{
+
+// Whether a word of the name is one for what makes a patient known.
+bool showsTheFace(const std::string& name)
+{
+  constexpr std::array<std::string_view, 6> kWords{"skin", "face",    "scalp",
+                                                   "haut", "gesicht", "kopfhaut"};
+  const std::string text = scene::lowerCase(name);
+  const auto isLetter = [](char c) { return (c >= 'a' && c <= 'z') || (c & 0x80) != 0; };
+  for (auto from = text.begin(); from != text.end();)
+  {
+    from = std::find_if(from, text.end(), isLetter);
+    const auto to = std::find_if_not(from, text.end(), isLetter);
+    const std::string_view word(text.data() + (from - text.begin()),
+                                static_cast<std::size_t>(to - from));
+    if (std::find(kWords.begin(), kWords.end(), word) != kWords.end())
+      return true;
+    from = to;
+  }
+  return false;
+}
+
+} // namespace
+
+scene::Case thumbnailCase(scene::Case value)
+{
+  if (value.ct.modality == scene::Modality::Mr)
+    value.boneLook.shown = false;
+  else
+  {
+    constexpr double kMargin = 100.0; // HU below the surface of bone; skin and muscle end there
+    constexpr double kSpan = 1500.0;  // HU from that to dense bone
+    const auto scale = volume::suggestScale(volume::IntensityHistogram(*value.ct.volume.get()));
+    value.iso = std::max(value.iso, scale.iso - kMargin / kSpan * (scale.dense - scale.iso));
+  }
+  if (value.boneLook.transfer && !value.boneLook.relative)
+  {
+    value.boneLook.transfer.reset();
+    value.boneLook.opacity = 1.0F;
+  }
+  for (scene::LabelPart& part : value.labels)
+    for (scene::StructurePart& structure : part.structures)
+      structure.look.shown = structure.look.shown && !showsTheFace(structure.name);
+  for (scene::MeshPart& mesh : value.meshes)
+    mesh.look.shown = mesh.look.shown && !showsTheFace(mesh.name);
+  return value;
+}
+
+std::vector<std::uint8_t> thumbnailOf(const scene::Case& value, const core::Progress& progress)
+{
+  const scene::Case shown = thumbnailCase(value);
+  const rendering::SceneContents contents = sceneContents(shown, progress);
+  if (!contents.boneShown && contents.meshes.empty() && contents.materials.size() < 2)
+    return {};
+  progress.check("drawing a thumbnail");
+  rendering::ScenePicture picture;
+  picture.setContents(contents);
+  picture.setCamera(currentCamera(shown));
+  rendering::OffscreenView view(library::kThumbnailWidth, library::kThumbnailHeight);
+  return rendering::pngOf(view.render(picture));
 }
 
 } // namespace petrous::presenters

@@ -184,7 +184,9 @@ private:
   {
     const fs::path folder = freshFolder();
     const fs::path archive = m_folder / (std::string("scene") + library::kArchiveEnding);
-    library::archiveCase(m_library, m_value.name, archive, {}, progress.part(0.0, 0.8));
+    const library::ArchiveSummary archived =
+        library::archiveCase(m_library, m_value.name, archive, {}, progress.part(0.0, 0.8));
+    m_notes.insert(m_notes.end(), archived.notes.begin(), archived.notes.end());
     network::SceneDescription description;
     description.studyUid = CaseIdentifiers(m_value).study();
     description.studyId = m_options.studyId;

@@ -27,6 +27,7 @@ struct ArchiveIndex
   std::string manifest;  ///< SHA-256 of kManifestEntry
   std::string library;   ///< tells libraries of different salt apart
   std::vector<Object> objects;
+  std::vector<std::uint8_t> thumbnail; ///< or empty
 };
 
 std::string toText(const ArchiveIndex& index);

@@ -5,11 +5,13 @@
 #include <set>
 
 #include <nlohmann/json.hpp>
+#include <sodium.h>
 
 #include "ArchiveIndex.h"
 #include "GzipMembers.h"
 #include "LibraryFolder.h"
 #include "ManifestFile.h"
+#include "Thumbnail.h"
 #include "ZipEntries.h"
 #include "petrous/Imaging/NrrdFile.h"
 #include "petrous/Library/Archive.h"
@@ -299,6 +301,21 @@ void checkImages(const scene::Case& value, const ObjectStore& store, const fs::p
     check(mr, "an MR");
 }
 
+std::vector<std::uint8_t> thumbnailFrom(const std::string& base64, const fs::path& file)
+{
+  std::vector<std::uint8_t> png(kLargestThumbnail);
+  std::size_t bytes = 0;
+  const char* end = nullptr;
+  if (sodium_base642bin(png.data(), png.size(), base64.data(), base64.size(), nullptr, &bytes, &end,
+                        sodium_base64_VARIANT_ORIGINAL) != 0 ||
+      end != base64.data() + base64.size())
+    bytes = 0;
+  png.resize(bytes);
+  if (!isThumbnail(png))
+    throwUnsound(file, "its thumbnail is not one");
+  return png;
+}
+
 constexpr const char* kLeftOut = ": left out, since a plan brings no voxels; add it to the case";
 
 /// Takes from the case of a plan what the library does not have; returns a note for each part.
@@ -381,6 +398,8 @@ ArchiveIndex archiveIndex(std::string_view text, const fs::path& file)
       index.objects.push_back({one.at("object").get<std::string>(),
                                one.at("file").get<std::string>(),
                                one.at("bytes").get<std::uint64_t>(), one.at("packed").get<bool>()});
+    if (all.contains("thumbnail_png"))
+      index.thumbnail = thumbnailFrom(all.at("thumbnail_png").get<std::string>(), file);
   }
   catch (const nlohmann::json::exception&)
   {
@@ -458,6 +477,15 @@ RestoreSummary restoreCase(Library& library, const fs::path& file, const Restore
       },
       progress);
   summary.name = value.name;
+  if (!archive.index.thumbnail.empty())
+    try
+    {
+      library.setThumbnail(value.name, archive.index.thumbnail);
+    }
+    catch (const core::Error&) // the case is restored
+    {
+      summary.notes.emplace_back("its thumbnail could not be kept; check the disk");
+    }
   return summary;
 }
 

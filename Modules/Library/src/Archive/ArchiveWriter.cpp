@@ -6,6 +6,7 @@
 #include <set>
 
 #include <nlohmann/json.hpp>
+#include <sodium.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -14,6 +15,7 @@
 #include "LibraryFolder.h"
 #include "ManifestFile.h"
 #include "Sha256.h"
+#include "Thumbnail.h"
 #include "ZipEntries.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/LabelFile.h"
@@ -272,10 +274,18 @@ std::string toText(const ArchiveIndex& index)
   for (const ArchiveIndex::Object& one : index.objects)
     objects.push_back(
         {{"object", one.object}, {"file", one.file}, {"bytes", one.bytes}, {"packed", one.packed}});
-  const nlohmann::json all = {
-      {"petrous_archive", kArchiveFormat}, {"case", index.name},
-      {"plan_only", index.planOnly},       {"manifest_sha256", index.manifest},
-      {"library_sha256", index.library},   {"objects", std::move(objects)}};
+  nlohmann::json all = {{"petrous_archive", kArchiveFormat}, {"case", index.name},
+                        {"plan_only", index.planOnly},       {"manifest_sha256", index.manifest},
+                        {"library_sha256", index.library},   {"objects", std::move(objects)}};
+  if (!index.thumbnail.empty())
+  {
+    std::string text(
+        sodium_base64_ENCODED_LEN(index.thumbnail.size(), sodium_base64_VARIANT_ORIGINAL), '\0');
+    sodium_bin2base64(text.data(), text.size(), index.thumbnail.data(), index.thumbnail.size(),
+                      sodium_base64_VARIANT_ORIGINAL);
+    text.pop_back(); // the zero at its end
+    all["thumbnail_png"] = text;
+  }
   return all.dump(1) + "\n";
 }
 
@@ -305,11 +315,24 @@ try
         part.object = passing.store().add("seg.nrrd", [&shown](const fs::path& path)
                                           { imaging::writeLabelFile(path, *shown); });
     }
+  ArchiveSummary summary;
+  Description& description = value.description;
+  if (!description.date.empty() && !options.keepDate)
+  {
+    description.date.clear();
+    summary.notes.emplace_back("the planned date stays in this library");
+  }
+  if (!description.note.empty() && options.withoutNotes)
+  {
+    description.note.clear();
+    summary.notes.emplace_back("the note stays in this library");
+  }
+  else if (!description.note.empty())
+    summary.notes.emplace_back("the note goes along as it was typed; see that it names nobody");
   const std::string manifest = scene::toManifest(value);
   const auto storeOf = [&](const std::string& object) -> const ObjectStore&
   { return passing.contains(object) ? passing.store() : kept; };
 
-  ArchiveSummary summary;
   summary.name = name;
   summary.planOnly = options.planOnly;
   ArchiveIndex index;
@@ -318,6 +341,8 @@ try
   index.manifest =
       sha256Of(reinterpret_cast<const std::uint8_t*>(manifest.data()), manifest.size());
   index.library = saltedFrame(library, "archive");
+  if (!options.planOnly)
+    index.thumbnail = readThumbnail(library.folder(), value.id);
   std::set<std::string> used;
   const std::vector<ObjectUse> uses = objectsOf(value);
   std::vector<const ObjectUse*> stored;

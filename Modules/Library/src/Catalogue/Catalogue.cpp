@@ -1,5 +1,7 @@
 #include "Catalogue.h"
 
+#include <sstream>
+
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <sqlite3.h>
 
@@ -11,7 +13,7 @@ namespace
 
 constexpr int kWriterWaits = 2000; // ms
 constexpr int kReaderWaits = 500;  // ms; the manifests are read instead
-constexpr int kVersion = 2;        // of the table: 2 has the text for searches
+constexpr int kVersion = 3;        // of the table: 2 has the text for searches, 3 descriptions
 
 // Rollback journal instead of WAL: WAL can be read from a read-only medium only with `immutable`,
 // which is wrong while others write, and leaves files behind even if only read.
@@ -21,6 +23,7 @@ SQLite::Database openForWriting(const std::filesystem::path& file)
                             kWriterWaits);
   database.exec("PRAGMA journal_mode=DELETE");
   database.exec("PRAGMA synchronous=NORMAL");
+  database.exec("PRAGMA secure_delete=ON"); // what was taken out of a description is gone
   // Of another version, older or newer: what it holds is in the manifests.
   if (database.execAndGet("PRAGMA user_version").getInt() != kVersion)
   {
@@ -29,7 +32,8 @@ SQLite::Database openForWriting(const std::filesystem::path& file)
     database.exec("CREATE TABLE cases ("
                   "name TEXT PRIMARY KEY, size INTEGER, changed INTEGER, modified TEXT,"
                   "nx INTEGER, ny INTEGER, nz INTEGER, structures INTEGER, strokes INTEGER,"
-                  "removed_mm3 REAL, text TEXT)");
+                  "removed_mm3 REAL, text TEXT, id TEXT, tags TEXT, diagnosis TEXT,"
+                  "procedure TEXT, side TEXT, planned_on TEXT, has_note INTEGER)");
     database.exec("PRAGMA user_version = " + std::to_string(kVersion));
     change.commit();
   }
@@ -83,7 +87,8 @@ try
   if (database.execAndGet("PRAGMA user_version").getInt() != kVersion)
     return entries;
   SQLite::Statement query(database, "SELECT name, size, changed, modified, nx, ny, nz, structures, "
-                                    "strokes, removed_mm3, text FROM cases");
+                                    "strokes, removed_mm3, text, id, tags, diagnosis, procedure, "
+                                    "side, planned_on, has_note FROM cases");
   while (query.executeStep())
   {
     Entry entry;
@@ -98,6 +103,15 @@ try
     summary.strokes = static_cast<std::size_t>(query.getColumn(8).getInt64());
     summary.removed = query.getColumn(9).getDouble();
     entry.text = query.getColumn(10).getString();
+    summary.id = query.getColumn(11).getString();
+    std::istringstream tags(query.getColumn(12).getString());
+    for (std::string tag; std::getline(tags, tag);)
+      summary.description.tags.push_back(tag);
+    summary.description.diagnosis = query.getColumn(13).getString();
+    summary.description.procedure = query.getColumn(14).getString();
+    summary.description.side = scene::sideFromName(query.getColumn(15).getString());
+    summary.description.date = query.getColumn(16).getString();
+    summary.hasNote = query.getColumn(17).getInt() != 0;
     entries[summary.name] = std::move(entry);
   }
   return entries;
@@ -114,7 +128,8 @@ try
         [&](SQLite::Database& database)
         {
           SQLite::Statement insert(
-              database, "INSERT OR REPLACE INTO cases VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+              database, "INSERT OR REPLACE INTO cases VALUES "
+                        "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
           const CaseSummary& summary = entry.summary;
           insert.bind(1, summary.name);
           insert.bind(2, static_cast<std::int64_t>(entry.stamp.size));
@@ -126,6 +141,16 @@ try
           insert.bind(9, static_cast<std::int64_t>(summary.strokes));
           insert.bind(10, summary.removed);
           insert.bind(11, entry.text);
+          insert.bind(12, summary.id);
+          std::string tags;
+          for (const std::string& tag : summary.description.tags)
+            tags += tag + "\n";
+          insert.bind(13, tags);
+          insert.bind(14, summary.description.diagnosis);
+          insert.bind(15, summary.description.procedure);
+          insert.bind(16, scene::nameOf(summary.description.side));
+          insert.bind(17, summary.description.date);
+          insert.bind(18, summary.hasNote ? 1 : 0);
           insert.exec();
         });
 }

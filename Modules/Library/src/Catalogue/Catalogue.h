@@ -12,7 +12,8 @@ namespace petrous::library
 
 /// SQLite index of the manifests. It is only an optimization: an entry is valid while size and
 /// modification time of the manifest match, and if the database cannot be opened or written,
-/// everything is read from the manifests. A damaged database is recreated by `put`.
+/// everything is read from the manifests. A damaged database is recreated by `put`. Notes are not
+/// in it (record 23).
 class Catalogue
 {
 public:
@@ -30,7 +31,8 @@ public:
     CaseSummary summary;
     Stamp stamp;
     std::string
-        text; ///< for searches: the names of the case and its parts, a line each, lower case
+        text; ///< for searches, lower case, a line each: the names of the case and its parts, the
+              ///< tags, diagnosis and procedure; not the note, which may name anybody
   };
 
   /// Keyed by name; one consistent read that locks out writers. Creates no files.

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <optional>
 #include <random>
+#include <set>
 #include <sstream>
 
 #include <sys/stat.h>
@@ -18,6 +19,7 @@
 #include "ManifestFile.h"
 #include "ObjectChecks.h"
 #include "Recovery.h"
+#include "Thumbnail.h"
 #include "petrous/Core/Log.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/LabelFile.h"
@@ -186,6 +188,7 @@ std::vector<Catalogue::Entry> entriesIn(const fs::path& folder)
 {
   std::vector<Catalogue::Entry> cases;
   auto known = Catalogue(folder / "library.sqlite").entries();
+  const std::set<std::string> thumbnails = thumbnailIds(folder);
   for (const std::string& name : namesIn(folder / "cases"))
   {
     const fs::path path = folder / "cases" / (name + ".json");
@@ -209,10 +212,12 @@ std::vector<Catalogue::Entry> entriesIn(const fs::path& folder)
       damaged.summary.name = name;
       damaged.summary.modified = state->modified;
       damaged.summary.damaged = true;
-      damaged.text = lowerCase(name);
+      damaged.text = scene::lowerCase(name);
       cases.push_back(std::move(damaged));
     }
   }
+  for (Catalogue::Entry& entry : cases)
+    entry.summary.hasThumbnail = thumbnails.count(entry.summary.id) > 0;
   return cases;
 }
 
@@ -274,17 +279,79 @@ std::vector<CaseSummary> Library::list() const
   return cases;
 }
 
-std::vector<CaseSummary> Library::search(const std::string& text) const
+namespace
 {
-  std::istringstream stream(lowerCase(text));
-  const std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
+
+std::vector<std::string> wordsOf(const std::string& text)
+{
+  std::istringstream stream(scene::lowerCase(text));
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
+bool hasAll(const std::string& text, const std::vector<std::string>& words)
+{
+  return std::all_of(words.begin(), words.end(),
+                     [&text](const std::string& word) { return text.find(word) != text.npos; });
+}
+
+void checkDates(const CaseFilter& filter)
+{
+  for (const std::string* date : {&filter.from, &filter.to})
+    if (!date->empty() && !scene::isDate(*date))
+      throw core::InvalidParameter("date: must be a day as YYYY-MM-DD, e.g. 2026-03-31");
+  if (!filter.to.empty() && filter.from > filter.to)
+    throw core::InvalidParameter("dates: the first is later than the last");
+}
+
+} // namespace
+
+std::vector<CaseSummary> Library::search(const CaseFilter& filter) const
+{
+  checkDates(filter);
+  const auto words = wordsOf(filter.text);
+  const auto diagnosis = wordsOf(filter.diagnosis);
+  const auto procedure = wordsOf(filter.procedure);
+  const auto isTagged = [](const Description& description, const std::string& tag)
+  {
+    return std::any_of(description.tags.begin(), description.tags.end(),
+                       [wanted = scene::lowerCase(tag)](const std::string& one)
+                       { return scene::lowerCase(one) == wanted; });
+  };
   std::vector<CaseSummary> found;
   for (Catalogue::Entry& entry : entriesIn(m_folder))
-    if (std::all_of(words.begin(), words.end(),
-                    [&entry](const std::string& word)
-                    { return entry.text.find(word) != entry.text.npos; }))
-      found.push_back(std::move(entry.summary));
+  {
+    const Description& description = entry.summary.description;
+    if (!hasAll(scene::lowerCase(description.diagnosis), diagnosis) ||
+        !hasAll(scene::lowerCase(description.procedure), procedure) ||
+        (filter.side && (*filter.side != description.side || entry.summary.damaged)) ||
+        (!filter.from.empty() && description.date < filter.from) ||
+        (!filter.to.empty() && (description.date.empty() || description.date > filter.to)) ||
+        !std::all_of(filter.tags.begin(), filter.tags.end(),
+                     [&](const std::string& tag) { return isTagged(description, tag); }))
+      continue;
+    if (!hasAll(entry.text, words))
+      try
+      {
+        if (!filter.inNotes || !entry.summary.hasNote ||
+            !hasAll(entry.text + "\n" +
+                        scene::lowerCase(readManifest(entry.summary.name).description.note),
+                    words))
+          continue;
+      }
+      catch (const core::Error&)
+      {
+        continue; // removed or damaged in the meantime
+      }
+    found.push_back(std::move(entry.summary));
+  }
   return found;
+}
+
+std::vector<CaseSummary> Library::search(const std::string& text) const
+{
+  CaseFilter filter;
+  filter.text = text;
+  return search(filter);
 }
 
 bool Library::contains(const std::string& name) const
@@ -496,6 +563,23 @@ std::string saltedFrame(const Library& library, const std::string& frameOfRefere
   makeFolder(library.folder());
   const core::FileLock lock = lockFolder(library.folder());
   return withSalt(frameOfReference, library.folder());
+}
+
+Description Library::description(const std::string& name) const
+{
+  scene::checkCaseName(name);
+  checkedManifestPath(name);
+  return readManifest(name).description;
+}
+
+void Library::describe(const std::string& name, const Description& description)
+{
+  scene::checkDescription(description);
+  scene::Case value = open(name);
+  if (value.description == description)
+    return;
+  value.description = description;
+  save(value);
 }
 
 void Library::save(scene::Case& value, const core::Progress& progress)

@@ -8,6 +8,7 @@
 #include "JournalFile.h"
 #include "LibraryFolder.h"
 #include "ManifestFile.h"
+#include "Thumbnail.h"
 #include "petrous/Library/Library.h"
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Scene/Manifest.h"
@@ -229,9 +230,20 @@ void Library::copy(const std::string& from, const std::string& to, const core::P
 {
   scene::checkCaseName(to);
   scene::Case value = open(from);
+  const std::vector<std::uint8_t> png = readThumbnail(m_folder, value.id);
   value.name = to;
   value.revision = 0;
   save(value, progress);
+  if (png.empty())
+    return;
+  try
+  {
+    setThumbnail(to, png);
+  }
+  catch (const core::Error&)
+  {
+    // The copy is complete without.
+  }
 }
 
 Inspection Library::verify(const core::Progress& progress) const
@@ -243,12 +255,15 @@ Inspection Library::verify(const core::Progress& progress) const
     std::string what;
   };
   std::map<std::string, Use> uses;
+  std::vector<std::pair<std::string, std::string>> ids; // of cases, with their names
   for (const std::string& name : namesIn(m_folder / "cases"))
   {
     ++result.cases;
     try
     {
-      for (const ObjectUse& use : objectsOf(readManifest(name)))
+      const scene::Case value = readManifest(name);
+      ids.emplace_back(value.id, name);
+      for (const ObjectUse& use : objectsOf(value))
       {
         uses[use.object].cases.push_back(name);
         uses[use.object].what = use.what + " of case '" + name + "'";
@@ -258,6 +273,18 @@ Inspection Library::verify(const core::Progress& progress) const
     {
       result.damaged.push_back({"cases/" + name + ".json", {name}, error.what()});
     }
+  }
+  for (const auto& [id, name] : ids)
+  {
+    const fs::path path = thumbnailPath(m_folder, id);
+    std::error_code error;
+    if (!path.empty() && fs::exists(fs::symlink_status(path, error)) &&
+        readThumbnail(m_folder, id).empty())
+      result.damaged.push_back({path.lexically_relative(m_folder).string(),
+                                {name},
+                                core::printable(path) + ": the thumbnail of case '" + name +
+                                    "' is damaged; make it anew: petrous describe '" + name +
+                                    "' --thumbnail"});
   }
   const ObjectStore store(objectFolder());
   std::map<std::string, std::uintmax_t> sizes;
@@ -295,10 +322,13 @@ Collected Library::collectGarbage()
     return result;
   const core::FileLock lock = lockFolder(m_folder);
   std::set<std::string> used;
+  std::set<std::string> ids;
   for (const std::string& name : namesIn(m_folder / "cases"))
     try
     {
-      for (const ObjectUse& use : objectsOf(readManifest(name)))
+      const scene::Case value = readManifest(name);
+      ids.insert(value.id);
+      for (const ObjectUse& use : objectsOf(value))
         used.insert(use.object);
     }
     catch (const core::Error& error)
@@ -327,6 +357,10 @@ Collected Library::collectGarbage()
       result.bytes += bytes;
     }
   core::syncFolder(objectFolder());
+  removeLeftovers(m_folder / kThumbnailFolder);
+  for (const std::string& id : thumbnailIds(m_folder))
+    if (ids.count(id) == 0)
+      removeFile(thumbnailPath(m_folder, id));
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <ctime>
 #include <set>
+#include <utility>
 
 #include <sys/stat.h>
 
@@ -110,21 +111,6 @@ std::vector<DeletedFile> deletedIn(const fs::path& folder)
   return found;
 }
 
-std::string lowerCase(std::string text)
-{
-  bool isLatin = false; // the second byte of U+00C0 to U+00FF
-  for (char& c : text)
-  {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c >= 'A' && c <= 'Z')
-      c = static_cast<char>(c - 'A' + 'a');
-    else if (isLatin && byte >= 0x80 && byte <= 0x9e && byte != 0x97) // not the sign of times
-      c = static_cast<char>(byte + 0x20);
-    isLatin = byte == 0xc3;
-  }
-  return text;
-}
-
 std::optional<FileState> stateOf(const fs::path& path)
 {
   struct stat info = {};
@@ -150,6 +136,7 @@ Catalogue::Entry entryOf(const scene::Case& value, const FileState& state)
   Catalogue::Entry entry;
   entry.stamp = state.stamp;
   entry.summary.name = value.name;
+  entry.summary.id = value.id;
   entry.summary.modified = state.modified;
   entry.summary.dims = value.ct.geometry.dims();
   for (const auto& part : value.labels)
@@ -160,7 +147,13 @@ Catalogue::Entry entryOf(const scene::Case& value, const FileState& state)
   const std::vector<std::string> names = scene::partNames(value);
   for (auto name = names.begin() + 1; name != names.end(); ++name) // after the CT's
     entry.text += "\n" + *name;
-  entry.text = lowerCase(std::move(entry.text));
+  Description& description = entry.summary.description;
+  description = value.description;
+  entry.summary.hasNote = !std::exchange(description.note, {}).empty();
+  for (const std::string& tag : description.tags)
+    entry.text += "\n" + tag;
+  entry.text += "\n" + description.diagnosis + "\n" + description.procedure;
+  entry.text = scene::lowerCase(std::move(entry.text));
   return entry;
 }
 

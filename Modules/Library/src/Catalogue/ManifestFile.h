@@ -64,9 +64,6 @@ struct FileState
 };
 std::optional<FileState> stateOf(const std::filesystem::path& path);
 
-/// Lower case of ASCII and of the accented letters of Latin-1, in UTF-8.
-std::string lowerCase(std::string text);
-
 Catalogue::Entry entryOf(const scene::Case& value, const FileState& state);
 
 /// Sets aside a journal without a case, which must not be taken for that of a new case of this

@@ -63,9 +63,9 @@ std::size_t countDifferentPixels(const Picture& a, const Picture& b)
   return different;
 }
 
-void writePng(const std::filesystem::path& file, const Picture& picture)
+std::vector<std::uint8_t> pngOf(const Picture& picture)
 {
-  checkSize(file, picture.width, picture.height, picture.rgb.size(), 3);
+  checkSize("PNG", picture.width, picture.height, picture.rgb.size(), 3);
   vtkNew<vtkImageData> image;
   image->SetDimensions(picture.width, picture.height, 1);
   image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
@@ -77,9 +77,18 @@ void writePng(const std::filesystem::path& file, const Picture& picture)
   writer->WriteToMemoryOn();
   writer->Write();
   vtkUnsignedCharArray* png = writer->GetResult();
-  if (!png || png->GetNumberOfValues() == 0)
+  if (!png)
+    return {};
+  return {png->GetPointer(0), png->GetPointer(0) + png->GetNumberOfValues()};
+}
+
+void writePng(const std::filesystem::path& file, const Picture& picture)
+{
+  checkSize(file, picture.width, picture.height, picture.rgb.size(), 3);
+  const std::vector<std::uint8_t> png = pngOf(picture);
+  if (png.empty())
     failWriting(file, "the picture could not be encoded");
-  writeWhole(file, png->GetPointer(0), static_cast<std::size_t>(png->GetNumberOfValues()));
+  writeWhole(file, png.data(), png.size());
 }
 
 void writeNpy(const std::filesystem::path& file, const DepthImage& depth)

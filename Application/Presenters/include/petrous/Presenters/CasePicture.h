@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "petrous/Core/Progress.h"
 #include "petrous/Rendering/SceneContents.h"
 #include "petrous/Rendering/StandardViews.h"
@@ -17,5 +20,17 @@ core::CameraPose standardCamera(const scene::Case& value, rendering::StandardVie
 
 /// The case's last view, else the lateral one. Loads the CT for the latter.
 core::CameraPose currentCamera(const scene::Case& value);
+
+/// The case as its thumbnail shows it, without a face: bone and structures, in their own colours.
+/// The surface is not below that of bone (less 100 HU), and the bone's transfer function is a
+/// preset's, so that no skin shows; an MR as primary image is not shown at all, since it has no
+/// bone; nor are structures whose names say skin or face. Loads the CT.
+scene::Case thumbnailCase(scene::Case value);
+
+/// The thumbnail of a case (library::setThumbnail), from its last view; empty if it would show
+/// nothing. Drilled as far as the dissection is loaded. Draws off-screen, on any thread. Throws
+/// like SceneAssembly::contents, and RenderingError.
+std::vector<std::uint8_t> thumbnailOf(const scene::Case& value,
+                                      const core::Progress& progress = {});
 
 } // namespace petrous::presenters

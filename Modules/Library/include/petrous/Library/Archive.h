@@ -17,6 +17,9 @@ namespace petrous::library
 ///     ct.nrrd, mr/NAME.nrrd     images, the library's objects with gzip encoding
 ///     labels/NAME.seg.nrrd, meshes/NAME.obj, strokes/NUMBER.stroke    objects as they are
 ///
+/// petrous.json also has the thumbnail ("thumbnail_png", base64), where there is one and images go
+/// along: there, programs that know none pass over it.
+///
 /// Other programs open the parts as they are unzipped. What is restored is the library's objects
 /// to the byte: their names are the SHA-256 of their content. Label maps are as the case shows
 /// them: one whose structures were renamed, or removed in part, is written anew for the archive.
@@ -28,7 +31,11 @@ struct ArchiveOptions
   /// Only the manifest and the strokes: no image, label map or mesh. It is restored where the very
   /// same CT is.
   bool planOnly = false;
-  int level = 6; ///< of the images' compression, 1 (fast) to 12 (small)
+  int level = 6;             ///< of the images' compression, 1 (fast) to 12 (small)
+  bool withoutNotes = false; ///< Description::note stays here
+  /// The planned date goes along. Dates identify: with the list of a day's operations, everybody
+  /// knows who the patient is.
+  bool keepDate = false;
 };
 
 struct ArchiveSummary
@@ -38,7 +45,8 @@ struct ArchiveSummary
   std::uintmax_t inputBytes = 0; ///< of these objects in the library
   std::uintmax_t archiveBytes = 0;
   bool planOnly = false;
-  bool durable = true; ///< false: complete, but the disk did not confirm it
+  bool durable = true;            ///< false: complete, but the disk did not confirm it
+  std::vector<std::string> notes; ///< for the user: what of the description stayed, or went along
 };
 
 /// Writes a saved case to one file, complete or not at all. Every object is verified against its

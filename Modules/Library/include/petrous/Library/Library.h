@@ -16,15 +16,34 @@
 namespace petrous::library
 {
 
+using scene::Description;
+
 struct CaseSummary
 {
   std::string name;
+  std::string id;       ///< Case::id
   std::string modified; ///< UTC, ISO 8601
   core::Index3 dims{0, 0, 0};
   std::size_t structures = 0;
   std::size_t strokes = 0; ///< applied strokes
   double removed = 0.0;    ///< mm^3
   bool damaged = false;    ///< the manifest cannot be read; the other fields are then empty
+  Description description; ///< without its note
+  bool hasNote = false;
+  bool hasThumbnail = false;
+};
+
+/// What Library::search looks for: cases to which everything applies that is not empty. All text is
+/// case-insensitive.
+struct CaseFilter
+{
+  std::string text; ///< each word: in the name, the name of a part, a tag, diagnosis or procedure
+  bool inNotes = false;          ///< also in the note; slower, since the manifests are read
+  std::vector<std::string> tags; ///< each a tag of the case
+  std::string diagnosis;         ///< each word in it
+  std::string procedure;         ///< each word in it
+  std::optional<scene::Side> side;
+  std::string from, to; ///< of the planned date, both included: "2026-03-31"
 };
 
 class ObjectChecks;
@@ -44,6 +63,13 @@ struct Inspection
   std::size_t objects = 0;
   std::vector<Damage> damaged;
 };
+
+constexpr int kThumbnailWidth = 256;  ///< pixels
+constexpr int kThumbnailHeight = 192; ///< pixels
+
+/// Whether this is a thumbnail: a PNG of that size, RGB of 8 bits, not interlaced, sound to its
+/// last bit, which holds the picture and nothing else.
+bool isThumbnail(const std::vector<std::uint8_t>& png) noexcept;
 
 /// A case that was deleted and can be brought back.
 struct DeletedCase
@@ -82,10 +108,10 @@ public:
   void onNotice(std::function<void(const std::string&)> notice) { m_notice = std::move(notice); }
 
   std::vector<CaseSummary> list() const; ///< sorted by name
-  /// Cases that contain each word of the text in their name or the name of a part;
-  /// case-insensitive.
-  std::vector<CaseSummary> search(const std::string& text) const;
-  bool contains(const std::string& name) const; ///< including damaged ones
+  /// Sorted by name. Throws InvalidParameter if `from` or `to` is no date, or `from` the later one.
+  std::vector<CaseSummary> search(const CaseFilter& filter) const;
+  std::vector<CaseSummary> search(const std::string& text) const; ///< CaseFilter::text
+  bool contains(const std::string& name) const;                   ///< including damaged ones
 
   /// Opens a case without its voxels: they are read when a part is accessed. Drilling that was not
   /// saved because a program was killed (see Journal) is recovered and saved first. Throws
@@ -129,6 +155,23 @@ public:
   /// sentence describing this, else an empty string. Throws like `save`.
   std::string saveDrilled(scene::Case& value, const SavedState& base,
                           const core::Progress& progress = {});
+
+  /// The whole description of a saved case. Throws LibraryError (NotFound) and ManifestError.
+  Description description(const std::string& name) const;
+  /// Replaces it and saves the case, unless it is the same. While a program has the case open, that
+  /// program's next save would be refused: there, change Case::description and save. Throws
+  /// InvalidParameter, and like `open` and `save`.
+  void describe(const std::string& name, const Description& description);
+
+  /// A small picture of the case, kThumbnailWidth x kThumbnailHeight pixels, as PNG without
+  /// metadata; empty if there is none, or a damaged one.
+  std::vector<std::uint8_t> thumbnail(const CaseSummary& summary) const;
+  /// The same. Throws LibraryError (NotFound) and ManifestError.
+  std::vector<std::uint8_t> thumbnail(const std::string& name) const;
+  /// Keeps a picture, beside the case's manifest, which stays as it is: also while a program has
+  /// the case open. Throws InvalidParameter unless isThumbnail(png), LibraryError (NotFound,
+  /// DiskFull, Unwritable) and ManifestError.
+  void setThumbnail(const std::string& name, const std::vector<std::uint8_t>& png);
 
   /// Throws LibraryError (Conflict) if another process is drilling in the case.
   void refuseWhereDrilled(const std::string& name) const;

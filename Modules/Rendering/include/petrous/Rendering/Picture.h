@@ -39,6 +39,9 @@ struct DepthImage
 /// Number of pixels that differ in any channel; all pixels if the sizes differ.
 std::size_t countDifferentPixels(const Picture& a, const Picture& b);
 
+/// As PNG, with the pixels and nothing else. Throws RenderingError BadSize.
+std::vector<std::uint8_t> pngOf(const Picture& picture);
+
 /// Writes atomically (temporary file and rename). Throws RenderingError CannotWrite naming the
 /// file.
 void writePng(const std::filesystem::path& file, const Picture& picture);

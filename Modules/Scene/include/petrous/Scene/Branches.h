@@ -16,7 +16,9 @@ namespace petrous::scene
 void startBranch(Case& value, const std::string& name,
                  std::optional<std::size_t> after = std::nullopt);
 
-/// Switches to a branch, in the state in which it was left. Throws InvalidParameter.
+/// Switches to a branch, in the state in which it was left, and to the camera that it was left with
+/// (ViewState::branchCameras), else that of its last applied stroke, else none other. Throws
+/// InvalidParameter.
 void goToBranch(Case& value, const std::string& name);
 
 /// Replaces the automatic name of a branch, created by drilling after an undo, by a chosen one.

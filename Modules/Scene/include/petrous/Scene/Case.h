@@ -12,9 +12,11 @@
 #include "petrous/Core/Lazy.h"
 #include "petrous/Core/TriangleMesh.h"
 #include "petrous/Dissection/Dissection.h"
+#include "petrous/Scene/Description.h"
 #include "petrous/Scene/ImagePart.h"
 #include "petrous/Scene/MeshTouch.h"
 #include "petrous/Scene/TransformedPart.h"
+#include "petrous/Scene/ViewState.h"
 #include "petrous/Volume/IntensityScale.h"
 #include "petrous/Volume/LabelMap.h"
 #include "petrous/Volume/SegmentCodes.h"
@@ -78,6 +80,8 @@ struct Case
   std::vector<LabelPart> labels;
   std::vector<MeshPart> meshes;
   std::optional<core::CameraPose> camera; ///< last view; nullopt: lateral view
+  ViewState view;
+  Description description;
 
   dissection::Dissection dissection; ///< the strokes, their history and the mask
 

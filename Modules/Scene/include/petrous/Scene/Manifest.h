@@ -20,10 +20,10 @@ struct ManifestError : core::Error
   Reason reason;
 };
 
-/// 2: branches; 3: how an MR was registered, and what was drawn on one; 4: codes of structures.
-/// Older formats can be opened; a case without codes is written in format 3, which older programs
-/// open.
-constexpr int kManifestFormat = 4;
+/// 2: branches; 3: how an MR was registered, and what was drawn on one; 4: codes of structures; 5:
+/// description of the case. Older formats can be opened; a case is written in the lowest format
+/// from 3 that holds it, which older programs open.
+constexpr int kManifestFormat = 5;
 
 /// The case as JSON: everything but the voxels, which are referenced by object name. Equal cases
 /// give the same text. Numbers round-trip exactly. Throws InvalidParameter naming the first

@@ -177,9 +177,10 @@ void LibraryController::verify()
             return showReport(&m_window, tr("Verify"), sum + ' ' + tr("All are sound."), {}, {});
           showReport(&m_window, tr("Verify"),
                      sum + ' ' +
-                         tr("%1 are damaged or missing. Restore them from a copy of the library, "
-                            "or import the data again.")
-                             .arg(found.damaged.size()),
+                         (found.damaged.size() == 1
+                              ? tr("1 is damaged or missing.")
+                              : tr("%1 are damaged or missing.").arg(found.damaged.size())) +
+                         ' ' + tr("Restore from a copy of the library, or import the data again."),
                      damageText(found), "petrous-verify.txt");
         };
       });

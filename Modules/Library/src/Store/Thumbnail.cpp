@@ -167,7 +167,7 @@ void Library::setThumbnail(const std::string& name, const std::vector<std::uint8
                                  " x " + std::to_string(kThumbnailHeight) +
                                  " pixels, RGB, without metadata");
   checkedManifestPath(name);
-  const FolderLock lock(m_folder / ".lock");
+  const core::FileLock lock = lockFolder(m_folder);
   checkedManifestPath(name);
   const std::string id = readManifest(name).id;
   if (thumbnailPath(m_folder, id).empty())

@@ -37,6 +37,7 @@
 #include "DeviceWatcher.h"
 #include "DrillBar.h"
 #include "DrillController.h"
+#include "ExchangeController.h"
 #include "LibraryController.h"
 #include "LibraryPanel.h"
 #include "PictureController.h"
@@ -128,6 +129,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_registration(new RegistrationController(m_model, *m_slices, *this))
   , m_segment(new SegmentController(m_model, *m_slices, *this))
   , m_library(new LibraryController(m_model, *m_keeper, *this))
+  , m_exchange(new ExchangeController(m_model, *m_keeper, *m_library->menu(), *this))
 {
   addPanels();
   m_thickness = new ThicknessController(m_model, *m_view, *findChild<StructuresPanel*>(),
@@ -413,6 +415,12 @@ void MainWindow::connectModel()
   connect(m_branches, &BranchController::changed, m_saver, &CaseSaver::save);
   connect(m_branches, &BranchController::statusMessage, this, showMessage);
   connect(m_library, &LibraryController::statusMessage, this, showMessage);
+  connect(m_exchange, &ExchangeController::statusMessage, this, showMessage);
+  connect(m_library->panel(), &LibraryPanel::sendAsked, m_exchange,
+          [this](const QString& name) {
+            guarded([&] { m_exchange->send(bytes(name)); },
+                    [this](const QString& why) { notice(why); });
+          });
   connect(m_saver, &CaseSaver::saved, m_library, &LibraryController::refresh);
   connect(m_picture, &PictureController::statusMessage, this,
           [this](const QString& line) { statusBar()->showMessage(line); });

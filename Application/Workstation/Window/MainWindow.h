@@ -30,6 +30,7 @@ class DrillController;
 class DeviceToolBar;
 class DeviceWatcher;
 class ActiveDeviceController;
+class ExchangeController;
 class LibraryController;
 class PictureController;
 class ProbeLabel;
@@ -132,6 +133,7 @@ private:
   RegistrationController* m_registration;
   SegmentController* m_segment;
   LibraryController* m_library;
+  ExchangeController* m_exchange;
   std::vector<std::pair<PanelEntry, Panel*>> m_panels;
   ThicknessController* m_thickness;
   Bindings m_bound;

@@ -14,12 +14,13 @@
 #include "Application.h"
 #include "Theme.h"
 #include "petrous/Core/OutputFile.h"
+#include "petrous/Presenters/FolderIdentity.h"
 
 namespace petrous::workstation
 {
 
 void showReport(QWidget* parent, const QString& title, const QString& head, const QString& text,
-                const QString& file)
+                const QString& file, const QString& input)
 {
   auto* dialog = new QDialog(parent);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
@@ -45,24 +46,27 @@ void showReport(QWidget* parent, const QString& title, const QString& head, cons
   save->setObjectName("saveReport");
   save->setAutoDefault(false);
   QObject::connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::reject);
-  QObject::connect(save, &QPushButton::clicked, dialog,
-                   [dialog, whole, outcome, title, file]
-                   {
-                     const QString path = QFileDialog::getSaveFileName(
-                         dialog, title, QDir::home().filePath(file), QObject::tr("Text (*.txt)"));
-                     if (path.isEmpty())
-                       return;
-                     try
-                     {
-                       core::writeFile(QFile::encodeName(path).toStdString(),
-                                       bytes(whole->toPlainText()));
-                       outcome->setText(QObject::tr("Saved as %1").arg(path));
-                     }
-                     catch (const std::exception& error)
-                     {
-                       outcome->setText(toString(error));
-                     }
-                   });
+  QObject::connect(
+      save, &QPushButton::clicked, dialog,
+      [dialog, whole, outcome, title, file, input]
+      {
+        const QString path = QFileDialog::getSaveFileName(
+            dialog, title, QDir::home().filePath(file), QObject::tr("Text (*.txt)"));
+        if (path.isEmpty())
+          return;
+        try
+        {
+          const std::filesystem::path from = QFile::encodeName(input).toStdString();
+          if (!input.isEmpty())
+            presenters::refuseWithin(QFile::encodeName(path).toStdString(), from, "report");
+          core::writeFile(QFile::encodeName(path).toStdString(), bytes(whole->toPlainText()));
+          outcome->setText(QObject::tr("Saved as %1").arg(path));
+        }
+        catch (const std::exception& error)
+        {
+          outcome->setText(toString(error));
+        }
+      });
   if (text.isEmpty())
   {
     whole->hide();

@@ -8,6 +8,7 @@
 #include <QFont>
 #include <QPalette>
 
+#include "DescriptionDialog.h"
 #include "Theme.h"
 
 namespace petrous::workstation
@@ -34,6 +35,30 @@ int CasesModel::rowOf(const std::string& name) const
   return found == m_cases.end() ? -1 : static_cast<int>(found - m_cases.begin());
 }
 
+void CasesModel::forgetPictures()
+{
+  m_pictures.clear();
+}
+
+// Of the same size for all, so that names stand below each other.
+QVariant CasesModel::picture(const library::CaseSummary& one) const
+{
+  const auto known = m_pictures.find(one.id);
+  if (known != m_pictures.end())
+    return known->second;
+  QPixmap picture(kCasePicture);
+  picture.fill(Qt::transparent);
+  if (one.hasThumbnail && thumbnail)
+  {
+    const auto png = thumbnail(one);
+    QPixmap read;
+    if (read.loadFromData(png.data(), static_cast<unsigned>(png.size()), "PNG"))
+      picture = read.scaled(kCasePicture, Qt::KeepAspectRatio, Qt::SmoothTransformation);
+  }
+  m_pictures[one.id] = picture;
+  return picture;
+}
+
 int CasesModel::rowCount(const QModelIndex& parent) const
 {
   return parent.isValid() ? 0 : static_cast<int>(m_cases.size());
@@ -47,6 +72,14 @@ int CasesModel::columnCount(const QModelIndex& parent) const
 namespace
 {
 
+QString tagsOf(const library::CaseSummary& one)
+{
+  QStringList tags;
+  for (const std::string& tag : one.description.tags)
+    tags += words(tag);
+  return tags.join(", ");
+}
+
 QString textOf(const library::CaseSummary& one, int column)
 {
   if (column == CasesModel::Name)
@@ -57,6 +90,14 @@ QString textOf(const library::CaseSummary& one, int column)
   {
   case CasesModel::Changed:
     return localTime(one.modified);
+  case CasesModel::Diagnosis:
+    return words(one.description.diagnosis);
+  case CasesModel::Side:
+    return sideText(one.description.side);
+  case CasesModel::Planned:
+    return words(one.description.date);
+  case CasesModel::Tags:
+    return tagsOf(one);
   case CasesModel::Structures:
     return QString::number(one.structures);
   case CasesModel::Strokes:
@@ -83,6 +124,12 @@ QString tipOf(const library::CaseSummary& one, bool open)
                .arg(one.structures);
   lines +=
       CasesModel::tr("%1 strokes, %2 mm³ removed").arg(one.strokes).arg(one.removed, 0, 'f', 1);
+  const QString what = words(one.description.diagnosis);
+  const QString how = words(one.description.procedure);
+  if (!what.isEmpty() || !how.isEmpty())
+    lines += what.isEmpty() ? how : how.isEmpty() ? what : what + ", " + how;
+  if (one.hasNote)
+    lines += CasesModel::tr("with a note");
   return lines.join('\n');
 }
 
@@ -98,6 +145,8 @@ QVariant CasesModel::data(const QModelIndex& index, int role) const
   {
   case Qt::DisplayRole:
     return textOf(one, index.column());
+  case Qt::DecorationRole:
+    return index.column() == Name ? picture(one) : QVariant();
   case Qt::ToolTipRole:
     return tipOf(one, open);
   case Qt::TextAlignmentRole:
@@ -128,6 +177,14 @@ QVariant CasesModel::headerData(int section, Qt::Orientation orientation, int ro
     return tr("Case");
   case Changed:
     return tr("Changed");
+  case Diagnosis:
+    return tr("Diagnosis");
+  case Side:
+    return tr("Side");
+  case Planned:
+    return tr("Planned");
+  case Tags:
+    return tr("Tags");
   case Structures:
     return tr("Structures");
   case Strokes:
@@ -158,6 +215,11 @@ void CasesModel::sortCases()
   {
     switch (m_column)
     {
+    case Diagnosis:
+    case Side:
+    case Planned:
+    case Tags:
+      return textOf(a, m_column).localeAwareCompare(textOf(b, m_column)) < 0;
     case Changed:
       return a.modified < b.modified;
     case Structures:

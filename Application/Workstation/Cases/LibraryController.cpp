@@ -7,11 +7,13 @@
 #include <QPushButton>
 
 #include "CaseDocumentController.h"
+#include "DescriptionDialog.h"
 #include "LibraryPanel.h"
 #include "ReportWindow.h"
 #include "Theme.h"
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Presenters/CaseNaming.h"
+#include "petrous/Presenters/CasePicture.h"
 
 namespace petrous::workstation
 {
@@ -100,6 +102,8 @@ void LibraryController::connectPanel()
   on(&LibraryPanel::renameAsked, &LibraryController::rename);
   on(&LibraryPanel::copyAsked, &LibraryController::copy);
   on(&LibraryPanel::removeAsked, &LibraryController::remove);
+  on(&LibraryPanel::describeAsked, &LibraryController::describe);
+  on(&LibraryPanel::pictureAsked, &LibraryController::makePicture);
   connect(m_panel, &LibraryPanel::archiveAsked, this,
           [this](const QString& name) { m_keeper.archive(bytes(name)); });
   connect(m_panel, &LibraryPanel::undeleteAsked, this,
@@ -160,6 +164,46 @@ void LibraryController::remove(const std::string& name)
     return;
   m_keeper.changeCase(name, {}, [&](library::Library& library) { library.remove(name); });
   m_panel->refresh();
+}
+
+void LibraryController::describe(const std::string& name)
+{
+  scene::Description before;
+  if (!m_keeper.changeCase({}, {},
+                           [&](library::Library& library) { before = library.description(name); }))
+    return; // it cannot be read, which was told
+  DescriptionDialog dialog(words(name), before, &m_window);
+  if (dialog.exec() != QDialog::Accepted || dialog.description() == before)
+    return;
+  m_keeper.changeCase(
+      name, name, [&](library::Library& library) { library.describe(name, dialog.description()); });
+  m_panel->select(name);
+}
+
+void LibraryController::makePicture(const std::string& name)
+{
+  if (m_model.hasCase() && m_model.value().name == name && !m_keeper.saved())
+    return; // the banner tells why
+  m_keeper.run(tr("Making the picture of %1").arg(words(name)),
+               [this, library = m_model.library(),
+                name](const core::Progress& progress) mutable -> BackgroundWork::Reply
+               {
+                 scene::Case value = library.open(name);
+                 library.loadDissection(value);
+                 const auto png = presenters::thumbnailOf(value, progress);
+                 library.checkVoxels(value, progress);
+                 if (!png.empty())
+                   library.setThumbnail(name, png);
+                 return [this, name, made = !png.empty()]
+                 {
+                   m_panel->forgetPictures();
+                   refresh();
+                   emit statusMessage(
+                       made ? tr("The picture of %1 is made").arg(words(name))
+                            : tr("No picture was made: it would show neither bone nor a "
+                                 "structure"));
+                 };
+               });
 }
 
 void LibraryController::verify()

@@ -40,6 +40,8 @@ private:
   void rename(const std::string& name);
   void copy(const std::string& name);
   void remove(const std::string& name);
+  void describe(const std::string& name);
+  void makePicture(const std::string& name);
   void verify();
   void collect();
   void repair();

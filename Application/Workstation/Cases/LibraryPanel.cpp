@@ -4,6 +4,8 @@
 #include <set>
 
 #include <QAction>
+#include <QCheckBox>
+#include <QComboBox>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QKeyEvent>
@@ -18,6 +20,7 @@
 
 #include "Application.h"
 #include "CasesModel.h"
+#include "DescriptionDialog.h"
 #include "Theme.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
@@ -35,22 +38,34 @@ LibraryPanel::LibraryPanel(const presenters::WorkstationModel& model, QWidget* p
   , m_model(model)
   , m_cases(new CasesModel(this))
   , m_search(new QLineEdit)
+  , m_side(new QComboBox)
+  , m_inNotes(new QCheckBox(tr("in &notes too")))
   , m_list(new QTreeView)
   , m_count(new QLabel)
   , m_deleted(new QMenu(this))
   , m_undelete(new QToolButton)
 {
   m_search->setObjectName("searchCases");
-  m_search->setPlaceholderText(tr("Search names of cases and structures"));
+  m_search->setPlaceholderText(tr("Search names, structures, tags, diagnoses"));
   m_search->setToolTip(
-      tr("Cases that have each of these words in their name or in that of a "
-         "structure, MR or mesh (%1)")
+      tr("Cases that have each of these words in their name or in that of a structure, MR or "
+         "mesh, in a tag, the diagnosis or the procedure (%1)")
           .arg(QKeySequence(QKeySequence::Find).toString(QKeySequence::NativeText)));
   m_search->setAccessibleName(tr("Search cases"));
   m_search->setClearButtonEnabled(true);
   m_search->setAcceptDrops(false); // an archive that is dropped is for the window
   connect(m_search, &QLineEdit::textChanged, this, &LibraryPanel::refresh);
   connect(m_search, &QLineEdit::returnPressed, this, &LibraryPanel::focusList);
+  m_side->setObjectName("searchSide");
+  m_side->setAccessibleName(tr("Side"));
+  m_side->addItem(tr("any side"), -1);
+  for (const auto side : {scene::Side::Left, scene::Side::Right, scene::Side::Both})
+    m_side->addItem(sideText(side), static_cast<int>(side));
+  connect(m_side, qOverload<int>(&QComboBox::currentIndexChanged), this, &LibraryPanel::refresh);
+  m_inNotes->setObjectName("searchNotes");
+  connect(m_inNotes, &QCheckBox::toggled, this, &LibraryPanel::refresh);
+  m_cases->thumbnail = [this](const library::CaseSummary& one)
+  { return m_model.library().thumbnail(one); };
   auto* find = new QShortcut(QKeySequence::Find, this);
   find->setContext(Qt::WidgetWithChildrenShortcut);
   connect(find, &QShortcut::activated, m_search,
@@ -60,6 +75,7 @@ LibraryPanel::LibraryPanel(const presenters::WorkstationModel& model, QWidget* p
   m_list->setModel(m_cases);
   m_list->setAccessibleName(tr("Cases of the library"));
   m_list->setRootIsDecorated(false);
+  m_list->setIconSize(kCasePicture);
   m_list->setUniformRowHeights(true);
   m_list->setAlternatingRowColors(true);
   m_list->setAllColumnsShowFocus(true);
@@ -94,7 +110,12 @@ LibraryPanel::LibraryPanel(const presenters::WorkstationModel& model, QWidget* p
   foot->addWidget(m_undelete);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(8, 8, 8, 8);
+  auto* where = new QHBoxLayout;
+  where->addWidget(m_side);
+  where->addWidget(m_inNotes);
+  where->addStretch();
   layout->addWidget(m_search);
+  layout->addLayout(where);
   layout->addLayout(buttons);
   layout->addWidget(m_list, 1);
   layout->addLayout(foot);
@@ -141,6 +162,11 @@ void LibraryPanel::addButtons(QLayout& layout)
   add("deleteCase", tr("&Delete…"), QKeySequence(Qt::Key_Delete),
       tr("Takes the case out of the library; it can be brought back"), &LibraryPanel::removeAsked,
       true);
+  add("describeCase", tr("D&escribe…"), Qt::ALT + Qt::Key_Return,
+      tr("Note, tags, diagnosis, procedure, side, planned date"), &LibraryPanel::describeAsked,
+      false);
+  add(nullptr, tr("Make the &picture"), {},
+      tr("The small picture in this list, from the last view"), &LibraryPanel::pictureAsked, false);
   add(nullptr, tr("&Archive the case…"), {}, tr("The case in one file"),
       &LibraryPanel::archiveAsked, false);
   add(nullptr, tr("&Send the case…"), {}, tr("The case to a DICOM node"), &LibraryPanel::sendAsked,
@@ -174,7 +200,12 @@ void LibraryPanel::refresh()
   {
     const std::string before = current();
     const std::string open = m_model.hasCase() ? m_model.value().name : std::string();
-    m_cases->setCases(m_model.library().search(bytes(m_search->text())), open);
+    library::CaseFilter filter;
+    filter.text = bytes(m_search->text());
+    filter.inNotes = m_inNotes->isChecked();
+    if (const int side = m_side->currentData().toInt(); side >= 0)
+      filter.side = static_cast<scene::Side>(side);
+    m_cases->setCases(m_model.library().search(filter), open);
     int row = m_cases->rowOf(before);
     if (row < 0)
       row = m_cases->rowOf(open);
@@ -183,10 +214,10 @@ void LibraryPanel::refresh()
     if (count > 0)
       m_count->setText(count == 1 ? tr("1 case") : tr("%1 cases").arg(count));
     else
-      m_count->setText(m_search->text().trimmed().isEmpty()
+      m_count->setText(!isFiltered()
                            ? tr("No case yet. Drop a DICOM folder, or an archive (.petrous), on "
                                 "the window.")
-                           : tr("No case has all of these words."));
+                           : tr("No case has all of that."));
     m_count->setToolTip(words(m_model.library().folder().string()));
     listDeleted();
   }
@@ -197,10 +228,23 @@ void LibraryPanel::refresh()
   }
 }
 
+bool LibraryPanel::isFiltered() const
+{
+  return !m_search->text().trimmed().isEmpty() || m_side->currentIndex() > 0;
+}
+
+void LibraryPanel::forgetPictures()
+{
+  m_cases->forgetPictures();
+}
+
 void LibraryPanel::select(const std::string& name)
 {
   if (m_cases->rowOf(name) < 0)
+  {
     m_search->clear();
+    m_side->setCurrentIndex(0);
+  }
   refresh();
   if (const int row = m_cases->rowOf(name); row >= 0)
     m_list->setCurrentIndex(m_cases->index(row, 0));

@@ -5,6 +5,8 @@
 
 #include "Panels.h"
 
+class QCheckBox;
+class QComboBox;
 class QLabel;
 class QLineEdit;
 class QMenu;
@@ -37,6 +39,7 @@ public:
   void refreshSoon(); ///< when it is next seen
 
   void refresh();
+  void forgetPictures();
   void select(const std::string& name); ///< also where the search hides it
   void focusList();
 
@@ -47,6 +50,8 @@ signals:
   void renameAsked(const QString& name);
   void copyAsked(const QString& name);
   void removeAsked(const QString& name);
+  void describeAsked(const QString& name);
+  void pictureAsked(const QString& name);
   void archiveAsked(const QString& name);
   void sendAsked(const QString& name);
   void undeleteAsked(const QString& name);
@@ -56,6 +61,7 @@ protected:
 
 private:
   using Asked = void (LibraryPanel::*)(const QString&);
+  bool isFiltered() const;
   void addButtons(QLayout& layout);
   void listDeleted();
   void update();
@@ -63,6 +69,8 @@ private:
   const presenters::WorkstationModel& m_model;
   CasesModel* m_cases;
   QLineEdit* m_search;
+  QComboBox* m_side;
+  QCheckBox* m_inNotes;
   QTreeView* m_list;
   QLabel* m_count;
   QMenu* m_deleted;

@@ -2,6 +2,8 @@
 
 #include <fstream>
 
+#include <QCheckBox>
+#include <QComboBox>
 #include <QDialog>
 #include <QFileDialog>
 #include <QInputDialog>
@@ -9,6 +11,7 @@
 #include <QLineEdit>
 #include <QMenu>
 #include <QPlainTextEdit>
+#include <QPushButton>
 #include <QToolButton>
 #include <QTreeView>
 
@@ -292,4 +295,71 @@ TEST_F(LibraryWindow, ADamagedCaseIsListed)
   EXPECT_TRUE(panel().findChild<QToolButton*>("deleteCase")->isEnabled());
   const int row = list().currentIndex().row();
   EXPECT_EQ(list().model()->index(row, CasesModel::Structures).data().toString(), "damaged");
+}
+
+// Of the open case, which is open again afterwards; found by it, and by its side.
+TEST_F(LibraryWindow, ACaseIsDescribedAndFoundByThat)
+{
+  saveBall("ball");
+  saveBall("other");
+  openWindow("ball");
+  drill(300);
+  showPanel();
+  ASSERT_TRUE(select("ball"));
+  onDialog(
+      [](QDialog& dialog)
+      {
+        if (dialog.objectName() != "describeCase")
+          return false;
+        auto* accept = dialog.findChild<QPushButton*>("primary");
+        dialog.findChild<QLineEdit*>("plannedDate")->setText("2026-02-30");
+        EXPECT_FALSE(accept->isEnabled()) << "there is no such day";
+        dialog.findChild<QLineEdit*>("plannedDate")->setText("2026-02-28");
+        dialog.findChild<QLineEdit*>("tags")->setText("teaching, , cholesteatoma ");
+        dialog.findChild<QPlainTextEdit*>("note")->setPlainText("high jugular bulb");
+        auto* side = dialog.findChild<QComboBox*>("side");
+        side->setCurrentIndex(side->findText("left"));
+        EXPECT_TRUE(accept->isEnabled());
+        accept->click();
+        return true;
+      });
+  button("describeCase");
+  ASSERT_TRUE(isOpen("ball"));
+  EXPECT_EQ(window().model().value().dissection.strokes().size(), 1u);
+  const scene::Description said = library().description("ball");
+  EXPECT_EQ(said.tags, (std::vector<std::string>{"teaching", "cholesteatoma"}));
+  EXPECT_EQ(said.date, "2026-02-28");
+  EXPECT_EQ(said.side, scene::Side::Left);
+
+  auto* search = panel().findChild<QLineEdit*>("searchCases");
+  search->setText("cholest");
+  EXPECT_EQ(names(), QStringList{"ball"});
+  search->setText("jugular");
+  EXPECT_EQ(names(), QStringList());
+  panel().findChild<QCheckBox*>("searchNotes")->setChecked(true);
+  EXPECT_EQ(names(), QStringList{"ball"});
+  search->clear();
+  EXPECT_EQ(names().size(), 2);
+  auto* side = panel().findChild<QComboBox*>("searchSide");
+  side->setCurrentIndex(side->findText("right"));
+  EXPECT_EQ(names(), QStringList());
+  side->setCurrentIndex(side->findText("left"));
+  EXPECT_EQ(names(), QStringList{"ball"});
+}
+
+TEST_F(LibraryWindow, ACaseHasAPicture)
+{
+  saveBall("ball");
+  openWindow("ball");
+  showPanel();
+  ASSERT_TRUE(select("ball"));
+  act("Make the picture");
+  ASSERT_TRUE(waitFor([&] { return !library().thumbnail("ball").empty() && !window().busy(); }));
+  const auto shown = [&]
+  {
+    const auto picture =
+        list().model()->index(0, 0).data(Qt::DecorationRole).value<QPixmap>().toImage();
+    return !picture.isNull() && pixelsUnlikeTheCorner(picture) > 50;
+  };
+  EXPECT_TRUE(waitFor(shown));
 }

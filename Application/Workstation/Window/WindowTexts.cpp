@@ -58,6 +58,9 @@ QString windowText(const QString& text)
        "; remove it, add it again and choose the one on which it was drawn"},
       {"; name one by --series.*$", ""},
       {"; give the restored one another name \\(--as NAME\\)", "; restore it under another name"},
+      {"; choose another name with --as", "; rename that one first (F2 in the library panel)"},
+      {"; see 'petrous nodes add --help'", ""},
+      {" \\('petrous library copy'\\)", " (Copy in the library panel)"},
       {"; export it alone with --part, or all on the CT's grid with --on-ct",
        "; export it alone, or all on the CT's grid"},
   };

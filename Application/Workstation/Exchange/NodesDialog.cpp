@@ -167,7 +167,8 @@ void NodesDialog::fill(const std::string& current)
       [&]
       {
         m_list->clear();
-        for (const network::Node& node : network::NodeList(m_library).nodes())
+        const network::NodeList nodes(m_library);
+        for (const network::Node& node : nodes.nodes())
         {
           auto* item = new QListWidgetItem(words(node.name), m_list);
           item->setToolTip(QString("%1 %2 %3:%4")

@@ -12,7 +12,6 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
-#include <QShortcut>
 #include <QTimer>
 #include <QToolButton>
 #include <QTreeView>
@@ -66,11 +65,6 @@ LibraryPanel::LibraryPanel(const presenters::WorkstationModel& model, QWidget* p
   connect(m_inNotes, &QCheckBox::toggled, this, &LibraryPanel::refresh);
   m_cases->thumbnail = [this](const library::CaseSummary& one)
   { return m_model.library().thumbnail(one); };
-  auto* find = new QShortcut(QKeySequence::Find, this);
-  find->setContext(Qt::WidgetWithChildrenShortcut);
-  connect(find, &QShortcut::activated, m_search,
-          [this] { m_search->setFocus(Qt::ShortcutFocusReason); });
-
   m_list->setObjectName("cases");
   m_list->setModel(m_cases);
   m_list->setAccessibleName(tr("Cases of the library"));
@@ -91,7 +85,15 @@ LibraryPanel::LibraryPanel(const presenters::WorkstationModel& model, QWidget* p
   m_list->setContextMenuPolicy(Qt::ActionsContextMenu);
   connect(m_list->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           &LibraryPanel::update);
-  connect(m_cases, &QAbstractItemModel::modelReset, this, &LibraryPanel::update);
+  connect(m_cases, &QAbstractItemModel::modelAboutToBeReset, this,
+          [this] { m_before = current(); });
+  connect(m_cases, &QAbstractItemModel::modelReset, this,
+          [this]
+          {
+            if (const int row = m_cases->rowOf(m_before); row >= 0)
+              m_list->setCurrentIndex(m_cases->index(row, 0));
+            update();
+          });
 
   m_count->setObjectName("dim");
   m_count->setTextFormat(Qt::PlainText);
@@ -179,6 +181,18 @@ void LibraryPanel::showEvent(QShowEvent* event)
   Panel::showEvent(event);
   if (m_stale)
     refresh();
+}
+
+bool LibraryPanel::event(QEvent* event)
+{
+  if (event->type() != QEvent::ShortcutOverride && event->type() != QEvent::KeyPress)
+    return Panel::event(event);
+  if (!static_cast<QKeyEvent*>(event)->matches(QKeySequence::Find))
+    return Panel::event(event);
+  if (event->type() == QEvent::KeyPress)
+    m_search->setFocus(Qt::ShortcutFocusReason);
+  event->accept();
+  return true;
 }
 
 // Several causes at once, and none while nobody looks.

@@ -58,6 +58,7 @@ signals:
 
 protected:
   void showEvent(QShowEvent* event) override;
+  bool event(QEvent* event) override; ///< Ctrl+F is the panel's own while it has the focus
 
 private:
   using Asked = void (LibraryPanel::*)(const QString&);
@@ -77,6 +78,7 @@ private:
   QToolButton* m_undelete;
   QList<QAction*> m_needCase;  ///< that can be opened
   QList<QAction*> m_needEntry; ///< damaged or not
+  std::string m_before;        ///< the selected case, while the list changes
   bool m_stale = true;
 };
 

@@ -307,8 +307,11 @@ void NodesDialog::remove()
       [this]
       {
         const std::string name = bytes(m_name->text().trimmed());
-        network::NodeList(m_library).remove(name);
+        network::NodeList nodes(m_library);
+        const network::Node removed = nodes.at(name);
+        nodes.remove(name);
         fill({});
+        show(removed);
         say(tr("“%1” is removed. To take it back, press Add now.").arg(words(name)));
       });
 }

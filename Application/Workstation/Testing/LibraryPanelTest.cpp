@@ -165,6 +165,16 @@ TEST_F(LibraryWindow, ACopyIsListedAndTheOriginalStaysOpen)
   EXPECT_TRUE(library().contains("copy"));
   EXPECT_EQ(panel().current(), "copy");
 
+  // Another order keeps the selection.
+  list().sortByColumn(CasesModel::Name, Qt::DescendingOrder);
+  EXPECT_EQ(names(), (QStringList{"copy", "ball"}));
+  EXPECT_EQ(panel().current(), "copy");
+  // Ctrl+F is the surgeon's window elsewhere.
+  QApplication::setActiveWindow(&window());
+  list().setFocus();
+  QTest::keyClick(&list(), Qt::Key_F, Qt::ControlModifier);
+  EXPECT_TRUE(panel().findChild<QLineEdit*>("searchCases")->hasFocus());
+
   // A name that is taken is refused, and the case is open again.
   ASSERT_TRUE(select("ball"));
   QString why;

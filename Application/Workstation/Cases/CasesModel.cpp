@@ -200,10 +200,11 @@ QVariant CasesModel::headerData(int section, Qt::Orientation orientation, int ro
 
 void CasesModel::sort(int column, Qt::SortOrder order)
 {
-  const std::string open = m_open;
+  beginResetModel();
   m_column = column;
   m_order = order;
-  setCases(std::move(m_cases), open);
+  sortCases();
+  endResetModel();
 }
 
 // Equal ones by name.

@@ -43,18 +43,18 @@ void CasesModel::forgetPictures()
 // Of the same size for all, so that names stand below each other.
 QVariant CasesModel::picture(const library::CaseSummary& one) const
 {
+  const bool exists = one.hasThumbnail && thumbnail; // only what was read is remembered
   const auto known = m_pictures.find(one.id);
-  if (known != m_pictures.end())
+  if (exists && known != m_pictures.end())
     return known->second;
   QPixmap picture(kCasePicture);
   picture.fill(Qt::transparent);
-  if (one.hasThumbnail && thumbnail)
-  {
-    const auto png = thumbnail(one);
-    QPixmap read;
-    if (read.loadFromData(png.data(), static_cast<unsigned>(png.size()), "PNG"))
-      picture = read.scaled(kCasePicture, Qt::KeepAspectRatio, Qt::SmoothTransformation);
-  }
+  if (!exists)
+    return picture;
+  const auto png = thumbnail(one);
+  QPixmap read;
+  if (read.loadFromData(png.data(), static_cast<unsigned>(png.size()), "PNG"))
+    picture = read.scaled(kCasePicture, Qt::KeepAspectRatio, Qt::SmoothTransformation);
   m_pictures[one.id] = picture;
   return picture;
 }

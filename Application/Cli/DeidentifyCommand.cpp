@@ -10,6 +10,7 @@
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Library/Deidentification.h"
 #include "petrous/Library/PseudonymMap.h"
+#include "petrous/Presenters/FolderIdentity.h"
 
 namespace petrous::cli
 {
@@ -95,35 +96,20 @@ void deidentify(const Context& context, DeidentifyCommandOptions options)
 {
   using Dates = library::DeidentificationOptions::Dates;
   if (!options.report.empty())
-  {
-    const auto in = std::filesystem::weakly_canonical(options.input);
-    const auto report = std::filesystem::weakly_canonical(options.report);
-    if (std::mismatch(in.begin(), in.end(), report.begin(), report.end()).first == in.end())
-      throw core::Error(core::Fault::Refused,
-                        options.report + ": the report would lie in " + options.input +
-                            ", which is never changed; give it another place");
-  }
+    presenters::refuseWithin(options.report, options.input, "report");
   context.refuseOverwriting({options.output, options.map, options.report},
                             {options.input, options.passphraseFile});
   options.profile.dates = options.dates == "keep"    ? Dates::Keep
                           : options.dates == "shift" ? Dates::Shift
                                                      : Dates::Remove;
-  std::unique_ptr<library::PseudonymMap> map;
+  std::string passphrase;
   if (!options.map.empty())
-    map = std::make_unique<library::PseudonymMap>(
-        options.map, passphraseFor(options.map, options.passphraseFile));
+    passphrase = passphraseFor(options.map, options.passphraseFile);
   else if (!options.passphraseFile.empty())
     throw UsageError("--passphrase-file: there is no --map that it could open");
-  const library::PseudonymKey once;
-  if (map)
-    map->save(); // a key that is lost would leave files that nobody can assign
-  const library::DeidentificationResult done = library::deidentify(
-      options.input, options.output, options.profile, map ? map->key() : once, context.progress());
-  if (map)
-  {
-    map->add(done.pseudonyms);
-    map->save();
-  }
+  const library::DeidentificationResult done = presenters::deidentifyFolder(
+      {options.input, options.output, options.map, options.profile}, passphrase,
+      context.progress());
   for (const std::string& line : done.leftOut)
     context.warn("left out: " + line);
   for (const auto& [what, files] : done.report.warnings)

@@ -19,7 +19,6 @@
 #include "Application.h"
 #include "Banner.h"
 #include "CaseSaver.h"
-#include "OpenCaseDialog.h"
 #include "RegionDialog.h"
 #include "RepairDialog.h"
 #include "SeriesDialog.h"
@@ -146,6 +145,7 @@ CaseDocumentController::CaseDocumentController(presenters::WorkstationModel& mod
             endWork();
             m_model.notOpened();
             refuse(why);
+            reopen();
           });
   connect(&m_work, &BackgroundWork::cancelled, this,
           [this]
@@ -153,6 +153,7 @@ CaseDocumentController::CaseDocumentController(presenters::WorkstationModel& mod
             endWork();
             m_model.notOpened();
             emit statusMessage(tr("Stopped; nothing was changed"));
+            reopen();
           });
   connectBanners();
   watchForDamage();
@@ -369,6 +370,8 @@ bool CaseDocumentController::leaveCase()
 
 void CaseDocumentController::openCase(const std::string& name)
 {
+  if (m_work.busy() || m_asking)
+    return emit statusMessage(tr("One at a time: something is being read already"));
   if (m_model.library().folder().empty() || !leaveCase())
     return;
   m_model.beginOpen(name);
@@ -1108,34 +1111,41 @@ void CaseDocumentController::offerCtGrid(const presenters::ExportOptions& option
 // An archive contains what is saved, so the case is saved first.
 void CaseDocumentController::archive()
 {
-  if (!m_model.hasCase())
-    return;
+  if (m_model.hasCase())
+    archive(m_model.value().name);
+}
+
+void CaseDocumentController::archive(const std::string& which)
+{
   if (m_work.busy() || m_asking)
     return emit statusMessage(tr("One at a time: something is being read already"));
+  const bool isOpen = m_model.hasCase() && m_model.value().name == which;
   fs::path file;
   library::ArchiveOptions options;
-  std::string name;
+  std::string name = which;
   {
     const QScopedValueRollback<bool> asking(m_asking, true);
-    if (mayDropDraft && !mayDropDraft())
+    if (isOpen && mayDropDraft && !mayDropDraft())
       return;
     const QString whole = tr("Case archives (*.petrous)");
     const QString plan = tr("Plan only, without images and structures (*.petrous)");
-    QFileDialog dialog(&m_window, tr("Archive “%1”").arg(words(m_model.value().name)));
+    QFileDialog dialog(&m_window, tr("Archive “%1”").arg(words(name)));
     dialog.setObjectName("archiveCase");
     dialog.setAcceptMode(QFileDialog::AcceptSave);
     dialog.setNameFilters({whole, plan});
     dialog.setDefaultSuffix(QString(library::kArchiveEnding).mid(1));
     dialog.setDirectory(QDir::homePath());
-    dialog.selectFile(words(m_model.value().name) + library::kArchiveEnding);
-    if (dialog.exec() != QDialog::Accepted || !m_model.hasCase())
+    dialog.selectFile(words(name) + library::kArchiveEnding);
+    if (dialog.exec() != QDialog::Accepted || (isOpen && !m_model.hasCase()))
       return;
     file = pathOf(dialog.selectedFiles().first());
     options.planOnly = dialog.selectedNameFilter() == plan;
-    m_model.stopTouch();
-    if (!m_saver.flush())
-      return emit statusMessage(tr("The case is not saved yet, so it was not archived"));
-    name = m_model.value().name; // a save after a conflict may have changed it
+    if (isOpen)
+    {
+      if (!saved())
+        return emit statusMessage(tr("The case is not saved yet, so it was not archived"));
+      name = m_model.value().name; // a save after a conflict may have changed it
+    }
   }
   work(tr("Archiving %1").arg(words(name)),
        [this, library = m_model.library(), name, file,
@@ -1228,54 +1238,86 @@ void CaseDocumentController::restore(const fs::path& file, const std::string& na
        });
 }
 
-void CaseDocumentController::chooseCase()
+void CaseDocumentController::run(const QString& title, BackgroundWork::Work task)
 {
-  if (m_work.busy())
-    return;
-  std::string again; // the open case, closed for a change and reopened afterwards
-  std::string chosen;
-  // An open case is saved and closed first, so that this window does not write to it.
-  const auto released = [this, &again](const std::string& name, const std::string& after,
-                                       const std::function<void(library::Library&)>& change)
+  if (m_work.busy() || m_asking)
+    return emit statusMessage(tr("One at a time: something is being read already"));
+  work(title,
+       [this, task = std::move(task)](const core::Progress& progress) -> BackgroundWork::Reply
+       {
+         return [this, reply = task(progress)]
+         {
+           endWork();
+           reply();
+         };
+       });
+}
+
+bool CaseDocumentController::changeCase(const std::string& name, const std::string& after,
+                                        const std::function<void(library::Library&)>& change)
+{
+  if (m_work.busy() || m_asking)
+  {
+    emit statusMessage(tr("One at a time: something is being read already"));
+    return false;
+  }
+  std::string again; // the open case, closed for the change
+  bool changed = false;
+  try
   {
     library::Library library = m_model.library();
     if (m_model.hasCase() && m_model.value().name == name)
     {
       if (!leaveCase())
-        throw core::Error(core::Fault::Refused,
-                          "the open case could not be saved; it stays as it is");
+        return false;
+      again = m_model.value().name; // a save after a conflict may have changed it
       m_model.close();
-      again = name; // if the change fails
     }
     change(library);
-    if (again == name)
+    changed = true;
+    if (!again.empty())
       again = after;
-  };
-  try
-  {
-    const OpenCaseDialog::Changes changes{
-        [&released](const std::string& name, const std::string& to)
-        { released(name, to, [&](library::Library& library) { library.rename(name, to); }); },
-        [&released](const std::string& name)
-        { released(name, {}, [&](library::Library& library) { library.remove(name); }); },
-        [&released](const std::string& name, const std::string& to)
-        { released(name, name, [&](library::Library& library) { library.copy(name, to); }); },
-        [this](const std::string& name)
-        {
-          library::Library library = m_model.library();
-          library.undelete(name);
-        }};
-    OpenCaseDialog dialog(m_model.library(), changes, &m_window);
-    dialog.setObjectName("openCase");
-    if (dialog.exec() == QDialog::Accepted)
-      chosen = dialog.chosen();
   }
   catch (const std::exception& fault)
   {
     refuse(toString(fault));
   }
-  if (!chosen.empty() || !again.empty())
-    openCase(chosen.empty() ? again : chosen);
+  if (!again.empty())
+    openCase(again);
+  return changed;
+}
+
+void CaseDocumentController::maintain(
+    const QString& title,
+    std::function<BackgroundWork::Reply(library::Library&, const core::Progress&)> task)
+{
+  if (m_work.busy() || m_asking)
+    return emit statusMessage(tr("One at a time: something is being read already"));
+  if (m_model.hasCase())
+  {
+    if (!leaveCase())
+      return;
+    m_reopen = m_model.value().name;
+    m_model.close();
+  }
+  work(title,
+       [this, library = m_model.library(),
+        task = std::move(task)](const core::Progress& progress) mutable -> BackgroundWork::Reply
+       {
+         return [this, reply = task(library, progress)]
+         {
+           endWork();
+           reply();
+           reopen();
+         };
+       });
+}
+
+// What was closed for maintenance, however that ended.
+void CaseDocumentController::reopen()
+{
+  if (const std::string name = std::exchange(m_reopen, {}); !name.empty())
+    openCase(name);
 }
 
 void CaseDocumentController::makeSample()
@@ -1302,6 +1344,12 @@ void CaseDocumentController::makeSample()
   {
     refuse(toString(fault));
   }
+}
+
+bool CaseDocumentController::saved()
+{
+  m_model.stopTouch();
+  return m_saver.flush();
 }
 
 void CaseDocumentController::save()

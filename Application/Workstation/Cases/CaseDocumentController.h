@@ -39,6 +39,7 @@ public:
   /// A case's name; or folders and files: a CT starts a case, anything else is added to it, or to
   /// the open one.
   void open(const QStringList& what);
+  void openCase(const std::string& name);
   void openFolder(); ///< with a dialog
   void openRegion(); ///< likewise, and a region of the CT is chosen first
   void openFiles();  ///< with a dialog
@@ -50,14 +51,30 @@ public:
   void restorePart();                       ///< the one that was removed last
   void renamePart(const std::string& name); ///< with a dialog
 
-  void exportPart(); ///< for other programs, with a dialog
-  void archive();    ///< the open case to one file, with a dialog
-  void restore();    ///< the case of an archive, with a dialog
+  void exportPart();                     ///< for other programs, with a dialog
+  void archive();                        ///< the open case to one file, with a dialog
+  void archive(const std::string& name); ///< likewise any case of the library
+  void restore();                        ///< the case of an archive, with a dialog
 
-  void chooseCase();
   void makeSample();
 
-  void save(); ///< and reports it
+  /// Runs a task with a progress dialog that can cancel it, unless another one is running; tells
+  /// why it failed.
+  void run(const QString& title, BackgroundWork::Work task);
+
+  /// Changes a case of the library. The open one is saved and closed first, so that this window
+  /// does not write to it, and opened again as `after` (empty: stays closed), or as it was if that
+  /// fails. Returns whether it was changed; tells why not.
+  bool changeCase(const std::string& name, const std::string& after,
+                  const std::function<void(library::Library&)>& change);
+  /// As `run`, for a task that changes any case or object of the library: the open case is saved
+  /// and closed first, and opened again in the end.
+  void
+  maintain(const QString& title,
+           std::function<BackgroundWork::Reply(library::Library&, const core::Progress&)> task);
+
+  void save();  ///< and reports it
+  bool saved(); ///< saves what is unsaved and waits; false: that failed, which the banner shows
   void saveAs();
   void prepare();               ///< the slow part of the open case (WorkstationModel::preparation)
   void prepareUnlessUnderWay(); ///< as prepare, after it was stopped or failed
@@ -93,7 +110,6 @@ private:
   };
 
   void open(const QStringList& what, const Purpose& purpose);
-  void openCase(const std::string& name);
   void restore(const std::filesystem::path& file, const std::string& name);
   void lookAt(const std::vector<std::filesystem::path>& paths, const Purpose& purpose);
   void decide(const Sources& found, const Purpose& purpose);
@@ -117,6 +133,7 @@ private:
   void offerCtGrid(const presenters::ExportOptions& options, const QString& why);
   void work(const QString& title, BackgroundWork::Work work);
   void endWork();
+  void reopen();
   void connectBanners();
   void watchForDamage();
   void lookForDamage();
@@ -138,6 +155,7 @@ private:
   std::unique_ptr<QProgressDialog> m_progress;     // of m_work
   std::optional<ExportDialog::Choices> m_exported; // what was chosen last
   QString m_damageTold;
+  std::string m_reopen; // the case that was closed for maintenance
   bool m_prepareAgain = false;
   bool m_sayWhenSaved = false;
   bool m_asking = false; // a modal dialog is open

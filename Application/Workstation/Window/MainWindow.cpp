@@ -37,6 +37,9 @@
 #include "DeviceWatcher.h"
 #include "DrillBar.h"
 #include "DrillController.h"
+#include "ExchangeController.h"
+#include "LibraryController.h"
+#include "LibraryPanel.h"
 #include "PanelLayout.h"
 #include "PictureController.h"
 #include "ProbeLabel.h"
@@ -128,6 +131,8 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_branches(new BranchController(m_model, *m_actions->approaches, *this))
   , m_registration(new RegistrationController(m_model, *m_slices, *this))
   , m_segment(new SegmentController(m_model, *m_slices, *this))
+  , m_library(new LibraryController(m_model, *m_keeper, *this))
+  , m_exchange(new ExchangeController(m_model, *m_keeper, *m_library->menu(), *this))
 {
   addPanels();
   m_thickness = new ThicknessController(m_model, *m_view, *findChild<StructuresPanel*>(),
@@ -172,7 +177,7 @@ void MainWindow::layOut()
   auto* start = new StartPage;
   connect(start, &StartPage::sampleAsked, m_keeper, &CaseDocumentController::makeSample);
   connect(start, &StartPage::openFolderAsked, m_keeper, &CaseDocumentController::openFolder);
-  connect(start, &StartPage::openCaseAsked, m_keeper, &CaseDocumentController::chooseCase);
+  connect(start, &StartPage::openCaseAsked, this, &MainWindow::showLibrary);
   connect(start, &StartPage::restoreAsked, m_keeper, qOverload<>(&CaseDocumentController::restore));
 
   auto* across = new QSplitter(Qt::Horizontal);
@@ -215,6 +220,7 @@ void MainWindow::layOut()
 
   menuBar()->insertMenu(menuBar()->actions().last(), m_registration->menu());
   menuBar()->insertMenu(menuBar()->actions().last(), m_segment->menu());
+  menuBar()->insertMenu(menuBar()->actions().last(), m_library->menu());
 
   m_sum->setObjectName("dim");
   m_sum->setToolTip(tr("What was drilled so far"));
@@ -284,7 +290,7 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event)
 
 void MainWindow::addPanels()
 {
-  const PanelContext context{m_model, *m_picture, *m_registration, *m_segment};
+  const PanelContext context{m_model, *m_picture, *m_registration, *m_segment, *m_library};
   std::map<Qt::DockWidgetArea, QDockWidget*> tabs;
   for (const PanelEntry& entry : panelEntries())
   {
@@ -336,7 +342,8 @@ void MainWindow::showPanels()
   for (const auto& [entry, panel] : m_panels)
   {
     auto* dock = findChild<QDockWidget*>(entry.name);
-    const bool shown = m_settings->panelShown(entry.name, entry.atFirst);
+    const bool shown = m_settings->panelShown(entry.name, entry.atFirst) ||
+                       (!entry.needsCase && !dock->isHidden()); // shown before there was a case
     dock->setVisible(shown);
     if (shown && !front)
       front = dock;
@@ -431,6 +438,14 @@ void MainWindow::connectModel()
           &CaseDocumentController::prepareUnlessUnderWay);
   connect(m_branches, &BranchController::changed, m_saver, &CaseSaver::save);
   connect(m_branches, &BranchController::statusMessage, this, showMessage);
+  connect(m_library, &LibraryController::statusMessage, this, showMessage);
+  connect(m_exchange, &ExchangeController::statusMessage, this, showMessage);
+  connect(m_library->panel(), &LibraryPanel::sendAsked, m_exchange,
+          [this](const QString& name) {
+            guarded([&] { m_exchange->send(bytes(name)); },
+                    [this](const QString& why) { notice(why); });
+          });
+  connect(m_saver, &CaseSaver::saved, m_library, &LibraryController::refresh);
   connect(m_picture, &PictureController::statusMessage, this,
           [this](const QString& line) { statusBar()->showMessage(line); });
 }
@@ -457,7 +472,8 @@ void MainWindow::connectActions()
           [this](bool onlyImages)
           { raisePanel(onlyImages ? "registrationDock" : "structuresDock"); });
   on(m_actions->openImage, [this] { m_keeper->openFiles(); });
-  on(m_actions->openCase, [this] { m_keeper->chooseCase(); });
+  on(m_actions->openCase, [this] { showLibrary(); });
+  connect(m_library, &LibraryController::panelWanted, this, &MainWindow::showLibrary);
   on(m_actions->sample, [this] { m_keeper->makeSample(); });
   on(m_actions->save, [this] { m_keeper->save(); });
   on(m_actions->saveAs, [this] { m_keeper->saveAs(); });
@@ -802,6 +818,12 @@ void MainWindow::raisePanel(const char* dock)
     panel->show();
     panel->raise();
   }
+}
+
+void MainWindow::showLibrary()
+{
+  raisePanel("libraryDock");
+  m_library->panel()->focusList();
 }
 
 // Begins with the tool: in use, it is taken up again.

@@ -30,6 +30,8 @@ class DrillController;
 class DeviceToolBar;
 class DeviceWatcher;
 class ActiveDeviceController;
+class ExchangeController;
+class LibraryController;
 class PictureController;
 class ProbeLabel;
 class RegistrationController;
@@ -97,6 +99,7 @@ private:
   void fillCaseMenu();
   void showUnregistered(bool opened);
   void raisePanel(const char* dock);
+  void showLibrary();
   void record(bool on);
   std::filesystem::path chooseRecording();
   void showRecording(const QString& fault);
@@ -134,6 +137,8 @@ private:
   BranchController* m_branches;
   RegistrationController* m_registration;
   SegmentController* m_segment;
+  LibraryController* m_library;
+  ExchangeController* m_exchange;
   std::vector<std::pair<PanelEntry, Panel*>> m_panels;
   ThicknessController* m_thickness;
   Bindings m_bound;

@@ -2,6 +2,8 @@
 
 #include <QCoreApplication>
 
+#include "LibraryController.h"
+#include "LibraryPanel.h"
 #include "NearbyPanel.h"
 #include "PictureController.h"
 #include "PicturePanel.h"
@@ -33,6 +35,8 @@ std::vector<PanelEntry> panelEntries()
        kNeedsCase, [](C c) -> Panel* { return c.registration.panel(); }},
       {"segmentDock", tr("Segment"), Qt::Key_F4, Qt::LeftDockWidgetArea, kTabbed, kHidden,
        kNeedsCase, [](C c) -> Panel* { return c.segment.panel(); }},
+      {"libraryDock", tr("Library"), Qt::Key_F3, Qt::LeftDockWidgetArea, kTabbed, kHidden, kAlways,
+       [](C c) -> Panel* { return c.library.panel(); }},
   };
 }
 

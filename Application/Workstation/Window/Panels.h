@@ -14,6 +14,7 @@ class WorkstationModel;
 namespace petrous::workstation
 {
 
+class LibraryController;
 class PictureController;
 class RegistrationController;
 class SegmentController;
@@ -40,6 +41,7 @@ struct PanelContext
   PictureController& picture;
   RegistrationController& registration;
   SegmentController& segment;
+  LibraryController& library;
 };
 
 struct PanelEntry

@@ -113,6 +113,30 @@ void roundTrip(const Node& node, const fs::path& folder)
   const auto studies = findStudies(node, {ct.study, {}});
   ASSERT_EQ(studies.size(), 1U);
   EXPECT_EQ(studies.front().patientId, "SECRET-PATIENT-ID");
+  // As a user looks for a patient.
+  const auto foundBy = [&](const std::function<void(StudyFilter&)>& set)
+  {
+    StudyFilter filter;
+    set(filter);
+    return findStudies(node, filter).size();
+  };
+  EXPECT_EQ(foundBy([](auto& filter) { filter.patientId = "SECRET*"; }), 1U);
+  EXPECT_EQ(foundBy([](auto& filter) { filter.patientId = "SECRET"; }), 0U);
+  EXPECT_EQ(foundBy(
+                [](auto& filter)
+                {
+                  filter.patientId = "SECRET-PATIENT-ID";
+                  filter.modality = "CT";
+                }),
+            1U);
+  EXPECT_EQ(foundBy(
+                [](auto& filter)
+                {
+                  filter.patientId = "SECRET-PATIENT-ID";
+                  filter.modality = "MR";
+                }),
+            0U);
+  EXPECT_EQ(foundBy([](auto& filter) { filter.patientName = "M\u00fcller^*"; }), 0U);
   const auto series = findSeries(node, ct.study);
   ASSERT_EQ(series.size(), 1U);
   EXPECT_EQ(series.front().uid, ct.series);

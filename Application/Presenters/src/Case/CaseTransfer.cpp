@@ -1,6 +1,7 @@
 #include "petrous/Presenters/CaseTransfer.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <optional>
 #include <variant>
@@ -184,8 +185,10 @@ private:
   {
     const fs::path folder = freshFolder();
     const fs::path archive = m_folder / (std::string("scene") + library::kArchiveEnding);
+    library::ArchiveOptions options;
+    options.withoutNotes = !m_parts.note;
     const library::ArchiveSummary archived =
-        library::archiveCase(m_library, m_value.name, archive, {}, progress.part(0.0, 0.8));
+        library::archiveCase(m_library, m_value.name, archive, options, progress.part(0.0, 0.8));
     m_notes.insert(m_notes.end(), archived.notes.begin(), archived.notes.end());
     network::SceneDescription description;
     description.studyUid = CaseIdentifiers(m_value).study();
@@ -319,6 +322,113 @@ void add(network::Transfer& sum, const network::Transfer& more)
 }
 
 } // namespace
+
+std::string IdentityReport::text() const
+{
+  std::string all;
+  const auto add = [&all](const std::string& title, const std::vector<std::string>& lines)
+  {
+    if (lines.empty())
+      return;
+    all += (all.empty() ? "" : "\n") + title + "\n";
+    for (const std::string& line : lines)
+      all += "  - " + line + "\n";
+  };
+  add("May identify the patient:", warnings);
+  add("Leaves:", leaves);
+  add("Stays here:", stays);
+  return all;
+}
+
+namespace
+{
+
+std::string joined(const std::vector<std::string>& names)
+{
+  std::string text;
+  for (const std::string& name : names)
+    text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+// From side to side and from front to back as much as a head: then its skin is in the image, and a
+// face can be rendered from it.
+bool showsHead(const core::GridGeometry& grid)
+{
+  constexpr double kHead = 140.0;  // mm; narrower heads than that are not adults'
+  constexpr double kHeight = 60.0; // mm
+  std::array<double, 3> size{};
+  for (int axis = 0; axis < 3; ++axis)
+    size[static_cast<std::size_t>(axis)] =
+        grid.spacing()[axis] * grid.dims()[static_cast<std::size_t>(axis)];
+  std::sort(size.begin(), size.end());
+  return size[1] >= kHead && size[0] >= kHeight;
+}
+
+} // namespace
+
+IdentityReport identityReport(const scene::Case& value, const SendParts& parts)
+{
+  IdentityReport report;
+  const bool isCt = value.ct.modality != scene::Modality::Mr;
+  const bool images = parts.ct || parts.scene;
+  const auto voxels = [](const scene::ImagePart& part)
+  {
+    const auto& dims = part.geometry.dims();
+    return std::to_string(dims[0]) + " x " + std::to_string(dims[1]) + " x " +
+           std::to_string(dims[2]) + " voxels";
+  };
+  if (images)
+    report.leaves.push_back(std::string(isCt ? "CT: " : "MR: ") + voxels(value.ct) +
+                            " and their place in space");
+  if (parts.mr || parts.scene)
+    for (const auto& mr : value.mr)
+      report.leaves.push_back("MR '" + mr.name + "': " + voxels(mr) +
+                              " and their place in space");
+  std::vector<std::string> structures, meshes;
+  for (const auto& part : value.labels)
+    for (const auto& structure : part.structures)
+      structures.push_back(structure.name);
+  for (const auto& mesh : value.meshes)
+    meshes.push_back(mesh.name);
+  if ((parts.labels || parts.scene) && !structures.empty())
+    report.leaves.push_back("structures, by the names that you gave them: " + joined(structures));
+  if (parts.scene)
+  {
+    report.leaves.push_back("the scene by its name '" + value.name +
+                            "': strokes, approaches, appearance, views, landmarks");
+    if (!meshes.empty())
+      report.leaves.push_back("meshes, by the names that you gave them: " + joined(meshes));
+    const scene::Description& words = value.description;
+    std::vector<std::string> lines = words.tags;
+    for (const std::string* line : {&words.diagnosis, &words.procedure})
+      if (!line->empty())
+        lines.push_back(*line);
+    if (!lines.empty())
+      report.leaves.push_back("tags, diagnosis and procedure: " + joined(lines));
+    if (!words.note.empty())
+      (parts.note ? report.leaves : report.stays)
+          .push_back(parts.note ? "the note, as it is" : "the note");
+    if (!words.date.empty())
+      report.stays.push_back("the planned date of the operation");
+  }
+  if (parts.scene && parts.note && !value.description.note.empty())
+    report.warnings.push_back("the note: read it once more, nothing is removed from it");
+  if ((images && showsHead(value.ct.geometry)) ||
+      ((parts.mr || parts.scene) &&
+       std::any_of(value.mr.begin(), value.mr.end(),
+                   [](const auto& mr) { return showsHead(mr.geometry); })))
+    report.warnings.push_back("the image holds a whole head: a face can be rendered from it. A "
+                              "case of the region of the ear alone (File > Open a region) has "
+                              "none");
+  report.stays.push_back("name, birth date, numbers and other data of the patient, hospital and "
+                         "physicians, dates and times: the case has none of them. The objects "
+                         "name the patient 'Anonymous'");
+  report.stays.push_back("UIDs of the scanner's files: the objects have new ones");
+  if (!parts.scene)
+    report.stays.push_back("the name of the case, its strokes, views and description");
+  return report;
+}
 
 std::string studyIdOf(const std::string& caseName)
 {

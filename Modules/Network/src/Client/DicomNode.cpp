@@ -167,25 +167,61 @@ void put(DcmItem& item, const DcmTagKey& key, const std::string& value)
   item.putAndInsertString(key, value.c_str());
 }
 
+bool isAscii(const std::string& value)
+{
+  return std::all_of(value.begin(), value.end(),
+                     [](char c) { return static_cast<unsigned char>(c) < 128; });
+}
+
+std::string dateRange(const StudyFilter& filter)
+{
+  if (filter.from.empty() && filter.to.empty())
+    return {};
+  return filter.from == filter.to ? filter.from : filter.from + "-" + filter.to;
+}
+
 std::vector<Study> studiesIn(const Association& association, const StudyFilter& filter)
 {
   DcmDataset query;
+  if (!isAscii(filter.patientId) || !isAscii(filter.patientName))
+    put(query, DCM_SpecificCharacterSet, "ISO_IR 192");
   put(query, DCM_QueryRetrieveLevel, "STUDY");
   put(query, DCM_StudyInstanceUID, filter.uid);
   put(query, DCM_StudyID, filter.studyId);
-  put(query, DCM_PatientID, "");
+  put(query, DCM_PatientID, filter.patientId);
+  put(query, DCM_PatientName, filter.patientName);
+  put(query, DCM_StudyDate, dateRange(filter));
+  put(query, DCM_StudyDescription, "");
+  put(query, DCM_ModalitiesInStudy, filter.modality);
   put(query, DCM_NumberOfStudyRelatedInstances, "");
   std::map<std::string, Study> found;
   find(association, query,
        [&](DcmDataset& answer)
        {
+         answer.convertToUTF8(); // as it came where that is impossible
          Study study;
          study.uid = text(answer, DCM_StudyInstanceUID);
          study.patientId = text(answer, DCM_PatientID);
+         study.patientName = text(answer, DCM_PatientName);
+         study.date = text(answer, DCM_StudyDate);
+         study.description = text(answer, DCM_StudyDescription);
+         study.modalities = text(answer, DCM_ModalitiesInStudy);
          study.instances = count(answer, DCM_NumberOfStudyRelatedInstances);
          // A node may ignore a key that it does not know.
+         const auto inRange = [&]
+         {
+           return study.date.empty() || ((filter.from.empty() || study.date >= filter.from) &&
+                                         (filter.to.empty() || study.date <= filter.to));
+         };
+         const auto hasModality = [&]
+         {
+           return filter.modality.empty() || study.modalities.empty() ||
+                  ("\\" + study.modalities + "\\").find("\\" + filter.modality + "\\") !=
+                      std::string::npos;
+         };
          if (!study.uid.empty() && (filter.uid.empty() || study.uid == filter.uid) &&
-             (filter.studyId.empty() || text(answer, DCM_StudyID) == filter.studyId))
+             (filter.studyId.empty() || text(answer, DCM_StudyID) == filter.studyId) &&
+             inRange() && hasModality())
            found.emplace(study.uid, study);
        });
   std::vector<Study> studies;
@@ -208,6 +244,7 @@ std::vector<Series> seriesIn(const Association& association, const std::string& 
   find(association, query,
        [&](DcmDataset& answer)
        {
+         answer.convertToUTF8();
          Series series;
          series.uid = text(answer, DCM_SeriesInstanceUID);
          series.modality = text(answer, DCM_Modality);

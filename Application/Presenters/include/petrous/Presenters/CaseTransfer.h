@@ -21,7 +21,23 @@ struct SendParts
   bool mr = false;
   bool labels = false;
   bool scene = false;
+  bool note = true; ///< of the description, with the scene
 };
+
+/// What of a case leaves the house with sendCase, and what does not: a sentence each, for the user
+/// to read before. A case holds none of the attributes that identify a patient (PS3.15 Table
+/// E.1-1); what remains is what the user typed, and the anatomy itself.
+struct IdentityReport
+{
+  std::vector<std::string> leaves;
+  std::vector<std::string> stays;
+  std::vector<std::string> warnings; ///< what may identify the patient all the same
+
+  std::string text() const;
+};
+
+/// Reads no voxels.
+IdentityReport identityReport(const scene::Case& value, const SendParts& parts);
 
 struct SendSummary
 {

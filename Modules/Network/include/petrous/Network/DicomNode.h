@@ -79,17 +79,30 @@ void checkNode(const Node& node);
 /// time to connect). Thread-safe.
 void echo(const Node& node, const core::Progress& progress = {});
 
+/// Empty: any. UTF-8; `*` stands for any text in ID and name, `?` for any character.
 struct StudyFilter
 {
-  std::string uid;     ///< empty: any
-  std::string studyId; ///< Study ID (0020,0010); empty: any
+  std::string uid;
+  std::string studyId;        ///< Study ID (0020,0010)
+  std::string patientId = {}; ///< Patient ID (0010,0020)
+  /// Patient's Name (0010,0010): family name, then `^` and the given name. Whether case matters is
+  /// up to the node (PS3.4 C.2.2.2.1).
+  std::string patientName = {};
+  std::string from = {}, to = {}; ///< Study Date (0008,0020), both included: "20260331"
+  std::string modality = {};      ///< of any series of the study: "CT"
 };
 
+/// All but `uid` and `instances` may identify the patient: for comparisons and for the user's own
+/// screen only. UTF-8.
 struct Study
 {
   std::string uid;
-  std::string patientId; ///< identifies the patient: for comparisons only
-  int instances = -1;    ///< as the node states; -1: it does not
+  std::string patientId;
+  std::string patientName;
+  std::string date; ///< as DICOM writes it, 20260331; empty: none
+  std::string description;
+  std::string modalities; ///< separated by `\`; empty: the node does not state them
+  int instances = -1;     ///< as the node states; -1: it does not
 };
 
 struct Series

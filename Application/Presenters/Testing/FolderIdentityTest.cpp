@@ -1,0 +1,99 @@
+#include "petrous/Presenters/FolderIdentity.h"
+
+#include <gtest/gtest.h>
+
+#include "../../../Modules/Imaging/Testing/TestDicom.h"
+#include "BoneCase.h"
+#include "petrous/Library/PseudonymMap.h"
+#include "petrous/Presenters/CaseTransfer.h"
+
+namespace petrous::presenters
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+bool mentions(const std::vector<std::string>& lines, const std::string& what)
+{
+  return std::any_of(lines.begin(), lines.end(),
+                     [&](const auto& line) { return line.find(what) != std::string::npos; });
+}
+
+TEST(FolderIdentity, TheMapIsNeverWrittenIntoTheInput)
+{
+  const imaging::test::TemporaryFolder folder;
+  const fs::path in = folder.path() / "in";
+  fs::create_directories(in / "deeper");
+  DeidentifyRequest request;
+  request.input = in;
+  request.output = folder.path() / "out";
+  request.map = in / "deeper" / "map";
+  EXPECT_THROW(deidentifyFolder(request, "a long passphrase"), core::Error);
+  EXPECT_FALSE(fs::exists(request.map));
+  EXPECT_NO_THROW(refuseWithin(folder.path() / "in-report.txt", in, "report"));
+}
+
+TEST(FolderIdentity, ASecretIsOverwritten)
+{
+  std::string secret(40, 's');
+  const char* bytes = secret.data(); // the string keeps its memory
+  wipe(secret);
+  EXPECT_TRUE(secret.empty());
+  EXPECT_EQ(std::count(bytes, bytes + 40, 's'), 0);
+}
+
+scene::Case describedCase()
+{
+  scene::Case value;
+  value.name = "left ear";
+  value.ct.geometry = core::GridGeometry({512, 512, 300}, Eigen::Vector3d(0.45, 0.45, 0.5),
+                                         Eigen::Vector3d::Zero());
+  scene::LabelPart part;
+  scene::StructurePart nerve;
+  nerve.name = "facial nerve";
+  part.structures.push_back(nerve);
+  value.labels.push_back(part);
+  value.description.note = "as discussed";
+  value.description.tags = {"teaching"};
+  value.description.date = "2026-03-31";
+  return value;
+}
+
+TEST(IdentityOfACase, WhatTheUserTypedLeavesWithTheSceneOnly)
+{
+  const scene::Case value = describedCase();
+  SendParts parts;
+  parts.ct = true;
+  IdentityReport report = identityReport(value, parts);
+  EXPECT_TRUE(mentions(report.leaves, "512 x 512 x 300"));
+  EXPECT_FALSE(mentions(report.leaves, "left ear"));
+  EXPECT_FALSE(mentions(report.leaves, "facial nerve"));
+  EXPECT_TRUE(mentions(report.warnings, "face")) << "230 x 230 x 150 mm";
+
+  parts.scene = true;
+  report = identityReport(value, parts);
+  for (const char* typed : {"left ear", "facial nerve", "teaching", "the note"})
+    EXPECT_TRUE(mentions(report.leaves, typed)) << typed;
+  EXPECT_TRUE(mentions(report.warnings, "the note"));
+  EXPECT_TRUE(mentions(report.stays, "planned date"));
+  EXPECT_FALSE(mentions(report.leaves, "as discussed")) << "the words themselves are not repeated";
+
+  parts.note = false;
+  report = identityReport(value, parts);
+  EXPECT_TRUE(mentions(report.stays, "the note"));
+  EXPECT_FALSE(mentions(report.warnings, "the note"));
+}
+
+TEST(IdentityOfACase, ARegionOfTheEarShowsNoFace)
+{
+  scene::Case value = describedCase();
+  value.ct.geometry =
+      core::GridGeometry({400, 400, 300}, Eigen::Vector3d::Constant(0.2), Eigen::Vector3d::Zero());
+  SendParts parts;
+  parts.ct = true;
+  EXPECT_FALSE(mentions(identityReport(value, parts).warnings, "face"));
+}
+
+} // namespace
+} // namespace petrous::presenters

@@ -1,0 +1,245 @@
+#include "CasesModel.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include <QApplication>
+#include <QDateTime>
+#include <QFont>
+#include <QPalette>
+
+#include "DescriptionDialog.h"
+#include "Theme.h"
+
+namespace petrous::workstation
+{
+
+QString localTime(const std::string& utc)
+{
+  return QDateTime::fromString(words(utc), Qt::ISODate).toLocalTime().toString("yyyy-MM-dd HH:mm");
+}
+
+void CasesModel::setCases(std::vector<library::CaseSummary> cases, const std::string& open)
+{
+  beginResetModel();
+  m_cases = std::move(cases);
+  m_open = open;
+  sortCases();
+  endResetModel();
+}
+
+int CasesModel::rowOf(const std::string& name) const
+{
+  const auto found = std::find_if(m_cases.begin(), m_cases.end(),
+                                  [&](const auto& one) { return one.name == name; });
+  return found == m_cases.end() ? -1 : static_cast<int>(found - m_cases.begin());
+}
+
+void CasesModel::forgetPictures()
+{
+  m_pictures.clear();
+}
+
+// Of the same size for all, so that names stand below each other.
+QVariant CasesModel::picture(const library::CaseSummary& one) const
+{
+  const bool exists = one.hasThumbnail && thumbnail; // only what was read is remembered
+  const auto known = m_pictures.find(one.id);
+  if (exists && known != m_pictures.end())
+    return known->second;
+  QPixmap picture(kCasePicture);
+  picture.fill(Qt::transparent);
+  if (!exists)
+    return picture;
+  const auto png = thumbnail(one);
+  QPixmap read;
+  if (read.loadFromData(png.data(), static_cast<unsigned>(png.size()), "PNG"))
+    picture = read.scaled(kCasePicture, Qt::KeepAspectRatio, Qt::SmoothTransformation);
+  m_pictures[one.id] = picture;
+  return picture;
+}
+
+int CasesModel::rowCount(const QModelIndex& parent) const
+{
+  return parent.isValid() ? 0 : static_cast<int>(m_cases.size());
+}
+
+int CasesModel::columnCount(const QModelIndex& parent) const
+{
+  return parent.isValid() ? 0 : ColumnCount;
+}
+
+namespace
+{
+
+QString tagsOf(const library::CaseSummary& one)
+{
+  QStringList tags;
+  for (const std::string& tag : one.description.tags)
+    tags += words(tag);
+  return tags.join(", ");
+}
+
+QString textOf(const library::CaseSummary& one, int column)
+{
+  if (column == CasesModel::Name)
+    return words(one.name);
+  if (one.damaged)
+    return column == CasesModel::Structures ? CasesModel::tr("damaged") : QString();
+  switch (column)
+  {
+  case CasesModel::Changed:
+    return localTime(one.modified);
+  case CasesModel::Diagnosis:
+    return words(one.description.diagnosis);
+  case CasesModel::Side:
+    return sideText(one.description.side);
+  case CasesModel::Planned:
+    return words(one.description.date);
+  case CasesModel::Tags:
+    return tagsOf(one);
+  case CasesModel::Structures:
+    return QString::number(one.structures);
+  case CasesModel::Strokes:
+    return QString::number(one.strokes);
+  case CasesModel::Removed:
+    return QString::number(one.removed, 'f', 1);
+  case CasesModel::Voxels:
+    return QString("%1 × %2 × %3").arg(one.dims[0]).arg(one.dims[1]).arg(one.dims[2]);
+  default:
+    return {};
+  }
+}
+
+QString tipOf(const library::CaseSummary& one, bool open)
+{
+  if (one.damaged)
+    return CasesModel::tr("%1: its file cannot be read. It can still be renamed and deleted; "
+                          "Library > Verify says what is wrong.")
+        .arg(words(one.name));
+  QStringList lines{words(one.name) + (open ? CasesModel::tr(" (open)") : QString())};
+  lines += CasesModel::tr("changed %1").arg(localTime(one.modified));
+  lines += CasesModel::tr("%1 voxels, %2 structures")
+               .arg(textOf(one, CasesModel::Voxels))
+               .arg(one.structures);
+  lines +=
+      CasesModel::tr("%1 strokes, %2 mm³ removed").arg(one.strokes).arg(one.removed, 0, 'f', 1);
+  const QString what = words(one.description.diagnosis);
+  const QString how = words(one.description.procedure);
+  if (!what.isEmpty() || !how.isEmpty())
+    lines += what.isEmpty() ? how : how.isEmpty() ? what : what + ", " + how;
+  if (one.hasNote)
+    lines += CasesModel::tr("with a note");
+  return lines.join('\n');
+}
+
+} // namespace
+
+QVariant CasesModel::data(const QModelIndex& index, int role) const
+{
+  if (!index.isValid())
+    return {};
+  const library::CaseSummary& one = at(index.row());
+  const bool open = one.name == m_open;
+  switch (role)
+  {
+  case Qt::DisplayRole:
+    return textOf(one, index.column());
+  case Qt::DecorationRole:
+    return index.column() == Name ? picture(one) : QVariant();
+  case Qt::ToolTipRole:
+    return tipOf(one, open);
+  case Qt::TextAlignmentRole:
+    return index.column() >= Structures ? int(Qt::AlignRight | Qt::AlignVCenter)
+                                        : int(Qt::AlignLeft | Qt::AlignVCenter);
+  case Qt::ForegroundRole:
+    return one.damaged
+               ? QVariant(QApplication::palette().brush(QPalette::Disabled, QPalette::WindowText))
+               : QVariant();
+  case Qt::FontRole:
+  {
+    QFont font;
+    font.setBold(open);
+    return open ? QVariant(font) : QVariant();
+  }
+  default:
+    return {};
+  }
+}
+
+QVariant CasesModel::headerData(int section, Qt::Orientation orientation, int role) const
+{
+  if (orientation != Qt::Horizontal || role != Qt::DisplayRole)
+    return QAbstractTableModel::headerData(section, orientation, role);
+  switch (section)
+  {
+  case Name:
+    return tr("Case");
+  case Changed:
+    return tr("Changed");
+  case Diagnosis:
+    return tr("Diagnosis");
+  case Side:
+    return tr("Side");
+  case Planned:
+    return tr("Planned");
+  case Tags:
+    return tr("Tags");
+  case Structures:
+    return tr("Structures");
+  case Strokes:
+    return tr("Strokes");
+  case Removed:
+    return tr("Removed mm³");
+  case Voxels:
+    return tr("Voxels");
+  default:
+    return {};
+  }
+}
+
+void CasesModel::sort(int column, Qt::SortOrder order)
+{
+  beginResetModel();
+  m_column = column;
+  m_order = order;
+  sortCases();
+  endResetModel();
+}
+
+// Equal ones by name.
+void CasesModel::sortCases()
+{
+  const auto count = [](const library::CaseSummary& one)
+  { return static_cast<double>(one.dims[0]) * one.dims[1] * one.dims[2]; };
+  const auto isLess = [&](const library::CaseSummary& a, const library::CaseSummary& b)
+  {
+    switch (m_column)
+    {
+    case Diagnosis:
+    case Side:
+    case Planned:
+    case Tags:
+      return textOf(a, m_column).localeAwareCompare(textOf(b, m_column)) < 0;
+    case Changed:
+      return a.modified < b.modified;
+    case Structures:
+      return a.structures < b.structures;
+    case Strokes:
+      return a.strokes < b.strokes;
+    case Removed:
+      return a.removed < b.removed;
+    case Voxels:
+      return count(a) < count(b);
+    default:
+      return a.name < b.name;
+    }
+  };
+  std::sort(m_cases.begin(), m_cases.end(),
+            [](const auto& a, const auto& b) { return a.name < b.name; });
+  std::stable_sort(m_cases.begin(), m_cases.end(),
+                   [&](const auto& a, const auto& b)
+                   { return m_order == Qt::AscendingOrder ? isLess(a, b) : isLess(b, a); });
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <QAbstractTableModel>
+#include <QPixmap>
+
+#include "petrous/Library/Library.h"
+
+namespace petrous::workstation
+{
+
+/// The cases of a library as a table, a line each.
+class CasesModel : public QAbstractTableModel
+{
+  Q_OBJECT
+public:
+  enum Column
+  {
+    Name,
+    Changed,
+    Diagnosis,
+    Side,
+    Planned,
+    Tags,
+    Structures,
+    Strokes,
+    Removed,
+    Voxels,
+    ColumnCount
+  };
+
+  using QAbstractTableModel::QAbstractTableModel;
+
+  /// Reads a case's picture as PNG; asked for those that are seen.
+  std::function<std::vector<std::uint8_t>(const library::CaseSummary&)> thumbnail;
+
+  /// The cases found by a search; `open` is the name of the open one, or empty.
+  void setCases(std::vector<library::CaseSummary> cases, const std::string& open);
+
+  /// Of a valid row.
+  const library::CaseSummary& at(int row) const { return m_cases[static_cast<std::size_t>(row)]; }
+  int rowOf(const std::string& name) const; ///< -1: there is none
+  void forgetPictures();                    ///< they are read again
+
+  int rowCount(const QModelIndex& parent = {}) const override;
+  int columnCount(const QModelIndex& parent = {}) const override;
+  QVariant data(const QModelIndex& index, int role) const override;
+  QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+  void sort(int column, Qt::SortOrder order) override;
+
+private:
+  void sortCases();
+  QVariant picture(const library::CaseSummary& one) const;
+
+  std::vector<library::CaseSummary> m_cases;
+  std::string m_open;
+  mutable std::map<std::string, QPixmap> m_pictures; ///< by id of the case; what was looked at
+  int m_column = Changed;
+  Qt::SortOrder m_order = Qt::DescendingOrder;
+};
+
+constexpr QSize kCasePicture{64, 48}; ///< px, of the thumbnails in the list
+
+/// A time of the library (UTC, ISO 8601) for the user: local, to the minute.
+QString localTime(const std::string& utc);
+
+} // namespace petrous::workstation

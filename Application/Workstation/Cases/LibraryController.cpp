@@ -1,0 +1,298 @@
+#include "LibraryController.h"
+
+#include <QInputDialog>
+#include <QLineEdit>
+#include <QMenu>
+#include <QMessageBox>
+#include <QPushButton>
+
+#include "CaseDocumentController.h"
+#include "DescriptionDialog.h"
+#include "LibraryPanel.h"
+#include "ReportWindow.h"
+#include "Theme.h"
+#include "petrous/Library/DerivedCache.h"
+#include "petrous/Presenters/CaseNaming.h"
+#include "petrous/Presenters/CasePicture.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+
+QString megabytes(std::uintmax_t bytes)
+{
+  return LibraryController::tr("%1 MB").arg(1e-6 * static_cast<double>(bytes), 0, 'f', 1);
+}
+
+QString listed(const std::vector<std::string>& names)
+{
+  QStringList list;
+  for (const std::string& name : names)
+    list += words(name);
+  return list.join(", ");
+}
+
+// A damaged file, the cases that need it, and what is wrong, for each.
+QString damageText(const library::Inspection& found)
+{
+  QStringList lines;
+  for (const auto& one : found.damaged)
+  {
+    lines += words(one.object);
+    lines += LibraryController::tr("    needed by: %1")
+                 .arg(one.cases.empty() ? LibraryController::tr("no case") : listed(one.cases));
+    lines += "    " + words(one.text);
+  }
+  return lines.join('\n') + '\n';
+}
+
+} // namespace
+
+LibraryController::LibraryController(presenters::WorkstationModel& model,
+                                     CaseDocumentController& keeper, QWidget& window)
+  : QObject(&window)
+  , m_model(model)
+  , m_keeper(keeper)
+  , m_window(window)
+  , m_panel(new LibraryPanel(model))
+  , m_menu(new QMenu(tr("&Library"), &window))
+{
+  fillMenu();
+  connectPanel();
+}
+
+void LibraryController::refresh()
+{
+  m_panel->refreshSoon();
+}
+
+void LibraryController::fillMenu()
+{
+  const auto add = [this](const char* name, const QString& text, const QString& tip, auto what)
+  {
+    QAction* action = m_menu->addAction(text);
+    action->setObjectName(name);
+    action->setToolTip(tip);
+    action->setStatusTip(tip);
+    connect(action, &QAction::triggered, this, what);
+  };
+  add("showLibrary", tr("&Cases"), tr("The list of all cases"), [this] { emit panelWanted(); });
+  m_menu->addSeparator();
+  add("verifyLibrary", tr("&Verify…"),
+      tr("Reads every file of the library and compares it with what was stored"),
+      [this] { verify(); });
+  add("repairLibrary", tr("Re&pair…"),
+      tr("Recovers strokes that were not saved, and makes the list of cases anew from their files"),
+      [this] { repair(); });
+  add("collectLibrary", tr("Clean &up…"),
+      tr("Removes deleted cases for good, and all that no case needs"), [this] { collect(); });
+}
+
+void LibraryController::connectPanel()
+{
+  const auto on = [this](void (LibraryPanel::*asked)(const QString&), auto what)
+  {
+    connect(m_panel, asked, this,
+            [this, what](const QString& name) { (this->*what)(bytes(name)); });
+  };
+  connect(m_panel, &LibraryPanel::openAsked, this,
+          [this](const QString& name) { m_keeper.openCase(bytes(name)); });
+  on(&LibraryPanel::renameAsked, &LibraryController::rename);
+  on(&LibraryPanel::copyAsked, &LibraryController::copy);
+  on(&LibraryPanel::removeAsked, &LibraryController::remove);
+  on(&LibraryPanel::describeAsked, &LibraryController::describe);
+  on(&LibraryPanel::pictureAsked, &LibraryController::makePicture);
+  connect(m_panel, &LibraryPanel::archiveAsked, this,
+          [this](const QString& name) { m_keeper.archive(bytes(name)); });
+  connect(m_panel, &LibraryPanel::undeleteAsked, this,
+          [this](const QString& name)
+          {
+            if (m_keeper.changeCase(
+                    {}, {}, [&](library::Library& library) { library.undelete(bytes(name)); }))
+              m_panel->select(bytes(name));
+          });
+}
+
+// Empty: the user did not want to, or it is the same name.
+QString LibraryController::askName(const QString& title, const QString& text, const QString& name)
+{
+  const QString to =
+      QInputDialog::getText(&m_window, title, text, QLineEdit::Normal, name).trimmed();
+  return to == name ? QString() : to;
+}
+
+void LibraryController::rename(const std::string& name)
+{
+  const std::string to =
+      bytes(askName(tr("Rename the case"), tr("New name of “%1”:").arg(words(name)), words(name)));
+  if (to.empty() ||
+      !m_keeper.changeCase(name, to, [&](library::Library& library) { library.rename(name, to); }))
+    return;
+  m_panel->select(to);
+}
+
+void LibraryController::copy(const std::string& name)
+{
+  const QString to =
+      QInputDialog::getText(&m_window, tr("Copy the case"),
+                            tr("Name of the copy of “%1”:").arg(words(name)), QLineEdit::Normal,
+                            words(presenters::freeCaseName(m_model.library(), name)))
+          .trimmed();
+  if (to.isEmpty() ||
+      !m_keeper.changeCase(name, name,
+                           [&](library::Library& library) { library.copy(name, bytes(to)); }))
+    return;
+  m_panel->select(bytes(to));
+}
+
+void LibraryController::remove(const std::string& name)
+{
+  QMessageBox box(QMessageBox::Warning, tr("Delete the case"),
+                  tr("Delete the case “%1”?").arg(words(name)), QMessageBox::NoButton, &m_window);
+  box.setTextFormat(Qt::PlainText);
+  box.setObjectName("askDelete");
+  const std::size_t strokes = m_panel->strokes();
+  box.setInformativeText(
+      (strokes > 0 ? tr("%1 strokes were drilled in it. ").arg(strokes) : QString()) +
+      tr("It can be brought back (Bring back, below the list) until the library is cleaned up."));
+  const auto* yes = box.addButton(tr("Delete"), QMessageBox::DestructiveRole);
+  box.setDefaultButton(box.addButton(QMessageBox::Cancel));
+  box.exec();
+  if (box.clickedButton() != yes)
+    return;
+  m_keeper.changeCase(name, {}, [&](library::Library& library) { library.remove(name); });
+  m_panel->refresh();
+}
+
+void LibraryController::describe(const std::string& name)
+{
+  scene::Description before;
+  if (!m_keeper.changeCase({}, {},
+                           [&](library::Library& library) { before = library.description(name); }))
+    return; // it cannot be read, which was told
+  DescriptionDialog dialog(words(name), before, &m_window);
+  if (dialog.exec() != QDialog::Accepted || dialog.description() == before)
+    return;
+  m_keeper.changeCase(
+      name, name, [&](library::Library& library) { library.describe(name, dialog.description()); });
+  m_panel->select(name);
+}
+
+void LibraryController::makePicture(const std::string& name)
+{
+  if (m_model.hasCase() && m_model.value().name == name && !m_keeper.saved())
+    return; // the banner tells why
+  m_keeper.run(tr("Making the picture of %1").arg(words(name)),
+               [this, library = m_model.library(),
+                name](const core::Progress& progress) mutable -> BackgroundWork::Reply
+               {
+                 scene::Case value = library.open(name);
+                 library.loadDissection(value);
+                 const auto png = presenters::thumbnailOf(value, progress);
+                 library.checkVoxels(value, progress);
+                 if (!png.empty())
+                   library.setThumbnail(name, png);
+                 return [this, name, made = !png.empty()]
+                 {
+                   m_panel->forgetPictures();
+                   refresh();
+                   emit statusMessage(
+                       made ? tr("The picture of %1 is made").arg(words(name))
+                            : tr("No picture was made: it would show neither bone nor a "
+                                 "structure"));
+                 };
+               });
+}
+
+void LibraryController::verify()
+{
+  m_keeper.run(
+      tr("Verifying the library"),
+      [this, library = m_model.library()](const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        const library::Inspection found = library.verify(progress);
+        return [this, found]
+        {
+          const QString sum =
+              tr("%1 cases and %2 files were read.").arg(found.cases).arg(found.objects);
+          if (found.damaged.empty())
+            return showReport(&m_window, tr("Verify"), sum + ' ' + tr("All are sound."), {}, {});
+          showReport(&m_window, tr("Verify"),
+                     sum + ' ' +
+                         (found.damaged.size() == 1
+                              ? tr("1 is damaged or missing.")
+                              : tr("%1 are damaged or missing.").arg(found.damaged.size())) +
+                         ' ' + tr("Restore from a copy of the library, or import the data again."),
+                     damageText(found), "petrous-verify.txt");
+        };
+      });
+}
+
+void LibraryController::collect()
+{
+  const auto deleted = m_model.library().deleted().size();
+  QMessageBox box(
+      QMessageBox::Question, tr("Clean up"),
+      deleted == 0 ? tr("Remove all that no case needs?")
+      : deleted == 1
+          ? tr("Remove the deleted case for good, and all that no case needs?")
+          : tr("Remove %1 deleted cases for good, and all that no case needs?").arg(deleted),
+      QMessageBox::NoButton, &m_window);
+  box.setObjectName("askCollect");
+  box.setTextFormat(Qt::PlainText);
+  QString more = tr("They cannot be brought back afterwards. Data that were derived from images "
+                    "are computed anew when they are needed.");
+  if (!m_model.removedPart().empty())
+    more += ' ' + tr("What was taken out of the open case (“%1”) cannot be put back any more.")
+                      .arg(words(m_model.removedPart()));
+  box.setInformativeText(more);
+  const auto* yes = box.addButton(tr("Clean up"), QMessageBox::DestructiveRole);
+  box.setDefaultButton(box.addButton(QMessageBox::Cancel));
+  box.exec();
+  if (box.clickedButton() != yes)
+    return;
+  m_keeper.maintain(
+      tr("Cleaning up the library"),
+      [this](library::Library& library, const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        progress.report(0.0, "looking for what no case needs");
+        const library::Collected removed = library.collectGarbage();
+        library::DerivedCache derived(library::derivedFolder(library.folder()));
+        const std::uintmax_t freed = derived.prune(0);
+        return [this, removed, freed]
+        {
+          refresh();
+          emit statusMessage(tr("Cleaned up: %1 deleted cases and %2 files are gone, %3 are free "
+                                "again")
+                                 .arg(removed.cases)
+                                 .arg(removed.objects)
+                                 .arg(megabytes(removed.bytes + freed)));
+        };
+      });
+}
+
+void LibraryController::repair()
+{
+  m_keeper.maintain(
+      tr("Repairing the library"),
+      [this](library::Library& library, const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        progress.report(0.0, "looking for strokes that were not saved");
+        const std::vector<std::string> done = library.repair();
+        return [this, done]
+        {
+          refresh();
+          QStringList lines;
+          for (const std::string& line : done)
+            lines += words(line);
+          showReport(&m_window, tr("Repair"),
+                     tr("The library is repaired. Library > Verify tells whether files are "
+                        "damaged or missing."),
+                     lines.join('\n'), "petrous-repair.txt");
+        };
+      });
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <QObject>
+
+#include "petrous/Presenters/WorkstationModel.h"
+
+class QMenu;
+class QWidget;
+
+namespace petrous::workstation
+{
+
+class CaseDocumentController;
+class LibraryPanel;
+
+/// The library panel and the Library menu: what `petrous library` does with cases and with the
+/// library as a whole.
+class LibraryController : public QObject
+{
+  Q_OBJECT
+public:
+  /// `window` is the parent of dialogs.
+  LibraryController(presenters::WorkstationModel& model, CaseDocumentController& keeper,
+                    QWidget& window);
+
+  LibraryPanel* panel() const { return m_panel; }
+  QMenu* menu() const { return m_menu; }
+
+  void refresh(); ///< the panel
+
+signals:
+  void panelWanted();
+  void restoreAsked();
+  void statusMessage(const QString& line); ///< for the status bar
+
+private:
+  void fillMenu();
+  void connectPanel();
+  QString askName(const QString& title, const QString& text, const QString& name);
+  void rename(const std::string& name);
+  void copy(const std::string& name);
+  void remove(const std::string& name);
+  void describe(const std::string& name);
+  void makePicture(const std::string& name);
+  void verify();
+  void collect();
+  void repair();
+
+  presenters::WorkstationModel& m_model;
+  CaseDocumentController& m_keeper;
+  QWidget& m_window;
+  LibraryPanel* m_panel;
+  QMenu* m_menu;
+};
+
+} // namespace petrous::workstation

@@ -1,0 +1,311 @@
+#include "LibraryPanel.h"
+
+#include <algorithm>
+#include <set>
+
+#include <QAction>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMenu>
+#include <QTimer>
+#include <QToolButton>
+#include <QTreeView>
+#include <QVBoxLayout>
+
+#include "Application.h"
+#include "CasesModel.h"
+#include "DescriptionDialog.h"
+#include "Theme.h"
+#include "petrous/Presenters/WorkstationModel.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+constexpr int kNameWidth = 168;   // px
+constexpr int kSampledLines = 50; // for the widths of columns
+} // namespace
+
+LibraryPanel::LibraryPanel(const presenters::WorkstationModel& model, QWidget* parent)
+  : Panel(parent)
+  , m_model(model)
+  , m_cases(new CasesModel(this))
+  , m_search(new QLineEdit)
+  , m_side(new QComboBox)
+  , m_inNotes(new QCheckBox(tr("in &notes too")))
+  , m_list(new QTreeView)
+  , m_count(new QLabel)
+  , m_deleted(new QMenu(this))
+  , m_undelete(new QToolButton)
+{
+  m_search->setObjectName("searchCases");
+  m_search->setPlaceholderText(tr("Search names, structures, tags, diagnoses"));
+  m_search->setToolTip(
+      tr("Cases that have each of these words in their name or in that of a structure, MR or "
+         "mesh, in a tag, the diagnosis or the procedure (%1)")
+          .arg(QKeySequence(QKeySequence::Find).toString(QKeySequence::NativeText)));
+  m_search->setAccessibleName(tr("Search cases"));
+  m_search->setClearButtonEnabled(true);
+  m_search->setAcceptDrops(false); // an archive that is dropped is for the window
+  connect(m_search, &QLineEdit::textChanged, this, &LibraryPanel::refresh);
+  connect(m_search, &QLineEdit::returnPressed, this, &LibraryPanel::focusList);
+  m_side->setObjectName("searchSide");
+  m_side->setAccessibleName(tr("Side"));
+  m_side->addItem(tr("any side"), -1);
+  for (const auto side : {scene::Side::Left, scene::Side::Right, scene::Side::Both})
+    m_side->addItem(sideText(side), static_cast<int>(side));
+  connect(m_side, qOverload<int>(&QComboBox::currentIndexChanged), this, &LibraryPanel::refresh);
+  m_inNotes->setObjectName("searchNotes");
+  connect(m_inNotes, &QCheckBox::toggled, this, &LibraryPanel::refresh);
+  m_cases->thumbnail = [this](const library::CaseSummary& one)
+  { return m_model.library().thumbnail(one); };
+  m_list->setObjectName("cases");
+  m_list->setModel(m_cases);
+  m_list->setAccessibleName(tr("Cases of the library"));
+  m_list->setRootIsDecorated(false);
+  m_list->setIconSize(kCasePicture);
+  m_list->setUniformRowHeights(true);
+  m_list->setAlternatingRowColors(true);
+  m_list->setAllColumnsShowFocus(true);
+  m_list->setTextElideMode(Qt::ElideMiddle);
+  m_list->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
+  m_list->setSortingEnabled(true);
+  m_list->sortByColumn(CasesModel::Changed, Qt::DescendingOrder);
+  m_list->header()->setStretchLastSection(false);
+  m_list->header()->setResizeContentsPrecision(kSampledLines);
+  m_list->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  m_list->header()->setSectionResizeMode(CasesModel::Name, QHeaderView::Interactive);
+  m_list->header()->resizeSection(CasesModel::Name, kNameWidth);
+  m_list->setContextMenuPolicy(Qt::ActionsContextMenu);
+  connect(m_list->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+          &LibraryPanel::update);
+  connect(m_cases, &QAbstractItemModel::modelAboutToBeReset, this,
+          [this] { m_before = current(); });
+  connect(m_cases, &QAbstractItemModel::modelReset, this,
+          [this]
+          {
+            if (const int row = m_cases->rowOf(m_before); row >= 0)
+              m_list->setCurrentIndex(m_cases->index(row, 0));
+            update();
+          });
+
+  m_count->setObjectName("dim");
+  m_count->setTextFormat(Qt::PlainText);
+  m_count->setWordWrap(true);
+  m_deleted->setObjectName("deletedCases");
+  m_undelete->setObjectName("undeleteCase");
+  m_undelete->setText(tr("Bring back"));
+  m_undelete->setMenu(m_deleted);
+  m_undelete->setPopupMode(QToolButton::InstantPopup);
+  m_undelete->setToolTip(tr("Deleted cases, the last one first"));
+
+  auto* buttons = new QHBoxLayout;
+  addButtons(*buttons);
+  auto* foot = new QHBoxLayout;
+  foot->addWidget(m_count, 1);
+  foot->addWidget(m_undelete);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(8, 8, 8, 8);
+  auto* where = new QHBoxLayout;
+  where->addWidget(m_side);
+  where->addWidget(m_inNotes);
+  where->addStretch();
+  layout->addWidget(m_search);
+  layout->addLayout(where);
+  layout->addLayout(buttons);
+  layout->addWidget(m_list, 1);
+  layout->addLayout(foot);
+  setMinimumWidth(340);
+}
+
+// Each is a button, an entry of the list's context menu and a key of the list.
+void LibraryPanel::addButtons(QLayout& layout)
+{
+  const auto add = [&](const char* name, const QString& text, const QKeySequence& key,
+                       const QString& tip, Asked asked, bool ofDamaged)
+  {
+    auto* action = new QAction(text, m_list);
+    action->setShortcut(key);
+    action->setShortcutContext(Qt::WidgetShortcut);
+    const QString keys = key.toString(QKeySequence::NativeText);
+    action->setToolTip(keys.isEmpty() ? tip : tip + " (" + keys + ")");
+    connect(action, &QAction::triggered, this,
+            [this, asked, ofDamaged]
+            {
+              const std::string which = ofDamaged ? current() : chosen();
+              if (!which.empty())
+                emit(this->*asked)(words(which));
+            });
+    m_list->addAction(action);
+    (ofDamaged ? m_needEntry : m_needCase) += action;
+    if (!name)
+      return action;
+    auto* button = new QToolButton;
+    button->setDefaultAction(action);
+    button->setText(QString(text).remove('&').remove(QString::fromUtf8("…")));
+    button->setObjectName(name);
+    layout.addWidget(button);
+    return action;
+  };
+  auto* open = add("openThisCase", tr("&Open"), Qt::Key_Return, tr("Opens the case"),
+                   &LibraryPanel::openAsked, false);
+  open->setShortcuts({Qt::Key_Return, Qt::Key_Enter});
+  connect(m_list, &QTreeView::doubleClicked, open, &QAction::trigger);
+  add("renameCase", tr("&Rename…"), Qt::Key_F2, tr("Gives the case another name"),
+      &LibraryPanel::renameAsked, true);
+  add("copyCase", tr("&Copy…"), QKeySequence::Copy, tr("A second case that begins as this one"),
+      &LibraryPanel::copyAsked, true);
+  add("deleteCase", tr("&Delete…"), QKeySequence(Qt::Key_Delete),
+      tr("Takes the case out of the library; it can be brought back"), &LibraryPanel::removeAsked,
+      true);
+  add("describeCase", tr("D&escribe…"), Qt::ALT + Qt::Key_Return,
+      tr("Note, tags, diagnosis, procedure, side, planned date"), &LibraryPanel::describeAsked,
+      false);
+  add(nullptr, tr("Make the &picture"), {},
+      tr("The small picture in this list, from the last view"), &LibraryPanel::pictureAsked, false);
+  add(nullptr, tr("&Archive the case…"), {}, tr("The case in one file"),
+      &LibraryPanel::archiveAsked, false);
+  add(nullptr, tr("&Send the case…"), {}, tr("The case to a DICOM node"), &LibraryPanel::sendAsked,
+      false);
+  static_cast<QHBoxLayout&>(layout).addStretch();
+}
+
+void LibraryPanel::showEvent(QShowEvent* event)
+{
+  Panel::showEvent(event);
+  if (m_stale)
+    refresh();
+}
+
+bool LibraryPanel::event(QEvent* event)
+{
+  if (event->type() != QEvent::ShortcutOverride && event->type() != QEvent::KeyPress)
+    return Panel::event(event);
+  if (!static_cast<QKeyEvent*>(event)->matches(QKeySequence::Find))
+    return Panel::event(event);
+  if (event->type() == QEvent::KeyPress)
+    m_search->setFocus(Qt::ShortcutFocusReason);
+  event->accept();
+  return true;
+}
+
+// Several causes at once, and none while nobody looks.
+void LibraryPanel::refreshSoon()
+{
+  m_stale = true;
+  QTimer::singleShot(0, this,
+                     [this]
+                     {
+                       if (m_stale && isVisible())
+                         refresh();
+                     });
+}
+
+void LibraryPanel::refresh()
+{
+  m_stale = false;
+  try
+  {
+    const std::string before = current();
+    const std::string open = m_model.hasCase() ? m_model.value().name : std::string();
+    library::CaseFilter filter;
+    filter.text = bytes(m_search->text());
+    filter.inNotes = m_inNotes->isChecked();
+    if (const int side = m_side->currentData().toInt(); side >= 0)
+      filter.side = static_cast<scene::Side>(side);
+    m_cases->setCases(m_model.library().search(filter), open);
+    int row = m_cases->rowOf(before);
+    if (row < 0)
+      row = m_cases->rowOf(open);
+    m_list->setCurrentIndex(m_cases->index(std::max(row, 0), 0));
+    const int count = m_cases->rowCount();
+    if (count > 0)
+      m_count->setText(count == 1 ? tr("1 case") : tr("%1 cases").arg(count));
+    else
+      m_count->setText(!isFiltered()
+                           ? tr("No case yet. Drop a DICOM folder, or an archive (.petrous), on "
+                                "the window.")
+                           : tr("No case has all of that."));
+    m_count->setToolTip(words(m_model.library().folder().string()));
+    listDeleted();
+  }
+  catch (const std::exception& error)
+  {
+    m_cases->setCases({}, {});
+    m_count->setText(toString(error));
+  }
+}
+
+bool LibraryPanel::isFiltered() const
+{
+  return !m_search->text().trimmed().isEmpty() || m_side->currentIndex() > 0;
+}
+
+void LibraryPanel::forgetPictures()
+{
+  m_cases->forgetPictures();
+}
+
+void LibraryPanel::select(const std::string& name)
+{
+  if (m_cases->rowOf(name) < 0)
+  {
+    m_search->clear();
+    m_side->setCurrentIndex(0);
+  }
+  refresh();
+  if (const int row = m_cases->rowOf(name); row >= 0)
+    m_list->setCurrentIndex(m_cases->index(row, 0));
+}
+
+void LibraryPanel::focusList()
+{
+  m_list->setFocus();
+}
+
+void LibraryPanel::listDeleted()
+{
+  m_deleted->clear();
+  std::set<std::string> listed; // of several of one name the last is brought back
+  for (const auto& one : m_model.library().deleted())
+    if (listed.insert(one.name).second)
+      connect(
+          m_deleted->addAction(
+              tr("%1, deleted %2").arg(words(one.name).replace('&', "&&"), localTime(one.deleted))),
+          &QAction::triggered, this, [this, name = one.name] { emit undeleteAsked(words(name)); });
+  m_undelete->setEnabled(!m_deleted->isEmpty());
+}
+
+std::string LibraryPanel::current() const
+{
+  const QModelIndex index = m_list->currentIndex();
+  return index.isValid() ? m_cases->at(index.row()).name : std::string();
+}
+
+std::string LibraryPanel::chosen() const
+{
+  const QModelIndex index = m_list->currentIndex();
+  return index.isValid() && !m_cases->at(index.row()).damaged ? current() : std::string();
+}
+
+std::size_t LibraryPanel::strokes() const
+{
+  const QModelIndex index = m_list->currentIndex();
+  return index.isValid() ? m_cases->at(index.row()).strokes : 0;
+}
+
+void LibraryPanel::update()
+{
+  for (QAction* action : m_needEntry)
+    action->setEnabled(!current().empty());
+  for (QAction* action : m_needCase)
+    action->setEnabled(!chosen().empty());
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "Panels.h"
+
+class QCheckBox;
+class QComboBox;
+class QLabel;
+class QLineEdit;
+class QMenu;
+class QToolButton;
+class QTreeView;
+
+namespace petrous::presenters
+{
+class WorkstationModel;
+}
+
+namespace petrous::workstation
+{
+
+class CasesModel;
+
+/// The cases of the library: searched as one types (Ctrl+F in the panel), opened (Enter), renamed
+/// (F2), copied (Ctrl+C), deleted (Del), brought back; archived and sent. It asks for changes, and
+/// shows what the library has then (`refresh`).
+class LibraryPanel : public Panel
+{
+  Q_OBJECT
+public:
+  explicit LibraryPanel(const presenters::WorkstationModel& model, QWidget* parent = nullptr);
+
+  std::string current() const; ///< the selected case, damaged or not; empty: none
+  std::string chosen() const;  ///< the same, if it can be opened
+  std::size_t strokes() const; ///< of the selected case
+
+  void refreshSoon(); ///< when it is next seen
+
+  void refresh();
+  void forgetPictures();
+  void select(const std::string& name); ///< also where the search hides it
+  void focusList();
+
+  void caseChanged() override { refreshSoon(); }
+
+signals:
+  void openAsked(const QString& name);
+  void renameAsked(const QString& name);
+  void copyAsked(const QString& name);
+  void removeAsked(const QString& name);
+  void describeAsked(const QString& name);
+  void pictureAsked(const QString& name);
+  void archiveAsked(const QString& name);
+  void sendAsked(const QString& name);
+  void undeleteAsked(const QString& name);
+
+protected:
+  void showEvent(QShowEvent* event) override;
+  bool event(QEvent* event) override; ///< Ctrl+F is the panel's own while it has the focus
+
+private:
+  using Asked = void (LibraryPanel::*)(const QString&);
+  bool isFiltered() const;
+  void addButtons(QLayout& layout);
+  void listDeleted();
+  void update();
+
+  const presenters::WorkstationModel& m_model;
+  CasesModel* m_cases;
+  QLineEdit* m_search;
+  QComboBox* m_side;
+  QCheckBox* m_inNotes;
+  QTreeView* m_list;
+  QLabel* m_count;
+  QMenu* m_deleted;
+  QToolButton* m_undelete;
+  QList<QAction*> m_needCase;  ///< that can be opened
+  QList<QAction*> m_needEntry; ///< damaged or not
+  std::string m_before;        ///< the selected case, while the list changes
+  bool m_stale = true;
+};
+
+} // namespace petrous::workstation

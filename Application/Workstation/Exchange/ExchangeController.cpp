@@ -1,0 +1,246 @@
+#include "ExchangeController.h"
+
+#include <QAction>
+#include <QDir>
+#include <QFile>
+#include <QMenu>
+#include <QMessageBox>
+
+#include "Application.h"
+#include "CaseDocumentController.h"
+#include "DeidentifyDialog.h"
+#include "NodesDialog.h"
+#include "ReportWindow.h"
+#include "SendDialog.h"
+#include "Theme.h"
+#include "WindowTexts.h"
+#include "petrous/Presenters/CaseTransfer.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+
+// What arrived there, or here.
+QString transferText(const network::Transfer& transfer)
+{
+  QString text = transfer.instances == 1
+                     ? ExchangeController::tr("1 object, %1 MB in %2 s")
+                     : ExchangeController::tr("%3 objects, %1 MB in %2 s").arg(transfer.instances);
+  text = text.arg(1e-6 * static_cast<double>(transfer.bytes), 0, 'f', 1)
+             .arg(transfer.seconds, 0, 'f', 1);
+  if (transfer.present > 0)
+    text += ExchangeController::tr(", %1 of them were there already").arg(transfer.present);
+  if (transfer.warning > 0)
+    text += ExchangeController::tr(", %1 with a warning of the node").arg(transfer.warning);
+  return text;
+}
+
+QString lines(const std::vector<std::string>& all)
+{
+  QString text;
+  for (const std::string& one : all)
+    text += windowText(words(one)) + '\n';
+  return text;
+}
+
+} // namespace
+
+ExchangeController::ExchangeController(presenters::WorkstationModel& model,
+                                       CaseDocumentController& keeper, QMenu& menu, QWidget& window)
+  : QObject(&window)
+  , m_model(model)
+  , m_keeper(keeper)
+  , m_window(window)
+{
+  const auto add = [&](const char* name, const QString& text, const QString& tip, auto what)
+  {
+    QAction* action = menu.addAction(text);
+    action->setObjectName(name);
+    action->setToolTip(tip);
+    action->setStatusTip(tip);
+    connect(action, &QAction::triggered, this,
+            [this, what]
+            {
+              try
+              {
+                what();
+              }
+              catch (const std::exception& error)
+              {
+                refuse(toString(error));
+              }
+            });
+  };
+  menu.addSeparator();
+  add("sendOpenCase", tr("&Send to a node…"), tr("The open case to a DICOM node"),
+      [this]
+      {
+        if (!m_model.hasCase())
+          return refuse(tr("Open a case first, or choose one in the list (Library > Cases)."));
+        send(m_model.value().name);
+      });
+  add("receiveCase", tr("&Receive from a node…"),
+      tr("A case, or images of a patient, from a DICOM node"), [this] { receive(); });
+  add("editNodes", tr("DICOM &nodes…"), tr("Where cases are sent to and received from"),
+      [this] { editNodes(); });
+  menu.addSeparator();
+  add("deidentifyFolder", tr("&De-identify DICOM files…"),
+      tr("A folder of DICOM files without what identifies the patient"), [this] { deidentify(); });
+}
+
+// Non-modal.
+void ExchangeController::refuse(const QString& why)
+{
+  auto* box = new QMessageBox(QMessageBox::Warning, tr("Petrous"), windowText(why), QMessageBox::Ok,
+                              &m_window);
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  box->setTextFormat(Qt::PlainText);
+  box->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  box->open();
+}
+
+void ExchangeController::editNodes()
+{
+  NodesDialog(m_model.library().folder(), &m_window).exec();
+}
+
+std::vector<network::Node> ExchangeController::nodes()
+{
+  if (network::NodeList(m_model.library().folder()).nodes().empty())
+    editNodes();
+  return network::NodeList(m_model.library().folder()).nodes();
+}
+
+void ExchangeController::send(const std::string& which)
+{
+  const auto all = nodes();
+  if (all.empty())
+    return;
+  std::string name = which;
+  if (m_model.hasCase() && m_model.value().name == which)
+  {
+    if (!m_keeper.saved())
+      return emit statusMessage(tr("The case is not saved yet, so it was not sent"));
+    name = m_model.value().name; // a save after a conflict may have changed it
+  }
+  const scene::Case value = m_model.library().open(name);
+  SendDialog dialog(value, all, &m_window);
+  if (dialog.exec() != QDialog::Accepted)
+    return;
+  m_keeper.run(
+      tr("Sending %1").arg(words(name)),
+      [this, library = m_model.library(), name, node = dialog.node(),
+       parts = dialog.parts()](const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        const auto done = presenters::sendCase(library, name, node, parts, progress);
+        return [this, done, name, place = words(node.name)]
+        {
+          QString head =
+              tr("“%1” is at “%2”: %3.").arg(words(name), place, transferText(done.transfer));
+          head += ' ' + (done.transfer.verified
+                             ? tr("The node was asked, and has all of them.")
+                             : tr("The node confirmed each of them, but lists none of them (yet), "
+                                  "so they could not be counted there."));
+          showReport(&m_window, tr("Send"), head, lines(done.notes), "petrous-send.txt");
+        };
+      });
+}
+
+void ExchangeController::receive()
+{
+  const auto all = nodes();
+  if (all.empty())
+    return;
+  ReceiveDialog dialog(all, &m_window);
+  if (dialog.exec() != QDialog::Accepted)
+    return;
+  const ReceiveDialog::Choice choice = dialog.choice();
+  choice.scene ? receiveScene(choice) : receiveImages(choice);
+}
+
+// The folder of a study on its way; what is there from before is not asked for again.
+QString ExchangeController::arriving(const std::string& study)
+{
+  auto& folder = m_arrived[study];
+  if (!folder)
+    folder = std::make_unique<QTemporaryDir>(QDir::tempPath() + "/petrous-receive-XXXXXX");
+  if (!folder->isValid())
+    throw core::Error(core::Fault::Refused,
+                      bytes(tr("No temporary folder can be made: %1").arg(folder->errorString())));
+  return folder->path();
+}
+
+void ExchangeController::receiveScene(const ReceiveDialog::Choice& choice)
+{
+  presenters::ReceiveRequest request;
+  request.studyUid = choice.study;
+  request.partial = QFile::encodeName(arriving(choice.study)).toStdString();
+  m_keeper.run(
+      tr("Receiving from %1").arg(words(choice.node.name)),
+      [this, library = m_model.library(), node = choice.node,
+       request](const core::Progress& progress) mutable -> BackgroundWork::Reply
+      {
+        const auto done = presenters::receiveCase(library, node, request, progress);
+        return [this, done, study = request.studyUid]
+        {
+          m_arrived.erase(study);
+          emit statusMessage(tr("Received: %1").arg(transferText(done.transfer)));
+          if (!done.notes.empty())
+            showReport(
+                &m_window, tr("Receive"),
+                tr("“%1” is received: %2.").arg(words(done.name), transferText(done.transfer)),
+                lines(done.notes), "petrous-receive.txt");
+          m_keeper.openCase(done.name);
+        };
+      });
+}
+
+// They are imported like a folder that is dropped.
+void ExchangeController::receiveImages(const ReceiveDialog::Choice& choice)
+{
+  const QString folder = arriving(choice.study) + '/' + tr("received");
+  m_keeper.run(tr("Receiving from %1").arg(words(choice.node.name)),
+               [this, choice, folder](const core::Progress& progress) -> BackgroundWork::Reply
+               {
+                 const network::Transfer done =
+                     network::retrieve(choice.node, choice.study, choice.series,
+                                       QFile::encodeName(folder).toStdString(), progress);
+                 return [this, done, folder]
+                 {
+                   emit statusMessage(tr("Received: %1").arg(transferText(done)));
+                   m_keeper.open({folder});
+                 };
+               });
+}
+
+void ExchangeController::deidentify()
+{
+  DeidentifyDialog dialog(&m_window);
+  if (dialog.exec() != QDialog::Accepted)
+    return;
+  m_keeper.run(
+      tr("De-identifying"),
+      [this, request = dialog.request(), passphrase = dialog.takePassphrase()](
+          const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        const auto done = presenters::deidentifyFolder(request, *passphrase, progress);
+        return [this, done, out = QFile::decodeName(request.output.c_str()),
+                in = QFile::decodeName(request.input.c_str())]
+        {
+          QString head =
+              tr("%1 files are de-identified in %2.").arg(done.report.filesWritten).arg(out);
+          if (!done.leftOut.empty())
+            head += ' ' + tr("%1 were left out.").arg(done.leftOut.size());
+          for (const auto& [what, files] : done.report.warnings)
+            head += '\n' + tr("%1 files: %2").arg(files).arg(words(what));
+          if (!done.report.durable)
+            head += '\n' + tr("The disk reported an error; check the disk.");
+          showReport(&m_window, tr("De-identify"), head, words(done.report.text()),
+                     "deidentification.txt", in);
+        };
+      });
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include <QObject>
+#include <QTemporaryDir>
+
+#include "ReceiveDialog.h"
+#include "petrous/Presenters/WorkstationModel.h"
+
+class QMenu;
+class QWidget;
+
+namespace petrous::workstation
+{
+
+class CaseDocumentController;
+
+/// What leaves and what comes: DICOM nodes, sending and receiving, de-identification of folders.
+class ExchangeController : public QObject
+{
+  Q_OBJECT
+public:
+  /// Adds its entries to `menu`; `window` is the parent of dialogs.
+  ExchangeController(presenters::WorkstationModel& model, CaseDocumentController& keeper,
+                     QMenu& menu, QWidget& window);
+
+  void send(const std::string& name); ///< a case of the library
+
+signals:
+  void statusMessage(const QString& line); ///< for the status bar
+
+private:
+  std::vector<network::Node> nodes(); ///< asks for one where there is none; empty: none wanted
+  void editNodes();
+  void receive();
+  void receiveScene(const ReceiveDialog::Choice& choice);
+  void receiveImages(const ReceiveDialog::Choice& choice);
+  QString arriving(const std::string& study);
+  void deidentify();
+  void refuse(const QString& why);
+
+  presenters::WorkstationModel& m_model;
+  CaseDocumentController& m_keeper;
+  QWidget& m_window;
+  /// By study: what arrived of it, so that a transfer that was cut goes on. It may identify the
+  /// patient: readable by this user, and gone when the window closes.
+  std::map<std::string, std::unique_ptr<QTemporaryDir>> m_arrived;
+};
+
+} // namespace petrous::workstation

@@ -1,0 +1,288 @@
+#include "ReceiveDialog.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDate>
+#include <QDateEdit>
+#include <QDialogButtonBox>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QTreeWidget>
+#include <QVBoxLayout>
+
+#include "Theme.h"
+#include "WindowTexts.h"
+#include "petrous/Network/SceneObjects.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+
+constexpr int kUid = Qt::UserRole; // of column 0
+constexpr int kIsScene = Qt::UserRole + 1;
+constexpr int kIsListed = Qt::UserRole + 2; // of a study: its series are there
+
+QString nameText(const std::string& name)
+{
+  return words(name).replace('^', ' ').simplified();
+}
+
+QString dateText(const std::string& date)
+{
+  const QDate day = QDate::fromString(words(date), "yyyyMMdd");
+  return day.isValid() ? day.toString("yyyy-MM-dd") : words(date);
+}
+
+QString countText(int count)
+{
+  return count < 0 ? QString() : QString::number(count);
+}
+
+} // namespace
+
+ReceiveDialog::ReceiveDialog(const std::vector<network::Node>& nodes, QWidget* parent)
+  : QDialog(parent)
+  , m_nodes(nodes)
+  , m_node(new QComboBox)
+  , m_id(new QLineEdit)
+  , m_name(new QLineEdit)
+  , m_dated(new QCheckBox(tr("&Between")))
+  , m_from(new QDateEdit(QDate::currentDate().addMonths(-1)))
+  , m_to(new QDateEdit(QDate::currentDate()))
+  , m_modality(new QComboBox)
+  , m_found(new QTreeWidget)
+  , m_outcome(new QLabel)
+{
+  setObjectName("receive");
+  setWindowTitle(tr("Receive from a node"));
+  m_node->setObjectName("receiveNode");
+  for (const network::Node& node : nodes)
+    m_node->addItem(words(node.name));
+  m_id->setObjectName("receiveId");
+  m_id->setToolTip(tr("* stands for any text"));
+  m_name->setObjectName("receiveName");
+  m_name->setPlaceholderText(tr("family name, or family^given"));
+  m_name->setToolTip(tr("The beginning is enough; * stands for any text"));
+  m_dated->setObjectName("receiveDated");
+  for (QDateEdit* date : {m_from, m_to})
+  {
+    date->setDisplayFormat("yyyy-MM-dd");
+    date->setCalendarPopup(true);
+    date->setEnabled(false);
+    connect(m_dated, &QCheckBox::toggled, date, &QWidget::setEnabled);
+  }
+  m_modality->addItem(tr("any"), QString());
+  for (const char* modality : {"CT", "MR", "OT"})
+    m_modality->addItem(QString(modality) == "OT" ? tr("OT (Petrous scenes)") : modality, modality);
+  m_found->setObjectName("receiveFound");
+  m_found->setHeaderLabels({tr("Patient, or series"), tr("ID"), tr("Date"), tr("Description"),
+                            tr("Modality"), tr("Images")});
+  m_found->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  m_found->header()->setStretchLastSection(false);
+  m_found->header()->setSectionResizeMode(3, QHeaderView::Stretch);
+  m_outcome->setObjectName("receiveOutcome");
+  m_outcome->setTextFormat(Qt::PlainText);
+  m_outcome->setWordWrap(true);
+
+  auto* dates = new QHBoxLayout;
+  dates->addWidget(m_dated);
+  dates->addWidget(m_from);
+  dates->addWidget(new QLabel(tr("and")));
+  dates->addWidget(m_to);
+  dates->addStretch();
+  auto* form = new QFormLayout;
+  form->addRow(tr("&Node:"), m_node);
+  form->addRow(tr("Patient &ID:"), m_id);
+  form->addRow(tr("Patient &name:"), m_name);
+  form->addRow(tr("Study date:"), dates);
+  form->addRow(tr("&Modality:"), m_modality);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
+  m_search = buttons->addButton(tr("&Search"), QDialogButtonBox::ActionRole);
+  m_search->setObjectName("receiveSearch");
+  m_search->setDefault(true);
+  m_receive = buttons->addButton(tr("&Receive"), QDialogButtonBox::AcceptRole);
+  m_receive->setObjectName("primary");
+  m_receive->setAutoDefault(false);
+  connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  connect(m_search, &QPushButton::clicked, this, &ReceiveDialog::search);
+  connect(m_found, &QTreeWidget::itemExpanded, this, &ReceiveDialog::listSeries);
+  connect(m_found, &QTreeWidget::itemChanged, this, &ReceiveDialog::update);
+  connect(&m_work, &BackgroundWork::failed, this, &ReceiveDialog::say);
+  connect(&m_work, &BackgroundWork::cancelled, this, [this] { say(tr("Stopped")); });
+  auto* layout = new QVBoxLayout(this);
+  layout->addLayout(form);
+  layout->addWidget(m_found, 1);
+  layout->addWidget(m_outcome);
+  layout->addWidget(buttons);
+  resize(820, 560);
+  say(tr("Give the patient's ID, name or a date, then search. Open a study to see its series."));
+}
+
+ReceiveDialog::~ReceiveDialog()
+{
+  m_work.drop();
+}
+
+network::Node ReceiveDialog::node() const
+{
+  return m_nodes.at(static_cast<std::size_t>(m_node->currentIndex()));
+}
+
+network::StudyFilter ReceiveDialog::filter() const
+{
+  network::StudyFilter filter;
+  filter.patientId = bytes(m_id->text().trimmed());
+  filter.patientName = bytes(m_name->text().trimmed());
+  if (!filter.patientName.empty() && filter.patientName.find('*') == std::string::npos)
+    filter.patientName += '*';
+  if (m_dated->isChecked())
+  {
+    filter.from = bytes(m_from->date().toString("yyyyMMdd"));
+    filter.to = bytes(m_to->date().toString("yyyyMMdd"));
+  }
+  filter.modality = bytes(m_modality->currentData().toString());
+  return filter;
+}
+
+void ReceiveDialog::begin(const QString& text, BackgroundWork::Work work)
+{
+  m_work.start(std::move(work));
+  say(text);
+}
+
+void ReceiveDialog::say(const QString& text)
+{
+  m_outcome->setText(windowText(text));
+  m_search->setText(m_work.busy() ? tr("&Stop") : tr("&Search"));
+  update();
+}
+
+void ReceiveDialog::search()
+{
+  if (m_work.busy())
+    return m_work.cancel();
+  const network::StudyFilter wanted = filter();
+  if (wanted.patientId.empty() && wanted.patientName.empty() && wanted.from.empty())
+    return say(tr("Give the patient's ID, name or a date: else the node would list all that it "
+                  "has."));
+  if (!wanted.from.empty() && wanted.from > wanted.to)
+    return say(tr("The first date is after the last one."));
+  m_found->clear();
+  begin(tr("Asking “%1”…").arg(words(node().name)),
+        [this, node = node(), wanted](const core::Progress& progress) -> BackgroundWork::Reply {
+          return [this, studies = network::findStudies(node, wanted, progress)] { show(studies); };
+        });
+}
+
+void ReceiveDialog::show(const std::vector<network::Study>& studies)
+{
+  for (const network::Study& study : studies)
+  {
+    auto* item = new QTreeWidgetItem(m_found, {nameText(study.patientName), words(study.patientId),
+                                               dateText(study.date), words(study.description),
+                                               words(study.modalities).replace('\\', ", "),
+                                               countText(study.instances)});
+    item->setData(0, kUid, words(study.uid));
+    item->setChildIndicatorPolicy(QTreeWidgetItem::ShowIndicator);
+    item->setFlags(item->flags() & ~Qt::ItemIsUserCheckable);
+  }
+  m_found->sortItems(2, Qt::DescendingOrder);
+  say(studies.empty()       ? tr("“%1” has no such study.").arg(words(node().name))
+      : studies.size() == 1 ? tr("1 study")
+                            : tr("%1 studies").arg(studies.size()));
+  if (studies.size() == 1)
+    m_found->topLevelItem(0)->setExpanded(true);
+}
+
+// Asked of the node when a study is opened.
+void ReceiveDialog::listSeries(QTreeWidgetItem* study)
+{
+  if (study->parent() || study->data(0, kIsListed).toBool())
+    return;
+  if (m_work.busy())
+    return study->setExpanded(false);
+  const QString uid = study->data(0, kUid).toString();
+  begin(tr("Asking “%1” for the series…").arg(words(node().name)),
+        [this, node = node(), uid](const core::Progress& progress) -> BackgroundWork::Reply
+        {
+          return [this, uid, series = network::findSeries(node, bytes(uid), progress)]
+          {
+            QTreeWidgetItem* above = nullptr;
+            for (int n = 0; n < m_found->topLevelItemCount(); ++n)
+              if (m_found->topLevelItem(n)->data(0, kUid).toString() == uid)
+                above = m_found->topLevelItem(n);
+            if (!above)
+              return;
+            above->setData(0, kIsListed, true);
+            int latest = -1; // of the scenes
+            for (const network::Series& one : series)
+              if (one.description == network::kSceneDescription &&
+                  one.modality == network::kSceneModality)
+                latest = std::max(latest, one.number);
+            for (const network::Series& one : series)
+            {
+              const bool isScene = one.description == network::kSceneDescription &&
+                                   one.modality == network::kSceneModality;
+              const bool isImage =
+                  one.modality == "CT" || one.modality == "MR" || one.modality == "SEG";
+              if (isScene && one.number != latest)
+                continue; // replaced by a later one
+              auto* item = new QTreeWidgetItem(
+                  above, {isScene ? tr("Petrous case") : tr("Series %1").arg(one.number),
+                          {},
+                          {},
+                          words(one.description),
+                          words(one.modality),
+                          countText(one.instances)});
+              item->setData(0, kUid, words(one.uid));
+              item->setData(0, kIsScene, isScene);
+              const bool chosen = latest >= 0 ? isScene : isImage && series.size() == 1;
+              item->setCheckState(0, chosen ? Qt::Checked : Qt::Unchecked);
+              item->setDisabled(!isScene && !isImage);
+            }
+            say(latest >= 0 ? tr("The study holds a case of Petrous: it comes as it was sent.")
+                            : tr("Tick the series to receive; they are then imported as a folder "
+                                 "of DICOM is."));
+          };
+        });
+}
+
+ReceiveDialog::Choice ReceiveDialog::choice() const
+{
+  Choice choice;
+  choice.node = node();
+  for (int n = 0; n < m_found->topLevelItemCount(); ++n)
+  {
+    const QTreeWidgetItem* study = m_found->topLevelItem(n);
+    for (int s = 0; s < study->childCount(); ++s)
+    {
+      const QTreeWidgetItem* series = study->child(s);
+      if (series->checkState(0) != Qt::Checked || series->isDisabled())
+        continue;
+      const std::string uid = bytes(study->data(0, kUid).toString());
+      if (!choice.study.empty() && choice.study != uid)
+        return {}; // of one study only
+      choice.study = uid;
+      choice.scene = choice.scene || series->data(0, kIsScene).toBool();
+      choice.series.push_back(bytes(series->data(0, kUid).toString()));
+    }
+  }
+  if (choice.scene && choice.series.size() > 1)
+    return {};
+  return choice;
+}
+
+void ReceiveDialog::update()
+{
+  m_receive->setEnabled(!m_work.busy() && !choice().study.empty());
+  m_receive->setToolTip(tr("Series of one study, or a case of Petrous"));
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,106 @@
+#include "SendDialog.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QFormLayout>
+#include <QLabel>
+#include <QPlainTextEdit>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include "Theme.h"
+
+namespace petrous::workstation
+{
+
+SendDialog::SendDialog(const scene::Case& value, const std::vector<network::Node>& nodes,
+                       QWidget* parent)
+  : QDialog(parent)
+  , m_value(value)
+  , m_nodes(nodes)
+  , m_node(new QComboBox)
+  , m_ct(new QCheckBox(value.ct.modality == scene::Modality::Mr
+                           ? tr("The &MR of the case, as a series")
+                           : tr("&CT, as a series")))
+  , m_mr(new QCheckBox(tr("M&R, a series each")))
+  , m_labels(new QCheckBox(tr("&Structures, as segmentations (SEG)")))
+  , m_scene(new QCheckBox(tr("The &whole scene, to be received as it is (Raw Data)")))
+  , m_note(new QCheckBox(tr("with its &note")))
+  , m_report(new QPlainTextEdit)
+{
+  setObjectName("sendCase");
+  setWindowTitle(tr("Send “%1”").arg(words(value.name)));
+  m_node->setObjectName("sendNode");
+  for (const network::Node& node : nodes)
+    m_node->addItem(QString("%1 (%2 %3 %4:%5%6)")
+                        .arg(words(node.name), words(node.aeTitle), tr("at"), words(node.host))
+                        .arg(node.port)
+                        .arg(node.tls ? ", TLS" : ""));
+  m_ct->setObjectName("sendCt");
+  m_mr->setObjectName("sendMr");
+  m_labels->setObjectName("sendLabels");
+  m_scene->setObjectName("sendScene");
+  m_note->setObjectName("sendNote");
+  m_report->setObjectName("sendReport");
+  m_report->setReadOnly(true);
+  m_report->setMinimumHeight(200);
+  const bool hasMr = !value.mr.empty();
+  const bool hasLabels = !value.labels.empty();
+  m_ct->setChecked(true);
+  m_mr->setEnabled(hasMr);
+  m_mr->setChecked(hasMr);
+  m_labels->setEnabled(hasLabels);
+  m_labels->setChecked(hasLabels);
+  m_scene->setChecked(true);
+  m_scene->setToolTip(tr("A PACS keeps it without being able to show it; Library > Receive brings "
+                         "back the very same case"));
+
+  auto* form = new QFormLayout;
+  form->addRow(tr("&To:"), m_node);
+  form->addRow(tr("What:"), m_ct);
+  for (QCheckBox* box : {m_mr, m_labels, m_scene, m_note})
+    form->addRow({}, box);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
+  m_send = buttons->addButton(tr("&Send"), QDialogButtonBox::AcceptRole);
+  m_send->setObjectName("primary");
+  connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  for (QCheckBox* box : {m_ct, m_mr, m_labels, m_scene, m_note})
+    connect(box, &QCheckBox::toggled, this, &SendDialog::update);
+  auto* layout = new QVBoxLayout(this);
+  layout->addLayout(form);
+  layout->addWidget(new QLabel(tr("What leaves this computer:")));
+  layout->addWidget(m_report, 1);
+  layout->addWidget(buttons);
+  resize(640, 520);
+  update();
+}
+
+presenters::SendParts SendDialog::parts() const
+{
+  presenters::SendParts parts;
+  parts.ct = m_ct->isChecked();
+  parts.mr = m_mr->isChecked();
+  parts.labels = m_labels->isChecked();
+  parts.scene = m_scene->isChecked();
+  parts.note = m_note->isEnabled() && m_note->isChecked();
+  return parts;
+}
+
+network::Node SendDialog::node() const
+{
+  return m_nodes.at(static_cast<std::size_t>(m_node->currentIndex()));
+}
+
+void SendDialog::update()
+{
+  m_note->setEnabled(m_scene->isChecked() && !m_value.description.note.empty());
+  const presenters::SendParts what = parts();
+  const bool any = what.ct || what.mr || what.labels || what.scene;
+  m_send->setEnabled(any);
+  m_report->setPlainText(any ? words(presenters::identityReport(m_value, what).text())
+                             : tr("Nothing is chosen."));
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <QDialog>
+
+#include "petrous/Network/NodeList.h"
+#include "petrous/Presenters/CaseTransfer.h"
+
+class QCheckBox;
+class QComboBox;
+class QPlainTextEdit;
+class QPushButton;
+
+namespace petrous::workstation
+{
+
+/// What of a case goes to which node, with what leaves the house and what stays.
+class SendDialog : public QDialog
+{
+  Q_OBJECT
+public:
+  /// `nodes`: at least one. The case must outlive the dialog.
+  SendDialog(const scene::Case& value, const std::vector<network::Node>& nodes,
+             QWidget* parent = nullptr);
+
+  presenters::SendParts parts() const;
+  network::Node node() const;
+
+private:
+  void update();
+
+  const scene::Case& m_value;
+  std::vector<network::Node> m_nodes;
+  QComboBox* m_node;
+  QCheckBox* m_ct;
+  QCheckBox* m_mr;
+  QCheckBox* m_labels;
+  QCheckBox* m_scene;
+  QCheckBox* m_note;
+  QPlainTextEdit* m_report;
+  QPushButton* m_send;
+};
+
+} // namespace petrous::workstation

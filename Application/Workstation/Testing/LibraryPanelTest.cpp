@@ -1,0 +1,375 @@
+#include "GuiTest.h"
+
+#include <fstream>
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDialog>
+#include <QFileDialog>
+#include <QInputDialog>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMenu>
+#include <QPlainTextEdit>
+#include <QPushButton>
+#include <QToolButton>
+#include <QTreeView>
+
+#include "CasesModel.h"
+#include "LibraryPanel.h"
+#include "Theme.h"
+#include "petrous/Library/Archive.h"
+
+using namespace petrous;
+using namespace petrous::workstation;
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+class LibraryWindow : public GuiTest
+{
+protected:
+  LibraryPanel& panel() { return *window().findChild<LibraryPanel*>(); }
+  QTreeView& list() { return *panel().findChild<QTreeView*>("cases"); }
+  QStringList names()
+  {
+    QStringList found;
+    for (int row = 0; row < list().model()->rowCount(); ++row)
+      found += list().model()->index(row, 0).data().toString();
+    return found;
+  }
+  void showPanel()
+  {
+    action("Open case…")->trigger();
+    ASSERT_TRUE(panel().isVisible());
+  }
+  bool select(const QString& name)
+  {
+    const int row = names().indexOf(name);
+    list().setCurrentIndex(list().model()->index(row, 0));
+    return row >= 0;
+  }
+  // An entry of the list's context menu.
+  void act(const QString& text)
+  {
+    for (QAction* one : list().actions())
+      if (one->text().remove('&') == text)
+        return one->trigger();
+    ADD_FAILURE() << text.toStdString();
+  }
+  void button(const char* name) { panel().findChild<QToolButton*>(name)->click(); }
+  void menu(const char* name) { window().findChild<QAction*>(name)->trigger(); }
+  void answerName(const QString& name)
+  {
+    onDialog(
+        [name](QDialog& dialog)
+        {
+          auto* ask = qobject_cast<QInputDialog*>(&dialog);
+          if (!ask)
+            return false;
+          ask->setTextValue(name);
+          ask->accept();
+          return true;
+        });
+  }
+  void answer(const QString& text)
+  {
+    onMessage(
+        [text](QMessageBox& box)
+        {
+          for (auto* one : box.buttons())
+            if (one->text().remove('&') == text)
+              return one->click();
+          box.reject();
+        });
+  }
+  bool isOpen(const char* name)
+  {
+    return waitFor(
+        [&]
+        {
+          return window().model().hasCase() && window().model().value().name == name &&
+                 !window().busy();
+        });
+  }
+  QDialog* report() { return window().findChild<QDialog*>("report"); }
+  QString reportHead() { return report()->findChild<QLabel*>("reportHead")->text(); }
+  QString reportText() { return report()->findChild<QPlainTextEdit*>("reportText")->toPlainText(); }
+};
+
+} // namespace
+
+// The open one too: it is renamed while open, and closed when deleted.
+TEST_F(LibraryWindow, CasesAreRenamedAndDeletedWhereTheyAreListed)
+{
+  saveBall("first");
+  saveBall("second");
+  openWindow("first");
+  drill(300);
+  showPanel();
+  ASSERT_TRUE(select("first"));
+  answerName("third");
+  button("renameCase");
+  ASSERT_TRUE(isOpen("third"));
+  EXPECT_EQ(window().model().value().dissection.strokes().size(), 1u);
+  EXPECT_EQ(library().open("third").dissection.strokes().size(), 1u);
+  EXPECT_FALSE(library().contains("first"));
+  EXPECT_EQ(panel().current(), "third");
+
+  const auto remove = [&](const QString& name, const QString& reply)
+  {
+    ASSERT_TRUE(select(name));
+    answer(reply);
+    button("deleteCase");
+  };
+  remove("third", "Cancel");
+  EXPECT_TRUE(library().contains("third"));
+  remove("second", "Delete");
+  EXPECT_FALSE(library().contains("second"));
+  EXPECT_TRUE(window().model().hasCase());
+  remove("third", "Delete");
+  EXPECT_FALSE(library().contains("third"));
+  EXPECT_FALSE(window().model().hasCase());
+
+  // Brought back with its stroke, found by a search, and opened.
+  EXPECT_TRUE(names().isEmpty());
+  auto* deleted = panel().findChild<QMenu*>("deletedCases");
+  ASSERT_EQ(deleted->actions().size(), 2);
+  EXPECT_TRUE(deleted->actions()[0]->text().startsWith("third, "));
+  deleted->actions()[1]->trigger();
+  deleted->actions()[0]->trigger();
+  EXPECT_FALSE(panel().findChild<QToolButton*>("undeleteCase")->isEnabled());
+  EXPECT_EQ(names().size(), 2);
+  panel().findChild<QLineEdit*>("searchCases")->setText("HIRD");
+  EXPECT_EQ(names(), QStringList{"third"});
+  EXPECT_EQ(panel().chosen(), "third");
+  QApplication::setActiveWindow(&window());
+  list().setFocus();
+  QTest::keyClick(&list(), Qt::Key_Return);
+  ASSERT_TRUE(isOpen("third"));
+  EXPECT_EQ(window().model().value().dissection.strokes().size(), 1u);
+  EXPECT_TRUE(library().contains("second"));
+}
+
+TEST_F(LibraryWindow, ACopyIsListedAndTheOriginalStaysOpen)
+{
+  saveBall("ball");
+  openWindow("ball");
+  showPanel();
+  ASSERT_TRUE(select("ball"));
+  answerName("copy");
+  act("Copy…");
+  ASSERT_TRUE(isOpen("ball"));
+  EXPECT_TRUE(library().contains("copy"));
+  EXPECT_EQ(panel().current(), "copy");
+
+  // Another order keeps the selection.
+  list().sortByColumn(CasesModel::Name, Qt::DescendingOrder);
+  EXPECT_EQ(names(), (QStringList{"copy", "ball"}));
+  EXPECT_EQ(panel().current(), "copy");
+  // Ctrl+F is the surgeon's window elsewhere.
+  QApplication::setActiveWindow(&window());
+  list().setFocus();
+  QTest::keyClick(&list(), Qt::Key_F, Qt::ControlModifier);
+  EXPECT_TRUE(panel().findChild<QLineEdit*>("searchCases")->hasFocus());
+
+  // A name that is taken is refused, and the case is open again.
+  ASSERT_TRUE(select("ball"));
+  QString why;
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        if (auto* ask = qobject_cast<QInputDialog*>(&dialog))
+        {
+          ask->setTextValue("copy");
+          ask->accept();
+          return false;
+        }
+        auto* box = qobject_cast<QMessageBox*>(&dialog);
+        why = box->text();
+        box->accept();
+        return true;
+      });
+  act("Rename…");
+  EXPECT_TRUE(why.contains("copy")) << why.toStdString();
+  ASSERT_TRUE(isOpen("ball"));
+}
+
+// The damaged file, and the case that needs it.
+TEST_F(LibraryWindow, VerifyNamesWhatIsDamaged)
+{
+  saveBall("ball");
+  scene::Case other = ballCase("other");
+  other.labels.clear();
+  library().save(other);
+  openWindow("other");
+  menu("verifyLibrary");
+  ASSERT_TRUE(waitFor([&] { return report() && !window().busy(); }));
+  EXPECT_TRUE(reportHead().contains("All are sound")) << reportHead().toStdString();
+  report()->close();
+  ASSERT_TRUE(waitFor([&] { return !report(); }));
+
+  const std::string object = library().open("ball").labels[0].object;
+  const fs::path file = folder() / "library/objects" / object;
+  fs::permissions(file, fs::perms::owner_write, fs::perm_options::add);
+  std::fstream(file, std::ios::in | std::ios::out).put('#');
+  menu("verifyLibrary");
+  ASSERT_TRUE(waitFor([&] { return report() && !window().busy(); }));
+  EXPECT_TRUE(reportHead().contains("1 is damaged")) << reportHead().toStdString();
+  EXPECT_TRUE(reportText().contains(words(object)));
+  EXPECT_TRUE(reportText().contains("needed by: ball")) << reportText().toStdString();
+}
+
+// The open case is closed meanwhile, and comes back as it was.
+TEST_F(LibraryWindow, CleaningUpRemovesDeletedCasesForGood)
+{
+  saveBall("ball");
+  scene::Case other = ballCase("other");
+  other.iso = 450.0;
+  library().save(other);
+  library().remove("other");
+  openWindow("ball");
+  drill(300);
+  answer("Cancel");
+  menu("collectLibrary");
+  EXPECT_EQ(library().deleted().size(), 1u);
+  answer("Clean up");
+  menu("collectLibrary");
+  ASSERT_TRUE(waitFor([&] { return library().deleted().empty(); }));
+  ASSERT_TRUE(isOpen("ball"));
+  EXPECT_EQ(window().model().value().dissection.strokes().size(), 1u);
+}
+
+TEST_F(LibraryWindow, RepairMakesTheIndexAnew)
+{
+  saveBall("ball");
+  std::ofstream(folder() / "library" / "library.sqlite") << "no database";
+  openWindow("ball");
+  menu("repairLibrary");
+  ASSERT_TRUE(waitFor([&] { return report() && !window().busy(); }));
+  EXPECT_TRUE(reportHead().contains("repaired"));
+  ASSERT_TRUE(isOpen("ball"));
+  EXPECT_TRUE(library().verify().damaged.empty());
+}
+
+// Of a case that is not open; and an archive that is dropped comes back.
+TEST_F(LibraryWindow, AnyCaseIsArchivedAndComesBackByDrop)
+{
+  saveBall("ball");
+  saveBall("other");
+  openWindow("ball");
+  showPanel();
+  ASSERT_TRUE(select("other"));
+  const fs::path file = folder() / "other.petrous";
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        auto* files = qobject_cast<QFileDialog*>(&dialog);
+        if (!files)
+          return false;
+        files->setDirectory(QString::fromStdString(folder().string()));
+        files->selectFile("other.petrous");
+        static_cast<QDialog*>(files)->accept();
+        return true;
+      });
+  act("Archive the case…");
+  ASSERT_TRUE(waitFor([&] { return fs::exists(file) && !window().busy(); }));
+  EXPECT_EQ(library::inspectArchive(file).name, "other");
+  EXPECT_EQ(window().model().value().name, "ball");
+  library().remove("other");
+  panel().refresh();
+  EXPECT_EQ(names(), QStringList{"ball"});
+
+  // What is dropped on the panel is for the window.
+  EXPECT_FALSE(panel().findChild<QLineEdit*>("searchCases")->acceptDrops());
+  EXPECT_FALSE(list().viewport()->acceptDrops());
+  dropPath(file);
+  ASSERT_TRUE(isOpen("other"));
+  EXPECT_TRUE(waitFor([&] { return names().contains("other"); }));
+}
+
+// It can be renamed and deleted, not opened.
+TEST_F(LibraryWindow, ADamagedCaseIsListed)
+{
+  saveBall("ball");
+  saveBall("broken");
+  std::ofstream(folder() / "library" / "cases" / "broken.json") << "{";
+  openWindow("ball");
+  showPanel();
+  ASSERT_TRUE(select("broken"));
+  EXPECT_EQ(panel().current(), "broken");
+  EXPECT_EQ(panel().chosen(), "");
+  EXPECT_FALSE(panel().findChild<QToolButton*>("openThisCase")->isEnabled());
+  EXPECT_TRUE(panel().findChild<QToolButton*>("deleteCase")->isEnabled());
+  const int row = list().currentIndex().row();
+  EXPECT_EQ(list().model()->index(row, CasesModel::Structures).data().toString(), "damaged");
+}
+
+// Of the open case, which is open again afterwards; found by it, and by its side.
+TEST_F(LibraryWindow, ACaseIsDescribedAndFoundByThat)
+{
+  saveBall("ball");
+  saveBall("other");
+  openWindow("ball");
+  drill(300);
+  showPanel();
+  ASSERT_TRUE(select("ball"));
+  onDialog(
+      [](QDialog& dialog)
+      {
+        if (dialog.objectName() != "describeCase")
+          return false;
+        auto* accept = dialog.findChild<QPushButton*>("primary");
+        dialog.findChild<QLineEdit*>("plannedDate")->setText("2026-02-30");
+        EXPECT_FALSE(accept->isEnabled()) << "there is no such day";
+        dialog.findChild<QLineEdit*>("plannedDate")->setText("2026-02-28");
+        dialog.findChild<QLineEdit*>("tags")->setText("teaching, , cholesteatoma ");
+        dialog.findChild<QPlainTextEdit*>("note")->setPlainText("high jugular bulb");
+        auto* side = dialog.findChild<QComboBox*>("side");
+        side->setCurrentIndex(side->findText("left"));
+        EXPECT_TRUE(accept->isEnabled());
+        accept->click();
+        return true;
+      });
+  button("describeCase");
+  ASSERT_TRUE(isOpen("ball"));
+  EXPECT_EQ(window().model().value().dissection.strokes().size(), 1u);
+  const scene::Description said = library().description("ball");
+  EXPECT_EQ(said.tags, (std::vector<std::string>{"teaching", "cholesteatoma"}));
+  EXPECT_EQ(said.date, "2026-02-28");
+  EXPECT_EQ(said.side, scene::Side::Left);
+
+  auto* search = panel().findChild<QLineEdit*>("searchCases");
+  search->setText("cholest");
+  EXPECT_EQ(names(), QStringList{"ball"});
+  search->setText("jugular");
+  EXPECT_EQ(names(), QStringList());
+  panel().findChild<QCheckBox*>("searchNotes")->setChecked(true);
+  EXPECT_EQ(names(), QStringList{"ball"});
+  search->clear();
+  EXPECT_EQ(names().size(), 2);
+  auto* side = panel().findChild<QComboBox*>("searchSide");
+  side->setCurrentIndex(side->findText("right"));
+  EXPECT_EQ(names(), QStringList());
+  side->setCurrentIndex(side->findText("left"));
+  EXPECT_EQ(names(), QStringList{"ball"});
+}
+
+TEST_F(LibraryWindow, ACaseHasAPicture)
+{
+  saveBall("ball");
+  openWindow("ball");
+  showPanel();
+  ASSERT_TRUE(select("ball"));
+  act("Make the picture");
+  ASSERT_TRUE(waitFor([&] { return !library().thumbnail("ball").empty() && !window().busy(); }));
+  const auto shown = [&]
+  {
+    const auto picture =
+        list().model()->index(0, 0).data(Qt::DecorationRole).value<QPixmap>().toImage();
+    return !picture.isNull() && pixelsUnlikeTheCorner(picture) > 50;
+  };
+  EXPECT_TRUE(waitFor(shown));
+}

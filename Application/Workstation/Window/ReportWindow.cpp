@@ -1,0 +1,84 @@
+#include "ReportWindow.h"
+
+#include <QDialog>
+#include <QDialogButtonBox>
+#include <QDir>
+#include <QFile>
+#include <QFileDialog>
+#include <QFontDatabase>
+#include <QLabel>
+#include <QPlainTextEdit>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include "Application.h"
+#include "Theme.h"
+#include "petrous/Core/OutputFile.h"
+#include "petrous/Presenters/FolderIdentity.h"
+
+namespace petrous::workstation
+{
+
+void showReport(QWidget* parent, const QString& title, const QString& head, const QString& text,
+                const QString& file, const QString& input)
+{
+  auto* dialog = new QDialog(parent);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setObjectName("report");
+  dialog->setWindowTitle(title);
+  dialog->resize(760, 480);
+  auto* first = new QLabel(head);
+  first->setObjectName("reportHead");
+  first->setTextFormat(Qt::PlainText);
+  first->setWordWrap(true);
+  first->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  auto* whole = new QPlainTextEdit(text);
+  whole->setObjectName("reportText");
+  whole->setReadOnly(true);
+  whole->setLineWrapMode(QPlainTextEdit::NoWrap);
+  whole->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
+  auto* outcome = new QLabel;
+  outcome->setObjectName("dim");
+  outcome->setTextFormat(Qt::PlainText);
+  outcome->setWordWrap(true);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
+  auto* save = buttons->addButton(QObject::tr("&Save…"), QDialogButtonBox::ActionRole);
+  save->setObjectName("saveReport");
+  save->setAutoDefault(false);
+  QObject::connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::reject);
+  QObject::connect(
+      save, &QPushButton::clicked, dialog,
+      [dialog, whole, outcome, title, file, input]
+      {
+        const QString path = QFileDialog::getSaveFileName(
+            dialog, title, QDir::home().filePath(file), QObject::tr("Text (*.txt)"));
+        if (path.isEmpty())
+          return;
+        try
+        {
+          const std::filesystem::path from = QFile::encodeName(input).toStdString();
+          if (!input.isEmpty())
+            presenters::refuseWithin(QFile::encodeName(path).toStdString(), from, "report");
+          core::writeFile(QFile::encodeName(path).toStdString(), bytes(whole->toPlainText()));
+          outcome->setText(QObject::tr("Saved as %1").arg(path));
+        }
+        catch (const std::exception& error)
+        {
+          outcome->setText(toString(error));
+        }
+      });
+  if (text.isEmpty())
+  {
+    whole->hide();
+    save->hide();
+    dialog->resize(460, 120);
+  }
+  auto* layout = new QVBoxLayout(dialog);
+  layout->addWidget(first);
+  layout->addWidget(whole, 1);
+  layout->addWidget(outcome);
+  layout->addWidget(buttons);
+  dialog->show();
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <QString>
+
+class QWidget;
+
+namespace petrous::workstation
+{
+
+/// Opens a non-modal window (object name "report") with a text to read, copy and save. `head` says
+/// in a sentence what it is, and is all if there is no text; `file` is proposed for saving,
+/// which is refused in the folder `input` (empty: anywhere goes).
+void showReport(QWidget* parent, const QString& title, const QString& head, const QString& text,
+                const QString& file, const QString& input = {});
+
+} // namespace petrous::workstation

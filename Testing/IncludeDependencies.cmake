@@ -36,7 +36,7 @@ set(known_modules
 
 # The toolkits whose headers a module may include; modules not listed here include none. Qt is
 # reserved for the application.
-set(toolkits_Imaging ITK GDCM)
+set(toolkits_Imaging ITK GDCM VTK)
 set(toolkits_Phantom GDCM)
 set(toolkits_Registration ITK)
 set(toolkits_Segmentation ITK)

@@ -48,7 +48,8 @@ struct PartOptions
                     "Names and colours of the indices: .ctbl, ITK-SNAP, CSV, TSV or JSON")
         ->type_name("TABLE");
     command
-        .add_option("--mesh", meshes, "Surface: OBJ, STL or PLY, mm LPS; @MR: of that MR's patient")
+        .add_option("--mesh", meshes,
+                    "Surface: OBJ, STL, PLY or VTP, mm LPS; @MR: of that MR's patient")
         ->allow_extra_args(false)
         ->type_name("[NAME=]FILE[@MR]");
     command

@@ -1,8 +1,16 @@
 #include "petrous/Imaging/MeshFile.h"
 
 #include <algorithm>
+#include <array>
+#include <string>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <vtkCellArray.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPolyDataWriter.h>
 
 #include "TestFiles.h"
 
@@ -231,6 +239,83 @@ TEST(MeshFile, EveryCutOfAFileIsRefusedOrWhole)
       const auto cut = putFile(folder / ("cut" + end), whole.substr(0, length));
       EXPECT_TRUE(refusalOf([&] { readMesh(cut); }).thrown) << end << " " << length;
     }
+  }
+}
+
+// Written by VTK's own writer.
+TEST(MeshFile, ReadsVtpInEveryForm)
+{
+  const TestFolder folder;
+  const core::TriangleMesh box = boxOf(folder);
+  vtkNew<vtkPolyData> poly;
+  vtkNew<vtkPoints> points;
+  for (const auto& v : box.vertices)
+    points->InsertNextPoint(v[0], v[1], v[2]);
+  vtkNew<vtkCellArray> polys;
+  for (const auto& t : box.triangles)
+  {
+    const vtkIdType corners[3] = {t[0], t[1], t[2]};
+    polys->InsertNextCell(3, corners);
+  }
+  poly->SetPoints(points);
+  poly->SetPolys(polys);
+  for (const int mode : {vtkXMLWriter::Ascii, vtkXMLWriter::Binary, vtkXMLWriter::Appended})
+    for (const int compressor :
+         {vtkXMLWriter::NONE, vtkXMLWriter::ZLIB, vtkXMLWriter::LZ4, vtkXMLWriter::LZMA})
+      for (const bool encodes : {true, false})
+        for (const int order : {vtkXMLWriter::LittleEndian, vtkXMLWriter::BigEndian})
+        {
+          vtkNew<vtkXMLPolyDataWriter> writer;
+          writer->SetInputData(poly);
+          writer->SetFileName((folder / "box.vtp").c_str());
+          writer->SetDataMode(mode);
+          writer->SetCompressorType(compressor);
+          writer->SetEncodeAppendedData(encodes);
+          writer->SetByteOrder(order);
+          ASSERT_EQ(writer->Write(), 1);
+          const core::TriangleMesh read = readMesh(folder / "box.vtp");
+          EXPECT_EQ(read.vertices, box.vertices) << mode << " " << compressor;
+          EXPECT_EQ(read.triangles, box.triangles) << mode << " " << compressor;
+        }
+}
+
+TEST(MeshFile, ReadsStripsOfVtpAndRefusesWhatItsCountsDoNotAllow)
+{
+  const TestFolder folder;
+  const auto file = [&folder](const std::string& count, const std::string& connectivity,
+                              const std::string& offsets)
+  {
+    return putFile(
+        folder / "a.vtp",
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
+        "byte_order=\"LittleEndian\"><PolyData><Piece NumberOfPoints=\"" +
+            count +
+            "\" NumberOfStrips=\"1\"><Points><DataArray type=\"Float32\" "
+            "NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0 1 1 0</DataArray>"
+            "</Points><Strips><DataArray type=\"Int64\" Name=\"connectivity\" "
+            "format=\"ascii\">" +
+            connectivity +
+            "</DataArray><DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">" + offsets +
+            "</DataArray></Strips></Piece></PolyData></VTKFile>\n");
+  };
+  const core::TriangleMesh strip = readMesh(file("4", "0 1 2 3", "4"));
+  ASSERT_EQ(strip.triangles.size(), 2U);
+  for (const auto& t : strip.triangles) // both face the same side
+  {
+    const Eigen::Vector3f a = strip.vertices[t[0]];
+    EXPECT_GT((strip.vertices[t[1]] - a).cross(strip.vertices[t[2]] - a)[2], 0.0F);
+  }
+  for (const auto& [count, corners, offsets] : {std::array<const char*, 3>{"4", "0 1 2 4", "4"},
+                                                {"4", "0 1 2 -1", "4"},
+                                                {"4", "0 1 2 3", "400"},
+                                                {"4", "0 1 2 3", "-4"},
+                                                {"999999999999", "0 1 2 3", "4"},
+                                                {"99999999999999999999", "0 1 2 3", "4"}})
+  {
+    testing::internal::CaptureStderr();
+    EXPECT_TRUE(refusalOf([&, path = file(count, corners, offsets)] { readMesh(path); }).thrown)
+        << count << " " << corners << " " << offsets;
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   }
 }
 

@@ -40,6 +40,7 @@ private:
 core::TriangleMesh parseObj(const std::filesystem::path& path, std::string_view bytes);
 core::TriangleMesh parseStl(const std::filesystem::path& path, std::string_view bytes);
 core::TriangleMesh parsePly(const std::filesystem::path& path, std::string_view bytes);
+core::TriangleMesh parseVtp(const std::filesystem::path& path, std::string_view bytes);
 std::string objText(const core::TriangleMesh& mesh, const MeshColor& color);
 std::string stlBytes(const core::TriangleMesh& mesh, const MeshColor& color);
 std::string plyBytes(const core::TriangleMesh& mesh, const MeshColor& color);

@@ -250,6 +250,9 @@ TEST_F(CommandLine, ExportsSeriesThatComeBackToTheBit)
     json("export ear --what " + what + " --out " + quoted(m_folder / (what + ".nii")));
     json("new again-" + what + " --ct " + quoted(folder));
     json("export again-" + what + " --what ct --out " + quoted(m_folder / "again.nii"));
+    const auto again = m_folder / ("again-" + what);
+    json("export again-" + what + " --what ct --out " + quoted(again / ""));
+    EXPECT_EQ(json("scan " + quoted(again))["series"][0]["modality"], what == "mr" ? "MR" : "CT");
     const std::string sent = textOf(m_folder / (what + ".nii"));
     const std::string back = textOf(m_folder / "again.nii");
     ASSERT_EQ(sent.size(), back.size()) << what;

@@ -181,6 +181,11 @@ TEST_F(IdentityCommand, DeidentifiesAFolderWithMapAndReport)
   const std::string list = "pseudonyms " + map + " --passphrase-file ";
   expectRefused(list + quoted(m_folder / "wrong"), 3, "passphrase");
   expectRefused("deidentify " + quoted(in) + " " + quoted(in / "out"), 4, "within the input");
+  expectRefused("deidentify " + quoted(in) + " " + quoted(m_folder / "y") + " --report " +
+                    quoted(in / "report.txt"),
+                4, "never changed");
+  EXPECT_FALSE(fs::exists(in / "report.txt"));
+  EXPECT_FALSE(fs::exists(m_folder / "y"));
   expectRefused("deidentify " + quoted(in) + " " + quoted(m_folder / "out"), 4, "empty");
   expectRefused("deidentify " + quoted(in) + " " + quoted(m_folder / "x") + " --map " + map, 2,
                 "--passphrase-file");

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -93,6 +94,15 @@ json reportJson(const library::DeidentificationReport& report)
 void deidentify(const Context& context, DeidentifyCommandOptions options)
 {
   using Dates = library::DeidentificationOptions::Dates;
+  if (!options.report.empty())
+  {
+    const auto in = std::filesystem::weakly_canonical(options.input);
+    const auto report = std::filesystem::weakly_canonical(options.report);
+    if (std::mismatch(in.begin(), in.end(), report.begin(), report.end()).first == in.end())
+      throw core::Error(core::Fault::Refused,
+                        options.report + ": the report would lie in " + options.input +
+                            ", which is never changed; give it another place");
+  }
   context.refuseOverwriting({options.output, options.map, options.report},
                             {options.input, options.passphraseFile});
   options.profile.dates = options.dates == "keep"    ? Dates::Keep

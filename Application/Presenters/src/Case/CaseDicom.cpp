@@ -104,10 +104,11 @@ void writeCaseSeries(const std::filesystem::path& folder, const scene::Case& val
   using Modality = imaging::SeriesDescription::Modality;
   const CaseIdentifiers identifiers(value);
   imaging::SeriesDescription series;
-  series.modality = what == "mr" ? Modality::Mr : Modality::Ct;
+  const bool isMr = what == "mr" || value.ct.modality == scene::Modality::Mr;
+  series.modality = isMr ? Modality::Mr : Modality::Ct;
   series.derived = true;
-  series.description = what == "dissected" ? "CT, dissected"
-                       : what == "ct"      ? "CT"
+  series.description = what == "dissected" ? (isMr ? "MR, dissected" : "CT, dissected")
+                       : what == "ct"      ? (isMr ? "MR" : "CT")
                        : onCt              ? "MR, resampled on the CT"
                                            : "MR";
   series.seriesNumber = what == "ct" ? 1 : what == "mr" ? 2 : 3;
@@ -117,7 +118,7 @@ void writeCaseSeries(const std::filesystem::path& folder, const scene::Case& val
   series.studyId = options.studyId;
   series.seriesUid = identifiers.series(what, image);
   series.frameOfReferenceUid = identifiers.frameOfReference(drawnOn);
-  if (value.denseBone != volume::IntensityScale{}.dense)
+  if (!isMr && value.denseBone != volume::IntensityScale{}.dense)
     series.rescaleType = "US";
   if (series.modality == Modality::Mr)
   {
@@ -163,8 +164,9 @@ std::size_t writeCaseSegmentation(const std::filesystem::path& path, const scene
       source = &mr;
   if (source)
     segmentation.source = Segmentation::Source{
-        drawnOn.empty() ? imaging::SeriesDescription::Modality::Ct
-                        : imaging::SeriesDescription::Modality::Mr,
+        drawnOn.empty() && value.ct.modality != scene::Modality::Mr
+            ? imaging::SeriesDescription::Modality::Ct
+            : imaging::SeriesDescription::Modality::Mr,
         sourceSeries, source->geometry.dims()[2], core::sameGrid(source->geometry, grid)};
   segmentation.description = "Segmentation";
   segmentation.studyUid = identifiers.study();

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <string>
+#include <vector>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -272,6 +274,9 @@ TEST(MeshFile, ReadsVtpInEveryForm)
           writer->SetCompressorType(compressor);
           writer->SetEncodeAppendedData(encodes);
           writer->SetByteOrder(order);
+          writer->SetHeaderType(order == vtkXMLWriter::LittleEndian ? vtkXMLWriter::UInt64
+                                                                    : vtkXMLWriter::UInt32);
+          writer->SetBlockSize(48); // several blocks, the last one shorter
           ASSERT_EQ(writer->Write(), 1);
           const core::TriangleMesh read = readMesh(folder / "box.vtp");
           EXPECT_EQ(read.vertices, box.vertices) << mode << " " << compressor;
@@ -317,6 +322,103 @@ TEST(MeshFile, ReadsStripsOfVtpAndRefusesWhatItsCountsDoNotAllow)
         << count << " " << corners << " " << offsets;
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   }
+}
+
+std::string base64(const std::string& bytes)
+{
+  constexpr const char* kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t at = 0; at < bytes.size(); at += 3)
+  {
+    std::uint32_t bits = 0;
+    for (std::size_t n = 0; n < 3; ++n)
+      bits = bits << 8 | (at + n < bytes.size() ? static_cast<unsigned char>(bytes[at + n]) : 0U);
+    for (std::size_t n = 0; n < 4; ++n)
+      text += at + n > bytes.size() ? '=' : kDigits[bits >> (18 - 6 * n) & 63];
+  }
+  return text;
+}
+
+template <class T>
+std::string bytesOf(const std::vector<T>& values)
+{
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+// The headers of VTK's binary arrays state sizes that VTK allocates before it reads them.
+TEST(MeshFile, RefusesHeadersOfVtpThatStateWhatTheFileDoesNotHold)
+{
+  const TestFolder folder;
+  const auto piece = [](const std::string& points, const std::string& format)
+  {
+    return "<Piece NumberOfPoints=\"3\" NumberOfPolys=\"1\"><Points><DataArray type=\"Float32\" "
+           "NumberOfComponents=\"3\" format=\"" +
+           format + "\">" + points +
+           "</DataArray></Points><Polys><DataArray type=\"UInt8\" Name=\"connectivity\" "
+           "format=\"ascii\">0 1 2</DataArray><DataArray type=\"Int32\" Name=\"offsets\" "
+           "format=\"ascii\"> 3 <InformationKey name=\"a\">7</InformationKey></DataArray></Polys>"
+           "</Piece>";
+  };
+  const auto file = [&](const std::string& attributes, const std::string& body)
+  {
+    return putFile(folder / "a.vtp", "<?xml version=\"1.0\"?><VTKFile type=\"PolyData\" " +
+                                         attributes + "><PolyData>" + body +
+                                         "</PolyData></VTKFile>");
+  };
+  const std::string points = bytesOf<float>({0, 0, 0, 1, 0, 0, 0, 1, 0});
+  const auto binary = [&](const std::string& attributes, const std::string& header)
+  { return file(attributes, piece(base64(header) + base64(points), "binary")); };
+
+  // What is right is read: header and data encoded together and apart, and two pieces.
+  EXPECT_EQ(readMesh(binary("", bytesOf<std::uint32_t>({36}))).triangles.size(), 1U);
+  EXPECT_EQ(readMesh(binary("header_type=\"UInt64\"", bytesOf<std::uint64_t>({36}))).vertices[2],
+            Eigen::Vector3f(0, 1, 0));
+  EXPECT_EQ(readMesh(file("", piece(base64(bytesOf<std::uint32_t>({36}) + points), "binary")))
+                .triangles.size(),
+            1U);
+  const std::string text = piece("0 0 0 1 0 0 0 1 0", "ascii");
+  const core::TriangleMesh two = readMesh(file("", text + text));
+  EXPECT_EQ(two.vertices.size(), 6U);
+  EXPECT_EQ(two.triangles.at(1)[2], 5U) << "corners count from the piece's first point";
+
+  const auto expect = [](const std::filesystem::path& path, const std::string& what)
+  {
+    const auto refusal = refusalOf([&path] { readMesh(path); });
+    expectRefused(refusal, Reason::Unreadable, what);
+    expectRefused(refusal, Reason::Unreadable, "a.vtp");
+  };
+  using Header = std::vector<std::uint32_t>;
+  const std::string header64 = "header_type=\"UInt64\"";
+  constexpr auto kMost = std::numeric_limits<std::uint64_t>::max();
+  expect(binary("", bytesOf<std::uint32_t>({0xFFFFFFFF})), "array Points states 4294967295 bytes");
+  expect(binary("", bytesOf<std::uint32_t>({24})), "array Points");
+  expect(binary(header64, bytesOf<std::uint64_t>({kMost})), "array Points");
+  expect(file("", piece(base64(bytesOf<std::uint32_t>({36})), "binary")), "array Points");
+  expect(file("", piece("=", "binary")), "array Points");
+  for (const char* name :
+       {"vtkZLibDataCompressor", "vtkLZ4DataCompressor", "vtkLZMADataCompressor"})
+  {
+    const std::string packed = std::string("compressor=\"") + name + "\"";
+    for (const Header& header :
+         {Header{0x10000000, 1, 0, 8}, Header{0xFFFFFFFF, 0xFFFFFFFF, 1, 1},
+          Header{1, 0xFFFFFFFF, 0, 8}, Header{0, 36, 0}, Header{2, 24, 12, 8},
+          Header{1, 36, 36, 0xFFFFFFFF}, Header{1, 36, 36, 0}, Header{1, 36, 36, 20},
+          Header{2, 18, 18, 8, 0x80000000}})
+      expect(binary(packed, bytesOf(header)), "array Points");
+    expect(
+        binary(packed + " " + header64, bytesOf<std::uint64_t>({1ULL << 63, 2, 0, kMost, kMost})),
+        "array Points");
+    expect(binary(packed + " " + header64, bytesOf<std::uint64_t>({2, 18, 18, kMost, 2})),
+           "array Points");
+  }
+  expect(binary("compressor=\"vtkOther\"", bytesOf(Header{1, 36, 36, 36})), "zlib, LZ4 and LZMA");
+  expect(file("", piece("0 0 0 1 0 0 0 1", "ascii")), "8 of the 9 numbers");
+  expect(file("", piece("0 0 0 1 0 0 0 1 0 1", "ascii")), "more than the 9 numbers");
+  expect(file("", piece("0 0 0 1 0 0 0 1 x", "ascii")), "no number");
+  expect(file("", piece("", "appended")), "array Points lies after the end");
+  expect(putFile(folder / "a.vtp", "<!DOCTYPE a [<!ENTITY b \"b\">]><a>&b;</a>"), "document type");
+  expect(putFile(folder / "a.vtp", "<VTKFile type=\"PolyData\"><PolyData>"), "well-formed");
 }
 
 TEST(MeshFile, RefusesToWriteWhatIsNoSurface)

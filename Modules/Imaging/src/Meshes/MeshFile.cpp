@@ -161,10 +161,10 @@ void MeshBuilder::addPolygon(const std::vector<std::int64_t>& corners)
   }
 }
 
-void MeshBuilder::failUnreadable(const char* what) const
+void MeshBuilder::failUnreadable(const std::string& what) const
 {
   fail(FileError::Reason::Unreadable, m_path,
-       std::string("is damaged: ") + what + "; export it again from where it came");
+       "is damaged: " + what + "; export it again from where it came");
 }
 
 core::TriangleMesh MeshBuilder::take()

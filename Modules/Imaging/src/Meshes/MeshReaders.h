@@ -26,7 +26,7 @@ public:
   /// triangles that use a vertex twice are skipped.
   void addPolygon(const std::vector<std::int64_t>& corners);
   std::size_t vertexCount() const noexcept { return m_mesh.vertices.size(); }
-  [[noreturn]] void failUnreadable(const char* what) const;
+  [[noreturn]] void failUnreadable(const std::string& what) const;
 
   /// Throws for a mesh without triangles.
   core::TriangleMesh take();

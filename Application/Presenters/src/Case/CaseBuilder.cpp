@@ -657,7 +657,10 @@ void addMesh(scene::Case& value, const PartSource& source)
   if (std::string note = judgeMeshSpace(source.path, loaded, mr ? *mr : value.ct, image);
       !note.empty())
     notes.push_back(std::move(note));
-  requireNear(source.path, loaded.mesh, mr ? mr->geometry : value.ct.geometry, image);
+  const core::GridGeometry& grid = mr ? mr->geometry : value.ct.geometry;
+  requireNear(source.path, loaded.mesh, grid, image);
+  if (std::string note = outsideImage(loaded.mesh, grid, image); !note.empty())
+    notes.push_back(std::move(note));
   part.notes = std::move(loaded.notes);
   part.notes.insert(part.notes.begin(), notes.begin(), notes.end());
   auto mesh = std::make_shared<core::TriangleMesh>(std::move(loaded.mesh));

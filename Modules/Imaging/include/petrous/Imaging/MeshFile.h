@@ -23,9 +23,11 @@ struct LoadedMesh
 {
   core::TriangleMesh mesh;        ///< LPS, mm
   std::vector<std::string> notes; ///< what was assumed or changed, one sentence each
-  bool isFrameStated = false;     ///< by the file, or given
+  bool isFrameStated = false;     ///< by the file
   bool isUnitStated = false;      ///< the same
-  bool isRas = false;             ///< how it counts, as stated or given
+  bool isFrameGiven = false;      ///< by the caller, whatever the file states
+  bool isUnitGiven = false;       ///< the same
+  MeshSpace space;                ///< how it counts, as stated or given
 };
 
 /// Reads a surface from OBJ, STL (text or binary), PLY (text or binary) or VTP (VTK XML PolyData:

@@ -244,6 +244,32 @@ TEST_F(CaseBuilder, TellsImagesOfOneFrameOfReferenceWithoutItsUid)
   EXPECT_EQ(value.ct.frameOfReference, "") << "of a NRRD file nothing is known";
 }
 
+TEST_F(CaseBuilder, SaysThatAnMrIsACt)
+{
+  const auto scan = std::make_shared<const volume::Volume<std::int16_t>>(
+      core::GridGeometry({8, 8, 8}, Vector3d::Ones(), Vector3d::Zero()), std::int16_t{40});
+  using Modality = imaging::SeriesDescription::Modality;
+  for (const auto& [name, modality] : {std::pair{"ct", Modality::Ct}, {"mr", Modality::Mr}})
+  {
+    imaging::SeriesDescription series;
+    series.modality = modality;
+    series.studyUid = "1.2.3";
+    series.seriesUid = imaging::deterministicUid(1, name);
+    series.frameOfReferenceUid = "1.2.3.9";
+    imaging::writeDicomSeries(m_folder / name, volume::IntensityVolume(scan), series);
+    m_sources.parts.mr.push_back({name, m_folder / name});
+  }
+  const auto value = presenters::buildCase("ear", m_sources, {});
+  const auto saysCt = [](const scene::ImagePart& part)
+  {
+    return std::any_of(part.notes.begin(), part.notes.end(),
+                       [](const std::string& note)
+                       { return note.find("says that it is a CT") != note.npos; });
+  };
+  EXPECT_TRUE(saysCt(value.mr.at(0)));
+  EXPECT_FALSE(saysCt(value.mr.at(1)));
+}
+
 TEST_F(CaseBuilder, ChoosesAnMrFromAFolderOfSeveralSeries)
 {
   for (const int value : {40, 50})

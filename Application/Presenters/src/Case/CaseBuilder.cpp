@@ -225,6 +225,10 @@ void addMr(scene::Case& value, const PartSource& source, const core::Progress& p
   scene::ImagePart part =
       readImage(source.path, source.series, source.repair, std::nullopt, progress);
   part.name = name;
+  // A CT angiogram may be wanted beside the CT: said, not refused.
+  if (part.modality == scene::Modality::Ct)
+    part.notes.push_back("The file says that it is a CT; it was added as an MR, as asked. If it is "
+                         "the patient's CT, begin a case with it (petrous new --ct).");
   part.modality = scene::Modality::Unknown;
   value.mr.push_back(std::move(part));
 }

@@ -118,8 +118,13 @@ void printCase(const Context& context, const scene::Case& value)
   {
     const scene::Placement place = scene::placementOf(value, mesh);
     const std::string refusal = place.missing.empty() ? touchRefusal(value, mesh) : "";
+    std::string measure;
+    if (const auto measured = measureOf(mesh))
+      measure = measured->volume ? ", " + fixed(*measured->volume, 1) + " mm3"
+                                 : ", open, " + std::to_string(measured->openEdges) + " edges";
     context.print("  mesh '" + mesh.name + "', " + std::to_string(mesh.triangles) + " triangles" +
-                  placeText(place) + (refusal.empty() ? "" : ", not touchable: " + refusal));
+                  measure + placeText(place) +
+                  (refusal.empty() ? "" : ", not touchable: " + refusal));
   }
   context.print("  " + std::to_string(value.applied()) + " strokes done, " +
                 std::to_string(value.dissection.history().ahead()) + " to redo, " +

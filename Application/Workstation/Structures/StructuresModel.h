@@ -1,11 +1,15 @@
 #pragma once
 
+#include <cstddef>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include <QAbstractTableModel>
 
 #include "petrous/Presenters/WorkstationModel.h"
+#include "petrous/Volume/MeshMeasure.h"
 
 namespace petrous::appearance
 {
@@ -23,7 +27,7 @@ public:
   enum Column
   {
     Name,
-    VolumeColumn, ///< mm^3; empty for a mesh
+    VolumeColumn, ///< mm^3; of an open mesh its open edges
     FirstProperty ///< and those after it: kStructureProperties with a column
   };
 
@@ -52,16 +56,25 @@ private:
     std::string name;
     double volume = 0.0; ///< mm^3
     bool isMesh = false;
+    std::size_t openEdges = 0; ///< of a mesh that is not closed and so has no volume
     appearance::StructureAppearance look;
     std::string missing; ///< why it cannot be placed on the CT (scene::Placement); usually empty
   };
-  std::vector<Row> rows() const;
+  struct Measured
+  {
+    std::shared_ptr<const core::TriangleMesh> mesh;
+    volume::MeshMeasure measure;
+  };
+  std::vector<Row> rows();
+  /// Each mesh is measured once.
+  const volume::MeshMeasure& measureOf(const scene::MeshPart& part);
   QVariant propertyData(const Row& row, const appearance::StructureProperty& property,
                         int role) const;
   QString untouchableText(const std::string& mesh) const;
 
   presenters::WorkstationModel& m_model;
   std::vector<Row> m_rows;
+  std::map<std::string, Measured> m_measured; ///< by the mesh's name
 };
 
 } // namespace petrous::workstation

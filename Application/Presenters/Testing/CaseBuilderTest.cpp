@@ -249,7 +249,7 @@ TEST_F(CaseBuilder, SaysThatAnMrIsACt)
   const auto scan = std::make_shared<const volume::Volume<std::int16_t>>(
       core::GridGeometry({8, 8, 8}, Vector3d::Ones(), Vector3d::Zero()), std::int16_t{40});
   using Modality = imaging::SeriesDescription::Modality;
-  for (const auto& [name, modality] : {std::pair{"ct", Modality::Ct}, {"mr", Modality::Mr}})
+  for (const auto& [name, modality] : {std::pair{"angio", Modality::Ct}, {"T2", Modality::Mr}})
   {
     imaging::SeriesDescription series;
     series.modality = modality;

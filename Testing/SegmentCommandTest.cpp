@@ -179,6 +179,9 @@ TEST_F(SegmentCommand, TakesNoMeshAndNoMrForTheStructureOfItsName)
        " --mr T2=" + quoted(m_folder / "bone.nrrd"));
   const auto before = json("info ear");
   ASSERT_EQ(before["meshes"].size(), 1U);
+  EXPECT_EQ(before["meshes"][0]["closed"], true);
+  EXPECT_EQ(before["meshes"][0]["open_edges"], 0);
+  EXPECT_NEAR(before["meshes"][0]["volume_mm3"].get<double>(), 64.0 / 6.0, 1e-5);
   ASSERT_EQ(before["mr"].size(), 1U);
   for (const std::string name : {"ball", "T2"})
     for (const std::string more : {"", " --replace"})

@@ -48,7 +48,8 @@ struct PartOptions
                     "Names and colours of the indices: .ctbl, ITK-SNAP, CSV, TSV or JSON")
         ->type_name("TABLE");
     command
-        .add_option("--mesh", meshes, "Surface: OBJ, STL or PLY, mm LPS; @MR: of that MR's patient")
+        .add_option("--mesh", meshes,
+                    "Surface: OBJ, STL, PLY or VTP, mm LPS; @MR: of that MR's patient")
         ->allow_extra_args(false)
         ->type_name("[NAME=]FILE[@MR]");
     command
@@ -121,8 +122,13 @@ void printCase(const Context& context, const scene::Case& value)
   {
     const scene::Placement place = scene::placementOf(value, mesh);
     const std::string refusal = place.missing.empty() ? touchRefusal(value, mesh) : "";
+    std::string measure;
+    if (const auto measured = measureOf(mesh))
+      measure = measured->volume ? ", " + fixed(*measured->volume, 1) + " mm3"
+                                 : ", open, " + std::to_string(measured->openEdges) + " edges";
     context.print("  mesh '" + mesh.name + "', " + std::to_string(mesh.triangles) + " triangles" +
-                  placeText(value, place) + (refusal.empty() ? "" : ", not touchable: " + refusal));
+                  measure + placeText(value, place) +
+                  (refusal.empty() ? "" : ", not touchable: " + refusal));
   }
   context.print("  " + std::to_string(value.applied()) + " strokes done, " +
                 std::to_string(value.dissection.history().ahead()) + " to redo, " +

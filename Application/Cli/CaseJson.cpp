@@ -64,6 +64,16 @@ std::string touchRefusal(const scene::Case& value, const scene::MeshPart& mesh)
   }
 }
 
+std::optional<volume::MeshMeasure> measureOf(const scene::MeshPart& mesh)
+try
+{
+  return volume::measure(*mesh.mesh.get());
+}
+catch (const core::Error&) // the rest of the case can still be reported
+{
+  return {};
+}
+
 json transformJson(const core::RigidTransform& transform)
 {
   json values = json::array();
@@ -198,6 +208,12 @@ json infoJson(const scene::Case& value)
                       {"flags", appearance::flagsOf(mesh.look)},
                       {"solid", mesh.look.solid},
                       {"touchable", refusal.empty()}});
+    if (const auto measured = measureOf(mesh))
+    {
+      meshes.back()["closed"] = measured->openEdges == 0;
+      meshes.back()["open_edges"] = measured->openEdges;
+      meshes.back()["volume_mm3"] = measured->volume ? json(*measured->volume) : json(nullptr);
+    }
     addPlace(meshes.back(), scene::placementOf(value, mesh));
     if (!refusal.empty())
       meshes.back()["touchable_reason"] = refusal;

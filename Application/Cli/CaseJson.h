@@ -1,11 +1,13 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
 #include "petrous/Scene/Case.h"
+#include "petrous/Volume/MeshMeasure.h"
 
 namespace petrous::cli
 {
@@ -26,6 +28,9 @@ nlohmann::json lookJson(const appearance::StructureAppearance& look);
 /// Why a mesh is not touchable (scene::untouchable), or its file cannot be read; empty if it is
 /// touchable.
 std::string touchRefusal(const scene::Case& value, const scene::MeshPart& mesh);
+
+/// Nothing if the mesh cannot be read.
+std::optional<volume::MeshMeasure> measureOf(const scene::MeshPart& mesh);
 
 /// 16 numbers, row-major.
 nlohmann::json transformJson(const core::RigidTransform& transform);

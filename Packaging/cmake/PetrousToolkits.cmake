@@ -51,7 +51,7 @@ add_library(Petrous::dcmtk_network ALIAS petrous_dcmtk_network)
 
 find_package(VTK 9.1 REQUIRED COMPONENTS
   CommonCore CommonDataModel CommonColor CommonTransforms FiltersCore FiltersGeneral FiltersGeometry
-  FiltersSources ImagingCore ImagingHybrid InteractionStyle IOImage IOGeometry IOPLY RenderingCore
+  FiltersSources ImagingCore ImagingHybrid InteractionStyle IOImage IOGeometry IOPLY IOXML RenderingCore
   RenderingFreeType RenderingOpenGL2 RenderingVolume RenderingVolumeOpenGL2 glew)
 find_package(OpenGL REQUIRED COMPONENTS EGL OpenGL)
 if(PETROUS_WORKSTATION)

@@ -44,9 +44,9 @@ HostileReaders::~HostileReaders()
 
 std::vector<std::string> HostileReaders::names()
 {
-  return {"nifti", "nifti-pair",   "nifti-gz", "nrrd",   "segments", "metaimage",
-          "obj",   "stl",          "ply",      "table",  "csv",      "manifest",
-          "dicom", "segmentation", "rtstruct", "archive"};
+  return {"nifti",    "nifti-pair", "nifti-gz",     "nrrd",     "segments", "metaimage",
+          "obj",      "stl",        "ply",          "vtp",      "table",    "csv",
+          "manifest", "dicom",      "segmentation", "rtstruct", "archive"};
 }
 
 fs::path HostileReaders::put(const char* name, std::string_view bytes) const
@@ -75,7 +75,7 @@ try
     imaging::loadLabels(put("a.seg.nrrd", bytes));
   else if (reader == "metaimage")
     imaging::readImageFile(put("a.mha", bytes));
-  else if (reader == "obj" || reader == "stl" || reader == "ply")
+  else if (reader == "obj" || reader == "stl" || reader == "ply" || reader == "vtp")
     imaging::loadMesh(put(("a." + reader).c_str(), bytes));
   else if (reader == "table")
     return !imaging::parseLabelTable(std::string(bytes)).empty();

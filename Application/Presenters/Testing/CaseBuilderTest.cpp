@@ -43,7 +43,7 @@ protected:
     imaging::writeLabelFile(m_folder / "facial_nerve.nii.gz",
                             volume::makeLabelMap(std::move(labels), {}));
     core::TriangleMesh mesh;
-    mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    mesh.vertices = {{0, 4, 5}, {1, 4, 5}, {0, 5, 5}, {0, 4, 6}}; // inside the CT
     mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
     imaging::writeMesh(m_folder / "incus.obj", mesh);
     m_sources.ct = m_folder / "ct.nrrd";
@@ -242,6 +242,32 @@ TEST_F(CaseBuilder, TellsImagesOfOneFrameOfReferenceWithoutItsUid)
   EXPECT_NE(value.mr[0].frameOfReference, value.mr[2].frameOfReference);
   EXPECT_EQ(scene::toManifest(value).find(uid), std::string::npos);
   EXPECT_EQ(value.ct.frameOfReference, "") << "of a NRRD file nothing is known";
+}
+
+TEST_F(CaseBuilder, SaysThatAnMrIsACt)
+{
+  const auto scan = std::make_shared<const volume::Volume<std::int16_t>>(
+      core::GridGeometry({8, 8, 8}, Vector3d::Ones(), Vector3d::Zero()), std::int16_t{40});
+  using Modality = imaging::SeriesDescription::Modality;
+  for (const auto& [name, modality] : {std::pair{"angio", Modality::Ct}, {"T2", Modality::Mr}})
+  {
+    imaging::SeriesDescription series;
+    series.modality = modality;
+    series.studyUid = "1.2.3";
+    series.seriesUid = imaging::deterministicUid(1, name);
+    series.frameOfReferenceUid = "1.2.3.9";
+    imaging::writeDicomSeries(m_folder / name, volume::IntensityVolume(scan), series);
+    m_sources.parts.mr.push_back({name, m_folder / name});
+  }
+  const auto value = presenters::buildCase("ear", m_sources, {});
+  const auto saysCt = [](const scene::ImagePart& part)
+  {
+    return std::any_of(part.notes.begin(), part.notes.end(),
+                       [](const std::string& note)
+                       { return note.find("says that it is a CT") != note.npos; });
+  };
+  EXPECT_TRUE(saysCt(value.mr.at(0)));
+  EXPECT_FALSE(saysCt(value.mr.at(1)));
 }
 
 TEST_F(CaseBuilder, ChoosesAnMrFromAFolderOfSeveralSeries)
@@ -739,8 +765,37 @@ TEST_F(CaseBuilder, AsksHowAMeshCountsWhereItWouldLieElsewhere)
   expectCentered(add(true, 1000.0), center);
   writeBall(center, 0.1 * lps, "# SPACE=LPS\n");
   EXPECT_NE(refusal().find("as LPS cm"), std::string::npos) << refusal();
+  // What the file states may be wrong; what the user gives counts.
   writeBall(center, 0.1 * lps, "# SPACE=LPS, unit mm\n");
-  EXPECT_NO_THROW(add()) << "stated";
+  EXPECT_NE(refusal().find("as LPS mm, as it states, it reaches"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find("as LPS cm it would lie inside"), std::string::npos) << refusal();
+  expectCentered(add({}, 10.0), center);
+  const auto wholly = add(false, 1.0);
+  ASSERT_FALSE(wholly.notes.empty());
+  EXPECT_NE(wholly.notes[0].find("lies outside the CT altogether"), std::string::npos);
+  writeBall(center, lps, "# SPACE=RAS\n");
+  EXPECT_NE(refusal().find("as LPS mm it would lie inside"), std::string::npos) << refusal();
+  expectCentered(add(false), center);
+  try
+  {
+    add();
+  }
+  catch (const presenters::MeshSpaceUnclear& unclear) // what the window offers
+  {
+    ASSERT_EQ(unclear.likely.size(), 2U);
+    EXPECT_TRUE(unclear.likely[0].isRas);
+    EXPECT_FALSE(unclear.likely[1].isRas);
+    EXPECT_EQ(unclear.likely[1].mm, 1.0);
+  }
+
+  // A ball cut by the first sagittal voxels' outer face, 6 mm from its centre: a cap of height
+  // 6 mm is a quarter of the surface.
+  writeBall({-94.5, 25, 40}, lps, "# SPACE=LPS, unit mm\n");
+  const auto cut = add();
+  ASSERT_EQ(cut.notes.size(), 1U);
+  EXPECT_NE(cut.notes[0].find("reaches 6.0 mm beyond the CT; 2"), std::string::npos)
+      << cut.notes[0];
+  EXPECT_NE(cut.notes[0].find(" % of its surface lies outside"), std::string::npos);
 
   // A whole head around the origin: the surface has to follow the image.
   center = {-20, 14, 3};

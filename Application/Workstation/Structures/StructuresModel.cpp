@@ -69,7 +69,23 @@ StructuresModel::StructuresModel(presenters::WorkstationModel& model, QObject* p
 {
 }
 
-std::vector<StructuresModel::Row> StructuresModel::rows() const
+const volume::MeshMeasure& StructuresModel::measureOf(const scene::MeshPart& part)
+{
+  Measured& measured = m_measured[part.name];
+  try
+  {
+    const auto mesh = part.mesh.get();
+    if (measured.mesh != mesh)
+      measured = {mesh, volume::measure(*mesh)};
+  }
+  catch (const core::Error&) // said where the case was opened
+  {
+    measured = {};
+  }
+  return measured.measure;
+}
+
+std::vector<StructuresModel::Row> StructuresModel::rows()
 {
   std::vector<Row> rows;
   if (!m_model.hasCase())
@@ -79,11 +95,15 @@ std::vector<StructuresModel::Row> StructuresModel::rows() const
   {
     const std::string missing = scene::placementOf(value, part).missing;
     for (const auto& structure : part.structures)
-      rows.push_back({structure.name, structure.volume, false, structure.look, missing});
+      rows.push_back({structure.name, structure.volume, false, 0, structure.look, missing});
   }
   for (const auto& mesh : value.meshes)
     if (!scene::findStructure(value, mesh.name))
-      rows.push_back({mesh.name, 0.0, true, mesh.look, scene::placementOf(value, mesh).missing});
+    {
+      const volume::MeshMeasure& measured = measureOf(mesh);
+      rows.push_back({mesh.name, measured.volume.value_or(0.0), true, measured.openEdges, mesh.look,
+                      scene::placementOf(value, mesh).missing});
+    }
   return rows;
 }
 
@@ -182,6 +202,10 @@ QVariant StructuresModel::data(const QModelIndex& index, int role) const
                             : tr("%1 (a space without tissue)").arg(words(row.name));
     return {};
   case VolumeColumn:
+    if (role == Qt::DisplayRole && row.openEdges > 0)
+      return tr("open, %1 edges").arg(row.openEdges);
+    if (role == Qt::ToolTipRole && row.openEdges > 0)
+      return tr("No volume: the mesh is open, its surface ends at %1 edges").arg(row.openEdges);
     if (role == Qt::DisplayRole && row.volume > 0.0)
       return tr("%1 mm³").arg(row.volume, 0, 'f',
                               row.volume < 10.0    ? 2

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <cstddef>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include <QAbstractTableModel>
 
 #include "petrous/Presenters/WorkstationModel.h"
+#include "petrous/Volume/MeshMeasure.h"
 
 namespace petrous::appearance
 {
@@ -23,7 +27,7 @@ public:
   enum Column
   {
     Name,
-    VolumeColumn, ///< mm^3; empty where it is not known
+    VolumeColumn, ///< mm^3, of an open mesh its open edges; empty where it is not known
     FirstProperty ///< and those after it: kStructureProperties with a column
   };
 
@@ -52,10 +56,18 @@ private:
     std::string name;
     double volume = 0.0; ///< mm^3; 0: not known
     bool isMesh = false;
+    std::size_t openEdges = 0; ///< of a mesh that is not closed and so has no volume
     appearance::StructureAppearance look;
     std::string missing; ///< why it cannot be placed on the CT (scene::Placement); usually empty
   };
-  std::vector<Row> rows() const;
+  struct Measured
+  {
+    std::shared_ptr<const core::TriangleMesh> mesh;
+    volume::MeshMeasure measure;
+  };
+  std::vector<Row> rows();
+  /// Each mesh is measured once.
+  const volume::MeshMeasure& measureOf(const scene::MeshPart& part);
   QVariant propertyData(const Row& row, const appearance::StructureProperty& property,
                         int role) const;
   QString primary() const; ///< image: "CT" or "MR"
@@ -63,6 +75,7 @@ private:
 
   presenters::WorkstationModel& m_model;
   std::vector<Row> m_rows;
+  std::map<std::string, Measured> m_measured; ///< by the mesh's name
 };
 
 } // namespace petrous::workstation

@@ -125,7 +125,7 @@ TEST(FileFormats, AFileOfAnotherFormatThanItsNameSaysIsNamed)
 
 TEST(FileFormats, ListsEachEndingOnceAndNoneThatAnotherCovers)
 {
-  EXPECT_EQ(orText(readEndings(kMesh)), ".obj, .stl or .ply");
+  EXPECT_EQ(orText(readEndings(kMesh)), ".obj, .stl, .ply or .vtp");
   EXPECT_EQ(orText(readEndings(kImage | kLabels)),
             ".nrrd, .nhdr, .nii.gz, .nii, .hdr, .img, .mha or .mhd");
   EXPECT_EQ(orText(readEndings(kDicom)), ".dcm");

@@ -1,8 +1,18 @@
 #include "petrous/Imaging/MeshFile.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <vtkCellArray.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPolyDataWriter.h>
 
 #include "TestFiles.h"
 
@@ -232,6 +242,183 @@ TEST(MeshFile, EveryCutOfAFileIsRefusedOrWhole)
       EXPECT_TRUE(refusalOf([&] { readMesh(cut); }).thrown) << end << " " << length;
     }
   }
+}
+
+// Written by VTK's own writer.
+TEST(MeshFile, ReadsVtpInEveryForm)
+{
+  const TestFolder folder;
+  const core::TriangleMesh box = boxOf(folder);
+  vtkNew<vtkPolyData> poly;
+  vtkNew<vtkPoints> points;
+  for (const auto& v : box.vertices)
+    points->InsertNextPoint(v[0], v[1], v[2]);
+  vtkNew<vtkCellArray> polys;
+  for (const auto& t : box.triangles)
+  {
+    const vtkIdType corners[3] = {t[0], t[1], t[2]};
+    polys->InsertNextCell(3, corners);
+  }
+  poly->SetPoints(points);
+  poly->SetPolys(polys);
+  for (const int mode : {vtkXMLWriter::Ascii, vtkXMLWriter::Binary, vtkXMLWriter::Appended})
+    for (const int compressor :
+         {vtkXMLWriter::NONE, vtkXMLWriter::ZLIB, vtkXMLWriter::LZ4, vtkXMLWriter::LZMA})
+      for (const bool encodes : {true, false})
+        for (const int order : {vtkXMLWriter::LittleEndian, vtkXMLWriter::BigEndian})
+        {
+          vtkNew<vtkXMLPolyDataWriter> writer;
+          writer->SetInputData(poly);
+          writer->SetFileName((folder / "box.vtp").c_str());
+          writer->SetDataMode(mode);
+          writer->SetCompressorType(compressor);
+          writer->SetEncodeAppendedData(encodes);
+          writer->SetByteOrder(order);
+          writer->SetHeaderType(order == vtkXMLWriter::LittleEndian ? vtkXMLWriter::UInt64
+                                                                    : vtkXMLWriter::UInt32);
+          writer->SetBlockSize(48); // several blocks, the last one shorter
+          ASSERT_EQ(writer->Write(), 1);
+          const core::TriangleMesh read = readMesh(folder / "box.vtp");
+          EXPECT_EQ(read.vertices, box.vertices) << mode << " " << compressor;
+          EXPECT_EQ(read.triangles, box.triangles) << mode << " " << compressor;
+        }
+}
+
+TEST(MeshFile, ReadsStripsOfVtpAndRefusesWhatItsCountsDoNotAllow)
+{
+  const TestFolder folder;
+  const auto file = [&folder](const std::string& count, const std::string& connectivity,
+                              const std::string& offsets)
+  {
+    return putFile(
+        folder / "a.vtp",
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
+        "byte_order=\"LittleEndian\"><PolyData><Piece NumberOfPoints=\"" +
+            count +
+            "\" NumberOfStrips=\"1\"><Points><DataArray type=\"Float32\" "
+            "NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0 1 1 0</DataArray>"
+            "</Points><Strips><DataArray type=\"Int64\" Name=\"connectivity\" "
+            "format=\"ascii\">" +
+            connectivity +
+            "</DataArray><DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">" + offsets +
+            "</DataArray></Strips></Piece></PolyData></VTKFile>\n");
+  };
+  const core::TriangleMesh strip = readMesh(file("4", "0 1 2 3", "4"));
+  ASSERT_EQ(strip.triangles.size(), 2U);
+  for (const auto& t : strip.triangles) // both face the same side
+  {
+    const Eigen::Vector3f a = strip.vertices[t[0]];
+    EXPECT_GT((strip.vertices[t[1]] - a).cross(strip.vertices[t[2]] - a)[2], 0.0F);
+  }
+  for (const auto& [count, corners, offsets] : {std::array<const char*, 3>{"4", "0 1 2 4", "4"},
+                                                {"4", "0 1 2 -1", "4"},
+                                                {"4", "0 1 2 3", "400"},
+                                                {"4", "0 1 2 3", "-4"},
+                                                {"999999999999", "0 1 2 3", "4"},
+                                                {"99999999999999999999", "0 1 2 3", "4"}})
+  {
+    testing::internal::CaptureStderr();
+    EXPECT_TRUE(refusalOf([&, path = file(count, corners, offsets)] { readMesh(path); }).thrown)
+        << count << " " << corners << " " << offsets;
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  }
+}
+
+std::string base64(const std::string& bytes)
+{
+  constexpr const char* kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t at = 0; at < bytes.size(); at += 3)
+  {
+    std::uint32_t bits = 0;
+    for (std::size_t n = 0; n < 3; ++n)
+      bits = bits << 8 | (at + n < bytes.size() ? static_cast<unsigned char>(bytes[at + n]) : 0U);
+    for (std::size_t n = 0; n < 4; ++n)
+      text += at + n > bytes.size() ? '=' : kDigits[bits >> (18 - 6 * n) & 63];
+  }
+  return text;
+}
+
+template <class T>
+std::string bytesOf(const std::vector<T>& values)
+{
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+// The headers of VTK's binary arrays state sizes that VTK allocates before it reads them.
+TEST(MeshFile, RefusesHeadersOfVtpThatStateWhatTheFileDoesNotHold)
+{
+  const TestFolder folder;
+  const auto piece = [](const std::string& points, const std::string& format)
+  {
+    return "<Piece NumberOfPoints=\"3\" NumberOfPolys=\"1\"><Points><DataArray type=\"Float32\" "
+           "NumberOfComponents=\"3\" format=\"" +
+           format + "\">" + points +
+           "</DataArray></Points><Polys><DataArray type=\"UInt8\" Name=\"connectivity\" "
+           "format=\"ascii\">0 1 2</DataArray><DataArray type=\"Int32\" Name=\"offsets\" "
+           "format=\"ascii\"> 3 <InformationKey name=\"a\">7</InformationKey></DataArray></Polys>"
+           "</Piece>";
+  };
+  const auto file = [&](const std::string& attributes, const std::string& body)
+  {
+    return putFile(folder / "a.vtp", "<?xml version=\"1.0\"?><VTKFile type=\"PolyData\" " +
+                                         attributes + "><PolyData>" + body +
+                                         "</PolyData></VTKFile>");
+  };
+  const std::string points = bytesOf<float>({0, 0, 0, 1, 0, 0, 0, 1, 0});
+  const auto binary = [&](const std::string& attributes, const std::string& header)
+  { return file(attributes, piece(base64(header) + base64(points), "binary")); };
+
+  // What is right is read: header and data encoded together and apart, and two pieces.
+  EXPECT_EQ(readMesh(binary("", bytesOf<std::uint32_t>({36}))).triangles.size(), 1U);
+  EXPECT_EQ(readMesh(binary("header_type=\"UInt64\"", bytesOf<std::uint64_t>({36}))).vertices[2],
+            Eigen::Vector3f(0, 1, 0));
+  EXPECT_EQ(readMesh(file("", piece(base64(bytesOf<std::uint32_t>({36}) + points), "binary")))
+                .triangles.size(),
+            1U);
+  const std::string text = piece("0 0 0 1 0 0 0 1 0", "ascii");
+  const core::TriangleMesh two = readMesh(file("", text + text));
+  EXPECT_EQ(two.vertices.size(), 6U);
+  EXPECT_EQ(two.triangles.at(1)[2], 5U) << "corners count from the piece's first point";
+
+  const auto expect = [](const std::filesystem::path& path, const std::string& what)
+  {
+    const auto refusal = refusalOf([&path] { readMesh(path); });
+    expectRefused(refusal, Reason::Unreadable, what);
+    expectRefused(refusal, Reason::Unreadable, "a.vtp");
+  };
+  using Header = std::vector<std::uint32_t>;
+  const std::string header64 = "header_type=\"UInt64\"";
+  constexpr auto kMost = std::numeric_limits<std::uint64_t>::max();
+  expect(binary("", bytesOf<std::uint32_t>({0xFFFFFFFF})), "array Points states 4294967295 bytes");
+  expect(binary("", bytesOf<std::uint32_t>({24})), "array Points");
+  expect(binary(header64, bytesOf<std::uint64_t>({kMost})), "array Points");
+  expect(file("", piece(base64(bytesOf<std::uint32_t>({36})), "binary")), "array Points");
+  expect(file("", piece("=", "binary")), "array Points");
+  for (const char* name :
+       {"vtkZLibDataCompressor", "vtkLZ4DataCompressor", "vtkLZMADataCompressor"})
+  {
+    const std::string packed = std::string("compressor=\"") + name + "\"";
+    for (const Header& header :
+         {Header{0x10000000, 1, 0, 8}, Header{0xFFFFFFFF, 0xFFFFFFFF, 1, 1},
+          Header{1, 0xFFFFFFFF, 0, 8}, Header{0, 36, 0}, Header{2, 24, 12, 8},
+          Header{1, 36, 36, 0xFFFFFFFF}, Header{1, 36, 36, 0}, Header{1, 36, 36, 20},
+          Header{2, 18, 18, 8, 0x80000000}})
+      expect(binary(packed, bytesOf(header)), "array Points");
+    expect(
+        binary(packed + " " + header64, bytesOf<std::uint64_t>({1ULL << 63, 2, 0, kMost, kMost})),
+        "array Points");
+    expect(binary(packed + " " + header64, bytesOf<std::uint64_t>({2, 18, 18, kMost, 2})),
+           "array Points");
+  }
+  expect(binary("compressor=\"vtkOther\"", bytesOf(Header{1, 36, 36, 36})), "zlib, LZ4 and LZMA");
+  expect(file("", piece("0 0 0 1 0 0 0 1", "ascii")), "8 of the 9 numbers");
+  expect(file("", piece("0 0 0 1 0 0 0 1 0 1", "ascii")), "more than the 9 numbers");
+  expect(file("", piece("0 0 0 1 0 0 0 1 x", "ascii")), "no number");
+  expect(file("", piece("", "appended")), "array Points lies after the end");
+  expect(putFile(folder / "a.vtp", "<!DOCTYPE a [<!ENTITY b \"b\">]><a>&b;</a>"), "document type");
+  expect(putFile(folder / "a.vtp", "<VTKFile type=\"PolyData\"><PolyData>"), "well-formed");
 }
 
 TEST(MeshFile, RefusesToWriteWhatIsNoSurface)

@@ -216,3 +216,32 @@ TEST(SurfaceExtraction, DecimatesAndTellsHowFarTheSurfaceMoved)
   open.triangles.pop_back();
   EXPECT_THROW(decimated(open, 100), core::InvalidParameter);
 }
+
+// A ball full of holes, as noise makes them: collapsing edges opens such a surface.
+TEST(SurfaceExtraction, DecimatesANoisySurfaceAndStaysClosedOrSaysWhyNot)
+{
+  volume::Volume<std::uint16_t> labels(synthetic::cube(32, 0.5), std::uint16_t{0});
+  std::uint32_t random = 1;
+  for (int k = 2; k < 30; ++k)
+    for (int j = 2; j < 30; ++j)
+      for (int i = 2; i < 30; ++i)
+      {
+        random = random * 1664525U + 1013904223U; // Numerical Recipes' generator
+        const double r = std::hypot(i - 15.5, j - 15.5, k - 15.5);
+        labels.at(i, j, k) = r < 12.0 && (random >> 8) % 100 < 80 ? 1 : 0;
+      }
+  const core::TriangleMesh whole = extractLabel(labels, 1);
+  ASSERT_TRUE(whole.isClosed());
+  for (const std::size_t part : {2U, 4U})
+  {
+    const std::size_t wanted = whole.triangles.size() / part;
+    const DecimatedMesh fewer = decimated(whole, wanted);
+    EXPECT_TRUE(fewer.mesh.isClosed());
+    EXPECT_LT(fewer.mesh.triangles.size(), whole.triangles.size());
+    EXPECT_EQ(fewer.limit.empty(), fewer.mesh.triangles.size() <= wanted) << fewer.limit;
+    if (!fewer.limit.empty())
+    {
+      EXPECT_NEAR(fewer.mesh.signedVolume(), whole.signedVolume(), 0.01 * whole.signedVolume());
+    }
+  }
+}

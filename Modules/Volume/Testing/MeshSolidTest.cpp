@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "petrous/Volume/MeshMeasure.h"
 #include "petrous/Volume/MeshSolid.h"
 #include "petrous/Volume/Sampling.h"
 
@@ -319,6 +320,23 @@ TEST(MeshSolid, CountsCornersAtOnePlaceAsOne)
   }
   EXPECT_FALSE(loose.isClosed());
   EXPECT_TRUE(planned(loose)) << planned(loose).refusal;
+}
+
+TEST(MeshSolid, MeasuresItsVolumeOrItsOpenEdges)
+{
+  const auto measured = volume::measure(box({1, 1, 1}, {4, 5, 6}));
+  EXPECT_EQ(measured.openEdges, 0U);
+  EXPECT_NEAR(measured.volume.value(), 60.0, 1e-6);
+  auto turned = box({1, 1, 1}, {4, 5, 6});
+  for (auto& t : turned.triangles) // all inwards
+    std::swap(t[0], t[1]);
+  EXPECT_NEAR(volume::measure(turned).volume.value(), 60.0, 1e-6);
+  for (std::size_t t = 0; t < turned.triangles.size(); t += 3) // and some outwards
+    std::swap(turned.triangles[t][0], turned.triangles[t][1]);
+  EXPECT_NEAR(volume::measure(turned).volume.value(), 60.0, 1e-3);
+  turned.triangles.pop_back();
+  EXPECT_EQ(volume::measure(turned).openEdges, 3U);
+  EXPECT_FALSE(volume::measure(turned).volume);
 }
 
 TEST(MeshSolid, RefusesWhatHasNoInsideAndSaysWhy)

@@ -226,6 +226,10 @@ void addMr(scene::Case& value, const PartSource& source, const core::Progress& p
   scene::ImagePart part =
       readImage(source.path, source.series, source.repair, std::nullopt, progress);
   part.name = name;
+  // A CT angiogram may be wanted beside the CT: said, not refused.
+  if (part.modality == scene::Modality::Ct)
+    part.notes.push_back("The file says that it is a CT; it was added as an MR, as asked. If it is "
+                         "the patient's CT, begin a case with it (petrous new --ct).");
   part.modality = scene::Modality::Unknown;
   value.mr.push_back(std::move(part));
 }
@@ -660,7 +664,10 @@ void addMesh(scene::Case& value, const PartSource& source)
   if (std::string note = judgeMeshSpace(source.path, loaded, mr ? *mr : value.ct, image);
       !note.empty())
     notes.push_back(std::move(note));
-  requireNear(source.path, loaded.mesh, mr ? mr->geometry : value.ct.geometry, image);
+  const core::GridGeometry& grid = mr ? mr->geometry : value.ct.geometry;
+  requireNear(source.path, loaded.mesh, grid, image);
+  if (std::string note = outsideImage(loaded.mesh, grid, image); !note.empty())
+    notes.push_back(std::move(note));
   part.notes = std::move(loaded.notes);
   part.notes.insert(part.notes.begin(), notes.begin(), notes.end());
   auto mesh = std::make_shared<core::TriangleMesh>(std::move(loaded.mesh));

@@ -420,8 +420,8 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
       auto fewer = rendering::decimated(mesh, *options.triangles, progress.part(0.7, 1.0));
       mesh = std::move(fewer.mesh);
       if (mesh.triangles.size() > *options.triangles)
-        warn("it keeps " + std::to_string(mesh.triangles.size()) +
-             " triangles: with fewer it would not stay closed" +
+        warn("it keeps " + std::to_string(mesh.triangles.size()) + " triangles instead of " +
+             std::to_string(*options.triangles) + ": " + fewer.limit +
              (fewer.pieces > 1
                   ? " (it is of " + std::to_string(fewer.pieces) + " pieces that are not connected)"
                   : std::string()));

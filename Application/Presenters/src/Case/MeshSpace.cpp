@@ -145,7 +145,7 @@ std::string judgeMeshSpace(const std::filesystem::path& path, const imaging::Loa
   std::vector<Candidate> candidates;
   for (const double mm : kUnits)
     for (const bool isRas : {false, true})
-      if ((!isRas || !loaded.isFrameStated) && (mm == 1.0 || !loaded.isUnitStated))
+      if ((!isRas || !loaded.isFrameGiven) && (mm == 1.0 || !loaded.isUnitGiven))
       {
         Candidate one{{isRas, mm}, insideOf(mesh, {isRas, mm}, grid), mm * size, 0.0};
         const bool fits =
@@ -156,17 +156,25 @@ std::string judgeMeshSpace(const std::filesystem::path& path, const imaging::Loa
   if (candidates.size() == 1)
     return {};
   Candidate& given = candidates.front();
-  const auto spacesOf = [&candidates]
+  const auto inFile = [&loaded](const MeshSpace& space) -> MeshSpace // as the file counts
+  {
+    return {space.isRas != loaded.space.isRas, space.mm * loaded.space.mm};
+  };
+  const auto spacesOf = [&candidates, &inFile]
   {
     std::vector<MeshSpace> spaces;
     for (const Candidate& one : candidates)
-      spaces.push_back(one.space);
+      spaces.push_back(inFile(one.space));
     return spaces;
   };
-  const auto asRead = [&loaded](const MeshSpace& space) // of the file's coordinates
-  {
-    return textOf({space.isRas != loaded.isRas, space.mm});
-  };
+  const auto asRead = [&inFile](const MeshSpace& space) { return textOf(inFile(space)); };
+  const bool isFrameStated = loaded.isFrameStated && !loaded.isFrameGiven;
+  const bool isUnitStated = loaded.isUnitStated && !loaded.isUnitGiven;
+  const std::string asGiven = "as " + asRead(given.space) +
+                              (isFrameStated && isUnitStated ? ", as it states,"
+                               : isFrameStated               ? " (it states the frame)"
+                               : isUnitStated                ? " (it states the unit)"
+                                                             : "");
   const std::string say = "; state its coordinate system and unit (--mesh-frame, --mesh-unit)";
 
   if (given.inside < kMostlyInside || given.size < kSmallest || given.size > largest)
@@ -178,10 +186,9 @@ std::string judgeMeshSpace(const std::filesystem::path& path, const imaging::Loa
     const std::string problem =
         reach > 0.0 ? "reaches " + core::fixedText(reach, 0) + " mm beyond " + imageName
                     : "is " + core::fixedText(given.size, 2) + " mm large";
-    throw MeshSpaceUnclear(path,
-                           "as " + asRead(given.space) + " it " + problem + ", as " + others +
-                               " it would lie inside" + say,
-                           spacesOf());
+    throw MeshSpaceUnclear(
+        path, asGiven + " it " + problem + ", as " + others + " it would lie inside" + say,
+        spacesOf());
   }
   const auto voxels = image.volume.get();
   for (Candidate& one : candidates)
@@ -191,15 +198,58 @@ std::string judgeMeshSpace(const std::filesystem::path& path, const imaging::Loa
                        [](const Candidate& a, const Candidate& b) { return a.edges < b.edges; });
   if (best->edges >= kFollows && best->edges > given.edges + kClearlyBetter)
     throw MeshSpaceUnclear(path,
-                           "as " + asRead(given.space) + " it follows " + percent(given.edges) +
-                               " of the edges of " + imageName + ", as " + asRead(best->space) +
-                               " " + percent(best->edges) + " (by chance 50 %)" + say,
+                           asGiven + " it follows " + percent(given.edges) + " of the edges of " +
+                               imageName + ", as " + asRead(best->space) + " " +
+                               percent(best->edges) + " (by chance 50 %)" + say,
                            spacesOf());
-  if (given.edges >= kFollows)
+  const auto other = std::find_if(candidates.begin() + 1, candidates.end(),
+                                  [&](const Candidate& one) {
+                                    return !(one.space.isRas && isFrameStated) &&
+                                           (one.space.mm == 1.0 || !isUnitStated);
+                                  });
+  if (given.edges >= kFollows || other == candidates.end())
     return {};
   return "does not state its coordinate system and unit, and would lie inside " + imageName +
-         " also as " + asRead(candidates[1].space) + "; it was taken as " + asRead(given.space) +
+         " also as " + asRead(other->space) + "; it was taken as " + asRead(given.space) +
          ", so look whether it lies where it belongs";
+}
+
+std::string outsideImage(const core::TriangleMesh& mesh, const core::GridGeometry& grid,
+                         const std::string& imageName)
+{
+  Vector3d last;
+  for (int a = 0; a < 3; ++a)
+    last[a] = grid.dims()[static_cast<std::size_t>(a)] - 0.5;
+  const auto beyond = [&](std::uint32_t vertex) // mm
+  {
+    const Vector3d voxel = grid.voxelFromPatient(mesh.vertices[vertex].cast<double>());
+    const Vector3d nearest = voxel.cwiseMax(Vector3d::Constant(-0.5)).cwiseMin(last);
+    return (voxel - nearest).cwiseProduct(grid.spacing()).norm();
+  };
+  double farthest = 0.0;
+  double outside = 0.0;
+  double area = 0.0;
+  for (const auto& triangle : mesh.triangles)
+  {
+    const Vector3d a = mesh.vertices[triangle[0]].cast<double>();
+    const double one = (mesh.vertices[triangle[1]].cast<double>() - a)
+                           .cross(mesh.vertices[triangle[2]].cast<double>() - a)
+                           .norm();
+    area += one;
+    for (const std::uint32_t corner : triangle)
+      if (const double reach = beyond(corner); reach > 0.0)
+      {
+        farthest = std::max(farthest, reach);
+        outside += one / 3.0;
+      }
+  }
+  if (farthest <= grid.spacing().minCoeff() / 2.0)
+    return {};
+  const std::string by = core::fixedText(farthest, 1) + " mm";
+  if (outside >= area)
+    return "lies outside " + imageName + " altogether, by up to " + by;
+  return "reaches " + by + " beyond " + imageName + "; " +
+         core::fixedText(100.0 * outside / area, 1) + " % of its surface lies outside";
 }
 
 } // namespace petrous::presenters

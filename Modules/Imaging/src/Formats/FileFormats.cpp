@@ -62,6 +62,12 @@ bool startsPly(std::string_view bytes)
   return takeLine(bytes) == "ply";
 }
 
+bool startsVtp(std::string_view bytes)
+{
+  constexpr std::size_t kWithin = 1024;
+  return bytes.substr(0, kWithin).find("<VTKFile") != bytes.npos;
+}
+
 constexpr unsigned kVoxels = kImage | kLabels;
 
 using Source = VoxelSource;
@@ -82,6 +88,7 @@ constexpr FileFormat kFormats[] = {
     {"OBJ", ".obj", kMesh, kMesh, {}, {}, {}, parseObj, objText},
     {"STL", ".stl", kMesh, kMesh, startsStl, {}, {}, parseStl, stlBytes},
     {"PLY", ".ply", kMesh, kMesh, startsPly, {}, {}, parsePly, plyBytes},
+    {"VTP", ".vtp", kMesh, 0, startsVtp, {}, {}, parseVtp, {}},
 };
 
 bool isPacked(const FileFormat& format)

@@ -161,10 +161,10 @@ void MeshBuilder::addPolygon(const std::vector<std::int64_t>& corners)
   }
 }
 
-void MeshBuilder::failUnreadable(const char* what) const
+void MeshBuilder::failUnreadable(const std::string& what) const
 {
   fail(FileError::Reason::Unreadable, m_path,
-       std::string("is damaged: ") + what + "; export it again from where it came");
+       "is damaged: " + what + "; export it again from where it came");
 }
 
 core::TriangleMesh MeshBuilder::take()
@@ -191,18 +191,20 @@ LoadedMesh loadMesh(const std::filesystem::path& path, const std::optional<bool>
   const std::string_view start = std::string_view(bytes).substr(0, kFrameWithin);
   const bool saysRas = start.find("SPACE=RAS") != start.npos;
   const bool saysFrame = saysRas || start.find("SPACE=LPS") != start.npos;
-  loaded.isFrameStated = saysFrame || isRas;
-  loaded.isUnitStated = unit || start.find("unit mm") != start.npos;
-  loaded.isRas = isRas.value_or(saysRas);
-  const auto mm = static_cast<float>(unit.value_or(1.0));
-  const float side = loaded.isRas ? -mm : mm;
+  loaded.isFrameStated = saysFrame;
+  loaded.isUnitStated = start.find("unit mm") != start.npos;
+  loaded.isFrameGiven = isRas.has_value();
+  loaded.isUnitGiven = unit.has_value();
+  loaded.space = {isRas.value_or(saysRas), unit.value_or(1.0)};
+  const auto mm = static_cast<float>(loaded.space.mm);
+  const float side = loaded.space.isRas ? -mm : mm;
   for (auto& v : loaded.mesh.vertices)
     v = {side * v[0], side * v[1], mm * v[2]};
-  if (loaded.isRas)
+  if (loaded.space.isRas)
     loaded.notes.emplace_back(std::string("is in RAS coordinates (") +
                               (saysRas ? "SPACE=RAS" : "as given") +
                               "); x and y were negated to the patient's LPS");
-  if (saysFrame && loaded.isRas != saysRas)
+  if (saysFrame && loaded.space.isRas != saysRas)
     loaded.notes.emplace_back(std::string("states SPACE=") + (saysRas ? "RAS" : "LPS") +
                               ", and was read otherwise, as given");
   if (mm != 1.0F)

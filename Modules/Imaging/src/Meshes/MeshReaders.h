@@ -26,7 +26,7 @@ public:
   /// triangles that use a vertex twice are skipped.
   void addPolygon(const std::vector<std::int64_t>& corners);
   std::size_t vertexCount() const noexcept { return m_mesh.vertices.size(); }
-  [[noreturn]] void failUnreadable(const char* what) const;
+  [[noreturn]] void failUnreadable(const std::string& what) const;
 
   /// Throws for a mesh without triangles.
   core::TriangleMesh take();
@@ -40,6 +40,7 @@ private:
 core::TriangleMesh parseObj(const std::filesystem::path& path, std::string_view bytes);
 core::TriangleMesh parseStl(const std::filesystem::path& path, std::string_view bytes);
 core::TriangleMesh parsePly(const std::filesystem::path& path, std::string_view bytes);
+core::TriangleMesh parseVtp(const std::filesystem::path& path, std::string_view bytes);
 std::string objText(const core::TriangleMesh& mesh, const MeshColor& color);
 std::string stlBytes(const core::TriangleMesh& mesh, const MeshColor& color);
 std::string plyBytes(const core::TriangleMesh& mesh, const MeshColor& color);

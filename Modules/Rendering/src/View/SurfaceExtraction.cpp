@@ -28,6 +28,7 @@
 #include <tbb/parallel_reduce.h>
 
 #include "petrous/Core/Error.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Core/TriangleMesh.h"
 #include "petrous/Volume/MeshTree.h"
 #include "petrous/Volume/Volume.h"
@@ -299,6 +300,16 @@ std::vector<Eigen::Vector3d> verticesOf(const core::TriangleMesh& mesh)
   return points;
 }
 
+core::TriangleMesh collapsed(vtkPolyData& poly, double reduction)
+{
+  vtkNew<vtkQuadricDecimation> quadric;
+  quadric->SetInputData(&poly);
+  quadric->SetTargetReduction(reduction);
+  quadric->VolumePreservationOn();
+  quadric->Update();
+  return meshOf(*quadric->GetOutput());
+}
+
 } // namespace
 
 DecimatedMesh decimated(const core::TriangleMesh& mesh, std::size_t triangles,
@@ -311,7 +322,7 @@ DecimatedMesh decimated(const core::TriangleMesh& mesh, std::size_t triangles,
     throw core::InvalidParameter("decimation: the surface is not closed");
   const std::size_t pieces = piecesOf(mesh);
   if (mesh.triangles.size() <= triangles)
-    return {mesh, 0.0, pieces};
+    return {mesh, 0.0, pieces, {}};
   if (triangles < kFewest * pieces)
     throw core::InvalidParameter("decimation: the surface has " + std::to_string(pieces) +
                                  " pieces that are not connected, and each needs at least 4 "
@@ -322,13 +333,20 @@ DecimatedMesh decimated(const core::TriangleMesh& mesh, std::size_t triangles,
   const auto poly = polyDataOf(mesh);
   const double reduction =
       1.0 - static_cast<double>(triangles) / static_cast<double>(mesh.triangles.size());
-  vtkNew<vtkQuadricDecimation> quadric;
-  quadric->SetInputData(poly);
-  quadric->SetTargetReduction(reduction);
-  quadric->VolumePreservationOn();
-  quadric->Update();
-  progress.report(0.5, "decimation");
-  DecimatedMesh result{meshOf(*quadric->GetOutput()), 0.0, pieces};
+  const double volume = mesh.signedVolume();
+  constexpr double kVolumeKept = 0.01; // of it, where edges are collapsed to another number
+  // Empty if it is closed and of the volume.
+  const auto faultOf = [volume](const core::TriangleMesh& one) -> std::string
+  {
+    if (one.triangles.empty() || !one.isClosed())
+      return "is not closed";
+    const double change = std::abs(one.signedVolume() - volume) / std::abs(volume);
+    return change <= kVolumeKept
+               ? ""
+               : "has another volume by " + core::fixedText(100.0 * change, 1) + " %";
+  };
+  DecimatedMesh result{collapsed(*poly, reduction), 0.0, pieces, {}};
+  progress.report(0.3, "decimation");
   if (!result.mesh.isClosed() || result.mesh.triangles.empty())
   {
     vtkNew<vtkDecimatePro> topological;
@@ -337,11 +355,39 @@ DecimatedMesh decimated(const core::TriangleMesh& mesh, std::size_t triangles,
     topological->PreserveTopologyOn();
     topological->SplittingOff();
     topological->Update();
-    result.mesh = meshOf(*topological->GetOutput());
-    if (!result.mesh.isClosed() || result.mesh.triangles.empty())
-      throw core::InvalidParameter("decimation: the surface would not stay closed with " +
-                                   std::to_string(triangles) + " triangles; ask for more");
+    core::TriangleMesh fewest = mesh;
+    const auto take = [&](core::TriangleMesh one)
+    {
+      const std::string fault = faultOf(one);
+      if (!fault.empty())
+        result.limit = "with " + std::to_string(one.triangles.size()) + " it " + fault;
+      const bool isTaken = fault.empty() && one.triangles.size() < fewest.triangles.size();
+      if (isTaken)
+        fewest = std::move(one);
+      return isTaken;
+    };
+    take(meshOf(*topological->GetOutput()));
+    progress.report(0.4, "decimation");
+    // Edges collapse without a hole to some numbers of triangles, and from some surfaces: halved
+    // between what was asked for and the fewest that stayed closed.
+    constexpr int kAttempts = 6;
+    std::size_t least = triangles;
+    for (int n = 0; n < kAttempts && fewest.triangles.size() > least + least / 50; ++n)
+    {
+      progress.report(0.4 + 0.3 * n / kAttempts, "decimation");
+      const std::size_t wanted = n == 0 ? least : (least + fewest.triangles.size()) / 2;
+      const auto from = polyDataOf(fewest);
+      if (!take(collapsed(*from, 1.0 - static_cast<double>(wanted) /
+                                           static_cast<double>(fewest.triangles.size()))) &&
+          n > 0)
+        least = wanted;
+    }
+    result.mesh = std::move(fewest);
   }
+  if (result.mesh.triangles.size() <= triangles)
+    result.limit.clear();
+  else if (result.limit.empty())
+    result.limit = "no more can be removed";
   progress.report(0.7, "decimation");
   std::vector<Eigen::Vector3d> points = verticesOf(result.mesh);
   for (const auto& t : result.mesh.triangles)

@@ -25,6 +25,9 @@ public:
   /// triangles (two coincident vertices) are ignored.
   std::size_t openEdges() const noexcept { return m_openEdges; }
 
+  /// Each edge is traversed equally often in both directions.
+  bool facesAlike() const noexcept { return m_facesAlike; }
+
   /// Resolution of the lattice, mm.
   double unit() const noexcept { return m_unit; }
 

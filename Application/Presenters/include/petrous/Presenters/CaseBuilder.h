@@ -58,7 +58,7 @@ struct PartSources
   /// A table of names for those of `labels` that have none (imaging::loadLabels); empty: none. Of
   /// several sources, one of a single structure keeps its own.
   std::filesystem::path labelNames = {};
-  std::vector<PartSource> meshes; ///< OBJ, STL, PLY
+  std::vector<PartSource> meshes; ///< OBJ, STL, PLY, VTP
   /// A frame of reference as the library of a stored case keeps it (library::saltedFrame), so that
   /// a DICOM SEG's can be compared with it; empty: only cases that are not stored are compared.
   std::function<std::string(const std::string&)> salted = {};

@@ -64,7 +64,7 @@ std::vector<std::string_view> readEndings(unsigned contents);
 /// All endings under which the contents are written.
 std::vector<std::string_view> writtenEndings(unsigned contents);
 
-/// ".obj, .stl or .ply"
+/// ".obj, .stl, .ply or .vtp"
 std::string orText(const std::vector<std::string_view>& endings);
 
 /// The row with which to write `content` (one of several, combined as bits) under this name. Throws

@@ -23,12 +23,15 @@ struct LoadedMesh
 {
   core::TriangleMesh mesh;        ///< LPS, mm
   std::vector<std::string> notes; ///< what was assumed or changed, one sentence each
-  bool isFrameStated = false;     ///< by the file, or given
+  bool isFrameStated = false;     ///< by the file
   bool isUnitStated = false;      ///< the same
-  bool isRas = false;             ///< how it counts, as stated or given
+  bool isFrameGiven = false;      ///< by the caller, whatever the file states
+  bool isUnitGiven = false;       ///< the same
+  MeshSpace space;                ///< how it counts, as stated or given
 };
 
-/// Reads a surface from OBJ, STL (text or binary) or PLY (text or binary).
+/// Reads a surface from OBJ, STL (text or binary), PLY (text or binary) or VTP (VTK XML PolyData:
+/// text, binary or appended, compressed or not; polygons and strips).
 ///
 /// Coordinates are taken as patient LPS mm unless a comment or header says "SPACE=RAS" (as written
 /// by 3D Slicer): then x and y are negated, which is noted. `isRas` and `unit`

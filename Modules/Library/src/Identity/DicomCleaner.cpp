@@ -231,6 +231,12 @@ std::string valueOf(DcmItem& item, const DcmTagKey& key)
              : std::string();
 }
 
+std::string withoutPadding(const std::string& text)
+{
+  const std::size_t first = text.find_first_not_of(' '), last = text.find_last_not_of(' ');
+  return first == std::string::npos ? std::string() : text.substr(first, last - first + 1);
+}
+
 std::vector<std::string> split(const std::string& text)
 {
   std::vector<std::string> parts(1);
@@ -694,7 +700,7 @@ private:
                          if (part.empty())
                            return true;
                          if (vr == EVR_CS)
-                           return isCodedTerm(tag, part);
+                           return isCodedTerm(tag, withoutPadding(part));
                          return tag == kZone ? isZone(part)
                                              : hasFormOf(vr, part) &&
                                                    !(isText(vr) && m_people.hasWord(part));
@@ -994,17 +1000,21 @@ private:
                                        [&](const std::string& part) {
                                          return hasFormOf(vr, part) && !m_people.isIdentifier(part);
                                        });
-      return keepString(element, isSound)
-                 ? done("kept: number", true)
-                 : done("removed: not a number, or an identifier of the patient", false);
+      if (keepString(element, isSound))
+        return done("kept: number", true);
+      makeEmpty(element);
+      note(path, element, entry.name, "emptied: not a number, or an identifier of the patient",
+           false);
+      return true;
     }
     case EVR_CS:
     {
       // Each value has its place (Image Type): a dummy takes that of one that does not stay.
       bool isChanged = false;
       const std::string rest = eachPart(value,
-                                        [&](const std::string& part)
+                                        [&](const std::string& padded)
                                         {
+                                          const std::string part = withoutPadding(padded);
                                           if (part.empty() || isCodedTerm(tag, part))
                                             return part;
                                           isChanged = true;

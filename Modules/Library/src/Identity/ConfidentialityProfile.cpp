@@ -40,6 +40,8 @@ bool isCurveOrOverlay(std::uint32_t tag)
 
 // Where the type of an attribute requires more than the first of its actions, PS3.3 (A.3, A.4,
 // A.21, A.38, A.36, A.51, A.19).
+// Verified in GDCM's copy of PS3.3: the types below, but for two that are from knowledge, Protocol
+// Name of an enhanced image (C.8.13.1, C.8.15.2) and Operators' Name of a structure set (C.8.8.1).
 DeidAction requiredBy(IodKind iod, std::uint32_t tag)
 {
   switch (iod)

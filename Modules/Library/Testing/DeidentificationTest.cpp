@@ -6,6 +6,7 @@
 #include "../../Imaging/Testing/TestDicom.h"
 #include "ConfidentialityProfile.h"
 #include "ConfidentialityTable.h"
+#include "DefinedTermsTable.h"
 #include "PixelMetadata.h"
 #include "Vocabulary.h"
 #include "petrous/Core/InputFile.h"
@@ -358,6 +359,112 @@ TEST_F(Deidentification, LeavesNoPlantedIdentifierInAnyByteThatIsWritten)
   }
 }
 
+TEST_F(Deidentification, KeepsDefinedTermsOnlyInCodedStrings)
+{
+  std::istringstream table{std::string(kDefinedTermsTable)};
+  std::map<std::uint32_t, std::string> terms; // the first of each attribute
+  for (std::string line; std::getline(table, line);)
+    if (line[0] != '#' && line.compare(0, 4, "0004") != 0)
+      terms[static_cast<std::uint32_t>(std::stoul(line, nullptr, 16))] =
+          line.substr(9, line.find('|') - 9);
+  ASSERT_GT(terms.size(), 300U);
+  for (const std::uint32_t tag : {0x00180015, 0x00200020, 0x00700080, 0x0040a491, 0x00189073})
+    terms[tag] = "";
+  std::string names, kept;
+  for (const auto& [tag, term] : terms)
+  {
+    // Modality; Conversion Type and Burned In Annotation: then the file is left out
+    if (tag == 0x00080060 || tag == 0x00080064 || tag == 0x00280301)
+      continue;
+    names += element(tag, "LINDQVIST\\A ANDERSSON\\ZQ");
+    kept += element(tag, term);
+  }
+  for (const auto dates : {Dates::Remove, Dates::Shift, Dates::Keep})
+  {
+    DeidentificationOptions options{dates, true, true, true, true, false};
+    cleaned(names + sequence(0x00081115, names), options);
+    const std::string bytes = core::readFile(out / "series-001-CT" / "00001.dcm");
+    for (const char* name : {"LINDQVIST", "ANDERSSON", "ZQ"})
+      EXPECT_EQ(bytes.find(name), std::string::npos) << name;
+  }
+  const Elements found = cleaned(kept);
+  std::size_t same = 0, removed = 0;
+  for (const auto& [tag, term] : terms)
+    (found.count(hexOf(tag)) > 0 && found.at(hexOf(tag)) == term ? same : removed) += 1;
+  EXPECT_LT(removed, 25U) << "only those that the table removes";
+  EXPECT_EQ(
+      cleaned(element(0x00080008, "ORIGINAL \\PRIMARY\\AXIAL\\CT_SOM5 SPI\\DOE")).at("00080008"),
+      "ORIGINAL\\PRIMARY\\AXIAL\\CT_SOM5 SPI\\ANONYMIZED");
+  EXPECT_EQ(cleaned(element(0x00180015, "TEMPORAL BONE")).at("00180015"), "TEMPORAL BONE");
+  EXPECT_EQ(cleaned(element(0x00200020, "L\\PH")).at("00200020"), "L\\PH");
+  EXPECT_EQ(cleaned(element(0x00080005, "LINDQVIST")).count("00080005"), 0U);
+  EXPECT_EQ(cleaned(element(0x00080005, "ISO_IR 192")).at("00080005"), "ISO_IR 192");
+}
+
+TEST_F(Deidentification, KeepsOnlyValuesOfTheFormOfTheirVr)
+{
+  const std::string doubles = "LINDQVISTAURELIA"; // two of VR FD
+  const std::string names = element(0x00180050, "LINDQVIST") + element(0x00180060, "EEEE") +
+                            element(0x00200013, "4711\\LINDQVIST") +
+                            element(0x00189306, "LINDQVIS") + element(0x00189310, doubles) +
+                            element(0x00280106, "LINDQVIST ") + element(0x00280009, "LINDQVIS") +
+                            element(0x00283002, "LINDQV") + element(0x00200032, "1\\2\\LINDQVIST") +
+                            element(0x00080020, "LINDQVIST") + element(0x00080030, "LINDQVIST") +
+                            element(0x0008002a, "LINDQVIST") + element(0x00080201, "LINDQVIST") +
+                            element(0x00101010, "LINDQVIST") + element(0x00100040, "LINDQVIST") +
+                            element(0x00101020, "LINDQVIST") + element(0x00180085, "LINDQVIST") +
+                            element(0x00281054, "LINDQVIST") + element(0x00540081, "LINDQVIST ") +
+                            element(0x60003000, "LINDQVIST ") + element(0x50003000, "LINDQVIST ") +
+                            sequence(0xfffafffa, element(0x00180050, "LINDQVIST")) +
+                            element(0x00420011, "LINDQVIST ") + element(0x00281221, "LINDQVIST ") +
+                            sequence(0x00880200, element(0x00180050, "LINDQVIST"));
+  for (const auto dates : {Dates::Remove, Dates::Shift, Dates::Keep})
+  {
+    const DeidentificationOptions options{dates, true, true, true, true, false};
+    cleaned(names + sequence(0x00081115, names), options);
+    const std::string bytes = core::readFile(out / "series-001-CT" / "00001.dcm");
+    for (const char* name : {"LINDQV", "QVIST", "AURELIA", "EEEE"})
+      EXPECT_EQ(bytes.find(name), std::string::npos) << name;
+  }
+  const std::string sound = element(0x00180050, "0.33333333333333331") +
+                            element(0x00200013, " 12") + element(0x00200032, "-1.5e+02\\+2\\.5") +
+                            element(0x00080030, "101112.123456");
+  const Elements found = cleaned(sound, withDates(Dates::Keep));
+  EXPECT_EQ(found.at("00180050"), "0.33333333333333331");
+  EXPECT_EQ(found.at("00200032"), "-1.5e+02\\+2\\.5");
+  EXPECT_EQ(found.at("00080030"), "101112.123456");
+  EXPECT_EQ(found.count("00200013"), 1U);
+}
+
+TEST_F(Deidentification, KnowsThePatientsNumberAndANameThatIsAWordOfTheVocabulary)
+{
+  DeidentificationOptions options;
+  options.cleanDescriptors = true;
+  const std::string patient = element(0x00100010, "Sharp^Wu") + element(0x00100020, "4711471");
+  const Elements found =
+      cleaned(patient + element(0x0008103e, "SHARP head Wu") + element(0x00200013, "4711471") +
+                  element(0x00180050, "0.5") +
+                  sequence(0x00081140, element(0x00080100, "4711471") + element(0x00080102, "SCT") +
+                                           element(0x0040a123, "Wu")),
+              options);
+  EXPECT_EQ(found.at("0008103e"), "head");
+  EXPECT_EQ(found.at("00200013"), "");
+  EXPECT_EQ(found.at("00180050"), "0.5");
+  for (const auto& [path, value] : found)
+  {
+    EXPECT_EQ(value.find("4711471"), std::string::npos) << path;
+    EXPECT_NE(value, "Wu") << path;
+  }
+}
+
+TEST_F(Deidentification, LeavesOutLookupTablesThatHoldMoreThanTheyState)
+{
+  write(in / "a.dcm", {});
+  write(in / "b.dcm", withBody(element(0x00281101, little(2, 2) + little(0, 2) + little(16, 2)) +
+                               element(0x00281201, little(1, 2) + little(2, 2) + "LINDQVIST ")));
+  EXPECT_EQ(run().leftOut.size(), 1U);
+}
+
 TEST_F(Deidentification, ReplacesUidsConsistentlyAndKeepsThoseOfTheStandard)
 {
   const Elements found =
@@ -510,7 +617,8 @@ TEST(PixelMetadata, ClearsCommentsAndWhatFollowsTheImage)
   };
   bool sound = false;
   const std::string scan = std::string("\xff\xda\0\x03x", 5) + "pixels\xff" + std::string(1, '\0');
-  std::string jpeg = "\xff\xd8" + std::string("\xff\xfe\0\x06name", 8) +
+  std::string jpeg = "\xff\xd8stray" + std::string("\xff\xf0\0\x06jpg0", 8) +
+                     std::string("\xff\xfe\0\x06name", 8) +
                      std::string("\xff\xe1\0\x06"
                                  "exif",
                                  8) +
@@ -518,7 +626,7 @@ TEST(PixelMetadata, ClearsCommentsAndWhatFollowsTheImage)
   std::string cleared = clear(jpeg, sound);
   EXPECT_TRUE(sound);
   EXPECT_EQ(cleared.size(), jpeg.size());
-  for (const char* gone : {"name", "exif", "trailing"})
+  for (const char* gone : {"name", "exif", "stray", "jpg0", "trailing"})
     EXPECT_EQ(cleared.find(gone), std::string::npos) << gone;
   EXPECT_NE(cleared.find("pixels"), std::string::npos);
 

@@ -4,7 +4,9 @@
 #include <sstream>
 #include <string_view>
 
+#include "AddedTermsTable.h"
 #include "ConfidentialityTable.h"
+#include "DefinedTermsTable.h"
 #include "SafePrivateTable.h"
 
 namespace petrous::library
@@ -38,6 +40,8 @@ bool isCurveOrOverlay(std::uint32_t tag)
 
 // Where the type of an attribute requires more than the first of its actions, PS3.3 (A.3, A.4,
 // A.21, A.38, A.36, A.51, A.19).
+// Verified in GDCM's copy of PS3.3: the types below, but for two that are from knowledge, Protocol
+// Name of an enhanced image (C.8.13.1, C.8.15.2) and Operators' Name of a structure set (C.8.8.1).
 DeidAction requiredBy(IodKind iod, std::uint32_t tag)
 {
   switch (iod)
@@ -159,6 +163,28 @@ ConfidentialityProfile::ConfidentialityProfile()
     for (const std::string& element : split(columns[2], ' '))
       m_safe[columns[0]][hex(columns[1]) << 16 | hex(element.substr(0, 2))] = element.substr(3);
   }
+  for (const std::string_view source : {kDefinedTermsTable, kAddedTermsTable})
+  {
+    std::istringstream terms{std::string(source)};
+    for (std::string line; std::getline(terms, line);)
+    {
+      if (line.empty() || line[0] == '#')
+        continue;
+      const auto columns = split(line, '\t');
+      auto& known = m_terms[columns[0] == "any" ? 0 : hex(columns[0])];
+      for (std::string& term : split(columns[1], '|'))
+        known.insert(std::move(term));
+    }
+  }
+}
+
+bool ConfidentialityProfile::isDefinedTerm(std::uint32_t tag, const std::string& value) const
+{
+  constexpr std::uint32_t kImageType = 0x00080008, kFrameType = 0x00089007;
+  for (const std::uint32_t list : {tag == kFrameType ? kImageType : tag, std::uint32_t{0}})
+    if (const auto terms = m_terms.find(list); terms != m_terms.end() && terms->second.count(value))
+      return true;
+  return false;
 }
 
 DeidAction ConfidentialityProfile::action(std::uint32_t tag, IodKind iod, bool nested,

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "petrous/Library/Deidentification.h"
 
@@ -56,6 +57,10 @@ public:
   std::string safePrivateVr(const std::string& creator, std::uint16_t group,
                             std::uint16_t element) const;
 
+  /// One value of VR CS: PS3.3 defines or enumerates it for this attribute, or it is a term that
+  /// Resources/added-terms.tsv adds.
+  bool isDefinedTerm(std::uint32_t tag, const std::string& value) const;
+
 private:
   struct Row
   {
@@ -65,6 +70,7 @@ private:
 
   std::string m_edition;
   std::unordered_map<std::uint32_t, Row> m_rows;
+  std::unordered_map<std::uint32_t, std::unordered_set<std::string>> m_terms; ///< 0: of any
   /// VR by creator, and by group << 16 | element.
   std::unordered_map<std::string, std::unordered_map<std::uint32_t, std::string>> m_safe;
 };

@@ -48,6 +48,7 @@ struct DictionaryEntry
 {
   DcmEVR vr = EVR_UNKNOWN;
   std::string name;
+  int values = 1; ///< at most; -1: any number
 };
 
 /// Of the standard's dictionary only.
@@ -59,6 +60,7 @@ DictionaryEntry dictionaryEntry(const DcmTagKey& key)
   {
     found.vr = entry->getEVR();
     found.name = entry->getTagName();
+    found.values = entry->getVMMax();
   }
   dcmDataDict.rdunlock();
   return found;
@@ -229,6 +231,12 @@ std::string valueOf(DcmItem& item, const DcmTagKey& key)
              : std::string();
 }
 
+std::string withoutPadding(const std::string& text)
+{
+  const std::size_t first = text.find_first_not_of(' '), last = text.find_last_not_of(' ');
+  return first == std::string::npos ? std::string() : text.substr(first, last - first + 1);
+}
+
 std::vector<std::string> split(const std::string& text)
 {
   std::vector<std::string> parts(1);
@@ -295,6 +303,141 @@ std::string shifted(const std::string& value, int daysEarlier)
   if (year < 1 || month < 1 || month > 12 || day < 1 || day > 31)
     return {};
   return dateOf(daysOf(year, month, day) - daysEarlier) + value.substr(8);
+}
+
+bool isDigits(const std::string& text, std::size_t from, std::size_t count)
+{
+  return text.size() >= from + count && hasOnly(text.substr(from, count), "0123456789");
+}
+
+// HH[MM[SS[.FFFFFF]]], or with colons as in ACR-NEMA.
+bool isTime(std::string text)
+{
+  if (text.size() >= 8 && text[2] == ':' && text[5] == ':')
+    text = text.substr(0, 2) + text.substr(3, 2) + text.substr(6);
+  const std::size_t whole = std::min(text.find('.'), text.size());
+  if ((whole != 2 && whole != 4 && whole != 6) || !isDigits(text, 0, whole))
+    return false;
+  const std::size_t fraction = text.size() > whole ? text.size() - whole - 1 : 0;
+  return text.substr(0, 2) < "24" && (whole < 4 || text.substr(2, 2) < "60") &&
+         (whole < 6 || text.substr(4, 2) < "61") && fraction <= 6 &&
+         isDigits(text, text.size() - fraction, fraction);
+}
+
+bool isDate(const std::string& text)
+{
+  return text.size() == 8 && isDigits(text, 0, 8) && text.substr(4, 2) >= "01" &&
+         text.substr(4, 2) <= "12" && text.substr(6) >= "01" && text.substr(6) <= "31";
+}
+
+// &ZZXX
+bool isZone(const std::string& text)
+{
+  return text.size() == 5 && (text[0] == '+' || text[0] == '-') && isDigits(text, 1, 4) &&
+         text.substr(1, 2) <= "14" && text.substr(3) < "60";
+}
+
+// YYYY[MM[DD[HH[MM[SS[.F]]]]]][&ZZXX]
+bool isDateTime(std::string text)
+{
+  const std::size_t sign = text.find_first_of("+-");
+  if (sign != std::string::npos)
+  {
+    if (!isZone(text.substr(sign)))
+      return false;
+    text = text.substr(0, sign);
+  }
+  if (text.size() == 4 || text.size() == 6)
+    return isDate(text + (text.size() == 4 ? "0101" : "01"));
+  return isDate(text.substr(0, 8)) && (text.size() == 8 || isTime(text.substr(8)));
+}
+
+// DS, or IS without fraction and exponent; longer than 16 bytes as many programs write it.
+bool isDecimal(std::string text, bool isWhole)
+{
+  constexpr std::size_t kLongest = 32, kMostDigits = 12;
+  text.erase(0, text.find_first_not_of(' '));
+  std::size_t at = !text.empty() && (text[0] == '+' || text[0] == '-') ? 1 : 0, digits = 0;
+  const auto pass = [&]
+  {
+    for (; isDigits(text, at, 1); ++at)
+      ++digits;
+  };
+  pass();
+  if (!isWhole && at < text.size() && text[at] == '.')
+  {
+    ++at;
+    pass();
+  }
+  if (digits == 0 || text.size() > kLongest || (isWhole && digits > kMostDigits))
+    return false;
+  if (!isWhole && at < text.size() && (text[at] == 'e' || text[at] == 'E'))
+  {
+    ++at;
+    if (at < text.size() && (text[at] == '+' || text[at] == '-'))
+      ++at;
+    digits = 0;
+    pass();
+    if (digits == 0 || digits > 3)
+      return false;
+  }
+  return at == text.size();
+}
+
+// One value of a string VR has the form of PS3.5 6.2. Text: any.
+bool hasFormOf(DcmEVR vr, const std::string& value)
+{
+  if (value.empty())
+    return true;
+  switch (vr)
+  {
+  case EVR_DA: // with points: ACR-NEMA
+    return isDate(value) || (value.size() == 10 && value[4] == '.' && value[7] == '.' &&
+                             isDate(value.substr(0, 4) + value.substr(5, 2) + value.substr(8)));
+  case EVR_TM:
+    return isTime(value);
+  case EVR_DT:
+    return isDateTime(value);
+  case EVR_AS:
+    return value.size() == 4 && isDigits(value, 0, 3) && hasOnly(value.substr(3), "DWMY");
+  case EVR_DS:
+    return isDecimal(value, false);
+  case EVR_IS:
+    return isDecimal(value, true);
+  case EVR_CS:
+    return value.size() <= 16 && hasOnly(value, "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789 _");
+  case EVR_AE:
+    return value.size() <= 16;
+  default:
+    return true;
+  }
+}
+
+// Numbers whose bytes are letters.
+bool areLetters(const Uint8* bytes, std::size_t count)
+{
+  constexpr std::size_t kTelling = 6;
+  while (count > 0 && (bytes[count - 1] == ' ' || bytes[count - 1] == 0))
+    --count;
+  const auto isLetter = [](Uint8 c)
+  {
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '^' || c == ' ' || c == '-' ||
+           c == ',';
+  };
+  return count >= kTelling && std::all_of(bytes, bytes + count, isLetter);
+}
+
+// Values of the safe private attributes of VR CS, LO and SH: a ratio, anatomical directions, GE's
+// pulse sequences, ELSCINT's acquisition types.
+bool isSafePrivateTerm(const std::string& value)
+{
+  static const std::set<std::string> kTerms{
+      "BODY",      "HEAD",     "NONE",     "DIRECTIONAL", "ISOTROPIC", "BMATRIX", "SLICES",
+      "HELIX",     "HELICAL",  "AXIAL",    "SCOUT",       "FH",        "AP",      "RL",
+      "I",         "O",        "P",        "M",           "S",         "FGRE",    "EFGRE3D",
+      "3DGRASS",   "FSE-XL",   "FRFSE-XL", "SSFSE",       "FSPGR",     "3DFSPGR", "3DFIESTA",
+      "3DFIESTAC", "FIESTA-C", "3DFSE",    "EPI2",        "EPI2AS",    "EPI2IS",  "PROPELLER"};
+  return kTerms.count(value) > 0 || (value.size() <= 12 && hasOnly(value, "0123456789.:/-"));
 }
 
 const char* dummyOf(DcmEVR vr)
@@ -409,14 +552,19 @@ private:
       case 0x00181000: // Device Serial Number
       case 0x00200010: // Study ID
         m_words.add(valueOf(*element));
-        if (tagOf(element->getTag()) >> 16 == 0x0010)
-          m_people.add(valueOf(*element));
+        if (const std::uint32_t tag = tagOf(element->getTag());
+            tag >> 16 == 0x0010 || tag == 0x00080050 || tag == 0x00200010)
+          m_people.addIdentifier(valueOf(*element));
         break;
       default:
         if (element->getVR() == EVR_PN)
         {
           m_words.add(valueOf(*element));
-          m_people.add(valueOf(*element));
+          // An operator's "MR" does not forbid that word.
+          if (tagOf(element->getTag()) >> 16 == 0x0010)
+            m_people.addName(valueOf(*element));
+          else
+            m_people.add(valueOf(*element));
         }
       }
     }
@@ -488,20 +636,118 @@ private:
     if (isNumber(listed))
     {
       constexpr std::size_t kMatrix = 9 * 8;
+      if (vr == listed)
+        return element.getLength() <= kMatrix && arePlainNumbers(element);
       const auto isPrint = [](unsigned char c) { return c >= 0x20 && c < 0x7f; };
-      return vr == listed ||
-             (value.size() <= kMatrix && value.size() % DcmVR(listed).getValueWidth() == 0 &&
-              !std::all_of(value.begin(), value.end(), isPrint));
+      return value.size() <= kMatrix && value.size() % DcmVR(listed).getValueWidth() == 0 &&
+             !std::all_of(value.begin(), value.end(), isPrint);
     }
     if (vr != EVR_UN)
       value = valueOf(element);
     while (!value.empty() && (value.back() == ' ' || value.back() == '\0'))
       value.pop_back();
-    const bool isClean = listed == EVR_DS || listed == EVR_IS
-                             ? hasOnly(value, "0123456789+-eE. \\")
-                             : value.size() <= 16 && value.find('\0') == std::string::npos &&
-                                   !m_words.foundIn(value);
+    if (value.find('\0') != std::string::npos)
+      return false;
+    const auto parts = split(value);
+    const bool isClean =
+        std::all_of(parts.begin(), parts.end(),
+                    [&](const std::string& part)
+                    {
+                      return listed == EVR_DS || listed == EVR_IS
+                                 ? hasFormOf(listed, part) && !m_people.isIdentifier(part)
+                                 : isTechnique(part) ||
+                                       (isSafePrivateTerm(part) && !m_people.isIdentifier(part));
+                    });
     return isClean && (vr == EVR_UN || keepString(element, true));
+  }
+
+  // A coded string whose words are all of anatomy and technique, and none the patient's.
+  bool isTechnique(const std::string& value) const
+  {
+    std::string spaced = value;
+    std::replace(spaced.begin(), spaced.end(), '_', ' ');
+    return hasFormOf(EVR_CS, value) && reducedToVocabulary(spaced, m_people) == spaced;
+  }
+
+  // A value of VR CS that cannot name a person.
+  bool isCodedTerm(std::uint32_t tag, const std::string& value) const
+  {
+    if (m_cleaner.profile.isDefinedTerm(tag, value))
+      return true;
+    switch (tag)
+    {
+    case 0x00200020: // Patient Orientation
+      return value.size() <= 3 && hasOnly(value, "APLRHF");
+    case 0x0008010f: // Context Identifier
+    case 0x0040db00: // Template Identifier
+      return value.size() <= 5 && isDigits(value, 0, value.size()) && !m_people.isIdentifier(value);
+    default:
+      return isTechnique(value);
+    }
+  }
+
+  // What an option keeps has the form of its VR, and no word of the patient's.
+  bool mayStay(DcmElement& element, std::uint32_t tag) const
+  {
+    constexpr std::uint32_t kZone = 0x00080201; // Timezone Offset From UTC, of VR SH
+    const DcmEVR vr = element.getVR();
+    if (!isString(vr))
+      return false;
+    const auto parts = split(valueOf(element));
+    return std::all_of(parts.begin(), parts.end(),
+                       [&](const std::string& part)
+                       {
+                         if (part.empty())
+                           return true;
+                         if (vr == EVR_CS)
+                           return isCodedTerm(tag, withoutPadding(part));
+                         return tag == kZone ? isZone(part)
+                                             : hasFormOf(vr, part) &&
+                                                   !(isText(vr) && m_people.hasWord(part));
+                       });
+  }
+
+  static bool arePlainNumbers(DcmElement& element)
+  {
+    Uint16* u16 = nullptr;
+    Sint16* s16 = nullptr;
+    Uint32* u32 = nullptr;
+    Sint32* s32 = nullptr;
+    Float32* f32 = nullptr;
+    Float64* f64 = nullptr;
+    const void* bytes = nullptr;
+    switch (element.getVR())
+    {
+    case EVR_US:
+    case EVR_xs:
+    case EVR_AT:
+      bytes = element.getUint16Array(u16).good() ? u16 : nullptr;
+      break;
+    case EVR_SS:
+      bytes = element.getSint16Array(s16).good() ? s16 : nullptr;
+      break;
+    case EVR_UL:
+      bytes = element.getUint32Array(u32).good() ? u32 : nullptr;
+      break;
+    case EVR_SL:
+      bytes = element.getSint32Array(s32).good() ? s32 : nullptr;
+      break;
+    case EVR_FL:
+      bytes = element.getFloat32Array(f32).good() ? f32 : nullptr;
+      break;
+    case EVR_FD:
+      bytes = element.getFloat64Array(f64).good() ? f64 : nullptr;
+      break;
+    default: // 64-bit integers
+      return element.getLength() <= 8;
+    }
+    return !bytes || !areLetters(static_cast<const Uint8*>(bytes), element.getLength());
+  }
+
+  std::string vocabularyOf(const std::string& text) const
+  {
+    return eachPart(text, [this](const std::string& part)
+                    { return reducedToVocabulary(part, m_people); });
   }
 
   // Writes the value anew, so that nothing after a NUL remains.
@@ -540,7 +786,8 @@ private:
     {
       if (vr == EVR_SQ)
         return recursed(element, path, name, "kept by option, cleaned within");
-      if (!agrees(vr, entry.vr) || (!isNumber(vr) && !keepString(element, isString(vr))))
+      if (!agrees(vr, entry.vr) ||
+          (isNumber(vr) ? !arePlainNumbers(element) : !keepString(element, mayStay(element, tag))))
         action = basicAction(tag, path);
       else
       {
@@ -562,8 +809,7 @@ private:
     {
       if (vr == EVR_SQ)
         return recursed(element, path, name, "kept by option, cleaned within");
-      const std::string rest =
-          isText(vr) ? eachPart(valueOf(element), reducedToVocabulary) : std::string();
+      const std::string rest = isText(vr) ? vocabularyOf(valueOf(element)) : std::string();
       if (!rest.empty() && !hasOnly(rest, "\\"))
       {
         element.putString(rest.c_str());
@@ -605,12 +851,15 @@ private:
   bool shiftedDates(DcmElement& element, const std::string& path, const std::string& name)
   {
     const int days = m_key.daysEarlier(m_patient);
+    const DcmEVR vr = element.getVR();
     bool sound = true;
     const std::string dates = eachPart(valueOf(element),
                                        [&](const std::string& value)
                                        {
                                          const std::string date =
-                                             value.empty() ? value : shifted(value, days);
+                                             value.empty() || !hasFormOf(vr, value)
+                                                 ? std::string()
+                                                 : shifted(value, days);
                                          sound = sound && (value.empty() || !date.empty());
                                          return date;
                                        });
@@ -621,7 +870,7 @@ private:
 
   bool keptTime(DcmElement& element, const std::string& path, const std::string& name)
   {
-    if (!keepString(element, hasOnly(valueOf(element), "0123456789.:+-\\")))
+    if (!keepString(element, mayStay(element, tagOf(element.getTag()))))
     {
       note(path, element, name, "removed: not a time", false);
       return false;
@@ -719,7 +968,14 @@ private:
     if (vr == EVR_SQ)
       return recursed(element, path, entry.name, "kept, cleaned within");
     if (isNumber(vr))
-      return done("kept: number", true);
+    {
+      const bool tooMany = entry.values > 0 &&
+                           element.getNumberOfValues() > static_cast<unsigned long>(entry.values);
+      return !tooMany && arePlainNumbers(element)
+                 ? done("kept: number", true)
+                 : done("removed: more values than it may have, or text in place of numbers",
+                        false);
+    }
     if (isBytes(vr))
       return areNeededBytes(tag) ? done("kept: voxels or geometry", true)
                                  : done("removed: bytes that are not needed", false);
@@ -737,19 +993,41 @@ private:
     }
     case EVR_DS:
     case EVR_IS:
-      return keepString(element, hasOnly(value, "0123456789+-eE. \\"))
-                 ? done("kept: number", true)
-                 : done("removed: not a number", false);
-    case EVR_CS:
     {
       const auto parts = split(value);
-      const bool isCoded = hasOnly(value, "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789 _\\") &&
+      const bool isSound = (entry.values != 1 || parts.size() == 1) &&
                            std::all_of(parts.begin(), parts.end(),
-                                       [](const std::string& part) { return part.size() <= 16; }) &&
-                           !m_people.foundIn(value);
-      if (keepString(element, isCoded))
-        return done("kept: coded string", true);
-      break;
+                                       [&](const std::string& part) {
+                                         return hasFormOf(vr, part) && !m_people.isIdentifier(part);
+                                       });
+      if (keepString(element, isSound))
+        return done("kept: number", true);
+      makeEmpty(element);
+      note(path, element, entry.name, "emptied: not a number, or an identifier of the patient",
+           false);
+      return true;
+    }
+    case EVR_CS:
+    {
+      // Each value has its place (Image Type): a dummy takes that of one that does not stay.
+      bool isChanged = false;
+      const std::string rest = eachPart(value,
+                                        [&](const std::string& padded)
+                                        {
+                                          const std::string part = withoutPadding(padded);
+                                          if (part.empty() || isCodedTerm(tag, part))
+                                            return part;
+                                          isChanged = true;
+                                          return std::string(dummyOf(EVR_CS));
+                                        });
+      if (isChanged && tag == 0x00080005) // Specific Character Set: what is written is ASCII
+        return done("removed: not a defined term", false);
+      element.putString(rest.c_str());
+      note(path, element, entry.name,
+           isChanged ? "coded string: a dummy for what is no defined term"
+                     : "kept: defined terms, or words of the vocabulary",
+           !isChanged);
+      return true;
     }
     case EVR_DA:
     case EVR_DT:
@@ -763,9 +1041,9 @@ private:
     default:
       break;
     }
-    const bool isTime = vr == EVR_DA || vr == EVR_DT || vr == EVR_TM;
-    if (isTime && m_options.dates == Dates::Keep &&
-        keepString(element, hasOnly(value, "0123456789.:+-\\")))
+    const bool isDateOrTime = vr == EVR_DA || vr == EVR_DT || vr == EVR_TM;
+    if (isDateOrTime && m_options.dates == Dates::Keep &&
+        keepString(element, mayStay(element, tag)))
       return done("kept by option", true);
     if (value.empty())
     {
@@ -776,11 +1054,12 @@ private:
       return keepString(element, true) && done("kept: known manufacturer", true);
     if (isTechnical(item, tag, value))
       return keepString(element, true) && done("kept: code or unit of a known form", true);
-    if (m_options.retainDevice && describesDevice(tag) && !m_words.foundIn(value))
+    if (m_options.retainDevice && describesDevice(tag) && !m_words.foundIn(value) &&
+        !m_people.hasWord(value))
       return keepString(element, true) && done("kept by option", true);
     if (isText(vr))
     {
-      const std::string rest = eachPart(value, reducedToVocabulary);
+      const std::string rest = vocabularyOf(value);
       if (!rest.empty() && !hasOnly(rest, "\\"))
       {
         element.putString(rest.c_str());
@@ -792,20 +1071,27 @@ private:
     return true;
   }
 
-  // By its form: text of up to three characters (units, nuclei), names of kernels, codes of
-  // schemes that are published.
+  // By its form: nuclei, types of rescaling, names of kernels, codes of schemes that are published.
   bool isTechnical(DcmItem& item, std::uint32_t tag, const std::string& value)
   {
     constexpr const char* kDigits = "0123456789";
     static const std::set<std::string> kNumbered{"DCM", "SCT", "FMA", "LN", "MDC", "UMLS"};
     static const std::set<std::string> kLettered{"SRT", "SNM3", "RADLEX", "NCIt", "UCUM"};
-    if (tag == 0x00080102) // Coding Scheme Designator
-      return kNumbered.count(value) + kLettered.count(value) > 0;
-    const std::string scheme = valueOf(item, DCM_CodingSchemeDesignator);
-    if (tag == 0x00080103) // Coding Scheme Version
-      return value.size() <= 8 && hasOnly(value, "0123456789.");
-    if (tag == 0x00080100) // Code Value
+    static const std::set<std::string> kNuclei{"1H",  "3HE",  "7LI", "13C",
+                                               "19F", "23NA", "31P", "129XE"};
+    static const std::set<std::string> kRescaled{"OD", "HU",  "US",     "MGML", "Z_EFF",
+                                                 "ED", "EDW", "HU_MOD", "PCT"};
+    switch (tag)
     {
+    case 0x00080102: // Coding Scheme Designator
+      return kNumbered.count(value) + kLettered.count(value) > 0;
+    case 0x00080103: // Coding Scheme Version
+      return value.size() <= 8 && hasOnly(value, "0123456789.") && !m_people.isIdentifier(value);
+    case 0x00080100: // Code Value
+    {
+      const std::string scheme = valueOf(item, DCM_CodingSchemeDesignator);
+      if (m_people.isIdentifier(value))
+        return false;
       if (kNumbered.count(scheme) > 0)
         return value.size() <= 16 && hasOnly(value, "0123456789-");
       constexpr std::size_t kLongest = 10;
@@ -814,20 +1100,27 @@ private:
                                : value.find_first_of(kDigits) != std::string::npos &&
                                      hasOnly(value, "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-"));
     }
-    if (m_words.foundIn(value))
+    case 0x00180085: // Imaged Nucleus
+      return kNuclei.count(value) > 0;
+    case 0x00281054: // Rescale Type
+    case 0x00283004: // Modality LUT Type
+      return kRescaled.count(value) > 0;
+    case 0x00181210: // Convolution Kernel
+      break;
+    default:
       return false;
+    }
+    // Up to two letters, two digits, one letter (H60s, Br64h, FC81), or a number.
     const auto parts = split(value);
-    // Two letters, two digits, one letter (H60s, Br64h, FC81), or a number.
-    const auto isKernel = [&](const std::string& part)
-    {
-      const std::size_t digit = part.find_first_of(kDigits);
-      const std::size_t end = part.find_first_not_of(kDigits, digit);
-      return digit != std::string::npos && part.size() <= 5 && digit <= 2 &&
-             (end == std::string::npos || end + 1 == part.size());
-    };
-    return std::all_of(parts.begin(), parts.end(),
+    return !m_words.foundIn(value) &&
+           std::all_of(parts.begin(), parts.end(),
                        [&](const std::string& part)
-                       { return part.size() <= 3 || (tag == 0x00181210 && isKernel(part)); });
+                       {
+                         const std::size_t digit = part.find_first_of(kDigits);
+                         const std::size_t end = part.find_first_not_of(kDigits, digit);
+                         return digit != std::string::npos && part.size() <= 5 && digit <= 2 &&
+                                (end == std::string::npos || end + 1 == part.size());
+                       });
   }
 
   DicomCleaner& m_cleaner;
@@ -836,7 +1129,7 @@ private:
   IodKind m_iod;
   std::string m_patient;  ///< what tells patients apart
   IdentityWords m_words;  ///< of people, places, devices and visits
-  IdentityWords m_people; ///< of people alone
+  IdentityWords m_people; ///< of people, and the patient's and the visit's identifiers
   std::set<std::string> m_noted;
 };
 
@@ -846,10 +1139,44 @@ long numberIn(DcmItem& item, const DcmTagKey& key, long otherwise)
   return item.findAndGetUint16(key, value).good() ? static_cast<long>(value) : otherwise;
 }
 
+// Float pixel data and lookup tables have the length that their frames and descriptors state.
+std::string lookupTablesAndFloats(DcmItem& item)
+{
+  DcmElement* element = nullptr;
+  const auto lengthOf = [&](const DcmTagKey& key) -> std::uint64_t
+  { return item.findAndGetElement(key, element).good() && element ? element->getLength() : 0; };
+  Sint32 frames = 1;
+  if (item.findAndGetSint32(DCM_NumberOfFrames, frames).bad() || frames < 1)
+    frames = 1;
+  const auto cells = static_cast<std::uint64_t>(numberIn(item, DCM_Rows, 0)) *
+                     static_cast<std::uint64_t>(numberIn(item, DCM_Columns, 0)) *
+                     static_cast<std::uint64_t>(frames);
+  for (const auto& [key, width] :
+       {std::pair{DCM_FloatPixelData, 4U}, std::pair{DCM_DoubleFloatPixelData, 8U}})
+    if (const std::uint64_t length = lengthOf(key); length > 0 && length != cells * width)
+      return "the pixel data do not match rows, columns and frames";
+  for (const auto& [descriptor, data] :
+       {std::pair{DCM_RedPaletteColorLookupTableDescriptor, DCM_RedPaletteColorLookupTableData},
+        std::pair{DCM_GreenPaletteColorLookupTableDescriptor, DCM_GreenPaletteColorLookupTableData},
+        std::pair{DCM_BluePaletteColorLookupTableDescriptor, DCM_BluePaletteColorLookupTableData},
+        std::pair{DCM_LUTDescriptor, DCM_LUTData}})
+  {
+    constexpr std::uint64_t kMost = 65536; // written as 0
+    const std::uint64_t length = lengthOf(data);
+    const auto stated = static_cast<std::uint64_t>(numberIn(item, descriptor, 0));
+    const std::uint64_t entries = stated == 0 ? kMost : stated;
+    if (length > 0 && length != 2 * entries && length != entries + entries % 2)
+      return "a lookup table is not as long as its descriptor states";
+  }
+  return {};
+}
+
 // The item's own Pixel Data. Returns why it cannot leave.
 std::string cleanPixels(DcmItem& item, E_TransferSyntax syntax)
 {
   DcmElement* element = nullptr;
+  if (std::string why = lookupTablesAndFloats(item); !why.empty())
+    return why;
   if (item.findAndGetElement(DCM_PixelData, element).bad() || !element)
     return {};
   auto* pixels = dynamic_cast<DcmPixelData*>(element);

@@ -31,11 +31,14 @@ bool startsWith(const std::uint8_t* bytes, std::size_t count, const char* text, 
 void clearJpeg(std::uint8_t* bytes, std::size_t count)
 {
   std::size_t at = 2;
+  bool isCoded = false; // between the header of a scan and the next marker
   while (at + 2 <= count)
   {
     if (bytes[at] != 0xff)
     {
-      ++at; // entropy-coded data
+      if (!isCoded)
+        bytes[at] = 0xff; // stray bytes between segments, as fill bytes
+      ++at;
       continue;
     }
     const std::uint8_t marker = bytes[at + 1];
@@ -53,7 +56,11 @@ void clearJpeg(std::uint8_t* bytes, std::size_t count)
     if (at + 2 > count)
       return;
     const std::size_t end = std::min(count, at + std::max<std::size_t>(2, number(bytes + at, 2)));
-    const bool isApplication = marker >= 0xe0 && marker <= 0xef;
+    isCoded = marker == 0xda;
+    // And JPG0 to JPG13, but for those that JPEG-LS defines.
+    const bool isApplication =
+        (marker >= 0xe0 && marker <= 0xef) ||
+        (marker >= 0xf0 && marker <= 0xfd && marker != 0xf7 && marker != 0xf8);
     std::size_t keep = 0;
     if (marker == 0xee && startsWith(bytes + at + 2, end - at - 2, "Adobe", 5))
       keep = 12;

@@ -99,15 +99,18 @@ bool isKnownManufacturer(const std::string& text)
          kManufacturers.find("|" + name + "|") != std::string_view::npos;
 }
 
-std::string reducedToVocabulary(const std::string& text)
+std::string reducedToVocabulary(const std::string& text, const IdentityWords& people)
 {
+  // With escape sequences (ISO 2022), what looks like letters may be parts of other characters.
+  if (text.find('\x1b') != std::string::npos)
+    return {};
   std::string kept;
   bool hasWord = false;
   forEachWord(text,
               [&](const std::string& word)
               {
                 const bool known = isInVocabulary(upper(word));
-                if (!known && !isShortNumber(word))
+                if ((!known && !isShortNumber(word)) || people.hasWord(word))
                   return;
                 hasWord = hasWord || known;
                 kept += (kept.empty() ? "" : " ") + word;
@@ -126,6 +129,37 @@ void IdentityWords::add(const std::string& text)
               });
 }
 
+void IdentityWords::addName(const std::string& text)
+{
+  forEachWord(text,
+              [this](const std::string& word)
+              {
+                if (word.size() >= 2)
+                  m_words.insert(upper(word));
+              });
+}
+
+void IdentityWords::addIdentifier(const std::string& text)
+{
+  add(text);
+  constexpr std::size_t kTelling = 5; // characters
+  if (text.size() >= kTelling)
+    m_identifiers.insert(upper(text));
+}
+
+bool IdentityWords::hasWord(const std::string& text) const
+{
+  bool found = false;
+  forEachWord(text,
+              [&](const std::string& word) { found = found || m_words.count(upper(word)) > 0; });
+  return found;
+}
+
+bool IdentityWords::isIdentifier(const std::string& text) const
+{
+  return m_identifiers.count(upper(text)) > 0;
+}
+
 bool IdentityWords::foundIn(const std::string& text) const
 {
   if (text.find('^') != std::string::npos || text.find('@') != std::string::npos)
@@ -137,10 +171,7 @@ bool IdentityWords::foundIn(const std::string& text) const
     if (digits >= 6)
       return true;
   }
-  bool found = false;
-  forEachWord(text,
-              [&](const std::string& word) { found = found || m_words.count(upper(word)) > 0; });
-  return found;
+  return hasWord(text);
 }
 
 } // namespace petrous::library

@@ -6,10 +6,6 @@
 namespace petrous::library
 {
 
-/// `text` without words other than those of a vocabulary of anatomy and technique (English, German,
-/// French; upper case), and numbers of up to three digits. Empty if none is left.
-std::string reducedToVocabulary(const std::string& text);
-
 bool isInVocabulary(const std::string& upperCaseWord);
 bool isKnownManufacturer(const std::string& text);
 
@@ -20,12 +16,30 @@ public:
   /// Adds the words of at least three letters or digits that are not in the vocabulary.
   void add(const std::string& text);
 
+  /// Adds a person's name: its words of at least two letters or digits, those of the vocabulary too
+  /// (Sharp, Plain, Head).
+  void addName(const std::string& text);
+
+  /// Adds an identifier: its words as add() does, and all of it.
+  void addIdentifier(const std::string& text);
+
+  /// One of the words.
+  bool hasWord(const std::string& text) const;
+
+  /// An identifier of at least five characters, all of it.
+  bool isIdentifier(const std::string& text) const;
+
   /// A word of the text is among them; or the text looks like an identity by itself: an e-mail
   /// address, a name with "^", a date, six digits in a row.
   bool foundIn(const std::string& text) const;
 
 private:
-  std::set<std::string> m_words; ///< upper case
+  std::set<std::string> m_words, m_identifiers; ///< upper case
 };
+
+/// `text` without words other than those of a vocabulary of anatomy and technique (English, German,
+/// French; upper case) and numbers of up to three digits, and without the words of `people`. Empty
+/// if none is left.
+std::string reducedToVocabulary(const std::string& text, const IdentityWords& people);
 
 } // namespace petrous::library

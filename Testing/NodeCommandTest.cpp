@@ -154,6 +154,29 @@ TEST_F(NodeCommand, BuildsACaseOfImages)
   EXPECT_EQ(textOf(m_folder / "ear.nrrd"), textOf(m_folder / "both.nrrd"));
 }
 
+TEST_F(NodeCommand, ABatchSendsWhatIsNew)
+{
+  if (!servers::Orthanc::installed())
+    GTEST_SKIP() << "Orthanc (package orthanc) is not installed";
+  start(false);
+  std::ofstream(m_folder / "table.csv") << "name,folder,send\near,,pacs\nct,patient/ct,pacs\n";
+  const std::string batch = "batch " + quoted(m_folder / "table.csv");
+  EXPECT_EQ(json(batch)["counts"]["done"], 2);
+  json("receive --from pacs --case ear" + other());
+  json("receive --from pacs --case ct" + other());
+  expectSameCase("ear");
+  EXPECT_EQ(json(batch)["counts"]["already done"], 2);
+  json("undo ear");
+  const auto rows = json(batch)["rows"];
+  EXPECT_EQ(rows[0]["steps"]["send"]["status"], "done") << "a later state is sent";
+  EXPECT_EQ(rows[1]["status"], "already done");
+  m_server.reset();
+  json("redo ear");
+  const Outcome outcome = run(batch);
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_NE(outcome.out.find("send failed"), std::string::npos) << outcome.out;
+}
+
 TEST_F(NodeCommand, KeepsNodesInTheLibrary)
 {
   json("nodes add b --host pacs.example --port 11112 --aet ARCHIVE --calling ME");

@@ -10,6 +10,7 @@ void addSampleCommand(CLI::App& app, Context& context);
 void addScanCommand(CLI::App& app, Context& context);
 void addCaseCommands(CLI::App& app, Context& context);    ///< new, add, remove, info
 void addArchiveCommands(CLI::App& app, Context& context); ///< archive, restore
+void addBatchCommand(CLI::App& app, Context& context);
 void addDescribeCommand(CLI::App& app, Context& context);
 void addDeidentifyCommands(CLI::App& app, Context& context); ///< deidentify, pseudonyms
 void addLibraryCommand(CLI::App& app, Context& context);

@@ -255,6 +255,12 @@ void Context::warn(const std::string& line) const
     std::cerr << line << '\n';
 }
 
+core::Progress Context::progress(core::Progress::Listener listener) const
+{
+  watchInterrupt();
+  return core::Progress(std::move(listener), interruptToken());
+}
+
 core::Progress Context::progress() const
 {
   watchInterrupt();

@@ -81,6 +81,8 @@ public:
 
   /// Progress bar on stderr if it is a terminal. Ctrl+C cancels, a second one kills the process.
   core::Progress progress() const;
+  /// The same with a listener of one's own.
+  core::Progress progress(core::Progress::Listener listener) const;
 
 private:
   std::filesystem::path libraryFolder() const;

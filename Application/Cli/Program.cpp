@@ -52,6 +52,18 @@ Failure failureOf(core::Fault fault)
   return kInternalFailure;
 }
 
+Failure failureOf(const std::exception& error)
+{
+  if (dynamic_cast<const UsageError*>(&error))
+    return kUsageFailure;
+  if (const auto* known = dynamic_cast<const core::Error*>(&error))
+    return failureOf(known->fault());
+  if (dynamic_cast<const std::filesystem::filesystem_error*>(&error) ||
+      dynamic_cast<const std::bad_alloc*>(&error))
+    return kRefusal;
+  return kInternalFailure;
+}
+
 // With --json the single object on stdout describes the failure, unless the result was printed
 // there.
 int complain(const Program& program, const std::string& text, const Failure& failure, bool json)
@@ -182,6 +194,18 @@ int parsed(const Program& program, std::vector<std::string> words, Context& cont
 
 } // namespace
 
+std::string messageOf(const std::exception& error)
+{
+  if (dynamic_cast<const UsageError*>(&error) || dynamic_cast<const core::Error*>(&error))
+    return error.what();
+  if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&error))
+    return file->path1().string() +
+           ": cannot be read or written; check that it is there and its permissions";
+  if (dynamic_cast<const std::bad_alloc*>(&error))
+    return "not enough memory; close other programs, or load less with --roi";
+  return "an unexpected error; the library is unchanged";
+}
+
 std::vector<std::string> wordsOf(int argc, char** argv)
 {
   std::vector<std::string> words(argv + 1, argv + argc);
@@ -229,29 +253,9 @@ int run(const Program& program, const std::vector<std::string>& words)
     context.logEnd(code);
     return code;
   }
-  catch (const UsageError& error)
-  {
-    return fail(error.what(), kUsageFailure, error);
-  }
-  catch (const core::Error& error)
-  {
-    return fail(error.what(), failureOf(error.fault()), error);
-  }
-  catch (const std::filesystem::filesystem_error& error)
-  {
-    return fail(error.path1().string() + ": cannot be read or written; check that it is there "
-                                         "and its permissions",
-                kRefusal, error);
-  }
-  catch (const std::bad_alloc& error)
-  {
-    return fail("not enough memory; close other programs, or load less with --roi", kRefusal,
-                error);
-  }
   catch (const std::exception& error)
   {
-    // Messages of other libraries may contain patient data; they are left out.
-    return fail("an unexpected error; the library is unchanged", kInternalFailure, error);
+    return fail(messageOf(error), failureOf(error), error);
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -22,6 +23,10 @@ struct Program
 /// become a line on stderr, with --json an object on stdout, and the exit code listed in
 /// kExitCodes.
 int run(const Program& program, const std::vector<std::string>& words);
+
+/// What the user is told of an exception, one line. Messages of other libraries may contain patient
+/// data, and are left out.
+std::string messageOf(const std::exception& error);
 
 /// The arguments after the program's name. `help` and `help COMMAND` become `--help` and `COMMAND
 /// --help`.

@@ -49,6 +49,7 @@ void addCommands(CLI::App& app, cli::Context& context)
   cli::addDeidentifyCommands(app, context);
   cli::addLibraryCommand(app, context);
   cli::addNodeCommands(app, context);
+  cli::addBatchCommand(app, context);
   cli::addAppearanceCommand(app, context);
   cli::addRenderCommand(app, context);
   cli::addSliceCommand(app, context);

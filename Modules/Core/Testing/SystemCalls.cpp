@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdarg>
 #include <cstddef>
+#include <cstring>
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -15,7 +16,7 @@
 namespace
 {
 
-std::string failingName;
+char failingName[32]; // initialized before any constructor, some of which call `fail`
 int failingCall = 0;
 int failingError = 0;
 int killingCall = 0;
@@ -28,7 +29,7 @@ bool refused(const char* name)
   const int n = ++calls;
   if (killingCall > 0 && n == killingCall)
     ::kill(::getpid(), SIGKILL);
-  if (failingCall == 0 || failingName != name || ++callsOfName != failingCall)
+  if (failingCall == 0 || std::strcmp(failingName, name) != 0 || ++callsOfName != failingCall)
     return false;
   errno = failingError;
   return true;
@@ -48,7 +49,7 @@ namespace petrous::testing
 void SystemCalls::fail(const std::string& name, int n, int error)
 {
   reset();
-  failingName = name;
+  std::strncpy(failingName, name.c_str(), sizeof failingName - 1);
   failingError = error;
   failingCall = n;
 }
@@ -62,6 +63,11 @@ void SystemCalls::killAt(int n)
 int SystemCalls::count()
 {
   return calls;
+}
+
+int SystemCalls::countOfName()
+{
+  return callsOfName;
 }
 
 void SystemCalls::reset()

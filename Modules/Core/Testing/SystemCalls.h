@@ -18,6 +18,7 @@ public:
   static void killAt(int n);
 
   static int count(); ///< calls since `fail`, `killAt` or `reset`
+  static int countOfName(); ///< of these, calls of the name given to `fail`
   static void reset();
 };
 

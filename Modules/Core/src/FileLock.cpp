@@ -11,15 +11,18 @@
 namespace petrous::core
 {
 
-FileLock::FileLock(const std::filesystem::path& file)
+FileLock::FileLock(const std::filesystem::path& file, IfHeld ifHeld)
   : m_descriptor(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666))
 {
   if (m_descriptor < 0)
     throwOutputError(errno, file);
-  while (::flock(m_descriptor, LOCK_EX) != 0)
+  while (::flock(m_descriptor, ifHeld == IfHeld::Wait ? LOCK_EX : LOCK_EX | LOCK_NB) != 0)
     if (const int error = errno; error != EINTR)
     {
       ::close(m_descriptor);
+      if (error == EWOULDBLOCK)
+        throw OutputFileError(OutputFileError::Reason::NotPermitted, file,
+                              "is in use by another program; wait until it has ended");
       if (error == ENOLCK || error == ENOSYS || error == EOPNOTSUPP || error == EINVAL)
         throw OutputFileError(OutputFileError::Reason::WrongPlace, file,
                               "cannot be locked: this drive has no file locks, as some network "

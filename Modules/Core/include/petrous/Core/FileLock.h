@@ -6,12 +6,17 @@ namespace petrous::core
 {
 
 /// Exclusive lock between processes during its lifetime (flock), on a file that is made if it is
-/// missing and stays. Waits for it. Throws OutputFileError, also where the file system has no
+/// missing and stays. Waits for it, or throws, if another holds it. Throws OutputFileError, also where the file system has no
 /// locks, as some network drives: two programs would overwrite each other there.
 class FileLock
 {
 public:
-  explicit FileLock(const std::filesystem::path& file);
+  enum class IfHeld
+  {
+    Wait,
+    Throw
+  };
+  explicit FileLock(const std::filesystem::path& file, IfHeld ifHeld = IfHeld::Wait);
   ~FileLock();
   FileLock(const FileLock&) = delete;
   FileLock& operator=(const FileLock&) = delete;

@@ -1,0 +1,482 @@
+#include "BatchTable.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <map>
+#include <string_view>
+
+#include "Context.h"
+#include "Numbers.h"
+#include "petrous/Core/InputFile.h"
+#include "petrous/Core/NumberText.h"
+#include "petrous/Library/Archive.h"
+#include "petrous/Library/ObjectStore.h"
+#include "petrous/Scene/Case.h"
+
+namespace petrous::cli
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+constexpr std::uintmax_t kLargestTable = std::uintmax_t{1} << 26;
+constexpr const char* kByteOrderMark = "\xef\xbb\xbf";
+
+/// Which step a column is for: what it is keyed by.
+enum class Step
+{
+  None,
+  Build,
+  Describe
+};
+
+struct Column
+{
+  const char* name;
+  Step step;
+  const char* text;
+};
+
+constexpr std::array<Column, 18> kColumns{{
+    {"name", Step::None, "the case's name (needed)"},
+    {"folder", Step::Build, "CT: DICOM folder or image file; blank: the case is there already"},
+    {"series", Step::Build, "which series of the folder: UID or UID#VOLUME"},
+    {"modality", Step::Build, "CT or MR, if the file does not say"},
+    {"roi", Step::Build, "x0,x1,y0,y1,z0,z1 in patient LPS mm"},
+    {"repair", Step::Build, "yes or no: resample tilted, uneven or gapped slices"},
+    {"mr", Step::Build, "[NAME=]PATH[#UID[#VOLUME]], several with |"},
+    {"labels", Step::Build, "[NAME=]FILE[@MR], several with |"},
+    {"label_names", Step::Build, "table of the names of the labels"},
+    {"meshes", Step::Build, "[NAME=]FILE[@MR], several with |"},
+    {"tags", Step::Describe, "several with |"},
+    {"note", Step::Describe, "free text"},
+    {"diagnosis", Step::Describe, "a line"},
+    {"procedure", Step::Describe, "a line"},
+    {"side", Step::Describe, "left, right, both or unknown"},
+    {"date", Step::Describe, "of the planned operation, YYYY-MM-DD"},
+    {"register", Step::None, "yes or no: every MR that is not registered"},
+    {"archive", Step::None, "file NAME.petrous, or a folder"},
+}};
+constexpr const char* kSend = "send"; // the last one, a node
+
+std::string trimmed(const std::string& text)
+{
+  constexpr const char* kBlank = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(kBlank);
+  return first == text.npos ? std::string()
+                            : text.substr(first, text.find_last_not_of(kBlank) + 1 - first);
+}
+
+std::string lower(const std::string& text)
+{
+  return CLI::detail::to_lower(text);
+}
+
+[[noreturn]] void refuse(const fs::path& file, std::size_t line, const std::string& what)
+{
+  throw core::InvalidParameter(core::printable(file) + ", line " + std::to_string(line) + ": " +
+                               what);
+}
+
+struct CsvRow
+{
+  std::size_t line = 0;
+  std::vector<std::string> cells;
+};
+
+char delimiterOf(std::string_view text)
+{
+  std::array<std::size_t, 3> counts{};
+  constexpr std::string_view kDelimiters = ",;\t";
+  bool isQuoted = false;
+  for (const char c : text)
+  {
+    if (c == '"')
+      isQuoted = !isQuoted;
+    else if (c == '\n' && !isQuoted)
+      break;
+    else if (const std::size_t n = kDelimiters.find(c); n != kDelimiters.npos && !isQuoted)
+      ++counts[n];
+  }
+  return kDelimiters[static_cast<std::size_t>(std::max_element(counts.begin(), counts.end()) -
+                                              counts.begin())];
+}
+
+std::vector<CsvRow> rowsOf(const fs::path& file, std::string_view text, std::size_t line,
+                           char delimiter)
+{
+  std::vector<CsvRow> rows;
+  CsvRow row{line, {std::string()}};
+  bool isQuoted = false;
+  std::size_t quoteLine = 0;
+  const auto end = [&]
+  {
+    for (std::string& cell : row.cells)
+      cell = trimmed(cell);
+    rows.push_back(std::move(row));
+    row = {line, {std::string()}};
+  };
+  for (std::size_t n = 0; n < text.size(); ++n)
+  {
+    const char c = text[n];
+    std::string& cell = row.cells.back();
+    if (c == '\n')
+      ++line;
+    if (isQuoted && c == '"' && n + 1 < text.size() && text[n + 1] == '"')
+    {
+      cell += c;
+      ++n;
+    }
+    else if (c == '"' && (isQuoted || trimmed(cell).empty()))
+    {
+      isQuoted = !isQuoted;
+      quoteLine = line;
+    }
+    else if (isQuoted)
+      cell += c;
+    else if (c == delimiter)
+      row.cells.emplace_back();
+    else if (c == '\n')
+      end();
+    else
+      cell += c;
+  }
+  if (isQuoted)
+    refuse(file, quoteLine, "a quote is opened and not closed");
+  end();
+  return rows;
+}
+
+bool isBlank(const CsvRow& row)
+{
+  return std::all_of(row.cells.begin(), row.cells.end(),
+                     [](const std::string& cell) { return cell.empty(); });
+}
+
+std::vector<std::string> split(const std::string& cell)
+{
+  std::vector<std::string> values;
+  for (std::size_t from = 0; from <= cell.size();)
+  {
+    const std::size_t to = std::min(cell.find('|', from), cell.size());
+    if (std::string value = trimmed(cell.substr(from, to - from)); !value.empty())
+      values.push_back(std::move(value));
+    from = to + 1;
+  }
+  return values;
+}
+
+bool isYes(const std::string& column, const std::string& cell)
+{
+  const std::string text = lower(cell);
+  for (const char* yes : {"yes", "y", "true", "1", "ja", "wahr"})
+    if (text == yes)
+      return true;
+  for (const char* no : {"", "no", "n", "false", "0", "nein", "falsch"})
+    if (text == no)
+      return false;
+  throw core::InvalidParameter("'" + column + "' is yes or no, not '" + cell + "'");
+}
+
+/// Cells of a row by column.
+using Cells = std::map<std::string, std::string>;
+
+std::string keyOf(const Cells& cells, Step step, const fs::path& folder)
+{
+  // The table's folder is what relative paths mean.
+  std::string text = step == Step::Build ? folder.string() : std::string();
+  for (const Column& column : kColumns)
+    if (const auto cell = cells.find(column.name);
+        cell != cells.end() && (column.step == step || cell->first == "name"))
+      text += '\0' + cell->first + '\0' + cell->second;
+  return library::sha256Of(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+}
+
+class RowReader
+{
+public:
+  RowReader(fs::path folder, Cells cells)
+    : m_folder(std::move(folder))
+    , m_cells(std::move(cells))
+  {
+  }
+
+  void read(BatchRow& row) const
+  {
+    row.name = cell("name");
+    if (row.name.empty())
+      throw core::InvalidParameter("the row has no name; every case needs one");
+    scene::checkCaseName(row.name);
+    row.buildKey = keyOf(m_cells, Step::Build, m_folder);
+    row.describeKey = keyOf(m_cells, Step::Describe, m_folder);
+    if (!cell("folder").empty())
+      row.sources = sources();
+    else
+      for (const Column& column : kColumns)
+        if (column.step == Step::Build && !cell(column.name).empty())
+          throw core::InvalidParameter(std::string("'") + column.name +
+                                       "' goes with 'folder', which is blank");
+    row.registers = isYes("register", cell("register"));
+    row.node = cell(kSend);
+    if (const std::string& archive = cell("archive"); !archive.empty())
+    {
+      row.archive = at(archive);
+      if (!row.archive.has_filename() || fs::is_directory(row.archive))
+        row.archive /= row.name + library::kArchiveEnding;
+    }
+    const auto given = [this](const char* column) -> std::optional<std::string>
+    { return cell(column).empty() ? std::nullopt : std::optional(cell(column)); };
+    row.tags = split(cell("tags"));
+    row.note = given("note");
+    if (row.note)
+      row.note->erase(std::remove(row.note->begin(), row.note->end(), '\r'), row.note->end());
+    row.diagnosis = given("diagnosis");
+    row.procedure = given("procedure");
+    row.date = given("date");
+    if (!cell("side").empty())
+      row.side = scene::sideFromName(lower(cell("side")));
+    scene::Description check;
+    row.describe(check);
+  }
+
+private:
+  const std::string& cell(const std::string& column) const
+  {
+    static const std::string none;
+    const auto found = m_cells.find(column);
+    return found == m_cells.end() ? none : found->second;
+  }
+
+  fs::path at(const fs::path& path) const { return (m_folder / path).lexically_normal(); }
+
+  std::vector<presenters::PartSource>
+  parts(const char* column,
+        const std::function<presenters::PartSource(const std::string&)>& parse) const
+  {
+    std::vector<presenters::PartSource> result;
+    for (const std::string& text : split(cell(column)))
+    {
+      // A whole path wins over NAME=PATH, also where it is relative.
+      std::error_code error;
+      result.push_back(parse(fs::exists(at(text), error) ? at(text).string() : text));
+      result.back().path = at(result.back().path);
+    }
+    return result;
+  }
+
+  presenters::CaseSources sources() const
+  {
+    presenters::CaseSources sources;
+    sources.ct = at(cell("folder"));
+    sources.series = cell("series");
+    sources.repair = isYes("repair", cell("repair"));
+    const std::string modality = lower(cell("modality"));
+    if (!modality.empty() && modality != "ct" && modality != "mr")
+      throw core::InvalidParameter("'modality' is CT or MR, not '" + cell("modality") + "'");
+    sources.modality = modality == "mr"   ? scene::Modality::Mr
+                       : modality == "ct" ? scene::Modality::Ct
+                                          : scene::Modality::Unknown;
+    if (!cell("roi").empty())
+      try
+      {
+        sources.roi = parseBox(cell("roi"), "'roi'");
+      }
+      catch (const UsageError& error)
+      {
+        throw core::InvalidParameter(error.what());
+      }
+    sources.parts.mr = parts("mr", presenters::PartSource::parseSeries);
+    for (presenters::PartSource& mr : sources.parts.mr)
+      mr.repair = sources.repair;
+    sources.parts.labels = parts("labels", presenters::PartSource::parseDrawn);
+    if (!cell("label_names").empty())
+      sources.parts.labelNames = at(cell("label_names"));
+    if (!cell("label_names").empty() && sources.parts.labels.empty())
+      throw core::InvalidParameter("'label_names' goes with 'labels', which is blank");
+    sources.parts.meshes = parts("meshes", presenters::PartSource::parseDrawn);
+    return sources;
+  }
+
+  fs::path m_folder;
+  Cells m_cells;
+};
+
+std::vector<std::string> columnNames()
+{
+  std::vector<std::string> names;
+  for (const Column& column : kColumns)
+    names.emplace_back(column.name);
+  names.emplace_back(kSend);
+  return names;
+}
+
+// Names of the columns, "" for those without one.
+std::vector<std::string> readHeader(const fs::path& file, const CsvRow& row)
+{
+  const std::vector<std::string> known = columnNames();
+  std::vector<std::string> header;
+  for (const std::string& cell : row.cells)
+  {
+    std::string name = lower(cell);
+    std::replace(name.begin(), name.end(), ' ', '_');
+    if (!name.empty() && std::find(known.begin(), known.end(), name) == known.end())
+      refuse(file, row.line,
+             "there is no column '" + cell + "'; columns are " + CLI::detail::join(known, ", "));
+    if (!name.empty() && std::find(header.begin(), header.end(), name) != header.end())
+      refuse(file, row.line, "column '" + name + "' is there twice");
+    header.push_back(std::move(name));
+  }
+  if (std::find(header.begin(), header.end(), "name") == header.end())
+    refuse(file, row.line,
+           "there is no column 'name'; the first row names the columns, which are " +
+               CLI::detail::join(known, ", "));
+  return header;
+}
+
+void refuseOtherEncodings(const fs::path& file, std::string_view text)
+{
+  constexpr const char* kSaveAs = "save the table as 'CSV UTF-8'";
+  if (text.substr(0, 2) == "\xff\xfe" || text.substr(0, 2) == "\xfe\xff")
+    throw core::InvalidParameter(core::printable(file) + ": is UTF-16; " + kSaveAs);
+  if (core::isUtf8(text) && text.find('\0') == text.npos)
+    return;
+  std::size_t line = 1;
+  for (std::string_view rest = text; !rest.empty(); ++line)
+  {
+    const std::string_view one = rest.substr(0, rest.find('\n'));
+    if (!core::isUtf8(one) || one.find('\0') != one.npos)
+      break;
+    rest.remove_prefix(std::min(one.size() + 1, rest.size()));
+  }
+  refuse(file, line, std::string("is not UTF-8 text; ") + kSaveAs);
+}
+
+} // namespace
+
+void BatchRow::describe(scene::Description& description) const
+{
+  scene::Description next = description;
+  const auto set = [](std::string& to, const std::optional<std::string>& from)
+  {
+    if (from)
+      to = *from;
+  };
+  set(next.note, note);
+  set(next.diagnosis, diagnosis);
+  set(next.procedure, procedure);
+  set(next.date, date);
+  next.side = side.value_or(next.side);
+  for (const std::string& tag : tags)
+    if (std::none_of(next.tags.begin(), next.tags.end(),
+                     [wanted = scene::lowerCase(tag)](const std::string& one)
+                     { return scene::lowerCase(one) == wanted; }))
+      next.tags.push_back(tag);
+  scene::checkDescription(next);
+  description = std::move(next);
+}
+
+std::string batchColumns()
+{
+  std::string text = "Columns of the table (" + std::string("name is needed, others as wanted):\n");
+  for (const Column& column : kColumns)
+    text += "  " + std::string(column.name) + ": " + column.text + "\n";
+  return text + "  " + kSend + ": a DICOM node, see 'petrous nodes'\n";
+}
+
+BatchTable readBatchTable(const fs::path& file)
+{
+  const std::string whole = core::readFile(file, kLargestTable);
+  refuseOtherEncodings(file, whole);
+  std::string_view text = whole;
+  BatchTable table;
+  table.hasByteOrderMark = text.rfind(kByteOrderMark, 0) == 0;
+  if (table.hasByteOrderMark)
+    text.remove_prefix(3);
+  std::size_t line = 1;
+  table.delimiter = delimiterOf(text);
+  if (text.size() > 4 && lower(std::string(text.substr(0, 4))) == "sep=")
+  {
+    table.delimiter = text[4];
+    text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+    ++line;
+  }
+  const std::vector<CsvRow> rows = rowsOf(file, text, line, table.delimiter);
+  const auto first = std::find_if_not(rows.begin(), rows.end(), isBlank);
+  if (first == rows.end())
+    throw core::InvalidParameter(core::printable(file) + ": is empty; the first row names the "
+                                                         "columns");
+  const std::vector<std::string> header = readHeader(file, *first);
+  const fs::path folder = fs::absolute(file).parent_path().lexically_normal();
+  std::map<std::string, std::size_t> builtIn; // line of the row that builds a case
+  std::map<fs::path, std::size_t> archivedIn; // and that writes an archive
+  for (auto row = first + 1; row != rows.end(); ++row)
+  {
+    if (isBlank(*row))
+      continue;
+    Cells cells;
+    for (std::size_t n = 0; n < row->cells.size(); ++n)
+      if (const std::string& cell = row->cells[n]; !cell.empty())
+      {
+        if (n >= header.size())
+          refuse(file, row->line,
+                 "has more cells than there are columns; put quotes around a cell that holds a '" +
+                     std::string(1, table.delimiter) + "'");
+        if (header[n].empty())
+          refuse(file, first->line, "column " + std::to_string(n + 1) + " has no name");
+        cells[header[n]] = cell;
+      }
+    BatchRow next;
+    next.line = row->line;
+    try
+    {
+      RowReader(folder, std::move(cells)).read(next);
+      if (next.sources)
+        if (const auto [other, isNew] = builtIn.emplace(next.name, next.line); !isNew)
+          throw core::InvalidParameter("case '" + next.name + "' is built by line " +
+                                       std::to_string(other->second) +
+                                       " already; give it another name, or leave 'folder' blank");
+      if (!next.archive.empty())
+        if (const auto [other, isNew] = archivedIn.emplace(next.archive, next.line); !isNew)
+          throw core::InvalidParameter("the archive is written by line " +
+                                       std::to_string(other->second) +
+                                       " already; give it another name");
+    }
+    catch (const core::InvalidParameter& error)
+    {
+      next.problem = error.what();
+    }
+    table.rows.push_back(std::move(next));
+  }
+  if (table.rows.empty())
+    throw core::InvalidParameter(core::printable(file) + ": has no row after the header");
+  return table;
+}
+
+std::string csvText(const std::vector<std::vector<std::string>>& rows, char delimiter)
+{
+  std::string text;
+  for (const auto& row : rows)
+  {
+    for (std::size_t n = 0; n < row.size(); ++n)
+    {
+      if (n > 0)
+        text += delimiter;
+      if (row[n].find_first_of(std::string("\"\r\n,;\t") + delimiter) == std::string::npos)
+      {
+        text += row[n];
+        continue;
+      }
+      text += '"';
+      for (const char c : row[n])
+        text += c == '"' ? std::string("\"\"") : std::string(1, c);
+      text += '"';
+    }
+    text += "\r\n";
+  }
+  return text;
+}
+
+} // namespace petrous::cli

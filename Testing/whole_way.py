@@ -1,0 +1,301 @@
+"""Takes a case the whole way: create, drill, branch, archive, restore in a second library, send to a
+DICOM node (Orthanc, where it is installed), receive in a third library, open. Compares the pictures
+to the pixel, the voxels to the bit and the history, in every library; and reads what left the
+program by independent readers: the parts of the archive by zipfile, gzip and numpy, the exported
+files by nibabel and pydicom, what the node keeps by pydicom and dciodvfy.
+
+whole_way.py PETROUS FOLDER [--ct DICOM_FOLDER --roi x0,x1,y0,y1,z0,z1]
+
+FOLDER is new or empty. Without --ct the case is the program's sample patient, with MR and
+structures. Prints a line for each step; exit 0: everything is equal; 1: something is not, which is
+said; 77: Python lacks numpy."""
+import argparse
+import gzip
+import json
+import pathlib
+import shutil
+import socket
+import subprocess
+import sys
+import time
+import zipfile
+
+try:
+    import numpy as np
+except ImportError:
+    print("numpy is not installed")
+    sys.exit(77)
+
+ORTHANC = "/usr/sbin/Orthanc"
+wrong = []
+
+
+def check(holds, text):
+    print(("ok     " if holds else "WRONG  ") + text, flush=True)
+    if not holds:
+        wrong.append(text)
+
+
+class Petrous:
+    """The program with one library."""
+
+    def __init__(self, program, library):
+        self.program, self.library = program, library
+
+    def __call__(self, *words):
+        command = [self.program, *map(str, words), "--library", str(self.library), "--json"]
+        done = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL)
+        if done.returncode != 0:
+            raise SystemExit("petrous %s: exit %d: %s" % (" ".join(map(str, words)),
+                                                          done.returncode, done.stderr))
+        return json.loads(done.stdout)
+
+
+def write_path(file, start, end):
+    """A straight path from start to end (LPS mm), drilling all the way, one second."""
+    back = np.subtract(start, end)
+    back = back / np.linalg.norm(back)
+    q = np.array([1.0 + back[2], -back[1], back[0], 0.0])
+    q = np.array([0.0, 1.0, 0.0, 0.0]) if q[0] < 1e-6 else q / np.linalg.norm(q)
+    rows = ["t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,drill"]
+    for t, at, drill in ((0, start, 1), (1, end, 0)):
+        rows.append(",".join(map(repr, [t, *map(float, at), *map(float, q), drill])))
+    file.write_text("\n".join(rows) + "\n")
+    return file
+
+
+def create(petrous, folder, ct, roi):
+    """A case with two approaches."""
+    if ct:
+        petrous("new", "ear", "--ct", ct, *(["--roi", roi] if roi else []))
+        petrous("segment", "ear", "dense bone", "--threshold", "700,3000")
+    else:
+        patient = folder / "patient"
+        petrous("sample", patient, "--dims", "64,64,60", "--spacing", "1.0")
+        petrous("new", "ear", "--ct", patient / "ct", "--mr", "T2=%s" % (patient / "mr"), "--labels",
+                patient / "labels.seg.nrrd", "--mesh", "carotid=%s" %
+                (patient / "meshes" / "carotid_artery.obj"))
+        petrous("register", "ear", "--mr", "T2")
+    petrous("describe", "ear", "--tag", "whole way", "--diagnosis", "otosclerosis", "--side", "left",
+            "--note", "first line\nsecond line")
+    info = petrous("info", "ear")["ct"]
+    half = 0.5 * np.array(info["dims"]) * info["spacing_mm"]
+    centre = np.array(info["origin_mm"]) + half
+    # From outside to the middle, from the side on which the volume lies.
+    side = np.array([np.copysign(half[0] + 10.0, centre[0]), 0.0, 0.0])
+    for n, shift in enumerate((0.0, 6.0)):
+        start, end = centre + side + [0, shift, 0], centre + [0, shift, 0]
+        done = petrous("drill", "ear", "--diameter", "6", "--path",
+                       write_path(folder / ("path%d.csv" % n), start, end))
+        check(done["removed_mm3"] > 1.0, "drilled %.1f mm3" % done["removed_mm3"])
+    petrous("undo", "ear")
+    petrous("branch", "ear", "behind", "--from", "0")
+    petrous("drill", "ear", "--diameter", "4", "--path",
+            write_path(folder / "path2.csv", centre + side + [0, 0, 8], centre + [0, 0, 8]))
+    petrous("appearance", "ear", "--iso", "345.25")
+
+
+def state(petrous, name, out):
+    """All that a user can see of a case: pictures and voxels of each branch, values, history."""
+    out.mkdir(parents=True)
+    seen = {}
+    history = petrous("history", name)
+    history.pop("case")
+    info = petrous("info", name)
+    for own in ("case", "resources", "disk"):
+        info.pop(own, None)
+    described = petrous("describe", name)["description"]
+    current = history["branch"]
+    for branch in [b["name"] for b in history["branches"] if b["name"] != current] + [current]:
+        petrous("branch", name, branch)
+        picture = out / ("%s.png" % branch)
+        petrous("render", name, "--size", "160x120", "--out", picture)
+        seen["picture of " + branch] = picture.read_bytes()
+        for what in ("dissected", "mask"):
+            file = out / ("%s-%s.nrrd" % (branch, what))
+            petrous("export", name, "--what", what, "--out", file)
+            seen["%s voxels of %s" % (what, branch)] = file.read_bytes()
+    whats = ["ct", "labels"] + (["mr"] if info["mr"] else [])
+    for what in whats:
+        file = out / (what + (".seg.nrrd" if what == "labels" else ".nrrd"))
+        petrous("export", name, "--what", what, "--out", file)
+        seen[what + " voxels"] = file.read_bytes()
+    seen.update({"history": history, "info": info, "description": described})
+    return seen
+
+
+def compare(there, here, where):
+    check(there.keys() == here.keys(), where + ": the same things are there")
+    for what in here:
+        check(there.get(what) == here[what], "%s: %s" % (where, what))
+
+
+def read_nrrd(data):
+    """Header and voxels, [k, j, i], of a raw or gzip NRRD."""
+    head, body = data.split(b"\n\n", 1)
+    fields = dict(line.split(": ", 1) for line in head.decode().splitlines()
+                  if ": " in line and not line.startswith("#"))
+    if fields["encoding"] == "gzip":
+        body = gzip.decompress(body)
+    kinds = {"short": "i2", "int16": "i2", "ushort": "u2", "uint16": "u2", "uchar": "u1",
+             "uint8": "u1", "unsigned char": "u1", "unsigned short": "u2", "float": "f4",
+             "int": "i4", "signed char": "i1", "int8": "i1", "double": "f8"}
+    order = "<" if fields.get("endian", "little") == "little" else ">"
+    voxels = np.frombuffer(body, order + kinds[fields["type"]])
+    return fields, voxels.reshape([int(n) for n in fields["sizes"].split()][::-1])
+
+
+def check_archive(archive, seen):
+    """The parts as another program unzips them."""
+    with zipfile.ZipFile(archive) as parts:
+        check(parts.testzip() is None, "zipfile finds the archive sound")
+        names = parts.namelist()
+        voxels = read_nrrd(parts.read("ct.nrrd"))[1]
+        check(np.array_equal(voxels, read_nrrd(seen["ct voxels"])[1]),
+              "ct.nrrd of the archive is the CT to the bit, by numpy")
+        for what in ("labels/", "strokes/"):
+            check(any(n.startswith(what) for n in names), "the archive has " + what)
+        for name in names:
+            if name.startswith("labels/"):
+                data = parts.read(name)
+                check(read_nrrd(data)[1].any() and b"\nSegment0_Name:=" in data.split(b"\n\n")[0],
+                      "%s has voxels and names" % name)
+
+
+def check_exports(petrous, name, seen, out):
+    """NIfTI by nibabel and DICOM by pydicom hold the voxels of the CT, at their places."""
+    fields, ct = read_nrrd(seen["ct voxels"])
+    origin = np.array([float(n) for n in fields["space origin"].strip("()").split(",")])
+    axes = np.array([[float(n) for n in axis.strip("()").split(",")]
+                     for axis in fields["space directions"].split()])
+    far = [n - 1 for n in ct.shape[::-1]]
+    corner = origin + np.array(far) @ axes  # LPS, of the last voxel
+    try:
+        import nibabel
+        petrous("export", name, "--what", "ct", "--out", out / "ct.nii.gz")
+        image = nibabel.load(out / "ct.nii.gz")
+        check(np.array_equal(np.asanyarray(image.dataobj), ct.T), "ct.nii.gz by nibabel: voxels")
+        there = nibabel.affines.apply_affine(image.affine, far) * [-1, -1, 1]
+        check(np.allclose(there, corner, atol=1e-3), "ct.nii.gz by nibabel: place")
+    except ImportError:
+        print("skip   nibabel is not installed")
+    try:
+        import pydicom
+    except ImportError:
+        print("skip   pydicom is not installed")
+        return
+    petrous("export", name, "--what", "ct", "--out", str(out / "ct") + "/")
+    slices = sorted((pydicom.dcmread(f) for f in (out / "ct").iterdir()),
+                    key=lambda s: np.dot(s.ImagePositionPatient, axes[2]))
+    stack = np.array([s.pixel_array * float(s.RescaleSlope) + float(s.RescaleIntercept)
+                      for s in slices])
+    check(np.array_equal(stack, ct), "DICOM series by pydicom: voxels")
+    check(np.allclose(np.array(slices[0].ImagePositionPatient, float), origin, atol=1e-3),
+          "DICOM series by pydicom: place")
+
+
+def check_node(storage):
+    """What the node keeps: valid, and nobody's."""
+    objects = [f for f in storage.rglob("*") if f.is_file() and f.stat().st_size > 132
+               and f.open("rb").read(132)[128:] == b"DICM"]
+    check(len(objects) > 10, "the node keeps %d objects" % len(objects))
+    try:
+        import pydicom
+        said = set()
+        for file in objects:
+            data = pydicom.dcmread(file, stop_before_pixels=True)
+            said.add((data.get("PatientIdentityRemoved", ""), str(data.get("PatientBirthDate", ""))))
+        check(all(removed in ("YES", "") and not birth for removed, birth in said),
+              "no object at the node has a birth date (pydicom)")
+    except ImportError:
+        print("skip   pydicom is not installed")
+    if shutil.which("dciodvfy"):
+        errors = 0
+        for file in objects:
+            done = subprocess.run(["dciodvfy", str(file)], capture_output=True, text=True)
+            errors += "Error" in done.stderr + done.stdout
+        check(errors == 0, "dciodvfy finds no error in %d objects" % len(objects))
+    else:
+        print("skip   dciodvfy (package dicom3tools) is not installed")
+
+
+def start_orthanc(folder):
+    """Process, port and storage folder of a node on the loopback."""
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    storage = folder / "orthanc"
+    storage.mkdir()
+    (folder / "orthanc.json").write_text(json.dumps({
+        "StorageDirectory": str(storage), "IndexDirectory": str(storage),
+        "HttpServerEnabled": False, "DicomServerEnabled": True, "DicomAet": "ORTHANC",
+        "DicomPort": port, "DicomAlwaysAllowStore": False, "DicomModalities": {"petrous": {
+            "AET": "PETROUS", "Host": "127.0.0.1", "Port": 104, "AllowEcho": True, "AllowFind": True,
+            "AllowStore": True, "AllowGet": True}}}))
+    log = open(folder / "orthanc.log", "w")
+    server = subprocess.Popen([ORTHANC, str(folder / "orthanc.json")], stdout=log, stderr=log,
+                              stdin=subprocess.DEVNULL)
+    for _ in range(600):
+        with socket.socket() as trial:
+            if trial.connect_ex(("127.0.0.1", port)) == 0:
+                return server, port, storage
+        if server.poll() is not None:
+            break
+        time.sleep(0.1)
+    server.kill()
+    raise SystemExit("Orthanc did not start: " + (folder / "orthanc.log").read_text()[-500:])
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("petrous")
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--ct")
+    parser.add_argument("--roi")
+    asked = parser.parse_args()
+    folder = asked.folder.absolute()
+    folder.mkdir(parents=True, exist_ok=True)
+
+    here = Petrous(asked.petrous, folder / "library")
+    create(here, folder, asked.ct, asked.roi)
+    seen = state(here, "ear", folder / "here")
+    check(len(seen["history"]["strokes"]) == 3 and len(seen["history"]["branches"]) == 2,
+          "two approaches, three strokes, one of them undone")
+    pictures = {seen[k] for k in seen if k.startswith("picture")}
+    check(len(pictures) == 2, "the approaches are seen")
+    check_exports(here, "ear", seen, folder / "here")
+
+    archive = folder / "ear.petrous"
+    here("archive", "ear", archive)
+    check_archive(archive, seen)
+    there = Petrous(asked.petrous, folder / "second")
+    there("restore", archive)
+    compare(state(there, "ear", folder / "there"), seen, "restored in a second library")
+
+    if pathlib.Path(ORTHANC).exists():
+        server, port, storage = start_orthanc(folder)
+        try:
+            node = ("nodes", "add", "pacs", "--host", "127.0.0.1", "--port", port, "--aet", "ORTHANC")
+            there(*node)
+            sent = there("send", "ear", "--to", "pacs")
+            check(sent["completed"] == sent["instances"] and sent["failed"] == 0,
+                  "sent %d instances" % sent["instances"])
+            third = Petrous(asked.petrous, folder / "third")
+            third(*node)
+            third("receive", "--from", "pacs", "--case", "ear")
+            compare(state(third, "ear", folder / "received"), seen, "received in a third library")
+            check_node(storage)
+            check(third("library", "verify")["damaged"] == [], "the third library verifies")
+        finally:
+            server.kill()
+            server.wait()
+    else:
+        print("skip   Orthanc (package orthanc) is not installed")
+    for petrous in (here, there):
+        check(petrous("library", "verify")["damaged"] == [], "%s verifies" % petrous.library.name)
+    print("%d wrong" % len(wrong))
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

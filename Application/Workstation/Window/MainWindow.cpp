@@ -682,11 +682,11 @@ void MainWindow::showUnregistered(bool opened)
     return m_mrBanner->hide();
   m_mrBanner->setText(
       (names.size() == 1
-           ? tr("The case has the MR %1, which is not registered with the CT and not shown yet. "
+           ? tr("The case has the MR %1, which is not registered with the %2 and not shown yet. "
                 "Registration > Register the MR (Ctrl+R) registers it.")
-           : tr("The case has the MRs %1, which are not registered with the CT and not shown yet. "
+           : tr("The case has the MRs %1, which are not registered with the %2 and not shown yet. "
                 "Registration > Register the MR (Ctrl+R) registers them."))
-          .arg(names.join(", ")));
+          .arg(names.join(", "), presenters::primaryName(m_model.value())));
   if (opened)
     m_mrBanner->show();
 }

@@ -152,6 +152,21 @@ TEST_F(NodeCommand, BuildsACaseOfImages)
     json(std::string("export ") + name + " --what ct --out " +
          quoted(m_folder / (std::string(name) + ".nrrd")) + (name[0] == 'e' ? "" : other()));
   EXPECT_EQ(textOf(m_folder / "ear.nrrd"), textOf(m_folder / "both.nrrd"));
+
+  // Two patients by one folder of what arrived.
+  json("new plain --ct " + quoted(m_folder / "patient/ct"));
+  const auto plain = json("send plain --to pacs --what ct");
+  const std::string kept = " --partial " + quoted(m_folder / "kept");
+  json("receive --from pacs --as first" + study + kept + other());
+  json("receive --from pacs --as second --study " + plain["study"].get<std::string>() + kept +
+       other());
+  EXPECT_EQ(json("info first" + other())["mr"].size(), 1U);
+  EXPECT_EQ(json("info second" + other())["mr"].size(), 0U);
+  EXPECT_EQ(json("info second" + other())["labels"].size(), 0U);
+
+  // The study is there already when its scene follows.
+  json("send plain --to pacs --what scene");
+  EXPECT_EQ(json("receive --from pacs --case plain" + other())["scene"], true);
 }
 
 TEST_F(NodeCommand, ABatchSendsWhatIsNew)

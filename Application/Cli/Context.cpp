@@ -43,14 +43,21 @@ std::shared_ptr<const core::CancelToken> interruptToken()
   return {std::shared_ptr<void>(), &interrupted};
 }
 
-// A second Ctrl+C kills the process at once.
+// A second Ctrl+C kills the process at once. A closed terminal and `kill` leave no more behind than
+// Ctrl+C: temporary files hold the hospital's identified images.
 void watchInterrupt()
 {
   struct sigaction action = {};
   action.sa_handler = onInterrupt;
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   ::sigemptyset(&action.sa_mask);
-  ::sigaction(SIGINT, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+  {
+    struct sigaction before = {};
+    ::sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) // nohup
+      ::sigaction(signal, &action, nullptr);
+  }
 }
 
 } // namespace

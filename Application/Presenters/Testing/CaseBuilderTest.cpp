@@ -244,6 +244,42 @@ TEST_F(CaseBuilder, TellsImagesOfOneFrameOfReferenceWithoutItsUid)
   EXPECT_EQ(value.ct.frameOfReference, "") << "of a NRRD file nothing is known";
 }
 
+// The CT lacks slices in the middle: the sound MR beside it is not taken in its place.
+TEST_F(CaseBuilder, TakesNoMrForACtThatCannotBeUsed)
+{
+  const auto scan = std::make_shared<const volume::Volume<std::int16_t>>(
+      core::GridGeometry({8, 8, 24}, Vector3d::Ones(), Vector3d::Zero()), std::int16_t{40});
+  using Modality = imaging::SeriesDescription::Modality;
+  for (const auto& [name, modality] : {std::pair{"ct", Modality::Ct}, {"mr", Modality::Mr}})
+  {
+    imaging::SeriesDescription series;
+    series.modality = modality;
+    series.studyUid = "1.2.3";
+    series.seriesUid = imaging::deterministicUid(1, name);
+    series.frameOfReferenceUid = "1.2.3.9";
+    imaging::writeDicomSeries(m_folder / "mixed" / name, volume::IntensityVolume(scan), series);
+  }
+  for (int slice = 8; slice < 16; ++slice)
+    std::filesystem::remove(
+        m_folder / "mixed/ct" /
+        ("slice-00" + std::string(slice < 10 ? "0" : "") + std::to_string(slice) + ".dcm"));
+  presenters::CaseSources sources;
+  sources.ct = m_folder / "mixed";
+  try
+  {
+    presenters::buildCase("ear", sources, {});
+    FAIL();
+  }
+  catch (const imaging::DicomError& error)
+  {
+    EXPECT_EQ(error.reason(), imaging::DicomError::Reason::Ambiguous);
+    EXPECT_NE(std::string(error.what()).find("CT cannot be used"), std::string::npos)
+        << error.what();
+  }
+  sources.series = imaging::deterministicUid(1, "mr");
+  EXPECT_EQ(presenters::buildCase("ear", sources, {}).ct.modality, scene::Modality::Mr);
+}
+
 TEST_F(CaseBuilder, SaysThatAnMrIsACt)
 {
   const auto scan = std::make_shared<const volume::Volume<std::int16_t>>(

@@ -1163,6 +1163,8 @@ void CaseDocumentController::archive(const std::string& which)
            text +=
                tr("\nFile: %1, %2\nIn it: %3")
                    .arg(QFile::decodeName(file.c_str()), megabytes(done.archiveBytes), contents);
+           for (const std::string& note : done.notes)
+             text += "\n" + windowText(words(note));
            if (!done.durable)
              text += tr("\nThe disk reported an error; check the disk.");
            inform(text);

@@ -238,6 +238,30 @@ TEST_F(Maintenance, ADeletedCaseComesBackWithWhatWasNotSaved)
   EXPECT_EQ(refusal([&] { m_library.undelete("a"); }).first, LibraryError::Reason::NotFound);
 }
 
+// "x.journal" is a name too, and not the journal of case "x".
+TEST_F(Maintenance, ADeletedCaseThatIsNamedAsAJournalComesBack)
+{
+  for (const std::string name : {"x.journal", "x.journal.aside-1", "x.json"})
+  {
+    make("x");
+    make(name);
+    m_library.remove(name);
+    ASSERT_EQ(m_library.deleted().size(), 1u) << name;
+    EXPECT_EQ(m_library.deleted()[0].name, name);
+    m_library.remove("x");
+    m_library.undelete("x");
+    EXPECT_NO_THROW(m_library.open("x")) << name;
+    m_library.undelete(name);
+    EXPECT_NO_THROW(m_library.open(name)) << name;
+    EXPECT_TRUE(m_library.deleted().empty()) << name;
+    m_library.remove(name);
+    m_library.collectGarbage();
+    EXPECT_TRUE(m_library.deleted().empty()) << name;
+    m_library.remove("x");
+    m_library.collectGarbage();
+  }
+}
+
 TEST_F(Maintenance, TheCaseOfANameThatWasDeletedLastComesBackFirst)
 {
   for (const int n : {16, 20, 24})

@@ -91,8 +91,24 @@ std::string withoutIdentity(const std::string& uid)
   return library::sha256Of(reinterpret_cast<const std::uint8_t*>(uid.data()), uid.size());
 }
 
+// An MR is not taken silently in the place of a CT that cannot be used.
+void refuseMrBesideCt(const imaging::ScanResult& scan, const fs::path& path)
+{
+  constexpr std::size_t kScouts = 2; // slices
+  for (const imaging::DicomSeries& series : scan.series)
+    if (series.modality == "CT" && series.geometry.slices.size() > kScouts)
+      throw imaging::DicomError(
+          imaging::DicomError::Reason::Ambiguous,
+          path.string() + ": its CT cannot be used" +
+              (series.geometry.findings.empty() ? std::string()
+                                                : ": " + series.geometry.findings.front().text) +
+              " Only an MR can; name its series (--series, 'petrous scan' lists them) for a case "
+              "of the MR alone");
+}
+
+// `isPrimary`: of a case.
 scene::ImagePart readImage(const fs::path& path, const std::string& selector, bool repair,
-                           const std::optional<core::PatientBox>& roi,
+                           const std::optional<core::PatientBox>& roi, bool isPrimary,
                            const core::Progress& progress)
 {
   scene::ImagePart part;
@@ -106,6 +122,8 @@ scene::ImagePart readImage(const fs::path& path, const std::string& selector, bo
   {
     const auto scan = imaging::scanDicom(path, progress.part(0.0, 0.2), library::scanCache().get());
     const auto& series = imaging::chooseSeries(scan, path, selector);
+    if (isPrimary && selector.empty() && series.modality == "MR")
+      refuseMrBesideCt(scan, path);
     imaging::ReadOptions options;
     options.roi = roi;
     options.repair = repair;
@@ -224,7 +242,7 @@ void addMr(scene::Case& value, const PartSource& source, const core::Progress& p
     nameTaken(source.path, "MR", name);
   checkName(source.path, name);
   scene::ImagePart part =
-      readImage(source.path, source.series, source.repair, std::nullopt, progress);
+      readImage(source.path, source.series, source.repair, std::nullopt, false, progress);
   part.name = name;
   // A CT angiogram may be wanted beside the CT: said, not refused.
   if (part.modality == scene::Modality::Ct)
@@ -735,8 +753,8 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
   scene::checkCaseName(name);
   scene::Case value;
   value.name = name;
-  value.ct =
-      readImage(sources.ct, sources.series, sources.repair, sources.roi, progress.part(0.0, 0.7));
+  value.ct = readImage(sources.ct, sources.series, sources.repair, sources.roi,
+                       sources.modality != scene::Modality::Mr, progress.part(0.0, 0.7));
   value.ct.name = "ct";
   placeSurface(value, sources.modality);
   addParts(value, sources.parts, progress.part(0.7, 1.0), report);

@@ -58,7 +58,12 @@ void describe(imaging::SegmentationDescription::Segment& segment, const volume::
   segment.algorithm = codes.algorithm == From::Manual      ? To::Manual
                       : codes.algorithm == From::Automatic ? To::Automatic
                                                            : To::SemiAutomatic;
-  segment.algorithmName = codes.algorithmName.empty() ? "not recorded" : codes.algorithmName;
+  // Free text, often a person's name; of programs, the names that are widely used.
+  segment.algorithmName = "not recorded";
+  for (const char* program : {"TotalSegmentator", "nnU-Net", "nnUNet", "MONAI", "MONAILabel",
+                              "Slicer", "3D Slicer", "ITK-SNAP", "SynthSeg", "FreeSurfer"})
+    if (codes.algorithmName == program)
+      segment.algorithmName = program;
 }
 
 constexpr double kLatticeTolerance = 0.01; // mm
@@ -299,14 +304,16 @@ std::size_t writeCaseSegmentation(const std::filesystem::path& path, const scene
         {
           all.add(segment.label.c_str(), segment.label.size() + 1);
           all.add(segment.color.data(), sizeof segment.color);
-          for (const auto* concept : {&segment.type, &segment.typeModifier, &segment.region})
-            if (!concept->empty())
-              all.add(concept->value.c_str(), concept->value.size() + 1);
+          for (const auto* concept : {&segment.category, &segment.type, &segment.typeModifier,
+                                      &segment.region, &segment.regionModifier})
+            for (const auto* text : {&concept->value, &concept->scheme, &concept->meaning})
+              all.add(text->c_str(), text->size() + 1);
           all.add(&segment.algorithm, sizeof segment.algorithm);
           all.add(segment.algorithmName.c_str(), segment.algorithmName.size() + 1);
           all.add(&segment.map, sizeof segment.map);
           all.add(&segment.index, sizeof segment.index);
         }
+        all.add(sourceSeries.c_str(), sourceSeries.size() + 1);
       });
   imaging::writeDicomSegmentation(path, maps, segmentation, progress);
   return segmentation.segments.size();

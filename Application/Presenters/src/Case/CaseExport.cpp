@@ -18,6 +18,7 @@
 #include "petrous/Imaging/VolumeFile.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CaseDicom.h"
+#include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/MrOnCt.h"
 #include "petrous/Rendering/SurfaceExtraction.h"
 #include "petrous/Scene/CaseField.h"
@@ -32,7 +33,12 @@ namespace
 
 using Warn = std::function<void(const std::string&)>;
 
-constexpr double kAirHu = -1000.0;
+// What stands where tissue was removed.
+double airOf(const scene::Case& value)
+{
+  constexpr double kAirHu = -1000.0;
+  return displayOf(value).hounsfield ? kAirHu : value.ct.range.min;
+}
 
 // Whether the target is a folder, for a DICOM series.
 bool isSeries(const ExportOptions& options)
@@ -63,7 +69,8 @@ bool isSegmentation(const ExportOptions& options)
 // The CT after removal: untouched voxels keep their value, removed ones are air, and in between the
 // value is capped so that the surface at `iso` is the cut surface of f.
 template <class T>
-volume::Volume<T> dissected(const volume::Volume<T>& ct, const volume::CutMask& mask, double iso)
+volume::Volume<T> dissected(const volume::Volume<T>& ct, const volume::CutMask& mask, double iso,
+                            double air)
 {
   volume::Volume<T> result(ct.geometry());
   const core::Index3 n = ct.geometry().dims();
@@ -76,7 +83,7 @@ volume::Volume<T> dissected(const volume::Volume<T>& ct, const volume::CutMask& 
         if (left != volume::CutMask::kUntouched)
         {
           const double share = static_cast<double>(left) / volume::CutMask::kUntouched;
-          const double cap = iso + (share - 0.5) * 2.0 * (iso - kAirHu);
+          const double cap = iso + (share - 0.5) * 2.0 * (iso - air);
           if (cap < static_cast<double>(value))
             value = volume::rounded<T>(cap);
         }
@@ -489,8 +496,10 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
   else if (options.what == "dissected")
   {
     const auto image = checked(value.ct);
-    image->visit([&](const auto& ct)
-                 { writeImage(*shared(dissected(ct, mask(), value.iso), image->padding()), ""); });
+    image->visit(
+        [&](const auto& ct) {
+          writeImage(*shared(dissected(ct, mask(), value.iso, airOf(value)), image->padding()), "");
+        });
   }
   else if (options.what == "structure")
   {

@@ -12,6 +12,7 @@
 #include "petrous/Network/SceneObjects.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CaseDicom.h"
+#include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/Placement.h"
 
 namespace petrous::presenters
@@ -105,8 +106,7 @@ public:
     , m_folder(folder)
     , m_alone(parts.ct + parts.mr + parts.labels + parts.scene == 1)
   {
-    if (parts.scene)
-      m_options.studyId = studyIdOf(value.name);
+    m_options.studyId = studyIdOf(value.name);
   }
 
   std::vector<fs::path> write(const core::Progress& progress)
@@ -246,6 +246,12 @@ std::string freeName(const library::Library& library, const std::string& name)
   return name;
 }
 
+/// Without the volume of a 4-D series.
+std::string seriesUidOf(const std::string& selector)
+{
+  return selector.substr(0, selector.find('#'));
+}
+
 /// A case of what imaging finds in the folder.
 scene::Case builtCase(const fs::path& folder, const std::string& name,
                       const ReceiveRequest& request, std::vector<std::string>& notes,
@@ -267,7 +273,7 @@ scene::Case builtCase(const fs::path& folder, const std::string& name,
   }
   int number = 0;
   for (const auto& one : scan.series)
-    if (one.modality == "MR")
+    if (one.modality == "MR" && one.uid != seriesUidOf(sources.series))
     {
       if (one.geometry.verdict != imaging::Verdict::Ok && !request.repair)
       {
@@ -282,7 +288,16 @@ scene::Case builtCase(const fs::path& folder, const std::string& name,
       mr.repair = request.repair;
       sources.parts.mr.push_back(std::move(mr));
     }
-  return buildCase(name, sources, progress.part(0.2, 1.0));
+  scene::Case value = buildCase(name, sources, progress.part(0.2, 1.0));
+  const auto tell = [&notes](const std::string& what, const scene::ImagePart& part)
+  {
+    for (const std::string& note : part.notes)
+      notes.push_back(what + ": " + note);
+  };
+  tell(primaryName(value), value.ct);
+  for (const auto& mr : value.mr)
+    tell(mr.name, mr);
+  return value;
 }
 
 /// The structures of DICOM segmentations. One that does not belong to the images is left out.
@@ -383,8 +398,7 @@ IdentityReport identityReport(const scene::Case& value, const SendParts& parts)
                             " and their place in space");
   if (parts.mr || parts.scene)
     for (const auto& mr : value.mr)
-      report.leaves.push_back("MR '" + mr.name + "': " + voxels(mr) +
-                              " and their place in space");
+      report.leaves.push_back("MR '" + mr.name + "': " + voxels(mr) + " and their place in space");
   std::vector<std::string> structures, meshes;
   for (const auto& part : value.labels)
     for (const auto& structure : part.structures)
@@ -467,7 +481,11 @@ ReceiveSummary receiveCase(library::Library& library, const network::Node& node,
   std::optional<ScratchFolder> scratch;
   if (request.partial.empty())
     scratch.emplace();
-  const fs::path folder = scratch ? scratch->path() / "received" : request.partial;
+  // A folder of its own for each study: what is found in it makes the case.
+  const fs::path folder =
+      (scratch ? scratch->path() : request.partial) /
+      library::sha256Of(reinterpret_cast<const std::uint8_t*>(study.data()), study.size())
+          .substr(0, 16);
 
   ReceiveSummary summary;
   const network::Series* scene = nullptr;
@@ -500,12 +518,22 @@ ReceiveSummary receiveCase(library::Library& library, const network::Node& node,
         "receive: the study has no Petrous scene; give --as NAME for the case that is built of it");
   std::vector<std::string> wanted;
   for (const auto& one : series)
-    if (one.modality == "MR" ||
-        (one.modality == "CT" && (request.series.empty() || one.uid == request.series)))
+    if (one.modality == "MR" || (one.modality == "CT" && (request.series.empty() ||
+                                                          one.uid == seriesUidOf(request.series))))
       wanted.push_back(one.uid);
-  if (wanted.empty())
-    throw NetworkError(NetworkError::Reason::NotFound,
-                       "node '" + node.name + "': the study has no CT");
+  const bool hasPrimary = std::any_of(series.begin(), series.end(),
+                                      [&request](const network::Series& one) {
+                                        return request.series.empty()
+                                                   ? one.modality == "CT"
+                                                   : one.uid == seriesUidOf(request.series);
+                                      });
+  if (!hasPrimary)
+    throw NetworkError(
+        NetworkError::Reason::NotFound,
+        "node '" + node.name + "': the study has " +
+            (request.series.empty()
+                 ? wanted.empty() ? "no CT and no MR" : "no CT; an MR begins a case by --series UID"
+                 : "no such series"));
   summary.transfer =
       network::retrieve(node, study, wanted, folder / "images", progress.part(0.0, 0.6));
   std::vector<std::string> segmentations;

@@ -155,7 +155,7 @@ void Library::remove(const std::string& name)
   const std::string ending = deletedEnding(earlier.empty() ? 1 : earlier.front().number + 1);
   // The manifest first: a kill then leaves journals that are set aside when the name is used again,
   // or are still in place when the case is brought back.
-  bool onDisk = moveFile(path, m_folder / "cases" / (name + ending));
+  bool onDisk = moveFile(path, path.string() + ending);
   for (const fs::path& journal : journalsOf(m_folder, name))
     try
     {

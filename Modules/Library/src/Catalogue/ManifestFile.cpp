@@ -115,8 +115,12 @@ std::vector<DeletedFile> deletedIn(const fs::path& folder)
     if (ending.rfind(kEnding, 0) != 0 || digits.empty() || digits.size() > kMostDigits ||
         digits.find_first_not_of("0123456789") != digits.npos)
       continue;
-    const std::string name = entry->path().stem().string();
-    if (fs::path(name).extension() != ".journal" && name.find(".journal.aside-") == name.npos)
+    // The others are journals; manifests of earlier versions have no ".json".
+    const fs::path file = entry->path().stem();
+    const std::string name = file.string();
+    if (file.extension() == ".json")
+      found.push_back({file.stem().string(), std::stoull(digits), entry->path()});
+    else if (file.extension() != ".journal" && name.find(".journal.aside-") == name.npos)
       found.push_back({name, std::stoull(digits), entry->path()});
   }
   std::sort(found.begin(), found.end(),

@@ -107,9 +107,9 @@ void deidentify(const Context& context, DeidentifyCommandOptions options)
     passphrase = passphraseFor(options.map, options.passphraseFile);
   else if (!options.passphraseFile.empty())
     throw UsageError("--passphrase-file: there is no --map that it could open");
-  const library::DeidentificationResult done = presenters::deidentifyFolder(
-      {options.input, options.output, options.map, options.profile}, passphrase,
-      context.progress());
+  const library::DeidentificationResult done =
+      presenters::deidentifyFolder({options.input, options.output, options.map, options.profile},
+                                   passphrase, context.progress());
   for (const std::string& line : done.leftOut)
     context.warn("left out: " + line);
   for (const auto& [what, files] : done.report.warnings)

@@ -17,7 +17,7 @@ public:
   /// Raises SIGKILL instead of the `n`-th call of any of them from now on.
   static void killAt(int n);
 
-  static int count(); ///< calls since `fail`, `killAt` or `reset`
+  static int count();       ///< calls since `fail`, `killAt` or `reset`
   static int countOfName(); ///< of these, calls of the name given to `fail`
   static void reset();
 };

@@ -16,9 +16,9 @@ void refuseWithin(const fs::path& file, const fs::path& input, const std::string
   const fs::path in = fs::weakly_canonical(input);
   const fs::path other = fs::weakly_canonical(file);
   if (std::mismatch(in.begin(), in.end(), other.begin(), other.end()).first == in.end())
-    throw core::Error(core::Fault::Refused,
-                      file.string() + ": the " + what + " would lie in " + input.string() +
-                          ", which is never changed; give it another place");
+    throw core::Error(core::Fault::Refused, file.string() + ": the " + what + " would lie in " +
+                                                input.string() +
+                                                ", which is never changed; give it another place");
 }
 
 library::DeidentificationResult deidentifyFolder(const DeidentifyRequest& request,

@@ -220,8 +220,8 @@ std::vector<Study> studiesIn(const Association& association, const StudyFilter& 
                       std::string::npos;
          };
          if (!study.uid.empty() && (filter.uid.empty() || study.uid == filter.uid) &&
-             (filter.studyId.empty() || text(answer, DCM_StudyID) == filter.studyId) &&
-             inRange() && hasModality())
+             (filter.studyId.empty() || text(answer, DCM_StudyID) == filter.studyId) && inRange() &&
+             hasModality())
            found.emplace(study.uid, study);
        });
   std::vector<Study> studies;

@@ -6,8 +6,9 @@ namespace petrous::core
 {
 
 /// Exclusive lock between processes during its lifetime (flock), on a file that is made if it is
-/// missing and stays. Waits for it, or throws, if another holds it. Throws OutputFileError, also where the file system has no
-/// locks, as some network drives: two programs would overwrite each other there.
+/// missing and stays. Waits for it, or throws, if another holds it. Throws OutputFileError, also
+/// where the file system has no locks, as some network drives: two programs would overwrite each
+/// other there.
 class FileLock
 {
 public:

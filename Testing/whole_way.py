@@ -4,9 +4,9 @@ to the pixel, the voxels to the bit and the history, in every library; and reads
 program by independent readers: the parts of the archive by zipfile, gzip and numpy, the exported
 files by nibabel and pydicom, what the node keeps by pydicom and dciodvfy.
 
-whole_way.py PETROUS FOLDER [--ct DICOM_FOLDER --roi x0,x1,y0,y1,z0,z1]
+whole_way.py PETROUS [FOLDER] [--ct DICOM_FOLDER --roi x0,x1,y0,y1,z0,z1]
 
-FOLDER is new or empty. Without --ct the case is the program's sample patient, with MR and
+FOLDER is new or empty, and keeps what was made; without it, nothing is kept. Without --ct the case is the program's sample patient, with MR and
 structures. Prints a line for each step; exit 0: everything is equal; 1: something is not, which is
 said; 77: Python lacks numpy."""
 import argparse
@@ -17,6 +17,7 @@ import shutil
 import socket
 import subprocess
 import sys
+import tempfile
 import time
 import zipfile
 
@@ -247,9 +248,14 @@ def start_orthanc(folder):
 
 
 def main():
+    with tempfile.TemporaryDirectory(prefix="petrous-whole-way-") as scratch:
+        return take(pathlib.Path(scratch))
+
+
+def take(scratch):
     parser = argparse.ArgumentParser()
     parser.add_argument("petrous")
-    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("folder", type=pathlib.Path, nargs="?", default=scratch)
     parser.add_argument("--ct")
     parser.add_argument("--roi")
     asked = parser.parse_args()

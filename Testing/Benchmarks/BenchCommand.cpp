@@ -11,6 +11,7 @@
 #include "DistanceBenchmark.h"
 #include "HistoryBenchmark.h"
 #include "ImportBenchmark.h"
+#include "LibraryBenchmark.h"
 #include "NerveBenchmark.h"
 #include "NodeBenchmark.h"
 #include "Numbers.h"
@@ -82,6 +83,8 @@ constexpr Benchmark kBenchmarks[] = {
      }},
     {"save", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
      { return library::runSaveBenchmark(work, options.quick, progress); }},
+    {"library", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
+     { return library::runLibraryBenchmark(work, options.quick, progress); }},
     {"node", [](const auto& work, const BenchOptions& options, const core::Progress& progress)
      { return network::runNodeBenchmark(work, options.quick, progress); }},
     {"qp", [](const auto&, const BenchOptions& options, const core::Progress& progress)
@@ -246,11 +249,11 @@ void addBenchCommand(CLI::App& app, Context& context)
       context.addCommand(app, "bench", "Benchmarks: run time against error, as JSON and SVG",
                          [options, &context] { bench(context, *options); });
   command
-      ->add_option(
-          "NAME", options->name,
-          "import, structures, tilt, cut, distance, history, save, node, qp, touch, servo, "
-          "removal, registration, "
-          "nerve, segment, renderer or all")
+      ->add_option("NAME", options->name,
+                   "import, structures, tilt, cut, distance, history, save, library, node, qp, "
+                   "touch, servo, "
+                   "removal, registration, "
+                   "nerve, segment, renderer or all")
       ->required();
   command
       ->add_option("--out", options->out,

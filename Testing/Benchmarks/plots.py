@@ -658,7 +658,7 @@ def pages_of(report):
         return {"": growth(report, "strokes", "memory_mb", "memory, MB")}
     if report.name == "nerve":
         return {"": growth(report, "spacing_mm", "max_mm", "largest distance from the axis, mm")}
-    if report.name in ("node", "segment", "structures"):
+    if report.name in ("library", "node", "segment", "structures"):
         return {"": measured_rows(report)}
     if report.name == "tilt":
         return {"": tilt(report)}

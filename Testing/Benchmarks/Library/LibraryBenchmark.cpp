@@ -157,7 +157,7 @@ core::BenchmarkReport runLibraryBenchmark(const fs::path& work, bool quick,
   // Archive ---------------------------------------------------------------------------------------
   const fs::path archive = work / "ear.petrous";
   const std::string archiving = "archive, " + image;
-  for (const int level : {1, 3, 6, 9, 12})
+  for (const int level : {1, 2, 3, 4, 6, 9, 12})
   {
     progress.report(0.05 * level, "archiving");
     ArchiveOptions options;
@@ -259,14 +259,11 @@ core::BenchmarkReport runLibraryBenchmark(const fs::path& work, bool quick,
   one.ct.volume = std::make_shared<const volume::IntensityVolume>(small);
   many.save(one);
   for (std::size_t n = 1; n < cases; ++n)
-  {
-    const fs::path copy = work / "many/cases" / ("case " + std::to_string(n) + ".json");
-    fs::copy_file(work / "many/cases/case 0.json", copy);
-    // What was written this very moment is read again: it might be written once more.
-    fs::last_write_time(copy, fs::file_time_type::clock::now() - std::chrono::hours(1));
-  }
+    fs::copy_file(work / "many/cases/case 0.json",
+                  work / "many/cases" / ("case " + std::to_string(n) + ".json"));
   progress.report(0.9, "listing");
-  std::size_t found = many.list().size(); // the index is filled
+  many.repair(); // fills the index, which a copied manifest is not in
+  std::size_t found = 0;
   const std::string scene = std::to_string(cases) + " cases";
   const auto addList =
       [&](const char* what, const std::function<std::size_t()>& count, std::size_t wanted)

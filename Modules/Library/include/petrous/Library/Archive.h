@@ -31,7 +31,7 @@ struct ArchiveOptions
   /// Only the manifest and the strokes: no image, label map or mesh. It is restored where the very
   /// same CT is.
   bool planOnly = false;
-  int level = 6;             ///< of the images' compression, 1 (fast) to 12 (small)
+  int level = 4;             ///< of the images' compression, 1 (fast) to 12 (small)
   bool withoutNotes = false; ///< Description::note stays here
   /// The planned date goes along. Dates identify: with the list of a day's operations, everybody
   /// knows who the patient is.

@@ -538,6 +538,18 @@ TEST_F(Deidentification, ReducesDescriptionsToTheVocabulary)
   EXPECT_EQ(found.at("00100040"), "F");
 }
 
+TEST(Vocabulary, KeepsNoNumbersThatStandTogether)
+{
+  IdentityWords people;
+  people.addName("Sharp^Max");
+  people.addIdentifier("943 476 919");
+  EXPECT_EQ(reducedToVocabulary("HEAD 943 476 919", people), "HEAD");
+  EXPECT_EQ(reducedToVocabulary("HEAD Max Sharp 14 03 62", people), "HEAD");
+  EXPECT_EQ(reducedToVocabulary("EAR 14.03.62", people), "EAR");
+  EXPECT_EQ(reducedToVocabulary("EAR 14/3", people), "EAR");
+  EXPECT_EQ(reducedToVocabulary("AXIAL 3 MM", people), "AXIAL 3 MM");
+}
+
 TEST_F(Deidentification, FindsTheNameInTextThatWouldStay)
 {
   const std::string body = element(0x00100010, "Lindqvist^Aurelia") +

@@ -205,6 +205,28 @@ TEST_F(OrthancNode, SpeaksTlsWithCertificatesOfBothSides)
   EXPECT_NO_FATAL_FAILURE(failure([&] { echo(node); })) << "no TLS at all";
 }
 
+// Of the system's authorities everybody can have a certificate, but only for a host of his own.
+TEST_F(OrthancNode, ComparesTheHostWithACertificateOfTheSystemsAuthorities)
+{
+  const Certificate client(m_folder.path(), "client");
+  for (const char* name : {"localhost", "elsewhere.example"})
+  {
+    const fs::path folder = m_folder.path() / name;
+    fs::create_directories(folder);
+    const Certificate own(folder, name);
+    const Orthanc server(folder, {&own, &client, 0, 0});
+    ::setenv("SSL_CERT_FILE", own.certificate().c_str(), 1); // the system's, for OpenSSL
+    Node node = server.node();
+    node.host = "localhost";
+    node.tls->authority.clear();
+    if (std::string(name) == node.host)
+      EXPECT_NO_THROW(echo(node));
+    else
+      EXPECT_EQ(failure([&] { echo(node); }).reason, Reason::Tls);
+    ::unsetenv("SSL_CERT_FILE");
+  }
+}
+
 TEST_F(OrthancNode, KeepsASeriesInPostgreSql)
 {
   if (!fs::exists("/usr/share/orthanc/plugins/libOrthancPostgreSQLIndex.so"))

@@ -207,6 +207,11 @@ std::string judgeMeshSpace(const std::filesystem::path& path, const imaging::Loa
                                     return !(one.space.isRas && isFrameStated) &&
                                            (one.space.mm == 1.0 || !isUnitStated);
                                   });
+  constexpr double kSampling = 0.05; // of the share, by which points are sampled
+  if (best->edges >= kFollows && best->edges > given.edges + kSampling)
+    return "follows " + percent(best->edges) + " of the edges of " + imageName + " as " +
+           asRead(best->space) + ", and " + percent(given.edges) + " as " + asRead(given.space) +
+           ", as it was taken; look whether it lies where it belongs";
   if (given.edges >= kFollows || other == candidates.end())
     return {};
   return "does not state its coordinate system and unit, and would lie inside " + imageName +

@@ -212,14 +212,15 @@ std::string noteOf(const Tube& tube)
 
 std::string warningOf(const Tube& tube)
 {
+  std::string text;
   if (const std::string order = likelyOrderText(tube.points); !order.empty())
-    return "The points seem not to be in their order along the structure: " + order +
+    text = "The points seem not to be in their order along the structure: " + order +
            " would make a much shorter line.";
   const double left = tube.length - tube.resolvedLength;
   if (left < 0.05 * tube.length)
-    return {};
-  return "The scan does not resolve it along " + millimetres(left, 1) + " of " +
-         millimetres(tube.length, 1) +
+    return text;
+  return text + (text.empty() ? "" : " ") + "The scan does not resolve it along " +
+         millimetres(left, 1) + " of " + millimetres(tube.length, 1) +
          ": there the path and its radius are a guess between your "
          "points.";
 }

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <functional>
 #include <string_view>
+#include <vector>
 
 namespace petrous::library
 {
@@ -104,17 +105,33 @@ std::string reducedToVocabulary(const std::string& text, const IdentityWords& pe
   // With escape sequences (ISO 2022), what looks like letters may be parts of other characters.
   if (text.find('\x1b') != std::string::npos)
     return {};
+  // Numbers beside each other are parts of a date or an identifier ("14.03.62", "943 476 919"), but
+  // for a decimal of millimetres ("0.6 mm").
+  std::vector<std::string> numbers;
   std::string kept;
   bool hasWord = false;
+  const auto keep = [&kept](const std::string& word) { kept += (kept.empty() ? "" : " ") + word; };
+  const auto keepNumbers = [&](const std::string& next)
+  {
+    const bool isOne = numbers.size() == 1 || (numbers.size() == 2 && upper(next) == "MM");
+    for (const std::string& number : numbers)
+      if (isOne && isShortNumber(number) && !people.hasWord(number))
+        keep(number);
+    numbers.clear();
+  };
   forEachWord(text,
               [&](const std::string& word)
               {
                 const bool known = isInVocabulary(upper(word));
-                if ((!known && !isShortNumber(word)) || people.hasWord(word))
+                if (!known && std::isdigit(static_cast<unsigned char>(word.front())) != 0)
+                  return numbers.push_back(word);
+                keepNumbers(word);
+                if (!known || people.hasWord(word))
                   return;
-                hasWord = hasWord || known;
-                kept += (kept.empty() ? "" : " ") + word;
+                hasWord = true;
+                keep(word);
               });
+  keepNumbers({});
   return hasWord ? kept : std::string();
 }
 

@@ -62,6 +62,11 @@ std::unique_ptr<DcmTransportLayer> tlsLayer(const Node& node, ConnectionWatch& w
   {
     if (!SSL_CTX_set_default_verify_paths(layer->getNativeHandle()))
       refuse("the system's trusted certificates cannot be read; give a file of certificates");
+    // Anyone can have a certificate of a public authority, for a host of his own.
+    X509_VERIFY_PARAM* verification = SSL_CTX_get0_param(layer->getNativeHandle());
+    if (role == NET_REQUESTOR && !X509_VERIFY_PARAM_set1_ip_asc(verification, node.host.c_str()) &&
+        !X509_VERIFY_PARAM_set1_host(verification, node.host.c_str(), node.host.size()))
+      refuse("its host name cannot be compared with its certificate; give a file of certificates");
   }
   else if (layer->addTrustedCertificateFile(files.authority.c_str(), DCF_Filetype_PEM).bad())
     refuse(files.authority + ": is not a PEM file of certificates to trust");

@@ -343,6 +343,7 @@ std::vector<Context> storeContexts(const std::vector<OutgoingFile>& files)
 struct ByteCounter
 {
   ConnectionWatch* watch = nullptr;
+  ConnectionWatch* receiver = nullptr; ///< of what comes on a connection of its own (C-MOVE)
   const core::Progress* progress = nullptr;
   std::string task;
   std::uintmax_t total = 0; ///< 0: unknown
@@ -352,6 +353,8 @@ struct ByteCounter
   void at(std::uintmax_t bytes) noexcept
   {
     watch->active();
+    if (receiver)
+      receiver->active();
     if (bytes > kMaxInstanceBytes)
       watch->end(ConnectionWatch::End::TooLarge);
     const double fraction = total > 0
@@ -714,6 +717,7 @@ public:
     if (node.tls && node.tls->certificate.empty())
       throw NetworkError(Reason::Tls, place(node) + ": C-MOVE with TLS needs a certificate of this "
                                                     "program; see 'petrous nodes add --tls-cert'");
+    counter.receiver = &m_watch;
     m_layer = transportLayer(node, m_watch, true);
     if (ASC_initializeNetwork(NET_ACCEPTOR, node.movePort, 30, &m_network).bad())
       throw NetworkError(Reason::Unreachable, place(node) +
@@ -723,7 +727,11 @@ public:
     ASC_setTransportLayer(m_network, m_layer.get(), 0);
     m_thread = std::thread([this] { run(); });
   }
-  ~MoveReceiver() { stop(); }
+  ~MoveReceiver()
+  {
+    stop();
+    m_counter.receiver = nullptr;
+  }
   MoveReceiver(const MoveReceiver&) = delete;
   MoveReceiver& operator=(const MoveReceiver&) = delete;
 
@@ -785,6 +793,13 @@ private:
       ASC_acceptContextsWithPreferredTransferSyntaxes(
           association->params, &syntax, 1, const_cast<const char**>(kTransferSyntaxes.data()),
           static_cast<int>(kTransferSyntaxes.size()));
+    }
+    if (m_node.callingAeTitle != association->params->DULparams.calledAPTitle)
+    {
+      const T_ASC_RejectParameters unknown{ASC_RESULT_REJECTEDPERMANENT, ASC_SOURCE_SERVICEUSER,
+                                           ASC_REASON_SU_CALLEDAETITLENOTRECOGNIZED};
+      ASC_rejectAssociation(association, &unknown);
+      return;
     }
     if (ASC_acknowledgeAssociation(association).bad())
       return;
@@ -1118,8 +1133,10 @@ Transfer retrieve(const Node& node, const std::string& studyUid,
     study = studies.front();
     std::vector<std::string> wanted = seriesUids;
     std::size_t stated = 0;
+    std::set<std::string> absent(seriesUids.begin(), seriesUids.end());
     for (const Series& series : seriesIn(association, studyUid))
     {
+      absent.erase(series.uid);
       if (seriesUids.empty())
         wanted.push_back(series.uid);
       if (seriesUids.empty() ||
@@ -1128,6 +1145,10 @@ Transfer retrieve(const Node& node, const std::string& studyUid,
     }
     expected = instancesIn(association, studyUid, wanted);
     association.release();
+    if (!absent.empty())
+      throw NetworkError(Reason::NotFound, place(node) + ": does not have " +
+                                               std::to_string(absent.size()) +
+                                               " of the series that were asked for");
     if (expected.empty())
       throw NetworkError(Reason::NotFound, place(node) + ": has no instances of that study");
     if (expected.size() < stated)

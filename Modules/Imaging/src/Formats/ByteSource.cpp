@@ -66,6 +66,8 @@ bool ByteSource::read(std::uint64_t offset, void* bytes, std::size_t count)
 {
   if (offset > m_size || count > m_size - offset)
     return false;
+  if (count == 0)
+    return true; // `bytes` may be null, which memcpy does not permit
   if (!m_memory.empty())
   {
     std::memcpy(bytes, m_memory.data() + offset, count);
@@ -91,7 +93,7 @@ bool ByteSource::read(std::uint64_t offset, void* bytes, std::size_t count)
 
 bool ByteSource::readNear(std::uint64_t offset, void* bytes, std::size_t count)
 {
-  if (count > kWindow || !m_memory.empty())
+  if (count == 0 || count > kWindow || !m_memory.empty())
     return read(offset, bytes, count);
   if (offset > m_size || count > m_size - offset)
     return false;

@@ -7,22 +7,90 @@
 #include <stdexcept>
 #include <system_error>
 
+#include <zstd.h>
+
 #include "DicomHeader.h"
+#include "EditCodec.h"
+#include "JournalFile.h"
 #include "LabelNames.h"
 #include "PixelCodec.h"
+#include "RecordCodec.h"
 #include "petrous/Core/CsvTable.h"
 #include "petrous/Core/Error.h"
+#include "petrous/Dissection/StrokeCodec.h"
 #include "petrous/Imaging/ImageFile.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/StructureSet.h"
 #include "petrous/Library/Archive.h"
+#include "petrous/Library/ObjectStore.h"
+#include "petrous/Scene/HistoryText.h"
 #include "petrous/Scene/Manifest.h"
+#include "petrous/Session/RecordingReader.h"
 
 namespace petrous::testing
 {
 
 namespace fs = std::filesystem;
+
+namespace
+{
+
+// Frames of a journal are sealed by hashes, which no fuzzer finds: here each gets the hash that it
+// needs, as far as its lengths permit.
+std::string sealed(std::string_view bytes)
+{
+  constexpr std::size_t kLength = 8, kHash = 64;
+  std::string journal(bytes);
+  for (std::size_t at = 0; journal.size() - at >= kLength + kHash;)
+  {
+    std::uint64_t length = 0;
+    for (std::size_t n = kLength; n-- > 0;)
+      length = length << 8 | static_cast<unsigned char>(journal[at + n]);
+    const std::size_t rest = at + kLength + kHash;
+    if (length > journal.size() - rest)
+      break;
+    journal.replace(at + kLength, kHash,
+                    library::sha256Of(reinterpret_cast<const std::uint8_t*>(&journal[rest]),
+                                      static_cast<std::size_t>(length)));
+    at = rest + static_cast<std::size_t>(length);
+  }
+  return journal;
+}
+
+// Everything that recovery reads of a journal.
+void readJournal(std::string_view bytes)
+{
+  const library::JournalContent content = library::journalFrom(bytes);
+  if (!content.headed)
+    throw core::Error(core::Fault::BadInput, "not a journal");
+  if (!content.head.history.empty())
+    scene::historyFromText(content.head.history);
+  for (const library::JournalFrame& frame : content.frames)
+    if (frame.kind == library::JournalFrame::Kind::History)
+      scene::historyFromText(frame.text);
+    else
+      scene::strokeFromText(frame.text);
+}
+
+// Removes and restores on a small grid whose last bricks lie beyond it in part.
+void readStroke(const std::vector<std::uint8_t>& packed)
+{
+  const volume::CutMask mask(
+      core::GridGeometry({40, 33, 17}, Eigen::Vector3d(0.5, 0.5, 1.0), Eigen::Vector3d::Zero()));
+  dissection::BrickDraft draft(mask);
+  dissection::applyDeltas(packed, dissection::Step::Redo, draft);
+  dissection::applyDeltas(packed, dissection::Step::Undo, draft);
+}
+
+std::vector<std::uint8_t> compressed(std::string_view bytes)
+{
+  std::vector<std::uint8_t> packed(ZSTD_compressBound(bytes.size()));
+  packed.resize(ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), 1));
+  return packed;
+}
+
+} // namespace
 
 HostileReaders::HostileReaders()
 {
@@ -44,9 +112,9 @@ HostileReaders::~HostileReaders()
 
 std::vector<std::string> HostileReaders::names()
 {
-  return {"nifti",    "nifti-pair", "nifti-gz",     "nrrd",     "segments", "metaimage",
-          "obj",      "stl",        "ply",          "vtp",      "table",    "csv",
-          "manifest", "dicom",      "segmentation", "rtstruct", "archive"};
+  return {"nifti",        "nifti-pair", "nifti-gz", "nrrd",    "segments", "metaimage", "obj",
+          "stl",          "ply",        "vtp",      "table",   "csv",      "manifest",  "dicom",
+          "segmentation", "rtstruct",   "archive",  "journal", "stroke",   "recording", "ticks"};
 }
 
 fs::path HostileReaders::put(const char* name, std::string_view bytes) const
@@ -110,6 +178,29 @@ try
   }
   else if (reader == "archive")
     library::inspectArchive(put("a.petrous", bytes));
+  else if (reader == "journal")
+    readJournal(sealed(bytes));
+  else if (reader == "stroke")
+    readStroke(compressed(bytes));
+  else if (reader == "recording")
+  {
+    session::RecordingReader recording(put("a.rec", bytes));
+    for (session::RecordingBlock block; recording.next(block);)
+    {
+    }
+    return recording.complete();
+  }
+  else if (reader == "ticks") // the tables of a recording; the first byte counts their rows
+  {
+    if (bytes.empty())
+      return false;
+    const auto rows = static_cast<unsigned char>(bytes[0]);
+    const std::vector<std::uint8_t> table(bytes.begin() + 1, bytes.end());
+    std::vector<session::TickRecord> ticks;
+    std::vector<session::MaskEdit> edits;
+    const bool areTicks = session::decodeTicks(table, rows, ticks);
+    return session::decodeEdits(table, rows, edits) || areTicks;
+  }
   else
     throw std::logic_error("no reader '" + reader + "'");
   return true;

@@ -334,8 +334,14 @@ TEST_F(BatchCommand, RefusesATableThatIsUnclear)
   write("name,folder\na,patient/ct\n");
   EXPECT_EQ(run(batch("--report " + quoted(m_folder / "report.txt"))).code, 2);
   expectRefused(batch("--report " + quoted(m_folder / "table.csv")), 4, "would be replaced");
-  std::ofstream(state()) << "somebody's own file\n";
-  expectRefused(batch(), 3, "is not the state of a batch");
+  for (const std::string text : {"somebody's own file\n", "somebody's own file of one line",
+                                 "{\"petrous_batch\":1}\nmore\n"})
+  {
+    std::ofstream(state()) << text;
+    expectRefused(batch(), 3, "is not the state of a batch");
+    std::ifstream file(state(), std::ios::binary);
+    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), text);
+  }
 }
 
 TEST_F(BatchCommand, TwoCannotWorkOnOneTable)

@@ -30,6 +30,7 @@
 #include "petrous/Presenters/CaseRegistration.h"
 #include "petrous/Presenters/CaseTransfer.h"
 #include "petrous/Scene/Placement.h"
+#include "petrous/Volume/VolumeBytes.h"
 
 namespace petrous::cli
 {
@@ -75,15 +76,15 @@ public:
       m_lock = std::make_unique<core::FileLock>(file, core::FileLock::IfHeld::Throw);
     const std::string text = core::readFile(file, kLargestState);
     const std::size_t whole = text.find_last_of('\n') + 1; // 0 without any
+    if (whole == 0 && text != std::string_view(kFirstLine).substr(0, text.size()))
+      throwForeign();
     for (std::size_t from = 0; from < whole;)
     {
       const std::size_t to = text.find('\n', from);
       json line = json::parse(text.substr(from, to - from), nullptr, false);
       if (from == 0 ? !line.is_object() || line.value("petrous_batch", 0) != 1
                     : !line.is_object() || !line.contains("key") || !line["key"].is_string())
-        throw core::InvalidParameter(core::printable(file) +
-                                     ": is not the state of a batch that this program can go on "
-                                     "with; name another report");
+        throwForeign();
       if (from > 0)
       {
         const std::string key = line["key"];
@@ -97,7 +98,7 @@ public:
     if (m_descriptor < 0 || ::ftruncate(m_descriptor, static_cast<off_t>(whole)) != 0)
       core::throwOutputError(errno, file);
     if (whole == 0)
-      append(R"({"petrous_batch":1})");
+      append(kFirstLine);
     core::syncFolder(file.has_parent_path() ? file.parent_path() : fs::path("."));
   }
   ~BatchState()
@@ -124,6 +125,15 @@ public:
   }
 
 private:
+  static constexpr const char* kFirstLine = R"({"petrous_batch":1})";
+
+  [[noreturn]] void throwForeign() const
+  {
+    throw core::InvalidParameter(core::printable(m_file) +
+                                 ": is not the state of a batch that this program can go on with; "
+                                 "name another report");
+  }
+
   void append(const std::string& line)
   {
     const std::string text = line + "\n";
@@ -176,17 +186,29 @@ std::string contentOf(const scene::Case& value)
   for (const scene::ImagePart& mr : value.mr)
     addImage(mr);
   for (const scene::LabelPart& part : value.labels)
-    for (const scene::StructurePart& structure : part.structures)
-    {
-      addText(structure.name);
-      print.add(structure.voxels);
-    }
-  for (const scene::MeshPart& mesh : value.meshes)
   {
-    addText(mesh.name);
-    print.add(mesh.triangles);
+    for (const scene::StructurePart& structure : part.structures)
+      addText(structure.name);
+    const std::vector<std::uint8_t> labels = volume::bytesOf(*part.labels.get());
+    print.add(labels.data(), labels.size());
+  }
+  for (const scene::MeshPart& part : value.meshes)
+  {
+    addText(part.name);
+    const auto mesh = part.mesh.get();
+    print.add(mesh->vertices.data(), mesh->vertices.size() * sizeof mesh->vertices[0]);
+    print.add(mesh->triangles.data(), mesh->triangles.size() * sizeof mesh->triangles[0]);
   }
   return std::to_string(print.value());
+}
+
+/// Changes whenever the file is written or replaced; null without one.
+json stampOf(const fs::path& file)
+{
+  struct stat status = {};
+  if (::stat(file.c_str(), &status) != 0)
+    return {};
+  return {status.st_ino, status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
 }
 
 struct StepResult
@@ -624,9 +646,7 @@ private:
     const std::string key = "archive " + row.name + " " + row.archive.string();
     const scene::Case value = library.open(row.name);
     const json record = m_state.find(key);
-    std::error_code error;
-    if (isDoneWith(value, record) &&
-        record.value("bytes", json()) == fs::file_size(row.archive, error) && !error)
+    if (isDoneWith(value, record) && record.value("file", json()) == stampOf(row.archive))
       return false;
     if (m_options.dryRun)
       return true;
@@ -637,7 +657,7 @@ private:
     if (!done.durable)
       result.notes.push_back(row.archive.string() +
                              ": is written, but the disk reported an error; check the disk");
-    put(key, {{"case_id", value.id}, {"revision", value.revision}, {"bytes", done.archiveBytes}});
+    put(key, {{"case_id", value.id}, {"revision", value.revision}, {"file", stampOf(row.archive)}});
     return true;
   }
 

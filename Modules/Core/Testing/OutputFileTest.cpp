@@ -246,6 +246,20 @@ TEST_F(OutputFolder, AStepThatFailsLeavesTheTargetAsItWas)
   }
 }
 
+TEST_F(OutputFolder, DoesNotReplaceWhatAppearsInAnEmptyFolderMeanwhile)
+{
+  const fs::path target = m_folder / "empty";
+  fs::create_directory(target);
+  core::OutputFolder folder(target);
+  for (const char* name : {"a", "b", "c"})
+    std::ofstream(folder.path() / name) << "new";
+  std::ofstream(target / "b") << "another program's";
+  EXPECT_THROW(folder.commit(), core::OutputFileError);
+  EXPECT_EQ(core::readFile(target / "b"), "another program's");
+  EXPECT_FALSE(fs::exists(target / "a"));
+  EXPECT_FALSE(fs::exists(target / "c"));
+}
+
 TEST_F(OutputFolder, DoesNotThrowAfterTheRename)
 {
   fs::create_directory(m_folder / "empty");

@@ -111,6 +111,13 @@ extern "C"
     static const auto real = original<int (*)(const char*, const char*)>("rename");
     return refused("rename") ? -1 : real(from, to);
   }
+  int renameat2(int fromFolder, const char* from, int toFolder, const char* to,
+                unsigned int flags) noexcept
+  {
+    static const auto real =
+        original<int (*)(int, const char*, int, const char*, unsigned int)>("renameat2");
+    return refused("rename") ? -1 : real(fromFolder, from, toFolder, to, flags);
+  }
   int unlink(const char* path) noexcept
   {
     static const auto real = original<int (*)(const char*)>("unlink");

@@ -31,6 +31,22 @@ fs::path folderOf(const fs::path& path)
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
+// As ::rename, but for an error (EEXIST) where something has the new name.
+int renameUnlessThere(const fs::path& from, const fs::path& to) noexcept
+{
+  const int result = ::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE);
+  if (result == 0 || (errno != EINVAL && errno != ENOSYS))
+    return result;
+  // This file system knows no such renaming.
+  struct stat status = {};
+  if (::lstat(to.c_str(), &status) == 0)
+  {
+    errno = EEXIST;
+    return -1;
+  }
+  return ::rename(from.c_str(), to.c_str());
+}
+
 bool synced(int folder) noexcept
 {
   return ::fsync(folder) == 0 || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS;
@@ -68,6 +84,10 @@ void throwOutputError(int error, const fs::path& path)
   case ENOENT:
     throw OutputFileError(Reason::WrongPlace, path,
                           "cannot be written, its folder is not there; make the folder first");
+  case EEXIST:
+    throw OutputFileError(Reason::WrongPlace, path,
+                          "cannot be written, something of one of its names appeared there "
+                          "meanwhile; name another folder");
   case ENOTDIR:
     throw OutputFileError(Reason::WrongPlace, path,
                           "cannot be written, a file stands where its folder should be");
@@ -281,7 +301,7 @@ bool OutputFolder::commit()
   if (fault)
     throwOutputError(fault.value(), m_target);
   for (std::size_t n = 0; n < parts.size(); ++n)
-    if (::rename((m_staging / parts[n]).c_str(), (m_target / parts[n]).c_str()) != 0)
+    if (renameUnlessThere(m_staging / parts[n], m_target / parts[n]) != 0)
     {
       const int error = errno;
       while (n-- > 0)

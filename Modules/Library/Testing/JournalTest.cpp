@@ -1,4 +1,5 @@
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <thread>
 
@@ -8,6 +9,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
+#include "../../Core/Testing/SystemCalls.h"
 #include "../src/Journal/JournalFile.h"
 #include "TestCase.h"
 #include "petrous/Library/Journal.h"
@@ -104,6 +106,42 @@ TEST(Journal, BringsBackStrokesThatWereNotSaved)
   EXPECT_EQ(voxelsOf(killed.open()), voxelsOf(value));
   EXPECT_EQ(contentOf(killed.folder.path()), content);
   EXPECT_EQ(killed.notices.size(), 1u);
+}
+
+// The disk is full in the middle of a frame, and the file cannot be cut back at once.
+TEST(Journal, WhatFollowsAFailedAppendIsNotLost)
+{
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "a.journal";
+  const auto frame = [](const std::string& text) {
+    return encoded(JournalFrame{JournalFrame::Kind::History, text, {}});
+  };
+  JournalHead head;
+  head.caseName = "a";
+  JournalFile journal(path, head);
+  journal.append(frame("first"));
+  const std::size_t size = journal.size();
+
+  rlimit limit = {};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &limit), 0);
+  const rlimit full = {size + 20, limit.rlim_max};
+  const auto before = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &full), 0);
+  petrous::testing::SystemCalls::fail("ftruncate", 1, EIO);
+  EXPECT_THROW(journal.append(frame("lost")), LibraryError);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
+  std::signal(SIGXFSZ, before);
+  EXPECT_EQ(fs::file_size(path), size + 20) << "else this tests nothing";
+
+  petrous::testing::SystemCalls::fail("ftruncate", 1, EIO);
+  EXPECT_THROW(journal.append(frame("refused")), LibraryError);
+  petrous::testing::SystemCalls::reset();
+  journal.append(frame("second"));
+  const JournalContent content = journalFrom(journal.read());
+  ASSERT_EQ(content.frames.size(), 2U);
+  EXPECT_EQ(content.frames[1].text, "second");
+  EXPECT_EQ(content.leftOver, 0U);
+  EXPECT_EQ(fs::file_size(path), journal.size());
 }
 
 TEST(Journal, LosesAtMostFiveSecondsOfALongStroke)

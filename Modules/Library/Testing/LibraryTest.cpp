@@ -337,4 +337,6 @@ TEST(Library, SaltsWhatTellsFramesOfReferenceApart)
   EXPECT_EQ(one, savedIn("a", "other ear")) << "in one library the same are known as such";
   EXPECT_NE(one, savedIn("b", "ear"));
   EXPECT_EQ(contentOf(folder.path() / "a").count("salt"), 1U);
+  EXPECT_EQ(std::filesystem::status(folder.path() / "a" / "salt").permissions(),
+            std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
 }

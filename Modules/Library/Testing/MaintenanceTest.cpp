@@ -486,6 +486,42 @@ TEST_F(Maintenance, SearchesCaseAndPartNames)
   }
 }
 
+TEST_F(Maintenance, WhatAListReadsOfManifestsGoesIntoTheIndex)
+{
+  make("a");
+  make("b");
+  const fs::path index = m_folder.path() / "library.sqlite";
+  const auto isIndexed = [&index](const std::string& name)
+  {
+    sqlite3* database = nullptr;
+    EXPECT_EQ(sqlite3_open(index.c_str(), &database), SQLITE_OK);
+    int rows = 0;
+    const auto count = [](void* rows_, int, char** values, char**)
+    {
+      *static_cast<int*>(rows_) = std::atoi(values[0]);
+      return 0;
+    };
+    EXPECT_EQ(sqlite3_exec(database,
+                           ("SELECT count(*) FROM cases WHERE name = '" + name + "'").c_str(),
+                           count, &rows, nullptr),
+              SQLITE_OK);
+    sqlite3_close(database);
+    return rows == 1;
+  };
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open(index.c_str(), &database), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(database, "DELETE FROM cases WHERE name = 'b'", nullptr, nullptr, nullptr),
+            SQLITE_OK);
+  sqlite3_close(database);
+  ASSERT_FALSE(isIndexed("b"));
+  EXPECT_EQ(m_library.list().size(), 2U);
+  EXPECT_TRUE(isIndexed("b"));
+  // A list makes no file.
+  fs::remove(index);
+  EXPECT_EQ(m_library.list().size(), 2U);
+  EXPECT_FALSE(fs::exists(index));
+}
+
 TEST_F(Maintenance, RepairBringsStrokesBackAndMakesTheIndexAgain)
 {
   scene::Case value = make("a");

@@ -454,8 +454,9 @@ RestoreSummary restoreCase(Library& library, const fs::path& file, const Restore
                                  ": has a CT of its own; --ct is for an archive of a plan");
   refuseWithoutRoom(library.folder(), archive, present);
 
-  const bool isFrameKnown =
-      fs::exists(library.folder()) && archive.index.library == saltedFrame(library, "archive");
+  std::error_code error;
+  const bool isFrameKnown = fs::is_directory(library.folder(), error) &&
+                            archive.index.library == saltedFrame(library, "archive");
 
   RestoreSummary summary;
   summary.parts = archive.objects.size();

@@ -70,6 +70,34 @@ void write(const std::filesystem::path& file, const Change& change)
   }
 }
 
+void insertEntry(SQLite::Database& database, const Catalogue::Entry& entry)
+{
+  SQLite::Statement insert(database, "INSERT OR REPLACE INTO cases VALUES "
+                                     "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  const CaseSummary& summary = entry.summary;
+  insert.bind(1, summary.name);
+  insert.bind(2, static_cast<std::int64_t>(entry.stamp.size));
+  insert.bind(3, entry.stamp.changed);
+  insert.bind(4, summary.modified);
+  for (int a = 0; a < 3; ++a)
+    insert.bind(5 + a, summary.dims[static_cast<std::size_t>(a)]);
+  insert.bind(8, static_cast<std::int64_t>(summary.structures));
+  insert.bind(9, static_cast<std::int64_t>(summary.strokes));
+  insert.bind(10, summary.removed);
+  insert.bind(11, entry.text);
+  insert.bind(12, summary.id);
+  std::string tags;
+  for (const std::string& tag : summary.description.tags)
+    tags += tag + "\n";
+  insert.bind(13, tags);
+  insert.bind(14, summary.description.diagnosis);
+  insert.bind(15, summary.description.procedure);
+  insert.bind(16, scene::nameOf(summary.description.side));
+  insert.bind(17, summary.description.date);
+  insert.bind(18, summary.hasNote ? 1 : 0);
+  insert.exec();
+}
+
 } // namespace
 
 Catalogue::Catalogue(std::filesystem::path file)
@@ -124,39 +152,29 @@ catch (const std::exception&)
 void Catalogue::put(const Entry& entry) noexcept
 try
 {
-  write(m_file,
-        [&](SQLite::Database& database)
-        {
-          SQLite::Statement insert(database,
-                                   "INSERT OR REPLACE INTO cases VALUES "
-                                   "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-          const CaseSummary& summary = entry.summary;
-          insert.bind(1, summary.name);
-          insert.bind(2, static_cast<std::int64_t>(entry.stamp.size));
-          insert.bind(3, entry.stamp.changed);
-          insert.bind(4, summary.modified);
-          for (int a = 0; a < 3; ++a)
-            insert.bind(5 + a, summary.dims[static_cast<std::size_t>(a)]);
-          insert.bind(8, static_cast<std::int64_t>(summary.structures));
-          insert.bind(9, static_cast<std::int64_t>(summary.strokes));
-          insert.bind(10, summary.removed);
-          insert.bind(11, entry.text);
-          insert.bind(12, summary.id);
-          std::string tags;
-          for (const std::string& tag : summary.description.tags)
-            tags += tag + "\n";
-          insert.bind(13, tags);
-          insert.bind(14, summary.description.diagnosis);
-          insert.bind(15, summary.description.procedure);
-          insert.bind(16, scene::nameOf(summary.description.side));
-          insert.bind(17, summary.description.date);
-          insert.bind(18, summary.hasNote ? 1 : 0);
-          insert.exec();
-        });
+  write(m_file, [&](SQLite::Database& database) { insertEntry(database, entry); });
 }
 catch (const std::exception&)
 {
   // The manifest is authoritative; `entries` will not match it, so it is read again.
+}
+
+void Catalogue::putIfThere(const std::vector<Entry>& entries) noexcept
+try
+{
+  if (!isRegular(m_file))
+    return;
+  SQLite::Database database(m_file.string(), SQLite::OPEN_READWRITE, kReaderWaits);
+  if (database.execAndGet("PRAGMA user_version").getInt() != kVersion)
+    return;
+  SQLite::Transaction change(database);
+  for (const Entry& entry : entries)
+    insertEntry(database, entry);
+  change.commit();
+}
+catch (const std::exception&)
+{
+  // As in `put`; also on a medium that cannot be written.
 }
 
 void Catalogue::remove(const std::string& name) noexcept

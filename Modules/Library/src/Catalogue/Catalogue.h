@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "petrous/Library/Library.h"
 
@@ -38,6 +39,10 @@ public:
   /// Keyed by name; one consistent read that locks out writers. Creates no files.
   std::map<std::string, Entry> entries() const noexcept;
   void put(const Entry& entry) noexcept;
+
+  /// Like `put`, of many at once; nothing happens without a database.
+  void putIfThere(const std::vector<Entry>& entries) noexcept;
+
   void remove(const std::string& name) noexcept;
 
 private:

@@ -22,6 +22,7 @@
 #include "Thumbnail.h"
 #include "petrous/Core/Log.h"
 #include "petrous/Core/NumberText.h"
+#include "petrous/Core/OutputFile.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/NrrdFile.h"
@@ -126,8 +127,15 @@ constexpr std::size_t kSaltDigits = 64; // 256 bits
 std::string saltOf(const fs::path& folder)
 {
   const fs::path path = folder / "salt";
-  if (!fs::exists(path))
-    core::writeFile(path, randomId() + randomId()); // from the system's random generator
+  std::error_code fault;
+  if (fs::symlink_status(path, fault).type() == fs::file_type::not_found)
+  {
+    core::OutputFile out(path);
+    if (::fchmod(out.descriptor(), 0600) != 0)
+      core::throwOutputError(errno, path);
+    out.write(randomId() + randomId()); // from the system's random generator
+    out.commit();
+  }
   std::string salt;
   try
   {
@@ -187,7 +195,9 @@ std::shared_ptr<const volume::LabelMap> unpackedLabels(const ObjectStore& store,
 std::vector<Catalogue::Entry> entriesIn(const fs::path& folder)
 {
   std::vector<Catalogue::Entry> cases;
-  auto known = Catalogue(folder / "library.sqlite").entries();
+  Catalogue catalogue(folder / "library.sqlite");
+  auto known = catalogue.entries();
+  std::vector<Catalogue::Entry> unknown;
   const std::set<std::string> thumbnails = thumbnailIds(folder);
   for (const std::string& name : namesIn(folder / "cases"))
   {
@@ -205,6 +215,7 @@ std::vector<Catalogue::Entry> entriesIn(const fs::path& folder)
     try
     {
       cases.push_back(entryOf(manifestIn(path, name), *state));
+      unknown.push_back(cases.back());
     }
     catch (const core::Error&)
     {
@@ -216,6 +227,8 @@ std::vector<Catalogue::Entry> entriesIn(const fs::path& folder)
       cases.push_back(std::move(damaged));
     }
   }
+  if (!unknown.empty())
+    catalogue.putIfThere(unknown);
   for (Catalogue::Entry& entry : cases)
     entry.summary.hasThumbnail = thumbnails.count(entry.summary.id) > 0;
   return cases;
@@ -372,7 +385,8 @@ scene::Case Library::open(const std::string& name) const
     return manifest;
   };
   scene::Case value = read();
-  if (fs::exists(journalPath(m_folder, name)))
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(journalPath(m_folder, name), error)))
   {
     const std::string words = recover(*this, value, read);
     if (!words.empty())

@@ -283,6 +283,7 @@ JournalFile::JournalFile(JournalFile&& other) noexcept
   , m_descriptor(std::exchange(other.m_descriptor, -1))
   , m_held(other.m_held)
   , m_size(other.m_size)
+  , m_hasRemains(other.m_hasRemains)
 {
 }
 
@@ -292,6 +293,7 @@ JournalFile& JournalFile::operator=(JournalFile&& other) noexcept
   std::swap(m_descriptor, other.m_descriptor);
   std::swap(m_held, other.m_held);
   std::swap(m_size, other.m_size);
+  std::swap(m_hasRemains, other.m_hasRemains);
   return *this;
 }
 
@@ -315,17 +317,21 @@ std::string JournalFile::read() const
 
 void JournalFile::append(std::string_view frames)
 {
-  const std::size_t before = m_size;
+  // What follows the remains of a failed append would be lost, as reading ends there.
+  if (m_hasRemains && ::ftruncate(m_descriptor, static_cast<off_t>(m_size)) != 0)
+    throwForErrno(errno, m_path);
+  m_hasRemains = true;
   try
   {
     write(frames);
   }
   catch (...)
   {
-    if (::ftruncate(m_descriptor, static_cast<off_t>(before)) == 0)
-      m_size = before;
+    m_hasRemains = ::ftruncate(m_descriptor, static_cast<off_t>(m_size)) != 0;
     throw;
   }
+  m_hasRemains = false;
+  m_size += frames.size();
 }
 
 void JournalFile::write(std::string_view bytes)
@@ -338,7 +344,6 @@ void JournalFile::write(std::string_view bytes)
     if (written < 0)
       throwForErrno(errno, m_path);
     bytes.remove_prefix(static_cast<std::size_t>(written));
-    m_size += static_cast<std::size_t>(written);
   }
   if (::fdatasync(m_descriptor) != 0)
     throwForErrno(errno, m_path);

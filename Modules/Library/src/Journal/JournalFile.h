@@ -104,7 +104,8 @@ private:
   std::filesystem::path m_path;
   int m_descriptor = -1;
   bool m_held = false;
-  std::size_t m_size = 0;
+  std::size_t m_size = 0;    ///< of the frames that were appended
+  bool m_hasRemains = false; ///< of an append that failed, behind them
 };
 
 } // namespace petrous::library

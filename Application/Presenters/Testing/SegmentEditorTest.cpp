@@ -195,6 +195,23 @@ TEST_F(SegmentEditorTest, OnlyWhatHangsTogetherWithTheClickedPointCounts)
   editor.release();
   work();
   EXPECT_NE(editor.warning(), "") << "in words";
+  // The draft without the refused preview is not what was asked for.
+  editor.setName("ball");
+  EXPECT_NE(editor.whyNotCreate(), "");
+  EXPECT_THROW(editor.create(), core::InvalidParameter);
+  // Each click is a step.
+  ASSERT_TRUE(editor.canUndo());
+  editor.undo();
+  work();
+  EXPECT_EQ(editor.voxels(), count(inBall));
+  EXPECT_EQ(editor.whyNotCreate(), "");
+  editor.undo();
+  work();
+  EXPECT_TRUE(editor.seeds().empty());
+  EXPECT_FALSE(editor.canUndo());
+  editor.redo();
+  work();
+  EXPECT_EQ(editor.voxels(), count(inBall));
 }
 
 TEST_F(SegmentEditorTest, AClickOutsideProposedLimitsSetsThemAroundIt)
@@ -506,6 +523,70 @@ TEST_F(SegmentEditorTest, AStructureThatIsGoneIsNotUndoneAndWhatItReplacedIsKept
   EXPECT_EQ(editor.voxels(), second);
   editor.discard();
   EXPECT_EQ(scene::findStructure(model.value(), "dura plate")->voxels, first);
+}
+
+TEST_F(SegmentEditorTest, AStructureIsFollowedWhenItIsRenamedWhileItIsEdited)
+{
+  open();
+  editor.setTool(Tool::Paint);
+  stroke(kBall, kBall);
+  editor.setName("dura plate");
+  editor.create();
+  model.prepareNow();
+  model.events.partsChanged = [this] { editor.partsChanged(); };
+  editor.edit("dura plate")({})();
+  EXPECT_NE(editor.whyNotCreate(), "") << "nothing was changed";
+  EXPECT_EQ(editor.warning(), "") << "its voxels are the CT's";
+  editor.setTool(Tool::Paint);
+  stroke(kBall + Vector3d(4, 0, 0), kBall + Vector3d(4, 0, 0));
+  const std::uint64_t second = editor.voxels();
+  model.renamePart("dura plate", "tegmen");
+  EXPECT_EQ(editor.edited(), "tegmen");
+  EXPECT_EQ(editor.name(), "tegmen");
+  editor.create();
+  ASSERT_EQ(model.value().labels.size(), 1U);
+  EXPECT_EQ(scene::findStructure(model.value(), "tegmen")->voxels, second);
+}
+
+// A structure that was drawn on an MR is edited on the CT; its MR is renamed, and its name given to
+// another one.
+TEST_F(SegmentEditorTest, WhatComesBackLiesOnTheMrThatItWasDrawnOn)
+{
+  scene::Case value = ballCase();
+  scene::ImagePart mr = value.ct;
+  mr.name = "T2";
+  mr.registered = true;
+  mr.mrFromCt = core::RigidTransform(Eigen::Quaterniond::Identity(), Vector3d(2.0, 0, 0));
+  value.mr.push_back(mr);
+  model.adopt(std::move(value));
+  editor.caseChanged();
+  editor.setTool(Tool::Paint);
+  stroke(kBall, kBall);
+  const std::uint64_t drawn = editor.voxels();
+  editor.setName("tumour");
+  editor.create();
+  scene::Case moved = model.value();
+  moved.labels.front().drawnOn = "T2";
+  model.adopt(std::move(moved));
+  editor.caseChanged();
+  model.prepareNow();
+
+  editor.edit("tumour")({})();
+  EXPECT_NE(editor.warning().find("drawn on other voxels"), std::string::npos);
+  EXPECT_EQ(editor.voxels(), drawn) << "4 voxels to the side";
+  editor.setTool(Tool::Paint);
+  stroke(kBall, kBall);
+  editor.create();
+  EXPECT_EQ(model.value().labels.front().drawnOn, "");
+  model.renamePart("T2", "T2 axial");
+  const scene::Case before = model.value();
+  scene::Case with = before;
+  with.mr.push_back(mr);
+  with.mr.back().volume = std::make_shared<const volume::IntensityVolume>(*mr.volume.get());
+  model.takeParts(before, std::move(with));
+  ASSERT_TRUE(scene::findMr(model.value(), "T2"));
+  ASSERT_TRUE(editor.undo());
+  EXPECT_EQ(model.value().labels.front().drawnOn, "T2 axial");
 }
 
 TEST_F(SegmentEditorTest, ACreatedStructureIsUndoneAndRedone)

@@ -3,6 +3,8 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <optional>
 #include <thread>
 
 #include <sys/resource.h>
@@ -493,10 +495,11 @@ TEST_F(WorkstationModelTest, PartsComeToTheOpenCaseAndItsStrokesStay)
   WorkstationModel model{library};
   model.adopt(block("block"));
   model.save();
-  scene::Case with = model.value(); // for another thread that reads files
+  const scene::Case before = model.value();
+  scene::Case with = before; // for another thread that reads files
   with.labels.push_back(ballOf(with.ct.geometry, "tumour"));
   stroke(model);
-  model.takeParts(std::move(with));
+  model.takeParts(before, std::move(with));
   model.prepareNow();
   EXPECT_TRUE(model.unsaved());
   EXPECT_EQ(model.value().dissection.strokes().size(), 1u);
@@ -669,6 +672,50 @@ TEST_F(WorkstationModelTest, NoToolIsTakenUpInACaseThatIsLeft)
 }
 
 // Two that are compared must both be salted, or neither.
+// While files are read for the case, structures are made in it and replaced.
+TEST_F(WorkstationModelTest, PartsComeBesideWhatWasMadeMeanwhile)
+{
+  library::Library library(folder);
+  WorkstationModel model{library};
+  scene::Case value = block("block");
+  value.labels.push_back(ballOf(value.ct.geometry, "first"));
+  value.labels.push_back(ballOf(value.ct.geometry, "second"));
+  model.adopt(std::move(value));
+  const auto mapOf = [](const std::string& name, const core::GridGeometry& grid)
+  {
+    volume::LabelMap map = *ballOf(grid, name).labels.get();
+    map.segments.front().name = name;
+    return map;
+  };
+  const core::GridGeometry grid = model.value().ct.geometry;
+
+  const scene::Case before = model.value();
+  scene::Case with = before;
+  with.mr.push_back(block("mr").ct);
+  with.mr[0].name = "t2";
+  with.labels[1].drawnOn = "";
+  with.labels.push_back(ballOf(grid, "tumour"));
+  with.labels.back().drawnOn = "t2";
+  with.labels.push_back(ballOf(grid, "nerve"));
+  model.addStructure(mapOf("first", grid), "first"); // now behind "second"
+  model.addStructure(mapOf("tumour", grid));
+  model.addStructure(mapOf("t2", grid));
+  model.takeParts(before, std::move(with));
+
+  std::map<std::string, std::optional<std::string>> drawnOn;
+  for (const scene::LabelPart& part : model.value().labels)
+    for (const scene::StructurePart& structure : part.structures)
+      drawnOn[structure.name] = part.drawnOn;
+  ASSERT_EQ(model.value().mr.size(), 1U);
+  EXPECT_EQ(model.value().mr[0].name, "t2 2");
+  ASSERT_EQ(drawnOn.size(), 6U);
+  EXPECT_EQ(drawnOn.count("tumour"), 1U);
+  EXPECT_EQ(drawnOn.count("nerve"), 1U);
+  EXPECT_EQ(drawnOn.at("tumour 2"), "t2 2");
+  EXPECT_EQ(drawnOn.at("second"), "") << "settled to the CT";
+  EXPECT_NE(drawnOn.at("first"), "t2 2");
+}
+
 TEST_F(WorkstationModelTest, TheOpenCaseHasTheFramesOfReferenceThatWereSaved)
 {
   library::Library library(folder);
@@ -679,11 +726,12 @@ TEST_F(WorkstationModelTest, TheOpenCaseHasTheFramesOfReferenceThatWereSaved)
   model.save();
   EXPECT_TRUE(model.value().ct.isFrameSalted);
   EXPECT_EQ(model.value().ct.frameOfReference, library.open("block").ct.frameOfReference);
-  scene::Case with = model.value();
+  const scene::Case before = model.value();
+  scene::Case with = before;
   with.mr.push_back(block("mr").ct);
   with.mr[0].name = "mr";
   with.mr[0].frameOfReference = std::string(64, 'a');
-  model.takeParts(with);
+  model.takeParts(before, with);
   model.save();
   EXPECT_EQ(model.value().mr[0].frameOfReference, model.value().ct.frameOfReference);
 }

@@ -726,8 +726,8 @@ void CaseDocumentController::makeCase(
 
 void CaseDocumentController::adopt(scene::Case value)
 {
-  if (!leaveCase()) // a device may have drilled meanwhile
-    return;
+  if (!leaveCase()) // a device may have drilled meanwhile, or a draft is not to be lost
+    return keepInLibrary(std::move(value));
   try
   {
     m_model.adopt(std::move(value));
@@ -743,12 +743,30 @@ void CaseDocumentController::adopt(scene::Case value)
   emit statusMessage(tr("Saving %1 in the library…").arg(words(m_model.value().name)));
 }
 
+// A case that cannot be opened now: building it may have taken minutes.
+void CaseDocumentController::keepInLibrary(scene::Case value)
+{
+  const auto kept = std::make_shared<scene::Case>(std::move(value));
+  work(tr("Saving %1 in the library…").arg(words(kept->name)),
+       [this, kept, library = m_model.library()](
+           const core::Progress& progress) mutable -> BackgroundWork::Reply
+       {
+         library.save(*kept, progress);
+         return [this, kept]
+         {
+           endWork();
+           emit statusMessage(tr("%1 is in the library; %2 stays open")
+                                  .arg(words(kept->name), words(m_model.value().name)));
+         };
+       });
+}
+
 void CaseDocumentController::addParts(const presenters::PartSources& parts, const QString& what)
 {
   m_model.stopTouch();
   const auto value = std::make_shared<scene::Case>(m_model.value()); // shares voxels
   work(tr("Adding to %1").arg(words(value->name)),
-       [this, value, parts, what, library = m_model.library(),
+       [this, value, before = scene::Case(*value), parts, what, library = m_model.library(),
         shownAs = m_model.shownAs()](const core::Progress& progress) -> BackgroundWork::Reply
        {
          presenters::PartSources sources = parts;
@@ -759,7 +777,7 @@ void CaseDocumentController::addParts(const presenters::PartSources& parts, cons
          const bool onlyImages = parts.labels.empty() && parts.meshes.empty();
          const bool isAny =
              failures.size() < parts.mr.size() + parts.labels.size() + parts.meshes.size();
-         return [this, value, what, shownAs, onlyImages, isAny, failures, report]
+         return [this, value, before, what, shownAs, onlyImages, isAny, failures, report]
          {
            endWork();
            if (!m_model.hasCase() || m_model.shownAs() != shownAs)
@@ -768,7 +786,7 @@ void CaseDocumentController::addParts(const presenters::PartSources& parts, cons
            if (isAny)
            {
              const QString name = words(m_model.value().name);
-             m_model.takeParts(std::move(*value));
+             m_model.takeParts(before, std::move(*value));
              m_saver.save();
              emit added(onlyImages);
              emit statusMessage(
@@ -816,14 +834,28 @@ void CaseDocumentController::tell(const std::vector<presenters::PartFailure>& fa
     box->setModal(false);
     box->show();
   }
+  presenters::PartSources again; // of all answers: reading one ends the reading of another
+  QStringList names;
   for (const presenters::PartFailure& failure : failures)
     if (failure.likely.empty())
       refuse(words(failure.why));
-    else
-      askMeshSpace(failure);
+    else if (const auto space = askMeshSpace(failure))
+    {
+      again.meshes.push_back(failure.source);
+      again.meshes.back().isRas = space->isRas;
+      again.meshes.back().unit = space->mm;
+      names += nameOf(failure.source.path);
+    }
+  if (again.meshes.empty())
+    return;
+  if (m_work.busy() || !m_model.hasCase())
+    return refuse(tr("%1 was not added, as something else is being read; add it again.")
+                      .arg(names.join(", ")));
+  addParts(again, names.join(", "));
 }
 
-void CaseDocumentController::askMeshSpace(const presenters::PartFailure& failure)
+std::optional<imaging::MeshSpace>
+CaseDocumentController::askMeshSpace(const presenters::PartFailure& failure)
 {
   QMessageBox box(
       QMessageBox::Question, tr("Coordinates of a mesh"),
@@ -840,13 +872,8 @@ void CaseDocumentController::askMeshSpace(const presenters::PartFailure& failure
   box.exec();
   const auto chosen = std::find(buttons.begin(), buttons.end(), box.clickedButton());
   if (chosen == buttons.end())
-    return;
-  const auto& space = failure.likely[static_cast<std::size_t>(chosen - buttons.begin())];
-  presenters::PartSources again;
-  again.meshes = {failure.source};
-  again.meshes[0].isRas = space.isRas;
-  again.meshes[0].unit = space.mm;
-  addParts(again, nameOf(failure.source.path));
+    return std::nullopt;
+  return failure.likely[static_cast<std::size_t>(chosen - buttons.begin())];
 }
 
 // Not while parts are being added to a copy of the case, or another case is coming.

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -127,8 +128,9 @@ private:
   void addParts(const presenters::PartSources& parts, const QString& what);
   void tell(const std::vector<presenters::PartFailure>& failures,
             const std::vector<presenters::StructureReport>& report);
-  void askMeshSpace(const presenters::PartFailure& failure);
+  std::optional<imaging::MeshSpace> askMeshSpace(const presenters::PartFailure& failure);
   void adopt(scene::Case value);
+  void keepInLibrary(scene::Case value);
   void write(const presenters::ExportOptions& options);
   void offerCtGrid(const presenters::ExportOptions& options, const QString& why);
   void work(const QString& title, BackgroundWork::Work work);

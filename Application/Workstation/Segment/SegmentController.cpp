@@ -1,15 +1,22 @@
 #include "SegmentController.h"
 
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <cmath>
+#include <future>
+#include <memory>
 #include <utility>
 
 #include <QAction>
 #include <QActionGroup>
+#include <QEventLoop>
 #include <QMenu>
 #include <QMessageBox>
+#include <QProgressDialog>
 #include <QPushButton>
 #include <QScopedValueRollback>
+#include <QTimer>
 
 #include "Application.h"
 #include "BackgroundWork.h"
@@ -474,6 +481,49 @@ void SegmentController::escape()
     discard();
 }
 
+// In another thread, with a progress dialog where it takes long. False if it was cancelled.
+bool SegmentController::finish(SegmentEditor::Work work)
+{
+  using namespace std::chrono_literals;
+  const auto token = std::make_shared<core::CancelToken>();
+  std::atomic<int> percent{0};
+  const core::Progress progress([&percent](double fraction, const std::string&)
+                                { percent = static_cast<int>(100.0 * fraction); },
+                                token);
+  auto done = std::async(std::launch::async, [&] { return work(progress); });
+  if (done.wait_for(100ms) != std::future_status::ready)
+  {
+    QProgressDialog dialog(tr("Computing the draft…"), tr("Cancel"), 0, 100, &m_window);
+    dialog.setObjectName("finishDraft");
+    dialog.setWindowModality(Qt::ApplicationModal);
+    dialog.setMinimumDuration(200);
+    dialog.setAutoReset(false);
+    QEventLoop loop;
+    QTimer timer;
+    connect(&dialog, &QProgressDialog::canceled, &loop, [&token] { token->cancel(); });
+    connect(&timer, &QTimer::timeout, &loop,
+            [&]
+            {
+              if (done.wait_for(0ms) == std::future_status::ready)
+                loop.quit();
+              else if (!token->isCancelled())
+                dialog.setValue(percent);
+            });
+    timer.start(20ms);
+    loop.exec();
+  }
+  try
+  {
+    done.get()();
+    return true;
+  }
+  catch (const core::CancelledError&)
+  {
+    m_editor.workEnded();
+    return false;
+  }
+}
+
 bool SegmentController::mayLeave()
 {
   if (!m_editor.isUnsaved())
@@ -485,8 +535,9 @@ bool SegmentController::mayLeave()
   m_editor.workDropped();
   try // the preview is what would be created
   {
-    while (const auto work = m_editor.dueWork())
-      (*work)({})();
+    while (auto work = m_editor.dueWork())
+      if (!finish(std::move(*work)))
+        return false;
   }
   catch (const std::exception&)
   {
@@ -509,7 +560,13 @@ bool SegmentController::mayLeave()
   box.setEscapeButton(stay);
   box.exec();
   if (box.clickedButton() == create)
-    return attempt([this] { m_editor.create(); });
+    return attempt(
+               [this]
+               {
+                 if (!finish(m_editor.createWork()))
+                   m_editor.workEnded();
+               }) &&
+           !m_editor.isUnsaved();
   if (box.clickedButton() != drop)
     return false;
   m_editor.discard();

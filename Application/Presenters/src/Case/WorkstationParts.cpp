@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -77,21 +78,58 @@ bool isRecorded(const scene::Case& value, const std::string& name)
 
 } // namespace
 
-void WorkstationModel::takeParts(scene::Case with)
+void WorkstationModel::takeParts(const scene::Case& before, scene::Case with)
 {
   if (!m_case)
     return;
-  const auto append = [](auto& parts, auto& more)
+  // What has one of the names by now, and what was added, stay two parts.
+  auto names = scene::partNames(*m_case);
+  const auto rename = [&names](std::string& name)
   {
-    for (std::size_t n = parts.size(); n < more.size(); ++n)
+    const std::string wanted = name;
+    for (int n = 2; std::find(names.begin(), names.end(), name) != names.end(); ++n)
+      name = wanted + " " + std::to_string(n);
+    names.push_back(name);
+  };
+  std::map<std::string, std::string> images; // added MR: their names here
+  for (std::size_t n = before.mr.size(); n < with.mr.size(); ++n)
+  {
+    std::string& name = images[with.mr[n].name];
+    name = with.mr[n].name;
+    rename(name);
+    with.mr[n].name = name;
+  }
+  const auto follow = [&images](std::string& drawnOn)
+  {
+    if (const auto found = images.find(drawnOn); found != images.end())
+      drawnOn = found->second;
+  };
+  for (scene::LabelPart& part : with.labels)
+    if (part.drawnOn)
+      follow(*part.drawnOn);
+  for (scene::MeshPart& mesh : with.meshes)
+    follow(mesh.drawnOn);
+  // Another MR may have the grid of a map. The maps may be others by now, or in another order.
+  for (std::size_t n = 0; n < std::min(before.labels.size(), with.labels.size()); ++n)
+    for (scene::LabelPart& part : m_case->labels)
+      if (part.object == before.labels[n].object &&
+          part.labels.peek() == before.labels[n].labels.peek() &&
+          part.drawnOn == before.labels[n].drawnOn)
+        part.drawnOn = with.labels[n].drawnOn;
+  forgetTissue();
+  const auto append = [](auto& parts, auto& more, std::size_t from)
+  {
+    for (std::size_t n = from; n < more.size(); ++n)
       parts.push_back(std::move(more[n]));
   };
-  for (std::size_t n = 0; n < std::min(m_case->labels.size(), with.labels.size()); ++n)
-    m_case->labels[n].drawnOn = with.labels[n].drawnOn; // another MR may have the same grid
-  forgetTissue();
-  append(m_case->mr, with.mr);
-  append(m_case->labels, with.labels);
-  append(m_case->meshes, with.meshes);
+  for (std::size_t n = before.labels.size(); n < with.labels.size(); ++n)
+    for (scene::StructurePart& structure : with.labels[n].structures)
+      rename(structure.name);
+  for (std::size_t n = before.meshes.size(); n < with.meshes.size(); ++n)
+    rename(with.meshes[n].name);
+  append(m_case->mr, with.mr, before.mr.size());
+  append(m_case->labels, with.labels, before.labels.size());
+  append(m_case->meshes, with.meshes, before.meshes.size());
   partsMoved();
 }
 

@@ -269,11 +269,12 @@ struct SegmentEditor::Draft
     bool inside = false;
     bool beside = false;
     std::optional<std::pair<Points, Points>> points; ///< before and after
+    std::optional<std::pair<Points, Points>> seeds;  ///< before and after
   };
 
   void did(Step step)
   {
-    if (!step.mask && !step.inside && !step.beside && !step.points)
+    if (!step.mask && !step.inside && !step.beside && !step.points && !step.seeds)
       return;
     undo.push_back(std::move(step));
     redo.clear();
@@ -282,7 +283,10 @@ struct SegmentEditor::Draft
 
   std::string name;
   std::string edited;
+  std::shared_ptr<const volume::LabelMap> editedMap; ///< tells it from others, whatever its name
+  std::uint16_t editedIndex = 0;                     ///< in the map
   std::optional<std::array<float, 3>> editedColor;
+  std::string resampled; ///< how its voxels are others than in the map, to the user
   EditableMask mask;
   std::unique_ptr<EditableMask> inside, beside;     ///< strokes to grow from; nullptr: none
   SliceOrientation plane = SliceOrientation::Axial; ///< last painted in
@@ -307,8 +311,9 @@ struct SegmentEditor::Created
   std::shared_ptr<const volume::LabelMap> labels; ///< tells it from others, whatever its name
   std::shared_ptr<Draft> draft;
   std::optional<scene::LabelPart> replaced;
-  std::optional<scene::LabelPart> taken; ///< undone: as it was in the case
-  std::uint64_t changes = 0;             ///< of the draft, when it was undone
+  std::shared_ptr<const volume::IntensityVolume> replacedOn; ///< image that it was drawn on: an MR
+  std::optional<scene::LabelPart> taken;                     ///< undone: as it was in the case
+  std::uint64_t changes = 0;                                 ///< of the draft, when it was undone
 };
 
 SegmentEditor::SegmentEditor(WorkstationModel& model)
@@ -375,12 +380,27 @@ void SegmentEditor::partsChanged()
       m_source = "ct";
       m_image.reset();
     }
-    if (!scene::findStructure(m_model.value(), m_draft->edited))
-      m_draft->edited.clear();
+    followEdited();
   }
   chooseColor();
   followShown();
   touched();
+}
+
+// The structure that is edited may have been renamed, or taken out of the case.
+void SegmentEditor::followEdited()
+{
+  Draft& draft = *m_draft;
+  if (draft.edited.empty())
+    return;
+  const std::string before = std::exchange(draft.edited, {});
+  for (const scene::LabelPart& part : m_model.value().labels)
+    if (part.labels.peek() == draft.editedMap)
+      for (const scene::StructurePart& structure : part.structures)
+        if (structure.index == draft.editedIndex)
+          draft.edited = structure.name;
+  if (!draft.edited.empty() && draft.name == before)
+    draft.name = draft.edited;
 }
 
 void SegmentEditor::mrMoved()
@@ -437,8 +457,12 @@ std::string SegmentEditor::whyNotCreate() const
     return "A step is under way.";
   if (previewPending())
     return "The preview is being computed.";
+  if (!m_refused.empty()) // the draft alone is not what the tool should have made
+    return "The tool has no result: " + m_refused;
   if (voxels() == 0)
     return "There is no voxel yet: paint, or use another tool.";
+  if (!m_draft->edited.empty() && m_draft->undo.empty() && !(m_preview && m_preview->result))
+    return "Nothing was changed.";
   if (m_draft->name.empty())
     return "Give the structure a name.";
   try
@@ -494,17 +518,29 @@ SegmentEditor::Work SegmentEditor::edit(const std::string& structure)
   beginStep();
   touched();
   return [this, draft = m_draft, labels = scene::labelsOnCt(m_model.value(), *part),
-          index = found->index, color = found->look.color, structure,
-          ct = m_model.value().ct.geometry](const core::Progress& progress) -> Apply
+          map = part->labels.get(), index = found->index, color = found->look.color, structure,
+          volume = static_cast<double>(found->voxels) *
+                   part->labels.get()->voxels->geometry().voxelVolume(),
+          ct = m_model.value().ct.geometry, primary = std::string(primaryName(m_model.value()))](
+             const core::Progress& progress) -> Apply
   {
     const auto mask = std::make_shared<EditableMask>(onGrid(*labels, index, ct, progress));
-    return [this, draft, mask, structure, color]
+    std::string resampled;
+    if (labels != map || !core::sameGrid(labels->voxels->geometry(), ct))
+      resampled = "It was drawn on other voxels, and is now on those of the " + primary + ": " +
+                  core::fixedText(static_cast<double>(mask->count()) * ct.voxelVolume(), 1) +
+                  " mm³ for " + core::fixedText(volume, 1) +
+                  " mm³. Saving replaces what was drawn.";
+    return [this, draft, mask, map, index, structure, color, resampled]
     {
       if (draft != m_draft)
         return;
       endStep();
       draft->mask = std::move(*mask);
       draft->name = draft->edited = structure;
+      draft->editedMap = map;
+      draft->editedIndex = index;
+      draft->resampled = resampled;
       draft->editedColor = color;
       chooseColor();
       touched();
@@ -762,10 +798,17 @@ void SegmentEditor::press(const Eigen::Vector3d& patient, SliceOrientation plane
       draft.mask.beginStep();
     return dab(patient, patient);
   case Tool::Threshold:
+  {
     m_values.connected = true;
-    draft.seeds.push_back(patient);
+    Draft::Step step;
+    step.what = "point";
+    step.seeds = {draft.seeds, draft.seeds};
+    step.seeds->second.push_back(patient);
+    draft.seeds = step.seeds->second;
+    draft.did(std::move(step));
     m_previewDue = true;
     return touched();
+  }
   case Tool::Islands:
   {
     if (draft.mask.count() == 0)
@@ -932,9 +975,16 @@ const std::vector<Eigen::Vector3d>& SegmentEditor::seeds() const noexcept
   return m_draft->seeds;
 }
 
+std::string SegmentEditor::warning() const
+{
+  const std::string& resampled = m_draft->resampled;
+  return resampled + (resampled.empty() || m_warning.empty() ? "" : " ") + m_warning;
+}
+
 void SegmentEditor::dropPreview()
 {
   m_preview.reset();
+  m_refused.clear();
   m_previewDue = false;
   m_note.clear();
   m_warning.clear();
@@ -1123,6 +1173,7 @@ std::optional<SegmentEditor::Work> SegmentEditor::previewWork()
       if (draft != m_draft || tool != m_tool)
         return;
       show(*preview);
+      m_refused = refused;
       m_warning = refused.empty() ? m_warning : refused;
       m_preview = preview->result ? std::make_unique<Preview>(std::move(*preview)) : nullptr;
       touched();
@@ -1332,10 +1383,16 @@ void SegmentEditor::undoCreated()
     const std::string& before = created.replaced->structures.front().name;
     if (before != name)
       checkFree(before);
-    const std::string mr = created.replaced->drawnOn.value_or(std::string());
-    if (!mr.empty() && !scene::findMr(value, mr))
-      throw core::InvalidParameter("'" + before + "' cannot come back: the MR '" + mr +
-                                   "' on which it was drawn is not in the case any more");
+    if (auto& mr = created.replaced->drawnOn; mr && !mr->empty())
+    {
+      const auto on = std::find_if(value.mr.begin(), value.mr.end(),
+                                   [&created](const scene::ImagePart& image)
+                                   { return image.volume.get() == created.replacedOn; });
+      if (on == value.mr.end())
+        throw core::InvalidParameter("'" + before + "' cannot come back: the MR '" + *mr +
+                                     "' on which it was drawn is not in the case any more");
+      mr = on->name; // it may have been renamed
+    }
   }
   created.taken = m_model.takeStructure(name);
   m_draft = created.draft;
@@ -1359,13 +1416,23 @@ void SegmentEditor::createAgain()
   const std::string edited = m_draft->edited;
   if (name != edited)
     checkFree(name);
-  created.replaced = edited.empty() ? std::nullopt : m_model.takeStructure(edited);
+  keepReplaced(edited.empty() ? std::nullopt : m_model.takeStructure(edited));
   m_model.putStructure(*std::exchange(created.taken, std::nullopt));
   m_tool = Tool::None;
   reset();
   followShown();
   touched();
   notify(events.created, name);
+}
+
+void SegmentEditor::keepReplaced(std::optional<scene::LabelPart> part)
+{
+  Created& created = *m_created;
+  created.replaced = std::move(part);
+  created.replacedOn.reset();
+  if (created.replaced && created.replaced->drawnOn)
+    if (const auto* mr = scene::findMr(m_model.value(), *created.replaced->drawnOn))
+      created.replacedOn = mr->volume.get();
 }
 
 void SegmentEditor::checkFree(const std::string& name) const
@@ -1394,6 +1461,8 @@ std::function<void()> SegmentEditor::step(Draft& draft, bool back)
   {
     if (step.points)
       draft->points = back ? step.points->first : step.points->second;
+    if (step.seeds)
+      draft->seeds = back ? step.seeds->first : step.seeds->second;
     auto& from = back ? draft->undo : draft->redo;
     from.pop_back();
     (back ? draft->redo : draft->undo).push_back(step);
@@ -1486,7 +1555,7 @@ SegmentEditor::Work SegmentEditor::createWork()
       m_created = std::make_unique<Created>();
       m_created->labels = m_model.value().labels.back().labels.peek();
       m_created->draft = draft;
-      m_created->replaced = std::move(replaced);
+      keepReplaced(std::move(replaced));
       m_tool = Tool::None;
       reset();
       followShown();

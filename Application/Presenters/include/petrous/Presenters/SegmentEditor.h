@@ -158,7 +158,7 @@ public:
   /// Length and radius of the tube, or what is to be done next; a sentence or two, or empty.
   const std::string& note() const noexcept { return m_note; }
   /// What is wrong with the tool's result, in words; usually empty.
-  const std::string& warning() const noexcept { return m_warning; }
+  std::string warning() const;
 
   /// Work that is due: a preview to be brought up to date, or a step begun by a click. None if
   /// there is none, or while a step is under way.
@@ -239,7 +239,9 @@ private:
   void show(const Preview& preview);
   void beginStep();
   void endStep();
+  void followEdited();
   void undoCreated();
+  void keepReplaced(std::optional<scene::LabelPart> part);
   bool canCreateAgain() const;
   const scene::LabelPart* createdPart() const;
   void createAgain();
@@ -270,6 +272,7 @@ private:
   std::unique_ptr<Preview> m_preview; // none: the draft alone
   std::unique_ptr<Preview> m_frozen;  // what is shown while a step is under way
   std::string m_note, m_warning;
+  std::string m_refused; ///< why the tool has no result
   std::array<float, 3> m_color{};
   bool m_proposeDue = false;
   bool m_isOwnRange = false; ///< the limits were entered, not proposed

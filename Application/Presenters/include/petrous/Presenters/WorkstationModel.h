@@ -102,9 +102,10 @@ public:
   /// Opens a case made in memory, not yet saved.
   void adopt(scene::Case value);
 
-  /// Takes over the parts that `with`, formerly a copy of the open case, has in addition to those
-  /// of this one (see addParts). What was drilled and set since then stays.
-  void takeParts(scene::Case with);
+  /// Takes over the parts that `with` has in addition to `before`, the copy of the open case to
+  /// which they were added (see addParts). What was drilled, set and made since then stays; a part
+  /// whose name is taken by now gets a number.
+  void takeParts(const scene::Case& before, scene::Case with);
 
   /// Adds structures made in this program (addStructures). The one called `replaced`, if that is
   /// not empty, is removed and returned, and a new one of its name has its appearance. Ends the

@@ -1070,17 +1070,20 @@ void CaseDocumentController::write(const presenters::ExportOptions& options)
     return emit statusMessage(tr("The case is not saved yet, so nothing was exported"));
   const std::string name = m_model.value().name; // a save after a conflict may have changed it
   work(tr("Exporting from %1").arg(words(name)),
-       [this, library = m_model.library(), name,
-        options](const core::Progress& progress) -> BackgroundWork::Reply
+       [this, library = m_model.library(), name, options, isPart = !m_model.leftOut().empty()](
+           const core::Progress& progress) -> BackgroundWork::Reply
        {
          scene::Case value = library.open(name);
-         if (options.what == "surface") // that of all structures
+         presenters::LeftOut leftOut;
+         if (isPart) // what is damaged was said when the case was opened
+           leftOut = presenters::leaveOutDamaged(value, progress.part(0.0, 0.1));
+         else if (options.what == "surface") // that of all structures
            library.checkStructures(value, progress.part(0.0, 0.1));
-         std::vector<std::string> warnings;
+         std::vector<std::string> warnings = leftOut.sentences();
          try
          {
            const auto done = presenters::exportCase(
-               library, value, options, {},
+               library, value, options, leftOut,
                [&warnings](const std::string& line) { warnings.push_back(line); },
                progress.part(0.1, 1.0));
            return [this, done, warnings, options]

@@ -343,7 +343,7 @@ public:
 
 private:
   static constexpr double kSameCost = 0.01;          // of the cost
-  static constexpr double kRegularization = 1e-3;    // of the quadric's mean eigenvalue
+  static constexpr double kRegularization = 1e-7;    // of the quadric's mean eigenvalue
   static constexpr double kLengthCost = 1e-9;        // short edges first where all is flat
   static constexpr double kMinCosine = 0.2;          // 78 degrees
   static constexpr double kMinHeight = 0.05;         // of a triangle, of its longest edge

@@ -181,7 +181,7 @@ TEST(SurfaceExtraction, HasNoEdgeOfMoreThanTwoTrianglesInAnyTwoNeighboringCells)
 TEST(SurfaceExtraction, CanBeDecimatedToTheTrianglesAskedFor)
 {
   volume::Volume<std::uint16_t> noisy(synthetic::cube(32, 0.5), std::uint16_t{0});
-  volume::Volume<std::uint16_t> touching = noisy;
+  volume::Volume<std::uint16_t> touching(noisy.geometry(), std::uint16_t{0});
   std::uint32_t random = 1;
   for (int k = 2; k < 30; ++k)
     for (int j = 2; j < 30; ++j)

@@ -197,6 +197,19 @@ TEST(MeshDecimation, KeepsTheHoleOfATorus)
   }
 }
 
+// A torus has 14 triangles or more [Moebius 1861].
+TEST(MeshDecimation, KeepsMoreTrianglesRatherThanTheTopology)
+{
+  const core::TriangleMesh whole = torus(8.0, 2.5);
+  const DecimatedMesh fewer = decimated(whole, 4);
+  EXPECT_GE(fewer.mesh.triangles.size(), 14U);
+  EXPECT_LE(fewer.mesh.triangles.size(), 100U);
+  EXPECT_FALSE(fewer.limit.empty());
+  EXPECT_TRUE(fewer.mesh.isClosed());
+  EXPECT_EQ(eulerCharacteristic(fewer.mesh), 0);
+  EXPECT_NEAR(fewer.mesh.signedVolume(), whole.signedVolume(), 1e-4 * whole.signedVolume());
+}
+
 TEST(MeshDecimation, KeepsTheCavityOfAHollowSphere)
 {
   const core::TriangleMesh outer = sphere(9.0);

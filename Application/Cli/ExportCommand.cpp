@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <utility>
 
 #include "CaseJson.h"
@@ -41,8 +42,14 @@ void printSummary(const Context& context, const scene::Case& value, const Option
     json["decimation"] = "none";
   }
   if (done.decimation)
-    json["decimation"] = {{"triangles_before", done.decimation->trianglesBefore},
-                          {"hausdorff_mm", done.decimation->error}};
+    json["decimation"] = {
+        {"triangles_before", done.decimation->trianglesBefore},
+        {"triangles_asked", done.decimation->trianglesAsked},
+        {"hausdorff_mm", std::max(done.decimation->fromFull, done.decimation->toFull)},
+        {"from_full_mm", done.decimation->fromFull},
+        {"to_full_mm", done.decimation->toFull},
+        {"mean_mm", done.decimation->mean},
+        {"self_intersections", done.decimation->selfIntersections}};
   json["coordinates"] = presenters::coordinatesOf(options);
   context.print(options.out + ": " + options.what + " of '" + value.name + "'" + done.words + "; " +
                 presenters::coordinatesOf(options));

@@ -218,7 +218,7 @@ void segment(Context& context, const SegmentOptions& options)
   if (options.fill)
     mask = segmentation::filled(mask, shaping);
   if (options.smooth > 0.0)
-    mask = segmentation::smoothed(mask, options.smooth, shaping);
+    mask = segmentation::smoothedOutline(mask, options.smooth, shaping);
   if (options.margin != 0.0)
     mask = segmentation::margin(mask, options.margin, shaping);
   if (mask.count == 0)

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "SyntheticScenes.h"
+#include "petrous/Volume/MeshDecimation.h"
 
 using namespace petrous;
 using namespace petrous::rendering;
@@ -156,71 +157,41 @@ TEST(SurfaceExtraction, StopsWhenCancelled)
                core::CancelledError);
 }
 
-// Against the true sphere, which the whole mesh follows within 0.01 mm.
-TEST(SurfaceExtraction, DecimatesAndTellsHowFarTheSurfaceMoved)
+// Two grid edges are on one cell's face, and at most two cells have both: in no pair of neighboring
+// cells, of any configuration, do more than two triangles meet at an edge.
+TEST(SurfaceExtraction, HasNoEdgeOfMoreThanTwoTrianglesInAnyTwoNeighboringCells)
 {
-  const Eigen::Vector3d center(80.0, -120.0, 1100.0);
-  const core::TriangleMesh whole = extractWhole(ballScene(Eigen::Matrix3d::Identity(), center));
-  double before = 0.0;
-  for (const std::size_t triangles : {2000U, 400U, 100U})
+  constexpr int kTiles = 16; // along each axis, one for each of the 2^12 configurations
+  for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const DecimatedMesh fewer = decimated(whole, triangles);
-    EXPECT_TRUE(fewer.mesh.isClosed());
-    EXPECT_LE(fewer.mesh.triangles.size(), triangles);
-    EXPECT_GE(fewer.mesh.triangles.size(), triangles * 9 / 10);
-    EXPECT_NEAR(fewer.mesh.signedVolume(), kSphereVolume,
-                (triangles > 100 ? 0.02 : 0.06) * kSphereVolume)
-        << triangles;
-    // The triangles' centres are among the points farthest off.
-    double truth = 0.0;
-    for (const auto& t : fewer.mesh.triangles)
+    core::Index3 size{2, 2, 2};
+    size[axis] = 3;
+    core::Index3 dims{};
+    for (std::size_t a = 0; a < 3; ++a)
+      dims[a] = kTiles * (size[a] + 1); // a layer between them is empty
+    volume::Volume<std::uint16_t> labels(
+        core::GridGeometry(dims, Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero()),
+        std::uint16_t{0});
+    for (int tile = 0; tile < kTiles * kTiles * kTiles; ++tile)
     {
-      Eigen::Vector3d at = Eigen::Vector3d::Zero();
-      for (const std::uint32_t corner : t)
-      {
-        const Eigen::Vector3d vertex = fewer.mesh.vertices[corner].cast<double>();
-        truth = std::max(truth, std::abs((vertex - center).norm() - kRadius));
-        at += vertex / 3.0;
-      }
-      truth = std::max(truth, std::abs((at - center).norm() - kRadius));
+      int bit = 0;
+      for (int k = 0; k < size[2]; ++k)
+        for (int j = 0; j < size[1]; ++j)
+          for (int i = 0; i < size[0]; ++i, ++bit)
+            labels.at(tile % kTiles * (size[0] + 1) + i, tile / kTiles % kTiles * (size[1] + 1) + j,
+                      tile / kTiles / kTiles * (size[2] + 1) + k) =
+                static_cast<std::uint16_t>(tile >> bit & 1);
+      ASSERT_EQ(bit, 12);
     }
-    EXPECT_GT(fewer.error, truth - 0.02) << triangles;
-    EXPECT_LT(fewer.error, 2.0 * truth + 0.02) << triangles;
-    EXPECT_GT(fewer.error, before);
-    before = fewer.error;
+    EXPECT_TRUE(extractLabel(labels, 1).isClosed()) << axis;
   }
-  EXPECT_EQ(decimated(whole, whole.triangles.size()).error, 0.0);
-  // Every piece needs its 4 triangles: 20 tetrahedra cannot become one of 60.
-  core::TriangleMesh many;
-  for (std::uint32_t n = 0; n < 20; ++n)
-  {
-    const float x = 5.0F * static_cast<float>(n);
-    many.vertices.insert(many.vertices.end(), {{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}, {x, 0, 1}});
-    const std::uint32_t v = 4 * n;
-    many.triangles.insert(
-        many.triangles.end(),
-        {{v, v + 2, v + 1}, {v, v + 1, v + 3}, {v, v + 3, v + 2}, {v + 1, v + 2, v + 3}});
-  }
-  EXPECT_EQ(decimated(many, 100).pieces, 20U);
-  try
-  {
-    decimated(many, 60);
-    ADD_FAILURE() << "was accepted";
-  }
-  catch (const core::InvalidParameter& error)
-  {
-    EXPECT_NE(std::string(error.what()).find("20 pieces"), std::string::npos) << error.what();
-  }
-  EXPECT_THROW(decimated(whole, 3), core::InvalidParameter);
-  core::TriangleMesh open = whole;
-  open.triangles.pop_back();
-  EXPECT_THROW(decimated(open, 100), core::InvalidParameter);
 }
 
-// A ball full of holes, as noise makes them: collapsing edges opens such a surface.
-TEST(SurfaceExtraction, DecimatesANoisySurfaceAndStaysClosedOrSaysWhyNot)
+// A ball full of holes, as noise makes them, and two balls that touch in the corner of a voxel.
+TEST(SurfaceExtraction, CanBeDecimatedToTheTrianglesAskedFor)
 {
-  volume::Volume<std::uint16_t> labels(synthetic::cube(32, 0.5), std::uint16_t{0});
+  volume::Volume<std::uint16_t> noisy(synthetic::cube(32, 0.5), std::uint16_t{0});
+  volume::Volume<std::uint16_t> touching(noisy.geometry(), std::uint16_t{0});
   std::uint32_t random = 1;
   for (int k = 2; k < 30; ++k)
     for (int j = 2; j < 30; ++j)
@@ -228,20 +199,35 @@ TEST(SurfaceExtraction, DecimatesANoisySurfaceAndStaysClosedOrSaysWhyNot)
       {
         random = random * 1664525U + 1013904223U; // Numerical Recipes' generator
         const double r = std::hypot(i - 15.5, j - 15.5, k - 15.5);
-        labels.at(i, j, k) = r < 12.0 && (random >> 8) % 100 < 80 ? 1 : 0;
+        noisy.at(i, j, k) = r < 12.0 && (random >> 8) % 100 < 80 ? 1 : 0;
+        // Voxel (15, 15, 15) is the outermost of one towards the other's (16, 16, 16).
+        const double low = std::hypot(i - 10, j - 10, k - 10);
+        const double high = std::hypot(i - 21, j - 21, k - 21);
+        touching.at(i, j, k) = low < 8.7 || high < 8.7 ? 1 : 0;
       }
-  const core::TriangleMesh whole = extractLabel(labels, 1);
-  ASSERT_TRUE(whole.isClosed());
-  for (const std::size_t part : {2U, 4U})
+  ASSERT_EQ(touching.at(15, 15, 15), 1);
+  ASSERT_EQ(touching.at(16, 16, 16), 1);
+  ASSERT_EQ(touching.at(15, 15, 16) + touching.at(15, 16, 16), 0);
+  for (const auto* labels : {&noisy, &touching})
   {
-    const std::size_t wanted = whole.triangles.size() / part;
-    const DecimatedMesh fewer = decimated(whole, wanted);
-    EXPECT_TRUE(fewer.mesh.isClosed());
-    EXPECT_LT(fewer.mesh.triangles.size(), whole.triangles.size());
-    EXPECT_EQ(fewer.limit.empty(), fewer.mesh.triangles.size() <= wanted) << fewer.limit;
-    if (!fewer.limit.empty())
+    const core::TriangleMesh whole = extractLabel(*labels, 1);
+    ASSERT_TRUE(whole.isClosed());
+    const auto euler = [](const core::TriangleMesh& mesh) {
+      return static_cast<long>(mesh.vertices.size()) - static_cast<long>(mesh.triangles.size()) / 2;
+    };
+    for (const std::size_t part : {2U, 4U})
     {
-      EXPECT_NEAR(fewer.mesh.signedVolume(), whole.signedVolume(), 0.01 * whole.signedVolume());
+      const std::size_t wanted = whole.triangles.size() / part;
+      const volume::DecimatedMesh fewer = volume::decimated(whole, wanted);
+      EXPECT_TRUE(fewer.mesh.isClosed());
+      EXPECT_LE(fewer.mesh.triangles.size(), wanted);
+      EXPECT_GE(fewer.mesh.triangles.size() + 1, wanted);
+      EXPECT_EQ(euler(fewer.mesh), euler(whole));
+      EXPECT_NEAR(fewer.mesh.signedVolume(), whole.signedVolume(), 1e-3 * whole.signedVolume());
+      if (labels == &touching)
+      {
+        EXPECT_LT(fewer.hausdorff(), 0.5) << "a voxel";
+      }
     }
   }
 }

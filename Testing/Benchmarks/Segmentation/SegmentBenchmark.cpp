@@ -425,7 +425,7 @@ void measureOperations(bool quick, const core::Progress& progress, core::Benchma
   const auto measureSmoothing = [&](const std::string& scene, const Mask& mask)
   {
     const Labels::Pointer peerMask = shown(*mask.voxels);
-    trials.measure(scene + size, grid, {large}, [&] { return smoothed(mask, 0.8); },
+    trials.measure(scene + size, grid, {large}, [&] { return smoothedOutline(mask, 0.8); },
                    {{"itk::SmoothingRecursiveGaussian", [&]
                      {
                        auto cast = itk::CastImageFilter<Labels, Distances>::New();

@@ -23,6 +23,7 @@
 #include "petrous/Rendering/SurfaceExtraction.h"
 #include "petrous/Scene/CaseField.h"
 #include "petrous/Scene/Placement.h"
+#include "petrous/Volume/MeshDecimation.h"
 #include "petrous/Volume/Rounded.h"
 
 namespace petrous::presenters
@@ -424,7 +425,7 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
     if (options.triangles && mesh.triangles.size() > *options.triangles)
     {
       const std::size_t before = mesh.triangles.size();
-      auto fewer = rendering::decimated(mesh, *options.triangles, progress.part(0.7, 1.0));
+      auto fewer = volume::decimated(mesh, *options.triangles, progress.part(0.7, 1.0));
       mesh = std::move(fewer.mesh);
       if (mesh.triangles.size() > *options.triangles)
         warn("it keeps " + std::to_string(mesh.triangles.size()) + " triangles instead of " +
@@ -432,9 +433,16 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
              (fewer.pieces > 1
                   ? " (it is of " + std::to_string(fewer.pieces) + " pieces that are not connected)"
                   : std::string()));
-      summary.decimation = ExportSummary::Decimation{before, fewer.error};
+      if (fewer.selfIntersections > 0)
+        warn("the decimated surface passes through itself in " +
+             std::to_string(fewer.selfIntersections) +
+             " pairs of triangles; ask for more triangles if the other program objects");
+      summary.decimation =
+          ExportSummary::Decimation{before,        *options.triangles, fewer.fromGiven,
+                                    fewer.toGiven, fewer.mean,         fewer.selfIntersections};
       decimation = "decimated from " + std::to_string(before) + ", at most " +
-                   core::generalText(fewer.error, 3) + " mm from it";
+                   core::generalText(fewer.hausdorff(), 3) + " mm from it (mean " +
+                   core::generalText(fewer.mean, 3) + " mm)";
     }
     const bool closed = mesh.isClosed();
     summary.triangles = mesh.triangles.size();

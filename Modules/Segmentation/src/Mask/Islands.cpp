@@ -225,6 +225,23 @@ Mask islandsAt(const Mask& mask, const std::vector<Eigen::Vector3d>& points,
               { return std::find(wanted.begin(), wanted.end(), n) != wanted.end(); });
 }
 
+Mask islandsWith(const Mask& mask, const Mask& marks, const core::Progress& progress)
+{
+  Components components(mask, mask.extent, 1, progress);
+  std::vector<bool> isWanted(components.count(), false);
+  const core::IndexBox& box = marks.extent;
+  for (int k = box.lower[2]; k < box.upper[2]; ++k)
+    for (int j = box.lower[1]; j < box.upper[1]; ++j)
+      for (int i = box.lower[0]; i < box.upper[0]; ++i)
+        if (marks.voxels->at(i, j, k) != 0)
+        {
+          const std::size_t found = components.at({i, j, k});
+          if (found < isWanted.size())
+            isWanted[found] = true;
+        }
+  return kept(mask, components, [&](std::size_t n) { return isWanted[n]; });
+}
+
 Mask filled(const Mask& mask, const core::Progress& progress)
 {
   const core::IndexBox box = padded(mask.extent, {1, 1, 1}, mask.geometry());

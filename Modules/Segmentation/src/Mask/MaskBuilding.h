@@ -51,4 +51,7 @@ void forEachRow(const core::IndexBox& box, const core::Progress& progress, const
                     });
 }
 
+/// The islands of `mask` that hold a voxel of `marks`, on the same grid.
+Mask islandsWith(const Mask& mask, const Mask& marks, const core::Progress& progress);
+
 } // namespace petrous::segmentation

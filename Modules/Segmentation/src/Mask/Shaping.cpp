@@ -215,11 +215,13 @@ Mask smoothedOutline(const Mask& mask, double sigma, const core::Progress& progr
   if (whole.count == mask.count || sigma == 0.0)
     return sigma == 0.0 ? mask : outline;
   const Mask cavities = combined(whole, mask, Combination::Difference);
-  const std::vector<float> blurred = blurredMask(cavities, sigma, progress.part(0.6, 0.9));
+  const std::vector<float> blurred = blurredMask(cavities, sigma, progress.part(0.6, 0.8));
   constexpr float kHalf = 0.5F;
   const Mask open = maskWhere(mask.geometry(), boxOf(cavities, sigma),
                               [&](std::size_t n) { return blurred[n] >= kHalf; });
-  return combined(outline, open, Combination::Difference);
+  const Mask large = islandsWith(cavities, open, progress.part(0.8, 0.85));
+  return combined(outline, smoothed(large, sigma, progress.part(0.85, 1.0)),
+                  Combination::Difference);
 }
 
 Mask filledBetweenSlices(const Mask& mask, int axis, const core::Progress& progress)

@@ -207,4 +207,28 @@ std::optional<MeshTree::Hit> MeshTree::firstAlong(const Eigen::Vector3d& origin,
   return first;
 }
 
+std::vector<std::uint32_t> MeshTree::overlapping(const Eigen::AlignedBox3d& box) const
+{
+  std::vector<std::uint32_t> found;
+  std::array<std::uint32_t, 64> pending;
+  std::size_t count = 0;
+  if (!m_nodes.empty())
+    pending[count++] = 0;
+  while (count > 0)
+  {
+    const std::uint32_t index = pending[--count];
+    const Node& node = m_nodes[index];
+    if (!node.box.intersects(box))
+      continue;
+    for (std::uint32_t i = 0; i < node.count; ++i)
+      found.push_back(m_order[node.first + i]);
+    if (node.count == 0)
+    {
+      pending[count++] = node.right;
+      pending[count++] = index + 1;
+    }
+  }
+  return found;
+}
+
 } // namespace petrous::volume

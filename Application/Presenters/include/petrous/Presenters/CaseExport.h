@@ -48,7 +48,11 @@ struct ExportSummary
   struct Decimation
   {
     std::size_t trianglesBefore;
-    double error; ///< Hausdorff distance, mm
+    std::size_t trianglesAsked;
+    double fromFull; ///< mm, largest distance of the full surface from it (volume::DecimatedMesh)
+    double toFull;   ///< mm, largest distance of it from the full surface
+    double mean;     ///< mm, mean distance of it from the full surface
+    std::size_t selfIntersections; ///< pairs of triangles
   };
   std::string words;                         ///< ", 12 DICOM files": after a file's name
   std::optional<std::size_t> instances = {}; ///< of a DICOM series

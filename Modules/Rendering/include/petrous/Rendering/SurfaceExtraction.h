@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <string>
 
 #include "petrous/Core/Progress.h"
 #include "petrous/Core/TriangleMesh.h"
@@ -25,24 +23,5 @@ core::TriangleMesh extractSurface(const volume::TissueField& field, const core::
 /// CancelledError.
 core::TriangleMesh extractLabel(const volume::Volume<std::uint16_t>& labels, std::uint16_t label,
                                 const core::Progress& progress = {});
-
-struct DecimatedMesh
-{
-  core::TriangleMesh mesh;
-  /// mm: the largest distance of a vertex of the given mesh from the decimated one, and of a vertex
-  /// or triangle's centre of the decimated mesh from the given one; a sampled Hausdorff distance.
-  double error = 0.0;
-  std::size_t pieces = 1; ///< that are not connected, each of 4 triangles or more
-  std::string limit;      ///< why there are more triangles than asked for; empty if there are not
-};
-
-/// A closed mesh with about `triangles` triangles, or with all of them if there are no more; closed
-/// too. By collapse of edges with the least quadric error (Garland and Heckbert, SIGGRAPH 1997),
-/// weighted to keep the volume; where that would not stay closed, after removal of vertices that
-/// preserves the topology (Schroeder et al., SIGGRAPH 1992), down to the fewest found that are
-/// closed and within 1 % of the volume. Throws InvalidParameter if the mesh is not closed, or if
-/// fewer than 4 triangles are asked for, or for each of its pieces; CancelledError.
-DecimatedMesh decimated(const core::TriangleMesh& mesh, std::size_t triangles,
-                        const core::Progress& progress = {});
 
 } // namespace petrous::rendering

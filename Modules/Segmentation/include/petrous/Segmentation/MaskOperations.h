@@ -64,8 +64,9 @@ Mask margin(const Mask& mask, double distance, const core::Progress& progress = 
 /// Gaussian of standard deviation `sigma` mm, and the level at which the number of voxels is the
 /// same; structures thinner than about two sigma lose their ends.
 Mask smoothed(const Mask& mask, double sigma, const core::Progress& progress = {});
-/// The same for the outline alone: with its cavities filled its volume stays, so that cavities that
-/// close do not make it smaller. Those of which the Gaussian leaves more than half stay cavities.
+/// The same for the outline and the cavities: with its cavities filled the mask keeps its volume,
+/// so that cavities that close do not make it smaller. A cavity closes unless somewhere in it the
+/// Gaussian of all cavities is one half or more; those that stay keep their volume too.
 Mask smoothedOutline(const Mask& mask, double sigma, const core::Progress& progress = {});
 
 enum class Combination

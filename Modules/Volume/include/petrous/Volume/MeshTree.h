@@ -45,6 +45,9 @@ public:
   std::optional<Hit> firstAlong(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                 double start, double slack = 0.0) const;
 
+  /// The triangles of the leaves whose boxes meet this one: all that meet it, and some beside it.
+  std::vector<std::uint32_t> overlapping(const Eigen::AlignedBox3d& box) const;
+
 private:
   struct Node
   {

@@ -597,8 +597,7 @@ FaceFinding findFace(const IntensityVolume& image, const SkinScale& scale, bool 
   region.lower = -kBelow * size;
   region.upper = kAbove * size;
   std::vector<Column> columns;
-  constexpr int kRounds = 6; // tilt and columns, each by the other
-  for (int round = 0; round < kRounds; ++round)
+  const auto gather = [&]
   {
     columns.clear();
     skin.forEach(
@@ -608,18 +607,22 @@ FaceFinding findFace(const IntensityVolume& image, const SkinScale& scale, bool 
           if (z >= region.lower && z <= region.upper && y <= region.planeAt(skin.z(k)) - kFaceDepth)
             columns.push_back({skin.x(i) - region.front.x(), z, y});
         });
-    if (round + 1 == kRounds)
-      break;
-    // Where the bridge of a flattened nose was found, lips or chin may lie further in front.
-    constexpr double kMiddle = 30.0, kFarthest = 15.0; // mm
-    double ahead = 0.0;
-    for (const Column& column : columns)
-      if (std::abs(column.x) <= kMiddle && std::abs(column.z) <= 80.0 * size)
-        ahead = std::max(ahead, region.front.y() + region.tilt * column.z - column.y);
-    if (ahead <= kFarthest)
-      region.front.y() -= ahead;
+  };
+  constexpr int kRounds = 6; // tilt and columns, each by the other
+  for (int round = 0; round < kRounds; ++round)
+  {
+    gather();
     region.tilt = tiltOf(columns, region.front, image.geometry().patientBounds(), size);
   }
+  // Where the bridge of a flattened nose was found, lips or chin may lie further in front.
+  constexpr double kMiddle = 30.0, kFarthest = 15.0; // mm
+  double ahead = 0.0;
+  for (const Column& column : columns)
+    if (std::abs(column.x) <= kMiddle && std::abs(column.z) <= 80.0 * size)
+      ahead = std::max(ahead, region.front.y() + region.tilt * column.z - column.y);
+  if (ahead <= kFarthest)
+    region.front.y() -= ahead;
+  gather();
   if (static_cast<double>(columns.size()) * edge * edge < kMinArea)
     return none("the field of view ends before it");
   std::vector<double> xs, zs, depths;

@@ -113,7 +113,7 @@ TEST(FaceMaskOfFiles, SaysThatAnEarHasNoFaceAndStatesNothing)
 {
   const TemporaryFolder folder;
   const fs::path in = folder.path() / "in", out = folder.path() / "out";
-  const auto before = headImage({Vector3d(20, -38, -30), Vector3d(102, 40, 52)});
+  const auto before = headImage(core::PatientBox(Vector3d(20, -38, -30), Vector3d(102, 40, 52)));
   writeSeries(in, before);
   const auto done = library::deidentify(in, out, withMask(), library::PseudonymKey());
   EXPECT_EQ(done.report.filesWritten, static_cast<std::size_t>(before.geometry().dims()[2]));
@@ -158,7 +158,7 @@ TEST(FaceMaskOfArchives, KeepsStrokesAndTheCaseAtHome)
       std::make_shared<const volume::IntensityVolume>(scanned(SyntheticHead(), value.ct.geometry));
   value.ct.range = value.ct.volume.get()->range();
   value.dissection = dissection::Dissection(value.ct.geometry);
-  for (const Vector3d& at : {Vector3d(62, 4, 15), Vector3d(20, -62, -10)}) // of the face, too
+  for (const Vector3d& at : {Vector3d(62, 4, 15), Vector3d(16, -61, -10)}) // of the face, too
   {
     value.dissection.beginStroke({});
     value.dissection.cut({at, at + Vector3d(0, 4, 0), 4.0});

@@ -118,9 +118,9 @@ TEST(ImageMask, MasksCtAndMrAndLeavesAllElse)
 TEST(ImageMask, KeepsStructuresAndDrillingOfAllApproaches)
 {
   scene::Case value = headCase();
-  const core::PatientBox sinus({10, -70, 8}, {18, -62, 14});
+  const core::PatientBox sinus(Vector3d(8, -66, -6), Vector3d(14, -61, 0));
   label(value, "antrum", sinus.min(), sinus.max());
-  const Vector3d undone(-30, -65, -10);
+  const Vector3d undone(-16, -62, -10);
   drill(value, undone);
   value.dissection.undo();
   scene::Case masked = value;
@@ -135,7 +135,7 @@ TEST(ImageMask, KeepsStructuresAndDrillingOfAllApproaches)
   EXPECT_NE(notes.find("what was drilled"), std::string::npos) << notes;
   EXPECT_EQ(changedWithin(*value.ct.volume.get(), *masked.ct.volume.get(), sinus, 5.0), 0u);
   EXPECT_EQ(changedWithin(*value.ct.volume.get(), *masked.ct.volume.get(),
-                          {undone, undone + Vector3d(0, 3, 0)}, 4.0 + 5.0),
+                          core::PatientBox(undone, undone + Vector3d(0, 3, 0)), 4.0 + 5.0),
             0u);
 }
 
@@ -164,8 +164,8 @@ TEST(ImageMask, RefusesWhereAStructureHoldsTheFace)
 TEST(ImageMask, LeavesAnImageWithoutAFaceAsItIs)
 {
   scene::Case value = headCase();
-  value.ct.geometry =
-      gridOver({Vector3d(40, -30, -10), Vector3d(95, 30, 40)}, Vector3d::Constant(2.0));
+  value.ct.geometry = gridOver(core::PatientBox(Vector3d(40, -30, -10), Vector3d(95, 30, 40)),
+                               Vector3d::Constant(2.0));
   value.ct.volume =
       std::make_shared<const volume::IntensityVolume>(scanned(SyntheticHead(), value.ct.geometry));
   value.dissection = dissection::Dissection(value.ct.geometry);

@@ -41,7 +41,7 @@ std::vector<double> frontDepth(const IntensityVolume& image, double threshold,
   for (const Vector3d& point : points)
   {
     double found = std::numeric_limits<double>::quiet_NaN();
-    for (double y = box.min().y(); y < box.max().y(); y += 0.25)
+    for (double y = box.min().y(); y < box.max().y(); y += 0.5)
     {
       const Vector3d voxel = image.geometry().voxelFromPatient({point.x(), y, point.z()});
       if (image.geometry().hullContains(voxel) && image.sample(voxel) >= threshold)
@@ -137,11 +137,11 @@ TEST(FaceMask, LeavesNoReliefInAnyOrientationAndSpacing)
       (Eigen::AngleAxisd(0.3, z) * Eigen::AngleAxisd(-0.2, x) * Eigen::AngleAxisd(0.15, y))
           .toRotationMatrix();
   const std::vector<std::pair<Matrix3d, Vector3d>> grids{
-      {Matrix3d::Identity(), {1.5, 1.5, 1.5}},
-      {axes(y, -z, x), {1.4, 1.4, 3.0}},  // sagittal
+      {Matrix3d::Identity(), {1.5, 1.5, 2.0}},
+      {axes(y, -z, x), {1.6, 1.6, 3.0}},  // sagittal
       {axes(x, -z, -y), {1.5, 1.5, 2.0}}, // coronal
       {oblique, {1.6, 1.4, 2.0}},
-      {axes(-x, -y, z), {1.2, 1.8, 2.5}}};
+      {axes(-x, -y, z), {1.5, 1.8, 2.5}}};
   for (const auto& [direction, spacing] : grids)
   {
     SCOPED_TRACE(spacing.transpose());
@@ -207,7 +207,7 @@ TEST(FaceMask, FindsNoFaceWhereTheFieldOfViewEndsBeforeIt)
   const core::PatientBox ear(Vector3d(62, -12, 0), Vector3d(90, 16, 28));
   const core::PatientBox wideEar(Vector3d(0, -55, -45), Vector3d(100, 65, 70));
   const core::PatientBox back(Vector3d(-100, -20, -60), Vector3d(100, 112, 140));
-  for (const auto& [box, spacing] : {std::pair{ear, 0.15}, {wideEar, 0.9}, {back, 1.5}})
+  for (const auto& [box, spacing] : {std::pair{ear, 0.15}, {wideEar, 1.2}, {back, 2.0}})
   {
     const IntensityVolume image = imageOf(head, gridOver(box, Vector3d::Constant(spacing)));
     const FaceFinding found = findFace(image, {});
@@ -233,7 +233,7 @@ TEST(FaceMask, MasksTheBandOfAFaceInALowStack)
 TEST(FaceMask, MasksAnMrWithItsBackground)
 {
   const SyntheticHead head;
-  const IntensityVolume image = imageOf(head, gridOver(headBox(), Vector3d(1.5, 1.5, 1.5)), true);
+  const IntensityVolume image = imageOf(head, gridOver(headBox(), Vector3d(2, 2, 2)), true);
   const SkinScale scale = skinScale(image, true);
   EXPECT_GT(scale.threshold, 60.0);
   EXPECT_LT(scale.threshold, 330.0);

@@ -19,35 +19,24 @@ namespace petrous::volume::test
 class SyntheticHead
 {
 public:
-  /// pitch: degrees, positive lowers the chin. `skew`: mm by which the features of the face are
-  /// larger or smaller than usual, for heads of different persons.
-  explicit SyntheticHead(double pitch = 0.0, double skew = 0.0)
+  /// pitch: degrees, positive lowers the chin.
+  explicit SyntheticHead(double pitch = 0.0)
     : m_turn(Eigen::AngleAxisd(pitch * 3.14159265358979 / 180.0, Eigen::Vector3d::UnitX()))
-    , m_skew(skew)
   {
-  }
-
-  /// Below 0 within the head, mm, about the distance to the skin near it.
-  double skin(const Eigen::Vector3d& patient) const
-  {
-    const Eigen::Vector3d p = own(patient);
-    double d = solid(p);
-    for (const double side : {-1.0, 1.0})
-      d = std::min(d, ellipsoid(p, {side * 80.0, 8.0, 12.0}, {14.0, 5.0, 30.0})); // auricle
-    return d;
   }
 
   double hounsfield(const Eigen::Vector3d& patient) const
   {
     const Eigen::Vector3d p = own(patient);
-    const double d = skin(patient);
-    const double within = std::clamp(0.5 - d, 0.0, 1.0); // partial volume over 1 mm
+    if (std::abs(p.x()) > 96.0 || std::abs(p.y()) > 112.0 || p.z() > 140.0) // far off
+      return -1000.0;
     const double deep = solid(p);
+    const double within = std::clamp(0.5 - withEars(p, deep), 0.0, 1.0); // over 1 mm
     const double tissue = deep < -6.0 && deep > -12.0 ? 900.0 : 40.0;
     return -1000.0 + within * (tissue + 1000.0);
   }
 
-  Eigen::Vector3d noseTip() const { return placed({0.0, -105.0 - m_skew, 0.0}); }
+  Eigen::Vector3d noseTip() const { return placed({0.0, -105.0, 0.0}); }
   Eigen::Vector3d earLine() const { return placed({0.0, 0.0, 15.0}); }
   /// From the head's own axes to the patient's.
   Eigen::Vector3d placed(const Eigen::Vector3d& own) const { return m_turn * own; }
@@ -55,6 +44,15 @@ public:
 private:
   Eigen::Vector3d own(const Eigen::Vector3d& patient) const { return m_turn.inverse() * patient; }
 
+  static double withEars(const Eigen::Vector3d& p, double d)
+  {
+    if (std::abs(p.x()) > 60.0)
+      d = std::min(
+          d, ellipsoid({std::abs(p.x()), p.y(), p.z()}, {80.0, 8.0, 12.0}, {14.0, 5.0, 30.0}));
+    return d;
+  }
+
+  // Negative inside; about the distance near the surface, mm.
   static double ellipsoid(const Eigen::Vector3d& p, const Eigen::Vector3d& center,
                           const Eigen::Vector3d& radii)
   {
@@ -66,23 +64,22 @@ private:
 
   double solid(const Eigen::Vector3d& p) const
   {
-    double d = ellipsoid(p, {0, 2, 50}, {74, 94, 88});                          // cranium
-    d = std::min(d, ellipsoid(p, {0, -38, -25}, {58, 50, 75}));                 // face
-    d = std::min(d, ellipsoid(p, {0, -72, -68}, {22 + m_skew, 20, 16}));        // chin
-    d = std::min(d, ellipsoid(p, {0, -85, 4}, {14 + m_skew, 20 + m_skew, 11})); // nose
-    d = std::min(d, ellipsoid(p, {0, -84, 28}, {7, 9 + m_skew, 22}));           // its bridge
-    d = std::min(d, ellipsoid(p, {0, -84, -32}, {24, 9 + 0.5 * m_skew, 8}));    // lips
+    double d = ellipsoid(p, {0, 2, 50}, {74, 94, 88});          // cranium
+    d = std::min(d, ellipsoid(p, {0, -38, -25}, {58, 50, 75})); // face
+    d = std::min(d, ellipsoid(p, {0, -72, -68}, {22, 20, 16})); // chin
+    d = std::min(d, ellipsoid(p, {0, -85, 4}, {14, 20, 11}));   // nose
+    d = std::min(d, ellipsoid(p, {0, -84, 28}, {7, 9, 22}));    // its bridge
+    d = std::min(d, ellipsoid(p, {0, -84, -32}, {24, 9, 8}));   // lips
     for (const double side : {-1.0, 1.0})
     {
-      d = std::min(d, ellipsoid(p, {side * 30, -74, 52}, {26, 18 + m_skew, 8})); // brow
-      d = std::max(d, -ellipsoid(p, {side * 32, -92, 30}, {17, 16, 11}));        // orbit
+      d = std::min(d, ellipsoid(p, {side * 30, -74, 52}, {26, 18, 8}));   // brow
+      d = std::max(d, -ellipsoid(p, {side * 32, -92, 30}, {17, 16, 11})); // orbit
     }
     return std::min(d, std::max(ellipsoid({p.x(), p.y(), 0.0}, {0, 5, 0}, {55, 55, 55}),
                                 p.z() + 30.0)); // neck
   }
 
   Eigen::Quaterniond m_turn;
-  double m_skew;
 };
 
 /// The grid of `spacing` along its axes that covers a patient box; the axes are the columns of

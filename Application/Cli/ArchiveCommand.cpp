@@ -1,6 +1,8 @@
 #include "Commands.h"
+#include "MaskOptions.h"
 #include "Numbers.h"
 #include "petrous/Library/Archive.h"
+#include "petrous/Presenters/LeavingImages.h"
 
 namespace petrous::cli
 {
@@ -13,6 +15,7 @@ struct ArchiveCommandOptions
   std::string caseName, file;
   int level = library::ArchiveOptions{}.level;
   bool planOnly = false, keepIdentity = false, withoutNotes = false;
+  MaskOptions mask;
 };
 
 struct RestoreCommandOptions
@@ -27,12 +30,16 @@ std::string megabytes(std::uintmax_t bytes)
 
 void archive(const Context& context, const ArchiveCommandOptions& options)
 {
+  const scene::ImageMask mask = options.mask.mask();
+  if (mask.any() && options.planOnly)
+    throw UsageError("archive: a plan has no images; give --plan-only, or --mask-face and --roi");
   context.refuseOverwriting({options.file});
   const library::Library library = context.openLibrary();
-  const library::ArchiveSummary done = library::archiveCase(
-      library, options.caseName, options.file,
-      {options.planOnly, options.level, options.withoutNotes, options.keepIdentity},
-      context.progress());
+  const library::ArchiveSummary done =
+      library::archiveCase(library, options.caseName, options.file,
+                           {options.planOnly, options.level, options.withoutNotes,
+                            options.keepIdentity, presenters::maskForArchive(library, mask)},
+                           context.progress());
   for (const std::string& note : done.notes)
     context.warn(note);
   if (!done.durable)
@@ -82,6 +89,7 @@ void addArchiveCommands(CLI::App& app, Context& context)
                     "Keep what may identify the patient: the date of the planned operation");
   command->add_flag("--without-notes", out->withoutNotes,
                     "Leave out the note of the description, which else goes along as it is");
+  addMaskOptions(*command, out->mask);
   command->add_option("--level", out->level, "Compression of images, 1 (fast) to 12 (small)")
       ->check(CLI::Range(1, 12))
       ->capture_default_str();

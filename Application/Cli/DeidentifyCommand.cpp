@@ -166,6 +166,9 @@ void addDeidentifyCommands(CLI::App& app, Context& context)
                     "Keep the private attributes that PS3.15 lists as safe");
   command->add_flag("--keep-burned-in", options->profile.keepBurnedIn,
                     "Also write images that have, or may have, text in their pixels");
+  command->add_flag("--mask-face", options->profile.maskFace,
+                    "Put air in place of the face in CT and MR series, and leave out images that "
+                    "are in no such volume");
   command->add_option("--map", options->map,
                       "Encrypted file of the pseudonyms, which stays at home; the same map gives "
                       "the same pseudonyms, UIDs and date shifts again");

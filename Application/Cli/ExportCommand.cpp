@@ -4,6 +4,7 @@
 #include "CaseJson.h"
 #include "CaseWarnings.h"
 #include "Commands.h"
+#include "MaskOptions.h"
 #include "Numbers.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Presenters/CaseExport.h"
@@ -18,6 +19,7 @@ struct Options : presenters::ExportOptions
 {
   std::string caseName;
   bool withoutDamaged = false;
+  MaskOptions masking;
 };
 
 void printSummary(const Context& context, const scene::Case& value, const Options& options,
@@ -57,10 +59,11 @@ void printSummary(const Context& context, const scene::Case& value, const Option
   context.printJson(json);
 }
 
-void exportCase(const Context& context, const Options& options)
+void exportCase(const Context& context, Options options)
 {
   try
   {
+    options.mask = options.masking.mask();
     context.refuseOverwriting(presenters::exportedFiles(options)); // before anything is computed
     const library::Library library = context.openLibrary();
     scene::Case value = library.open(options.caseName);
@@ -111,6 +114,7 @@ void addExportCommand(CLI::App& app, Context& context)
                    "A surface of at most about N triangles; how far it lies off is printed")
       ->type_name("N")
       ->check(CLI::Range(std::size_t{4}, std::size_t{1} << 32));
+  addMaskOptions(*command, options->masking);
   addWithoutDamaged(*command, options->withoutDamaged);
 }
 

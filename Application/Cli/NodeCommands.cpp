@@ -1,6 +1,7 @@
 #include <filesystem>
 
 #include "Commands.h"
+#include "MaskOptions.h"
 #include "Numbers.h"
 #include "petrous/Network/NodeList.h"
 #include "petrous/Presenters/CaseTransfer.h"
@@ -115,6 +116,7 @@ void runNodes(const Context& context, const NodeOptions& options)
 struct SendOptions
 {
   std::string caseName, node, what = "all";
+  MaskOptions mask;
 };
 
 void send(const Context& context, const SendOptions& options)
@@ -127,6 +129,7 @@ void send(const Context& context, const SendOptions& options)
   parts.mr = all || options.what == "mr";
   parts.labels = all || options.what == "labels";
   parts.scene = all || options.what == "scene";
+  parts.mask = options.mask.mask();
   const auto done = presenters::sendCase(library, options.caseName, list.at(options.node), parts,
                                          context.progress());
   for (const std::string& note : done.notes)
@@ -224,6 +227,8 @@ void addNodeCommands(CLI::App& app, Context& context)
                    "received as it is")
       ->check(oneOf({"ct", "mr", "labels", "scene", "all"}))
       ->capture_default_str();
+
+  addMaskOptions(*command, out->mask);
 
   auto in = std::make_shared<ReceiveOptions>();
   command = context.addCommand(app, "receive", "Add a case from a DICOM node to the library",

@@ -19,6 +19,7 @@
 #include "petrous/Core/InputFile.h"
 #include "petrous/Presenters/BoneThickness.h"
 #include "petrous/Presenters/CasePicture.h"
+#include "petrous/Presenters/LeavingImages.h"
 #include "petrous/Presenters/SceneAssembly.h"
 #include "petrous/Rendering/OffscreenView.h"
 #include "petrous/Rendering/ReferenceRayCaster.h"
@@ -122,7 +123,7 @@ struct RenderOptions
   std::optional<double> eyeSeparation, convergence;
   double falloff = 0.0;
   double wetness = 0.0;
-  bool withoutDamaged = false;
+  bool withoutDamaged = false, maskFace = false;
 };
 
 /// Size, camera and stereo mode of a picture.
@@ -256,6 +257,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
           "is kept (up to 6 times)")
       ->allow_extra_args(false)
       ->type_name("x,y,z,nx,ny,nz");
+  command.add_flag("--mask-face", options.maskFace, "Draw images with air in place of the face");
   command.add_option("--crop", options.crop, "Crop to these voxels of the CT, first and last")
       ->type_name("i0,i1,j0,j1,k0,k1");
   command.add_option("--roi", options.roi, "Crop to this box, patient LPS mm")
@@ -457,6 +459,14 @@ void render(const Context& context, const RenderOptions& options)
   const presenters::LeftOut leftOut =
       leaveOutDamaged(context, library, value, options.withoutDamaged);
   warnMissingPlaces(context, value);
+  if (options.maskFace)
+  {
+    scene::ImageMask mask;
+    mask.face = true;
+    for (const std::string& note :
+         presenters::maskLeavingImages(library, value, mask, context.progress()))
+      context.warn(note);
+  }
 
   Result result = draw(context, options, shot, renderContents(options, value));
   if (!options.thickness.empty())

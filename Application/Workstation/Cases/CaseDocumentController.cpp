@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <QApplication>
+#include <QCheckBox>
 #include <QDir>
 #include <QFileDialog>
 #include <QInputDialog>
@@ -19,6 +20,7 @@
 #include "Application.h"
 #include "Banner.h"
 #include "CaseSaver.h"
+#include "FaceCheck.h"
 #include "RegionDialog.h"
 #include "RepairDialog.h"
 #include "SeriesDialog.h"
@@ -30,6 +32,7 @@
 #include "petrous/Phantom/SamplePatient.h"
 #include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/LeavingImages.h"
 
 namespace petrous::workstation
 {
@@ -1138,6 +1141,43 @@ void CaseDocumentController::offerCtGrid(const presenters::ExportOptions& option
   box->open();
 }
 
+// Whether a face in the case's images goes along. False: the archive is not to be written.
+bool CaseDocumentController::askOfFace(const std::string& name, scene::ImageMask& mask)
+{
+  const bool isOpen = m_model.hasCase() && m_model.value().name == name;
+  std::vector<std::string> faces;
+  try
+  {
+    faces = isOpen ? facesIn(m_model.value()) : facesIn(m_model.library().open(name));
+  }
+  catch (const core::Error&)
+  {
+    return true; // archiving says what is wrong with the case
+  }
+  if (faces.empty())
+    return true;
+  QStringList images;
+  for (const std::string& image : faces)
+    images += words(image);
+  QMessageBox ask(QMessageBox::Warning, tr("Archive “%1”").arg(words(name)),
+                  tr("A face can be recognised in %1.").arg(images.join(", ")), QMessageBox::Cancel,
+                  &m_window);
+  ask.setObjectName("archiveFace");
+  ask.setTextFormat(Qt::PlainText);
+  auto* box = new QCheckBox(tr("Put air in place of the &face"));
+  box->setObjectName("archiveMaskFace");
+  box->setToolTip(
+      tr("In front of a plane about 50 mm behind the tip of the nose. What is segmented "
+         "or drilled and the temporal bones stay; the case here does not change"));
+  box->setChecked(true);
+  ask.setCheckBox(box);
+  auto* go = ask.addButton(tr("&Archive"), QMessageBox::AcceptRole);
+  ask.setDefaultButton(go);
+  ask.exec();
+  mask.face = box->isChecked();
+  return ask.clickedButton() == go;
+}
+
 // An archive contains what is saved, so the case is saved first.
 void CaseDocumentController::archive()
 {
@@ -1152,6 +1192,7 @@ void CaseDocumentController::archive(const std::string& which)
   const bool isOpen = m_model.hasCase() && m_model.value().name == which;
   fs::path file;
   library::ArchiveOptions options;
+  scene::ImageMask mask;
   std::string name = which;
   {
     const QScopedValueRollback<bool> asking(m_asking, true);
@@ -1170,6 +1211,8 @@ void CaseDocumentController::archive(const std::string& which)
       return;
     file = pathOf(dialog.selectedFiles().first());
     options.planOnly = dialog.selectedNameFilter() == plan;
+    if (!options.planOnly && !askOfFace(name, mask))
+      return;
     if (isOpen)
     {
       if (!saved())
@@ -1178,9 +1221,10 @@ void CaseDocumentController::archive(const std::string& which)
     }
   }
   work(tr("Archiving %1").arg(words(name)),
-       [this, library = m_model.library(), name, file,
-        options](const core::Progress& progress) -> BackgroundWork::Reply
+       [this, library = m_model.library(), name, file, mask,
+        options](const core::Progress& progress) mutable -> BackgroundWork::Reply
        {
+         options.prepare = presenters::maskForArchive(library, mask);
          const library::ArchiveSummary done =
              library::archiveCase(library, name, file, options, progress);
          const QString contents = contentsOf(library.open(name), done.planOnly);

@@ -15,6 +15,7 @@
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/SourceContent.h"
 #include "petrous/Presenters/WorkstationModel.h"
+#include "petrous/Scene/ImageMask.h"
 
 class QProgressDialog;
 class QWidget;
@@ -95,6 +96,7 @@ signals:
   void added(bool onlyImages);             ///< parts came to the open case
 
 private:
+  bool askOfFace(const std::string& name, scene::ImageMask& mask);
   using Sources = std::vector<presenters::SourceContent>;
   /// How files were chosen.
   struct Purpose

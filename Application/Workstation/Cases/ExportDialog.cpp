@@ -20,6 +20,7 @@
 #include <QStorageInfo>
 #include <QVBoxLayout>
 
+#include "FaceCheck.h"
 #include "Theme.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Presenters/IntensityDisplay.h"
@@ -48,6 +49,8 @@ ExportDialog::ExportDialog(const scene::Case& value, const std::optional<Choices
   , m_onCt(new QCheckBox(value.ct.modality == scene::Modality::Mr
                              ? tr("Resampled on the &primary MR's grid")
                              : tr("Resampled on the &CT's grid")))
+  , m_maskFace(new QCheckBox(tr("Put air in place of the &face")))
+  , m_face(new QLabel)
   , m_triangles(new QSpinBox)
   , m_coordinates(new QLabel)
   , m_path(new QLineEdit)
@@ -84,6 +87,20 @@ ExportDialog::ExportDialog(const scene::Case& value, const std::optional<Choices
   m_format->setObjectName("exportFormat");
   m_onCt->setObjectName("exportOnCt");
   m_onCt->setToolTip(tr("Otherwise on its own grid"));
+  m_maskFace->setObjectName("exportMaskFace");
+  m_maskFace->setToolTip(tr("In front of a plane about 50 mm behind the tip of the nose. What is "
+                            "segmented or drilled and the temporal bones stay; the case here does "
+                            "not change"));
+  m_face->setObjectName("exportFace");
+  m_face->setTextFormat(Qt::PlainText);
+  m_face->setWordWrap(true);
+  const std::vector<std::string> faces = facesIn(value);
+  m_hasFace = !faces.empty();
+  QStringList images;
+  for (const std::string& image : faces)
+    images += words(image);
+  m_face->setText(tr("A face can be recognised in %1.").arg(images.join(", ")));
+  m_face->setVisible(m_hasFace);
   m_triangles->setObjectName("exportTriangles");
   m_triangles->setRange(0, kMostTriangles);
   m_triangles->setSingleStep(kTriangleStep);
@@ -109,6 +126,8 @@ ExportDialog::ExportDialog(const scene::Case& value, const std::optional<Choices
   form->addRow(tr("&Part:"), m_part);
   form->addRow(tr("&Format:"), m_format);
   form->addRow({}, m_onCt);
+  form->addRow({}, m_maskFace);
+  form->addRow({}, m_face);
   form->addRow(tr("At most &triangles:"), m_triangles);
   form->addRow(tr("Coordinates:"), m_coordinates);
   form->addRow(tr("&To:"), place);
@@ -148,6 +167,7 @@ void ExportDialog::choose(const Choices& last)
   pick(m_format, last.format);
   m_onCt->setChecked(last.onCt);
   m_triangles->setValue(last.triangles);
+  m_maskFace->setChecked(last.maskFace);
   const QFileInfo file(last.path);
   if (QFileInfo(file.absolutePath()).isDir())
     m_path->setText(last.caseName == m_caseName
@@ -163,7 +183,8 @@ ExportDialog::Choices ExportDialog::choices() const
           m_format->currentData().toString(),
           QDir::cleanPath(m_path->text().trimmed()),
           m_onCt->isChecked(),
-          m_triangles->value()};
+          m_triangles->value(),
+          m_maskFace->isChecked()};
 }
 
 bool ExportDialog::isSeries() const
@@ -196,6 +217,8 @@ void ExportDialog::whatChanged()
   if (what == "ct" || what == "mr" || what == "dissected")
     m_format->addItem(tr("DICOM series (a folder)"), kSeries);
   m_triangles->setEnabled(what == "surface" || what == "structure");
+  m_maskFace->setEnabled(
+      m_hasFace && (what == "ct" || what == "mr" || what == "dissected" || what == "surface"));
   formatChanged();
 }
 
@@ -228,6 +251,7 @@ presenters::ExportOptions ExportDialog::options() const
   if (isSeries())
     options.out += '/';
   options.onCt = m_onCt->isEnabled() && m_onCt->isChecked();
+  options.mask.face = m_maskFace->isEnabled() && m_maskFace->isChecked();
   if (m_triangles->isEnabled() && m_triangles->value() > 0)
     options.triangles = static_cast<std::size_t>(std::max(m_triangles->value(), 4));
   return options;

@@ -30,6 +30,7 @@ public:
     QString caseName, what, part, format, path;
     bool onCt = false;
     int triangles = 0;
+    bool maskFace = false;
   };
 
   /// `last`: as far as this case has it. Its file is proposed for the same case, else its folder.
@@ -56,6 +57,9 @@ private:
   QComboBox* m_part;
   QComboBox* m_format;
   QCheckBox* m_onCt;
+  QCheckBox* m_maskFace;
+  bool m_hasFace = false;
+  QLabel* m_face; ///< in which images one can be recognised
   QSpinBox* m_triangles;
   QLabel* m_coordinates;
   QLineEdit* m_path;

@@ -55,6 +55,9 @@ DeidentifyDialog::DeidentifyDialog(QWidget* parent)
                      tr("PS3.15, Table E.3.10-1")))
   , m_burnedIn(option("keepBurnedIn", tr("Images that may have &text in their pixels"),
                       tr("Otherwise they are left out, and named")))
+  , m_maskFace(option("maskFace", tr("&Put air in place of the face in CT and MR series"),
+                      tr("In front of a plane about 50 mm behind the tip of the nose. Images that "
+                         "are in no such volume are left out, and named")))
   , m_mapped(option("useMap", tr("Remember who is &behind the pseudonyms"),
                     tr("In an encrypted file that stays here. The same file gives the same "
                        "pseudonyms, UIDs and date shifts again")))
@@ -82,6 +85,7 @@ DeidentifyDialog::DeidentifyDialog(QWidget* parent)
   form->addRow(tr("Keep:"), m_descriptors);
   for (QCheckBox* box : {m_device, m_patient, m_private, m_burnedIn})
     form->addRow({}, box);
+  form->addRow(tr("Face:"), m_maskFace);
   form->addRow({}, m_mapped);
   form->addRow(tr("&File:"), m_map);
   form->addRow(tr("&Passphrase:"), m_first);
@@ -161,6 +165,7 @@ presenters::DeidentifyRequest DeidentifyDialog::request() const
   options.retainPatientCharacteristics = m_patient->isChecked();
   options.retainSafePrivate = m_private->isChecked();
   options.keepBurnedIn = m_burnedIn->isChecked();
+  options.maskFace = m_maskFace->isChecked();
   return request;
 }
 

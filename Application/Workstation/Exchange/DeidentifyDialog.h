@@ -43,6 +43,7 @@ private:
   QCheckBox* m_patient;
   QCheckBox* m_private;
   QCheckBox* m_burnedIn;
+  QCheckBox* m_maskFace;
   QCheckBox* m_mapped;
   PathRow* m_map;
   QLineEdit* m_first;

@@ -9,6 +9,7 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include "FaceCheck.h"
 #include "Theme.h"
 
 namespace petrous::workstation
@@ -27,6 +28,7 @@ SendDialog::SendDialog(const scene::Case& value, const std::vector<network::Node
   , m_labels(new QCheckBox(tr("&Structures, as segmentations (SEG)")))
   , m_scene(new QCheckBox(tr("The &whole scene, to be received as it is (Raw Data)")))
   , m_note(new QCheckBox(tr("with its &note")))
+  , m_maskFace(new QCheckBox(tr("Put air in place of the &face")))
   , m_report(new QPlainTextEdit)
 {
   setObjectName("sendCase");
@@ -42,6 +44,12 @@ SendDialog::SendDialog(const scene::Case& value, const std::vector<network::Node
   m_labels->setObjectName("sendLabels");
   m_scene->setObjectName("sendScene");
   m_note->setObjectName("sendNote");
+  m_maskFace->setObjectName("sendMaskFace");
+  m_maskFace->setToolTip(tr("In front of a plane about 50 mm behind the tip of the nose. What is "
+                            "segmented or drilled and the temporal bones stay; the case here does "
+                            "not change"));
+  m_faces = facesIn(value);
+  m_maskFace->setEnabled(!m_faces.empty());
   m_report->setObjectName("sendReport");
   m_report->setReadOnly(true);
   m_report->setMinimumHeight(200);
@@ -59,14 +67,14 @@ SendDialog::SendDialog(const scene::Case& value, const std::vector<network::Node
   auto* form = new QFormLayout;
   form->addRow(tr("&To:"), m_node);
   form->addRow(tr("What:"), m_ct);
-  for (QCheckBox* box : {m_mr, m_labels, m_scene, m_note})
+  for (QCheckBox* box : {m_mr, m_labels, m_scene, m_note, m_maskFace})
     form->addRow({}, box);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
   m_send = buttons->addButton(tr("&Send"), QDialogButtonBox::AcceptRole);
   m_send->setObjectName("primary");
   connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
-  for (QCheckBox* box : {m_ct, m_mr, m_labels, m_scene, m_note})
+  for (QCheckBox* box : {m_ct, m_mr, m_labels, m_scene, m_note, m_maskFace})
     connect(box, &QCheckBox::toggled, this, &SendDialog::update);
   auto* layout = new QVBoxLayout(this);
   layout->addLayout(form);
@@ -85,6 +93,7 @@ presenters::SendParts SendDialog::parts() const
   parts.labels = m_labels->isChecked();
   parts.scene = m_scene->isChecked();
   parts.note = m_note->isEnabled() && m_note->isChecked();
+  parts.mask.face = m_maskFace->isEnabled() && m_maskFace->isChecked();
   return parts;
 }
 
@@ -99,7 +108,7 @@ void SendDialog::update()
   const presenters::SendParts what = parts();
   const bool any = what.ct || what.mr || what.labels || what.scene;
   m_send->setEnabled(any);
-  m_report->setPlainText(any ? words(presenters::identityReport(m_value, what).text())
+  m_report->setPlainText(any ? words(presenters::identityReport(m_value, what, &m_faces).text())
                              : tr("Nothing is chosen."));
 }
 

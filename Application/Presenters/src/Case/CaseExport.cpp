@@ -19,6 +19,7 @@
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CaseDicom.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/LeavingImages.h"
 #include "petrous/Presenters/MrOnCt.h"
 #include "petrous/Rendering/SurfaceExtraction.h"
 #include "petrous/Scene/CaseField.h"
@@ -382,6 +383,9 @@ std::vector<std::string> exportedFiles(const ExportOptions& options)
     throw ExportChoiceError("--on-ct is for --what mr and labels");
   if (options.triangles && options.what != "surface" && options.what != "structure")
     throw ExportChoiceError("--triangles is for --what surface and structure");
+  if (options.mask.any() && options.what != "ct" && options.what != "mr" &&
+      options.what != "dissected" && options.what != "surface")
+    throw ExportChoiceError("--mask-face and --roi are for --what ct, mr, dissected and surface");
   if (options.what == "structure" && options.part.empty())
     throw ExportChoiceError("export structure: give --part NAME");
   std::vector<std::string> files{options.out};
@@ -395,6 +399,13 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
                          const std::function<void(const std::string&)>& warn,
                          const core::Progress& progress)
 {
+  if (options.mask.any())
+  {
+    library.loadDissection(value);
+    for (const std::string& note :
+         maskLeavingImages(library, value, options.mask, progress.part(0.0, 0.1)))
+      warn(note);
+  }
   // Voxels mapped for the file must be what was stored.
   const auto checked = [&](const scene::ImagePart& image)
   {

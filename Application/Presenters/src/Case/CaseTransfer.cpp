@@ -13,6 +13,7 @@
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CaseDicom.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/LeavingImages.h"
 #include "petrous/Scene/Placement.h"
 
 namespace petrous::presenters
@@ -187,6 +188,13 @@ private:
     const fs::path archive = m_folder / (std::string("scene") + library::kArchiveEnding);
     library::ArchiveOptions options;
     options.withoutNotes = !m_parts.note;
+    if (m_parts.mask.any())
+      options.prepare = [this](scene::Case& copy, const core::Progress&)
+      {
+        copy.ct = m_value.ct;
+        copy.mr = m_value.mr;
+        return std::vector<std::string>();
+      };
     const library::ArchiveSummary archived =
         library::archiveCase(m_library, m_value.name, archive, options, progress.part(0.0, 0.8));
     m_notes.insert(m_notes.end(), archived.notes.begin(), archived.notes.end());
@@ -371,7 +379,7 @@ std::string joined(const std::vector<std::string>& names)
 bool showsHead(const core::GridGeometry& grid)
 {
   constexpr double kHead = 140.0;  // mm; narrower heads than that are not adults'
-  constexpr double kHeight = 60.0; // mm
+  constexpr double kHeight = 30.0; // mm; a band of a face
   std::array<double, 3> size{};
   for (int axis = 0; axis < 3; ++axis)
     size[static_cast<std::size_t>(axis)] =
@@ -382,7 +390,16 @@ bool showsHead(const core::GridGeometry& grid)
 
 } // namespace
 
-IdentityReport identityReport(const scene::Case& value, const SendParts& parts)
+std::vector<std::string> facesToMask(const scene::Case& value)
+{
+  const bool mayShow = showsHead(value.ct.geometry) ||
+                       std::any_of(value.mr.begin(), value.mr.end(),
+                                   [](const auto& mr) { return showsHead(mr.geometry); });
+  return mayShow ? scene::imagesWithFace(value) : std::vector<std::string>();
+}
+
+IdentityReport identityReport(const scene::Case& value, const SendParts& parts,
+                              const std::vector<std::string>* faces)
 {
   IdentityReport report;
   const bool isCt = value.ct.modality != scene::Modality::Mr;
@@ -428,10 +445,18 @@ IdentityReport identityReport(const scene::Case& value, const SendParts& parts)
   }
   if (parts.scene && parts.note && !value.description.note.empty())
     report.warnings.push_back("the note: read it once more, nothing is removed from it");
-  if ((images && showsHead(value.ct.geometry)) ||
-      ((parts.mr || parts.scene) &&
-       std::any_of(value.mr.begin(), value.mr.end(),
-                   [](const auto& mr) { return showsHead(mr.geometry); })))
+  if (faces)
+  {
+    if (!faces->empty() && (images || parts.mr))
+      (parts.mask.face ? report.stays : report.warnings)
+          .push_back(parts.mask.face
+                         ? "the face, which is masked in " + joined(*faces)
+                         : "a face can be recognised in " + joined(*faces) + "; it can be masked");
+  }
+  else if ((images && showsHead(value.ct.geometry)) ||
+           ((parts.mr || parts.scene) &&
+            std::any_of(value.mr.begin(), value.mr.end(),
+                        [](const auto& mr) { return showsHead(mr.geometry); })))
     report.warnings.push_back("the image holds a whole head: a face can be rendered from it. A "
                               "case of the region of the ear alone (File > Open a region) has "
                               "none");
@@ -456,12 +481,15 @@ SendSummary sendCase(const library::Library& library, const std::string& name,
                      const core::Progress& progress)
 {
   network::echo(node, progress); // before minutes of writing
-  const scene::Case value = library.open(name);
+  scene::Case value = library.open(name);
+  std::vector<std::string> masked =
+      maskLeavingImages(library, value, parts.mask, progress.part(0.0, 0.1));
   const ScratchFolder scratch;
   Outgoing outgoing(library, value, parts, scratch.path());
-  const auto files = outgoing.write(progress.part(0.0, 0.4));
+  const auto files = outgoing.write(progress.part(0.1, 0.4));
   SendSummary summary;
-  summary.notes = outgoing.notes();
+  summary.notes = std::move(masked);
+  summary.notes.insert(summary.notes.end(), outgoing.notes().begin(), outgoing.notes().end());
   summary.studyUid = CaseIdentifiers(value).study();
   library.checkVoxels(value, progress);
   summary.transfer = network::store(node, files, progress.part(0.4, 1.0));

@@ -19,6 +19,7 @@
 #include "ZipEntries.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/LabelFile.h"
+#include "petrous/Imaging/NrrdFile.h"
 #include "petrous/Library/Archive.h"
 #include "petrous/Library/FrameSalt.h"
 #include "petrous/Library/ObjectStore.h"
@@ -295,7 +296,11 @@ try
 {
   if (options.level < 1 || options.level > 12)
     throw core::InvalidParameter("archive: the level of compression is 1 to 12");
-  scene::Case value = library.open(name);               // recovers unsaved drilling
+  scene::Case value = library.open(name); // recovers unsaved drilling
+  ArchiveSummary summary;
+  const bool isPrepared = !options.planOnly && options.prepare;
+  if (isPrepared)
+    summary.notes = options.prepare(value, progress.part(0.0, 0.3));
   const auto salt = [&library](scene::ImagePart& image) // older manifests have plain hashes
   {
     if (!image.isFrameSalted && !image.frameOfReference.empty())
@@ -315,7 +320,17 @@ try
         part.object = passing.store().add("seg.nrrd", [&shown](const fs::path& path)
                                           { imaging::writeLabelFile(path, *shown); });
     }
-  ArchiveSummary summary;
+  if (isPrepared)
+  {
+    const auto store = [&](scene::ImagePart& image)
+    {
+      if (image.object.empty())
+        image.object = passing.store().add("nrrd", [&](const fs::path& path)
+                                           { imaging::writeRawNrrd(path, *image.volume.get()); });
+    };
+    store(value.ct);
+    std::for_each(value.mr.begin(), value.mr.end(), store);
+  }
   Description& description = value.description;
   if (!description.date.empty() && !options.keepDate)
   {
@@ -341,7 +356,7 @@ try
   index.manifest =
       sha256Of(reinterpret_cast<const std::uint8_t*>(manifest.data()), manifest.size());
   index.library = saltedFrame(library, "archive");
-  if (!options.planOnly)
+  if (!options.planOnly && !isPrepared)
     index.thumbnail = readThumbnail(library.folder(), value.id);
   std::set<std::string> used;
   const std::vector<ObjectUse> uses = objectsOf(value);
@@ -371,7 +386,8 @@ try
     const std::string what = use.what + " of case '" + name + "'";
     if (use.kind == ObjectUse::Kind::Image)
       zip.add(index.objects[n].file, false,
-              [path = kept.path(use.object, what), what, level = options.level]() -> Produce
+              [path = storeOf(use.object).path(use.object, what), what,
+               level = options.level]() -> Produce
               {
                 auto image = std::make_shared<PackedImage>(path, what, level);
                 return [image](char* buffer, std::size_t room)
@@ -382,7 +398,7 @@ try
               [&store = storeOf(use.object), object = use.object, what]
               { return fromMemory(store.readChecked(object, what)); });
   }
-  summary.durable = zip.commit(progress);
+  summary.durable = zip.commit(isPrepared ? progress.part(0.3, 1.0) : progress);
   summary.archiveBytes = fs::file_size(file);
   return summary;
 }

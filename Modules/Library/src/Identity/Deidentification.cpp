@@ -6,6 +6,7 @@
 #include <sodium.h>
 
 #include "DicomCleaner.h"
+#include "FaceSlices.h"
 #include "petrous/Core/Error.h"
 #include "petrous/Core/InputFile.h"
 #include "petrous/Core/OutputFile.h"
@@ -82,6 +83,8 @@ std::vector<std::string> namesOf(const DeidentificationOptions& options)
     names.emplace_back("Retain Device Identity");
   if (options.retainSafePrivate)
     names.emplace_back("Retain Safe Private");
+  if (options.maskFace)
+    names.emplace_back("Clean Recognizable Visual Features");
   return names;
 }
 
@@ -179,7 +182,7 @@ std::string DeidentificationReport::text() const
 
 DeidentificationResult deidentify(const fs::path& input, const fs::path& output,
                                   const DeidentificationOptions& options, const PseudonymKey& key,
-                                  const core::Progress& progress)
+                                  const core::Progress& whole)
 {
   startSodium();
   std::error_code error;
@@ -190,6 +193,9 @@ DeidentificationResult deidentify(const fs::path& input, const fs::path& output,
                           ": lies within the input; name a place outside of it");
   const std::vector<fs::path> files = filesOf(input);
   DicomCleaner cleaner(options, key);
+  if (options.maskFace)
+    cleaner.faces = std::make_shared<const FaceSlices>(input, whole.part(0.0, 0.5));
+  const core::Progress progress = options.maskFace ? whole.part(0.5, 1.0) : whole;
   DeidentificationResult result;
   const auto noteLeftOut = [&result](const fs::path& file, const std::string& why)
   {

@@ -11,6 +11,7 @@
 #include <memory>
 #include <vector>
 
+#include "FaceSlices.h"
 #include "PixelMetadata.h"
 #include "Vocabulary.h"
 #include "petrous/Core/OutputFile.h"
@@ -1340,14 +1341,21 @@ void putCode(DcmItem& dataSet, unsigned long number, const char* value, const ch
 
 // PS3.3 C.7.1.1, PS3.16 CID 7050.
 void putMethod(DcmDataset& dataSet, const DeidentificationOptions& options,
-               const std::string& edition)
+               const std::string& edition, bool isFaceMasked)
 {
   dataSet.putAndInsertString(DCM_PatientIdentityRemoved, "YES");
-  std::string method = "Petrous: " + edition;
-  dataSet.putAndInsertString(DCM_DeidentificationMethod, method.substr(0, 64).c_str());
+  std::string method = ("Petrous: " + edition).substr(0, 64);
+  if (isFaceMasked)
+  {
+    method += "\\RECOGNIZABLE VISUAL FEATURES masked"; // a second value
+    dataSet.putAndInsertString(DCM_RecognizableVisualFeatures, "NO");
+  }
+  dataSet.putAndInsertString(DCM_DeidentificationMethod, method.c_str());
   delete dataSet.remove(DCM_DeidentificationMethodCodeSequence);
   unsigned long n = 0;
   putCode(dataSet, n++, "113100", "Basic Application Confidentiality Profile");
+  if (isFaceMasked)
+    putCode(dataSet, n++, "113102", "Clean Recognizable Visual Features Option");
   if (options.cleanDescriptors)
     putCode(dataSet, n++, "113105", "Clean Descriptors Option");
   if (options.dates == Dates::Keep)
@@ -1412,7 +1420,17 @@ DicomCleaner::Outcome DicomCleaner::clean(const std::filesystem::path& input,
   if (sopClass.find(".1.1.88.") != std::string::npos)
     ++warnings["a structured report: its content is replaced by dummies"];
 
-  if (coversAHead(*dataSet))
+  const FaceSlices::File* face = faces ? faces->find(input) : nullptr;
+  const bool isMasked = face && face->region;
+  if (faces && dataSet->tagExists(DCM_PixelData))
+  {
+    const std::string modality = valueOf(*dataSet, DCM_Modality);
+    if (!face && modality != "SEG" && modality != "RTDOSE")
+      return {"its face cannot be masked: it is no slice of a CT or MR volume", true};
+    if (face && !isMasked)
+      ++warnings[face->text];
+  }
+  else if (coversAHead(*dataSet))
     ++warnings["slices wide enough for a whole head: a face can be recognised"];
 
   const std::string study = valueOf(*dataSet, DCM_StudyInstanceUID);
@@ -1425,7 +1443,13 @@ DicomCleaner::Outcome DicomCleaner::clean(const std::filesystem::path& input,
   cleaner.clean(*dataSet);
   if (std::string why = cleanAllPixels(*dataSet, syntax, false); !why.empty())
     return {why, true};
-  putMethod(*dataSet, m_options, profile.edition());
+  if (isMasked)
+  {
+    if (std::string why = maskFaceInPixels(*dataSet, *face); !why.empty())
+      return {why, true};
+    delete dataSet->remove(DCM_IconImageSequence); // a picture of the slice as it was
+  }
+  putMethod(*dataSet, m_options, profile.edition(), isMasked);
 
   const std::string pseudonym = m_key.patient(cleaner.patient());
   pseudonyms["patient " + pseudonym] = {"patient", pseudonym, patientId + " " + patientName};

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <utility>
@@ -12,6 +13,8 @@
 
 namespace petrous::library
 {
+
+class FaceSlices;
 
 /// De-identifies one DICOM file after the other, and counts what was done to each attribute.
 class DicomCleaner
@@ -41,6 +44,7 @@ public:
   std::map<std::string, std::size_t> warnings;
   std::map<std::string, Pseudonym> pseudonyms; ///< by kind and pseudonym
   ConfidentialityProfile profile;
+  std::shared_ptr<const FaceSlices> faces; ///< for DeidentificationOptions::maskFace
 
 private:
   DeidentificationOptions m_options;

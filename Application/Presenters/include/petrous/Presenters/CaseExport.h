@@ -9,6 +9,7 @@
 #include "petrous/Core/Progress.h"
 #include "petrous/Library/Library.h"
 #include "petrous/Presenters/LeftOut.h"
+#include "petrous/Scene/ImageMask.h"
 
 namespace petrous::presenters
 {
@@ -40,6 +41,7 @@ struct ExportOptions
   /// one grid without resampling (padToOneGrid).
   bool onCt = false;
   std::optional<std::size_t> triangles = {}; ///< of a surface, at most
+  scene::ImageMask mask = {}; ///< of the images that are written, or that the surface is one of
 };
 
 /// What was written; in which coordinates: coordinatesOf.

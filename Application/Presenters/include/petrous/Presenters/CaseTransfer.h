@@ -7,6 +7,7 @@
 #include "petrous/Core/Progress.h"
 #include "petrous/Library/Library.h"
 #include "petrous/Network/DicomNode.h"
+#include "petrous/Scene/ImageMask.h"
 
 namespace petrous::presenters
 {
@@ -21,7 +22,8 @@ struct SendParts
   bool mr = false;
   bool labels = false;
   bool scene = false;
-  bool note = true; ///< of the description, with the scene
+  bool note = true;      ///< of the description, with the scene
+  scene::ImageMask mask; ///< of all images
 };
 
 /// What of a case leaves the house with sendCase, and what does not: a sentence each, for the user
@@ -36,8 +38,13 @@ struct IdentityReport
   std::string text() const;
 };
 
-/// Reads no voxels.
-IdentityReport identityReport(const scene::Case& value, const SendParts& parts);
+/// `faces`: images in which a face can be recognised (facesToMask); nullptr: not looked for, and
+/// then images that hold a whole head are warned of. Reads no voxels.
+IdentityReport identityReport(const scene::Case& value, const SendParts& parts,
+                              const std::vector<std::string>* faces = nullptr);
+
+/// scene::imagesWithFace, without reading images that are smaller than a head.
+std::vector<std::string> facesToMask(const scene::Case& value);
 
 struct SendSummary
 {

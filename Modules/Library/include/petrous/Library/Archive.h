@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,10 @@ struct ArchiveOptions
   /// The planned date goes along. Dates identify: with the list of a day's operations, everybody
   /// knows who the patient is.
   bool keepDate = false;
+  /// Changes the copy of the case that is written (scene::maskImages); returns sentences for the
+  /// user. Images that it leaves without an object are written to the archive alone, and no
+  /// thumbnail goes along. Not called for a plan.
+  std::function<std::vector<std::string>(scene::Case&, const core::Progress&)> prepare = {};
 };
 
 struct ArchiveSummary

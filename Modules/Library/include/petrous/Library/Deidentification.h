@@ -33,6 +33,10 @@ struct DeidentificationOptions
   bool retainPatientCharacteristics = false; ///< sex, age, size, weight
   bool retainSafePrivate = false;            ///< PS3.15 Table E.3.10-1
   bool keepBurnedIn = false; ///< also images that state, or are suspected of, burned-in text
+  /// Air in place of the face (volume::maskFace) in CT and MR volumes, by the Clean Recognizable
+  /// Visual Features Option. Images that are in no such volume, and volumes with a face whose
+  /// pixels are compressed, are left out.
+  bool maskFace = false;
 };
 
 /// What replaces identities; equal keys give equal pseudonyms, UIDs and date shifts. Nothing leads

@@ -43,6 +43,13 @@ public:
   ConfidentialityProfile profile;
 
 private:
+  struct Person
+  {
+    std::string name, birthDate;
+    bool differs(const Person& other) const; ///< both state it, and not the same
+  };
+
+  std::map<std::string, Person> m_people; ///< the first by pseudonym
   DeidentificationOptions m_options;
   const PseudonymKey& m_key;
 };

@@ -107,6 +107,8 @@ void runNodes(const Context& context, const NodeOptions& options)
   if (options.tls || !options.ca.empty() || !options.certificate.empty() || !options.key.empty())
     node.tls = network::TlsFiles{absolute(options.ca), absolute(options.certificate),
                                  absolute(options.key)};
+  network::checkNode(node);
+  network::checkTlsFiles(node);
   list.add(node);
   context.print(nodeText(node) + ": is added; 'petrous nodes test " + node.name + "' calls it");
   context.printJson(nodeJson(node));
@@ -115,6 +117,7 @@ void runNodes(const Context& context, const NodeOptions& options)
 struct SendOptions
 {
   std::string caseName, node, what = "all";
+  bool withoutNotes = false;
 };
 
 void send(const Context& context, const SendOptions& options)
@@ -127,6 +130,11 @@ void send(const Context& context, const SendOptions& options)
   parts.mr = all || options.what == "mr";
   parts.labels = all || options.what == "labels";
   parts.scene = all || options.what == "scene";
+  parts.note = !options.withoutNotes;
+  // Before anything leaves.
+  for (const std::string& warning :
+       presenters::identityReport(library.open(options.caseName), parts).warnings)
+    context.warn(warning);
   const auto done = presenters::sendCase(library, options.caseName, list.at(options.node), parts,
                                          context.progress());
   for (const std::string& note : done.notes)
@@ -224,6 +232,8 @@ void addNodeCommands(CLI::App& app, Context& context)
                    "received as it is")
       ->check(oneOf({"ct", "mr", "labels", "scene", "all"}))
       ->capture_default_str();
+  command->add_flag("--without-notes", out->withoutNotes,
+                    "Leave out the note of the description, which else goes along as it is");
 
   auto in = std::make_shared<ReceiveOptions>();
   command = context.addCommand(app, "receive", "Add a case from a DICOM node to the library",

@@ -131,7 +131,7 @@ TEST_F(NodeCommand, SendsACaseThatIsTheSameWhenReceived)
   const auto warned = run("send ear --to pacs --without-notes");
   EXPECT_EQ(warned.code, 0) << warned.err;
   EXPECT_NE(warned.err.find("tag"), std::string::npos) << warned.err;
-  EXPECT_EQ(warned.err.find("note"), std::string::npos) << warned.err;
+  EXPECT_EQ(warned.err.find("the note:"), std::string::npos) << warned.err;
   EXPECT_NE(warned.err.find("1 segmentation of an earlier state"), std::string::npos) << warned.err;
   json("receive --from pacs --as noteless --study " + sent["study"].get<std::string>() + other());
   EXPECT_EQ(run("info noteless" + other()).out.find("Doe^Jane"), std::string::npos);

@@ -124,6 +124,7 @@ void send(const Context& context, const SendOptions& options)
 {
   const library::Library library = context.openLibrary();
   const network::NodeList list(library.folder());
+  const network::Node& node = list.at(options.node);
   const bool all = options.what == "all";
   presenters::SendParts parts;
   parts.ct = all || options.what == "ct";
@@ -135,8 +136,8 @@ void send(const Context& context, const SendOptions& options)
   for (const std::string& warning :
        presenters::identityReport(library.open(options.caseName), parts).warnings)
     context.warn(warning);
-  const auto done = presenters::sendCase(library, options.caseName, list.at(options.node), parts,
-                                         context.progress());
+  const auto done =
+      presenters::sendCase(library, options.caseName, node, parts, context.progress());
   for (const std::string& note : done.notes)
     context.warn(note);
   if (!done.transfer.verified)

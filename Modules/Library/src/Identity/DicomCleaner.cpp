@@ -1275,6 +1275,8 @@ std::string cleanNativePixels(DcmElement& element, std::uint64_t samples, std::u
   }
   if (copy.size() % 2 != 0)
     copy.push_back(0);
+  if (copy.size() == length && std::equal(copy.begin(), copy.end(), bytes))
+    return {};
   if (!isWords)
     return element.putUint8Array(copy.data(), copy.size()).good() ? "" : kPixelsDamaged;
   std::vector<Uint16> words(copy.size() / 2);

@@ -845,11 +845,34 @@ TEST_F(CommandLine, OutputsReplaceNeitherInputsNorTheLibrary)
   json("export ear --what ct --out " + quoted(library() / "mine.nrrd"));
 }
 
+TEST_F(CommandLine, AddTellsOnlyWhatIsNew)
+{
+  makePatient();
+  json("new ear --ct " + quoted(m_folder / "patient/ct"));
+  // Named after the file: which is noted, as it may be a patient's.
+  const auto labels = m_folder / "patient/labels";
+  std::filesystem::copy(labels / "incus.nii.gz", m_folder / "Doe Jane.nii.gz");
+  std::filesystem::copy(labels / "stapes.nii.gz", m_folder / "Roe Rick.nii.gz");
+  const auto notices = [this](const std::string& file)
+  {
+    const std::string told = run("add ear --labels " + quoted(m_folder / file)).err;
+    return std::count(told.begin(), told.end(), '\n');
+  };
+  const auto first = notices("Doe Jane.nii.gz");
+  EXPECT_GT(first, 0);
+  EXPECT_EQ(notices("Roe Rick.nii.gz"), first);
+}
+
 TEST_F(CommandLine, CasesAreRenamedCopiedAndDeleted)
 {
   makePatient();
   json("new ear --ct " + quoted(m_folder / "patient/ct"));
   json("library copy ear 'left ear'");
+  EXPECT_EQ(run("library copy ear -- spare").code, 0);
+  EXPECT_EQ(run("library delete -- spare").code, 0);
+  json("library undelete spare");
+  json("library delete spare");
+  expectRefused("library copy ear 'ear\u202e'", 3, "not seen");
   json("library rename ear 'right ear'");
   EXPECT_EQ(json("info 'right ear'")["case"], "right ear");
   json("appearance 'left ear' --iso 500");

@@ -191,6 +191,18 @@ TEST_F(IdentityCommand, DeidentifiesAFolderWithMapAndReport)
                 "--passphrase-file");
 }
 
+TEST_F(IdentityCommand, ReplacesAFileOnRequestOnly)
+{
+  const std::string in = quoted(fs::directory_iterator(writePlanted())->path());
+  const fs::path out = m_folder / "one.dcm";
+  json("deidentify " + in + " " + quoted(out));
+  const std::string first = textOf(out);
+  expectRefused("deidentify " + in + " " + quoted(out), 4, "--replace");
+  EXPECT_EQ(textOf(out), first);
+  json("deidentify " + in + " " + quoted(out) + " --replace");
+  EXPECT_NE(textOf(out), first) << "other UIDs";
+}
+
 // An independent reader has its own view of the table.
 TEST_F(IdentityCommand, SatisfiesAnIndependentReader)
 {

@@ -4,6 +4,7 @@
 #include <ctime>
 #include <functional>
 #include <iostream>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -612,6 +613,142 @@ TEST_F(LibraryFaults, ACallThatFailsIsToldAndLeavesTheOldOrTheNew)
   std::cout << refused << " runs were refused, " << done << " did it all the same\n";
   EXPECT_GT(refused, 20U);
   EXPECT_GT(done, 20U);
+}
+
+namespace
+{
+
+class DeidentifyFaults : public LibraryFaults
+{
+protected:
+  void SetUp() override
+  {
+    CommandLine::SetUp();
+    makePatient("--dims 40,40,40 --spacing 1.5");
+    fs::create_directories(base() / "tmp");
+    fs::copy(m_folder / "patient/ct", base() / "in");
+    std::ofstream(base() / "passphrase") << "nine lives of a cat\n";
+    ASSERT_EQ(runIn(base(), words("in", "reference")).code, 0);
+    ASSERT_EQ(runIn(base(), words("in/" + one(), "reference.dcm")).code, 0);
+  }
+
+  std::string one() const
+  {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(base() / "in"))
+      names.insert(entry.path().filename().string());
+    return *names.begin();
+  }
+
+  static std::vector<std::string> words(const std::string& in, const std::string& out)
+  {
+    return {"deidentify", "%/" + in,           "%/" + out,    "--map",
+            "%/map",      "--passphrase-file", "%/passphrase"};
+  }
+
+  /// Files by their path in the folder, without temporaries.
+  static std::map<std::string, std::string> filesIn(const fs::path& folder)
+  {
+    std::map<std::string, std::string> files;
+    std::error_code error;
+    for (const auto& entry : fs::recursive_directory_iterator(folder, error))
+    {
+      const std::string path = fs::relative(entry.path(), folder).string();
+      if (entry.is_regular_file() && path.find(".petrous-") == path.npos)
+        files[path] = textOf(entry.path());
+    }
+    return files;
+  }
+
+  /// Those of maps are removed where a map is opened.
+  static std::size_t temporariesIn(const fs::path& folder, bool withMaps = true)
+  {
+    std::size_t files = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+      files += entry.is_regular_file() && entry.file_size() > 0 &&
+               entry.path().string().find(".petrous-") != std::string::npos &&
+               (withMaps || textOf(entry.path()).rfind("PETROUS-PSEUDONYMS", 0) != 0);
+    return files;
+  }
+};
+
+} // namespace
+
+// A kill -9 leaves whole files or none where the output is to be; the map opens, has an entry for
+// each of them, and gives the same pseudonyms; and the next run removes what is left beside.
+TEST_F(DeidentifyFaults, AKillAtAnyMomentLeavesWholeFilesAndTheMap)
+{
+  std::mt19937 random(static_cast<unsigned>(numberFrom("PETROUS_KILL_SEED", 1)));
+  const auto draw = [&random](double above, double below)
+  { return std::uniform_real_distribution<double>(above, below)(random); };
+  const bool canPreload = *PETROUS_SYSTEM_CALLS != '\0';
+  const auto reference = filesIn(base() / "reference");
+  ASSERT_EQ(reference.size(), 40U);
+  const std::size_t kills = numberFrom("PETROUS_KILLS", 40);
+  std::map<bool, double> seconds; // of a run: of the folder, of a file
+  std::map<bool, int> calls;
+  std::size_t killed = 0, whole = 0, left = 0;
+  for (std::size_t n = 0; n < kills; ++n)
+  {
+    const bool isFile = n % 4 == 3, isThere = n % 4 == 1;
+    const auto run = words(isFile ? "in/" + one() : "in", isFile ? "out.dcm" : "out");
+    if (seconds[isFile] == 0.0)
+    {
+      freshWorld();
+      Fault count;
+      if (canPreload)
+        count.countTo = (m_folder / "calls").string();
+      const Ended ended = runIn(world(), run, count);
+      ASSERT_EQ(ended.code, 0) << ended.err;
+      seconds[isFile] = ended.seconds;
+      std::istringstream(textOf(m_folder / "calls")) >> calls[isFile];
+    }
+    freshWorld();
+    if (isThere)
+      fs::create_directory(world() / "out");
+    Fault fault;
+    if (n % 2 == 1 && calls[isFile] > 0)
+      fault.preloaded =
+          "PETROUS_KILL_AT=" + std::to_string(1 + static_cast<int>(draw(0.0, calls[isFile])));
+    else // most of the first half goes into the passphrase
+      fault.killAfter = draw(0.4, 1.0) * seconds[isFile];
+    const std::string when = "run " + std::to_string(n) + " " + fault.preloaded;
+    const Ended ended = runIn(world(), run, fault);
+    ASSERT_TRUE(ended.isKilled || ended.code == 0) << when << ended.err;
+    killed += ended.isKilled;
+    left += temporariesIn(world()) > 0;
+    const auto there = filesIn(world() / "out");
+    for (const auto& [path, bytes] : there)
+    {
+      EXPECT_TRUE(reference.at(path) == bytes) << when << ": " << path;
+    }
+    EXPECT_TRUE(isThere || there.empty() || there.size() == reference.size()) << when;
+    const std::string file = textOf(world() / "out.dcm");
+    EXPECT_TRUE(file.empty() || file == textOf(base() / "reference.dcm")) << when;
+    whole += !there.empty() || !file.empty();
+    // Opening a map takes a second: it is looked at each fourth time.
+    const bool looksAtMap = n % 4 == 2 || !there.empty();
+    auto next = words(isFile ? "in/" + one() : "in", isFile ? "out2.dcm" : "out2");
+    next.resize(looksAtMap ? next.size() : 3);
+    const Ended again = runIn(world(), next);
+    ASSERT_EQ(again.code, 0) << when << again.err;
+    if (looksAtMap)
+    {
+      EXPECT_TRUE(isFile ? textOf(world() / "out2.dcm") == textOf(base() / "reference.dcm")
+                         : filesIn(world() / "out2") == reference)
+          << when << ": the map's key is another";
+    }
+    if (isThere)
+    {
+      // Into the same folder again: done, or refused as it holds files; without the temporaries.
+      const int code = runIn(world(), {"deidentify", "%/in", "%/out"}).code;
+      EXPECT_EQ(code, there.empty() ? 0 : 4) << when;
+    }
+    EXPECT_EQ(temporariesIn(world(), looksAtMap), 0U) << when;
+  }
+  std::cout << killed << " of " << kills << " were killed, " << whole << " had output, " << left
+            << " left temporaries\n";
+  EXPECT_GT(killed, kills / 2);
 }
 
 TEST_F(LibraryFaults, AFlippedBitOfAnyFileIsFoundAndNamedWithItsCases)

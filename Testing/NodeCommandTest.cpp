@@ -113,6 +113,29 @@ TEST_F(NodeCommand, SendsACaseThatIsTheSameWhenReceived)
   expectValidDicom();
   const auto again = json("send ear --to pacs");
   EXPECT_EQ(again["present"], again["instances"]) << "all there already";
+  EXPECT_EQ(run("send ear --to pacs").err.find("earlier state"), std::string::npos);
+
+  // A case of the same name in another library is another study.
+  json("new twin --ct " + quoted(m_folder / "patient/ct") + other());
+  json("library rename ear first" + other());
+  json("library rename twin ear" + other());
+  EXPECT_NE(json("send ear --to pacs --what ct" + other())["study"], sent["study"]);
+  json("library delete ear" + other());
+  json("library rename first ear" + other());
+  expectRefused("receive --from pacs --study 1.2.3.4 --as nobody" + other(), 3,
+                "has no such study");
+
+  // What may be an identity is said before anything leaves; segmentations that are superseded stay.
+  json("describe ear --note 'Call Doe^Jane, born 14.03.1962' --tag mrn4711471");
+  json("remove ear --part incus");
+  const auto warned = run("send ear --to pacs --without-notes");
+  EXPECT_EQ(warned.code, 0) << warned.err;
+  EXPECT_NE(warned.err.find("tag"), std::string::npos) << warned.err;
+  EXPECT_EQ(warned.err.find("the note:"), std::string::npos) << warned.err;
+  EXPECT_NE(warned.err.find("1 segmentation of an earlier state"), std::string::npos) << warned.err;
+  json("receive --from pacs --as noteless --study " + sent["study"].get<std::string>() + other());
+  EXPECT_EQ(run("info noteless" + other()).out.find("Doe^Jane"), std::string::npos);
+  EXPECT_NE(run("send ear --to pacs --what scene").err.find("the note"), std::string::npos);
 
   // A later state is another scene, and the one that is received.
   json("undo ear");
@@ -195,6 +218,18 @@ TEST_F(NodeCommand, ABatchSendsWhatIsNew)
 TEST_F(NodeCommand, KeepsNodesInTheLibrary)
 {
   json("nodes add b --host pacs.example --port 11112 --aet ARCHIVE --calling ME");
+  expectRefused("nodes add c --host h --aet A --tls-ca " + quoted(m_folder / "none.pem"), 3,
+                "none.pem: is not there");
+  std::ofstream(m_folder / "text.pem") << "no certificate";
+  expectRefused("nodes add c --host h --aet A --tls-ca " + quoted(m_folder / "text.pem"), 3,
+                "text.pem: is not a PEM file");
+  const servers::Certificate own(m_folder, "own"), another(m_folder, "another");
+  const std::string pair = "nodes add c --host h --aet A --tls-cert " +
+                           quoted(std::filesystem::path(own.certificate())) + " --tls-key ";
+  expectRefused(pair + quoted(m_folder / "text.pem"), 3, "text.pem: is not a PEM file");
+  expectRefused(pair + quoted(std::filesystem::path(another.key())), 3, "is not the key of");
+  json(pair + quoted(std::filesystem::path(own.key())));
+  json("nodes remove c");
   json("nodes add a --host 127.0.0.1 --port " + std::to_string(servers::freePort()) +
        " --aet ARCHIVE --tls");
   const auto nodes = json("nodes list")["nodes"];
@@ -219,4 +254,36 @@ TEST_F(NodeCommand, KeepsNodesInTheLibrary)
   EXPECT_EQ(json("library verify")["damaged"].size(), 0U);
   std::ofstream(library() / "nodes.json") << "{";
   expectRefused("nodes list", 3, "nodes.json");
+}
+
+// What a killed receive left of a patient is removed by the next one.
+TEST_F(NodeCommand, RemovesWhatAKilledTransferLeft)
+{
+  makePatient();
+  json("new ear --ct " + quoted(m_folder / "patient/ct"));
+  json("nodes add pacs --host 127.0.0.1 --aet A --port " + std::to_string(servers::freePort()));
+  const auto left = m_folder / "tmp/petrous-transfer-aaaaaa/0123/images";
+  std::filesystem::create_directories(left);
+  std::ofstream(left / "part.tmp") << "a patient's";
+  std::filesystem::create_directories(m_folder / "tmp/petrous-other");
+  ::setenv("TMPDIR", (m_folder / "tmp").c_str(), 1);
+  const auto outcome = run("receive --from pacs --study 1.2.3 --as new");
+  ::unsetenv("TMPDIR");
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(m_folder / "tmp/petrous-transfer-aaaaaa"));
+  EXPECT_TRUE(std::filesystem::exists(m_folder / "tmp/petrous-other"));
+}
+
+// An MR as primary image is the case's MR.
+TEST_F(NodeCommand, SendsThePrimaryMr)
+{
+  if (!servers::Orthanc::installed())
+    GTEST_SKIP() << "Orthanc (package orthanc) is not installed";
+  start(false);
+  json("new mr --modality MR --ct " + quoted(m_folder / "patient/mr"));
+  const auto sent = run("send mr --to pacs");
+  EXPECT_EQ(sent.code, 0) << sent.err;
+  EXPECT_EQ(sent.err.find("has no MR"), std::string::npos) << sent.err;
+  EXPECT_GT(json("send mr --to pacs --what mr")["instances"], 10);
+  expectRefused("send mr --to pacs --what ct", 3, "its primary image is an MR");
 }

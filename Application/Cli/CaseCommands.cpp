@@ -164,23 +164,44 @@ void printStructures(const Context& context, const std::vector<presenters::Struc
   info["structures"] = std::move(list);
 }
 
-// What was accepted or assumed when the parts were read.
-void warnNotes(const Context& context, const scene::Case& value)
+/// How many parts a case had.
+struct PartCounts
 {
+  PartCounts() = default;
+  explicit PartCounts(const scene::Case& value)
+    : mr(value.mr.size())
+    , labels(value.labels.size())
+    , meshes(value.meshes.size())
+    , hasImage(true)
+  {
+  }
+
+  std::size_t mr = 0, labels = 0, meshes = 0;
+  bool hasImage = false;
+};
+
+// What was accepted or assumed when the parts were read that came after `before`.
+void warnNotes(const Context& context, const scene::Case& value, const PartCounts& before = {})
+{
+  const auto from = [](const auto& parts, std::size_t first)
+  { return parts.begin() + static_cast<std::ptrdiff_t>(std::min(first, parts.size())); };
   const auto remark = [&context](const auto& part)
   {
     for (const std::string& note : part.notes)
       context.warn(part.name + ": " + note);
   };
-  for (const std::string& note : value.ct.notes)
+  for (const std::string& note : before.hasImage ? std::vector<std::string>() : value.ct.notes)
     context.warn((value.ct.modality == scene::Modality::Mr ? "MR" : value.ct.name) + ": " + note);
-  std::for_each(value.mr.begin(), value.mr.end(), remark);
-  for (const auto& part : value.labels)
-    for (const std::string& note : part.notes)
-      context.warn(
-          (part.structures.size() == 1 ? part.structures.front().name : std::string("labels")) +
-          ": " + note);
-  std::for_each(value.meshes.begin(), value.meshes.end(), remark);
+  std::for_each(from(value.mr, before.mr), value.mr.end(), remark);
+  std::for_each(from(value.labels, before.labels), value.labels.end(),
+                [&context](const auto& part)
+                {
+                  for (const std::string& note : part.notes)
+                    context.warn((part.structures.size() == 1 ? part.structures.front().name
+                                                              : std::string("labels")) +
+                                 ": " + note);
+                });
+  std::for_each(from(value.meshes, before.meshes), value.meshes.end(), remark);
 }
 
 void addNew(CLI::App& app, Context& context)
@@ -261,10 +282,11 @@ void addAdd(CLI::App& app, Context& context)
         sources.salted = [&library](const std::string& frame)
         { return library::saltedFrame(library, frame); };
         scene::Case value = library.open(options->name);
+        const PartCounts before(value);
         std::vector<presenters::StructureReport> structures;
         presenters::addParts(value, sources, context.progress(), &structures);
         library.save(value);
-        warnNotes(context, value);
+        warnNotes(context, value, before);
         printCase(context, value);
         nlohmann::json info = infoJson(value);
         printStructures(context, structures, info);

@@ -24,6 +24,7 @@ struct DeidentifyCommandOptions
 {
   std::string input, output, dates = "remove", map, passphraseFile, report;
   library::DeidentificationOptions profile;
+  bool replace = false;
 };
 
 struct PseudonymsCommandOptions
@@ -107,9 +108,9 @@ void deidentify(const Context& context, DeidentifyCommandOptions options)
     passphrase = passphraseFor(options.map, options.passphraseFile);
   else if (!options.passphraseFile.empty())
     throw UsageError("--passphrase-file: there is no --map that it could open");
-  const library::DeidentificationResult done =
-      presenters::deidentifyFolder({options.input, options.output, options.map, options.profile},
-                                   passphrase, context.progress());
+  const library::DeidentificationResult done = presenters::deidentifyFolder(
+      {options.input, options.output, options.map, options.profile, options.replace}, passphrase,
+      context.progress());
   for (const std::string& line : done.leftOut)
     context.warn("left out: " + line);
   for (const auto& [what, files] : done.report.warnings)
@@ -174,6 +175,7 @@ void addDeidentifyCommands(CLI::App& app, Context& context)
                       "the same pseudonyms, UIDs and date shifts again");
   command->add_option("--passphrase-file", options->passphraseFile,
                       "File with the map's passphrase in its first line; else it is asked for");
+  command->add_flag("--replace", options->replace, "Replace OUT if it is a file that is there");
   command->add_option("--report", options->report,
                       "What stays and why, and what was removed: F.json or F.txt");
 

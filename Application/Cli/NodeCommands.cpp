@@ -108,6 +108,8 @@ void runNodes(const Context& context, const NodeOptions& options)
   if (options.tls || !options.ca.empty() || !options.certificate.empty() || !options.key.empty())
     node.tls = network::TlsFiles{absolute(options.ca), absolute(options.certificate),
                                  absolute(options.key)};
+  network::checkNode(node);
+  network::checkTlsFiles(node);
   list.add(node);
   context.print(nodeText(node) + ": is added; 'petrous nodes test " + node.name + "' calls it");
   context.printJson(nodeJson(node));
@@ -117,12 +119,14 @@ struct SendOptions
 {
   std::string caseName, node, what = "all";
   MaskOptions mask;
+  bool withoutNotes = false;
 };
 
 void send(const Context& context, const SendOptions& options)
 {
   const library::Library library = context.openLibrary();
   const network::NodeList list(library.folder());
+  const network::Node& node = list.at(options.node);
   const bool all = options.what == "all";
   presenters::SendParts parts;
   parts.ct = all || options.what == "ct";
@@ -130,8 +134,13 @@ void send(const Context& context, const SendOptions& options)
   parts.labels = all || options.what == "labels";
   parts.scene = all || options.what == "scene";
   parts.mask = options.mask.mask();
-  const auto done = presenters::sendCase(library, options.caseName, list.at(options.node), parts,
-                                         context.progress());
+  parts.note = !options.withoutNotes;
+  // Before anything leaves.
+  for (const std::string& warning :
+       presenters::identityReport(library.open(options.caseName), parts).warnings)
+    context.warn(warning);
+  const auto done =
+      presenters::sendCase(library, options.caseName, node, parts, context.progress());
   for (const std::string& note : done.notes)
     context.warn(note);
   if (!done.transfer.verified)
@@ -227,6 +236,8 @@ void addNodeCommands(CLI::App& app, Context& context)
                    "received as it is")
       ->check(oneOf({"ct", "mr", "labels", "scene", "all"}))
       ->capture_default_str();
+  command->add_flag("--without-notes", out->withoutNotes,
+                    "Leave out the note of the description, which else goes along as it is");
 
   addMaskOptions(*command, out->mask);
 

@@ -172,6 +172,12 @@ int parsed(const Program& program, std::vector<std::string> words, Context& cont
     if (const std::string option = listWithGap(*app.get_subcommand(name), words); !option.empty())
       throw UsageError(option + ": a value of its list is empty; give one, or leave it out");
   refuseEmptyValues(app);
+  // CLI11 takes no more words of a list after "--" that has some already.
+  if (const auto mark = std::find(words.begin(), words.end(), "--");
+      mark != words.end() &&
+      std::none_of(mark + 1, words.end(),
+                   [](const std::string& word) { return !word.empty() && word[0] == '-'; }))
+    words.erase(mark);
   try
   {
     std::reverse(words.begin(), words.end()); // the order that CLI11 expects

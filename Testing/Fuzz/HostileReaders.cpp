@@ -6,14 +6,18 @@
 #include <sstream>
 #include <stdexcept>
 #include <system_error>
+#include <vector>
 
+#include <sodium.h>
 #include <zstd.h>
 
+#include "DicomCleaner.h"
 #include "DicomHeader.h"
 #include "EditCodec.h"
 #include "JournalFile.h"
 #include "LabelNames.h"
 #include "PixelCodec.h"
+#include "PixelMetadata.h"
 #include "RecordCodec.h"
 #include "petrous/Core/CsvTable.h"
 #include "petrous/Core/Error.h"
@@ -24,6 +28,7 @@
 #include "petrous/Imaging/StructureSet.h"
 #include "petrous/Library/Archive.h"
 #include "petrous/Library/ObjectStore.h"
+#include "petrous/Library/PseudonymMap.h"
 #include "petrous/Scene/HistoryText.h"
 #include "petrous/Scene/Manifest.h"
 #include "petrous/Session/RecordingReader.h"
@@ -112,9 +117,10 @@ HostileReaders::~HostileReaders()
 
 std::vector<std::string> HostileReaders::names()
 {
-  return {"nifti",        "nifti-pair", "nifti-gz", "nrrd",    "segments", "metaimage", "obj",
-          "stl",          "ply",        "vtp",      "table",   "csv",      "manifest",  "dicom",
-          "segmentation", "rtstruct",   "archive",  "journal", "stroke",   "recording", "ticks"};
+  return {"nifti",    "nifti-pair", "nifti-gz",     "nrrd",     "segments",  "metaimage",
+          "obj",      "stl",        "ply",          "vtp",      "table",     "csv",
+          "manifest", "dicom",      "segmentation", "rtstruct", "archive",   "cleaner",
+          "frame",    "pseudonyms", "journal",      "stroke",   "recording", "ticks"};
 }
 
 fs::path HostileReaders::put(const char* name, std::string_view bytes) const
@@ -124,6 +130,68 @@ fs::path HostileReaders::put(const char* name, std::string_view bytes) const
       .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   return path;
 }
+
+namespace
+{
+
+/// Bits allocated, bits stored, high bit, and signed (1), with native cells (0), a codestream (2)
+/// or an RLE frame of 16 pixels (4): four bytes; then these. What is cleared once has nothing left
+/// to be cleared.
+bool clearsFrame(std::string_view bytes)
+{
+  if (bytes.size() < 4)
+    return false;
+  const library::StoredBits bits{
+      static_cast<unsigned char>(bytes[0]), static_cast<unsigned char>(bytes[1]),
+      static_cast<unsigned char>(bytes[2]), (static_cast<unsigned char>(bytes[3]) & 1U) != 0};
+  const unsigned kind = static_cast<unsigned char>(bytes[3]) >> 1U & 3U;
+  std::vector<std::uint8_t> frame(bytes.begin() + 4, bytes.end());
+  const auto clear = [&](std::vector<std::uint8_t>& all)
+  {
+    bool hadBits = false;
+    if (kind == 1)
+    {
+      library::codestreamPrecision(all.data(), all.size());
+      return library::clearCodestreamMetadata(all.data(), all.size());
+    }
+    if (kind == 2)
+      return library::clearRleMetadata(all.data(), all.size(), 16, bits, hadBits);
+    if (!library::isClearable(bits))
+      return false;
+    library::clearUnusedBits(all.data(), all.size() * 8 / static_cast<std::size_t>(bits.allocated),
+                             bits);
+    return true;
+  };
+  if (!clear(frame))
+    return false;
+  const std::vector<std::uint8_t> once = frame;
+  if (!clear(frame) || frame != once)
+    throw std::logic_error("what was cleared is changed by clearing it again");
+  return true;
+}
+
+/// The bytes of a pseudonym map, with a checksum that is right; nothing that takes long to open.
+std::string cheapMap(std::string_view bytes)
+{
+  constexpr std::size_t kCost = 21, kMostPasses = 2, kMostMemory = 1 << 17, kChecksum = 32;
+  const auto number = [bytes](std::size_t at)
+  {
+    std::uint64_t value = 0;
+    for (std::size_t n = 8; n-- > 0;)
+      value = value << 8 | static_cast<unsigned char>(bytes[at + n]);
+    return value;
+  };
+  if (bytes.size() < kCost + 16 || number(kCost) > kMostPasses || number(kCost + 8) > kMostMemory)
+    return {};
+  std::string file(bytes);
+  std::string sum(kChecksum, '\0');
+  ::crypto_generichash(reinterpret_cast<unsigned char*>(sum.data()), sum.size(),
+                       reinterpret_cast<const unsigned char*>(file.data()), file.size(), nullptr,
+                       0);
+  return file + sum;
+}
+
+} // namespace
 
 bool HostileReaders::accepts(const std::string& reader, std::string_view bytes) const
 try
@@ -200,6 +268,22 @@ try
     std::vector<session::MaskEdit> edits;
     const bool areTicks = session::decodeTicks(table, rows, ticks);
     return session::decodeEdits(table, rows, edits) || areTicks;
+  }
+  else if (reader == "cleaner")
+  {
+    static const library::PseudonymKey key;
+    library::DicomCleaner cleaner({}, key);
+    const auto out = [this](const std::string&, const std::string&) { return m_folder / "b.dcm"; };
+    return cleaner.clean(put("a.dcm", bytes), out).leftOut.empty();
+  }
+  else if (reader == "frame")
+    return clearsFrame(bytes);
+  else if (reader == "pseudonyms")
+  {
+    const std::string file = cheapMap(bytes);
+    if (file.empty())
+      return false;
+    library::PseudonymMap(put("a.map", file), "a passphrase", {1, 1 << 16});
   }
   else
     throw std::logic_error("no reader '" + reader + "'");

@@ -254,6 +254,7 @@ void NodesDialog::keep()
       {
         const network::Node node = typed();
         network::checkNode(node);
+        network::checkTlsFiles(node);
         network::NodeList nodes(m_library);
         const bool known = !m_list->findItems(words(node.name), Qt::MatchExactly).isEmpty();
         if (known)

@@ -71,6 +71,7 @@ TEST_F(Exchange, NodesAreKeptWithTheLibrary)
   saveBall("ball");
   openWindow("ball");
   const int port = network::test::freePort(); // nobody listens there
+  const network::test::Certificate own(folder(), "own");
   QString outcome;
   bool done = false;
   onDialog(
@@ -101,10 +102,15 @@ TEST_F(Exchange, NodesAreKeptWithTheLibrary)
         EXPECT_TRUE(told().contains("together")) << told().toStdString();
         EXPECT_FALSE(network::NodeList(libraryFolder()).at("pacs").tls) << "as it was";
         type(dialog, "nodeKey", "/somewhere/own.key");
+        button(dialog, "keepNode").click();
+        EXPECT_TRUE(told().contains("is not there")) << told().toStdString();
+        EXPECT_FALSE(network::NodeList(libraryFolder()).at("pacs").tls) << "as it was";
+        type(dialog, "nodeCertificate", own.certificate().c_str());
+        type(dialog, "nodeKey", own.key().c_str());
         type(dialog, "nodeOwnTitle", "EAR");
         button(dialog, "keepNode").click();
         const network::Node changed = network::NodeList(libraryFolder()).at("pacs");
-        EXPECT_TRUE(changed.tls && changed.tls->key == "/somewhere/own.key");
+        EXPECT_TRUE(changed.tls && changed.tls->key == own.key());
         EXPECT_EQ(changed.callingAeTitle, "EAR");
         keepPicture(dialog, "nodes");
         button(dialog, "removeNode").click();

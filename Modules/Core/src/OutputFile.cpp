@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -160,7 +161,19 @@ OutputFile::OutputFile(const fs::path& path)
   {
     m_temporary = temporaryBeside(m_path);
     m_descriptor = ::open(m_temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (m_descriptor >= 0 || (errno == EEXIST && n < kAttempts))
+    if (m_descriptor >= 0)
+    {
+      // Tells it from what a killed process left, which others may remove.
+      struct stat status = {};
+      ::flock(m_descriptor, LOCK_EX | LOCK_NB);
+      if (n < kAttempts && ::fstat(m_descriptor, &status) == 0 && status.st_nlink == 0)
+      {
+        ::close(m_descriptor);
+        m_descriptor = -1;
+      }
+      continue;
+    }
+    if (errno == EEXIST && n < kAttempts)
       continue;
     const int error = errno;
     ::close(m_folder);

@@ -1,4 +1,5 @@
 #include "LabelTable.h"
+#include "LabelNames.h"
 
 #include <algorithm>
 
@@ -156,7 +157,13 @@ TEST(LabelTable, RefusesWithTheLineThatIsWrong)
                                                        "first is in line 2)"},
       {"1 incus 1 2 3 255\n-4 stapes 1 2 3 255\n", "line 2 gives the index -4"},
       {"1 incus 1 2 3 255\nstapes 1 2 3 255\n", "line 2 does not start with an index"},
-      {"{\"incus\": 1, \"stapes\": 1}", "gives index 1 a second name"}};
+      {"{\"incus\": 1, \"stapes\": 1}", "gives index 1 a second name"},
+      {"{\n\"incus\": 1,\n\"incus\": 2}", "line 3 gives 'incus' a second time"},
+      {"{\"1\": \"incus\",\n\n\"1\": \"stapes\"}", "line 3 gives '1' a second time"},
+      {"{\"x\": {\"1\": 1}, \"labels\": {\"incus\": 1,\n\"incus\": 1}}",
+       "line 2 gives 'incus' a second time"},
+      {"{\"1\": \"incus\",\n\"2\" \"stapes\"}", "line 2 is not valid JSON"},
+      {"{\"1\": \"incus\",\n\"x\": \"stapes\"}", "line 2 is no entry of a table"}};
   for (const auto& [text, word] : wrong)
     expectRefused(refused(text), Reason::Unreadable, word);
   expectRefused(refused("{\"EchoTime\": 0.02, \"SeriesNumber\": 5}"), Reason::Unreadable,
@@ -164,7 +171,7 @@ TEST(LabelTable, RefusesWithTheLineThatIsWrong)
   expectRefused(refused("{\"1\": "), Reason::Unreadable, "no names of label values");
   const auto twice = refusalOf(
       [&] { readLabelTable(putFile(folder / "a.json", "{\"incus\": 1, \"stapes\": 1}")); });
-  expectRefused(twice, Reason::Unreadable, "a.json: gives index 1 a second name");
+  expectRefused(twice, Reason::Unreadable, "a.json: its line 1 gives index 1 a second name");
   expectRefused(refused(std::string("\xff\xfe"
                                     "1\0,\0",
                                     6)),
@@ -265,6 +272,20 @@ TEST(LabelTable, IsFoundBesideTheFileUnderItsName)
   // What converters write beside an image is no table.
   putFile(folder / "scan.json", "{\"EchoTime\": 0.02, \"SeriesNumber\": 4}");
   EXPECT_EQ(namesOf(loadLabels(folder / "scan.nrrd")), "3:label 3;4:label 4;7:label 7;");
+}
+
+TEST(UniqueNames, NumbersNoStructureByANameThatAnotherStates)
+{
+  UniqueNames names;
+  for (const char* stated : {"nerve", "nerve", "nerve 2", "nerve 4"})
+    names.reserve(stated);
+  std::vector<std::string> notes;
+  EXPECT_EQ(names.take("nerve", notes), "nerve");
+  EXPECT_EQ(names.take("nerve", notes), "nerve 3");
+  EXPECT_EQ(names.take("nerve 2", notes), "nerve 2");
+  EXPECT_EQ(names.take("nerve 4", notes), "nerve 4");
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].find("'nerve 3'"), std::string::npos);
 }
 
 } // namespace petrous::imaging

@@ -10,7 +10,9 @@
 #include "PixelMetadata.h"
 #include "Vocabulary.h"
 #include "petrous/Core/InputFile.h"
+#include "petrous/Core/OutputFile.h"
 #include "petrous/Library/Deidentification.h"
+#include "petrous/Library/OwnerLock.h"
 
 namespace petrous::library
 {
@@ -656,10 +658,396 @@ TEST(PixelMetadata, ClearsCommentsAndWhatFollowsTheImage)
   std::string rle =
       little(1, 4) + little(64, 4) + std::string(56, 'n') + std::string("\x03pixl") + "name";
   std::vector<std::uint8_t> bytes(rle.begin(), rle.end());
-  EXPECT_TRUE(clearRleMetadata(bytes.data(), bytes.size(), 4));
+  bool hadBits = false;
+  EXPECT_TRUE(clearRleMetadata(bytes.data(), bytes.size(), 4, {8, 8, 7, false}, hadBits));
+  EXPECT_FALSE(hadBits);
   rle.assign(bytes.begin(), bytes.end());
   EXPECT_EQ(rle.find('n'), std::string::npos);
   EXPECT_NE(rle.find("pixl"), std::string::npos);
+}
+
+namespace
+{
+
+/// An explicit VR little endian file of 4 x 4 pixels; `body`: elements in any order.
+TestSlice explicitSlice(const std::string& body)
+{
+  TestSlice slice;
+  slice.columns = slice.rows = 4;
+  slice.extra = body;
+  return slice;
+}
+
+std::string explicitElement(std::uint32_t tag, const char* vr, const std::string& value)
+{
+  std::string out;
+  TestSlice().element(out, tag, vr, value);
+  return out;
+}
+
+/// VR UN of undefined length, whose content is implicit (PS3.5 6.2.2 note 2).
+std::string unknownItems(std::uint32_t tag, const std::string& item)
+{
+  const auto undefined = little(0xffffffff, 4);
+  return tagBytes(tag) + "UN" + little(0, 2) + undefined + tagBytes(kItem) + undefined + item +
+         tagBytes(kItemEnd) + little(0, 4) + tagBytes(kSequenceEnd) + little(0, 4);
+}
+
+std::string allBytesBelow(const fs::path& folder)
+{
+  std::string all;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file())
+      all += core::readFile(entry.path());
+  return all;
+}
+
+DeidentificationOptions allRetained(Dates dates)
+{
+  return {dates, true, true, true, true, false};
+}
+
+} // namespace
+
+TEST(PixelMetadata, ClearsTheBitsBesideTheSampleAndNoOthers)
+{
+  for (const int allocated : {8, 16, 32})
+    for (const int stored : {1, 5, 7, allocated - 4, allocated - 1})
+      for (const int high : {stored - 1, allocated - 1})
+      {
+        const StoredBits bits{allocated, stored, high, false};
+        const std::uint64_t mask = ((std::uint64_t{1} << stored) - 1) << (high + 1 - stored);
+        std::vector<std::uint8_t> bytes;
+        std::vector<std::uint64_t> values;
+        for (std::uint64_t n = 0; n < 64; ++n)
+        {
+          values.push_back(n * 0x9e3779b97f4a7c15 >> (64 - allocated));
+          for (int b = 0; b < allocated; b += 8)
+            bytes.push_back(static_cast<std::uint8_t>(values.back() >> b));
+        }
+        ASSERT_TRUE(isClearable(bits));
+        EXPECT_TRUE(clearUnusedBits(bytes.data(), values.size(), bits));
+        for (std::size_t n = 0; n < values.size(); ++n)
+        {
+          std::uint64_t cell = 0;
+          for (int b = allocated - 8; b >= 0; b -= 8)
+            cell = cell << 8 | bytes[n * static_cast<std::size_t>(allocated) / 8 +
+                                     static_cast<std::size_t>(b) / 8];
+          EXPECT_EQ(cell, values[n] & mask) << allocated << ", " << stored << ", " << high;
+        }
+        EXPECT_FALSE(clearUnusedBits(bytes.data(), values.size(), bits));
+      }
+  EXPECT_FALSE(isClearable({24, 12, 11, false}));
+  EXPECT_FALSE(isClearable({16, 12, 16, false}));
+  // Signed samples of 12 bits: extended, they stay; where one is not, none says anything.
+  std::vector<std::uint8_t> extended{0xff, 0xff, 0x05, 0x00}, mixed{0xff, 0xff, 0x05, 0x10};
+  const std::vector<std::uint8_t> before = extended;
+  EXPECT_FALSE(clearUnusedBits(extended.data(), 2, {16, 12, 11, true}));
+  EXPECT_EQ(extended, before);
+  EXPECT_TRUE(clearUnusedBits(mixed.data(), 2, {16, 12, 11, true}));
+  EXPECT_EQ(mixed, (std::vector<std::uint8_t>{0xff, 0x0f, 0x05, 0x00}));
+}
+
+TEST(PixelMetadata, ClearsTheBitsBesideTheSampleInRle)
+{
+  // Two segments of 4 pixels: the high bytes as literals, the low ones as a run.
+  std::string rle = little(2, 4) + little(64, 4) + little(70, 4) + std::string(52, '\0') +
+                    std::string("\x03\xf1\xe2\x03\x84", 5) + std::string(1, '\0') +
+                    std::string("\xfd\x77", 2);
+  std::vector<std::uint8_t> bytes(rle.begin(), rle.end());
+  bool hadBits = false;
+  ASSERT_TRUE(clearRleMetadata(bytes.data(), bytes.size(), 4, {16, 12, 11, false}, hadBits));
+  EXPECT_TRUE(hadBits);
+  EXPECT_EQ(std::string(bytes.begin() + 64, bytes.begin() + 72),
+            std::string("\x03\x01\x02\x03\x04\0\xfd\x77", 8));
+}
+
+TEST(PixelMetadata, ReadsThePrecisionOfACodestream)
+{
+  const std::string jpeg = std::string("\xff\xd8\xff\xfe\0\x04zy\xff\xc3\0\x0b\x0c", 13);
+  const std::string wavelet =
+      "\xff\x4f\xff\x51" + std::string(36, '\0') + std::string("\0\x02\x07\1\1\x8b\1\1", 8);
+  const auto precision = [](const std::string& text)
+  { return codestreamPrecision(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()); };
+  EXPECT_EQ(precision(jpeg), 12);
+  EXPECT_EQ(precision(wavelet), 12);
+  EXPECT_EQ(precision("\xff\xd8 no frame header"), 0);
+}
+
+TEST_F(Deidentification, ClearsOverlaysInUnusedBitsOfEightAndThirtyTwo)
+{
+  const auto cleanedPixels = [this](TestSlice slice)
+  {
+    slice.slope.reset();
+    slice.write(in / "a.dcm");
+    fs::remove_all(out);
+    report = run().report;
+    return core::readFile(out / "series-001-CT" / "00001.dcm");
+  };
+  TestSlice eight = explicitSlice("");
+  eight.bitsAllocated = 8;
+  eight.bitsStored = 6;
+  eight.isSigned = false;
+  eight.cell = [](int i, int j) { return static_cast<std::uint32_t>(i + 4 * j) | 0xc0U; };
+  std::string bytes = cleanedPixels(eight);
+  for (std::size_t n = 0; n < 16; ++n)
+    EXPECT_EQ(bytes[bytes.size() - 16 + n], static_cast<char>(n));
+  EXPECT_NE(report.text().find("(7fe0,0010) PixelData: bits beside those stored cleared"),
+            std::string::npos);
+  TestSlice wide = explicitSlice("");
+  wide.bitsAllocated = 32;
+  wide.bitsStored = 24;
+  wide.isSigned = false;
+  wide.cell = [](int, int) { return 0x4a001234U; }; // J
+  bytes = cleanedPixels(wide);
+  EXPECT_EQ(bytes.substr(bytes.size() - 64, 4), little(0x1234, 4));
+  eight.bitsStored = 8;
+  cleanedPixels(eight);
+  EXPECT_EQ(report.text().find("bits beside"), std::string::npos);
+}
+
+TEST_F(Deidentification, LooksIntoSequencesOfUnknownVr)
+{
+  const std::string plants = element(0x00100010, "LINDQVIST") + element(0x00081030, "LINDQVIST") +
+                             element(0x00181030, "LINDQVIST") + element(0x00400007, "LINDQVIST");
+  const std::string item =
+      tagBytes(kItem) + little(static_cast<std::uint32_t>(plants.size()), 4) + plants;
+  std::string body;
+  for (const std::uint32_t tag :
+       {0x00081032, 0x00081115, 0x00081140, 0x00091010, 0x00400275, 0x00081030, 0x00081090,
+        0x00100010, 0x00180050, 0x00181150, 0x00200052, 0x00541001, 0x7fe10010})
+    body += unknownItems(static_cast<std::uint32_t>(tag), plants);
+  for (const std::uint32_t tag :
+       {0x00082112, 0x00089215, 0x00400260, 0x00090011, 0x00081010, 0x00181020, 0x00189004})
+    body += explicitElement(static_cast<std::uint32_t>(tag), "UN", item);
+  explicitSlice(body).write(in / "a.dcm");
+  for (const auto dates : {Dates::Remove, Dates::Shift, Dates::Keep})
+  {
+    fs::remove_all(out);
+    const DeidentificationResult done = deidentify(in, out, allRetained(dates), key);
+    EXPECT_EQ(allBytesBelow(out).find("LINDQVIST"), std::string::npos);
+    EXPECT_NE(done.report.text().find("(0008,1115)/(0010,0010)"), std::string::npos)
+        << "the items of UN were not looked into";
+    EXPECT_NE(done.report.text().find("(0008,2112)/(0010,0010)"), std::string::npos);
+    EXPECT_NE(done.report.text().find("(0008,1030) StudyDescription: removed"), std::string::npos);
+  }
+}
+
+TEST_F(Deidentification, KeepsNoTextOfOtherCharacterSets)
+{
+  // A name in Latin-1, UTF-8 in both cases, JIS X 0208 by escape sequences, GB18030 (whose second
+  // bytes are ASCII letters).
+  const std::vector<std::string> names{"M\xfcLLER", "m\xc3\xbcller", "M\xc3\x9cLLER",
+                                       "\x1b$B;3ED\x1b(B", "\x81\x41\x82\x42"};
+  const std::vector<std::string> sets{"ISO_IR 100", "ISO_IR 192", "\\ISO 2022 IR 87", "GB18030"};
+  for (const std::string& set : sets)
+    for (const std::string& name : names)
+    {
+      std::string body = element(0x00080005, set) + element(0x00100010, "M\xc3\xbcller^Hans");
+      for (const std::uint32_t tag :
+           {0x00081010, 0x00081030, 0x0008103e, 0x00081090, 0x00180024, 0x00181000, 0x00181020,
+            0x00181160, 0x00181210, 0x00181250, 0x00181030, 0x00102110, 0x00204000, 0x00280303})
+        body += element(static_cast<std::uint32_t>(tag), "HEAD " + name);
+      write(in / "a.dcm", withBody(body));
+      for (const auto dates : {Dates::Remove, Dates::Keep})
+      {
+        fs::remove_all(out);
+        deidentify(in, out, allRetained(dates), key);
+        EXPECT_EQ(allBytesBelow(out).find(name), std::string::npos) << set << " " << name;
+      }
+    }
+}
+
+TEST_F(Deidentification, KeepsNoBytesAfterTheLastWholeNumber)
+{
+  const std::string body = tagBytes(0x00280009 + 0x3000000) + // not in the dictionary
+                           little(8, 4) + "LINDQVIS" + tagBytes(0x00189310) + little(15, 4) +
+                           std::string(8, '\1') + "QVISTAU" + tagBytes(0x00280106) + little(3, 4) +
+                           "\1\2Z" + tagBytes(0x00189306) + little(13, 4) + std::string(8, '\2') +
+                           "VISTA";
+  write(in / "a.dcm", withBody(body));
+  run();
+  const std::string bytes = allBytesBelow(out);
+  for (const char* rest : {"LINDQ", "QVISTAU", "\1\2Z", "VISTA"})
+    EXPECT_EQ(bytes.find(rest), std::string::npos) << rest;
+}
+
+TEST_F(Deidentification, ReportsWhatWasDoneBesideTheDataSet)
+{
+  Given given;
+  given.preamble = "Zq4711kX";
+  TestSlice meta;
+  for (const std::uint32_t tag : {0x00020016, 0x00020017, 0x00020018})
+    meta.element(given.meta, static_cast<std::uint32_t>(tag), "AE", "Zq4712kX");
+  meta.element(given.meta, 0x00020100, "UI", "1.2.77125");
+  meta.element(given.meta, 0x00020102, "OB", "Zq4713kX");
+  given.body = element(0x00080000, "Zq4X") + element(0x00100000, "ZqWX") +
+               element(0x00080005, "Zq4714kX") + element(0x60000010, "Zq") +
+               element(0x60003000, "Zq4715kX") + element(0x601e3000, "Zq4716kX") +
+               element(0x50003000, "Zq4717kX") +
+               sequence(0x00880200, element(0x00081030, "Zq4718kX") + unsignedShort(0x00280010, 2) +
+                                        element(0x7fe00010, "Zq4719kX"));
+  given.trailer = element(0xfffcfffc, "Zq4720kX");
+  write(in / "a.dcm", given);
+  const std::string text = run().report.text();
+  const std::string bytes = allBytesBelow(out);
+  for (const char* plant : {"Zq47", "Zq4X", "ZqWX", "1.2.77125"})
+    EXPECT_EQ(bytes.find(plant), std::string::npos) << plant;
+  for (const char* line :
+       {"\npreamble : cleared", "(0002,0016)", "(0002,0017)", "(0002,0018)", "(0002,0100)",
+        "(0002,0102)", "(0008,0000)", "(0010,0000)", "(0008,0005)", "(6000,3000)", "(601e,3000)",
+        "(5000,3000)", "(0088,0200)", "(fffc,fffc)"})
+    EXPECT_NE(text.find(line), std::string::npos) << line << text;
+}
+
+TEST_F(Deidentification, ClearsCommentsThatBeginInOneFragmentAndEndInAnother)
+{
+  const std::string image =
+      std::string("\xff\xda\0\x03x", 5) + "pixels\xff" + std::string(1, '\0') + "\xff\xd9";
+  std::string codestream = std::string("\xff\xd8\xff\xc3\0\x0b\x10\0\4\0\4\1\1\x11\0", 15) +
+                           std::string("\xff\xfe\0\x12LINDQVIST AURELI", 20) + image;
+  codestream.resize(codestream.size() + codestream.size() % 2, '\0');
+  const auto fragment = [](const std::string& bytes)
+  { return tagBytes(kItem) + little(static_cast<std::uint32_t>(bytes.size()), 4) + bytes; };
+  TestSlice slice = explicitSlice("");
+  slice.syntax = "1.2.840.10008.1.2.4.70";
+  slice.pixels = false;
+  std::string file = slice.bytes();
+  file += tagBytes(0x7fe00010) + "OB" + little(0, 2) + little(0xffffffff, 4) + fragment("AURE") +
+          fragment(codestream.substr(0, 24)) + fragment(codestream.substr(24)) +
+          tagBytes(kSequenceEnd) + little(0, 4);
+  imaging::test::writeText(in / "a.dcm", file);
+  const std::string text = run().report.text();
+  const std::string bytes = allBytesBelow(out);
+  for (const char* plant : {"LIND", "QVIST", "AURE"})
+    EXPECT_EQ(bytes.find(plant), std::string::npos) << plant;
+  EXPECT_NE(bytes.find("pixels"), std::string::npos);
+  EXPECT_NE(text.find("comments, application segments"), std::string::npos);
+}
+
+TEST_F(Deidentification, LeavesOutDocumentsAndCleansWhatIsNoImage)
+{
+  const std::string text =
+      element(0x0040a040, "TEXT") + element(0x0040a160, "Aurelia Lindqvist, born 1931");
+  const std::string content =
+      sequence(0x0040a730, text + sequence(0x0040a730, text + element(0x0040a123, "LINDQVIST")));
+  const std::string body = element(0x00100010, "LINDQVIST^AURELIA") + content;
+  struct Kind
+  {
+    const char* sopClass;
+    const char* modality;
+    const char* why; ///< empty: cleaned
+  };
+  int n = 0;
+  write(in / "image.dcm", withBody(body));
+  const std::vector<Kind> kinds{{"1.2.840.10008.5.1.4.1.1.88.11", "SR", "structured document"},
+                                {"1.2.840.10008.5.1.4.1.1.88.33", "SR", "structured document"},
+                                {"1.2.840.10008.5.1.4.1.1.88.59", "KO", "structured document"},
+                                {"1.2.840.10008.5.1.4.1.1.88.67", "SR", "structured document"},
+                                {"1.2.840.10008.5.1.4.1.1.104.1", "DOC", "encapsulated document"},
+                                {"1.2.840.10008.5.1.4.1.1.104.2", "DOC", "encapsulated document"},
+                                {"1.2.840.10008.5.1.4.1.1.66", "OT", "raw data"},
+                                {"1.2.840.10008.5.1.4.1.1.481.3", "RTSTRUCT", ""},
+                                {"1.2.840.10008.5.1.4.1.1.66.4", "SEG", ""},
+                                {"1.2.840.10008.5.1.4.1.1.11.1", "PR", ""},
+                                {"1.2.840.10008.5.1.4.1.1.9.1.1", "ECG", ""}};
+  for (const Kind& kind : kinds)
+  {
+    Given given = ofClass(kind.sopClass, kind.modality);
+    const std::string name = "LINDQVIST";
+    given.body = body + element(0x00080104, name) + element(0x00620005, name) +
+                 element(0x00620006, name) +
+                 sequence(0x00620002, element(0x00620005, name) + element(0x00620006, name) +
+                                          element(0x00620020, name)) +
+                 sequence(0x30060020, element(0x30060026, name) + element(0x30060028, name)) +
+                 sequence(0x30060080, element(0x30060085, name) + element(0x300600a6, name)) +
+                 element(0x30060002, name) + element(0x00700080, name) + element(0x00700081, name) +
+                 element(0x00700084, name) +
+                 sequence(0x00700001, sequence(0x00700008, element(0x00700006, name))) +
+                 sequence(0x00700060, element(0x00700068, name)) +
+                 sequence(0x54000100, element(0x54001010, name + " ") + element(0x003a0020, name)) +
+                 sequence(0x0040b020, element(0x00700006, name) + element(0x0040a132, "1"));
+    write(in / (std::to_string(100 + n++) + ".dcm"), given);
+  }
+  for (const auto dates : {Dates::Remove, Dates::Shift, Dates::Keep})
+  {
+    fs::remove_all(out);
+    const DeidentificationResult done = deidentify(in, out, allRetained(dates), key);
+    const std::string bytes = allBytesBelow(out);
+    for (const char* plant : {"LINDQVIST", "Lindqvist", "AURELIA", "Aurelia", "1931"})
+      EXPECT_EQ(bytes.find(plant), std::string::npos) << plant;
+    EXPECT_EQ(done.report.filesWritten, 5U);
+    ASSERT_EQ(done.leftOut.size(), 7U);
+    for (std::size_t k = 0; k < done.leftOut.size(); ++k)
+      EXPECT_NE(done.leftOut[k].find(kinds[k].why), std::string::npos) << done.leftOut[k];
+  }
+}
+
+TEST_F(Deidentification, TellsPatientsOfTwoHospitalsApart)
+{
+  const auto file = [this](const char* name, const std::string& body, const char* instance)
+  {
+    Given given = withBody(body + element(0x00100020, "4711"));
+    given.instance = instance;
+    write(in / name, given);
+  };
+  file("a.dcm", element(0x00100021, "NORTH") + element(0x00100010, "Doe^Jane"), "1.2.3.1");
+  file("b.dcm", element(0x00100021, "SOUTH") + element(0x00100010, "Roe^Rick"), "1.2.3.2");
+  DeidentificationResult done = run();
+  EXPECT_EQ(done.report.patients, 2U);
+  EXPECT_TRUE(done.report.text().find("may stand for two patients") == std::string::npos);
+  fs::remove_all(out);
+  file("b.dcm", element(0x00100021, "NORTH") + element(0x00100010, "DOE^JANE "), "1.2.3.2");
+  EXPECT_EQ(run().report.text().find("may stand for two patients"), std::string::npos);
+  fs::remove_all(out);
+  file("b.dcm", element(0x00100021, "NORTH") + element(0x00100010, "Roe^Rick"), "1.2.3.2");
+  done = run();
+  EXPECT_EQ(done.report.patients, 1U);
+  EXPECT_NE(done.report.text().find("may stand for two patients"), std::string::npos);
+}
+
+TEST_F(Deidentification, RemovesWhatAKilledRunLeftButNothingOfARunningOne)
+{
+  write(in / "a.dcm", {});
+  const std::string cleanedStart = std::string(128, '\0') + "DICM";
+  imaging::test::writeText(folder.path() / ".petrous-0001" / "series-001-CT" / "00001.dcm", "x");
+  imaging::test::writeText(folder.path() / ".petrous-0002", cleanedStart + "rest");
+  imaging::test::writeText(folder.path() / ".petrous-0003", "PK of another program");
+  imaging::test::writeText(folder.path() / ".petrous-0004" / "ct" / "1.dcm", "x");
+  imaging::test::writeText(folder.path() / ".petrous-0005" / "series-001-MR" / "00001.dcm", "x");
+  imaging::test::writeText(out / ".petrous-0006" / "series-001-CT" / "00001.dcm", "x");
+  fs::create_directories(out / ".petrous-0007");
+  core::OutputFile growing(folder.path() / "growing");
+  growing.write(cleanedStart);
+  const OwnerLock lock(folder.path() / ".petrous-0005");
+  ASSERT_TRUE(lock.isThere());
+  run();
+  EXPECT_FALSE(fs::exists(folder.path() / ".petrous-0001"));
+  EXPECT_FALSE(fs::exists(folder.path() / ".petrous-0002"));
+  EXPECT_TRUE(fs::exists(folder.path() / ".petrous-0003"));
+  EXPECT_TRUE(fs::exists(folder.path() / ".petrous-0004"));
+  EXPECT_TRUE(fs::exists(folder.path() / ".petrous-0005"));
+  EXPECT_TRUE(fs::exists(growing.temporary()));
+  EXPECT_FALSE(fs::exists(out / ".petrous-0006"));
+  EXPECT_FALSE(fs::exists(out / ".petrous-0007"));
+  EXPECT_TRUE(fs::exists(out / "series-001-CT" / "00001.dcm"));
+}
+
+TEST_F(Deidentification, GivesThePseudonymsBeforeTheOutputIsThere)
+{
+  write(in / "a.dcm", withBody(element(0x00100020, "4711")));
+  std::vector<Pseudonym> kept;
+  const auto keep = [&](const std::vector<Pseudonym>& given)
+  {
+    EXPECT_FALSE(fs::exists(out));
+    kept = given;
+  };
+  deidentify(in, out, {}, key, {}, keep);
+  EXPECT_EQ(kept.size(), 3U);
+  fs::remove_all(out);
+  kept.clear();
+  deidentify(in / "a.dcm", out, {}, key, {}, keep);
+  EXPECT_EQ(kept.size(), 3U);
 }
 
 } // namespace petrous::library

@@ -395,6 +395,49 @@ TEST_F(FaultyNode, ThatSendsAnotherPatientsSlicesIsRefused)
   EXPECT_EQ(retrieveFailure(server.node()).reason, Reason::Foreign);
 }
 
+// Two hospitals number their patients alike.
+TEST_F(FaultyNode, ThatMixesPatientsOfOneIdIsRefusedOrToldOf)
+{
+  const auto state = [](const fs::path& path, const DcmTagKey& key, const char* value)
+  {
+    DcmFileFormat file;
+    ASSERT_TRUE(file.loadFile(path.c_str()).good());
+    file.loadAllDataIntoMemory();
+    file.getDataset()->putAndInsertString(key, value);
+    ASSERT_TRUE(file.saveFile(path.c_str(), EXS_LittleEndianExplicit).good());
+  };
+  const auto reason = [this]
+  {
+    fs::remove_all(m_folder.path() / "back");
+    const FaultyServer server(m_behaviour);
+    return retrieveFailure(server.node()).reason;
+  };
+  const auto otherNames = [this]
+  {
+    fs::remove_all(m_folder.path() / "back");
+    const FaultyServer server(m_behaviour);
+    const Transfer got = retrieve(server.node(), m_study, {}, m_folder.path() / "back");
+    EXPECT_EQ(got.completed, 10U);
+    return got.otherNames;
+  };
+  for (const fs::path& file : m_files)
+    for (const auto& [key, value] :
+         {std::pair(DCM_IssuerOfPatientID, "NORTH"), std::pair(DCM_PatientBirthDate, "19600101"),
+          std::pair(DCM_PatientName, "Doe^Jane")})
+      state(file, key, value);
+  EXPECT_EQ(otherNames(), 0U);
+  state(m_files[4], DCM_PatientName, "DOE^JANE^^");
+  state(m_files[5], DCM_PatientBirthDate, "");
+  EXPECT_EQ(otherNames(), 0U) << "the same, written otherwise or not stated";
+  state(m_files[4], DCM_PatientName, "Roe^Rick");
+  EXPECT_EQ(otherNames(), 1U);
+  state(m_files[6], DCM_PatientBirthDate, "19610101");
+  EXPECT_EQ(reason(), Reason::Foreign);
+  state(m_files[6], DCM_PatientBirthDate, "19600101");
+  state(m_files[7], DCM_IssuerOfPatientID, "SOUTH");
+  EXPECT_EQ(reason(), Reason::Foreign);
+}
+
 TEST_F(FaultyNode, ThatRefusesIsQuotedByItsStatus)
 {
   m_behaviour.sends = [](int, const std::vector<std::string>&) { return std::vector<fs::path>(); };

@@ -2,6 +2,8 @@
 
 #include "DrilledCase.h"
 #include "MaskComparison.h"
+#include "petrous/Scene/Branches.h"
+#include "petrous/Scene/PlainText.h"
 
 using namespace petrous;
 using scene::test::drilledCase;
@@ -138,4 +140,41 @@ TEST(Case, NamesMustFitAFile)
         std::string("a\0b", 3), std::string("\xff\xfe"), std::string("\xc0\xaf"),
         std::string("\xed\xa0\x80")})
     EXPECT_THROW(scene::checkCaseName(bad), core::InvalidParameter) << bad;
+}
+
+TEST(PlainText, NamesHaveOnlyWhatIsSeen)
+{
+  // Latin-1, Greek, Arabic, Han, beyond the BMP; U+2010, U+2030 and U+00A0 are beside the ranges
+  for (const std::string good : {"ohr", "\u00fc", "\u03a9", "\u0627\u0644", "\u8033", "\U0001f442",
+                                 "\u2010", "\u2030", "a\u00a0b", "\u2070"})
+  {
+    EXPECT_FALSE(scene::hasInvisible(good)) << good;
+    EXPECT_EQ(scene::withoutInvisible(good), good);
+    EXPECT_NO_THROW(scene::checkCaseName(good)) << good;
+  }
+  for (const std::string bad :
+       {"\u202a", "\u202b", "\u202c", "\u202d",   "\u202e", "\u2066", "\u2067", "\u2068",
+        "\u2069", "\u200b", "\u200c", "\u200d",   "\u200e", "\u200f", "\u2060", "\ufeff",
+        "\u00ad", "\u061c", "\u2028", "\xc2\x85", "\x1b",   "\x7f",   "\t",     "\U000e0041"})
+  {
+    const std::string name = "left" + bad + "ear";
+    EXPECT_TRUE(scene::hasInvisible(name)) << bad;
+    EXPECT_EQ(scene::withoutInvisible(name), "leftear");
+    EXPECT_THROW(scene::checkCaseName(name), core::InvalidParameter);
+    EXPECT_THROW(scene::checkPartName(name), core::InvalidParameter);
+    EXPECT_THROW(scene::checkBranchName(name), core::InvalidParameter);
+    EXPECT_THROW(scene::checkPersonName(name), core::InvalidParameter);
+    scene::Description words;
+    words.tags = {name};
+    EXPECT_THROW(scene::checkDescription(words), core::InvalidParameter);
+    words.tags.clear();
+    words.diagnosis = name;
+    EXPECT_THROW(scene::checkDescription(words), core::InvalidParameter);
+  }
+  // A note may be pasted from anywhere, but obeys nothing and reorders nothing.
+  scene::Description words;
+  words.note = "co\u00adchlea\u200b\n\tnext line";
+  EXPECT_NO_THROW(scene::checkDescription(words));
+  words.note = "left\u202e ear";
+  EXPECT_THROW(scene::checkDescription(words), core::InvalidParameter);
 }

@@ -6,6 +6,7 @@
 #include "petrous/Core/NumberText.h"
 #include "petrous/Scene/Branches.h"
 #include "petrous/Scene/Placement.h"
+#include "petrous/Scene/PlainText.h"
 
 namespace petrous::scene
 {
@@ -127,58 +128,49 @@ void removePart(Case& value, const std::string& name)
                                (there.empty() ? "the CT alone" : there));
 }
 
-namespace
-{
-
-bool isControl(unsigned char c)
-{
-  return c < 0x20 || c == 0x7f;
-}
-
-} // namespace
-
 void checkBranchName(const std::string& name)
 {
   if (name.empty() || name.size() > 100 || !core::isUtf8(name) || name.front() == '-' ||
-      std::any_of(name.begin(), name.end(), isControl))
+      hasInvisible(name))
     throw core::InvalidParameter("the name of a branch must be 1 to 100 bytes of UTF-8 without "
-                                 "control characters or a dash in front");
+                                 "control characters, characters that are not seen or a dash in "
+                                 "front");
 }
 
 void checkPartName(const std::string& name)
 {
-  if (name.empty() || name.size() > 200 || !core::isUtf8(name) ||
-      std::any_of(name.begin(), name.end(), isControl) || name == "ct")
+  if (name.empty() || name.size() > 200 || !core::isUtf8(name) || hasInvisible(name) ||
+      name == "ct")
     throw core::InvalidParameter("the name of a part must be 1 to 200 bytes of UTF-8 without "
-                                 "control characters, and not 'ct'; give one with NAME=FILE");
+                                 "control characters or characters that are not seen, and not "
+                                 "'ct'; give one with NAME=FILE");
 }
 
 void checkPersonName(const std::string& name)
 {
-  if (name.size() > 100 || !core::isUtf8(name) ||
-      std::any_of(name.begin(), name.end(), isControl) ||
+  if (name.size() > 100 || !core::isUtf8(name) || hasInvisible(name) ||
       name.find_first_not_of(' ') == std::string::npos)
     throw core::InvalidParameter("the name of who signs must be 1 to 100 bytes of UTF-8 without "
-                                 "control characters");
+                                 "control characters or characters that are not seen");
 }
 
 void checkCaseName(const std::string& name)
 {
-  const auto bad = [](unsigned char c)
-  {
-    return isControl(c) ||
-           std::string("/\\:*?\"<>|").find(static_cast<char>(c)) != std::string::npos;
-  };
+  const auto bad = [](char c) { return std::string("/\\:*?\"<>|").find(c) != std::string::npos; };
   const auto ragged = [](char c) { return c == '.' || c == ' '; };
   if (!core::isUtf8(name))
     throw core::InvalidParameter("case name: is not UTF-8; type it anew");
   if (name.empty() || name.size() > 100)
     throw core::InvalidParameter("case name: must have 1 to 100 bytes, not " +
                                  std::to_string(name.size()));
+  if (hasInvisible(name))
+    throw core::InvalidParameter(
+        "case name: must have no control characters, nor characters that are not seen (zero-width "
+        "spaces, marks of direction); type it anew");
   if (std::any_of(name.begin(), name.end(), bad) || ragged(name.front()) || ragged(name.back()) ||
       name.front() == '-')
     throw core::InvalidParameter(
-        "case name: must be a plain name without / \\ : * ? \" < > |, control characters, a dot or "
+        "case name: must be a plain name without / \\ : * ? \" < > |, a dot or "
         "space at its ends, or a dash in front");
 }
 

@@ -8,6 +8,7 @@
 
 #include "petrous/Core/Error.h"
 #include "petrous/Core/NumberText.h"
+#include "petrous/Scene/PlainText.h"
 
 namespace petrous::scene
 {
@@ -17,20 +18,6 @@ namespace
 
 constexpr std::array<const char*, 4> kSides{"unknown", "left", "right", "both"};
 
-// C0, DEL and C1 (in UTF-8: C2 80 to C2 9F), which a terminal may obey.
-bool hasControl(std::string_view text, std::string_view allowed)
-{
-  bool isC1 = false;
-  for (const char c : text)
-  {
-    const auto byte = static_cast<unsigned char>(c);
-    if ((byte < 0x20 && allowed.find(c) == allowed.npos) || byte == 0x7f || (isC1 && byte < 0xa0))
-      return true;
-    isC1 = byte == 0xc2;
-  }
-  return false;
-}
-
 void checkText(const std::string& text, const std::string& field, std::size_t longest,
                std::string_view allowed = {})
 {
@@ -39,7 +26,7 @@ void checkText(const std::string& text, const std::string& field, std::size_t lo
                                  " bytes, not " + std::to_string(text.size()));
   if (!core::isUtf8(text))
     throw core::InvalidParameter(field + ": is not UTF-8; type it anew");
-  if (hasControl(text, allowed))
+  if (hasControls(text, allowed))
     throw core::InvalidParameter(field + ": must have no control characters" +
                                  (allowed.empty() ? ", and be one line" : ""));
 }
@@ -47,6 +34,9 @@ void checkText(const std::string& text, const std::string& field, std::size_t lo
 void checkLine(const std::string& text, const std::string& field, std::size_t longest)
 {
   checkText(text, field, longest);
+  if (hasInvisible(text))
+    throw core::InvalidParameter(field + ": must have no characters that are not seen (zero-width "
+                                         "spaces, marks of direction); type it anew");
   if (!text.empty() && (text.front() == ' ' || text.back() == ' '))
     throw core::InvalidParameter(field + ": must not begin or end with a space");
 }

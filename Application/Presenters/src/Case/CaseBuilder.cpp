@@ -25,6 +25,7 @@
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Scene/Placement.h"
+#include "petrous/Scene/PlainText.h"
 #include "petrous/Volume/IntensityScale.h"
 #include "petrous/Volume/MeshSolid.h"
 
@@ -477,7 +478,9 @@ std::string validName(const std::string& name, const IsTaken& isTaken,
                       std::vector<std::string>& notes)
 {
   constexpr std::size_t kLongest = 200; // bytes (checkPartName)
-  std::string valid = core::utf8Prefix(name, kLongest);
+  std::string valid = core::utf8Prefix(scene::withoutInvisible(name), kLongest);
+  if (valid.empty())
+    valid = "structure";
   if (valid == "ct")
     valid = "structure ct";
   if (isTaken(valid))
@@ -485,7 +488,7 @@ std::string validName(const std::string& name, const IsTaken& isTaken,
   if (valid != name)
     notes.push_back("structure '" + valid +
                     "' has this name since its own is too long, taken or "
-                    "reserved");
+                    "reserved, or has characters that are not seen");
   return valid;
 }
 

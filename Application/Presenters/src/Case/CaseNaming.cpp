@@ -4,6 +4,7 @@
 
 #include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/FileFormats.h"
+#include "petrous/Scene/PlainText.h"
 
 namespace petrous::presenters
 {
@@ -33,7 +34,7 @@ std::string caseNameFrom(const std::filesystem::path& source)
         return u < 0x20 || u == 0x7f || unwanted.find(c) != std::string::npos;
       },
       ' ');
-  name = core::utf8Prefix(name, kMaxLength);
+  name = core::utf8Prefix(scene::withoutInvisible(name), kMaxLength);
   const auto first = name.find_first_not_of(" .-");
   const auto last = name.find_last_not_of(" .");
   if (first == std::string::npos || last == std::string::npos)

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <memory>
 #include <optional>
+#include <regex>
+#include <set>
 #include <variant>
 
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Library/Archive.h"
 #include "petrous/Library/ObjectStore.h"
+#include "petrous/Library/OwnerLock.h"
 #include "petrous/Network/SceneObjects.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CaseDicom.h"
@@ -24,18 +28,30 @@ namespace
 namespace fs = std::filesystem;
 using network::NetworkError;
 
+constexpr const char* kSegmentationFile = "segmentation.dcm";
+
 /// For DICOM files on their way; readable by this user only, and removed.
 class ScratchFolder
 {
 public:
   ScratchFolder()
   {
+    const std::string begin = "petrous-transfer-";
     std::error_code ignored;
-    std::string name = (fs::temp_directory_path(ignored) / "petrous-transfer-XXXXXX").string();
-    if (!::mkdtemp(name.data()))
-      throw core::Error(core::Fault::Refused,
-                        name + ": cannot be created; is the disk full, or TMPDIR wrong?");
-    m_path = name;
+    const fs::path parent = fs::temp_directory_path(ignored);
+    // Those of killed processes hold patients' data.
+    library::removeAbandoned(parent, [&begin](const fs::path& path)
+                             { return path.filename().string().rfind(begin, 0) == 0; });
+    constexpr int kAttempts = 10;
+    for (int n = 0; n < kAttempts && (!m_lock || !m_lock->isThere()); ++n)
+    {
+      std::string name = (parent / (begin + "XXXXXX")).string();
+      if (!::mkdtemp(name.data()))
+        throw core::Error(core::Fault::Refused,
+                          name + ": cannot be created; is the disk full, or TMPDIR wrong?");
+      m_path = name;
+      m_lock = std::make_unique<library::OwnerLock>(m_path);
+    }
   }
   ~ScratchFolder()
   {
@@ -48,6 +64,7 @@ public:
 
 private:
   fs::path m_path;
+  std::unique_ptr<library::OwnerLock> m_lock;
 };
 
 void addFiles(const fs::path& folder, std::vector<fs::path>& files)
@@ -112,12 +129,15 @@ public:
 
   std::vector<fs::path> write(const core::Progress& progress)
   {
-    if (m_parts.ct)
+    const bool isMr = m_value.ct.modality == scene::Modality::Mr; // the primary image
+    if (m_parts.ct && isMr && m_alone)
+      leaveOut("case '" + m_value.name + "' has no CT: its primary image is an MR; send 'mr'");
+    if (isMr ? m_parts.mr : m_parts.ct)
       image(m_value.ct, "ct", "", progress.part(0.0, 0.3));
     if (m_parts.mr)
       for (const auto& mr : m_value.mr)
         image(mr, "mr", mr.name, progress.part(0.3, 0.5));
-    if (m_parts.mr && m_value.mr.empty())
+    if (m_parts.mr && m_value.mr.empty() && !isMr)
       leaveOut("case '" + m_value.name + "' has no MR");
     if (m_parts.labels)
       labels(progress.part(0.5, 0.6));
@@ -176,7 +196,7 @@ private:
       m_library.checkVoxels(m_value, progress);
       const std::string series =
           CaseIdentifiers(m_value).series(drawnOn.empty() ? "ct" : "mr", *volume);
-      const fs::path file = freshFolder() / "segmentation.dcm";
+      const fs::path file = freshFolder() / kSegmentationFile;
       writeCaseSegmentation(file, m_value, group, series, m_options, progress);
       m_files.push_back(file);
     }
@@ -220,6 +240,33 @@ private:
   std::vector<fs::path> m_files;
   std::vector<std::string> m_notes;
 };
+
+/// Segmentations that the node has in the study, and that are not among the files. 0 also for a
+/// node that does not say.
+std::size_t supersededSegmentations(const network::Node& node, const std::string& study,
+                                    const std::vector<fs::path>& files,
+                                    const core::Progress& progress)
+{
+  std::set<std::string> sent;
+  for (const fs::path& file : files)
+    if (file.filename() == kSegmentationFile)
+      sent.insert(network::seriesOfFile(file));
+  if (sent.empty())
+    return 0;
+  try
+  {
+    const auto series = network::findSeries(node, study, progress);
+    return static_cast<std::size_t>(std::count_if(series.begin(), series.end(),
+                                                  [&sent](const network::Series& one) {
+                                                    return one.modality == "SEG" &&
+                                                           sent.count(one.uid) == 0;
+                                                  }));
+  }
+  catch (const NetworkError&)
+  {
+    return 0; // everything arrived all the same
+  }
+}
 
 std::string studyOf(const library::Library& library, const network::Node& node,
                     const ReceiveRequest& request, const core::Progress& progress)
@@ -388,6 +435,23 @@ bool showsHead(const core::GridGeometry& grid)
   return size[1] >= kHead && size[0] >= kHeight;
 }
 
+// A person's name as DICOM writes it, an address, a date, or a number as long as a record's.
+bool resemblesIdentity(const std::string& text)
+{
+  static const std::regex kIdentity("[0-9]{6}|[0-9]{1,4}[./-][0-9]{1,2}[./-][0-9]{2,4}|[\\^@]");
+  return std::regex_search(text, kIdentity);
+}
+
+void warnOfIdentities(const std::string& what, const std::vector<std::string>& texts,
+                      std::vector<std::string>& warnings)
+{
+  const auto count = std::count_if(texts.begin(), texts.end(), resemblesIdentity);
+  if (count > 0)
+    warnings.push_back(what + ": " + std::to_string(count) + " of " + std::to_string(texts.size()) +
+                       " may be a patient's name, number or date; change what is one before you "
+                       "send");
+}
+
 } // namespace
 
 std::vector<std::string> facesToMask(const scene::Case& value)
@@ -444,7 +508,21 @@ IdentityReport identityReport(const scene::Case& value, const SendParts& parts,
       report.stays.push_back("the planned date of the operation");
   }
   if (parts.scene && parts.note && !value.description.note.empty())
-    report.warnings.push_back("the note: read it once more, nothing is removed from it");
+    report.warnings.push_back(
+        resemblesIdentity(value.description.note)
+            ? "the note: has what may be a patient's name, number or date, and nothing is removed "
+              "from it"
+            : "the note: read it once more, nothing is removed from it");
+  if (parts.labels || parts.scene)
+    warnOfIdentities("names of structures", structures, report.warnings);
+  if (parts.scene)
+  {
+    warnOfIdentities("names of meshes", meshes, report.warnings);
+    warnOfIdentities("tags", value.description.tags, report.warnings);
+    warnOfIdentities("name of the case, diagnosis and procedure",
+                     {value.name, value.description.diagnosis, value.description.procedure},
+                     report.warnings);
+  }
   if (faces)
   {
     if (!faces->empty() && (images || parts.mr))
@@ -493,6 +571,11 @@ SendSummary sendCase(const library::Library& library, const std::string& name,
   summary.studyUid = CaseIdentifiers(value).study();
   library.checkVoxels(value, progress);
   summary.transfer = network::store(node, files, progress.part(0.4, 1.0));
+  if (const std::size_t count = supersededSegmentations(node, summary.studyUid, files, progress))
+    summary.notes.push_back("node '" + node.name + "' still has " + std::to_string(count) +
+                            (count == 1 ? " segmentation" : " segmentations") +
+                            " of an earlier state of this case; have what is superseded deleted "
+                            "there");
   return summary;
 }
 
@@ -504,11 +587,16 @@ ReceiveSummary receiveCase(library::Library& library, const network::Node& node,
     scene::checkCaseName(request.as);
     freeName(library, request.as);
   }
-  const std::string study = studyOf(library, node, request, progress);
-  const auto series = network::findSeries(node, study, progress);
-  std::optional<ScratchFolder> scratch;
+  std::optional<ScratchFolder> scratch; // and removes those that are left, whatever the node says
   if (request.partial.empty())
     scratch.emplace();
+  const std::string study = studyOf(library, node, request, progress);
+  const auto series = network::findSeries(node, study, progress);
+  if (series.empty())
+    throw NetworkError(NetworkError::Reason::NotFound,
+                       "node '" + node.name +
+                           "': has no such study; check the UID, or ask the "
+                           "node's administrator whether it was deleted");
   // A folder of its own for each study: what is found in it makes the case.
   const fs::path folder =
       (scratch ? scratch->path() : request.partial) /
@@ -564,6 +652,12 @@ ReceiveSummary receiveCase(library::Library& library, const network::Node& node,
                  : "no such series"));
   summary.transfer =
       network::retrieve(node, study, wanted, folder / "images", progress.part(0.0, 0.6));
+  if (summary.transfer.otherNames > 0)
+    summary.notes.push_back(
+        std::to_string(summary.transfer.otherNames) + " of " +
+        std::to_string(summary.transfer.instances) +
+        " instances name the patient otherwise than the first: it is in doubt whether all are of "
+        "one patient; compare them at the node");
   std::vector<std::string> segmentations;
   for (const auto& one : series)
     if (one.modality == "SEG")

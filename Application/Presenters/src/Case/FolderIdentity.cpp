@@ -25,6 +25,12 @@ library::DeidentificationResult deidentifyFolder(const DeidentifyRequest& reques
                                                  const std::string& passphrase,
                                                  const core::Progress& progress)
 {
+  std::error_code error;
+  if (!request.replace && fs::is_regular_file(request.output, error))
+    throw core::Error(core::Fault::Refused,
+                      request.output.string() +
+                          ": is there already; name another file, or allow it to be replaced "
+                          "(--replace)");
   std::unique_ptr<library::PseudonymMap> map;
   if (!request.map.empty())
   {
@@ -33,14 +39,15 @@ library::DeidentificationResult deidentifyFolder(const DeidentifyRequest& reques
     map->save();
   }
   const library::PseudonymKey once;
-  library::DeidentificationResult done = library::deidentify(
-      request.input, request.output, request.options, map ? map->key() : once, progress);
-  if (map)
-  {
-    map->add(done.pseudonyms);
-    map->save();
-  }
-  return done;
+  return library::deidentify(request.input, request.output, request.options,
+                             map ? map->key() : once, progress,
+                             [&map](const std::vector<library::Pseudonym>& pseudonyms)
+                             {
+                               if (!map)
+                                 return;
+                               map->add(pseudonyms);
+                               map->save();
+                             });
 }
 
 void wipe(std::string& secret) noexcept

@@ -232,6 +232,9 @@ LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
   if (named && !naming.table.empty())
     loaded.notes.emplace_back(kTableUnused);
   UniqueNames unique;
+  for (std::size_t layer = 0; named && layer < source.components(); ++layer)
+    for (const volume::Segment& segment : segmentsOfLayer(path, *source.nrrd(), layer))
+      unique.reserve(segment.name);
   for (std::size_t layer = 0; layer < source.components(); ++layer)
   {
     progress.report(0.7, "reading labels");
@@ -240,6 +243,8 @@ LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
                        { return toLabels<decltype(type)>(source, path, raw, layer); });
     auto names = named ? segmentsOfLayer(path, *source.nrrd(), layer)
                        : namesFromOutside(path, naming, *labels, loaded);
+    for (const volume::Segment& segment : names)
+      unique.reserve(segment.name);
     for (volume::Segment& segment : names)
     {
       segment.name = unique.take(segment.name, loaded.notes);

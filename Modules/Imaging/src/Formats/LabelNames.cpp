@@ -199,7 +199,8 @@ volume::SegmentCodes codesOfSegment(const NrrdHeader& header, std::size_t layer,
 std::string UniqueNames::take(const std::string& wanted, std::vector<std::string>& notes)
 {
   std::string name = wanted;
-  for (int n = 2; !m_taken.insert(name).second; ++n)
+  const auto isStated = [&] { return name != wanted && m_stated.count(name) > 0; };
+  for (int n = 2; isStated() || !m_taken.insert(name).second; ++n)
     name = wanted + " " + std::to_string(n);
   if (name != wanted)
     notes.push_back("several structures are called '" + wanted + "'; one of them was named '" +

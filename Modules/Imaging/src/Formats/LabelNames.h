@@ -22,11 +22,14 @@ namespace petrous::imaging
 class UniqueNames
 {
 public:
+  /// Names that the file states: no other structure is given one of them when it is numbered.
+  void reserve(const std::string& stated) { m_stated.insert(stated); }
+
   /// `wanted`, or with a number if it is taken ("nerve 2"), which a note says.
   std::string take(const std::string& wanted, std::vector<std::string>& notes);
 
 private:
-  std::set<std::string> m_taken;
+  std::set<std::string> m_taken, m_stated;
 };
 
 /// The segments that a .seg.nrrd defines in one layer, as written by 3D Slicer (SegmentN_Name,

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -514,15 +516,49 @@ void readWordLines(std::string_view whole, Entries& entries, LabelTable& table)
                           example + "')");
 }
 
+/// The line of the `occurrence`th "key": of a JSON text, from 1; 0: it is written otherwise.
+std::size_t lineOfKey(std::string_view text, const std::string& key, int occurrence = 1)
+{
+  const std::string quoted = nlohmann::json(key).dump();
+  for (std::size_t at = text.find(quoted); at != text.npos; at = text.find(quoted, at + 1))
+  {
+    const std::size_t next = text.find_first_not_of(" \t\r\n", at + quoted.size());
+    if (next != text.npos && text[next] == ':' && --occurrence == 0)
+      return 1 + static_cast<std::size_t>(std::count(text.begin(), text.begin() + at, '\n'));
+  }
+  return 0;
+}
+
 void readJson(std::string_view text, Entries& entries)
 {
-  const auto document = nlohmann::json::parse(text, nullptr, false);
-  const char* const expected = "is JSON, but no table of names; {\"1\": \"name\"} or {\"name\": 1} "
-                               "would be";
-  if (!document.is_object())
-    return entries.problem(0, expected);
+  using nlohmann::json;
+  const char* const right = "; {\"1\": \"name\"} or {\"name\": 1} would be right";
+  json document;
+  std::vector<std::set<std::string>> keys; // of the objects that are open
+  std::optional<std::string> twice;
+  const auto note = [&](int, json::parse_event_t event, json& parsed)
+  {
+    if (event == json::parse_event_t::object_start)
+      keys.emplace_back();
+    else if (event == json::parse_event_t::object_end)
+      keys.pop_back();
+    else if (event == json::parse_event_t::key && !twice &&
+             !keys.back().insert(parsed.get<std::string>()).second)
+      twice = parsed.get<std::string>();
+    return true;
+  };
+  try
+  {
+    document = json::parse(text, note);
+  }
+  catch (const json::parse_error& error)
+  {
+    const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
+    const auto line = 1 + static_cast<std::size_t>(std::count(text.begin(), end, '\n'));
+    return entries.problem(line, std::string("is not valid JSON") + right);
+  }
   const auto inner = document.find("labels");
-  const nlohmann::json& map = inner != document.end() && inner->is_object() ? *inner : document;
+  const json& map = inner != document.end() && inner->is_object() ? *inner : document;
   std::vector<std::pair<std::int64_t, volume::Segment>> found;
   for (const auto& [key, value] : map.items())
   {
@@ -539,13 +575,24 @@ void readJson(std::string_view text, Entries& entries)
       segment.name = key;
     }
     if (!index) // such files lie beside images for other reasons: all or nothing
-      return entries.problem(0, expected);
+      return entries.problem(lineOfKey(text, key),
+                             std::string("is no entry of a table of names") + right);
     found.emplace_back(*index, std::move(segment));
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   for (auto& [index, segment] : found)
-    entries.add(0, index, std::move(segment));
+  {
+    std::size_t line = lineOfKey(text, segment.name);
+    if (line == 0)
+      line = lineOfKey(text, std::to_string(index));
+    entries.add(line, index, std::move(segment));
+  }
+  if (twice)
+    entries.problem(lineOfKey(text, *twice, 2),
+                    "gives '" + *twice +
+                        "' a second time; each name has one index, and each "
+                        "index one name");
 }
 
 } // namespace

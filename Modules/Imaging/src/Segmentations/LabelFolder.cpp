@@ -258,6 +258,8 @@ LoadedLabels readLabelFolder(const fs::path& folder, const core::Progress& progr
   std::uint64_t voxels = 0;
   std::uint16_t index = 0;
   UniqueNames names; // "incus.nrrd" and "incus.nii.gz" may lie side by side
+  for (const Mask& mask : masks)
+    names.reserve(baseName(mask.path));
   for (Mask& mask : masks)
   {
     const std::string file = mask.path.filename().string();

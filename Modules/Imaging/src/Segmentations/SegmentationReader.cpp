@@ -713,6 +713,8 @@ LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Pro
   std::vector<char> isKnown(65536, 0);
   UniqueNames unique;
   for (const DicomItem& item : data.items(0x00620002))
+    unique.reserve(toUtf8(item.text(0x00620005), characters));
+  for (const DicomItem& item : data.items(0x00620002))
   {
     const auto number = item.integer(0x00620004);
     if (!number || isKnown[static_cast<std::size_t>(*number)])

@@ -561,6 +561,8 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
   std::size_t others = 0;
   std::size_t drawn = 0;
   UniqueNames unique;
+  for (const StructureSet::Roi& roi : set.rois)
+    unique.reserve(roi.name);
   for (std::size_t n = 0; n < set.rois.size(); ++n)
   {
     const StructureSet::Roi& roi = set.rois[n];

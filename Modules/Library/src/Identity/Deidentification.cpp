@@ -1,6 +1,10 @@
 #include "petrous/Library/Deidentification.h"
 
 #include <algorithm>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <set>
 #include <system_error>
 
 #include <sodium.h>
@@ -10,6 +14,7 @@
 #include "petrous/Core/Error.h"
 #include "petrous/Core/InputFile.h"
 #include "petrous/Core/OutputFile.h"
+#include "petrous/Library/OwnerLock.h"
 
 namespace petrous::library
 {
@@ -97,11 +102,14 @@ void fill(DeidentificationResult& result, const DicomCleaner& cleaner,
   for (const auto& [key, done] : cleaner.done)
     report.lines.push_back({key.first, done.name, done.action, done.files, done.stays});
   report.warnings = cleaner.warnings;
+  std::set<std::string> patients;
   for (const auto& [key, pseudonym] : cleaner.pseudonyms)
   {
-    report.patients += pseudonym.kind == "patient" ? 1 : 0;
+    if (pseudonym.kind == "patient")
+      patients.insert(pseudonym.pseudonym);
     result.pseudonyms.push_back(pseudonym);
   }
+  report.patients = patients.size();
 }
 
 } // namespace
@@ -180,9 +188,73 @@ std::string DeidentificationReport::text() const
   return text;
 }
 
+namespace
+{
+
+// What a killed run left beside its output, or in an output folder that was there: a folder of
+// series, or a DICOM file without a preamble.
+bool isOwnLeftover(const fs::path& path, bool isInOutput)
+{
+  constexpr std::size_t kPreamble = 128;
+  std::error_code error;
+  if (!core::isLeftover(path))
+    return false;
+  if (fs::is_directory(fs::symlink_status(path, error)))
+  {
+    bool isOwn = true, isEmpty = true;
+    for (fs::directory_iterator entry(path, error), end; !error && entry != end;
+         entry.increment(error))
+    {
+      isEmpty = false;
+      isOwn = isOwn && entry->path().filename().string().rfind("series-", 0) == 0;
+    }
+    return !error && isOwn && (!isEmpty || isInOutput);
+  }
+  if (!fs::is_regular_file(fs::symlink_status(path, error)))
+    return false;
+  std::string start(kPreamble + 4, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  const auto count = static_cast<std::size_t>(file.gcount());
+  return count > 0 &&
+         start.substr(0, count) == (std::string(kPreamble, '\0') + "DICM").substr(0, count);
+}
+
+/// The folder in which a folder of output grows, and its lock.
+struct Staging
+{
+  explicit Staging(const fs::path& output)
+  {
+    constexpr int kAttempts = 10;
+    for (int n = 0; n < kAttempts && (!lock || !lock->isThere()); ++n)
+    {
+      lock.reset();
+      folder = std::make_unique<core::OutputFolder>(output);
+      lock = std::make_unique<OwnerLock>(folder->path());
+    }
+  }
+
+  std::unique_ptr<core::OutputFolder> folder;
+  std::unique_ptr<OwnerLock> lock;
+};
+
+void removeLeftovers(const fs::path& output)
+{
+  std::error_code error;
+  const fs::path whole = fs::absolute(output, error).lexically_normal();
+  const fs::path target = whole.has_filename() ? whole : whole.parent_path();
+  if (fs::is_directory(target, error))
+    removeAbandoned(target, [](const fs::path& path) { return isOwnLeftover(path, true); });
+  removeAbandoned(target.parent_path(),
+                  [](const fs::path& path) { return isOwnLeftover(path, false); });
+}
+
+} // namespace
+
 DeidentificationResult deidentify(const fs::path& input, const fs::path& output,
                                   const DeidentificationOptions& options, const PseudonymKey& key,
-                                  const core::Progress& whole)
+                                  const core::Progress& whole,
+                                  const std::function<void(const std::vector<Pseudonym>&)>& keep)
 {
   startSodium();
   std::error_code error;
@@ -192,6 +264,7 @@ DeidentificationResult deidentify(const fs::path& input, const fs::path& output,
                       core::printable(output) +
                           ": lies within the input; name a place outside of it");
   const std::vector<fs::path> files = filesOf(input);
+  removeLeftovers(output);
   DicomCleaner cleaner(options, key);
   if (options.maskFace)
     cleaner.faces = std::make_shared<const FaceSlices>(input, whole.part(0.0, 0.5));
@@ -213,25 +286,33 @@ DeidentificationResult deidentify(const fs::path& input, const fs::path& output,
 
   if (!isFolder)
   {
-    core::OutputFile out(output);
-    const auto outcome = cleaner.clean(input, [&out](const std::string&, const std::string&)
-                                       { return out.temporary(); });
+    std::optional<core::OutputFile> out; // not before there is something to write
+    const auto outcome = cleaner.clean(input,
+                                       [&](const std::string&, const std::string&)
+                                       {
+                                         out.emplace(output);
+                                         return out->temporary();
+                                       });
     if (!outcome.leftOut.empty())
     {
       noteLeftOut(input, outcome.leftOut);
       throw core::Error(core::Fault::BadInput, result.leftOut.front());
     }
     progress.check("de-identification");
-    result.report.durable = out.commit();
-    result.report.filesWritten = 1;
     fill(result, cleaner, options);
+    if (keep)
+      keep(result.pseudonyms);
+    result.report.durable = out->commit();
+    result.report.filesWritten = 1;
     return result;
   }
 
-  core::OutputFolder out(output);
+  const Staging staging(output);
+  core::OutputFolder& out = *staging.folder;
   struct Series
   {
     std::size_t number = 0, files = 0;
+    fs::path folder; ///< by the modality of its first file
   };
   std::map<std::string, Series> series;
   for (std::size_t n = 0; n < files.size(); ++n)
@@ -241,13 +322,15 @@ DeidentificationResult deidentify(const fs::path& input, const fs::path& output,
                         std::to_string(files.size()) + " files");
     const auto placed = [&](const std::string& uid, const std::string& modality)
     {
-      const auto [entry, isNew] = series.emplace(uid, Series{series.size() + 1, 0});
-      std::string folder = "series-" + numbered(entry->second.number, 3);
-      if (!modality.empty() && modality.size() <= 4)
-        folder += "-" + modality;
+      const auto [entry, isNew] = series.emplace(uid, Series{series.size() + 1, 0, {}});
       if (isNew)
-        fs::create_directory(out.path() / folder);
-      return out.path() / folder / (numbered(++entry->second.files, 5) + ".dcm");
+      {
+        entry->second.folder = out.path() / ("series-" + numbered(entry->second.number, 3));
+        if (!modality.empty() && modality.size() <= 4)
+          entry->second.folder += "-" + modality;
+        fs::create_directory(entry->second.folder);
+      }
+      return entry->second.folder / (numbered(++entry->second.files, 5) + ".dcm");
     };
     const auto outcome = cleaner.clean(files[n], placed);
     if (outcome.leftOut.empty())
@@ -257,8 +340,10 @@ DeidentificationResult deidentify(const fs::path& input, const fs::path& output,
   }
   if (result.report.filesWritten == 0)
     throw nothing();
-  result.report.durable = out.commit();
   fill(result, cleaner, options);
+  if (keep)
+    keep(result.pseudonyms);
+  result.report.durable = out.commit();
   return result;
 }
 

@@ -2,13 +2,18 @@
 
 #include <dcmtk/dcmdata/dcpxitem.h>
 #include <dcmtk/dcmdata/dctk.h>
+#include <dcmtk/dcmjpeg/djdecode.h>
+#include <dcmtk/dcmjpls/djdecode.h>
 #include <dcmtk/oflog/oflog.h>
 
 #include "DicomCleaner.h"
 
 #include <algorithm>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "FaceSlices.h"
@@ -306,6 +311,13 @@ std::string shifted(const std::string& value, int daysEarlier)
   return dateOf(daysOf(year, month, day) - daysEarlier) + value.substr(8);
 }
 
+// Letters of other character sets fold their case in ways of their own, and a name in one set has
+// other bytes in another: such text cannot be compared with the patient's name.
+bool isPlainText(const std::string& text)
+{
+  return std::all_of(text.begin(), text.end(), [](char c) { return c >= 0x20 && c < 0x7f; });
+}
+
 bool isDigits(const std::string& text, std::size_t from, std::size_t count)
 {
   return text.size() >= from + count && hasOnly(text.substr(from, count), "0123456789");
@@ -474,6 +486,16 @@ std::string firstOf(DcmItem& item, const std::vector<DcmTagKey>& keys)
   return {};
 }
 
+// Hospitals number their patients alike: an ID is unique with its issuer only (PS3.3 C.7.1.1).
+std::string patientOf(DcmItem& dataSet)
+{
+  const std::string issuer = valueOf(dataSet, DCM_IssuerOfPatientID);
+  const std::string id = valueOf(dataSet, DCM_PatientID);
+  if (!id.empty())
+    return issuer.empty() ? id : id + "\n" + issuer;
+  return firstOf(dataSet, {DCM_PatientName, DCM_StudyInstanceUID});
+}
+
 // One file on its way through.
 class FileCleaner
 {
@@ -484,7 +506,7 @@ public:
     , m_options(options)
     , m_key(key)
     , m_iod(iodKindOf(valueOf(dataSet, DCM_SOPClassUID)))
-    , m_patient(firstOf(dataSet, {DCM_PatientID, DCM_PatientName, DCM_StudyInstanceUID}))
+    , m_patient(patientOf(dataSet))
   {
     collect(dataSet);
   }
@@ -508,6 +530,17 @@ public:
   }
 
   const std::string& patient() const { return m_patient; }
+
+  /// What was done beside the attributes of the data set.
+  void noteBeside(const std::string& attribute, const std::string& name, const std::string& action,
+                  bool stays)
+  {
+    auto& done = m_cleaner.done[{attribute, action}];
+    done.name = name;
+    done.action = action;
+    done.stays = stays;
+    ++done.files;
+  }
 
 private:
   void note(const std::string& path, const DcmElement& element, const std::string& name,
@@ -695,21 +728,26 @@ private:
     if (!isString(vr))
       return false;
     const auto parts = split(valueOf(element));
-    return std::all_of(parts.begin(), parts.end(),
-                       [&](const std::string& part)
-                       {
-                         if (part.empty())
-                           return true;
-                         if (vr == EVR_CS)
-                           return isCodedTerm(tag, withoutPadding(part));
-                         return tag == kZone ? isZone(part)
-                                             : hasFormOf(vr, part) &&
-                                                   !(isText(vr) && m_people.hasWord(part));
-                       });
+    return std::all_of(
+        parts.begin(), parts.end(),
+        [&](const std::string& part)
+        {
+          if (part.empty())
+            return true;
+          if (vr == EVR_CS)
+            return isCodedTerm(tag, withoutPadding(part));
+          return tag == kZone ? isZone(part)
+                              : hasFormOf(vr, part) &&
+                                    !(isText(vr) && (!isPlainText(part) || m_people.hasWord(part)));
+        });
   }
 
+  // With no bytes after the last whole one, which no reader shows.
   static bool arePlainNumbers(DcmElement& element)
   {
+    const std::size_t width = DcmVR(element.getVR()).getValueWidth();
+    if (width > 1 && element.getLength() % width != 0)
+      return false;
     Uint16* u16 = nullptr;
     Sint16* s16 = nullptr;
     Uint32* u32 = nullptr;
@@ -775,11 +813,15 @@ private:
       note(path, element, name, "removed" + why, false);
       return false;
     };
+    // UN of undefined length holds items, whatever the dictionary says of the attribute.
+    if ((dynamic_cast<DcmSequenceOfItems*>(&element) != nullptr) != (element.getVR() == EVR_SQ))
+      return remove(": items in place of a value, or the reverse");
     DeidAction action = m_cleaner.profile.action(tag, m_iod, !path.empty(), m_options);
     const bool isMisplaced =
         key.getGroup() < 4 || (key.getGroup() < 8 && action == DeidAction::Unlisted);
     if (isMisplaced || key.getElement() == 0)
-      return remove(": group length, command or file meta information");
+      return remove(key.getElement() == 0 ? ": group length"
+                                          : ": command or file meta information");
     if (action == DeidAction::Unlisted)
       return cleanedUnlisted(item, element, entry, path);
     const DcmEVR vr = element.getVR();
@@ -1055,8 +1097,8 @@ private:
       return keepString(element, true) && done("kept: known manufacturer", true);
     if (isTechnical(item, tag, value))
       return keepString(element, true) && done("kept: code or unit of a known form", true);
-    if (m_options.retainDevice && describesDevice(tag) && !m_words.foundIn(value) &&
-        !m_people.hasWord(value))
+    if (m_options.retainDevice && describesDevice(tag) && isPlainText(value) &&
+        !m_words.foundIn(value) && !m_people.hasWord(value))
       return keepString(element, true) && done("kept by option", true);
     if (isText(vr))
     {
@@ -1172,8 +1214,214 @@ std::string lookupTablesAndFloats(DcmItem& item)
   return {};
 }
 
+/// What was found beside the samples of pixel data, and cleared.
+struct ClearedPixels
+{
+  bool hadBits = false;    ///< outside of those stored
+  bool hadPadding = false; ///< bytes after the last sample
+  bool hadText = false;    ///< in compressed frames
+};
+
+const char* const kPixelsDamaged = "the pixel data do not match rows, columns and frames";
+
+StoredBits storedBitsOf(DcmItem& item)
+{
+  StoredBits bits;
+  bits.allocated = static_cast<int>(numberIn(item, DCM_BitsAllocated, 16));
+  bits.stored = static_cast<int>(numberIn(item, DCM_BitsStored, bits.allocated));
+  bits.high = static_cast<int>(numberIn(item, DCM_HighBit, bits.stored - 1));
+  bits.isSigned = numberIn(item, DCM_PixelRepresentation, 0) != 0;
+  return bits;
+}
+
+std::string cleanNativePixels(DcmElement& element, std::uint64_t samples, std::uint64_t frames,
+                              const StoredBits& bits, E_TransferSyntax syntax,
+                              ClearedPixels& cleared)
+{
+  const std::uint64_t wanted = (samples * static_cast<std::uint64_t>(bits.allocated) + 7) / 8;
+  const std::uint64_t length = element.getLength();
+  // A whole frame too many is not padding: voxels are not dropped silently.
+  const std::uint64_t frame = wanted / frames;
+  if (samples == 0 || wanted > length || length - wanted >= std::max<std::uint64_t>(frame, 16))
+    return kPixelsDamaged;
+  const bool isWords = bits.allocated == 16 || element.getVR() == EVR_OW;
+  Uint8* bytes = nullptr;
+  if (isWords)
+  {
+    Uint16* words = nullptr;
+    if (element.getUint16Array(words).bad() || !words)
+      return kPixelsDamaged;
+    bytes = reinterpret_cast<Uint8*>(words);
+  }
+  else if (element.getUint8Array(bytes).bad() || !bytes)
+    return kPixelsDamaged;
+  std::vector<Uint8> copy(bytes, bytes + wanted);
+  cleared.hadPadding = cleared.hadPadding ||
+                       std::any_of(bytes + wanted, bytes + length, [](Uint8 c) { return c != 0; });
+  if (bits.allocated == 1)
+  {
+    const auto used = static_cast<unsigned>(samples % 8);
+    const auto keep = static_cast<Uint8>(used == 0 ? 0xffU : (1U << used) - 1U);
+    cleared.hadBits = cleared.hadBits || (copy.back() & keep) != copy.back();
+    copy.back() = static_cast<Uint8>(copy.back() & keep);
+  }
+  else if (bits.stored != bits.allocated || bits.high + 1 != bits.stored)
+  {
+    // Cells of 32 bits in words of a big endian file: not in the order of this machine.
+    if (!isClearable(bits) ||
+        (bits.allocated == 32 && DcmXfer(syntax).getByteOrder() == EBO_BigEndian))
+      return "the bits of its cells that are not stored cannot be cleared";
+    if (clearUnusedBits(copy.data(), static_cast<std::size_t>(samples), bits))
+      cleared.hadBits = true;
+  }
+  if (copy.size() % 2 != 0)
+    copy.push_back(0);
+  if (copy.size() == length && std::equal(copy.begin(), copy.end(), bytes))
+    return {};
+  if (!isWords)
+    return element.putUint8Array(copy.data(), copy.size()).good() ? "" : kPixelsDamaged;
+  std::vector<Uint16> words(copy.size() / 2);
+  std::memcpy(words.data(), copy.data(), copy.size());
+  return element.putUint16Array(words.data(), words.size()).good() ? "" : kPixelsDamaged;
+}
+
+/// Whether samples that are coded with more bits than the file states use these.
+bool usesBitsBeyond(DcmItem& item, const StoredBits& bits)
+{
+  static std::once_flag once;
+  std::call_once(once,
+                 []
+                 {
+                   DJDecoderRegistration::registerCodecs();
+                   DJLSDecoderRegistration::registerCodecs();
+                 });
+  DcmItem copy(item);
+  DcmElement* element = nullptr;
+  Uint8* bytes = nullptr;
+  if (copy.findAndGetElement(DCM_PixelData, element).bad() || !element)
+    return true;
+  auto* pixels = dynamic_cast<DcmPixelData*>(element);
+  DcmStack stack;
+  stack.push(&copy);
+  stack.push(pixels);
+  if (!pixels || pixels->chooseRepresentation(EXS_LittleEndianExplicit, nullptr, stack).bad())
+    return true;
+  Uint16* words = nullptr;
+  const bool isWords = storedBitsOf(copy).allocated == 16;
+  if (isWords ? pixels->getUint16Array(words).bad() || !words
+              : pixels->getUint8Array(bytes).bad() || !bytes)
+    return true;
+  if (isWords)
+    bytes = reinterpret_cast<Uint8*>(words);
+  // After decoding: as the decoder states them.
+  const StoredBits now = storedBitsOf(copy);
+  StoredBits stated = bits;
+  stated.allocated = now.allocated;
+  const std::size_t cells = pixels->getLength() / (static_cast<std::size_t>(now.allocated) / 8);
+  return !isClearable(stated) || clearUnusedBits(bytes, cells, stated);
+}
+
+/// The fragments of each frame (PS3.5 A.4), without the offset table: one each; all of a single
+/// frame; else each that begins a codestream begins a frame.
+std::vector<std::vector<DcmPixelItem*>> framesOf(DcmPixelSequence& sequence, std::size_t frames)
+{
+  std::vector<std::vector<DcmPixelItem*>> found;
+  const unsigned long parts = sequence.card();
+  for (unsigned long n = 1; n < parts; ++n)
+  {
+    DcmPixelItem* part = nullptr;
+    Uint8* bytes = nullptr;
+    if (sequence.getItem(part, n).bad() || !part)
+      return {};
+    bool begins = found.empty() || parts - 1 == frames;
+    if (!begins && frames > 1)
+      begins = part->getLength() >= 2 && part->getUint8Array(bytes).good() && bytes &&
+               bytes[0] == 0xff && (bytes[1] == 0xd8 || bytes[1] == 0x4f);
+    if (begins)
+      found.emplace_back();
+    found.back().push_back(part);
+  }
+  return found.size() == frames ? found : std::vector<std::vector<DcmPixelItem*>>();
+}
+
+std::string cleanFrame(const std::vector<DcmPixelItem*>& parts, std::size_t cells,
+                       const StoredBits& bits, bool isRle, bool& mayHaveBits,
+                       ClearedPixels& cleared)
+{
+  std::vector<Uint8> whole; // comments may go on in the next fragment
+  for (DcmPixelItem* part : parts)
+  {
+    Uint8* bytes = nullptr;
+    if (part->getLength() > 0 && (part->getUint8Array(bytes).bad() || !bytes))
+      return kPixelsDamaged;
+    whole.insert(whole.end(), bytes, bytes + part->getLength());
+  }
+  const std::vector<Uint8> before = whole;
+  if (isRle)
+  {
+    bool hadBits = false;
+    if (!clearRleMetadata(whole.data(), whole.size(), cells, bits, hadBits))
+      return "its RLE pixel data are damaged";
+    cleared.hadBits = cleared.hadBits || hadBits;
+    cleared.hadText = cleared.hadText || (!hadBits && whole != before);
+  }
+  else
+  {
+    if (!clearCodestreamMetadata(whole.data(), whole.size()))
+      return "its compression cannot be checked for text";
+    cleared.hadText = cleared.hadText || whole != before;
+    const int precision = codestreamPrecision(whole.data(), whole.size());
+    mayHaveBits = mayHaveBits || precision == 0 || precision > bits.stored;
+  }
+  if (whole == before)
+    return {};
+  std::size_t at = 0;
+  for (DcmPixelItem* part : parts)
+  {
+    const std::size_t count = part->getLength();
+    const std::vector<Uint8> copy(whole.begin() + static_cast<std::ptrdiff_t>(at),
+                                  whole.begin() + static_cast<std::ptrdiff_t>(at + count));
+    at += count;
+    if (count > 0 && part->putUint8Array(copy.data(), copy.size()).bad())
+      return kPixelsDamaged;
+  }
+  return {};
+}
+
+std::string cleanCompressedPixels(DcmItem& item, DcmPixelSequence& sequence, std::size_t cells,
+                                  std::size_t count, const StoredBits& bits,
+                                  E_TransferSyntax syntax, ClearedPixels& cleared)
+{
+  const auto frames = framesOf(sequence, count);
+  DcmPixelItem* table = nullptr;
+  if (frames.empty() || sequence.getItem(table, 0).bad() || !table)
+    return "its compressed frames cannot be told apart";
+  bool mayHaveBits = false;
+  std::vector<Uint8> offsets;
+  std::uint64_t offset = 0;
+  for (const auto& parts : frames)
+  {
+    if (std::string why =
+            cleanFrame(parts, cells, bits, syntax == EXS_RLELossless, mayHaveBits, cleared);
+        !why.empty())
+      return why;
+    for (unsigned shift = 0; shift < 32; shift += 8)
+      offsets.push_back(static_cast<Uint8>(offset >> shift & 0xffU));
+    constexpr std::uint64_t kItemHeader = 8;
+    for (DcmPixelItem* part : parts)
+      offset += kItemHeader + part->getLength() + part->getLength() % 2;
+  }
+  if (mayHaveBits && usesBitsBeyond(item, bits))
+    return "its compressed pixels have more bits than it states, which cannot be cleared";
+  if (table->getLength() == 0)
+    return {};
+  if (table->getLength() != offsets.size())
+    return kPixelsDamaged;
+  return table->putUint8Array(offsets.data(), offsets.size()).good() ? "" : kPixelsDamaged;
+}
+
 // The item's own Pixel Data. Returns why it cannot leave.
-std::string cleanPixels(DcmItem& item, E_TransferSyntax syntax)
+std::string cleanPixels(DcmItem& item, E_TransferSyntax syntax, ClearedPixels& cleared)
 {
   DcmElement* element = nullptr;
   if (std::string why = lookupTablesAndFloats(item); !why.empty())
@@ -1181,105 +1429,41 @@ std::string cleanPixels(DcmItem& item, E_TransferSyntax syntax)
   if (item.findAndGetElement(DCM_PixelData, element).bad() || !element)
     return {};
   auto* pixels = dynamic_cast<DcmPixelData*>(element);
-  const long rows = numberIn(item, DCM_Rows, 0), columns = numberIn(item, DCM_Columns, 0);
-  const long samples = numberIn(item, DCM_SamplesPerPixel, 1);
-  const long allocated = numberIn(item, DCM_BitsAllocated, 16);
   Sint32 frames = 1;
   if (item.findAndGetSint32(DCM_NumberOfFrames, frames).bad() || frames < 1)
     frames = 1;
-  const auto whole = static_cast<std::uint64_t>(rows) * static_cast<std::uint64_t>(columns) *
-                     static_cast<std::uint64_t>(samples) * static_cast<std::uint64_t>(frames);
-  const std::string damaged = "the pixel data do not match rows, columns and frames";
-  DcmPixelSequence* sequence = nullptr;
+  const auto number = [&item](const DcmTagKey& key, long otherwise)
+  { return static_cast<std::uint64_t>(numberIn(item, key, otherwise)); };
+  const std::uint64_t cells = number(DCM_Rows, 0) * number(DCM_Columns, 0);
+  const auto count = static_cast<std::uint64_t>(frames);
+  const StoredBits bits = storedBitsOf(item);
   if (pixels && DcmXfer(syntax).isEncapsulated())
+  {
+    DcmPixelSequence* sequence = nullptr;
     pixels->getEncapsulatedRepresentation(syntax, nullptr, sequence);
-  if (!sequence)
-  {
-    const std::uint64_t wanted = (whole * static_cast<std::uint64_t>(allocated) + 7) / 8;
-    const std::uint64_t bytes = element->getLength();
-    // A whole frame too many is not padding: voxels are not dropped silently.
-    const std::uint64_t frame = wanted / static_cast<std::uint64_t>(frames);
-    if (whole == 0 || wanted > bytes || bytes - wanted >= std::max<std::uint64_t>(frame, 16))
-      return damaged;
-    if (allocated == 16)
-    {
-      Uint16* cells = nullptr;
-      if (element->getUint16Array(cells).bad() || !cells)
-        return damaged;
-      clearUnusedBits(cells, static_cast<std::size_t>(whole),
-                      static_cast<int>(numberIn(item, DCM_BitsStored, 16)),
-                      static_cast<int>(numberIn(item, DCM_HighBit, 15)),
-                      numberIn(item, DCM_PixelRepresentation, 0) != 0);
-      if (bytes > wanted)
-      {
-        const std::vector<Uint16> copy(cells, cells + whole);
-        element->putUint16Array(copy.data(), static_cast<unsigned long>(whole));
-      }
-    }
-    else if (bytes > wanted + wanted % 2 || (bytes > wanted && element->getVR() == EVR_OB))
-    {
-      if (element->getVR() == EVR_OW)
-      {
-        Uint16* cells = nullptr;
-        if (element->getUint16Array(cells).bad() || !cells)
-          return damaged;
-        const std::vector<Uint16> copy(cells, cells + (wanted + 1) / 2);
-        element->putUint16Array(copy.data(), copy.size());
-      }
-      else
-      {
-        Uint8* at = nullptr;
-        if (element->getUint8Array(at).bad() || !at)
-          return damaged;
-        const std::vector<Uint8> copy(at, at + wanted);
-        element->putUint8Array(copy.data(), copy.size());
-      }
-    }
-    return {};
+    if (sequence)
+      return cleanCompressedPixels(item, *sequence, static_cast<std::size_t>(cells),
+                                   static_cast<std::size_t>(count), bits, syntax, cleared);
   }
-  const unsigned long parts = sequence->card();
-  for (unsigned long n = 0; n < parts; ++n)
-  {
-    DcmPixelItem* part = nullptr;
-    if (sequence->getItem(part, n).bad() || !part)
-      return damaged;
-    const std::size_t count = part->getLength();
-    if (count == 0)
-      continue;
-    Uint8* bytes = nullptr;
-    if (part->getUint8Array(bytes).bad() || !bytes)
-      return damaged;
-    if (n == 0) // Basic Offset Table
-    {
-      if (count != 4 * static_cast<std::size_t>(frames))
-        return damaged;
-      continue;
-    }
-    if (syntax == EXS_RLELossless)
-    {
-      if (!clearRleMetadata(bytes, count, static_cast<std::size_t>(rows * columns)))
-        return "its RLE pixel data are damaged";
-    }
-    else if (!clearCodestreamMetadata(bytes, count))
-    {
-      if (n == 1 || parts == static_cast<unsigned long>(frames) + 1)
-        return "its compression cannot be checked for text";
-      clearAfterEndOfImage(bytes, count);
-    }
-  }
-  return {};
+  std::uint64_t samples = cells * number(DCM_SamplesPerPixel, 1) * count;
+  // Two pixels share their chrominance (PS3.3 C.7.6.3.1.2).
+  if (valueOf(item, DCM_PhotometricInterpretation) == "YBR_FULL_422")
+    samples = cells * 2 * count;
+  return cleanNativePixels(*element, samples, count, bits, syntax, cleared);
 }
 
 // In sequences as well (icons).
-std::string cleanAllPixels(DcmItem& item, E_TransferSyntax syntax, bool nested)
+std::string cleanAllPixels(DcmItem& item, E_TransferSyntax syntax, bool nested,
+                           ClearedPixels& cleared)
 {
-  if (std::string why = cleanPixels(item, syntax); !why.empty())
+  if (std::string why = cleanPixels(item, syntax, cleared); !why.empty())
     return nested ? "an icon: " + why : why;
   for (unsigned long n = 0; n < item.card(); ++n)
     if (item.getElement(n)->getVR() == EVR_SQ)
       if (auto* sequence = dynamic_cast<DcmSequenceOfItems*>(item.getElement(n)); sequence)
         for (unsigned long i = 0; i < sequence->card(); ++i)
-          if (std::string why = cleanAllPixels(*sequence->getItem(i), syntax, true); !why.empty())
+          if (std::string why = cleanAllPixels(*sequence->getItem(i), syntax, true, cleared);
+              !why.empty())
             return why;
   return {};
 }
@@ -1296,6 +1480,9 @@ std::string unsuitable(const std::string& sopClass)
     return "a DICOMDIR, which names patients";
   if (!isWellKnownUid(sopClass))
     return "of a private SOP class";
+  // Reports, key objects, procedure logs: sentences, names and dates in the content items.
+  if (sopClass.rfind("1.2.840.10008.5.1.4.1.1.88.", 0) == 0)
+    return "a structured document, whose text cannot be de-identified";
   if (name.rfind("Encapsulated", 0) == 0)
     return "an encapsulated document, whose text cannot be de-identified";
   if (name.find("RawData") != std::string::npos)
@@ -1375,7 +1562,51 @@ void putMethod(DcmDataset& dataSet, const DeidentificationOptions& options,
                                                              : "REMOVED");
 }
 
+// What of group 2 is not written again; that of the toolkit itself aside.
+std::vector<DcmTagKey> replacedMeta(DcmItem& meta)
+{
+  std::vector<DcmTagKey> keys;
+  for (unsigned long n = 0; n < meta.card(); ++n)
+    switch (const DcmTagKey key = meta.getElement(n)->getTag(); tagOf(key))
+    {
+    case 0x00020000: // group length
+    case 0x00020001: // version
+    case 0x00020002: // SOP class and instance
+    case 0x00020003:
+    case 0x00020010: // transfer syntax
+      break;
+    default:
+      keys.push_back(key);
+    }
+  return keys;
+}
+
+bool hasPreamble(const std::filesystem::path& path)
+{
+  constexpr std::size_t kPreamble = 128;
+  std::string start(kPreamble + 4, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  return file && start.compare(kPreamble, 4, "DICM") == 0 &&
+         start.find_first_not_of('\0') < kPreamble;
+}
+
+std::string folded(const std::string& name)
+{
+  std::string text;
+  for (const char c : name)
+    text += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c == '^' ? ' ' : c;
+  return withoutPadding(text);
+}
+
 } // namespace
+
+bool DicomCleaner::Person::differs(const Person& other) const
+{
+  const auto contradict = [](const std::string& a, const std::string& b)
+  { return !a.empty() && !b.empty() && a != b; };
+  return contradict(folded(name), folded(other.name)) || contradict(birthDate, other.birthDate);
+}
 
 DicomCleaner::DicomCleaner(const DeidentificationOptions& options, const PseudonymKey& key)
   : m_options(options)
@@ -1399,6 +1630,7 @@ DicomCleaner::Outcome DicomCleaner::clean(const std::filesystem::path& input,
           .bad())
     return {"is not DICOM, or damaged", false};
   const std::string metaClass = valueOf(*file->getMetaInfo(), DCM_MediaStorageSOPClassUID);
+  const std::vector<DcmTagKey> meta = replacedMeta(*file->getMetaInfo());
   std::unique_ptr<DcmDataset> dataSet(file->getAndRemoveDataset());
   file.reset(); // preamble and group 2 go with it
   if (metaClass == UID_MediaStorageDirectoryStorage)
@@ -1417,9 +1649,6 @@ DicomCleaner::Outcome DicomCleaner::clean(const std::filesystem::path& input,
   if (burnedIn != "NO" && dataSet->tagExists(DCM_PixelData))
     ++warnings[states ? "burned-in annotation is stated, and kept"
                       : "not stated to be free of burned-in annotation: look at the images"];
-  if (sopClass.find(".1.1.88.") != std::string::npos)
-    ++warnings["a structured report: its content is replaced by dummies"];
-
   const FaceSlices::File* face = faces ? faces->find(input) : nullptr;
   const bool isMasked = face && face->region;
   if (faces && dataSet->tagExists(DCM_PixelData))
@@ -1437,11 +1666,13 @@ DicomCleaner::Outcome DicomCleaner::clean(const std::filesystem::path& input,
   const std::string series = valueOf(*dataSet, DCM_SeriesInstanceUID);
   const std::string patientId = valueOf(*dataSet, DCM_PatientID);
   const std::string patientName = valueOf(*dataSet, DCM_PatientName);
+  const std::string birthDate = valueOf(*dataSet, DCM_PatientBirthDate);
   const std::string newSeries = m_key.uid(series), newStudy = m_key.uid(study);
 
   FileCleaner cleaner(*this, m_options, m_key, *dataSet);
   cleaner.clean(*dataSet);
-  if (std::string why = cleanAllPixels(*dataSet, syntax, false); !why.empty())
+  ClearedPixels cleared;
+  if (std::string why = cleanAllPixels(*dataSet, syntax, false, cleared); !why.empty())
     return {why, true};
   if (isMasked)
   {
@@ -1449,10 +1680,29 @@ DicomCleaner::Outcome DicomCleaner::clean(const std::filesystem::path& input,
       return {why, true};
     delete dataSet->remove(DCM_IconImageSequence); // a picture of the slice as it was
   }
+  if (hasPreamble(input))
+    cleaner.noteBeside("preamble", "", "cleared", false);
+  for (const DcmTagKey& key : meta)
+    cleaner.noteBeside(pathOf(key), dictionaryEntry(key).name,
+                       "removed: file meta information is written anew", false);
+  const std::string pixelData = pathOf(DCM_PixelData);
+  if (cleared.hadBits)
+    cleaner.noteBeside(pixelData, "PixelData",
+                       "bits beside those stored cleared (overlays of old scanners)", false);
+  if (cleared.hadPadding)
+    cleaner.noteBeside(pixelData, "PixelData", "bytes after the last pixel cleared", false);
+  if (cleared.hadText)
+    cleaner.noteBeside(pixelData, "PixelData",
+                       "comments, application segments and gaps of the compression cleared", false);
   putMethod(*dataSet, m_options, profile.edition(), isMasked);
 
   const std::string pseudonym = m_key.patient(cleaner.patient());
-  pseudonyms["patient " + pseudonym] = {"patient", pseudonym, patientId + " " + patientName};
+  const auto [known, isNew] = m_people.emplace(pseudonym, Person{patientName, birthDate});
+  if (!isNew && known->second.differs({patientName, birthDate}))
+    ++warnings["the Patient ID is that of earlier files, but name or birth date differ: one "
+               "pseudonym may stand for two patients"];
+  pseudonyms["patient " + pseudonym + " " + patientName] = {"patient", pseudonym,
+                                                            patientId + " " + patientName};
   pseudonyms["study " + newStudy] = {"study", newStudy, study};
   pseudonyms["series " + newSeries] = {"series", newSeries, series};
 

@@ -47,6 +47,13 @@ public:
   std::shared_ptr<const FaceSlices> faces; ///< for DeidentificationOptions::maskFace
 
 private:
+  struct Person
+  {
+    std::string name, birthDate;
+    bool differs(const Person& other) const; ///< both state it, and not the same
+  };
+
+  std::map<std::string, Person> m_people; ///< the first by pseudonym
   DeidentificationOptions m_options;
   const PseudonymKey& m_key;
 };

@@ -1,7 +1,7 @@
 #include "PixelMetadata.h"
 
 #include <algorithm>
-#include <vector>
+#include <cstring>
 
 namespace petrous::library
 {
@@ -25,6 +25,17 @@ void zero(std::uint8_t* bytes, std::size_t first, std::size_t end)
 bool startsWith(const std::uint8_t* bytes, std::size_t count, const char* text, std::size_t length)
 {
   return count >= length && std::equal(text, text + length, bytes);
+}
+
+// Of what no marker leads to: after the last end-of-image marker.
+void clearAfterEndOfImage(std::uint8_t* bytes, std::size_t count)
+{
+  for (std::size_t at = count; at >= 2; --at)
+    if (bytes[at - 2] == 0xff && bytes[at - 1] == 0xd9)
+    {
+      zero(bytes, at, count);
+      return;
+    }
 }
 
 // ITU-T T.81 Annex B, T.87.
@@ -127,20 +138,119 @@ bool clearCodestreamMetadata(std::uint8_t* bytes, std::size_t count)
   return true;
 }
 
-void clearAfterEndOfImage(std::uint8_t* bytes, std::size_t count)
+int codestreamPrecision(const std::uint8_t* bytes, std::size_t count)
 {
-  for (std::size_t at = count; at >= 2; --at)
-    if (bytes[at - 2] == 0xff && bytes[at - 1] == 0xd9)
+  if (count < 4 || bytes[0] != 0xff)
+    return 0;
+  if (bytes[1] == 0x4f) // SIZ follows at once (ITU-T T.800 A.5.1)
+  {
+    constexpr std::size_t kComponents = 40;
+    if (count < kComponents + 2 || number(bytes + 2, 2) != 0xff51)
+      return 0;
+    int deepest = 0;
+    const std::size_t components = number(bytes + kComponents, 2);
+    for (std::size_t n = 0, at = kComponents + 2; n < components && at < count; ++n, at += 3)
+      deepest = std::max(deepest, (bytes[at] & 0x7f) + 1);
+    return deepest;
+  }
+  for (std::size_t at = 2; at + 5 <= count;)
+  {
+    if (bytes[at] != 0xff || bytes[at + 1] == 0xff || bytes[at + 1] < 0xc0)
     {
-      zero(bytes, at, count);
-      return;
+      ++at;
+      continue;
     }
+    const std::uint8_t marker = bytes[at + 1];
+    const bool isFrame =
+        (marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc) ||
+        marker == 0xf7;
+    if (isFrame)
+      return bytes[at + 4];
+    at += 2 + std::max<std::size_t>(2, number(bytes + at + 2, 2));
+  }
+  return 0;
 }
 
-bool clearRleMetadata(std::uint8_t* bytes, std::size_t count, std::size_t pixels)
+bool isClearable(const StoredBits& bits)
+{
+  return (bits.allocated == 8 || bits.allocated == 16 || bits.allocated == 32) &&
+         bits.stored >= 1 && bits.high < bits.allocated && bits.high + 1 >= bits.stored;
+}
+
+namespace
+{
+
+/// The bits of a cell: of the sample, and above it.
+struct Masks
+{
+  explicit Masks(const StoredBits& bits)
+    : upTo(bits.high >= 31 ? 0xffffffffU : (1U << static_cast<unsigned>(bits.high + 1)) - 1U)
+    , stored(upTo & ~((1U << static_cast<unsigned>(bits.high + 1 - bits.stored)) - 1U))
+    , above((bits.allocated >= 32 ? 0xffffffffU
+                                  : (1U << static_cast<unsigned>(bits.allocated)) - 1U) &
+            ~upTo)
+    , sign(bits.isSigned ? 1U << static_cast<unsigned>(bits.high) : 0U)
+  {
+  }
+
+  std::uint32_t upTo, stored, above, sign;
+};
+
+template <class Cell>
+bool clearCells(std::uint8_t* bytes, std::size_t cells, const Masks& masks)
+{
+  bool extends = masks.sign != 0, hasUnused = false;
+  for (std::size_t n = 0; n < cells; ++n)
+  {
+    Cell cell = 0;
+    std::memcpy(&cell, bytes + n * sizeof cell, sizeof cell);
+    const bool isNegative = (cell & masks.sign) != 0;
+    extends = extends && (cell & masks.above) == (isNegative ? masks.above : 0U);
+    hasUnused = hasUnused || (cell & ~masks.stored) != 0;
+  }
+  if (!hasUnused)
+    return false;
+  const std::uint32_t keep = masks.stored | (extends ? masks.above : 0U);
+  bool changed = false;
+  for (std::size_t n = 0; n < cells; ++n)
+  {
+    Cell cell = 0;
+    std::memcpy(&cell, bytes + n * sizeof cell, sizeof cell);
+    const auto rest = static_cast<Cell>(cell & keep);
+    changed = changed || rest != cell;
+    std::memcpy(bytes + n * sizeof cell, &rest, sizeof rest);
+  }
+  return changed;
+}
+
+/// Calls `use(byte, isCell)` for each byte of an RLE segment that is a value, until `pixels` are
+/// decoded. Returns where the segment ends; > end: it is damaged.
+template <class Use>
+std::size_t decodeRle(std::uint8_t* bytes, std::size_t at, std::size_t end, std::size_t pixels,
+                      const Use& use)
+{
+  std::size_t decoded = 0;
+  while (decoded < pixels && at < end)
+  {
+    const int code = static_cast<std::int8_t>(bytes[at++]);
+    if (code == -128)
+      continue;
+    const std::size_t values = code >= 0 ? static_cast<std::size_t>(code) + 1 : 1;
+    for (std::size_t n = 0; n < values && at + n < end; ++n)
+      use(bytes[at + n]);
+    at += values;
+    decoded += code >= 0 ? values : static_cast<std::size_t>(-code) + 1;
+  }
+  return decoded < pixels ? end + 1 : at;
+}
+
+} // namespace
+
+bool clearRleMetadata(std::uint8_t* bytes, std::size_t count, std::size_t pixels,
+                      const StoredBits& bits, bool& hadBits)
 {
   constexpr std::size_t kHeader = 64;
-  if (count < kHeader)
+  if (count < kHeader || !isClearable(bits))
     return false;
   const auto entry = [bytes](std::size_t n)
   {
@@ -148,55 +258,57 @@ bool clearRleMetadata(std::uint8_t* bytes, std::size_t count, std::size_t pixels
     return std::size_t{at[0]} | std::size_t{at[1]} << 8 | std::size_t{at[2]} << 16 |
            std::size_t{at[3]} << 24;
   };
-  const std::size_t segments = entry(0);
-  if (segments < 1 || segments > 15)
+  const std::size_t segments = entry(0), ofCell = static_cast<std::size_t>(bits.allocated) / 8;
+  if (segments < 1 || segments > 15 || segments % ofCell != 0)
     return false;
   zero(bytes, 4 * (segments + 1), kHeader);
+  const Masks masks(bits);
   std::size_t last = kHeader; // end of what was decoded
   for (std::size_t n = 1; n <= segments; ++n)
   {
-    std::size_t at = entry(n);
+    const std::size_t at = entry(n);
     const std::size_t end = n < segments ? entry(n + 1) : count;
     if (at < last || at > end || end > count)
       return false;
     zero(bytes, last, at);
-    std::size_t decoded = 0;
-    while (decoded < pixels && at < end)
-    {
-      const int code = static_cast<std::int8_t>(bytes[at++]);
-      if (code >= 0)
-      {
-        at += static_cast<std::size_t>(code) + 1;
-        decoded += static_cast<std::size_t>(code) + 1;
-      }
-      else if (code != -128)
-      {
-        ++at;
-        decoded += static_cast<std::size_t>(-code) + 1;
-      }
-    }
-    if (decoded < pixels || at > end)
+    // The most significant byte of a sample comes first.
+    const auto shift = static_cast<unsigned>(8 * (ofCell - 1 - (n - 1) % ofCell));
+    const auto part = [shift](std::uint32_t mask)
+    { return static_cast<std::uint8_t>(mask >> shift & 0xffU); };
+    const std::uint8_t stored = part(masks.stored), above = part(masks.above),
+                       sign = part(masks.sign);
+    bool extends = sign != 0;
+    last = decodeRle(bytes, at, end, pixels,
+                     [&](std::uint8_t value) {
+                       extends = extends && (value & above) == ((value & sign) != 0 ? above : 0);
+                     });
+    if (last > end)
       return false;
-    last = at;
+    const auto keep = static_cast<std::uint8_t>(stored | (extends ? above : 0));
+    decodeRle(bytes, at, end, pixels,
+              [&](std::uint8_t& value)
+              {
+                hadBits = hadBits || (value & keep) != value;
+                value = static_cast<std::uint8_t>(value & keep);
+              });
   }
   zero(bytes, last, count);
   return true;
 }
 
-void clearUnusedBits(std::uint16_t* cells, std::size_t count, int bitsStored, int highBit,
-                     bool isSigned)
+bool clearUnusedBits(std::uint8_t* bytes, std::size_t cells, const StoredBits& bits)
 {
-  if (bitsStored < 1 || bitsStored >= 16 || highBit > 15 || highBit + 1 < bitsStored)
-    return;
-  const auto low = static_cast<unsigned>(highBit + 1 - bitsStored);
-  const unsigned stored = ((1U << static_cast<unsigned>(bitsStored)) - 1U) << low;
-  const unsigned above = 0xffffU & ~((1U << static_cast<unsigned>(highBit + 1)) - 1U);
-  for (std::size_t n = 0; n < count; ++n)
+  if (!isClearable(bits))
+    return false;
+  const Masks masks(bits);
+  switch (bits.allocated)
   {
-    const unsigned cell = cells[n];
-    const bool isNegative = isSigned && (cell >> static_cast<unsigned>(highBit) & 1U) != 0;
-    const bool isExtended = isNegative && (cell & above) == above;
-    cells[n] = static_cast<std::uint16_t>((cell & stored) | (isExtended ? above : 0U));
+  case 8:
+    return clearCells<std::uint8_t>(bytes, cells, masks);
+  case 16:
+    return clearCells<std::uint16_t>(bytes, cells, masks);
+  default:
+    return clearCells<std::uint32_t>(bytes, cells, masks);
   }
 }
 

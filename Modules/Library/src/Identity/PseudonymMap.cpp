@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <fstream>
 #include <new>
 
 #include <fcntl.h>
@@ -14,6 +15,7 @@
 
 #include "petrous/Core/InputFile.h"
 #include "petrous/Core/OutputFile.h"
+#include "petrous/Library/OwnerLock.h"
 
 namespace petrous::library
 {
@@ -103,6 +105,19 @@ PseudonymMap::PseudonymMap(const std::filesystem::path& path, const std::string&
     m_secret = static_cast<unsigned char*>(::sodium_malloc(kSecret));
     if (!m_secret)
       throw std::bad_alloc();
+    // Of a run that was killed while it wrote the map.
+    removeAbandoned(
+        m_path.has_parent_path() ? m_path.parent_path() : ".",
+        [](const std::filesystem::path& found)
+        {
+          std::string start(kMagicBytes, '\0');
+          std::error_code ignored;
+          if (!core::isLeftover(found) ||
+              !std::filesystem::is_regular_file(std::filesystem::symlink_status(found, ignored)))
+            return false;
+          std::ifstream(found, std::ios::binary).read(start.data(), kMagicBytes);
+          return start == kMagic;
+        });
     std::error_code error;
     if (std::filesystem::exists(m_path, error))
       read(passphrase);

@@ -1,5 +1,7 @@
 #include "Association.h"
 
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include <netinet/in.h>
@@ -45,40 +47,62 @@ private:
   ConnectionWatch& m_watch;
 };
 
+[[noreturn]] void refuseTls(const Node& node, const std::string& why)
+{
+  throw NetworkError(Reason::Tls, "node '" + node.name + "': " + why);
+}
+
+void requireThere(const Node& node, const std::string& file)
+{
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored))
+    refuseTls(node, file + ": is not there; give a PEM file");
+}
+
+// BCP 195, non-downgrading: never below TLS 1.2. What is trusted, and this program's own.
+void useTlsFiles(DcmTLSTransportLayer& layer, const Node& node)
+{
+  const TlsFiles& files = *node.tls;
+  if (layer.setTLSProfile(TSP_Profile_BCP195_ND).bad() || layer.activateCipherSuites().bad())
+    refuseTls(node, "TLS 1.2 is not available here");
+  layer.setCertificateVerification(DCV_requireCertificate);
+  layer.setPrivateKeyPasswd(""); // never asked for on the terminal
+  if (!files.authority.empty())
+  {
+    requireThere(node, files.authority);
+    if (layer.addTrustedCertificateFile(files.authority.c_str(), DCF_Filetype_PEM).bad())
+      refuseTls(node, files.authority + ": is not a PEM file of certificates to trust");
+  }
+  if (files.certificate.empty())
+    return;
+  requireThere(node, files.key);
+  requireThere(node, files.certificate);
+  if (layer.setPrivateKeyFile(files.key.c_str(), DCF_Filetype_PEM).bad())
+    refuseTls(node, files.key + ": is not a PEM file of a private key without a passphrase");
+  if (layer.setCertificateFile(files.certificate.c_str(), DCF_Filetype_PEM).bad())
+    refuseTls(node,
+              files.certificate + ": is not a PEM file of a certificate of at least 2048 bits");
+  if (!layer.checkPrivateKeyMatchesCertificate())
+    refuseTls(node, files.key + ": is not the key of " + files.certificate);
+}
+
 std::unique_ptr<DcmTransportLayer> tlsLayer(const Node& node, ConnectionWatch& watch,
                                             T_ASC_NetworkRole role)
 {
-  const auto refuse = [&node](const std::string& why)
-  { throw NetworkError(Reason::Tls, "node '" + node.name + "': " + why); };
   auto layer = std::make_unique<WatchedLayer<DcmTLSTransportLayer>>(
       watch, role, static_cast<const char*>(nullptr), OFFalse);
-  const TlsFiles& files = *node.tls;
-  // BCP 195, non-downgrading: never below TLS 1.2.
-  if (layer->setTLSProfile(TSP_Profile_BCP195_ND).bad() || layer->activateCipherSuites().bad())
-    refuse("TLS 1.2 is not available here");
-  layer->setCertificateVerification(DCV_requireCertificate);
-  layer->setPrivateKeyPasswd(""); // never asked for on the terminal
-  if (files.authority.empty())
-  {
-    if (!SSL_CTX_set_default_verify_paths(layer->getNativeHandle()))
-      refuse("the system's trusted certificates cannot be read; give a file of certificates");
-    // Anyone can have a certificate of a public authority, for a host of his own.
-    X509_VERIFY_PARAM* verification = SSL_CTX_get0_param(layer->getNativeHandle());
-    if (role == NET_REQUESTOR && !X509_VERIFY_PARAM_set1_ip_asc(verification, node.host.c_str()) &&
-        !X509_VERIFY_PARAM_set1_host(verification, node.host.c_str(), node.host.size()))
-      refuse("its host name cannot be compared with its certificate; give a file of certificates");
-  }
-  else if (layer->addTrustedCertificateFile(files.authority.c_str(), DCF_Filetype_PEM).bad())
-    refuse(files.authority + ": is not a PEM file of certificates to trust");
-  if (!files.certificate.empty())
-  {
-    if (layer->setPrivateKeyFile(files.key.c_str(), DCF_Filetype_PEM).bad())
-      refuse(files.key + ": is not a PEM file of a private key without a passphrase");
-    if (layer->setCertificateFile(files.certificate.c_str(), DCF_Filetype_PEM).bad())
-      refuse(files.certificate + ": is not a PEM file of a certificate of at least 2048 bits");
-    if (!layer->checkPrivateKeyMatchesCertificate())
-      refuse(files.key + ": is not the key of " + files.certificate);
-  }
+  useTlsFiles(*layer, node);
+  if (!node.tls->authority.empty())
+    return layer;
+  if (!SSL_CTX_set_default_verify_paths(layer->getNativeHandle()))
+    refuseTls(node, "the system's trusted certificates cannot be read; give a file of "
+                    "certificates");
+  // Anyone can have a certificate of a public authority, for a host of his own.
+  X509_VERIFY_PARAM* verification = SSL_CTX_get0_param(layer->getNativeHandle());
+  if (role == NET_REQUESTOR && !X509_VERIFY_PARAM_set1_ip_asc(verification, node.host.c_str()) &&
+      !X509_VERIFY_PARAM_set1_host(verification, node.host.c_str(), node.host.size()))
+    refuseTls(node, "its host name cannot be compared with its certificate; give a file of "
+                    "certificates");
   return layer;
 }
 
@@ -119,6 +143,22 @@ void prepareToolkit()
                    DcmTLSTransportLayer::initializeOpenSSL();
                    dcmConnectionTimeout.set(10); // seconds; the default is that of the system
                  });
+}
+
+void checkTlsFiles(const Node& node)
+{
+  prepareToolkit();
+  if (!node.tls)
+    return;
+  try
+  {
+    DcmTLSTransportLayer layer(NET_REQUESTOR, nullptr, OFFalse);
+    useTlsFiles(layer, node);
+  }
+  catch (const NetworkError& error)
+  {
+    throw core::InvalidParameter(error.what());
+  }
 }
 
 std::unique_ptr<DcmTransportLayer> transportLayer(const Node& node, ConnectionWatch& watch,

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <functional>
 #include <map>
 #include <memory>
 #include <thread>
 #include <utility>
 
+#include <fcntl.h>
 #include <openssl/evp.h>
 #include <poll.h>
 #include <unistd.h>
@@ -21,6 +23,7 @@
 #include <dcmtk/dcmnet/dimse.h>
 
 #include "Association.h"
+#include "petrous/Core/OutputFile.h"
 
 namespace petrous::network
 {
@@ -470,6 +473,7 @@ public:
   std::size_t expected() const noexcept { return m_expected.size(); }
   std::size_t arrived() const noexcept { return m_arrived.size(); }
   std::size_t foreign() const noexcept { return m_foreign; }
+  std::size_t otherNames() const noexcept { return m_otherNames; }
   const std::set<std::string>& series() const noexcept { return m_series; }
   const fs::path& folder() const noexcept { return m_folder; }
 
@@ -525,9 +529,12 @@ public:
       fs::remove(received, fault);
       return STATUS_Success;
     }
+    if (!isSynced(received))
+      return 0xA700; // out of resources
     fs::rename(received, m_folder / fileNameOf(uid), fault);
     if (fault)
-      return 0xA700; // out of resources
+      return 0xA700;
+    core::syncFolder(m_folder);
     m_arrived.insert(uid);
     return STATUS_Success;
   }
@@ -547,14 +554,60 @@ private:
         (m_study.patientId.empty() ||
          !std::all_of(m_study.patientId.begin(), m_study.patientId.end(), isAscii)))
       m_study.patientId = patient;
+    const Person person{text(data, DCM_IssuerOfPatientID), text(data, DCM_PatientBirthDate),
+                        folded(text(data, DCM_PatientName))};
     if (text(data, DCM_StudyInstanceUID) != m_study.uid ||
         m_series.count(text(data, DCM_SeriesInstanceUID)) == 0 ||
-        text(data, DCM_SOPInstanceUID) != uid || patient != m_study.patientId)
+        text(data, DCM_SOPInstanceUID) != uid || patient != m_study.patientId ||
+        contradict(person.issuer, m_person.issuer) ||
+        contradict(person.birthDate, m_person.birthDate))
     {
       ++m_foreign;
       return 0xA900; // data set does not match
     }
+    const auto state = [](std::string& known, const std::string& stated)
+    {
+      if (known.empty())
+        known = stated;
+    };
+    state(m_person.issuer, person.issuer);
+    state(m_person.birthDate, person.birthDate);
+    state(m_person.name, person.name);
+    m_otherNames += contradict(person.name, m_person.name) ? 1 : 0;
     return STATUS_Success;
+  }
+
+  /// What tells patients of one ID apart; empty: not stated. For comparisons only.
+  struct Person
+  {
+    std::string issuer, birthDate, name;
+  };
+
+  static bool contradict(const std::string& a, const std::string& b)
+  {
+    return !a.empty() && !b.empty() && a != b;
+  }
+
+  // "Doe^Jane^^" as "DOE JANE".
+  static std::string folded(const std::string& name)
+  {
+    std::string text;
+    for (const char c : name)
+      if (c != '^' && c != ' ')
+        text += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+      else if (!text.empty() && text.back() != ' ')
+        text += ' ';
+    return text.empty() || text.back() != ' ' ? text : text.substr(0, text.size() - 1);
+  }
+
+  static bool isSynced(const fs::path& file)
+  {
+    const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0)
+      return false;
+    const bool done = ::fsync(descriptor) == 0 || errno == EINVAL; // of file systems without it
+    ::close(descriptor);
+    return done;
   }
 
   const Node& m_node;
@@ -564,6 +617,8 @@ private:
   std::set<std::string> m_series;
   std::set<std::string> m_arrived;
   std::size_t m_foreign = 0;
+  std::size_t m_otherNames = 0;
+  Person m_person; ///< of the files that are taken
 };
 
 /// Receives the data set of a C-STORE request to the disk, and answers it. Throws if the disk does
@@ -1008,6 +1063,11 @@ std::vector<Instance> findInstances(const Node& node, const std::string& studyUi
   return list;
 }
 
+std::string seriesOfFile(const fs::path& file)
+{
+  return outgoing(file).seriesUid;
+}
+
 Transfer store(const Node& node, const std::vector<fs::path>& files, const core::Progress& progress)
 {
   prepareToolkit();
@@ -1189,6 +1249,7 @@ Transfer retrieve(const Node& node, const std::string& studyUid,
                                                  std::to_string(transfer.asked) + " times");
   }
   transfer.completed = reception.arrived();
+  transfer.otherNames = reception.otherNames();
   transfer.seconds = secondsSince(start);
   return transfer;
 }

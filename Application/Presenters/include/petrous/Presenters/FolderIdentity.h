@@ -15,6 +15,7 @@ struct DeidentifyRequest
   std::filesystem::path output; ///< a file, or a new or empty folder
   std::filesystem::path map;    ///< pseudonyms, encrypted; empty: a key that is used once
   library::DeidentificationOptions options;
+  bool replace = false; ///< an output file that is there; otherwise that is refused
 };
 
 /// Throws Error (Refused) for a file that would lie in `input`: a report, or the map.
@@ -22,7 +23,7 @@ void refuseWithin(const std::filesystem::path& file, const std::filesystem::path
                   const std::string& what);
 
 /// De-identifies with the key of the map, which is written before (a key that is lost would leave
-/// files that nobody can assign) and completed afterwards. `passphrase` is that of the map. Throws
+/// files that nobody can assign) and completed before the output is in place. `passphrase` is that of the map. Throws
 /// like library::deidentify and library::PseudonymMap.
 library::DeidentificationResult deidentifyFolder(const DeidentifyRequest& request,
                                                  const std::string& passphrase,

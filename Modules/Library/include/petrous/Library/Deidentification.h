@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -108,13 +109,19 @@ struct DeidentificationResult
 
 /// De-identifies the DICOM files in `input`, a file or a folder of any depth, into `output`, a file
 /// or a new or empty folder; files there are numbered by series. Files that cannot be de-identified
-/// (documents, private SOP classes, damaged files) are left out. The output is complete or absent.
+/// (documents, private SOP classes, damaged files) are left out. The output is complete or absent;
+/// what an earlier call left there or beside it when its process was killed is removed. A file that
+/// is there is replaced.
+///
+/// `keep` is given the pseudonyms before the output is in place, so that no file of it can be
+/// without an entry in a map.
 ///
 /// Throws core::Error (BadInput) if nothing can be de-identified, (Refused) if the output lies
 /// within the input or the reverse; OutputFileError, CancelledError.
-DeidentificationResult deidentify(const std::filesystem::path& input,
-                                  const std::filesystem::path& output,
-                                  const DeidentificationOptions& options, const PseudonymKey& key,
-                                  const core::Progress& progress = {});
+DeidentificationResult
+deidentify(const std::filesystem::path& input, const std::filesystem::path& output,
+           const DeidentificationOptions& options, const PseudonymKey& key,
+           const core::Progress& progress = {},
+           const std::function<void(const std::vector<Pseudonym>&)>& keep = {});
 
 } // namespace petrous::library

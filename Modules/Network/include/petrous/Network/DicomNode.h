@@ -74,6 +74,10 @@ struct Node
 /// Throws InvalidParameter naming the first field that DICOM or TCP does not permit.
 void checkNode(const Node& node);
 
+/// Throws InvalidParameter for files of `node.tls` that cannot be used: one that is not there, is
+/// not PEM, or a key that is not the certificate's. Also if the system has no TLS 1.2.
+void checkTlsFiles(const Node& node);
+
 /// Verifies that the node answers (C-ECHO). All functions throw NetworkError and CancelledError;
 /// `progress` cancels within a fraction of a second, also while the node is silent (but for the
 /// time to connect). Thread-safe.
@@ -133,13 +137,14 @@ std::vector<Instance> findInstances(const Node& node, const std::string& studyUi
 /// Outcome of a transfer that is complete: anything else is thrown.
 struct Transfer
 {
-  std::size_t instances = 0; ///< of the whole transfer
-  std::size_t completed = 0; ///< = instances, with `present` and `warning`
-  std::size_t present = 0;   ///< of these, which were there already
-  std::size_t warning = 0;   ///< of these, which the node stored with a warning
-  std::size_t asked = 1;     ///< how often it took: 1, or more if something had to be asked again
-  bool verified = false;     ///< sent: the node lists all of them; some of them: Incomplete
-  std::uintmax_t bytes = 0;  ///< transferred
+  std::size_t instances = 0;  ///< of the whole transfer
+  std::size_t completed = 0;  ///< = instances, with `present` and `warning`
+  std::size_t present = 0;    ///< of these, which were there already
+  std::size_t warning = 0;    ///< of these, which the node stored with a warning
+  std::size_t asked = 1;      ///< how often it took: 1, or more if something had to be asked again
+  bool verified = false;      ///< sent: the node lists all of them; some of them: Incomplete
+  std::size_t otherNames = 0; ///< received: which name the patient otherwise than the first does
+  std::uintmax_t bytes = 0;   ///< transferred
   double seconds = 0.0;
 };
 
@@ -154,13 +159,19 @@ Transfer store(const Node& node, const std::vector<std::filesystem::path>& files
 /// or C-MOVE (Node::movePort). Which instances there are is asked first (C-FIND);
 /// what does not arrive is asked for again, also after a cut. What a complete earlier or a cut
 /// transfer left in the folder is used. Files whose study, series, patient or instance is not what
-/// was asked for are not kept, and the transfer fails (Foreign).
+/// was asked for are not kept, and the transfer fails (Foreign): the patient is told by ID, its
+/// issuer and birth date (PS3.3 C.7.1.1), of which all files must state the same if they state it;
+/// names are written in several ways, and those that differ are counted. A file has arrived when it
+/// is on the disk (fsync).
 ///
 /// Without `seriesUids`, all series. Throws NetworkError; the folder then has what arrived in
 /// whole, for another call.
 Transfer retrieve(const Node& node, const std::string& studyUid,
                   const std::vector<std::string>& seriesUids, const std::filesystem::path& folder,
                   const core::Progress& progress = {});
+
+/// Series Instance UID of a DICOM file. Throws InvalidParameter if it is not one that can be sent.
+std::string seriesOfFile(const std::filesystem::path& file);
 
 constexpr const char* kInstanceEnding = ".dcm";
 

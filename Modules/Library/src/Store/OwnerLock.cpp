@@ -1,0 +1,64 @@
+#include "petrous/Library/OwnerLock.h"
+
+#include <system_error>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace petrous::library
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+bool isAt(int descriptor, const fs::path& path)
+{
+  struct stat opened = {}, found = {};
+  return ::fstat(descriptor, &opened) == 0 && ::lstat(path.c_str(), &found) == 0 &&
+         opened.st_ino == found.st_ino && opened.st_dev == found.st_dev;
+}
+
+} // namespace
+
+OwnerLock::OwnerLock(const fs::path& folder)
+  : m_descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC))
+{
+  if (m_descriptor < 0)
+    return;
+  ::flock(m_descriptor, LOCK_EX | LOCK_NB);
+  m_isThere = isAt(m_descriptor, folder);
+}
+
+OwnerLock::~OwnerLock()
+{
+  if (m_descriptor >= 0)
+    ::close(m_descriptor);
+}
+
+void removeAbandoned(const fs::path& folder, const std::function<bool(const fs::path&)>& isOwn)
+{
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (isOwn(entry->path()))
+      found.push_back(entry->path());
+  for (const fs::path& path : found)
+  {
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0)
+      continue;
+    struct stat status = {};
+    if (::fstat(descriptor, &status) == 0 && status.st_uid == ::geteuid() &&
+        ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 && isAt(descriptor, path))
+      fs::remove_all(path, error);
+    ::close(descriptor);
+  }
+}
+
+} // namespace petrous::library

@@ -115,6 +115,7 @@ void runNodes(const Context& context, const NodeOptions& options)
 struct SendOptions
 {
   std::string caseName, node, what = "all";
+  bool withVideos = false;
 };
 
 void send(const Context& context, const SendOptions& options)
@@ -127,6 +128,7 @@ void send(const Context& context, const SendOptions& options)
   parts.mr = all || options.what == "mr";
   parts.labels = all || options.what == "labels";
   parts.scene = all || options.what == "scene";
+  parts.videos = options.withVideos;
   const auto done = presenters::sendCase(library, options.caseName, list.at(options.node), parts,
                                          context.progress());
   for (const std::string& note : done.notes)
@@ -224,6 +226,8 @@ void addNodeCommands(CLI::App& app, Context& context)
                    "received as it is")
       ->check(oneOf({"ct", "mr", "labels", "scene", "all"}))
       ->capture_default_str();
+  command->add_flag("--with-videos", out->withVideos,
+                    "Attached videos go along with the scene; they may show or name the patient");
 
   auto in = std::make_shared<ReceiveOptions>();
   command = context.addCommand(app, "receive", "Add a case from a DICOM node to the library",

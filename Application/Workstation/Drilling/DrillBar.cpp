@@ -1,5 +1,7 @@
 #include "DrillBar.h"
 
+#include <cmath>
+
 #include <QAction>
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -123,6 +125,20 @@ dissection::Burr DrillBar::burr() const
   burr.kind = static_cast<dissection::Burr::Kind>(m_kind->currentData().toInt());
   burr.rpm = 1000.0 * m_speed->value();
   return burr;
+}
+
+void DrillBar::setBurr(const dissection::Burr& burr)
+{
+  {
+    const QSignalBlocker kind(m_kind);
+    const QSignalBlocker diameter(m_diameter);
+    const QSignalBlocker speed(m_speed);
+    m_kind->setCurrentIndex(m_kind->findData(static_cast<int>(burr.kind)));
+    m_diameter->setValue(burr.diameter);
+    offerDiameters();
+    m_speed->setValue(static_cast<int>(std::lround(burr.rpm / 1000.0)));
+  }
+  emit burrChanged();
 }
 
 void DrillBar::setThrust(double newtons)

@@ -36,6 +36,7 @@ private:
   QCheckBox* m_labels;
   QCheckBox* m_scene;
   QCheckBox* m_note;
+  QCheckBox* m_videos;
   QPlainTextEdit* m_report;
   QPushButton* m_send;
 };

@@ -162,7 +162,10 @@ void checkPersonName(const std::string& name)
                                  "control characters");
 }
 
-void checkCaseName(const std::string& name)
+namespace
+{
+
+void checkFileName(const std::string& name, const std::string& what)
 {
   const auto bad = [](unsigned char c)
   {
@@ -171,15 +174,28 @@ void checkCaseName(const std::string& name)
   };
   const auto ragged = [](char c) { return c == '.' || c == ' '; };
   if (!core::isUtf8(name))
-    throw core::InvalidParameter("case name: is not UTF-8; type it anew");
+    throw core::InvalidParameter(what + ": is not UTF-8; type it anew");
   if (name.empty() || name.size() > 100)
-    throw core::InvalidParameter("case name: must have 1 to 100 bytes, not " +
+    throw core::InvalidParameter(what + ": must have 1 to 100 bytes, not " +
                                  std::to_string(name.size()));
   if (std::any_of(name.begin(), name.end(), bad) || ragged(name.front()) || ragged(name.back()) ||
       name.front() == '-')
     throw core::InvalidParameter(
-        "case name: must be a plain name without / \\ : * ? \" < > |, control characters, a dot or "
-        "space at its ends, or a dash in front");
+        what +
+        ": must be a plain name without / \\ : * ? \" < > |, control characters, a dot or space at "
+        "its ends, or a dash in front");
+}
+
+} // namespace
+
+void checkCaseName(const std::string& name)
+{
+  checkFileName(name, "case name");
+}
+
+void checkAttachmentName(const std::string& name)
+{
+  checkFileName(name, "name of an attachment");
 }
 
 } // namespace petrous::scene

@@ -9,6 +9,7 @@
 #include "LibraryFolder.h"
 #include "ManifestFile.h"
 #include "Thumbnail.h"
+#include "petrous/Library/Attachments.h"
 #include "petrous/Library/Library.h"
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Scene/Manifest.h"
@@ -373,7 +374,13 @@ std::vector<std::string> Library::repair()
   for (const std::string& name : names)
     try
     {
-      quiet.open(name);
+      const scene::Case value = quiet.open(name);
+      for (const scene::Attachment& one : value.attachments)
+        if (one.link.empty() && !attachmentProblem(*this, one).empty())
+          done.push_back("attachment '" + one.name + "' of case '" + name +
+                         "' is lost: attach the same file again, which puts it back, or take it "
+                         "out ('petrous attachments " +
+                         name + " --remove')");
     }
     catch (const core::Error& error)
     {

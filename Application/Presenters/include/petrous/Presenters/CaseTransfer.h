@@ -21,7 +21,8 @@ struct SendParts
   bool mr = false;
   bool labels = false;
   bool scene = false;
-  bool note = true; ///< of the description, with the scene
+  bool note = true;    ///< of the description, with the scene
+  bool videos = false; ///< attached ones, with the scene; they may show or name the patient
 };
 
 /// What of a case leaves the house with sendCase, and what does not: a sentence each, for the user

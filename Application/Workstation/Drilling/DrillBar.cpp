@@ -64,7 +64,7 @@ DrillBar::DrillBar(QWidget* parent)
   m_speed->setObjectName("spindleSpeed");
   m_speed->setToolTip(tr("Speed of the spindle, thousands of turns a minute: the faster it turns, "
                          "the faster the burr goes in"));
-  m_thrust->setValue(1.0);
+  m_thrust->setValue(kUsualThrust);
   m_wheel->setCheckable(true);
   m_wheel->setShortcut(Qt::Key_M);
   m_wheel->setToolTip(

@@ -39,7 +39,8 @@ public:
   {
     return m_wheel;
   }
-  double thrust() const; ///< N
+  static constexpr double kUsualThrust = 1.0; ///< N
+  double thrust() const;                      ///< N
   void setThrust(double newtons);
 
   /// What the device makes use of.

@@ -88,7 +88,7 @@ TEST_F(AttachmentsPanels, TakeTheWindowsPictureAndTheLastRecordingWithOneClick)
   drill(800, 20);
   ASSERT_TRUE(strokeEnds());
   ASSERT_TRUE(settled());
-  QTest::keyClick(&window(), Qt::Key_Escape);
+  action("Drill")->trigger(); // put away, which ends the recording of this burr
   ASSERT_TRUE(waitFor([this] { return buttonOf("attachRecording").isEnabled(); }));
   buttonOf("attachRecording").click();
   ASSERT_TRUE(has(1));

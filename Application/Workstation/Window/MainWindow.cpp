@@ -687,6 +687,8 @@ void MainWindow::caseChanged()
   m_slices->caseChanged();
   m_segment->caseChanged();
   tellPanels();
+  if (!value.view.tool) // the thrust may be that of the case before
+    m_bar->setThrust(m_settings->thrust().value_or(DrillBar::kUsualThrust));
   m_viewState->show();
   m_view->setFocus();
   m_notesBanner->hide();

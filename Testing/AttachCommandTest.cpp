@@ -61,7 +61,7 @@ TEST_F(AttachCommand, KeepsListsExtractsAndRemoves)
 
   EXPECT_EQ(json("attachments ear --remove film.mp4").at("removed"), "film.mp4");
   EXPECT_EQ(json("attachments ear").at("attachments").size(), 1U);
-  EXPECT_EQ(json("library gc").at("objects"), 1);
+  EXPECT_EQ(json("library gc").at("removed"), 1);
 }
 
 TEST_F(AttachCommand, RefusesInOneLine)

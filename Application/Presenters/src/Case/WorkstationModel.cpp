@@ -457,13 +457,13 @@ void WorkstationModel::startTouch(haptics::Device& device,
   {
     start();
     m_recordingBegun = true;
-    m_isRecorded = true;
+    m_recordedTo = whole.recording;
     setRecording(whole.recording);
   }
   catch (const session::RecordingError& error) // drilling does not depend on it
   {
     whole.recording.clear();
-    m_isRecorded = false;
+    m_recordedTo.clear();
     start();
     setRecording({}, std::string("Nothing is recorded: ") + error.what() + ".");
   }
@@ -492,7 +492,7 @@ session::TouchSession::News WorkstationModel::hear(session::TouchSession::News n
   notifyMask(news.bricks);
   if (!news.recordingFault.empty())
   {
-    m_isRecorded = false;
+    m_recordedTo.clear();
     setRecording({}, news.recordingFault);
   }
   bool changed = !news.steps.empty();
@@ -530,9 +530,9 @@ session::TouchSession::News WorkstationModel::stopTouch()
     m_scene.reset();
   }
   m_touch.reset();
-  if (std::exchange(m_isRecorded, false))
+  if (!m_recordedTo.empty())
   {
-    m_lastRecording = m_recording;
+    m_lastRecording = std::exchange(m_recordedTo, {});
     notify(events.recordingChanged, std::string());
   }
   return hear(std::move(news));

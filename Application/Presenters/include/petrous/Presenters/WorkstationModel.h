@@ -320,7 +320,7 @@ private:
   std::unique_ptr<NearbyStructures> m_nearby;     ///< likewise; unaffected by removal
   session::RemovedVolumeEstimator m_meter;
   std::filesystem::path m_lastRecording;
-  bool m_isRecorded = false; ///< the session in progress
+  std::filesystem::path m_recordedTo; ///< by the session in progress; empty: it is not recorded
   std::filesystem::path m_recording;
   std::filesystem::path m_recordingAs; ///< as chosen: that of the first session
   bool m_recordingBegun = false;       ///< there was a first session

@@ -530,12 +530,13 @@ session::TouchSession::News WorkstationModel::stopTouch()
     m_scene.reset();
   }
   m_touch.reset();
-  if (!m_recordedTo.empty())
+  news = hear(std::move(news));
+  if (!m_recordedTo.empty()) // whole, as no fault was heard of
   {
     m_lastRecording = std::exchange(m_recordedTo, {});
     notify(events.recordingChanged, std::string());
   }
-  return hear(std::move(news));
+  return news;
 }
 
 void WorkstationModel::notifyMask(const std::vector<std::size_t>& bricks)

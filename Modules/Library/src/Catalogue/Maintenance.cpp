@@ -304,7 +304,7 @@ Inspection Library::verify(const core::Progress& progress) const
     done += sizes.count(object) > 0 ? sizes[object] : 0;
     try
     {
-      checkObject(store.path(object), use.what.empty() ? "of no case" : use.what,
+      checkObject(store.path(object, use.what), use.what.empty() ? "of no case" : use.what,
                   progress.part(from, static_cast<double>(done) / static_cast<double>(total)));
     }
     catch (const LibraryError& error)

@@ -1,6 +1,6 @@
 #include "ViewStateController.h"
 
-#include <tuple>
+#include <cmath>
 
 #include <QAction>
 #include <QScopedValueRollback>
@@ -18,10 +18,17 @@ namespace petrous::workstation
 namespace
 {
 
+// But for rounding: VTK normalizes the camera whenever it is set.
 bool isSame(const core::CameraPose& a, const core::CameraPose& b)
 {
-  return a.position == b.position && a.focalPoint == b.focalPoint && a.viewUp == b.viewUp &&
-         std::tie(a.viewAngle, a.parallelScale) == std::tie(b.viewAngle, b.parallelScale);
+  constexpr double kRounding = 1e-9;
+  const auto equal = [](double one, double other)
+  { return std::abs(one - other) <= kRounding * (1.0 + std::abs(one)); };
+  return (a.position - b.position).norm() <= kRounding * (1.0 + a.position.norm()) &&
+         (a.focalPoint - b.focalPoint).norm() <= kRounding * (1.0 + a.focalPoint.norm()) &&
+         (a.viewUp - b.viewUp).norm() <= kRounding && equal(a.viewAngle, b.viewAngle) &&
+         a.parallelScale.has_value() == b.parallelScale.has_value() &&
+         equal(a.parallelScale.value_or(0.0), b.parallelScale.value_or(0.0));
 }
 
 // `saved` stays as it is unless the present value is another than was shown.

@@ -77,7 +77,7 @@ void ViewStateController::show()
   m_picture.showView(view);
   if (view.slices)
   {
-    m_slices.show(*view.slices);
+    m_slices.setShown(*view.slices);
     m_registration.show(view.slices->overlay);
   }
   if (view.tool)

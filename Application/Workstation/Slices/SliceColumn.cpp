@@ -169,7 +169,7 @@ void SliceColumn::fit()
     view->fit();
 }
 
-void SliceColumn::show(const scene::ViewState::Slices& slices)
+void SliceColumn::setShown(const scene::ViewState::Slices& slices)
 {
   setGreyWindow({slices.width, slices.level});
   for (std::size_t n = 0; slices.planes && n < m_views.size(); ++n)

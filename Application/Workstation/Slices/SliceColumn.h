@@ -37,7 +37,7 @@ public:
   void fit();
 
   /// Crosshair, grey window, zoom and offsets; the MR over them is the RegistrationController's.
-  void show(const scene::ViewState::Slices& slices);
+  void setShown(const scene::ViewState::Slices& slices);
   scene::ViewState::Slices shown() const;
 
   void setOverlay(const std::shared_ptr<const presenters::SliceOverlay>& overlay); ///< or nullptr

@@ -178,6 +178,9 @@ nlohmann::json viewJson(const scene::Case& value)
   if (const auto& box = view.clipping.crop)
     crop = {box->lower[0],     box->upper[0] - 1, box->lower[1],
             box->upper[1] - 1, box->lower[2],     box->upper[2] - 1};
+  nlohmann::json clipping = nullptr;
+  if (!view.clipping.empty())
+    clipping = {{"planes", std::move(planes)}, {"crop", std::move(crop)}};
   nlohmann::json branches = nlohmann::json::object();
   for (const auto& [name, camera] : view.branchCameras)
     branches[name] = cameraJson(camera);
@@ -201,7 +204,7 @@ nlohmann::json viewJson(const scene::Case& value)
           {"slices", view.slices ? slicesJson(*view.slices) : nlohmann::json(nullptr)},
           {"light", std::move(light)},
           {"stereo", std::move(stereo)},
-          {"clipping", {{"planes", std::move(planes)}, {"crop", std::move(crop)}}},
+          {"clipping", std::move(clipping)},
           {"tool", std::move(tool)}};
 }
 

@@ -54,7 +54,7 @@ TEST_F(AttachmentsPanels, TakeAFileFromTheMenu)
             return false;
           files->selectNameFilter(files->nameFilters().value(filter));
           files->selectFile(QString::fromStdString(film.string()));
-          files->done(QDialog::Accepted);
+          dialog.done(QDialog::Accepted);
           return true;
         });
     action("Attach…")->trigger();

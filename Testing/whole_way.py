@@ -1,6 +1,7 @@
 """Takes a case the whole way: create, drill, branch, archive, restore in a second library, send to a
 DICOM node (Orthanc, where it is installed), receive in a third library, open. Compares the pictures
-to the pixel, the voxels to the bit and the history, in every library; and reads what left the
+to the pixel, the voxels to the bit, the history, the whole manifest and the attachments to the byte,
+in every library; and reads what left the
 program by independent readers: the parts of the archive by zipfile, gzip and numpy, the exported
 files by nibabel and pydicom, what the node keeps by pydicom and dciodvfy.
 
@@ -94,6 +95,36 @@ def create(petrous, folder, ct, roi):
     petrous("drill", "ear", "--diameter", "4", "--path",
             write_path(folder / "path2.csv", centre + side + [0, 0, 8], centre + [0, 0, 8]))
     petrous("appearance", "ear", "--iso", "345.25")
+    look(petrous, folder, centre, side, bool(ct))
+    attach(petrous, folder)
+
+
+def look(petrous, folder, centre, side, is_real):
+    """A view in numbers that only doubles hold, with all its parts."""
+    (folder / "camera.json").write_text(json.dumps({
+        "position_mm": (centre + 3.7 * side + [1 / 3, 2 / 7, 0.1]).tolist(),
+        "focal_point_mm": (centre + [0, 0, 1 / 9]).tolist(), "view_up": [0.1, 0.2, 1.1],
+        "view_angle_deg": 100 / 3}))
+    point = ",".join(map(repr, map(float, centre - 4.1 * np.sign(side))))
+    petrous("view", "ear", "--camera", folder / "camera.json", "--at", point, "--window",
+            "1234.5678901234567,0.1", "--zoom", "axial=3.3333333333333335", "--zoom",
+            "sagittal=1.1", "--light-falloff", "333.3333333333333", "--wetness", "0.1",
+            "--eye-separation", "17.7", "--convergence", "222.2222222222222", "--clip",
+            ",".join(map(repr, map(float, [*centre, 0, 0.6, 0.8]))), "--burr", "diamond",
+            "--diameter", "3", "--rpm", "55555.5", "--thrust", "2.2",
+            *([] if is_real else ["--overlay", "T2", "--opacity", "0.3"]))
+
+
+def attach(petrous, folder):
+    """A file of each kind; the PNG has been drawn, and what it says of its author is lost."""
+    petrous("render", "ear", "--size", "80x60", "--plain", "--out", folder / "view.png")
+    (folder / "tool.ticks").write_bytes(b"PTRTICK\n" + bytes(range(256)) * 40)
+    (folder / "plan.pdf").write_bytes(b"%PDF-1.7\n" + bytes(range(256)))
+    (folder / "film.mp4").write_bytes(b"\0\0\0\x18ftypmp42" + bytes(range(256)) * 100)
+    for name in ("view.png", "tool.ticks", "plan.pdf"):
+        petrous("attach", "ear", folder / name, "--note", "of %s\nsecond line" % name, "--stroke", 2)
+    done = petrous("attach", "ear", folder / "film.mp4")
+    check(done["attachment"]["kind"] == "video", "a video is attached")
 
 
 def state(petrous, name, out):
@@ -106,6 +137,16 @@ def state(petrous, name, out):
     for own in ("case", "resources", "disk"):
         info.pop(own, None)
     described = petrous("describe", name)["description"]
+    for one in petrous("attachments", name)["attachments"]:
+        if one["kind"] == "video":  # stays at home
+            continue
+        file = out / one["name"]
+        petrous("attachments", name, "--extract", one["name"], file)
+        seen["attachment " + one["name"]] = file.read_bytes()
+    for plane in ("axial", "coronal", "sagittal"):
+        picture = out / (plane + ".png")
+        petrous("slice", name, "--plane", plane, "--size", "160x120", "--out", picture)
+        seen["slice " + plane] = picture.read_bytes()
     current = history["branch"]
     for branch in [b["name"] for b in history["branches"] if b["name"] != current] + [current]:
         petrous("branch", name, branch)
@@ -116,6 +157,7 @@ def state(petrous, name, out):
             file = out / ("%s-%s.nrrd" % (branch, what))
             petrous("export", name, "--what", what, "--out", file)
             seen["%s voxels of %s" % (what, branch)] = file.read_bytes()
+    seen["manifest"] = manifest(petrous, name)  # after the branches, whose cameras are kept
     whats = ["ct", "labels"] + (["mr"] if info["mr"] else [])
     for what in whats:
         file = out / (what + (".seg.nrrd" if what == "labels" else ".nrrd"))
@@ -123,6 +165,20 @@ def state(petrous, name, out):
         seen[what + " voxels"] = file.read_bytes()
     seen.update({"history": history, "info": info, "description": described})
     return seen
+
+
+def manifest(petrous, name):
+    """All of a case that is not voxels: but for its name, id, and what stays at home."""
+    whole = json.loads((petrous.library / "cases" / (name + ".json")).read_text())
+    for own in ("name", "id", "revision"):
+        whole.pop(own)
+    # Of another library's salt.
+    for image in [whole["ct"], *whole["mr"]]:
+        image.pop("frame_of_reference_salted_sha256", None)
+    whole["attachments"] = [one for one in whole["attachments"] if one["kind"] != "video"]
+    for one in whole["attachments"]:
+        one.pop("date", None)
+    return whole
 
 
 def compare(there, here, where):
@@ -269,6 +325,8 @@ def take(scratch):
           "two approaches, three strokes, one of them undone")
     pictures = {seen[k] for k in seen if k.startswith("picture")}
     check(len(pictures) == 2, "the approaches are seen")
+    check((folder / "view.png").read_bytes() == seen["attachment view.png"],
+          "a picture without metadata is attached to the byte")
     check_exports(here, "ear", seen, folder / "here")
 
     archive = folder / "ear.petrous"

@@ -14,7 +14,7 @@ struct ArchiveCommandOptions
 {
   std::string caseName, file;
   int level = library::ArchiveOptions{}.level;
-  bool planOnly = false, keepIdentity = false, withoutNotes = false;
+  bool planOnly = false, keepIdentity = false, withoutNotes = false, withVideos = false;
   MaskOptions mask;
 };
 
@@ -35,11 +35,11 @@ void archive(const Context& context, const ArchiveCommandOptions& options)
     throw UsageError("archive: a plan has no images; give --plan-only, or --mask-face and --roi");
   context.refuseOverwriting({options.file});
   const library::Library library = context.openLibrary();
-  const library::ArchiveSummary done =
-      library::archiveCase(library, options.caseName, options.file,
-                           {options.planOnly, options.level, options.withoutNotes,
-                            options.keepIdentity, presenters::maskForArchive(library, mask)},
-                           context.progress());
+  const library::ArchiveSummary done = library::archiveCase(
+      library, options.caseName, options.file,
+      {options.planOnly, options.level, options.withoutNotes, options.keepIdentity,
+       options.withVideos, presenters::maskForArchive(library, mask)},
+      context.progress());
   for (const std::string& note : done.notes)
     context.warn(note);
   if (!done.durable)
@@ -86,9 +86,13 @@ void addArchiveCommands(CLI::App& app, Context& context)
   command->add_flag("--plan-only", out->planOnly,
                     "Strokes, views and appearance without voxels; restored where the same CT is");
   command->add_flag("--keep-identity", out->keepIdentity,
-                    "Keep what may identify the patient: the date of the planned operation");
+                    "Keep what may identify the patient: the dates of the planned operation and of "
+                    "attachments");
   command->add_flag("--without-notes", out->withoutNotes,
                     "Leave out the note of the description, which else goes along as it is");
+  command->add_flag("--with-videos", out->withVideos,
+                    "Take attached videos along, which else stay: they may show or name the "
+                    "patient");
   addMaskOptions(*command, out->mask);
   command->add_option("--level", out->level, "Compression of images, 1 (fast) to 12 (small)")
       ->check(CLI::Range(1, 12))

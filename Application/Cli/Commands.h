@@ -10,6 +10,7 @@ void addSampleCommand(CLI::App& app, Context& context);
 void addScanCommand(CLI::App& app, Context& context);
 void addCaseCommands(CLI::App& app, Context& context);    ///< new, add, remove, info
 void addArchiveCommands(CLI::App& app, Context& context); ///< archive, restore
+void addAttachCommands(CLI::App& app, Context& context);  ///< attach, attachments
 void addBatchCommand(CLI::App& app, Context& context);
 void addDescribeCommand(CLI::App& app, Context& context);
 void addDeidentifyCommands(CLI::App& app, Context& context); ///< deidentify, pseudonyms
@@ -18,6 +19,7 @@ void addNodeCommands(CLI::App& app, Context& context); ///< nodes, send, receive
 void addAppearanceCommand(CLI::App& app, Context& context);
 void addRenderCommand(CLI::App& app, Context& context);
 void addSliceCommand(CLI::App& app, Context& context);
+void addViewCommand(CLI::App& app, Context& context);
 void addProbeCommand(CLI::App& app, Context& context);
 void addDrillCommand(CLI::App& app, Context& context);
 void addHistoryCommands(CLI::App& app, Context& context); ///< undo, redo, history, branch

@@ -119,7 +119,7 @@ struct SendOptions
 {
   std::string caseName, node, what = "all";
   MaskOptions mask;
-  bool withoutNotes = false;
+  bool withoutNotes = false, withVideos = false;
 };
 
 void send(const Context& context, const SendOptions& options)
@@ -135,6 +135,7 @@ void send(const Context& context, const SendOptions& options)
   parts.scene = all || options.what == "scene";
   parts.mask = options.mask.mask();
   parts.note = !options.withoutNotes;
+  parts.videos = options.withVideos;
   // Before anything leaves.
   for (const std::string& warning :
        presenters::identityReport(library.open(options.caseName), parts).warnings)
@@ -236,6 +237,8 @@ void addNodeCommands(CLI::App& app, Context& context)
                    "received as it is")
       ->check(oneOf({"ct", "mr", "labels", "scene", "all"}))
       ->capture_default_str();
+  command->add_flag("--with-videos", out->withVideos,
+                    "Attached videos go along with the scene; they may show or name the patient");
   command->add_flag("--without-notes", out->withoutNotes,
                     "Leave out the note of the description, which else goes along as it is");
 

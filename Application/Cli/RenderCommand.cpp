@@ -15,6 +15,7 @@
 #include "Commands.h"
 #include "Context.h"
 #include "Numbers.h"
+#include "ViewOptions.h"
 #include "petrous/Core/CameraPose.h"
 #include "petrous/Core/InputFile.h"
 #include "petrous/Presenters/BoneThickness.h"
@@ -38,91 +39,17 @@ namespace
 
 using rendering::StereoMode;
 
-constexpr double kFarthest = 1e7; // mm: beyond any patient, and squares stay finite
-
-Eigen::Vector3d vectorFrom(const nlohmann::json& json, const char* key)
-{
-  const auto v = json.at(key).get<std::array<double, 3>>();
-  return {v[0], v[1], v[2]};
-}
-
-bool isWithin(double value, double lower, double upper)
-{
-  return value >= lower && value <= upper; // false for NaN
-}
-
-void check(const std::string& path, const core::CameraPose& camera)
-{
-  const auto refuse = [&path](const std::string& what)
-  { throw core::InvalidParameter(path + ": " + what); };
-  for (const Eigen::Vector3d* vector : {&camera.position, &camera.focalPoint, &camera.viewUp})
-    if (!vector->allFinite() || vector->cwiseAbs().maxCoeff() > kFarthest)
-      refuse("a coordinate is not a number or beyond 10 km; position_mm and focal_point_mm are in "
-             "patient LPS mm");
-  const Eigen::Vector3d view = camera.focalPoint - camera.position;
-  if (view.norm() < 1e-9)
-    refuse("position_mm and focal_point_mm must differ: the camera looks from one to the other");
-  if (view.cross(camera.viewUp).norm() <= 1e-9 * view.norm() * camera.viewUp.norm())
-    refuse("view_up must not be zero nor lie along the direction of view");
-  if (camera.parallelScale && !isWithin(*camera.parallelScale, 1e-3, 1e6))
-    refuse("parallel_scale_mm must lie within 0.001 to 1000000 mm (half the picture's height)");
-  if (!camera.parallelScale && !isWithin(camera.viewAngle, 0.1, 170.0))
-    refuse("view_angle_deg must lie within 0.1 to 170 degrees");
-}
-
-// A camera in patient LPS mm: {"position_mm":[3],"focal_point_mm":[3],"view_up":[3]} with
-// "view_angle_deg" (vertical; 0.1 to 170) or "parallel_scale_mm" (half the height; 0.001 to 1e6).
-// Throws InvalidParameter naming the file and the expected content: missing file, other content,
-// non-finite numbers, degenerate camera.
-core::CameraPose readCamera(const std::string& path)
-{
-  const std::string text = core::readFile(path, kLargestJson);
-  core::CameraPose camera;
-  try
-  {
-    const auto json = nlohmann::json::parse(text);
-    camera.position = vectorFrom(json, "position_mm");
-    camera.focalPoint = vectorFrom(json, "focal_point_mm");
-    camera.viewUp = vectorFrom(json, "view_up");
-    if (json.contains("parallel_scale_mm"))
-      camera.parallelScale = json.at("parallel_scale_mm").get<double>();
-    else
-      camera.viewAngle = json.at("view_angle_deg").get<double>();
-  }
-  catch (const nlohmann::json::exception&) // also for NaN and Infinity, which JSON lacks
-  {
-    throw core::InvalidParameter(
-        path + ": not a camera; expected {\"position_mm\":[x,y,z],\"focal_point_mm\":[x,y,z],"
-               "\"view_up\":[x,y,z],\"view_angle_deg\":30} (or \"parallel_scale_mm\") with finite "
-               "numbers");
-  }
-  check(path, camera);
-  return camera;
-}
-
-// The format that `readCamera` reads.
-nlohmann::json cameraJson(const core::CameraPose& camera)
-{
-  nlohmann::json json{{"position_mm", vectorJson(camera.position)},
-                      {"focal_point_mm", vectorJson(camera.focalPoint)},
-                      {"view_up", vectorJson(camera.viewUp)}};
-  if (camera.parallelScale)
-    json["parallel_scale_mm"] = *camera.parallelScale;
-  else
-    json["view_angle_deg"] = camera.viewAngle;
-  return json;
-}
-
 /// The options of `petrous render`.
 struct RenderOptions
 {
-  std::string caseName, out, size = "800x600", view, camera, stereo = "none", engine = "gpu", depth;
+  std::string caseName, out, size = "800x600", view, camera, stereo, engine = "gpu", depth;
   std::string thickness;
   std::string crop, roi;
   std::vector<std::string> clip;
   std::optional<double> eyeSeparation, convergence;
-  double falloff = 0.0;
-  double wetness = 0.0;
+  std::optional<double> falloff, wetness;
+  bool plain = false;
+  bool isSavedRig = false; ///< the eyes are as the case was saved with
   bool withoutDamaged = false, maskFace = false;
 };
 
@@ -136,78 +63,62 @@ struct Shot
   std::vector<core::CameraPose> eyes; ///< one, or left and right
 };
 
-rendering::ClippingPlane parsePlane(const std::string& text)
-{
-  const auto n = parseNumbers(text, 6, "--clip x,y,z,nx,ny,nz");
-  const Eigen::Vector3d normal(n[3], n[4], n[5]);
-  const double length = normal.stableNorm();
-  if (!(length > 1e-12) || !std::isfinite(length))
-    throw UsageError(
-        "--clip x,y,z,nx,ny,nz: the normal must not be zero; it points to the side that is kept");
-  return {{n[0], n[1], n[2]}, normal / length};
-}
-
-std::optional<core::IndexBox> parseCrop(const RenderOptions& options,
-                                        const core::GridGeometry& grid)
-{
-  core::IndexBox box;
-  if (!options.crop.empty())
-  {
-    const char* name = "--crop i0,i1,j0,j1,k0,k1";
-    const auto n = parseNumbers(options.crop, 6, name);
-    for (std::size_t a = 0; a < 3; ++a)
-    {
-      box.lower[a] = toInt(n[2 * a], name);
-      box.upper[a] = toInt(n[2 * a + 1], name);
-      if (box.lower[a] < box.upper[a])
-        ++box.upper[a];
-      else
-        throw UsageError(std::string(name) + ": first and last voxel; each first number must be "
-                                             "the smaller one");
-    }
-  }
-  else if (!options.roi.empty())
-  {
-    const core::PatientBox roi = parseBox(options.roi, "--roi");
-    box = grid.boxCovering(roi.min(), roi.max());
-  }
-  else
-    return std::nullopt;
-  const core::IndexBox inside = box.intersected(grid.fullBox());
-  if (inside.empty())
-    throw UsageError(std::string(options.crop.empty() ? "--roi" : "--crop") +
-                     ": the box does not overlap the CT");
-  return inside;
-}
-
-// Everything that needs no case: size and stereo mode. Throws UsageError for invalid values.
+// Everything that needs no case. Throws UsageError for invalid values.
 Shot parseShot(const RenderOptions& options)
 {
   Shot shot;
   std::tie(shot.width, shot.height) = parseSize(options.size);
-  shot.stereo = *rendering::parseStereoMode(options.stereo);
-  if (shot.stereo == rendering::StereoMode::None && (options.eyeSeparation || options.convergence))
+  if (options.stereo == "none" && (options.eyeSeparation || options.convergence))
     throw UsageError("--eye-separation and --convergence need --stereo");
-  if (shot.stereo == rendering::StereoMode::SideBySide && shot.width % 2 != 0)
-    throw UsageError("--size: side by side needs an even width, not " + std::to_string(shot.width));
-  if (options.clip.size() > 6)
-    throw UsageError("--clip: at most 6 planes, not " + std::to_string(options.clip.size()));
+  parsePlanes(options.clip);
   if (!options.crop.empty() && !options.roi.empty())
     throw UsageError("render: give --crop or --roi, not both");
   return shot;
 }
 
-// The case's scene, with the options' lamp, planes and box.
+// What of the case's view is not given by options.
+void takeView(RenderOptions& options, Shot& shot, const scene::ViewState& saved)
+{
+  const scene::ViewState view = options.plain ? scene::ViewState() : saved;
+  const bool hasStereo = !options.stereo.empty();
+  if (!hasStereo)
+    options.stereo = "none";
+  if (view.stereo)
+  {
+    if (!hasStereo && view.stereo->mode != "quad-buffer") // of screens alone
+      options.stereo = view.stereo->mode;
+    if (options.stereo != "none" && !options.eyeSeparation && !options.convergence)
+    {
+      options.isSavedRig = true;
+      options.eyeSeparation = view.stereo->eyeSeparation;
+      options.convergence = view.stereo->convergence;
+    }
+  }
+  if (options.stereo == "none" && (options.eyeSeparation || options.convergence))
+    throw UsageError("--eye-separation and --convergence need --stereo");
+  if (view.light && !options.falloff)
+    options.falloff = view.light->falloff;
+  if (view.light && !options.wetness)
+    options.wetness = view.light->wetness;
+  shot.stereo = *rendering::parseStereoMode(options.stereo);
+  if (shot.stereo == rendering::StereoMode::SideBySide && shot.width % 2 != 0)
+    throw UsageError("--size: side by side needs an even width, not " + std::to_string(shot.width));
+}
+
+// The case's scene, with the options' lamp, planes and box; without those, the case's.
 rendering::SceneContents renderContents(const RenderOptions& options, const scene::Case& value)
 {
   presenters::SceneAssembly assembly;
   assembly.showThickness(options.thickness);
   rendering::SceneContents contents = assembly.contents(value);
-  contents.light.falloff = options.falloff;
-  contents.light.wetness = options.wetness;
-  for (const std::string& plane : options.clip)
-    contents.clipping.push_back(parsePlane(plane));
-  contents.crop = parseCrop(options, value.ct.geometry);
+  contents.light.falloff = options.falloff.value_or(0.0);
+  contents.light.wetness = options.wetness.value_or(0.0);
+  scene::ViewState::Clipping clipping;
+  if (!options.plain)
+    clipping = value.view.clipping;
+  if (!options.clip.empty() || !options.crop.empty() || !options.roi.empty())
+    clipping = {parsePlanes(options.clip), parseCrop(options.crop, options.roi, value.ct.geometry)};
+  presenters::clip(contents, clipping, value.ct.geometry);
   return contents;
 }
 
@@ -226,7 +137,8 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
   command.add_option("--camera", options.camera, "Camera file, patient LPS mm")
       ->type_name("F.json");
   command
-      .add_option("--stereo", options.stereo, "none, side-by-side, interleaved or anaglyph (none)")
+      .add_option("--stereo", options.stereo,
+                  "none, side-by-side, interleaved or anaglyph (as saved)")
       ->check(oneOf({"none", "side-by-side", "interleaved", "anaglyph"}));
   command
       .add_option("--eye-separation", options.eyeSeparation,
@@ -241,10 +153,12 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
                       rendering::StereoRig::kFarthestConvergence, "mm"}));
   command
       .add_option("--light-falloff", options.falloff,
-                  "Distance at which the light has half its intensity; 0: no falloff (0)")
+                  "Distance at which the light has half its intensity; 0: no falloff (as saved)")
       ->type_name("MM")
       ->check(within({0.0, 10000.0, "mm"}));
-  command.add_option("--wetness", options.wetness, "Specular gloss of a wet surface, 0 to 1 (0)")
+  command
+      .add_option("--wetness", options.wetness,
+                  "Specular gloss of a wet surface, 0 to 1 (as saved)")
       ->check(within({0.0, 1.0}));
   command
       .add_option("--thickness", options.thickness,
@@ -254,7 +168,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
       .add_option(
           "--clip", options.clip,
           "Clipping plane through a point, patient LPS mm; the normal points to the side that "
-          "is kept (up to 6 times)")
+          "is kept (up to 6 times); instead of what the case was saved with, as the next two")
       ->allow_extra_args(false)
       ->type_name("x,y,z,nx,ny,nz");
   command.add_flag("--mask-face", options.maskFace, "Draw images with air in place of the face");
@@ -262,6 +176,9 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
       ->type_name("i0,i1,j0,j1,k0,k1");
   command.add_option("--roi", options.roi, "Crop to this box, patient LPS mm")
       ->type_name("x0,x1,y0,y1,z0,z1");
+  command.add_flag("--plain", options.plain,
+                   "Without the light, stereo, clipping planes and box that the case was saved "
+                   "with");
   command
       .add_option("--engine", options.engine,
                   "gpu, or reference: double precision on the CPU, slow (gpu)")
@@ -425,6 +342,8 @@ nlohmann::json thicknessJson(const RenderOptions& options)
 // The options can also be at odds with each other or with the camera.
 rendering::StereoGeometry stereoOf(const RenderOptions& options, const core::CameraPose& camera)
 {
+  if (options.isSavedRig) // the window fits it to each camera
+    return rendering::fittedStereoGeometry(camera, {options.eyeSeparation, options.convergence});
   try
   {
     return rendering::stereoGeometry(camera, {options.eyeSeparation, options.convergence});
@@ -437,12 +356,13 @@ rendering::StereoGeometry stereoOf(const RenderOptions& options, const core::Cam
   }
 }
 
-void render(const Context& context, const RenderOptions& options)
+void render(const Context& context, RenderOptions options)
 {
   Shot shot = parseShot(options);
   context.refuseOverwriting({options.out, options.depth}, {options.camera});
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
+  takeView(options, shot, value.view);
   shot.camera = chooseCamera(options, value);
   nlohmann::json stereo = nullptr;
   shot.eyes = {shot.camera};

@@ -120,10 +120,11 @@ rendering::Picture labelled(presenters::SlicePixels pixels, const presenters::Sl
 
 struct SliceOptions
 {
-  std::string caseName, out, plane, at, size = "800x800", overlay, mode = "blend", window;
+  std::string caseName, out, plane, at, size = "800x800", overlay, mode, window;
   std::optional<double> fieldOfView;
-  double opacity = 0.5;
+  std::optional<double> opacity;
   bool noStructures = false;
+  bool plain = false;
   bool withoutDamaged = false;
 };
 
@@ -136,9 +137,9 @@ SliceOrientation parsePlane(const std::string& word)
 
 OverlayMode parseMode(const std::string& word)
 {
-  return word == "blend"   ? OverlayMode::Blend
-         : word == "edges" ? OverlayMode::Edges
-                           : OverlayMode::Checker;
+  return word == "edges"     ? OverlayMode::Edges
+         : word == "checker" ? OverlayMode::Checker
+                             : OverlayMode::Blend;
 }
 
 std::optional<presenters::GreyWindow> parseWindow(const std::string& text)
@@ -165,12 +166,21 @@ void checkWindow(const presenters::GreyWindow& window, const volume::ValueRange&
                      " to " + display.text(upper));
 }
 
-SliceGeometry sliceOf(const SliceOptions& options, const scene::Case& value, int width, int height)
+// `saved`: the slices as the case was saved with, or nullptr.
+SliceGeometry sliceOf(const SliceOptions& options, const scene::Case& value,
+                      const scene::ViewState::Slices* saved, int width, int height)
 {
   const SliceOrientation plane = parsePlane(options.plane);
   const core::GridGeometry& grid = value.ct.geometry;
-  const Eigen::Vector3d at =
-      options.at.empty() ? grid.center() : parsePlace(options.at, value, "--at").point;
+  const Eigen::Vector3d at = !options.at.empty() ? parsePlace(options.at, value, "--at").point
+                             : saved             ? saved->crosshair
+                                                 : grid.center();
+  if (!options.fieldOfView && options.at.empty() && saved && saved->planes)
+  {
+    const auto& shown = (*saved->planes)[static_cast<std::size_t>(plane)];
+    return presenters::zoomed(SliceGeometry::fitting(plane, grid, at, width, height), shown.zoom,
+                              shown.offset);
+  }
   if (!options.fieldOfView)
     return SliceGeometry::fitting(plane, grid, at, width, height);
   return {plane, at, *options.fieldOfView / width, width, height};
@@ -208,7 +218,7 @@ std::optional<presenters::SliceOverlay> overlayOf(const SliceOptions& options,
     return std::nullopt;
   presenters::SliceOverlay overlay = presenters::overlayOf(*mr);
   overlay.mode = parseMode(options.mode);
-  overlay.opacity = options.opacity;
+  overlay.opacity = options.opacity.value_or(0.5);
   return overlay;
 }
 
@@ -237,18 +247,36 @@ nlohmann::json overlayJson(const scene::ImagePart& mr, const presenters::SliceOv
           {"text", scene::registrationToString(mr)}};
 }
 
-void slice(const Context& context, const SliceOptions& options)
+// What of the saved overlay is not given by options.
+void takeOverlay(SliceOptions& options, const scene::Case& value,
+                 const scene::ViewState::Slices* saved)
+{
+  if (!saved || !saved->overlay || !options.overlay.empty() ||
+      !scene::findMr(value, saved->overlay->mr))
+    return;
+  options.overlay = saved->overlay->mr;
+  if (options.mode.empty())
+    options.mode = saved->overlay->mode;
+  options.opacity = options.opacity.value_or(saved->overlay->opacity);
+}
+
+void slice(const Context& context, SliceOptions options)
 {
   const auto [width, height] = parseSize(options.size);
   const auto wanted = parseWindow(options.window);
   context.refuseOverwriting({options.out});
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
+  const scene::ViewState::Slices* saved =
+      options.plain || !value.view.slices ? nullptr : &*value.view.slices;
+  takeOverlay(options, value, saved);
   const scene::ImagePart* mr = findOverlay(options, value);
   const presenters::IntensityDisplay display = presenters::displayOf(value);
-  const presenters::GreyWindow window = wanted.value_or(display.bone);
+  const presenters::GreyWindow window = wanted  ? *wanted
+                                        : saved ? presenters::GreyWindow{saved->width, saved->level}
+                                                : display.bone;
   checkWindow(window, value.ct.range, display);
-  const SliceGeometry geometry = sliceOf(options, value, width, height);
+  const SliceGeometry geometry = sliceOf(options, value, saved, width, height);
   if (!meets(geometry, value.ct.geometry))
     throw UsageError("--at: the slice does not meet the CT, which " +
                      coverageOf(value.ct.geometry) + " (patient LPS)");
@@ -311,19 +339,22 @@ void addSliceCommand(CLI::App& app, Context& context)
   command
       ->add_option(
           "--at", options->at,
-          "Point in the slice, patient LPS mm, or a structure's centroid (the CT's centre)")
+          "Point in the slice, patient LPS mm, or a structure's centroid (as saved, else the CT's "
+          "centre)")
       ->type_name("x,y,z|LABEL");
   command->add_option("--size", options->size, "Pixels (800x800)")->type_name("WxH");
   command
       ->add_option("--field-of-view", options->fieldOfView,
-                   "Width of the picture, centred on --at (the whole slice)")
+                   "Width of the picture, centred on --at (as saved, else the whole slice)")
       ->type_name("MM")
       ->check(within({0.0, 10000.0, "mm", true}));
   command
       ->add_option("--window", options->window,
-                   "Window width and level of the CT, in its unit (bone: 4000,700 HU)")
+                   "Window width and level of the CT, in its unit (as saved, else bone: 4000,700 "
+                   "HU)")
       ->type_name("WIDTH,LEVEL");
-  command->add_option("--overlay", options->overlay, "MR of the case to overlay on the CT")
+  command
+      ->add_option("--overlay", options->overlay, "MR of the case to overlay on the CT (as saved)")
       ->type_name("MR");
   command
       ->add_option("--mode", options->mode,
@@ -334,6 +365,9 @@ void addSliceCommand(CLI::App& app, Context& context)
                    "Opacity of the MR in a blend: 0 CT only, 1 MR only (0.5)")
       ->check(within({0.0, 1.0}));
   command->add_flag("--no-structures", options->noStructures, "Show CT and MR only");
+  command->add_flag("--plain", options->plain,
+                    "Not as the case was saved: the CT alone, the whole slice through its centre, "
+                    "in a bone window, where options do not say otherwise");
   addWithoutDamaged(*command, options->withoutDamaged);
 }
 

@@ -45,12 +45,14 @@ void addCommands(CLI::App& app, cli::Context& context)
   cli::addScanCommand(app, context);
   cli::addCaseCommands(app, context);
   cli::addDescribeCommand(app, context);
+  cli::addAttachCommands(app, context);
   cli::addArchiveCommands(app, context);
   cli::addDeidentifyCommands(app, context);
   cli::addLibraryCommand(app, context);
   cli::addNodeCommands(app, context);
   cli::addBatchCommand(app, context);
   cli::addAppearanceCommand(app, context);
+  cli::addViewCommand(app, context);
   cli::addRenderCommand(app, context);
   cli::addSliceCommand(app, context);
   cli::addProbeCommand(app, context);

@@ -1200,10 +1200,11 @@ void CaseDocumentController::archive(const std::string& which)
       return;
     const QString whole = tr("Case archives (*.petrous)");
     const QString plan = tr("Plan only, without images and structures (*.petrous)");
+    const QString videos = tr("With its videos, which may show or name the patient (*.petrous)");
     QFileDialog dialog(&m_window, tr("Archive “%1”").arg(words(name)));
     dialog.setObjectName("archiveCase");
     dialog.setAcceptMode(QFileDialog::AcceptSave);
-    dialog.setNameFilters({whole, plan});
+    dialog.setNameFilters({whole, plan, videos});
     dialog.setDefaultSuffix(QString(library::kArchiveEnding).mid(1));
     dialog.setDirectory(QDir::homePath());
     dialog.selectFile(words(name) + library::kArchiveEnding);
@@ -1211,6 +1212,7 @@ void CaseDocumentController::archive(const std::string& which)
       return;
     file = pathOf(dialog.selectedFiles().first());
     options.planOnly = dialog.selectedNameFilter() == plan;
+    options.withVideos = dialog.selectedNameFilter() == videos;
     if (!options.planOnly && !askOfFace(name, mask))
       return;
     if (isOpen)

@@ -67,8 +67,8 @@ void CaseSaver::start(const Begin& begin)
 {
   if (!m_model.hasCase())
     return;
-  if (camera)
-    m_model.setCamera(camera());
+  if (aboutToSave)
+    aboutToSave();
   try
   {
     const auto task = std::make_shared<presenters::StoreTask>(begin());

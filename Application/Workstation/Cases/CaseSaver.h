@@ -24,8 +24,8 @@ public:
   explicit CaseSaver(presenters::WorkstationModel& model);
   ~CaseSaver() override; ///< waits for a running save, without a signal
 
-  /// Returns the camera to be stored with the case; called before each save.
-  std::function<core::CameraPose()> camera;
+  /// Hands what is to be stored of the view to the case; called before each save.
+  std::function<void()> aboutToSave;
 
   void save();
   void saveAs(const std::string& name);

@@ -1,5 +1,7 @@
 #include "DrillBar.h"
 
+#include <cmath>
+
 #include <QAction>
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -62,7 +64,7 @@ DrillBar::DrillBar(QWidget* parent)
   m_speed->setObjectName("spindleSpeed");
   m_speed->setToolTip(tr("Speed of the spindle, thousands of turns a minute: the faster it turns, "
                          "the faster the burr goes in"));
-  m_thrust->setValue(1.0);
+  m_thrust->setValue(kUsualThrust);
   m_wheel->setCheckable(true);
   m_wheel->setShortcut(Qt::Key_M);
   m_wheel->setToolTip(
@@ -123,6 +125,20 @@ dissection::Burr DrillBar::burr() const
   burr.kind = static_cast<dissection::Burr::Kind>(m_kind->currentData().toInt());
   burr.rpm = 1000.0 * m_speed->value();
   return burr;
+}
+
+void DrillBar::setBurr(const dissection::Burr& burr)
+{
+  {
+    const QSignalBlocker kind(m_kind);
+    const QSignalBlocker diameter(m_diameter);
+    const QSignalBlocker speed(m_speed);
+    m_kind->setCurrentIndex(m_kind->findData(static_cast<int>(burr.kind)));
+    m_diameter->setValue(burr.diameter);
+    offerDiameters();
+    m_speed->setValue(static_cast<int>(std::lround(burr.rpm / 1000.0)));
+  }
+  emit burrChanged();
 }
 
 void DrillBar::setThrust(double newtons)

@@ -34,11 +34,13 @@ public:
   /// The available diameters, per kind.
   void setBurrs(const dissection::BurrCatalogue& burrs);
   dissection::Burr burr() const;
-  QAction* wheelAction() const noexcept ///< checked: the wheel moves the burr in depth
+  void setBurr(const dissection::Burr& burr); ///< the nearest that is available
+  QAction* wheelAction() const noexcept       ///< checked: the wheel moves the burr in depth
   {
     return m_wheel;
   }
-  double thrust() const; ///< N
+  static constexpr double kUsualThrust = 1.0; ///< N
+  double thrust() const;                      ///< N
   void setThrust(double newtons);
 
   /// What the device makes use of.

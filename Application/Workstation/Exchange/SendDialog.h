@@ -36,6 +36,7 @@ private:
   QCheckBox* m_labels;
   QCheckBox* m_scene;
   QCheckBox* m_note;
+  QCheckBox* m_videos;
   QCheckBox* m_maskFace;
   std::vector<std::string> m_faces; ///< images in which one can be recognised
   QPlainTextEdit* m_report;

@@ -4,6 +4,7 @@
 #include <QActionGroup>
 #include <QLabel>
 #include <QMessageBox>
+#include <QScopedValueRollback>
 
 #include "Application.h"
 #include "PicturePanel.h"
@@ -13,6 +14,8 @@
 #include "WindowActions.h"
 #include "WindowSettings.h"
 #include "petrous/Core/Error.h"
+#include "petrous/Interaction/ToolInteraction.h"
+#include "petrous/Presenters/CasePicture.h"
 
 namespace petrous::workstation
 {
@@ -27,6 +30,8 @@ PictureController::PictureController(presenters::WorkstationModel& model, ThreeD
   , m_view(view)
   , m_actions(actions)
   , m_window(window)
+  , m_kept(kept)
+  , m_quadBuffer(quadBuffer)
   , m_panel(new PicturePanel(model, m_settings, quadBuffer))
   , m_speed(new QLabel)
 {
@@ -38,13 +43,14 @@ PictureController::PictureController(presenters::WorkstationModel& model, ThreeD
   m_view.display().setLight(m_settings.light());
   applyStereo();
   m_panel->settingsChanged();
-  const auto changed = [this, &kept](auto what)
+  const auto changed = [this](auto what)
   {
-    return [this, &kept, what]
+    return [this, what]
     {
       what();
       m_panel->settingsChanged();
-      kept.keep(m_settings);
+      if (!m_isShowing)
+        m_kept.keep(m_settings);
     };
   };
   m_settings.events.lightChanged =
@@ -56,6 +62,12 @@ PictureController::PictureController(presenters::WorkstationModel& model, ThreeD
   connect(m_actions.surgeonWindow, &QAction::triggered, this,
           [this](bool open) { open ? openSurgeonWindow() : closeSurgeonWindow(); });
   connect(&m_view.display(), &SceneDisplay::drawn, this, &PictureController::showSpeed);
+  connect(&m_view, &ThreeDView::toolModeSet, this,
+          [this]
+          {
+            if (m_model.hasCase() && !m_model.value().view.clipping.empty())
+              showScene();
+          });
   connect(&m_view.display(), &SceneDisplay::failed, this, &PictureController::fail);
 }
 
@@ -84,6 +96,15 @@ void PictureController::setDraft(const rendering::MeshContents& surface)
     showScene();
 }
 
+void PictureController::showView(const scene::ViewState& view)
+{
+  const QScopedValueRollback<bool> showing(m_isShowing, true);
+  presenters::ViewSettings next;
+  m_kept.restore(next, m_quadBuffer);
+  next.take(view, m_quadBuffer);
+  m_settings.take(next);
+}
+
 void PictureController::showScene()
 {
   if (m_model.loaded() && !m_model.drawable())
@@ -93,6 +114,10 @@ void PictureController::showScene()
     rendering::SceneContents contents = m_model.sceneContents();
     if (m_draft.mesh)
       contents.meshes.push_back(m_draft);
+    // What a tool lies on must be seen: it knows no clipping.
+    const scene::Case& value = m_model.value();
+    if (!m_view.tool().GetDrillMode() && !m_view.tool().GetProbeMode())
+      presenters::clip(contents, value.view.clipping, value.ct.geometry);
     m_view.display().setContents(contents);
   }
   catch (const core::Error& error) // too much to draw; the slices still show it

@@ -42,6 +42,11 @@ public:
   void caseChanged();
   void appearanceChanged();
   void closeSurgeonWindow();
+
+  /// Lamp and stereo as the case was saved with, else as the user has them. The user's own settings
+  /// stay as they are.
+  void showView(const scene::ViewState& view);
+  const presenters::ViewSettings& settings() const noexcept { return m_settings; }
   /// A surface that is not of the case, shown with it; without triangles: none.
   void setDraft(const rendering::MeshContents& surface);
 
@@ -59,6 +64,9 @@ private:
   ThreeDView& m_view;
   WindowActions& m_actions;
   QWidget& m_window;
+  WindowSettings& m_kept;
+  const bool m_quadBuffer;
+  bool m_isShowing = false; ///< a case's settings, which are not the user's
   presenters::ViewSettings m_settings;
   PicturePanel* m_panel;
   QLabel* m_speed;

@@ -173,6 +173,30 @@ void RegistrationController::show(const std::string& image)
   m_overlay->showAlone(true);
 }
 
+void RegistrationController::show(const std::optional<scene::ViewState::Slices::Overlay>& overlay)
+{
+  using presenters::OverlayMode;
+  if (!overlay || !m_model.hasCase() || !scene::findMr(m_model.value(), overlay->mr) || running())
+    return;
+  if (overlay->mr != m_session.mr())
+  {
+    m_session.choose(overlay->mr);
+    m_panel->refresh();
+    chosen();
+  }
+  for (const OverlayMode mode : {OverlayMode::Blend, OverlayMode::Edges, OverlayMode::Checker})
+    if (overlay->mode == nameOf(mode))
+      m_overlay->set(mode, overlay->opacity);
+}
+
+std::optional<scene::ViewState::Slices::Overlay> RegistrationController::overlay() const
+{
+  if (!m_session.part() || !m_overlay->mode())
+    return std::nullopt;
+  return scene::ViewState::Slices::Overlay{m_session.mr(), nameOf(*m_overlay->mode()),
+                                           m_overlay->opacity()};
+}
+
 void RegistrationController::moveManually(const std::function<void()>& move)
 {
   if (running())

@@ -44,6 +44,10 @@ public:
   presenters::ShownImages shown() const; ///< in the slices
   /// Has the slices show the CT ("ct") or an MR of the case, if they do not yet.
   void show(const std::string& image);
+  /// The MR over the CT as a case was saved with; nullopt: none. One that the case lacks is not
+  /// shown.
+  void show(const std::optional<scene::ViewState::Slices::Overlay>& overlay);
+  std::optional<scene::ViewState::Slices::Overlay> overlay() const;
 
 signals:
   void shownChanged();

@@ -169,4 +169,22 @@ void SliceColumn::fit()
     view->fit();
 }
 
+void SliceColumn::setShown(const scene::ViewState::Slices& slices)
+{
+  setGreyWindow({slices.width, slices.level});
+  for (std::size_t n = 0; slices.planes && n < m_views.size(); ++n)
+    m_views[n]->setPlane((*slices.planes)[n]);
+  m_model.setCrosshair(slices.crosshair);
+}
+
+scene::ViewState::Slices SliceColumn::shown() const
+{
+  const presenters::GreyWindow& window = m_views.front()->greyWindow();
+  scene::ViewState::Slices slices{m_model.crosshair(), window.width, window.level};
+  slices.planes.emplace();
+  for (std::size_t n = 0; n < m_views.size(); ++n)
+    (*slices.planes)[n] = m_views[n]->plane();
+  return slices;
+}
+
 } // namespace petrous::workstation

@@ -36,6 +36,10 @@ public:
   void softWindow(); ///< width 400, level 40 HU
   void fit();
 
+  /// Crosshair, grey window, zoom and offsets; the MR over them is the RegistrationController's.
+  void setShown(const scene::ViewState::Slices& slices);
+  scene::ViewState::Slices shown() const;
+
   void setOverlay(const std::shared_ptr<const presenters::SliceOverlay>& overlay); ///< or nullptr
   void setNotice(const QString& text);
   void setRegion(double edge); ///< as SliceView

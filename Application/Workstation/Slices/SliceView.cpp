@@ -20,6 +20,7 @@ using presenters::SliceOrientation;
 
 constexpr double kHuPerPixel = 8.0;
 constexpr double kMinHu = 10.0; // of a grey window
+constexpr double kMaxZoom = 40.0;
 constexpr int kMargin = 8;
 constexpr double kReadout = 0.68; // of the width; the rest is the scale bar's
 constexpr double kGap = 9.0;      // of the crosshair, pixels
@@ -67,6 +68,13 @@ void SliceView::fit()
 {
   m_zoom = 1.0;
   m_offset.setZero();
+  stale();
+}
+
+void SliceView::setPlane(const scene::ViewState::Slices::Plane& plane)
+{
+  m_zoom = std::clamp(plane.zoom, 1.0, kMaxZoom);
+  m_offset = plane.offset;
   stale();
 }
 
@@ -174,10 +182,10 @@ void SliceView::stale()
 
 presenters::SliceGeometry SliceView::slice() const
 {
-  const auto whole = presenters::SliceGeometry::fitting(
-      m_orientation, m_grid, m_crosshair, std::max(width(), 1), std::max(height(), 1));
-  return {m_orientation, whole.center() + m_offset, whole.mmPerPixel() / m_zoom, whole.width(),
-          whole.height()};
+  return presenters::zoomed(presenters::SliceGeometry::fitting(m_orientation, m_grid, m_crosshair,
+                                                               std::max(width(), 1),
+                                                               std::max(height(), 1)),
+                            m_zoom, m_offset);
 }
 
 Eigen::Vector3d SliceView::patientAt(const QPointF& position) const
@@ -467,7 +475,7 @@ void SliceView::zoom(double factor)
     return;
   // What is under the crosshair stays there.
   const Eigen::Vector2d before = slice().pixelFromPatient(m_crosshair);
-  m_zoom = std::clamp(m_zoom * factor, 1.0, 40.0);
+  m_zoom = std::clamp(m_zoom * factor, 1.0, kMaxZoom);
   const auto picture = slice();
   const Eigen::Vector2d off = picture.pixelFromPatient(m_crosshair) - before;
   const auto axes = presenters::axesOf(m_orientation);

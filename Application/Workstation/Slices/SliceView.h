@@ -43,7 +43,10 @@ public:
   /// Another case, or another appearance of it. nullptr: nothing to show.
   void setPresenter(std::shared_ptr<const presenters::SlicePresenter> presenter,
                     const core::GridGeometry& grid);
-  void fit(); ///< the whole slice
+  void fit();                                                  ///< the whole slice
+  void setPlane(const scene::ViewState::Slices::Plane& plane); ///< zoom, at most 40, and offset
+  scene::ViewState::Slices::Plane plane() const { return {m_zoom, m_offset}; }
+  const presenters::GreyWindow& greyWindow() const noexcept { return m_window; }
   void setCrosshair(const Eigen::Vector3d& patient);
   void setGreyWindow(const presenters::GreyWindow& window);
   void setIntensityDisplay(const presenters::IntensityDisplay& display); ///< of the CT

@@ -28,6 +28,7 @@
 
 #include "ActiveDeviceController.h"
 #include "Application.h"
+#include "AttachmentsController.h"
 #include "Banner.h"
 #include "BranchController.h"
 #include "BurrWarnings.h"
@@ -51,6 +52,7 @@
 #include "Theme.h"
 #include "ThicknessController.h"
 #include "ThreeDView.h"
+#include "ViewStateController.h"
 #include "WindowActions.h"
 #include "WindowSettings.h"
 #include "WindowTexts.h"
@@ -133,6 +135,9 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_segment(new SegmentController(m_model, *m_slices, *this))
   , m_library(new LibraryController(m_model, *m_keeper, *this))
   , m_exchange(new ExchangeController(m_model, *m_keeper, *m_library->menu(), *this))
+  , m_attachments(new AttachmentsController(m_model, *m_view, *this))
+  , m_viewState(new ViewStateController(m_model, *m_view, *m_slices, *m_picture, *m_registration,
+                                        *m_bar, this))
 {
   addPanels();
   m_thickness = new ThicknessController(m_model, *m_view, *findChild<StructuresPanel*>(),
@@ -141,11 +146,12 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
     m_bar->setThrust(*thrust);
   m_picture->flush = [this] { return flush(); };
   m_branches->settle = [this] { m_drill->releaseTool(); };
-  m_branches->camera = [this] { return m_view->picture().camera(); };
-  m_branches->showCamera = [this](const core::CameraPose& camera) { m_view->setCamera(camera); };
+  m_branches->camera = [this] { return m_viewState->camera(); };
+  m_branches->showCamera = [this](const core::CameraPose& camera)
+  { m_viewState->showCamera(camera); };
   m_keeper->setParent(this);
   m_saver->setParent(this);
-  m_saver->camera = [this] { return m_view->picture().camera(); };
+  m_saver->aboutToSave = [this] { m_viewState->collect(); };
   setAcceptDrops(true);
   resizeOnScreen(*this, {1440, 900});
   layOut();
@@ -167,8 +173,10 @@ MainWindow::~MainWindow()
   for (const auto& [entry, panel] : m_panels)
     delete panel;   // one may query the model when hidden
   delete m_watcher; // stops a server
-  delete m_picture; // the surgeon's window follows the view
-  delete m_keeper;  // its threads must not outlive the model
+  delete m_viewState;
+  delete m_attachments; // its thread must not outlive the model
+  delete m_picture;     // the surgeon's window follows the view
+  delete m_keeper;      // its threads must not outlive the model
   delete m_saver;
 }
 
@@ -290,7 +298,8 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event)
 
 void MainWindow::addPanels()
 {
-  const PanelContext context{m_model, *m_picture, *m_registration, *m_segment, *m_library};
+  const PanelContext context{m_model,    *m_picture, *m_registration,
+                             *m_segment, *m_library, *m_attachments};
   std::map<Qt::DockWidgetArea, QDockWidget*> tabs;
   for (const PanelEntry& entry : panelEntries())
   {
@@ -380,6 +389,11 @@ void MainWindow::connectModel()
     connect(application, &Application::faulted, this, &MainWindow::showFault);
   m_model.events.maskChanged = [this](const core::IndexBox& box) { maskChanged(box); };
   m_model.events.crosshairMoved = [this] { m_slices->crosshairMoved(); };
+  m_model.events.attachmentsChanged = [this]
+  {
+    for (const auto& [entry, panel] : m_panels)
+      panel->attachmentsChanged();
+  };
   m_model.events.mrMoved = [this]
   {
     showUnregistered(false);
@@ -425,7 +439,11 @@ void MainWindow::connectModel()
   connect(m_devices, &ActiveDeviceController::came, m_view, qOverload<>(&QWidget::setFocus));
   connect(m_deviceBar->hereAction(), &QAction::triggered, m_drill, &DrillController::bringHere);
   connect(m_bar, &DrillBar::pressChanged, this,
-          [this] { m_settings->keepThrust(m_bar->thrust()); });
+          [this]
+          {
+            if (!m_viewState->isShowing()) // a case's is not the user's own
+              m_settings->keepThrust(m_bar->thrust());
+          });
   const auto showMessage = [this](const QString& line)
   { statusBar()->showMessage(line, kMessage); };
   connect(m_keeper, &CaseDocumentController::statusMessage, this, showMessage);
@@ -446,6 +464,10 @@ void MainWindow::connectModel()
                     [this](const QString& why) { notice(why); });
           });
   connect(m_saver, &CaseSaver::saved, m_library, &LibraryController::refresh);
+  connect(m_attachments, &AttachmentsController::statusMessage, this, showMessage);
+  connect(m_attachments, &AttachmentsController::changed, m_saver, &CaseSaver::save);
+  connect(m_attachments, &AttachmentsController::panelWanted, this,
+          [this] { raisePanel("attachmentsDock"); });
   connect(m_picture, &PictureController::statusMessage, this,
           [this](const QString& line) { statusBar()->showMessage(line); });
 }
@@ -516,6 +538,9 @@ void MainWindow::connectActions()
        camera.focalPoint = m_model.crosshair();
        m_view->setCamera(camera);
      });
+  on(m_actions->clipHere, [this] { clipHere(); });
+  on(m_actions->clipOff, [this] { m_model.setClipping({}); });
+  on(m_actions->attach, [this] { m_attachments->attach(); });
   on(m_actions->boneWindow, [this] { m_slices->boneWindow(); });
   on(m_actions->softWindow, [this] { m_slices->softWindow(); });
   on(m_actions->fitSlices, [this] { m_slices->fit(); });
@@ -659,10 +684,12 @@ void MainWindow::caseChanged()
   m_drill->releaseTool();
   offerBurrs();
   m_picture->caseChanged();
-  m_view->setCamera(presenters::currentCamera(value));
   m_slices->caseChanged();
   m_segment->caseChanged();
   tellPanels();
+  if (!value.view.tool) // the thrust may be that of the case before
+    m_bar->setThrust(m_settings->thrust().value_or(DrillBar::kUsualThrust));
+  m_viewState->show();
   m_view->setFocus();
   m_notesBanner->hide();
   m_notesTold = value.revision == 0 ? QStringList() : notesOf(value);
@@ -758,6 +785,17 @@ void MainWindow::showView(rendering::StandardView view)
 {
   if (m_model.hasCase())
     m_view->setCamera(presenters::standardCamera(m_model.value(), view));
+}
+
+// The plane through the crosshair, facing the viewer; a box that is shown alone stays.
+void MainWindow::clipHere()
+{
+  if (!m_model.hasCase())
+    return;
+  const core::CameraPose camera = m_view->picture().camera();
+  scene::ViewState::Clipping clipping = m_model.value().view.clipping;
+  clipping.planes = {{m_model.crosshair(), (camera.focalPoint - camera.position).normalized()}};
+  m_model.setClipping(clipping);
 }
 
 void MainWindow::stepped(bool back)
@@ -865,6 +903,8 @@ std::filesystem::path MainWindow::chooseRecording()
 void MainWindow::showRecording(const QString& fault)
 {
   m_bound.refresh();
+  for (const auto& [entry, panel] : m_panels)
+    panel->attachmentsChanged();
   const QString file = QFile::decodeName(m_model.recording().c_str());
   m_recording->setText(
       QString::fromUtf8("● ") +

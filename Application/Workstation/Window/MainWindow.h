@@ -21,6 +21,7 @@ class QStackedWidget;
 namespace petrous::workstation
 {
 
+class AttachmentsController;
 class Banner;
 class BranchController;
 class CaseDocumentController;
@@ -39,6 +40,7 @@ class SegmentController;
 class SliceColumn;
 class ThicknessController;
 class ThreeDView;
+class ViewStateController;
 class WindowActions;
 class WindowSettings;
 
@@ -91,6 +93,7 @@ private:
   bool redoesSegment() const;
   void notice(const QString& text);
   void showView(rendering::StandardView view);
+  void clipHere();
   void stepped(bool back); // by an undo or a redo
   void addPanels();
   QDockWidget* addDock(const PanelEntry& entry, Panel* panel);
@@ -139,6 +142,8 @@ private:
   SegmentController* m_segment;
   LibraryController* m_library;
   ExchangeController* m_exchange;
+  AttachmentsController* m_attachments;
+  ViewStateController* m_viewState;
   std::vector<std::pair<PanelEntry, Panel*>> m_panels;
   ThicknessController* m_thickness;
   Bindings m_bound;

@@ -2,6 +2,8 @@
 
 #include <QCoreApplication>
 
+#include "AttachmentsController.h"
+#include "AttachmentsPanel.h"
 #include "LibraryController.h"
 #include "LibraryPanel.h"
 #include "NearbyPanel.h"
@@ -37,6 +39,8 @@ std::vector<PanelEntry> panelEntries()
        kNeedsCase, [](C c) -> Panel* { return c.segment.panel(); }},
       {"libraryDock", tr("Library"), Qt::Key_F3, Qt::LeftDockWidgetArea, kTabbed, kHidden, kAlways,
        [](C c) -> Panel* { return c.library.panel(); }},
+      {"attachmentsDock", tr("Attachments"), Qt::Key_F12, Qt::LeftDockWidgetArea, kTabbed, kHidden,
+       kNeedsCase, [](C c) -> Panel* { return c.attachments.panel(); }},
   };
 }
 

@@ -14,6 +14,7 @@ class WorkstationModel;
 namespace petrous::workstation
 {
 
+class AttachmentsController;
 class LibraryController;
 class PictureController;
 class RegistrationController;
@@ -29,6 +30,7 @@ public:
   virtual void partsChanged() { caseChanged(); } ///< images, structures or meshes of the same case
   virtual void appearanceChanged() {}            ///< threshold, or a structure's appearance
   virtual void stateChanged() {}                 ///< strokes
+  virtual void attachmentsChanged() {}           ///< or a recording ended
   /// The burr's centre, patient LPS mm, and radius, mm; each frame.
   virtual void burrMoved(const Eigen::Vector3d& /*center*/, double /*radius*/) {}
   virtual void burrGone() {} ///< it was put away
@@ -42,6 +44,7 @@ struct PanelContext
   RegistrationController& registration;
   SegmentController& segment;
   LibraryController& library;
+  AttachmentsController& attachments;
 };
 
 struct PanelEntry

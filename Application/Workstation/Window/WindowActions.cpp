@@ -91,6 +91,8 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                    tr("Structures of this patient: label maps and segmentations"));
   addMesh = make(casePart, tr("Add m&esh…"), {}, tr("Surfaces of this patient, in mm"));
   casePart->addSeparator();
+  attach = make(casePart, tr("A&ttach…"), {},
+                tr("A file goes with the case: recording of the tool, PNG, PDF or video"));
   exportPart = make(casePart, tr("E&xport…"), Qt::CTRL + Qt::Key_E,
                     tr("Images, structures or surfaces as files for other programs"));
   archive = make(casePart, tr("Archi&ve…"), Qt::CTRL + Qt::SHIFT + Qt::Key_A,
@@ -119,6 +121,10 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                     tr("The 3D view turns and zooms about the crosshair from now on"));
   boneThickness = make(m_view, {}, Qt::Key_F6, {});
   boneThickness->setCheckable(true);
+  clipHere = make(m_view, tr("C&ut away to the crosshair"), Qt::SHIFT + Qt::Key_C,
+                  tr("What lies before the crosshair is not shown, until a tool is taken up"));
+  clipOff = make(m_view, tr("Show what was cut &away"), Qt::CTRL + Qt::SHIFT + Qt::Key_C,
+                 tr("Also where the case was saved with a part of the picture only"));
   m_view->addSeparator();
   boneWindow = make(m_view, {}, Qt::Key_B, {});
   softWindow = make(m_view, {}, Qt::Key_T, {});
@@ -182,10 +188,10 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   window.addToolBar(&drillBar);
   window.addToolBar(&deviceBar);
 
-  m_needCase.insert(m_needCase.end(),
-                    {save, saveAs, exportPart, archive, addMrFolder, addMrFile, addLabels, addMesh,
-                     centerView, boneThickness, boneWindow, softWindow, fitSlices,
-                     drillBar.drillAction(), drillBar.pointerAction(), record});
+  m_needCase.insert(m_needCase.end(), {save, saveAs, attach, clipHere, clipOff, exportPart, archive,
+                                       addMrFolder, addMrFile, addLabels, addMesh, centerView,
+                                       boneThickness, boneWindow, softWindow, fitSlices,
+                                       drillBar.drillAction(), drillBar.pointerAction(), record});
 }
 
 QMenu* WindowActions::addStereo(bool quadBuffer)

@@ -46,12 +46,15 @@ public:
   QAction* addMesh;
   QAction* restorePart;
   QAction* exportPart;
+  QAction* attach;
   QAction* archive;
   QAction* restore;
   QAction* undo;
   QAction* redo;
   QAction* centerView;
   QAction* boneThickness; ///< checkable
+  QAction* clipHere;
+  QAction* clipOff;
   QAction* boneWindow;
   QAction* softWindow;
   QAction* fitSlices;

@@ -678,3 +678,126 @@ TEST(Manifest, GivesTheDescriptionAlone)
   EXPECT_THROW(scene::descriptionFromManifest(text.substr(0, text.size() / 2), "m"),
                scene::ManifestError);
 }
+
+namespace
+{
+
+/// With all of a view, in numbers that only doubles hold.
+scene::Case viewedCase()
+{
+  scene::Case value = fullCase();
+  scene::ViewState& view = value.view;
+  view.slices = scene::ViewState::Slices{Vector3d(1.0 / 3.0, -2.5, 1e-7), 4000.0 / 7.0, -0.1};
+  view.slices->planes.emplace();
+  (*view.slices->planes)[2] = {10.0 / 3.0, Vector3d(0.1, 0.2, 0.30000000000000004)};
+  view.slices->overlay = scene::ViewState::Slices::Overlay{"T2", "checker", 1.0 / 3.0};
+  view.light = scene::ViewState::Light{1000.0 / 3.0, 0.1};
+  view.stereo = scene::ViewState::Stereo{"interleaved", 22.2, std::nullopt};
+  view.clipping.planes = {{Vector3d(0.1, 0.2, 0.3), Vector3d(0.0, 0.6, 0.8)}};
+  view.clipping.crop = core::IndexBox{{1, 2, 3}, {4, 5, 6}};
+  view.tool =
+      scene::ViewState::Tool{{dissection::Burr::Kind::Diamond, 7.0 / 3.0, 54321.1}, 0.7, true};
+  scene::Attachment film;
+  film.kind = scene::Attachment::Kind::Video;
+  film.name = "film.mp4";
+  film.date = "2026-03-31";
+  film.note = "two\nlines";
+  film.object = std::string(64, 'a') + ".mp4";
+  film.stroke = std::string(64, 'b') + ".stroke";
+  film.bytes = 1ULL << 40U;
+  scene::Attachment link = film;
+  link.name = "far.mp4";
+  link.object.clear();
+  link.link = "/media/stick/far.mp4";
+  link.sha256 = std::string(64, 'c');
+  value.attachments = {film, link};
+  return value;
+}
+
+} // namespace
+
+TEST(Manifest, KeepsAllOfTheViewAndTheAttachmentsToTheBit)
+{
+  const scene::Case value = viewedCase();
+  const std::string text = scene::toManifest(value);
+  EXPECT_NE(text.find("\"petrous_case\": 6"), std::string::npos);
+  const scene::Case back = scene::fromManifest(text, "m.json");
+  EXPECT_EQ(scene::toManifest(back), text);
+  EXPECT_TRUE(*back.view.slices == *value.view.slices);
+  EXPECT_TRUE(*back.view.light == *value.view.light);
+  EXPECT_TRUE(*back.view.stereo == *value.view.stereo);
+  EXPECT_TRUE(back.view.clipping == value.view.clipping);
+  EXPECT_TRUE(*back.view.tool == *value.view.tool);
+  ASSERT_EQ(back.attachments.size(), 2U);
+  EXPECT_EQ(back.attachments[0].bytes, 1ULL << 40U);
+  EXPECT_EQ(back.attachments[0].stroke, value.attachments[0].stroke);
+  EXPECT_EQ(back.attachments[1].link, "/media/stick/far.mp4");
+}
+
+// Programs before format 6 open a case that has nothing of it, and each part alone raises it.
+TEST(Manifest, IsOfFormat6OnlyWhereItMustBe)
+{
+  const scene::Case whole = viewedCase();
+  const auto formatOf = [](const scene::Case& value)
+  { return nlohmann::json::parse(scene::toManifest(value)).at("petrous_case").get<int>(); };
+  scene::Case value = whole;
+  value.view = {};
+  value.attachments.clear();
+  value.view.slices = scene::ViewState::Slices{Vector3d(1, 2, 3), 4.0, 5.0};
+  EXPECT_EQ(formatOf(value), formatOf(fullCase()));
+  value.description.note = "note";
+  EXPECT_EQ(formatOf(value), 5);
+  const std::string older = scene::toManifest(value);
+  EXPECT_EQ(scene::toManifest(scene::fromManifest(older, "m")), older); // opened and saved
+  const auto raised = [&](auto part)
+  {
+    scene::Case with = value;
+    part(with);
+    return formatOf(with);
+  };
+  EXPECT_EQ(raised([&](auto& v) { v.view.slices = whole.view.slices; }), 6);
+  EXPECT_EQ(raised([&](auto& v) { v.view.light = whole.view.light; }), 6);
+  EXPECT_EQ(raised([&](auto& v) { v.view.stereo = whole.view.stereo; }), 6);
+  EXPECT_EQ(raised([&](auto& v) { v.view.clipping.crop = whole.view.clipping.crop; }), 6);
+  EXPECT_EQ(raised([&](auto& v) { v.view.clipping.planes = whole.view.clipping.planes; }), 6);
+  EXPECT_EQ(raised([&](auto& v) { v.view.tool = whole.view.tool; }), 6);
+  EXPECT_EQ(raised([&](auto& v) { v.attachments = whole.attachments; }), 6);
+}
+
+TEST(Manifest, RefusesAHostileViewOrAttachment)
+{
+  const auto good = nlohmann::json::parse(scene::toManifest(viewedCase()));
+  const auto refused = [&good](const char* pointer, const nlohmann::json& bad)
+  {
+    auto j = good;
+    j[nlohmann::json::json_pointer(pointer)] = bad;
+    EXPECT_FALSE(refusalOf(j).empty()) << pointer << " " << bad.dump().substr(0, 80);
+  };
+  refused("/view/slices/planes/axial/zoom", 0.0);
+  refused("/view/slices/planes/axial/zoom", 1e300);
+  refused("/view/slices/planes", nlohmann::json::object());
+  refused("/view/slices/overlay/opacity", -1);
+  refused("/view/slices/overlay/mode", "sparkle");
+  refused("/view/light/wetness", 2.0);
+  refused("/view/light/falloff_mm", -1.0);
+  refused("/view/stereo/mode", "holographic");
+  refused("/view/stereo/eye_separation_mm", 1e9);
+  refused("/view/clipping/planes/0/normal", {0, 0, 0});
+  refused("/view/clipping/crop/lower", {-1, 0, 0});
+  refused("/view/clipping/crop/upper", {1, 1, 1});
+  refused("/view/tool/burr", "drill");
+  refused("/view/tool/diameter_mm", 0.0);
+  refused("/view/tool/thrust_n", 1e9);
+  for (const char* name : {"../film.mp4", "/film.mp4", "a/b", "..", "", "a\n", "far.MP4"})
+    refused("/attachments/0/name", name);
+  refused("/attachments/0/kind", "virus");
+  refused("/attachments/0/bytes", "many");
+  refused("/attachments/0/date", "2026-02-30");
+  refused("/attachments/0/note", "\x1b[2J");
+  refused("/attachments/0/link", "/etc/passwd"); // beside an object
+  refused("/attachments/1/link", "relative");
+  refused("/attachments/1/link", "/a\n");
+  refused("/attachments/1/link", "");
+  refused("/attachments/1/sha256", "abc");
+  refused("/attachments", nlohmann::json(std::vector<int>(7)));
+}

@@ -154,24 +154,40 @@ void checkPersonName(const std::string& name)
                                  "control characters or characters that are not seen");
 }
 
-void checkCaseName(const std::string& name)
+namespace
+{
+
+void checkFileName(const std::string& name, const std::string& what)
 {
   const auto bad = [](char c) { return std::string("/\\:*?\"<>|").find(c) != std::string::npos; };
   const auto ragged = [](char c) { return c == '.' || c == ' '; };
   if (!core::isUtf8(name))
-    throw core::InvalidParameter("case name: is not UTF-8; type it anew");
+    throw core::InvalidParameter(what + ": is not UTF-8; type it anew");
   if (name.empty() || name.size() > 100)
-    throw core::InvalidParameter("case name: must have 1 to 100 bytes, not " +
+    throw core::InvalidParameter(what + ": must have 1 to 100 bytes, not " +
                                  std::to_string(name.size()));
   if (hasInvisible(name))
-    throw core::InvalidParameter(
-        "case name: must have no control characters, nor characters that are not seen (zero-width "
-        "spaces, marks of direction); type it anew");
+    throw core::InvalidParameter(what +
+                                 ": must have no control characters, nor characters that are not "
+                                 "seen (zero-width spaces, marks of direction); type it anew");
   if (std::any_of(name.begin(), name.end(), bad) || ragged(name.front()) || ragged(name.back()) ||
       name.front() == '-')
     throw core::InvalidParameter(
-        "case name: must be a plain name without / \\ : * ? \" < > |, a dot or "
-        "space at its ends, or a dash in front");
+        what +
+        ": must be a plain name without / \\ : * ? \" < > |, a dot or space at its ends, or a "
+        "dash in front");
+}
+
+} // namespace
+
+void checkCaseName(const std::string& name)
+{
+  checkFileName(name, "case name");
+}
+
+void checkAttachmentName(const std::string& name)
+{
+  checkFileName(name, "name of an attachment");
 }
 
 } // namespace petrous::scene

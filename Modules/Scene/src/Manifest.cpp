@@ -7,6 +7,7 @@
 
 #include "DissectionJson.h"
 #include "petrous/Appearance/StructureProperties.h"
+#include "petrous/Dissection/BurrName.h"
 #include "petrous/Scene/Registration.h"
 
 namespace petrous::scene
@@ -115,6 +116,8 @@ using nlohmann::json;
 constexpr int kFirstFormatWithBranches = 2;
 constexpr int kFormatWithoutCodes = 3;
 constexpr int kFormatWithoutDescription = 4;
+constexpr int kFormatWithoutAttachments = 5;
+constexpr const char* kPlanes[] = {"axial", "coronal", "sagittal"};
 constexpr const char* kFrame = "frame_of_reference_salted_sha256";
 constexpr const char* kModality = "modality"; // "CT" or "MR"; absent: not known
 constexpr const char* kUnsaltedFrame = "frame_of_reference_sha256"; // written by older programs
@@ -297,16 +300,132 @@ Description descriptionIn(const json& j)
   return description;
 }
 
-json viewOut(const Case& value)
+json slicesOut(const ViewState::Slices& slices)
+{
+  json j{{"crosshair_mm", vectorOut(slices.crosshair)},
+         {"window_width", slices.width},
+         {"window_level", slices.level}};
+  if (slices.planes)
+    for (std::size_t n = 0; n < slices.planes->size(); ++n)
+      j["planes"][kPlanes[n]] = {{"zoom", (*slices.planes)[n].zoom},
+                                 {"offset_mm", vectorOut((*slices.planes)[n].offset)}};
+  if (slices.overlay)
+    j["overlay"] = {{"mr", slices.overlay->mr},
+                    {"mode", slices.overlay->mode},
+                    {"opacity", slices.overlay->opacity}};
+  return j;
+}
+
+ViewState::Slices slicesIn(const json& j)
+{
+  ViewState::Slices slices;
+  slices.crosshair = vectorIn(j.at("crosshair_mm"));
+  slices.width = j.at("window_width").get<double>();
+  slices.level = j.at("window_level").get<double>();
+  if (j.contains("planes"))
+  {
+    slices.planes.emplace();
+    for (std::size_t n = 0; n < slices.planes->size(); ++n)
+    {
+      const json& plane = j.at("planes").at(kPlanes[n]);
+      (*slices.planes)[n] = {plane.at("zoom").get<double>(), vectorIn(plane.at("offset_mm"))};
+    }
+  }
+  if (j.contains("overlay"))
+  {
+    const json& overlay = j.at("overlay");
+    slices.overlay = {overlay.at("mr").get<std::string>(), overlay.at("mode").get<std::string>(),
+                      overlay.at("opacity").get<double>()};
+  }
+  return slices;
+}
+
+json clippingOut(const ViewState::Clipping& clipping)
 {
   json j = json::object();
-  for (const auto& [name, camera] : value.view.branchCameras)
+  for (const ViewState::Clipping::Plane& plane : clipping.planes)
+    j["planes"].push_back(
+        {{"point_mm", vectorOut(plane.point)}, {"normal", vectorOut(plane.normal)}});
+  if (clipping.crop)
+    j["crop"] = {{"lower", clipping.crop->lower}, {"upper", clipping.crop->upper}};
+  return j;
+}
+
+ViewState::Clipping clippingIn(const json& j)
+{
+  ViewState::Clipping clipping;
+  if (j.contains("planes"))
+    for (const json& plane : j.at("planes"))
+      clipping.planes.push_back({vectorIn(plane.at("point_mm")), vectorIn(plane.at("normal"))});
+  if (j.contains("crop"))
+  {
+    clipping.crop.emplace();
+    clipping.crop->lower = j.at("crop").at("lower").get<core::Index3>();
+    clipping.crop->upper = j.at("crop").at("upper").get<core::Index3>();
+  }
+  return clipping;
+}
+
+json stereoOut(const ViewState::Stereo& stereo)
+{
+  json j{{"mode", stereo.mode}};
+  if (stereo.eyeSeparation)
+    j["eye_separation_mm"] = *stereo.eyeSeparation;
+  if (stereo.convergence)
+    j["convergence_mm"] = *stereo.convergence;
+  return j;
+}
+
+ViewState::Stereo stereoIn(const json& j)
+{
+  ViewState::Stereo stereo;
+  stereo.mode = j.at("mode").get<std::string>();
+  if (j.contains("eye_separation_mm"))
+    stereo.eyeSeparation = j.at("eye_separation_mm").get<double>();
+  if (j.contains("convergence_mm"))
+    stereo.convergence = j.at("convergence_mm").get<double>();
+  return stereo;
+}
+
+json toolOut(const ViewState::Tool& tool)
+{
+  return {{"burr", dissection::nameOf(tool.burr.kind)},
+          {"diameter_mm", tool.burr.diameter},
+          {"rpm", tool.burr.rpm},
+          {"thrust_n", tool.thrust},
+          {"by_wheel", tool.byWheel}};
+}
+
+ViewState::Tool toolIn(const json& j)
+{
+  const auto kind = dissection::parseBurrKind(j.at("burr").get<std::string>());
+  if (!kind)
+    throw core::InvalidParameter("view: a burr must be cutting or diamond");
+  ViewState::Tool tool;
+  tool.burr = {*kind, j.at("diameter_mm").get<double>(), j.at("rpm").get<double>()};
+  tool.thrust = j.at("thrust_n").get<double>();
+  tool.byWheel = j.at("by_wheel").get<bool>();
+  return tool;
+}
+
+json viewOut(const Case& value)
+{
+  const ViewState& view = value.view;
+  checkView(view);
+  json j = json::object();
+  for (const auto& [name, camera] : view.branchCameras)
     if (value.dissection.history().find(name) != nullptr)
       j["branches"][name] = cameraOut(camera);
-  if (const auto& slices = value.view.slices)
-    j["slices"] = {{"crosshair_mm", vectorOut(slices->crosshair)},
-                   {"window_width", slices->width},
-                   {"window_level", slices->level}};
+  if (view.slices)
+    j["slices"] = slicesOut(*view.slices);
+  if (view.light)
+    j["light"] = {{"falloff_mm", view.light->falloff}, {"wetness", view.light->wetness}};
+  if (view.stereo)
+    j["stereo"] = stereoOut(*view.stereo);
+  if (!view.clipping.empty())
+    j["clipping"] = clippingOut(view.clipping);
+  if (view.tool)
+    j["tool"] = toolOut(*view.tool);
   return j;
 }
 
@@ -317,14 +436,61 @@ ViewState viewIn(const json& j)
     for (const auto& [name, camera] : j.at("branches").items())
       view.branchCameras[name] = cameraIn(camera);
   if (j.contains("slices"))
-  {
-    const json& slices = j.at("slices");
-    view.slices = {vectorIn(slices.at("crosshair_mm")), slices.at("window_width").get<double>(),
-                   slices.at("window_level").get<double>()};
-    if (!(view.slices->width > 0.0))
-      throw core::InvalidParameter("the grey window of the slices must be wider than 0");
-  }
+    view.slices = slicesIn(j.at("slices"));
+  if (j.contains("light"))
+    view.light = {j.at("light").at("falloff_mm").get<double>(),
+                  j.at("light").at("wetness").get<double>()};
+  if (j.contains("stereo"))
+    view.stereo = stereoIn(j.at("stereo"));
+  if (j.contains("clipping"))
+    view.clipping = clippingIn(j.at("clipping"));
+  if (j.contains("tool"))
+    view.tool = toolIn(j.at("tool"));
+  checkView(view);
   return view;
+}
+
+// Whether programs before format 6 would lose a part of it.
+bool needsFormat6(const Case& value)
+{
+  const ViewState& view = value.view;
+  return !value.attachments.empty() || view.light || view.stereo || view.tool ||
+         !view.clipping.empty() || (view.slices && (view.slices->planes || view.slices->overlay));
+}
+
+json attachmentOut(const Attachment& attachment)
+{
+  json j{{"kind", nameOf(attachment.kind)}, {"name", attachment.name}, {"bytes", attachment.bytes}};
+  const auto add = [&j](const char* key, const std::string& text)
+  {
+    if (!text.empty())
+      j[key] = text;
+  };
+  add("date", attachment.date);
+  add("note", attachment.note);
+  add("stroke", attachment.stroke);
+  add("object", attachment.object);
+  add("link", attachment.link);
+  if (!attachment.link.empty())
+    j["sha256"] = attachment.sha256;
+  return j;
+}
+
+Attachment attachmentIn(const json& j)
+{
+  Attachment attachment;
+  attachment.kind = attachmentKindFrom(j.at("kind").get<std::string>());
+  attachment.name = j.at("name").get<std::string>();
+  attachment.bytes = j.at("bytes").get<std::uint64_t>();
+  attachment.date = j.value("date", std::string());
+  attachment.note = j.value("note", std::string());
+  attachment.stroke = j.value("stroke", std::string());
+  attachment.object = j.value("object", std::string());
+  attachment.link = j.value("link", std::string());
+  attachment.sha256 = j.value("sha256", std::string());
+  if (attachment.object.empty() && attachment.link.empty())
+    throw core::InvalidParameter("attachment: one has neither an object nor a link");
+  return attachment;
 }
 
 bool isFinite(const json& j)
@@ -386,6 +552,10 @@ Case caseIn(const json& j)
     value.view = viewIn(j.at("view"));
   if (j.contains("description"))
     value.description = descriptionIn(j.at("description"));
+  if (j.contains("attachments"))
+    for (const json& attachment : j.at("attachments"))
+      value.attachments.push_back(attachmentIn(attachment));
+  checkAttachments(value.attachments);
   const json& drilled = j.at("dissection");
   dissection::Dissection::Strokes strokes;
   for (const json& stroke : drilled.at("strokes"))
@@ -417,10 +587,12 @@ std::string toManifest(const Case& value)
                                        [](const auto& s) { return !s.codes.empty(); });
                   });
   checkDescription(value.description);
+  checkAttachments(value.attachments);
   const bool isDescribed = !value.description.empty();
-  json j{{"petrous_case", isDescribed ? kManifestFormat
-                          : hasCodes  ? kFormatWithoutDescription
-                                      : kFormatWithoutCodes},
+  json j{{"petrous_case", needsFormat6(value) ? kManifestFormat
+                          : isDescribed       ? kFormatWithoutAttachments
+                          : hasCodes          ? kFormatWithoutDescription
+                                              : kFormatWithoutCodes},
          {"name", value.name},
          {"revision", value.revision},
          {"iso_hu", value.iso},
@@ -451,6 +623,8 @@ std::string toManifest(const Case& value)
     j["view"] = std::move(view);
   if (isDescribed)
     j["description"] = descriptionOut(value.description);
+  for (const Attachment& attachment : value.attachments)
+    j["attachments"].push_back(attachmentOut(attachment));
   json strokes = json::array();
   for (const auto& stroke : value.dissection.strokes())
     strokes.push_back(strokeOut(*stroke));

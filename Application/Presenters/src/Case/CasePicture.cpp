@@ -30,6 +30,20 @@ core::CameraPose currentCamera(const scene::Case& value)
   return value.camera ? *value.camera : standardCamera(value, rendering::StandardView::Lateral);
 }
 
+void clip(rendering::SceneContents& contents, const scene::ViewState::Clipping& clipping,
+          const core::GridGeometry& grid)
+{
+  contents.clipping.clear();
+  contents.crop.reset();
+  for (const scene::ViewState::Clipping::Plane& plane : clipping.planes)
+    contents.clipping.push_back({plane.point, plane.normal});
+  if (!clipping.crop)
+    return;
+  const core::IndexBox inside = clipping.crop->intersected(grid.fullBox());
+  if (!inside.empty())
+    contents.crop = inside;
+}
+
 namespace
 {
 

@@ -208,6 +208,7 @@ private:
     const fs::path archive = m_folder / (std::string("scene") + library::kArchiveEnding);
     library::ArchiveOptions options;
     options.withoutNotes = !m_parts.note;
+    options.withVideos = m_parts.videos;
     if (m_parts.mask.any())
       options.prepare = [this](scene::Case& copy, const core::Progress&)
       {
@@ -506,6 +507,19 @@ IdentityReport identityReport(const scene::Case& value, const SendParts& parts,
           .push_back(parts.note ? "the note, as it is" : "the note");
     if (!words.date.empty())
       report.stays.push_back("the planned date of the operation");
+    std::vector<std::string> files;
+    std::vector<std::string> videos;
+    for (const scene::Attachment& one : value.attachments)
+      (one.kind == scene::Attachment::Kind::Video && !parts.videos ? videos : files)
+          .push_back("'" + one.name + "'");
+    if (!files.empty())
+    {
+      report.leaves.push_back("attachments, by the names that you gave them: " + joined(files));
+      report.warnings.push_back("attachments: what they show and say is not looked at, and only "
+                                "screenshots are cleaned of metadata");
+    }
+    if (!videos.empty())
+      report.stays.push_back("videos: " + joined(videos));
   }
   if (parts.scene && parts.note && !value.description.note.empty())
     report.warnings.push_back(

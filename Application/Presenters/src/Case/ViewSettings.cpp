@@ -1,6 +1,7 @@
 #include "petrous/Presenters/ViewSettings.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace petrous::presenters
@@ -8,6 +9,9 @@ namespace petrous::presenters
 
 namespace
 {
+
+constexpr std::array<const char*, 5> kModes{"none", "side-by-side", "interleaved", "anaglyph",
+                                            "quad-buffer"}; // as scene::ViewState::Stereo
 
 template <class T>
 void change(T& value, const T& next, const std::function<void()>& notify)
@@ -60,6 +64,42 @@ void ViewSettings::setConvergence(std::optional<double> millimetres)
          held(millimetres, rendering::StereoRig::kNearestConvergence,
               rendering::StereoRig::kFarthestConvergence),
          events.stereoChanged);
+}
+
+void ViewSettings::take(const scene::ViewState& view, bool quadBuffer)
+{
+  if (view.light)
+  {
+    setFalloff(view.light->falloff);
+    setWetness(view.light->wetness);
+  }
+  if (!view.stereo)
+    return;
+  setEyeSeparation(view.stereo->eyeSeparation);
+  setConvergence(view.stereo->convergence);
+  for (std::size_t n = 0; n < kModes.size(); ++n)
+    if (const auto mode = static_cast<rendering::StereoMode>(n);
+        view.stereo->mode == kModes[n] && (quadBuffer || mode != rendering::StereoMode::QuadBuffer))
+      setStereo(mode);
+}
+
+void ViewSettings::take(const ViewSettings& other)
+{
+  setFalloff(other.m_light.falloff);
+  setWetness(other.m_light.wetness);
+  setEyeSeparation(other.m_rig.eyeSeparation);
+  setConvergence(other.m_rig.convergence);
+  setStereo(other.m_stereo);
+}
+
+scene::ViewState::Light ViewSettings::lightState() const
+{
+  return {m_light.falloff, m_light.wetness};
+}
+
+scene::ViewState::Stereo ViewSettings::stereoState() const
+{
+  return {kModes[static_cast<std::size_t>(m_stereo)], m_rig.eyeSeparation, m_rig.convergence};
 }
 
 } // namespace petrous::presenters

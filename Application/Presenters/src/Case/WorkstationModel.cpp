@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "Notify.h"
+#include "petrous/Library/Attachments.h"
 #include "petrous/Presenters/Recordings.h"
 #include "petrous/Scene/Placement.h"
 
@@ -38,6 +39,7 @@ void WorkstationModel::show(std::unique_ptr<scene::Case> next, bool unsaved)
   m_removed.clear();
   m_damagedStrokes.clear();
   m_undoneForDamage = 0;
+  m_lastRecording.clear();
   m_case = std::move(next);
   ++m_shown;
   m_leaving = false;
@@ -155,6 +157,66 @@ void WorkstationModel::setCamera(const core::CameraPose& camera)
 {
   if (m_case)
     m_case->camera = camera;
+}
+
+void WorkstationModel::setView(const scene::ViewState& view)
+{
+  if (!m_case)
+    return;
+  auto cameras = std::move(m_case->view.branchCameras);
+  m_case->view = view;
+  m_case->view.branchCameras = std::move(cameras);
+}
+
+void WorkstationModel::setClipping(const scene::ViewState::Clipping& clipping)
+{
+  if (!m_case || m_case->view.clipping == clipping)
+    return;
+  scene::ViewState view;
+  view.clipping = clipping;
+  scene::checkView(view);
+  m_case->view.clipping = clipping;
+  notify(events.appearanceChanged);
+  setUnsaved(true);
+}
+
+std::string WorkstationModel::attach(scene::Attachment attachment)
+{
+  if (!m_case)
+    return {};
+  const std::string name = library::attach(*m_case, std::move(attachment));
+  setUnsaved(true);
+  notify(events.attachmentsChanged);
+  return name;
+}
+
+void WorkstationModel::setAttachmentNote(const std::string& name, const std::string& note)
+{
+  if (!m_case || scene::findAttachment(*m_case, name).note == note)
+    return;
+  std::vector<scene::Attachment> before = m_case->attachments;
+  scene::findAttachment(*m_case, name).note = note;
+  try
+  {
+    scene::checkAttachments(m_case->attachments);
+  }
+  catch (const core::InvalidParameter&)
+  {
+    m_case->attachments = std::move(before);
+    throw;
+  }
+  setUnsaved(true);
+  notify(events.attachmentsChanged);
+}
+
+void WorkstationModel::removeAttachment(const std::string& name)
+{
+  if (!m_case)
+    return;
+  const scene::Attachment& found = scene::findAttachment(*m_case, name);
+  m_case->attachments.erase(m_case->attachments.begin() + (&found - m_case->attachments.data()));
+  setUnsaved(true);
+  notify(events.attachmentsChanged);
 }
 
 // A stroke that is still open is closed first.
@@ -395,11 +457,13 @@ void WorkstationModel::startTouch(haptics::Device& device,
   {
     start();
     m_recordingBegun = true;
+    m_recordedTo = whole.recording;
     setRecording(whole.recording);
   }
   catch (const session::RecordingError& error) // drilling does not depend on it
   {
     whole.recording.clear();
+    m_recordedTo.clear();
     start();
     setRecording({}, std::string("Nothing is recorded: ") + error.what() + ".");
   }
@@ -427,7 +491,10 @@ session::TouchSession::News WorkstationModel::hear(session::TouchSession::News n
     news.journalFault = m_journal->takeFailure();
   notifyMask(news.bricks);
   if (!news.recordingFault.empty())
+  {
+    m_recordedTo.clear();
     setRecording({}, news.recordingFault);
+  }
   bool changed = !news.steps.empty();
   for (const auto& stroke : news.strokes)
     changed = changed || stroke;
@@ -463,7 +530,13 @@ session::TouchSession::News WorkstationModel::stopTouch()
     m_scene.reset();
   }
   m_touch.reset();
-  return hear(std::move(news));
+  news = hear(std::move(news));
+  if (!m_recordedTo.empty()) // whole, as no fault was heard of
+  {
+    m_lastRecording = std::exchange(m_recordedTo, {});
+    notify(events.recordingChanged, std::string());
+  }
+  return news;
 }
 
 void WorkstationModel::notifyMask(const std::vector<std::size_t>& bricks)

@@ -300,6 +300,8 @@ void WorkstationModel::renamePart(const std::string& name, const std::string& to
     forEachLook(*m_case, [&](const std::string&, appearance::StructureAppearance& look)
                 { rename(look.sourceImage); });
     rename(m_case->boneLook.sourceImage);
+    if (auto& slices = m_case->view.slices; slices && slices->overlay)
+      rename(slices->overlay->mr);
     for (RemovedPart& removed : m_removed) // may come back
     {
       if (removed.labels && removed.labels->part.drawnOn)

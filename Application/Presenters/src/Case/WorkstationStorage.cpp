@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "Notify.h"
+#include "petrous/Library/Attachments.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
@@ -160,6 +161,9 @@ void StoreTask::run(const core::Progress& progress)
     std::for_each(value.meshes.begin(), value.meshes.end(), asNew);
     for (std::size_t n = 0; n < value.dissection.strokes().size(); ++n)
       value.dissection.setStored(n, "", value.dissection.strokes()[n]->packed);
+    for (scene::Attachment& one : value.attachments)
+      if (!one.object.empty() && library::attachmentProblem(*source, one).empty())
+        one.source = source->folder() / "objects" / one.object;
   }
   own.save(value, source ? progress.part(0.2, 1.0) : progress);
 }
@@ -238,6 +242,16 @@ void WorkstationModel::stored(const StoreTask& done)
     takeObjects(m_case->mr, saved.mr);
     takeObjects(m_case->meshes, saved.meshes);
   }
+  for (scene::Attachment& one : m_case->attachments)
+    for (const scene::Attachment& from : saved.attachments)
+      if (one.name == from.name && one.object.empty() && one.content == from.content &&
+          one.source == from.source)
+      {
+        one.object = from.object;
+        one.bytes = from.bytes;
+        one.content.reset();
+        one.source.clear();
+      }
   const auto& strokes = saved.dissection.strokes();
   for (std::size_t n = 0; n < std::min(m_case->dissection.strokes().size(), strokes.size()); ++n)
     m_case->dissection.setStored(n, strokes[n]->object, strokes[n]->packed);

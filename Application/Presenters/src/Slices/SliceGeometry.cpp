@@ -107,4 +107,10 @@ double scaleBarLength(double longest)
   return decade;
 }
 
+SliceGeometry zoomed(const SliceGeometry& whole, double zoom, const Eigen::Vector3d& offset)
+{
+  return {whole.orientation(), whole.center() + offset, whole.mmPerPixel() / zoom, whole.width(),
+          whole.height()};
+}
+
 } // namespace petrous::presenters

@@ -52,6 +52,9 @@ bool fits(const std::string& object, const ObjectUse& use)
     return ending == ".obj";
   case ObjectUse::Kind::Stroke:
     return ending == ".stroke";
+  case ObjectUse::Kind::Attachment:
+    return ending.size() <= 9 && ending[0] == '.' &&
+           ending.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789", 1) == ending.npos;
   }
   return false;
 }
@@ -102,12 +105,16 @@ struct Archive
     for (const auto& [name, entry] : zip.entries())
       if (listed.count(name) == 0)
         throwUnsound(path, "'" + name + "' is not listed in it");
+    for (const scene::Attachment& one : value.attachments)
+      if (!one.link.empty()) // this program writes none
+        throwUnsound(path, "an attachment is a link to a file of another computer");
     for (const ObjectUse& use : objectsOf(value))
     {
       if (!fits(use.object, use))
         throwUnsound(path, use.what + " has no valid name of an object");
       if (objects.count(use.object) == 0 &&
-          (!index.planOnly || use.kind == ObjectUse::Kind::Stroke))
+          (!index.planOnly || use.kind == ObjectUse::Kind::Stroke ||
+           use.kind == ObjectUse::Kind::Attachment))
         throwUnsound(path, "it lacks " + use.what);
       needed.insert(use.object);
     }

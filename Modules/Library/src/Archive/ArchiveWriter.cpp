@@ -4,6 +4,7 @@
 #include <cstring>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 #include <sodium.h>
@@ -11,6 +12,7 @@
 #include <unistd.h>
 
 #include "ArchiveIndex.h"
+#include "AttachmentFiles.h"
 #include "GzipMembers.h"
 #include "LibraryFolder.h"
 #include "ManifestFile.h"
@@ -21,6 +23,7 @@
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/NrrdFile.h"
 #include "petrous/Library/Archive.h"
+#include "petrous/Library/Attachments.h"
 #include "petrous/Library/FrameSalt.h"
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Scene/Manifest.h"
@@ -144,6 +147,39 @@ private:
   bool m_checked = false;
 };
 
+/// An object as it is, verified against its hash.
+Produce fromObject(const fs::path& path, const std::string& what)
+{
+  struct State
+  {
+    core::InputFile file;
+    Sha256 hash;
+    std::uintmax_t read = 0;
+    bool isChecked = false;
+  };
+  auto state = std::make_shared<State>(State{core::InputFile(path), {}});
+  return [state, what](char* buffer, std::size_t room)
+  {
+    const auto count =
+        static_cast<std::size_t>(std::min<std::uintmax_t>(room, state->file.size() - state->read));
+    ssize_t got = 0;
+    do
+      got = count == 0
+                ? 0
+                : ::pread(state->file.descriptor(), buffer, count, static_cast<off_t>(state->read));
+    while (got < 0 && errno == EINTR);
+    if (got < 0 || (got == 0 && count > 0))
+      throw LibraryError(LibraryError::Reason::Damaged,
+                         core::printable(state->file.path()) + ": cannot be read to its end");
+    state->hash.add(buffer, static_cast<std::size_t>(got));
+    state->read += static_cast<std::uintmax_t>(got);
+    if (state->read == state->file.size() && !std::exchange(state->isChecked, true) &&
+        state->file.path().filename().string().rfind(state->hash.hexadecimal(), 0) != 0)
+      checkObject(state->file.path(), what); // throws, naming what to do
+    return static_cast<std::size_t>(got);
+  };
+}
+
 /// A part's name as a file name: valid on every system, unique among `used`.
 std::string fileName(const std::string& name, const std::string& ending,
                      std::set<std::string>& used)
@@ -249,6 +285,59 @@ private:
   std::optional<ObjectStore> m_store;
 };
 
+/// Leaves out what stays in the library, embeds what is linked, and notes both.
+void chooseAttachments(scene::Case& value, const Library& library, const ArchiveOptions& options,
+                       PassingObjects& passing, std::vector<std::string>& notes)
+{
+  using scene::Attachment;
+  std::vector<Attachment> chosen;
+  std::string unclean;
+  for (Attachment one : value.attachments)
+  {
+    const std::string what = attachmentText(one);
+    const bool isPlain =
+        one.kind == Attachment::Kind::Screenshot || one.kind == Attachment::Kind::Recording;
+    if (one.kind == Attachment::Kind::Video && (!options.withVideos || options.planOnly))
+      notes.push_back(what + " stays in this library: a video may show or name the patient" +
+                      (options.planOnly ? "" : " (--with-videos takes it along)"));
+    else if (options.planOnly && (!isPlain || one.bytes > kLargestOfPlan))
+      notes.push_back(what + " stays in this library: a plan takes small screenshots and "
+                             "recordings along");
+    else if (const std::string problem = attachmentProblem(library, one); !problem.empty())
+      notes.push_back(what + " is not in the archive: its file is " + problem);
+    else
+    {
+      if (!one.link.empty())
+      {
+        scene::Case linked;
+        one.source = std::exchange(one.link, {});
+        linked.attachments.push_back(one);
+        storeAttachments(linked, passing.store());
+        const std::string expected = std::exchange(one.sha256, {});
+        one.object = linked.attachments.front().object;
+        if (one.object.rfind(expected, 0) != 0)
+        {
+          notes.push_back(what + " is not in the archive: its file is changed");
+          continue;
+        }
+      }
+      if (!options.keepDate)
+        one.date.clear();
+      if (options.withoutNotes)
+        one.note.clear();
+      if (!isPlain)
+        unclean += (unclean.empty() ? "" : ", ") + what;
+      chosen.push_back(std::move(one));
+    }
+  }
+  value.attachments = std::move(chosen);
+  if (!value.attachments.empty())
+    notes.emplace_back("attachments go along under their names; see that they show and name "
+                       "nobody");
+  if (!unclean.empty())
+    notes.push_back("metadata is not removed from " + unclean);
+}
+
 std::string entryOf(const ObjectUse& use, bool isCt, std::set<std::string>& used)
 {
   switch (use.kind)
@@ -259,6 +348,8 @@ std::string entryOf(const ObjectUse& use, bool isCt, std::set<std::string>& used
     return "labels/" + fileName(use.name, ".seg.nrrd", used);
   case ObjectUse::Kind::Mesh:
     return "meshes/" + fileName(use.name, ".obj", used);
+  case ObjectUse::Kind::Attachment:
+    return "attachments/" + fileName(use.name, "", used);
   case ObjectUse::Kind::Stroke:
     break;
   }
@@ -344,6 +435,7 @@ try
   }
   else if (!description.note.empty())
     summary.notes.emplace_back("the note goes along as it was typed; see that it names nobody");
+  chooseAttachments(value, library, options, passing, summary.notes);
   const std::string manifest = scene::toManifest(value);
   const auto storeOf = [&](const std::string& object) -> const ObjectStore&
   { return passing.contains(object) ? passing.store() : kept; };
@@ -363,7 +455,8 @@ try
   std::vector<const ObjectUse*> stored;
   for (const ObjectUse& use : uses)
   {
-    if (options.planOnly && use.kind != ObjectUse::Kind::Stroke)
+    if (options.planOnly && use.kind != ObjectUse::Kind::Stroke &&
+        use.kind != ObjectUse::Kind::Attachment)
       continue;
     const fs::path path =
         storeOf(use.object).path(use.object, use.what + " of case '" + name + "'");
@@ -393,6 +486,10 @@ try
                 return [image](char* buffer, std::size_t room)
                 { return image->produce(buffer, room); };
               });
+    else if (use.kind == ObjectUse::Kind::Attachment)
+      zip.add(index.objects[n].file, false,
+              [path = storeOf(use.object).path(use.object, what), what]
+              { return fromObject(path, what); });
     else
       zip.add(index.objects[n].file, use.kind == ObjectUse::Kind::Mesh,
               [&store = storeOf(use.object), object = use.object, what]

@@ -12,6 +12,7 @@
 
 #include <sys/stat.h>
 
+#include "AttachmentFiles.h"
 #include "Catalogue.h"
 #include "Graft.h"
 #include "JournalFile.h"
@@ -75,6 +76,7 @@ void storeParts(scene::Case& value, ObjectStore& store, const core::Progress& pr
     if (const auto packed = strokes[n]->packed;
         mustStore(strokes[n]->object, store, !!packed.peek()))
       value.dissection.setStored(n, store.add("stroke", *packed.get()), packed);
+  storeAttachments(value, store, progress);
 }
 
 std::string randomId()

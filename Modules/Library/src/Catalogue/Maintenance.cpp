@@ -9,6 +9,7 @@
 #include "LibraryFolder.h"
 #include "ManifestFile.h"
 #include "Thumbnail.h"
+#include "petrous/Library/Attachments.h"
 #include "petrous/Library/Library.h"
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Scene/Manifest.h"
@@ -303,7 +304,7 @@ Inspection Library::verify(const core::Progress& progress) const
     done += sizes.count(object) > 0 ? sizes[object] : 0;
     try
     {
-      checkObject(store.path(object), use.what.empty() ? "of no case" : use.what,
+      checkObject(store.path(object, use.what), use.what.empty() ? "of no case" : use.what,
                   progress.part(from, static_cast<double>(done) / static_cast<double>(total)));
     }
     catch (const LibraryError& error)
@@ -373,7 +374,13 @@ std::vector<std::string> Library::repair()
   for (const std::string& name : names)
     try
     {
-      quiet.open(name);
+      const scene::Case value = quiet.open(name);
+      for (const scene::Attachment& one : value.attachments)
+        if (one.link.empty() && !attachmentProblem(*this, one).empty())
+          done.push_back("attachment '" + one.name + "' of case '" + name +
+                         "' is lost: attach the same file again, which puts it back, or take it "
+                         "out ('petrous attachments " +
+                         name + " --remove')");
     }
     catch (const core::Error& error)
     {

@@ -7,6 +7,7 @@
 
 #include <sys/stat.h>
 
+#include "AttachmentFiles.h"
 #include "JournalFile.h"
 #include "LibraryFolder.h"
 #include "petrous/Scene/Manifest.h"
@@ -73,6 +74,10 @@ std::vector<ObjectUse> objectsOf(const scene::Case& value)
   for (std::size_t n = 0; n < strokes.size(); ++n)
     add(strokes[n]->object, ObjectUse::Kind::Stroke, std::to_string(n + 1),
         "stroke " + std::to_string(n + 1));
+  for (const scene::Attachment& attachment : value.attachments)
+    if (!attachment.object.empty())
+      add(attachment.object, ObjectUse::Kind::Attachment, attachment.name,
+          attachmentText(attachment));
   return uses;
 }
 

@@ -28,7 +28,8 @@ struct ObjectUse
     Image,
     Structures,
     Mesh,
-    Stroke
+    Stroke,
+    Attachment
   };
   std::string object;
   Kind kind;
@@ -36,7 +37,8 @@ struct ObjectUse
   std::string what; ///< for messages
 };
 
-/// The objects of a case in the order CT, MRs, structures, meshes, strokes; each once.
+/// The objects of a case in the order CT, MRs, structures, meshes, strokes, attachments; each
+/// once.
 std::vector<ObjectUse> objectsOf(const scene::Case& value);
 
 /// Names of all cases, sorted, including damaged ones. Empty if the folder does not exist; throws

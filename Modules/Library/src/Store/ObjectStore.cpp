@@ -42,10 +42,12 @@ bool isObjectName(const std::string& name)
 // What helps if an object is missing or damaged: a stroke cannot be imported.
 std::string remedyFor(const fs::path& object)
 {
+  const fs::path ending = object.extension();
   return std::string("; restore this file from a copy of the library") +
-         (object.extension() == ".stroke"
-              ? ""
-              : ", or import the same data again (into a new case), which puts it back") +
+         (ending == ".stroke" ? ""
+          : ending == ".nrrd" || ending == ".obj"
+              ? ", or import the same data again (into a new case), which puts it back"
+              : ", or attach the same file again, which puts it back") +
          "; 'petrous library verify' lists all that is damaged";
 }
 

@@ -21,6 +21,10 @@ core::CameraPose standardCamera(const scene::Case& value, rendering::StandardVie
 /// The case's last view, else the lateral one. Loads the CT for the latter.
 core::CameraPose currentCamera(const scene::Case& value);
 
+/// Cuts away from the scene what the view does not show; a box beyond the CT's is none.
+void clip(rendering::SceneContents& contents, const scene::ViewState::Clipping& clipping,
+          const core::GridGeometry& grid);
+
 /// The case as its thumbnail shows it, without a face: bone and structures, in their own colours.
 /// The surface is not below that of bone (less 100 HU), and the bone's transfer function is a
 /// preset's, so that no skin shows; an MR as primary image is not shown at all, since it has no

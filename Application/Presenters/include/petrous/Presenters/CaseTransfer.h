@@ -23,6 +23,7 @@ struct SendParts
   bool labels = false;
   bool scene = false;
   bool note = true;      ///< of the description, with the scene
+  bool videos = false;   ///< attached ones, with the scene; they may show or name the patient
   scene::ImageMask mask; ///< of all images
 };
 

@@ -57,6 +57,9 @@ private:
   int m_height;
 };
 
+/// The slice enlarged, its centre moved by `offset`, patient LPS mm.
+SliceGeometry zoomed(const SliceGeometry& whole, double zoom, const Eigen::Vector3d& offset);
+
 /// Unit vectors in the patient (LPS): along a picture's rows to the right, along its columns down,
 /// and towards the next slice (S, P or L).
 struct SliceAxes

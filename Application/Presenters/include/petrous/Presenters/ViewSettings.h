@@ -5,12 +5,13 @@
 
 #include "petrous/Rendering/SceneContents.h"
 #include "petrous/Rendering/Stereo.h"
+#include "petrous/Scene/ViewState.h"
 
 namespace petrous::presenters
 {
 
-/// How the window renders a scene: lamp and stereo. Belongs to the window, not to the case. Without
-/// Qt; not thread-safe.
+/// How the window renders a scene: lamp and stereo, as a case was saved with, else as the user has
+/// them. Without Qt; not thread-safe.
 class ViewSettings
 {
 public:
@@ -34,6 +35,13 @@ public:
   /// mm, clamped to StereoRig's limits; none: a microscope's angle, converging at the focal point.
   void setEyeSeparation(std::optional<double> millimetres);
   void setConvergence(std::optional<double> millimetres);
+
+  /// What a case was saved with; values beyond the limits are clamped. `quadBuffer`: the driver
+  /// supports that mode; otherwise it leaves the mode as it is.
+  void take(const scene::ViewState& view, bool quadBuffer);
+  void take(const ViewSettings& other); ///< its values
+  scene::ViewState::Light lightState() const;
+  scene::ViewState::Stereo stereoState() const;
 
 private:
   rendering::LightSettings m_light;

@@ -149,8 +149,16 @@ public:
 
   bool unsaved() const noexcept { return m_unsaved; }
   void setCamera(const core::CameraPose& camera); ///< stored with the next save
-  void save();                                    ///< throws as Library::save does
-  void saveAs(const std::string& name);           ///< a new case; strong exception guarantee
+  /// The view, without the cameras of branches, which stay. Stored with the next save.
+  void setView(const scene::ViewState& view);
+  /// What is cut away from the picture; throws InvalidParameter (scene::checkView).
+  void setClipping(const scene::ViewState::Clipping& clipping);
+  /// Adds a file, under a free name, which is returned; its content is stored with the next save.
+  std::string attach(scene::Attachment attachment);
+  void setAttachmentNote(const std::string& name, const std::string& note);
+  void removeAttachment(const std::string& name);
+  void save();                          ///< throws as Library::save does
+  void saveAs(const std::string& name); ///< a new case; strong exception guarantee
   void saveElsewhere(const std::filesystem::path& folder, const std::string& name);
 
   /// State of the preparation (requested by Events::preparationWanted) until `prepared`:
@@ -260,6 +268,8 @@ public:
   void record(const std::filesystem::path& file);
   /// The file that is being written, or that the next session is written to; empty: none.
   const std::filesystem::path& recording() const noexcept { return m_recording; }
+  /// The last file to which a session of this case was recorded and ended; empty: none.
+  const std::filesystem::path& lastRecording() const noexcept { return m_lastRecording; }
 
 private:
   /// What was taken out under one name, with its place among the case's parts of its kind. A
@@ -310,6 +320,8 @@ private:
   std::unique_ptr<PointProbe> m_reader;           ///< made on demand; likewise
   std::unique_ptr<NearbyStructures> m_nearby;     ///< likewise; unaffected by removal
   session::RemovedVolumeEstimator m_meter;
+  std::filesystem::path m_lastRecording;
+  std::filesystem::path m_recordedTo; ///< by the session in progress; empty: it is not recorded
   std::filesystem::path m_recording;
   std::filesystem::path m_recordingAs; ///< as chosen: that of the first session
   bool m_recordingBegun = false;       ///< there was a first session

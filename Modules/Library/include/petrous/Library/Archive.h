@@ -17,6 +17,7 @@ namespace petrous::library
 ///     case.json                 the manifest, as in the library
 ///     ct.nrrd, mr/NAME.nrrd     images, the library's objects with gzip encoding
 ///     labels/NAME.seg.nrrd, meshes/NAME.obj, strokes/NUMBER.stroke    objects as they are
+///     attachments/NAME          likewise
 ///
 /// petrous.json also has the thumbnail ("thumbnail_png", base64), where there is one and images go
 /// along: there, programs that know none pass over it.
@@ -29,19 +30,24 @@ constexpr const char* kArchiveEnding = ".petrous";
 
 struct ArchiveOptions
 {
-  /// Only the manifest and the strokes: no image, label map or mesh. It is restored where the very
-  /// same CT is.
+  /// Only the manifest, the strokes and small attachments: no image, label map or mesh. It is
+  /// restored where the very same CT is.
   bool planOnly = false;
   int level = 4;             ///< of the images' compression, 1 (fast) to 12 (small)
   bool withoutNotes = false; ///< Description::note stays here
   /// The planned date goes along. Dates identify: with the list of a day's operations, everybody
   /// knows who the patient is.
   bool keepDate = false;
+  /// Videos go along, linked ones as embedded; they may show or name the patient.
+  bool withVideos = false;
   /// Changes the copy of the case that is written (scene::maskImages); returns sentences for the
   /// user. Images that it leaves without an object are written to the archive alone, and no
   /// thumbnail goes along. Not called for a plan.
   std::function<std::vector<std::string>(scene::Case&, const core::Progress&)> prepare = {};
 };
+
+/// A plan takes screenshots and recordings along up to this size, bytes; and no other attachments.
+constexpr std::uint64_t kLargestOfPlan = 16U << 20;
 
 struct ArchiveSummary
 {

@@ -12,6 +12,7 @@
 #include "petrous/Core/Lazy.h"
 #include "petrous/Core/TriangleMesh.h"
 #include "petrous/Dissection/Dissection.h"
+#include "petrous/Scene/Attachment.h"
 #include "petrous/Scene/Description.h"
 #include "petrous/Scene/ImagePart.h"
 #include "petrous/Scene/MeshTouch.h"
@@ -82,6 +83,7 @@ struct Case
   std::optional<core::CameraPose> camera; ///< last view; nullopt: lateral view
   ViewState view;
   Description description;
+  std::vector<Attachment> attachments;
 
   dissection::Dissection dissection; ///< the strokes, their history and the mask
 

@@ -1,31 +1,98 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
 #include "petrous/Core/CameraPose.h"
+#include "petrous/Core/GridGeometry.h"
+#include "petrous/Dissection/Stroke.h"
 
 namespace petrous::scene
 {
 
-/// How a case was looked at when it was saved, besides its camera. Programs that know none of it
-/// read the case as well.
+/// How a case was looked at when it was saved, besides its camera, and the tool that was set. What
+/// is absent is as the program that shows the case has it.
 struct ViewState
 {
+  static constexpr std::size_t kMaxClippingPlanes = 6;
+
   struct Slices
   {
+    /// Of a plane, whose picture is centred on the crosshair and shows the whole slice at 1.
+    struct Plane
+    {
+      double zoom = 1.0;                     ///< at least 1
+      Eigen::Vector3d offset{0.0, 0.0, 0.0}; ///< of the picture's centre, patient LPS mm
+    };
+    /// An MR over the CT.
+    struct Overlay
+    {
+      std::string mr;       ///< of the case
+      std::string mode;     ///< "blend", "edges" or "checker"
+      double opacity = 0.5; ///< of the MR in a blend, 0 to 1
+    };
     Eigen::Vector3d crosshair{0.0, 0.0, 0.0}; ///< patient LPS mm
     double width = 0.0;                       ///< of the grey window, in the CT's unit; above 0
     double level = 0.0;
+    std::optional<std::array<Plane, 3>> planes = {}; ///< axial, coronal, sagittal
+    std::optional<Overlay> overlay = {};
+  };
+
+  struct Light
+  {
+    double falloff = 0.0; ///< mm from the lamp to half its intensity; 0: none
+    double wetness = 0.0; ///< 0 to 1
+  };
+
+  struct Stereo
+  {
+    std::string mode = "none"; ///< or "side-by-side", "interleaved", "anaglyph", "quad-buffer"
+    std::optional<double> eyeSeparation; ///< mm; nullopt: by the microscope's usual angle
+    std::optional<double> convergence;   ///< mm from the camera; nullopt: the focal point
+  };
+
+  /// What is cut away from the picture, not from the bone.
+  struct Clipping
+  {
+    struct Plane
+    {
+      Eigen::Vector3d point{0.0, 0.0, 0.0};  ///< patient LPS mm
+      Eigen::Vector3d normal{0.0, 0.0, 1.0}; ///< of length 1; to the side that stays
+    };
+    std::vector<Plane> planes;          ///< at most kMaxClippingPlanes
+    std::optional<core::IndexBox> crop; ///< voxels of the CT that are shown; not empty
+    bool empty() const { return planes.empty() && !crop; }
+  };
+
+  struct Tool
+  {
+    dissection::Burr burr;
+    double thrust = 1.0;  ///< N, of a device without force
+    bool byWheel = false; ///< the wheel moves the burr in depth
   };
 
   /// Of the branches other than the current one, by name, as they were left. Names of no branch are
   /// not saved.
   std::map<std::string, core::CameraPose> branchCameras;
   std::optional<Slices> slices;
+  std::optional<Light> light;
+  std::optional<Stereo> stereo;
+  Clipping clipping;
+  std::optional<Tool> tool;
 };
+
+bool operator==(const ViewState::Slices& a, const ViewState::Slices& b);
+bool operator==(const ViewState::Light& a, const ViewState::Light& b);
+bool operator==(const ViewState::Stereo& a, const ViewState::Stereo& b);
+bool operator==(const ViewState::Clipping& a, const ViewState::Clipping& b);
+bool operator==(const ViewState::Tool& a, const ViewState::Tool& b);
+
+/// Throws InvalidParameter naming the first value that is out of its range.
+void checkView(const ViewState& view);
 
 } // namespace petrous::scene

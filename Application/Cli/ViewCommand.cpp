@@ -1,0 +1,305 @@
+#include <algorithm>
+#include <iterator>
+
+#include "CaseJson.h"
+#include "Commands.h"
+#include "Numbers.h"
+#include "ViewOptions.h"
+#include "petrous/Dissection/BurrName.h"
+#include "petrous/Presenters/CasePicture.h"
+#include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Rendering/Stereo.h"
+
+namespace petrous::cli
+{
+
+namespace
+{
+
+using scene::ViewState;
+using Slices = ViewState::Slices;
+
+constexpr const char* kPlanes[] = {"axial", "coronal", "sagittal"};
+
+struct ViewCommandOptions
+{
+  std::string caseName, view, camera, at, window, stereo, crop, roi, overlay, mode, burr;
+  std::vector<std::string> clip, zoom, cleared;
+  std::optional<double> falloff, wetness, eyeSeparation, convergence, opacity, diameter, rpm,
+      thrust;
+};
+
+void clear(scene::Case& value, const std::string& part)
+{
+  ViewState& view = value.view;
+  if (part == "camera")
+    value.camera.reset();
+  else if (part == "slices")
+    view.slices.reset();
+  else if (part == "light")
+    view.light.reset();
+  else if (part == "stereo")
+    view.stereo.reset();
+  else if (part == "clipping")
+    view.clipping = {};
+  else
+    view.tool.reset();
+}
+
+void changeSlices(scene::Case& value, const ViewCommandOptions& options)
+{
+  if (options.at.empty() && options.window.empty() && options.zoom.empty() &&
+      options.overlay.empty() && options.mode.empty() && !options.opacity)
+    return;
+  auto& saved = value.view.slices;
+  if (!saved)
+  {
+    const presenters::GreyWindow window = presenters::displayOf(value).bone;
+    saved = Slices{value.ct.geometry.center(), window.width, window.level};
+  }
+  if (!options.at.empty())
+  {
+    const auto n = parseNumbers(options.at, 3, "--at x,y,z");
+    saved->crosshair = {n[0], n[1], n[2]};
+    if (!value.ct.geometry.hullContains(value.ct.geometry.voxelFromPatient(saved->crosshair)))
+      throw UsageError("--at: the point is not within the CT");
+  }
+  if (!options.window.empty())
+  {
+    const auto n = parseNumbers(options.window, 2, "--window WIDTH,LEVEL");
+    saved->width = n[0];
+    saved->level = n[1];
+  }
+  for (const std::string& text : options.zoom)
+  {
+    const std::size_t equals = text.find('=');
+    const auto* const plane =
+        std::find(std::begin(kPlanes), std::end(kPlanes), text.substr(0, equals));
+    if (equals == text.npos || plane == std::end(kPlanes))
+      throw UsageError("--zoom PLANE=FACTOR: axial, coronal or sagittal, not '" + text + "'");
+    if (!saved->planes)
+      saved->planes.emplace();
+    (*saved->planes)[static_cast<std::size_t>(plane - std::begin(kPlanes))].zoom =
+        parseNumbers(text.substr(equals + 1), 1, "--zoom PLANE=FACTOR").front();
+  }
+  if (!options.overlay.empty() && !scene::findMr(value, options.overlay))
+    throw UsageError("--overlay: no MR '" + options.overlay + "' in the case");
+  if (!options.overlay.empty())
+    saved->overlay = Slices::Overlay{options.overlay, "blend"};
+  if ((!options.mode.empty() || options.opacity) && !saved->overlay)
+    throw UsageError("--mode and --opacity go with --overlay");
+  if (!options.mode.empty())
+    saved->overlay->mode = options.mode;
+  if (options.opacity)
+    saved->overlay->opacity = *options.opacity;
+}
+
+void change(scene::Case& value, const ViewCommandOptions& options)
+{
+  if (!options.view.empty() && !options.camera.empty())
+    throw UsageError("view: give --view or --camera, not both");
+  ViewState& view = value.view;
+  for (const std::string& part : options.cleared)
+    clear(value, part);
+  if (!options.camera.empty())
+    value.camera = readCamera(options.camera);
+  if (!options.view.empty())
+    value.camera = presenters::standardCamera(value, *rendering::parseView(options.view));
+  changeSlices(value, options);
+  if (options.falloff || options.wetness)
+  {
+    if (!view.light)
+      view.light.emplace();
+    view.light->falloff = options.falloff.value_or(view.light->falloff);
+    view.light->wetness = options.wetness.value_or(view.light->wetness);
+  }
+  if (!options.stereo.empty() || options.eyeSeparation || options.convergence)
+  {
+    if (!view.stereo)
+      view.stereo.emplace();
+    if (!options.stereo.empty())
+      view.stereo->mode = options.stereo;
+    if (options.eyeSeparation)
+      view.stereo->eyeSeparation = options.eyeSeparation;
+    if (options.convergence)
+      view.stereo->convergence = options.convergence;
+  }
+  if (!options.clip.empty())
+    view.clipping.planes = parsePlanes(options.clip);
+  if (const auto crop = parseCrop(options.crop, options.roi, value.ct.geometry))
+    view.clipping.crop = crop;
+  if (!options.burr.empty() || options.diameter || options.rpm || options.thrust)
+  {
+    if (!view.tool)
+      view.tool.emplace();
+    if (!options.burr.empty())
+      view.tool->burr.kind = *dissection::parseBurrKind(options.burr);
+    view.tool->burr.diameter = options.diameter.value_or(view.tool->burr.diameter);
+    view.tool->burr.rpm = options.rpm.value_or(view.tool->burr.rpm);
+    view.tool->thrust = options.thrust.value_or(view.tool->thrust);
+  }
+  try
+  {
+    scene::checkView(view);
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    throw UsageError(error.what());
+  }
+}
+
+nlohmann::json slicesJson(const Slices& slices)
+{
+  nlohmann::json planes = nullptr;
+  if (slices.planes)
+    for (std::size_t n = 0; n < slices.planes->size(); ++n)
+      planes[kPlanes[n]] = {{"zoom", (*slices.planes)[n].zoom},
+                            {"offset_mm", vectorJson((*slices.planes)[n].offset)}};
+  nlohmann::json overlay = nullptr;
+  if (slices.overlay)
+    overlay = {{"mr", slices.overlay->mr},
+               {"mode", slices.overlay->mode},
+               {"opacity", slices.overlay->opacity}};
+  return {{"crosshair_mm", vectorJson(slices.crosshair)},
+          {"window", {{"width", slices.width}, {"level", slices.level}}},
+          {"planes", std::move(planes)},
+          {"overlay", std::move(overlay)}};
+}
+
+nlohmann::json viewJson(const scene::Case& value)
+{
+  const auto orNull = [](const std::optional<double>& number)
+  { return number ? nlohmann::json(*number) : nlohmann::json(nullptr); };
+  const ViewState& view = value.view;
+  nlohmann::json planes = nlohmann::json::array();
+  for (const auto& plane : view.clipping.planes)
+    planes.push_back({{"point_mm", vectorJson(plane.point)}, {"normal", vectorJson(plane.normal)}});
+  nlohmann::json crop = nullptr;
+  if (const auto& box = view.clipping.crop)
+    crop = {box->lower[0],     box->upper[0] - 1, box->lower[1],
+            box->upper[1] - 1, box->lower[2],     box->upper[2] - 1};
+  nlohmann::json clipping = nullptr;
+  if (!view.clipping.empty())
+    clipping = {{"planes", std::move(planes)}, {"crop", std::move(crop)}};
+  nlohmann::json branches = nlohmann::json::object();
+  for (const auto& [name, camera] : view.branchCameras)
+    branches[name] = cameraJson(camera);
+  nlohmann::json light = nullptr;
+  if (view.light)
+    light = {{"falloff_mm", view.light->falloff}, {"wetness", view.light->wetness}};
+  nlohmann::json stereo = nullptr;
+  if (view.stereo)
+    stereo = {{"mode", view.stereo->mode},
+              {"eye_separation_mm", orNull(view.stereo->eyeSeparation)},
+              {"convergence_mm", orNull(view.stereo->convergence)}};
+  nlohmann::json tool = nullptr;
+  if (view.tool)
+    tool = {{"burr", dissection::nameOf(view.tool->burr.kind)},
+            {"diameter_mm", view.tool->burr.diameter},
+            {"rpm", view.tool->burr.rpm},
+            {"thrust_n", view.tool->thrust},
+            {"by_wheel", view.tool->byWheel}};
+  return {{"camera", value.camera ? cameraJson(*value.camera) : nlohmann::json(nullptr)},
+          {"branches", std::move(branches)},
+          {"slices", view.slices ? slicesJson(*view.slices) : nlohmann::json(nullptr)},
+          {"light", std::move(light)},
+          {"stereo", std::move(stereo)},
+          {"clipping", std::move(clipping)},
+          {"tool", std::move(tool)}};
+}
+
+void run(const Context& context, const ViewCommandOptions& options)
+{
+  library::Library library = context.openLibrary();
+  scene::Case value = library.open(options.caseName);
+  const nlohmann::json before = viewJson(value);
+  change(value, options);
+  const nlohmann::json now = viewJson(value);
+  const bool isChanged = now != before;
+  if (isChanged)
+    library.save(value);
+  context.print("case '" + value.name + "'" + (isChanged ? " has another view" : ""));
+  for (const auto& [part, what] : now.items())
+    if (!what.is_null() && !what.empty())
+      context.print("  " + part + ": " + what.dump());
+  nlohmann::json answer = now;
+  answer["case"] = value.name;
+  answer["changed"] = isChanged;
+  context.printJson(answer);
+}
+
+} // namespace
+
+void addViewCommand(CLI::App& app, Context& context)
+{
+  auto options = std::make_shared<ViewCommandOptions>();
+  CLI::App* command =
+      context.addCommand(app, "view", "Show or change how a case is looked at, and its tool",
+                         [options, &context] { run(context, *options); });
+  command->add_option("CASE", options->caseName, "Name of the case")->required();
+  command
+      ->add_option("--view", options->view,
+                   "lateral, left, right, superior, inferior, anterior or posterior")
+      ->check(oneOf({"lateral", "left", "right", "superior", "inferior", "anterior", "posterior"}));
+  command->add_option("--camera", options->camera, "Camera file, patient LPS mm")
+      ->type_name("F.json");
+  command->add_option("--at", options->at, "Crosshair of the slices, patient LPS mm")
+      ->type_name("x,y,z");
+  command->add_option("--window", options->window, "Width and level of the slices' grey window")
+      ->type_name("WIDTH,LEVEL");
+  command->add_option("--zoom", options->zoom, "Of a slice: axial, coronal or sagittal; 1: whole")
+      ->allow_extra_args(false)
+      ->type_name("PLANE=FACTOR");
+  command->add_option("--overlay", options->overlay, "MR over the CT in the slices")
+      ->type_name("MR");
+  command->add_option("--mode", options->mode, "blend, edges or checker")
+      ->check(oneOf({"blend", "edges", "checker"}));
+  command->add_option("--opacity", options->opacity, "Of the MR in a blend")
+      ->check(within({0.0, 1.0}));
+  command
+      ->add_option("--light-falloff", options->falloff,
+                   "Distance at which the light has half its intensity; 0: no falloff")
+      ->type_name("MM")
+      ->check(within({0.0, 10000.0, "mm"}));
+  command->add_option("--wetness", options->wetness, "Specular gloss of a wet surface, 0 to 1")
+      ->check(within({0.0, 1.0}));
+  command->add_option("--stereo", options->stereo, "none, side-by-side, interleaved or anaglyph")
+      ->check(oneOf({"none", "side-by-side", "interleaved", "anaglyph"}));
+  command->add_option("--eye-separation", options->eyeSeparation, "Distance between the eyes")
+      ->type_name("MM")
+      ->check(within({0.0, rendering::StereoRig::kLargestSeparation, "mm"}));
+  command
+      ->add_option("--convergence", options->convergence,
+                   "Distance from the camera to the convergence point")
+      ->type_name("MM")
+      ->check(within({rendering::StereoRig::kNearestConvergence,
+                      rendering::StereoRig::kFarthestConvergence, "mm"}));
+  command
+      ->add_option("--clip", options->clip,
+                   "Clipping plane, patient LPS mm, instead of the present ones (up to 6 times)")
+      ->allow_extra_args(false)
+      ->type_name("x,y,z,nx,ny,nz");
+  command->add_option("--crop", options->crop, "Show these voxels of the CT, first and last")
+      ->type_name("i0,i1,j0,j1,k0,k1");
+  command->add_option("--roi", options->roi, "Show this box, patient LPS mm")
+      ->type_name("x0,x1,y0,y1,z0,z1");
+  command->add_option("--burr", options->burr, "cutting or diamond")
+      ->check(oneOf({"cutting", "diamond"}));
+  command->add_option("--diameter", options->diameter, "Of the burr")
+      ->type_name("MM")
+      ->check(within({0.01, 100.0, "mm"}));
+  command->add_option("--rpm", options->rpm, "Of the spindle")
+      ->type_name("N")
+      ->check(within({0.0, 1e6}));
+  command->add_option("--thrust", options->thrust, "Of a device without force")
+      ->type_name("N")
+      ->check(within({0.0, 100.0, "N"}));
+  command
+      ->add_option("--clear", options->cleared,
+                   "Take out, before anything else: camera, slices, light, stereo, clipping, tool")
+      ->allow_extra_args(false)
+      ->delimiter(',')
+      ->check(oneOf({"camera", "slices", "light", "stereo", "clipping", "tool"}));
+}
+
+} // namespace petrous::cli

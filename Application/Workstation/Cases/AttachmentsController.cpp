@@ -1,0 +1,205 @@
+#include "AttachmentsController.h"
+
+#include <QBuffer>
+#include <QDateTime>
+#include <QDir>
+#include <QFile>
+#include <QFileDialog>
+#include <QInputDialog>
+#include <QMessageBox>
+
+#include "Application.h"
+#include "AttachmentsPanel.h"
+#include "Theme.h"
+#include "ThreeDView.h"
+#include "petrous/Library/Attachments.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+
+std::filesystem::path pathOf(const QString& file)
+{
+  return QFile::encodeName(file).toStdString();
+}
+
+// "screenshot 2026-03-31 14-05-09.png"
+std::string namedNow(const char* what, const char* ending)
+{
+  return what + bytes(QDateTime::currentDateTime().toString(" yyyy-MM-dd hh-mm-ss")) + ending;
+}
+
+// The object of the stroke to which the case's present state belongs; empty: none, or not saved.
+std::string presentStroke(const scene::Case& value)
+{
+  const std::size_t position = value.dissection.history().position();
+  const auto& strokes = value.dissection.strokes();
+  return position < strokes.size() ? strokes[position]->object : std::string();
+}
+
+} // namespace
+
+AttachmentsController::AttachmentsController(presenters::WorkstationModel& model, ThreeDView& view,
+                                             QWidget& window)
+  : QObject(&window)
+  , m_model(model)
+  , m_view(view)
+  , m_window(window)
+  , m_panel(new AttachmentsPanel(model))
+{
+  connect(m_panel, &AttachmentsPanel::attachAsked, this, &AttachmentsController::attach);
+  connect(m_panel, &AttachmentsPanel::screenshotAsked, this,
+          &AttachmentsController::attachScreenshot);
+  connect(m_panel, &AttachmentsPanel::recordingAsked, this,
+          &AttachmentsController::attachRecording);
+  connect(m_panel, &AttachmentsPanel::extractAsked, this,
+          [this](const QString& name) { extract(bytes(name)); });
+  connect(m_panel, &AttachmentsPanel::noteAsked, this,
+          [this](const QString& name) { changeNote(bytes(name)); });
+  connect(m_panel, &AttachmentsPanel::removalAsked, this,
+          [this](const QString& name) { remove(bytes(name)); });
+  connect(&m_work, &BackgroundWork::failed, this, &AttachmentsController::statusMessage);
+}
+
+void AttachmentsController::attach()
+{
+  if (!m_model.hasCase())
+    return;
+  const QString files = "(*.ticks *.png *.pdf *.mp4 *.m4v *.mov *.mkv *.webm *.avi *.mpg *.mpeg "
+                        "*.ts *.mts *.wmv *.flv *.ogv *.ogg *.mp3 *.wav *.flac)";
+  const QString embedded = tr("Recordings, PNG, PDF, video %1").arg(files);
+  const QString linked = tr("The same, as a link: the file stays where it is %1").arg(files);
+  QFileDialog dialog(&m_window, tr("Attach to “%1”").arg(words(m_model.value().name)));
+  dialog.setObjectName("attachFile");
+  dialog.setFileMode(QFileDialog::ExistingFile);
+  dialog.setNameFilters({embedded, linked, tr("All files (*)")});
+  dialog.setDirectory(QDir::homePath());
+  if (dialog.exec() == QDialog::Accepted)
+    take(pathOf(dialog.selectedFiles().first()), {}, dialog.selectedNameFilter() == linked);
+}
+
+// A link is read as a whole, for its hash: in the background.
+void AttachmentsController::take(const std::filesystem::path& file, const std::string& name,
+                                 bool isLink)
+{
+  if (m_work.busy())
+    return emit statusMessage(tr("One at a time: a file is being read already"));
+  library::AttachOptions options;
+  options.name = name;
+  options.link = isLink;
+  m_work.start(
+      [this, file, options,
+       shownAs = m_model.shownAs()](const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        const scene::Attachment attachment = library::attachmentOf(file, options, progress);
+        return [this, attachment, shownAs]
+        {
+          if (m_model.shownAs() == shownAs)
+            add(attachment);
+        };
+      });
+}
+
+void AttachmentsController::add(scene::Attachment attachment)
+{
+  if (!m_model.hasCase())
+    return;
+  attachment.stroke = presentStroke(m_model.value());
+  const bool isVideo = attachment.kind == scene::Attachment::Kind::Video;
+  const bool isDocument = attachment.kind == scene::Attachment::Kind::Document;
+  std::string name;
+  change([&] { name = m_model.attach(std::move(attachment)); });
+  if (name.empty())
+    return;
+  emit panelWanted();
+  emit statusMessage(
+      isVideo ? tr("“%1” is attached; a video may show or name the patient, and stays here when "
+                   "the case is archived or sent, unless asked")
+                    .arg(words(name))
+      : isDocument
+          ? tr("“%1” is attached; metadata of a PDF is not removed: see that it names nobody")
+                .arg(words(name))
+          : tr("“%1” is attached").arg(words(name)));
+}
+
+void AttachmentsController::attachScreenshot()
+{
+  if (!m_model.hasCase())
+    return;
+  QByteArray png;
+  QBuffer buffer(&png);
+  buffer.open(QIODevice::WriteOnly);
+  m_view.grabFramebuffer().convertToFormat(QImage::Format_RGB888).save(&buffer, "PNG");
+  library::AttachOptions options;
+  options.name = namedNow("screenshot", ".png");
+  guarded(
+      [&] {
+        add(library::screenshotOf({png.begin(), png.end()}, options));
+      },
+      [this](const QString& why) { emit statusMessage(why); });
+}
+
+void AttachmentsController::attachRecording()
+{
+  if (!m_model.lastRecording().empty()) // whose own name has that of the case
+    take(m_model.lastRecording(), namedNow("recording", ".ticks"), false);
+}
+
+void AttachmentsController::extract(const std::string& name)
+{
+  if (m_work.busy())
+    return emit statusMessage(tr("One at a time: a file is being read already"));
+  const scene::Attachment one = scene::findAttachment(m_model.value(), name);
+  if (one.object.empty() && one.link.empty())
+    return emit statusMessage(tr("“%1” is being saved").arg(words(name)));
+  const QString file = QFileDialog::getSaveFileName(&m_window, tr("Save “%1”").arg(words(name)),
+                                                    QDir::home().filePath(words(name)));
+  if (file.isEmpty() || !m_model.hasCase())
+    return;
+  scene::Case of; // its name is said in messages
+  of.name = m_model.value().name;
+  m_work.start(
+      [this, library = m_model.library(), of, one, out = pathOf(file),
+       file](const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        library::extractAttachment(library, of, one, out, progress);
+        return [this, file, name = words(one.name)]
+        { emit statusMessage(tr("“%1” is in %2").arg(name, file)); };
+      });
+}
+
+void AttachmentsController::changeNote(const std::string& name)
+{
+  bool isEntered = false;
+  const QString note = QInputDialog::getMultiLineText(
+      &m_window, tr("Note"), tr("What there is to say of “%1”:").arg(words(name)),
+      words(scene::findAttachment(m_model.value(), name).note), &isEntered);
+  if (isEntered)
+    change([&] { m_model.setAttachmentNote(name, bytes(note)); });
+}
+
+void AttachmentsController::remove(const std::string& name)
+{
+  if (QMessageBox::question(&m_window, tr("Attachments"),
+                            tr("Take “%1” out of the case?").arg(words(name))) == QMessageBox::Yes)
+    change([&] { m_model.removeAttachment(name); });
+}
+
+void AttachmentsController::change(const std::function<void()>& what)
+{
+  if (!m_model.hasCase())
+    return;
+  try
+  {
+    what();
+    emit changed();
+  }
+  catch (const core::Error& error)
+  {
+    emit statusMessage(toString(error));
+  }
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <QObject>
+
+#include "petrous/Presenters/WorkstationModel.h"
+
+namespace petrous::workstation
+{
+
+class DrillBar;
+class PictureController;
+class RegistrationController;
+class SliceColumn;
+class ThreeDView;
+
+/// Shows the view that a case was saved with (scene::ViewState and camera), and hands the present
+/// one to the case before a save. What the user did not change keeps the bits that it was saved
+/// with, although boxes round and cameras are normalized.
+class ViewStateController : public QObject
+{
+public:
+  /// All must outlive this.
+  ViewStateController(presenters::WorkstationModel& model, ThreeDView& view, SliceColumn& slices,
+                      PictureController& picture, RegistrationController& registration,
+                      DrillBar& bar, QObject* parent);
+
+  void show();    ///< of the case that was just opened
+  void collect(); ///< before a save
+  bool isShowing() const noexcept { return m_isShowing; }
+
+  core::CameraPose camera() const; ///< as a save would store it
+  void showCamera(const core::CameraPose& camera);
+
+private:
+  struct State
+  {
+    core::CameraPose camera;
+    scene::ViewState view;
+  };
+  State present() const;
+
+  presenters::WorkstationModel& m_model;
+  ThreeDView& m_view;
+  SliceColumn& m_slices;
+  PictureController& m_picture;
+  RegistrationController& m_registration;
+  DrillBar& m_bar;
+  State m_shown; ///< as the window had it when it showed what the case has now
+  bool m_isShowing = false;
+};
+
+} // namespace petrous::workstation

@@ -1,0 +1,191 @@
+#include "GuiTest.h"
+
+#include <fstream>
+#include <iterator>
+
+#include <nlohmann/json.hpp>
+
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QSlider>
+#include <QSpinBox>
+
+#include "DrillBar.h"
+#include "SliceView.h"
+
+using namespace petrous;
+using namespace petrous::workstation;
+
+namespace
+{
+
+class ViewStates : public GuiTest
+{
+protected:
+  template <class Widget>
+  Widget& widget(const char* name)
+  {
+    return *window().findChild<Widget*>(name);
+  }
+  const scene::Case& value() { return window().model().value(); }
+
+  /// The manifest, but for its revision.
+  nlohmann::json manifest(const std::string& name)
+  {
+    std::ifstream file(folder() / "library/cases" / (name + ".json"));
+    auto j = nlohmann::json::parse(std::string(std::istreambuf_iterator<char>(file), {}));
+    j.erase("revision");
+    return j;
+  }
+
+  void save()
+  {
+    const auto before = value().revision;
+    action("Save")->trigger();
+    ASSERT_TRUE(waitFor([&] { return value().revision > before && !window().busy(); }));
+  }
+
+  /// All that a view has, in numbers of which no box and no camera keeps all digits.
+  scene::Case seen(const std::string& name)
+  {
+    scene::Case ball = ballCase(name);
+    core::CameraPose camera;
+    camera.position = kBallCenter + Eigen::Vector3d(100.0 / 3.0, -70.0 / 7.0, 41.0 / 9.0);
+    camera.focalPoint = kBallCenter + Eigen::Vector3d::Constant(1.0 / 3.0);
+    camera.viewUp = Eigen::Vector3d(0.1, 0.2, 3.0); // not of length 1, not perpendicular
+    camera.viewAngle = 91.0 / 3.0;
+    ball.camera = camera;
+    auto& view = ball.view;
+    view.slices = scene::ViewState::Slices{kBallCenter + Eigen::Vector3d::Constant(2.0 / 3.0),
+                                           4000.0 / 7.0, 1.0 / 3.0};
+    view.slices->planes.emplace();
+    (*view.slices->planes)[1] = {10.0 / 3.0, Eigen::Vector3d(1.0 / 7.0, 0.0, -1.0 / 9.0)};
+    view.light = scene::ViewState::Light{1000.0 / 7.0, 1.0 / 3.0};
+    view.stereo = scene::ViewState::Stereo{"anaglyph", 100.0 / 7.0, 1000.0 / 3.0};
+    view.clipping.planes = {{kBallCenter, Eigen::Vector3d(0.0, 0.6, 0.8)}};
+    view.clipping.crop = core::IndexBox{{0, 0, 0}, {64, 64, 50}};
+    view.tool = scene::ViewState::Tool{
+        {dissection::Burr::Kind::Diamond, 3.0, 70000.0 / 3.0}, 7.0 / 3.0, true};
+    return ball;
+  }
+};
+
+} // namespace
+
+TEST_F(ViewStates, OpeningAndSavingChangesNoBitOfTheManifest)
+{
+  scene::Case ball = seen("ball");
+  library().save(ball);
+  saveBall("plain"); // with no view at all
+  const nlohmann::json before = manifest("ball");
+  const nlohmann::json plain = manifest("plain");
+  openWindow("ball");
+  save();
+  EXPECT_EQ(manifest("ball"), before);
+  closeWindow();
+  openWindow("plain");
+  save();
+  EXPECT_EQ(manifest("plain"), plain);
+}
+
+TEST_F(ViewStates, ShowsACaseAsItWasSaved)
+{
+  scene::Case ball = seen("ball");
+  library().save(ball);
+  openWindow("ball");
+  EXPECT_LT((view().picture().camera().position - ball.camera->position).norm(), 1e-9);
+  EXPECT_NEAR(view().picture().camera().viewAngle, 91.0 / 3.0, 1e-9);
+  EXPECT_LT((window().model().crosshair() - ball.view.slices->crosshair).norm(), 1e-9);
+  const auto& coronal = widget<SliceView>("coronalView");
+  EXPECT_EQ(coronal.greyWindow().width, 4000.0 / 7.0);
+  EXPECT_EQ(coronal.plane().zoom, 10.0 / 3.0);
+  EXPECT_EQ(coronal.plane().offset, Eigen::Vector3d(1.0 / 7.0, 0.0, -1.0 / 9.0));
+  EXPECT_EQ(widget<SliceView>("axialView").plane().zoom, 1.0);
+  EXPECT_NEAR(widget<QDoubleSpinBox>("lightFalloff").value(), 142.9, 0.01);
+  EXPECT_EQ(widget<QSlider>("wetness").value(), 33);
+  EXPECT_EQ(view().display().stereo(), rendering::StereoMode::Anaglyph);
+  EXPECT_NEAR(widget<QDoubleSpinBox>("eyeSeparation").value(), 14.3, 0.01);
+  const dissection::Burr burr = widget<DrillBar>("drillBar").burr();
+  EXPECT_EQ(burr.kind, dissection::Burr::Kind::Diamond);
+  EXPECT_EQ(burr.diameter, 3.0);
+  EXPECT_EQ(burr.rpm, 23000.0);
+  EXPECT_NEAR(widget<DrillBar>("drillBar").thrust(), 2.3, 0.01);
+  EXPECT_TRUE(widget<DrillBar>("drillBar").wheelAction()->isChecked());
+
+  // The user's own settings are not the case's: the next case has them again.
+  saveBall("plain");
+  closeWindow();
+  openWindow("plain");
+  EXPECT_EQ(widget<QDoubleSpinBox>("lightFalloff").value(), 0.0);
+  EXPECT_EQ(widget<QDoubleSpinBox>("thrust").value(), 1.0);
+  EXPECT_EQ(view().display().stereo(), rendering::StereoMode::None);
+}
+
+TEST_F(ViewStates, SavesWhatTheUserChangedAndNothingElse)
+{
+  scene::Case ball = seen("ball");
+  library().save(ball);
+  nlohmann::json expected = manifest("ball");
+  openWindow("ball");
+  widget<QSlider>("wetness").setValue(50);
+  ASSERT_TRUE(waitFor([this] { return value().name == "ball" && !window().busy(); }));
+  widget<QDoubleSpinBox>("thrust").setValue(4.0);
+  save();
+  nlohmann::json now = manifest("ball");
+  EXPECT_EQ(now["view"]["light"]["wetness"], 0.5);
+  EXPECT_EQ(now["view"]["tool"]["thrust_n"], 4.0);
+  for (nlohmann::json* j : {&expected, &now})
+  {
+    (*j)["view"].erase("light");
+    (*j)["view"].erase("tool");
+  }
+  EXPECT_EQ(now, expected);
+
+  // It comes back in the next window, and is saved by that as it is.
+  const nlohmann::json before = manifest("ball");
+  closeWindow();
+  openWindow("ball");
+  EXPECT_EQ(widget<QSlider>("wetness").value(), 50);
+  EXPECT_EQ(widget<QDoubleSpinBox>("thrust").value(), 4.0);
+  save();
+  EXPECT_EQ(manifest("ball"), before);
+}
+
+TEST_F(ViewStates, ASaveForAnotherReasonKeepsAllOfTheView)
+{
+  saveBall("ball");
+  openWindow("ball");
+  drill(800, 20);
+  ASSERT_TRUE(strokeEnds());
+  ASSERT_TRUE(settled());
+  const scene::Case saved = library().open("ball");
+  EXPECT_TRUE(saved.camera);
+  ASSERT_TRUE(saved.view.slices);
+  EXPECT_EQ(saved.view.slices->crosshair, window().model().crosshair());
+  EXPECT_TRUE(saved.view.slices->planes);
+  EXPECT_TRUE(saved.view.light);
+  EXPECT_TRUE(saved.view.stereo);
+  EXPECT_TRUE(saved.view.tool);
+}
+
+TEST_F(ViewStates, CutsAwayBeforeTheCrosshairUntilAToolIsTakenUp)
+{
+  saveBall("ball");
+  openWindow("ball");
+  const QImage whole = picture();
+  action("Cut away to the crosshair")->trigger();
+  const QImage cut = picture();
+  EXPECT_GT(differentPixels(whole, cut), 1000);
+  ASSERT_EQ(value().view.clipping.planes.size(), 1U);
+  EXPECT_EQ(value().view.clipping.planes.front().point, window().model().crosshair());
+  EXPECT_TRUE(window().model().unsaved());
+  ASSERT_TRUE(settled());
+  save();
+  const auto saved = library().open("ball").view.clipping;
+  EXPECT_EQ(saved, value().view.clipping);
+  closeWindow();
+  openWindow("ball");
+  EXPECT_LT(differentPixels(picture(), cut), 50);
+  action("Show what was cut away")->trigger();
+  EXPECT_LT(differentPixels(picture(), whole), 50);
+}

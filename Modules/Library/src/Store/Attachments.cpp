@@ -1,0 +1,354 @@
+#include "petrous/Library/Attachments.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <string_view>
+
+#include <libdeflate.h>
+#include <unistd.h>
+
+#include "AttachmentFiles.h"
+#include "LibraryFolder.h"
+#include "Sha256.h"
+
+namespace petrous::library
+{
+
+namespace fs = std::filesystem;
+using scene::Attachment;
+
+namespace
+{
+
+constexpr std::size_t kHead = 256;      // bytes by which a file is known
+constexpr std::size_t kBlock = 1 << 20; // bytes copied at once
+
+std::string today()
+{
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  ::localtime_r(&now, &local);
+  char text[16];
+  std::strftime(text, sizeof text, "%Y-%m-%d", &local);
+  return text;
+}
+
+bool isVideo(std::string_view head)
+{
+  const auto has = [head](std::size_t at, std::string_view text)
+  { return head.size() >= at + text.size() && head.substr(at, text.size()) == text; };
+  using namespace std::string_view_literals;
+  for (const auto& atom : {"ftyp"sv, "moov"sv, "mdat"sv, "wide"sv}) // ISO base media, QuickTime
+    if (has(4, atom))
+      return true;
+  for (const auto& begin :
+       {"\x1a\x45\xdf\xa3"sv, "OggS"sv, "\0\0\1\xba"sv, "\0\0\1\xb3"sv, "FLV\1"sv,
+        "\x30\x26\xb2\x75\x8e\x66\xcf\x11"sv, "ID3"sv, "fLaC"sv}) // Matroska, Ogg, MPEG, FLV, ASF
+    if (has(0, begin))
+      return true;
+  return (has(0, "RIFF") && (has(8, "AVI ") || has(8, "WAVE"))) || (has(0, "G") && has(188, "G")) ||
+         (has(4, "G") && has(196, "G")); // MPEG-TS, with times
+}
+
+Attachment::Kind kindOf(std::string_view head, const fs::path& file)
+{
+  if (head.substr(0, 8) == "\x89PNG\r\n\x1a\n")
+    return Attachment::Kind::Screenshot;
+  if (head.substr(0, 5) == "%PDF-")
+    return Attachment::Kind::Document;
+  if (head.substr(0, 8) == "PTRTICK\n") // Session/RecordingFormat.h
+    return Attachment::Kind::Recording;
+  if (isVideo(head))
+    return Attachment::Kind::Video;
+  throw core::InvalidParameter(
+      core::printable(file) + ": is nothing that a case takes: a recording of the tool (.ticks), "
+                              "a PNG, a PDF, or a video (MP4, MOV, MKV, WebM, AVI, MPEG, WMV, FLV, "
+                              "Ogg)");
+}
+
+std::string readHead(const core::InputFile& file)
+{
+  return file.read(std::min<std::uintmax_t>(kHead, file.size()));
+}
+
+// What follows the last dot, as the ending of an object: two to eight letters and digits, else
+// "bin".
+std::string objectEnding(const std::string& name)
+{
+  const std::size_t dot = name.find_last_of('.');
+  std::string ending = dot == name.npos ? std::string() : scene::lowerCase(name.substr(dot + 1));
+  const bool isPlain =
+      ending.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789") == ending.npos;
+  return isPlain && !ending.empty() && ending.size() <= 8 ? ending : std::string("bin");
+}
+
+Attachment described(const AttachOptions& options, const std::string& name)
+{
+  Attachment attachment;
+  attachment.name = options.name.empty() ? name : options.name;
+  attachment.note = options.note;
+  attachment.date = options.date.empty() ? today() : options.date;
+  return attachment;
+}
+
+std::uint32_t number(const std::uint8_t* from)
+{
+  return std::uint32_t{from[0]} << 24U | std::uint32_t{from[1]} << 16U |
+         std::uint32_t{from[2]} << 8U | from[3];
+}
+
+// Copies the file to `write`, block by block; returns its hash.
+std::string copied(const core::InputFile& file,
+                   const std::function<void(const char*, std::size_t)>& write,
+                   const core::Progress& progress)
+{
+  Sha256 hash;
+  std::vector<char> block(kBlock);
+  for (std::uintmax_t done = 0; done < file.size();)
+  {
+    progress.report(static_cast<double>(done) / static_cast<double>(file.size()), "copying");
+    const ssize_t got =
+        ::pread(file.descriptor(), block.data(), block.size(), static_cast<off_t>(done));
+    if (got < 0 && errno == EINTR)
+      continue;
+    if (got <= 0)
+      throw LibraryError(LibraryError::Reason::Damaged,
+                         core::printable(file.path()) + ": cannot be read to its end");
+    const auto count = static_cast<std::size_t>(
+        std::min<std::uintmax_t>(static_cast<std::uintmax_t>(got), file.size() - done));
+    hash.add(block.data(), count);
+    write(block.data(), count);
+    done += count;
+  }
+  return hash.hexadecimal();
+}
+
+void refuseTooLarge(const fs::path& file, std::uintmax_t bytes, std::uint64_t limit,
+                    const char* instead)
+{
+  if (bytes > limit)
+    throw core::InvalidParameter(core::printable(file) + ": is larger than the " +
+                                 std::to_string(limit >> 20U) + " MB that can be attached" +
+                                 instead);
+}
+
+std::vector<std::uint8_t> bytesOf(const std::string& text)
+{
+  return {text.begin(), text.end()};
+}
+
+} // namespace
+
+Attachment attachmentOf(const fs::path& file, const AttachOptions& options,
+                        const core::Progress& progress)
+{
+  const core::InputFile opened(file); // a regular file, at the end of links
+  Attachment attachment = described(options, file.filename().string());
+  attachment.bytes = opened.size();
+  try
+  {
+    attachment.kind = kindOf(readHead(opened), file);
+    if (options.link)
+    {
+      attachment.link = fs::canonical(file).string();
+      attachment.sha256 = copied(
+          opened, [](const char*, std::size_t) {}, progress);
+      scene::checkAttachments({attachment});
+      return attachment;
+    }
+    refuseTooLarge(file, opened.size(), kLargestEmbedded, "; link it (--link)");
+    scene::checkAttachments({attachment});
+    if (attachment.kind == Attachment::Kind::Screenshot)
+    {
+      refuseTooLarge(file, opened.size(), kLargestPng, "");
+      attachment.content =
+          std::make_shared<std::vector<std::uint8_t>>(cleanedPng(bytesOf(opened.read())));
+      attachment.bytes = attachment.content->size();
+    }
+    else
+      attachment.source = fs::absolute(file);
+  }
+  catch (const core::InputFileError&)
+  {
+    throw;
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    const std::string where = core::printable(file) + ": ";
+    const std::string text = error.what();
+    throw core::InvalidParameter(text.rfind(where, 0) == 0 ? text : where + text);
+  }
+  return attachment;
+}
+
+Attachment screenshotOf(std::vector<std::uint8_t> png, const AttachOptions& options)
+{
+  Attachment attachment = described(options, "screenshot.png");
+  attachment.kind = Attachment::Kind::Screenshot;
+  attachment.content = std::make_shared<std::vector<std::uint8_t>>(cleanedPng(png));
+  attachment.bytes = attachment.content->size();
+  scene::checkAttachments({attachment});
+  return attachment;
+}
+
+std::string attach(scene::Case& value, Attachment attachment)
+{
+  attachment.name = scene::freeAttachmentName(value, attachment.name);
+  std::vector<Attachment> next = value.attachments;
+  next.push_back(std::move(attachment));
+  scene::checkAttachments(next);
+  value.attachments = std::move(next);
+  return value.attachments.back().name;
+}
+
+std::vector<std::uint8_t> cleanedPng(const std::vector<std::uint8_t>& png)
+{
+  constexpr std::size_t kAround = 12; // length, type and checksum of a chunk
+  constexpr std::string_view kKept[] = {"IHDR", "PLTE", "tRNS", "gAMA",
+                                        "sRGB", "pHYs", "IDAT", "IEND"};
+  const auto refuse = [](const char* why)
+  { throw core::InvalidParameter(std::string("the PNG ") + why); };
+  if (png.size() < 8 || std::memcmp(png.data(), "\x89PNG\r\n\x1a\n", 8) != 0)
+    refuse("is none");
+  std::vector<std::uint8_t> cleaned(png.begin(), png.begin() + 8);
+  bool hasPixels = false;
+  for (std::size_t at = 8; at < png.size();)
+  {
+    if (png.size() - at < kAround)
+      break;
+    const std::size_t length = number(png.data() + at);
+    if (length > png.size() - at - kAround)
+      break;
+    const std::string_view type(reinterpret_cast<const char*>(png.data() + at + 4), 4);
+    if (libdeflate_crc32(0, png.data() + at + 4, 4 + length) !=
+        number(png.data() + at + 8 + length))
+      refuse("is damaged: a checksum is wrong");
+    if ((at == 8) != (type == "IHDR"))
+      refuse("is damaged: it does not begin with its header");
+    if (std::find(std::begin(kKept), std::end(kKept), type) != std::end(kKept))
+    {
+      const auto* const chunk = png.data() + at;
+      cleaned.insert(cleaned.end(), chunk, chunk + kAround + length);
+    }
+    hasPixels = hasPixels || type == "IDAT";
+    at += kAround + length;
+    if (type == "IEND" && hasPixels)
+      return cleaned; // what follows is no part of the picture
+  }
+  refuse("is not whole");
+  return {};
+}
+
+void storeAttachments(scene::Case& value, ObjectStore& store, const core::Progress& progress)
+{
+  for (Attachment& one : value.attachments)
+  {
+    if (!one.link.empty() ||
+        (!one.object.empty() && (one.source.empty() || store.contains(one.object))))
+      continue;
+    const std::string ending = objectEnding(one.name);
+    if (one.content)
+    {
+      one.object = store.add(ending, *one.content);
+      one.bytes = one.content->size();
+      continue;
+    }
+    if (one.source.empty())
+      continue; // lost: its reference stays
+    try
+    {
+      const core::InputFile file(one.source);
+      refuseTooLarge(one.source, file.size(), kLargestEmbedded, "; link it");
+      const std::string object = store.add(
+          ending,
+          [&file, &progress](const fs::path& path)
+          {
+            core::OutputFile out(path);
+            copied(
+                file, [&out](const char* bytes, std::size_t count) { out.write(bytes, count); },
+                progress);
+            out.commit();
+          });
+      if (!one.object.empty() && one.object != object) // of another library
+        throw LibraryError(LibraryError::Reason::Damaged,
+                           core::printable(one.source) + ": " + attachmentText(one) +
+                               " is damaged: not what was stored there; remove it, or attach the "
+                               "same file again");
+      one.object = object;
+      one.bytes = file.size();
+    }
+    catch (const core::InputFileError& error)
+    {
+      throw LibraryError(error.reason == core::InputFileError::Reason::NotFound
+                             ? LibraryError::Reason::NotFound
+                             : LibraryError::Reason::Damaged,
+                         std::string(error.what()) + "; attachment '" + one.name +
+                             "' cannot be stored: remove it, or put its file back");
+    }
+  }
+}
+
+std::string attachmentText(const Attachment& attachment)
+{
+  return "attachment '" + attachment.name + "'";
+}
+
+std::string attachmentProblem(const Library& library, const Attachment& attachment)
+try
+{
+  const fs::path path = attachment.link.empty()
+                            ? ObjectStore(library.folder() / "objects").path(attachment.object)
+                            : fs::path(attachment.link);
+  return core::InputFile(path).size() == attachment.bytes ? std::string() : "changed";
+}
+catch (const core::InputFileError& error)
+{
+  return error.reason == core::InputFileError::Reason::NotFound ? "missing" : "unreadable";
+}
+catch (const LibraryError&)
+{
+  return "missing";
+}
+
+void extractAttachment(const Library& library, const scene::Case& value,
+                       const Attachment& attachment, const fs::path& out,
+                       const core::Progress& progress)
+try
+{
+  const std::string what = attachmentText(attachment) + " of case '" + value.name + "'";
+  const bool isLink = !attachment.link.empty();
+  const fs::path path =
+      isLink ? fs::path(attachment.link)
+             : ObjectStore(library.folder() / "objects").path(attachment.object, what);
+  const core::InputFile file(path);
+  const std::string remedy =
+      isLink ? "the linked file is another one than was attached; put the former one back, or "
+               "remove the attachment and attach this one"
+             : "is damaged: not what was stored there; restore it from a copy of the library, or "
+               "remove the attachment";
+  const auto refuse = [&]
+  {
+    throw LibraryError(LibraryError::Reason::Damaged,
+                       core::printable(path) + ": " + what + ": " + remedy);
+  };
+  if (isLink && file.size() != attachment.bytes)
+    refuse();
+  core::OutputFile to(out);
+  const std::string hash = copied(
+      file, [&to](const char* bytes, std::size_t count) { to.write(bytes, count); }, progress);
+  if (hash != (isLink ? attachment.sha256 : attachment.object.substr(0, hash.size())))
+    refuse();
+  to.commit();
+}
+catch (const core::InputFileError& error)
+{
+  throw LibraryError(error.reason == core::InputFileError::Reason::NotFound
+                         ? LibraryError::Reason::NotFound
+                         : LibraryError::Reason::Damaged,
+                     std::string(error.what()) + "; it belongs to attachment '" + attachment.name +
+                         "' of case '" + value.name + "'");
+}
+
+} // namespace petrous::library

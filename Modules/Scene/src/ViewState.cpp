@@ -1,0 +1,139 @@
+#include "petrous/Scene/ViewState.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <string_view>
+#include <tuple>
+
+#include "petrous/Core/Error.h"
+
+namespace petrous::scene
+{
+
+namespace
+{
+
+using Slices = ViewState::Slices;
+
+template <class Names>
+bool isOneOf(const std::string& word, const Names& names)
+{
+  return std::find(std::begin(names), std::end(names), word) != std::end(names);
+}
+
+void require(bool holds, const std::string& what)
+{
+  if (!holds)
+    throw core::InvalidParameter("view: " + what);
+}
+
+bool isWithin(double value, double lower, double upper)
+{
+  return value >= lower && value <= upper;
+}
+
+void checkSlices(const Slices& slices)
+{
+  require(slices.width > 0.0, "the grey window of the slices must be wider than 0");
+  require(slices.crosshair.allFinite() && std::isfinite(slices.level),
+          "crosshair and grey window must be finite numbers");
+  if (slices.planes)
+    for (const Slices::Plane& plane : *slices.planes)
+      require(isWithin(plane.zoom, 1.0, 1000.0) && plane.offset.allFinite(),
+              "the zoom of a slice must be 1 to 1000");
+  if (!slices.overlay)
+    return;
+  constexpr std::string_view kModes[] = {"blend", "edges", "checker"};
+  require(!slices.overlay->mr.empty() && isOneOf(slices.overlay->mode, kModes) &&
+              isWithin(slices.overlay->opacity, 0.0, 1.0),
+          "the MR over the slices needs a name, the mode blend, edges or checker, and an opacity "
+          "of 0 to 1");
+}
+
+} // namespace
+
+bool operator==(const Slices& a, const Slices& b)
+{
+  const auto equalPlanes = [](const auto& one, const auto& other)
+  {
+    return one.has_value() == other.has_value() &&
+           (!one || std::equal(one->begin(), one->end(), other->begin(),
+                               [](const Slices::Plane& p, const Slices::Plane& q)
+                               { return p.zoom == q.zoom && p.offset == q.offset; }));
+  };
+  const auto equalOverlays = [](const auto& one, const auto& other)
+  {
+    return one.has_value() == other.has_value() &&
+           (!one || std::tie(one->mr, one->mode, one->opacity) ==
+                        std::tie(other->mr, other->mode, other->opacity));
+  };
+  return a.crosshair == b.crosshair && a.width == b.width && a.level == b.level &&
+         equalPlanes(a.planes, b.planes) && equalOverlays(a.overlay, b.overlay);
+}
+
+bool operator==(const ViewState::Light& a, const ViewState::Light& b)
+{
+  return a.falloff == b.falloff && a.wetness == b.wetness;
+}
+
+bool operator==(const ViewState::Stereo& a, const ViewState::Stereo& b)
+{
+  return std::tie(a.mode, a.eyeSeparation, a.convergence) ==
+         std::tie(b.mode, b.eyeSeparation, b.convergence);
+}
+
+bool operator==(const ViewState::Clipping& a, const ViewState::Clipping& b)
+{
+  const auto isSameBox = [](const auto& one, const auto& other)
+  {
+    return one.has_value() == other.has_value() &&
+           (!one || (one->lower == other->lower && one->upper == other->upper));
+  };
+  return std::equal(a.planes.begin(), a.planes.end(), b.planes.begin(), b.planes.end(),
+                    [](const auto& p, const auto& q)
+                    { return p.point == q.point && p.normal == q.normal; }) &&
+         isSameBox(a.crop, b.crop);
+}
+
+bool operator==(const ViewState::Tool& a, const ViewState::Tool& b)
+{
+  return std::tie(a.burr.kind, a.burr.diameter, a.burr.rpm, a.thrust, a.byWheel) ==
+         std::tie(b.burr.kind, b.burr.diameter, b.burr.rpm, b.thrust, b.byWheel);
+}
+
+void checkView(const ViewState& view)
+{
+  if (view.slices)
+    checkSlices(*view.slices);
+  if (view.light)
+    require(isWithin(view.light->falloff, 0.0, 1e4) && isWithin(view.light->wetness, 0.0, 1.0),
+            "the light's falloff must be 0 to 10000 mm, the wetness 0 to 1");
+  if (view.stereo)
+  {
+    constexpr std::string_view kModes[] = {"none", "side-by-side", "interleaved", "anaglyph",
+                                           "quad-buffer"};
+    require(isOneOf(view.stereo->mode, kModes), "the stereo mode is unknown");
+    require(isWithin(view.stereo->eyeSeparation.value_or(0.0), 0.0, 200.0) &&
+                isWithin(view.stereo->convergence.value_or(1.0), 1.0, 1e4),
+            "eyes must be 0 to 200 mm apart, and converge at 1 to 10000 mm");
+  }
+  const auto& clipping = view.clipping;
+  require(clipping.planes.size() <= ViewState::kMaxClippingPlanes,
+          "there are at most " + std::to_string(ViewState::kMaxClippingPlanes) +
+              " clipping planes");
+  for (const ViewState::Clipping::Plane& plane : clipping.planes)
+    require(plane.point.allFinite() && std::abs(plane.normal.norm() - 1.0) < 1e-6,
+            "the normal of a clipping plane must have length 1");
+  if (clipping.crop)
+    for (std::size_t a = 0; a < 3; ++a)
+      require(clipping.crop->lower[a] >= 0 && clipping.crop->lower[a] < clipping.crop->upper[a],
+              "the box of voxels that are shown must not be empty");
+  if (view.tool)
+    require(isWithin(view.tool->burr.diameter, 0.01, 100.0) &&
+                isWithin(view.tool->burr.rpm, 0.0, 1e6) && isWithin(view.tool->thrust, 0.0, 100.0),
+            "a burr must be 0.01 to 100 mm wide and turn at 0 to 1000000 rpm, with a thrust of 0 "
+            "to 100 N");
+}
+
+} // namespace petrous::scene

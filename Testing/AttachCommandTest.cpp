@@ -1,0 +1,101 @@
+#include "CommandRunner.h"
+
+using Json = nlohmann::json;
+using petrous::testing::CommandLine;
+using petrous::testing::quoted;
+using petrous::testing::textOf;
+
+namespace
+{
+
+const std::string kVideo = std::string("\0\0\0\x18", 4) + "ftypmp42 of the theatre";
+
+class AttachCommand : public CommandLine
+{
+protected:
+  void SetUp() override
+  {
+    CommandLine::SetUp();
+    ASSERT_EQ(run("sample " + (m_folder / "s").string() + " --dims 32,32,32 --spacing 1.5").code,
+              0);
+    ASSERT_EQ(run("new ear --ct " + (m_folder / "s/ct").string()).code, 0);
+  }
+
+  std::string file(const std::string& name, const std::string& bytes) const
+  {
+    std::ofstream(m_folder / name, std::ios::binary) << bytes;
+    return quoted(m_folder / name);
+  }
+};
+
+} // namespace
+
+TEST_F(AttachCommand, KeepsListsExtractsAndRemoves)
+{
+  const Json done = json("attach ear " + file("film.mp4", kVideo) +
+                         " --note 'of the operation' --date 2026-03-31");
+  EXPECT_EQ(done.at("attachment").at("kind"), "video");
+  EXPECT_EQ(done.at("attachment").at("bytes"), kVideo.size());
+  json("attach ear " + file("plan.pdf", "%PDF-1.7") + " --link --name 'the plan.pdf'");
+  const Json listed = json("attachments ear").at("attachments");
+  ASSERT_EQ(listed.size(), 2U);
+  EXPECT_EQ(listed[0].at("name"), "film.mp4");
+  EXPECT_EQ(listed[0].at("note"), "of the operation");
+  EXPECT_EQ(listed[0].at("date"), "2026-03-31");
+  EXPECT_TRUE(listed[0].at("link").is_null());
+  EXPECT_TRUE(listed[0].at("stroke").is_null());
+  EXPECT_EQ(listed[1].at("name"), "the plan.pdf");
+  EXPECT_EQ(listed[1].at("link"), (std::filesystem::canonical(m_folder) / "plan.pdf").string());
+  EXPECT_EQ(listed[1].at("state"), "ok");
+
+  EXPECT_EQ(run("attachments ear --extract film.mp4 " + quoted(m_folder / "out")).code, 0);
+  EXPECT_EQ(textOf(m_folder / "out"), kVideo);
+  file("plan.pdf", "%PDF-9.9");
+  expectRefused("attachments ear --extract 'THE plan.pdf' " + quoted(m_folder / "none"), 3,
+                "another one than was attached");
+  EXPECT_FALSE(std::filesystem::exists(m_folder / "none"));
+  std::filesystem::remove(m_folder / "plan.pdf");
+  EXPECT_EQ(json("attachments ear").at("attachments")[1].at("state"), "missing");
+  EXPECT_EQ(run("info ear").code, 0);
+  EXPECT_EQ(run("library verify").code, 0);
+
+  EXPECT_EQ(json("attachments ear --remove film.mp4").at("removed"), "film.mp4");
+  EXPECT_EQ(json("attachments ear").at("attachments").size(), 1U);
+  EXPECT_EQ(json("library gc").at("removed"), 1);
+}
+
+TEST_F(AttachCommand, RefusesInOneLine)
+{
+  const std::string film = file("film.mp4", kVideo);
+  expectRefused("attach ear /dev/zero", 3, "/dev/zero");
+  expectRefused("attach ear /nowhere.pdf", 3, "/nowhere.pdf");
+  expectRefused("attach ear " + quoted(m_folder), 3, "");
+  expectRefused("attach ear " + file("text.txt", "text"), 3, "nothing that a case takes");
+  expectRefused("attach ear " + film + " --name ../film.mp4", 3, "name of an attachment");
+  expectRefused("attach ear " + film + " --stroke 1", 3, "0 strokes");
+  expectRefused("attach nose " + film, 3, "nose");
+  expectRefused("attachments ear --remove film.mp4", 3, "has no attachment 'film.mp4'");
+  EXPECT_EQ(run("attach ear " + film + " --date soon").code, 2);
+  EXPECT_EQ(run("attach ear").code, 2);
+  EXPECT_EQ(run("attachments ear --remove a --extract a b").code, 2);
+  EXPECT_EQ(run("attachments ear --extract a").code, 2);
+  EXPECT_EQ(json("attachments ear").at("attachments"), Json::array());
+}
+
+TEST_F(AttachCommand, ArchivesLeaveVideosUnlessAsked)
+{
+  json("attach ear " + file("film.mp4", kVideo));
+  json("attach ear " + file("plan.pdf", "%PDF-1.7 of the plan"));
+  const auto restored = [&](const std::string& options, const std::string& name)
+  {
+    const std::string archive = quoted(m_folder / (name + ".petrous"));
+    const auto outcome = run("archive ear " + archive + " " + options);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err.find("'film.mp4' stays") == std::string::npos, !options.empty());
+    EXPECT_NE(outcome.err.find("metadata is not removed"), std::string::npos);
+    json("restore " + archive + " --as " + name);
+    return json("attachments " + name).at("attachments").size();
+  };
+  EXPECT_EQ(restored("", "usual"), 1U);
+  EXPECT_EQ(restored("--with-videos", "all"), 2U);
+}

@@ -1,0 +1,112 @@
+#include "CommandRunner.h"
+
+using Json = nlohmann::json;
+using petrous::testing::CommandLine;
+using petrous::testing::quoted;
+using petrous::testing::textOf;
+
+namespace
+{
+
+class ViewCommand : public CommandLine
+{
+protected:
+  void SetUp() override
+  {
+    CommandLine::SetUp();
+    makePatient("--dims 48,48,45 --spacing 1.3");
+    ASSERT_EQ(run("new ear --ct " + quoted(m_folder / "patient/ct") +
+                  " --mr T2=" + quoted(m_folder / "patient/mr"))
+                  .code,
+              0);
+  }
+
+  /// The picture that a command draws.
+  std::string drawn(const std::string& command) const
+  {
+    const auto out = m_folder / "out.png";
+    const auto outcome = run(command + " --size 160x120 --out " + quoted(out));
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return textOf(out);
+  }
+};
+
+} // namespace
+
+TEST_F(ViewCommand, RenderAndSliceShowWhatIsSaved)
+{
+  const Json info = json("info ear").at("ct");
+  const auto center = [&](int axis)
+  {
+    return info["origin_mm"][axis].get<double>() +
+           0.5 * info["dims"][axis].get<double>() * info["spacing_mm"][axis].get<double>();
+  };
+  const std::string at = std::to_string(center(0)) + "," + std::to_string(center(1) + 5.0) + "," +
+                         std::to_string(center(2));
+  const std::string render = "--view superior --light-falloff 150 --wetness 0.5 --stereo "
+                             "anaglyph --eye-separation 20 --clip " +
+                             at + ",0,0,-1 --crop 0,47,0,40,0,44";
+  const std::string plain = drawn("render ear");
+  const std::string wanted = drawn("render ear " + render);
+  ASSERT_NE(plain, wanted);
+  const Json set = json("view ear " + render + " --at " + at +
+                        " --window 1500,300.25 --zoom axial=2.5 --overlay T2 --mode checker "
+                        "--burr diamond --diameter 3 --thrust 2");
+  EXPECT_TRUE(set.at("changed"));
+  EXPECT_EQ(drawn("render ear"), wanted);
+  EXPECT_EQ(drawn("render ear --plain --view lateral"), plain);
+  EXPECT_EQ(json("render ear --stereo none --size 80x60 --out " + quoted(m_folder / "o.png"))
+                .at("stereo"),
+            nullptr);
+
+  EXPECT_EQ(set.at("tool").at("burr"), "diamond");
+  EXPECT_EQ(set.at("clipping").at("crop"), Json({0, 47, 0, 40, 0, 44}));
+  const Json slice =
+      json("slice ear --plane axial --size 160x120 --out " + quoted(m_folder / "a.png"));
+  EXPECT_EQ(slice.at("window"), Json({{"width", 1500.0}, {"level", 300.25}}));
+  EXPECT_EQ(slice.at("overlay").at("mr"), "T2");
+  EXPECT_EQ(slice.at("overlay").at("mode"), "checker");
+  const Json whole =
+      json("slice ear --plane axial --size 160x120 --plain --out " + quoted(m_folder / "b.png"));
+  EXPECT_NEAR(slice.at("mm_per_pixel").get<double>(), whole.at("mm_per_pixel").get<double>() / 2.5,
+              1e-12);
+  EXPECT_TRUE(whole.at("overlay").is_null());
+
+  EXPECT_FALSE(json("view ear").at("changed"));
+  const Json cleared = json("view ear --clear camera,slices,light,stereo,clipping,tool");
+  EXPECT_TRUE(cleared.at("slices").is_null());
+  EXPECT_EQ(drawn("render ear"), plain);
+}
+
+TEST_F(ViewCommand, ComesBackToTheBitFromAnArchive)
+{
+  std::ofstream(m_folder / "camera.json")
+      << R"({"position_mm":[0.1,0.30000000000000004,500],"focal_point_mm":[0.2,0,0],)"
+      << R"("view_up":[0,1,0.1],"view_angle_deg":33.333333333333336})";
+  const Json set = json("view ear --camera " + quoted(m_folder / "camera.json") +
+                        " --wetness 0.1 --light-falloff 333.3333333333333 --convergence 77.7 "
+                        "--window 0.30000000000000004,-0.1");
+  EXPECT_EQ(set.at("camera").at("view_angle_deg").get<double>(), 33.333333333333336);
+  const std::string archive = quoted(m_folder / "ear.petrous");
+  ASSERT_EQ(run("archive ear " + archive).code, 0);
+  ASSERT_EQ(run("restore " + archive + " --as back").code, 0);
+  Json back = json("view back");
+  Json here = json("view ear");
+  back.erase("case");
+  here.erase("case");
+  EXPECT_EQ(back, here);
+}
+
+TEST_F(ViewCommand, RefusesWhatIsWrong)
+{
+  for (const char* bad :
+       {"--wetness 1.1", "--window 0,40", "--zoom axial=0.5", "--zoom oblique=2", "--zoom axial",
+        "--clip 0,0,0,0,0,0", "--crop 5,1,0,1,0,1", "--overlay T9", "--mode blend", "--at 1,2",
+        "--at 1e6,0,0", "--stereo quad", "--view up", "--burr drill", "--diameter 0",
+        "--clear nothing", "--crop 0,1,0,1,0,1 --roi 0,1,0,1,0,1"})
+    EXPECT_EQ(run("view ear " + std::string(bad)).code, 2) << bad;
+  expectRefused("view nose", 3, "nose");
+  expectRefused("view ear --camera /nowhere", 3, "/nowhere");
+  EXPECT_FALSE(json("view ear").at("changed"));
+  EXPECT_TRUE(json("view ear").at("slices").is_null());
+}

@@ -22,8 +22,8 @@ struct SendParts
   bool mr = false;
   bool labels = false;
   bool scene = false;
-  bool note = true;      ///< of the description, with the scene
-  scene::ImageMask mask; ///< of all images
+  bool note = true;           ///< of the description, with the scene
+  scene::ImageMask mask = {}; ///< of all images
 };
 
 /// What of a case leaves the house with sendCase, and what does not: a sentence each, for the user

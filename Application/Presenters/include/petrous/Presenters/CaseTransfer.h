@@ -22,9 +22,9 @@ struct SendParts
   bool mr = false;
   bool labels = false;
   bool scene = false;
-  bool note = true;      ///< of the description, with the scene
-  bool videos = false;   ///< attached ones, with the scene; they may show or name the patient
-  scene::ImageMask mask; ///< of all images
+  bool note = true;           ///< of the description, with the scene
+  bool videos = false;        ///< attached ones, with the scene; they may show or name the patient
+  scene::ImageMask mask = {}; ///< of all images
 };
 
 /// What of a case leaves the house with sendCase, and what does not: a sentence each, for the user

@@ -1,6 +1,8 @@
+#include "CaseJson.h"
 #include "Commands.h"
 #include "Numbers.h"
 #include "petrous/Library/Archive.h"
+#include "petrous/Presenters/CaseTransfer.h"
 
 namespace petrous::cli
 {
@@ -12,7 +14,7 @@ struct ArchiveCommandOptions
 {
   std::string caseName, file;
   int level = library::ArchiveOptions{}.level;
-  bool planOnly = false, keepIdentity = false, withoutNotes = false;
+  bool planOnly = false, keepIdentity = false, withoutNotes = false, dryRun = false;
 };
 
 struct RestoreCommandOptions
@@ -29,10 +31,13 @@ void archive(const Context& context, const ArchiveCommandOptions& options)
 {
   context.refuseOverwriting({options.file});
   const library::Library library = context.openLibrary();
-  const library::ArchiveSummary done = library::archiveCase(
-      library, options.caseName, options.file,
-      {options.planOnly, options.level, options.withoutNotes, options.keepIdentity},
-      context.progress());
+  const library::ArchiveOptions how{options.planOnly, options.level, options.withoutNotes,
+                                    options.keepIdentity};
+  if (options.dryRun)
+    return printIdentityReport(context,
+                               presenters::identityReport(library.open(options.caseName), how));
+  const library::ArchiveSummary done =
+      library::archiveCase(library, options.caseName, options.file, how, context.progress());
   for (const std::string& note : done.notes)
     context.warn(note);
   if (!done.durable)
@@ -82,6 +87,9 @@ void addArchiveCommands(CLI::App& app, Context& context)
                     "Keep what may identify the patient: the date of the planned operation");
   command->add_flag("--without-notes", out->withoutNotes,
                     "Leave out the note of the description, which else goes along as it is");
+  command->add_flag("--dry-run", out->dryRun,
+                    "Only say what of the case would be in the file, and what may identify the "
+                    "patient; nothing is written");
   command->add_option("--level", out->level, "Compression of images, 1 (fast) to 12 (small)")
       ->check(CLI::Range(1, 12))
       ->capture_default_str();

@@ -1,5 +1,6 @@
 #include <filesystem>
 
+#include "CaseJson.h"
 #include "Commands.h"
 #include "Numbers.h"
 #include "petrous/Network/NodeList.h"
@@ -115,6 +116,7 @@ void runNodes(const Context& context, const NodeOptions& options)
 struct SendOptions
 {
   std::string caseName, node, what = "all";
+  bool withoutNotes = false, dryRun = false;
 };
 
 void send(const Context& context, const SendOptions& options)
@@ -127,8 +129,13 @@ void send(const Context& context, const SendOptions& options)
   parts.mr = all || options.what == "mr";
   parts.labels = all || options.what == "labels";
   parts.scene = all || options.what == "scene";
-  const auto done = presenters::sendCase(library, options.caseName, list.at(options.node), parts,
-                                         context.progress());
+  parts.note = !options.withoutNotes;
+  const network::Node& node = list.at(options.node);
+  if (options.dryRun)
+    return printIdentityReport(context,
+                               presenters::identityReport(library.open(options.caseName), parts));
+  const auto done =
+      presenters::sendCase(library, options.caseName, node, parts, context.progress());
   for (const std::string& note : done.notes)
     context.warn(note);
   if (!done.transfer.verified)
@@ -224,6 +231,11 @@ void addNodeCommands(CLI::App& app, Context& context)
                    "received as it is")
       ->check(oneOf({"ct", "mr", "labels", "scene", "all"}))
       ->capture_default_str();
+  command->add_flag("--without-notes", out->withoutNotes,
+                    "Leave out the note of the description, which else goes with the scene");
+  command->add_flag("--dry-run", out->dryRun,
+                    "Only say what of the case would leave, and what may identify the patient; "
+                    "nothing is sent");
 
   auto in = std::make_shared<ReceiveOptions>();
   command = context.addCommand(app, "receive", "Add a case from a DICOM node to the library",

@@ -17,6 +17,7 @@
 
 #include "AddPartsDialog.h"
 #include "Application.h"
+#include "ArchiveDialog.h"
 #include "Banner.h"
 #include "CaseSaver.h"
 #include "RegionDialog.h"
@@ -1127,19 +1128,19 @@ void CaseDocumentController::archive(const std::string& which)
     const QScopedValueRollback<bool> asking(m_asking, true);
     if (isOpen && mayDropDraft && !mayDropDraft())
       return;
-    const QString whole = tr("Case archives (*.petrous)");
-    const QString plan = tr("Plan only, without images and structures (*.petrous)");
-    QFileDialog dialog(&m_window, tr("Archive “%1”").arg(words(name)));
-    dialog.setObjectName("archiveCase");
-    dialog.setAcceptMode(QFileDialog::AcceptSave);
-    dialog.setNameFilters({whole, plan});
-    dialog.setDefaultSuffix(QString(library::kArchiveEnding).mid(1));
-    dialog.setDirectory(QDir::homePath());
-    dialog.selectFile(words(name) + library::kArchiveEnding);
-    if (dialog.exec() != QDialog::Accepted || (isOpen && !m_model.hasCase()))
-      return;
-    file = pathOf(dialog.selectedFiles().first());
-    options.planOnly = dialog.selectedNameFilter() == plan;
+    try
+    {
+      const scene::Case stored = isOpen ? scene::Case() : m_model.library().open(name);
+      ArchiveDialog dialog(isOpen ? m_model.value() : stored, &m_window);
+      if (dialog.exec() != QDialog::Accepted || (isOpen && !m_model.hasCase()))
+        return;
+      file = dialog.file();
+      options = dialog.options();
+    }
+    catch (const std::exception& fault)
+    {
+      return refuse(toString(fault));
+    }
     if (isOpen)
     {
       if (!saved())
@@ -1380,6 +1381,16 @@ void CaseDocumentController::saveAs()
   {
     refuse(toString(fault));
   }
+}
+
+void CaseDocumentController::closeCase()
+{
+  if (m_work.busy() || m_asking)
+    return emit statusMessage(tr("One at a time: something is being read already"));
+  if (!m_model.hasCase() || !leaveCase())
+    return;
+  m_removed.hide();
+  m_model.close();
 }
 
 bool CaseDocumentController::mayLeave()

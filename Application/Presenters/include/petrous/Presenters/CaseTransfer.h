@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "petrous/Core/Progress.h"
+#include "petrous/Library/Archive.h"
 #include "petrous/Library/Library.h"
 #include "petrous/Network/DicomNode.h"
 
@@ -38,6 +39,8 @@ struct IdentityReport
 
 /// Reads no voxels.
 IdentityReport identityReport(const scene::Case& value, const SendParts& parts);
+/// The same of an archive with these options (library::archiveCase).
+IdentityReport identityReport(const scene::Case& value, const library::ArchiveOptions& options);
 
 struct SendSummary
 {

@@ -69,31 +69,35 @@ protected:
   /// nothing.
   QString send()
   {
-    QString why;
-    bool asked = false;
+    struct State
+    {
+      QString why;
+      bool asked = false, over = false;
+    };
+    const auto state = std::make_shared<State>(); // what polls for dialogs outlives this function
     onDialog(
-        [&](QDialog& dialog)
+        [state](QDialog& dialog)
         {
+          if (state->over)
+            return true;
           if (auto* box = qobject_cast<QMessageBox*>(&dialog))
           {
-            why = box->text();
+            state->why = box->text();
             box->accept();
             return true;
           }
           if (dialog.objectName() == "sendCase")
+          {
+            state->asked = true;
             button(dialog, "primary").click();
-          asked = asked || dialog.objectName() == "sendCase";
+          }
           return false;
         });
     menu("sendOpenCase");
-    EXPECT_TRUE(asked);
-    EXPECT_TRUE(waitFor([&] { return (report() || !why.isEmpty()) && !window().busy(); }));
-    return why;
-  }
-  void closeReport()
-  {
-    report()->close();
-    EXPECT_TRUE(waitFor([&] { return !report(); }));
+    EXPECT_TRUE(state->asked);
+    EXPECT_TRUE(waitFor([&] { return (report() || !state->why.isEmpty()) && !window().busy(); }));
+    state->over = true;
+    return state->why;
   }
   void cancelWork()
   {
@@ -256,8 +260,8 @@ TEST_F(Exchange, CertificatesDecideWhetherACaseIsSent)
   const auto kept = [&]
   {
     return std::count_if(fs::recursive_directory_iterator(orthanc.storage()), {},
-                         [](const auto& entry)
-                         { return entry.is_regular_file() && entry.path().extension().empty(); });
+                         [](const auto& entry) // named by a UUID
+                         { return entry.path().filename().string().size() == 36; });
   };
   openWindow("ball");
   const auto before = kept();

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <locale>
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QDockWidget>

@@ -168,7 +168,6 @@ StartPage::StartPage(const presenters::WorkstationModel& model, QWidget* parent)
   layout->addWidget(m_heading);
   layout->addWidget(m_recent, 8);
   layout->addStretch(1);
-  list();
 }
 
 void StartPage::onSeen(std::function<void(const library::CaseSummary&)> seen)

@@ -136,7 +136,8 @@ TEST_F(DISABLED_Pictures, Dialogs)
   node.tls = network::TlsFiles{"/etc/petrous/hospital-ca.pem", "/etc/petrous/ear-or-2.pem",
                                "/etc/petrous/ear-or-2.key"};
   network::NodeList nodes(folder() / "library");
-  for (const network::Node& old : network::NodeList(nodes).nodes())
+  const auto before = nodes.nodes();
+  for (const network::Node& old : before)
     nodes.remove(old.name);
   nodes.add(node);
   const auto map = folder() / "map";

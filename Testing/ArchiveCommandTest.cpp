@@ -68,6 +68,28 @@ TEST_F(ArchiveCommand, HandsOnAPlanWithoutVoxels)
       << "a whole archive brings its own CT";
 }
 
+TEST_F(ArchiveCommand, SaysBeforeWhatOfTheCaseLeaves)
+{
+  json("describe ear --note 'seen on ward 7' --date 2026-03-31");
+  const auto has = [](const nlohmann::json& lines, const std::string& text)
+  {
+    return std::any_of(lines.begin(), lines.end(),
+                       [&](const nlohmann::json& line)
+                       { return line.get<std::string>().find(text) != std::string::npos; });
+  };
+  const auto whole = json("archive ear --dry-run " + file());
+  EXPECT_FALSE(std::filesystem::exists(m_folder / "ear.petrous"));
+  EXPECT_TRUE(has(whole["leaves"], "voxels") && has(whole["leaves"], "note"));
+  EXPECT_TRUE(has(whole["may_identify"], "note"));
+  EXPECT_TRUE(has(whole["stays"], "planned date"));
+  const auto plan =
+      json("archive ear --dry-run --plan-only --without-notes --keep-identity " + file());
+  EXPECT_FALSE(has(plan["leaves"], "voxels"));
+  EXPECT_TRUE(has(plan["leaves"], "'ear'") && has(plan["leaves"], "planned date"));
+  EXPECT_TRUE(has(plan["stays"], "note") && has(plan["stays"], "same CT"));
+  EXPECT_TRUE(has(plan["may_identify"], "planned date"));
+}
+
 TEST_F(ArchiveCommand, RefusesWhatItCannotDo)
 {
   EXPECT_EQ(run("archive nobody " + file()).code, 3);

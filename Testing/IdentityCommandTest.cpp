@@ -176,6 +176,22 @@ TEST_F(IdentityCommand, DeidentifiesAFolderWithMapAndReport)
                 textOf(m_folder / "again" / fs::relative(entry.path(), m_folder / "out")));
     }
   EXPECT_NE(run("pseudonyms " + map + secret).out.find("1.2.77777.2"), std::string::npos);
+  // Found, copied under another passphrase, taken in elsewhere, and opened by a new one.
+  const auto count = [this](const std::string& line) { return json(line)["pseudonyms"].size(); };
+  EXPECT_EQ(count("pseudonyms " + map + secret + " --find 1.2.77777.2"), 1U);
+  EXPECT_EQ(count("pseudonyms " + map + secret + " --find PATIENT"), 1U);
+  EXPECT_EQ(count("pseudonyms " + map + secret + " --find nobody"), 0U);
+  std::ofstream(m_folder / "second") << "ten lives of a dog\n";
+  const std::string other = " --other-passphrase-file " + quoted(m_folder / "second");
+  const std::string copy = quoted(m_folder / "copy");
+  json("pseudonyms " + map + secret + " --export " + copy + other);
+  expectRefused("pseudonyms " + map + secret + " --export " + copy + other, 4, "there already");
+  expectNoPlantIn({m_folder / "out", m_folder / "copy", m_folder / "state"});
+  EXPECT_EQ(json("pseudonyms " + map + secret + " --import " + copy + other)["added"], 0);
+  json("pseudonyms " + copy + " --passphrase-file " + quoted(m_folder / "second") +
+       " --new-passphrase-file " + quoted(m_folder / "passphrase"));
+  EXPECT_EQ(run("pseudonyms " + copy + secret).out, run("pseudonyms " + map + secret).out);
+  expectRefused("pseudonyms " + map + secret + " --find x --export " + copy, 2, "one of");
   EXPECT_EQ(json("scan " + quoted(m_folder / "out"))["series"][0]["verdict"], "ok");
   std::ofstream(m_folder / "wrong") << "eight lives of a cat\n";
   const std::string list = "pseudonyms " + map + " --passphrase-file ";

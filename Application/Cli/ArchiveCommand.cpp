@@ -1,7 +1,9 @@
+#include "CaseJson.h"
 #include "Commands.h"
 #include "MaskOptions.h"
 #include "Numbers.h"
 #include "petrous/Library/Archive.h"
+#include "petrous/Presenters/CaseTransfer.h"
 #include "petrous/Presenters/LeavingImages.h"
 
 namespace petrous::cli
@@ -15,6 +17,7 @@ struct ArchiveCommandOptions
   std::string caseName, file;
   int level = library::ArchiveOptions{}.level;
   bool planOnly = false, keepIdentity = false, withoutNotes = false, withVideos = false;
+  bool dryRun = false;
   MaskOptions mask;
 };
 
@@ -35,11 +38,14 @@ void archive(const Context& context, const ArchiveCommandOptions& options)
     throw UsageError("archive: a plan has no images; give --plan-only, or --mask-face and --roi");
   context.refuseOverwriting({options.file});
   const library::Library library = context.openLibrary();
-  const library::ArchiveSummary done = library::archiveCase(
-      library, options.caseName, options.file,
-      {options.planOnly, options.level, options.withoutNotes, options.keepIdentity,
-       options.withVideos, presenters::maskForArchive(library, mask)},
-      context.progress());
+  const library::ArchiveOptions how{
+      options.planOnly,     options.level,      options.withoutNotes,
+      options.keepIdentity, options.withVideos, presenters::maskForArchive(library, mask)};
+  if (options.dryRun)
+    return printIdentityReport(context,
+                               presenters::identityReport(library.open(options.caseName), how));
+  const library::ArchiveSummary done =
+      library::archiveCase(library, options.caseName, options.file, how, context.progress());
   for (const std::string& note : done.notes)
     context.warn(note);
   if (!done.durable)
@@ -94,6 +100,9 @@ void addArchiveCommands(CLI::App& app, Context& context)
                     "Take attached videos along, which else stay: they may show or name the "
                     "patient");
   addMaskOptions(*command, out->mask);
+  command->add_flag("--dry-run", out->dryRun,
+                    "Only say what of the case would be in the file, and what may identify the "
+                    "patient; nothing is written");
   command->add_option("--level", out->level, "Compression of images, 1 (fast) to 12 (small)")
       ->check(CLI::Range(1, 12))
       ->capture_default_str();

@@ -319,4 +319,14 @@ std::map<std::string, std::size_t> residentResources(const scene::Case& value)
   return resources;
 }
 
+void printIdentityReport(const Context& context, const presenters::IdentityReport& report)
+{
+  std::string text = report.text();
+  if (!text.empty() && text.back() == '\n')
+    text.pop_back();
+  context.print(text);
+  context.printJson(
+      {{"leaves", report.leaves}, {"stays", report.stays}, {"may_identify", report.warnings}});
+}
+
 } // namespace petrous::cli

@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "Context.h"
+#include "petrous/Presenters/CaseTransfer.h"
 #include "petrous/Scene/Case.h"
 #include "petrous/Volume/MeshMeasure.h"
 
@@ -59,6 +61,9 @@ nlohmann::json strokesJson(const scene::Case& value);
 
 /// A branch and what it removed, up to its current position.
 nlohmann::json branchJson(const scene::Case& value, const dissection::History::Branch& branch);
+
+/// What a dry run says; as JSON: leaves, stays, may_identify.
+void printIdentityReport(const Context& context, const presenters::IdentityReport& report);
 
 /// Memory of the case's resident voxels and bricks, bytes.
 std::map<std::string, std::size_t> residentResources(const scene::Case& value);

@@ -11,6 +11,7 @@
 #include "petrous/Library/Deidentification.h"
 #include "petrous/Library/PseudonymMap.h"
 #include "petrous/Presenters/FolderIdentity.h"
+#include "petrous/Scene/Description.h"
 
 namespace petrous::cli
 {
@@ -29,7 +30,8 @@ struct DeidentifyCommandOptions
 
 struct PseudonymsCommandOptions
 {
-  std::string map, passphraseFile;
+  std::string map, passphraseFile, find, import, copy, otherPassphraseFile, newPassphraseFile;
+  bool changePassphrase = false;
 };
 
 /// A line from the terminal, without echo.
@@ -59,7 +61,8 @@ std::string askedPassphrase(const std::string& prompt)
   return line;
 }
 
-std::string passphraseFor(const std::string& map, const std::string& file)
+/// From the file's first line, else asked for; `twice`: as it is new.
+std::string passphraseFrom(const std::string& file, const std::string& of, bool twice)
 {
   constexpr std::uintmax_t kLargest = 4096;
   if (!file.empty())
@@ -67,11 +70,16 @@ std::string passphraseFor(const std::string& map, const std::string& file)
     const std::string text = core::readFile(file, kLargest);
     return text.substr(0, text.find_first_of("\r\n"));
   }
-  std::string passphrase = askedPassphrase("Passphrase of the pseudonym map: ");
-  if (std::error_code error; !std::filesystem::exists(map, error) &&
-                             askedPassphrase("The same once more, for the new map: ") != passphrase)
+  std::string passphrase = askedPassphrase("Passphrase of " + of + ": ");
+  if (twice && askedPassphrase("The same once more, as it is new: ") != passphrase)
     throw UsageError("the two passphrases differ");
   return passphrase;
+}
+
+std::string passphraseFor(const std::string& map, const std::string& file)
+{
+  std::error_code error;
+  return passphraseFrom(file, "the pseudonym map", !std::filesystem::exists(map, error));
 }
 
 json reportJson(const library::DeidentificationReport& report)
@@ -127,13 +135,69 @@ void deidentify(const Context& context, DeidentifyCommandOptions options)
   context.printJson(reportJson(done.report));
 }
 
-void listPseudonyms(const Context& context, const PseudonymsCommandOptions& options)
+bool contains(const library::Pseudonym& entry, const std::string& text)
 {
+  const std::string wanted = scene::lowerCase(text);
+  for (const std::string* one : {&entry.kind, &entry.pseudonym, &entry.identity})
+    if (scene::lowerCase(*one).find(wanted) != std::string::npos)
+      return true;
+  return false;
+}
+
+// What changes the map or copies it lists nothing.
+void changePseudonyms(const Context& context, const PseudonymsCommandOptions& options,
+                      library::PseudonymMap& map)
+{
+  context.refuseOverwriting({options.copy}, {options.map, options.import, options.passphraseFile});
+  if (!options.import.empty())
+  {
+    core::InputFile exists(options.import);
+    const library::PseudonymMap from(
+        options.import,
+        passphraseFrom(options.otherPassphraseFile, "the map that is taken in", false));
+    const std::size_t added = map.add(from.entries());
+    map.save();
+    context.print(std::to_string(added) +
+                  (added == 1 ? " pseudonym is new" : " pseudonyms are new"));
+    if (from.key().bytes() != map.key().bytes())
+      context.warn("the maps have different keys: new files of these patients get other pseudonyms "
+                   "than those that were taken in");
+    context.printJson({{"added", added}, {"entries", map.entries().size()}});
+  }
+  else if (!options.copy.empty())
+  {
+    if (!map.saveCopy(options.copy, passphraseFrom(options.otherPassphraseFile, "the copy", true)))
+      context.warn(options.copy + ": is written, but the disk reported an error; check the disk");
+    context.print("the map is copied to " + options.copy);
+    context.printJson({{"copy", options.copy}, {"entries", map.entries().size()}});
+  }
+  else
+  {
+    map.changePassphrase(passphraseFrom(options.newPassphraseFile, "the map from now on", true));
+    map.save();
+    context.print("the map has another passphrase");
+    context.printJson({{"entries", map.entries().size()}});
+  }
+}
+
+void pseudonyms(const Context& context, const PseudonymsCommandOptions& options)
+{
+  const bool changes = options.changePassphrase || !options.newPassphraseFile.empty();
+  if (int(changes) + int(!options.import.empty()) + int(!options.copy.empty()) +
+          int(!options.find.empty()) >
+      1)
+    throw UsageError("pseudonyms: one of --find, --import, --export and --change-passphrase");
+  if (!options.otherPassphraseFile.empty() && options.import.empty() && options.copy.empty())
+    throw UsageError("--other-passphrase-file: give --import or --export, whose file it opens");
   core::InputFile exists(options.map);
-  const library::PseudonymMap map(options.map, passphraseFor(options.map, options.passphraseFile));
+  library::PseudonymMap map(options.map, passphraseFor(options.map, options.passphraseFile));
+  if (changes || !options.import.empty() || !options.copy.empty())
+    return changePseudonyms(context, options, map);
   json list = json::array();
   for (const library::Pseudonym& entry : map.entries())
   {
+    if (!contains(entry, options.find))
+      continue;
     context.print(entry.kind + " " + entry.pseudonym + ": " + entry.identity);
     list.push_back(
         {{"kind", entry.kind}, {"pseudonym", entry.pseudonym}, {"identity", entry.identity}});
@@ -181,10 +245,23 @@ void addDeidentifyCommands(CLI::App& app, Context& context)
 
   auto list = std::make_shared<PseudonymsCommandOptions>();
   command = context.addCommand(app, "pseudonyms", "List who is behind the pseudonyms of a map",
-                               [list, &context] { listPseudonyms(context, *list); });
+                               [list, &context] { pseudonyms(context, *list); });
   command->add_option("MAP", list->map, "The encrypted file")->required();
   command->add_option("--passphrase-file", list->passphraseFile,
                       "File with its passphrase; else it is asked for");
+  command->add_option("--find", list->find, "Only those with this text")->type_name("TEXT");
+  command->add_option("--import", list->import, "Take in the pseudonyms of another map")
+      ->type_name("OTHER");
+  command
+      ->add_option("--export", list->copy,
+                   "Write a copy of the map, encrypted under a passphrase of its own")
+      ->type_name("COPY");
+  command->add_option("--other-passphrase-file", list->otherPassphraseFile,
+                      "File with the passphrase of OTHER or COPY; else it is asked for");
+  command->add_flag("--change-passphrase", list->changePassphrase,
+                    "Give the map another passphrase, which is asked for");
+  command->add_option("--new-passphrase-file", list->newPassphraseFile,
+                      "The same, with the new passphrase in the first line of a file");
 }
 
 } // namespace petrous::cli

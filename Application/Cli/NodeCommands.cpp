@@ -1,5 +1,6 @@
 #include <filesystem>
 
+#include "CaseJson.h"
 #include "Commands.h"
 #include "MaskOptions.h"
 #include "Numbers.h"
@@ -119,7 +120,7 @@ struct SendOptions
 {
   std::string caseName, node, what = "all";
   MaskOptions mask;
-  bool withoutNotes = false, withVideos = false;
+  bool withoutNotes = false, withVideos = false, dryRun = false;
 };
 
 void send(const Context& context, const SendOptions& options)
@@ -136,9 +137,11 @@ void send(const Context& context, const SendOptions& options)
   parts.mask = options.mask.mask();
   parts.note = !options.withoutNotes;
   parts.videos = options.withVideos;
-  // Before anything leaves.
-  for (const std::string& warning :
-       presenters::identityReport(library.open(options.caseName), parts).warnings)
+  const presenters::IdentityReport report =
+      presenters::identityReport(library.open(options.caseName), parts);
+  if (options.dryRun)
+    return printIdentityReport(context, report);
+  for (const std::string& warning : report.warnings) // before anything leaves
     context.warn(warning);
   const auto done =
       presenters::sendCase(library, options.caseName, node, parts, context.progress());
@@ -241,7 +244,9 @@ void addNodeCommands(CLI::App& app, Context& context)
                     "Attached videos go along with the scene; they may show or name the patient");
   command->add_flag("--without-notes", out->withoutNotes,
                     "Leave out the note of the description, which else goes along as it is");
-
+  command->add_flag("--dry-run", out->dryRun,
+                    "Only say what of the case would leave, and what may identify the patient; "
+                    "nothing is sent");
   addMaskOptions(*command, out->mask);
 
   auto in = std::make_shared<ReceiveOptions>();

@@ -18,6 +18,7 @@
 
 #include "AddPartsDialog.h"
 #include "Application.h"
+#include "ArchiveDialog.h"
 #include "Banner.h"
 #include "CaseSaver.h"
 #include "FaceCheck.h"
@@ -1198,21 +1199,19 @@ void CaseDocumentController::archive(const std::string& which)
     const QScopedValueRollback<bool> asking(m_asking, true);
     if (isOpen && mayDropDraft && !mayDropDraft())
       return;
-    const QString whole = tr("Case archives (*.petrous)");
-    const QString plan = tr("Plan only, without images and structures (*.petrous)");
-    const QString videos = tr("With its videos, which may show or name the patient (*.petrous)");
-    QFileDialog dialog(&m_window, tr("Archive “%1”").arg(words(name)));
-    dialog.setObjectName("archiveCase");
-    dialog.setAcceptMode(QFileDialog::AcceptSave);
-    dialog.setNameFilters({whole, plan, videos});
-    dialog.setDefaultSuffix(QString(library::kArchiveEnding).mid(1));
-    dialog.setDirectory(QDir::homePath());
-    dialog.selectFile(words(name) + library::kArchiveEnding);
-    if (dialog.exec() != QDialog::Accepted || (isOpen && !m_model.hasCase()))
-      return;
-    file = pathOf(dialog.selectedFiles().first());
-    options.planOnly = dialog.selectedNameFilter() == plan;
-    options.withVideos = dialog.selectedNameFilter() == videos;
+    try
+    {
+      const scene::Case stored = isOpen ? scene::Case() : m_model.library().open(name);
+      ArchiveDialog dialog(isOpen ? m_model.value() : stored, &m_window);
+      if (dialog.exec() != QDialog::Accepted || (isOpen && !m_model.hasCase()))
+        return;
+      file = dialog.file();
+      options = dialog.options();
+    }
+    catch (const std::exception& fault)
+    {
+      return refuse(toString(fault));
+    }
     if (!options.planOnly && !askOfFace(name, mask))
       return;
     if (isOpen)
@@ -1456,6 +1455,16 @@ void CaseDocumentController::saveAs()
   {
     refuse(toString(fault));
   }
+}
+
+void CaseDocumentController::closeCase()
+{
+  if (m_work.busy() || m_asking)
+    return emit statusMessage(tr("One at a time: something is being read already"));
+  if (!m_model.hasCase() || !leaveCase())
+    return;
+  m_removed.hide();
+  m_model.close();
 }
 
 bool CaseDocumentController::mayLeave()

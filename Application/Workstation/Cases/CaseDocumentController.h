@@ -78,6 +78,7 @@ public:
   void save();  ///< and reports it
   bool saved(); ///< saves what is unsaved and waits; false: that failed, which the banner shows
   void saveAs();
+  void closeCase();             ///< saves it first; stays open where that fails
   void prepare();               ///< the slow part of the open case (WorkstationModel::preparation)
   void prepareUnlessUnderWay(); ///< as prepare, after it was stopped or failed
 

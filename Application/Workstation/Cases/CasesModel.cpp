@@ -19,6 +19,20 @@ QString localTime(const std::string& utc)
   return QDateTime::fromString(words(utc), Qt::ISODate).toLocalTime().toString("yyyy-MM-dd HH:mm");
 }
 
+CasesModel::CasesModel(QObject* parent)
+  : QAbstractTableModel(parent)
+  , m_pictureSize(kCasePicture)
+{
+}
+
+QString operationText(const library::CaseSummary& one)
+{
+  const QString side = sideText(one.description.side);
+  const QString date = words(one.description.date);
+  const QString planned = date.isEmpty() ? date : CasesModel::tr("planned %1").arg(date);
+  return side.isEmpty() || planned.isEmpty() ? side + planned : side + ", " + planned;
+}
+
 void CasesModel::setCases(std::vector<library::CaseSummary> cases, const std::string& open)
 {
   beginResetModel();
@@ -40,21 +54,35 @@ void CasesModel::forgetPictures()
   m_pictures.clear();
 }
 
+void CasesModel::pictureDrawn(const std::string& id)
+{
+  m_pictures.erase(id);
+  for (std::size_t row = 0; row < m_cases.size(); ++row)
+    if (m_cases[row].id == id)
+    {
+      m_cases[row].hasThumbnail = true;
+      const QModelIndex changed = index(static_cast<int>(row), Name);
+      emit dataChanged(changed, changed, {Qt::DecorationRole});
+    }
+}
+
 // Of the same size for all, so that names stand below each other.
 QVariant CasesModel::picture(const library::CaseSummary& one) const
 {
+  if (seen)
+    seen(one);
   const bool exists = one.hasThumbnail && thumbnail; // only what was read is remembered
   const auto known = m_pictures.find(one.id);
   if (exists && known != m_pictures.end())
     return known->second;
-  QPixmap picture(kCasePicture);
+  QPixmap picture(m_pictureSize);
   picture.fill(Qt::transparent);
   if (!exists)
     return picture;
   const auto png = thumbnail(one);
   QPixmap read;
   if (read.loadFromData(png.data(), static_cast<unsigned>(png.size()), "PNG"))
-    picture = read.scaled(kCasePicture, Qt::KeepAspectRatio, Qt::SmoothTransformation);
+    picture = read.scaled(m_pictureSize, Qt::KeepAspectRatio, Qt::SmoothTransformation);
   m_pictures[one.id] = picture;
   return picture;
 }
@@ -69,16 +97,16 @@ int CasesModel::columnCount(const QModelIndex& parent) const
   return parent.isValid() ? 0 : ColumnCount;
 }
 
-namespace
-{
-
-QString tagsOf(const library::CaseSummary& one)
+QString tagsText(const library::CaseSummary& one)
 {
   QStringList tags;
   for (const std::string& tag : one.description.tags)
     tags += words(tag);
   return tags.join(", ");
 }
+
+namespace
+{
 
 QString textOf(const library::CaseSummary& one, int column)
 {
@@ -97,7 +125,7 @@ QString textOf(const library::CaseSummary& one, int column)
   case CasesModel::Planned:
     return words(one.description.date);
   case CasesModel::Tags:
-    return tagsOf(one);
+    return tagsText(one);
   case CasesModel::Structures:
     return QString::number(one.structures);
   case CasesModel::Strokes:
@@ -149,6 +177,14 @@ QVariant CasesModel::data(const QModelIndex& index, int role) const
     return index.column() == Name ? picture(one) : QVariant();
   case Qt::ToolTipRole:
     return tipOf(one, open);
+  case Qt::AccessibleTextRole:
+  {
+    if (index.column() != Name)
+      return {};
+    QStringList all{words(one.name), operationText(one), tagsText(one)};
+    all.removeAll(QString());
+    return all.join(", ");
+  }
   case Qt::TextAlignmentRole:
     return index.column() >= Structures ? int(Qt::AlignRight | Qt::AlignVCenter)
                                         : int(Qt::AlignLeft | Qt::AlignVCenter);

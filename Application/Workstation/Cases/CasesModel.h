@@ -34,10 +34,12 @@ public:
     ColumnCount
   };
 
-  using QAbstractTableModel::QAbstractTableModel;
+  explicit CasesModel(QObject* parent = nullptr);
 
   /// Reads a case's picture as PNG; asked for those that are seen.
   std::function<std::vector<std::uint8_t>(const library::CaseSummary&)> thumbnail;
+  /// Hears which cases are seen.
+  std::function<void(const library::CaseSummary&)> seen;
 
   /// The cases found by a search; `open` is the name of the open one, or empty.
   void setCases(std::vector<library::CaseSummary> cases, const std::string& open);
@@ -46,6 +48,8 @@ public:
   const library::CaseSummary& at(int row) const { return m_cases[static_cast<std::size_t>(row)]; }
   int rowOf(const std::string& name) const; ///< -1: there is none
   void forgetPictures();                    ///< they are read again
+  void pictureDrawn(const std::string& id); ///< of that case: it is read again
+  void setPictureSize(const QSize& size) { m_pictureSize = size; }
 
   int rowCount(const QModelIndex& parent = {}) const override;
   int columnCount(const QModelIndex& parent = {}) const override;
@@ -60,11 +64,18 @@ private:
   std::vector<library::CaseSummary> m_cases;
   std::string m_open;
   mutable std::map<std::string, QPixmap> m_pictures; ///< by id of the case; what was looked at
+  QSize m_pictureSize;
   int m_column = Changed;
   Qt::SortOrder m_order = Qt::DescendingOrder;
 };
 
 constexpr QSize kCasePicture{64, 48}; ///< px, of the thumbnails in the list
+
+/// The side and the planned date, as far as they are known, in a line.
+QString operationText(const library::CaseSummary& one);
+
+/// The tags, separated by commas.
+QString tagsText(const library::CaseSummary& one);
 
 /// A time of the library (UTC, ISO 8601) for the user: local, to the minute.
 QString localTime(const std::string& utc);

@@ -11,6 +11,7 @@
 #include "LibraryPanel.h"
 #include "ReportWindow.h"
 #include "Theme.h"
+#include "ThumbnailDrawer.h"
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/CasePicture.h"
@@ -51,16 +52,20 @@ QString damageText(const library::Inspection& found)
 } // namespace
 
 LibraryController::LibraryController(presenters::WorkstationModel& model,
-                                     CaseDocumentController& keeper, QWidget& window)
+                                     CaseDocumentController& keeper, QWidget& window, int drawAfter)
   : QObject(&window)
   , m_model(model)
   , m_keeper(keeper)
   , m_window(window)
   , m_panel(new LibraryPanel(model))
   , m_menu(new QMenu(tr("&Library"), &window))
+  , m_thumbnails(new ThumbnailDrawer([&model] { return model.library(); }, drawAfter, this))
 {
   fillMenu();
   connectPanel();
+  m_panel->onSeen([this](const library::CaseSummary& one) { m_thumbnails->caseSeen(one); });
+  connect(m_thumbnails, &ThumbnailDrawer::drawn, m_panel,
+          [this](const QString& id) { m_panel->pictureDrawn(bytes(id)); });
 }
 
 void LibraryController::refresh()
@@ -79,6 +84,13 @@ void LibraryController::fillMenu()
     connect(action, &QAction::triggered, this, what);
   };
   add("showLibrary", tr("&Cases"), tr("The list of all cases"), [this] { emit panelWanted(); });
+  add("drawThumbnails", tr("&Draw pictures"),
+      tr("The small pictures in the list are drawn when a case is saved, and where one is missing, "
+         "while nothing else goes on"),
+      [this] { m_thumbnails->setEnabled(m_draw->isChecked()); });
+  m_draw = m_menu->actions().last();
+  m_draw->setCheckable(true);
+  m_draw->setChecked(true);
   m_menu->addSeparator();
   add("verifyLibrary", tr("&Verify…"),
       tr("Reads every file of the library and compares it with what was stored"),

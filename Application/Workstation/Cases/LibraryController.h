@@ -4,6 +4,7 @@
 
 #include "petrous/Presenters/WorkstationModel.h"
 
+class QAction;
 class QMenu;
 class QWidget;
 
@@ -12,6 +13,7 @@ namespace petrous::workstation
 
 class CaseDocumentController;
 class LibraryPanel;
+class ThumbnailDrawer;
 
 /// The library panel and the Library menu: what `petrous library` does with cases and with the
 /// library as a whole.
@@ -19,12 +21,14 @@ class LibraryController : public QObject
 {
   Q_OBJECT
 public:
-  /// `window` is the parent of dialogs.
+  /// `window` is the parent of dialogs; `drawAfter`: see ThumbnailDrawer.
   LibraryController(presenters::WorkstationModel& model, CaseDocumentController& keeper,
-                    QWidget& window);
+                    QWidget& window, int drawAfter);
 
   LibraryPanel* panel() const { return m_panel; }
   QMenu* menu() const { return m_menu; }
+  ThumbnailDrawer* thumbnails() const { return m_thumbnails; }
+  QAction* drawThumbnails() const { return m_draw; } ///< checkable
 
   void refresh(); ///< the panel
 
@@ -51,6 +55,8 @@ private:
   QWidget& m_window;
   LibraryPanel* m_panel;
   QMenu* m_menu;
+  ThumbnailDrawer* m_thumbnails;
+  QAction* m_draw = nullptr;
 };
 
 } // namespace petrous::workstation

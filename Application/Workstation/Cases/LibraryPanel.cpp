@@ -240,6 +240,7 @@ void LibraryPanel::refresh()
     m_cases->setCases({}, {});
     m_count->setText(toString(error));
   }
+  emit refreshed();
 }
 
 bool LibraryPanel::isFiltered() const
@@ -250,6 +251,16 @@ bool LibraryPanel::isFiltered() const
 void LibraryPanel::forgetPictures()
 {
   m_cases->forgetPictures();
+}
+
+void LibraryPanel::pictureDrawn(const std::string& id)
+{
+  m_cases->pictureDrawn(id);
+}
+
+void LibraryPanel::onSeen(std::function<void(const library::CaseSummary&)> seen)
+{
+  m_cases->seen = std::move(seen);
 }
 
 void LibraryPanel::select(const std::string& name)

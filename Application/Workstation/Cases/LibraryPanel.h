@@ -4,6 +4,7 @@
 #include <string>
 
 #include "Panels.h"
+#include "petrous/Library/Library.h"
 
 class QCheckBox;
 class QComboBox;
@@ -40,12 +41,16 @@ public:
 
   void refresh();
   void forgetPictures();
+  void pictureDrawn(const std::string& id);
+  /// Hears which cases of the list are seen.
+  void onSeen(std::function<void(const library::CaseSummary&)> seen);
   void select(const std::string& name); ///< also where the search hides it
   void focusList();
 
   void caseChanged() override { refreshSoon(); }
 
 signals:
+  void refreshed();
   void openAsked(const QString& name);
   void renameAsked(const QString& name);
   void copyAsked(const QString& name);

@@ -1,29 +1,113 @@
 #include "StartPage.h"
 
+#include <algorithm>
+
+#include <QApplication>
+#include <QFrame>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QListView>
+#include <QPainter>
 #include <QPushButton>
+#include <QStyledItemDelegate>
 #include <QVBoxLayout>
+
+#include "Application.h"
+#include "CasesModel.h"
+#include "Theme.h"
+#include "petrous/Presenters/WorkstationModel.h"
 
 namespace petrous::workstation
 {
 
-StartPage::StartPage(QWidget* parent)
+namespace
+{
+
+constexpr std::size_t kRecent = 12;
+constexpr QSize kPicture{128, 96}; // px
+constexpr QSize kTile{372, 116};   // px
+constexpr int kMargin = 10;        // px
+
+/// A case as a tile: its picture, and beside it the name, side and planned date, when it was
+/// changed, and its tags.
+class CaseTile : public QStyledItemDelegate
+{
+public:
+  using QStyledItemDelegate::QStyledItemDelegate;
+
+  QSize sizeHint(const QStyleOptionViewItem&, const QModelIndex&) const override { return kTile; }
+
+  void paint(QPainter* painter, const QStyleOptionViewItem& option,
+             const QModelIndex& index) const override
+  {
+    const auto& one = static_cast<const CasesModel&>(*index.model()).at(index.row());
+    const bool chosen = (option.state & QStyle::State_Selected) != 0;
+    const QPalette& palette = option.palette;
+    const QRect tile = option.rect.adjusted(3, 3, -3, -3);
+    painter->save();
+    painter->setRenderHint(QPainter::Antialiasing);
+    painter->setBrush(palette.color(QPalette::Base));
+    const bool marked = chosen && (option.state & QStyle::State_HasFocus) != 0;
+    painter->setPen(QPen(palette.color(marked   ? QPalette::Link
+                                       : chosen ? QPalette::Highlight
+                                                : QPalette::Button),
+                         marked ? 2.0 : 1.0));
+    painter->drawRoundedRect(QRectF(tile).adjusted(0.5, 0.5, -0.5, -0.5), 5.0, 5.0);
+    const QRect frame(tile.topLeft() + QPoint(6, 7), kPicture);
+    painter->fillRect(frame, palette.color(QPalette::AlternateBase));
+    const auto picture = index.data(Qt::DecorationRole).value<QPixmap>();
+    painter->drawPixmap(
+        frame.center() - QPoint(picture.width() / 2, picture.height() / 2) + QPoint(1, 1), picture);
+
+    QRect text = tile.adjusted(kPicture.width() + 6 + kMargin, 8, -kMargin, -6);
+    const auto line = [&](const QString& what, const QFont& font, const QColor& color)
+    {
+      if (what.isEmpty())
+        return;
+      painter->setFont(font);
+      painter->setPen(color);
+      const QFontMetrics metrics(font);
+      painter->drawText(text, Qt::AlignLeft | Qt::AlignTop | Qt::TextSingleLine,
+                        metrics.elidedText(what, Qt::ElideRight, text.width()));
+      text.setTop(text.top() + metrics.lineSpacing() + 3);
+    };
+    QFont bold = option.font;
+    bold.setBold(true);
+    const QColor dim = palette.color(QPalette::PlaceholderText);
+    line(words(one.name), bold, palette.color(QPalette::WindowText));
+    line(operationText(one), option.font, palette.color(QPalette::WindowText));
+    line(StartPage::tr("changed %1").arg(localTime(one.modified)), option.font, dim);
+    line(tagsText(one), option.font, dim);
+    painter->restore();
+  }
+};
+
+} // namespace
+
+StartPage::StartPage(const presenters::WorkstationModel& model, QWidget* parent)
   : QWidget(parent)
+  , m_model(model)
+  , m_cases(new CasesModel(this))
+  , m_heading(new QLabel(tr("Recent cases")))
+  , m_recent(new QListView)
 {
   auto* title = new QLabel(tr("Drop a folder of DICOM here, or choose File > Open DICOM…"));
   title->setObjectName("big");
   title->setAlignment(Qt::AlignCenter);
+  title->setWordWrap(true);
   auto* more = new QLabel(tr("A CT of the temporal bone becomes a case at once. NRRD, NIfTI and "
                              "MetaImage files work too.\nNothing leaves this computer."));
   more->setObjectName("dim");
   more->setAlignment(Qt::AlignCenter);
+  more->setWordWrap(true);
 
   auto* sample = new QPushButton(tr("Make the sample patient"));
   sample->setObjectName("primary");
   sample->setToolTip(tr("Computes an artificial right temporal bone (0.3 mm voxels) and opens it"));
   auto* folder = new QPushButton(tr("Open DICOM…"));
+  folder->setToolTip(tr("A folder of CT slices: a new case"));
   auto* known = new QPushButton(tr("Open case…"));
+  known->setToolTip(tr("The list of all cases, with a search"));
   auto* archive = new QPushButton(tr("Restore…"));
   archive->setObjectName("restoreArchive");
   archive->setToolTip(tr("Brings the case of an archive (.petrous) to the library and opens it"));
@@ -31,6 +115,7 @@ StartPage::StartPage(QWidget* parent)
   connect(sample, &QPushButton::clicked, this, &StartPage::sampleAsked);
   connect(folder, &QPushButton::clicked, this, &StartPage::openFolderAsked);
   connect(known, &QPushButton::clicked, this, &StartPage::openCaseAsked);
+  m_begin = sample;
 
   auto* buttons = new QHBoxLayout;
   buttons->setSpacing(10);
@@ -40,14 +125,96 @@ StartPage::StartPage(QWidget* parent)
   buttons->addWidget(archive);
   buttons->addWidget(sample);
   buttons->addStretch();
+  auto* place = new QFrame;
+  place->setObjectName("dropPlace");
+  auto* inside = new QVBoxLayout(place);
+  inside->setContentsMargins(20, 22, 20, 22);
+  inside->setSpacing(14);
+  inside->addWidget(title);
+  inside->addWidget(more);
+  inside->addLayout(buttons);
+
+  m_cases->setPictureSize(kPicture);
+  m_cases->thumbnail = [this](const library::CaseSummary& one)
+  { return m_model.library().thumbnail(one); };
+  m_heading->setObjectName("big");
+  m_recent->setObjectName("recentCases");
+  m_recent->setAccessibleName(tr("Recent cases"));
+  m_recent->setModel(m_cases);
+  m_recent->setItemDelegate(new CaseTile(m_recent));
+  m_recent->setViewMode(QListView::IconMode);
+  m_recent->setMovement(QListView::Static);
+  m_recent->setResizeMode(QListView::Adjust);
+  m_recent->setGridSize(kTile);
+  m_recent->setUniformItemSizes(true);
+  m_recent->setFrameShape(QFrame::NoFrame);
+  m_recent->viewport()->setAutoFillBackground(false);
+  m_recent->setAcceptDrops(false);
+  m_recent->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
+  m_recent->setTabKeyNavigation(false);
+  const auto open = [this](const QModelIndex& index)
+  {
+    if (index.isValid())
+      emit caseAsked(words(m_cases->at(index.row()).name));
+  };
+  connect(m_recent, &QListView::activated, this, open); // a double click, Enter
+  QWidget::setTabOrder(m_recent, folder);
+
   auto* layout = new QVBoxLayout(this);
-  layout->setSpacing(14);
-  layout->addStretch(4);
-  layout->addWidget(title);
-  layout->addWidget(more);
-  layout->addSpacing(10);
-  layout->addLayout(buttons);
-  layout->addStretch(5);
+  layout->setContentsMargins(24, 20, 24, 12);
+  layout->setSpacing(12);
+  layout->addStretch(1);
+  layout->addWidget(place);
+  layout->addWidget(m_heading);
+  layout->addWidget(m_recent, 8);
+  layout->addStretch(1);
+}
+
+void StartPage::onSeen(std::function<void(const library::CaseSummary&)> seen)
+{
+  m_cases->seen = std::move(seen);
+}
+
+void StartPage::pictureDrawn(const std::string& id)
+{
+  m_cases->pictureDrawn(id);
+}
+
+void StartPage::refresh()
+{
+  if (isVisible())
+    list();
+}
+
+void StartPage::showEvent(QShowEvent* event)
+{
+  QWidget::showEvent(event);
+  list();
+  (m_recent->isHidden() ? m_begin : m_recent)->setFocus();
+}
+
+void StartPage::list()
+{
+  std::vector<library::CaseSummary> cases;
+  try
+  {
+    cases = m_model.library().list();
+  }
+  catch (const std::exception&) // the library panel tells why
+  {
+  }
+  cases.erase(std::remove_if(cases.begin(), cases.end(),
+                             [](const library::CaseSummary& one) { return one.damaged; }),
+              cases.end());
+  std::stable_sort(cases.begin(), cases.end(),
+                   [](const auto& a, const auto& b) { return a.modified > b.modified; });
+  cases.resize(std::min(cases.size(), kRecent));
+  m_cases->setCases(std::move(cases), {});
+  const bool any = m_cases->rowCount() > 0;
+  m_heading->setVisible(any);
+  m_recent->setVisible(any);
+  if (any)
+    m_recent->setCurrentIndex(m_cases->index(0, 0));
 }
 
 } // namespace petrous::workstation

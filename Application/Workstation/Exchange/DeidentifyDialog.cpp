@@ -11,6 +11,7 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include "Passphrase.h"
 #include "PathRow.h"
 #include "Theme.h"
 
@@ -20,23 +21,12 @@ namespace petrous::workstation
 namespace
 {
 
-constexpr int kShortestPassphrase = 8; // bytes
-
 QCheckBox* option(const char* name, const QString& text, const QString& tip)
 {
   auto* box = new QCheckBox(text);
   box->setObjectName(name);
   box->setToolTip(tip);
   return box;
-}
-
-QLineEdit* secret(const char* name)
-{
-  auto* line = new QLineEdit;
-  line->setObjectName(name);
-  line->setEchoMode(QLineEdit::Password);
-  line->setInputMethodHints(Qt::ImhSensitiveData | Qt::ImhNoPredictiveText | Qt::ImhHiddenText);
-  return line;
 }
 
 } // namespace
@@ -62,8 +52,8 @@ DeidentifyDialog::DeidentifyDialog(QWidget* parent)
                     tr("In an encrypted file that stays here. The same file gives the same "
                        "pseudonyms, UIDs and date shifts again")))
   , m_map(new PathRow("pseudonymMap", PathRow::Kind::NewFile, tr("File of the pseudonyms")))
-  , m_first(secret("passphrase"))
-  , m_second(secret("passphraseAgain"))
+  , m_first(passphraseLine("passphrase"))
+  , m_second(passphraseLine("passphraseAgain"))
   , m_advice(new QLabel)
 {
   setObjectName("deidentify");
@@ -113,14 +103,10 @@ DeidentifyDialog::~DeidentifyDialog()
   clearPassphrases();
 }
 
-// Qt's copy of the text is shared with the widget: overwritten in place where it is the only one.
 void DeidentifyDialog::clearPassphrases()
 {
   for (QLineEdit* line : {m_first, m_second})
-  {
-    line->setText(QString(line->text().size(), QChar('0')));
-    line->clear();
-  }
+    clearPassphrase(*line);
 }
 
 void DeidentifyDialog::check()
@@ -171,15 +157,7 @@ presenters::DeidentifyRequest DeidentifyDialog::request() const
 
 std::shared_ptr<const std::string> DeidentifyDialog::takePassphrase()
 {
-  QByteArray text = m_first->text().toUtf8();
-  std::shared_ptr<const std::string> secret(
-      new std::string(text.constData(), static_cast<std::size_t>(text.size())),
-      [](const std::string* one)
-      {
-        presenters::wipe(const_cast<std::string&>(*one));
-        delete one;
-      });
-  text.fill('0');
+  auto secret = workstation::takePassphrase(*m_first);
   clearPassphrases();
   return secret;
 }

@@ -1,5 +1,7 @@
 #include "ExchangeController.h"
 
+#include <chrono>
+
 #include <QAction>
 #include <QDir>
 #include <QFile>
@@ -10,6 +12,7 @@
 #include "CaseDocumentController.h"
 #include "DeidentifyDialog.h"
 #include "NodesDialog.h"
+#include "PseudonymsDialog.h"
 #include "ReportWindow.h"
 #include "SendDialog.h"
 #include "Theme.h"
@@ -88,6 +91,8 @@ ExchangeController::ExchangeController(presenters::WorkstationModel& model,
   menu.addSeparator();
   add("deidentifyFolder", tr("&De-identify DICOM files…"),
       tr("A folder of DICOM files without what identifies the patient"), [this] { deidentify(); });
+  add("pseudonyms", tr("&Pseudonyms…"), tr("Who is behind the pseudonyms of de-identified files"),
+      [this] { PseudonymsDialog(std::chrono::minutes(5), &m_window).exec(); });
 }
 
 // Non-modal.

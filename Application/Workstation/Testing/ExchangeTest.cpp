@@ -4,17 +4,25 @@
 
 #include <QCheckBox>
 #include <QDialog>
+#include <QDialogButtonBox>
 #include <QDir>
+#include <QElapsedTimer>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
 #include <QPlainTextEdit>
+#include <QProgressDialog>
 #include <QPushButton>
+#include <QSignalSpy>
 #include <QSpinBox>
+#include <QTableView>
+#include <QTimer>
 #include <QTreeWidget>
 
 #include "../../../Modules/Imaging/Testing/TestDicom.h"
 #include "../../../Modules/Network/Testing/TestServers.h"
+#include "ExchangeController.h"
+#include "PseudonymsDialog.h"
 #include "Theme.h"
 #include "petrous/Library/PseudonymMap.h"
 #include "petrous/Network/NodeList.h"
@@ -51,6 +59,51 @@ protected:
     const QString pictures = qEnvironmentVariable("PETROUS_GUI_PICTURES");
     if (!pictures.isEmpty()) // for visual inspection
       dialog.grab().save(QString("%1/%2.png").arg(pictures, name));
+  }
+  void skipWithoutOrthanc()
+  {
+    if (!network::test::Orthanc::installed())
+      GTEST_SKIP() << "Orthanc (package orthanc) is not installed";
+  }
+  /// Sends the open case, all that is proposed; returns what the box says if it fails, else
+  /// nothing.
+  QString send()
+  {
+    struct State
+    {
+      QString why;
+      bool asked = false, over = false;
+    };
+    const auto state = std::make_shared<State>(); // what polls for dialogs outlives this function
+    onDialog(
+        [state](QDialog& dialog)
+        {
+          if (state->over)
+            return true;
+          if (auto* box = qobject_cast<QMessageBox*>(&dialog))
+          {
+            state->why = box->text();
+            box->accept();
+            return true;
+          }
+          if (dialog.objectName() == "sendCase")
+          {
+            state->asked = true;
+            button(dialog, "primary").click();
+          }
+          return false;
+        });
+    menu("sendOpenCase");
+    EXPECT_TRUE(state->asked);
+    EXPECT_TRUE(waitFor([&] { return (report() || !state->why.isEmpty()) && !window().busy(); }));
+    state->over = true;
+    return state->why;
+  }
+  void cancelWork()
+  {
+    auto* progress = window().findChild<QProgressDialog*>("importProgress");
+    ASSERT_TRUE(progress);
+    progress->findChild<QPushButton*>()->click();
   }
   bool isOpen(const char* name)
   {
@@ -191,6 +244,147 @@ TEST_F(Exchange, ACaseGoesToANodeAndComesBack)
   EXPECT_EQ(library().open("ball").ct.object, library().open("original").ct.object);
 }
 
+// Both sides show certificates. Without the right ones, nothing is sent, and why is told.
+TEST_F(Exchange, CertificatesDecideWhetherACaseIsSent)
+{
+  skipWithoutOrthanc();
+  if (IsSkipped())
+    return;
+  saveBall("ball");
+  const network::test::Certificate own(folder(), "server"), client(folder(), "client"),
+      stranger(folder(), "stranger");
+  const network::test::Orthanc orthanc(folder(), {&own, &client, 0, 0});
+  network::NodeList nodes(libraryFolder());
+  const auto set = [&](const std::function<void(network::Node&)>& change)
+  {
+    network::Node node = orthanc.node();
+    change(node);
+    if (!nodes.nodes().empty())
+      nodes.remove(node.name);
+    nodes.add(node);
+  };
+  const auto kept = [&]
+  {
+    return std::count_if(fs::recursive_directory_iterator(orthanc.storage()), {},
+                         [](const auto& entry) // named by a UUID
+                         { return entry.path().filename().string().size() == 36; });
+  };
+  openWindow("ball");
+  const auto before = kept();
+  set([&](network::Node& node) { node.tls->authority = stranger.certificate(); });
+  QString why = send();
+  EXPECT_TRUE(why.contains("orthanc") && why.contains("certificate")) << why.toStdString();
+  set([&](network::Node& node)
+      { node.tls->certificate = stranger.certificate(), node.tls->key = stranger.key(); });
+  why = send();
+  EXPECT_TRUE(why.contains("orthanc")) << why.toStdString();
+  set([&](network::Node& node) { node.aeTitle = "NOBODY"; });
+  why = send();
+  EXPECT_TRUE(why.contains("NOBODY")) << why.toStdString();
+  EXPECT_EQ(kept(), before);
+  EXPECT_TRUE(isOpen("ball"));
+  set([](network::Node&) {});
+  EXPECT_EQ(send(), QString());
+  EXPECT_TRUE(reportHead().contains("has all of them")) << reportHead().toStdString();
+  EXPECT_GT(kept(), before);
+}
+
+// While the node is silent in the middle of it. What it has by then is not sent again.
+TEST_F(Exchange, SendingIsCancelledAndGoesOn)
+{
+  skipWithoutOrthanc();
+  if (IsSkipped())
+    return;
+  saveBall("ball");
+  const network::test::Orthanc orthanc(folder(), {});
+  using Proxy = network::test::BreakingProxy;
+  const Proxy proxy(orthanc.node().port, 250000, Proxy::Fault::Stall, 1);
+  network::Node node = orthanc.node();
+  node.port = proxy.port();
+  network::NodeList(libraryFolder()).add(node);
+  openWindow("ball");
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        if (dialog.objectName() != "sendCase")
+          return false;
+        button(dialog, "primary").click();
+        return true;
+      });
+  menu("sendOpenCase");
+  ASSERT_TRUE(waitFor([&] { return proxy.stalled(); }));
+  EXPECT_TRUE(window().busy());
+  cancelWork();
+  ASSERT_TRUE(waitFor([&] { return !window().busy(); }));
+  EXPECT_FALSE(report());
+  EXPECT_EQ(window().findChild<QMessageBox*>(), nullptr) << "who cancels is told nothing";
+  EXPECT_TRUE(isOpen("ball"));
+  EXPECT_EQ(send(), QString());
+  EXPECT_TRUE(reportHead().contains("were there already")) << reportHead().toStdString();
+  EXPECT_TRUE(reportHead().contains("has all of them")) << reportHead().toStdString();
+}
+
+// A reception that was cancelled goes on with what is missing; then it is imported.
+TEST_F(Exchange, ReceivingIsCancelledAndGoesOn)
+{
+  skipWithoutOrthanc();
+  if (IsSkipped())
+    return;
+  saveBall("ball");
+  const network::test::Orthanc orthanc(folder(), {});
+  presenters::SendParts parts;
+  parts.ct = parts.labels = parts.scene = true;
+  presenters::sendCase(library(), "ball", orthanc.node(), parts);
+  using Proxy = network::test::BreakingProxy;
+  const Proxy proxy(orthanc.node().port, 250000, Proxy::Fault::Stall, 1);
+  network::Node node = orthanc.node();
+  node.port = proxy.port();
+  network::NodeList(libraryFolder()).add(node);
+  openWindow("ball");
+  const auto receive = [&]
+  {
+    bool chosen = false;
+    onDialog(
+        [&](QDialog& dialog)
+        {
+          if (dialog.objectName() != "receive")
+            return false;
+          type(dialog, "receiveId", "ANONYMOUS");
+          button(dialog, "receiveSearch").click();
+          auto* found = dialog.findChild<QTreeWidget*>("receiveFound");
+          EXPECT_TRUE(waitFor(
+              [&] {
+                return found->topLevelItemCount() == 1 && found->topLevelItem(0)->childCount() == 3;
+              }));
+          for (int n = 0; n < 3; ++n)
+          {
+            auto* series = found->topLevelItem(0)->child(n);
+            series->setCheckState(0, series->text(4) == "CT" ? Qt::Checked : Qt::Unchecked);
+          }
+          chosen = true;
+          button(dialog, "primary").click();
+          return true;
+        });
+    menu("receiveCase");
+    EXPECT_TRUE(chosen);
+  };
+  receive();
+  ASSERT_TRUE(waitFor([&] { return proxy.stalled(); }));
+  cancelWork();
+  ASSERT_TRUE(waitFor([&] { return !window().busy(); }));
+  EXPECT_EQ(library().list().size(), 1u);
+  EXPECT_TRUE(isOpen("ball"));
+
+  QSignalSpy told(window().findChild<ExchangeController*>(), &ExchangeController::statusMessage);
+  receive();
+  ASSERT_TRUE(waitFor([&] { return !told.isEmpty(); }));
+  const QString line = told.first().first().toString();
+  EXPECT_TRUE(line.contains("64 objects") && line.contains("were there already"))
+      << line.toStdString();
+  ASSERT_TRUE(isOpen("received"));
+  EXPECT_EQ(window().model().value().ct.geometry.dims(), (core::Index3{64, 64, 64}));
+}
+
 // A node that does not answer is named, and nothing is lost.
 TEST_F(Exchange, WhySendingFailsIsTold)
 {
@@ -271,4 +465,163 @@ TEST_F(Exchange, AFolderIsDeidentified)
       const std::string all{std::istreambuf_iterator<char>(file), {}};
       EXPECT_EQ(all.find(bytes(secret)), std::string::npos) << entry.path();
     }
+}
+
+namespace
+{
+
+// The window of a map with two entries.
+class Pseudonyms : public Exchange
+{
+protected:
+  static constexpr library::PseudonymMap::Cost kCheap{1, 1 << 16};
+  static constexpr const char* kSecret = "one long passphrase";
+
+  void SetUp() override
+  {
+    library::PseudonymMap map(file(), kSecret, kCheap);
+    map.add({{"patient", "P-0815", "4711 Doe^Jane"}, {"study", "2.25.1", "1.2.3"}});
+    map.save();
+  }
+  fs::path file() const { return folder() / "map"; }
+  static int rows(QDialog& dialog)
+  {
+    return dialog.findChild<QTableView*>("pseudonymsTable")->model()->rowCount();
+  }
+  QString outcome(QDialog& dialog)
+  {
+    return dialog.findChild<QLabel*>("pseudonymsOutcome")->text();
+  }
+  void unlock(QDialog& dialog, const char* secret = kSecret)
+  {
+    type(dialog, "pseudonymsFile", QString::fromStdString(file().string()));
+    type(dialog, "pseudonymsPassphrase", secret);
+    ASSERT_TRUE(button(dialog, "primary").isEnabled());
+    button(dialog, "primary").click();
+    ASSERT_TRUE(waitFor([&] { return rows(dialog) > 0 || outcome(dialog).contains("cannot be"); }));
+  }
+  // Answers the next question for a passphrase.
+  void answer(const QString& path, const QString& secret)
+  {
+    onDialog(
+        [path, secret](QDialog& dialog)
+        {
+          if (dialog.objectName() != "pseudonymsAsk")
+            return false;
+          auto* accept = dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok);
+          if (!path.isEmpty())
+            type(dialog, "otherFile", path);
+          EXPECT_FALSE(accept->isEnabled());
+          type(dialog, "otherPassphrase", secret);
+          auto* again = dialog.findChild<QLineEdit*>("otherPassphraseAgain");
+          if (again->isVisible())
+          {
+            EXPECT_FALSE(accept->isEnabled()) << "once more";
+            again->setText(secret);
+          }
+          EXPECT_TRUE(accept->isEnabled());
+          accept->click();
+          return true;
+        });
+  }
+};
+
+} // namespace
+
+TEST_F(Pseudonyms, AreShownByTheirPassphraseOnly)
+{
+  openWindow();
+  bool done = false;
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        if (dialog.objectName() != "pseudonyms")
+          return false;
+        EXPECT_FALSE(button(dialog, "primary").isEnabled());
+        unlock(dialog, "another passphrase");
+        EXPECT_EQ(rows(dialog), 0);
+        EXPECT_EQ(dialog.findChild<QLineEdit*>("pseudonymsPassphrase")->text(), "");
+        unlock(dialog);
+        EXPECT_EQ(rows(dialog), 2);
+        keepPicture(dialog, "pseudonyms");
+        for (const auto& [text, count] :
+             {std::pair("jane", 1), std::pair("P-08", 1), std::pair("1.2.3", 1), std::pair("x", 0)})
+        {
+          type(dialog, "pseudonymsSearch", text);
+          EXPECT_EQ(rows(dialog), count) << text;
+        }
+        button(dialog, "pseudonymsLock").click();
+        EXPECT_EQ(rows(dialog), 0);
+        unlock(dialog);
+        EXPECT_EQ(rows(dialog), 2) << "nothing is searched for any more";
+        done = true;
+        dialog.reject();
+        EXPECT_EQ(rows(dialog), 0) << "locked when it is closed";
+        return true;
+      });
+  menu("pseudonyms");
+  ASSERT_TRUE(done);
+  library::PseudonymMap(file(), kSecret, kCheap); // nobody holds it
+  closeWindow();
+  for (const auto& entry : fs::recursive_directory_iterator(folder()))
+    if (entry.is_regular_file())
+    {
+      std::ifstream one(entry.path(), std::ios::binary);
+      const std::string all{std::istreambuf_iterator<char>(one), {}};
+      for (const char* text : {kSecret, "Doe^Jane", "P-0815"})
+        EXPECT_EQ(all.find(text), std::string::npos) << entry.path();
+    }
+}
+
+TEST_F(Pseudonyms, AreLockedAfterATimeWithoutInput)
+{
+  PseudonymsDialog dialog(std::chrono::milliseconds(1500));
+  dialog.show();
+  unlock(dialog);
+  ASSERT_TRUE(dialog.isOpen());
+  QElapsedTimer since;
+  since.start();
+  while (since.elapsed() < 2500) // longer than it takes, with a key now and then
+  {
+    QTest::keyClick(dialog.findChild<QLineEdit*>("pseudonymsSearch"), Qt::Key_Left);
+    QTest::qWait(100);
+    ASSERT_TRUE(dialog.isOpen());
+  }
+  // Also while another dialog asks for something.
+  QTimer::singleShot(0, &dialog, [&] { button(dialog, "pseudonymsChange").click(); });
+  EXPECT_TRUE(waitFor([&] { return !dialog.isOpen(); }));
+  EXPECT_EQ(rows(dialog), 0);
+  EXPECT_EQ(QApplication::activeModalWidget(), nullptr);
+  EXPECT_TRUE(outcome(dialog).contains("Locked")) << outcome(dialog).toStdString();
+}
+
+TEST_F(Pseudonyms, AreCopiedTakenInAndGetAnotherPassphrase)
+{
+  const fs::path copy = folder() / "copy", other = folder() / "other";
+  {
+    library::PseudonymMap map(other, "a third passphrase", kCheap);
+    map.add({{"patient", "P-4321", "4712 Roe^Richard"}, {"study", "2.25.1", "1.2.3"}});
+    map.save();
+  }
+  openWindow();
+  PseudonymsDialog dialog(std::chrono::minutes(5), &window());
+  dialog.show();
+  unlock(dialog);
+  const auto told = [&](const char* text)
+  { return waitFor([&] { return outcome(dialog).contains(text); }); };
+  answer(QString::fromStdString(copy.string()), "another passphrase");
+  button(dialog, "pseudonymsExport").click();
+  EXPECT_TRUE(told("Copied")) << outcome(dialog).toStdString();
+  answer(QString::fromStdString(other.string()), "a third passphrase");
+  button(dialog, "pseudonymsImport").click();
+  EXPECT_TRUE(told("1 pseudonym is new")) << outcome(dialog).toStdString();
+  EXPECT_TRUE(told("key of its own"));
+  EXPECT_EQ(rows(dialog), 3);
+  answer({}, "a fourth passphrase");
+  button(dialog, "pseudonymsChange").click();
+  EXPECT_TRUE(told("is changed")) << outcome(dialog).toStdString();
+  dialog.close();
+  EXPECT_EQ(library::PseudonymMap(copy, "another passphrase", kCheap).entries().size(), 2u);
+  EXPECT_EQ(library::PseudonymMap(file(), "a fourth passphrase", kCheap).entries().size(), 3u);
+  EXPECT_THROW(library::PseudonymMap(file(), kSecret, kCheap), library::PseudonymMapError);
 }

@@ -87,6 +87,7 @@ void GuiTest::openWindow(const QString& what)
   options.settings = m_folder.filePath("settings.conf");
   options.devices = devices;
   options.lookForDevicesEvery = 50;
+  options.drawThumbnailsAfter = drawThumbnailsAfter;
   m_window = std::make_unique<MainWindow>(library(), options);
   m_window->resize(1200, 760);
   m_window->show();

@@ -36,6 +36,7 @@ protected:
   void saveBall(const std::string& name); ///< into the library
 
   presenters::DeviceSources devices; ///< of windows opened later; initially none
+  int drawThumbnailsAfter = -1;      ///< ms, see WindowOptions; of windows opened later
   void openWindow(const QString& what = {});
   void closeWindow();
   MainWindow& window() { return *m_window; }

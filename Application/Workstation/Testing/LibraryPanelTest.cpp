@@ -5,19 +5,23 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDialog>
-#include <QFileDialog>
 #include <QInputDialog>
 #include <QLabel>
 #include <QLineEdit>
+#include <QListView>
 #include <QMenu>
 #include <QPlainTextEdit>
 #include <QPushButton>
+#include <QTimer>
 #include <QToolButton>
+#include <QTranslator>
 #include <QTreeView>
 
 #include "CasesModel.h"
 #include "LibraryPanel.h"
+#include "StartPage.h"
 #include "Theme.h"
+#include "ThumbnailDrawer.h"
 #include "petrous/Library/Archive.h"
 
 using namespace petrous;
@@ -266,12 +270,10 @@ TEST_F(LibraryWindow, AnyCaseIsArchivedAndComesBackByDrop)
   onDialog(
       [&](QDialog& dialog)
       {
-        auto* files = qobject_cast<QFileDialog*>(&dialog);
-        if (!files)
+        if (dialog.objectName() != "archiveCase")
           return false;
-        files->setDirectory(QString::fromStdString(folder().string()));
-        files->selectFile("other.petrous");
-        static_cast<QDialog*>(files)->accept();
+        dialog.findChild<QLineEdit*>("archiveFile")->setText(QString::fromStdString(file.string()));
+        dialog.findChild<QPushButton*>("primary")->click();
         return true;
       });
   act("Archive the case…");
@@ -288,6 +290,73 @@ TEST_F(LibraryWindow, AnyCaseIsArchivedAndComesBackByDrop)
   dropPath(file);
   ASSERT_TRUE(isOpen("other"));
   EXPECT_TRUE(waitFor([&] { return names().contains("other"); }));
+}
+
+// What goes into the file is read before; note and date go only as they are ticked, and a file that
+// is there is replaced only with consent.
+TEST_F(LibraryWindow, AnArchiveIsWrittenAsTheDialogSays)
+{
+  scene::Case value = ballCase("ball");
+  value.description.note = "seen on ward 7";
+  value.description.date = "2026-03-31";
+  library().save(value);
+  openWindow();
+  showPanel();
+  const fs::path file = folder() / "ball.petrous";
+  std::ofstream(file) << "of somebody else";
+  int step = 0;
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        if (auto* box = qobject_cast<QMessageBox*>(&dialog))
+        {
+          if (step == 1 || step == 2)
+          {
+            EXPECT_TRUE(box->text().contains("ball.petrous")) << box->text().toStdString();
+            box->button(++step == 2 ? QMessageBox::No : QMessageBox::Yes)->click();
+          }
+          return step == 3;
+        }
+        if (dialog.objectName() != "archiveCase")
+          return false;
+        const auto report = [&]
+        { return dialog.findChild<QPlainTextEdit*>("archiveReport")->toPlainText(); };
+        const auto below = [&](const char* title, const char* line)
+        {
+          const int from = report().indexOf(title);
+          const int to = report().indexOf("\n\n", from);
+          return from >= 0 && report().mid(from, to < 0 ? -1 : to - from).contains(line);
+        };
+        if (step == 0)
+        {
+          EXPECT_TRUE(below("Leaves:", "the note"));
+          EXPECT_TRUE(below("Stays here:", "planned date"));
+          dialog.findChild<QCheckBox*>("archiveNote")->setChecked(false);
+          EXPECT_TRUE(below("Stays here:", "the note"));
+          dialog.findChild<QCheckBox*>("archiveDate")->setChecked(true);
+          EXPECT_TRUE(below("Leaves:", "planned date"));
+          EXPECT_TRUE(below("May identify", "planned date"));
+          dialog.findChild<QCheckBox*>("archivePlan")->setChecked(true);
+          EXPECT_FALSE(below("Leaves:", "voxels"));
+          dialog.findChild<QCheckBox*>("archivePlan")->setChecked(false);
+          EXPECT_TRUE(below("Leaves:", "voxels"));
+          auto* line = dialog.findChild<QLineEdit*>("archiveFile");
+          line->setText(QString::fromStdString((folder() / "nowhere" / "x").string()));
+          EXPECT_FALSE(dialog.findChild<QPushButton*>("primary")->isEnabled());
+          line->setText(QString::fromStdString(file.string()));
+          step = 1;
+        }
+        // The first question is answered by No: the dialog stays.
+        QTimer::singleShot(0, dialog.findChild<QPushButton*>("primary"), &QPushButton::click);
+        return false;
+      });
+  action("Archive…")->trigger();
+  EXPECT_EQ(step, 3);
+  ASSERT_TRUE(waitFor([&] { return !window().busy() && fs::file_size(file) > 100; }));
+  library::Library other(folder() / "other");
+  library::restoreCase(other, file);
+  EXPECT_EQ(other.description("ball").note, "");
+  EXPECT_EQ(other.description("ball").date, "2026-03-31");
 }
 
 // It can be renamed and deleted, not opened.
@@ -372,4 +441,152 @@ TEST_F(LibraryWindow, ACaseHasAPicture)
     return !picture.isNull() && pixelsUnlikeTheCorner(picture) > 50;
   };
   EXPECT_TRUE(waitFor(shown));
+}
+
+// Of a case that was saved, and of listed ones without a picture: bone alone is in it, since the
+// ball is nothing else. Not where the user does not want that.
+TEST_F(LibraryWindow, PicturesAreDrawnInTheBackground)
+{
+  saveBall("ball");
+  saveBall("other");
+  drawThumbnailsAfter = 50;
+  openWindow("ball");
+  const auto has = [this](const char* name) { return !library().thumbnail(name).empty(); };
+  EXPECT_FALSE(has("ball")) << "nothing was saved, and nobody looks at the list";
+  drill(300);
+  EXPECT_TRUE(action("Drill")->isChecked());
+  QTest::keyClick(&view(), Qt::Key_D); // the tool is put away
+  ASSERT_TRUE(waitFor([&] { return has("ball"); }));
+  EXPECT_FALSE(has("other"));
+  showPanel();
+  ASSERT_TRUE(waitFor([&] { return has("other"); }));
+  const auto shown = [&](int row)
+  {
+    const auto picture =
+        list().model()->index(row, 0).data(Qt::DecorationRole).value<QPixmap>().toImage();
+    return !picture.isNull() && pixelsUnlikeTheCorner(picture) > 50;
+  };
+  EXPECT_TRUE(waitFor([&] { return shown(0) && shown(1); }));
+
+  // Drawn anew after the next stroke.
+  const auto before = library().thumbnail("ball");
+  drill(600, 20);
+  QTest::keyClick(&view(), Qt::Key_D);
+  EXPECT_TRUE(waitFor([&] { return library().thumbnail("ball") != before; }));
+  closeWindow();
+
+  const auto drawing = [this] { return window().findChild<QAction*>("drawThumbnails"); };
+  openWindow("ball");
+  EXPECT_TRUE(drawing()->isChecked());
+  drawing()->trigger();
+  closeWindow();
+  saveBall("third");
+  openWindow("ball");
+  EXPECT_FALSE(drawing()->isChecked()) << "kept";
+  auto& drawer = *window().findChild<ThumbnailDrawer*>();
+  showPanel();
+  EXPECT_EQ(names().size(), 3);
+  EXPECT_FALSE(drawer.busy());
+  drawing()->trigger();
+  panel().refresh();
+  EXPECT_TRUE(waitFor([&] { return has("third"); }));
+}
+
+// The first page while no case is open: the cases that were changed last, reached by the keyboard.
+TEST_F(LibraryWindow, TheFirstPageHasTheRecentCases)
+{
+  scene::Case value = ballCase("first");
+  value.description.side = scene::Side::Left;
+  value.description.date = "2026-03-31";
+  value.description.tags = {"teaching"};
+  library().save(value);
+  saveBall("second");
+  saveBall("broken");
+  std::ofstream(folder() / "library" / "cases" / "broken.json") << "{";
+  openWindow("first");
+  auto& page = *window().findChild<StartPage*>();
+  EXPECT_FALSE(page.isVisible());
+  action("Close the case")->trigger();
+  ASSERT_TRUE(page.isVisible());
+  EXPECT_FALSE(window().model().hasCase());
+  EXPECT_FALSE(action("Close the case")->isEnabled());
+  auto& recent = *page.findChild<QListView*>("recentCases");
+  ASSERT_EQ(recent.model()->rowCount(), 2) << "a damaged one is in the panel only";
+  QApplication::setActiveWindow(&window());
+  EXPECT_TRUE(waitFor([&] { return recent.hasFocus(); }));
+  const auto row = [&](const QString& name)
+  { return recent.model()->index(0, 0).data().toString() == name ? 0 : 1; };
+  const auto told = recent.model()->index(row("first"), 0).data(Qt::AccessibleTextRole).toString();
+  for (const char* what : {"first", "left", "2026-03-31", "teaching"})
+    EXPECT_TRUE(told.contains(what)) << told.toStdString();
+
+  // All of it is reached by Tab, in both directions, and is on the page.
+  QSet<QWidget*> reached;
+  for (int n = 0; n < 40; ++n)
+  {
+    reached += QApplication::focusWidget();
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_Tab);
+  }
+  for (auto* button : page.findChildren<QPushButton*>())
+    EXPECT_TRUE(reached.contains(button)) << button->text().toStdString();
+  EXPECT_TRUE(reached.contains(&recent));
+
+  // Deleted meanwhile; and the one that is left is opened by Enter.
+  library().remove("second");
+  panel().show();
+  panel().refresh();
+  EXPECT_EQ(recent.model()->rowCount(), 1);
+  recent.setFocus();
+  QTest::keyClick(&recent, Qt::Key_Return);
+  ASSERT_TRUE(isOpen("first"));
+  EXPECT_FALSE(page.isVisible());
+}
+
+namespace
+{
+
+// As long as German texts are, at least.
+class LongTexts : public QTranslator
+{
+public:
+  bool isEmpty() const override { return false; }
+  QString translate(const char* context, const char* text, const char*, int) const override
+  {
+    if (!QByteArray(context).startsWith("petrous"))
+      return {};
+    const QString plain = QString::fromUtf8(text);
+    return plain + QString(plain.size() * 2 / 5, 'n');
+  }
+};
+
+} // namespace
+
+// With texts that are 40 % longer, on the smallest screen, with panels open beside it.
+TEST_F(LibraryWindow, TheFirstPageHasRoomForLongTexts)
+{
+  LongTexts longer;
+  QApplication::installTranslator(&longer);
+  saveBall("first");
+  openWindow("first");
+  QApplication::removeTranslator(&longer);
+  window().resize(1280, 720);
+  for (auto* action : window().findChildren<QAction*>())
+    if (action->text().startsWith("&Close the case"))
+      action->trigger();
+  auto& page = *window().findChild<StartPage*>();
+  ASSERT_TRUE(waitFor([&] { return page.isVisible(); }));
+  QTest::qWait(0);
+  EXPECT_LE(window().width(), 1280);
+  EXPECT_LE(window().height(), 720);
+  for (auto* widget : page.findChildren<QWidget*>())
+    if (qobject_cast<QPushButton*>(widget) || qobject_cast<QLabel*>(widget))
+    {
+      const QRect on(widget->mapTo(&page, QPoint()), widget->size());
+      EXPECT_TRUE(page.rect().contains(on)) << widget->objectName().toStdString();
+      EXPECT_GE(widget->width(), widget->minimumSizeHint().width());
+      EXPECT_GE(widget->height(), widget->hasHeightForWidth()
+                                      ? widget->heightForWidth(widget->width())
+                                      : widget->minimumSizeHint().height());
+    }
+  EXPECT_GE(page.findChild<QListView*>("recentCases")->height(), 100) << "a row of cases";
 }

@@ -52,6 +52,7 @@
 #include "Theme.h"
 #include "ThicknessController.h"
 #include "ThreeDView.h"
+#include "ThumbnailDrawer.h"
 #include "ViewStateController.h"
 #include "WindowActions.h"
 #include "WindowSettings.h"
@@ -108,6 +109,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_deviceBar(new DeviceToolBar)
   , m_view(new ThreeDView)
   , m_slices(new SliceColumn(m_model))
+  , m_start(new StartPage(m_model))
   , m_pages(new QStackedWidget)
   , m_unsavedBanner(new Banner("unsavedBanner", Banner::Kind::Warning))
   , m_loadingBanner(new Banner("loadingBanner", Banner::Kind::Notice))
@@ -133,7 +135,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_branches(new BranchController(m_model, *m_actions->approaches, *this))
   , m_registration(new RegistrationController(m_model, *m_slices, *this))
   , m_segment(new SegmentController(m_model, *m_slices, *this))
-  , m_library(new LibraryController(m_model, *m_keeper, *this))
+  , m_library(new LibraryController(m_model, *m_keeper, *this, options.drawThumbnailsAfter))
   , m_exchange(new ExchangeController(m_model, *m_keeper, *m_library->menu(), *this))
   , m_attachments(new AttachmentsController(m_model, *m_view, *this))
   , m_viewState(new ViewStateController(m_model, *m_view, *m_slices, *m_picture, *m_registration,
@@ -158,6 +160,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   connectModel();
   connectActions();
   connectSegment();
+  connectThumbnails();
   guardBoxes();
   stateChanged();
 }
@@ -182,11 +185,13 @@ MainWindow::~MainWindow()
 
 void MainWindow::layOut()
 {
-  auto* start = new StartPage;
-  connect(start, &StartPage::sampleAsked, m_keeper, &CaseDocumentController::makeSample);
-  connect(start, &StartPage::openFolderAsked, m_keeper, &CaseDocumentController::openFolder);
-  connect(start, &StartPage::openCaseAsked, this, &MainWindow::showLibrary);
-  connect(start, &StartPage::restoreAsked, m_keeper, qOverload<>(&CaseDocumentController::restore));
+  connect(m_start, &StartPage::sampleAsked, m_keeper, &CaseDocumentController::makeSample);
+  connect(m_start, &StartPage::openFolderAsked, m_keeper, &CaseDocumentController::openFolder);
+  connect(m_start, &StartPage::openCaseAsked, this, &MainWindow::showLibrary);
+  connect(m_start, &StartPage::restoreAsked, m_keeper,
+          qOverload<>(&CaseDocumentController::restore));
+  connect(m_start, &StartPage::caseAsked, m_keeper,
+          [this](const QString& name) { m_keeper->openCase(bytes(name)); });
 
   auto* across = new QSplitter(Qt::Horizontal);
   across->setHandleWidth(3);
@@ -195,7 +200,7 @@ void MainWindow::layOut()
   across->setStretchFactor(0, 3);
   across->setStretchFactor(1, 1);
   across->setSizes({700, 380});
-  m_pages->addWidget(start);
+  m_pages->addWidget(m_start);
   m_pages->addWidget(across);
   m_notesBanner->addButton("dismissNotes", tr("Close"), [this] { m_notesBanner->hide(); });
   m_mrBanner->addButton("registerMr", tr("Registration (F5)"),
@@ -496,6 +501,7 @@ void MainWindow::connectActions()
   on(m_actions->openImage, [this] { m_keeper->openFiles(); });
   on(m_actions->openCase, [this] { showLibrary(); });
   connect(m_library, &LibraryController::panelWanted, this, &MainWindow::showLibrary);
+  on(m_actions->closeCase, [this] { m_keeper->closeCase(); });
   on(m_actions->sample, [this] { m_keeper->makeSample(); });
   on(m_actions->save, [this] { m_keeper->save(); });
   on(m_actions->saveAs, [this] { m_keeper->saveAs(); });
@@ -596,6 +602,23 @@ void MainWindow::connectSegment()
   m_keeper->mayDropDraft = [this] { return m_segment->mayLeave(); };
   m_segment->addKeysTo(*m_view);
   m_segment->addKeysTo(*m_slices);
+}
+
+// In the background, while nobody drills or waits for anything.
+void MainWindow::connectThumbnails()
+{
+  ThumbnailDrawer* drawer = m_library->thumbnails();
+  drawer->isIdle = [this] { return !busy() && !m_model.touching() && !m_model.unsaved(); };
+  connect(m_saver, &CaseSaver::saved, drawer,
+          [drawer](const QString& name) { drawer->caseSaved(bytes(name)); });
+  connect(m_library->panel(), &LibraryPanel::refreshed, m_start, &StartPage::refresh);
+  m_start->onSeen([drawer](const library::CaseSummary& one) { drawer->caseSeen(one); });
+  connect(drawer, &ThumbnailDrawer::drawn, m_start,
+          [this](const QString& id) { m_start->pictureDrawn(bytes(id)); });
+  m_library->drawThumbnails()->setChecked(m_settings->thumbnails());
+  drawer->setEnabled(m_settings->thumbnails());
+  connect(m_library->drawThumbnails(), &QAction::toggled, this,
+          [this](bool drawn) { m_settings->keepThumbnails(drawn); });
 }
 
 void MainWindow::showUndo()

@@ -38,6 +38,7 @@ class ProbeLabel;
 class RegistrationController;
 class SegmentController;
 class SliceColumn;
+class StartPage;
 class ThicknessController;
 class ThreeDView;
 class ViewStateController;
@@ -51,6 +52,7 @@ struct WindowOptions
   QString settings;                  ///< an INI file; empty: the user's default
   presenters::DeviceSources devices; ///< none: mouse only
   int lookForDevicesEvery = 1000;    ///< ms
+  int drawThumbnailsAfter = 2000;    ///< ms without anything else to do; negative: never
 };
 
 /// The workstation's main window: assembles model, views and panels and connects them.
@@ -80,6 +82,7 @@ private:
   void connectModel();
   void connectActions();
   void connectSegment();
+  void connectThumbnails();
   void caseChanged();
   void caseClosed();
   void partsChanged();
@@ -115,6 +118,7 @@ private:
   DeviceToolBar* m_deviceBar;
   ThreeDView* m_view;
   SliceColumn* m_slices;
+  StartPage* m_start;
   QStackedWidget* m_pages;
   Banner* m_unsavedBanner;
   Banner* m_loadingBanner;

@@ -72,6 +72,8 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   save = make(file, tr("&Save"), QKeySequence::Save, tr("Save the case in the library"));
   saveAs = make(file, tr("Save &as…"), Qt::CTRL + Qt::ALT + Qt::Key_S,
                 tr("Save as a new case; the one it came from stays as it was saved"));
+  closeCase = make(file, tr("&Close the case"), QKeySequence(Qt::CTRL + Qt::Key_W),
+                   tr("Saves the case, and goes back to the first page"));
   file->addSeparator();
   quit = make(file, tr("&Quit"), QKeySequence::Quit, tr("Save and quit"));
 
@@ -188,10 +190,26 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   window.addToolBar(&drillBar);
   window.addToolBar(&deviceBar);
 
-  m_needCase.insert(m_needCase.end(), {save, saveAs, attach, clipHere, clipOff, exportPart, archive,
-                                       addMrFolder, addMrFile, addLabels, addMesh, centerView,
-                                       boneThickness, boneWindow, softWindow, fitSlices,
-                                       drillBar.drillAction(), drillBar.pointerAction(), record});
+  m_needCase.insert(m_needCase.end(), {save,
+                                       saveAs,
+                                       closeCase,
+                                       attach,
+                                       clipHere,
+                                       clipOff,
+                                       exportPart,
+                                       archive,
+                                       addMrFolder,
+                                       addMrFile,
+                                       addLabels,
+                                       addMesh,
+                                       centerView,
+                                       boneThickness,
+                                       boneWindow,
+                                       softWindow,
+                                       fitSlices,
+                                       drillBar.drillAction(),
+                                       drillBar.pointerAction(),
+                                       record});
 }
 
 QMenu* WindowActions::addStereo(bool quadBuffer)

@@ -38,6 +38,7 @@ public:
   QAction* sample;
   QAction* save;
   QAction* saveAs;
+  QAction* closeCase;
   QAction* quit;
   QMenu* casePart; ///< the Case menu; the window completes it
   QAction* addMrFolder;

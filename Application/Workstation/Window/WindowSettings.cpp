@@ -107,6 +107,16 @@ bool WindowSettings::panelShown(const QString& panel, bool usual) const
   return kept.isEmpty() ? usual : kept == "shown";
 }
 
+bool WindowSettings::thumbnails() const
+{
+  return m_file.value("library/thumbnails").toString() != "off";
+}
+
+void WindowSettings::keepThumbnails(bool drawn)
+{
+  m_file.setValue("library/thumbnails", drawn ? "on" : "off");
+}
+
 void WindowSettings::keepPanelShown(const QString& panel, bool shown)
 {
   m_file.setValue("panels/" + panel, shown ? "shown" : "hidden");

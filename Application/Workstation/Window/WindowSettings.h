@@ -34,6 +34,10 @@ public:
   bool panelShown(const QString& panel, bool usual) const;
   void keepPanelShown(const QString& panel, bool shown);
 
+  /// Whether thumbnails of cases are drawn in the background.
+  bool thumbnails() const;
+  void keepThumbnails(bool drawn);
+
 private:
   std::optional<double> number(const QString& key) const;
   mutable QSettings m_file;

@@ -7,6 +7,7 @@
 #include "TestCase.h"
 #include "petrous/Library/Archive.h"
 #include "petrous/Library/Journal.h"
+#include "petrous/Library/ThumbnailAge.h"
 #include "petrous/Scene/Manifest.h"
 
 using namespace petrous;
@@ -392,6 +393,30 @@ TEST_F(Descriptions, HaveAThumbnailThatChangesNoManifest)
   EXPECT_EQ(m_library.thumbnail("ear"), TestPng().bytes());
   EXPECT_EQ(refusal([&] { m_library.setThumbnail("nose", TestPng().bytes()); }).first,
             LibraryError::Reason::NotFound);
+}
+
+TEST_F(Descriptions, NeedAThumbnailWhereThereIsNoneOrTheCaseIsNewer)
+{
+  save("ear");
+  const auto needs = [this] { return needsThumbnail(m_library, m_library.list().at(0)); };
+  EXPECT_TRUE(needs());
+  m_library.setThumbnail("ear", TestPng().bytes());
+  EXPECT_FALSE(needs());
+  const fs::path manifest = folder() / "cases" / "ear.json";
+  const auto drawn = fs::last_write_time(onlyFileIn(folder() / "thumbnails"));
+  fs::last_write_time(manifest, drawn + std::chrono::seconds(1)); // saved since
+  EXPECT_TRUE(needs());
+  // Recovering what a killed program left is for who opens the case.
+  std::ofstream(folder() / "cases" / "ear.journal") << "strokes";
+  EXPECT_FALSE(needs());
+  fs::remove(folder() / "cases" / "ear.journal");
+  EXPECT_TRUE(needs());
+  CaseSummary other = m_library.list().at(0);
+  other.damaged = true;
+  EXPECT_FALSE(needsThumbnail(m_library, other));
+  other.damaged = false;
+  other.id = "../cases/ear";
+  EXPECT_FALSE(needsThumbnail(m_library, other));
 }
 
 TEST_F(Descriptions, NeverShowThePictureOfAnotherCaseOfTheName)

@@ -99,6 +99,48 @@ TEST_F(PseudonymMapFile, IsLockedAgainstASecondWriter)
   EXPECT_EQ(PseudonymMap(path, kPassphrase, kCheap).entries().size(), 2U);
 }
 
+TEST_F(PseudonymMapFile, OpensByANewPassphraseOnceThatIsSaved)
+{
+  {
+    PseudonymMap map(path, kPassphrase, kCheap);
+    EXPECT_THROW(map.changePassphrase("short"), core::InvalidParameter);
+    map.changePassphrase("battery staple");
+  }
+  EXPECT_EQ(PseudonymMap(path, kPassphrase, kCheap).entries().size(), 2U) << "not saved";
+  {
+    PseudonymMap map(path, kPassphrase, kCheap);
+    map.changePassphrase("battery staple");
+    map.save();
+  }
+  EXPECT_EQ(reasonOf(path, kPassphrase), PseudonymMapError::Reason::WrongPassphrase);
+  const PseudonymMap map(path, "battery staple", kCheap);
+  EXPECT_EQ(map.entries().size(), 2U);
+  EXPECT_EQ(map.key().uid("1.2.3.4"), uid) << "pseudonyms stay the same";
+}
+
+TEST_F(PseudonymMapFile, IsCopiedUnderAPassphraseOfItsOwn)
+{
+  const std::filesystem::path copy = folder.path() / "copy";
+  const std::string before = core::readFile(path);
+  {
+    const PseudonymMap map(path, kPassphrase, kCheap);
+    EXPECT_TRUE(map.saveCopy(copy, "battery staple"));
+    EXPECT_THROW(map.saveCopy(copy, "battery staple"), core::Error) << "is there already";
+  }
+  EXPECT_EQ(core::readFile(path), before);
+  EXPECT_EQ(reasonOf(copy, kPassphrase), PseudonymMapError::Reason::WrongPassphrase);
+  const PseudonymMap other(copy, "battery staple", kCheap);
+  EXPECT_EQ(other.key().uid("1.2.3.4"), uid);
+  ASSERT_EQ(other.entries().size(), 2U);
+
+  // And taken in by another map: what that has already counts once.
+  PseudonymMap third(folder.path() / "third", kPassphrase, kCheap);
+  third.add({{"study", "2.25.1", "1.2.3"}});
+  EXPECT_EQ(third.add(other.entries()), 1U);
+  EXPECT_EQ(third.add(other.entries()), 0U);
+  EXPECT_EQ(third.entries().size(), 2U);
+}
+
 TEST(PseudonymMap, RefusesAShortPassphrase)
 {
   const TemporaryFolder folder;

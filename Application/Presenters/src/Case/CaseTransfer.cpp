@@ -463,12 +463,17 @@ std::vector<std::string> facesToMask(const scene::Case& value)
   return mayShow ? scene::imagesWithFace(value) : std::vector<std::string>();
 }
 
-IdentityReport identityReport(const scene::Case& value, const SendParts& parts,
-                              const std::vector<std::string>* faces)
+namespace
+{
+
+// `parts.scene`: with the archive of the case, or only its plan; `keepDate`: of the operation.
+IdentityReport reportOf(const scene::Case& value, const SendParts& parts, bool planOnly,
+                        bool keepDate, const std::vector<std::string>* faces)
 {
   IdentityReport report;
   const bool isCt = value.ct.modality != scene::Modality::Mr;
-  const bool images = parts.ct || parts.scene;
+  const bool whole = parts.scene && !planOnly;
+  const bool images = parts.ct || whole;
   const auto voxels = [](const scene::ImagePart& part)
   {
     const auto& dims = part.geometry.dims();
@@ -478,7 +483,7 @@ IdentityReport identityReport(const scene::Case& value, const SendParts& parts,
   if (images)
     report.leaves.push_back(std::string(isCt ? "CT: " : "MR: ") + voxels(value.ct) +
                             " and their place in space");
-  if (parts.mr || parts.scene)
+  if (parts.mr || whole)
     for (const auto& mr : value.mr)
       report.leaves.push_back("MR '" + mr.name + "': " + voxels(mr) + " and their place in space");
   std::vector<std::string> structures, meshes;
@@ -488,13 +493,24 @@ IdentityReport identityReport(const scene::Case& value, const SendParts& parts,
   for (const auto& mesh : value.meshes)
     meshes.push_back(mesh.name);
   if ((parts.labels || parts.scene) && !structures.empty())
-    report.leaves.push_back("structures, by the names that you gave them: " + joined(structures));
+    report.leaves.push_back(
+        std::string(planOnly ? "the names of structures" : "structures, by the names") +
+        " that you gave them: " + joined(structures));
   if (parts.scene)
   {
-    report.leaves.push_back("the scene by its name '" + value.name +
-                            "': strokes, approaches, appearance, views, landmarks");
+    report.leaves.push_back(std::string(planOnly ? "the plan" : "the scene") + " by its name '" +
+                            value.name + "': strokes, approaches, appearance, views, landmarks");
     if (!meshes.empty())
-      report.leaves.push_back("meshes, by the names that you gave them: " + joined(meshes));
+      report.leaves.push_back(
+          std::string(planOnly ? "the names of meshes" : "meshes, by the names") +
+          " that you gave them: " + joined(meshes));
+    if (planOnly && !value.mr.empty())
+    {
+      std::vector<std::string> mrs;
+      for (const auto& mr : value.mr)
+        mrs.push_back(mr.name);
+      report.leaves.push_back("the names of MRs: " + joined(mrs));
+    }
     const scene::Description& words = value.description;
     std::vector<std::string> lines = words.tags;
     for (const std::string* line : {&words.diagnosis, &words.procedure})
@@ -506,7 +522,10 @@ IdentityReport identityReport(const scene::Case& value, const SendParts& parts,
       (parts.note ? report.leaves : report.stays)
           .push_back(parts.note ? "the note, as it is" : "the note");
     if (!words.date.empty())
-      report.stays.push_back("the planned date of the operation");
+      (keepDate ? report.leaves : report.stays).push_back("the planned date of the operation");
+    if (!words.date.empty() && keepDate)
+      report.warnings.push_back("the planned date: together with a list of the day's operations "
+                                "it tells who the patient is");
     std::vector<std::string> files;
     std::vector<std::string> videos;
     for (const scene::Attachment& one : value.attachments)
@@ -546,18 +565,43 @@ IdentityReport identityReport(const scene::Case& value, const SendParts& parts,
                          : "a face can be recognised in " + joined(*faces) + "; it can be masked");
   }
   else if ((images && showsHead(value.ct.geometry)) ||
-           ((parts.mr || parts.scene) &&
+           ((parts.mr || whole) &&
             std::any_of(value.mr.begin(), value.mr.end(),
                         [](const auto& mr) { return showsHead(mr.geometry); })))
     report.warnings.push_back("the image holds a whole head: a face can be rendered from it. A "
                               "case of the region of the ear alone (File > Open a region) has "
                               "none");
+  if (planOnly)
+    report.stays.push_back("images, structures and meshes: the plan is restored where the very "
+                           "same CT is");
+  return report;
+}
+
+} // namespace
+
+IdentityReport identityReport(const scene::Case& value, const SendParts& parts,
+                              const std::vector<std::string>* faces)
+{
+  IdentityReport report = reportOf(value, parts, false, false, faces);
   report.stays.push_back("name, birth date, numbers and other data of the patient, hospital and "
                          "physicians, dates and times: the case has none of them. The objects "
                          "name the patient 'Anonymous'");
   report.stays.push_back("UIDs of the scanner's files: the objects have new ones");
   if (!parts.scene)
     report.stays.push_back("the name of the case, its strokes, views and description");
+  return report;
+}
+
+IdentityReport identityReport(const scene::Case& value, const library::ArchiveOptions& options)
+{
+  SendParts parts;
+  parts.scene = true;
+  parts.note = !options.withoutNotes;
+  parts.videos = options.withVideos;
+  IdentityReport report = reportOf(value, parts, options.planOnly, options.keepDate, nullptr);
+  report.stays.push_back("name, birth date, numbers and other data of the patient, hospital and "
+                         "physicians, dates and times of the scan: the case has none of them");
+  report.stays.push_back("UIDs of the scanner's files: the case has none of them");
   return report;
 }
 

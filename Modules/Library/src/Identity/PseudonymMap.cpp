@@ -71,6 +71,20 @@ std::string checksumOf(const std::string& bytes, std::size_t count)
   return sum;
 }
 
+void checkPassphrase(const std::string& passphrase)
+{
+  constexpr std::size_t kShortest = 8;
+  if (passphrase.size() < kShortest)
+    throw core::InvalidParameter("the passphrase is too short: it needs at least 8 characters");
+}
+
+std::string newSalt()
+{
+  std::string salt(kSalt, '\0');
+  ::randombytes_buf(salt.data(), salt.size());
+  return salt;
+}
+
 } // namespace
 
 PseudonymMapError::PseudonymMapError(Reason why, const std::string& message)
@@ -89,9 +103,7 @@ PseudonymMap::PseudonymMap(const std::filesystem::path& path, const std::string&
   : m_path(core::outputTarget(path))
   , m_cost(cost)
 {
-  constexpr std::size_t kShortest = 8;
-  if (passphrase.size() < kShortest)
-    throw core::InvalidParameter("the passphrase is too short: it needs at least 8 characters");
+  checkPassphrase(passphrase);
   const std::string lock = m_path.string() + ".lock";
   m_lock = ::open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
   if (m_lock < 0)
@@ -123,9 +135,8 @@ PseudonymMap::PseudonymMap(const std::filesystem::path& path, const std::string&
       read(passphrase);
     else
     {
-      m_salt.resize(kSalt);
-      ::randombytes_buf(m_salt.data(), m_salt.size());
-      deriveKey(passphrase);
+      m_salt = newSalt();
+      deriveKey(passphrase, m_salt);
     }
   }
   catch (...)
@@ -144,9 +155,9 @@ PseudonymMap::~PseudonymMap()
     ::sodium_memzero(entry.identity.data(), entry.identity.size());
 }
 
-void PseudonymMap::deriveKey(const std::string& passphrase)
+void PseudonymMap::deriveKey(const std::string& passphrase, const std::string& salt)
 {
-  if (::crypto_pwhash(m_secret, kSecret, passphrase.data(), passphrase.size(), bytesOf(m_salt),
+  if (::crypto_pwhash(m_secret, kSecret, passphrase.data(), passphrase.size(), bytesOf(salt),
                       m_cost.passes, m_cost.memory, crypto_pwhash_ALG_ARGON2ID13) != 0)
     throw core::Error(core::Fault::Internal,
                       "there is not enough memory to open the pseudonym map (Argon2id needs " +
@@ -171,7 +182,7 @@ void PseudonymMap::read(const std::string& passphrase)
       m_cost.memory < crypto_pwhash_MEMLIMIT_MIN || m_cost.memory > kMaxMemory)
     throw fail(Reason::Damaged, "asks for an absurd amount of work; it was not written by Petrous");
   m_salt = file.substr(kCost + 16, kSalt);
-  deriveKey(passphrase);
+  deriveKey(passphrase, m_salt);
   std::string plain(file.size() - kHeader - kTag - kChecksum, '\0');
   unsigned long long length = 0;
   if (::crypto_aead_xchacha20poly1305_ietf_decrypt(
@@ -199,8 +210,9 @@ void PseudonymMap::read(const std::string& passphrase)
   }
 }
 
-void PseudonymMap::add(const std::vector<Pseudonym>& entries)
+std::size_t PseudonymMap::add(const std::vector<Pseudonym>& entries)
 {
+  const std::size_t before = m_entries.size();
   for (const Pseudonym& entry : entries)
   {
     const auto isSame = [&entry](const Pseudonym& other)
@@ -211,6 +223,28 @@ void PseudonymMap::add(const std::vector<Pseudonym>& entries)
     if (std::none_of(m_entries.begin(), m_entries.end(), isSame))
       m_entries.push_back(entry);
   }
+  return m_entries.size() - before;
+}
+
+// Argon2id fails before it writes the key.
+void PseudonymMap::changePassphrase(const std::string& passphrase)
+{
+  checkPassphrase(passphrase);
+  std::string salt = newSalt();
+  deriveKey(passphrase, salt);
+  m_salt = std::move(salt);
+}
+
+bool PseudonymMap::saveCopy(const std::filesystem::path& path, const std::string& passphrase) const
+{
+  std::error_code error;
+  if (std::filesystem::exists(core::outputTarget(path), error))
+    throw core::Error(core::Fault::Refused,
+                      core::printable(path) + ": is there already; give the copy a new name");
+  PseudonymMap copy(path, passphrase, m_cost);
+  copy.m_key = m_key;
+  copy.m_entries = m_entries;
+  return copy.save();
 }
 
 bool PseudonymMap::save()

@@ -7,9 +7,11 @@
 
 #include <libdeflate.h>
 
+#include "JournalFile.h"
 #include "LibraryFolder.h"
 #include "ManifestFile.h"
 #include "petrous/Library/Library.h"
+#include "petrous/Library/ThumbnailAge.h"
 
 namespace petrous::library
 {
@@ -157,6 +159,25 @@ std::vector<std::uint8_t> Library::thumbnail(const std::string& name) const
   scene::checkCaseName(name);
   checkedManifestPath(name);
   return readThumbnail(m_folder, readManifest(name).id);
+}
+
+bool needsThumbnail(const Library& library, const CaseSummary& summary) noexcept
+try
+{
+  const fs::path& folder = library.folder();
+  const fs::path picture = thumbnailPath(folder, summary.id);
+  std::error_code error;
+  if (summary.damaged || picture.empty() || fs::exists(journalPath(folder, summary.name)))
+    return false;
+  const auto drawn = fs::last_write_time(picture, error);
+  if (error)
+    return true;
+  const auto saved = fs::last_write_time(folder / "cases" / (summary.name + ".json"), error);
+  return !error && saved > drawn;
+}
+catch (const std::exception&)
+{
+  return false;
 }
 
 void Library::setThumbnail(const std::string& name, const std::vector<std::uint8_t>& png)

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "petrous/Core/Progress.h"
+#include "petrous/Library/Archive.h"
 #include "petrous/Library/Library.h"
 #include "petrous/Network/DicomNode.h"
 #include "petrous/Scene/ImageMask.h"
@@ -43,6 +44,8 @@ struct IdentityReport
 /// then images that hold a whole head are warned of. Reads no voxels.
 IdentityReport identityReport(const scene::Case& value, const SendParts& parts,
                               const std::vector<std::string>* faces = nullptr);
+/// The same of an archive with these options (library::archiveCase).
+IdentityReport identityReport(const scene::Case& value, const library::ArchiveOptions& options);
 
 /// scene::imagesWithFace, without reading images that are smaller than a head.
 std::vector<std::string> facesToMask(const scene::Case& value);

@@ -52,15 +52,23 @@ public:
   const PseudonymKey& key() const noexcept { return m_key; }
   const std::vector<Pseudonym>& entries() const noexcept { return m_entries; }
 
-  /// Entries that it has already are not added again.
-  void add(const std::vector<Pseudonym>& entries);
+  /// Entries that it has already are not added again. Returns how many were new.
+  std::size_t add(const std::vector<Pseudonym>& entries);
+
+  /// From the next `save` on. Throws InvalidParameter for less than 8 bytes; the map is then as it
+  /// was.
+  void changePassphrase(const std::string& passphrase);
+
+  /// Writes the same map, key included, to a new file under a passphrase of its own. Returns and
+  /// throws as OutputFile::commit; PseudonymMapError (InUse); Error (Refused) if the file is there.
+  bool saveCopy(const std::filesystem::path& path, const std::string& passphrase) const;
 
   /// Returns and throws as OutputFile::commit.
   bool save();
 
 private:
   void read(const std::string& passphrase);
-  void deriveKey(const std::string& passphrase);
+  void deriveKey(const std::string& passphrase, const std::string& salt);
 
   std::filesystem::path m_path;
   Cost m_cost;

@@ -1,0 +1,123 @@
+#include "ArchiveDialog.h"
+
+#include <algorithm>
+
+#include <QCheckBox>
+#include <QDialogButtonBox>
+#include <QDir>
+#include <QFile>
+#include <QFileInfo>
+#include <QFormLayout>
+#include <QLabel>
+#include <QMessageBox>
+#include <QPlainTextEdit>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include "PathRow.h"
+#include "Theme.h"
+#include "petrous/Presenters/CaseTransfer.h"
+
+namespace petrous::workstation
+{
+
+ArchiveDialog::ArchiveDialog(const scene::Case& value, QWidget* parent)
+  : QDialog(parent)
+  , m_value(value)
+  , m_file(new PathRow("archiveFile", PathRow::Kind::NewFile, tr("File of the archive")))
+  , m_plan(new QCheckBox(tr("&Plan only, without images and structures")))
+  , m_note(new QCheckBox(tr("with its &note")))
+  , m_videos(new QCheckBox(tr("with its &videos, which may show or name the patient")))
+  , m_date(new QCheckBox(tr("with the planned &date of the operation")))
+  , m_report(new QPlainTextEdit)
+  , m_advice(new QLabel)
+{
+  setObjectName("archiveCase");
+  setWindowTitle(tr("Archive “%1”").arg(words(value.name)));
+  m_file->setText(QDir::home().filePath(words(value.name) + library::kArchiveEnding));
+  m_plan->setObjectName("archivePlan");
+  m_plan->setToolTip(tr("A small file with strokes, views and appearance. It is restored where the "
+                        "very same CT is"));
+  m_note->setObjectName("archiveNote");
+  m_note->setEnabled(!value.description.note.empty());
+  m_note->setChecked(m_note->isEnabled());
+  m_videos->setObjectName("archiveVideos");
+  m_videos->setEnabled(std::any_of(value.attachments.begin(), value.attachments.end(),
+                                   [](const scene::Attachment& one)
+                                   { return one.kind == scene::Attachment::Kind::Video; }));
+  m_date->setObjectName("archiveDate");
+  m_date->setEnabled(!value.description.date.empty());
+  m_report->setObjectName("archiveReport");
+  m_report->setReadOnly(true);
+  m_report->setMinimumHeight(200);
+  m_advice->setObjectName("dim");
+  m_advice->setTextFormat(Qt::PlainText);
+
+  auto* form = new QFormLayout;
+  form->addRow(tr("&File:"), m_file);
+  form->addRow(tr("What:"), m_plan);
+  form->addRow({}, m_note);
+  form->addRow({}, m_videos);
+  form->addRow({}, m_date);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
+  m_accept = buttons->addButton(tr("&Archive"), QDialogButtonBox::AcceptRole);
+  m_accept->setObjectName("primary");
+  m_accept->setDefault(true);
+  connect(buttons, &QDialogButtonBox::accepted, this, &ArchiveDialog::accept);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  connect(m_file, &PathRow::changed, this, &ArchiveDialog::update);
+  for (QCheckBox* box : {m_plan, m_note, m_videos, m_date})
+    connect(box, &QCheckBox::toggled, this, &ArchiveDialog::update);
+  auto* layout = new QVBoxLayout(this);
+  layout->addLayout(form);
+  layout->addWidget(new QLabel(tr("What is in the file:")));
+  layout->addWidget(m_report, 1);
+  layout->addWidget(m_advice);
+  layout->addWidget(buttons);
+  resize(680, 500);
+  update();
+}
+
+std::filesystem::path ArchiveDialog::file() const
+{
+  const QString text = m_file->text();
+  const bool isNamed = text.endsWith(library::kArchiveEnding, Qt::CaseInsensitive);
+  return QFile::encodeName(isNamed ? text : text + library::kArchiveEnding).toStdString();
+}
+
+library::ArchiveOptions ArchiveDialog::options() const
+{
+  library::ArchiveOptions options;
+  options.planOnly = m_plan->isChecked();
+  options.withoutNotes = !m_note->isChecked();
+  options.withVideos = m_videos->isEnabled() && m_videos->isChecked();
+  options.keepDate = m_date->isChecked();
+  return options;
+}
+
+void ArchiveDialog::update()
+{
+  const QFileInfo target(m_file->text());
+  QString advice;
+  if (m_file->text().isEmpty() || target.isDir())
+    advice = tr("Give the file a name.");
+  else if (!target.absoluteDir().exists())
+    advice = tr("There is no such folder.");
+  m_advice->setText(advice);
+  m_accept->setEnabled(advice.isEmpty());
+  m_report->setPlainText(words(presenters::identityReport(m_value, options()).text()));
+}
+
+void ArchiveDialog::accept()
+{
+  const QString name = QFile::decodeName(file().c_str());
+  if (QFileInfo::exists(name) &&
+      QMessageBox::question(
+          this, windowTitle(),
+          tr("“%1” is there already. Replace it?").arg(QFileInfo(name).fileName()),
+          QMessageBox::Yes | QMessageBox::No, QMessageBox::No) != QMessageBox::Yes)
+    return;
+  QDialog::accept();
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+
+#include <QDialog>
+
+#include "petrous/Library/Archive.h"
+#include "petrous/Scene/Case.h"
+
+class QCheckBox;
+class QLabel;
+class QPlainTextEdit;
+class QPushButton;
+
+namespace petrous::workstation
+{
+
+class PathRow;
+
+/// The file of an archive (`petrous archive`), what of the case goes into it, and what may identify
+/// the patient. A file that is there is replaced only with consent.
+class ArchiveDialog : public QDialog
+{
+  Q_OBJECT
+public:
+  /// The case must outlive the dialog.
+  explicit ArchiveDialog(const scene::Case& value, QWidget* parent = nullptr);
+
+  std::filesystem::path file() const; ///< with its ending
+  library::ArchiveOptions options() const;
+
+  void accept() override;
+
+private:
+  void update();
+
+  const scene::Case& m_value;
+  PathRow* m_file;
+  QCheckBox* m_plan;
+  QCheckBox* m_note;
+  QCheckBox* m_videos;
+  QCheckBox* m_date;
+  QPlainTextEdit* m_report;
+  QLabel* m_advice;
+  QPushButton* m_accept;
+};
+
+} // namespace petrous::workstation

@@ -25,9 +25,10 @@ namespace
 // What arrived there, or here.
 QString transferText(const network::Transfer& transfer)
 {
+  // arg() replaces the lowest marker.
   QString text = transfer.instances == 1
                      ? ExchangeController::tr("1 object, %1 MB in %2 s")
-                     : ExchangeController::tr("%3 objects, %1 MB in %2 s").arg(transfer.instances);
+                     : ExchangeController::tr("%1 objects, %2 MB in %3 s").arg(transfer.instances);
   text = text.arg(1e-6 * static_cast<double>(transfer.bytes), 0, 'f', 1)
              .arg(transfer.seconds, 0, 'f', 1);
   if (transfer.present > 0)

@@ -10,6 +10,7 @@
 #include <QListWidget>
 #include <QPlainTextEdit>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QSpinBox>
 #include <QTreeWidget>
 
@@ -151,6 +152,14 @@ TEST_F(Exchange, ACaseGoesToANodeAndComesBack)
   ASSERT_TRUE(shown);
   ASSERT_TRUE(waitFor([&] { return report() && !window().busy(); }));
   EXPECT_TRUE(reportHead().contains("has all of them")) << reportHead().toStdString();
+  const auto sums =
+      QRegularExpression("(\\d+) objects, \\d+\\.\\d MB in \\d+\\.\\d s").match(reportHead());
+  ASSERT_TRUE(sums.hasMatch()) << reportHead().toStdString();
+  int objects = 0;
+  for (const network::Study& study : network::findStudies(orthanc.node(), {}))
+    for (const network::Series& series : network::findSeries(orthanc.node(), study.uid))
+      objects += series.instances;
+  EXPECT_EQ(sums.captured(1).toInt(), objects) << reportHead().toStdString();
   report()->close();
   library().rename("ball", "original");
   closeWindow();

@@ -3,6 +3,7 @@
 #include <QAction>
 #include <QDir>
 #include <QFile>
+#include <QInputDialog>
 #include <QMenu>
 #include <QMessageBox>
 
@@ -14,6 +15,7 @@
 #include "SendDialog.h"
 #include "Theme.h"
 #include "WindowTexts.h"
+#include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/CaseTransfer.h"
 
 namespace petrous::workstation
@@ -36,6 +38,26 @@ QString transferText(const network::Transfer& transfer)
   if (transfer.warning > 0)
     text += ExchangeController::tr(", %1 with a warning of the node").arg(transfer.warning);
   return text;
+}
+
+// What the node said afterwards.
+QString listedText(network::Transfer::Listed listed)
+{
+  switch (listed)
+  {
+  case network::Transfer::Listed::All:
+    return ExchangeController::tr("The node was asked, and has all of them.");
+  case network::Transfer::Listed::None:
+    return ExchangeController::tr("The node confirmed each of them, but lists none of them (yet), "
+                                  "so they could not be counted there.");
+  case network::Transfer::Listed::Unanswered:
+    return ExchangeController::tr("The node confirmed each of them, but did not answer when it was "
+                                  "asked for them, so they could not be counted there.");
+  case network::Transfer::Listed::NotOffered:
+    break;
+  }
+  return ExchangeController::tr("The node confirmed each of them. It offers no queries, so they "
+                                "could not be counted there.");
 }
 
 QString lines(const std::vector<std::string>& all)
@@ -140,10 +162,7 @@ void ExchangeController::send(const std::string& which)
         {
           QString head =
               tr("“%1” is at “%2”: %3.").arg(words(name), place, transferText(done.transfer));
-          head += ' ' + (done.transfer.verified
-                             ? tr("The node was asked, and has all of them.")
-                             : tr("The node confirmed each of them, but lists none of them (yet), "
-                                  "so they could not be counted there."));
+          head += ' ' + listedText(done.transfer.listed);
           showReport(&m_window, tr("Send"), head, lines(done.notes), "petrous-send.txt");
         };
       });
@@ -158,7 +177,7 @@ void ExchangeController::receive()
   if (dialog.exec() != QDialog::Accepted)
     return;
   const ReceiveDialog::Choice choice = dialog.choice();
-  choice.scene ? receiveScene(choice) : receiveImages(choice);
+  choice.scene ? receiveScene(choice, {}) : receiveImages(choice);
 }
 
 // The folder of a study on its way; what is there from before is not asked for again.
@@ -173,17 +192,26 @@ QString ExchangeController::arriving(const std::string& study)
   return folder->path();
 }
 
-void ExchangeController::receiveScene(const ReceiveDialog::Choice& choice)
+void ExchangeController::receiveScene(const ReceiveDialog::Choice& choice, const std::string& name)
 {
   presenters::ReceiveRequest request;
   request.studyUid = choice.study;
+  request.as = name;
   request.partial = QFile::encodeName(arriving(choice.study)).toStdString();
   m_keeper.run(
       tr("Receiving from %1").arg(words(choice.node.name)),
-      [this, library = m_model.library(), node = choice.node,
+      [this, library = m_model.library(), choice,
        request](const core::Progress& progress) mutable -> BackgroundWork::Reply
       {
-        const auto done = presenters::receiveCase(library, node, request, progress);
+        presenters::ReceiveSummary done;
+        try
+        {
+          done = presenters::receiveCase(library, choice.node, request, progress);
+        }
+        catch (const presenters::NameTakenError& error)
+        {
+          return [this, choice, taken = error.name] { receiveUnderOtherName(choice, taken); };
+        }
         return [this, done, study = request.studyUid]
         {
           m_arrived.erase(study);
@@ -196,6 +224,21 @@ void ExchangeController::receiveScene(const ReceiveDialog::Choice& choice)
           m_keeper.openCase(done.name);
         };
       });
+}
+
+void ExchangeController::receiveUnderOtherName(const ReceiveDialog::Choice& choice,
+                                               const std::string& taken)
+{
+  const QString suggested = words(presenters::freeCaseName(m_model.library(), taken));
+  const QString name =
+      QInputDialog::getText(
+          &m_window, tr("Receive"),
+          tr("The library has a case “%1”. Name of the received one:").arg(words(taken)),
+          QLineEdit::Normal, suggested)
+          .trimmed();
+  if (name.isEmpty())
+    return emit statusMessage(tr("Stopped; nothing was changed"));
+  receiveScene(choice, bytes(name));
 }
 
 // They are imported like a folder that is dropped.

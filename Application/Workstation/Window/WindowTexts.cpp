@@ -77,6 +77,8 @@ QString windowText(const QString& text)
       {"; give the restored one another name \\(--as NAME\\)", "; restore it under another name"},
       {"; choose another name with --as", "; rename that one first (F2 in the library panel)"},
       {"; see 'petrous nodes add --help'", ""},
+      {"; see 'petrous nodes add --tls-(ca|cert)'", "; see Library > DICOM nodes"},
+      {" \\(--(tls-name|move-host)\\)", " (Library > DICOM nodes)"},
       {" \\('petrous library copy'\\)", " (Copy in the library panel)"},
       {"; export it alone with --part, or all on the CT's grid with --on-ct",
        "; export it alone, or all on the CT's grid"},

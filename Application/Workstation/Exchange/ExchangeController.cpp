@@ -141,17 +141,25 @@ void ExchangeController::send(const std::string& which)
   const auto all = nodes();
   if (all.empty())
     return;
-  std::string name = which;
   if (m_model.hasCase() && m_model.value().name == which)
   {
     if (!m_keeper.saved())
       return emit statusMessage(tr("The case is not saved yet, so it was not sent"));
-    name = m_model.value().name; // a save after a conflict may have changed it
+    return offer(m_model.value(), all); // a save after a conflict may have changed its name
   }
-  const scene::Case value = m_model.library().open(name);
-  SendDialog dialog(value, all, &m_window);
+  // Opening replays what a killed program left.
+  m_keeper.run(tr("Opening %1").arg(words(which)),
+               [this, library = m_model.library(), which,
+                all](const core::Progress&) -> BackgroundWork::Reply
+               { return [this, all, value = library.open(which)] { offer(value, all); }; });
+}
+
+void ExchangeController::offer(const scene::Case& value, const std::vector<network::Node>& nodes)
+{
+  SendDialog dialog(value, nodes, &m_window);
   if (dialog.exec() != QDialog::Accepted)
     return;
+  const std::string name = value.name;
   m_keeper.run(
       tr("Sending %1").arg(words(name)),
       [this, library = m_model.library(), name, node = dialog.node(),

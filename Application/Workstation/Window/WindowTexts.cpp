@@ -78,6 +78,7 @@ QString windowText(const QString& text)
       {"; choose another name with --as", "; rename that one first (F2 in the library panel)"},
       {"; see 'petrous nodes add --help'", ""},
       {"; see 'petrous nodes add --tls-(ca|cert)'", "; see Library > DICOM nodes"},
+      {"; add it with --move-port", "; give it a port for C-MOVE (Library > DICOM nodes)"},
       {" \\(--(tls-name|move-host)\\)", " (Library > DICOM nodes)"},
       {" \\('petrous library copy'\\)", " (Copy in the library panel)"},
       {"; export it alone with --part, or all on the CT's grid with --on-ct",

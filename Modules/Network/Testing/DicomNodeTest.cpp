@@ -189,30 +189,34 @@ TEST_F(OrthancNode, SpeaksTlsWithCertificatesOfBothSides)
   const Orthanc server(m_folder.path(), {&own, &client, 0, 0});
   roundTrip(server.node(), m_folder.path());
 
-  const auto expectFailure = [](const Node& node, Reason reason, const std::string& words)
+  const auto expectFailure =
+      [](const Node& node, std::set<Reason> reasons, const std::string& words)
   {
     const NetworkError error = failure([&] { echo(node); });
-    EXPECT_EQ(error.reason, reason) << error.what();
+    EXPECT_EQ(reasons.count(error.reason), 1U) << error.what();
     EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
   };
+  // By TLS 1.3 the node refuses after the handshake, and its reason may be lost with the
+  // connection.
+  const std::set<Reason> late{Reason::Tls, Reason::Cut};
   Node node = server.node();
   node.tls->authority = stranger.certificate();
-  expectFailure(node, Reason::Tls, "not of a trusted authority");
+  expectFailure(node, {Reason::Tls}, "not of a trusted authority");
   node = server.node();
   node.tls->authority.clear();
-  expectFailure(node, Reason::Tls, "not of a trusted authority");
+  expectFailure(node, {Reason::Tls}, "not of a trusted authority");
   node = server.node();
   node.tls->certificate = stranger.certificate();
-  expectFailure(node, Reason::Tls, "is not the key of");
+  expectFailure(node, {Reason::Tls}, "is not the key of");
   node.tls->key = stranger.key();
-  expectFailure(node, Reason::Tls, "refuses the certificate of this program");
+  expectFailure(node, late, "the certificate of this program");
   node = server.node();
   node.tls->certificate.clear();
   node.tls->key.clear();
-  expectFailure(node, Reason::Tls, "wants a certificate of this program");
+  expectFailure(node, late, "certificate of this program");
   node.tls.reset();
   node.timeouts.reply = std::chrono::seconds(5);
-  expectFailure(node, Reason::Cut, "does it expect TLS?");
+  expectFailure(node, {Reason::Cut}, "does it expect TLS?");
 }
 
 // Of the system's authorities everybody can have a certificate, but only for a host of his own.
@@ -257,7 +261,8 @@ TEST_F(OrthancNode, SendsByMoveWhereItAllowsNoGet)
   node.movePort = 0;
   const std::string study = imaging::deterministicUid(7, "test study");
   EXPECT_EQ(failure([&] { retrieve(node, study, {}, m_folder.path() / "none"); }).reason,
-            Reason::Unsupported);
+            Reason::Cut)
+      << "that is how it refuses";
   EXPECT_EQ(filesIn(m_folder.path() / "none"), 0U);
 }
 

@@ -194,7 +194,10 @@ private:
       else if (message.CommandField == DIMSE_C_MOVE_RQ)
         move(association, id, message.msg.CMoveRQ);
       else if (message.CommandField == DIMSE_C_GET_RQ)
-        get(association, id, message.msg.CGetRQ);
+      {
+        if (!get(association, id, message.msg.CGetRQ))
+          return;
+      }
       else if (message.CommandField == DIMSE_C_STORE_RQ)
         store(association, id, message.msg.CStoreRQ);
     }
@@ -328,7 +331,8 @@ private:
     return true;
   }
 
-  void get(T_ASC_Association* association, T_ASC_PresentationContextID id,
+  /// False if the connection is lost.
+  bool get(T_ASC_Association* association, T_ASC_PresentationContextID id,
            const T_DIMSE_C_GetRQ& request)
   {
     const auto asked = query(association);
@@ -338,9 +342,9 @@ private:
       uids.push_back(uid);
     const int number = m_requests++;
     if (m_behaviour.silentToGet)
-      return;
+      return true;
     if (!sendAll(association, m_behaviour.sends(number, uids)))
-      return;
+      return false;
     T_DIMSE_C_GetRSP response{};
     response.MessageIDBeingRespondedTo = request.MessageID;
     response.DataSetType = DIMSE_DATASET_NULL;
@@ -348,6 +352,7 @@ private:
     response.opts = O_GET_NUMBEROFCOMPLETEDSUBOPERATIONS; // whatever was sent
     response.NumberOfCompletedSubOperations = static_cast<DIC_US>(m_behaviour.files.size());
     DIMSE_sendGetResponse(association, id, &request, &response, nullptr, nullptr);
+    return true;
   }
 
   void store(T_ASC_Association* association, T_ASC_PresentationContextID id,
@@ -959,6 +964,7 @@ TEST_F(SecureNode, WithOldTlsOrWeakCiphersOnlyIsRefused)
   m_behaviour.latestTls = TLS1_1_VERSION;
   expectRefused({own.certificate(), "", ""}, "TLS 1.2 or later");
   m_behaviour.latestTls = TLS1_2_VERSION;
+  expectConnected({own.certificate(), "", ""});
   m_behaviour.ciphers = "AES128-SHA";
   expectRefused({own.certificate(), "", ""}, "no permitted cipher");
 }
@@ -969,13 +975,25 @@ TEST_F(SecureNode, ThatWantsAnotherCertificateIsNamed)
       stranger(m_folder.path(), "stranger");
   m_behaviour.own = &own;
   m_behaviour.client = &client;
-  for (const int latest : {0, TLS1_2_VERSION}) // by TLS 1.3 it refuses after the handshake
+  m_behaviour.latestTls = TLS1_2_VERSION;
+  expectRefused({own.certificate(), "", ""}, "wants a certificate of this program");
+  expectRefused({own.certificate(), stranger.certificate(), stranger.key()},
+                "refuses the certificate of this program");
+  // By TLS 1.3 it refuses after the handshake, and its reason may be lost with the connection.
+  m_behaviour.latestTls = 0;
+  const FaultyServer server(m_behaviour);
+  for (const TlsFiles& files :
+       {TlsFiles{own.certificate(), "", ""},
+        TlsFiles{own.certificate(), stranger.certificate(), stranger.key()}})
   {
-    m_behaviour.latestTls = latest;
-    expectRefused({own.certificate(), "", ""}, "wants a certificate of this program");
-    expectRefused({own.certificate(), stranger.certificate(), stranger.key()},
-                  "refuses the certificate of this program");
+    Node node = server.node();
+    node.tls = files;
+    const NetworkError error = failure([&] { echo(node); });
+    EXPECT_TRUE(error.reason == Reason::Tls || error.reason == Reason::Cut) << error.what();
+    EXPECT_NE(std::string(error.what()).find("certificate of this program"), std::string::npos)
+        << error.what();
   }
+  EXPECT_EQ(server.associations(), 0);
 }
 
 TEST(CentralTestNode, KeepsASeries)

@@ -145,6 +145,15 @@ TEST_F(NodeCommand, SendsACaseThatIsTheSameWhenReceived)
   EXPECT_EQ(later["redo"], 1);
   EXPECT_EQ(later, json("info ear")["dissection"]);
   expectRefused("receive --from pacs --as later --case ear" + other(), 4, "there already");
+  expectRefused("receive --from pacs --case ear" + other(), 4, "'ear' is there already");
+
+  // One folder for two states of the scene.
+  const std::string kept = " --partial " + quoted(m_folder / "kept") + other();
+  json("receive --from pacs --as kept --case ear" + kept);
+  json("redo ear");
+  json("send ear --to pacs --what scene");
+  json("receive --from pacs --as newer --case ear" + kept);
+  EXPECT_EQ(json("info newer" + other())["dissection"], json("info ear")["dissection"]);
   EXPECT_EQ(logText().find(sent["study"].get<std::string>()), std::string::npos);
 }
 
@@ -243,6 +252,9 @@ TEST_F(NodeCommand, KeepsNodesInTheLibrary)
   expectRefused("nodes add c --host h --port 70000 --aet A", 3, "65535");
   expectRefused("nodes add c --host h --aet 'LONGER THAN SIXTEEN'", 3, "16");
   expectRefused("nodes add c --host h --aet A --tls-cert x.pem", 3, "together");
+  expectRefused("nodes add '\xff\xfe' --host h --aet A", 3, "UTF-8");
+  expectRefused("nodes add c --host h --aet A --tls-name '*'", 3, "certificates of any name");
+  expectRefused("nodes add c --host h --aet A --move-host h:1", 3, "without a port");
   expectRefused("nodes add c --host h", 2, "--aet");
   expectRefused("nodes test nobody", 3, "there are: a, b");
   expectRefused("nodes test a", 4, "nothing answers");

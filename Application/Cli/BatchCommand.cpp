@@ -677,9 +677,8 @@ private:
         presenters::sendCase(library, row.name, node, {true, true, true, true}, progress);
     for (const std::string& note : done.notes)
       result.notes.push_back(note);
-    if (!done.transfer.verified)
-      result.notes.push_back("node '" + row.node +
-                             "' confirmed every instance, but lists none of them (yet)");
+    if (const std::string why = presenters::unlistedText(done.transfer); !why.empty())
+      result.notes.push_back("node '" + row.node + "' confirmed every instance, but " + why);
     step.text += ", " + std::to_string(done.transfer.instances) + " instances";
     put(key, {{"case_id", value.id}, {"revision", value.revision}, {"study", done.studyUid}});
     return true;

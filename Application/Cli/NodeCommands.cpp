@@ -58,7 +58,7 @@ std::string absolute(const std::string& path)
 
 struct NodeOptions
 {
-  std::string action, name, ca, certificate, key;
+  std::string action, name, ca, certificate, key, certifiedName;
   network::Node node;
   bool tls = false;
 };
@@ -106,9 +106,10 @@ void runNodes(const Context& context, const NodeOptions& options)
   node.name = options.name;
   if (node.host.empty() || node.aeTitle.empty())
     throw UsageError("nodes add: give --host, --port and --aet");
-  if (options.tls || !options.ca.empty() || !options.certificate.empty() || !options.key.empty())
+  if (options.tls || !options.ca.empty() || !options.certificate.empty() || !options.key.empty() ||
+      !options.certifiedName.empty())
     node.tls = network::TlsFiles{absolute(options.ca), absolute(options.certificate),
-                                 absolute(options.key)};
+                                 absolute(options.key), options.certifiedName};
   network::checkNode(node);
   network::checkTlsFiles(node);
   list.add(node);
@@ -147,10 +148,9 @@ void send(const Context& context, const SendOptions& options)
       presenters::sendCase(library, options.caseName, node, parts, context.progress());
   for (const std::string& note : done.notes)
     context.warn(note);
-  if (!done.transfer.verified)
-    context.warn("node '" + options.node +
-                 "' confirmed every instance, but lists none of them (yet), so they could not be "
-                 "counted there");
+  if (const std::string why = presenters::unlistedText(done.transfer); !why.empty())
+    context.warn("node '" + options.node + "' confirmed every instance, but " + why +
+                 ", so they could not be counted there");
   context.print("case '" + options.caseName + "' is at node '" + options.node +
                 "': " + transferText(done.transfer));
   context.print("study " + done.studyUid);
@@ -217,15 +217,24 @@ void addNodeCommands(CLI::App& app, Context& context)
                    "Port at which this program listens for a node that offers C-MOVE only; the "
                    "node must know this program's AE title at this host and port")
       ->type_name("P");
+  command
+      ->add_option("--move-host", nodes->node.moveHost,
+                   "Host from which the node then sends, where it is not --host; '*': any")
+      ->type_name("H");
   command->add_flag("--tls", nodes->tls,
                     "TLS 1.2 or later; implied by the options below. The node's certificate is "
-                    "always verified");
+                    "always verified, and must be of the host");
   command->add_option("--tls-ca", nodes->ca, "Certificates to trust (PEM), instead of the system's")
       ->type_name("F");
   command->add_option("--tls-cert", nodes->certificate, "Certificate of this program (PEM)")
       ->type_name("F");
   command->add_option("--tls-key", nodes->key, "Its key (PEM, without a passphrase)")
       ->type_name("F");
+  command
+      ->add_option("--tls-name", nodes->certifiedName,
+                   "Name or address in the node's certificate, where it is not the host; '*': any "
+                   "certificate of --tls-ca will do")
+      ->type_name("H");
 
   auto out = std::make_shared<SendOptions>();
   command = context.addCommand(app, "send", "Send a case to a DICOM node",

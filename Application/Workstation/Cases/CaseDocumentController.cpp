@@ -1473,15 +1473,14 @@ bool CaseDocumentController::mayLeave()
     return true;
   if (m_leaving) // called again while saving
     return false;
-  m_leaving = true;
+  const QScopedValueRollback<bool> leaving(m_leaving, true);
   if (mayDropDraft && !mayDropDraft())
-    return m_leaving = false;
+    return false;
   m_work.drop(); // a cancelled import leaves nothing behind
   endWork();
   m_preparation.drop();
   m_model.stopTouch();
   const bool safe = m_saver.flush();
-  m_leaving = false;
   if (!safe)
   {
     m_unsaved.setButtonVisible("quitUnsaved", true);

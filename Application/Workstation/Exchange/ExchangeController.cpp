@@ -5,6 +5,7 @@
 #include <QAction>
 #include <QDir>
 #include <QFile>
+#include <QInputDialog>
 #include <QMenu>
 #include <QMessageBox>
 
@@ -17,6 +18,7 @@
 #include "SendDialog.h"
 #include "Theme.h"
 #include "WindowTexts.h"
+#include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/CaseTransfer.h"
 
 namespace petrous::workstation
@@ -28,9 +30,10 @@ namespace
 // What arrived there, or here.
 QString transferText(const network::Transfer& transfer)
 {
+  // arg() replaces the lowest marker.
   QString text = transfer.instances == 1
                      ? ExchangeController::tr("1 object, %1 MB in %2 s")
-                     : ExchangeController::tr("%3 objects, %1 MB in %2 s").arg(transfer.instances);
+                     : ExchangeController::tr("%1 objects, %2 MB in %3 s").arg(transfer.instances);
   text = text.arg(1e-6 * static_cast<double>(transfer.bytes), 0, 'f', 1)
              .arg(transfer.seconds, 0, 'f', 1);
   if (transfer.present > 0)
@@ -38,6 +41,26 @@ QString transferText(const network::Transfer& transfer)
   if (transfer.warning > 0)
     text += ExchangeController::tr(", %1 with a warning of the node").arg(transfer.warning);
   return text;
+}
+
+// What the node said afterwards.
+QString listedText(network::Transfer::Listed listed)
+{
+  switch (listed)
+  {
+  case network::Transfer::Listed::All:
+    return ExchangeController::tr("The node was asked, and has all of them.");
+  case network::Transfer::Listed::None:
+    return ExchangeController::tr("The node confirmed each of them, but lists none of them (yet), "
+                                  "so they could not be counted there.");
+  case network::Transfer::Listed::Unanswered:
+    return ExchangeController::tr("The node confirmed each of them, but did not answer when it was "
+                                  "asked for them, so they could not be counted there.");
+  case network::Transfer::Listed::NotOffered:
+    break;
+  }
+  return ExchangeController::tr("The node confirmed each of them. It offers no queries, so they "
+                                "could not be counted there.");
 }
 
 QString lines(const std::vector<std::string>& all)
@@ -123,17 +146,25 @@ void ExchangeController::send(const std::string& which)
   const auto all = nodes();
   if (all.empty())
     return;
-  std::string name = which;
   if (m_model.hasCase() && m_model.value().name == which)
   {
     if (!m_keeper.saved())
       return emit statusMessage(tr("The case is not saved yet, so it was not sent"));
-    name = m_model.value().name; // a save after a conflict may have changed it
+    return offer(m_model.value(), all); // a save after a conflict may have changed its name
   }
-  const scene::Case value = m_model.library().open(name);
-  SendDialog dialog(value, all, &m_window);
+  // Opening replays what a killed program left.
+  m_keeper.run(tr("Opening %1").arg(words(which)),
+               [this, library = m_model.library(), which,
+                all](const core::Progress&) -> BackgroundWork::Reply
+               { return [this, all, value = library.open(which)] { offer(value, all); }; });
+}
+
+void ExchangeController::offer(const scene::Case& value, const std::vector<network::Node>& nodes)
+{
+  SendDialog dialog(value, nodes, &m_window);
   if (dialog.exec() != QDialog::Accepted)
     return;
+  const std::string name = value.name;
   m_keeper.run(
       tr("Sending %1").arg(words(name)),
       [this, library = m_model.library(), name, node = dialog.node(),
@@ -144,10 +175,7 @@ void ExchangeController::send(const std::string& which)
         {
           QString head =
               tr("“%1” is at “%2”: %3.").arg(words(name), place, transferText(done.transfer));
-          head += ' ' + (done.transfer.verified
-                             ? tr("The node was asked, and has all of them.")
-                             : tr("The node confirmed each of them, but lists none of them (yet), "
-                                  "so they could not be counted there."));
+          head += ' ' + listedText(done.transfer.listed);
           showReport(&m_window, tr("Send"), head, lines(done.notes), "petrous-send.txt");
         };
       });
@@ -162,7 +190,7 @@ void ExchangeController::receive()
   if (dialog.exec() != QDialog::Accepted)
     return;
   const ReceiveDialog::Choice choice = dialog.choice();
-  choice.scene ? receiveScene(choice) : receiveImages(choice);
+  choice.scene ? receiveScene(choice, {}) : receiveImages(choice);
 }
 
 // The folder of a study on its way; what is there from before is not asked for again.
@@ -177,17 +205,26 @@ QString ExchangeController::arriving(const std::string& study)
   return folder->path();
 }
 
-void ExchangeController::receiveScene(const ReceiveDialog::Choice& choice)
+void ExchangeController::receiveScene(const ReceiveDialog::Choice& choice, const std::string& name)
 {
   presenters::ReceiveRequest request;
   request.studyUid = choice.study;
+  request.as = name;
   request.partial = QFile::encodeName(arriving(choice.study)).toStdString();
   m_keeper.run(
       tr("Receiving from %1").arg(words(choice.node.name)),
-      [this, library = m_model.library(), node = choice.node,
+      [this, library = m_model.library(), choice,
        request](const core::Progress& progress) mutable -> BackgroundWork::Reply
       {
-        const auto done = presenters::receiveCase(library, node, request, progress);
+        presenters::ReceiveSummary done;
+        try
+        {
+          done = presenters::receiveCase(library, choice.node, request, progress);
+        }
+        catch (const presenters::NameTakenError& error)
+        {
+          return [this, choice, taken = error.name] { receiveUnderOtherName(choice, taken); };
+        }
         return [this, done, study = request.studyUid]
         {
           m_arrived.erase(study);
@@ -200,6 +237,21 @@ void ExchangeController::receiveScene(const ReceiveDialog::Choice& choice)
           m_keeper.openCase(done.name);
         };
       });
+}
+
+void ExchangeController::receiveUnderOtherName(const ReceiveDialog::Choice& choice,
+                                               const std::string& taken)
+{
+  const QString suggested = words(presenters::freeCaseName(m_model.library(), taken));
+  const QString name =
+      QInputDialog::getText(
+          &m_window, tr("Receive"),
+          tr("The library has a case “%1”. Name of the received one:").arg(words(taken)),
+          QLineEdit::Normal, suggested)
+          .trimmed();
+  if (name.isEmpty())
+    return emit statusMessage(tr("Stopped; nothing was changed"));
+  receiveScene(choice, bytes(name));
 }
 
 // They are imported like a folder that is dropped.

@@ -35,8 +35,11 @@ signals:
 private:
   std::vector<network::Node> nodes(); ///< asks for one where there is none; empty: none wanted
   void editNodes();
+  void offer(const scene::Case& value, const std::vector<network::Node>& nodes); ///< to send it
   void receive();
-  void receiveScene(const ReceiveDialog::Choice& choice);
+  /// `name`: of the new case; empty: that of the scene. Asked for where it is taken.
+  void receiveScene(const ReceiveDialog::Choice& choice, const std::string& name);
+  void receiveUnderOtherName(const ReceiveDialog::Choice& choice, const std::string& taken);
   void receiveImages(const ReceiveDialog::Choice& choice);
   QString arriving(const std::string& study);
   void deidentify();

@@ -58,7 +58,13 @@ NodesDialog::NodesDialog(std::filesystem::path library, QWidget* parent)
   , m_own(line("nodeOwnTitle", tr("By which the node knows this computer: it has to be entered "
                                   "there")))
   , m_movePort(portBox("nodeMovePort", 0))
+  , m_moveHost(line("nodeMoveHost", tr("Name or IPv4 address of the computer from which the node "
+                                       "sends by C-MOVE; * for any. Nobody else is let in")))
   , m_tls(new QCheckBox(tr("&Encrypted (TLS 1.2 or later)")))
+  , m_certifiedName(line("nodeCertifiedName",
+                         tr("Name or IP address in the node's certificate, where it is not the "
+                            "host; * if any of the trusted certificates will do, as where the "
+                            "node's own is the only one")))
   , m_authority(new PathRow("nodeAuthority", PathRow::Kind::File, tr("Certificates to trust")))
   , m_certificate(
         new PathRow("nodeCertificate", PathRow::Kind::File, tr("Certificate of this computer")))
@@ -99,7 +105,10 @@ void NodesDialog::layOut()
   m_list->setAccessibleName(tr("Nodes"));
   m_list->setMaximumWidth(180);
   m_tls->setObjectName("nodeTls");
-  m_tls->setToolTip(tr("The node's certificate and its host name are always verified"));
+  m_tls->setToolTip(tr("The node's certificate is always verified, and must be of its host, or of "
+                       "the name below"));
+  m_certifiedName->setPlaceholderText(tr("the host"));
+  m_moveHost->setPlaceholderText(tr("the host"));
   m_movePort->setSpecialValueText(tr("not needed (C-GET)"));
   m_movePort->setToolTip(
       tr("For a node without C-GET: the port at which this computer listens for what the node "
@@ -121,8 +130,10 @@ void NodesDialog::layOut()
   form->addRow(tr("&AE title:"), m_title);
   form->addRow(tr("&Your AE title:"), m_own);
   form->addRow(tr("Port for C-&MOVE:"), m_movePort);
+  form->addRow(tr("C-MOVE &from:"), m_moveHost);
   form->addRow({}, m_tls);
   form->addRow(tr("&Trusted certificates:"), m_authority);
+  form->addRow(tr("Name &in its certificate:"), m_certifiedName);
   form->addRow(tr("Your &certificate:"), m_certificate);
   form->addRow(tr("Your &key:"), m_key);
 
@@ -145,6 +156,7 @@ void NodesDialog::layOut()
   for (QLineEdit* edit : {m_name, m_host, m_title, m_own})
     connect(edit, &QLineEdit::textChanged, this, &NodesDialog::check);
   connect(m_tls, &QCheckBox::toggled, this, &NodesDialog::check);
+  connect(m_movePort, qOverload<int>(&QSpinBox::valueChanged), this, &NodesDialog::check);
 
   auto* across = new QHBoxLayout;
   across->addWidget(m_list);
@@ -191,9 +203,11 @@ void NodesDialog::show(const network::Node& node)
   m_title->setText(words(node.aeTitle));
   m_own->setText(words(node.callingAeTitle));
   m_movePort->setValue(node.movePort);
+  m_moveHost->setText(words(node.moveHost));
   m_tls->setChecked(node.tls.has_value());
   const network::TlsFiles files = node.tls.value_or(network::TlsFiles{});
   m_authority->setText(words(files.authority));
+  m_certifiedName->setText(words(files.name));
   m_certificate->setText(words(files.certificate));
   m_key->setText(words(files.key));
   check();
@@ -208,9 +222,10 @@ network::Node NodesDialog::typed() const
   node.aeTitle = bytes(m_title->text().trimmed());
   node.callingAeTitle = bytes(m_own->text().trimmed());
   node.movePort = m_movePort->value();
+  node.moveHost = bytes(m_moveHost->text().trimmed());
   if (m_tls->isChecked())
     node.tls = network::TlsFiles{m_authority->path().string(), m_certificate->path().string(),
-                                 m_key->path().string()};
+                                 m_key->path().string(), bytes(m_certifiedName->text().trimmed())};
   return node;
 }
 
@@ -218,6 +233,8 @@ void NodesDialog::check()
 {
   for (PathRow* row : {m_authority, m_certificate, m_key})
     row->setEnabled(m_tls->isChecked());
+  m_certifiedName->setEnabled(m_tls->isChecked());
+  m_moveHost->setEnabled(m_movePort->value() > 0);
   const QString name = m_name->text().trimmed();
   const bool known = !name.isEmpty() && !m_list->findItems(name, Qt::MatchExactly).isEmpty();
   const bool complete = !name.isEmpty() && !m_host->text().trimmed().isEmpty() &&
@@ -258,19 +275,7 @@ void NodesDialog::keep()
         network::NodeList nodes(m_library);
         const bool known = !m_list->findItems(words(node.name), Qt::MatchExactly).isEmpty();
         if (known)
-        {
-          const network::Node before = nodes.at(node.name);
-          nodes.remove(node.name);
-          try
-          {
-            nodes.add(node);
-          }
-          catch (...)
-          {
-            nodes.add(before);
-            throw;
-          }
-        }
+          nodes.replace(node);
         else
           nodes.add(node);
         fill(node.name);

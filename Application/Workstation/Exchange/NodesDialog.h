@@ -49,7 +49,9 @@ private:
   QLineEdit* m_title;
   QLineEdit* m_own;
   QSpinBox* m_movePort;
+  QLineEdit* m_moveHost;
   QCheckBox* m_tls;
+  QLineEdit* m_certifiedName;
   PathRow* m_authority;
   PathRow* m_certificate;
   PathRow* m_key;

@@ -1,5 +1,7 @@
 #include "ReceiveDialog.h"
 
+#include <algorithm>
+
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDate>
@@ -11,6 +13,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QSignalBlocker>
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
@@ -24,6 +27,7 @@ namespace petrous::workstation
 namespace
 {
 
+constexpr std::size_t kMaxShown = 1000;
 constexpr int kUid = Qt::UserRole; // of column 0
 constexpr int kIsScene = Qt::UserRole + 1;
 constexpr int kIsListed = Qt::UserRole + 2; // of a study: its series are there
@@ -112,6 +116,12 @@ ReceiveDialog::ReceiveDialog(const std::vector<network::Node>& nodes, QWidget* p
   connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   connect(m_search, &QPushButton::clicked, this, &ReceiveDialog::search);
+  connect(m_node, qOverload<int>(&QComboBox::currentIndexChanged), this,
+          [this]
+          {
+            m_found->clear(); // another node has others
+            say({});
+          });
   connect(m_found, &QTreeWidget::itemExpanded, this, &ReceiveDialog::listSeries);
   connect(m_found, &QTreeWidget::itemChanged, this, &ReceiveDialog::update);
   connect(&m_work, &BackgroundWork::failed, this, &ReceiveDialog::say);
@@ -161,6 +171,7 @@ void ReceiveDialog::say(const QString& text)
 {
   m_outcome->setText(windowText(text));
   m_search->setText(m_work.busy() ? tr("&Stop") : tr("&Search"));
+  m_node->setEnabled(!m_work.busy());
   update();
 }
 
@@ -183,18 +194,29 @@ void ReceiveDialog::search()
 
 void ReceiveDialog::show(const std::vector<network::Study>& studies)
 {
-  for (const network::Study& study : studies)
+  std::vector<network::Study> latest = studies;
+  std::stable_sort(latest.begin(), latest.end(),
+                   [](const network::Study& a, const network::Study& b)
+                   { return a.date > b.date; });
+  latest.resize(std::min(latest.size(), kMaxShown));
+  QList<QTreeWidgetItem*> items;
+  for (const network::Study& study : latest)
   {
-    auto* item = new QTreeWidgetItem(m_found, {nameText(study.patientName), words(study.patientId),
-                                               dateText(study.date), words(study.description),
-                                               words(study.modalities).replace('\\', ", "),
-                                               countText(study.instances)});
+    auto* item = new QTreeWidgetItem(
+        QStringList{nameText(study.patientName), words(study.patientId), dateText(study.date),
+                    words(study.description), words(study.modalities).replace('\\', ", "),
+                    countText(study.instances)});
     item->setData(0, kUid, words(study.uid));
     item->setChildIndicatorPolicy(QTreeWidgetItem::ShowIndicator);
     item->setFlags(item->flags() & ~Qt::ItemIsUserCheckable);
+    items += item;
   }
-  m_found->sortItems(2, Qt::DescendingOrder);
-  say(studies.empty()       ? tr("“%1” has no such study.").arg(words(node().name))
+  m_found->addTopLevelItems(items);
+  say(studies.empty() ? tr("“%1” has no such study.").arg(words(node().name))
+      : studies.size() > kMaxShown
+          ? tr("%1 studies; the latest %2 are shown. Give more of the patient, or fewer days.")
+                .arg(studies.size())
+                .arg(kMaxShown)
       : studies.size() == 1 ? tr("1 study")
                             : tr("%1 studies").arg(studies.size()));
   if (studies.size() == 1)
@@ -220,6 +242,7 @@ void ReceiveDialog::listSeries(QTreeWidgetItem* study)
                 above = m_found->topLevelItem(n);
             if (!above)
               return;
+            const QSignalBlocker blocked(m_found); // each change looks at all rows
             above->setData(0, kIsListed, true);
             int latest = -1; // of the scenes
             for (const network::Series& one : series)

@@ -3,16 +3,19 @@
 #include <fstream>
 
 #include <QCheckBox>
+#include <QComboBox>
 #include <QDialog>
 #include <QDialogButtonBox>
 #include <QDir>
 #include <QElapsedTimer>
+#include <QInputDialog>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
 #include <QPlainTextEdit>
 #include <QProgressDialog>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QSignalSpy>
 #include <QSpinBox>
 #include <QTableView>
@@ -161,10 +164,17 @@ TEST_F(Exchange, NodesAreKeptWithTheLibrary)
         type(dialog, "nodeCertificate", own.certificate().c_str());
         type(dialog, "nodeKey", own.key().c_str());
         type(dialog, "nodeOwnTitle", "EAR");
+        type(dialog, "nodeCertifiedName", "pacs.example");
+        EXPECT_FALSE(dialog.findChild<QLineEdit*>("nodeMoveHost")->isEnabled());
+        dialog.findChild<QSpinBox*>("nodeMovePort")->setValue(11113);
+        EXPECT_TRUE(dialog.findChild<QLineEdit*>("nodeMoveHost")->isEnabled());
+        type(dialog, "nodeMoveHost", "10.0.0.7");
         button(dialog, "keepNode").click();
         const network::Node changed = network::NodeList(libraryFolder()).at("pacs");
         EXPECT_TRUE(changed.tls && changed.tls->key == own.key());
         EXPECT_EQ(changed.callingAeTitle, "EAR");
+        EXPECT_EQ(changed.tls->name, "pacs.example");
+        EXPECT_EQ(changed.moveHost, "10.0.0.7");
         keepPicture(dialog, "nodes");
         button(dialog, "removeNode").click();
         EXPECT_TRUE(network::NodeList(libraryFolder()).nodes().empty());
@@ -210,6 +220,14 @@ TEST_F(Exchange, ACaseGoesToANodeAndComesBack)
   ASSERT_TRUE(shown);
   ASSERT_TRUE(waitFor([&] { return report() && !window().busy(); }));
   EXPECT_TRUE(reportHead().contains("has all of them")) << reportHead().toStdString();
+  const auto sums =
+      QRegularExpression("(\\d+) objects, \\d+\\.\\d MB in \\d+\\.\\d s").match(reportHead());
+  ASSERT_TRUE(sums.hasMatch()) << reportHead().toStdString();
+  int objects = 0;
+  for (const network::Study& study : network::findStudies(orthanc.node(), {}))
+    for (const network::Series& series : network::findSeries(orthanc.node(), study.uid))
+      objects += series.instances;
+  EXPECT_EQ(sums.captured(1).toInt(), objects) << reportHead().toStdString();
   report()->close();
   library().rename("ball", "original");
   closeWindow();
@@ -383,6 +401,62 @@ TEST_F(Exchange, ReceivingIsCancelledAndGoesOn)
       << line.toStdString();
   ASSERT_TRUE(isOpen("received"));
   EXPECT_EQ(window().model().value().ct.geometry.dims(), (core::Index3{64, 64, 64}));
+}
+
+// Where the library has a case of its name, another one is asked for; what another node listed is
+// forgotten with it.
+TEST_F(Exchange, AReceivedCaseOfATakenNameGetsAnotherOne)
+{
+  if (!network::test::Orthanc::installed())
+    GTEST_SKIP() << "Orthanc (package orthanc) is not installed";
+  saveBall("ball");
+  const network::test::Orthanc orthanc(folder(), {});
+  network::Node node = orthanc.node();
+  network::NodeList(libraryFolder()).add(node);
+  node.name = "another";
+  network::NodeList(libraryFolder()).add(node);
+  presenters::SendParts parts;
+  parts.scene = true;
+  presenters::sendCase(library(), "ball", node, parts);
+  openWindow("ball");
+  QString asked;
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        if (auto* name = qobject_cast<QInputDialog*>(&dialog))
+        {
+          asked = name->labelText() + " " + name->textValue();
+          name->setTextValue("ball again");
+          name->accept();
+          return true;
+        }
+        if (dialog.objectName() != "receive")
+          return false;
+        auto* found = dialog.findChild<QTreeWidget*>("receiveFound");
+        auto* which = dialog.findChild<QComboBox*>("receiveNode");
+        type(dialog, "receiveId", "ANONYMOUS");
+        const auto search = [&]
+        {
+          button(dialog, "receiveSearch").click();
+          EXPECT_FALSE(which->isEnabled()) << "while it is asked";
+          EXPECT_TRUE(waitFor(
+              [&] {
+                return found->topLevelItemCount() == 1 && found->topLevelItem(0)->childCount() == 1;
+              }));
+        };
+        search();
+        EXPECT_TRUE(button(dialog, "primary").isEnabled());
+        which->setCurrentIndex(1);
+        EXPECT_EQ(found->topLevelItemCount(), 0) << "of the other node";
+        EXPECT_FALSE(button(dialog, "primary").isEnabled());
+        search();
+        button(dialog, "primary").click();
+        return true;
+      });
+  menu("receiveCase");
+  ASSERT_TRUE(isOpen("ball again"));
+  EXPECT_TRUE(asked.contains("“ball”") && asked.contains("ball 2")) << asked.toStdString();
+  EXPECT_EQ(library().open("ball").ct.object, library().open("ball again").ct.object);
 }
 
 // A node that does not answer is named, and nothing is lost.

@@ -1,6 +1,7 @@
 // Servers that do not do what they say: a service provider on DCMTK's low level, told how to fail;
 // and a storage provider of an implementation of its own (CTN).
 #include <algorithm>
+#include <csignal>
 #include <functional>
 #include <map>
 #include <sstream>
@@ -9,10 +10,16 @@
 
 #include <dcmtk/dcmdata/dctk.h>
 #include <dcmtk/dcmnet/dimse.h>
+#include <dcmtk/dcmtls/tlslayer.h>
+
+#include <openssl/ssl.h>
+#include <sys/resource.h>
 
 #include <gtest/gtest.h>
 
+#include "../src/Client/Association.h"
 #include "TestServers.h"
+#include "petrous/Core/OutputFile.h"
 #include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Network/DicomNode.h"
 
@@ -35,6 +42,21 @@ struct Behaviour
   DIC_US finalStatus = STATUS_Success;
   DIC_US storeStatus = STATUS_Success;
   bool silentToGet = false;
+  int statedOfStudy = -1;   ///< instances; -1: it does not say
+  bool returnsKeys = false; ///< of study and series, which it ignores
+  /// What it lists to query n (from 0) of instances; without: `files`.
+  std::function<std::vector<fs::path>(int query)> lists;
+  std::function<bool(int query)> cuts; ///< the connection, when asked for instances
+  int answers = 1;                     ///< as often to each query of studies
+  // C-MOVE: what it sends comes to this port.
+  int movePort = 0;
+  std::string moveTitle = "FAULTY";
+  bool silentFirst = false; ///< another connection, which says nothing, before its own
+  // TLS, if there is a certificate; from a client with one of `client` only, if that is given.
+  const Certificate* own = nullptr;
+  const Certificate* client = nullptr;
+  int latestTls = 0; ///< TLS1_1_VERSION; 0: any
+  std::string ciphers;
 };
 
 std::string valueOf(DcmItem& item, const DcmTagKey& key)
@@ -58,6 +80,8 @@ public:
     }
     if (!m_network)
       throw std::runtime_error("no free port");
+    if (m_behaviour.own)
+      secure();
     m_thread = std::thread([this] { run(); });
   }
   ~FaultyServer()
@@ -77,8 +101,38 @@ public:
     return node;
   }
   int requests() const { return m_requests; }
+  int associations() const
+  {
+    return m_associations;
+  } ///< that were asked for, whatever became of it
 
 private:
+  void secure()
+  {
+    DcmTLSTransportLayer::initializeOpenSSL();
+    auto layer = std::make_unique<DcmTLSTransportLayer>(NET_ACCEPTOR, nullptr, OFFalse);
+    layer->setTLSProfile(TSP_Profile_BCP195_ND);
+    layer->activateCipherSuites();
+    layer->setPrivateKeyFile(m_behaviour.own->key().c_str(), DCF_Filetype_PEM);
+    layer->setCertificateFile(m_behaviour.own->certificate().c_str(), DCF_Filetype_PEM);
+    if (m_behaviour.client)
+      layer->addTrustedCertificateFile(m_behaviour.client->certificate().c_str(), DCF_Filetype_PEM);
+    layer->setCertificateVerification(m_behaviour.client ? DCV_requireCertificate
+                                                         : DCV_ignoreCertificate);
+    SSL_CTX* context = layer->getNativeHandle();
+    if (m_behaviour.latestTls != 0)
+    {
+      SSL_CTX_set_security_level(context, 0); // else OpenSSL itself refuses it
+      SSL_CTX_clear_options(context, SSL_OP_NO_TLSv1 | SSL_OP_NO_TLSv1_1);
+      SSL_CTX_set_min_proto_version(context, TLS1_VERSION);
+      SSL_CTX_set_max_proto_version(context, m_behaviour.latestTls);
+    }
+    if (!m_behaviour.ciphers.empty())
+      SSL_CTX_set_cipher_list(context, m_behaviour.ciphers.c_str());
+    m_layer = std::move(layer);
+    ASC_setTransportLayer(m_network, m_layer.get(), 0);
+  }
+
   void run()
   {
     while (!m_stop)
@@ -90,8 +144,13 @@ private:
         continue;
       }
       T_ASC_Association* association = nullptr;
-      if (ASC_receiveAssociation(m_network, &association, ASC_DEFAULTMAXPDU).good())
+      if (ASC_receiveAssociation(m_network, &association, ASC_DEFAULTMAXPDU, nullptr, nullptr,
+                                 m_layer ? OFTrue : OFFalse)
+              .good())
+      {
+        ++m_associations;
         serve(association);
+      }
       ASC_dropSCPAssociation(association, 0);
       ASC_destroyAssociation(&association);
     }
@@ -122,10 +181,23 @@ private:
         ASC_acknowledgeRelease(association);
       if (result.bad())
         return;
-      if (message.CommandField == DIMSE_C_FIND_RQ)
-        find(association, id, message.msg.CFindRQ);
+      if (message.CommandField == DIMSE_C_ECHO_RQ)
+        DIMSE_sendEchoResponse(association, id, &message.msg.CEchoRQ, STATUS_Success, nullptr);
+      else if (message.CommandField == DIMSE_C_FIND_RQ)
+      {
+        if (!find(association, id, message.msg.CFindRQ))
+        {
+          ASC_abortAssociation(association);
+          return;
+        }
+      }
+      else if (message.CommandField == DIMSE_C_MOVE_RQ)
+        move(association, id, message.msg.CMoveRQ);
       else if (message.CommandField == DIMSE_C_GET_RQ)
-        get(association, id, message.msg.CGetRQ);
+      {
+        if (!get(association, id, message.msg.CGetRQ))
+          return;
+      }
       else if (message.CommandField == DIMSE_C_STORE_RQ)
         store(association, id, message.msg.CStoreRQ);
     }
@@ -139,11 +211,15 @@ private:
     return std::unique_ptr<DcmDataset>(data);
   }
 
-  void find(T_ASC_Association* association, T_ASC_PresentationContextID id,
+  /// False to cut the connection.
+  bool find(T_ASC_Association* association, T_ASC_PresentationContextID id,
             const T_DIMSE_C_FindRQ& request)
   {
     const auto asked = query(association);
     const std::string level = valueOf(*asked, DCM_QueryRetrieveLevel);
+    const int number = level == "IMAGE" ? m_queries++ : -1;
+    if (number >= 0 && m_behaviour.cuts && m_behaviour.cuts(number))
+      return false;
     T_DIMSE_C_FindRSP response{};
     response.MessageIDBeingRespondedTo = request.MessageID;
     const auto answer = [&](DcmDataset& data)
@@ -153,7 +229,8 @@ private:
       DIMSE_sendFindResponse(association, id, &request, &response, &data, nullptr);
     };
     std::map<std::string, int> series;
-    for (const fs::path& path : m_behaviour.files)
+    for (const fs::path& path :
+         number >= 0 && m_behaviour.lists ? m_behaviour.lists(number) : m_behaviour.files)
     {
       DcmFileFormat file;
       file.loadFile(path.c_str());
@@ -164,6 +241,9 @@ private:
       DcmDataset one;
       for (const DcmTagKey& key : {DCM_SOPInstanceUID, DCM_SOPClassUID})
         one.putAndInsertString(key, valueOf(data, key).c_str());
+      if (m_behaviour.returnsKeys)
+        for (const DcmTagKey& key : {DCM_StudyInstanceUID, DCM_SeriesInstanceUID})
+          one.putAndInsertString(key, valueOf(data, key).c_str());
       answer(one);
     }
     if (level == "STUDY")
@@ -171,7 +251,11 @@ private:
       DcmDataset one;
       one.putAndInsertString(DCM_StudyInstanceUID, m_behaviour.studyUid.c_str());
       one.putAndInsertString(DCM_PatientID, m_behaviour.patientId.c_str());
-      answer(one);
+      if (m_behaviour.statedOfStudy >= 0)
+        one.putAndInsertString(DCM_NumberOfStudyRelatedInstances,
+                               std::to_string(m_behaviour.statedOfStudy).c_str());
+      for (int n = 0; n < m_behaviour.answers; ++n)
+        answer(one);
     }
     if (level == "SERIES")
       for (const auto& [uid, count] : series)
@@ -185,20 +269,45 @@ private:
     response.DimseStatus = STATUS_Success;
     response.DataSetType = DIMSE_DATASET_NULL;
     DIMSE_sendFindResponse(association, id, &request, &response, nullptr, nullptr);
+    return true;
   }
 
-  void get(T_ASC_Association* association, T_ASC_PresentationContextID id,
-           const T_DIMSE_C_GetRQ& request)
+  void move(T_ASC_Association* association, T_ASC_PresentationContextID id,
+            const T_DIMSE_C_MoveRQ& request)
   {
-    const auto asked = query(association);
-    std::vector<std::string> uids;
-    std::istringstream list(valueOf(*asked, DCM_SOPInstanceUID));
-    for (std::string uid; std::getline(list, uid, '\\');)
-      uids.push_back(uid);
-    const int number = m_requests++;
-    if (m_behaviour.silentToGet)
-      return;
-    for (const fs::path& path : m_behaviour.sends(number, uids))
+    query(association);
+    const int silent = m_behaviour.silentFirst ? connectTo(m_behaviour.movePort) : -1;
+    T_ASC_Network* network = nullptr;
+    T_ASC_Parameters* parameters = nullptr;
+    T_ASC_Association* other = nullptr;
+    ASC_initializeNetwork(NET_REQUESTOR, 0, 30, &network);
+    ASC_createAssociationParameters(&parameters, ASC_DEFAULTMAXPDU);
+    ASC_setAPTitles(parameters, m_behaviour.moveTitle.c_str(), request.MoveDestination, nullptr);
+    ASC_setPresentationAddresses(parameters, "localhost",
+                                 ("127.0.0.1:" + std::to_string(m_behaviour.movePort)).c_str());
+    const char* syntax = UID_LittleEndianExplicitTransferSyntax;
+    ASC_addPresentationContext(parameters, 1, UID_CTImageStorage, &syntax, 1);
+    DIC_US status = 0xA702;
+    if (ASC_requestAssociation(network, parameters, &other).good() &&
+        sendAll(other, m_behaviour.sends(m_requests++, {})))
+    {
+      ASC_releaseAssociation(other);
+      status = STATUS_Success;
+    }
+    ASC_destroyAssociation(&other);
+    ASC_dropNetwork(&network);
+    if (silent >= 0)
+      ::close(silent);
+    T_DIMSE_C_MoveRSP response{};
+    response.MessageIDBeingRespondedTo = request.MessageID;
+    response.DataSetType = DIMSE_DATASET_NULL;
+    response.DimseStatus = status;
+    DIMSE_sendMoveResponse(association, id, &request, &response, nullptr, nullptr);
+  }
+
+  static bool sendAll(T_ASC_Association* association, const std::vector<fs::path>& files)
+  {
+    for (const fs::path& path : files)
     {
       DcmFileFormat file;
       file.loadFile(path.c_str());
@@ -216,9 +325,26 @@ private:
       if (DIMSE_storeUser(association, context, &store, nullptr, file.getDataset(), nullptr,
                           nullptr, DIMSE_NONBLOCKING, 10, &response, &detail)
               .bad())
-        return;
+        return false;
       delete detail;
     }
+    return true;
+  }
+
+  /// False if the connection is lost.
+  bool get(T_ASC_Association* association, T_ASC_PresentationContextID id,
+           const T_DIMSE_C_GetRQ& request)
+  {
+    const auto asked = query(association);
+    std::vector<std::string> uids;
+    std::istringstream list(valueOf(*asked, DCM_SOPInstanceUID));
+    for (std::string uid; std::getline(list, uid, '\\');)
+      uids.push_back(uid);
+    const int number = m_requests++;
+    if (m_behaviour.silentToGet)
+      return true;
+    if (!sendAll(association, m_behaviour.sends(number, uids)))
+      return false;
     T_DIMSE_C_GetRSP response{};
     response.MessageIDBeingRespondedTo = request.MessageID;
     response.DataSetType = DIMSE_DATASET_NULL;
@@ -226,6 +352,7 @@ private:
     response.opts = O_GET_NUMBEROFCOMPLETEDSUBOPERATIONS; // whatever was sent
     response.NumberOfCompletedSubOperations = static_cast<DIC_US>(m_behaviour.files.size());
     DIMSE_sendGetResponse(association, id, &request, &response, nullptr, nullptr);
+    return true;
   }
 
   void store(T_ASC_Association* association, T_ASC_PresentationContextID id,
@@ -243,7 +370,9 @@ private:
   int m_port = 0;
   T_ASC_Network* m_network = nullptr;
   std::atomic<bool> m_stop{false};
-  std::atomic<int> m_requests{0};
+  std::atomic<int> m_requests{0}, m_associations{0};
+  int m_queries = 0; ///< of instances
+  std::unique_ptr<DcmTLSTransportLayer> m_layer;
   std::thread m_thread;
 };
 
@@ -502,6 +631,412 @@ TEST_F(FaultyNode, ThatIsNoDicomServerIsNamed)
   EXPECT_EQ(failure([&] { echo(node); }).reason, Reason::Protocol);
   server.join();
   ::close(listener);
+}
+
+// --- What is counted ---
+
+TEST_F(FaultyNode, ThatIsCutWhenAskedWhatItHasIsAskedAgain)
+{
+  m_behaviour.cuts = [](int query) { return query == 1; };
+  {
+    const FaultyServer server(m_behaviour);
+    const Transfer sent = store(server.node(), m_files);
+    EXPECT_EQ(sent.listed, Transfer::Listed::All);
+    EXPECT_EQ(sent.asked, 2U);
+  }
+  m_behaviour.files.resize(6); // of which it confirmed ten
+  const FaultyServer server(m_behaviour);
+  EXPECT_EQ(failure([&] { store(server.node(), m_files); }).reason, Reason::Incomplete);
+}
+
+TEST_F(FaultyNode, ThatNeverSaysWhatItHasIsNotSaidToListNothing)
+{
+  m_behaviour.files.clear();
+  m_behaviour.cuts = [](int query) { return query > 0; };
+  {
+    const FaultyServer server(m_behaviour);
+    const Transfer sent = store(server.node(), m_files);
+    EXPECT_EQ(sent.completed, 10U);
+    EXPECT_EQ(sent.listed, Transfer::Listed::Unanswered);
+    EXPECT_FALSE(sent.verified);
+    EXPECT_EQ(sent.asked, 3U);
+  }
+  m_behaviour.cuts = {};
+  const FaultyServer server(m_behaviour);
+  EXPECT_EQ(store(server.node(), m_files).listed, Transfer::Listed::None);
+}
+
+TEST_F(FaultyNode, WhoseListChangesIsNotSentToForEver)
+{
+  m_behaviour.lists = [this](int query)
+  {
+    const std::size_t held = query == 0 ? 0 : query % 4 < 2 ? 5 : 4;
+    return std::vector<fs::path>(m_files.begin(),
+                                 m_files.begin() + static_cast<std::ptrdiff_t>(held));
+  };
+  const FaultyServer server(m_behaviour);
+  EXPECT_EQ(failure([&] { store(server.node(), m_files); }).reason, Reason::Incomplete);
+}
+
+TEST_F(FaultyNode, ThatIsCutAtFirstIsStillAskedWhatWasThere)
+{
+  m_behaviour.cuts = [](int query) { return query == 0; };
+  m_behaviour.lists = [this](int query)
+  { return std::vector<fs::path>(m_files.begin(), m_files.begin() + (query == 1 ? 4 : 10)); };
+  const FaultyServer server(m_behaviour);
+  const Transfer sent = store(server.node(), m_files);
+  EXPECT_EQ(sent.present, 4U);
+  EXPECT_EQ(sent.completed, 10U);
+}
+
+TEST_F(FaultyNode, ThatListsFewerThanItStatesOfTheStudyIsNamed)
+{
+  m_behaviour.stated = 0; // of the series
+  m_behaviour.statedOfStudy = 12;
+  const FaultyServer server(m_behaviour);
+  const NetworkError error = retrieveFailure(server.node());
+  EXPECT_EQ(error.reason, Reason::Incomplete);
+  EXPECT_NE(std::string(error.what()).find("12 instances"), std::string::npos) << error.what();
+}
+
+TEST_F(FaultyNode, ThatIgnoresTheSeriesIsTakenByWhatItAnswers)
+{
+  const auto other = series("OTHER", "P1");
+  m_behaviour.files.insert(m_behaviour.files.end(), other.begin(), other.end());
+  m_behaviour.returnsKeys = true;
+  const FaultyServer server(m_behaviour);
+  const Transfer got = retrieve(server.node(), m_study, {imaging::deterministicUid(8, "SERIES")},
+                                m_folder.path() / "back");
+  EXPECT_EQ(got.instances, 10U);
+  EXPECT_EQ(got.completed, 10U);
+  EXPECT_EQ(findInstances(server.node(), m_study, {imaging::deterministicUid(8, "OTHER")}).size(),
+            10U);
+  EXPECT_TRUE(findSeries(server.node(), imaging::deterministicUid(8, "another")).size() == 2U)
+      << "a node may not say to which study they belong";
+}
+
+TEST_F(FaultyNode, ThatSendsWithoutEndIsLeft)
+{
+  m_behaviour.sends = [this](int, const std::vector<std::string>&)
+  {
+    std::vector<fs::path> files;
+    for (int n = 0; n < 400; ++n)
+      files.push_back(m_files[static_cast<std::size_t>(n) % 5]);
+    return files;
+  };
+  const FaultyServer server(m_behaviour);
+  const NetworkError error = retrieveFailure(server.node());
+  EXPECT_EQ(error.reason, Reason::Protocol);
+  EXPECT_NE(std::string(error.what()).find("without end"), std::string::npos) << error.what();
+}
+
+TEST_F(FaultyNode, ThatAnswersWithoutEndIsLeft)
+{
+  m_behaviour.answers = 100001;
+  const FaultyServer server(m_behaviour);
+  const NetworkError error = failure([&] { findStudies(server.node(), {m_study, {}}); });
+  EXPECT_EQ(error.reason, Reason::Protocol);
+  EXPECT_NE(std::string(error.what()).find("100000 times"), std::string::npos) << error.what();
+}
+
+// --- This computer's own faults ---
+
+TEST_F(FaultyNode, IsNotBlamedForAFullDisk)
+{
+  rlimit before{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  const auto ignored = std::signal(SIGXFSZ, SIG_IGN);
+  for (const rlim_t most : {rlim_t{0}, rlim_t{700}, rlim_t{fs::file_size(m_files[0]) - 40}})
+  {
+    const fs::path folder = m_folder.path() / ("back" + std::to_string(most));
+    const FaultyServer server(m_behaviour);
+    rlimit limit = before;
+    limit.rlim_cur = most;
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    try
+    {
+      retrieve(server.node(), m_study, {}, folder);
+      ADD_FAILURE() << most << ": the disk took it";
+    }
+    catch (const core::OutputFileError& error)
+    {
+      EXPECT_EQ(error.reason, core::OutputFileError::Reason::DiskFull) << error.what();
+    }
+    catch (const std::exception& error)
+    {
+      ADD_FAILURE() << most << ": " << error.what();
+    }
+    ::setrlimit(RLIMIT_FSIZE, &before);
+    EXPECT_TRUE(fs::is_empty(folder)) << most;
+  }
+  std::signal(SIGXFSZ, ignored);
+}
+
+TEST_F(FaultyNode, WhatTheListenerThrowsArrivesAtTheCaller)
+{
+  const core::Progress progress([](double, const std::string&)
+                                { throw std::runtime_error("of the listener"); });
+  const FaultyServer server(m_behaviour);
+  EXPECT_THROW(retrieve(server.node(), m_study, {}, m_folder.path() / "back", progress),
+               std::runtime_error);
+  EXPECT_THROW(store(server.node(), m_files, progress), std::runtime_error);
+}
+
+TEST(ConnectionWatch, AConnectionThatCannotBeWatchedIsNotUsed)
+{
+  ConnectionWatch watch({}, std::chrono::seconds(60));
+  watch.watch(-1);
+  EXPECT_EQ(watch.ended(), ConnectionWatch::End::Failed);
+  EXPECT_THROW(std::rethrow_exception(watch.fault()), core::Error);
+}
+
+TEST(ConnectionWatch, EndsWhatIsTooLarge)
+{
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()), 0);
+  ConnectionWatch watch({}, std::chrono::seconds(60));
+  watch.watch(ends[0]);
+  watch.end(ConnectionWatch::End::TooLarge);
+  char byte = 0;
+  EXPECT_EQ(::read(ends[1], &byte, 1), 0) << "its peer sees the end";
+  EXPECT_EQ(watch.ended(), ConnectionWatch::End::TooLarge);
+  ::close(ends[0]);
+  ::close(ends[1]);
+}
+
+TEST_F(FaultyNode, ThatDoesNotEvenConnectIsLeftWhenTheUserCancels)
+{
+  int port = 0;
+  const int listener = listenOn(0, port);
+  ::listen(listener, 0);
+  std::vector<int> pending; // until the system drops who connects
+  for (pollfd one{-1, POLLOUT, 0}; pending.empty() || ::poll(&one, 1, 200) > 0;)
+  {
+    one.fd = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    pending.push_back(one.fd);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    ::connect(one.fd, reinterpret_cast<sockaddr*>(&address), sizeof address);
+  }
+  prepareToolkit();
+  const Sint32 before = dcmConnectionTimeout.get();
+  dcmConnectionTimeout.set(600);
+  Node node;
+  node.name = "faulty";
+  node.host = "127.0.0.1";
+  node.port = port;
+  node.aeTitle = "FULL";
+  const auto token = std::make_shared<core::CancelToken>();
+  std::atomic<bool> cancelled{false};
+  std::thread user(
+      [&]
+      {
+        try
+        {
+          echo(node, core::Progress({}, token));
+        }
+        catch (const core::CancelledError&)
+        {
+          cancelled = true;
+        }
+        catch (const std::exception&)
+        {
+        }
+      });
+  token->cancel();
+  EXPECT_TRUE(waitFor([&] { return cancelled.load(); }));
+  for (const int one : pending)
+    ::close(one);
+  ::close(listener); // whoever still connects is refused now
+  user.join();
+  dcmConnectionTimeout.set(before);
+}
+
+// --- Who sends by C-MOVE ---
+
+class MovingNode : public FaultyNode
+{
+protected:
+  void SetUp() override
+  {
+    FaultyNode::SetUp();
+    m_behaviour.movePort = freePort();
+  }
+  Node nodeOf(const FaultyServer& server) const
+  {
+    Node node = server.node();
+    node.movePort = m_behaviour.movePort;
+    return node;
+  }
+  std::size_t arrived() const
+  {
+    std::error_code ignored;
+    std::size_t count = 0;
+    for (const auto& entry : fs::directory_iterator(m_folder.path() / "back", ignored))
+      count += entry.path().extension() == kInstanceEnding ? 1U : 0U;
+    return count;
+  }
+};
+
+TEST_F(MovingNode, ThatIsInOrderGivesEverything)
+{
+  const FaultyServer server(m_behaviour);
+  for (const char* host : {"", "localhost", kAnyName})
+  {
+    fs::remove_all(m_folder.path() / "back");
+    Node node = nodeOf(server);
+    node.moveHost = host;
+    EXPECT_EQ(retrieve(node, m_study, {}, m_folder.path() / "back").completed, 10U) << host;
+  }
+}
+
+TEST_F(MovingNode, IsNotReplacedByOneOfAnotherTitle)
+{
+  m_behaviour.moveTitle = "STRANGER";
+  const FaultyServer server(m_behaviour);
+  const NetworkError error = retrieveFailure(nodeOf(server));
+  EXPECT_EQ(error.reason, Reason::Rejected);
+  EXPECT_NE(std::string(error.what()).find("does not call itself 'FAULTY'"), std::string::npos)
+      << error.what();
+  EXPECT_EQ(arrived(), 0U);
+}
+
+TEST_F(MovingNode, IsNotReplacedByAnotherHost)
+{
+  const FaultyServer server(m_behaviour);
+  Node node = nodeOf(server);
+  node.moveHost = "127.0.0.2"; // this computer's too, but not the one that sends
+  const NetworkError error = retrieveFailure(node);
+  EXPECT_EQ(error.reason, Reason::Rejected);
+  EXPECT_NE(std::string(error.what()).find("another host"), std::string::npos) << error.what();
+  EXPECT_EQ(arrived(), 0U);
+}
+
+TEST_F(MovingNode, IsServedAlthoughAnotherConnectionSaysNothing)
+{
+  m_behaviour.silentFirst = true;
+  const FaultyServer server(m_behaviour);
+  Node node = nodeOf(server);
+  node.timeouts.reply = std::chrono::seconds(4);
+  EXPECT_EQ(retrieve(node, m_study, {}, m_folder.path() / "back").completed, 10U);
+}
+
+TEST_F(MovingNode, IsNotLetInByAnyCertificateOfTheSystemsAuthorities)
+{
+  const Certificate own(m_folder.path(), "server"), client(m_folder.path(), "client");
+  m_behaviour.own = &own;
+  const FaultyServer server(m_behaviour);
+  ::setenv("SSL_CERT_FILE", own.certificate().c_str(), 1); // the system's, for OpenSSL
+  Node node = nodeOf(server);
+  node.tls = TlsFiles{"", client.certificate(), client.key()};
+  const NetworkError error = retrieveFailure(node);
+  ::unsetenv("SSL_CERT_FILE");
+  EXPECT_EQ(error.reason, Reason::Tls);
+  EXPECT_NE(std::string(error.what()).find("certificates to trust"), std::string::npos)
+      << error.what();
+}
+
+// --- TLS ---
+
+class SecureNode : public FaultyNode
+{
+protected:
+  /// Fails as told, before a byte of DICOM.
+  void expectRefused(const TlsFiles& files, const std::string& words) const
+  {
+    const FaultyServer server(m_behaviour);
+    Node node = server.node();
+    node.tls = files;
+    node.timeouts.reply = std::chrono::seconds(10);
+    const NetworkError error = failure([&] { echo(node); });
+    EXPECT_EQ(error.reason, Reason::Tls) << error.what();
+    EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    EXPECT_EQ(server.associations(), 0) << words;
+  }
+  void expectConnected(const TlsFiles& files) const
+  {
+    const FaultyServer server(m_behaviour);
+    Node node = server.node();
+    node.tls = files;
+    EXPECT_NO_THROW(echo(node));
+    EXPECT_EQ(server.associations(), 1);
+  }
+};
+
+TEST_F(SecureNode, IsConnectedIfItsCertificateIsOfTheHostOrTheNameGiven)
+{
+  const Certificate here(m_folder.path(), "here"),
+      elsewhere(m_folder.path(), "elsewhere", "DNS:pacs.hospital.example"),
+      client(m_folder.path(), "client");
+  m_behaviour.own = &here;
+  expectConnected({here.certificate(), "", ""});
+  m_behaviour.client = &client;
+  expectConnected({here.certificate(), client.certificate(), client.key()});
+  m_behaviour.client = nullptr;
+  m_behaviour.own = &elsewhere;
+  expectConnected({elsewhere.certificate(), "", "", "pacs.hospital.example"});
+  expectConnected({elsewhere.certificate(), "", "", kAnyName});
+}
+
+TEST_F(SecureNode, OfAnotherNameIsRefusedAlthoughItsAuthorityIsTrusted)
+{
+  const Certificate elsewhere(m_folder.path(), "elsewhere", "DNS:other.hospital.example");
+  m_behaviour.own = &elsewhere;
+  expectRefused({elsewhere.certificate(), "", ""}, "is not of '127.0.0.1'");
+  expectRefused({elsewhere.certificate(), "", "", "pacs.hospital.example"},
+                "is not of 'pacs.hospital.example'");
+}
+
+TEST_F(SecureNode, WithAnExpiredOrUnknownCertificateIsRefused)
+{
+  const Certificate expired(m_folder.path(), "expired", "IP:127.0.0.1", -60),
+      stranger(m_folder.path(), "stranger");
+  m_behaviour.own = &expired;
+  expectRefused({expired.certificate(), "", ""}, "has expired");
+  m_behaviour.own = &stranger;
+  expectRefused({expired.certificate(), "", ""}, "not of a trusted authority");
+  expectRefused({"", "", ""}, "not of a trusted authority");
+}
+
+TEST_F(SecureNode, WithOldTlsOrWeakCiphersOnlyIsRefused)
+{
+  const Certificate own(m_folder.path(), "own");
+  m_behaviour.own = &own;
+  m_behaviour.latestTls = TLS1_1_VERSION;
+  expectRefused({own.certificate(), "", ""}, "TLS 1.2 or later");
+  m_behaviour.latestTls = TLS1_2_VERSION;
+  expectConnected({own.certificate(), "", ""});
+  m_behaviour.ciphers = "AES128-SHA";
+  expectRefused({own.certificate(), "", ""}, "no permitted cipher");
+}
+
+TEST_F(SecureNode, ThatWantsAnotherCertificateIsNamed)
+{
+  const Certificate own(m_folder.path(), "own"), client(m_folder.path(), "client"),
+      stranger(m_folder.path(), "stranger");
+  m_behaviour.own = &own;
+  m_behaviour.client = &client;
+  m_behaviour.latestTls = TLS1_2_VERSION;
+  expectRefused({own.certificate(), "", ""}, "wants a certificate of this program");
+  expectRefused({own.certificate(), stranger.certificate(), stranger.key()},
+                "refuses the certificate of this program");
+  // By TLS 1.3 it refuses after the handshake, and its reason may be lost with the connection.
+  m_behaviour.latestTls = 0;
+  const FaultyServer server(m_behaviour);
+  for (const TlsFiles& files :
+       {TlsFiles{own.certificate(), "", ""},
+        TlsFiles{own.certificate(), stranger.certificate(), stranger.key()}})
+  {
+    Node node = server.node();
+    node.tls = files;
+    const NetworkError error = failure([&] { echo(node); });
+    EXPECT_TRUE(error.reason == Reason::Tls || error.reason == Reason::Cut) << error.what();
+    EXPECT_NE(std::string(error.what()).find("certificate of this program"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_EQ(server.associations(), 0);
 }
 
 TEST(CentralTestNode, KeepsASeries)

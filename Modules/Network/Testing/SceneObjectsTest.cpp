@@ -110,7 +110,8 @@ TEST(NodeList, IsKeptAndHoldsNoKey)
   node.port = 2762;
   node.aeTitle = "ARCHIVE";
   node.movePort = 11113;
-  node.tls = TlsFiles{"/ca.pem", "/own.pem", "/own.key"};
+  node.moveHost = "pacs-2";
+  node.tls = TlsFiles{"/ca.pem", "/own.pem", "/own.key", "pacs.hospital.example"};
   {
     NodeList list(folder.path());
     list.add(node);
@@ -125,16 +126,84 @@ TEST(NodeList, IsKeptAndHoldsNoKey)
   EXPECT_FALSE(list.nodes()[0].tls);
   EXPECT_EQ(list.at("b").port, 2762);
   EXPECT_EQ(list.at("b").movePort, 11113);
+  EXPECT_EQ(list.at("b").moveHost, "pacs-2");
   ASSERT_TRUE(list.at("b").tls);
   EXPECT_EQ(list.at("b").tls->key, "/own.key");
+  EXPECT_EQ(list.at("b").tls->name, "pacs.hospital.example");
   EXPECT_THROW(list.at("c"), core::InvalidParameter);
 }
 
-TEST(NodeList, OfANewerVersionIsRefused)
+TEST(NodeList, OfAnotherVersionIsRefused)
 {
   const TemporaryFolder folder;
-  std::ofstream(folder.path() / "nodes.json") << R"({"format":2,"nodes":[]})";
-  EXPECT_THROW(NodeList(folder.path()), core::InvalidParameter);
+  for (const char* format : {"2", "0", "-1"})
+  {
+    std::ofstream(folder.path() / "nodes.json") << R"({"format":)" << format << R"(,"nodes":[]})";
+    EXPECT_THROW(NodeList(folder.path()), core::InvalidParameter) << format;
+  }
+}
+
+TEST(NodeList, ReplacesTheNodeOfThatNameOnly)
+{
+  const TemporaryFolder folder;
+  Node node;
+  node.name = "a";
+  node.host = "pacs";
+  node.aeTitle = "ARCHIVE";
+  NodeList list(folder.path());
+  EXPECT_THROW(list.replace(node), core::InvalidParameter) << "there is none";
+  list.add(node);
+  node.host = "other";
+  NodeList(folder.path()).replace(node);
+  EXPECT_EQ(NodeList(folder.path()).at("a").host, "other");
+  node.port = 0;
+  EXPECT_THROW(list.replace(node), core::InvalidParameter);
+  EXPECT_EQ(NodeList(folder.path()).at("a").port, 104) << "as it was";
+  list.remove("a");
+  node.port = 104;
+  EXPECT_THROW(list.replace(node), core::InvalidParameter) << "removed meanwhile";
+}
+
+TEST(NodeList, RefusesNamesThatCannotBeShownOrKept)
+{
+  const TemporaryFolder folder;
+  Node good;
+  good.name = "Zürich";
+  good.host = "pacs";
+  good.aeTitle = "ARCHIVE";
+  good.tls = TlsFiles{"/ca.pem", "", ""};
+  NodeList(folder.path()).add(good);
+  good.name = "b";
+  const auto expectRefused = [&](const std::function<void(Node&)>& change)
+  {
+    Node node = good;
+    change(node);
+    try
+    {
+      NodeList(folder.path()).add(node);
+      ADD_FAILURE() << "taken: " << node.name;
+    }
+    catch (const core::InvalidParameter& error)
+    {
+      const std::string text = error.what();
+      EXPECT_TRUE(std::all_of(text.begin(), text.end(), [](char c) { return c >= 32 && c < 127; }))
+          << text;
+    }
+  };
+  expectRefused([](Node& node) { node.name = "\xff\xfe"; });
+  expectRefused([](Node& node) { node.name = "a\x1b[2Jb"; });
+  expectRefused([](Node& node) { node.host = "p\xff"; });
+  expectRefused([](Node& node) { node.host = "p\ac"; });
+  expectRefused([](Node& node) { node.moveHost = "p:104"; });
+  expectRefused([](Node& node) { node.tls->authority = "/\xff.pem"; });
+  expectRefused([](Node& node) { node.tls->name = "a b"; });
+  expectRefused(
+      [](Node& node)
+      {
+        node.tls->authority.clear();
+        node.tls->name = kAnyName;
+      });
+  EXPECT_EQ(NodeList(folder.path()).nodes().size(), 1U);
 }
 
 } // namespace petrous::network

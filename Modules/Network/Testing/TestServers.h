@@ -33,6 +33,7 @@
 #include <openssl/pem.h>
 #include <openssl/rsa.h>
 #include <openssl/x509.h>
+#include <openssl/x509v3.h>
 
 #include "petrous/Network/DicomNode.h"
 
@@ -196,11 +197,12 @@ inline int connectTo(int port)
   return -1;
 }
 
-/// A self-signed certificate and its key, in PEM files.
+/// A self-signed certificate and its key, in PEM files; of this computer, unless told otherwise.
 class Certificate
 {
 public:
-  Certificate(const fs::path& folder, const std::string& name)
+  Certificate(const fs::path& folder, const std::string& name,
+              const std::string& hosts = "DNS:localhost,IP:127.0.0.1", long lifetime = 86400)
     : m_certificate(folder / (name + ".crt"))
     , m_key(folder / (name + ".key"))
   {
@@ -209,12 +211,16 @@ public:
     X509_set_version(certificate, 2);
     ASN1_INTEGER_set(X509_get_serialNumber(certificate), 1);
     X509_gmtime_adj(X509_getm_notBefore(certificate), -3600);
-    X509_gmtime_adj(X509_getm_notAfter(certificate), 86400);
+    X509_gmtime_adj(X509_getm_notAfter(certificate), lifetime); // seconds; < 0: expired
     X509_set_pubkey(certificate, key);
     X509_NAME* subject = X509_get_subject_name(certificate);
     X509_NAME_add_entry_by_txt(subject, "CN", MBSTRING_ASC,
                                reinterpret_cast<const unsigned char*>(name.c_str()), -1, -1, 0);
     X509_set_issuer_name(certificate, subject);
+    X509_EXTENSION* names =
+        X509V3_EXT_conf_nid(nullptr, nullptr, NID_subject_alt_name, hosts.c_str());
+    X509_add_ext(certificate, names, -1);
+    X509_EXTENSION_free(names);
     X509_sign(certificate, key, EVP_sha256());
     write(m_certificate, [&](FILE* file) { PEM_write_X509(file, certificate); });
     write(m_key, [&](FILE* file)

@@ -295,11 +295,27 @@ std::string studyOf(const library::Library& library, const network::Node& node,
 
 std::string freeName(const library::Library& library, const std::string& name)
 {
-  if (library.contains(name)) // before anything is transferred
-    throw library::LibraryError(library::LibraryError::Reason::NameTaken,
-                                "case '" + name + "' is there already in " +
-                                    library.folder().string() + "; choose another name with --as");
+  if (library.contains(name))
+    throw NameTakenError(name, "case '" + name + "' is there already in " +
+                                   library.folder().string() + "; choose another name with --as");
   return name;
+}
+
+/// Fits a short string (SH).
+std::string shortHash(const std::string& text)
+{
+  return library::sha256Of(reinterpret_cast<const std::uint8_t*>(text.data()), text.size())
+      .substr(0, 16);
+}
+
+/// Before the scene of a study is transferred: a case of its name is in the library.
+void refuseTakenScene(const library::Library& library, const network::Node& node,
+                      const std::string& study, const core::Progress& progress)
+{
+  for (const auto& found : network::findStudies(node, {study, {}}, progress))
+    for (const auto& there : library.list())
+      if (studyIdOf(there.name) == found.studyId)
+        freeName(library, there.name);
 }
 
 /// Without the volume of a 4-D series.
@@ -607,9 +623,23 @@ IdentityReport identityReport(const scene::Case& value, const library::ArchiveOp
 
 std::string studyIdOf(const std::string& caseName)
 {
-  const std::string text = "petrous case " + caseName;
-  return library::sha256Of(reinterpret_cast<const std::uint8_t*>(text.data()), text.size())
-      .substr(0, 16); // a short string (SH)
+  return shortHash("petrous case " + caseName);
+}
+
+std::string unlistedText(const network::Transfer& sent)
+{
+  switch (sent.listed)
+  {
+  case network::Transfer::Listed::All:
+    return {};
+  case network::Transfer::Listed::None:
+    return "lists none of them (yet)";
+  case network::Transfer::Listed::Unanswered:
+    return "did not answer when it was asked for them";
+  case network::Transfer::Listed::NotOffered:
+    break;
+  }
+  return "offers no queries";
 }
 
 SendSummary sendCase(const library::Library& library, const std::string& name,
@@ -656,10 +686,7 @@ ReceiveSummary receiveCase(library::Library& library, const network::Node& node,
                            "': has no such study; check the UID, or ask the "
                            "node's administrator whether it was deleted");
   // A folder of its own for each study: what is found in it makes the case.
-  const fs::path folder =
-      (scratch ? scratch->path() : request.partial) /
-      library::sha256Of(reinterpret_cast<const std::uint8_t*>(study.data()), study.size())
-          .substr(0, 16);
+  const fs::path folder = (scratch ? scratch->path() : request.partial) / shortHash(study);
 
   ReceiveSummary summary;
   const network::Series* scene = nullptr;
@@ -670,7 +697,10 @@ ReceiveSummary receiveCase(library::Library& library, const network::Node& node,
         scene = &one;
   if (scene)
   {
-    const fs::path parts = folder / "scene";
+    if (request.as.empty())
+      refuseTakenScene(library, node, study, progress);
+    // Of each state of the scene: an earlier transfer may have left parts of another one.
+    const fs::path parts = folder / ("scene-" + shortHash(scene->uid));
     summary.transfer = network::retrieve(node, study, {scene->uid}, parts, progress.part(0.0, 0.7));
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(parts))
@@ -678,6 +708,7 @@ ReceiveSummary receiveCase(library::Library& library, const network::Node& node,
         files.push_back(entry.path());
     const fs::path archive = folder / (std::string("scene") + library::kArchiveEnding);
     network::readSceneObjects(files, archive, progress.part(0.7, 0.8));
+    freeName(library, request.as.empty() ? library::inspectArchive(archive).name : request.as);
     library::RestoreOptions options;
     options.name = request.as;
     auto restored = library::restoreCase(library, archive, options, progress.part(0.8, 1.0));

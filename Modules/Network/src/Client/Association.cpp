@@ -1,13 +1,14 @@
 #include "Association.h"
 
 #include <filesystem>
+#include <future>
 #include <system_error>
 #include <utility>
 
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <openssl/ssl.h>
-#include <openssl/sslerr.h>
+#include <openssl/x509_vfy.h>
 
 #include <dcmtk/config/osconfig.h>
 
@@ -15,6 +16,8 @@
 #include <dcmtk/dcmnet/dcmtrans.h>
 #include <dcmtk/dcmnet/dimse.h>
 #include <dcmtk/dcmtls/tlslayer.h>
+
+#include "petrous/Core/InputFile.h"
 
 namespace petrous::network
 {
@@ -29,9 +32,10 @@ class WatchedLayer : public Layer
 {
 public:
   template <class... Arguments>
-  explicit WatchedLayer(ConnectionWatch& watch, Arguments... arguments)
+  explicit WatchedLayer(ConnectionWatch& watch, Admission admits, Arguments... arguments)
     : Layer(arguments...)
     , m_watch(watch)
+    , m_admits(std::move(admits))
   {
   }
 
@@ -40,11 +44,14 @@ public:
     const int on = 1;
     ::setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
     m_watch.watch(socket);
+    if (m_admits && !m_admits(socket))
+      ::shutdown(socket, SHUT_RDWR);
     return Layer::createConnection(socket, secure);
   }
 
 private:
   ConnectionWatch& m_watch;
+  Admission m_admits;
 };
 
 [[noreturn]] void refuseTls(const Node& node, const std::string& why)
@@ -86,23 +93,63 @@ void useTlsFiles(DcmTLSTransportLayer& layer, const Node& node)
     refuseTls(node, files.key + ": is not the key of " + files.certificate);
 }
 
-std::unique_ptr<DcmTransportLayer> tlsLayer(const Node& node, ConnectionWatch& watch,
-                                            T_ASC_NetworkRole role)
+// --- What OpenSSL tells ---
+
+int watchIndex()
+{
+  static const int index = SSL_CTX_get_ex_new_index(0, nullptr, nullptr, nullptr, nullptr);
+  return index;
+}
+
+ConnectionWatch& watchOf(const SSL* connection)
+{
+  return *static_cast<ConnectionWatch*>(
+      SSL_CTX_get_ex_data(SSL_get_SSL_CTX(connection), watchIndex()));
+}
+
+int onCertificate(int good, X509_STORE_CTX* store)
+{
+  const auto* connection = static_cast<const SSL*>(
+      X509_STORE_CTX_get_ex_data(store, SSL_get_ex_data_X509_STORE_CTX_idx()));
+  if (!good)
+    watchOf(connection).certificateFault = X509_STORE_CTX_get_error(store);
+  return good;
+}
+
+void onState(const SSL* connection, int where, int value)
+{
+  if ((where & SSL_CB_ALERT) != 0 && (where & SSL_CB_READ) != 0 && (value >> 8) == SSL3_AL_FATAL)
+    watchOf(connection).alert = value & 0xFF;
+}
+
+/// The name, or the address, that the node's certificate must be of.
+const std::string& certifiedName(const Node& node)
+{
+  return node.tls->name.empty() ? node.host : node.tls->name;
+}
+
+void compareName(SSL_CTX* context, const Node& node)
+{
+  const std::string& name = certifiedName(node);
+  if (name == kAnyName)
+    return;
+  X509_VERIFY_PARAM* verification = SSL_CTX_get0_param(context);
+  if (!X509_VERIFY_PARAM_set1_ip_asc(verification, name.c_str()) &&
+      !X509_VERIFY_PARAM_set1_host(verification, name.c_str(), name.size()))
+    throw NetworkError(Reason::Tls, "node '" + node.name + "': '" + core::printable(name) +
+                                        "' cannot be compared with its certificate; give the name "
+                                        "in its certificate (--tls-name)");
+}
+
+std::unique_ptr<WatchedLayer<DcmTLSTransportLayer>>
+tlsLayer(const Node& node, ConnectionWatch& watch, const Admission& admits, T_ASC_NetworkRole role)
 {
   auto layer = std::make_unique<WatchedLayer<DcmTLSTransportLayer>>(
-      watch, role, static_cast<const char*>(nullptr), OFFalse);
+      watch, admits, role, static_cast<const char*>(nullptr), OFFalse);
   useTlsFiles(*layer, node);
-  if (!node.tls->authority.empty())
-    return layer;
-  if (!SSL_CTX_set_default_verify_paths(layer->getNativeHandle()))
-    refuseTls(node, "the system's trusted certificates cannot be read; give a file of "
-                    "certificates");
-  // Anyone can have a certificate of a public authority, for a host of his own.
-  X509_VERIFY_PARAM* verification = SSL_CTX_get0_param(layer->getNativeHandle());
-  if (role == NET_REQUESTOR && !X509_VERIFY_PARAM_set1_ip_asc(verification, node.host.c_str()) &&
-      !X509_VERIFY_PARAM_set1_host(verification, node.host.c_str(), node.host.size()))
-    refuseTls(node, "its host name cannot be compared with its certificate; give a file of "
-                    "certificates");
+  if (node.tls->authority.empty() && !SSL_CTX_set_default_verify_paths(layer->getNativeHandle()))
+    refuseTls(node,
+              "the system's trusted certificates cannot be read; give a file of certificates");
   return layer;
 }
 
@@ -126,6 +173,45 @@ std::string rejection(const Node& node, T_ASC_Parameters* parameters)
   }
 }
 
+std::string tlsFault(const Node& node, const ConnectionWatch& watch)
+{
+  switch (watch.certificateFault)
+  {
+  case X509_V_OK:
+    break;
+  case X509_V_ERR_HOSTNAME_MISMATCH:
+  case X509_V_ERR_IP_ADDRESS_MISMATCH:
+    return "its certificate is not of '" + core::printable(certifiedName(node)) +
+           "'; if it is the right node, give the name in its certificate (--tls-name)";
+  case X509_V_ERR_CERT_HAS_EXPIRED:
+  case X509_V_ERR_CERT_NOT_YET_VALID:
+    return "its certificate, or its authority's, has expired or is not valid yet; have it renewed, "
+           "or set the clock of this computer";
+  default:
+    return "its certificate is not of a trusted authority";
+  }
+  const std::string ours = node.tls->certificate.empty() ? "it wants a certificate of this program"
+                                                         : "it refuses the certificate of this "
+                                                           "program";
+  switch (watch.alert)
+  {
+  case SSL_AD_BAD_CERTIFICATE:
+  case SSL_AD_UNSUPPORTED_CERTIFICATE:
+  case SSL_AD_CERTIFICATE_REVOKED:
+  case SSL_AD_CERTIFICATE_EXPIRED:
+  case SSL_AD_CERTIFICATE_UNKNOWN:
+  case SSL_AD_UNKNOWN_CA:
+  case SSL_AD_ACCESS_DENIED:
+  case SSL_AD_DECRYPT_ERROR:
+  case SSL_AD_CERTIFICATE_REQUIRED:
+    return ours;
+  case SSL_AD_HANDSHAKE_FAILURE:
+    return ours + ", or offers no permitted cipher (BCP 195)";
+  default:
+    return "it does not speak TLS 1.2 or later with a permitted cipher (BCP 195)";
+  }
+}
+
 } // namespace
 
 std::string place(const Node& node)
@@ -142,6 +228,7 @@ void prepareToolkit()
                    OFLog::configure(OFLogger::OFF_LOG_LEVEL);
                    DcmTLSTransportLayer::initializeOpenSSL();
                    dcmConnectionTimeout.set(10); // seconds; the default is that of the system
+                   dcmDisableGethostbyaddr.set(OFTrue); // no name server for each that calls
                  });
 }
 
@@ -162,33 +249,74 @@ void checkTlsFiles(const Node& node)
 }
 
 std::unique_ptr<DcmTransportLayer> transportLayer(const Node& node, ConnectionWatch& watch,
-                                                  bool acceptor)
+                                                  const Admission& admits)
 {
-  if (node.tls)
-    return tlsLayer(node, watch, acceptor ? NET_ACCEPTOR : NET_REQUESTOR);
-  return std::make_unique<WatchedLayer<DcmTransportLayer>>(watch);
+  if (!node.tls)
+    return std::make_unique<WatchedLayer<DcmTransportLayer>>(watch, admits);
+  auto layer = tlsLayer(node, watch, admits, admits ? NET_ACCEPTOR : NET_REQUESTOR);
+  SSL_CTX* context = layer->getNativeHandle();
+  SSL_CTX_set_ex_data(context, watchIndex(), &watch);
+  SSL_CTX_set_verify(context, SSL_VERIFY_PEER | SSL_VERIFY_FAIL_IF_NO_PEER_CERT, onCertificate);
+  SSL_CTX_set_info_callback(context, onState);
+  // Anyone can have a certificate of a public authority for a host of his own, and any computer of
+  // a hospital one of its authority.
+  if (!admits)
+    compareName(context, node);
+  return layer;
 }
+
+/// What DCMTK needs of a connection; kept by who waits for it and by who opens it.
+struct Association::Connection
+{
+  Connection(const core::Progress& progress, std::chrono::milliseconds limit)
+    : watch(progress, limit)
+  {
+  }
+  ~Connection()
+  {
+    if (association)
+    {
+      if (opened && !released)
+        ASC_abortAssociation(association);
+      ASC_destroyAssociation(&association); // and its parameters
+    }
+    else if (parameters)
+      ASC_destroyAssociationParameters(&parameters);
+    watch.forget();
+    if (network)
+      ASC_dropNetwork(&network);
+  }
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+
+  ConnectionWatch watch; // first: the layer uses it
+  std::unique_ptr<DcmTransportLayer> layer;
+  T_ASC_Network* network = nullptr;
+  T_ASC_Parameters* parameters = nullptr;
+  T_ASC_Association* association = nullptr;
+  bool opened = false;
+  bool released = false;
+};
 
 Association::Association(const Node& node, const std::vector<Context>& contexts,
                          const core::Progress& progress)
   : m_node(node)
-  , m_watch(std::make_unique<ConnectionWatch>(progress, node.timeouts.reply))
+  , m_connection(std::make_shared<Connection>(progress, node.timeouts.reply))
 {
   progress.check("network");
-  try
-  {
-    open(transportLayer(node, *m_watch, false), contexts);
-  }
-  catch (...)
-  {
-    close();
-    throw;
-  }
+  open(contexts, progress);
 }
 
-Association::~Association()
+Association::~Association() = default;
+
+T_ASC_Association* Association::get() const noexcept
 {
-  close();
+  return m_connection->association;
+}
+
+ConnectionWatch& Association::watch() const noexcept
+{
+  return m_connection->watch;
 }
 
 int Association::timeout() const
@@ -198,30 +326,30 @@ int Association::timeout() const
 
 unsigned char Association::context(const std::string& sopClass) const
 {
-  return ASC_findAcceptedPresentationContextID(m_association, sopClass.c_str());
+  return ASC_findAcceptedPresentationContextID(get(), sopClass.c_str());
 }
 
 unsigned char Association::context(const std::string& sopClass, const char* transferSyntax) const
 {
-  return ASC_findAcceptedPresentationContextID(m_association, sopClass.c_str(), transferSyntax);
+  return ASC_findAcceptedPresentationContextID(get(), sopClass.c_str(), transferSyntax);
 }
 
 void Association::release()
 {
-  if (ASC_releaseAssociation(m_association).good())
-    m_released = true;
+  if (ASC_releaseAssociation(get()).good())
+    m_connection->released = true;
 }
 
 void Association::require(const OFCondition& result, const std::string& task) const
 {
-  m_watch->active();
+  watch().active();
   if (result.bad())
     fail(result, task);
 }
 
 void Association::fail(const OFCondition& result, const std::string& task) const
 {
-  switch (m_watch->ended())
+  switch (watch().ended())
   {
   case ConnectionWatch::End::Cancelled:
     throw core::CancelledError(task);
@@ -230,9 +358,14 @@ void Association::fail(const OFCondition& result, const std::string& task) const
   case ConnectionWatch::End::TooLarge:
     throw NetworkError(Reason::Protocol, place(m_node) + ": sends an instance of more than 4 GB; " +
                                              task + " was ended");
+  case ConnectionWatch::End::Failed:
+    std::rethrow_exception(watch().fault());
   case ConnectionWatch::End::None:
     break;
   }
+  // By TLS 1.3 a node refuses a client after the handshake.
+  if (!m_connection->opened && (watch().certificateFault != X509_V_OK || watch().alert >= 0))
+    failTls();
   if (result == DIMSE_NODATAAVAILABLE || result == DIMSE_READPDVFAILED ||
       (result.module() == OFM_dcmnet && result.code() == DULC_READTIMEOUT))
   {
@@ -241,7 +374,7 @@ void Association::fail(const OFCondition& result, const std::string& task) const
     failCut(task);
   }
   if (result.module() == OFM_dcmtls)
-    failTls(result.code());
+    failTls();
   if (result.module() != OFM_dcmnet)
     throw NetworkError(Reason::Protocol, place(m_node) + ": what it answers is not valid DICOM; " +
                                              task + " was ended");
@@ -253,10 +386,10 @@ void Association::fail(const OFCondition& result, const std::string& task) const
                        place(m_node) + ": nothing answers there; check host, port, network and "
                                        "firewall");
   case DULC_TLSERROR:
-    failTls(0);
+    failTls();
   case DULC_ASSOCIATIONREJECTED:
     throw NetworkError(Reason::Rejected,
-                       rejection(m_node, m_association ? m_association->params : m_parameters));
+                       rejection(m_node, get() ? get()->params : m_connection->parameters));
   case DULC_PEERABORTEDASSOCIATION:
   case DULC_PEERREQUESTEDRELEASE:
   case DULC_NETWORKCLOSED:
@@ -281,75 +414,77 @@ void Association::failSilent(const std::string& task) const
 void Association::failCut(const std::string& task) const
 {
   throw NetworkError(Reason::Cut, place(m_node) + ": the connection was lost during " + task +
-                                      (m_opened     ? ""
-                                       : m_node.tls ? "; does it expect TLS, and the "
-                                                      "certificate of this program?"
-                                                    : "; does it expect TLS?"));
+                                      (m_connection->opened ? ""
+                                       : m_node.tls         ? "; does it expect TLS, and the "
+                                                              "certificate of this program?"
+                                                            : "; does it expect TLS?"));
 }
 
-void Association::failTls(int code) const
+void Association::failTls() const
 {
-  const std::string text = place(m_node) + ": no secure connection; ";
-  if ((code & 0x7FF) == SSL_R_CERTIFICATE_VERIFY_FAILED)
-    throw NetworkError(Reason::Tls, text + "its certificate is not of a trusted authority, or has "
-                                           "expired");
-  throw NetworkError(Reason::Tls, text + "it refuses the certificate of this program, or does not "
-                                         "speak TLS 1.2 or later");
+  throw NetworkError(Reason::Tls,
+                     place(m_node) + ": no secure connection; " + tlsFault(m_node, watch()));
 }
 
-void Association::open(std::unique_ptr<DcmTransportLayer> layer,
-                       const std::vector<Context>& contexts)
+void Association::open(const std::vector<Context>& contexts, const core::Progress& progress)
 {
   const std::string task = "connecting";
-  require(ASC_initializeNetwork(NET_REQUESTOR, 0, timeout(), &m_network), task);
+  Connection& its = *m_connection;
+  auto layer = transportLayer(m_node, its.watch);
+  require(ASC_initializeNetwork(NET_REQUESTOR, 0, timeout(), &its.network), task);
   // Owned here: the network keeps a pointer only.
-  m_layer = std::move(layer);
-  ASC_setTransportLayer(m_network, m_layer.get(), 0);
-  require(ASC_createAssociationParameters(&m_parameters, ASC_MAXIMUMPDUSIZE), task);
-  ASC_setAPTitles(m_parameters, m_node.callingAeTitle.c_str(), m_node.aeTitle.c_str(), nullptr);
-  ASC_setTransportLayerType(m_parameters, m_node.tls ? OFTrue : OFFalse);
+  its.layer = std::move(layer);
+  ASC_setTransportLayer(its.network, its.layer.get(), 0);
+  require(ASC_createAssociationParameters(&its.parameters, ASC_MAXIMUMPDUSIZE), task);
+  ASC_setAPTitles(its.parameters, m_node.callingAeTitle.c_str(), m_node.aeTitle.c_str(), nullptr);
+  ASC_setTransportLayerType(its.parameters, m_node.tls ? OFTrue : OFFalse);
   const std::string address = m_node.host + ":" + std::to_string(m_node.port);
-  ASC_setPresentationAddresses(m_parameters, "localhost", address.c_str());
+  ASC_setPresentationAddresses(its.parameters, "localhost", address.c_str());
   int id = 1;
   for (const Context& context : contexts)
   {
     if (id > 255)
       break;
     std::vector<const char*> syntaxes = context.transferSyntaxes;
-    require(ASC_addPresentationContext(m_parameters, static_cast<T_ASC_PresentationContextID>(id),
+    require(ASC_addPresentationContext(its.parameters, static_cast<T_ASC_PresentationContextID>(id),
                                        context.sopClass.c_str(), syntaxes.data(),
                                        static_cast<int>(syntaxes.size()),
                                        context.receives ? ASC_SC_ROLE_SCP : ASC_SC_ROLE_DEFAULT),
             task);
     id += 2;
   }
-  m_watch->active();
-  const OFCondition result = ASC_requestAssociation(m_network, m_parameters, &m_association,
-                                                    nullptr, nullptr, DUL_NOBLOCK, timeout());
+  its.watch.active();
+  // Resolving a name and opening a connection cannot be interrupted: a thread of its own does it,
+  // which is left to itself if the user cancels.
+  std::promise<OFCondition> outcome;
+  std::future<OFCondition> pending = outcome.get_future();
+  std::thread opener(
+      [connection = m_connection, seconds = timeout(), outcome = std::move(outcome)]() mutable
+      {
+        outcome.set_value(ASC_requestAssociation(connection->network, connection->parameters,
+                                                 &connection->association, nullptr, nullptr,
+                                                 DUL_NOBLOCK, seconds));
+      });
+  try
+  {
+    while (pending.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready)
+      progress.check(task);
+  }
+  catch (...)
+  {
+    opener.detach();
+    throw;
+  }
+  opener.join();
+  const OFCondition result = pending.get();
   if (result.good())
-    m_opened = true;
+    its.opened = true;
   else
     fail(result, task);
-  if (ASC_countAcceptedPresentationContexts(m_association->params) == 0)
+  if (ASC_countAcceptedPresentationContexts(its.association->params) == 0)
     throw NetworkError(Reason::Unsupported,
                        place(m_node) + ": accepts nothing of what was asked for; it is not a "
                                        "node for this purpose");
-}
-
-void Association::close() noexcept
-{
-  if (m_association)
-  {
-    if (m_opened && !m_released)
-      ASC_abortAssociation(m_association);
-    ASC_destroyAssociation(&m_association); // and its parameters
-  }
-  else if (m_parameters)
-    ASC_destroyAssociationParameters(&m_parameters);
-  m_watch->forget();
-  if (m_network)
-    ASC_dropNetwork(&m_network);
-  m_watch.reset(); // joins
 }
 
 } // namespace petrous::network

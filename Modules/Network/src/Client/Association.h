@@ -3,10 +3,13 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <exception>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <sys/socket.h>
@@ -40,11 +43,12 @@ public:
     None,
     Cancelled,
     TimedOut,
-    TooLarge
+    TooLarge,
+    Failed ///< fault()
   };
 
-  ConnectionWatch(const core::Progress& progress, std::chrono::milliseconds limit)
-    : m_progress(progress)
+  ConnectionWatch(core::Progress progress, std::chrono::milliseconds limit)
+    : m_progress(std::move(progress))
     , m_limit(limit)
     , m_thread([this] { run(); })
   {
@@ -62,7 +66,8 @@ public:
   ConnectionWatch(const ConnectionWatch&) = delete;
   ConnectionWatch& operator=(const ConnectionWatch&) = delete;
 
-  /// A duplicate: DCMTK may close its own at any time, and its number be used again.
+  /// A duplicate: DCMTK may close its own at any time, and its number be used again. One that
+  /// cannot be watched is not used.
   void watch(int descriptor)
   {
     const std::lock_guard<std::mutex> lock(m_mutex);
@@ -70,8 +75,12 @@ public:
       ::close(m_descriptor);
     m_descriptor = ::dup(descriptor);
     active();
+    if (m_descriptor < 0)
+      failLocked(std::make_exception_ptr(core::Error(
+          core::Fault::Refused, "network: too many files are open; close other cases, or raise "
+                                "the limit (ulimit -n)")));
     if (m_end != End::None)
-      ::shutdown(m_descriptor, SHUT_RDWR);
+      ::shutdown(descriptor, SHUT_RDWR);
   }
   void forget()
   {
@@ -80,18 +89,46 @@ public:
       ::close(m_descriptor);
     m_descriptor = -1;
   }
+  /// From now on silence is limited to `limit`, and what ended another connection does not end the
+  /// next one, unless it was the user.
+  void begin(std::chrono::milliseconds limit)
+  {
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    m_limit = limit;
+    if (m_end != End::Cancelled)
+      m_end = End::None;
+    active();
+  }
 
-  void active() { m_last.store(std::chrono::steady_clock::now().time_since_epoch().count()); }
+  void active() noexcept
+  {
+    m_last.store(std::chrono::steady_clock::now().time_since_epoch().count());
+  }
   void end(End why)
   {
     const std::lock_guard<std::mutex> lock(m_mutex);
     endLocked(why);
+  }
+  /// For what must not pass through DCMTK.
+  void fail(std::exception_ptr fault)
+  {
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    failLocked(std::move(fault));
   }
   End ended() const
   {
     const std::lock_guard<std::mutex> lock(m_mutex);
     return m_end;
   }
+  std::exception_ptr fault() const
+  {
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    return m_fault;
+  }
+
+  // Told by OpenSSL, from whatever thread connects.
+  std::atomic<int> certificateFault{0}; ///< X509_V_ERR_... of the peer's certificate
+  std::atomic<int> alert{-1};           ///< SSL_AD_... that the peer ended the connection with
 
 private:
   void endLocked(End why)
@@ -101,6 +138,12 @@ private:
     m_end = why;
     if (m_descriptor >= 0)
       ::shutdown(m_descriptor, SHUT_RDWR);
+  }
+  void failLocked(std::exception_ptr fault)
+  {
+    if (m_end == End::None)
+      m_fault = std::move(fault);
+    endLocked(End::Failed);
   }
 
   void run()
@@ -116,6 +159,10 @@ private:
       {
         endLocked(End::Cancelled);
       }
+      catch (...)
+      {
+        failLocked(std::current_exception());
+      }
       const std::chrono::steady_clock::duration since(
           std::chrono::steady_clock::now().time_since_epoch().count() - m_last.load());
       if (m_descriptor >= 0 && since > m_limit)
@@ -123,22 +170,27 @@ private:
     }
   }
 
-  const core::Progress& m_progress;
-  const std::chrono::milliseconds m_limit;
+  const core::Progress m_progress;
+  std::chrono::milliseconds m_limit;
   mutable std::mutex m_mutex;
   std::condition_variable m_wake;
   bool m_done = false;
   int m_descriptor = -1;
   End m_end = End::None;
+  std::exception_ptr m_fault;
   std::atomic<std::chrono::steady_clock::rep> m_last{
       std::chrono::steady_clock::now().time_since_epoch().count()};
   std::thread m_thread; // last: it uses the others
 };
 
+/// Whether a connection that was accepted may go on, by its descriptor.
+using Admission = std::function<bool(int descriptor)>;
+
 /// TCP, or TLS by the node's files, without Nagle's algorithm; connections are given to the watch.
-/// Throws NetworkError (Tls) naming the file that cannot be used.
+/// With `admits`, for connections that are accepted. Throws NetworkError (Tls) naming the file that
+/// cannot be used.
 std::unique_ptr<DcmTransportLayer> transportLayer(const Node& node, ConnectionWatch& watch,
-                                                  bool acceptor);
+                                                  const Admission& admits = {});
 
 /// A presentation context to propose.
 struct Context
@@ -152,15 +204,15 @@ struct Context
 class Association
 {
 public:
-  /// Throws NetworkError and CancelledError. Node and progress must outlive it.
+  /// Throws NetworkError and CancelledError. The node must outlive it.
   Association(const Node& node, const std::vector<Context>& contexts,
               const core::Progress& progress);
   ~Association();
   Association(const Association&) = delete;
   Association& operator=(const Association&) = delete;
 
-  T_ASC_Association* get() const noexcept { return m_association; }
-  ConnectionWatch& watch() const noexcept { return *m_watch; }
+  T_ASC_Association* get() const noexcept;
+  ConnectionWatch& watch() const noexcept;
   const Node& node() const noexcept { return m_node; }
   int timeout() const; ///< seconds, for DCMTK; the watch is the finer one
 
@@ -177,19 +229,13 @@ public:
 private:
   [[noreturn]] void failSilent(const std::string& task) const;
   [[noreturn]] void failCut(const std::string& task) const;
-  /// `code`: of OpenSSL, with the library's bit of DCMTK.
-  [[noreturn]] void failTls(int code) const;
-  void open(std::unique_ptr<DcmTransportLayer> layer, const std::vector<Context>& contexts);
-  void close() noexcept;
+  [[noreturn]] void failTls() const;
+  void open(const std::vector<Context>& contexts, const core::Progress& progress);
+
+  struct Connection;
 
   const Node& m_node;
-  std::unique_ptr<ConnectionWatch> m_watch;
-  std::unique_ptr<DcmTransportLayer> m_layer;
-  T_ASC_Network* m_network = nullptr;
-  T_ASC_Parameters* m_parameters = nullptr;
-  T_ASC_Association* m_association = nullptr;
-  bool m_opened = false;
-  bool m_released = false;
+  std::shared_ptr<Connection> m_connection; ///< with who opens it
 };
 
 } // namespace petrous::network

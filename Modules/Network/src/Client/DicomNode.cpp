@@ -5,14 +5,17 @@
 #include <atomic>
 #include <cerrno>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <thread>
 #include <utility>
 
 #include <fcntl.h>
+#include <netdb.h>
 #include <openssl/evp.h>
 #include <poll.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <dcmtk/config/osconfig.h>
@@ -23,6 +26,8 @@
 #include <dcmtk/dcmnet/dimse.h>
 
 #include "Association.h"
+#include "petrous/Core/InputFile.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Core/OutputFile.h"
 
 namespace petrous::network
@@ -35,9 +40,12 @@ using Clock = std::chrono::steady_clock;
 using Reason = NetworkError::Reason;
 
 constexpr const char* kImageLevel = "IMAGE";
-constexpr std::size_t kMaxUidsAsked = 400; ///< of one request: a UI value holds 64 KB
-constexpr std::size_t kMaxContexts = 128;  ///< PS3.8 9.3.2: odd numbers of one byte
-constexpr int kMaxIdleRounds = 2;          ///< transfers without a new instance before giving up
+constexpr std::size_t kMaxUidsAsked = 400;      ///< of one request: a UI value holds 64 KB
+constexpr std::size_t kMaxContexts = 128;       ///< PS3.8 9.3.2: odd numbers of one byte
+constexpr std::size_t kMaxAnswers = 100000;     ///< to a query
+constexpr std::chrono::seconds kNegotiation(5); ///< for who connects to send by C-MOVE
+constexpr int kMaxIdleRounds = 2;            ///< transfers without a new instance before giving up
+constexpr std::size_t kMaxSuperfluous = 100; ///< instances, beyond as many as were asked for
 constexpr std::uintmax_t kMaxInstanceBytes = std::uintmax_t{4} << 30;
 
 /// What is retrieved may be stored in any of these; Imaging reads them all. Explicit little endian
@@ -101,8 +109,8 @@ std::string text(DcmItem& item, const DcmTagKey& key)
   OFString value;
   if (item.findAndGetOFStringArray(key, value).bad())
     return {};
-  const std::size_t last = value.find_last_not_of(std::string(" \0", 2).c_str());
-  return last == OFString_npos ? std::string() : std::string(value.c_str(), last + 1);
+  const std::string all(value.c_str(), value.length());
+  return all.substr(0, all.find_last_not_of(std::string(" \0", 2)) + 1);
 }
 
 int count(DcmItem& item, const DcmTagKey& key)
@@ -123,13 +131,22 @@ struct FindCall
 
 void onFindAnswer(void* data, T_DIMSE_C_FindRQ*, int, T_DIMSE_C_FindRSP*, DcmDataset* answer)
 {
-  constexpr std::size_t kMaxAnswers = 1000000;
   auto& call = *static_cast<FindCall*>(data);
-  call.association->watch().active();
-  if (++call.answers > kMaxAnswers)
-    call.association->watch().end(ConnectionWatch::End::TooLarge);
-  else if (answer)
-    call.each(*answer);
+  ConnectionWatch& watch = call.association->watch();
+  watch.active();
+  try // nothing through DCMTK
+  {
+    if (++call.answers > kMaxAnswers)
+      throw NetworkError(Reason::Protocol,
+                         place(call.association->node()) + ": answers a query more than " +
+                             std::to_string(kMaxAnswers) + " times; narrow the search");
+    if (answer)
+      call.each(*answer);
+  }
+  catch (...)
+  {
+    watch.fail(std::current_exception());
+  }
 }
 
 void find(const Association& association, DcmDataset& query,
@@ -207,6 +224,7 @@ std::vector<Study> studiesIn(const Association& association, const StudyFilter& 
          study.patientId = text(answer, DCM_PatientID);
          study.patientName = text(answer, DCM_PatientName);
          study.date = text(answer, DCM_StudyDate);
+         study.studyId = text(answer, DCM_StudyID);
          study.description = text(answer, DCM_StudyDescription);
          study.modalities = text(answer, DCM_ModalitiesInStudy);
          study.instances = count(answer, DCM_NumberOfStudyRelatedInstances);
@@ -223,7 +241,7 @@ std::vector<Study> studiesIn(const Association& association, const StudyFilter& 
                       std::string::npos;
          };
          if (!study.uid.empty() && (filter.uid.empty() || study.uid == filter.uid) &&
-             (filter.studyId.empty() || text(answer, DCM_StudyID) == filter.studyId) && inRange() &&
+             (filter.studyId.empty() || study.studyId == filter.studyId) && inRange() &&
              hasModality())
            found.emplace(study.uid, study);
        });
@@ -231,6 +249,13 @@ std::vector<Study> studiesIn(const Association& association, const StudyFilter& 
   for (auto& [uid, study] : found)
     studies.push_back(std::move(study));
   return studies;
+}
+
+/// A node may ignore a key that it does not know, and may answer without it.
+bool isOther(DcmItem& answer, const DcmTagKey& key, const std::string& asked)
+{
+  const std::string stated = text(answer, key);
+  return !stated.empty() && stated != asked;
 }
 
 std::vector<Series> seriesIn(const Association& association, const std::string& studyUid)
@@ -247,6 +272,8 @@ std::vector<Series> seriesIn(const Association& association, const std::string& 
   find(association, query,
        [&](DcmDataset& answer)
        {
+         if (isOther(answer, DCM_StudyInstanceUID, studyUid))
+           return;
          answer.convertToUTF8();
          Series series;
          series.uid = text(answer, DCM_SeriesInstanceUID);
@@ -280,6 +307,9 @@ Instances instancesIn(const Association& association, const std::string& studyUi
     find(association, query,
          [&](DcmDataset& answer)
          {
+           if (isOther(answer, DCM_StudyInstanceUID, studyUid) ||
+               isOther(answer, DCM_SeriesInstanceUID, series))
+             return;
            Instance instance;
            instance.uid = text(answer, DCM_SOPInstanceUID);
            instance.seriesUid = series;
@@ -364,14 +394,18 @@ struct ByteCounter
                                 ? static_cast<double>(before + bytes) / static_cast<double>(total)
                             : of > 0 ? static_cast<double>(done) / static_cast<double>(of)
                                      : 0.0;
-    try
+    try // nothing through DCMTK
     {
       progress->report(std::min(fraction, 1.0),
                        task + ", " + std::to_string(done) + " of " + std::to_string(of));
     }
-    catch (const core::CancelledError&) // not through DCMTK
+    catch (const core::CancelledError&)
     {
       watch->end(ConnectionWatch::End::Cancelled);
+    }
+    catch (...)
+    {
+      watch->fail(std::current_exception());
     }
   }
 };
@@ -474,6 +508,9 @@ public:
   std::size_t arrived() const noexcept { return m_arrived.size(); }
   std::size_t foreign() const noexcept { return m_foreign; }
   std::size_t otherNames() const noexcept { return m_otherNames; }
+  /// Whether the node sends without end what it was not asked for, or sent already.
+  bool overflows() const noexcept { return m_superfluous > m_expected.size() + kMaxSuperfluous; }
+  void beginRequest() noexcept { m_superfluous = 0; }
   const std::set<std::string>& series() const noexcept { return m_series; }
   const fs::path& folder() const noexcept { return m_folder; }
 
@@ -524,6 +561,8 @@ public:
       fs::remove(received, fault);
       return status;
     }
+    if (m_expected.count(uid) == 0 || m_arrived.count(uid) != 0)
+      ++m_superfluous;
     if (m_expected.count(uid) == 0) // arrived at the node since it was asked
     {
       fs::remove(received, fault);
@@ -618,27 +657,106 @@ private:
   std::set<std::string> m_arrived;
   std::size_t m_foreign = 0;
   std::size_t m_otherNames = 0;
-  Person m_person; ///< of the files that are taken
+  Person m_person;               ///< of the files that are taken
+  std::size_t m_superfluous = 0; ///< of one request
 };
 
-/// Receives the data set of a C-STORE request to the disk, and answers it. Throws if the disk does
-/// not take it.
+/// Appends to a file. Unlike DCMTK's own, keeps what the disk said.
+class AppendedFile : public DcmConsumer
+{
+public:
+  explicit AppendedFile(const fs::path& path)
+    : m_descriptor(::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC))
+    , m_error(m_descriptor < 0 ? errno : 0)
+  {
+  }
+  ~AppendedFile() override { close(); }
+  AppendedFile(const AppendedFile&) = delete;
+  AppendedFile& operator=(const AppendedFile&) = delete;
+
+  /// Returns errno of the first failure, or 0.
+  int close()
+  {
+    if (m_descriptor >= 0 && ::close(m_descriptor) != 0 && errno != EINTR && m_error == 0)
+      m_error = errno;
+    m_descriptor = -1;
+    return m_error;
+  }
+
+  OFBool good() const override { return m_error == 0; }
+  OFCondition status() const override { return good() ? EC_Normal : EC_InvalidStream; }
+  OFBool isFlushed() const override { return OFTrue; }
+  offile_off_t avail() const override { return std::numeric_limits<offile_off_t>::max(); }
+  offile_off_t write(const void* bytes, offile_off_t count) override
+  {
+    offile_off_t done = 0;
+    while (done < count && m_error == 0)
+    {
+      const ssize_t written = ::write(m_descriptor, static_cast<const char*>(bytes) + done,
+                                      static_cast<std::size_t>(count - done));
+      if (written >= 0)
+        done += written;
+      else if (errno != EINTR)
+        m_error = errno;
+    }
+    return done;
+  }
+  void flush() override {}
+
+private:
+  int m_descriptor;
+  int m_error;
+};
+
+class AppendingStream : public DcmOutputStream
+{
+public:
+  explicit AppendingStream(AppendedFile& file)
+    : DcmOutputStream(&file)
+  {
+  }
+};
+
+/// A file of the meta information, to which the data set is appended. Throws
+/// core::OutputFileError.
+void beginFile(const fs::path& part, T_ASC_Association* association,
+               T_ASC_PresentationContextID context, const T_DIMSE_C_StoreRQ& request)
+{
+  errno = 0;
+  DcmOutputFileStream* opened = nullptr;
+  const OFCondition made =
+      DIMSE_createFilestream(part.c_str(), &request, association, context, 1, &opened);
+  const int error = errno;
+  std::unique_ptr<DcmOutputFileStream> stream(opened);
+  const offile_off_t size = made.good() ? stream->tell() : 0;
+  stream.reset(); // what the disk says then is lost
+  std::error_code fault;
+  if (made.bad() || fs::file_size(part, fault) != static_cast<std::uintmax_t>(size) || fault)
+  {
+    fs::remove(part, fault);
+    core::throwOutputError(made.bad() && error != 0 ? error : ENOSPC, part.parent_path());
+  }
+}
+
+/// Receives the data set of a C-STORE request to the disk, and answers it. Throws
+/// core::OutputFileError if the disk does not take it.
 OFCondition receiveInstance(T_ASC_Association* association, int timeout,
                             T_ASC_PresentationContextID context, T_DIMSE_C_StoreRQ& request,
                             Reception& reception, ByteCounter& counter, Transfer& transfer)
 {
   const fs::path part = reception.folder() / ("part-" + std::to_string(::getpid()) + ".tmp");
   const std::string uid = request.AffectedSOPInstanceUID;
-  DcmOutputFileStream* opened = nullptr;
-  const OFCondition made =
-      DIMSE_createFilestream(part.c_str(), &request, association, context, 1, &opened);
-  std::unique_ptr<DcmOutputFileStream> stream(opened);
-  if (made.bad())
-    throw core::Error(core::Fault::Refused,
-                      reception.folder().string() + ": cannot be written; is the disk full?");
+  beginFile(part, association, context, request);
+  AppendedFile file(part);
+  AppendingStream stream(file);
   const OFCondition result = DIMSE_receiveDataSetInFile(
-      association, DIMSE_NONBLOCKING, timeout, &context, stream.get(), onReceiveProgress, &counter);
-  stream.reset();
+      association, DIMSE_NONBLOCKING, timeout, &context, &stream, onReceiveProgress, &counter);
+  if (const int error = file.close())
+  {
+    std::error_code ignored;
+    fs::remove(part, ignored);
+    core::throwOutputError(error, reception.folder());
+  }
   std::error_code ignored;
   if (result.bad())
   {
@@ -713,7 +831,7 @@ DIC_US getInstances(const Association& association, DcmDataset& query, Reception
       association.require(receiveInstance(association.get(), association.timeout(), on,
                                           answer.msg.CStoreRQ, reception, counter, transfer),
                           task);
-      if (reception.foreign() > 0)
+      if (reception.foreign() > 0 || reception.overflows())
         return STATUS_Success; // ended by the caller
       continue;
     }
@@ -741,6 +859,12 @@ DIC_US getInstances(const Association& association, DcmDataset& query, Reception
                                    "was asked for; the transfer was ended");
 }
 
+[[noreturn]] void failOverflow(const Node& node)
+{
+  throw NetworkError(Reason::Protocol, place(node) + ": sends more instances than it was asked "
+                                                     "for, without end; the transfer was ended");
+}
+
 std::vector<Context> getContexts(const Reception& reception)
 {
   std::vector<Context> contexts{{UID_GETStudyRootQueryRetrieveInformationModel, kUncompressed},
@@ -756,8 +880,38 @@ std::vector<Context> getContexts(const Reception& reception)
   return contexts;
 }
 
+/// The addresses of a host, as text; none if the name is not known.
+std::set<std::string> addressesOf(const std::string& host)
+{
+  std::set<std::string> found;
+  addrinfo* first = nullptr;
+  if (::getaddrinfo(host.c_str(), nullptr, nullptr, &first) != 0)
+    return found;
+  const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> all(first, &::freeaddrinfo);
+  for (const addrinfo* one = first; one; one = one->ai_next)
+  {
+    std::array<char, NI_MAXHOST> name{};
+    if (::getnameinfo(one->ai_addr, one->ai_addrlen, name.data(), name.size(), nullptr, 0,
+                      NI_NUMERICHOST) == 0)
+      found.insert(name.data());
+  }
+  return found;
+}
+
+std::string addressOfPeer(int descriptor)
+{
+  sockaddr_storage peer{};
+  socklen_t size = sizeof peer;
+  std::array<char, NI_MAXHOST> name{};
+  if (::getpeername(descriptor, reinterpret_cast<sockaddr*>(&peer), &size) != 0 ||
+      ::getnameinfo(reinterpret_cast<const sockaddr*>(&peer), size, name.data(), name.size(),
+                    nullptr, 0, NI_NUMERICHOST) != 0)
+    return {};
+  return name.data();
+}
+
 /// Storage provider for what a node sends by C-MOVE, on a thread of its own: one association at a
-/// time, as nodes open one per request.
+/// time, as nodes open one per request. Only the node is served, by its address and its AE title.
 class MoveReceiver
 {
 public:
@@ -769,11 +923,18 @@ public:
     , m_transfer(transfer)
     , m_watch(progress, node.timeouts.reply)
   {
+    if (node.tls && node.tls->authority.empty())
+      throw NetworkError(
+          Reason::Tls, place(node) + ": C-MOVE with TLS needs the certificates to trust: those of "
+                                     "the system would let anyone send; see 'petrous nodes add "
+                                     "--tls-ca'");
     if (node.tls && node.tls->certificate.empty())
       throw NetworkError(Reason::Tls, place(node) + ": C-MOVE with TLS needs a certificate of this "
                                                     "program; see 'petrous nodes add --tls-cert'");
     counter.receiver = &m_watch;
-    m_layer = transportLayer(node, m_watch, true);
+    if (node.moveHost != kAnyName)
+      m_senders = addressesOf(node.moveHost.empty() ? node.host : node.moveHost);
+    m_layer = transportLayer(node, m_watch, [this](int descriptor) { return admits(descriptor); });
     if (ASC_initializeNetwork(NET_ACCEPTOR, node.movePort, 30, &m_network).bad())
       throw NetworkError(Reason::Unreachable, place(node) +
                                                   ": this program cannot listen at port " +
@@ -790,15 +951,28 @@ public:
   MoveReceiver(const MoveReceiver&) = delete;
   MoveReceiver& operator=(const MoveReceiver&) = delete;
 
-  /// After this the reception is the caller's again. Throws what the disk did.
+  /// After this the reception is the caller's again. Throws what the disk did, and NetworkError
+  /// (Rejected) if nothing was received, as it came from elsewhere.
   void finish()
   {
     stop();
     if (m_fault)
       std::rethrow_exception(m_fault);
+    if (!m_served && !m_refused.empty())
+      throw NetworkError(Reason::Rejected,
+                         place(m_node) + ": nothing was received by C-MOVE: " + m_refused);
   }
 
 private:
+  bool admits(int descriptor)
+  {
+    if (m_node.moveHost == kAnyName || m_senders.count(addressOfPeer(descriptor)) != 0)
+      return true;
+    m_refused = "a connection of another host was refused; if the node sends from another one, "
+                "change it in the node (--move-host)";
+    return false;
+  }
+
   void stop()
   {
     m_stop = true;
@@ -819,11 +993,14 @@ private:
         continue;
       }
       T_ASC_Association* association = nullptr;
+      // Who connects and says nothing does not keep the node waiting.
+      m_watch.begin(std::min<std::chrono::milliseconds>(kNegotiation, m_node.timeouts.reply / 4));
       if (ASC_receiveAssociation(m_network, &association, ASC_MAXIMUMPDUSIZE, nullptr, nullptr,
                                  m_node.tls ? OFTrue : OFFalse)
               .good())
         try
         {
+          m_watch.begin(m_node.timeouts.reply);
           serve(association);
         }
         catch (...)
@@ -849,15 +1026,22 @@ private:
           association->params, &syntax, 1, const_cast<const char**>(kTransferSyntaxes.data()),
           static_cast<int>(kTransferSyntaxes.size()));
     }
-    if (m_node.callingAeTitle != association->params->DULparams.calledAPTitle)
+    const auto reject = [association](T_ASC_RejectParametersReason why)
     {
       const T_ASC_RejectParameters unknown{ASC_RESULT_REJECTEDPERMANENT, ASC_SOURCE_SERVICEUSER,
-                                           ASC_REASON_SU_CALLEDAETITLENOTRECOGNIZED};
+                                           why};
       ASC_rejectAssociation(association, &unknown);
-      return;
+    };
+    if (m_node.callingAeTitle != association->params->DULparams.calledAPTitle)
+      return reject(ASC_REASON_SU_CALLEDAETITLENOTRECOGNIZED);
+    if (m_node.aeTitle != association->params->DULparams.callingAPTitle)
+    {
+      m_refused = "what connected does not call itself '" + m_node.aeTitle + "'";
+      return reject(ASC_REASON_SU_CALLINGAETITLENOTRECOGNIZED);
     }
     if (ASC_acknowledgeAssociation(association).bad())
       return;
+    m_served = true;
     while (!m_stop)
     {
       T_ASC_PresentationContextID context = 0;
@@ -878,7 +1062,8 @@ private:
       else if (message.CommandField != DIMSE_C_STORE_RQ ||
                receiveInstance(association, 2, context, message.msg.CStoreRQ, m_reception,
                                m_counter, m_transfer)
-                   .bad())
+                   .bad() ||
+               m_reception.overflows())
         return;
     }
   }
@@ -891,7 +1076,11 @@ private:
   std::unique_ptr<DcmTransportLayer> m_layer;
   T_ASC_Network* m_network = nullptr;
   std::atomic<bool> m_stop{false};
+  std::set<std::string> m_senders; ///< addresses
+  // Of the thread, until it ended.
   std::exception_ptr m_fault;
+  std::string m_refused; ///< why, the latest
+  bool m_served = false;
   std::thread m_thread;
 };
 
@@ -958,6 +1147,7 @@ void fetchMissing(const Node& node, Reception& reception, ByteCounter& counter, 
                          static_cast<std::ptrdiff_t>(std::min(first + most, uids.size())));
       DcmDataset query = retrieveRequest(reception, series, these);
       DIC_US status = STATUS_Success;
+      reception.beginRequest();
       if (gets)
         status = getInstances(association, query, reception, counter, transfer);
       else
@@ -968,6 +1158,8 @@ void fetchMissing(const Node& node, Reception& reception, ByteCounter& counter, 
       }
       if (reception.foreign() > 0)
         failForeign(node);
+      if (reception.overflows())
+        failOverflow(node);
       if (status != STATUS_Success && !isWarning(status))
         refusal = status;
     }
@@ -990,11 +1182,26 @@ double secondsSince(Clock::time_point start)
 void checkNode(const Node& node)
 {
   const auto refuse = [&node](const std::string& what)
-  { throw core::InvalidParameter("DICOM node '" + node.name + "': " + what); };
+  {
+    throw core::InvalidParameter("DICOM node '" +
+                                 (core::isUtf8(node.name) ? core::printable(node.name) : "?") +
+                                 "': " + what);
+  };
+  const auto isVisible = [](const std::string& value, char least)
+  {
+    return std::all_of(value.begin(), value.end(),
+                       [least](char c) { return c >= least && c < 127; });
+  };
   if (node.name.empty())
     throw core::InvalidParameter("DICOM node: give it a name");
-  if (node.host.empty() || node.host.find_first_of(" /:\t\n") != std::string::npos)
+  if (!core::isUtf8(node.name) || core::printable(node.name) != node.name)
+    refuse("its name is UTF-8 text without control characters");
+  if (node.host.empty() || !isVisible(node.host, '!') ||
+      node.host.find_first_of("/:") != std::string::npos)
     refuse("the host is a name or an IPv4 address, without a port");
+  if (!isVisible(node.moveHost, '!') || node.moveHost.find_first_of("/:") != std::string::npos)
+    refuse("the host that sends by C-MOVE is a name or an IPv4 address, without a port, or " +
+           std::string(kAnyName) + " for any");
   if (node.port < 1 || node.port > 65535)
     refuse("the port is between 1 and 65535");
   if (node.movePort < 0 || node.movePort > 65535)
@@ -1008,6 +1215,16 @@ void checkNode(const Node& node)
   }
   if (node.tls && node.tls->certificate.empty() != node.tls->key.empty())
     refuse("a TLS certificate and its key are given together");
+  if (!node.tls)
+    return;
+  for (const std::string& file : {node.tls->authority, node.tls->certificate, node.tls->key})
+    if (!core::isUtf8(file) || core::printable(file) != file)
+      refuse("the paths of TLS files are UTF-8 text without control characters");
+  if (!isVisible(node.tls->name, '!'))
+    refuse("the name in its certificate is a host name or an IP address");
+  if (node.tls->name == kAnyName && node.tls->authority.empty())
+    refuse("certificates of any name are for trusted certificates of your own only; of the "
+           "system's authorities everybody can have one");
 }
 
 void echo(const Node& node, const core::Progress& progress)
@@ -1089,15 +1306,18 @@ Transfer store(const Node& node, const std::vector<fs::path>& files, const core:
   transfer.asked = 0;
   if (all.empty())
     return transfer;
+  transfer.listed = Transfer::Listed::Unanswered;
   counter.progress = &progress;
   counter.task = "sending";
   counter.of = all.size();
   waiting = all;
   DIC_US refusal = STATUS_Success;
   std::size_t refused = 0;
-  for (int idle = 0; !waiting.empty();)
+  std::size_t fewest = all.size(); // that were missing after a round
+  bool counted = false;            // what was there already
+  bool listed = false;             // the node said what it has, or cannot
+  for (int idle = 0; !listed;)
   {
-    const std::size_t before = waiting.size();
     ++transfer.asked;
     std::vector<OutgoingFile> unconfirmed;
     const auto sendAgain = [&]
@@ -1105,21 +1325,30 @@ Transfer store(const Node& node, const std::vector<fs::path>& files, const core:
       waiting.insert(waiting.end(), unconfirmed.begin(), unconfirmed.end());
       unconfirmed.clear();
     };
+    // A node whose list changes from one query to the next gets no further by that.
+    const auto isIdle = [&]
+    {
+      const bool less = waiting.size() < fewest;
+      fewest = std::min(fewest, waiting.size());
+      return !less && ++idle >= kMaxIdleRounds;
+    };
     try
     {
       Association association(node, storeContexts(all), progress);
       counter.watch = &association.watch();
-      if (const auto held = heldThere(association, waiting))
-      {
-        const auto isHeld = [&](const OutgoingFile& file) { return held->count(file.uid) != 0; };
-        const auto end = std::remove_if(waiting.begin(), waiting.end(), isHeld);
-        if (transfer.asked == 1)
-          transfer.present = static_cast<std::size_t>(waiting.end() - end);
-        waiting.erase(end, waiting.end());
-      }
+      if (!waiting.empty())
+        if (const auto held = heldThere(association, waiting))
+        {
+          const auto isHeld = [&](const OutgoingFile& file) { return held->count(file.uid) != 0; };
+          const auto end = std::remove_if(waiting.begin(), waiting.end(), isHeld);
+          if (!std::exchange(counted, true))
+            transfer.present = static_cast<std::size_t>(waiting.end() - end);
+          waiting.erase(end, waiting.end());
+        }
       refused = 0;
       while (!waiting.empty())
       {
+        counted = true;
         const OutgoingFile file = waiting.back();
         counter.done = all.size() - waiting.size() - unconfirmed.size();
         const DIC_US status = sendFile(association, file, counter);
@@ -1141,25 +1370,36 @@ Transfer store(const Node& node, const std::vector<fs::path>& files, const core:
       // A node may answer Success and not keep it. One that lists none of them has no index of
       // them, or not yet.
       if (waiting.empty())
-        if (const auto held = heldThere(association, all))
+      {
+        const auto held = heldThere(association, all);
+        for (const OutgoingFile& file : all)
+          if (held && held->count(file.uid) == 0)
+            waiting.push_back(file);
+        if (waiting.empty() || waiting.size() == all.size())
         {
-          for (const OutgoingFile& file : all)
-            if (held->count(file.uid) == 0)
-              waiting.push_back(file);
-          transfer.verified = waiting.empty();
-          if (waiting.size() == all.size())
-            waiting.clear();
+          listed = true;
+          transfer.listed = !held             ? Transfer::Listed::NotOffered
+                            : waiting.empty() ? Transfer::Listed::All
+                                              : Transfer::Listed::None;
+          transfer.verified = transfer.listed == Transfer::Listed::All;
+          waiting.clear();
         }
+      }
       association.release();
     }
     catch (const NetworkError& error)
     {
       sendAgain();
-      if (!isTransient(error) || (waiting.size() == before && ++idle >= kMaxIdleRounds))
+      const bool confirmed = waiting.empty(); // only the node's list is wanting
+      if (listed)
+        break;
+      if (isTransient(error) && !isIdle())
+        continue;
+      if (!confirmed)
         throw;
-      continue;
+      break;
     }
-    if (waiting.size() == before && ++idle >= kMaxIdleRounds)
+    if (!listed && isIdle())
       throw NetworkError(
           Reason::Incomplete,
           place(node) + ": has " + std::to_string(all.size() - waiting.size()) + " of " +
@@ -1192,16 +1432,15 @@ Transfer retrieve(const Node& node, const std::string& studyUid,
       throw NetworkError(Reason::NotFound, place(node) + ": has no such study");
     study = studies.front();
     std::vector<std::string> wanted = seriesUids;
-    std::size_t stated = 0;
+    std::map<std::string, std::size_t> stated; // by series
     std::set<std::string> absent(seriesUids.begin(), seriesUids.end());
     for (const Series& series : seriesIn(association, studyUid))
     {
       absent.erase(series.uid);
       if (seriesUids.empty())
         wanted.push_back(series.uid);
-      if (seriesUids.empty() ||
-          std::find(seriesUids.begin(), seriesUids.end(), series.uid) != seriesUids.end())
-        stated += static_cast<std::size_t>(std::max(series.instances, 0));
+      if (std::find(wanted.begin(), wanted.end(), series.uid) != wanted.end())
+        stated[series.uid] = static_cast<std::size_t>(std::max(series.instances, 0));
     }
     expected = instancesIn(association, studyUid, wanted);
     association.release();
@@ -1211,10 +1450,19 @@ Transfer retrieve(const Node& node, const std::string& studyUid,
                                                " of the series that were asked for");
     if (expected.empty())
       throw NetworkError(Reason::NotFound, place(node) + ": has no instances of that study");
-    if (expected.size() < stated)
+    std::map<std::string, std::size_t> listed;
+    for (const auto& [uid, instance] : expected)
+      ++listed[instance.seriesUid];
+    std::size_t total = 0;
+    for (const auto& [series, count] : stated)
+      total += std::max(count, listed[series]);
+    if (seriesUids.empty())
+      total = std::max(total, static_cast<std::size_t>(std::max(study.instances, 0)));
+    if (expected.size() < total)
       throw NetworkError(Reason::Incomplete,
-                         place(node) + ": states " + numberOf(stated, "instance") +
-                             " of the study, but lists " + std::to_string(expected.size()) +
+                         place(node) + ": states " + numberOf(total, "instance") +
+                             " of what was asked for, but lists " +
+                             std::to_string(expected.size()) +
                              "; it may still be receiving them, try again later");
   }
   Reception reception(node, std::move(study), std::move(expected), folder);

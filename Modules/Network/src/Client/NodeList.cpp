@@ -6,6 +6,7 @@
 
 #include "petrous/Core/FileLock.h"
 #include "petrous/Core/InputFile.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Core/OutputFile.h"
 
 namespace petrous::network
@@ -24,6 +25,12 @@ fs::path fileIn(const fs::path& library)
   return library / "nodes.json";
 }
 
+[[noreturn]] void refuseList(const fs::path& file)
+{
+  throw core::InvalidParameter(core::printable(file) +
+                               ": is not a list of DICOM nodes; remove it and add them again");
+}
+
 std::vector<Node> readNodes(const fs::path& library)
 {
   const fs::path file = fileIn(library);
@@ -35,9 +42,13 @@ std::vector<Node> readNodes(const fs::path& library)
   try
   {
     const json root = json::parse(text);
-    if (const int format = root.at("format").get<int>(); format > kFormat)
-      throw core::InvalidParameter(file.string() + ": written by format " + std::to_string(format) +
-                                   "; this program reads up to " + std::to_string(kFormat));
+    const int format = root.at("format").get<int>();
+    if (format < 1)
+      refuseList(file);
+    if (format > kFormat)
+      throw core::InvalidParameter(core::printable(file) + ": written by format " +
+                                   std::to_string(format) + "; this program reads up to " +
+                                   std::to_string(kFormat));
     for (const json& entry : root.at("nodes"))
     {
       Node node;
@@ -47,11 +58,12 @@ std::vector<Node> readNodes(const fs::path& library)
       node.aeTitle = entry.at("ae_title").get<std::string>();
       node.callingAeTitle = entry.at("calling_ae_title").get<std::string>();
       node.movePort = entry.value("move_port", 0);
+      node.moveHost = entry.value("move_host", "");
       if (entry.contains("tls"))
       {
         const json& tls = entry.at("tls");
-        node.tls =
-            TlsFiles{tls.value("ca", ""), tls.value("certificate", ""), tls.value("key", "")};
+        node.tls = TlsFiles{tls.value("ca", ""), tls.value("certificate", ""), tls.value("key", ""),
+                            tls.value("name", "")};
       }
       checkNode(node);
       nodes.push_back(std::move(node));
@@ -59,8 +71,7 @@ std::vector<Node> readNodes(const fs::path& library)
   }
   catch (const json::exception&)
   {
-    throw core::InvalidParameter(file.string() +
-                                 ": is not a list of DICOM nodes; remove it and add them again");
+    refuseList(file);
   }
   return nodes;
 }
@@ -79,10 +90,14 @@ void writeNodes(const fs::path& library, std::vector<Node>& nodes)
                {"calling_ae_title", node.callingAeTitle}};
     if (node.movePort != 0)
       entry["move_port"] = node.movePort;
+    if (!node.moveHost.empty())
+      entry["move_host"] = node.moveHost;
     if (node.tls)
       entry["tls"] = {{"ca", node.tls->authority},
                       {"certificate", node.tls->certificate},
                       {"key", node.tls->key}};
+    if (node.tls && !node.tls->name.empty())
+      entry["tls"]["name"] = node.tls->name;
     list.push_back(std::move(entry));
   }
   core::writeFile(fileIn(library),
@@ -108,7 +123,7 @@ auto named(const std::string& name)
   for (const Node& node : nodes)
     there += (there.empty() ? "" : ", ") + node.name;
   throw core::InvalidParameter(
-      "no DICOM node '" + name + "'; " +
+      "no DICOM node '" + (core::isUtf8(name) ? core::printable(name) : "?") + "'; " +
       (there.empty() ? "there is none, see 'petrous nodes add'" : "there are: " + there));
 }
 
@@ -137,6 +152,19 @@ void NodeList::add(const Node& node)
     throw core::InvalidParameter("a DICOM node '" + node.name +
                                  "' is there already; remove it first, or choose another name");
   nodes.push_back(node);
+  writeNodes(m_library, nodes);
+  m_nodes = std::move(nodes);
+}
+
+void NodeList::replace(const Node& node)
+{
+  checkNode(node);
+  const core::FileLock lock = lockList(m_library);
+  std::vector<Node> nodes = readNodes(m_library);
+  const auto found = std::find_if(nodes.begin(), nodes.end(), named(node.name));
+  if (found == nodes.end())
+    refuseUnknown(node.name, nodes);
+  *found = node;
   writeNodes(m_library, nodes);
   m_nodes = std::move(nodes);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <locale>
@@ -71,6 +72,8 @@ void readAt(const core::InputFile& file, std::uintmax_t offset, std::vector<char
   {
     const ssize_t got = ::pread(file.descriptor(), bytes.data() + done, bytes.size() - done,
                                 static_cast<off_t>(offset + done));
+    if (got < 0 && errno == EINTR)
+      continue;
     if (got <= 0)
       throw core::InputFileError(core::InputFileError::Reason::Unreadable, file.path(),
                                  "cannot be read");

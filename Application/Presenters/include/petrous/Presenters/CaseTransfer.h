@@ -57,6 +57,10 @@ struct SendSummary
   std::vector<std::string> notes; ///< for the user: what was left out, and why
 };
 
+/// Why what a node confirmed could not be counted there: "lists none of them (yet)", after "it
+/// confirmed every instance, but"; empty: it lists all of them.
+std::string unlistedText(const network::Transfer& sent);
+
 /// Sends a case of the library to a DICOM node: CT and MR as series, structures as DICOM
 /// segmentations that refer to them, and the scene as Raw Data (network::writeSceneObjects), from
 /// which receiveCase restores the very same case. Every object is written from the case, which
@@ -86,10 +90,21 @@ struct ReceiveSummary
   std::vector<std::string> notes;
 };
 
+/// The library has a case of the name under which one was to be received.
+struct NameTakenError : library::LibraryError
+{
+  NameTakenError(const std::string& taken, const std::string& message)
+    : LibraryError(Reason::NameTaken, message)
+    , name(taken)
+  {
+  }
+  std::string name;
+};
+
 /// Adds a case that a DICOM node has to the library: the latest scene of the study, or, where there
 /// is none, a case built from its CT, MR and segmentations. The library is unchanged unless
-/// everything arrived. Throws NetworkError, LibraryError, DicomError, InvalidParameter,
-/// CancelledError.
+/// everything arrived. Throws NetworkError, NameTakenError (before anything is transferred, where
+/// the node tells the scene's case), LibraryError, DicomError, InvalidParameter, CancelledError.
 ReceiveSummary receiveCase(library::Library& library, const network::Node& node,
                            const ReceiveRequest& request, const core::Progress& progress = {});
 

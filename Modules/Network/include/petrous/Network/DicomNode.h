@@ -46,7 +46,12 @@ struct TlsFiles
   std::string authority;   ///< certificates that are trusted; empty: those of the system
   std::string certificate; ///< of this program; empty: none
   std::string key;         ///< belongs to `certificate`
+  /// Host name or IP address that the node's certificate must be of; empty: Node::host. kAnyName:
+  /// any certificate of `authority` will do, as for a node whose own certificate that is.
+  std::string name = {};
 };
+
+constexpr const char* kAnyName = "*";
 
 struct Timeouts
 {
@@ -62,12 +67,15 @@ struct Node
   std::string aeTitle;
   std::string callingAeTitle = "PETROUS";
   /// TLS 1.2 or later by the profile of PS3.15 B.9 (BCP 195, non-downgrading). The node's
-  /// certificate is always verified against the trusted ones.
+  /// certificate is always verified against the trusted ones, and its name compared.
   std::optional<TlsFiles> tls;
   /// Port at which this program listens for what the node sends by C-MOVE, where that is preferred,
   /// as by a node without C-GET; the node must know `callingAeTitle` at this host and port. 0: by
   /// C-GET only, which needs no port.
   int movePort = 0;
+  /// Host from which the node sends by C-MOVE, where that is not `host`; kAnyName: any. It must
+  /// call itself `aeTitle`, as everybody may connect to that port.
+  std::string moveHost = {};
   Timeouts timeouts;
 };
 
@@ -105,6 +113,7 @@ struct Study
   std::string patientName;
   std::string date; ///< as DICOM writes it, 20260331; empty: none
   std::string description;
+  std::string studyId;    ///< Study ID (0020,0010)
   std::string modalities; ///< separated by `\`; empty: the node does not state them
   int instances = -1;     ///< as the node states; -1: it does not
 };
@@ -137,12 +146,22 @@ std::vector<Instance> findInstances(const Node& node, const std::string& studyUi
 /// Outcome of a transfer that is complete: anything else is thrown.
 struct Transfer
 {
-  std::size_t instances = 0;  ///< of the whole transfer
-  std::size_t completed = 0;  ///< = instances, with `present` and `warning`
-  std::size_t present = 0;    ///< of these, which were there already
-  std::size_t warning = 0;    ///< of these, which the node stored with a warning
-  std::size_t asked = 1;      ///< how often it took: 1, or more if something had to be asked again
-  bool verified = false;      ///< sent: the node lists all of them; some of them: Incomplete
+  /// What the node listed (C-FIND) after it had confirmed each instance.
+  enum class Listed
+  {
+    NotOffered, ///< it offers no queries; also of a retrieval
+    Unanswered, ///< it did not answer, or refused, however often it was asked
+    None,       ///< none of them: it has no index of them, or not yet
+    All
+  };
+
+  std::size_t instances = 0; ///< of the whole transfer
+  std::size_t completed = 0; ///< = instances, with `present` and `warning`
+  std::size_t present = 0;   ///< of these, which were there already
+  std::size_t warning = 0;   ///< of these, which the node stored with a warning
+  std::size_t asked = 1;     ///< how often it took: 1, or more if something had to be asked again
+  bool verified = false;     ///< sent: the node lists all of them; some of them: Incomplete
+  Listed listed = Listed::NotOffered;
   std::size_t otherNames = 0; ///< received: which name the patient otherwise than the first does
   std::uintmax_t bytes = 0;   ///< transferred
   double seconds = 0.0;

@@ -22,10 +22,11 @@ public:
   /// Throws InvalidParameter listing the names that there are.
   const Node& at(const std::string& name) const;
 
-  /// Both read the file again and write it under a lock, atomically. `add` throws InvalidParameter
-  /// (checkNode) and if the name is taken, `remove` if there is no such node; both
-  /// core::OutputFileError.
+  /// All read the file again and write it once under a lock, atomically. `add` and `replace` (the
+  /// node of that name) throw InvalidParameter (checkNode), `add` also if the name is taken,
+  /// `replace` and `remove` if there is no such node; all core::OutputFileError.
   void add(const Node& node);
+  void replace(const Node& node);
   void remove(const std::string& name);
 
 private:

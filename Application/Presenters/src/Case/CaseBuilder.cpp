@@ -502,7 +502,10 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     imaging::LabelNaming naming{parts.labelNames, parts.labels.size() == 1};
     if (!source.labelNames.empty())
       naming = {source.labelNames, true};
-    loaded = imaging::loadLabels(source.path, progress, naming);
+    std::vector<core::GridGeometry> images{value.ct.geometry};
+    for (const scene::ImagePart& mr : value.mr)
+      images.push_back(mr.geometry);
+    loaded = imaging::loadLabels(source.path, progress, naming, images);
     settleFrame(value, source, loaded.frameOfReferenceUid, salted);
   }
   std::vector<std::string> notes = std::move(loaded.notes);

@@ -673,6 +673,31 @@ TEST_F(CaseBuilder, ReportsEachOfSixtyStructures)
   EXPECT_EQ(presenters::summaryOf({}).worst, nullptr);
 }
 
+TEST_F(CaseBuilder, KeepsTheSideInTheNamesOfAFolderAndSaysWhatItLeavesOut)
+{
+  const auto folder = m_folder / "masks";
+  std::filesystem::create_directory(folder);
+  const auto labels = imaging::readLabelFile(m_folder / "facial_nerve.nii.gz");
+  // "sin" is in most of the files, as a patient's name would be
+  for (const char* name : {"facial_nerve_sin", "cochlea_sin", "stapes_sin", "facial_nerve_dx"})
+    imaging::writeLabelFile(folder / ("Doe_" + std::string(name) + ".nii.gz"), labels);
+  m_sources.parts.labels = {{"", folder}};
+  const auto value = presenters::buildCase("ear", m_sources, {});
+  std::set<std::string> names;
+  std::string notes;
+  for (const auto& part : value.labels)
+  {
+    for (const auto& structure : part.structures)
+      names.insert(structure.name);
+    for (const std::string& note : part.notes)
+      notes += note + "\n";
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"facial_nerve_sin", "cochlea_sin", "stapes_sin",
+                                          "facial_nerve_dx"}));
+  EXPECT_NE(notes.find("1 word of the files' names"), std::string::npos) << notes;
+  EXPECT_EQ(notes.find("Doe"), std::string::npos) << notes;
+}
+
 TEST_F(CaseBuilder, NamesTheMasksOfAFolderThatItLeavesOut)
 {
   const core::GridGeometry grid({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3));

@@ -420,9 +420,15 @@ imaging::LoadedLabels loadStructureSet(const scene::Case& value, PartSource& sou
   return imaging::labelsOf(set, grid, source.path, progress);
 }
 
-// Names of the files of a folder, as the structures' names. A word that most of the files share and
-// that is of no structure may be the patient's name, and is left out.
-std::map<std::string, std::string> namesInFolder(const imaging::LoadedLabels& loaded)
+struct FolderNames
+{
+  std::map<std::string, std::string> names; ///< of the structures, by their files'
+  std::set<std::string> leftOut;            ///< words
+};
+
+// A word that most of the files of a folder share and that is of no structure and no side may be
+// the patient's name, and is left out of the structures' names.
+FolderNames namesInFolder(const imaging::LoadedLabels& loaded)
 {
   const auto presets = appearance::StructurePresets::builtIn();
   const auto isWordChar = [](unsigned char c) { return c >= 0x80 || std::isalnum(c) != 0; };
@@ -449,7 +455,7 @@ std::map<std::string, std::string> namesInFolder(const imaging::LoadedLabels& lo
         ++counts[word];
     }
   constexpr std::size_t kTelling = 3; // files, from which on what they share means something
-  std::map<std::string, std::string> names;
+  FolderNames result;
   for (const auto& map : loaded.maps)
     for (const volume::Segment& segment : map.segments)
     {
@@ -463,11 +469,14 @@ std::map<std::string, std::string> namesInFolder(const imaging::LoadedLabels& lo
         if (isKnown || (files >= kTelling && 2 * counts[word] <= files))
           kept += (kept.empty() ? "" : "_") + word;
         else
+        {
           isWhole = false;
+          result.leftOut.insert(word);
+        }
       }
-      names[segment.name] = isWhole ? segment.name : kept;
+      result.names[segment.name] = isWhole ? segment.name : kept;
     }
-  return names;
+  return result;
 }
 
 // The name that a file of several structures gives one, made valid: one odd name must not refuse
@@ -511,7 +520,12 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
   std::vector<std::string> notes = std::move(loaded.notes);
   std::vector<std::string> empty;
   const bool isFolder = fs::is_directory(source.path);
-  const auto ofFolder = isFolder ? namesInFolder(loaded) : std::map<std::string, std::string>();
+  const FolderNames folder = isFolder ? namesInFolder(loaded) : FolderNames();
+  const auto& ofFolder = folder.names;
+  if (const std::size_t count = folder.leftOut.size(); count > 0)
+    notes.push_back(std::to_string(count) + (count == 1 ? " word" : " words") +
+                    " of the files' names, which may be a patient's, " +
+                    (count == 1 ? "was" : "were") + " left out of the structures' names");
   if (!loaded.leftOut.empty()) // their names may be a patient's
   {
     std::vector<std::string> known;

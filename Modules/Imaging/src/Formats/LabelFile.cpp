@@ -183,8 +183,7 @@ std::vector<volume::Segment> namesFromOutside(const std::filesystem::path& path,
 
 bool hasSegments(const VoxelSource& source)
 {
-  return source.nrrd() &&
-         (source.nrrd()->key("Segment0_Name") || source.nrrd()->key("Segment0_ID"));
+  return source.nrrd() && hasSegments(*source.nrrd());
 }
 
 [[noreturn]] void failOverlap(const std::filesystem::path& path, std::size_t layers)

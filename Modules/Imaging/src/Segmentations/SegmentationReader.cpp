@@ -35,6 +35,7 @@ constexpr std::uint64_t kMaxVoxels = std::uint64_t{1} << 31;   // of all layers
 constexpr double kMaxTurn = 1e-4;      // between the orientations of two frames, of unit vectors
 constexpr double kMinTolerance = 0.05; // mm, of a frame's place
 constexpr double kRelativeTolerance = 0.1;                   // of the spacing of slices
+constexpr std::size_t kLongestPartName = 200;                // bytes; longer text is no name
 constexpr double kNotedError = 1e-3;                         // mm
 constexpr double kMinSpacing = 1e-3;                         // mm, of slices
 constexpr std::size_t kMaxCompressed = std::size_t{1} << 26; // pixels of a frame
@@ -799,6 +800,14 @@ LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Pro
     volume::Segment segment;
     segment.index = static_cast<std::uint16_t>(*number);
     segment.name = toUtf8(item.text(0x00620005), characters);
+    // Its description may begin with the whole of a name that was cut.
+    const std::string whole = toUtf8(item.text(0x00620006), characters);
+    const auto characterCount =
+        std::count_if(segment.name.begin(), segment.name.end(),
+                      [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+    if (characterCount == kLongestName && whole.size() <= kLongestPartName &&
+        whole.compare(0, segment.name.size(), segment.name) == 0)
+      segment.name = whole;
     if (segment.name.empty())
       segment.name = "label " + std::to_string(*number);
     segment.name = unique.take(segment.name, loaded.notes);

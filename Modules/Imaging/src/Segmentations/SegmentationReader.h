@@ -12,6 +12,9 @@
 namespace petrous::imaging
 {
 
+/// Characters of a long string (LO), which the label of a segment is.
+constexpr int kLongestName = 64;
+
 /// SOP Class UID of a DICOM file; "" if it is not one, or is damaged before it.
 std::string sopClassOf(const std::filesystem::path& path);
 bool isSegmentationClass(const std::string& sopClass);

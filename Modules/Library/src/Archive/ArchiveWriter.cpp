@@ -298,9 +298,8 @@ try
   scene::Case value = library.open(name);               // recovers unsaved drilling
   const auto salt = [&library](scene::ImagePart& image) // older manifests have plain hashes
   {
-    if (!image.isFrameSalted && !image.frameOfReference.empty())
-      image.frameOfReference = saltedFrame(library, image.frameOfReference);
-    image.isFrameSalted = true;
+    scene::saltIdentity(image,
+                        [&library](const std::string& hash) { return saltedFrame(library, hash); });
   };
   salt(value.ct);
   std::for_each(value.mr.begin(), value.mr.end(), salt);

@@ -40,14 +40,16 @@ struct Column
   const char* text;
 };
 
-constexpr std::array<Column, 18> kColumns{{
+constexpr std::array<Column, 20> kColumns{{
     {"name", Step::None, "the case's name (needed)"},
     {"folder", Step::Build, "CT: DICOM folder or image file; blank: the case is there already"},
     {"series", Step::Build, "which series of the folder: UID or UID#VOLUME"},
     {"modality", Step::Build, "CT or MR, if the file does not say"},
+    {"ct_frame", Step::Build, "lps or ras, if an image file does not say which side is left"},
     {"roi", Step::Build, "x0,x1,y0,y1,z0,z1 in patient LPS mm"},
     {"repair", Step::Build, "yes or no: resample tilted, uneven or gapped slices"},
     {"mr", Step::Build, "[NAME=]PATH[#UID[#VOLUME]], several with |"},
+    {"other_patient", Step::Build, "yes or no: add an MR that states another patient"},
     {"labels", Step::Build, "[NAME=]FILE[@MR], several with |"},
     {"label_names", Step::Build, "table of the names of the labels"},
     {"meshes", Step::Build, "[NAME=]FILE[@MR], several with |"},
@@ -279,6 +281,11 @@ private:
     sources.modality = modality == "mr"   ? scene::Modality::Mr
                        : modality == "ct" ? scene::Modality::Ct
                                           : scene::Modality::Unknown;
+    const std::string frame = lower(cell("ct_frame"));
+    if (!frame.empty() && frame != "lps" && frame != "ras")
+      throw core::InvalidParameter("'ct_frame' is lps or ras, not '" + cell("ct_frame") + "'");
+    if (!frame.empty())
+      sources.isRas = frame == "ras";
     if (!cell("roi").empty())
       try
       {
@@ -290,7 +297,10 @@ private:
       }
     sources.parts.mr = parts("mr", presenters::PartSource::parseSeries);
     for (presenters::PartSource& mr : sources.parts.mr)
+    {
       mr.repair = sources.repair;
+      mr.isOtherPatient = isYes("other_patient", cell("other_patient"));
+    }
     sources.parts.labels = parts("labels", presenters::PartSource::parseDrawn);
     if (!cell("label_names").empty())
       sources.parts.labelNames = at(cell("label_names"));

@@ -26,6 +26,7 @@ struct PartOptions
   std::string meshFrame;
   std::string meshUnit;
   bool repair = false;
+  bool otherPatient = false;
 
   void addTo(CLI::App& command)
   {
@@ -37,6 +38,8 @@ struct PartOptions
         ->type_name("[NAME=]PATH[#UID[#VOLUME]]");
     command.add_flag("--repair", repair,
                      "Resample tilted, uneven or gapped DICOM slices to a straight volume");
+    command.add_flag("--other-patient", otherPatient,
+                     "Add an MR whose files state another patient than the case's images");
     command
         .add_option("--labels", labels,
                     "Structures: one a file, or one an index; a DICOM SEG or RT structure set; a "
@@ -65,10 +68,13 @@ struct PartOptions
     if (!labelNames.empty() && labels.empty())
       throw UsageError("--label-names goes with --labels");
     presenters::PartSources result;
+    if (otherPatient && mr.empty())
+      throw UsageError("--other-patient goes with --mr");
     for (const std::string& text : mr)
     {
       result.mr.push_back(presenters::PartSource::parseSeries(text));
       result.mr.back().repair = repair;
+      result.mr.back().isOtherPatient = otherPatient;
     }
     for (const std::string& text : labels)
       result.labels.push_back(presenters::PartSource::parseDrawn(text));
@@ -208,7 +214,7 @@ void addNew(CLI::App& app, Context& context)
 {
   struct Options
   {
-    std::string name, ct, series, volume, roi, modality;
+    std::string name, ct, series, volume, roi, modality, frame;
     PartOptions parts;
   };
   auto options = std::make_shared<Options>();
@@ -225,6 +231,8 @@ void addNew(CLI::App& app, Context& context)
         sources.modality = options->modality == "MR"   ? scene::Modality::Mr
                            : options->modality == "CT" ? scene::Modality::Ct
                                                        : scene::Modality::Unknown;
+        if (!options->frame.empty())
+          sources.isRas = options->frame == "ras";
         if (!options->roi.empty())
           sources.roi = parseBox(options->roi, "--roi");
         sources.parts = options->parts.sources();
@@ -253,6 +261,10 @@ void addNew(CLI::App& app, Context& context)
       ->add_option("--modality", options->modality,
                    "What the primary image is, if the file does not say: CT (cone beam too) or MR")
       ->check(oneOf({"CT", "MR"}));
+  command
+      ->add_option("--ct-frame", options->frame,
+                   "Axes of an image file that does not say which side is left: lps or ras")
+      ->check(oneOf({"lps", "ras"}));
   command->add_option("--series", options->series, "Which series of the folder")->type_name("UID");
   command
       ->add_option("--volume", options->volume,

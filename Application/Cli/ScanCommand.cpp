@@ -86,7 +86,13 @@ std::string complaintOf(const imaging::ScanResult& result)
 {
   std::size_t unsound = 0;
   for (const auto& series : result.series)
-    unsound += series.geometry.verdict == imaging::Verdict::Ok ? 0 : 1;
+  {
+    const auto& findings = series.geometry.findings;
+    const bool isCut = std::any_of(findings.begin(), findings.end(),
+                                   [](const auto& finding)
+                                   { return finding.kind == imaging::FindingKind::MissingEnd; });
+    unsound += series.geometry.verdict == imaging::Verdict::Ok && !isCut ? 0 : 1;
+  }
   if (unsound == 0 && result.unreadable.empty())
     return {};
   return std::to_string(unsound) + " of " + std::to_string(result.series.size()) +

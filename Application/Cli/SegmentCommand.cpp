@@ -98,13 +98,13 @@ Made region(const SegmentOptions& options, const scene::Case& value, const scene
   if (made.mask.count == 0)
   {
     const volume::ValueRange all = image.range();
-    throw core::InvalidParameter("nothing lies between " + fixed(range.min, 1) + " and " +
-                                 fixed(range.max, 1) + unit + "; the image has " +
+    throw core::InvalidParameter("nothing lies between " + core::generalText(range.min) + " and " +
+                                 core::generalText(range.max) + unit + "; the image has " +
                                  fixed(all.min, 1) + " to " + fixed(all.max, 1) + unit);
   }
   made.facts["threshold"] = {range.min, range.max};
   made.lines.push_back(
-      "  between " + fixed(range.min, 1) + " and " + fixed(range.max, 1) +
+      "  between " + core::generalText(range.min) + " and " + core::generalText(range.max) +
       (options.source == "ct" && presenters::displayOf(value).hounsfield ? " HU" : "") +
       (seeds.empty() ? "" : ", connected with the seed"));
   return made;

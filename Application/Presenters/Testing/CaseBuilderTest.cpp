@@ -100,6 +100,8 @@ TEST_F(CaseBuilder, KnowsOnWhichMrLabelsWereDrawn)
   more.labels = {labels("b", ""), labels("c", "ct")};
   presenters::addParts(value, more, {});
   EXPECT_EQ(scene::placementOf(value, value.labels[0]).drawnOn, "T2") << "its image came later";
+  ASSERT_FALSE(value.labels[0].notes.empty());
+  EXPECT_NE(value.labels[0].notes.back().find("'T2', which was added later"), std::string::npos);
   EXPECT_EQ(value.labels[2].drawnOn, "T2");
   EXPECT_EQ(value.labels[3].drawnOn, "");
 
@@ -242,6 +244,240 @@ TEST_F(CaseBuilder, TellsImagesOfOneFrameOfReferenceWithoutItsUid)
   EXPECT_NE(value.mr[0].frameOfReference, value.mr[2].frameOfReference);
   EXPECT_EQ(scene::toManifest(value).find(uid), std::string::npos);
   EXPECT_EQ(value.ct.frameOfReference, "") << "of a NRRD file nothing is known";
+}
+
+TEST_F(CaseBuilder, AsksBeforeAnMrOfAnotherPatientJoins)
+{
+  const auto scan = std::make_shared<const volume::Volume<std::int16_t>>(
+      core::GridGeometry({8, 8, 8}, Vector3d::Ones(), Vector3d::Zero()), std::int16_t{40});
+  const auto write = [&](const std::string& file, const std::string& id, const std::string& name)
+  {
+    imaging::SeriesDescription series;
+    series.modality = file == "ct" ? imaging::SeriesDescription::Modality::Ct
+                                   : imaging::SeriesDescription::Modality::Mr;
+    series.patientId = id;
+    series.patientName = name;
+    series.studyUid = imaging::deterministicUid(2, file);
+    series.seriesUid = imaging::deterministicUid(1, file);
+    series.frameOfReferenceUid = imaging::deterministicUid(3, file);
+    imaging::writeDicomSeries(m_folder / file, volume::IntensityVolume(scan), series);
+    return PartSource{file, m_folder / file};
+  };
+  m_sources.ct = write("ct", "4711", "Doe^Jane").path;
+  auto value = presenters::buildCase("ear", m_sources, {});
+  const auto before = scene::toManifest(value);
+  const auto add = [&](PartSource source)
+  {
+    presenters::PartSources parts;
+    parts.mr = {std::move(source)};
+    presenters::addParts(value, parts, {});
+  };
+  PartSource other = write("T1", "4712", "Roe^Jane");
+  try
+  {
+    add(other);
+    FAIL() << "joined";
+  }
+  catch (const presenters::OtherPatient& error)
+  {
+    const std::string words = error.what();
+    EXPECT_EQ(error.fault(), core::Fault::Refused);
+    EXPECT_NE(words.find("--other-patient"), std::string::npos) << words;
+    for (const char* secret : {"4711", "4712", "Doe", "Roe"})
+      EXPECT_EQ(words.find(secret), std::string::npos) << words;
+  }
+  EXPECT_EQ(scene::toManifest(value), before);
+  presenters::PartSources both;
+  both.mr = {other, write("T2", "4711", "DOE JANE^^^")}; // spelled otherwise
+  const auto failures = presenters::addSoundParts(value, both, {});
+  ASSERT_EQ(failures.size(), 1u);
+  EXPECT_TRUE(failures[0].isOtherPatient);
+  ASSERT_EQ(value.mr.size(), 1u);
+  EXPECT_TRUE(value.mr[0].notes.empty());
+  add(write("T3", "ANONYMOUS", "")); // states none
+  other.isOtherPatient = true;
+  add(other);
+  ASSERT_EQ(value.mr.size(), 3u);
+  ASSERT_EQ(value.mr[2].notes.size(), 1u);
+  EXPECT_NE(value.mr[2].notes[0].find("added as asked"), std::string::npos);
+  EXPECT_EQ(scene::toManifest(value).find("patient"), scene::toManifest(value).find("patient's"))
+      << "no hash without a salt";
+
+  // A stored case has salted hashes.
+  const auto salted = [](const std::string& hash) { return "salt " + hash; };
+  value.mr.clear();
+  scene::saltIdentity(value.ct, salted);
+  value = scene::fromManifest(scene::toManifest(value), "case");
+  presenters::PartSources parts;
+  parts.salted = salted;
+  other.isOtherPatient = false;
+  parts.mr = {other};
+  EXPECT_THROW(presenters::addParts(value, parts, {}), presenters::OtherPatient);
+  parts.mr = {{"T2", m_folder / "T2"}};
+  presenters::addParts(value, parts, {});
+  EXPECT_EQ(value.mr.size(), 1u);
+}
+
+TEST_F(CaseBuilder, CallsNothingHounsfieldUnitsThatTheFileDoesNot)
+{
+  // air and soft tissue as in a CT
+  auto scan = std::make_shared<volume::Volume<std::int16_t>>(
+      core::GridGeometry({24, 24, 24}, Vector3d::Ones(), Vector3d::Zero()), std::int16_t{-1000});
+  for (int k = 6; k < 18; ++k)
+    for (int j = 6; j < 18; ++j)
+      for (int i = 6; i < 18; ++i)
+        scan->at(i, j, k) = i < 8 ? 1200 : 40;
+  const auto build = [&](const std::string& type, const std::string& modality,
+                         scene::Modality wanted = scene::Modality::Unknown)
+  {
+    const auto folder = m_folder / ("ct" + type + modality);
+    imaging::SeriesDescription series;
+    series.studyUid = "1.2.3";
+    series.seriesUid = "1.2.3.4";
+    series.frameOfReferenceUid = "1.2.3.9";
+    series.rescaleType = type;
+    imaging::writeDicomSeries(
+        folder, volume::IntensityVolume(std::shared_ptr<const volume::Volume<std::int16_t>>(scan)),
+        series);
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+    {
+      std::ifstream in(entry.path(), std::ios::binary);
+      std::string bytes((std::istreambuf_iterator<char>(in)), {});
+      const std::string stated("\x08\x00\x60\x00"
+                               "CS\x02\x00"
+                               "CT",
+                               10);
+      bytes.replace(bytes.find(stated) + 8, 2, modality);
+      std::ofstream(entry.path(), std::ios::binary) << bytes;
+    }
+    m_sources.ct = folder;
+    m_sources.modality = wanted;
+    return presenters::buildCase("ear", m_sources, {});
+  };
+  const auto notesOf = [](const scene::Case& value)
+  {
+    std::string all;
+    for (const std::string& note : value.ct.notes)
+      all += note + "\n";
+    return all;
+  };
+  EXPECT_TRUE(presenters::displayOf(build("HU", "CT")).hounsfield);
+  const auto iodine = build("MGML", "CT");
+  EXPECT_FALSE(presenters::displayOf(iodine).hounsfield);
+  EXPECT_NE(notesOf(iodine).find("type MGML"), std::string::npos) << notesOf(iodine);
+  const auto pet = build("HU", "PT");
+  EXPECT_FALSE(presenters::displayOf(pet).hounsfield);
+  EXPECT_NE(notesOf(pet).find("modality PT"), std::string::npos) << notesOf(pet);
+  EXPECT_EQ(notesOf(pet).find("does not say whether"), std::string::npos) << notesOf(pet);
+  EXPECT_TRUE(presenters::displayOf(build("MGML", "CT", scene::Modality::Ct)).hounsfield);
+}
+
+TEST_F(CaseBuilder, AsksWhichSideIsLeft)
+{
+  const core::GridGeometry grid({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3));
+  auto ct = std::make_shared<volume::Volume<std::int16_t>>(grid, std::int16_t{-1000});
+  ct->at(7, 6, 5) = 1200;
+  imaging::writeVolume(m_folder / "ct.nii", *ct);
+  {
+    std::fstream file(m_folder / "ct.nii", std::ios::binary | std::ios::in | std::ios::out);
+    file.seekp(252); // qform_code, sform_code
+    file.write("\0\0\0\0", 4);
+  }
+  m_sources.ct = m_folder / "ct.nii";
+  try
+  {
+    presenters::buildCase("ear", m_sources, {});
+    FAIL() << "guessed";
+  }
+  catch (const presenters::ImageSideUnclear& error)
+  {
+    EXPECT_EQ(error.fault(), core::Fault::BadInput);
+    EXPECT_NE(std::string(error.what()).find("--ct-frame"), std::string::npos);
+  }
+  m_sources.isRas = true;
+  const auto ras = presenters::buildCase("ear", m_sources, {});
+  m_sources.isRas = false;
+  const auto lps = presenters::buildCase("ear", m_sources, {});
+  const Vector3d there = ras.ct.geometry.patientFromVoxel({7, 6, 5});
+  EXPECT_TRUE(lps.ct.geometry.patientFromVoxel({7, 6, 5}).isApprox(
+      Vector3d(-there[0], -there[1], there[2])));
+}
+
+TEST_F(CaseBuilder, NamesAreUniqueOverAllKindsOfParts)
+{
+  imaging::writeVolume(
+      m_folder / "mr.nrrd",
+      volume::Volume<std::int16_t>(
+          core::GridGeometry({9, 9, 9}, Vector3d::Ones(), Vector3d::Zero()), std::int16_t{7}));
+  m_sources.parts.mr = {{"t2", m_folder / "mr.nrrd"}};
+  m_sources.parts.labels = {{"incus", m_folder / "facial_nerve.nii.gz"}};
+  auto value = presenters::buildCase("ear", m_sources, {});
+  const auto refused = [&](const presenters::PartSources& parts)
+  {
+    try
+    {
+      presenters::addParts(value, parts, {});
+    }
+    catch (const core::Error& error)
+    {
+      return error.fault() == core::Fault::Refused;
+    }
+    return false;
+  };
+  presenters::PartSources structure;
+  structure.labels = {{"t2", m_folder / "facial_nerve.nii.gz"}};
+  presenters::PartSources mesh;
+  mesh.meshes = {{"t2", m_folder / "incus.obj"}};
+  presenters::PartSources mr;
+  mr.mr = {{"incus", m_folder / "mr.nrrd"}};
+  presenters::PartSources twin;
+  twin.meshes = {{"incus", m_folder / "incus.obj"}};
+  EXPECT_TRUE(refused(structure));
+  EXPECT_TRUE(refused(mesh));
+  EXPECT_TRUE(refused(mr));
+  EXPECT_TRUE(refused(twin));
+  twin.meshes = {{"", m_folder / "incus.obj"}}; // named by its file
+  presenters::addParts(value, twin, {});
+  EXPECT_EQ(value.meshes.at(0).name, "incus 2");
+  EXPECT_EQ(std::string(scene::kindOfPart(value, "incus")), "structure");
+  EXPECT_EQ(std::string(scene::kindOfPart(value, "t2")), "MR");
+  EXPECT_EQ(scene::kindOfPart(value, "stapes"), nullptr);
+  // An older case may have two of one name: one goes at a time.
+  value.meshes[0].name = "t2";
+  scene::removePart(value, "t2");
+  EXPECT_TRUE(value.meshes.empty());
+  EXPECT_EQ(value.mr.size(), 1u);
+  scene::removePart(value, "t2");
+  EXPECT_TRUE(value.mr.empty());
+}
+
+TEST_F(CaseBuilder, SaysWhereAFrameOfReferenceCannotBeCompared)
+{
+  const core::GridGeometry grid({8, 8, 4}, Vector3d::Ones(), Vector3d(-4, 4, 5)); // not the CT's
+  auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
+  voxels->at(1, 1, 1) = 1;
+  volume::Segment incus;
+  incus.name = "incus";
+  incus.index = 1;
+  imaging::SegmentationDescription segmentation;
+  segmentation.studyUid = "1.2.3";
+  segmentation.seriesUid = "1.2.3.4";
+  segmentation.frameOfReferenceUid = "1.2.3.4.5";
+  imaging::SegmentationDescription::Segment segment;
+  segment.index = 1;
+  segment.label = "incus";
+  segmentation.segments = {segment};
+  imaging::writeDicomSegmentation(m_folder / "seg.dcm", {volume::makeLabelMap(voxels, {incus})},
+                                  segmentation);
+  const auto notes = [this](const std::string& on)
+  {
+    m_sources.parts.labels = {{"", m_folder / "seg.dcm", on}};
+    return presenters::buildCase("ear", m_sources, {}).labels.at(0).notes;
+  };
+  const auto unsaid = notes("");
+  ASSERT_EQ(unsaid.size(), 1u);
+  EXPECT_NE(unsaid[0].find("could not be compared with the CT's"), std::string::npos) << unsaid[0];
+  EXPECT_TRUE(notes("ct").empty()) << "the user knows";
 }
 
 // The CT lacks slices in the middle: the sound MR beside it is not taken in its place.
@@ -671,6 +907,31 @@ TEST_F(CaseBuilder, ReportsEachOfSixtyStructures)
   ASSERT_EQ(summary.worst, &reports[3]);
   EXPECT_NEAR(*summary.worst->volumeError(), 0.25, 1e-12);
   EXPECT_EQ(presenters::summaryOf({}).worst, nullptr);
+}
+
+TEST_F(CaseBuilder, KeepsTheSideInTheNamesOfAFolderAndSaysWhatItLeavesOut)
+{
+  const auto folder = m_folder / "masks";
+  std::filesystem::create_directory(folder);
+  const auto labels = imaging::readLabelFile(m_folder / "facial_nerve.nii.gz");
+  // "sin" is in most of the files, as a patient's name would be
+  for (const char* name : {"facial_nerve_sin", "cochlea_sin", "stapes_sin", "facial_nerve_dx"})
+    imaging::writeLabelFile(folder / ("Doe_" + std::string(name) + ".nii.gz"), labels);
+  m_sources.parts.labels = {{"", folder}};
+  const auto value = presenters::buildCase("ear", m_sources, {});
+  std::set<std::string> names;
+  std::string notes;
+  for (const auto& part : value.labels)
+  {
+    for (const auto& structure : part.structures)
+      names.insert(structure.name);
+    for (const std::string& note : part.notes)
+      notes += note + "\n";
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"facial_nerve_sin", "cochlea_sin", "stapes_sin",
+                                          "facial_nerve_dx"}));
+  EXPECT_NE(notes.find("1 word of the files' names"), std::string::npos) << notes;
+  EXPECT_EQ(notes.find("Doe"), std::string::npos) << notes;
 }
 
 TEST_F(CaseBuilder, NamesTheMasksOfAFolderThatItLeavesOut)

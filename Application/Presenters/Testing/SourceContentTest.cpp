@@ -198,6 +198,35 @@ TEST_F(SourceContent, OfAFolderWithCtAndMrTheUserSaysWhich)
   EXPECT_EQ(found.series[0].patientPosition, "HFS");
 }
 
+// The elements of an RT structure set that tell what it is (PS3.3 A.19), explicit little endian.
+TEST_F(SourceContent, OffersTheStructureSetsOfAFolder)
+{
+  phantom::SampleOptions options;
+  options.spacing = 1.5;
+  phantom::writeSamplePatient(m_folder, options);
+  std::string file(128, '\0');
+  file += "DICM";
+  const auto element = [&file](const std::string& tag, const char* vr, std::string value)
+  {
+    value += std::string(value.size() % 2, value.find('.') != value.npos ? '\0' : ' ');
+    file += tag + vr + static_cast<char>(value.size()) + '\0' + value;
+  };
+  const std::string sopClass = "1.2.840.10008.5.1.4.1.1.481.3";
+  element(std::string("\x02\0\x10\0", 4), "UI", "1.2.840.10008.1.2.1");
+  element(std::string("\x08\0\x16\0", 4), "UI", sopClass);
+  element(std::string("\x08\0\x18\0", 4), "UI", "1.2.3.77");
+  element(std::string("\x08\0\x60\0", 4), "CS", "RTSTRUCT");
+  element(std::string("\x20\0\x0d\0", 4), "UI", "1.2.9");
+  element(std::string("\x20\0\x0e\0", 4), "UI", "1.2.10");
+  std::ofstream(m_folder / "ct" / "set.dcm", std::ios::binary) << file;
+  const auto found = presenters::lookAt(m_folder / "ct", {});
+  const auto set = std::find_if(found.series.begin(), found.series.end(),
+                                [](const auto& one) { return one.modality == "RTSTRUCT"; });
+  ASSERT_NE(set, found.series.end());
+  EXPECT_EQ(set->content, Content::Labels);
+  EXPECT_EQ(set->file.filename(), "set.dcm");
+}
+
 TEST(SequenceName, KeepsOnlyWhatNamesASequence)
 {
   using presenters::sequenceName;

@@ -305,6 +305,22 @@ TEST(StructurePresets, TakesNoInitialOfAFileNameForAStructure)
   EXPECT_EQ(presets.knownWords("Sinus_sigmoideus"), "sinus sigmoideus");
 }
 
+TEST(StructurePresets, KeepsTheSideInEveryLanguage)
+{
+  const auto presets = StructurePresets::builtIn();
+  for (const char* side :
+       {"l",       "r",        "lt",     "rt",   "li",   "re",       "sin",    "dx",
+        "dex",     "sn",       "os",     "od",   "sx",   "gauche",   "droite", "links",
+        "rechts",  "izq",      "der",    "esq",  "dir",  "sinister", "dexter", "izquierda",
+        "derecha", "sinistra", "destra", "left", "right"})
+  {
+    const std::string name = std::string("facial nerve ") + side;
+    EXPECT_EQ(presets.knownWords("Doe_facial_nerve_" + std::string(side)), name);
+    EXPECT_EQ(presets.knownWords(side), "") << "names nothing alone";
+    EXPECT_EQ(presets.lookFor(name).preset, "nerve") << side;
+  }
+}
+
 TEST(StructurePresets, AWholeWordIsNoBeginningOfAnother)
 {
   EXPECT_EQ(StructurePresets::builtIn().lookFor("icarus").preset, "other");

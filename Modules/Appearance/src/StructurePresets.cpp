@@ -101,6 +101,9 @@ std::vector<std::string> foldedWords(const std::string& name)
   return words;
 }
 
+// A given name too: the side where a name states no other.
+constexpr const char* kSideOrName = "dexter";
+
 // Whether a word is a stem of the catalogue with an ending of English, Latin or German, if any:
 // "dural" of "dura", and not "durable".
 bool isFormOf(const std::string& word, const std::string& stem)
@@ -133,6 +136,7 @@ StructurePresets::StructurePresets(std::string_view text)
   {
     const auto catalogue = json::parse(text);
     m_neutral = catalogue.value("neutral", std::vector<std::string>());
+    m_sides = catalogue.value("sides", std::vector<std::string>());
     const auto phrases = [](const json& entry)
     {
       Phrases result;
@@ -201,9 +205,14 @@ void StructurePresets::addPhrases(Phrases& phrases, const std::vector<std::strin
     phrases.push_back({foldedWords(text), !text.empty() && text.back() == ' ', isAlone});
 }
 
+bool StructurePresets::isSide(const std::string& word) const
+{
+  return std::find(m_sides.begin(), m_sides.end(), word) != m_sides.end();
+}
+
 bool StructurePresets::isNeutral(const std::string& word) const
 {
-  return isShortNumber(word) ||
+  return isShortNumber(word) || isSide(word) ||
          std::find(m_neutral.begin(), m_neutral.end(), word) != m_neutral.end();
 }
 
@@ -307,12 +316,16 @@ std::string StructurePresets::knownWords(const std::string& name) const
            std::any_of(std::begin(kEndings), std::end(kEndings),
                        [&](const char* end) { return word.substr(known.size()) == end; });
   };
+  const std::vector<std::string> words = wordsOf(name);
+  const auto isOtherSide = [this](const std::string& word)
+  { return folded(word) != kSideOrName && isSide(folded(word)); };
+  const bool hasSide = std::any_of(words.begin(), words.end(), isOtherSide);
   std::string result;
   bool isStructure = false;
-  for (const std::string& word : wordsOf(name))
+  for (const std::string& word : words)
   {
     const std::string plain = folded(word);
-    const bool isBeside = isNeutral(plain);
+    const bool isBeside = isNeutral(plain) && !(plain == kSideOrName && hasSide);
     bool isOfStructure = false;
     for (const Words& entry : m_words)
       for (const Phrase& phrase : entry.phrases)

@@ -51,3 +51,21 @@ TEST(CsvTable, NamesTheLineAndTheColumnThatAreWrong)
   EXPECT_NE(complaint("a,b\n").find("no row"), std::string::npos);
   EXPECT_NE(complaint("").find("path.csv"), std::string::npos);
 }
+
+TEST(CsvTable, TakesNoDecimalCommaForTheEndOfANumber)
+{
+  const std::string words = complaint("a,b\n1,2\n-30,5,-10,5\n");
+  EXPECT_NE(words.find("path.csv, line 3: 4 fields, and 2 columns"), std::string::npos) << words;
+  EXPECT_NE(words.find("decimal point"), std::string::npos) << words;
+  EXPECT_NE(complaint("a,b,note\n1,5,2,5\n").find("line 2: 4 fields"), std::string::npos);
+  EXPECT_NE(complaint("a,b,note\n1,2\n").find("line 2: 2 fields"), std::string::npos);
+  EXPECT_NE(complaint("a,b\n\"1,5\",2\n").find("line 2: 'a'"), std::string::npos);
+}
+
+TEST(CsvTable, AllowsEmptyFieldsAtTheEndAndCommasInQuotes)
+{
+  EXPECT_EQ(read("a,b,note\n1,2,\n"), (std::vector<std::vector<double>>{{1, 2}}));
+  EXPECT_EQ(read("a,b\n1,2,\n"), (std::vector<std::vector<double>>{{1, 2}}));
+  EXPECT_EQ(read("a,b,\n1,2\n3,4,,\r\n"), (std::vector<std::vector<double>>{{1, 2}, {3, 4}}));
+  EXPECT_EQ(read("a,note,b\n1,\"left, or right\",2\n"), (std::vector<std::vector<double>>{{1, 2}}));
+}

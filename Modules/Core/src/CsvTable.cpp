@@ -14,17 +14,35 @@ namespace petrous::core
 namespace
 {
 
+/// The fields of a line; a comma in quotes separates none.
 std::vector<std::string> split(const std::string& line)
 {
-  std::vector<std::string> fields;
-  std::istringstream stream(line);
-  for (std::string field; std::getline(stream, field, ',');)
+  std::vector<std::string> fields(1);
+  bool isQuoted = false;
+  for (const char c : line)
+  {
+    isQuoted = isQuoted != (c == '"');
+    if (c == ',' && !isQuoted)
+      fields.emplace_back();
+    else
+      fields.back() += c;
+  }
+  for (std::string& field : fields)
   {
     const auto first = field.find_first_not_of(" \t\r\"");
     const auto last = field.find_last_not_of(" \t\r\"");
-    fields.push_back(first == std::string::npos ? "" : field.substr(first, last - first + 1));
+    field = first == std::string::npos ? "" : field.substr(first, last - first + 1);
   }
   return fields;
+}
+
+/// How many there are without the empty ones at the end, as spreadsheets write them.
+std::size_t countOf(const std::vector<std::string>& fields)
+{
+  std::size_t count = fields.size();
+  while (count > 0 && fields[count - 1].empty())
+    --count;
+  return count;
 }
 
 std::optional<double> number(const std::string& text)
@@ -33,26 +51,31 @@ std::optional<double> number(const std::string& text)
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-// Positions of the requested columns in the header line.
-std::vector<std::size_t> findColumns(const std::string& line, const std::string& name,
-                                     const std::vector<std::string>& columns)
+struct Header
+{
+  std::size_t fields = 0;
+  std::vector<std::size_t> positions; ///< of the requested columns
+};
+
+Header readHeader(const std::string& line, const std::string& name,
+                  const std::vector<std::string>& columns)
 {
   constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";
   const bool marked = line.rfind(kByteOrderMark, 0) == 0;
   std::map<std::string, std::size_t> there;
-  const auto header = split(marked ? line.substr(3) : line);
-  for (std::size_t c = 0; c < header.size(); ++c)
-    there.emplace(header[c], c);
-  std::vector<std::size_t> positions;
+  const auto names = split(marked ? line.substr(3) : line);
+  for (std::size_t c = 0; c < names.size(); ++c)
+    there.emplace(names[c], c);
+  Header header{countOf(names), {}};
   for (const std::string& column : columns)
   {
     const auto found = there.find(column);
     if (found == there.end())
       throw InvalidParameter(name + ", line 1: there is no column '" + column +
                              "'; the first line must name the columns");
-    positions.push_back(found->second);
+    header.positions.push_back(found->second);
   }
-  return positions;
+  return header;
 }
 
 } // namespace
@@ -62,7 +85,7 @@ void readCsv(std::istream& csv, const std::string& name, const std::vector<std::
 {
   std::string line;
   std::getline(csv, line);
-  const auto positions = findColumns(line, name, columns);
+  const Header header = readHeader(line, name, columns);
   std::vector<double> values(columns.size());
   bool any = false;
   for (std::size_t at = 2; std::getline(csv, line); ++at)
@@ -70,14 +93,28 @@ void readCsv(std::istream& csv, const std::string& name, const std::vector<std::
     if (line.find_first_not_of(" \t\r") == std::string::npos)
       continue;
     const auto fields = split(line);
+    const auto refuse = [&](std::size_t count)
+    {
+      throw InvalidParameter(name + ", line " + std::to_string(at) + ": " + std::to_string(count) +
+                             (count == 1 ? " field" : " fields") + ", and " +
+                             std::to_string(header.fields) +
+                             " columns in the first line; numbers need a decimal point, and each "
+                             "column a field");
+    };
+    // A decimal comma makes more fields, whose first ones are numbers too.
+    if (countOf(fields) > header.fields)
+      refuse(countOf(fields));
     for (std::size_t c = 0; c < columns.size(); ++c)
     {
-      const auto value = positions[c] < fields.size() ? number(fields[positions[c]]) : std::nullopt;
+      const std::size_t position = header.positions[c];
+      const auto value = position < fields.size() ? number(fields[position]) : std::nullopt;
       if (!value)
         throw InvalidParameter(name + ", line " + std::to_string(at) + ": '" + columns[c] +
                                "' is not a finite number");
       values[c] = *value;
     }
+    if (fields.size() < header.fields)
+      refuse(fields.size());
     row(at, values);
     any = true;
   }

@@ -445,6 +445,91 @@ void cutHeader(const fs::path& folder)
 }
 
 // The numbers say that the stack is whole, unless the file was the slice after the last.
+void putNumber(TestSlice& slice, int number, int declared = 0)
+{
+  slice.element(slice.extra, 0x00200013, "IS", std::to_string(number));
+  if (declared > 0)
+    slice.element(slice.extra, 0x00201002, "IS", std::to_string(declared));
+}
+
+TEST(DicomScan, SaysThatEndsMayBeMissing)
+{
+  const auto scan = [](int first, int count, int declared)
+  {
+    const TemporaryFolder folder;
+    writeSeries(folder.path(), count,
+                [&](int k, TestSlice& slice) { putNumber(slice, first + k, declared); });
+    return scanDicom(folder.path(), {}).series.front().geometry;
+  };
+  const SeriesGeometry cut = scan(11, 50, 60);
+  EXPECT_EQ(cut.verdict, Verdict::Ok);
+  ASSERT_EQ(cut.findings.size(), 1U);
+  EXPECT_EQ(cut.findings[0].kind, FindingKind::MissingEnd);
+  EXPECT_EQ(std::string(kindName(cut.findings[0].kind)), "missing-end");
+  EXPECT_NE(cut.findings[0].text.find("states 60 images, and 50 are there"), std::string::npos);
+  EXPECT_NE(cut.findings[0].text.find("numbered from 11 to 60"), std::string::npos);
+  const SeriesGeometry end = scan(1, 50, 60);
+  ASSERT_EQ(end.findings.size(), 1U);
+  EXPECT_EQ(end.findings[0].text.find("numbered"), std::string::npos);
+  ASSERT_EQ(scan(7, 20, 0).findings.size(), 1U) << "by its numbers alone";
+  EXPECT_TRUE(scan(1, 60, 60).findings.empty());
+  EXPECT_TRUE(scan(0, 20, 0).findings.empty());
+  EXPECT_TRUE(scan(101, 20, 20).findings.empty()) << "as many as stated";
+}
+
+TEST(DicomScan, RefusesSlicesOfOnePlaceThatShowDifferentThings)
+{
+  const auto scan = [](bool isOther)
+  {
+    const TemporaryFolder folder;
+    writeSeries(folder.path(), 21,
+                [&](int k, TestSlice& slice)
+                {
+                  slice.cell = [k](int i, int j)
+                  { return static_cast<std::uint32_t>(i + 8 * j + k); };
+                  if (k == 20) // again slice 4, by another writer
+                  {
+                    slice.z = 0.5 * 4;
+                    slice.cell = [isOther](int i, int j)
+                    { return static_cast<std::uint32_t>(i + 8 * j + 4 + (isOther && j == 2)); };
+                  }
+                  putNumber(slice, k == 20 ? 5 : k + 1);
+                  slice.element(slice.extra, 0x00200011, "IS", "3"); // not byte by byte the same
+                  if (k == 20)
+                    slice.element(slice.extra, 0x00204000, "LT", "again");
+                });
+    return scanDicom(folder.path(), {}).series.front().geometry;
+  };
+  const SeriesGeometry same = scan(false);
+  EXPECT_EQ(same.verdict, Verdict::Repairable);
+  const SeriesGeometry other = scan(true);
+  EXPECT_EQ(other.verdict, Verdict::Refused);
+  ASSERT_EQ(other.findings.size(), 1U);
+  EXPECT_EQ(other.findings[0].kind, FindingKind::DuplicateSlice);
+  EXPECT_NE(other.findings[0].text.find("in up to 8 of 48 voxels"), std::string::npos)
+      << other.findings[0].text; // one row of 8
+}
+
+TEST(DicomScan, SaysThatPixelsWereCompressedWithLoss)
+{
+  const auto notes = [](const std::function<void(TestSlice&)>& change)
+  {
+    const TemporaryFolder folder;
+    writeSeries(folder.path(), 4, [&](int, TestSlice& slice) { change(slice); });
+    return scanDicom(folder.path(), {}).series.front().geometry.notes;
+  };
+  EXPECT_TRUE(notes([](TestSlice& s) { s.element(s.extra, 0x00282110, "CS", "00"); }).empty());
+  const auto lossy = notes(
+      [](TestSlice& s)
+      {
+        s.element(s.extra, 0x00282110, "CS", "01");
+        s.element(s.extra, 0x00282112, "DS", "8\\12.5");
+      });
+  ASSERT_EQ(lossy.size(), 1U);
+  EXPECT_NE(lossy[0].find("with loss"), std::string::npos);
+  EXPECT_NE(lossy[0].find("1/12.5"), std::string::npos) << lossy[0];
+}
+
 TEST(DicomScan, SetsABrokenOrForeignFileBesideAWholeStackAside)
 {
   const std::function<void(const fs::path&)> spoilers[] = {

@@ -338,6 +338,63 @@ TEST(ImageFile, NotesAMissingPlaceAndUnit)
       "unit"));
 }
 
+TEST(ImageFile, SaysWhereTheSideIsLeftOpen)
+{
+  const TestFolder folder;
+  TestNifti nifti = shortNifti();
+  EXPECT_FALSE(readImageFile(putFile(folder / "a.nii", nifti.bytes())).assumedRas);
+  nifti.sform = 0;
+  const auto path = putFile(folder / "b.nii", nifti.bytes());
+  EXPECT_EQ(assumedRasOf(path), true);
+  const auto ras = readImageFile(path);
+  const auto lps = readImageFile(path, std::nullopt, {}, false);
+  EXPECT_EQ(lps.assumedRas, false);
+  EXPECT_TRUE(noted(lps, "taken as LPS, as asked"));
+  const Eigen::Vector3d voxel(3.0, 2.0, 1.0);
+  const Eigen::Vector3d at = ras.volume->geometry().patientFromVoxel(voxel);
+  EXPECT_TRUE(lps.volume->geometry().patientFromVoxel(voxel).isApprox(
+      Eigen::Vector3d(-at[0], -at[1], at[2])));
+  EXPECT_EQ(lps.volume->at(3, 2, 1), ras.volume->at(3, 2, 1));
+  const auto stated = readImageFile(folder / "a.nii", std::nullopt, {}, false);
+  EXPECT_TRUE(stated.volume->geometry().patientFromVoxel(voxel).isApprox(
+      readImageFile(folder / "a.nii").volume->geometry().patientFromVoxel(voxel)))
+      << "what a file states holds";
+  const std::string voxels = bytesOf(counting<std::int16_t>(24));
+  const std::string whole = nrrd("short", voxels);
+  EXPECT_FALSE(assumedRasOf(putFile(folder / "c.nrrd", whole)));
+  const std::string field = "space: left-posterior-superior\n";
+  std::string open = whole;
+  open.replace(open.find(field), field.size(), "space dimension: 3\n");
+  EXPECT_EQ(assumedRasOf(putFile(folder / "d.nrrd", open)), false);
+  const std::string meta = "ObjectType = Image\nNDims = 3\nBinaryData = True\n"
+                           "BinaryDataByteOrderMSB = False\nOffset = 1 2 3\n"
+                           "ElementSpacing = 1 1 1\nDimSize = 4 3 2\nElementType = MET_SHORT\n";
+  const std::string end = "ElementDataFile = LOCAL\n" + voxels;
+  EXPECT_EQ(assumedRasOf(putFile(folder / "e.mha", meta + end)), false);
+  EXPECT_FALSE(assumedRasOf(
+      putFile(folder / "f.mha", meta + "TransformMatrix = 1 0 0 0 1 0 0 0 1\n" + end)));
+}
+
+TEST(ImageFile, KeepsThePaddingOfEveryFormatThatIsWritten)
+{
+  const TestFolder folder;
+  const core::GridGeometry grid({4, 4, 4}, Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero());
+  auto voxels = std::make_shared<volume::Volume<std::int16_t>>(grid, std::int16_t{40});
+  voxels->at(0, 0, 0) = -3024;
+  voxels->at(1, 1, 1) = -1000;
+  const volume::IntensityVolume image(std::shared_ptr<const volume::Volume<std::int16_t>>(voxels),
+                                      -3024.0);
+  for (const char* name : {"a.nrrd", "a.nii", "a.nii.gz", "a.mha"})
+  {
+    writeVolume(folder / name, image);
+    const auto back = readImageFile(folder / name);
+    ASSERT_TRUE(back.volume->padding()) << name;
+    EXPECT_EQ(*back.volume->padding(), -3024.0) << name;
+    EXPECT_EQ(back.volume->range().min, -1000.0) << name;
+    EXPECT_EQ(back.volume->at(0, 0, 0), -3024.0) << name;
+  }
+}
+
 TEST(ImageFile, RefusesVoxelsThatAreNotFinite)
 {
   const TestFolder folder;

@@ -194,6 +194,18 @@ TEST(LabelFile, ReadsOverlappingStructuresAsOneMapALayer)
   expectRefused(refusalOf([&] { readLabelFile(path); }), Reason::Unsupported, "overlap");
 }
 
+TEST(LabelFile, ReadsSegmentsBeyondANumberThatIsMissing)
+{
+  const TestFolder folder;
+  const std::vector<std::uint8_t> values{0, 4, 4, 0, 0, 7, 0, 0, 0, 0, 0, 3};
+  const auto map = readLabelFile(putFile(
+      folder / "a.seg.nrrd",
+      nrrd("uchar", values, slicerKeys(1, "sigmoid sinus", 7, 0) + slicerKeys(12, "incus", 4, 0))));
+  ASSERT_NE(find(map, "sigmoid sinus"), nullptr);
+  ASSERT_NE(find(map, "incus"), nullptr);
+  EXPECT_EQ(find(map, "incus")->index, 4);
+}
+
 TEST(LabelFile, ReadsTheTerminologyOfSlicersSegments)
 {
   const TestFolder folder;

@@ -122,7 +122,8 @@ struct TestSegmentation
   int columns = 5; // 15 pixels: frames begin within a byte
   int rows = 3;
   int bits = 1;
-  double spacing = 2.0;
+  double spacing = 2.0;    ///< 0: not declared
+  double thickness = 0.0;  ///< 0: not stated
   bool sharesPlane = true; ///< orientation and spacing in the shared groups, else in each frame's
   bool undefinedLength = false;
   std::string orientation = "1\\0\\0\\0\\1\\0";
@@ -206,8 +207,11 @@ struct TestSegmentation
     out += sequence(0x00620002, segments);
     const std::string plane =
         sequence(0x00209116, item(element(0x00200037, "DS", orientation))) +
-        sequence(0x00289110, item(element(0x00180088, "DS", core::fixedText(spacing, 3)) +
-                                  element(0x00280030, "DS", "0.5\\0.4")));
+        sequence(
+            0x00289110,
+            item((thickness > 0.0 ? element(0x00180050, "DS", core::fixedText(thickness, 3)) : "") +
+                 (spacing > 0.0 ? element(0x00180088, "DS", core::fixedText(spacing, 3)) : "") +
+                 element(0x00280030, "DS", "0.5\\0.4")));
     out += sequence(0x52009229, item(sharesPlane ? plane : ""));
     std::string groups;
     for (const Frame& frame : frames)
@@ -321,6 +325,71 @@ TEST(DicomSegmentation, PlacesFramesByPositionAndLeavesGapsEmpty)
                                                  : k == 3 && i >= 3          ? 7
                                                                              : 0);
       }
+}
+
+/// Frames of 6 voxels of 0.4 x 0.5 mm each, 1 mm thick, without a declared spacing.
+TestSegmentation sparse(const std::vector<double>& places)
+{
+  TestSegmentation file;
+  file.addSegment(1, "chorda");
+  file.spacing = 0.0;
+  file.thickness = 1.0;
+  for (const double z : places)
+    file.frames.push_back({1, z, left});
+  return file;
+}
+
+TEST(DicomSegmentation, FramesFarApartAreAsThickAsTheySay)
+{
+  const TestFolder folder;
+  const double frame = 6 * 0.4 * 0.5; // mm^2
+  for (const std::vector<double>& places :
+       {std::vector<double>{20.0, 30.0}, std::vector<double>{5.0, 8.0, 11.0, 14.0}})
+  {
+    const auto loaded = loadLabels(putFile(folder / "a.dcm", sparse(places).bytes()));
+    const volume::LabelMap& map = loaded.maps.at(0);
+    const auto count = static_cast<double>(places.size());
+    EXPECT_NEAR(map.volume(map.segments.at(0)), count * frame, 1e-9);
+    EXPECT_NEAR(loaded.fileVolumes.at("chorda"), count * frame, 1e-9);
+    EXPECT_NEAR(map.voxels->geometry().spacing()[2], 1.0, 1e-9);
+    ASSERT_EQ(loaded.notes.size(), 1u);
+    EXPECT_NE(loaded.notes[0].find("taken to be empty"), std::string::npos) << loaded.notes[0];
+  }
+}
+
+TEST(DicomSegmentation, AnImageSaysHowFarApartItsSlicesAre)
+{
+  const TestFolder folder;
+  TestSegmentation file = sparse({20.0, 30.0, 32.5});
+  file.thickness = 0.0;
+  const std::string path = putFile(folder / "a.dcm", file.bytes());
+  // the other two do not have all frames on their slices, or not these pixels
+  const core::GridGeometry turned({20, 60, 20}, {0.4, 2.5, 0.5}, {-10.0, 0.0, 20.5});
+  const core::GridGeometry coarse({20, 20, 20}, {0.4, 0.5, 5.0}, {-10.0, 20.5, 0.0});
+  const core::GridGeometry image({20, 20, 60}, {0.4, 0.5, 2.5}, {-10.0, 20.5, 5.0});
+  const auto loaded = loadLabels(path, {}, {}, {turned, coarse, image});
+  const core::GridGeometry& grid = loaded.maps.at(0).voxels->geometry();
+  EXPECT_NEAR(grid.spacing()[2], 2.5, 1e-9);
+  EXPECT_EQ(grid.dims()[2], 6);
+  EXPECT_TRUE(loaded.notes.empty());
+  EXPECT_NEAR(loaded.fileVolumes.at("chorda"), 3 * 6 * 0.4 * 0.5 * 2.5, 1e-9);
+
+  // without an image the smallest gap is all that there is
+  const auto guessed = loadLabels(path);
+  EXPECT_NEAR(guessed.maps.at(0).voxels->geometry().spacing()[2], 2.5, 1e-9);
+  ASSERT_EQ(guessed.notes.size(), 1u);
+  EXPECT_NE(guessed.notes[0].find("2.5 mm apart"), std::string::npos) << guessed.notes[0];
+}
+
+TEST(DicomSegmentation, OverlappingSlicesAreAsThickAsTheyAreApart)
+{
+  const TestFolder folder;
+  TestSegmentation file = sparse({20.0, 21.0, 22.0});
+  file.thickness = 2.0;
+  const auto loaded = loadLabels(putFile(folder / "a.dcm", file.bytes()));
+  EXPECT_NEAR(loaded.maps.at(0).voxels->geometry().spacing()[2], 1.0, 1e-9);
+  EXPECT_NEAR(loaded.fileVolumes.at("chorda"), 3 * 6 * 0.4 * 0.5, 1e-9);
+  EXPECT_TRUE(loaded.notes.empty());
 }
 
 TEST(DicomSegmentation, KeepsOverlappingSegmentsInLayers)
@@ -515,7 +584,7 @@ TEST(DicomSegmentation, ToleratesRoundedPositionsAndRefusesUnevenOnes)
   const auto loaded = loadLabels(putFile(folder / "a.dcm", file.bytes()));
   EXPECT_EQ(loaded.maps.at(0).voxels->geometry().dims()[2], 300);
   EXPECT_NEAR(loaded.maps[0].voxels->geometry().spacing()[2], 1.0 / 3.0, 1e-4);
-  ASSERT_EQ(loaded.notes.size(), 1u);
+  EXPECT_EQ(loaded.notes.size(), 2u); // the rounding, and that nothing states the spacing
 
   file.frames = {{1, 0.0, left}, {1, 1.0, left}, {1, 2.4, left}}; // of 1.2 mm each
   expectRefused(refusalOf([&] { loadLabels(putFile(folder / "b.dcm", file.bytes())); }),
@@ -781,7 +850,8 @@ TEST(DicomSegmentationWriter, WritesWhatComesBackToTheBit)
   odd.segments[1].label = "a\\b";
   writeDicomSegmentation(folder / "c.dcm", maps, odd);
   const LoadedLabels renamed = loadLabels(folder / "c.dcm");
-  EXPECT_EQ(renamed.meanings.count(std::string(64, 'x')), 1U);
+  EXPECT_EQ(renamed.meanings.count(std::string(70, 'x') + "/"), 1U) << "the label holds 64";
+  EXPECT_NE(fileBytes(folder / "c.dcm").find(std::string(64, 'x') + "\x62"), std::string::npos);
   EXPECT_EQ(renamed.meanings.count("a/b"), 1U);
 }
 

@@ -461,7 +461,8 @@ TEST(SeriesGeometry, GivesEveryFindingKindItsOwnName)
       "gantry-tilt",        "missing-slice",  "uneven-spacing", "duplicate-slice",
       "odd-orientation",    "odd-size",       "mixed-rescale",  "no-geometry",
       "localizer-mixed-in", "multi-frame",    "not-an-image",   "unreadable",
-      "modality-lut",       "mixed-patients", "mixed-studies",  "mixed-acquisitions"};
+      "modality-lut",       "mixed-patients", "mixed-studies",  "mixed-acquisitions",
+      "missing-end"};
   EXPECT_EQ(names, expected);
 }
 
@@ -584,6 +585,14 @@ TEST(SeriesRepair, SaysWhatItGuessed)
   const auto tiltNotes = tilt.notes(tilt.grid().fullBox());
   ASSERT_EQ(tiltNotes.size(), 1U);
   EXPECT_NE(tiltNotes.front().find("18.5 degrees"), std::string::npos);
+  Headers pushed = stack(30, 1.0);
+  (*pushed[12].position)[0] += 3.0;
+  const SeriesRepair aside(assess(pushed));
+  const auto asideNotes = aside.notes(aside.grid().fullBox());
+  ASSERT_EQ(asideNotes.size(), 1U);
+  EXPECT_NE(asideNotes.front().find("sideways to where their positions put them, by up to 3.00 mm"),
+            std::string::npos)
+      << asideNotes.front();
 }
 
 } // namespace

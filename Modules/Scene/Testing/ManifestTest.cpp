@@ -127,6 +127,24 @@ TEST(Manifest, KeepsHowAnMrWasRegistered)
   EXPECT_EQ(scene::validSignOff(mr)->who, "A. Chirurgin ü");
 }
 
+TEST(Manifest, KeepsThePatientOnlyAsSaltedHashes)
+{
+  scene::Case value = fullCase();
+  value.ct.patient = {"i", "j", "n", "b"};
+  value.ct.isFrameSalted = false;
+  EXPECT_EQ(scene::toManifest(value).find("patient_"), std::string::npos);
+  scene::saltIdentity(value.ct, [](const std::string& hash) { return hash + "1"; });
+  scene::saltIdentity(value.ct, [](const std::string& hash) { return hash + "2"; }); // once
+  const scene::Case back = scene::fromManifest(scene::toManifest(value), "m.json");
+  EXPECT_EQ(back.ct.patient.id, "i1");
+  EXPECT_EQ(back.ct.patient.issuer, "j1");
+  EXPECT_EQ(back.ct.patient.name, "n1");
+  EXPECT_EQ(back.ct.patient.birthDate, "b1");
+  EXPECT_TRUE(back.ct.isFrameSalted);
+  EXPECT_TRUE(back.mr[0].patient.empty());
+  EXPECT_EQ(scene::toManifest(back), scene::toManifest(value));
+}
+
 // The second format stated that an MR is registered, but not how.
 TEST(Manifest, OpensOneWithoutRecordsOfRegistration)
 {

@@ -64,6 +64,16 @@ std::vector<std::string> partNames(const Case& value)
   return names;
 }
 
+const char* kindOfPart(const Case& value, const std::string& name)
+{
+  const auto isCalled = [&name](const MeshPart& mesh) { return mesh.name == name; };
+  return name == "ct"                                                      ? "image"
+         : findMr(value, name)                                             ? "MR"
+         : findStructure(value, name)                                      ? "structure"
+         : std::any_of(value.meshes.begin(), value.meshes.end(), isCalled) ? "mesh"
+                                                                           : nullptr;
+}
+
 namespace
 {
 
@@ -106,19 +116,22 @@ void removePart(Case& value, const std::string& name)
     parts.erase(found);
     return true;
   };
-  if (findMr(value, name))
-    checkNothingHangsOn(value, name);
-  bool removed = removeNamed(value.mr);
-  if (removed)
-    readCtInsteadOf(value, name);
-  for (auto part = value.labels.begin(); part != value.labels.end();)
-  {
-    removed = removeNamed(part->structures) || removed;
-    part = part->structures.empty() ? value.labels.erase(part) : part + 1;
-  }
-  removed = removeNamed(value.meshes) || removed;
-  if (removed)
+  for (auto part = value.labels.begin(); part != value.labels.end(); ++part)
+    if (removeNamed(part->structures))
+    {
+      if (part->structures.empty())
+        value.labels.erase(part);
+      return;
+    }
+  if (removeNamed(value.meshes))
     return;
+  if (findMr(value, name))
+  {
+    checkNothingHangsOn(value, name);
+    removeNamed(value.mr);
+    readCtInsteadOf(value, name);
+    return;
+  }
   std::string there;
   for (const std::string& part : partNames(value))
     if (part != "ct")

@@ -119,6 +119,7 @@ constexpr int kFormatWithoutDescription = 4;
 constexpr int kFormatWithoutAttachments = 5;
 constexpr const char* kPlanes[] = {"axial", "coronal", "sagittal"};
 constexpr const char* kFrame = "frame_of_reference_salted_sha256";
+constexpr const char* kPatient = "patient_salted_sha256";
 constexpr const char* kModality = "modality"; // "CT" or "MR"; absent: not known
 constexpr const char* kUnsaltedFrame = "frame_of_reference_sha256"; // written by older programs
 
@@ -143,12 +144,22 @@ core::GridGeometry gridIn(const json& j)
           vectorIn(j.at("origin_mm")), direction};
 }
 
+using Hash = std::string PatientHash::*;
+constexpr std::pair<const char*, Hash> kPatientHashes[] = {{"id", &PatientHash::id},
+                                                           {"issuer", &PatientHash::issuer},
+                                                           {"name", &PatientHash::name},
+                                                           {"birth_date", &PatientHash::birthDate}};
+
 json imageOut(const ImagePart& image)
 {
   json j{{"name", image.name},     {"object", image.object}, {"grid", gridOut(image.geometry)},
          {"min", image.range.min}, {"max", image.range.max}, {"notes", image.notes}};
   if (!image.frameOfReference.empty())
     j[image.isFrameSalted ? kFrame : kUnsaltedFrame] = image.frameOfReference;
+  if (image.isFrameSalted && !image.patient.empty()) // never without the salt
+    for (const auto& [key, hash] : kPatientHashes)
+      if (!(image.patient.*hash).empty())
+        j[kPatient][key] = image.patient.*hash;
   if (image.modality != Modality::Unknown)
     j[kModality] = image.modality == Modality::Mr ? "MR" : "CT";
   return j;
@@ -164,6 +175,9 @@ ImagePart imageIn(const json& j)
   image.notes = j.at("notes").get<std::vector<std::string>>();
   image.isFrameSalted = !j.contains(kUnsaltedFrame);
   image.frameOfReference = j.value(image.isFrameSalted ? kFrame : kUnsaltedFrame, std::string());
+  if (j.contains(kPatient))
+    for (const auto& [key, hash] : kPatientHashes)
+      image.patient.*hash = j.at(kPatient).value(key, std::string());
   const std::string modality = j.value(kModality, std::string());
   image.modality = modality == "MR"   ? Modality::Mr
                    : modality == "CT" ? Modality::Ct

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -201,6 +202,79 @@ TEST(TubeTrace, ANewPointGoesOnFromTheNearerEndUnlessItLiesBetweenTwo)
         n);
   EXPECT_EQ(insertionIndex(traceTube(image, {all[0], all[3]}), all[2]), 1U);
   EXPECT_EQ(insertionIndex(traceTube(image, {all[1], all[2], all[3]}), all[0]), 0U);
+}
+
+/// The same image, stored the other way along some axes.
+volume::IntensityVolume storedOtherwise(const volume::IntensityVolume& image,
+                                        const std::array<bool, 3>& isTurned)
+{
+  const core::GridGeometry& grid = image.geometry();
+  Eigen::Matrix3d axes = grid.direction();
+  Vector3d first = Vector3d::Zero();
+  for (int a = 0; a < 3; ++a)
+    if (isTurned[static_cast<std::size_t>(a)])
+    {
+      axes.col(a) *= -1.0;
+      first[a] = grid.dims()[static_cast<std::size_t>(a)] - 1;
+    }
+  const core::Index3& n = grid.dims();
+  auto voxels = std::make_shared<volume::Volume<std::int16_t>>(
+      core::GridGeometry(n, grid.spacing(), grid.patientFromVoxel(first), axes));
+  for (int k = 0; k < n[2]; ++k)
+    for (int j = 0; j < n[1]; ++j)
+      for (int i = 0; i < n[0]; ++i)
+        voxels->at(i, j, k) = static_cast<std::int16_t>(image.at(isTurned[0] ? n[0] - 1 - i : i,
+                                                                 isTurned[1] ? n[1] - 1 - j : j,
+                                                                 isTurned[2] ? n[2] - 1 - k : k));
+  return volume::IntensityVolume(std::shared_ptr<const volume::Volume<std::int16_t>>(voxels));
+}
+
+TEST(TubeTrace, DoesNotDependOnTheOrderOfTheVoxels)
+{
+  // Noise that grows across the image, as beside the petrous bone, so that it matters where it is
+  // measured; the tube is hardly wider than a voxel.
+  Scan scan;
+  scan.grid = core::GridGeometry({71, 58, 47}, Vector3d(0.5, 0.5, 0.6), Vector3d(-17, -14, -13));
+  scan.curve = [](double t) { return Vector3d(-9.0 + 18.0 * t, 3.0 * std::sin(kPi * t), 2.0 * t); };
+  scan.radius = 0.6;
+  scan.noise = 0.0;
+  scan.outside = 500.0;
+  const auto plain = scan.image();
+  auto voxels = std::make_shared<volume::Volume<std::int16_t>>(scan.grid);
+  std::mt19937 random(7);
+  std::normal_distribution<double> gauss(0.0, 1.0);
+  for (int k = 0; k < 47; ++k)
+    for (int j = 0; j < 58; ++j)
+      for (int i = 0; i < 71; ++i)
+        voxels->at(i, j, k) = static_cast<std::int16_t>(
+            std::lround(plain.at(i, j, k) + (20.0 + 2.0 * i + 1.5 * j) * gauss(random)));
+  const volume::IntensityVolume image(std::shared_ptr<const volume::Volume<std::int16_t>>{voxels});
+  const auto points = scan.clicks(4, 0.5);
+  const Tube own = traceTube(image, points);
+  for (const std::array<bool, 3>& isTurned :
+       {std::array<bool, 3>{true, false, false}, std::array<bool, 3>{false, true, true},
+        std::array<bool, 3>{true, true, true}})
+  {
+    const volume::IntensityVolume other = storedOtherwise(image, isTurned);
+    const Tube tube = traceTube(other, points);
+    EXPECT_NEAR(tube.noise, own.noise, 1e-6 * own.noise);
+    EXPECT_TRUE(tube.model == own.model);
+    EXPECT_NEAR(tube.length, own.length, 0.05);
+    EXPECT_NEAR(tube.radius, own.radius, 0.02);
+    double farthest = 0.0;
+    for (const Vector3d& p : tube.line)
+    {
+      double best = 1e9;
+      for (std::size_t n = 0; n + 1 < own.line.size(); ++n)
+      {
+        const Vector3d run = own.line[n + 1] - own.line[n];
+        const double t = std::clamp((p - own.line[n]).dot(run) / run.squaredNorm(), 0.0, 1.0);
+        best = std::min(best, (p - own.line[n] - t * run).norm());
+      }
+      farthest = std::max(farthest, best);
+    }
+    EXPECT_LT(farthest, 0.05);
+  }
 }
 
 TEST(TubeTrace, APointOutsideOfTheTubeIsKnown)

@@ -92,6 +92,41 @@ std::string withoutIdentity(const std::string& uid)
   return library::sha256Of(reinterpret_cast<const std::uint8_t*>(uid.data()), uid.size());
 }
 
+std::string withoutIdentity(std::size_t key, std::size_t with = 0)
+{
+  return key == 0
+             ? std::string()
+             : withoutIdentity(std::to_string(key) + (with == 0 ? "" : " " + std::to_string(with)));
+}
+
+// What its slices state of the patient, all the same where they do (imaging::assess).
+scene::PatientHash patientOf(const imaging::DicomSeries& series)
+{
+  imaging::PatientKey all;
+  const auto take = [](std::size_t& key, std::size_t stated) { key = key == 0 ? stated : key; };
+  for (const imaging::SliceHeader& slice : series.geometry.slices)
+  {
+    take(all.id, slice.patient.id);
+    take(all.issuer, slice.patient.issuer);
+    take(all.name, slice.patient.name);
+    take(all.birthDate, slice.patient.birthDate);
+  }
+  // Of a date alone there are too few to hide it in a hash.
+  return {withoutIdentity(all.id), withoutIdentity(all.issuer), withoutIdentity(all.name),
+          all.name == 0 ? std::string() : withoutIdentity(all.birthDate, all.name)};
+}
+
+// Whether the images state different patients; false if that cannot be told.
+bool isOtherPatient(const scene::ImagePart& image, scene::ImagePart added,
+                    const std::function<std::string(const std::string&)>& salted)
+{
+  if (image.patient.empty() || added.patient.empty() || (image.isFrameSalted && !salted))
+    return false;
+  if (image.isFrameSalted)
+    scene::saltIdentity(added, salted);
+  return !imaging::samePatient(image.patient, added.patient);
+}
+
 // An MR is not taken silently in the place of a CT that cannot be used.
 void refuseMrBesideCt(const imaging::ScanResult& scan, const fs::path& path)
 {
@@ -107,15 +142,48 @@ void refuseMrBesideCt(const imaging::ScanResult& scan, const fs::path& path)
               "of the MR alone");
 }
 
-// `isPrimary`: of a case.
-scene::ImagePart readImage(const fs::path& path, const std::string& selector, bool repair,
-                           const std::optional<core::PatientBox>& roi, bool isPrimary,
-                           const core::Progress& progress)
+// A code string of a file (PS3.5 6.2), which may stand in a note; any other text may be a name.
+std::string codeText(const std::string& text)
+{
+  const auto isCode = [](unsigned char c)
+  { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; };
+  constexpr std::size_t kLongest = 16;
+  return text.size() <= kLongest && std::all_of(text.begin(), text.end(), isCode) ? text
+                                                                                  : "unknown";
+}
+
+// Why the values of a series are not the intensities of a CT or MR; empty if they may be. X-ray
+// volumes (cone beam) are CTs under other names, of old converters too.
+std::string otherQuantity(const imaging::DicomSeries& series)
+{
+  static const char* const kImages[] = {"", "CT", "MR", "DX", "XA", "RF", "PX", "IO", "RG", "OT"};
+  if (std::find(std::begin(kImages), std::end(kImages), series.modality) == std::end(kImages))
+    return "The file says that it is neither a CT nor an MR, but of modality " +
+           codeText(series.modality) + ".";
+  if (series.modality != "MR" && !series.geometry.slices.empty())
+    if (const std::string& unit = series.geometry.slices.front().rescaleType;
+        !unit.empty() && unit != "HU" && unit != "US")
+      return "The file says that its values are no Hounsfield units, but of the type " +
+             codeText(unit) + ".";
+  return {};
+}
+
+struct ReadImage
 {
   scene::ImagePart part;
+  std::string otherQuantity; ///< as the function says
+};
+
+// `isPrimary`: of a case, `isRas`: as CaseSources.
+ReadImage readImage(const fs::path& path, const std::string& selector, bool repair,
+                    const std::optional<core::PatientBox>& roi, bool isPrimary,
+                    const std::optional<bool>& isRas, const core::Progress& progress)
+{
+  ReadImage read;
+  scene::ImagePart& part = read.part;
   if (!fs::is_directory(path) && imaging::isReadAs(path, imaging::kImage | imaging::kLabels))
   {
-    auto image = imaging::readImageFile(path, roi, progress);
+    auto image = imaging::readImageFile(path, roi, progress, isRas);
     part.volume = image.volume;
     part.notes = std::move(image.notes);
   }
@@ -141,6 +209,8 @@ scene::ImagePart readImage(const fs::path& path, const std::string& selector, bo
         readNamed(path, series, options, progress.part(0.2, 0.9), notes));
     part.notes = std::move(notes);
     part.frameOfReference = withoutIdentity(series.frameOfReferenceUid);
+    part.patient = patientOf(series);
+    read.otherQuantity = otherQuantity(series);
     part.modality = series.modality == "MR"   ? scene::Modality::Mr
                     : series.modality == "CT" ? scene::Modality::Ct
                                               : scene::Modality::Unknown;
@@ -154,12 +224,12 @@ scene::ImagePart readImage(const fs::path& path, const std::string& selector, bo
                   " x " + std::to_string(n[2]) + " voxels of " + core::generalText(h[0]) + " x " +
                   core::generalText(h[1]) + " x " + core::generalText(h[2]) + " mm, " +
                   std::to_string(part.notes.size()) + " notes");
-  return part;
+  return read;
 }
 
 // Cone-beam and micro-CT have units of their own, in which 300 may be air or nothing at all; an MR
 // always has, and shows no surface of bone.
-void placeSurface(scene::Case& value, scene::Modality wanted)
+void placeSurface(scene::Case& value, scene::Modality wanted, const std::string& otherQuantity)
 {
   using scene::Modality;
   scene::ImagePart& image = value.ct;
@@ -185,6 +255,20 @@ void placeSurface(scene::Case& value, scene::Modality wanted)
         core::generalText(scale.iso) +
         " by the image's histogram; what is drilled is this tissue, not bone. 'petrous appearance "
         "--iso' moves the surface.");
+    return;
+  }
+  if (!otherQuantity.empty() && wanted == Modality::Unknown)
+  {
+    const auto scale = volume::suggestMrScale(histogram);
+    value.iso = scale.iso;
+    value.denseBone = scale.dense;
+    image.notes.push_back(otherQuantity +
+                          " It is shown as it is: nothing in it is known to be bone, and the "
+                          "surface is put at " +
+                          core::generalText(scale.iso) +
+                          " by the image's histogram; 'petrous appearance --iso' moves it. Build "
+                          "the case with --modality CT if it is a CT in Hounsfield units all the "
+                          "same.");
     return;
   }
   const auto scale = volume::suggestScale(histogram);
@@ -218,38 +302,65 @@ void checkName(const fs::path& path, const std::string& name)
   }
 }
 
-[[noreturn]] void nameTaken(const fs::path& path, const std::string& what, const std::string& name)
+// A name that is valid and new to the case, over all kinds of parts.
+void checkNewName(const scene::Case& value, const fs::path& path, const std::string& name)
 {
-  throw core::Error(core::Fault::Refused,
-                    path.string() + ": " + what + " '" + name +
-                        "' is in the case already; give it another name with NAME=FILE");
+  checkName(path, name);
+  if (const char* kind = scene::kindOfPart(value, name))
+    throw core::Error(core::Fault::Refused,
+                      path.string() + ": " + kind + " '" + name +
+                          "' is in the case already; give it another name with NAME=FILE");
 }
 
-void addMr(scene::Case& value, const PartSource& source, const core::Progress& progress)
+// Structures on a grid of neither the CT nor an MR lie in the CT's space until an MR of their grid
+// comes: they were drawn on it.
+void placeOn(scene::Case& value, const scene::ImagePart& mr)
 {
-  const auto taken = [&value](const std::string& name)
+  for (scene::LabelPart& part : value.labels)
   {
-    return std::any_of(value.mr.begin(), value.mr.end(),
-                       [&name](const auto& mr) { return mr.name == name; });
-  };
+    if (part.drawnOn || !core::sameGrid(part.labels.get()->voxels->geometry(), mr.geometry))
+      continue;
+    part.drawnOn = mr.name;
+    part.notes.push_back("has the grid of the MR '" + mr.name +
+                         "', which was added later: it was taken to be drawn on that MR, and lies "
+                         "where its registration puts it, no longer in the CT's space; FILE@ct "
+                         "keeps it there");
+  }
+}
+
+void addMr(scene::Case& value, const PartSource& source,
+           const std::function<std::string(const std::string&)>& salted,
+           const core::Progress& progress)
+{
   std::string name = source.name;
   if (name.empty())
   {
     name = "mr";
-    for (int n = 2; taken(name); ++n)
+    for (int n = 2; scene::kindOfPart(value, name); ++n)
       name = "mr" + std::to_string(n);
   }
-  else if (taken(name))
-    nameTaken(source.path, "MR", name);
-  checkName(source.path, name);
-  scene::ImagePart part =
-      readImage(source.path, source.series, source.repair, std::nullopt, false, progress);
+  checkNewName(value, source.path, name);
+  ReadImage read = readImage(source.path, source.series, source.repair, std::nullopt, false,
+                             std::nullopt, progress);
+  scene::ImagePart& part = read.part;
+  if (!read.otherQuantity.empty())
+    part.notes.push_back(read.otherQuantity);
   part.name = name;
+  const auto isOther = [&](const scene::ImagePart& image)
+  { return isOtherPatient(image, part, salted); };
+  if (isOther(value.ct) || std::any_of(value.mr.begin(), value.mr.end(), isOther))
+  {
+    if (!source.isOtherPatient)
+      throw OtherPatient(source.path);
+    part.notes.push_back("Its files state another patient's ID, name or date of birth than those "
+                         "of the case's other images; it was added as asked.");
+  }
   // A CT angiogram may be wanted beside the CT: said, not refused.
   if (part.modality == scene::Modality::Ct)
     part.notes.push_back("The file says that it is a CT; it was added as an MR, as asked. If it is "
                          "the patient's CT, begin a case with it (petrous new --ct).");
   part.modality = scene::Modality::Unknown;
+  placeOn(value, part);
   value.mr.push_back(std::move(part));
 }
 
@@ -369,13 +480,26 @@ void noteOutside(const scene::Case& value, scene::LabelPart& part, const volume:
 }
 
 // A DICOM segmentation states the frame of reference in which it was drawn: that of the CT, or of
-// an MR. Of a stored case only salted hashes are known.
+// an MR. Of a stored case only salted hashes are known. What cannot be compared is noted, unless
+// the grid shows it.
 void settleFrame(const scene::Case& value, PartSource& source, const std::string& frameUid,
-                 const std::function<std::string(const std::string&)>& salted)
+                 const core::GridGeometry* grid,
+                 const std::function<std::string(const std::string&)>& salted,
+                 std::vector<std::string>& notes)
 {
   const std::string frame = withoutIdentity(frameUid);
-  if (!source.drawnOn.empty() || frame.empty())
+  if (!source.drawnOn.empty())
     return;
+  const auto noteUnknown = [&](const char* why)
+  {
+    if (!grid ||
+        (!core::sameGrid(*grid, value.ct.geometry) && scene::mrWithGrid(value, *grid).empty()))
+      notes.push_back(
+          std::string("its frame of reference could not be compared with the CT's, as ") + why +
+          "; look whether it lies where it belongs");
+  };
+  if (frame.empty())
+    return noteUnknown("it states none");
   if (frame == withoutIdentity(exportedFrame(value, "")))
   {
     source.drawnOn = "ct";
@@ -391,7 +515,7 @@ void settleFrame(const scene::Case& value, PartSource& source, const std::string
   { return !image.frameOfReference.empty() && (!image.isFrameSalted || salted); };
   const auto isOf = [&](const scene::ImagePart& image)
   { return image.frameOfReference == (image.isFrameSalted ? salted(frame) : frame); };
-  if (!isKnown(value.ct) || isOf(value.ct))
+  if (isKnown(value.ct) && isOf(value.ct))
     return;
   for (const scene::ImagePart& mr : value.mr)
     if (isKnown(mr) && isOf(mr))
@@ -399,6 +523,8 @@ void settleFrame(const scene::Case& value, PartSource& source, const std::string
       source.drawnOn = mr.name;
       return;
     }
+  if (!isKnown(value.ct))
+    return noteUnknown("the CT's is not known");
   throw core::InvalidParameter(source.path.string() +
                                ": was drawn in another frame of reference than the CT's, so its "
                                "place in the CT is not known; if it is this CT's all the same, "
@@ -411,19 +537,28 @@ imaging::LoadedLabels loadStructureSet(const scene::Case& value, PartSource& sou
                                        const core::Progress& progress)
 {
   const imaging::StructureSet set = imaging::readStructureSet(source.path);
-  settleFrame(value, source, set.frameOfReferenceUid, salted);
+  std::vector<std::string> notes;
+  settleFrame(value, source, set.frameOfReferenceUid, nullptr, salted, notes);
   const scene::ImagePart* mr = nullptr;
   if (!source.drawnOn.empty() && source.drawnOn != "ct")
     mr = scene::findMr(value, drawnOnNamed(value, source));
   if (source.drawnOn.empty())
     source.drawnOn = "ct"; // not an MR of the same grid
   const core::GridGeometry& grid = mr ? mr->geometry : value.ct.geometry;
-  return imaging::labelsOf(set, grid, source.path, progress);
+  imaging::LoadedLabels loaded = imaging::labelsOf(set, grid, source.path, progress);
+  loaded.notes.insert(loaded.notes.begin(), notes.begin(), notes.end());
+  return loaded;
 }
 
-// Names of the files of a folder, as the structures' names. A word that most of the files share and
-// that is of no structure may be the patient's name, and is left out.
-std::map<std::string, std::string> namesInFolder(const imaging::LoadedLabels& loaded)
+struct FolderNames
+{
+  std::map<std::string, std::string> names; ///< of the structures, by their files'
+  std::set<std::string> leftOut;            ///< words
+};
+
+// A word that most of the files of a folder share and that is of no structure and no side may be
+// the patient's name, and is left out of the structures' names.
+FolderNames namesInFolder(const imaging::LoadedLabels& loaded)
 {
   const auto presets = appearance::StructurePresets::builtIn();
   const auto isWordChar = [](unsigned char c) { return c >= 0x80 || std::isalnum(c) != 0; };
@@ -450,7 +585,7 @@ std::map<std::string, std::string> namesInFolder(const imaging::LoadedLabels& lo
         ++counts[word];
     }
   constexpr std::size_t kTelling = 3; // files, from which on what they share means something
-  std::map<std::string, std::string> names;
+  FolderNames result;
   for (const auto& map : loaded.maps)
     for (const volume::Segment& segment : map.segments)
     {
@@ -464,11 +599,14 @@ std::map<std::string, std::string> namesInFolder(const imaging::LoadedLabels& lo
         if (isKnown || (files >= kTelling && 2 * counts[word] <= files))
           kept += (kept.empty() ? "" : "_") + word;
         else
+        {
           isWhole = false;
+          result.leftOut.insert(word);
+        }
       }
-      names[segment.name] = isWhole ? segment.name : kept;
+      result.names[segment.name] = isWhole ? segment.name : kept;
     }
-  return names;
+  return result;
 }
 
 // The name that a file of several structures gives one, made valid: one odd name must not refuse
@@ -505,13 +643,23 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     imaging::LabelNaming naming{parts.labelNames, parts.labels.size() == 1};
     if (!source.labelNames.empty())
       naming = {source.labelNames, true};
-    loaded = imaging::loadLabels(source.path, progress, naming);
-    settleFrame(value, source, loaded.frameOfReferenceUid, salted);
+    std::vector<core::GridGeometry> images{value.ct.geometry};
+    for (const scene::ImagePart& mr : value.mr)
+      images.push_back(mr.geometry);
+    loaded = imaging::loadLabels(source.path, progress, naming, images);
+    if (imaging::isDicomSegmentation(source.path))
+      settleFrame(value, source, loaded.frameOfReferenceUid,
+                  &loaded.maps.front().voxels->geometry(), salted, loaded.notes);
   }
   std::vector<std::string> notes = std::move(loaded.notes);
   std::vector<std::string> empty;
   const bool isFolder = fs::is_directory(source.path);
-  const auto ofFolder = isFolder ? namesInFolder(loaded) : std::map<std::string, std::string>();
+  const FolderNames folder = isFolder ? namesInFolder(loaded) : FolderNames();
+  const auto& ofFolder = folder.names;
+  if (const std::size_t count = folder.leftOut.size(); count > 0)
+    notes.push_back(std::to_string(count) + (count == 1 ? " word" : " words") +
+                    " of the files' names, which may be a patient's, " +
+                    (count == 1 ? "was" : "were") + " left out of the structures' names");
   if (!loaded.leftOut.empty()) // their names may be a patient's
   {
     std::vector<std::string> known;
@@ -569,7 +717,7 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
               freeName(structure.name.empty() ? "structure" : structure.name,
                        [&](const std::string& name)
                        {
-                         return scene::findStructure(value, name) ||
+                         return scene::kindOfPart(value, name) != nullptr ||
                                 std::any_of(part.structures.begin(), part.structures.end(),
                                             [&](const auto& one) { return one.name == name; });
                        });
@@ -577,7 +725,8 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
       else if (source.name.empty() && loaded.isNamedAfterFile)
         structure.name = nameFromFile(
             source.path, "structure",
-            [&value](const std::string& name) { return scene::findStructure(value, name); }, notes);
+            [&value](const std::string& name) { return scene::kindOfPart(value, name) != nullptr; },
+            notes);
       else if (source.name.empty())
         structure.name = validName(
             structure.name,
@@ -609,9 +758,7 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
       if (isUnknown(structure.look))
         structure.look.color =
             colored ? segment.color : appearance::distinctColor(colorsOf(value, part.structures));
-      checkName(source.path, structure.name);
-      if (scene::findStructure(value, structure.name))
-        nameTaken(source.path, "structure", structure.name);
+      checkNewName(value, source.path, structure.name);
       StructureReport one{structure.name, StructureReport::Status::Read, structure.voxels,
                           structure.volume};
       if (const auto found = loaded.fileVolumes.find(segment.name);
@@ -668,15 +815,19 @@ void addMesh(scene::Case& value, const PartSource& source)
 {
   scene::MeshPart part;
   std::vector<std::string> notes;
-  part.name =
-      source.name.empty()
-          ? nameFromFile(
-                source.path, "mesh",
-                [&value](const std::string& name) { return scene::findMesh(value, name); }, notes)
-          : source.name;
-  checkName(source.path, part.name);
-  if (scene::findMesh(value, part.name))
-    nameTaken(source.path, "mesh", part.name);
+  part.name = source.name.empty() ? nameFromFile(
+                                        source.path, "mesh",
+                                        [&value](const std::string& name)
+                                        { return scene::kindOfPart(value, name) != nullptr; },
+                                        notes)
+                                  : source.name;
+  if (source.name.empty() && scene::findStructure(value, part.name))
+  {
+    part.name = freeName(part.name, [&value](const std::string& name)
+                         { return scene::kindOfPart(value, name) != nullptr; });
+    notes.push_back("named so as a structure has the name of its file");
+  }
+  checkNewName(value, source.path, part.name);
   if (!source.drawnOn.empty())
     part.drawnOn = drawnOnNamed(value, source);
   auto loaded = imaging::loadMesh(source.path, source.isRas, source.unit);
@@ -702,6 +853,23 @@ void addMesh(scene::Case& value, const PartSource& source)
 }
 
 } // namespace
+
+ImageSideUnclear::ImageSideUnclear(const fs::path& file)
+  : core::InvalidParameter(
+        file.string() + ": does not say which side of the patient is left (NIfTI: qform or sform, "
+                        "NRRD: space, MetaImage: TransformMatrix), so the anatomy could be "
+                        "mirrored; export it again with its geometry, or say --ct-frame ras "
+                        "(NIfTI's own) or lps (DICOM, ITK) if you know it")
+{
+}
+
+OtherPatient::OtherPatient(const fs::path& file)
+  : core::Error(core::Fault::Refused,
+                file.string() + ": states another patient's ID, name or date of birth than the "
+                                "case's images do; look whether it is this patient's, and say "
+                                "--other-patient if it is to be added all the same")
+{
+}
 
 PartSource PartSource::parse(const std::string& text)
 {
@@ -756,10 +924,16 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
   scene::checkCaseName(name);
   scene::Case value;
   value.name = name;
-  value.ct = readImage(sources.ct, sources.series, sources.repair, sources.roi,
-                       sources.modality != scene::Modality::Mr, progress.part(0.0, 0.7));
+  const bool isFile = !fs::is_directory(sources.ct) &&
+                      imaging::isReadAs(sources.ct, imaging::kImage | imaging::kLabels);
+  if (isFile && !sources.isRas && imaging::assumedRasOf(sources.ct))
+    throw ImageSideUnclear(sources.ct);
+  ReadImage read =
+      readImage(sources.ct, sources.series, sources.repair, sources.roi,
+                sources.modality != scene::Modality::Mr, sources.isRas, progress.part(0.0, 0.7));
+  value.ct = std::move(read.part);
   value.ct.name = "ct";
-  placeSurface(value, sources.modality);
+  placeSurface(value, sources.modality, read.otherQuantity);
   addParts(value, sources.parts, progress.part(0.7, 1.0), report);
   return value;
 }
@@ -832,8 +1006,8 @@ void addStructures(scene::Case& value, volume::LabelMap labels)
   for (const volume::Segment& segment : labels.segments)
   {
     scene::checkPartName(segment.name);
-    if (scene::findStructure(value, segment.name) || scene::findMesh(value, segment.name))
-      throw core::InvalidParameter("structure '" + segment.name +
+    if (const char* kind = scene::kindOfPart(value, segment.name))
+      throw core::InvalidParameter(kind + (" '" + segment.name) +
                                    "' is in the case already; give it another name");
     if (segment.voxels == 0)
       throw core::InvalidParameter("structure '" + segment.name + "' has no voxel yet");
@@ -870,7 +1044,7 @@ void addParts(scene::Case& value, const PartSources& parts, const core::Progress
   if (!parts.mr.empty())
     settleDrawnOn(next);
   for (const PartSource& source : parts.mr)
-    addMr(next, source, share());
+    addMr(next, source, parts.salted, share());
   for (const PartSource& source : parts.labels)
     addLabels(next, source, parts, share(), &reports);
   for (const PartSource& source : parts.meshes)
@@ -913,6 +1087,11 @@ std::vector<PartFailure> addSoundParts(scene::Case& value, const PartSources& pa
       catch (const MeshSpaceUnclear& unclear)
       {
         failures.push_back({source, unclear.what(), unclear.likely});
+      }
+      catch (const OtherPatient& other)
+      {
+        failures.push_back({source, other.what()});
+        failures.back().isOtherPatient = true;
       }
       catch (const core::Error& error)
       {

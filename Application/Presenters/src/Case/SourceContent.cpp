@@ -133,7 +133,8 @@ SeriesContent contentOf(const imaging::DicomSeries& series)
   return result;
 }
 
-// DICOM segmentations below a folder in which the scan met some: it keeps no file of theirs.
+// DICOM segmentations and RT structure sets below a folder in which the scan met some: it keeps no
+// file of theirs.
 std::vector<SeriesContent> segmentationsIn(const fs::path& folder, const imaging::ScanResult& scan,
                                            const core::Progress& progress)
 {
@@ -154,12 +155,14 @@ std::vector<SeriesContent> segmentationsIn(const fs::path& folder, const imaging
     progress.check("looking for segmentations");
     std::error_code unreadable;
     if (!fs::is_regular_file(at->path(), unreadable) ||
-        slices.count(at->path().lexically_normal()) > 0 ||
-        !imaging::isDicomSegmentation(at->path()))
+        slices.count(at->path().lexically_normal()) > 0)
+      continue;
+    const bool isSet = imaging::isStructureSet(at->path());
+    if (!isSet && !imaging::isDicomSegmentation(at->path()))
       continue;
     SeriesContent segmentation;
     segmentation.content = Content::Labels;
-    segmentation.modality = "SEG";
+    segmentation.modality = isSet ? "RTSTRUCT" : "SEG";
     segmentation.description = at->path().filename().string();
     segmentation.folder = at->path().parent_path().filename().string();
     segmentation.file = at->path();

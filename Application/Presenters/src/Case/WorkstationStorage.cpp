@@ -206,10 +206,11 @@ void WorkstationModel::stored(const StoreTask& done)
     for (std::size_t n = 0; n < std::min(parts.size(), from.size()); ++n)
       parts[n].object = from[n].object;
   };
-  // Salted by the save: a salted and an unsalted frame cannot be compared.
+  // Salted by the save: a salted and an unsalted hash cannot be compared.
   const auto takeFrame = [](scene::ImagePart& image, const scene::ImagePart& from)
   {
     image.frameOfReference = from.frameOfReference;
+    image.patient = from.patient;
     image.isFrameSalted = from.isFrameSalted;
   };
   if (done.source) // what was removed before is in the other library

@@ -473,15 +473,10 @@ std::string SegmentEditor::whyNotCreate() const
   {
     return error.what();
   }
-  const bool taken = scene::findStructure(m_model.value(), m_draft->name) || [this]
-  {
-    for (const scene::MeshPart& mesh : m_model.value().meshes)
-      if (mesh.name == m_draft->name)
-        return true;
-    return false;
-  }();
+  const char* taken = scene::kindOfPart(m_model.value(), m_draft->name);
   return taken && m_draft->name != m_draft->edited
-             ? "The case has a structure '" + m_draft->name + "' already; choose another name."
+             ? std::string("The case has ") + (taken == std::string("MR") ? "an " : "a ") + taken +
+                   " '" + m_draft->name + "' already; choose another name."
              : std::string();
 }
 

@@ -42,7 +42,7 @@ bool isWanted(Tag tag)
   // the patient group only what distinguishes patients.
   const Tag group = tag >> 16;
   if (group == 0x0010)
-    return tag == 0x00100010 || tag == 0x00100020 || tag == 0x00100030;
+    return tag == 0x00100010 || tag == 0x00100020 || tag == 0x00100021 || tag == 0x00100030;
   constexpr Tag kSiemensB = 0x0019100c;
   constexpr Tag kGeB = 0x00431039;
   return tag == kSiemensB || tag == kGeB || group == 0x0002 || group == 0x0008 || group == 0x0018 ||

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "DicomElements.h"
-#include "petrous/Core/Fingerprint.h"
+#include "DicomItem.h"
 #include "petrous/Core/NumberText.h"
 
 namespace petrous::imaging
@@ -122,18 +122,6 @@ void readPlace(const DicomElements& elements, SliceHeader& slice)
       static_cast<int>(std::clamp(elements.number(0x00200013).value_or(0.0), -1e9, 1e9));
 }
 
-/// 0 for an empty text; the same in every run of the program. Writers differ in case and in
-/// trailing name delimiters.
-std::size_t keyOf(std::string text)
-{
-  text.erase(text.find_last_not_of(" ^") + 1);
-  for (char& c : text)
-    c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  core::Fingerprint hash;
-  hash.add(text.data(), text.size());
-  return text.empty() ? 0 : std::max<std::size_t>(hash.value(), 1);
-}
-
 // The first date present, with its time to the minute.
 std::string takenOf(const DicomElements& elements)
 {
@@ -152,8 +140,13 @@ void readOrigin(const DicomElements& elements, SliceHeader& slice)
 {
   slice.taken = takenOf(elements);
   slice.patientPosition = elements.text(0x00185100);
-  slice.patient = {keyOf(elements.text(0x00100020)), keyOf(elements.text(0x00100010)),
-                   keyOf(elements.text(0x00100030))};
+  const std::string stated = elements.text(0x00100010);
+  const std::string name = toUtf8(stated, elements.text(0x00080005));
+  const auto unknown = [](const std::string& text) // letters of a character set that is not read
+  { return std::count(text.begin(), text.end(), '?'); };
+  slice.patient =
+      patientKey(elements.text(0x00100020), elements.text(0x00100021),
+                 unknown(name) > unknown(stated) ? stated : name, elements.text(0x00100030));
   slice.studyUid = elements.text(0x0020000d);
   slice.modality = elements.text(0x00080060);
   slice.kernel = elements.text(0x00181210);
@@ -216,6 +209,13 @@ void readPixelFormat(const DicomElements& elements, SliceHeader& slice)
   pixels.transferSyntax = elements.transferSyntax();
   pixels.isBigEndian = elements.isBigEndian();
   pixels.isDeflated = pixels.transferSyntax == kDeflated;
+  // By the header, or a transfer syntax that cannot be without.
+  slice.isLossy = elements.text(0x00282110) == "01" ||
+                  pixels.transferSyntax == "1.2.840.10008.1.2.4.50" ||
+                  pixels.transferSyntax == "1.2.840.10008.1.2.4.51";
+  const std::size_t ratios = elements.words(0x00282112).size(); // one for each compression
+  for (const double ratio : elements.numbers(0x00282112, ratios))
+    slice.lossyRatio = std::max(slice.lossyRatio.value_or(0.0), ratio);
   slice.padding = elements.integer(0x00280120, pixels.isSigned);
   slice.paddingRangeLimit = elements.integer(0x00280121, pixels.isSigned);
 }
@@ -225,6 +225,7 @@ const char* readRescale(const DicomElements& elements, SliceHeader& slice)
 {
   constexpr Tag kSlope = 0x00281053;
   constexpr Tag kIntercept = 0x00281052;
+  slice.rescaleType = elements.text(0x00281054);
   slice.hasRescale = !elements.text(kSlope).empty() || !elements.text(kIntercept).empty();
   if (!slice.hasRescale)
     return "";

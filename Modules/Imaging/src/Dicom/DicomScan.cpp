@@ -17,6 +17,7 @@
 #include "ByteSource.h"
 #include "DicomHeader.h"
 #include "HeaderCache.h"
+#include "PixelCodec.h"
 #include "SeriesVolumes.h"
 #include "SliceStack.h"
 #include "petrous/Core/Log.h"
@@ -412,7 +413,9 @@ struct Numbering
 {
   bool isComplete = false; ///< from 0 or 1 without a gap, up to the count that the header states
   bool isCounted = false;  ///< it states one
-  int first = 0;
+  int count = 0;           ///< of the slices
+  int declared = 0;        ///< as the header states; 0: not
+  int first = 0;           ///< first and last are 0 unless all numbers differ
   int last = 0;
 };
 
@@ -427,6 +430,8 @@ Numbering numberingOf(const std::vector<SliceHeader>& slices)
     declared = std::max(declared, slice.declaredCount.value_or(0));
   }
   const auto count = static_cast<int>(slices.size());
+  result.count = count;
+  result.declared = declared;
   if (numbers.empty() || numbers.size() != slices.size())
     return result;
   result.first = *numbers.begin();
@@ -474,6 +479,71 @@ bool isWholeWithout(std::size_t files, const SeriesGeometry& geometry, const Num
   return geometry.verdict != Verdict::Refused && geometry.grid && numbering.isComplete &&
          !hasFinding(geometry, {FindingKind::MissingSlice, FindingKind::Unreadable}) &&
          (files == 1 || files * kFew <= geometry.slices.size());
+}
+
+/// What the header and the numbers of the slices say of ends that are not there: an export that
+/// broke off leaves a stack without a gap. Empty: nothing.
+std::string missingEnds(const SeriesGeometry& geometry, const Numbering& numbering)
+{
+  if (geometry.verdict == Verdict::Refused || !geometry.grid ||
+      geometry.slices.front().pixels.frameCount > 1 || // which numbers files
+      hasFinding(geometry,
+                 {FindingKind::MissingSlice, FindingKind::Unreadable, FindingKind::DuplicateSlice}))
+    return {};
+  const bool isNumbered = numbering.last > numbering.first;
+  std::string text;
+  if (numbering.declared > numbering.count)
+    text = "The header states " + std::to_string(numbering.declared) + " images, and " +
+           std::to_string(numbering.count) + " are there";
+  if (isNumbered && numbering.first > 1 && numbering.declared != numbering.count)
+    text += (text.empty() ? "The slices are numbered " : ", numbered ") +
+            ("from " + std::to_string(numbering.first)) + " to " + std::to_string(numbering.last);
+  return text.empty() ? text
+                      : text + "; the stack has no gap, but its ends may be missing. Look whether "
+                               "all of the skull base that is needed is there.";
+}
+
+/// Compares the pixels of slices that share a place: where they differ, none of them can be left
+/// out.
+void compareDuplicates(SeriesGeometry& geometry)
+{
+  if (geometry.verdict != Verdict::Repairable || !geometry.grid ||
+      !hasFinding(geometry, {FindingKind::DuplicateSlice}))
+    return;
+  const Eigen::Vector3d normal = geometry.grid->direction().col(2);
+  const double same = sharedPlace(geometry.grid->spacing()[2]);
+  std::size_t differing = 0; // pixels, of the pair that differs most
+  std::size_t count = 0;
+  StoredPixels first;
+  StoredPixels second;
+  const SliceHeader* kept = nullptr; // of a place
+  for (const SliceHeader& slice : geometry.slices)
+  {
+    if (!kept || normal.dot(*slice.position - *kept->position) > same)
+    {
+      kept = &slice;
+      continue;
+    }
+    decodePixels(*kept, first);
+    decodePixels(slice, second);
+    count = std::min(first.values.size(), second.values.size());
+    std::size_t here = 0;
+    for (std::size_t p = 0; p < count; ++p)
+      here += kept->slope * first.values[p] + kept->intercept !=
+                      slice.slope * second.values[p] + slice.intercept
+                  ? 1
+                  : 0;
+    differing = std::max(differing, here);
+  }
+  if (differing == 0)
+    return;
+  geometry.verdict = Verdict::Refused;
+  for (Finding& finding : geometry.findings)
+    if (finding.kind == FindingKind::DuplicateSlice)
+      finding.text += " They show different things, in up to " + std::to_string(differing) +
+                      " of " + std::to_string(count) +
+                      " voxels of a slice, so none of them can be left out; keep the files of one "
+                      "reconstruction in the folder.";
 }
 
 std::string setAsideNote(std::size_t files, const SeriesGeometry& geometry,
@@ -546,6 +616,15 @@ MadeSeries makeSeries(const std::vector<FileHeader*>& members, const Doubts& dou
                                    (replaced == 1 ? " damaged file was" : " damaged files were") +
                                    " left out: the same slice is there whole.");
     std::vector<Finding>& findings = one.geometry.findings;
+    try
+    {
+      compareDuplicates(one.geometry);
+    }
+    catch (const DicomError&) // read again, it says so
+    {
+    }
+    if (std::string ends = missingEnds(one.geometry, numbering); name.empty() && !ends.empty())
+      findings.push_back({FindingKind::MissingEnd, std::move(ends), 0.0});
     const std::size_t lost = doubts.files.size();
     if (lost > 0 && isWholeWithout(lost, one.geometry, numbering))
       one.geometry.notes.push_back(setAsideNote(lost, one.geometry, numbering));

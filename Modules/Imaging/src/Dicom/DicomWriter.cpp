@@ -21,6 +21,7 @@
 
 #include "DicomDataSet.h"
 #include "petrous/Core/Error.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Core/SplitMix64.h"
 
 namespace petrous::imaging
@@ -191,8 +192,13 @@ void writeDicomSeries(const std::filesystem::path& folder, const volume::Intensi
             data = commonPart(description, grid, std::is_signed_v<T>);
             if (image.padding())
             {
-              const double stored =
-                  (*image.padding() - description.rescaleIntercept) / description.rescaleSlope;
+              const double stored = std::round((*image.padding() - description.rescaleIntercept) /
+                                               description.rescaleSlope);
+              if (!(stored >= static_cast<double>(std::numeric_limits<T>::lowest()) &&
+                    stored <= static_cast<double>(std::numeric_limits<T>::max())))
+                throw core::InvalidParameter(
+                    "DICOM series: the padding value " + core::generalText(*image.padding()) +
+                    " does not fit its 16 bits with this rescale; choose another");
               put(data, 0x0028, 0x0120, static_cast<std::uint16_t>(static_cast<T>(stored)),
                   std::is_signed_v<T> ? "SS" : "US");
             }

@@ -105,10 +105,9 @@ bool agree(const T& a, const T& b)
   return a == T{} || b == T{} || a == b;
 }
 
-bool samePatient(const SliceHeader& a, const SliceHeader& b)
+bool ofOnePatient(const SliceHeader& a, const SliceHeader& b)
 {
-  return agree(a.patient.id, b.patient.id) && agree(a.patient.name, b.patient.name) &&
-         agree(a.patient.birthDate, b.patient.birthDate);
+  return samePatient(a.patient, b.patient);
 }
 
 class Assessor
@@ -132,6 +131,7 @@ public:
     setAsideUnplaced();
     setAsideMinorities();
     judgeRescale();
+    noteLoss();
     judgeStack();
     judgeDamaged();
     judgeAcquisitions();
@@ -150,8 +150,9 @@ private:
   {
     Verdict result = Verdict::Ok;
     for (const Finding& finding : m_result.findings)
-      if (finding.kind == FindingKind::LocalizerMixedIn && m_slices.size() > 1)
-        continue; // set aside
+      if ((finding.kind == FindingKind::LocalizerMixedIn && m_slices.size() > 1) ||
+          finding.kind == FindingKind::MissingEnd)
+        continue; // set aside, or nothing that the slices show
       else if (isRepairable(finding.kind) && m_result.grid)
         result = Verdict::Repairable;
       else
@@ -225,7 +226,7 @@ private:
   void setAsideStrangers()
   {
     const std::size_t images = m_slices.size();
-    const Headers others = takeMinority(m_slices, samePatient);
+    const Headers others = takeMinority(m_slices, ofOnePatient);
     if (!others.empty())
       find(FindingKind::MixedPatients, "Another patient than in the rest is named in " +
                                            countOf(others.size(), images) +
@@ -330,6 +331,24 @@ private:
            "unequal values; no position is affected (0 mm).");
   }
 
+  void noteLoss()
+  {
+    std::size_t lossy = 0;
+    double ratio = 0.0;
+    for (const SliceHeader& slice : m_slices)
+    {
+      lossy += slice.isLossy ? 1 : 0;
+      ratio = std::max(ratio, slice.lossyRatio.value_or(0.0));
+    }
+    if (lossy > 0)
+      m_result.notes.push_back(
+          "Compressed with loss" +
+          (ratio > 0.0 ? ", to 1/" + decimals(ratio, 1) + " of the size" : std::string()) +
+          ", in " + countOf(lossy, m_slices.size()) +
+          ": values are not those measured, and thin walls may be blurred; the archive may have "
+          "the series without loss.");
+  }
+
   /// Slices of several scans may form an evenly spaced stack, each scan between the slices of the
   /// other.
   void judgeAcquisitions()
@@ -386,7 +405,7 @@ private:
   {
     const SliceHeader& first = m_slices.front();
     if (!isPlaced(slice) || !sameTurn(first, slice) || !sameSize(first, slice) ||
-        slice.frameOfReferenceUid != first.frameOfReferenceUid || !samePatient(first, slice))
+        slice.frameOfReferenceUid != first.frameOfReferenceUid || !ofOnePatient(first, slice))
       return false;
     const Eigen::Vector3d normal = first.rowDirection->cross(*first.columnDirection).normalized();
     const double place = normal.dot(*slice.position);
@@ -512,6 +531,8 @@ const char* kindName(FindingKind kind) noexcept
     return "no-geometry";
   case FindingKind::LocalizerMixedIn:
     return "localizer-mixed-in";
+  case FindingKind::MissingEnd:
+    return "missing-end";
   case FindingKind::MultiFrame:
     return "multi-frame";
   case FindingKind::NotAnImage:

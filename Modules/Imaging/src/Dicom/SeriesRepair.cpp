@@ -20,11 +20,10 @@ namespace petrous::imaging
 namespace
 {
 
-constexpr double kWhole = 1e-3;     // pixels; a smaller shift moves nothing
-constexpr double kOnPlace = 1e-3;   // mm
-constexpr std::size_t kNamed = 24;  // ranges of slices named in a note
-constexpr double kFinest = 0.25;    // of the mean spacing
-constexpr double kDuplicate = 0.01; // of the spacing: closer slices share one place
+constexpr double kWhole = 1e-3;    // pixels; a smaller shift moves nothing
+constexpr double kOnPlace = 1e-3;  // mm
+constexpr std::size_t kNamed = 24; // ranges of slices named in a note
+constexpr double kFinest = 0.25;   // of the mean spacing
 
 bool hasFinding(const SeriesGeometry& geometry, FindingKind kind)
 {
@@ -101,7 +100,7 @@ SeriesRepair::SeriesRepair(const SeriesGeometry& geometry)
   const core::GridGeometry& nominal = *geometry.grid;
   const Eigen::Matrix3d& axes = nominal.direction();
   const Eigen::Vector3d origin = *geometry.slices.front().position;
-  const double same = std::max(kOnPlace, kDuplicate * nominal.spacing()[2]);
+  const double same = sharedPlace(nominal.spacing()[2]);
   const bool isTilted = hasFinding(geometry, FindingKind::GantryTilt);
   m_isUneven = hasFinding(geometry, FindingKind::UnevenSpacing);
   m_isMissing = hasFinding(geometry, FindingKind::MissingSlice) && !m_isUneven;
@@ -151,8 +150,9 @@ SeriesRepair::SeriesRepair(const SeriesGeometry& geometry)
       origin + axes.col(0) * (lower[0] * h[0]) + axes.col(1) * (lower[1] * h[1]), axes);
 
   if (const std::size_t dropped = geometry.slices.size() - m_slices.size(); dropped > 0)
-    m_notes.push_back("Repaired: of slices at one place the first was kept, and " +
-                      std::to_string(dropped) + " left out.");
+    m_notes.push_back(
+        "Repaired: of slices at one place, whose pixels are equal, the first was kept, and " +
+        std::to_string(dropped) + " left out.");
   if (isTilted)
   {
     const Slice& last = m_slices.back();
@@ -163,6 +163,17 @@ SeriesRepair::SeriesRepair(const SeriesGeometry& geometry)
                       " degrees was undone by shifting each slice to where its position puts it, "
                       "the last by " +
                       decimals(slide, 1) + " mm against the first.");
+  }
+  else if (m_isUneven)
+  {
+    double farthest = 0.0;
+    for (const Slice& slice : m_slices)
+      farthest = std::max(farthest, std::hypot((slice.u - m_slices.front().u) * h[0],
+                                               (slice.v - m_slices.front().v) * h[1]));
+    if (farthest > kOnPlace)
+      m_notes.push_back("Repaired: slices were shifted sideways to where their positions put them, "
+                        "by up to " +
+                        decimals(farthest, 2) + " mm against the first.");
   }
   if (hasFinding(geometry, FindingKind::MixedRescale))
     m_notes.push_back("Repaired: each slice's own rescale slope and intercept were applied.");

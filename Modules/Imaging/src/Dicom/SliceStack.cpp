@@ -99,6 +99,12 @@ ShiftLine robustLine(const std::vector<double>& t, const std::vector<Eigen::Vect
 
 } // namespace
 
+double sharedPlace(double spacing)
+{
+  constexpr double kShare = 0.01;
+  return std::max(1e-3, kShare * spacing);
+}
+
 std::string decimals(double value, int digits)
 {
   char text[64];

@@ -13,6 +13,9 @@ namespace petrous::imaging
 /// Fixed-point text with this many decimals, locale-independent.
 std::string decimals(double value, int digits);
 
+/// Slices closer to each other than this share one place, mm along the normal.
+double sharedPlace(double spacing);
+
 /// Slices of one size and orientation as a stack along their common normal.
 ///
 ///   t_k = n . p_k                 position of slice k along the normal n = row x column, mm

@@ -116,6 +116,13 @@ catch (const core::InputFileError& error)
 
 } // namespace
 
+std::optional<double> paddingIn(std::string_view text)
+{
+  const std::string start = std::string(kPaddingKey) + "=";
+  return text.substr(0, start.size()) == start ? parseDouble(trimmed(text.substr(start.size())))
+                                               : std::nullopt;
+}
+
 std::uintmax_t checkedFileSize(const std::filesystem::path& path)
 {
   return opened(path).size();

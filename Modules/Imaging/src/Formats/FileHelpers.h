@@ -13,6 +13,13 @@
 namespace petrous::imaging
 {
 
+/// The key under which files that this program writes keep the padding value: of a NRRD, or
+/// "petrous_padding=VALUE" in the description of a NIfTI and the comment of a MetaImage.
+constexpr const char* kPaddingKey = "petrous_padding";
+
+/// The value in "petrous_padding=VALUE"; nullopt for other text.
+std::optional<double> paddingIn(std::string_view text);
+
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "files are written in host byte order");
 
 /// Throws FileError "PATH: text"; control characters in the path are replaced by '?'.

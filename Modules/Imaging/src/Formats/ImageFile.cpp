@@ -130,10 +130,12 @@ core::IndexBox boxOf(const std::filesystem::path& path, const core::GridGeometry
 
 LoadedImage readImageFile(const std::filesystem::path& path,
                           const std::optional<core::PatientBox>& roi,
-                          const core::Progress& progress)
+                          const core::Progress& progress, const std::optional<bool>& isRas)
 {
   progress.report(0.0, "reading image");
-  const VoxelSource source(path);
+  VoxelSource source(path);
+  if (isRas)
+    source.assume(*isRas);
   if (source.components() > 1)
     fail(FileError::Reason::Unsupported, path,
          "holds " + std::to_string(source.components()) +
@@ -153,13 +155,20 @@ LoadedImage readImageFile(const std::filesystem::path& path,
 
   LoadedImage image;
   image.notes = source.notes();
-  std::optional<double> padding;
-  if (source.nrrd())
-    if (const std::string* text = source.nrrd()->key("petrous_padding"))
-      padding = parseDouble(trimmed(*text));
-  image.volume = std::make_shared<const volume::IntensityVolume>(std::move(voxels), padding);
+  image.assumedRas = source.assumedRas();
+  if (isRas && image.assumedRas)
+    image.notes.push_back(std::string("does not say which side of the patient is left; its axes "
+                                      "were taken as ") +
+                          (*isRas ? "RAS" : "LPS") + ", as asked");
+  image.volume =
+      std::make_shared<const volume::IntensityVolume>(std::move(voxels), source.padding());
   progress.report(1.0, "reading image");
   return image;
+}
+
+std::optional<bool> assumedRasOf(const std::filesystem::path& path)
+{
+  return VoxelSource(path).assumedRas();
 }
 
 } // namespace petrous::imaging

@@ -183,8 +183,7 @@ std::vector<volume::Segment> namesFromOutside(const std::filesystem::path& path,
 
 bool hasSegments(const VoxelSource& source)
 {
-  return source.nrrd() &&
-         (source.nrrd()->key("Segment0_Name") || source.nrrd()->key("Segment0_ID"));
+  return source.nrrd() && hasSegments(*source.nrrd());
 }
 
 [[noreturn]] void failOverlap(const std::filesystem::path& path, std::size_t layers)
@@ -198,12 +197,13 @@ constexpr const char* kTableUnused =
     "names its structures itself, so the table of names was not used for it";
 
 LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
-                        const core::Progress& progress, const LabelNaming& naming)
+                        const core::Progress& progress, const LabelNaming& naming,
+                        const std::vector<core::GridGeometry>& images)
 {
   progress.report(0.0, "reading labels");
   if (isDicomSegmentation(path))
   {
-    LoadedLabels loaded = readSegmentation(path, progress);
+    LoadedLabels loaded = readSegmentation(path, progress, images);
     if (!naming.table.empty())
       loaded.notes.emplace_back(kTableUnused);
     if (oneOnly && loaded.maps.size() > 1)
@@ -267,17 +267,17 @@ bool isDicomSegmentation(const std::filesystem::path& path)
 }
 
 LoadedLabels loadLabels(const std::filesystem::path& path, const core::Progress& progress,
-                        const LabelNaming& naming)
+                        const LabelNaming& naming, const std::vector<core::GridGeometry>& images)
 {
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
     return readLabelFolder(path, progress);
-  return readLayers(path, false, progress, naming);
+  return readLayers(path, false, progress, naming, images);
 }
 
 volume::LabelMap readLabelFile(const std::filesystem::path& path, const core::Progress& progress)
 {
-  return std::move(readLayers(path, true, progress, {}).maps.front());
+  return std::move(readLayers(path, true, progress, {}, {}).maps.front());
 }
 
 std::vector<volume::Segment> readSegments(const std::filesystem::path& path)

@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <optional>
+#include <set>
 #include <system_error>
 
 #include "FileHelpers.h"
@@ -101,13 +102,6 @@ std::string prefixOf(std::size_t segment)
   return "Segment" + std::to_string(segment) + "_";
 }
 
-bool hasSegment(const NrrdHeader& header, std::size_t segment)
-{
-  const std::string prefix = prefixOf(segment);
-  return header.key(prefix + "Name") || header.key(prefix + "LabelValue") ||
-         header.key(prefix + "ID");
-}
-
 /// -1 if the value is not a number. Older files have one layer and do not state it.
 std::int64_t layerOf(const NrrdHeader& header, std::size_t segment)
 {
@@ -156,6 +150,25 @@ std::string tagsOf(const volume::SegmentCodes& codes)
          text(codes.regionModifier) + "|";
 }
 
+/// The numbers of the segments that a header describes, in order; some may be left out.
+std::set<std::size_t> segmentNumbers(const NrrdHeader& header)
+{
+  constexpr std::string_view kStart = "Segment";
+  std::set<std::size_t> numbers;
+  for (const auto& [key, value] : header.keys)
+  {
+    const std::size_t end = key.find('_');
+    if (end == key.npos || end < kStart.size() || key.compare(0, kStart.size(), kStart) != 0)
+      continue;
+    const std::string what = key.substr(end + 1);
+    const auto number = parseInteger(key.substr(kStart.size(), end - kStart.size()));
+    if (number && *number >= 0 && *number < static_cast<std::int64_t>(kMaxSegments) &&
+        (what == "Name" || what == "LabelValue" || what == "ID"))
+      numbers.insert(static_cast<std::size_t>(*number));
+  }
+  return numbers;
+}
+
 /// The label value of a segment. Before Slicer supported layers it wrote none: structures are
 /// numbered from 1.
 std::int64_t labelValueOf(const NrrdHeader& header, std::size_t segment)
@@ -171,7 +184,7 @@ volume::SegmentCodes codesOfSegment(const NrrdHeader& header, std::size_t layer,
 {
   constexpr std::string_view kEntry = "TerminologyEntry:";
   volume::SegmentCodes codes;
-  for (std::size_t s = 0; s < kMaxSegments && hasSegment(header, s); ++s)
+  for (const std::size_t s : segmentNumbers(header))
   {
     const std::string* tags = header.key(prefixOf(s) + "Tags");
     if (!tags || layerOf(header, s) != static_cast<std::int64_t>(layer) ||
@@ -196,6 +209,11 @@ volume::SegmentCodes codesOfSegment(const NrrdHeader& header, std::size_t layer,
   return codes;
 }
 
+bool hasSegments(const NrrdHeader& header)
+{
+  return !segmentNumbers(header).empty();
+}
+
 std::string UniqueNames::take(const std::string& wanted, std::vector<std::string>& notes)
 {
   std::string name = wanted;
@@ -211,7 +229,7 @@ std::string UniqueNames::take(const std::string& wanted, std::vector<std::string
 std::vector<std::string> segmentsWithoutLayer(const NrrdHeader& header, std::size_t layers)
 {
   std::vector<std::string> names;
-  for (std::size_t s = 0; s < kMaxSegments && hasSegment(header, s); ++s)
+  for (const std::size_t s : segmentNumbers(header))
   {
     const std::int64_t layer = layerOf(header, s);
     if (layer >= 0 && layer < static_cast<std::int64_t>(layers))
@@ -226,7 +244,7 @@ std::vector<volume::Segment> segmentsOfLayer(const std::filesystem::path& path,
                                              const NrrdHeader& header, std::size_t layer)
 {
   std::vector<volume::Segment> segments;
-  for (std::size_t s = 0; s < kMaxSegments && hasSegment(header, s); ++s)
+  for (const std::size_t s : segmentNumbers(header))
   {
     const std::string prefix = prefixOf(s);
     const std::string* name = header.key(prefix + "Name");

@@ -32,6 +32,9 @@ private:
   std::set<std::string> m_taken, m_stated;
 };
 
+/// Whether the header is that of a .seg.nrrd: it describes a segment.
+bool hasSegments(const NrrdHeader& header);
+
 /// The segments that a .seg.nrrd defines in one layer, as written by 3D Slicer (SegmentN_Name,
 /// _LabelValue, _Color, _Layer). Throws FileError for invalid label values and for two segments
 /// with the same value.

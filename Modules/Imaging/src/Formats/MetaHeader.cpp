@@ -187,6 +187,7 @@ void readPlacement(const std::filesystem::path& path, const Fields& fields, Meta
     fail(FileError::Reason::NoGeometry, path,
          "its header gives no valid voxel size, place or axes in three dimensions "
          "(ElementSpacing, Offset, TransformMatrix); export it again with its geometry");
+  header.isSideAssumed = !axes;
   if (!place || !axes)
     header.notes.emplace_back("states no full place in the patient (Offset, TransformMatrix): what "
                               "is missing is taken as 0, 0, 0 and axes to the left, back and top");
@@ -217,6 +218,8 @@ MetaHeader readMetaHeader(const std::filesystem::path& path)
     fail(FileError::Reason::Unsupported, path,
          "its voxels are of a type that is not read; save them as one whole number or float each");
   header.component = *component;
+  if (const std::string* comment = valueOf(fields, {"Comment"}))
+    header.comment = *comment;
   findVoxels(path, fields, header);
   readRescale(path, fields, header);
   readPlacement(path, fields, header);

@@ -22,6 +22,8 @@ struct MetaHeader
   Eigen::Vector3d origin; ///< LPS mm
   double slope = 1.0;     ///< rescale of the stored values (ElementToIntensityFunction)
   double intercept = 0.0;
+  std::string comment;
+  bool isSideAssumed = false; ///< it states no axes in the patient, and LPS is taken
   std::vector<std::string> notes;
 
   std::filesystem::path file;   ///< containing the voxels

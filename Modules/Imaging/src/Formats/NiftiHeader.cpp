@@ -32,16 +32,18 @@ constexpr double kPlacementsDiffer = 0.1; // mm between sform and qform; noted i
 // NIfTI uses right, anterior, superior; the patient frame is left, posterior, superior.
 const Eigen::Vector3d kLpsFromRas(-1.0, -1.0, 1.0);
 
+constexpr std::size_t kDescription = 80; // bytes
+
 /// Byte offsets of the fields.
 struct Offsets
 {
   std::size_t magic, dataType, bits, dim, pixdim, voxels, slope, intercept, units, qformCode,
-      sformCode, quaternion, qoffset, srow;
+      sformCode, quaternion, qoffset, srow, description;
 };
-constexpr Offsets kNifti1{344, 70,  72,  40,  76,  108, 112,
-                          116, 123, 252, 254, 256, 268, 280}; // nifti1.h
-constexpr Offsets kNifti2{4,   12,  14,  16,  104, 168, 176,
-                          184, 500, 344, 348, 352, 376, 400}; // nifti2.h
+constexpr Offsets kNifti1{344, 70,  72,  40,  76,  108, 112, 116,
+                          123, 252, 254, 256, 268, 280, 148}; // nifti1.h
+constexpr Offsets kNifti2{4,   12,  14,  16,  104, 168, 176, 184,
+                          500, 344, 348, 352, 376, 400, 240}; // nifti2.h
 
 /// A header of either version: NIfTI-2 has the same fields, wider and elsewhere.
 class Fields
@@ -70,6 +72,11 @@ public:
   double srow(std::size_t n) const { return real(m_at.srow, n); }
   Eigen::Vector3d quaternion() const { return vector(m_at.quaternion); }
   Eigen::Vector3d qoffset() const { return vector(m_at.qoffset); }
+  std::string description() const
+  {
+    const std::string all = m_bytes.substr(m_at.description, kDescription);
+    return all.substr(0, all.find('\0'));
+  }
   double voxels() const
   {
     return m_second ? static_cast<double>(get<std::int64_t>(m_at.voxels)) : real(m_at.voxels);
@@ -195,6 +202,7 @@ void readPlacement(const std::filesystem::path& path, const Fields& fields, Nift
   {
     header.linear = spacing.asDiagonal();
     header.origin.setZero();
+    header.isSideAssumed = true;
     header.notes.emplace_back("states no place in the patient: its axes are taken as to the "
                               "right, front and top of the patient, from 0, 0, 0");
     return;
@@ -284,6 +292,7 @@ NiftiHeader readNiftiHeader(const std::filesystem::path& given)
       endsWith(lowerName(given), ".img") ? otherOfPair(given, {".hdr", ".HDR"}) : given;
   const Fields fields = checkedFields(path);
   NiftiHeader header;
+  header.description = fields.description();
   const bool pair = isPair(path, fields);
   header.file = pair ? otherOfPair(path, {".img", ".IMG"}) : path;
   const std::int64_t count = fields.dim(0);
@@ -328,7 +337,8 @@ NiftiHeader readNiftiHeader(const std::filesystem::path& given)
   return header;
 }
 
-std::string niftiHeaderBytes(const core::GridGeometry& geometry, int dataType, int bits)
+std::string niftiHeaderBytes(const core::GridGeometry& geometry, int dataType, int bits,
+                             const std::string& description)
 {
   std::string bytes(kDataOffset, '\0');
   const auto put = [&bytes](std::size_t offset, auto value, std::size_t index = 0)
@@ -371,6 +381,8 @@ std::string niftiHeaderBytes(const core::GridGeometry& geometry, int dataType, i
   putFloat(kNifti1.quaternion, q.x(), 0);
   putFloat(kNifti1.quaternion, q.y(), 1);
   putFloat(kNifti1.quaternion, q.z(), 2);
+  bytes.replace(kNifti1.description, std::min(description.size(), kDescription - 1), description, 0,
+                kDescription - 1);
   std::memcpy(bytes.data() + kNifti1.magic, "n+1", 4);
   return bytes;
 }

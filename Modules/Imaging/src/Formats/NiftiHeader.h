@@ -24,6 +24,8 @@ struct NiftiHeader
   double intercept = 0.0;
   Eigen::Matrix3d linear; ///< d patient / d voxel, LPS mm
   Eigen::Vector3d origin; ///< LPS mm
+  std::string description;
+  bool isSideAssumed = false; ///< it states no place in the patient, and RAS is taken
   std::vector<std::string> notes;
 
   bool rescaled() const { return slope != 0.0 && (slope != 1.0 || intercept != 0.0); }
@@ -36,7 +38,8 @@ struct NiftiHeader
 NiftiHeader readNiftiHeader(const std::filesystem::path& path);
 
 /// The 352 bytes before the voxels of a .nii: identical sform and qform, RAS, mm. `dataType` and
-/// `bits` as the standard's DT_ codes.
-std::string niftiHeaderBytes(const core::GridGeometry& geometry, int dataType, int bits);
+/// `bits` as the standard's DT_ codes; at most 79 bytes of description.
+std::string niftiHeaderBytes(const core::GridGeometry& geometry, int dataType, int bits,
+                             const std::string& description = {});
 
 } // namespace petrous::imaging

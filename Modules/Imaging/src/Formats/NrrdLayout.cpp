@@ -129,9 +129,9 @@ std::optional<Eigen::Vector3d> vectorOf(const std::string& word, double& time)
 }
 
 /// Signs that convert the file's frame to left, posterior, superior.
-Eigen::Vector3d lpsFromSpace(const Path& path, const NrrdHeader& header,
-                             std::vector<std::string>& notes)
+Eigen::Vector3d lpsFromSpace(const Path& path, const NrrdHeader& header, NrrdLayout& layout)
 {
+  std::vector<std::string>& notes = layout.notes;
   std::string space = valueOf(header, "space");
   for (const std::string_view time : {"-time", "t"}) // "LPST": the first three are spatial
     if (space.size() > time.size() + 2 && endsWith(space, time) && space != "right" &&
@@ -157,6 +157,7 @@ Eigen::Vector3d lpsFromSpace(const Path& path, const NrrdHeader& header,
                "apart; export it in left-posterior-superior"
              : "its header names a frame ('space') that NRRD does not know; export it in "
                "left-posterior-superior");
+  layout.isSideAssumed = true;
   return {1.0, 1.0, 1.0};
 }
 
@@ -232,6 +233,7 @@ void readPlacement(const Path& path, const NrrdHeader& header, std::size_t first
   layout.origin.setZero();
   if (directions.empty())
   {
+    layout.isSideAssumed = true;
     layout.notes.emplace_back("states no place in the patient: its axes are taken as to the left, "
                               "back and top of the patient, from 0, 0, 0");
     for (std::size_t a = 0; a < 3; ++a)
@@ -245,7 +247,7 @@ void readPlacement(const Path& path, const NrrdHeader& header, std::size_t first
     }
     return;
   }
-  toLps = lpsFromSpace(path, header, layout.notes).cwiseProduct(scale);
+  toLps = lpsFromSpace(path, header, layout).cwiseProduct(scale);
   for (std::size_t a = 0; a < 3; ++a)
   {
     double time = 0.0;

@@ -23,8 +23,9 @@ struct NrrdLayout
   std::vector<std::uint64_t> dims;
   std::size_t components = 1; ///< numbers per voxel: the leading non-spatial axes
   Component component = Component::Int16;
-  Eigen::Matrix3d linear; ///< d patient / d voxel of the first three axes, LPS mm
-  Eigen::Vector3d origin; ///< LPS mm
+  Eigen::Matrix3d linear;     ///< d patient / d voxel of the first three axes, LPS mm
+  Eigen::Vector3d origin;     ///< LPS mm
+  bool isSideAssumed = false; ///< it states no frame of a patient, and LPS is taken
   std::vector<std::string> notes;
 
   VoxelPlace place;             ///< without partBytes

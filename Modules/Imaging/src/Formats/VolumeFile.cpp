@@ -13,14 +13,23 @@ namespace
 
 constexpr int kLargestNiftiDim = 32767; // dim is int16
 
-std::string metaHeaderText(const core::GridGeometry& geometry, const VoxelType& type)
+/// As paddingIn reads it; empty without padding.
+std::string paddingText(const std::optional<double>& padding)
+{
+  return padding ? kPaddingKey + ("=" + exactText(*padding)) : std::string();
+}
+
+std::string metaHeaderText(const core::GridGeometry& geometry, const VoxelType& type,
+                           const std::string& comment)
 {
   const auto row = [](const Eigen::Vector3d& v)
   { return exactText(v[0]) + " " + exactText(v[1]) + " " + exactText(v[2]); };
   const auto& n = geometry.dims();
   const Eigen::Matrix3d& axes = geometry.direction();
   // TransformMatrix lists the axes consecutively, so its rows are our columns.
-  return "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
+  return "ObjectType = Image\nNDims = 3\n" +
+         (comment.empty() ? "" : "Comment = " + comment + "\n") +
+         "BinaryData = True\nBinaryDataByteOrderMSB = False\n"
          "CompressedData = False\nTransformMatrix = " +
          row(axes.col(0)) + " " + row(axes.col(1)) + " " + row(axes.col(2)) +
          "\nOffset = " + row(geometry.origin()) +
@@ -63,7 +72,8 @@ std::string niftiHeader(const VoxelsToWrite& voxels)
       fail(FileError::Reason::Unsupported, voxels.path,
            "NIfTI holds at most 32767 voxels along an axis, not " + std::to_string(n) +
                "; write .nrrd");
-  return niftiHeaderBytes(voxels.geometry, voxels.type.nifti, voxels.type.bits);
+  return niftiHeaderBytes(voxels.geometry, voxels.type.nifti, voxels.type.bits,
+                          paddingText(voxels.padding));
 }
 
 } // namespace
@@ -81,7 +91,7 @@ void writeNiftiGz(OutputFile& file, const VoxelsToWrite& voxels)
 
 void writeMeta(OutputFile& file, const VoxelsToWrite& voxels)
 {
-  file.write(metaHeaderText(voxels.geometry, voxels.type));
+  file.write(metaHeaderText(voxels.geometry, voxels.type, paddingText(voxels.padding)));
   file.writeVoxels(voxels.voxels, voxels.bytes(), voxels.progress);
 }
 
@@ -94,11 +104,12 @@ void writeNrrd(OutputFile& file, const VoxelsToWrite& voxels)
 
 void writeVoxelFile(const std::filesystem::path& path, FileContent content,
                     const core::GridGeometry& geometry, const VoxelType& type, const void* voxels,
-                    const std::string& nrrdKeys, const core::Progress& progress)
+                    const std::string& nrrdKeys, const core::Progress& progress,
+                    const std::optional<double>& padding)
 {
   const FileFormat& format = writingFormat(path, content);
   OutputFile file(path);
-  format.writeVoxels(file, {path, geometry, type, voxels, nrrdKeys, progress});
+  format.writeVoxels(file, {path, geometry, type, voxels, nrrdKeys, progress, 1, padding});
   progress.check("writing voxels");
   file.commit();
 }
@@ -114,13 +125,13 @@ void writeVolume(const std::filesystem::path& path, const volume::IntensityVolum
                  const core::Progress& progress)
 {
   const std::string keys =
-      volume.padding() ? nrrdKeyText("petrous_padding", exactText(*volume.padding())) : "";
+      volume.padding() ? nrrdKeyText(kPaddingKey, exactText(*volume.padding())) : "";
   volume.visit(
       [&](const auto& voxels)
       {
         using T = typename std::decay_t<decltype(voxels)>::Value;
         writeVoxelFile(path, kImage, voxels.geometry(), voxelTypeOf<T>(), voxels.data(), keys,
-                       progress);
+                       progress, volume.padding());
       });
 }
 

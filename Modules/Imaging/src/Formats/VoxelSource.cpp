@@ -83,6 +83,7 @@ void VoxelSource::openNifti()
 {
   NiftiHeader header = readNiftiHeader(m_path);
   m_notes = std::move(header.notes);
+  m_padding = paddingIn(header.description);
   if (header.dims.size() > 3)
     fail(FileError::Reason::Unsupported, m_path,
          "holds " + dimsText(header.dims) +
@@ -106,12 +107,27 @@ void VoxelSource::openNifti()
   m_swapped = header.swapped;
   checkRoom();
   m_geometry = gridFromAffine(m_path, header.dims, header.linear, header.origin, m_notes);
+  if (header.isSideAssumed)
+    m_assumedRas = true;
+}
+
+void VoxelSource::assume(bool isRas)
+{
+  if (!m_assumedRas || *m_assumedRas == isRas)
+    return;
+  const Eigen::Vector3d other(-1.0, -1.0, 1.0); // half a turn about the axis upwards
+  const core::GridGeometry& grid = *m_geometry;
+  m_geometry = core::GridGeometry(grid.dims(), grid.spacing(), other.cwiseProduct(grid.origin()),
+                                  other.asDiagonal() * grid.direction());
+  m_assumedRas = isRas;
 }
 
 void VoxelSource::openNrrd()
 {
   m_nrrd = readNrrdHeader(m_path);
   NrrdLayout layout = readNrrdLayout(m_path, *m_nrrd);
+  if (const std::string* text = m_nrrd->key(kPaddingKey))
+    m_padding = parseDouble(trimmed(*text));
   m_notes = std::move(layout.notes);
   m_dims = std::move(layout.dims);
   m_components = layout.components;
@@ -122,11 +138,14 @@ void VoxelSource::openNrrd()
   m_isText = layout.isText;
   checkRoom();
   m_geometry = gridFromAffine(m_path, m_dims, layout.linear, layout.origin, m_notes);
+  if (layout.isSideAssumed)
+    m_assumedRas = false;
 }
 
 void VoxelSource::openMeta()
 {
   MetaHeader header = readMetaHeader(m_path);
+  m_padding = paddingIn(header.comment);
   m_notes = std::move(header.notes);
   m_dims = std::move(header.dims);
   requireThreeDims();
@@ -147,6 +166,8 @@ void VoxelSource::openMeta()
           static_cast<long double>(m_dataBytes) - static_cast<long double>(header.offset))
     failMetaKind(m_path);
   m_geometry = gridFromAffine(m_path, m_dims, header.linear, header.origin, m_notes);
+  if (header.isSideAssumed)
+    m_assumedRas = false;
 }
 
 void VoxelSource::requireThreeDims() const

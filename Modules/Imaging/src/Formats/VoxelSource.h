@@ -34,6 +34,13 @@ public:
   /// Whether integers were converted to float by a rescale slope and intercept.
   bool rescaled() const noexcept { return m_slope != 0.0; }
   const std::vector<std::string>& notes() const noexcept { return m_notes; }
+  /// Whether the file leaves open which side of the patient is left, so that RAS (true) or LPS
+  /// (false) axes were assumed; nullopt: it states it.
+  const std::optional<bool>& assumedRas() const noexcept { return m_assumedRas; }
+  /// Places the voxels by these axes instead, if the file leaves it open.
+  void assume(bool isRas);
+  /// The value of voxels outside the scanned field, as this program's files keep it.
+  const std::optional<double>& padding() const noexcept { return m_padding; }
   /// The text header of a NRRD; nullopt for other formats.
   const std::optional<NrrdHeader>& nrrd() const noexcept { return m_nrrd; }
 
@@ -69,6 +76,8 @@ private:
   std::size_t m_components = 1;
   double m_slope = 0.0; ///< 0: no rescaling
   double m_intercept = 0.0;
+  std::optional<bool> m_assumedRas;
+  std::optional<double> m_padding;
   std::vector<std::string> m_notes;
   std::optional<NrrdHeader> m_nrrd;
   std::uintmax_t m_dataBytes = 0; ///< bytes on disk that hold the voxels

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "OutputFile.h"
@@ -33,6 +34,8 @@ struct VoxelsToWrite
   const std::string& nrrdKeys; ///< complete key/value lines for NRRD
   const core::Progress& progress;
   std::size_t layers = 1; ///< values of a voxel, which adjoin; for NRRD
+  /// Value of voxels outside the scanned field, kept in the header; NRRD: among its keys.
+  std::optional<double> padding = std::nullopt;
 
   std::size_t bytes() const
   {
@@ -49,6 +52,7 @@ void writeMeta(OutputFile& file, const VoxelsToWrite& voxels);
 /// Writes voxels in the format of the file's name. Throws FileError, CancelledError.
 void writeVoxelFile(const std::filesystem::path& path, FileContent content,
                     const core::GridGeometry& geometry, const VoxelType& type, const void* voxels,
-                    const std::string& nrrdKeys, const core::Progress& progress);
+                    const std::string& nrrdKeys, const core::Progress& progress,
+                    const std::optional<double>& padding = std::nullopt);
 
 } // namespace petrous::imaging

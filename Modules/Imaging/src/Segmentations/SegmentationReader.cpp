@@ -35,7 +35,9 @@ constexpr std::uint64_t kMaxVoxels = std::uint64_t{1} << 31;   // of all layers
 constexpr double kMaxTurn = 1e-4;      // between the orientations of two frames, of unit vectors
 constexpr double kMinTolerance = 0.05; // mm, of a frame's place
 constexpr double kRelativeTolerance = 0.1;                   // of the spacing of slices
+constexpr std::size_t kLongestPartName = 200;                // bytes; longer text is no name
 constexpr double kNotedError = 1e-3;                         // mm
+constexpr double kMinSpacing = 1e-3;                         // mm, of slices
 constexpr std::size_t kMaxCompressed = std::size_t{1} << 26; // pixels of a frame
 
 /// Deflated Image Frame Compression (PS3.5 A.4.13): the only one for frames of single bits.
@@ -228,28 +230,72 @@ void checkPixels(Segmentation& file, ByteSource& source, const DicomElements& el
              " frames need; copy or export it again");
 }
 
-/// The spacing of slices whose sorted places (mm along the normal) are `at`.
-double spacingOf(const Segmentation& file, const std::vector<double>& at)
+/// How far a frame may lie from its slice, mm.
+double toleranceOf(double spacing)
 {
+  return std::max(kMinTolerance, kRelativeTolerance * spacing);
+}
+
+/// The same in slices; less than what any place would have.
+double shareOf(double spacing)
+{
+  return std::min(toleranceOf(spacing) / spacing, 0.25);
+}
+
+/// Whether all places (mm along the normal) lie on slices of this spacing.
+bool liesOnSlices(const std::vector<double>& at, double spacing)
+{
+  return spacing > kMinSpacing &&
+         std::all_of(at.begin(), at.end(),
+                     [&](double place)
+                     {
+                       const double slices = (place - at.front()) / spacing;
+                       return std::abs(slices - std::round(slices)) <= shareOf(spacing);
+                     });
+}
+
+/// The spacing of the slices of an image in which all frames lie; 0: there is none.
+double spacingOfImage(const Segmentation& file, const std::vector<core::GridGeometry>& images)
+{
+  const Eigen::Vector3d normal = file.row.cross(file.column).normalized();
+  for (const core::GridGeometry& image : images)
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double spacing = image.spacing()[axis];
+      if (std::abs(normal.dot(image.direction().col(axis))) < 1.0 - kMaxTurn ||
+          !(spacing > kMinSpacing))
+        continue;
+      const auto isSlice = [&](const Frame& frame)
+      {
+        const double slice = image.voxelFromPatient(frame.position)[axis];
+        return std::abs(slice - std::round(slice)) <= shareOf(spacing);
+      };
+      const double rows = image.spacing()[(axis + 1) % 3];
+      const double columns = image.spacing()[(axis + 2) % 3];
+      const Eigen::Vector2d pixel(std::min(rows, columns), std::max(rows, columns));
+      const Eigen::Vector2d own(file.pixelSpacing.minCoeff(), file.pixelSpacing.maxCoeff());
+      if (pixel.isApprox(own, kMinSpacing) &&
+          std::all_of(file.frames.begin(), file.frames.end(), isSlice))
+        return spacing;
+    }
+  return 0.0;
+}
+
+/// The spacing of slices whose sorted places (mm along the normal) are `at`: as declared, if that
+/// is true to the places, which may be far apart; else that of an image that has all of them; else
+/// the thickness; else the smallest gap. Guesses are noted.
+double spacingOf(const Segmentation& file, const std::vector<double>& at,
+                 const std::vector<core::GridGeometry>& images, std::vector<std::string>& notes)
+{
+  if (at.size() < 2)
+    return file.sliceSpacing > 0.0 ? file.sliceSpacing
+           : file.thickness > 0.0  ? file.thickness
+                                   : spacingOfImage(file, images);
+  if (liesOnSlices(at, file.sliceSpacing))
+    return file.sliceSpacing;
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t n = 1; n < at.size(); ++n)
     smallest = std::min(smallest, at[n] - at[n - 1]);
-  if (at.size() < 2)
-    return file.sliceSpacing > 0.0 ? file.sliceSpacing : file.thickness;
-  // Declared, and true to the places: frames may be far apart.
-  const auto offGrid = [&](double spacing)
-  {
-    double worst = 0.0;
-    for (const double place : at)
-    {
-      const double slices = (place - at.front()) / spacing;
-      worst = std::max(worst, std::abs(slices - std::round(slices)) * spacing);
-    }
-    return worst;
-  };
-  if (file.sliceSpacing > 1e-3 &&
-      offGrid(file.sliceSpacing) <= std::max(kMinTolerance, kRelativeTolerance * file.sliceSpacing))
-    return file.sliceSpacing;
   // The mean of the gaps of one slice, as rounded decimals make them differ.
   double sum = 0.0;
   int count = 0;
@@ -259,11 +305,26 @@ double spacingOf(const Segmentation& file, const std::vector<double>& at)
       sum += gap;
       ++count;
     }
-  return sum / count;
+  const double gap = sum / count;
+  if (const double spacing = spacingOfImage(file, images); spacing > 0.0)
+    return spacing < gap - toleranceOf(gap) ? spacing : gap;
+  if (file.thickness >= gap - toleranceOf(gap)) // slices may overlap
+    return gap;
+  const std::string apart =
+      "states no spacing of its slices; its frames lie " + roughText(gap) + " mm apart or more";
+  if (liesOnSlices(at, file.thickness))
+  {
+    notes.push_back(apart + " and are " + roughText(file.thickness) +
+                    " mm thick, so that what lies between them was taken to be empty");
+    return file.thickness;
+  }
+  notes.push_back(apart + ", which was taken for their thickness; check the volumes");
+  return gap;
 }
 
 /// Puts each frame into its slice.
-core::GridGeometry placeFrames(Segmentation& file, std::vector<std::string>& notes)
+core::GridGeometry placeFrames(Segmentation& file, const std::vector<core::GridGeometry>& images,
+                               std::vector<std::string>& notes)
 {
   const Eigen::Vector3d normal = file.row.cross(file.column).normalized();
   if (!normal.allFinite() || normal.norm() < 0.5)
@@ -274,8 +335,8 @@ core::GridGeometry placeFrames(Segmentation& file, std::vector<std::string>& not
   std::sort(at.begin(), at.end());
   at.erase(std::unique(at.begin(), at.end(), [](double a, double b) { return b - a < 1e-3; }),
            at.end());
-  double spacing = spacingOf(file, at);
-  if (!(spacing > 1e-3))
+  double spacing = spacingOf(file, at, images, notes);
+  if (!(spacing > kMinSpacing))
     fail(Reason::NoGeometry, file.path,
          "its one slice states no thickness and no spacing; export the segmentation again");
   const double range = at.back() - at.front();
@@ -292,7 +353,7 @@ core::GridGeometry placeFrames(Segmentation& file, std::vector<std::string>& not
   for (const Frame& frame : file.frames)
     if (normal.dot(frame.position) < normal.dot(lowest->position))
       lowest = &frame;
-  const double tolerance = std::max(kMinTolerance, kRelativeTolerance * spacing);
+  const double tolerance = toleranceOf(spacing);
   double worst = 0.0;
   for (Frame& frame : file.frames)
   {
@@ -317,6 +378,19 @@ core::GridGeometry placeFrames(Segmentation& file, std::vector<std::string>& not
                          static_cast<std::uint64_t>(file.rows),
                          static_cast<std::uint64_t>(steps) + 1},
                         linear, lowest->position, notes);
+}
+
+/// How thick a frame is by the file itself, mm, whatever grid it was put into; overlapping slices
+/// are as thick as they are apart.
+double thicknessOf(const Segmentation& file, const core::GridGeometry& grid)
+{
+  const double spacing = grid.spacing()[2];
+  if (file.sliceSpacing > kMinSpacing &&
+      std::abs(file.sliceSpacing - spacing) <= toleranceOf(spacing))
+    return spacing;
+  return file.thickness > kMinSpacing && file.thickness < spacing - toleranceOf(spacing)
+             ? file.thickness
+             : spacing;
 }
 
 /// Calls visit(pixel) for the pixels of a frame that belong to its segment, until it returns false.
@@ -655,7 +729,8 @@ std::array<std::uint16_t, 3> cieLabFromColor(const std::array<float, 3>& color)
           scaled((200.0 * (fy - fz) + 128.0) / 255.0)};
 }
 
-LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Progress& progress)
+LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Progress& progress,
+                              const std::vector<core::GridGeometry>& images)
 {
   progress.report(0.0, "reading labels");
   ByteSource source(path);
@@ -699,7 +774,8 @@ LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Pro
 
   LoadedLabels loaded;
   loaded.frameOfReferenceUid = data.text(0x00200052);
-  const core::GridGeometry grid = placeFrames(file, loaded.notes);
+  const core::GridGeometry grid = placeFrames(file, images, loaded.notes);
+  const double frameVolume = thicknessOf(file, grid) * grid.spacing()[0] * grid.spacing()[1];
   if (file.type == Type::Fractional)
     loaded.notes.push_back(std::string("holds fractions (") +
                            (file.isOccupancy ? "occupancy" : "probability") +
@@ -726,6 +802,14 @@ LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Pro
     volume::Segment segment;
     segment.index = static_cast<std::uint16_t>(*number);
     segment.name = toUtf8(item.text(0x00620005), characters);
+    // Its description may begin with the whole of a name that was cut.
+    const std::string whole = toUtf8(item.text(0x00620006), characters);
+    const auto characterCount =
+        std::count_if(segment.name.begin(), segment.name.end(),
+                      [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+    if (characterCount == kLongestName && whole.size() <= kLongestPartName &&
+        whole.compare(0, segment.name.size(), segment.name) == 0)
+      segment.name = whole;
     if (segment.name.empty())
       segment.name = "label " + std::to_string(*number);
     segment.name = unique.take(segment.name, loaded.notes);
@@ -733,7 +817,7 @@ LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Pro
     loaded.meanings[segment.name] = meaningOf(item, characters);
     loaded.codes[segment.name] = codesOf(item, characters);
     if (const auto pixels = layers.pixels.find(*number); pixels != layers.pixels.end())
-      loaded.fileVolumes[segment.name] = pixels->second * grid.voxelVolume();
+      loaded.fileVolumes[segment.name] = pixels->second * frameVolume;
     const auto layer = layers.layerOf.find(*number);
     names[layer == layers.layerOf.end() ? 0 : layer->second].push_back(std::move(segment));
   }

@@ -12,6 +12,9 @@
 namespace petrous::imaging
 {
 
+/// Characters of a long string (LO), which the label of a segment is.
+constexpr int kLongestName = 64;
+
 /// SOP Class UID of a DICOM file; "" if it is not one, or is damaged before it.
 std::string sopClassOf(const std::filesystem::path& path);
 bool isSegmentationClass(const std::string& sopClass);
@@ -21,9 +24,13 @@ bool isSegmentationClass(const std::string& sopClass);
 /// JPEG, JPEG-LS, JPEG 2000; frames of single bits: deflated only, as DICOM has it).
 ///
 /// The grid is the frames' own: their orientation, and positions at even steps along the normal;
-/// places without a frame are empty. Frames are read one at a time, straight into the grid.
-/// Segments that overlap lie in several maps. Throws FileError, CancelledError.
-LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Progress& progress);
+/// places without a frame are empty. Where the file declares no spacing of its slices that fits, it
+/// is that of the first of `images` on whose slices all frames lie, else the frames' thickness,
+/// else the smallest gap, the latter two noted unless they are one. Frames are read one at a time,
+/// straight into the grid. Segments that overlap lie in several maps. Throws FileError,
+/// CancelledError.
+LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Progress& progress,
+                              const std::vector<core::GridGeometry>& images = {});
 
 /// The code in an item of a code sequence (short, long or URN); its texts are in the character set
 /// `characters` (0008,0005).

@@ -46,17 +46,18 @@ void putShorts(DataSet& data, std::uint16_t group, std::uint16_t element, const 
   putBytes(data, group, element, vr, bytes);
 }
 
+constexpr int kLongestText = 1024; // characters of a short text (ST)
+
 /// A long string (LO): without the backslash, which separates values, or control characters, and
 /// cut at a whole character.
-std::string longString(const std::string& text)
+std::string longString(const std::string& text, int longest = kLongestName)
 {
-  constexpr int kLongest = 64; // characters
   std::string result;
   int characters = 0;
   for (const char c : text)
   {
     const bool begins = (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-    if (begins && ++characters > kLongest)
+    if (begins && ++characters > longest)
       break;
     result += c == '\\' ? '/' : static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
   }
@@ -90,6 +91,10 @@ DataSet segmentItem(const SegmentationDescription::Segment& segment, std::size_t
   put(d, 0x0062, 0x0004, static_cast<std::uint16_t>(number));
   put(d, {{0x0062, 0x0005, "LO", longString(segment.label)},
           {0x0062, 0x0008, "CS", kAlgorithms[static_cast<std::size_t>(segment.algorithm)]}});
+  // A label holds no more: SegmentationReader takes the whole name from the description.
+  if (const std::string whole = longString(segment.label, kLongestText);
+      whole != longString(segment.label))
+    put(d, 0x0062, 0x0006, "ST", whole);
   if (segment.algorithm != Algorithm::Manual)
     put(d, 0x0062, 0x0009, "LO", longString(segment.algorithmName));
   const std::array<std::uint16_t, 3> lab = cieLabFromColor(segment.color);
@@ -288,15 +293,19 @@ std::vector<char> pixelsOf(const std::vector<Frame>& frames,
                     "writing segments");
     const auto& segment = description.segments[frames[f].segment];
     const std::uint16_t* slice = &maps[segment.map].voxels->at(0, 0, frames[f].slice);
-    volume::forEachLabel(slice, static_cast<int>(count),
-                         [&](int p, std::uint16_t label)
-                         {
-                           if (label != segment.index)
-                             return;
-                           const std::size_t bit = f * count + static_cast<std::size_t>(p);
-                           pixels[bit / 8] = static_cast<char>(
-                               static_cast<unsigned char>(pixels[bit / 8]) | (1U << bit % 8));
-                         });
+    for (int j = 0; j < n[1]; ++j) // a slice may have more pixels than an int counts
+    {
+      const std::size_t row = static_cast<std::size_t>(j) * static_cast<std::size_t>(n[0]);
+      volume::forEachLabel(slice + row, n[0],
+                           [&](int i, std::uint16_t label)
+                           {
+                             if (label != segment.index)
+                               return;
+                             const std::size_t bit = f * count + row + static_cast<std::size_t>(i);
+                             pixels[bit / 8] = static_cast<char>(
+                                 static_cast<unsigned char>(pixels[bit / 8]) | (1U << bit % 8));
+                           });
+    }
   }
   return pixels;
 }

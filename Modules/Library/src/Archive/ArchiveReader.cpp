@@ -365,8 +365,8 @@ std::vector<std::string> leaveOutMissing(scene::Case& value, const ObjectStore& 
   return notes;
 }
 
-/// The library's salt is not this one's: hashes of frames of reference cannot be compared with
-/// those of images that are added here.
+/// The library's salt is not this one's: hashes of frames of reference and patients cannot be
+/// compared with those of images that are added here.
 void forgetFrames(scene::Case& value, std::vector<std::string>& notes)
 {
   bool shared = false;
@@ -374,9 +374,9 @@ void forgetFrames(scene::Case& value, std::vector<std::string>& notes)
   {
     shared = shared ||
              (!mr.frameOfReference.empty() && mr.frameOfReference == value.ct.frameOfReference);
-    mr.frameOfReference.clear();
+    scene::forgetIdentity(mr);
   }
-  value.ct.frameOfReference.clear();
+  scene::forgetIdentity(value.ct);
   if (shared)
     notes.push_back("that CT and MR were acquired in one position is not known in this library; "
                     "registrations that the case has are kept");

@@ -394,9 +394,8 @@ try
     summary.notes = options.prepare(value, progress.part(0.0, 0.3));
   const auto salt = [&library](scene::ImagePart& image) // older manifests have plain hashes
   {
-    if (!image.isFrameSalted && !image.frameOfReference.empty())
-      image.frameOfReference = saltedFrame(library, image.frameOfReference);
-    image.isFrameSalted = true;
+    scene::saltIdentity(image,
+                        [&library](const std::string& hash) { return saltedFrame(library, hash); });
   };
   salt(value.ct);
   std::for_each(value.mr.begin(), value.mr.end(), salt);

@@ -166,9 +166,8 @@ void saltFrames(scene::Case& value, const fs::path& folder)
 {
   const auto salted = [&folder](scene::ImagePart& image)
   {
-    if (!image.isFrameSalted && !image.frameOfReference.empty())
-      image.frameOfReference = withSalt(image.frameOfReference, folder);
-    image.isFrameSalted = true;
+    scene::saltIdentity(image,
+                        [&folder](const std::string& hash) { return withSalt(hash, folder); });
   };
   salted(value.ct);
   std::for_each(value.mr.begin(), value.mr.end(), salted);

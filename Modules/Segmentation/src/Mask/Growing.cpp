@@ -76,9 +76,9 @@ Mask connectedThreshold(const volume::IntensityVolume& image, const volume::Valu
                         const std::string& unit)
 {
   if (!(range.min <= range.max))
-    throw core::InvalidParameter("threshold: the lower limit (" + core::fixedText(range.min, 1) +
+    throw core::InvalidParameter("threshold: the lower limit (" + core::generalText(range.min) +
                                  unit + ") is above the upper one (" +
-                                 core::fixedText(range.max, 1) + unit +
+                                 core::generalText(range.max) + unit +
                                  "); give them in ascending order");
   if (seeds.empty())
     throw core::InvalidParameter("region: give a point inside the structure");
@@ -92,7 +92,7 @@ Mask connectedThreshold(const volume::IntensityVolume& image, const volume::Valu
           "the image has " + core::fixedText(value, 1) + unit + " at the seed (" +
           core::fixedText(seed[0], 1) + ", " + core::fixedText(seed[1], 1) + ", " +
           core::fixedText(seed[2], 1) + " mm), which is not between " +
-          core::fixedText(range.min, 1) + " and " + core::fixedText(range.max, 1) + unit +
+          core::generalText(range.min) + " and " + core::generalText(range.max) + unit +
           "; choose a point inside the structure, or other limits");
     open.push_back(index);
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <iterator>
 #include <limits>
 #include <queue>
 #include <utility>
@@ -87,6 +89,26 @@ std::vector<Vector3d> ball(double reach, double step)
   return offsets;
 }
 
+/// Blocks of about `size` voxels, first and end, of which each has neighbours along this axis;
+/// `each`: only every so many. An odd number of them, symmetric about the middle one.
+std::vector<std::pair<int, int>> symmetricBlocks(int dim, double size, int each)
+{
+  const int inner = dim - 2;
+  const int half = static_cast<int>(std::floor(0.5 * inner / size)); // on either side
+  const int count = 2 * half + 1;
+  const auto edge = [&](int n) // at the lower side of block n
+  {
+    return n <= half
+               ? 1 + static_cast<int>(static_cast<std::int64_t>(inner) * n / count)
+               : dim - 1 - static_cast<int>(static_cast<std::int64_t>(inner) * (count - n) / count);
+  };
+  std::vector<std::pair<int, int>> blocks;
+  for (int n = 0; n < count; ++n)
+    if ((n - half) % each == 0)
+      blocks.emplace_back(edge(n), edge(n + 1));
+  return blocks;
+}
+
 /// A position's worth falls with its distance from the point that was set: half at the reach.
 double nearness(double distance, double reach)
 {
@@ -160,13 +182,7 @@ TubeImage::TubeImage(const volume::IntensityVolume& image, const core::IndexBox&
                             holes[static_cast<std::size_t>(k)] = hole ? 1 : 0;
                           });
       });
-  // a sample of the voxels is enough for the median; all are needed to call the image constant
   float* data = m_voxels.data();
-  const std::size_t step = std::max<std::size_t>(m_voxels.size() / 100003, 1);
-  std::vector<float> sample;
-  for (std::size_t i = 0; i < m_voxels.size(); i += step)
-    if (!std::isnan(data[i]))
-      sample.push_back(data[i]);
   const auto valid = [](float v) { return !std::isnan(v); };
   const float* const end = data + m_voxels.size();
   const float* const first = std::find_if(static_cast<const float*>(data), end, valid);
@@ -177,11 +193,14 @@ TubeImage::TubeImage(const volume::IntensityVolume& image, const core::IndexBox&
     throw core::InvalidParameter(
         "tube: the image has the same value everywhere around the points; set them on a structure "
         "that differs from its surroundings");
-  const auto fill = static_cast<float>(sample.empty() ? static_cast<double>(*first)
-                                                      : medianOf(std::move(sample)));
   if (std::find(holes.begin(), holes.end(), 1) != holes.end())
+  {
+    std::vector<float> all; // a sample would depend on the order of the voxels
+    std::copy_if(first, end, std::back_inserter(all), valid);
+    const auto fill = static_cast<float>(medianOf(std::move(all)));
     std::replace_if(
         data, data + m_voxels.size(), [](float v) { return std::isnan(v); }, fill);
+  }
   m_noise = estimateNoise();
 }
 
@@ -208,25 +227,29 @@ float TubeImage::sample(const Vector3f& voxel) const noexcept
 }
 
 /// From pseudo-residuals against the six neighbours, in blocks; the lower quartile of the blocks,
-/// as homogeneous tissue is wanted. Blocks without any variation (clipped air) do not count.
+/// as homogeneous tissue is wanted. Blocks without any variation (clipped air) do not count. The
+/// blocks lie the same in an image that is stored the other way along an axis.
 double TubeImage::estimateNoise() const
 {
-  constexpr int kBlock = 8;
+  constexpr double kBlock = 8.0; // voxels, about
   const core::Index3& dims = geometry().dims();
   if (dims[0] < 3 || dims[1] < 3 || dims[2] < 3)
     return 0.0;
+  std::array<std::vector<std::pair<int, int>>, 3> blocks;
+  const int each =
+      std::max(1, static_cast<int>(std::cbrt(static_cast<double>(m_voxels.size()) / 4e6)));
+  for (std::size_t a = 0; a < 3; ++a)
+    blocks[a] = symmetricBlocks(dims[a], kBlock, each);
   std::vector<double> found;
-  const int stride =
-      kBlock * std::max(1, static_cast<int>(std::cbrt(static_cast<double>(m_voxels.size()) / 4e6)));
-  for (int k = 1; k + 1 < dims[2]; k += stride)
-    for (int j = 1; j + 1 < dims[1]; j += stride)
-      for (int i = 1; i + 1 < dims[0]; i += stride)
+  for (const auto& [k, kEnd] : blocks[2])
+    for (const auto& [j, jEnd] : blocks[1])
+      for (const auto& [i, iEnd] : blocks[0])
       {
         double sum = 0.0;
         int count = 0;
-        for (int z = k; z < std::min(k + kBlock, dims[2] - 1); ++z)
-          for (int y = j; y < std::min(j + kBlock, dims[1] - 1); ++y)
-            for (int x = i; x < std::min(i + kBlock, dims[0] - 1); ++x)
+        for (int z = k; z < kEnd; ++z)
+          for (int y = j; y < jEnd; ++y)
+            for (int x = i; x < iEnd; ++x)
             {
               const float* c = &m_voxels.at(x, y, z);
               float mean = 0.0F;

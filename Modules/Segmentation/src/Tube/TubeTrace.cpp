@@ -78,8 +78,9 @@ core::IndexBox boxAround(const core::GridGeometry& geometry, const std::vector<V
   Vector3d upper = -lower;
   for (std::size_t i = 0; i + 1 < points.size(); ++i)
   {
+    // Not just on voxels for round numbers: rounding would make the box depend on their order.
     const double reach = legReach((points[i + 1] - points[i]).norm(), radius) + 2.0 * radius +
-                         2.0 * geometry.spacing().maxCoeff();
+                         2.013 * geometry.spacing().maxCoeff();
     for (const Vector3d& p : {points[i], points[i + 1]})
     {
       lower = lower.cwiseMin((p.array() - reach).matrix());

@@ -25,6 +25,8 @@ struct PartSource
   /// MR: which series and volume of a DICOM folder (imaging::chooseSeries); empty: automatic.
   std::string series = {};
   bool repair = false; ///< MR: as CaseSources
+  /// MR: whether it may state another patient than the case's images do.
+  bool isOtherPatient = false;
   /// Meshes: whether the file is in RAS (else LPS), and its unit in mm; nullopt: as it states,
   /// else LPS mm if that fits the image.
   std::optional<bool> isRas = std::nullopt;
@@ -59,8 +61,9 @@ struct PartSources
   /// several sources, one of a single structure keeps its own.
   std::filesystem::path labelNames = {};
   std::vector<PartSource> meshes; ///< OBJ, STL, PLY, VTP
-  /// A frame of reference as the library of a stored case keeps it (library::saltedFrame), so that
-  /// a DICOM SEG's can be compared with it; empty: only cases that are not stored are compared.
+  /// A hash of a frame of reference or patient as the library of a stored case keeps it
+  /// (library::saltedFrame), so that a new file's can be compared with it; empty: only cases that
+  /// are not stored are compared.
   std::function<std::string(const std::string&)> salted = {};
 };
 
@@ -73,6 +76,18 @@ struct MeshSpaceUnclear : core::InvalidParameter
   /// How the file may count; the first is how it was read, with the others the mesh lies in its
   /// image.
   std::vector<imaging::MeshSpace> likely;
+};
+
+/// An MR that states another patient than an image of the case: the user has to say whether it may.
+struct OtherPatient : core::Error
+{
+  explicit OtherPatient(const std::filesystem::path& file);
+};
+
+/// A primary image that leaves open which side of the patient is left: the user has to say.
+struct ImageSideUnclear : core::InvalidParameter
+{
+  explicit ImageSideUnclear(const std::filesystem::path& file);
 };
 
 /// "LPS mm", "RAS m", ..
@@ -125,6 +140,9 @@ struct CaseSources
   std::string series;  ///< which of a folder (imaging::chooseSeries); empty: chosen automatically
   bool repair = false; ///< resamples what imaging::ReadOptions::repair can
   std::optional<core::PatientBox> roi; ///< crops the CT on load
+  /// A primary image whose file leaves open which side of the patient is left: whether its axes
+  /// are RAS (else LPS); nullopt: it is refused.
+  std::optional<bool> isRas = std::nullopt;
   PartSources parts;
 };
 
@@ -132,15 +150,17 @@ struct CaseSources
 /// whose image is unspecified, and whose grid is that of one MR and not the CT's, are taken as
 /// drawn on that MR; so is a DICOM SEG in the frame of reference of an MR and not the CT's, and one
 /// in neither, nor in that of files exported from the case (exportedFrame), is refused unless
-/// "FILE@ct" says otherwise. Throws the imaging module's errors,
-/// InvalidParameter (also if several MR images have that grid), CancelledError.
+/// "FILE@ct" says otherwise. Throws the imaging module's errors, ImageSideUnclear,
+/// InvalidParameter (also if several MR images have that grid), OtherPatient, CancelledError.
 scene::Case buildCase(const std::string& name, const CaseSources& sources,
                       const core::Progress& progress,
                       std::vector<StructureReport>* report = nullptr);
 
 /// Adds parts to a case; strong exception guarantee. Structure names must be new to the case's
 /// labels, mesh names to its meshes. A part without a given name is named by the structure words of
-/// its file name (fileName), and its notes say so. Throws Error (Refused) for a name that is taken,
+/// its file name (fileName), and its notes say so. An MR whose files and those of another image of
+/// the case state different patients (imaging::samePatient) is OtherPatient unless its source
+/// allows it; its notes then say so. Throws Error (Refused) for a name that is taken,
 /// InvalidParameter for labels without a
 /// voxel, and for a mesh that extends beyond the image on which it was drawn by more than
 /// volume::maxReach; MeshSpaceUnclear for one that lies in it only in another frame or unit.
@@ -154,6 +174,7 @@ struct PartFailure
   PartSource source;
   std::string why;                             ///< names the file
   std::vector<imaging::MeshSpace> likely = {}; ///< of MeshSpaceUnclear
+  bool isOtherPatient = false;                 ///< OtherPatient
 };
 
 /// As addParts, one part after the other: those that can be added are, the others are returned.

@@ -39,9 +39,9 @@ public:
   /// region does not count: a mass at an artery is none.
   std::optional<StructureAppearance> lookForCodes(const volume::SegmentCodes& codes) const;
 
-  /// The words of a name that denote structures, sides and parts, and short numbers, in order and
-  /// in lower case: "Doe_John-FacialNerve_left" -> "facial nerve left". Empty if none of them
-  /// denotes a structure.
+  /// The words of a name that denote structures, sides (also abbreviated, in several languages) and
+  /// parts, and short numbers, in order and in lower case: "Doe_John-FacialNerve_left" -> "facial
+  /// nerve left". Empty if none of them denotes a structure.
   std::string knownWords(const std::string& name) const;
 
   /// The preset of this name, or the one that a structure of this name would get, e.g. "vessel" ->
@@ -79,10 +79,12 @@ private:
   const StructureAppearance* lookByWord(const std::string& structureName) const;
   bool hasPhrase(const std::vector<std::string>& name, const Phrases& phrases) const;
   bool isNeutral(const std::string& foldedWord) const;
+  bool isSide(const std::string& foldedWord) const;
   static void addPhrases(Phrases& phrases, const std::vector<std::string>& texts, bool isAlone);
 
   std::vector<StructureAppearance> m_presets;
   std::vector<Words> m_words;
+  std::vector<std::string> m_sides;   ///< words and abbreviations of left and right
   std::vector<std::string> m_neutral; ///< words accepted besides those of structures
   std::vector<Code> m_codes;
   StructureAppearance m_other;

@@ -18,6 +18,9 @@ struct LoadedImage
 {
   std::shared_ptr<const volume::IntensityVolume> volume;
   std::vector<std::string> notes; ///< what was assumed or changed, one sentence each
+  /// Whether the file leaves open which side of the patient is left: axes RAS (true) or LPS (false)
+  /// were taken. nullopt: it states it.
+  std::optional<bool> assumedRas;
 };
 
 /// Reads a CT or MR from a NIfTI, NRRD or MetaImage file.
@@ -25,12 +28,18 @@ struct LoadedImage
 /// int16, uint16 and float are kept; 8-bit integers become int16; wider types become int16 or
 /// uint16 if all values are integral and fit, else float. With `roi`, only the smallest voxel box
 /// whose hull covers it is kept. Positions are converted to patient LPS mm; an unstated unit is
-/// taken as mm and noted.
+/// taken as mm and noted. Of a file that leaves open which side of the patient is left (NIfTI
+/// without qform and sform, NRRD without a patient's 'space', MetaImage without TransformMatrix)
+/// `isRas` says how its axes count.
 ///
 /// Throws FileError: NoGeometry for axes that are not perpendicular; Unsupported for 2-D and 4-D
 /// images, vectors, colours and non-finite values, and for a roi outside the image; CancelledError.
 LoadedImage readImageFile(const std::filesystem::path& path,
                           const std::optional<core::PatientBox>& roi = std::nullopt,
-                          const core::Progress& progress = {});
+                          const core::Progress& progress = {},
+                          const std::optional<bool>& isRas = std::nullopt);
+
+/// LoadedImage::assumedRas of a file, by its header alone. Throws FileError.
+std::optional<bool> assumedRasOf(const std::filesystem::path& path);
 
 } // namespace petrous::imaging

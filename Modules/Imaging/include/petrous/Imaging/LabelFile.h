@@ -62,7 +62,9 @@ bool isDicomSegmentation(const std::filesystem::path& path);
 /// DICOM segmentation, on the grid of the file, or from a folder of such files, one structure each.
 ///
 /// A DICOM segmentation is BINARY, FRACTIONAL (voxels of 50 % and more, noted) or LABELMAP; places
-/// without a frame are empty. It is known by its first bytes, under any name.
+/// without a frame are empty. It is known by its first bytes, under any name. Of one that declares
+/// no spacing of its slices it is that of the image in `images` (on which it may have been drawn)
+/// on whose slices its frames lie, else their thickness or distance, which is noted.
 ///
 /// Names and colours are taken from the file itself (3D Slicer's .seg.nrrd), else from the table
 /// given in `naming`, else from a table in the same folder that has the same base name (.ctbl,
@@ -80,7 +82,8 @@ bool isDicomSegmentation(const std::filesystem::path& path);
 /// Throws FileError; Unsupported reports a value below 0, above 65535 or not integral, and a folder
 /// without a structure. CancelledError.
 LoadedLabels loadLabels(const std::filesystem::path& path, const core::Progress& progress = {},
-                        const LabelNaming& naming = {});
+                        const LabelNaming& naming = {},
+                        const std::vector<core::GridGeometry>& images = {});
 
 /// Like loadLabels, without the notes, for a file whose structures do not overlap. Throws FileError
 /// (Unsupported) for several layers.

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "petrous/Core/GridGeometry.h"
+#include "petrous/Imaging/PatientKey.h"
 
 namespace petrous::imaging
 {
@@ -30,14 +31,6 @@ struct PixelFormat
   int frame = 0;            ///< of an encapsulated file with several
   int frameCount = 1;       ///< in the file
   std::uint64_t length = 0; ///< bytes; up to the end of the file if encapsulated
-};
-
-/// Hashes that distinguish patients: no patient data can reach a message. 0: not stated.
-struct PatientKey
-{
-  std::size_t id = 0;
-  std::size_t name = 0;
-  std::size_t birthDate = 0;
 };
 
 /// What distinguishes slices of one series at the same place. Absent or malformed: nullopt.
@@ -79,6 +72,9 @@ struct SliceHeader
   double slope = 1.0;
   double intercept = 0.0;
   bool hasRescale = false;
+  std::string rescaleType; ///< (0028,1054) unit of the rescaled values, e.g. HU; empty: not stated
+  bool isLossy = false;    ///< the pixels were compressed with loss, once
+  std::optional<double> lossyRatio;        ///< of that compression, if stated
   std::optional<double> declaredSpacing;   ///< SpacingBetweenSlices, mm; noted, never used
   std::optional<double> thickness;         ///< mm
   std::optional<double> declaredTilt;      ///< GantryDetectorTilt, degrees; noted only
@@ -123,6 +119,7 @@ enum class FindingKind
   MixedAcquisitions,
   NoGeometry,
   LocalizerMixedIn,
+  MissingEnd, ///< no reason for a verdict
   MultiFrame,
   NotAnImage,
   Unreadable
@@ -158,7 +155,8 @@ struct SeriesGeometry
 
   bool singleGaps = true; ///< no two missing slices adjoin
   Verdict verdict = Verdict::Refused;
-  /// The reasons for the verdict, and localizers set aside. Those of kind Unreadable name files.
+  /// The reasons for the verdict, localizers set aside, and ends that may be missing. Those of kind
+  /// Unreadable name files.
   std::vector<Finding> findings;
   std::vector<std::string> notes; ///< accepted but worth knowing, e.g. jitter
 };

@@ -107,8 +107,13 @@ bool meansBone(const Case& value, const std::string& name);
 /// The names of all parts of the case, for generating unique ones. Always includes "ct".
 std::vector<std::string> partNames(const Case& value);
 
-/// Removes an MR, a structure or a mesh; appearances that read a removed MR read the CT again.
-/// Throws InvalidParameter listing the existing parts, Error (Refused) for an MR on which remaining
+/// What of the case has this name: "image", "MR", "structure" or "mesh"; nullptr: nothing, so that
+/// a new part of any kind may have it. Names are unique over all kinds.
+const char* kindOfPart(const Case& value, const std::string& name);
+
+/// Removes a structure, a mesh or an MR: one of them, in this order, where an older case has
+/// several of one name. Appearances that read a removed MR read the CT again. Throws
+/// InvalidParameter listing the existing parts, Error (Refused) for an MR on which remaining
 /// structures were drawn.
 void removePart(Case& value, const std::string& name);
 

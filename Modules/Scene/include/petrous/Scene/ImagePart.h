@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,17 @@ enum class Modality
   Mr
 };
 
+/// Whose image it is, as SHA-256 of what identifies the patient: to compare, never to show. Each is
+/// empty where the file does not state it.
+struct PatientHash
+{
+  std::string id, issuer; ///< of the ID
+  std::string name;
+  std::string birthDate; ///< with the name: comparable only where the names are equal
+
+  bool empty() const { return id.empty() && name.empty() && birthDate.empty(); }
+};
+
 /// A CT or MR image of the case. Voxels are loaded on demand; the rest is available without them.
 struct ImagePart
 {
@@ -39,9 +51,16 @@ struct ImagePart
   /// SHA-256 of the file's frame of reference UID (DICOM C.7.4.1): images with the same value were
   /// acquired in one position of the patient, according to the scanner. Empty: unknown.
   std::string frameOfReference;
-  /// Whether it was hashed again with the library's secret salt, as Library::save does; comparable
-  /// only if both or neither are.
+  PatientHash patient; ///< empty: unknown
+  /// Whether both were hashed again with the library's secret salt, as Library::save does;
+  /// comparable with another image's only if its are or neither's.
   bool isFrameSalted = false;
 };
+
+/// Hashes frame of reference and patient again by `salted`, unless they are already.
+void saltIdentity(ImagePart& image, const std::function<std::string(const std::string&)>& salted);
+
+/// Forgets frame of reference and patient, which another library salted.
+void forgetIdentity(ImagePart& image);
 
 } // namespace petrous::scene

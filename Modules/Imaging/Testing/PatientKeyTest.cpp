@@ -1,0 +1,41 @@
+#include <gtest/gtest.h>
+
+#include "petrous/Imaging/PatientKey.h"
+
+namespace petrous::imaging
+{
+namespace
+{
+
+TEST(PatientKey, SpellingsOfOneIdentityAgree)
+{
+  const PatientKey key = patientKey("A 17", "CLINIC", "M\xc3\xbcller^Anna Maria", "19630412");
+  for (const char* name : {"M\xc3\x9cLLER^ANNA MARIA^^^", "m\xc3\xbcller anna  maria ",
+                           "M\xc3\xbcller, Anna Maria", "M\xc3\xbcller^Anna Maria=\xe5\xb1\xb1"})
+    EXPECT_TRUE(samePatient(key, patientKey(" a 17 ", "clinic", name, "19630412 "))) << name;
+  EXPECT_TRUE(samePatient(key, patientKey("", "", "", ""))) << "states nothing";
+  EXPECT_TRUE(samePatient(key, patientKey("A 17", "", "", "")));
+  EXPECT_TRUE(patientKey("", "X", " ^^ ", "").empty());
+  EXPECT_TRUE(patientKey("ANONYMOUS", "", "Anonymous", "").empty());
+  EXPECT_FALSE(key.empty());
+}
+
+TEST(PatientKey, AnyThatDiffersMakesAnotherPatient)
+{
+  const PatientKey key = patientKey("17", "CLINIC", "Doe^Jane", "19630412");
+  EXPECT_FALSE(samePatient(key, patientKey("18", "CLINIC", "Doe^Jane", "19630412")));
+  EXPECT_FALSE(samePatient(key, patientKey("18", "", "Doe^Jane", "19630412")));
+  EXPECT_FALSE(samePatient(key, patientKey("17", "CLINIC", "Doe^John", "19630412")));
+  EXPECT_FALSE(samePatient(key, patientKey("17", "CLINIC", "Doe^Jane", "19630413")));
+  EXPECT_FALSE(samePatient(key, patientKey("", "", "Roe", "")));
+}
+
+TEST(PatientKey, IdsOfTwoIssuersAreNotCompared)
+{
+  const PatientKey key = patientKey("17", "CLINIC", "Doe^Jane", "19630412");
+  EXPECT_TRUE(samePatient(key, patientKey("4711", "OTHER", "Doe^Jane", "19630412")));
+  EXPECT_FALSE(samePatient(key, patientKey("17", "OTHER", "Roe^Jane", "19630412")));
+}
+
+} // namespace
+} // namespace petrous::imaging

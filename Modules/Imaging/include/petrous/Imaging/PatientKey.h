@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <type_traits>
+
+namespace petrous::imaging
+{
+
+/// Hashes that distinguish patients: no patient data can reach a message. 0: not stated.
+struct PatientKey
+{
+  std::size_t id = 0;     ///< (0010,0020)
+  std::size_t issuer = 0; ///< (0010,0021) of the ID
+  std::size_t name = 0;   ///< (0010,0010)
+  std::size_t birthDate = 0;
+
+  bool empty() const { return id == 0 && name == 0 && birthDate == 0; }
+};
+
+/// The key of an identity as DICOM states it, in UTF-8. Writers differ in case, in spaces and in
+/// the delimiters of a name's components: these do not count. "Anonymous" and the like are nobody.
+/// Of a name only the first representation counts (PS3.5 6.2.1), as others may be absent. The same
+/// in every run of the program.
+PatientKey patientKey(const std::string& id, const std::string& issuer, const std::string& name,
+                      const std::string& birthDate);
+
+/// Whether two identities may be of one patient: no ID, name or birth date that both state differs.
+/// IDs of different issuers are not compared. `Key` has the members of PatientKey, each equal to
+/// its default value where it is not stated.
+template <class Key>
+bool samePatient(const Key& a, const Key& b)
+{
+  const auto differ = [](const auto& one, const auto& other)
+  {
+    const std::decay_t<decltype(one)> none{};
+    return one != none && other != none && one != other;
+  };
+  return (differ(a.issuer, b.issuer) || !differ(a.id, b.id)) && !differ(a.name, b.name) &&
+         !differ(a.birthDate, b.birthDate);
+}
+
+} // namespace petrous::imaging

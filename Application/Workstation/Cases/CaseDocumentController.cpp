@@ -7,7 +7,6 @@
 #include <QApplication>
 #include <QDir>
 #include <QFileDialog>
-#include <QInputDialog>
 #include <QMessageBox>
 #include <QProgressDialog>
 #include <QPushButton>
@@ -17,6 +16,7 @@
 
 #include "AddPartsDialog.h"
 #include "Application.h"
+#include "AskName.h"
 #include "Banner.h"
 #include "CaseSaver.h"
 #include "RegionDialog.h"
@@ -895,9 +895,17 @@ void CaseDocumentController::renamePart(const std::string& name)
     return;
   const QScopedValueRollback<bool> asking(m_asking, true);
   const std::string to =
-      bytes(QInputDialog::getText(&m_window, tr("Rename"), tr("New name of “%1”:").arg(words(name)),
-                                  QLineEdit::Normal, words(name))
-                .trimmed());
+      bytes(askName(m_window, tr("Rename"), tr("New name of “%1”:").arg(words(name)), words(name),
+                    [this, &name](const std::string& wanted)
+                    {
+                      scene::checkPartName(wanted);
+                      if (!m_model.hasCase() || wanted == name)
+                        return;
+                      const auto names = scene::partNames(m_model.value());
+                      if (std::count(names.begin(), names.end(), wanted) > 0)
+                        throw core::InvalidParameter("'" + wanted +
+                                                     "' is in the case already; take another name");
+                    }));
   m_asking = false;
   if (!to.empty() && to != name &&
       changeParts([this, &name, &to] { m_model.renamePart(name, to); }))
@@ -1224,13 +1232,12 @@ void CaseDocumentController::restore(const fs::path& file, const std::string& na
              std::string other;
              {
                const QScopedValueRollback<bool> asking(m_asking, true);
-               other = bytes(QInputDialog::getText(
-                                 &m_window, tr("Restore"),
-                                 tr("The library has a case “%1”. Name of the restored one:")
-                                     .arg(words(taken)),
-                                 QLineEdit::Normal,
-                                 words(presenters::freeCaseName(m_model.library(), taken)))
-                                 .trimmed());
+               other = bytes(askName(
+                   m_window, tr("Restore"),
+                   tr("The library has a case “%1”. Name of the restored one:").arg(words(taken)),
+                   words(presenters::freeCaseName(m_model.library(), taken)),
+                   [this](const std::string& wanted)
+                   { presenters::checkFreeCaseName(m_model.library(), wanted); }));
              }
              if (other.empty())
                return emit statusMessage(tr("Stopped; nothing was changed"));
@@ -1368,13 +1375,15 @@ void CaseDocumentController::saveAs()
     return;
   try
   {
-    const QString name = QInputDialog::getText(
-        &m_window, tr("Save as"), tr("Name of the new case:"), QLineEdit::Normal,
-        words(presenters::freeCaseName(m_model.library(), m_model.value().name)));
+    const QString name =
+        askName(m_window, tr("Save as"), tr("Name of the new case:"),
+                words(presenters::freeCaseName(m_model.library(), m_model.value().name)),
+                [this](const std::string& wanted)
+                { presenters::checkFreeCaseName(m_model.library(), wanted); });
     if (name.isEmpty() || !m_model.hasCase())
       return;
     m_sayWhenSaved = true;
-    m_saver.saveAs(bytes(name.trimmed()));
+    m_saver.saveAs(bytes(name));
   }
   catch (const std::exception& fault)
   {

@@ -69,6 +69,8 @@ void CaseSaver::start(const Begin& begin)
     return;
   if (camera)
     m_model.setCamera(camera());
+  if (slices)
+    m_model.setSlices(slices());
   try
   {
     const auto task = std::make_shared<presenters::StoreTask>(begin());

@@ -26,6 +26,7 @@ public:
 
   /// Returns the camera to be stored with the case; called before each save.
   std::function<core::CameraPose()> camera;
+  std::function<scene::ViewState::Slices()> slices; ///< likewise
 
   void save();
   void saveAs(const std::string& name);

@@ -34,7 +34,8 @@ public:
   /// The available diameters, per kind.
   void setBurrs(const dissection::BurrCatalogue& burrs);
   dissection::Burr burr() const;
-  QAction* wheelAction() const noexcept ///< checked: the wheel moves the burr in depth
+  void setBurr(const dissection::Burr& burr); ///< the nearest that there is
+  QAction* wheelAction() const noexcept       ///< checked: the wheel moves the burr in depth
   {
     return m_wheel;
   }

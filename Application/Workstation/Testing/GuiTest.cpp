@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <QApplication>
+#include <QCursor>
 #include <QFile>
 #include <QFileDialog>
 #include <QJsonDocument>
@@ -87,6 +88,8 @@ void GuiTest::openWindow(const QString& what)
   options.settings = m_folder.filePath("settings.conf");
   options.devices = devices;
   options.lookForDevicesEvery = 50;
+  // Where the last test left the pointer, a view might come to lie below it.
+  QCursor::setPos(QGuiApplication::primaryScreen()->geometry().bottomRight());
   m_window = std::make_unique<MainWindow>(library(), options);
   m_window->resize(1200, 760);
   m_window->show();

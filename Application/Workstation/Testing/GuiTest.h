@@ -35,8 +35,8 @@ protected:
   static scene::Case ballCase(const std::string& name);
   void saveBall(const std::string& name); ///< into the library
 
-  presenters::DeviceSources devices; ///< of windows opened later; initially none
-  void openWindow(const QString& what = {});
+  presenters::DeviceSources devices;         ///< of windows opened later; initially none
+  void openWindow(const QString& what = {}); ///< the pointer is beside it
   void closeWindow();
   MainWindow& window() { return *m_window; }
   ThreeDView& view();

@@ -1,5 +1,7 @@
 #include "WindowTexts.h"
 
+#include <cmath>
+
 #include <QRegularExpression>
 
 #include <QObject>
@@ -8,6 +10,13 @@
 
 namespace petrous::workstation
 {
+
+QString numberText(double value, int decimals)
+{
+  const double unit = std::pow(10.0, -decimals);
+  const bool isZero = std::abs(value) < 0.5 * unit;
+  return QString::number(isZero ? 0.0 : value, 'f', decimals);
+}
 
 QString volumeText(double volume)
 {

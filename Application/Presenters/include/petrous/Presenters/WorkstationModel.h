@@ -147,9 +147,10 @@ public:
   bool beingStored() const noexcept { return m_beingStored; }
 
   bool unsaved() const noexcept { return m_unsaved; }
-  void setCamera(const core::CameraPose& camera); ///< stored with the next save
-  void save();                                    ///< throws as Library::save does
-  void saveAs(const std::string& name);           ///< a new case; strong exception guarantee
+  void setCamera(const core::CameraPose& camera);         ///< stored with the next save
+  void setSlices(const scene::ViewState::Slices& slices); ///< likewise
+  void save();                                            ///< throws as Library::save does
+  void saveAs(const std::string& name); ///< a new case; strong exception guarantee
   void saveElsewhere(const std::filesystem::path& folder, const std::string& name);
 
   /// State of the preparation (requested by Events::preparationWanted) until `prepared`:
@@ -280,6 +281,7 @@ private:
     std::vector<std::string> colored = {}; ///< structures whose appearance read the MR
   };
   session::DrillSession& session();
+  Eigen::Vector3d clampedToCt(const Eigen::Vector3d& patient) const;
   void partsMoved();
   bool measureNearby(); ///< true when done
   void listen();

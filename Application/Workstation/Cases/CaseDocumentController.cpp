@@ -1098,9 +1098,11 @@ void CaseDocumentController::offerCtGrid(const presenters::ExportOptions& option
   box->setAttribute(Qt::WA_DeleteOnClose);
   box->setTextFormat(Qt::PlainText);
   box->setObjectName("exportGrids");
-  box->setInformativeText(tr("On the CT's grid each of its voxels takes the nearest label, so that "
-                             "volumes change by the voxels at the border."));
-  auto* onCt = box->addButton(tr("Export on the CT's &grid"), QMessageBox::AcceptRole);
+  const QString primary = m_model.hasCase() ? presenters::primaryName(m_model.value()) : "CT";
+  box->setInformativeText(tr("On the %1's grid each of its voxels takes the nearest label, so that "
+                             "volumes change by the voxels at the border.")
+                              .arg(primary));
+  auto* onCt = box->addButton(tr("Export on the %1's &grid").arg(primary), QMessageBox::AcceptRole);
   box->setDefaultButton(onCt);
   connect(box, &QMessageBox::buttonClicked, this,
           [this, options, onCt](QAbstractButton* clicked)

@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
+#include <unistd.h>
+
 #include "petrous/Presenters/CaseNaming.h"
 
 using namespace petrous;
@@ -34,7 +38,8 @@ TEST(CaseNaming, AlwaysGivesANameThatACaseMayHave)
 
 TEST(CaseNaming, RefusesANameThatIsTakenOrTooLong)
 {
-  const auto folder = std::filesystem::temp_directory_path() / "petrous-case-naming";
+  const auto folder = std::filesystem::temp_directory_path() /
+                      ("petrous-case-naming-" + std::to_string(::getpid()));
   std::filesystem::remove_all(folder);
   library::Library library(folder);
   EXPECT_NO_THROW(checkFreeCaseName(library, "ear"));

@@ -153,10 +153,14 @@ std::vector<StructuresModel::Row> StructuresModel::rows()
   for (const auto& mesh : value.meshes)
     if (!scene::findStructure(value, mesh.name))
     {
-      const Measured* measured = measuredOf(mesh);
-      const volume::MeshMeasure measure = measured ? measured->measure : volume::MeshMeasure();
-      rows.push_back({mesh.name, measure.volume.value_or(0.0), true, !measured, measure.openEdges,
-                      mesh.look, scene::placementOf(value, mesh).missing});
+      Row row{mesh.name, 0.0, true, true, 0, mesh.look, scene::placementOf(value, mesh).missing};
+      if (const Measured* measured = measuredOf(mesh))
+      {
+        row.volume = measured->measure.volume.value_or(0.0);
+        row.isBeingMeasured = false;
+        row.openEdges = measured->measure.openEdges;
+      }
+      rows.push_back(std::move(row));
     }
   return rows;
 }

@@ -91,7 +91,7 @@ TEST_F(Settings, TheBurrComesBackInTheNextWindowAndTheSlicesWithTheirCase)
   const Eigen::Vector3d there = kBallCenter + Eigen::Vector3d(3.25, -2.0, 5.0);
   model.setCrosshair(there);
   action("Soft tissue window")->trigger();
-  action("Save")->trigger();
+  QTest::keyClick(&window(), Qt::Key_S, Qt::ControlModifier);
   EXPECT_TRUE(settled());
   closeWindow();
 

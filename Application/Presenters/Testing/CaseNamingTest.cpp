@@ -1,9 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
+#include <unistd.h>
+
 #include "petrous/Presenters/CaseNaming.h"
 
 using namespace petrous;
 using presenters::caseNameFrom;
+using presenters::checkFreeCaseName;
 
 TEST(CaseNaming, TakesTheFoldersOrFilesName)
 {
@@ -29,4 +34,25 @@ TEST(CaseNaming, AlwaysGivesANameThatACaseMayHave)
   }
   EXPECT_EQ(caseNameFrom("..."), "case");
   EXPECT_EQ(caseNameFrom("-x"), "x");
+}
+
+TEST(CaseNaming, RefusesANameThatIsTakenOrTooLong)
+{
+  const auto folder = std::filesystem::temp_directory_path() /
+                      ("petrous-case-naming-" + std::to_string(::getpid()));
+  std::filesystem::remove_all(folder);
+  library::Library library(folder);
+  EXPECT_NO_THROW(checkFreeCaseName(library, "ear"));
+  scene::Case value;
+  value.name = "ear";
+  value.ct.name = "ct";
+  value.ct.geometry = core::GridGeometry({2, 2, 2}, Eigen::Vector3d::Ones(), {0.0, 0.0, 0.0});
+  value.ct.volume = std::make_shared<const volume::IntensityVolume>(
+      std::make_shared<const volume::Volume<std::int16_t>>(value.ct.geometry));
+  library.save(value);
+  EXPECT_THROW(checkFreeCaseName(library, "ear"), core::InvalidParameter);
+  EXPECT_NO_THROW(checkFreeCaseName(library, "ear 2"));
+  EXPECT_NO_THROW(checkFreeCaseName(library, std::string(100, 'x')));
+  EXPECT_THROW(checkFreeCaseName(library, std::string(101, 'x')), core::InvalidParameter);
+  std::filesystem::remove_all(folder);
 }

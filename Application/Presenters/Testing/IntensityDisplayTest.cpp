@@ -112,3 +112,38 @@ TEST(IntensityDisplay, SlicesOfSmallNumbersAreGrey)
   }
   EXPECT_GT(told, 25);
 }
+
+TEST(IntensityDisplay, NamesTheValuesWhereMoreThanTheCtIsSeen)
+{
+  const auto image = [](std::int16_t first, double spacing)
+  {
+    scene::ImagePart part;
+    part.geometry = core::GridGeometry({4, 4, 4}, Eigen::Vector3d::Constant(spacing), {0, 0, 0});
+    auto voxels = std::make_shared<volume::Volume<std::int16_t>>(part.geometry);
+    for (std::size_t n = 0; n < voxels->size(); ++n)
+      voxels->data()[n] = static_cast<std::int16_t>(first + static_cast<int>(n));
+    part.volume = std::make_shared<const volume::IntensityVolume>(
+        std::shared_ptr<const volume::Volume<std::int16_t>>(voxels));
+    part.range = {double(first), first + 2000.0};
+    return part;
+  };
+  scene::Case value;
+  value.ct = image(300, 1.0);
+  value.mr = {image(400, 1.0)};
+  value.mr[0].name = "T2";
+  SliceOverlay overlay;
+  overlay.mr = value.mr[0].volume.get();
+  overlay.mrFromCt = core::RigidTransform(Eigen::Quaterniond::Identity(), {1.0, 0.0, 0.0});
+  const Eigen::Vector3d at(2.0, 0.0, 0.0);
+  EXPECT_EQ(shownValues(value, {}, nullptr, at), "302 HU");
+  EXPECT_EQ(shownValues(value, {false, "T2"}, &overlay, at), "T2 403");
+  EXPECT_EQ(shownValues(value, {true, "T2"}, &overlay, at), "CT 302 HU  T2 403");
+  EXPECT_EQ(shownValues(value, {true, "T2"}, &overlay, {3.0, 0.0, 0.0}), "CT 303 HU  T2 –");
+  EXPECT_EQ(shownValues(value, {}, nullptr, {9.0, 0.0, 0.0}), "");
+  EXPECT_EQ(shownValues(value, {false, "gone"}, nullptr, at), "302 HU") << "the CT is seen then";
+  value.ct.modality = scene::Modality::Mr;
+  EXPECT_EQ(shownValues(value, {}, nullptr, at), "302");
+  EXPECT_EQ(shownValues(value, {true, "T2"}, &overlay, at), "MR 302  T2 403");
+  value.mr[0].range = {0.0, 1.0};
+  EXPECT_EQ(displayOf(value.mr[0]).text(0.25), "0.250");
+}

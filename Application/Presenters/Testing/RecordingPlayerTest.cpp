@@ -220,6 +220,10 @@ TEST_P(RecordingPlayerTest, RefusesACaseThatIsNotAsItWas)
   voxel.ct.volume = std::make_shared<const volume::IntensityVolume>(
       std::shared_ptr<const volume::Volume<std::int16_t>>(ct));
   EXPECT_NE(refusal(voxel).find("another CT"), std::string::npos);
+  voxel.ct.modality = scene::Modality::Mr;
+  EXPECT_NE(refusal(voxel).find("another MR"), std::string::npos) << refusal(voxel);
+  other.ct.modality = scene::Modality::Mr;
+  EXPECT_NE(refusal(other).find("with tissue from 300 on"), std::string::npos) << refusal(other);
 }
 
 TEST_P(RecordingPlayerTest, OfAToolPathIsThePath)

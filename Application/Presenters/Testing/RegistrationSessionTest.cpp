@@ -221,10 +221,26 @@ TEST_F(RegistrationSessionTest, OtherPartsOfTheCaseLeaveItAsItIs)
   EXPECT_EQ(session.mr(), "DWI");
   EXPECT_EQ(session.landmarks().rows().size(), 1U);
   EXPECT_TRUE(session.canUndo());
-  model.removePart("T2");
-  EXPECT_FALSE(session.partsChanged());
+  scene::Case with = model.value();
+  with.mr.push_back(image("T1"));
+  model.takeParts(std::move(with));
+  EXPECT_TRUE(session.partsChanged());
   EXPECT_EQ(session.mr(), "DWI");
-  EXPECT_FALSE(session.canUndo());
+  EXPECT_EQ(session.mrNames(), (std::vector<std::string>{"T2", "DWI", "T1"}));
+  EXPECT_TRUE(session.canUndo());
+  model.removePart("T2");
+  EXPECT_TRUE(session.partsChanged());
+  EXPECT_EQ(session.mr(), "DWI");
+  EXPECT_EQ(session.landmarks().rows().size(), 1U);
+  EXPECT_FALSE(session.canUndo()) << "it would bring back places of an MR that is gone";
+  model.renamePart("DWI", "b1000");
+  EXPECT_TRUE(session.partsChanged());
+  EXPECT_EQ(session.mr(), "b1000");
+  EXPECT_EQ(session.landmarks().rows().size(), 1U);
+  model.removePart("b1000");
+  EXPECT_FALSE(session.partsChanged());
+  EXPECT_EQ(session.mr(), "T1");
+  EXPECT_TRUE(session.landmarks().rows().empty());
 }
 
 TEST_F(RegistrationSessionTest, AnotherMrKeepsItsOwnPlace)

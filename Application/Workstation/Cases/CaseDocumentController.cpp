@@ -8,7 +8,6 @@
 #include <QCheckBox>
 #include <QDir>
 #include <QFileDialog>
-#include <QInputDialog>
 #include <QMessageBox>
 #include <QProgressDialog>
 #include <QPushButton>
@@ -19,6 +18,7 @@
 #include "AddPartsDialog.h"
 #include "Application.h"
 #include "ArchiveDialog.h"
+#include "AskName.h"
 #include "Banner.h"
 #include "CaseSaver.h"
 #include "FaceCheck.h"
@@ -926,9 +926,17 @@ void CaseDocumentController::renamePart(const std::string& name)
     return;
   const QScopedValueRollback<bool> asking(m_asking, true);
   const std::string to =
-      bytes(QInputDialog::getText(&m_window, tr("Rename"), tr("New name of “%1”:").arg(words(name)),
-                                  QLineEdit::Normal, words(name))
-                .trimmed());
+      bytes(askName(m_window, tr("Rename"), tr("New name of “%1”:").arg(words(name)), words(name),
+                    [this, &name](const std::string& wanted)
+                    {
+                      scene::checkPartName(wanted);
+                      if (!m_model.hasCase() || wanted == name)
+                        return;
+                      const auto names = scene::partNames(m_model.value());
+                      if (std::count(names.begin(), names.end(), wanted) > 0)
+                        throw core::InvalidParameter("'" + wanted +
+                                                     "' is in the case already; take another name");
+                    }));
   m_asking = false;
   if (!to.empty() && to != name &&
       changeParts([this, &name, &to] { m_model.renamePart(name, to); }))
@@ -1124,9 +1132,11 @@ void CaseDocumentController::offerCtGrid(const presenters::ExportOptions& option
   box->setAttribute(Qt::WA_DeleteOnClose);
   box->setTextFormat(Qt::PlainText);
   box->setObjectName("exportGrids");
-  box->setInformativeText(tr("On the CT's grid each of its voxels takes the nearest label, so that "
-                             "volumes change by the voxels at the border."));
-  auto* onCt = box->addButton(tr("Export on the CT's &grid"), QMessageBox::AcceptRole);
+  const QString primary = m_model.hasCase() ? presenters::primaryName(m_model.value()) : "CT";
+  box->setInformativeText(tr("On the %1's grid each of its voxels takes the nearest label, so that "
+                             "volumes change by the voxels at the border.")
+                              .arg(primary));
+  auto* onCt = box->addButton(tr("Export on the %1's &grid").arg(primary), QMessageBox::AcceptRole);
   box->setDefaultButton(onCt);
   connect(box, &QMessageBox::buttonClicked, this,
           [this, options, onCt](QAbstractButton* clicked)
@@ -1299,13 +1309,12 @@ void CaseDocumentController::restore(const fs::path& file, const std::string& na
              std::string other;
              {
                const QScopedValueRollback<bool> asking(m_asking, true);
-               other = bytes(QInputDialog::getText(
-                                 &m_window, tr("Restore"),
-                                 tr("The library has a case “%1”. Name of the restored one:")
-                                     .arg(words(taken)),
-                                 QLineEdit::Normal,
-                                 words(presenters::freeCaseName(m_model.library(), taken)))
-                                 .trimmed());
+               other = bytes(askName(
+                   m_window, tr("Restore"),
+                   tr("The library has a case “%1”. Name of the restored one:").arg(words(taken)),
+                   words(presenters::freeCaseName(m_model.library(), taken)),
+                   [this](const std::string& wanted)
+                   { presenters::checkFreeCaseName(m_model.library(), wanted); }));
              }
              if (other.empty())
                return emit statusMessage(tr("Stopped; nothing was changed"));
@@ -1443,13 +1452,15 @@ void CaseDocumentController::saveAs()
     return;
   try
   {
-    const QString name = QInputDialog::getText(
-        &m_window, tr("Save as"), tr("Name of the new case:"), QLineEdit::Normal,
-        words(presenters::freeCaseName(m_model.library(), m_model.value().name)));
+    const QString name =
+        askName(m_window, tr("Save as"), tr("Name of the new case:"),
+                words(presenters::freeCaseName(m_model.library(), m_model.value().name)),
+                [this](const std::string& wanted)
+                { presenters::checkFreeCaseName(m_model.library(), wanted); });
     if (name.isEmpty() || !m_model.hasCase())
       return;
     m_sayWhenSaved = true;
-    m_saver.saveAs(bytes(name.trimmed()));
+    m_saver.saveAs(bytes(name));
   }
   catch (const std::exception& fault)
   {

@@ -1,11 +1,10 @@
 #include "LibraryController.h"
 
-#include <QInputDialog>
-#include <QLineEdit>
 #include <QMenu>
 #include <QMessageBox>
 #include <QPushButton>
 
+#include "AskName.h"
 #include "CaseDocumentController.h"
 #include "DescriptionDialog.h"
 #include "LibraryPanel.h"
@@ -127,19 +126,16 @@ void LibraryController::connectPanel()
           });
 }
 
-// Empty: the user did not want to, or it is the same name.
-QString LibraryController::askName(const QString& title, const QString& text, const QString& name)
-{
-  const QString to =
-      QInputDialog::getText(&m_window, title, text, QLineEdit::Normal, name).trimmed();
-  return to == name ? QString() : to;
-}
-
 void LibraryController::rename(const std::string& name)
 {
-  const std::string to =
-      bytes(askName(tr("Rename the case"), tr("New name of “%1”:").arg(words(name)), words(name)));
-  if (to.empty() ||
+  const std::string to = bytes(askName(m_window, tr("Rename the case"),
+                                       tr("New name of “%1”:").arg(words(name)), words(name),
+                                       [this, &name](const std::string& wanted)
+                                       {
+                                         if (wanted != name)
+                                           presenters::checkFreeCaseName(m_model.library(), wanted);
+                                       }));
+  if (to.empty() || to == name ||
       !m_keeper.changeCase(name, to, [&](library::Library& library) { library.rename(name, to); }))
     return;
   m_panel->select(to);
@@ -148,10 +144,10 @@ void LibraryController::rename(const std::string& name)
 void LibraryController::copy(const std::string& name)
 {
   const QString to =
-      QInputDialog::getText(&m_window, tr("Copy the case"),
-                            tr("Name of the copy of “%1”:").arg(words(name)), QLineEdit::Normal,
-                            words(presenters::freeCaseName(m_model.library(), name)))
-          .trimmed();
+      askName(m_window, tr("Copy the case"), tr("Name of the copy of “%1”:").arg(words(name)),
+              words(presenters::freeCaseName(m_model.library(), name)),
+              [this](const std::string& wanted)
+              { presenters::checkFreeCaseName(m_model.library(), wanted); });
   if (to.isEmpty() ||
       !m_keeper.changeCase(name, name,
                            [&](library::Library& library) { library.copy(name, bytes(to)); }))

@@ -40,7 +40,6 @@ signals:
 private:
   void fillMenu();
   void connectPanel();
-  QString askName(const QString& title, const QString& text, const QString& name);
   void rename(const std::string& name);
   void copy(const std::string& name);
   void remove(const std::string& name);

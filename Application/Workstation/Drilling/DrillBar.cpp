@@ -27,7 +27,7 @@ DrillBar::DrillBar(QWidget* parent)
   , m_speed(new QSpinBox)
   , m_thrust(numberBox("thrust",
                        tr("How hard a hand without force (mouse, SpaceMouse) presses the burr on "
-                          "the bone, N: the harder, the faster it goes in"),
+                          "the tissue, N: the harder, the faster it goes in"),
                        {0.1, 10.0, tr(" N"), 1, 0.1}))
 {
   setObjectName("drillBar");
@@ -41,7 +41,7 @@ DrillBar::DrillBar(QWidget* parent)
   m_pointer->setCheckable(true);
   m_pointer->setShortcut(Qt::Key_P);
   m_pointer->setToolTip(
-      tr("Pointer (P): touches and cuts nothing; reads density, structure and the "
+      tr("Pointer (P): touches and cuts nothing; reads the image, structure and the "
          "distance to the nearest surface at its tip"));
   addAction(m_pointer);
   widgetForAction(m_pointer)->setObjectName("pointerButton");
@@ -55,8 +55,8 @@ DrillBar::DrillBar(QWidget* parent)
   m_kind->setObjectName("burrKind");
   offerDiameters();
   m_diameter->setValue(4.0);
-  m_kind->setToolTip(tr("Kind of the burr: a cutting burr takes bone some six times as fast as a "
-                        "diamond one"));
+  m_kind->setToolTip(tr("Kind of the burr: a cutting burr takes some six times as much in "
+                        "the same time as a diamond one"));
   m_speed->setRange(10, 100);
   m_speed->setSingleStep(5);
   m_speed->setValue(60);
@@ -69,8 +69,8 @@ DrillBar::DrillBar(QWidget* parent)
   m_wheel->setShortcut(Qt::Key_M);
   m_wheel->setToolTip(
       tr("The wheel moves the burr in depth, 0.25 mm a notch, with Shift a fifth of "
-         "it (M); how far it is wanted in the bone is how hard it presses, 1 N for "
-         "a mm.\nWithout it the burr lies on the bone and is pressed with the "
+         "it (M); how far it is wanted in the tissue is how hard it presses, 1 N for "
+         "a mm.\nWithout it the burr lies on the tissue and is pressed with the "
          "thrust. Ctrl with the wheel zooms."));
 
   const auto addNamed = [this](const QString& name, QWidget* widget)
@@ -135,7 +135,7 @@ void DrillBar::setBurr(const dissection::Burr& burr)
     const QSignalBlocker speed(m_speed);
     m_kind->setCurrentIndex(m_kind->findData(static_cast<int>(burr.kind)));
     m_diameter->setValue(burr.diameter);
-    offerDiameters();
+    offerDiameters(); // takes the nearest
     m_speed->setValue(static_cast<int>(std::lround(burr.rpm / 1000.0)));
   }
   emit burrChanged();

@@ -12,6 +12,7 @@
 #include "DrillBar.h"
 #include "Theme.h"
 #include "ThreeDView.h"
+#include "WindowTexts.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/Case.h"
 
@@ -41,13 +42,13 @@ QString textOf(const presenters::PlaceReading& reading, const presenters::Intens
   if (!reading.structure.empty())
     lines += words(reading.structure).replace('_', ' ');
   lines += reading.surface
-               ? DrillController::tr("%1 mm to the surface").arg(*reading.surface, 0, 'f', 1)
+               ? DrillController::tr("%1 mm to the surface").arg(numberText(*reading.surface, 1))
                : DrillController::tr("no surface within %1 mm")
                      .arg(presenters::PointProbe::kReach, 0, 'f', 0);
   if (reading.near)
     lines += DrillController::tr("%1 mm to %2")
-                 .arg(reading.near->distance, 0, 'f', 1)
-                 .arg(words(reading.near->name).replace('_', ' '));
+                 .arg(numberText(reading.near->distance, 1),
+                      words(reading.near->name).replace('_', ' '));
   return lines.join('\n');
 }
 } // namespace
@@ -173,8 +174,11 @@ void DrillController::setTool(Tool tool)
 // At the mouse pointer's position, without waiting for its next move.
 void DrillController::takeAtPointer()
 {
-  if (takeTool())
-    m_view.tool().PointAgain();
+  if (!takeTool())
+    return;
+  m_view.tool().PointAgain();
+  if (m_driver.byMouse() && !m_view.underMouse())
+    emit statusMessage(tr("Point at the patient in the 3D view: there the tool comes"));
 }
 
 void DrillController::deviceCame()

@@ -31,8 +31,7 @@ LandmarksBox::LandmarksBox(presenters::RegistrationSession& session, QWidget* pa
   m_table->horizontalHeader()->setSectionResizeMode(LandmarkModel::Residual,
                                                     QHeaderView::ResizeToContents);
   m_table->setFixedHeight(112);
-  m_point = button({}, "landmarkHere",
-                   tr("The crosshair marks a point of the CT, then the same point of the MR (K)"));
+  m_point = button({}, "landmarkHere", {});
   m_remove = button(tr("Remove"), "removeLandmark", tr("The pair that is chosen"));
   m_fit = button(tr("Lay by points"), "fitLandmarks",
                  tr("Lays the MR so that the pairs fall on each other; three at least"));
@@ -62,6 +61,8 @@ void LandmarksBox::refresh()
   m_point->setText(m_session.landmarks().waitsForMr()
                        ? tr("Point in MR (K)")
                        : tr("Point in %1 (K)").arg(words(m_session.primary())));
+  m_point->setToolTip(tr("The crosshair marks a point of the %1, then the same point of the MR (K)")
+                          .arg(words(m_session.primary())));
   m_remove->setEnabled(!m_session.landmarks().rows().empty());
   m_fit->setEnabled(m_session.landmarks().pairs() >= 3);
 }

@@ -16,6 +16,7 @@
 #include "SliceColumn.h"
 #include "SliceView.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 
 namespace petrous::workstation
 {
@@ -65,6 +66,7 @@ RegistrationController::RegistrationController(presenters::WorkstationModel& mod
   on(addAction(tr("Red&o the MR's move"), Qt::CTRL + Qt::ALT + Qt::Key_Y, tr("Forth again")),
      [this] { moveManually([this] { m_session.redo(); }); });
   nameImages();
+  enableMenu();
   connectPanel();
   m_sceneLater.setSingleShot(true);
   m_sceneLater.setInterval(kSceneAfter);
@@ -93,6 +95,13 @@ void RegistrationController::nameImages()
       tr("%1 alone, blend, the edges of the %1 over the MR, checkerboard").arg(primary));
   m_point->setStatusTip(
       tr("The crosshair marks a point of the %1, then the same point of the MR").arg(primary));
+}
+
+// Without an MR there is nothing to register or to show; the panel (F5) says so.
+void RegistrationController::enableMenu()
+{
+  for (QAction* action : m_menu->actions())
+    action->setEnabled(m_session.part() != nullptr);
 }
 
 void RegistrationController::connectPanel()
@@ -220,6 +229,7 @@ void RegistrationController::caseChanged()
   m_firstMetric.reset();
   m_session.caseChanged();
   nameImages();
+  enableMenu();
   m_panel->setRunning(false);
   m_overlay->reset();
   showMarks();
@@ -227,8 +237,16 @@ void RegistrationController::caseChanged()
 
 void RegistrationController::partsChanged()
 {
+  const std::string onto = m_session.aim().onto;
   if (!m_session.partsChanged())
     return caseChanged();
+  enableMenu();
+  if (running() && m_session.aim().onto != onto)
+  {
+    m_run->drop();
+    m_waiting.reset();
+    endRun(tr("Stopped: the MR to which it was being registered is gone; it lies as before."));
+  }
   m_overlay->refresh();
   showMarks(); // and the panel
 }
@@ -435,11 +453,12 @@ void RegistrationController::showMetric()
   const auto moved = m_session.movedByHand();
   if (!m_firstMetric || (moved.shift == 0.0 && moved.turn == 0.0))
     m_firstMetric = now;
-  QString text = tr("Metric with the %1 %2").arg(words(m_session.primary())).arg(now, 0, 'f', 4);
+  QString text = tr("Metric with the %1 %2").arg(words(m_session.primary()), numberText(now, 4));
   if (moved.shift > 0.0 || moved.turn > 0.0)
-    text += tr(" (%1%2 by hand)")
-                .arg(now < *m_firstMetric ? "" : "+")
-                .arg(now - *m_firstMetric, 0, 'f', 4);
+  {
+    const QString change = numberText(now - *m_firstMetric, 4);
+    text += tr(" (%1%2 by hand)").arg(change.startsWith('-') ? "" : "+", change);
+  }
   m_panel->setMetric(text);
 }
 

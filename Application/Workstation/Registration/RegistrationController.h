@@ -62,6 +62,7 @@ private:
   void connectPanel();
   void chosen();
   void nameImages();
+  void enableMenu();
   void moveManually(const std::function<void()>& move);
   void begin(presenters::RegistrationSession::Way way);
   void heard(const registration::MetricSample& sample, const core::RigidTransform& best);

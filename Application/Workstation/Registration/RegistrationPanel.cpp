@@ -127,7 +127,7 @@ void RegistrationPanel::addSteps(QVBoxLayout& layout)
 {
   m_undo = button(tr("Undo"), "undoMr", tr("Back to how the MR lay before (Ctrl+Alt+Z)"));
   m_redo = button(tr("Redo"), "redoMr", tr("Forth again (Ctrl+Alt+Y)"));
-  m_remove = button(tr("Unregister"), "unregister", tr("The MR has no place on the CT any more"));
+  m_remove = button(tr("Unregister"), "unregister", {});
   connect(m_undo, &QPushButton::clicked, this, [this] { m_session.undo(); });
   connect(m_redo, &QPushButton::clicked, this, [this] { m_session.redo(); });
   connect(m_remove, &QPushButton::clicked, this, [this] { m_session.unregister(); });
@@ -136,12 +136,10 @@ void RegistrationPanel::addSteps(QVBoxLayout& layout)
 
 void RegistrationPanel::addSeeing(QVBoxLayout& layout)
 {
-  m_overlay = choiceBox("overlayMode",
-                        tr("How the slices show the MR (O: the next way, V: CT or MR alone by "
-                           "turns)"));
-  m_overlay->addItem(tr("CT alone"), kOff);
+  m_overlay = choiceBox("overlayMode", {});
+  m_overlay->addItem({}, kOff);
   m_overlay->addItem(tr("Blend"), static_cast<int>(OverlayMode::Blend));
-  m_overlay->addItem(tr("CT's edges over the MR"), static_cast<int>(OverlayMode::Edges));
+  m_overlay->addItem({}, static_cast<int>(OverlayMode::Edges));
   m_overlay->addItem(tr("Checkerboard"), static_cast<int>(OverlayMode::Checker));
   m_bound.add(
       m_overlay,
@@ -167,9 +165,7 @@ void RegistrationPanel::addSeeing(QVBoxLayout& layout)
 void RegistrationPanel::addRunning(QVBoxLayout& layout)
 {
   layout.addWidget(heading(tr("By mutual information")));
-  m_register = button(tr("&Register"), "register",
-                      tr("Looks for where the MR fits the CT, lays it there, and says how well it "
-                         "lies (Ctrl+R)"));
+  m_register = button(tr("&Register"), "register", {});
   m_refine = button(tr("Re&fine"), "refine",
                     tr("The same from where the MR lies now, without a search: after points or the "
                        "hand"));
@@ -186,7 +182,6 @@ void RegistrationPanel::addRunning(QVBoxLayout& layout)
   m_curve = new MetricCurve;
   m_metric = new QLabel;
   m_metric->setObjectName("liveMetric");
-  m_metric->setToolTip(tr("Mutual information of CT and MR as they lie now; higher is better"));
   layout.addWidget(m_progress);
   layout.addWidget(m_curve);
   layout.addWidget(m_metric);
@@ -292,6 +287,14 @@ void RegistrationPanel::refresh()
           m_mr->addItems(names);
         });
   const QString primary = words(m_session.primary());
+  m_remove->setToolTip(tr("The MR has no place on the %1 any more").arg(primary));
+  m_overlay->setToolTip(
+      tr("How the slices show the MR (O: the next way, V: %1 or MR alone by turns)").arg(primary));
+  m_register->setToolTip(tr("Looks for where the MR fits the %1, lays it there, and says how well "
+                            "it lies (Ctrl+R)")
+                             .arg(primary));
+  m_metric->setToolTip(
+      tr("Mutual information of %1 and MR as they lie now; higher is better").arg(primary));
   m_overlay->setItemText(0, tr("%1 alone").arg(primary));
   m_overlay->setItemText(2, tr("%1's edges over the MR").arg(primary));
   m_bound.refresh();

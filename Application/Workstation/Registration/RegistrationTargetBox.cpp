@@ -44,9 +44,7 @@ void RegistrationTargetBox::addChoice(const QString& label, QComboBox* box)
 
 void RegistrationTargetBox::addOnto()
 {
-  m_onto = choiceBox("registrationOnto",
-                     tr("A diffusion image finds more to hold on to in the T2 of the same session, "
-                        "and comes to the CT through that, once it is registered itself"));
+  m_onto = choiceBox("registrationOnto", {});
   addChoice(tr("Fits t&o"), m_onto);
   m_bound.add(
       m_onto, [this] { return std::max(0, m_onto->findData(words(m_session.aim().onto))); },
@@ -70,14 +68,11 @@ void RegistrationTargetBox::addStart()
 
 void RegistrationTargetBox::addBox()
 {
-  auto* box = new QSpinBox;
+  auto* box = m_box = new QSpinBox;
   box->setObjectName("registrationBox");
   box->setRange(kWhole, kLargestBox);
   box->setSingleStep(10);
   box->setSuffix(tr(" mm about the crosshair"));
-  box->setSpecialValueText(tr("the whole CT"));
-  box->setToolTip(tr("What of the CT counts: all of it, or a box of this edge about the "
-                     "crosshair, as for one ear where the jaw or neck has moved"));
   m_form->addRow(tr("Re&gion"), box);
   m_bound.add(
       box,
@@ -132,11 +127,20 @@ void RegistrationTargetBox::fillPlaces()
 void RegistrationTargetBox::refresh()
 {
   m_session.setAim(m_session.aim());
+  const QString primary = words(m_session.primary());
+  m_onto->setToolTip(
+      tr("A diffusion image finds more to hold on to in the T2 of the same session, and comes to "
+         "the %1 through that, once it is registered itself")
+          .arg(primary));
+  m_box->setToolTip(tr("What of the %1 counts: all of it, or a box of this edge about the "
+                       "crosshair, as for one ear where the jaw or neck has moved")
+                        .arg(primary));
   m_bound.quietly(
-      [this]
+      [&]
       {
+        m_box->setSpecialValueText(tr("the whole %1").arg(primary));
         m_onto->clear();
-        m_onto->addItem(tr("the %1").arg(words(m_session.primary())));
+        m_onto->addItem(tr("the %1").arg(primary));
         for (const std::string& name : m_session.ontoNames())
           m_onto->addItem(words(name), words(name));
         fillPlaces();

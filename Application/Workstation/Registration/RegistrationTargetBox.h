@@ -9,6 +9,7 @@
 
 class QComboBox;
 class QFormLayout;
+class QSpinBox;
 
 namespace petrous::workstation
 {
@@ -40,6 +41,7 @@ private:
   presenters::RegistrationSession& m_session;
   QFormLayout* m_form;
   QComboBox* m_start;
+  QSpinBox* m_box;
   QComboBox* m_onto;
   QComboBox* m_place;
   Bindings m_bound;

@@ -19,6 +19,7 @@ MrOverlay::MrOverlay(presenters::RegistrationSession& session, SliceColumn& slic
   , m_session(session)
   , m_slices(slices)
 {
+  connect(&m_slices, &SliceColumn::overlayWindowAsked, this, &MrOverlay::setWindow);
 }
 
 void MrOverlay::reset()
@@ -106,6 +107,14 @@ presenters::ShownImages MrOverlay::shown() const
   return {opacity<1.0, opacity> 0.0 ? part->name : std::string()};
 }
 
+void MrOverlay::setWindow(const presenters::GreyWindow& window)
+{
+  if (!m_overlay)
+    return;
+  m_overlay->window = window;
+  draw();
+}
+
 void MrOverlay::draw()
 {
   const scene::ImagePart* part = m_session.part();
@@ -114,19 +123,20 @@ void MrOverlay::draw()
     m_overlay.reset(); // frees the MR
   if (!part || ctAlone || !seen())
   {
-    m_slices.setOverlay(nullptr);
+    m_slices.setOverlay(nullptr, {});
     m_slices.setNotice(part && ctAlone ? tr("%1 alone (V)").arg(words(m_session.primary()))
                                        : QString());
     return;
   }
   if (!load(*part))
-    return m_slices.setOverlay(nullptr);
+    return m_slices.setOverlay(nullptr, {});
   presenters::SliceOverlay overlay = *m_overlay;
   overlay.mrFromCt = m_best.value_or(part->mrFromCt);
   overlay.registered = part->registered;
   overlay.mode = m_alone ? OverlayMode::Blend : *m_mode;
   overlay.opacity = m_alone.value_or(m_opacity);
-  m_slices.setOverlay(std::make_shared<const presenters::SliceOverlay>(std::move(overlay)));
+  m_slices.setOverlay(std::make_shared<const presenters::SliceOverlay>(std::move(overlay)),
+                      shown());
   QString notice = words(part->name);
   if (m_alone)
     notice = tr("%1 alone (V)").arg(notice);

@@ -44,6 +44,7 @@ signals:
 private:
   bool load(const scene::ImagePart& part);
   void draw();
+  void setWindow(const presenters::GreyWindow& window);
 
   presenters::RegistrationSession& m_session;
   SliceColumn& m_slices;

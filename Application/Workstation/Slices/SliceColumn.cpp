@@ -18,6 +18,7 @@ SliceColumn::SliceColumn(presenters::WorkstationModel& model, QWidget* parent)
   , m_views{new SliceView(SliceOrientation::Axial), new SliceView(SliceOrientation::Coronal),
             new SliceView(SliceOrientation::Sagittal)}
 {
+  setObjectName("slices");
   setChildrenCollapsible(true);
   setHandleWidth(3);
   for (SliceView* view : m_views)
@@ -27,7 +28,9 @@ SliceColumn::SliceColumn(presenters::WorkstationModel& model, QWidget* parent)
     addWidget(view);
     connect(view, &SliceView::crosshairMoved, this,
             [this](const Eigen::Vector3d& patient) { m_model.setCrosshair(patient); });
-    connect(view, &SliceView::greyWindowChanged, this, &SliceColumn::setGreyWindow);
+    connect(view, &SliceView::greyWindowChanged, this,
+            [this](const presenters::GreyWindow& window)
+            { m_shown.ct ? setGreyWindow(window) : emit overlayWindowAsked(window); });
     connect(view, &SliceView::pointed, this, &SliceColumn::pointed);
     connect(view, &SliceView::moveAsked, this, &SliceColumn::moveAsked);
     connect(view, &SliceView::turnAsked, this, &SliceColumn::turnAsked);
@@ -39,8 +42,11 @@ SliceColumn::SliceColumn(presenters::WorkstationModel& model, QWidget* parent)
 
 void SliceColumn::caseChanged()
 {
+  setOverlay(nullptr, {}); // of the case before
   fit();
   boneWindow();
+  if (const auto& kept = m_model.value().view.slices)
+    setGreyWindow({kept->width, kept->level});
   appearanceChanged();
   crosshairMoved();
 }
@@ -68,17 +74,26 @@ void SliceColumn::clear()
 
 void SliceColumn::crosshairMoved()
 {
-  const auto hounsfield = m_model.hounsfieldAt(m_model.crosshair());
-  QString text =
-      hounsfield ? words(presenters::displayOf(m_model.value()).text(*hounsfield)) : QString();
+  for (SliceView* view : m_views)
+    view->setCrosshair(m_model.crosshair());
+  showReadout();
+}
+
+QString SliceColumn::valuesAt(const Eigen::Vector3d& patient) const
+{
+  return m_model.hasCase()
+             ? words(presenters::shownValues(m_model.value(), m_shown, m_overlay.get(), patient))
+             : QString();
+}
+
+void SliceColumn::showReadout()
+{
+  QString text = valuesAt(m_model.crosshair());
   const std::string structure = m_model.structureAt(m_model.crosshair());
   if (!structure.empty())
     text += "  " + QString::fromStdString(structure).replace('_', ' ');
   for (SliceView* view : m_views)
-  {
-    view->setCrosshair(m_model.crosshair());
     view->setReadout(text);
-  }
 }
 
 void SliceColumn::maskChanged(const core::IndexBox& box)
@@ -92,6 +107,7 @@ void SliceColumn::maskChanged(const core::IndexBox& box)
 
 void SliceColumn::setGreyWindow(const presenters::GreyWindow& window)
 {
+  m_window = window;
   for (SliceView* view : m_views)
     view->setGreyWindow(window);
 }
@@ -106,10 +122,18 @@ void SliceColumn::softWindow()
   setGreyWindow(presenters::displayOf(m_model.value()).soft);
 }
 
-void SliceColumn::setOverlay(const std::shared_ptr<const presenters::SliceOverlay>& overlay)
+void SliceColumn::setOverlay(const std::shared_ptr<const presenters::SliceOverlay>& overlay,
+                             const presenters::ShownImages& shown)
 {
+  m_overlay = overlay;
+  m_shown = shown;
+  const scene::ImagePart* mr =
+      m_model.hasCase() ? scene::findMr(m_model.value(), shown.mr) : nullptr;
   for (SliceView* view : m_views)
-    view->setOverlay(overlay);
+    view->setOverlay(overlay,
+                     mr && !shown.ct ? std::optional(presenters::displayOf(*mr)) : std::nullopt);
+  if (m_model.hasCase())
+    showReadout();
 }
 
 void SliceColumn::setNotice(const QString& text)

@@ -40,7 +40,11 @@ public:
   void setShown(const scene::ViewState::Slices& slices);
   scene::ViewState::Slices shown() const;
 
-  void setOverlay(const std::shared_ptr<const presenters::SliceOverlay>& overlay); ///< or nullptr
+  /// nullptr: the CT alone. `shown`: the images that are seen so.
+  void setOverlay(const std::shared_ptr<const presenters::SliceOverlay>& overlay,
+                  const presenters::ShownImages& shown);
+  /// Of the images that are seen, at a patient point (LPS mm).
+  QString valuesAt(const Eigen::Vector3d& patient) const;
   void setNotice(const QString& text);
   void setRegion(double edge); ///< as SliceView
   void setMarks(const std::vector<SliceMark>& marks);
@@ -53,6 +57,8 @@ public:
 
 signals:
   void pointed(const Eigen::Vector3d& patient);
+  /// For the MR, where it alone is seen.
+  void overlayWindowAsked(const petrous::presenters::GreyWindow& window);
   void moveAsked(const Eigen::Vector3d& millimetres); ///< of the MR over the CT
   void turnAsked(const Eigen::Vector3d& axis, double degrees);
   void toolPressed(const Eigen::Vector3d& patient, petrous::presenters::SliceOrientation plane);
@@ -61,9 +67,13 @@ signals:
 
 private:
   void setGreyWindow(const presenters::GreyWindow& window);
+  void showReadout();
 
   presenters::WorkstationModel& m_model;
   std::array<SliceView*, 3> m_views;
+  presenters::GreyWindow m_window;
+  std::shared_ptr<const presenters::SliceOverlay> m_overlay;
+  presenters::ShownImages m_shown;
   std::string m_hidden;
 };
 

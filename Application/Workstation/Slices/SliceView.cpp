@@ -99,12 +99,24 @@ void SliceView::setIntensityDisplay(const presenters::IntensityDisplay& display)
   update();
 }
 
-void SliceView::setOverlay(std::shared_ptr<const presenters::SliceOverlay> overlay)
+void SliceView::setOverlay(std::shared_ptr<const presenters::SliceOverlay> overlay,
+                           const std::optional<presenters::IntensityDisplay>& alone)
 {
   if (!overlay && !m_overlay)
     return;
   m_overlay = std::move(overlay);
+  m_overlayAlone = alone;
   stale();
+}
+
+const presenters::GreyWindow& SliceView::greyWindow() const
+{
+  return m_overlay && m_overlayAlone ? m_overlay->window : m_window;
+}
+
+const presenters::IntensityDisplay& SliceView::intensityDisplay() const
+{
+  return m_overlay && m_overlayAlone ? *m_overlayAlone : m_display;
 }
 
 void SliceView::setNotice(const QString& text)
@@ -338,9 +350,9 @@ void SliceView::paintLetters(QPainter& painter) const
            small.elidedText(m_readout, Qt::ElideMiddle, kReadout * whole), color);
   if (underMouse())
   {
-    const QString grey =
-        QString("W %1  L %2")
-            .arg(words(m_display.number(m_window.width)), words(m_display.number(m_window.level)));
+    const QString grey = QString("W %1  L %2")
+                             .arg(words(intensityDisplay().number(greyWindow().width)),
+                                  words(intensityDisplay().number(greyWindow().level)));
     const double at = width() - kMargin - QFontMetricsF(font).horizontalAdvance(grey);
     drawText(painter, {at, kMargin + 11.0}, grey, QColor("#b6c0ca"));
   }
@@ -435,9 +447,10 @@ void SliceView::mouseMoveEvent(QMouseEvent* event)
     emit crosshairMoved(patientAt(event->localPos()));
   else if (event->buttons() & Qt::RightButton)
   {
-    const double perPixel = kHuPerPixel * m_display.unit;
-    const double width = std::max(m_window.width + perPixel * step.x(), kMinHu * m_display.unit);
-    emit greyWindowChanged({width, m_window.level - 0.5 * perPixel * step.y()});
+    const double unit = intensityDisplay().unit;
+    const double perPixel = kHuPerPixel * unit;
+    const double width = std::max(greyWindow().width + perPixel * step.x(), kMinHu * unit);
+    emit greyWindowChanged({width, greyWindow().level - 0.5 * perPixel * step.y()});
   }
   else if (event->buttons() & Qt::MiddleButton)
   {

@@ -51,7 +51,10 @@ public:
   void setGreyWindow(const presenters::GreyWindow& window);
   void setIntensityDisplay(const presenters::IntensityDisplay& display); ///< of the CT
   void setReadout(const QString& text); ///< values under the crosshair
-  void setOverlay(std::shared_ptr<const presenters::SliceOverlay> overlay); ///< nullptr: CT alone
+  /// nullptr: CT alone. `alone`: how its intensities are displayed where no other's are seen; the
+  /// grey window is its own then.
+  void setOverlay(std::shared_ptr<const presenters::SliceOverlay> overlay,
+                  const std::optional<presenters::IntensityDisplay>& alone);
   void setNotice(const QString& text); ///< a note on what is shown
   void setMarks(std::vector<SliceMark> marks);
   void setInterpolated(std::vector<int> slices); ///< of the grid (presenters::interpolatedSlices)
@@ -99,6 +102,8 @@ private:
   void paintInterpolated(QPainter& painter) const;
   bool showsInterpolated() const;
   bool moveMr(const QKeyEvent& event);
+  const presenters::GreyWindow& greyWindow() const; // of what is seen
+  const presenters::IntensityDisplay& intensityDisplay() const;
 
   presenters::SliceOrientation m_orientation;
   std::shared_ptr<const presenters::SlicePresenter> m_presenter;
@@ -109,6 +114,7 @@ private:
   presenters::GreyWindow m_window;
   presenters::IntensityDisplay m_display;
   std::shared_ptr<const presenters::SliceOverlay> m_overlay;
+  std::optional<presenters::IntensityDisplay> m_overlayAlone; // none: the CT is seen, too
   QString m_notice;
   std::vector<SliceMark> m_marks;
   std::vector<int> m_interpolated; // increasing

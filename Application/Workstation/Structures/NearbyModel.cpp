@@ -8,6 +8,7 @@
 #include <QPolygonF>
 
 #include "Theme.h"
+#include "WindowTexts.h"
 
 namespace petrous::workstation
 {
@@ -68,8 +69,7 @@ QPixmap signOf(const NearbyStructure& structure)
 QString distanceOf(const NearbyStructure& structure)
 {
   return NearbyModel::tr("%1 mm ± %2")
-      .arg(structure.distance, 0, 'f', 1)
-      .arg(structure.uncertainty.millimetres(), 0, 'f', 1);
+      .arg(numberText(structure.distance, 1), numberText(structure.uncertainty.millimetres(), 1));
 }
 
 QString noteOf(const NearbyStructure& structure)

@@ -30,17 +30,25 @@ ProbeLabel::ProbeLabel(const presenters::WorkstationModel& model, QWidget* paren
   , m_model(model)
 {
   setObjectName("place");
-  setToolTip(tr("Under the pointer: patient position from the scanner's zero (mm; R right, "
-                "L left, A anterior, P posterior, I inferior, S superior), density, "
-                "structure"));
+  setToolTip(
+      tr("Under the pointer: patient position from the scanner's zero (mm; R right, "
+         "L left, A anterior, P posterior, I inferior, S superior), value of the image that is "
+         "seen, structure"));
   setContentsMargins(8, 0, 8, 0);
 }
 
 void ProbeLabel::showPlace(const Eigen::Vector3d& patient)
 {
+  const auto hounsfield = m_model.hounsfieldAt(patient);
+  showValues(patient, hounsfield ? words(presenters::displayOf(m_model.value()).text(*hounsfield))
+                                 : QString());
+}
+
+void ProbeLabel::showValues(const Eigen::Vector3d& patient, const QString& values)
+{
   QString text = positionText(patient);
-  if (const auto hounsfield = m_model.hounsfieldAt(patient))
-    text += "   " + words(presenters::displayOf(m_model.value()).text(*hounsfield));
+  if (!values.isEmpty())
+    text += "   " + values;
   const std::string structure = m_model.structureAt(patient);
   if (!structure.empty())
     text += "   " + words(structure).replace('_', ' ');

@@ -14,7 +14,9 @@ class ProbeLabel : public QLabel
 public:
   explicit ProbeLabel(const presenters::WorkstationModel& model, QWidget* parent = nullptr);
 
-  void showPlace(const Eigen::Vector3d& patient); ///< LPS mm
+  void showPlace(const Eigen::Vector3d& patient); ///< LPS mm; values of the primary image
+  /// `values`: those of the images that are seen there.
+  void showValues(const Eigen::Vector3d& patient, const QString& values);
 
 private:
   const presenters::WorkstationModel& m_model;

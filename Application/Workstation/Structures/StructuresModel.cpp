@@ -1,5 +1,7 @@
 #include "StructuresModel.h"
 
+#include <utility>
+
 #include <QColor>
 #include <QPainter>
 #include <QPixmap>
@@ -69,20 +71,71 @@ StructuresModel::StructuresModel(presenters::WorkstationModel& model, QObject* p
 {
 }
 
-const volume::MeshMeasure& StructuresModel::measureOf(const scene::MeshPart& part)
+const StructuresModel::Measured* StructuresModel::measuredOf(const scene::MeshPart& part) const
 {
-  Measured& measured = m_measured[part.name];
-  try
+  const auto found = m_measured.find(part.name);
+  if (found == m_measured.end() || m_measuredOf != m_model.shownAs())
+    return nullptr;
+  const auto mesh = part.mesh.peek(); // another one may have its name now
+  return found->second.mesh == mesh || !mesh ? &found->second : nullptr;
+}
+
+// Those that were not yet, one after another: a task under way is let go on.
+void StructuresModel::measureMeshes()
+{
+  if (!m_model.hasCase() || m_work.busy())
+    return;
+  if (m_measuredOf != m_model.shownAs())
+    m_measured.clear();
+  m_measuredOf = m_model.shownAs();
+  std::vector<std::pair<std::string, core::Lazy<core::TriangleMesh>>> meshes;
+  for (const auto& part : m_model.value().meshes)
+    if (!measuredOf(part) && !scene::findStructure(m_model.value(), part.name))
+      meshes.emplace_back(part.name, part.mesh);
+  if (meshes.empty())
+    return;
+  m_work.start(
+      [this, meshes = std::move(meshes),
+       shownAs = m_measuredOf](const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        Measures done;
+        for (const auto& [name, lazy] : meshes)
+        {
+          progress.check("measuring meshes");
+          try
+          {
+            const auto mesh = lazy.get();
+            done[name] = {mesh, mesh ? volume::measure(*mesh) : volume::MeshMeasure()};
+          }
+          catch (const core::Error&) // said where the case was opened
+          {
+            done[name] = {};
+          }
+        }
+        return [this, done, shownAs]
+        {
+          if (shownAs == m_measuredOf)
+            for (const auto& [name, measured] : done)
+              m_measured[name] = measured;
+          appearanceChanged();
+        };
+      });
+}
+
+QString StructuresModel::countText() const
+{
+  std::size_t structures = 0, meshes = 0, shown = 0;
+  for (const Row& row : m_rows)
   {
-    const auto mesh = part.mesh.get();
-    if (measured.mesh != mesh)
-      measured = {mesh, volume::measure(*mesh)};
+    ++(row.isMesh ? meshes : structures);
+    shown += row.look.shown;
   }
-  catch (const core::Error&) // said where the case was opened
-  {
-    measured = {};
-  }
-  return measured.measure;
+  QStringList parts;
+  if (structures > 0)
+    parts += structures == 1 ? tr("1 structure") : tr("%1 structures").arg(structures);
+  if (meshes > 0)
+    parts += meshes == 1 ? tr("1 mesh") : tr("%1 meshes").arg(meshes);
+  return parts.isEmpty() ? QString() : tr("%1; %2 shown").arg(parts.join(", ")).arg(shown);
 }
 
 std::vector<StructuresModel::Row> StructuresModel::rows()
@@ -95,14 +148,19 @@ std::vector<StructuresModel::Row> StructuresModel::rows()
   {
     const std::string missing = scene::placementOf(value, part).missing;
     for (const auto& structure : part.structures)
-      rows.push_back({structure.name, structure.volume, false, 0, structure.look, missing});
+      rows.push_back({structure.name, structure.volume, false, false, 0, structure.look, missing});
   }
   for (const auto& mesh : value.meshes)
     if (!scene::findStructure(value, mesh.name))
     {
-      const volume::MeshMeasure& measured = measureOf(mesh);
-      rows.push_back({mesh.name, measured.volume.value_or(0.0), true, measured.openEdges, mesh.look,
-                      scene::placementOf(value, mesh).missing});
+      Row row{mesh.name, 0.0, true, true, 0, mesh.look, scene::placementOf(value, mesh).missing};
+      if (const Measured* measured = measuredOf(mesh))
+      {
+        row.volume = measured->measure.volume.value_or(0.0);
+        row.isBeingMeasured = false;
+        row.openEdges = measured->measure.openEdges;
+      }
+      rows.push_back(std::move(row));
     }
   return rows;
 }
@@ -134,6 +192,7 @@ void StructuresModel::caseChanged()
   beginResetModel();
   m_rows = rows();
   endResetModel();
+  measureMeshes();
 }
 
 void StructuresModel::appearanceChanged()
@@ -144,6 +203,7 @@ void StructuresModel::appearanceChanged()
   m_rows = std::move(next);
   if (!m_rows.empty())
     emit dataChanged(index(0, 0), index(rowCount() - 1, columnCount() - 1));
+  measureMeshes();
 }
 
 int StructuresModel::rowCount(const QModelIndex& parent) const
@@ -202,10 +262,16 @@ QVariant StructuresModel::data(const QModelIndex& index, int role) const
                             : tr("%1 (a space without tissue)").arg(words(row.name));
     return {};
   case VolumeColumn:
+    if (role == Qt::DisplayRole && row.isBeingMeasured)
+      return QString::fromUtf8("…");
+    if (role == Qt::ToolTipRole && row.isBeingMeasured)
+      return tr("The mesh is being measured");
     if (role == Qt::DisplayRole && row.openEdges > 0)
-      return tr("open, %1 edges").arg(row.openEdges);
+      return tr("open");
     if (role == Qt::ToolTipRole && row.openEdges > 0)
-      return tr("No volume: the mesh is open, its surface ends at %1 edges").arg(row.openEdges);
+      return (row.openEdges == 1 ? tr("No volume: the mesh is open, its surface ends at %1 edge")
+                                 : tr("No volume: the mesh is open, its surface ends at %1 edges"))
+          .arg(row.openEdges);
     if (role == Qt::DisplayRole && row.volume > 0.0)
       return tr("%1 mm³").arg(row.volume, 0, 'f',
                               row.volume < 10.0    ? 2

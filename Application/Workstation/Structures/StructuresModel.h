@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include <QAbstractTableModel>
 
+#include "BackgroundWork.h"
 #include "petrous/Presenters/WorkstationModel.h"
 #include "petrous/Volume/MeshMeasure.h"
 
@@ -27,7 +29,7 @@ public:
   enum Column
   {
     Name,
-    VolumeColumn, ///< mm^3, of an open mesh its open edges; empty where it is not known
+    VolumeColumn, ///< mm^3, "open" of an open mesh, "…" while it is measured; empty: not known
     FirstProperty ///< and those after it: kStructureProperties with a column
   };
 
@@ -36,6 +38,8 @@ public:
 
   explicit StructuresModel(presenters::WorkstationModel& model, QObject* parent = nullptr);
 
+  /// How many label structures and meshes there are, and how many are shown.
+  QString countText() const;
   std::string nameAt(const QModelIndex& index) const; ///< of the row; empty if there is none
   QModelIndex rowOf(const std::string& name) const;   ///< invalid if there is none
   appearance::StructureAppearance lookAt(const QModelIndex& index) const;
@@ -56,18 +60,20 @@ private:
     std::string name;
     double volume = 0.0; ///< mm^3; 0: not known
     bool isMesh = false;
+    bool isBeingMeasured = false;
     std::size_t openEdges = 0; ///< of a mesh that is not closed and so has no volume
     appearance::StructureAppearance look;
     std::string missing; ///< why it cannot be placed on the CT (scene::Placement); usually empty
   };
   struct Measured
   {
-    std::shared_ptr<const core::TriangleMesh> mesh;
+    std::shared_ptr<const core::TriangleMesh> mesh; ///< nullptr: it cannot be read
     volume::MeshMeasure measure;
   };
+  using Measures = std::map<std::string, Measured>; // by the mesh's name
   std::vector<Row> rows();
-  /// Each mesh is measured once.
-  const volume::MeshMeasure& measureOf(const scene::MeshPart& part);
+  const Measured* measuredOf(const scene::MeshPart& part) const; // nullptr: not yet
+  void measureMeshes();
   QVariant propertyData(const Row& row, const appearance::StructureProperty& property,
                         int role) const;
   QString primary() const; ///< image: "CT" or "MR"
@@ -75,7 +81,9 @@ private:
 
   presenters::WorkstationModel& m_model;
   std::vector<Row> m_rows;
-  std::map<std::string, Measured> m_measured; ///< by the mesh's name
+  Measures m_measured;
+  std::uint64_t m_measuredOf = 0; // WorkstationModel::shownAs
+  BackgroundWork m_work;          // measures large meshes in seconds
 };
 
 } // namespace petrous::workstation

@@ -119,6 +119,13 @@ void StructuresPanel::addList(QVBoxLayout& layout)
   m_list->setContextMenuPolicy(Qt::CustomContextMenu);
   connect(m_list, &QTreeView::customContextMenuRequested, this, &StructuresPanel::offer);
   layout.addWidget(m_list, 1);
+  m_count = new QLabel;
+  m_count->setObjectName("structuresCount");
+  m_count->setContentsMargins(10, 3, 10, 3);
+  layout.addWidget(m_count);
+  const auto count = [this] { m_count->setText(m_structures->countText()); };
+  connect(m_structures, &QAbstractItemModel::modelReset, m_count, count);
+  connect(m_structures, &QAbstractItemModel::dataChanged, m_count, count);
 }
 
 bool StructuresPanel::eventFilter(QObject* watched, QEvent* event)
@@ -182,7 +189,7 @@ void StructuresPanel::addTissues(QMenu& menu, const QString& name)
               m_model.setLook(bytes(name), next);
             });
   };
-  add(isOnMr() ? tr("Tissue of the MR, all alike") : tr("Bone, by its density"), {});
+  add(isOnMr() ? tr("Soft tissue, as where nothing is drawn") : tr("Bone, by its density"), {});
   const auto catalogue = dissection::MaterialCatalogue::builtIn();
   for (const auto& material : catalogue.all())
     add(words(material.title), material.name);

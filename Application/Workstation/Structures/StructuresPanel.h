@@ -53,6 +53,7 @@ private:
   QSlider* m_slider;
   QDoubleSpinBox* m_box;
   QLabel* m_threshold;
+  QLabel* m_count;
   double m_step = 1.0; // of the slider, in the primary image's unit
   int m_nameWidth = 0; // of the names' column as the user set it, px; 0: not set
   bool m_fitting = false;

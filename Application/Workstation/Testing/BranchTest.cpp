@@ -1,9 +1,12 @@
 #include "DeviceTest.h"
 
+#include <QDialogButtonBox>
 #include <QInputDialog>
+#include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
 #include <QMenuBar>
+#include <QPushButton>
 #include <QTimer>
 
 using namespace petrous;
@@ -120,4 +123,43 @@ TEST_F(Branches, RefuseANameThatIsTakenInWords)
   startBranch("main");
   EXPECT_TRUE(words.contains("main")) << words.toStdString();
   EXPECT_EQ(value().dissection.history().branches().size(), 1u);
+}
+
+// What was typed stays: the name is judged before it is taken.
+TEST_F(Branches, ANameThatIsTooLongCanBeShortened)
+{
+  saveBall("ball");
+  openWindow();
+  bool asked = false;
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        auto* ask = qobject_cast<QInputDialog*>(&dialog);
+        if (!ask)
+          return false;
+        asked = true;
+        auto* ok = ask->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok);
+        auto* line = ask->findChild<QLineEdit*>();
+        EXPECT_FALSE(ok->isEnabled()) << "no name yet";
+        const QString name = QString(QChar(0xe4)).repeated(51); // 102 bytes
+        QTest::keyClicks(line, name);
+        EXPECT_FALSE(ok->isEnabled());
+        EXPECT_TRUE(ask->labelText().contains("100 bytes") ||
+                    ask->findChild<QLabel*>()->text().contains("100 bytes"))
+            << ask->findChild<QLabel*>()->text().toStdString();
+        QTest::keyClick(line, Qt::Key_Return);
+        EXPECT_TRUE(ask->isVisible());
+        EXPECT_EQ(line->text(), name);
+        QTest::keyClick(line, Qt::Key_Backspace);
+        EXPECT_TRUE(ok->isEnabled());
+        EXPECT_FALSE(ask->findChild<QLabel*>()->text().contains("bytes"));
+        line->setText("main");
+        EXPECT_FALSE(ok->isEnabled()) << "taken";
+        line->setText("retrosigmoid");
+        ok->click();
+        return true;
+      });
+  QTest::keyClick(&window(), Qt::Key_B, Qt::ControlModifier);
+  EXPECT_TRUE(asked);
+  EXPECT_EQ(value().dissection.history().branch().name, "retrosigmoid");
 }

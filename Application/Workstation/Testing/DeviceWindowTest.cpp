@@ -184,10 +184,14 @@ TEST_F(InputDevices, ARecordingEndsWithItsDeviceAndTheCommandRepeatsItToTheBit)
   EXPECT_TRUE(replay["complete"].toBool());
   const auto ball = library().open("ball");
   const auto copy = library().open("copy");
-  ASSERT_EQ(ball.dissection.strokes().size(), 1u);
-  ASSERT_EQ(copy.dissection.strokes().size(), 1u);
-  EXPECT_GT(ball.dissection.strokes()[0]->info.removed, 0.0);
-  EXPECT_EQ(copy.dissection.strokes()[0]->info.removed, ball.dissection.strokes()[0]->info.removed);
+  // One, or more if the cap's reports were late on a busy machine: a silent device ends a stroke.
+  const auto& drilled = ball.dissection.strokes();
+  const auto& repeated = copy.dissection.strokes();
+  ASSERT_FALSE(drilled.empty());
+  ASSERT_EQ(repeated.size(), drilled.size());
+  EXPECT_GT(ball.removedVolume(), 0.0);
+  for (std::size_t n = 0; n < drilled.size(); ++n)
+    EXPECT_EQ(repeated[n]->info.removed, drilled[n]->info.removed) << n;
 }
 
 TEST_F(InputDevices, ADevicesOriginIsThePlaceLookedAtAndItsWayIsScaled)

@@ -318,6 +318,29 @@ TEST_F(Drill, ThePointerThatEntersTheViewTakesTheToolUpWithoutAMove)
   EXPECT_TRUE(waitFor([this] { return window().model().touching(); }));
 }
 
+TEST_F(Drill, TheBurrComesWhereThePointerRestsWhenTheDrillIsTurnedOn)
+{
+  saveBall("ball");
+  openWindow();
+  QTest::mouseMove(&view(), view().rect().center());
+  QTest::qWait(100);
+  EXPECT_FALSE(view().display().tool());
+  QTest::keyClick(&view(), Qt::Key_D);
+  ASSERT_TRUE(waitFor([this] { return view().display().tool().has_value(); }, 10000));
+  EXPECT_NEAR((view().display().tool()->center - kBallCenter).norm(), kBallRadius + 2.0 + 1.0, 0.3);
+}
+
+// Nothing can be seen of a burr that has no place.
+TEST_F(Drill, SaysWhereTheBurrIsAwaitedIfThePointerIsElsewhere)
+{
+  saveBall("ball");
+  openWindow();
+  QTest::keyClick(&view(), Qt::Key_D);
+  EXPECT_TRUE(window().statusBar()->currentMessage().contains("3D view"))
+      << window().statusBar()->currentMessage().toStdString();
+  EXPECT_FALSE(view().display().tool());
+}
+
 TEST_F(Drill, TheButtonShowsWhetherTheWheelLeads)
 {
   saveBall("ball");

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <QApplication>
+#include <QCursor>
 #include <QFile>
 #include <QFileDialog>
 #include <QJsonDocument>
@@ -88,6 +89,8 @@ void GuiTest::openWindow(const QString& what)
   options.devices = devices;
   options.lookForDevicesEvery = 50;
   options.drawThumbnailsAfter = drawThumbnailsAfter;
+  // Where the last test left the pointer, a view might come to lie below it.
+  QCursor::setPos(QGuiApplication::primaryScreen()->geometry().bottomRight());
   m_window = std::make_unique<MainWindow>(library(), options);
   m_window->resize(1200, 760);
   m_window->show();

@@ -35,9 +35,9 @@ protected:
   static scene::Case ballCase(const std::string& name);
   void saveBall(const std::string& name); ///< into the library
 
-  presenters::DeviceSources devices; ///< of windows opened later; initially none
-  int drawThumbnailsAfter = -1;      ///< ms, see WindowOptions; of windows opened later
-  void openWindow(const QString& what = {});
+  presenters::DeviceSources devices;         ///< of windows opened later; initially none
+  int drawThumbnailsAfter = -1;              ///< ms, see WindowOptions; of windows opened later
+  void openWindow(const QString& what = {}); ///< the pointer is beside it
   void closeWindow();
   MainWindow& window() { return *m_window; }
   ThreeDView& view();

@@ -354,6 +354,80 @@ TEST_F(Import, AMeshThatCountsOtherwiseIsAskedAbout)
   EXPECT_TRUE(settled());
 }
 
+// By the Case menu, in metres and as Slicer has its axes; the other way round by a drop.
+TEST_F(Import, AMeshInMetresIsAskedAboutHoweverItIsAdded)
+{
+  writePatient(folder() / "sample");
+  const auto mesh = imaging::readMesh(folder() / "sample" / "meshes" / "facial_nerve.obj");
+  const fs::path path = folder() / "facial_nerve.obj"; // states nothing
+  {
+    std::ofstream file(path);
+    file.imbue(std::locale::classic());
+    file.precision(9);
+    for (const auto& v : mesh.vertices)
+      file << "v " << -0.001F * v[0] << " " << -0.001F * v[1] << " " << 0.001F * v[2] << "\n";
+    for (const auto& t : mesh.triangles)
+      file << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";
+  }
+  openWindow();
+  dropPath(folder() / "sample" / "ct");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  const auto add = [&](bool byMenu, const QString& answer)
+  {
+    QStringList offered;
+    onDialog(
+        [&](QDialog& dialog)
+        {
+          if (auto* files = qobject_cast<QFileDialog*>(&dialog))
+          {
+            files->findChild<QLineEdit*>("fileNameEdit")
+                ->setText(QString::fromStdString(path.string()));
+            static_cast<QDialog&>(*files).accept();
+            return false;
+          }
+          if (dialog.objectName() != "askMeshSpace")
+          {
+            if (auto* button = buttonOf(dialog, "Add to"))
+              button->click();
+            return false;
+          }
+          const auto& box = static_cast<QMessageBox&>(dialog);
+          EXPECT_TRUE(box.text().contains("facial_nerve.obj")) << box.text().toStdString();
+          EXPECT_TRUE(box.informativeText().contains("RAS m")) << box.text().toStdString();
+          EXPECT_FALSE(box.informativeText().contains("--")) << "an option of the command";
+          for (const auto* button : box.buttons())
+            offered += button->text().remove('&');
+          buttonOf(dialog, answer)->click();
+          return true;
+        });
+    if (byMenu)
+      for (QAction* action : window().findChildren<QAction*>())
+        if (action->text().remove('&') == QString::fromUtf8("Add mesh…"))
+          action->trigger();
+    if (!byMenu)
+      dropPath(path);
+    EXPECT_TRUE(waitFor([&] { return !offered.isEmpty(); }));
+    EXPECT_TRUE(settled());
+    return offered;
+  };
+  const QStringList offered = add(true, "Cancel");
+  EXPECT_TRUE(offered.contains("Add as RAS (Slicer, NIfTI), m")) << offered.join('|').toStdString();
+  EXPECT_TRUE(offered.contains("Cancel"));
+  EXPECT_TRUE(window().model().value().meshes.empty());
+  for (const bool byMenu : {true, false})
+  {
+    add(byMenu, "RAS (Slicer, NIfTI), m");
+    ASSERT_TRUE(waitFor([this] { return window().model().value().meshes.size() == 1; }));
+    const auto added = window().model().value().meshes[0].mesh.get();
+    ASSERT_EQ(added->vertices.size(), mesh.vertices.size());
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_NEAR(added->vertices[0][axis], mesh.vertices[0][axis], 1e-3) << byMenu;
+    EXPECT_TRUE(settled());
+    const_cast<presenters::WorkstationModel&>(window().model()).removePart("facial_nerve");
+    EXPECT_TRUE(window().model().value().meshes.empty());
+  }
+}
+
 // An MR or a cone beam as a plain file: undetermined.
 TEST_F(Import, InDoubtTheUserIsAsked)
 {

@@ -6,6 +6,7 @@
 #include <QLineEdit>
 #include <QPointer>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QSpinBox>
 #include <QStatusBar>
 #include <QTableView>
@@ -16,6 +17,7 @@
 #include "Banner.h"
 #include "LandmarkModel.h"
 #include "MetricCurve.h"
+#include "SliceColumn.h"
 #include "SliceView.h"
 #include "petrous/Phantom/Phantom.h"
 #include "petrous/Scene/ApplyRegistration.h"
@@ -524,4 +526,148 @@ TEST_F(RegistrationWindow, AStructureThatIsCreatedLeavesTheViewsAsTheyAre)
   EXPECT_EQ(find<QComboBox>("overlayMode").currentIndex(), 2);
   action("Redo create Sigmoid sinus")->trigger();
   EXPECT_TRUE(scene::findStructure(model.value(), "Sigmoid sinus"));
+}
+
+TEST_F(RegistrationWindow, AnotherMrLeavesTheViewsAsTheyAre)
+{
+  auto& model = const_cast<presenters::WorkstationModel&>(window().model());
+  auto& slice = find<SliceView>("axialView");
+  showPanel();
+  choose(2);
+  model.setCrosshair(Phantom::center() + Vector3d(3, 2, 1));
+  for (int n = 0; n < 4; ++n)
+    QTest::keyClick(&slice, Qt::Key_Plus);
+  action("Soft tissue window")->trigger();
+  view().setFocus();
+  const Vector3d crosshair = model.crosshair();
+  const auto before = slice.slice();
+  layOut();
+  const QImage seen = axial();
+  const auto isAsBefore = [&](const char* what)
+  {
+    layOut();
+    EXPECT_EQ(find<QComboBox>("overlayMode").currentIndex(), 2) << what;
+    EXPECT_EQ(find<QComboBox>("registrationMr").currentText(), "T2") << what;
+    EXPECT_EQ(model.crosshair(), crosshair) << what;
+    EXPECT_EQ(slice.slice().mmPerPixel(), before.mmPerPixel()) << what;
+    EXPECT_EQ(slice.slice().center(), before.center()) << what;
+    EXPECT_EQ(axial(), seen) << what;
+  };
+  scene::Case with = model.value();
+  scene::ImagePart second = scan(Phantom::Modality::Mr, phantom.mrFromCt(), 1.4);
+  second.name = "DWI";
+  with.mr.push_back(second);
+  model.takeParts(std::move(with));
+  ASSERT_EQ(model.value().mr.size(), 2U);
+  isAsBefore("added");
+  model.removePart("DWI");
+  isAsBefore("removed");
+  model.restorePart();
+  isAsBefore("put back");
+  // The one that is shown: the CT alone is left, in the same place.
+  model.removePart("T2");
+  layOut();
+  EXPECT_EQ(find<QComboBox>("overlayMode").currentIndex(), 0);
+  EXPECT_EQ(model.crosshair(), crosshair);
+  EXPECT_EQ(slice.slice().mmPerPixel(), before.mmPerPixel());
+  EXPECT_EQ(slice.slice().center(), before.center());
+  EXPECT_EQ(find<SliceColumn>("slices").shown().width, 400.0);
+}
+
+TEST_F(RegistrationWindow, ARunEndsWithTheMrOntoWhichItWasAndGoesOnOtherwise)
+{
+  auto& model = const_cast<presenters::WorkstationModel&>(window().model());
+  scene::Case with = model.value();
+  scene::ImagePart second = scan(Phantom::Modality::Mr, phantom.mrFromCt(), 1.4);
+  second.name = "DWI";
+  with.mr.push_back(second);
+  showPanel();
+  click("register");
+  model.takeParts(std::move(with));
+  EXPECT_TRUE(find<QPushButton>("cancelRegistration").isEnabled()) << "it goes on";
+  ASSERT_TRUE(waitFor([this] { return mr().registered; }, 240000)) << state().toStdString();
+  find<QComboBox>("registrationMr").setCurrentText("DWI");
+  find<QComboBox>("registrationOnto").setCurrentIndex(1);
+  click("register");
+  ASSERT_TRUE(find<QPushButton>("cancelRegistration").isEnabled());
+  model.removePart("T2");
+  EXPECT_FALSE(find<QPushButton>("cancelRegistration").isEnabled());
+  EXPECT_TRUE(find<QLabel>("registrationLine").text().contains("is gone"))
+      << find<QLabel>("registrationLine").text().toStdString();
+  EXPECT_FALSE(model.value().mr.front().registered);
+}
+
+TEST_F(RegistrationWindow, TheReadoutIsThatOfTheImageThatIsSeen)
+{
+  auto& model = const_cast<presenters::WorkstationModel&>(window().model());
+  const auto& slices = find<SliceColumn>("slices");
+  // In the middle of a voxel of the MR, which lies as its header has it.
+  const auto& grid = mr().geometry;
+  const Vector3d voxel = grid.voxelFromPatient(Phantom::center()).array().round();
+  model.setCrosshair(grid.patientFromVoxel(voxel));
+  const auto said = [&] { return slices.valuesAt(model.crosshair()); };
+  const QString ct = said();
+  EXPECT_TRUE(QRegularExpression("^-?\\d+ HU$").match(ct).hasMatch()) << ct.toStdString();
+  QTest::keyClick(&view(), Qt::Key_V);
+  phantom::ScanSettings settings;
+  settings.modality = Phantom::Modality::Mr;
+  settings.patientFromScan = phantom.mrFromCt().inverse();
+  const auto truth = phantom::samplePhantom(phantom, grid, settings);
+  const QString value = QString::number(
+      truth.at(static_cast<int>(voxel[0]), static_cast<int>(voxel[1]), static_cast<int>(voxel[2])));
+  EXPECT_EQ(said().split('.').front(), "T2 " + value);
+  EXPECT_FALSE(said().contains("HU"));
+  // The status bar says so of the point under the pointer, and of a point of the 3D view the CT's.
+  auto& slice = find<SliceView>("axialView");
+  emit slice.pointed(model.crosshair());
+  EXPECT_TRUE(find<QLabel>("place").text().contains("T2 " + value))
+      << find<QLabel>("place").text().toStdString();
+  QTest::keyClick(&view(), Qt::Key_V);
+  EXPECT_EQ(said(), ct);
+  choose(1); // blend
+  EXPECT_TRUE(said().startsWith("CT " + ct + "  T2 " + value)) << said().toStdString();
+}
+
+TEST_F(RegistrationWindow, ARightDragChangesTheGreyWindowOfTheImageThatIsSeen)
+{
+  auto& slice = find<SliceView>("axialView");
+  const auto drag = [&]
+  {
+    QTest::mousePress(&slice, Qt::RightButton, Qt::NoModifier, slice.rect().center());
+    const QImage before = axial();
+    QMouseEvent move(QEvent::MouseMove, slice.rect().center() + QPoint(60, 0), Qt::NoButton,
+                     Qt::RightButton, Qt::NoModifier);
+    QApplication::sendEvent(&slice, &move);
+    EXPECT_NE(axial(), before);
+    QTest::mouseRelease(&slice, Qt::RightButton, Qt::NoModifier,
+                        slice.rect().center() + QPoint(60, 0));
+  };
+  const double width = find<SliceColumn>("slices").shown().width;
+  QTest::keyClick(&view(), Qt::Key_V); // the MR alone
+  drag();
+  EXPECT_EQ(find<SliceColumn>("slices").shown().width, width);
+  QTest::keyClick(&slice, Qt::Key_V); // the CT alone
+  drag();
+  EXPECT_GT(find<SliceColumn>("slices").shown().width, width);
+}
+
+TEST_F(RegistrationWindow, ItsMenuNeedsAnMr)
+{
+  auto& model = const_cast<presenters::WorkstationModel&>(window().model());
+  const auto isOffered = [this]
+  {
+    const bool isOne = action("Register the MR")->isEnabled();
+    for (const char* name : {"Refine", "Next way to show the MR", "Point here"})
+      for (QAction* candidate : window().findChildren<QAction*>())
+        if (candidate->text().remove('&') == name)
+          EXPECT_EQ(candidate->isEnabled(), isOne) << name;
+    return isOne;
+  };
+  EXPECT_TRUE(isOffered());
+  model.removePart("T2");
+  EXPECT_FALSE(isOffered());
+  model.restorePart();
+  EXPECT_TRUE(isOffered());
+  model.close();
+  EXPECT_FALSE(isOffered());
 }

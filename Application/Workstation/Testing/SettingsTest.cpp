@@ -5,8 +5,10 @@
 #include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QSlider>
+#include <QSpinBox>
 
 #include "Bind.h"
+#include "SliceColumn.h"
 #include "WindowSettings.h"
 
 using namespace petrous;
@@ -76,12 +78,43 @@ TEST_F(Settings, PanelsComeBackAsTheyWereLeft)
   EXPECT_TRUE(widget<QDockWidget>("registrationDock").isHidden());
 }
 
+TEST_F(Settings, TheBurrComesBackInTheNextWindowAndTheSlicesWithTheirCase)
+{
+  saveBall("ball");
+  openWindow();
+  auto& kind = widget<QComboBox>("burrKind");
+  EXPECT_EQ(kind.currentText(), "Cutting");
+  kind.setCurrentIndex(kind.findText("Diamond"));
+  widget<QDoubleSpinBox>("burrDiameter").setValue(3.0);
+  widget<QSpinBox>("spindleSpeed").setValue(45);
+  auto& model = const_cast<presenters::WorkstationModel&>(window().model());
+  const Eigen::Vector3d there = kBallCenter + Eigen::Vector3d(3.25, -2.0, 5.0);
+  model.setCrosshair(there);
+  action("Soft tissue window")->trigger();
+  QTest::keyClick(&window(), Qt::Key_S, Qt::ControlModifier);
+  EXPECT_TRUE(settled());
+  closeWindow();
+
+  openWindow();
+  EXPECT_EQ(widget<QComboBox>("burrKind").currentText(), "Diamond");
+  EXPECT_EQ(widget<QDoubleSpinBox>("burrDiameter").value(), 3.0);
+  EXPECT_EQ(widget<QSpinBox>("spindleSpeed").value(), 45);
+  EXPECT_LT((window().model().crosshair() - there).norm(), 1e-9);
+  EXPECT_EQ(widget<SliceColumn>("slices").shown().width, 400.0);
+  EXPECT_EQ(widget<SliceColumn>("slices").shown().level, 40.0);
+  saveBall("another"); // begins in its middle, with the window for bone
+  const_cast<presenters::WorkstationModel&>(window().model()).open("another");
+  EXPECT_LT((window().model().crosshair() - kBallCenter).norm(), 1e-9);
+  EXPECT_EQ(widget<SliceColumn>("slices").shown().width, 4000.0);
+}
+
 TEST_F(Settings, WhatNobodyUnderstandsIsTheUsual)
 {
   const QString file = QString::fromStdString((folder() / "odd.conf").string());
   std::ofstream(file.toStdString())
       << "[light]\nfalloff_mm=nan\nwetness=lots\n[stereo]\n"
-         "mode=holographic\neye_separation_mm=-5\n[hand]\nthrust_n=x\n";
+         "mode=holographic\neye_separation_mm=-5\n[hand]\nthrust_n=x\n"
+         "[burr]\ndiameter_mm=4\nrpm=60000\nkind=laser\n";
   WindowSettings settings(file);
   presenters::ViewSettings view;
   settings.restore(view, true);
@@ -90,6 +123,7 @@ TEST_F(Settings, WhatNobodyUnderstandsIsTheUsual)
   EXPECT_EQ(view.stereo(), rendering::StereoMode::None);
   EXPECT_EQ(view.rig().eyeSeparation, 0.0); // clamped to its limits, as a user's value is
   EXPECT_FALSE(settings.thrust());
+  EXPECT_FALSE(settings.burr());
   openWindow();
 }
 

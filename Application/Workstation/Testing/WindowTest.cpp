@@ -19,11 +19,14 @@
 #include <QSlider>
 #include <QSpinBox>
 #include <QTemporaryDir>
+#include <QToolBar>
+#include <QToolButton>
 #include <QTreeView>
 #include <QTreeWidget>
 
 #include "Application.h"
 #include "Banner.h"
+#include "Bind.h"
 #include "SliceView.h"
 #include "StartPage.h"
 #include "StructuresModel.h"
@@ -196,9 +199,17 @@ TEST_F(Window, AnMrAsPrimaryImageIsCalledSo)
     for (const auto* box : window().findChildren<QComboBox*>())
       for (int n = 0; n < box->count(); ++n)
         all += box->itemText(n);
+    for (const auto* box : window().findChildren<QAbstractSpinBox*>())
+      all += box->specialValueText();
+    for (const auto* widget : window().findChildren<QWidget*>())
+      if (!qobject_cast<const QToolButton*>(widget) && // of actions that open other cases, too
+          !window().findChild<StartPage*>()->isAncestorOf(widget))
+        all += widget->toolTip();
+    for (const QAction* action : window().findChild<QToolBar*>("drillBar")->actions())
+      all += action->toolTip();
     return all.replaceInStrings("&", "");
   };
-  const QRegularExpression names("\\bCT\\b|\\b[Bb]one\\b");
+  const QRegularExpression names("\\bCT\\b|\\b[Bb]one\\b|\\bHU\\b|[Dd]ensity");
   openWindow("mr");
   for (const QString& text : texts())
     EXPECT_FALSE(text.contains(names)) << text.toStdString();
@@ -422,6 +433,64 @@ TEST_F(Window, NamesOfStructuresAreNotCutOff)
               QString::fromStdString(name));
     closeWindow();
   }
+}
+
+// They are measured in the background; an open one has no volume, and that fits at 1280 x 720.
+TEST_F(Window, MeshesAreCountedMeasuredAndOpenOnesSaidToBe)
+{
+  core::TriangleMesh closed; // a tetrahedron of 1/6 * 6^3 mm^3
+  for (const auto& corner : {Eigen::Vector3f(0, 0, 0), Eigen::Vector3f(6, 0, 0),
+                             Eigen::Vector3f(0, 6, 0), Eigen::Vector3f(0, 0, 6)})
+    closed.vertices.push_back(corner + kBallCenter.cast<float>());
+  closed.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  core::TriangleMesh open = closed;
+  open.triangles.pop_back();
+  scene::Case value = ballCase("ball");
+  for (const auto& [name, mesh] : {std::pair("implant", closed), std::pair("dura_patch", open)})
+  {
+    scene::MeshPart part;
+    part.name = name;
+    part.mesh = std::make_shared<const core::TriangleMesh>(mesh);
+    part.triangles = mesh.triangles.size();
+    value.meshes.push_back(part);
+  }
+  value.meshes[1].look.shown = false;
+  library().save(value);
+  openWindow();
+  window().resize(1280, 720);
+  auto* list = window().findChild<QTreeView*>("structures");
+  ASSERT_EQ(list->model()->rowCount(), 3);
+  const auto volume = [&](int row, int role = Qt::DisplayRole)
+  { return list->model()->index(row, StructuresModel::VolumeColumn).data(role).toString(); };
+  ASSERT_TRUE(waitFor([&] { return volume(2) != QString::fromUtf8("…"); }));
+  EXPECT_EQ(volume(1), QString::fromUtf8("36.0 mm³"));
+  EXPECT_EQ(volume(2), "open");
+  EXPECT_TRUE(volume(2, Qt::ToolTipRole).contains("3 edges"))
+      << volume(2, Qt::ToolTipRole).toStdString();
+  const QAbstractItemView* view = list; // public there
+  EXPECT_GE(list->columnWidth(StructuresModel::VolumeColumn),
+            view->sizeHintForColumn(StructuresModel::VolumeColumn));
+  auto* count = window().findChild<QLabel*>("structuresCount");
+  EXPECT_EQ(count->text(), "1 structure, 2 meshes; 2 shown");
+  EXPECT_FALSE(count->visibleRegion().isEmpty());
+  auto& model = const_cast<presenters::WorkstationModel&>(window().model());
+  model.renamePart("implant", "screw"); // measured anew, as its name is another
+  ASSERT_TRUE(waitFor([&] { return volume(1) == QString::fromUtf8("36.0 mm³"); }));
+  model.removePart("dura_patch");
+  EXPECT_EQ(count->text(), "1 structure, 1 mesh; 2 shown");
+}
+
+TEST_F(Window, ANumberIsNeverMinusZero)
+{
+  EXPECT_EQ(numberText(-0.04, 1), "0.0");
+  EXPECT_EQ(numberText(-0.0, 2), "0.00");
+  EXPECT_EQ(numberText(-0.06, 1), "-0.1");
+  EXPECT_EQ(numberText(1.25, 2), "1.25");
+  const std::unique_ptr<QDoubleSpinBox> box(numberBox("box", {}, {-1.0, 1.0, " mm", 1, 0.1}));
+  box->setValue(-0.04);
+  EXPECT_EQ(box->text(), "0.0 mm");
+  box->setValue(-0.2);
+  EXPECT_EQ(box->text(), "-0.2 mm");
 }
 
 // Qt would end the program.

@@ -112,9 +112,25 @@ void Bindings::drop()
       one.settle->stop();
 }
 
+namespace
+{
+
+// Shows no -0.0.
+class NumberBox : public QDoubleSpinBox
+{
+public:
+  QString textFromValue(double value) const override
+  {
+    const bool isZero = std::abs(value) < 0.5 * std::pow(10.0, -decimals());
+    return QDoubleSpinBox::textFromValue(isZero ? 0.0 : value);
+  }
+};
+
+} // namespace
+
 QDoubleSpinBox* numberBox(const char* name, const QString& tip, const NumberRange& range)
 {
-  auto* box = new QDoubleSpinBox;
+  QDoubleSpinBox* box = new NumberBox;
   box->setObjectName(name);
   box->setToolTip(tip);
   box->setDecimals(range.decimals);

@@ -146,6 +146,8 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
                                         *m_actions->boneThickness);
   if (const auto thrust = m_settings->thrust())
     m_bar->setThrust(*thrust);
+  if (const auto burr = m_settings->burr())
+    m_bar->setBurr(*burr);
   m_picture->flush = [this] { return flush(); };
   m_branches->settle = [this] { m_drill->releaseTool(); };
   m_branches->camera = [this] { return m_viewState->camera(); };
@@ -419,7 +421,9 @@ void MainWindow::connectModel()
   m_model.events.noticed = [this](const std::string& text) { notice(words(text)); };
   connect(m_registration, &RegistrationController::sceneStale, this,
           [this] { m_model.events.appearanceChanged(); });
-  connect(m_slices, &SliceColumn::pointed, m_place, &ProbeLabel::showPlace);
+  connect(m_slices, &SliceColumn::pointed, m_place,
+          [this](const Eigen::Vector3d& patient)
+          { m_place->showValues(patient, m_slices->valuesAt(patient)); });
   connect(m_drill, &DrillController::pointed, m_place, &ProbeLabel::showPlace);
   connect(m_drill, &DrillController::pointedNowhere, m_place, &QLabel::clear);
   for (const auto& [entry, panel] : m_panels)
@@ -448,6 +452,12 @@ void MainWindow::connectModel()
           {
             if (!m_viewState->isShowing()) // a case's is not the user's own
               m_settings->keepThrust(m_bar->thrust());
+          });
+  connect(m_bar, &DrillBar::burrChanged, this,
+          [this]
+          {
+            if (!m_viewState->isShowing())
+              m_settings->keepBurr(m_bar->burr());
           });
   const auto showMessage = [this](const QString& line)
   { statusBar()->showMessage(line, kMessage); };

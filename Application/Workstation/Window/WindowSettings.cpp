@@ -21,6 +21,13 @@ constexpr std::array<std::pair<StereoMode, const char*>, 5> kModes{{
     {StereoMode::QuadBuffer, "quad-buffer"},
 }};
 
+using BurrKind = dissection::Burr::Kind;
+
+constexpr std::array<std::pair<BurrKind, const char*>, 2> kKinds{{
+    {BurrKind::Cutting, "cutting"},
+    {BurrKind::Diamond, "diamond"},
+}};
+
 QString keyOf(const std::string& hand, const char* what)
 {
   return QString("hand-%1/%2").arg(QString::fromStdString(hand), what);
@@ -79,6 +86,34 @@ std::optional<double> WindowSettings::thrust() const
 void WindowSettings::keepThrust(double newtons)
 {
   m_file.setValue("hand/thrust_n", newtons);
+}
+
+std::optional<dissection::Burr> WindowSettings::burr() const
+{
+  const auto diameter = number("burr/diameter_mm");
+  const auto rpm = number("burr/rpm");
+  const QString kind = m_file.value("burr/kind").toString();
+  if (!diameter || !(*diameter > 0.0) || !rpm || !(*rpm > 0.0))
+    return std::nullopt;
+  for (const auto& [value, name] : kKinds)
+    if (kind == name)
+    {
+      dissection::Burr burr;
+      burr.diameter = *diameter;
+      burr.kind = value;
+      burr.rpm = *rpm;
+      return burr;
+    }
+  return std::nullopt;
+}
+
+void WindowSettings::keepBurr(const dissection::Burr& burr)
+{
+  m_file.setValue("burr/diameter_mm", burr.diameter);
+  m_file.setValue("burr/rpm", burr.rpm);
+  for (const auto& [value, name] : kKinds)
+    if (value == burr.kind)
+      m_file.setValue("burr/kind", name);
 }
 
 std::optional<double> WindowSettings::scale(const std::string& hand) const

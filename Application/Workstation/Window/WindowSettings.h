@@ -4,6 +4,7 @@
 
 #include <QSettings>
 
+#include "petrous/Dissection/Stroke.h"
 #include "petrous/Presenters/ViewSettings.h"
 
 namespace petrous::workstation
@@ -14,7 +15,7 @@ namespace petrous::workstation
 class WindowSettings
 {
 public:
-  /// `file`: an INI file; empty: the user's default (~/.config/petrous/workstation.conf).
+  /// `file`: an INI file; empty: the user's default (~/.config/petrous/workstation.ini).
   explicit WindowSettings(const QString& file = {});
 
   /// Lamp and stereo. `quadBuffer`: supported by the driver; otherwise that mode becomes none.
@@ -23,6 +24,9 @@ public:
 
   std::optional<double> thrust() const; ///< N
   void keepThrust(double newtons);
+
+  std::optional<dissection::Burr> burr() const; ///< none unless all of it is valid
+  void keepBurr(const dissection::Burr& burr);
 
   /// Per device (presenters::InputDevice::id).
   std::optional<double> scale(const std::string& hand) const;      ///< mm/mm

@@ -1,5 +1,7 @@
 #include "WindowTexts.h"
 
+#include <cmath>
+
 #include <QRegularExpression>
 
 #include <QObject>
@@ -8,6 +10,13 @@
 
 namespace petrous::workstation
 {
+
+QString numberText(double value, int decimals)
+{
+  const double unit = std::pow(10.0, -decimals);
+  const bool isZero = std::abs(value) < 0.5 * unit;
+  return QString::number(isZero ? 0.0 : value, 'f', decimals);
+}
 
 QString volumeText(double volume)
 {
@@ -81,8 +90,8 @@ QString windowText(const QString& text)
       {"; add it with --move-port", "; give it a port for C-MOVE (Library > DICOM nodes)"},
       {" \\(--(tls-name|move-host)\\)", " (Library > DICOM nodes)"},
       {" \\('petrous library copy'\\)", " (Copy in the library panel)"},
-      {"; export it alone with --part, or all on the CT's grid with --on-ct",
-       "; export it alone, or all on the CT's grid"},
+      {"; export it alone with --part, or all on the (CT|MR)'s grid with --on-ct",
+       "; export it alone, or all on the \\1's grid"},
       {"; register the MR first, or export it alone with --part",
        "; register the MR first (F5), or export it alone"},
       {"\\bmm3\\b", "mm³"},

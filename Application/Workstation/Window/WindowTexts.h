@@ -7,6 +7,9 @@
 namespace petrous::workstation
 {
 
+/// "-0.3"; never "-0.0".
+QString numberText(double value, int decimals);
+
 /// "12.34 mm³", with decimals as its size deserves.
 QString volumeText(double cubicMillimetres);
 

@@ -10,6 +10,8 @@ namespace petrous::scene
 namespace
 {
 
+constexpr char kMrTissue[] = "soft-tissue"; // in Resources/materials.json
+
 const appearance::StructureAppearance* lookOf(const Case& value, const std::string& name)
 {
   if (const StructurePart* structure = findStructure(value, name))
@@ -52,6 +54,12 @@ dissection::TissueResistance tissueResistance(const Case& value,
   for (Ranked& entry : ranked)
     structures.push_back(std::move(entry.structure));
 
+  if (value.ct.modality == Modality::Mr && materials.contains(kMrTissue))
+  {
+    // Brightness tells no density, and bone is as dark as air: what the surface encloses is soft.
+    const auto soft = resistanceOf(materials.material(kMrTissue), burr);
+    return {value.ct.volume.get(), {value.iso, value.iso + 1.0, soft, soft}, std::move(structures)};
+  }
   const dissection::BoneRamp& bone = materials.bone();
   const volume::IntensityScale usual;
   const double stretch = (value.denseBone - value.iso) / (usual.dense - usual.iso);

@@ -24,6 +24,7 @@
 #include "petrous/Imaging/StructureSet.h"
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Library/ObjectStore.h"
+#include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/Placement.h"
 #include "petrous/Scene/PlainText.h"
 #include "petrous/Volume/IntensityScale.h"
@@ -470,13 +471,16 @@ void noteOutside(const scene::Case& value, scene::LabelPart& part, const volume:
       if (structure.index == map.segments[s].index &&
           liesOutside(value.ct.geometry, map.voxels->geometry(), boxes[s]))
         names.push_back(structure.name);
+  const std::string image = primaryName(value);
   if (!names.empty())
     part.notes.push_back(scene::listed(names) +
                          (names.size() == 1
-                              ? " lies wholly outside the CT, so nothing of it is seen or felt; "
-                                "check that it is this patient's"
-                              : " lie wholly outside the CT, so nothing of them is seen or felt; "
-                                "check that they are this patient's"));
+                              ? " lies wholly outside the " + image +
+                                    ", so nothing of it is seen or felt; check that it is this "
+                                    "patient's"
+                              : " lie wholly outside the " + image +
+                                    ", so nothing of them is seen or felt; check that they are "
+                                    "this patient's"));
 }
 
 // A DICOM segmentation states the frame of reference in which it was drawn: that of the CT, or of
@@ -523,12 +527,13 @@ void settleFrame(const scene::Case& value, PartSource& source, const std::string
       source.drawnOn = mr.name;
       return;
     }
+  const std::string image = primaryName(value);
   if (!isKnown(value.ct))
-    return noteUnknown("the CT's is not known");
-  throw core::InvalidParameter(source.path.string() +
-                               ": was drawn in another frame of reference than the CT's, so its "
-                               "place in the CT is not known; if it is this CT's all the same, "
-                               "say FILE@ct, or add the MR on which it was drawn");
+    return noteUnknown("the " + image + "'s is not known");
+  throw core::InvalidParameter(
+      source.path.string() + ": was drawn in another frame of reference than the " + image +
+      "'s, so its place in the " + image + " is not known; if it is this " + image +
+      "'s all the same, say FILE@ct, or add the MR on which it was drawn");
 }
 
 // An RT structure set becomes voxels of the image on which it was drawn.
@@ -832,7 +837,8 @@ void addMesh(scene::Case& value, const PartSource& source)
     part.drawnOn = drawnOnNamed(value, source);
   auto loaded = imaging::loadMesh(source.path, source.isRas, source.unit);
   const scene::ImagePart* mr = scene::findMr(value, part.drawnOn);
-  const std::string image = mr ? "the MR on which it was drawn" : "the CT";
+  const std::string image =
+      mr ? "the MR on which it was drawn" : std::string("the ") + primaryName(value);
   if (std::string note = judgeMeshSpace(source.path, loaded, mr ? *mr : value.ct, image);
       !note.empty())
     notes.push_back(std::move(note));

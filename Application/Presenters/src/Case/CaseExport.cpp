@@ -250,8 +250,8 @@ std::vector<PlacedLabels> placedLabels(const Warn& warn, const scene::Case& valu
   if (const auto other = padToOneGrid(placed, image, progress))
     throw ExportGridError(
         "export labels: " + gridText(placed[*other]) + ", and " + gridText(placed.front()) +
-        ": no one grid holds both without resampling; export it alone with --part, or all on the "
-        "CT's grid with --on-ct");
+        ": no one grid holds both without resampling; export it alone with --part, or all on the " +
+        primaryName(value) + "'s grid with --on-ct");
   return placed;
 }
 
@@ -471,8 +471,8 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
   {
     const scene::ImagePart& mr = chooseMr(value, options.part);
     if (options.onCt && !mr.registered)
-      throw core::InvalidParameter("export mr: '" + mr.name +
-                                   "' is not registered with the CT; register it first");
+      throw core::InvalidParameter("export mr: '" + mr.name + "' is not registered with the " +
+                                   primaryName(value) + "; register it first");
     const auto image = checked(mr);
     if (!options.onCt)
       writeImage(*image, mr.name);

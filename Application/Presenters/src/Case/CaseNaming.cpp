@@ -50,6 +50,14 @@ std::string freeCaseName(const library::Library& library, const std::string& nam
   return free;
 }
 
+void checkFreeCaseName(const library::Library& library, const std::string& name)
+{
+  scene::checkCaseName(name);
+  if (library.contains(name))
+    throw core::InvalidParameter("the library has a case '" + name +
+                                 "' already; take another name");
+}
+
 bool namesCase(const library::Library& library, const std::string& text)
 {
   const auto cases = library.list();

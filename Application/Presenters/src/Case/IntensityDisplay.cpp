@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "petrous/Appearance/AppearanceMaterial.h"
 #include "petrous/Core/NumberText.h"
@@ -101,6 +102,49 @@ IntensityDisplay displayOf(const scene::Case& value)
   display.least = std::min(display.least, value.iso);
   display.most = std::max(display.most, value.iso);
   return display;
+}
+
+IntensityDisplay displayOf(const scene::ImagePart& mr)
+{
+  IntensityDisplay display;
+  display.hounsfield = false;
+  if (!(mr.range.max > mr.range.min))
+    return display;
+  display.unit = (mr.range.max - mr.range.min) / kUsualSpan;
+  display.least = mr.range.min;
+  display.most = mr.range.max;
+  display.step = roundStep((mr.range.max - mr.range.min) / kSteps);
+  display.decimals = decimalsFor(display.step);
+  return display;
+}
+
+std::string shownValues(const scene::Case& value, const ShownImages& shown,
+                        const SliceOverlay* overlay, const Eigen::Vector3d& patient)
+{
+  const auto sample = [](const volume::IntensityVolume& image,
+                         const Eigen::Vector3d& at) -> std::optional<double>
+  {
+    const Eigen::Vector3d voxel = image.geometry().voxelFromPatient(at);
+    return image.geometry().hullContains(voxel) ? std::optional<double>(image.sample(voxel))
+                                                : std::nullopt;
+  };
+  const scene::ImagePart* mr = scene::findMr(value, shown.mr);
+  const bool hasMr = mr && overlay && overlay->mr;
+  const auto entry = [](const std::string& name, const std::optional<double>& number,
+                        const IntensityDisplay& display)
+  { return name + " " + (number ? display.text(*number) : "–"); };
+  std::string text;
+  if (const auto image = shown.ct || !hasMr ? value.ct.volume.get() : nullptr)
+  {
+    const auto number = sample(*image, patient);
+    if (hasMr)
+      text = entry(primaryName(value), number, displayOf(value)) + "  ";
+    else if (number)
+      text = displayOf(value).text(*number);
+  }
+  if (hasMr)
+    text += entry(mr->name, sample(*overlay->mr, overlay->mrFromCt * patient), displayOf(*mr));
+  return text;
 }
 
 } // namespace petrous::presenters

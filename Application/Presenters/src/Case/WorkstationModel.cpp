@@ -46,7 +46,8 @@ void WorkstationModel::show(std::unique_ptr<scene::Case> next, bool unsaved)
   m_checked = unsaved; // a case just made needs no check
   m_unsaved = unsaved;
   m_journal = std::make_shared<JournalThread>();
-  m_crosshair = m_case->ct.geometry.center();
+  m_crosshair = m_case->view.slices ? clampedToCt(m_case->view.slices->crosshair)
+                                    : m_case->ct.geometry.center();
   waitForParts();
   notify(events.caseChanged);
   notify(events.stateChanged);
@@ -317,15 +318,20 @@ void WorkstationModel::setBoneLook(const appearance::StructureAppearance& look)
   setUnsaved(true);
 }
 
-void WorkstationModel::setCrosshair(const Eigen::Vector3d& patient)
+Eigen::Vector3d WorkstationModel::clampedToCt(const Eigen::Vector3d& patient) const
 {
-  if (!m_case)
-    return;
   const auto& grid = m_case->ct.geometry;
   Eigen::Vector3d voxel = grid.voxelFromPatient(patient);
   for (Eigen::Index a = 0; a < 3; ++a)
     voxel[a] = std::clamp(voxel[a], 0.0, grid.dims()[static_cast<std::size_t>(a)] - 1.0);
-  m_crosshair = grid.patientFromVoxel(voxel);
+  return grid.patientFromVoxel(voxel);
+}
+
+void WorkstationModel::setCrosshair(const Eigen::Vector3d& patient)
+{
+  if (!m_case)
+    return;
+  m_crosshair = clampedToCt(patient);
   notify(events.crosshairMoved);
 }
 

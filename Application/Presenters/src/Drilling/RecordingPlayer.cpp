@@ -39,13 +39,15 @@ void checkFit(const scene::Case& value, const session::TouchScene& scene,
   const auto refuse = [&name](const std::string& why)
   { throw core::InvalidParameter(name + ": " + why); };
   if (now.ct != then.ct)
-    refuse("was recorded on another CT than that of '" + value.name + "'");
+    refuse(std::string("was recorded on another ") + primaryName(value) + " than that of '" +
+           value.name + "'");
   if (now.iso != then.iso)
   {
     const std::string unit = displayOf(value).suffix();
-    refuse("was recorded with bone from " + number(then.iso) + unit + " on, '" + value.name +
-           "' has it from " + number(now.iso) + unit + " on: petrous appearance '" + value.name +
-           "' --iso " + number(then.iso));
+    const bool isMr = value.ct.modality == scene::Modality::Mr;
+    refuse(std::string("was recorded with ") + (isMr ? "tissue" : "bone") + " from " +
+           number(then.iso) + unit + " on, '" + value.name + "' has it from " + number(now.iso) +
+           unit + " on: petrous appearance '" + value.name + "' --iso " + number(then.iso));
   }
   if (now.tissue != then.tissue)
     refuse("was recorded with other structures under hand and drill than '" + value.name +

@@ -1,5 +1,6 @@
 #include "petrous/Presenters/BoneThickness.h"
 
+#include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/CaseField.h"
 #include "petrous/Scene/Placement.h"
 #include "petrous/Scene/StructureOccupancy.h"
@@ -13,7 +14,8 @@ std::shared_ptr<const volume::Volume<float>> boneThickness(const scene::Case& va
                                                            const core::Progress& progress)
 {
   if (const std::string missing = scene::missingPlace(value, structure); !missing.empty())
-    throw core::InvalidParameter("thickness: '" + structure + "' is nowhere on the CT: " + missing);
+    throw core::InvalidParameter("thickness: '" + structure + "' is nowhere on the " +
+                                 primaryName(value) + ": " + missing);
   std::string there;
   for (const scene::LabelPart& part : value.labels)
     for (const scene::StructurePart& known : part.structures)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "petrous/Core/NumberText.h"
 #include "petrous/Scene/Branches.h"
@@ -51,7 +52,8 @@ std::string toString(const NearbyStructure& structure)
   if (structure.state == NearbyStructure::State::Touched)
     text += " touched (± " + uncertainty + " mm)";
   else
-    text += " " + core::fixedText(structure.distance, 1) + " mm ± " + uncertainty;
+    text += " " + core::fixedText(0.1 * std::round(10.0 * structure.distance) + 0.0, 1) + // no -0.0
+            " mm ± " + uncertainty;
   if (structure.uncertainty.incomplete())
     text += "; registration's error unknown";
   return text;

@@ -8,6 +8,7 @@
 #include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Presenters/CaseRegistration.h"
+#include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/Placement.h"
 
 // Where the error of a registration is estimated.
@@ -150,8 +151,8 @@ RegistrationPlace placeAt(const scene::Case& value, const Eigen::Vector3d& point
 {
   const core::GridGeometry& grid = value.ct.geometry;
   if (!grid.hullContains(grid.voxelFromPatient(point)))
-    throw core::InvalidParameter(coordinates(point) + " is outside the CT, whose middle is " +
-                                 coordinates(grid.center()));
+    throw core::InvalidParameter(coordinates(point) + " is outside the " + primaryName(value) +
+                                 ", whose middle is " + coordinates(grid.center()));
   return {point, coordinates(point)};
 }
 
@@ -160,7 +161,8 @@ RegistrationPlace placeOf(const scene::Case& value, const std::string& structure
   if (const auto middle = middleOf(value, structure))
     return {*middle, "the middle of '" + structure + "'"};
   if (const std::string missing = scene::missingPlace(value, structure); !missing.empty())
-    throw core::InvalidParameter("'" + structure + "' is nowhere on the CT: " + missing);
+    throw core::InvalidParameter("'" + structure + "' is nowhere on the " + primaryName(value) +
+                                 ": " + missing);
   std::string there;
   for (const std::string& name : scene::partNames(value))
     if (name != "ct" && !scene::findMr(value, name))
@@ -190,7 +192,7 @@ RegistrationPlace defaultPlace(const scene::Case& value, const RegistrationReque
   if (mr)
     both = both.intersection(boxOf(mr->geometry, before(value, *mr, request).inverse()));
   if (both.isEmpty())
-    return {ct.center(), "the centre of the CT"};
+    return {ct.center(), std::string("the centre of the ") + primaryName(value)};
   return {both.center(), "the centre of what both images show"};
 }
 

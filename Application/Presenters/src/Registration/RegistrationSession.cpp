@@ -40,13 +40,29 @@ void RegistrationSession::caseChanged()
 
 bool RegistrationSession::partsChanged()
 {
-  if (mrNames() == m_mrs)
+  const std::vector<std::string> before = std::exchange(m_mrs, mrNames());
+  const auto has = [](const std::vector<std::string>& names, const std::string& name)
+  { return std::find(names.begin(), names.end(), name) != names.end(); };
+  if (before.size() == m_mrs.size()) // one was renamed, or none
+    for (std::size_t n = 0; n < before.size(); ++n)
+      if (before[n] == m_name && !has(m_mrs, m_name))
+      {
+        m_name = m_mrs[n];
+        break;
+      }
+  if (part() == nullptr && !(m_name.empty() && m_mrs.empty()))
   {
-    checkAim(); // a structure may be gone
-    return true;
+    caseChanged();
+    return false;
   }
-  caseChanged();
-  return false;
+  if (!std::all_of(before.begin(), before.end(),
+                   [&](const std::string& name) { return has(m_mrs, name); }))
+  {
+    m_undo.clear(); // its places name an MR that is gone
+    m_redo.clear();
+  }
+  checkAim(); // a structure may be gone
+  return true;
 }
 
 void RegistrationSession::choose(const std::string& mr)

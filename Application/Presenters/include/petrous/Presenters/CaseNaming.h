@@ -15,6 +15,9 @@ std::string caseNameFrom(const std::filesystem::path& source);
 /// `name`, or "name 2", "name 3", ... if the library has a case of that name.
 std::string freeCaseName(const library::Library& library, const std::string& name);
 
+/// Throws InvalidParameter unless the name is valid for a case and the library has none of it.
+void checkFreeCaseName(const library::Library& library, const std::string& name);
+
 /// Whether the library has a case of that name; false also for an invalid name, such as a path.
 bool namesCase(const library::Library& library, const std::string& text);
 

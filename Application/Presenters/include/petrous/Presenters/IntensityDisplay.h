@@ -38,4 +38,13 @@ struct IntensityDisplay
 /// range offered. Never throws.
 IntensityDisplay displayOf(const scene::Case& value);
 
+/// Of an MR beside the primary image: in its own values, which have no unit. Windows are not set.
+IntensityDisplay displayOf(const scene::ImagePart& mr);
+
+/// Values at a point (patient LPS mm) of the images that slices show: "300 HU" of the primary image
+/// alone, "T2 412" of an MR, "CT 300 HU  T2 412" of both; "–" outside of a named image.
+/// `overlay`: that of `shown.mr`, or nullptr.
+std::string shownValues(const scene::Case& value, const ShownImages& shown,
+                        const SliceOverlay* overlay, const Eigen::Vector3d& patient);
+
 } // namespace petrous::presenters

@@ -45,7 +45,9 @@ public:
   explicit RegistrationSession(WorkstationModel& model);
 
   void caseChanged(); ///< resets everything; selects the first MR
-  /// Other parts of the same case. True if its MRs are the same: all is kept. Else as caseChanged.
+  /// Other parts of the same case. True if the MR that was chosen is still there, also under
+  /// another name: it stays chosen, with its landmarks; the undo history goes if an MR went. Else
+  /// as caseChanged.
   bool partsChanged();
 
   void choose(const std::string& mr); ///< clears the landmarks; keeps the undo history

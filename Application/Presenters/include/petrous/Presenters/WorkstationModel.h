@@ -291,6 +291,7 @@ private:
     std::vector<std::string> colored = {}; ///< structures whose appearance read the MR
   };
   session::DrillSession& session();
+  Eigen::Vector3d clampedToCt(const Eigen::Vector3d& patient) const;
   void partsMoved();
   bool measureNearby(); ///< true when done
   void listen();

@@ -45,8 +45,6 @@ void SliceColumn::caseChanged()
   setOverlay(nullptr, {}); // of the case before
   fit();
   boneWindow();
-  if (const auto& kept = m_model.value().view.slices)
-    setGreyWindow({kept->width, kept->level});
   appearanceChanged();
   crosshairMoved();
 }

@@ -494,13 +494,13 @@ void settleFrame(const scene::Case& value, PartSource& source, const std::string
   const std::string frame = withoutIdentity(frameUid);
   if (!source.drawnOn.empty())
     return;
-  const auto noteUnknown = [&](const char* why)
+  const auto noteUnknown = [&](const std::string& why)
   {
     if (!grid ||
         (!core::sameGrid(*grid, value.ct.geometry) && scene::mrWithGrid(value, *grid).empty()))
-      notes.push_back(
-          std::string("its frame of reference could not be compared with the CT's, as ") + why +
-          "; look whether it lies where it belongs");
+      notes.push_back("its frame of reference could not be compared with the " +
+                      primaryName(value) + "'s, as " + why +
+                      "; look whether it lies where it belongs");
   };
   if (frame.empty())
     return noteUnknown("it states none");

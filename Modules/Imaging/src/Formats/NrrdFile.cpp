@@ -30,7 +30,6 @@ constexpr std::size_t kPage = 4096;
 // are restored bit-exactly.
 constexpr const char* kSpacingKey = "petrous_spacing";
 constexpr const char* kDirectionKey = "petrous_direction";
-constexpr const char* kPaddingKey = "petrous_padding";
 
 std::string paddedHeader(const core::GridGeometry& geometry, const char* type,
                          std::optional<double> padding)

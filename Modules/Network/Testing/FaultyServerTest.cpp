@@ -1005,11 +1005,12 @@ TEST_F(SecureNode, WithOldTlsOrWeakCiphersOnlyIsRefused)
   const Certificate own(m_folder.path(), "own");
   m_behaviour.own = &own;
   m_behaviour.latestTls = TLS1_1_VERSION;
+  m_behaviour.ciphers = "ALL:@SECLEVEL=0";
   expectRefused({own.certificate(), "", ""}, "TLS 1.2 or later");
   m_behaviour.latestTls = TLS1_2_VERSION;
   expectConnected({own.certificate(), "", ""});
   m_behaviour.ciphers = "AES128-SHA";
-  expectRefused({own.certificate(), "", ""}, "no permitted cipher");
+  expectRefused({own.certificate(), "", ""}, "with a permitted cipher");
 }
 
 TEST_F(SecureNode, ThatWantsAnotherCertificateIsNamed)

@@ -206,7 +206,7 @@ std::string tlsFault(const Node& node, const ConnectionWatch& watch)
   case SSL_AD_CERTIFICATE_REQUIRED:
     return ours;
   case SSL_AD_HANDSHAKE_FAILURE:
-    return ours + ", or offers no permitted cipher (BCP 195)";
+    return ours + ", or does not speak TLS 1.2 or later with a permitted cipher (BCP 195)";
   default:
     return "it does not speak TLS 1.2 or later with a permitted cipher (BCP 195)";
   }
@@ -343,7 +343,7 @@ void Association::release()
 void Association::require(const OFCondition& result, const std::string& task) const
 {
   watch().active();
-  if (result.bad())
+  if (result.bad() || watch().ended() == ConnectionWatch::End::Failed)
     fail(result, task);
 }
 

@@ -221,9 +221,10 @@ TEST_F(RegistrationSessionTest, OtherPartsOfTheCaseLeaveItAsItIs)
   EXPECT_EQ(session.mr(), "DWI");
   EXPECT_EQ(session.landmarks().rows().size(), 1U);
   EXPECT_TRUE(session.canUndo());
-  scene::Case with = model.value();
+  const scene::Case before = model.value();
+  scene::Case with = before;
   with.mr.push_back(image("T1"));
-  model.takeParts(std::move(with));
+  model.takeParts(before, std::move(with));
   EXPECT_TRUE(session.partsChanged());
   EXPECT_EQ(session.mr(), "DWI");
   EXPECT_EQ(session.mrNames(), (std::vector<std::string>{"T2", "DWI", "T1"}));

@@ -553,11 +553,12 @@ TEST_F(RegistrationWindow, AnotherMrLeavesTheViewsAsTheyAre)
     EXPECT_EQ(slice.slice().center(), before.center()) << what;
     EXPECT_EQ(axial(), seen) << what;
   };
-  scene::Case with = model.value();
+  const scene::Case caseBefore = model.value();
+  scene::Case with = caseBefore;
   scene::ImagePart second = scan(Phantom::Modality::Mr, phantom.mrFromCt(), 1.4);
   second.name = "DWI";
   with.mr.push_back(second);
-  model.takeParts(std::move(with));
+  model.takeParts(caseBefore, std::move(with));
   ASSERT_EQ(model.value().mr.size(), 2U);
   isAsBefore("added");
   model.removePart("DWI");
@@ -577,13 +578,14 @@ TEST_F(RegistrationWindow, AnotherMrLeavesTheViewsAsTheyAre)
 TEST_F(RegistrationWindow, ARunEndsWithTheMrOntoWhichItWasAndGoesOnOtherwise)
 {
   auto& model = const_cast<presenters::WorkstationModel&>(window().model());
-  scene::Case with = model.value();
+  const scene::Case caseBefore = model.value();
+  scene::Case with = caseBefore;
   scene::ImagePart second = scan(Phantom::Modality::Mr, phantom.mrFromCt(), 1.4);
   second.name = "DWI";
   with.mr.push_back(second);
   showPanel();
   click("register");
-  model.takeParts(std::move(with));
+  model.takeParts(caseBefore, std::move(with));
   EXPECT_TRUE(find<QPushButton>("cancelRegistration").isEnabled()) << "it goes on";
   ASSERT_TRUE(waitFor([this] { return mr().registered; }, 240000)) << state().toStdString();
   find<QComboBox>("registrationMr").setCurrentText("DWI");

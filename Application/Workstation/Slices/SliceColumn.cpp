@@ -201,8 +201,7 @@ void SliceColumn::setShown(const scene::ViewState::Slices& slices)
 
 scene::ViewState::Slices SliceColumn::shown() const
 {
-  const presenters::GreyWindow& window = m_views.front()->greyWindow();
-  scene::ViewState::Slices slices{m_model.crosshair(), window.width, window.level};
+  scene::ViewState::Slices slices{m_model.crosshair(), m_window.width, m_window.level};
   slices.planes.emplace();
   for (std::size_t n = 0; n < m_views.size(); ++n)
     (*slices.planes)[n] = m_views[n]->plane();

@@ -109,7 +109,7 @@ void SliceView::setOverlay(std::shared_ptr<const presenters::SliceOverlay> overl
   stale();
 }
 
-const presenters::GreyWindow& SliceView::greyWindow() const
+const presenters::GreyWindow& SliceView::seenWindow() const
 {
   return m_overlay && m_overlayAlone ? m_overlay->window : m_window;
 }
@@ -351,8 +351,8 @@ void SliceView::paintLetters(QPainter& painter) const
   if (underMouse())
   {
     const QString grey = QString("W %1  L %2")
-                             .arg(words(intensityDisplay().number(greyWindow().width)),
-                                  words(intensityDisplay().number(greyWindow().level)));
+                             .arg(words(intensityDisplay().number(seenWindow().width)),
+                                  words(intensityDisplay().number(seenWindow().level)));
     const double at = width() - kMargin - QFontMetricsF(font).horizontalAdvance(grey);
     drawText(painter, {at, kMargin + 11.0}, grey, QColor("#b6c0ca"));
   }
@@ -449,8 +449,8 @@ void SliceView::mouseMoveEvent(QMouseEvent* event)
   {
     const double unit = intensityDisplay().unit;
     const double perPixel = kHuPerPixel * unit;
-    const double width = std::max(greyWindow().width + perPixel * step.x(), kMinHu * unit);
-    emit greyWindowChanged({width, greyWindow().level - 0.5 * perPixel * step.y()});
+    const double width = std::max(seenWindow().width + perPixel * step.x(), kMinHu * unit);
+    emit greyWindowChanged({width, seenWindow().level - 0.5 * perPixel * step.y()});
   }
   else if (event->buttons() & Qt::MiddleButton)
   {

@@ -46,7 +46,7 @@ public:
   void fit();                                                  ///< the whole slice
   void setPlane(const scene::ViewState::Slices::Plane& plane); ///< zoom, at most 40, and offset
   scene::ViewState::Slices::Plane plane() const { return {m_zoom, m_offset}; }
-  const presenters::GreyWindow& greyWindow() const noexcept { return m_window; }
+  const presenters::GreyWindow& greyWindow() const noexcept { return m_window; } ///< of the CT
   void setCrosshair(const Eigen::Vector3d& patient);
   void setGreyWindow(const presenters::GreyWindow& window);
   void setIntensityDisplay(const presenters::IntensityDisplay& display); ///< of the CT
@@ -102,8 +102,8 @@ private:
   void paintInterpolated(QPainter& painter) const;
   bool showsInterpolated() const;
   bool moveMr(const QKeyEvent& event);
-  const presenters::GreyWindow& greyWindow() const; // of what is seen
-  const presenters::IntensityDisplay& intensityDisplay() const;
+  const presenters::GreyWindow& seenWindow() const; // of what is seen: the CT, or an MR alone
+  const presenters::IntensityDisplay& intensityDisplay() const; // likewise
 
   presenters::SliceOrientation m_orientation;
   std::shared_ptr<const presenters::SlicePresenter> m_presenter;

@@ -498,7 +498,7 @@ void settleFrame(const scene::Case& value, PartSource& source, const std::string
   {
     if (!grid ||
         (!core::sameGrid(*grid, value.ct.geometry) && scene::mrWithGrid(value, *grid).empty()))
-      notes.push_back("its frame of reference could not be compared with the " +
+      notes.push_back(std::string("its frame of reference could not be compared with the ") +
                       primaryName(value) + "'s, as " + why +
                       "; look whether it lies where it belongs");
   };

@@ -12,7 +12,7 @@
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Library/Archive.h"
 #include "petrous/Library/ObjectStore.h"
-#include "petrous/Library/OwnerLock.h"
+#include "petrous/Library/ScratchFolder.h"
 #include "petrous/Network/SceneObjects.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CaseDicom.h"

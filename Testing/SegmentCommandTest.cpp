@@ -1,4 +1,6 @@
 #include <cmath>
+#include <cstring>
+#include <fstream>
 #include <sstream>
 #include <vector>
 
@@ -112,6 +114,25 @@ TEST_F(SegmentCommand, ProposesTheRangeAroundTheSeed)
   EXPECT_LE(made["threshold"][0].get<double>(), 300.0);
   EXPECT_GE(made["threshold"][1].get<double>(), 300.0);
   EXPECT_NEAR(made["volume_mm3"].get<double>(), ball, 0.35 * ball);
+}
+
+TEST_F(SegmentCommand, ProposesTheBrightestRegionOfAnMr)
+{
+  EXPECT_EQ(run("segment ear lesion --threshold auto --seed auto").code, 2) << "a CT";
+  // The image turned: dark with a bright ball.
+  std::ifstream from(m_folder / "bone.nrrd", std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(from)), {});
+  for (std::size_t at = text.find("\n\n") + 2; at + 1 < text.size(); at += 2)
+  {
+    std::int16_t value = 0;
+    std::memcpy(&value, &text[at], sizeof value);
+    value = static_cast<std::int16_t>(value > 200 && value < 900 ? 1000 - value : 100);
+    std::memcpy(&text[at], &value, sizeof value);
+  }
+  std::ofstream(m_folder / "dwi.nrrd", std::ios::binary) << text;
+  json("new dwi --modality MR --ct " + quoted(m_folder / "dwi.nrrd"));
+  const auto made = json("segment dwi lesion --threshold auto --seed auto --keep-largest");
+  EXPECT_NEAR(made["volume_mm3"].get<double>(), 4.0 / 3.0 * kPi * std::pow(kBall, 3), 12.0);
 }
 
 TEST_F(SegmentCommand, GrowsShrinksAndSmooths)

@@ -174,7 +174,6 @@ void changePseudonyms(const Context& context, const PseudonymsCommandOptions& op
   else
   {
     map.changePassphrase(passphraseFrom(options.newPassphraseFile, "the map from now on", true));
-    map.save();
     context.print("the map has another passphrase");
     context.printJson({{"entries", map.entries().size()}});
   }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 
 #include "CaseJson.h"
 #include "Commands.h"
@@ -59,6 +60,23 @@ struct Made
   std::vector<std::string> lines, warnings;
 };
 
+// The brightest region of an MR, its seed in the CT's patient space.
+segmentation::ProposedRegion proposedRegion(const SegmentOptions& options, const scene::Case& value,
+                                            const scene::ImagePart& source,
+                                            const core::Progress& progress)
+{
+  if (&source == &value.ct && value.ct.modality != scene::Modality::Mr)
+    throw UsageError("--seed auto: the brightest region is that of an MR; give one as --source");
+  auto region = segmentation::proposedRegion(*source.volume.get(), progress);
+  if (!region)
+    throw core::InvalidParameter("image '" + options.source +
+                                 "' has no region that is brighter than what surrounds it; give "
+                                 "--seed x,y,z");
+  if (&source != &value.ct)
+    region->seed = source.mrFromCt.inverse() * region->seed;
+  return *region;
+}
+
 Made region(const SegmentOptions& options, const scene::Case& value, const scene::ImagePart& source,
             const core::Progress& progress)
 {
@@ -71,8 +89,15 @@ Made region(const SegmentOptions& options, const scene::Case& value, const scene
   Made made;
   volume::ValueRange range;
   std::vector<Eigen::Vector3d> seeds;
+  std::optional<segmentation::ProposedRegion> proposed;
   for (const std::string& text : options.seeds)
   {
+    if (text == kAutomatic)
+    {
+      proposed = proposedRegion(options, value, source, progress.part(0.2, 0.3));
+      seeds.push_back(proposed->seed);
+      continue;
+    }
     const auto seed = parseNumbers(text, 3, "--seed");
     seeds.emplace_back(seed[0], seed[1], seed[2]);
   }
@@ -84,6 +109,8 @@ Made region(const SegmentOptions& options, const scene::Case& value, const scene
       throw UsageError("--threshold: " + options.threshold +
                        " begins above its end; give the lower limit first");
   }
+  else if (proposed)
+    range = proposed->range;
   else if (!seeds.empty())
     range = segmentation::rangeAround(image, seeds.front(), 2.5, progress.part(0.0, 0.3));
   else
@@ -264,9 +291,10 @@ void addSegmentCommand(CLI::App& app, Context& context)
       ->type_name("LO,HI|auto");
   command
       ->add_option("--seed", options->seeds,
-                   "Only what is connected with this patient point, LPS mm; may be repeated")
+                   "Only what is connected with this patient point, LPS mm; may be repeated. auto: "
+                   "the brightest region of an MR")
       ->allow_extra_args(false)
-      ->type_name("x,y,z");
+      ->type_name("x,y,z|auto");
   command->add_option("--source", options->source, "The image: ct, or a registered MR")
       ->type_name("ct|MR")
       ->capture_default_str();

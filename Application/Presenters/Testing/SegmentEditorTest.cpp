@@ -783,6 +783,238 @@ TEST_F(SegmentEditorTest, AnMrMustBeRegisteredAndIsReadOnTheCtsGrid)
   EXPECT_EQ(editor.voxels(), count(inBall)) << "where the CT has it";
 }
 
+// The case with its image as an MR too, 3 mm to the left of where the CT has it, and registered so.
+namespace
+{
+scene::Case withMr(scene::Case value)
+{
+  scene::ImagePart mr = value.ct;
+  mr.name = "T2";
+  const core::GridGeometry& ct = value.ct.geometry;
+  auto moved = std::make_shared<volume::Volume<std::int16_t>>(
+      core::GridGeometry(ct.dims(), ct.spacing(), ct.origin() + Vector3d(3, 0, 0)));
+  value.ct.volume.get()->visit(
+      [&](const auto& voxels)
+      {
+        for (std::size_t n = 0; n < voxels.size(); ++n)
+          moved->data()[n] = static_cast<std::int16_t>(voxels.data()[n]);
+      });
+  mr.geometry = moved->geometry();
+  mr.volume = std::make_shared<const volume::IntensityVolume>(
+      std::shared_ptr<const volume::Volume<std::int16_t>>(moved));
+  mr.registered = true;
+  mr.mrFromCt = core::RigidTransform(Eigen::Quaterniond::Identity(), Vector3d(3, 0, 0));
+  value.mr.push_back(mr);
+  return value;
+}
+} // namespace
+
+TEST_F(SegmentEditorTest, AnMrThatMovesIsReadWhereItIsNow)
+{
+  model.adopt(withMr(ballCase()));
+  editor.caseChanged();
+  const auto move = [this](double millimetres)
+  {
+    model.changeMr(
+        [&](scene::Case& with)
+        {
+          with.mr.front().mrFromCt =
+              core::RigidTransform(Eigen::Quaterniond::Identity(), Vector3d(millimetres, 0, 0));
+        });
+    editor.mrMoved();
+  };
+  editor.setSource("T2");
+  editor.setTool(Tool::Threshold);
+  const auto limits = [](SegmentValues& values)
+  {
+    values.lower = 1960.0;
+    values.upper = 2000.0;
+    values.connected = false;
+  };
+  work();
+  set(limits);
+  editor.discard();
+  editor.setTool(Tool::None);
+  editor.setTool(Tool::Threshold);
+  set(limits);
+  // A preview is under way while the MR moves by 2 mm.
+  editor.setValues(editor.values());
+  SegmentValues other = editor.values();
+  other.upper = 2001.0;
+  editor.setValues(other);
+  auto running = editor.dueWork();
+  ASSERT_TRUE(running);
+  auto late = (*running)({});
+  move(1.0);
+  late();
+  EXPECT_TRUE(editor.previewPending());
+  EXPECT_NE(editor.whyNotCreate(), "");
+  work();
+  const Vector3d there = kBall + Vector3d(2, 0, 0);
+  EXPECT_TRUE(drawn(there + Vector3d(3.4, 0, 0)));
+  EXPECT_FALSE(drawn(there - Vector3d(4.4, 0, 0)));
+  // A brush that is limited to a range does not wait for ever, nor paint where the MR was.
+  editor.setTool(Tool::Paint);
+  set([](SegmentValues& values) { values.within = true; });
+  running = editor.dueWork();
+  move(3.0);
+  work();
+  stroke(kBall, kBall);
+  EXPECT_EQ(editor.warning(), "");
+  EXPECT_TRUE(drawn(kBall));
+  // A step that was begun before says so.
+  editor.setTool(Tool::Threshold);
+  work();
+  auto step = editor.stepWork();
+  ASSERT_TRUE(step) << editor.whyNotStep();
+  late = (*step)({});
+  move(0.0);
+  late();
+  EXPECT_NE(editor.warning().find("moved"), std::string::npos);
+}
+
+TEST_F(SegmentEditorTest, ARenamedMrStaysTheSourceAndOneThatIsGoneLeavesNothingBehind)
+{
+  model.adopt(withMr(ballCase()));
+  editor.caseChanged();
+  model.events.partsChanged = [this] { editor.partsChanged(); };
+  editor.setSource("T2");
+  editor.setTool(Tool::Threshold);
+  work();
+  const double lower = editor.values().lower;
+  model.renamePart("T2", "T2 axial");
+  work();
+  EXPECT_EQ(editor.source(), "T2 axial");
+  EXPECT_EQ(editor.values().lower, lower);
+  EXPECT_GT(editor.voxels(), 0U);
+  set(
+      [](SegmentValues& values)
+      {
+        values.lower = 123.0;
+        values.upper = 130.0;
+      });
+  model.removePart("T2 axial");
+  EXPECT_EQ(editor.source(), "ct");
+  work();
+  EXPECT_NE(editor.values().lower, 123.0) << "those of the MR";
+}
+
+TEST_F(SegmentEditorTest, ANerveIsTracedAnewWhenItsNameSaysHowWideItMayBe)
+{
+  open();
+  editor.setTool(Tool::Nerve);
+  stroke(kBall + Vector3d(-8, 0, 0), kBall + Vector3d(-8, 0, 0));
+  stroke(kBall + Vector3d(-8, 4, 0), kBall + Vector3d(-8, 4, 0));
+  work();
+  editor.setName("my tube");
+  EXPECT_FALSE(editor.previewPending());
+  editor.setName("facial nerve");
+  EXPECT_TRUE(editor.previewPending());
+  EXPECT_NE(editor.whyNotCreate(), "");
+  work();
+  set([](SegmentValues& values) { values.tubeRadius = 0.5; });
+  editor.setName("chorda tympani");
+  EXPECT_FALSE(editor.previewPending()) << "the radius is given";
+}
+
+TEST_F(SegmentEditorTest, UndoOfAConnectedThresholdBringsItsPointsBack)
+{
+  open();
+  editor.setTool(Tool::Threshold);
+  set(
+      [](SegmentValues& values)
+      {
+        values.lower = 1950.0;
+        values.upper = 2000.0;
+      });
+  editor.press(kBall, SliceOrientation::Axial);
+  editor.release();
+  work();
+  step();
+  EXPECT_TRUE(editor.seeds().empty());
+  editor.undo();
+  work();
+  ASSERT_EQ(editor.seeds().size(), 1U);
+  EXPECT_EQ(editor.voxels(), count(inBall));
+  editor.redo();
+  work();
+  EXPECT_TRUE(editor.seeds().empty());
+  editor.undo();
+  work();
+  set([](SegmentValues& values) { values.connected = false; });
+  EXPECT_TRUE(editor.seeds().empty());
+  editor.undo();
+  work();
+  EXPECT_EQ(editor.seeds().size(), 1U);
+  EXPECT_TRUE(editor.values().connected);
+}
+
+TEST_F(SegmentEditorTest, AnEditedStructureKeepsItsLookUnlessItsNewNameIsOfAnotherKind)
+{
+  open();
+  editor.setTool(Tool::Paint);
+  stroke(kBall, kBall);
+  editor.setName("cochlea");
+  editor.create();
+  appearance::StructureAppearance look = scene::findStructure(model.value(), "cochlea")->look;
+  look.color = {0.1F, 0.9F, 0.2F};
+  look.drillable = !look.drillable;
+  model.setLook("cochlea", look);
+  model.prepareNow();
+  editor.edit("cochlea")({})();
+  editor.setTool(Tool::Paint);
+  stroke(kBall + Vector3d(2, 0, 0), kBall + Vector3d(2, 0, 0));
+  editor.setName("spiral thing");
+  EXPECT_EQ(editor.color(), look.color);
+  editor.create();
+  EXPECT_EQ(scene::findStructure(model.value(), "spiral thing")->look.color, look.color);
+  EXPECT_EQ(scene::findStructure(model.value(), "spiral thing")->look.drillable, look.drillable);
+  model.prepareNow();
+  editor.edit("spiral thing")({})();
+  editor.setTool(Tool::Paint);
+  stroke(kBall, kBall);
+  stroke(kBall + Vector3d(4, 0, 0), kBall + Vector3d(4, 0, 0));
+  editor.setName("facial nerve");
+  const auto color = editor.color();
+  EXPECT_NE(color, look.color);
+  editor.create();
+  EXPECT_EQ(scene::findStructure(model.value(), "facial nerve")->look.preset, "nerve");
+  EXPECT_EQ(scene::findStructure(model.value(), "facial nerve")->look.color, color);
+}
+
+TEST_F(SegmentEditorTest, AFailedPreviewLeavesNoFormerOneToBeCreated)
+{
+  open();
+  editor.setTool(Tool::Threshold);
+  work();
+  ASSERT_GT(editor.voxels(), 0U);
+  editor.setName("ball");
+  SegmentValues values = editor.values();
+  values.lower += 10.0;
+  editor.setValues(values);
+  ASSERT_TRUE(editor.dueWork());
+  editor.workFailed("out of memory");
+  EXPECT_EQ(editor.voxels(), 0U);
+  EXPECT_NE(editor.whyNotCreate().find("out of memory"), std::string::npos);
+}
+
+TEST_F(SegmentEditorTest, OnAnMrTheBrightestRegionIsProposed)
+{
+  model.adopt(withMr(ballCase()));
+  editor.caseChanged();
+  editor.setSource("T2");
+  editor.setTool(Tool::Threshold);
+  work();
+  ASSERT_EQ(editor.seeds().size(), 1U);
+  EXPECT_TRUE(inBall(editor.seeds().front())) << editor.seeds().front().transpose();
+  EXPECT_TRUE(drawn(kBall));
+  EXPECT_EQ(editor.undoText(), "proposed region");
+  // All of the range.
+  set([](SegmentValues& values) { values.connected = false; });
+  EXPECT_TRUE(editor.seeds().empty());
+  EXPECT_TRUE(drawn(kBall));
+}
+
 TEST_F(SegmentEditorTest, TheSourceIsWhatTheSlicesShowOrSaysThatItIsNot)
 {
   scene::Case value = ballCase();

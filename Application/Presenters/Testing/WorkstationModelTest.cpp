@@ -1019,6 +1019,32 @@ TEST_F(WorkstationModelTest, ANewNameHoldsWhereverThePartIsNamed)
   EXPECT_EQ(namesIn(model.value()), (std::vector<std::string>{"ct", "T2 CISS", "a1", "a4", "a3"}));
 }
 
+TEST_F(WorkstationModelTest, ANewNameOfAnMrHoldsForWhatWasTakenOut)
+{
+  library::Library library(folder);
+  scene::Case value = block("block");
+  value.labels.push_back(threeStructures(value.ct.geometry, "a", 30));
+  value.labels[0].structures[1].look.sourceImage = "T2";
+  scene::ImagePart mr = value.ct;
+  mr.name = "T2";
+  mr.registered = true;
+  value.mr = {mr};
+  mr.name = "DWI";
+  mr.registration = scene::Registration();
+  mr.registration->through = "T2";
+  value.mr.push_back(mr);
+  WorkstationModel model{library};
+  model.adopt(std::move(value));
+  model.prepareNow();
+  model.removePart("a2");
+  model.removePart("DWI");
+  model.renamePart("T2", "T2 CISS");
+  model.restorePart();
+  model.restorePart();
+  EXPECT_EQ(scene::findMr(model.value(), "DWI")->registration->through, "T2 CISS");
+  EXPECT_EQ(scene::findStructure(model.value(), "a2")->look.sourceImage, "T2 CISS");
+}
+
 TEST_F(WorkstationModelTest, AnMrThatComesBackColorsWhatItColored)
 {
   library::Library library(folder);

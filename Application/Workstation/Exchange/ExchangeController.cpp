@@ -196,13 +196,12 @@ void ExchangeController::receive()
 // The folder of a study on its way; what is there from before is not asked for again.
 QString ExchangeController::arriving(const std::string& study)
 {
+  for (auto one = m_arrived.begin(); one != m_arrived.end();)
+    one = one->first == study || m_keeper.busy() ? std::next(one) : m_arrived.erase(one);
   auto& folder = m_arrived[study];
   if (!folder)
-    folder = std::make_unique<QTemporaryDir>(QDir::tempPath() + "/petrous-receive-XXXXXX");
-  if (!folder->isValid())
-    throw core::Error(core::Fault::Refused,
-                      bytes(tr("No temporary folder can be made: %1").arg(folder->errorString())));
-  return folder->path();
+    folder = std::make_unique<library::ScratchFolder>();
+  return QFile::decodeName(folder->path().c_str());
 }
 
 void ExchangeController::receiveScene(const ReceiveDialog::Choice& choice, const std::string& name)

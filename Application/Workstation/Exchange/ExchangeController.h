@@ -5,9 +5,8 @@
 #include <string>
 
 #include <QObject>
-#include <QTemporaryDir>
-
 #include "ReceiveDialog.h"
+#include "petrous/Library/ScratchFolder.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
 class QMenu;
@@ -49,8 +48,8 @@ private:
   CaseDocumentController& m_keeper;
   QWidget& m_window;
   /// By study: what arrived of it, so that a transfer that was cut goes on. It may identify the
-  /// patient: readable by this user, and gone when the window closes.
-  std::map<std::string, std::unique_ptr<QTemporaryDir>> m_arrived;
+  /// patient: gone with the next study, and when the window closes.
+  std::map<std::string, std::unique_ptr<library::ScratchFolder>> m_arrived;
 };
 
 } // namespace petrous::workstation

@@ -410,7 +410,6 @@ void PseudonymsDialog::change()
        [this, secret](library::PseudonymMap& map) -> BackgroundWork::Reply
        {
          map.changePassphrase(*secret);
-         map.save();
          return [this] { say(tr("The passphrase is changed.")); };
        });
 }

@@ -203,7 +203,7 @@ void SegmentController::connectPanel()
   connect(m_work.get(), &BackgroundWork::failed, this,
           [this](const QString& why)
           {
-            m_editor.workEnded();
+            m_editor.workFailed(bytes(why));
             m_panel->say(why);
           });
   connect(m_work.get(), &BackgroundWork::cancelled, this,
@@ -522,6 +522,36 @@ bool SegmentController::finish(SegmentEditor::Work work)
     m_editor.workEnded();
     return false;
   }
+  catch (...)
+  {
+    m_editor.workEnded();
+    throw;
+  }
+}
+
+// The step that is under way ends, or is stopped by the user: then the draft is as before.
+void SegmentController::awaitStep()
+{
+  QProgressDialog dialog(tr("A step on the draft is being finished…"), tr("Stop"), 0, 100,
+                         &m_window);
+  dialog.setObjectName("finishStep");
+  dialog.setWindowModality(Qt::ApplicationModal);
+  dialog.setMinimumDuration(200);
+  dialog.setAutoReset(false);
+  dialog.setAutoClose(false);
+  QEventLoop loop;
+  QTimer timer;
+  connect(&dialog, &QProgressDialog::canceled, m_work.get(), &BackgroundWork::cancel);
+  connect(m_work.get(), &BackgroundWork::progressed, &dialog,
+          [&dialog](double fraction) { dialog.setValue(static_cast<int>(100.0 * fraction)); });
+  connect(&timer, &QTimer::timeout, &loop,
+          [&]
+          {
+            if (!m_work->busy() || !m_editor.stepping())
+              loop.quit();
+          });
+  timer.start(20);
+  loop.exec();
 }
 
 bool SegmentController::mayLeave()
@@ -531,6 +561,8 @@ bool SegmentController::mayLeave()
   if (m_asking)
     return false;
   const QScopedValueRollback<bool> asking(m_asking, true);
+  if (m_work->busy() && m_editor.stepping())
+    awaitStep();
   m_work->drop();
   m_editor.workDropped();
   try // the preview is what would be created
@@ -560,13 +592,7 @@ bool SegmentController::mayLeave()
   box.setEscapeButton(stay);
   box.exec();
   if (box.clickedButton() == create)
-    return attempt(
-               [this]
-               {
-                 if (!finish(m_editor.createWork()))
-                   m_editor.workEnded();
-               }) &&
-           !m_editor.isUnsaved();
+    return attempt([this] { finish(m_editor.createWork()); }) && !m_editor.isUnsaved();
   if (box.clickedButton() != drop)
     return false;
   m_editor.discard();

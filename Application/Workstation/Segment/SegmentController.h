@@ -79,6 +79,7 @@ private:
   void drawing();
   void askWork();
   void run(presenters::SegmentEditor::Work work, bool step);
+  void awaitStep();
   bool finish(presenters::SegmentEditor::Work work);
   void edit(const std::string& structure);
   void step();

@@ -1,4 +1,5 @@
 // Compressed pixels, written by GDCM's encoders from the same uncompressed files.
+#include <cstring>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -9,8 +10,10 @@
 #include <gdcmReader.h>
 #include <gdcmWriter.h>
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include "TestDicom.h"
+#include "TestFiles.h"
 #include "petrous/Imaging/DicomReader.h"
 
 namespace petrous::imaging
@@ -363,6 +366,34 @@ TEST(PixelCodecDeflated, ReadsADeflatedSeries)
   }
   const IntensityVolume volume = readFolder(folder.path() / "packed");
   EXPECT_EQ(volume.at(7, 5, 1), ramp(7, 5, 1));
+  EXPECT_TRUE(canBeInflated(folder.path() / "packed" / "s0.dcm"));
+  EXPECT_TRUE(canBeInflated(folder.path() / "raw" / "s0.dcm"));
+  // Its end is missing; and zeros, of which DEFLATE makes 300 MB from 300 kB.
+  const std::string whole = fileBytes(folder.path() / "packed" / "s0.dcm");
+  std::ofstream(folder.path() / "cut.dcm", std::ios::binary) << whole.substr(0, whole.size() - 20);
+  EXPECT_FALSE(canBeInflated(folder.path() / "cut.dcm"));
+  std::uint32_t group = 0; // of the meta information's length, element (0002,0000)
+  std::memcpy(&group, whole.data() + 140, sizeof group);
+  std::string bomb = whole.substr(0, 144 + group);
+  {
+    const std::string zeros(1 << 20, '\0');
+    z_stream stream = {};
+    ASSERT_EQ(deflateInit2(&stream, 9, Z_DEFLATED, -MAX_WBITS, 9, Z_DEFAULT_STRATEGY), Z_OK);
+    std::string packed(1 << 20, '\0');
+    for (int megabyte = 0; megabyte < 300; ++megabyte)
+    {
+      stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(zeros.data()));
+      stream.avail_in = static_cast<uInt>(zeros.size());
+      stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+      stream.avail_out = static_cast<uInt>(packed.size());
+      ::deflate(&stream, megabyte == 299 ? Z_FINISH : Z_NO_FLUSH);
+      bomb.append(packed, 0, packed.size() - stream.avail_out);
+    }
+    deflateEnd(&stream);
+  }
+  ASSERT_LT(bomb.size(), 1U << 20);
+  std::ofstream(folder.path() / "bomb.dcm", std::ios::binary) << bomb;
+  EXPECT_FALSE(canBeInflated(folder.path() / "bomb.dcm"));
 }
 
 } // namespace

@@ -513,6 +513,27 @@ TEST_F(Archives, ThatAreHostileAreRefused)
   index([](auto& all) { all["objects"][0]["object"] = "../" + std::string(64, 'a') + ".nrrd"; });
   index([](auto& all) { all["case"] = "../../x"; });
   index([](auto& all) { all.erase("case"); });
+  // JSON of a few megabytes that would take hundreds of them.
+  for (const char* entry : {"petrous.json", "case.json"})
+  {
+    const std::string bloated = with(
+        [entry](TestZip& zip)
+        {
+          std::string text = "{\"x\":[[]";
+          for (int n = 0; n < 5'000'000; ++n)
+            text += ",[]";
+          text += "]}";
+          if (entry == std::string("case.json"))
+          {
+            nlohmann::json all = nlohmann::json::parse(find(zip, "petrous.json").bytes);
+            all["manifest_sha256"] =
+                sha256Of(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+            find(zip, "petrous.json").bytes = all.dump();
+          }
+          find(zip, entry).bytes = text;
+        });
+    EXPECT_TRUE(contains(bloated, "values")) << bloated;
+  }
 
   // A case that lies where its MR says, and no other may be called as the CT is.
   scene::Case value = m_library.open("ear");

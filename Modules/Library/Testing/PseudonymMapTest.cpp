@@ -99,18 +99,24 @@ TEST_F(PseudonymMapFile, IsLockedAgainstASecondWriter)
   EXPECT_EQ(PseudonymMap(path, kPassphrase, kCheap).entries().size(), 2U);
 }
 
-TEST_F(PseudonymMapFile, OpensByANewPassphraseOnceThatIsSaved)
+TEST_F(PseudonymMapFile, OpensByANewPassphraseUnlessThatCannotBeWritten)
 {
   {
     PseudonymMap map(path, kPassphrase, kCheap);
     EXPECT_THROW(map.changePassphrase("short"), core::InvalidParameter);
-    map.changePassphrase("battery staple");
+    // The folder is in the way of the new file; the map goes on under the old passphrase.
+    const std::filesystem::path away = folder.path() / "away";
+    std::filesystem::rename(path, away);
+    std::filesystem::create_directory(path);
+    EXPECT_THROW(map.changePassphrase("battery staple"), core::Error);
+    std::filesystem::remove(path);
+    std::filesystem::rename(away, path);
+    map.save();
   }
-  EXPECT_EQ(PseudonymMap(path, kPassphrase, kCheap).entries().size(), 2U) << "not saved";
+  EXPECT_EQ(PseudonymMap(path, kPassphrase, kCheap).entries().size(), 2U);
   {
     PseudonymMap map(path, kPassphrase, kCheap);
     map.changePassphrase("battery staple");
-    map.save();
   }
   EXPECT_EQ(reasonOf(path, kPassphrase), PseudonymMapError::Reason::WrongPassphrase);
   const PseudonymMap map(path, "battery staple", kCheap);

@@ -175,6 +175,47 @@ TEST(Otsu, SeparatesThreeTissues)
   EXPECT_EQ(proposedRange(histogram, 300.0).min, 300.0);
 }
 
+// A head as diffusion-weighted MR shows it: brain, dark bone, and a lesion in the mastoid that is
+// brighter than brain, blurred by 0.8 mm and noisy.
+TEST(ProposedRegion, IsTheBrightLesionBesideBrain)
+{
+  const core::GridGeometry grid({96, 80, 24}, Vector3d(0.8, 0.8, 2.5), Vector3d(-40, -30, -20));
+  const Vector3d lesion(-28.0, 5.0, 6.0);
+  const double radius = 5.0;
+  for (const double contrast : {400.0, 150.0})
+  {
+    std::mt19937 random(3);
+    std::normal_distribution<double> noise(0.0, 15.0);
+    const auto step = [](double inside)
+    { return 0.5 * std::erfc(-inside / (0.8 * std::sqrt(2.0))); };
+    const auto mr = image<std::uint16_t>(
+        grid,
+        [&](const Vector3d& p)
+        {
+          const double brain = step(22.0 - (p - Vector3d(5, 0, 5)).norm());
+          const double in = step(radius - (p - lesion).norm());
+          return std::max(0.0, 60.0 + 240.0 * brain + (240.0 + contrast) * in + noise(random));
+        });
+    const auto region = proposedRegion(mr);
+    ASSERT_TRUE(region);
+    EXPECT_LT((region->seed - lesion).norm(), radius);
+    const Mask found = connectedThreshold(mr, region->range, {region->seed});
+    EXPECT_GT(dice(found, ball(grid, lesion, radius)), 0.9) << contrast;
+    EXPECT_NEAR(found.volume(), 4.0 / 3.0 * kPi * std::pow(radius, 3), 60.0) << contrast;
+  }
+}
+
+TEST(ProposedRegion, IsNoneWhereNothingIsBrighter)
+{
+  const core::GridGeometry grid({60, 60, 30}, Vector3d(1, 1, 2), Vector3d::Zero());
+  EXPECT_FALSE(proposedRegion(image<std::int16_t>(grid, [](const Vector3d&) { return 7.0; })));
+  std::mt19937 random(4);
+  std::normal_distribution<double> noise(0.0, 5.0);
+  EXPECT_FALSE(proposedRegion(image<std::int16_t>(
+      grid, [&](const Vector3d& p) { return (p[0] < 10 ? 50.0 : 300.0) + noise(random); })))
+      << "all of the tissue";
+}
+
 TEST(Islands, AreCountedByTheirFaces)
 {
   const core::GridGeometry grid({20, 20, 20}, Vector3d(1.0, 1.0, 2.0), Vector3d::Zero());

@@ -1005,6 +1005,12 @@ void keepIdentity(scene::StructurePart& structure, const scene::StructurePart& r
   structure.codes = std::move(codes);
 }
 
+bool keepsLook(const std::string& name, const std::string& preset)
+{
+  const std::string byName = appearance::StructurePresets::builtIn().lookFor(name).preset;
+  return byName == "other" || byName == preset;
+}
+
 void addStructures(scene::Case& value, volume::LabelMap labels)
 {
   const auto presets = appearance::StructurePresets::builtIn();

@@ -12,7 +12,7 @@
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Library/Archive.h"
 #include "petrous/Library/ObjectStore.h"
-#include "petrous/Library/OwnerLock.h"
+#include "petrous/Library/ScratchFolder.h"
 #include "petrous/Network/SceneObjects.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CaseDicom.h"
@@ -26,46 +26,10 @@ namespace
 {
 
 namespace fs = std::filesystem;
+using library::ScratchFolder;
 using network::NetworkError;
 
 constexpr const char* kSegmentationFile = "segmentation.dcm";
-
-/// For DICOM files on their way; readable by this user only, and removed.
-class ScratchFolder
-{
-public:
-  ScratchFolder()
-  {
-    const std::string begin = "petrous-transfer-";
-    std::error_code ignored;
-    const fs::path parent = fs::temp_directory_path(ignored);
-    // Those of killed processes hold patients' data.
-    library::removeAbandoned(parent, [&begin](const fs::path& path)
-                             { return path.filename().string().rfind(begin, 0) == 0; });
-    constexpr int kAttempts = 10;
-    for (int n = 0; n < kAttempts && (!m_lock || !m_lock->isThere()); ++n)
-    {
-      std::string name = (parent / (begin + "XXXXXX")).string();
-      if (!::mkdtemp(name.data()))
-        throw core::Error(core::Fault::Refused,
-                          name + ": cannot be created; is the disk full, or TMPDIR wrong?");
-      m_path = name;
-      m_lock = std::make_unique<library::OwnerLock>(m_path);
-    }
-  }
-  ~ScratchFolder()
-  {
-    std::error_code ignored;
-    fs::remove_all(m_path, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const fs::path& path() const noexcept { return m_path; }
-
-private:
-  fs::path m_path;
-  std::unique_ptr<library::OwnerLock> m_lock;
-};
 
 void addFiles(const fs::path& folder, std::vector<fs::path>& files)
 {

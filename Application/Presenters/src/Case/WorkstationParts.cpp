@@ -304,10 +304,20 @@ void WorkstationModel::renamePart(const std::string& name, const std::string& to
       rename(slices->overlay->mr);
     for (RemovedPart& removed : m_removed) // may come back
     {
-      if (removed.labels && removed.labels->part.drawnOn)
-        rename(*removed.labels->part.drawnOn);
+      if (removed.mr && removed.mr->part.registration)
+        rename(removed.mr->part.registration->through);
+      if (removed.labels)
+      {
+        if (removed.labels->part.drawnOn)
+          rename(*removed.labels->part.drawnOn);
+        for (scene::StructurePart& structure : removed.labels->part.structures)
+          rename(structure.look.sourceImage);
+      }
       if (removed.mesh)
+      {
         rename(removed.mesh->part.drawnOn);
+        rename(removed.mesh->part.look.sourceImage);
+      }
     }
   }
   for (scene::LabelPart& part : m_case->labels)
@@ -380,7 +390,8 @@ std::optional<scene::LabelPart> WorkstationModel::addStructure(volume::LabelMap 
   }
   if (taken)
     for (scene::StructurePart& structure : m_case->labels.back().structures)
-      if (structure.name == replaced)
+      if (structure.name == replaced ||
+          keepsLook(structure.name, taken->structures.front().look.preset))
         keepIdentity(structure, taken->structures.front());
   labelsChanged();
   return taken;

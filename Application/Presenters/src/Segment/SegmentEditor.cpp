@@ -249,6 +249,7 @@ struct SegmentEditor::Preview
   std::optional<Mask> result; ///< none: computed only in slices, `range`
   std::shared_ptr<const Tube> tube;
   std::optional<volume::ValueRange> range; ///< that was used
+  std::optional<Eigen::Vector3d> seed;     ///< of the region that is proposed
   Image image;                             ///< the source on the CT's grid, if it was made
   std::string note, warning;
   std::optional<Pieces> pieces; ///< of the result; one: none
@@ -285,7 +286,7 @@ struct SegmentEditor::Draft
   std::string edited;
   std::shared_ptr<const volume::LabelMap> editedMap; ///< tells it from others, whatever its name
   std::uint16_t editedIndex = 0;                     ///< in the map
-  std::optional<std::array<float, 3>> editedColor;
+  std::optional<appearance::StructureAppearance> editedLook;
   std::string resampled; ///< how its voxels are others than in the map, to the user
   EditableMask mask;
   std::unique_ptr<EditableMask> inside, beside;     ///< strokes to grow from; nullptr: none
@@ -329,6 +330,26 @@ void SegmentEditor::touched()
   notify(events.changed);
 }
 
+// What the preview was or is being computed from is no longer so.
+void SegmentEditor::outdate()
+{
+  m_previewDue = true;
+  ++m_inputs;
+}
+
+void SegmentEditor::forgetImage()
+{
+  m_image.reset();
+  ++m_images;
+}
+
+// Whether the tool needs a preview, or the source on the CT's grid.
+bool SegmentEditor::needsPreview() const
+{
+  return m_tool == Tool::Threshold || (m_tool == Tool::Nerve && !m_draft->points.empty()) ||
+         ((m_tool == Tool::Paint || m_tool == Tool::Erase) && m_values.within && m_source != "ct");
+}
+
 // While another thread has the draft, this is shown.
 void SegmentEditor::beginStep()
 {
@@ -363,8 +384,9 @@ void SegmentEditor::caseChanged()
 {
   m_tool = Tool::None;
   m_source = "ct";
+  m_sourceOf = 0;
   m_shown = {};
-  m_image.reset();
+  forgetImage();
   m_created.reset();
   m_values = {};
   reset();
@@ -375,16 +397,33 @@ void SegmentEditor::partsChanged()
 {
   if (m_model.hasCase())
   {
-    if (m_source != "ct" && !scene::findMr(m_model.value(), m_source))
-    {
-      m_source = "ct";
-      m_image.reset();
-    }
+    followSource();
     followEdited();
   }
   chooseColor();
   followShown();
   touched();
+}
+
+// The MR that is the source may have another name now, or be gone: what was computed from it goes
+// with it then, as the limits do, which are in its unit.
+void SegmentEditor::followSource()
+{
+  const auto& images = m_model.value().mr;
+  const bool isRenamed = m_source != "ct" && !scene::findMr(m_model.value(), m_source) &&
+                         images.size() == m_imagesThen && m_sourceOf < images.size();
+  if (isRenamed)
+    m_source = images[m_sourceOf].name;
+  const scene::ImagePart* mr = scene::findMr(m_model.value(), m_source);
+  m_imagesThen = images.size();
+  if (m_source == "ct" || (mr && mr->registered))
+  {
+    m_sourceOf = mr ? static_cast<std::size_t>(mr - images.data()) : 0;
+    return;
+  }
+  if (!m_stepping) // else a step goes on with what it was begun with
+    dropPreview();
+  takeSource("ct");
 }
 
 // The structure that is edited may have been renamed, or taken out of the case.
@@ -400,18 +439,26 @@ void SegmentEditor::followEdited()
         if (structure.index == draft.editedIndex)
           draft.edited = structure.name;
   if (!draft.edited.empty() && draft.name == before)
-    draft.name = draft.edited;
+    nameDraft(draft.edited);
+}
+
+// How wide a nerve may be follows from its name.
+void SegmentEditor::nameDraft(const std::string& name)
+{
+  const std::string before = std::exchange(m_draft->name, name);
+  if (m_tool == Tool::Nerve && !m_values.tubeRadius && needsPreview() &&
+      segmentation::widestFor(before) != segmentation::widestFor(name))
+    outdate();
 }
 
 void SegmentEditor::mrMoved()
 {
   if (m_source == "ct")
     return followShown();
-  m_image.reset();
-  const scene::ImagePart* mr = scene::findMr(m_model.value(), m_source);
-  if (!mr || !mr->registered)
-    m_source = "ct";
-  m_previewDue = m_preview != nullptr;
+  forgetImage();
+  followSource();
+  if (needsPreview())
+    outdate();
   followShown();
   touched();
 }
@@ -444,7 +491,7 @@ void SegmentEditor::setName(const std::string& name)
 {
   if (name == m_draft->name)
     return;
-  m_draft->name = name;
+  nameDraft(name);
   chooseColor();
   touched();
 }
@@ -513,7 +560,7 @@ SegmentEditor::Work SegmentEditor::edit(const std::string& structure)
   beginStep();
   touched();
   return [this, draft = m_draft, labels = scene::labelsOnCt(m_model.value(), *part),
-          map = part->labels.get(), index = found->index, color = found->look.color, structure,
+          map = part->labels.get(), index = found->index, look = found->look, structure,
           volume = static_cast<double>(found->voxels) *
                    part->labels.get()->voxels->geometry().voxelVolume(),
           ct = m_model.value().ct.geometry, primary = std::string(primaryName(m_model.value()))](
@@ -526,7 +573,7 @@ SegmentEditor::Work SegmentEditor::edit(const std::string& structure)
                   core::fixedText(static_cast<double>(mask->count()) * ct.voxelVolume(), 1) +
                   " mm³ for " + core::fixedText(volume, 1) +
                   " mm³. Saving replaces what was drawn.";
-    return [this, draft, mask, map, index, structure, color, resampled]
+    return [this, draft, mask, map, index, structure, look, resampled]
     {
       if (draft != m_draft)
         return;
@@ -536,7 +583,7 @@ SegmentEditor::Work SegmentEditor::edit(const std::string& structure)
       draft->editedMap = map;
       draft->editedIndex = index;
       draft->resampled = resampled;
-      draft->editedColor = color;
+      draft->editedLook = look;
       chooseColor();
       touched();
     };
@@ -554,8 +601,8 @@ void SegmentEditor::setTool(Tool tool)
   followShown();
   if (tool == Tool::Threshold && m_values.lower == 0.0 && m_values.upper == 0.0)
     m_proposeDue = true;
-  m_previewDue = tool == Tool::Threshold || (tool == Tool::Nerve && !m_draft->points.empty()) ||
-                 (m_values.within && m_source != "ct");
+  if (needsPreview())
+    outdate();
   touched();
 }
 
@@ -596,10 +643,14 @@ void SegmentEditor::setSource(const std::string& name)
 void SegmentEditor::takeSource(const std::string& name)
 {
   m_source = name;
-  m_image.reset();
+  const auto& images = m_model.value().mr;
+  const scene::ImagePart* mr = scene::findMr(m_model.value(), name);
+  m_sourceOf = mr ? static_cast<std::size_t>(mr - images.data()) : 0;
+  m_imagesThen = images.size();
+  forgetImage();
   m_proposeDue = true; // another unit
   m_isOwnRange = false;
-  m_previewDue = true;
+  outdate();
 }
 
 void SegmentEditor::setShown(const ShownImages& shown)
@@ -656,15 +707,9 @@ IntensityDisplay SegmentEditor::display() const
     return {};
   const scene::Case& value = m_model.value();
   const scene::ImagePart* mr = scene::findMr(value, m_source);
-  IntensityDisplay display = displayOf(value);
+  IntensityDisplay display = mr ? displayOf(*mr) : displayOf(value);
   const volume::ValueRange range = mr ? mr->range : value.ct.range;
   const double span = range.max - range.min;
-  if (mr)
-  {
-    display.hounsfield = false;
-    display.decimals = span >= 100.0 ? 0 : span >= 1.0 ? 2 : 4;
-    display.step = std::pow(10.0, -display.decimals);
-  }
   display.least = span > 0.0 ? range.min : std::min(-1024.0, display.least);
   display.most = span > 0.0 ? range.max : std::max(4096.0, display.most);
   return display;
@@ -682,13 +727,19 @@ void SegmentEditor::setValues(const SegmentValues& values)
     m_proposeDue = false;
     m_isOwnRange = true;
   }
-  if (m_tool == Tool::Threshold && !m_values.connected && before.connected)
-    m_draft->seeds.clear();
-  m_previewDue = m_previewDue ||
-                 (m_tool == Tool::Threshold && (range || m_values.connected != before.connected ||
-                                                m_values.combine != before.combine)) ||
-                 (m_tool == Tool::Nerve && m_values.tubeRadius != before.tubeRadius) ||
-                 (m_values.within && !before.within);
+  if (m_tool == Tool::Threshold && !m_values.connected && before.connected &&
+      !m_draft->seeds.empty() && !m_stepping)
+  {
+    Draft::Step step;
+    step.what = "removal of the points";
+    step.seeds = {std::exchange(m_draft->seeds, {}), Points()};
+    m_draft->did(std::move(step));
+  }
+  if ((m_tool == Tool::Threshold &&
+       (range || m_values.connected != before.connected || m_values.combine != before.combine)) ||
+      (m_tool == Tool::Nerve && m_values.tubeRadius != before.tubeRadius) ||
+      (m_values.within && !before.within))
+    outdate();
   if (m_values.within && m_values.lower == 0.0 && m_values.upper == 0.0)
     m_proposeDue = true;
   touched();
@@ -698,8 +749,9 @@ void SegmentEditor::proposeRange()
 {
   if (!m_model.hasCase() || m_stepping)
     return;
-  m_proposeDue = m_previewDue = true;
+  m_proposeDue = true;
   m_isOwnRange = false;
+  outdate();
   touched();
 }
 
@@ -725,6 +777,11 @@ SegmentEditor::SourceImage& SegmentEditor::image()
 std::optional<double> SegmentEditor::surfaceIntensity() const
 {
   return m_source == "ct" ? std::optional(m_model.value().iso) : std::nullopt;
+}
+
+bool SegmentEditor::isSourceMr() const
+{
+  return m_source != "ct" || m_model.value().ct.modality == scene::Modality::Mr;
 }
 
 void SegmentEditor::refuse(const std::string& why)
@@ -801,7 +858,7 @@ void SegmentEditor::press(const Eigen::Vector3d& patient, SliceOrientation plane
     step.seeds->second.push_back(patient);
     draft.seeds = step.seeds->second;
     draft.did(std::move(step));
-    m_previewDue = true;
+    outdate();
     return touched();
   }
   case Tool::Islands:
@@ -876,7 +933,7 @@ void SegmentEditor::release()
     {
       step.what = draft.points.size() > draft.before.size() ? "point" : "move of a point";
       step.points = {draft.before, draft.points};
-      m_previewDue = true;
+      outdate();
     }
   }
   else if (m_tool == Tool::Grow)
@@ -926,7 +983,7 @@ void SegmentEditor::changePoints(const char* what, Points points)
   step.points = {m_draft->points, points};
   m_draft->did(std::move(step));
   m_draft->points = std::move(points);
-  m_previewDue = true;
+  outdate();
   touched();
 }
 
@@ -981,6 +1038,7 @@ void SegmentEditor::dropPreview()
   m_preview.reset();
   m_refused.clear();
   m_previewDue = false;
+  ++m_inputs; // nor is one that is under way wanted
   m_note.clear();
   m_warning.clear();
 }
@@ -1000,13 +1058,30 @@ SegmentEditor::Computed SegmentEditor::computed() const
   {
   case Tool::Threshold:
     return [base, values, image = *m_image, seeds = m_draft->seeds, propose = m_proposeDue,
-            isOwn = m_isOwnRange, iso = surfaceIntensity(),
+            isOwn = m_isOwnRange, iso = surfaceIntensity(), isMr = isSourceMr(),
             unit = display().suffix()](const core::Progress& progress) mutable
     {
       Preview preview;
       preview.image = image.made(progress.part(0.0, 0.4));
       volume::ValueRange range{values.lower, values.upper};
       const core::Progress rest = progress.part(0.4, 1.0);
+      const auto region = propose && isMr && seeds.empty() && base.count == 0
+                              ? segmentation::proposedRegion(*image.own, progress.part(0.3, 0.4))
+                              : std::nullopt;
+      if (region)
+      {
+        const Eigen::Vector3d seed = image.ownFromCt.inverse() * region->seed;
+        if (isWithin(*preview.image, seed, region->range)) // else beside the CT
+        {
+          preview.seed = seed;
+          preview.range = region->range;
+          preview.note = "The brightest region is proposed; click points for another one, or all "
+                         "voxels of the range without 'connected'.";
+          preview.result =
+              segmentation::connectedThreshold(*preview.image, region->range, {seed}, rest, unit);
+          return preview;
+        }
+      }
       // The clicked point says what is looked for, unless the limits were entered.
       const bool isClicked = values.connected && !seeds.empty();
       if (isClicked && (propose || (!isOwn && !isWithin(*preview.image, seeds.back(), range))))
@@ -1149,7 +1224,7 @@ std::optional<SegmentEditor::Work> SegmentEditor::previewWork()
         preview.range = segmentation::proposedRange(volume::IntensityHistogram(*image.own), iso);
       return preview;
     };
-  return [this, draft = m_draft, tool = m_tool,
+  return [this, draft = m_draft, tool = m_tool, inputs = m_inputs,
           compute = std::move(compute)](const core::Progress& progress) -> Apply
   {
     const auto preview = std::make_shared<Preview>();
@@ -1162,12 +1237,21 @@ std::optional<SegmentEditor::Work> SegmentEditor::previewWork()
     {
       refused = error.what();
     }
-    return [this, draft, tool, preview, refused]
+    return [this, draft, tool, inputs, preview, refused]
     {
       m_previewRunning = false;
-      if (draft != m_draft || tool != m_tool)
+      if (draft != m_draft || tool != m_tool || inputs != m_inputs)
         return;
       show(*preview);
+      if (preview->seed)
+      {
+        Draft::Step step;
+        step.what = "proposed region";
+        step.seeds = {draft->seeds, Points{*preview->seed}};
+        draft->seeds = step.seeds->second;
+        draft->did(std::move(step));
+        m_values.connected = true;
+      }
       m_refused = refused;
       m_warning = refused.empty() ? m_warning : refused;
       m_preview = preview->result ? std::make_unique<Preview>(std::move(*preview)) : nullptr;
@@ -1218,7 +1302,7 @@ SegmentEditor::Work SegmentEditor::replacing(const char* what,
                                              std::function<Preview(const core::Progress&)> compute,
                                              bool endsTool)
 {
-  return [this, draft = m_draft, endsTool, what,
+  return [this, draft = m_draft, endsTool, what, images = m_images, isOfImage = readsSource(),
           compute = std::move(compute)](const core::Progress& progress) -> Apply
   {
     const auto preview = std::make_shared<Preview>(compute(progress));
@@ -1236,7 +1320,8 @@ SegmentEditor::Work SegmentEditor::replacing(const char* what,
         step.mask = changed;
         if (endsTool)
         {
-          draft->seeds.clear();
+          if (!draft->seeds.empty())
+            step.seeds = {std::exchange(draft->seeds, {}), Points()};
           if (!draft->points.empty())
             step.points = {std::exchange(draft->points, {}), Points()};
         }
@@ -1246,13 +1331,21 @@ SegmentEditor::Work SegmentEditor::replacing(const char* what,
           draft->pieces = {*pieces, draft->changes};
       };
     }
-    return [this, draft, preview, changed, box]
+    return [this, draft, preview, changed, box, images, isOfImage]
     {
       if (draft != m_draft)
         return;
       endStep();
+      const bool isOutdated = isOfImage && images != m_images;
+      if (isOutdated) // its voxels lie where the image was
+        preview->image.reset();
       show(*preview);
-      const std::string note = m_note, warning = m_warning;
+      const std::string note = m_note;
+      const std::string warning = isOutdated
+                                      ? "The image was moved or changed while this was computed: "
+                                        "the result is that of before. Undo it, and apply the tool "
+                                        "again."
+                                      : m_warning;
       if (preview->result)
       {
         dropPreview();
@@ -1285,9 +1378,21 @@ void SegmentEditor::workEnded()
   touched();
 }
 
+void SegmentEditor::workFailed(const std::string& why)
+{
+  const bool isOfPreview = m_previewRunning && !m_stepping;
+  workEnded();
+  if (!isOfPreview)
+    return;
+  dropPreview(); // of what was set before
+  m_refused = m_warning = why;
+  touched();
+}
+
 void SegmentEditor::workDropped()
 {
-  m_previewDue = m_previewDue || m_previewRunning;
+  if (m_previewRunning)
+    outdate();
   workEnded();
 }
 
@@ -1457,11 +1562,15 @@ std::function<void()> SegmentEditor::step(Draft& draft, bool back)
     if (step.points)
       draft->points = back ? step.points->first : step.points->second;
     if (step.seeds)
+    {
       draft->seeds = back ? step.seeds->first : step.seeds->second;
+      m_values.connected = m_values.connected || !draft->seeds.empty(); // only then do they count
+    }
     auto& from = back ? draft->undo : draft->redo;
     from.pop_back();
     (back ? draft->redo : draft->undo).push_back(step);
-    m_previewDue = m_tool == Tool::Threshold || m_tool == Tool::Nerve;
+    if (m_tool == Tool::Threshold || m_tool == Tool::Nerve)
+      outdate();
     notify(events.voxelsChanged, box);
   };
 }
@@ -1620,8 +1729,9 @@ void SegmentEditor::chooseColor()
 // As the structure will have it.
 std::array<float, 3> SegmentEditor::colorNow() const
 {
-  if (m_draft->editedColor)
-    return *m_draft->editedColor;
+  const auto& edited = m_draft->editedLook;
+  if (edited && (m_draft->name == m_draft->edited || keepsLook(m_draft->name, edited->preset)))
+    return edited->color;
   const auto look = appearance::StructurePresets::builtIn().lookFor(m_draft->name);
   if (look.preset != "other" || !m_model.hasCase())
     return look.color;

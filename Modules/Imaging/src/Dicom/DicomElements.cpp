@@ -1,15 +1,21 @@
 #include "DicomElements.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <string_view>
+
+#include "petrous/Imaging/DicomReader.h"
 
 namespace petrous::imaging
 {
 
 namespace
 {
+
+constexpr std::string_view kDeflated = "1.2.840.10008.1.2.1.99"; // transfer syntax
 
 constexpr std::uint32_t kMaxKept = 4096; // bytes; all values used here are far shorter
 constexpr int kDeepest = 32;             // nested sequences; malicious files may nest endlessly
@@ -70,9 +76,22 @@ DicomElements::DicomElements(ByteSource& source)
   m_state = State::Damaged;
   if (!readMeta(offset))
     return;
-  if (m_syntax == "1.2.840.10008.1.2.1.99" && !m_source.inflateFrom(offset))
+  if (m_syntax == kDeflated && !m_source.inflateFrom(offset))
     return;
   readDataSet(offset);
+}
+
+bool canBeInflated(const std::filesystem::path& file)
+{
+  ByteSource source(file);
+  std::array<char, 4096> head{}; // beyond any group 2
+  if (!source.isOpen() ||
+      !source.read(0, head.data(),
+                   static_cast<std::size_t>(std::min<std::uint64_t>(head.size(), source.size()))))
+    return true; // whoever reads it will say so
+  if (std::string_view(head.data(), head.size()).find(kDeflated) == std::string_view::npos)
+    return true;
+  return DicomElements(source).state() != DicomElements::State::Damaged;
 }
 
 /// After the preamble's DICM prefix; or, for files from before 1993 and careless exports, at the

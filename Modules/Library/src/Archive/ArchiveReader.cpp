@@ -59,6 +59,24 @@ bool fits(const std::string& object, const ObjectUse& use)
   return false;
 }
 
+/// Text of JSON that would take far more memory than any case needs once it is parsed.
+void refuseBloated(const fs::path& path, std::string_view text, const char* entry)
+{
+  constexpr std::size_t kMostValues = 4'000'000; // some 50 for a stroke
+  std::size_t values = 0;
+  bool isInText = false;
+  for (std::size_t n = 0; n < text.size(); ++n)
+    if (isInText && text[n] == '\\')
+      ++n;
+    else if (text[n] == '"')
+      isInText = !isInText;
+    else if (!isInText && (text[n] == ',' || text[n] == '[' || text[n] == '{'))
+      ++values;
+  if (values > kMostValues)
+    throwUnsound(path, std::string("'") + entry + "' holds more than " +
+                           std::to_string(kMostValues) + " values");
+}
+
 /// An archive whose directory, index and manifest are sound and agree.
 struct Archive
 {
@@ -70,6 +88,7 @@ struct Archive
     const std::string text = zip.text(kManifestEntry, kLargestManifest);
     if (sha256Of(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()) != index.manifest)
       throwUnsound(path, std::string("'") + kManifestEntry + "' is not what its hash says");
+    refuseBloated(path, text, kManifestEntry);
     value = scene::fromManifest(text, core::printable(path));
     try
     {
@@ -389,6 +408,7 @@ ArchiveIndex archiveIndex(std::string_view text, const fs::path& file)
   ArchiveIndex index;
   try
   {
+    refuseBloated(file, text, kIndexEntry);
     const nlohmann::json all = nlohmann::json::parse(text);
     const int format = all.at("petrous_archive").get<int>();
     if (format > kArchiveFormat)

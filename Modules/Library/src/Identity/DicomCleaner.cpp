@@ -20,6 +20,7 @@
 #include "PixelMetadata.h"
 #include "Vocabulary.h"
 #include "petrous/Core/OutputFile.h"
+#include "petrous/Imaging/DicomReader.h"
 
 namespace petrous::library
 {
@@ -1626,7 +1627,8 @@ DicomCleaner::Outcome DicomCleaner::clean(const std::filesystem::path& input,
                                           const Placement& placed)
 {
   auto file = std::make_unique<DcmFileFormat>();
-  if (file->loadFile(input.c_str(), EXS_Unknown, EGL_noChange, DCM_MaxReadLength, ERM_autoDetect)
+  if (!imaging::canBeInflated(input) ||
+      file->loadFile(input.c_str(), EXS_Unknown, EGL_noChange, DCM_MaxReadLength, ERM_autoDetect)
           .bad())
     return {"is not DICOM, or damaged", false};
   const std::string metaClass = valueOf(*file->getMetaInfo(), DCM_MediaStorageSOPClassUID);

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <memory>
 #include <new>
+#include <set>
+#include <tuple>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -212,27 +215,46 @@ void PseudonymMap::read(const std::string& passphrase)
 
 std::size_t PseudonymMap::add(const std::vector<Pseudonym>& entries)
 {
-  const std::size_t before = m_entries.size();
-  for (const Pseudonym& entry : entries)
+  // By place, so that no identity is copied to memory that is not cleared.
+  const auto isBefore = [this, &entries](std::size_t a, std::size_t b)
   {
-    const auto isSame = [&entry](const Pseudonym& other)
-    {
-      return other.kind == entry.kind && other.pseudonym == entry.pseudonym &&
-             other.identity == entry.identity;
-    };
-    if (std::none_of(m_entries.begin(), m_entries.end(), isSame))
-      m_entries.push_back(entry);
-  }
-  return m_entries.size() - before;
+    const auto at = [this, &entries](std::size_t n) -> const Pseudonym&
+    { return n < m_entries.size() ? m_entries[n] : entries[n - m_entries.size()]; };
+    const Pseudonym &one = at(a), &other = at(b);
+    return std::tie(one.kind, one.pseudonym, one.identity) <
+           std::tie(other.kind, other.pseudonym, other.identity);
+  };
+  std::set<std::size_t, decltype(isBefore)> known(isBefore);
+  std::vector<std::size_t> added;
+  for (std::size_t n = 0; n < m_entries.size() + entries.size(); ++n)
+    if (known.insert(n).second && n >= m_entries.size())
+      added.push_back(n - m_entries.size());
+  for (const std::size_t n : added) // `known` ends here
+    m_entries.push_back(entries[n]);
+  return added.size();
 }
 
-// Argon2id fails before it writes the key.
-void PseudonymMap::changePassphrase(const std::string& passphrase)
+bool PseudonymMap::changePassphrase(const std::string& passphrase)
 {
   checkPassphrase(passphrase);
+  const std::unique_ptr<unsigned char, decltype(&::sodium_free)> former(
+      static_cast<unsigned char*>(::sodium_malloc(kSecret)), &::sodium_free);
+  if (!former)
+    throw std::bad_alloc();
+  std::copy(m_secret, m_secret + kSecret, former.get());
   std::string salt = newSalt();
   deriveKey(passphrase, salt);
-  m_salt = std::move(salt);
+  std::swap(m_salt, salt);
+  try
+  {
+    return save();
+  }
+  catch (...)
+  {
+    std::copy(former.get(), former.get() + kSecret, m_secret);
+    std::swap(m_salt, salt);
+    throw;
+  }
 }
 
 bool PseudonymMap::saveCopy(const std::filesystem::path& path, const std::string& passphrase) const

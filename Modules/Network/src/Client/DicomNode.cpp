@@ -29,6 +29,7 @@
 #include "petrous/Core/InputFile.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Core/OutputFile.h"
+#include "petrous/Imaging/DicomReader.h"
 
 namespace petrous::network
 {
@@ -336,7 +337,8 @@ OutgoingFile outgoing(const fs::path& path)
   DcmFileFormat file;
   const auto refuse = [&path]
   { throw core::InvalidParameter(path.string() + ": is not a DICOM file that can be sent"); };
-  if (file.loadFile(path.c_str(), EXS_Unknown, EGL_noChange, 4096).bad())
+  if (!imaging::canBeInflated(path) ||
+      file.loadFile(path.c_str(), EXS_Unknown, EGL_noChange, 4096).bad())
     refuse();
   DcmDataset& data = *file.getDataset();
   OutgoingFile result;
@@ -582,8 +584,12 @@ private:
   DIC_US check(const fs::path& path, const std::string& uid)
   {
     DcmFileFormat file;
-    if (file.loadFile(path.c_str(), EXS_Unknown, EGL_noChange, 4096).bad())
-      return 0xC000; // cannot understand
+    if (!imaging::canBeInflated(path) ||
+        file.loadFile(path.c_str(), EXS_Unknown, EGL_noChange, 4096).bad())
+    {
+      ++m_superfluous; // a node that sends such without end is left
+      return 0xC000;   // cannot understand
+    }
     DcmDataset& data = *file.getDataset();
     const std::string patient = text(data, DCM_PatientID);
     // The answer to the query may lack it, or be in another character set: then all are compared

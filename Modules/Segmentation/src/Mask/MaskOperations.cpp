@@ -150,6 +150,99 @@ volume::ValueRange proposedRange(const volume::IntensityHistogram& histogram,
   return {std::min(otsuThresholds(histogram, 3).back(), top), top};
 }
 
+std::optional<ProposedRegion> proposedRegion(const volume::IntensityVolume& image,
+                                             const core::Progress& progress)
+{
+  constexpr double kRadius = 1.5;      // mm
+  constexpr double kMostVolume = 20e3; // mm^3; a larger region has run into its surroundings
+  constexpr int kBorder = 2;           // voxels
+  const volume::IntensityHistogram histogram(image);
+  if (histogram.bins().size() < 3 || !(histogram.range().max > histogram.range().min))
+    return std::nullopt;
+  const std::vector<double> limits = otsuThresholds(histogram, 3);
+  const core::GridGeometry& grid = image.geometry();
+  const Mask bright =
+      threshold(image, {limits.back(), histogram.range().max}, progress.part(0.0, 0.2));
+  core::IndexBox inner = grid.fullBox();
+  core::Index3 reach;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    const int border = inner.size()[a] > 2 * kBorder ? kBorder : 0;
+    inner.lower[a] += border;
+    inner.upper[a] -= border;
+    reach[a] = static_cast<int>(kRadius / grid.spacing()[static_cast<Eigen::Index>(a)]);
+  }
+  const auto valueAt = [&image](int i, int j, int k) -> std::optional<double>
+  {
+    const double value = image.at(i, j, k);
+    return std::isfinite(value) && value != image.padding() ? std::optional(value) : std::nullopt;
+  };
+  const auto meanAbout = [&](const core::Index3& at)
+  {
+    double sum = 0.0;
+    int count = 0;
+    for (int k = std::max(at[2] - reach[2], 0); k <= std::min(at[2] + reach[2], grid.dims()[2] - 1);
+         ++k)
+      for (int j = std::max(at[1] - reach[1], 0);
+           j <= std::min(at[1] + reach[1], grid.dims()[1] - 1); ++j)
+        for (int i = std::max(at[0] - reach[0], 0);
+             i <= std::min(at[0] + reach[0], grid.dims()[0] - 1); ++i)
+        {
+          const Eigen::Vector3d away =
+              Eigen::Vector3d(i - at[0], j - at[1], k - at[2]).cwiseProduct(grid.spacing());
+          const auto value = away.norm() <= kRadius ? valueAt(i, j, k) : std::nullopt;
+          sum += value.value_or(0.0);
+          count += value.has_value();
+        }
+    return count > 0 ? sum / count : histogram.range().min;
+  };
+  double peak = histogram.range().min;
+  std::optional<core::Index3> place;
+  const core::IndexBox box = bright.extent.intersected(inner);
+  for (int k = box.lower[2]; k < box.upper[2]; ++k)
+  {
+    progress.part(0.2, 0.7).report(static_cast<double>(k - box.lower[2]) / box.size()[2],
+                                   "looking for the brightest region");
+    for (int j = box.lower[1]; j < box.upper[1]; ++j)
+      for (int i = box.lower[0]; i < box.upper[0]; ++i)
+        if (bright.at({i, j, k}))
+          if (const double mean = meanAbout({i, j, k}); mean > peak)
+          {
+            peak = mean;
+            place = {i, j, k};
+          }
+  }
+  if (!place)
+    return std::nullopt;
+  double sums[2] = {}, counts[2] = {}; // of the darkest and of the brightest class
+  for (std::size_t n = 0; n < histogram.bins().size(); ++n)
+  {
+    const double value = histogram.center(n);
+    if (value >= limits.front() && value < limits.back())
+      continue;
+    const std::size_t which = value < limits.front() ? 0 : 1;
+    const auto count = static_cast<double>(histogram.bins()[n]);
+    sums[which] += count * value;
+    counts[which] += count;
+  }
+  ProposedRegion region;
+  region.seed = grid.patientFromVoxel(Eigen::Vector3d((*place)[0], (*place)[1], (*place)[2]));
+  const double own = image.at((*place)[0], (*place)[1], (*place)[2]);
+  for (std::size_t which = 0; which < 2; ++which)
+  {
+    if (counts[which] == 0.0)
+      continue;
+    const double level = 0.5 * (peak + sums[which] / counts[which]);
+    region.range = {std::min(level, own), histogram.range().max};
+    const Mask found = connectedThreshold(image, region.range, {region.seed},
+                                          progress.part(0.7 + 0.15 * static_cast<double>(which),
+                                                        0.85 + 0.15 * static_cast<double>(which)));
+    if (found.volume() <= kMostVolume)
+      return region;
+  }
+  return std::nullopt;
+}
+
 Mask combined(const Mask& a, const Mask& b, Combination how)
 {
   requireSameGrid(a.geometry(), b.geometry(), "combining");

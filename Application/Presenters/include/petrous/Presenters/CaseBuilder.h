@@ -196,6 +196,9 @@ void addStructures(scene::Case& value, volume::LabelMap labels);
 /// What `structure` keeps of the one that it replaces: the look, and what it is; how it was made is
 /// its own.
 void keepIdentity(scene::StructurePart& structure, const scene::StructurePart& replaced);
+/// Whether a structure with the look of `preset` keeps it under this name: unless that is the name
+/// of another kind of structure.
+bool keepsLook(const std::string& name, const std::string& preset);
 
 /// The colours of all structures and meshes, for one that is to differ (distinctColor).
 std::vector<std::array<float, 3>> structureColors(const scene::Case& value);

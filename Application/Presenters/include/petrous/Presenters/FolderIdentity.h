@@ -23,8 +23,8 @@ void refuseWithin(const std::filesystem::path& file, const std::filesystem::path
                   const std::string& what);
 
 /// De-identifies with the key of the map, which is written before (a key that is lost would leave
-/// files that nobody can assign) and completed before the output is in place. `passphrase` is that of the map. Throws
-/// like library::deidentify and library::PseudonymMap.
+/// files that nobody can assign) and completed before the output is in place. `passphrase` is that
+/// of the map. Throws like library::deidentify and library::PseudonymMap.
 library::DeidentificationResult deidentifyFolder(const DeidentifyRequest& request,
                                                  const std::string& passphrase,
                                                  const core::Progress& progress = {});

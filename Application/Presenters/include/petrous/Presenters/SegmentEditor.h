@@ -132,8 +132,9 @@ public:
 
   const SegmentValues& values() const noexcept { return m_values; }
   void setValues(const SegmentValues& values);
-  /// Lower and upper, around the clicked point if one counts, else from the source's histogram;
-  /// with the next preview. A click outside limits that were not entered does the same.
+  /// Lower and upper, around the clicked point if one counts, else from the source's histogram, and
+  /// on an MR without a draft its brightest region; with the next preview. A click outside limits
+  /// that were not entered does the same.
   void proposeRange();
 
   /// The left button in a slice; patient, LPS mm.
@@ -166,8 +167,9 @@ public:
   /// The tool's step on the draft, with the preview. None where `whyNotStep` says why.
   std::optional<Work> stepWork();
   std::string whyNotStep() const;
-  void workEnded();   ///< it failed or was cancelled: the draft is as before
-  void workDropped(); ///< nobody waits for it any more; a preview is due again
+  void workEnded();                        ///< it was cancelled: the draft is as before
+  void workFailed(const std::string& why); ///< likewise, and a preview's tool has no result
+  void workDropped();                      ///< nobody waits for it any more; a preview is due again
   bool stepping() const noexcept { return m_stepping; }
 
   bool canUndo() const;
@@ -240,6 +242,11 @@ private:
   void beginStep();
   void endStep();
   void followEdited();
+  void followSource();
+  void nameDraft(const std::string& name);
+  void outdate();
+  void forgetImage();
+  bool needsPreview() const;
   void undoCreated();
   void keepReplaced(std::optional<scene::LabelPart> part);
   bool canCreateAgain() const;
@@ -256,6 +263,7 @@ private:
   void followShown();
   void takeSource(const std::string& name);
   std::optional<double> surfaceIntensity() const;
+  bool isSourceMr() const;
   void chooseColor();
   std::array<float, 3> colorNow() const;
   void reset();
@@ -277,6 +285,10 @@ private:
   bool m_proposeDue = false;
   bool m_isOwnRange = false; ///< the limits were entered, not proposed
   bool m_previewDue = false;
+  std::uint64_t m_inputs = 0;   // of previews: changes when one that is under way is outdated
+  std::uint64_t m_images = 0;   // changes when m_image is another
+  std::size_t m_sourceOf = 0;   // place of the source among the MRs, while there are
+  std::size_t m_imagesThen = 0; // so many
   bool m_previewRunning = false;
   bool m_stepping = false;
   std::optional<Work> m_stepDue; // begun by a click

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,5 +45,10 @@ struct ReadOptions
 volume::IntensityVolume readSeries(const DicomSeries& series, const ReadOptions& options,
                                    const core::Progress& progress,
                                    std::vector<std::string>* notes = nullptr);
+
+/// False for a DICOM file whose data set is deflated (PS3.5 A.5) and damaged, or larger than 256 MB
+/// when it is inflated: a few kilobytes can stand for more than there is memory, so other readers
+/// are to be given no such file. True for what is not deflated.
+bool canBeInflated(const std::filesystem::path& file);
 
 } // namespace petrous::imaging

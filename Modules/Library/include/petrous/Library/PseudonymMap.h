@@ -55,9 +55,9 @@ public:
   /// Entries that it has already are not added again. Returns how many were new.
   std::size_t add(const std::vector<Pseudonym>& entries);
 
-  /// From the next `save` on. Throws InvalidParameter for less than 8 bytes; the map is then as it
-  /// was.
-  void changePassphrase(const std::string& passphrase);
+  /// Writes the map under another passphrase. Returns and throws as OutputFile::commit;
+  /// InvalidParameter for less than 8 bytes. The map, and its file, are then as they were.
+  bool changePassphrase(const std::string& passphrase);
 
   /// Writes the same map, key included, to a new file under a passphrase of its own. Returns and
   /// throws as OutputFile::commit; PseudonymMapError (InUse); Error (Refused) if the file is there.

@@ -41,6 +41,19 @@ std::vector<double> otsuThresholds(const volume::IntensityHistogram& histogram, 
 volume::ValueRange proposedRange(const volume::IntensityHistogram& histogram,
                                  std::optional<double> iso);
 
+/// The brightest region of an image: a cholesteatoma on a diffusion-weighted MR.
+struct ProposedRegion
+{
+  Eigen::Vector3d seed;     ///< centre of its brightest voxel, patient, LPS mm
+  volume::ValueRange range; ///< connectedThreshold with it gives the region
+};
+/// Begins where the mean within 1.5 mm is the largest, two voxels or more from the image's faces,
+/// and reaches to half of the step down to the darkest of three Otsu classes, where a blurred edge
+/// stays in its place; to half of the step to the brightest class where that would take in more
+/// than 20 cm^3. None where the image has no region brighter than its surroundings.
+std::optional<ProposedRegion> proposedRegion(const volume::IntensityVolume& image,
+                                             const core::Progress& progress = {});
+
 /// How many parts the mask has, connected by faces, and the voxels of the largest.
 struct Islands
 {

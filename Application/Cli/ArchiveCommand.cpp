@@ -93,7 +93,7 @@ void addArchiveCommands(CLI::App& app, Context& context)
                     "Strokes, views and appearance without voxels; restored where the same CT is");
   command->add_flag("--keep-identity", out->keepIdentity,
                     "Keep what may identify the patient: the dates of the planned operation and of "
-                    "attachments");
+                    "attachments, the times of strokes, and who signed registrations and when");
   command->add_flag("--without-notes", out->withoutNotes,
                     "Leave out the note of the description, which else goes along as it is");
   command->add_flag("--with-videos", out->withVideos,

@@ -85,6 +85,48 @@ TEST(IdentityOfACase, WhatTheUserTypedLeavesWithTheSceneOnly)
   EXPECT_FALSE(mentions(report.warnings, "the note"));
 }
 
+TEST(IdentityOfACase, TimesAndSignersStayUnlessTheyAreAskedFor)
+{
+  scene::Case value = describedCase();
+  dissection::StrokeInfo info;
+  info.startedAt = "2026-03-30T08:15:00Z";
+  value.dissection = dissection::Dissection(
+      {std::make_shared<const dissection::Stroke>(info, dissection::Stroke::Voxels{1})},
+      dissection::History::line(1, 1));
+  scene::ImagePart mr;
+  mr.name = "T2";
+  mr.registered = true;
+  mr.registration.emplace();
+  mr.registration->signOff = scene::SignOff{"A. Surgeon", "2026-03-30T09:00:00Z", {}};
+  value.mr.push_back(mr);
+  value.attachments.emplace_back();
+  value.attachments.back().name = "a.png";
+  value.attachments.back().kind = scene::Attachment::Kind::Screenshot;
+  value.attachments.back().date = "2026-03-30";
+
+  const char* const texts[] = {"planned date", "time of each stroke", "signed the registration",
+                               "dates of attachments"};
+  library::ArchiveOptions options;
+  SendParts parts;
+  parts.scene = true;
+  for (const IdentityReport& report :
+       {identityReport(value, options), identityReport(value, parts)})
+    for (const char* text : texts)
+    {
+      EXPECT_TRUE(mentions(report.stays, text)) << text;
+      EXPECT_FALSE(mentions(report.leaves, text)) << text;
+    }
+  options.keepIdentity = true;
+  const IdentityReport report = identityReport(value, options);
+  for (const char* text : texts)
+  {
+    EXPECT_TRUE(mentions(report.leaves, text)) << text;
+    EXPECT_FALSE(mentions(report.stays, text)) << text;
+  }
+  EXPECT_TRUE(mentions(report.warnings, "signed the registration"));
+  EXPECT_EQ(report.text().find("A. Surgeon"), std::string::npos);
+}
+
 TEST(IdentityOfACase, ARegionOfTheEarShowsNoFace)
 {
   scene::Case value = describedCase();

@@ -28,7 +28,7 @@ ArchiveDialog::ArchiveDialog(const scene::Case& value, QWidget* parent)
   , m_plan(new QCheckBox(tr("&Plan only, without images and structures")))
   , m_note(new QCheckBox(tr("with its &note")))
   , m_videos(new QCheckBox(tr("with its &videos, which may show or name the patient")))
-  , m_date(new QCheckBox(tr("with the planned &date of the operation")))
+  , m_date(new QCheckBox(tr("with &dates and times, and who signed registrations")))
   , m_report(new QPlainTextEdit)
   , m_advice(new QLabel)
 {
@@ -46,7 +46,8 @@ ArchiveDialog::ArchiveDialog(const scene::Case& value, QWidget* parent)
                                    [](const scene::Attachment& one)
                                    { return one.kind == scene::Attachment::Kind::Video; }));
   m_date->setObjectName("archiveDate");
-  m_date->setEnabled(!value.description.date.empty());
+  m_date->setToolTip(tr("The dates of the planned operation and of attachments, the times of "
+                        "strokes, names and times of sign-offs"));
   m_report->setObjectName("archiveReport");
   m_report->setReadOnly(true);
   m_report->setMinimumHeight(200);
@@ -91,7 +92,7 @@ library::ArchiveOptions ArchiveDialog::options() const
   options.planOnly = m_plan->isChecked();
   options.withoutNotes = !m_note->isChecked();
   options.withVideos = m_videos->isEnabled() && m_videos->isChecked();
-  options.keepDate = m_date->isChecked();
+  options.keepIdentity = m_date->isChecked();
   return options;
 }
 

@@ -367,14 +367,14 @@ TEST_F(Attachments, TravelButForVideos)
     for (const Attachment& one : value.attachments)
     {
       EXPECT_TRUE(one.link.empty());
-      EXPECT_EQ(one.date, options.keepDate ? "2026-03-31" : "");
+      EXPECT_EQ(one.date, options.keepIdentity ? "2026-03-31" : "");
       EXPECT_EQ(extracted(second, name, one.name), read(m_folder.path() / one.name)) << one.name;
     }
     return namesOf(value);
   };
   EXPECT_EQ(taken("usual", {}), (Names{"plan.pdf", "tool.ticks", "view.png", "large.ticks"}));
   ArchiveOptions all;
-  all.withVideos = all.keepDate = true;
+  all.withVideos = all.keepIdentity = true;
   EXPECT_EQ(taken("all", all), namesOf(m_value));
   ArchiveOptions plan;
   plan.planOnly = plan.withVideos = true;

@@ -482,9 +482,9 @@ std::vector<std::string> facesToMask(const scene::Case& value)
 namespace
 {
 
-// `parts.scene`: with the archive of the case, or only its plan; `keepDate`: of the operation.
+// `parts.scene`: with the archive of the case, or only its plan; `keepIdentity`: as ArchiveOptions.
 IdentityReport reportOf(const scene::Case& value, const SendParts& parts, bool planOnly,
-                        bool keepDate, const std::vector<std::string>* faces)
+                        bool keepIdentity, const std::vector<std::string>* faces)
 {
   IdentityReport report;
   const bool isCt = value.ct.modality != scene::Modality::Mr;
@@ -537,11 +537,28 @@ IdentityReport reportOf(const scene::Case& value, const SendParts& parts, bool p
     if (!words.note.empty())
       (parts.note ? report.leaves : report.stays)
           .push_back(parts.note ? "the note, as it is" : "the note");
+    auto& kept = keepIdentity ? report.leaves : report.stays;
     if (!words.date.empty())
-      (keepDate ? report.leaves : report.stays).push_back("the planned date of the operation");
-    if (!words.date.empty() && keepDate)
+      kept.emplace_back("the planned date of the operation");
+    if (!words.date.empty() && keepIdentity)
       report.warnings.push_back("the planned date: together with a list of the day's operations "
                                 "it tells who the patient is");
+    const auto& strokes = value.dissection.strokes();
+    if (std::any_of(strokes.begin(), strokes.end(),
+                    [](const auto& stroke) { return !stroke->info.startedAt.empty(); }))
+      kept.emplace_back("date and time of each stroke");
+    for (const scene::ImagePart& mr : value.mr)
+      if (mr.registration && mr.registration->signOff && !mr.registration->signOff->who.empty())
+      {
+        const std::string who = "who signed the registration of MR '" + mr.name + "', and when";
+        kept.push_back(keepIdentity ? who : who + " (it stays marked as signed)");
+        if (keepIdentity)
+          report.warnings.push_back(who + ": a clinician's name and a date lead to the hospital's "
+                                          "patients of that day");
+      }
+    if (std::any_of(value.attachments.begin(), value.attachments.end(),
+                    [](const scene::Attachment& one) { return !one.date.empty(); }))
+      kept.emplace_back("the dates of attachments");
     std::vector<std::string> files;
     std::vector<std::string> videos;
     for (const scene::Attachment& one : value.attachments)
@@ -614,7 +631,7 @@ IdentityReport identityReport(const scene::Case& value, const library::ArchiveOp
   parts.scene = true;
   parts.note = !options.withoutNotes;
   parts.videos = options.withVideos;
-  IdentityReport report = reportOf(value, parts, options.planOnly, options.keepDate, nullptr);
+  IdentityReport report = reportOf(value, parts, options.planOnly, options.keepIdentity, nullptr);
   report.stays.push_back("name, birth date, numbers and other data of the patient, hospital and "
                          "physicians, dates and times of the scan: the case has none of them");
   report.stays.push_back("UIDs of the scanner's files: the case has none of them");

@@ -321,7 +321,7 @@ void chooseAttachments(scene::Case& value, const Library& library, const Archive
           continue;
         }
       }
-      if (!options.keepDate)
+      if (!options.keepIdentity)
         one.date.clear();
       if (options.withoutNotes)
         one.note.clear();
@@ -336,6 +336,31 @@ void chooseAttachments(scene::Case& value, const Library& library, const Archive
                        "nobody");
   if (!unclean.empty())
     notes.push_back("metadata is not removed from " + unclean);
+}
+
+/// When strokes were drilled, and who signed registrations and when. Their order, and that they
+/// were signed, stay.
+void forgetTimesAndSigners(scene::Case& value, std::vector<std::string>& notes)
+{
+  dissection::Dissection::Strokes strokes;
+  for (const auto& stroke : value.dissection.strokes())
+  {
+    dissection::Stroke timeless = *stroke;
+    timeless.info.startedAt.clear();
+    strokes.push_back(std::make_shared<const dissection::Stroke>(std::move(timeless)));
+  }
+  value.dissection = dissection::Dissection(std::move(strokes), value.dissection.history());
+  bool isSigned = false;
+  for (scene::ImagePart& mr : value.mr)
+    if (mr.registration && mr.registration->signOff)
+    {
+      isSigned = true;
+      mr.registration->signOff->who.clear();
+      mr.registration->signOff->when.clear();
+    }
+  if (isSigned)
+    notes.emplace_back("who signed a registration, and when, stays in this library; that it was "
+                       "signed goes along");
 }
 
 std::string entryOf(const ObjectUse& use, bool isCt, std::set<std::string>& used)
@@ -422,11 +447,13 @@ try
     std::for_each(value.mr.begin(), value.mr.end(), store);
   }
   Description& description = value.description;
-  if (!description.date.empty() && !options.keepDate)
+  if (!description.date.empty() && !options.keepIdentity)
   {
     description.date.clear();
     summary.notes.emplace_back("the planned date stays in this library");
   }
+  if (!options.keepIdentity)
+    forgetTimesAndSigners(value, summary.notes);
   if (!description.note.empty() && options.withoutNotes)
   {
     description.note.clear();

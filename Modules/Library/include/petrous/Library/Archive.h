@@ -35,9 +35,10 @@ struct ArchiveOptions
   bool planOnly = false;
   int level = 4;             ///< of the images' compression, 1 (fast) to 12 (small)
   bool withoutNotes = false; ///< Description::note stays here
-  /// The planned date goes along. Dates identify: with the list of a day's operations, everybody
-  /// knows who the patient is.
-  bool keepDate = false;
+  /// Dates, times (of the operation, attachments and strokes) and who signed registrations go
+  /// along. They identify: with the list of a day's operations, everybody knows who the patient is.
+  /// Else a registration that was signed stays so, without who and when.
+  bool keepIdentity = false;
   /// Videos go along, linked ones as embedded; they may show or name the patient.
   bool withVideos = false;
   /// Changes the copy of the case that is written (scene::maskImages); returns sentences for the

@@ -127,6 +127,34 @@ TEST(IdentityOfACase, TimesAndSignersStayUnlessTheyAreAskedFor)
   EXPECT_EQ(report.text().find("A. Surgeon"), std::string::npos);
 }
 
+TEST(IdentityOfACase, EveryNameThatLeavesIsLookedAt)
+{
+  scene::Case value = describedCase();
+  dissection::StrokeInfo info;
+  info.structures = {{"facial nerve", 1.0}, {"tumour of 4711471", 1.0}};
+  value.dissection = dissection::Dissection(
+      {std::make_shared<const dissection::Stroke>(info, dissection::Stroke::Voxels{1})},
+      dissection::History::line(1, 1));
+  value.mr.emplace_back();
+  value.mr.back().name = "T2 of 14.03.1962";
+  value.labels.front().structures.front().codes.algorithmName = "by Doe^John";
+  value.attachments.resize(2);
+  value.attachments[0].kind = value.attachments[1].kind = scene::Attachment::Kind::Recording;
+  value.attachments[0].name = "a.ticks";
+  value.attachments[0].note = "of Doe^John";
+  value.attachments[1].name = "19310517.ticks";
+  SendParts parts;
+  parts.scene = true;
+  const auto warnings = identityReport(value, parts).warnings;
+  EXPECT_TRUE(mentions(warnings, "names of structures that are gone, in strokes that touched "
+                                 "them: 1 of 1"));
+  EXPECT_TRUE(mentions(warnings, "names of MRs and approaches: 1 of 2"));
+  EXPECT_TRUE(mentions(warnings, "segmentation files gave structures: 1 of 1"));
+  EXPECT_TRUE(mentions(warnings, "names and notes of attachments: 2 of 3"));
+  parts.note = false;
+  EXPECT_TRUE(mentions(identityReport(value, parts).warnings, "attachments: 1 of 2"));
+}
+
 TEST(IdentityOfACase, ARegionOfTheEarShowsNoFace)
 {
   scene::Case value = describedCase();

@@ -100,6 +100,7 @@ protected:
                   const std::string& note = {})
   {
     AttachOptions options;
+    options.name = name;
     options.link = isLink;
     options.note = note;
     options.date = "2026-03-31";
@@ -172,6 +173,31 @@ TEST_F(Attachments, AreKeptToTheByteWhateverHoldsThem)
   m_library.remove("copy");
   m_library.collectGarbage();
   EXPECT_TRUE(ObjectStore(m_library.folder() / "objects").list().empty());
+}
+
+// A file is often named after the patient.
+TEST_F(Attachments, AreNamedByTheirKindUnlessANameIsGiven)
+{
+  const std::pair<std::string, std::string> files[] = {{"DOE_JOHN_19310517.pdf", kDocument},
+                                                       {"DOE_JOHN_19310517.MP4", kVideo},
+                                                       {"DOE_JOHN.19310517", kVideo},
+                                                       {"DOE_JOHN_19310517.png", pngWith("")},
+                                                       {"DOE_JOHN_2026-03-31.ticks", kRecording},
+                                                       {"DOE_JANE.pdf", kDocument + "2"}};
+  for (const auto& [name, bytes] : files)
+    attach(m_value, attachmentOf(write(m_folder.path() / name, bytes), {}));
+  AttachOptions named;
+  named.name = "audiogram.pdf";
+  attach(m_value, attachmentOf(m_folder.path() / "DOE_JANE.pdf", named));
+  m_library.save(m_value);
+  EXPECT_EQ(namesOf(m_library.open("ear")),
+            (Names{"document.pdf", "video.mp4", "video", "screenshot.png", "recording.ticks",
+                   "document (2).pdf", "audiogram.pdf"}));
+  for (const auto& [name, bytes] : test::contentOf(m_library.folder()))
+  {
+    EXPECT_EQ((name + bytes).find("DOE"), std::string::npos) << name;
+    EXPECT_EQ((name + bytes).find("19310517"), std::string::npos) << name;
+  }
 }
 
 TEST_F(Attachments, LoseTheMetadataOfAPng)

@@ -469,6 +469,18 @@ void warnOfIdentities(const std::string& what, const std::vector<std::string>& t
                        "send");
 }
 
+/// Structures that strokes removed from and that the case has no more, by the names of then.
+std::vector<std::string> goneStructures(const scene::Case& value)
+{
+  const std::vector<std::string> parts = scene::partNames(value);
+  std::set<std::string> gone;
+  for (const auto& stroke : value.dissection.strokes())
+    for (const auto& touched : stroke->info.structures)
+      if (std::find(parts.begin(), parts.end(), touched.name) == parts.end())
+        gone.insert(touched.name);
+  return {gone.begin(), gone.end()};
+}
+
 } // namespace
 
 std::vector<std::string> facesToMask(const scene::Case& value)
@@ -502,10 +514,19 @@ IdentityReport reportOf(const scene::Case& value, const SendParts& parts, bool p
   if (parts.mr || whole)
     for (const auto& mr : value.mr)
       report.leaves.push_back("MR '" + mr.name + "': " + voxels(mr) + " and their place in space");
-  std::vector<std::string> structures, meshes;
+  std::vector<std::string> structures, meshes, codes;
   for (const auto& part : value.labels)
     for (const auto& structure : part.structures)
+    {
       structures.push_back(structure.name);
+      for (const auto* concept :
+           {&structure.codes.category, &structure.codes.type, &structure.codes.typeModifier,
+            &structure.codes.region, &structure.codes.regionModifier})
+        if (!concept->meaning.empty())
+          codes.push_back(concept->meaning);
+      if (!structure.codes.algorithmName.empty())
+        codes.push_back(structure.codes.algorithmName);
+    }
   for (const auto& mesh : value.meshes)
     meshes.push_back(mesh.name);
   if ((parts.labels || parts.scene) && !structures.empty())
@@ -520,6 +541,9 @@ IdentityReport reportOf(const scene::Case& value, const SendParts& parts, bool p
       report.leaves.push_back(
           std::string(planOnly ? "the names of meshes" : "meshes, by the names") +
           " that you gave them: " + joined(meshes));
+    if (const auto gone = goneStructures(value); !gone.empty())
+      report.leaves.push_back("names of structures that are gone, in strokes that touched them: " +
+                              joined(gone));
     if (planOnly && !value.mr.empty())
     {
       std::vector<std::string> mrs;
@@ -559,16 +583,23 @@ IdentityReport reportOf(const scene::Case& value, const SendParts& parts, bool p
     if (std::any_of(value.attachments.begin(), value.attachments.end(),
                     [](const scene::Attachment& one) { return !one.date.empty(); }))
       kept.emplace_back("the dates of attachments");
-    std::vector<std::string> files;
-    std::vector<std::string> videos;
+    std::vector<std::string> files, videos, texts;
     for (const scene::Attachment& one : value.attachments)
-      (one.kind == scene::Attachment::Kind::Video && !parts.videos ? videos : files)
-          .push_back("'" + one.name + "'");
+    {
+      const bool stays = one.kind == scene::Attachment::Kind::Video && !parts.videos;
+      (stays ? videos : files).push_back("'" + one.name + "'");
+      if (stays)
+        continue;
+      texts.push_back(one.name);
+      if (parts.note && !one.note.empty())
+        texts.push_back(one.note);
+    }
     if (!files.empty())
     {
-      report.leaves.push_back("attachments, by the names that you gave them: " + joined(files));
+      report.leaves.push_back("attachments: " + joined(files));
       report.warnings.push_back("attachments: what they show and say is not looked at, and only "
                                 "screenshots are cleaned of metadata");
+      warnOfIdentities("names and notes of attachments", texts, report.warnings);
     }
     if (!videos.empty())
       report.stays.push_back("videos: " + joined(videos));
@@ -580,10 +611,22 @@ IdentityReport reportOf(const scene::Case& value, const SendParts& parts, bool p
               "from it"
             : "the note: read it once more, nothing is removed from it");
   if (parts.labels || parts.scene)
+  {
     warnOfIdentities("names of structures", structures, report.warnings);
+    warnOfIdentities("codes and algorithms that segmentation files gave structures", codes,
+                     report.warnings);
+  }
   if (parts.scene)
   {
     warnOfIdentities("names of meshes", meshes, report.warnings);
+    std::vector<std::string> others;
+    for (const scene::ImagePart& mr : value.mr)
+      others.push_back(mr.name);
+    for (const dissection::History::Branch& branch : value.dissection.history().branches())
+      others.push_back(branch.name);
+    warnOfIdentities("names of MRs and approaches", others, report.warnings);
+    warnOfIdentities("names of structures that are gone, in strokes that touched them",
+                     goneStructures(value), report.warnings);
     warnOfIdentities("tags", value.description.tags, report.warnings);
     warnOfIdentities("name of the case, diagnosis and procedure",
                      {value.name, value.description.diagnosis, value.description.procedure},

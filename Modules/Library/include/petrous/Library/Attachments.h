@@ -17,7 +17,8 @@ constexpr std::uint64_t kLargestPng = std::uint64_t{256} << 20;    ///< bytes
 
 struct AttachOptions
 {
-  std::string name; ///< in the case; empty: that of the file
+  /// In the case; empty: by its kind ("document.pdf"), as a file's name may be a patient's.
+  std::string name;
   std::string note;
   std::string date;  ///< ISO 8601; empty: today
   bool link = false; ///< only where the file is, its size and its hash are kept

@@ -96,7 +96,7 @@ TEST_F(AttachCommand, RefusesInOneLine)
   EXPECT_EQ(json("attachments ear").at("attachments"), Json::array());
 }
 
-TEST_F(AttachCommand, ArchivesLeaveVideosUnlessAsked)
+TEST_F(AttachCommand, ArchivesLeaveVideosAndDocumentsUnlessAsked)
 {
   json("attach ear --name film.mp4 " + file("film.mp4", kVideo));
   json("attach ear --name plan.pdf " + file("plan.pdf", "%PDF-1.7 of the plan"));
@@ -105,11 +105,15 @@ TEST_F(AttachCommand, ArchivesLeaveVideosUnlessAsked)
     const std::string archive = quoted(m_folder / (name + ".petrous"));
     const auto outcome = run("archive ear " + archive + " " + options);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_EQ(outcome.err.find("'film.mp4' stays") == std::string::npos, !options.empty());
-    EXPECT_NE(outcome.err.find("metadata is not removed"), std::string::npos);
+    const auto stays = [&](const char* name)
+    { return outcome.err.find(std::string(name) + "' stays") != std::string::npos; };
+    EXPECT_EQ(stays("film.mp4"), options.find("videos") == std::string::npos) << outcome.err;
+    EXPECT_EQ(stays("plan.pdf"), options.find("documents") == std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.find("metadata is not removed") == std::string::npos, options.empty());
     json("restore " + archive + " --as " + name);
     return json("attachments " + name).at("attachments").size();
   };
-  EXPECT_EQ(restored("", "usual"), 1U);
-  EXPECT_EQ(restored("--with-videos", "all"), 2U);
+  EXPECT_EQ(restored("", "usual"), 0U);
+  EXPECT_EQ(restored("--with-documents", "documents"), 1U);
+  EXPECT_EQ(restored("--with-documents --with-videos", "all"), 2U);
 }

@@ -335,7 +335,7 @@ def take(scratch):
     check_exports(here, "ear", seen, folder / "here")
 
     archive = folder / "ear.petrous"
-    here("archive", "ear", archive)
+    here("archive", "ear", archive, "--with-documents")
     check_archive(archive, seen)
     there = Petrous(asked.petrous, folder / "second")
     there("restore", archive)
@@ -346,7 +346,7 @@ def take(scratch):
         try:
             node = ("nodes", "add", "pacs", "--host", "127.0.0.1", "--port", port, "--aet", "ORTHANC")
             there(*node)
-            sent = there("send", "ear", "--to", "pacs")
+            sent = there("send", "ear", "--to", "pacs", "--with-documents")
             check(sent["completed"] == sent["instances"] and sent["failed"] == 0,
                   "sent %d instances" % sent["instances"])
             third = Petrous(asked.petrous, folder / "third")

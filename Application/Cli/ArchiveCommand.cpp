@@ -16,7 +16,8 @@ struct ArchiveCommandOptions
 {
   std::string caseName, file;
   int level = library::ArchiveOptions{}.level;
-  bool planOnly = false, keepIdentity = false, withoutNotes = false, withVideos = false;
+  bool planOnly = false, keepIdentity = false, withoutNotes = false, withVideos = false,
+       withDocuments = false;
   bool dryRun = false;
   MaskOptions mask;
 };
@@ -38,9 +39,13 @@ void archive(const Context& context, const ArchiveCommandOptions& options)
     throw UsageError("archive: a plan has no images; give --plan-only, or --mask-face and --roi");
   context.refuseOverwriting({options.file});
   const library::Library library = context.openLibrary();
-  const library::ArchiveOptions how{
-      options.planOnly,     options.level,      options.withoutNotes,
-      options.keepIdentity, options.withVideos, presenters::maskForArchive(library, mask)};
+  const library::ArchiveOptions how{options.planOnly,
+                                    options.level,
+                                    options.withoutNotes,
+                                    options.keepIdentity,
+                                    options.withVideos,
+                                    options.withDocuments,
+                                    presenters::maskForArchive(library, mask)};
   if (options.dryRun)
     return printIdentityReport(context,
                                presenters::identityReport(library.open(options.caseName), how));
@@ -99,6 +104,9 @@ void addArchiveCommands(CLI::App& app, Context& context)
   command->add_flag("--with-videos", out->withVideos,
                     "Take attached videos along, which else stay: they may show or name the "
                     "patient");
+  command->add_flag("--with-documents", out->withDocuments,
+                    "Take attached PDFs along, which else stay: they may name the patient, also in "
+                    "their metadata, which is not removed");
   addMaskOptions(*command, out->mask);
   command->add_flag("--dry-run", out->dryRun,
                     "Only say what of the case would be in the file, and what may identify the "

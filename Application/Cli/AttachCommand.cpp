@@ -85,8 +85,8 @@ void attach(const Context& context, const AttachCommandOptions& options)
     context.warn("a video may show or name the patient; archives and send leave it here unless "
                  "asked (--with-videos), and its metadata is not removed");
   if (one.kind == scene::Attachment::Kind::Document)
-    context.warn("metadata of a PDF is not removed; see that it names nobody before the case is "
-                 "handed on");
+    context.warn("a PDF may name the patient, also in its metadata, which is not removed; archives "
+                 "and send leave it here unless asked (--with-documents)");
   context.print("case '" + value.name + "' has a new attachment:");
   context.print(attachmentLine(library, value, one));
   context.printJson({{"case", value.name}, {"attachment", attachmentJson(library, value, one)}});

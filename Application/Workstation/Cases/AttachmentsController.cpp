@@ -110,7 +110,8 @@ void AttachmentsController::add(scene::Attachment attachment)
                    "the case is archived or sent, unless asked")
                     .arg(words(name))
       : isDocument
-          ? tr("“%1” is attached; metadata of a PDF is not removed: see that it names nobody")
+          ? tr("“%1” is attached; a PDF may name the patient, also in its metadata, and stays here "
+               "when the case is archived or sent, unless asked")
                 .arg(words(name))
           : tr("“%1” is attached").arg(words(name)));
 }

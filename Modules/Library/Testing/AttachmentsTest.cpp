@@ -340,7 +340,7 @@ TEST_F(Attachments, AreLostAlone)
 
   // An archive says what it lacks, and brings the rest.
   ArchiveOptions options;
-  options.withVideos = true;
+  options.withVideos = options.withDocuments = true;
   const auto done = archiveCase(m_library, "ear", m_folder.path() / "ear.petrous", options);
   EXPECT_EQ(std::count_if(done.notes.begin(), done.notes.end(),
                           [](const std::string& text)
@@ -370,7 +370,7 @@ TEST_F(Attachments, OfALinkAreCheckedAgainstItsHash)
   EXPECT_EQ(refusal([&] { extracted(m_library, "ear", "far.mp4"); }).first, Reason::Damaged);
 }
 
-TEST_F(Attachments, TravelButForVideos)
+TEST_F(Attachments, TravelButForVideosAndDocuments)
 {
   add("film.mp4", kVideo, false, "of the theatre");
   add("far.mp4", kVideo + "far", true);
@@ -398,15 +398,20 @@ TEST_F(Attachments, TravelButForVideos)
     }
     return namesOf(value);
   };
-  EXPECT_EQ(taken("usual", {}), (Names{"plan.pdf", "tool.ticks", "view.png", "large.ticks"}));
+  EXPECT_EQ(taken("usual", {}), (Names{"tool.ticks", "view.png", "large.ticks"}));
+  ArchiveOptions documents;
+  documents.withDocuments = true;
+  EXPECT_EQ(taken("documents", documents),
+            (Names{"plan.pdf", "tool.ticks", "view.png", "large.ticks"}));
   ArchiveOptions all;
-  all.withVideos = all.keepIdentity = true;
+  all.withVideos = all.withDocuments = all.keepIdentity = true;
   EXPECT_EQ(taken("all", all), namesOf(m_value));
   ArchiveOptions plan;
-  plan.planOnly = plan.withVideos = true;
+  plan.planOnly = plan.withVideos = plan.withDocuments = true;
   EXPECT_EQ(taken("plan", plan), (Names{"tool.ticks", "view.png"}));
   // What stays is in no byte of the archive: entries are stored as they are.
-  EXPECT_EQ(read(m_folder.path() / "usual.petrous").find("theatre"), std::string::npos);
+  for (const char* text : {"theatre", "of the operation"})
+    EXPECT_EQ(read(m_folder.path() / "usual.petrous").find(text), std::string::npos);
   EXPECT_NE(read(m_folder.path() / "all.petrous").find(kVideo + "far"), std::string::npos);
 }
 

@@ -112,6 +112,16 @@ std::vector<std::vector<PlacedLabels>> labelGroups(const scene::Case& value)
   return groups;
 }
 
+/// Of the archive that the scene is.
+library::ArchiveOptions archiveOptions(const SendParts& parts)
+{
+  library::ArchiveOptions options;
+  options.withoutNotes = !parts.note;
+  options.withVideos = parts.videos;
+  options.withDocuments = parts.documents;
+  return options;
+}
+
 /// Writes the parts below `folder`.
 class Outgoing
 {
@@ -206,9 +216,7 @@ private:
   {
     const fs::path folder = freshFolder();
     const fs::path archive = m_folder / (std::string("scene") + library::kArchiveEnding);
-    library::ArchiveOptions options;
-    options.withoutNotes = !m_parts.note;
-    options.withVideos = m_parts.videos;
+    library::ArchiveOptions options = archiveOptions(m_parts);
     if (m_parts.mask.any())
       options.prepare = [this](scene::Case& copy, const core::Progress&)
       {
@@ -494,11 +502,14 @@ std::vector<std::string> facesToMask(const scene::Case& value)
 namespace
 {
 
-// `parts.scene`: with the archive of the case, or only its plan; `keepIdentity`: as ArchiveOptions.
-IdentityReport reportOf(const scene::Case& value, const SendParts& parts, bool planOnly,
-                        bool keepIdentity, const std::vector<std::string>* faces)
+// `options`: of the archive, if `parts.scene`.
+IdentityReport reportOf(const scene::Case& value, const SendParts& parts,
+                        const library::ArchiveOptions& options,
+                        const std::vector<std::string>* faces)
 {
   IdentityReport report;
+  const bool planOnly = options.planOnly;
+  const bool keepIdentity = options.keepIdentity;
   const bool isCt = value.ct.modality != scene::Modality::Mr;
   const bool whole = parts.scene && !planOnly;
   const bool images = parts.ct || whole;
@@ -583,12 +594,12 @@ IdentityReport reportOf(const scene::Case& value, const SendParts& parts, bool p
     if (std::any_of(value.attachments.begin(), value.attachments.end(),
                     [](const scene::Attachment& one) { return !one.date.empty(); }))
       kept.emplace_back("the dates of attachments");
-    std::vector<std::string> files, videos, texts;
+    std::vector<std::string> files, staying, texts;
     for (const scene::Attachment& one : value.attachments)
     {
-      const bool stays = one.kind == scene::Attachment::Kind::Video && !parts.videos;
-      (stays ? videos : files).push_back("'" + one.name + "'");
-      if (stays)
+      const bool leaves = library::takesAlong(options, one);
+      (leaves ? files : staying).push_back("'" + one.name + "'");
+      if (!leaves)
         continue;
       texts.push_back(one.name);
       if (parts.note && !one.note.empty())
@@ -601,8 +612,8 @@ IdentityReport reportOf(const scene::Case& value, const SendParts& parts, bool p
                                 "screenshots are cleaned of metadata");
       warnOfIdentities("names and notes of attachments", texts, report.warnings);
     }
-    if (!videos.empty())
-      report.stays.push_back("videos: " + joined(videos));
+    if (!staying.empty())
+      report.stays.push_back("attachments: " + joined(staying));
   }
   if (parts.scene && parts.note && !value.description.note.empty())
     report.warnings.push_back(
@@ -658,7 +669,7 @@ IdentityReport reportOf(const scene::Case& value, const SendParts& parts, bool p
 IdentityReport identityReport(const scene::Case& value, const SendParts& parts,
                               const std::vector<std::string>* faces)
 {
-  IdentityReport report = reportOf(value, parts, false, false, faces);
+  IdentityReport report = reportOf(value, parts, archiveOptions(parts), faces);
   report.stays.push_back("name, birth date, numbers and other data of the patient, hospital and "
                          "physicians, dates and times: the case has none of them. The objects "
                          "name the patient 'Anonymous'");
@@ -673,8 +684,7 @@ IdentityReport identityReport(const scene::Case& value, const library::ArchiveOp
   SendParts parts;
   parts.scene = true;
   parts.note = !options.withoutNotes;
-  parts.videos = options.withVideos;
-  IdentityReport report = reportOf(value, parts, options.planOnly, options.keepIdentity, nullptr);
+  IdentityReport report = reportOf(value, parts, options, nullptr);
   report.stays.push_back("name, birth date, numbers and other data of the patient, hospital and "
                          "physicians, dates and times of the scan: the case has none of them");
   report.stays.push_back("UIDs of the scanner's files: the case has none of them");

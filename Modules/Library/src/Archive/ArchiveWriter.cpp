@@ -297,12 +297,13 @@ void chooseAttachments(scene::Case& value, const Library& library, const Archive
     const std::string what = attachmentText(one);
     const bool isPlain =
         one.kind == Attachment::Kind::Screenshot || one.kind == Attachment::Kind::Recording;
-    if (one.kind == Attachment::Kind::Video && (!options.withVideos || options.planOnly))
-      notes.push_back(what + " stays in this library: a video may show or name the patient" +
-                      (options.planOnly ? "" : " (--with-videos takes it along)"));
-    else if (options.planOnly && (!isPlain || one.bytes > kLargestOfPlan))
-      notes.push_back(what + " stays in this library: a plan takes small screenshots and "
-                             "recordings along");
+    if (!takesAlong(options, one))
+      notes.push_back(what + " stays in this library: " +
+                      (options.planOnly ? "a plan takes small screenshots and recordings along"
+                       : one.kind == Attachment::Kind::Video
+                           ? "a video may show or name the patient (--with-videos takes it along)"
+                           : "a PDF may name the patient, also in its metadata "
+                             "(--with-documents takes it along)"));
     else if (const std::string problem = attachmentProblem(library, one); !problem.empty())
       notes.push_back(what + " is not in the archive: its file is " + problem);
     else
@@ -384,6 +385,22 @@ std::string entryOf(const ObjectUse& use, bool isCt, std::set<std::string>& used
 }
 
 } // namespace
+
+bool takesAlong(const ArchiveOptions& options, const scene::Attachment& attachment) noexcept
+{
+  using Kind = scene::Attachment::Kind;
+  switch (attachment.kind)
+  {
+  case Kind::Video:
+    return options.withVideos && !options.planOnly;
+  case Kind::Document:
+    return options.withDocuments && !options.planOnly;
+  case Kind::Recording:
+  case Kind::Screenshot:
+    break;
+  }
+  return !options.planOnly || attachment.bytes <= kLargestOfPlan;
+}
 
 std::string toText(const ArchiveIndex& index)
 {

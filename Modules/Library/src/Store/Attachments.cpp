@@ -216,6 +216,12 @@ Attachment screenshotOf(std::vector<std::uint8_t> png, const AttachOptions& opti
   return attachment;
 }
 
+bool hasAttachment(const scene::Case& value, Attachment::Kind kind) noexcept
+{
+  return std::any_of(value.attachments.begin(), value.attachments.end(),
+                     [kind](const Attachment& one) { return one.kind == kind; });
+}
+
 std::string attach(scene::Case& value, Attachment attachment)
 {
   attachment.name = scene::freeAttachmentName(value, attachment.name);

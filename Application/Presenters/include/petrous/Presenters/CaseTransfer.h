@@ -25,6 +25,7 @@ struct SendParts
   bool scene = false;
   bool note = true;           ///< of the description, with the scene
   bool videos = false;        ///< attached ones, with the scene; they may show or name the patient
+  bool documents = false;     ///< likewise
   scene::ImageMask mask = {}; ///< of all images
 };
 

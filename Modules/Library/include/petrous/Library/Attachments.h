@@ -34,6 +34,8 @@ scene::Attachment attachmentOf(const std::filesystem::path& file, const AttachOp
 /// The same of a PNG in memory.
 scene::Attachment screenshotOf(std::vector<std::uint8_t> png, const AttachOptions& options);
 
+bool hasAttachment(const scene::Case& value, scene::Attachment::Kind kind) noexcept;
+
 /// Adds it to the case, under a name that is free. Returns the name.
 std::string attach(scene::Case& value, scene::Attachment attachment);
 

@@ -46,9 +46,12 @@ void archive(const Context& context, const ArchiveCommandOptions& options)
                                     options.withVideos,
                                     options.withDocuments,
                                     presenters::maskForArchive(library, mask)};
+  const presenters::IdentityReport report =
+      presenters::identityReport(library.open(options.caseName), how, mask);
   if (options.dryRun)
-    return printIdentityReport(context,
-                               presenters::identityReport(library.open(options.caseName), how));
+    return printIdentityReport(context, report);
+  for (const std::string& warning : report.warnings) // before anything is written
+    context.warn(warning);
   const library::ArchiveSummary done =
       library::archiveCase(library, options.caseName, options.file, how, context.progress());
   for (const std::string& note : done.notes)

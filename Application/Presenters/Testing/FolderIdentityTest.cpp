@@ -5,6 +5,7 @@
 #include "../../../Modules/Imaging/Testing/TestDicom.h"
 #include "BoneCase.h"
 #include "petrous/Library/PseudonymMap.h"
+#include "petrous/Presenters/CaseExport.h"
 #include "petrous/Presenters/CaseTransfer.h"
 
 namespace petrous::presenters
@@ -163,6 +164,48 @@ TEST(IdentityOfACase, ARegionOfTheEarShowsNoFace)
   SendParts parts;
   parts.ct = true;
   EXPECT_FALSE(mentions(identityReport(value, parts).warnings, "face"));
+}
+
+TEST(IdentityOfACase, AWholeHeadIsWarnedOfUnlessItIsMaskedOrCutAway)
+{
+  const scene::Case value = describedCase();
+  const library::ArchiveOptions options;
+  EXPECT_TRUE(mentions(identityReport(value, options).warnings, "whole head"));
+  scene::ImageMask mask;
+  mask.face = true;
+  EXPECT_FALSE(mentions(identityReport(value, options, mask).warnings, "head"));
+  EXPECT_TRUE(mentions(identityReport(value, options, mask).stays, "the face"));
+  mask = {};
+  const Eigen::Vector3d middle = value.ct.geometry.patientBounds().center();
+  mask.region = core::PatientBox(middle - Eigen::Vector3d::Constant(30.0),
+                                 middle + Eigen::Vector3d::Constant(30.0));
+  EXPECT_FALSE(mentions(identityReport(value, options, mask).warnings, "head"));
+  library::ArchiveOptions plan;
+  plan.planOnly = true;
+  EXPECT_FALSE(mentions(identityReport(value, plan).warnings, "head"));
+}
+
+TEST(IdentityOfACase, AFileForOtherProgramsIsLookedAtToo)
+{
+  scene::Case value = describedCase();
+  value.labels.front().structures.front().name = "nerve of 4711471";
+  const auto warnings = [&value](const char* what, const char* part = "")
+  {
+    ExportOptions options;
+    options.what = what;
+    options.part = part;
+    return identityWarnings(value, options);
+  };
+  for (const char* what : {"ct", "dissected", "surface"})
+    EXPECT_TRUE(mentions(warnings(what), "whole head")) << what;
+  for (const char* what : {"mr", "mask"})
+    EXPECT_TRUE(warnings(what).empty()) << what;
+  EXPECT_TRUE(mentions(warnings("labels"), "names of structures: 1 of 1"));
+  EXPECT_TRUE(mentions(warnings("structure", "nerve of 4711471"), "1 of 1"));
+  ExportOptions masked;
+  masked.what = "ct";
+  masked.mask.face = true;
+  EXPECT_TRUE(identityWarnings(value, masked).empty());
 }
 
 } // namespace

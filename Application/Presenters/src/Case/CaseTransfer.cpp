@@ -16,6 +16,7 @@
 #include "petrous/Network/SceneObjects.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CaseDicom.h"
+#include "petrous/Presenters/CaseExport.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/LeavingImages.h"
 #include "petrous/Scene/Placement.h"
@@ -448,7 +449,8 @@ std::string joined(const std::vector<std::string>& names)
 
 // From side to side and from front to back as much as a head: then its skin is in the image, and a
 // face can be rendered from it.
-bool showsHead(const core::GridGeometry& grid)
+// `mask`: all outside of its region is air.
+bool showsHead(const core::GridGeometry& grid, const scene::ImageMask& mask)
 {
   constexpr double kHead = 140.0;  // mm; narrower heads than that are not adults'
   constexpr double kHeight = 30.0; // mm; a band of a face
@@ -456,6 +458,11 @@ bool showsHead(const core::GridGeometry& grid)
   for (int axis = 0; axis < 3; ++axis)
     size[static_cast<std::size_t>(axis)] =
         grid.spacing()[axis] * grid.dims()[static_cast<std::size_t>(axis)];
+  if (mask.region)
+  {
+    const Eigen::Vector3d left = mask.region->intersection(grid.patientBounds()).sizes();
+    size = {left[0], left[1], left[2]};
+  }
   std::sort(size.begin(), size.end());
   return size[1] >= kHead && size[0] >= kHeight;
 }
@@ -465,6 +472,16 @@ bool resemblesIdentity(const std::string& text)
 {
   static const std::regex kIdentity("[0-9]{6}|[0-9]{1,4}[./-][0-9]{1,2}[./-][0-9]{2,4}|[\\^@]");
   return std::regex_search(text, kIdentity);
+}
+
+constexpr const char* kHeadText =
+    "the image holds a whole head: a face can be rendered from it. It can be masked; a case of the "
+    "region of the ear alone (File > Open a region) has none";
+
+bool anyShowsHead(const std::vector<scene::ImagePart>& images, const scene::ImageMask& mask)
+{
+  return std::any_of(images.begin(), images.end(),
+                     [&mask](const auto& image) { return showsHead(image.geometry, mask); });
 }
 
 void warnOfIdentities(const std::string& what, const std::vector<std::string>& texts,
@@ -493,9 +510,9 @@ std::vector<std::string> goneStructures(const scene::Case& value)
 
 std::vector<std::string> facesToMask(const scene::Case& value)
 {
-  const bool mayShow = showsHead(value.ct.geometry) ||
+  const bool mayShow = showsHead(value.ct.geometry, {}) ||
                        std::any_of(value.mr.begin(), value.mr.end(),
-                                   [](const auto& mr) { return showsHead(mr.geometry); });
+                                   [](const auto& mr) { return showsHead(mr.geometry, {}); });
   return mayShow ? scene::imagesWithFace(value) : std::vector<std::string>();
 }
 
@@ -651,13 +668,10 @@ IdentityReport reportOf(const scene::Case& value, const SendParts& parts,
                          ? "the face, which is masked in " + joined(*faces)
                          : "a face can be recognised in " + joined(*faces) + "; it can be masked");
   }
-  else if ((images && showsHead(value.ct.geometry)) ||
-           ((parts.mr || whole) &&
-            std::any_of(value.mr.begin(), value.mr.end(),
-                        [](const auto& mr) { return showsHead(mr.geometry); })))
-    report.warnings.push_back("the image holds a whole head: a face can be rendered from it. A "
-                              "case of the region of the ear alone (File > Open a region) has "
-                              "none");
+  else if ((images && showsHead(value.ct.geometry, parts.mask)) ||
+           ((parts.mr || whole) && anyShowsHead(value.mr, parts.mask)))
+    (parts.mask.face ? report.stays : report.warnings)
+        .emplace_back(parts.mask.face ? "the face, which is masked where one is found" : kHeadText);
   if (planOnly)
     report.stays.push_back("images, structures and meshes: the plan is restored where the very "
                            "same CT is");
@@ -679,16 +693,38 @@ IdentityReport identityReport(const scene::Case& value, const SendParts& parts,
   return report;
 }
 
-IdentityReport identityReport(const scene::Case& value, const library::ArchiveOptions& options)
+IdentityReport identityReport(const scene::Case& value, const library::ArchiveOptions& options,
+                              const scene::ImageMask& mask)
 {
   SendParts parts;
   parts.scene = true;
   parts.note = !options.withoutNotes;
+  parts.mask = mask;
   IdentityReport report = reportOf(value, parts, options, nullptr);
   report.stays.push_back("name, birth date, numbers and other data of the patient, hospital and "
                          "physicians, dates and times of the scan: the case has none of them");
   report.stays.push_back("UIDs of the scanner's files: the case has none of them");
   return report;
+}
+
+std::vector<std::string> identityWarnings(const scene::Case& value, const ExportOptions& options)
+{
+  std::vector<std::string> warnings;
+  const std::string& what = options.what;
+  const bool isMr = what == "mr";
+  if (!options.mask.face && (isMr ? anyShowsHead(value.mr, options.mask)
+                                  : (what == "ct" || what == "dissected" || what == "surface") &&
+                                        showsHead(value.ct.geometry, options.mask)))
+    warnings.emplace_back(kHeadText);
+  std::vector<std::string> names;
+  if (what == "labels" || what == "structure")
+    for (const std::string& name : scene::partNames(value))
+      if (options.part.empty() || name == options.part)
+        if (scene::findStructure(value, name) ||
+            (what == "structure" && scene::findMesh(value, name)))
+          names.push_back(name);
+  warnOfIdentities("names of structures", names, warnings);
+  return warnings;
 }
 
 std::string studyIdOf(const std::string& caseName)

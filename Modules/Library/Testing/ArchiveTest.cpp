@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <set>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -8,6 +9,7 @@
 #include "TestCase.h"
 #include "petrous/Library/Archive.h"
 #include "petrous/Library/ObjectStore.h"
+#include "petrous/Library/OwnerLock.h"
 #include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/Manifest.h"
 
@@ -370,6 +372,29 @@ TEST_F(Archives, ADamagedImageIsNotArchived)
   const auto [reason, text] = refusal([&] { archiveCase(m_library, "ear", m_file); });
   EXPECT_EQ(reason, Reason::Damaged);
   EXPECT_FALSE(fs::exists(m_file));
+}
+
+// Voxels of a patient, or copies of linked files, are in it.
+TEST_F(Archives, RemoveWhatAKilledProcessLeft)
+{
+  const fs::path here = m_folder.path();
+  const auto make = [&](const char* name, const char* content)
+  {
+    fs::create_directories((here / name / content).parent_path());
+    std::ofstream(here / name / content) << "a patient's";
+  };
+  make(".petrous-0011223344556677", "objects/ab/abcdef.nrrd");
+  make(".petrous-0011223344556678", "archive.Ab12Cd");
+  make(".petrous-0011223344556679", "archive");  // of a process that is at work
+  make(".petrous-001122334455667a", "1/ct.dcm"); // something else grows there
+  make("petrous-mine", "archive");
+  const OwnerLock alive(here / ".petrous-0011223344556679");
+  archiveCase(m_library, "ear", m_file);
+  std::set<std::string> left;
+  for (const auto& entry : fs::directory_iterator(here))
+    left.insert(entry.path().filename().string());
+  EXPECT_EQ(left, (std::set<std::string>{".petrous-0011223344556679", ".petrous-001122334455667a",
+                                         "petrous-mine", "library", "ear.petrous"}));
 }
 
 TEST_F(Archives, CanBeCancelled)

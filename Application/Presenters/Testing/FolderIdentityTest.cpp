@@ -4,6 +4,7 @@
 
 #include "../../../Modules/Imaging/Testing/TestDicom.h"
 #include "BoneCase.h"
+#include "petrous/Imaging/SeriesGeometry.h"
 #include "petrous/Library/PseudonymMap.h"
 #include "petrous/Presenters/CaseExport.h"
 #include "petrous/Presenters/CaseTransfer.h"
@@ -154,6 +155,36 @@ TEST(IdentityOfACase, EveryNameThatLeavesIsLookedAt)
   EXPECT_TRUE(mentions(warnings, "names and notes of attachments: 2 of 3"));
   parts.note = false;
   EXPECT_TRUE(mentions(identityReport(value, parts).warnings, "attachments: 1 of 2"));
+}
+
+TEST(IdentityOfACase, TextInThePixelsIsWarnedOfWhereverTheyLeave)
+{
+  imaging::SliceHeader slice;
+  slice.burnedIn = imaging::BurnedInText::Stated;
+  const auto notes = imaging::assess({slice}).notes;
+  ASSERT_EQ(notes.size(), 1U);
+  scene::Case value = describedCase();
+  value.mr.emplace_back();
+  value.mr.back().name = "T2";
+  SendParts parts;
+  parts.ct = parts.mr = parts.scene = true;
+  EXPECT_FALSE(mentions(identityReport(value, parts).warnings, "text in them"));
+  value.mr.back().notes = notes;
+  EXPECT_TRUE(mentions(identityReport(value, parts).warnings, "the pixels of MR 'T2' may have"));
+  value.ct.notes = notes;
+  EXPECT_TRUE(mentions(identityReport(value, parts).warnings, "the pixels of the CT, MR 'T2'"));
+  library::ArchiveOptions options;
+  EXPECT_TRUE(mentions(identityReport(value, options).warnings, "the CT, MR 'T2'"));
+  options.planOnly = true;
+  EXPECT_FALSE(mentions(identityReport(value, options).warnings, "text in them"));
+  ExportOptions written;
+  for (const auto& [what, text] :
+       {std::pair("ct", "the CT may"), std::pair("dissected", "the CT may"),
+        std::pair("mr", "MR 'T2' may")})
+  {
+    written.what = what;
+    EXPECT_TRUE(mentions(identityWarnings(value, written), text)) << what;
+  }
 }
 
 TEST(IdentityOfACase, ARegionOfTheEarShowsNoFace)

@@ -494,6 +494,24 @@ void warnOfIdentities(const std::string& what, const std::vector<std::string>& t
                        "send");
 }
 
+/// Text in the pixels of images that leave: the primary one, the MRs. Known by their notes, which
+/// every version of the program keeps with the case.
+void warnOfText(const scene::Case& value, bool primary, bool mrs,
+                std::vector<std::string>& warnings)
+{
+  const auto mayHaveText = [](const scene::ImagePart& image)
+  { return std::any_of(image.notes.begin(), image.notes.end(), imaging::isNoteOfText); };
+  std::vector<std::string> images;
+  if (primary && mayHaveText(value.ct))
+    images.push_back(std::string("the ") + primaryName(value));
+  for (const scene::ImagePart& mr : value.mr)
+    if (mrs && mayHaveText(mr))
+      images.push_back("MR '" + mr.name + "'");
+  if (!images.empty())
+    warnings.push_back("the pixels of " + joined(images) +
+                       " may have text in them, which may name the patient: look at them");
+}
+
 /// Structures that strokes removed from and that the case has no more, by the names of then.
 std::vector<std::string> goneStructures(const scene::Case& value)
 {
@@ -660,6 +678,7 @@ IdentityReport reportOf(const scene::Case& value, const SendParts& parts,
                      {value.name, value.description.diagnosis, value.description.procedure},
                      report.warnings);
   }
+  warnOfText(value, images, parts.mr || whole, report.warnings);
   if (faces)
   {
     if (!faces->empty() && (images || parts.mr))
@@ -716,6 +735,7 @@ std::vector<std::string> identityWarnings(const scene::Case& value, const Export
                                   : (what == "ct" || what == "dissected" || what == "surface") &&
                                         showsHead(value.ct.geometry, options.mask)))
     warnings.emplace_back(kHeadText);
+  warnOfText(value, what == "ct" || what == "dissected", isMr, warnings);
   std::vector<std::string> names;
   if (what == "labels" || what == "structure")
     for (const std::string& name : scene::partNames(value))

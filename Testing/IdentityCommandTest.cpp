@@ -5,14 +5,12 @@
 #include <zlib.h>
 #include <zstd.h>
 
-#include "CommandRunner.h"
+#include "DicomValidator.h"
 #include "TestDicom.h"
 #include "TestServers.h"
 
 using petrous::imaging::test::TestSlice;
-using petrous::testing::CommandLine;
-using petrous::testing::quoted;
-using petrous::testing::textOf;
+using namespace petrous::testing;
 
 namespace
 {
@@ -332,9 +330,12 @@ TEST_F(IdentityCommand, ACaseAndAllThatIsMadeOfItHoldNoIdentifier)
   std::strftime(today, sizeof today, "%Y-%m-%d", &utc);
   json(std::string("describe ear --date ") + today);
   // A linked file's own metadata goes along with it, as is said: only its name and place do not.
-  const std::vector<std::string> atHome{
-      secret("folder"),   secret("signer"), secret("author"), secret("film"), today,
-      m_folder.filename()};
+  const std::vector<std::string> atHome{secret("folder"),
+                                        secret("signer"),
+                                        secret("author"),
+                                        secret("film"),
+                                        today,
+                                        m_folder.filename().string()};
   for (const std::string& one : atHome)
     EXPECT_TRUE(has(library(), one)) << one << ": looked for at the right place";
 
@@ -471,6 +472,42 @@ TEST_F(IdentityCommand, ReplacesAFileOnRequestOnly)
   EXPECT_EQ(textOf(out), first);
   json("deidentify " + in + " " + quoted(out) + " --replace");
   EXPECT_NE(textOf(out), first) << "other UIDs";
+}
+
+// All that the program writes as DICOM; what a node is sent: NodeCommand.
+TEST_F(IdentityCommand, WritesValidDicom)
+{
+  if (!hasDicomValidator())
+    GTEST_SKIP() << kNoDicomValidator;
+  makePatient("--dims 32,32,12 --spacing 2.0");
+  const fs::path patient = m_folder / "patient";
+  json("new ear --ct " + quoted(patient / "ct") + " --mr T2=" + quoted(patient / "mr") +
+       " --labels " + quoted(patient / "labels.seg.nrrd"));
+  json("register ear --mr T2 --as-is --transform " + quoted(patient / "truth.json"));
+  json("new mr --modality MR --ct " + quoted(patient / "mr"));
+  const fs::path written = m_folder / "written";
+  fs::create_directories(written);
+  const auto out = [&](const char* name) { return quoted(written / name); };
+  json("export ear --what ct --out " + out("ct/"));
+  json("export ear --what dissected --out " + out("dissected/"));
+  json("export ear --what ct --roi -60,-30,-20,20,-20,20 --out " + out("part/"));
+  json("export ear --what mr --out " + out("mr/"));
+  json("export ear --what mr --on-ct --out " + out("on-ct/"));
+  json("export mr --what ct --out " + out("primary/"));
+  json("export ear --what labels --out " + out("seg.dcm"));
+  fs::copy(patient / "ct", written / "sample-ct");
+  fs::copy(patient / "mr", written / "sample-mr");
+  EXPECT_GT(expectValidDicom(written, m_folder / "dciodvfy.txt"), 60U);
+
+  // De-identified, by each choice.
+  std::size_t count = 0;
+  for (const char* choices : {"", "--dates shift --clean-descriptors --retain-safe-private",
+                              "--dates keep --retain-device --retain-patient-characteristics"})
+  {
+    const fs::path to = m_folder / ("clean" + std::to_string(++count));
+    json("deidentify " + quoted(written) + " " + quoted(to) + " " + choices);
+    EXPECT_GT(expectValidDicom(to, m_folder / "dciodvfy.txt"), 60U) << choices;
+  }
 }
 
 // An independent reader has its own view of the table.

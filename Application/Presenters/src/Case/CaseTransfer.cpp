@@ -577,16 +577,16 @@ IdentityReport reportOf(const scene::Case& value, const SendParts& parts,
     meshes.push_back(mesh.name);
   if ((parts.labels || parts.scene) && !structures.empty())
     report.leaves.push_back(
-        std::string(planOnly ? "the names of structures" : "structures, by the names") +
-        " that you gave them: " + joined(structures));
+        std::string(planOnly ? "the names of structures: " : "structures, by their names: ") +
+        joined(structures));
   if (parts.scene)
   {
     report.leaves.push_back(std::string(planOnly ? "the plan" : "the scene") + " by its name '" +
                             value.name + "': strokes, approaches, appearance, views, landmarks");
     if (!meshes.empty())
       report.leaves.push_back(
-          std::string(planOnly ? "the names of meshes" : "meshes, by the names") +
-          " that you gave them: " + joined(meshes));
+          std::string(planOnly ? "the names of meshes: " : "meshes, by their names: ") +
+          joined(meshes));
     if (const auto gone = goneStructures(value); !gone.empty())
       report.leaves.push_back("names of structures that are gone, in strokes that touched them: " +
                               joined(gone));

@@ -90,6 +90,26 @@ TEST_F(ArchiveCommand, SaysBeforeWhatOfTheCaseLeaves)
   EXPECT_TRUE(has(plan["may_identify"], "planned date"));
 }
 
+TEST_F(ArchiveCommand, WarnsOfWhatMayIdentifyBeforeItWrites)
+{
+  json("describe ear --tag 'mrn 4711471'");
+  const auto quiet = run("archive ear " + file());
+  EXPECT_EQ(quiet.code, 0) << quiet.err;
+  EXPECT_NE(quiet.err.find("tags: 1 of 1 may be"), std::string::npos) << quiet.err;
+  EXPECT_EQ(quiet.err.find("whole head"), std::string::npos) << "64 mm";
+
+  json("sample " + quoted(m_folder / "wide") + " --dims 80,80,20 --spacing 2.0");
+  json("new wide --ct " + quoted(m_folder / "wide/ct"));
+  for (const std::string& line : {"archive wide " + quoted(m_folder / "wide.petrous"),
+                                  "export wide --what ct --out " + quoted(m_folder / "wide.nrrd"),
+                                  "export wide --what ct --out " + quoted(m_folder / "dicom/")})
+  {
+    const auto outcome = run(line);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("whole head"), std::string::npos) << line << outcome.err;
+  }
+}
+
 TEST_F(ArchiveCommand, RefusesWhatItCannotDo)
 {
   EXPECT_EQ(run("archive nobody " + file()).code, 3);

@@ -33,7 +33,7 @@ protected:
 TEST_F(AttachCommand, KeepsListsExtractsAndRemoves)
 {
   const Json done = json("attach ear " + file("film.mp4", kVideo) +
-                         " --note 'of the operation' --date 2026-03-31");
+                         " --name film.mp4 --note 'of the operation' --date 2026-03-31");
   EXPECT_EQ(done.at("attachment").at("kind"), "video");
   EXPECT_EQ(done.at("attachment").at("bytes"), kVideo.size());
   json("attach ear " + file("plan.pdf", "%PDF-1.7") + " --link --name 'the plan.pdf'");
@@ -64,6 +64,20 @@ TEST_F(AttachCommand, KeepsListsExtractsAndRemoves)
   EXPECT_EQ(json("library gc").at("removed"), 1);
 }
 
+TEST_F(AttachCommand, NamesByKindWhatHasNoNameGiven)
+{
+  const auto outcome = run("attach ear " + file("DOE_JOHN_19310517.pdf", "%PDF-1.7"));
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.err.find("'document.pdf'"), std::string::npos) << outcome.err;
+  EXPECT_EQ(json("attachments ear").at("attachments")[0].at("name"), "document.pdf");
+  // A name that is given leaves, and is looked at before.
+  json("attach ear --name DOE_19310517.png " + file("a.ticks", "PTRTICK\n"));
+  const auto dry = json("archive ear --dry-run " + quoted(m_folder / "ear.petrous"));
+  EXPECT_NE(dry.at("may_identify").dump().find("names and notes of attachments: 1 of"),
+            std::string::npos)
+      << dry;
+}
+
 TEST_F(AttachCommand, RefusesInOneLine)
 {
   const std::string film = file("film.mp4", kVideo);
@@ -82,20 +96,24 @@ TEST_F(AttachCommand, RefusesInOneLine)
   EXPECT_EQ(json("attachments ear").at("attachments"), Json::array());
 }
 
-TEST_F(AttachCommand, ArchivesLeaveVideosUnlessAsked)
+TEST_F(AttachCommand, ArchivesLeaveVideosAndDocumentsUnlessAsked)
 {
-  json("attach ear " + file("film.mp4", kVideo));
-  json("attach ear " + file("plan.pdf", "%PDF-1.7 of the plan"));
+  json("attach ear --name film.mp4 " + file("film.mp4", kVideo));
+  json("attach ear --name plan.pdf " + file("plan.pdf", "%PDF-1.7 of the plan"));
   const auto restored = [&](const std::string& options, const std::string& name)
   {
     const std::string archive = quoted(m_folder / (name + ".petrous"));
     const auto outcome = run("archive ear " + archive + " " + options);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_EQ(outcome.err.find("'film.mp4' stays") == std::string::npos, !options.empty());
-    EXPECT_NE(outcome.err.find("metadata is not removed"), std::string::npos);
+    const auto stays = [&](const char* name)
+    { return outcome.err.find(std::string(name) + "' stays") != std::string::npos; };
+    EXPECT_EQ(stays("film.mp4"), options.find("videos") == std::string::npos) << outcome.err;
+    EXPECT_EQ(stays("plan.pdf"), options.find("documents") == std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.find("metadata is not removed") == std::string::npos, options.empty());
     json("restore " + archive + " --as " + name);
     return json("attachments " + name).at("attachments").size();
   };
-  EXPECT_EQ(restored("", "usual"), 1U);
-  EXPECT_EQ(restored("--with-videos", "all"), 2U);
+  EXPECT_EQ(restored("", "usual"), 0U);
+  EXPECT_EQ(restored("--with-documents", "documents"), 1U);
+  EXPECT_EQ(restored("--with-documents --with-videos", "all"), 2U);
 }

@@ -183,6 +183,54 @@ TEST_F(BatchCommand, DoesEachRowAndGoesOnPastABadOne)
         << archive;
 }
 
+// What leaves is looked at as by the commands, and chosen.
+TEST_F(BatchCommand, NotesWhatMayIdentifyAndLeavesOutWhatIsAskedFor)
+{
+  json("sample " + quoted(m_folder / "wide") + " --dims 80,80,20 --spacing 2.0");
+  std::ofstream(m_folder / "Doe.pdf") << "%PDF-1.7 of Doe";
+  std::ofstream(m_folder / "Doe.mp4") << std::string("\0\0\0\x18", 4) + "ftypmp42 of Doe";
+  json("new wide --ct " + quoted(m_folder / "wide/ct"));
+  json("describe wide --note 'of ward 7' --tag 'mrn 4711471'");
+  json("attach wide " + quoted(m_folder / "Doe.pdf"));
+  json("attach wide " + quoted(m_folder / "Doe.mp4"));
+  const auto run = [this](const std::string& choices, const std::string& options = "")
+  {
+    write("name,archive,mask_face,without_notes,with_videos,with_documents\nwide,a.petrous," +
+          choices + "\n");
+    return json(batch(options))["rows"][0];
+  };
+  const auto has = [](const nlohmann::json& row, const char* text)
+  { return row["notes"].dump().find(text) != std::string::npos; };
+  const auto restored = [this]
+  {
+    static int n = 0;
+    const std::string name = "restored" + std::to_string(++n);
+    json("restore " + quoted(m_folder / "a.petrous") + " --as " + name);
+    return std::pair(json("describe " + name)["description"]["note"].get<std::string>(),
+                     json("attachments " + name)["attachments"].size());
+  };
+
+  for (const char* options : {"--dry-run", ""})
+  {
+    const auto row = run("no,,no,", options);
+    EXPECT_TRUE(has(row, "whole head")) << row;
+    EXPECT_TRUE(has(row, "the note: read it")) << row;
+    EXPECT_TRUE(has(row, "tags: 1 of 1")) << row;
+  }
+  EXPECT_EQ(restored(), std::pair(std::string("of ward 7"), std::size_t{0}));
+  EXPECT_EQ(run("no,,no,")["status"], "already done");
+
+  const auto row = run("yes,yes,yes,yes");
+  EXPECT_EQ(row["status"], "done") << "other choices";
+  EXPECT_FALSE(has(row, "whole head") || has(row, "the note: read it")) << row;
+  EXPECT_TRUE(has(row, "face")) << "that none was found: " << row;
+  EXPECT_EQ(restored(), std::pair(std::string(), std::size_t{2}));
+  EXPECT_EQ(run("no,,no,")["status"], "done") << "the file is another one";
+
+  write("name,tags,mask_face\nwide,x,yes\n");
+  EXPECT_NE(CommandLine::run(batch()).out.find("'mask_face' goes with"), std::string::npos);
+}
+
 TEST_F(BatchCommand, DoesNothingTwice)
 {
   writeMany(2);

@@ -12,11 +12,9 @@
 #include <spawn.h>
 #include <sys/stat.h>
 
-#include "CommandRunner.h"
+#include "DicomValidator.h"
 
-using petrous::testing::CommandLine;
-using petrous::testing::quoted;
-using petrous::testing::textOf;
+using namespace petrous::testing;
 
 namespace
 {
@@ -381,11 +379,6 @@ std::string answerOf(const std::string& command)
   return answer;
 }
 
-bool isThere(const std::string& program)
-{
-  return std::system(("command -v " + program + " >/dev/null").c_str()) == 0;
-}
-
 TEST_F(CommandLine, ExportsASegmentationThatBelongsToTheSeries)
 {
   makePatient();
@@ -472,17 +465,13 @@ for name, count in counts.items():
   EXPECT_EQ(answerOf("/usr/bin/python3 " + quoted(m_folder / "count.py") + " " + quoted(seg)),
             wanted);
 
-  if (!isThere("dciodvfy") || !isThere("dcentvfy"))
-    GTEST_SKIP() << "dicom3tools is not there to check what was written";
+  if (!hasDicomValidator())
+    GTEST_SKIP() << kNoDicomValidator;
   json("export ear --what mr --out " + quoted(m_folder / "mr/"));
   json("export ear --what dissected --out " + quoted(m_folder / "dissected/"));
-  for (const std::string file :
+  for (const char* file :
        {"seg.dcm", "one.dcm", "ct/slice-0001.dcm", "mr/slice-0001.dcm", "dissected/slice-0001.dcm"})
-  {
-    const std::string report = answerOf("dciodvfy " + quoted(m_folder / file));
-    EXPECT_FALSE(report.empty());
-    EXPECT_EQ(report.find("Error"), report.npos) << file << ": " << report;
-  }
+    EXPECT_EQ(expectValidDicom(m_folder / file, m_folder / "dciodvfy.txt"), 1U);
   const std::string together =
       answerOf("dcentvfy " + quoted(seg) + " " + quoted(m_folder / "ct") + "/*.dcm");
   EXPECT_EQ(together.find("Error"), together.npos) << together;

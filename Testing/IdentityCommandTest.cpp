@@ -1,17 +1,104 @@
+#include <array>
+#include <ctime>
 #include <vector>
 
-#include "CommandRunner.h"
+#include <zlib.h>
+#include <zstd.h>
+
+#include "DicomValidator.h"
 #include "TestDicom.h"
+#include "TestServers.h"
 
 using petrous::imaging::test::TestSlice;
-using petrous::testing::CommandLine;
-using petrous::testing::quoted;
-using petrous::testing::textOf;
+using namespace petrous::testing;
 
 namespace
 {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kMostUnpacked = std::size_t{1} << 26;
+
+/// A stream of deflate, as zlib's `windowBits` says (-15: raw, 31: gzip) that begins at `at`, as
+/// far as it is one.
+std::string inflated(const std::string& bytes, std::size_t at, int windowBits)
+{
+  z_stream stream = {};
+  if (::inflateInit2(&stream, windowBits) != Z_OK)
+    return {};
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data() + at));
+  stream.avail_in = static_cast<uInt>(bytes.size() - at);
+  std::string out;
+  std::vector<char> block(std::size_t{1} << 16);
+  int state = Z_OK;
+  while (state == Z_OK && out.size() < kMostUnpacked)
+  {
+    stream.next_out = reinterpret_cast<Bytef*>(block.data());
+    stream.avail_out = static_cast<uInt>(block.size());
+    state = ::inflate(&stream, Z_NO_FLUSH);
+    out.append(block.data(), block.size() - stream.avail_out);
+    if (state == Z_OK && stream.avail_in == 0 && stream.avail_out != 0)
+      break;
+  }
+  ::inflateEnd(&stream);
+  return out;
+}
+
+/// A frame of zstd that begins at `at`, as far as it is one.
+std::string decompressed(const std::string& bytes, std::size_t at)
+{
+  ZSTD_DStream* stream = ::ZSTD_createDStream();
+  ZSTD_inBuffer in{bytes.data() + at, bytes.size() - at, 0};
+  std::string out;
+  std::vector<char> block(::ZSTD_DStreamOutSize());
+  for (std::size_t left = 1; left != 0 && out.size() < kMostUnpacked;)
+  {
+    ZSTD_outBuffer to{block.data(), block.size(), 0};
+    left = ::ZSTD_decompressStream(stream, &to, &in);
+    if (::ZSTD_isError(left) || (to.pos == 0 && in.pos == in.size))
+      break;
+    out.append(block.data(), to.pos);
+  }
+  ::ZSTD_freeDStream(stream);
+  return out;
+}
+
+/// The bytes, and those of all that is packed in them, at any depth: zip entries, gzip members and
+/// frames of zstd, wherever they begin. By zlib and zstd alone; shares no code with the program.
+std::vector<std::string> unpacked(const std::string& whole)
+{
+  std::vector<std::string> all{whole};
+  for (std::size_t n = 0; n < all.size(); ++n)
+  {
+    const std::string bytes = all[n];
+    const auto each = [&bytes](const std::string& magic, const auto& unpack)
+    {
+      for (std::size_t at = bytes.find(magic); at != bytes.npos; at = bytes.find(magic, at + 1))
+        unpack(at);
+    };
+    const auto keep = [&all](std::string found)
+    {
+      if (!found.empty())
+        all.push_back(std::move(found));
+    };
+    each("\x1f\x8b\x08", [&](std::size_t at) { keep(inflated(bytes, at, 31)); });
+    each("\x28\xb5\x2f\xfd", [&](std::size_t at) { keep(decompressed(bytes, at)); });
+    each(std::string("PK\3\4", 4),
+         [&](std::size_t at)
+         {
+           if (bytes.size() - at < 30 || bytes[at + 8] != 8) // deflated; else it stands there
+             return;
+           const auto number = [&](std::size_t byte)
+           {
+             return static_cast<std::size_t>(static_cast<unsigned char>(bytes[at + byte])) |
+                    static_cast<std::size_t>(static_cast<unsigned char>(bytes[at + byte + 1])) << 8;
+           };
+           if (const std::size_t begin = at + 30 + number(26) + number(28); begin < bytes.size())
+             keep(inflated(bytes, begin, -15));
+         });
+  }
+  return all;
+}
 
 // A series with an identifier at each place where DICOM has one.
 class IdentityCommand : public CommandLine
@@ -88,22 +175,25 @@ protected:
     return folder;
   }
 
-  // Names and bytes of all files below these folders.
-  void expectNoPlantIn(const std::vector<fs::path>& roots) const
+  // Names and bytes of all files below these folders, whatever packs them; `more`: also must not be
+  // in them.
+  void expectNoPlantIn(const std::vector<fs::path>& roots,
+                       const std::vector<std::string>& more = {}) const
   {
     std::size_t files = 0;
     const auto look = [&](const fs::path& path)
     {
       ++files;
-      const std::string text = path.filename().string() + "\n" + textOf(path);
-      for (const std::string& identifier : m_plants)
-      {
-        EXPECT_EQ(text.find(identifier), std::string::npos) << identifier << " in " << path;
-        std::string wide; // UTF-16
-        for (const char c : identifier)
-          wide += {c, '\0'};
-        EXPECT_EQ(text.find(wide), std::string::npos) << identifier << " in " << path;
-      }
+      for (const std::string& text : unpacked(path.filename().string() + "\n" + textOf(path)))
+        for (const auto* list : {&m_plants, &more})
+          for (const std::string& identifier : *list)
+          {
+            EXPECT_EQ(text.find(identifier), std::string::npos) << identifier << " in " << path;
+            std::string wide; // UTF-16
+            for (const char c : identifier)
+              wide += {c, '\0'};
+            EXPECT_EQ(text.find(wide), std::string::npos) << identifier << " in " << path;
+          }
     };
     for (const fs::path& root : roots)
       if (fs::is_directory(root))
@@ -117,25 +207,141 @@ protected:
     EXPECT_GT(files, roots.size());
   }
 
+  /// Whether some file below the folder has the text, packed or not.
+  static bool has(const fs::path& root, const std::string& text)
+  {
+    for (const auto& entry : fs::recursive_directory_iterator(root))
+      if (entry.is_regular_file())
+        for (const std::string& one : unpacked(textOf(entry.path())))
+          if (one.find(text) != one.npos)
+            return true;
+    return false;
+  }
+
   std::vector<std::string> m_plants;
 };
 
+/// Of a PNG, with what authors are named in.
+std::string pngNaming(const std::string& author)
+{
+  const auto big = [](std::size_t value)
+  {
+    std::string text;
+    for (int shift = 24; shift >= 0; shift -= 8)
+      text += static_cast<char>(value >> shift);
+    return text;
+  };
+  const auto chunk = [&](const std::string& type, const std::string& body)
+  {
+    const std::string all = type + body;
+    return big(body.size()) + all +
+           big(::crc32(0, reinterpret_cast<const Bytef*>(all.data()),
+                       static_cast<uInt>(all.size())));
+  };
+  std::array<Bytef, 64> packed{};
+  uLongf count = packed.size();
+  const std::string pixels("\0ab\0cd", 6);
+  ::compress(packed.data(), &count, reinterpret_cast<const Bytef*>(pixels.data()), pixels.size());
+  return "\x89PNG\r\n\x1a\n" + chunk("IHDR", big(2) + big(2) + std::string("\x08\0\0\0\0", 5)) +
+         chunk("tEXt", "Author" + std::string(1, '\0') + author) +
+         chunk("IDAT", std::string(reinterpret_cast<const char*>(packed.data()), count)) +
+         chunk("IEND", "") + author;
+}
+
 } // namespace
+
+// The reader of what is packed finds what it looks for; else the tests below say nothing.
+TEST_F(IdentityCommand, LooksIntoWhatIsPacked)
+{
+  const std::string text(5000, 'x');
+  const std::string needle = text + "Gorblimey" + text;
+  std::string zstd(::ZSTD_compressBound(needle.size()), '\0');
+  zstd.resize(::ZSTD_compress(zstd.data(), zstd.size(), needle.data(), needle.size(), 3));
+  const auto finds = [](const std::string& bytes)
+  {
+    const auto all = unpacked(bytes);
+    return std::any_of(all.begin(), all.end(),
+                       [](const auto& one) { return one.find("Gorblimey") != one.npos; });
+  };
+  EXPECT_TRUE(finds("in front of it " + zstd + " behind it"));
+  fs::create_directories(m_folder / "inner");
+  std::ofstream(m_folder / "inner/a.txt") << needle;
+  const std::string at = "cd " + quoted(m_folder) + " && ";
+  ASSERT_EQ(std::system((at + "gzip -k inner/a.txt").c_str()), 0);
+  EXPECT_TRUE(finds("\x1f\x8b" + textOf(m_folder / "inner/a.txt.gz")));
+  std::ofstream(m_folder / "zip.py") << "import zipfile\n"
+                                        "with zipfile.ZipFile('inner.zip', 'w') as z:\n"
+                                        "  z.write('inner/a.txt.gz')\n"
+                                        "with zipfile.ZipFile('outer.zip', 'w', 8) as z:\n"
+                                        "  z.write('inner.zip')\n";
+  if (std::system((at + "/usr/bin/python3 zip.py 2>/dev/null").c_str()) == 0)
+  {
+    EXPECT_EQ(textOf(m_folder / "outer.zip").find("Gorblimey"), std::string::npos);
+    EXPECT_TRUE(finds(textOf(m_folder / "outer.zip"))) << "gzip in zip in zip";
+  }
+}
 
 TEST_F(IdentityCommand, ACaseAndAllThatIsMadeOfItHoldNoIdentifier)
 {
-  const std::string ct = quoted(writePlanted());
+  const fs::path in = writePlanted();
+  const std::string ct = quoted(in);
   ASSERT_GE(m_plants.size(), 50U);
-  json("new ear --ct " + ct + " --mr T2=" + ct);
+  fs::create_directories(m_folder / "made");
+  const auto out = [this](const std::string& name) { return quoted(m_folder / "made" / name); };
+  const auto told = [this](const std::string& line, const char* name)
+  {
+    const auto outcome = run(line);
+    EXPECT_EQ(outcome.code, 0) << line << outcome.err;
+    std::ofstream(m_folder / "made" / name) << outcome.out << outcome.err;
+  };
+  told("new ear --ct " + ct + " --mr T2=" + ct, "new.txt");
   std::ofstream(m_folder / "path.csv") << "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,drill\n"
                                        << "0,-6,23.5,5.6,1,0,0,0,1\n0.2,-6,23.5,3,1,0,0,0,0\n";
   json("drill ear --path " + quoted(m_folder / "path.csv") + " --record " +
        quoted(m_folder / "out.recording"));
-  const auto out = [this](const std::string& name) { return quoted(m_folder / "made" / name); };
-  fs::create_directories(m_folder / "made");
+  EXPECT_TRUE(has(m_folder, "live session") || has(m_folder, "tool path"))
+      << "recordings are looked into";
+  json("describe ear --thumbnail");
+
+  // What the user has at home, and what must not leave: who signed, when, files by their names and
+  // with what they say, and where they are.
+  const auto secret = [](const char* of) { return std::string("Zyx") + of + "Wvu"; };
+  const fs::path mine = m_folder / secret("folder");
+  fs::create_directories(mine);
+  const auto file = [&](const std::string& ending, const std::string& bytes)
+  {
+    const fs::path path = mine / (plant() + "_Gorblimey_19310517" + ending);
+    std::ofstream(path, std::ios::binary) << bytes;
+    return quoted(path);
+  };
+  json("register ear --mr T2 --as-is");
+  json("register ear --mr T2 --sign-off 'Dr " + secret("signer") + "'");
+  told("attach ear " + file(".png", pngNaming(plant())), "attach.txt");
+  json("attach ear " + file(".pdf", "%PDF-1.7 /Author (" + secret("author") + ")"));
+  json("attach ear " + file(".mp4", std::string("\0\0\0\x18", 4) + "ftypmp42" + secret("film")));
+  json("attach ear " + quoted(m_folder / "out.recording"));
+  const fs::path linked = mine / "linked.png";
+  std::ofstream(linked, std::ios::binary) << pngNaming(secret("linked"));
+  json("attach ear --link " + quoted(linked));
+  char today[16];
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  ::gmtime_r(&now, &utc);
+  std::strftime(today, sizeof today, "%Y-%m-%d", &utc);
+  json(std::string("describe ear --date ") + today);
+  // A linked file's own metadata goes along with it, as is said: only its name and place do not.
+  const std::vector<std::string> atHome{secret("folder"),
+                                        secret("signer"),
+                                        secret("author"),
+                                        secret("film"),
+                                        today,
+                                        m_folder.filename().string()};
+  for (const std::string& one : atHome)
+    EXPECT_TRUE(has(library(), one)) << one << ": looked for at the right place";
+
   json("archive ear " + out("ear.petrous"));
   json("archive ear --plan-only " + out("plan.petrous"));
-  json("restore " + out("ear.petrous") + " --library " + quoted(m_folder / "other"));
+  told("archive ear --dry-run " + out("none.petrous"), "report.txt");
   json("render ear --size 64x48 --out " + out("ear.png"));
   json("slice ear --plane axial --size 64x48 --out " + out("slice.png"));
   json("export ear --what ct --out " + out("ct.nrrd"));
@@ -144,11 +350,60 @@ TEST_F(IdentityCommand, ACaseAndAllThatIsMadeOfItHoldNoIdentifier)
   json("export ear --what mr --out " + out("mr/"));
   json("export ear --what surface --out " + out("ear.obj"));
   json("export ear --what mask --out " + out("mask.nrrd"));
-  const auto info = run("info ear --json");
-  EXPECT_EQ(info.code, 0);
-  std::ofstream(m_folder / "made" / "info.json") << info.out << info.err;
+  const std::vector<fs::path> leaving{m_folder / "made/ear.petrous", m_folder / "made/plan.petrous",
+                                      m_folder / "made"};
+  expectNoPlantIn(leaving, atHome);
+  std::ofstream(m_folder / "made" / "info.json") << run("info ear --json").out;
+
+  json("restore " + out("ear.petrous") + " --library " + quoted(m_folder / "other"));
+  EXPECT_TRUE(has(m_folder / "other/cases", "signed_off")) << "it was signed, and stays so";
+  EXPECT_EQ(json("attachments ear --library " + quoted(m_folder / "other"))["attachments"].size(),
+            3U)
+      << "screenshots and the recording";
+  expectNoPlantIn({m_folder / "other/cases", m_folder / "other/objects"}, atHome);
+
+  fs::create_directories(m_folder / "batch");
+  std::ofstream(m_folder / "table.csv")
+      << "name,folder,archive\nmany,\"" << in.string() << "\",batch/many.petrous\n";
+  for (const char* report : {"batch/report.csv", "batch/report.json"})
+    told("batch " + quoted(m_folder / "table.csv") + " --report " + quoted(m_folder / report),
+         "batch.txt");
   expectNoPlantIn({library(), m_folder / "other", m_folder / "made", m_folder / "state",
-                   m_folder / "out.recording"});
+                   m_folder / "batch", m_folder / "out.recording"});
+}
+
+// What a node is sent, as it keeps it.
+TEST_F(IdentityCommand, ANodeGetsNoIdentifier)
+{
+  if (!petrous::network::test::Orthanc::installed())
+    GTEST_SKIP() << "Orthanc (package orthanc) is not installed";
+  const std::string ct = quoted(writePlanted());
+  json("new ear --ct " + ct + " --mr T2=" + ct);
+  std::ofstream(m_folder / "path.csv") << "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,drill\n"
+                                       << "0,-6,23.5,5.6,1,0,0,0,1\n0.2,-6,23.5,3,1,0,0,0,0\n";
+  json("drill ear --path " + quoted(m_folder / "path.csv"));
+  json("segment ear block --threshold 1000,1300");
+  json("register ear --mr T2 --as-is");
+  json("register ear --mr T2 --sign-off 'Dr ZyxsignerWvu'");
+  const fs::path pdf = m_folder / (plant() + ".pdf");
+  std::ofstream(pdf) << "%PDF-1.7 /Author (ZyxauthorWvu)";
+  json("attach ear " + quoted(pdf));
+  const auto started = json("history ear")["strokes"][0]["started_at"].get<std::string>();
+  const petrous::network::test::Orthanc server(m_folder, {});
+  json("nodes add pacs --host 127.0.0.1 --aet ORTHANC --port " +
+       std::to_string(server.node().port));
+  const auto sent = run("send ear --to pacs");
+  EXPECT_EQ(sent.code, 0) << sent.err;
+  const fs::path kept = m_folder / "kept";
+  fs::create_directories(kept);
+  std::ofstream(kept / "told.txt") << sent.out << sent.err;
+  std::size_t objects = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(server.storage()))
+    if (entry.is_regular_file() && textOf(entry.path()).substr(0, 132).find("DICM") == 128)
+      fs::copy_file(entry.path(), kept / std::to_string(++objects));
+  EXPECT_GE(objects, 12U + 12U + 1U + 1U) << "CT, MR, segmentation and scene";
+  EXPECT_TRUE(has(kept, "signed_off")) << "the scene is looked into";
+  expectNoPlantIn({kept, kept}, {"ZyxsignerWvu", "ZyxauthorWvu", started.substr(0, 10)});
 }
 
 TEST_F(IdentityCommand, DeidentifiesAFolderWithMapAndReport)
@@ -217,6 +472,42 @@ TEST_F(IdentityCommand, ReplacesAFileOnRequestOnly)
   EXPECT_EQ(textOf(out), first);
   json("deidentify " + in + " " + quoted(out) + " --replace");
   EXPECT_NE(textOf(out), first) << "other UIDs";
+}
+
+// All that the program writes as DICOM; what a node is sent: NodeCommand.
+TEST_F(IdentityCommand, WritesValidDicom)
+{
+  if (!hasDicomValidator())
+    GTEST_SKIP() << kNoDicomValidator;
+  makePatient("--dims 32,32,12 --spacing 2.0");
+  const fs::path patient = m_folder / "patient";
+  json("new ear --ct " + quoted(patient / "ct") + " --mr T2=" + quoted(patient / "mr") +
+       " --labels " + quoted(patient / "labels.seg.nrrd"));
+  json("register ear --mr T2 --as-is --transform " + quoted(patient / "truth.json"));
+  json("new mr --modality MR --ct " + quoted(patient / "mr"));
+  const fs::path written = m_folder / "written";
+  fs::create_directories(written);
+  const auto out = [&](const char* name) { return quoted(written / name); };
+  json("export ear --what ct --out " + out("ct/"));
+  json("export ear --what dissected --out " + out("dissected/"));
+  json("export ear --what ct --roi -60,-30,-20,20,-20,20 --out " + out("part/"));
+  json("export ear --what mr --out " + out("mr/"));
+  json("export ear --what mr --on-ct --out " + out("on-ct/"));
+  json("export mr --what ct --out " + out("primary/"));
+  json("export ear --what labels --out " + out("seg.dcm"));
+  fs::copy(patient / "ct", written / "sample-ct");
+  fs::copy(patient / "mr", written / "sample-mr");
+  EXPECT_GT(expectValidDicom(written, m_folder / "dciodvfy.txt"), 60U);
+
+  // De-identified, by each choice.
+  std::size_t count = 0;
+  for (const char* choices : {"", "--dates shift --clean-descriptors --retain-safe-private",
+                              "--dates keep --retain-device --retain-patient-characteristics"})
+  {
+    const fs::path to = m_folder / ("clean" + std::to_string(++count));
+    json("deidentify " + quoted(written) + " " + quoted(to) + " " + choices);
+    EXPECT_GT(expectValidDicom(to, m_folder / "dciodvfy.txt"), 60U) << choices;
+  }
 }
 
 // An independent reader has its own view of the table.

@@ -122,7 +122,8 @@ def attach(petrous, folder):
     (folder / "plan.pdf").write_bytes(b"%PDF-1.7\n" + bytes(range(256)))
     (folder / "film.mp4").write_bytes(b"\0\0\0\x18ftypmp42" + bytes(range(256)) * 100)
     for name in ("view.png", "tool.ticks", "plan.pdf"):
-        petrous("attach", "ear", folder / name, "--note", "of %s\nsecond line" % name, "--stroke", 2)
+        petrous("attach", "ear", folder / name, "--name", name, "--note",
+                "of %s\nsecond line" % name, "--stroke", 2)
     done = petrous("attach", "ear", folder / "film.mp4")
     check(done["attachment"]["kind"] == "video", "a video is attached")
 
@@ -133,6 +134,8 @@ def state(petrous, name, out):
     seen = {}
     history = petrous("history", name)
     history.pop("case")
+    for stroke in history["strokes"]:
+        stroke.pop("started_at")
     info = petrous("info", name)
     for own in ("case", "resources", "disk"):
         info.pop(own, None)
@@ -178,6 +181,8 @@ def manifest(petrous, name):
     whole["attachments"] = [one for one in whole["attachments"] if one["kind"] != "video"]
     for one in whole["attachments"]:
         one.pop("date", None)
+    for stroke in whole["dissection"]["strokes"]:
+        stroke.pop("started_at")
     return whole
 
 
@@ -330,7 +335,7 @@ def take(scratch):
     check_exports(here, "ear", seen, folder / "here")
 
     archive = folder / "ear.petrous"
-    here("archive", "ear", archive)
+    here("archive", "ear", archive, "--with-documents")
     check_archive(archive, seen)
     there = Petrous(asked.petrous, folder / "second")
     there("restore", archive)
@@ -341,7 +346,7 @@ def take(scratch):
         try:
             node = ("nodes", "add", "pacs", "--host", "127.0.0.1", "--port", port, "--aet", "ORTHANC")
             there(*node)
-            sent = there("send", "ear", "--to", "pacs")
+            sent = there("send", "ear", "--to", "pacs", "--with-documents")
             check(sent["completed"] == sent["instances"] and sent["failed"] == 0,
                   "sent %d instances" % sent["instances"])
             third = Petrous(asked.petrous, folder / "third")

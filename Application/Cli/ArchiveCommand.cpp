@@ -16,7 +16,8 @@ struct ArchiveCommandOptions
 {
   std::string caseName, file;
   int level = library::ArchiveOptions{}.level;
-  bool planOnly = false, keepIdentity = false, withoutNotes = false, withVideos = false;
+  bool planOnly = false, keepIdentity = false, withoutNotes = false, withVideos = false,
+       withDocuments = false;
   bool dryRun = false;
   MaskOptions mask;
 };
@@ -38,12 +39,19 @@ void archive(const Context& context, const ArchiveCommandOptions& options)
     throw UsageError("archive: a plan has no images; give --plan-only, or --mask-face and --roi");
   context.refuseOverwriting({options.file});
   const library::Library library = context.openLibrary();
-  const library::ArchiveOptions how{
-      options.planOnly,     options.level,      options.withoutNotes,
-      options.keepIdentity, options.withVideos, presenters::maskForArchive(library, mask)};
+  const library::ArchiveOptions how{options.planOnly,
+                                    options.level,
+                                    options.withoutNotes,
+                                    options.keepIdentity,
+                                    options.withVideos,
+                                    options.withDocuments,
+                                    presenters::maskForArchive(library, mask)};
+  const presenters::IdentityReport report =
+      presenters::identityReport(library.open(options.caseName), how, mask);
   if (options.dryRun)
-    return printIdentityReport(context,
-                               presenters::identityReport(library.open(options.caseName), how));
+    return printIdentityReport(context, report);
+  for (const std::string& warning : report.warnings) // before anything is written
+    context.warn(warning);
   const library::ArchiveSummary done =
       library::archiveCase(library, options.caseName, options.file, how, context.progress());
   for (const std::string& note : done.notes)
@@ -93,12 +101,15 @@ void addArchiveCommands(CLI::App& app, Context& context)
                     "Strokes, views and appearance without voxels; restored where the same CT is");
   command->add_flag("--keep-identity", out->keepIdentity,
                     "Keep what may identify the patient: the dates of the planned operation and of "
-                    "attachments");
+                    "attachments, the times of strokes, and who signed registrations and when");
   command->add_flag("--without-notes", out->withoutNotes,
                     "Leave out the note of the description, which else goes along as it is");
   command->add_flag("--with-videos", out->withVideos,
                     "Take attached videos along, which else stay: they may show or name the "
                     "patient");
+  command->add_flag("--with-documents", out->withDocuments,
+                    "Take attached PDFs along, which else stay: they may name the patient, also in "
+                    "their metadata, which is not removed");
   addMaskOptions(*command, out->mask);
   command->add_flag("--dry-run", out->dryRun,
                     "Only say what of the case would be in the file, and what may identify the "

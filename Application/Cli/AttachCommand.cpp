@@ -75,14 +75,18 @@ void attach(const Context& context, const AttachCommandOptions& options)
     attachment.stroke = strokes[*options.stroke - 1]->object;
   }
   const std::string name = library::attach(value, std::move(attachment));
+  if (options.name.empty())
+    context.warn("named '" + name +
+                 "' and not as its file, whose name may be a patient's; --name "
+                 "gives another name");
   library.save(value, context.progress());
   const scene::Attachment& one = scene::findAttachment(value, name);
   if (one.kind == scene::Attachment::Kind::Video)
     context.warn("a video may show or name the patient; archives and send leave it here unless "
                  "asked (--with-videos), and its metadata is not removed");
   if (one.kind == scene::Attachment::Kind::Document)
-    context.warn("metadata of a PDF is not removed; see that it names nobody before the case is "
-                 "handed on");
+    context.warn("a PDF may name the patient, also in its metadata, which is not removed; archives "
+                 "and send leave it here unless asked (--with-documents)");
   context.print("case '" + value.name + "' has a new attachment:");
   context.print(attachmentLine(library, value, one));
   context.printJson({{"case", value.name}, {"attachment", attachmentJson(library, value, one)}});
@@ -146,7 +150,10 @@ void addAttachCommands(CLI::App& app, Context& context)
       ->required();
   command->add_flag("--link", in->link,
                     "Keep path, size and SHA-256 only; the file stays where it is");
-  command->add_option("--name", in->name, "In the case, instead of the file's")->type_name("NAME");
+  command
+      ->add_option("--name", in->name,
+                   "In the case (else by its kind: document.pdf); travels with archives")
+      ->type_name("NAME");
   command->add_option("--note", in->note, "Free text; travels with archives: name nobody")
       ->type_name("TEXT");
   command->add_option("--date", in->date, "Of the file (today); archives leave it out")

@@ -29,6 +29,7 @@
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CaseRegistration.h"
 #include "petrous/Presenters/CaseTransfer.h"
+#include "petrous/Presenters/LeavingImages.h"
 #include "petrous/Scene/Placement.h"
 #include "petrous/Volume/VolumeBytes.h"
 
@@ -629,6 +630,22 @@ private:
     return true;
   }
 
+  // What leaves is another thing with other choices, so that they belong to the key of the step.
+  static std::string choicesOf(const BatchRow& row)
+  {
+    return std::string(row.masksFace ? " mask_face" : "") +
+           (row.withoutNotes ? " without_notes" : "") + (row.withVideos ? " with_videos" : "") +
+           (row.withDocuments ? " with_documents" : "");
+  }
+
+  // In the report of the row: nobody may be there to read a warning.
+  static void noteIdentities(const presenters::IdentityReport& report, RowResult& result)
+  {
+    for (const std::string& warning : report.warnings)
+      if (std::find(result.notes.begin(), result.notes.end(), warning) == result.notes.end())
+        result.notes.push_back(warning);
+  }
+
   // Whether a step was done with the case as it is now.
   bool isDoneWith(const scene::Case& value, const json& record) const
   {
@@ -643,15 +660,23 @@ private:
     step.text = row.archive.string();
     if (isPlanned(library, row))
       return true;
-    const std::string key = "archive " + row.name + " " + row.archive.string();
+    const std::string key = "archive " + row.name + " " + row.archive.string() + choicesOf(row);
     const scene::Case value = library.open(row.name);
     const json record = m_state.find(key);
     if (isDoneWith(value, record) && record.value("file", json()) == stampOf(row.archive))
       return false;
+    scene::ImageMask mask;
+    mask.face = row.masksFace;
+    library::ArchiveOptions how;
+    how.withoutNotes = row.withoutNotes;
+    how.withVideos = row.withVideos;
+    how.withDocuments = row.withDocuments;
+    how.prepare = presenters::maskForArchive(library, mask);
+    noteIdentities(presenters::identityReport(value, how, mask), result);
     if (m_options.dryRun)
       return true;
     const library::ArchiveSummary done =
-        library::archiveCase(library, row.name, row.archive, {}, progress);
+        library::archiveCase(library, row.name, row.archive, how, progress);
     for (const std::string& note : done.notes)
       result.notes.push_back(note);
     if (!done.durable)
@@ -667,14 +692,21 @@ private:
     step.text = "'" + row.node + "'";
     if (isPlanned(library, row))
       return true;
-    const std::string key = "send " + row.name + " " + row.node;
+    const std::string key = "send " + row.name + " " + row.node + choicesOf(row);
     const scene::Case value = library.open(row.name);
     if (isDoneWith(value, m_state.find(key)))
       return false;
+    presenters::SendParts parts;
+    parts.ct = parts.mr = parts.labels = parts.scene = true;
+    parts.note = !row.withoutNotes;
+    parts.videos = row.withVideos;
+    parts.documents = row.withDocuments;
+    parts.mask.face = row.masksFace;
+    noteIdentities(presenters::identityReport(value, parts), result);
     if (m_options.dryRun)
       return true;
     const presenters::SendSummary done =
-        presenters::sendCase(library, row.name, node, {true, true, true, true}, progress);
+        presenters::sendCase(library, row.name, node, parts, progress);
     for (const std::string& note : done.notes)
       result.notes.push_back(note);
     if (const std::string why = presenters::unlistedText(done.transfer); !why.empty())

@@ -40,7 +40,7 @@ struct Column
   const char* text;
 };
 
-constexpr std::array<Column, 20> kColumns{{
+constexpr std::array<Column, 24> kColumns{{
     {"name", Step::None, "the case's name (needed)"},
     {"folder", Step::Build, "CT: DICOM folder or image file; blank: the case is there already"},
     {"series", Step::Build, "which series of the folder: UID or UID#VOLUME"},
@@ -61,6 +61,10 @@ constexpr std::array<Column, 20> kColumns{{
     {"date", Step::Describe, "of the planned operation, YYYY-MM-DD"},
     {"register", Step::None, "yes or no: every MR that is not registered"},
     {"archive", Step::None, "file NAME.petrous, or a folder"},
+    {"mask_face", Step::None, "yes or no: air in place of the face in what is archived and sent"},
+    {"without_notes", Step::None, "yes or no: the note stays"},
+    {"with_videos", Step::None, "yes or no: attached videos go along"},
+    {"with_documents", Step::None, "yes or no: attached PDFs go along"},
 }};
 constexpr const char* kSend = "send"; // the last one, a node
 
@@ -228,6 +232,16 @@ public:
       row.archive = at(archive);
       if (!row.archive.has_filename() || fs::is_directory(row.archive))
         row.archive /= row.name + library::kArchiveEnding;
+    }
+    for (const auto& [column, chosen] :
+         {std::pair("mask_face", &row.masksFace), std::pair("without_notes", &row.withoutNotes),
+          std::pair("with_videos", &row.withVideos),
+          std::pair("with_documents", &row.withDocuments)})
+    {
+      *chosen = isYes(column, cell(column));
+      if (*chosen && row.archive.empty() && row.node.empty())
+        throw core::InvalidParameter(std::string("'") + column +
+                                     "' goes with 'archive' or 'send', which are blank");
     }
     const auto given = [this](const char* column) -> std::optional<std::string>
     { return cell(column).empty() ? std::nullopt : std::optional(cell(column)); };

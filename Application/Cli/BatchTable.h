@@ -21,6 +21,8 @@ struct BatchRow
   bool registers = false;                         ///< every MR that is not registered yet
   std::filesystem::path archive;                  ///< empty: none
   std::string node;                               ///< to send to; empty: none
+  /// Of what is archived and sent, as the options of these commands.
+  bool masksFace = false, withoutNotes = false, withVideos = false, withDocuments = false;
   /// Of the description: what is not given stays; tags are added.
   std::optional<std::string> note, diagnosis, procedure, date;
   std::optional<scene::Side> side;

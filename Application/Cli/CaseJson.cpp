@@ -84,6 +84,12 @@ json transformJson(const core::RigidTransform& transform)
   return values;
 }
 
+json signOffJson(const scene::SignOff& signOff)
+{
+  const auto orNull = [](const std::string& text) { return text.empty() ? json() : json(text); };
+  return {{"who", orNull(signOff.who)}, {"when", orNull(signOff.when)}};
+}
+
 json registrationJson(const scene::ImagePart& mr)
 {
   if (!mr.registered || !mr.registration)
@@ -97,7 +103,7 @@ json registrationJson(const scene::ImagePart& mr)
              {"p95", how.error->p95},
              {"max", how.error->max}};
   if (const scene::SignOff* signOff = scene::validSignOff(mr))
-    signedOff = {{"who", signOff->who}, {"when", signOff->when}};
+    signedOff = signOffJson(*signOff);
   return {{"method", nameOf(how.method)},
           {"refined", how.refined},
           {"through", how.through.empty() ? json() : json(how.through)},
@@ -259,18 +265,19 @@ json strokesJson(const scene::Case& value)
   {
     const dissection::Stroke& stroke = *value.dissection.strokes()[n];
     const auto& burr = stroke.info.burr;
-    strokes.push_back({{"number", n + 1},
-                       {"parent", history.parent(n) + 1},
-                       {"done", static_cast<bool>(done[n])},
-                       {"recovered", stroke.info.recovered},
-                       {"started_at", stroke.info.startedAt},
-                       {"duration_s", stroke.info.duration},
-                       {"burr", dissection::nameOf(burr.kind)},
-                       {"diameter_mm", burr.diameter},
-                       {"rpm", burr.rpm},
-                       {"removed_mm3", stroke.info.removed},
-                       {"structures_touched", touchedJson(stroke.info.structures)},
-                       {"bytes", stroke.bytes}});
+    strokes.push_back(
+        {{"number", n + 1},
+         {"parent", history.parent(n) + 1},
+         {"done", static_cast<bool>(done[n])},
+         {"recovered", stroke.info.recovered},
+         {"started_at", stroke.info.startedAt.empty() ? json() : json(stroke.info.startedAt)},
+         {"duration_s", stroke.info.duration},
+         {"burr", dissection::nameOf(burr.kind)},
+         {"diameter_mm", burr.diameter},
+         {"rpm", burr.rpm},
+         {"removed_mm3", stroke.info.removed},
+         {"structures_touched", touchedJson(stroke.info.structures)},
+         {"bytes", stroke.bytes}});
   }
   return strokes;
 }

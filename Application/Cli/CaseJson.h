@@ -37,6 +37,9 @@ std::optional<volume::MeshMeasure> measureOf(const scene::MeshPart& mesh);
 /// 16 numbers, row-major.
 nlohmann::json transformJson(const core::RigidTransform& transform);
 
+/// Who and when; null where the case came without.
+nlohmann::json signOffJson(const scene::SignOff& signOff);
+
 /// How an MR was registered to the CT; null if it is not.
 nlohmann::json registrationJson(const scene::ImagePart& mr);
 

@@ -121,7 +121,7 @@ struct SendOptions
 {
   std::string caseName, node, what = "all";
   MaskOptions mask;
-  bool withoutNotes = false, withVideos = false, dryRun = false;
+  bool withoutNotes = false, withVideos = false, withDocuments = false, dryRun = false;
 };
 
 void send(const Context& context, const SendOptions& options)
@@ -138,6 +138,7 @@ void send(const Context& context, const SendOptions& options)
   parts.mask = options.mask.mask();
   parts.note = !options.withoutNotes;
   parts.videos = options.withVideos;
+  parts.documents = options.withDocuments;
   const presenters::IdentityReport report =
       presenters::identityReport(library.open(options.caseName), parts);
   if (options.dryRun)
@@ -251,6 +252,9 @@ void addNodeCommands(CLI::App& app, Context& context)
       ->capture_default_str();
   command->add_flag("--with-videos", out->withVideos,
                     "Attached videos go along with the scene; they may show or name the patient");
+  command->add_flag("--with-documents", out->withDocuments,
+                    "Attached PDFs too; they may name the patient, also in their metadata, which "
+                    "is not removed");
   command->add_flag("--without-notes", out->withoutNotes,
                     "Leave out the note of the description, which else goes along as it is");
   command->add_flag("--dry-run", out->dryRun,

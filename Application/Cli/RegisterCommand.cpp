@@ -176,7 +176,7 @@ nlohmann::json answerJson(const scene::Case& value, const std::string& mr,
   const scene::ImagePart& image = *scene::findMr(value, mr);
   nlohmann::json signedOff;
   if (const scene::SignOff* signOff = scene::validSignOff(image))
-    signedOff = {{"who", signOff->who}, {"when", signOff->when}};
+    signedOff = signOffJson(*signOff);
   return {{"case", value.name},
           {"mr", mr},
           {"registered", image.registered},

@@ -4,7 +4,9 @@
 
 #include "../../../Modules/Imaging/Testing/TestDicom.h"
 #include "BoneCase.h"
+#include "petrous/Imaging/SeriesGeometry.h"
 #include "petrous/Library/PseudonymMap.h"
+#include "petrous/Presenters/CaseExport.h"
 #include "petrous/Presenters/CaseTransfer.h"
 
 namespace petrous::presenters
@@ -85,6 +87,106 @@ TEST(IdentityOfACase, WhatTheUserTypedLeavesWithTheSceneOnly)
   EXPECT_FALSE(mentions(report.warnings, "the note"));
 }
 
+TEST(IdentityOfACase, TimesAndSignersStayUnlessTheyAreAskedFor)
+{
+  scene::Case value = describedCase();
+  dissection::StrokeInfo info;
+  info.startedAt = "2026-03-30T08:15:00Z";
+  value.dissection = dissection::Dissection(
+      {std::make_shared<const dissection::Stroke>(info, dissection::Stroke::Voxels{1})},
+      dissection::History::line(1, 1));
+  scene::ImagePart mr;
+  mr.name = "T2";
+  mr.registered = true;
+  mr.registration.emplace();
+  mr.registration->signOff = scene::SignOff{"A. Surgeon", "2026-03-30T09:00:00Z", {}};
+  value.mr.push_back(mr);
+  value.attachments.emplace_back();
+  value.attachments.back().name = "a.png";
+  value.attachments.back().kind = scene::Attachment::Kind::Screenshot;
+  value.attachments.back().date = "2026-03-30";
+
+  const char* const texts[] = {"planned date", "time of each stroke", "signed the registration",
+                               "dates of attachments"};
+  library::ArchiveOptions options;
+  SendParts parts;
+  parts.scene = true;
+  for (const IdentityReport& report :
+       {identityReport(value, options), identityReport(value, parts)})
+    for (const char* text : texts)
+    {
+      EXPECT_TRUE(mentions(report.stays, text)) << text;
+      EXPECT_FALSE(mentions(report.leaves, text)) << text;
+    }
+  options.keepIdentity = true;
+  const IdentityReport report = identityReport(value, options);
+  for (const char* text : texts)
+  {
+    EXPECT_TRUE(mentions(report.leaves, text)) << text;
+    EXPECT_FALSE(mentions(report.stays, text)) << text;
+  }
+  EXPECT_TRUE(mentions(report.warnings, "signed the registration"));
+  EXPECT_EQ(report.text().find("A. Surgeon"), std::string::npos);
+}
+
+TEST(IdentityOfACase, EveryNameThatLeavesIsLookedAt)
+{
+  scene::Case value = describedCase();
+  dissection::StrokeInfo info;
+  info.structures = {{"facial nerve", 1.0}, {"tumour of 4711471", 1.0}};
+  value.dissection = dissection::Dissection(
+      {std::make_shared<const dissection::Stroke>(info, dissection::Stroke::Voxels{1})},
+      dissection::History::line(1, 1));
+  value.mr.emplace_back();
+  value.mr.back().name = "T2 of 14.03.1962";
+  value.labels.front().structures.front().codes.algorithmName = "by Doe^John";
+  value.attachments.resize(2);
+  value.attachments[0].kind = value.attachments[1].kind = scene::Attachment::Kind::Recording;
+  value.attachments[0].name = "a.ticks";
+  value.attachments[0].note = "of Doe^John";
+  value.attachments[1].name = "19310517.ticks";
+  SendParts parts;
+  parts.scene = true;
+  const auto warnings = identityReport(value, parts).warnings;
+  EXPECT_TRUE(mentions(warnings, "names of structures that are gone, in strokes that touched "
+                                 "them: 1 of 1"));
+  EXPECT_TRUE(mentions(warnings, "names of MRs and approaches: 1 of 2"));
+  EXPECT_TRUE(mentions(warnings, "segmentation files gave structures: 1 of 1"));
+  EXPECT_TRUE(mentions(warnings, "names and notes of attachments: 2 of 3"));
+  parts.note = false;
+  EXPECT_TRUE(mentions(identityReport(value, parts).warnings, "attachments: 1 of 2"));
+}
+
+TEST(IdentityOfACase, TextInThePixelsIsWarnedOfWhereverTheyLeave)
+{
+  imaging::SliceHeader slice;
+  slice.burnedIn = imaging::BurnedInText::Stated;
+  const auto notes = imaging::assess({slice}).notes;
+  ASSERT_EQ(notes.size(), 1U);
+  scene::Case value = describedCase();
+  value.mr.emplace_back();
+  value.mr.back().name = "T2";
+  SendParts parts;
+  parts.ct = parts.mr = parts.scene = true;
+  EXPECT_FALSE(mentions(identityReport(value, parts).warnings, "text in them"));
+  value.mr.back().notes = notes;
+  EXPECT_TRUE(mentions(identityReport(value, parts).warnings, "the pixels of MR 'T2' may have"));
+  value.ct.notes = notes;
+  EXPECT_TRUE(mentions(identityReport(value, parts).warnings, "the pixels of the CT, MR 'T2'"));
+  library::ArchiveOptions options;
+  EXPECT_TRUE(mentions(identityReport(value, options).warnings, "the CT, MR 'T2'"));
+  options.planOnly = true;
+  EXPECT_FALSE(mentions(identityReport(value, options).warnings, "text in them"));
+  ExportOptions written;
+  for (const auto& [what, text] :
+       {std::pair("ct", "the CT may"), std::pair("dissected", "the CT may"),
+        std::pair("mr", "MR 'T2' may")})
+  {
+    written.what = what;
+    EXPECT_TRUE(mentions(identityWarnings(value, written), text)) << what;
+  }
+}
+
 TEST(IdentityOfACase, ARegionOfTheEarShowsNoFace)
 {
   scene::Case value = describedCase();
@@ -93,6 +195,48 @@ TEST(IdentityOfACase, ARegionOfTheEarShowsNoFace)
   SendParts parts;
   parts.ct = true;
   EXPECT_FALSE(mentions(identityReport(value, parts).warnings, "face"));
+}
+
+TEST(IdentityOfACase, AWholeHeadIsWarnedOfUnlessItIsMaskedOrCutAway)
+{
+  const scene::Case value = describedCase();
+  const library::ArchiveOptions options;
+  EXPECT_TRUE(mentions(identityReport(value, options).warnings, "whole head"));
+  scene::ImageMask mask;
+  mask.face = true;
+  EXPECT_FALSE(mentions(identityReport(value, options, mask).warnings, "head"));
+  EXPECT_TRUE(mentions(identityReport(value, options, mask).stays, "the face"));
+  mask = {};
+  const Eigen::Vector3d middle = value.ct.geometry.patientBounds().center();
+  mask.region = core::PatientBox(middle - Eigen::Vector3d::Constant(30.0),
+                                 middle + Eigen::Vector3d::Constant(30.0));
+  EXPECT_FALSE(mentions(identityReport(value, options, mask).warnings, "head"));
+  library::ArchiveOptions plan;
+  plan.planOnly = true;
+  EXPECT_FALSE(mentions(identityReport(value, plan).warnings, "head"));
+}
+
+TEST(IdentityOfACase, AFileForOtherProgramsIsLookedAtToo)
+{
+  scene::Case value = describedCase();
+  value.labels.front().structures.front().name = "nerve of 4711471";
+  const auto warnings = [&value](const char* what, const char* part = "")
+  {
+    ExportOptions options;
+    options.what = what;
+    options.part = part;
+    return identityWarnings(value, options);
+  };
+  for (const char* what : {"ct", "dissected", "surface"})
+    EXPECT_TRUE(mentions(warnings(what), "whole head")) << what;
+  for (const char* what : {"mr", "mask"})
+    EXPECT_TRUE(warnings(what).empty()) << what;
+  EXPECT_TRUE(mentions(warnings("labels"), "names of structures: 1 of 1"));
+  EXPECT_TRUE(mentions(warnings("structure", "nerve of 4711471"), "1 of 1"));
+  ExportOptions masked;
+  masked.what = "ct";
+  masked.mask.face = true;
+  EXPECT_TRUE(identityWarnings(value, masked).empty());
 }
 
 } // namespace

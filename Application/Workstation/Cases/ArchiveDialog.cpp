@@ -1,7 +1,5 @@
 #include "ArchiveDialog.h"
 
-#include <algorithm>
-
 #include <QCheckBox>
 #include <QDialogButtonBox>
 #include <QDir>
@@ -16,6 +14,7 @@
 
 #include "PathRow.h"
 #include "Theme.h"
+#include "petrous/Library/Attachments.h"
 #include "petrous/Presenters/CaseTransfer.h"
 
 namespace petrous::workstation
@@ -28,7 +27,8 @@ ArchiveDialog::ArchiveDialog(const scene::Case& value, QWidget* parent)
   , m_plan(new QCheckBox(tr("&Plan only, without images and structures")))
   , m_note(new QCheckBox(tr("with its &note")))
   , m_videos(new QCheckBox(tr("with its &videos, which may show or name the patient")))
-  , m_date(new QCheckBox(tr("with the planned &date of the operation")))
+  , m_documents(new QCheckBox(tr("with its PD&Fs, which may name the patient")))
+  , m_date(new QCheckBox(tr("with &dates and times, and who signed registrations")))
   , m_report(new QPlainTextEdit)
   , m_advice(new QLabel)
 {
@@ -42,11 +42,12 @@ ArchiveDialog::ArchiveDialog(const scene::Case& value, QWidget* parent)
   m_note->setEnabled(!value.description.note.empty());
   m_note->setChecked(m_note->isEnabled());
   m_videos->setObjectName("archiveVideos");
-  m_videos->setEnabled(std::any_of(value.attachments.begin(), value.attachments.end(),
-                                   [](const scene::Attachment& one)
-                                   { return one.kind == scene::Attachment::Kind::Video; }));
+  m_videos->setEnabled(library::hasAttachment(value, scene::Attachment::Kind::Video));
+  m_documents->setObjectName("archiveDocuments");
+  m_documents->setEnabled(library::hasAttachment(value, scene::Attachment::Kind::Document));
   m_date->setObjectName("archiveDate");
-  m_date->setEnabled(!value.description.date.empty());
+  m_date->setToolTip(tr("The dates of the planned operation and of attachments, the times of "
+                        "strokes, names and times of sign-offs"));
   m_report->setObjectName("archiveReport");
   m_report->setReadOnly(true);
   m_report->setMinimumHeight(200);
@@ -58,6 +59,7 @@ ArchiveDialog::ArchiveDialog(const scene::Case& value, QWidget* parent)
   form->addRow(tr("What:"), m_plan);
   form->addRow({}, m_note);
   form->addRow({}, m_videos);
+  form->addRow({}, m_documents);
   form->addRow({}, m_date);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
   m_accept = buttons->addButton(tr("&Archive"), QDialogButtonBox::AcceptRole);
@@ -66,7 +68,7 @@ ArchiveDialog::ArchiveDialog(const scene::Case& value, QWidget* parent)
   connect(buttons, &QDialogButtonBox::accepted, this, &ArchiveDialog::accept);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   connect(m_file, &PathRow::changed, this, &ArchiveDialog::update);
-  for (QCheckBox* box : {m_plan, m_note, m_videos, m_date})
+  for (QCheckBox* box : {m_plan, m_note, m_videos, m_documents, m_date})
     connect(box, &QCheckBox::toggled, this, &ArchiveDialog::update);
   auto* layout = new QVBoxLayout(this);
   layout->addLayout(form);
@@ -90,8 +92,9 @@ library::ArchiveOptions ArchiveDialog::options() const
   library::ArchiveOptions options;
   options.planOnly = m_plan->isChecked();
   options.withoutNotes = !m_note->isChecked();
-  options.withVideos = m_videos->isEnabled() && m_videos->isChecked();
-  options.keepDate = m_date->isChecked();
+  options.withVideos = m_videos->isChecked();
+  options.withDocuments = m_documents->isChecked();
+  options.keepIdentity = m_date->isChecked();
   return options;
 }
 

@@ -39,6 +39,7 @@ private:
   QCheckBox* m_plan;
   QCheckBox* m_note;
   QCheckBox* m_videos;
+  QCheckBox* m_documents;
   QCheckBox* m_date;
   QPlainTextEdit* m_report;
   QLabel* m_advice;

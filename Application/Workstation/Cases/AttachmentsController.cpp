@@ -1,7 +1,6 @@
 #include "AttachmentsController.h"
 
 #include <QBuffer>
-#include <QDateTime>
 #include <QDir>
 #include <QFile>
 #include <QFileDialog>
@@ -23,12 +22,6 @@ namespace
 std::filesystem::path pathOf(const QString& file)
 {
   return QFile::encodeName(file).toStdString();
-}
-
-// "screenshot 2026-03-31 14-05-09.png"
-std::string namedNow(const char* what, const char* ending)
-{
-  return what + bytes(QDateTime::currentDateTime().toString(" yyyy-MM-dd hh-mm-ss")) + ending;
 }
 
 // The object of the stroke to which the case's present state belongs; empty: none, or not saved.
@@ -77,17 +70,15 @@ void AttachmentsController::attach()
   dialog.setNameFilters({embedded, linked, tr("All files (*)")});
   dialog.setDirectory(QDir::homePath());
   if (dialog.exec() == QDialog::Accepted)
-    take(pathOf(dialog.selectedFiles().first()), {}, dialog.selectedNameFilter() == linked);
+    take(pathOf(dialog.selectedFiles().first()), dialog.selectedNameFilter() == linked);
 }
 
 // A link is read as a whole, for its hash: in the background.
-void AttachmentsController::take(const std::filesystem::path& file, const std::string& name,
-                                 bool isLink)
+void AttachmentsController::take(const std::filesystem::path& file, bool isLink)
 {
   if (m_work.busy())
     return emit statusMessage(tr("One at a time: a file is being read already"));
   library::AttachOptions options;
-  options.name = name;
   options.link = isLink;
   m_work.start(
       [this, file, options,
@@ -119,7 +110,8 @@ void AttachmentsController::add(scene::Attachment attachment)
                    "the case is archived or sent, unless asked")
                     .arg(words(name))
       : isDocument
-          ? tr("“%1” is attached; metadata of a PDF is not removed: see that it names nobody")
+          ? tr("“%1” is attached; a PDF may name the patient, also in its metadata, and stays here "
+               "when the case is archived or sent, unless asked")
                 .arg(words(name))
           : tr("“%1” is attached").arg(words(name)));
 }
@@ -132,19 +124,17 @@ void AttachmentsController::attachScreenshot()
   QBuffer buffer(&png);
   buffer.open(QIODevice::WriteOnly);
   m_view.grabFramebuffer().convertToFormat(QImage::Format_RGB888).save(&buffer, "PNG");
-  library::AttachOptions options;
-  options.name = namedNow("screenshot", ".png");
   guarded(
       [&] {
-        add(library::screenshotOf({png.begin(), png.end()}, options));
+        add(library::screenshotOf({png.begin(), png.end()}, {}));
       },
       [this](const QString& why) { emit statusMessage(why); });
 }
 
 void AttachmentsController::attachRecording()
 {
-  if (!m_model.lastRecording().empty()) // whose own name has that of the case
-    take(m_model.lastRecording(), namedNow("recording", ".ticks"), false);
+  if (!m_model.lastRecording().empty())
+    take(m_model.lastRecording(), false);
 }
 
 void AttachmentsController::extract(const std::string& name)

@@ -34,7 +34,7 @@ signals:
   void statusMessage(const QString& line);
 
 private:
-  void take(const std::filesystem::path& file, const std::string& name, bool isLink);
+  void take(const std::filesystem::path& file, bool isLink);
   void add(scene::Attachment attachment);
   void attachScreenshot();
   void attachRecording();

@@ -1,7 +1,5 @@
 #include "SendDialog.h"
 
-#include <algorithm>
-
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
@@ -13,6 +11,7 @@
 
 #include "FaceCheck.h"
 #include "Theme.h"
+#include "petrous/Library/Attachments.h"
 
 namespace petrous::workstation
 {
@@ -31,6 +30,7 @@ SendDialog::SendDialog(const scene::Case& value, const std::vector<network::Node
   , m_scene(new QCheckBox(tr("The &whole scene, to be received as it is (Raw Data)")))
   , m_note(new QCheckBox(tr("with its &note")))
   , m_videos(new QCheckBox(tr("with its &videos, which may show or name the patient")))
+  , m_documents(new QCheckBox(tr("with its PD&Fs, which may name the patient")))
   , m_maskFace(new QCheckBox(tr("Put air in place of the &face")))
   , m_report(new QPlainTextEdit)
 {
@@ -48,6 +48,7 @@ SendDialog::SendDialog(const scene::Case& value, const std::vector<network::Node
   m_scene->setObjectName("sendScene");
   m_note->setObjectName("sendNote");
   m_videos->setObjectName("sendVideos");
+  m_documents->setObjectName("sendDocuments");
   m_maskFace->setObjectName("sendMaskFace");
   m_maskFace->setToolTip(tr("In front of a plane about 50 mm behind the tip of the nose. What is "
                             "segmented or drilled and the temporal bones stay; the case here does "
@@ -71,14 +72,14 @@ SendDialog::SendDialog(const scene::Case& value, const std::vector<network::Node
   auto* form = new QFormLayout;
   form->addRow(tr("&To:"), m_node);
   form->addRow(tr("What:"), m_ct);
-  for (QCheckBox* box : {m_mr, m_labels, m_scene, m_note, m_videos, m_maskFace})
+  for (QCheckBox* box : {m_mr, m_labels, m_scene, m_note, m_videos, m_documents, m_maskFace})
     form->addRow({}, box);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
   m_send = buttons->addButton(tr("&Send"), QDialogButtonBox::AcceptRole);
   m_send->setObjectName("primary");
   connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
-  for (QCheckBox* box : {m_ct, m_mr, m_labels, m_scene, m_note, m_videos, m_maskFace})
+  for (QCheckBox* box : {m_ct, m_mr, m_labels, m_scene, m_note, m_videos, m_documents, m_maskFace})
     connect(box, &QCheckBox::toggled, this, &SendDialog::update);
   auto* layout = new QVBoxLayout(this);
   layout->addLayout(form);
@@ -98,6 +99,7 @@ presenters::SendParts SendDialog::parts() const
   parts.scene = m_scene->isChecked();
   parts.note = m_note->isEnabled() && m_note->isChecked();
   parts.videos = m_videos->isEnabled() && m_videos->isChecked();
+  parts.documents = m_documents->isEnabled() && m_documents->isChecked();
   parts.mask.face = m_maskFace->isEnabled() && m_maskFace->isChecked();
   return parts;
 }
@@ -110,11 +112,9 @@ network::Node SendDialog::node() const
 void SendDialog::update()
 {
   m_note->setEnabled(m_scene->isChecked() && !m_value.description.note.empty());
-  const auto& files = m_value.attachments;
-  m_videos->setEnabled(m_scene->isChecked() &&
-                       std::any_of(files.begin(), files.end(),
-                                   [](const scene::Attachment& one)
-                                   { return one.kind == scene::Attachment::Kind::Video; }));
+  using Kind = scene::Attachment::Kind;
+  m_videos->setEnabled(m_scene->isChecked() && library::hasAttachment(m_value, Kind::Video));
+  m_documents->setEnabled(m_scene->isChecked() && library::hasAttachment(m_value, Kind::Document));
   const presenters::SendParts what = parts();
   const bool any = what.ct || what.mr || what.labels || what.scene;
   m_send->setEnabled(any);

@@ -37,6 +37,7 @@ private:
   QCheckBox* m_scene;
   QCheckBox* m_note;
   QCheckBox* m_videos;
+  QCheckBox* m_documents;
   QCheckBox* m_maskFace;
   std::vector<std::string> m_faces; ///< images in which one can be recognised
   QPlainTextEdit* m_report;

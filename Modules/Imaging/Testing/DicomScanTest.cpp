@@ -530,6 +530,38 @@ TEST(DicomScan, SaysThatPixelsWereCompressedWithLoss)
   EXPECT_NE(lossy[0].find("1/12.5"), std::string::npos) << lossy[0];
 }
 
+TEST(DicomScan, SaysThatTextMayBeInThePixels)
+{
+  const auto scanned = [](const std::function<void(int, TestSlice&)>& change)
+  {
+    const TemporaryFolder folder;
+    writeSeries(folder.path(), 4, change);
+    const SeriesGeometry geometry = scanDicom(folder.path(), {}).series.front().geometry;
+    EXPECT_EQ(geometry.verdict, Verdict::Ok);
+    return geometry.notes;
+  };
+  const auto stated = scanned([](int k, TestSlice& s)
+                              { s.element(s.extra, 0x00280301, "CS", k == 2 ? "YES" : "NO"); });
+  ASSERT_EQ(stated.size(), 1U);
+  EXPECT_NE(stated[0].find("header states text in the pixels"), std::string::npos) << stated[0];
+  EXPECT_NE(stated[0].find("in 1 of"), std::string::npos) << stated[0];
+  EXPECT_TRUE(isNoteOfText(stated[0]));
+  const auto suspected =
+      scanned([](int, TestSlice& s) { s.element(s.extra, 0x00080064, "CS", "WSD"); });
+  ASSERT_EQ(suspected.size(), 1U);
+  EXPECT_NE(suspected[0].find("may be in the pixels"), std::string::npos) << suspected[0];
+  EXPECT_TRUE(isNoteOfText(suspected[0]));
+  EXPECT_EQ(scanned([](int, TestSlice& s) { s.modality = "OT"; }).size(), 1U);
+  const auto denied = scanned(
+      [](int, TestSlice& s)
+      {
+        s.element(s.extra, 0x00080064, "CS", "WSD");
+        s.element(s.extra, 0x00280301, "CS", "NO");
+      });
+  EXPECT_TRUE(denied.empty());
+  EXPECT_TRUE(scanned([](int, TestSlice&) {}).empty()) << "a CT that does not say";
+}
+
 TEST(DicomScan, SetsABrokenOrForeignFileBesideAWholeStackAside)
 {
   const std::function<void(const fs::path&)> spoilers[] = {

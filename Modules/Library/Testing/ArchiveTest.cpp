@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <set>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -8,6 +9,8 @@
 #include "TestCase.h"
 #include "petrous/Library/Archive.h"
 #include "petrous/Library/ObjectStore.h"
+#include "petrous/Library/OwnerLock.h"
+#include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/Manifest.h"
 
 using namespace petrous;
@@ -195,6 +198,78 @@ TEST_F(Archives, AreRestoredToTheByteInAnotherLibrary)
   EXPECT_TRUE(other.verify().damaged.empty());
 }
 
+TEST_F(Archives, HoldNoTimesAndNotWhoSigned)
+{
+  scene::Case value = test::smallCase("signed");
+  scene::ImagePart mr = test::smallCase("other", 20).ct;
+  mr.name = "T2";
+  mr.registered = true;
+  mr.registration.emplace();
+  mr.registration->signOff = scene::SignOff{"Dr. Quincy", "2026-03-30T09:07:05Z", mr.mrFromCt};
+  value.mr.push_back(std::move(mr));
+  m_library.save(value);
+  m_library.loadDissection(value);
+  for (const double at : {8.0, 12.0})
+  {
+    const Eigen::Vector3d p = value.ct.geometry.patientFromVoxel({at, at, at});
+    dissection::StrokeInfo info;
+    info.startedAt = at < 10 ? "2026-03-30T08:15:01Z" : "2026-03-30T08:16:02Z";
+    info.duration = at;
+    value.dissection.beginStroke(std::move(info));
+    value.dissection.cut({p, p + Eigen::Vector3d(0.5, 0, 0), 1.0});
+    value.dissection.endStroke();
+  }
+  m_library.save(value);
+  const scene::Case here = m_library.open("signed");
+  ASSERT_EQ(here.dissection.strokes().front()->info.startedAt, "2026-03-30T08:15:01Z");
+
+  for (const bool planOnly : {false, true})
+  {
+    ArchiveOptions options;
+    options.planOnly = planOnly;
+    const auto notes = archiveCase(m_library, "signed", m_file, options).notes;
+    EXPECT_TRUE(std::any_of(notes.begin(), notes.end(),
+                            [](const std::string& note)
+                            { return note.find("who signed") != note.npos; }));
+    TestZip zip = unpacked();
+    for (const TestZip::Entry& entry : zip.entries)
+      for (const char* text : {"2026-03-30", "Quincy"})
+        EXPECT_EQ(entry.bytes.find(text), std::string::npos) << entry.name;
+    EXPECT_NE(find(zip, "case.json").bytes.find("signed_off"), std::string::npos);
+    restoreCase(m_library, m_file, {planOnly ? "plan" : "whole", ""});
+  }
+  // What is restored is the case but for these.
+  const auto withoutThem = [](const scene::Case& of)
+  {
+    auto manifest = nlohmann::json::parse(scene::toManifest(of));
+    for (const char* own : {"id", "name", "revision"})
+      manifest.erase(own);
+    for (auto& stroke : manifest["dissection"]["strokes"])
+      stroke["started_at"] = "";
+    manifest["mr"][0]["registration"]["signed_off"]["who"] = "";
+    manifest["mr"][0]["registration"]["signed_off"]["when"] = "";
+    return manifest;
+  };
+  for (const char* name : {"plan", "whole"})
+  {
+    const scene::Case there = m_library.open(name);
+    EXPECT_EQ(withoutThem(there), withoutThem(here));
+    EXPECT_EQ(there.dissection.strokes().front()->info.startedAt, "");
+    ASSERT_NE(scene::validSignOff(there.mr.front()), nullptr) << "marked as signed";
+    EXPECT_EQ(scene::validSignOff(there.mr.front())->who, "");
+    EXPECT_EQ(scene::registrationToString(there.mr.front()).find("not signed"), std::string::npos);
+  }
+
+  ArchiveOptions all;
+  all.keepIdentity = true;
+  archiveCase(m_library, "signed", m_file, all);
+  restoreCase(m_library, m_file, {"all", ""});
+  const scene::Case kept = m_library.open("all");
+  EXPECT_EQ(kept.dissection.strokes().back()->info.startedAt, "2026-03-30T08:16:02Z");
+  EXPECT_EQ(scene::validSignOff(kept.mr.front())->who, "Dr. Quincy");
+  EXPECT_EQ(scene::validSignOff(kept.mr.front())->when, "2026-03-30T09:07:05Z");
+}
+
 TEST_F(Archives, HoldNamesAndVoxelsOnlyOfStructuresThatTheCaseHas)
 {
   scene::Case value = test::smallCase("two");
@@ -297,6 +372,29 @@ TEST_F(Archives, ADamagedImageIsNotArchived)
   const auto [reason, text] = refusal([&] { archiveCase(m_library, "ear", m_file); });
   EXPECT_EQ(reason, Reason::Damaged);
   EXPECT_FALSE(fs::exists(m_file));
+}
+
+// Voxels of a patient, or copies of linked files, are in it.
+TEST_F(Archives, RemoveWhatAKilledProcessLeft)
+{
+  const fs::path here = m_folder.path();
+  const auto make = [&](const char* name, const char* content)
+  {
+    fs::create_directories((here / name / content).parent_path());
+    std::ofstream(here / name / content) << "a patient's";
+  };
+  make(".petrous-0011223344556677", "objects/ab/abcdef.nrrd");
+  make(".petrous-0011223344556678", "archive.Ab12Cd");
+  make(".petrous-0011223344556679", "archive");  // of a process that is at work
+  make(".petrous-001122334455667a", "1/ct.dcm"); // something else grows there
+  make("petrous-mine", "archive");
+  const OwnerLock alive(here / ".petrous-0011223344556679");
+  archiveCase(m_library, "ear", m_file);
+  std::set<std::string> left;
+  for (const auto& entry : fs::directory_iterator(here))
+    left.insert(entry.path().filename().string());
+  EXPECT_EQ(left, (std::set<std::string>{".petrous-0011223344556679", ".petrous-001122334455667a",
+                                         "petrous-mine", "library", "ear.petrous"}));
 }
 
 TEST_F(Archives, CanBeCancelled)

@@ -100,6 +100,7 @@ protected:
                   const std::string& note = {})
   {
     AttachOptions options;
+    options.name = name;
     options.link = isLink;
     options.note = note;
     options.date = "2026-03-31";
@@ -172,6 +173,31 @@ TEST_F(Attachments, AreKeptToTheByteWhateverHoldsThem)
   m_library.remove("copy");
   m_library.collectGarbage();
   EXPECT_TRUE(ObjectStore(m_library.folder() / "objects").list().empty());
+}
+
+// A file is often named after the patient.
+TEST_F(Attachments, AreNamedByTheirKindUnlessANameIsGiven)
+{
+  const std::pair<std::string, std::string> files[] = {{"DOE_JOHN_19310517.pdf", kDocument},
+                                                       {"DOE_JOHN_19310517.MP4", kVideo},
+                                                       {"DOE_JOHN.19310517", kVideo},
+                                                       {"DOE_JOHN_19310517.png", pngWith("")},
+                                                       {"DOE_JOHN_2026-03-31.ticks", kRecording},
+                                                       {"DOE_JANE.pdf", kDocument + "2"}};
+  for (const auto& [name, bytes] : files)
+    attach(m_value, attachmentOf(write(m_folder.path() / name, bytes), {}));
+  AttachOptions named;
+  named.name = "audiogram.pdf";
+  attach(m_value, attachmentOf(m_folder.path() / "DOE_JANE.pdf", named));
+  m_library.save(m_value);
+  EXPECT_EQ(namesOf(m_library.open("ear")),
+            (Names{"document.pdf", "video.mp4", "video", "screenshot.png", "recording.ticks",
+                   "document (2).pdf", "audiogram.pdf"}));
+  for (const auto& [name, bytes] : test::contentOf(m_library.folder()))
+  {
+    EXPECT_EQ((name + bytes).find("DOE"), std::string::npos) << name;
+    EXPECT_EQ((name + bytes).find("19310517"), std::string::npos) << name;
+  }
 }
 
 TEST_F(Attachments, LoseTheMetadataOfAPng)
@@ -314,7 +340,7 @@ TEST_F(Attachments, AreLostAlone)
 
   // An archive says what it lacks, and brings the rest.
   ArchiveOptions options;
-  options.withVideos = true;
+  options.withVideos = options.withDocuments = true;
   const auto done = archiveCase(m_library, "ear", m_folder.path() / "ear.petrous", options);
   EXPECT_EQ(std::count_if(done.notes.begin(), done.notes.end(),
                           [](const std::string& text)
@@ -344,7 +370,7 @@ TEST_F(Attachments, OfALinkAreCheckedAgainstItsHash)
   EXPECT_EQ(refusal([&] { extracted(m_library, "ear", "far.mp4"); }).first, Reason::Damaged);
 }
 
-TEST_F(Attachments, TravelButForVideos)
+TEST_F(Attachments, TravelButForVideosAndDocuments)
 {
   add("film.mp4", kVideo, false, "of the theatre");
   add("far.mp4", kVideo + "far", true);
@@ -367,20 +393,25 @@ TEST_F(Attachments, TravelButForVideos)
     for (const Attachment& one : value.attachments)
     {
       EXPECT_TRUE(one.link.empty());
-      EXPECT_EQ(one.date, options.keepDate ? "2026-03-31" : "");
+      EXPECT_EQ(one.date, options.keepIdentity ? "2026-03-31" : "");
       EXPECT_EQ(extracted(second, name, one.name), read(m_folder.path() / one.name)) << one.name;
     }
     return namesOf(value);
   };
-  EXPECT_EQ(taken("usual", {}), (Names{"plan.pdf", "tool.ticks", "view.png", "large.ticks"}));
+  EXPECT_EQ(taken("usual", {}), (Names{"tool.ticks", "view.png", "large.ticks"}));
+  ArchiveOptions documents;
+  documents.withDocuments = true;
+  EXPECT_EQ(taken("documents", documents),
+            (Names{"plan.pdf", "tool.ticks", "view.png", "large.ticks"}));
   ArchiveOptions all;
-  all.withVideos = all.keepDate = true;
+  all.withVideos = all.withDocuments = all.keepIdentity = true;
   EXPECT_EQ(taken("all", all), namesOf(m_value));
   ArchiveOptions plan;
-  plan.planOnly = plan.withVideos = true;
+  plan.planOnly = plan.withVideos = plan.withDocuments = true;
   EXPECT_EQ(taken("plan", plan), (Names{"tool.ticks", "view.png"}));
   // What stays is in no byte of the archive: entries are stored as they are.
-  EXPECT_EQ(read(m_folder.path() / "usual.petrous").find("theatre"), std::string::npos);
+  for (const char* text : {"theatre", "of the operation"})
+    EXPECT_EQ(read(m_folder.path() / "usual.petrous").find(text), std::string::npos);
   EXPECT_NE(read(m_folder.path() / "all.petrous").find(kVideo + "far"), std::string::npos);
 }
 

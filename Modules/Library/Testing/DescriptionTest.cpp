@@ -299,7 +299,7 @@ TEST_F(Descriptions, TravelWithArchivesButForTheDate)
   EXPECT_EQ(m_library.description("ear"), fullDescription());
 
   ArchiveOptions options;
-  options.keepDate = true;
+  options.keepIdentity = true;
   EXPECT_EQ(restored(options, "b").first, fullDescription());
   options = {};
   options.withoutNotes = true;
@@ -320,7 +320,7 @@ TEST_F(Descriptions, OfAnArchiveSayWhatStaysAndWhatGoesAlong)
   const fs::path file = m_folder.path() / "ear.petrous";
   ArchiveOptions options;
   EXPECT_EQ(archiveCase(m_library, "ear", file, options).notes.size(), 2U);
-  options.keepDate = options.withoutNotes = true;
+  options.keepIdentity = options.withoutNotes = true;
   EXPECT_EQ(archiveCase(m_library, "ear", file, options).notes.size(), 1U);
   m_library.describe("ear", {});
   EXPECT_TRUE(archiveCase(m_library, "ear", file).notes.empty());

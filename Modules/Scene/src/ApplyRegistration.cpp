@@ -171,7 +171,9 @@ std::string registrationToString(const ImagePart& mr)
   else
     words += ", its error unknown";
   if (const SignOff* signOff = validSignOff(mr))
-    words += ", signed off by " + signOff->who + " on " + signOff->when;
+    words += signOff->who.empty()
+                 ? std::string(", signed off; who and when stayed where it came from")
+                 : ", signed off by " + signOff->who + " on " + signOff->when;
   else
     words += ", not signed off";
   return words;

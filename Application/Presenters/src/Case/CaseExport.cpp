@@ -18,6 +18,7 @@
 #include "petrous/Imaging/VolumeFile.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CaseDicom.h"
+#include "petrous/Presenters/CaseTransfer.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/LeavingImages.h"
 #include "petrous/Presenters/MrOnCt.h"
@@ -399,6 +400,8 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
                          const std::function<void(const std::string&)>& warn,
                          const core::Progress& progress)
 {
+  for (const std::string& warning : identityWarnings(value, options)) // before anything is written
+    warn(warning);
   if (options.mask.any())
   {
     library.loadDissection(value);

@@ -16,6 +16,7 @@
 #include "petrous/Network/SceneObjects.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CaseDicom.h"
+#include "petrous/Presenters/CaseExport.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/LeavingImages.h"
 #include "petrous/Scene/Placement.h"
@@ -74,6 +75,16 @@ std::vector<std::vector<PlacedLabels>> labelGroups(const scene::Case& value)
     group->push_back(std::move(labels));
   }
   return groups;
+}
+
+/// Of the archive that the scene is.
+library::ArchiveOptions archiveOptions(const SendParts& parts)
+{
+  library::ArchiveOptions options;
+  options.withoutNotes = !parts.note;
+  options.withVideos = parts.videos;
+  options.withDocuments = parts.documents;
+  return options;
 }
 
 /// Writes the parts below `folder`.
@@ -170,9 +181,7 @@ private:
   {
     const fs::path folder = freshFolder();
     const fs::path archive = m_folder / (std::string("scene") + library::kArchiveEnding);
-    library::ArchiveOptions options;
-    options.withoutNotes = !m_parts.note;
-    options.withVideos = m_parts.videos;
+    library::ArchiveOptions options = archiveOptions(m_parts);
     if (m_parts.mask.any())
       options.prepare = [this](scene::Case& copy, const core::Progress&)
       {
@@ -404,7 +413,8 @@ std::string joined(const std::vector<std::string>& names)
 
 // From side to side and from front to back as much as a head: then its skin is in the image, and a
 // face can be rendered from it.
-bool showsHead(const core::GridGeometry& grid)
+// `mask`: all outside of its region is air.
+bool showsHead(const core::GridGeometry& grid, const scene::ImageMask& mask)
 {
   constexpr double kHead = 140.0;  // mm; narrower heads than that are not adults'
   constexpr double kHeight = 30.0; // mm; a band of a face
@@ -412,6 +422,11 @@ bool showsHead(const core::GridGeometry& grid)
   for (int axis = 0; axis < 3; ++axis)
     size[static_cast<std::size_t>(axis)] =
         grid.spacing()[axis] * grid.dims()[static_cast<std::size_t>(axis)];
+  if (mask.region)
+  {
+    const Eigen::Vector3d left = mask.region->intersection(grid.patientBounds()).sizes();
+    size = {left[0], left[1], left[2]};
+  }
   std::sort(size.begin(), size.end());
   return size[1] >= kHead && size[0] >= kHeight;
 }
@@ -421,6 +436,16 @@ bool resemblesIdentity(const std::string& text)
 {
   static const std::regex kIdentity("[0-9]{6}|[0-9]{1,4}[./-][0-9]{1,2}[./-][0-9]{2,4}|[\\^@]");
   return std::regex_search(text, kIdentity);
+}
+
+constexpr const char* kHeadText =
+    "the image holds a whole head: a face can be rendered from it. It can be masked; a case of the "
+    "region of the ear alone (File > Open a region) has none";
+
+bool anyShowsHead(const std::vector<scene::ImagePart>& images, const scene::ImageMask& mask)
+{
+  return std::any_of(images.begin(), images.end(),
+                     [&mask](const auto& image) { return showsHead(image.geometry, mask); });
 }
 
 void warnOfIdentities(const std::string& what, const std::vector<std::string>& texts,
@@ -433,24 +458,57 @@ void warnOfIdentities(const std::string& what, const std::vector<std::string>& t
                        "send");
 }
 
+/// Text in the pixels of images that leave: the primary one, the MRs. Known by their notes, which
+/// every version of the program keeps with the case.
+void warnOfText(const scene::Case& value, bool primary, bool mrs,
+                std::vector<std::string>& warnings)
+{
+  const auto mayHaveText = [](const scene::ImagePart& image)
+  { return std::any_of(image.notes.begin(), image.notes.end(), imaging::isNoteOfText); };
+  std::vector<std::string> images;
+  if (primary && mayHaveText(value.ct))
+    images.push_back(std::string("the ") + primaryName(value));
+  for (const scene::ImagePart& mr : value.mr)
+    if (mrs && mayHaveText(mr))
+      images.push_back("MR '" + mr.name + "'");
+  if (!images.empty())
+    warnings.push_back("the pixels of " + joined(images) +
+                       " may have text in them, which may name the patient: look at them");
+}
+
+/// Structures that strokes removed from and that the case has no more, by the names of then.
+std::vector<std::string> goneStructures(const scene::Case& value)
+{
+  const std::vector<std::string> parts = scene::partNames(value);
+  std::set<std::string> gone;
+  for (const auto& stroke : value.dissection.strokes())
+    for (const auto& touched : stroke->info.structures)
+      if (std::find(parts.begin(), parts.end(), touched.name) == parts.end())
+        gone.insert(touched.name);
+  return {gone.begin(), gone.end()};
+}
+
 } // namespace
 
 std::vector<std::string> facesToMask(const scene::Case& value)
 {
-  const bool mayShow = showsHead(value.ct.geometry) ||
+  const bool mayShow = showsHead(value.ct.geometry, {}) ||
                        std::any_of(value.mr.begin(), value.mr.end(),
-                                   [](const auto& mr) { return showsHead(mr.geometry); });
+                                   [](const auto& mr) { return showsHead(mr.geometry, {}); });
   return mayShow ? scene::imagesWithFace(value) : std::vector<std::string>();
 }
 
 namespace
 {
 
-// `parts.scene`: with the archive of the case, or only its plan; `keepDate`: of the operation.
-IdentityReport reportOf(const scene::Case& value, const SendParts& parts, bool planOnly,
-                        bool keepDate, const std::vector<std::string>* faces)
+// `options`: of the archive, if `parts.scene`.
+IdentityReport reportOf(const scene::Case& value, const SendParts& parts,
+                        const library::ArchiveOptions& options,
+                        const std::vector<std::string>* faces)
 {
   IdentityReport report;
+  const bool planOnly = options.planOnly;
+  const bool keepIdentity = options.keepIdentity;
   const bool isCt = value.ct.modality != scene::Modality::Mr;
   const bool whole = parts.scene && !planOnly;
   const bool images = parts.ct || whole;
@@ -466,24 +524,36 @@ IdentityReport reportOf(const scene::Case& value, const SendParts& parts, bool p
   if (parts.mr || whole)
     for (const auto& mr : value.mr)
       report.leaves.push_back("MR '" + mr.name + "': " + voxels(mr) + " and their place in space");
-  std::vector<std::string> structures, meshes;
+  std::vector<std::string> structures, meshes, codes;
   for (const auto& part : value.labels)
     for (const auto& structure : part.structures)
+    {
       structures.push_back(structure.name);
+      for (const auto* concept :
+           {&structure.codes.category, &structure.codes.type, &structure.codes.typeModifier,
+            &structure.codes.region, &structure.codes.regionModifier})
+        if (!concept->meaning.empty())
+          codes.push_back(concept->meaning);
+      if (!structure.codes.algorithmName.empty())
+        codes.push_back(structure.codes.algorithmName);
+    }
   for (const auto& mesh : value.meshes)
     meshes.push_back(mesh.name);
   if ((parts.labels || parts.scene) && !structures.empty())
     report.leaves.push_back(
-        std::string(planOnly ? "the names of structures" : "structures, by the names") +
-        " that you gave them: " + joined(structures));
+        std::string(planOnly ? "the names of structures: " : "structures, by their names: ") +
+        joined(structures));
   if (parts.scene)
   {
     report.leaves.push_back(std::string(planOnly ? "the plan" : "the scene") + " by its name '" +
                             value.name + "': strokes, approaches, appearance, views, landmarks");
     if (!meshes.empty())
       report.leaves.push_back(
-          std::string(planOnly ? "the names of meshes" : "meshes, by the names") +
-          " that you gave them: " + joined(meshes));
+          std::string(planOnly ? "the names of meshes: " : "meshes, by their names: ") +
+          joined(meshes));
+    if (const auto gone = goneStructures(value); !gone.empty())
+      report.leaves.push_back("names of structures that are gone, in strokes that touched them: " +
+                              joined(gone));
     if (planOnly && !value.mr.empty())
     {
       std::vector<std::string> mrs;
@@ -501,24 +571,48 @@ IdentityReport reportOf(const scene::Case& value, const SendParts& parts, bool p
     if (!words.note.empty())
       (parts.note ? report.leaves : report.stays)
           .push_back(parts.note ? "the note, as it is" : "the note");
+    auto& kept = keepIdentity ? report.leaves : report.stays;
     if (!words.date.empty())
-      (keepDate ? report.leaves : report.stays).push_back("the planned date of the operation");
-    if (!words.date.empty() && keepDate)
+      kept.emplace_back("the planned date of the operation");
+    if (!words.date.empty() && keepIdentity)
       report.warnings.push_back("the planned date: together with a list of the day's operations "
                                 "it tells who the patient is");
-    std::vector<std::string> files;
-    std::vector<std::string> videos;
+    const auto& strokes = value.dissection.strokes();
+    if (std::any_of(strokes.begin(), strokes.end(),
+                    [](const auto& stroke) { return !stroke->info.startedAt.empty(); }))
+      kept.emplace_back("date and time of each stroke");
+    for (const scene::ImagePart& mr : value.mr)
+      if (mr.registration && mr.registration->signOff && !mr.registration->signOff->who.empty())
+      {
+        const std::string who = "who signed the registration of MR '" + mr.name + "', and when";
+        kept.push_back(keepIdentity ? who : who + " (it stays marked as signed)");
+        if (keepIdentity)
+          report.warnings.push_back(who + ": a clinician's name and a date lead to the hospital's "
+                                          "patients of that day");
+      }
+    if (std::any_of(value.attachments.begin(), value.attachments.end(),
+                    [](const scene::Attachment& one) { return !one.date.empty(); }))
+      kept.emplace_back("the dates of attachments");
+    std::vector<std::string> files, staying, texts;
     for (const scene::Attachment& one : value.attachments)
-      (one.kind == scene::Attachment::Kind::Video && !parts.videos ? videos : files)
-          .push_back("'" + one.name + "'");
+    {
+      const bool leaves = library::takesAlong(options, one);
+      (leaves ? files : staying).push_back("'" + one.name + "'");
+      if (!leaves)
+        continue;
+      texts.push_back(one.name);
+      if (parts.note && !one.note.empty())
+        texts.push_back(one.note);
+    }
     if (!files.empty())
     {
-      report.leaves.push_back("attachments, by the names that you gave them: " + joined(files));
+      report.leaves.push_back("attachments: " + joined(files));
       report.warnings.push_back("attachments: what they show and say is not looked at, and only "
                                 "screenshots are cleaned of metadata");
+      warnOfIdentities("names and notes of attachments", texts, report.warnings);
     }
-    if (!videos.empty())
-      report.stays.push_back("videos: " + joined(videos));
+    if (!staying.empty())
+      report.stays.push_back("attachments: " + joined(staying));
   }
   if (parts.scene && parts.note && !value.description.note.empty())
     report.warnings.push_back(
@@ -527,15 +621,28 @@ IdentityReport reportOf(const scene::Case& value, const SendParts& parts, bool p
               "from it"
             : "the note: read it once more, nothing is removed from it");
   if (parts.labels || parts.scene)
+  {
     warnOfIdentities("names of structures", structures, report.warnings);
+    warnOfIdentities("codes and algorithms that segmentation files gave structures", codes,
+                     report.warnings);
+  }
   if (parts.scene)
   {
     warnOfIdentities("names of meshes", meshes, report.warnings);
+    std::vector<std::string> others;
+    for (const scene::ImagePart& mr : value.mr)
+      others.push_back(mr.name);
+    for (const dissection::History::Branch& branch : value.dissection.history().branches())
+      others.push_back(branch.name);
+    warnOfIdentities("names of MRs and approaches", others, report.warnings);
+    warnOfIdentities("names of structures that are gone, in strokes that touched them",
+                     goneStructures(value), report.warnings);
     warnOfIdentities("tags", value.description.tags, report.warnings);
     warnOfIdentities("name of the case, diagnosis and procedure",
                      {value.name, value.description.diagnosis, value.description.procedure},
                      report.warnings);
   }
+  warnOfText(value, images, parts.mr || whole, report.warnings);
   if (faces)
   {
     if (!faces->empty() && (images || parts.mr))
@@ -544,13 +651,10 @@ IdentityReport reportOf(const scene::Case& value, const SendParts& parts, bool p
                          ? "the face, which is masked in " + joined(*faces)
                          : "a face can be recognised in " + joined(*faces) + "; it can be masked");
   }
-  else if ((images && showsHead(value.ct.geometry)) ||
-           ((parts.mr || whole) &&
-            std::any_of(value.mr.begin(), value.mr.end(),
-                        [](const auto& mr) { return showsHead(mr.geometry); })))
-    report.warnings.push_back("the image holds a whole head: a face can be rendered from it. A "
-                              "case of the region of the ear alone (File > Open a region) has "
-                              "none");
+  else if ((images && showsHead(value.ct.geometry, parts.mask)) ||
+           ((parts.mr || whole) && anyShowsHead(value.mr, parts.mask)))
+    (parts.mask.face ? report.stays : report.warnings)
+        .emplace_back(parts.mask.face ? "the face, which is masked where one is found" : kHeadText);
   if (planOnly)
     report.stays.push_back("images, structures and meshes: the plan is restored where the very "
                            "same CT is");
@@ -562,7 +666,7 @@ IdentityReport reportOf(const scene::Case& value, const SendParts& parts, bool p
 IdentityReport identityReport(const scene::Case& value, const SendParts& parts,
                               const std::vector<std::string>* faces)
 {
-  IdentityReport report = reportOf(value, parts, false, false, faces);
+  IdentityReport report = reportOf(value, parts, archiveOptions(parts), faces);
   report.stays.push_back("name, birth date, numbers and other data of the patient, hospital and "
                          "physicians, dates and times: the case has none of them. The objects "
                          "name the patient 'Anonymous'");
@@ -572,17 +676,39 @@ IdentityReport identityReport(const scene::Case& value, const SendParts& parts,
   return report;
 }
 
-IdentityReport identityReport(const scene::Case& value, const library::ArchiveOptions& options)
+IdentityReport identityReport(const scene::Case& value, const library::ArchiveOptions& options,
+                              const scene::ImageMask& mask)
 {
   SendParts parts;
   parts.scene = true;
   parts.note = !options.withoutNotes;
-  parts.videos = options.withVideos;
-  IdentityReport report = reportOf(value, parts, options.planOnly, options.keepDate, nullptr);
+  parts.mask = mask;
+  IdentityReport report = reportOf(value, parts, options, nullptr);
   report.stays.push_back("name, birth date, numbers and other data of the patient, hospital and "
                          "physicians, dates and times of the scan: the case has none of them");
   report.stays.push_back("UIDs of the scanner's files: the case has none of them");
   return report;
+}
+
+std::vector<std::string> identityWarnings(const scene::Case& value, const ExportOptions& options)
+{
+  std::vector<std::string> warnings;
+  const std::string& what = options.what;
+  const bool isMr = what == "mr";
+  if (!options.mask.face && (isMr ? anyShowsHead(value.mr, options.mask)
+                                  : (what == "ct" || what == "dissected" || what == "surface") &&
+                                        showsHead(value.ct.geometry, options.mask)))
+    warnings.emplace_back(kHeadText);
+  warnOfText(value, what == "ct" || what == "dissected", isMr, warnings);
+  std::vector<std::string> names;
+  if (what == "labels" || what == "structure")
+    for (const std::string& name : scene::partNames(value))
+      if (options.part.empty() || name == options.part)
+        if (scene::findStructure(value, name) ||
+            (what == "structure" && scene::findMesh(value, name)))
+          names.push_back(name);
+  warnOfIdentities("names of structures", names, warnings);
+  return warnings;
 }
 
 std::string studyIdOf(const std::string& caseName)

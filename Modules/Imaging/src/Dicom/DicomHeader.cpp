@@ -333,6 +333,8 @@ void readSlice(ByteSource& source, DicomElements& elements, const std::string& s
   header.modality = elements.text(0x00080060);
   header.description = elements.text(0x0008103e);
   slice.imageType = elements.words(0x00080008);
+  slice.burnedIn = burnedInText(elements.text(0x00280301), header.modality, sopClass,
+                                elements.text(0x00080008), !elements.text(0x00080064).empty());
   readPlace(elements, slice);
   readOrigin(elements, slice);
   readTraits(elements, slice);

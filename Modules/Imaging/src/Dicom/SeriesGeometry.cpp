@@ -23,6 +23,8 @@ constexpr double kFarthest = 1e5;       // mm; positions beyond are invalid
 constexpr double kCoarsest = 1e3;       // mm
 constexpr double kPerpendicular = 1e-3; // dot product of direction cosines; ten times rounding
 constexpr double kUnitLength = 1e-2;
+constexpr const char* kOfText =
+    ": it may name the patient; look at the image before it is handed on.";
 
 bool isFinite(const std::optional<Eigen::Vector3d>& v)
 {
@@ -132,6 +134,7 @@ public:
     setAsideMinorities();
     judgeRescale();
     noteLoss();
+    noteText();
     judgeStack();
     judgeDamaged();
     judgeAcquisitions();
@@ -329,6 +332,23 @@ private:
       find(FindingKind::MixedRescale,
            "The slices do not share one rescale slope and intercept, so equal tissue may have "
            "unequal values; no position is affected (0 mm).");
+  }
+
+  void noteText()
+  {
+    auto worst = BurnedInText::None;
+    for (const SliceHeader& slice : m_slices)
+      worst = std::max(worst, slice.burnedIn);
+    if (worst == BurnedInText::None)
+      return;
+    const auto count =
+        std::count_if(m_slices.begin(), m_slices.end(),
+                      [worst](const SliceHeader& slice) { return slice.burnedIn == worst; });
+    m_result.notes.push_back(
+        (worst == BurnedInText::Stated
+             ? "The header states text in the pixels (Burned In Annotation), in "
+             : "Text may be in the pixels, as of a screenshot or a converted image, in ") +
+        countOf(static_cast<std::size_t>(count), m_slices.size()) + kOfText);
   }
 
   void noteLoss()
@@ -546,6 +566,29 @@ const char* kindName(FindingKind kind) noexcept
 const char* verdictName(Verdict verdict) noexcept
 {
   return verdict == Verdict::Ok ? "ok" : verdict == Verdict::Repairable ? "repairable" : "refused";
+}
+
+BurnedInText burnedInText(const std::string& annotation, const std::string& modality,
+                          const std::string& sopClass, const std::string& imageType,
+                          bool isConverted)
+{
+  if (annotation == "YES")
+    return BurnedInText::Stated;
+  if (annotation == "NO")
+    return BurnedInText::None;
+  static const char* const kModalities[] = {"SC", "OT",  "US", "ES",  "XC",
+                                            "GM", "DOC", "SM", "IVUS"};
+  const bool isSuspected =
+      std::find(std::begin(kModalities), std::end(kModalities), modality) !=
+          std::end(kModalities) ||
+      sopClass.rfind("1.2.840.10008.5.1.4.1.1.7", 0) == 0 || // secondary capture
+      imageType.find("SCREEN") != std::string::npos || isConverted;
+  return isSuspected ? BurnedInText::Suspected : BurnedInText::None;
+}
+
+bool isNoteOfText(const std::string& note)
+{
+  return note.find(kOfText) != note.npos;
 }
 
 SeriesGeometry assess(std::vector<SliceHeader> slices)

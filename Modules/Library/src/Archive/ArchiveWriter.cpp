@@ -26,6 +26,7 @@
 #include "petrous/Library/Attachments.h"
 #include "petrous/Library/FrameSalt.h"
 #include "petrous/Library/ObjectStore.h"
+#include "petrous/Library/OwnerLock.h"
 #include "petrous/Scene/Manifest.h"
 
 namespace petrous::library
@@ -251,43 +252,77 @@ std::optional<volume::LabelMap> asShown(const scene::LabelPart& part, const fs::
   return volume::makeLabelMap(std::move(voxels), std::move(kept));
 }
 
-/// Objects that are made for an archive, beside it until it is written.
-class PassingObjects
+/// A folder beside an archive, in which it and the objects that are made for it alone grow: voxels
+/// and copies of linked files of a patient. What a killed process left there is removed first.
+class ArchiveStaging
 {
 public:
-  explicit PassingObjects(const fs::path& archive)
-    : m_folder(core::temporaryBeside(archive))
+  explicit ArchiveStaging(const fs::path& archive)
   {
+    const fs::path target = core::outputTarget(archive);
+    removeAbandoned(target.has_parent_path() ? target.parent_path() : fs::path("."), isLeftover);
+    constexpr int kAttempts = 10;
+    for (int n = 0; n < kAttempts && (!m_lock || !m_lock->isThere()); ++n)
+    {
+      m_lock.reset();
+      if (std::error_code ignored; !m_folder.empty())
+        fs::remove(m_folder, ignored);
+      m_folder = core::temporaryBeside(target);
+      if (::mkdir(m_folder.c_str(), 0700) != 0)
+        core::throwOutputError(errno, archive);
+      m_lock = std::make_unique<OwnerLock>(m_folder);
+    }
+    const fs::path objects = m_folder / kObjects;
+    if (::mkdir(objects.c_str(), 0700) != 0)
+    {
+      const int error = errno;
+      ::rmdir(m_folder.c_str());
+      core::throwOutputError(error, archive);
+    }
+    m_store = std::make_unique<ObjectStore>(objects);
   }
-  ~PassingObjects()
+  ~ArchiveStaging()
   {
     std::error_code ignored;
     fs::remove_all(m_folder, ignored);
   }
-  PassingObjects(const PassingObjects&) = delete;
-  PassingObjects& operator=(const PassingObjects&) = delete;
+  ArchiveStaging(const ArchiveStaging&) = delete;
+  ArchiveStaging& operator=(const ArchiveStaging&) = delete;
 
-  ObjectStore& store()
-  {
-    if (!m_store)
-    {
-      if (::mkdir(m_folder.c_str(), 0700) != 0)
-        core::throwOutputError(errno, m_folder);
-      m_store.emplace(m_folder);
-    }
-    return *m_store;
-  }
+  const fs::path& folder() const noexcept { return m_folder; }
 
-  bool contains(const std::string& object) const { return m_store && m_store->contains(object); }
+  ObjectStore& store() { return *m_store; } ///< of objects for this archive alone
 
 private:
+  static constexpr const char* kObjects = "objects";
+
+  // Such a folder, and not one in which something else grows: it has what is made here, and no
+  // more.
+  static bool isLeftover(const fs::path& path)
+  {
+    std::error_code error;
+    if (!core::isLeftover(path) || !fs::is_directory(fs::symlink_status(path, error)))
+      return false;
+    bool isEmpty = true;
+    for (fs::directory_iterator entry(path, error), end; !error && entry != end;
+         entry.increment(error))
+    {
+      const std::string name = entry->path().filename().string();
+      isEmpty = false;
+      if (name != kObjects && name.rfind("archive", 0) != 0) // libzip adds an ending
+        return false;
+    }
+    return !error && !isEmpty;
+  }
+
   fs::path m_folder;
-  std::optional<ObjectStore> m_store;
+  std::unique_ptr<OwnerLock> m_lock;
+  std::unique_ptr<ObjectStore> m_store;
 };
 
 /// Leaves out what stays in the library, embeds what is linked, and notes both.
 void chooseAttachments(scene::Case& value, const Library& library, const ArchiveOptions& options,
-                       PassingObjects& passing, std::vector<std::string>& notes)
+                       ArchiveStaging& passing, std::vector<std::string>& notes)
 {
   using scene::Attachment;
   std::vector<Attachment> chosen;
@@ -297,12 +332,13 @@ void chooseAttachments(scene::Case& value, const Library& library, const Archive
     const std::string what = attachmentText(one);
     const bool isPlain =
         one.kind == Attachment::Kind::Screenshot || one.kind == Attachment::Kind::Recording;
-    if (one.kind == Attachment::Kind::Video && (!options.withVideos || options.planOnly))
-      notes.push_back(what + " stays in this library: a video may show or name the patient" +
-                      (options.planOnly ? "" : " (--with-videos takes it along)"));
-    else if (options.planOnly && (!isPlain || one.bytes > kLargestOfPlan))
-      notes.push_back(what + " stays in this library: a plan takes small screenshots and "
-                             "recordings along");
+    if (!takesAlong(options, one))
+      notes.push_back(what + " stays in this library: " +
+                      (options.planOnly ? "a plan takes small screenshots and recordings along"
+                       : one.kind == Attachment::Kind::Video
+                           ? "a video may show or name the patient (--with-videos takes it along)"
+                           : "a PDF may name the patient, also in its metadata "
+                             "(--with-documents takes it along)"));
     else if (const std::string problem = attachmentProblem(library, one); !problem.empty())
       notes.push_back(what + " is not in the archive: its file is " + problem);
     else
@@ -321,7 +357,7 @@ void chooseAttachments(scene::Case& value, const Library& library, const Archive
           continue;
         }
       }
-      if (!options.keepDate)
+      if (!options.keepIdentity)
         one.date.clear();
       if (options.withoutNotes)
         one.note.clear();
@@ -336,6 +372,31 @@ void chooseAttachments(scene::Case& value, const Library& library, const Archive
                        "nobody");
   if (!unclean.empty())
     notes.push_back("metadata is not removed from " + unclean);
+}
+
+/// When strokes were drilled, and who signed registrations and when. Their order, and that they
+/// were signed, stay.
+void forgetTimesAndSigners(scene::Case& value, std::vector<std::string>& notes)
+{
+  dissection::Dissection::Strokes strokes;
+  for (const auto& stroke : value.dissection.strokes())
+  {
+    dissection::Stroke timeless = *stroke;
+    timeless.info.startedAt.clear();
+    strokes.push_back(std::make_shared<const dissection::Stroke>(std::move(timeless)));
+  }
+  value.dissection = dissection::Dissection(std::move(strokes), value.dissection.history());
+  bool isSigned = false;
+  for (scene::ImagePart& mr : value.mr)
+    if (mr.registration && mr.registration->signOff)
+    {
+      isSigned = true;
+      mr.registration->signOff->who.clear();
+      mr.registration->signOff->when.clear();
+    }
+  if (isSigned)
+    notes.emplace_back("who signed a registration, and when, stays in this library; that it was "
+                       "signed goes along");
 }
 
 std::string entryOf(const ObjectUse& use, bool isCt, std::set<std::string>& used)
@@ -359,6 +420,22 @@ std::string entryOf(const ObjectUse& use, bool isCt, std::set<std::string>& used
 }
 
 } // namespace
+
+bool takesAlong(const ArchiveOptions& options, const scene::Attachment& attachment) noexcept
+{
+  using Kind = scene::Attachment::Kind;
+  switch (attachment.kind)
+  {
+  case Kind::Video:
+    return options.withVideos && !options.planOnly;
+  case Kind::Document:
+    return options.withDocuments && !options.planOnly;
+  case Kind::Recording:
+  case Kind::Screenshot:
+    break;
+  }
+  return !options.planOnly || attachment.bytes <= kLargestOfPlan;
+}
 
 std::string toText(const ArchiveIndex& index)
 {
@@ -400,7 +477,7 @@ try
   salt(value.ct);
   std::for_each(value.mr.begin(), value.mr.end(), salt);
   const ObjectStore kept(library.folder() / "objects");
-  PassingObjects passing(file);
+  ArchiveStaging passing(file);
   if (!options.planOnly)
     for (scene::LabelPart& part : value.labels)
     {
@@ -422,11 +499,13 @@ try
     std::for_each(value.mr.begin(), value.mr.end(), store);
   }
   Description& description = value.description;
-  if (!description.date.empty() && !options.keepDate)
+  if (!description.date.empty() && !options.keepIdentity)
   {
     description.date.clear();
     summary.notes.emplace_back("the planned date stays in this library");
   }
+  if (!options.keepIdentity)
+    forgetTimesAndSigners(value, summary.notes);
   if (!description.note.empty() && options.withoutNotes)
   {
     description.note.clear();
@@ -437,7 +516,7 @@ try
   chooseAttachments(value, library, options, passing, summary.notes);
   const std::string manifest = scene::toManifest(value);
   const auto storeOf = [&](const std::string& object) -> const ObjectStore&
-  { return passing.contains(object) ? passing.store() : kept; };
+  { return passing.store().contains(object) ? passing.store() : kept; };
 
   summary.name = name;
   summary.planOnly = options.planOnly;
@@ -467,7 +546,7 @@ try
   }
   summary.parts = stored.size();
 
-  ZipWriter zip(file);
+  ZipWriter zip(file, passing.folder());
   const auto bytesOf = [](const std::string& text)
   { return std::vector<std::uint8_t>(text.begin(), text.end()); };
   zip.add(kIndexEntry, true, [bytes = bytesOf(toText(index))] { return fromMemory(bytes); });

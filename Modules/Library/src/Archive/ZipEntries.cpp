@@ -63,16 +63,10 @@ struct ZipWriter::Entry
   zip_error_t error;
 };
 
-ZipWriter::ZipWriter(const fs::path& path)
+ZipWriter::ZipWriter(const fs::path& path, const fs::path& staging)
   : m_path(core::outputTarget(path))
-  , m_temporary(core::temporaryBeside(m_path))
+  , m_temporary(staging / "archive")
 {
-  // libzip would report a folder that is missing or read-only only at the end of all the work.
-  const int probe = ::open(m_temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (probe < 0)
-    core::throwOutputError(errno, path);
-  ::close(probe);
-  ::unlink(m_temporary.c_str());
   int error = 0;
   m_zip = zip_open(m_temporary.c_str(), ZIP_CREATE | ZIP_EXCL, &error);
   if (!m_zip)

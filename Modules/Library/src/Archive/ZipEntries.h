@@ -21,8 +21,9 @@ using Produce = std::function<std::size_t(char* buffer, std::size_t room)>;
 class ZipWriter
 {
 public:
-  /// Throws core::OutputFileError.
-  explicit ZipWriter(const std::filesystem::path& path);
+  /// It grows in the folder `staging`, which must be on the file system of `path`. Throws
+  /// core::OutputFileError.
+  ZipWriter(const std::filesystem::path& path, const std::filesystem::path& staging);
   ~ZipWriter();
   ZipWriter(const ZipWriter&) = delete;
   ZipWriter& operator=(const ZipWriter&) = delete;

@@ -21,6 +21,7 @@
 #include "Vocabulary.h"
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Imaging/DicomReader.h"
+#include "petrous/Imaging/SeriesGeometry.h"
 
 namespace petrous::library
 {
@@ -1491,18 +1492,6 @@ std::string unsuitable(const std::string& sopClass)
   return {};
 }
 
-bool isSuspectedOfText(DcmItem& item)
-{
-  const std::string modality = valueOf(item, DCM_Modality);
-  for (const char* suspected : {"SC", "OT", "US", "ES", "XC", "GM", "DOC", "SM", "IVUS"})
-    if (modality == suspected)
-      return true;
-  const std::string sopClass = valueOf(item, DCM_SOPClassUID);
-  return sopClass.rfind("1.2.840.10008.5.1.4.1.1.7", 0) == 0 ||
-         valueOf(item, DCM_ImageType).find("SCREEN") != std::string::npos ||
-         item.tagExists(DCM_ConversionType);
-}
-
 // A head is some 150 mm wide and 180 mm long.
 bool coversAHead(DcmItem& item)
 {
@@ -1645,8 +1634,11 @@ DicomCleaner::Outcome DicomCleaner::clean(const std::filesystem::path& input,
   const E_TransferSyntax syntax = dataSet->getOriginalXfer();
 
   const std::string burnedIn = valueOf(*dataSet, DCM_BurnedInAnnotation);
-  const bool states = burnedIn == "YES";
-  if (!m_options.keepBurnedIn && (states || (burnedIn != "NO" && isSuspectedOfText(*dataSet))))
+  const imaging::BurnedInText text = imaging::burnedInText(
+      burnedIn, valueOf(*dataSet, DCM_Modality), valueOf(*dataSet, DCM_SOPClassUID),
+      valueOf(*dataSet, DCM_ImageType), dataSet->tagExists(DCM_ConversionType));
+  const bool states = text == imaging::BurnedInText::Stated;
+  if (!m_options.keepBurnedIn && text != imaging::BurnedInText::None)
     return {states ? "has burned-in annotation" : "may have burned-in annotation", true};
   if (burnedIn != "NO" && dataSet->tagExists(DCM_PixelData))
     ++warnings[states ? "burned-in annotation is stated, and kept"

@@ -84,10 +84,35 @@ std::string objectEnding(const std::string& name)
   return isPlain && !ending.empty() && ending.size() <= 8 ? ending : std::string("bin");
 }
 
-Attachment described(const AttachOptions& options, const std::string& name)
+// Without anything of the file's own name, which may be a patient's, but for an ending by which
+// programs know such files.
+std::string neutralName(Attachment::Kind kind, const fs::path& file)
+{
+  switch (kind)
+  {
+  case Attachment::Kind::Recording:
+    return "recording.ticks";
+  case Attachment::Kind::Screenshot:
+    return "screenshot.png";
+  case Attachment::Kind::Document:
+    return "document.pdf";
+  case Attachment::Kind::Video:
+    break;
+  }
+  const std::string ending = scene::lowerCase(file.extension().string());
+  for (const char* known :
+       {".mp4", ".m4v", ".mov", ".mkv", ".webm", ".avi",  ".mpg", ".mpeg", ".ts",  ".mts", ".wmv",
+        ".flv", ".ogv", ".ogg", ".mp3", ".wav",  ".flac", ".m4a", ".mka",  ".asf", ".3gp"})
+    if (ending == known)
+      return "video" + ending;
+  return "video";
+}
+
+Attachment described(const AttachOptions& options, Attachment::Kind kind, const fs::path& file)
 {
   Attachment attachment;
-  attachment.name = options.name.empty() ? name : options.name;
+  attachment.kind = kind;
+  attachment.name = options.name.empty() ? neutralName(kind, file) : options.name;
   attachment.note = options.note;
   attachment.date = options.date.empty() ? today() : options.date;
   return attachment;
@@ -145,11 +170,10 @@ Attachment attachmentOf(const fs::path& file, const AttachOptions& options,
                         const core::Progress& progress)
 {
   const core::InputFile opened(file); // a regular file, at the end of links
-  Attachment attachment = described(options, file.filename().string());
+  Attachment attachment = described(options, kindOf(readHead(opened), file), file);
   attachment.bytes = opened.size();
   try
   {
-    attachment.kind = kindOf(readHead(opened), file);
     if (options.link)
     {
       attachment.link = fs::canonical(file).string();
@@ -185,12 +209,17 @@ Attachment attachmentOf(const fs::path& file, const AttachOptions& options,
 
 Attachment screenshotOf(std::vector<std::uint8_t> png, const AttachOptions& options)
 {
-  Attachment attachment = described(options, "screenshot.png");
-  attachment.kind = Attachment::Kind::Screenshot;
+  Attachment attachment = described(options, Attachment::Kind::Screenshot, {});
   attachment.content = std::make_shared<std::vector<std::uint8_t>>(cleanedPng(png));
   attachment.bytes = attachment.content->size();
   scene::checkAttachments({attachment});
   return attachment;
+}
+
+bool hasAttachment(const scene::Case& value, Attachment::Kind kind) noexcept
+{
+  return std::any_of(value.attachments.begin(), value.attachments.end(),
+                     [kind](const Attachment& one) { return one.kind == kind; });
 }
 
 std::string attach(scene::Case& value, Attachment attachment)

@@ -17,6 +17,8 @@ namespace petrous::presenters
 /// as the name is the user's and stays in the scene.
 std::string studyIdOf(const std::string& caseName);
 
+struct ExportOptions;
+
 struct SendParts
 {
   bool ct = false;
@@ -25,6 +27,7 @@ struct SendParts
   bool scene = false;
   bool note = true;           ///< of the description, with the scene
   bool videos = false;        ///< attached ones, with the scene; they may show or name the patient
+  bool documents = false;     ///< likewise
   scene::ImageMask mask = {}; ///< of all images
 };
 
@@ -44,8 +47,12 @@ struct IdentityReport
 /// then images that hold a whole head are warned of. Reads no voxels.
 IdentityReport identityReport(const scene::Case& value, const SendParts& parts,
                               const std::vector<std::string>* faces = nullptr);
-/// The same of an archive with these options (library::archiveCase).
-IdentityReport identityReport(const scene::Case& value, const library::ArchiveOptions& options);
+/// The same of an archive with these options (library::archiveCase), of which `mask` is what
+/// `prepare` does to the images.
+IdentityReport identityReport(const scene::Case& value, const library::ArchiveOptions& options,
+                              const scene::ImageMask& mask = {});
+/// What may identify the patient in a file that exportCase writes.
+std::vector<std::string> identityWarnings(const scene::Case& value, const ExportOptions& options);
 
 /// scene::imagesWithFace, without reading images that are smaller than a head.
 std::vector<std::string> facesToMask(const scene::Case& value);

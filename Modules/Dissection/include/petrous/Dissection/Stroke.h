@@ -36,7 +36,7 @@ struct TouchedStructure
 /// Metadata of a stroke (drill on to drill off), without its voxels.
 struct StrokeInfo
 {
-  std::string startedAt; ///< UTC, ISO 8601
+  std::string startedAt; ///< UTC, ISO 8601; empty: not known
   double duration = 0.0; ///< s, of simulated time
   Burr burr;
   double removed = 0.0; ///< mm^3 removed from {f > 0}

@@ -57,6 +57,23 @@ struct FileStamp
   std::int64_t changed = 0;  ///< contents, name or rights, ns since 1970
 };
 
+/// Text in the pixels, which may name the patient: Burned In Annotation (0028,0301).
+enum class BurnedInText
+{
+  None,      ///< stated, or not stated of an image that gives no reason to suspect it
+  Suspected, ///< not stated, of a screenshot, a secondary capture and the like
+  Stated
+};
+
+/// Of an image's attributes. `sopClass`: its UID; `imageType`: all values; `isConverted`: it has a
+/// Conversion Type (0008,0064).
+BurnedInText burnedInText(const std::string& annotation, const std::string& modality,
+                          const std::string& sopClass, const std::string& imageType,
+                          bool isConverted);
+
+/// Whether this is the note of a series that text may be in its pixels, stated or suspected.
+bool isNoteOfText(const std::string& note);
+
 /// Header of one slice. Absent or malformed numbers are nullopt.
 struct SliceHeader
 {
@@ -74,7 +91,8 @@ struct SliceHeader
   bool hasRescale = false;
   std::string rescaleType; ///< (0028,1054) unit of the rescaled values, e.g. HU; empty: not stated
   bool isLossy = false;    ///< the pixels were compressed with loss, once
-  std::optional<double> lossyRatio;        ///< of that compression, if stated
+  std::optional<double> lossyRatio; ///< of that compression, if stated
+  BurnedInText burnedIn = BurnedInText::None;
   std::optional<double> declaredSpacing;   ///< SpacingBetweenSlices, mm; noted, never used
   std::optional<double> thickness;         ///< mm
   std::optional<double> declaredTilt;      ///< GantryDetectorTilt, degrees; noted only

@@ -35,11 +35,14 @@ struct ArchiveOptions
   bool planOnly = false;
   int level = 4;             ///< of the images' compression, 1 (fast) to 12 (small)
   bool withoutNotes = false; ///< Description::note stays here
-  /// The planned date goes along. Dates identify: with the list of a day's operations, everybody
-  /// knows who the patient is.
-  bool keepDate = false;
+  /// Dates, times (of the operation, attachments and strokes) and who signed registrations go
+  /// along. They identify: with the list of a day's operations, everybody knows who the patient is.
+  /// Else a registration that was signed stays so, without who and when.
+  bool keepIdentity = false;
   /// Videos go along, linked ones as embedded; they may show or name the patient.
   bool withVideos = false;
+  /// So do documents: a PDF names its author, and reports their patient.
+  bool withDocuments = false;
   /// Changes the copy of the case that is written (scene::maskImages); returns sentences for the
   /// user. Images that it leaves without an object are written to the archive alone, and no
   /// thumbnail goes along. Not called for a plan.
@@ -48,6 +51,9 @@ struct ArchiveOptions
 
 /// A plan takes screenshots and recordings along up to this size, bytes; and no other attachments.
 constexpr std::uint64_t kLargestOfPlan = 16U << 20;
+
+/// Whether an attachment goes along, by its kind and size.
+bool takesAlong(const ArchiveOptions& options, const scene::Attachment& attachment) noexcept;
 
 struct ArchiveSummary
 {

@@ -17,7 +17,8 @@ constexpr std::uint64_t kLargestPng = std::uint64_t{256} << 20;    ///< bytes
 
 struct AttachOptions
 {
-  std::string name; ///< in the case; empty: that of the file
+  /// In the case; empty: by its kind ("document.pdf"), as a file's name may be a patient's.
+  std::string name;
   std::string note;
   std::string date;  ///< ISO 8601; empty: today
   bool link = false; ///< only where the file is, its size and its hash are kept
@@ -32,6 +33,8 @@ scene::Attachment attachmentOf(const std::filesystem::path& file, const AttachOp
 
 /// The same of a PNG in memory.
 scene::Attachment screenshotOf(std::vector<std::uint8_t> png, const AttachOptions& options);
+
+bool hasAttachment(const scene::Case& value, scene::Attachment::Kind kind) noexcept;
 
 /// Adds it to the case, under a name that is free. Returns the name.
 std::string attach(scene::Case& value, scene::Attachment attachment);

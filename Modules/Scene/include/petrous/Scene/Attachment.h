@@ -25,7 +25,7 @@ struct Attachment
   static constexpr std::size_t kMax = 1000; ///< of a case
 
   Kind kind = Kind::Document;
-  std::string name;        ///< as of a file; unique in the case, whatever the case of its letters
+  std::string name;        ///< valid for a file; unique in the case, whatever the case of letters
   std::string date;        ///< on which it was attached, ISO 8601: "2026-03-31"; or empty
   std::string note;        ///< as Description::note
   std::string stroke;      ///< object of the stroke to which it belongs; empty: none

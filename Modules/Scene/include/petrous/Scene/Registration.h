@@ -24,8 +24,8 @@ struct RegistrationError
 /// A surgeon's acceptance of a registration after inspection. Valid for one transform only.
 struct SignOff
 {
-  std::string who;                ///< a clinician's name, never a patient's
-  std::string when;               ///< ISO 8601, UTC
+  std::string who;  ///< a clinician's name, never a patient's; empty: not told with the case
+  std::string when; ///< ISO 8601, UTC; likewise
   core::RigidTransform transform; ///< the accepted ImagePart::mrFromCt
 };
 

@@ -25,6 +25,8 @@ struct PartOptions
   std::string labelNames;
   std::string meshFrame;
   std::string meshUnit;
+  std::string mrFrame;
+  std::string labelsFrame;
   bool repair = false;
   bool otherPatient = false;
 
@@ -36,6 +38,10 @@ struct PartOptions
                     "#UID#VOLUME: that volume of it")
         ->allow_extra_args(false)
         ->type_name("[NAME=]PATH[#UID[#VOLUME]]");
+    command
+        .add_option("--mr-frame", mrFrame,
+                    "Axes of MR files that do not say which side is left: lps or ras")
+        ->check(oneOf({"lps", "ras"}));
     command.add_flag("--repair", repair,
                      "Resample tilted, uneven or gapped DICOM slices to a straight volume");
     command.add_flag("--other-patient", otherPatient,
@@ -46,6 +52,11 @@ struct PartOptions
                     "folder of masks; @MR: drawn on that MR")
         ->allow_extra_args(false)
         ->type_name("[NAME=]FILE[@MR]");
+    command
+        .add_option("--labels-frame", labelsFrame,
+                    "Axes of label files that do not say which side is left, and do not have the "
+                    "grid of an image of the case: lps or ras")
+        ->check(oneOf({"lps", "ras"}));
     command
         .add_option("--label-names", labelNames,
                     "Names and colours of the indices: .ctbl, ITK-SNAP, CSV, TSV or JSON")
@@ -70,14 +81,24 @@ struct PartOptions
     presenters::PartSources result;
     if (otherPatient && mr.empty())
       throw UsageError("--other-patient goes with --mr");
+    if (!mrFrame.empty() && mr.empty())
+      throw UsageError("--mr-frame goes with --mr");
+    if (!labelsFrame.empty() && labels.empty())
+      throw UsageError("--labels-frame goes with --labels");
     for (const std::string& text : mr)
     {
       result.mr.push_back(presenters::PartSource::parseSeries(text));
       result.mr.back().repair = repair;
+      if (!mrFrame.empty())
+        result.mr.back().assumeRas = mrFrame == "ras";
       result.mr.back().isOtherPatient = otherPatient;
     }
     for (const std::string& text : labels)
+    {
       result.labels.push_back(presenters::PartSource::parseDrawn(text));
+      if (!labelsFrame.empty())
+        result.labels.back().assumeRas = labelsFrame == "ras";
+    }
     result.labelNames = labelNames;
     if (meshes.empty() && !(meshFrame.empty() && meshUnit.empty()))
       throw UsageError("--mesh-frame and --mesh-unit go with --mesh");
@@ -232,7 +253,7 @@ void addNew(CLI::App& app, Context& context)
                            : options->modality == "CT" ? scene::Modality::Ct
                                                        : scene::Modality::Unknown;
         if (!options->frame.empty())
-          sources.isRas = options->frame == "ras";
+          sources.assumeRas = options->frame == "ras";
         if (!options->roi.empty())
           sources.roi = parseBox(options->roi, "--roi");
         sources.parts = options->parts.sources();

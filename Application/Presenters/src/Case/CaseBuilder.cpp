@@ -175,16 +175,25 @@ struct ReadImage
   std::string otherQuantity; ///< as the function says
 };
 
-// `isPrimary`: of a case, `isRas`: as CaseSources.
+// Before minutes of reading. `option`: as ImageSideUnclear.
+void requireSide(const fs::path& path, const std::optional<bool>& assumeRas,
+                 const std::string& option)
+{
+  if (!assumeRas && !fs::is_directory(path) &&
+      imaging::isReadAs(path, imaging::kImage | imaging::kLabels) && imaging::assumedRasOf(path))
+    throw ImageSideUnclear(path, option);
+}
+
+// `isPrimary`: of a case. `assumeRas`: as CaseSources.
 ReadImage readImage(const fs::path& path, const std::string& selector, bool repair,
                     const std::optional<core::PatientBox>& roi, bool isPrimary,
-                    const std::optional<bool>& isRas, const core::Progress& progress)
+                    const std::optional<bool>& assumeRas, const core::Progress& progress)
 {
   ReadImage read;
   scene::ImagePart& part = read.part;
   if (!fs::is_directory(path) && imaging::isReadAs(path, imaging::kImage | imaging::kLabels))
   {
-    auto image = imaging::readImageFile(path, roi, progress, isRas);
+    auto image = imaging::readImageFile(path, roi, progress, assumeRas);
     part.volume = image.volume;
     part.notes = std::move(image.notes);
   }
@@ -341,8 +350,9 @@ void addMr(scene::Case& value, const PartSource& source,
       name = "mr" + std::to_string(n);
   }
   checkNewName(value, source.path, name);
+  requireSide(source.path, source.assumeRas, "--mr-frame");
   ReadImage read = readImage(source.path, source.series, source.repair, std::nullopt, false,
-                             std::nullopt, progress);
+                             source.assumeRas, progress);
   scene::ImagePart& part = read.part;
   if (!read.otherQuantity.empty())
     part.notes.push_back(read.otherQuantity);
@@ -651,7 +661,9 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     std::vector<core::GridGeometry> images{value.ct.geometry};
     for (const scene::ImagePart& mr : value.mr)
       images.push_back(mr.geometry);
-    loaded = imaging::loadLabels(source.path, progress, naming, images);
+    loaded = imaging::loadLabels(source.path, progress, naming, images, source.assumeRas);
+    if (loaded.isSideOpen)
+      throw ImageSideUnclear(source.path, "--labels-frame");
     if (imaging::isDicomSegmentation(source.path))
       settleFrame(value, source, loaded.frameOfReferenceUid,
                   &loaded.maps.front().voxels->geometry(), salted, loaded.notes);
@@ -826,11 +838,11 @@ void addMesh(scene::Case& value, const PartSource& source)
                                         { return scene::kindOfPart(value, name) != nullptr; },
                                         notes)
                                   : source.name;
-  if (source.name.empty() && scene::findStructure(value, part.name))
+  if (source.name.empty() && scene::kindOfPart(value, part.name))
   {
     part.name = freeName(part.name, [&value](const std::string& name)
                          { return scene::kindOfPart(value, name) != nullptr; });
-    notes.push_back("named so as a structure has the name of its file");
+    notes.push_back("named so as another part has the name of its file");
   }
   checkNewName(value, source.path, part.name);
   if (!source.drawnOn.empty())
@@ -860,12 +872,13 @@ void addMesh(scene::Case& value, const PartSource& source)
 
 } // namespace
 
-ImageSideUnclear::ImageSideUnclear(const fs::path& file)
+ImageSideUnclear::ImageSideUnclear(const fs::path& file, const std::string& option)
   : core::InvalidParameter(
-        file.string() + ": does not say which side of the patient is left (NIfTI: qform or sform, "
-                        "NRRD: space, MetaImage: TransformMatrix), so the anatomy could be "
-                        "mirrored; export it again with its geometry, or say --ct-frame ras "
-                        "(NIfTI's own) or lps (DICOM, ITK) if you know it")
+        file.string() +
+        ": does not say which side of the patient is left (NIfTI: qform or sform, "
+        "NRRD: space, MetaImage: TransformMatrix), so the anatomy could be "
+        "mirrored; export it again with its geometry, or say " +
+        option + " ras (NIfTI's own) or lps (DICOM, ITK) if you know it")
 {
 }
 
@@ -930,13 +943,10 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
   scene::checkCaseName(name);
   scene::Case value;
   value.name = name;
-  const bool isFile = !fs::is_directory(sources.ct) &&
-                      imaging::isReadAs(sources.ct, imaging::kImage | imaging::kLabels);
-  if (isFile && !sources.isRas && imaging::assumedRasOf(sources.ct))
-    throw ImageSideUnclear(sources.ct);
-  ReadImage read =
-      readImage(sources.ct, sources.series, sources.repair, sources.roi,
-                sources.modality != scene::Modality::Mr, sources.isRas, progress.part(0.0, 0.7));
+  requireSide(sources.ct, sources.assumeRas, "--ct-frame");
+  ReadImage read = readImage(sources.ct, sources.series, sources.repair, sources.roi,
+                             sources.modality != scene::Modality::Mr, sources.assumeRas,
+                             progress.part(0.0, 0.7));
   value.ct = std::move(read.part);
   value.ct.name = "ct";
   placeSurface(value, sources.modality, read.otherQuantity);
@@ -1082,6 +1092,7 @@ std::vector<PartFailure> addSoundParts(scene::Case& value, const PartSources& pa
       const auto first = static_cast<double>(done++) / static_cast<double>(count);
       const core::Progress part =
           progress.part(first, static_cast<double>(done) / static_cast<double>(count));
+      const std::size_t before = failures.size();
       try
       {
         addParts(next, one, part, report);
@@ -1099,10 +1110,17 @@ std::vector<PartFailure> addSoundParts(scene::Case& value, const PartSources& pa
         failures.push_back({source, other.what()});
         failures.back().isOtherPatient = true;
       }
+      catch (const ImageSideUnclear& unclear)
+      {
+        failures.push_back({source, unclear.what()});
+        failures.back().isSideUnclear = true;
+      }
       catch (const core::Error& error)
       {
         failures.push_back({source, error.what()});
       }
+      if (failures.size() > before)
+        failures.back().kind = kind;
     }
   };
   add(&PartSources::mr);

@@ -135,7 +135,7 @@ LoadedImage readImageFile(const std::filesystem::path& path,
   progress.report(0.0, "reading image");
   VoxelSource source(path);
   if (isRas)
-    source.assume(*isRas);
+    source.settleSide(isRas, {});
   if (source.components() > 1)
     fail(FileError::Reason::Unsupported, path,
          "holds " + std::to_string(source.components()) +
@@ -156,10 +156,6 @@ LoadedImage readImageFile(const std::filesystem::path& path,
   LoadedImage image;
   image.notes = source.notes();
   image.assumedRas = source.assumedRas();
-  if (isRas && image.assumedRas)
-    image.notes.push_back(std::string("does not say which side of the patient is left; its axes "
-                                      "were taken as ") +
-                          (*isRas ? "RAS" : "LPS") + ", as asked");
   image.volume =
       std::make_shared<const volume::IntensityVolume>(std::move(voxels), source.padding());
   progress.report(1.0, "reading image");

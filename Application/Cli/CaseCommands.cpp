@@ -201,13 +201,17 @@ struct PartCounts
     , meshes(value.meshes.size())
     , hasImage(true)
   {
+    for (const scene::LabelPart& part : value.labels)
+      labelNotes.push_back(part.notes.size());
   }
 
   std::size_t mr = 0, labels = 0, meshes = 0;
+  std::vector<std::size_t> labelNotes; ///< of each of the label maps
   bool hasImage = false;
 };
 
-// What was accepted or assumed when the parts were read that came after `before`.
+// What was accepted or assumed when the parts were read that came after `before`, and what that
+// changed in those that were there.
 void warnNotes(const Context& context, const scene::Case& value, const PartCounts& before = {})
 {
   const auto from = [](const auto& parts, std::size_t first)
@@ -220,14 +224,15 @@ void warnNotes(const Context& context, const scene::Case& value, const PartCount
   for (const std::string& note : before.hasImage ? std::vector<std::string>() : value.ct.notes)
     context.warn((value.ct.modality == scene::Modality::Mr ? "MR" : value.ct.name) + ": " + note);
   std::for_each(from(value.mr, before.mr), value.mr.end(), remark);
-  std::for_each(from(value.labels, before.labels), value.labels.end(),
-                [&context](const auto& part)
-                {
-                  for (const std::string& note : part.notes)
-                    context.warn((part.structures.size() == 1 ? part.structures.front().name
-                                                              : std::string("labels")) +
-                                 ": " + note);
-                });
+  for (std::size_t n = 0; n < value.labels.size(); ++n)
+  {
+    const scene::LabelPart& part = value.labels[n];
+    const std::size_t known = n < before.labels ? before.labelNotes[n] : 0;
+    for (auto note = from(part.notes, known); note != part.notes.end(); ++note)
+      context.warn(
+          (part.structures.size() == 1 ? part.structures.front().name : std::string("labels")) +
+          ": " + *note);
+  }
   std::for_each(from(value.meshes, before.meshes), value.meshes.end(), remark);
 }
 

@@ -115,7 +115,14 @@ void WorkstationModel::takeParts(const scene::Case& before, scene::Case with)
       if (part.object == before.labels[n].object &&
           part.labels.peek() == before.labels[n].labels.peek() &&
           part.drawnOn == before.labels[n].drawnOn)
+      {
         part.drawnOn = with.labels[n].drawnOn;
+        const auto& notes = with.labels[n].notes; // those that say so come last
+        part.notes.insert(part.notes.end(),
+                          notes.begin() + static_cast<std::ptrdiff_t>(std::min(
+                                              before.labels[n].notes.size(), notes.size())),
+                          notes.end());
+      }
   forgetTissue();
   const auto append = [](auto& parts, auto& more, std::size_t from)
   {

@@ -125,7 +125,8 @@ std::string sizeText(const core::GridGeometry& grid)
          " voxels of " + fixed(h[0], 3) + " x " + fixed(h[1], 3) + " x " + fixed(h[2], 3) + " mm";
 }
 
-void printCase(const Context& context, const scene::Case& value)
+void printCase(const Context& context, const scene::Case& value,
+               const std::vector<MeshFacts>& facts)
 {
   context.print("case '" + value.name + "'");
   if (const std::string line = descriptionLine(value.description); !line.empty())
@@ -145,12 +146,13 @@ void printCase(const Context& context, const scene::Case& value)
     for (const auto& s : part.structures)
       context.print("  structure '" + s.name + "', " + fixed(s.volume, 1) + " mm3, " +
                     s.look.preset + placeText(value, scene::placementOf(value, part)));
-  for (const auto& mesh : value.meshes)
+  for (std::size_t n = 0; n < value.meshes.size(); ++n)
   {
+    const scene::MeshPart& mesh = value.meshes[n];
     const scene::Placement place = scene::placementOf(value, mesh);
-    const std::string refusal = place.missing.empty() ? touchRefusal(value, mesh) : "";
+    const std::string refusal = place.missing.empty() ? facts[n].touchRefusal : "";
     std::string measure;
-    if (const auto measured = measureOf(mesh))
+    if (const auto& measured = facts[n].measure)
       measure = measured->volume ? ", " + fixed(*measured->volume, 1) + " mm3"
                                  : ", open, " + std::to_string(measured->openEdges) + " edges";
     context.print("  mesh '" + mesh.name + "', " + std::to_string(mesh.triangles) + " triangles" +
@@ -274,8 +276,9 @@ void addNew(CLI::App& app, Context& context)
             presenters::buildCase(options->name, sources, progress.part(0.0, 0.8), &structures);
         library.save(value, progress.part(0.8, 1.0));
         warnNotes(context, value);
-        printCase(context, value);
-        nlohmann::json info = infoJson(value);
+        const std::vector<MeshFacts> meshes = meshFacts(value);
+        printCase(context, value, meshes);
+        nlohmann::json info = infoJson(value, meshes);
         printStructures(context, structures, info);
         context.printJson(info);
       });
@@ -325,8 +328,9 @@ void addAdd(CLI::App& app, Context& context)
         presenters::addParts(value, sources, context.progress(), &structures);
         library.save(value);
         warnNotes(context, value, before);
-        printCase(context, value);
-        nlohmann::json info = infoJson(value);
+        const std::vector<MeshFacts> meshes = meshFacts(value);
+        printCase(context, value, meshes);
+        nlohmann::json info = infoJson(value, meshes);
         printStructures(context, structures, info);
         context.printJson(info);
       });
@@ -349,8 +353,9 @@ void addRemove(CLI::App& app, Context& context)
                            scene::Case value = library.open(options->name);
                            scene::removePart(value, options->part);
                            library.save(value);
-                           printCase(context, value);
-                           context.printJson(infoJson(value));
+                           const std::vector<MeshFacts> meshes = meshFacts(value);
+                           printCase(context, value, meshes);
+                           context.printJson(infoJson(value, meshes));
                          });
   command->add_option("CASE", options->name)->required();
   command->add_option("--part", options->part, "Its name")->type_name("NAME")->required();
@@ -367,7 +372,8 @@ void addInfo(CLI::App& app, Context& context)
         const library::Library library = context.openLibrary();
         scene::Case value = library.open(*name);
         nlohmann::json areas = nlohmann::json::array();
-        printCase(context, value);
+        const std::vector<MeshFacts> meshes = meshFacts(value);
+        printCase(context, value, meshes);
         if (*exposed)
         {
           library.loadDissection(value);
@@ -378,7 +384,7 @@ void addInfo(CLI::App& app, Context& context)
             areas.push_back({{"label", surface.name}, {"area_mm2", surface.area}});
           }
         }
-        nlohmann::json info = infoJson(value);
+        nlohmann::json info = infoJson(value, meshes);
         if (*exposed)
           info["dissection"]["exposed"] = std::move(areas);
         context.printJson(info);

@@ -34,6 +34,8 @@
 #include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/LeavingImages.h"
+#include "petrous/Scene/FreeName.h"
+#include "petrous/Scene/Placement.h"
 
 namespace petrous::workstation
 {
@@ -121,8 +123,7 @@ QString contentsOf(const scene::Case& value, bool planOnly)
   return text;
 }
 
-// `wanted`, with a number if it is taken.
-std::string freeName(const std::string& wanted, const std::vector<std::string>& taken)
+std::string unusedName(const std::string& wanted, const std::vector<std::string>& taken)
 {
   std::string name = wanted;
   for (int n = 2; std::find(taken.begin(), taken.end(), name) != taken.end(); ++n)
@@ -257,7 +258,7 @@ void CaseDocumentController::refuse(const QString& why)
   box.exec();
 }
 
-// Non-modal.
+// Returns at once; the window waits for the answer.
 void CaseDocumentController::inform(const QString& text)
 {
   auto* box =
@@ -562,13 +563,13 @@ bool CaseDocumentController::askNames(presenters::CaseSources& sources,
     part.what = lineOf(source);
     part.isPlaced = source.content != Content::Mr;
     if (source.content == Content::Mr)
-      part.name = freeName(source.name.empty() ? "mr" : source.name, proposed);
+      part.name = unusedName(source.name.empty() ? "mr" : source.name, proposed);
     else if (source.isNameless || source.content == Content::Mesh)
     {
       const std::string name = presenters::fileName(source.path).name;
       isNameless = isNameless || source.isNameless;
       // An empty name asks for one; that of a whole file name is kept as it is.
-      part.name = name.empty() || !source.isNameless ? name : freeName(name, proposed);
+      part.name = name.empty() || !source.isNameless ? name : unusedName(name, proposed);
     }
     else
     {
@@ -1123,7 +1124,7 @@ void CaseDocumentController::write(const presenters::ExportOptions& options)
        });
 }
 
-// Non-modal.
+// Returns at once; the window waits for the answer.
 void CaseDocumentController::offerCtGrid(const presenters::ExportOptions& options,
                                          const QString& why)
 {

@@ -118,7 +118,7 @@ ExchangeController::ExchangeController(presenters::WorkstationModel& model,
       [this] { PseudonymsDialog(std::chrono::minutes(5), &m_window).exec(); });
 }
 
-// Non-modal.
+// Returns at once; the window waits for the answer.
 void ExchangeController::refuse(const QString& why)
 {
   auto* box = new QMessageBox(QMessageBox::Warning, tr("Petrous"), windowText(why), QMessageBox::Ok,

@@ -104,7 +104,9 @@ presenters::ShownImages MrOverlay::shown() const
   if (!m_alone && m_mode == OverlayMode::Checker)
     return {true, part->name};
   const double opacity = m_alone.value_or(m_mode == OverlayMode::Blend ? m_opacity : 1.0);
-  return {opacity<1.0, opacity> 0.0 ? part->name : std::string()};
+  const bool isCtSeen = opacity < 1.0;
+  const bool isMrSeen = opacity > 0.0;
+  return {isCtSeen, isMrSeen ? part->name : std::string()};
 }
 
 void MrOverlay::setWindow(const presenters::GreyWindow& window)

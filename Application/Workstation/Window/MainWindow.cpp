@@ -805,7 +805,7 @@ void MainWindow::stateChanged()
   m_sum->setText(removedText(value, m_model.drilling()));
 }
 
-// Non-modal: the case is shown at once.
+// Returns at once: the case is shown behind it.
 void MainWindow::notice(const QString& text)
 {
   auto* box = new QMessageBox(QMessageBox::Information, tr("Petrous"), text, QMessageBox::Ok, this);

@@ -25,6 +25,7 @@
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Scene/FreeName.h"
 #include "petrous/Scene/Placement.h"
 #include "petrous/Scene/PlainText.h"
 #include "petrous/Volume/IntensityScale.h"
@@ -40,16 +41,6 @@ namespace
 
 constexpr std::array<float, 3> kMrColor{0.80F, 0.80F, 0.80F}; // of its surface, which is not bone
 
-/// `wanted`, with a number appended if it is taken.
-template <class IsTaken>
-std::string freeName(const std::string& wanted, const IsTaken& isTaken)
-{
-  std::string name = wanted;
-  for (int n = 2; isTaken(name); ++n)
-    name = wanted + " " + std::to_string(n);
-  return name;
-}
-
 /// A part's name derived from its file name if none was given; what is left out of it is noted.
 template <class IsTaken>
 std::string nameFromFile(const fs::path& path, const std::string& otherwise, const IsTaken& isTaken,
@@ -60,7 +51,7 @@ std::string nameFromFile(const fs::path& path, const std::string& otherwise, con
     return file.name;
   notes.push_back("named so and not as its file, whose name may be a patient's; NAME=FILE gives "
                   "another name");
-  return freeName(file.name.empty() ? otherwise : file.name, isTaken);
+  return scene::freeName(file.name.empty() ? otherwise : file.name, isTaken);
 }
 
 // The reader knows the series; the user knows the path.
@@ -342,13 +333,11 @@ void addMr(scene::Case& value, const PartSource& source,
            const std::function<std::string(const std::string&)>& salted,
            const core::Progress& progress)
 {
-  std::string name = source.name;
-  if (name.empty())
-  {
-    name = "mr";
-    for (int n = 2; scene::kindOfPart(value, name); ++n)
-      name = "mr" + std::to_string(n);
-  }
+  const std::string name =
+      !source.name.empty()
+          ? source.name
+          : scene::freeName("mr", [&value](const std::string& taken)
+                            { return scene::kindOfPart(value, taken) != nullptr; });
   checkNewName(value, source.path, name);
   requireSide(source.path, source.assumeRas, "--mr-frame");
   ReadImage read = readImage(source.path, source.series, source.repair, std::nullopt, false,
@@ -637,7 +626,7 @@ std::string validName(const std::string& name, const IsTaken& isTaken,
   if (valid == "ct")
     valid = "structure ct";
   if (isTaken(valid))
-    valid = freeName(core::utf8Prefix(valid, kLongest - 8), isTaken);
+    valid = scene::freeName(core::utf8Prefix(valid, kLongest - 8), isTaken);
   if (valid != name)
     notes.push_back("structure '" + valid +
                     "' has this name since its own is too long, taken or "
@@ -730,14 +719,14 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
                                                   one.name == structure.name;
                                          });
         if (structure.name.empty() || structure.name == source.name || isTwice)
-          structure.name =
-              freeName(structure.name.empty() ? "structure" : structure.name,
-                       [&](const std::string& name)
-                       {
-                         return scene::kindOfPart(value, name) != nullptr ||
-                                std::any_of(part.structures.begin(), part.structures.end(),
-                                            [&](const auto& one) { return one.name == name; });
-                       });
+          structure.name = scene::freeName(
+              structure.name.empty() ? "structure" : structure.name,
+              [&](const std::string& name)
+              {
+                return scene::kindOfPart(value, name) != nullptr ||
+                       std::any_of(part.structures.begin(), part.structures.end(),
+                                   [&](const auto& one) { return one.name == name; });
+              });
       }
       else if (source.name.empty() && loaded.isNamedAfterFile)
         structure.name = nameFromFile(
@@ -840,8 +829,8 @@ void addMesh(scene::Case& value, const PartSource& source)
                                   : source.name;
   if (source.name.empty() && scene::kindOfPart(value, part.name))
   {
-    part.name = freeName(part.name, [&value](const std::string& name)
-                         { return scene::kindOfPart(value, name) != nullptr; });
+    part.name = scene::freeName(part.name, [&value](const std::string& name)
+                                { return scene::kindOfPart(value, name) != nullptr; });
     notes.push_back("named so as another part has the name of its file");
   }
   checkNewName(value, source.path, part.name);

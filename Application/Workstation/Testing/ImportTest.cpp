@@ -25,6 +25,8 @@
 #include "StartPage.h"
 #include "WindowTexts.h"
 #include "petrous/Imaging/LabelFile.h"
+#include "petrous/Imaging/DicomScan.h"
+#include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/VolumeFile.h"
 #include "petrous/Library/Archive.h"
@@ -871,6 +873,72 @@ TEST_F(Import, StructuresAreTakenOutPutBackAndRenamed)
   banner->findChild<QPushButton*>("restorePart")->click();
   EXPECT_EQ(structures(), QStringList{"nerve"});
   EXPECT_FALSE(banner->isVisible());
+// A thick sound CT beside the thin one that was meant.
+TEST_F(Import, ASoundSeriesIsNotTakenUnaskedBesideOneThatNeedsRepair)
+{
+  phantom::SampleOptions options;
+  options.spacing = 1.5;
+  options.tilt = 12.0;
+  phantom::writeSamplePatient(folder() / "sample", options);
+  fs::create_directories(folder() / "visit");
+  fs::rename(folder() / "sample" / "ct", folder() / "visit" / "thin");
+  const auto thick = std::make_shared<const volume::Volume<std::int16_t>>(
+      core::GridGeometry({32, 32, 12}, Eigen::Vector3d(2, 2, 5), Eigen::Vector3d::Zero()),
+      std::int16_t{40});
+  imaging::SeriesDescription series;
+  series.studyUid = "1.2.3";
+  series.seriesUid = "1.2.3.4";
+  series.frameOfReferenceUid = "1.2.3.9";
+  imaging::writeDicomSeries(folder() / "visit" / "thick", volume::IntensityVolume(thick), series);
+  openWindow();
+  QStringList verdicts;
+  onDialog(
+      [&verdicts](QDialog& dialog)
+      {
+        auto* list = dialog.findChild<QTreeWidget*>("series");
+        if (!list)
+          return false;
+        for (int n = 0; n < list->topLevelItemCount(); ++n)
+          verdicts += list->topLevelItem(n)->text(list->columnCount() - 1);
+        dialog.reject();
+        return true;
+      });
+  dropPath(folder() / "visit");
+  ASSERT_TRUE(waitFor([&] { return !verdicts.isEmpty(); }));
+  verdicts.sort();
+  EXPECT_EQ(verdicts, QStringList({"needs repair", "sound"}));
+  EXPECT_TRUE(settled());
+  EXPECT_FALSE(window().model().hasCase());
+
+  presenters::CaseSources sources; // by the command
+  sources.ct = folder() / "visit";
+  try
+  {
+    presenters::buildCase("ear", sources, {});
+    ADD_FAILURE() << "taken unasked";
+  }
+  catch (const imaging::DicomError& error)
+  {
+    EXPECT_EQ(error.reason(), imaging::DicomError::Reason::Ambiguous);
+    EXPECT_NE(std::string(error.what()).find("needs --repair"), std::string::npos) << error.what();
+  }
+  // One that is no finer is named, and left.
+  fs::remove_all(folder() / "visit" / "thin");
+  const auto other = std::make_shared<const volume::Volume<std::int16_t>>(
+      core::GridGeometry({32, 32, 9}, Eigen::Vector3d(2, 2, 5), Eigen::Vector3d::Zero()),
+      std::int16_t{40});
+  series.seriesUid = "1.2.3.5";
+  imaging::writeDicomSeries(folder() / "visit" / "gap", volume::IntensityVolume(other), series);
+  std::vector<fs::path> slices(fs::directory_iterator(folder() / "visit" / "gap"), {});
+  std::sort(slices.begin(), slices.end());
+  fs::remove(slices.at(4));
+  const scene::Case value = presenters::buildCase("ear", sources, {});
+  EXPECT_EQ(value.ct.geometry.dims()[2], 12);
+  EXPECT_TRUE(std::any_of(value.ct.notes.begin(), value.ct.notes.end(),
+                          [](const std::string& note)
+                          { return note.find("8 slices") != std::string::npos; }));
+}
+
   EXPECT_TRUE(settled());
   EXPECT_EQ(library().open("ball").labels.size(), 1u);
   EXPECT_EQ(library().open("ball").labels[0].labels.get()->segments.front().voxels,

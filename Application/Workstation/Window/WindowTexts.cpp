@@ -60,6 +60,8 @@ QString windowText(const QString& text)
       {"; give it another name with NAME=FILE", "; give it another name"},
       {"; give one with NAME=FILE", ""},
       {"; 'petrous scan' says what\\.", "."},
+      {"; 'petrous scan' lists them, --series takes one\\.", "."},
+      {" \\(needs --repair\\)", " (needs repair)"},
       {" Give a series that 'petrous scan' finds ok\\.", ""},
       {" With --repair it is resampled to a straight volume\\.",
        " Opened alone, it can be repaired."},

@@ -134,6 +134,32 @@ void refuseMrBesideCt(const imaging::ScanResult& scan, const fs::path& path)
               "of the MR alone");
 }
 
+// What else of the same modality a folder has; empty: nothing. Without UIDs and descriptions, which
+// identify the patient.
+std::string notTaken(const imaging::ScanResult& scan, const imaging::DicomSeries& series)
+{
+  std::vector<std::string> others;
+  for (const imaging::DicomSeries* other : imaging::otherImages(scan, series))
+  {
+    if (other->modality != series.modality)
+      continue;
+    const imaging::SeriesGeometry& geometry = other->geometry;
+    std::string one = std::to_string(geometry.slices.size()) + " slices";
+    if (geometry.grid)
+      one += " of " + core::generalText(geometry.grid->spacing()[2]) + " mm";
+    others.push_back(one + (geometry.verdict == imaging::Verdict::Ok           ? ""
+                            : geometry.verdict == imaging::Verdict::Repairable ? " (needs --repair)"
+                                                                               : " (refused)"));
+  }
+  if (others.empty())
+    return {};
+  std::string text = others.size() == 1 ? "The folder has another " : "The folder has other ";
+  text += series.modality + (others.size() == 1 ? " of " : "s, of ");
+  for (std::size_t n = 0; n < others.size(); ++n)
+    text += (n == 0 ? "" : ", ") + others[n];
+  return text + ", which was not taken; 'petrous scan' lists them, --series takes one.";
+}
+
 // A code string of a file (PS3.5 6.2), which may stand in a note; any other text may be a name.
 std::string codeText(const std::string& text)
 {
@@ -206,6 +232,9 @@ ReadImage readImage(const fs::path& path, const std::string& selector, bool repa
                       std::to_string(scan.notes.size()) +
                       (scan.notes.size() == 1 ? " place" : " places") +
                       "; 'petrous scan' says what.");
+    if (const std::string left = selector.empty() ? notTaken(scan, series) : std::string();
+        !left.empty())
+      notes.push_back(left);
     part.volume = std::make_shared<const volume::IntensityVolume>(
         readNamed(path, series, options, progress.part(0.2, 0.9), notes));
     part.notes = std::move(notes);

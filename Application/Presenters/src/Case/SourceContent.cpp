@@ -209,7 +209,10 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress,
     result.why = "is a DICOM segmentation";
     return result;
   }
-  if (readable > 1 || !segmentations.empty())
+  const auto only = std::find_if(scan.series.begin(), scan.series.end(), wanted);
+  // Also one that cannot be used as it is may have been meant.
+  const bool hasOthers = readable == 1 && uid.empty() && !imaging::otherImages(scan, *only).empty();
+  if (readable > 1 || hasOthers || !segmentations.empty())
   {
     for (const imaging::DicomSeries& series : scan.series)
       if (!series.geometry.slices.empty())
@@ -218,7 +221,6 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress,
     return result;
   }
   // If none is readable, the reader reports why.
-  const auto only = std::find_if(scan.series.begin(), scan.series.end(), wanted);
   const imaging::DicomSeries& series = readable == 1 ? *only : imaging::chooseSeries(scan, path);
   result.content = contentOf(series.modality);
   result.why = whyOf(series.modality);

@@ -53,8 +53,8 @@ struct SourceContent
   std::string name = {};     ///< proposed for an MR, see sequenceName; may be empty
   /// A DICOM series that can be read only with repair (CaseSources): why. Else empty.
   std::vector<imaging::Finding> repair = {};
-  /// Of a DICOM folder with several readable series: all of them, and those that are refused; the
-  /// user chooses. `content` is then meaningless.
+  /// Of a DICOM folder with several series that may be meant, sound or not: all of them; the user
+  /// chooses. `content` is then meaningless.
   std::vector<SeriesContent> series = {};
   /// Structures of a label map that neither it nor a table beside it names.
   std::size_t unnamed = 0;

@@ -8,6 +8,7 @@
 #include "SliceColumn.h"
 #include "SliceView.h"
 #include "Theme.h"
+#include "petrous/Presenters/SeriesPreview.h"
 
 namespace petrous::workstation
 {
@@ -146,6 +147,8 @@ void MrOverlay::draw()
     notice += tr(": being registered");
   else if (!part->registered)
     notice += tr(": not registered");
+  if (const std::string guessed = presenters::interpolatedText(*part); !guessed.empty())
+    notice += tr(": %1").arg(QString::fromStdString(guessed));
   m_slices.setNotice(notice);
 }
 

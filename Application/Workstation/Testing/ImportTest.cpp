@@ -1031,6 +1031,11 @@ TEST_F(Import, ACaseIsArchivedAndRestored)
   archive(plan, 1);
   EXPECT_FALSE(library::inspectArchive(whole).planOnly);
   EXPECT_TRUE(library::inspectArchive(plan).planOnly);
+  // In the 3D view a line says it.
+  const auto* note = view().findChild<QLabel*>("guessed");
+  ASSERT_NE(note, nullptr);
+  EXPECT_TRUE(note->isVisible());
+  EXPECT_EQ(note->text(), QString("CT: slice %1 interpolated").arg(guessed[0] + 1));
   EXPECT_EQ(library::inspectArchive(whole).name, "ball");
 
   // A name that the library has is asked for.

@@ -61,6 +61,7 @@
 #include "petrous/Presenters/CasePicture.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/Recordings.h"
+#include "petrous/Presenters/SeriesPreview.h"
 
 namespace petrous::workstation
 {
@@ -80,6 +81,27 @@ QStringList dropped(const QMimeData& data)
     what += data.text().trimmed();
   what.removeAll(QString());
   return what;
+}
+
+// Over a picture of the case: which slices repair interpolated.
+void showInterpolated(QWidget& view, const scene::Case& value)
+{
+  constexpr int kMargin = 10;
+  QStringList lines;
+  for (const std::string& line : presenters::interpolatedTexts(value))
+    lines += words(line);
+  auto* label = view.findChild<QLabel*>("guessed");
+  if (!label)
+  {
+    label = new QLabel(&view);
+    label->setObjectName("guessed");
+    label->setTextFormat(Qt::PlainText);
+    label->setAttribute(Qt::WA_TransparentForMouseEvents);
+    label->move(kMargin, kMargin);
+  }
+  label->setText(lines.join('\n'));
+  label->adjustSize();
+  label->setVisible(!lines.isEmpty());
 }
 
 // What was assumed or left out when the parts of a case were read, by part.
@@ -756,6 +778,7 @@ void MainWindow::notifyNotes()
 {
   const QStringList notes = notesOf(m_model.value());
   QStringList fresh;
+  showInterpolated(*m_view, m_model.value());
   for (const QString& note : notes)
     if (!m_notesTold.contains(note))
       fresh += note;

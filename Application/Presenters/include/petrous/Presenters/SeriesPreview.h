@@ -47,3 +47,9 @@ RepairPreview previewRepair(const std::filesystem::path& path, const std::string
 std::vector<int> interpolatedSlices(const scene::ImagePart& image);
 
 } // namespace petrous::presenters
+/// "slices 41-42, 60 interpolated", numbered from 1, for a picture of the image; empty: none is.
+std::string interpolatedText(const scene::ImagePart& image);
+
+/// Likewise of all images of a case, "CT: ..", a line each.
+std::vector<std::string> interpolatedTexts(const scene::Case& value);
+

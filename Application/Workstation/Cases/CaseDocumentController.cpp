@@ -572,6 +572,8 @@ bool CaseDocumentController::askNames(presenters::CaseSources& sources,
       part.name = name.empty() || !source.isNameless ? name : unusedName(name, proposed);
     }
     else
+    if (!source.structures.empty())
+      part.what += ": " + words(scene::listed(source.structures));
     {
       part.isNamed = false;
       part.unnamed = source.unnamed;
@@ -1029,8 +1031,9 @@ void CaseDocumentController::add(Content content, bool folder)
     return;
   if (folder)
   {
-    const QString chosen =
-        QFileDialog::getExistingDirectory(&m_window, tr("Add an MR from a DICOM folder"));
+    const QString chosen = QFileDialog::getExistingDirectory(
+        &m_window, content == Content::Mr ? tr("Add an MR from a DICOM folder")
+                                          : tr("Add structures from a folder of masks"));
     if (!chosen.isEmpty())
       open({chosen}, {content});
     return;

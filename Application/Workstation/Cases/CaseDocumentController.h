@@ -42,10 +42,11 @@ public:
   /// the open one.
   void open(const QStringList& what);
   void openCase(const std::string& name);
-  void openFolder(); ///< with a dialog
-  void openRegion(); ///< likewise, and a region of the CT is chosen first
-  void openFiles();  ///< with a dialog
-  /// With a dialog, to the open case. `folder`: of DICOM.
+  void openFolder();     ///< with a dialog
+  void openRegion();     ///< likewise, and a region of the CT is chosen first
+  void openFileRegion(); ///< likewise, of a file
+  void openFiles();      ///< with a dialog
+  /// With a dialog, to the open case. `folder`: of DICOM, or of masks.
   void add(presenters::Content content, bool folder = false);
 
   /// A structure, a mesh or an MR of the open case.

@@ -291,6 +291,59 @@ TEST_F(Import, LabelsThatLieOutsideTheCtAreToldInALine)
 }
 
 TEST_F(Import, WithoutACaseAnMrAndLabelsSayWhatIsNeeded)
+// As TotalSegmentator writes them, here with a patient's name in each; dropped and by the menu.
+TEST_F(Import, AFolderOfMasksBecomesStructures)
+{
+  saveBall("ball");
+  const core::GridGeometry grid = ballCase("x").ct.geometry;
+  fs::create_directories(folder() / "masks");
+  for (const char* name : {"doe_incus", "doe_malleus", "doe_stapes"})
+  {
+    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid);
+    voxels->at(4, 4, 4) = 1;
+    imaging::writeLabelFile(folder() / "masks" / (name + std::string(".nii.gz")),
+                            volume::makeLabelMap(voxels, {}));
+  }
+  openWindow();
+  for (const bool byMenu : {false, true})
+  {
+    QString asked;
+    onDialog(
+        [&](QDialog& dialog)
+        {
+          if (auto* files = qobject_cast<QFileDialog*>(&dialog))
+          {
+            files->findChild<QLineEdit*>("fileNameEdit")
+                ->setText(QString::fromStdString((folder() / "masks").string()));
+            static_cast<QDialog&>(*files).accept();
+            return false;
+          }
+          auto* add = buttonOf(dialog, "Add to");
+          if (!add)
+            return false;
+          asked = textOf(dialog);
+          byMenu ? dialog.reject() : add->click();
+          return true;
+        });
+    if (!byMenu)
+      dropPath(folder() / "masks");
+    else
+      for (QAction* action : window().findChildren<QAction*>())
+        if (action->text().remove('&') == QString::fromUtf8("Add folder of masks…"))
+          action->trigger();
+    ASSERT_TRUE(waitFor([&] { return !asked.isEmpty(); }));
+    EXPECT_TRUE(asked.contains("incus") && asked.contains("stapes")) << asked.toStdString();
+    EXPECT_FALSE(asked.contains("doe")) << asked.toStdString();
+    EXPECT_TRUE(settled());
+  }
+  std::vector<std::string> names;
+  for (const scene::LabelPart& part : window().model().value().labels)
+    for (const scene::StructurePart& structure : part.structures)
+      names.push_back(structure.name);
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(names, (std::vector<std::string>{"incus", "malleus", "nerve", "stapes"}));
+}
+
 {
   writePatient(folder() / "sample");
   openWindow();

@@ -520,6 +520,7 @@ void MainWindow::connectActions()
   on(m_actions->addMrFile, [this] { m_keeper->add(Content::Mr); });
   on(m_actions->addLabels, [this] { m_keeper->add(Content::Labels); });
   on(m_actions->addMesh, [this] { m_keeper->add(Content::Mesh); });
+  on(m_actions->addMasks, [this] { m_keeper->add(Content::Labels, true); });
   on(m_actions->restorePart, [this] { m_keeper->restorePart(); });
   connect(m_actions->casePart, &QMenu::aboutToShow, this, &MainWindow::fillCaseMenu);
   auto* structures = findChild<StructuresPanel*>();

@@ -94,6 +94,8 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   addMesh = make(casePart, tr("Add m&esh…"), {}, tr("Surfaces of this patient, in mm"));
   casePart->addSeparator();
   attach = make(casePart, tr("A&ttach…"), {},
+  addMasks = make(casePart, tr("Add &folder of masks…"), {},
+                  tr("Structures of this patient, one a file, as TotalSegmentator writes them"));
                 tr("A file goes with the case: recording of the tool, PNG, PDF or video"));
   exportPart = make(casePart, tr("E&xport…"), Qt::CTRL + Qt::Key_E,
                     tr("Images, structures or surfaces as files for other programs"));
@@ -204,6 +206,7 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                                        addMesh,
                                        centerView,
                                        boneThickness,
+                                       addMasks,
                                        boneWindow,
                                        softWindow,
                                        fitSlices,

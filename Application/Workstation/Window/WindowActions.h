@@ -45,6 +45,7 @@ public:
   QAction* addMrFile;
   QAction* addLabels;
   QAction* addMesh;
+  QAction* addMasks;
   QAction* restorePart;
   QAction* exportPart;
   QAction* attach;

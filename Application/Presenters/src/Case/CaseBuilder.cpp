@@ -955,6 +955,19 @@ FileName fileName(const fs::path& path)
   return letters(known) == letters(stem) ? FileName{stem, true} : FileName{known, false};
 }
 
+std::vector<std::string> maskNames(const imaging::LoadedLabels& folder)
+{
+  const FolderNames all = namesInFolder(folder);
+  std::vector<std::string> names;
+  for (const volume::LabelMap& map : folder.maps)
+    for (const volume::Segment& segment : map.segments)
+    {
+      const std::string& name = all.names.at(segment.name);
+      names.push_back(name.empty() ? "structure" : name);
+    }
+  return names;
+}
+
 scene::Case buildCase(const std::string& name, const CaseSources& sources,
                       const core::Progress& progress, std::vector<StructureReport>* report)
 {

@@ -234,6 +234,24 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress,
 
 } // namespace
 
+// Nothing if the folder holds no mask.
+std::optional<SourceContent> lookAtMasks(const fs::path& folder, const core::Progress& progress)
+try
+{
+  SourceContent result;
+  result.path = folder;
+  result.content = Content::Labels;
+  result.structures = maskNames(imaging::loadLabels(folder, progress));
+  result.why = "holds masks, one structure a file";
+  return result;
+}
+catch (const imaging::FileError& error)
+{
+  if (error.reason() != imaging::FileError::Reason::Unsupported)
+    throw;
+  return std::nullopt;
+}
+
 Content contentOf(const volume::IntensityVolume& image)
 {
   if (image.visit([](const auto& volume) { return isLabelMap(volume); }))
@@ -316,7 +334,18 @@ SourceContent lookAt(const fs::path& path, const core::Progress& progress,
     return result;
   }
   if (!format || format->reads == imaging::kDicom)
-    return lookAtDicom(path, progress);
+    try
+    {
+      return lookAtDicom(path, progress.part(0.0, 0.5));
+    }
+    catch (const imaging::DicomError& error)
+    {
+      if (error.reason() != imaging::DicomError::Reason::NoImages || !fs::is_directory(path))
+        throw;
+      if (auto masks = lookAtMasks(path, progress.part(0.5, 1.0)))
+        return *masks;
+      throw;
+    }
   if (format->reads == imaging::kLabels)
   {
     result.content = Content::Labels;

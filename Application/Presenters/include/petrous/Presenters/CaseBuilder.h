@@ -8,6 +8,7 @@
 
 #include "petrous/Core/Progress.h"
 #include "petrous/Imaging/ImageFile.h"
+#include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Scene/Case.h"
 
@@ -53,6 +54,10 @@ struct FileName
   bool isWhole = false; ///< these are all of it ("facial_nerve_left"); otherwise ask or warn
 };
 FileName fileName(const std::filesystem::path& path);
+
+/// What the structures of a folder of masks are called in a case, in its order: without the words
+/// that most of its files share, which may be a patient's name. "structure": nothing is left.
+std::vector<std::string> maskNames(const imaging::LoadedLabels& folder);
 
 struct PartSources
 {

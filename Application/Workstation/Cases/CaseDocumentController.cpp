@@ -1070,7 +1070,10 @@ void CaseDocumentController::exportPart()
     const QScopedValueRollback<bool> asking(m_asking, true);
     if (mayDropDraft && !mayDropDraft())
       return;
-    ExportDialog dialog(m_model.value(), m_exported, &m_window);
+    const FaceCheck faces = lookForFaces(m_model.value(), m_window);
+    if (!m_model.hasCase())
+      return;
+    ExportDialog dialog(m_model.value(), faces, m_exported, &m_window);
     if (dialog.exec() != QDialog::Accepted || !m_model.hasCase())
       return;
     options = dialog.options();
@@ -1163,20 +1166,18 @@ bool CaseDocumentController::askOfFace(const std::string& name, scene::ImageMask
   std::vector<std::string> faces;
   try
   {
-    faces = isOpen ? facesIn(m_model.value()) : facesIn(m_model.library().open(name));
+    if (!isOpen)
+      stored = m_model.library().open(name);
   }
   catch (const core::Error&)
   {
     return true; // archiving says what is wrong with the case
   }
-  if (faces.empty())
+  const FaceCheck faces = lookForFaces(isOpen ? m_model.value() : stored, m_window);
+  if (!faces.mayHave())
     return true;
-  QStringList images;
-  for (const std::string& image : faces)
-    images += words(image);
-  QMessageBox ask(QMessageBox::Warning, tr("Archive “%1”").arg(words(name)),
-                  tr("A face can be recognised in %1.").arg(images.join(", ")), QMessageBox::Cancel,
-                  &m_window);
+  QMessageBox ask(QMessageBox::Warning, tr("Archive “%1”").arg(words(name)), textOf(faces),
+                  QMessageBox::Cancel, &m_window);
   ask.setObjectName("archiveFace");
   ask.setTextFormat(Qt::PlainText);
   auto* box = new QCheckBox(tr("Put air in place of the &face"));

@@ -161,7 +161,7 @@ void ExchangeController::send(const std::string& which)
 
 void ExchangeController::offer(const scene::Case& value, const std::vector<network::Node>& nodes)
 {
-  SendDialog dialog(value, nodes, &m_window);
+  SendDialog dialog(value, lookForFaces(value, m_window), nodes, &m_window);
   if (dialog.exec() != QDialog::Accepted)
     return;
   const std::string name = value.name;

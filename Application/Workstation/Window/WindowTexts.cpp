@@ -79,6 +79,10 @@ QString windowText(const QString& text)
        "; a DICOM segmentation is read as structures"},
       {"; state its coordinate system and unit \\(--mesh-frame, --mesh-unit\\)", ""},
       {"region of it \\(--roi\\)", "region of it"},
+      {", or say --(ct|mr|labels)-frame ras \\(NIfTI's own\\) or lps \\(DICOM, ITK\\) if you know "
+       "it",
+       ""},
+      {", and say --other-patient if it is to be added all the same", ""},
       {"say FILE@ct, or add", "add it again and choose “on the CT”, or add"},
       {"; say on which it was drawn with FILE@.* or FILE@.*$",
        "; add it again and choose the one on which it was drawn"},

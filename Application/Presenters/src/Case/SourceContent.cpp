@@ -355,8 +355,20 @@ SourceContent lookAt(const fs::path& path, const core::Progress& progress,
   if (expected)
     result.content = *expected;
   else
-    result.content =
-        contentOf(*imaging::readImageFile(path, std::nullopt, progress.part(0.0, 0.8)).volume);
+    try
+    {
+      result.content =
+          contentOf(*imaging::readImageFile(path, std::nullopt, progress.part(0.0, 0.8)).volume);
+    }
+    catch (const imaging::FileError& error)
+    {
+      if (error.fault() != core::Fault::Internal) // no memory
+        throw;
+      result.isTooLarge = true;
+      result.content =
+          contentOf(*imaging::previewImageFile(path, kSlices, progress.part(0.0, 0.8)).volume);
+    }
+  result.isSideOpen = imaging::assumedRasOf(path).has_value();
   result.name = sequenceName(imaging::baseName(path));
   if (result.content == Content::Labels)
   {

@@ -509,10 +509,10 @@ bool CaseDocumentController::askRepair(const SourceContent& source)
 // Of the primary image.
 bool CaseDocumentController::askRegion(Item& item)
 {
-  if (!item.region || item.source.content != Content::Ct)
+  if (!item.region && !item.source.isTooLarge)
     return true;
   RegionDialog dialog(item.source.path, item.source.selector, !item.source.repair.empty(),
-                      &m_window);
+                      item.assumeRas, &m_window);
   if (dialog.exec() != QDialog::Accepted)
     return false;
   item.roi = dialog.region();
@@ -1167,6 +1167,15 @@ void CaseDocumentController::openRegion()
       &m_window, tr("Open a DICOM folder, and choose a region of the CT"));
   if (!folder.isEmpty())
     open({folder}, {std::nullopt, true});
+}
+
+void CaseDocumentController::openFileRegion()
+{
+  const QString file = QFileDialog::getOpenFileName(
+      &m_window, tr("Open an image file, and choose a region of it"), {},
+      tr("Images (%1);;All files (*)").arg(patternsOf(imaging::kImage | imaging::kDicom)));
+  if (!file.isEmpty())
+    open({file}, {std::nullopt, true});
 }
 
 void CaseDocumentController::add(Content content, bool folder)

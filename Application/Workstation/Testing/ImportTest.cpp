@@ -1135,6 +1135,38 @@ TEST_F(Import, ARegionIsDrawnBeforeTheScanIsRead)
 
 // By the Case menu: the file dialog offers DICOM for labels, the names can be edited, and the panel
 // with what came is in front.
+TEST_F(Import, ARegionOfAFileIsDrawnBeforeItIsRead)
+{
+  imaging::writeVolume(folder() / "ear.nii", *ballCase("x").ct.volume.get());
+  openWindow();
+  core::PatientBox box;
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        if (auto* files = qobject_cast<QFileDialog*>(&dialog))
+        {
+          choose(*files, folder() / "ear.nii");
+          return false;
+        }
+        auto* region = qobject_cast<RegionDialog*>(&dialog);
+        if (!region || !region->isPictured())
+          return false;
+        auto* left = dialog.findChild<QDoubleSpinBox*>("x0");
+        left->setValue(left->minimum() + 12.0);
+        box = *region->region();
+        region->accept();
+        return true;
+      });
+  trigger(window(), "Open a region of a file…");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  const auto whole = ballCase("x").ct.geometry;
+  const auto& grid = window().model().value().ct.geometry;
+  EXPECT_LT(grid.dims()[0], whole.dims()[0]);
+  EXPECT_EQ(grid.dims()[2], whole.dims()[2]);
+  const core::IndexBox expected = whole.boxCovering(box.min(), box.max());
+  EXPECT_EQ(grid.voxelCount(), expected.count());
+}
+
 TEST_F(Import, PartsComeByTheCaseMenu)
 {
   writePatient(folder() / "sample");

@@ -515,12 +515,13 @@ void MainWindow::connectActions()
   { connect(action, &QAction::triggered, this, what); };
   on(m_actions->openDicom, [this] { m_keeper->openFolder(); });
   on(m_actions->openRegion, [this] { m_keeper->openRegion(); });
+  on(m_actions->openFileRegion, [this] { m_keeper->openFileRegion(); });
   using presenters::Content;
   on(m_actions->addMrFolder, [this] { m_keeper->add(Content::Mr, true); });
   on(m_actions->addMrFile, [this] { m_keeper->add(Content::Mr); });
   on(m_actions->addLabels, [this] { m_keeper->add(Content::Labels); });
-  on(m_actions->addMesh, [this] { m_keeper->add(Content::Mesh); });
   on(m_actions->addMasks, [this] { m_keeper->add(Content::Labels, true); });
+  on(m_actions->addMesh, [this] { m_keeper->add(Content::Mesh); });
   on(m_actions->restorePart, [this] { m_keeper->restorePart(); });
   connect(m_actions->casePart, &QMenu::aboutToShow, this, &MainWindow::fillCaseMenu);
   auto* structures = findChild<StructuresPanel*>();
@@ -777,9 +778,9 @@ void MainWindow::showUnregistered(bool opened)
 // What was assumed or left out when files were read, until it is acknowledged.
 void MainWindow::notifyNotes()
 {
+  showInterpolated(*m_view, m_model.value());
   const QStringList notes = notesOf(m_model.value());
   QStringList fresh;
-  showInterpolated(*m_view, m_model.value());
   for (const QString& note : notes)
     if (!m_notesTold.contains(note))
       fresh += note;

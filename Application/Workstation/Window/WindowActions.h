@@ -33,6 +33,7 @@ public:
 
   QAction* openDicom;
   QAction* openRegion;
+  QAction* openFileRegion;
   QAction* openImage;
   QAction* openCase;
   QAction* sample;
@@ -44,8 +45,8 @@ public:
   QAction* addMrFolder;
   QAction* addMrFile;
   QAction* addLabels;
-  QAction* addMesh;
   QAction* addMasks;
+  QAction* addMesh;
   QAction* restorePart;
   QAction* exportPart;
   QAction* attach;

@@ -93,12 +93,12 @@ std::size_t ScanPreview::voxelsIn(const core::PatientBox& box) const
 }
 
 ScanPreview previewScan(const fs::path& path, const std::string& selector, bool repair,
-                        const core::Progress& progress)
+                        const core::Progress& progress, const std::optional<bool>& assumeRas)
 {
   if (!fs::is_directory(path) && imaging::isReadAs(path, imaging::kImage | imaging::kLabels))
   {
-    const auto image = imaging::readImageFile(path, std::nullopt, progress);
-    return previewOf(*image.volume, image.volume->geometry());
+    const auto image = imaging::previewImageFile(path, kSlices, progress, assumeRas);
+    return previewOf(*image.volume, image.grid);
   }
   const auto scan = imaging::scanDicom(path, progress.part(0.0, 0.3));
   const auto& series = imaging::chooseSeries(scan, path, selector);

@@ -11,6 +11,7 @@
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Imaging/ImageFile.h"
+#include "petrous/Imaging/ImagePreview.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/StructureSet.h"
@@ -29,6 +30,7 @@ namespace fs = std::filesystem;
 constexpr double kPatches = 0.9;       // of the voxels above 0 have an equal neighbour
 constexpr std::size_t kHardlyAny = 16; // values: no scanner yields so few
 constexpr double kAir = -500.0;        // HU
+constexpr std::size_t kSlices = 128;   // of a file that the memory does not hold
 
 // Whether integers from 0 to 65535 in patches, and few distinct ones.
 template <class T>
@@ -232,8 +234,6 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress,
   return result;
 }
 
-} // namespace
-
 // Nothing if the folder holds no mask.
 std::optional<SourceContent> lookAtMasks(const fs::path& folder, const core::Progress& progress)
 try
@@ -251,6 +251,8 @@ catch (const imaging::FileError& error)
     throw;
   return std::nullopt;
 }
+
+} // namespace
 
 Content contentOf(const volume::IntensityVolume& image)
 {

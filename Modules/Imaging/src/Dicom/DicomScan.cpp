@@ -671,6 +671,8 @@ void logScan(const ScanResult& result, std::size_t files)
   }
 }
 
+constexpr std::size_t kScout = 2; // slices; more may be a volume
+
 /// Whether one that needs repair may be meant rather than a sound one: the same kind of image, with
 /// thinner slices or a longer stack.
 bool isRival(const DicomSeries& repairable, const DicomSeries& sound)
@@ -680,7 +682,7 @@ bool isRival(const DicomSeries& repairable, const DicomSeries& sound)
   const auto& one = repairable.geometry;
   const auto& other = sound.geometry;
   if (one.verdict != Verdict::Repairable || !one.grid || !other.grid ||
-      repairable.modality != sound.modality)
+      repairable.modality != sound.modality || one.slices.size() <= kScout)
     return false;
   const auto length = [](const core::GridGeometry& grid)
   { return grid.dims()[2] * grid.spacing()[2]; };
@@ -800,7 +802,6 @@ std::string selectorOf(const DicomSeries& series)
 
 std::vector<const DicomSeries*> otherImages(const ScanResult& result, const DicomSeries& series)
 {
-  constexpr std::size_t kScout = 2; // slices
   std::vector<const DicomSeries*> others;
   for (const DicomSeries& other : result.series)
     if (&other != &series && (other.modality == "CT" || other.modality == "MR") &&

@@ -51,6 +51,26 @@ protected:
 
 } // namespace
 
+TEST_F(LabelsCommand, SaysThatAnMrOfTheirGridTakesStructuresWithIt)
+{
+  const auto moved = [this](const std::filesystem::path& file) // half a millimetre to the left
+  {
+    std::string text = textOf(file);
+    const std::string origin = "space origin: (0";
+    text.insert(text.find(origin) + origin.size(), ".5");
+    std::ofstream(file, std::ios::binary) << text;
+    return file;
+  };
+  const auto labels =
+      moved(put("nerve.nrrd", "short", [](int, int, int k) { return k < 3 ? 1 : 0; }));
+  const auto mr = moved(put("mr.nrrd", "short", [](int i, int, int) { return i; }));
+  json("add ear --labels " + quoted(labels));
+  const Outcome outcome = run("add ear --mr t2=" + quoted(mr));
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("nerve: has the grid of the MR 't2'"), std::string::npos)
+      << outcome.err;
+}
+
 TEST_F(LabelsCommand, NamesTheIndicesByATableAndTellsWhatBecameOfEach)
 {
   const auto labels = put("seg.nrrd", "short", slabs);

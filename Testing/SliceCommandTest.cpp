@@ -104,3 +104,30 @@ TEST_F(SliceCommand, OutsideOfTheCtIsAnError)
   expectRefused(slice("--plane axial --at -30,0,1e6"), 2, "patient LPS");
   EXPECT_FALSE(std::filesystem::exists(m_folder / "slice.png"));
 }
+
+// A slice that is missing from the files is interpolated with consent, and every picture says so.
+TEST_F(SliceCommand, SaysWhichSlicesWereInterpolated)
+{
+  for (const char* image : {"ct", "mr"})
+  {
+    std::vector<std::filesystem::path> files(
+        std::filesystem::directory_iterator(m_folder / "patient" / image), {});
+    std::sort(files.begin(), files.end());
+    std::filesystem::remove(files.at(files.size() / 2));
+  }
+  const auto patient = m_folder / "patient";
+  json("new guessed --repair --ct " + quoted(patient / "ct") +
+       " --mr T2=" + quoted(patient / "mr"));
+  const std::string out = " --out " + quoted(m_folder / "guessed.png");
+  const Outcome slice = run("slice guessed --plane axial --overlay T2" + out);
+  EXPECT_EQ(slice.code, 0) << slice.err;
+  const Outcome render = run("render guessed --view lateral --size 160x120" + out);
+  EXPECT_EQ(render.code, 0) << render.err;
+  for (const Outcome& outcome : {slice, render})
+    for (const char* line : {"CT: slice ", "T2: slice "})
+    {
+      const auto at = outcome.err.find(line);
+      ASSERT_NE(at, std::string::npos) << outcome.err;
+      EXPECT_NE(outcome.err.find("interpolated", at), std::string::npos) << outcome.err;
+    }
+}

@@ -40,12 +40,14 @@ struct Column
   const char* text;
 };
 
-constexpr std::array<Column, 24> kColumns{{
+constexpr std::array<Column, 26> kColumns{{
     {"name", Step::None, "the case's name (needed)"},
     {"folder", Step::Build, "CT: DICOM folder or image file; blank: the case is there already"},
     {"series", Step::Build, "which series of the folder: UID or UID#VOLUME"},
     {"modality", Step::Build, "CT or MR, if the file does not say"},
     {"ct_frame", Step::Build, "lps or ras, if an image file does not say which side is left"},
+    {"mr_frame", Step::Build, "likewise, of the MR"},
+    {"labels_frame", Step::Build, "likewise, of the labels that do not have the CT's grid"},
     {"roi", Step::Build, "x0,x1,y0,y1,z0,z1 in patient LPS mm"},
     {"repair", Step::Build, "yes or no: resample tilted, uneven or gapped slices"},
     {"mr", Step::Build, "[NAME=]PATH[#UID[#VOLUME]], several with |"},
@@ -283,6 +285,15 @@ private:
     return result;
   }
 
+  // Whether a column says RAS (else LPS); nullopt: it is blank.
+  std::optional<bool> frame(const std::string& column) const
+  {
+    const std::string text = lower(cell(column));
+    if (!text.empty() && text != "lps" && text != "ras")
+      throw core::InvalidParameter("'" + column + "' is lps or ras, not '" + cell(column) + "'");
+    return text.empty() ? std::nullopt : std::optional<bool>(text == "ras");
+  }
+
   presenters::CaseSources sources() const
   {
     presenters::CaseSources sources;
@@ -295,11 +306,7 @@ private:
     sources.modality = modality == "mr"   ? scene::Modality::Mr
                        : modality == "ct" ? scene::Modality::Ct
                                           : scene::Modality::Unknown;
-    const std::string frame = lower(cell("ct_frame"));
-    if (!frame.empty() && frame != "lps" && frame != "ras")
-      throw core::InvalidParameter("'ct_frame' is lps or ras, not '" + cell("ct_frame") + "'");
-    if (!frame.empty())
-      sources.isRas = frame == "ras";
+    sources.assumeRas = frame("ct_frame");
     if (!cell("roi").empty())
       try
       {
@@ -313,9 +320,12 @@ private:
     for (presenters::PartSource& mr : sources.parts.mr)
     {
       mr.repair = sources.repair;
+      mr.assumeRas = frame("mr_frame");
       mr.isOtherPatient = isYes("other_patient", cell("other_patient"));
     }
     sources.parts.labels = parts("labels", presenters::PartSource::parseDrawn);
+    for (presenters::PartSource& labels : sources.parts.labels)
+      labels.assumeRas = frame("labels_frame");
     if (!cell("label_names").empty())
       sources.parts.labelNames = at(cell("label_names"));
     if (!cell("label_names").empty() && sources.parts.labels.empty())

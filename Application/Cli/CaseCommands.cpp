@@ -25,6 +25,8 @@ struct PartOptions
   std::string labelNames;
   std::string meshFrame;
   std::string meshUnit;
+  std::string mrFrame;
+  std::string labelsFrame;
   bool repair = false;
   bool otherPatient = false;
 
@@ -36,6 +38,10 @@ struct PartOptions
                     "#UID#VOLUME: that volume of it")
         ->allow_extra_args(false)
         ->type_name("[NAME=]PATH[#UID[#VOLUME]]");
+    command
+        .add_option("--mr-frame", mrFrame,
+                    "Axes of MR files that do not say which side is left: lps or ras")
+        ->check(oneOf({"lps", "ras"}));
     command.add_flag("--repair", repair,
                      "Resample tilted, uneven or gapped DICOM slices to a straight volume");
     command.add_flag("--other-patient", otherPatient,
@@ -46,6 +52,11 @@ struct PartOptions
                     "folder of masks; @MR: drawn on that MR")
         ->allow_extra_args(false)
         ->type_name("[NAME=]FILE[@MR]");
+    command
+        .add_option("--labels-frame", labelsFrame,
+                    "Axes of label files that do not say which side is left, and do not have the "
+                    "grid of an image of the case: lps or ras")
+        ->check(oneOf({"lps", "ras"}));
     command
         .add_option("--label-names", labelNames,
                     "Names and colours of the indices: .ctbl, ITK-SNAP, CSV, TSV or JSON")
@@ -70,14 +81,24 @@ struct PartOptions
     presenters::PartSources result;
     if (otherPatient && mr.empty())
       throw UsageError("--other-patient goes with --mr");
+    if (!mrFrame.empty() && mr.empty())
+      throw UsageError("--mr-frame goes with --mr");
+    if (!labelsFrame.empty() && labels.empty())
+      throw UsageError("--labels-frame goes with --labels");
     for (const std::string& text : mr)
     {
       result.mr.push_back(presenters::PartSource::parseSeries(text));
       result.mr.back().repair = repair;
+      if (!mrFrame.empty())
+        result.mr.back().assumeRas = mrFrame == "ras";
       result.mr.back().isOtherPatient = otherPatient;
     }
     for (const std::string& text : labels)
+    {
       result.labels.push_back(presenters::PartSource::parseDrawn(text));
+      if (!labelsFrame.empty())
+        result.labels.back().assumeRas = labelsFrame == "ras";
+    }
     result.labelNames = labelNames;
     if (meshes.empty() && !(meshFrame.empty() && meshUnit.empty()))
       throw UsageError("--mesh-frame and --mesh-unit go with --mesh");
@@ -104,7 +125,8 @@ std::string sizeText(const core::GridGeometry& grid)
          " voxels of " + fixed(h[0], 3) + " x " + fixed(h[1], 3) + " x " + fixed(h[2], 3) + " mm";
 }
 
-void printCase(const Context& context, const scene::Case& value)
+void printCase(const Context& context, const scene::Case& value,
+               const std::vector<MeshFacts>& facts)
 {
   context.print("case '" + value.name + "'");
   if (const std::string line = descriptionLine(value.description); !line.empty())
@@ -124,12 +146,13 @@ void printCase(const Context& context, const scene::Case& value)
     for (const auto& s : part.structures)
       context.print("  structure '" + s.name + "', " + fixed(s.volume, 1) + " mm3, " +
                     s.look.preset + placeText(value, scene::placementOf(value, part)));
-  for (const auto& mesh : value.meshes)
+  for (std::size_t n = 0; n < value.meshes.size(); ++n)
   {
+    const scene::MeshPart& mesh = value.meshes[n];
     const scene::Placement place = scene::placementOf(value, mesh);
-    const std::string refusal = place.missing.empty() ? touchRefusal(value, mesh) : "";
+    const std::string refusal = place.missing.empty() ? facts[n].touchRefusal : "";
     std::string measure;
-    if (const auto measured = measureOf(mesh))
+    if (const auto& measured = facts[n].measure)
       measure = measured->volume ? ", " + fixed(*measured->volume, 1) + " mm3"
                                  : ", open, " + std::to_string(measured->openEdges) + " edges";
     context.print("  mesh '" + mesh.name + "', " + std::to_string(mesh.triangles) + " triangles" +
@@ -180,13 +203,17 @@ struct PartCounts
     , meshes(value.meshes.size())
     , hasImage(true)
   {
+    for (const scene::LabelPart& part : value.labels)
+      labelNotes.push_back(part.notes.size());
   }
 
   std::size_t mr = 0, labels = 0, meshes = 0;
+  std::vector<std::size_t> labelNotes; ///< of each of the label maps
   bool hasImage = false;
 };
 
-// What was accepted or assumed when the parts were read that came after `before`.
+// What was accepted or assumed when the parts were read that came after `before`, and what that
+// changed in those that were there.
 void warnNotes(const Context& context, const scene::Case& value, const PartCounts& before = {})
 {
   const auto from = [](const auto& parts, std::size_t first)
@@ -199,14 +226,15 @@ void warnNotes(const Context& context, const scene::Case& value, const PartCount
   for (const std::string& note : before.hasImage ? std::vector<std::string>() : value.ct.notes)
     context.warn((value.ct.modality == scene::Modality::Mr ? "MR" : value.ct.name) + ": " + note);
   std::for_each(from(value.mr, before.mr), value.mr.end(), remark);
-  std::for_each(from(value.labels, before.labels), value.labels.end(),
-                [&context](const auto& part)
-                {
-                  for (const std::string& note : part.notes)
-                    context.warn((part.structures.size() == 1 ? part.structures.front().name
-                                                              : std::string("labels")) +
-                                 ": " + note);
-                });
+  for (std::size_t n = 0; n < value.labels.size(); ++n)
+  {
+    const scene::LabelPart& part = value.labels[n];
+    const std::size_t known = n < before.labels ? before.labelNotes[n] : 0;
+    for (auto note = from(part.notes, known); note != part.notes.end(); ++note)
+      context.warn(
+          (part.structures.size() == 1 ? part.structures.front().name : std::string("labels")) +
+          ": " + *note);
+  }
   std::for_each(from(value.meshes, before.meshes), value.meshes.end(), remark);
 }
 
@@ -232,7 +260,7 @@ void addNew(CLI::App& app, Context& context)
                            : options->modality == "CT" ? scene::Modality::Ct
                                                        : scene::Modality::Unknown;
         if (!options->frame.empty())
-          sources.isRas = options->frame == "ras";
+          sources.assumeRas = options->frame == "ras";
         if (!options->roi.empty())
           sources.roi = parseBox(options->roi, "--roi");
         sources.parts = options->parts.sources();
@@ -248,8 +276,9 @@ void addNew(CLI::App& app, Context& context)
             presenters::buildCase(options->name, sources, progress.part(0.0, 0.8), &structures);
         library.save(value, progress.part(0.8, 1.0));
         warnNotes(context, value);
-        printCase(context, value);
-        nlohmann::json info = infoJson(value);
+        const std::vector<MeshFacts> meshes = meshFacts(value);
+        printCase(context, value, meshes);
+        nlohmann::json info = infoJson(value, meshes);
         printStructures(context, structures, info);
         context.printJson(info);
       });
@@ -299,8 +328,9 @@ void addAdd(CLI::App& app, Context& context)
         presenters::addParts(value, sources, context.progress(), &structures);
         library.save(value);
         warnNotes(context, value, before);
-        printCase(context, value);
-        nlohmann::json info = infoJson(value);
+        const std::vector<MeshFacts> meshes = meshFacts(value);
+        printCase(context, value, meshes);
+        nlohmann::json info = infoJson(value, meshes);
         printStructures(context, structures, info);
         context.printJson(info);
       });
@@ -323,8 +353,9 @@ void addRemove(CLI::App& app, Context& context)
                            scene::Case value = library.open(options->name);
                            scene::removePart(value, options->part);
                            library.save(value);
-                           printCase(context, value);
-                           context.printJson(infoJson(value));
+                           const std::vector<MeshFacts> meshes = meshFacts(value);
+                           printCase(context, value, meshes);
+                           context.printJson(infoJson(value, meshes));
                          });
   command->add_option("CASE", options->name)->required();
   command->add_option("--part", options->part, "Its name")->type_name("NAME")->required();
@@ -341,7 +372,8 @@ void addInfo(CLI::App& app, Context& context)
         const library::Library library = context.openLibrary();
         scene::Case value = library.open(*name);
         nlohmann::json areas = nlohmann::json::array();
-        printCase(context, value);
+        const std::vector<MeshFacts> meshes = meshFacts(value);
+        printCase(context, value, meshes);
         if (*exposed)
         {
           library.loadDissection(value);
@@ -352,7 +384,7 @@ void addInfo(CLI::App& app, Context& context)
             areas.push_back({{"label", surface.name}, {"area_mm2", surface.area}});
           }
         }
-        nlohmann::json info = infoJson(value);
+        nlohmann::json info = infoJson(value, meshes);
         if (*exposed)
           info["dissection"]["exposed"] = std::move(areas);
         context.printJson(info);

@@ -64,14 +64,21 @@ std::string touchRefusal(const scene::Case& value, const scene::MeshPart& mesh)
   }
 }
 
-std::optional<volume::MeshMeasure> measureOf(const scene::MeshPart& mesh)
-try
+std::vector<MeshFacts> meshFacts(const scene::Case& value)
 {
-  return volume::measure(*mesh.mesh.get());
-}
-catch (const core::Error&) // the rest of the case can still be reported
-{
-  return {};
+  std::vector<MeshFacts> facts;
+  for (const scene::MeshPart& mesh : value.meshes)
+  {
+    facts.push_back({touchRefusal(value, mesh)});
+    try
+    {
+      facts.back().measure = volume::measure(*mesh.mesh.get());
+    }
+    catch (const core::Error&) // the rest of the case can still be reported
+    {
+    }
+  }
+  return facts;
 }
 
 json transformJson(const core::RigidTransform& transform)
@@ -171,7 +178,7 @@ std::string descriptionLine(const scene::Description& description)
   return line;
 }
 
-json infoJson(const scene::Case& value)
+json infoJson(const scene::Case& value, const std::vector<MeshFacts>& facts)
 {
   json ct = gridJson(value.ct.geometry);
   ct["min"] = value.ct.range.min;
@@ -206,15 +213,16 @@ json infoJson(const scene::Case& value)
     }
   }
   json meshes = json::array();
-  for (const auto& mesh : value.meshes)
+  for (std::size_t n = 0; n < value.meshes.size(); ++n)
   {
-    const std::string refusal = touchRefusal(value, mesh);
+    const scene::MeshPart& mesh = value.meshes[n];
+    const std::string& refusal = facts[n].touchRefusal;
     meshes.push_back({{"name", mesh.name},
                       {"triangles", mesh.triangles},
                       {"flags", appearance::flagsOf(mesh.look)},
                       {"solid", mesh.look.solid},
                       {"touchable", refusal.empty()}});
-    if (const auto measured = measureOf(mesh))
+    if (const auto& measured = facts[n].measure)
     {
       meshes.back()["closed"] = measured->openEdges == 0;
       meshes.back()["open_edges"] = measured->openEdges;

@@ -31,8 +31,14 @@ nlohmann::json lookJson(const appearance::StructureAppearance& look);
 /// touchable.
 std::string touchRefusal(const scene::Case& value, const scene::MeshPart& mesh);
 
-/// Nothing if the mesh cannot be read.
-std::optional<volume::MeshMeasure> measureOf(const scene::MeshPart& mesh);
+/// What is computed of a mesh.
+struct MeshFacts
+{
+  std::string touchRefusal;                     ///< as the function says
+  std::optional<volume::MeshMeasure> measure{}; ///< nothing if the mesh cannot be read
+};
+/// Of each of the case's meshes.
+std::vector<MeshFacts> meshFacts(const scene::Case& value);
 
 /// 16 numbers, row-major.
 nlohmann::json transformJson(const core::RigidTransform& transform);
@@ -53,7 +59,7 @@ std::string indented(const std::string& note);
 std::string descriptionLine(const scene::Description& description);
 
 /// Output of `petrous info`.
-nlohmann::json infoJson(const scene::Case& value);
+nlohmann::json infoJson(const scene::Case& value, const std::vector<MeshFacts>& meshes);
 
 /// [{"label", "volume_mm3"}].
 nlohmann::json touchedJson(const std::vector<dissection::TouchedStructure>& structures);

@@ -22,7 +22,9 @@
 #include "petrous/Presenters/CasePicture.h"
 #include "petrous/Presenters/LeavingImages.h"
 #include "petrous/Presenters/SceneAssembly.h"
+#include "petrous/Presenters/SeriesPreview.h"
 #include "petrous/Rendering/OffscreenView.h"
+#include "petrous/Rendering/PictureText.h"
 #include "petrous/Rendering/ReferenceRayCaster.h"
 #include "petrous/Rendering/RenderingError.h"
 #include "petrous/Rendering/SceneContents.h"
@@ -392,6 +394,16 @@ void render(const Context& context, RenderOptions options)
   if (!options.thickness.empty())
     rendering::drawThicknessLegend(result.picture, options.thickness,
                                    presenters::kFarthestThickness);
+  constexpr int kMargin = 8; // pixels
+  constexpr int kLine = 14;
+  double row = kMargin;
+  for (const std::string& line : presenters::interpolatedTexts(value))
+  {
+    rendering::writeText(result.picture, line, {double(kMargin), row, 0.0, 0.0}, kLine,
+                         {255, 140, 43});
+    row += 1.5 * kLine;
+    context.warn(line + "; small structures may be absent there");
+  }
   context.refuseDamaged();
   rendering::writePng(options.out, result.picture);
   if (result.depth)

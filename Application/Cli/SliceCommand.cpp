@@ -13,6 +13,7 @@
 #include "petrous/Core/NumberText.h"
 #include "petrous/Presenters/CaseRegistration.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/SeriesPreview.h"
 #include "petrous/Presenters/SlicePresenter.h"
 #include "petrous/Rendering/Picture.h"
 #include "petrous/Rendering/PictureText.h"
@@ -299,6 +300,17 @@ void slice(const Context& context, SliceOptions options)
   std::vector<std::string> lines{presenters::nameOf(geometry.orientation())};
   if (mr)
     lines.push_back("MR " + mr->name + (mr->registered ? "" : ": not registered"));
+  const auto addInterpolated = [&](const std::string& name, const scene::ImagePart& image)
+  {
+    const std::string guessed = presenters::interpolatedText(image);
+    if (guessed.empty())
+      return;
+    lines.push_back(name + ": " + guessed);
+    context.warn(lines.back() + "; small structures may be absent there");
+  };
+  addInterpolated(presenters::primaryName(value), value.ct);
+  if (mr)
+    addInterpolated(mr->name, *mr);
   context.refuseDamaged();
   rendering::writePng(options.out, labelled(std::move(pixels), geometry, lines));
   if (mr && !mr->registered)

@@ -394,13 +394,85 @@ TEST_F(CaseBuilder, AsksWhichSideIsLeft)
     EXPECT_EQ(error.fault(), core::Fault::BadInput);
     EXPECT_NE(std::string(error.what()).find("--ct-frame"), std::string::npos);
   }
-  m_sources.isRas = true;
+  m_sources.assumeRas = true;
   const auto ras = presenters::buildCase("ear", m_sources, {});
-  m_sources.isRas = false;
+  m_sources.assumeRas = false;
   const auto lps = presenters::buildCase("ear", m_sources, {});
   const Vector3d there = ras.ct.geometry.patientFromVoxel({7, 6, 5});
   EXPECT_TRUE(lps.ct.geometry.patientFromVoxel({7, 6, 5}).isApprox(
       Vector3d(-there[0], -there[1], there[2])));
+}
+
+// A CT without a header and what was drawn on it, exported by the same tool.
+TEST_F(CaseBuilder, PartsOfAHeaderlessExportLieWhereTheCtDoes)
+{
+  const core::GridGeometry grid({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3));
+  auto ct = std::make_shared<volume::Volume<std::int16_t>>(grid, std::int16_t{-1000});
+  ct->at(7, 6, 5) = 1200;
+  const auto dropPlace = [this](const std::string& name)
+  {
+    std::fstream file(m_folder / name, std::ios::binary | std::ios::in | std::ios::out);
+    file.seekp(252); // qform_code, sform_code
+    file.write("\0\0\0\0", 4);
+  };
+  const auto writeLabels = [&](const std::string& name, const core::GridGeometry& on)
+  {
+    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(on);
+    voxels->at(3, 2, 1) = 1;
+    fs::create_directories((m_folder / name).parent_path());
+    imaging::writeLabelFile(m_folder / name, volume::makeLabelMap(voxels, {}));
+    dropPlace(name);
+  };
+  imaging::writeVolume(m_folder / "ct.nii", *ct);
+  dropPlace("ct.nii");
+  fs::copy_file(m_folder / "ct.nii", m_folder / "mr.nii");
+  writeLabels("incus.nii", grid);
+  writeLabels("masks/incus.nii", grid);
+  const core::GridGeometry other({8, 6, 5}, Vector3d::Constant(2.0), Vector3d::Zero());
+  writeLabels("stapes.nii", other);
+  writeLabels("more/stapes.nii", other);
+  m_sources.ct = m_folder / "ct.nii";
+  for (const bool isRas : {false, true})
+  {
+    m_sources.assumeRas = isRas;
+    // By nifti1.h the place of voxel (i, j, k) is (i, j, k) of unit axes; x, y to the right and
+    // front are -x, -y in LPS.
+    const Vector3d there = isRas ? Vector3d(-3, -2, 1) : Vector3d(3, 2, 1);
+    for (const char* labels : {"incus.nii", "masks"})
+    {
+      auto value = presenters::buildCase("ear", m_sources, {});
+      presenters::PartSources parts;
+      parts.labels = {{"", m_folder / labels}};
+      presenters::addParts(value, parts, {});
+      ASSERT_EQ(value.labels.size(), 1u);
+      const auto& map = value.labels[0];
+      EXPECT_TRUE(map.labels.get()->voxels->geometry().patientFromVoxel({3, 2, 1}).isApprox(there))
+          << labels << isRas;
+      EXPECT_EQ(map.drawnOn, std::string()) << "the CT's grid";
+      EXPECT_TRUE(std::any_of(map.notes.begin(), map.notes.end(),
+                              [](const std::string& note)
+                              { return note.find("which side") != std::string::npos; }));
+    }
+    // Nothing says how these count.
+    auto value = presenters::buildCase("ear", m_sources, {});
+    presenters::PartSources parts;
+    parts.mr = {{"t2", m_folder / "mr.nii"}};
+    parts.labels = {{"", m_folder / "stapes.nii"}, {"", m_folder / "more"}};
+    const auto failures = presenters::addSoundParts(value, parts, {});
+    ASSERT_EQ(failures.size(), 3u);
+    for (const auto& failure : failures)
+      EXPECT_TRUE(failure.isSideUnclear) << failure.why;
+    EXPECT_NE(failures[0].why.find("--mr-frame"), std::string::npos);
+    EXPECT_NE(failures[1].why.find("--labels-frame"), std::string::npos);
+    parts.mr[0].assumeRas = isRas;
+    parts.labels[0].assumeRas = isRas;
+    parts.labels.pop_back();
+    presenters::addParts(value, parts, {});
+    EXPECT_TRUE(value.mr[0].geometry.patientFromVoxel({3, 2, 1}).isApprox(there));
+    EXPECT_TRUE(
+        value.labels[0].labels.get()->voxels->geometry().patientFromVoxel({3, 2, 1}).isApprox(
+            isRas ? Vector3d(-6, -4, 2) : Vector3d(6, 4, 2)));
+  }
 }
 
 TEST_F(CaseBuilder, NamesAreUniqueOverAllKindsOfParts)

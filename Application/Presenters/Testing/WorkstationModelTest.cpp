@@ -694,6 +694,7 @@ TEST_F(WorkstationModelTest, PartsComeBesideWhatWasMadeMeanwhile)
   with.mr.push_back(block("mr").ct);
   with.mr[0].name = "t2";
   with.labels[1].drawnOn = "";
+  with.labels[1].notes.push_back("moved");
   with.labels.push_back(ballOf(grid, "tumour"));
   with.labels.back().drawnOn = "t2";
   with.labels.push_back(ballOf(grid, "nerve"));
@@ -713,6 +714,9 @@ TEST_F(WorkstationModelTest, PartsComeBesideWhatWasMadeMeanwhile)
   EXPECT_EQ(drawnOn.count("nerve"), 1U);
   EXPECT_EQ(drawnOn.at("tumour 2"), "t2 2");
   EXPECT_EQ(drawnOn.at("second"), "") << "settled to the CT";
+  for (const scene::LabelPart& part : model.value().labels)
+    EXPECT_EQ(part.notes, part.structures[0].name == "second" ? std::vector<std::string>{"moved"}
+                                                              : std::vector<std::string>{});
   EXPECT_NE(drawnOn.at("first"), "t2 2");
 }
 

@@ -34,6 +34,8 @@
 #include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/LeavingImages.h"
+#include "petrous/Scene/FreeName.h"
+#include "petrous/Scene/Placement.h"
 
 namespace petrous::workstation
 {
@@ -121,13 +123,10 @@ QString contentsOf(const scene::Case& value, bool planOnly)
   return text;
 }
 
-// `wanted`, with a number if it is taken.
-std::string freeName(const std::string& wanted, const std::vector<std::string>& taken)
+std::string unusedName(const std::string& wanted, const std::vector<std::string>& taken)
 {
-  std::string name = wanted;
-  for (int n = 2; std::find(taken.begin(), taken.end(), name) != taken.end(); ++n)
-    name = wanted + " " + std::to_string(n);
-  return name;
+  return scene::freeName(wanted, [&taken](const std::string& name)
+                         { return std::find(taken.begin(), taken.end(), name) != taken.end(); });
 }
 
 } // namespace
@@ -257,7 +256,7 @@ void CaseDocumentController::refuse(const QString& why)
   box.exec();
 }
 
-// Non-modal.
+// Returns at once; the window waits for the answer.
 void CaseDocumentController::inform(const QString& text)
 {
   auto* box =
@@ -507,12 +506,13 @@ bool CaseDocumentController::askRepair(const SourceContent& source)
   return false;
 }
 
+// Of the primary image.
 bool CaseDocumentController::askRegion(Item& item)
 {
-  if (!item.region || item.source.content != Content::Ct)
+  if (!item.region && !item.source.isTooLarge)
     return true;
   RegionDialog dialog(item.source.path, item.source.selector, !item.source.repair.empty(),
-                      &m_window);
+                      item.assumeRas, &m_window);
   if (dialog.exec() != QDialog::Accepted)
     return false;
   item.roi = dialog.region();
@@ -536,6 +536,18 @@ bool CaseDocumentController::ask(Item& item, const Purpose& purpose)
     return false;
   if (source.content == Content::Image)
     source.content = Content::Ct;
+  return source.content != Content::Ct || askPrimary(item);
+}
+
+// Side and region of the image with which a case begins.
+bool CaseDocumentController::askPrimary(Item& item)
+{
+  if (item.source.isSideOpen)
+  {
+    item.assumeRas = askSide(item.source.path);
+    if (!item.assumeRas)
+      return false;
+  }
   return askRegion(item);
 }
 
@@ -560,15 +572,17 @@ bool CaseDocumentController::askNames(presenters::CaseSources& sources,
     const SourceContent& source = item.source;
     AddPartsDialog::Part part;
     part.what = lineOf(source);
+    if (!source.structures.empty())
+      part.what += ": " + words(scene::listed(source.structures));
     part.isPlaced = source.content != Content::Mr;
     if (source.content == Content::Mr)
-      part.name = freeName(source.name.empty() ? "mr" : source.name, proposed);
+      part.name = unusedName(source.name.empty() ? "mr" : source.name, proposed);
     else if (source.isNameless || source.content == Content::Mesh)
     {
       const std::string name = presenters::fileName(source.path).name;
       isNameless = isNameless || source.isNameless;
       // An empty name asks for one; that of a whole file name is kept as it is.
-      part.name = name.empty() || !source.isNameless ? name : freeName(name, proposed);
+      part.name = name.empty() || !source.isNameless ? name : unusedName(name, proposed);
     }
     else
     {
@@ -602,6 +616,13 @@ bool CaseDocumentController::askNames(presenters::CaseSources& sources,
   else
     for (const AddPartsDialog::Part& part : parts)
       answers.push_back({part.name, {}, {}});
+  // A mesh of the name that a label map of the new case gives a structure takes another one, unless
+  // the user chose it.
+  if (!newCase.empty())
+    for (std::size_t n = 0; n < others.size(); ++n)
+      if (others[n].source.content == Content::Mesh && answers[n].name == parts[n].name &&
+          presenters::fileName(others[n].source.path).isWhole)
+        answers[n].name.clear();
   std::size_t next[3] = {0, 0, 0};
   for (std::size_t n = 0; n < others.size(); ++n)
   {
@@ -645,6 +666,7 @@ void CaseDocumentController::decide(const Sources& found, const Purpose& purpose
       sources.series = source.selector;
       sources.repair = repair;
       sources.roi = item.roi;
+      sources.assumeRas = item.assumeRas;
       continue;
     case Content::Mr:
       sources.parts.mr.push_back({{}, source.path, {}, source.selector, repair});
@@ -672,6 +694,10 @@ void CaseDocumentController::decide(const Sources& found, const Purpose& purpose
                         .arg(what.join(", ")));
     if (!askMrAlone(mr->source))
       return;
+    if (!askPrimary(*mr))
+      return;
+    sources.assumeRas = mr->assumeRas;
+    sources.roi = mr->roi;
     ct = &mr->source;
     sources.modality = scene::Modality::Mr;
     sources.ct = mr->source.path;
@@ -722,16 +748,22 @@ void CaseDocumentController::makeCase(
          return [this, value, failures, report]
          {
            endWork();
-           adopt(std::move(*value));
-           tell(failures, report);
+           const QString named = words(value->name);
+           const bool isShown = adopt(std::move(*value));
+           // Where it could only be kept, the case that stays open is another one.
+           tell(failures, report, {isShown ? m_model.shownAs() : 0, named});
          };
        });
 }
 
-void CaseDocumentController::adopt(scene::Case value)
+// False: the open one stays, and `value` is kept in the library.
+bool CaseDocumentController::adopt(scene::Case value)
 {
   if (!leaveCase()) // a device may have drilled meanwhile, or a draft is not to be lost
-    return keepInLibrary(std::move(value));
+  {
+    keepInLibrary(std::move(value));
+    return false;
+  }
   try
   {
     m_model.adopt(std::move(value));
@@ -745,6 +777,7 @@ void CaseDocumentController::adopt(scene::Case value)
   m_sayWhenSaved = true;
   m_saver.save();
   emit statusMessage(tr("Saving %1 in the library…").arg(words(m_model.value().name)));
+  return true;
 }
 
 // A case that cannot be opened now: building it may have taken minutes.
@@ -769,43 +802,103 @@ void CaseDocumentController::addParts(const presenters::PartSources& parts, cons
 {
   m_model.stopTouch();
   const auto value = std::make_shared<scene::Case>(m_model.value()); // shares voxels
-  work(tr("Adding to %1").arg(words(value->name)),
-       [this, value, before = scene::Case(*value), parts, what, library = m_model.library(),
-        shownAs = m_model.shownAs()](const core::Progress& progress) -> BackgroundWork::Reply
-       {
-         presenters::PartSources sources = parts;
-         sources.salted = [&library](const std::string& frame)
-         { return library::saltedFrame(library, frame); };
-         std::vector<presenters::StructureReport> report;
-         const auto failures = presenters::addSoundParts(*value, sources, progress, &report);
-         const bool onlyImages = parts.labels.empty() && parts.meshes.empty();
-         const bool isAny =
-             failures.size() < parts.mr.size() + parts.labels.size() + parts.meshes.size();
-         return [this, value, before, what, shownAs, onlyImages, isAny, failures, report]
-         {
-           endWork();
-           if (!m_model.hasCase() || m_model.shownAs() != shownAs)
-             return refuse(tr("%1 was not added: the case “%2” is not open any more.")
-                               .arg(what, words(value->name)));
-           if (isAny)
-           {
-             const QString name = words(m_model.value().name);
-             m_model.takeParts(before, std::move(*value));
-             m_saver.save();
-             emit added(onlyImages);
-             emit statusMessage(
-                 report.empty() ? tr("Added to %1: %2").arg(name, what)
-                                : tr("Added to %1: %2; %3")
-                                      .arg(name, what, words(presenters::summaryOf(report).text)));
-           }
-           tell(failures, report);
-         };
-       });
+  work(
+      tr("Adding to %1").arg(words(value->name)),
+      [this, value, before = scene::Case(*value), parts, what, library = m_model.library(),
+       shownAs = m_model.shownAs()](const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        presenters::PartSources sources = parts;
+        sources.salted = [&library](const std::string& frame)
+        { return library::saltedFrame(library, frame); };
+        std::vector<presenters::StructureReport> report;
+        const auto failures = presenters::addSoundParts(*value, sources, progress, &report);
+        const bool onlyImages = parts.labels.empty() && parts.meshes.empty();
+        const bool isAny =
+            failures.size() < parts.mr.size() + parts.labels.size() + parts.meshes.size();
+        return [this, value, before, what, shownAs, onlyImages, isAny, failures, report]
+        {
+          endWork();
+          const Target target{shownAs, words(before.name)};
+          if (!isOpen(target))
+            return refuse(
+                tr("%1 was not added: the case “%2” is not open any more.").arg(what, target.name));
+          if (isAny)
+          {
+            const QString name = words(m_model.value().name);
+            m_model.takeParts(before, std::move(*value));
+            m_saver.save();
+            emit added(onlyImages);
+            emit statusMessage(
+                report.empty() ? tr("Added to %1: %2").arg(name, what)
+                               : tr("Added to %1: %2; %3")
+                                     .arg(name, what, words(presenters::summaryOf(report).text)));
+          }
+          tell(failures, report, target);
+        };
+      });
 }
 
-// What did not come into the case, and structures that are not as their file says.
+// What did not come into the case, and structures that are not as their file says. Parts are added
+// on an answer only to the case for which it was asked: another one may be open by then.
 void CaseDocumentController::tell(const std::vector<presenters::PartFailure>& failures,
-                                  const std::vector<presenters::StructureReport>& report)
+                                  const std::vector<presenters::StructureReport>& report,
+                                  const Target& target)
+{
+  tellStructures(report);
+  presenters::PartSources again; // of all answers: reading one ends the reading of another
+  QStringList names;
+  QStringList lost;
+  {
+    const QScopedValueRollback<bool> asking(m_asking, true);
+    for (const presenters::PartFailure& failure : failures)
+    {
+      const bool isQuestion =
+          !failure.likely.empty() || failure.isOtherPatient || failure.isSideUnclear;
+      if (!isQuestion || !isOpen(target))
+        lost += words(failure.why);
+      else if (const auto source = askAgain(failure, target))
+      {
+        (again.*failure.kind).push_back(*source);
+        names += nameOf(source->path);
+      }
+    }
+  }
+  if (!names.isEmpty() && !isOpen(target))
+    lost += tr("%1 was not added: the case “%2” is not open any more.")
+                .arg(names.join(", "), target.name);
+  else if (!names.isEmpty() && m_work.busy())
+    lost += tr("%1 was not added, as something else is being read; add it again.")
+                .arg(names.join(", "));
+  else if (!names.isEmpty())
+    addParts(again, names.join(", "));
+  refuseAll(lost);
+}
+
+bool CaseDocumentController::isOpen(const Target& target) const
+{
+  return m_model.hasCase() && m_model.shownAs() == target.shownAs;
+}
+
+void CaseDocumentController::refuseAll(const QStringList& whys)
+{
+  constexpr int kShown = 6;
+  if (whys.size() <= 1)
+    return whys.isEmpty() ? void() : refuse(whys.front());
+  QStringList lines;
+  for (const QString& why : whys)
+    lines += sentence(windowText(why));
+  QMessageBox box(QMessageBox::Warning, tr("Petrous"),
+                  tr("%1 files were not added.").arg(lines.size()), QMessageBox::Ok, &m_window);
+  box.setObjectName("notAdded");
+  box.setTextFormat(Qt::PlainText);
+  box.setTextInteractionFlags(Qt::TextSelectableByMouse);
+  box.setInformativeText(lines.mid(0, kShown).join("\n\n"));
+  if (lines.size() > kShown)
+    box.setDetailedText(lines.join("\n"));
+  box.exec();
+}
+
+void CaseDocumentController::tellStructures(const std::vector<presenters::StructureReport>& report)
 {
   using Status = presenters::StructureReport::Status;
   constexpr double kTolerance = 0.05; // of the volume by the file
@@ -825,37 +918,91 @@ void CaseDocumentController::tell(const std::vector<presenters::PartFailure>& fa
       line += ", " + words(one.why);
     lines += line;
   }
-  if (!isWhole)
-  {
-    auto* box = new QMessageBox(QMessageBox::Warning, tr("Structures"),
-                                words(presenters::summaryOf(report).text) + ".", QMessageBox::Ok,
-                                &m_window);
-    box->setAttribute(Qt::WA_DeleteOnClose);
-    box->setTextFormat(Qt::PlainText);
-    box->setObjectName("structuresRead");
-    box->setInformativeText(tr("Not all are as the file has them."));
-    box->setDetailedText(lines.join("\n"));
-    box->setModal(false);
-    box->show();
-  }
-  presenters::PartSources again; // of all answers: reading one ends the reading of another
-  QStringList names;
-  for (const presenters::PartFailure& failure : failures)
-    if (failure.likely.empty())
-      refuse(words(failure.why));
-    else if (const auto space = askMeshSpace(failure))
-    {
-      again.meshes.push_back(failure.source);
-      again.meshes.back().isRas = space->isRas;
-      again.meshes.back().unit = space->mm;
-      names += nameOf(failure.source.path);
-    }
-  if (again.meshes.empty())
+  if (isWhole)
     return;
-  if (m_work.busy() || !m_model.hasCase())
-    return refuse(tr("%1 was not added, as something else is being read; add it again.")
-                      .arg(names.join(", ")));
-  addParts(again, names.join(", "));
+  auto* box =
+      new QMessageBox(QMessageBox::Warning, tr("Structures"),
+                      words(presenters::summaryOf(report).text) + ".", QMessageBox::Ok, &m_window);
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  box->setTextFormat(Qt::PlainText);
+  box->setObjectName("structuresRead");
+  box->setInformativeText(tr("Not all are as the file has them."));
+  box->setDetailedText(lines.join("\n"));
+  box->setModal(false);
+  box->show();
+}
+
+// What the user says of a part that could not be added without; nullopt: it is left out.
+std::optional<presenters::PartSource>
+CaseDocumentController::askAgain(const presenters::PartFailure& failure, const Target& target)
+{
+  presenters::PartSource source = failure.source;
+  if (failure.isOtherPatient)
+  {
+    if (!askOtherPatient(failure, target))
+      return std::nullopt;
+    source.isOtherPatient = true;
+  }
+  else if (failure.isSideUnclear)
+  {
+    source.assumeRas = askSide(source.path);
+    if (!source.assumeRas)
+      return std::nullopt;
+  }
+  else
+  {
+    const auto space = askMeshSpace(failure);
+    if (!space)
+      return std::nullopt;
+    source.isRas = space->isRas;
+    source.unit = space->mm;
+  }
+  return source;
+}
+
+// Whether the axes of a file that leaves it open are RAS; nullopt: the user does not know.
+std::optional<bool> CaseDocumentController::askSide(const fs::path& path)
+{
+  QMessageBox box(QMessageBox::Warning, tr("Which side is left?"),
+                  tr("“%1” does not say which side of the patient is left. How do its axes run?")
+                      .arg(nameOf(path)),
+                  QMessageBox::NoButton, &m_window);
+  box.setTextFormat(Qt::PlainText);
+  box.setObjectName("askSide");
+  box.setInformativeText(
+      tr("A wrong answer turns it by half a turn: what is left is then shown on the right, and "
+         "what is in front at the back, and nothing in the picture has to look odd. Answer only "
+         "if you know it; otherwise export the file again together with its geometry."));
+  const auto* lps =
+      box.addButton(tr("To the &left and back (LPS: DICOM, ITK)"), QMessageBox::ActionRole);
+  const auto* ras =
+      box.addButton(tr("To the &right and front (RAS: NIfTI, Slicer)"), QMessageBox::ActionRole);
+  box.setDefaultButton(box.addButton(QMessageBox::Cancel));
+  box.exec();
+  if (box.clickedButton() == lps || box.clickedButton() == ras)
+    return box.clickedButton() == ras;
+  return std::nullopt;
+}
+
+bool CaseDocumentController::askOtherPatient(const presenters::PartFailure& failure,
+                                             const Target& target)
+{
+  QMessageBox box(QMessageBox::Warning, tr("Another patient?"),
+                  tr("“%1” states another patient's ID, name or date of birth than the images of "
+                     "“%2” do.")
+                      .arg(nameOf(failure.source.path), target.name),
+                  QMessageBox::NoButton, &m_window);
+  box.setTextFormat(Qt::PlainText);
+  box.setObjectName("askOtherPatient");
+  box.setInformativeText(
+      tr("Of another patient, it would put an anatomy into the picture that is not this one's, and "
+         "the plan would be wrong where it counts. Look at the files first. Add it only if you "
+         "know that it is this patient's, as where one of the files was de-identified or the "
+         "patient's name was changed; a note in the case will say so."));
+  const auto* add = box.addButton(tr("It is this &patient's: add it"), QMessageBox::ActionRole);
+  box.setDefaultButton(box.addButton(QMessageBox::Cancel));
+  box.exec();
+  return box.clickedButton() == add;
 }
 
 std::optional<imaging::MeshSpace>
@@ -1022,14 +1169,24 @@ void CaseDocumentController::openRegion()
     open({folder}, {std::nullopt, true});
 }
 
+void CaseDocumentController::openFileRegion()
+{
+  const QString file = QFileDialog::getOpenFileName(
+      &m_window, tr("Open an image file, and choose a region of it"), {},
+      tr("Images (%1);;All files (*)").arg(patternsOf(imaging::kImage | imaging::kDicom)));
+  if (!file.isEmpty())
+    open({file}, {std::nullopt, true});
+}
+
 void CaseDocumentController::add(Content content, bool folder)
 {
   if (!m_model.hasCase())
     return;
   if (folder)
   {
-    const QString chosen =
-        QFileDialog::getExistingDirectory(&m_window, tr("Add an MR from a DICOM folder"));
+    const QString chosen = QFileDialog::getExistingDirectory(
+        &m_window, content == Content::Mr ? tr("Add an MR from a DICOM folder")
+                                          : tr("Add structures from a folder of masks"));
     if (!chosen.isEmpty())
       open({chosen}, {content});
     return;
@@ -1066,7 +1223,10 @@ void CaseDocumentController::exportPart()
     const QScopedValueRollback<bool> asking(m_asking, true);
     if (mayDropDraft && !mayDropDraft())
       return;
-    ExportDialog dialog(m_model.value(), m_exported, &m_window);
+    const FaceCheck faces = lookForFaces(m_model.value(), m_window);
+    if (!m_model.hasCase())
+      return;
+    ExportDialog dialog(m_model.value(), faces, m_exported, &m_window);
     if (dialog.exec() != QDialog::Accepted || !m_model.hasCase())
       return;
     options = dialog.options();
@@ -1123,7 +1283,7 @@ void CaseDocumentController::write(const presenters::ExportOptions& options)
        });
 }
 
-// Non-modal.
+// Returns at once; the window waits for the answer.
 void CaseDocumentController::offerCtGrid(const presenters::ExportOptions& options,
                                          const QString& why)
 {
@@ -1156,23 +1316,21 @@ void CaseDocumentController::offerCtGrid(const presenters::ExportOptions& option
 bool CaseDocumentController::askOfFace(const std::string& name, scene::ImageMask& mask)
 {
   const bool isOpen = m_model.hasCase() && m_model.value().name == name;
-  std::vector<std::string> faces;
+  scene::Case stored;
   try
   {
-    faces = isOpen ? facesIn(m_model.value()) : facesIn(m_model.library().open(name));
+    if (!isOpen)
+      stored = m_model.library().open(name);
   }
   catch (const core::Error&)
   {
     return true; // archiving says what is wrong with the case
   }
-  if (faces.empty())
+  const FaceCheck faces = lookForFaces(isOpen ? m_model.value() : stored, m_window);
+  if (!faces.mayHave())
     return true;
-  QStringList images;
-  for (const std::string& image : faces)
-    images += words(image);
-  QMessageBox ask(QMessageBox::Warning, tr("Archive “%1”").arg(words(name)),
-                  tr("A face can be recognised in %1.").arg(images.join(", ")), QMessageBox::Cancel,
-                  &m_window);
+  QMessageBox ask(QMessageBox::Warning, tr("Archive “%1”").arg(words(name)), textOf(faces),
+                  QMessageBox::Cancel, &m_window);
   ask.setObjectName("archiveFace");
   ask.setTextFormat(Qt::PlainText);
   auto* box = new QCheckBox(tr("Put air in place of the &face"));

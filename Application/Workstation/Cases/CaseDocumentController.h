@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -42,10 +43,11 @@ public:
   /// the open one.
   void open(const QStringList& what);
   void openCase(const std::string& name);
-  void openFolder(); ///< with a dialog
-  void openRegion(); ///< likewise, and a region of the CT is chosen first
-  void openFiles();  ///< with a dialog
-  /// With a dialog, to the open case. `folder`: of DICOM.
+  void openFolder();     ///< with a dialog
+  void openRegion();     ///< likewise, and a region of the CT is chosen first
+  void openFileRegion(); ///< likewise, of a file
+  void openFiles();      ///< with a dialog
+  /// With a dialog, to the open case. `folder`: of DICOM, or of masks.
   void add(presenters::Content content, bool folder = false);
 
   /// A structure, a mesh or an MR of the open case.
@@ -103,7 +105,7 @@ private:
   struct Purpose
   {
     std::optional<presenters::Content> content = {}; ///< as the user says
-    bool region = false;                             ///< of the CT, to be chosen
+    bool region = false;                             ///< of the primary image, to be chosen
   };
   /// A series or a file, and what was asked about it.
   struct Item
@@ -111,6 +113,13 @@ private:
     presenters::SourceContent source;
     bool region = false;
     std::optional<core::PatientBox> roi = {};
+    std::optional<bool> assumeRas = {}; ///< presenters::CaseSources
+  };
+  /// The case to which parts come, as it is open now.
+  struct Target
+  {
+    std::uint64_t shownAs = 0; ///< WorkstationModel::shownAs
+    QString name;
   };
 
   void open(const QStringList& what, const Purpose& purpose);
@@ -124,15 +133,23 @@ private:
   bool askMrAlone(const presenters::SourceContent& source);
   bool askRepair(const presenters::SourceContent& source);
   bool askRegion(Item& item);
+  bool askPrimary(Item& item);
   bool askNames(presenters::CaseSources& sources, const std::vector<Item>& others,
                 const std::string& newCase);
   void makeCase(const std::string& name,
                 std::function<presenters::CaseSources(const core::Progress&)> sources);
   void addParts(const presenters::PartSources& parts, const QString& what);
   void tell(const std::vector<presenters::PartFailure>& failures,
-            const std::vector<presenters::StructureReport>& report);
+            const std::vector<presenters::StructureReport>& report, const Target& target);
+  void tellStructures(const std::vector<presenters::StructureReport>& report);
+  void refuseAll(const QStringList& whys);
+  bool isOpen(const Target& target) const;
+  std::optional<presenters::PartSource> askAgain(const presenters::PartFailure& failure,
+                                                 const Target& target);
+  std::optional<bool> askSide(const std::filesystem::path& path);
+  bool askOtherPatient(const presenters::PartFailure& failure, const Target& target);
   std::optional<imaging::MeshSpace> askMeshSpace(const presenters::PartFailure& failure);
-  void adopt(scene::Case value);
+  bool adopt(scene::Case value);
   void keepInLibrary(scene::Case value);
   void write(const presenters::ExportOptions& options);
   void offerCtGrid(const presenters::ExportOptions& options, const QString& why);

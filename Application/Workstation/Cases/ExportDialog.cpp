@@ -20,7 +20,6 @@
 #include <QStorageInfo>
 #include <QVBoxLayout>
 
-#include "FaceCheck.h"
 #include "Theme.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Presenters/IntensityDisplay.h"
@@ -39,8 +38,8 @@ const QString kSeries = QStringLiteral("/");
 
 } // namespace
 
-ExportDialog::ExportDialog(const scene::Case& value, const std::optional<Choices>& last,
-                           QWidget* parent)
+ExportDialog::ExportDialog(const scene::Case& value, const FaceCheck& faces,
+                           const std::optional<Choices>& last, QWidget* parent)
   : QDialog(parent)
   , m_caseName(words(value.name))
   , m_what(new QComboBox)
@@ -94,12 +93,8 @@ ExportDialog::ExportDialog(const scene::Case& value, const std::optional<Choices
   m_face->setObjectName("exportFace");
   m_face->setTextFormat(Qt::PlainText);
   m_face->setWordWrap(true);
-  const std::vector<std::string> faces = facesIn(value);
-  m_hasFace = !faces.empty();
-  QStringList images;
-  for (const std::string& image : faces)
-    images += words(image);
-  m_face->setText(tr("A face can be recognised in %1.").arg(images.join(", ")));
+  m_hasFace = faces.mayHave();
+  m_face->setText(textOf(faces));
   m_face->setVisible(m_hasFace);
   m_triangles->setObjectName("exportTriangles");
   m_triangles->setRange(0, kMostTriangles);

@@ -7,6 +7,7 @@
 
 #include <QDialog>
 
+#include "FaceCheck.h"
 #include "petrous/Presenters/CaseExport.h"
 
 class QCheckBox;
@@ -34,8 +35,8 @@ public:
   };
 
   /// `last`: as far as this case has it. Its file is proposed for the same case, else its folder.
-  explicit ExportDialog(const scene::Case& value, const std::optional<Choices>& last = {},
-                        QWidget* parent = nullptr);
+  ExportDialog(const scene::Case& value, const FaceCheck& faces,
+               const std::optional<Choices>& last = {}, QWidget* parent = nullptr);
 
   presenters::ExportOptions options() const;
   Choices choices() const;

@@ -156,7 +156,7 @@ void RegionView::mouseReleaseEvent(QMouseEvent* event)
 }
 
 RegionDialog::RegionDialog(const std::filesystem::path& path, const std::string& selector,
-                           bool repair, QWidget* parent)
+                           bool repair, const std::optional<bool>& assumeRas, QWidget* parent)
   : QDialog(parent)
   , m_views{new RegionView(SliceOrientation::Axial), new RegionView(SliceOrientation::Coronal),
             new RegionView(SliceOrientation::Sagittal)}
@@ -236,10 +236,10 @@ RegionDialog::RegionDialog(const std::filesystem::path& path, const std::string&
   layout->addWidget(m_size);
   layout->addWidget(buttons);
 
-  m_progress->start([path, selector, repair](const core::Progress& progress)
-                    { return presenters::previewScan(path, selector, repair, progress); },
-                    [this](std::shared_ptr<const presenters::ScanPreview> preview)
-                    { show(std::move(preview)); });
+  m_progress->start(
+      [path, selector, repair, assumeRas](const core::Progress& progress)
+      { return presenters::previewScan(path, selector, repair, progress, assumeRas); },
+      [this](std::shared_ptr<const presenters::ScanPreview> preview) { show(std::move(preview)); });
 }
 
 void RegionDialog::show(std::shared_ptr<const presenters::ScanPreview> preview)

@@ -55,9 +55,9 @@ class RegionDialog : public QDialog
 {
   Q_OBJECT
 public:
-  /// `selector`: imaging::chooseSeries.
+  /// `selector`: imaging::chooseSeries; `assumeRas`: presenters::CaseSources.
   RegionDialog(const std::filesystem::path& path, const std::string& selector, bool repair,
-               QWidget* parent = nullptr);
+               const std::optional<bool>& assumeRas = {}, QWidget* parent = nullptr);
 
   /// Patient LPS mm; nullopt: all of it.
   std::optional<core::PatientBox> region() const;

@@ -118,7 +118,7 @@ ExchangeController::ExchangeController(presenters::WorkstationModel& model,
       [this] { PseudonymsDialog(std::chrono::minutes(5), &m_window).exec(); });
 }
 
-// Non-modal.
+// Returns at once; the window waits for the answer.
 void ExchangeController::refuse(const QString& why)
 {
   auto* box = new QMessageBox(QMessageBox::Warning, tr("Petrous"), windowText(why), QMessageBox::Ok,
@@ -161,7 +161,7 @@ void ExchangeController::send(const std::string& which)
 
 void ExchangeController::offer(const scene::Case& value, const std::vector<network::Node>& nodes)
 {
-  SendDialog dialog(value, nodes, &m_window);
+  SendDialog dialog(value, lookForFaces(value, m_window), nodes, &m_window);
   if (dialog.exec() != QDialog::Accepted)
     return;
   const std::string name = value.name;

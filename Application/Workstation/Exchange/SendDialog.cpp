@@ -9,15 +9,14 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
-#include "FaceCheck.h"
 #include "Theme.h"
 #include "petrous/Library/Attachments.h"
 
 namespace petrous::workstation
 {
 
-SendDialog::SendDialog(const scene::Case& value, const std::vector<network::Node>& nodes,
-                       QWidget* parent)
+SendDialog::SendDialog(const scene::Case& value, const FaceCheck& faces,
+                       const std::vector<network::Node>& nodes, QWidget* parent)
   : QDialog(parent)
   , m_value(value)
   , m_nodes(nodes)
@@ -32,6 +31,7 @@ SendDialog::SendDialog(const scene::Case& value, const std::vector<network::Node
   , m_videos(new QCheckBox(tr("with its &videos, which may show or name the patient")))
   , m_documents(new QCheckBox(tr("with its PD&Fs, which may name the patient")))
   , m_maskFace(new QCheckBox(tr("Put air in place of the &face")))
+  , m_faces(faces)
   , m_report(new QPlainTextEdit)
 {
   setObjectName("sendCase");
@@ -53,8 +53,7 @@ SendDialog::SendDialog(const scene::Case& value, const std::vector<network::Node
   m_maskFace->setToolTip(tr("In front of a plane about 50 mm behind the tip of the nose. What is "
                             "segmented or drilled and the temporal bones stay; the case here does "
                             "not change"));
-  m_faces = facesIn(value);
-  m_maskFace->setEnabled(!m_faces.empty());
+  m_maskFace->setEnabled(m_faces.mayHave());
   m_report->setObjectName("sendReport");
   m_report->setReadOnly(true);
   m_report->setMinimumHeight(200);
@@ -118,8 +117,13 @@ void SendDialog::update()
   const presenters::SendParts what = parts();
   const bool any = what.ct || what.mr || what.labels || what.scene;
   m_send->setEnabled(any);
-  m_report->setPlainText(any ? words(presenters::identityReport(m_value, what, &m_faces).text())
-                             : tr("Nothing is chosen."));
+  if (!any)
+    return m_report->setPlainText(tr("Nothing is chosen."));
+  const auto* faces = m_faces.isKnown ? &m_faces.images : nullptr;
+  QString text = words(presenters::identityReport(m_value, what, faces).text());
+  if (!m_faces.isKnown)
+    text += '\n' + textOf(m_faces);
+  m_report->setPlainText(text);
 }
 
 } // namespace petrous::workstation

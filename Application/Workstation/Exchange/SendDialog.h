@@ -2,6 +2,7 @@
 
 #include <QDialog>
 
+#include "FaceCheck.h"
 #include "petrous/Network/NodeList.h"
 #include "petrous/Presenters/CaseTransfer.h"
 
@@ -19,8 +20,8 @@ class SendDialog : public QDialog
   Q_OBJECT
 public:
   /// `nodes`: at least one. The case must outlive the dialog.
-  SendDialog(const scene::Case& value, const std::vector<network::Node>& nodes,
-             QWidget* parent = nullptr);
+  SendDialog(const scene::Case& value, const FaceCheck& faces,
+             const std::vector<network::Node>& nodes, QWidget* parent = nullptr);
 
   presenters::SendParts parts() const;
   network::Node node() const;
@@ -39,7 +40,7 @@ private:
   QCheckBox* m_videos;
   QCheckBox* m_documents;
   QCheckBox* m_maskFace;
-  std::vector<std::string> m_faces; ///< images in which one can be recognised
+  FaceCheck m_faces;
   QPlainTextEdit* m_report;
   QPushButton* m_send;
 };

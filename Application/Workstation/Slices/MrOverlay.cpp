@@ -8,6 +8,7 @@
 #include "SliceColumn.h"
 #include "SliceView.h"
 #include "Theme.h"
+#include "petrous/Presenters/SeriesPreview.h"
 
 namespace petrous::workstation
 {
@@ -104,7 +105,9 @@ presenters::ShownImages MrOverlay::shown() const
   if (!m_alone && m_mode == OverlayMode::Checker)
     return {true, part->name};
   const double opacity = m_alone.value_or(m_mode == OverlayMode::Blend ? m_opacity : 1.0);
-  return {opacity<1.0, opacity> 0.0 ? part->name : std::string()};
+  const bool isCtSeen = opacity < 1.0;
+  const bool isMrSeen = opacity > 0.0;
+  return {isCtSeen, isMrSeen ? part->name : std::string()};
 }
 
 void MrOverlay::setWindow(const presenters::GreyWindow& window)
@@ -144,6 +147,8 @@ void MrOverlay::draw()
     notice += tr(": being registered");
   else if (!part->registered)
     notice += tr(": not registered");
+  if (const std::string guessed = presenters::interpolatedText(*part); !guessed.empty())
+    notice += tr(": %1").arg(QString::fromStdString(guessed));
   m_slices.setNotice(notice);
 }
 

@@ -20,10 +20,13 @@
 #include <QTreeWidget>
 
 #include "Banner.h"
+#include "CaseDocumentController.h"
 #include "RegionDialog.h"
 #include "RepairDialog.h"
 #include "StartPage.h"
 #include "WindowTexts.h"
+#include "petrous/Imaging/DicomScan.h"
+#include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/VolumeFile.h"
@@ -288,6 +291,59 @@ TEST_F(Import, LabelsThatLieOutsideTheCtAreToldInALine)
       << banner->text().toStdString();
 }
 
+// As TotalSegmentator writes them, here with a patient's name in each; dropped and by the menu.
+TEST_F(Import, AFolderOfMasksBecomesStructures)
+{
+  saveBall("ball");
+  const core::GridGeometry grid = ballCase("x").ct.geometry;
+  fs::create_directories(folder() / "masks");
+  for (const char* name : {"doe_incus", "doe_malleus", "doe_stapes"})
+  {
+    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid);
+    voxels->at(4, 4, 4) = 1;
+    imaging::writeLabelFile(folder() / "masks" / (name + std::string(".nii.gz")),
+                            volume::makeLabelMap(voxels, {}));
+  }
+  openWindow();
+  for (const bool byMenu : {false, true})
+  {
+    QString asked;
+    onDialog(
+        [&](QDialog& dialog)
+        {
+          if (auto* files = qobject_cast<QFileDialog*>(&dialog))
+          {
+            files->findChild<QLineEdit*>("fileNameEdit")
+                ->setText(QString::fromStdString((folder() / "masks").string()));
+            static_cast<QDialog&>(*files).accept();
+            return false;
+          }
+          auto* add = buttonOf(dialog, "Add to");
+          if (!add)
+            return false;
+          asked = textOf(dialog);
+          byMenu ? dialog.reject() : add->click();
+          return true;
+        });
+    if (!byMenu)
+      dropPath(folder() / "masks");
+    else
+      for (QAction* action : window().findChildren<QAction*>())
+        if (action->text().remove('&') == QString::fromUtf8("Add folder of masks…"))
+          action->trigger();
+    ASSERT_TRUE(waitFor([&] { return !asked.isEmpty(); }));
+    EXPECT_TRUE(asked.contains("incus") && asked.contains("stapes")) << asked.toStdString();
+    EXPECT_FALSE(asked.contains("doe")) << asked.toStdString();
+    EXPECT_TRUE(settled());
+  }
+  std::vector<std::string> names;
+  for (const scene::LabelPart& part : window().model().value().labels)
+    for (const scene::StructurePart& structure : part.structures)
+      names.push_back(structure.name);
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(names, (std::vector<std::string>{"incus", "malleus", "nerve", "stapes"}));
+}
+
 TEST_F(Import, WithoutACaseAnMrAndLabelsSayWhatIsNeeded)
 {
   writePatient(folder() / "sample");
@@ -510,6 +566,236 @@ TEST_F(Import, FilesThatAreDroppedTogetherMakeOneCase)
   EXPECT_EQ(saved.meshes.size(), 1u);
 }
 
+namespace
+{
+
+core::TriangleMesh tetrahedron(const Eigen::Vector3d& center)
+{
+  core::TriangleMesh mesh;
+  const Eigen::Vector3f at = center.cast<float>();
+  for (const Eigen::Vector3f& corner : {Eigen::Vector3f(4, 4, 4), Eigen::Vector3f(-4, -4, 4),
+                                        Eigen::Vector3f(-4, 4, -4), Eigen::Vector3f(4, -4, -4)})
+    mesh.vertices.push_back({at[0] + corner[0], at[1] + corner[1], at[2] + corner[2]});
+  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  return mesh;
+}
+
+} // namespace
+
+// Labels and meshes as a tool exports them, under the same names.
+TEST_F(Import, MeshesOfTheLabelsNamesComeToTheNewCaseToo)
+{
+  saveBall("ball");
+  const auto ball = ballCase("x");
+  imaging::writeVolume(folder() / "ear.nrrd", *ball.ct.volume.get());
+  imaging::writeLabelFile(folder() / "nerve.seg.nrrd", *ball.labels[0].labels.get());
+  imaging::writeMesh(folder() / "nerve.stl", tetrahedron(kBallCenter));
+  imaging::writeMesh(folder() / "incus.stl", tetrahedron(kBallCenter));
+  // Two that cannot be read are told in one box.
+  for (const char* name : {"malleus.stl", "stapes.stl"})
+    std::ofstream(folder() / name) << "nothing";
+  openWindow();
+  const QString text =
+      answered([this](const auto& react) { onDialog(react); }, "OK",
+               [this]
+               {
+                 QMimeData data;
+                 QList<QUrl> urls;
+                 for (const char* name : {"ear.nrrd", "nerve.seg.nrrd", "nerve.stl", "incus.stl",
+                                          "malleus.stl", "stapes.stl"})
+                   urls += QUrl::fromLocalFile(QString::fromStdString((folder() / name).string()));
+                 data.setUrls(urls);
+                 drop(data);
+               });
+  EXPECT_TRUE(text.contains("2 files") && text.contains("malleus.stl") &&
+              text.contains("stapes.stl"))
+      << text.toStdString();
+  EXPECT_TRUE(settled());
+  const scene::Case& value = window().model().value();
+  EXPECT_EQ(value.name, "ear");
+  ASSERT_EQ(value.meshes.size(), 2u);
+  EXPECT_EQ(value.meshes[0].name, "nerve 2");
+  EXPECT_EQ(value.meshes[1].name, "incus");
+}
+
+// What is asked about a mesh is asked for its case alone: here that case cannot be shown, and
+// another patient's stays open.
+TEST_F(Import, AMeshThatIsAskedAboutComesToNoOtherCase)
+{
+  saveBall("ball");
+  writePatient(folder() / "sample");
+  const auto mesh = imaging::readMesh(folder() / "sample" / "meshes" / "facial_nerve.obj");
+  {
+    std::ofstream file(folder() / "facial_nerve.obj"); // right, front, up
+    file.imbue(std::locale::classic());
+    for (const auto& v : mesh.vertices)
+      file << "v " << -v[0] << " " << -v[1] << " " << v[2] << "\n";
+    for (const auto& t : mesh.triangles)
+      file << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";
+  }
+  openWindow();
+  auto* documents = window().findChild<CaseDocumentController*>();
+  ASSERT_NE(documents, nullptr);
+  int asked = 0;
+  documents->mayDropDraft = [&asked] { return ++asked == 1; }; // a draft was begun meanwhile
+  bool isDone = false;
+  onDialog(
+      [&isDone](QDialog& dialog)
+      {
+        if (auto* add = buttonOf(dialog, "RAS"))
+        {
+          add->click();
+          return false;
+        }
+        isDone = textOf(dialog).contains("facial_nerve.obj");
+        dialog.reject();
+        return isDone;
+      });
+  QMimeData data;
+  const auto url = [](const fs::path& path)
+  { return QUrl::fromLocalFile(QString::fromStdString(path.string())); };
+  data.setUrls({url(folder() / "sample" / "ct"), url(folder() / "facial_nerve.obj")});
+  drop(data);
+  ASSERT_TRUE(waitFor([&] { return isDone; }));
+  EXPECT_TRUE(settled());
+  documents->mayDropDraft = nullptr;
+  EXPECT_EQ(window().model().value().name, "ball");
+  EXPECT_TRUE(window().model().value().meshes.empty());
+  EXPECT_TRUE(library().open("ball").meshes.empty());
+  ASSERT_TRUE(library().contains("ct"));
+  EXPECT_TRUE(library().open("ct").meshes.empty());
+}
+
+// A CT and an MR that lost their headers: each is asked about, and the labels follow the CT.
+TEST_F(Import, AFileThatDoesNotSayWhichSideIsLeftIsAskedAbout)
+{
+  const auto ball = ballCase("x");
+  const auto dropPlace = [this](const char* name)
+  {
+    std::fstream file(folder() / name, std::ios::binary | std::ios::in | std::ios::out);
+    file.seekp(252); // qform_code, sform_code
+    file.write("\0\0\0\0", 4);
+  };
+  imaging::writeVolume(folder() / "ear.nii", *ball.ct.volume.get());
+  imaging::writeLabelFile(folder() / "nerve.nii", *ball.labels[0].labels.get());
+  dropPlace("ear.nii");
+  dropPlace("nerve.nii");
+  fs::copy_file(folder() / "ear.nii", folder() / "t2.nii");
+  openWindow();
+  QString asked;
+  const auto answer = [&](const QString& button)
+  {
+    return [&asked, button](QDialog& dialog)
+    {
+      if (auto* add = buttonOf(dialog, "Add to"))
+      {
+        add->click();
+        return false;
+      }
+      if (dialog.objectName() != "askSide")
+        return false;
+      asked = textOf(dialog);
+      EXPECT_EQ(static_cast<QMessageBox&>(dialog).defaultButton()->text().remove('&'), "Cancel");
+      buttonOf(dialog, button)->click();
+      return true;
+    };
+  };
+  onDialog(answer("Cancel"));
+  dropPath(folder() / "ear.nii");
+  ASSERT_TRUE(waitFor([&] { return !asked.isEmpty(); }));
+  EXPECT_TRUE(settled());
+  EXPECT_FALSE(window().model().hasCase());
+  asked.clear();
+  onDialog(answer("LPS"));
+  dropPath(folder() / "ear.nii");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase(); }));
+  EXPECT_TRUE(settled());
+  const auto& grid = window().model().value().ct.geometry;
+  EXPECT_GT(grid.patientFromVoxel({1, 0, 0})[0], grid.patientFromVoxel({0, 0, 0})[0]) << "left";
+  asked.clear();
+  onDialog(
+      [](QDialog& dialog)
+      {
+        auto* add = buttonOf(dialog, "Add to");
+        if (add)
+          add->click();
+        return add != nullptr;
+      });
+  dropPath(folder() / "nerve.nii");
+  ASSERT_TRUE(waitFor([this] { return window().model().value().labels.size() == 1; }));
+  EXPECT_TRUE(
+      core::sameGrid(window().model().value().labels[0].labels.get()->voxels->geometry(), grid));
+  EXPECT_TRUE(settled());
+  onDialog(answer("RAS"));
+  for (QAction* action : window().findChildren<QAction*>())
+    if (action->text().remove('&') == QString::fromUtf8("Add MR file…"))
+    {
+      onDialog(
+          [this](QDialog& dialog)
+          {
+            auto* files = qobject_cast<QFileDialog*>(&dialog);
+            if (!files)
+              return false;
+            files->findChild<QLineEdit*>("fileNameEdit")
+                ->setText(QString::fromStdString((folder() / "t2.nii").string()));
+            static_cast<QDialog&>(*files).accept();
+            return true;
+          });
+      action->trigger();
+    }
+  ASSERT_TRUE(waitFor([this] { return window().model().value().mr.size() == 1; }));
+  EXPECT_TRUE(asked.contains("t2.nii")) << asked.toStdString();
+  const auto& mr = window().model().value().mr[0].geometry;
+  EXPECT_LT(mr.patientFromVoxel({1, 0, 0})[0], mr.patientFromVoxel({0, 0, 0})[0]) << "right";
+  EXPECT_TRUE(settled());
+}
+
+TEST_F(Import, AnMrOfAnotherPatientIsAskedAbout)
+{
+  const auto ball = ballCase("x");
+  const auto write =
+      [&](const char* name, const char* id, imaging::SeriesDescription::Modality modality)
+  {
+    imaging::SeriesDescription series;
+    series.modality = modality;
+    series.patientId = id;
+    series.studyUid = std::string("1.2.3.") + id;
+    series.seriesUid = series.studyUid + ".4";
+    series.frameOfReferenceUid = series.studyUid + ".9";
+    imaging::writeDicomSeries(folder() / name, *ball.ct.volume.get(), series);
+  };
+  write("ct", "4711", imaging::SeriesDescription::Modality::Ct);
+  write("mr", "4712", imaging::SeriesDescription::Modality::Mr);
+  openWindow();
+  dropPath(folder() / "ct");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  for (const char* answer : {"Cancel", "It is this"})
+  {
+    EXPECT_TRUE(window().model().value().mr.empty());
+    QString asked;
+    onDialog(
+        [&](QDialog& dialog)
+        {
+          if (auto* add = buttonOf(dialog, "Add to"))
+          {
+            add->click();
+            return false;
+          }
+          if (dialog.objectName() != "askOtherPatient")
+            return false;
+          asked = textOf(dialog);
+          buttonOf(dialog, answer)->click();
+          return true;
+        });
+    dropPath(folder() / "mr");
+    ASSERT_TRUE(waitFor([&] { return !asked.isEmpty(); }));
+    EXPECT_FALSE(asked.contains("471")) << "a patient's ID";
+    EXPECT_TRUE(settled());
+  }
+  ASSERT_TRUE(waitFor([this] { return window().model().value().mr.size() == 1; }));
+  EXPECT_TRUE(settled());
+}
+
 // A file name may be a patient's; only the user knows what the structure is.
 TEST_F(Import, AStructureWithoutANameIsAskedForOne)
 {
@@ -585,6 +871,72 @@ TEST_F(Import, ATiltedScanIsStraightenedOnlyWithConsent)
   EXPECT_TRUE(std::any_of(notes.begin(), notes.end(),
                           [](const std::string& note)
                           { return note.find("tilt of 12.0 degrees") != std::string::npos; }));
+}
+
+// A thick sound CT beside the thin one that was meant.
+TEST_F(Import, ASoundSeriesIsNotTakenUnaskedBesideOneThatNeedsRepair)
+{
+  phantom::SampleOptions options;
+  options.spacing = 1.5;
+  options.tilt = 12.0;
+  phantom::writeSamplePatient(folder() / "sample", options);
+  fs::create_directories(folder() / "visit");
+  fs::rename(folder() / "sample" / "ct", folder() / "visit" / "thin");
+  const auto thick = std::make_shared<const volume::Volume<std::int16_t>>(
+      core::GridGeometry({32, 32, 12}, Eigen::Vector3d(2, 2, 5), Eigen::Vector3d::Zero()),
+      std::int16_t{40});
+  imaging::SeriesDescription series;
+  series.studyUid = "1.2.3";
+  series.seriesUid = "1.2.3.4";
+  series.frameOfReferenceUid = "1.2.3.9";
+  imaging::writeDicomSeries(folder() / "visit" / "thick", volume::IntensityVolume(thick), series);
+  openWindow();
+  QStringList verdicts;
+  onDialog(
+      [&verdicts](QDialog& dialog)
+      {
+        auto* list = dialog.findChild<QTreeWidget*>("series");
+        if (!list)
+          return false;
+        for (int n = 0; n < list->topLevelItemCount(); ++n)
+          verdicts += list->topLevelItem(n)->text(list->columnCount() - 1);
+        dialog.reject();
+        return true;
+      });
+  dropPath(folder() / "visit");
+  ASSERT_TRUE(waitFor([&] { return !verdicts.isEmpty(); }));
+  verdicts.sort();
+  EXPECT_EQ(verdicts, QStringList({"needs repair", "sound"}));
+  EXPECT_TRUE(settled());
+  EXPECT_FALSE(window().model().hasCase());
+
+  presenters::CaseSources sources; // by the command
+  sources.ct = folder() / "visit";
+  try
+  {
+    presenters::buildCase("ear", sources, {});
+    ADD_FAILURE() << "taken unasked";
+  }
+  catch (const imaging::DicomError& error)
+  {
+    EXPECT_EQ(error.reason(), imaging::DicomError::Reason::Ambiguous);
+    EXPECT_NE(std::string(error.what()).find("needs --repair"), std::string::npos) << error.what();
+  }
+  // One that is no finer is named, and left.
+  fs::remove_all(folder() / "visit" / "thin");
+  const auto other = std::make_shared<const volume::Volume<std::int16_t>>(
+      core::GridGeometry({32, 32, 9}, Eigen::Vector3d(2, 2, 5), Eigen::Vector3d::Zero()),
+      std::int16_t{40});
+  series.seriesUid = "1.2.3.5";
+  imaging::writeDicomSeries(folder() / "visit" / "gap", volume::IntensityVolume(other), series);
+  std::vector<fs::path> slices(fs::directory_iterator(folder() / "visit" / "gap"), {});
+  std::sort(slices.begin(), slices.end());
+  fs::remove(slices.at(4));
+  const scene::Case value = presenters::buildCase("ear", sources, {});
+  EXPECT_EQ(value.ct.geometry.dims()[2], 12);
+  EXPECT_TRUE(std::any_of(value.ct.notes.begin(), value.ct.notes.end(),
+                          [](const std::string& note)
+                          { return note.find("8 slices") != std::string::npos; }));
 }
 
 namespace
@@ -679,6 +1031,11 @@ TEST_F(Import, TheRepairPageShowsBeforeAndAfterAndTheCaseMarksWhatWasGuessed)
   const QImage marked = coronal->grab().toImage();
   coronal->setInterpolated({});
   EXPECT_GT(differentPixels(marked, coronal->grab().toImage(), 8), coronal->width() / 4);
+  // In the 3D view a line says it.
+  const auto* note = view().findChild<QLabel*>("guessed");
+  ASSERT_NE(note, nullptr);
+  EXPECT_TRUE(note->isVisible());
+  EXPECT_EQ(note->text(), QString("CT: slice %1 interpolated").arg(guessed[0] + 1));
 }
 
 TEST_F(Import, OneSliceStandsForItsSeries)
@@ -778,6 +1135,38 @@ TEST_F(Import, ARegionIsDrawnBeforeTheScanIsRead)
 
 // By the Case menu: the file dialog offers DICOM for labels, the names can be edited, and the panel
 // with what came is in front.
+TEST_F(Import, ARegionOfAFileIsDrawnBeforeItIsRead)
+{
+  imaging::writeVolume(folder() / "ear.nii", *ballCase("x").ct.volume.get());
+  openWindow();
+  core::PatientBox box;
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        if (auto* files = qobject_cast<QFileDialog*>(&dialog))
+        {
+          choose(*files, folder() / "ear.nii");
+          return false;
+        }
+        auto* region = qobject_cast<RegionDialog*>(&dialog);
+        if (!region || !region->isPictured())
+          return false;
+        auto* left = dialog.findChild<QDoubleSpinBox*>("x0");
+        left->setValue(left->minimum() + 12.0);
+        box = *region->region();
+        region->accept();
+        return true;
+      });
+  trigger(window(), "Open a region of a file…");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  const auto whole = ballCase("x").ct.geometry;
+  const auto& grid = window().model().value().ct.geometry;
+  EXPECT_LT(grid.dims()[0], whole.dims()[0]);
+  EXPECT_EQ(grid.dims()[2], whole.dims()[2]);
+  const core::IndexBox expected = whole.boxCovering(box.min(), box.max());
+  EXPECT_EQ(grid.voxelCount(), expected.count());
+}
+
 TEST_F(Import, PartsComeByTheCaseMenu)
 {
   writePatient(folder() / "sample");
@@ -810,7 +1199,7 @@ TEST_F(Import, PartsComeByTheCaseMenu)
   };
   const auto isInFront = [this](const char* dock)
   { return !window().findChild<QDockWidget*>(dock)->visibleRegion().isEmpty(); };
-  add("Add MR…", "mr", "T2 of 2024");
+  add("Add MR file…", "mr", "T2 of 2024");
   ASSERT_TRUE(waitFor([this] { return window().model().value().mr.size() == 1; }));
   EXPECT_EQ(window().model().value().mr[0].name, "T2 of 2024");
   EXPECT_TRUE(waitFor([&] { return isInFront("registrationDock"); }));
@@ -834,7 +1223,7 @@ TEST_F(Import, PartsComeByTheCaseMenu)
         dialog.accept();
         return true;
       });
-  trigger(window(), "Add MR…");
+  trigger(window(), "Add MR file…");
   ASSERT_TRUE(waitFor([&told] { return !told.isEmpty(); }));
   EXPECT_TRUE(told.contains("CT") && told.contains("MR")) << told.toStdString();
   EXPECT_EQ(window().model().value().mr.size(), 1u);
@@ -913,7 +1302,14 @@ TEST(WindowText, SaysWhatToDoInTheWindow)
         "x: several MR images have its grid; say on which it was drawn with FILE@T2 or FILE@DWI",
         "x: was drawn in another frame of reference than the CT's; if it is this CT's all the "
         "same, "
-        "say FILE@ct, or add the MR on which it was drawn"})
+        "say FILE@ct, or add the MR on which it was drawn",
+        "CT: The folder has another CT of 8 slices of 5 mm (needs --repair), which was not taken; "
+        "'petrous scan' lists them, --series takes one.",
+        "x.nii.gz: could be mirrored; export it again with its geometry, or say --mr-frame ras "
+        "(NIfTI's own) or lps (DICOM, ITK) if you know it",
+        "x.dcm: states another; look whether it is this patient's, and say --other-patient if it "
+        "is "
+        "to be added all the same"})
   {
     const QString said = windowText(text);
     EXPECT_FALSE(said.contains("FILE") || said.contains("petrous") || said.contains("--"))

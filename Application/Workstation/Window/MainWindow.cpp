@@ -61,6 +61,7 @@
 #include "petrous/Presenters/CasePicture.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/Recordings.h"
+#include "petrous/Presenters/SeriesPreview.h"
 
 namespace petrous::workstation
 {
@@ -80,6 +81,27 @@ QStringList dropped(const QMimeData& data)
     what += data.text().trimmed();
   what.removeAll(QString());
   return what;
+}
+
+// Over a picture of the case: which slices repair interpolated.
+void showInterpolated(QWidget& view, const scene::Case& value)
+{
+  constexpr int kMargin = 10;
+  QStringList lines;
+  for (const std::string& line : presenters::interpolatedTexts(value))
+    lines += words(line);
+  auto* label = view.findChild<QLabel*>("guessed");
+  if (!label)
+  {
+    label = new QLabel(&view);
+    label->setObjectName("guessed");
+    label->setTextFormat(Qt::PlainText);
+    label->setAttribute(Qt::WA_TransparentForMouseEvents);
+    label->move(kMargin, kMargin);
+  }
+  label->setText(lines.join('\n'));
+  label->adjustSize();
+  label->setVisible(!lines.isEmpty());
 }
 
 // What was assumed or left out when the parts of a case were read, by part.
@@ -493,10 +515,12 @@ void MainWindow::connectActions()
   { connect(action, &QAction::triggered, this, what); };
   on(m_actions->openDicom, [this] { m_keeper->openFolder(); });
   on(m_actions->openRegion, [this] { m_keeper->openRegion(); });
+  on(m_actions->openFileRegion, [this] { m_keeper->openFileRegion(); });
   using presenters::Content;
   on(m_actions->addMrFolder, [this] { m_keeper->add(Content::Mr, true); });
   on(m_actions->addMrFile, [this] { m_keeper->add(Content::Mr); });
   on(m_actions->addLabels, [this] { m_keeper->add(Content::Labels); });
+  on(m_actions->addMasks, [this] { m_keeper->add(Content::Labels, true); });
   on(m_actions->addMesh, [this] { m_keeper->add(Content::Mesh); });
   on(m_actions->restorePart, [this] { m_keeper->restorePart(); });
   connect(m_actions->casePart, &QMenu::aboutToShow, this, &MainWindow::fillCaseMenu);
@@ -754,6 +778,7 @@ void MainWindow::showUnregistered(bool opened)
 // What was assumed or left out when files were read, until it is acknowledged.
 void MainWindow::notifyNotes()
 {
+  showInterpolated(*m_view, m_model.value());
   const QStringList notes = notesOf(m_model.value());
   QStringList fresh;
   for (const QString& note : notes)
@@ -805,7 +830,7 @@ void MainWindow::stateChanged()
   m_sum->setText(removedText(value, m_model.drilling()));
 }
 
-// Non-modal: the case is shown at once.
+// Returns at once: the case is shown behind it.
 void MainWindow::notice(const QString& text)
 {
   auto* box = new QMessageBox(QMessageBox::Information, tr("Petrous"), text, QMessageBox::Ok, this);

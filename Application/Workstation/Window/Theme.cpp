@@ -59,6 +59,8 @@ QPushButton#primary, QPushButton#segmentCreate { background: #2f79b5; border: 1p
 QPushButton#primary:hover, QPushButton#segmentCreate:hover { background: #3a8acb; }
 QPushButton#primary:focus, QPushButton#segmentCreate:focus { border-color: #b9dcf8; }
 QPushButton#segmentCreate:disabled { background: #262c33; border-color: #343b44; color: #5c646e; }
+QLabel#guessed { color: #ff8c2b; background: rgba(16, 19, 23, 150); border-radius: 4px;
+                 padding: 1px 6px; }
 QLabel#direction { color: #c9d2dc; font-size: 15px; font-weight: 700;
                    background: rgba(16, 19, 23, 150); border-radius: 4px; padding: 1px 6px; }
 QFrame[banner="notice"] { background: #24384a; border-bottom: 1px solid #3d6b92; }

@@ -65,6 +65,9 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   openRegion = make(file, tr("Open a &region…"), {},
                     tr("A DICOM folder, of whose CT only a box is read that you draw: the ear of a "
                        "whole head"));
+  openFileRegion = make(file, tr("Open a region of a f&ile…"), {},
+                        tr("A CT, cone beam or MR as NRRD, NIfTI or MetaImage, of which only a box "
+                           "is read that you draw"));
   openCase =
       make(file, tr("Open &case…"), Qt::CTRL + Qt::SHIFT + Qt::Key_O, tr("A case of the library"));
   sample = make(file, tr("&Make the sample patient"), {}, tr("An artificial temporal bone"));
@@ -91,6 +94,8 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                    tr("An MR of this patient as NIfTI, NRRD, MetaImage or multi-frame DICOM"));
   addLabels = make(casePart, tr("Add &labels…"), {},
                    tr("Structures of this patient: label maps and segmentations"));
+  addMasks = make(casePart, tr("Add &folder of masks…"), {},
+                  tr("Structures of this patient, one a file, as TotalSegmentator writes them"));
   addMesh = make(casePart, tr("Add m&esh…"), {}, tr("Surfaces of this patient, in mm"));
   casePart->addSeparator();
   attach = make(casePart, tr("A&ttach…"), {},
@@ -201,6 +206,7 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                                        addMrFolder,
                                        addMrFile,
                                        addLabels,
+                                       addMasks,
                                        addMesh,
                                        centerView,
                                        boneThickness,

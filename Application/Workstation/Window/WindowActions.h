@@ -33,6 +33,7 @@ public:
 
   QAction* openDicom;
   QAction* openRegion;
+  QAction* openFileRegion;
   QAction* openImage;
   QAction* openCase;
   QAction* sample;
@@ -44,6 +45,7 @@ public:
   QAction* addMrFolder;
   QAction* addMrFile;
   QAction* addLabels;
+  QAction* addMasks;
   QAction* addMesh;
   QAction* restorePart;
   QAction* exportPart;

@@ -25,6 +25,7 @@
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Scene/FreeName.h"
 #include "petrous/Scene/Placement.h"
 #include "petrous/Scene/PlainText.h"
 #include "petrous/Volume/IntensityScale.h"
@@ -40,16 +41,6 @@ namespace
 
 constexpr std::array<float, 3> kMrColor{0.80F, 0.80F, 0.80F}; // of its surface, which is not bone
 
-/// `wanted`, with a number appended if it is taken.
-template <class IsTaken>
-std::string freeName(const std::string& wanted, const IsTaken& isTaken)
-{
-  std::string name = wanted;
-  for (int n = 2; isTaken(name); ++n)
-    name = wanted + " " + std::to_string(n);
-  return name;
-}
-
 /// A part's name derived from its file name if none was given; what is left out of it is noted.
 template <class IsTaken>
 std::string nameFromFile(const fs::path& path, const std::string& otherwise, const IsTaken& isTaken,
@@ -60,7 +51,7 @@ std::string nameFromFile(const fs::path& path, const std::string& otherwise, con
     return file.name;
   notes.push_back("named so and not as its file, whose name may be a patient's; NAME=FILE gives "
                   "another name");
-  return freeName(file.name.empty() ? otherwise : file.name, isTaken);
+  return scene::freeName(file.name.empty() ? otherwise : file.name, isTaken);
 }
 
 // The reader knows the series; the user knows the path.
@@ -143,6 +134,32 @@ void refuseMrBesideCt(const imaging::ScanResult& scan, const fs::path& path)
               "of the MR alone");
 }
 
+// What else of the same modality a folder has; empty: nothing. Without UIDs and descriptions, which
+// identify the patient.
+std::string notTaken(const imaging::ScanResult& scan, const imaging::DicomSeries& series)
+{
+  std::vector<std::string> others;
+  for (const imaging::DicomSeries* other : imaging::otherImages(scan, series))
+  {
+    if (other->modality != series.modality)
+      continue;
+    const imaging::SeriesGeometry& geometry = other->geometry;
+    std::string one = std::to_string(geometry.slices.size()) + " slices";
+    if (geometry.grid)
+      one += " of " + core::generalText(geometry.grid->spacing()[2]) + " mm";
+    others.push_back(one + (geometry.verdict == imaging::Verdict::Ok           ? ""
+                            : geometry.verdict == imaging::Verdict::Repairable ? " (needs --repair)"
+                                                                               : " (refused)"));
+  }
+  if (others.empty())
+    return {};
+  std::string text = others.size() == 1 ? "The folder has another " : "The folder has other ";
+  text += series.modality + (others.size() == 1 ? " of " : "s, of ");
+  for (std::size_t n = 0; n < others.size(); ++n)
+    text += (n == 0 ? "" : ", ") + others[n];
+  return text + ", which was not taken; 'petrous scan' lists them, --series takes one.";
+}
+
 // A code string of a file (PS3.5 6.2), which may stand in a note; any other text may be a name.
 std::string codeText(const std::string& text)
 {
@@ -175,16 +192,25 @@ struct ReadImage
   std::string otherQuantity; ///< as the function says
 };
 
-// `isPrimary`: of a case, `isRas`: as CaseSources.
+// Before minutes of reading. `option`: as ImageSideUnclear.
+void requireSide(const fs::path& path, const std::optional<bool>& assumeRas,
+                 const std::string& option)
+{
+  if (!assumeRas && !fs::is_directory(path) &&
+      imaging::isReadAs(path, imaging::kImage | imaging::kLabels) && imaging::assumedRasOf(path))
+    throw ImageSideUnclear(path, option);
+}
+
+// `isPrimary`: of a case. `assumeRas`: as CaseSources.
 ReadImage readImage(const fs::path& path, const std::string& selector, bool repair,
                     const std::optional<core::PatientBox>& roi, bool isPrimary,
-                    const std::optional<bool>& isRas, const core::Progress& progress)
+                    const std::optional<bool>& assumeRas, const core::Progress& progress)
 {
   ReadImage read;
   scene::ImagePart& part = read.part;
   if (!fs::is_directory(path) && imaging::isReadAs(path, imaging::kImage | imaging::kLabels))
   {
-    auto image = imaging::readImageFile(path, roi, progress, isRas);
+    auto image = imaging::readImageFile(path, roi, progress, assumeRas);
     part.volume = image.volume;
     part.notes = std::move(image.notes);
   }
@@ -206,6 +232,9 @@ ReadImage readImage(const fs::path& path, const std::string& selector, bool repa
                       std::to_string(scan.notes.size()) +
                       (scan.notes.size() == 1 ? " place" : " places") +
                       "; 'petrous scan' says what.");
+    if (const std::string left = selector.empty() ? notTaken(scan, series) : std::string();
+        !left.empty())
+      notes.push_back(left);
     part.volume = std::make_shared<const volume::IntensityVolume>(
         readNamed(path, series, options, progress.part(0.2, 0.9), notes));
     part.notes = std::move(notes);
@@ -333,16 +362,15 @@ void addMr(scene::Case& value, const PartSource& source,
            const std::function<std::string(const std::string&)>& salted,
            const core::Progress& progress)
 {
-  std::string name = source.name;
-  if (name.empty())
-  {
-    name = "mr";
-    for (int n = 2; scene::kindOfPart(value, name); ++n)
-      name = "mr" + std::to_string(n);
-  }
+  const std::string name =
+      !source.name.empty()
+          ? source.name
+          : scene::freeName("mr", [&value](const std::string& taken)
+                            { return scene::kindOfPart(value, taken) != nullptr; });
   checkNewName(value, source.path, name);
+  requireSide(source.path, source.assumeRas, "--mr-frame");
   ReadImage read = readImage(source.path, source.series, source.repair, std::nullopt, false,
-                             std::nullopt, progress);
+                             source.assumeRas, progress);
   scene::ImagePart& part = read.part;
   if (!read.otherQuantity.empty())
     part.notes.push_back(read.otherQuantity);
@@ -627,7 +655,7 @@ std::string validName(const std::string& name, const IsTaken& isTaken,
   if (valid == "ct")
     valid = "structure ct";
   if (isTaken(valid))
-    valid = freeName(core::utf8Prefix(valid, kLongest - 8), isTaken);
+    valid = scene::freeName(core::utf8Prefix(valid, kLongest - 8), isTaken);
   if (valid != name)
     notes.push_back("structure '" + valid +
                     "' has this name since its own is too long, taken or "
@@ -651,7 +679,9 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     std::vector<core::GridGeometry> images{value.ct.geometry};
     for (const scene::ImagePart& mr : value.mr)
       images.push_back(mr.geometry);
-    loaded = imaging::loadLabels(source.path, progress, naming, images);
+    loaded = imaging::loadLabels(source.path, progress, naming, images, source.assumeRas);
+    if (loaded.isSideOpen)
+      throw ImageSideUnclear(source.path, "--labels-frame");
     if (imaging::isDicomSegmentation(source.path))
       settleFrame(value, source, loaded.frameOfReferenceUid,
                   &loaded.maps.front().voxels->geometry(), salted, loaded.notes);
@@ -718,14 +748,14 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
                                                   one.name == structure.name;
                                          });
         if (structure.name.empty() || structure.name == source.name || isTwice)
-          structure.name =
-              freeName(structure.name.empty() ? "structure" : structure.name,
-                       [&](const std::string& name)
-                       {
-                         return scene::kindOfPart(value, name) != nullptr ||
-                                std::any_of(part.structures.begin(), part.structures.end(),
-                                            [&](const auto& one) { return one.name == name; });
-                       });
+          structure.name = scene::freeName(
+              structure.name.empty() ? "structure" : structure.name,
+              [&](const std::string& name)
+              {
+                return scene::kindOfPart(value, name) != nullptr ||
+                       std::any_of(part.structures.begin(), part.structures.end(),
+                                   [&](const auto& one) { return one.name == name; });
+              });
       }
       else if (source.name.empty() && loaded.isNamedAfterFile)
         structure.name = nameFromFile(
@@ -826,11 +856,11 @@ void addMesh(scene::Case& value, const PartSource& source)
                                         { return scene::kindOfPart(value, name) != nullptr; },
                                         notes)
                                   : source.name;
-  if (source.name.empty() && scene::findStructure(value, part.name))
+  if (source.name.empty() && scene::kindOfPart(value, part.name))
   {
-    part.name = freeName(part.name, [&value](const std::string& name)
-                         { return scene::kindOfPart(value, name) != nullptr; });
-    notes.push_back("named so as a structure has the name of its file");
+    part.name = scene::freeName(part.name, [&value](const std::string& name)
+                                { return scene::kindOfPart(value, name) != nullptr; });
+    notes.push_back("named so as another part has the name of its file");
   }
   checkNewName(value, source.path, part.name);
   if (!source.drawnOn.empty())
@@ -860,12 +890,13 @@ void addMesh(scene::Case& value, const PartSource& source)
 
 } // namespace
 
-ImageSideUnclear::ImageSideUnclear(const fs::path& file)
+ImageSideUnclear::ImageSideUnclear(const fs::path& file, const std::string& option)
   : core::InvalidParameter(
-        file.string() + ": does not say which side of the patient is left (NIfTI: qform or sform, "
-                        "NRRD: space, MetaImage: TransformMatrix), so the anatomy could be "
-                        "mirrored; export it again with its geometry, or say --ct-frame ras "
-                        "(NIfTI's own) or lps (DICOM, ITK) if you know it")
+        file.string() +
+        ": does not say which side of the patient is left (NIfTI: qform or sform, "
+        "NRRD: space, MetaImage: TransformMatrix), so the anatomy could be "
+        "mirrored; export it again with its geometry, or say " +
+        option + " ras (NIfTI's own) or lps (DICOM, ITK) if you know it")
 {
 }
 
@@ -924,19 +955,29 @@ FileName fileName(const fs::path& path)
   return letters(known) == letters(stem) ? FileName{stem, true} : FileName{known, false};
 }
 
+std::vector<std::string> maskNames(const imaging::LoadedLabels& folder)
+{
+  const FolderNames all = namesInFolder(folder);
+  std::vector<std::string> names;
+  for (const volume::LabelMap& map : folder.maps)
+    for (const volume::Segment& segment : map.segments)
+    {
+      const std::string& name = all.names.at(segment.name);
+      names.push_back(name.empty() ? "structure" : name);
+    }
+  return names;
+}
+
 scene::Case buildCase(const std::string& name, const CaseSources& sources,
                       const core::Progress& progress, std::vector<StructureReport>* report)
 {
   scene::checkCaseName(name);
   scene::Case value;
   value.name = name;
-  const bool isFile = !fs::is_directory(sources.ct) &&
-                      imaging::isReadAs(sources.ct, imaging::kImage | imaging::kLabels);
-  if (isFile && !sources.isRas && imaging::assumedRasOf(sources.ct))
-    throw ImageSideUnclear(sources.ct);
-  ReadImage read =
-      readImage(sources.ct, sources.series, sources.repair, sources.roi,
-                sources.modality != scene::Modality::Mr, sources.isRas, progress.part(0.0, 0.7));
+  requireSide(sources.ct, sources.assumeRas, "--ct-frame");
+  ReadImage read = readImage(sources.ct, sources.series, sources.repair, sources.roi,
+                             sources.modality != scene::Modality::Mr, sources.assumeRas,
+                             progress.part(0.0, 0.7));
   value.ct = std::move(read.part);
   value.ct.name = "ct";
   placeSurface(value, sources.modality, read.otherQuantity);
@@ -1088,6 +1129,7 @@ std::vector<PartFailure> addSoundParts(scene::Case& value, const PartSources& pa
       const auto first = static_cast<double>(done++) / static_cast<double>(count);
       const core::Progress part =
           progress.part(first, static_cast<double>(done) / static_cast<double>(count));
+      const std::size_t before = failures.size();
       try
       {
         addParts(next, one, part, report);
@@ -1105,10 +1147,17 @@ std::vector<PartFailure> addSoundParts(scene::Case& value, const PartSources& pa
         failures.push_back({source, other.what()});
         failures.back().isOtherPatient = true;
       }
+      catch (const ImageSideUnclear& unclear)
+      {
+        failures.push_back({source, unclear.what()});
+        failures.back().isSideUnclear = true;
+      }
       catch (const core::Error& error)
       {
         failures.push_back({source, error.what()});
       }
+      if (failures.size() > before)
+        failures.back().kind = kind;
     }
   };
   add(&PartSources::mr);

@@ -259,7 +259,7 @@ std::vector<PlacedLabels> placedLabels(const Warn& warn, const scene::Case& valu
 // All structures, numbered in order, in layers within which none overlaps another; with
 // `inOneLayer` in a single one, in which the earlier structure keeps the voxel, and a warning.
 std::vector<volume::LabelMap> layersOf(const Warn& warn, const std::vector<PlacedLabels>& placed,
-                                       bool inOneLayer)
+                                       bool inOneLayer, const core::Progress& progress)
 {
   struct Layer
   {
@@ -268,15 +268,37 @@ std::vector<volume::LabelMap> layersOf(const Warn& warn, const std::vector<Place
   };
   std::vector<Layer> layers;
   std::uint16_t index = 0;
+  std::size_t all = 0;
   for (const PlacedLabels& labels : placed)
+    all += labels.structures.size();
+  for (const PlacedLabels& labels : placed)
+  {
+    const auto boxes = volume::boxesOf(*labels.map);
     for (const auto* structure : labels.structures)
     {
+      progress.report(static_cast<double>(index) / static_cast<double>(all), "writing structures");
       const volume::Volume<std::uint16_t>& source = *labels.map->voxels;
+      core::IndexBox box;
+      for (std::size_t n = 0; n < boxes.size(); ++n)
+        if (labels.map->segments[n].index == structure->index)
+          box = boxes[n];
+      // Calls visit(place) for each voxel of the structure.
+      const auto forEachVoxel = [&](const auto& visit)
+      {
+        for (int k = box.lower[2]; k < box.upper[2]; ++k)
+          for (int j = box.lower[1]; j < box.upper[1]; ++j)
+          {
+            const std::size_t row = static_cast<std::size_t>(&source.at(0, j, k) - source.data());
+            for (int i = box.lower[0]; i < box.upper[0]; ++i)
+              if (const std::size_t p = row + static_cast<std::size_t>(i);
+                  source.data()[p] == structure->index)
+                visit(p);
+          }
+      };
       const auto overlap = [&](const Layer& layer)
       {
         std::size_t count = 0;
-        for (std::size_t p = 0; p < source.size(); ++p)
-          count += source.data()[p] == structure->index && layer.voxels->data()[p] != 0 ? 1 : 0;
+        forEachVoxel([&](std::size_t p) { count += layer.voxels->data()[p] != 0 ? 1 : 0; });
         return count;
       };
       auto layer = layers.begin();
@@ -295,15 +317,19 @@ std::vector<volume::LabelMap> layersOf(const Warn& warn, const std::vector<Place
                               {volume::makeZeroVolume<std::uint16_t>(source.geometry()), {}});
       ++index;
       std::uint16_t* voxels = layer->voxels->data();
-      for (std::size_t p = 0; p < source.size(); ++p)
-        if (source.data()[p] == structure->index && voxels[p] == 0)
-          voxels[p] = index;
+      forEachVoxel(
+          [&](std::size_t p)
+          {
+            if (voxels[p] == 0)
+              voxels[p] = index;
+          });
       volume::Segment segment;
       segment.name = structure->name;
       segment.index = index;
       segment.color = structure->look.color;
       layer->segments.push_back(std::move(segment));
     }
+  }
   std::vector<volume::LabelMap> maps;
   for (Layer& layer : layers)
     maps.push_back(volume::makeLabelMap(std::move(layer.voxels), std::move(layer.segments)));
@@ -484,7 +510,7 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
   }
   else if (options.what == "labels")
   {
-    const auto placed = placedLabels(warn, value, options, leftOut, progress.part(0.0, 0.5));
+    const auto placed = placedLabels(warn, value, options, leftOut, progress.part(0.0, 0.4));
     if (isSegmentation(options))
     {
       const std::string& drawnOn = placed.front().drawnOn;
@@ -497,14 +523,14 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
     else
     {
       const bool holdsLayers = imaging::formatOf(options.out)->ending == ".seg.nrrd";
-      const auto layers = layersOf(warn, placed, !holdsLayers);
+      const auto layers = layersOf(warn, placed, !holdsLayers, progress.part(0.4, 0.6));
       summary.layers = layers.size();
       std::map<std::uint16_t, volume::SegmentCodes> codes; // numbered as by layersOf
       std::uint16_t index = 0;
       for (const PlacedLabels& labels : placed)
         for (const auto* structure : labels.structures)
           codes[++index] = structure->codes;
-      imaging::writeLabelLayers(options.out, layers, progress.part(0.5, 1.0), codes);
+      imaging::writeLabelLayers(options.out, layers, progress.part(0.6, 1.0), codes);
       if (const auto table = labelTable(options))
       {
         imaging::writeLabelTable(*table, layers.front().segments);

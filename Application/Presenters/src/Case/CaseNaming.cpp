@@ -4,6 +4,7 @@
 
 #include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/FileFormats.h"
+#include "petrous/Scene/FreeName.h"
 #include "petrous/Scene/PlainText.h"
 
 namespace petrous::presenters
@@ -44,10 +45,8 @@ std::string caseNameFrom(const std::filesystem::path& source)
 
 std::string freeCaseName(const library::Library& library, const std::string& name)
 {
-  std::string free = name;
-  for (int n = 2; library.contains(free); ++n)
-    free = name + " " + std::to_string(n);
-  return free;
+  return scene::freeName(name,
+                         [&library](const std::string& taken) { return library.contains(taken); });
 }
 
 void checkFreeCaseName(const library::Library& library, const std::string& name)

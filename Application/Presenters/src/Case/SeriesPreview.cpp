@@ -9,7 +9,8 @@
 #include "petrous/Imaging/DicomReader.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/FileFormats.h"
-#include "petrous/Imaging/ImageFile.h"
+#include "petrous/Imaging/ImagePreview.h"
+#include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Volume/IntensityScale.h"
 
 namespace petrous::presenters
@@ -92,12 +93,12 @@ std::size_t ScanPreview::voxelsIn(const core::PatientBox& box) const
 }
 
 ScanPreview previewScan(const fs::path& path, const std::string& selector, bool repair,
-                        const core::Progress& progress)
+                        const core::Progress& progress, const std::optional<bool>& assumeRas)
 {
   if (!fs::is_directory(path) && imaging::isReadAs(path, imaging::kImage | imaging::kLabels))
   {
-    const auto image = imaging::readImageFile(path, std::nullopt, progress);
-    return previewOf(*image.volume, image.volume->geometry());
+    const auto image = imaging::previewImageFile(path, kSlices, progress, assumeRas);
+    return previewOf(*image.volume, image.grid);
   }
   const auto scan = imaging::scanDicom(path, progress.part(0.0, 0.3));
   const auto& series = imaging::chooseSeries(scan, path, selector);
@@ -164,6 +165,41 @@ std::vector<int> interpolatedSlices(const scene::ImagePart& image)
       }
     }
   return found;
+}
+
+std::string interpolatedText(const scene::ImagePart& image)
+{
+  constexpr std::size_t kNamed = 4; // ranges
+  const std::vector<int> slices = interpolatedSlices(image);
+  std::string text;
+  std::size_t ranges = 0;
+  for (std::size_t n = 0; n < slices.size();)
+  {
+    std::size_t last = n;
+    while (last + 1 < slices.size() && slices[last + 1] == slices[last] + 1)
+      ++last;
+    if (++ranges <= kNamed)
+      text += (text.empty() ? "" : ", ") + std::to_string(slices[n] + 1) +
+              (last > n ? "-" + std::to_string(slices[last] + 1) : "");
+    n = last + 1;
+  }
+  if (ranges > kNamed)
+    text += " and others";
+  return text.empty() ? text : (slices.size() == 1 ? "slice " : "slices ") + text + " interpolated";
+}
+
+std::vector<std::string> interpolatedTexts(const scene::Case& value)
+{
+  std::vector<std::string> lines;
+  const auto add = [&lines](const std::string& name, const scene::ImagePart& image)
+  {
+    if (const std::string text = interpolatedText(image); !text.empty())
+      lines.push_back(name + ": " + text);
+  };
+  add(primaryName(value), value.ct);
+  for (const scene::ImagePart& mr : value.mr)
+    add(mr.name, mr);
+  return lines;
 }
 
 } // namespace petrous::presenters

@@ -11,6 +11,7 @@
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Imaging/ImageFile.h"
+#include "petrous/Imaging/ImagePreview.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/StructureSet.h"
@@ -29,6 +30,7 @@ namespace fs = std::filesystem;
 constexpr double kPatches = 0.9;       // of the voxels above 0 have an equal neighbour
 constexpr std::size_t kHardlyAny = 16; // values: no scanner yields so few
 constexpr double kAir = -500.0;        // HU
+constexpr std::size_t kSlices = 128;   // of a file that the memory does not hold
 
 // Whether integers from 0 to 65535 in patches, and few distinct ones.
 template <class T>
@@ -209,7 +211,10 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress,
     result.why = "is a DICOM segmentation";
     return result;
   }
-  if (readable > 1 || !segmentations.empty())
+  const auto only = std::find_if(scan.series.begin(), scan.series.end(), wanted);
+  // Also one that cannot be used as it is may have been meant.
+  const bool hasOthers = readable == 1 && uid.empty() && !imaging::otherImages(scan, *only).empty();
+  if (readable > 1 || hasOthers || !segmentations.empty())
   {
     for (const imaging::DicomSeries& series : scan.series)
       if (!series.geometry.slices.empty())
@@ -218,7 +223,6 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress,
     return result;
   }
   // If none is readable, the reader reports why.
-  const auto only = std::find_if(scan.series.begin(), scan.series.end(), wanted);
   const imaging::DicomSeries& series = readable == 1 ? *only : imaging::chooseSeries(scan, path);
   result.content = contentOf(series.modality);
   result.why = whyOf(series.modality);
@@ -228,6 +232,24 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress,
   if (!uid.empty() || !result.repair.empty())
     result.selector = imaging::selectorOf(series);
   return result;
+}
+
+// Nothing if the folder holds no mask.
+std::optional<SourceContent> lookAtMasks(const fs::path& folder, const core::Progress& progress)
+try
+{
+  SourceContent result;
+  result.path = folder;
+  result.content = Content::Labels;
+  result.structures = maskNames(imaging::loadLabels(folder, progress));
+  result.why = "holds masks, one structure a file";
+  return result;
+}
+catch (const imaging::FileError& error)
+{
+  if (error.reason() != imaging::FileError::Reason::Unsupported)
+    throw;
+  return std::nullopt;
 }
 
 } // namespace
@@ -314,7 +336,18 @@ SourceContent lookAt(const fs::path& path, const core::Progress& progress,
     return result;
   }
   if (!format || format->reads == imaging::kDicom)
-    return lookAtDicom(path, progress);
+    try
+    {
+      return lookAtDicom(path, progress.part(0.0, 0.5));
+    }
+    catch (const imaging::DicomError& error)
+    {
+      if (error.reason() != imaging::DicomError::Reason::NoImages || !fs::is_directory(path))
+        throw;
+      if (auto masks = lookAtMasks(path, progress.part(0.5, 1.0)))
+        return *masks;
+      throw;
+    }
   if (format->reads == imaging::kLabels)
   {
     result.content = Content::Labels;
@@ -324,8 +357,20 @@ SourceContent lookAt(const fs::path& path, const core::Progress& progress,
   if (expected)
     result.content = *expected;
   else
-    result.content =
-        contentOf(*imaging::readImageFile(path, std::nullopt, progress.part(0.0, 0.8)).volume);
+    try
+    {
+      result.content =
+          contentOf(*imaging::readImageFile(path, std::nullopt, progress.part(0.0, 0.8)).volume);
+    }
+    catch (const imaging::FileError& error)
+    {
+      if (error.fault() != core::Fault::Internal) // no memory
+        throw;
+      result.isTooLarge = true;
+      result.content =
+          contentOf(*imaging::previewImageFile(path, kSlices, progress.part(0.0, 0.8)).volume);
+    }
+  result.isSideOpen = imaging::assumedRasOf(path).has_value();
   result.name = sequenceName(imaging::baseName(path));
   if (result.content == Content::Labels)
   {

@@ -6,6 +6,7 @@
 #include "Notify.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/WorkstationModel.h"
+#include "petrous/Scene/FreeName.h"
 #include "petrous/Scene/Placement.h"
 
 // WorkstationModel: parts of the open case are added, removed, brought back and renamed.
@@ -86,9 +87,8 @@ void WorkstationModel::takeParts(const scene::Case& before, scene::Case with)
   auto names = scene::partNames(*m_case);
   const auto rename = [&names](std::string& name)
   {
-    const std::string wanted = name;
-    for (int n = 2; std::find(names.begin(), names.end(), name) != names.end(); ++n)
-      name = wanted + " " + std::to_string(n);
+    name = scene::freeName(name, [&names](const std::string& taken)
+                           { return std::find(names.begin(), names.end(), taken) != names.end(); });
     names.push_back(name);
   };
   std::map<std::string, std::string> images; // added MR: their names here
@@ -115,7 +115,14 @@ void WorkstationModel::takeParts(const scene::Case& before, scene::Case with)
       if (part.object == before.labels[n].object &&
           part.labels.peek() == before.labels[n].labels.peek() &&
           part.drawnOn == before.labels[n].drawnOn)
+      {
         part.drawnOn = with.labels[n].drawnOn;
+        const auto& notes = with.labels[n].notes; // those that say so come last
+        part.notes.insert(part.notes.end(),
+                          notes.begin() + static_cast<std::ptrdiff_t>(std::min(
+                                              before.labels[n].notes.size(), notes.size())),
+                          notes.end());
+      }
   forgetTissue();
   const auto append = [](auto& parts, auto& more, std::size_t from)
   {

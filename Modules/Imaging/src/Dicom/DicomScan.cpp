@@ -671,13 +671,33 @@ void logScan(const ScanResult& result, std::size_t files)
   }
 }
 
+constexpr std::size_t kScout = 2; // slices; more may be a volume
+
+/// Whether one that needs repair may be meant rather than a sound one: the same kind of image, with
+/// thinner slices or a longer stack.
+bool isRival(const DicomSeries& repairable, const DicomSeries& sound)
+{
+  constexpr double kThinner = 0.99;
+  constexpr double kLonger = 1.1;
+  const auto& one = repairable.geometry;
+  const auto& other = sound.geometry;
+  if (one.verdict != Verdict::Repairable || !one.grid || !other.grid ||
+      repairable.modality != sound.modality || one.slices.size() <= kScout)
+    return false;
+  const auto length = [](const core::GridGeometry& grid)
+  { return grid.dims()[2] * grid.spacing()[2]; };
+  return one.grid->spacing()[2] < kThinner * other.grid->spacing()[2] ||
+         length(*one.grid) > kLonger * length(*other.grid);
+}
+
 std::string uidList(const std::vector<const DicomSeries*>& series)
 {
   std::string list;
   for (const DicomSeries* one : series)
     list += (list.empty() ? "" : ", ") + one->uid +
             (one->volume.empty() ? "" : " '" + one->volume + "'") + " (" + one->modality + ", " +
-            std::to_string(one->geometry.slices.size()) + " slices)";
+            std::to_string(one->geometry.slices.size()) + " slices" +
+            (one->geometry.verdict == Verdict::Repairable ? ", needs --repair)" : ")");
   return list;
 }
 
@@ -780,6 +800,16 @@ std::string selectorOf(const DicomSeries& series)
   return series.volume.empty() ? series.uid : series.uid + "#" + series.volume;
 }
 
+std::vector<const DicomSeries*> otherImages(const ScanResult& result, const DicomSeries& series)
+{
+  std::vector<const DicomSeries*> others;
+  for (const DicomSeries& other : result.series)
+    if (&other != &series && (other.modality == "CT" || other.modality == "MR") &&
+        other.geometry.slices.size() > kScout)
+      others.push_back(&other);
+  return others;
+}
+
 const DicomSeries& chooseSeries(const ScanResult& result, const fs::path& path,
                                 const std::string& selector)
 {
@@ -829,7 +859,14 @@ const DicomSeries& chooseSeries(const ScanResult& result, const fs::path& path,
   if (good.size() > 1)
     ask(good);
   if (good.size() == 1 && !isVolume(good.front()))
-    return *good.front();
+  {
+    auto among =
+        select(images, [&](const DicomSeries* one) { return isRival(*one, *good.front()); });
+    if (among.empty())
+      return *good.front();
+    among.insert(among.begin(), good.front());
+    ask(among);
+  }
   // A volume of a series with several is the user's choice, even if it is the only sound one.
   if (good.size() == 1)
     ask(images);

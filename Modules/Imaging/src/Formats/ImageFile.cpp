@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "FileHelpers.h"
 #include "VoxelSource.h"
+#include "petrous/Imaging/ImagePreview.h"
 
 namespace petrous::imaging
 {
@@ -126,6 +129,18 @@ core::IndexBox boxOf(const std::filesystem::path& path, const core::GridGeometry
            range);
 }
 
+void requireImage(const std::filesystem::path& path, const VoxelSource& source)
+{
+  if (source.components() > 1)
+    fail(FileError::Reason::Unsupported, path,
+         "holds " + std::to_string(source.components()) +
+             " numbers a voxel (vectors or colours); an image of one number a voxel is needed");
+  const auto& dims = source.geometry().dims();
+  if (*std::min_element(dims.begin(), dims.end()) < 2)
+    fail(FileError::Reason::Unsupported, path,
+         "is a single slice; a volume of at least 2 voxels along each axis is needed");
+}
+
 } // namespace
 
 LoadedImage readImageFile(const std::filesystem::path& path,
@@ -135,15 +150,8 @@ LoadedImage readImageFile(const std::filesystem::path& path,
   progress.report(0.0, "reading image");
   VoxelSource source(path);
   if (isRas)
-    source.assume(*isRas);
-  if (source.components() > 1)
-    fail(FileError::Reason::Unsupported, path,
-         "holds " + std::to_string(source.components()) +
-             " numbers a voxel (vectors or colours); an image of one number a voxel is needed");
-  const auto& dims = source.geometry().dims();
-  if (*std::min_element(dims.begin(), dims.end()) < 2)
-    fail(FileError::Reason::Unsupported, path,
-         "is a single slice; a volume of at least 2 voxels along each axis is needed");
+    source.settleSide(isRas, {});
+  requireImage(path, source);
   const core::IndexBox box = boxOf(path, source.geometry(), roi);
   const core::GridGeometry geometry = source.geometry().cropped(box);
   auto raw = source.read(box, progress.part(0.0, 0.8));
@@ -156,14 +164,49 @@ LoadedImage readImageFile(const std::filesystem::path& path,
   LoadedImage image;
   image.notes = source.notes();
   image.assumedRas = source.assumedRas();
-  if (isRas && image.assumedRas)
-    image.notes.push_back(std::string("does not say which side of the patient is left; its axes "
-                                      "were taken as ") +
-                          (*isRas ? "RAS" : "LPS") + ", as asked");
   image.volume =
       std::make_shared<const volume::IntensityVolume>(std::move(voxels), source.padding());
   progress.report(1.0, "reading image");
   return image;
+}
+
+ImagePreview previewImageFile(const std::filesystem::path& path, std::size_t slices,
+                              const core::Progress& progress, const std::optional<bool>& isRas)
+{
+  VoxelSource source(path);
+  if (isRas)
+    source.settleSide(isRas, {});
+  requireImage(path, source);
+  const core::GridGeometry& grid = source.geometry();
+  core::Index3 dims = grid.dims();
+  const int step = std::max(dims[2] / static_cast<int>(std::max<std::size_t>(slices, 2)), 1);
+  const int whole = dims[2];
+  dims[2] = (whole + step - 1) / step;
+  Eigen::Vector3d spacing = grid.spacing();
+  spacing[2] *= step;
+  const core::GridGeometry few(dims, spacing, grid.origin(), grid.direction());
+  const std::size_t bytes =
+      static_cast<std::size_t>(dims[0]) * static_cast<std::size_t>(dims[1]) *
+      visitComponent(source.component(), [](auto type) { return sizeof type; });
+  const auto memory =
+      std::make_shared<std::vector<char>>(bytes * static_cast<std::size_t>(dims[2]));
+  source.forEachSlice(
+      [&](int k, const void* values)
+      {
+        if (k % step == 0)
+          std::memcpy(memory->data() + bytes * static_cast<std::size_t>(k / step), values, bytes);
+        if (k % step == 0)
+          progress.report(static_cast<double>(k) / whole, "reading image");
+        return true;
+      },
+      progress);
+  const std::shared_ptr<void> raw(memory, memory->data());
+  Voxels voxels =
+      visitComponent(source.component(), [&](auto type)
+                     { return keepOrNarrow<decltype(type)>(few, raw, source.rescaled()); });
+  requireFinite(path, voxels);
+  return {std::make_shared<const volume::IntensityVolume>(std::move(voxels), source.padding()),
+          grid};
 }
 
 std::optional<bool> assumedRasOf(const std::filesystem::path& path)

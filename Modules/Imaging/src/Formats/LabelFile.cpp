@@ -198,7 +198,8 @@ constexpr const char* kTableUnused =
 
 LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
                         const core::Progress& progress, const LabelNaming& naming,
-                        const std::vector<core::GridGeometry>& images)
+                        const std::vector<core::GridGeometry>& images,
+                        const std::optional<bool>& isRas)
 {
   progress.report(0.0, "reading labels");
   if (isDicomSegmentation(path))
@@ -210,7 +211,8 @@ LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
       failOverlap(path, loaded.maps.size());
     return loaded;
   }
-  const VoxelSource source(path);
+  VoxelSource source(path);
+  const bool isSideKnown = source.settleSide(isRas, images);
   const bool named = hasSegments(source);
   if (source.components() > 1 && !named)
     fail(FileError::Reason::Unsupported, path,
@@ -221,6 +223,7 @@ LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
   const auto raw = source.read(source.geometry().fullBox(), progress.part(0.0, 0.7));
   LoadedLabels loaded;
   loaded.notes = source.notes();
+  loaded.isSideOpen = !isSideKnown;
   if (named)
     for (const std::string& name : segmentsWithoutLayer(*source.nrrd(), source.components()))
     {
@@ -267,17 +270,18 @@ bool isDicomSegmentation(const std::filesystem::path& path)
 }
 
 LoadedLabels loadLabels(const std::filesystem::path& path, const core::Progress& progress,
-                        const LabelNaming& naming, const std::vector<core::GridGeometry>& images)
+                        const LabelNaming& naming, const std::vector<core::GridGeometry>& images,
+                        const std::optional<bool>& isRas)
 {
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
-    return readLabelFolder(path, progress);
-  return readLayers(path, false, progress, naming, images);
+    return readLabelFolder(path, progress, images, isRas);
+  return readLayers(path, false, progress, naming, images, isRas);
 }
 
 volume::LabelMap readLabelFile(const std::filesystem::path& path, const core::Progress& progress)
 {
-  return std::move(readLayers(path, true, progress, {}, {}).maps.front());
+  return std::move(readLayers(path, true, progress, {}, {}, {}).maps.front());
 }
 
 std::vector<volume::Segment> readSegments(const std::filesystem::path& path)

@@ -122,6 +122,39 @@ void VoxelSource::assume(bool isRas)
   m_assumedRas = isRas;
 }
 
+bool VoxelSource::settleSide(const std::optional<bool>& isRas,
+                             const std::vector<core::GridGeometry>& images)
+{
+  if (!m_assumedRas)
+    return true;
+  const auto note = [this](const char* why)
+  {
+    m_notes.push_back(std::string("does not say which side of the patient is left; its axes were "
+                                  "taken as ") +
+                      (*m_assumedRas ? "RAS" : "LPS") + why);
+  };
+  if (isRas)
+  {
+    assume(*isRas);
+    note(", as asked");
+    return true;
+  }
+  const bool first = *m_assumedRas;
+  for (const bool side : {first, !first})
+  {
+    assume(side);
+    if (std::any_of(images.begin(), images.end(),
+                    [this](const core::GridGeometry& grid)
+                    { return core::sameGrid(grid, *m_geometry); }))
+    {
+      note(", as its grid is then that of an image of the case");
+      return true;
+    }
+  }
+  assume(first);
+  return false;
+}
+
 void VoxelSource::openNrrd()
 {
   m_nrrd = readNrrdHeader(m_path);

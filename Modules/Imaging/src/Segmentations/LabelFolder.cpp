@@ -45,6 +45,7 @@ struct Mask
   std::vector<std::string> notes;
   std::string why; ///< why it is not a mask; empty: it is one
   bool isDamaged = false;
+  bool isSideOpen = false; ///< LoadedLabels
 };
 
 template <class T>
@@ -93,9 +94,11 @@ bool addSlice(const T* values, std::uint64_t count, std::uint64_t first, T& labe
   return true;
 }
 
-void readMask(Mask& mask, const core::Progress& progress)
+void readMask(Mask& mask, const core::Progress& progress,
+              const std::vector<core::GridGeometry>& images, const std::optional<bool>& isRas)
 {
-  const VoxelSource source(mask.path);
+  VoxelSource source(mask.path);
+  mask.isSideOpen = !source.settleSide(isRas, images);
   mask.grid = source.geometry();
   mask.notes = source.notes();
   if (source.components() != 1)
@@ -224,7 +227,9 @@ struct Layer
 
 } // namespace
 
-LoadedLabels readLabelFolder(const fs::path& folder, const core::Progress& progress)
+LoadedLabels readLabelFolder(const fs::path& folder, const core::Progress& progress,
+                             const std::vector<core::GridGeometry>& images,
+                             const std::optional<bool>& isRas)
 {
   progress.report(0.0, "reading labels");
   LoadedLabels loaded;
@@ -239,7 +244,7 @@ LoadedLabels readLabelFolder(const fs::path& folder, const core::Progress& progr
         Mask& mask = masks[n];
         try
         {
-          readMask(mask, reading);
+          readMask(mask, reading, images, isRas);
         }
         catch (const FileError& error)
         {
@@ -285,6 +290,7 @@ LoadedLabels readLabelFolder(const fs::path& folder, const core::Progress& progr
         std::find(loaded.notes.begin(), loaded.notes.end(), kAlike) == loaded.notes.end())
       loaded.notes.emplace_back(kAlike);
     segment.index = ++index;
+    loaded.isSideOpen = loaded.isSideOpen || mask.isSideOpen;
     for (const std::string& note : mask.notes)
       if (std::find(loaded.notes.begin(), loaded.notes.end(), note) == loaded.notes.end())
         loaded.notes.push_back(note);

@@ -8,6 +8,7 @@
 
 #include "petrous/Core/Progress.h"
 #include "petrous/Imaging/ImageFile.h"
+#include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Scene/Case.h"
 
@@ -31,6 +32,8 @@ struct PartSource
   /// else LPS mm if that fits the image.
   std::optional<bool> isRas = std::nullopt;
   std::optional<double> unit = std::nullopt;
+  /// MR and structures whose file leaves open which side of the patient is left: as CaseSources.
+  std::optional<bool> assumeRas = std::nullopt;
   /// Structures: a table of names for this file alone; empty: PartSources::labelNames.
   std::filesystem::path labelNames = {};
 
@@ -51,6 +54,10 @@ struct FileName
   bool isWhole = false; ///< these are all of it ("facial_nerve_left"); otherwise ask or warn
 };
 FileName fileName(const std::filesystem::path& path);
+
+/// What the structures of a folder of masks are called in a case, in its order: without the words
+/// that most of its files share, which may be a patient's name. "structure": nothing is left.
+std::vector<std::string> maskNames(const imaging::LoadedLabels& folder);
 
 struct PartSources
 {
@@ -84,10 +91,11 @@ struct OtherPatient : core::Error
   explicit OtherPatient(const std::filesystem::path& file);
 };
 
-/// A primary image that leaves open which side of the patient is left: the user has to say.
+/// A file of voxels that leaves open which side of the patient is left: the user has to say.
 struct ImageSideUnclear : core::InvalidParameter
 {
-  explicit ImageSideUnclear(const std::filesystem::path& file);
+  /// `option`: of the command, that says it.
+  ImageSideUnclear(const std::filesystem::path& file, const std::string& option);
 };
 
 /// "LPS mm", "RAS m", ..
@@ -141,8 +149,8 @@ struct CaseSources
   bool repair = false; ///< resamples what imaging::ReadOptions::repair can
   std::optional<core::PatientBox> roi; ///< crops the CT on load
   /// A primary image whose file leaves open which side of the patient is left: whether its axes
-  /// are RAS (else LPS); nullopt: it is refused.
-  std::optional<bool> isRas = std::nullopt;
+  /// are taken as RAS (else LPS); nullopt: it is refused.
+  std::optional<bool> assumeRas = std::nullopt;
   PartSources parts;
 };
 
@@ -160,7 +168,9 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
 /// labels, mesh names to its meshes. A part without a given name is named by the structure words of
 /// its file name (fileName), and its notes say so. An MR whose files and those of another image of
 /// the case state different patients (imaging::samePatient) is OtherPatient unless its source
-/// allows it; its notes then say so. Throws Error (Refused) for a name that is taken,
+/// allows it; its notes then say so. An MR or label file that leaves open which side of the patient
+/// is left is ImageSideUnclear unless its source says it, or it is a label file with the grid of an
+/// image of the case, which it follows. Throws Error (Refused) for a name that is taken,
 /// InvalidParameter for labels without a
 /// voxel, and for a mesh that extends beyond the image on which it was drawn by more than
 /// volume::maxReach; MeshSpaceUnclear for one that lies in it only in another frame or unit.
@@ -172,9 +182,11 @@ void addParts(scene::Case& value, const PartSources& parts, const core::Progress
 struct PartFailure
 {
   PartSource source;
-  std::string why;                             ///< names the file
-  std::vector<imaging::MeshSpace> likely = {}; ///< of MeshSpaceUnclear
-  bool isOtherPatient = false;                 ///< OtherPatient
+  std::string why;                                      ///< names the file
+  std::vector<imaging::MeshSpace> likely = {};          ///< of MeshSpaceUnclear
+  bool isOtherPatient = false;                          ///< OtherPatient
+  bool isSideUnclear = false;                           ///< ImageSideUnclear
+  std::vector<PartSource> PartSources::*kind = nullptr; ///< of which it is one
 };
 
 /// As addParts, one part after the other: those that can be added are, the others are returned.

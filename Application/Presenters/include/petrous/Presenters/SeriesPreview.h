@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,10 +24,11 @@ struct ScanPreview
   std::size_t voxelsIn(const core::PatientBox& box) const;
 };
 
-/// Reads a scan with every few of its slices; one that needs repair, or a file, as a whole.
-/// `selector`: imaging::chooseSeries. Throws as buildCase does.
+/// Reads a scan with every few of its slices; one that needs repair as a whole. `selector`:
+/// imaging::chooseSeries. `assumeRas`: as CaseSources. Throws as buildCase does.
 ScanPreview previewScan(const std::filesystem::path& path, const std::string& selector, bool repair,
-                        const core::Progress& progress);
+                        const core::Progress& progress,
+                        const std::optional<bool>& assumeRas = std::nullopt);
 
 /// A series as its slices lie in the files, evenly and straight above each other, and as repair
 /// puts them: both a slab of a few millimetres through the middle, for a picture of `orientation`,
@@ -45,5 +47,11 @@ RepairPreview previewRepair(const std::filesystem::path& path, const std::string
 /// interpolated, according to its notes. Of very many only the first and last are noted; then all
 /// between are returned.
 std::vector<int> interpolatedSlices(const scene::ImagePart& image);
+
+/// "slices 41-42, 60 interpolated", numbered from 1, for a picture of the image; empty: none is.
+std::string interpolatedText(const scene::ImagePart& image);
+
+/// Likewise of all images of a case, "CT: ..", a line each.
+std::vector<std::string> interpolatedTexts(const scene::Case& value);
 
 } // namespace petrous::presenters

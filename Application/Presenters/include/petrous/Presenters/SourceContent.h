@@ -53,17 +53,21 @@ struct SourceContent
   std::string name = {};     ///< proposed for an MR, see sequenceName; may be empty
   /// A DICOM series that can be read only with repair (CaseSources): why. Else empty.
   std::vector<imaging::Finding> repair = {};
-  /// Of a DICOM folder with several readable series: all of them, and those that are refused; the
-  /// user chooses. `content` is then meaningless.
+  /// Of a DICOM folder with several series that may be meant, sound or not: all of them; the user
+  /// chooses. `content` is then meaningless.
   std::vector<SeriesContent> series = {};
   /// Structures of a label map that neither it nor a table beside it names.
   std::size_t unnamed = 0;
+  std::vector<std::string> structures = {}; ///< of a folder of masks (maskNames)
+  bool isTooLarge = false; ///< an image file that the memory does not hold: a region of it may do
+  /// A file that leaves open which side of the patient is left (imaging::assumedRasOf).
+  bool isSideOpen = false;
 };
 
 /// Determines the content of `path`: meshes and 3D Slicer segmentations by their file names, DICOM
-/// by SOP class and modality, other images by their voxels (see contentOf), which are read. Throws
-/// as the readers do, and CancelledError. `expected`, Mr or Labels: what the user says of an image
-/// file; its voxels then decide nothing.
+/// by SOP class and modality, a folder without DICOM images by the masks in it, other images by
+/// their voxels (see contentOf), which are read. Throws as the readers do, and CancelledError.
+/// `expected`, Mr or Labels: what the user says of an image file; its voxels then decide nothing.
 SourceContent lookAt(const std::filesystem::path& path, const core::Progress& progress,
                      std::optional<Content> expected = std::nullopt);
 

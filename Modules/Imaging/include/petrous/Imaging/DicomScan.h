@@ -85,10 +85,15 @@ ScanResult scanDicom(const std::filesystem::path& path, const core::Progress& pr
 
 /// Selects the series meant by a user who gave `path`, by "UID", "UID#VOLUME" or "#VOLUME"; without
 /// a UID the only series that is Ok, else the largest image series (reading it reports its
-/// defects). One of several volumes is never chosen unasked. Throws DicomError listing what was
-/// found; Ambiguous lists the UIDs and volumes.
+/// defects). One of several volumes is never chosen unasked, nor a sound series beside a repairable
+/// one of the same modality with thinner slices or a longer stack. Throws DicomError listing what
+/// was found; Ambiguous lists the UIDs and volumes.
 const DicomSeries& chooseSeries(const ScanResult& result, const std::filesystem::path& path,
                                 const std::string& selector = {});
+
+/// Other CT or MR series and volumes of a scan, of more slices than a scout has: what may have been
+/// meant instead of `series`, of any verdict.
+std::vector<const DicomSeries*> otherImages(const ScanResult& result, const DicomSeries& series);
 
 /// What chooseSeries selects this one by.
 std::string selectorOf(const DicomSeries& series);

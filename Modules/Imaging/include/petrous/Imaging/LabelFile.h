@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,10 @@ struct LoadedLabels
   /// folder) one per layer, and for a folder with several grids at least one for each.
   std::vector<volume::LabelMap> maps;
   std::vector<std::string> notes; ///< what was assumed or left out, one sentence each
-  bool isNamedAfterFile = false;  ///< structures are named only by the names of their files
+  /// A file leaves open which side of the patient is left, and neither the caller nor the grid of
+  /// an image settled it: the place of the maps is a guess.
+  bool isSideOpen = false;
+  bool isNamedAfterFile = false; ///< structures are named only by the names of their files
   /// DICOM: what structures are, by the codes of the file; by name. An appearance may be chosen by
   /// it where the name says nothing.
   std::map<std::string, std::string> meanings = {};
@@ -66,6 +70,9 @@ bool isDicomSegmentation(const std::filesystem::path& path);
 /// no spacing of its slices it is that of the image in `images` (on which it may have been drawn)
 /// on whose slices its frames lie, else their thickness or distance, which is noted.
 ///
+/// Of another file that leaves open which side of the patient is left (readImageFile) `isRas` says
+/// how its axes count; without it they count so that its grid is that of one of `images`.
+///
 /// Names and colours are taken from the file itself (3D Slicer's .seg.nrrd), else from the table
 /// given in `naming`, else from a table in the same folder that has the same base name (.ctbl,
 /// .txt, .label, .csv, .tsv, .json), or that is the only .ctbl in the folder and shares a word with
@@ -83,7 +90,8 @@ bool isDicomSegmentation(const std::filesystem::path& path);
 /// without a structure. CancelledError.
 LoadedLabels loadLabels(const std::filesystem::path& path, const core::Progress& progress = {},
                         const LabelNaming& naming = {},
-                        const std::vector<core::GridGeometry>& images = {});
+                        const std::vector<core::GridGeometry>& images = {},
+                        const std::optional<bool>& isRas = std::nullopt);
 
 /// Like loadLabels, without the notes, for a file whose structures do not overlap. Throws FileError
 /// (Unsupported) for several layers.

@@ -4,10 +4,10 @@
 #include <memory>
 #include <string>
 
-#include <QObject>
 #include "ReceiveDialog.h"
 #include "petrous/Library/ScratchFolder.h"
 #include "petrous/Presenters/WorkstationModel.h"
+#include <QObject>
 
 class QMenu;
 class QWidget;

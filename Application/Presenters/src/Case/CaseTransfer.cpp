@@ -705,7 +705,9 @@ std::vector<std::string> identityWarnings(const scene::Case& value, const Export
     for (const std::string& name : scene::partNames(value))
       if (options.part.empty() || name == options.part)
         if (scene::findStructure(value, name) ||
-            (what == "structure" && scene::findMesh(value, name)))
+            (what == "structure" &&
+             std::any_of(value.meshes.begin(), value.meshes.end(),
+                         [&name](const scene::MeshPart& mesh) { return mesh.name == name; })))
           names.push_back(name);
   warnOfIdentities("names of structures", names, warnings);
   return warnings;

@@ -247,7 +247,7 @@ try
 }
 catch (const imaging::FileError& error)
 {
-  if (error.reason() != imaging::FileError::Reason::Unsupported)
+  if (error.reason != imaging::FileError::Reason::Unsupported)
     throw;
   return std::nullopt;
 }

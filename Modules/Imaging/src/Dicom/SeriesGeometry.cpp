@@ -170,11 +170,11 @@ private:
     switch (kind)
     {
     case FindingKind::GantryTilt:
-    case FindingKind::UnevenSpacing:
     case FindingKind::MixedRescale:
       return true;
+    case FindingKind::UnevenSpacing:
     case FindingKind::MissingSlice:
-      return m_result.singleGaps;
+      return m_result.isBridgeable;
     case FindingKind::Unreadable:
       return m_damageIsMissing;
     case FindingKind::DuplicateSlice:

@@ -171,7 +171,8 @@ struct SeriesGeometry
   /// grid (ignoring shear and gaps); none if the files do not state positions.
   std::optional<core::GridGeometry> grid;
 
-  bool singleGaps = true; ///< no two missing slices adjoin
+  /// No gap is wider than one missing slice leaves, and few slices would be guessed.
+  bool isBridgeable = true;
   Verdict verdict = Verdict::Refused;
   /// The reasons for the verdict, localizers set aside, and ends that may be missing. Those of kind
   /// Unreadable name files.

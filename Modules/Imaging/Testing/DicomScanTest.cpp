@@ -477,6 +477,56 @@ TEST(DicomScan, SaysThatEndsMayBeMissing)
   EXPECT_TRUE(scan(101, 20, 20).findings.empty()) << "as many as stated";
 }
 
+TEST(DicomScan, SaysThatAVolumeIsShorterThanItsSiblings)
+{
+  // slices of each phase: from and to
+  const auto scan = [](const std::vector<std::pair<int, int>>& phases, int declared = 0)
+  {
+    const TemporaryFolder folder;
+    int file = 0;
+    for (std::size_t p = 0; p < phases.size(); ++p)
+      for (int k = phases[p].first; k < phases[p].second; ++k)
+      {
+        TestSlice slice;
+        slice.z = 0.5 * k;
+        putNumber(slice, ++file, declared);
+        slice.element(slice.extra, 0x00200100, "IS", std::to_string(p + 1));
+        slice.cell = [p](int, int) { return static_cast<std::uint32_t>(p); };
+        slice.write(folder.path() / ("s" + std::to_string(file) + ".dcm"));
+      }
+    std::vector<std::string> texts;
+    for (const DicomSeries& series : scanDicom(folder.path(), {}).series)
+    {
+      EXPECT_EQ(series.geometry.verdict, Verdict::Ok) << series.volume;
+      EXPECT_LE(series.geometry.findings.size(), 1U);
+      EXPECT_TRUE(series.geometry.findings.empty() ||
+                  has(series.geometry, FindingKind::MissingEnd));
+      texts.push_back(series.geometry.findings.empty() ? "" : series.geometry.findings[0].text);
+    }
+    return texts;
+  };
+  const auto cut = scan({{0, 20}, {0, 17}, {2, 20}});
+  ASSERT_EQ(cut.size(), 3U);
+  EXPECT_EQ(cut[0], "");
+  EXPECT_NE(cut[1].find("goes on for 1.5 mm (3 slices) beyond its last slice;"), std::string::npos)
+      << cut[1];
+  EXPECT_NE(cut[2].find("goes on for 1.0 mm (2 slices) before the first slice of this one;"),
+            std::string::npos)
+      << cut[2];
+  const auto both = scan({{0, 18}, {2, 20}}); // each lacks what the other has
+  ASSERT_EQ(both.size(), 2U);
+  EXPECT_NE(both[0].find("beyond its last slice"), std::string::npos);
+  EXPECT_NE(both[1].find("before the first slice"), std::string::npos);
+  EXPECT_EQ(scan({{0, 20}, {0, 20}}), (std::vector<std::string>{"", ""}));
+  const auto slabs = scan({{0, 20}, {14, 34}});
+  EXPECT_EQ(slabs, (std::vector<std::string>{"", ""})) << "neighbours that overlap";
+  EXPECT_EQ(scan({{0, 20}, {0, 20}}, 40), (std::vector<std::string>{"", ""}));
+  const auto counted = scan({{0, 20}, {0, 20}}, 46);
+  ASSERT_EQ(counted.size(), 2U);
+  EXPECT_NE(counted[1].find("states 46 images of the series, and 40 are there"), std::string::npos)
+      << counted[1];
+}
+
 TEST(DicomScan, RefusesSlicesOfOnePlaceThatShowDifferentThings)
 {
   const auto scan = [](bool isOther)

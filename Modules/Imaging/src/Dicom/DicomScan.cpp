@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -503,6 +504,97 @@ std::string missingEnds(const SeriesGeometry& geometry, const Numbering& numberi
                                "all of the skull base that is needed is there.";
 }
 
+/// The stretch of a stack along a normal, mm.
+struct Stretch
+{
+  double first = 0.0;
+  double last = 0.0;
+
+  Stretch(const SeriesGeometry& geometry, const Eigen::Vector3d& normal)
+    : first(normal.dot(*geometry.slices.front().position))
+    , last(normal.dot(*geometry.slices.back().position))
+  {
+  }
+  double length() const { return last - first; }
+};
+
+/// What the other volumes of a series say of the ends of one: phases, echoes and b-values of one
+/// series are as long as each other. Empty: nothing.
+std::string shorterThan(const SeriesGeometry& geometry, const std::vector<DicomSeries>& siblings)
+{
+  const auto isStack = [](const SeriesGeometry& g) { return g.grid && g.slices.size() > 1; };
+  if (geometry.verdict == Verdict::Refused || !isStack(geometry))
+    return {};
+  constexpr double kSameSpacing = 0.02; // share
+  constexpr double kAlike = 0.75; // of the stack lies beside the sibling's: no neighbouring slab
+  const Eigen::Vector3d normal = geometry.grid->direction().col(2);
+  const double spacing = geometry.grid->spacing()[2];
+  const Stretch own(geometry, normal);
+  double before = 0.0;
+  double beyond = 0.0;
+  for (const DicomSeries& sibling : siblings)
+  {
+    const SeriesGeometry& other = sibling.geometry;
+    if (&other == &geometry || !isStack(other) ||
+        !sameTurn(geometry.slices.front(), other.slices.front()) ||
+        std::abs(other.grid->spacing()[2] - spacing) > kSameSpacing * spacing ||
+        other.slices.front().frameOfReferenceUid != geometry.slices.front().frameOfReferenceUid)
+      continue;
+    const Stretch its(other, normal);
+    if (std::min(own.last, its.last) - std::max(own.first, its.first) < kAlike * own.length())
+      continue;
+    before = std::max(before, own.first - its.first);
+    beyond = std::max(beyond, its.last - own.last);
+  }
+  const auto goesOn = [spacing](double length)
+  {
+    const auto slices = std::lround(length / spacing);
+    return decimals(length, 1) + " mm (" + std::to_string(slices) +
+           (slices == 1 ? " slice)" : " slices)");
+  };
+  const bool isLater = before > 0.5 * spacing;
+  const bool isEarlier = beyond > 0.5 * spacing;
+  if (!isLater && !isEarlier)
+    return {};
+  return "Another volume of the series goes on for " +
+         (isLater ? goesOn(before) + " before the first slice of this one" : std::string()) +
+         (isLater && isEarlier ? " and " : "") +
+         (isEarlier ? goesOn(beyond) + " beyond its last slice" : std::string()) +
+         "; the stack has no gap, but its ends may be missing. Look whether all of the skull base "
+         "that is needed is there.";
+}
+
+/// The ends that may be missing from the volumes of a divided series.
+void compareEnds(std::vector<DicomSeries>& volumes, const Numbering& numbering)
+{
+  if (volumes.size() < 2)
+    return;
+  bool isExplained = false; // what is not there of those that the header states
+  for (DicomSeries& volume : volumes)
+  {
+    std::string text = shorterThan(volume.geometry, volumes);
+    isExplained = isExplained || !text.empty() ||
+                  hasFinding(volume.geometry, {FindingKind::MissingSlice, FindingKind::Unreadable});
+    if (!text.empty())
+      volume.geometry.findings.push_back({FindingKind::MissingEnd, std::move(text), 0.0});
+  }
+  const auto isOfManyFrames = [](const DicomSeries& volume) {
+    return !volume.geometry.slices.empty() && volume.geometry.slices.front().pixels.frameCount > 1;
+  };
+  if (isExplained || numbering.declared <= numbering.count ||
+      std::any_of(volumes.begin(), volumes.end(), isOfManyFrames))
+    return;
+  for (DicomSeries& volume : volumes)
+    if (volume.geometry.verdict != Verdict::Refused)
+      volume.geometry.findings.push_back(
+          {FindingKind::MissingEnd,
+           "The header states " + std::to_string(numbering.declared) +
+               " images of the series, and " + std::to_string(numbering.count) +
+               " are there in all its volumes, which are equally long; a volume or the ends of all "
+               "may be missing. Look whether all of the skull base that is needed is there.",
+           0.0});
+}
+
 /// Compares the pixels of slices that share a place: where they differ, none of them can be left
 /// out.
 void compareDuplicates(SeriesGeometry& geometry)
@@ -642,6 +734,7 @@ MadeSeries makeSeries(const std::vector<FileHeader*>& members, const Doubts& dou
       one.frameOfReferenceUid = one.geometry.slices.front().frameOfReferenceUid;
     made.volumes.push_back(std::move(one));
   }
+  compareEnds(made.volumes, numbering);
   for (std::size_t n = 0; isSetAside && doubts.own == doubts.files.size() && n < doubts.own; ++n)
     made.notes.push_back(doubts.files[n].text +
                          " It was set aside: the slices beside it are whole without it.");

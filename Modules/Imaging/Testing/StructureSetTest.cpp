@@ -382,6 +382,20 @@ TEST(StructureSet, IsReadInEveryEncoding)
   }
 }
 
+TEST(StructureSet, StatesWhoseItIs)
+{
+  const TemporaryFolder folder;
+  for (const bool isImplicit : {false, true})
+  {
+    TestSet set;
+    set.code.implicitVr = isImplicit;
+    set.add(1, "cochlea", {"0\\0\\10\\4\\0\\10\\0\\4\\10"});
+    const PatientKey key = readStructureSet(set.write(folder)).patient;
+    EXPECT_EQ(key.name, patientKey("", "", "Secret Name", "").name);
+    EXPECT_EQ(key.id, 0U);
+  }
+}
+
 TEST(StructureSet, WhatMakesNoSenseIsRefusedInOneLine)
 {
   const TemporaryFolder folder;

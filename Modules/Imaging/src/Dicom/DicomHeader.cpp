@@ -140,13 +140,7 @@ void readOrigin(const DicomElements& elements, SliceHeader& slice)
 {
   slice.taken = takenOf(elements);
   slice.patientPosition = elements.text(0x00185100);
-  const std::string stated = elements.text(0x00100010);
-  const std::string name = toUtf8(stated, elements.text(0x00080005));
-  const auto unknown = [](const std::string& text) // letters of a character set that is not read
-  { return std::count(text.begin(), text.end(), '?'); };
-  slice.patient =
-      patientKey(elements.text(0x00100020), elements.text(0x00100021),
-                 unknown(name) > unknown(stated) ? stated : name, elements.text(0x00100030));
+  slice.patient = patientOf(elements);
   slice.studyUid = elements.text(0x0020000d);
   slice.modality = elements.text(0x00080060);
   slice.kernel = elements.text(0x00181210);
@@ -380,6 +374,16 @@ const char* shortDamage(ByteSource& source)
 }
 
 } // namespace
+
+PatientKey patientOf(const DicomElements& elements)
+{
+  const std::string stated = elements.text(0x00100010);
+  const std::string name = toUtf8(stated, elements.text(0x00080005));
+  const auto unknown = [](const std::string& text)
+  { return std::count(text.begin(), text.end(), '?'); };
+  return patientKey(elements.text(0x00100020), elements.text(0x00100021),
+                    unknown(name) > unknown(stated) ? stated : name, elements.text(0x00100030));
+}
 
 FileHeader readHeader(const std::filesystem::path& file)
 {

@@ -14,6 +14,7 @@
 
 #include "ByteSource.h"
 #include "DicomElements.h"
+#include "DicomHeader.h"
 #include "DicomItem.h"
 #include "FileHelpers.h"
 #include "GridFromAffine.h"
@@ -774,6 +775,7 @@ LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Pro
 
   LoadedLabels loaded;
   loaded.frameOfReferenceUid = data.text(0x00200052);
+  loaded.patient = patientOf(elements);
   const core::GridGeometry grid = placeFrames(file, images, loaded.notes);
   const double frameVolume = thicknessOf(file, grid) * grid.spacing()[0] * grid.spacing()[1];
   if (file.type == Type::Fractional)

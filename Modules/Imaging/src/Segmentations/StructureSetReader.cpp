@@ -6,6 +6,7 @@
 
 #include "ByteSource.h"
 #include "DicomElements.h"
+#include "DicomHeader.h"
 #include "DicomItem.h"
 #include "FileHelpers.h"
 #include "LabelNames.h"
@@ -33,7 +34,8 @@ constexpr double kGap = 1.5;        // of the usual distance of planes: a part o
 constexpr int kLines = 32;          // in a row of voxels
 
 /// A data set of a structure set, which has no pixels.
-std::string dataSet(const std::filesystem::path& path, DicomItem::Encoding& encoding)
+std::string dataSet(const std::filesystem::path& path, DicomItem::Encoding& encoding,
+                    PatientKey& patient)
 {
   ByteSource source(path);
   const DicomElements elements(source);
@@ -48,6 +50,7 @@ std::string dataSet(const std::filesystem::path& path, DicomItem::Encoding& enco
   if (!source.read(elements.dataStart(), bytes.data(), bytes.size()))
     fail(Reason::Unreadable, path, "cannot be read to its end; copy it again");
   encoding = {elements.isExplicit(), elements.isBigEndian()};
+  patient = patientOf(elements);
   return bytes;
 }
 
@@ -460,7 +463,8 @@ bool isStructureSet(const std::filesystem::path& path)
 StructureSet readStructureSet(const std::filesystem::path& path)
 {
   DicomItem::Encoding encoding;
-  const std::string bytes = dataSet(path, encoding);
+  StructureSet set;
+  const std::string bytes = dataSet(path, encoding, set.patient);
   const DicomItem data(bytes, encoding);
   const auto checkDamage = [&path](const DicomItem& item)
   {
@@ -469,7 +473,6 @@ StructureSet readStructureSet(const std::filesystem::path& path)
   };
   checkDamage(data);
   const std::string characters = data.text(0x00080005);
-  StructureSet set;
   std::map<int, std::size_t> places; // by ROI Number
   const auto numberOf = [&](const DicomItem& item, Tag tag)
   {
@@ -554,6 +557,7 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
 {
   LoadedLabels loaded;
   loaded.frameOfReferenceUid = set.frameOfReferenceUid;
+  loaded.patient = set.patient;
   std::vector<std::shared_ptr<volume::Volume<std::uint16_t>>> layers;
   std::vector<std::vector<volume::Segment>> names;
   std::vector<std::string> oblique;

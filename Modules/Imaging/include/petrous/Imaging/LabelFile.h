@@ -9,6 +9,7 @@
 
 #include "petrous/Core/Progress.h"
 #include "petrous/Imaging/FileError.h"
+#include "petrous/Imaging/PatientKey.h"
 #include "petrous/Volume/LabelMap.h"
 #include "petrous/Volume/SegmentCodes.h"
 
@@ -41,6 +42,7 @@ struct LoadedLabels
   /// The codes themselves, of DICOM and of 3D Slicer's .seg.nrrd, by name.
   std::map<std::string, volume::SegmentCodes> codes = {};
   std::string frameOfReferenceUid = {}; ///< DICOM; identifies the patient's study: not to be shown
+  PatientKey patient = {};              ///< DICOM: whose structures they are
   std::vector<UnreadStructure> unread = {};
   /// mm^3 by the file itself, by name: what its frames, masks or contours enclose, counted or
   /// computed before they became voxels here. None for a label map, whose voxels are kept.

@@ -10,6 +10,7 @@
 #include "petrous/Core/Progress.h"
 #include "petrous/Imaging/FileError.h"
 #include "petrous/Imaging/LabelFile.h"
+#include "petrous/Imaging/PatientKey.h"
 
 namespace petrous::imaging
 {
@@ -29,6 +30,7 @@ struct StructureSet
   };
   std::vector<Roi> rois;
   std::string frameOfReferenceUid; ///< identifies the patient's study: not to be shown
+  PatientKey patient;
 };
 
 /// Whether a file is an RT structure set, whatever its name.

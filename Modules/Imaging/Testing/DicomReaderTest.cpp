@@ -304,6 +304,29 @@ TEST(DicomReader, RefusesWhatDoesNotFitTheMemoryBeforeItIsRead)
   EXPECT_NO_THROW(readSeries(again.series.front(), options, {}));
 }
 
+TEST(DicomReader, CountsTheBytesThatVoxelsTakeInTheEnd)
+{
+  // 32-bit values: as 16 bits if these hold them, else as float, which takes twice as much.
+  for (const bool isLarge : {false, true})
+  {
+    const TemporaryFolder folder;
+    writeSeries(folder.path(), 10,
+                [isLarge](int, TestSlice& slice)
+                {
+                  slice.bitsAllocated = slice.bitsStored = 32;
+                  slice.cell = [isLarge](int i, int) { return isLarge && i == 3 ? 70000U : 9U; };
+                });
+    const ScanResult result = scanDicom(folder.path(), {});
+    const DicomSeries& series = result.series.front();
+    const std::size_t count = series.geometry.grid->fullBox().count();
+    ReadOptions options;
+    options.memory = (isLarge ? 4 : 2) * count;
+    EXPECT_EQ(readSeries(series, options, {}).at(3, 0, 0), isLarge ? 70000.0 : 9.0);
+    --options.memory;
+    EXPECT_EQ(reasonOf([&] { readSeries(series, options, {}); }), DicomError::Reason::TooLarge);
+  }
+}
+
 TEST(DicomReader, NamesTheFindingWhenItRefuses)
 {
   const TemporaryFolder folder;

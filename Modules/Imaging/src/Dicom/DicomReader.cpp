@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -90,11 +91,14 @@ struct Contents
 class SeriesReader
 {
 public:
-  SeriesReader(const DicomSeries& series, const IndexBox& box, const core::Progress& progress)
+  /// `require` throws if the volume does not fit the memory with so many bytes a voxel.
+  SeriesReader(const DicomSeries& series, const IndexBox& box,
+               const std::function<void(std::size_t)>& require, const core::Progress& progress)
     : m_slices(series.geometry.slices)
     , m_modality(series.modality)
     , m_geometry(series.geometry.grid->cropped(box))
     , m_box(box)
+    , m_require(require)
     , m_progress(progress)
   {
   }
@@ -134,6 +138,7 @@ private:
   {
     if (!m_contents.real.fits<T>()) // known from an earlier attempt
       return std::nullopt;
+    m_require(sizeof(T));
     auto voxels = std::make_shared<Volume<T>>(m_geometry);
     bool usePadding = true;
     T stand = standIn<T>();
@@ -314,6 +319,7 @@ private:
   const std::string& m_modality;
   GridGeometry m_geometry;
   IndexBox m_box;
+  const std::function<void(std::size_t)>& m_require;
   const core::Progress& m_progress;
   std::vector<std::string>* m_notes = nullptr;
   bool m_needsRange = true; ///< whether the range of the real values is needed
@@ -346,17 +352,16 @@ IndexBox boxToRead(const GridGeometry& grid, const ReadOptions& options)
 }
 
 /// Before memory is touched: the system would promise any size and end the program later.
+///
+/// bytes  of a voxel
 void requireMemory(const DicomSeries& series, const GridGeometry& grid, const IndexBox& box,
-                   bool isRepaired, const ReadOptions& options)
+                   bool isRepaired, const ReadOptions& options, std::size_t bytes)
 {
   const std::uint64_t most = options.memory > 0 ? options.memory : core::systemMemory().available;
-  const auto isInteger = [](const SliceHeader& slice)
-  { return isWhole(slice.slope) && isWhole(slice.intercept); };
-  const auto& slices = series.geometry.slices;
-  const double bytes = std::all_of(slices.begin(), slices.end(), isInteger) ? 2.0 : 4.0;
   const double needed =
-      bytes * (static_cast<double>(box.count()) +
-               (isRepaired ? static_cast<double>(series.geometry.grid->fullBox().count()) : 0.0));
+      static_cast<double>(bytes) *
+      (static_cast<double>(box.count()) +
+       (isRepaired ? static_cast<double>(series.geometry.grid->fullBox().count()) : 0.0));
   if (most == 0 || needed <= static_cast<double>(most))
     return;
   const auto gigabytes = [](double count) { return decimals(1e-9 * count, 1) + " GB"; };
@@ -392,14 +397,17 @@ IntensityVolume readSeries(const DicomSeries& series, const ReadOptions& options
   if (geometry.verdict != Verdict::Repairable || options.acceptDefects)
   {
     const IndexBox box = boxToRead(*geometry.grid, options);
-    requireMemory(series, *geometry.grid, box, false, options);
-    return SeriesReader(series, box, progress).read(notes);
+    const std::function<void(std::size_t)> require = [&](std::size_t bytes)
+    { requireMemory(series, *geometry.grid, box, false, options, bytes); };
+    return SeriesReader(series, box, require, progress).read(notes);
   }
   const SeriesRepair repair(geometry);
   const IndexBox box = boxToRead(repair.grid(), options);
-  requireMemory(series, repair.grid(), box, true, options);
+  const std::function<void(std::size_t)> require = [&](std::size_t bytes)
+  { requireMemory(series, repair.grid(), box, true, options, bytes); };
+  const core::Progress reading = progress.part(0.0, 0.7);
   const IntensityVolume stacked =
-      SeriesReader(series, geometry.grid->fullBox(), progress.part(0.0, 0.7)).read(notes);
+      SeriesReader(series, geometry.grid->fullBox(), require, reading).read(notes);
   if (notes)
     for (std::string& note : repair.notes(box))
       notes->push_back(std::move(note));

@@ -32,6 +32,7 @@ constexpr double kSamePlane = 0.02; // slices, between contours of one plane
 constexpr double kThinVoxels = 4.0; // volume from which on a shape is judged
 constexpr double kGap = 1.5;        // of the usual distance of planes: a part of its own
 constexpr int kLines = 32;          // in a row of voxels
+constexpr const char* kFewer = "export fewer structures at a time";
 
 /// A data set of a structure set, which has no pixels.
 std::string dataSet(const std::filesystem::path& path, DicomItem::Encoding& encoding,
@@ -46,6 +47,7 @@ std::string dataSet(const std::filesystem::path& path, DicomItem::Encoding& enco
   if (size > kLargest)
     fail(Reason::Unsupported, path,
          "holds more than 1 GB of contours; export fewer structures at a time");
+  requireMemory(path, size, kFewer);
   std::string bytes(static_cast<std::size_t>(size), '\0');
   if (!source.read(elements.dataStart(), bytes.data(), bytes.size()))
     fail(Reason::Unreadable, path, "cannot be read to its end; copy it again");
@@ -553,13 +555,22 @@ double contourVolume(const StructureSet::Roi& roi, const core::GridGeometry& gri
 }
 
 LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
-                      const std::filesystem::path& path, const core::Progress& progress)
+                      const std::filesystem::path& path, const core::Progress& progress,
+                      std::uint64_t memory)
 {
   LoadedLabels loaded;
   loaded.frameOfReferenceUid = set.frameOfReferenceUid;
   loaded.patient = set.patient;
   std::vector<std::shared_ptr<volume::Volume<std::uint16_t>>> layers;
   std::vector<std::vector<volume::Segment>> names;
+  const auto addLayer = [&]
+  {
+    // What is left is after the layers before.
+    const std::uint64_t count = memory == 0 ? 1 : layers.size() + 1;
+    requireMemory(path, count * grid.voxelCount() * sizeof(std::uint16_t), kFewer, memory);
+    layers.push_back(volume::makeZeroVolume<std::uint16_t>(grid));
+    names.emplace_back();
+  };
   std::vector<std::string> oblique;
   std::vector<std::string> coarse; // drawn on every second slice or fewer
   std::size_t others = 0;
@@ -595,6 +606,8 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
       }
       if (placed->step > kGap)
         coarse.push_back("'" + name + "'");
+      requireMemory(path, boxOf(*placed, grid).count() * (sizeof(std::uint16_t) + sizeof(char)),
+                    kFewer, memory);
       const Shares shares = sharesOf(*placed, grid, part);
       constexpr double kNoted = 0.01; // of the volume
       const double whole = volumeOf(*placed);
@@ -638,8 +651,7 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
             fail(Reason::Unsupported, path,
                  "its structures overlap in more layers than are read; export fewer of them at a "
                  "time");
-          layers.push_back(volume::makeZeroVolume<std::uint16_t>(grid));
-          names.emplace_back();
+          addLayer();
         }
         forEach(
             [&](int i, int j, int k)
@@ -650,10 +662,7 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
       }
     }
     if (layers.empty())
-    {
-      layers.push_back(volume::makeZeroVolume<std::uint16_t>(grid));
-      names.emplace_back();
-    }
+      addLayer();
     names[layer].push_back(std::move(segment));
   }
   const auto list = [](const std::vector<std::string>& texts)

@@ -88,12 +88,15 @@ bool isDicomSegmentation(const std::filesystem::path& path);
 /// a map unless they overlap; different grids are kept apart. Files are read in parallel, one slice
 /// at a time.
 ///
+/// `memory`: bytes that the voxels of a DICOM segmentation may take; 0: what the machine has left.
+///
 /// Throws FileError; Unsupported reports a value below 0, above 65535 or not integral, and a folder
 /// without a structure. CancelledError.
 LoadedLabels loadLabels(const std::filesystem::path& path, const core::Progress& progress = {},
                         const LabelNaming& naming = {},
                         const std::vector<core::GridGeometry>& images = {},
-                        const std::optional<bool>& isRas = std::nullopt);
+                        const std::optional<bool>& isRas = std::nullopt,
+                        std::uint64_t memory = 0);
 
 /// Like loadLabels, without the notes, for a file whose structures do not overlap. Throws FileError
 /// (Unsupported) for several layers.

@@ -50,9 +50,11 @@ StructureSet readStructureSet(const std::filesystem::path& path);
 /// the one with the largest share. Overlapping structures lie in several maps.
 ///
 /// Planes may be across any axis of the grid. Throws FileError (Unsupported) if all structures with
-/// contours are oblique to it, or if none has a contour; CancelledError.
+/// contours are oblique to it, or if none has a contour, Unreadable if the voxels need more than
+/// `memory` bytes (0: what the machine has left); CancelledError.
 LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
-                      const std::filesystem::path& path, const core::Progress& progress = {});
+                      const std::filesystem::path& path, const core::Progress& progress = {},
+                      std::uint64_t memory = 0);
 
 /// mm^3, of the slabs of a structure's contours as labelsOf places them, before they become voxels;
 /// 0 where they are oblique to the grid.

@@ -1,4 +1,5 @@
 // Compressed pixels, written by GDCM's encoders from the same uncompressed files.
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <functional>
@@ -244,6 +245,32 @@ TEST(PixelForms, EqualTheExplicitLittleEndianSeriesToTheBit)
       {"big endian", [](int, TestSlice& s) { s.bigEndian = true; }},
       {"unsigned", [](int, TestSlice& s) { s.isSigned = false; }},
       {"8 bits", [](int, TestSlice& s) { s.bitsAllocated = s.bitsStored = 8; }},
+      {"8 bits, big endian",
+       [](int, TestSlice& s)
+       {
+         s.bitsAllocated = s.bitsStored = 8;
+         s.bigEndian = true;
+       }},
+      {"8 bits in words, big endian",
+       [](int, TestSlice& s)
+       {
+         s.bitsAllocated = s.bitsStored = 8;
+         s.bigEndian = true;
+         s.pixelVr = "OW";
+       }},
+      {"8 bits in words",
+       [](int, TestSlice& s)
+       {
+         s.bitsAllocated = s.bitsStored = 8;
+         s.pixelVr = "OW";
+       }},
+      {"12 bits", [](int, TestSlice& s) { s.bitsAllocated = s.bitsStored = 12; }},
+      {"12 bits, big endian",
+       [](int, TestSlice& s)
+       {
+         s.bitsAllocated = s.bitsStored = 12;
+         s.bigEndian = true;
+       }},
       {"12 in 16 bits", [](int, TestSlice& s) { s.bitsStored = 12; }},
       {"12 bits with a high bit of 15", shifted},
       {"12 bits with a high bit of 15, big endian",
@@ -285,37 +312,121 @@ TEST(PixelForms, EqualTheExplicitLittleEndianSeriesToTheBit)
   }
 }
 
-TEST(PixelForms, FloatingPointIsRefusedByName)
+TEST(PixelForms, FloatingPointIsKeptToTheBit)
 {
-  for (const std::uint32_t tag : {0x7fe00008U, 0x7fe00009U})
+  const auto value = [](int i, int j, int k) // floats that decimal digits do not hold
   {
-    const TemporaryFolder folder;
+    return static_cast<double>(static_cast<float>(std::sqrt(2.0 + i) * 1e-3 - j / 7.0 + 900 * k));
+  };
+  for (const std::uint32_t tag : {0x7fe00008U, 0x7fe00009U})
+    for (const bool isBigEndian : {false, true})
+      for (const bool isImplicit : {false, true})
+      {
+        if (isBigEndian && isImplicit)
+          continue;
+        const TemporaryFolder folder;
+        writeSeries(folder.path(), 3,
+                    [&](int k, TestSlice& s)
+                    {
+                      s.bitsAllocated = s.bitsStored = tag == 0x7fe00008U ? 32 : 64;
+                      s.pixelTag = tag;
+                      s.bigEndian = isBigEndian;
+                      s.implicitVr = isImplicit;
+                      s.real = [value, k](int i, int j) { return value(i, j, k); };
+                    });
+        const IntensityVolume image = readFolder(folder.path());
+        ASSERT_EQ(image.voxels().index(),
+                  IntensityVolume::Voxels(std::shared_ptr<const volume::Volume<float>>()).index());
+        for (int k = 0; k < 3; ++k)
+          for (int j = 0; j < 6; ++j)
+            for (int i = 0; i < 8; ++i)
+              ASSERT_EQ(image.at(i, j, k), value(i, j, k)) << i << " " << j << " " << k;
+      }
+}
+
+TEST(PixelForms, FloatingPointHasItsRescalePaddingAndRounding)
+{
+  const TemporaryFolder folder;
+  writeSeries(folder.path(), 3,
+              [](int, TestSlice& s)
+              {
+                s.bitsAllocated = s.bitsStored = 64;
+                s.pixelTag = 0x7fe00009;
+                std::string bytes;
+                s.appendReal(bytes, -3000.0);
+                s.element(s.extraPixel, 0x00280123, "FD", bytes);
+                s.intercept = 10.0;
+                s.real = [](int i, int j) { return i + j == 0 ? -3000.0 : i == 3 ? 0.1 : j; };
+              });
+  std::vector<std::string> notes;
+  const ScanResult result = scanDicom(folder.path(), {});
+  const IntensityVolume image = readSeries(result.series.front(), {}, {}, &notes);
+  EXPECT_EQ(image.padding(), -2990.0);
+  EXPECT_EQ(image.at(0, 0, 1), -2990.0);
+  EXPECT_EQ(image.at(3, 2, 1), static_cast<double>(static_cast<float>(10.1)));
+  EXPECT_EQ(image.at(1, 5, 2), 15.0);
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].find("rounded to 32-bit floating point, by up to 3.8"), std::string::npos)
+      << notes[0]; // 10.1 in float is 10.1000003815
+  writeSeries(folder.path(), 3,
+              [](int, TestSlice& s)
+              {
+                s.bitsAllocated = s.bitsStored = 32;
+                s.pixelTag = 0x7fe00008;
+                s.real = [](int i, int) { return i == 3 ? std::nan("") : 1.0; };
+              });
+  try
+  {
+    readFolder(folder.path());
+    FAIL() << "read";
+  }
+  catch (const DicomError& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("not finite"), std::string::npos) << error.what();
+  }
+}
+
+TEST(PixelForms, UnsignedValuesOf32BitsAreReadWhole)
+{
+  const TemporaryFolder folder;
+  writeSeries(folder.path(), 2,
+              [](int, TestSlice& s)
+              {
+                s.bitsAllocated = s.bitsStored = 32;
+                s.isSigned = false;
+                s.cell = [](int i, int) { return i == 0 ? 4294967040U : 16777217U + i; };
+              });
+  std::vector<std::string> notes;
+  const ScanResult result = scanDicom(folder.path(), {});
+  const IntensityVolume image = readSeries(result.series.front(), {}, {}, &notes);
+  EXPECT_EQ(image.at(0, 0, 0), 4294967040.0); // a float
+  EXPECT_EQ(image.at(1, 0, 0), 16777218.0);
+  EXPECT_EQ(image.at(2, 0, 0), 16777220.0) << "16777219 is between two floats";
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].find("by up to 1."), std::string::npos) << notes[0];
+}
+
+TEST(PixelForms, TwelveBitsOfNoDicomFileAreRefused)
+{
+  const TemporaryFolder folder;
+  for (const bool isMarked : {true, false})
+  {
     writeSeries(folder.path(), 2,
-                [tag](int, TestSlice& s)
+                [&](int, TestSlice& s)
                 {
-                  s.bitsAllocated = s.bitsStored = 32;
-                  s.pixelTag = tag;
+                  s.marker = isMarked;
+                  s.bitsAllocated = s.bitsStored = 12;
                 });
-    try
-    {
-      readFolder(folder.path());
-      FAIL() << "read";
-    }
-    catch (const DicomError& error)
-    {
-      EXPECT_NE(std::string(error.what()).find("floating-point"), std::string::npos)
-          << error.what();
-    }
+    EXPECT_EQ(scanDicom(folder.path(), {}).series.front().geometry.verdict,
+              isMarked ? Verdict::Ok : Verdict::Refused);
   }
 }
 
 TEST(PixelForms, FewerPixelsThanTheHeaderSaysAreRefusedByName)
 {
-  for (const int bits : {8, 16, 32})
+  for (const int bits : {8, 12, 16, 32})
     for (const bool isBigEndian : {false, true})
     {
-      if (bits == 8 && isBigEndian)
-        continue;
       const TemporaryFolder folder;
       writeSeries(folder.path(), 2,
                   [&](int, TestSlice& s)

@@ -50,6 +50,7 @@ public:
     Tag tag = 0; ///< 0: no pixel data
     std::uint64_t offset = 0;
     std::uint32_t length = 0; ///< kUndefinedLength if encapsulated
+    bool isWords = false;     ///< VR OW
   };
   const Pixels& pixels() const noexcept { return m_pixels; }
   bool empty() const noexcept ///< no elements except file meta information
@@ -87,6 +88,7 @@ private:
     std::uint32_t length = 0;
     std::uint64_t value = 0; ///< offset
     bool isUnknown = false;  ///< VR UN: content of undefined length is implicit VR
+    bool isWords = false;    ///< VR OW
   };
 
   bool findStart(std::uint64_t& offset);

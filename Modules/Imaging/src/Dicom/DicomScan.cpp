@@ -618,11 +618,11 @@ void compareDuplicates(SeriesGeometry& geometry)
     }
     decodePixels(*kept, first);
     decodePixels(slice, second);
-    count = std::min(first.values.size(), second.values.size());
+    count = std::min(first.size(), second.size());
     std::size_t here = 0;
     for (std::size_t p = 0; p < count; ++p)
-      here += kept->slope * first.values[p] + kept->intercept !=
-                      slice.slope * second.values[p] + slice.intercept
+      here += kept->slope * first.at(p) + kept->intercept !=
+                      slice.slope * second.at(p) + slice.intercept
                   ? 1
                   : 0;
     differing = std::max(differing, here);

@@ -228,10 +228,12 @@ void pass(Archive& archive, SliceTraits& value)
 template <class Archive>
 void pass(Archive& archive, PixelFormat& value)
 {
-  auto& [bitsAllocated, bitsStored, highBit, isSigned, samples, photometric, syntax, isEncapsulated,
-         isBigEndian, isDeflated, offset, frame, frameCount, length] = value;
-  passAll(archive, bitsAllocated, bitsStored, highBit, isSigned, samples, photometric, syntax,
-          isEncapsulated, isBigEndian, isDeflated, offset, frame, frameCount, length);
+  auto& [bitsAllocated, bitsStored, highBit, isSigned, isReal, samples, photometric, syntax,
+         isEncapsulated, isBigEndian, isWords, isDeflated, offset, frame, frameCount, length] =
+      value;
+  passAll(archive, bitsAllocated, bitsStored, highBit, isSigned, isReal, samples, photometric,
+          syntax, isEncapsulated, isBigEndian, isWords, isDeflated, offset, frame, frameCount,
+          length);
 }
 
 template <class Archive>

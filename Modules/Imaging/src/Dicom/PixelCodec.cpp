@@ -95,11 +95,25 @@ void unpack(const unsigned char* bytes, bool swap, const BitField& field,
         });
 }
 
+/// 12 bits a pixel, little endian, the first of two in the lower bits.
+void unpackPairs(const unsigned char* bytes, const BitField& field,
+                 std::vector<std::int32_t>& values)
+{
+  for (std::size_t p = 0; p < values.size(); ++p)
+  {
+    const unsigned char* at = bytes + p / 2 * 3 + p % 2;
+    const std::uint32_t pair = at[0] | static_cast<std::uint32_t>(at[1]) << 8;
+    values[p] = field(p % 2 == 0 ? pair & 0xFFFU : pair >> 4);
+  }
+}
+
 void unpackCells(const SliceHeader& slice, int bitsAllocated, const BitField& field, bool swap,
                  StoredPixels& pixels)
 {
   const unsigned char* bytes = pixels.scratch.data();
-  if (bitsAllocated == 8)
+  if (bitsAllocated == 12)
+    unpackPairs(bytes, field, pixels.values);
+  else if (bitsAllocated == 8)
     unpack<std::uint8_t>(bytes, false, field, pixels.values);
   else if (bitsAllocated == 16)
     unpack<std::uint16_t>(bytes, swap, field, pixels.values);
@@ -108,9 +122,30 @@ void unpackCells(const SliceHeader& slice, int bitsAllocated, const BitField& fi
   else
     fail(slice, "has pixels of an unusual number of bits");
   // Unsigned 32-bit values that do not fit appear as negative.
-  if (field.unused == 0 && !field.isSigned &&
-      *std::min_element(pixels.values.begin(), pixels.values.end()) < 0)
-    fail(slice, "holds values beyond 2147483647");
+  if (field.unused != 0 || field.isSigned ||
+      *std::min_element(pixels.values.begin(), pixels.values.end()) >= 0)
+    return;
+  pixels.reals.resize(pixels.values.size());
+  std::transform(pixels.values.begin(), pixels.values.end(), pixels.reals.begin(),
+                 [](std::int32_t value)
+                 { return static_cast<double>(static_cast<std::uint32_t>(value)); });
+  pixels.values.clear();
+}
+
+/// Floating-point pixels, which have no compression.
+template <class Real>
+void unpackReals(bool swap, StoredPixels& pixels)
+{
+  for (std::size_t p = 0; p < pixels.reals.size(); ++p)
+  {
+    std::array<unsigned char, sizeof(Real)> bytes{};
+    std::memcpy(bytes.data(), pixels.scratch.data() + p * sizeof(Real), sizeof(Real));
+    if (swap)
+      std::reverse(bytes.begin(), bytes.end());
+    Real value = 0;
+    std::memcpy(&value, bytes.data(), sizeof value);
+    pixels.reals[p] = static_cast<double>(value);
+  }
 }
 
 BitField bitField(int bitsStored, int highBit, bool isSigned)
@@ -305,16 +340,19 @@ void requireWholePixels(const SliceHeader& slice)
 {
   const PixelFormat& format = slice.pixels;
   const int bits = format.bitsAllocated;
-  if ((bits != 8 && bits != 16 && bits != 32) || format.bitsStored < 1 ||
+  if ((bits != 8 && bits != 12 && bits != 16 && bits != 32) || format.bitsStored < 1 ||
       format.bitsStored > bits || format.highBit >= bits ||
       format.highBit < format.bitsStored - 1 || format.samplesPerPixel != 1)
-    fail(slice, "does not have one pixel value of 1, 2 or 4 bytes");
+    fail(slice, "does not have one pixel value of 8, 12, 16 or 32 bits");
 }
 
 void decodeFrame(ByteSource& source, const SliceHeader& slice,
                  const std::vector<Fragment>& fragments, StoredPixels& pixels)
 {
   requireWholePixels(slice);
+  if (slice.pixels.bitsAllocated % 8 != 0)
+    fail(slice, "has a damaged compressed image");
+  pixels.reals.clear();
   pixels.values.resize(static_cast<std::size_t>(slice.rows) *
                        static_cast<std::size_t>(slice.columns));
   const CodecMessages messages;
@@ -395,20 +433,43 @@ namespace
 
 void decodeUnchecked(ByteSource& source, const SliceHeader& slice, StoredPixels& pixels)
 {
-  requireWholePixels(slice);
   const PixelFormat& format = slice.pixels;
-  pixels.values.resize(static_cast<std::size_t>(slice.rows) *
-                       static_cast<std::size_t>(slice.columns));
+  const std::size_t count =
+      static_cast<std::size_t>(slice.rows) * static_cast<std::size_t>(slice.columns);
+  const auto bits = static_cast<std::size_t>(format.bitsAllocated);
   if (format.isDeflated)
     const DicomElements inflated(source); // side effect: inflates the source
+  if (format.isReal)
+  {
+    if ((bits != 32 && bits != 64) || format.samplesPerPixel != 1 || format.isEncapsulated)
+      fail(slice, "does not have one floating-point value of 32 or 64 bits");
+    pixels.values.clear();
+    pixels.reals.resize(count);
+    pixels.scratch.resize(count * bits / 8);
+    if (!source.read(format.offset, pixels.scratch.data(), pixels.scratch.size()))
+      fail(slice, "is cut short");
+    if (bits == 32)
+      unpackReals<float>(format.isBigEndian, pixels);
+    else
+      unpackReals<double>(format.isBigEndian, pixels);
+    return;
+  }
+  requireWholePixels(slice);
+  pixels.reals.clear();
+  pixels.values.resize(count);
   if (format.isEncapsulated)
   {
     decodeFrame(source, slice, readFragments(source, slice), pixels);
     return;
   }
-  pixels.scratch.resize(pixels.values.size() * static_cast<std::size_t>(format.bitsAllocated / 8));
+  pixels.scratch.resize((count * bits + 7) / 8);
+  const bool isPaired = format.isBigEndian && format.isWords && bits % 16 != 0;
+  if (isPaired)
+    pixels.scratch.resize(pixels.scratch.size() + pixels.scratch.size() % 2);
   if (!source.read(format.offset, pixels.scratch.data(), pixels.scratch.size()))
     fail(slice, "is cut short");
+  for (std::size_t at = 0; isPaired && at + 1 < pixels.scratch.size(); at += 2)
+    std::swap(pixels.scratch[at], pixels.scratch[at + 1]);
   unpackCells(slice, format.bitsAllocated,
               bitField(format.bitsStored, format.highBit, format.isSigned), format.isBigEndian,
               pixels);

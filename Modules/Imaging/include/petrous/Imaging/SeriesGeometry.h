@@ -21,11 +21,13 @@ struct PixelFormat
   int bitsStored = 0;
   int highBit = 0;
   bool isSigned = false;
+  bool isReal = false; ///< float or double, in as many bits as are allocated
   int samplesPerPixel = 1;
   std::string photometric;    ///< e.g. MONOCHROME2
   std::string transferSyntax; ///< UID
   bool isEncapsulated = false;
   bool isBigEndian = false;
+  bool isWords = false;     ///< written as words of 16 bits (OW), also if a pixel has fewer
   bool isDeflated = false;  ///< the offset then refers to the inflated file
   std::uint64_t offset = 0; ///< of the value of the pixel data element, bytes
   int frame = 0;            ///< of an encapsulated file with several

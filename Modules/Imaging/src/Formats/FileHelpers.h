@@ -46,14 +46,6 @@ std::string readWholeFile(const std::filesystem::path& path);
 /// The first `limit` bytes of a file, or fewer if it is shorter.
 std::string readBytes(const std::filesystem::path& path, std::uintmax_t limit);
 
-/// Before memory is touched: the system promises any size, and ends the program when it cannot keep
-/// that. Throws FileError (Unreadable) if `bytes` are more than are free.
-///
-/// advice  what helps: "give a region of interest"
-/// free    bytes; 0: what the machine has left
-void requireMemory(const std::filesystem::path& path, std::uint64_t bytes,
-                   const std::string& advice, std::uint64_t free = 0);
-
 /// The voxel file named by a detached header, relative to the header. Throws NotFound.
 std::filesystem::path detachedFile(const std::filesystem::path& header, const std::string& name);
 

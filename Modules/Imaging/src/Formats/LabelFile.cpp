@@ -12,6 +12,7 @@
 #include "FileHelpers.h"
 #include "LabelFolder.h"
 #include "LabelNames.h"
+#include "MemoryCheck.h"
 #include "OutputFile.h"
 #include "SegmentationReader.h"
 #include "VoxelSource.h"

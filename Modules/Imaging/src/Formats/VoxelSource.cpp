@@ -7,6 +7,7 @@
 
 #include "FileHelpers.h"
 #include "GridFromAffine.h"
+#include "MemoryCheck.h"
 #include "MetaHeader.h"
 #include "NiftiHeader.h"
 #include "NrrdLayout.h"

@@ -15,6 +15,7 @@
 
 #include "FileHelpers.h"
 #include "LabelNames.h"
+#include "MemoryCheck.h"
 #include "VoxelSource.h"
 #include "petrous/Imaging/FileFormats.h"
 

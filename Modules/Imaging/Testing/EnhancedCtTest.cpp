@@ -96,6 +96,10 @@ struct MultiFrame
       ASSERT_TRUE(ct->addForAllFrames(plane).good());
       ASSERT_TRUE(ct->addForAllFrames(shared).good());
     }
+    ASSERT_TRUE(ct->getDimensions()
+                    .addDimensionIndex(DCM_InStackPositionNumber, "1.2.3.10",
+                                       DCM_FrameContentSequence, "slice")
+                    .good());
     EctEnhancedCT::FramesType all = ct->getFrames();
     auto* frames = OFget<EctEnhancedCT::Frames<Sint16>>(&all);
     ASSERT_NE(frames, nullptr);
@@ -111,6 +115,7 @@ struct MultiFrame
       FGFrameContent content;
       content.setStackID("1");
       content.setInStackPositionNumber(static_cast<Uint32>(k + 1));
+      content.setDimensionIndexValues(static_cast<Uint32>(k + 1), 0);
       FGPixelValueTransformation own = transformation(k);
       OFVector<FGBase*> groups;
       groups.push_back(&place);

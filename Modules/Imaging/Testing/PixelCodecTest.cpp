@@ -457,6 +457,123 @@ TEST(PixelForms, FewerPixelsThanTheHeaderSaysAreRefusedByName)
     }
 }
 
+/// An enhanced CT of three frames of 2 x 2 bytes in RLE, the second in two fragments, with an
+/// extended offset table (PS3.3 C.7.6.3.1.8) in place of the basic one.
+std::string extendedOffsetFile()
+{
+  TestSlice code;
+  code.pixels = false;
+  code.rows = code.columns = 2;
+  code.bitsAllocated = code.bitsStored = 8;
+  code.isSigned = false;
+  code.sopClass = "1.2.840.10008.5.1.4.1.1.2.1";
+  code.syntax = "1.2.840.10008.1.2.5";
+  code.element(code.extraPixel, 0x00280008, "IS", "3");
+  std::string file = code.bytes();
+  const auto number = [](std::uint64_t value, int bytes)
+  {
+    std::string out;
+    for (int b = 0; b < bytes; ++b)
+      out += static_cast<char>(value >> 8 * b);
+    return out;
+  };
+  const auto item = [&](const std::string& content)
+  { return std::string("\xfe\xff\x00\xe0", 4) + number(content.size(), 4) + content; };
+  const auto sequence = [&](std::uint32_t tag, const std::string& items)
+  {
+    std::string out;
+    code.element(out, tag, "SQ", items);
+    return out;
+  };
+  std::string groups;
+  for (int k = 0; k < 3; ++k)
+  {
+    std::string place;
+    code.element(place, 0x00200032, "DS", "0\\0\\" + std::to_string(k));
+    groups += item(sequence(0x00209113, item(place)));
+  }
+  file += sequence(0x52009230, groups);
+  // one segment of a literal run: 64 bytes of offsets, a count, the bytes
+  const auto frame = [&](char value)
+  {
+    std::string rle = number(1, 4) + number(64, 4) + std::string(56, '\0');
+    return rle + std::string("\x03", 1) + std::string(4, value) + std::string(1, '\0');
+  };
+  std::string fragments = item(""); // no basic offset table
+  std::string offsets;
+  std::string items;
+  for (int k = 0; k < 3; ++k)
+  {
+    offsets += number(items.size(), 8);
+    const std::string all = frame(static_cast<char>(10 + k));
+    items += k == 1 ? item(all.substr(0, 40)) + item(all.substr(40)) : item(all);
+  }
+  code.element(file, 0x7fe00001, "OV", offsets);
+  file += std::string("\xe0\x7f\x10\x00OB\0\0\xff\xff\xff\xff", 12) + fragments + items +
+          std::string("\xfe\xff\xdd\xe0\0\0\0\0", 8);
+  return file;
+}
+
+TEST(PixelForms, AnExtendedOffsetTableSaysWhereFramesBegin)
+{
+  const TemporaryFolder folder;
+  const std::string file = extendedOffsetFile();
+  test::writeText(folder.path() / "ct.dcm", file);
+  const IntensityVolume image = readFolder(folder.path());
+  ASSERT_EQ(image.geometry().dims(), (core::Index3{2, 2, 3}));
+  for (int k = 0; k < 3; ++k)
+    EXPECT_EQ(image.at(1, 1, k), 10.0 + k);
+  // A table that points beside a fragment is refused.
+  const std::size_t at = file.find(std::string("\xe0\x7f\x01\x00OV", 6)) + 12 + 8;
+  std::string other = file;
+  other[at] = static_cast<char>(other[at] + 2);
+  test::writeText(folder.path() / "ct.dcm", other);
+  EXPECT_THROW(readFolder(folder.path()), DicomError);
+}
+
+/// One slice whose only fragment is `codestream`.
+bool isLossyFile(const std::string& syntax, std::string codestream)
+{
+  TestSlice code;
+  code.pixels = false;
+  code.syntax = syntax;
+  codestream += std::string(codestream.size() % 2, '\0');
+  std::string file = code.bytes() + std::string("\xe0\x7f\x10\x00OB\0\0\xff\xff\xff\xff", 12) +
+                     std::string("\xfe\xff\x00\xe0\0\0\0\0\xfe\xff\x00\xe0", 12);
+  for (int b = 0; b < 4; ++b)
+    file += static_cast<char>(codestream.size() >> 8 * b);
+  file += codestream + std::string("\xfe\xff\xdd\xe0\0\0\0\0", 8);
+  const TemporaryFolder folder;
+  test::writeText(folder.path() / "s.dcm", file);
+  const ScanResult result = scanDicom(folder.path(), {});
+  const auto& slices = result.series.front().geometry.slices;
+  return !slices.empty() && slices.front().isLossy;
+}
+
+TEST(PixelForms, TheCodestreamSaysWhetherItHasLoss)
+{
+  // T.87: SOI, SOF55 (8 bits, 6 x 8, one component), SOS with NEAR
+  const auto jpegLs = [](char near)
+  {
+    return std::string("\xff\xd8\xff\xf7\0\x0b\x08\0\x06\0\x08\x01\x01\x11\0", 15) +
+           std::string("\xff\xda\0\x08\x01\x01\0", 7) + near + std::string("\0\0\xff\xd9", 4);
+  };
+  EXPECT_TRUE(isLossyFile("1.2.840.10008.1.2.4.81", jpegLs(2)));
+  EXPECT_FALSE(isLossyFile("1.2.840.10008.1.2.4.81", jpegLs(0)));
+  // T.800: SOC, SIZ, COD whose last byte is the wavelet
+  const auto jpeg2000 = [](char wavelet)
+  {
+    std::string siz("\xff\x4f\xff\x51\0\x29\0\0", 8);
+    for (const char size : {'\x08', '\x06', '\0', '\0', '\x08', '\x06', '\0', '\0'})
+      siz += std::string(3, '\0') + size;
+    siz += std::string("\0\x01\x07\x01\x01", 5);
+    return siz + std::string("\xff\x52\0\x0c\0\0\0\x01\0\x01\x04\x04\0", 13) + wavelet +
+           std::string("\xff\x90\0\x0a\0\0\0\0\0\0\0\x01\xff\x93\xff\xd9", 16);
+  };
+  EXPECT_TRUE(isLossyFile("1.2.840.10008.1.2.4.91", jpeg2000(0)));
+  EXPECT_FALSE(isLossyFile("1.2.840.10008.1.2.4.91", jpeg2000(1)));
+}
+
 TEST(PixelCodecDeflated, ReadsADeflatedSeries)
 {
   const TemporaryFolder folder;

@@ -1,4 +1,5 @@
 #include "petrous/Presenters/CaseDicom.h"
+#include "petrous/Core/NumberText.h"
 
 #include <algorithm>
 #include <cmath>

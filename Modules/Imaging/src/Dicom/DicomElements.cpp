@@ -241,11 +241,19 @@ void DicomElements::readDataSet(std::uint64_t offset)
     if (element.tag == kPixelData || element.tag == kFloatPixelData ||
         element.tag == kDoublePixelData)
     {
-      m_pixels = {element.tag, element.value, element.length, element.isWords};
+      m_pixels.tag = element.tag;
+      m_pixels.offset = element.value;
+      m_pixels.length = element.length;
+      m_pixels.isWords = element.isWords;
       break;
     }
     if (element.tag > kPixelData)
       break;
+    if (element.tag == kExtendedOffsets && element.length != kUndefinedLength)
+    {
+      m_pixels.offsetTable = element.value;
+      m_pixels.offsetCount = element.length / 8;
+    }
     offset = element.value;
     const bool isGroups = element.tag == kSharedGroups || element.tag == kFrameGroups;
     if (element.length == kUndefinedLength && !isGroups)

@@ -7,8 +7,10 @@
 #include <limits>
 #include <utility>
 
+#include "Codestream.h"
 #include "DicomElements.h"
 #include "DicomItem.h"
+#include "SegmentationReader.h"
 #include "petrous/Core/NumberText.h"
 
 namespace petrous::imaging
@@ -85,6 +87,25 @@ bool fragmentsComplete(ByteSource& source, std::uint64_t offset)
     bytes += length;
   }
   return bytes > 0; // some writers omit the sequence delimiter
+}
+
+/// The beginning of the first compressed frame.
+std::vector<char> firstBytes(ByteSource& source, std::uint64_t offset)
+{
+  constexpr std::size_t kMost = 1024; // bytes: a JPEG-LS or JPEG 2000 header
+  std::array<unsigned char, 4> raw{};
+  const auto lengthAt = [&](std::uint64_t at) -> std::uint64_t
+  {
+    if (!source.read(at + 4, raw.data(), raw.size()))
+      return 0;
+    return raw[0] | (raw[1] << 8) | (raw[2] << 16) | (static_cast<std::uint64_t>(raw[3]) << 24);
+  };
+  const std::uint64_t item = offset + 8 + lengthAt(offset); // after the basic offset table
+  std::vector<char> bytes(static_cast<std::size_t>(std::min<std::uint64_t>(
+      kMost, item + 8 <= source.size() ? std::min(lengthAt(item), source.size() - item - 8) : 0)));
+  if (!source.read(item + 8, bytes.data(), bytes.size()))
+    bytes.clear();
+  return bytes;
 }
 
 std::optional<Eigen::Vector3d> vectorAt(const std::vector<double>& values, std::size_t first)
@@ -219,13 +240,14 @@ void readPixelFormat(const DicomElements& elements, SliceHeader& slice)
   const Tag pixelTag = elements.pixels().tag;
   pixels.isReal = pixelTag == kFloatPixelData || pixelTag == kDoublePixelData;
   pixels.isWords = elements.pixels().isWords;
-  slice.padding = pixelTag == kFloatPixelData    ? elements.real(0x00280122)
-                  : pixelTag == kDoublePixelData ? elements.real(0x00280123)
-                                                 : elements.integer(0x00280120, pixels.isSigned);
-  slice.paddingRangeLimit = pixelTag == kFloatPixelData ? elements.real(0x00280124)
-                            : pixelTag == kDoublePixelData
-                                ? elements.real(0x00280125)
-                                : elements.integer(0x00280121, pixels.isSigned);
+  const auto paddingOf = [&](Tag whole, Tag single, Tag twice) -> std::optional<double>
+  {
+    if (pixels.isReal)
+      return elements.real(pixelTag == kFloatPixelData ? single : twice);
+    return elements.integer(whole, pixels.isSigned);
+  };
+  slice.padding = paddingOf(0x00280120, 0x00280122, 0x00280123);
+  slice.paddingRangeLimit = paddingOf(0x00280121, 0x00280124, 0x00280125);
 }
 
 /// What is wrong with the rescale, or an empty string.
@@ -277,6 +299,8 @@ const char* checkPixels(ByteSource& source, const DicomElements::Pixels& found, 
 {
   PixelFormat& pixels = slice.pixels;
   pixels.offset = found.offset;
+  if (found.offsetCount == static_cast<std::uint64_t>(slice.frames))
+    pixels.offsetTable = found.offsetTable;
   pixels.isEncapsulated = found.length == DicomElements::kUndefinedLength;
   pixels.length = pixels.isEncapsulated ? source.size() - found.offset : found.length;
   if (pixels.isEncapsulated && pixels.isReal)
@@ -291,6 +315,11 @@ const char* checkPixels(ByteSource& source, const DicomElements::Pixels& found, 
   {
     if (!fragmentsComplete(source, pixels.offset))
       return kCutShort;
+    // These may have loss or not, whatever the header says.
+    if (pixels.transferSyntax == "1.2.840.10008.1.2.4.81" ||
+        pixels.transferSyntax == "1.2.840.10008.1.2.4.91")
+      slice.isLossy = slice.isLossy ||
+                      isLossyCodestream(firstBytes(source, pixels.offset), pixels.transferSyntax);
   }
   else
   {
@@ -353,6 +382,7 @@ void readSlice(ByteSource& source, DicomElements& elements, const std::string& s
                FileHeader& header)
 {
   SliceHeader& slice = header.slice;
+  header.sopClass = sopClass;
   header.seriesUid = elements.text(0x0020000e);
   header.modality = elements.text(0x00080060);
   header.description = elements.text(0x0008103e);
@@ -373,7 +403,9 @@ void readSlice(ByteSource& source, DicomElements& elements, const std::string& s
     return;
   }
   header.kind = FileKind::Dicom;
-  slice.isImage = elements.pixels().tag != 0;
+  // Of a segmentation the frames are structures, and its pixels may be single bits.
+  const bool isSegmentation = isSegmentationClass(sopClass);
+  slice.isImage = elements.pixels().tag != 0 && (!isSegmentation || slice.frames > 1);
   const bool isMap = isParametricMap(sopClass) && slice.pixels.isReal;
   const bool isEnhanced = isEnhancedClass(sopClass) || isMap;
   if (slice.isImage)
@@ -381,7 +413,14 @@ void readSlice(ByteSource& source, DicomElements& elements, const std::string& s
   // Before DICOM there was another packing of 12 bits.
   if (slice.damage.empty() && slice.pixels.bitsAllocated == 12 && elements.text(0x00020010).empty())
     slice.damage = "has pixels of an unusual number of bits";
-  if (!slice.isImage && (slice.rows > 0 || header.seriesUid.empty() || isSliceClass(sopClass)))
+  if (isSegmentation && elements.pixels().tag == 0)
+    slice.damage = "holds no pixels";
+  else if (isSegmentation && !slice.isImage &&
+           elements.pixels().length != DicomElements::kUndefinedLength &&
+           elements.pixels().offset + elements.pixels().length > source.size())
+    slice.damage = kCutShort;
+  if (!slice.isImage && !isSegmentation &&
+      (slice.rows > 0 || header.seriesUid.empty() || isSliceClass(sopClass)))
   {
     // Truncated between two elements, or stripped: in either case data are lost.
     slice.damage = "holds no pixels";

@@ -23,6 +23,7 @@ struct FileHeader
 {
   FileKind kind = FileKind::Foreign;
   bool hasFailed = false; ///< opening or reading failed: another attempt may succeed
+  std::string sopClass;   ///< UID
   std::string seriesUid;
   std::string modality;
   std::string description;

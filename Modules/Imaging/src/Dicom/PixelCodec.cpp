@@ -153,14 +153,17 @@ BitField bitField(int bitsStored, int highBit, bool isSigned)
   return {highBit + 1 - bitsStored, 32 - bitsStored, isSigned};
 }
 
-std::uint32_t littleEndian(const unsigned char* bytes)
+std::uint64_t littleEndian(const unsigned char* bytes, std::size_t count)
 {
-  return static_cast<std::uint32_t>(bytes[0] | (bytes[1] << 8)) |
-         (static_cast<std::uint32_t>(bytes[2] | (bytes[3] << 8)) << 16);
+  std::uint64_t value = 0;
+  for (std::size_t b = count; b-- > 0;)
+    value = value << 8 | bytes[b];
+  return value;
 }
 
-/// The fragments of the slice's frame (PS3.5 A.4): all of them if it is the only one, one each if
-/// there are as many as frames, else those that the basic offset table gives it.
+/// The fragments of the slice's frame (PS3.5 A.4): all of them if it is the only one, those that
+/// the extended offset table gives it, one each if there are as many as frames, else those that the
+/// basic offset table gives it.
 std::vector<Fragment> fragmentsOf(ByteSource& source, const SliceHeader& slice,
                                   const std::vector<Fragment>& items)
 {
@@ -172,21 +175,27 @@ std::vector<Fragment> fragmentsOf(ByteSource& source, const SliceHeader& slice,
   const auto count = static_cast<std::size_t>(slice.pixels.frameCount);
   if (count == 1)
     return {items.begin() + 1, items.end()};
-  if (items.size() == count + 1)
+  const bool isExtended = slice.pixels.offsetTable != 0;
+  if (!isExtended && items.size() == count + 1)
     return {items[frame + 1]};
-  if (items.size() == 1 || table.length != 4 * count)
+  if (items.size() == 1 || (!isExtended && table.length != 4 * count))
     fail(slice, "does not say where its compressed frames begin");
-  std::array<unsigned char, 8> starts{}; // of this frame and the next
-  const std::size_t known = frame + 1 < count ? 8 : 4;
-  if (!source.read(table.offset + 4 * frame, starts.data(), known))
+  const std::size_t width = isExtended ? 8 : 4;
+  const std::uint64_t at = (isExtended ? slice.pixels.offsetTable : table.offset) + width * frame;
+  std::array<unsigned char, 16> starts{}; // of this frame and the next
+  const std::size_t known = frame + 1 < count ? 2 : 1;
+  if (!source.read(at, starts.data(), known * width))
     fail(slice, "cannot be read");
   const std::uint64_t first = items[1].offset - kItemHead;
-  const std::uint64_t begin = first + littleEndian(starts.data());
-  const std::uint64_t end = known == 8 ? first + littleEndian(starts.data() + 4) : source.size();
+  const std::uint64_t begin = first + littleEndian(starts.data(), width);
+  const std::uint64_t end =
+      known == 2 ? first + littleEndian(starts.data() + width, width) : source.size();
   std::vector<Fragment> own;
   for (auto one = items.begin() + 1; one != items.end(); ++one)
     if (one->offset - kItemHead >= begin && one->offset - kItemHead < end)
       own.push_back(*one);
+  if (own.empty() || own.front().offset - kItemHead != begin)
+    fail(slice, "does not say where its compressed frames begin");
   return own;
 }
 
@@ -261,7 +270,7 @@ std::vector<Fragment> readFragments(ByteSource& source, const SliceHeader& slice
   while (source.readNear(offset, item.data(), item.size()) && item[0] == 0xfe && item[1] == 0xff &&
          item[2] == 0x00)
   {
-    const std::uint32_t length = littleEndian(item.data() + 4);
+    const auto length = static_cast<std::uint32_t>(littleEndian(item.data() + 4, 4));
     offset += item.size();
     if (offset + length > source.size())
       fail(slice, "is cut short");

@@ -139,6 +139,11 @@ public:
     judgeDamaged();
     judgeAcquisitions();
     m_result.verdict = verdict();
+    if (m_result.verdict == Verdict::Refused && m_duplicates > 0)
+    {
+      m_duplicates = 0;
+      m_result.isRepairableIfEqual = verdict() == Verdict::Repairable;
+    }
     m_result.slices = std::move(m_slices);
     return std::move(m_result);
   }

@@ -19,6 +19,7 @@
 #include "FileHelpers.h"
 #include "GridFromAffine.h"
 #include "LabelNames.h"
+#include "MemoryCheck.h"
 #include "PixelCodec.h"
 #include "petrous/Imaging/DicomScan.h"
 

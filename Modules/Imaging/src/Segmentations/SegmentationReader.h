@@ -18,6 +18,7 @@ constexpr int kLongestName = 64;
 /// SOP Class UID of a DICOM file; "" if it is not one, or is damaged before it.
 std::string sopClassOf(const std::filesystem::path& path);
 bool isSegmentationClass(const std::string& sopClass);
+bool isStructureSetClass(const std::string& sopClass);
 
 /// Reads a DICOM segmentation (PS3.3 A.51): BINARY, FRACTIONAL (voxels of at least half the
 /// maximum) and LABELMAP, in any byte order, uncompressed, deflated or losslessly compressed (RLE,

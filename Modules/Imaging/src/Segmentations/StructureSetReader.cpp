@@ -10,6 +10,7 @@
 #include "DicomItem.h"
 #include "FileHelpers.h"
 #include "LabelNames.h"
+#include "MemoryCheck.h"
 #include "SegmentationReader.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Imaging/StructureSet.h"
@@ -22,7 +23,6 @@ namespace
 
 using Reason = FileError::Reason;
 
-constexpr const char* kStructureSetClass = "1.2.840.10008.5.1.4.1.1.481.3";
 constexpr std::uint64_t kLargest = std::uint64_t{1} << 30; // bytes
 constexpr std::size_t kMostRois = 65535;
 constexpr double kFarthest = 1e4; // mm, of a point; scanners put the patient within 2 m
@@ -456,10 +456,15 @@ std::size_t keepSmall(const Placed& placed, const Shares& shares, std::vector<ch
 
 } // namespace
 
+bool isStructureSetClass(const std::string& sopClass)
+{
+  return sopClass == "1.2.840.10008.5.1.4.1.1.481.3";
+}
+
 bool isStructureSet(const std::filesystem::path& path)
 {
   const FileFormat* format = recognisedFormat(path);
-  return (!format || format->reads == kDicom) && sopClassOf(path) == kStructureSetClass;
+  return (!format || format->reads == kDicom) && isStructureSetClass(sopClassOf(path));
 }
 
 StructureSet readStructureSet(const std::filesystem::path& path)

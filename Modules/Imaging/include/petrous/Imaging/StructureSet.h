@@ -30,7 +30,7 @@ struct StructureSet
   };
   std::vector<Roi> rois;
   std::string frameOfReferenceUid; ///< identifies the patient's study: not to be shown
-  PatientKey patient;
+  PatientKey patient = {};
 };
 
 /// Whether a file is an RT structure set, whatever its name.

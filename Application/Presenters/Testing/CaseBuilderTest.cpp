@@ -480,13 +480,13 @@ TEST_F(CaseBuilder, PartsOfAHeaderlessExportLieWhereTheCtDoes)
   {
     auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(on);
     voxels->at(3, 2, 1) = 1;
-    fs::create_directories((m_folder / name).parent_path());
+    std::filesystem::create_directories((m_folder / name).parent_path());
     imaging::writeLabelFile(m_folder / name, volume::makeLabelMap(voxels, {}));
     dropPlace(name);
   };
   imaging::writeVolume(m_folder / "ct.nii", *ct);
   dropPlace("ct.nii");
-  fs::copy_file(m_folder / "ct.nii", m_folder / "mr.nii");
+  std::filesystem::copy_file(m_folder / "ct.nii", m_folder / "mr.nii");
   writeLabels("incus.nii", grid);
   writeLabels("masks/incus.nii", grid);
   const core::GridGeometry other({8, 6, 5}, Vector3d::Constant(2.0), Vector3d::Zero());

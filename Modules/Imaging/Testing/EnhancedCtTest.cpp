@@ -135,6 +135,8 @@ struct MultiFrame
     DcmDataset& data = *whole.getDataset();
     const OFCondition written = ct->writeDataset(data);
     ASSERT_TRUE(written.good()) << written.text();
+    // DCMTK 3.6.7 states unsigned pixels for its signed frames.
+    data.putAndInsertUint16(DCM_PixelRepresentation, 1);
     data.putAndInsertString(DCM_SOPClassUID, sopClass.c_str());
     data.putAndInsertString(DCM_Modality, modality.c_str());
     if (sopClass == UID_LegacyConvertedEnhancedCTImageStorage)

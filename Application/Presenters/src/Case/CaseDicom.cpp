@@ -1,5 +1,4 @@
 #include "petrous/Presenters/CaseDicom.h"
-#include "petrous/Core/NumberText.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 
 #include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Core/Error.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Presenters/CaseBuilder.h"

@@ -95,8 +95,7 @@ bool isDicomSegmentation(const std::filesystem::path& path);
 LoadedLabels loadLabels(const std::filesystem::path& path, const core::Progress& progress = {},
                         const LabelNaming& naming = {},
                         const std::vector<core::GridGeometry>& images = {},
-                        const std::optional<bool>& isRas = std::nullopt,
-                        std::uint64_t memory = 0);
+                        const std::optional<bool>& isRas = std::nullopt, std::uint64_t memory = 0);
 
 /// Like loadLabels, without the notes, for a file whose structures do not overlap. Throws FileError
 /// (Unsupported) for several layers.

@@ -957,6 +957,24 @@ TEST_F(CommandLine, StrictScanWantsEverySeriesSound)
   EXPECT_EQ(nlohmann::json::parse(strict.out)["series"][0]["verdict"], "repairable");
 }
 
+TEST_F(CommandLine, StrictScanTakesASegmentationForWhatItIs)
+{
+  makePatient("--dims 32,32,40 --spacing 2");
+  const std::string ct = quoted(m_folder / "patient/ct");
+  ASSERT_EQ(
+      run("new ear --ct " + ct + " --labels " + quoted(m_folder / "patient/labels.seg.nrrd")).code,
+      0);
+  ASSERT_EQ(run("export ear --what labels --out " + quoted(m_folder / "patient/ct/seg.dcm")).code,
+            0);
+  const auto strict = run("scan --json --strict " + ct);
+  EXPECT_EQ(strict.code, 0) << strict.err;
+  std::map<std::string, std::string> kinds;
+  for (const auto& series : nlohmann::json::parse(strict.out)["series"])
+    kinds[series["modality"]] = series["kind"];
+  EXPECT_EQ(kinds["CT"], "image");
+  EXPECT_EQ(kinds["SEG"], "segmentation");
+}
+
 TEST_F(CommandLine, RefusesAPictureWhoseNamePromisesAnotherFormat)
 {
   json("new bone --ct " + quoted(writeBone(m_folder)));

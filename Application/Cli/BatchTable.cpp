@@ -51,7 +51,7 @@ constexpr std::array<Column, 26> kColumns{{
     {"roi", Step::Build, "x0,x1,y0,y1,z0,z1 in patient LPS mm"},
     {"repair", Step::Build, "yes or no: resample tilted, uneven or gapped slices"},
     {"mr", Step::Build, "[NAME=]PATH[#UID[#VOLUME]], several with |"},
-    {"other_patient", Step::Build, "yes or no: add an MR that states another patient"},
+    {"other_patient", Step::Build, "yes or no: add an MR or structures that state another patient"},
     {"labels", Step::Build, "[NAME=]FILE[@MR], several with |"},
     {"label_names", Step::Build, "table of the names of the labels"},
     {"meshes", Step::Build, "[NAME=]FILE[@MR], several with |"},
@@ -325,7 +325,10 @@ private:
     }
     sources.parts.labels = parts("labels", presenters::PartSource::parseDrawn);
     for (presenters::PartSource& labels : sources.parts.labels)
+    {
       labels.assumeRas = frame("labels_frame");
+      labels.isOtherPatient = isYes("other_patient", cell("other_patient"));
+    }
     if (!cell("label_names").empty())
       sources.parts.labelNames = at(cell("label_names"));
     if (!cell("label_names").empty() && sources.parts.labels.empty())

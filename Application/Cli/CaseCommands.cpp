@@ -45,7 +45,8 @@ struct PartOptions
     command.add_flag("--repair", repair,
                      "Resample tilted, uneven or gapped DICOM slices to a straight volume");
     command.add_flag("--other-patient", otherPatient,
-                     "Add an MR whose files state another patient than the case's images");
+                     "Add an MR or structures whose files state another patient than the case's "
+                     "images");
     command
         .add_option("--labels", labels,
                     "Structures: one a file, or one an index; a DICOM SEG or RT structure set; a "
@@ -79,8 +80,8 @@ struct PartOptions
     if (!labelNames.empty() && labels.empty())
       throw UsageError("--label-names goes with --labels");
     presenters::PartSources result;
-    if (otherPatient && mr.empty())
-      throw UsageError("--other-patient goes with --mr");
+    if (otherPatient && mr.empty() && labels.empty())
+      throw UsageError("--other-patient goes with --mr or --labels");
     if (!mrFrame.empty() && mr.empty())
       throw UsageError("--mr-frame goes with --mr");
     if (!labelsFrame.empty() && labels.empty())
@@ -98,6 +99,7 @@ struct PartOptions
       result.labels.push_back(presenters::PartSource::parseDrawn(text));
       if (!labelsFrame.empty())
         result.labels.back().assumeRas = labelsFrame == "ras";
+      result.labels.back().isOtherPatient = otherPatient;
     }
     result.labelNames = labelNames;
     if (meshes.empty() && !(meshFrame.empty() && meshUnit.empty()))

@@ -30,6 +30,7 @@ json volumeJson(const imaging::DicomSeries& series)
 {
   const auto& geometry = series.geometry;
   json entry{{"uid", series.uid},
+             {"kind", imaging::kindName(series.kind)},
              {"modality", series.modality},
              {"description", series.description},
              {"slices", geometry.slices.size()},
@@ -91,7 +92,8 @@ std::string complaintOf(const imaging::ScanResult& result)
     const bool isCut = std::any_of(findings.begin(), findings.end(),
                                    [](const auto& finding)
                                    { return finding.kind == imaging::FindingKind::MissingEnd; });
-    unsound += series.geometry.verdict == imaging::Verdict::Ok && !isCut ? 0 : 1;
+    const bool isSound = series.geometry.verdict == imaging::Verdict::Ok && !isCut;
+    unsound += isSound || series.kind != imaging::SeriesKind::Image ? 0 : 1;
   }
   if (unsound == 0 && result.unreadable.empty())
     return {};
@@ -117,6 +119,14 @@ void scan(const Context& context, const Options& options)
       volumes.clear();
     }
     volumes.push_back(&series);
+    if (series.kind != imaging::SeriesKind::Image)
+    {
+      context.print(std::string(imaging::kindName(series.kind)) + "  " + series.modality + "  " +
+                    std::to_string(series.files) + (series.files == 1 ? " file" : " files") + "  " +
+                    series.uid);
+      context.print("    structures, which --labels reads");
+      continue;
+    }
     std::string line = std::string(imaging::verdictName(series.geometry.verdict)) + "  " +
                        series.modality + "  " + std::to_string(series.geometry.slices.size()) +
                        " slices";
@@ -153,7 +163,7 @@ void addScanCommand(CLI::App& app, Context& context)
                          [options, &context] { scan(context, *options); });
   command->add_option("PATH", options->path, "Folder or file")->required();
   command->add_flag("--strict", options->strict,
-                    "Exit 3 unless every series is ok and every DICOM file readable");
+                    "Exit 3 unless every image series is ok and every DICOM file readable");
   command->add_flag("--no-cache", options->noCache,
                     "Read every header, and remember none for the next scan of the same files");
 }

@@ -318,6 +318,67 @@ TEST_F(CaseBuilder, AsksBeforeAnMrOfAnotherPatientJoins)
   EXPECT_EQ(value.mr.size(), 1u);
 }
 
+TEST_F(CaseBuilder, AsksBeforeStructuresOfAnotherPatientJoin)
+{
+  const auto scan = std::make_shared<const volume::Volume<std::int16_t>>(
+      core::GridGeometry({8, 8, 8}, Vector3d::Ones(), Vector3d::Zero()), std::int16_t{40});
+  imaging::SeriesDescription series;
+  series.patientId = "4711";
+  series.patientName = "Doe^Jane";
+  series.studyUid = "1.2.3";
+  series.seriesUid = "1.2.3.4";
+  series.frameOfReferenceUid = "1.2.3.9";
+  imaging::writeDicomSeries(m_folder / "ct", volume::IntensityVolume(scan), series);
+  m_sources.ct = m_folder / "ct";
+  const auto write = [&](const std::string& file, const std::string& id, const std::string& name)
+  {
+    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(scan->geometry());
+    voxels->at(4, 4, 4) = 1;
+    imaging::SegmentationDescription segmentation;
+    segmentation.patientId = id;
+    segmentation.patientName = name;
+    segmentation.studyUid = "1.2.3";
+    segmentation.seriesUid = "1.2.3.5";
+    segmentation.frameOfReferenceUid = "1.2.3.9";
+    imaging::SegmentationDescription::Segment segment;
+    segment.index = 1;
+    segment.label = file;
+    segmentation.segments = {segment};
+    imaging::writeDicomSegmentation(m_folder / file, {volume::makeLabelMap(voxels, {})},
+                                    segmentation);
+    return PartSource{"", m_folder / file};
+  };
+  const auto salted = [](const std::string& hash) { return "salt " + hash; };
+  for (const bool isStored : {false, true})
+  {
+    auto value = presenters::buildCase("ear", m_sources, {});
+    if (isStored)
+    {
+      scene::saltIdentity(value.ct, salted);
+      value = scene::fromManifest(scene::toManifest(value), "case");
+    }
+    presenters::PartSources parts;
+    if (isStored)
+      parts.salted = salted;
+    PartSource other = write("incus", "4712", "Roe^Jane");
+    parts.labels = {other, write("malleus", "4711", "DOE JANE"), write("stapes", "ANONYMOUS", "")};
+    const auto failures = presenters::addSoundParts(value, parts, {});
+    ASSERT_EQ(failures.size(), 1u);
+    EXPECT_TRUE(failures[0].isOtherPatient);
+    EXPECT_EQ(failures[0].source.path, other.path);
+    for (const char* secret : {"4711", "4712", "Doe", "Roe"})
+      EXPECT_EQ(failures[0].why.find(secret), std::string::npos) << failures[0].why;
+    ASSERT_EQ(value.labels.size(), 2u);
+    EXPECT_TRUE(value.labels[0].notes.empty());
+    other.isOtherPatient = true;
+    parts.labels = {other};
+    presenters::addParts(value, parts, {});
+    ASSERT_EQ(value.labels.size(), 3u);
+    ASSERT_EQ(value.labels[2].notes.size(), 1u);
+    EXPECT_NE(value.labels[2].notes[0].find("added as asked"), std::string::npos);
+  }
+}
+
 TEST_F(CaseBuilder, CallsNothingHounsfieldUnitsThatTheFileDoesNot)
 {
   // air and soft tissue as in a CT
@@ -419,13 +480,13 @@ TEST_F(CaseBuilder, PartsOfAHeaderlessExportLieWhereTheCtDoes)
   {
     auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(on);
     voxels->at(3, 2, 1) = 1;
-    fs::create_directories((m_folder / name).parent_path());
+    std::filesystem::create_directories((m_folder / name).parent_path());
     imaging::writeLabelFile(m_folder / name, volume::makeLabelMap(voxels, {}));
     dropPlace(name);
   };
   imaging::writeVolume(m_folder / "ct.nii", *ct);
   dropPlace("ct.nii");
-  fs::copy_file(m_folder / "ct.nii", m_folder / "mr.nii");
+  std::filesystem::copy_file(m_folder / "ct.nii", m_folder / "mr.nii");
   writeLabels("incus.nii", grid);
   writeLabels("masks/incus.nii", grid);
   const core::GridGeometry other({8, 6, 5}, Vector3d::Constant(2.0), Vector3d::Zero());

@@ -1,11 +1,14 @@
 #include "petrous/Imaging/DicomReader.h"
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstring>
 
 #include <gtest/gtest.h>
 
 #include "TestDicom.h"
+#include "petrous/Imaging/DicomWriter.h"
 
 namespace petrous::imaging
 {
@@ -302,6 +305,85 @@ TEST(DicomReader, RefusesWhatDoesNotFitTheMemoryBeforeItIsRead)
   options.roi =
       core::PatientBox(Eigen::Vector3d(-9.3, 21.2, 1.1), Eigen::Vector3d(-8.5, 22.3, 2.4));
   EXPECT_NO_THROW(readSeries(again.series.front(), options, {}));
+}
+
+TEST(DicomReader, CountsTheBytesThatVoxelsTakeInTheEnd)
+{
+  // 32-bit values: as 16 bits if these hold them, else as float, which takes twice as much.
+  for (const bool isLarge : {false, true})
+  {
+    const TemporaryFolder folder;
+    writeSeries(folder.path(), 10,
+                [isLarge](int, TestSlice& slice)
+                {
+                  slice.bitsAllocated = slice.bitsStored = 32;
+                  slice.cell = [isLarge](int i, int) { return isLarge && i == 3 ? 70000U : 9U; };
+                });
+    const ScanResult result = scanDicom(folder.path(), {});
+    const DicomSeries& series = result.series.front();
+    const std::size_t count = series.geometry.grid->fullBox().count();
+    ReadOptions options;
+    options.memory = (isLarge ? 4 : 2) * count;
+    EXPECT_EQ(readSeries(series, options, {}).at(3, 0, 0), isLarge ? 70000.0 : 9.0);
+    --options.memory;
+    EXPECT_EQ(reasonOf([&] { readSeries(series, options, {}); }), DicomError::Reason::TooLarge);
+  }
+}
+
+TEST(DicomWriter, WritesFractionsWithARescaleAndStatesTheError)
+{
+  struct Case
+  {
+    const char* name;
+    std::function<float(std::size_t n)> value;
+    bool isExact;
+  };
+  const Case cases[] = {
+      {"halves", [](std::size_t n) { return -1024.0F + 0.5F * static_cast<float>(n); }, true},
+      {"sixteenths", [](std::size_t n) { return 3.0F + static_cast<float>(n) / 16.0F; }, true},
+      {"thirds", [](std::size_t n) { return static_cast<float>(n) / 3.0F - 100.0F; }, false},
+      {"small", [](std::size_t n) { return 1e-4F * std::sqrt(static_cast<float>(n)); }, false},
+      {"one value", [](std::size_t) { return 0.3F; }, false}};
+  for (const Case& one : cases)
+    for (const bool isCt : {false, true})
+    {
+      SCOPED_TRACE(one.name);
+      auto voxels = std::make_shared<volume::Volume<float>>(
+          core::GridGeometry({7, 6, 5}, Eigen::Vector3d(0.5, 0.5, 1.0), Eigen::Vector3d(1, 2, 3)));
+      for (std::size_t n = 0; n < voxels->size(); ++n)
+        voxels->data()[n] = one.value(n);
+      const auto stored = storedFractions(*voxels);
+      ASSERT_TRUE(stored);
+      SeriesDescription series;
+      series.modality = isCt ? SeriesDescription::Modality::Ct : SeriesDescription::Modality::Mr;
+      series.studyUid = "1.2.3";
+      series.seriesUid = "1.2.3.4";
+      series.frameOfReferenceUid = "1.2.3.5";
+      series.rescaleSlope = stored->slope;
+      series.rescaleIntercept = stored->intercept;
+      const TemporaryFolder folder;
+      writeDicomSeries(folder.path(),
+                       IntensityVolume(std::shared_ptr<const volume::Volume<float>>(voxels)),
+                       series);
+      const ScanResult result = scanDicom(folder.path(), {});
+      ASSERT_EQ(result.series.size(), 1U);
+      const IntensityVolume image = readSeries(result.series.front(), {}, {});
+      double worst = 0.0;
+      for (int k = 0; k < 5; ++k)
+        for (int j = 0; j < 6; ++j)
+          for (int i = 0; i < 7; ++i)
+            worst = std::max(
+                worst, std::abs(image.at(i, j, k) - static_cast<double>(voxels->at(i, j, k))));
+      const auto [low, high] = std::minmax_element(voxels->data(), voxels->data() + voxels->size());
+      const double range = static_cast<double>(*high) - static_cast<double>(*low);
+      const double digits = 6e-8 * std::max(std::abs(static_cast<double>(*low)),
+                                            std::abs(static_cast<double>(*high))); // of a float
+      EXPECT_LE(worst, (one.isExact ? 0.0 : 0.5 * range / 65535.0 * 1.001 + digits));
+      EXPECT_NEAR(stored->error, worst, digits + 1e-12);
+    }
+  volume::Volume<float> odd(core::GridGeometry({2, 2, 2}, {1, 1, 1}, {0, 0, 0}), 0.5F);
+  odd.at(1, 1, 1) = std::nanf("");
+  EXPECT_FALSE(storedFractions(odd));
 }
 
 TEST(DicomReader, NamesTheFindingWhenItRefuses)

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "TestDicom.h"
+#include "petrous/Imaging/DicomReader.h"
 
 namespace petrous::imaging
 {
@@ -338,6 +339,81 @@ TEST(DicomScan, DoesNotDivideASeriesOfTwoPatientsIntoVolumes)
   EXPECT_EQ(result.series.front().geometry.verdict, Verdict::Refused);
 }
 
+TEST(DicomScan, NamesWhatADicomdirListsAndIsNotThere)
+{
+  const TemporaryFolder folder;
+  writeSeries(folder.path() / "A", 4);
+  for (int k = 0; k < 4; ++k)
+    fs::rename(folder.path() / "A" / ("s" + std::to_string(k) + ".dcm"),
+               folder.path() / "A" / ("im" + std::to_string(k)));
+  const auto notes = [&](int listed)
+  {
+    TestSlice index;
+    index.sopClass = "1.2.840.10008.1.3.10";
+    std::string file = std::string(128, '\0') + "DICM";
+    index.element(file, 0x00020002, "UI", index.sopClass);
+    index.element(file, 0x00020010, "UI", "1.2.840.10008.1.2.1");
+    std::string items;
+    for (int k = 0; k < listed; ++k)
+    {
+      std::string record;
+      index.element(record, 0x00041430, "CS", "IMAGE");
+      index.element(record, 0x00041500, "CS", "A\\IM" + std::to_string(k));
+      items += std::string("\xfe\xff\x00\xe0", 4);
+      index.append(items, static_cast<std::uint32_t>(record.size()), 4);
+      items += record;
+    }
+    index.element(file, 0x00041220, "SQ", items);
+    writeText(folder.path() / "DICOMDIR", file);
+    return scanDicom(folder.path(), {}).notes;
+  };
+  EXPECT_TRUE(notes(4).empty()) << "case does not count";
+  const auto lost = notes(6);
+  ASSERT_EQ(lost.size(), 1U);
+  EXPECT_NE(lost[0].find("lists 6 files, of which 2 are not there (the first is 'A/IM4')"),
+            std::string::npos)
+      << lost[0];
+}
+
+TEST(DicomScan, KnowsSegmentationsAndStructureSets)
+{
+  const TemporaryFolder folder;
+  const auto write = [&](const std::string& name, const std::string& sopClass, bool hasPixels)
+  {
+    TestSlice file;
+    file.seriesUid = "1.2." + std::to_string(name.size());
+    file.sopClass = sopClass;
+    file.modality = name;
+    file.pixels = hasPixels;
+    file.bitsAllocated = file.bitsStored = hasPixels ? 1 : 16;
+    if (!hasPixels)
+      file.rows = file.columns = 0;
+    file.write(folder.path() / (name + ".dcm"));
+  };
+  write("SEG", "1.2.840.10008.5.1.4.1.1.66.4", true);
+  write("RTSTRUCT", "1.2.840.10008.5.1.4.1.1.481.3", false);
+  writeSeries(folder.path() / "ct", 3);
+  const ScanResult result = scanDicom(folder.path(), {});
+  ASSERT_EQ(result.series.size(), 3U);
+  for (const DicomSeries& series : result.series)
+  {
+    EXPECT_EQ(std::string(kindName(series.kind)), series.modality == "SEG"  ? "segmentation"
+                                                  : series.modality == "CT" ? "image"
+                                                                            : "structure-set");
+    if (series.modality != "CT")
+    {
+      EXPECT_EQ(series.geometry.verdict, Verdict::Refused) << "it is no image";
+      EXPECT_TRUE(has(series.geometry, FindingKind::NotAnImage));
+    }
+  }
+  fs::resize_file(folder.path() / "SEG.dcm", fs::file_size(folder.path() / "SEG.dcm") - 2);
+  for (const DicomSeries& series : scanDicom(folder.path(), {}).series)
+    if (series.modality == "SEG")
+    {
+      EXPECT_EQ(series.kind, SeriesKind::Image) << "damaged";
+    }
+}
+
 TEST(DicomScan, SaysWhatIsWrongWithEmptyForeignAndAbsentFolders)
 {
   const TemporaryFolder folder;
@@ -439,17 +515,114 @@ ScanResult scanNumbered(
   return result;
 }
 
-void cutHeader(const fs::path& folder)
-{
-  writeText(folder / "s8.dcm", TestSlice().bytes().substr(0, 190)); // before the series UID
-}
-
 // The numbers say that the stack is whole, unless the file was the slice after the last.
 void putNumber(TestSlice& slice, int number, int declared = 0)
 {
   slice.element(slice.extra, 0x00200013, "IS", std::to_string(number));
   if (declared > 0)
     slice.element(slice.extra, 0x00201002, "IS", std::to_string(declared));
+}
+
+/// A series sent twice, with new instance UIDs and equal numbers.
+void writeTwice(const fs::path& folder, int times, const std::function<bool(int k, int n)>& isOther)
+{
+  for (int n = 0; n < times; ++n)
+    for (int k = 0; k < 12; ++k)
+    {
+      TestSlice slice;
+      slice.z = 0.5 * k;
+      slice.element(slice.extra, 0x00080018, "UI", "1.2.3.5." + std::to_string(100 * n + k));
+      slice.element(slice.extra, 0x00200013, "IS", std::to_string(k + 1));
+      slice.cell = [k, isLast = isOther(k, n)](int i, int j)
+      { return static_cast<std::uint32_t>(i + 10 * j + 100 * k + (isLast && i == 7 ? 1 : 0)); };
+      slice.write(folder / ("s" + std::to_string(100 * n + k) + ".dcm"));
+    }
+}
+
+TEST(DicomScan, RepairsASeriesThatCameTwiceIfItsPixelsAreEqual)
+{
+  for (const int times : {2, 3})
+  {
+    const TemporaryFolder folder;
+    writeTwice(folder.path(), times, [](int, int) { return false; });
+    const ScanResult result = scanDicom(folder.path(), {});
+    ASSERT_EQ(result.series.size(), 1U);
+    const SeriesGeometry& geometry = result.series.front().geometry;
+    EXPECT_EQ(geometry.verdict, Verdict::Repairable);
+    ASSERT_EQ(geometry.findings.size(), 1U);
+    EXPECT_EQ(geometry.findings[0].kind, FindingKind::DuplicateSlice);
+    EXPECT_NE(geometry.findings[0].text.find("equal pixels"), std::string::npos);
+    ReadOptions options;
+    options.repair = true;
+    const volume::IntensityVolume image = readSeries(result.series.front(), options, {});
+    ASSERT_EQ(image.geometry().dims(), (core::Index3{8, 6, 12}));
+    for (int k = 0; k < 12; ++k)
+      EXPECT_EQ(image.at(7, 5, k), 57 + 100 * k);
+  }
+  const TemporaryFolder other;
+  writeTwice(other.path(), 2, [](int k, int n) { return n == 1 && k == 11; });
+  const ScanResult result = scanDicom(other.path(), {});
+  ASSERT_EQ(result.series.size(), 1U);
+  EXPECT_EQ(result.series.front().geometry.verdict, Verdict::Refused) << "one pixel of a slice";
+}
+
+TEST(DicomScan, SplitsTiltsIntoStacksAndSetsTheRestAside)
+{
+  const auto write = [](const fs::path& folder, double degrees, int count, double z0)
+  {
+    static int file = 0;
+    const double a = degrees * M_PI / 180.0;
+    for (int k = 0; k < count; ++k)
+    {
+      TestSlice slice;
+      slice.z = z0 + 0.5 * k;
+      slice.columns = slice.rows = 64; // large enough for the tilt to show
+      slice.orientation =
+          "1\\0\\0\\0\\" + core::fixedText(std::cos(a), 6) + "\\" + core::fixedText(std::sin(a), 6);
+      slice.cell = [degrees, k](int, int)
+      { return static_cast<std::uint32_t>(100.0 + degrees + k); };
+      putNumber(slice, ++file);
+      slice.write(folder / ("s" + std::to_string(file) + ".dcm"));
+    }
+  };
+  const TemporaryFolder folder;
+  write(folder.path(), -10.0, 14, 0.0);
+  write(folder.path(), 12.0, 9, 20.0);
+  write(folder.path(), 4.0, 2, 40.0);
+  const ScanResult result = scanDicom(folder.path(), {});
+  ASSERT_EQ(result.series.size(), 3U);
+  const std::size_t sizes[] = {14, 9, 2};
+  for (std::size_t n = 0; n < 3; ++n)
+  {
+    const DicomSeries& series = result.series[n];
+    ASSERT_EQ(series.geometry.slices.size(), sizes[n]) << series.volume;
+    if (n == 2)
+    {
+      EXPECT_EQ(series.geometry.verdict, Verdict::Refused);
+      EXPECT_NE(series.volume.find("set aside"), std::string::npos) << series.volume;
+      continue;
+    }
+    EXPECT_EQ(series.geometry.verdict, Verdict::Repairable);
+    ASSERT_EQ(series.geometry.findings.size(), 1U);
+    EXPECT_EQ(series.geometry.findings[0].kind, FindingKind::GantryTilt);
+    const double slide = 0.5 * (static_cast<double>(sizes[n]) - 1.0) *
+                         std::sin((n == 0 ? 10.0 : 12.0) * M_PI / 180.0);
+    EXPECT_NEAR(series.geometry.findings[0].errorMm, 0.5 * slide, 1e-3);
+    ASSERT_FALSE(series.geometry.notes.empty());
+    EXPECT_NE(series.geometry.notes.back().find("2 slices of the series are turned"),
+              std::string::npos);
+    ReadOptions options;
+    options.repair = true;
+    const volume::IntensityVolume image = readSeries(series, options, {});
+    ASSERT_EQ(image.geometry().dims()[2], static_cast<int>(sizes[n]));
+    for (int k = 0; k < image.geometry().dims()[2]; ++k)
+      EXPECT_EQ(image.at(32, 32, k), (n == 0 ? 90 : 112) + k);
+  }
+}
+
+void cutHeader(const fs::path& folder)
+{
+  writeText(folder / "s8.dcm", TestSlice().bytes().substr(0, 190)); // before the series UID
 }
 
 TEST(DicomScan, SaysThatEndsMayBeMissing)
@@ -475,6 +648,56 @@ TEST(DicomScan, SaysThatEndsMayBeMissing)
   EXPECT_TRUE(scan(1, 60, 60).findings.empty());
   EXPECT_TRUE(scan(0, 20, 0).findings.empty());
   EXPECT_TRUE(scan(101, 20, 20).findings.empty()) << "as many as stated";
+}
+
+TEST(DicomScan, SaysThatAVolumeIsShorterThanItsSiblings)
+{
+  // slices of each phase: from and to
+  const auto scan = [](const std::vector<std::pair<int, int>>& phases, int declared = 0)
+  {
+    const TemporaryFolder folder;
+    int file = 0;
+    for (std::size_t p = 0; p < phases.size(); ++p)
+      for (int k = phases[p].first; k < phases[p].second; ++k)
+      {
+        TestSlice slice;
+        slice.z = 0.5 * k;
+        putNumber(slice, ++file, declared);
+        slice.element(slice.extra, 0x00200100, "IS", std::to_string(p + 1));
+        slice.cell = [p](int, int) { return static_cast<std::uint32_t>(p); };
+        slice.write(folder.path() / ("s" + std::to_string(file) + ".dcm"));
+      }
+    std::vector<std::string> texts;
+    for (const DicomSeries& series : scanDicom(folder.path(), {}).series)
+    {
+      EXPECT_EQ(series.geometry.verdict, Verdict::Ok) << series.volume;
+      EXPECT_LE(series.geometry.findings.size(), 1U);
+      EXPECT_TRUE(series.geometry.findings.empty() ||
+                  has(series.geometry, FindingKind::MissingEnd));
+      texts.push_back(series.geometry.findings.empty() ? "" : series.geometry.findings[0].text);
+    }
+    return texts;
+  };
+  const auto cut = scan({{0, 20}, {0, 17}, {2, 20}});
+  ASSERT_EQ(cut.size(), 3U);
+  EXPECT_EQ(cut[0], "");
+  EXPECT_NE(cut[1].find("goes on for 1.5 mm (3 slices) beyond its last slice;"), std::string::npos)
+      << cut[1];
+  EXPECT_NE(cut[2].find("goes on for 1.0 mm (2 slices) before the first slice of this one;"),
+            std::string::npos)
+      << cut[2];
+  const auto both = scan({{0, 18}, {2, 20}}); // each lacks what the other has
+  ASSERT_EQ(both.size(), 2U);
+  EXPECT_NE(both[0].find("beyond its last slice"), std::string::npos);
+  EXPECT_NE(both[1].find("before the first slice"), std::string::npos);
+  EXPECT_EQ(scan({{0, 20}, {0, 20}}), (std::vector<std::string>{"", ""}));
+  const auto slabs = scan({{0, 20}, {14, 34}});
+  EXPECT_EQ(slabs, (std::vector<std::string>{"", ""})) << "neighbours that overlap";
+  EXPECT_EQ(scan({{0, 20}, {0, 20}}, 40), (std::vector<std::string>{"", ""}));
+  const auto counted = scan({{0, 20}, {0, 20}}, 46);
+  ASSERT_EQ(counted.size(), 2U);
+  EXPECT_NE(counted[1].find("states 46 images of the series, and 40 are there"), std::string::npos)
+      << counted[1];
 }
 
 TEST(DicomScan, RefusesSlicesOfOnePlaceThatShowDifferentThings)
@@ -848,6 +1071,17 @@ public:
   int misses = 0;
 };
 
+/// Bytes that this process has read by system calls; nullopt: not told.
+std::optional<std::uint64_t> bytesRead()
+{
+  std::ifstream io("/proc/self/io");
+  std::string word;
+  std::uint64_t value = 0;
+  if (io >> word >> value && word == "rchar:")
+    return value;
+  return std::nullopt;
+}
+
 /// As if all files had been written an hour ago.
 void settle(const fs::path& folder)
 {
@@ -915,6 +1149,34 @@ TEST(DicomScan, ReadsUnchangedHeadersFromTheCache)
   EXPECT_EQ(textOf(scanDicom(folder.path(), {}, &shelf)), plain);
   EXPECT_EQ(shelf.hits, 1);
   EXPECT_EQ(shelf.entries.size(), 1U);
+}
+
+TEST(DicomScan, RemembersWhatComparingFilesShowed)
+{
+  const TemporaryFolder folder;
+  writeTwice(folder.path() / "twice", 2, [](int, int) { return false; });
+  const auto copies = folder.path() / "copies";
+  writeSeries(copies, 4, [](int, TestSlice& s) { s.seriesUid = "7.8"; });
+  for (int k = 0; k < 4; ++k)
+    fs::copy_file(copies / ("s" + std::to_string(k) + ".dcm"),
+                  copies / ("t" + std::to_string(k) + ".dcm"));
+  settle(folder.path());
+  Shelf shelf;
+  const std::string plain = textOf(scanDicom(folder.path(), {}));
+  EXPECT_NE(plain.find("equal pixels"), std::string::npos);
+  EXPECT_NE(plain.find("4 files are copies"), std::string::npos);
+  EXPECT_EQ(textOf(scanDicom(folder.path(), {}, &shelf)), plain);
+  EXPECT_EQ(shelf.entries.size(), 1U);
+  const auto before = bytesRead();
+  EXPECT_EQ(textOf(scanDicom(folder.path(), {}, &shelf)), plain);
+  EXPECT_EQ(shelf.hits, 1);
+  if (before)
+  {
+    std::uintmax_t all = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
+      all += entry.is_regular_file() ? entry.file_size() : 0;
+    EXPECT_LT(*bytesRead() - *before, all / 2) << "files were compared again";
+  }
 }
 
 TEST(DicomScan, ReadsHeadersAnewIfAnyFileWasTouched)

@@ -1,4 +1,5 @@
 // Compressed pixels, written by GDCM's encoders from the same uncompressed files.
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <functional>
@@ -244,6 +245,32 @@ TEST(PixelForms, EqualTheExplicitLittleEndianSeriesToTheBit)
       {"big endian", [](int, TestSlice& s) { s.bigEndian = true; }},
       {"unsigned", [](int, TestSlice& s) { s.isSigned = false; }},
       {"8 bits", [](int, TestSlice& s) { s.bitsAllocated = s.bitsStored = 8; }},
+      {"8 bits, big endian",
+       [](int, TestSlice& s)
+       {
+         s.bitsAllocated = s.bitsStored = 8;
+         s.bigEndian = true;
+       }},
+      {"8 bits in words, big endian",
+       [](int, TestSlice& s)
+       {
+         s.bitsAllocated = s.bitsStored = 8;
+         s.bigEndian = true;
+         s.pixelVr = "OW";
+       }},
+      {"8 bits in words",
+       [](int, TestSlice& s)
+       {
+         s.bitsAllocated = s.bitsStored = 8;
+         s.pixelVr = "OW";
+       }},
+      {"12 bits", [](int, TestSlice& s) { s.bitsAllocated = s.bitsStored = 12; }},
+      {"12 bits, big endian",
+       [](int, TestSlice& s)
+       {
+         s.bitsAllocated = s.bitsStored = 12;
+         s.bigEndian = true;
+       }},
       {"12 in 16 bits", [](int, TestSlice& s) { s.bitsStored = 12; }},
       {"12 bits with a high bit of 15", shifted},
       {"12 bits with a high bit of 15, big endian",
@@ -285,37 +312,121 @@ TEST(PixelForms, EqualTheExplicitLittleEndianSeriesToTheBit)
   }
 }
 
-TEST(PixelForms, FloatingPointIsRefusedByName)
+TEST(PixelForms, FloatingPointIsKeptToTheBit)
 {
-  for (const std::uint32_t tag : {0x7fe00008U, 0x7fe00009U})
+  const auto value = [](int i, int j, int k) // floats that decimal digits do not hold
   {
-    const TemporaryFolder folder;
+    return static_cast<double>(static_cast<float>(std::sqrt(2.0 + i) * 1e-3 - j / 7.0 + 900 * k));
+  };
+  for (const std::uint32_t tag : {0x7fe00008U, 0x7fe00009U})
+    for (const bool isBigEndian : {false, true})
+      for (const bool isImplicit : {false, true})
+      {
+        if (isBigEndian && isImplicit)
+          continue;
+        const TemporaryFolder folder;
+        writeSeries(folder.path(), 3,
+                    [&](int k, TestSlice& s)
+                    {
+                      s.bitsAllocated = s.bitsStored = tag == 0x7fe00008U ? 32 : 64;
+                      s.pixelTag = tag;
+                      s.bigEndian = isBigEndian;
+                      s.implicitVr = isImplicit;
+                      s.real = [value, k](int i, int j) { return value(i, j, k); };
+                    });
+        const IntensityVolume image = readFolder(folder.path());
+        ASSERT_EQ(image.voxels().index(),
+                  IntensityVolume::Voxels(std::shared_ptr<const volume::Volume<float>>()).index());
+        for (int k = 0; k < 3; ++k)
+          for (int j = 0; j < 6; ++j)
+            for (int i = 0; i < 8; ++i)
+              ASSERT_EQ(image.at(i, j, k), value(i, j, k)) << i << " " << j << " " << k;
+      }
+}
+
+TEST(PixelForms, FloatingPointHasItsRescalePaddingAndRounding)
+{
+  const TemporaryFolder folder;
+  writeSeries(folder.path(), 3,
+              [](int, TestSlice& s)
+              {
+                s.bitsAllocated = s.bitsStored = 64;
+                s.pixelTag = 0x7fe00009;
+                std::string bytes;
+                s.appendReal(bytes, -3000.0);
+                s.element(s.extraPixel, 0x00280123, "FD", bytes);
+                s.intercept = 10.0;
+                s.real = [](int i, int j) { return i + j == 0 ? -3000.0 : i == 3 ? 0.1 : j; };
+              });
+  std::vector<std::string> notes;
+  const ScanResult result = scanDicom(folder.path(), {});
+  const IntensityVolume image = readSeries(result.series.front(), {}, {}, &notes);
+  EXPECT_EQ(image.padding(), -2990.0);
+  EXPECT_EQ(image.at(0, 0, 1), -2990.0);
+  EXPECT_EQ(image.at(3, 2, 1), static_cast<double>(static_cast<float>(10.1)));
+  EXPECT_EQ(image.at(1, 5, 2), 15.0);
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].find("rounded to 32-bit floating point, by up to 3.8"), std::string::npos)
+      << notes[0]; // 10.1 in float is 10.1000003815
+  writeSeries(folder.path(), 3,
+              [](int, TestSlice& s)
+              {
+                s.bitsAllocated = s.bitsStored = 32;
+                s.pixelTag = 0x7fe00008;
+                s.real = [](int i, int) { return i == 3 ? std::nan("") : 1.0; };
+              });
+  try
+  {
+    readFolder(folder.path());
+    FAIL() << "read";
+  }
+  catch (const DicomError& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("not finite"), std::string::npos) << error.what();
+  }
+}
+
+TEST(PixelForms, UnsignedValuesOf32BitsAreReadWhole)
+{
+  const TemporaryFolder folder;
+  writeSeries(folder.path(), 2,
+              [](int, TestSlice& s)
+              {
+                s.bitsAllocated = s.bitsStored = 32;
+                s.isSigned = false;
+                s.cell = [](int i, int) { return i == 0 ? 4294967040U : 16777217U + i; };
+              });
+  std::vector<std::string> notes;
+  const ScanResult result = scanDicom(folder.path(), {});
+  const IntensityVolume image = readSeries(result.series.front(), {}, {}, &notes);
+  EXPECT_EQ(image.at(0, 0, 0), 4294967040.0); // a float
+  EXPECT_EQ(image.at(1, 0, 0), 16777218.0);
+  EXPECT_EQ(image.at(2, 0, 0), 16777220.0) << "16777219 is between two floats";
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].find("by up to 1."), std::string::npos) << notes[0];
+}
+
+TEST(PixelForms, TwelveBitsOfNoDicomFileAreRefused)
+{
+  const TemporaryFolder folder;
+  for (const bool isMarked : {true, false})
+  {
     writeSeries(folder.path(), 2,
-                [tag](int, TestSlice& s)
+                [&](int, TestSlice& s)
                 {
-                  s.bitsAllocated = s.bitsStored = 32;
-                  s.pixelTag = tag;
+                  s.marker = isMarked;
+                  s.bitsAllocated = s.bitsStored = 12;
                 });
-    try
-    {
-      readFolder(folder.path());
-      FAIL() << "read";
-    }
-    catch (const DicomError& error)
-    {
-      EXPECT_NE(std::string(error.what()).find("floating-point"), std::string::npos)
-          << error.what();
-    }
+    EXPECT_EQ(scanDicom(folder.path(), {}).series.front().geometry.verdict,
+              isMarked ? Verdict::Ok : Verdict::Refused);
   }
 }
 
 TEST(PixelForms, FewerPixelsThanTheHeaderSaysAreRefusedByName)
 {
-  for (const int bits : {8, 16, 32})
+  for (const int bits : {8, 12, 16, 32})
     for (const bool isBigEndian : {false, true})
     {
-      if (bits == 8 && isBigEndian)
-        continue;
       const TemporaryFolder folder;
       writeSeries(folder.path(), 2,
                   [&](int, TestSlice& s)
@@ -344,6 +455,123 @@ TEST(PixelForms, FewerPixelsThanTheHeaderSaysAreRefusedByName)
         EXPECT_NE(std::string(error.what()).find("s1.dcm"), std::string::npos) << error.what();
       }
     }
+}
+
+/// An enhanced CT of three frames of 2 x 2 bytes in RLE, the second in two fragments, with an
+/// extended offset table (PS3.3 C.7.6.3.1.8) in place of the basic one.
+std::string extendedOffsetFile()
+{
+  TestSlice code;
+  code.pixels = false;
+  code.rows = code.columns = 2;
+  code.bitsAllocated = code.bitsStored = 8;
+  code.isSigned = false;
+  code.sopClass = "1.2.840.10008.5.1.4.1.1.2.1";
+  code.syntax = "1.2.840.10008.1.2.5";
+  code.element(code.extraPixel, 0x00280008, "IS", "3");
+  std::string file = code.bytes();
+  const auto number = [](std::uint64_t value, int bytes)
+  {
+    std::string out;
+    for (int b = 0; b < bytes; ++b)
+      out += static_cast<char>(value >> 8 * b);
+    return out;
+  };
+  const auto item = [&](const std::string& content)
+  { return std::string("\xfe\xff\x00\xe0", 4) + number(content.size(), 4) + content; };
+  const auto sequence = [&](std::uint32_t tag, const std::string& items)
+  {
+    std::string out;
+    code.element(out, tag, "SQ", items);
+    return out;
+  };
+  std::string groups;
+  for (int k = 0; k < 3; ++k)
+  {
+    std::string place;
+    code.element(place, 0x00200032, "DS", "0\\0\\" + std::to_string(k));
+    groups += item(sequence(0x00209113, item(place)));
+  }
+  file += sequence(0x52009230, groups);
+  // one segment of a literal run: 64 bytes of offsets, a count, the bytes
+  const auto frame = [&](char value)
+  {
+    std::string rle = number(1, 4) + number(64, 4) + std::string(56, '\0');
+    return rle + std::string("\x03", 1) + std::string(4, value) + std::string(1, '\0');
+  };
+  std::string fragments = item(""); // no basic offset table
+  std::string offsets;
+  std::string items;
+  for (int k = 0; k < 3; ++k)
+  {
+    offsets += number(items.size(), 8);
+    const std::string all = frame(static_cast<char>(10 + k));
+    items += k == 1 ? item(all.substr(0, 40)) + item(all.substr(40)) : item(all);
+  }
+  code.element(file, 0x7fe00001, "OV", offsets);
+  file += std::string("\xe0\x7f\x10\x00OB\0\0\xff\xff\xff\xff", 12) + fragments + items +
+          std::string("\xfe\xff\xdd\xe0\0\0\0\0", 8);
+  return file;
+}
+
+TEST(PixelForms, AnExtendedOffsetTableSaysWhereFramesBegin)
+{
+  const TemporaryFolder folder;
+  const std::string file = extendedOffsetFile();
+  test::writeText(folder.path() / "ct.dcm", file);
+  const IntensityVolume image = readFolder(folder.path());
+  ASSERT_EQ(image.geometry().dims(), (core::Index3{2, 2, 3}));
+  for (int k = 0; k < 3; ++k)
+    EXPECT_EQ(image.at(1, 1, k), 10.0 + k);
+  // A table that points beside a fragment is refused.
+  const std::size_t at = file.find(std::string("\xe0\x7f\x01\x00OV", 6)) + 12 + 8;
+  std::string other = file;
+  other[at] = static_cast<char>(other[at] + 2);
+  test::writeText(folder.path() / "ct.dcm", other);
+  EXPECT_THROW(readFolder(folder.path()), DicomError);
+}
+
+/// One slice whose only fragment is `codestream`.
+bool isLossyFile(const std::string& syntax, std::string codestream)
+{
+  TestSlice code;
+  code.pixels = false;
+  code.syntax = syntax;
+  codestream += std::string(codestream.size() % 2, '\0');
+  std::string file = code.bytes() + std::string("\xe0\x7f\x10\x00OB\0\0\xff\xff\xff\xff", 12) +
+                     std::string("\xfe\xff\x00\xe0\0\0\0\0\xfe\xff\x00\xe0", 12);
+  for (int b = 0; b < 4; ++b)
+    file += static_cast<char>(codestream.size() >> 8 * b);
+  file += codestream + std::string("\xfe\xff\xdd\xe0\0\0\0\0", 8);
+  const TemporaryFolder folder;
+  test::writeText(folder.path() / "s.dcm", file);
+  const ScanResult result = scanDicom(folder.path(), {});
+  const auto& slices = result.series.front().geometry.slices;
+  return !slices.empty() && slices.front().isLossy;
+}
+
+TEST(PixelForms, TheCodestreamSaysWhetherItHasLoss)
+{
+  // T.87: SOI, SOF55 (8 bits, 6 x 8, one component), SOS with NEAR
+  const auto jpegLs = [](char near)
+  {
+    return std::string("\xff\xd8\xff\xf7\0\x0b\x08\0\x06\0\x08\x01\x01\x11\0", 15) +
+           std::string("\xff\xda\0\x08\x01\x01\0", 7) + near + std::string("\0\0\xff\xd9", 4);
+  };
+  EXPECT_TRUE(isLossyFile("1.2.840.10008.1.2.4.81", jpegLs(2)));
+  EXPECT_FALSE(isLossyFile("1.2.840.10008.1.2.4.81", jpegLs(0)));
+  // T.800: SOC, SIZ, COD whose last byte is the wavelet
+  const auto jpeg2000 = [](char wavelet)
+  {
+    std::string siz("\xff\x4f\xff\x51\0\x29\0\0", 8);
+    for (const char size : {'\x08', '\x06', '\0', '\0', '\x08', '\x06', '\0', '\0'})
+      siz += std::string(3, '\0') + size;
+    siz += std::string("\0\x01\x07\x01\x01", 5);
+    return siz + std::string("\xff\x52\0\x0c\0\0\0\x01\0\x01\x04\x04\0", 13) + wavelet +
+           std::string("\xff\x90\0\x0a\0\0\0\0\0\0\0\x01\xff\x93\xff\xd9", 16);
+  };
+  EXPECT_TRUE(isLossyFile("1.2.840.10008.1.2.4.91", jpeg2000(0)));
+  EXPECT_FALSE(isLossyFile("1.2.840.10008.1.2.4.91", jpeg2000(1)));
 }
 
 TEST(PixelCodecDeflated, ReadsADeflatedSeries)

@@ -289,6 +289,43 @@ TestSegmentation twoSegments(const TestSlice& code = {})
   return file;
 }
 
+TEST(DicomSegmentation, RefusesWhatDoesNotFitTheMemory)
+{
+  const TestFolder folder;
+  for (const bool overlap : {false, true}) // two layers
+    for (const bool isLabelmap : {false, true})
+    {
+      if (overlap && isLabelmap)
+        continue;
+      TestSegmentation file;
+      if (isLabelmap)
+      {
+        file.type = "LABELMAP";
+        file.bits = 8;
+      }
+      file.addSegment(1, "chorda");
+      file.addSegment(2, "stapes");
+      file.frames = {{1, 0.0, left}, {2, 9e4, overlap ? left : right}};
+      if (overlap)
+        file.frames.push_back({2, 0.0, left});
+      test::writeText(folder.path() / "seg.dcm", file.bytes());
+      const std::uint64_t bytes = std::uint64_t{2} * 15 * 45001 * (overlap ? 2 : 1);
+      EXPECT_EQ(loadLabels(folder.path() / "seg.dcm", {}, {}, {}, std::nullopt, bytes).maps.size(),
+                overlap ? 2U : 1U);
+      try
+      {
+        loadLabels(folder.path() / "seg.dcm", {}, {}, {}, std::nullopt, bytes - 1);
+        ADD_FAILURE() << "read";
+      }
+      catch (const FileError& error)
+      {
+        EXPECT_NE(std::string(error.what()).find("GB of memory"), std::string::npos)
+            << error.what();
+        EXPECT_NE(std::string(error.what()).find("seg.dcm"), std::string::npos);
+      }
+    }
+}
+
 TEST(DicomSegmentation, PlacesFramesByPositionAndLeavesGapsEmpty)
 {
   const TestFolder folder;

@@ -290,6 +290,8 @@ TEST(SeriesGeometry, CallsAChangeOfPitchUneven)
   for (int k = 10; k < 20; ++k)
     (*slices[static_cast<std::size_t>(k)].position)[2] = 109.0 + 2.0 * (k - 9);
   EXPECT_EQ(only(assess(slices)).kind, FindingKind::UnevenSpacing);
+  EXPECT_EQ(assess(slices).verdict, Verdict::Repairable)
+      << "where slices stand is what was measured";
 }
 
 TEST(SeriesGeometry, CallsAFractionalGapUneven)
@@ -298,6 +300,57 @@ TEST(SeriesGeometry, CallsAFractionalGapUneven)
   for (int k = 10; k < 20; ++k)
     (*slices[static_cast<std::size_t>(k)].position)[2] += 0.5;
   EXPECT_EQ(only(assess(slices)).kind, FindingKind::UnevenSpacing);
+}
+
+/// A stack whose slices stand at `places`, mm.
+Headers stackAt(const std::vector<double>& places)
+{
+  Headers slices = stack(static_cast<int>(places.size()));
+  for (std::size_t k = 0; k < places.size(); ++k)
+    slices[k].position = Eigen::Vector3d(-20.0, -16.0, 100.0 + places[k]);
+  return slices;
+}
+
+TEST(SeriesGeometry, InterpolatesNoMoreThanOneMissingSlicesWorth)
+{
+  for (const double gap : {1.3, 1.5, 1.9, 2.0, 2.04, 2.1, 2.3, 2.5, 2.9, 3.0, 7.5, 30.0, 30.5})
+  {
+    std::vector<double> places;
+    for (int k = 0; k < 40; ++k)
+      places.push_back(0.5 * (k < 20 ? k : k - 1 + gap));
+    const SeriesGeometry series = assess(stackAt(places));
+    EXPECT_EQ(series.verdict, gap > 2.05 ? Verdict::Refused : Verdict::Repairable) << gap;
+    const std::string text = only(series).text;
+    EXPECT_EQ(text.find("is not interpolated") != std::string::npos, gap > 2.05) << text;
+    if (gap == 30.5)
+    {
+      EXPECT_NE(text.find("Nothing was measured for 15.25 mm between 109.50 and 124.75 mm"),
+                std::string::npos)
+          << text;
+    }
+  }
+}
+
+TEST(SeriesGeometry, GuessesFewSlicesOnly)
+{
+  // `pattern`: gaps in mm, repeated
+  const auto of = [](const std::vector<double>& pattern, std::size_t count)
+  {
+    std::vector<double> places{0.0};
+    for (std::size_t k = 0; k + 1 < count; ++k)
+      places.push_back(places.back() + pattern[k % pattern.size()]);
+    return assess(stackAt(places));
+  };
+  const SeriesGeometry third = of({1, 2}, 41);
+  EXPECT_EQ(third.verdict, Verdict::Refused);
+  EXPECT_NE(only(third).text.find("In 20 places, 20.0 mm of 60.0 mm, a slice would have to be "
+                                  "guessed; at most 4 slices are interpolated."),
+            std::string::npos)
+      << only(third).text;
+  EXPECT_EQ(of({1, 1.7}, 41).verdict, Verdict::Refused) << "no whole gaps";
+  EXPECT_EQ(of({1, 1, 1, 2, 2, 2}, 41).verdict, Verdict::Refused) << "no pitch that is set once";
+  EXPECT_EQ(of({1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 2}, 41).verdict, Verdict::Repairable);
+  EXPECT_EQ(of({1, 1, 1, 2, 1, 1, 1, 1}, 6).verdict, Verdict::Repairable) << "one, of few";
 }
 
 TEST(SeriesGeometry, NamesADuplicateSlice)

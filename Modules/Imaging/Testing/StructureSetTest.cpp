@@ -323,12 +323,30 @@ TEST(StructureSet, RefusesMoreLayersThanItReads)
     set.rois.push_back(named("a" + std::to_string(n), {square(1.25, 2.25, 1.25, 2.25, 10.0)}));
   try
   {
-    imaging::labelsOf(set, large, "set.dcm");
+    imaging::labelsOf(set, large, "set.dcm", {}, std::uint64_t{1} << 40);
     FAIL() << "6 GB of layers";
   }
   catch (const FileError& error)
   {
     EXPECT_NE(std::string(error.what()).find("overlap in more layers"), std::string::npos);
+  }
+}
+
+TEST(StructureSet, RefusesWhatDoesNotFitTheMemory)
+{
+  StructureSet set; // overlap in two layers
+  for (int n = 0; n < 2; ++n)
+    set.rois.push_back(named("a" + std::to_string(n), {square(1.25, 2.25, 1.25, 2.25, 10.0)}));
+  const std::uint64_t bytes = 2 * 2 * grid().voxelCount();
+  EXPECT_EQ(imaging::labelsOf(set, grid(), "set.dcm", {}, bytes).maps.size(), 2U);
+  try
+  {
+    imaging::labelsOf(set, grid(), "set.dcm", {}, bytes - 1);
+    FAIL() << "read";
+  }
+  catch (const FileError& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("GB of memory"), std::string::npos) << error.what();
   }
 }
 
@@ -379,6 +397,20 @@ TEST(StructureSet, IsReadInEveryEncoding)
     EXPECT_EQ(set.rois[0].contours[0][2], Vector3d(4.0, 6.5, 3.0));
     EXPECT_EQ(set.rois[1].otherContours, 1U);
     EXPECT_TRUE(set.rois[2].contours.empty());
+  }
+}
+
+TEST(StructureSet, StatesWhoseItIs)
+{
+  const TemporaryFolder folder;
+  for (const bool isImplicit : {false, true})
+  {
+    TestSet set;
+    set.code.implicitVr = isImplicit;
+    set.add(1, "cochlea", {"0\\0\\10\\4\\0\\10\\0\\4\\10"});
+    const PatientKey key = readStructureSet(set.write(folder)).patient;
+    EXPECT_EQ(key.name, patientKey("", "", "Secret Name", "").name);
+    EXPECT_EQ(key.id, 0U);
   }
 }
 

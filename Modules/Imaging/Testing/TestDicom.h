@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -48,6 +49,7 @@ struct TestSlice
   int columns = 8;
   int rows = 6;
   double z = 0.0;
+  std::string orientation = "1\\0\\0\\0\\1\\0";
   std::string seriesUid = "1.2.3.4";
   std::string studyUid = "1.2.3.8";
   std::string modality = "CT";
@@ -63,13 +65,16 @@ struct TestSlice
   bool bigEndian = false;
   bool marker = true; ///< preamble, DICM and group 2
   bool pixels = true;
-  std::string extra;  ///< encoded elements appended after the first group
-  std::string syntax; ///< declares another one than is used
+  std::string extra;           ///< encoded elements appended after the first group
+  std::string extraPixel = {}; ///< likewise, before the rescale
+  std::string syntax;          ///< declares another one than is used
   std::string photometric = "MONOCHROME2";
   int highBit = -1;                    ///< -1: bitsStored - 1
   std::uint32_t pixelTag = 0x7fe00010; ///< 0x7fe00008: float, 0x7fe00009: double
+  std::string pixelVr = {};            ///< empty: OB for 8 bits, else OW
   /// The cell of a pixel, including unused bits.
   std::function<std::uint32_t(int i, int j)> cell = [](int, int) { return 0U; };
+  std::function<double(int i, int j)> real = [](int, int) { return 0.0; }; ///< of float and double
 
   void append(std::string& out, std::uint32_t number, int bytes) const
   {
@@ -124,7 +129,7 @@ struct TestSlice
     element(out, 0x0020000d, "UI", studyUid);
     element(out, 0x0020000e, "UI", seriesUid);
     element(out, 0x00200032, "DS", "-10\\20.5\\" + here);
-    element(out, 0x00200037, "DS", "1\\0\\0\\0\\1\\0");
+    element(out, 0x00200037, "DS", orientation);
     element(out, 0x00200052, "UI", "1.2.3.9");
     number(out, 0x00280002, 1);
     element(out, 0x00280004, "CS", photometric);
@@ -139,6 +144,7 @@ struct TestSlice
       number(out, 0x00280120, *padding);
     if (paddingLimit)
       number(out, 0x00280121, *paddingLimit);
+    out += extraPixel;
     if (slope)
     {
       element(out, 0x00281052, "DS", core::fixedText(intercept, 6));
@@ -147,15 +153,40 @@ struct TestSlice
     if (!pixels)
       return out;
     std::string data;
+    std::uint32_t held = 0; // bits of a pixel that follow those of the one before
+    int bits = 0;
     for (int j = 0; j < rows; ++j)
       for (int i = 0; i < columns; ++i)
-        append(data, cell(i, j), bitsAllocated / 8);
-    const char* vr = pixelTag == 0x7fe00008   ? "OF"
-                     : pixelTag == 0x7fe00009 ? "OD"
-                     : bitsAllocated == 8     ? "OB"
-                                              : "OW";
-    element(out, pixelTag, vr, data);
+        if (pixelTag == 0x7fe00008)
+          appendReal(data, static_cast<float>(real(i, j)));
+        else if (pixelTag == 0x7fe00009)
+          appendReal(data, real(i, j));
+        else if (bitsAllocated % 8 == 0)
+          append(data, cell(i, j), bitsAllocated / 8);
+        else
+          for (held |= cell(i, j) << bits, bits += bitsAllocated; bits >= 8; bits -= 8, held >>= 8)
+            data += static_cast<char>(held & 0xFFU);
+    if (bits > 0)
+      data += static_cast<char>(held & 0xFFU);
+    data += std::string(data.size() % 2, '\0');
+    const std::string vr = !pixelVr.empty()         ? pixelVr
+                           : pixelTag == 0x7fe00008 ? "OF"
+                           : pixelTag == 0x7fe00009 ? "OD"
+                           : bitsAllocated == 8     ? "OB"
+                                                    : "OW";
+    if (bigEndian && vr == "OW" && bitsAllocated % 16 != 0) // words of 16 bits (PS3.5 7.3)
+      for (std::size_t at = 0; at < data.size(); at += 2)
+        std::swap(data[at], data[at + 1]);
+    element(out, pixelTag, vr.c_str(), data);
     return out;
+  }
+
+  template <class Real>
+  void appendReal(std::string& out, Real value) const
+  {
+    std::string raw(sizeof value, '\0');
+    std::memcpy(raw.data(), &value, sizeof value);
+    out += bigEndian ? std::string(raw.rbegin(), raw.rend()) : raw;
   }
 
   void write(const std::filesystem::path& file) const

@@ -344,7 +344,7 @@ TEST(DicomWriter, RefusesWhatItCannotWriteRight)
   series.frameOfReferenceUid = imaging::deterministicUid(1, "frame");
   EXPECT_NE(series.frameOfReferenceUid, imaging::deterministicUid(2, "frame"));
   const volume::IntensityVolume real(
-      std::make_shared<const volume::Volume<float>>(core::GridGeometry(), 0.0F));
+      std::make_shared<const volume::Volume<float>>(core::GridGeometry(), 0.3F)); // needs a rescale
   EXPECT_THROW(imaging::writeDicomSeries(folder.path(), real, series), core::InvalidParameter);
   std::ofstream(folder.path() / "file") << "x";
   try

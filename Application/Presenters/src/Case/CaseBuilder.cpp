@@ -91,6 +91,13 @@ std::string withoutIdentity(std::size_t key, std::size_t with = 0)
              : withoutIdentity(std::to_string(key) + (with == 0 ? "" : " " + std::to_string(with)));
 }
 
+scene::PatientHash withoutIdentity(const imaging::PatientKey& key)
+{
+  // Of a date alone there are too few to hide it in a hash.
+  return {withoutIdentity(key.id), withoutIdentity(key.issuer), withoutIdentity(key.name),
+          key.name == 0 ? std::string() : withoutIdentity(key.birthDate, key.name)};
+}
+
 // What its slices state of the patient, all the same where they do (imaging::assess).
 scene::PatientHash patientOf(const imaging::DicomSeries& series)
 {
@@ -103,9 +110,7 @@ scene::PatientHash patientOf(const imaging::DicomSeries& series)
     take(all.name, slice.patient.name);
     take(all.birthDate, slice.patient.birthDate);
   }
-  // Of a date alone there are too few to hide it in a hash.
-  return {withoutIdentity(all.id), withoutIdentity(all.issuer), withoutIdentity(all.name),
-          all.name == 0 ? std::string() : withoutIdentity(all.birthDate, all.name)};
+  return withoutIdentity(all);
 }
 
 // Whether the images state different patients; false if that cannot be told.
@@ -117,6 +122,22 @@ bool isOtherPatient(const scene::ImagePart& image, scene::ImagePart added,
   if (image.isFrameSalted)
     scene::saltIdentity(added, salted);
   return !imaging::samePatient(image.patient, added.patient);
+}
+
+// Whether what is added states another patient than an image of the case; refused unless its source
+// allows it.
+bool isOfOtherPatient(const scene::Case& value, const PartSource& source,
+                      const scene::PatientHash& patient,
+                      const std::function<std::string(const std::string&)>& salted)
+{
+  scene::ImagePart added;
+  added.patient = patient;
+  const auto isOther = [&](const scene::ImagePart& image)
+  { return isOtherPatient(image, added, salted); };
+  const bool isAny = isOther(value.ct) || std::any_of(value.mr.begin(), value.mr.end(), isOther);
+  if (isAny && !source.isOtherPatient)
+    throw OtherPatient(source.path);
+  return isAny;
 }
 
 // An MR is not taken silently in the place of a CT that cannot be used.
@@ -375,15 +396,9 @@ void addMr(scene::Case& value, const PartSource& source,
   if (!read.otherQuantity.empty())
     part.notes.push_back(read.otherQuantity);
   part.name = name;
-  const auto isOther = [&](const scene::ImagePart& image)
-  { return isOtherPatient(image, part, salted); };
-  if (isOther(value.ct) || std::any_of(value.mr.begin(), value.mr.end(), isOther))
-  {
-    if (!source.isOtherPatient)
-      throw OtherPatient(source.path);
+  if (isOfOtherPatient(value, source, part.patient, salted))
     part.notes.push_back("Its files state another patient's ID, name or date of birth than those "
                          "of the case's other images; it was added as asked.");
-  }
   // A CT angiogram may be wanted beside the CT: said, not refused.
   if (part.modality == scene::Modality::Ct)
     part.notes.push_back("The file says that it is a CT; it was added as an MR, as asked. If it is "
@@ -570,6 +585,7 @@ imaging::LoadedLabels loadStructureSet(const scene::Case& value, PartSource& sou
                                        const core::Progress& progress)
 {
   const imaging::StructureSet set = imaging::readStructureSet(source.path);
+  isOfOtherPatient(value, source, withoutIdentity(set.patient), salted); // before it is computed
   std::vector<std::string> notes;
   settleFrame(value, source, set.frameOfReferenceUid, nullptr, salted, notes);
   const scene::ImagePart* mr = nullptr;
@@ -687,6 +703,9 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
                   &loaded.maps.front().voxels->geometry(), salted, loaded.notes);
   }
   std::vector<std::string> notes = std::move(loaded.notes);
+  if (isOfOtherPatient(value, source, withoutIdentity(loaded.patient), salted))
+    notes.push_back("states another patient's ID, name or date of birth than the case's images; it "
+                    "was added as asked");
   std::vector<std::string> empty;
   const bool isFolder = fs::is_directory(source.path);
   const FolderNames folder = isFolder ? namesInFolder(loaded) : FolderNames();

@@ -8,6 +8,7 @@
 
 #include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Core/Error.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Presenters/CaseBuilder.h"
@@ -213,20 +214,32 @@ std::string CaseIdentifiers::series(const std::string& what,
                    });
 }
 
-void writeCaseSeries(const std::filesystem::path& folder, const scene::Case& value,
-                     const std::string& what, const volume::IntensityVolume& image,
-                     const std::string& drawnOn, bool onCt, const CaseDicomOptions& options,
-                     const core::Progress& progress)
+std::optional<double> writeCaseSeries(const std::filesystem::path& folder, const scene::Case& value,
+                                      const std::string& what, const volume::IntensityVolume& image,
+                                      const std::string& drawnOn, bool onCt,
+                                      const CaseDicomOptions& options,
+                                      const core::Progress& progress)
 {
-  if (std::holds_alternative<std::shared_ptr<const volume::Volume<float>>>(image.voxels()))
-    throw core::InvalidParameter(
-        "export " + what +
-        ": its voxels are fractions, and a DICOM series holds whole numbers; write " +
-        imaging::orText(imaging::writtenEndings(imaging::kImage)));
   using Modality = imaging::SeriesDescription::Modality;
   const CaseIdentifiers identifiers(value);
   imaging::SeriesDescription series;
   const bool isMr = what == "mr" || value.ct.modality == scene::Modality::Mr;
+  std::optional<double> error;
+  if (const auto* voxels =
+          std::get_if<std::shared_ptr<const volume::Volume<float>>>(&image.voxels()))
+  {
+    constexpr double kCoarsest = 1.0; // of a CT: a step of one unit, an error of half of one
+    const auto stored = imaging::storedFractions(**voxels);
+    if (!stored || (!isMr && stored->slope > kCoarsest))
+      throw core::InvalidParameter(
+          "export " + what +
+          ": its voxels are fractions, and spread too far for the 16 bits of a DICOM series to "
+          "hold them within half a unit; write " +
+          imaging::orText(imaging::writtenEndings(imaging::kImage)));
+    series.rescaleSlope = stored->slope;
+    series.rescaleIntercept = stored->intercept;
+    error = stored->error;
+  }
   series.modality = isMr ? Modality::Mr : Modality::Ct;
   series.derived = true;
   series.description = what == "dissected" ? (isMr ? "MR, dissected" : "CT, dissected")
@@ -249,6 +262,14 @@ void writeCaseSeries(const std::filesystem::path& folder, const scene::Case& val
     series.windowWidth = std::max(range.max - range.min, 1.0);
   }
   imaging::writeDicomSeries(folder, image, series, std::nullopt, progress);
+  return error;
+}
+
+std::string roundingNote(const std::string& name, double error)
+{
+  return "the voxels of " + name +
+         " are fractions and were written in 16 bits with a rescale slope; they are off by up to " +
+         core::generalText(error);
 }
 
 std::size_t writeCaseSegmentation(const std::filesystem::path& path, const scene::Case& value,

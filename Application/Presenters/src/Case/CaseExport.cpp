@@ -345,12 +345,15 @@ std::shared_ptr<const volume::IntensityVolume> shared(volume::Volume<T> voxels,
 }
 
 // A DICOM series, whole or not at all.
-void writeSeries(const ExportOptions& options, const scene::Case& value,
+void writeSeries(const Warn& warn, const ExportOptions& options, const scene::Case& value,
                  const volume::IntensityVolume& image, const std::string& drawnOn,
                  const core::Progress& progress)
 {
   core::OutputFolder folder(options.out);
-  writeCaseSeries(folder.path(), value, options.what, image, drawnOn, options.onCt, {}, progress);
+  if (const auto error = writeCaseSeries(folder.path(), value, options.what, image, drawnOn,
+                                         options.onCt, {}, progress);
+      error && *error > 0.0)
+    warn(roundingNote("the image", *error));
   progress.check("writing DICOM slices");
   folder.commit();
 }
@@ -452,7 +455,7 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
   {
     if (isSeries(options))
     {
-      writeSeries(options, value, image, drawnOn, progress.part(0.5, 1.0));
+      writeSeries(warn, options, value, image, drawnOn, progress.part(0.5, 1.0));
       summary.instances = static_cast<std::size_t>(image.geometry().dims()[2]);
       summary.words = ", " + std::to_string(image.geometry().dims()[2]) + " DICOM files";
     }

@@ -144,14 +144,22 @@ private:
   {
     const auto volume = part.volume.get();
     m_library.checkVoxels(m_value, progress);
-    if (hasFractions(*volume))
+    const fs::path folder = freshFolder();
+    try
     {
+      if (const auto error =
+              writeCaseSeries(folder, m_value, what, *volume, drawnOn, false, m_options, progress);
+          error && *error > 0.0)
+        m_notes.push_back(roundingNote("'" + part.name + "'", *error));
+    }
+    catch (const core::InvalidParameter&)
+    {
+      if (!hasFractions(*volume))
+        throw;
       leaveOut("the voxels of '" + part.name +
-               "' are fractions, and a DICOM series holds whole numbers");
+               "' are fractions, which 16 bits of a DICOM series do not hold within half a unit");
       return;
     }
-    const fs::path folder = freshFolder();
-    writeCaseSeries(folder, m_value, what, *volume, drawnOn, false, m_options, progress);
     addFiles(folder, m_files);
   }
 

@@ -10,6 +10,7 @@
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Imaging/ImagePreview.h"
+#include "petrous/Library/DerivedCache.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Volume/IntensityScale.h"
 
@@ -100,7 +101,7 @@ ScanPreview previewScan(const fs::path& path, const std::string& selector, bool 
     const auto image = imaging::previewImageFile(path, kSlices, progress, assumeRas);
     return previewOf(*image.volume, image.grid);
   }
-  const auto scan = imaging::scanDicom(path, progress.part(0.0, 0.3));
+  const auto scan = imaging::scanDicom(path, progress.part(0.0, 0.3), library::scanCache().get());
   const auto& series = imaging::chooseSeries(scan, path, selector);
   imaging::ReadOptions options;
   options.repair = repair;
@@ -114,7 +115,7 @@ ScanPreview previewScan(const fs::path& path, const std::string& selector, bool 
 RepairPreview previewRepair(const fs::path& path, const std::string& selector,
                             const core::Progress& progress)
 {
-  const auto scan = imaging::scanDicom(path, progress.part(0.0, 0.2));
+  const auto scan = imaging::scanDicom(path, progress.part(0.0, 0.2), library::scanCache().get());
   const auto& series = imaging::chooseSeries(scan, path, selector);
   const core::GridGeometry& grid = *series.geometry.grid; // none that is repairable is without
   RepairPreview preview;

@@ -136,6 +136,29 @@ bool codestreamFits(const std::vector<char>& bytes, const SliceHeader& slice)
   return jpegPrecision(bytes, slice) > 0;
 }
 
+bool isLossyCodestream(const std::vector<char>& bytes, const std::string& transferSyntax)
+{
+  const Head head(bytes);
+  if (transferSyntax == "1.2.840.10008.1.2.4.81")
+  {
+    std::size_t at = 2;
+    while (at + 4 <= head.size() && head.number(at, 2) != 0xffda)
+      at += 2 + head.number(at + 2, 2);
+    // SOS (T.87 C.2.3): length, components, two bytes for each, then NEAR
+    return head.number(at, 2) == 0xffda && head.number(at + 5 + 2 * head.number(at + 4, 1), 1) > 0;
+  }
+  if (transferSyntax != "1.2.840.10008.1.2.4.91")
+    return false;
+  std::size_t at = 0;
+  while (at + 4 <= head.size() && head.number(at, 4) != 0xff4fff51U)
+    ++at;
+  at += 2;
+  while (at + 4 <= head.size() && head.number(at, 2) != 0xff52 && head.number(at, 2) != 0xff90)
+    at += 2 + head.number(at + 2, 2);
+  // COD (T.800 A.6.1): the transformation is its tenth byte, 0 the irreversible one
+  return at + 14 <= head.size() && head.number(at, 2) == 0xff52 && head.number(at + 13, 1) == 0;
+}
+
 int jpegPrecision(const std::vector<char>& bytes, const SliceHeader& slice)
 {
   return hasEnd(bytes) ? precisionOf(Head(bytes), slice) : 0;

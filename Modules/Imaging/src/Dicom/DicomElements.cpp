@@ -51,17 +51,21 @@ bool isWanted(Tag tag)
     return tag == 0x00100010 || tag == 0x00100020 || tag == 0x00100021 || tag == 0x00100030;
   constexpr Tag kSiemensB = 0x0019100c;
   constexpr Tag kGeB = 0x00431039;
-  return tag == kSiemensB || tag == kGeB || group == 0x0002 || group == 0x0008 || group == 0x0018 ||
-         group == 0x0020 || group == 0x0028;
+  constexpr Tag kRealIntercept = 0x00409224;
+  constexpr Tag kRealSlope = 0x00409225;
+  return tag == kSiemensB || tag == kGeB || tag == kRealIntercept || tag == kRealSlope ||
+         group == 0x0002 || group == 0x0008 || group == 0x0018 || group == 0x0020 ||
+         group == 0x0028;
 }
 
 /// The functional groups whose values are used here; a private group may hold a whole other header.
 bool isGroup(Tag tag)
 {
   static constexpr Tag kGroups[] = {
-      0x00209113, 0x00209116, 0x00289110, 0x00289145, 0x00209111,  // place, values, frame content
-      0x00189117, 0x00189076, 0x00189114, 0x00189112, 0x00189118,  // diffusion, echo, timing, heart
-      0x00189226, 0x00189329, 0x00189314, 0x00189325, 0x00209310}; // type, kernel, tube, time
+      0x00209113, 0x00209116, 0x00289110, 0x00289145, 0x00209111, // place, values, frame content
+      0x00189117, 0x00189076, 0x00189114, 0x00189112, 0x00189118, // diffusion, echo, timing, heart
+      0x00189226, 0x00189329, 0x00189314, 0x00189325, 0x00209310, // type, kernel, tube, time
+      0x00409096};                                                // real world values
   return std::find(std::begin(kGroups), std::end(kGroups), tag) != std::end(kGroups);
 }
 
@@ -135,6 +139,7 @@ bool DicomElements::readElement(std::uint64_t offset, Element& element, bool exp
     return false;
   element.tag = (static_cast<Tag>(number16(head.data())) << 16) | number16(head.data() + 2);
   element.isUnknown = false;
+  element.isWords = false;
   element.value = offset + 8;
   if (!explicitVr || (element.tag >> 16) == 0xfffe)
   {
@@ -144,6 +149,7 @@ bool DicomElements::readElement(std::uint64_t offset, Element& element, bool exp
   if (!isUpper(head[4]) || !isUpper(head[5]))
     return false;
   element.isUnknown = head[4] == 'U' && head[5] == 'N';
+  element.isWords = head[4] == 'O' && head[5] == 'W';
   if (!hasLongLength(head.data() + 4))
   {
     element.length = number16(head.data() + 6);
@@ -235,11 +241,19 @@ void DicomElements::readDataSet(std::uint64_t offset)
     if (element.tag == kPixelData || element.tag == kFloatPixelData ||
         element.tag == kDoublePixelData)
     {
-      m_pixels = {element.tag, element.value, element.length};
+      m_pixels.tag = element.tag;
+      m_pixels.offset = element.value;
+      m_pixels.length = element.length;
+      m_pixels.isWords = element.isWords;
       break;
     }
     if (element.tag > kPixelData)
       break;
+    if (element.tag == kExtendedOffsets && element.length != kUndefinedLength)
+    {
+      m_pixels.offsetTable = element.value;
+      m_pixels.offsetCount = element.length / 8;
+    }
     offset = element.value;
     const bool isGroups = element.tag == kSharedGroups || element.tag == kFrameGroups;
     if (element.length == kUndefinedLength && !isGroups)

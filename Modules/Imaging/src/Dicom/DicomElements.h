@@ -19,6 +19,7 @@ using Tag = std::uint32_t;
 constexpr Tag kFloatPixelData = 0x7fe00008;
 constexpr Tag kDoublePixelData = 0x7fe00009;
 constexpr Tag kPixelData = 0x7fe00010;
+constexpr Tag kExtendedOffsets = 0x7fe00001;
 
 /// The short top-level elements of a DICOM file up to its pixel data (PS3.5 section 7, PS3.10).
 ///
@@ -50,6 +51,10 @@ public:
     Tag tag = 0; ///< 0: no pixel data
     std::uint64_t offset = 0;
     std::uint32_t length = 0; ///< kUndefinedLength if encapsulated
+    bool isWords = false;     ///< VR OW
+    /// Of the value of an extended offset table of `offsetCount` frames (PS3.3 C.7.6.3.1.8).
+    std::uint64_t offsetTable = 0;
+    std::uint64_t offsetCount = 0;
   };
   const Pixels& pixels() const noexcept { return m_pixels; }
   bool empty() const noexcept ///< no elements except file meta information
@@ -87,6 +92,7 @@ private:
     std::uint32_t length = 0;
     std::uint64_t value = 0; ///< offset
     bool isUnknown = false;  ///< VR UN: content of undefined length is implicit VR
+    bool isWords = false;    ///< VR OW
   };
 
   bool findStart(std::uint64_t& offset);

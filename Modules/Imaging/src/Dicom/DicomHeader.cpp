@@ -7,8 +7,10 @@
 #include <limits>
 #include <utility>
 
+#include "Codestream.h"
 #include "DicomElements.h"
 #include "DicomItem.h"
+#include "SegmentationReader.h"
 #include "petrous/Core/NumberText.h"
 
 namespace petrous::imaging
@@ -55,6 +57,12 @@ bool isEnhancedClass(const std::string& sopClass)
                      [&](const char* known) { return sopClass == kStorage + known; });
 }
 
+/// Parametric maps: the frames of those with floating-point pixels are read as an image.
+bool isParametricMap(const std::string& sopClass)
+{
+  return sopClass == "1.2.840.10008.5.1.4.1.1.30";
+}
+
 bool isNative(const std::string& syntax)
 {
   return syntax == kImplicit || syntax == kExplicit || syntax == kBigEndian || syntax == kDeflated;
@@ -79,6 +87,25 @@ bool fragmentsComplete(ByteSource& source, std::uint64_t offset)
     bytes += length;
   }
   return bytes > 0; // some writers omit the sequence delimiter
+}
+
+/// The beginning of the first compressed frame.
+std::vector<char> firstBytes(ByteSource& source, std::uint64_t offset)
+{
+  constexpr std::size_t kMost = 1024; // bytes: a JPEG-LS or JPEG 2000 header
+  std::array<unsigned char, 4> raw{};
+  const auto lengthAt = [&](std::uint64_t at) -> std::uint64_t
+  {
+    if (!source.read(at + 4, raw.data(), raw.size()))
+      return 0;
+    return raw[0] | (raw[1] << 8) | (raw[2] << 16) | (static_cast<std::uint64_t>(raw[3]) << 24);
+  };
+  const std::uint64_t item = offset + 8 + lengthAt(offset); // after the basic offset table
+  std::vector<char> bytes(static_cast<std::size_t>(std::min<std::uint64_t>(
+      kMost, item + 8 <= source.size() ? std::min(lengthAt(item), source.size() - item - 8) : 0)));
+  if (!source.read(item + 8, bytes.data(), bytes.size()))
+    bytes.clear();
+  return bytes;
 }
 
 std::optional<Eigen::Vector3d> vectorAt(const std::vector<double>& values, std::size_t first)
@@ -140,13 +167,7 @@ void readOrigin(const DicomElements& elements, SliceHeader& slice)
 {
   slice.taken = takenOf(elements);
   slice.patientPosition = elements.text(0x00185100);
-  const std::string stated = elements.text(0x00100010);
-  const std::string name = toUtf8(stated, elements.text(0x00080005));
-  const auto unknown = [](const std::string& text) // letters of a character set that is not read
-  { return std::count(text.begin(), text.end(), '?'); };
-  slice.patient =
-      patientKey(elements.text(0x00100020), elements.text(0x00100021),
-                 unknown(name) > unknown(stated) ? stated : name, elements.text(0x00100030));
+  slice.patient = patientOf(elements);
   slice.studyUid = elements.text(0x0020000d);
   slice.modality = elements.text(0x00080060);
   slice.kernel = elements.text(0x00181210);
@@ -216,8 +237,17 @@ void readPixelFormat(const DicomElements& elements, SliceHeader& slice)
   const std::size_t ratios = elements.words(0x00282112).size(); // one for each compression
   for (const double ratio : elements.numbers(0x00282112, ratios))
     slice.lossyRatio = std::max(slice.lossyRatio.value_or(0.0), ratio);
-  slice.padding = elements.integer(0x00280120, pixels.isSigned);
-  slice.paddingRangeLimit = elements.integer(0x00280121, pixels.isSigned);
+  const Tag pixelTag = elements.pixels().tag;
+  pixels.isReal = pixelTag == kFloatPixelData || pixelTag == kDoublePixelData;
+  pixels.isWords = elements.pixels().isWords;
+  const auto paddingOf = [&](Tag whole, Tag single, Tag twice) -> std::optional<double>
+  {
+    if (pixels.isReal)
+      return elements.real(pixelTag == kFloatPixelData ? single : twice);
+    return elements.integer(whole, pixels.isSigned);
+  };
+  slice.padding = paddingOf(0x00280120, 0x00280122, 0x00280123);
+  slice.paddingRangeLimit = paddingOf(0x00280121, 0x00280124, 0x00280125);
 }
 
 /// What is wrong with the rescale, or an empty string.
@@ -239,15 +269,23 @@ const char* readRescale(const DicomElements& elements, SliceHeader& slice)
 }
 
 /// What is wrong with the encoding of a greyscale image, or an empty string.
-const char* checkFormat(const SliceHeader& slice)
+const char* checkFormat(const SliceHeader& slice, Tag tag)
 {
   const PixelFormat& pixels = slice.pixels;
   const int bits = pixels.bitsAllocated;
+  if (pixels.isReal)
+    return bits == (tag == kFloatPixelData ? 32 : 64)
+               ? ""
+               : "contradicts itself about the bits of a pixel";
   if (!isNative(pixels.transferSyntax) && !isDecodable(pixels.transferSyntax))
     return "is compressed in a way that cannot be read";
-  // There were two packings of 12 bits allocated, and of 8 bits in big endian; they cannot be told
-  // apart.
-  if (bits != 16 && bits != 32 && (bits != 8 || pixels.isBigEndian))
+  // 12 bits, which DICOM allowed until 2007, follow each other within words of 16, the first in the
+  // least significant bits (PS3.5-2007 8.1.1). So do 8 bits that are written as words.
+  const bool isPacked = bits == 12 || (bits == 8 && pixels.isBigEndian && pixels.isWords);
+  const bool isEven = static_cast<std::int64_t>(slice.rows) * slice.columns % 2 == 0;
+  if ((bits != 8 && bits != 12 && bits != 16 && bits != 32) ||
+      (bits == 12 && (pixels.isEncapsulated || (pixels.isBigEndian && !pixels.isWords))) ||
+      (isPacked && slice.frames > 1 && !isEven)) // a frame would begin within a word
     return "has pixels of an unusual number of bits";
   if (pixels.bitsStored < 1 || pixels.bitsStored > bits || pixels.highBit >= bits ||
       pixels.highBit < pixels.bitsStored - 1)
@@ -259,12 +297,14 @@ const char* checkFormat(const SliceHeader& slice)
 const char* checkPixels(ByteSource& source, const DicomElements::Pixels& found, bool isEnhanced,
                         SliceHeader& slice)
 {
-  if (found.tag != kPixelData)
-    return "holds floating-point pixels, which are not read";
   PixelFormat& pixels = slice.pixels;
   pixels.offset = found.offset;
+  if (found.offsetCount == static_cast<std::uint64_t>(slice.frames))
+    pixels.offsetTable = found.offsetTable;
   pixels.isEncapsulated = found.length == DicomElements::kUndefinedLength;
   pixels.length = pixels.isEncapsulated ? source.size() - found.offset : found.length;
+  if (pixels.isEncapsulated && pixels.isReal)
+    return "is compressed in a way that cannot be read";
   if (pixels.isEncapsulated && isNative(pixels.transferSyntax))
     return "is compressed, but does not say how";
   if (pixels.offset + pixels.length > source.size())
@@ -275,21 +315,28 @@ const char* checkPixels(ByteSource& source, const DicomElements::Pixels& found, 
   {
     if (!fragmentsComplete(source, pixels.offset))
       return kCutShort;
+    // These may have loss or not, whatever the header says.
+    if (pixels.transferSyntax == "1.2.840.10008.1.2.4.81" ||
+        pixels.transferSyntax == "1.2.840.10008.1.2.4.91")
+      slice.isLossy = slice.isLossy ||
+                      isLossyCodestream(firstBytes(source, pixels.offset), pixels.transferSyntax);
   }
   else
   {
     const auto count = static_cast<std::uint64_t>(slice.rows) * slice.columns * slice.frames;
-    if (!isNative(pixels.transferSyntax))
+    if (!isNative(pixels.transferSyntax) && !pixels.isReal)
       return "says it is compressed, but is not";
     if (pixels.length < (count * pixels.bitsAllocated + 7) / 8)
       return "holds fewer pixels than its header says";
   }
-  return checkFormat(slice);
+  return checkFormat(slice, found.tag);
 }
 
 /// Each frame as a slice. None if the functional groups are not those of the frames; several frames
 /// are then refused.
-void readFrames(DicomElements& elements, FileHeader& header)
+///
+/// isMap  the values are those of the real world value mapping
+void readFrames(DicomElements& elements, FileHeader& header, bool isMap)
 {
   const SliceHeader& file = header.slice;
   const auto count = static_cast<std::size_t>(file.frames);
@@ -304,6 +351,12 @@ void readFrames(DicomElements& elements, FileHeader& header)
     readPlace(elements, slice);
     readTraits(elements, slice);
     slice.damage = readRescale(elements, slice);
+    if (isMap)
+    {
+      slice.slope = elements.real(0x00409225).value_or(1.0);
+      slice.intercept = elements.real(0x00409224).value_or(0.0);
+      slice.rescaleType = file.rescaleType;
+    }
     if (const auto type = elements.words(0x00089007); !type.empty())
       slice.imageType = type;
     if (const auto acquisition = elements.integer(0x00209156))
@@ -329,6 +382,7 @@ void readSlice(ByteSource& source, DicomElements& elements, const std::string& s
                FileHeader& header)
 {
   SliceHeader& slice = header.slice;
+  header.sopClass = sopClass;
   header.seriesUid = elements.text(0x0020000e);
   header.modality = elements.text(0x00080060);
   header.description = elements.text(0x0008103e);
@@ -349,10 +403,24 @@ void readSlice(ByteSource& source, DicomElements& elements, const std::string& s
     return;
   }
   header.kind = FileKind::Dicom;
-  slice.isImage = elements.pixels().tag != 0;
+  // Of a segmentation the frames are structures, and its pixels may be single bits.
+  const bool isSegmentation = isSegmentationClass(sopClass);
+  slice.isImage = elements.pixels().tag != 0 && (!isSegmentation || slice.frames > 1);
+  const bool isMap = isParametricMap(sopClass) && slice.pixels.isReal;
+  const bool isEnhanced = isEnhancedClass(sopClass) || isMap;
   if (slice.isImage)
-    slice.damage = checkPixels(source, elements.pixels(), isEnhancedClass(sopClass), slice);
-  else if (slice.rows > 0 || header.seriesUid.empty() || isSliceClass(sopClass))
+    slice.damage = checkPixels(source, elements.pixels(), isEnhanced, slice);
+  // Before DICOM there was another packing of 12 bits.
+  if (slice.damage.empty() && slice.pixels.bitsAllocated == 12 && elements.text(0x00020010).empty())
+    slice.damage = "has pixels of an unusual number of bits";
+  if (isSegmentation && elements.pixels().tag == 0)
+    slice.damage = "holds no pixels";
+  else if (isSegmentation && !slice.isImage &&
+           elements.pixels().length != DicomElements::kUndefinedLength &&
+           elements.pixels().offset + elements.pixels().length > source.size())
+    slice.damage = kCutShort;
+  if (!slice.isImage && !isSegmentation &&
+      (slice.rows > 0 || header.seriesUid.empty() || isSliceClass(sopClass)))
   {
     // Truncated between two elements, or stripped: in either case data are lost.
     slice.damage = "holds no pixels";
@@ -361,8 +429,10 @@ void readSlice(ByteSource& source, DicomElements& elements, const std::string& s
   }
   if (slice.damage.empty())
     slice.damage = rescale;
-  if (slice.damage.empty() && slice.isImage && isEnhancedClass(sopClass))
-    readFrames(elements, header);
+  if (isMap)
+    slice.rescaleType = "PARAMETRIC_MAP";
+  if (slice.damage.empty() && slice.isImage && isEnhanced)
+    readFrames(elements, header, isMap);
 }
 
 /// Why a file that is not DICOM may have been, or an empty string: empty, or only zeros of the
@@ -380,6 +450,16 @@ const char* shortDamage(ByteSource& source)
 }
 
 } // namespace
+
+PatientKey patientOf(const DicomElements& elements)
+{
+  const std::string stated = elements.text(0x00100010);
+  const std::string name = toUtf8(stated, elements.text(0x00080005));
+  const auto unknown = [](const std::string& text)
+  { return std::count(text.begin(), text.end(), '?'); };
+  return patientKey(elements.text(0x00100020), elements.text(0x00100021),
+                    unknown(name) > unknown(stated) ? stated : name, elements.text(0x00100030));
+}
 
 FileHeader readHeader(const std::filesystem::path& file)
 {

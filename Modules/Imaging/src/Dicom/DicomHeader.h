@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "DicomElements.h"
 #include "petrous/Imaging/SeriesGeometry.h"
 
 namespace petrous::imaging
@@ -22,6 +23,7 @@ struct FileHeader
 {
   FileKind kind = FileKind::Foreign;
   bool hasFailed = false; ///< opening or reading failed: another attempt may succeed
+  std::string sopClass;   ///< UID
   std::string seriesUid;
   std::string modality;
   std::string description;
@@ -32,5 +34,9 @@ struct FileHeader
 /// Reads everything before the pixel data, and checks that the pixels are complete. Never throws on
 /// bad content. Thread-safe.
 FileHeader readHeader(const std::filesystem::path& file);
+
+/// The identity that a data set states. Letters of a character set that is not read are taken as
+/// they are.
+PatientKey patientOf(const DicomElements& elements);
 
 } // namespace petrous::imaging

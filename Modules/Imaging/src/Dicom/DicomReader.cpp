@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -15,6 +16,7 @@
 #include "PixelCodec.h"
 #include "SeriesRepair.h"
 #include "SliceStack.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Core/SystemMemory.h"
 
 namespace petrous::imaging
@@ -56,22 +58,23 @@ bool isWhole(double value)
 }
 
 /// The range of stored values that a slice declares as padding: [low, high].
+template <class Stored>
 struct PaddingRange
 {
-  std::int32_t low = 1;
-  std::int32_t high = 0;
+  Stored low = 1;
+  Stored high = 0;
 
   explicit PaddingRange(const SliceHeader& slice, bool wanted)
   {
     if (!wanted || !slice.padding)
       return;
-    const auto value = static_cast<std::int32_t>(*slice.padding);
-    const auto limit = static_cast<std::int32_t>(slice.paddingRangeLimit.value_or(*slice.padding));
+    const auto value = static_cast<Stored>(*slice.padding);
+    const auto limit = static_cast<Stored>(slice.paddingRangeLimit.value_or(*slice.padding));
     low = std::min(value, limit);
     high = std::max(value, limit);
   }
   bool empty() const { return low > high; }
-  bool contains(std::int32_t stored) const { return stored >= low && stored <= high; }
+  bool contains(Stored stored) const { return stored >= low && stored <= high; }
 };
 
 double rescaled(const SliceHeader& slice, double stored)
@@ -85,16 +88,20 @@ struct Contents
   Span real;                  ///< values that are not padding
   bool isPadded = false;      ///< padding occurs in the box
   bool cornersPadded = false; ///< padding occurs in a slice corner, as outside a circular field
+  double rounding = 0.0;      ///< of whole and 64-bit values, by the float in which they are kept
 };
 
 class SeriesReader
 {
 public:
-  SeriesReader(const DicomSeries& series, const IndexBox& box, const core::Progress& progress)
+  /// `require` throws if the volume does not fit the memory with so many bytes a voxel.
+  SeriesReader(const DicomSeries& series, const IndexBox& box,
+               const std::function<void(std::size_t)>& require, const core::Progress& progress)
     : m_slices(series.geometry.slices)
     , m_modality(series.modality)
     , m_geometry(series.geometry.grid->cropped(box))
     , m_box(box)
+    , m_require(require)
     , m_progress(progress)
   {
   }
@@ -107,8 +114,8 @@ public:
     for (int k = m_box.lower[2]; k < m_box.upper[2]; ++k)
     {
       const SliceHeader& slice = m_slices[static_cast<std::size_t>(k)];
-      whole = whole && isWhole(slice.slope) && isWhole(slice.intercept);
       const PixelFormat& pixels = slice.pixels;
+      whole = whole && !pixels.isReal && isWhole(slice.slope) && isWhole(slice.intercept);
       const double count = std::ldexp(1.0, pixels.bitsStored);
       declared.add(rescaled(slice, pixels.isSigned ? -0.5 * count : 0.0));
       declared.add(rescaled(slice, pixels.isSigned ? 0.5 * count - 1.0 : count - 1.0));
@@ -134,12 +141,16 @@ private:
   {
     if (!m_contents.real.fits<T>()) // known from an earlier attempt
       return std::nullopt;
+    m_require(sizeof(T));
     auto voxels = std::make_shared<Volume<T>>(m_geometry);
     bool usePadding = true;
     T stand = standIn<T>();
     fill(*voxels, stand, usePadding);
     if (!m_contents.real.fits<T>())
       return std::nullopt;
+    if (m_contents.rounding > 0.0)
+      note("Values were rounded to 32-bit floating point, by up to " +
+           core::generalText(m_contents.rounding) + ".");
     if (!m_contents.isPadded || m_contents.real.empty())
       return IntensityVolume(std::shared_ptr<const Volume<T>>(voxels));
 
@@ -176,7 +187,7 @@ private:
   {
     for (const SliceHeader& slice : m_slices)
     {
-      const PaddingRange padding(slice, true);
+      const PaddingRange<double> padding(slice, true);
       if (!padding.empty())
         return std::min(rescaled(slice, padding.low), rescaled(slice, padding.high));
     }
@@ -225,18 +236,31 @@ private:
   {
     const SliceHeader& slice = m_slices[static_cast<std::size_t>(m_box.lower[2] + k)];
     decodePixels(slice, pixels);
-    const PaddingRange padding(slice, usePadding);
+    if (pixels.isReal())
+      fillRows(k, slice, pixels.reals, voxels, stand, usePadding);
+    else
+      fillRows(k, slice, pixels.values, voxels, stand, usePadding);
+  }
+
+  template <class T, class Stored>
+  void fillRows(int k, const SliceHeader& slice, const std::vector<Stored>& stored,
+                Volume<T>& voxels, T stand, bool usePadding)
+  {
+    const PaddingRange<Stored> padding(slice, usePadding);
     const auto columns = static_cast<std::size_t>(slice.columns);
     const auto width = static_cast<std::size_t>(m_box.upper[0] - m_box.lower[0]);
-    std::int32_t low = std::numeric_limits<std::int32_t>::max();
-    std::int32_t high = std::numeric_limits<std::int32_t>::min();
+    Stored low = std::numeric_limits<Stored>::max();
+    Stored high = std::numeric_limits<Stored>::lowest();
     bool padded = false;
+    double rounding = 0.0;
     for (int j = m_box.lower[1]; j < m_box.upper[1]; ++j)
     {
-      const std::int32_t* from = pixels.values.data() + static_cast<std::size_t>(j) * columns +
-                                 static_cast<std::size_t>(m_box.lower[0]);
+      const Stored* from = stored.data() + static_cast<std::size_t>(j) * columns +
+                           static_cast<std::size_t>(m_box.lower[0]);
       T* to = &voxels.at(0, j - m_box.lower[1], k);
       rescaleRow(slice, from, width, to);
+      if constexpr (std::is_same_v<T, float>)
+        rounding = std::max(rounding, checkRow(slice, from, width, to, padding));
       if (!m_needsRange)
         continue;
       if (padding.empty())
@@ -259,10 +283,11 @@ private:
     const std::size_t lastRow = columns * static_cast<std::size_t>(slice.rows - 1);
     bool corner = false;
     for (const std::size_t at : {std::size_t{0}, columns - 1, lastRow, lastRow + columns - 1})
-      corner = corner || padding.contains(pixels.values[at]);
+      corner = corner || padding.contains(stored[at]);
     const std::lock_guard<std::mutex> lock(m_mutex);
     m_contents.isPadded = m_contents.isPadded || padded;
     m_contents.cornersPadded = m_contents.cornersPadded || corner;
+    m_contents.rounding = std::max(m_contents.rounding, rounding);
     if (low <= high)
     {
       m_contents.real.add(rescaled(slice, low));
@@ -270,9 +295,35 @@ private:
     }
   }
 
-  template <class T>
-  static void rescaleRow(const SliceHeader& slice, const std::int32_t* from, std::size_t count,
-                         T* to)
+  /// By how much values that the file states exactly were rounded. A value that is not finite
+  /// would propagate to every sample, picture and force near it.
+  template <class Stored>
+  static double checkRow(const SliceHeader& slice, const Stored* from, std::size_t count,
+                         const float* to, const PaddingRange<Stored>& padding)
+  {
+    const bool isExact = slice.slope == 1.0 && isWhole(slice.intercept);
+    if (!isExact && std::is_integral_v<Stored>)
+      return 0.0;
+    double worst = 0.0;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if (padding.contains(from[i]))
+        continue;
+      if (!std::isfinite(to[i]))
+        throw DicomError(DicomError::Reason::Unsupported,
+                         slice.file.filename().string() +
+                             " holds values that are not finite numbers (NaN, infinite or beyond "
+                             "float); give them the value of what lies outside the scanned field, "
+                             "such as -1024 in a CT");
+      if (isExact)
+        worst = std::max(worst, std::abs(rescaled(slice, static_cast<double>(from[i])) -
+                                         static_cast<double>(to[i])));
+    }
+    return worst;
+  }
+
+  template <class T, class Stored>
+  static void rescaleRow(const SliceHeader& slice, const Stored* from, std::size_t count, T* to)
   {
     if constexpr (std::is_integral_v<T>)
     {
@@ -283,16 +334,16 @@ private:
         // In 16 bits the sum wraps the same way; a value that does not fit ends the attempt anyway.
         const auto offset = static_cast<std::uint16_t>(intercept);
         for (std::size_t i = 0; i < count; ++i)
-          to[i] = static_cast<T>(
-              static_cast<std::uint16_t>(static_cast<std::uint32_t>(from[i]) + offset));
+          to[i] = static_cast<T>(static_cast<std::uint16_t>(
+              static_cast<std::uint32_t>(static_cast<std::int64_t>(from[i])) + offset));
       }
       else
         for (std::size_t i = 0; i < count; ++i)
-          to[i] = static_cast<T>(slope * from[i] + intercept);
+          to[i] = static_cast<T>(slope * static_cast<std::int64_t>(from[i]) + intercept);
     }
     else
       for (std::size_t i = 0; i < count; ++i)
-        to[i] = static_cast<T>(slice.slope * from[i] + slice.intercept);
+        to[i] = static_cast<T>(slice.slope * static_cast<double>(from[i]) + slice.intercept);
   }
 
   template <class T>
@@ -314,6 +365,7 @@ private:
   const std::string& m_modality;
   GridGeometry m_geometry;
   IndexBox m_box;
+  const std::function<void(std::size_t)>& m_require;
   const core::Progress& m_progress;
   std::vector<std::string>* m_notes = nullptr;
   bool m_needsRange = true; ///< whether the range of the real values is needed
@@ -346,17 +398,16 @@ IndexBox boxToRead(const GridGeometry& grid, const ReadOptions& options)
 }
 
 /// Before memory is touched: the system would promise any size and end the program later.
+///
+/// bytes  of a voxel
 void requireMemory(const DicomSeries& series, const GridGeometry& grid, const IndexBox& box,
-                   bool isRepaired, const ReadOptions& options)
+                   bool isRepaired, const ReadOptions& options, std::size_t bytes)
 {
   const std::uint64_t most = options.memory > 0 ? options.memory : core::systemMemory().available;
-  const auto isInteger = [](const SliceHeader& slice)
-  { return isWhole(slice.slope) && isWhole(slice.intercept); };
-  const auto& slices = series.geometry.slices;
-  const double bytes = std::all_of(slices.begin(), slices.end(), isInteger) ? 2.0 : 4.0;
   const double needed =
-      bytes * (static_cast<double>(box.count()) +
-               (isRepaired ? static_cast<double>(series.geometry.grid->fullBox().count()) : 0.0));
+      static_cast<double>(bytes) *
+      (static_cast<double>(box.count()) +
+       (isRepaired ? static_cast<double>(series.geometry.grid->fullBox().count()) : 0.0));
   if (most == 0 || needed <= static_cast<double>(most))
     return;
   const auto gigabytes = [](double count) { return decimals(1e-9 * count, 1) + " GB"; };
@@ -392,14 +443,17 @@ IntensityVolume readSeries(const DicomSeries& series, const ReadOptions& options
   if (geometry.verdict != Verdict::Repairable || options.acceptDefects)
   {
     const IndexBox box = boxToRead(*geometry.grid, options);
-    requireMemory(series, *geometry.grid, box, false, options);
-    return SeriesReader(series, box, progress).read(notes);
+    const std::function<void(std::size_t)> require = [&](std::size_t bytes)
+    { requireMemory(series, *geometry.grid, box, false, options, bytes); };
+    return SeriesReader(series, box, require, progress).read(notes);
   }
   const SeriesRepair repair(geometry);
   const IndexBox box = boxToRead(repair.grid(), options);
-  requireMemory(series, repair.grid(), box, true, options);
+  const std::function<void(std::size_t)> require = [&](std::size_t bytes)
+  { requireMemory(series, repair.grid(), box, true, options, bytes); };
+  const core::Progress reading = progress.part(0.0, 0.7);
   const IntensityVolume stacked =
-      SeriesReader(series, geometry.grid->fullBox(), progress.part(0.0, 0.7)).read(notes);
+      SeriesReader(series, geometry.grid->fullBox(), require, reading).read(notes);
   if (notes)
     for (std::string& note : repair.notes(box))
       notes->push_back(std::move(note));

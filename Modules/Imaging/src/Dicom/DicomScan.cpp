@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <mutex>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -15,9 +18,12 @@
 #include <tbb/parallel_for.h>
 
 #include "ByteSource.h"
+#include "DicomElements.h"
 #include "DicomHeader.h"
+#include "DicomItem.h"
 #include "HeaderCache.h"
 #include "PixelCodec.h"
+#include "SegmentationReader.h"
 #include "SeriesVolumes.h"
 #include "SliceStack.h"
 #include "petrous/Core/Log.h"
@@ -182,19 +188,6 @@ std::vector<FileHeader> readHeaders(const std::vector<ListedFile>& files,
   return headers;
 }
 
-std::vector<FileHeader> headersOf(const std::vector<ListedFile>& files, std::int64_t listed,
-                                  const core::Progress& progress, core::DerivedStore* cache)
-{
-  if (!cache || files.empty())
-    return readHeaders(files, progress);
-  HeaderCache kept(*cache, files);
-  if (auto found = kept.find())
-    return std::move(*found);
-  std::vector<FileHeader> headers = readHeaders(files, progress);
-  kept.put(headers, listed);
-  return headers;
-}
-
 Finding unreadable(const FileHeader& header)
 {
   return {FindingKind::Unreadable,
@@ -324,7 +317,8 @@ std::string firstNotEmpty(const std::vector<FileHeader*>& members, std::string F
   return found == members.end() ? std::string() : (*found)->*field;
 }
 
-bool sameBytes(const fs::path& one, const fs::path& other)
+/// nullopt: that could not be read.
+std::optional<bool> sameBytes(const fs::path& one, const fs::path& other)
 {
   std::error_code error;
   if (fs::file_size(one, error) != fs::file_size(other, error) || error)
@@ -341,11 +335,66 @@ bool sameBytes(const fs::path& one, const fs::path& other)
         std::memcmp(a.data(), b.data(), static_cast<std::size_t>(first.gcount())) != 0)
       return false;
   }
-  return first.eof() && second.eof();
+  if (!first.eof() || !second.eof())
+    return std::nullopt;
+  return true;
 }
 
+/// What comparing files and slices showed, in this scan and in an earlier one of the same files.
+/// Thread-safe.
+class Comparisons
+{
+public:
+  explicit Comparisons(KnownComparisons known)
+    : m_known(std::move(known))
+  {
+  }
+
+  /// Whether two files are equal, byte by byte; not where they cannot be read.
+  bool areCopies(const fs::path& one, const fs::path& other)
+  {
+    const auto compare = [&]() -> std::optional<std::uint64_t>
+    {
+      const auto same = sameBytes(one, other);
+      return same ? std::optional<std::uint64_t>(*same ? 1 : 0) : std::nullopt;
+    };
+    return result("bytes\n" + one.native() + "\n" + other.native(), compare).value_or(0) != 0;
+  }
+
+  /// The pixels in which two slices differ, by `compare`, which may throw.
+  template <class Compare>
+  std::uint64_t pixels(const SliceHeader& one, const SliceHeader& other, const Compare& compare)
+  {
+    const auto nameOf = [](const SliceHeader& slice)
+    { return slice.file.native() + "\n" + std::to_string(slice.pixels.frame); };
+    return *result("pixels\n" + nameOf(one) + "\n" + nameOf(other),
+                   [&] { return std::optional<std::uint64_t>(compare()); });
+  }
+
+  const KnownComparisons& all() const noexcept { return m_known; }
+
+private:
+  template <class Compare>
+  std::optional<std::uint64_t> result(const std::string& key, const Compare& compare)
+  {
+    {
+      const std::lock_guard<std::mutex> lock(m_mutex);
+      if (const auto known = m_known.find(key); known != m_known.end())
+        return known->second;
+    }
+    const std::optional<std::uint64_t> now = compare();
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    if (now)
+      m_known.emplace(key, *now);
+    return now;
+  }
+
+  std::mutex m_mutex;
+  KnownComparisons m_known;
+};
+
 /// Removes files that are copies of another, byte by byte; their number.
-std::size_t dropCopies(std::vector<SliceHeader>& slices)
+std::size_t dropCopies(std::vector<SliceHeader>& slices, Comparisons& comparisons)
 {
   std::map<std::tuple<int, double, double, double>, std::vector<std::size_t>> alike;
   for (std::size_t i = 0; i < slices.size(); ++i)
@@ -355,16 +404,8 @@ std::size_t dropCopies(std::vector<SliceHeader>& slices)
       alike[{slice.instanceNumber, at[0], at[1], at[2]}].push_back(i);
     }
   std::set<std::size_t> copies;
-  std::map<std::pair<fs::path, fs::path>, bool> compared; // once, also if they have many frames
   const auto isCopy = [&](const SliceHeader& one, const SliceHeader& other)
-  {
-    if (one.file == other.file)
-      return false;
-    const auto [known, isNew] = compared.try_emplace({one.file, other.file}, false);
-    if (isNew)
-      known->second = sameBytes(one.file, other.file);
-    return known->second;
-  };
+  { return one.file != other.file && comparisons.areCopies(one.file, other.file); };
   for (const auto& [key, members] : alike)
     for (std::size_t m = 1; m < members.size(); ++m)
       for (std::size_t n = 0; n < m; ++n)
@@ -449,6 +490,20 @@ bool hasFinding(const SeriesGeometry& geometry, std::initializer_list<FindingKin
                      { return std::find(kinds.begin(), kinds.end(), f.kind) != kinds.end(); });
 }
 
+/// Slices that are too few for a stack, beside several.
+void refuseSetAside(SeriesGeometry& geometry)
+{
+  geometry.verdict = Verdict::Refused;
+  geometry.isRepairableIfEqual = false;
+  if (geometry.findings.empty())
+    geometry.findings.push_back(
+        {FindingKind::OddOrientation,
+         std::to_string(geometry.slices.size()) +
+             (geometry.slices.size() == 1 ? " slice is" : " slices are") +
+             " turned against the stacks of the series or of another size, too few for a stack.",
+         0.0});
+}
+
 /// The stacks of a series, each assessed; a single unnamed one if it cannot be divided.
 std::vector<std::pair<std::string, SeriesGeometry>> assessVolumes(std::vector<SliceHeader> slices)
 {
@@ -458,8 +513,24 @@ std::vector<std::pair<std::string, SeriesGeometry>> assessVolumes(std::vector<Sl
   if (hasFinding(whole,
                  {Kind::DuplicateSlice, Kind::OddOrientation, Kind::OddSize, Kind::MixedRescale}) &&
       !hasFinding(whole, {Kind::MixedPatients, Kind::MixedStudies}))
-    for (NamedSlices& part : splitVolumes(slices))
-      volumes.emplace_back(part.name, assess(std::move(part.slices)));
+  {
+    std::size_t setAside = 0;
+    std::vector<NamedSlices> parts = splitVolumes(slices);
+    for (NamedSlices& part : parts)
+    {
+      setAside += part.isSetAside ? part.slices.size() : 0;
+      SeriesGeometry geometry = assess(std::move(part.slices));
+      if (part.isSetAside)
+        refuseSetAside(geometry);
+      volumes.emplace_back(part.name, std::move(geometry));
+    }
+    for (std::size_t n = 0; setAside > 0 && n < parts.size(); ++n)
+      if (!parts[n].isSetAside)
+        volumes[n].second.notes.push_back(
+            std::to_string(setAside) +
+            (setAside == 1 ? " slice of the series is" : " slices of the series are") +
+            " turned against its stacks or of another size, too few for a stack, and set aside.");
+  }
   const bool helps =
       volumes.size() > 1 &&
       std::any_of(volumes.begin(), volumes.end(),
@@ -503,19 +574,124 @@ std::string missingEnds(const SeriesGeometry& geometry, const Numbering& numberi
                                "all of the skull base that is needed is there.";
 }
 
-/// Compares the pixels of slices that share a place: where they differ, none of them can be left
-/// out.
-void compareDuplicates(SeriesGeometry& geometry)
+/// The stretch of a stack along a normal, mm.
+struct Stretch
 {
-  if (geometry.verdict != Verdict::Repairable || !geometry.grid ||
+  double first = 0.0;
+  double last = 0.0;
+
+  Stretch(const SeriesGeometry& geometry, const Eigen::Vector3d& normal)
+    : first(normal.dot(*geometry.slices.front().position))
+    , last(normal.dot(*geometry.slices.back().position))
+  {
+  }
+  double length() const { return last - first; }
+};
+
+/// What the other volumes of a series say of the ends of one: phases, echoes and b-values of one
+/// series are as long as each other. Empty: nothing.
+std::string shorterThan(const SeriesGeometry& geometry, const std::vector<DicomSeries>& siblings)
+{
+  const auto isStack = [](const SeriesGeometry& g) { return g.grid && g.slices.size() > 1; };
+  if (geometry.verdict == Verdict::Refused || !isStack(geometry))
+    return {};
+  constexpr double kSameSpacing = 0.02; // share
+  constexpr double kAlike = 0.75; // of the stack lies beside the sibling's: no neighbouring slab
+  const Eigen::Vector3d normal = geometry.grid->direction().col(2);
+  const double spacing = geometry.grid->spacing()[2];
+  const Stretch own(geometry, normal);
+  double before = 0.0;
+  double beyond = 0.0;
+  for (const DicomSeries& sibling : siblings)
+  {
+    const SeriesGeometry& other = sibling.geometry;
+    if (&other == &geometry || !isStack(other) ||
+        !sameTurn(geometry.slices.front(), other.slices.front()) ||
+        std::abs(other.grid->spacing()[2] - spacing) > kSameSpacing * spacing ||
+        other.slices.front().frameOfReferenceUid != geometry.slices.front().frameOfReferenceUid)
+      continue;
+    const Stretch its(other, normal);
+    if (std::min(own.last, its.last) - std::max(own.first, its.first) < kAlike * own.length())
+      continue;
+    before = std::max(before, own.first - its.first);
+    beyond = std::max(beyond, its.last - own.last);
+  }
+  const auto goesOn = [spacing](double length)
+  {
+    const auto slices = std::lround(length / spacing);
+    return decimals(length, 1) + " mm (" + std::to_string(slices) +
+           (slices == 1 ? " slice)" : " slices)");
+  };
+  const bool isLater = before > 0.5 * spacing;
+  const bool isEarlier = beyond > 0.5 * spacing;
+  if (!isLater && !isEarlier)
+    return {};
+  return "Another volume of the series goes on for " +
+         (isLater ? goesOn(before) + " before the first slice of this one" : std::string()) +
+         (isLater && isEarlier ? " and " : "") +
+         (isEarlier ? goesOn(beyond) + " beyond its last slice" : std::string()) +
+         "; the stack has no gap, but its ends may be missing. Look whether all of the skull base "
+         "that is needed is there.";
+}
+
+/// The ends that may be missing from the volumes of a divided series.
+void compareEnds(std::vector<DicomSeries>& volumes, const Numbering& numbering)
+{
+  if (volumes.size() < 2)
+    return;
+  bool isExplained = false; // what is not there of those that the header states
+  for (DicomSeries& volume : volumes)
+  {
+    std::string text = shorterThan(volume.geometry, volumes);
+    isExplained = isExplained || !text.empty() ||
+                  hasFinding(volume.geometry, {FindingKind::MissingSlice, FindingKind::Unreadable});
+    if (!text.empty())
+      volume.geometry.findings.push_back({FindingKind::MissingEnd, std::move(text), 0.0});
+  }
+  const auto isOfManyFrames = [](const DicomSeries& volume) {
+    return !volume.geometry.slices.empty() && volume.geometry.slices.front().pixels.frameCount > 1;
+  };
+  if (isExplained || numbering.declared <= numbering.count ||
+      std::any_of(volumes.begin(), volumes.end(), isOfManyFrames))
+    return;
+  for (DicomSeries& volume : volumes)
+    if (volume.geometry.verdict != Verdict::Refused)
+      volume.geometry.findings.push_back(
+          {FindingKind::MissingEnd,
+           "The header states " + std::to_string(numbering.declared) +
+               " images of the series, and " + std::to_string(numbering.count) +
+               " are there in all its volumes, which are equally long; a volume or the ends of all "
+               "may be missing. Look whether all of the skull base that is needed is there.",
+           0.0});
+}
+
+/// The number of pixels in which two slices differ, as rescaled.
+std::uint64_t differingPixels(const SliceHeader& one, const SliceHeader& other)
+{
+  StoredPixels first;
+  StoredPixels second;
+  decodePixels(one, first);
+  decodePixels(other, second);
+  const std::size_t count = std::min(first.size(), second.size());
+  std::uint64_t differing = 0;
+  for (std::size_t p = 0; p < count; ++p)
+    differing +=
+        one.slope * first.at(p) + one.intercept != other.slope * second.at(p) + other.intercept ? 1
+                                                                                                : 0;
+  return differing;
+}
+
+/// Compares the pixels of slices that share a place: where they differ, none of them can be left
+/// out. Where they are equal, any number of them can.
+void compareDuplicates(SeriesGeometry& geometry, Comparisons& comparisons)
+{
+  const bool isMany = geometry.isRepairableIfEqual;
+  if ((geometry.verdict != Verdict::Repairable && !isMany) || !geometry.grid ||
       !hasFinding(geometry, {FindingKind::DuplicateSlice}))
     return;
   const Eigen::Vector3d normal = geometry.grid->direction().col(2);
   const double same = sharedPlace(geometry.grid->spacing()[2]);
-  std::size_t differing = 0; // pixels, of the pair that differs most
-  std::size_t count = 0;
-  StoredPixels first;
-  StoredPixels second;
+  std::uint64_t differing = 0;       // pixels, of the pair that differs most
   const SliceHeader* kept = nullptr; // of a place
   for (const SliceHeader& slice : geometry.slices)
   {
@@ -524,19 +700,23 @@ void compareDuplicates(SeriesGeometry& geometry)
       kept = &slice;
       continue;
     }
-    decodePixels(*kept, first);
-    decodePixels(slice, second);
-    count = std::min(first.values.size(), second.values.size());
-    std::size_t here = 0;
-    for (std::size_t p = 0; p < count; ++p)
-      here += kept->slope * first.values[p] + kept->intercept !=
-                      slice.slope * second.values[p] + slice.intercept
-                  ? 1
-                  : 0;
-    differing = std::max(differing, here);
+    differing = std::max(
+        differing, comparisons.pixels(*kept, slice, [&] { return differingPixels(*kept, slice); }));
+    if (isMany && differing > 0)
+      return; // refused already, and its slices may be thousands
+  }
+  if (isMany)
+  {
+    geometry.verdict = Verdict::Repairable;
+    for (Finding& finding : geometry.findings)
+      if (finding.kind == FindingKind::DuplicateSlice)
+        finding.text += " Those at one place have equal pixels, so that one of each can be kept.";
   }
   if (differing == 0)
     return;
+  const SliceHeader& size = geometry.slices.front();
+  const auto count =
+      static_cast<std::uint64_t>(size.rows) * static_cast<std::uint64_t>(size.columns);
   geometry.verdict = Verdict::Refused;
   for (Finding& finding : geometry.findings)
     if (finding.kind == FindingKind::DuplicateSlice)
@@ -574,6 +754,19 @@ std::vector<Finding> heldAgainst(const std::vector<Finding>& files)
   return named;
 }
 
+SeriesKind kindOf(const std::vector<FileHeader*>& members)
+{
+  const auto areAll = [&members](bool (*isOf)(const std::string&))
+  {
+    return std::all_of(members.begin(), members.end(),
+                       [isOf](const FileHeader* member)
+                       { return isOf(member->sopClass) && member->slice.damage.empty(); });
+  };
+  return areAll(isSegmentationClass)   ? SeriesKind::Segmentation
+         : areAll(isStructureSetClass) ? SeriesKind::StructureSet
+                                       : SeriesKind::Image;
+}
+
 struct MadeSeries
 {
   std::vector<DicomSeries> volumes;
@@ -583,13 +776,14 @@ struct MadeSeries
 /// `folders`: findings about unreadable folders, in which any series may go on. The slices of
 /// `members` are moved from.
 MadeSeries makeSeries(const std::vector<FileHeader*>& members, const Doubts& doubts,
-                      const std::vector<Finding>& folders)
+                      const std::vector<Finding>& folders, Comparisons& comparisons)
 {
   DicomSeries series;
   series.uid = firstNotEmpty(members, &FileHeader::seriesUid);
   series.modality = firstNotEmpty(members, &FileHeader::modality);
   series.description = firstNotEmpty(members, &FileHeader::description);
   series.files = members.size() + doubts.own;
+  series.kind = kindOf(members);
   std::vector<SliceHeader> slices;
   slices.reserve(members.size());
   for (FileHeader* member : members)
@@ -597,7 +791,7 @@ MadeSeries makeSeries(const std::vector<FileHeader*>& members, const Doubts& dou
       slices.push_back(std::move(member->slice));
     else
       std::move(member->frames.begin(), member->frames.end(), std::back_inserter(slices));
-  const std::size_t copies = dropCopies(slices);
+  const std::size_t copies = dropCopies(slices, comparisons);
   const std::size_t replaced = dropReplaced(slices);
   const Numbering numbering = numberingOf(slices);
   MadeSeries made;
@@ -618,7 +812,7 @@ MadeSeries makeSeries(const std::vector<FileHeader*>& members, const Doubts& dou
     std::vector<Finding>& findings = one.geometry.findings;
     try
     {
-      compareDuplicates(one.geometry);
+      compareDuplicates(one.geometry, comparisons);
     }
     catch (const DicomError&) // read again, it says so
     {
@@ -642,10 +836,64 @@ MadeSeries makeSeries(const std::vector<FileHeader*>& members, const Doubts& dou
       one.frameOfReferenceUid = one.geometry.slices.front().frameOfReferenceUid;
     made.volumes.push_back(std::move(one));
   }
+  compareEnds(made.volumes, numbering);
   for (std::size_t n = 0; isSetAside && doubts.own == doubts.files.size() && n < doubts.own; ++n)
     made.notes.push_back(doubts.files[n].text +
                          " It was set aside: the slices beside it are whole without it.");
   return made;
+}
+
+/// A path as the file systems of discs compare it: without case and the version of ISO 9660.
+std::string discName(const fs::path& path)
+{
+  std::string name = path.lexically_normal().string();
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c)
+                 { return static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c); });
+  if (const std::size_t version = name.rfind(';'); version != std::string::npos)
+    name.resize(version);
+  if (!name.empty() && name.back() == '.')
+    name.pop_back();
+  return name;
+}
+
+/// What a DICOMDIR lists and that is not there: a copy that broke off leaves it whole. Empty:
+/// nothing.
+std::string missingFrom(const fs::path& index, const std::set<std::string>& names)
+{
+  constexpr std::uint64_t kLargest = std::uint64_t{64} << 20; // bytes
+  ByteSource source(index);
+  const DicomElements elements(source);
+  if (!source.isOpen() || elements.state() != DicomElements::State::Complete ||
+      source.size() > kLargest || elements.dataStart() > source.size())
+    return {};
+  std::string bytes(static_cast<std::size_t>(source.size() - elements.dataStart()), '\0');
+  if (!source.read(elements.dataStart(), bytes.data(), bytes.size()))
+    return {};
+  const DicomItem data(bytes, {elements.isExplicit(), elements.isBigEndian()});
+  std::size_t listed = 0;
+  std::size_t missing = 0;
+  fs::path first;
+  for (const DicomItem& record : data.items(0x00041220))
+  {
+    std::string id = record.text(0x00041500); // components separated by backslashes
+    if (id.empty())
+      continue;
+    ++listed;
+    std::replace(id.begin(), id.end(), '\\', '/');
+    std::error_code error;
+    const fs::path file = index.parent_path() / id;
+    if (names.count(discName(file)) > 0 || fs::exists(file, error))
+      continue;
+    if (missing++ == 0)
+      first = id;
+  }
+  if (missing == 0)
+    return {};
+  return "'" + index.filename().string() + "' lists " + std::to_string(listed) +
+         " files, of which " + std::to_string(missing) + (missing == 1 ? " is" : " are") +
+         " not there (the first is '" + first.string() +
+         "'): slices or whole series may be missing. Copy the disc again.";
 }
 
 bool isImageSeries(const DicomSeries& series)
@@ -727,7 +975,15 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress,
   FileList list(progress);
   const std::int64_t listed = timeNow();
   list.read(isIndex ? fs::absolute(path).parent_path() : path);
-  std::vector<FileHeader> headers = headersOf(list.files, listed, progress, cache);
+  std::optional<HeaderCache> kept;
+  if (cache && !list.files.empty())
+    kept.emplace(*cache, list.files);
+  auto found = kept ? kept->find() : std::nullopt;
+  std::vector<FileHeader> headers =
+      found ? std::move(found->headers) : readHeaders(list.files, progress);
+  // Now, as what follows takes the headers apart.
+  const auto keepable = kept && !found ? kept->packed(headers, listed) : std::nullopt;
+  Comparisons comparisons(found ? std::move(found->comparisons) : KnownComparisons());
   std::move(list.lost.begin(), list.lost.end(), std::back_inserter(headers));
 
   ScanResult result;
@@ -749,6 +1005,16 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress,
                                       : header.seriesUid]
           .push_back(&header);
   }
+  std::set<std::string> names;
+  for (const FileHeader& header : headers)
+    if (header.kind == FileKind::Directory)
+    {
+      if (names.empty())
+        for (const ListedFile& file : list.files)
+          names.insert(discName(file.path));
+      if (std::string missing = missingFrom(header.slice.file, names); !missing.empty())
+        result.notes.push_back(std::move(missing));
+    }
   const auto folders = namesOf(groups);
   for (FileHeader* header : foreign)
   {
@@ -782,7 +1048,7 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress,
                         const auto open = doubts.find(all[n]->first);
                         made[n] = makeSeries(all[n]->second,
                                              open == doubts.end() ? Doubts() : open->second,
-                                             folderDoubts);
+                                             folderDoubts, comparisons);
                       }
                     });
   for (const auto& [file, n] : order)
@@ -790,9 +1056,18 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress,
     std::move(made[n].volumes.begin(), made[n].volumes.end(), std::back_inserter(result.series));
     std::move(made[n].notes.begin(), made[n].notes.end(), std::back_inserter(result.notes));
   }
+  if (keepable)
+    kept->put(*keepable, comparisons.all());
   logScan(result, headers.size());
   progress.report(1.0, "reading DICOM headers");
   return result;
+}
+
+const char* kindName(SeriesKind kind) noexcept
+{
+  return kind == SeriesKind::Segmentation   ? "segmentation"
+         : kind == SeriesKind::StructureSet ? "structure-set"
+                                            : "image";
 }
 
 std::string selectorOf(const DicomSeries& series)

@@ -33,7 +33,7 @@ using Modality = SeriesDescription::Modality;
 
 /// The attributes common to all slices of a series.
 gdcm::DataSet commonPart(const SeriesDescription& series, const core::GridGeometry& grid,
-                         bool isSigned)
+                         bool isSigned, bool isRescaled)
 {
   const bool ct = series.modality == Modality::Ct;
   const Eigen::Matrix3d& axes = grid.direction();
@@ -72,11 +72,12 @@ gdcm::DataSet commonPart(const SeriesDescription& series, const core::GridGeomet
     putDeidentified(d);
   else
     put(d, 0x0020, 0x0060, "CS", "R");
-  if (ct)
+  if (isRescaled)
     put(d, {{0x0028, 0x1052, "DS", decimal(series.rescaleIntercept)},
             {0x0028, 0x1053, "DS", decimal(series.rescaleSlope)},
-            {0x0028, 0x1054, "LO", series.rescaleType},
-            {0x0018, 0x0060, "DS", series.derived ? "" : "120"}});
+            {0x0028, 0x1054, "LO", ct ? series.rescaleType : "US"}});
+  if (ct)
+    put(d, {{0x0018, 0x0060, "DS", series.derived ? "" : "120"}});
   if (ct && !series.derived)
     put(d, 0x0018, 0x1210, "SH", "BONE");
   if (!ct)
@@ -91,20 +92,42 @@ gdcm::DataSet commonPart(const SeriesDescription& series, const core::GridGeomet
   return d;
 }
 
+/// Whether float voxels are kept within half a step, or exactly where nothing is rescaled.
+void requireKept(const volume::Volume<float>& image, double slope, double intercept)
+{
+  constexpr double kMost = 65535.0;
+  const double most = slope == 1.0 && intercept == 0.0 ? 0.0 : 0.5 * slope * (1.0 + 1e-6);
+  const float* values = image.data();
+  for (std::size_t v = 0; v < image.size(); ++v)
+  {
+    const double value = static_cast<double>(values[v]);
+    const double stored = std::clamp(std::round((value - intercept) / slope), 0.0, kMost);
+    if (!(std::abs(slope * stored + intercept - value) <=
+          most + 1e-9 * std::max(std::abs(value), std::abs(intercept))))
+      throw core::InvalidParameter(
+          "DICOM series: float voxels do not fit 16 bits with this rescale");
+  }
+}
+
+/// What voxels are stored as.
+template <class T>
+using Stored = std::conditional_t<std::is_floating_point_v<T>, std::uint16_t, T>;
+
 template <class T>
 std::vector<char> storedValues(const volume::Volume<T>& image, int k, double slope,
                                double intercept)
 {
   const core::Index3& dims = image.geometry().dims();
   const std::size_t count = static_cast<std::size_t>(dims[0]) * static_cast<std::size_t>(dims[1]);
+  using S = Stored<T>;
   const T* values = image.data() + image.geometry().linearIndex(0, 0, k);
   std::vector<char> bytes(2 * count);
   for (std::size_t i = 0; i < count; ++i)
   {
     const double stored = std::round((static_cast<double>(values[i]) - intercept) / slope);
     const auto bits = static_cast<std::uint16_t>(
-        static_cast<T>(std::clamp(stored, static_cast<double>(std::numeric_limits<T>::lowest()),
-                                  static_cast<double>(std::numeric_limits<T>::max()))));
+        static_cast<S>(std::clamp(stored, static_cast<double>(std::numeric_limits<S>::lowest()),
+                                  static_cast<double>(std::numeric_limits<S>::max()))));
     bytes[2 * i] = static_cast<char>(bits & 0xFF);
     bytes[2 * i + 1] = static_cast<char>(bits >> 8);
   }
@@ -140,6 +163,44 @@ std::string deterministicUid(std::uint64_t seed, const std::string& role)
   return "2.25." + digits;
 }
 
+std::optional<StoredFractions> storedFractions(const volume::Volume<float>& image)
+{
+  constexpr double kMost = 65535.0;
+  constexpr int kFinest = 16; // 2^-16
+  const float* begin = image.data();
+  const float* end = begin + image.size();
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  int binary = 0; // places after the point that all voxels need
+  for (const float* v = begin; v != end; ++v)
+  {
+    if (!std::isfinite(*v))
+      return std::nullopt;
+    low = std::min(low, static_cast<double>(*v));
+    high = std::max(high, static_cast<double>(*v));
+    while (binary <= kFinest && std::ldexp(*v, binary) != std::nearbyint(std::ldexp(*v, binary)))
+      ++binary;
+  }
+  StoredFractions result;
+  const auto asWritten = [](double value) // as the file's decimal string holds it
+  { return core::parseDouble(decimal(value)).value_or(value); };
+  const bool isBinary = binary <= kFinest && std::ldexp(high - low, binary) <= kMost;
+  result.slope = isBinary ? std::ldexp(1.0, -binary) : (high - low) / kMost;
+  result.slope = result.slope > 0.0 ? asWritten(result.slope) : 1.0;
+  result.intercept = asWritten(low);
+  if (!(result.slope > 0.0))
+    return std::nullopt;
+  for (const float* v = begin; v != end; ++v)
+  {
+    const double value = static_cast<double>(*v);
+    const double stored =
+        std::clamp(std::round((value - result.intercept) / result.slope), 0.0, kMost);
+    result.error =
+        std::max(result.error, std::abs(result.slope * stored + result.intercept - value));
+  }
+  return result;
+}
+
 std::string instanceUid(const std::string& seriesUid, int k)
 {
   return deterministicUid(0, seriesUid + "/" + std::to_string(k));
@@ -156,7 +217,9 @@ void writeDicomSeries(const std::filesystem::path& folder, const volume::Intensi
   if (!(description.rescaleSlope > 0.0))
     throw core::InvalidParameter("DICOM series: the rescale slope must be above 0");
   const bool ct = description.modality == Modality::Ct;
-  if (!ct && (description.rescaleSlope != 1.0 || description.rescaleIntercept != 0.0))
+  const bool isFloat =
+      std::holds_alternative<std::shared_ptr<const volume::Volume<float>>>(image.voxels());
+  if (!ct && !isFloat && (description.rescaleSlope != 1.0 || description.rescaleIntercept != 0.0))
     throw core::InvalidParameter("DICOM series: an MR image has no rescale");
   const core::GridGeometry& grid = image.geometry();
   if (grid.dims()[0] > 65535 || grid.dims()[1] > 65535)
@@ -172,10 +235,10 @@ void writeDicomSeries(const std::filesystem::path& folder, const volume::Intensi
       [&](const auto& voxels)
       {
         using T = typename std::decay_t<decltype(voxels)>::Value;
-        if constexpr (std::is_floating_point_v<T>)
-          throw core::InvalidParameter("DICOM series: float voxels cannot be stored as CT or MR");
-        else
         {
+          using S = Stored<T>;
+          if constexpr (std::is_floating_point_v<T>)
+            requireKept(voxels, description.rescaleSlope, description.rescaleIntercept);
           const gdcm::MediaStorage storage(ct ? gdcm::MediaStorage::CTImageStorage
                                               : gdcm::MediaStorage::MRImageStorage);
           const Eigen::Vector3d step =
@@ -189,18 +252,18 @@ void writeDicomSeries(const std::filesystem::path& folder, const volume::Intensi
             gdcm::Writer writer;
             gdcm::DataSet& data = writer.GetFile().GetDataSet();
             // GDCM's reference counts are not thread-safe, so slices share no values
-            data = commonPart(description, grid, std::is_signed_v<T>);
+            data = commonPart(description, grid, std::is_signed_v<S>, ct || isFloat);
             if (image.padding())
             {
               const double stored = std::round((*image.padding() - description.rescaleIntercept) /
                                                description.rescaleSlope);
-              if (!(stored >= static_cast<double>(std::numeric_limits<T>::lowest()) &&
-                    stored <= static_cast<double>(std::numeric_limits<T>::max())))
+              if (!(stored >= static_cast<double>(std::numeric_limits<S>::lowest()) &&
+                    stored <= static_cast<double>(std::numeric_limits<S>::max())))
                 throw core::InvalidParameter(
                     "DICOM series: the padding value " + core::generalText(*image.padding()) +
                     " does not fit its 16 bits with this rescale; choose another");
-              put(data, 0x0028, 0x0120, static_cast<std::uint16_t>(static_cast<T>(stored)),
-                  std::is_signed_v<T> ? "SS" : "US");
+              put(data, 0x0028, 0x0120, static_cast<std::uint16_t>(static_cast<S>(stored)),
+                  std::is_signed_v<S> ? "SS" : "US");
             }
             if (ct && sliceStep)
             {

@@ -20,7 +20,7 @@ namespace petrous::imaging
 namespace
 {
 
-constexpr const char* kMethod = "dicom headers 3"; // increment with the fields below
+constexpr const char* kMethod = "dicom headers 5"; // increment with the fields below
 constexpr std::int64_t kCoarsest = 2'000'000'000;  // ns; FAT
 constexpr std::size_t kSampled = 8;                // files
 constexpr std::size_t kSample = 4096;              // bytes
@@ -228,10 +228,12 @@ void pass(Archive& archive, SliceTraits& value)
 template <class Archive>
 void pass(Archive& archive, PixelFormat& value)
 {
-  auto& [bitsAllocated, bitsStored, highBit, isSigned, samples, photometric, syntax, isEncapsulated,
-         isBigEndian, isDeflated, offset, frame, frameCount, length] = value;
-  passAll(archive, bitsAllocated, bitsStored, highBit, isSigned, samples, photometric, syntax,
-          isEncapsulated, isBigEndian, isDeflated, offset, frame, frameCount, length);
+  auto& [bitsAllocated, bitsStored, highBit, isSigned, isReal, samples, photometric, syntax,
+         isEncapsulated, isBigEndian, isWords, isDeflated, offset, offsetTable, frame, frameCount,
+         length] = value;
+  passAll(archive, bitsAllocated, bitsStored, highBit, isSigned, isReal, samples, photometric,
+          syntax, isEncapsulated, isBigEndian, isWords, isDeflated, offset, offsetTable, frame,
+          frameCount, length);
 }
 
 template <class Archive>
@@ -252,8 +254,8 @@ void pass(Archive& archive, SliceHeader& value)
 template <class Archive>
 void pass(Archive& archive, FileHeader& value)
 {
-  auto& [kind, hasFailed, seriesUid, modality, description, slice, frames] = value;
-  passAll(archive, kind, hasFailed, seriesUid, modality, description, slice, frames);
+  auto& [kind, hasFailed, sopClass, seriesUid, modality, description, slice, frames] = value;
+  passAll(archive, kind, hasFailed, sopClass, seriesUid, modality, description, slice, frames);
 }
 
 using Cipher = std::unique_ptr<EVP_CIPHER_CTX, decltype(&EVP_CIPHER_CTX_free)>;
@@ -345,24 +347,36 @@ HeaderCache::HeaderCache(core::DerivedStore& store, const std::vector<ListedFile
   m_secret = list.value();
 }
 
-std::optional<std::vector<FileHeader>> HeaderCache::find()
+std::optional<HeaderCache::Entry> HeaderCache::find()
 {
   const auto bytes = m_store.find(m_name);
   const auto plain = bytes ? opened(*bytes, m_secret) : std::nullopt;
   if (!plain)
     return std::nullopt;
-  std::vector<FileHeader> headers(m_files.size());
+  Entry entry;
+  entry.headers.resize(m_files.size());
   Reader reader(*plain);
-  for (std::size_t n = 0; n < headers.size(); ++n)
+  for (std::size_t n = 0; n < entry.headers.size(); ++n)
   {
-    pass(reader, headers[n]);
-    if (!reader.good() || headers[n].slice.file != m_files[n].path)
+    pass(reader, entry.headers[n]);
+    if (!reader.good() || entry.headers[n].slice.file != m_files[n].path)
       return std::nullopt;
   }
-  return reader.isAtEnd() ? std::optional(std::move(headers)) : std::nullopt;
+  std::size_t count = 0;
+  reader.size(count);
+  for (std::size_t n = 0; n < count && reader.good(); ++n)
+  {
+    std::string key;
+    std::uint64_t value = 0;
+    reader.text(key);
+    reader.raw(value);
+    entry.comparisons.emplace(std::move(key), value);
+  }
+  return reader.isAtEnd() ? std::optional(std::move(entry)) : std::nullopt;
 }
 
-void HeaderCache::put(const std::vector<FileHeader>& headers, std::int64_t listed)
+std::optional<std::string> HeaderCache::packed(const std::vector<FileHeader>& headers,
+                                               std::int64_t listed) const
 {
   for (std::size_t n = 0; n < headers.size(); ++n)
   {
@@ -371,7 +385,7 @@ void HeaderCache::put(const std::vector<FileHeader>& headers, std::int64_t liste
     const bool isSame = then.size == read.size && then.modified == read.modified &&
                         then.inode == read.inode && then.device == read.device;
     if (headers[n].hasFailed || !isSame || then.modified + kCoarsest > listed)
-      return;
+      return std::nullopt;
   }
   std::string plain;
   Writer writer(plain);
@@ -379,9 +393,24 @@ void HeaderCache::put(const std::vector<FileHeader>& headers, std::int64_t liste
   {
     pass(writer, header);
     if (plain.size() + kNonce + kTag > kMostBytes)
-      return;
+      return std::nullopt;
   }
-  if (const auto bytes = sealed(plain, m_secret); !bytes.empty())
+  return plain;
+}
+
+void HeaderCache::put(std::string packed, const KnownComparisons& comparisons)
+{
+  Writer writer(packed);
+  std::size_t count = comparisons.size();
+  writer.size(count);
+  for (const auto& [key, value] : comparisons)
+  {
+    writer.text(key);
+    writer.raw(value);
+  }
+  if (packed.size() + kNonce + kTag > kMostBytes)
+    return;
+  if (const auto bytes = sealed(packed, m_secret); !bytes.empty())
     m_store.put(m_name, bytes);
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,7 +19,11 @@ struct ListedFile
   FileStamp stamp;
 };
 
-/// The headers of a scan, kept in a DerivedStore for the next scan of the same files.
+/// What comparing the pixels or bytes of slices and files showed, by what was compared.
+using KnownComparisons = std::map<std::string, std::uint64_t>;
+
+/// The headers of a scan and what comparing files in it showed, kept in a DerivedStore for the next
+/// scan of the same files.
 ///
 /// They are found again only if no file was added, removed, renamed, moved or changed (path,
 /// device, inode, size, times of modification and of change), and by the same build of the program.
@@ -31,15 +36,22 @@ class HeaderCache
 public:
   HeaderCache(core::DerivedStore& store, const std::vector<ListedFile>& files);
 
-  /// The header of each file, in the order of `files`.
-  std::optional<std::vector<FileHeader>> find();
+  struct Entry
+  {
+    std::vector<FileHeader> headers; ///< in the order of `files`
+    KnownComparisons comparisons;
+  };
+  std::optional<Entry> find();
 
-  /// Nothing is kept if a file could not be read, or was modified less than two seconds before
-  /// `listed` (or after it): clocks of file systems are that coarse, and a second change would not
-  /// be seen.
+  /// The headers as put keeps them. nullopt: nothing is to be kept, as a file could not be read, or
+  /// was modified less than two seconds before `listed` (or after it): clocks of file systems are
+  /// that coarse, and a second change would not be seen.
   ///
   /// listed  when listing the files began, ns since 1970
-  void put(const std::vector<FileHeader>& headers, std::int64_t listed);
+  std::optional<std::string> packed(const std::vector<FileHeader>& headers,
+                                    std::int64_t listed) const;
+
+  void put(std::string packed, const KnownComparisons& comparisons);
 
 private:
   core::DerivedStore& m_store;

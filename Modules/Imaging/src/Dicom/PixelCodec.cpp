@@ -95,11 +95,25 @@ void unpack(const unsigned char* bytes, bool swap, const BitField& field,
         });
 }
 
+/// 12 bits a pixel, little endian, the first of two in the lower bits.
+void unpackPairs(const unsigned char* bytes, const BitField& field,
+                 std::vector<std::int32_t>& values)
+{
+  for (std::size_t p = 0; p < values.size(); ++p)
+  {
+    const unsigned char* at = bytes + p / 2 * 3 + p % 2;
+    const std::uint32_t pair = at[0] | static_cast<std::uint32_t>(at[1]) << 8;
+    values[p] = field(p % 2 == 0 ? pair & 0xFFFU : pair >> 4);
+  }
+}
+
 void unpackCells(const SliceHeader& slice, int bitsAllocated, const BitField& field, bool swap,
                  StoredPixels& pixels)
 {
   const unsigned char* bytes = pixels.scratch.data();
-  if (bitsAllocated == 8)
+  if (bitsAllocated == 12)
+    unpackPairs(bytes, field, pixels.values);
+  else if (bitsAllocated == 8)
     unpack<std::uint8_t>(bytes, false, field, pixels.values);
   else if (bitsAllocated == 16)
     unpack<std::uint16_t>(bytes, swap, field, pixels.values);
@@ -108,9 +122,30 @@ void unpackCells(const SliceHeader& slice, int bitsAllocated, const BitField& fi
   else
     fail(slice, "has pixels of an unusual number of bits");
   // Unsigned 32-bit values that do not fit appear as negative.
-  if (field.unused == 0 && !field.isSigned &&
-      *std::min_element(pixels.values.begin(), pixels.values.end()) < 0)
-    fail(slice, "holds values beyond 2147483647");
+  if (field.unused != 0 || field.isSigned ||
+      *std::min_element(pixels.values.begin(), pixels.values.end()) >= 0)
+    return;
+  pixels.reals.resize(pixels.values.size());
+  std::transform(pixels.values.begin(), pixels.values.end(), pixels.reals.begin(),
+                 [](std::int32_t value)
+                 { return static_cast<double>(static_cast<std::uint32_t>(value)); });
+  pixels.values.clear();
+}
+
+/// Floating-point pixels, which have no compression.
+template <class Real>
+void unpackReals(bool swap, StoredPixels& pixels)
+{
+  for (std::size_t p = 0; p < pixels.reals.size(); ++p)
+  {
+    std::array<unsigned char, sizeof(Real)> bytes{};
+    std::memcpy(bytes.data(), pixels.scratch.data() + p * sizeof(Real), sizeof(Real));
+    if (swap)
+      std::reverse(bytes.begin(), bytes.end());
+    Real value = 0;
+    std::memcpy(&value, bytes.data(), sizeof value);
+    pixels.reals[p] = static_cast<double>(value);
+  }
 }
 
 BitField bitField(int bitsStored, int highBit, bool isSigned)
@@ -118,14 +153,17 @@ BitField bitField(int bitsStored, int highBit, bool isSigned)
   return {highBit + 1 - bitsStored, 32 - bitsStored, isSigned};
 }
 
-std::uint32_t littleEndian(const unsigned char* bytes)
+std::uint64_t littleEndian(const unsigned char* bytes, std::size_t count)
 {
-  return static_cast<std::uint32_t>(bytes[0] | (bytes[1] << 8)) |
-         (static_cast<std::uint32_t>(bytes[2] | (bytes[3] << 8)) << 16);
+  std::uint64_t value = 0;
+  for (std::size_t b = count; b-- > 0;)
+    value = value << 8 | bytes[b];
+  return value;
 }
 
-/// The fragments of the slice's frame (PS3.5 A.4): all of them if it is the only one, one each if
-/// there are as many as frames, else those that the basic offset table gives it.
+/// The fragments of the slice's frame (PS3.5 A.4): all of them if it is the only one, those that
+/// the extended offset table gives it, one each if there are as many as frames, else those that the
+/// basic offset table gives it.
 std::vector<Fragment> fragmentsOf(ByteSource& source, const SliceHeader& slice,
                                   const std::vector<Fragment>& items)
 {
@@ -137,21 +175,27 @@ std::vector<Fragment> fragmentsOf(ByteSource& source, const SliceHeader& slice,
   const auto count = static_cast<std::size_t>(slice.pixels.frameCount);
   if (count == 1)
     return {items.begin() + 1, items.end()};
-  if (items.size() == count + 1)
+  const bool isExtended = slice.pixels.offsetTable != 0;
+  if (!isExtended && items.size() == count + 1)
     return {items[frame + 1]};
-  if (items.size() == 1 || table.length != 4 * count)
+  if (items.size() == 1 || (!isExtended && table.length != 4 * count))
     fail(slice, "does not say where its compressed frames begin");
-  std::array<unsigned char, 8> starts{}; // of this frame and the next
-  const std::size_t known = frame + 1 < count ? 8 : 4;
-  if (!source.read(table.offset + 4 * frame, starts.data(), known))
+  const std::size_t width = isExtended ? 8 : 4;
+  const std::uint64_t at = (isExtended ? slice.pixels.offsetTable : table.offset) + width * frame;
+  std::array<unsigned char, 16> starts{}; // of this frame and the next
+  const std::size_t known = frame + 1 < count ? 2 : 1;
+  if (!source.read(at, starts.data(), known * width))
     fail(slice, "cannot be read");
   const std::uint64_t first = items[1].offset - kItemHead;
-  const std::uint64_t begin = first + littleEndian(starts.data());
-  const std::uint64_t end = known == 8 ? first + littleEndian(starts.data() + 4) : source.size();
+  const std::uint64_t begin = first + littleEndian(starts.data(), width);
+  const std::uint64_t end =
+      known == 2 ? first + littleEndian(starts.data() + width, width) : source.size();
   std::vector<Fragment> own;
   for (auto one = items.begin() + 1; one != items.end(); ++one)
     if (one->offset - kItemHead >= begin && one->offset - kItemHead < end)
       own.push_back(*one);
+  if (own.empty() || own.front().offset - kItemHead != begin)
+    fail(slice, "does not say where its compressed frames begin");
   return own;
 }
 
@@ -226,7 +270,7 @@ std::vector<Fragment> readFragments(ByteSource& source, const SliceHeader& slice
   while (source.readNear(offset, item.data(), item.size()) && item[0] == 0xfe && item[1] == 0xff &&
          item[2] == 0x00)
   {
-    const std::uint32_t length = littleEndian(item.data() + 4);
+    const auto length = static_cast<std::uint32_t>(littleEndian(item.data() + 4, 4));
     offset += item.size();
     if (offset + length > source.size())
       fail(slice, "is cut short");
@@ -305,16 +349,19 @@ void requireWholePixels(const SliceHeader& slice)
 {
   const PixelFormat& format = slice.pixels;
   const int bits = format.bitsAllocated;
-  if ((bits != 8 && bits != 16 && bits != 32) || format.bitsStored < 1 ||
+  if ((bits != 8 && bits != 12 && bits != 16 && bits != 32) || format.bitsStored < 1 ||
       format.bitsStored > bits || format.highBit >= bits ||
       format.highBit < format.bitsStored - 1 || format.samplesPerPixel != 1)
-    fail(slice, "does not have one pixel value of 1, 2 or 4 bytes");
+    fail(slice, "does not have one pixel value of 8, 12, 16 or 32 bits");
 }
 
 void decodeFrame(ByteSource& source, const SliceHeader& slice,
                  const std::vector<Fragment>& fragments, StoredPixels& pixels)
 {
   requireWholePixels(slice);
+  if (slice.pixels.bitsAllocated % 8 != 0)
+    fail(slice, "has a damaged compressed image");
+  pixels.reals.clear();
   pixels.values.resize(static_cast<std::size_t>(slice.rows) *
                        static_cast<std::size_t>(slice.columns));
   const CodecMessages messages;
@@ -395,20 +442,43 @@ namespace
 
 void decodeUnchecked(ByteSource& source, const SliceHeader& slice, StoredPixels& pixels)
 {
-  requireWholePixels(slice);
   const PixelFormat& format = slice.pixels;
-  pixels.values.resize(static_cast<std::size_t>(slice.rows) *
-                       static_cast<std::size_t>(slice.columns));
+  const std::size_t count =
+      static_cast<std::size_t>(slice.rows) * static_cast<std::size_t>(slice.columns);
+  const auto bits = static_cast<std::size_t>(format.bitsAllocated);
   if (format.isDeflated)
     const DicomElements inflated(source); // side effect: inflates the source
+  if (format.isReal)
+  {
+    if ((bits != 32 && bits != 64) || format.samplesPerPixel != 1 || format.isEncapsulated)
+      fail(slice, "does not have one floating-point value of 32 or 64 bits");
+    pixels.values.clear();
+    pixels.reals.resize(count);
+    pixels.scratch.resize(count * bits / 8);
+    if (!source.read(format.offset, pixels.scratch.data(), pixels.scratch.size()))
+      fail(slice, "is cut short");
+    if (bits == 32)
+      unpackReals<float>(format.isBigEndian, pixels);
+    else
+      unpackReals<double>(format.isBigEndian, pixels);
+    return;
+  }
+  requireWholePixels(slice);
+  pixels.reals.clear();
+  pixels.values.resize(count);
   if (format.isEncapsulated)
   {
     decodeFrame(source, slice, readFragments(source, slice), pixels);
     return;
   }
-  pixels.scratch.resize(pixels.values.size() * static_cast<std::size_t>(format.bitsAllocated / 8));
+  pixels.scratch.resize((count * bits + 7) / 8);
+  const bool isPaired = format.isBigEndian && format.isWords && bits % 16 != 0;
+  if (isPaired)
+    pixels.scratch.resize(pixels.scratch.size() + pixels.scratch.size() % 2);
   if (!source.read(format.offset, pixels.scratch.data(), pixels.scratch.size()))
     fail(slice, "is cut short");
+  for (std::size_t at = 0; isPaired && at + 1 < pixels.scratch.size(); at += 2)
+    std::swap(pixels.scratch[at], pixels.scratch[at + 1]);
   unpackCells(slice, format.bitsAllocated,
               bitField(format.bitsStored, format.highBit, format.isSigned), format.isBigEndian,
               pixels);

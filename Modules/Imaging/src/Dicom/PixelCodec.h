@@ -9,11 +9,20 @@
 namespace petrous::imaging
 {
 
-/// Stored values of one slice, sign-extended, row by row. The memory is reused.
+/// Stored values of one slice, sign-extended, row by row: whole numbers of 32 bits, or others. The
+/// memory is reused.
 struct StoredPixels
 {
-  std::vector<std::int32_t> values;
+  std::vector<std::int32_t> values; ///< empty: see `reals`
+  std::vector<double> reals;        ///< floating point, and unsigned ones beyond 2^31 - 1; or empty
   std::vector<unsigned char> scratch;
+
+  bool isReal() const noexcept { return !reals.empty(); }
+  std::size_t size() const noexcept { return isReal() ? reals.size() : values.size(); }
+  double at(std::size_t pixel) const
+  {
+    return isReal() ? reals[pixel] : static_cast<double>(values[pixel]);
+  }
 };
 
 /// An item of encapsulated pixel data (PS3.5 A.4).

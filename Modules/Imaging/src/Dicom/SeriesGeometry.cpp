@@ -139,6 +139,11 @@ public:
     judgeDamaged();
     judgeAcquisitions();
     m_result.verdict = verdict();
+    if (m_result.verdict == Verdict::Refused && m_duplicates > 0)
+    {
+      m_duplicates = 0;
+      m_result.isRepairableIfEqual = verdict() == Verdict::Repairable;
+    }
     m_result.slices = std::move(m_slices);
     return std::move(m_result);
   }
@@ -170,11 +175,11 @@ private:
     switch (kind)
     {
     case FindingKind::GantryTilt:
-    case FindingKind::UnevenSpacing:
     case FindingKind::MixedRescale:
       return true;
+    case FindingKind::UnevenSpacing:
     case FindingKind::MissingSlice:
-      return m_result.singleGaps;
+      return m_result.isBridgeable;
     case FindingKind::Unreadable:
       return m_damageIsMissing;
     case FindingKind::DuplicateSlice:

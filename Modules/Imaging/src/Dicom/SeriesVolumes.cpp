@@ -196,7 +196,7 @@ std::string sizeText(const SliceHeader& slice)
   return std::to_string(slice.columns) + " x " + std::to_string(slice.rows);
 }
 
-/// Groups of slices that agree with the first of each; those too small go to the largest.
+/// Groups of slices that agree with the first of each; those too small are set aside, as one.
 Groups byLikeness(const NamedSlices& from,
                   const std::function<bool(const SliceHeader&, const SliceHeader&)>& alike,
                   const std::function<std::string(const SliceHeader&)>& nameOf)
@@ -220,15 +220,14 @@ Groups byLikeness(const NamedSlices& from,
       rest.insert(rest.end(), part.begin(), part.end());
   if (stacks.size() < 2)
     return {from};
-  auto& largest = *std::max_element(stacks.begin(), stacks.end(),
-                                    [](auto& a, auto& b) { return a.size() < b.size(); });
-  largest.insert(largest.end(), rest.begin(), rest.end());
   Groups groups;
   for (Headers& stack : stacks)
   {
     const std::string name = joined(from.name, nameOf(stack.front()));
     groups.push_back({name, std::move(stack)});
   }
+  if (!rest.empty())
+    groups.push_back({joined(from.name, "set aside"), std::move(rest), true});
   return groups;
 }
 
@@ -270,11 +269,14 @@ std::vector<NamedSlices> splitVolumes(const std::vector<SliceHeader>& slices)
   Groups turned = byLikeness(all, sameTurn, planeOf);
   Groups groups;
   for (const NamedSlices& part : turned)
-    for (const NamedSlices& sized : byLikeness(part, sameSize, sizeText))
-      if (areAlike(sized.slices))
-        splitPlaces(sized, groups);
-      else
-        groups.push_back(sized); // places of slices turned against each other say nothing
+    if (part.isSetAside)
+      groups.push_back(part);
+    else
+      for (const NamedSlices& sized : byLikeness(part, sameSize, sizeText))
+        if (!sized.isSetAside && areAlike(sized.slices))
+          splitPlaces(sized, groups);
+        else
+          groups.push_back(sized); // places of slices turned against each other say nothing
   if (groups.size() < 2)
     return {{"", slices}};
   makeDistinct(groups);

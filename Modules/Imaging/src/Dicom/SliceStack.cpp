@@ -18,6 +18,10 @@ constexpr double kSameFraction = 0.01; // of the usual gap: closer slices share 
 constexpr double kWholeGap = 0.05;     // a gap this close to a multiple lacks whole slices
 constexpr std::size_t kPlacesNamed = 3;
 constexpr std::size_t kPitchChange = 3; // wide gaps in a row that are a pitch change, not a loss
+constexpr std::size_t kPitches = 2;     // runs of them: coarse, fine, coarse
+constexpr double kWidestGap = 2.05;     // of the usual gap: what one missing slice leaves
+constexpr double kLostGap = 1.5;        // of the usual gap: a slice may have stood in it
+constexpr std::size_t kFewGuessed = 10; // one slice in so many may be guessed
 
 double median(std::vector<double> values) ///< the lower of two middle values; not empty
 {
@@ -164,6 +168,7 @@ void SliceStack::judge(SeriesGeometry& result)
   judgeGaps(result);
   if (m_spacing <= 0.0)
     return;
+  judgeLosses(result);
   judgeEvenness(result);
   judgeSideways(result);
   noteDeclarations(result);
@@ -178,7 +183,6 @@ void SliceStack::judgeGaps(SeriesGeometry& result)
   std::size_t wide = 0;
   std::size_t run = 0;
   std::size_t longestRun = 0;
-  double widest = 1.0;
   std::string where;
   std::vector<double> numbers{0.0};
   std::vector<double> plain{0.0}; // as if no slice were missing
@@ -202,7 +206,6 @@ void SliceStack::judgeGaps(SeriesGeometry& result)
       else if (wide == kPlacesNamed)
         where += " and elsewhere";
       ++wide;
-      widest = std::max(widest, step);
       missing += static_cast<std::size_t>(std::min(step, 1e6)) - 1;
     }
     run = step > 1.0 ? run + 1 : 0;
@@ -223,7 +226,6 @@ void SliceStack::judgeGaps(SeriesGeometry& result)
                                    decimals(excess, 1) + " mm too long.",
                                excess});
   }
-  result.singleGaps = widest <= 2.0;
   if (missing > 0 && longestRun < kPitchChange)
   {
     const double lost = static_cast<double>(missing) * usual;
@@ -235,6 +237,54 @@ void SliceStack::judgeGaps(SeriesGeometry& result)
          lost});
   }
   m_number = longestRun < kPitchChange ? numbers : plain;
+}
+
+/// What interpolation would have to guess: it may close what one missing slice leaves, in few
+/// places.
+void SliceStack::judgeLosses(SeriesGeometry& result)
+{
+  const double usual = m_spacing;
+  std::size_t guessed = 0;
+  std::size_t run = 0;
+  std::size_t pitches = 0;
+  std::size_t ofPitches = 0;
+  double widest = 0.0;
+  std::size_t at = 0;
+  for (std::size_t k = 0; k + 1 < m_place.size(); ++k)
+  {
+    const double gap = m_place[k + 1] - m_place[k];
+    if (gap > widest)
+    {
+      widest = gap;
+      at = k;
+    }
+    const bool isLost = gap - m_step > kLostGap * usual;
+    guessed += isLost ? 1 : 0;
+    run = isLost ? run + 1 : 0;
+    pitches += run == kPitchChange ? 1 : 0;
+    ofPitches += run == kPitchChange ? kPitchChange : run > kPitchChange ? 1 : 0;
+  }
+  if (pitches <= kPitches)
+    guessed -= ofPitches;
+  const std::size_t most = std::max<std::size_t>(1, m_slices.size() / kFewGuessed);
+  if (widest - m_step > kWidestGap * usual)
+    m_loss = " Nothing was measured for " + decimals(widest, 2) + " mm between " +
+             decimals(m_place[at], 2) + " and " + decimals(m_place[at + 1], 2) +
+             " mm, more than one missing slice leaves where slices stand " + decimals(usual, 2) +
+             " mm apart; that is not interpolated.";
+  else if (guessed > most)
+    m_loss = " In " + std::to_string(guessed) + " places, " +
+             decimals(static_cast<double>(guessed) * usual, 1) + " mm of " +
+             decimals(m_place.back() - m_place.front(), 1) +
+             " mm, a slice would have to be guessed; at most " + std::to_string(most) +
+             (most == 1 ? " slice is" : " slices are") + " interpolated.";
+  result.isBridgeable = m_loss.empty();
+  for (Finding& finding : result.findings)
+    if (finding.kind == FindingKind::MissingSlice)
+    {
+      finding.text += m_loss;
+      m_loss.clear();
+    }
 }
 
 void SliceStack::judgeEvenness(SeriesGeometry& result)
@@ -259,7 +309,7 @@ void SliceStack::judgeEvenness(SeriesGeometry& result)
                                "The slices do not stand evenly: near " + decimals(m_place[at], 2) +
                                    " mm along the normal one lies " + decimals(worst, 2) +
                                    " mm from where an even spacing of " + decimals(even, 3) +
-                                   " mm would put it.",
+                                   " mm would put it." + m_loss,
                                worst});
   else if (worst > kSamePlace)
     result.notes.push_back("Slices lie up to " + decimals(worst, 3) +

@@ -39,6 +39,7 @@ public:
 
 private:
   void judgeGaps(SeriesGeometry& result);
+  void judgeLosses(SeriesGeometry& result);
   void judgeEvenness(SeriesGeometry& result);
   void judgeSideways(SeriesGeometry& result) const;
   void noteDeclarations(SeriesGeometry& result) const;
@@ -51,6 +52,7 @@ private:
   std::vector<double> m_number; ///< k, with jumps where slices are missing
   double m_spacing = 0.0;       ///< mm
   double m_step = 0.0;          ///< unit of the last decimal of the positions, mm
+  std::string m_loss;           ///< why its gaps are not interpolated; a sentence, or empty
 };
 
 } // namespace petrous::imaging

@@ -12,6 +12,7 @@
 #include "FileHelpers.h"
 #include "LabelFolder.h"
 #include "LabelNames.h"
+#include "MemoryCheck.h"
 #include "OutputFile.h"
 #include "SegmentationReader.h"
 #include "VoxelSource.h"
@@ -51,6 +52,8 @@ Labels toLabels(const VoxelSource& source, const std::filesystem::path& path,
     if (stride == 1)
       return std::make_shared<volume::Volume<std::uint16_t>>(
           geometry, std::shared_ptr<std::uint16_t>(raw, static_cast<std::uint16_t*>(raw.get())));
+  requireMemory(path, geometry.voxelCount() * sizeof(std::uint16_t),
+                "export fewer of its structures at a time");
   const Labels labels = volume::makeZeroVolume<std::uint16_t>(geometry);
   const T* in = static_cast<const T*>(raw.get()) + layer;
   std::uint16_t* out = labels->data();
@@ -199,12 +202,12 @@ constexpr const char* kTableUnused =
 LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
                         const core::Progress& progress, const LabelNaming& naming,
                         const std::vector<core::GridGeometry>& images,
-                        const std::optional<bool>& isRas)
+                        const std::optional<bool>& isRas, std::uint64_t memory)
 {
   progress.report(0.0, "reading labels");
   if (isDicomSegmentation(path))
   {
-    LoadedLabels loaded = readSegmentation(path, progress, images);
+    LoadedLabels loaded = readSegmentation(path, progress, images, memory);
     if (!naming.table.empty())
       loaded.notes.emplace_back(kTableUnused);
     if (oneOnly && loaded.maps.size() > 1)
@@ -271,17 +274,17 @@ bool isDicomSegmentation(const std::filesystem::path& path)
 
 LoadedLabels loadLabels(const std::filesystem::path& path, const core::Progress& progress,
                         const LabelNaming& naming, const std::vector<core::GridGeometry>& images,
-                        const std::optional<bool>& isRas)
+                        const std::optional<bool>& isRas, std::uint64_t memory)
 {
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
     return readLabelFolder(path, progress, images, isRas);
-  return readLayers(path, false, progress, naming, images, isRas);
+  return readLayers(path, false, progress, naming, images, isRas, memory);
 }
 
 volume::LabelMap readLabelFile(const std::filesystem::path& path, const core::Progress& progress)
 {
-  return std::move(readLayers(path, true, progress, {}, {}, {}).maps.front());
+  return std::move(readLayers(path, true, progress, {}, {}, {}, 0).maps.front());
 }
 
 std::vector<volume::Segment> readSegments(const std::filesystem::path& path)

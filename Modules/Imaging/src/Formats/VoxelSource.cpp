@@ -7,10 +7,10 @@
 
 #include "FileHelpers.h"
 #include "GridFromAffine.h"
+#include "MemoryCheck.h"
 #include "MetaHeader.h"
 #include "NiftiHeader.h"
 #include "NrrdLayout.h"
-#include "petrous/Core/SystemMemory.h"
 #include "petrous/Imaging/FileFormats.h"
 
 namespace petrous::imaging
@@ -53,15 +53,13 @@ std::optional<Component> niftiComponent(int dataType)
 
 std::shared_ptr<void> allocate(const std::filesystem::path& path, std::size_t bytes)
 {
-  // The system promises any size, and ends the program when it cannot keep that.
-  constexpr std::size_t kLarge = std::size_t{256} << 20;
-  const std::uint64_t free = bytes > kLarge ? core::systemMemory().available : 0;
-  if (free == 0 || bytes <= free)
-    if (void* memory = std::malloc(std::max<std::size_t>(bytes, 1)))
-      return {memory, std::free};
+  const char* const advice = "give a region of interest";
+  requireMemory(path, bytes, advice);
+  if (void* memory = std::malloc(std::max<std::size_t>(bytes, 1)))
+    return {memory, std::free};
   fail(FileError::Reason::Unreadable, path,
        "needs " + roughText(static_cast<double>(bytes) / 1e9) +
-           " GB of memory, which is not free; close programs or give a region of interest",
+           " GB of memory, which the system refuses; close programs or " + advice,
        core::Fault::Internal);
 }
 

@@ -15,6 +15,7 @@
 
 #include "FileHelpers.h"
 #include "LabelNames.h"
+#include "MemoryCheck.h"
 #include "VoxelSource.h"
 #include "petrous/Imaging/FileFormats.h"
 
@@ -314,6 +315,8 @@ LoadedLabels readLabelFolder(const fs::path& folder, const core::Progress& progr
         fail(FileError::Reason::Unsupported, folder,
              "holds structures that overlap, or lie on different grids, in more voxels than are "
              "read; give fewer of them at a time");
+      requireMemory(folder, grids[grid]->voxelCount() * sizeof(std::uint16_t),
+                    "give fewer of its files at a time");
       layers.push_back({grid, volume::makeZeroVolume<std::uint16_t>(*grids[grid]), {}});
       layer = layers.end() - 1;
     }

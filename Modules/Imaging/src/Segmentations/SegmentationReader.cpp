@@ -14,10 +14,12 @@
 
 #include "ByteSource.h"
 #include "DicomElements.h"
+#include "DicomHeader.h"
 #include "DicomItem.h"
 #include "FileHelpers.h"
 #include "GridFromAffine.h"
 #include "LabelNames.h"
+#include "MemoryCheck.h"
 #include "PixelCodec.h"
 #include "petrous/Imaging/DicomScan.h"
 
@@ -82,6 +84,7 @@ struct Segmentation
   Eigen::Vector2d pixelSpacing = Eigen::Vector2d::Zero(); ///< between rows, between columns; mm
   double sliceSpacing = 0.0;                              ///< as declared; 0: not
   double thickness = 0.0;
+  std::uint64_t memory = 0; ///< bytes that the voxels may take; 0: what is left
 };
 
 std::size_t pixelsPerFrame(const Segmentation& file)
@@ -503,6 +506,15 @@ std::size_t readPixels(Segmentation& file, ByteSource& source, const Frame& fram
 
 struct Layers
 {
+  void add(const std::filesystem::path& path, const core::GridGeometry& grid, std::uint64_t memory)
+  {
+    // What is left is after the layers before.
+    const std::uint64_t count = memory == 0 ? 1 : voxels.size() + 1;
+    requireMemory(path, count * grid.voxelCount() * sizeof(std::uint16_t), kFewer, memory);
+    voxels.push_back(volume::makeZeroVolume<std::uint16_t>(grid));
+  }
+
+  static constexpr const char* kFewer = "export fewer of its segments at a time";
   std::vector<std::shared_ptr<LabelVolume>> voxels;
   std::map<int, std::size_t> layerOf; ///< by segment number
   std::map<int, double> pixels;       ///< in the frames of each segment; of occupancy, their sum
@@ -521,7 +533,7 @@ void paintSegment(Segmentation& file, ByteSource& source, const core::GridGeomet
       if ((layer + 1) * grid.voxelCount() > kMaxVoxels)
         fail(Reason::Unsupported, file.path,
              "its segments overlap in more layers than are read; export fewer of them at a time");
-      layers.voxels.push_back(volume::makeZeroVolume<std::uint16_t>(grid));
+      layers.add(file.path, grid, file.memory);
     }
     const Frame* frame = first;
     double pixels = 0.0;
@@ -566,7 +578,7 @@ Layers paintSegments(Segmentation& file, ByteSource& source, const core::GridGeo
                    [](const Frame& a, const Frame& b)
                    { return std::pair(a.segment, a.slice) < std::pair(b.segment, b.slice); });
   Layers layers;
-  layers.voxels.push_back(volume::makeZeroVolume<std::uint16_t>(grid));
+  layers.add(file.path, grid, file.memory);
   const Frame* end = file.frames.data() + file.frames.size();
   for (const Frame* first = file.frames.data(); first != end;)
   {
@@ -585,7 +597,7 @@ Layers copyLabelmap(Segmentation& file, ByteSource& source, const core::GridGeom
                     const core::Progress& progress)
 {
   Layers layers;
-  layers.voxels.push_back(volume::makeZeroVolume<std::uint16_t>(grid));
+  layers.add(file.path, grid, file.memory);
   std::vector<unsigned char> bytes;
   std::vector<char> isTaken(static_cast<std::size_t>(grid.dims()[2]), 0);
   for (const Frame& frame : file.frames)
@@ -730,13 +742,14 @@ std::array<std::uint16_t, 3> cieLabFromColor(const std::array<float, 3>& color)
 }
 
 LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Progress& progress,
-                              const std::vector<core::GridGeometry>& images)
+                              const std::vector<core::GridGeometry>& images, std::uint64_t memory)
 {
   progress.report(0.0, "reading labels");
   ByteSource source(path);
   const DicomElements elements(source);
   Segmentation file;
   file.path = path;
+  file.memory = memory;
   file.pixels = elements.pixels();
   const std::uint64_t end =
       file.pixels.tag != 0 ? file.pixels.offset - (elements.isExplicit() ? 12 : 8) : source.size();
@@ -745,6 +758,7 @@ LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Pro
   if (end - elements.dataStart() > kMaxHeader)
     fail(Reason::Unsupported, path,
          "describes its frames in more than 512 MB; export fewer of its segments at a time");
+  requireMemory(path, end - elements.dataStart(), Layers::kFewer, memory);
   std::string head(static_cast<std::size_t>(end - elements.dataStart()), '\0');
   if (!source.read(elements.dataStart(), head.data(), head.size()))
     fail(Reason::Unreadable, path, "cannot be read to its end; copy it again");
@@ -774,6 +788,7 @@ LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Pro
 
   LoadedLabels loaded;
   loaded.frameOfReferenceUid = data.text(0x00200052);
+  loaded.patient = patientOf(elements);
   const core::GridGeometry grid = placeFrames(file, images, loaded.notes);
   const double frameVolume = thicknessOf(file, grid) * grid.spacing()[0] * grid.spacing()[1];
   if (file.type == Type::Fractional)

@@ -18,6 +18,7 @@ constexpr int kLongestName = 64;
 /// SOP Class UID of a DICOM file; "" if it is not one, or is damaged before it.
 std::string sopClassOf(const std::filesystem::path& path);
 bool isSegmentationClass(const std::string& sopClass);
+bool isStructureSetClass(const std::string& sopClass);
 
 /// Reads a DICOM segmentation (PS3.3 A.51): BINARY, FRACTIONAL (voxels of at least half the
 /// maximum) and LABELMAP, in any byte order, uncompressed, deflated or losslessly compressed (RLE,
@@ -27,10 +28,11 @@ bool isSegmentationClass(const std::string& sopClass);
 /// places without a frame are empty. Where the file declares no spacing of its slices that fits, it
 /// is that of the first of `images` on whose slices all frames lie, else the frames' thickness,
 /// else the smallest gap, the latter two noted unless they are one. Frames are read one at a time,
-/// straight into the grid. Segments that overlap lie in several maps. Throws FileError,
-/// CancelledError.
+/// straight into the grid. Segments that overlap lie in several maps. Throws FileError (Unreadable
+/// also if the voxels need more than `memory` bytes, 0: what the machine has left), CancelledError.
 LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Progress& progress,
-                              const std::vector<core::GridGeometry>& images = {});
+                              const std::vector<core::GridGeometry>& images = {},
+                              std::uint64_t memory = 0);
 
 /// The code in an item of a code sequence (short, long or URN); its texts are in the character set
 /// `characters` (0008,0005).

@@ -6,9 +6,11 @@
 
 #include "ByteSource.h"
 #include "DicomElements.h"
+#include "DicomHeader.h"
 #include "DicomItem.h"
 #include "FileHelpers.h"
 #include "LabelNames.h"
+#include "MemoryCheck.h"
 #include "SegmentationReader.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Imaging/StructureSet.h"
@@ -21,7 +23,6 @@ namespace
 
 using Reason = FileError::Reason;
 
-constexpr const char* kStructureSetClass = "1.2.840.10008.5.1.4.1.1.481.3";
 constexpr std::uint64_t kLargest = std::uint64_t{1} << 30; // bytes
 constexpr std::size_t kMostRois = 65535;
 constexpr double kFarthest = 1e4; // mm, of a point; scanners put the patient within 2 m
@@ -31,9 +32,11 @@ constexpr double kSamePlane = 0.02; // slices, between contours of one plane
 constexpr double kThinVoxels = 4.0; // volume from which on a shape is judged
 constexpr double kGap = 1.5;        // of the usual distance of planes: a part of its own
 constexpr int kLines = 32;          // in a row of voxels
+constexpr const char* kFewer = "export fewer structures at a time";
 
 /// A data set of a structure set, which has no pixels.
-std::string dataSet(const std::filesystem::path& path, DicomItem::Encoding& encoding)
+std::string dataSet(const std::filesystem::path& path, DicomItem::Encoding& encoding,
+                    PatientKey& patient)
 {
   ByteSource source(path);
   const DicomElements elements(source);
@@ -44,10 +47,12 @@ std::string dataSet(const std::filesystem::path& path, DicomItem::Encoding& enco
   if (size > kLargest)
     fail(Reason::Unsupported, path,
          "holds more than 1 GB of contours; export fewer structures at a time");
+  requireMemory(path, size, kFewer);
   std::string bytes(static_cast<std::size_t>(size), '\0');
   if (!source.read(elements.dataStart(), bytes.data(), bytes.size()))
     fail(Reason::Unreadable, path, "cannot be read to its end; copy it again");
   encoding = {elements.isExplicit(), elements.isBigEndian()};
+  patient = patientOf(elements);
   return bytes;
 }
 
@@ -451,16 +456,22 @@ std::size_t keepSmall(const Placed& placed, const Shares& shares, std::vector<ch
 
 } // namespace
 
+bool isStructureSetClass(const std::string& sopClass)
+{
+  return sopClass == "1.2.840.10008.5.1.4.1.1.481.3";
+}
+
 bool isStructureSet(const std::filesystem::path& path)
 {
   const FileFormat* format = recognisedFormat(path);
-  return (!format || format->reads == kDicom) && sopClassOf(path) == kStructureSetClass;
+  return (!format || format->reads == kDicom) && isStructureSetClass(sopClassOf(path));
 }
 
 StructureSet readStructureSet(const std::filesystem::path& path)
 {
   DicomItem::Encoding encoding;
-  const std::string bytes = dataSet(path, encoding);
+  StructureSet set;
+  const std::string bytes = dataSet(path, encoding, set.patient);
   const DicomItem data(bytes, encoding);
   const auto checkDamage = [&path](const DicomItem& item)
   {
@@ -469,7 +480,6 @@ StructureSet readStructureSet(const std::filesystem::path& path)
   };
   checkDamage(data);
   const std::string characters = data.text(0x00080005);
-  StructureSet set;
   std::map<int, std::size_t> places; // by ROI Number
   const auto numberOf = [&](const DicomItem& item, Tag tag)
   {
@@ -550,12 +560,22 @@ double contourVolume(const StructureSet::Roi& roi, const core::GridGeometry& gri
 }
 
 LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
-                      const std::filesystem::path& path, const core::Progress& progress)
+                      const std::filesystem::path& path, const core::Progress& progress,
+                      std::uint64_t memory)
 {
   LoadedLabels loaded;
   loaded.frameOfReferenceUid = set.frameOfReferenceUid;
+  loaded.patient = set.patient;
   std::vector<std::shared_ptr<volume::Volume<std::uint16_t>>> layers;
   std::vector<std::vector<volume::Segment>> names;
+  const auto addLayer = [&]
+  {
+    // What is left is after the layers before.
+    const std::uint64_t count = memory == 0 ? 1 : layers.size() + 1;
+    requireMemory(path, count * grid.voxelCount() * sizeof(std::uint16_t), kFewer, memory);
+    layers.push_back(volume::makeZeroVolume<std::uint16_t>(grid));
+    names.emplace_back();
+  };
   std::vector<std::string> oblique;
   std::vector<std::string> coarse; // drawn on every second slice or fewer
   std::size_t others = 0;
@@ -591,6 +611,8 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
       }
       if (placed->step > kGap)
         coarse.push_back("'" + name + "'");
+      requireMemory(path, boxOf(*placed, grid).count() * (sizeof(std::uint16_t) + sizeof(char)),
+                    kFewer, memory);
       const Shares shares = sharesOf(*placed, grid, part);
       constexpr double kNoted = 0.01; // of the volume
       const double whole = volumeOf(*placed);
@@ -634,8 +656,7 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
             fail(Reason::Unsupported, path,
                  "its structures overlap in more layers than are read; export fewer of them at a "
                  "time");
-          layers.push_back(volume::makeZeroVolume<std::uint16_t>(grid));
-          names.emplace_back();
+          addLayer();
         }
         forEach(
             [&](int i, int j, int k)
@@ -646,10 +667,7 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
       }
     }
     if (layers.empty())
-    {
-      layers.push_back(volume::makeZeroVolume<std::uint16_t>(grid));
-      names.emplace_back();
-    }
+      addLayer();
     names[layer].push_back(std::move(segment));
   }
   const auto list = [](const std::vector<std::string>& texts)

@@ -26,7 +26,8 @@ struct PartSource
   /// MR: which series and volume of a DICOM folder (imaging::chooseSeries); empty: automatic.
   std::string series = {};
   bool repair = false; ///< MR: as CaseSources
-  /// MR: whether it may state another patient than the case's images do.
+  /// MR, DICOM SEG, RT structure set: whether it may state another patient than the case's images
+  /// do.
   bool isOtherPatient = false;
   /// Meshes: whether the file is in RAS (else LPS), and its unit in mm; nullopt: as it states,
   /// else LPS mm if that fits the image.
@@ -85,7 +86,8 @@ struct MeshSpaceUnclear : core::InvalidParameter
   std::vector<imaging::MeshSpace> likely;
 };
 
-/// An MR that states another patient than an image of the case: the user has to say whether it may.
+/// An MR or structures that state another patient than an image of the case: the user has to say
+/// whether they may.
 struct OtherPatient : core::Error
 {
   explicit OtherPatient(const std::filesystem::path& file);
@@ -166,11 +168,11 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
 
 /// Adds parts to a case; strong exception guarantee. Structure names must be new to the case's
 /// labels, mesh names to its meshes. A part without a given name is named by the structure words of
-/// its file name (fileName), and its notes say so. An MR whose files and those of another image of
-/// the case state different patients (imaging::samePatient) is OtherPatient unless its source
-/// allows it; its notes then say so. An MR or label file that leaves open which side of the patient
-/// is left is ImageSideUnclear unless its source says it, or it is a label file with the grid of an
-/// image of the case, which it follows. Throws Error (Refused) for a name that is taken,
+/// its file name (fileName), and its notes say so. An MR or a file of structures, if it and an
+/// image of the case state different patients (imaging::samePatient), is OtherPatient unless its
+/// source allows it; its notes then say so. An MR or label file that leaves open which side of the
+/// patient is left is ImageSideUnclear unless its source says it, or it is a label file with the
+/// grid of an image of the case, which it follows. Throws Error (Refused) for a name that is taken,
 /// InvalidParameter for labels without a
 /// voxel, and for a mesh that extends beyond the image on which it was drawn by more than
 /// volume::maxReach; MeshSpaceUnclear for one that lies in it only in another frame or unit.

@@ -69,11 +69,17 @@ struct CaseDicomOptions
 /// drawnOn  the MR whose space it is; empty: the CT's
 /// onCt     an MR, resampled on the CT's grid
 ///
-/// Throws InvalidParameter for voxels that are not whole numbers, and like writeDicomSeries.
-void writeCaseSeries(const std::filesystem::path& folder, const scene::Case& value,
-                     const std::string& what, const volume::IntensityVolume& image,
-                     const std::string& drawnOn, bool onCt, const CaseDicomOptions& options,
-                     const core::Progress& progress);
+/// Fractions are written with a rescale slope; returns by how much a voxel is off at most (nullopt:
+/// there are none). Throws InvalidParameter for a CT whose fractions would be off by more than half
+/// a unit and for an MR with a voxel that is not finite, and like writeDicomSeries.
+std::optional<double> writeCaseSeries(const std::filesystem::path& folder, const scene::Case& value,
+                                      const std::string& what, const volume::IntensityVolume& image,
+                                      const std::string& drawnOn, bool onCt,
+                                      const CaseDicomOptions& options,
+                                      const core::Progress& progress);
+
+/// What the user is told of it.
+std::string roundingNote(const std::string& name, double error);
 
 /// Writes structures as a DICOM segmentation that belongs to the series of the CT, or of the MR,
 /// which writeCaseSeries writes; `placed`: on one grid in one space. Returns the number of

@@ -39,12 +39,23 @@ private:
   Reason m_reason;
 };
 
+/// What the files of a series are, by their SOP classes.
+enum class SeriesKind
+{
+  Image,        ///< or none that is read as another
+  Segmentation, ///< loadLabels
+  StructureSet  ///< readStructureSet
+};
+/// "image", "segmentation" or "structure-set"
+const char* kindName(SeriesKind kind) noexcept;
+
 /// A SeriesInstanceUID found below the scanned path; or one of its volumes, if its slices make
 /// several stacks (orientations, sizes, b-values, echoes, phases, kernels, repetitions).
 struct DicomSeries
 {
   std::string uid;
   std::string volume; ///< e.g. "b 1000", "echo 2"; distinct within the series; empty: its only one
+  SeriesKind kind = SeriesKind::Image; ///< of what is no image none of the files is damaged
   std::string modality;
   std::string description; ///< may identify the patient: for the user's own screen only
   std::string frameOfReferenceUid;

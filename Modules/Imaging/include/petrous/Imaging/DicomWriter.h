@@ -39,9 +39,11 @@ struct SeriesDescription
   std::string studyId = "1";
   std::string seriesUid;           ///< required; instance UIDs are derived from it
   std::string frameOfReferenceUid; ///< required
-  double rescaleIntercept = 0.0;   ///< CT: -1024; MR: 0 (its image module has no rescale)
-  double rescaleSlope = 1.0;       ///< > 0; value = slope * stored + intercept
-  std::string rescaleType = "HU";  ///< of CT: "HU", or "US" for values that are not calibrated
+  /// CT: -1024; MR: 0, as its image module has no rescale; that of float voxels is added to it (a
+  /// standard extended object, PS3.2).
+  double rescaleIntercept = 0.0;
+  double rescaleSlope = 1.0;      ///< > 0; value = slope * stored + intercept
+  std::string rescaleType = "HU"; ///< of CT: "HU", or "US" for values that are not calibrated
   /// Exported from an image of a patient: DERIVED\\SECONDARY, with nothing about acquisition,
   /// position on the table or date, which are not known, and stated to be without identity. Else a
   /// phantom's.
@@ -49,6 +51,19 @@ struct SeriesDescription
   double windowCenter = 700.0; ///< in the image's units
   double windowWidth = 4000.0;
 };
+
+/// How float voxels are stored in 16 bits: value = slope * stored + intercept.
+struct StoredFractions
+{
+  double slope = 1.0;
+  double intercept = 0.0;
+  double error =
+      0.0; ///< the largest of a voxel, at most half a slope but for the float's own digits
+};
+
+/// The finest rescale with which the voxels of a float image fit 16 bits unsigned: a power of two
+/// if that keeps them exactly, else their range in 65535 steps. nullopt: a voxel is not finite.
+std::optional<StoredFractions> storedFractions(const volume::Volume<float>& image);
 
 /// SOP Instance UID of slice k (from 0) of a series that writeDicomSeries wrote.
 std::string instanceUid(const std::string& seriesUid, int k);
@@ -58,7 +73,8 @@ std::string instanceUid(const std::string& seriesUid, int k);
 ///
 /// folder     created if missing; files of the same name are replaced. For a series that is whole
 ///            or absent, and durable, give a folder in a core::OutputFolder
-/// image      int16 or uint16 voxels (float is rejected); padding goes to PixelPaddingValue
+/// image      int16 or uint16 voxels; float ones are stored as uint16 by the description's rescale
+///            (storedFractions). Padding goes to PixelPaddingValue
 /// sliceStep  patient displacement (mm) from one slice to the next if it is not along the slice
 ///            normal, as with a tilted gantry
 ///

@@ -9,6 +9,7 @@
 
 #include "petrous/Core/Progress.h"
 #include "petrous/Imaging/FileError.h"
+#include "petrous/Imaging/PatientKey.h"
 #include "petrous/Volume/LabelMap.h"
 #include "petrous/Volume/SegmentCodes.h"
 
@@ -41,6 +42,7 @@ struct LoadedLabels
   /// The codes themselves, of DICOM and of 3D Slicer's .seg.nrrd, by name.
   std::map<std::string, volume::SegmentCodes> codes = {};
   std::string frameOfReferenceUid = {}; ///< DICOM; identifies the patient's study: not to be shown
+  PatientKey patient = {};              ///< DICOM: whose structures they are
   std::vector<UnreadStructure> unread = {};
   /// mm^3 by the file itself, by name: what its frames, masks or contours enclose, counted or
   /// computed before they became voxels here. None for a label map, whose voxels are kept.
@@ -86,12 +88,14 @@ bool isDicomSegmentation(const std::filesystem::path& path);
 /// a map unless they overlap; different grids are kept apart. Files are read in parallel, one slice
 /// at a time.
 ///
+/// `memory`: bytes that the voxels of a DICOM segmentation may take; 0: what the machine has left.
+///
 /// Throws FileError; Unsupported reports a value below 0, above 65535 or not integral, and a folder
 /// without a structure. CancelledError.
 LoadedLabels loadLabels(const std::filesystem::path& path, const core::Progress& progress = {},
                         const LabelNaming& naming = {},
                         const std::vector<core::GridGeometry>& images = {},
-                        const std::optional<bool>& isRas = std::nullopt);
+                        const std::optional<bool>& isRas = std::nullopt, std::uint64_t memory = 0);
 
 /// Like loadLabels, without the notes, for a file whose structures do not overlap. Throws FileError
 /// (Unsupported) for several layers.

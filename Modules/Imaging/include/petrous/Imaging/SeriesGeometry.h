@@ -21,16 +21,19 @@ struct PixelFormat
   int bitsStored = 0;
   int highBit = 0;
   bool isSigned = false;
+  bool isReal = false; ///< float or double, in as many bits as are allocated
   int samplesPerPixel = 1;
   std::string photometric;    ///< e.g. MONOCHROME2
   std::string transferSyntax; ///< UID
   bool isEncapsulated = false;
   bool isBigEndian = false;
-  bool isDeflated = false;  ///< the offset then refers to the inflated file
-  std::uint64_t offset = 0; ///< of the value of the pixel data element, bytes
-  int frame = 0;            ///< of an encapsulated file with several
-  int frameCount = 1;       ///< in the file
-  std::uint64_t length = 0; ///< bytes; up to the end of the file if encapsulated
+  bool isWords = false;          ///< written as words of 16 bits (OW), also if a pixel has fewer
+  bool isDeflated = false;       ///< the offset then refers to the inflated file
+  std::uint64_t offset = 0;      ///< of the value of the pixel data element, bytes
+  std::uint64_t offsetTable = 0; ///< of the value of an extended offset table; 0: none
+  int frame = 0;                 ///< of an encapsulated file with several
+  int frameCount = 1;            ///< in the file
+  std::uint64_t length = 0;      ///< bytes; up to the end of the file if encapsulated
 };
 
 /// What distinguishes slices of one series at the same place. Absent or malformed: nullopt.
@@ -171,8 +174,12 @@ struct SeriesGeometry
   /// grid (ignoring shear and gaps); none if the files do not state positions.
   std::optional<core::GridGeometry> grid;
 
-  bool singleGaps = true; ///< no two missing slices adjoin
+  /// No gap is wider than one missing slice leaves, and few slices would be guessed.
+  bool isBridgeable = true;
   Verdict verdict = Verdict::Refused;
+  /// Refused only since more than a few slices share their places: repairable if the pixels of
+  /// those at one place are equal, which the headers do not tell.
+  bool isRepairableIfEqual = false;
   /// The reasons for the verdict, localizers set aside, and ends that may be missing. Those of kind
   /// Unreadable name files.
   std::vector<Finding> findings;

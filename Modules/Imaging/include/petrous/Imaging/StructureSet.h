@@ -10,6 +10,7 @@
 #include "petrous/Core/Progress.h"
 #include "petrous/Imaging/FileError.h"
 #include "petrous/Imaging/LabelFile.h"
+#include "petrous/Imaging/PatientKey.h"
 
 namespace petrous::imaging
 {
@@ -29,6 +30,7 @@ struct StructureSet
   };
   std::vector<Roi> rois;
   std::string frameOfReferenceUid; ///< identifies the patient's study: not to be shown
+  PatientKey patient = {};
 };
 
 /// Whether a file is an RT structure set, whatever its name.
@@ -48,9 +50,11 @@ StructureSet readStructureSet(const std::filesystem::path& path);
 /// the one with the largest share. Overlapping structures lie in several maps.
 ///
 /// Planes may be across any axis of the grid. Throws FileError (Unsupported) if all structures with
-/// contours are oblique to it, or if none has a contour; CancelledError.
+/// contours are oblique to it, or if none has a contour, Unreadable if the voxels need more than
+/// `memory` bytes (0: what the machine has left); CancelledError.
 LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
-                      const std::filesystem::path& path, const core::Progress& progress = {});
+                      const std::filesystem::path& path, const core::Progress& progress = {},
+                      std::uint64_t memory = 0);
 
 /// mm^3, of the slabs of a structure's contours as labelsOf places them, before they become voxels;
 /// 0 where they are oblique to the grid.

@@ -1,7 +1,10 @@
 #include <algorithm>
+#include <cstring>
+#include <functional>
 
 #include <gtest/gtest.h>
 
+#include "../../Imaging/Testing/TestDicom.h"
 #include "../../Volume/Testing/SyntheticHead.h"
 #include "TestCase.h"
 #include "petrous/Core/InputFile.h"
@@ -52,6 +55,79 @@ std::size_t filesWith(const fs::path& folder, const std::string& text)
     if (entry.is_regular_file())
       count += core::readFile(entry.path()).find(text) != std::string::npos ? 1 : 0;
   return count;
+}
+
+// An enhanced MR by PS3.3 C.7.6.16, of axial frames: one stack per image, by echo time.
+void writeEchoes(const fs::path& file, const std::vector<volume::IntensityVolume>& images)
+{
+  imaging::test::TestSlice s;
+  s.sopClass = "1.2.840.10008.5.1.4.1.1.4.1";
+  s.modality = "MR";
+  const core::GridGeometry& grid = images.front().geometry();
+  const core::Index3 n = grid.dims();
+  s.columns = n[0];
+  s.rows = n[1];
+  s.pixels = false;
+  const auto item = [&s](const std::string& content)
+  {
+    std::string out;
+    s.append(out, 0xfffe, 2);
+    s.append(out, 0xe000, 2);
+    s.append(out, static_cast<std::uint32_t>(content.size()), 4);
+    return out + content;
+  };
+  const auto group = [&](std::uint32_t tag, const std::function<void(std::string&)>& fill)
+  {
+    std::string content;
+    fill(content);
+    std::string out;
+    s.element(out, tag, "SQ", item(content));
+    return out;
+  };
+  std::string perFrame, data;
+  double time = 0.0;
+  for (const auto& image : images)
+  {
+    time += 10.0;
+    for (int k = 0; k < n[2]; ++k)
+    {
+      const Vector3d at = grid.patientFromVoxel(Vector3d(0, 0, k));
+      perFrame +=
+          item(group(0x00209113,
+                     [&](std::string& out)
+                     {
+                       s.element(out, 0x00200032, "DS",
+                                 core::fixedText(at.x(), 2) + "\\" + core::fixedText(at.y(), 2) +
+                                     "\\" + core::fixedText(at.z(), 2));
+                     }) +
+               group(0x00189114,
+                     [&](std::string& out)
+                     {
+                       std::string bytes(sizeof time, '\0');
+                       std::memcpy(bytes.data(), &time, sizeof time);
+                       s.element(out, 0x00189082, "FD", bytes);
+                     }));
+      for (int j = 0; j < n[1]; ++j)
+        for (int i = 0; i < n[0]; ++i)
+          s.append(data, static_cast<std::uint32_t>(static_cast<std::int32_t>(image.at(i, j, k))),
+                   2);
+    }
+  }
+  std::string all = s.bytes();
+  s.element(all, 0x00280008, "IS", std::to_string(images.size() * static_cast<std::size_t>(n[2])));
+  s.element(all, 0x52009229, "SQ",
+            item(group(0x00289110,
+                       [&](std::string& out)
+                       {
+                         s.element(out, 0x00280030, "DS",
+                                   core::fixedText(grid.spacing()[1], 2) + "\\" +
+                                       core::fixedText(grid.spacing()[0], 2));
+                       }) +
+                 group(0x00209116, [&](std::string& out)
+                       { s.element(out, 0x00200037, "DS", "1\\0\\0\\0\\1\\0"); })));
+  s.element(all, 0x52009230, "SQ", perFrame);
+  s.element(all, 0x7fe00010, "OW", data);
+  imaging::test::writeText(file, all);
 }
 
 library::DeidentificationOptions withMask()
@@ -142,6 +218,85 @@ TEST(FaceMaskOfFiles, LeavesOutWhatIsInNoVolume)
   EXPECT_THROW(library::deidentify(folder.path() / "one", out, withMask(), library::PseudonymKey()),
                core::Error);
   EXPECT_FALSE(fs::exists(out));
+}
+
+// The first volume of a file, in which nothing is found, does not speak for the second.
+TEST(FaceMaskOfFiles, MasksEachVolumeOfAFileWithSeveral)
+{
+  const TemporaryFolder folder;
+  const fs::path in = folder.path() / "in", out = folder.path() / "out";
+  const core::GridGeometry grid = gridOver(headBox(), Vector3d(2.5, 2.5, 5.0));
+  auto ball = std::make_shared<volume::Volume<std::int16_t>>(grid, 20);
+  const core::Index3 n = grid.dims();
+  for (int k = 0; k < n[2]; ++k)
+    for (int j = 0; j < n[1]; ++j)
+      for (int i = 0; i < n[0]; ++i)
+        if (grid.patientFromVoxel(Vector3d(i, j, k)).norm() < 15.0)
+          ball->at(i, j, k) = 300;
+  const volume::IntensityVolume head(scanned(SyntheticHead(), grid, true));
+  fs::create_directories(in);
+  writeEchoes(
+      in / "echoes.dcm",
+      {volume::IntensityVolume(std::shared_ptr<const volume::Volume<std::int16_t>>(ball)), head});
+  const auto done = library::deidentify(in, out, withMask(), library::PseudonymKey());
+  EXPECT_EQ(done.report.filesWritten, 1u);
+  EXPECT_EQ(filesWith(out, "113102"), 1u);
+  const auto scan = imaging::scanDicom(out, {});
+  ASSERT_EQ(scan.series.size(), 2u);
+  for (const auto& series : scan.series)
+  {
+    const auto after = imaging::readSeries(series, {}, {});
+    for (const Vector3d& own : {Vector3d(0, -100, 0), Vector3d(0, -88, -68), Vector3d(30, -88, 52)})
+      EXPECT_LT(after.sample(after.geometry().voxelFromPatient(own)), 100.0) << own.transpose();
+  }
+}
+
+TEST(FaceMaskOfFiles, LeavesOutPixelsOfEveryKindThatAreInNoVolume)
+{
+  const TemporaryFolder folder;
+  const fs::path in = folder.path() / "in", out = folder.path() / "out";
+  writeSeries(in, headImage(headBox()));
+  int n = 0;
+  for (const std::uint32_t tag : {0x7fe00008U, 0x7fe00009U, 0x7fe00010U})
+  {
+    imaging::test::TestSlice slice;
+    slice.seriesUid = "1.2.3.77." + std::to_string(++n);
+    slice.pixelTag = tag;
+    slice.bitsAllocated = tag == 0x7fe00008U ? 32 : tag == 0x7fe00009U ? 64 : 16;
+    slice.bitsStored = slice.bitsAllocated;
+    slice.write(in / ("single-" + std::to_string(n) + ".dcm"));
+  }
+  const auto done = library::deidentify(in, out, withMask(), library::PseudonymKey());
+  EXPECT_EQ(done.leftOut.size(), 3u);
+  for (const std::string& line : done.leftOut)
+    EXPECT_NE(line.find("no slice of a CT or MR volume"), std::string::npos) << line;
+}
+
+// A contour of the body is the skin.
+TEST(FaceMaskOfFiles, LeavesOutContoursAndSegments)
+{
+  const TemporaryFolder folder;
+  const fs::path in = folder.path() / "in", out = folder.path() / "out";
+  writeSeries(in, headImage(headBox()));
+  const std::vector<std::pair<std::string, std::string>> kinds{
+      {"1.2.840.10008.5.1.4.1.1.481.3", "RTSTRUCT"},
+      {"1.2.840.10008.5.1.4.1.1.66.4", "SEG"},
+      {"1.2.840.10008.5.1.4.1.1.66.5", "SEG"}};
+  for (const auto& [sopClass, modality] : kinds)
+  {
+    imaging::test::TestSlice slice;
+    slice.seriesUid = "1.2.3.88";
+    slice.sopClass = sopClass;
+    slice.modality = modality;
+    slice.pixels = false;
+    slice.write(in / (sopClass + ".dcm"));
+  }
+  const auto done = library::deidentify(in, out, withMask(), library::PseudonymKey());
+  ASSERT_EQ(done.leftOut.size(), kinds.size());
+  for (const std::string& line : done.leftOut)
+    EXPECT_NE(line.find("skin"), std::string::npos) << line;
+  const auto without = library::deidentify(in, folder.path() / "all", {}, library::PseudonymKey());
+  EXPECT_TRUE(without.leftOut.empty());
 }
 
 // Drilled at home, masked in the archive: the strokes apply where it arrives, to the bit, and the

@@ -115,6 +115,39 @@ TEST(ImageMask, MasksCtAndMrAndLeavesAllElse)
   }
 }
 
+// A note is text, and may come with an archive of another's.
+TEST(ImageMask, BelievesNoNoteOfAMask)
+{
+  scene::Case value = headCase();
+  value.ct.notes.push_back("the face is masked to a plane 50 mm behind the tip of the nose, with "
+                           "the auricles");
+  EXPECT_EQ(scene::imagesWithFace(value), (std::vector<std::string>{"the CT"}));
+  scene::ImageMask mask;
+  mask.face = true;
+  const auto report = scene::maskImages(value, mask);
+  EXPECT_EQ(report.images.front().face, Kind::Face);
+  EXPECT_GT(report.images.front().changed, 0u);
+  EXPECT_TRUE(scene::imagesWithFace(value).empty());
+}
+
+TEST(ImageMask, RefusesAuriclesThatAnEarlierMaskLeft)
+{
+  scene::Case value = headCase();
+  scene::ImageMask mask;
+  mask.face = true;
+  scene::maskImages(value, mask);
+  const Image once = value.ct.volume.get();
+  mask.ears = true;
+  EXPECT_THROW(scene::maskImages(value, mask), core::Error);
+  EXPECT_EQ(value.ct.volume.get(), once);
+
+  scene::Case both = headCase();
+  scene::maskImages(both, mask);
+  const auto again = scene::maskImages(both, mask);
+  EXPECT_EQ(again.images.front().face, Kind::Masked);
+  EXPECT_EQ(again.images.front().changed, 0u);
+}
+
 TEST(ImageMask, KeepsStructuresAndDrillingOfAllApproaches)
 {
   scene::Case value = headCase();

@@ -22,6 +22,7 @@ using volume::FaceFinding;
 using volume::IntensityVolume;
 
 constexpr const char* kMaskedNote = "the face is masked";
+constexpr const char* kWithEars = ", with the auricles";
 
 std::string nameOf(const Case& value, const ImagePart& image)
 {
@@ -35,10 +36,14 @@ bool isMr(const Case& value, const ImagePart& image)
   return &image != &value.ct || image.modality == Modality::Mr;
 }
 
-bool isNotedAsMasked(const ImagePart& image)
+// Only said, and never enough to let an image pass.
+bool areEarsNotedAsMasked(const ImagePart& image)
 {
   return std::any_of(image.notes.begin(), image.notes.end(),
-                     [](const std::string& note) { return note.rfind(kMaskedNote, 0) == 0; });
+                     [](const std::string& note) {
+                       return note.rfind(kMaskedNote, 0) == 0 &&
+                              note.find(kWithEars) != std::string::npos;
+                     });
 }
 
 /// What stays.
@@ -271,17 +276,21 @@ Result masked(const Case& value, const ImagePart& image, const ImageMask& mask,
           " mm around lies in the masked part and stays, " + std::to_string(done.kept) + " voxels");
   };
   const volume::SkinScale scale = volume::skinScale(*result.image, isMr(value, image));
-  if (mask.face && isNotedAsMasked(image))
-  {
-    result.part.face = FaceFinding::Kind::Masked;
-    result.notes.push_back(name + ": the face is masked already");
-  }
-  else if (mask.face)
+  if (mask.face)
   {
     const FaceFinding finding =
         volume::findFace(*result.image, scale, mask.ears, progress.part(0.0, 0.4));
     result.part.face = finding.kind;
-    if (finding.kind == FaceFinding::Kind::Face)
+    if (finding.kind == FaceFinding::Kind::Doubtful)
+      throw core::Error(core::Fault::Refused,
+                        name + ": " + finding.text +
+                            "; it cannot be masked. Leave the image out, or hand on the region of "
+                            "the ear alone (--roi)");
+    if (finding.kind == FaceFinding::Kind::Masked && mask.ears && !areEarsNotedAsMasked(image))
+      throw core::Error(core::Fault::Refused,
+                        name + ": the face is masked already, but not the auricles, which are "
+                               "found by it; mask both in the image as it was");
+    if (finding.canBeMasked())
     {
       const Kept kept = keptOf(
           value, image, [&finding](const Eigen::Vector3d& at) { return finding.region.covers(at); },
@@ -294,7 +303,9 @@ Result masked(const Case& value, const ImagePart& image, const ImageMask& mask,
                     core::fixedText(finding.region.reach, 0) + " mm behind the tip of the nose, " +
                     core::fixedText(volume::kFaceDepth, 0) + " mm or more below its skin (median " +
                     core::fixedText(finding.region.depth, 0) + " mm)" +
-                    (mask.ears ? ", with the auricles" : "");
+                    (mask.ears ? kWithEars : "");
+      if (!finding.text.empty())
+        result.notes.push_back(name + ": " + finding.text);
       result.notes.push_back(name + ": " + result.kept + "; " +
                              percent(done.changed, result.part.voxels) + " of its voxels changed");
     }
@@ -370,12 +381,12 @@ std::vector<std::string> imagesWithFace(const Case& value, const core::Progress&
   std::vector<std::string> names;
   const auto look = [&](const ImagePart& image)
   {
-    if (isNotedAsMasked(image))
-      return;
     const auto voxels = image.volume.get();
-    if (voxels &&
-        volume::findFace(*voxels, volume::skinScale(*voxels, isMr(value, image)), {}, progress)
-                .kind == FaceFinding::Kind::Face)
+    if (!voxels)
+      return;
+    const FaceFinding finding =
+        volume::findFace(*voxels, volume::skinScale(*voxels, isMr(value, image)), {}, progress);
+    if (finding.canBeMasked() || finding.kind == FaceFinding::Kind::Doubtful)
       names.push_back(nameOf(value, image));
   };
   look(value.ct);

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <string>
 
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
@@ -118,7 +119,7 @@ void expectMasked(const IntensityVolume& before, const IntensityVolume& after,
   // The front is the plane, but for cavities that it opens.
   std::vector<Vector3d> flat;
   for (std::size_t n = 0; n < inner.size(); ++n)
-    if (depths[n] < found.region.planeAt(inner[n].z()) + 2.0 * voxel)
+    if (found.region.inFront({inner[n].x(), depths[n], inner[n].z()}) > -2.0 * voxel)
       flat.push_back(inner[n]);
   EXPECT_GT(flat.size(), inner.size() / 2);
   const auto old = relief(flat, frontDepth(before, scale.threshold, flat));
@@ -198,6 +199,68 @@ TEST(FaceMask, LeavesTheTemporalBonesToTheBit)
         }
     EXPECT_GT(compared, 100000u);
     EXPECT_EQ(other, 0u);
+  }
+}
+
+// Turned on the pillow, laid on the shoulder, chin up and down.
+TEST(FaceMask, FollowsTheHeadsTurn)
+{
+  struct Turn
+  {
+    double yaw, roll, pitch; // degrees
+  };
+  for (const Turn& turn : {Turn{15, 0, 0}, Turn{-30, 0, 0}, Turn{45, 0, 0}, Turn{60, 0, 0},
+                           Turn{0, 30, 0}, Turn{0, 0, 45}, Turn{0, 0, -45}, Turn{30, 15, 20}})
+  {
+    SCOPED_TRACE(std::to_string(turn.yaw) + " " + std::to_string(turn.roll) + " " +
+                 std::to_string(turn.pitch));
+    constexpr double kDegree = 3.14159265358979 / 180.0;
+    const SyntheticHead own;
+    const SyntheticHead head(Matrix3d(Eigen::AngleAxisd(turn.yaw * kDegree, Vector3d::UnitZ()) *
+                                      Eigen::AngleAxisd(turn.roll * kDegree, Vector3d::UnitY()) *
+                                      Eigen::AngleAxisd(turn.pitch * kDegree, Vector3d::UnitX())));
+    const core::PatientBox box(Vector3d(-150, -150, -130), Vector3d(150, 150, 160));
+    const IntensityVolume image = imageOf(head, gridOver(box, Vector3d(2.5, 2.5, 2.5)));
+    const FaceFinding found = findFace(image, {});
+    ASSERT_EQ(found.kind, Kind::Face) << found.text;
+    std::size_t skin = 0, left = 0;
+    for (double z = -70.0; z <= 60.0; z += 4.0)
+      for (double x = -40.0; x <= 40.0; x += 4.0)
+      {
+        Vector3d at(x, -130.0, z); // in the head's own axes
+        while (at.y() < 0.0 && own.hounsfield(at) < -300.0)
+          at.y() += 0.5;
+        ++skin;
+        left += found.region.covers(head.placed(at)) ? 0 : 1;
+      }
+    EXPECT_GT(skin, 600u);
+    EXPECT_EQ(left, 0u);
+    std::size_t masked = 0; // of the temporal bones
+    for (const double side : {-1.0, 1.0})
+      for (double y = -35.0; y <= 30.0; y += 5.0)
+        for (double x = 35.0; x <= 65.0; x += 5.0)
+          masked += found.region.covers(head.placed({side * x, y, 15.0})) ? 1 : 0;
+    EXPECT_EQ(masked, 0u);
+    EXPECT_EQ(findFace(*maskFace(image, found.region, nullptr).image, {}).kind, Kind::Masked);
+  }
+}
+
+// Sagittal series, as of the pituitary.
+TEST(FaceMask, MasksAProfileHoweverNarrow)
+{
+  const SyntheticHead head;
+  for (const auto& [width, asMr] :
+       {std::pair{58.0, false}, {58.0, true}, {40.0, false}, {30.0, false}})
+  {
+    SCOPED_TRACE(width);
+    const core::PatientBox box(Vector3d(-0.5 * width, -135, -125), Vector3d(0.5 * width, 115, 150));
+    const IntensityVolume image = imageOf(head, gridOver(box, Vector3d(3.0, 1.5, 1.5)), asMr);
+    const FaceFinding found = findFace(image, skinScale(image, asMr));
+    ASSERT_EQ(found.kind, Kind::Part) << found.text;
+    EXPECT_NEAR(found.region.front.y(), head.noseTip().y(), 3.0);
+    for (const double z : {-68.0, -32.0, 0.0, 28.0, 52.0})
+      EXPECT_TRUE(found.region.covers({0.0, -74.0, z})) << z;
+    EXPECT_FALSE(found.region.covers({10.0, -35.0, 15.0}));
   }
 }
 

@@ -25,6 +25,12 @@ public:
   {
   }
 
+  /// Turned: the patient's axes from the head's own.
+  explicit SyntheticHead(const Eigen::Matrix3d& turn)
+    : m_turn(turn)
+  {
+  }
+
   double hounsfield(const Eigen::Vector3d& patient) const
   {
     const Eigen::Vector3d p = own(patient);

@@ -1492,6 +1492,17 @@ std::string unsuitable(const std::string& sopClass)
   return {};
 }
 
+// RT structure sets, segmentations of voxels, of surfaces and as label maps, scanned surfaces.
+bool isOutlines(const std::string& sopClass)
+{
+  for (const char* outlines : {"1.2.840.10008.5.1.4.1.1.481.3", "1.2.840.10008.5.1.4.1.1.66.4",
+                               "1.2.840.10008.5.1.4.1.1.66.5", "1.2.840.10008.5.1.4.1.1.66.7",
+                               "1.2.840.10008.5.1.4.1.1.68.1", "1.2.840.10008.5.1.4.1.1.68.2"})
+    if (sopClass == outlines)
+      return true;
+  return false;
+}
+
 // A head is some 150 mm wide and 180 mm long.
 bool coversAHead(DcmItem& item)
 {
@@ -1644,14 +1655,26 @@ DicomCleaner::Outcome DicomCleaner::clean(const std::filesystem::path& input,
     ++warnings[states ? "burned-in annotation is stated, and kept"
                       : "not stated to be free of burned-in annotation: look at the images"];
   const FaceSlices::File* face = faces ? faces->find(input) : nullptr;
-  const bool isMasked = face && face->region;
-  if (faces && dataSet->tagExists(DCM_PixelData))
+  const bool isMasked = face && face->hasFace();
+  const bool hasPixels = dataSet->tagExists(DCM_PixelData) ||
+                         dataSet->tagExists(DCM_FloatPixelData) ||
+                         dataSet->tagExists(DCM_DoubleFloatPixelData);
+  if (faces && isOutlines(sopClass))
+    return {"its contours or segments may be the skin of a face, which cannot be masked in them",
+            true};
+  if (faces && hasPixels)
   {
-    const std::string modality = valueOf(*dataSet, DCM_Modality);
-    if (!face && modality != "SEG" && modality != "RTDOSE")
+    if (!face && valueOf(*dataSet, DCM_Modality) != "RTDOSE")
       return {"its face cannot be masked: it is no slice of a CT or MR volume", true};
-    if (face && !isMasked)
-      ++warnings[face->text];
+    if (face)
+    {
+      const auto frames = std::max(1L, numberIn(*dataSet, DCM_NumberOfFrames, 1));
+      if (std::string why = unmaskable(*face, static_cast<std::size_t>(frames)); !why.empty())
+        return {why, true};
+      if (!isMasked)
+        for (const std::string& text : face->texts)
+          ++warnings[text];
+    }
   }
   else if (coversAHead(*dataSet))
     ++warnings["slices wide enough for a whole head: a face can be recognised"];

@@ -52,7 +52,8 @@ FaceSlices::FaceSlices(const fs::path& path, const core::Progress& progress)
         series.geometry.verdict == imaging::Verdict::Refused ||
         series.geometry.slices.size() < kLeastSlices)
       continue;
-    File found;
+    std::shared_ptr<const volume::FaceRegion> region;
+    std::string text, doubt;
     try
     {
       imaging::ReadOptions options;
@@ -61,24 +62,58 @@ FaceSlices::FaceSlices(const fs::path& path, const core::Progress& progress)
           imaging::readSeries(series, options, part.part(0.0, 0.7));
       volume::FaceFinding finding = volume::findFace(
           image, volume::skinScale(image, series.modality == "MR"), false, part.part(0.7, 1.0));
-      found.text = finding.text;
-      if (finding.kind == volume::FaceFinding::Kind::Face)
-        found.region = std::make_shared<const volume::FaceRegion>(std::move(finding.region));
+      if (finding.kind == volume::FaceFinding::Kind::Doubtful)
+        doubt = finding.text;
+      else if (finding.canBeMasked())
+        region = std::make_shared<const volume::FaceRegion>(std::move(finding.region));
+      else
+        text = finding.text;
     }
     catch (const imaging::DicomError&)
     {
       continue;
     }
+    // A file of several volumes (phases, directions) has what was found in each of them.
     for (const imaging::SliceHeader& slice : series.geometry.slices)
     {
-      File& file = m_files.emplace(key(slice.file), found).first->second;
-      file.frames.push_back(slice);
+      File& file = m_files[key(slice.file)];
+      Frame& frame = file.frames[slice.pixels.offset];
+      frame.slice = slice;
+      if (region)
+        frame.region = region;
+      if (!text.empty())
+        file.texts.insert(text);
+      if (!doubt.empty())
+        file.doubt = doubt;
     }
   }
+  // What one volume of a file shows lies in the others too, even if it was not found there.
   for (auto& [path_, file] : m_files)
-    std::sort(file.frames.begin(), file.frames.end(),
-              [](const imaging::SliceHeader& a, const imaging::SliceHeader& b)
-              { return a.pixels.offset < b.pixels.offset; });
+  {
+    const auto seen = std::find_if(file.frames.begin(), file.frames.end(),
+                                   [](const auto& entry) { return entry.second.region; });
+    if (seen == file.frames.end())
+      continue;
+    const auto region = seen->second.region;
+    for (auto& [offset, frame] : file.frames)
+      if (!frame.region)
+        frame.region = region;
+  }
+}
+
+bool FaceSlices::File::hasFace() const
+{
+  return std::any_of(frames.begin(), frames.end(),
+                     [](const auto& entry) { return entry.second.region != nullptr; });
+}
+
+std::string unmaskable(const FaceSlices::File& file, std::size_t frames)
+{
+  if (!file.doubt.empty())
+    return "its face cannot be masked: " + file.doubt;
+  if (file.frames.size() != frames)
+    return "its face cannot be masked: some of its frames are in no volume";
+  return {};
 }
 
 const FaceSlices::File* FaceSlices::find(const fs::path& file) const
@@ -89,16 +124,12 @@ const FaceSlices::File* FaceSlices::find(const fs::path& file) const
 
 std::string maskFaceInPixels(DcmItem& dataSet, const FaceSlices::File& file)
 {
-  const imaging::PixelFormat& format = file.frames.front().pixels;
+  const imaging::PixelFormat& format = file.frames.begin()->second.slice.pixels;
   if (format.isEncapsulated)
     return "its face cannot be masked while its pixels are compressed: decompress it first";
-  Sint32 frames = 1;
-  if (dataSet.findAndGetSint32(DCM_NumberOfFrames, frames).bad() || frames < 1)
-    frames = 1;
-  if (file.frames.size() != static_cast<std::size_t>(frames))
-    return "its face cannot be masked: some of its frames are in no volume";
-  const auto isOdd = [&](const imaging::SliceHeader& slice)
+  const auto isOdd = [](const auto& entry)
   {
+    const imaging::SliceHeader& slice = entry.second.slice;
     return !slice.position || !slice.rowDirection || !slice.columnDirection ||
            !slice.pixelSpacing || slice.hasModalityLut || slice.slope == 0.0;
   };
@@ -112,22 +143,24 @@ std::string maskFaceInPixels(DcmItem& dataSet, const FaceSlices::File& file)
       element->getUint16Array(cells).bad() || !cells)
     return "the pixel data do not match rows, columns and frames";
   std::size_t wanted = 0;
-  for (const imaging::SliceHeader& slice : file.frames)
-    wanted += static_cast<std::size_t>(slice.rows) * static_cast<std::size_t>(slice.columns);
+  for (const auto& [offset, frame] : file.frames)
+    wanted +=
+        static_cast<std::size_t>(frame.slice.rows) * static_cast<std::size_t>(frame.slice.columns);
   if (element->getLength() < 2 * wanted)
     return "the pixel data do not match rows, columns and frames";
   const double least = format.isSigned ? -std::ldexp(1.0, format.bitsStored - 1) : 0.0;
   const double most = std::ldexp(1.0, format.bitsStored - (format.isSigned ? 1 : 0)) - 1.0;
   Uint16* cell = cells;
-  for (const imaging::SliceHeader& slice : file.frames)
+  for (const auto& [offset, frame] : file.frames)
   {
-    const double stored = (file.region->air - slice.intercept) / slice.slope;
+    const imaging::SliceHeader& slice = frame.slice;
+    const double stored = (frame.region->air - slice.intercept) / slice.slope;
     const auto air = static_cast<Uint16>(std::lround(std::clamp(stored, least, most)));
     const Eigen::Vector3d right = *slice.rowDirection * (*slice.pixelSpacing)[1];
     const Eigen::Vector3d down = *slice.columnDirection * (*slice.pixelSpacing)[0];
     for (int row = 0; row < slice.rows; ++row)
       for (int column = 0; column < slice.columns; ++column, ++cell)
-        if (file.region->covers(*slice.position + down * row + right * column))
+        if (frame.region->covers(*slice.position + down * row + right * column))
           *cell = air;
   }
   return {};

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,12 +21,19 @@ namespace petrous::library
 class FaceSlices
 {
 public:
+  struct Frame
+  {
+    imaging::SliceHeader slice;
+    /// Of its volume, else of another one of the file; nullptr: no face is in it.
+    std::shared_ptr<const volume::FaceRegion> region;
+  };
   struct File
   {
-    /// Of its volume; nullptr: no face is in it.
-    std::shared_ptr<const volume::FaceRegion> region;
-    std::string text;                         ///< why there is none
-    std::vector<imaging::SliceHeader> frames; ///< in the order of the file
+    std::map<std::uint64_t, Frame> frames; ///< of all its volumes, by the place of their pixels
+    std::set<std::string> texts;           ///< why there is no face in volumes of it
+    std::string doubt;                     ///< why a face that it may hold cannot be masked
+
+    bool hasFace() const;
   };
 
   /// Reads all volumes, one after the other. What is not a volume has no entry. Throws
@@ -36,6 +45,9 @@ public:
 private:
   std::map<std::filesystem::path, File> m_files;
 };
+
+/// Why the file cannot leave with its face masked; empty: it can. `frames`: that it states.
+std::string unmaskable(const FaceSlices::File& file, std::size_t frames);
 
 /// Puts air in place of the face in native pixels of 16 bits. Returns why that cannot be done, and
 /// has then changed nothing; empty: done.

@@ -1,5 +1,8 @@
 #include "petrous/Volume/FaceMask.h"
 
+#include "HeadCells.h"
+#include "HeadPose.h"
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -7,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <tbb/parallel_for.h>
 
@@ -27,220 +31,30 @@ constexpr double kReach = 50.0;
 constexpr double kBelow = 125.0; // of the tip of the nose: the chin is some 80 mm below
 constexpr double kAbove = 100.0; // the brow is some 60 mm above
 constexpr double kBreadth = 150.0;
-constexpr double kMinWidth = 60.0;    // of a face, mm
-constexpr double kMinHeight = 30.0;   // mm
-constexpr double kMinArea = 3000.0;   // mm^2
-constexpr double kMaxSlice = 38000.0; // mm^2; a slice with more is one of the shoulders
-constexpr double kMaxTilt = 0.7;      // 35 degrees
-constexpr double kCell = 2.0;         // mm
-constexpr double kMaxCells = 8e6;
-constexpr double kAirBefore = 6.0; // mm
-constexpr double kFlatShare = 0.4; // of the front on one plane: no face's
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-enum Cell : std::uint8_t
-{
-  kAirCell = 0,
-  kTissue = 1,
-  kOutside = 2,
-  kHead = 4
-};
-
-CellSet classified(const IntensityVolume& image, const SkinScale& scale,
-                   const core::Progress& progress)
-{
-  const core::GridGeometry& grid = image.geometry();
-  const core::PatientBox box = grid.patientBounds();
-  CellSet cells(box, std::max(kCell, std::cbrt(box.volume() / kMaxCells)));
-  const core::Index3 n = cells.dims();
-  const core::Index3 m = grid.dims();
-  const double quarter = 0.25 * cells.edge();
-  std::array<Eigen::Vector3d, 8> offsets;
-  for (std::size_t c = 0; c < 8; ++c)
-    offsets[c] = grid.voxelFromPatientLinear() *
-                 (quarter * Eigen::Vector3d((c & 1U) != 0 ? 1 : -1, (c & 2U) != 0 ? 1 : -1,
-                                            (c & 4U) != 0 ? 1 : -1));
-  // What a scanner writes outside of its field is darker than any air.
-  const double outside = scale.isAirKnown ? scale.air - 0.7 * (scale.threshold - scale.air)
-                                          : -std::numeric_limits<double>::infinity();
-  image.visit(
-      [&](const auto& voxels)
-      {
-        tbb::parallel_for(
-            0, n[2],
-            [&](int k)
-            {
-              progress.check("looking for a face");
-              for (int j = 0; j < n[1]; ++j)
-                for (int i = 0; i < n[0]; ++i)
-                {
-                  const Eigen::Vector3d at = grid.voxelFromPatient(cells.center(i, j, k));
-                  int inside = 0, tissue = 0;
-                  for (const Eigen::Vector3d& offset : offsets)
-                  {
-                    const Eigen::Vector3d v = at + offset + Eigen::Vector3d::Constant(0.5);
-                    if (!(v.minCoeff() >= 0.0 && v[0] < m[0] && v[1] < m[1] && v[2] < m[2]))
-                      continue;
-                    const auto value = static_cast<double>(voxels.at(
-                        static_cast<int>(v[0]), static_cast<int>(v[1]), static_cast<int>(v[2])));
-                    if (value < outside || (image.padding() && value == *image.padding()))
-                      continue;
-                    ++inside;
-                    tissue += value >= scale.threshold ? 1 : 0;
-                  }
-                  cells.cells()[cells.index(i, j, k)] = inside < 4             ? kOutside
-                                                        : 2 * tissue >= inside ? kTissue
-                                                                               : kAirCell;
-                }
-            });
-      });
-  return cells;
-}
-
-// Marks the largest component of tissue (of 6 neighbours). Returns its number of cells.
-std::size_t markHead(CellSet& cells)
-{
-  const core::Index3 n = cells.dims();
-  std::vector<std::uint8_t>& all = cells.cells();
-  const auto row = static_cast<std::size_t>(n[0]);
-  const std::size_t plane = row * static_cast<std::size_t>(n[1]);
-  constexpr std::uint8_t kSeen = 8;
-  std::vector<std::size_t> component, largest;
-  for (std::size_t start = 0; start < all.size(); ++start)
-  {
-    if (all[start] != kTissue)
-      continue;
-    component.assign(1, start);
-    all[start] |= kSeen;
-    for (std::size_t next = 0; next < component.size(); ++next)
-    {
-      const std::size_t at = component[next];
-      const auto visit = [&](bool isThere, std::size_t neighbour)
-      {
-        if (!isThere || all[neighbour] != kTissue)
-          return;
-        all[neighbour] |= kSeen;
-        component.push_back(neighbour);
-      };
-      const std::size_t i = at % row, j = at % plane / row, k = at / plane;
-      visit(i > 0, at - 1);
-      visit(i + 1 < row, at + 1);
-      visit(j > 0, at - row);
-      visit(j + 1 < static_cast<std::size_t>(n[1]), at + row);
-      visit(k > 0, at - plane);
-      visit(k + 1 < static_cast<std::size_t>(n[2]), at + plane);
-    }
-    if (component.size() > largest.size())
-      largest.swap(component);
-  }
-  for (std::uint8_t& cell : all)
-    cell &= static_cast<std::uint8_t>(~kSeen);
-  for (const std::size_t at : largest)
-    all[at] |= kHead;
-  return largest.size();
-}
-
-/// Seen from the front: y of the first tissue in each column of cells, LPS mm; NaN where there is
-/// none, or no air before it within the image.
-struct FrontMap
-{
-  int width = 0, height = 0;
-  double edge = 0.0;
-  Eigen::Vector3d lower{0.0, 0.0, 0.0}; ///< centre of the first column; y of no meaning
-  std::vector<double> y;
-
-  double& at(int i, int k) { return y[static_cast<std::size_t>(i + width * k)]; }
-  double at(int i, int k) const { return y[static_cast<std::size_t>(i + width * k)]; }
-  double x(int i) const { return lower[0] + edge * i; }
-  double z(int k) const { return lower[2] + edge * k; }
-
-  template <class Visit>
-  void forEach(const Visit& visit) const
-  {
-    for (int k = 0; k < height; ++k)
-      for (int i = 0; i < width; ++i)
-        if (std::isfinite(at(i, k)))
-          visit(i, k, at(i, k));
-  }
-};
-
-struct Front
-{
-  FrontMap skin;
-  FrontMap cutOff; ///< where tissue begins with the image; lower bounds of the skin's place
-};
-
-Front frontOf(const IntensityVolume& image, const CellSet& cells, double threshold)
-{
-  const core::Index3 n = cells.dims();
-  FrontMap map{n[0], n[2], cells.edge(), cells.center(0, 0, 0), {}};
-  map.y.assign(static_cast<std::size_t>(n[0]) * static_cast<std::size_t>(n[2]), kNaN);
-  Front front{map, map};
-  int lowest = 0; // above the shoulders
-  for (int k = n[2] - 1; k >= 0; --k)
-  {
-    std::size_t count = 0;
-    for (int j = 0; j < n[1]; ++j)
-      for (int i = 0; i < n[0]; ++i)
-        count += (cells.cells()[cells.index(i, j, k)] & kHead) != 0 ? 1 : 0;
-    if (static_cast<double>(count) * map.edge * map.edge > kMaxSlice)
-    {
-      lowest = k + 1;
-      break;
-    }
-  }
-  const int before = static_cast<int>(std::ceil(kAirBefore / map.edge));
-  const core::GridGeometry& grid = image.geometry();
-  tbb::parallel_for(lowest, std::max(lowest, n[2]),
-                    [&](int k)
-                    {
-                      for (int i = 0; i < n[0]; ++i)
-                      {
-                        int air = 0;
-                        for (int j = 0; j < n[1]; ++j)
-                        {
-                          const std::uint8_t cell = cells.cells()[cells.index(i, j, k)];
-                          if ((cell & kHead) == 0)
-                          {
-                            air = cell == kOutside ? 0 : air + 1;
-                            continue;
-                          }
-                          if (air < before)
-                          {
-                            front.cutOff.at(i, k) = cells.center(i, j, k).y();
-                            break;
-                          }
-                          // The place to a fraction of a voxel.
-                          const double step = 0.125 * map.edge;
-                          Eigen::Vector3d at = cells.center(i, j, k);
-                          at.y() -= 1.5 * map.edge;
-                          double previous = image.sample(grid.voxelFromPatient(at));
-                          front.skin.at(i, k) = cells.center(i, j, k).y();
-                          for (int s = 0; s < 24; ++s)
-                          {
-                            at.y() += step;
-                            const double value = image.sample(grid.voxelFromPatient(at));
-                            if (value >= threshold && previous < threshold)
-                            {
-                              front.skin.at(i, k) = at.y() - step * (value - threshold) /
-                                                                 std::max(value - previous, 1e-12);
-                              break;
-                            }
-                            previous = value;
-                          }
-                          break;
-                        }
-                      }
-                    });
-  return front;
-}
+constexpr double kMinWidth = 60.0;   // of a face, mm
+constexpr double kMinHeight = 30.0;  // mm
+constexpr double kMinArea = 3000.0;  // mm^2
+constexpr double kMinPart = 600.0;   // mm^2, of a part of one
+constexpr double kMinPartSize = 8.0; // mm
+constexpr double kMaxSkew = 8.0;     // mm, of a nose's sides
+constexpr double kMaxTilt = 0.7;     // 35 degrees
+constexpr double kFlatShare = 0.4;   // of the front on one plane: no face's
 
 struct Column
 {
-  double x, z, y; ///< x and z relative to F
+  double x, z, y; ///< along the head's axes; x and z relative to F
 };
 
-// The largest share of columns that lie on one plane.
+double quantile(std::vector<double> values, double share)
+{
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+// The largest share of columns that lie on one plane, if they do from side to side: of coarse
+// voxels a part of a rounded front does, too.
 double flatShare(const std::vector<Column>& columns, double tolerance)
 {
   constexpr int kTrials = 300;
@@ -251,6 +65,9 @@ double flatShare(const std::vector<Column>& columns, double tolerance)
     return columns[static_cast<std::size_t>(state >> 33U) % columns.size()];
   };
   std::size_t most = 0;
+  Eigen::Vector3d plane(0.0, 0.0, 0.0);
+  const auto isOn = [tolerance](const Eigen::Vector3d& q, const Column& one)
+  { return std::abs(q[0] + q[1] * one.x + q[2] * one.z - one.y) <= tolerance; };
   for (int trial = 0; trial < kTrials; ++trial)
   {
     Eigen::Matrix3d a;
@@ -264,74 +81,33 @@ double flatShare(const std::vector<Column>& columns, double tolerance)
     if (std::abs(a.determinant()) < 100.0) // nearly on a line
       continue;
     const Eigen::Vector3d q = a.inverse() * b;
-    const auto count =
-        std::count_if(columns.begin(), columns.end(),
-                      [&](const Column& one) {
-                        return std::abs(q[0] + q[1] * one.x + q[2] * one.z - one.y) <= tolerance;
-                      });
-    most = std::max(most, static_cast<std::size_t>(count));
+    const auto count = static_cast<std::size_t>(std::count_if(
+        columns.begin(), columns.end(), [&](const Column& one) { return isOn(q, one); }));
+    if (count <= most)
+      continue;
+    most = count;
+    plane = q;
   }
-  return static_cast<double>(most) / static_cast<double>(columns.size());
-}
-
-// The nose stands out from the cheeks on both sides more than anything else does, however the head
-// is held; its tip is the foremost of that. nullopt where nothing does.
-std::optional<Eigen::Vector3d> noseTip(const FrontMap& skin)
-{
-  constexpr double kBeside = 24.0, kBeyond = 12.0, kLength = 35.0; // mm
-  constexpr double kLeast = 10.0, kMost = 40.0, kStep = 25.0, kAhead = 8.0;
-  constexpr double kBehind = 60.0; // what lies so far behind the front is no nose
-  const int beside = static_cast<int>(std::lround(kBeside / skin.edge));
-  const int beyond = static_cast<int>(std::lround(kBeyond / skin.edge));
-  double foremost = std::numeric_limits<double>::infinity();
-  skin.forEach([&](int, int, double y) { foremost = std::min(foremost, y); });
-  struct Ridge
+  std::vector<double> all, on;
+  for (const Column& one : columns)
   {
-    Eigen::Vector3d at;
-    double out;
-  };
-  std::vector<Ridge> ridge;
-  skin.forEach(
-      [&](int i, int k, double y)
-      {
-        if (i < beside || i + beside >= skin.width || k < beyond || k + beyond >= skin.height ||
-            y > foremost + kBehind)
-          return;
-        const double left = skin.at(i - beside, k) - y, right = skin.at(i + beside, k) - y;
-        const double below = skin.at(i, k - beyond) - y, above = skin.at(i, k + beyond) - y;
-        // Not the edge of the jaw over the neck, and not the top of the head.
-        if (std::min(left, right) >= kLeast && std::max(left, right) <= kMost &&
-            std::min(below, above) >= -kAhead && std::max(below, above) <= kStep)
-          ridge.push_back({{skin.x(i), y, skin.z(k)}, std::min(left, right)});
-      });
-  if (ridge.empty())
-    return std::nullopt;
-  const Ridge most = *std::max_element(
-      ridge.begin(), ridge.end(), [](const Ridge& a, const Ridge& b) { return a.out < b.out; });
-  Eigen::Vector3d tip = most.at;
-  for (const Ridge& one : ridge)
-    if (std::abs(one.at.z() - most.at.z()) <= kLength &&
-        std::abs(one.at.x() - most.at.x()) <= kBeside && one.at.y() < tip.y())
-      tip = one.at;
-  return tip;
-}
-
-double quantile(std::vector<double> values, double share)
-{
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
+    all.push_back(one.x);
+    if (isOn(plane, one))
+      on.push_back(one.x);
+  }
+  const auto breadth = [](const std::vector<double>& xs)
+  { return xs.empty() ? 0.0 : quantile(xs, 0.95) - quantile(xs, 0.05); };
+  constexpr double kAcross = 0.7;
+  if (breadth(on) < kAcross * breadth(all))
+    return 0.0;
+  return static_cast<double>(most) / static_cast<double>(columns.size());
 }
 
 // dy/dz of the profile from chin to brow, by least squares; 0 where the image does not hold both:
 // of a low stack the slope of its few centimetres says nothing of the head's pitch.
-double tiltOf(const std::vector<Column>& columns, const Eigen::Vector3d& front,
-              const core::PatientBox& image, double size)
+double tiltOf(const std::vector<Column>& columns, double size)
 {
   const double below = 80.0 * size, above = 65.0 * size;
-  if (image.min().z() > front.z() - below || image.max().z() < front.z() + above)
-    return 0.0;
   double n = 0.0, z = 0.0, y = 0.0, zz = 0.0, zy = 0.0;
   for (const Column& column : columns)
     if (std::abs(column.x) <= 30.0 && column.z >= -below && column.z <= above)
@@ -383,6 +159,7 @@ double sizeOf(const CellSet& cells, const Eigen::Vector3d& front)
 
 // Thin parts at the sides of the head: what a cube of 16 mm does not fit in.
 std::shared_ptr<const CellSet> auricles(const CellSet& cells, const FaceRegion& region, double size)
+
 {
   const core::Index3 n = cells.dims();
   const int radius = static_cast<int>(std::lround(8.0 / cells.edge()));
@@ -404,19 +181,20 @@ std::shared_ptr<const CellSet> auricles(const CellSet& cells, const FaceRegion& 
   for (int k = 0; k < n[2]; ++k)
     for (int j = 0; j < n[1]; ++j)
       for (int i = 0; i < n[0]; ++i)
-        if (marks[cells.index(i, j, k)] != 0)
+        if (marks[cells.index(i, j, k)] != 0 && (cells.cells()[cells.index(i, j, k)] & kHead) != 0)
         {
           left = std::max(left, cells.center(i, j, k).x());
           right = std::min(right, cells.center(i, j, k).x());
         }
   const double middle = 0.5 * (left + right), side = 0.3 * (left - right);
+  const Eigen::Vector3d front = region.axes * region.front;
   for (int k = 0; k < n[2]; ++k)
     for (int j = 0; j < n[1]; ++j)
       for (int i = 0; i < n[0]; ++i)
       {
         const Eigen::Vector3d at = cells.center(i, j, k);
-        const double behind = at.y() - region.front.y() - region.tilt * (at.z() - region.front.z());
-        const double above = at.z() - region.front.z();
+        const double behind = at.y() - front.y() - region.tilt * (at.z() - front.z());
+        const double above = at.z() - front.z();
         if ((cells.cells()[cells.index(i, j, k)] & kHead) != 0 && near.row(j, k)[i] > radius &&
             std::abs(at.x() - middle) > side && behind > 70.0 * size && behind < 170.0 * size &&
             above > -50.0 * size && above < 90.0 * size)
@@ -431,6 +209,315 @@ FaceFinding none(const std::string& why)
   FaceFinding finding;
   finding.text = "no face in this volume: " + why;
   return finding;
+}
+
+FaceFinding maskedAlready()
+{
+  FaceFinding finding = none("the front of the head is flat; its face is masked already");
+  finding.kind = FaceFinding::Kind::Masked;
+  return finding;
+}
+
+FaceFinding doubtful(FaceFinding finding, const std::string& why)
+{
+  finding.kind = FaceFinding::Kind::Doubtful;
+  finding.text =
+      "the skin of a head lies in this volume, but where its face is cannot be told: " + why;
+  return finding;
+}
+
+// Along y a masked voxel's border is as coarse as the voxels are.
+double toleranceOf(const IntensityVolume& image, const Eigen::Matrix3d& axes)
+{
+  const Eigen::Vector3d along =
+      (image.geometry().voxelFromPatientLinear() * axes.transpose()).col(1);
+  return 0.3 + 0.5 / along.cwiseAbs().maxCoeff();
+}
+
+// A head as it is looked at.
+struct View
+{
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  std::optional<double> middle;        // x of the plane between its halves
+  std::optional<Eigen::Vector3d> nose; // LPS mm
+  double symmetry = 0.0;
+  bool isLevel = true;
+  std::string doubt; // why the head may look elsewhere
+};
+
+// The tip on which most of the pitches agree, and the pitch from which it is seen best: the middle
+// one of those that see it, or 0.
+void findPitch(const HeadCells& upright, double threshold, const SymmetryPlane& plane, View& view)
+{
+  constexpr double kStep = 15.0 * 3.14159265358979 / 180.0, kSame = 12.0;
+  constexpr int kSteps = 4;
+  struct Seen
+  {
+    int step;
+    Eigen::Vector3d tip;
+    double out;
+  };
+  std::vector<Seen> seen;
+  for (int step = -kSteps; step <= kSteps; ++step)
+  {
+    const Eigen::Matrix3d axes = headAxes(plane.normal, step * kStep);
+    const Front front = frontOf(upright, nullptr, threshold, axes);
+    if (const auto nose = noseOf(front.skin, plane.offset))
+      seen.push_back({step, axes.transpose() * nose->tip, nose->out});
+  }
+  struct Tip
+  {
+    Eigen::Vector3d at;
+    double votes = 0.0;
+    int pitch = 0;
+  };
+  std::vector<Tip> tips;
+  for (const Seen& one : seen)
+  {
+    Tip tip{one.tip, 0.0, 0};
+    std::vector<int> steps;
+    for (const Seen& other : seen)
+      if ((other.tip - one.tip).norm() <= kSame)
+      {
+        tip.votes += 1.0 + 0.01 * other.out;
+        steps.push_back(other.step);
+      }
+    const bool isLevel = std::find(steps.begin(), steps.end(), 0) != steps.end();
+    tip.pitch = isLevel ? 0 : steps[steps.size() / 2];
+    tips.push_back(tip);
+  }
+  // Few that agree are chance, as where the nose is not in the image.
+  constexpr double kEnough = 3.0;
+  tips.erase(std::remove_if(tips.begin(), tips.end(),
+                            [](const Tip& tip) { return tip.pitch != 0 && tip.votes < kEnough; }),
+             tips.end());
+  const auto most = std::max_element(tips.begin(), tips.end(),
+                                     [](const Tip& a, const Tip& b) { return a.votes < b.votes; });
+  if (most == tips.end())
+  {
+    view.axes = headAxes(plane.normal, 0.0);
+    return;
+  }
+  // From below, a chin stands out as the nose does, which is above it.
+  constexpr double kRival = 0.6;
+  const Eigen::Vector3d up = headAxes(plane.normal, most->pitch * kStep).row(2);
+  const Tip* best = &*most;
+  for (const Tip& tip : tips)
+    if (tip.votes >= kRival * most->votes && up.dot(tip.at - best->at) > kSame)
+      best = &tip;
+  view.nose = best->at;
+  const int pitch = best->pitch;
+  view.isLevel = pitch == 0;
+  view.axes = headAxes(plane.normal, pitch * kStep);
+}
+
+// From what sides the head may be seen, the likeliest first.
+std::vector<View> viewsOf(const HeadCells& upright, double threshold,
+                          const core::Progress& progress)
+{
+  constexpr double kLeastSymmetry = 0.5, kTurned = 0.2588; // cos of 75 degrees
+  constexpr double kLevel = 0.9986;                        // cos of 3 degrees
+  constexpr double kWithoutNose = 0.85, kClearly = 0.05;
+  constexpr double kFar = 0.2; // from the best
+  double best = 0.0;
+  std::vector<View> views;
+  const auto rating = [](const View& view)
+  { return view.symmetry * (view.nose ? 1.0 : kWithoutNose); };
+  for (const SymmetryPlane& plane : symmetryPlanes(upright))
+  {
+    progress.check("looking for a face");
+    if (plane.score < std::max(kLeastSymmetry, best - kFar) ||
+        headAxes(plane.normal, 0.0)(1, 1) < kTurned)
+      continue;
+    best = std::max(best, plane.score);
+    View view;
+    view.symmetry = plane.score;
+    view.middle = plane.offset;
+    findPitch(upright, threshold, plane, view);
+    if (view.axes.trace() > 1.0 + 2.0 * kLevel) // the image's own cells serve
+    {
+      view.axes.setIdentity();
+      const Eigen::Vector3d center = 0.5 * (upright.hull.front() + upright.hull.back());
+      view.middle = view.nose
+                        ? view.nose->x()
+                        : center.x() + (plane.offset - plane.normal.dot(center)) / plane.normal.x();
+    }
+    views.push_back(std::move(view));
+  }
+  std::stable_sort(views.begin(), views.end(),
+                   [&rating](const View& a, const View& b) { return rating(a) > rating(b); });
+  if (views.size() > 1 && rating(views[0]) - rating(views[1]) < kClearly)
+    views.front().doubt = "its halves can be told apart in two ways";
+  return views;
+}
+
+// Whether the front of the head is a plane, however it is pitched.
+bool isFlat(const IntensityVolume& image, const HeadCells& upright, double threshold,
+            const Eigen::Vector3d& left)
+{
+  constexpr double kStep = 25.0 * 3.14159265358979 / 180.0, kDeep = 60.0; // rad, mm
+  constexpr int kSteps = 2;
+  for (int step = -kSteps; step <= kSteps; ++step)
+  {
+    const Eigen::Matrix3d axes = headAxes(left, step * kStep);
+    const Front front = frontOf(upright, &image, threshold, axes);
+    double foremost = std::numeric_limits<double>::infinity();
+    front.skin.forEach([&](int, int, double y) { foremost = std::min(foremost, y); });
+    std::vector<Column> columns;
+    front.skin.forEach(
+        [&](int i, int k, double y)
+        {
+          if (y <= foremost + kDeep)
+            columns.push_back({front.skin.x(i), front.skin.z(k), y});
+        });
+    const double edge = front.skin.edge;
+    if (static_cast<double>(columns.size()) * edge * edge >= kMinArea &&
+        flatShare(columns, toleranceOf(image, axes)) >= kFlatShare)
+      return true;
+  }
+  return false;
+}
+
+// What is seen of a face from there.
+FaceFinding faceIn(const IntensityVolume& image, const SkinScale& scale, const HeadCells& head,
+                   const View& view, bool ears)
+{
+  const double edge = head.cells.edge();
+  const Front front = frontOf(head, &image, scale.threshold, head.axes);
+  const FrontMap& skin = front.skin;
+  std::optional<double> near;
+  if (view.nose)
+    near = (head.axes * *view.nose).z();
+  const auto nose = noseOf(skin, view.middle, near);
+  Eigen::Vector3d tip(0.0, 0.0, 0.0); // along the head's axes, as all here
+  bool isSkinForemost = true;
+  if (nose)
+    tip = nose->tip;
+  else // the image ends in it, or its front is not a face's
+  {
+    double foremost = std::numeric_limits<double>::infinity();
+    for (const FrontMap* map : {&front.skin, &front.cutOff})
+      map->forEach(
+          [&](int i, int k, double y)
+          {
+            if (y >= foremost)
+              return;
+            foremost = y;
+            tip = {map->x(i), y, map->z(k)};
+            isSkinForemost = map == &front.skin;
+          });
+    if (!std::isfinite(foremost))
+      return none("the field of view ends before it");
+  }
+  FaceRegion region;
+  region.axes = head.axes;
+  region.air = scale.air;
+  const double size = sizeOf(head.cells, tip);
+  region.reach = kReach * size;
+  region.lower = -kBelow * size;
+  region.upper = kAbove * size;
+  std::vector<Column> columns;
+  const auto gather = [&]
+  {
+    columns.clear();
+    skin.forEach(
+        [&](int i, int k, double y)
+        {
+          const double z = skin.z(k) - tip.z();
+          if (z >= region.lower && z <= region.upper &&
+              y <= tip.y() + region.reach + region.tilt * z - kFaceDepth)
+            columns.push_back({skin.x(i) - tip.x(), z, y});
+        });
+  };
+  // The image must hold chin and brow.
+  const auto isWithin = [&](double z)
+  {
+    return image.geometry().hullContains(image.geometry().voxelFromPatient(
+        head.axes.transpose() * (tip + Eigen::Vector3d(0.0, 0.4 * region.reach, z * size))));
+  };
+  constexpr int kRounds = 6; // tilt and columns, each by the other
+  const bool hasProfile = isWithin(-80.0) && isWithin(65.0);
+  for (int round = 0; hasProfile && round < kRounds; ++round)
+  {
+    gather();
+    region.tilt = tiltOf(columns, size);
+  }
+  // Where the bridge of a flattened nose was found, lips or chin may lie further in front.
+  gather();
+  constexpr double kMiddle = 30.0, kFarthest = 15.0; // mm
+  double ahead = 0.0;
+  for (const Column& column : columns)
+    if (std::abs(column.x) <= kMiddle && std::abs(column.z) <= 80.0 * size)
+      ahead = std::max(ahead, tip.y() + region.tilt * column.z - column.y);
+  if (ahead <= kFarthest)
+    tip.y() -= ahead;
+  gather();
+  region.front = head.axes.transpose() * tip;
+  std::vector<double> xs, zs, depths;
+  for (const Column& column : columns)
+  {
+    xs.push_back(column.x);
+    zs.push_back(column.z);
+    depths.push_back(tip.y() + region.reach + region.tilt * column.z - column.y);
+  }
+  const double area = static_cast<double>(columns.size()) * edge * edge;
+  const auto extent = [](const std::vector<double>& all)
+  { return all.empty() ? 0.0 : quantile(all, 0.98) - quantile(all, 0.02); };
+  const bool isFace = area >= kMinArea && extent(xs) >= kMinWidth && extent(zs) >= kMinHeight;
+  if (!isFace)
+  {
+    // The edge of a cheek beside what the field of view cuts off is no profile.
+    std::size_t cutOff = 0;
+    front.cutOff.forEach(
+        [&](int, int k, double y)
+        {
+          const double z = front.cutOff.z(k) - tip.z();
+          cutOff += z >= region.lower && z <= region.upper &&
+                            y <= tip.y() + region.reach + region.tilt * z - kFaceDepth
+                        ? 1
+                        : 0;
+        });
+    if (!isSkinForemost || area < kMinPart || extent(xs) < kMinPartSize ||
+        extent(zs) < kMinPartSize || 3 * cutOff > columns.size())
+      return none("the field of view ends before it");
+  }
+  region.depth = quantile(std::move(depths), 0.5);
+
+  if (flatShare(columns, toleranceOf(image, head.axes)) >= kFlatShare)
+    return maskedAlready();
+
+  FaceFinding finding;
+  finding.kind = isFace ? FaceFinding::Kind::Face : FaceFinding::Kind::Part;
+  for (const Column& column : columns)
+    finding.skin.emplace_back(head.axes.transpose() *
+                              Eigen::Vector3d(column.x + tip.x(), column.y, column.z + tip.z()));
+  if (!scale.isAirKnown)
+  {
+    std::vector<double> background;
+    const CellSet& cells = head.cells;
+    const core::Index3 n = cells.dims();
+    for (int k = 0; k < n[2]; ++k)
+      for (int j = 0; j < n[1]; ++j)
+        for (int i = 0; i < n[0]; ++i)
+          if (cells.cells()[cells.index(i, j, k)] == kAirCell)
+            if (const Eigen::Vector3d at = head.axes.transpose() * cells.center(i, j, k);
+                region.covers(at))
+              background.push_back(image.sample(image.geometry().voxelFromPatient(at)));
+    if (!background.empty())
+      region.air = quantile(std::move(background), 0.5);
+  }
+  if (ears)
+    region.ears = auricles(head.cells, region, size);
+  finding.region = std::move(region);
+
+  if (!isFace)
+    finding.text = "only a part of a face lies in this volume";
+  std::string doubt = view.doubt;
+  if (isFace && view.symmetry == 0.0 && (!nose || nose->skew > kMaxSkew))
+    doubt = "its halves are not both in the image";
+  if (isFace && !view.isLevel && !hasProfile)
+    doubt = "it is pitched, and its chin or brow is not in the image";
+  return doubt.empty() ? finding : doubtful(std::move(finding), doubt);
 }
 
 // Voxels for which `isMasked(patient)` become air.
@@ -550,124 +637,97 @@ SkinScale skinScale(const IntensityVolume& image, bool isMr)
   return {bone.iso - 600.0 * unit, bone.iso - 1300.0 * unit, true};
 }
 
-double FaceRegion::planeAt(double z) const noexcept
+double FaceRegion::inFront(const Eigen::Vector3d& p) const noexcept
 {
-  return front.y() + reach + tilt * (z - front.z());
+  const Eigen::Vector3d q = axes * (p - front);
+  return reach + tilt * q.z() - q.y();
 }
 
 bool FaceRegion::covers(const Eigen::Vector3d& p) const noexcept
 {
-  const double z = p.z() - front.z();
-  return (z >= lower && z <= upper && p.y() < planeAt(p.z())) || (ears && ears->contains(p));
+  const Eigen::Vector3d q = axes * (p - front);
+  return (q.z() >= lower && q.z() <= upper && q.y() < reach + tilt * q.z()) ||
+         (ears && ears->contains(axes * p));
+}
+
+double FaceRegion::turn() const noexcept
+{
+  const double slope = std::atan(tilt); // of the profile in the head's axes
+  const Eigen::Vector3d forward =
+      axes.transpose() * Eigen::Vector3d(0.0, -std::cos(slope), std::sin(slope));
+  return std::acos(std::clamp(-forward.y(), -1.0, 1.0)) * 180.0 / 3.14159265358979;
 }
 
 FaceFinding findFace(const IntensityVolume& image, const SkinScale& scale, bool ears,
                      const core::Progress& progress)
 {
-  CellSet cells = classified(image, scale, progress);
-  const double edge = cells.edge();
+  const HeadCells upright = headCells(image, scale, Eigen::Matrix3d::Identity(), progress);
+  const double edge = upright.cells.edge();
   constexpr double kLeastHead = 1e4; // mm^3
-  if (static_cast<double>(markHead(cells)) * edge * edge * edge < kLeastHead)
+  if (static_cast<double>(upright.count) * edge * edge * edge < kLeastHead)
     return none("there is no head in it");
-  progress.check("looking for a face");
-  const Front front = frontOf(image, cells, scale.threshold);
-  const FrontMap& skin = front.skin;
-
-  FaceRegion region;
-  region.air = scale.air;
-  if (const auto nose = noseTip(skin))
-    region.front = *nose;
-  else // the image ends in it, or its front is not a face's
+  // Of a slab any plane along it mirrors one half on the other.
+  constexpr double kLeastBreadth = 100.0; // mm
+  std::vector<View> views;
+  if (upright.hull.empty())
+    return none("there is no head in it");
+  if (upright.hull.back().x() - upright.hull.front().x() >= kLeastBreadth)
+    views = viewsOf(upright, scale.threshold, progress);
+  if (views.empty())
+    views.emplace_back(); // an ear, or half a head
+  if (views.front().symmetry > 0.0 &&
+      isFlat(image, upright, scale.threshold, views.front().axes.row(0)))
+    return maskedAlready();
+  std::optional<FaceFinding> best;
+  for (View& view : views)
   {
-    double foremost = std::numeric_limits<double>::infinity();
-    for (const FrontMap* map : {&front.skin, &front.cutOff})
-      map->forEach(
-          [&](int i, int k, double y)
-          {
-            if (y >= foremost)
-              return;
-            foremost = y;
-            region.front = {map->x(i), y, map->z(k)};
-          });
-    if (!std::isfinite(foremost))
-      return none("the field of view ends before it");
+    const auto look = [&]
+    {
+      return view.axes.isIdentity()
+                 ? faceIn(image, scale, upright, view, ears)
+                 : faceIn(image, scale, headCells(image, scale, view.axes, progress), view, ears);
+    };
+    FaceFinding finding = look();
+    if (finding.kind == FaceFinding::Kind::Doubtful && !view.isLevel && view.doubt.empty())
+    {
+      // Of a stack without chin or brow the pitch is taken as 0, unless the nose tells otherwise.
+      View level = view;
+      level.axes = headAxes(view.axes.row(0), 0.0);
+      level.isLevel = true;
+      std::swap(view, level);
+      FaceFinding next = look();
+      constexpr double kSame = 20.0;
+      if (next.kind == FaceFinding::Kind::None ||
+          (next.canBeMasked() && (next.region.front - finding.region.front).norm() <= kSame))
+        finding = std::move(next);
+      else
+        std::swap(view, level);
+    }
+    constexpr double kSteep = 0.45; // a profile that is seen from far above or below
+    constexpr int kMostLooks = 3;
+    for (int n = 1;
+         n < kMostLooks && finding.canBeMasked() && std::abs(finding.region.tilt) > kSteep; ++n)
+    {
+      const Eigen::Matrix3d before = view.axes;
+      view.axes = Eigen::AngleAxisd(std::atan(finding.region.tilt), Eigen::Vector3d::UnitX())
+                      .toRotationMatrix() *
+                  view.axes;
+      FaceFinding next = look();
+      if (!next.canBeMasked() || std::abs(next.region.tilt) >= std::abs(finding.region.tilt))
+      {
+        view.axes = before;
+        break;
+      }
+      finding = std::move(next);
+    }
+    if (finding.kind == FaceFinding::Kind::Masked)
+      return finding;
+    if (!best)
+      best = std::move(finding);
+    if (best->kind != FaceFinding::Kind::Doubtful)
+      break;
   }
-  const double size = sizeOf(cells, region.front);
-  region.reach = kReach * size;
-  region.lower = -kBelow * size;
-  region.upper = kAbove * size;
-  std::vector<Column> columns;
-  const auto gather = [&]
-  {
-    columns.clear();
-    skin.forEach(
-        [&](int i, int k, double y)
-        {
-          const double z = skin.z(k) - region.front.z();
-          if (z >= region.lower && z <= region.upper && y <= region.planeAt(skin.z(k)) - kFaceDepth)
-            columns.push_back({skin.x(i) - region.front.x(), z, y});
-        });
-  };
-  constexpr int kRounds = 6; // tilt and columns, each by the other
-  for (int round = 0; round < kRounds; ++round)
-  {
-    gather();
-    region.tilt = tiltOf(columns, region.front, image.geometry().patientBounds(), size);
-  }
-  // Where the bridge of a flattened nose was found, lips or chin may lie further in front.
-  constexpr double kMiddle = 30.0, kFarthest = 15.0; // mm
-  double ahead = 0.0;
-  for (const Column& column : columns)
-    if (std::abs(column.x) <= kMiddle && std::abs(column.z) <= 80.0 * size)
-      ahead = std::max(ahead, region.front.y() + region.tilt * column.z - column.y);
-  if (ahead <= kFarthest)
-    region.front.y() -= ahead;
-  gather();
-  if (static_cast<double>(columns.size()) * edge * edge < kMinArea)
-    return none("the field of view ends before it");
-  std::vector<double> xs, zs, depths;
-  for (const Column& column : columns)
-  {
-    xs.push_back(column.x);
-    zs.push_back(column.z);
-    depths.push_back(region.planeAt(column.z + region.front.z()) - column.y);
-  }
-  const auto extent = [](const std::vector<double>& all)
-  { return quantile(all, 0.98) - quantile(all, 0.02); };
-  if (extent(xs) < kMinWidth || extent(zs) < kMinHeight)
-    return none("the field of view ends before it");
-  region.depth = quantile(std::move(depths), 0.5);
-
-  // Along y a masked voxel's border is as coarse as the voxels are.
-  const double voxel = 1.0 / image.geometry().voxelFromPatientLinear().col(1).cwiseAbs().maxCoeff();
-  if (flatShare(columns, 0.3 + 0.5 * voxel) >= kFlatShare)
-  {
-    FaceFinding finding = none("the front of the head is flat; its face is masked already");
-    finding.kind = FaceFinding::Kind::Masked;
-    return finding;
-  }
-
-  FaceFinding finding;
-  finding.kind = FaceFinding::Kind::Face;
-  for (const Column& column : columns)
-    finding.skin.emplace_back(column.x + region.front.x(), column.y, column.z + region.front.z());
-  if (!scale.isAirKnown)
-  {
-    std::vector<double> background;
-    const core::Index3 n = cells.dims();
-    for (int k = 0; k < n[2]; ++k)
-      for (int j = 0; j < n[1]; ++j)
-        for (int i = 0; i < n[0]; ++i)
-          if (cells.cells()[cells.index(i, j, k)] == kAirCell)
-            if (const Eigen::Vector3d at = cells.center(i, j, k); region.covers(at))
-              background.push_back(image.sample(image.geometry().voxelFromPatient(at)));
-    if (!background.empty())
-      region.air = quantile(std::move(background), 0.5);
-  }
-  if (ears)
-    region.ears = auricles(cells, region, size);
-  finding.region = std::move(region);
-  return finding;
+  return *best;
 }
 
 MaskedImage maskFace(const IntensityVolume& image, const FaceRegion& region, const CellSet* keep,

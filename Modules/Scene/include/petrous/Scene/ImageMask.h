@@ -48,13 +48,14 @@ struct ImageMaskReport
 /// noted. Loads the images, and strokes of other approaches.
 ///
 /// Throws Error (Refused) naming the structures where a part of the face's skin would stay because
-/// of them; InvalidParameter for a region that has no voxel of the CT, or if an MR that is not
-/// registered would have to be cropped; CancelledError, and what reading voxels throws. The case is
-/// then as it was.
+/// of them, where there is a head whose face cannot be told, or where auricles are asked for that
+/// an earlier mask left; InvalidParameter for a region that has no voxel of the CT, or if an MR
+/// that is not registered would have to be cropped; CancelledError, and what reading voxels throws.
+/// The case is then as it was.
 ImageMaskReport maskImages(Case& value, const ImageMask& mask, const core::Progress& progress = {});
 
-/// What of the case's images shows a face: "the CT", "MR 'T2'". Reads their voxels. Throws
-/// CancelledError, and what reading voxels throws.
+/// What of the case's images shows a face, a part of one or perhaps one (whatever their notes say):
+/// "the CT", "MR 'T2'". Reads their voxels. Throws CancelledError, and what reading voxels throws.
 std::vector<std::string> imagesWithFace(const Case& value, const core::Progress& progress = {});
 
 } // namespace petrous::scene

@@ -35,6 +35,7 @@ public:
   std::vector<std::uint8_t>& cells() noexcept { return m_cells; } ///< first axis fastest
   const std::vector<std::uint8_t>& cells() const noexcept { return m_cells; }
 
+  bool find(const Eigen::Vector3d& patient, std::size_t& cell) const noexcept; ///< false: outside
   void add(const Eigen::Vector3d& patient) noexcept; ///< nothing happens outside the box
   bool contains(const Eigen::Vector3d& patient) const noexcept;
   /// Adds all cells that are closer than `distance` mm to one of the set (and some more: cubes are
@@ -43,8 +44,6 @@ public:
   bool empty() const noexcept;
 
 private:
-  bool find(const Eigen::Vector3d& patient, std::size_t& cell) const noexcept;
-
   Eigen::Vector3d m_lower;
   double m_edge;
   core::Index3 m_dims;
@@ -67,47 +66,57 @@ SkinScale skinScale(const IntensityVolume& image, bool isMr);
 constexpr double kFaceDepth = 10.0;
 
 /// Where a face is: a function of patient coordinates, so that it serves for every image in the
-/// same space, whatever its grid. It is all that lies in front of a plane,
+/// same space, whatever its grid. In the head's own axes (q = axes (p - F): x to its left, y to its
+/// back, z up) it is all that lies in front of a plane,
 ///
-///   y < yF + reach + tilt (z - zF)
+///   y < reach + tilt z
 ///
 /// from below the chin to the forehead, the air in front included. F is the tip of the nose, and
-/// the plane is parallel to the profile from chin to brow. Four numbers hold no likeness.
+/// the plane is parallel to the profile from chin to brow. Where it is and how the head is turned
+/// holds no likeness.
 struct FaceRegion
 {
-  Eigen::Vector3d front{0.0, 0.0, 0.0}; ///< F, LPS mm
-  double tilt = 0.0;                    ///< dy/dz of the profile
-  double reach = 0.0;                   ///< mm; 50 for an adult's head, less for a smaller one
-  double lower = 0.0, upper = 0.0;      ///< z - zF at which it ends, mm
-  double depth = 0.0;                   ///< median distance of the face's skin to the plane, mm
-  double air = 0.0;                     ///< what replaces it
-  std::shared_ptr<const CellSet> ears;  ///< or nullptr
+  Eigen::Vector3d front{0.0, 0.0, 0.0};               ///< F, LPS mm
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity(); ///< the head's from the patient's
+  double tilt = 0.0;                                  ///< dy/dz of the profile
+  double reach = 0.0;                  ///< mm; 50 for an adult's head, less for a smaller one
+  double lower = 0.0, upper = 0.0;     ///< z at which it ends, mm
+  double depth = 0.0;                  ///< median distance of the face's skin to the plane, mm
+  double air = 0.0;                    ///< what replaces it
+  std::shared_ptr<const CellSet> ears; ///< along `axes`; or nullptr
 
-  double planeAt(double z) const noexcept; ///< y, LPS mm
+  /// How far in front of the plane a point lies, along the head's y; mm.
+  double inFront(const Eigen::Vector3d& patient) const noexcept;
   bool covers(const Eigen::Vector3d& patient) const noexcept;
+  double turn() const noexcept; ///< of the head's front to the patient's, degrees
 };
 
 struct FaceFinding
 {
   enum class Kind
   {
-    Face,   ///< can be recognised: `region`
-    None,   ///< not within the image
-    Masked, ///< the front of the head is flat, as maskFace leaves it
+    Face,     ///< can be recognised: `region`
+    Part,     ///< the profile, or a strip of the face, with air before it: `region`
+    None,     ///< not within the image
+    Masked,   ///< the front of the head is flat, as maskFace leaves it
+    Doubtful, ///< there is skin as of a face, but where the head looks cannot be told
   };
   Kind kind = Kind::None;
-  std::string text; ///< why there is none: "no face in this volume: ..."
+  std::string text; ///< why there is none, or none that can be masked; of a part, what it is
   FaceRegion region;
   std::vector<Eigen::Vector3d> skin; ///< points of the face's skin, in columns of 2 mm
+
+  bool canBeMasked() const noexcept { return kind == Kind::Face || kind == Kind::Part; }
 };
 
 /// Looks for a face. The head is the largest connected component above the threshold on cells of 2
-/// mm; its skin is seen from the front (patient frame, LPS: towards -y) where at least 6 mm of air
-/// precede it within the image. The tip of the nose is what stands out most from what is 24 mm
-/// beside it on both sides. It is a face if its skin is at least 60 mm wide, 30 mm high, 30 cm^2
-/// large and not flat. Any orientation and spacing of the grid; the head may be pitched by some 25
-/// degrees. `ears`: the auricles too, parts at the sides of the head thinner than 16 mm. Throws
-/// CancelledError.
+/// mm. How it is turned (up to some 80 degrees about its axis, 40 to its shoulder) follows from the
+/// plane that mirrors its surface on itself, and from the tip of the nose, which must lie on that
+/// plane: it is what stands out most from what is 24 mm beside it on both sides. Its skin is seen
+/// from the front where at least 6 mm of air precede it within the image. It is a face if its skin
+/// is at least 60 mm wide, 30 mm high, 30 cm^2 large and not flat, and a part of one if it is
+/// smaller, but the foremost of the head is skin. Any orientation and spacing of the grid. `ears`:
+/// the auricles too, parts at the sides of the head thinner than 16 mm. Throws CancelledError.
 FaceFinding findFace(const IntensityVolume& image, const SkinScale& scale, bool ears = false,
                      const core::Progress& progress = {});
 

@@ -1672,8 +1672,8 @@ DicomCleaner::Outcome DicomCleaner::clean(const std::filesystem::path& input,
       if (std::string why = unmaskable(*face, static_cast<std::size_t>(frames)); !why.empty())
         return {why, true};
       if (!isMasked)
-        for (const std::string& text : face->texts)
-          ++warnings[text];
+        for (const std::string& finding : face->texts)
+          ++warnings[finding];
     }
   }
   else if (coversAHead(*dataSet))

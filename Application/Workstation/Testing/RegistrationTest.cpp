@@ -662,7 +662,9 @@ TEST_F(RegistrationWindow, ItsMenuNeedsAnMr)
     for (const char* name : {"Refine", "Next way to show the MR", "Point here"})
       for (QAction* candidate : window().findChildren<QAction*>())
         if (candidate->text().remove('&') == name)
+        {
           EXPECT_EQ(candidate->isEnabled(), isOne) << name;
+        }
     return isOne;
   };
   EXPECT_TRUE(isOffered());

@@ -214,32 +214,40 @@ std::optional<ProposedRegion> proposedRegion(const volume::IntensityVolume& imag
   }
   if (!place)
     return std::nullopt;
-  double sums[2] = {}, counts[2] = {}; // of the darkest and of the brightest class
+  struct Class // of the histogram
+  {
+    double count = 0.0, sum = 0.0, squares = 0.0;
+    double mean() const { return sum / count; }
+    double deviation() const { return std::sqrt(std::max(squares / count - mean() * mean(), 0.0)); }
+  };
+  Class dark, brightest;
   for (std::size_t n = 0; n < histogram.bins().size(); ++n)
   {
     const double value = histogram.center(n);
     if (value >= limits.front() && value < limits.back())
       continue;
-    const std::size_t which = value < limits.front() ? 0 : 1;
+    Class& one = value < limits.front() ? dark : brightest;
     const auto count = static_cast<double>(histogram.bins()[n]);
-    sums[which] += count * value;
-    counts[which] += count;
+    one.count += count;
+    one.sum += count * value;
+    one.squares += count * value * value;
   }
   ProposedRegion region;
   region.seed = grid.patientFromVoxel(Eigen::Vector3d((*place)[0], (*place)[1], (*place)[2]));
   const double own = image.at((*place)[0], (*place)[1], (*place)[2]);
-  for (std::size_t which = 0; which < 2; ++which)
+  const auto isSeparate = [&](const Class& beside, const core::Progress& part)
   {
-    if (counts[which] == 0.0)
-      continue;
-    const double level = 0.5 * (peak + sums[which] / counts[which]);
-    region.range = {std::min(level, own), histogram.range().max};
-    const Mask found = connectedThreshold(image, region.range, {region.seed},
-                                          progress.part(0.7 + 0.15 * static_cast<double>(which),
-                                                        0.85 + 0.15 * static_cast<double>(which)));
-    if (found.volume() <= kMostVolume)
-      return region;
-  }
+    if (beside.count == 0.0)
+      return false;
+    region.range = {std::min(0.5 * (peak + beside.mean()), own), histogram.range().max};
+    return connectedThreshold(image, region.range, {region.seed}, part).volume() <= kMostVolume;
+  };
+  if (isSeparate(dark, progress.part(0.7, 0.85)))
+    return region;
+  constexpr double kOutlier = 3.0; // deviations; nearer to the class's mean it is one of its voxels
+  if (brightest.count > 0.0 && peak > brightest.mean() + kOutlier * brightest.deviation() &&
+      isSeparate(brightest, progress.part(0.85, 1.0)))
+    return region;
   return std::nullopt;
 }
 

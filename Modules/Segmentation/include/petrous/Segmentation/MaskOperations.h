@@ -50,7 +50,8 @@ struct ProposedRegion
 /// Begins where the mean within 1.5 mm is the largest, two voxels or more from the image's faces,
 /// and reaches to half of the step down to the darkest of three Otsu classes, where a blurred edge
 /// stays in its place; to half of the step to the brightest class where that would take in more
-/// than 20 cm^3. None where the image has no region brighter than its surroundings.
+/// than 20 cm^3 and the seed is an outlier of that class. None where the image has no region
+/// brighter than its surroundings.
 std::optional<ProposedRegion> proposedRegion(const volume::IntensityVolume& image,
                                              const core::Progress& progress = {});
 

@@ -478,7 +478,7 @@ TEST_F(CaseBuilder, PartsOfAHeaderlessExportLieWhereTheCtDoes)
   };
   const auto writeLabels = [&](const std::string& name, const core::GridGeometry& on)
   {
-    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(on);
+    auto voxels = volume::makeZeroVolume<std::uint16_t>(on);
     voxels->at(3, 2, 1) = 1;
     std::filesystem::create_directories((m_folder / name).parent_path());
     imaging::writeLabelFile(m_folder / name, volume::makeLabelMap(voxels, {}));

@@ -159,9 +159,18 @@ TEST(IdentityOfACase, EveryNameThatLeavesIsLookedAt)
 
 TEST(IdentityOfACase, TextInThePixelsIsWarnedOfWhereverTheyLeave)
 {
-  imaging::SliceHeader slice;
-  slice.burnedIn = imaging::BurnedInText::Stated;
-  const auto notes = imaging::assess({slice}).notes;
+  std::vector<imaging::SliceHeader> stack(3);
+  for (std::size_t k = 0; k < stack.size(); ++k)
+  {
+    stack[k].file = std::to_string(k);
+    stack[k].position = Eigen::Vector3d(0.0, 0.0, static_cast<double>(k));
+    stack[k].rowDirection = Eigen::Vector3d::UnitX();
+    stack[k].columnDirection = Eigen::Vector3d::UnitY();
+    stack[k].pixelSpacing = Eigen::Vector2d::Ones();
+    stack[k].rows = stack[k].columns = 4;
+    stack[k].burnedIn = imaging::BurnedInText::Stated;
+  }
+  const auto notes = imaging::assess(stack).notes;
   ASSERT_EQ(notes.size(), 1U);
   scene::Case value = describedCase();
   value.mr.emplace_back();

@@ -164,7 +164,7 @@ TEST(PulledOut, ImagesOfEveryFormatNameTheFile)
 
 TEST(PulledOut, StructuresOfEveryFormatNameTheFile)
 {
-  auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(someVolume().geometry());
+  auto voxels = volume::makeZeroVolume<std::uint16_t>(someVolume().geometry());
   for (std::size_t v = 0; v < voxels->size(); v += 3)
     voxels->data()[v] = static_cast<std::uint16_t>(1 + v % 2);
   const volume::LabelMap map = volume::makeLabelMap(voxels, {{"incus", 1, {}, 0}});

@@ -1668,7 +1668,9 @@ DicomCleaner::Outcome DicomCleaner::clean(const std::filesystem::path& input,
       return {"its face cannot be masked: it is no slice of a CT or MR volume", true};
     if (face)
     {
-      const auto frames = std::max(1L, numberIn(*dataSet, DCM_NumberOfFrames, 1));
+      Sint32 frames = 1;
+      dataSet->findAndGetSint32(DCM_NumberOfFrames, frames);
+      frames = std::max(frames, Sint32{1});
       if (std::string why = unmaskable(*face, static_cast<std::size_t>(frames)); !why.empty())
         return {why, true};
       if (!isMasked)

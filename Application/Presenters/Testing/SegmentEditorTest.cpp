@@ -823,6 +823,7 @@ TEST_F(SegmentEditorTest, AnMrThatMovesIsReadWhereItIsNow)
         });
     editor.mrMoved();
   };
+  editor.setShown({true, "T2"});
   editor.setSource("T2");
   editor.setTool(Tool::Threshold);
   const auto limits = [](SegmentValues& values)
@@ -878,6 +879,7 @@ TEST_F(SegmentEditorTest, ARenamedMrStaysTheSourceAndOneThatIsGoneLeavesNothingB
   model.adopt(withMr(ballCase()));
   editor.caseChanged();
   model.events.partsChanged = [this] { editor.partsChanged(); };
+  editor.setShown({true, "T2"});
   editor.setSource("T2");
   editor.setTool(Tool::Threshold);
   work();
@@ -1002,6 +1004,7 @@ TEST_F(SegmentEditorTest, OnAnMrTheBrightestRegionIsProposed)
 {
   model.adopt(withMr(ballCase()));
   editor.caseChanged();
+  editor.setShown({true, "T2"});
   editor.setSource("T2");
   editor.setTool(Tool::Threshold);
   work();

@@ -11,6 +11,7 @@
 #include "ReportWindow.h"
 #include "Theme.h"
 #include "ThumbnailDrawer.h"
+#include "WindowTexts.h"
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/CasePicture.h"
@@ -43,7 +44,7 @@ QString damageText(const library::Inspection& found)
     lines += words(one.object);
     lines += LibraryController::tr("    needed by: %1")
                  .arg(one.cases.empty() ? LibraryController::tr("no case") : listed(one.cases));
-    lines += "    " + words(one.text);
+    lines += "    " + windowText(words(one.text));
   }
   return lines.join('\n') + '\n';
 }
@@ -294,7 +295,7 @@ void LibraryController::repair()
           refresh();
           QStringList lines;
           for (const std::string& line : done)
-            lines += words(line);
+            lines += windowText(words(line));
           showReport(&m_window, tr("Repair"),
                      tr("The library is repaired. Library > Verify tells whether files are "
                         "damaged or missing."),

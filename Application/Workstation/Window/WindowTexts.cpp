@@ -100,6 +100,14 @@ QString windowText(const QString& text)
        "; export it alone, or all on the \\1's grid"},
       {"; register the MR first, or export it alone with --part",
        "; register the MR first (F5), or export it alone"},
+      {"make it anew: petrous describe '.*' --thumbnail", "make it anew (Library > Draw pictures)"},
+      {" \\('petrous attachments .* --remove[^)]*\\)", " (Attachments, F12)"},
+      {" \\(--with-(documents|videos) takes it along\\)", " (a box of the dialog takes it along)"},
+      {"; link it \\(--link\\)", "; attach it as a link"},
+      {"name its series \\(--series, 'petrous scan' lists them\\)", "choose its series"},
+      {", needs --repair\\)", ", needs repair)"},
+      {"begin a case with it \\(petrous new --ct\\)", "begin a case with it (File > Open DICOM)"},
+      {" \\((--replace|--roi)\\)", ""},
       {"\\bmm3\\b", "mm³"},
   };
   QString result = text;

@@ -203,8 +203,8 @@ void readPlacement(const std::filesystem::path& path, const Fields& fields, Nift
     header.linear = spacing.asDiagonal();
     header.origin.setZero();
     header.isSideAssumed = true;
-    header.notes.emplace_back("states no place in the patient: its axes are taken as to the "
-                              "right, front and top of the patient, from 0, 0, 0");
+    header.notes.emplace_back("states no place in the patient: its axes are taken as the "
+                              "patient's, from 0, 0, 0"); // which way, is settled later
     return;
   }
   const auto qLinear = qformLinear(fields, spacing);

@@ -3,7 +3,6 @@
 #include <dcmtk/dcmdata/dcpxitem.h>
 #include <dcmtk/dcmdata/dctk.h>
 #include <dcmtk/dcmjpeg/djdecode.h>
-#include <dcmtk/dcmjpls/djdecode.h>
 #include <dcmtk/oflog/oflog.h>
 
 #include "DicomCleaner.h"
@@ -1287,16 +1286,13 @@ std::string cleanNativePixels(DcmElement& element, std::uint64_t samples, std::u
   return element.putUint16Array(words.data(), words.size()).good() ? "" : kPixelsDamaged;
 }
 
-/// Whether samples that are coded with more bits than the file states use these.
+/// Whether samples that are coded with more bits than the file states use these, or cannot be
+/// decoded here. JPEG-LS cannot: DCMTK brings a CharLS of its own, with the names of the one that
+/// GDCM needs and other structures, so that one program cannot have both.
 bool usesBitsBeyond(DcmItem& item, const StoredBits& bits)
 {
   static std::once_flag once;
-  std::call_once(once,
-                 []
-                 {
-                   DJDecoderRegistration::registerCodecs();
-                   DJLSDecoderRegistration::registerCodecs();
-                 });
+  std::call_once(once, [] { DJDecoderRegistration::registerCodecs(); });
   DcmItem copy(item);
   DcmElement* element = nullptr;
   Uint8* bytes = nullptr;

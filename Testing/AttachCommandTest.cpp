@@ -105,8 +105,8 @@ TEST_F(AttachCommand, ArchivesLeaveVideosAndDocumentsUnlessAsked)
     const std::string archive = quoted(m_folder / (name + ".petrous"));
     const auto outcome = run("archive ear " + archive + " " + options);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
-    const auto stays = [&](const char* name)
-    { return outcome.err.find(std::string(name) + "' stays") != std::string::npos; };
+    const auto stays = [&](const char* attached)
+    { return outcome.err.find(std::string(attached) + "' stays") != std::string::npos; };
     EXPECT_EQ(stays("film.mp4"), options.find("videos") == std::string::npos) << outcome.err;
     EXPECT_EQ(stays("plan.pdf"), options.find("documents") == std::string::npos) << outcome.err;
     EXPECT_EQ(outcome.err.find("metadata is not removed") == std::string::npos, options.empty());

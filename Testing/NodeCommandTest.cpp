@@ -97,7 +97,9 @@ TEST_F(NodeCommand, SendsACaseThatIsTheSameWhenReceived)
   EXPECT_EQ(got["scene"], true);
   expectSameCase("ear");
   if (hasDicomValidator())
+  {
     EXPECT_GT(expectValidDicom(m_server->storage(), m_folder / "dciodvfy.txt"), 100U);
+  }
   const auto again = json("send ear --to pacs");
   EXPECT_EQ(again["present"], again["instances"]) << "all there already";
   EXPECT_EQ(run("send ear --to pacs").err.find("earlier state"), std::string::npos);

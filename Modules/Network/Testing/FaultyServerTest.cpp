@@ -779,7 +779,9 @@ TEST_F(FaultyNode, WhatTheListenerThrowsArrivesAtTheCaller)
   const FaultyServer server(m_behaviour);
   EXPECT_THROW(retrieve(server.node(), m_study, {}, m_folder.path() / "back", progress),
                std::runtime_error);
-  EXPECT_THROW(store(server.node(), m_files, progress), std::runtime_error);
+  m_behaviour.files.resize(6); // else there is nothing to send
+  const FaultyServer lacking(m_behaviour);
+  EXPECT_THROW(store(lacking.node(), m_files, progress), std::runtime_error);
 }
 
 TEST(ConnectionWatch, AConnectionThatCannotBeWatchedIsNotUsed)

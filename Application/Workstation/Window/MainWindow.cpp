@@ -750,6 +750,10 @@ void MainWindow::caseChanged()
   m_view->setFocus();
   m_notesBanner->hide();
   m_notesTold = value.revision == 0 ? QStringList() : notesOf(value);
+  const auto isOfSide = [](const QString& note)
+  { return note.contains("does not say which side of the patient is left"); };
+  m_notesTold.erase(std::remove_if(m_notesTold.begin(), m_notesTold.end(), isOfSide),
+                    m_notesTold.end()); // told whenever the case is opened
   notifyNotes();
   showUnregistered(true);
 }

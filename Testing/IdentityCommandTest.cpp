@@ -316,7 +316,7 @@ TEST_F(IdentityCommand, ACaseAndAllThatIsMadeOfItHoldNoIdentifier)
   };
   json("register ear --mr T2 --as-is");
   json("register ear --mr T2 --sign-off 'Dr " + secret("signer") + "'");
-  told("attach ear " + file(".png", pngNaming(plant())), "attach.txt");
+  told("attach ear --date 2001-02-03 " + file(".png", pngNaming(plant())), "attach.txt");
   json("attach ear " + file(".pdf", "%PDF-1.7 /Author (" + secret("author") + ")"));
   json("attach ear " + file(".mp4", std::string("\0\0\0\x18", 4) + "ftypmp42" + secret("film")));
   json("attach ear " + quoted(m_folder / "out.recording"));
@@ -363,11 +363,16 @@ TEST_F(IdentityCommand, ACaseAndAllThatIsMadeOfItHoldNoIdentifier)
   expectNoPlantIn({m_folder / "other/cases", m_folder / "other/objects"}, atHome);
 
   fs::create_directories(m_folder / "batch");
-  std::ofstream(m_folder / "table.csv")
-      << "name,folder,archive\nmany,\"" << in.string() << "\",batch/many.petrous\n";
-  for (const char* report : {"batch/report.csv", "batch/report.json"})
-    told("batch " + quoted(m_folder / "table.csv") + " --report " + quoted(m_folder / report),
+  for (const std::string ending : {"csv", "json"})
+  {
+    const std::string name = "of " + ending;
+    std::ofstream(m_folder / "table.csv")
+        << "name,folder,archive\n"
+        << name << ",\"" << in.string() << "\",batch/" << name << ".petrous\n";
+    told("batch " + quoted(m_folder / "table.csv") + " --report " +
+             quoted(m_folder / ("batch/report." + ending)),
          "batch.txt");
+  }
   expectNoPlantIn({library(), m_folder / "other", m_folder / "made", m_folder / "state",
                    m_folder / "batch", m_folder / "out.recording"});
 }
@@ -479,7 +484,7 @@ TEST_F(IdentityCommand, WritesValidDicom)
 {
   if (!hasDicomValidator())
     GTEST_SKIP() << kNoDicomValidator;
-  makePatient("--dims 32,32,12 --spacing 2.0");
+  makePatient("--dims 32,32,16 --spacing 2.0");
   const fs::path patient = m_folder / "patient";
   json("new ear --ct " + quoted(patient / "ct") + " --mr T2=" + quoted(patient / "mr") +
        " --labels " + quoted(patient / "labels.seg.nrrd"));

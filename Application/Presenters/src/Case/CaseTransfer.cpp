@@ -250,12 +250,26 @@ std::size_t supersededSegmentations(const network::Node& node, const std::string
   }
 }
 
+bool isScene(const network::Series& series)
+{
+  return series.description == network::kSceneDescription &&
+         series.modality == network::kSceneModality;
+}
+
 std::string studyOf(const library::Library& library, const network::Node& node,
                     const ReceiveRequest& request, const core::Progress& progress)
 {
   if (!request.studyUid.empty())
     return request.studyUid;
-  const auto studies = network::findStudies(node, {{}, studyIdOf(request.caseName)}, progress);
+  auto studies = network::findStudies(node, {{}, studyIdOf(request.caseName)}, progress);
+  // Of several only those count that hold a scene: images alone are no case.
+  const auto lacksScene = [&](const network::Study& study)
+  {
+    const auto series = network::findSeries(node, study.uid, progress);
+    return std::none_of(series.begin(), series.end(), isScene);
+  };
+  if (studies.size() > 1)
+    studies.erase(std::remove_if(studies.begin(), studies.end(), lacksScene), studies.end());
   if (studies.empty())
     throw NetworkError(NetworkError::Reason::NotFound,
                        "node '" + node.name + "': has no scene of a case '" + request.caseName +
@@ -792,8 +806,7 @@ ReceiveSummary receiveCase(library::Library& library, const network::Node& node,
   const network::Series* scene = nullptr;
   if (request.series.empty())
     for (const auto& one : series)
-      if (one.description == network::kSceneDescription &&
-          one.modality == network::kSceneModality && (!scene || one.number > scene->number))
+      if (isScene(one) && (!scene || one.number > scene->number))
         scene = &one;
   if (scene)
   {

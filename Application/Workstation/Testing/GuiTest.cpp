@@ -116,7 +116,9 @@ QAction* GuiTest::action(const QString& text)
 {
   for (QAction* candidate : m_window->findChildren<QAction*>())
     // Menus and tool bars have actions of their own, without a shortcut.
-    if (candidate->text().remove('&') == text && !candidate->shortcut().isEmpty())
+    // Those of undo and redo go on with what they would take on.
+    if ((candidate->text().remove('&') == text || candidate->iconText() == text) &&
+        !candidate->shortcut().isEmpty())
       return candidate;
   ADD_FAILURE() << "no action " << text.toStdString();
   return nullptr;

@@ -295,9 +295,12 @@ void WorkstationModel::setLook(const std::string& structure,
   if (!found && !mesh)
     return;
   appearance::StructureAppearance& present = found ? found->look : mesh->look;
-  const bool picture = present.shown != look.shown;
-  const bool tissue = present.touchable != look.touchable || present.drillable != look.drillable ||
-                      present.stiffness != look.stiffness || present.tissue != look.tissue;
+  // Whose voxels are whose.
+  const bool owners = present.priority != look.priority || present.solid != look.solid;
+  const bool picture = owners || present.shown != look.shown;
+  const bool tissue = owners || present.touchable != look.touchable ||
+                      present.drillable != look.drillable || present.stiffness != look.stiffness ||
+                      present.tissue != look.tissue;
   if (tissue)
     forgetTissue();
   m_feelable = m_feelable && !tissue;

@@ -304,6 +304,8 @@ void WorkstationModel::renamePart(const std::string& name, const std::string& to
         rename(*part.drawnOn);
     for (scene::MeshPart& mesh : m_case->meshes)
       rename(mesh.drawnOn);
+    for (scene::Measurement& measurement : m_case->measurements)
+      rename(measurement.image);
     forEachLook(*m_case, [&](const std::string&, appearance::StructureAppearance& look)
                 { rename(look.sourceImage); });
     rename(m_case->boneLook.sourceImage);
@@ -332,6 +334,8 @@ void WorkstationModel::renamePart(const std::string& name, const std::string& to
       rename(structure.name);
   for (scene::MeshPart& mesh : m_case->meshes)
     rename(mesh.name);
+  for (scene::Measurement& measurement : m_case->measurements)
+    rename(measurement.structure);
   for (RemovedPart& removed : m_removed)
     std::for_each(removed.colored.begin(), removed.colored.end(), rename);
   if (m_assembly.thicknessOver() == name)

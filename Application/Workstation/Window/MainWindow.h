@@ -41,6 +41,7 @@ class SliceColumn;
 class StartPage;
 class ThicknessController;
 class ThreeDView;
+class ViewArea;
 class ViewStateController;
 class WindowActions;
 class WindowSettings;
@@ -81,6 +82,7 @@ private:
   void layOut();
   void connectModel();
   void connectActions();
+  void connectViews();
   void connectSegment();
   void connectThumbnails();
   void caseChanged();
@@ -118,6 +120,7 @@ private:
   DeviceToolBar* m_deviceBar;
   ThreeDView* m_view;
   SliceColumn* m_slices;
+  ViewArea* m_area;
   StartPage* m_start;
   QStackedWidget* m_pages;
   Banner* m_unsavedBanner;

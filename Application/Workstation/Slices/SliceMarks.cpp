@@ -29,7 +29,7 @@ void drawText(QPainter& painter, const QPointF& baseline, const QString& text, c
 void paintMarks(QPainter& painter, const std::vector<SliceMark>& marks,
                 const presenters::SliceGeometry& slice, const Eigen::Vector3d& at)
 {
-  const Eigen::Vector3d next = presenters::axesOf(slice.orientation()).next;
+  const Eigen::Vector3d next = slice.axes().next;
   for (const SliceMark& mark : marks)
   {
     if (std::abs(next.dot(mark.patient - at)) > kReach)
@@ -48,7 +48,7 @@ void paintMarks(QPainter& painter, const std::vector<SliceMark>& marks,
 void paintCurve(QPainter& painter, const std::vector<Eigen::Vector3d>& points, const QColor& color,
                 const presenters::SliceGeometry& slice, const Eigen::Vector3d& at)
 {
-  const Eigen::Vector3d next = presenters::axesOf(slice.orientation()).next;
+  const Eigen::Vector3d next = slice.axes().next;
   const auto pixelOf = [&slice](const Eigen::Vector3d& point)
   {
     const Eigen::Vector2d pixel = slice.pixelFromPatient(point) + Eigen::Vector2d(0.5, 0.5);

@@ -38,6 +38,7 @@ class ProbeLabel;
 class RegistrationController;
 class SegmentController;
 class SliceColumn;
+class SliceController;
 class StartPage;
 class ThicknessController;
 class ThreeDView;
@@ -147,6 +148,7 @@ private:
   BranchController* m_branches;
   RegistrationController* m_registration;
   SegmentController* m_segment;
+  SliceController* m_sliceControl;
   LibraryController* m_library;
   ExchangeController* m_exchange;
   AttachmentsController* m_attachments;

@@ -19,6 +19,7 @@ class LibraryController;
 class PictureController;
 class RegistrationController;
 class SegmentController;
+class SliceController;
 
 /// The widget of a dock. A panel overrides what it wants to hear.
 class Panel : public QWidget
@@ -45,6 +46,7 @@ struct PanelContext
   SegmentController& segment;
   LibraryController& library;
   AttachmentsController& attachments;
+  SliceController& slices;
 };
 
 struct PanelEntry

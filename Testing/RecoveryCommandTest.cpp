@@ -377,7 +377,7 @@ TEST_F(RecoveryCommand, LabelsAreExportedWithoutADamagedOneIfThatIsChosen)
   EXPECT_EQ(written.find("nerve"), std::string::npos);
 }
 
-// A structure need not be read: derived data suffice, it is hidden, or another has its name.
+// A structure need not be read: derived data suffice, or it is hidden.
 TEST_F(RecoveryCommand, ADamagedStructureIsNamedAlsoWhereItNeedNotBeRead)
 {
   const auto manifest = addStructures();
@@ -385,7 +385,7 @@ TEST_F(RecoveryCommand, ADamagedStructureIsNamedAlsoWhereItNeedNotBeRead)
   const std::string render =
       "render bone --engine reference --size 16x16 --out " + quoted(m_folder / "a.png");
   json("appearance bone --flags nerve=touchable --flags incus=none");
-  json("add bone --mesh nerve=" + quoted(m_folder / "incus.obj"));
+  json("add bone --mesh shell=" + quoted(m_folder / "incus.obj"));
   for (const std::string& command : {drill, drill, render})
     json(command); // the second finds derived data
   const auto named = [&](const std::string& object, const std::string& words)

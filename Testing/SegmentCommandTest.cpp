@@ -196,7 +196,7 @@ TEST_F(SegmentCommand, TakesNoMeshAndNoMrForTheStructureOfItsName)
   json("segment ear ball --threshold 200,650 --seed 22,22,13.35");
   std::ofstream(m_folder / "ball.obj") << "v 20 20 12\nv 24 20 12\nv 20 24 12\nv 20 20 16\n"
                                        << "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
-  json("add ear --mesh ball=" + quoted(m_folder / "ball.obj") +
+  json("add ear --mesh shell=" + quoted(m_folder / "ball.obj") +
        " --mr T2=" + quoted(m_folder / "bone.nrrd"));
   const auto before = json("info ear");
   ASSERT_EQ(before["meshes"].size(), 1U);
@@ -204,7 +204,7 @@ TEST_F(SegmentCommand, TakesNoMeshAndNoMrForTheStructureOfItsName)
   EXPECT_EQ(before["meshes"][0]["open_edges"], 0);
   EXPECT_NEAR(before["meshes"][0]["volume_mm3"].get<double>(), 64.0 / 6.0, 1e-5);
   ASSERT_EQ(before["mr"].size(), 1U);
-  for (const std::string name : {"ball", "T2"})
+  for (const std::string name : {"shell", "T2"})
     for (const std::string more : {"", " --replace"})
     {
       const Outcome outcome = run("segment ear " + name + " --threshold -100,525" + more);

@@ -70,8 +70,6 @@ gdcm::DataSet commonPart(const SeriesDescription& series, const core::GridGeomet
   putPixelFormat(d, grid, 16, isSigned);
   if (series.derived)
     putDeidentified(d);
-  else
-    put(d, 0x0020, 0x0060, "CS", "R");
   if (isRescaled)
     put(d, {{0x0028, 0x1052, "DS", decimal(series.rescaleIntercept)},
             {0x0028, 0x1053, "DS", decimal(series.rescaleSlope)},

@@ -299,7 +299,7 @@ TEST_F(Import, AFolderOfMasksBecomesStructures)
   fs::create_directories(folder() / "masks");
   for (const char* name : {"doe_incus", "doe_malleus", "doe_stapes"})
   {
-    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid);
+    auto voxels = volume::makeZeroVolume<std::uint16_t>(grid);
     voxels->at(4, 4, 4) = 1;
     imaging::writeLabelFile(folder() / "masks" / (name + std::string(".nii.gz")),
                             volume::makeLabelMap(voxels, {}));

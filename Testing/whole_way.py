@@ -178,6 +178,7 @@ def manifest(petrous, name):
     # Of another library's salt.
     for image in [whole["ct"], *whole["mr"]]:
         image.pop("frame_of_reference_salted_sha256", None)
+        image.pop("patient_salted_sha256", None)
     whole["attachments"] = [one for one in whole["attachments"] if one["kind"] != "video"]
     for one in whole["attachments"]:
         one.pop("date", None)

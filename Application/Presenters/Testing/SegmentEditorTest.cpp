@@ -998,6 +998,17 @@ TEST_F(SegmentEditorTest, AFailedPreviewLeavesNoFormerOneToBeCreated)
   editor.workFailed("out of memory");
   EXPECT_EQ(editor.voxels(), 0U);
   EXPECT_NE(editor.whyNotCreate().find("out of memory"), std::string::npos);
+
+  // What was changed while it was computed is computed all the same.
+  values.lower += 10.0;
+  editor.setValues(values);
+  ASSERT_TRUE(editor.dueWork());
+  values.lower -= 20.0;
+  editor.setValues(values);
+  editor.workFailed("out of memory");
+  work();
+  EXPECT_GT(editor.voxels(), 0U);
+  EXPECT_EQ(editor.whyNotCreate(), "");
 }
 
 TEST_F(SegmentEditorTest, OnAnMrTheBrightestRegionIsProposed)

@@ -1497,38 +1497,34 @@ void CaseDocumentController::run(const QString& title, BackgroundWork::Work task
        });
 }
 
-bool CaseDocumentController::changeCase(const std::string& name, const std::string& after,
-                                        const std::function<void(library::Library&)>& change)
+void CaseDocumentController::changeCase(const QString& title, const std::string& name,
+                                        const std::string& after,
+                                        std::function<void(library::Library&)> change,
+                                        std::function<void()> changed)
 {
   if (m_work.busy() || m_asking)
+    return emit statusMessage(tr("One at a time: something is being read already"));
+  if (m_model.hasCase() && m_model.value().name == name)
   {
-    emit statusMessage(tr("One at a time: something is being read already"));
-    return false;
+    if (!leaveCase())
+      return;
+    m_reopen = m_model.value().name; // a save after a conflict may have changed it
+    m_model.close();
   }
-  std::string again; // the open case, closed for the change
-  bool changed = false;
-  try
-  {
-    library::Library library = m_model.library();
-    if (m_model.hasCase() && m_model.value().name == name)
-    {
-      if (!leaveCase())
-        return false;
-      again = m_model.value().name; // a save after a conflict may have changed it
-      m_model.close();
-    }
-    change(library);
-    changed = true;
-    if (!again.empty())
-      again = after;
-  }
-  catch (const std::exception& fault)
-  {
-    refuse(toString(fault));
-  }
-  if (!again.empty())
-    openCase(again);
-  return changed;
+  work(title,
+       [this, library = m_model.library(), after, change = std::move(change),
+        changed = std::move(changed)](const core::Progress&) mutable -> BackgroundWork::Reply
+       {
+         change(library);
+         return [this, after, changed]
+         {
+           endWork();
+           if (!m_reopen.empty())
+             m_reopen = after;
+           changed();
+           reopen();
+         };
+       });
 }
 
 void CaseDocumentController::maintain(

@@ -66,11 +66,11 @@ public:
   /// why it failed.
   void run(const QString& title, BackgroundWork::Work task);
 
-  /// Changes a case of the library. The open one is saved and closed first, so that this window
-  /// does not write to it, and opened again as `after` (empty: stays closed), or as it was if that
-  /// fails. Returns whether it was changed; tells why not.
-  bool changeCase(const std::string& name, const std::string& after,
-                  const std::function<void(library::Library&)>& change);
+  /// Changes a case of the library, as `run`. The open one is saved and closed first, so that this
+  /// window does not write to it, and opened again as `after` (empty: stays closed), or as it was
+  /// if that fails. `changed` is called in the end, unless it failed.
+  void changeCase(const QString& title, const std::string& name, const std::string& after,
+                  std::function<void(library::Library&)> change, std::function<void()> changed);
   /// As `run`, for a task that changes any case or object of the library: the open case is saved
   /// and closed first, and opened again in the end.
   void

@@ -3,6 +3,7 @@
 #include <QMenu>
 #include <QMessageBox>
 #include <QPushButton>
+#include <QTimer>
 
 #include "AskName.h"
 #include "CaseDocumentController.h"
@@ -121,9 +122,10 @@ void LibraryController::connectPanel()
   connect(m_panel, &LibraryPanel::undeleteAsked, this,
           [this](const QString& name)
           {
-            if (m_keeper.changeCase(
-                    {}, {}, [&](library::Library& library) { library.undelete(bytes(name)); }))
-              m_panel->select(bytes(name));
+            m_keeper.changeCase(
+                tr("Bringing back %1").arg(name), {}, {},
+                [name](library::Library& library) { library.undelete(bytes(name)); },
+                [this, name] { m_panel->select(bytes(name)); });
           });
 }
 
@@ -136,10 +138,12 @@ void LibraryController::rename(const std::string& name)
                                          if (wanted != name)
                                            presenters::checkFreeCaseName(m_model.library(), wanted);
                                        }));
-  if (to.empty() || to == name ||
-      !m_keeper.changeCase(name, to, [&](library::Library& library) { library.rename(name, to); }))
+  if (to.empty() || to == name)
     return;
-  m_panel->select(to);
+  m_keeper.changeCase(
+      tr("Renaming %1").arg(words(name)), name, to,
+      [name, to](library::Library& library) { library.rename(name, to); },
+      [this, to] { m_panel->select(to); });
 }
 
 void LibraryController::copy(const std::string& name)
@@ -149,11 +153,12 @@ void LibraryController::copy(const std::string& name)
               words(presenters::freeCaseName(m_model.library(), name)),
               [this](const std::string& wanted)
               { presenters::checkFreeCaseName(m_model.library(), wanted); });
-  if (to.isEmpty() ||
-      !m_keeper.changeCase(name, name,
-                           [&](library::Library& library) { library.copy(name, bytes(to)); }))
+  if (to.isEmpty())
     return;
-  m_panel->select(bytes(to));
+  m_keeper.changeCase(
+      tr("Copying %1").arg(words(name)), name, name,
+      [name, to](library::Library& library) { library.copy(name, bytes(to)); },
+      [this, to] { m_panel->select(bytes(to)); });
 }
 
 void LibraryController::remove(const std::string& name)
@@ -171,22 +176,36 @@ void LibraryController::remove(const std::string& name)
   box.exec();
   if (box.clickedButton() != yes)
     return;
-  m_keeper.changeCase(name, {}, [&](library::Library& library) { library.remove(name); });
-  m_panel->refresh();
+  m_keeper.changeCase(
+      tr("Deleting %1").arg(words(name)), name, {},
+      [name](library::Library& library) { library.remove(name); }, [this] { m_panel->refresh(); });
 }
 
 void LibraryController::describe(const std::string& name)
 {
-  scene::Description before;
-  if (!m_keeper.changeCase({}, {},
-                           [&](library::Library& library) { before = library.description(name); }))
-    return; // it cannot be read, which was told
+  m_keeper.run(tr("Reading %1").arg(words(name)),
+               [this, library = m_model.library(),
+                name](const core::Progress&) mutable -> BackgroundWork::Reply
+               {
+                 const scene::Description before = library.description(name);
+                 // After the reply, when another task can be started.
+                 return [this, name, before] {
+                   QTimer::singleShot(0, this,
+                                      [this, name, before] { askDescription(name, before); });
+                 };
+               });
+}
+
+void LibraryController::askDescription(const std::string& name, const scene::Description& before)
+{
   DescriptionDialog dialog(words(name), before, &m_window);
   if (dialog.exec() != QDialog::Accepted || dialog.description() == before)
     return;
   m_keeper.changeCase(
-      name, name, [&](library::Library& library) { library.describe(name, dialog.description()); });
-  m_panel->select(name);
+      tr("Describing %1").arg(words(name)), name, name,
+      [name, after = dialog.description()](library::Library& library)
+      { library.describe(name, after); },
+      [this, name] { m_panel->select(name); });
 }
 
 void LibraryController::makePicture(const std::string& name)

@@ -44,6 +44,7 @@ private:
   void copy(const std::string& name);
   void remove(const std::string& name);
   void describe(const std::string& name);
+  void askDescription(const std::string& name, const scene::Description& before);
   void makePicture(const std::string& name);
   void verify();
   void collect();

@@ -6,12 +6,14 @@
 #include <QAction>
 #include <QCheckBox>
 #include <QComboBox>
+#include <QDateEdit>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QKeyEvent>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
+#include <QSignalBlocker>
 #include <QTimer>
 #include <QToolButton>
 #include <QTreeView>
@@ -38,7 +40,11 @@ LibraryPanel::LibraryPanel(const presenters::WorkstationModel& model, QWidget* p
   , m_cases(new CasesModel(this))
   , m_search(new QLineEdit)
   , m_side(new QComboBox)
+  , m_tag(new QComboBox)
   , m_inNotes(new QCheckBox(tr("in &notes too")))
+  , m_dated(new QCheckBox(tr("&planned from")))
+  , m_from(new QDateEdit(QDate::currentDate()))
+  , m_to(new QDateEdit(QDate::currentDate().addMonths(1)))
   , m_list(new QTreeView)
   , m_count(new QLabel)
   , m_deleted(new QMenu(this))
@@ -55,14 +61,6 @@ LibraryPanel::LibraryPanel(const presenters::WorkstationModel& model, QWidget* p
   m_search->setAcceptDrops(false); // an archive that is dropped is for the window
   connect(m_search, &QLineEdit::textChanged, this, &LibraryPanel::refresh);
   connect(m_search, &QLineEdit::returnPressed, this, &LibraryPanel::focusList);
-  m_side->setObjectName("searchSide");
-  m_side->setAccessibleName(tr("Side"));
-  m_side->addItem(tr("any side"), -1);
-  for (const auto side : {scene::Side::Left, scene::Side::Right, scene::Side::Both})
-    m_side->addItem(sideText(side), static_cast<int>(side));
-  connect(m_side, qOverload<int>(&QComboBox::currentIndexChanged), this, &LibraryPanel::refresh);
-  m_inNotes->setObjectName("searchNotes");
-  connect(m_inNotes, &QCheckBox::toggled, this, &LibraryPanel::refresh);
   m_cases->thumbnail = [this](const library::CaseSummary& one)
   { return m_model.library().thumbnail(one); };
   m_list->setObjectName("cases");
@@ -112,16 +110,89 @@ LibraryPanel::LibraryPanel(const presenters::WorkstationModel& model, QWidget* p
   foot->addWidget(m_undelete);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(8, 8, 8, 8);
-  auto* where = new QHBoxLayout;
-  where->addWidget(m_side);
-  where->addWidget(m_inNotes);
-  where->addStretch();
   layout->addWidget(m_search);
-  layout->addLayout(where);
+  addFilters(*layout);
   layout->addLayout(buttons);
   layout->addWidget(m_list, 1);
   layout->addLayout(foot);
   setMinimumWidth(340);
+}
+
+// Beside the text: side, tag, notes, planned date.
+void LibraryPanel::addFilters(QBoxLayout& layout)
+{
+  m_side->setObjectName("searchSide");
+  m_side->setAccessibleName(tr("Side"));
+  m_side->addItem(tr("any side"), -1);
+  for (const auto side : {scene::Side::Left, scene::Side::Right, scene::Side::Both})
+    m_side->addItem(sideText(side), static_cast<int>(side));
+  connect(m_side, qOverload<int>(&QComboBox::currentIndexChanged), this, &LibraryPanel::refresh);
+  m_tag->setObjectName("searchTag");
+  m_tag->setAccessibleName(tr("Tag"));
+  m_tag->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  m_tag->setMinimumContentsLength(8);
+  m_tag->addItem(tr("any tag"), QString());
+  connect(m_tag, qOverload<int>(&QComboBox::currentIndexChanged), this, &LibraryPanel::refresh);
+  m_inNotes->setObjectName("searchNotes");
+  connect(m_inNotes, &QCheckBox::toggled, this, &LibraryPanel::refresh);
+  m_dated->setObjectName("searchDated");
+  m_dated->setToolTip(tr("Cases whose planned date lies between these days, both included"));
+  m_from->setObjectName("searchFrom");
+  m_to->setObjectName("searchTo");
+  for (QDateEdit* date : {m_from, m_to})
+  {
+    date->setDisplayFormat("yyyy-MM-dd");
+    date->setCalendarPopup(true);
+    date->setEnabled(false);
+    date->setAccessibleName(date == m_from ? tr("Planned from") : tr("Planned to"));
+    connect(m_dated, &QCheckBox::toggled, date, &QWidget::setEnabled);
+    connect(date, &QDateEdit::dateChanged, this, &LibraryPanel::refresh);
+  }
+  connect(m_dated, &QCheckBox::toggled, this, &LibraryPanel::refresh);
+  auto* where = new QHBoxLayout;
+  where->addWidget(m_side);
+  where->addWidget(m_tag, 1);
+  where->addWidget(m_inNotes);
+  auto* when = new QHBoxLayout;
+  when->addWidget(m_dated);
+  when->addWidget(m_from);
+  when->addWidget(new QLabel(tr("to")));
+  when->addWidget(m_to);
+  when->addStretch();
+  layout.addLayout(where);
+  layout.addLayout(when);
+}
+
+library::CaseFilter LibraryPanel::filter() const
+{
+  library::CaseFilter filter;
+  filter.text = bytes(m_search->text());
+  filter.inNotes = m_inNotes->isChecked();
+  if (const int side = m_side->currentData().toInt(); side >= 0)
+    filter.side = static_cast<scene::Side>(side);
+  if (m_tag->currentIndex() > 0)
+    filter.tags = {bytes(m_tag->currentData().toString())};
+  if (m_dated->isChecked())
+  {
+    filter.from = bytes(m_from->date().toString(Qt::ISODate));
+    filter.to = bytes(m_to->date().toString(Qt::ISODate));
+  }
+  return filter;
+}
+
+// The tags of all cases; the chosen one stays while a case has it.
+void LibraryPanel::listTags()
+{
+  std::set<std::string> tags;
+  for (const auto& one : m_model.library().list())
+    tags.insert(one.description.tags.begin(), one.description.tags.end());
+  const QSignalBlocker quiet(m_tag);
+  const QString chosen = m_tag->currentData().toString();
+  while (m_tag->count() > 1)
+    m_tag->removeItem(1);
+  for (const std::string& tag : tags)
+    m_tag->addItem(words(tag), words(tag));
+  m_tag->setCurrentIndex(chosen.isEmpty() ? 0 : std::max(m_tag->findData(chosen), 0));
 }
 
 // Each is a button, an entry of the list's context menu and a key of the list.
@@ -214,12 +285,8 @@ void LibraryPanel::refresh()
   {
     const std::string before = current();
     const std::string open = m_model.hasCase() ? m_model.value().name : std::string();
-    library::CaseFilter filter;
-    filter.text = bytes(m_search->text());
-    filter.inNotes = m_inNotes->isChecked();
-    if (const int side = m_side->currentData().toInt(); side >= 0)
-      filter.side = static_cast<scene::Side>(side);
-    m_cases->setCases(m_model.library().search(filter), open);
+    listTags();
+    m_cases->setCases(m_model.library().search(filter()), open);
     int row = m_cases->rowOf(before);
     if (row < 0)
       row = m_cases->rowOf(open);
@@ -245,7 +312,8 @@ void LibraryPanel::refresh()
 
 bool LibraryPanel::isFiltered() const
 {
-  return !m_search->text().trimmed().isEmpty() || m_side->currentIndex() > 0;
+  return !m_search->text().trimmed().isEmpty() || m_side->currentIndex() > 0 ||
+         m_tag->currentIndex() > 0 || m_dated->isChecked();
 }
 
 void LibraryPanel::forgetPictures()
@@ -269,6 +337,8 @@ void LibraryPanel::select(const std::string& name)
   {
     m_search->clear();
     m_side->setCurrentIndex(0);
+    m_tag->setCurrentIndex(0);
+    m_dated->setChecked(false);
   }
   refresh();
   if (const int row = m_cases->rowOf(name); row >= 0)

@@ -6,8 +6,10 @@
 #include "Panels.h"
 #include "petrous/Library/Library.h"
 
+class QBoxLayout;
 class QCheckBox;
 class QComboBox;
+class QDateEdit;
 class QLabel;
 class QLineEdit;
 class QMenu;
@@ -69,6 +71,9 @@ private:
   using Asked = void (LibraryPanel::*)(const QString&);
   bool isFiltered() const;
   void addButtons(QLayout& layout);
+  void addFilters(QBoxLayout& layout);
+  library::CaseFilter filter() const;
+  void listTags();
   void listDeleted();
   void update();
 
@@ -76,7 +81,11 @@ private:
   CasesModel* m_cases;
   QLineEdit* m_search;
   QComboBox* m_side;
+  QComboBox* m_tag;
   QCheckBox* m_inNotes;
+  QCheckBox* m_dated;
+  QDateEdit* m_from;
+  QDateEdit* m_to;
   QTreeView* m_list;
   QLabel* m_count;
   QMenu* m_deleted;

@@ -114,7 +114,12 @@ PseudonymsDialog::PseudonymsDialog(std::chrono::milliseconds lockAfter, QWidget*
   m_idle.setSingleShot(true);
   connect(&m_idle, &QTimer::timeout, this,
           [this] { lock(tr("Locked, as nothing was typed or clicked for a while.")); });
-  connect(&m_work, &BackgroundWork::failed, this, [this](const QString& why) { say(why); });
+  connect(&m_work, &BackgroundWork::failed, this,
+          [this](const QString& why)
+          {
+            m_entries.show(m_map.get());
+            say(why);
+          });
   QApplication::instance()->installEventFilter(this);
   say({});
 }
@@ -344,7 +349,7 @@ void PseudonymsDialog::work(const QString& text, MapWork task)
   say(text);
 }
 
-// The table reads the map, so it is changed in the window's thread.
+// The table reads the map: it is empty while the map changes.
 void PseudonymsDialog::take()
 {
   QString file;
@@ -354,31 +359,22 @@ void PseudonymsDialog::take()
            false, &file, secret))
     return;
   const std::filesystem::path path = QFile::encodeName(file).toStdString();
-  work(
-      tr("Opening…"),
-      [this, path, secret](library::PseudonymMap& map) -> BackgroundWork::Reply
-      {
-        const auto other = std::make_shared<library::PseudonymMap>(path, *secret);
-        return [this, &map, other]
-        {
-          try
-          {
-            const std::size_t added = map.add(other->entries());
-            map.save();
-            m_entries.show(&map);
-            say((added == 1 ? tr("1 pseudonym is new.") : tr("%1 pseudonyms are new.").arg(added)) +
-                (other->key().bytes() == map.key().bytes()
-                     ? QString()
-                     : ' ' + tr("The other map has a key of its own: new files of these patients "
-                                "get other pseudonyms than those.")));
-          }
-          catch (const std::exception& error)
-          {
-            m_entries.show(&map);
-            say(toString(error));
-          }
-        };
-      });
+  m_entries.show(nullptr);
+  work(tr("Opening…"),
+       [this, path, secret](library::PseudonymMap& map) -> BackgroundWork::Reply
+       {
+         const library::PseudonymMap other(path, *secret);
+         const std::size_t added = map.takeIn(other.entries());
+         const bool hasOtherKey = other.key().bytes() != map.key().bytes();
+         return [this, &map, added, hasOtherKey]
+         {
+           m_entries.show(&map);
+           say((added == 1 ? tr("1 pseudonym is new.") : tr("%1 pseudonyms are new.").arg(added)) +
+               (hasOtherKey ? ' ' + tr("The other map has a key of its own: new files of these "
+                                       "patients get other pseudonyms than those.")
+                            : QString()));
+         };
+       });
 }
 
 void PseudonymsDialog::copy()

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <QAction>
 #include <QCheckBox>
@@ -660,6 +661,27 @@ void SegmentPanel::showVolume()
   m_volume->setText(draftText(m_editor));
 }
 
+// The keys of a step stop it while it is computed, and are the step's again afterwards. (A button
+// that is disabled gives the focus to the next one that is not, which drops the draft.)
+void SegmentPanel::showWork(bool works)
+{
+  m_progress->setVisible(works);
+  if (works)
+  {
+    m_cancel->show();
+    for (QPushButton* step : m_steps)
+      if (step->hasFocus())
+      {
+        m_begun = step;
+        m_cancel->setFocus();
+      }
+    return;
+  }
+  if (QPushButton* step = std::exchange(m_begun, nullptr); step && m_cancel->hasFocus())
+    step->isEnabled() ? step->setFocus() : m_name->setFocus();
+  m_cancel->hide();
+}
+
 void SegmentPanel::refresh()
 {
   showSources();
@@ -690,8 +712,8 @@ void SegmentPanel::refresh()
                           .arg(volumeText(pieces->outside)));
   m_pieces->setVisible(pieces.has_value());
   m_keepLargest->setVisible(pieces.has_value());
-  m_progress->setVisible(!free);
-  m_cancel->setVisible(!free);
+  if (!free)
+    showWork(true);
   const std::string whyNot = m_editor.whyNotStep();
   for (QPushButton* step : m_steps)
   {
@@ -699,6 +721,8 @@ void SegmentPanel::refresh()
     step->setToolTip(whyNot.empty() ? tr("One step, which can be undone (Shift+Return)")
                                     : words(whyNot));
   }
+  if (free)
+    showWork(false);
   m_smallest->setEnabled(!m_editor.values().largest);
   findChild<QDoubleSpinBox*>("nerveRadius")->setEnabled(m_editor.values().tubeRadius.has_value());
   for (const char* name : {"paintLower", "paintUpper", "eraseLower", "eraseUpper"})

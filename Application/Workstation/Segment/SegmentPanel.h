@@ -36,6 +36,7 @@ public:
   void caseChanged() override;
   void appearanceChanged() override;
   void refresh();
+  void showWork(bool works);
   void showVolume(); ///< alone, while a stroke is painted
   void setProgress(double fraction, const QString& text);
   void partsChanged() override;
@@ -101,6 +102,7 @@ private:
   QPushButton* m_keepLargest = nullptr;
   QProgressBar* m_progress;
   QPushButton* m_cancel;
+  QPushButton* m_begun = nullptr; ///< the step that is computed, if a key began it
   QPushButton* m_undo;
   QPushButton* m_redo;
   QPushButton* m_create;

@@ -434,11 +434,9 @@ void SliceView::mouseMoveEvent(QMouseEvent* event)
 {
   if (!m_presenter)
     return;
+  m_pointer = event->localPos();
   if (m_tool)
-  {
-    m_pointer = event->localPos();
     update();
-  }
   const QPointF step = event->localPos() - m_dragged;
   m_dragged = event->localPos();
   if (m_toolDown)
@@ -470,6 +468,8 @@ void SliceView::wheelEvent(QWheelEvent* event)
     scroll(notches > 0.0 ? std::max(1, static_cast<int>(notches))
                          : std::min(-1, static_cast<int>(notches)));
   event->accept();
+  if (m_pointer && m_presenter) // another place lies under it now
+    emit pointed(patientAt(event->position()));
 }
 
 void SliceView::scroll(int slices)

@@ -232,8 +232,7 @@ void StructuresPanel::showRange()
       });
   m_threshold->setText(isOnMr() ? tr("S&urface threshold") : tr("&Bone threshold"));
   const QString tip =
-      isOnMr()             ? tr("The surface is where the MR gets brighter than this, in its own "
-                                            "unit; it is that of tissue, not of bone")
+      isOnMr() ? tr("The surface is where the MR gets brighter than this, in its own unit")
       : display.hounsfield ? tr("Bone is what is denser than this, in Hounsfield units (HU)")
                            : tr("Bone is what is denser than this, in the image's own unit: it is "
                                 "not in Hounsfield units");

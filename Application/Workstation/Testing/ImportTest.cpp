@@ -1199,7 +1199,7 @@ TEST_F(Import, PartsComeByTheCaseMenu)
   };
   const auto isInFront = [this](const char* dock)
   { return !window().findChild<QDockWidget*>(dock)->visibleRegion().isEmpty(); };
-  add("Add MR file…", "mr", "T2 of 2024");
+  add("Add MR…", "mr", "T2 of 2024");
   ASSERT_TRUE(waitFor([this] { return window().model().value().mr.size() == 1; }));
   EXPECT_EQ(window().model().value().mr[0].name, "T2 of 2024");
   EXPECT_TRUE(waitFor([&] { return isInFront("registrationDock"); }));
@@ -1223,7 +1223,7 @@ TEST_F(Import, PartsComeByTheCaseMenu)
         dialog.accept();
         return true;
       });
-  trigger(window(), "Add MR file…");
+  trigger(window(), "Add MR…");
   ASSERT_TRUE(waitFor([&told] { return !told.isEmpty(); }));
   EXPECT_TRUE(told.contains("CT") && told.contains("MR")) << told.toStdString();
   EXPECT_EQ(window().model().value().mr.size(), 1u);
@@ -1526,7 +1526,7 @@ TEST_F(Import, AnExportThatFailsKeepsItsChoicesAndOffersTheGridOfTheCt)
         for (QWidget* at = first; order.isEmpty() || at != first; at = at->nextInFocusChain())
           if (at->objectName().startsWith("export") && at->focusPolicy() != Qt::NoFocus)
             order += at->objectName().mid(6);
-        EXPECT_EQ(order.join(' ').toStdString(), "What Part Format OnCt Triangles Path");
+        EXPECT_EQ(order.join(' ').toStdString(), "What Part Format OnCt MaskFace Triangles Path");
         pick(dialog, "exportWhat", "labels");
         pick(dialog, "exportFormat", ".nii.gz");
         EXPECT_TRUE(dialog.findChild<QLabel*>("exportCoordinates")->text().startsWith("RAS"));

@@ -4,6 +4,7 @@
 
 #include <QCheckBox>
 #include <QComboBox>
+#include <QDateEdit>
 #include <QDialog>
 #include <QInputDialog>
 #include <QLabel>
@@ -127,6 +128,7 @@ TEST_F(LibraryWindow, CasesAreRenamedAndDeletedWhereTheyAreListed)
     ASSERT_TRUE(select(name));
     answer(reply);
     button("deleteCase");
+    EXPECT_TRUE(settled());
   };
   remove("third", "Cancel");
   EXPECT_TRUE(library().contains("third"));
@@ -143,7 +145,9 @@ TEST_F(LibraryWindow, CasesAreRenamedAndDeletedWhereTheyAreListed)
   ASSERT_EQ(deleted->actions().size(), 2);
   EXPECT_TRUE(deleted->actions()[0]->text().startsWith("third, "));
   deleted->actions()[1]->trigger();
+  ASSERT_TRUE(settled());
   deleted->actions()[0]->trigger();
+  ASSERT_TRUE(settled());
   EXPECT_FALSE(panel().findChild<QToolButton*>("undeleteCase")->isEnabled());
   EXPECT_EQ(names().size(), 2);
   panel().findChild<QLineEdit*>("searchCases")->setText("HIRD");
@@ -197,7 +201,7 @@ TEST_F(LibraryWindow, ACopyIsListedAndTheOriginalStaysOpen)
         return true;
       });
   act("Rename…");
-  EXPECT_TRUE(why.contains("copy")) << why.toStdString();
+  EXPECT_TRUE(waitFor([&] { return why.contains("copy"); })) << why.toStdString();
   ASSERT_TRUE(isOpen("ball"));
 }
 
@@ -403,6 +407,7 @@ TEST_F(LibraryWindow, ACaseIsDescribedAndFoundByThat)
         return true;
       });
   button("describeCase");
+  ASSERT_TRUE(waitFor([&] { return !library().description("ball").date.empty(); }));
   ASSERT_TRUE(isOpen("ball"));
   EXPECT_EQ(window().model().value().dissection.strokes().size(), 1u);
   const scene::Description said = library().description("ball");
@@ -424,6 +429,29 @@ TEST_F(LibraryWindow, ACaseIsDescribedAndFoundByThat)
   EXPECT_EQ(names(), QStringList());
   side->setCurrentIndex(side->findText("left"));
   EXPECT_EQ(names(), QStringList{"ball"});
+  side->setCurrentIndex(0);
+
+  // By a tag of the library, and by the planned date, both ends included.
+  auto* tag = panel().findChild<QComboBox*>("searchTag");
+  ASSERT_EQ(tag->count(), 3);
+  tag->setCurrentIndex(tag->findText("cholesteatoma"));
+  EXPECT_EQ(names(), QStringList{"ball"});
+  panel().refresh();
+  EXPECT_EQ(tag->currentText(), "cholesteatoma") << "a choice stays";
+  tag->setCurrentIndex(0);
+  EXPECT_EQ(names().size(), 2);
+  auto* from = panel().findChild<QDateEdit*>("searchFrom");
+  auto* to = panel().findChild<QDateEdit*>("searchTo");
+  EXPECT_FALSE(from->isEnabled());
+  panel().findChild<QCheckBox*>("searchDated")->setChecked(true);
+  to->setDate({2026, 2, 28});
+  from->setDate({2026, 2, 28});
+  EXPECT_EQ(names(), QStringList{"ball"});
+  from->setDate({2026, 2, 1});
+  to->setDate({2026, 2, 27});
+  EXPECT_EQ(names(), QStringList());
+  panel().findChild<QCheckBox*>("searchDated")->setChecked(false);
+  EXPECT_EQ(names().size(), 2);
 }
 
 TEST_F(LibraryWindow, ACaseHasAPicture)

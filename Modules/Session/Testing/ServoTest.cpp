@@ -120,6 +120,44 @@ TEST(Servo, DrillsByPedalButtonOrKeyAndOnlyWhileAllIsWell)
   EXPECT_FALSE(session.tick(kDevicePose).drill);
 }
 
+// A mouse leaps and is pressed at once: the burr drills where it is pressed, not on its way there.
+TEST(Servo, APointerToolDrillsFromItsArrivalOn)
+{
+  using Parameters = ServoParameters;
+  for (const int mode : {int{Parameters::kPointer}, Parameters::kPointer | Parameters::kPressed})
+  {
+    SCOPED_TRACE(mode);
+    ServoSetup setup = Session::plainSetup();
+    setup.guard.speed = 1e6; // a pointer's
+    Session session(setup);
+    session.parameters.constantThrust = static_cast<std::uint8_t>(mode);
+    session.parameters.thrust = 1.0;
+    session.parameters.approach[2] = -2.0;
+    session.go(kAbove, kAbove, 50);
+    session.parameters.drill = 1;
+    const Vector3d there = kAbove + Vector3d(8.0, 0.0, 0.0);
+    bool drilled = false;
+    for (int n = 0; n < 1000; ++n)
+    {
+      const TickRecord& record = session.tick({there, Eigen::Quaterniond::Identity()});
+      const double beside = std::abs(record.proxy.pose().position.x() - there.x());
+      if (!drilled)
+      {
+        EXPECT_EQ(record.drill != 0, beside <= 0.5) << n << ": " << beside << " mm";
+      }
+      drilled = drilled || record.drill;
+    }
+    EXPECT_TRUE(drilled);
+    // In one stroke it cuts wherever it is dragged.
+    EXPECT_TRUE(session.tick({kAbove, Eigen::Quaterniond::Identity()}).drill);
+    session.parameters.drill = 0;
+    session.tick({kAbove, Eigen::Quaterniond::Identity()});
+    session.parameters.drill = 1;
+    const TickRecord& anew = session.tick({there, Eigen::Quaterniond::Identity()});
+    EXPECT_EQ(anew.drill != 0, std::abs(anew.proxy.pose().position.x() - there.x()) <= 0.5);
+  }
+}
+
 TEST(Servo, ClutchKeepsTheToolWhileTheDeviceGoesAway)
 {
   Session session;

@@ -1211,6 +1211,7 @@ std::optional<SegmentEditor::Work> SegmentEditor::previewWork()
     return std::nullopt;
   }
   m_previewRunning = true;
+  m_previewOf = m_inputs;
   Computed compute;
   if (m_tool == Tool::Threshold || m_tool == Tool::Nerve)
     compute = computed();
@@ -1380,10 +1381,10 @@ void SegmentEditor::workEnded()
 
 void SegmentEditor::workFailed(const std::string& why)
 {
-  const bool isOfPreview = m_previewRunning && !m_stepping;
+  const bool isOfPreview = m_previewRunning && !m_stepping && m_previewOf == m_inputs;
   workEnded();
   if (!isOfPreview)
-    return;
+    return;      // of what was changed meanwhile another one is due
   dropPreview(); // of what was set before
   m_refused = m_warning = why;
   touched();

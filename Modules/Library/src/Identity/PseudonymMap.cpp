@@ -234,6 +234,22 @@ std::size_t PseudonymMap::add(const std::vector<Pseudonym>& entries)
   return added.size();
 }
 
+std::size_t PseudonymMap::takeIn(const std::vector<Pseudonym>& entries)
+{
+  const auto before = static_cast<std::ptrdiff_t>(m_entries.size());
+  const std::size_t added = add(entries);
+  try
+  {
+    save();
+  }
+  catch (...)
+  {
+    m_entries.erase(m_entries.begin() + before, m_entries.end());
+    throw;
+  }
+  return added;
+}
+
 bool PseudonymMap::changePassphrase(const std::string& passphrase)
 {
   checkPassphrase(passphrase);

@@ -31,6 +31,8 @@ constexpr double kHeldShare = 0.05; // of the contacts' forces
 constexpr double kFace = 0.01;      // mm: rounding at the handpiece's own face
 constexpr double kNoWay = 1e-6;     // mm, no progress
 constexpr double kAtGoal = 0.005;   // mm: the proxy has a deadband
+constexpr double kArrived = 0.5;    // mm beside the pick ray: a pressed tool may begin to drill
+constexpr double kHeld = 1e-4;      // mm per tick: tissue holds the tool
 
 const ServoSetup& checked(const ServoSetup& setup)
 {
@@ -219,6 +221,24 @@ void Servo::notifyStretch(const Eigen::Vector3d& stretch, const Eigen::Vector3d&
   std::copy(force.data(), force.data() + 3, m_record.wrench.force);
 }
 
+// A pointer leaps, and the tool follows it through whatever lies between: it must not drill there.
+// A tool that tissue holds has arrived if the burr covers the pick ray.
+void Servo::awaitArrival(const Step& step, bool wanted, const Eigen::Vector3d& way) noexcept
+{
+  if (!wanted || !step.pointer)
+  {
+    m_arrived = false;
+    return;
+  }
+  const ServoParameters& p = m_record.input.parameters;
+  const Eigen::Vector3d sight = sightOf(p, step.mapped);
+  const Eigen::Vector3d offset = m_proxy.pose().position - step.mapped.position;
+  const double beside = (offset - sight.dot(offset) * sight).norm();
+  const double reach = Eigen::Map<const Eigen::Vector3d>(p.approach).stableNorm();
+  m_arrived =
+      m_arrived || beside <= kArrived || (m_touches && way.norm() < kHeld && beside <= reach);
+}
+
 // Goal of the proxy.
 Pose Servo::goalOf(const Step& step) noexcept
 {
@@ -348,7 +368,9 @@ const TickRecord& Servo::tick(const TickInput& input) noexcept
 
   giveForce(step, m_record.wrench.wrench(), anew);
   const bool wanted = p.drill || input.pedal >= kPedalDown || (input.buttons & p.drillButtons) != 0;
-  m_record.drill = wanted && m_giving && !step.clutch && fault == ServoFault::None;
+  awaitArrival(step, wanted, tick.pose.position - before);
+  const bool waits = step.pointer && !m_arrived;
+  m_record.drill = wanted && !waits && m_giving && !step.clutch && fault == ServoFault::None;
   return m_record;
 }
 

@@ -285,10 +285,11 @@ private:
   bool m_proposeDue = false;
   bool m_isOwnRange = false; ///< the limits were entered, not proposed
   bool m_previewDue = false;
-  std::uint64_t m_inputs = 0;   // of previews: changes when one that is under way is outdated
-  std::uint64_t m_images = 0;   // changes when m_image is another
-  std::size_t m_sourceOf = 0;   // place of the source among the MRs, while there are
-  std::size_t m_imagesThen = 0; // so many
+  std::uint64_t m_inputs = 0;    // of previews: changes when one that is under way is outdated
+  std::uint64_t m_previewOf = 0; // the inputs of the one that is under way
+  std::uint64_t m_images = 0;    // changes when m_image is another
+  std::size_t m_sourceOf = 0;    // place of the source among the MRs, while there are
+  std::size_t m_imagesThen = 0;  // so many
   bool m_previewRunning = false;
   bool m_stepping = false;
   std::optional<Work> m_stepDue; // begun by a click

@@ -63,6 +63,10 @@ public:
   /// throws as OutputFile::commit; PseudonymMapError (InUse); Error (Refused) if the file is there.
   bool saveCopy(const std::filesystem::path& path, const std::string& passphrase) const;
 
+  /// Adds entries and saves them; one that cannot be saved is as it was, file and all. Returns how
+  /// many were new; throws as OutputFile::commit.
+  std::size_t takeIn(const std::vector<Pseudonym>& entries);
+
   /// Returns and throws as OutputFile::commit.
   bool save();
 

@@ -42,7 +42,8 @@ struct ServoSetup
 /// A pointer tool (ServoParameters::kPointer) that is more than `kFarthest` from its target, stands
 /// in tissue or is stuck is relocated: along its pick ray, in front of the tissue, at the first
 /// free position from its target towards the camera (0, 1, 2, 4 mm ...). Each tick tries one of
-/// them. In this mode and with set thrust, the force on the hand never exceeds the thrust.
+/// them. It drills from its arrival at the pick ray on, not on its way there. In this mode and with
+/// set thrust, the force on the hand never exceeds the thrust.
 ///
 /// Deterministic: the same inputs in the same order give bit-identical records, if proxy and field
 /// are deterministic. `tick` does not allocate, lock, throw or do I/O. Not thread-safe.
@@ -77,6 +78,7 @@ private:
   bool isFar(const Step& step) const noexcept;
   bool placeAnew(const Step& step) noexcept;
   haptics::Pose goalOf(const Step& step) noexcept;
+  void awaitArrival(const Step& step, bool wanted, const Eigen::Vector3d& way) noexcept;
   void notifyStretch(const Eigen::Vector3d& stretch, const Eigen::Vector3d& way) noexcept;
   void reportContacts(const haptics::ProxyTick& tick, double share) noexcept;
   void giveForce(const Step& step, const haptics::Wrench& wrench, bool anew) noexcept;
@@ -99,6 +101,7 @@ private:
   bool m_wasUsable = false;
   bool m_touches = false; ///< at the last tick
   bool m_inside = false;  ///< at the last tick
+  bool m_arrived = false; ///< the pressed tool has been where it was pressed
   double m_back = 0.0;    ///< mm from its target towards the camera, tried next
   int m_rest = 0;         ///< ticks until the next search for another position
 };

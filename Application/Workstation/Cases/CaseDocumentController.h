@@ -55,6 +55,10 @@ public:
   void restorePart();                       ///< the one that was removed last
   void renamePart(const std::string& name); ///< with a dialog
 
+  /// Any other change of the case's parts, such as an undo: not while parts are being added. Saves
+  /// the case. False: it was not done; tells why.
+  bool changeParts(const std::function<void()>& change);
+
   void exportPart();                     ///< for other programs, with a dialog
   void archive();                        ///< the open case to one file, with a dialog
   void archive(const std::string& name); ///< likewise any case of the library
@@ -163,7 +167,6 @@ private:
   bool leaveCase();
   void refuse(const QString& why);
   void inform(const QString& text);
-  bool changeParts(const std::function<void()>& change);
 
   presenters::WorkstationModel& m_model;
   CaseSaver& m_saver;

@@ -270,6 +270,16 @@ bool SegmentController::canRedo() const
   return m_editor.canRedo() && !m_editor.stepping();
 }
 
+bool SegmentController::canUndoStep() const
+{
+  return m_editor.canUndoStep();
+}
+
+bool SegmentController::canRedoStep() const
+{
+  return m_editor.canRedoStep();
+}
+
 QString SegmentController::undoText() const
 {
   return words(m_editor.undoText());

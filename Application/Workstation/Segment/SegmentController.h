@@ -47,6 +47,8 @@ public:
   void leaveTool(); ///< the draft stays
   bool canUndo() const;
   bool canRedo() const;
+  bool canUndoStep() const; ///< of the draft
+  bool canRedoStep() const;
   QString undoText() const; ///< as SegmentEditor's
   QString redoText() const;
   void undo();

@@ -116,7 +116,8 @@ QAction* GuiTest::action(const QString& text)
 {
   QAction* without = nullptr;
   for (QAction* candidate : m_window->findChildren<QAction*>())
-    if (candidate->text().remove('&') == text)
+    // Those of undo and redo go on with what they would take on.
+    if (candidate->text().remove('&') == text || candidate->iconText() == text)
     {
       // Menus and tool bars have actions of their own, without a shortcut.
       if (!candidate->shortcut().isEmpty())

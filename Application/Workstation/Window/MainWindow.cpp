@@ -434,7 +434,6 @@ void MainWindow::connectModel()
   m_model.events.stateChanged = [this] { stateChanged(); };
   m_model.events.stepped = [this](bool back)
   {
-    m_segmentWasLast = false;
     showUndo();
     stepped(back);
   };
@@ -553,23 +552,8 @@ void MainWindow::connectActions()
      });
   on(m_actions->restore, [this] { m_keeper->restore(); });
   on(m_actions->quit, [this] { close(); });
-  // A damaged stroke is refused.
-  const auto refused = [this](const QString& why) { statusBar()->showMessage(why); };
-  // The drill stays off until button, key or pedal is pressed anew.
-  const auto step = [this, refused](void (presenters::WorkstationModel::*way)())
-  {
-    guarded(
-        [this, way]
-        {
-          m_view->tool().ReleaseDrill();
-          (m_model.*way)();
-        },
-        refused);
-  };
-  on(m_actions->undo, [this, step]
-     { undoesSegment() ? m_segment->undo() : step(&presenters::WorkstationModel::undo); });
-  on(m_actions->redo, [this, step]
-     { redoesSegment() ? m_segment->redo() : step(&presenters::WorkstationModel::redo); });
+  on(m_actions->undo, [this] { undoesSegment() ? m_segment->undo() : step(true); });
+  on(m_actions->redo, [this] { redoesSegment() ? m_segment->redo() : step(false); });
   on(m_actions->centerView,
      [this]
      {
@@ -624,12 +608,7 @@ void MainWindow::connectSegment()
           [this](const QString& image) { m_registration->show(bytes(image)); });
   connect(m_segment, &SegmentController::stateChanged, this, &MainWindow::showUndo);
   connect(m_segment, &SegmentController::structureCreated, m_saver, &CaseSaver::save);
-  connect(m_segment, &SegmentController::structureCreated, this,
-          [this]
-          {
-            m_segmentWasLast = true;
-            showUndo();
-          });
+  connect(m_segment, &SegmentController::structureCreated, this, &MainWindow::showUndo);
   connect(m_segment, &SegmentController::statusMessage, this,
           [this](const QString& line) { statusBar()->showMessage(line, kMessage); });
   connect(m_segment, &SegmentController::surfaceChanged, m_picture, &PictureController::setDraft);
@@ -659,23 +638,54 @@ void MainWindow::showUndo()
 {
   const bool undoes = undoesSegment();
   const bool redoes = redoesSegment();
-  m_actions->undo->setEnabled(undoes ? m_segment->canUndo() : m_model.canUndo());
-  m_actions->redo->setEnabled(redoes ? m_segment->canRedo() : m_model.canRedo());
-  const auto entry = [](const QString& text, bool isStep, const QString& what)
-  { return isStep && !what.isEmpty() ? text + ' ' + QString(what).replace('&', "&&") : text; };
-  m_actions->undo->setText(entry(tr("&Undo"), undoes, m_segment->undoText()));
-  m_actions->redo->setText(entry(tr("&Redo"), redoes, m_segment->redoText()));
+  m_actions->undo->setEnabled(undoes ? m_segment->canUndoStep() : m_model.canUndo());
+  m_actions->redo->setEnabled(redoes ? m_segment->canRedoStep() : m_model.canRedo());
+  const auto entry = [](const QString& text, const QString& what)
+  { return what.isEmpty() ? text : text + ' ' + QString(what).replace('&', "&&"); };
+  m_actions->undo->setText(
+      entry(tr("&Undo"), undoes ? m_segment->undoText() : words(m_model.undoText())));
+  m_actions->redo->setText(
+      entry(tr("&Redo"), redoes ? m_segment->redoText() : words(m_model.redoText())));
 }
 
-// A tool's steps; and the structure just created, until the drill is used.
+// A tool's steps first; and no stroke as long as the drill is put away for it.
 bool MainWindow::undoesSegment() const
 {
-  return m_segment->active() || (m_segmentWasLast && m_segment->canUndo());
+  return m_segment->active() && (m_segment->canUndoStep() || m_model.undoesStroke());
 }
 
 bool MainWindow::redoesSegment() const
 {
-  return m_segment->active() || (m_segmentWasLast && m_segment->canRedo());
+  return m_segment->active() && (m_segment->canRedoStep() || m_model.redoesStroke());
+}
+
+void MainWindow::step(bool back)
+{
+  const bool isStroke = back ? m_model.undoesStroke() : m_model.redoesStroke();
+  const QString what = words(back ? m_model.undoText() : m_model.redoText());
+  const auto act = [this, back] { back ? m_model.undo() : m_model.redo(); };
+  const auto done = [&]
+  {
+    if (!isStroke && !what.isEmpty()) // the others are told when they are done
+      statusBar()->showMessage(back ? tr("Undone: %1").arg(what) : tr("Done again: %1").arg(what),
+                               kMessage);
+  };
+  if (back ? m_model.undoChangesParts() : m_model.redoChangesParts())
+  {
+    if (m_keeper->changeParts(act))
+      done();
+    return;
+  }
+  guarded(
+      [&]
+      {
+        if (isStroke) // the drill stays off until button, key or pedal is pressed anew
+          m_view->tool().ReleaseDrill();
+        act();
+        done();
+      },
+      // A damaged stroke is refused.
+      [this](const QString& why) { statusBar()->showMessage(why); });
 }
 
 void MainWindow::begin(const QString& what)
@@ -876,7 +886,6 @@ void MainWindow::stepped(bool back)
 
 void MainWindow::strokeEnded(const std::shared_ptr<const dissection::Stroke>& stroke)
 {
-  m_segmentWasLast = false;
   showUndo();
   const QString text = strokeText(stroke.get());
   if (!stroke)

@@ -94,6 +94,7 @@ private:
   void showUndo();
   bool undoesSegment() const;
   bool redoesSegment() const;
+  void step(bool back); // undo or redo
   void notice(const QString& text);
   void showView(rendering::StandardView view);
   void clipHere();
@@ -129,7 +130,6 @@ private:
   Banner* m_removedBanner;
   Banner* m_mrBanner;
   QStringList m_notesTold;
-  bool m_segmentWasLast = false; // a structure was created since the last stroke
   ProbeLabel* m_place;
   QLabel* m_sum;
   QLabel* m_touch;

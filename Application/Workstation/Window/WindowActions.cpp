@@ -81,8 +81,10 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   quit = make(file, tr("&Quit"), QKeySequence::Quit, tr("Save and quit"));
 
   QMenu* edit = window.menuBar()->addMenu(tr("&Edit"));
-  undo = make(edit, tr("&Undo"), Qt::CTRL + Qt::Key_Z, tr("Put back what the last stroke took"));
-  redo = make(edit, tr("&Redo"), Qt::CTRL + Qt::SHIFT + Qt::Key_Z, tr("Drill the stroke again"));
+  undo = make(edit, tr("&Undo"), Qt::CTRL + Qt::Key_Z,
+              tr("Take back the last change: a stroke, an appearance, a part"));
+  redo = make(edit, tr("&Redo"), Qt::CTRL + Qt::SHIFT + Qt::Key_Z,
+              tr("Make the change again that was taken back"));
   edit->addSeparator();
   strokeCamera = make(edit, tr("Undo goes back to the stroke's &view"), {},
                       tr("Turn the patient as they lay when the stroke was drilled"));

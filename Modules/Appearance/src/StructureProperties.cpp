@@ -55,6 +55,24 @@ void setValue(StructureAppearance& look, const StructureProperty& property, cons
 
 } // namespace
 
+bool isEqual(const StructureAppearance& a, const StructureAppearance& b,
+             const StructureProperty& property)
+{
+  return std::visit(
+      [&](auto member)
+      {
+        constexpr bool isTransfer = std::is_same_v<decltype(member), StructureProperty::Transfer>;
+        return a.*member == b.*member && (!isTransfer || a.relative == b.relative);
+      },
+      property.member);
+}
+
+bool operator==(const StructureAppearance& a, const StructureAppearance& b)
+{
+  return std::all_of(std::begin(kStructureProperties), std::end(kStructureProperties),
+                     [&](const StructureProperty& property) { return isEqual(a, b, property); });
+}
+
 double numberOf(const StructureAppearance& look, const StructureProperty& property)
 {
   return std::visit(

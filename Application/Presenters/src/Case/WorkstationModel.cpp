@@ -37,6 +37,7 @@ void WorkstationModel::show(std::unique_ptr<scene::Case> next, bool unsaved)
   m_assembly = {}; // its cache is of the previous case
   m_leftOut.clear();
   m_removed.clear();
+  m_edits.clear();
   m_damagedStrokes.clear();
   m_undoneForDamage = 0;
   m_lastRecording.clear();
@@ -220,17 +221,6 @@ void WorkstationModel::removeAttachment(const std::string& name)
   notify(events.attachmentsChanged);
 }
 
-// A stroke that is still open is closed first.
-bool WorkstationModel::canUndo() const noexcept
-{
-  return m_case && (m_case->applied() > 0 || drilling());
-}
-
-bool WorkstationModel::canRedo() const noexcept
-{
-  return m_case && !drilling() && m_case->dissection.history().ahead() > 0;
-}
-
 void WorkstationModel::step(bool back)
 {
   const std::size_t stroke =
@@ -241,6 +231,7 @@ void WorkstationModel::step(bool back)
     return back ? m_touch->undo() : m_touch->redo();
   if ((back ? m_case->dissection.undo() : m_case->dissection.redo()) == 0)
     return;
+  m_edits.strokeStepped(back);
   followHistory();
   notify(events.stepped, back);
 }
@@ -254,67 +245,6 @@ void WorkstationModel::followHistory()
   if (m_journal)
     m_journal->follow(m_case->dissection);
   notifyMask(bricks);
-  setUnsaved(true);
-}
-
-void WorkstationModel::undo()
-{
-  if (canUndo())
-    step(true);
-}
-
-void WorkstationModel::redo()
-{
-  if (canRedo())
-    step(false);
-}
-
-void WorkstationModel::setIso(double hounsfield)
-{
-  if (!m_case || drilling() || m_case->iso == hounsfield)
-    return;
-  // Structures are unaffected.
-  std::optional<session::DrillSession> before;
-  if (m_session || m_scene)
-    before.emplace(session());
-  forgetTissue();
-  m_case->iso = hounsfield;
-  if (before)
-    m_session.emplace(*m_case, *before);
-  notify(events.appearanceChanged);
-  setUnsaved(true);
-}
-
-void WorkstationModel::setLook(const std::string& structure,
-                               const appearance::StructureAppearance& look)
-{
-  if (!m_case || drilling())
-    return;
-  auto* found = scene::findStructure(*m_case, structure);
-  auto* mesh = found ? nullptr : scene::findMesh(*m_case, structure);
-  if (!found && !mesh)
-    return;
-  appearance::StructureAppearance& present = found ? found->look : mesh->look;
-  const bool picture = present.shown != look.shown;
-  const bool tissue = present.touchable != look.touchable || present.drillable != look.drillable ||
-                      present.stiffness != look.stiffness || present.tissue != look.tissue;
-  if (tissue)
-    forgetTissue();
-  m_feelable = m_feelable && !tissue;
-  m_drawable = m_drawable && !picture;
-  present = look;
-  notify(events.appearanceChanged);
-  setUnsaved(true);
-  if (picture || tissue)
-    notify(events.preparationWanted);
-}
-
-void WorkstationModel::setBoneLook(const appearance::StructureAppearance& look)
-{
-  if (!m_case || drilling())
-    return;
-  m_case->boneLook = look;
-  notify(events.appearanceChanged);
   setUnsaved(true);
 }
 
@@ -503,7 +433,13 @@ session::TouchSession::News WorkstationModel::hear(session::TouchSession::News n
   }
   bool changed = !news.steps.empty();
   for (const auto& stroke : news.strokes)
-    changed = changed || stroke;
+    if (stroke)
+    {
+      changed = true;
+      m_edits.strokeMade();
+    }
+  for (const bool back : news.steps)
+    m_edits.strokeStepped(back);
   m_unsaved = m_unsaved || changed;
   m_changes += changed;
   if (!news.strokes.empty() || !news.steps.empty())

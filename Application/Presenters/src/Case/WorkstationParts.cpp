@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "LookEdits.h"
 #include "Notify.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/WorkstationModel.h"
@@ -154,9 +155,21 @@ void WorkstationModel::removePart(const std::string& name)
 {
   if (!m_case || drilling())
     return;
+  const std::uint64_t removal = ++m_removals;
+  takeOut(name, removal);
+  recordEdit({"removal of " + spoken(name),
+              {},
+              [this, removal] { bringBack(removal); },
+              [this, name, removal] { takeOut(name, removal); },
+              true});
+}
+
+void WorkstationModel::takeOut(const std::string& name, std::uint64_t removal)
+{
   scene::Case next = *m_case;
   RemovedPart removed;
   removed.name = name;
+  removed.id = removal;
   if (const std::size_t at = indexOf(next.mr, name); at < next.mr.size())
   {
     removed.mr = {at, next.mr[at]};
@@ -210,7 +223,24 @@ void WorkstationModel::restorePart()
 {
   if (!m_case || drilling() || m_removed.empty())
     return;
-  RemovedPart& removed = m_removed.back();
+  const std::string name = m_removed.back().name;
+  const std::uint64_t removal = m_removed.back().id;
+  bringBack(removal);
+  recordEdit({"return of " + spoken(name),
+              {},
+              [this, name, removal] { takeOut(name, removal); },
+              [this, removal] { bringBack(removal); },
+              true});
+}
+
+void WorkstationModel::bringBack(std::uint64_t removal)
+{
+  const auto found =
+      std::find_if(m_removed.begin(), m_removed.end(),
+                   [removal](const RemovedPart& removed) { return removed.id == removal; });
+  if (found == m_removed.end())
+    throw core::InvalidParameter("what was taken out is in the case again");
+  RemovedPart& removed = *found;
   const auto names = scene::partNames(*m_case);
   if (std::find(names.begin(), names.end(), removed.name) != names.end())
     throw core::InvalidParameter("'" + removed.name +
@@ -265,7 +295,7 @@ void WorkstationModel::restorePart()
     for (LeftOut& parts : m_leftOut)
       makeRoom(parts.meshes, at);
   }
-  m_removed.pop_back();
+  m_removed.erase(found);
   m_partsMoved = true;
   partsMoved();
 }
@@ -274,6 +304,16 @@ void WorkstationModel::renamePart(const std::string& name, const std::string& to
 {
   if (!m_case || drilling() || name == to)
     return;
+  rename(name, to);
+  recordEdit({"name of " + spoken(to),
+              {},
+              [this, name, to] { rename(to, name); },
+              [this, name, to] { rename(name, to); },
+              true});
+}
+
+void WorkstationModel::rename(const std::string& name, const std::string& to)
+{
   scene::checkPartName(to);
   const auto names = scene::partNames(*m_case);
   if (name == "ct" || std::find(names.begin(), names.end(), name) == names.end())
@@ -286,7 +326,7 @@ void WorkstationModel::renamePart(const std::string& name, const std::string& to
                           "' keeps its name: strokes of this case record under it what was "
                           "removed from it");
   forgetTissue();
-  const auto rename = [&](std::string& text)
+  const auto follow = [&](std::string& text)
   {
     if (text == name)
       text = to;
@@ -295,45 +335,45 @@ void WorkstationModel::renamePart(const std::string& name, const std::string& to
   {
     for (scene::ImagePart& mr : m_case->mr)
     {
-      rename(mr.name);
+      follow(mr.name);
       if (mr.registration)
-        rename(mr.registration->through);
+        follow(mr.registration->through);
     }
     for (scene::LabelPart& part : m_case->labels)
       if (part.drawnOn)
-        rename(*part.drawnOn);
+        follow(*part.drawnOn);
     for (scene::MeshPart& mesh : m_case->meshes)
-      rename(mesh.drawnOn);
+      follow(mesh.drawnOn);
     forEachLook(*m_case, [&](const std::string&, appearance::StructureAppearance& look)
-                { rename(look.sourceImage); });
-    rename(m_case->boneLook.sourceImage);
+                { follow(look.sourceImage); });
+    follow(m_case->boneLook.sourceImage);
     if (auto& slices = m_case->view.slices; slices && slices->overlay)
-      rename(slices->overlay->mr);
+      follow(slices->overlay->mr);
     for (RemovedPart& removed : m_removed) // may come back
     {
       if (removed.mr && removed.mr->part.registration)
-        rename(removed.mr->part.registration->through);
+        follow(removed.mr->part.registration->through);
       if (removed.labels)
       {
         if (removed.labels->part.drawnOn)
-          rename(*removed.labels->part.drawnOn);
+          follow(*removed.labels->part.drawnOn);
         for (scene::StructurePart& structure : removed.labels->part.structures)
-          rename(structure.look.sourceImage);
+          follow(structure.look.sourceImage);
       }
       if (removed.mesh)
       {
-        rename(removed.mesh->part.drawnOn);
-        rename(removed.mesh->part.look.sourceImage);
+        follow(removed.mesh->part.drawnOn);
+        follow(removed.mesh->part.look.sourceImage);
       }
     }
   }
   for (scene::LabelPart& part : m_case->labels)
     for (scene::StructurePart& structure : part.structures)
-      rename(structure.name);
+      follow(structure.name);
   for (scene::MeshPart& mesh : m_case->meshes)
-    rename(mesh.name);
+    follow(mesh.name);
   for (RemovedPart& removed : m_removed)
-    std::for_each(removed.colored.begin(), removed.colored.end(), rename);
+    std::for_each(removed.colored.begin(), removed.colored.end(), follow);
   if (m_assembly.thicknessOver() == name)
     m_assembly.showThickness({});
   partsMoved();

@@ -57,6 +57,7 @@ void WorkstationModel::goToBranch(const std::string& name)
     return;
   stopTouch();
   scene::goToBranch(*m_case, name);
+  m_edits.forgetStrokes();
   followHistory();
 }
 
@@ -66,6 +67,7 @@ void WorkstationModel::startBranch(const std::string& name)
     return;
   stopTouch();
   scene::startBranch(*m_case, name);
+  m_edits.forgetStrokes();
   followHistory();
 }
 

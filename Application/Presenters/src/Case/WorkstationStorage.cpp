@@ -134,6 +134,7 @@ void WorkstationModel::close()
   m_loaded = m_drawable = m_feelable = m_checked = true;
   m_leftOut.clear();
   m_removed.clear();
+  m_edits.clear();
   m_damagedStrokes.clear();
   m_undoneForDamage = 0;
   ++m_parts;
@@ -214,7 +215,10 @@ void WorkstationModel::stored(const StoreTask& done)
     image.isFrameSalted = from.isFrameSalted;
   };
   if (done.source) // what was removed before is in the other library
+  {
     m_removed.clear();
+    m_edits.clear();
+  }
   if (m_partsMoved && done.source)
   {
     const auto storeAnew = [](auto& parts)

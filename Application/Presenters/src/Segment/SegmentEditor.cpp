@@ -315,6 +315,12 @@ struct SegmentEditor::Created
   std::shared_ptr<const volume::IntensityVolume> replacedOn; ///< image that it was drawn on: an MR
   std::optional<scene::LabelPart> taken;                     ///< undone: as it was in the case
   std::uint64_t changes = 0;                                 ///< of the draft, when it was undone
+  std::uint64_t step = 0;                                    ///< of WorkstationModel::edits
+
+  std::string what() const ///< in the Undo entry
+  {
+    return replaced ? "change of " : "create ";
+  }
 };
 
 SegmentEditor::SegmentEditor(WorkstationModel& model)
@@ -1406,17 +1412,27 @@ bool SegmentEditor::canUndo() const
   return !m_draft->undo.back().mask || m_draft->mask.canUndo(); // old steps are forgotten
 }
 
+bool SegmentEditor::hasSteps() const
+{
+  return !m_draft->undo.empty();
+}
+
+bool SegmentEditor::hasUndoneSteps() const
+{
+  return !m_draft->redo.empty();
+}
+
 bool SegmentEditor::canRedo() const
 {
   return !m_stepping && !m_draft->stroking && (!m_draft->redo.empty() || canCreateAgain());
 }
 
 // nullptr: it is not in the case any more.
-const scene::LabelPart* SegmentEditor::createdPart() const
+const scene::LabelPart* SegmentEditor::partOf(const Created& created) const
 {
-  if (m_created && m_model.hasCase())
+  if (m_model.hasCase())
     for (const scene::LabelPart& part : m_model.value().labels)
-      if (part.labels.peek() == m_created->labels)
+      if (part.labels.peek() == created.labels)
         return &part;
   return nullptr;
 }
@@ -1427,10 +1443,10 @@ std::string SegmentEditor::undoText() const
     return {};
   if (!m_draft->undo.empty())
     return m_draft->undo.back().what;
-  const scene::LabelPart* part = createdPart();
+  const scene::LabelPart* part = partOf(*m_created);
   if (!part)
     return "create"; // says why it cannot be undone
-  return (m_created->replaced ? "change of " : "create ") + part->structures.front().name;
+  return m_created->what() + part->structures.front().name;
 }
 
 std::string SegmentEditor::redoText() const
@@ -1446,10 +1462,15 @@ std::string SegmentEditor::redoText() const
 // The draft is still the one that the structure was.
 bool SegmentEditor::canCreateAgain() const
 {
-  return m_created && m_created->taken && m_created->draft == m_draft &&
-         m_created->changes == m_draft->changes && m_draft->redo.empty() &&
-         m_created->taken->structures.front().name == m_draft->name && !previewPending() &&
-         !(m_preview && m_preview->result);
+  return m_created && isDraftOf(*m_created) && m_draft->redo.empty();
+}
+
+// And nothing would be lost with it.
+bool SegmentEditor::isDraftOf(const Created& created) const
+{
+  return created.taken && created.draft == m_draft && created.changes == m_draft->changes &&
+         created.taken->structures.front().name == m_draft->name && !previewPending() &&
+         !(m_preview && m_preview->result) && !m_stepping && !m_draft->stroking;
 }
 
 bool SegmentEditor::undo()
@@ -1459,7 +1480,8 @@ bool SegmentEditor::undo()
   Draft& draft = *m_draft;
   if (draft.undo.empty())
   {
-    undoCreated();
+    undoCreated(m_created);
+    m_model.edits().undone(m_created->step);
     return true;
   }
   if (draft.undo.back().mask && draft.mask.extent().count() > kMostAtOnce)
@@ -1471,11 +1493,12 @@ bool SegmentEditor::undo()
 }
 
 // The structure may have another name by now, and its name another structure.
-void SegmentEditor::undoCreated()
+// It becomes the draft again, unless another one would be lost.
+void SegmentEditor::undoCreated(const std::shared_ptr<Created>& made)
 {
-  Created& created = *m_created;
+  Created& created = *made;
   const scene::Case& value = m_model.value();
-  const scene::LabelPart* found = createdPart();
+  const scene::LabelPart* found = partOf(created);
   if (!found)
     throw core::InvalidParameter("the structure that was created is not in the case any more");
   const std::string name = found->structures.front().name;
@@ -1495,40 +1518,53 @@ void SegmentEditor::undoCreated()
       mr = on->name; // it may have been renamed
     }
   }
+  const bool becomesDraft = created.draft && (!hasDraft() || (m_created && isDraftOf(*m_created)));
   created.taken = m_model.takeStructure(name);
-  m_draft = created.draft;
-  m_draft->name = name;
-  m_draft->edited.clear();
-  created.changes = m_draft->changes;
-  dropPreview();
+  if (becomesDraft)
+  {
+    m_created = made;
+    m_draft = created.draft;
+    m_draft->name = name;
+    m_draft->edited.clear();
+    created.changes = m_draft->changes;
+    dropPreview();
+  }
   if (created.replaced)
   {
     m_model.putStructure(*created.replaced);
-    m_draft->edited = created.replaced->structures.front().name;
+    if (becomesDraft)
+      m_draft->edited = created.replaced->structures.front().name;
   }
-  chooseColor();
+  if (becomesDraft)
+    chooseColor();
   touched();
 }
 
-void SegmentEditor::createAgain()
+void SegmentEditor::createAgain(Created& created)
 {
-  Created& created = *m_created;
+  if (!created.taken)
+    throw core::InvalidParameter("the structure is in the case already");
+  const bool wasDraft = isDraftOf(created);
   const std::string name = created.taken->structures.front().name;
-  const std::string edited = m_draft->edited;
+  const std::string edited = wasDraft           ? m_draft->edited
+                             : created.replaced ? created.replaced->structures.front().name
+                                                : std::string();
   if (name != edited)
     checkFree(name);
-  keepReplaced(edited.empty() ? std::nullopt : m_model.takeStructure(edited));
+  keepReplaced(created, edited.empty() ? std::nullopt : m_model.takeStructure(edited));
   m_model.putStructure(*std::exchange(created.taken, std::nullopt));
-  m_tool = Tool::None;
-  reset();
-  followShown();
+  if (wasDraft)
+  {
+    m_tool = Tool::None;
+    reset();
+    followShown();
+  }
   touched();
   notify(events.created, name);
 }
 
-void SegmentEditor::keepReplaced(std::optional<scene::LabelPart> part)
+void SegmentEditor::keepReplaced(Created& created, std::optional<scene::LabelPart> part)
 {
-  Created& created = *m_created;
   created.replaced = std::move(part);
   created.replacedOn.reset();
   if (created.replaced && created.replaced->drawnOn)
@@ -1599,7 +1635,12 @@ void SegmentEditor::redo()
     return;
   Draft& draft = *m_draft;
   if (draft.redo.empty())
-    return createAgain();
+  {
+    const auto created = m_created;
+    createAgain(*created);
+    m_model.edits().redone(created->step);
+    return;
+  }
   if (draft.redo.back().mask && draft.mask.extent().count() > kMostAtOnce)
     m_stepDue = stepping(false);
   else
@@ -1657,10 +1698,17 @@ SegmentEditor::Work SegmentEditor::createWork()
       {
         return refuse(error.what());
       }
-      m_created = std::make_unique<Created>();
+      if (m_created)
+        m_created->draft.reset(); // large; an undo takes that structure out, and it is no draft
+      m_created = std::make_shared<Created>();
       m_created->labels = m_model.value().labels.back().labels.peek();
       m_created->draft = draft;
-      keepReplaced(std::move(replaced));
+      keepReplaced(*m_created, std::move(replaced));
+      m_created->step = m_model.edits().did({m_created->what() + name,
+                                             {},
+                                             [this, made = m_created] { undoCreated(made); },
+                                             [this, made = m_created] { createAgain(*made); },
+                                             true});
       m_tool = Tool::None;
       reset();
       followShown();

@@ -174,6 +174,10 @@ public:
 
   bool canUndo() const;
   bool canRedo() const;
+  /// Of the draft's own steps alone: creations are also steps of WorkstationModel::undo, which
+  /// needs this editor as long as it is of the same case.
+  bool canUndoStep() const { return canUndo() && hasSteps(); }
+  bool canRedoStep() const { return canRedo() && hasUndoneSteps(); }
   /// What undo or redo would take on next: "threshold", "create sigmoid sinus"; empty: nothing.
   std::string undoText() const;
   std::string redoText() const;
@@ -233,6 +237,8 @@ private:
   using Points = std::vector<Eigen::Vector3d>;
   using Computed = std::function<Preview(const core::Progress&)>;
 
+  bool hasSteps() const;
+  bool hasUndoneSteps() const;
   SourceImage& image();
   Computed computed() const;
   std::optional<Work> previewWork();
@@ -247,11 +253,12 @@ private:
   void outdate();
   void forgetImage();
   bool needsPreview() const;
-  void undoCreated();
-  void keepReplaced(std::optional<scene::LabelPart> part);
+  void undoCreated(const std::shared_ptr<Created>& made);
+  void keepReplaced(Created& created, std::optional<scene::LabelPart> part);
   bool canCreateAgain() const;
-  const scene::LabelPart* createdPart() const;
-  void createAgain();
+  bool isDraftOf(const Created& created) const;
+  const scene::LabelPart* partOf(const Created& created) const;
+  void createAgain(Created& created);
   void checkFree(const std::string& name) const;
   std::function<void()> step(Draft& draft, bool back);
   Work stepping(bool back);
@@ -276,7 +283,7 @@ private:
   std::unique_ptr<SourceImage> m_image; // made on demand
   SegmentValues m_values;
   std::shared_ptr<Draft> m_draft;     // never null
-  std::unique_ptr<Created> m_created; // the last one
+  std::shared_ptr<Created> m_created; // the last one; also in WorkstationModel::edits
   std::unique_ptr<Preview> m_preview; // none: the draft alone
   std::unique_ptr<Preview> m_frozen;  // what is shown while a step is under way
   std::string m_note, m_warning;

@@ -9,6 +9,7 @@
 
 #include "petrous/Interaction/PickRay.h"
 #include "petrous/Library/Library.h"
+#include "petrous/Presenters/EditHistory.h"
 #include "petrous/Presenters/JournalThread.h"
 #include "petrous/Presenters/LeftOut.h"
 #include "petrous/Presenters/NearbyStructures.h"
@@ -61,6 +62,13 @@ struct PreparedCase
   LeftOut leftOut;          ///< missing or damaged
   std::uint64_t parts = 0;  // of the model when it was copied
   std::uint64_t tissue = 0; // likewise
+};
+
+/// The appearance of a part: of bone, or tissue of an MR, under the name "ct".
+struct PartLook
+{
+  std::string part;
+  appearance::StructureAppearance look;
 };
 
 /// The open case and the window's operations on it. Without Qt; not thread-safe.
@@ -117,6 +125,7 @@ public:
   std::optional<scene::LabelPart> takeStructure(const std::string& name);
   /// Throws InvalidParameter, without effect, if its name has been taken meanwhile.
   void putStructure(scene::LabelPart part);
+  // These three can be undone.
   /// Takes a structure, a mesh or an MR out of the case, and puts the tool away. Throws as
   /// scene::removePart does. No effect while drilling.
   void removePart(const std::string& name);
@@ -195,19 +204,39 @@ public:
 
   bool canUndo() const noexcept;
   bool canRedo() const noexcept;
-  /// During a touch session they are only requested, and reported some milliseconds later; see
-  /// Events::stepped. `redo` throws LibraryError if the stroke is damaged; nothing has changed
-  /// then.
+  /// What they would take on next: "colour of facial nerve", "stroke 3"; empty: nothing.
+  std::string undoText() const;
+  std::string redoText() const;
+  /// Whether that adds, removes or renames parts; then it puts the tool away.
+  bool undoChangesParts() const noexcept;
+  bool redoChangesParts() const noexcept;
+  bool undoesStroke() const noexcept; ///< or closes and undoes an open one
+  bool redoesStroke() const noexcept;
+  /// The last change of appearance, threshold, parts or strokes, in the order in which they were
+  /// made. Strokes during a touch session are only requested, and reported some milliseconds later;
+  /// see Events::stepped. `redo` throws LibraryError if the stroke is damaged; nothing has changed
+  /// then. Throws also what restorePart and renamePart do; that change is passed over then.
   void undo();
   void redo();
+  /// For changes that belong together (EditHistory::hold), and for those made elsewhere.
+  EditHistory& edits() noexcept { return m_edits; }
+  /// EditHistory::takeBack: a change that was only tried.
+  void takeBack(std::uint64_t step);
 
   /// Puts the tool away first. Throws as scene::goToBranch and scene::startBranch do.
   void goToBranch(const std::string& name);
   void startBranch(const std::string& name); ///< at the case's current state
 
+  // These can be undone. Those that come quickly after one another and change the same property of
+  // the same parts are one step (EditHistory::kPause), so that they may be called at any rate.
   void setIso(double hounsfield);
   void setLook(const std::string& structure, const appearance::StructureAppearance& look);
   void setBoneLook(const appearance::StructureAppearance& look);
+  /// Several in one step and with one notification. Unknown parts are passed over. `what`: as undo
+  /// calls it, if it is more than a change of a property; it is a step of its own then.
+  void setLooks(const std::vector<PartLook>& looks, const std::string& what = {});
+  /// nullptr: there is no such part. "ct" is bone.
+  const appearance::StructureAppearance* lookOf(const std::string& part) const;
 
   /// Changes the registration of MRs (Scene/ApplyRegistration.h). Puts the tool away if that moves
   /// structures drawn on them. No effect while drilling; exceptions of `change` propagate.
@@ -283,6 +312,7 @@ private:
       T part;
     };
     std::string name;
+    std::uint64_t id = 0; ///< identifies the removal
     std::optional<At<scene::ImagePart>> mr = {};
     std::optional<At<scene::LabelPart>> labels = {};
     std::optional<At<scene::MeshPart>> mesh = {};
@@ -303,6 +333,12 @@ private:
   void notifyMask(const std::vector<std::size_t>& bricks);
   session::TouchSession::News hear(session::TouchSession::News news);
   void step(bool back);
+  void recordEdit(EditHistory::Edit edit);
+  void applyIso(double hounsfield);
+  void applyLooks(const std::vector<PartLook>& looks);
+  void takeOut(const std::string& name, std::uint64_t removal);
+  void bringBack(std::uint64_t removal);
+  void rename(const std::string& name, const std::string& to);
   void followHistory();
   void setUnsaved(bool unsaved);
   void setRecording(const std::filesystem::path& file, const std::string& fault = {});
@@ -337,7 +373,9 @@ private:
   bool m_checked = true;              ///< the CT was checked against its hash
   std::vector<LeftOut> m_leftOut;     ///< of m_case, by each preparation that found some
   std::vector<RemovedPart> m_removed; ///< latest last
-  bool m_partsMoved = false;          ///< since beginStore: the stored parts have other indices
+  std::uint64_t m_removals = 0;       ///< ever made
+  EditHistory m_edits;
+  bool m_partsMoved = false; ///< since beginStore: the stored parts have other indices
   std::vector<std::string> m_damagedStrokes;
   std::size_t m_undoneForDamage = 0;
   std::uint64_t m_shown = 0;

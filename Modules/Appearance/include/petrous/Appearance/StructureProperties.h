@@ -58,6 +58,7 @@ struct StructureProperty
   const char* phrase = nullptr;  ///< before the value in a list; nullptr: not listed
   int decimals = -1;             ///< in a list and in the panel; -1: as many as there are
   const char* jsonKey = nullptr; ///< of --json, if it is not `key`
+  const char* noun = "";         ///< as undo calls it: "warning distance"
   Option option{};
   Column column{};
 
@@ -100,6 +101,11 @@ struct StructureProperty
     decimals = digits;
     return *this;
   }
+  constexpr StructureProperty called(const char* name)
+  {
+    noun = name;
+    return *this;
+  }
   constexpr StructureProperty inJsonAs(const char* name)
   {
     jsonKey = name;
@@ -121,27 +127,33 @@ struct StructureProperty
 /// In the order in which a list has them and in which `petrous appearance` applies them: a colour
 /// after the transfer function that it tints.
 inline constexpr StructureProperty kStructureProperties[] = {
-    StructureProperty::required("preset", &StructureAppearance::preset),
+    StructureProperty::required("preset", &StructureAppearance::preset).called("preset"),
     StructureProperty::flag("shown", &StructureAppearance::shown)
+        .called("visibility")
         .panel("Show", "Drawn in 3D and outlined in the slices"),
     StructureProperty::flag("touchable", &StructureAppearance::touchable)
+        .called("touch")
         .panel("Touch", "Felt by the burr: part of the tissue it rests on"),
     StructureProperty::flag("drillable", &StructureAppearance::drillable)
+        .called("drilling")
         .panel("Drill", "Taken by the drill; without the mark the drill leaves it whole"),
-    StructureProperty::required("solid", &StructureAppearance::solid),
+    StructureProperty::required("solid", &StructureAppearance::solid).called("solidity"),
     StructureProperty::asPreset("tissue", &StructureAppearance::tissue)
+        .called("material")
         .offIs("bone")
         .listedAs("drilled as ")
         .command("--tissue", "MATERIAL", "What the drill meets in it; 'bone': bone by its density",
                  "bone is what its density says; only structures and meshes have a tissue of their "
                  "own"),
     StructureProperty::unlessOff("stiffness_n_per_mm", &StructureAppearance::stiffness)
+        .called("stiffness")
         .within(0.001, 100.0, "N/mm")
         .offIs("rigid")
         .listedAs("")
         .command("--stiffness", "N_PER_MM", "How a structure yields: newtons a millimetre deep",
                  "bone is rigid; only structures and meshes can yield"),
     StructureProperty::asPreset("warn_mm", &StructureAppearance::warning)
+        .called("warning distance")
         .within(0.0, 50.0, "mm")
         .offIs("none")
         .listedAs("warned of at ", 1)
@@ -150,22 +162,36 @@ inline constexpr StructureProperty kStructureProperties[] = {
         .panel("Warn", "How near a burr may come before it is warned of, mm; 0: no warning. "
                        "Double click to change"),
     StructureProperty::required("opacity", &StructureAppearance::opacity)
+        .called("opacity")
         .within(0.0, 1.0)
         .listedAs("opacity ", 2)
         .command("--opacity", "0..1", "Opacity of the surface"),
     StructureProperty::unlessOff("transfer", &StructureAppearance::transfer)
+        .called("transfer function")
         .offIs("none")
         .command("--tf", "F.json", "Transfer function; 'none' for one colour"),
     StructureProperty::required("color", &StructureAppearance::color)
+        .called("colour")
         .within(0.0, 1.0)
         .command("--color", "r,g,b", "Colour, 0 to 1 each, or #rrggbb"),
     StructureProperty::unlessOff("source_image", &StructureAppearance::sourceImage)
+        .called("image")
         .inJsonAs("source")
         .offIs("ct")
         .listedAs("from ")
         .command("--source", "MRNAME", "The image whose intensities are read"),
-    StructureProperty::unlessOff("shininess", &StructureAppearance::shininess).within(1.0, 200.0),
-    StructureProperty::asPreset("priority", &StructureAppearance::priority).within(0.0, 1000.0)};
+    StructureProperty::unlessOff("shininess", &StructureAppearance::shininess)
+        .called("shininess")
+        .within(1.0, 200.0),
+    StructureProperty::asPreset("priority", &StructureAppearance::priority)
+        .called("priority")
+        .within(0.0, 1000.0)};
+
+/// Whether both have the same value of the property.
+bool isEqual(const StructureAppearance& a, const StructureAppearance& b,
+             const StructureProperty& property);
+
+bool operator==(const StructureAppearance& a, const StructureAppearance& b);
 
 /// Whether the value is the one that `off` names.
 bool isOff(const StructureAppearance& look, const StructureProperty& property);

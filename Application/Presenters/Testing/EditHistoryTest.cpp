@@ -1,0 +1,195 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "petrous/Core/Error.h"
+#include "petrous/Presenters/EditHistory.h"
+
+using namespace petrous;
+using presenters::EditHistory;
+using std::chrono::milliseconds;
+
+namespace
+{
+
+// A number that edits set, and a clock that stands still.
+class EditHistoryTest : public ::testing::Test
+{
+protected:
+  void set(int to, const std::string& what = "number", bool continues = true)
+  {
+    const int from = std::exchange(number, to);
+    history.did({what, continues ? what : "", [this, from] { number = from; },
+                 [this, to] { number = to; }});
+  }
+  std::string next() const
+  {
+    const auto* edit = history.next(strokes);
+    return edit ? edit->what : "";
+  }
+
+  EditHistory::Clock::time_point now{};
+  EditHistory history{[this] { return now; }};
+  int number = 0;
+  std::size_t strokes = 0; // applied
+};
+
+} // namespace
+
+TEST_F(EditHistoryTest, GoesBackAndForthThroughEdits)
+{
+  set(1, "one");
+  set(2, "two");
+  EXPECT_EQ(next(), "two");
+  EXPECT_TRUE(history.undo(0));
+  EXPECT_EQ(number, 1);
+  EXPECT_EQ(next(), "one");
+  EXPECT_TRUE(history.undo(0));
+  EXPECT_EQ(number, 0);
+  EXPECT_FALSE(history.undo(0));
+  EXPECT_TRUE(history.redo(0));
+  EXPECT_EQ(number, 1);
+  set(5, "five");
+  EXPECT_FALSE(history.redo(0)) << "another way was taken";
+  EXPECT_TRUE(history.undo(0));
+  EXPECT_EQ(number, 1);
+}
+
+TEST_F(EditHistoryTest, ASliderThatMovesIsOneStepUntilItRests)
+{
+  for (int n = 1; n <= 50; ++n)
+  {
+    set(n);
+    now += milliseconds(20);
+  }
+  now += EditHistory::kPause;
+  set(60);
+  EXPECT_TRUE(history.undo(0));
+  EXPECT_EQ(number, 50);
+  EXPECT_TRUE(history.undo(0));
+  EXPECT_EQ(number, 0);
+  EXPECT_FALSE(history.undo(0));
+  EXPECT_TRUE(history.redo(0));
+  EXPECT_EQ(number, 50) << "the whole movement";
+}
+
+TEST_F(EditHistoryTest, WhatIsHeldIsOneStepHoweverLongItTakes)
+{
+  set(1);
+  history.hold();
+  set(2);
+  now += std::chrono::minutes(5);
+  set(3);
+  history.release();
+  set(4);
+  EXPECT_TRUE(history.undo(0));
+  EXPECT_EQ(number, 3);
+  EXPECT_TRUE(history.undo(0));
+  EXPECT_EQ(number, 1) << "what was there before does not belong to it";
+}
+
+TEST_F(EditHistoryTest, OnlyEditsOfTheSameKindContinueOneAnother)
+{
+  set(1, "colour");
+  set(2, "opacity");
+  set(3, "opacity", false);
+  set(4, "opacity");
+  for (const int expected : {3, 2, 1, 0})
+  {
+    EXPECT_TRUE(history.undo(0));
+    EXPECT_EQ(number, expected);
+  }
+}
+
+TEST_F(EditHistoryTest, AnEditAfterAnUndoIsAStepOfItsOwn)
+{
+  set(1);
+  set(2);
+  EXPECT_TRUE(history.undo(0));
+  set(3);
+  set(4);
+  EXPECT_TRUE(history.undo(0));
+  EXPECT_EQ(number, 0);
+}
+
+TEST_F(EditHistoryTest, StrokesKeepTheirPlacesAmongEdits)
+{
+  set(1, "one");
+  history.strokeMade();
+  strokes = 1;
+  set(2, "two");
+  EXPECT_EQ(next(), "two");
+  EXPECT_TRUE(history.undo(strokes));
+  EXPECT_EQ(next(), "") << "a stroke";
+  EXPECT_FALSE(history.undo(strokes));
+  history.strokeStepped(true);
+  strokes = 0;
+  EXPECT_EQ(next(), "one");
+  EXPECT_TRUE(history.undo(strokes));
+  ASSERT_NE(history.nextRedo(1), nullptr);
+  EXPECT_EQ(history.nextRedo(1)->what, "one");
+  EXPECT_TRUE(history.redo(1));
+  EXPECT_EQ(history.nextRedo(1), nullptr) << "a stroke";
+  history.strokeStepped(false);
+  EXPECT_EQ(history.nextRedo(0)->what, "two");
+}
+
+TEST_F(EditHistoryTest, PassesOverStrokesThatAreNotThereAnyMore)
+{
+  set(1, "one");
+  history.strokeMade();
+  EXPECT_EQ(next(), "one") << "none is applied";
+  history.strokeMade();
+  history.forgetStrokes();
+  strokes = 2;
+  EXPECT_EQ(next(), "one") << "of another branch";
+}
+
+TEST_F(EditHistoryTest, AStepThatCannotBeTakenBackIsPassedOver)
+{
+  set(1, "one");
+  history.did({"stuck", {}, [] { throw core::InvalidParameter("its name is taken"); }, [] {}});
+  EXPECT_THROW(history.undo(0), core::InvalidParameter);
+  EXPECT_EQ(next(), "one");
+  EXPECT_EQ(history.nextRedo(0), nullptr);
+}
+
+TEST_F(EditHistoryTest, AStepTakenBackElsewhereLeavesItsPlace)
+{
+  const std::uint64_t first = history.did({"create", {}, [] {}, [] {}});
+  set(1, "one");
+  history.undone(first);
+  EXPECT_EQ(next(), "one");
+  ASSERT_NE(history.nextRedo(0), nullptr);
+  EXPECT_EQ(history.nextRedo(0)->what, "create");
+  history.redone(first);
+  EXPECT_EQ(next(), "create");
+}
+
+TEST_F(EditHistoryTest, WhatWasOnlyTriedLeavesNoTrace)
+{
+  set(1, "one");
+  history.hold();
+  set(7, "colour");
+  const std::uint64_t tried = history.last();
+  set(8, "colour");
+  history.takeBack(tried);
+  history.release();
+  EXPECT_EQ(number, 1);
+  EXPECT_EQ(next(), "one");
+  EXPECT_EQ(history.nextRedo(0), nullptr);
+  history.takeBack(tried);
+  EXPECT_EQ(number, 1) << "it is not the last one";
+}
+
+TEST_F(EditHistoryTest, ForgetsTheEarliestSteps)
+{
+  for (std::size_t n = 1; n <= EditHistory::kMaxSteps + 5; ++n)
+    set(static_cast<int>(n), "number", false);
+  std::size_t steps = 0;
+  while (history.undo(0))
+    ++steps;
+  EXPECT_EQ(steps, EditHistory::kMaxSteps);
+  EXPECT_EQ(number, 5);
+}

@@ -1,0 +1,334 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include "HeldTool.h"
+#include "petrous/Appearance/StructureProperties.h"
+#include "petrous/Presenters/BoneOpacity.h"
+#include "petrous/Presenters/WorkstationModel.h"
+#include "petrous/Scene/CaseField.h"
+
+using namespace petrous;
+using namespace petrous::presenters;
+using Eigen::Vector3d;
+using petrous::presenters::testing::HeldTool;
+using petrous::presenters::testing::until;
+
+namespace
+{
+
+using Color = std::array<float, 3>;
+
+constexpr int kNerve = 0, kVein = 1;
+
+// Bone where z < 6 mm, with structures s0 (facial_nerve), s1 (sigmoid sinus), s2...
+class EditUndoTest : public ::testing::Test
+{
+protected:
+  EditUndoTest()
+  {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder = std::filesystem::temp_directory_path() /
+             ("petrous-edits-" + std::to_string(::getpid()) + "-" + test->name());
+    std::filesystem::remove_all(folder);
+    model = std::make_unique<WorkstationModel>(library::Library(folder));
+  }
+  ~EditUndoTest() override { std::filesystem::remove_all(folder); }
+
+  void open(int structures = 2)
+  {
+    scene::Case value;
+    value.name = "block";
+    value.ct.name = "ct";
+    value.ct.geometry = core::GridGeometry({40, 40, 40}, Vector3d::Constant(0.3), Vector3d::Zero());
+    auto ct = std::make_shared<volume::Volume<std::int16_t>>(value.ct.geometry);
+    auto labels = std::make_shared<volume::Volume<std::uint16_t>>(value.ct.geometry);
+    for (int k = 0; k < 40; ++k)
+      for (int j = 0; j < 40; ++j)
+        for (int i = 0; i < 40; ++i)
+        {
+          ct->at(i, j, k) = k < 20 ? std::int16_t{1500} : std::int16_t{-900};
+          if (k == 4 && j == 4 && i < structures)
+            labels->at(i, j, k) = static_cast<std::uint16_t>(i + 1);
+        }
+    value.ct.volume = std::make_shared<const volume::IntensityVolume>(
+        std::shared_ptr<const volume::Volume<std::int16_t>>(ct));
+    volume::LabelMap map;
+    map.voxels = labels;
+    scene::LabelPart part;
+    for (int n = 0; n < structures; ++n)
+    {
+      scene::StructurePart structure;
+      structure.name = name(n);
+      structure.index = static_cast<std::uint16_t>(n + 1);
+      structure.voxels = 1;
+      structure.volume = 0.027;
+      part.structures.push_back(structure);
+    }
+    part.labels = std::make_shared<const volume::LabelMap>(std::move(map));
+    value.labels = {part};
+    model->adopt(std::move(value));
+    model->prepareNow();
+  }
+  static std::string name(int n)
+  {
+    return n == kNerve ? "facial_nerve" : n == kVein ? "sigmoid sinus" : "s" + std::to_string(n);
+  }
+  const appearance::StructureAppearance& look(int n = kNerve) const
+  {
+    return *model->lookOf(name(n));
+  }
+  void paint(const Color& color, int n = kNerve)
+  {
+    auto next = look(n);
+    appearance::setColor(next, color);
+    model->setLook(name(n), next);
+  }
+  void stroke()
+  {
+    HeldTool held({6, 6, 8.5});
+    model->startTouch(held.device, held.setup);
+    held.drill(true);
+    EXPECT_TRUE(until([&] { return !model->advanceTouch().bricks.empty(); }));
+    held.drill(false);
+    EXPECT_TRUE(until([&] { return model->advanceTouch().strokes.size() == 1; }));
+    model->stopTouch();
+  }
+
+  std::filesystem::path folder;
+  std::unique_ptr<WorkstationModel> model;
+};
+
+} // namespace
+
+TEST_F(EditUndoTest, TakesEachChangeBackInTheOrderInWhichItWasMade)
+{
+  open();
+  const Color before = look().color;
+  const double iso = model->value().iso;
+  model->setIso(500.0);
+  paint({1.0F, 0.0F, 0.0F});
+  stroke();
+  model->renamePart("sigmoid sinus", "sinus");
+  auto hidden = look();
+  hidden.shown = false;
+  model->setLook("facial_nerve", hidden);
+  model->removePart("sinus");
+  auto bone = model->value().boneLook;
+  bone.shown = false;
+  model->setBoneLook(bone);
+
+  std::vector<std::string> texts;
+  while (model->canUndo())
+  {
+    texts.push_back(model->undoText());
+    model->undo();
+  }
+  EXPECT_EQ(texts, (std::vector<std::string>{"hide bone", "removal of sinus", "hide facial nerve",
+                                             "name of sinus", "stroke 1", "colour of facial nerve",
+                                             "bone threshold"}));
+  EXPECT_EQ(look().color, before);
+  EXPECT_TRUE(look().shown);
+  EXPECT_EQ(model->value().iso, iso);
+  EXPECT_EQ(model->value().applied(), 0u);
+  EXPECT_TRUE(model->value().boneLook.shown);
+  EXPECT_TRUE(scene::findStructure(model->value(), "sigmoid sinus"));
+
+  std::vector<std::string> again;
+  while (model->canRedo())
+  {
+    again.insert(again.begin(), model->redoText());
+    model->redo();
+  }
+  EXPECT_EQ(again, texts);
+  EXPECT_EQ(look().color, (Color{1.0F, 0.0F, 0.0F}));
+  EXPECT_FALSE(look().shown);
+  EXPECT_EQ(model->value().iso, 500.0);
+  EXPECT_EQ(model->value().applied(), 1u);
+  EXPECT_FALSE(model->value().boneLook.shown);
+  EXPECT_FALSE(scene::findStructure(model->value(), "sinus"));
+}
+
+TEST_F(EditUndoTest, AColourThatIsDraggedIsOneStep)
+{
+  open();
+  const auto before = look();
+  for (int n = 1; n <= 40; ++n)
+    paint({0.0F, static_cast<float>(n) / 40.0F, 1.0F});
+  model->undo();
+  EXPECT_TRUE(look() == before);
+  EXPECT_FALSE(model->canUndo());
+  model->redo();
+  EXPECT_EQ(look().color, (Color{0.0F, 1.0F, 1.0F}));
+}
+
+TEST_F(EditUndoTest, BonesOpacityIsOneStepAlsoThroughItsOtherPreset)
+{
+  open();
+  const auto before = model->value().boneLook;
+  for (int n = 9; n >= 1; --n)
+    model->setBoneLook(withOpacity(model->value().boneLook, 0.1 * n));
+  EXPECT_EQ(model->undoText(), "opacity of bone");
+  model->undo();
+  EXPECT_TRUE(model->value().boneLook == before);
+  EXPECT_FALSE(model->canUndo());
+}
+
+TEST_F(EditUndoTest, AMarkThatIsSetTwiceIsTwoSteps)
+{
+  open();
+  for (const bool shown : {false, true})
+  {
+    auto next = look();
+    next.shown = shown;
+    model->setLook("facial_nerve", next);
+  }
+  EXPECT_EQ(model->undoText(), "show facial nerve");
+  model->undo();
+  EXPECT_FALSE(look().shown);
+  model->undo();
+  EXPECT_TRUE(look().shown);
+}
+
+TEST_F(EditUndoTest, ManyStructuresAreOneStepAndOneNotification)
+{
+  constexpr int kMany = 255;
+  open(kMany);
+  int notified = 0;
+  model->events.appearanceChanged = [&notified] { ++notified; };
+  std::vector<PartLook> looks;
+  for (int n = 0; n < kMany; ++n)
+  {
+    looks.push_back({name(n), look(n)});
+    looks.back().look.opacity = 0.5F;
+  }
+  looks.push_back({"nobody", {}});
+  model->setLooks(looks);
+  EXPECT_EQ(notified, 1);
+  EXPECT_EQ(model->undoText(), "opacity of 255 parts");
+  model->undo();
+  EXPECT_EQ(notified, 2);
+  for (int n = 0; n < kMany; ++n)
+    EXPECT_EQ(look(n).opacity, 1.0F);
+}
+
+TEST_F(EditUndoTest, WhatIsAsItWasIsNoStep)
+{
+  open();
+  int notified = 0;
+  model->events.appearanceChanged = [&notified] { ++notified; };
+  model->setLook("facial_nerve", look());
+  model->setIso(model->value().iso);
+  model->setLook("nobody", {});
+  EXPECT_EQ(notified, 0);
+  EXPECT_FALSE(model->canUndo());
+}
+
+TEST_F(EditUndoTest, AppearanceGoesBackWithTheToolInTheHandAndTissuePutsItAway)
+{
+  open();
+  auto next = look();
+  next.drillable = false;
+  model->setLook("facial_nerve", next);
+  paint({1.0F, 0.0F, 0.0F});
+  model->prepareNow();
+  HeldTool held({6, 6, 8.5});
+  model->startTouch(held.device, held.setup);
+  model->undo(); // the colour
+  EXPECT_TRUE(model->touching());
+  EXPECT_TRUE(model->ready());
+  model->undo(); // what the drill takes
+  EXPECT_FALSE(model->touching());
+  EXPECT_FALSE(model->ready());
+  EXPECT_TRUE(look().drillable);
+}
+
+TEST_F(EditUndoTest, AnOpenStrokeComesFirstAndWhatWasBeforeItNext)
+{
+  open();
+  paint({1.0F, 0.0F, 0.0F});
+  HeldTool held({6, 6, 8.5});
+  model->startTouch(held.device, held.setup);
+  held.drill(true);
+  ASSERT_TRUE(until([&] { return !model->advanceTouch().bricks.empty(); }));
+  EXPECT_EQ(model->undoText(), "stroke 1");
+  held.drill(false);
+  bool back = false;
+  model->events.stepped = [&back](bool undone) { back = undone; };
+  model->undo();
+  EXPECT_TRUE(until(
+      [&]
+      {
+        model->advanceTouch();
+        return back;
+      }));
+  EXPECT_EQ(model->undoText(), "colour of facial nerve");
+  EXPECT_EQ(model->redoText(), "stroke 1");
+  model->undo();
+  EXPECT_TRUE(model->touching());
+  EXPECT_FALSE(model->canUndo());
+}
+
+TEST_F(EditUndoTest, StrokesOfAnotherBranchDoNotBarTheWay)
+{
+  open();
+  paint({1.0F, 0.0F, 0.0F});
+  stroke();
+  model->startBranch("other");
+  EXPECT_EQ(model->undoText(), "colour of facial nerve");
+  model->undo();
+  EXPECT_EQ(model->undoText(), "stroke 1") << "of the branch";
+  model->redo();
+  EXPECT_EQ(look().color, (Color{1.0F, 0.0F, 0.0F}));
+}
+
+TEST_F(EditUndoTest, ARemovalIsUndoneWhereverItIsAmongOthersThatWerePutBack)
+{
+  open(4);
+  model->removePart("s2");
+  model->removePart("s3");
+  model->restorePart();
+  EXPECT_EQ(model->undoText(), "return of s3");
+  model->undo();
+  EXPECT_FALSE(scene::findStructure(model->value(), "s3"));
+  EXPECT_EQ(model->removedPart(), "s3");
+  model->undo();
+  model->undo();
+  EXPECT_TRUE(scene::findStructure(model->value(), "s3"));
+  EXPECT_TRUE(scene::findStructure(model->value(), "s2"));
+  EXPECT_FALSE(model->canUndo());
+  EXPECT_EQ(model->value().labels.front().structures[2].name, "s2") << "at its place";
+}
+
+TEST_F(EditUndoTest, AnotherCaseHasNoStepsYet)
+{
+  open();
+  paint({1.0F, 0.0F, 0.0F});
+  open();
+  EXPECT_FALSE(model->canUndo());
+  paint({1.0F, 0.0F, 0.0F});
+  model->close();
+  EXPECT_FALSE(model->canUndo());
+  EXPECT_FALSE(model->canRedo());
+  EXPECT_EQ(model->undoText(), "");
+}
+
+TEST_F(EditUndoTest, PriorityAndLumenChangeWhatIsTissue)
+{
+  open();
+  auto next = look();
+  next.priority = 5;
+  model->setLook("facial_nerve", next);
+  EXPECT_FALSE(model->ready());
+  EXPECT_FALSE(model->drawable());
+  model->prepareNow();
+  next.solid = false;
+  model->setLook("facial_nerve", next);
+  EXPECT_FALSE(model->ready());
+  EXPECT_FALSE(model->drawable());
+}

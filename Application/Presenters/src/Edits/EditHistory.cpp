@@ -1,0 +1,167 @@
+#include "petrous/Presenters/EditHistory.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace petrous::presenters
+{
+
+EditHistory::EditHistory(std::function<Clock::time_point()> now)
+  : m_now(std::move(now))
+{
+}
+
+void EditHistory::push(Step step)
+{
+  m_undone.clear();
+  m_done.push_back(std::move(step));
+  if (m_done.size() > kMaxSteps)
+    m_done.erase(m_done.begin());
+}
+
+std::uint64_t EditHistory::did(Edit edit)
+{
+  const auto now = m_now();
+  const bool isSoon = m_held > 0 || now - m_latest <= kPause;
+  m_latest = now;
+  if (m_open && isSoon && !edit.continues.empty() && !m_done.empty() && m_done.back().edit &&
+      m_done.back().edit->continues == edit.continues)
+  {
+    m_done.back().edit->redo = std::move(edit.redo);
+    m_undone.clear();
+    return m_done.back().id;
+  }
+  push({++m_ids, std::move(edit)});
+  m_open = true;
+  return m_ids;
+}
+
+void EditHistory::strokeMade()
+{
+  push({++m_ids, std::nullopt});
+}
+
+void EditHistory::strokeStepped(bool back)
+{
+  Steps& from = back ? m_done : m_undone;
+  const auto stroke = std::find_if(from.rbegin(), from.rend(),
+                                   [](const Step& step) { return !step.edit.has_value(); });
+  if (stroke != from.rend())
+    from.erase(std::next(stroke).base());
+  (back ? m_undone : m_done).push_back({++m_ids, std::nullopt});
+  m_open = false;
+}
+
+void EditHistory::forgetStrokes()
+{
+  for (Steps* steps : {&m_done, &m_undone})
+    steps->erase(std::remove_if(steps->begin(), steps->end(),
+                                [](const Step& step) { return !step.edit.has_value(); }),
+                 steps->end());
+}
+
+void EditHistory::hold() noexcept
+{
+  if (m_held++ == 0)
+    close();
+}
+
+void EditHistory::release() noexcept
+{
+  if (m_held > 0 && --m_held == 0)
+    close();
+}
+
+EditHistory::Steps::iterator EditHistory::find(Steps& steps, std::uint64_t id)
+{
+  return std::find_if(steps.begin(), steps.end(), [id](const Step& step) { return step.id == id; });
+}
+
+void EditHistory::undone(std::uint64_t step)
+{
+  if (const auto found = find(m_done, step); found != m_done.end())
+  {
+    m_undone.push_back(std::move(*found));
+    m_done.erase(found);
+  }
+  m_open = false;
+}
+
+void EditHistory::redone(std::uint64_t step)
+{
+  if (const auto found = find(m_undone, step); found != m_undone.end())
+  {
+    m_done.push_back(std::move(*found));
+    m_undone.erase(found);
+  }
+  m_open = false;
+}
+
+// Strokes that another branch has, or that were taken away, are passed over.
+template <class AllSteps>
+auto* EditHistory::nextOf(AllSteps& steps, std::size_t strokes) noexcept
+{
+  const auto found = std::find_if(steps.rbegin(), steps.rend(),
+                                  [strokes](const Step& step) { return step.edit || strokes > 0; });
+  return found == steps.rend() ? nullptr : &*found;
+}
+
+const EditHistory::Edit* EditHistory::next(std::size_t strokes) const noexcept
+{
+  const Step* step = nextOf(m_done, strokes);
+  return step && step->edit ? &*step->edit : nullptr;
+}
+
+const EditHistory::Edit* EditHistory::nextRedo(std::size_t strokes) const noexcept
+{
+  const Step* step = nextOf(m_undone, strokes);
+  return step && step->edit ? &*step->edit : nullptr;
+}
+
+bool EditHistory::step(Steps& from, Steps& to, std::size_t strokes, bool back)
+{
+  Step* found = nextOf(from, strokes);
+  if (!found || !found->edit)
+    return false;
+  Step step = std::move(*found);
+  from.erase(from.begin() + (found - from.data()));
+  (back ? step.edit->undo : step.edit->redo)();
+  to.push_back(std::move(step));
+  return true;
+}
+
+bool EditHistory::undo(std::size_t strokes)
+{
+  m_open = false;
+  return step(m_done, m_undone, strokes, true);
+}
+
+bool EditHistory::redo(std::size_t strokes)
+{
+  m_open = false;
+  return step(m_undone, m_done, strokes, false);
+}
+
+void EditHistory::takeBack(std::uint64_t step)
+{
+  if (m_done.empty() || m_done.back().id != step || !m_done.back().edit)
+    return;
+  const Step last = std::move(m_done.back());
+  m_done.pop_back();
+  m_open = false;
+  last.edit->undo();
+}
+
+std::uint64_t EditHistory::last() const noexcept
+{
+  return m_done.empty() ? 0 : m_done.back().id;
+}
+
+void EditHistory::clear()
+{
+  m_done.clear();
+  m_undone.clear();
+  m_open = false;
+}
+
+} // namespace petrous::presenters

@@ -1,5 +1,6 @@
 #include "StructuresModel.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <QColor>
@@ -51,6 +52,44 @@ const std::vector<const StructureProperty*>& columns()
   return all;
 }
 
+using presenters::StructureKind;
+
+const char* titleOfKind(StructureKind kind)
+{
+  switch (kind)
+  {
+  case StructureKind::Nerve:
+    return QT_TR_NOOP("Nerves");
+  case StructureKind::Vessel:
+    return QT_TR_NOOP("Vessels");
+  case StructureKind::Ossicle:
+    return QT_TR_NOOP("Ossicles");
+  case StructureKind::InnerEar:
+    return QT_TR_NOOP("Inner ear");
+  case StructureKind::Dura:
+    return QT_TR_NOOP("Dura");
+  case StructureKind::Lumen:
+    return QT_TR_NOOP("Lumens");
+  case StructureKind::Mesh:
+    return QT_TR_NOOP("Meshes");
+  case StructureKind::Bone:
+  case StructureKind::Other:
+    break;
+  }
+  return QT_TR_NOOP("Other structures");
+}
+
+// What bone has not: it is what is touched, drilled and not warned of.
+bool isOfBone(const StructureProperty& property)
+{
+  return std::string(property.key) == "shown";
+}
+
+bool isFlag(const StructureProperty& property)
+{
+  return std::holds_alternative<StructureProperty::Flag>(property.member);
+}
+
 const StructureProperty& propertyAt(int column)
 {
   return *columns()[static_cast<std::size_t>(column - StructuresModel::FirstProperty)];
@@ -66,7 +105,7 @@ int StructuresModel::columnOf(const std::string& key)
 }
 
 StructuresModel::StructuresModel(presenters::WorkstationModel& model, QObject* parent)
-  : QAbstractTableModel(parent)
+  : QAbstractItemModel(parent)
   , m_model(model)
 {
 }
@@ -127,8 +166,10 @@ QString StructuresModel::countText() const
   std::size_t structures = 0, meshes = 0, shown = 0;
   for (const Row& row : m_rows)
   {
-    ++(row.isMesh ? meshes : structures);
-    shown += row.look.shown;
+    if (row.row.kind == StructureKind::Bone)
+      continue;
+    ++(row.row.kind == StructureKind::Mesh ? meshes : structures);
+    shown += row.row.look.shown;
   }
   QStringList parts;
   if (structures > 0)
@@ -144,76 +185,211 @@ std::vector<StructuresModel::Row> StructuresModel::rows()
   if (!m_model.hasCase())
     return rows;
   const scene::Case& value = m_model.value();
-  for (const auto& part : value.labels)
+  for (presenters::StructureRow& one : presenters::structureRows(value))
   {
-    const std::string missing = scene::placementOf(value, part).missing;
-    for (const auto& structure : part.structures)
-      rows.push_back({structure.name, structure.volume, false, false, 0, structure.look, missing});
-  }
-  for (const auto& mesh : value.meshes)
-    if (!scene::findStructure(value, mesh.name))
+    Row row{std::move(one)};
+    row.volume = row.row.volume;
+    if (row.row.kind == StructureKind::Mesh)
     {
-      Row row{mesh.name, 0.0, true, true, 0, mesh.look, scene::placementOf(value, mesh).missing};
-      if (const Measured* measured = measuredOf(mesh))
+      row.isBeingMeasured = true;
+      const auto mesh =
+          std::find_if(value.meshes.begin(), value.meshes.end(),
+                       [&row](const auto& part) { return part.name == row.row.part; });
+      if (const Measured* measured = mesh == value.meshes.end() ? nullptr : measuredOf(*mesh))
       {
         row.volume = measured->measure.volume.value_or(0.0);
         row.isBeingMeasured = false;
         row.openEdges = measured->measure.openEdges;
       }
-      rows.push_back(std::move(row));
     }
+    rows.push_back(std::move(row));
+  }
   return rows;
+}
+
+// Top rows: bone, then the kinds. Of a row below a kind the internal id is the kind's number + 1.
+QModelIndex StructuresModel::index(int row, int column, const QModelIndex& parent) const
+{
+  if (!hasIndex(row, column, parent))
+    return {};
+  return createIndex(row, column,
+                     parent.isValid() ? static_cast<quintptr>(parent.row()) : quintptr(0));
+}
+
+QModelIndex StructuresModel::parent(const QModelIndex& index) const
+{
+  return index.isValid() && index.internalId() > 0
+             ? createIndex(static_cast<int>(index.internalId()), 0, quintptr(0))
+             : QModelIndex();
+}
+
+const StructuresModel::Row* StructuresModel::at(const QModelIndex& index) const
+{
+  if (!index.isValid() || m_rows.empty())
+    return nullptr;
+  if (index.internalId() == 0)
+    return index.row() == 0 ? &m_rows.front() : nullptr;
+  const std::size_t kind = index.internalId() - 1;
+  const auto row = static_cast<std::size_t>(index.row());
+  return kind < m_kinds.size() && row < m_kinds[kind].count ? &m_rows[m_kinds[kind].first + row]
+                                                            : nullptr;
+}
+
+const StructuresModel::Kind* StructuresModel::kindAt(const QModelIndex& index) const
+{
+  const auto row = static_cast<std::size_t>(index.row());
+  return index.isValid() && index.internalId() == 0 && row > 0 && row <= m_kinds.size()
+             ? &m_kinds[row - 1]
+             : nullptr;
+}
+
+std::string StructuresModel::partAt(const QModelIndex& index) const
+{
+  const Row* row = at(index);
+  return row ? row->row.part : std::string();
 }
 
 std::string StructuresModel::nameAt(const QModelIndex& index) const
 {
-  return index.isValid() && index.row() < rowCount()
-             ? m_rows[static_cast<std::size_t>(index.row())].name
-             : std::string();
+  const Row* row = at(index);
+  return row && row->row.kind != StructureKind::Bone ? row->row.part : std::string();
 }
 
-QModelIndex StructuresModel::rowOf(const std::string& name) const
+QModelIndex StructuresModel::rowOf(const std::string& part) const
 {
-  for (int row = 0; row < rowCount(); ++row)
-    if (m_rows[static_cast<std::size_t>(row)].name == name)
-      return index(row, Name);
+  if (!m_rows.empty() && m_rows.front().row.part == part)
+    return index(0, Name);
+  for (std::size_t kind = 0; kind < m_kinds.size(); ++kind)
+    for (std::size_t n = 0; n < m_kinds[kind].count; ++n)
+      if (m_rows[m_kinds[kind].first + n].row.part == part)
+        return index(static_cast<int>(n), Name, index(static_cast<int>(kind) + 1, Name));
   return {};
 }
 
 appearance::StructureAppearance StructuresModel::lookAt(const QModelIndex& index) const
 {
-  return index.isValid() && index.row() < rowCount()
-             ? m_rows[static_cast<std::size_t>(index.row())].look
-             : appearance::StructureAppearance();
+  const Row* row = at(index);
+  return row ? row->row.look : appearance::StructureAppearance();
+}
+
+QString StructuresModel::title(const presenters::StructureRow& row) const
+{
+  if (row.kind != StructureKind::Bone)
+    return words(row.part).replace('_', ' ');
+  return m_model.hasCase() && m_model.value().ct.modality == scene::Modality::Mr ? tr("Tissue")
+                                                                                 : tr("Bone");
+}
+
+QString StructuresModel::titleOf(const std::string& part) const
+{
+  const Row* row = at(rowOf(part));
+  return row ? title(row->row) : QString();
+}
+
+QString StructuresModel::folded(const QString& text)
+{
+  QString plain;
+  for (const QChar& c : text.normalized(QString::NormalizationForm_KD))
+    if (!c.isMark())
+      plain += c;
+  return plain.toCaseFolded().replace(QChar(0xdf), "ss").replace('_', ' ');
+}
+
+QString StructuresModel::searchText(const QModelIndex& index) const
+{
+  const Row* row = at(index);
+  if (!row)
+    return {};
+  const QString kind =
+      row->row.kind == StructureKind::Bone ? QString() : tr(titleOfKind(row->row.kind));
+  return folded(title(row->row) + ' ' + words(row->row.look.preset) + ' ' + kind);
 }
 
 void StructuresModel::caseChanged()
 {
   beginResetModel();
   m_rows = rows();
+  m_kinds.clear();
+  for (std::size_t n = 0; n < m_rows.size(); ++n)
+  {
+    const StructureKind kind = m_rows[n].row.kind;
+    if (kind == StructureKind::Bone)
+      continue;
+    if (m_kinds.empty() || m_kinds.back().kind != kind)
+      m_kinds.push_back({kind, n, 0});
+    ++m_kinds.back().count;
+  }
   endResetModel();
   measureMeshes();
+}
+
+bool StructuresModel::isOthers(const std::vector<Row>& next) const
+{
+  const auto isSame = [](const Row& a, const Row& b)
+  { return a.row.part == b.row.part && a.row.kind == b.row.kind; };
+  return next.size() != m_rows.size() ||
+         !std::equal(next.begin(), next.end(), m_rows.begin(), isSame);
+}
+
+bool StructuresModel::needsRebuild()
+{
+  return isOthers(rows());
 }
 
 void StructuresModel::appearanceChanged()
 {
   auto next = rows();
-  if (next.size() != m_rows.size())
+  if (isOthers(next))
     return caseChanged();
+  std::vector<std::string> changed;
+  for (std::size_t n = 0; n < next.size(); ++n)
+  {
+    next[n].near = m_rows[n].near;
+    if (!(next[n].row.look == m_rows[n].row.look) || next[n].volume != m_rows[n].volume ||
+        next[n].isBeingMeasured != m_rows[n].isBeingMeasured ||
+        next[n].row.missing != m_rows[n].row.missing)
+      changed.push_back(next[n].row.part);
+  }
   m_rows = std::move(next);
-  if (!m_rows.empty())
-    emit dataChanged(index(0, 0), index(rowCount() - 1, columnCount() - 1));
+  for (const std::string& part : changed)
+  {
+    const QModelIndex row = rowOf(part);
+    emit dataChanged(row, row.siblingAtColumn(columnCount() - 1));
+    if (const QModelIndex kind = row.parent(); kind.isValid())
+      emit dataChanged(kind, kind.siblingAtColumn(columnCount() - 1));
+  }
   measureMeshes();
+}
+
+void StructuresModel::setNear(std::vector<presenters::NearbyStructure> structures)
+{
+  for (Row& row : m_rows)
+  {
+    QString near;
+    for (const presenters::NearbyStructure& one : structures)
+      if (one.name == row.row.part && row.row.kind != StructureKind::Bone)
+        near = one.state == presenters::NearbyStructure::State::Touched
+                   ? tr("touched")
+                   : tr("%1 mm").arg(numberText(one.distance, 1));
+    if (near == row.near)
+      continue;
+    row.near = near;
+    const QModelIndex cell = rowOf(row.row.part).siblingAtColumn(Burr);
+    emit dataChanged(cell, cell);
+  }
 }
 
 int StructuresModel::rowCount(const QModelIndex& parent) const
 {
-  return parent.isValid() ? 0 : static_cast<int>(m_rows.size());
+  if (!parent.isValid())
+    return m_rows.empty() ? 0 : 1 + static_cast<int>(m_kinds.size());
+  const Kind* kind = parent.column() == 0 ? kindAt(parent) : nullptr;
+  return kind ? static_cast<int>(kind->count) : 0;
 }
 
-int StructuresModel::columnCount(const QModelIndex& parent) const
+int StructuresModel::columnCount(const QModelIndex&) const
 {
-  return parent.isValid() ? 0 : FirstProperty + static_cast<int>(columns().size());
+  return FirstProperty + static_cast<int>(columns().size());
 }
 
 // Why a mesh marked touchable is not; empty if it is. Evaluated for tooltips only, as it is slow.
@@ -241,25 +417,40 @@ QString StructuresModel::primary() const
 
 QVariant StructuresModel::data(const QModelIndex& index, int role) const
 {
-  if (!index.isValid() || index.row() >= rowCount())
+  if (const Kind* kind = kindAt(index))
+    return kindData(*kind, index.column(), role);
+  const Row* found = at(index);
+  if (!found)
     return {};
-  const Row& row = m_rows[static_cast<std::size_t>(index.row())];
+  const Row& row = *found;
   switch (index.column())
   {
   case Name:
     if (role == Qt::DisplayRole)
     {
-      const QString name = words(row.name).replace('_', ' ');
-      return row.missing.empty() ? name : tr("%1 (not on the %2)").arg(name, primary());
+      const QString name = title(row.row);
+      return row.row.missing.empty() ? name : tr("%1 (not on the %2)").arg(name, primary());
     }
     if (role == Qt::DecorationRole)
-      return swatch(row.look);
-    if (role == Qt::ToolTipRole && !row.missing.empty())
+      return swatch(row.row.look);
+    if (role == Qt::AccessibleTextRole)
+      return tr("%1, colour %2, %3")
+          .arg(title(row.row), colorOf(row.row.look).name(),
+               row.row.look.shown ? tr("shown") : tr("hidden"));
+    if (role == Qt::ToolTipRole && !row.row.missing.empty())
       return tr("%1 is nowhere on the %2, and neither drawn nor felt nor warned of: %3")
-          .arg(words(row.name), primary(), windowText(words(row.missing)));
+          .arg(words(row.row.part), primary(), windowText(words(row.row.missing)));
+    if (role == Qt::ToolTipRole && row.row.kind == StructureKind::Bone)
+      return tr("The %1 itself, where no structure is").arg(primary());
     if (role == Qt::ToolTipRole)
-      return row.look.solid ? words(row.name)
-                            : tr("%1 (a space without tissue)").arg(words(row.name));
+      return row.row.look.solid ? words(row.row.part)
+                                : tr("%1 (a space without tissue)").arg(words(row.row.part));
+    return {};
+  case Burr:
+    if (role == Qt::DisplayRole)
+      return row.near;
+    if (role == Qt::TextAlignmentRole)
+      return int(Qt::AlignRight | Qt::AlignVCenter);
     return {};
   case VolumeColumn:
     if (role == Qt::DisplayRole && row.isBeingMeasured)
@@ -287,26 +478,46 @@ QVariant StructuresModel::data(const QModelIndex& index, int role) const
   }
 }
 
+// How many there are, and whether they are shown, touched and drilled: all, none or some.
+QVariant StructuresModel::kindData(const Kind& kind, int column, int role) const
+{
+  if (column == Name && role == Qt::DisplayRole)
+    return tr("%1 (%2)").arg(tr(titleOfKind(kind.kind))).arg(kind.count);
+  if (column == Name && role == Qt::ToolTipRole)
+    return tr("Its check boxes are those of all of them");
+  if (role != Qt::CheckStateRole || column < FirstProperty || !isFlag(propertyAt(column)))
+    return {};
+  const auto flag = std::get<StructureProperty::Flag>(propertyAt(column).member);
+  std::size_t set = 0;
+  for (std::size_t n = 0; n < kind.count; ++n)
+    set += m_rows[kind.first + n].row.look.*flag;
+  return set == 0 ? Qt::Unchecked : set == kind.count ? Qt::Checked : Qt::PartiallyChecked;
+}
+
 QVariant StructuresModel::propertyData(const Row& row, const StructureProperty& property,
                                        int role) const
 {
+  if (row.row.kind == StructureKind::Bone && !isOfBone(property))
+    return {};
   if (property.isNumber())
   {
     if (role == Qt::EditRole)
-      return numberOf(row.look, property);
+      return numberOf(row.row.look, property);
     if (role == Qt::DisplayRole)
-      return isOff(row.look, property)
+      return isOff(row.row.look, property)
                  ? QString::fromUtf8("–")
-                 : QString("%1 %2").arg(words(toString(row.look, property)), property.range.unit);
+                 : QString("%1 %2").arg(words(toString(row.row.look, property)),
+                                        property.range.unit);
     if (role == Qt::TextAlignmentRole)
       return int(Qt::AlignRight | Qt::AlignVCenter);
     return {};
   }
   const auto flag = std::get<StructureProperty::Flag>(property.member);
-  if (role == Qt::ToolTipRole && flag == &appearance::StructureAppearance::touchable && row.isMesh)
-    return untouchableText(row.name);
+  if (role == Qt::ToolTipRole && flag == &appearance::StructureAppearance::touchable &&
+      row.row.kind == StructureKind::Mesh)
+    return untouchableText(row.row.part);
   if (role == Qt::CheckStateRole)
-    return row.look.*flag ? Qt::Checked : Qt::Unchecked;
+    return row.row.look.*flag ? Qt::Checked : Qt::Unchecked;
   return {};
 }
 
@@ -318,14 +529,16 @@ QVariant StructuresModel::headerData(int section, Qt::Orientation orientation, i
     return {};
   const bool isProperty = section >= FirstProperty;
   if (role == Qt::DisplayRole)
-    return tr(isProperty        ? propertyAt(section).column.title
-              : section == Name ? "Structure"
-                                : "Volume");
+    return tr(isProperty                ? propertyAt(section).column.title
+              : section == Name         ? "Structure"
+              : section == VolumeColumn ? "Volume"
+                                        : "Burr");
   if (role == Qt::ToolTipRole)
-    return tr(isProperty        ? propertyAt(section).column.tip
-              : section == Name ? "Name and colour"
-                                : "Volume, mm³");
-  const bool isNumber = isProperty ? propertyAt(section).isNumber() : section == VolumeColumn;
+    return tr(isProperty                ? propertyAt(section).column.tip
+              : section == Name         ? "Name and colour: click the colour to change it"
+              : section == VolumeColumn ? "Volume, mm³"
+                                        : "From the burr's ball to the structure's surface");
+  const bool isNumber = isProperty ? propertyAt(section).isNumber() : section != Name;
   if (role == Qt::TextAlignmentRole)
     return int((isNumber ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
   return {};
@@ -336,8 +549,16 @@ Qt::ItemFlags StructuresModel::flags(const QModelIndex& index) const
   if (!index.isValid())
     return Qt::NoItemFlags;
   Qt::ItemFlags flags = Qt::ItemIsEnabled | Qt::ItemIsSelectable;
-  if (index.column() >= FirstProperty)
-    flags |= propertyAt(index.column()).isNumber() ? Qt::ItemIsEditable : Qt::ItemIsUserCheckable;
+  if (index.column() < FirstProperty)
+    return flags;
+  const StructureProperty& property = propertyAt(index.column());
+  const Row* row = at(index);
+  if (row && row->row.kind == StructureKind::Bone && !isOfBone(property))
+    return flags;
+  if (isFlag(property))
+    flags |= Qt::ItemIsUserCheckable;
+  else if (row)
+    flags |= Qt::ItemIsEditable;
   return flags;
 }
 
@@ -346,15 +567,27 @@ bool StructuresModel::setData(const QModelIndex& index, const QVariant& value, i
   if (!index.isValid() || index.column() < FirstProperty || m_model.drilling())
     return false;
   const StructureProperty& property = propertyAt(index.column());
-  Row& row = m_rows[static_cast<std::size_t>(index.row())];
-  if (role == Qt::EditRole && property.isNumber() && property.accepts(value.toDouble()))
-    setNumber(row.look, property, value.toDouble());
-  else if (role == Qt::CheckStateRole && !property.isNumber())
-    row.look.*std::get<StructureProperty::Flag>(property.member) = value.toInt() == Qt::Checked;
-  else
+  std::vector<std::string> parts;
+  if (const Kind* kind = kindAt(index))
+    for (std::size_t n = 0; n < kind->count; ++n)
+      parts.push_back(m_rows[kind->first + n].row.part);
+  else if (const Row* row = at(index);
+           row && (row->row.kind != StructureKind::Bone || isOfBone(property)))
+    parts = {row->row.part};
+  const bool isNumber =
+      role == Qt::EditRole && property.isNumber() && property.accepts(value.toDouble());
+  if (parts.empty() || (!isNumber && (role != Qt::CheckStateRole || !isFlag(property))))
     return false;
-  m_model.setLook(row.name, row.look);
-  emit dataChanged(index, index);
+  presenters::changeLooks(m_model, parts,
+                          [&](const std::string&, appearance::StructureAppearance& look)
+                          {
+                            if (isNumber)
+                              setNumber(look, property, value.toDouble());
+                            else
+                              look.*std::get<StructureProperty::Flag>(property.member) =
+                                  value.toInt() == Qt::Checked;
+                          });
+  appearanceChanged(); // also where nobody tells us
   return true;
 }
 

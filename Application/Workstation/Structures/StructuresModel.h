@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include <QAbstractTableModel>
+#include <QAbstractItemModel>
 
 #include "BackgroundWork.h"
-#include "petrous/Presenters/WorkstationModel.h"
+#include "petrous/Presenters/StructureList.h"
 #include "petrous/Volume/MeshMeasure.h"
 
 namespace petrous::appearance
@@ -21,8 +21,9 @@ struct StructureProperty;
 namespace petrous::workstation
 {
 
-/// The structures and meshes of the open case as rows; check boxes and numbers modify the case.
-class StructuresModel : public QAbstractTableModel
+/// Bone, structures and meshes of the open case: bone first, the others by kind in rows that fold;
+/// check boxes and numbers modify the case. The row of a kind changes all of them.
+class StructuresModel : public QAbstractItemModel
 {
   Q_OBJECT
 public:
@@ -30,6 +31,7 @@ public:
   {
     Name,
     VolumeColumn, ///< mm^3, "open" of an open mesh, "…" while it is measured; empty: not known
+    Burr,         ///< distance to the burr that is in use, mm, and how well it is known
     FirstProperty ///< and those after it: kStructureProperties with a column
   };
 
@@ -40,13 +42,24 @@ public:
 
   /// How many label structures and meshes there are, and how many are shown.
   QString countText() const;
-  std::string nameAt(const QModelIndex& index) const; ///< of the row; empty if there is none
-  QModelIndex rowOf(const std::string& name) const;   ///< invalid if there is none
+  /// Of the row, as WorkstationModel::lookOf; empty of a kind.
+  std::string partAt(const QModelIndex& index) const;
+  std::string nameAt(const QModelIndex& index) const; ///< of a structure or mesh; else empty
+  QModelIndex rowOf(const std::string& part) const;   ///< invalid if there is none
   appearance::StructureAppearance lookAt(const QModelIndex& index) const;
+  /// What a search finds: its name as it is shown, its preset and its kind, without diacritics and
+  /// case (`folded`).
+  QString searchText(const QModelIndex& index) const;
+  static QString folded(const QString& text);
+  QString titleOf(const std::string& part) const; ///< as it is shown
 
   void caseChanged();
   void appearanceChanged();
+  bool needsRebuild(); ///< the rows are others; `appearanceChanged` would reset them
+  void setNear(std::vector<presenters::NearbyStructure> structures); ///< empty: no burr is in use
 
+  QModelIndex index(int row, int column, const QModelIndex& parent = {}) const override;
+  QModelIndex parent(const QModelIndex& index) const override;
   int rowCount(const QModelIndex& parent = {}) const override;
   int columnCount(const QModelIndex& parent = {}) const override;
   QVariant data(const QModelIndex& index, int role) const override;
@@ -57,13 +70,17 @@ public:
 private:
   struct Row
   {
-    std::string name;
-    double volume = 0.0; ///< mm^3; 0: not known
-    bool isMesh = false;
+    presenters::StructureRow row;
     bool isBeingMeasured = false;
     std::size_t openEdges = 0; ///< of a mesh that is not closed and so has no volume
-    appearance::StructureAppearance look;
-    std::string missing; ///< why it cannot be placed on the CT (scene::Placement); usually empty
+    double volume = 0.0;       ///< mm^3; 0: not known
+    QString near = {};
+  };
+  /// Rows of one kind, those from `first` on.
+  struct Kind
+  {
+    presenters::StructureKind kind;
+    std::size_t first = 0, count = 0;
   };
   struct Measured
   {
@@ -72,15 +89,21 @@ private:
   };
   using Measures = std::map<std::string, Measured>; // by the mesh's name
   std::vector<Row> rows();
+  bool isOthers(const std::vector<Row>& next) const;
+  const Row* at(const QModelIndex& index) const; // nullptr: a kind, or nothing
+  const Kind* kindAt(const QModelIndex& index) const;
   const Measured* measuredOf(const scene::MeshPart& part) const; // nullptr: not yet
   void measureMeshes();
+  QVariant kindData(const Kind& kind, int column, int role) const;
   QVariant propertyData(const Row& row, const appearance::StructureProperty& property,
                         int role) const;
   QString primary() const; ///< image: "CT" or "MR"
+  QString title(const presenters::StructureRow& row) const;
   QString untouchableText(const std::string& mesh) const;
 
   presenters::WorkstationModel& m_model;
   std::vector<Row> m_rows;
+  std::vector<Kind> m_kinds; // but bone's, as the model has them from row 1 on
   Measures m_measured;
   std::uint64_t m_measuredOf = 0; // WorkstationModel::shownAs
   BackgroundWork m_work;          // measures large meshes in seconds

@@ -2,22 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <QAction>
 #include <QDoubleSpinBox>
 #include <QEvent>
 #include <QHBoxLayout>
 #include <QHeaderView>
+#include <QItemSelectionModel>
+#include <QKeyEvent>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMenu>
+#include <QMouseEvent>
 #include <QScopedValueRollback>
 #include <QSlider>
+#include <QToolButton>
 #include <QTreeView>
 #include <QVBoxLayout>
 
+#include "StructureEditor.h"
 #include "StructuresModel.h"
 #include "Theme.h"
-#include "petrous/Dissection/MaterialCatalogue.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 
 namespace petrous::workstation
@@ -25,9 +31,13 @@ namespace petrous::workstation
 
 namespace
 {
-constexpr int kPadding = 4;    // px, beside a column's text
-constexpr int kSwatch = 30;    // px, colour and margins of a name
-constexpr int kLeastName = 16; // characters; where the panel is narrower it scrolls sideways
+constexpr int kPadding = 4;     // px, beside a column's text
+constexpr int kIndent = 12;     // px, of a structure below its kind
+constexpr int kSwatch = 30;     // px, colour and margins of a name
+constexpr int kSwatchHit = 20;  // px, of the colour, to be clicked
+constexpr int kFitAfter = 30;   // ms
+constexpr int kNearAgain = 150; // ms; faster than anyone can read
+constexpr int kLeastName = 16;  // characters; where the panel is narrower it scrolls sideways
 } // namespace
 
 StructuresPanel::StructuresPanel(presenters::WorkstationModel& model, QWidget* parent)
@@ -37,12 +47,19 @@ StructuresPanel::StructuresPanel(presenters::WorkstationModel& model, QWidget* p
   , m_list(new QTreeView)
   , m_slider(new QSlider(Qt::Horizontal))
   , m_box(numberBox("isoBox", {}, {0.0, 0.0, {}, 0, 1.0}))
+  , m_search(new QLineEdit)
+  , m_only(new QToolButton)
+  , m_editor(new StructureEditor(model))
+  , m_alone(model)
 {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
   addThreshold(*layout);
+  addSearch(*layout);
   addList(*layout);
+  layout->addWidget(m_editor);
+  addActions();
   setMinimumWidth(280);
   showRange();
 }
@@ -71,11 +88,60 @@ void StructuresPanel::addThreshold(QVBoxLayout& layout)
   layout.addLayout(head);
 }
 
+void StructuresPanel::addSearch(QVBoxLayout& layout)
+{
+  m_search->setObjectName("structuresSearch");
+  m_search->setPlaceholderText(tr("Search names, presets and kinds (/)"));
+  m_search->setAccessibleName(tr("Search structures"));
+  m_search->setClearButtonEnabled(true);
+  m_search->installEventFilter(this);
+  connect(m_search, &QLineEdit::textChanged, this, &StructuresPanel::filter);
+  auto* find = new QAction(this);
+  find->setShortcut(Qt::Key_Slash);
+  find->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+  connect(find, &QAction::triggered, m_search,
+          [this]
+          {
+            m_search->setFocus(Qt::ShortcutFocusReason);
+            m_search->selectAll();
+          });
+  addAction(find);
+  const auto tool = [](QToolButton* made, const char* name, const QString& text, const QString& tip)
+  {
+    made->setObjectName(name);
+    made->setText(text);
+    made->setToolTip(tip);
+    made->setFocusPolicy(Qt::TabFocus); // a click leaves the keys to the list
+    made->setStyleSheet("QToolButton { padding: 3px 7px; }"
+                        "QToolButton:checked { background: #2f79b5; color: #ffffff; }");
+    return made;
+  };
+  m_only->setCheckable(true);
+  tool(m_only, "onlyThese", tr("Only this"),
+       tr("Shows the selected ones alone (Shift+Space, or Alt and a click on a check box); again: "
+          "what was shown before"));
+  connect(m_only, &QToolButton::clicked, this, [this] { onlyThese(selectedParts()); });
+  auto* show = tool(new QToolButton, "showThese", tr("Show"), tr("Shows the selected ones"));
+  auto* hide = tool(new QToolButton, "hideThese", tr("Hide"), tr("Hides the selected ones"));
+  connect(show, &QToolButton::clicked, this, [this] { setShown(selectedParts(), true); });
+  connect(hide, &QToolButton::clicked, this, [this] { setShown(selectedParts(), false); });
+  auto* row = new QHBoxLayout;
+  row->setContentsMargins(10, 0, 10, 4);
+  row->setSpacing(4);
+  row->addWidget(m_search, 1);
+  for (QToolButton* one : {m_only, show, hide})
+    row->addWidget(one);
+  layout.addLayout(row);
+}
+
 void StructuresPanel::addList(QVBoxLayout& layout)
 {
   m_list->setModel(m_structures);
   m_list->setObjectName("structures");
-  m_list->setRootIsDecorated(false);
+  m_list->setAccessibleName(tr("Structures"));
+  m_list->setIndentation(kIndent);
+  m_list->setSelectionMode(QAbstractItemView::ExtendedSelection);
+  m_list->setExpandsOnDoubleClick(false); // a double click edits, or would fold by chance
   m_list->setUniformRowHeights(true);
   m_list->setAlternatingRowColors(true);
   m_list->setAllColumnsShowFocus(true);
@@ -95,27 +161,17 @@ void StructuresPanel::addList(QVBoxLayout& layout)
               m_nameWidth = width;
           });
   m_list->viewport()->installEventFilter(this);
+  m_list->installEventFilter(this);
+  header->setSectionHidden(StructuresModel::Burr, true);
   connect(m_structures, &QAbstractItemModel::modelReset, this, &StructuresPanel::fitColumns);
-  connect(m_structures, &QAbstractItemModel::dataChanged, this, &StructuresPanel::fitColumns);
+  m_fitLater.setSingleShot(true);
+  m_fitLater.setInterval(kFitAfter);
+  connect(&m_fitLater, &QTimer::timeout, this, &StructuresPanel::fitColumns);
+  connect(m_structures, &QAbstractItemModel::dataChanged, &m_fitLater, qOverload<>(&QTimer::start));
   fitColumns();
+  connect(m_list->selectionModel(), &QItemSelectionModel::selectionChanged, this,
+          &StructuresPanel::selectionChanged);
 
-  const auto addAction = [this](const QString& text, int key, const char* name, auto signal)
-  {
-    auto* action = new QAction(text, m_list);
-    action->setObjectName(name);
-    action->setShortcut(key);
-    action->setShortcutContext(Qt::WidgetShortcut);
-    connect(action, &QAction::triggered, this,
-            [this, signal]
-            {
-              if (const QString part = chosen(); !part.isEmpty())
-                emit(this->*signal)(part);
-            });
-    m_list->addAction(action);
-  };
-  addAction(tr("&Rename…"), Qt::Key_F2, "renamePart", &StructuresPanel::renamingAsked);
-  addAction(tr("Re&move from the case"), Qt::Key_Delete, "removePart",
-            &StructuresPanel::removalAsked);
   m_list->setContextMenuPolicy(Qt::CustomContextMenu);
   connect(m_list, &QTreeView::customContextMenuRequested, this, &StructuresPanel::offer);
   layout.addWidget(m_list, 1);
@@ -128,11 +184,245 @@ void StructuresPanel::addList(QVBoxLayout& layout)
   connect(m_structures, &QAbstractItemModel::dataChanged, m_count, count);
 }
 
+void StructuresPanel::addActions()
+{
+  const auto add = [this](const QString& text, const QKeySequence& keys, const char* name,
+                          const std::function<void()>& act)
+  {
+    auto* action = new QAction(text, m_list);
+    action->setObjectName(name);
+    action->setShortcut(keys);
+    action->setShortcutContext(Qt::WidgetShortcut);
+    connect(action, &QAction::triggered, this, act);
+    m_list->addAction(action);
+    m_actions.push_back(action);
+  };
+  add(tr("&Colour…"), Qt::SHIFT + Qt::Key_Return, "colorPart", [this] { chooseColor(); });
+  add(tr("&Properties"), Qt::Key_Return, "editPart", [this] { m_editor->takeFocus(); });
+  add(tr("&Only this, or as before"), Qt::SHIFT + Qt::Key_Space, "onlyPart",
+      [this] { onlyThese(selectedParts()); });
+  add(tr("&Show or hide"), Qt::Key_Space, "showPart", [this] { toggleShown(); });
+  add(tr("&Rename…"), Qt::Key_F2, "renamePart",
+      [this]
+      {
+        if (const QString part = chosen(); !part.isEmpty())
+          emit renamingAsked(part);
+      });
+  add(tr("Re&move from the case"), Qt::Key_Delete, "removePart",
+      [this]
+      {
+        for (const std::string& part : selectedParts())
+          if (m_structures->rowOf(part).isValid() &&
+              !m_structures->nameAt(m_structures->rowOf(part)).empty())
+            emit removalAsked(words(part));
+      });
+  connect(m_editor, &StructureEditor::left, m_list, qOverload<>(&QWidget::setFocus));
+}
+
 bool StructuresPanel::eventFilter(QObject* watched, QEvent* event)
 {
-  if (event->type() == QEvent::Resize)
+  if (watched == m_list->viewport() && event->type() == QEvent::Resize)
     fitNames();
+  if (watched == m_list->viewport() && event->type() == QEvent::MouseButtonPress)
+  {
+    const auto* mouse = static_cast<QMouseEvent*>(event);
+    if (mouse->button() == Qt::LeftButton && clicked(mouse->pos(), mouse->modifiers()))
+      return true;
+  }
+  if (watched == m_search && event->type() == QEvent::KeyPress)
+    switch (static_cast<QKeyEvent*>(event)->key())
+    {
+    case Qt::Key_Escape:
+      m_search->clear();
+      m_list->setFocus();
+      return true;
+    case Qt::Key_Return:
+    case Qt::Key_Enter:
+    case Qt::Key_Down:
+      m_list->setFocus();
+      if (!m_list->currentIndex().isValid() ||
+          m_list->isRowHidden(m_list->currentIndex().row(), m_list->currentIndex().parent()))
+        for (QModelIndex row = m_structures->index(0, 0); row.isValid();
+             row = m_list->indexBelow(row))
+          if (!m_structures->partAt(row).empty() && !m_list->isRowHidden(row.row(), row.parent()))
+          {
+            m_list->setCurrentIndex(row);
+            break;
+          }
+      return true;
+    default:
+      break;
+    }
   return Panel::eventFilter(watched, event);
+}
+
+// The colour opens the colours, and Alt on a check box of "shown" leaves the row alone.
+bool StructuresPanel::clicked(const QPoint& position, Qt::KeyboardModifiers modifiers)
+{
+  const QModelIndex cell = m_list->indexAt(position);
+  if (!cell.isValid())
+    return false;
+  static const int shown = StructuresModel::columnOf("shown");
+  if (cell.column() == shown && modifiers == Qt::AltModifier)
+  {
+    onlyThese(partsOf(cell));
+    return true;
+  }
+  const std::string part = m_structures->partAt(cell);
+  const QRect rect = m_list->visualRect(cell);
+  if (cell.column() != StructuresModel::Name || part.empty() || modifiers != Qt::NoModifier ||
+      position.x() < rect.left() || position.x() > rect.left() + kSwatchHit)
+    return false;
+  // Of all that are selected, if it is one of them.
+  auto parts = selectedParts();
+  if (std::find(parts.begin(), parts.end(), part) == parts.end())
+  {
+    m_list->setCurrentIndex(cell.siblingAtColumn(StructuresModel::Name));
+    parts = {part};
+  }
+  m_editor->chooseColor(parts, m_list->viewport()->mapToGlobal(rect.bottomLeft()));
+  return true;
+}
+
+void StructuresPanel::chooseColor()
+{
+  const auto parts = selectedParts();
+  if (!parts.empty())
+    m_editor->chooseColor(parts,
+                          m_list->viewport()->mapToGlobal(
+                              m_list->visualRect(m_structures->rowOf(parts.front())).bottomLeft()));
+}
+
+std::vector<std::string> StructuresPanel::partsOf(const QModelIndex& row) const
+{
+  const std::string part = m_structures->partAt(row);
+  if (!part.empty())
+    return {part};
+  std::vector<std::string> parts;
+  const QModelIndex kind = row.siblingAtColumn(StructuresModel::Name);
+  for (int n = 0; n < m_structures->rowCount(kind); ++n)
+    if (!m_list->isRowHidden(n, kind))
+      parts.push_back(m_structures->partAt(m_structures->index(n, 0, kind)));
+  return parts;
+}
+
+std::vector<std::string> StructuresPanel::selectedParts() const
+{
+  std::vector<std::string> parts;
+  for (const QModelIndex& row : m_list->selectionModel()->selectedRows(StructuresModel::Name))
+    if (!m_list->isRowHidden(row.row(), row.parent()))
+      for (const std::string& part : partsOf(row))
+        if (std::find(parts.begin(), parts.end(), part) == parts.end())
+          parts.push_back(part);
+  return parts;
+}
+
+QString StructuresPanel::titleOf(const std::vector<std::string>& parts) const
+{
+  return parts.empty()       ? tr("Nothing is selected")
+         : parts.size() == 1 ? m_structures->titleOf(parts.front())
+                             : tr("%1 selected").arg(parts.size());
+}
+
+void StructuresPanel::selectionChanged()
+{
+  const auto parts = selectedParts();
+  m_editor->setParts(parts, titleOf(parts));
+  m_only->setEnabled(!parts.empty());
+  m_only->setChecked(m_alone.isOn(parts));
+}
+
+void StructuresPanel::setShown(const std::vector<std::string>& parts, bool shown)
+{
+  presenters::changeLooks(m_model, parts,
+                          [shown](const std::string&, appearance::StructureAppearance& look)
+                          { look.shown = shown; });
+}
+
+// Of several that differ all are shown.
+void StructuresPanel::toggleShown()
+{
+  const auto parts = selectedParts();
+  const bool allShown = std::all_of(parts.begin(), parts.end(),
+                                    [this](const std::string& part)
+                                    {
+                                      const auto* look = m_model.lookOf(part);
+                                      return look && look->shown;
+                                    });
+  setShown(parts, !allShown);
+}
+
+void StructuresPanel::onlyThese(const std::vector<std::string>& parts)
+{
+  if (!m_model.drilling())
+    m_alone.toggle(parts);
+  selectionChanged();
+}
+
+// What is not found is not shown, and of a kind that has none, neither is the kind.
+void StructuresPanel::filter()
+{
+  const QStringList wanted =
+      StructuresModel::folded(m_search->text()).split(' ', Qt::SkipEmptyParts);
+  const auto isFound = [&](const QModelIndex& row)
+  {
+    const QString text = m_structures->searchText(row);
+    return std::all_of(wanted.begin(), wanted.end(),
+                       [&text](const QString& word) { return text.contains(word); });
+  };
+  for (int top = 0; top < m_structures->rowCount(); ++top)
+  {
+    const QModelIndex row = m_structures->index(top, StructuresModel::Name);
+    if (!m_structures->partAt(row).empty())
+    {
+      m_list->setRowHidden(top, {}, !isFound(row));
+      continue;
+    }
+    bool isAny = false;
+    for (int n = 0; n < m_structures->rowCount(row); ++n)
+    {
+      const bool found = isFound(m_structures->index(n, StructuresModel::Name, row));
+      m_list->setRowHidden(n, row, !found);
+      isAny = isAny || found;
+    }
+    m_list->setRowHidden(top, {}, !isAny);
+    if (!wanted.isEmpty() && isAny)
+      m_list->expand(row);
+  }
+  selectionChanged();
+}
+
+// Selection, folded kinds and place stay, unless it is another case.
+void StructuresPanel::rebuild(bool another)
+{
+  std::vector<std::string> selected;
+  for (const QModelIndex& row : m_list->selectionModel()->selectedRows(StructuresModel::Name))
+    if (const std::string part = m_structures->partAt(row); !part.empty())
+      selected.push_back(part);
+  const std::string current = m_structures->partAt(m_list->currentIndex());
+  QStringList folded;
+  const auto nameOf = [](const QModelIndex& kind)
+  { return kind.data().toString().section(" (", 0, 0); };
+  for (int top = 0; top < m_structures->rowCount(); ++top)
+    if (const QModelIndex kind = m_structures->index(top, 0);
+        m_structures->rowCount(kind) > 0 && !m_list->isExpanded(kind))
+      folded += nameOf(kind);
+  m_structures->caseChanged();
+  for (int top = 0; top < m_structures->rowCount(); ++top)
+    if (const QModelIndex kind = m_structures->index(top, 0); m_structures->rowCount(kind) > 0)
+      m_list->setExpanded(kind, another || !folded.contains(nameOf(kind)));
+  if (!another)
+  {
+    if (const QModelIndex row = m_structures->rowOf(current); row.isValid())
+      m_list->selectionModel()->setCurrentIndex(row, QItemSelectionModel::NoUpdate);
+    QItemSelection again;
+    for (const std::string& part : selected)
+      if (const QModelIndex row = m_structures->rowOf(part); row.isValid())
+        again.select(row, row);
+    m_list->selectionModel()->select(again, QItemSelectionModel::ClearAndSelect |
+                                                QItemSelectionModel::Rows);
+  }
+  filter();
 }
 
 // Numbers, check boxes and titles get what they need, and names all that is left.
@@ -147,8 +437,11 @@ void StructuresPanel::fitColumns()
     int width = std::max(
         kCheckBox,
         textWidth(*header, m_structures->headerData(column, Qt::Horizontal, Qt::DisplayRole)));
-    for (int row = 0; row < m_structures->rowCount(); ++row)
-      width = std::max(width, textWidth(*m_list, m_structures->index(row, column).data()));
+    for (int top = 0; top < m_structures->rowCount(); ++top)
+      for (int row = 0; row < m_structures->rowCount(m_structures->index(top, 0)); ++row)
+        width = std::max(
+            width, textWidth(*m_list,
+                             m_structures->index(row, column, m_structures->index(top, 0)).data()));
     header->resizeSection(column, width + 2 * kPadding + 4);
   }
   fitNames();
@@ -171,46 +464,29 @@ QString StructuresPanel::chosen() const
   return words(m_structures->nameAt(m_list->currentIndex()));
 }
 
-// Menu of the structure's tissue, which determines the drill's resistance.
-void StructuresPanel::addTissues(QMenu& menu, const QString& name)
-{
-  const auto look = m_structures->lookAt(m_structures->rowOf(bytes(name)));
-  QMenu* tissues = menu.addMenu(tr("The drill meets"));
-  const auto add = [&](const QString& title, const std::string& tissue)
-  {
-    QAction* action = tissues->addAction(title);
-    action->setCheckable(true);
-    action->setChecked(look.tissue == tissue);
-    connect(action, &QAction::triggered, this,
-            [this, name, tissue]
-            {
-              auto next = m_structures->lookAt(m_structures->rowOf(bytes(name)));
-              next.tissue = tissue;
-              m_model.setLook(bytes(name), next);
-            });
-  };
-  add(isOnMr() ? tr("Soft tissue, as where nothing is drawn") : tr("Bone, by its density"), {});
-  const auto catalogue = dissection::MaterialCatalogue::builtIn();
-  for (const auto& material : catalogue.all())
-    add(words(material.title), material.name);
-}
-
 void StructuresPanel::offer(const QPoint& position)
 {
-  const QString name = words(m_structures->nameAt(m_list->indexAt(position)));
-  if (name.isEmpty())
+  const QModelIndex cell = m_list->indexAt(position).siblingAtColumn(StructuresModel::Name);
+  if (!cell.isValid())
     return;
+  if (!m_list->selectionModel()->isSelected(cell))
+    m_list->setCurrentIndex(cell);
+  const QString name = words(m_structures->nameAt(cell));
   QMenu menu;
-  addTissues(menu, name);
-  QAction* thickness = menu.addAction((isOnMr() ? tr("Colour tissue by its thickness over %1")
-                                                : tr("Colour bone by its thickness over %1"))
-                                          .arg(QString(name).replace('_', ' ')));
-  thickness->setCheckable(true);
-  thickness->setChecked(m_model.thicknessOver() == bytes(name));
-  menu.addSeparator();
-  m_list->setCurrentIndex(m_list->indexAt(position));
-  menu.addActions(m_list->actions());
-  if (menu.exec(m_list->viewport()->mapToGlobal(position)) == thickness)
+  for (QAction* action : m_actions)
+    menu.addAction(action);
+  QAction* thickness = nullptr;
+  if (!name.isEmpty())
+  {
+    menu.addSeparator();
+    thickness = menu.addAction((isOnMr() ? tr("Colour tissue by its thickness over %1")
+                                         : tr("Colour bone by its thickness over %1"))
+                                   .arg(QString(name).replace('_', ' ')));
+    thickness->setCheckable(true);
+    thickness->setChecked(m_model.thicknessOver() == bytes(name));
+  }
+  QAction* done = menu.exec(m_list->viewport()->mapToGlobal(position));
+  if (done && done == thickness)
     emit thicknessAsked(name);
 }
 
@@ -249,14 +525,56 @@ bool StructuresPanel::isOnMr() const
 void StructuresPanel::caseChanged()
 {
   m_bound.drop();
-  m_structures->caseChanged();
+  m_search->clear();
+  rebuild(true);
+  showRange();
+}
+
+void StructuresPanel::partsChanged()
+{
+  rebuild(false);
   showRange();
 }
 
 void StructuresPanel::appearanceChanged()
 {
-  m_structures->appearanceChanged();
+  if (m_structures->needsRebuild())
+    rebuild(false);
+  else
+    m_structures->appearanceChanged();
+  const auto parts = selectedParts();
+  m_editor->refresh();
+  m_only->setChecked(m_alone.isOn(parts));
   showRange();
+}
+
+// Measured only where it is seen.
+void StructuresPanel::burrMoved(const Eigen::Vector3d& center, double radius)
+{
+  if (!isVisible() || (m_sinceNear.isValid() && m_sinceNear.elapsed() < kNearAgain))
+    return;
+  m_sinceNear.start();
+  try
+  {
+    if (auto near = m_model.nearby(center, radius))
+      m_structures->setNear(std::move(*near));
+  }
+  catch (const std::exception&) // said in the panel "Near the burr"
+  {
+    m_structures->setNear({});
+  }
+  if (m_list->isColumnHidden(StructuresModel::Burr))
+  {
+    m_list->setColumnHidden(StructuresModel::Burr, false);
+    fitColumns();
+  }
+}
+
+void StructuresPanel::burrGone()
+{
+  m_structures->setNear({});
+  m_list->setColumnHidden(StructuresModel::Burr, true);
+  fitColumns();
 }
 
 } // namespace petrous::workstation

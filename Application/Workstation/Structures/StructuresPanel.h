@@ -1,22 +1,33 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
+#include <QElapsedTimer>
+#include <QTimer>
+
 #include "Bind.h"
 #include "Panels.h"
-#include "petrous/Presenters/WorkstationModel.h"
+#include "petrous/Presenters/StructureList.h"
 
+class QAction;
 class QDoubleSpinBox;
 class QLabel;
+class QLineEdit;
 class QMenu;
+class QModelIndex;
 class QSlider;
+class QToolButton;
 class QTreeView;
 class QVBoxLayout;
 
 namespace petrous::workstation
 {
 
+class StructureEditor;
 class StructuresModel;
 
-/// Bone threshold and list of structures.
+/// Bone threshold, list of structures with a search, and the properties of those selected.
 class StructuresPanel : public Panel
 {
   Q_OBJECT
@@ -25,9 +36,14 @@ public:
 
   /// The selected structure; empty: none.
   QString chosen() const;
+  /// The selected parts that the search shows, as WorkstationModel::lookOf; of a kind all of it.
+  std::vector<std::string> selectedParts() const;
 
   void caseChanged() override;
+  void partsChanged() override;
   void appearanceChanged() override;
+  void burrMoved(const Eigen::Vector3d& center, double radius) override;
+  void burrGone() override;
 
 signals:
   void thicknessAsked(const QString& structure); ///< a second request turns it off
@@ -39,11 +55,22 @@ protected:
 
 private:
   void addThreshold(QVBoxLayout& layout);
+  void addSearch(QVBoxLayout& layout);
   void addList(QVBoxLayout& layout);
+  void addActions();
+  void rebuild(bool another);
+  void filter();
+  void selectionChanged();
+  bool clicked(const QPoint& position, Qt::KeyboardModifiers modifiers);
+  void setShown(const std::vector<std::string>& parts, bool shown);
+  void toggleShown();
+  void onlyThese(const std::vector<std::string>& parts);
+  void chooseColor();
+  std::vector<std::string> partsOf(const QModelIndex& row) const;
+  QString titleOf(const std::vector<std::string>& parts) const;
   void fitColumns();
   void fitNames();
   void offer(const QPoint& position);
-  void addTissues(QMenu& menu, const QString& name);
   void showRange();
   bool isOnMr() const; // an MR is the primary image, and shows no bone
 
@@ -57,6 +84,13 @@ private:
   double m_step = 1.0; // of the slider, in the primary image's unit
   int m_nameWidth = 0; // of the names' column as the user set it, px; 0: not set
   bool m_fitting = false;
+  QLineEdit* m_search;
+  QToolButton* m_only;
+  StructureEditor* m_editor;
+  presenters::OnlyThese m_alone;
+  QTimer m_fitLater;               // one fit for all that changed
+  QElapsedTimer m_sinceNear;       // distances were shown
+  std::vector<QAction*> m_actions; // of the context menu
   Bindings m_bound;
 };
 

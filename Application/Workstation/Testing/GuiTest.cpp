@@ -15,8 +15,10 @@
 #include <QProcess>
 #include <QProgressDialog>
 #include <QScreen>
+#include <QTreeView>
 
 #include "Application.h"
+#include "StructuresModel.h"
 #include "Theme.h"
 
 namespace petrous::workstation
@@ -128,6 +130,18 @@ QAction* GuiTest::action(const QString& text)
     return without;
   ADD_FAILURE() << "no action " << text.toStdString();
   return nullptr;
+}
+
+QTreeView& GuiTest::structureList()
+{
+  return *m_window->findChild<QTreeView*>("structures");
+}
+
+QModelIndex GuiTest::structureCell(const std::string& part, int column)
+{
+  return static_cast<StructuresModel*>(structureList().model())
+      ->rowOf(part)
+      .siblingAtColumn(column);
 }
 
 QImage GuiTest::picture()

@@ -9,12 +9,15 @@
 #include <QImage>
 #include <QJsonObject>
 #include <QMessageBox>
+#include <QModelIndex>
 #include <QTemporaryDir>
 #include <QtTest>
 
 #include "MainWindow.h"
 #include "ThreeDView.h"
 #include "petrous/Library/Library.h"
+
+class QTreeView;
 
 namespace petrous::workstation
 {
@@ -42,7 +45,10 @@ protected:
   MainWindow& window() { return *m_window; }
   ThreeDView& view();
   QAction* action(const QString& text); ///< by its text, without the ampersand
-  QImage picture();                     ///< of the 3D view, when static
+  QTreeView& structureList();
+  /// Its cell in the list of structures; bone is "ct".
+  QModelIndex structureCell(const std::string& part, int column = 0);
+  QImage picture(); ///< of the 3D view, when static
 
   void drop(const QMimeData& data);
   void dropPath(const std::filesystem::path& path);

@@ -1247,7 +1247,7 @@ TEST_F(Import, StructuresAreTakenOutPutBackAndRenamed)
   {
     QApplication::setActiveWindow(&window());
     list->setFocus();
-    list->setCurrentIndex(list->model()->index(0, 0));
+    list->setCurrentIndex(structureCell(structures().value(0).toStdString()));
     QTest::keyClick(list, static_cast<Qt::Key>(key));
   };
   press(Qt::Key_Delete);

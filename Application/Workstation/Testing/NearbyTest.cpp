@@ -33,7 +33,7 @@ protected:
   void warnAt(double millimetres)
   {
     auto& structures = *window().findChild<QTreeView*>("structures")->model();
-    EXPECT_TRUE(structures.setData(structures.index(0, StructuresModel::columnOf("warn_mm")),
+    EXPECT_TRUE(structures.setData(structureCell("nerve", StructuresModel::columnOf("warn_mm")),
                                    millimetres, Qt::EditRole));
   }
 };

@@ -33,10 +33,9 @@ protected:
     library().save(value);
   }
   ThicknessLegend& legend() { return *window().findChild<ThicknessLegend*>("thicknessLegend"); }
-  void choose(int row)
+  void choose(const std::string& structure)
   {
-    auto* list = window().findChild<QTreeView*>("structures");
-    list->setCurrentIndex(list->model()->index(row, 0));
+    structureList().setCurrentIndex(structureCell(structure));
   }
 };
 
@@ -52,7 +51,7 @@ TEST_F(Thickness, ColorsBoneOverTheChosenStructureUntilAskedAgain)
   EXPECT_TRUE(window().statusBar()->currentMessage().contains("Choose a structure"));
   EXPECT_EQ(differentPixels(before, picture()), 0);
 
-  choose(0);
+  choose("nerve");
   QTest::keyClick(&window(), Qt::Key_F6);
   EXPECT_TRUE(legend().isVisible());
   EXPECT_EQ(legend().structure(), "nerve");
@@ -80,7 +79,7 @@ TEST_F(Thickness, IsOfTheCaseThatIsOpen)
   saveThinBall();
   saveBall("other");
   openWindow("ball");
-  choose(0);
+  choose("nerve");
   QTest::keyClick(&window(), Qt::Key_F6);
   ASSERT_TRUE(legend().isVisible());
   const_cast<presenters::WorkstationModel&>(window().model()).open("other");

@@ -114,8 +114,8 @@ TEST_F(Window, ALongNameIsElidedInItsMiddleAndItsColumnCanBeWidened)
   library().save(value);
   openWindow();
   auto& list = *window().findChild<QTreeView*>("structures");
-  ASSERT_TRUE(waitFor([&] { return list.model()->rowCount() == 1; }));
-  const QModelIndex cell = list.model()->index(0, StructuresModel::Name);
+  ASSERT_TRUE(waitFor([&] { return structureCell(name).isValid(); }));
+  const QModelIndex cell = structureCell(name);
   EXPECT_TRUE(cell.data(Qt::ToolTipRole).toString().contains(QString::fromStdString(name)));
   EXPECT_EQ(list.textElideMode(), Qt::ElideMiddle);
   const auto width = [&] { return list.header()->sectionSize(StructuresModel::Name); };
@@ -384,10 +384,10 @@ TEST_F(Window, TheListOfStructuresChangesTheCase)
   auto* list = window().findChild<QTreeView*>("structures");
   QAbstractItemModelTester tester(list->model(),
                                   QAbstractItemModelTester::FailureReportingMode::Warning);
-  ASSERT_EQ(list->model()->rowCount(), 1);
-  EXPECT_EQ(list->model()->index(0, StructuresModel::Name).data().toString(), "nerve");
-  const auto cell = [list](const char* key)
-  { return list->model()->index(0, StructuresModel::columnOf(key)); };
+  ASSERT_EQ(list->model()->rowCount(), 2) << "bone, and one kind";
+  EXPECT_EQ(structureCell("nerve").data().toString(), "nerve");
+  const auto cell = [this](const char* key)
+  { return structureCell("nerve", StructuresModel::columnOf(key)); };
   EXPECT_TRUE(list->model()->setData(cell("drillable"), Qt::Unchecked, Qt::CheckStateRole));
   const auto* nerve = scene::findStructure(window().model().value(), "nerve");
   EXPECT_FALSE(nerve->look.drillable);
@@ -400,7 +400,7 @@ TEST_F(Window, TheListOfStructuresChangesTheCase)
   EXPECT_EQ(warning(), 1.25);
   EXPECT_EQ(cell("warn_mm").data().toString(), "1.2 mm");
   EXPECT_TRUE(
-      list->model()->index(0, StructuresModel::VolumeColumn).data().toString().endsWith(" mm³"));
+      structureCell("nerve", StructuresModel::VolumeColumn).data().toString().endsWith(" mm³"));
   QTest::keyClick(&window(), Qt::Key_S, Qt::ControlModifier);
   EXPECT_TRUE(settled());
   const auto saved = library().open("ball");
@@ -429,8 +429,7 @@ TEST_F(Window, NamesOfStructuresAreNotCutOff)
                     list->model()->headerData(column, Qt::Horizontal).toString()))
           << column;
     EXPECT_LE(list->header()->length(), list->viewport()->width()) << name;
-    EXPECT_EQ(list->model()->index(0, StructuresModel::Name).data(Qt::ToolTipRole).toString(),
-              QString::fromStdString(name));
+    EXPECT_EQ(structureCell(name).data(Qt::ToolTipRole).toString(), QString::fromStdString(name));
     closeWindow();
   }
 }
@@ -459,14 +458,13 @@ TEST_F(Window, MeshesAreCountedMeasuredAndOpenOnesSaidToBe)
   openWindow();
   window().resize(1280, 720);
   auto* list = window().findChild<QTreeView*>("structures");
-  ASSERT_EQ(list->model()->rowCount(), 3);
-  const auto volume = [&](int row, int role = Qt::DisplayRole)
-  { return list->model()->index(row, StructuresModel::VolumeColumn).data(role).toString(); };
-  ASSERT_TRUE(waitFor([&] { return volume(2) != QString::fromUtf8("…"); }));
-  EXPECT_EQ(volume(1), QString::fromUtf8("36.0 mm³"));
-  EXPECT_EQ(volume(2), "open");
-  EXPECT_TRUE(volume(2, Qt::ToolTipRole).contains("3 edges"))
-      << volume(2, Qt::ToolTipRole).toStdString();
+  const auto volume = [&](const char* part, int role = Qt::DisplayRole)
+  { return structureCell(part, StructuresModel::VolumeColumn).data(role).toString(); };
+  ASSERT_TRUE(waitFor([&] { return volume("dura_patch") != QString::fromUtf8("…"); }));
+  EXPECT_EQ(volume("implant"), QString::fromUtf8("36.0 mm³"));
+  EXPECT_EQ(volume("dura_patch"), "open");
+  EXPECT_TRUE(volume("dura_patch", Qt::ToolTipRole).contains("3 edges"))
+      << volume("dura_patch", Qt::ToolTipRole).toStdString();
   const QAbstractItemView* view = list; // public there
   EXPECT_GE(list->columnWidth(StructuresModel::VolumeColumn),
             view->sizeHintForColumn(StructuresModel::VolumeColumn));
@@ -475,7 +473,7 @@ TEST_F(Window, MeshesAreCountedMeasuredAndOpenOnesSaidToBe)
   EXPECT_FALSE(count->visibleRegion().isEmpty());
   auto& model = const_cast<presenters::WorkstationModel&>(window().model());
   model.renamePart("implant", "screw"); // measured anew, as its name is another
-  ASSERT_TRUE(waitFor([&] { return volume(1) == QString::fromUtf8("36.0 mm³"); }));
+  ASSERT_TRUE(waitFor([&] { return volume("screw") == QString::fromUtf8("36.0 mm³"); }));
   model.removePart("dura_patch");
   EXPECT_EQ(count->text(), "1 structure, 1 mesh; 2 shown");
 }

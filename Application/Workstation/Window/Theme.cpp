@@ -45,10 +45,16 @@ QHeaderView::section { background: #1c2026; color: #9aa4af; border: 0;
                        border-bottom: 1px solid #2e343c; padding: 4px 6px; }
 QTreeView { border: 0; background: #171a1f; alternate-background-color: #1a1e23; }
 QTreeView::item { padding: 3px 2px; }
+QTreeView::item:selected { background: #2f6ea3; color: #ffffff; }
+QTreeView::item:selected:!active { background: #2a4d6b; color: #ffffff; }
+QTreeView:focus { border: 1px solid #3d8fd1; }
 QTreeView::indicator, QCheckBox::indicator { width: 12px; height: 12px; background: #14171b;
                        border: 1px solid #66707c; border-radius: 3px; }
 QTreeView::indicator:checked, QCheckBox::indicator:checked { background: #3d8fd1;
                        border-color: #7fbdf0; }
+QTreeView::indicator:indeterminate, QCheckBox::indicator:indeterminate { background: #5c646e;
+                       border-color: #9aa4af; }
+QTreeView::indicator:selected { border-color: #e4e8ed; }
 QTreeView::indicator:disabled, QCheckBox::indicator:disabled { border-color: #343b44; }
 QCheckBox::indicator:checked:disabled { background: #2b4558; }
 QCheckBox:focus { color: #b9dcf8; }

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "petrous/Presenters/WorkstationModel.h"
+
+namespace petrous::presenters
+{
+
+/// What structures are, as the list of a case has them one below the other.
+enum class StructureKind
+{
+  Bone, ///< the primary image itself, or its tissue where that is an MR
+  Nerve,
+  Vessel,
+  Ossicle,
+  InnerEar,
+  Dura,
+  Lumen,
+  Other,
+  Mesh
+};
+
+/// A row of the list of a case.
+struct StructureRow
+{
+  std::string part; ///< as WorkstationModel::lookOf; bone is "ct"
+  StructureKind kind = StructureKind::Other;
+  double volume = 0.0; ///< mm^3, of a structure; 0: not known
+  appearance::StructureAppearance look;
+  std::string missing; ///< why it has no place on the primary image; usually empty
+};
+
+StructureKind kindOf(const appearance::StructureAppearance& look);
+
+/// Bone, and all structures and meshes by kind, each kind in the case's order.
+std::vector<StructureRow> structureRows(const scene::Case& value);
+
+/// `change` for each of the parts, in one step.
+void changeLooks(
+    WorkstationModel& model, const std::vector<std::string>& parts,
+    const std::function<void(const std::string& part, appearance::StructureAppearance&)>& change);
+
+/// The appearance with a preset of the catalogue, as `petrous appearance --set` gives it: one that
+/// says nothing of what a structure is gets a colour that no other has. Bone takes no preset of a
+/// lumen. Throws InvalidParameter for an unknown one.
+appearance::StructureAppearance withPreset(const scene::Case& value, const std::string& part,
+                                           appearance::StructureAppearance look,
+                                           const std::string& preset);
+
+/// Shows some structures alone, and again what was shown before. Bone stays as it is, unless it is
+/// one of them.
+class OnlyThese
+{
+public:
+  /// The model must outlive this.
+  explicit OnlyThese(WorkstationModel& model);
+
+  /// Whether they, and no others, are shown since `toggle`.
+  bool isOn(const std::vector<std::string>& parts) const;
+  /// Shows these alone; if they are it already, what was shown before others were shown alone.
+  void toggle(const std::vector<std::string>& parts);
+
+private:
+  using Shown = std::vector<std::pair<std::string, bool>>;
+  Shown shown() const;
+  Shown alone(const std::vector<std::string>& parts) const;
+  void show(const Shown& shown, const std::string& what);
+
+  WorkstationModel& m_model;
+  std::uint64_t m_case = 0; // WorkstationModel::shownAs
+  Shown m_before;
+  std::optional<Shown> m_now; // as it was left; anything else: the user went on
+};
+
+} // namespace petrous::presenters

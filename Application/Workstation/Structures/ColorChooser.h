@@ -1,0 +1,52 @@
+#pragma once
+
+#include <vector>
+
+#include <QColor>
+#include <QFrame>
+#include <QTimer>
+
+class QGridLayout;
+class QToolButton;
+
+namespace petrous::workstation
+{
+
+/// Colours to choose from, as a pop-up: one click, or arrows and Return. A colour that the pointer
+/// rests on, or that has the focus, is previewed. "More colours…" opens Qt's dialog, which previews
+/// likewise. Deletes itself.
+class ColorChooser : public QFrame
+{
+  Q_OBJECT
+public:
+  explicit ColorChooser(const QColor& present, QWidget* parent);
+
+  void open(const QPoint& global); ///< near this point, on the screen
+
+signals:
+  void previewed(const QColor& color);
+  void chosen(const QColor& color);
+  void cancelled();
+
+protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void closeEvent(QCloseEvent* event) override;
+
+private:
+  void add(const QColor& color, const QString& name);
+  void preview(const QColor& color);
+  void finish(const QColor& color); ///< invalid: cancelled
+  void askMore();
+  void moveFocus(int by);
+
+  QColor m_present;
+  QGridLayout* m_grid;
+  QTimer m_rest; // the pointer's
+  QColor m_wanted;
+  std::vector<QToolButton*> m_buttons;
+  bool m_isFinished = false;
+  bool m_asks = false;
+};
+
+} // namespace petrous::workstation

@@ -1,0 +1,395 @@
+#include "StructureEditor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QGridLayout>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QPainter>
+#include <QPushButton>
+#include <QSlider>
+#include <QSpinBox>
+
+#include "ColorChooser.h"
+#include "Theme.h"
+#include "petrous/Appearance/StructureProperties.h"
+#include "petrous/Dissection/MaterialCatalogue.h"
+#include "petrous/Presenters/BoneOpacity.h"
+#include "petrous/Presenters/StructureList.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+
+using appearance::StructureAppearance;
+using appearance::StructureProperty;
+
+constexpr char kBone[] = "ct";
+
+const StructureProperty& propertyOf(const char* key)
+{
+  return *std::find_if(
+      std::begin(appearance::kStructureProperties), std::end(appearance::kStructureProperties),
+      [key](const StructureProperty& property) { return std::strcmp(property.key, key) == 0; });
+}
+
+// Bone has colour, opacity and preset, and can be hidden.
+bool isOfBone(const StructureProperty& property)
+{
+  static const char* const kKeys[] = {"shown", "color", "opacity", "preset"};
+  return std::any_of(std::begin(kKeys), std::end(kKeys),
+                     [&property](const char* key) { return std::strcmp(property.key, key) == 0; });
+}
+
+QColor colorOf(const StructureAppearance& look)
+{
+  return QColor::fromRgbF(double(look.color[0]), double(look.color[1]), double(look.color[2]));
+}
+
+} // namespace
+
+StructureEditor::StructureEditor(presenters::WorkstationModel& model, QWidget* parent)
+  : QWidget(parent)
+  , m_model(model)
+  , m_title(new QLabel)
+  , m_color(button({}, "structureColor", tr("Colour; a window of colours opens")))
+{
+  setObjectName("structureEditor");
+  m_title->setObjectName("structureTitle");
+  QFont bold = m_title->font();
+  bold.setBold(true);
+  m_title->setFont(bold);
+  m_title->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  m_color->setAccessibleName(tr("Colour"));
+  m_color->setFixedWidth(34);
+  m_color->setStyleSheet("padding: 3px;");
+  connect(m_color, &QPushButton::clicked, this,
+          [this] { chooseColor(m_parts, m_color->mapToGlobal(QPoint(0, m_color->height()))); });
+
+  auto* grid = new QGridLayout(this);
+  grid->setContentsMargins(10, 6, 10, 6);
+  grid->setHorizontalSpacing(6);
+  grid->setVerticalSpacing(4);
+  grid->addWidget(m_title, 0, 0, 1, 4);
+  const auto addLabel = [&](const QString& text, QWidget* buddy, int row, int column)
+  {
+    auto* label = new QLabel(text);
+    label->setBuddy(buddy);
+    grid->addWidget(label, row, column);
+    if (buddy->accessibleName().isEmpty())
+      buddy->setAccessibleName(QString(text).remove('&'));
+  };
+  QComboBox* presets = addPresets();
+  addLabel(tr("&Preset"), presets, 1, 0);
+  grid->addWidget(presets, 1, 1, 1, 2);
+  grid->addWidget(m_color, 1, 3, Qt::AlignRight);
+  addOpacity(*grid, 2);
+  int column = 1;
+  for (const char* key : {"shown", "touchable", "drillable"})
+    grid->addWidget(addFlag(key), 3, column++);
+  m_materials = addMaterials();
+  addLabel(tr("Dr&illed as"), m_materials, 4, 0);
+  grid->addWidget(m_materials, 4, 1, 1, 3);
+  QDoubleSpinBox* warning = addNumber("warn_mm", 0.1);
+  QDoubleSpinBox* stiffness = addNumber("stiffness_n_per_mm", 0.0);
+  addLabel(tr("&Warn"), warning, 5, 0);
+  grid->addWidget(warning, 5, 1);
+  addLabel(tr("Sti&ffness"), stiffness, 5, 2);
+  grid->addWidget(stiffness, 5, 3);
+  QDoubleSpinBox* priority = addNumber("priority", 1.0);
+  priority->setToolTip(tr("Where structures overlap, the one with the lowest number has the voxel; "
+                          "lumens come last"));
+  addLabel(tr("Priorit&y"), priority, 6, 0);
+  grid->addWidget(priority, 6, 1);
+  grid->setColumnStretch(1, 1);
+  grid->setColumnStretch(3, 1);
+  refresh();
+}
+
+void StructureEditor::addOpacity(QGridLayout& grid, int row)
+{
+  const StructureProperty& property = propertyOf("opacity");
+  m_opacity = percentSlider("structureOpacity", tr("Opacity; of a lumen, how much it tints the "
+                                                   "bone around it"));
+  auto* box = new QSpinBox;
+  box->setObjectName("structureOpacityBox");
+  box->setRange(0, 100);
+  box->setSuffix(tr(" %"));
+  box->setKeyboardTracking(false);
+  const auto get = [this, &property]
+  {
+    const auto all = looks(property);
+    return all.empty() ? 100 : percent(double(all.front()->opacity));
+  };
+  const auto set = [this, &property](int value)
+  {
+    change(
+        [value](const std::string& part, StructureAppearance& look)
+        {
+          if (part == kBone)
+            look = presenters::withOpacity(look, 0.01 * value);
+          else
+            look.opacity = static_cast<float>(0.01 * value);
+        },
+        property);
+  };
+  m_bound.add(m_opacity, get, set);
+  m_bound.add(box, get, set);
+  for (QWidget* widget : {static_cast<QWidget*>(m_opacity), static_cast<QWidget*>(box)})
+    widget->setAccessibleName(tr("Opacity"));
+  // A drag is one step, however long it takes.
+  connect(m_opacity, &QSlider::sliderPressed, this, [this] { m_model.edits().hold(); });
+  connect(m_opacity, &QSlider::sliderReleased, this, [this] { m_model.edits().release(); });
+  auto* label = new QLabel(tr("&Opacity"));
+  label->setBuddy(m_opacity);
+  grid.addWidget(label, row, 0);
+  grid.addWidget(m_opacity, row, 1, 1, 2);
+  grid.addWidget(box, row, 3);
+}
+
+QDoubleSpinBox* StructureEditor::addNumber(const char* key, double step)
+{
+  const StructureProperty& property = propertyOf(key);
+  const bool isWhole = std::holds_alternative<int StructureAppearance::*>(property.member);
+  NumberRange range{0.0, property.range.upper, {}, isWhole ? 0 : property.decimals, step};
+  if (range.decimals < 0)
+    range.decimals = 3;
+  if (*property.range.unit)
+    range.unit = QString(" ") + property.range.unit;
+  if (property.off)
+    range.atLeast = words(property.off);
+  QDoubleSpinBox* box =
+      numberBox((std::string("structure_") + key).c_str(), words(property.option.text), range);
+  m_bound.add(
+      box,
+      [this, &property]
+      {
+        const auto all = looks(property);
+        return all.empty() ? 0.0 : numberOf(*all.front(), property);
+      },
+      [this, &property](double value)
+      {
+        if (property.accepts(value))
+          change([&property, value](const std::string&, StructureAppearance& look)
+                 { setNumber(look, property, value); },
+                 property);
+      });
+  m_numbers.push_back({&property, box});
+  return box;
+}
+
+QCheckBox* StructureEditor::addFlag(const char* key)
+{
+  const StructureProperty& property = propertyOf(key);
+  const auto flag = std::get<StructureProperty::Flag>(property.member);
+  auto* box = new QCheckBox(tr(property.column.title));
+  box->setObjectName(QString("structure_") + key);
+  box->setToolTip(tr(property.column.tip));
+  connect(box, &QCheckBox::clicked, this,
+          [this, box, flag, &property]
+          {
+            const bool on = box->checkState() != Qt::Unchecked; // also from "some"
+            change([flag, on](const std::string&, StructureAppearance& look) { look.*flag = on; },
+                   property);
+            refresh();
+          });
+  m_flags.push_back({&property, box});
+  return box;
+}
+
+QComboBox* StructureEditor::addPresets()
+{
+  const StructureProperty& property = propertyOf("preset");
+  QComboBox* box =
+      choiceBox("structurePreset", tr("Colour, material, warning distance and order of a kind of "
+                                      "structure; marks stay as they are"));
+  const auto presets = appearance::StructurePresets::builtIn();
+  for (const auto& look : presets.all())
+    box->addItem(words(look.preset), words(look.preset));
+  connect(box, qOverload<int>(&QComboBox::activated), this,
+          [this, box, &property](int row)
+          {
+            const std::string preset = bytes(box->itemData(row).toString());
+            change([this, preset](const std::string& part, StructureAppearance& look)
+                   { look = presenters::withPreset(m_model.value(), part, look, preset); },
+                   property);
+            refresh();
+          });
+  m_texts.push_back({&property, box});
+  return box;
+}
+
+QComboBox* StructureEditor::addMaterials()
+{
+  const StructureProperty& property = propertyOf("tissue");
+  QComboBox* box = choiceBox("structureMaterial", words(property.option.text));
+  box->addItem(tr("Bone, by its density"), QString());
+  const auto catalogue = dissection::MaterialCatalogue::builtIn();
+  for (const auto& material : catalogue.all())
+    box->addItem(words(material.title), words(material.name));
+  box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  connect(box, qOverload<int>(&QComboBox::activated), this,
+          [this, box, &property](int row)
+          {
+            const std::string material = bytes(box->itemData(row).toString());
+            change([material](const std::string&, StructureAppearance& look)
+                   { look.tissue = material; },
+                   property);
+            refresh();
+          });
+  m_texts.push_back({&property, box});
+  return box;
+}
+
+void StructureEditor::change(
+    const std::function<void(const std::string&, StructureAppearance&)>& to,
+    const StructureProperty& property)
+{
+  std::vector<std::string> parts;
+  for (const std::string& part : m_parts)
+    if (part != kBone || isOfBone(property))
+      parts.push_back(part);
+  presenters::changeLooks(m_model, parts, to);
+}
+
+std::vector<const StructureAppearance*>
+StructureEditor::looks(const StructureProperty& property) const
+{
+  std::vector<const StructureAppearance*> all;
+  for (const std::string& part : m_parts)
+    if (const auto* look = m_model.lookOf(part); look && (part != kBone || isOfBone(property)))
+      all.push_back(look);
+  return all;
+}
+
+bool StructureEditor::differ(const StructureProperty& property) const
+{
+  const auto all = looks(property);
+  return std::any_of(all.begin(), all.end(),
+                     [&](const auto* look)
+                     { return !appearance::isEqual(*look, *all.front(), property); });
+}
+
+void StructureEditor::setParts(std::vector<std::string> parts, const QString& title)
+{
+  m_parts = std::move(parts);
+  m_title->setText(title);
+  m_title->setToolTip(title);
+  refresh();
+}
+
+void StructureEditor::refresh()
+{
+  const QString differs = tr("differ: ");
+  m_bound.refresh();
+  m_bound.quietly(
+      [&]
+      {
+        for (const Number& one : m_numbers)
+        {
+          one.box->setEnabled(!looks(*one.property).empty());
+          one.box->setPrefix(differ(*one.property) ? differs : QString());
+        }
+        for (const Flag& one : m_flags)
+        {
+          const auto flag = std::get<StructureProperty::Flag>(one.property->member);
+          const auto all = looks(*one.property);
+          one.box->setEnabled(!all.empty());
+          const bool isMixed = differ(*one.property);
+          one.box->setTristate(isMixed);
+          one.box->setCheckState(isMixed                              ? Qt::PartiallyChecked
+                                 : !all.empty() && all.front()->*flag ? Qt::Checked
+                                                                      : Qt::Unchecked);
+        }
+        if (m_model.hasCase())
+          m_materials->setItemText(0, m_model.value().ct.modality == scene::Modality::Mr
+                                          ? tr("Soft tissue, as where nothing is drawn")
+                                          : tr("Bone, by its density"));
+        for (const Text& one : m_texts)
+        {
+          const auto text = std::get<StructureProperty::Text>(one.property->member);
+          const auto all = looks(*one.property);
+          one.box->setEnabled(!all.empty());
+          one.box->setCurrentIndex(all.empty() || differ(*one.property)
+                                       ? -1
+                                       : one.box->findData(words(all.front()->*text)));
+        }
+      });
+  const StructureProperty& color = propertyOf("color");
+  const auto all = looks(color);
+  m_color->setEnabled(!all.empty());
+  m_opacity->setEnabled(!all.empty());
+  QPixmap pixmap(22, 14);
+  pixmap.fill(all.empty() ? QColor(Qt::transparent) : colorOf(*all.front()));
+  if (differ(color)) // half and half
+  {
+    QPainter painter(&pixmap);
+    painter.fillRect(
+        11, 0, 11, 14,
+        colorOf(**std::find_if(all.begin(), all.end(),
+                               [&](auto* look) { return look->color != all.front()->color; })));
+  }
+  m_color->setIcon(pixmap);
+  m_color->setIconSize(pixmap.size());
+}
+
+void StructureEditor::takeFocus()
+{
+  m_color->setFocus(Qt::TabFocusReason);
+}
+
+void StructureEditor::keyPressEvent(QKeyEvent* event)
+{
+  if (event->key() == Qt::Key_Escape)
+    emit left();
+  else
+    QWidget::keyPressEvent(event);
+}
+
+void StructureEditor::chooseColor(const std::vector<std::string>& parts, const QPoint& global)
+{
+  const auto* present = parts.empty() ? nullptr : m_model.lookOf(parts.front());
+  if (!present || m_model.drilling())
+    return;
+  auto* chooser = new ColorChooser(colorOf(*present), this);
+  // What is tried is one step, and none if nothing is chosen.
+  m_model.edits().hold();
+  const auto before = m_model.edits().last();
+  const auto of = m_model.shownAs();
+  const auto paint = [this, parts, of](const QColor& color)
+  {
+    if (m_model.shownAs() != of)
+      return;
+    const std::array<float, 3> rgb{static_cast<float>(color.redF()),
+                                   static_cast<float>(color.greenF()),
+                                   static_cast<float>(color.blueF())};
+    presenters::changeLooks(m_model, parts,
+                            [&rgb](const std::string&, StructureAppearance& look)
+                            { setColor(look, rgb); });
+  };
+  connect(chooser, &ColorChooser::previewed, this, paint);
+  connect(chooser, &ColorChooser::chosen, this,
+          [this, paint](const QColor& color)
+          {
+            paint(color);
+            m_model.edits().release();
+          });
+  connect(chooser, &ColorChooser::cancelled, this,
+          [this, before, of]
+          {
+            if (const auto tried = m_model.edits().last();
+                tried != before && m_model.shownAs() == of)
+              m_model.takeBack(tried);
+            m_model.edits().release();
+          });
+  chooser->open(global);
+}
+
+} // namespace petrous::workstation

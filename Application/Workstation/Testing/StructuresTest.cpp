@@ -1,0 +1,372 @@
+#include <algorithm>
+#include <array>
+
+#include <QAbstractItemModelTester>
+#include <QApplication>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QLineEdit>
+#include <QSpinBox>
+#include <QToolButton>
+#include <QTreeView>
+
+#include "ColorChooser.h"
+#include "GuiTest.h"
+#include "StructuresModel.h"
+#include "StructuresPanel.h"
+#include "petrous/Appearance/StructureProperties.h"
+
+using namespace petrous;
+using namespace petrous::workstation;
+
+namespace
+{
+
+// The list of structures, driven as a user drives it: each click and key is counted.
+class Structures : public GuiTest
+{
+protected:
+  // The ball's structure, and others without voxels.
+  void openWith(const std::vector<std::pair<std::string, std::string>>& others)
+  {
+    scene::Case value = ballCase("ball");
+    const auto presets = appearance::StructurePresets::builtIn();
+    std::uint16_t index = 1;
+    value.labels[0].structures[0].look = presets.preset("nerve");
+    for (const auto& [name, preset] : others)
+    {
+      scene::StructurePart structure = value.labels[0].structures[0];
+      structure.name = name;
+      structure.index = ++index;
+      structure.look = presets.preset(preset);
+      value.labels[0].structures.push_back(structure);
+    }
+    library().save(value);
+    openWindow();
+    window().resize(1280, 900);
+    QTest::qWait(50);
+  }
+  void openMany(int count)
+  {
+    std::vector<std::pair<std::string, std::string>> others;
+    for (int n = 1; n < count; ++n)
+      others.emplace_back("s" + std::to_string(n), n % 2 == 0 ? "vein" : "other");
+    openWith(others);
+  }
+  presenters::WorkstationModel& model()
+  {
+    return const_cast<presenters::WorkstationModel&>(window().model());
+  }
+  const appearance::StructureAppearance& look(const std::string& part)
+  {
+    return *model().lookOf(part);
+  }
+  std::vector<std::string> shown()
+  {
+    std::vector<std::string> names;
+    for (const auto& structure : model().value().labels[0].structures)
+      if (structure.look.shown)
+        names.push_back(structure.name);
+    return names;
+  }
+  void click(QWidget* widget, const QPoint& at, Qt::KeyboardModifiers modifiers = Qt::NoModifier)
+  {
+    ++events;
+    QTest::mouseClick(widget, Qt::LeftButton, modifiers, at);
+  }
+  void clickCell(const std::string& part, int column = 0, int fromLeft = -1,
+                 Qt::KeyboardModifiers modifiers = Qt::NoModifier)
+  {
+    const QModelIndex cell = structureCell(part, column);
+    structureList().scrollTo(cell);
+    const QRect rect = structureList().visualRect(cell);
+    click(structureList().viewport(),
+          fromLeft < 0 ? rect.center() : QPoint(rect.left() + fromLeft, rect.center().y()),
+          modifiers);
+  }
+  void key(int key, Qt::KeyboardModifiers modifiers = Qt::NoModifier)
+  {
+    ++events;
+    QApplication::setActiveWindow(&window());
+    QTest::keyClick(QApplication::focusWidget(), static_cast<Qt::Key>(key), modifiers);
+  }
+  template <class T>
+  T* find(const char* name)
+  {
+    return window().findChild<T*>(name);
+  }
+  QToolButton* colorCell(const QColor& color)
+  {
+    auto* chooser = find<ColorChooser>("colorChooser");
+    if (chooser)
+      for (auto* cell : chooser->findChildren<QToolButton*>())
+        if (cell->property("color").value<QColor>() == color)
+          return cell;
+    return nullptr;
+  }
+
+  int events = 0;
+};
+
+constexpr int kSwatch = 7; // px from the left of a name
+
+} // namespace
+
+TEST_F(Structures, AStructureIsRecolouredWithTwoClicks)
+{
+  openWith({});
+  const QColor wanted = QColor::fromHsv(180, 200, 240);
+  const auto before = look("nerve");
+  clickCell("nerve", 0, kSwatch);
+  QToolButton* cell = colorCell(wanted);
+  ASSERT_TRUE(cell);
+  click(cell, cell->rect().center());
+  EXPECT_EQ(events, 2);
+  const auto color = look("nerve").color;
+  EXPECT_NEAR(color[0], wanted.redF(), 0.002);
+  EXPECT_NEAR(color[1], wanted.greenF(), 0.002);
+  EXPECT_NEAR(color[2], wanted.blueF(), 0.002);
+  EXPECT_EQ(action("Undo")->text(), "&Undo colour of nerve");
+  action("Undo")->trigger();
+  EXPECT_TRUE(look("nerve") == before);
+  EXPECT_FALSE(action("Undo")->isEnabled());
+  EXPECT_EQ(action("Redo")->text(), "&Redo colour of nerve");
+}
+
+TEST_F(Structures, OneOfSixtyIsShownAloneWithTwoClicksAndAllAgainWithOne)
+{
+  openMany(60);
+  auto* only = find<QToolButton>("onlyThese");
+  clickCell("s33");
+  click(only, only->rect().center());
+  EXPECT_EQ(events, 2);
+  EXPECT_EQ(shown(), std::vector<std::string>{"s33"});
+  EXPECT_TRUE(look("ct").shown);
+  EXPECT_TRUE(only->isChecked());
+  EXPECT_EQ(action("Undo")->text(), "&Undo only s33");
+  click(only, only->rect().center());
+  EXPECT_EQ(shown().size(), 60u);
+  EXPECT_FALSE(only->isChecked());
+  events = 0;
+  clickCell("s20", StructuresModel::columnOf("shown"), -1, Qt::AltModifier);
+  EXPECT_EQ(events, 1);
+  EXPECT_EQ(shown(), std::vector<std::string>{"s20"});
+  action("Undo")->trigger();
+  EXPECT_EQ(shown().size(), 60u);
+}
+
+TEST_F(Structures, BoneIsARowThatIsHiddenAndRecolouredLikeOthers)
+{
+  openWith({});
+  const QModelIndex bone = structureCell("ct");
+  EXPECT_EQ(bone.data().toString(), "Bone");
+  EXPECT_EQ(bone.row(), 0);
+  const QImage with = picture();
+  EXPECT_TRUE(structureList().model()->setData(
+      structureCell("ct", StructuresModel::columnOf("shown")), Qt::Unchecked, Qt::CheckStateRole));
+  EXPECT_FALSE(look("ct").shown);
+  EXPECT_GT(differentPixels(with, picture(), 20), 3000);
+  for (const char* key : {"touchable", "drillable", "warn_mm"})
+  {
+    const QModelIndex cell = structureCell("ct", StructuresModel::columnOf(key));
+    EXPECT_FALSE(cell.data(Qt::CheckStateRole).isValid()) << key;
+    EXPECT_FALSE(structureList().model()->setData(cell, 1.0, Qt::EditRole)) << key;
+    EXPECT_FALSE(structureList().model()->setData(cell, Qt::Unchecked, Qt::CheckStateRole)) << key;
+  }
+  action("Undo")->trigger();
+  EXPECT_TRUE(look("ct").shown);
+  clickCell("ct", 0, kSwatch);
+  QToolButton* cell = colorCell(QColor::fromHsv(0, 110, 255));
+  ASSERT_TRUE(cell);
+  click(cell, cell->rect().center());
+  EXPECT_EQ(action("Undo")->text(), "&Undo colour of bone");
+}
+
+TEST_F(Structures, AColourIsPreviewedAndLeavesNoTraceIfItIsNotTaken)
+{
+  openWith({});
+  const auto before = look("nerve");
+  clickCell("nerve", 0, kSwatch);
+  QTest::keyClick(QApplication::focusWidget(), Qt::Key_Right);
+  QTest::keyClick(QApplication::focusWidget(), Qt::Key_Down);
+  EXPECT_NE(look("nerve").color, before.color) << "while it is being chosen";
+  QTest::keyClick(QApplication::focusWidget(), Qt::Key_Escape);
+  EXPECT_TRUE(look("nerve") == before);
+  EXPECT_FALSE(action("Undo")->isEnabled());
+  EXPECT_FALSE(action("Redo")->isEnabled());
+}
+
+TEST_F(Structures, ASearchIgnoresMarksAndCaseAndKnowsPresetsAndKinds)
+{
+  openWith({{"Fl\xC3\xA4"
+             "che",
+             "other"},
+            {"sigmoid sinus", "vein"},
+            {"carotid", "artery"}});
+  auto* search = find<QLineEdit>("structuresSearch");
+  const auto found = [&]
+  {
+    std::vector<std::string> names;
+    for (const char* name : {"ct", "nerve",
+                             "Fl\xC3\xA4"
+                             "che",
+                             "sigmoid sinus", "carotid"})
+    {
+      const QModelIndex row = structureCell(name);
+      if (!structureList().isRowHidden(row.row(), row.parent()) &&
+          !(row.parent().isValid() && structureList().isRowHidden(row.parent().row(), {})))
+        names.push_back(name);
+    }
+    return names;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(found().size(), 5u);
+  search->setText("FLAC");
+  EXPECT_EQ(found(), Names{"Fl\xC3\xA4"
+                           "che"});
+  search->setText("vessels");
+  EXPECT_EQ(found(), (Names{"sigmoid sinus", "carotid"}));
+  search->setText("artery");
+  EXPECT_EQ(found(), Names{"carotid"});
+  search->setText("sinus sig");
+  EXPECT_EQ(found(), Names{"sigmoid sinus"});
+  // What is not seen is not changed.
+  structureList().selectAll();
+  find<QToolButton>("hideThese")->click();
+  EXPECT_EQ(shown(), (Names{"nerve",
+                            "Fl\xC3\xA4"
+                            "che",
+                            "carotid"}));
+  search->setFocus();
+  QApplication::setActiveWindow(&window());
+  QTest::keyClick(search, Qt::Key_Escape);
+  EXPECT_EQ(found().size(), 5u);
+}
+
+TEST_F(Structures, SeveralAreEditedAtOnceInOneStep)
+{
+  openMany(6);
+  structureList().setCurrentIndex(structureCell("s1"));
+  for (const char* name : {"s2", "s3"})
+    structureList().selectionModel()->select(structureCell(name), QItemSelectionModel::Select |
+                                                                      QItemSelectionModel::Rows);
+  const auto& panel = *window().findChild<StructuresPanel*>();
+  EXPECT_EQ(panel.selectedParts(), (std::vector<std::string>{"s1", "s2", "s3"}));
+  auto* warning = find<QDoubleSpinBox>("structure_warn_mm");
+  EXPECT_EQ(warning->prefix(), "differ: ") << "a vein is warned of, others are not";
+  warning->setValue(3.5);
+  EXPECT_EQ(warning->prefix(), "");
+  for (const char* name : {"s1", "s2", "s3"})
+    EXPECT_EQ(look(name).warning, 3.5) << name;
+  EXPECT_EQ(look("s4").warning, 2.0);
+  EXPECT_EQ(action("Undo")->text(), "&Undo warning distance of 3 parts");
+  find<QSpinBox>("structureOpacityBox")->setValue(40);
+  find<QDoubleSpinBox>("structure_stiffness_n_per_mm")->setValue(2.0);
+  find<QDoubleSpinBox>("structure_priority")->setValue(7.0);
+  auto* material = find<QComboBox>("structureMaterial");
+  material->setCurrentIndex(material->findData("nerve"));
+  emit material->activated(material->currentIndex());
+  find<QCheckBox>("structure_drillable")->click();
+  EXPECT_NEAR(look("s2").opacity, 0.4F, 1e-6);
+  EXPECT_EQ(look("s2").stiffness, 2.0);
+  EXPECT_EQ(look("s2").priority, 7);
+  EXPECT_EQ(look("s2").tissue, "nerve");
+  EXPECT_FALSE(look("s2").drillable);
+  auto* preset = find<QComboBox>("structurePreset");
+  emit preset->activated(preset->findData("nerve"));
+  EXPECT_EQ(look("s3").preset, "nerve");
+  EXPECT_EQ(structureCell("s3").parent(), structureCell("nerve").parent()) << "among the nerves";
+  EXPECT_EQ(panel.selectedParts().size(), 3u) << "still selected";
+  for (int n = 0; n < 7; ++n)
+    action("Undo")->trigger();
+  EXPECT_FALSE(action("Undo")->isEnabled());
+  EXPECT_EQ(look("s2").opacity, 1.0F);
+  EXPECT_EQ(look("s2").warning, 2.0);
+}
+
+TEST_F(Structures, AllOfItIsReachedByKeys)
+{
+  openWith({{"sigmoid sinus", "vein"}, {"carotid", "artery"}});
+  QApplication::setActiveWindow(&window());
+  structureList().setFocus();
+  structureList().setCurrentIndex(structureCell("nerve"));
+  key(Qt::Key_Space);
+  EXPECT_FALSE(look("nerve").shown);
+  key(Qt::Key_Space);
+  EXPECT_TRUE(look("nerve").shown);
+  key(Qt::Key_Down); // the kind of vessels
+  key(Qt::Key_Space);
+  EXPECT_EQ(shown(), std::vector<std::string>{"nerve"});
+  key(Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(shown().size(), 3u);
+  key(Qt::Key_Left); // folded
+  EXPECT_FALSE(structureList().isExpanded(structureCell("carotid").parent()));
+  key(Qt::Key_Right);
+  key(Qt::Key_Down);
+  key(Qt::Key_Space, Qt::ShiftModifier);
+  EXPECT_EQ(shown(), std::vector<std::string>{"sigmoid sinus"});
+  key(Qt::Key_Space, Qt::ShiftModifier);
+  EXPECT_EQ(shown().size(), 3u);
+  key(Qt::Key_Return);
+  ASSERT_TRUE(QApplication::focusWidget());
+  EXPECT_EQ(QApplication::focusWidget()->objectName(), "structureColor");
+  key(Qt::Key_Escape);
+  EXPECT_TRUE(structureList().hasFocus());
+  key(Qt::Key_Slash);
+  EXPECT_EQ(QApplication::focusWidget()->objectName(), "structuresSearch");
+  key(Qt::Key_Escape);
+  structureList().setCurrentIndex(structureCell("carotid"));
+  key(Qt::Key_Delete);
+  EXPECT_FALSE(structureCell("carotid").isValid());
+  EXPECT_TRUE(settled());
+  EXPECT_EQ(action("Undo")->text(), "&Undo removal of carotid");
+  action("Undo")->trigger();
+  EXPECT_TRUE(structureCell("carotid").isValid());
+}
+
+// Strokes, appearances and threshold go back one by one, as they were made.
+TEST_F(Structures, UndoGoesBackThroughStrokesAndAppearances)
+{
+  saveBall("ball");
+  openWindow();
+  const auto& value = window().model().value();
+  drill(300);
+  ASSERT_EQ(value.applied(), 1u);
+  auto hidden = look("nerve");
+  hidden.shown = false;
+  model().setLook("nerve", hidden);
+  EXPECT_EQ(action("Undo")->text(), "&Undo hide nerve");
+  EXPECT_TRUE(action("Drill")->isChecked());
+  action("Undo")->trigger();
+  EXPECT_TRUE(look("nerve").shown);
+  EXPECT_EQ(value.applied(), 1u);
+  EXPECT_TRUE(action("Drill")->isChecked()) << "the tool stays in the hand";
+  EXPECT_EQ(action("Undo")->text(), "&Undo stroke 1");
+  action("Undo")->trigger();
+  EXPECT_TRUE(waitFor([&] { return value.applied() == 0; }));
+  EXPECT_EQ(action("Redo")->text(), "&Redo stroke 1");
+  action("Redo")->trigger();
+  EXPECT_TRUE(waitFor([&] { return value.applied() == 1; }));
+  action("Redo")->trigger();
+  EXPECT_FALSE(look("nerve").shown);
+}
+
+TEST_F(Structures, TheTreeOfRowsIsSound)
+{
+  openMany(12);
+  QAbstractItemModelTester tester(structureList().model(),
+                                  QAbstractItemModelTester::FailureReportingMode::Fatal);
+  const QModelIndex kind = structureCell("s2").parent();
+  EXPECT_EQ(kind.data().toString(), "Vessels (5)");
+  const int column = StructuresModel::columnOf("shown");
+  EXPECT_EQ(kind.siblingAtColumn(column).data(Qt::CheckStateRole).toInt(), Qt::Checked);
+  structureList().model()->setData(structureCell("s4", column), Qt::Unchecked, Qt::CheckStateRole);
+  EXPECT_EQ(kind.siblingAtColumn(column).data(Qt::CheckStateRole).toInt(), Qt::PartiallyChecked);
+  structureList().model()->setData(kind.siblingAtColumn(column), Qt::Checked, Qt::CheckStateRole);
+  EXPECT_TRUE(look("s4").shown);
+  model().renamePart("s4", "jugular bulb");
+  model().removePart("s6");
+  EXPECT_TRUE(structureCell("jugular bulb").isValid());
+  EXPECT_EQ(structureCell("s2").parent().data().toString(), "Vessels (4)");
+}

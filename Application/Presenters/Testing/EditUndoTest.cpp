@@ -272,6 +272,7 @@ TEST_F(EditUndoTest, AnOpenStrokeComesFirstAndWhatWasBeforeItNext)
   model->undo();
   EXPECT_TRUE(model->touching());
   EXPECT_FALSE(model->canUndo());
+  model->stopTouch(); // before its device goes
 }
 
 TEST_F(EditUndoTest, StrokesOfAnotherBranchDoNotBarTheWay)

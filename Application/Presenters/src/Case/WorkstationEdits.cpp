@@ -8,7 +8,6 @@
 #include "LookEdits.h"
 #include "Notify.h"
 #include "petrous/Appearance/StructureProperties.h"
-#include "petrous/Presenters/BoneOpacity.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
 // WorkstationModel: threshold and appearances, and undo over all that changes.
@@ -86,9 +85,11 @@ LookEdit lookEdit(const std::vector<PartLook>& before, const std::vector<PartLoo
     ++changed;
     shown += to.shown;
     name = before[n].part == kBone ? bone : spoken(before[n].part);
-    if (before[n].part == kBone && to == withOpacity(from, static_cast<double>(to.opacity)))
+    const bool isOpacity = before[n].part == kBone && from.opacity != to.opacity &&
+                           from.color == to.color && from.shown == to.shown;
+    if (isOpacity)
     {
-      keys.insert("opacity"); // whose other preset is but a part of it
+      keys.insert("opacity"); // with the preset that goes with it (withOpacity)
       continue;
     }
     for (const StructureProperty& property : appearance::kStructureProperties)

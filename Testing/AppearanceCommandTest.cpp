@@ -131,6 +131,43 @@ TEST_F(AppearanceCommand, ATransferFunctionIsKeptAsItWasGiven)
   EXPECT_TRUE(part("cochlea")["transfer"].is_null());
 }
 
+TEST_F(AppearanceCommand, PresetsOfTheLibraryAreSavedListedSetAndDeleted)
+{
+  json("appearance ear --tf cochlea=" + file("f.json", kTransfer) + " --opacity cochlea=0.5");
+  json("appearance ear --save-preset 'cochlea=our cochlea'");
+  const auto presets = json("appearance --presets")["presets"];
+  ASSERT_EQ(presets.size(), 15u);
+  EXPECT_EQ(presets[14]["name"], "our cochlea");
+  EXPECT_EQ(presets[14]["own"], true);
+  EXPECT_EQ(presets[0]["own"], false);
+  json("appearance ear --set 'ct=our cochlea'");
+  EXPECT_EQ(part("ct")["preset"], "our cochlea");
+  EXPECT_EQ(part("ct")["opacity"], 0.5);
+  EXPECT_EQ(part("ct")["transfer"], part("cochlea")["transfer"]);
+  EXPECT_NE(run("appearance ear --save-preset cochlea=bone").code, 0);
+  EXPECT_NE(run("appearance --delete-preset nerve").code, 0);
+  EXPECT_NE(run("appearance --delete-preset xyzzy").code, 0);
+  EXPECT_EQ(json("appearance --delete-preset 'our cochlea'")["presets"].size(), 14u);
+  EXPECT_NE(run("appearance ear --set 'cochlea=our cochlea'").code, 0);
+  EXPECT_EQ(part("ct")["preset"], "our cochlea") << "a case keeps what it has";
+}
+
+TEST_F(AppearanceCommand, ATransferFunctionIsWrittenAndFitted)
+{
+  const auto written = m_folder / "written.json";
+  json("appearance ear --tf cochlea=" + file("f.json", kTransfer));
+  json("appearance ear --save-tf cochlea=" + quoted(written));
+  json("appearance ear --tf ct=" + quoted(written));
+  EXPECT_EQ(part("ct")["transfer"], part("cochlea")["transfer"]);
+  // In the cochlea 40 HU with noise of 30.
+  json("appearance ear --fit cochlea");
+  const auto points = part("cochlea")["transfer"]["points"];
+  EXPECT_NEAR(points.front()["value"].get<double>(), 10.0, 3.0);
+  EXPECT_NEAR(points.back()["value"].get<double>(), 70.0, 3.0);
+  EXPECT_NE(run("appearance ear --fit incus").code, 0) << "a mesh";
+  EXPECT_NE(run("appearance ear --fit xyzzy").code, 0);
+}
+
 TEST_F(AppearanceCommand, SetsColourOpacityAndSource)
 {
   json("appearance ear --color 'cochlea=#ff8000' --opacity cochlea=0.25 --opacity bone=0.5");

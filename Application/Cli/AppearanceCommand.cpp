@@ -8,11 +8,13 @@
 #include "Context.h"
 #include "Numbers.h"
 #include "petrous/Appearance/AppearanceMaterial.h"
-#include "petrous/Appearance/DistinctColors.h"
+#include "petrous/Appearance/OwnPresets.h"
 #include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Core/InputFile.h"
+#include "petrous/Core/OutputFile.h"
 #include "petrous/Dissection/MaterialCatalogue.h"
+#include "petrous/Presenters/AppearanceEditor.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/Case.h"
 #include "petrous/Volume/IntensityScale.h"
@@ -105,37 +107,46 @@ void listAppearance(const Context& context, const scene::Case& value)
                      {"parts", std::move(parts)}});
 }
 
-// As above, for the catalogue of presets.
+// As above, for the catalogue of presets and those of the library.
 void listPresets(const Context& context)
 {
   nlohmann::json presets = nlohmann::json::array();
-  for (const StructureAppearance& look : appearance::StructurePresets::builtIn().all())
+  const auto list = [&](const std::vector<StructureAppearance>& looks, bool isOwn)
   {
-    nlohmann::json j = lookJson(look);
-    j.erase("preset");
-    j.erase("flags");
-    j.erase("source");
-    j["name"] = look.preset;
-    presets.push_back(std::move(j));
-    context.print("  " + look.preset + ": " + hex(look.color) + describe(look, {}));
-  }
+    for (const StructureAppearance& look : looks)
+    {
+      nlohmann::json j = lookJson(look);
+      j.erase("preset");
+      j.erase("flags");
+      j.erase("source");
+      j["name"] = look.preset;
+      j["own"] = isOwn;
+      presets.push_back(std::move(j));
+      context.print("  " + look.preset + ": " + hex(look.color) + describe(look, {}) +
+                    (isOwn ? " (of this library)" : ""));
+    }
+  };
+  list(appearance::StructurePresets::builtIn().all(), false);
+  list(appearance::OwnPresets(context.openLibrary().folder()).all(), true);
   context.printJson({{"presets", std::move(presets)}});
 }
 
 struct Options
 {
   std::string name, iso;
-  std::vector<std::string> set, flags;
+  std::vector<std::string> set, flags, fit;
+  std::vector<std::string> savedPresets, deletedPresets, savedFunctions;
   std::map<std::string, std::vector<std::string>> values; ///< by the option of their property
   bool list = false;
   bool presets = false;
 
   bool changes() const
   {
-    return !iso.empty() || !set.empty() || !flags.empty() ||
+    return !iso.empty() || !set.empty() || !flags.empty() || !fit.empty() ||
            std::any_of(values.begin(), values.end(),
                        [](const auto& option) { return !option.second.empty(); });
   }
+  bool writes() const { return !savedPresets.empty() || !savedFunctions.empty(); }
 };
 
 // "PART=MM|none"
@@ -227,36 +238,44 @@ void setIso(const Context& context, scene::Case& value, const std::string& text)
   value.iso = iso;
 }
 
-// Colours of all other parts.
-std::vector<std::array<float, 3>> otherColors(const scene::Case& value, const std::string& part)
-{
-  std::vector<std::array<float, 3>> colors;
-  for (const auto& labels : value.labels)
-    for (const auto& structure : labels.structures)
-      if (structure.name != part)
-        colors.push_back(structure.look.color);
-  for (const auto& mesh : value.meshes)
-    if (mesh.name != part)
-      colors.push_back(mesh.look.color);
-  return colors;
-}
-
-void setPreset(scene::Case& value, const std::string& assignment)
+void setPreset(const library::Library& library, scene::Case& value, const std::string& assignment)
 {
   const auto [part, name] = split(value, assignment, "--set PART=PRESET");
-  const StructureAppearance preset = appearance::StructurePresets::builtIn().preset(name);
-  if (part.bone && !preset.solid)
-    throw core::InvalidParameter("preset '" + preset.preset +
-                                 "' is that of a lumen and cannot be the look of bone");
+  const auto preset = appearance::OwnPresets(library.folder()).preset(name);
+  const StructureAppearance set =
+      presenters::withPreset(value, part.bone ? "ct" : part.name, preset);
   for (StructureAppearance* look : part.looks)
-    appearance::applyPreset(*look, preset);
-  // An unknown structure gets a distinct colour, as when it was added to the case.
-  if (preset.preset == appearance::StructurePresets::builtIn().lookFor({}).preset)
   {
-    const auto color = appearance::distinctColor(otherColors(value, part.name));
-    for (StructureAppearance* look : part.looks)
-      appearance::setColor(*look, color);
+    appearance::applyPreset(*look, preset);
+    if (set.color != look->color)
+      appearance::setColor(*look, set.color);
   }
+}
+
+void fit(const Context& context, scene::Case& value, const std::string& name)
+{
+  const auto part = findPart(value, name);
+  if (!part)
+    throw core::InvalidParameter("case '" + value.name + "' has no structure or mesh '" + name +
+                                 "'; it has " + lookedAtParts(value));
+  *part->looks.front() =
+      presenters::fitted(value, part->bone ? "ct" : part->name, context.progress());
+}
+
+void savePreset(const library::Library& library, scene::Case& value, const std::string& assignment)
+{
+  const auto [part, name] = split(value, assignment, "--save-preset PART=NAME");
+  appearance::OwnPresets(library.folder()).save(*part.looks.front(), name);
+}
+
+void saveFunction(scene::Case& value, const std::string& assignment)
+{
+  const auto [part, path] = split(value, assignment, "--save-tf PART=F.json");
+  if (part.meshOnly)
+    throw core::InvalidParameter("'" + part.name + "' is a mesh and has no transfer function");
+  core::writeFile(
+      path,
+      appearance::materialOf(*part.looks.front(), value.intensityScale()).transfer.toJson() + "\n");
 }
 
 // Sets a property of `part` from the text of its option.
@@ -416,17 +435,19 @@ void setProperty(const Context& context, scene::Case& value, const StructureProp
 
 void run(const Context& context, const Options& options)
 {
-  if (options.presets)
+  if (options.presets || !options.deletedPresets.empty())
   {
-    if (options.changes() || options.list)
-      throw UsageError("appearance: --presets stands alone");
+    if (options.changes() || options.writes() || options.list || !options.name.empty())
+      throw UsageError("appearance: --presets and --delete-preset stand alone");
+    for (const std::string& name : options.deletedPresets)
+      appearance::OwnPresets(context.openLibrary().folder()).remove(name);
     return listPresets(context);
   }
   if (options.name.empty())
     throw UsageError("appearance: CASE is required");
-  if (!options.changes() && !options.list)
+  if (!options.changes() && !options.writes() && !options.list)
   {
-    std::string names = "--iso, --set, --flags, ";
+    std::string names = "--iso, --set, --flags, --fit, --save-preset, --save-tf, ";
     for (const auto& [option, assignments] : options.values)
       names += option + ", ";
     throw UsageError("appearance: nothing to do; give " + names + "--list or --presets");
@@ -437,16 +458,28 @@ void run(const Context& context, const Options& options)
     setIso(context, value, options.iso);
   // A preset first, then deviations from it.
   for (const std::string& assignment : options.set)
-    setPreset(value, assignment);
+    setPreset(library, value, assignment);
   for (const std::string& assignment : options.flags)
     setPartFlags(context, value, assignment);
   for (const StructureProperty& property : appearance::kStructureProperties)
     if (property.option.name)
       for (const std::string& assignment : options.values.at(property.option.name))
         setProperty(context, value, property, assignment);
+  for (const std::string& part : options.fit)
+    fit(context, value, part);
+  for (const std::string& assignment : options.savedPresets)
+    appearance::OwnPresets::checkName(split(value, assignment, "--save-preset PART=NAME").second);
+  std::vector<std::string> files;
+  for (const std::string& assignment : options.savedFunctions)
+    files.push_back(split(value, assignment, "--save-tf PART=F.json").second);
+  context.refuseOverwriting(files);
   context.refuseDamaged();
   if (options.changes())
     library.save(value);
+  for (const std::string& assignment : options.savedPresets)
+    savePreset(library, value, assignment);
+  for (const std::string& assignment : options.savedFunctions)
+    saveFunction(value, assignment);
   listAppearance(context, value);
 }
 
@@ -466,15 +499,24 @@ void addAppearanceCommand(CLI::App& app, Context& context)
       ->add_option("--iso", options->iso,
                    "Surface of bone, in the CT's unit (300 HU); auto: from the histogram")
       ->type_name("NUMBER|auto");
-  perPart("--set", options->set, "Apply a preset of the catalogue (--presets)", "PART=PRESET");
+  perPart("--set", options->set, "Apply a preset (--presets)", "PART=PRESET");
   perPart("--flags", options->flags, "Set exactly these flags; 'none' clears all",
           "PART=shown,touchable,drillable");
   for (const StructureProperty& property : appearance::kStructureProperties)
     if (property.option.name)
       perPart(property.option.name, options->values[property.option.name], property.option.text,
               typeName(property));
+  perPart("--fit", options->fit,
+          "Stretch the transfer function over the values of the part in the image that it reads",
+          "PART");
+  perPart("--save-preset", options->savedPresets, "Save the appearance as a preset of the library",
+          "PART=NAME");
+  perPart("--delete-preset", options->deletedPresets, "Delete a preset of the library", "NAME");
+  perPart("--save-tf", options->savedFunctions, "Write the transfer function, as --tf reads it",
+          "PART=F.json");
   command->add_flag("--list", options->list, "List all parts; PART 'ct' is bone");
-  command->add_flag("--presets", options->presets, "List the presets of the catalogue");
+  command->add_flag("--presets", options->presets,
+                    "List the presets of the catalogue and of the library");
 }
 
 } // namespace petrous::cli

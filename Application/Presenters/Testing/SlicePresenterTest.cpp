@@ -211,3 +211,30 @@ TEST(SlicePresenter, ShowsInRedWhereLessThanHalfIsLeft)
   EXPECT_NEAR(red, 3.14159 * 36.0, 6.0);
   EXPECT_EQ(pixels.at(20, 10)[1], 255);
 }
+
+TEST(SlicePresenter, TellsWhatIsNotSeenInSlices)
+{
+  const core::GridGeometry grid({4, 4, 4}, Vector3d::Ones(), Vector3d::Zero());
+  scene::Case value = planeCase(grid);
+  auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{1});
+  scene::LabelPart part;
+  part.labels = std::make_shared<const volume::LabelMap>(volume::makeLabelMap(voxels, {}));
+  part.structures.resize(1);
+  part.structures.front().name = "nerve";
+  part.structures.front().index = 1;
+  value.labels.push_back(part);
+  const SlicePresenter before(value);
+  auto& look = value.labels.front().structures.front().look;
+  look.transfer = appearance::TransferFunction::constant({1.0F, 0.0F, 0.0F}, 0.5F);
+  look.opacity = 0.5F;
+  EXPECT_TRUE(SlicePresenter(value).drawsAs(before));
+  look.color = {1.0F, 0.0F, 0.0F};
+  EXPECT_FALSE(SlicePresenter(value).drawsAs(before));
+  look = {};
+  EXPECT_TRUE(SlicePresenter(value).drawsAs(before));
+  look.shown = false;
+  EXPECT_FALSE(SlicePresenter(value).drawsAs(before));
+  look = {};
+  value.iso = 500.0; // contours over an MR
+  EXPECT_FALSE(SlicePresenter(value).drawsAs(before));
+}

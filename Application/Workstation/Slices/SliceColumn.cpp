@@ -54,11 +54,15 @@ void SliceColumn::appearanceChanged()
   scene::Case value = m_model.presentable();
   if (auto* hidden = scene::findStructure(value, m_hidden))
     hidden->look.shown = false;
-  const auto presenter = std::make_shared<const presenters::SlicePresenter>(
+  auto presenter = std::make_shared<const presenters::SlicePresenter>(
       value, m_model.value().dissection.sharedMask());
+  const bool isNew = !m_presenter || !presenter->drawsAs(*m_presenter);
+  if (isNew)
+    m_presenter = std::move(presenter);
   for (SliceView* view : m_views)
   {
-    view->setPresenter(presenter, m_model.value().ct.geometry);
+    if (isNew) // the views draw anew
+      view->setPresenter(m_presenter, m_model.value().ct.geometry);
     view->setIntensityDisplay(presenters::displayOf(m_model.value()));
     view->setInterpolated(presenters::interpolatedSlices(m_model.value().ct));
   }
@@ -66,6 +70,7 @@ void SliceColumn::appearanceChanged()
 
 void SliceColumn::clear()
 {
+  m_presenter.reset();
   for (SliceView* view : m_views)
     view->setPresenter(nullptr, {});
 }

@@ -71,6 +71,7 @@ private:
 
   presenters::WorkstationModel& m_model;
   std::array<SliceView*, 3> m_views;
+  std::shared_ptr<const presenters::SlicePresenter> m_presenter; // of the views
   presenters::GreyWindow m_window;
   std::shared_ptr<const presenters::SliceOverlay> m_overlay;
   presenters::ShownImages m_shown;

@@ -90,6 +90,18 @@ TEST_F(DISABLED_Pictures, Workstation)
   keep("workstation");
 }
 
+TEST_F(DISABLED_Pictures, Appearance)
+{
+  open("sample patient", {1600, 1000});
+  raise("appearanceDock");
+  auto* part = window().findChild<QComboBox*>("appearancePart");
+  const int row = std::max(part->findText("sigmoid sinus"), 0);
+  part->setCurrentIndex(row);
+  emit part->activated(row);
+  QTest::qWait(1000); // the histograms are counted
+  keep("appearance");
+}
+
 TEST_F(DISABLED_Pictures, Registration)
 {
   open("with an MR", {1600, 1000});

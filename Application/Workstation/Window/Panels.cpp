@@ -2,6 +2,7 @@
 
 #include <QCoreApplication>
 
+#include "AppearancePanel.h"
 #include "AttachmentsController.h"
 #include "AttachmentsPanel.h"
 #include "LibraryController.h"
@@ -29,6 +30,8 @@ std::vector<PanelEntry> panelEntries()
   return {
       {"structuresDock", tr("Structures"), Qt::Key_F9, Qt::LeftDockWidgetArea, kTabbed, kShown,
        kNeedsCase, [](C c) -> Panel* { return new StructuresPanel(c.model); }},
+      {"appearanceDock", tr("Appearance"), Qt::Key_F10, Qt::LeftDockWidgetArea, kTabbed, kHidden,
+       kNeedsCase, [](C c) -> Panel* { return new AppearancePanel(c.model); }},
       {"pictureDock", tr("Picture"), Qt::Key_F8, Qt::LeftDockWidgetArea, kTabbed, kShown, kAlways,
        [](C c) -> Panel* { return c.picture.panel(); }},
       {"nearbyDock", tr("Near the burr"), Qt::Key_F7, Qt::LeftDockWidgetArea, kAlone, kHidden,

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "PresetEntry.h"
 #include "Structures.h"
 #include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Core/Error.h"
@@ -16,23 +17,6 @@ namespace
 {
 
 using nlohmann::json;
-
-// An entry of the catalogue is what a manifest has, but for the flags, with the preset's name as
-// "name".
-StructureAppearance lookFrom(json entry)
-{
-  entry["preset"] = entry.at("name");
-  entry["flags"] = flagsOf({});
-  try
-  {
-    return appearanceFrom(entry, {});
-  }
-  catch (const core::InvalidParameter& error)
-  {
-    throw core::InvalidParameter("structure preset '" + entry["preset"].get<std::string>() +
-                                 "': " + error.what());
-  }
-}
 
 // Runs of letters or digits, in lower case; split also at camelCase boundaries.
 std::vector<std::string> wordsOf(const std::string& name)
@@ -125,6 +109,31 @@ bool isFormOf(const std::string& word, const std::string& stem)
 
 } // namespace
 
+StructureAppearance presetFrom(json entry)
+{
+  entry["preset"] = entry.at("name");
+  entry["flags"] = flagsOf({});
+  entry.erase("source_image");
+  try
+  {
+    return appearanceFrom(entry, {});
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    throw core::InvalidParameter("structure preset '" + entry["preset"].get<std::string>() +
+                                 "': " + error.what());
+  }
+}
+
+json presetJson(const StructureAppearance& preset)
+{
+  json entry = appearanceJson(preset);
+  entry["name"] = preset.preset;
+  for (const char* key : {"preset", "flags", "source_image"})
+    entry.erase(key);
+  return entry;
+}
+
 StructurePresets StructurePresets::builtIn()
 {
   return StructurePresets(kStructures);
@@ -144,11 +153,11 @@ StructurePresets::StructurePresets(std::string_view text)
       addPhrases(result, entry.value("alone", std::vector<std::string>()), true);
       return result;
     };
-    m_other = lookFrom(catalogue.at("other"));
+    m_other = presetFrom(catalogue.at("other"));
     for (const auto& entry : catalogue.at("presets"))
     {
       m_words.push_back({phrases(entry), m_presets.size()});
-      m_presets.push_back(lookFrom(entry));
+      m_presets.push_back(presetFrom(entry));
     }
     std::vector<Words> first;
     for (const auto& entry : catalogue.value("first", json::array()))

@@ -105,6 +105,16 @@ SlicePresenter::SlicePresenter(const scene::Case& value,
   }
 }
 
+bool SlicePresenter::drawsAs(const SlicePresenter& other) const
+{
+  const auto same = [](const Layer& a, const Layer& b)
+  { return a.labels == b.labels && a.colors == b.colors && a.shown == b.shown; };
+  return m_ct == other.m_ct && m_mask == other.m_mask && m_edges.bone == other.m_edges.bone &&
+         m_edges.skin == other.m_edges.skin && m_edges.slope == other.m_edges.slope &&
+         std::equal(m_layers.begin(), m_layers.end(), other.m_layers.begin(), other.m_layers.end(),
+                    same);
+}
+
 SlicePixels SlicePresenter::draw(const SliceGeometry& slice, const GreyWindow& window,
                                  const SliceOverlay* overlay) const
 {

@@ -35,6 +35,9 @@ public:
   SlicePixels draw(const SliceGeometry& slice, const GreyWindow& window,
                    const SliceOverlay* overlay = nullptr) const;
 
+  /// Whether both draw the same: a transfer function, say, is not seen in slices.
+  bool drawsAs(const SlicePresenter& other) const;
+
   static constexpr std::array<std::uint8_t, 3> kOutside{11, 13, 16};
 
 private:

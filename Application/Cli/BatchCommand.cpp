@@ -16,6 +16,7 @@
 #include "Commands.h"
 #include "Numbers.h"
 #include "Program.h"
+#include "petrous/Core/CsvTable.h"
 #include "petrous/Core/FileLock.h"
 #include "petrous/Core/Fingerprint.h"
 #include "petrous/Core/InputFile.h"
@@ -770,7 +771,7 @@ std::string reportText(const BatchTable& table, const std::vector<RowResult>& ro
     line.push_back(notes);
     cells.push_back(std::move(line));
   }
-  return (table.hasByteOrderMark ? "\xef\xbb\xbf" : "") + csvText(cells, table.delimiter);
+  return (table.hasByteOrderMark ? "\xef\xbb\xbf" : "") + core::csvText(cells, table.delimiter);
 }
 
 void batch(const Context& context, const BatchOptions& options)

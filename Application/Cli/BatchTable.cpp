@@ -8,6 +8,7 @@
 
 #include "Context.h"
 #include "Numbers.h"
+#include "petrous/Core/CsvTable.h"
 #include "petrous/Core/InputFile.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Library/Archive.h"
@@ -89,74 +90,7 @@ std::string lower(const std::string& text)
                                what);
 }
 
-struct CsvRow
-{
-  std::size_t line = 0;
-  std::vector<std::string> cells;
-};
-
-char delimiterOf(std::string_view text)
-{
-  std::array<std::size_t, 3> counts{};
-  constexpr std::string_view kDelimiters = ",;\t";
-  bool isQuoted = false;
-  for (const char c : text)
-  {
-    if (c == '"')
-      isQuoted = !isQuoted;
-    else if (c == '\n' && !isQuoted)
-      break;
-    else if (const std::size_t n = kDelimiters.find(c); n != kDelimiters.npos && !isQuoted)
-      ++counts[n];
-  }
-  return kDelimiters[static_cast<std::size_t>(std::max_element(counts.begin(), counts.end()) -
-                                              counts.begin())];
-}
-
-std::vector<CsvRow> rowsOf(const fs::path& file, std::string_view text, std::size_t line,
-                           char delimiter)
-{
-  std::vector<CsvRow> rows;
-  CsvRow row{line, {std::string()}};
-  bool isQuoted = false;
-  std::size_t quoteLine = 0;
-  const auto end = [&]
-  {
-    for (std::string& cell : row.cells)
-      cell = trimmed(cell);
-    rows.push_back(std::move(row));
-    row = {line, {std::string()}};
-  };
-  for (std::size_t n = 0; n < text.size(); ++n)
-  {
-    const char c = text[n];
-    std::string& cell = row.cells.back();
-    if (c == '\n')
-      ++line;
-    if (isQuoted && c == '"' && n + 1 < text.size() && text[n + 1] == '"')
-    {
-      cell += c;
-      ++n;
-    }
-    else if (c == '"' && (isQuoted || trimmed(cell).empty()))
-    {
-      isQuoted = !isQuoted;
-      quoteLine = line;
-    }
-    else if (isQuoted)
-      cell += c;
-    else if (c == delimiter)
-      row.cells.emplace_back();
-    else if (c == '\n')
-      end();
-    else
-      cell += c;
-  }
-  if (isQuoted)
-    refuse(file, quoteLine, "a quote is opened and not closed");
-  end();
-  return rows;
-}
+using core::CsvRow;
 
 bool isBlank(const CsvRow& row)
 {
@@ -433,14 +367,15 @@ BatchTable readBatchTable(const fs::path& file)
   if (table.hasByteOrderMark)
     text.remove_prefix(3);
   std::size_t line = 1;
-  table.delimiter = delimiterOf(text);
+  table.delimiter = core::csvDelimiter(text);
   if (text.size() > 4 && lower(std::string(text.substr(0, 4))) == "sep=")
   {
     table.delimiter = text[4];
     text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
     ++line;
   }
-  const std::vector<CsvRow> rows = rowsOf(file, text, line, table.delimiter);
+  const std::vector<CsvRow> rows =
+      core::csvRows(text, core::printable(file), table.delimiter, line);
   const auto first = std::find_if_not(rows.begin(), rows.end(), isBlank);
   if (first == rows.end())
     throw core::InvalidParameter(core::printable(file) + ": is empty; the first row names the "
@@ -490,30 +425,6 @@ BatchTable readBatchTable(const fs::path& file)
   if (table.rows.empty())
     throw core::InvalidParameter(core::printable(file) + ": has no row after the header");
   return table;
-}
-
-std::string csvText(const std::vector<std::vector<std::string>>& rows, char delimiter)
-{
-  std::string text;
-  for (const auto& row : rows)
-  {
-    for (std::size_t n = 0; n < row.size(); ++n)
-    {
-      if (n > 0)
-        text += delimiter;
-      if (row[n].find_first_of(std::string("\"\r\n,;\t") + delimiter) == std::string::npos)
-      {
-        text += row[n];
-        continue;
-      }
-      text += '"';
-      for (const char c : row[n])
-        text += c == '"' ? std::string("\"\"") : std::string(1, c);
-      text += '"';
-    }
-    text += "\r\n";
-  }
-  return text;
 }
 
 } // namespace petrous::cli

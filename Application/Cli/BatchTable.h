@@ -61,7 +61,4 @@ std::string batchColumns();
 /// wrong with the values of one row is that row's `problem`.
 BatchTable readBatchTable(const std::filesystem::path& file);
 
-/// Rows of cells as CSV, each quoted where it has to be.
-std::string csvText(const std::vector<std::vector<std::string>>& rows, char delimiter);
-
 } // namespace petrous::cli

@@ -20,6 +20,7 @@ void addAppearanceCommand(CLI::App& app, Context& context);
 void addRenderCommand(CLI::App& app, Context& context);
 void addSliceCommand(CLI::App& app, Context& context);
 void addViewCommand(CLI::App& app, Context& context);
+void addMeasureCommand(CLI::App& app, Context& context);
 void addProbeCommand(CLI::App& app, Context& context);
 void addDrillCommand(CLI::App& app, Context& context);
 void addHistoryCommands(CLI::App& app, Context& context); ///< undo, redo, history, branch

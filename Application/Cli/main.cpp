@@ -55,6 +55,7 @@ void addCommands(CLI::App& app, cli::Context& context)
   cli::addViewCommand(app, context);
   cli::addRenderCommand(app, context);
   cli::addSliceCommand(app, context);
+  cli::addMeasureCommand(app, context);
   cli::addProbeCommand(app, context);
   cli::addDrillCommand(app, context);
   cli::addHistoryCommands(app, context);

@@ -13,6 +13,7 @@
 #include <vtkVolumeCollection.h>
 
 #include "Application.h"
+#include "MeasureOverlay.h"
 #include "Theme.h"
 #include "TouchOverlay.h"
 #include "petrous/Core/Error.h"
@@ -52,6 +53,7 @@ SceneDisplay::SceneDisplay(vtkGenericOpenGLRenderWindow& window, std::function<b
   m_picture.setContents({});
   m_picture.attach(m_renderer);
   m_stereo = std::make_unique<rendering::StereoPicture>(m_picture);
+  m_measures = std::make_unique<MeasureOverlay>(*m_renderer);
   m_observers = {m_window.AddObserver(vtkCommand::StartEvent, this, &SceneDisplay::frameStarted),
                  m_window.AddObserver(vtkCommand::EndEvent, this, &SceneDisplay::frameEnded)};
   m_settle.setSingleShot(true);
@@ -74,6 +76,7 @@ void SceneDisplay::release()
   for (const unsigned long observer : m_observers)
     m_window.RemoveObserver(observer);
   m_shown = [] { return false; };
+  m_measures.reset();
   m_touch.reset();
   m_stereo.reset();
   m_picture.attach(nullptr);
@@ -165,6 +168,21 @@ void SceneDisplay::setCovered(double share)
   redraw(m_moving);
 }
 
+void SceneDisplay::setMeasures(const std::vector<DrawnMeasure>& measures)
+{
+  if (m_follower)
+    m_follower->setMeasures(measures);
+  if (!m_measures)
+    return;
+  if (m_measures->set(measures))
+    redraw(m_moving);
+}
+
+std::optional<std::array<double, 2>> SceneDisplay::pixelOf(const Eigen::Vector3d& patient) const
+{
+  return m_measures ? m_measures->pixelOf(patient) : std::nullopt;
+}
+
 void SceneDisplay::endTouch()
 {
   m_reading.clear();
@@ -229,6 +247,8 @@ void SceneDisplay::setFollower(SceneDisplay* follower)
   follower->m_light = m_light;
   follower->m_contents.tool = m_contents.tool;
   follower->m_warning = m_warning;
+  if (m_measures)
+    follower->setMeasures(m_measures->measures());
   follower->setContents(m_contents);
   follower->setCamera(m_picture.camera());
 }
@@ -258,6 +278,8 @@ void SceneDisplay::drawNow()
 
 void SceneDisplay::frameStarted()
 {
+  if (m_measures)
+    m_measures->place();
   m_clock.start();
 }
 

@@ -26,7 +26,9 @@ struct TickRecord;
 namespace petrous::workstation
 {
 
+class MeasureOverlay;
 class TouchOverlay;
+struct DrawnMeasure;
 
 /// A scene in one OpenGL context: coarse while something moves and fine when static, mono or
 /// stereo. Reports frame times and errors.
@@ -64,6 +66,10 @@ public:
   /// Fraction of the picture's height, from the top, that is covered: warnings are placed below.
   void setCovered(double share);
   const QString& warning() const noexcept { return m_warning; }
+  /// Marks and measurements over the scene.
+  void setMeasures(const std::vector<DrawnMeasure>& measures);
+  /// Pixels from the upper left of the renderer's viewport, as drawn last; none behind the camera.
+  std::optional<std::array<double, 2>> pixelOf(const Eigen::Vector3d& patient) const;
   void endTouch(); ///< no tool, no force, no reading, no warning
   void setCamera(const core::CameraPose& pose);
   void maskChanged(std::shared_ptr<const volume::CutMask> mask, const core::IndexBox& box);
@@ -100,7 +106,8 @@ private:
   std::unique_ptr<rendering::StereoPicture> m_stereo; // destroyed before m_picture
   rendering::SceneContents m_contents;                // of the last setContents, kept up to date
   rendering::LightSettings m_light;
-  std::unique_ptr<TouchOverlay> m_touch; // while a tool is in use; destroyed before m_renderer
+  std::unique_ptr<MeasureOverlay> m_measures; // destroyed before m_renderer
+  std::unique_ptr<TouchOverlay> m_touch;      // while a tool is in use; destroyed before m_renderer
   QString m_reading, m_warning;
   double m_covered = 0.0; // fraction of the height, from the top
   QPointer<SceneDisplay> m_follower;

@@ -37,6 +37,10 @@ SliceColumn::SliceColumn(presenters::WorkstationModel& model, QWidget* parent)
     connect(view, &SliceView::toolPressed, this, &SliceColumn::toolPressed);
     connect(view, &SliceView::toolDragged, this, &SliceColumn::toolDragged);
     connect(view, &SliceView::toolReleased, this, &SliceColumn::toolReleased);
+    connect(view, &SliceView::toolDoubleClicked, this, &SliceColumn::toolDoubleClicked);
+    connect(view, &SliceView::handleTaken, this, &SliceColumn::handleTaken);
+    connect(view, &SliceView::handleDragged, this, &SliceColumn::handleDragged);
+    connect(view, &SliceView::handleReleased, this, &SliceColumn::handleReleased);
   }
 }
 
@@ -157,8 +161,29 @@ void SliceColumn::setMarks(const std::vector<SliceMark>& marks)
     view->setMarks(marks);
 }
 
+SliceColumn::~SliceColumn() = default;
+
 void SliceColumn::setTool(const std::optional<SliceTool>& tool)
 {
+  m_tool = tool ? std::make_unique<const SliceTool>(*tool) : nullptr;
+  passTool();
+}
+
+void SliceColumn::setMeasuring(bool on)
+{
+  if (on == m_measuring)
+    return;
+  m_measuring = on;
+  passTool();
+}
+
+void SliceColumn::passTool()
+{
+  std::optional<SliceTool> tool;
+  if (m_tool)
+    tool = *m_tool;
+  else if (m_measuring)
+    tool = SliceTool{0.0, {}, true};
   for (SliceView* view : m_views)
     view->setTool(tool);
 }
@@ -167,6 +192,17 @@ void SliceColumn::setDrawing(const SliceDrawing& drawing)
 {
   for (SliceView* view : m_views)
     view->setDrawing(drawing);
+}
+
+void SliceColumn::setMeasures(const std::vector<DrawnMeasure>& measures)
+{
+  for (SliceView* view : m_views)
+    view->setMeasures(measures);
+}
+
+double SliceColumn::mmPerPixel(SliceOrientation plane) const
+{
+  return m_views[static_cast<std::size_t>(plane)]->slice().mmPerPixel();
 }
 
 void SliceColumn::setDraft(const std::shared_ptr<const presenters::DraftLayer>& draft)

@@ -15,6 +15,7 @@ namespace petrous::workstation
 {
 
 class SliceView;
+struct DrawnMeasure;
 struct SliceDrawing;
 struct SliceMark;
 struct SliceTool;
@@ -25,6 +26,7 @@ class SliceColumn : public QSplitter
   Q_OBJECT
 public:
   explicit SliceColumn(presenters::WorkstationModel& model, QWidget* parent = nullptr);
+  ~SliceColumn() override;
 
   void caseChanged();
   void clear(); ///< no case is open
@@ -48,12 +50,18 @@ public:
   void setNotice(const QString& text);
   void setRegion(double edge); ///< as SliceView
   void setMarks(const std::vector<SliceMark>& marks);
-  void setTool(const std::optional<SliceTool>& tool); ///< as SliceView, and the next three
+  /// As SliceView, and the next three. Of segmenting, which comes before measuring.
+  void setTool(const std::optional<SliceTool>& tool);
+  void setMeasuring(bool on); ///< the left button sets points
   void setDrawing(const SliceDrawing& drawing);
+  void setMeasures(const std::vector<DrawnMeasure>& measures);
   void setDraft(const std::shared_ptr<const presenters::DraftLayer>& draft);
   /// A structure that is not shown, as its draft is; empty: none.
   void setHidden(const std::string& structure);
   void draftChanged(const core::PatientBox& box);
+  /// What an image shows alone: an MR; empty: the CT is seen, too.
+  std::string mrAlone() const { return m_shown.ct ? std::string() : m_shown.mr; }
+  double mmPerPixel(presenters::SliceOrientation plane) const;
 
 signals:
   void pointed(const Eigen::Vector3d& patient);
@@ -64,10 +72,15 @@ signals:
   void toolPressed(const Eigen::Vector3d& patient, petrous::presenters::SliceOrientation plane);
   void toolDragged(const Eigen::Vector3d& patient);
   void toolReleased();
+  void toolDoubleClicked();
+  void handleTaken(std::size_t measurement, std::size_t point);
+  void handleDragged(const Eigen::Vector3d& patient);
+  void handleReleased();
 
 private:
   void setGreyWindow(const presenters::GreyWindow& window);
   void showReadout();
+  void passTool();
 
   presenters::WorkstationModel& m_model;
   std::array<SliceView*, 3> m_views;
@@ -76,6 +89,8 @@ private:
   std::shared_ptr<const presenters::SliceOverlay> m_overlay;
   presenters::ShownImages m_shown;
   std::string m_hidden;
+  std::unique_ptr<const SliceTool> m_tool; ///< of segmenting
+  bool m_measuring = false;
 };
 
 } // namespace petrous::workstation

@@ -11,9 +11,10 @@ namespace petrous::workstation
 
 namespace
 {
-constexpr double kReach = 1.0; // mm from the slice
-constexpr double kMark = 5.0;  // pixels
-constexpr double kFaded = 4.0; // mm from the slice, where a curve is not seen any more
+constexpr double kReach = 1.0;       // mm from the slice
+constexpr double kMark = 5.0;        // pixels
+constexpr double kFaded = 4.0;       // mm from the slice, where a curve is not seen any more
+constexpr double kFaintReach = 15.0; // mm from the slice, of a measurement
 } // namespace
 
 void drawText(QPainter& painter, const QPointF& baseline, const QString& text, const QColor& color)
@@ -71,6 +72,146 @@ void paintCurve(QPainter& painter, const std::vector<Eigen::Vector3d>& points, c
       painter.drawLine(pixelOf(points[n - 1]), pixelOf(points[n]));
     }
   }
+}
+
+bool isInSlice(const Eigen::Vector3d& point, const presenters::SliceGeometry& slice,
+               const Eigen::Vector3d& at)
+{
+  return std::abs(presenters::axesOf(slice.orientation()).next.dot(point - at)) <= kReach;
+}
+
+namespace
+{
+
+QPointF pixelOf(const presenters::SliceGeometry& slice, const Eigen::Vector3d& point)
+{
+  const Eigen::Vector2d pixel = slice.pixelFromPatient(point) + Eigen::Vector2d(0.5, 0.5);
+  return {pixel[0], pixel[1]};
+}
+
+// 1 in the slice, less beside it, 0 where it is not seen.
+double strengthOf(double off)
+{
+  constexpr double kFaint = 0.4;
+  if (off <= kReach)
+    return 1.0;
+  return off < kFaintReach ? kFaint * (kFaintReach - off) / (kFaintReach - kReach) : 0.0;
+}
+
+void paintLine(QPainter& painter, const DrawnMeasure& measure,
+               const presenters::SliceGeometry& slice, const Eigen::Vector3d& at)
+{
+  const Eigen::Vector3d next = presenters::axesOf(slice.orientation()).next;
+  const std::size_t edges = measure.points.size() - (measure.closed ? 0 : 1);
+  for (const bool halo : {true, false})
+    for (std::size_t n = 0; n < edges; ++n)
+    {
+      const Eigen::Vector3d& from = measure.points[n];
+      const Eigen::Vector3d& to = measure.points[(n + 1) % measure.points.size()];
+      // In parts, as an oblique edge leaves the slice.
+      const double steep = std::abs(next.dot(to - from));
+      const int parts = std::clamp(static_cast<int>(std::ceil(steep)), 1, 200);
+      for (int part = 0; part < parts; ++part)
+      {
+        const Eigen::Vector3d a = from + (to - from) * part / parts;
+        const Eigen::Vector3d b = from + (to - from) * (part + 1) / parts;
+        const double strength = strengthOf(std::abs(next.dot(0.5 * (a + b) - at)));
+        if (strength <= 0.0)
+          continue;
+        QColor color = halo ? QColor(0, 0, 0) : measure.color;
+        color.setAlphaF((halo ? 0.75 : 1.0) * strength);
+        const double width = measure.chosen ? 2.4 : 1.6;
+        painter.setPen(QPen(color, halo ? width + 2.0 : width,
+                            strength < 1.0 || measure.draft ? Qt::DashLine : Qt::SolidLine,
+                            Qt::FlatCap));
+        painter.drawLine(pixelOf(slice, a), pixelOf(slice, b));
+      }
+    }
+}
+
+void paintHandles(QPainter& painter, const DrawnMeasure& measure,
+                  const presenters::SliceGeometry& slice, const Eigen::Vector3d& at)
+{
+  const Eigen::Vector3d next = presenters::axesOf(slice.orientation()).next;
+  for (const std::size_t n : measure.handles)
+  {
+    const double strength = strengthOf(std::abs(next.dot(measure.points[n] - at)));
+    if (strength <= 0.0)
+      continue;
+    const bool inside = strength == 1.0;
+    const double radius = inside ? (measure.chosen ? 4.5 : 3.5) : 2.5;
+    QColor edge(0, 0, 0);
+    QColor fill(measure.color);
+    edge.setAlphaF(0.8 * strength);
+    fill.setAlphaF(strength);
+    painter.setPen(QPen(edge, 1.4));
+    painter.setBrush(fill);
+    painter.drawEllipse(pixelOf(slice, measure.points[n]), radius, radius);
+  }
+  painter.setBrush(Qt::NoBrush);
+}
+
+// Right above the handle, in the picture.
+QRectF placeOfLabel(const QPainter& painter, const QString& label, const QPointF& handle)
+{
+  constexpr double kAway = 8.0;   // px
+  constexpr double kMargin = 4.0; // px
+  const QFontMetricsF metrics(painter.font());
+  QRectF box(handle.x() + kAway, handle.y() - kAway - metrics.height(),
+             metrics.horizontalAdvance(label) + 2.0 * kMargin, metrics.height() + 2.0);
+  const QRectF picture = painter.viewport();
+  if (box.right() > picture.right() - kMargin)
+    box.moveRight(std::max(handle.x() - kAway, box.width() + kMargin));
+  if (box.right() > picture.right() - kMargin)
+    box.moveRight(picture.right() - kMargin);
+  if (box.top() < kMargin)
+    box.moveTop(handle.y() + kAway);
+  return box;
+}
+
+} // namespace
+
+void paintMeasures(QPainter& painter, const std::vector<DrawnMeasure>& measures,
+                   const presenters::SliceGeometry& slice, const Eigen::Vector3d& at)
+{
+  for (const DrawnMeasure& measure : measures)
+    if (!measure.points.empty())
+    {
+      paintLine(painter, measure, slice, at);
+      paintHandles(painter, measure, slice, at);
+    }
+  // On top of all lines, none on another.
+  QFont font = painter.font();
+  font.setPixelSize(12);
+  painter.setFont(font);
+  std::vector<QRectF> taken;
+  for (const DrawnMeasure& measure : measures)
+  {
+    const auto handle =
+        std::find_if(measure.handles.rbegin(), measure.handles.rend(),
+                     [&](std::size_t n) { return isInSlice(measure.points[n], slice, at); });
+    if (measure.label.isEmpty() || handle == measure.handles.rend())
+      continue;
+    QRectF box = placeOfLabel(painter, measure.label, pixelOf(slice, measure.points[*handle]));
+    const QRectF picture = painter.viewport();
+    if (!picture.intersects(QRectF(pixelOf(slice, measure.points[*handle]), QSizeF(1.0, 1.0))))
+      continue;
+    for (std::size_t n = 0; n < taken.size(); ++n)
+      if (taken[n].intersects(box))
+      {
+        box.moveTop(taken[n].bottom() + 1.0);
+        n = static_cast<std::size_t>(-1);
+      }
+    taken.push_back(box);
+    QColor back(10, 12, 15);
+    back.setAlphaF(0.72);
+    painter.setPen(measure.chosen ? QPen(measure.color, 1.0) : QPen(Qt::NoPen));
+    painter.setBrush(back);
+    painter.drawRoundedRect(box, 3.0, 3.0);
+    painter.setPen(measure.color.lighter(115));
+    painter.drawText(box, Qt::AlignCenter, measure.label);
+  }
+  painter.setBrush(Qt::NoBrush);
 }
 
 void paintCube(QPainter& painter, double edge, const presenters::SliceGeometry& slice,

@@ -30,6 +30,28 @@ void paintMarks(QPainter& painter, const std::vector<SliceMark>& marks,
 void paintCurve(QPainter& painter, const std::vector<Eigen::Vector3d>& points, const QColor& color,
                 const presenters::SliceGeometry& slice, const Eigen::Vector3d& at);
 
+/// A mark or measurement as it is drawn, in slices and in the 3D view.
+struct DrawnMeasure
+{
+  std::size_t index = 0;               ///< of the case's measurements
+  std::vector<Eigen::Vector3d> points; ///< of its line, patient LPS mm
+  bool closed = false;
+  std::vector<std::size_t> handles; ///< the points that can be dragged
+  QString label;                    ///< name and value
+  QColor color;
+  bool chosen = false;
+  bool draft = false; ///< being set; no handle can be taken
+};
+
+/// Full where it lies within a millimetre of the slice, which contains `at`, and faint elsewhere up
+/// to 15 mm; the label where a handle lies in the slice, or the middle does.
+void paintMeasures(QPainter& painter, const std::vector<DrawnMeasure>& measures,
+                   const presenters::SliceGeometry& slice, const Eigen::Vector3d& at);
+
+/// Whether a point counts as lying in the slice.
+bool isInSlice(const Eigen::Vector3d& point, const presenters::SliceGeometry& slice,
+               const Eigen::Vector3d& at);
+
 /// Intersection of the slice with a cube of this edge (mm) centred at `at`.
 void paintCube(QPainter& painter, double edge, const presenters::SliceGeometry& slice,
                const Eigen::Vector3d& at);

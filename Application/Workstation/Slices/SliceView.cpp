@@ -231,6 +231,7 @@ void SliceView::paintEvent(QPaintEvent*)
   paintMarks(painter, m_drawing.marks, picture, m_crosshair);
   paintInterpolated(painter);
   paintCrosshair(painter);
+  paintMeasures(painter, m_measures, picture, m_crosshair);
   paintLetters(painter);
   paintScaleBar(painter);
   paintTool(painter);
@@ -406,7 +407,13 @@ void SliceView::mousePressEvent(QMouseEvent* event)
   m_dragged = event->localPos();
   if (!m_presenter || event->button() != Qt::LeftButton)
     return;
-  if (m_tool && !(event->modifiers() & Qt::ShiftModifier))
+  const auto handle = handleAt(event->localPos());
+  if (handle && !(event->modifiers() & Qt::ShiftModifier))
+  {
+    m_handleDown = true;
+    emit handleTaken(handle->measurement, handle->point);
+  }
+  else if (m_tool && !(event->modifiers() & Qt::ShiftModifier))
   {
     m_toolDown = true;
     emit toolPressed(patientAt(event->localPos()), m_orientation);
@@ -417,10 +424,55 @@ void SliceView::mousePressEvent(QMouseEvent* event)
 
 void SliceView::mouseReleaseEvent(QMouseEvent* event)
 {
+  if (event->button() == Qt::LeftButton && m_handleDown)
+  {
+    m_handleDown = false;
+    emit handleReleased();
+    return;
+  }
   if (event->button() != Qt::LeftButton || !m_toolDown)
     return;
   m_toolDown = false;
   emit toolReleased();
+}
+
+void SliceView::mouseDoubleClickEvent(QMouseEvent* event)
+{
+  mousePressEvent(event);
+  if (m_toolDown)
+    emit toolDoubleClicked();
+}
+
+// The nearest of those that are seen in full, of one that lies over another the chosen one's.
+std::optional<SliceView::Handle> SliceView::handleAt(const QPointF& position) const
+{
+  constexpr double kReach = 7.0; // px
+  if (!m_presenter || (m_tool && !m_tool->measures))
+    return std::nullopt;
+  const auto picture = slice();
+  std::optional<Handle> found;
+  double best = kReach;
+  for (const DrawnMeasure& measure : m_measures)
+    for (const std::size_t n : measure.handles)
+    {
+      if (measure.draft || !isInSlice(measure.points[n], picture, m_crosshair))
+        continue;
+      const Eigen::Vector2d at =
+          picture.pixelFromPatient(measure.points[n]) + Eigen::Vector2d(0.5, 0.5);
+      const double away =
+          std::hypot(at[0] - position.x(), at[1] - position.y()) - (measure.chosen ? 2.0 : 0.0);
+      if (away >= best)
+        continue;
+      best = away;
+      found = Handle{measure.index, n};
+    }
+  return found;
+}
+
+void SliceView::setMeasures(std::vector<DrawnMeasure> measures)
+{
+  m_measures = std::move(measures);
+  update();
 }
 
 void SliceView::leaveEvent(QEvent* event)
@@ -437,9 +489,13 @@ void SliceView::mouseMoveEvent(QMouseEvent* event)
   m_pointer = event->localPos();
   if (m_tool)
     update();
+  if (event->buttons() == Qt::NoButton)
+    setCursor(handleAt(event->localPos()) ? Qt::SizeAllCursor : Qt::CrossCursor);
   const QPointF step = event->localPos() - m_dragged;
   m_dragged = event->localPos();
-  if (m_toolDown)
+  if (m_handleDown)
+    emit handleDragged(patientAt(event->localPos()));
+  else if (m_toolDown)
     emit toolDragged(patientAt(event->localPos()));
   else if (event->buttons() & Qt::LeftButton)
     emit crosshairMoved(patientAt(event->localPos()));

@@ -17,8 +17,9 @@ namespace petrous::workstation
 /// A tool that works in the slices with the left button.
 struct SliceTool
 {
-  double radius = 0.0; ///< mm, of the ball that follows the pointer; 0: none is drawn
-  QColor color;        ///< of its outline
+  double radius = 0.0;   ///< mm, of the ball that follows the pointer; 0: none is drawn
+  QColor color;          ///< of its outline
+  bool measures = false; ///< leaves handles of measurements to be dragged
 };
 
 /// What a tool shows in the slices besides its draft.
@@ -62,6 +63,7 @@ public:
   void maskChanged(const core::PatientBox& box);
   void setTool(const std::optional<SliceTool>& tool);
   void setDrawing(SliceDrawing drawing);
+  void setMeasures(std::vector<DrawnMeasure> measures);
   /// What is being segmented; nullptr: nothing.
   void setDraft(std::shared_ptr<const presenters::DraftLayer> draft);
   void draftChanged(const core::PatientBox& box); ///< its voxels, in this box
@@ -79,6 +81,11 @@ signals:
   void toolPressed(const Eigen::Vector3d& patient, petrous::presenters::SliceOrientation plane);
   void toolDragged(const Eigen::Vector3d& patient);
   void toolReleased();
+  void toolDoubleClicked();
+  /// A handle of a measurement was taken, with a tool only if that measures; dragged to; let go.
+  void handleTaken(std::size_t measurement, std::size_t point);
+  void handleDragged(const Eigen::Vector3d& patient);
+  void handleReleased();
 
 protected:
   void paintEvent(QPaintEvent* event) override;
@@ -86,6 +93,7 @@ protected:
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
   void leaveEvent(QEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
@@ -104,6 +112,11 @@ private:
   bool moveMr(const QKeyEvent& event);
   const presenters::GreyWindow& seenWindow() const; // of what is seen: the CT, or an MR alone
   const presenters::IntensityDisplay& intensityDisplay() const; // likewise
+  struct Handle
+  {
+    std::size_t measurement, point;
+  };
+  std::optional<Handle> handleAt(const QPointF& position) const;
 
   presenters::SliceOrientation m_orientation;
   std::shared_ptr<const presenters::SlicePresenter> m_presenter;
@@ -128,6 +141,8 @@ private:
   SliceDrawing m_drawing;
   std::optional<QPointF> m_pointer; // where the tool's ball is drawn
   bool m_toolDown = false;
+  bool m_handleDown = false;
+  std::vector<DrawnMeasure> m_measures;
 };
 
 } // namespace petrous::workstation

@@ -41,6 +41,8 @@
 #include "ExchangeController.h"
 #include "LibraryController.h"
 #include "LibraryPanel.h"
+#include "MeasureController.h"
+#include "MeasurePanel.h"
 #include "PanelLayout.h"
 #include "PictureController.h"
 #include "ProbeLabel.h"
@@ -157,6 +159,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_branches(new BranchController(m_model, *m_actions->approaches, *this))
   , m_registration(new RegistrationController(m_model, *m_slices, *this))
   , m_segment(new SegmentController(m_model, *m_slices, *this))
+  , m_measure(new MeasureController(m_model, *m_slices, *m_view, *this))
   , m_library(new LibraryController(m_model, *m_keeper, *this, options.drawThumbnailsAfter))
   , m_exchange(new ExchangeController(m_model, *m_keeper, *m_library->menu(), *this))
   , m_attachments(new AttachmentsController(m_model, *m_view, *this))
@@ -184,6 +187,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   connectModel();
   connectActions();
   connectSegment();
+  connectMeasure();
   connectThumbnails();
   guardBoxes();
   stateChanged();
@@ -195,6 +199,7 @@ MainWindow::~MainWindow()
   m_drill->releaseTool(); // before the devices that control it
   delete m_registration;  // ends its threads
   delete m_segment;       // likewise
+  delete m_measure;       // likewise
   delete m_drill;
   delete m_devices;
   for (const auto& [entry, panel] : m_panels)
@@ -257,6 +262,7 @@ void MainWindow::layOut()
 
   menuBar()->insertMenu(menuBar()->actions().last(), m_registration->menu());
   menuBar()->insertMenu(menuBar()->actions().last(), m_segment->menu());
+  menuBar()->insertMenu(menuBar()->actions().last(), m_measure->menu());
   menuBar()->insertMenu(menuBar()->actions().last(), m_library->menu());
 
   m_sum->setObjectName("dim");
@@ -327,8 +333,8 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event)
 
 void MainWindow::addPanels()
 {
-  const PanelContext context{m_model,    *m_picture, *m_registration,
-                             *m_segment, *m_library, *m_attachments};
+  const PanelContext context{m_model,    *m_picture,     *m_registration, *m_segment,
+                             *m_library, *m_attachments, *m_measure};
   std::map<Qt::DockWidgetArea, QDockWidget*> tabs;
   for (const PanelEntry& entry : panelEntries())
   {
@@ -428,7 +434,9 @@ void MainWindow::connectModel()
     showUnregistered(false);
     m_registration->mrMoved();
     m_segment->mrMoved();
+    m_measure->partsChanged();
   };
+  m_model.events.measurementsChanged = [this] { m_measure->measurementsChanged(); };
   m_model.events.toolPutAway = [this]
   { statusBar()->showMessage(tr("Tool put away: what was drawn on the MR moved"), kMessage); };
   m_model.events.stateChanged = [this] { stateChanged(); };
@@ -552,8 +560,20 @@ void MainWindow::connectActions()
      });
   on(m_actions->restore, [this] { m_keeper->restore(); });
   on(m_actions->quit, [this] { close(); });
-  on(m_actions->undo, [this] { undoesSegment() ? m_segment->undo() : step(true); });
-  on(m_actions->redo, [this] { redoesSegment() ? m_segment->redo() : step(false); });
+  on(m_actions->undo,
+     [this]
+     {
+       undoesMeasure()   ? m_measure->undo()
+       : undoesSegment() ? m_segment->undo()
+                         : step(true);
+     });
+  on(m_actions->redo,
+     [this]
+     {
+       undoesMeasure()   ? m_measure->redo()
+       : redoesSegment() ? m_segment->redo()
+                         : step(false);
+     });
   on(m_actions->centerView,
      [this]
      {
@@ -617,6 +637,31 @@ void MainWindow::connectSegment()
   m_segment->addKeysTo(*m_slices);
 }
 
+// One tool at a time, here too.
+void MainWindow::connectMeasure()
+{
+  connect(m_measure, &MeasureController::toolTaken, this,
+          [this]
+          {
+            m_drill->releaseTool();
+            m_segment->leaveTool();
+            raisePanel("measureDock");
+          });
+  connect(m_segment, &SegmentController::toolTaken, m_measure, &MeasureController::leaveTool);
+  connect(m_view, &ThreeDView::toolModeSet, m_measure,
+          [this]
+          {
+            if (m_view->tool().GetDrillMode() || m_view->tool().GetProbeMode())
+              m_measure->leaveTool();
+          });
+  m_measure->viewTaken = [this]
+  { return m_view->tool().GetDrillMode() || m_view->tool().GetProbeMode(); };
+  connect(m_measure, &MeasureController::stateChanged, this, &MainWindow::showUndo);
+  connect(m_measure, &MeasureController::changed, m_saver, &CaseSaver::save);
+  connect(m_measure, &MeasureController::statusMessage, this,
+          [this](const QString& line) { statusBar()->showMessage(line, kMessage); });
+}
+
 // In the background, while nobody drills or waits for anything.
 void MainWindow::connectThumbnails()
 {
@@ -636,22 +681,35 @@ void MainWindow::connectThumbnails()
 
 void MainWindow::showUndo()
 {
-  const bool undoes = undoesSegment();
-  const bool redoes = redoesSegment();
-  m_actions->undo->setEnabled(undoes ? m_segment->canUndoStep() : m_model.canUndo());
-  m_actions->redo->setEnabled(redoes ? m_segment->canRedoStep() : m_model.canRedo());
-  const auto entry = [](const QString& text, const QString& what)
-  { return what.isEmpty() ? text : text + ' ' + QString(what).replace('&', "&&"); };
-  m_actions->undo->setText(
-      entry(tr("&Undo"), undoes ? m_segment->undoText() : words(m_model.undoText())));
-  m_actions->redo->setText(
-      entry(tr("&Redo"), redoes ? m_segment->redoText() : words(m_model.redoText())));
+  const auto show = [](QAction& action, const QString& text, bool can, const QString& what)
+  {
+    action.setEnabled(can);
+    action.setText(what.isEmpty() ? text : text + ' ' + QString(what).replace('&', "&&"));
+  };
+  const QString undo = tr("&Undo"), redo = tr("&Redo");
+  if (undoesMeasure())
+    show(*m_actions->undo, undo, m_measure->canUndo(), m_measure->undoText());
+  else if (undoesSegment())
+    show(*m_actions->undo, undo, m_segment->canUndoStep(), m_segment->undoText());
+  else
+    show(*m_actions->undo, undo, m_model.canUndo(), words(m_model.undoText()));
+  if (undoesMeasure())
+    show(*m_actions->redo, redo, m_measure->canRedo(), m_measure->redoText());
+  else if (redoesSegment())
+    show(*m_actions->redo, redo, m_segment->canRedoStep(), m_segment->redoText());
+  else
+    show(*m_actions->redo, redo, m_model.canRedo(), words(m_model.redoText()));
 }
 
 // A tool's steps first; and no stroke as long as the drill is put away for it.
 bool MainWindow::undoesSegment() const
 {
   return m_segment->active() && (m_segment->canUndoStep() || m_model.undoesStroke());
+}
+
+bool MainWindow::undoesMeasure() const
+{
+  return m_measure->active();
 }
 
 bool MainWindow::redoesSegment() const
@@ -715,6 +773,7 @@ void MainWindow::caseClosed()
   m_view->display().setContents({});
   m_slices->clear();
   m_segment->caseChanged();
+  m_measure->caseChanged();
   tellPanels();
   m_removedBanner->hide();
   m_place->clear();
@@ -732,6 +791,7 @@ void MainWindow::partsChanged()
   m_picture->appearanceChanged();
   m_slices->appearanceChanged();
   m_segment->partsChanged();
+  m_measure->partsChanged();
   m_registration->partsChanged();
   m_thickness->caseChanged();
   for (const auto& [entry, panel] : m_panels)
@@ -753,6 +813,7 @@ void MainWindow::caseChanged()
   m_picture->caseChanged();
   m_slices->caseChanged();
   m_segment->caseChanged();
+  m_measure->caseChanged();
   tellPanels();
   if (!value.view.tool) // the thrust may be that of the case before
     m_bar->setThrust(m_settings->thrust().value_or(DrillBar::kUsualThrust));

@@ -33,6 +33,7 @@ class DeviceWatcher;
 class ActiveDeviceController;
 class ExchangeController;
 class LibraryController;
+class MeasureController;
 class PictureController;
 class ProbeLabel;
 class RegistrationController;
@@ -82,6 +83,7 @@ private:
   void connectModel();
   void connectActions();
   void connectSegment();
+  void connectMeasure();
   void connectThumbnails();
   void caseChanged();
   void caseClosed();
@@ -95,6 +97,7 @@ private:
   bool undoesSegment() const;
   bool redoesSegment() const;
   void step(bool back); // undo or redo
+  bool undoesMeasure() const;
   void notice(const QString& text);
   void showView(rendering::StandardView view);
   void clipHere();
@@ -144,6 +147,7 @@ private:
   BranchController* m_branches;
   RegistrationController* m_registration;
   SegmentController* m_segment;
+  MeasureController* m_measure;
   LibraryController* m_library;
   ExchangeController* m_exchange;
   AttachmentsController* m_attachments;

@@ -7,6 +7,8 @@
 #include "AttachmentsPanel.h"
 #include "LibraryController.h"
 #include "LibraryPanel.h"
+#include "MeasureController.h"
+#include "MeasurePanel.h"
 #include "NearbyPanel.h"
 #include "PictureController.h"
 #include "PicturePanel.h"
@@ -44,6 +46,8 @@ std::vector<PanelEntry> panelEntries()
        [](C c) -> Panel* { return c.library.panel(); }},
       {"attachmentsDock", tr("Attachments"), Qt::Key_F12, Qt::LeftDockWidgetArea, kTabbed, kHidden,
        kNeedsCase, [](C c) -> Panel* { return c.attachments.panel(); }},
+      {"measureDock", tr("Measurements"), Qt::CTRL + Qt::Key_M, Qt::LeftDockWidgetArea, kTabbed,
+       kHidden, kNeedsCase, [](C c) -> Panel* { return c.measure.panel(); }},
   };
 }
 

@@ -16,6 +16,7 @@ namespace petrous::workstation
 
 class AttachmentsController;
 class LibraryController;
+class MeasureController;
 class PictureController;
 class RegistrationController;
 class SegmentController;
@@ -45,6 +46,7 @@ struct PanelContext
   SegmentController& segment;
   LibraryController& library;
   AttachmentsController& attachments;
+  MeasureController& measure;
 };
 
 struct PanelEntry

@@ -1,5 +1,7 @@
 #include "petrous/Core/CsvTable.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -13,6 +15,14 @@ namespace petrous::core
 
 namespace
 {
+
+std::string trimmed(const std::string& text)
+{
+  constexpr const char* kBlank = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(kBlank);
+  return first == text.npos ? std::string()
+                            : text.substr(first, text.find_last_not_of(kBlank) + 1 - first);
+}
 
 /// The fields of a line; a comma in quotes separates none.
 std::vector<std::string> split(const std::string& line)
@@ -120,6 +130,94 @@ void readCsv(std::istream& csv, const std::string& name, const std::vector<std::
   }
   if (!any)
     throw InvalidParameter(name + ": there is no row after the header");
+}
+
+char csvDelimiter(std::string_view text) noexcept
+{
+  std::array<std::size_t, 3> counts{};
+  constexpr std::string_view kDelimiters = ",;\t";
+  bool isQuoted = false;
+  for (const char c : text)
+  {
+    if (c == '"')
+      isQuoted = !isQuoted;
+    else if (c == '\n' && !isQuoted)
+      break;
+    else if (const std::size_t n = kDelimiters.find(c); n != kDelimiters.npos && !isQuoted)
+      ++counts[n];
+  }
+  return kDelimiters[static_cast<std::size_t>(std::max_element(counts.begin(), counts.end()) -
+                                              counts.begin())];
+}
+
+std::vector<CsvRow> csvRows(std::string_view text, const std::string& name, char delimiter,
+                            std::size_t line)
+{
+  std::vector<CsvRow> rows;
+  CsvRow row{line, {std::string()}};
+  bool isQuoted = false;
+  std::size_t quoteLine = 0;
+  const auto end = [&]
+  {
+    for (std::string& cell : row.cells)
+      cell = trimmed(cell);
+    rows.push_back(std::move(row));
+    row = {line, {std::string()}};
+  };
+  for (std::size_t n = 0; n < text.size(); ++n)
+  {
+    const char c = text[n];
+    std::string& cell = row.cells.back();
+    if (c == '\n')
+      ++line;
+    if (isQuoted && c == '"' && n + 1 < text.size() && text[n + 1] == '"')
+    {
+      cell += c;
+      ++n;
+    }
+    else if (c == '"' && (isQuoted || trimmed(cell).empty()))
+    {
+      isQuoted = !isQuoted;
+      quoteLine = line;
+    }
+    else if (isQuoted)
+      cell += c;
+    else if (c == delimiter)
+      row.cells.emplace_back();
+    else if (c == '\n')
+      end();
+    else
+      cell += c;
+  }
+  if (isQuoted)
+    throw InvalidParameter(name + ", line " + std::to_string(quoteLine) +
+                           ": a quote is opened and not closed");
+  end();
+  return rows;
+}
+
+std::string csvText(const std::vector<std::vector<std::string>>& rows, char delimiter)
+{
+  std::string text;
+  for (const auto& row : rows)
+  {
+    for (std::size_t n = 0; n < row.size(); ++n)
+    {
+      if (n > 0)
+        text += delimiter;
+      if (row[n].find_first_of(std::string("\"\r\n,;\t") + delimiter) == std::string::npos)
+      {
+        text += row[n];
+        continue;
+      }
+      text += '"';
+      for (const char c : row[n])
+        text += c == '"' ? std::string("\"\"") : std::string(1, c);
+      text += '"';
+    }
+    text += "\r\n";
+  }
+  return text;
 }
 
 } // namespace petrous::core

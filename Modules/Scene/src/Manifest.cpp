@@ -117,6 +117,7 @@ constexpr int kFirstFormatWithBranches = 2;
 constexpr int kFormatWithoutCodes = 3;
 constexpr int kFormatWithoutDescription = 4;
 constexpr int kFormatWithoutAttachments = 5;
+constexpr int kFormatWithoutMeasurements = 6;
 constexpr const char* kPlanes[] = {"axial", "coronal", "sagittal"};
 constexpr const char* kFrame = "frame_of_reference_salted_sha256";
 constexpr const char* kPatient = "patient_salted_sha256";
@@ -507,6 +508,34 @@ Attachment attachmentIn(const json& j)
   return attachment;
 }
 
+json measurementOut(const Measurement& measurement)
+{
+  json j{
+      {"kind", nameOf(measurement.kind)}, {"name", measurement.name}, {"points_mm", json::array()}};
+  for (const Eigen::Vector3d& point : measurement.points)
+    j["points_mm"].push_back(vectorOut(point));
+  if (!measurement.shown)
+    j["shown"] = false;
+  if (!measurement.structure.empty())
+    j["structure"] = measurement.structure;
+  if (!measurement.image.empty())
+    j["image"] = measurement.image;
+  return j;
+}
+
+Measurement measurementIn(const json& j)
+{
+  Measurement measurement;
+  measurement.kind = measurementKindFrom(j.at("kind").get<std::string>());
+  measurement.name = j.at("name").get<std::string>();
+  for (const json& point : j.at("points_mm").get_ref<const json::array_t&>())
+    measurement.points.push_back(vectorIn(point));
+  measurement.shown = j.value("shown", true);
+  measurement.structure = j.value("structure", std::string());
+  measurement.image = j.value("image", std::string());
+  return measurement;
+}
+
 bool isFinite(const json& j)
 {
   if (j.is_structured())
@@ -570,6 +599,10 @@ Case caseIn(const json& j)
     for (const json& attachment : j.at("attachments"))
       value.attachments.push_back(attachmentIn(attachment));
   checkAttachments(value.attachments);
+  if (j.contains("measurements"))
+    for (const json& measurement : j.at("measurements").get_ref<const json::array_t&>())
+      value.measurements.push_back(measurementIn(measurement));
+  checkMeasurements(value.measurements);
   const json& drilled = j.at("dissection");
   dissection::Dissection::Strokes strokes;
   for (const json& stroke : drilled.at("strokes"))
@@ -602,11 +635,13 @@ std::string toManifest(const Case& value)
                   });
   checkDescription(value.description);
   checkAttachments(value.attachments);
+  checkMeasurements(value.measurements);
   const bool isDescribed = !value.description.empty();
-  json j{{"petrous_case", needsFormat6(value) ? kManifestFormat
-                          : isDescribed       ? kFormatWithoutAttachments
-                          : hasCodes          ? kFormatWithoutDescription
-                                              : kFormatWithoutCodes},
+  json j{{"petrous_case", !value.measurements.empty() ? kManifestFormat
+                          : needsFormat6(value)       ? kFormatWithoutMeasurements
+                          : isDescribed               ? kFormatWithoutAttachments
+                          : hasCodes                  ? kFormatWithoutDescription
+                                                      : kFormatWithoutCodes},
          {"name", value.name},
          {"revision", value.revision},
          {"iso_hu", value.iso},
@@ -639,6 +674,8 @@ std::string toManifest(const Case& value)
     j["description"] = descriptionOut(value.description);
   for (const Attachment& attachment : value.attachments)
     j["attachments"].push_back(attachmentOut(attachment));
+  for (const Measurement& measurement : value.measurements)
+    j["measurements"].push_back(measurementOut(measurement));
   json strokes = json::array();
   for (const auto& stroke : value.dissection.strokes())
     strokes.push_back(strokeOut(*stroke));

@@ -221,6 +221,16 @@ void WorkstationModel::removeAttachment(const std::string& name)
   notify(events.attachmentsChanged);
 }
 
+void WorkstationModel::setMeasurements(std::vector<scene::Measurement> measurements)
+{
+  if (!m_case || m_case->measurements == measurements)
+    return;
+  scene::checkMeasurements(measurements);
+  m_case->measurements = std::move(measurements);
+  setUnsaved(true);
+  notify(events.measurementsChanged);
+}
+
 void WorkstationModel::step(bool back)
 {
   const std::size_t stroke =
@@ -345,6 +355,15 @@ PlaceReading WorkstationModel::readPlace(const Eigen::Vector3d& patient)
                                      return part ? part->look.shown : mesh && mesh->look.shown;
                                    });
   return reading;
+}
+
+std::optional<WallReading> WorkstationModel::readWall(const Eigen::Vector3d& patient)
+{
+  if (!m_case || !ready())
+    return std::nullopt;
+  if (!m_reader)
+    m_reader = std::make_unique<PointProbe>(*m_case, session().field());
+  return m_reader->wall(patient);
 }
 
 std::optional<double> WorkstationModel::tissueAlong(const interaction::PickRay& line)

@@ -344,6 +344,8 @@ void WorkstationModel::rename(const std::string& name, const std::string& to)
         follow(*part.drawnOn);
     for (scene::MeshPart& mesh : m_case->meshes)
       follow(mesh.drawnOn);
+    for (scene::Measurement& measurement : m_case->measurements)
+      follow(measurement.image);
     forEachLook(*m_case, [&](const std::string&, appearance::StructureAppearance& look)
                 { follow(look.sourceImage); });
     follow(m_case->boneLook.sourceImage);
@@ -372,6 +374,8 @@ void WorkstationModel::rename(const std::string& name, const std::string& to)
       follow(structure.name);
   for (scene::MeshPart& mesh : m_case->meshes)
     follow(mesh.name);
+  for (scene::Measurement& measurement : m_case->measurements)
+    follow(measurement.structure);
   for (RemovedPart& removed : m_removed)
     std::for_each(removed.colored.begin(), removed.colored.end(), follow);
   if (m_assembly.thicknessOver() == name)

@@ -19,6 +19,7 @@ struct WorkstationEvents
   std::function<void(const core::IndexBox&)> maskChanged; ///< within a box of CT voxels
   std::function<void()> crosshairMoved;
   std::function<void()> attachmentsChanged;
+  std::function<void()> measurementsChanged;
   std::function<void()> mrMoved;     ///< an MR's registration or its sign-off changed
   std::function<void()> toolPutAway; ///< since a structure drawn on an MR moved; before mrMoved
   /// One stroke undone (true) or redone, on request; the case's history is already updated.

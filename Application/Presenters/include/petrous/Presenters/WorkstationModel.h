@@ -166,6 +166,9 @@ public:
   std::string attach(scene::Attachment attachment);
   void setAttachmentNote(const std::string& name, const std::string& note);
   void removeAttachment(const std::string& name);
+  /// Marks and measurements, all at once: what MeasurementEditor steps back and forth. Throws
+  /// InvalidParameter (scene::checkMeasurements), without effect.
+  void setMeasurements(std::vector<scene::Measurement> measurements);
   void save();                          ///< throws as Library::save does
   void saveAs(const std::string& name); ///< a new case; strong exception guarantee
   void saveElsewhere(const std::filesystem::path& folder, const std::string& name);
@@ -258,6 +261,8 @@ public:
   /// As `petrous probe` reports it, plus the nearest structure; requires a case. The first reading
   /// of a case scans its labels (some tenths of a second).
   PlaceReading readPlace(const Eigen::Vector3d& patient);
+  /// The wall of tissue at the surface near a point; none before `ready` (PointProbe::wall).
+  std::optional<WallReading> readWall(const Eigen::Vector3d& patient);
   static constexpr double kNear = 20.0; ///< mm; farther structures are not reported
   /// Structures within kNear of a burr (patient LPS mm) and injured ones, nearest first. The first
   /// call for a case starts computing their distance fields in a separate thread; none until that

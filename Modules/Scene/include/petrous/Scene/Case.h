@@ -15,6 +15,7 @@
 #include "petrous/Scene/Attachment.h"
 #include "petrous/Scene/Description.h"
 #include "petrous/Scene/ImagePart.h"
+#include "petrous/Scene/Measurement.h"
 #include "petrous/Scene/MeshTouch.h"
 #include "petrous/Scene/TransformedPart.h"
 #include "petrous/Scene/ViewState.h"
@@ -84,6 +85,7 @@ struct Case
   ViewState view;
   Description description;
   std::vector<Attachment> attachments;
+  std::vector<Measurement> measurements;
 
   dissection::Dissection dissection; ///< the strokes, their history and the mask
 

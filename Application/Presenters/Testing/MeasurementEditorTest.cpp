@@ -1,0 +1,187 @@
+#include <filesystem>
+
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "ShapeCase.h"
+#include "petrous/Presenters/MeasurementEditor.h"
+
+using namespace petrous;
+using namespace petrous::presenters;
+using namespace petrous::presenters::testing;
+using Eigen::Vector3d;
+using Tool = MeasurementEditor::Tool;
+using Kind = scene::Measurement::Kind;
+
+namespace
+{
+
+class Measures : public ::testing::Test
+{
+protected:
+  Measures()
+    : m_folder(std::filesystem::temp_directory_path() /
+               ("petrous-measure-" + std::to_string(::getpid())))
+    , m_model(library::Library(m_folder))
+    , m_editor(m_model)
+  {
+    const core::GridGeometry grid({61, 41, 41}, Vector3d::Constant(0.5), Vector3d(-15, -10, -10));
+    m_model.adopt(shapeCase(grid, {{"nerve", cylinder({-10, 0, -5}, {10, 0, -5}, 1.5)}},
+                            [](const Vector3d& at) { return at.z() < 2.1; }));
+    m_model.prepareNow();
+    m_editor.caseChanged();
+  }
+  ~Measures() override { std::filesystem::remove_all(m_folder); }
+
+  const std::vector<scene::Measurement>& all() { return m_model.value().measurements; }
+  double value(std::size_t n) { return *scene::valueOf(all()[n].kind, all()[n].points); }
+
+  std::filesystem::path m_folder;
+  WorkstationModel m_model;
+  MeasurementEditor m_editor;
+};
+
+} // namespace
+
+TEST_F(Measures, ADistanceIsTwoPointsAndTheNextOneIsNumbered)
+{
+  m_editor.setTool(Tool::Distance);
+  m_editor.set({0, 0, 0});
+  EXPECT_TRUE(all().empty());
+  m_editor.hover(Vector3d(1, 0, 0));
+  ASSERT_TRUE(m_editor.draft());
+  EXPECT_EQ(m_editor.draft()->points.size(), 2U);
+  m_editor.set({3, 4, 0});
+  ASSERT_EQ(all().size(), 1U);
+  EXPECT_EQ(all()[0].name, "distance 1");
+  EXPECT_DOUBLE_EQ(value(0), 5.0);
+  EXPECT_EQ(m_editor.tool(), Tool::Distance) << "for the next one";
+  EXPECT_TRUE(m_model.unsaved());
+  m_editor.set({0, 0, 0});
+  m_editor.set({0, 0, 1});
+  EXPECT_EQ(all()[1].name, "distance 2");
+}
+
+TEST_F(Measures, APolygonEndsWhenItIsAskedTo)
+{
+  m_editor.setTool(Tool::Area);
+  for (const Vector3d& corner : {Vector3d(0, 0, 0), Vector3d(4, 0, 0), Vector3d(4, 3, 0)})
+  {
+    EXPECT_FALSE(m_editor.canFinish());
+    m_editor.set(corner);
+  }
+  m_editor.set({0, 3, 0});
+  m_editor.set({0, 3, 0}); // of a double click
+  m_editor.finish();
+  ASSERT_EQ(all().size(), 1U);
+  EXPECT_EQ(all()[0].points.size(), 4U);
+  EXPECT_DOUBLE_EQ(value(0), 12.0);
+}
+
+TEST_F(Measures, TwoPointsInATubeMeasureAlongItAndElsewhereAlongThePoints)
+{
+  m_editor.setTool(Tool::Along);
+  m_editor.set({-4, 0.5, -5});
+  m_editor.set({4, -0.5, -4.5});
+  ASSERT_EQ(all().size(), 1U);
+  EXPECT_EQ(all()[0].structure, "nerve");
+  EXPECT_EQ(all()[0].name, "length of nerve");
+  EXPECT_NEAR(value(0), 8.0, 0.2);
+  m_editor.set({0, 0, 5});
+  m_editor.set({3, 0, 5});
+  m_editor.set({3, 4, 5});
+  EXPECT_EQ(all().size(), 1U);
+  m_editor.finish();
+  ASSERT_EQ(all().size(), 2U);
+  EXPECT_DOUBLE_EQ(value(1), 7.0);
+  EXPECT_TRUE(all()[1].structure.empty());
+}
+
+TEST_F(Measures, AThicknessIsMeasuredAtOnceAndRefusedWhereThereIsNoWall)
+{
+  m_editor.setTool(Tool::Thickness);
+  EXPECT_THROW(m_editor.set({0, 0, 9}), core::InvalidParameter);
+  m_editor.set({0, 0, 2.0});
+  ASSERT_EQ(all().size(), 1U);
+  EXPECT_EQ(all()[0].structure, "nerve");
+  EXPECT_NEAR(value(0), 2.0 + 3.5, 0.5); // from about z = 2 to the top of the tube at -3.5
+  EXPECT_EQ(all()[0].points.size(), 3U);
+}
+
+TEST_F(Measures, EachChangeIsUndoneAndRedone)
+{
+  m_editor.setTool(Tool::Distance);
+  m_editor.set({0, 0, 0});
+  EXPECT_TRUE(m_editor.canUndo());
+  EXPECT_EQ(m_editor.undoText(), "the last point");
+  m_editor.undo();
+  EXPECT_TRUE(m_editor.points().empty());
+  EXPECT_FALSE(m_editor.canUndo());
+  m_editor.set({0, 0, 0});
+  m_editor.set({1, 0, 0});
+  m_editor.rename(0, "Bulb to canal");
+  m_editor.take(0, 1);
+  m_editor.drag({2, 0, 0});
+  m_editor.drag({3, 0, 0});
+  m_editor.release();
+  m_editor.setShown(0, false);
+  m_editor.remove(0);
+  EXPECT_TRUE(all().empty());
+  EXPECT_EQ(m_editor.undoText(), "remove 'Bulb to canal'");
+  m_editor.undo();
+  EXPECT_FALSE(all()[0].shown);
+  m_editor.undo();
+  EXPECT_TRUE(all()[0].shown);
+  EXPECT_DOUBLE_EQ(value(0), 3.0);
+  EXPECT_EQ(m_editor.undoText(), "move 'Bulb to canal'");
+  m_editor.undo(); // the whole drag
+  EXPECT_DOUBLE_EQ(value(0), 1.0);
+  m_editor.undo();
+  EXPECT_EQ(all()[0].name, "distance 1");
+  m_editor.undo();
+  EXPECT_TRUE(all().empty());
+  EXPECT_FALSE(m_editor.canUndo());
+  while (m_editor.canRedo())
+    m_editor.redo();
+  EXPECT_TRUE(all().empty()) << "removed again";
+  m_editor.undo();
+  EXPECT_EQ(all()[0].name, "Bulb to canal");
+}
+
+TEST_F(Measures, TheEndsOfALineStayOnTheStructuresCentreLine)
+{
+  m_editor.setTool(Tool::Along);
+  m_editor.set({-4, 0, -5});
+  m_editor.set({4, 0, -5});
+  ASSERT_EQ(all().size(), 1U);
+  const std::size_t last = all()[0].points.size() - 1;
+  EXPECT_TRUE(MeasurementEditor::isHandle(all()[0], last));
+  EXPECT_FALSE(MeasurementEditor::isHandle(all()[0], 1));
+  m_editor.take(0, last);
+  m_editor.drag({7, 3, 0});
+  m_editor.release();
+  EXPECT_NEAR(value(0), 11.0, 0.2);
+  EXPECT_NEAR((all()[0].points.back() - Vector3d(7, 0, -5)).norm(), 0.0, 0.15);
+}
+
+TEST_F(Measures, ANameThatIsTakenOrNotSeenIsRefused)
+{
+  m_editor.setTool(Tool::Mark);
+  m_editor.set({0, 0, 0});
+  m_editor.set({1, 0, 0});
+  ASSERT_EQ(all().size(), 2U);
+  EXPECT_THROW(m_editor.rename(1, "MARK 1"), core::InvalidParameter);
+  EXPECT_THROW(m_editor.rename(1, "a\xe2\x80\x8b"), core::InvalidParameter);
+  EXPECT_THROW(m_editor.rename(1, ""), core::InvalidParameter);
+  EXPECT_EQ(all()[1].name, "mark 2");
+}
+
+TEST_F(Measures, ARenamedStructureKeepsItsMeasurements)
+{
+  m_editor.setTool(Tool::Along);
+  m_editor.set({-4, 0, -5});
+  m_editor.set({4, 0, -5});
+  m_model.renamePart("nerve", "facial nerve");
+  EXPECT_EQ(all()[0].structure, "facial nerve");
+}

@@ -1,0 +1,190 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "ShapeCase.h"
+#include "petrous/Core/CsvTable.h"
+#include "petrous/Core/NumberText.h"
+#include "petrous/Presenters/Measuring.h"
+
+using namespace petrous;
+using namespace petrous::presenters;
+using namespace petrous::presenters::testing;
+using Eigen::Vector3d;
+using Kind = scene::Measurement::Kind;
+
+namespace
+{
+
+constexpr double kPi = 3.141592653589793;
+
+scene::Case twoBallsAndATube()
+{
+  const core::GridGeometry grid({81, 61, 61}, Vector3d(0.4, 0.4, 0.5), Vector3d(-16, -12, -15));
+  return shapeCase(grid, {{"left", ball({-8, 0, 0}, 4.0)},
+                          {"right", ball({8, 3, 0}, 3.0)},
+                          {"canal", cylinder({-10, -8, -8}, {10, -8, -8}, 2.0)}});
+}
+
+scene::Measurement made(Kind kind, std::vector<Vector3d> points, const std::string& image = {})
+{
+  scene::Measurement one;
+  one.kind = kind;
+  one.name = "one";
+  one.points = std::move(points);
+  one.image = image;
+  return one;
+}
+
+const Quantity& named(const std::vector<Quantity>& all, const std::string& name)
+{
+  for (const Quantity& one : all)
+    if (one.name == name)
+      return one;
+  ADD_FAILURE() << "no " << name;
+  return all.front();
+}
+
+} // namespace
+
+TEST(Quantity, IsWrittenAsItsUncertaintyDeserves)
+{
+  EXPECT_EQ(toString({"", 12.345, "mm", 0.353, {}}), "12.35 mm ± 0.35");
+  EXPECT_EQ(toString({"", 90.0, "°", 1.84, {}}), "90.0° ± 1.8");
+  EXPECT_EQ(toString({"", 1234.5, "mm³", 84.2, {}}), "1234 mm³ ± 84");
+  EXPECT_EQ(toString({"", -0.001, "mm", 0.3, {}}), "0.00 mm ± 0.30");
+  EXPECT_EQ(toString({"", 3.0, "mm", std::nullopt, {}}), "3.00 mm, uncertainty unknown");
+  EXPECT_EQ(toString({"", std::nullopt, "mm²", std::nullopt, {}}), "unknown");
+}
+
+// Each of the two points may lie half a voxel off along each axis.
+TEST(Uncertainty, OfADistanceIsHalfAVoxelAtEachEnd)
+{
+  const scene::Case value = twoBallsAndATube(); // 0.4 x 0.4 x 0.5 mm
+  const auto of = [&](const Vector3d& way)
+  {
+    return *quantitiesOf(value, made(Kind::Distance, {{1, 2, 3}, Vector3d(1, 2, 3) + way}))[0]
+                .uncertainty;
+  };
+  EXPECT_NEAR(of({10, 0, 0}), std::sqrt(2.0) * 0.2, 1e-6);
+  EXPECT_NEAR(of({0, 0, 7}), std::sqrt(2.0) * 0.25, 1e-6);
+  EXPECT_NEAR(of({3, 0, 4}), std::sqrt(2.0 * (0.36 * 0.04 + 0.64 * 0.0625)), 1e-6);
+  EXPECT_FALSE(quantitiesOf(value, made(Kind::Distance, {{1, 2, 3}, {1, 2, 3}}))[0].uncertainty);
+}
+
+// By the formulas of error propagation: the angle at B of legs a and c; a square's area.
+TEST(Uncertainty, OfAnAngleAndAnAreaFollowsFromThePoints)
+{
+  scene::Case value = twoBallsAndATube();
+  value.ct.geometry = core::GridGeometry({10, 10, 10}, Vector3d::Constant(0.6), Vector3d::Zero());
+  constexpr double kA = 8.0, kC = 5.0, kHalf = 0.3;
+  const auto angle = quantitiesOf(value, made(Kind::Angle, {{kA, 0, 0}, {0, 0, 0}, {0, kC, 0}}))[0];
+  EXPECT_DOUBLE_EQ(*angle.value, 90.0);
+  // d/dA = 1/a, d/dC = 1/c, both across their legs; d/dB = -(1/a, 1/c) across each.
+  const double rad = kHalf * std::sqrt(2.0 * (1.0 / (kA * kA) + 1.0 / (kC * kC)));
+  EXPECT_NEAR(*angle.uncertainty, rad * 180.0 / kPi, 1e-4);
+  const auto area =
+      quantitiesOf(value, made(Kind::Area, {{0, 0, 0}, {kA, 0, 0}, {kA, kA, 0}, {0, kA, 0}}))[0];
+  EXPECT_DOUBLE_EQ(*area.value, kA * kA);
+  // Each corner moves the area by half of its diagonal: 4 (h a sqrt(2) / 2)^2.
+  EXPECT_NEAR(*area.uncertainty, kHalf * kA * std::sqrt(2.0), 1e-4);
+  const auto crossed =
+      quantitiesOf(value, made(Kind::Area, {{0, 0, 0}, {8, 8, 0}, {8, 0, 0}, {0, 8, 0}}))[0];
+  EXPECT_FALSE(crossed.value);
+  EXPECT_EQ(toString(crossed), "unknown");
+}
+
+TEST(Uncertainty, OfAMarkOnAnMrHasItsRegistration)
+{
+  scene::Case value = twoBallsAndATube();
+  scene::ImagePart mr;
+  mr.name = "T2";
+  mr.geometry = core::GridGeometry({10, 10, 10}, Vector3d(0.8, 0.8, 1.2), Vector3d::Zero());
+  mr.mrFromCt = {Eigen::Quaterniond(Eigen::AngleAxisd(0.5 * kPi, Vector3d::UnitX())), {1, 2, 3}};
+  mr.registered = true;
+  mr.registration = scene::Registration();
+  value.mr = {mr};
+  const scene::Measurement mark = made(Kind::Mark, {{1, 2, 3}}, "T2");
+  EXPECT_FALSE(quantitiesOf(value, mark)[0].uncertainty) << "its registration's error is unknown";
+  EXPECT_NE(summaryOf(value, mark).find("unknown"), std::string::npos);
+  value.mr[0].registration->error = scene::RegistrationError{{1, 2, 13}, "incus", 0.2, 0.5, 0.9};
+  const auto known = quantitiesOf(value, mark);
+  // The MR's slices lie along the patient's y, a quarter turn from its own z.
+  EXPECT_NEAR(*known[0].uncertainty, std::hypot(0.4, 0.5), 1e-9);
+  EXPECT_NEAR(*known[1].uncertainty, std::hypot(0.6, 0.5), 1e-9);
+  EXPECT_NEAR(*known[2].uncertainty, std::hypot(0.4, 0.5), 1e-9);
+  EXPECT_NE(known[0].remark.find("10 mm from here"), std::string::npos) << known[0].remark;
+  // Within one image its registration moves all alike.
+  const auto distance = quantitiesOf(value, made(Kind::Distance, {{0, 0, 0}, {9, 0, 0}}, "T2"))[0];
+  EXPECT_NEAR(*distance.uncertainty, std::sqrt(2.0) * 0.4, 1e-6);
+  value.mr.clear();
+  EXPECT_FALSE(quantitiesOf(value, mark)[0].uncertainty);
+}
+
+TEST(Measuring, FindsTheGapBetweenStructuresMarksAndPoints)
+{
+  scene::Case value = twoBallsAndATube();
+  const double gap = Vector3d(16, 3, 0).norm() - 7.0;
+  const Between balls = distanceBetween(value, "left", "right");
+  EXPECT_NEAR(*balls.distance.value, gap, 0.25); // their voxels are 0.5 mm
+  // Both surfaces half of the longest edge.
+  EXPECT_NEAR(*balls.distance.uncertainty, std::sqrt(2.0) * 0.25, 1e-9);
+  const Between back = distanceBetween(value, "right", "left");
+  EXPECT_NEAR(*back.distance.value, *balls.distance.value, 0.03);
+  EXPECT_NEAR((back.from - balls.to).norm(), 0.0, 0.3);
+  value.measurements = {made(Kind::Mark, {{-8, 0, 9}})};
+  EXPECT_NEAR(*distanceBetween(value, "one", "left").distance.value, 5.0, 0.25);
+  EXPECT_NEAR(*distanceBetween(value, "left", "one").distance.value, 5.0, 0.25);
+  EXPECT_DOUBLE_EQ(*distanceBetween(value, "one", "one").distance.value, 0.0);
+  EXPECT_FALSE(distanceBetween(value, "one", "one").distance.uncertainty);
+  EXPECT_THROW(distanceBetween(value, "left", "middle"), core::InvalidParameter);
+}
+
+TEST(Measuring, StatesTheDimensionsOfACanal)
+{
+  const scene::Case value = twoBallsAndATube();
+  const auto canal = dimensionsOf(value, "canal");
+  EXPECT_NEAR(*named(canal, "volume").value, kPi * 4.0 * 20.0, 0.03 * kPi * 80.0);
+  EXPECT_GT(*named(canal, "volume").uncertainty, 0.0);
+  EXPECT_NEAR(*named(canal, "longest extent").value, 20.0, 0.4);
+  EXPECT_NEAR(*named(canal, "second extent").value, 4.0, 0.4);
+  EXPECT_NEAR(*named(canal, "third extent").value, 4.0, 0.4);
+  EXPECT_NEAR(*named(canal, "length of the centre line").value, 20.0, 0.4);
+  EXPECT_NEAR(*named(canal, "median diameter").value, 4.0, 0.25);
+  EXPECT_NEAR(*named(canal, "longest extent").uncertainty, std::sqrt(2.0) * 0.25, 1e-9);
+  const auto bulb = dimensionsOf(value, "left");
+  EXPECT_FALSE(named(bulb, "length of the centre line").value);
+  EXPECT_THROW(dimensionsOf(value, "none"), core::InvalidParameter);
+}
+
+TEST(Measuring, FollowsAStructureBetweenTwoPoints)
+{
+  const scene::Case value = twoBallsAndATube();
+  const auto whole = alongStructure(value, "canal");
+  EXPECT_NEAR(*scene::valueOf(whole.kind, whole.points), 20.0, 0.4);
+  const auto part = alongStructure(value, "canal", {{6, -7, -8}, {-3, -9, -8.5}});
+  EXPECT_NEAR(*scene::valueOf(part.kind, part.points), 9.0, 0.3);
+  EXPECT_EQ(part.structure, "canal");
+  // The ends alone are uncertain, each half a voxel along the line, which runs along x.
+  EXPECT_NEAR(*quantitiesOf(value, part)[0].uncertainty, std::sqrt(2.0) * 0.2, 0.01);
+  EXPECT_THROW(alongStructure(value, "left"), core::InvalidParameter);
+}
+
+TEST(Measuring, WritesATableThatIsReadAgain)
+{
+  scene::Case value = twoBallsAndATube();
+  value.measurements = {made(Kind::Distance, {{0, 0, 0}, {0, 0, 2.5}}),
+                        made(Kind::Mark, {{-1.25, 2, 3}})};
+  value.measurements[0].name = "=HYPERLINK(\"x\"), a";
+  value.measurements[1].name = "b";
+  const auto rows = core::csvRows(measurementsCsv(value), "t", ',');
+  ASSERT_GE(rows.size(), 8U);
+  EXPECT_EQ(rows[0].cells, kMeasurementColumns);
+  EXPECT_EQ(rows[1].cells[0], "'=HYPERLINK(\"x\"), a");
+  EXPECT_EQ(rows[1].cells[3], "2.5");
+  EXPECT_EQ(rows[1].cells[4], "mm");
+  EXPECT_NEAR(*core::parseDouble(rows[1].cells[5]), std::sqrt(2.0) * 0.25, 1e-6);
+  EXPECT_EQ(rows[2].cells[3], "-1.25");
+  EXPECT_EQ(rows[5].cells[0], "left");
+  EXPECT_EQ(rows[5].cells[5], "unknown");
+}

@@ -1,0 +1,164 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "ShapeCase.h"
+#include "petrous/Phantom/Phantom.h"
+#include "petrous/Presenters/StructureShape.h"
+
+using namespace petrous;
+using namespace petrous::presenters;
+using namespace petrous::presenters::testing;
+using Eigen::Vector3d;
+
+namespace
+{
+
+constexpr double kPi = 3.141592653589793;
+
+core::GridGeometry cube(double edge, double voxel, const Vector3d& spacing = Vector3d::Ones())
+{
+  const Vector3d step = voxel * spacing;
+  const auto count = [&](int axis) { return static_cast<int>(edge / step[axis]) + 1; };
+  return {{count(0), count(1), count(2)}, step, Vector3d::Constant(-0.5 * edge)};
+}
+
+} // namespace
+
+TEST(PrincipalBox, IsTheDiameterOfABallAlongEachAxis)
+{
+  const auto box = principalBox(*occupancyOf(cube(20, 0.5), ball({1, -2, 0.5}, 6.0)));
+  ASSERT_TRUE(box);
+  for (int a = 0; a < 3; ++a)
+    EXPECT_NEAR(box->extents[a], 12.0, 0.1);
+  EXPECT_NEAR((box->center - Vector3d(1, -2, 0.5)).norm(), 0.0, 0.02);
+}
+
+TEST(PrincipalBox, FindsLengthAndWidthsOfAnObliqueCylinder)
+{
+  const Vector3d axis = Vector3d(2, 1, -1).normalized();
+  const auto box = principalBox(
+      *occupancyOf(cube(30, 0.4, {1, 1, 1.5}), cylinder(-9.0 * axis, 9.0 * axis, 3.0)));
+  ASSERT_TRUE(box);
+  EXPECT_NEAR(box->extents[0], 18.0, 0.4);
+  EXPECT_NEAR(box->extents[1], 6.0, 0.3);
+  EXPECT_NEAR(box->extents[2], 6.0, 0.3);
+  EXPECT_NEAR(std::abs(box->axes.col(0).dot(axis)), 1.0, 1e-3);
+}
+
+TEST(CentreLine, OfAStraightTubeIsItsAxis)
+{
+  for (const Vector3d& direction : {Vector3d(0, 0, 1), Vector3d(1, 2, 3)})
+    for (const double radius : {1.0, 2.5})
+    {
+      const Vector3d axis = direction.normalized();
+      const auto line =
+          centreLine(*occupancyOf(cube(26, 0.4), cylinder(-10.0 * axis, 10.0 * axis, radius)));
+      ASSERT_TRUE(line) << radius;
+      EXPECT_NEAR(line->length(), 20.0, 0.25) << radius << " " << direction.transpose();
+      for (const Vector3d& point : line->points)
+        EXPECT_LT((point - axis.dot(point) * axis).norm(), 0.1);
+      for (const double diameter : line->diameters)
+        EXPECT_NEAR(diameter, 2.0 * radius, 0.08 * 2.0 * radius);
+    }
+}
+
+// The bend of a nerve's genu: half a torus of 5 mm, whose line is not drawn inwards.
+TEST(CentreLine, OfABentTubeFollowsIt)
+{
+  constexpr double kBend = 5.0, kRadius = 1.0;
+  const auto isInside = [](const Vector3d& at)
+  {
+    const double across = std::hypot(at.x(), at.y()) - kBend;
+    return at.y() > 0.0 && std::hypot(across, at.z()) < kRadius;
+  };
+  const auto line = centreLine(*occupancyOf(cube(16, 0.25), isInside));
+  ASSERT_TRUE(line);
+  EXPECT_NEAR(line->length(), kPi * kBend, 0.02 * kPi * kBend);
+  // Between two places on it a quarter of the circle.
+  const auto part = partOf(*line, {kBend / std::sqrt(2.0), kBend / std::sqrt(2.0), 0.3},
+                           {-kBend / std::sqrt(2.0), kBend / std::sqrt(2.0), -0.3});
+  double length = 0.0;
+  for (std::size_t n = 1; n < part.size(); ++n)
+    length += (part[n] - part[n - 1]).norm();
+  EXPECT_NEAR(length, 0.5 * kPi * kBend, 0.03 * kPi * kBend);
+  EXPECT_GT(part.front().x(), part.back().x());
+}
+
+TEST(CentreLine, OfABallIsNone)
+{
+  EXPECT_FALSE(centreLine(*occupancyOf(cube(20, 0.5), ball({0, 0, 0}, 6.0))));
+  EXPECT_FALSE(centreLine(*occupancyOf(cube(4, 0.5), [](const Vector3d&) { return false; })));
+}
+
+TEST(CentreLine, OfSeveralPiecesIsThatOfTheLargest)
+{
+  const auto line = centreLine(*occupancyOf(
+      cube(26, 0.5), [tube = cylinder({-8, 0, 0}, {8, 0, 0}, 1.5),
+                      crumb = cylinder({-8, 8, 0}, {-2, 8, 0}, 1.0)](const Vector3d& at)
+      { return tube(at) || crumb(at); }));
+  ASSERT_TRUE(line);
+  EXPECT_NEAR(line->length(), 16.0, 0.4);
+}
+
+// The phantom's facial nerve runs along a polyline that is known.
+TEST(CentreLine, OfThePhantomsFacialNerveIsItsCanalsAxis)
+{
+  const phantom::Phantom patient;
+  const std::size_t nerve = patient.indexOf("facial_nerve");
+  const auto& structure = patient.structures()[nerve];
+  const Vector3d size = structure.upper - structure.lower + Vector3d::Constant(2.0);
+  constexpr double kVoxel = 0.3;
+  const core::GridGeometry grid(
+      {static_cast<int>(size[0] / kVoxel) + 1, static_cast<int>(size[1] / kVoxel) + 1,
+       static_cast<int>(size[2] / kVoxel) + 1},
+      Vector3d::Constant(kVoxel), structure.lower - Vector3d::Constant(1.0));
+  const auto occupancy = occupancyOf(grid, [&](const Vector3d& at)
+                                     { return patient.signedDistance(nerve, at) < 0.0; });
+  const auto line = centreLine(*occupancy);
+  ASSERT_TRUE(line);
+  double off = 0.0;
+  const auto axis = phantom::Phantom::facialCanalAxis();
+  for (std::size_t p = 4; p + 4 < line->points.size(); ++p)
+  {
+    double best = 1e9;
+    for (std::size_t n = 1; n < axis.size(); ++n)
+    {
+      const Vector3d edge = axis[n].position - axis[n - 1].position;
+      const double share = std::clamp(
+          (line->points[p] - axis[n - 1].position).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+      best = std::min(best, (axis[n - 1].position + share * edge - line->points[p]).norm());
+    }
+    off += best;
+  }
+  EXPECT_LT(off / static_cast<double>(line->points.size() - 8), 0.25);
+  double length = 0.0;
+  for (std::size_t n = 1; n < axis.size(); ++n)
+    length += (axis[n].position - axis[n - 1].position).norm();
+  EXPECT_NEAR(line->length(), length, 0.06 * length);
+}
+
+TEST(ShortestWay, IsTheGapBetweenTwoBalls)
+{
+  const auto grid = cube(30, 0.5);
+  const auto a = occupancyOf(grid, ball({-7, 0, 0}, 4.0));
+  const auto b = occupancyOf(grid, ball({5, 3, 1}, 3.0));
+  const double gap = Vector3d(12, 3, 1).norm() - 7.0;
+  const auto way = shortestWay(*a, volume::SurfaceDistance(b));
+  ASSERT_TRUE(way);
+  EXPECT_NEAR(way->distance, gap, 0.03);
+  EXPECT_NEAR((way->to - way->from).norm(), way->distance, 0.02);
+  EXPECT_NEAR((way->from - Vector3d(-7, 0, 0)).norm(), 4.0, 0.05);
+  EXPECT_NEAR((way->to - Vector3d(5, 3, 1)).norm(), 3.0, 0.05);
+  const auto back = shortestWay(*b, volume::SurfaceDistance(a));
+  EXPECT_NEAR(back->distance, gap, 0.03);
+}
+
+TEST(ShortestWay, IsNoneBetweenWhatTouches)
+{
+  const auto grid = cube(20, 0.5);
+  const auto way = shortestWay(*occupancyOf(grid, ball({-2, 0, 0}, 4.0)),
+                               volume::SurfaceDistance(occupancyOf(grid, ball({2, 0, 0}, 4.0))));
+  ASSERT_TRUE(way);
+  EXPECT_EQ(way->distance, 0.0);
+}

@@ -1,0 +1,137 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "petrous/Presenters/StructureShape.h"
+#include "petrous/Presenters/WorkstationModel.h"
+
+namespace petrous::presenters
+{
+
+/// Measuring in the open case: a tool that takes points, and changes of what is there, each with
+/// undo. Without Qt; not thread-safe.
+///
+/// Every change goes through WorkstationModel::setMeasurements with all measurements, so a history
+/// for all of a case needs to keep no more than these lists.
+class MeasurementEditor
+{
+public:
+  enum class Tool
+  {
+    None,
+    Mark,
+    Distance,
+    Along, ///< along a structure's centre line, or along the points if they are in none
+    Angle,
+    Area,
+    Thickness
+  };
+  struct Events
+  {
+    std::function<void()> changed; ///< tool, points, measurements, choice, or what can be undone
+  };
+
+  explicit MeasurementEditor(WorkstationModel& model);
+
+  Events events;
+
+  void caseChanged();  ///< or closed: forgets points, choice and undo
+  void partsChanged(); ///< structures came, went or moved
+
+  Tool tool() const noexcept { return m_tool; }
+  void setTool(Tool tool); ///< drops the points that were set
+  /// The MR over which points are set from now on; empty: the CT.
+  void setImage(const std::string& mr) { m_image = mr; }
+
+  /// Sets a point, patient LPS mm; the last one makes the measurement. Throws InvalidParameter
+  /// where nothing can be measured there; the points before it stay.
+  void set(const Eigen::Vector3d& patient);
+  /// A line along points and a polygon end with the points that are there, if they suffice.
+  void finish();
+  bool canFinish() const;
+  /// Where the next point would be; none: nowhere.
+  void hover(const std::optional<Eigen::Vector3d>& patient);
+  void drop(); ///< the points that were set
+  const std::vector<Eigen::Vector3d>& points() const noexcept { return m_points; }
+  /// With the place under the pointer as the next point; none without points.
+  std::optional<scene::Measurement> draft() const;
+  std::string hint() const; ///< what the tool takes next, one sentence
+
+  const std::vector<scene::Measurement>& all() const;
+
+  /// Moves a point of a measurement: takes it, drags it, and lets it go, which is one step. Of a
+  /// line along a structure the ends, which stay on its centre line; of a thickness the place where
+  /// it is measured anew.
+  void take(std::size_t measurement, std::size_t point);
+  void drag(const Eigen::Vector3d& patient);
+  void release();
+  bool dragging() const noexcept { return m_dragged.has_value(); }
+  /// Whether a point is a handle: of a line along a structure only the ends are, of a thickness the
+  /// first.
+  static bool isHandle(const scene::Measurement& measurement, std::size_t point);
+
+  void rename(std::size_t measurement, const std::string& name); ///< throws InvalidParameter
+  void remove(std::size_t measurement);
+  void setShown(std::size_t measurement, bool shown);
+  void setAllShown(bool shown);
+
+  std::optional<std::size_t> chosen() const noexcept { return m_chosen; }
+  void choose(std::optional<std::size_t> measurement);
+
+  /// A point that was set, or the last change.
+  bool canUndo() const noexcept { return !m_points.empty() || m_position > 0; }
+  bool canRedo() const noexcept { return m_points.empty() && m_position < m_steps.size(); }
+  std::string undoText() const; ///< "distance 'distance 2'"; empty: nothing
+  std::string redoText() const;
+  void undo();
+  void redo();
+
+private:
+  struct Step
+  {
+    std::string text;
+    std::vector<scene::Measurement> before, after;
+  };
+  struct Drag
+  {
+    std::size_t measurement, point;
+    std::vector<scene::Measurement> before;
+  };
+
+  void change(const std::string& text, std::vector<scene::Measurement> next);
+  void add(scene::Measurement measurement);
+  void restore(const std::vector<scene::Measurement>& measurements);
+  scene::Measurement thicknessAt(const Eigen::Vector3d& patient);
+  void tell() const;
+  /// The structure at a point that is a tube, with its centre line; nullptr: none.
+  const CentreLine* lineAt(const Eigen::Vector3d& patient, std::string& structure,
+                           std::string& image);
+  const CentreLine* lineOf(const std::string& structure, std::string& image);
+  std::optional<scene::Measurement> alongTheStructure();
+
+  struct Line
+  {
+    std::optional<CentreLine> line;
+    std::string image; ///< the MR on which the structure was drawn
+  };
+
+  WorkstationModel& m_model;
+  Tool m_tool = Tool::None;
+  std::string m_image;
+  std::vector<Eigen::Vector3d> m_points;
+  std::optional<Eigen::Vector3d> m_hover;
+  std::optional<std::size_t> m_chosen;
+  std::optional<Drag> m_dragged;
+  std::vector<Step> m_steps;
+  std::size_t m_position = 0; ///< steps that are done
+  std::map<std::string, Line> m_lines;
+};
+
+const char* nameOf(MeasurementEditor::Tool tool) noexcept; ///< "Distance", ...
+
+} // namespace petrous::presenters

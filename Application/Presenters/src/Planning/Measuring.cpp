@@ -1,0 +1,499 @@
+#include "petrous/Presenters/Measuring.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "NamedOccupancy.h"
+#include "petrous/Core/CsvTable.h"
+#include "petrous/Core/NumberText.h"
+#include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/StructureShape.h"
+#include "petrous/Presenters/SurfaceUncertainty.h"
+#include "petrous/Scene/Placement.h"
+#include "petrous/Volume/MeshMeasure.h"
+#include "petrous/Volume/SurfaceArea.h"
+
+namespace petrous::presenters
+{
+
+const std::vector<std::string> kMeasurementColumns{"name", "kind",        "quantity", "value",
+                                                   "unit", "uncertainty", "remark"};
+
+namespace
+{
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using scene::Measurement;
+using Kind = Measurement::Kind;
+
+// Of a point on a grid that may lie half a voxel off along each axis: half-widths squared, mm^2.
+Matrix3d spreadOf(const core::GridGeometry& grid, const Matrix3d& ctFromImage)
+{
+  const Matrix3d axes = ctFromImage * grid.direction();
+  return axes * (0.5 * grid.spacing()).cwiseAbs2().asDiagonal() * axes.transpose();
+}
+
+std::optional<Matrix3d> spreadAt(const scene::Case& value, const std::string& image)
+{
+  if (image.empty())
+    return spreadOf(value.ct.geometry, Matrix3d::Identity());
+  const scene::ImagePart* mr = scene::findMr(value, image);
+  if (!mr)
+    return std::nullopt;
+  return spreadOf(mr->geometry, mr->mrFromCt.inverse().rotation().toRotationMatrix());
+}
+
+std::string voxelsOf(const scene::Case& value, const std::string& image)
+{
+  const scene::ImagePart* mr = image.empty() ? &value.ct : scene::findMr(value, image);
+  if (!mr)
+    return "set on the MR '" + image + "', which is gone";
+  const Vector3d& edge = mr->geometry.spacing();
+  return (image.empty() ? std::string("set on the ") + primaryName(value)
+                        : "set on the MR '" + image + "'") +
+         ", voxels " + core::fixedText(edge[0], 2) + " x " + core::fixedText(edge[1], 2) + " x " +
+         core::fixedText(edge[2], 2) + " mm";
+}
+
+// Of the MR's registration, as a place on the CT depends on it.
+struct RegistrationShare
+{
+  std::optional<double> millimetres; // none: unknown
+  std::string text;
+};
+RegistrationShare registrationOf(const scene::Case& value, const std::string& image,
+                                 const Vector3d& at)
+{
+  if (image.empty())
+    return {0.0, {}};
+  const scene::ImagePart* mr = scene::findMr(value, image);
+  if (!mr || !mr->registration || !mr->registration->error)
+    return {std::nullopt, "its registration's error unknown"};
+  const scene::RegistrationError& error = *mr->registration->error;
+  return {error.p95, "registered to " + core::fixedText(error.p95, 2) + " mm (p95) at " +
+                         error.place + ", " + core::fixedText((error.point - at).norm(), 0) +
+                         " mm from here"};
+}
+
+std::string joined(const std::vector<std::string>& phrases)
+{
+  std::string text;
+  for (const std::string& phrase : phrases)
+    if (!phrase.empty())
+      text += (text.empty() ? "" : "; ") + phrase;
+  return text;
+}
+
+int decimalsFor(const Quantity& quantity)
+{
+  const double by = quantity.uncertainty.value_or(0.05);
+  return by >= 10.0 ? 0 : by >= 1.0 ? 1 : 2;
+}
+
+std::string fixed(double value, int decimals)
+{
+  const std::string text = core::fixedText(value, decimals);
+  const bool isZero = text.find_first_not_of("-0.") == text.npos;
+  return isZero && text.front() == '-' ? text.substr(1) : text;
+}
+
+const char* nameOfValue(Kind kind)
+{
+  switch (kind)
+  {
+  case Kind::Mark:
+    return "position";
+  case Kind::Thickness:
+    return "thickness along the normal";
+  default:
+    return scene::nameOf(kind);
+  }
+}
+
+std::vector<Quantity> coordinatesOf(const scene::Case& value, const Measurement& mark)
+{
+  const auto spread = spreadAt(value, mark.image);
+  const RegistrationShare share = registrationOf(value, mark.image, mark.points.front());
+  std::vector<Quantity> quantities;
+  for (Eigen::Index a = 0; a < 3; ++a)
+  {
+    Quantity one{std::string(1, "xyz"[a]), mark.points.front()[a], "mm", std::nullopt, {}};
+    if (spread && share.millimetres)
+      one.uncertainty = std::hypot(std::sqrt((*spread)(a, a)), *share.millimetres);
+    one.remark = joined({voxelsOf(value, mark.image), share.text});
+    quantities.push_back(std::move(one));
+  }
+  return quantities;
+}
+
+// The ends of a line that follows a structure, each half a voxel off along the line.
+std::optional<double> spreadOfEnds(const scene::Case& value, const Measurement& line)
+{
+  const auto spread = spreadAt(value, line.image);
+  if (!spread)
+    return std::nullopt;
+  const auto along = [&](std::size_t from, std::size_t to)
+  {
+    const Vector3d way = line.points[to] - line.points[from];
+    return way.norm() > 0.0 ? way.normalized().dot(*spread * way.normalized()) : 0.0;
+  };
+  const std::size_t last = line.points.size() - 1;
+  return std::sqrt(along(0, 1) + along(last - 1, last));
+}
+
+// Surfaces of a structure: how far they may lie off, mm.
+struct SurfaceShare
+{
+  std::optional<double> millimetres;
+  std::string text;
+};
+SurfaceShare shareOf(const SurfaceUncertainty& uncertainty, bool comparesImages)
+{
+  // Within one structure its registration shifts all alike.
+  SurfaceUncertainty own = uncertainty;
+  if (!comparesImages)
+  {
+    own.registration.reset();
+    own.drawnOn.clear();
+  }
+  return {own.incomplete() ? std::nullopt : std::optional<double>(own.millimetres()),
+          toString(own)};
+}
+
+std::optional<double> volumeOf(const scene::Case& value, const std::string& name)
+{
+  if (const auto* structure = scene::findStructure(value, name))
+    return structure->volume;
+  for (const scene::MeshPart& mesh : value.meshes)
+    if (mesh.name == name && mesh.mesh)
+      return volume::measure(*mesh.mesh.get()).volume;
+  return std::nullopt;
+}
+
+std::string safeForSpreadsheets(const std::string& text)
+{
+  return !text.empty() && std::string("=+-@\t").find(text.front()) != std::string::npos ? "'" + text
+                                                                                        : text;
+}
+
+} // namespace
+
+std::string toString(const Quantity& quantity)
+{
+  if (!quantity.value)
+    return "unknown";
+  const int decimals = decimalsFor(quantity);
+  const std::string unit = quantity.unit == "°" ? "°" : " " + quantity.unit;
+  const std::string text = fixed(*quantity.value, decimals) + unit;
+  return quantity.uncertainty ? text + " ± " + fixed(*quantity.uncertainty, decimals)
+                              : text + ", uncertainty unknown";
+}
+
+std::optional<double> propagated(const scene::Case& value, const Measurement& measurement,
+                                 double more)
+{
+  const auto spread = spreadAt(value, measurement.image);
+  if (!spread || !scene::valueOf(measurement.kind, measurement.points))
+    return std::nullopt;
+  const Matrix3d whole = *spread + more * more * Matrix3d::Identity();
+  const std::size_t used =
+      measurement.kind == Kind::Thickness ? 2 : measurement.points.size(); // the third is another's
+  constexpr double kStep = 1e-4;                                           // mm
+  std::vector<Vector3d> points = measurement.points;
+  double square = 0.0;
+  for (std::size_t n = 0; n < used; ++n)
+  {
+    Vector3d slope = Vector3d::Zero();
+    for (Eigen::Index a = 0; a < 3; ++a)
+    {
+      const Vector3d before = points[n];
+      points[n] = before + kStep * Vector3d::Unit(a);
+      const auto high = scene::valueOf(measurement.kind, points);
+      points[n] = before - kStep * Vector3d::Unit(a);
+      const auto low = scene::valueOf(measurement.kind, points);
+      points[n] = before;
+      if (!high || !low)
+        return std::nullopt;
+      slope[a] = (*high - *low) / (2.0 * kStep);
+    }
+    square += slope.dot(whole * slope);
+  }
+  return square > 0.0 ? std::optional<double>(std::sqrt(square)) : std::nullopt;
+}
+
+std::vector<Quantity> quantitiesOf(const scene::Case& value, const Measurement& measurement)
+{
+  if (measurement.kind == Kind::Mark)
+    return coordinatesOf(value, measurement);
+  Quantity main{nameOfValue(measurement.kind), scene::valueOf(measurement.kind, measurement.points),
+                scene::unitOf(measurement.kind), std::nullopt, voxelsOf(value, measurement.image)};
+  if (measurement.kind == Kind::Length && !measurement.structure.empty())
+  {
+    main.uncertainty = spreadOfEnds(value, measurement);
+    main.remark = joined({"along the centre line of '" + measurement.structure + "'", main.remark});
+    return {main};
+  }
+  main.uncertainty = propagated(value, measurement);
+  if (measurement.kind == Kind::Area)
+  {
+    if (!main.value)
+      main.remark = "its edges cross, so it has no area";
+    else if (const double off = scene::offPlane(measurement.points); off > 0.05)
+      main.remark =
+          joined({"points up to " + core::fixedText(off, 2) + " mm off its plane", main.remark});
+  }
+  if (measurement.kind == Kind::Angle && !main.value)
+    main.remark = "its points coincide";
+  if (measurement.kind != Kind::Thickness)
+    return {main};
+  main.remark =
+      joined({measurement.structure.empty() ? std::string() : "to '" + measurement.structure + "'",
+              main.remark});
+  std::vector<Quantity> both{main};
+  if (measurement.points.size() == 3)
+  {
+    Measurement shortest = measurement;
+    shortest.points = {measurement.points[0], measurement.points[2]};
+    both.push_back({"shortest thickness", scene::valueOf(Kind::Thickness, shortest.points), "mm",
+                    propagated(value, shortest), main.remark});
+  }
+  return both;
+}
+
+std::string summaryOf(const scene::Case& value, const Measurement& measurement)
+{
+  const std::vector<Quantity> quantities = quantitiesOf(value, measurement);
+  if (measurement.kind != Kind::Mark)
+    return toString(quantities.front());
+  std::string text;
+  double most = 0.0;
+  bool isKnown = true;
+  for (const Quantity& one : quantities)
+  {
+    text += (text.empty() ? "" : ", ") + fixed(*one.value, 1);
+    most = std::max(most, one.uncertainty.value_or(0.0));
+    isKnown = isKnown && one.uncertainty;
+  }
+  return text + " mm" + (isKnown ? " ± " + fixed(most, 2) : ", uncertainty unknown");
+}
+
+std::vector<std::pair<std::string, Quantity>> volumesOf(const scene::Case& value)
+{
+  std::vector<std::pair<std::string, Quantity>> volumes;
+  for (const scene::LabelPart& part : value.labels)
+    for (const scene::StructurePart& structure : part.structures)
+      volumes.emplace_back(structure.name, Quantity{"volume", structure.volume, "mm³", std::nullopt,
+                                                    "of its voxels"});
+  if (!value.dissection.strokes().empty())
+    volumes.emplace_back("drilled", Quantity{"volume", value.removedVolume(), "mm³", std::nullopt,
+                                             "removed by the strokes that are applied"});
+  return volumes;
+}
+
+std::vector<Quantity> dimensionsOf(const scene::Case& value, const std::string& structure,
+                                   const core::Progress& progress)
+{
+  const scene::StructureOccupancy known =
+      namedOccupancy(value, structure, "dimensions", progress.part(0.0, 0.2));
+  const auto occupancy = known.make();
+  const auto box = occupancy ? principalBox(*occupancy) : std::nullopt;
+  if (!box)
+    throw core::InvalidParameter("dimensions: '" + structure + "' encloses nothing");
+  const SurfaceShare share = shareOf(uncertaintyOf(value, known), false);
+  const auto across = share.millimetres // two surfaces
+                          ? std::optional<double>(std::sqrt(2.0) * *share.millimetres)
+                          : std::nullopt;
+  std::vector<Quantity> quantities;
+  Quantity volume{"volume", volumeOf(value, structure), "mm³", std::nullopt, {}};
+  if (!volume.value)
+    volume.remark = "its surface is open";
+  else if (share.millimetres)
+  {
+    const double area = volume::surfaceArea(
+        *occupancy, [](const Vector3d&, const Vector3d&) { return true; }, progress.part(0.2, 0.5));
+    volume.uncertainty = *share.millimetres * area;
+    volume.remark = "if its whole surface lay half a voxel farther out or in; " + share.text;
+  }
+  quantities.push_back(std::move(volume));
+  constexpr const char* kExtents[] = {"longest extent", "second extent", "third extent"};
+  for (Eigen::Index a = 0; a < 3; ++a)
+    quantities.push_back(
+        {kExtents[a], box->extents[a], "mm", across,
+         joined({"along a principal axis of inertia, direction " + fixed(box->axes(0, a), 3) +
+                     ", " + fixed(box->axes(1, a), 3) + ", " + fixed(box->axes(2, a), 3) + " (LPS)",
+                 share.text})});
+  const auto line = centreLine(*occupancy, progress.part(0.5, 1.0));
+  if (!line)
+  {
+    quantities.push_back({"length of the centre line", std::nullopt, "mm", std::nullopt,
+                          "it is no tube: too short for its width"});
+    return quantities;
+  }
+  quantities.push_back({"length of the centre line", line->length(), "mm", across, share.text});
+  std::vector<double> diameters = line->diameters;
+  std::sort(diameters.begin(), diameters.end());
+  const std::string remark =
+      joined({"of the circle with the area of the cross-section", share.text});
+  quantities.push_back({"smallest diameter", diameters.front(), "mm", across, remark});
+  quantities.push_back({"median diameter", diameters[diameters.size() / 2], "mm", across, remark});
+  quantities.push_back({"largest diameter", diameters.back(), "mm", across, remark});
+  return quantities;
+}
+
+Measurement alongStructure(const scene::Case& value, const std::string& structure,
+                           const std::vector<Vector3d>& between, const core::Progress& progress)
+{
+  const scene::StructureOccupancy known =
+      namedOccupancy(value, structure, "length", progress.part(0.0, 0.3));
+  const auto occupancy = known.make();
+  const auto line = occupancy ? centreLine(*occupancy, progress.part(0.3, 1.0)) : std::nullopt;
+  if (!line)
+    throw core::InvalidParameter("length: '" + structure +
+                                 "' is no tube: too short for its width, so it has no centre line");
+  Measurement along;
+  along.kind = Kind::Length;
+  along.structure = structure;
+  along.image = known.mr;
+  along.points = between.size() == 2 ? partOf(*line, between[0], between[1]) : line->points;
+  // As many as a measurement may have.
+  if (along.points.size() > Measurement::kMostPoints)
+  {
+    const std::size_t stride = along.points.size() / Measurement::kMostPoints + 1;
+    std::vector<Vector3d> fewer;
+    for (std::size_t n = 0; n + 1 < along.points.size(); n += stride)
+      fewer.push_back(along.points[n]);
+    fewer.push_back(along.points.back());
+    along.points = std::move(fewer);
+  }
+  return along;
+}
+
+Between distanceBetween(const scene::Case& value, const std::string& a, const std::string& b,
+                        const core::Progress& progress)
+{
+  struct Side
+  {
+    std::optional<Vector3d> mark;
+    std::string image;
+    std::shared_ptr<const volume::Volume<float>> occupancy;
+    std::optional<double> share; // mm
+    std::string text;
+  };
+  const auto sideOf = [&](const std::string& name, const core::Progress& part)
+  {
+    Side side;
+    const auto isNamed = [wanted = scene::lowerCase(name)](const Measurement& one)
+    { return one.kind == Kind::Mark && scene::lowerCase(one.name) == wanted; };
+    const auto mark = std::find_if(value.measurements.begin(), value.measurements.end(), isNamed);
+    const char* kind = scene::kindOfPart(value, name);
+    if (mark != value.measurements.end() && !kind)
+    {
+      side.mark = mark->points.front();
+      side.image = mark->image;
+      return side;
+    }
+    const scene::StructureOccupancy known = namedOccupancy(value, name, "distance", part);
+    side.image = known.mr;
+    side.occupancy = known.make();
+    if (!side.occupancy)
+      throw core::InvalidParameter("distance: '" + name + "' encloses nothing");
+    side.share = shareOf(uncertaintyOf(value, known), false).millimetres;
+    side.text = "'" + name + "': " + toString(uncertaintyOf(value, known));
+    return side;
+  };
+  Side one = sideOf(a, progress.part(0.0, 0.2));
+  Side other = sideOf(b, progress.part(0.2, 0.4));
+  Between result{{"shortest distance", std::nullopt, "mm", std::nullopt, {}},
+                 Vector3d::Zero(),
+                 Vector3d::Zero()};
+  ShortestWay way;
+  if (one.mark && other.mark)
+    way = {(*one.mark - *other.mark).norm(), *one.mark, *other.mark};
+  else if (one.mark)
+    way = shortestWay(*one.mark, volume::SurfaceDistance(other.occupancy, progress.part(0.4, 1.0)));
+  else if (other.mark)
+  {
+    way = shortestWay(*other.mark, volume::SurfaceDistance(one.occupancy, progress.part(0.4, 1.0)));
+    std::swap(way.from, way.to);
+  }
+  else
+  {
+    const bool swapped = one.occupancy->size() > other.occupancy->size();
+    const Side& from = swapped ? other : one;
+    const Side& to = swapped ? one : other;
+    const volume::SurfaceDistance surface(to.occupancy, progress.part(0.4, 0.7));
+    const auto found = shortestWay(*from.occupancy, surface, progress.part(0.7, 1.0));
+    if (!found)
+      throw core::InvalidParameter("distance: '" + (swapped ? b : a) + "' has no surface");
+    way = *found;
+    if (swapped)
+      std::swap(way.from, way.to);
+  }
+  result.from = way.from;
+  result.to = way.to;
+  result.distance.value = way.distance;
+  // A registration counts where it brings together what was set on different images.
+  const Vector3d direction = way.distance > 0.0 ? Vector3d((way.to - way.from) / way.distance)
+                                                : Vector3d(Vector3d::Zero());
+  double square = 0.0;
+  bool isKnown = true;
+  std::vector<std::string> remarks;
+  for (const auto& [side, at] : {std::make_pair(&one, way.from), std::make_pair(&other, way.to)})
+  {
+    if (side->mark)
+    {
+      const auto spread = spreadAt(value, side->image);
+      isKnown = isKnown && spread && way.distance > 0.0;
+      square += spread ? direction.dot(*spread * direction) : 0.0;
+      remarks.push_back("mark " + voxelsOf(value, side->image));
+    }
+    else
+    {
+      isKnown = isKnown && side->share;
+      square += side->share.value_or(0.0) * side->share.value_or(0.0);
+      remarks.push_back(side->text);
+    }
+    if (one.image == other.image)
+      continue;
+    const RegistrationShare share = registrationOf(value, side->image, at);
+    isKnown = isKnown && share.millimetres;
+    square += share.millimetres.value_or(0.0) * share.millimetres.value_or(0.0);
+  }
+  if (isKnown)
+    result.distance.uncertainty = std::sqrt(square);
+  if (way.distance == 0.0)
+    remarks.insert(remarks.begin(), "they touch or overlap");
+  result.distance.remark = joined(remarks);
+  return result;
+}
+
+std::vector<std::string> rowOf(const std::string& name, const std::string& kind,
+                               const Quantity& quantity)
+{
+  const auto number = [](const std::optional<double>& value)
+  { return value ? core::generalText(*value, 9) : std::string("unknown"); };
+  return {safeForSpreadsheets(name),
+          kind,
+          quantity.name,
+          number(quantity.value),
+          quantity.unit,
+          number(quantity.uncertainty),
+          safeForSpreadsheets(quantity.remark)};
+}
+
+std::string measurementsCsv(const scene::Case& value)
+{
+  std::vector<std::vector<std::string>> rows{kMeasurementColumns};
+  for (const Measurement& one : value.measurements)
+    for (const Quantity& quantity : quantitiesOf(value, one))
+      rows.push_back(rowOf(one.name, scene::nameOf(one.kind), quantity));
+  for (const auto& [name, quantity] : volumesOf(value))
+    rows.push_back(rowOf(name, "structure", quantity));
+  return core::csvText(rows, ',');
+}
+
+} // namespace petrous::presenters

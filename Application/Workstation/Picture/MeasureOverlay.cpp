@@ -1,0 +1,207 @@
+#include "MeasureOverlay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include <vtkActor2D.h>
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkCoordinate.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper2D.h>
+#include <vtkProperty2D.h>
+#include <vtkRenderer.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
+
+#include "Theme.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+
+constexpr int kLabelSize = 15;     // px
+constexpr double kAway = 9.0;      // px, of a label from its handle
+constexpr double kLine = 22.0;     // px, from label to label
+constexpr double kPerLetter = 8.0; // px, about
+
+bool same(const DrawnMeasure& a, const DrawnMeasure& b)
+{
+  return std::tie(a.index, a.points, a.closed, a.handles, a.label, a.chosen, a.draft) ==
+             std::tie(b.index, b.points, b.closed, b.handles, b.label, b.chosen, b.draft) &&
+         a.color == b.color;
+}
+
+void setColor(vtkActor2D& actor, const QColor& color, double opacity)
+{
+  actor.GetProperty()->SetColor(color.redF(), color.greenF(), color.blueF());
+  actor.GetProperty()->SetOpacity(opacity);
+}
+
+} // namespace
+
+struct MeasureOverlay::Drawn
+{
+  vtkNew<vtkPolyData> line, handles;
+  std::array<vtkSmartPointer<vtkActor2D>, 4> actors; // halo and line, halo and handles
+  vtkNew<vtkTextActor> label;
+  vtkNew<vtkCoordinate> anchor;
+  Eigen::Vector3d at = Eigen::Vector3d::Zero(); // of the label
+};
+
+MeasureOverlay::MeasureOverlay(vtkRenderer& renderer)
+  : m_renderer(&renderer)
+{
+}
+
+MeasureOverlay::~MeasureOverlay()
+{
+  set({});
+}
+
+bool MeasureOverlay::set(const std::vector<DrawnMeasure>& measures)
+{
+  if (std::equal(measures.begin(), measures.end(), m_measures.begin(), m_measures.end(), same))
+    return false;
+  for (const auto& one : m_drawn)
+  {
+    for (const auto& actor : one->actors)
+      m_renderer->RemoveViewProp(actor);
+    m_renderer->RemoveViewProp(one->label);
+  }
+  m_drawn.clear();
+  m_measures = measures;
+  for (const DrawnMeasure& measure : m_measures)
+  {
+    auto one = std::make_unique<Drawn>();
+    vtkNew<vtkPoints> points, ends;
+    points->SetDataTypeToDouble();
+    ends->SetDataTypeToDouble();
+    for (const Eigen::Vector3d& point : measure.points)
+      points->InsertNextPoint(point.data());
+    vtkNew<vtkCellArray> edges, dots;
+    const auto count = static_cast<vtkIdType>(measure.points.size());
+    if (count > 1)
+    {
+      edges->InsertNextCell(static_cast<int>(count + (measure.closed ? 1 : 0)));
+      for (vtkIdType n = 0; n < count + (measure.closed ? 1 : 0); ++n)
+        edges->InsertCellPoint(n % count);
+    }
+    for (const std::size_t handle : measure.handles)
+    {
+      const vtkIdType id = ends->InsertNextPoint(measure.points[handle].data());
+      dots->InsertNextCell(1, &id);
+    }
+    one->line->SetPoints(points);
+    one->line->SetLines(edges);
+    one->handles->SetPoints(ends);
+    one->handles->SetVerts(dots);
+    const double wide = measure.chosen ? 1.0 : 0.0;
+    for (std::size_t n = 0; n < one->actors.size(); ++n)
+    {
+      const bool isHalo = n % 2 == 0;
+      vtkNew<vtkPolyDataMapper2D> mapper;
+      mapper->SetInputData(n < 2 ? one->line : one->handles);
+      vtkNew<vtkCoordinate> world;
+      world->SetCoordinateSystemToWorld();
+      mapper->SetTransformCoordinate(world);
+      auto actor = vtkSmartPointer<vtkActor2D>::New();
+      actor->SetMapper(mapper);
+      setColor(*actor, isHalo ? QColor(0, 0, 0) : measure.color, isHalo ? 0.75 : 1.0);
+      actor->GetProperty()->SetLineWidth(static_cast<float>((isHalo ? 4.0 : 2.0) + wide));
+      actor->GetProperty()->SetPointSize(static_cast<float>((isHalo ? 10.0 : 7.0) + 2.0 * wide));
+      actor->PickableOff();
+      m_renderer->AddViewProp(actor);
+      one->actors[n] = actor;
+    }
+    if (!measure.points.empty())
+      one->at =
+          measure
+              .points[measure.handles.empty() ? measure.points.size() - 1 : measure.handles.back()];
+    one->anchor->SetCoordinateSystemToWorld();
+    one->anchor->SetValue(one->at.x(), one->at.y(), one->at.z());
+    one->label->SetInput(bytes(measure.label).c_str());
+    vtkTextProperty* look = one->label->GetTextProperty();
+    look->SetFontFamilyToArial();
+    look->SetFontSize(kLabelSize);
+    const QColor color = measure.color.lighter(115);
+    look->SetColor(color.redF(), color.greenF(), color.blueF());
+    look->SetBackgroundColor(0.04, 0.05, 0.06);
+    look->SetBackgroundOpacity(0.72);
+    look->SetVerticalJustificationToBottom();
+    if (measure.chosen)
+    {
+      look->FrameOn();
+      look->SetFrameColor(color.redF(), color.greenF(), color.blueF());
+    }
+    vtkCoordinate* place = one->label->GetPositionCoordinate();
+    place->SetCoordinateSystemToViewport();
+    place->SetReferenceCoordinate(one->anchor);
+    place->SetValue(kAway, kAway);
+    one->label->PickableOff();
+    m_renderer->AddViewProp(one->label);
+    m_drawn.push_back(std::move(one));
+  }
+  return true;
+}
+
+std::optional<std::array<double, 2>> MeasureOverlay::pixelOf(const Eigen::Vector3d& patient) const
+{
+  vtkCamera* camera = m_renderer->GetActiveCamera();
+  const Eigen::Vector3d position(camera->GetPosition());
+  const Eigen::Vector3d ahead(camera->GetDirectionOfProjection());
+  if (!camera->GetParallelProjection() && ahead.dot(patient - position) <= 0.0)
+    return std::nullopt;
+  m_renderer->SetWorldPoint(patient.x(), patient.y(), patient.z(), 1.0);
+  m_renderer->WorldToDisplay();
+  const double* const at = m_renderer->GetDisplayPoint();
+  const int* const size = m_renderer->GetSize();
+  return std::array<double, 2>{at[0], size[1] - at[1]};
+}
+
+void MeasureOverlay::place()
+{
+  struct Box
+  {
+    double left, right, low, high;
+  };
+  std::vector<Box> taken;
+  for (std::size_t n = 0; n < m_drawn.size(); ++n)
+  {
+    Drawn& one = *m_drawn[n];
+    const bool seen =
+        std::all_of(m_measures[n].points.begin(), m_measures[n].points.end(),
+                    [this](const Eigen::Vector3d& point) { return pixelOf(point).has_value(); });
+    for (const auto& actor : one.actors)
+      actor->SetVisibility(seen ? 1 : 0);
+    one.label->SetVisibility(seen && !m_measures[n].label.isEmpty() ? 1 : 0);
+    if (!seen)
+      continue;
+    const auto at = *pixelOf(one.at);
+    const double width = kPerLetter * m_measures[n].label.size();
+    double up = kAway;
+    const auto boxOf = [&](double raised) {
+      return Box{at[0] + kAway, at[0] + kAway + width, at[1] - raised - kLine, at[1] - raised};
+    };
+    for (std::size_t other = 0; other < taken.size(); ++other)
+    {
+      const Box box = boxOf(up);
+      const Box& there = taken[other];
+      if (box.left < there.right && box.right > there.left && box.low < there.high &&
+          box.high > there.low)
+      {
+        up = at[1] - there.low + 1.0;
+        other = static_cast<std::size_t>(-1);
+      }
+    }
+    taken.push_back(boxOf(up));
+    one.label->GetPositionCoordinate()->SetValue(kAway, up);
+  }
+}
+
+} // namespace petrous::workstation

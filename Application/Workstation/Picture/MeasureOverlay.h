@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <vtkSmartPointer.h>
+
+#include "SliceMarks.h"
+
+class vtkRenderer;
+
+namespace petrous::workstation
+{
+
+/// Marks and measurements over a scene: lines and handles of constant width in pixels, in front of
+/// everything, and labels that do not cover each other. Removed from the renderer on destruction.
+class MeasureOverlay
+{
+public:
+  explicit MeasureOverlay(vtkRenderer& renderer);
+  ~MeasureOverlay();
+  MeasureOverlay(const MeasureOverlay&) = delete;
+  MeasureOverlay& operator=(const MeasureOverlay&) = delete;
+
+  /// Returns true if the picture changed.
+  bool set(const std::vector<DrawnMeasure>& measures);
+  const std::vector<DrawnMeasure>& measures() const noexcept { return m_measures; }
+
+  /// Before each frame: what is behind the camera is not drawn, and labels make room.
+  void place();
+
+  /// Pixels from the upper left of the viewport; none behind the camera.
+  std::optional<std::array<double, 2>> pixelOf(const Eigen::Vector3d& patient) const;
+
+private:
+  struct Drawn;
+  vtkSmartPointer<vtkRenderer> m_renderer;
+  std::vector<DrawnMeasure> m_measures;
+  std::vector<std::unique_ptr<Drawn>> m_drawn;
+};
+
+} // namespace petrous::workstation

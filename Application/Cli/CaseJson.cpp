@@ -245,6 +245,7 @@ json infoJson(const scene::Case& value, const std::vector<MeshFacts>& facts)
           {"mr", std::move(mr)},
           {"labels", std::move(labels)},
           {"meshes", std::move(meshes)},
+          {"measurements", value.measurements.size()},
           {"dissection",
            {{"strokes", value.dissection.strokes().size()},
             {"undo", value.applied()},

@@ -1,1 +1,324 @@
 #include "GuiTest.h"
+
+#include <cmath>
+#include <fstream>
+
+#include <QApplication>
+#include <QClipboard>
+#include <QComboBox>
+#include <QDockWidget>
+#include <QFileDialog>
+#include <QLabel>
+#include <QPushButton>
+#include <QTreeWidget>
+
+#include "SliceView.h"
+#include "petrous/Core/CsvTable.h"
+
+using namespace petrous;
+using namespace petrous::workstation;
+using Eigen::Vector3d;
+using Kind = scene::Measurement::Kind;
+
+namespace
+{
+
+class MeasureWindow : public GuiTest
+{
+protected:
+  template <class Widget>
+  Widget& find(const char* name)
+  {
+    auto* found = window().findChild<Widget*>(name);
+    EXPECT_TRUE(found) << name;
+    return *found;
+  }
+  SliceView& axial() { return find<SliceView>("axialView"); }
+  QTreeWidget& list() { return find<QTreeWidget>("measurements"); }
+  presenters::WorkstationModel& model()
+  {
+    return const_cast<presenters::WorkstationModel&>(window().model());
+  }
+  const std::vector<scene::Measurement>& all() { return window().model().value().measurements; }
+  double value(std::size_t n) { return *scene::valueOf(all()[n].kind, all()[n].points); }
+  std::vector<scene::Measurement> saved()
+  {
+    EXPECT_TRUE(settled());
+    return library().open("ball").measurements;
+  }
+  QPoint pixelOf(const Vector3d& patient)
+  {
+    const Eigen::Vector2d at =
+        axial().slice().pixelFromPatient(patient) + Eigen::Vector2d(0.5, 0.5);
+    return {static_cast<int>(std::floor(at[0])), static_cast<int>(std::floor(at[1]))};
+  }
+  Vector3d patientOf(const QPoint& pixel)
+  {
+    return axial().slice().patientFromPixel(pixel.x() - 0.5, pixel.y() - 0.5);
+  }
+  // Each is one event of the user's.
+  void key(int key, Qt::KeyboardModifiers modifiers = Qt::ShiftModifier)
+  {
+    QTest::keyClick(&window(), static_cast<Qt::Key>(key), modifiers);
+    ++m_events;
+  }
+  void click(const Vector3d& patient)
+  {
+    QTest::mouseClick(&axial(), Qt::LeftButton, Qt::NoModifier, pixelOf(patient));
+    ++m_events;
+  }
+  void clickView(const QPoint& at)
+  {
+    QTest::mouseMove(&view(), at);
+    QTest::mouseClick(&view(), Qt::LeftButton, Qt::NoModifier, at);
+    ++m_events;
+  }
+  void openBall()
+  {
+    saveBall("ball");
+    openWindow("ball");
+    EXPECT_TRUE(waitFor([this] { return model().ready(); }));
+    model().setCrosshair(kBallCenter);
+  }
+  int m_events = 0;
+};
+
+} // namespace
+
+// Compared with 3D Slicer and ITK-SNAP: at most three events for a distance.
+TEST_F(MeasureWindow, ADistanceTakesThreeEvents)
+{
+  openBall();
+  const Vector3d from = kBallCenter + Vector3d(-8, 0, 0);
+  const Vector3d to = kBallCenter + Vector3d(6, 5, 0);
+  m_events = 0;
+  key(Qt::Key_D);
+  click(from);
+  click(to);
+  EXPECT_LE(m_events, 3);
+  ASSERT_EQ(all().size(), 1U);
+  const double expected = (patientOf(pixelOf(to)) - patientOf(pixelOf(from))).norm();
+  EXPECT_NEAR(value(0), expected, 1.5 * axial().slice().mmPerPixel());
+  EXPECT_NEAR(value(0), (to - from).norm(), 3.0 * axial().slice().mmPerPixel());
+  EXPECT_EQ(all()[0].points[0].z(), kBallCenter.z()) << "in the slice";
+  EXPECT_TRUE(find<QDockWidget>("measureDock").isVisible());
+  ASSERT_EQ(list().topLevelItemCount(), 1);
+  EXPECT_TRUE(list().topLevelItem(0)->text(1).contains(" mm ± "))
+      << list().topLevelItem(0)->text(1).toStdString();
+  ASSERT_EQ(saved().size(), 1U);
+  EXPECT_EQ(saved()[0], all()[0]);
+}
+
+TEST_F(MeasureWindow, ADistanceCanBePulledAndItsEndsCanBe)
+{
+  openBall();
+  key(Qt::Key_D);
+  const auto drag = [&](const Vector3d& from, const Vector3d& to)
+  {
+    QTest::mousePress(&axial(), Qt::LeftButton, Qt::NoModifier, pixelOf(from));
+    QTest::mouseMove(&axial(), (pixelOf(from) + pixelOf(to)) / 2);
+    QTest::mouseMove(&axial(), pixelOf(to));
+    QTest::mouseRelease(&axial(), Qt::LeftButton, Qt::NoModifier, pixelOf(to));
+  };
+  const Vector3d a = kBallCenter + Vector3d(-8, 0, 0);
+  const Vector3d b = kBallCenter + Vector3d(2, 0, 0);
+  const Vector3d c = kBallCenter + Vector3d(10, -6, 0);
+  const double pixel = axial().slice().mmPerPixel();
+  drag(a, b);
+  ASSERT_EQ(all().size(), 1U);
+  EXPECT_NEAR(value(0), 10.0, 3.0 * pixel);
+  key(Qt::Key_Escape, Qt::NoModifier);
+  QTest::keyClick(&axial(), Qt::Key_Escape);
+  drag(b, c); // without a tool
+  ASSERT_EQ(all().size(), 1U);
+  EXPECT_NEAR(value(0), (c - a).norm(), 3.0 * pixel);
+  EXPECT_EQ(model().crosshair(), kBallCenter) << "the handle took the button";
+  ASSERT_EQ(saved().size(), 1U);
+  EXPECT_EQ(saved()[0], all()[0]);
+}
+
+TEST_F(MeasureWindow, UndoAndRedoAreTheToolsWhileItIsInUse)
+{
+  openBall();
+  key(Qt::Key_D);
+  click(kBallCenter);
+  EXPECT_EQ(action("Undo the last point")->isEnabled(), true);
+  key(Qt::Key_Z, Qt::ControlModifier);
+  click(kBallCenter);
+  click(kBallCenter + Vector3d(5, 0, 0));
+  ASSERT_EQ(all().size(), 1U);
+  key(Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_TRUE(all().empty());
+  EXPECT_TRUE(saved().empty());
+  key(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  ASSERT_EQ(all().size(), 1U);
+  EXPECT_EQ(saved().size(), 1U);
+  QTest::keyClick(&axial(), Qt::Key_Escape);
+  EXPECT_EQ(action("Undo")->isEnabled(), false) << "nothing was drilled";
+}
+
+TEST_F(MeasureWindow, AnAngleAndAPolygonInASlice)
+{
+  openBall();
+  const double pixel = axial().slice().mmPerPixel();
+  key(Qt::Key_A);
+  click(kBallCenter + Vector3d(9, 0, 0));
+  click(kBallCenter);
+  click(kBallCenter + Vector3d(0, 9, 0));
+  ASSERT_EQ(all().size(), 1U);
+  EXPECT_NEAR(value(0), 90.0, 57.3 * 3.0 * pixel / 9.0);
+  key(Qt::Key_R);
+  click(kBallCenter + Vector3d(-8, -8, 0));
+  click(kBallCenter + Vector3d(8, -8, 0));
+  click(kBallCenter + Vector3d(8, 8, 0));
+  const QPoint last = pixelOf(kBallCenter + Vector3d(-8, 8, 0));
+  QTest::mouseClick(&axial(), Qt::LeftButton, Qt::NoModifier, last);
+  QTest::mouseDClick(&axial(), Qt::LeftButton, Qt::NoModifier, last);
+  ASSERT_EQ(all().size(), 2U);
+  EXPECT_EQ(all()[1].points.size(), 4U);
+  EXPECT_NEAR(value(1), 256.0, 4.0 * 16.0 * pixel);
+}
+
+// The ball's surface is under the view's middle; the patient turns when the button is dragged.
+TEST_F(MeasureWindow, ClicksInTheViewSetPointsOnTheSurface)
+{
+  openBall();
+  picture();
+  key(Qt::Key_K);
+  const QPoint middle = view().rect().center();
+  clickView(middle);
+  ASSERT_EQ(all().size(), 1U);
+  EXPECT_NEAR((all()[0].points[0] - kBallCenter).norm(), kBallRadius, 0.6);
+  const core::CameraPose before = view().picture().camera();
+  QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, middle + QPoint(60, 0));
+  QTest::mouseMove(&view(), middle + QPoint(100, 30));
+  QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, middle + QPoint(100, 30));
+  EXPECT_EQ(all().size(), 1U);
+  EXPECT_GT((view().picture().camera().position - before.position).norm(), 1.0);
+  clickView(QPoint(3, 3)); // air
+  EXPECT_EQ(all().size(), 1U);
+  EXPECT_FALSE(find<QLabel>("measureHint").text().isEmpty());
+}
+
+TEST_F(MeasureWindow, AHandleIsDraggedAlongTheSurfaceInTheView)
+{
+  openBall();
+  picture();
+  key(Qt::Key_K);
+  const QPoint middle = view().rect().center();
+  clickView(middle);
+  ASSERT_EQ(all().size(), 1U);
+  const Vector3d before = all()[0].points[0];
+  picture();
+  const core::CameraPose camera = view().picture().camera();
+  QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, middle);
+  QTest::mouseMove(&view(), middle + QPoint(20, 0));
+  QTest::mouseMove(&view(), middle + QPoint(40, 10));
+  QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, middle + QPoint(40, 10));
+  EXPECT_GT((all()[0].points[0] - before).norm(), 1.0);
+  EXPECT_NEAR((all()[0].points[0] - kBallCenter).norm(), kBallRadius, 0.6);
+  EXPECT_EQ(view().picture().camera().position, camera.position) << "the patient stays";
+}
+
+// Through the ball along the normal: its diameter less the nerve's place.
+TEST_F(MeasureWindow, AWallIsMeasuredByOneClick)
+{
+  openBall();
+  picture();
+  key(Qt::Key_W);
+  clickView(view().rect().center());
+  ASSERT_EQ(all().size(), 1U) << find<QLabel>("measureHint").text().toStdString();
+  EXPECT_EQ(all()[0].kind, Kind::Thickness);
+  EXPECT_EQ(all()[0].points.size(), 3U);
+  EXPECT_GT(value(0), 1.0);
+  EXPECT_LE(value(0), 2.0 * kBallRadius + 1.0);
+  EXPECT_NEAR((all()[0].points[0] - kBallCenter).norm(), kBallRadius, 0.6);
+}
+
+TEST_F(MeasureWindow, TheListRenamesHidesGoesToAndDeletes)
+{
+  openBall();
+  const QImage empty = picture();
+  key(Qt::Key_D);
+  click(kBallCenter + Vector3d(-8, 0, 0));
+  click(kBallCenter + Vector3d(8, 0, 0));
+  QTest::keyClick(&axial(), Qt::Key_Escape);
+  ASSERT_EQ(list().topLevelItemCount(), 1);
+  EXPECT_GT(differentPixels(picture(), empty, 40), 100) << "drawn in the view";
+  QTreeWidgetItem* item = list().topLevelItem(0);
+  item->setText(0, "Bulb to canal");
+  EXPECT_EQ(all()[0].name, "Bulb to canal");
+  item->setText(0, "zero\u200bwidth");
+  EXPECT_EQ(all()[0].name, "Bulb to canal");
+  EXPECT_EQ(list().topLevelItem(0)->text(0), "Bulb to canal") << "as it is";
+  model().setCrosshair(kBallCenter + Vector3d(3, 3, 3));
+  list().setCurrentItem(item);
+  find<QPushButton>("goToMeasurement").click();
+  EXPECT_NEAR((model().crosshair() - kBallCenter).norm(), 0.0, 1.0);
+  find<QPushButton>("copyMeasurements").click();
+  EXPECT_TRUE(QApplication::clipboard()->text().startsWith("Bulb to canal\t1"))
+      << QApplication::clipboard()->text().toStdString();
+  item->setCheckState(0, Qt::Unchecked);
+  EXPECT_FALSE(all()[0].shown);
+  EXPECT_LT(differentPixels(picture(), empty, 40), 20);
+  find<QPushButton>("removeMeasurement").click();
+  EXPECT_TRUE(all().empty());
+  EXPECT_EQ(list().topLevelItemCount(), 0);
+  EXPECT_TRUE(saved().empty());
+}
+
+TEST_F(MeasureWindow, ExportsATable)
+{
+  openBall();
+  key(Qt::Key_D);
+  click(kBallCenter);
+  click(kBallCenter + Vector3d(0, 7, 0));
+  const auto file = folder() / "table.csv";
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        auto* files = qobject_cast<QFileDialog*>(&dialog);
+        if (!files)
+          return false;
+        files->selectFile(QString::fromStdString(file.string()));
+        dialog.done(QDialog::Accepted);
+        return true;
+      });
+  find<QPushButton>("exportMeasurements").click();
+  std::ifstream in(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const auto rows = core::csvRows(text, "table", ',');
+  ASSERT_GE(rows.size(), 2U);
+  EXPECT_EQ(rows[1].cells[0], "distance 1");
+  EXPECT_EQ(rows[1].cells[4], "mm");
+  EXPECT_NE(text.find("nerve,structure,volume"), std::string::npos);
+}
+
+TEST_F(MeasureWindow, StatesTheDimensionsOfAStructure)
+{
+  openBall();
+  key(Qt::Key_M, Qt::ControlModifier);
+  EXPECT_TRUE(find<QDockWidget>("measureDock").isVisible());
+  auto& quantities = find<QTreeWidget>("measureQuantities");
+  find<QPushButton>("measureStructureNow").click();
+  ASSERT_TRUE(waitFor([&] { return quantities.topLevelItemCount() >= 5; }));
+  EXPECT_EQ(quantities.topLevelItem(0)->text(0), "volume");
+  EXPECT_TRUE(quantities.topLevelItem(0)->text(1).contains("mm³ ± "));
+}
+
+TEST_F(MeasureWindow, OneToolAtATime)
+{
+  openBall();
+  key(Qt::Key_D);
+  EXPECT_TRUE(action("Distance")->isChecked());
+  key(Qt::Key_P); // paint
+  EXPECT_FALSE(action("Distance")->isChecked());
+  key(Qt::Key_D);
+  EXPECT_TRUE(action("Distance")->isChecked());
+  EXPECT_FALSE(action("Paint")->isChecked());
+  action("Drill")->trigger();
+  EXPECT_FALSE(action("Distance")->isChecked());
+  key(Qt::Key_D);
+  EXPECT_TRUE(action("Distance")->isChecked());
+  EXPECT_FALSE(view().tool().GetDrillMode());
+}

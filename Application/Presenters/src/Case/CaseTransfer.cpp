@@ -546,7 +546,7 @@ IdentityReport reportOf(const scene::Case& value, const SendParts& parts,
   if (parts.mr || whole)
     for (const auto& mr : value.mr)
       report.leaves.push_back("MR '" + mr.name + "': " + voxels(mr) + " and their place in space");
-  std::vector<std::string> structures, meshes, codes;
+  std::vector<std::string> structures, meshes, measurements, codes;
   for (const auto& part : value.labels)
     for (const auto& structure : part.structures)
     {
@@ -561,6 +561,8 @@ IdentityReport reportOf(const scene::Case& value, const SendParts& parts,
     }
   for (const auto& mesh : value.meshes)
     meshes.push_back(mesh.name);
+  for (const auto& measurement : value.measurements)
+    measurements.push_back(measurement.name);
   if ((parts.labels || parts.scene) && !structures.empty())
     report.leaves.push_back(
         std::string(planOnly ? "the names of structures: " : "structures, by their names: ") +
@@ -635,6 +637,8 @@ IdentityReport reportOf(const scene::Case& value, const SendParts& parts,
     }
     if (!staying.empty())
       report.stays.push_back("attachments: " + joined(staying));
+    if (!measurements.empty())
+      report.leaves.push_back("marks and measurements: " + joined(measurements));
   }
   if (parts.scene && parts.note && !value.description.note.empty())
     report.warnings.push_back(
@@ -659,6 +663,7 @@ IdentityReport reportOf(const scene::Case& value, const SendParts& parts,
     warnOfIdentities("names of MRs and approaches", others, report.warnings);
     warnOfIdentities("names of structures that are gone, in strokes that touched them",
                      goneStructures(value), report.warnings);
+    warnOfIdentities("names of measurements", measurements, report.warnings);
     warnOfIdentities("tags", value.description.tags, report.warnings);
     warnOfIdentities("name of the case, diagnosis and procedure",
                      {value.name, value.description.diagnosis, value.description.procedure},

@@ -116,6 +116,7 @@ MeasureController::MeasureController(presenters::WorkstationModel& model, SliceC
   connectSlices();
   m_view.installEventFilter(this);
   m_editor.events.changed = [this] { refresh(); };
+  m_editor.events.hovered = [this] { draw(); };
   connect(m_work.get(), &BackgroundWork::failed, this,
           [this](const QString& why)
           {
@@ -620,9 +621,9 @@ bool MeasureController::handleMouse(QMouseEvent& event)
   }
   if (std::exchange(m_swallowsRelease, false))
     return true;
-  if (!active() || !m_clicked)
+  const auto clicked = std::exchange(m_clicked, std::nullopt);
+  if (!active() || !clicked || QLineF(*clicked, event.localPos()).length() > kClick)
     return false;
-  m_clicked.reset();
   m_editor.setImage({});
   if (const auto at = surface())
     set(*at);

@@ -175,7 +175,7 @@ void SceneDisplay::setMeasures(const std::vector<DrawnMeasure>& measures)
   if (!m_measures)
     return;
   if (m_measures->set(measures))
-    redraw(m_moving);
+    redraw(true);
 }
 
 std::optional<std::array<double, 2>> SceneDisplay::pixelOf(const Eigen::Vector3d& patient) const

@@ -73,6 +73,12 @@ protected:
     QTest::mouseClick(&view(), Qt::LeftButton, Qt::NoModifier, at);
     ++m_events;
   }
+  /// The pointer, with the left button held.
+  static void pull(QWidget& widget, const QPoint& to)
+  {
+    QMouseEvent move(QEvent::MouseMove, to, Qt::LeftButton, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(&widget, &move);
+  }
   void openBall()
   {
     saveBall("ball");
@@ -116,8 +122,8 @@ TEST_F(MeasureWindow, ADistanceCanBePulledAndItsEndsCanBe)
   const auto drag = [&](const Vector3d& from, const Vector3d& to)
   {
     QTest::mousePress(&axial(), Qt::LeftButton, Qt::NoModifier, pixelOf(from));
-    QTest::mouseMove(&axial(), (pixelOf(from) + pixelOf(to)) / 2);
-    QTest::mouseMove(&axial(), pixelOf(to));
+    pull(axial(), (pixelOf(from) + pixelOf(to)) / 2);
+    pull(axial(), pixelOf(to));
     QTest::mouseRelease(&axial(), Qt::LeftButton, Qt::NoModifier, pixelOf(to));
   };
   const Vector3d a = kBallCenter + Vector3d(-8, 0, 0);
@@ -191,7 +197,8 @@ TEST_F(MeasureWindow, ClicksInTheViewSetPointsOnTheSurface)
   EXPECT_NEAR((all()[0].points[0] - kBallCenter).norm(), kBallRadius, 0.6);
   const core::CameraPose before = view().picture().camera();
   QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, middle + QPoint(60, 0));
-  QTest::mouseMove(&view(), middle + QPoint(100, 30));
+  pull(view(), middle + QPoint(80, 10));
+  pull(view(), middle + QPoint(100, 30));
   QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, middle + QPoint(100, 30));
   EXPECT_EQ(all().size(), 1U);
   EXPECT_GT((view().picture().camera().position - before.position).norm(), 1.0);
@@ -212,8 +219,8 @@ TEST_F(MeasureWindow, AHandleIsDraggedAlongTheSurfaceInTheView)
   picture();
   const core::CameraPose camera = view().picture().camera();
   QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, middle);
-  QTest::mouseMove(&view(), middle + QPoint(20, 0));
-  QTest::mouseMove(&view(), middle + QPoint(40, 10));
+  pull(view(), middle + QPoint(20, 0));
+  pull(view(), middle + QPoint(40, 10));
   QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, middle + QPoint(40, 10));
   EXPECT_GT((all()[0].points[0] - before).norm(), 1.0);
   EXPECT_NEAR((all()[0].points[0] - kBallCenter).norm(), kBallRadius, 0.6);

@@ -139,7 +139,7 @@ PointCount pointsOf(Kind kind) noexcept
   case Kind::Angle:
     return {3, 3};
   case Kind::Area:
-    return {3, Measurement::kMostPoints};
+    return {3, Measurement::kMostCorners};
   case Kind::Thickness:
     break;
   }

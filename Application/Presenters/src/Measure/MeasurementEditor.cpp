@@ -161,7 +161,7 @@ void MeasurementEditor::hover(const std::optional<Vector3d>& patient)
     return;
   }
   m_hover = patient;
-  tell();
+  notify(events.hovered);
 }
 
 void MeasurementEditor::drop()

@@ -164,6 +164,53 @@ SurfaceShare shareOf(const SurfaceUncertainty& uncertainty, bool comparesImages)
           toString(own)};
 }
 
+Vector3d unit(const Vector3d& v)
+{
+  return v.norm() > 0.0 ? Vector3d(v.normalized()) : Vector3d(Vector3d::Zero());
+}
+
+/// Derivatives of a value by its points, in its unit per mm.
+///
+///   |b - a|            (b - a) / |b - a| by b, and its opposite by a
+///   angle at b, rad    -(component of c^ across a^) / (|a| sin) by a, a = A - B; likewise by C
+///   area of a polygon  (next - previous) x n / 2
+std::vector<Vector3d> slopesOf(Kind kind, const std::vector<Vector3d>& points)
+{
+  constexpr double kDegree = 57.29577951308232; // per rad
+  std::vector<Vector3d> slopes(points.size(), Vector3d::Zero());
+  const std::size_t count = points.size();
+  if (kind == Kind::Distance || kind == Kind::Thickness || kind == Kind::Length)
+  {
+    // Of a thickness the third point belongs to another value.
+    const std::size_t last = kind == Kind::Length ? count : 2;
+    for (std::size_t n = 1; n < last; ++n)
+    {
+      const Vector3d along = unit(points[n] - points[n - 1]);
+      slopes[n] += along;
+      slopes[n - 1] -= along;
+    }
+  }
+  else if (kind == Kind::Angle)
+  {
+    const Vector3d a = points[0] - points[1];
+    const Vector3d c = points[2] - points[1];
+    const Vector3d alongA = unit(a), alongC = unit(c);
+    slopes[0] = -kDegree / a.norm() * unit(alongC - alongC.dot(alongA) * alongA);
+    slopes[2] = -kDegree / c.norm() * unit(alongA - alongA.dot(alongC) * alongC);
+    slopes[1] = -slopes[0] - slopes[2];
+  }
+  else if (kind == Kind::Area)
+  {
+    Vector3d sum = Vector3d::Zero();
+    for (std::size_t n = 0; n < count; ++n)
+      sum += (points[n] - points[0]).cross(points[(n + 1) % count] - points[0]);
+    const Vector3d normal = unit(sum);
+    for (std::size_t n = 0; n < count; ++n)
+      slopes[n] = 0.5 * (points[(n + 1) % count] - points[(n + count - 1) % count]).cross(normal);
+  }
+  return slopes;
+}
+
 std::optional<double> volumeOf(const scene::Case& value, const std::string& name)
 {
   if (const auto* structure = scene::findStructure(value, name))
@@ -193,35 +240,14 @@ std::string toString(const Quantity& quantity)
                               : text + ", uncertainty unknown";
 }
 
-std::optional<double> propagated(const scene::Case& value, const Measurement& measurement,
-                                 double more)
+std::optional<double> propagated(const scene::Case& value, const Measurement& measurement)
 {
   const auto spread = spreadAt(value, measurement.image);
   if (!spread || !scene::valueOf(measurement.kind, measurement.points))
     return std::nullopt;
-  const Matrix3d whole = *spread + more * more * Matrix3d::Identity();
-  const std::size_t used =
-      measurement.kind == Kind::Thickness ? 2 : measurement.points.size(); // the third is another's
-  constexpr double kStep = 1e-4;                                           // mm
-  std::vector<Vector3d> points = measurement.points;
   double square = 0.0;
-  for (std::size_t n = 0; n < used; ++n)
-  {
-    Vector3d slope = Vector3d::Zero();
-    for (Eigen::Index a = 0; a < 3; ++a)
-    {
-      const Vector3d before = points[n];
-      points[n] = before + kStep * Vector3d::Unit(a);
-      const auto high = scene::valueOf(measurement.kind, points);
-      points[n] = before - kStep * Vector3d::Unit(a);
-      const auto low = scene::valueOf(measurement.kind, points);
-      points[n] = before;
-      if (!high || !low)
-        return std::nullopt;
-      slope[a] = (*high - *low) / (2.0 * kStep);
-    }
-    square += slope.dot(whole * slope);
-  }
+  for (const Vector3d& slope : slopesOf(measurement.kind, measurement.points))
+    square += slope.dot(*spread * slope);
   return square > 0.0 ? std::optional<double>(std::sqrt(square)) : std::nullopt;
 }
 

@@ -34,6 +34,7 @@ public:
   struct Events
   {
     std::function<void()> changed; ///< tool, points, measurements, choice, or what can be undone
+    std::function<void()> hovered; ///< the draft alone
   };
 
   explicit MeasurementEditor(WorkstationModel& model);

@@ -35,10 +35,9 @@ std::vector<Quantity> quantitiesOf(const scene::Case& value, const scene::Measur
 std::string summaryOf(const scene::Case& value, const scene::Measurement& measurement);
 
 /// Half-width of a value of these points, by linear propagation: each may lie half a voxel of the
-/// image off along each of its axes, and `more` mm in any direction. None where the value depends
-/// on them in no linear way, as a distance of 0.
-std::optional<double> propagated(const scene::Case& value, const scene::Measurement& measurement,
-                                 double more = 0.0);
+/// image off along each of its axes. None where the value depends on them in no linear way, as a
+/// distance of 0.
+std::optional<double> propagated(const scene::Case& value, const scene::Measurement& measurement);
 
 /// Volumes of the structures and of what was drilled. Reads no voxels.
 std::vector<std::pair<std::string, Quantity>> volumesOf(const scene::Case& value);

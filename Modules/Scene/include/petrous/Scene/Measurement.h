@@ -28,6 +28,7 @@ struct Measurement
   };
   static constexpr std::size_t kMax = 1000;        ///< of a case
   static constexpr std::size_t kMostPoints = 1000; ///< of one
+  static constexpr std::size_t kMostCorners = 200; ///< of a polygon
   static constexpr std::size_t kLongestName = 100; ///< bytes
   static constexpr double kFarthest = 1e5;         ///< mm, of a coordinate: 100 m
 

@@ -26,6 +26,19 @@ inline std::shared_ptr<const volume::Volume<float>> occupancyOf(const core::Grid
     for (int j = 0; j < grid.dims()[1]; ++j)
       for (int i = 0; i < grid.dims()[0]; ++i)
       {
+        // Most voxels lie wholly inside or outside.
+        int corners = 0;
+        for (int n = 0; n < 8; ++n)
+          corners += isInside(grid.patientFromVoxel(Eigen::Vector3d(
+                         i + (n & 1) - 0.5, j + (n >> 1 & 1) - 0.5, k + (n >> 2) - 0.5)))
+                         ? 1
+                         : 0;
+        const bool isMiddle = isInside(grid.patientFromVoxel(Eigen::Vector3d(i, j, k)));
+        if (corners == (isMiddle ? 8 : 0))
+        {
+          occupancy->at(i, j, k) = isMiddle ? 1.0F : 0.0F;
+          continue;
+        }
         int count = 0;
         for (int n = 0; n < kSub * kSub * kSub; ++n)
         {

@@ -110,7 +110,7 @@ TEST(CentreLine, OfThePhantomsFacialNerveIsItsCanalsAxis)
   const std::size_t nerve = patient.indexOf("facial_nerve");
   const auto& structure = patient.structures()[nerve];
   const Vector3d size = structure.upper - structure.lower + Vector3d::Constant(2.0);
-  constexpr double kVoxel = 0.3;
+  constexpr double kVoxel = 0.4;
   const core::GridGeometry grid(
       {static_cast<int>(size[0] / kVoxel) + 1, static_cast<int>(size[1] / kVoxel) + 1,
        static_cast<int>(size[2] / kVoxel) + 1},

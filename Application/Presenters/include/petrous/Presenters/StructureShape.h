@@ -58,7 +58,8 @@ struct ShortestWay
   Eigen::Vector3d from = Eigen::Vector3d::Zero();
   Eigen::Vector3d to = Eigen::Vector3d::Zero();
 };
-/// None if `from` has no surface.
+/// From one of surfacePoints(from), so that it is too long by up to about a third of a voxel where
+/// that surface is curved. None if `from` has no surface.
 std::optional<ShortestWay> shortestWay(const volume::Volume<float>& from,
                                        const volume::SurfaceDistance& to,
                                        const core::Progress& progress = {});

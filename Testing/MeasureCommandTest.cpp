@@ -90,8 +90,9 @@ TEST_F(MeasureCommand, MeasuresPointsAndKeepsThemIfAsked)
 TEST_F(MeasureCommand, StatesDistancesAndAnglesOfPlainPoints)
 {
   makeEar("--dims 32,32,32 --spacing 1.5");
-  const Json answer = json("measure ear --points " + file("p.csv", "x_mm,y_mm,z_mm\n"
-                                                                   "-50,20,5\n-47,20,5\n-47,24,5\n"));
+  const Json answer =
+      json("measure ear --points " + file("p.csv", "x_mm,y_mm,z_mm\n"
+                                                   "-50,20,5\n-47,20,5\n-47,24,5\n"));
   EXPECT_DOUBLE_EQ(row(answer, "points", "length").at("value"), 7.0);
   EXPECT_DOUBLE_EQ(row(answer, "points", "distance 1 to 2").at("value"), 3.0);
   EXPECT_DOUBLE_EQ(row(answer, "points", "distance 2 to 3").at("value"), 4.0);
@@ -141,8 +142,7 @@ TEST_F(MeasureCommand, AgreesWithThePhantomsAnatomy)
                                              phantom.center() + Vector3d(27, 27, 24.5));
   const std::size_t sinus = phantom.indexOf("sigmoid_sinus");
   double gap = 1e9;
-  for (const auto& vertex :
-       phantom.surface(phantom.indexOf("facial_nerve"), box, 0.25).vertices)
+  for (const auto& vertex : phantom.surface(phantom.indexOf("facial_nerve"), box, 0.25).vertices)
     gap = std::min(gap, phantom.signedDistance(sinus, vertex.cast<double>()));
   const Json between = json("measure ear --between facial_nerve sigmoid_sinus");
   EXPECT_NEAR(between.at("between").at("distance_mm"), gap, 0.5);
@@ -158,8 +158,7 @@ TEST_F(MeasureCommand, AgreesWithThePhantomsAnatomy)
   EXPECT_EQ(json("measure ear").at("measurements")[0].at("structure"), "facial_nerve");
 
   const Json canal = json("measure ear --dimensions internal_auditory_canal");
-  const double volume =
-      phantom.volume(phantom.indexOf("internal_auditory_canal"), box);
+  const double volume = phantom.volume(phantom.indexOf("internal_auditory_canal"), box);
   EXPECT_NEAR(row(canal, "internal_auditory_canal", "volume").at("value"), volume, 0.05 * volume);
   EXPECT_GT(double(row(canal, "internal_auditory_canal", "longest extent").at("value")),
             double(row(canal, "internal_auditory_canal", "second extent").at("value")));

@@ -57,9 +57,9 @@ protected:
     return axial().slice().patientFromPixel(pixel.x() - 0.5, pixel.y() - 0.5);
   }
   // Each is one event of the user's.
-  void key(int key, Qt::KeyboardModifiers modifiers = Qt::ShiftModifier)
+  void key(int code, Qt::KeyboardModifiers modifiers = Qt::ShiftModifier)
   {
-    QTest::keyClick(&window(), static_cast<Qt::Key>(key), modifiers);
+    QTest::keyClick(&window(), static_cast<Qt::Key>(code), modifiers);
     ++m_events;
   }
   void click(const Vector3d& patient)

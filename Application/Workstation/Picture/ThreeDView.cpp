@@ -88,7 +88,7 @@ void ThreeDView::handleTool(vtkObject*, unsigned long event, void*)
         case vtkCommand::LeaveEvent:
           return emit pointerLeft();
         case vtkCommand::PickEvent:
-          return emit picked(m_tool->GetPickRay());
+          return emit enlargeAsked();
         case vtkCommand::StartInteractionEvent:
           return emit drillPressed();
         default:
@@ -165,6 +165,7 @@ bool ThreeDView::event(QEvent* event)
   case QEvent::MouseButtonRelease:
   case QEvent::MouseMove:
     sendMouse(*static_cast<QMouseEvent*>(event));
+    followClick(*static_cast<QMouseEvent*>(event));
     event->accept();
     return true;
   case QEvent::Wheel:
@@ -229,6 +230,27 @@ void ThreeDView::sendMouse(const QMouseEvent& event)
   else if (event.button() == Qt::RightButton)
     interactor->InvokeEvent(up ? vtkCommand::RightButtonReleaseEvent
                                : vtkCommand::RightButtonPressEvent);
+}
+
+// A click is a press of the left button alone that turns nothing and drills nothing.
+void ThreeDView::followClick(const QMouseEvent& event)
+{
+  if (event.type() == QEvent::MouseButtonPress)
+  {
+    const bool isPlain = event.buttons() == Qt::LeftButton && event.modifiers() == Qt::NoModifier;
+    m_clicked = isPlain && !m_tool->GetDrillMode() ? std::optional(event.localPos()) : std::nullopt;
+  }
+  else if (event.type() == QEvent::MouseButtonDblClick)
+    m_clicked.reset();
+  else if (m_clicked && (event.localPos() - *m_clicked).manhattanLength() >
+                            QApplication::startDragDistance() / 2)
+    m_clicked.reset();
+  else if (m_clicked && event.type() == QEvent::MouseButtonRelease)
+  {
+    m_clicked.reset();
+    const interaction::PickRay ray = sightLine(event.localPos());
+    guarded([this, ray] { emit picked(ray); });
+  }
 }
 
 void ThreeDView::sendWheel(const QWheelEvent& event)

@@ -40,7 +40,8 @@ public:
 signals:
   void pointed(const petrous::interaction::PickRay& line); ///< moved with no button pressed
   void pointerLeft();
-  void picked(const petrous::interaction::PickRay& line); ///< double click
+  void picked(const petrous::interaction::PickRay& line); ///< clicked, without a tool that drills
+  void enlargeAsked();                                    ///< double click
   void drillPressed();                                    ///< before the tool is pressed
   void toolModeSet();                                     ///< drills, probes, or neither
   void cameraMoved(const petrous::core::CameraPose& pose);
@@ -55,6 +56,7 @@ private:
   void handleTool(vtkObject*, unsigned long event, void*);
   std::array<int, 2> pixelAt(const QPointF& position) const;
   void sendMouse(const QMouseEvent& event);
+  void followClick(const QMouseEvent& event);
   void sendWheel(const QWheelEvent& event);
   void placeLetters();
 
@@ -63,6 +65,7 @@ private:
   vtkNew<vtkPetrousCameraStyle> m_style;
   vtkNew<vtkPetrousToolInteraction> m_tool;
   std::array<QLabel*, 4> m_letters; // left, right, top, bottom
+  std::optional<QPointF> m_clicked; // where the left button went down, until the pointer leaves
 };
 
 } // namespace petrous::workstation

@@ -13,19 +13,19 @@ namespace petrous::workstation
 using presenters::SliceOrientation;
 
 SliceColumn::SliceColumn(presenters::WorkstationModel& model, QWidget* parent)
-  : QSplitter(Qt::Vertical, parent)
+  : QWidget(parent)
   , m_model(model)
-  , m_views{new SliceView(SliceOrientation::Axial), new SliceView(SliceOrientation::Coronal),
-            new SliceView(SliceOrientation::Sagittal)}
+  , m_views{new SliceView(SliceOrientation::Axial, this),
+            new SliceView(SliceOrientation::Coronal, this),
+            new SliceView(SliceOrientation::Sagittal, this)}
 {
   setObjectName("slices");
-  setChildrenCollapsible(true);
-  setHandleWidth(3);
   for (SliceView* view : m_views)
   {
     view->setToolTip(tr("Drag: move the crosshair.  Wheel: scroll.  Right drag: grey window.\n"
-                        "Ctrl+wheel: zoom.  Middle drag: move.  Red and hatched: drilled away."));
-    addWidget(view);
+                        "Ctrl+wheel: zoom.  Middle drag: move.  Double click (E): enlarge, and "
+                        "back.\nRed and hatched: drilled away."));
+    connect(view, &SliceView::enlargeAsked, this, &SliceColumn::enlargeAsked);
     connect(view, &SliceView::crosshairMoved, this,
             [this](const Eigen::Vector3d& patient) { m_model.setCrosshair(patient); });
     connect(view, &SliceView::greyWindowChanged, this,

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <QSplitter>
+#include <QWidget>
 
 #include "petrous/Presenters/SlicePresenter.h"
 #include "petrous/Presenters/WorkstationModel.h"
@@ -20,13 +20,16 @@ struct SliceDrawing;
 struct SliceMark;
 struct SliceTool;
 
-/// The axial, coronal and sagittal view stacked vertically, with one crosshair and grey window.
-class SliceColumn : public QSplitter
+/// The axial, coronal and sagittal view, with one crosshair and grey window. Where they stand is the
+/// ViewArea's.
+class SliceColumn : public QWidget
 {
   Q_OBJECT
 public:
   explicit SliceColumn(presenters::WorkstationModel& model, QWidget* parent = nullptr);
   ~SliceColumn() override;
+
+  const std::array<SliceView*, 3>& views() const noexcept { return m_views; }
 
   void caseChanged();
   void clear(); ///< no case is open
@@ -64,6 +67,7 @@ public:
   double mmPerPixel(presenters::SliceOrientation plane) const;
 
 signals:
+  void enlargeAsked(petrous::presenters::SliceOrientation slice); ///< or back
   void pointed(const Eigen::Vector3d& patient);
   /// For the MR, where it alone is seen.
   void overlayWindowAsked(const petrous::presenters::GreyWindow& window);

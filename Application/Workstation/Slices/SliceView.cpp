@@ -422,6 +422,15 @@ void SliceView::mousePressEvent(QMouseEvent* event)
     emit crosshairMoved(patientAt(event->localPos()));
 }
 
+// A tool's clicks may follow each other fast.
+void SliceView::mouseDoubleClickEvent(QMouseEvent* event)
+{
+  if (event->button() == Qt::LeftButton && !(m_tool && !(event->modifiers() & Qt::ShiftModifier)))
+    emit enlargeAsked(m_orientation);
+  else
+    mousePressEvent(event);
+}
+
 void SliceView::mouseReleaseEvent(QMouseEvent* event)
 {
   if (event->button() == Qt::LeftButton && m_handleDown)

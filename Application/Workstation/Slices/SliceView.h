@@ -34,7 +34,7 @@ struct SliceDrawing
 ///
 /// Left drag moves the crosshair, the wheel scrolls, right drag sets the grey window, Ctrl+wheel
 /// zooms, middle drag pans. With a tool the left button is the tool's, and with Shift it moves the
-/// crosshair. Alt+arrow and Alt+Page up or down translate and rotate an MR overlay.
+/// crosshair. A double click asks to enlarge the view. Alt+arrow and Alt+Page up or down translate and rotate an MR overlay.
 class SliceView : public QWidget
 {
   Q_OBJECT
@@ -72,6 +72,7 @@ public:
   presenters::SliceGeometry slice() const;
 
 signals:
+  void enlargeAsked(petrous::presenters::SliceOrientation slice); ///< a double click
   void crosshairMoved(const Eigen::Vector3d& patient);
   void greyWindowChanged(const petrous::presenters::GreyWindow& window);
   void pointed(const Eigen::Vector3d& patient);
@@ -92,6 +93,7 @@ protected:
   void resizeEvent(QResizeEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void leaveEvent(QEvent* event) override;

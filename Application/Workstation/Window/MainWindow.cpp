@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <QAction>
+#include <QActionGroup>
 #include <QCloseEvent>
 #include <QComboBox>
 #include <QDir>
@@ -20,7 +21,6 @@
 #include <QMessageBox>
 #include <QMimeData>
 #include <QSpinBox>
-#include <QSplitter>
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QUrl>
@@ -55,6 +55,7 @@
 #include "ThicknessController.h"
 #include "ThreeDView.h"
 #include "ThumbnailDrawer.h"
+#include "ViewArea.h"
 #include "ViewStateController.h"
 #include "WindowActions.h"
 #include "WindowSettings.h"
@@ -133,6 +134,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_deviceBar(new DeviceToolBar)
   , m_view(new ThreeDView)
   , m_slices(new SliceColumn(m_model))
+  , m_area(new ViewArea(*m_view, *m_slices))
   , m_start(new StartPage(m_model))
   , m_pages(new QStackedWidget)
   , m_unsavedBanner(new Banner("unsavedBanner", Banner::Kind::Warning))
@@ -186,6 +188,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   layOut();
   connectModel();
   connectActions();
+  connectViews();
   connectSegment();
   connectMeasure();
   connectThumbnails();
@@ -222,15 +225,8 @@ void MainWindow::layOut()
   connect(m_start, &StartPage::caseAsked, m_keeper,
           [this](const QString& name) { m_keeper->openCase(bytes(name)); });
 
-  auto* across = new QSplitter(Qt::Horizontal);
-  across->setHandleWidth(3);
-  across->addWidget(m_view);
-  across->addWidget(m_slices);
-  across->setStretchFactor(0, 3);
-  across->setStretchFactor(1, 1);
-  across->setSizes({700, 380});
   m_pages->addWidget(m_start);
-  m_pages->addWidget(across);
+  m_pages->addWidget(m_area);
   m_notesBanner->addButton("dismissNotes", tr("Close"), [this] { m_notesBanner->hide(); });
   m_mrBanner->addButton("registerMr", tr("Registration (F5)"),
                         [this]
@@ -598,6 +594,35 @@ void MainWindow::connectActions()
       [this](bool chosen) { record(chosen); });
   connect(m_actions->slicesFollow, &QAction::toggled, m_drill, &DrillController::setSlicesFollow);
   connect(m_actions, &WindowActions::viewChosen, this, &MainWindow::showView);
+}
+
+void MainWindow::connectViews()
+{
+  const auto showLayout = [this]
+  {
+    const presenters::ViewArrangement& arrangement = m_area->arrangement();
+    for (QAction* action : m_actions->layouts->actions())
+      action->setChecked(action->data().toInt() == static_cast<int>(arrangement.layout()));
+    m_actions->enlargeView->setChecked(arrangement.enlarged().has_value());
+  };
+  m_area->setArrangement(m_settings->arrangement());
+  showLayout();
+  connect(m_area, &ViewArea::arrangementChanged, this,
+          [this, showLayout]
+          {
+            showLayout();
+            m_settings->keepArrangement(m_area->arrangement());
+          });
+  connect(m_actions->layouts, &QActionGroup::triggered, m_area,
+          [this](QAction* action)
+          { m_area->setLayout(static_cast<presenters::ViewLayout>(action->data().toInt())); });
+  connect(m_actions->enlargeView, &QAction::triggered, m_area,
+          [this] { m_area->toggleEnlarged(m_area->focusedPane()); });
+  connect(m_view, &ThreeDView::enlargeAsked, m_area,
+          [this] { m_area->toggleEnlarged(presenters::ViewPane::ThreeD); });
+  connect(m_slices, &SliceColumn::enlargeAsked, m_area,
+          [this](presenters::SliceOrientation slice)
+          { m_area->toggleEnlarged(presenters::paneOf(slice)); });
 }
 
 // One tool at a time: the drill's or a segment tool.

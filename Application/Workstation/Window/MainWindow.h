@@ -42,6 +42,7 @@ class SliceColumn;
 class StartPage;
 class ThicknessController;
 class ThreeDView;
+class ViewArea;
 class ViewStateController;
 class WindowActions;
 class WindowSettings;
@@ -82,6 +83,7 @@ private:
   void layOut();
   void connectModel();
   void connectActions();
+  void connectViews();
   void connectSegment();
   void connectMeasure();
   void connectThumbnails();
@@ -122,6 +124,7 @@ private:
   DeviceToolBar* m_deviceBar;
   ThreeDView* m_view;
   SliceColumn* m_slices;
+  ViewArea* m_area;
   StartPage* m_start;
   QStackedWidget* m_pages;
   Banner* m_unsavedBanner;

@@ -10,6 +10,7 @@
 
 #include "DeviceToolBar.h"
 #include "DrillBar.h"
+#include "petrous/Presenters/ViewArrangement.h"
 #include "petrous/Rendering/Stereo.h"
 
 namespace petrous::workstation
@@ -126,6 +127,9 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
     m_needCase.push_back(action);
     viewMenu->addAction(action);
   }
+  m_view->addSeparator();
+  QMenu* layoutMenu = addLayouts();
+  m_view->addSeparator();
   centerView = make(m_view, tr("&Centre on the crosshair"), Qt::Key_C,
                     tr("The 3D view turns and zooms about the crosshair from now on"));
   boneThickness = make(m_view, {}, Qt::Key_F6, {});
@@ -141,6 +145,7 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   fitSlices = make(m_view, tr("&Fit slices"), Qt::Key_F, tr("Whole slices again"));
   m_view->addSeparator();
   viewMenu->addSeparator();
+  viewMenu->addMenu(layoutMenu);
   viewMenu->addMenu(addStereo(quadBuffer));
   viewMenu->addAction(surgeonWindow);
   m_view->addSeparator();
@@ -218,6 +223,35 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                                        drillBar.drillAction(),
                                        drillBar.pointerAction(),
                                        record});
+}
+
+QMenu* WindowActions::addLayouts()
+{
+  using presenters::ViewLayout;
+  layouts = new QActionGroup(this);
+  QMenu* menu = m_view->addMenu(tr("La&yout"));
+  const auto add = [this, menu](const QString& text, ViewLayout layout, const QString& tip)
+  {
+    const int key = Qt::Key_1 + static_cast<int>(layout);
+    QAction* action = make(menu, text, QKeySequence(Qt::CTRL + key), tip);
+    action->setCheckable(true);
+    action->setData(static_cast<int>(layout));
+    layouts->addAction(action);
+    m_needCase.push_back(action);
+  };
+  add(tr("3D view, slices &beside"), ViewLayout::Beside, tr("The three slices in a column"));
+  add(tr("&Four up"), ViewLayout::FourUp, tr("3D view and slices in two rows"));
+  add(tr("&3D view alone"), ViewLayout::ThreeD, tr("Without slices"));
+  add(tr("&One slice large"), ViewLayout::OneSlice,
+      tr("The slice that was clicked last; the other views in a column beside it"));
+  add(tr("&Slices alone"), ViewLayout::Slices, tr("Side by side, without the 3D view"));
+  menu->addSeparator();
+  enlargeView = make(menu, tr("&Enlarge the view"), Qt::Key_E,
+                     tr("The view that was clicked last fills the window, and goes back; as a "
+                        "double click on it"));
+  enlargeView->setCheckable(true);
+  m_needCase.push_back(enlargeView);
+  return menu;
 }
 
 QMenu* WindowActions::addStereo(bool quadBuffer)

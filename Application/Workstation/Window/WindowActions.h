@@ -58,6 +58,8 @@ public:
   QAction* boneThickness; ///< checkable
   QAction* clipHere;
   QAction* clipOff;
+  QActionGroup* layouts; ///< checkable; each one's data is its ViewLayout
+  QAction* enlargeView;  ///< checkable
   QAction* boneWindow;
   QAction* softWindow;
   QAction* fitSlices;
@@ -78,6 +80,7 @@ private:
   static void setTip(QAction& action, const QString& tip);
   QAction* make(QMenu* menu, const QString& text, const QKeySequence& keys, const QString& tip);
   QMenu* addStereo(bool quadBuffer);
+  QMenu* addLayouts();
 
   QMenu* m_view = nullptr;
   std::vector<QAction*> m_needCase;

@@ -142,6 +142,37 @@ bool WindowSettings::panelShown(const QString& panel, bool usual) const
   return kept.isEmpty() ? usual : kept == "shown";
 }
 
+presenters::ViewArrangement WindowSettings::arrangement() const
+{
+  presenters::ViewArrangement arrangement;
+  for (int n = 0; n < 5; ++n)
+  {
+    const auto layout = static_cast<presenters::ViewLayout>(n);
+    arrangement.setLayout(layout);
+    const QString key = QString("views/%1_split_%2").arg(nameOf(layout));
+    // Twice: one that is clamped by its neighbour's usual place comes right after it.
+    for (int round = 0; round < 2; ++round)
+      for (std::size_t split = 0; split < arrangement.splits().size(); ++split)
+        if (const auto at = number(key.arg(split)); at)
+          arrangement.moveSplit(split, *at);
+  }
+  const auto layout = presenters::parseViewLayout(m_file.value("views/layout").toString().toStdString());
+  arrangement.setLayout(layout.value_or(presenters::ViewLayout::Beside));
+  const int large = m_file.value("views/large_slice", 1).toInt();
+  if (large >= 1 && large <= 3)
+    arrangement.setLarge(static_cast<presenters::ViewPane>(large));
+  return arrangement;
+}
+
+void WindowSettings::keepArrangement(const presenters::ViewArrangement& arrangement)
+{
+  const QString name = nameOf(arrangement.layout());
+  m_file.setValue("views/layout", name);
+  m_file.setValue("views/large_slice", static_cast<int>(arrangement.large()));
+  for (std::size_t split = 0; split < arrangement.splits().size(); ++split)
+    m_file.setValue(QString("views/%1_split_%2").arg(name).arg(split), arrangement.splits()[split]);
+}
+
 bool WindowSettings::thumbnails() const
 {
   return m_file.value("library/thumbnails").toString() != "off";

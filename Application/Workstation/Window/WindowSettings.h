@@ -5,6 +5,7 @@
 #include <QSettings>
 
 #include "petrous/Dissection/Stroke.h"
+#include "petrous/Presenters/ViewArrangement.h"
 #include "petrous/Presenters/ViewSettings.h"
 
 namespace petrous::workstation
@@ -37,6 +38,10 @@ public:
   /// Whether a panel is shown while a case is open; `usual` before the user has chosen.
   bool panelShown(const QString& panel, bool usual) const;
   void keepPanelShown(const QString& panel, bool shown);
+
+  /// How 3D view and slices are arranged; nothing is enlarged.
+  presenters::ViewArrangement arrangement() const;
+  void keepArrangement(const presenters::ViewArrangement& arrangement);
 
   /// Whether thumbnails of cases are drawn in the background.
   bool thumbnails() const;

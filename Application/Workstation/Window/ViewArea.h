@@ -1,0 +1,50 @@
+#pragma once
+
+#include <vector>
+
+#include <QWidget>
+
+#include "petrous/Presenters/ViewArrangement.h"
+
+namespace petrous::workstation
+{
+
+class SliceColumn;
+class ThreeDView;
+
+/// The 3D view and the slices in one of the layouts, divided by gaps that can be dragged; a double
+/// click on a gap puts it back. No view changes its parent, so that the 3D view keeps its OpenGL
+/// context.
+class ViewArea : public QWidget
+{
+  Q_OBJECT
+public:
+  /// Takes ownership of both.
+  ViewArea(ThreeDView& view, SliceColumn& slices, QWidget* parent = nullptr);
+
+  const presenters::ViewArrangement& arrangement() const noexcept { return m_arrangement; }
+  void setArrangement(const presenters::ViewArrangement& arrangement);
+  /// OneSlice shows the slice with the keyboard focus large, if one has it.
+  void setLayout(presenters::ViewLayout layout);
+  void toggleEnlarged(presenters::ViewPane pane);
+  presenters::ViewPane focusedPane() const; ///< the 3D view if no slice has the focus
+  QWidget& widget(presenters::ViewPane pane) const;
+
+signals:
+  void arrangementChanged();
+
+protected:
+  void resizeEvent(QResizeEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override; ///< of the dividers
+
+private:
+  void place();
+  void placeDividers();
+
+  ThreeDView& m_view;
+  SliceColumn& m_slices;
+  presenters::ViewArrangement m_arrangement;
+  std::vector<QWidget*> m_dividers;
+};
+
+} // namespace petrous::workstation

@@ -782,6 +782,54 @@ TEST(Manifest, IsOfFormat6OnlyWhereItMustBe)
   EXPECT_EQ(raised([&](auto& v) { v.attachments = whole.attachments; }), 6);
 }
 
+TEST(Manifest, IsOfFormat7OnlyWithSavedViewsTurnedPlanesOrASlab)
+{
+  const auto formatOf = [](const scene::Case& value)
+  { return nlohmann::json::parse(scene::toManifest(value)).at("petrous_case").get<int>(); };
+  scene::Case value = viewedCase();
+  EXPECT_EQ(formatOf(value), 6);
+  const auto raised = [&](auto part)
+  {
+    scene::Case with = value;
+    part(with);
+    const std::string text = scene::toManifest(with);
+    const scene::Case back = scene::fromManifest(text, "m");
+    EXPECT_TRUE(*back.view.slices == *with.view.slices);
+    EXPECT_EQ(scene::toManifest(back), text);
+    return formatOf(with);
+  };
+  using Slices = scene::ViewState::Slices;
+  EXPECT_EQ(raised([](auto& v) { v.view.slices->slab = Slices::Slab{10.0 / 3.0, "minip"}; }), 7);
+  Slices::Turned turned{"free", {}};
+  turned.planes[1] = {Vector3d(0.6, 0.8, 0.0), Vector3d(0.0, 0.0, -1.0)};
+  EXPECT_EQ(raised([&](auto& v) { v.view.slices->turned = turned; }), 7);
+  EXPECT_EQ(raised([](auto& v) { scene::saveView(v, "round window", *v.camera); }), 7);
+}
+
+TEST(Manifest, KeepsSavedViewsByNameWithoutTheMrOverTheSlices)
+{
+  scene::Case value = viewedCase();
+  core::CameraPose camera = *value.camera;
+  camera.position += Vector3d(1, 2, 3);
+  scene::saveView(value, "Facial recess", camera);
+  const Vector3d crosshair = value.view.slices->crosshair;
+  value.view.slices->crosshair += Vector3d(5, 5, 5);
+  const scene::Case back = scene::fromManifest(scene::toManifest(value), "m");
+  const auto& saved = back.view.saved.at("Facial recess");
+  EXPECT_EQ(saved.camera.position, camera.position);
+  EXPECT_EQ(saved.slices->crosshair, crosshair);
+  EXPECT_FALSE(saved.slices->overlay);
+  scene::Case shown = back;
+  scene::showSaved(shown, saved);
+  EXPECT_EQ(shown.camera->position, camera.position);
+  EXPECT_EQ(shown.view.slices->crosshair, crosshair);
+  EXPECT_EQ(shown.view.slices->overlay.has_value(), value.view.slices->overlay.has_value());
+  for (const std::string& bad : {std::string(), std::string(" x"), std::string("a\nb"),
+                                 std::string(101, 'a'), std::string("\xff")})
+    EXPECT_THROW(scene::saveView(value, bad, camera), core::InvalidParameter);
+  EXPECT_EQ(value.view.saved.size(), 1u);
+}
+
 TEST(Manifest, RefusesAHostileViewOrAttachment)
 {
   const auto good = nlohmann::json::parse(scene::toManifest(viewedCase()));

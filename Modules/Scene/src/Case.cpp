@@ -203,4 +203,25 @@ void checkAttachmentName(const std::string& name)
   checkFileName(name, "name of an attachment");
 }
 
+void saveView(Case& value, const std::string& name, const core::CameraPose& camera)
+{
+  ViewState view = value.view;
+  ViewState::Saved& saved = view.saved[name];
+  saved = {camera, view.slices};
+  if (saved.slices)
+    saved.slices->overlay.reset();
+  checkView(view);
+  value.view = std::move(view);
+}
+
+void showSaved(Case& value, const ViewState::Saved& saved)
+{
+  value.camera = saved.camera;
+  if (!saved.slices)
+    return;
+  const auto overlay = value.view.slices ? value.view.slices->overlay : std::nullopt;
+  value.view.slices = saved.slices;
+  value.view.slices->overlay = overlay;
+}
+
 } // namespace petrous::scene

@@ -117,7 +117,7 @@ constexpr int kFirstFormatWithBranches = 2;
 constexpr int kFormatWithoutCodes = 3;
 constexpr int kFormatWithoutDescription = 4;
 constexpr int kFormatWithoutAttachments = 5;
-constexpr int kFormatWithoutMeasurements = 6;
+constexpr int kFormatWithoutMeasurements = 6; // and without saved views
 constexpr const char* kPlanes[] = {"axial", "coronal", "sagittal"};
 constexpr const char* kFrame = "frame_of_reference_salted_sha256";
 constexpr const char* kPatient = "patient_salted_sha256";
@@ -328,6 +328,16 @@ json slicesOut(const ViewState::Slices& slices)
     j["overlay"] = {{"mr", slices.overlay->mr},
                     {"mode", slices.overlay->mode},
                     {"opacity", slices.overlay->opacity}};
+  if (slices.turned)
+  {
+    json& turned = j["turned"];
+    turned["kind"] = slices.turned->kind;
+    for (std::size_t n = 0; n < slices.turned->planes.size(); ++n)
+      turned[kPlanes[n]] = {{"right", vectorOut(slices.turned->planes[n].right)},
+                            {"down", vectorOut(slices.turned->planes[n].down)}};
+  }
+  if (slices.slab)
+    j["slab"] = {{"thickness_mm", slices.slab->thickness}, {"projection", slices.slab->projection}};
   return j;
 }
 
@@ -352,6 +362,18 @@ ViewState::Slices slicesIn(const json& j)
     slices.overlay = {overlay.at("mr").get<std::string>(), overlay.at("mode").get<std::string>(),
                       overlay.at("opacity").get<double>()};
   }
+  if (j.contains("turned"))
+  {
+    const json& turned = j.at("turned");
+    slices.turned.emplace();
+    slices.turned->kind = turned.at("kind").get<std::string>();
+    for (std::size_t n = 0; n < slices.turned->planes.size(); ++n)
+      slices.turned->planes[n] = {vectorIn(turned.at(kPlanes[n]).at("right")),
+                                  vectorIn(turned.at(kPlanes[n]).at("down"))};
+  }
+  if (j.contains("slab"))
+    slices.slab = {j.at("slab").at("thickness_mm").get<double>(),
+                   j.at("slab").at("projection").get<std::string>()};
   return slices;
 }
 
@@ -441,6 +463,13 @@ json viewOut(const Case& value)
     j["clipping"] = clippingOut(view.clipping);
   if (view.tool)
     j["tool"] = toolOut(*view.tool);
+  for (const auto& [name, saved] : view.saved)
+  {
+    json& one = j["saved"][name];
+    one["camera"] = cameraOut(saved.camera);
+    if (saved.slices)
+      one["slices"] = slicesOut(*saved.slices);
+  }
   return j;
 }
 
@@ -461,6 +490,14 @@ ViewState viewIn(const json& j)
     view.clipping = clippingIn(j.at("clipping"));
   if (j.contains("tool"))
     view.tool = toolIn(j.at("tool"));
+  if (j.contains("saved"))
+    for (const auto& [name, one] : j.at("saved").items())
+    {
+      ViewState::Saved& saved = view.saved[name];
+      saved.camera = cameraIn(one.at("camera"));
+      if (one.contains("slices"))
+        saved.slices = slicesIn(one.at("slices"));
+    }
   checkView(view);
   return view;
 }
@@ -471,6 +508,14 @@ bool needsFormat6(const Case& value)
   const ViewState& view = value.view;
   return !value.attachments.empty() || view.light || view.stereo || view.tool ||
          !view.clipping.empty() || (view.slices && (view.slices->planes || view.slices->overlay));
+}
+
+// Likewise before format 7.
+bool needsFormat7(const Case& value)
+{
+  const ViewState& view = value.view;
+  return !value.measurements.empty() || !view.saved.empty() ||
+         (view.slices && (view.slices->turned || view.slices->slab));
 }
 
 json attachmentOut(const Attachment& attachment)
@@ -637,11 +682,11 @@ std::string toManifest(const Case& value)
   checkAttachments(value.attachments);
   checkMeasurements(value.measurements);
   const bool isDescribed = !value.description.empty();
-  json j{{"petrous_case", !value.measurements.empty() ? kManifestFormat
-                          : needsFormat6(value)       ? kFormatWithoutMeasurements
-                          : isDescribed               ? kFormatWithoutAttachments
-                          : hasCodes                  ? kFormatWithoutDescription
-                                                      : kFormatWithoutCodes},
+  json j{{"petrous_case", needsFormat7(value)   ? kManifestFormat
+                          : needsFormat6(value) ? kFormatWithoutMeasurements
+                          : isDescribed         ? kFormatWithoutAttachments
+                          : hasCodes            ? kFormatWithoutDescription
+                                                : kFormatWithoutCodes},
          {"name", value.name},
          {"revision", value.revision},
          {"iso_hu", value.iso},

@@ -7,6 +7,8 @@
 #include <tuple>
 
 #include "petrous/Core/Error.h"
+#include "petrous/Core/NumberText.h"
+#include "petrous/Scene/PlainText.h"
 
 namespace petrous::scene
 {
@@ -42,6 +44,25 @@ void checkSlices(const Slices& slices)
     for (const Slices::Plane& plane : *slices.planes)
       require(isWithin(plane.zoom, 1.0, 1000.0) && plane.offset.allFinite(),
               "the zoom of a slice must be 1 to 1000");
+  if (slices.turned)
+  {
+    constexpr std::string_view kKinds[] = {"petrous", "tool-axial", "tool-coronal", "tool-sagittal",
+                                           "free"};
+    require(
+        isOneOf(slices.turned->kind, kKinds),
+        "planes that were turned must be petrous, tool-axial, tool-coronal, tool-sagittal or free");
+    for (const Slices::Turned::Axes& axes : slices.turned->planes)
+      require(std::abs(axes.right.norm() - 1.0) < 1e-6 && std::abs(axes.down.norm() - 1.0) < 1e-6 &&
+                  std::abs(axes.right.dot(axes.down)) < 1e-6,
+              "the axes of a plane must have length 1 and be perpendicular to each other");
+  }
+  if (slices.slab)
+  {
+    constexpr std::string_view kProjections[] = {"mip", "minip", "mean"};
+    require(isOneOf(slices.slab->projection, kProjections) && slices.slab->thickness > 0.0 &&
+                slices.slab->thickness <= 1000.0,
+            "a slab must be mip, minip or mean, above 0 to 1000 mm thick");
+  }
   if (!slices.overlay)
     return;
   constexpr std::string_view kModes[] = {"blend", "edges", "checker"};
@@ -68,7 +89,22 @@ bool operator==(const Slices& a, const Slices& b)
            (!one || std::tie(one->mr, one->mode, one->opacity) ==
                         std::tie(other->mr, other->mode, other->opacity));
   };
-  return a.crosshair == b.crosshair && a.width == b.width && a.level == b.level &&
+  const auto equalTurned = [](const auto& one, const auto& other)
+  {
+    return one.has_value() == other.has_value() &&
+           (!one || (one->kind == other->kind &&
+                     std::equal(one->planes.begin(), one->planes.end(), other->planes.begin(),
+                                [](const auto& p, const auto& q)
+                                { return p.right == q.right && p.down == q.down; })));
+  };
+  const auto equalSlabs = [](const auto& one, const auto& other)
+  {
+    return one.has_value() == other.has_value() &&
+           (!one || std::tie(one->thickness, one->projection) ==
+                        std::tie(other->thickness, other->projection));
+  };
+  return equalTurned(a.turned, b.turned) && equalSlabs(a.slab, b.slab) &&
+         a.crosshair == b.crosshair && a.width == b.width && a.level == b.level &&
          equalPlanes(a.planes, b.planes) && equalOverlays(a.overlay, b.overlay);
 }
 
@@ -102,8 +138,24 @@ bool operator==(const ViewState::Tool& a, const ViewState::Tool& b)
          std::tie(b.burr.kind, b.burr.diameter, b.burr.rpm, b.thrust, b.byWheel);
 }
 
+void checkViewName(const std::string& name)
+{
+  require(!name.empty() && name.size() <= ViewState::kLongestName && core::isUtf8(name) &&
+              !hasInvisible(name) && name.front() != ' ' && name.back() != ' ',
+          "a name must be 1 to " + std::to_string(ViewState::kLongestName) +
+              " bytes of UTF-8 without characters that are not seen and without spaces around it");
+}
+
 void checkView(const ViewState& view)
 {
+  require(view.saved.size() <= ViewState::kMaxSaved,
+          "there are at most " + std::to_string(ViewState::kMaxSaved) + " saved views");
+  for (const auto& [name, saved] : view.saved)
+  {
+    checkViewName(name);
+    if (saved.slices)
+      checkSlices(*saved.slices);
+  }
   if (view.slices)
     checkSlices(*view.slices);
   if (view.light)

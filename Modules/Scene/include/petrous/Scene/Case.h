@@ -132,4 +132,11 @@ void checkPartName(const std::string& name);
 /// control characters, not blank.
 void checkPersonName(const std::string& name);
 
+/// Keeps `camera` and the slices of the case's view, without the MR over them, under a name; one of
+/// the same name is replaced. Throws InvalidParameter naming a name or number that is not valid.
+void saveView(Case& value, const std::string& name, const core::CameraPose& camera);
+
+/// Makes a saved view's camera and slices those of the case; the MR over the slices stays.
+void showSaved(Case& value, const ViewState::Saved& saved);
+
 } // namespace petrous::scene

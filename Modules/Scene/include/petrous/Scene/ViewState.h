@@ -36,11 +36,31 @@ struct ViewState
       std::string mode;     ///< "blend", "edges" or "checker"
       double opacity = 0.5; ///< of the MR in a blend, 0 to 1
     };
+    /// Planes that are not the standard ones; patient LPS.
+    struct Turned
+    {
+      /// Of length 1, perpendicular to each other.
+      struct Axes
+      {
+        Eigen::Vector3d right{1.0, 0.0, 0.0}; ///< along the picture's rows
+        Eigen::Vector3d down{0.0, 1.0, 0.0};  ///< along its columns
+      };
+      std::string kind; ///< "petrous", "free", or "tool-axial", ... by the one across the tool
+      std::array<Axes, 3> planes; ///< in place of axial, coronal, sagittal
+    };
+    /// What a slice shows of the layer around it.
+    struct Slab
+    {
+      double thickness = 0.0; ///< mm; above 0
+      std::string projection; ///< "mip", "minip" or "mean"
+    };
     Eigen::Vector3d crosshair{0.0, 0.0, 0.0}; ///< patient LPS mm
     double width = 0.0;                       ///< of the grey window, in the CT's unit; above 0
     double level = 0.0;
     std::optional<std::array<Plane, 3>> planes = {}; ///< axial, coronal, sagittal
     std::optional<Overlay> overlay = {};
+    std::optional<Turned> turned = {};
+    std::optional<Slab> slab = {};
   };
 
   struct Light
@@ -76,6 +96,17 @@ struct ViewState
     bool byWheel = false; ///< the wheel moves the burr in depth
   };
 
+  /// A view that the user named.
+  struct Saved
+  {
+    core::CameraPose camera;
+    std::optional<Slices> slices; ///< without an MR over them
+  };
+  static constexpr std::size_t kMaxSaved = 100;
+  static constexpr std::size_t kLongestName = 100; ///< of a saved view, bytes
+
+  std::map<std::string, Saved> saved; ///< by name
+
   /// Of the branches other than the current one, by name, as they were left. Names of no branch are
   /// not saved.
   std::map<std::string, core::CameraPose> branchCameras;
@@ -91,6 +122,10 @@ bool operator==(const ViewState::Light& a, const ViewState::Light& b);
 bool operator==(const ViewState::Stereo& a, const ViewState::Stereo& b);
 bool operator==(const ViewState::Clipping& a, const ViewState::Clipping& b);
 bool operator==(const ViewState::Tool& a, const ViewState::Tool& b);
+
+/// Throws InvalidParameter unless it is valid for a saved view: 1 to kLongestName bytes of UTF-8
+/// without characters that are not seen and without spaces around it.
+void checkViewName(const std::string& name);
 
 /// Throws InvalidParameter naming the first value that is out of its range.
 void checkView(const ViewState& view);

@@ -26,6 +26,16 @@ TEST(OrbitCamera, TurnsWhatIsInFrontToTheRight)
   EXPECT_LT((next.viewUp - Vector3d(0, 0, 1)).norm(), 1e-9);
 }
 
+// What was up goes to the right.
+TEST(OrbitCamera, RollsThePictureClockwise)
+{
+  const auto next = interaction::rolled(fromBehind(), 90.0);
+  EXPECT_EQ(next.position, fromBehind().position);
+  const auto edges = interaction::edgeDirections(next);
+  EXPECT_EQ(edges.right, "S");
+  EXPECT_EQ(edges.bottom, interaction::edgeDirections(fromBehind()).right);
+}
+
 TEST(OrbitCamera, TurnsOverThePoleWithoutAStop)
 {
   auto camera = fromBehind();

@@ -40,6 +40,16 @@ core::CameraPose turned(const core::CameraPose& camera, double right, double dow
   return next;
 }
 
+core::CameraPose rolled(const core::CameraPose& camera, double degrees)
+{
+  const Frame frame = frameOf(camera);
+  // The camera turns counterclockwise for what it sees to turn clockwise.
+  const double angle = degrees * kDegree;
+  core::CameraPose next = camera;
+  next.viewUp = (std::cos(angle) * frame.up - std::sin(angle) * frame.right).normalized();
+  return next;
+}
+
 core::CameraPose shifted(const core::CameraPose& camera, double right, double down)
 {
   const Frame frame = frameOf(camera);

@@ -1,5 +1,7 @@
 #include "petrous/Rendering/StandardViews.h"
 
+#include <tuple>
+
 #include <gtest/gtest.h>
 
 #include "SyntheticScenes.h"
@@ -22,8 +24,8 @@ core::GridGeometry gridAt(double x)
 
 TEST(StandardViews, KnowTheirNamesAndNoOthers)
 {
-  for (const char* name :
-       {"lateral", "left", "right", "superior", "inferior", "anterior", "posterior"})
+  for (const char* name : {"lateral", "left", "right", "superior", "inferior", "anterior",
+                           "posterior", "surgical-left", "surgical-right"})
   {
     ASSERT_TRUE(parseView(name)) << name;
     EXPECT_EQ(nameOf(*parseView(name)), name);
@@ -49,6 +51,25 @@ TEST(StandardViews, LateralIsTheSideOfTheVolumeAndRightNearTheMidline)
   EXPECT_GT(eyeSide(StandardView::Lateral, gridAt(10.1)).x(), 0.9);
   EXPECT_LT(eyeSide(StandardView::Lateral, gridAt(9.9)).x(), -0.9);
   EXPECT_LT(eyeSide(StandardView::Lateral, gridAt(-40.0)).x(), -0.9);
+}
+
+// On the back, the head turned to the left: the face is away from a surgeon at the right ear, whose
+// right hand is towards the feet.
+TEST(StandardViews, SurgicalIsTheTurnedHeadSeenFromTheEar)
+{
+  const Eigen::Vector3d anterior(0, -1, 0);
+  const Eigen::Vector3d superior(0, 0, 1);
+  for (const auto& [view, ear, right] :
+       {std::tuple(StandardView::SurgicalRight, Eigen::Vector3d(-1, 0, 0),
+                   Eigen::Vector3d(-superior)),
+        std::tuple(StandardView::SurgicalLeft, Eigen::Vector3d(1, 0, 0), superior)})
+  {
+    const core::CameraPose pose = standardCamera(view, gridAt(0.0));
+    const Eigen::Vector3d forward = (pose.focalPoint - pose.position).normalized();
+    EXPECT_TRUE(forward.isApprox(-ear));
+    EXPECT_TRUE(pose.viewUp.isApprox(anterior));
+    EXPECT_TRUE(forward.cross(pose.viewUp).isApprox(right));
+  }
 }
 
 TEST(StandardViews, FrameTheBoundingSphere)

@@ -10,7 +10,7 @@ namespace petrous::rendering
 
 namespace
 {
-constexpr std::array<std::pair<StandardView, const char*>, 7> kNames{{
+constexpr std::array<std::pair<StandardView, const char*>, 9> kNames{{
     {StandardView::Lateral, "lateral"},
     {StandardView::Left, "left"},
     {StandardView::Right, "right"},
@@ -18,6 +18,8 @@ constexpr std::array<std::pair<StandardView, const char*>, 7> kNames{{
     {StandardView::Inferior, "inferior"},
     {StandardView::Anterior, "anterior"},
     {StandardView::Posterior, "posterior"},
+    {StandardView::SurgicalLeft, "surgical-left"},
+    {StandardView::SurgicalRight, "surgical-right"},
 }};
 constexpr double kMidlineWidth = 10.0;  // mm; volumes closer to the midline have no side
 constexpr double kViewAngle = 30.0;     // degrees, vertical
@@ -31,8 +33,10 @@ Eigen::Vector3d towardsEye(StandardView view, const Eigen::Vector3d& center)
   case StandardView::Lateral:
     return {center.x() > kMidlineWidth ? 1.0 : -1.0, 0.0, 0.0};
   case StandardView::Left:
+  case StandardView::SurgicalLeft:
     return {1.0, 0.0, 0.0};
   case StandardView::Right:
+  case StandardView::SurgicalRight:
     return {-1.0, 0.0, 0.0};
   case StandardView::Superior:
     return {0.0, 0.0, 1.0};
@@ -82,8 +86,9 @@ core::CameraPose standardCamera(StandardView view, const core::GridGeometry& gri
   pose.focalPoint = center;
   const Eigen::Vector3d eye = towardsEye(view, grid.center());
   pose.position = pose.focalPoint + distance * eye;
-  const bool alongBody = std::abs(eye.z()) > 0.5;
-  pose.viewUp = alongBody ? Eigen::Vector3d(0.0, -1.0, 0.0) : Eigen::Vector3d(0.0, 0.0, 1.0);
+  const bool isAnteriorUp = std::abs(eye.z()) > 0.5 || view == StandardView::SurgicalLeft ||
+                            view == StandardView::SurgicalRight;
+  pose.viewUp = isAnteriorUp ? Eigen::Vector3d(0.0, -1.0, 0.0) : Eigen::Vector3d(0.0, 0.0, 1.0);
   pose.viewAngle = kViewAngle;
   return pose;
 }

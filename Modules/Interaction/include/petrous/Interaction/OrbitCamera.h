@@ -12,6 +12,9 @@ namespace petrous::interaction
 /// the screen, `down` to the bottom. No gimbal limit: the head can be turned all the way over.
 core::CameraPose turned(const core::CameraPose& camera, double right, double down);
 
+/// Turns the picture about its centre, clockwise; degrees.
+core::CameraPose rolled(const core::CameraPose& camera, double degrees);
+
 /// Pans by a fraction of the picture's height.
 core::CameraPose shifted(const core::CameraPose& camera, double right, double down);
 

@@ -18,10 +18,12 @@ enum class StandardView
   Superior,
   Inferior,
   Anterior,
-  Posterior
+  Posterior,
+  SurgicalLeft, ///< of the left ear, as the surgeon at it sees the patient; see below
+  SurgicalRight
 };
 
-/// "lateral", "left", ...; nullopt for any other name.
+/// "lateral", "left", ..., "surgical-left", "surgical-right"; nullopt for any other name.
 std::optional<StandardView> parseView(const std::string& name);
 std::string nameOf(StandardView view);
 
@@ -29,8 +31,11 @@ std::string nameOf(StandardView view);
 /// at least as wide as high; vertical view angle 30 degrees.
 ///
 /// View-up is superior; for superior and inferior views it is anterior, the orientation used by
-/// surgeons and radiologists. Lateral is left if the hull's centre has LPS x > 10 mm, otherwise
-/// right.
+/// surgeons and radiologists. Surgical is the patient on the back with the head turned to the other
+/// side and the surgeon at the ear: along the left-right axis from the ear's side, view-up anterior
+/// (the face lies away from the surgeon), so that the vertex is on the picture's left at a right
+/// ear and on its right at a left one. Lateral is left if the hull's centre has LPS x > 10 mm,
+/// otherwise right.
 core::CameraPose standardCamera(StandardView view, const core::GridGeometry& grid);
 
 /// As above, framing the given sphere, patient LPS mm; the grid determines the lateral side.

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <vector>
 
 #include "CommandRunner.h"
@@ -130,4 +131,47 @@ TEST_F(SliceCommand, SaysWhichSlicesWereInterpolated)
       ASSERT_NE(at, std::string::npos) << outcome.err;
       EXPECT_NE(outcome.err.find("interpolated", at), std::string::npos) << outcome.err;
     }
+}
+
+// Left ear: Stenvers along the pyramid, (-1, -1, 0); Poeschl across it.
+TEST_F(SliceCommand, DrawsPetrousAndObliquePlanes)
+{
+  const auto normal = [this](const std::string& options)
+  { return json(slice(options + " --at -30,4,2 --size 120x100")).at("normal"); };
+  const auto expect = [](const nlohmann::json& is, double x, double y, double z)
+  {
+    EXPECT_NEAR(is[0].get<double>(), x, 1e-12);
+    EXPECT_NEAR(is[1].get<double>(), y, 1e-12);
+    EXPECT_NEAR(is[2].get<double>(), z, 1e-12);
+  };
+  const double half = std::sqrt(0.5);
+  expect(normal("--plane stenver --side left"), -half, half, 0.0);
+  expect(normal("--plane poeschl --side left"), half, half, 0.0);
+  expect(normal("--plane stenver --side right"), half, half, 0.0);
+  expect(normal("--plane poeschl --side right"), half, -half, 0.0);
+  expect(normal("--plane stenver"), half, half, 0.0); // the sample is a right ear
+  expect(normal("--plane oblique --normal 0,0.6,0.8"), 0.0, 0.6, 0.8);
+  expect(normal("--plane oblique --normal=-2,0,0"), 1.0, 0.0, 0.0); // the same plane
+  json(slice("--plane sagittal --at -30,4,2"));
+  const std::string sagittal = picture();
+  json(slice("--plane axial --at -30,4,2"));
+  EXPECT_NE(picture(), sagittal);
+  for (const char* bad : {"--plane oblique", "--plane axial --normal 1,0,0",
+                          "--plane oblique --normal 0,0,0", "--plane axial --side left"})
+    EXPECT_EQ(run(slice(bad)).code, 2) << bad;
+}
+
+TEST_F(SliceCommand, ProjectsASlab)
+{
+  const std::string at = "--plane axial --at -30,4,2 --size 120x100 --no-structures";
+  EXPECT_TRUE(json(slice(at)).at("slab").is_null());
+  const std::string thin = picture();
+  const auto report = json(slice(at + " --slab 6"));
+  EXPECT_EQ(report.at("slab"), (nlohmann::json{{"thickness_mm", 6.0}, {"projection", "mip"}}));
+  const std::string brightest = picture();
+  EXPECT_NE(brightest, thin);
+  json(slice(at + " --slab 6 --projection minip"));
+  EXPECT_NE(picture(), brightest);
+  EXPECT_EQ(run(slice(at + " --projection mean")).code, 2);
+  EXPECT_EQ(run(slice(at + " --slab -1")).code, 2);
 }

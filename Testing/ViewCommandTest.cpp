@@ -110,3 +110,19 @@ TEST_F(ViewCommand, RefusesWhatIsWrong)
   EXPECT_FALSE(json("view ear").at("changed"));
   EXPECT_TRUE(json("view ear").at("slices").is_null());
 }
+
+TEST_F(ViewCommand, KeepsShowsAndRemovesViewsByName)
+{
+  json("view ear --view surgical-right --save-as 'Right ear'");
+  const Json first = json("view ear");
+  ASSERT_EQ(first.at("saved").size(), 1u);
+  const Json camera = first.at("saved").at("Right ear").at("camera");
+  EXPECT_EQ(camera.at("view_up"), (std::vector<double>{0.0, -1.0, 0.0}));
+  json("view ear --view superior");
+  EXPECT_NE(json("view ear").at("camera"), camera);
+  EXPECT_EQ(json("view ear --show 'Right ear'").at("camera"), camera);
+  EXPECT_EQ(run("view ear --show other").code, 2);
+  EXPECT_EQ(run("view ear --save-as ' x'").code, 2);
+  json("view ear --remove 'Right ear'");
+  EXPECT_TRUE(json("view ear").at("saved").empty());
+}

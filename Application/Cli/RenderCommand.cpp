@@ -135,7 +135,8 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
   command
       .add_option("--view", options.view,
                   "lateral, left, right, superior, inferior, anterior or posterior")
-      ->check(oneOf({"lateral", "left", "right", "superior", "inferior", "anterior", "posterior"}));
+      ->check(oneOf({"lateral", "left", "right", "superior", "inferior", "anterior", "posterior",
+                     "surgical-left", "surgical-right"}));
   command.add_option("--camera", options.camera, "Camera file, patient LPS mm")
       ->type_name("F.json");
   command

@@ -14,6 +14,7 @@
 #include "petrous/Presenters/CaseRegistration.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/SeriesPreview.h"
+#include "petrous/Presenters/SlicePlanes.h"
 #include "petrous/Presenters/SlicePresenter.h"
 #include "petrous/Rendering/Picture.h"
 #include "petrous/Rendering/PictureText.h"
@@ -102,8 +103,8 @@ rendering::Picture labelled(presenters::SlicePixels pixels, const presenters::Sl
   rendering::Picture picture{pixels.width, pixels.height, std::move(pixels.rgb)};
   const double width = picture.width;
   const double height = picture.height;
-  const auto letter = [&](char c, const rendering::TextPlace& place)
-  { rendering::writeText(picture, std::string(1, c), place, kLetter, kInk); };
+  const auto letter = [&](const std::string& text, const rendering::TextPlace& place)
+  { rendering::writeText(picture, text, place, kLetter, kInk); };
   const auto letters = slice.edgeLetters();
   letter(letters.left, {double(kMargin), 0.5 * height, 0.0, 0.5});
   letter(letters.right, {width - kMargin, 0.5 * height, 1.0, 0.5});
@@ -121,7 +122,9 @@ rendering::Picture labelled(presenters::SlicePixels pixels, const presenters::Sl
 
 struct SliceOptions
 {
-  std::string caseName, out, plane, at, size = "800x800", overlay, mode, window;
+  std::string caseName, out, plane, normal, side, at, size = "800x800", overlay, mode, window,
+                                                      projection;
+  std::optional<double> slab;
   std::optional<double> fieldOfView;
   std::optional<double> opacity;
   bool noStructures = false;
@@ -129,11 +132,59 @@ struct SliceOptions
   bool withoutDamaged = false;
 };
 
-SliceOrientation parsePlane(const std::string& word)
+// A plane with the name under which it is drawn.
+struct WantedPlane
 {
-  return word == "axial"     ? SliceOrientation::Axial
-         : word == "coronal" ? SliceOrientation::Coronal
-                             : SliceOrientation::Sagittal;
+  SliceOrientation orientation;
+  presenters::SliceAxes axes;
+  std::string name;
+  bool isStandard = false;
+};
+
+WantedPlane planeOf(const SliceOptions& options, const scene::Case& value)
+{
+  const std::string& word = options.plane;
+  if ((word == "oblique") == options.normal.empty())
+    throw UsageError("--normal x,y,z goes with --plane oblique");
+  const bool isPetrous = word == "poeschl" || word == "stenver";
+  if (!isPetrous && !options.side.empty())
+    throw UsageError("--side goes with --plane poeschl or stenver");
+  if (word == "oblique")
+  {
+    const auto n = parseNumbers(options.normal, 3, "--normal x,y,z");
+    const Eigen::Vector3d normal(n[0], n[1], n[2]);
+    if (!(normal.norm() > 0.0))
+      throw UsageError("--normal x,y,z: the normal must be longer than 0");
+    const presenters::ObliquePlane plane = presenters::planeWithNormal(normal);
+    return {plane.orientation, plane.axes, "Oblique"};
+  }
+  const SliceOrientation slice = word == "axial" ? SliceOrientation::Axial
+                                 : word == "coronal" || word == "stenver"
+                                     ? SliceOrientation::Coronal
+                                     : SliceOrientation::Sagittal;
+  if (!isPetrous)
+    return {slice, presenters::axesOf(slice), presenters::nameOf(slice), true};
+  const auto side =
+      options.side.empty() ? presenters::earOf(value) : scene::sideFromName(options.side);
+  const auto planes = presenters::SlicePlanes::petrous(side);
+  return {slice, planes.axes(slice),
+          planes.name(slice) + (side == scene::Side::Left ? ", left ear" : ", right ear")};
+}
+
+presenters::Slab slabOf(const SliceOptions& options, const scene::ViewState::Slices* saved)
+{
+  presenters::Slab slab;
+  if (saved && saved->slab)
+    slab = {saved->slab->thickness, presenters::parseProjection(saved->slab->projection)
+                                        .value_or(presenters::Projection::Maximum)};
+  if (options.slab)
+    slab.thickness = *options.slab;
+  if (options.projection.empty())
+    return slab;
+  if (!(slab.thickness > 0.0))
+    throw UsageError("--projection goes with --slab MM");
+  slab.projection = *presenters::parseProjection(options.projection);
+  return slab;
 }
 
 OverlayMode parseMode(const std::string& word)
@@ -168,23 +219,26 @@ void checkWindow(const presenters::GreyWindow& window, const volume::ValueRange&
 }
 
 // `saved`: the slices as the case was saved with, or nullptr.
-SliceGeometry sliceOf(const SliceOptions& options, const scene::Case& value,
-                      const scene::ViewState::Slices* saved, int width, int height)
+SliceGeometry sliceOf(const SliceOptions& options, const WantedPlane& plane,
+                      const scene::Case& value, const scene::ViewState::Slices* saved, int width,
+                      int height)
 {
-  const SliceOrientation plane = parsePlane(options.plane);
   const core::GridGeometry& grid = value.ct.geometry;
   const Eigen::Vector3d at = !options.at.empty() ? parsePlace(options.at, value, "--at").point
                              : saved             ? saved->crosshair
                                                  : grid.center();
-  if (!options.fieldOfView && options.at.empty() && saved && saved->planes)
+  const auto whole = [&]
+  { return SliceGeometry::fitting(plane.orientation, plane.axes, grid, at, width, height); };
+  // The saved zoom is of the planes that were shown, which may have been others.
+  if (!options.fieldOfView && options.at.empty() && saved && saved->planes && plane.isStandard &&
+      !saved->turned)
   {
-    const auto& shown = (*saved->planes)[static_cast<std::size_t>(plane)];
-    return presenters::zoomed(SliceGeometry::fitting(plane, grid, at, width, height), shown.zoom,
-                              shown.offset);
+    const auto& shown = (*saved->planes)[static_cast<std::size_t>(plane.orientation)];
+    return presenters::zoomed(whole(), shown.zoom, shown.offset);
   }
   if (!options.fieldOfView)
-    return SliceGeometry::fitting(plane, grid, at, width, height);
-  return {plane, at, *options.fieldOfView / width, width, height};
+    return whole();
+  return {plane.orientation, plane.axes, at, *options.fieldOfView / width, width, height};
 }
 
 // Whether any pixel of the slice is within the CT's voxels.
@@ -261,6 +315,20 @@ void takeOverlay(SliceOptions& options, const scene::Case& value,
   options.opacity = options.opacity.value_or(saved->overlay->opacity);
 }
 
+std::string projectionWord(presenters::Projection projection)
+{
+  return projection == presenters::Projection::Maximum   ? "MIP"
+         : projection == presenters::Projection::Minimum ? "MinIP"
+                                                         : "Mean";
+}
+
+nlohmann::json slabJson(const presenters::Slab& slab)
+{
+  if (!(slab.thickness > 0.0))
+    return nullptr;
+  return {{"thickness_mm", slab.thickness}, {"projection", nameOf(slab.projection)}};
+}
+
 void slice(const Context& context, SliceOptions options)
 {
   const auto [width, height] = parseSize(options.size);
@@ -277,7 +345,9 @@ void slice(const Context& context, SliceOptions options)
                                         : saved ? presenters::GreyWindow{saved->width, saved->level}
                                                 : display.bone;
   checkWindow(window, value.ct.range, display);
-  const SliceGeometry geometry = sliceOf(options, value, saved, width, height);
+  const WantedPlane plane = planeOf(options, value);
+  const presenters::Slab slab = slabOf(options, saved);
+  const SliceGeometry geometry = sliceOf(options, plane, value, saved, width, height);
   if (!meets(geometry, value.ct.geometry))
     throw UsageError("--at: the slice does not meet the CT, which " +
                      coverageOf(value.ct.geometry) + " (patient LPS)");
@@ -293,11 +363,14 @@ void slice(const Context& context, SliceOptions options)
   const presenters::SlicePresenter presenter(value);
 
   const auto start = std::chrono::steady_clock::now();
-  auto pixels = presenter.draw(geometry, window, overlay ? &*overlay : nullptr);
+  auto pixels = presenter.draw(geometry, window, overlay ? &*overlay : nullptr, slab);
   const double elapsed =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 
-  std::vector<std::string> lines{presenters::nameOf(geometry.orientation())};
+  std::vector<std::string> lines{plane.name};
+  if (slab.thickness > 0.0)
+    lines.push_back(projectionWord(slab.projection) + " " + core::generalText(slab.thickness) +
+                    " mm");
   if (mr)
     lines.push_back("MR " + mr->name + (mr->registered ? "" : ": not registered"));
   const auto addInterpolated = [&](const std::string& name, const scene::ImagePart& image)
@@ -323,6 +396,10 @@ void slice(const Context& context, SliceOptions options)
                      {"plane", options.plane},
                      {"size", {width, height}},
                      {"center_mm", vectorJson(geometry.center())},
+                     {"right", vectorJson(geometry.axes().right)},
+                     {"down", vectorJson(geometry.axes().down)},
+                     {"normal", vectorJson(geometry.axes().next)},
+                     {"slab", slabJson(slab)},
                      {"mm_per_pixel", geometry.mmPerPixel()},
                      {"milliseconds", elapsed},
                      {"window", {{"width", window.width}, {"level", window.level}}},
@@ -345,9 +422,28 @@ void addSliceCommand(CLI::App& app, Context& context)
       ->type_name("F.png")
       ->check(endsIn(".png"))
       ->required();
-  command->add_option("--plane", options->plane, "axial, coronal or sagittal")
-      ->check(oneOf({"axial", "coronal", "sagittal"}))
+  command
+      ->add_option(
+          "--plane", options->plane,
+          "axial, coronal, sagittal, poeschl, stenver (45 degrees about the patient's long "
+          "axis, across and along the petrous bone) or oblique")
+      ->check(oneOf({"axial", "coronal", "sagittal", "poeschl", "stenver", "oblique"}))
       ->required();
+  command->add_option("--normal", options->normal, "Of an oblique plane, patient LPS")
+      ->type_name("x,y,z");
+  command
+      ->add_option("--side", options->side,
+                   "Ear of poeschl and stenver: left or right (the case's side, else the CT's)")
+      ->check(oneOf({"left", "right"}));
+  command
+      ->add_option("--slab", options->slab,
+                   "Thickness of the layer that is projected; 0: the slice itself (as saved)")
+      ->type_name("MM")
+      ->check(within({0.0, 1000.0, "mm"}));
+  command
+      ->add_option("--projection", options->projection,
+                   "Of a slab: mip (brightest), minip (darkest) or mean (as saved, else mip)")
+      ->check(oneOf({"mip", "minip", "mean"}));
   command
       ->add_option(
           "--at", options->at,

@@ -24,7 +24,8 @@ constexpr const char* kPlanes[] = {"axial", "coronal", "sagittal"};
 struct ViewCommandOptions
 {
   std::string caseName, view, camera, at, window, stereo, crop, roi, overlay, mode, burr;
-  std::vector<std::string> clip, zoom, cleared;
+  std::string show, saveAs;
+  std::vector<std::string> clip, zoom, cleared, removed;
   std::optional<double> falloff, wetness, eyeSeparation, convergence, opacity, diameter, rpm,
       thrust;
 };
@@ -44,6 +45,19 @@ void clear(scene::Case& value, const std::string& part)
     view.clipping = {};
   else
     view.tool.reset();
+}
+
+const ViewState::Saved& savedView(const scene::Case& value, const std::string& name,
+                                  const std::string& option)
+{
+  const auto found = value.view.saved.find(name);
+  if (found != value.view.saved.end())
+    return found->second;
+  std::string names;
+  for (const auto& [other, saved] : value.view.saved)
+    names += (names.empty() ? " '" : ", '") + other + "'";
+  throw UsageError(option + ": no saved view '" + name + "'" +
+                   (names.empty() ? "; the case has none" : "; there are" + names));
 }
 
 void changeSlices(scene::Case& value, const ViewCommandOptions& options)
@@ -101,6 +115,13 @@ void change(scene::Case& value, const ViewCommandOptions& options)
   ViewState& view = value.view;
   for (const std::string& part : options.cleared)
     clear(value, part);
+  for (const std::string& name : options.removed)
+  {
+    savedView(value, name, "--remove");
+    view.saved.erase(name);
+  }
+  if (!options.show.empty())
+    scene::showSaved(value, savedView(value, options.show, "--show"));
   if (!options.camera.empty())
     value.camera = readCamera(options.camera);
   if (!options.view.empty())
@@ -140,6 +161,8 @@ void change(scene::Case& value, const ViewCommandOptions& options)
   }
   try
   {
+    if (!options.saveAs.empty())
+      scene::saveView(value, options.saveAs, presenters::currentCamera(value));
     scene::checkView(view);
   }
   catch (const core::InvalidParameter& error)
@@ -160,7 +183,20 @@ nlohmann::json slicesJson(const Slices& slices)
     overlay = {{"mr", slices.overlay->mr},
                {"mode", slices.overlay->mode},
                {"opacity", slices.overlay->opacity}};
+  nlohmann::json turned = nullptr;
+  if (slices.turned)
+  {
+    turned = {{"kind", slices.turned->kind}};
+    for (std::size_t n = 0; n < slices.turned->planes.size(); ++n)
+      turned[kPlanes[n]] = {{"right", vectorJson(slices.turned->planes[n].right)},
+                            {"down", vectorJson(slices.turned->planes[n].down)}};
+  }
+  nlohmann::json slab = nullptr;
+  if (slices.slab)
+    slab = {{"thickness_mm", slices.slab->thickness}, {"projection", slices.slab->projection}};
   return {{"crosshair_mm", vectorJson(slices.crosshair)},
+          {"turned", std::move(turned)},
+          {"slab", std::move(slab)},
           {"window", {{"width", slices.width}, {"level", slices.level}}},
           {"planes", std::move(planes)},
           {"overlay", std::move(overlay)}};
@@ -199,7 +235,12 @@ nlohmann::json viewJson(const scene::Case& value)
             {"rpm", view.tool->burr.rpm},
             {"thrust_n", view.tool->thrust},
             {"by_wheel", view.tool->byWheel}};
-  return {{"camera", value.camera ? cameraJson(*value.camera) : nlohmann::json(nullptr)},
+  nlohmann::json saved = nlohmann::json::object();
+  for (const auto& [name, one] : view.saved)
+    saved[name] = {{"camera", cameraJson(one.camera)},
+                   {"slices", one.slices ? slicesJson(*one.slices) : nlohmann::json(nullptr)}};
+  return {{"saved", std::move(saved)},
+          {"camera", value.camera ? cameraJson(*value.camera) : nlohmann::json(nullptr)},
           {"branches", std::move(branches)},
           {"slices", view.slices ? slicesJson(*view.slices) : nlohmann::json(nullptr)},
           {"light", std::move(light)},
@@ -238,9 +279,12 @@ void addViewCommand(CLI::App& app, Context& context)
                          [options, &context] { run(context, *options); });
   command->add_option("CASE", options->caseName, "Name of the case")->required();
   command
-      ->add_option("--view", options->view,
-                   "lateral, left, right, superior, inferior, anterior or posterior")
-      ->check(oneOf({"lateral", "left", "right", "superior", "inferior", "anterior", "posterior"}));
+      ->add_option(
+          "--view", options->view,
+          "lateral, left, right, superior, inferior, anterior, posterior, surgical-left or "
+          "surgical-right (seen from the ear, the face up)")
+      ->check(oneOf({"lateral", "left", "right", "superior", "inferior", "anterior", "posterior",
+                     "surgical-left", "surgical-right"}));
   command->add_option("--camera", options->camera, "Camera file, patient LPS mm")
       ->type_name("F.json");
   command->add_option("--at", options->at, "Crosshair of the slices, patient LPS mm")
@@ -294,6 +338,18 @@ void addViewCommand(CLI::App& app, Context& context)
   command->add_option("--thrust", options->thrust, "Of a device without force")
       ->type_name("N")
       ->check(within({0.0, 100.0, "N"}));
+  command
+      ->add_option("--show", options->show,
+                   "Take camera and slices from a saved view, before other options")
+      ->type_name("NAME");
+  command
+      ->add_option("--save-as", options->saveAs,
+                   "Save camera and slices, as they are then, as a view of this name; replaces one "
+                   "of the same name")
+      ->type_name("NAME");
+  command->add_option("--remove", options->removed, "Saved view to remove, first of all")
+      ->allow_extra_args(false)
+      ->type_name("NAME");
   command
       ->add_option("--clear", options->cleared,
                    "Take out, before anything else: camera, slices, light, stereo, clipping, tool")

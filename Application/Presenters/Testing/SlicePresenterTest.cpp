@@ -133,7 +133,7 @@ TEST(SliceGeometry, HasThePatientsRightOnThePicturesLeft)
   const auto letters = [](SliceOrientation orientation)
   {
     const auto l = SliceGeometry(orientation, Vector3d::Zero(), 1.0, 10, 10).edgeLetters();
-    return std::string{l.left, l.right, l.top, l.bottom};
+    return l.left + l.right + l.top + l.bottom;
   };
   EXPECT_EQ(letters(SliceOrientation::Axial), "RLAP");
   EXPECT_EQ(letters(SliceOrientation::Coronal), "RLSI");

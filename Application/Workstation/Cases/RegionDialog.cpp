@@ -85,7 +85,7 @@ void RegionView::pick(const QPointF& position)
   m_lower = m_upper = {};
   const auto picture = slice();
   const Eigen::Vector3d here = at(position);
-  const auto axes = presenters::axesOf(picture.orientation());
+  const presenters::SliceAxes& axes = picture.axes();
   bool isEdge = false;
   bool isInside = true;
   for (std::size_t n = 0; n < 3; ++n)

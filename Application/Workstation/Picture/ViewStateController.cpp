@@ -3,12 +3,15 @@
 #include <cmath>
 
 #include <QAction>
+#include <QMenu>
 #include <QScopedValueRollback>
 
+#include "AskName.h"
 #include "DrillBar.h"
 #include "PictureController.h"
 #include "RegistrationController.h"
 #include "SliceColumn.h"
+#include "Theme.h"
 #include "ThreeDView.h"
 #include "petrous/Presenters/CasePicture.h"
 
@@ -45,15 +48,89 @@ void take(std::optional<T>& saved, const std::optional<T>& now, const std::optio
 ViewStateController::ViewStateController(presenters::WorkstationModel& model, ThreeDView& view,
                                          SliceColumn& slices, PictureController& picture,
                                          RegistrationController& registration, DrillBar& bar,
-                                         QObject* parent)
-  : QObject(parent)
+                                         QWidget& window)
+  : QObject(&window)
   , m_model(model)
   , m_view(view)
   , m_slices(slices)
   , m_picture(picture)
   , m_registration(registration)
   , m_bar(bar)
+  , m_window(window)
+  , m_savedMenu(new QMenu(tr("Sa&ved views"), &window))
 {
+  m_savedMenu->setToolTipsVisible(true);
+  QAction* keep = m_savedMenu->addAction(tr("&Keep this view…"));
+  keep->setShortcut(Qt::CTRL + Qt::Key_K);
+  keep->setToolTip(tr("Camera and slices under a name, saved with the case (Ctrl+K)"));
+  keep->setStatusTip(tr("Camera and slices under a name, saved with the case"));
+  connect(keep, &QAction::triggered, this, &ViewStateController::saveAs);
+  connect(m_savedMenu, &QMenu::aboutToShow, this, &ViewStateController::fillSaved);
+}
+
+// The first ones have keys, which work without the menu; hence whenever the views change.
+void ViewStateController::fillSaved()
+{
+  const QList<QAction*> actions = m_savedMenu->actions();
+  for (int n = 1; n < actions.size(); ++n)
+  {
+    if (actions[n]->menu())
+      delete actions[n]->menu();
+    else
+      delete actions[n];
+  }
+  if (!m_model.hasCase() || m_model.value().view.saved.empty())
+    return;
+  m_savedMenu->addSeparator();
+  auto* removal = new QMenu(tr("&Remove"), m_savedMenu);
+  int number = 1;
+  for (const auto& [name, saved] : m_model.value().view.saved)
+  {
+    const QString shown = words(name).replace('&', "&&");
+    QAction* action = m_savedMenu->addAction(shown);
+    if (number <= 9)
+      action->setShortcut(Qt::ALT + Qt::Key_0 + number++);
+    connect(action, &QAction::triggered, this, [this, key = name] { showSaved(key); });
+    connect(removal->addAction(shown), &QAction::triggered, this,
+            [this, key = name]
+            {
+              m_model.removeView(key);
+              emit statusMessage(tr("View “%1” removed").arg(words(key)));
+              QMetaObject::invokeMethod(this, &ViewStateController::fillSaved,
+                                        Qt::QueuedConnection); // the menu is still in use
+            });
+  }
+  m_savedMenu->addSeparator();
+  m_savedMenu->addMenu(removal);
+}
+
+void ViewStateController::saveAs()
+{
+  if (!m_model.hasCase())
+    return;
+  const QString name =
+      askName(m_window, tr("Keep this view"), tr("Name of the view (camera and slices):"), {},
+              [](const std::string& text) { scene::checkViewName(text); });
+  if (name.isEmpty())
+    return;
+  const State now = present();
+  m_model.saveView(bytes(name), now.camera, *now.view.slices);
+  fillSaved();
+  emit statusMessage(tr("View “%1” kept; Save (Ctrl+S) writes it").arg(name));
+}
+
+void ViewStateController::showSaved(const std::string& name)
+{
+  if (!m_model.hasCase())
+    return;
+  const auto found = m_model.value().view.saved.find(name);
+  if (found == m_model.value().view.saved.end())
+    return;
+  const scene::ViewState::Saved saved = found->second;
+  m_view.setCamera(saved.camera);
+  if (saved.slices)
+    m_slices.setShown(*saved.slices);
+  emit statusMessage(tr("View “%1”").arg(words(name)));
 }
 
 ViewStateController::State ViewStateController::present() const
@@ -87,6 +164,7 @@ void ViewStateController::show()
     m_bar.wheelAction()->setChecked(view.tool->byWheel);
   }
   m_shown = present();
+  fillSaved();
 }
 
 // A case that is saved for another reason gets all of the view, one that is saved as it was only

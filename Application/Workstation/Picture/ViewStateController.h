@@ -4,6 +4,9 @@
 
 #include "petrous/Presenters/WorkstationModel.h"
 
+class QMenu;
+class QWidget;
+
 namespace petrous::workstation
 {
 
@@ -18,18 +21,25 @@ class ThreeDView;
 /// with, although boxes round and cameras are normalized.
 class ViewStateController : public QObject
 {
+  Q_OBJECT
 public:
   /// All must outlive this.
   ViewStateController(presenters::WorkstationModel& model, ThreeDView& view, SliceColumn& slices,
                       PictureController& picture, RegistrationController& registration,
-                      DrillBar& bar, QObject* parent);
+                      DrillBar& bar, QWidget& window);
 
   void show();    ///< of the case that was just opened
   void collect(); ///< before a save
   bool isShowing() const noexcept { return m_isShowing; }
 
+  /// Camera and slices, under a name of the user's; they are saved with the case.
+  QMenu* savedMenu() const noexcept { return m_savedMenu; }
+
   core::CameraPose camera() const; ///< as a save would store it
   void showCamera(const core::CameraPose& camera);
+
+signals:
+  void statusMessage(const QString& line);
 
 private:
   struct State
@@ -38,6 +48,9 @@ private:
     scene::ViewState view;
   };
   State present() const;
+  void fillSaved();
+  void saveAs();
+  void showSaved(const std::string& name);
 
   presenters::WorkstationModel& m_model;
   ThreeDView& m_view;
@@ -47,6 +60,8 @@ private:
   DrillBar& m_bar;
   State m_shown; ///< as the window had it when it showed what the case has now
   bool m_isShowing = false;
+  QWidget& m_window;
+  QMenu* m_savedMenu;
 };
 
 } // namespace petrous::workstation

@@ -220,7 +220,7 @@ void SegmentController::connectSlices()
           [this](const Eigen::Vector3d& patient, presenters::SliceOrientation plane)
           {
             m_panel->say({});
-            m_editor.press(patient, plane);
+            m_editor.press(patient, m_slices.planes().axes(plane).next);
           });
   connect(&m_slices, &SliceColumn::toolDragged, this,
           [this](const Eigen::Vector3d& patient) { m_editor.drag(patient); });

@@ -28,9 +28,29 @@ SliceColumn::SliceColumn(presenters::WorkstationModel& model, QWidget* parent)
     connect(view, &SliceView::enlargeAsked, this, &SliceColumn::enlargeAsked);
     connect(view, &SliceView::crosshairMoved, this,
             [this](const Eigen::Vector3d& patient) { m_model.setCrosshair(patient); });
-    connect(view, &SliceView::greyWindowChanged, this,
-            [this](const presenters::GreyWindow& window)
-            { m_shown.ct ? setGreyWindow(window) : emit overlayWindowAsked(window); });
+    connect(view, &SliceView::greyWindowChanged, this, &SliceColumn::setSeenWindow);
+    connect(view, &SliceView::menuAsked, this, &SliceColumn::menuAsked);
+    connect(view, &SliceView::turnOthersAsked, this,
+            [this](SliceOrientation slice, double degrees)
+            {
+              presenters::SlicePlanes planes = m_planes;
+              planes.turnOthers(slice, degrees);
+              setPlanes(planes);
+            });
+    connect(view, &SliceView::tiltAsked, this,
+            [this](SliceOrientation slice, double right, double down)
+            {
+              presenters::SlicePlanes planes = m_planes;
+              planes.tilt(slice, right, down);
+              setPlanes(planes);
+            });
+    connect(view, &SliceView::zoomed, this,
+            [this, view]
+            {
+              for (SliceView* other : m_views)
+                if (m_isZoomTogether && other != view)
+                  other->setScale(view->slice().mmPerPixel());
+            });
     connect(view, &SliceView::pointed, this, &SliceColumn::pointed);
     connect(view, &SliceView::moveAsked, this, &SliceColumn::moveAsked);
     connect(view, &SliceView::turnAsked, this, &SliceColumn::turnAsked);
@@ -47,6 +67,9 @@ SliceColumn::SliceColumn(presenters::WorkstationModel& model, QWidget* parent)
 void SliceColumn::caseChanged()
 {
   setOverlay(nullptr, {}); // of the case before
+  m_suggestedOf.clear();
+  setPlanes({});
+  setSlab({});
   fit();
   boneWindow();
   appearanceChanged();
@@ -117,6 +140,68 @@ void SliceColumn::setGreyWindow(const presenters::GreyWindow& window)
   m_window = window;
   for (SliceView* view : m_views)
     view->setGreyWindow(window);
+  emit windowChanged();
+}
+
+void SliceColumn::setPlanes(const presenters::SlicePlanes& planes)
+{
+  m_planes = planes;
+  for (SliceView* view : m_views)
+    view->setPlanes(planes);
+  emit planesChanged();
+}
+
+void SliceColumn::setSlab(const presenters::Slab& slab)
+{
+  m_slab = slab;
+  for (SliceView* view : m_views)
+    view->setSlab(slab);
+  emit slabChanged();
+}
+
+void SliceColumn::setScale(double mmPerPixel)
+{
+  for (SliceView* view : m_views)
+    view->setScale(mmPerPixel);
+}
+
+const scene::ImagePart* SliceColumn::seenMr() const
+{
+  return m_overlay && !m_shown.ct && m_model.hasCase() ? scene::findMr(m_model.value(), m_shown.mr)
+                                                       : nullptr;
+}
+
+bool SliceColumn::seesMr() const
+{
+  return seenMr() || (m_model.hasCase() && m_model.value().ct.modality == scene::Modality::Mr);
+}
+
+const presenters::GreyWindow& SliceColumn::seenWindow() const
+{
+  return seenMr() ? m_overlay->window : m_window;
+}
+
+void SliceColumn::setSeenWindow(const presenters::GreyWindow& window)
+{
+  if (m_shown.ct)
+    setGreyWindow(window);
+  else
+    emit overlayWindowAsked(window);
+}
+
+std::vector<presenters::NamedWindow> SliceColumn::seenWindows() const
+{
+  if (!m_model.hasCase())
+    return {};
+  return seenMr() ? presenters::mrWindows(m_suggested) : presenters::greyWindows(m_model.value());
+}
+
+presenters::IntensityDisplay SliceColumn::seenDisplay() const
+{
+  const scene::ImagePart* mr = seenMr();
+  return mr                  ? presenters::displayOf(*mr)
+         : m_model.hasCase() ? presenters::displayOf(m_model.value())
+                             : presenters::IntensityDisplay();
 }
 
 void SliceColumn::boneWindow()
@@ -129,11 +214,21 @@ void SliceColumn::softWindow()
   setGreyWindow(presenters::displayOf(m_model.value()).soft);
 }
 
+void SliceColumn::temporalWindow()
+{
+  setGreyWindow(presenters::displayOf(m_model.value()).temporal);
+}
+
 void SliceColumn::setOverlay(const std::shared_ptr<const presenters::SliceOverlay>& overlay,
                              const presenters::ShownImages& shown)
 {
   m_overlay = overlay;
   m_shown = shown;
+  if (overlay && m_suggestedOf != shown.mr)
+  {
+    m_suggestedOf = shown.mr;
+    m_suggested = overlay->window;
+  }
   const scene::ImagePart* mr =
       m_model.hasCase() ? scene::findMr(m_model.value(), shown.mr) : nullptr;
   for (SliceView* view : m_views)
@@ -141,6 +236,7 @@ void SliceColumn::setOverlay(const std::shared_ptr<const presenters::SliceOverla
                      mr && !shown.ct ? std::optional(presenters::displayOf(*mr)) : std::nullopt);
   if (m_model.hasCase())
     showReadout();
+  emit windowChanged();
 }
 
 void SliceColumn::setNotice(const QString& text)
@@ -235,6 +331,12 @@ void SliceColumn::fit()
 void SliceColumn::setShown(const scene::ViewState::Slices& slices)
 {
   setGreyWindow({slices.width, slices.level});
+  setPlanes(presenters::SlicePlanes::from(slices));
+  presenters::Slab slab;
+  if (slices.slab)
+    slab = {slices.slab->thickness, presenters::parseProjection(slices.slab->projection)
+                                        .value_or(presenters::Projection::Maximum)};
+  setSlab(slab);
   for (std::size_t n = 0; slices.planes && n < m_views.size(); ++n)
     m_views[n]->setPlane((*slices.planes)[n]);
   m_model.setCrosshair(slices.crosshair);
@@ -246,6 +348,9 @@ scene::ViewState::Slices SliceColumn::shown() const
   slices.planes.emplace();
   for (std::size_t n = 0; n < m_views.size(); ++n)
     (*slices.planes)[n] = m_views[n]->plane();
+  m_planes.store(slices);
+  if (m_slab.thickness > 0.0)
+    slices.slab = {m_slab.thickness, nameOf(m_slab.projection)};
   return slices;
 }
 

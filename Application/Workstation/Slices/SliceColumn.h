@@ -8,6 +8,8 @@
 
 #include <QWidget>
 
+#include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/SlicePlanes.h"
 #include "petrous/Presenters/SlicePresenter.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
@@ -20,8 +22,8 @@ struct SliceDrawing;
 struct SliceMark;
 struct SliceTool;
 
-/// The axial, coronal and sagittal view, with one crosshair and grey window. Where they stand is the
-/// ViewArea's.
+/// The axial, coronal and sagittal view, with one crosshair and grey window. Where they stand is
+/// the ViewArea's.
 class SliceColumn : public QWidget
 {
   Q_OBJECT
@@ -37,9 +39,25 @@ public:
   void crosshairMoved();
   void maskChanged(const core::IndexBox& box); ///< of CT voxels
 
-  void boneWindow(); ///< width 4000, level 700 HU, or equivalent
-  void softWindow(); ///< width 400, level 40 HU
+  void boneWindow();     ///< width 4000, level 700 HU, or equivalent
+  void softWindow();     ///< width 400, level 40 HU
+  void temporalWindow(); ///< width 2800, level 600 HU
   void fit();
+
+  const presenters::SlicePlanes& planes() const noexcept { return m_planes; }
+  void setPlanes(const presenters::SlicePlanes& planes);
+  const presenters::Slab& slab() const noexcept { return m_slab; }
+  void setSlab(const presenters::Slab& slab);
+  /// A slice that is zoomed takes the others along, to the same millimetres a pixel.
+  void setZoomTogether(bool together) { m_isZoomTogether = together; }
+  void setScale(double mmPerPixel); ///< of all slices
+
+  /// Of the image that is seen: the primary one, or an MR alone.
+  const presenters::GreyWindow& seenWindow() const;
+  void setSeenWindow(const presenters::GreyWindow& window);
+  std::vector<presenters::NamedWindow> seenWindows() const; ///< those offered
+  presenters::IntensityDisplay seenDisplay() const;
+  bool seesMr() const; ///< seen, or primary
 
   /// Crosshair, grey window, zoom and offsets; the MR over them is the RegistrationController's.
   void setShown(const scene::ViewState::Slices& slices);
@@ -68,6 +86,10 @@ public:
 
 signals:
   void enlargeAsked(petrous::presenters::SliceOrientation slice); ///< or back
+  void menuAsked(const QPoint& global);
+  void planesChanged();
+  void slabChanged();
+  void windowChanged(); ///< grey window, or the image that is seen
   void pointed(const Eigen::Vector3d& patient);
   /// For the MR, where it alone is seen.
   void overlayWindowAsked(const petrous::presenters::GreyWindow& window);
@@ -85,6 +107,7 @@ private:
   void setGreyWindow(const presenters::GreyWindow& window);
   void showReadout();
   void passTool();
+  const scene::ImagePart* seenMr() const; ///< an MR alone
 
   presenters::WorkstationModel& m_model;
   std::array<SliceView*, 3> m_views;
@@ -95,6 +118,11 @@ private:
   std::string m_hidden;
   std::unique_ptr<const SliceTool> m_tool; ///< of segmenting
   bool m_measuring = false;
+  presenters::SlicePlanes m_planes;
+  presenters::Slab m_slab;
+  bool m_isZoomTogether = false;
+  std::string m_suggestedOf; ///< the MR of which m_suggested is the window at first
+  presenters::GreyWindow m_suggested;
 };
 
 } // namespace petrous::workstation

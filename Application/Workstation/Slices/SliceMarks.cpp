@@ -30,7 +30,7 @@ void drawText(QPainter& painter, const QPointF& baseline, const QString& text, c
 void paintMarks(QPainter& painter, const std::vector<SliceMark>& marks,
                 const presenters::SliceGeometry& slice, const Eigen::Vector3d& at)
 {
-  const Eigen::Vector3d next = presenters::axesOf(slice.orientation()).next;
+  const Eigen::Vector3d next = slice.axes().next;
   for (const SliceMark& mark : marks)
   {
     if (std::abs(next.dot(mark.patient - at)) > kReach)
@@ -49,7 +49,7 @@ void paintMarks(QPainter& painter, const std::vector<SliceMark>& marks,
 void paintCurve(QPainter& painter, const std::vector<Eigen::Vector3d>& points, const QColor& color,
                 const presenters::SliceGeometry& slice, const Eigen::Vector3d& at)
 {
-  const Eigen::Vector3d next = presenters::axesOf(slice.orientation()).next;
+  const Eigen::Vector3d next = slice.axes().next;
   const auto pixelOf = [&slice](const Eigen::Vector3d& point)
   {
     const Eigen::Vector2d pixel = slice.pixelFromPatient(point) + Eigen::Vector2d(0.5, 0.5);
@@ -77,7 +77,7 @@ void paintCurve(QPainter& painter, const std::vector<Eigen::Vector3d>& points, c
 bool isInSlice(const Eigen::Vector3d& point, const presenters::SliceGeometry& slice,
                const Eigen::Vector3d& at)
 {
-  return std::abs(presenters::axesOf(slice.orientation()).next.dot(point - at)) <= kReach;
+  return std::abs(slice.axes().next.dot(point - at)) <= kReach;
 }
 
 namespace
@@ -101,7 +101,7 @@ double strengthOf(double off)
 void paintLine(QPainter& painter, const DrawnMeasure& measure,
                const presenters::SliceGeometry& slice, const Eigen::Vector3d& at)
 {
-  const Eigen::Vector3d next = presenters::axesOf(slice.orientation()).next;
+  const Eigen::Vector3d next = slice.axes().next;
   const std::size_t edges = measure.points.size() - (measure.closed ? 0 : 1);
   for (const bool halo : {true, false})
     for (std::size_t n = 0; n < edges; ++n)
@@ -132,7 +132,7 @@ void paintLine(QPainter& painter, const DrawnMeasure& measure,
 void paintHandles(QPainter& painter, const DrawnMeasure& measure,
                   const presenters::SliceGeometry& slice, const Eigen::Vector3d& at)
 {
-  const Eigen::Vector3d next = presenters::axesOf(slice.orientation()).next;
+  const Eigen::Vector3d next = slice.axes().next;
   for (const std::size_t n : measure.handles)
   {
     const double strength = strengthOf(std::abs(next.dot(measure.points[n] - at)));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <QKeyEvent>
 #include <QMouseEvent>
@@ -10,6 +11,7 @@
 
 #include "SliceMarks.h"
 #include "Theme.h"
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::workstation
 {
@@ -22,26 +24,24 @@ constexpr double kHuPerPixel = 8.0;
 constexpr double kMinHu = 10.0; // of a grey window
 constexpr double kMaxZoom = 40.0;
 constexpr int kMargin = 8;
+constexpr double kClick = 3.0;    // pixels that a click may move
 constexpr double kReadout = 0.68; // of the width; the rest is the scale bar's
 constexpr double kGap = 9.0;      // of the crosshair, pixels
+// Samples that are taken between two events: about 20 ms on two cores.
+constexpr double kAtOnce = 4e6;
+constexpr int kRefineAfter = 120; // ms without a change
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr double kAlong = 0.7;    // cosine: a slice of the view is one of the grid
 const QColor kGuessed("#ff8c2b"); // interpolated slices
-
-// The planes represented by a view's vertical and horizontal line.
-std::pair<SliceOrientation, SliceOrientation> linesOf(SliceOrientation view)
-{
-  switch (view)
-  {
-  case SliceOrientation::Axial:
-    return {SliceOrientation::Sagittal, SliceOrientation::Coronal};
-  case SliceOrientation::Coronal:
-    return {SliceOrientation::Sagittal, SliceOrientation::Axial};
-  case SliceOrientation::Sagittal:
-    break;
-  }
-  return {SliceOrientation::Coronal, SliceOrientation::Axial};
-}
 } // namespace
+
+QString slabText(const presenters::Slab& slab)
+{
+  const QString name = slab.projection == presenters::Projection::Maximum   ? SliceView::tr("MIP")
+                       : slab.projection == presenters::Projection::Minimum ? SliceView::tr("MinIP")
+                                                                            : SliceView::tr("Mean");
+  return SliceView::tr("%1 %2 mm").arg(name, words(core::generalText(slab.thickness)));
+}
 
 SliceView::SliceView(SliceOrientation orientation, QWidget* parent)
   : QWidget(parent)
@@ -54,6 +54,8 @@ SliceView::SliceView(SliceOrientation orientation, QWidget* parent)
   setMinimumSize(140, 120);
   setAttribute(Qt::WA_OpaquePaintEvent);
   setCursor(Qt::CrossCursor);
+  m_refine.setSingleShot(true);
+  connect(&m_refine, &QTimer::timeout, this, &SliceView::refine);
 }
 
 void SliceView::setPresenter(std::shared_ptr<const presenters::SlicePresenter> presenter,
@@ -78,11 +80,34 @@ void SliceView::setPlane(const scene::ViewState::Slices::Plane& plane)
   stale();
 }
 
+void SliceView::setPlanes(const presenters::SlicePlanes& planes)
+{
+  const presenters::SliceAxes before = axes();
+  m_planes = planes;
+  if (before.right != axes().right || before.down != axes().down)
+    stale();
+  update(); // the others' lines
+}
+
+void SliceView::setSlab(const presenters::Slab& slab)
+{
+  if (slab == m_slab)
+    return;
+  m_slab = slab;
+  stale();
+}
+
+void SliceView::setScale(double mmPerPixel)
+{
+  if (m_presenter && mmPerPixel > 0.0)
+    applyZoom(m_zoom * slice().mmPerPixel() / mmPerPixel);
+}
+
 void SliceView::setCrosshair(const Eigen::Vector3d& patient)
 {
-  const Eigen::Vector3d next = presenters::axesOf(m_orientation).next;
+  const Eigen::Vector3d next = axes().next;
   if (std::abs(next.dot(patient - m_crosshair)) > 1e-9)
-    m_stale = true;
+    stale();
   m_crosshair = patient;
   update();
 }
@@ -90,7 +115,7 @@ void SliceView::setCrosshair(const Eigen::Vector3d& patient)
 void SliceView::setGreyWindow(const presenters::GreyWindow& window)
 {
   m_window = window;
-  stale();
+  recolour();
 }
 
 void SliceView::setIntensityDisplay(const presenters::IntensityDisplay& display)
@@ -151,9 +176,9 @@ void SliceView::setReadout(const QString& text)
 
 void SliceView::maskChanged(const core::PatientBox& box)
 {
-  const Eigen::Vector3d next = presenters::axesOf(m_orientation).next;
+  const Eigen::Vector3d next = axes().next;
   if (std::abs(next.dot(m_crosshair - box.center())) <= 0.5 * next.cwiseAbs().dot(box.sizes()))
-    stale();
+    recolour();
 }
 
 void SliceView::setTool(const std::optional<SliceTool>& tool)
@@ -178,7 +203,7 @@ void SliceView::setDraft(std::shared_ptr<const presenters::DraftLayer> draft)
   if (!draft && !m_draft)
     return;
   m_draft = std::move(draft);
-  stale();
+  recolour();
 }
 
 void SliceView::draftChanged(const core::PatientBox& box)
@@ -189,13 +214,95 @@ void SliceView::draftChanged(const core::PatientBox& box)
 void SliceView::stale()
 {
   m_stale = true;
+  m_sampling.reset();
+  m_refine.stop();
   update();
+}
+
+void SliceView::recolour()
+{
+  m_isPale = true;
+  update();
+}
+
+double SliceView::samplesOf(const presenters::SliceGeometry& picture) const
+{
+  const auto& image = m_presenter->image();
+  const double pixels = static_cast<double>(picture.width()) * picture.height();
+  return !image || !(m_slab.thickness > 0.0)
+             ? pixels
+             : pixels * (m_overlay ? 2.0 : 1.0) *
+                   static_cast<double>(
+                       presenters::slabNodes(image->geometry(), picture, {}, m_slab.thickness)
+                           .size());
+}
+
+// Pixels so large that a picture is drawn at once.
+void SliceView::drawCoarse()
+{
+  const auto whole = slice();
+  const double samples = samplesOf(whole);
+  const int edge = m_slab.thickness > 0.0 && m_presenter->image()
+                       ? static_cast<int>(std::ceil(std::sqrt(std::max(samples / kAtOnce, 1.0))))
+                       : 1;
+  const auto part = [edge](int size) { return (size + edge - 1) / edge; };
+  const presenters::SliceGeometry picture(whole.orientation(), whole.axes(), whole.center(),
+                                          edge * whole.mmPerPixel(), part(whole.width()),
+                                          part(whole.height()));
+  m_drawn = Drawn{picture, m_presenter->sample(picture, m_overlay.get(), m_slab)};
+  m_stale = false;
+  m_isPale = true;
+  if (edge == 1)
+    return;
+  m_sampling = Sampling{
+      whole, std::make_unique<presenters::SlabSampling>(m_presenter->image(), whole, m_slab),
+      m_overlay && m_overlay->mr ? std::make_unique<presenters::SlabSampling>(
+                                       m_overlay->mr, whole, m_slab, m_overlay->mrFromCt)
+                                 : nullptr};
+  m_refine.start(kRefineAfter);
+}
+
+// Given up by whatever makes the picture stale.
+void SliceView::refine()
+{
+  if (!m_sampling)
+    return;
+  const auto advance = [](presenters::SlabSampling* sampling)
+  {
+    if (!sampling || sampling->isDone())
+      return false;
+    sampling->advance(std::max(1, static_cast<int>(kAtOnce / sampling->samplesPerRow())));
+    return true;
+  };
+  if (advance(m_sampling->ct.get()) || advance(m_sampling->mr.get()))
+    return m_refine.start(0);
+  m_drawn = Drawn{m_sampling->picture, {m_sampling->ct->take(), std::nullopt}};
+  if (m_sampling->mr)
+    m_drawn->samples.mr = m_sampling->mr->take();
+  m_sampling.reset();
+  recolour();
+}
+
+void SliceView::draw()
+{
+  const presenters::SliceGeometry& picture = m_drawn->picture;
+  auto pixels = m_presenter->draw(picture, m_window, m_overlay.get(), m_drawn->samples);
+  if (m_draft)
+    m_draft->paint(picture, pixels);
+  m_image = QImage(pixels.rgb.data(), pixels.width, pixels.height, 3 * pixels.width,
+                   QImage::Format_RGB888)
+                .copy();
+  const double edge = picture.mmPerPixel() / slice().mmPerPixel();
+  const QSizeF size(edge * picture.width(), edge * picture.height());
+  m_imageRect =
+      QRectF(QPointF(0.5 * (width() - size.width()), 0.5 * (height() - size.height())), size);
+  m_isPale = false;
 }
 
 presenters::SliceGeometry SliceView::slice() const
 {
-  return presenters::zoomed(presenters::SliceGeometry::fitting(m_orientation, m_grid, m_crosshair,
-                                                               std::max(width(), 1),
+  return presenters::zoomed(presenters::SliceGeometry::fitting(m_orientation, axes(), m_grid,
+                                                               m_crosshair, std::max(width(), 1),
                                                                std::max(height(), 1)),
                             m_zoom, m_offset);
 }
@@ -212,17 +319,12 @@ void SliceView::paintEvent(QPaintEvent*)
   if (!m_presenter)
     return;
   const auto picture = slice();
-  if (m_stale)
-  {
-    auto pixels = m_presenter->draw(picture, m_window, m_overlay.get());
-    if (m_draft)
-      m_draft->paint(picture, pixels);
-    m_image = QImage(pixels.rgb.data(), pixels.width, pixels.height, 3 * pixels.width,
-                     QImage::Format_RGB888)
-                  .copy();
-    m_stale = false;
-  }
-  painter.drawImage(rect(), m_image);
+  if (m_stale || !m_drawn)
+    drawCoarse();
+  if (m_isPale)
+    draw();
+  painter.setRenderHint(QPainter::SmoothPixmapTransform, m_image.size() != size());
+  painter.drawImage(m_imageRect, m_image);
   painter.setRenderHint(QPainter::Antialiasing);
   if (m_region > 0.0)
     paintCube(painter, m_region, picture, m_crosshair);
@@ -246,19 +348,25 @@ void SliceView::paintEvent(QPaintEvent*)
 void SliceView::paintCrosshair(QPainter& painter) const
 {
   const Eigen::Vector2d at = slice().pixelFromPatient(m_crosshair) + Eigen::Vector2d(0.5, 0.5);
-  const auto [vertical, horizontal] = linesOf(m_orientation);
-  const auto pen = [](SliceOrientation plane)
+  const double reach = width() + height() + std::abs(at[0]) + std::abs(at[1]);
+  for (const SliceOrientation other :
+       {SliceOrientation::Axial, SliceOrientation::Coronal, SliceOrientation::Sagittal})
   {
-    QColor color = planeColor(plane);
+    if (other == m_orientation)
+      continue;
+    const Eigen::Vector3d line = axes().next.cross(m_planes.axes(other).next);
+    const Eigen::Vector2d along =
+        Eigen::Vector2d(line.dot(axes().right), line.dot(axes().down)).normalized();
+    QColor color = planeColor(other);
     color.setAlpha(190);
-    return QPen(color, 1.0);
-  };
-  painter.setPen(pen(vertical));
-  painter.drawLine(QPointF(at[0], 0.0), QPointF(at[0], at[1] - kGap));
-  painter.drawLine(QPointF(at[0], at[1] + kGap), QPointF(at[0], height()));
-  painter.setPen(pen(horizontal));
-  painter.drawLine(QPointF(0.0, at[1]), QPointF(at[0] - kGap, at[1]));
-  painter.drawLine(QPointF(at[0] + kGap, at[1]), QPointF(width(), at[1]));
+    painter.setPen(QPen(color, 1.0));
+    for (const double side : {-1.0, 1.0})
+    {
+      const Eigen::Vector2d from = at + side * kGap * along;
+      const Eigen::Vector2d to = at + side * reach * along;
+      painter.drawLine(QPointF(from[0], from[1]), QPointF(to[0], to[1]));
+    }
+  }
 }
 
 // Whether the slice under the crosshair was interpolated when the scan was repaired.
@@ -273,7 +381,7 @@ void SliceView::paintInterpolated(QPainter& painter) const
 {
   if (m_interpolated.empty())
     return;
-  const Eigen::Vector3d next = presenters::axesOf(m_orientation).next;
+  const Eigen::Vector3d next = axes().next;
   const Eigen::Matrix3d& axes = m_grid.direction();
   if (std::abs(axes.col(2).dot(next)) > kAlong)
   {
@@ -284,6 +392,8 @@ void SliceView::paintInterpolated(QPainter& painter) const
     painter.drawRect(QRectF(rect()).adjusted(2.5, 2.5, -2.5, -2.5));
     return;
   }
+  if (m_planes.isTurned(m_orientation))
+    return; // the bands would be wrong; the text under the crosshair is not
   const Eigen::Index along =
       std::abs(axes.col(0).dot(next)) < std::abs(axes.col(1).dot(next)) ? 0 : 1;
   const auto picture = slice();
@@ -323,7 +433,7 @@ void SliceView::paintLetters(QPainter& painter) const
   const QColor color("#f2f5f8");
   const auto letters = slice().edgeLetters();
   const double middle = 0.5 * height() + 0.35 * metrics.ascent();
-  const auto letter = [](char c) { return QString(QLatin1Char(c)); };
+  const auto letter = [](const std::string& text) { return words(text); };
   drawText(painter, {double(kMargin), middle}, letter(letters.left), color);
   const double right = width() - kMargin - metrics.horizontalAdvance(letter(letters.right));
   drawText(painter, {right, middle}, letter(letters.right), color);
@@ -333,8 +443,10 @@ void SliceView::paintLetters(QPainter& painter) const
 
   font.setPixelSize(12);
   painter.setFont(font);
-  drawText(painter, {double(kMargin), kMargin + 11.0}, presenters::nameOf(m_orientation),
-           planeColor(m_orientation));
+  QString name = words(m_planes.name(m_orientation));
+  if (m_slab.thickness > 0.0)
+    name += "  " + slabText(m_slab);
+  drawText(painter, {double(kMargin), kMargin + 11.0}, name, planeColor(m_orientation));
   font.setBold(false);
   painter.setFont(font);
   const QFontMetricsF small(font);
@@ -405,14 +517,17 @@ void SliceView::mousePressEvent(QMouseEvent* event)
 {
   setFocus(Qt::MouseFocusReason);
   m_dragged = event->localPos();
+  m_mayMenu = m_presenter && event->button() == Qt::RightButton;
   if (!m_presenter || event->button() != Qt::LeftButton)
     return;
   const auto handle = handleAt(event->localPos());
-  if (handle && !(event->modifiers() & Qt::ShiftModifier))
+  if (handle && !(event->modifiers() & (Qt::ShiftModifier | Qt::ControlModifier)))
   {
     m_handleDown = true;
     emit handleTaken(handle->measurement, handle->point);
   }
+  else if (event->modifiers() & Qt::ControlModifier)
+    m_turning = true;
   else if (m_tool && !(event->modifiers() & Qt::ShiftModifier))
   {
     m_toolDown = true;
@@ -425,10 +540,12 @@ void SliceView::mousePressEvent(QMouseEvent* event)
 // A tool's clicks may follow each other fast.
 void SliceView::mouseDoubleClickEvent(QMouseEvent* event)
 {
-  if (event->button() == Qt::LeftButton && !(m_tool && !(event->modifiers() & Qt::ShiftModifier)))
-    emit enlargeAsked(m_orientation);
-  else
-    mousePressEvent(event);
+  const bool isTools = m_tool && !(event->modifiers() & Qt::ShiftModifier);
+  if (event->button() == Qt::LeftButton && !isTools)
+    return emit enlargeAsked(m_orientation);
+  mousePressEvent(event);
+  if (m_toolDown)
+    emit toolDoubleClicked();
 }
 
 void SliceView::mouseReleaseEvent(QMouseEvent* event)
@@ -439,17 +556,14 @@ void SliceView::mouseReleaseEvent(QMouseEvent* event)
     emit handleReleased();
     return;
   }
+  if (event->button() == Qt::RightButton && std::exchange(m_mayMenu, false))
+    emit menuAsked(event->globalPos());
+  if (event->button() == Qt::LeftButton)
+    m_turning = false;
   if (event->button() != Qt::LeftButton || !m_toolDown)
     return;
   m_toolDown = false;
   emit toolReleased();
-}
-
-void SliceView::mouseDoubleClickEvent(QMouseEvent* event)
-{
-  mousePressEvent(event);
-  if (m_toolDown)
-    emit toolDoubleClicked();
 }
 
 // The nearest of those that are seen in full, of one that lies over another the chosen one's.
@@ -500,8 +614,18 @@ void SliceView::mouseMoveEvent(QMouseEvent* event)
     update();
   if (event->buttons() == Qt::NoButton)
     setCursor(handleAt(event->localPos()) ? Qt::SizeAllCursor : Qt::CrossCursor);
+  if (m_mayMenu && (event->localPos() - m_dragged).manhattanLength() < kClick)
+    return;
+  m_mayMenu = false;
+  const double turned = std::remainder(angleAt(event->localPos()) - angleAt(m_dragged), 360.0);
   const QPointF step = event->localPos() - m_dragged;
   m_dragged = event->localPos();
+  if (m_turning)
+  {
+    if (turned != 0.0)
+      emit turnOthersAsked(m_orientation, turned);
+    return;
+  }
   if (m_handleDown)
     emit handleDragged(patientAt(event->localPos()));
   else if (m_toolDown)
@@ -517,7 +641,7 @@ void SliceView::mouseMoveEvent(QMouseEvent* event)
   }
   else if (event->buttons() & Qt::MiddleButton)
   {
-    const auto axes = presenters::axesOf(m_orientation);
+    const presenters::SliceAxes& axes = this->axes();
     m_offset -= slice().mmPerPixel() * (step.x() * axes.right + step.y() * axes.down);
     stale();
   }
@@ -541,7 +665,7 @@ void SliceView::scroll(int slices)
 {
   if (!m_presenter)
     return;
-  const Eigen::Vector3d next = presenters::axesOf(m_orientation).next;
+  const Eigen::Vector3d next = axes().next;
   // One voxel along the grid axis closest to the slice normal.
   const double step = 1.0 / (m_grid.voxelFromPatientLinear() * next).cwiseAbs().maxCoeff();
   emit crosshairMoved(m_crosshair + slices * step * next);
@@ -551,16 +675,56 @@ void SliceView::zoom(double factor)
 {
   if (!m_presenter)
     return;
-  // What is under the crosshair stays there.
+  applyZoom(m_zoom * factor);
+  emit zoomed();
+}
+
+// What is under the crosshair stays there.
+void SliceView::applyZoom(double zoom)
+{
   const Eigen::Vector2d before = slice().pixelFromPatient(m_crosshair);
-  m_zoom = std::clamp(m_zoom * factor, 1.0, kMaxZoom);
+  m_zoom = std::clamp(zoom, 1.0, kMaxZoom);
   const auto picture = slice();
   const Eigen::Vector2d off = picture.pixelFromPatient(m_crosshair) - before;
-  const auto axes = presenters::axesOf(m_orientation);
-  m_offset += picture.mmPerPixel() * (off[0] * axes.right + off[1] * axes.down);
+  m_offset += picture.mmPerPixel() * (off[0] * axes().right + off[1] * axes().down);
   if (m_zoom == 1.0)
     m_offset.setZero();
   stale();
+}
+
+double SliceView::angleAt(const QPointF& position) const
+{
+  const Eigen::Vector2d middle = slice().pixelFromPatient(m_crosshair) + Eigen::Vector2d(0.5, 0.5);
+  return std::atan2(position.y() - middle[1], position.x() - middle[0]) / kDegree;
+}
+
+// By a degree.
+bool SliceView::turnPlanes(const QKeyEvent& event)
+{
+  if (!(event.modifiers() & Qt::ControlModifier) || !m_presenter)
+    return false;
+  const bool tilts = event.modifiers() & Qt::ShiftModifier;
+  switch (event.key())
+  {
+  case Qt::Key_Left:
+  case Qt::Key_Right:
+  {
+    const double degrees = event.key() == Qt::Key_Left ? -1.0 : 1.0;
+    if (tilts)
+      emit tiltAsked(m_orientation, degrees, 0.0);
+    else
+      emit turnOthersAsked(m_orientation, degrees);
+    return true;
+  }
+  case Qt::Key_Up:
+    emit tiltAsked(m_orientation, 0.0, -1.0);
+    return true;
+  case Qt::Key_Down:
+    emit tiltAsked(m_orientation, 0.0, 1.0);
+    return true;
+  default:
+    return false;
+  }
 }
 
 // Steps of 0.1, with Shift 1, millimetre or degree.
@@ -568,7 +732,7 @@ bool SliceView::moveMr(const QKeyEvent& event)
 {
   if (!(event.modifiers() & Qt::AltModifier) || !m_overlay)
     return false;
-  const auto axes = presenters::axesOf(m_orientation);
+  const presenters::SliceAxes& axes = this->axes();
   const double step = event.modifiers() & Qt::ShiftModifier ? 1.0 : 0.1;
   switch (event.key())
   {
@@ -597,9 +761,11 @@ bool SliceView::moveMr(const QKeyEvent& event)
 
 void SliceView::keyPressEvent(QKeyEvent* event)
 {
-  if (moveMr(*event))
+  if (moveMr(*event) || turnPlanes(*event))
     return;
-  const auto axes = presenters::axesOf(m_orientation);
+  if (event->key() == Qt::Key_Menu)
+    return emit menuAsked(mapToGlobal(rect().center()));
+  const presenters::SliceAxes& axes = this->axes();
   const double step = m_grid.minSpacing();
   switch (event->key())
   {

@@ -5,10 +5,12 @@
 #include <vector>
 
 #include <QImage>
+#include <QTimer>
 #include <QWidget>
 
 #include "SliceMarks.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/SlicePlanes.h"
 #include "petrous/Presenters/SlicePresenter.h"
 
 namespace petrous::workstation
@@ -30,11 +32,17 @@ struct SliceDrawing
   QColor color;                       ///< of the curve
 };
 
+/// "MIP 5 mm".
+QString slabText(const presenters::Slab& slab);
+
 /// One slice with its crosshair, orientation letters, scale bar and read-out; painted, no OpenGL.
 ///
-/// Left drag moves the crosshair, the wheel scrolls, right drag sets the grey window, Ctrl+wheel
-/// zooms, middle drag pans. With a tool the left button is the tool's, and with Shift it moves the
-/// crosshair. A double click asks to enlarge the view. Alt+arrow and Alt+Page up or down translate and rotate an MR overlay.
+/// Left drag moves the crosshair, the wheel scrolls, right drag sets the grey window, a right click
+/// asks for a menu, Ctrl+wheel zooms, middle drag pans. Ctrl+left drag turns the other two planes
+/// about the crosshair, Ctrl+arrow keys those or the slice itself. With a tool the left button is
+/// the tool's, and with Shift it moves the crosshair. A thick slab is drawn coarse first and then
+/// finer, in parts between other events. A double click asks to enlarge the view. Alt+arrow and
+/// Alt+Page up or down translate and rotate an MR overlay.
 class SliceView : public QWidget
 {
   Q_OBJECT
@@ -48,6 +56,10 @@ public:
   void setPlane(const scene::ViewState::Slices::Plane& plane); ///< zoom, at most 40, and offset
   scene::ViewState::Slices::Plane plane() const { return {m_zoom, m_offset}; }
   const presenters::GreyWindow& greyWindow() const noexcept { return m_window; } ///< of the CT
+  void setPlanes(const presenters::SlicePlanes& planes); ///< its own and the other two
+  void setSlab(const presenters::Slab& slab);
+  void setScale(double mmPerPixel); ///< within the limits of the zoom; the crosshair stays in place
+  bool isFine() const { return !m_stale && !m_sampling; } ///< drawn, at full resolution
   void setCrosshair(const Eigen::Vector3d& patient);
   void setGreyWindow(const presenters::GreyWindow& window);
   void setIntensityDisplay(const presenters::IntensityDisplay& display); ///< of the CT
@@ -74,6 +86,11 @@ public:
 signals:
   void enlargeAsked(petrous::presenters::SliceOrientation slice); ///< a double click
   void crosshairMoved(const Eigen::Vector3d& patient);
+  void zoomed(); ///< by the user
+  /// The other two planes about its normal, clockwise.
+  void turnOthersAsked(petrous::presenters::SliceOrientation slice, double degrees);
+  void tiltAsked(petrous::presenters::SliceOrientation slice, double right, double down);
+  void menuAsked(const QPoint& global);
   void greyWindowChanged(const petrous::presenters::GreyWindow& window);
   void pointed(const Eigen::Vector3d& patient);
   void moveAsked(const Eigen::Vector3d& millimetres); ///< of the MR over the CT
@@ -104,7 +121,16 @@ private:
   Eigen::Vector3d patientAt(const QPointF& position) const;
   void scroll(int slices);
   void zoom(double factor);
+  void applyZoom(double zoom);
   void stale();
+  void recolour(); // of the same samples
+  void draw();
+  void drawCoarse();
+  void refine();
+  double samplesOf(const presenters::SliceGeometry& picture) const; // that a picture takes
+  const presenters::SliceAxes& axes() const { return m_planes.axes(m_orientation); }
+  bool turnPlanes(const QKeyEvent& event);
+  double angleAt(const QPointF& position) const; // about the crosshair, degrees, clockwise
   void paintCrosshair(QPainter& painter) const;
   void paintLetters(QPainter& painter) const;
   void paintScaleBar(QPainter& painter) const;
@@ -135,9 +161,30 @@ private:
   std::vector<int> m_interpolated; // increasing
   double m_region = 0.0;
   QString m_readout;
+  presenters::SlicePlanes m_planes;
+  presenters::Slab m_slab;
+  /// What the picture is drawn of: the slice, or coarser than it.
+  struct Drawn
+  {
+    presenters::SliceGeometry picture;
+    presenters::SliceSamples samples;
+  };
+  std::optional<Drawn> m_drawn;
+  /// A finer one that is being sampled.
+  struct Sampling
+  {
+    presenters::SliceGeometry picture;
+    std::unique_ptr<presenters::SlabSampling> ct, mr;
+  };
+  std::optional<Sampling> m_sampling;
+  QTimer m_refine;
   QImage m_image;
-  bool m_stale = true;
+  QRectF m_imageRect;    // where it is painted
+  bool m_stale = true;   // samples
+  bool m_isPale = false; // colours
   QPointF m_dragged;
+  bool m_turning = false; // the other planes, with the left button
+  bool m_mayMenu = false; // the right button went down and was not dragged
   std::shared_ptr<const presenters::DraftLayer> m_draft;
   std::optional<SliceTool> m_tool;
   SliceDrawing m_drawing;

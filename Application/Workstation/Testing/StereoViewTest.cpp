@@ -155,7 +155,7 @@ TEST_F(PictureView, APointerSideBySideLooksThroughTheEyeOfItsHalf)
   const QPoint middle = view().rect().center();
   for (const int column : {view().width() / 4, view().width() * 3 / 4})
   {
-    QTest::mouseDClick(&view(), Qt::LeftButton, Qt::NoModifier, {column, middle.y()});
+    QTest::mouseClick(&view(), Qt::LeftButton, Qt::NoModifier, {column, middle.y()});
     const Eigen::Vector3d offset = window().model().crosshair() - kBallCenter;
     EXPECT_NEAR(offset.norm(), kBallRadius, 0.1);
     EXPECT_LT(offset.x(), -11.0); // the centre of either picture is the centre of the ball

@@ -49,6 +49,7 @@
 #include "RegistrationController.h"
 #include "SegmentController.h"
 #include "SliceColumn.h"
+#include "SliceController.h"
 #include "StartPage.h"
 #include "StructuresPanel.h"
 #include "Theme.h"
@@ -61,6 +62,7 @@
 #include "WindowSettings.h"
 #include "WindowTexts.h"
 #include "petrous/Dissection/Catalogues.h"
+#include "petrous/Interaction/OrbitCamera.h"
 #include "petrous/Presenters/CasePicture.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/Recordings.h"
@@ -73,6 +75,7 @@ namespace
 {
 constexpr int kMessage = 8000; // ms
 constexpr int kFileName = 300; // px
+constexpr double kRoll = 5.0;  // degrees
 
 QStringList dropped(const QMimeData& data)
 {
@@ -162,11 +165,12 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_registration(new RegistrationController(m_model, *m_slices, *this))
   , m_segment(new SegmentController(m_model, *m_slices, *this))
   , m_measure(new MeasureController(m_model, *m_slices, *m_view, *this))
+  , m_sliceControl(new SliceController(m_model, *m_view, *m_slices, *m_settings, *this))
   , m_library(new LibraryController(m_model, *m_keeper, *this, options.drawThumbnailsAfter))
   , m_exchange(new ExchangeController(m_model, *m_keeper, *m_library->menu(), *this))
   , m_attachments(new AttachmentsController(m_model, *m_view, *this))
   , m_viewState(new ViewStateController(m_model, *m_view, *m_slices, *m_picture, *m_registration,
-                                        *m_bar, this))
+                                        *m_bar, *this))
 {
   addPanels();
   m_thickness = new ThicknessController(m_model, *m_view, *findChild<StructuresPanel*>(),
@@ -256,6 +260,8 @@ void MainWindow::layOut()
   stack->addWidget(m_pages, 1);
   setCentralWidget(whole);
 
+  m_actions->addSliceMenu(m_sliceControl->menu());
+  m_actions->addSavedViews(m_viewState->savedMenu());
   menuBar()->insertMenu(menuBar()->actions().last(), m_registration->menu());
   menuBar()->insertMenu(menuBar()->actions().last(), m_segment->menu());
   menuBar()->insertMenu(menuBar()->actions().last(), m_measure->menu());
@@ -330,7 +336,7 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event)
 void MainWindow::addPanels()
 {
   const PanelContext context{m_model,    *m_picture,     *m_registration, *m_segment,
-                             *m_library, *m_attachments, *m_measure};
+                             *m_library, *m_attachments, *m_measure, *m_sliceControl};
   std::map<Qt::DockWidgetArea, QDockWidget*> tabs;
   for (const PanelEntry& entry : panelEntries())
   {
@@ -456,6 +462,7 @@ void MainWindow::connectModel()
     connect(m_drill, &DrillController::burrMoved, panel, &Panel::burrMoved);
     connect(m_drill, &DrillController::burrGone, panel, &Panel::burrGone);
   }
+  connect(m_drill, &DrillController::burrMoved, m_sliceControl, &SliceController::toolMoved);
   auto* warnings = new BurrWarnings(m_model, this);
   connect(m_drill, &DrillController::burrMoved, warnings, &BurrWarnings::burrMoved);
   connect(m_drill, &DrillController::burrGone, warnings, &BurrWarnings::burrGone);
@@ -494,6 +501,7 @@ void MainWindow::connectModel()
   connect(m_keeper, &CaseDocumentController::ready, m_drill, &DrillController::tissueCame);
   connect(m_drill, &DrillController::tissueWanted, m_keeper,
           &CaseDocumentController::prepareUnlessUnderWay);
+  connect(m_viewState, &ViewStateController::statusMessage, this, showMessage);
   connect(m_branches, &BranchController::changed, m_saver, &CaseSaver::save);
   connect(m_branches, &BranchController::statusMessage, this, showMessage);
   connect(m_library, &LibraryController::statusMessage, this, showMessage);
@@ -578,11 +586,16 @@ void MainWindow::connectActions()
        camera.focalPoint = m_model.crosshair();
        m_view->setCamera(camera);
      });
+  const auto roll = [this](double degrees)
+  { m_view->setCamera(interaction::rolled(m_view->picture().camera(), degrees)); };
+  on(m_actions->rollLeft, [roll] { roll(-kRoll); });
+  on(m_actions->rollRight, [roll] { roll(kRoll); });
   on(m_actions->clipHere, [this] { clipHere(); });
   on(m_actions->clipOff, [this] { m_model.setClipping({}); });
   on(m_actions->attach, [this] { m_attachments->attach(); });
   on(m_actions->boneWindow, [this] { m_slices->boneWindow(); });
   on(m_actions->softWindow, [this] { m_slices->softWindow(); });
+  on(m_actions->temporalWindow, [this] { m_slices->temporalWindow(); });
   on(m_actions->fitSlices, [this] { m_slices->fit(); });
   on(m_actions->smallerBurr,
      [this] { m_segment->hasBrush() ? m_segment->stepBrush(-1) : m_bar->stepDiameter(-1); });
@@ -916,6 +929,7 @@ void MainWindow::stateChanged()
 {
   const bool open = m_model.hasCase();
   m_actions->setCaseOpen(open);
+  m_sliceControl->setCaseOpen(open);
   m_actions->setOnMr(open && m_model.value().ct.modality == scene::Modality::Mr);
   m_branches->stateChanged();
   showUndo();

@@ -39,6 +39,7 @@ class ProbeLabel;
 class RegistrationController;
 class SegmentController;
 class SliceColumn;
+class SliceController;
 class StartPage;
 class ThicknessController;
 class ThreeDView;
@@ -151,6 +152,7 @@ private:
   RegistrationController* m_registration;
   SegmentController* m_segment;
   MeasureController* m_measure;
+  SliceController* m_sliceControl;
   LibraryController* m_library;
   ExchangeController* m_exchange;
   AttachmentsController* m_attachments;

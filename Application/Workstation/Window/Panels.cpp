@@ -16,6 +16,8 @@
 #include "RegistrationPanel.h"
 #include "SegmentController.h"
 #include "SegmentPanel.h"
+#include "SliceController.h"
+#include "SlicesPanel.h"
 #include "StructuresPanel.h"
 
 namespace petrous::workstation
@@ -36,6 +38,8 @@ std::vector<PanelEntry> panelEntries()
        kNeedsCase, [](C c) -> Panel* { return new AppearancePanel(c.model); }},
       {"pictureDock", tr("Picture"), Qt::Key_F8, Qt::LeftDockWidgetArea, kTabbed, kShown, kAlways,
        [](C c) -> Panel* { return c.picture.panel(); }},
+      {"slicesDock", tr("Slices"), Qt::SHIFT + Qt::Key_F8, Qt::LeftDockWidgetArea, kTabbed, kHidden,
+       kNeedsCase, [](C c) -> Panel* { return c.slices.panel(); }},
       {"nearbyDock", tr("Near the burr"), Qt::Key_F7, Qt::LeftDockWidgetArea, kAlone, kHidden,
        kNeedsCase, [](C c) -> Panel* { return new NearbyPanel(c.model); }},
       {"registrationDock", tr("Registration"), Qt::Key_F5, Qt::LeftDockWidgetArea, kTabbed, kHidden,

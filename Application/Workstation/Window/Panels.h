@@ -20,6 +20,7 @@ class MeasureController;
 class PictureController;
 class RegistrationController;
 class SegmentController;
+class SliceController;
 
 /// The widget of a dock. A panel overrides what it wants to hear.
 class Panel : public QWidget
@@ -47,6 +48,7 @@ struct PanelContext
   LibraryController& library;
   AttachmentsController& attachments;
   MeasureController& measure;
+  SliceController& slices;
 };
 
 struct PanelEntry

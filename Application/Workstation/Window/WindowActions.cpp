@@ -1,5 +1,7 @@
 #include "WindowActions.h"
 
+#include <iterator>
+
 #include <QAction>
 #include <QActionGroup>
 #include <QMainWindow>
@@ -33,6 +35,12 @@ constexpr ViewEntry kViews[] = {
     {StandardView::Inferior, "&Inferior", "From below, the face up"},
     {StandardView::Left, "L&eft", "From the patient's left"},
     {StandardView::Right, "&Right", "From the patient's right"},
+    {StandardView::SurgicalLeft, "Surgical position, &left ear",
+     "The patient on the back, the head turned to the right, seen from the left ear: the face up, "
+     "the vertex on the right"},
+    {StandardView::SurgicalRight, "Surgical position, r&ight ear",
+     "The patient on the back, the head turned to the left, seen from the right ear: the face up, "
+     "the vertex on the left"},
 };
 } // namespace
 
@@ -127,6 +135,10 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
     m_needCase.push_back(action);
     viewMenu->addAction(action);
   }
+  rollLeft = make(m_view, tr("Roll counterclock&wise"), Qt::Key_Comma,
+                  tr("Turns the 3D picture about its middle, by 5 degrees"));
+  rollRight = make(m_view, tr("Roll clockwi&se"), Qt::Key_Period,
+                   tr("Turns the 3D picture about its middle, by 5 degrees"));
   m_view->addSeparator();
   QMenu* layoutMenu = addLayouts();
   m_view->addSeparator();
@@ -141,9 +153,14 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   m_view->addSeparator();
   boneWindow = make(m_view, {}, Qt::Key_B, {});
   softWindow = make(m_view, {}, Qt::Key_T, {});
+  temporalWindow = make(m_view, tr("Temporal bo&ne window"), Qt::SHIFT + Qt::Key_B,
+                        tr("Grey from -800 to 2000 HU"));
   setOnMr(false);
   fitSlices = make(m_view, tr("&Fit slices"), Qt::Key_F, tr("Whole slices again"));
   m_view->addSeparator();
+  m_viewButton = viewMenu;
+  viewMenu->addAction(rollLeft);
+  viewMenu->addAction(rollRight);
   viewMenu->addSeparator();
   viewMenu->addMenu(layoutMenu);
   viewMenu->addMenu(addStereo(quadBuffer));
@@ -193,7 +210,8 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   bar->addSeparator();
   auto* views = new QToolButton;
   views->setText(tr("View"));
-  views->setToolTip(tr("Standard sides (1 to 7), stereo, the surgeon's window (F11)"));
+  views->setToolTip(tr("Standard sides (1 to 7), surgical position (8 left, 9 right), saved views, "
+                       "layout, stereo, the surgeon's window (F11)"));
   views->setMenu(viewMenu);
   views->setPopupMode(QToolButton::InstantPopup);
   bar->addWidget(views);
@@ -216,9 +234,12 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                                        addMasks,
                                        addMesh,
                                        centerView,
+                                       rollLeft,
+                                       rollRight,
                                        boneThickness,
                                        boneWindow,
                                        softWindow,
+                                       temporalWindow,
                                        fitSlices,
                                        drillBar.drillAction(),
                                        drillBar.pointerAction(),
@@ -285,6 +306,18 @@ QMenu* WindowActions::addStereo(bool quadBuffer)
   return menu;
 }
 
+void WindowActions::addSavedViews(QMenu* menu)
+{
+  m_view->insertMenu(rollLeft, menu);
+  m_viewButton->insertMenu(m_viewButton->actions().at(static_cast<int>(std::size(kViews))), menu);
+  m_needCase.push_back(menu->menuAction());
+}
+
+void WindowActions::addSliceMenu(QMenu* menu)
+{
+  m_view->insertMenu(boneWindow, menu);
+}
+
 void WindowActions::addPanelToggle(QAction* action, bool needsCase)
 {
   m_view->addAction(action);
@@ -307,6 +340,7 @@ void WindowActions::setOnMr(bool isMr)
                 "list"));
   set(boneWindow, isMr ? tr("&Full window") : tr("&Bone window"),
       isMr ? tr("Grey over all tissue of the MR") : tr("Grey from -1300 to 2700 HU"));
+  temporalWindow->setVisible(!isMr);
   set(softWindow, isMr ? tr("&Dark half window") : tr("Soft &tissue window"),
       isMr ? tr("Grey over the darker half of the MR's tissue") : tr("Grey from -160 to 240 HU"));
 }

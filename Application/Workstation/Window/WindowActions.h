@@ -28,6 +28,8 @@ public:
   WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceToolBar& deviceBar, bool quadBuffer);
 
   void addPanelToggle(QAction* action, bool needsCase); ///< to the View menu
+  void addSavedViews(QMenu* menu);                      ///< to the View menu
+  void addSliceMenu(QMenu* menu);                       ///< to the View menu
   void setCaseOpen(bool open);                          ///< disables what needs a case
   void setOnMr(bool isMr); ///< names what is seen and drilled: bone, or an MR's tissue
 
@@ -54,6 +56,8 @@ public:
   QAction* restore;
   QAction* undo;
   QAction* redo;
+  QAction* rollLeft;
+  QAction* rollRight;
   QAction* centerView;
   QAction* boneThickness; ///< checkable
   QAction* clipHere;
@@ -62,6 +66,7 @@ public:
   QAction* enlargeView;  ///< checkable
   QAction* boneWindow;
   QAction* softWindow;
+  QAction* temporalWindow;
   QAction* fitSlices;
   QMenu* approaches;
   QActionGroup* stereo;   ///< checkable; each one's data is its StereoMode
@@ -83,6 +88,7 @@ private:
   QMenu* addLayouts();
 
   QMenu* m_view = nullptr;
+  QMenu* m_viewButton = nullptr; ///< in the tool bar
   std::vector<QAction*> m_needCase;
 };
 

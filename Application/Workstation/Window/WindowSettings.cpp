@@ -156,7 +156,8 @@ presenters::ViewArrangement WindowSettings::arrangement() const
         if (const auto at = number(key.arg(split)); at)
           arrangement.moveSplit(split, *at);
   }
-  const auto layout = presenters::parseViewLayout(m_file.value("views/layout").toString().toStdString());
+  const auto layout =
+      presenters::parseViewLayout(m_file.value("views/layout").toString().toStdString());
   arrangement.setLayout(layout.value_or(presenters::ViewLayout::Beside));
   const int large = m_file.value("views/large_slice", 1).toInt();
   if (large >= 1 && large <= 3)
@@ -171,6 +172,57 @@ void WindowSettings::keepArrangement(const presenters::ViewArrangement& arrangem
   m_file.setValue("views/large_slice", static_cast<int>(arrangement.large()));
   for (std::size_t split = 0; split < arrangement.splits().size(); ++split)
     m_file.setValue(QString("views/%1_split_%2").arg(name).arg(split), arrangement.splits()[split]);
+}
+
+bool WindowSettings::zoomTogether() const
+{
+  return m_file.value("views/zoom_together", false).toBool();
+}
+
+void WindowSettings::keepZoomTogether(bool together)
+{
+  m_file.setValue("views/zoom_together", together);
+}
+
+bool WindowSettings::zoomWithScene() const
+{
+  return m_file.value("views/zoom_with_scene", false).toBool();
+}
+
+void WindowSettings::keepZoomWithScene(bool with)
+{
+  m_file.setValue("views/zoom_with_scene", with);
+}
+
+// A list of triples: a name may have any characters, which a key may not.
+std::vector<presenters::NamedWindow> WindowSettings::greyWindows(const QString& kind) const
+{
+  std::vector<presenters::NamedWindow> windows;
+  const QVariantList list = m_file.value("windows/" + kind).toList();
+  for (int n = 0; n + 2 < list.size(); n += 3)
+  {
+    const presenters::GreyWindow window{list[n + 1].toDouble(), list[n + 2].toDouble()};
+    if (std::isfinite(window.width) && window.width > 0.0 && std::isfinite(window.level))
+      windows.push_back({list[n].toString().toStdString(), window});
+  }
+  return windows;
+}
+
+void WindowSettings::keepGreyWindow(const QString& kind, const presenters::NamedWindow& window)
+{
+  forgetGreyWindow(kind, window.name);
+  QVariantList list = m_file.value("windows/" + kind).toList();
+  list << QString::fromStdString(window.name) << window.window.width << window.window.level;
+  m_file.setValue("windows/" + kind, list);
+}
+
+void WindowSettings::forgetGreyWindow(const QString& kind, const std::string& name)
+{
+  QVariantList list;
+  for (const presenters::NamedWindow& one : greyWindows(kind))
+    if (one.name != name)
+      list << QString::fromStdString(one.name) << one.window.width << one.window.level;
+  m_file.setValue("windows/" + kind, list);
 }
 
 bool WindowSettings::thumbnails() const

@@ -5,6 +5,7 @@
 #include <QSettings>
 
 #include "petrous/Dissection/Stroke.h"
+#include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/ViewArrangement.h"
 #include "petrous/Presenters/ViewSettings.h"
 
@@ -42,6 +43,18 @@ public:
   /// How 3D view and slices are arranged; nothing is enlarged.
   presenters::ViewArrangement arrangement() const;
   void keepArrangement(const presenters::ViewArrangement& arrangement);
+
+  /// Whether a slice that is zoomed takes the others along, and the slices have the 3D view's
+  /// scale.
+  bool zoomTogether() const;
+  void keepZoomTogether(bool together);
+  bool zoomWithScene() const;
+  void keepZoomWithScene(bool with);
+
+  /// The user's own grey windows, of images of one kind ("hounsfield", "mr", "other"), by name.
+  std::vector<presenters::NamedWindow> greyWindows(const QString& kind) const;
+  void keepGreyWindow(const QString& kind, const presenters::NamedWindow& window);
+  void forgetGreyWindow(const QString& kind, const std::string& name);
 
   /// Whether thumbnails of cases are drawn in the background.
   bool thumbnails() const;

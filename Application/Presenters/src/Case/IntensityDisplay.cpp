@@ -86,6 +86,7 @@ IntensityDisplay displayOf(const scene::Case& value)
     display.unit = at(1.0) - at(0.0);
     display.bone = windowOf(at(-1300.0), at(2700.0), range);
     display.soft = windowOf(at(-160.0), at(240.0), range);
+    display.temporal = windowOf(at(-800.0), at(2000.0), range);
     if (value.ct.modality == scene::Modality::Mr && scale.dense > scale.iso)
     {
       // From what is as dark below the surface as tissue is bright above it, to the 99th percentile
@@ -116,6 +117,22 @@ IntensityDisplay displayOf(const scene::ImagePart& mr)
   display.step = roundStep((mr.range.max - mr.range.min) / kSteps);
   display.decimals = decimalsFor(display.step);
   return display;
+}
+
+std::vector<NamedWindow> greyWindows(const scene::Case& value)
+{
+  const IntensityDisplay display = displayOf(value);
+  if (value.ct.modality == scene::Modality::Mr)
+    return {{"All tissue", display.bone}, {"Dark half", display.soft}};
+  return {
+      {"Bone", display.bone}, {"Temporal bone", display.temporal}, {"Soft tissue", display.soft}};
+}
+
+std::vector<NamedWindow> mrWindows(const GreyWindow& suggested)
+{
+  const double black = suggested.level - 0.5 * suggested.width;
+  return {{"All tissue", suggested},
+          {"Dark half", {0.5 * suggested.width, black + 0.25 * suggested.width}}};
 }
 
 std::string shownValues(const scene::Case& value, const ShownImages& shown,

@@ -170,6 +170,25 @@ void WorkstationModel::setView(const scene::ViewState& view)
   m_case->view.branchCameras = std::move(cameras);
 }
 
+void WorkstationModel::saveView(const std::string& name, const core::CameraPose& camera,
+                                const scene::ViewState::Slices& slices)
+{
+  if (!m_case)
+    return;
+  scene::Case with;
+  with.view.saved = m_case->view.saved;
+  with.view.slices = slices;
+  scene::saveView(with, name, camera);
+  m_case->view.saved = std::move(with.view.saved);
+  setUnsaved(true);
+}
+
+void WorkstationModel::removeView(const std::string& name)
+{
+  if (m_case && m_case->view.saved.erase(name) > 0)
+    setUnsaved(true);
+}
+
 void WorkstationModel::setClipping(const scene::ViewState::Clipping& clipping)
 {
   if (!m_case || m_case->view.clipping == clipping)

@@ -289,10 +289,10 @@ struct SegmentEditor::Draft
   std::optional<appearance::StructureAppearance> editedLook;
   std::string resampled; ///< how its voxels are others than in the map, to the user
   EditableMask mask;
-  std::unique_ptr<EditableMask> inside, beside;     ///< strokes to grow from; nullptr: none
-  SliceOrientation plane = SliceOrientation::Axial; ///< last painted in
-  Points seeds;                                     ///< of the connected threshold
-  Points points;                                    ///< of the nerve
+  std::unique_ptr<EditableMask> inside, beside; ///< strokes to grow from; nullptr: none
+  Eigen::Vector3d normal = axesOf(SliceOrientation::Axial).next; ///< of the slice last painted in
+  Points seeds;                                                  ///< of the connected threshold
+  Points points;                                                 ///< of the nerve
   std::vector<Step> undo, redo;
   std::uint64_t changes = 0;                              ///< steps ever made
   std::optional<std::pair<Pieces, std::uint64_t>> pieces; ///< and `changes` by then
@@ -804,7 +804,7 @@ void SegmentEditor::dab(const Eigen::Vector3d& from, const Eigen::Vector3d& to)
   brush.to = to;
   brush.radius = m_values.brush;
   if (!m_values.ball)
-    brush.normal = axesOf(m_draft->plane).next;
+    brush.normal = m_draft->normal;
   if (m_tool == Tool::Grow)
   {
     EditableMask& mine = m_values.inside ? *m_draft->inside : *m_draft->beside;
@@ -822,6 +822,11 @@ void SegmentEditor::dab(const Eigen::Vector3d& from, const Eigen::Vector3d& to)
 }
 
 void SegmentEditor::press(const Eigen::Vector3d& patient, SliceOrientation plane)
+{
+  press(patient, axesOf(plane).next);
+}
+
+void SegmentEditor::press(const Eigen::Vector3d& patient, const Eigen::Vector3d& normal)
 {
   if (!m_model.hasCase() || m_tool == Tool::None)
     return;
@@ -844,7 +849,7 @@ void SegmentEditor::press(const Eigen::Vector3d& patient, SliceOrientation plane
       draft.inside = std::make_unique<EditableMask>(draft.mask.geometry());
       draft.beside = std::make_unique<EditableMask>(draft.mask.geometry());
     }
-    draft.plane = plane;
+    draft.normal = normal;
     draft.stroking = true;
     draft.last = patient;
     if (m_tool == Tool::Grow)
@@ -1145,7 +1150,7 @@ SegmentEditor::Computed SegmentEditor::computed() const
   case Tool::Fill:
   {
     Eigen::Index axis = 0;
-    (base.geometry().voxelFromPatientLinear() * axesOf(m_draft->plane).next)
+    (base.geometry().voxelFromPatientLinear() * m_draft->normal)
         .cwiseProduct(base.geometry().spacing())
         .cwiseAbs()
         .maxCoeff(&axis);

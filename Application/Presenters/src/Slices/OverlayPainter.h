@@ -15,8 +15,9 @@ std::uint8_t greyOf(float value, const GreyWindow& window);
 /// Blends a colour into a pixel by a fraction.
 void blend(std::uint8_t* pixel, const std::array<float, 3>& color, float share);
 
-/// Draws the MR over the grey CT in `pixels`.
-void paintOverlay(const SliceOverlay& overlay, const SliceGeometry& slice, SlicePixels& pixels);
+/// Draws the MR, of which `mr` are the samples in the slice, over the grey CT in `pixels`.
+void paintOverlay(const SliceOverlay& overlay, const SliceGeometry& slice, const PlaneSamples& mr,
+                  SlicePixels& pixels);
 
 /// Draws the CT's contours; `ct` are the CT's samples in the slice.
 void paintEdges(const PlaneSamples& ct, const EdgeLevels& levels, double mmPerPixel,

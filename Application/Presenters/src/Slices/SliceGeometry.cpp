@@ -5,6 +5,7 @@
 
 #include "petrous/Core/Error.h"
 #include "petrous/Core/NumberText.h"
+#include "petrous/Interaction/OrbitCamera.h"
 
 namespace petrous::presenters
 {
@@ -12,15 +13,6 @@ namespace petrous::presenters
 namespace
 {
 constexpr double kMargin = 1.04;
-
-// The letter of the patient direction that a vector along an LPS axis points to.
-char letterOf(const Eigen::Vector3d& direction)
-{
-  constexpr char towards[3][2] = {{'R', 'L'}, {'A', 'P'}, {'I', 'S'}};
-  Eigen::Index axis = 0;
-  direction.cwiseAbs().maxCoeff(&axis);
-  return towards[axis][direction[axis] > 0.0 ? 1 : 0];
-}
 } // namespace
 
 SliceAxes axesOf(SliceOrientation orientation)
@@ -48,7 +40,15 @@ const char* nameOf(SliceOrientation orientation)
 
 SliceGeometry::SliceGeometry(SliceOrientation orientation, const Eigen::Vector3d& center,
                              double mmPerPixel, int width, int height)
+  : SliceGeometry(orientation, axesOf(orientation), center, mmPerPixel, width, height)
+{
+}
+
+SliceGeometry::SliceGeometry(SliceOrientation orientation, const SliceAxes& axes,
+                             const Eigen::Vector3d& center, double mmPerPixel, int width,
+                             int height)
   : m_orientation(orientation)
+  , m_axes(axes)
   , m_center(center)
   , m_mmPerPixel(mmPerPixel)
   , m_width(width)
@@ -63,7 +63,13 @@ SliceGeometry::SliceGeometry(SliceOrientation orientation, const Eigen::Vector3d
 SliceGeometry SliceGeometry::fitting(SliceOrientation orientation, const core::GridGeometry& grid,
                                      const Eigen::Vector3d& through, int width, int height)
 {
-  const SliceAxes axes = axesOf(orientation);
+  return fitting(orientation, axesOf(orientation), grid, through, width, height);
+}
+
+SliceGeometry SliceGeometry::fitting(SliceOrientation orientation, const SliceAxes& axes,
+                                     const core::GridGeometry& grid, const Eigen::Vector3d& through,
+                                     int width, int height)
+{
   const core::PatientBox bounds = grid.patientBounds();
   const Eigen::Vector3d extent = bounds.sizes();
   const double across = extent.dot(axes.right.cwiseAbs());
@@ -72,28 +78,27 @@ SliceGeometry SliceGeometry::fitting(SliceOrientation orientation, const core::G
       std::max({kMargin * across / width, kMargin * down / height, 1e-3 * grid.minSpacing()});
   const Eigen::Vector3d middle = bounds.center();
   const Eigen::Vector3d center = middle + axes.next * axes.next.dot(through - middle);
-  return {orientation, center, mmPerPixel, width, height};
+  return {orientation, axes, center, mmPerPixel, width, height};
 }
 
 Eigen::Vector3d SliceGeometry::patientFromPixel(double column, double row) const
 {
-  const SliceAxes axes = axesOf(m_orientation);
-  return m_center + m_mmPerPixel * ((column - 0.5 * (m_width - 1)) * axes.right +
-                                    (row - 0.5 * (m_height - 1)) * axes.down);
+  return m_center + m_mmPerPixel * ((column - 0.5 * (m_width - 1)) * m_axes.right +
+                                    (row - 0.5 * (m_height - 1)) * m_axes.down);
 }
 
 Eigen::Vector2d SliceGeometry::pixelFromPatient(const Eigen::Vector3d& patient) const
 {
-  const SliceAxes axes = axesOf(m_orientation);
   const Eigen::Vector3d offset = (patient - m_center) / m_mmPerPixel;
-  return {offset.dot(axes.right) + 0.5 * (m_width - 1),
-          offset.dot(axes.down) + 0.5 * (m_height - 1)};
+  return {offset.dot(m_axes.right) + 0.5 * (m_width - 1),
+          offset.dot(m_axes.down) + 0.5 * (m_height - 1)};
 }
 
 SliceGeometry::EdgeLetters SliceGeometry::edgeLetters() const
 {
-  const SliceAxes axes = axesOf(m_orientation);
-  return {letterOf(-axes.right), letterOf(axes.right), letterOf(-axes.down), letterOf(axes.down)};
+  using interaction::directionLetters;
+  return {directionLetters(-m_axes.right), directionLetters(m_axes.right),
+          directionLetters(-m_axes.down), directionLetters(m_axes.down)};
 }
 
 double scaleBarLength(double longest)
@@ -109,8 +114,8 @@ double scaleBarLength(double longest)
 
 SliceGeometry zoomed(const SliceGeometry& whole, double zoom, const Eigen::Vector3d& offset)
 {
-  return {whole.orientation(), whole.center() + offset, whole.mmPerPixel() / zoom, whole.width(),
-          whole.height()};
+  return {whole.orientation(),       whole.axes(),  whole.center() + offset,
+          whole.mmPerPixel() / zoom, whole.width(), whole.height()};
 }
 
 } // namespace petrous::presenters

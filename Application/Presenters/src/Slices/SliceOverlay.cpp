@@ -66,7 +66,7 @@ void paintChecker(const PlaneSamples& mr, const SliceOverlay& overlay, const Sli
                   SlicePixels& pixels)
 {
   const double side = checkerSide(slice.mmPerPixel());
-  const SliceAxes axes = axesOf(slice.orientation());
+  const SliceAxes& axes = slice.axes();
   const auto square = [side](const Eigen::Vector3d& patient, const Eigen::Vector3d& axis)
   { return static_cast<long>(std::floor(patient.dot(axis) / side)); };
   forEachSample(mr, pixels,
@@ -140,9 +140,9 @@ void blend(std::uint8_t* pixel, const std::array<float, 3>& color, float share)
   }
 }
 
-void paintOverlay(const SliceOverlay& overlay, const SliceGeometry& slice, SlicePixels& pixels)
+void paintOverlay(const SliceOverlay& overlay, const SliceGeometry& slice, const PlaneSamples& mr,
+                  SlicePixels& pixels)
 {
-  const PlaneSamples mr = samplePlane(*overlay.mr, slice, overlay.mrFromCt);
   switch (overlay.mode)
   {
   case OverlayMode::Blend:

@@ -115,8 +115,25 @@ bool SlicePresenter::drawsAs(const SlicePresenter& other) const
                     same);
 }
 
+SliceSamples SlicePresenter::sample(const SliceGeometry& slice, const SliceOverlay* overlay,
+                                    const Slab& slab) const
+{
+  SliceSamples samples;
+  if (m_ct)
+    samples.ct = sampleSlab(*m_ct, slice, slab);
+  if (overlay && overlay->mr)
+    samples.mr = sampleSlab(*overlay->mr, slice, slab, overlay->mrFromCt);
+  return samples;
+}
+
 SlicePixels SlicePresenter::draw(const SliceGeometry& slice, const GreyWindow& window,
-                                 const SliceOverlay* overlay) const
+                                 const SliceOverlay* overlay, const Slab& slab) const
+{
+  return draw(slice, window, overlay, sample(slice, overlay, slab));
+}
+
+SlicePixels SlicePresenter::draw(const SliceGeometry& slice, const GreyWindow& window,
+                                 const SliceOverlay* overlay, const SliceSamples& samples) const
 {
   SlicePixels pixels;
   pixels.width = slice.width();
@@ -128,12 +145,12 @@ SlicePixels SlicePresenter::draw(const SliceGeometry& slice, const GreyWindow& w
     pixels.rgb[n] = kOutside[n % 3];
   if (!m_ct)
     return pixels;
-  const PlaneSamples ct = samplePlane(*m_ct, slice);
+  const PlaneSamples& ct = samples.ct;
   for (std::size_t n = 0; n < count; ++n)
     if (!std::isnan(ct.values[n]))
       std::fill_n(&pixels.rgb[3 * n], 3, greyOf(ct.values[n], window));
-  if (overlay && overlay->mr)
-    paintOverlay(*overlay, slice, pixels);
+  if (overlay && samples.mr)
+    paintOverlay(*overlay, slice, *samples.mr, pixels);
   for (const Layer& layer : m_layers)
     drawLayer(layer, slice, pixels);
   if (m_mask && !m_mask->untouched())

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "petrous/Presenters/SliceOverlay.h"
 #include "petrous/Scene/Case.h"
@@ -24,6 +25,7 @@ struct IntensityDisplay
   int decimals = 0;  ///< that distinguish neighbouring units
   GreyWindow bone;   ///< -1300 to 2700 HU
   GreyWindow soft{400.0, 40.0};
+  GreyWindow temporal{2800.0, 600.0};
   double least = -500.0; ///< of the thresholds offered
   double most = 2500.0;
   double step = 1.0; ///< of the thresholds offered; a round number
@@ -40,6 +42,17 @@ IntensityDisplay displayOf(const scene::Case& value);
 
 /// Of an MR beside the primary image: in its own values, which have no unit. Windows are not set.
 IntensityDisplay displayOf(const scene::ImagePart& mr);
+
+/// A grey window that is offered by name.
+struct NamedWindow
+{
+  std::string name; ///< English
+  GreyWindow window;
+};
+/// "Bone", "Temporal bone" and "Soft tissue" of a CT; "All tissue" and "Dark half" of an MR.
+std::vector<NamedWindow> greyWindows(const scene::Case& value);
+/// Of an MR, from the window that was suggested for it.
+std::vector<NamedWindow> mrWindows(const GreyWindow& suggested);
 
 /// Values at a point (patient LPS mm) of the images that slices show: "300 HU" of the primary image
 /// alone, "T2 412" of an MR, "CT 300 HU  T2 412" of both; "–" outside of a named image.

@@ -139,6 +139,8 @@ public:
 
   /// The left button in a slice; patient, LPS mm.
   void press(const Eigen::Vector3d& patient, SliceOrientation plane);
+  /// In a slice of this normal, of length 1.
+  void press(const Eigen::Vector3d& patient, const Eigen::Vector3d& normal);
   void drag(const Eigen::Vector3d& patient);
   void release();
 

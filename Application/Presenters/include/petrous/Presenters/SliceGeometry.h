@@ -15,11 +15,23 @@ enum class SliceOrientation
   Sagittal
 };
 
+/// Unit vectors in the patient (LPS), perpendicular to each other: along a picture's rows to the
+/// right, along its columns down, and towards the next slice.
+struct SliceAxes
+{
+  Eigen::Vector3d right;
+  Eigen::Vector3d down;
+  Eigen::Vector3d next;
+};
+SliceAxes axesOf(SliceOrientation orientation);   ///< the next slice is S, P or L
+const char* nameOf(SliceOrientation orientation); ///< "Axial", ...
+
 /// The part of the patient shown by a slice picture; a value type.
 ///
-/// Slices are aligned with the patient's axes (LPS), whatever the scanner's. Radiological
-/// convention: the patient's right is on the picture's left (axial, coronal) and anterior on its
-/// left (sagittal); superior, or anterior for axial slices, is up. Pixel centres are integers.
+/// Slices are aligned with the patient's axes (LPS), whatever the scanner's, or turned from there
+/// (SlicePlanes). Radiological convention: the patient's right is on the picture's left (axial,
+/// coronal) and anterior on its left (sagittal); superior, or anterior for axial slices, is up.
+/// Pixel centres are integers.
 class SliceGeometry
 {
 public:
@@ -28,11 +40,20 @@ public:
   SliceGeometry(SliceOrientation orientation, const Eigen::Vector3d& center, double mmPerPixel,
                 int width, int height);
 
+  /// Of a plane that was turned from the one of `orientation`.
+  SliceGeometry(SliceOrientation orientation, const SliceAxes& axes, const Eigen::Vector3d& center,
+                double mmPerPixel, int width, int height);
+
   /// The slice through `through` that shows all of `grid`, centred, with a narrow margin.
   static SliceGeometry fitting(SliceOrientation orientation, const core::GridGeometry& grid,
                                const Eigen::Vector3d& through, int width, int height);
+  static SliceGeometry fitting(SliceOrientation orientation, const SliceAxes& axes,
+                               const core::GridGeometry& grid, const Eigen::Vector3d& through,
+                               int width, int height);
 
+  /// From which the plane was turned, if it was: axes() tell where it lies.
   SliceOrientation orientation() const noexcept { return m_orientation; }
+  const SliceAxes& axes() const noexcept { return m_axes; }
   const Eigen::Vector3d& center() const noexcept { return m_center; }
   double mmPerPixel() const noexcept { return m_mmPerPixel; }
   int width() const noexcept { return m_width; }
@@ -42,15 +63,17 @@ public:
   Eigen::Vector2d
   pixelFromPatient(const Eigen::Vector3d& patient) const; ///< projected onto the slice
 
-  /// Letters of the patient directions at the picture's left, right, top and bottom edge.
+  /// Letters of the patient directions at the picture's left, right, top and bottom edge; several,
+  /// the strongest first, in a plane that was turned.
   struct EdgeLetters
   {
-    char left, right, top, bottom;
+    std::string left, right, top, bottom;
   };
   EdgeLetters edgeLetters() const;
 
 private:
   SliceOrientation m_orientation;
+  SliceAxes m_axes;
   Eigen::Vector3d m_center;
   double m_mmPerPixel;
   int m_width;
@@ -59,17 +82,6 @@ private:
 
 /// The slice enlarged, its centre moved by `offset`, patient LPS mm.
 SliceGeometry zoomed(const SliceGeometry& whole, double zoom, const Eigen::Vector3d& offset);
-
-/// Unit vectors in the patient (LPS): along a picture's rows to the right, along its columns down,
-/// and towards the next slice (S, P or L).
-struct SliceAxes
-{
-  Eigen::Vector3d right;
-  Eigen::Vector3d down;
-  Eigen::Vector3d next;
-};
-SliceAxes axesOf(SliceOrientation orientation);
-const char* nameOf(SliceOrientation orientation); ///< "Axial", ...
 
 /// Length of a scale bar, mm: the largest of 1, 2, 5, 10, 20, ... not exceeding `longest` mm.
 double scaleBarLength(double longest);

@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "petrous/Presenters/PlaneSamples.h"
 #include "petrous/Presenters/SliceGeometry.h"
 #include "petrous/Presenters/SliceOverlay.h"
 #include "petrous/Scene/Case.h"
@@ -13,6 +15,13 @@
 
 namespace petrous::presenters
 {
+
+/// What a picture of a slice is drawn of.
+struct SliceSamples
+{
+  PlaneSamples ct;
+  std::optional<PlaneSamples> mr; ///< of an overlay
+};
 
 /// Draws slices of a case's CT with its structures and what was removed. CPU only.
 ///
@@ -32,8 +41,15 @@ public:
   SlicePresenter(const scene::Case& value, std::shared_ptr<const volume::CutMask> mask);
 
   /// `overlay`: an MR shown with the CT; contours of bone and skin are drawn on top of everything.
+  /// `slab`: of CT and MR; structures and what was removed are those of the slice itself.
   SlicePixels draw(const SliceGeometry& slice, const GreyWindow& window,
-                   const SliceOverlay* overlay = nullptr) const;
+                   const SliceOverlay* overlay = nullptr, const Slab& slab = {}) const;
+  /// Of samples that were taken before, of the same slice and overlay.
+  SlicePixels draw(const SliceGeometry& slice, const GreyWindow& window,
+                   const SliceOverlay* overlay, const SliceSamples& samples) const;
+  SliceSamples sample(const SliceGeometry& slice, const SliceOverlay* overlay,
+                      const Slab& slab) const;
+  const std::shared_ptr<const volume::IntensityVolume>& image() const noexcept { return m_ct; }
 
   /// Whether both draw the same: a transfer function, say, is not seen in slices.
   bool drawsAs(const SlicePresenter& other) const;

@@ -161,6 +161,11 @@ public:
   /// The view, without the cameras of branches, which stay. Stored with the next save.
   void setView(const scene::ViewState& view);
   /// What is cut away from the picture; throws InvalidParameter (scene::checkView).
+  /// Keeps `camera` and `slices` under a name (scene::saveView). Throws InvalidParameter for a name
+  /// that is not valid.
+  void saveView(const std::string& name, const core::CameraPose& camera,
+                const scene::ViewState::Slices& slices);
+  void removeView(const std::string& name); ///< unknown: no effect
   void setClipping(const scene::ViewState::Clipping& clipping);
   /// Adds a file, under a free name, which is returned; its content is stored with the next save.
   std::string attach(scene::Attachment attachment);

@@ -157,7 +157,7 @@ void SliceController::addSlabs()
   add(tr("Slab: &darkest (MinIP)"), static_cast<int>(Projection::Minimum),
       tr("Minimum intensity projection: air cells"));
   add(tr("Slab: m&ean"), static_cast<int>(Projection::Mean), tr("As a thicker slice: less noise"));
-  connect(make(m_menu, tr("&Next projection"), Qt::CTRL + Qt::Key_M,
+  connect(make(m_menu, tr("&Next projection"), Qt::CTRL + Qt::Key_J,
                tr("Thin, MIP, MinIP, mean in turn")),
           &QAction::triggered, this, &SliceController::nextProjection);
   connect(make(m_menu, tr("Thi&cker slab"), Qt::CTRL + Qt::Key_BracketRight,

@@ -160,7 +160,7 @@ void SlicesPanel::addWindow(QFormLayout* form)
 
 void SlicesPanel::addSlab(QFormLayout* form)
 {
-  auto* slab = choiceBox("slab", tr("What a slice shows of the layer about it (Ctrl+M)"));
+  auto* slab = choiceBox("slab", tr("What a slice shows of the layer about it (Ctrl+J)"));
   slab->addItem(tr("Thin slice"));
   slab->addItem(tr("Brightest (MIP)"));
   slab->addItem(tr("Darkest (MinIP)"));

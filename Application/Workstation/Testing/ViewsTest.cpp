@@ -194,7 +194,7 @@ TEST_F(Views, ControlDragAndControlKeysTurnPlanes)
 
 TEST_F(Views, ASlabIsFineAfterAWhileAndSavedWithTheCase)
 {
-  key(Qt::Key_M, Qt::ControlModifier);
+  key(Qt::Key_J, Qt::ControlModifier);
   EXPECT_EQ(slices().slab().thickness, 5.0);
   EXPECT_EQ(slices().slab().projection, presenters::Projection::Maximum);
   key(Qt::Key_BracketRight, Qt::ControlModifier);
@@ -212,9 +212,9 @@ TEST_F(Views, ASlabIsFineAfterAWhileAndSavedWithTheCase)
   EXPECT_EQ(slices().planes().kind(), presenters::SlicePlanes::Kind::Petrous);
   const auto saved = library().open("ball");
   EXPECT_EQ(saved.view.slices->slab->projection, "mip");
-  key(Qt::Key_M, Qt::ControlModifier); // MinIP
-  key(Qt::Key_M, Qt::ControlModifier); // mean
-  key(Qt::Key_M, Qt::ControlModifier);
+  key(Qt::Key_J, Qt::ControlModifier); // MinIP
+  key(Qt::Key_J, Qt::ControlModifier); // mean
+  key(Qt::Key_J, Qt::ControlModifier);
   EXPECT_EQ(slices().slab().thickness, 0.0);
 }
 

@@ -852,8 +852,8 @@ void CaseDocumentController::tell(const std::vector<presenters::PartFailure>& fa
     const QScopedValueRollback<bool> asking(m_asking, true);
     for (const presenters::PartFailure& failure : failures)
     {
-      const bool isQuestion =
-          !failure.likely.empty() || failure.isOtherPatient || failure.isSideUnclear;
+      const bool isQuestion = !failure.likely.empty() || failure.isOtherPatient ||
+                              failure.isSideUnclear || failure.isFrameUnclear;
       if (!isQuestion || !isOpen(target))
         lost += words(failure.why);
       else if (const auto source = askAgain(failure, target))
@@ -949,6 +949,12 @@ CaseDocumentController::askAgain(const presenters::PartFailure& failure, const T
     if (!source.assumeRas)
       return std::nullopt;
   }
+  else if (failure.isFrameUnclear)
+  {
+    source.drawnOn = askDrawnOn(failure);
+    if (source.drawnOn.empty())
+      return std::nullopt;
+  }
   else
   {
     const auto space = askMeshSpace(failure);
@@ -982,6 +988,35 @@ std::optional<bool> CaseDocumentController::askSide(const fs::path& path)
   if (box.clickedButton() == lps || box.clickedButton() == ras)
     return box.clickedButton() == ras;
   return std::nullopt;
+}
+
+// The image on which structures were drawn: "ct" or an MR's name; empty: the user does not know.
+std::string CaseDocumentController::askDrawnOn(const presenters::PartFailure& failure)
+{
+  const QString primary = presenters::primaryName(m_model.value());
+  QMessageBox box(QMessageBox::Question, tr("On which image was it drawn?"),
+                  tr("“%1” was drawn in another frame of reference than the images of this case.")
+                      .arg(nameOf(failure.source.path)),
+                  QMessageBox::NoButton, &m_window);
+  box.setTextFormat(Qt::PlainText);
+  box.setObjectName("askDrawnOn");
+  box.setInformativeText(
+      tr("It may have been drawn on another scan of the patient, and would then lie in the wrong "
+         "place. Where another program or library gave this very %1 new identifiers, it lies "
+         "where it belongs. Look at the slices afterwards.")
+          .arg(primary));
+  std::vector<std::pair<const QAbstractButton*, std::string>> images;
+  images.emplace_back(box.addButton(tr("On the &%1").arg(primary), QMessageBox::ActionRole), "ct");
+  for (const scene::ImagePart& mr : m_model.value().mr)
+    images.emplace_back(
+        box.addButton(tr("On %1").arg(words(mr.name).replace('&', "&&")), QMessageBox::ActionRole),
+        mr.name);
+  box.setDefaultButton(box.addButton(QMessageBox::Cancel));
+  box.exec();
+  for (const auto& [button, name] : images)
+    if (box.clickedButton() == button)
+      return name;
+  return {};
 }
 
 bool CaseDocumentController::askOtherPatient(const presenters::PartFailure& failure,

@@ -151,6 +151,7 @@ private:
   std::optional<presenters::PartSource> askAgain(const presenters::PartFailure& failure,
                                                  const Target& target);
   std::optional<bool> askSide(const std::filesystem::path& path);
+  std::string askDrawnOn(const presenters::PartFailure& failure);
   bool askOtherPatient(const presenters::PartFailure& failure, const Target& target);
   std::optional<imaging::MeshSpace> askMeshSpace(const presenters::PartFailure& failure);
   bool adopt(scene::Case value);

@@ -796,6 +796,57 @@ TEST_F(Import, AnMrOfAnotherPatientIsAskedAbout)
   EXPECT_TRUE(settled());
 }
 
+// From the same CT in another library: new identifiers, the same place.
+TEST_F(Import, ASegmentationOfAnotherFrameIsAskedAbout)
+{
+  const auto ball = ballCase("x");
+  imaging::SeriesDescription series;
+  series.modality = imaging::SeriesDescription::Modality::Ct;
+  series.studyUid = "1.2.3.1";
+  series.seriesUid = "1.2.3.1.4";
+  series.frameOfReferenceUid = "1.2.3.1.9";
+  imaging::writeDicomSeries(folder() / "ct", *ball.ct.volume.get(), series);
+  imaging::SegmentationDescription segmentation;
+  segmentation.studyUid = "1.2.3.2";
+  segmentation.seriesUid = "1.2.3.2.4";
+  segmentation.frameOfReferenceUid = "1.2.3.2.9";
+  imaging::SegmentationDescription::Segment segment;
+  segment.index = ball.labels[0].structures[0].index;
+  segment.label = "vein";
+  segmentation.segments = {segment};
+  imaging::writeDicomSegmentation(folder() / "seg.dcm", {*ball.labels[0].labels.get()},
+                                  segmentation);
+  openWindow();
+  dropPath(folder() / "ct");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  for (const char* answer : {"Cancel", "On the CT"})
+  {
+    EXPECT_TRUE(window().model().value().labels.empty());
+    QString asked;
+    onDialog(
+        [&](QDialog& dialog)
+        {
+          if (auto* add = buttonOf(dialog, "Add to"))
+          {
+            add->click();
+            return false;
+          }
+          if (dialog.objectName() != "askDrawnOn")
+            return false;
+          asked = textOf(dialog);
+          buttonOf(dialog, answer)->click();
+          return true;
+        });
+    dropPath(folder() / "seg.dcm");
+    ASSERT_TRUE(waitFor([&] { return !asked.isEmpty(); }));
+    EXPECT_TRUE(settled());
+  }
+  ASSERT_TRUE(waitFor([this] { return window().model().value().labels.size() == 1; }));
+  EXPECT_EQ(window().model().value().labels[0].structures[0].voxels,
+            ball.labels[0].structures[0].voxels);
+  EXPECT_TRUE(settled());
+}
+
 // A file name may be a patient's; only the user knows what the structure is.
 TEST_F(Import, AStructureWithoutANameIsAskedForOne)
 {
@@ -1133,8 +1184,6 @@ TEST_F(Import, ARegionIsDrawnBeforeTheScanIsRead)
             presenters::buildCase("whole", sources, {}).ct.geometry.voxelCount());
 }
 
-// By the Case menu: the file dialog offers DICOM for labels, the names can be edited, and the panel
-// with what came is in front.
 TEST_F(Import, ARegionOfAFileIsDrawnBeforeItIsRead)
 {
   imaging::writeVolume(folder() / "ear.nii", *ballCase("x").ct.volume.get());
@@ -1167,6 +1216,8 @@ TEST_F(Import, ARegionOfAFileIsDrawnBeforeItIsRead)
   EXPECT_EQ(grid.voxelCount(), expected.count());
 }
 
+// By the Case menu: the file dialog offers DICOM for labels, the names can be edited, and the panel
+// with what came is in front.
 TEST_F(Import, PartsComeByTheCaseMenu)
 {
   writePatient(folder() / "sample");

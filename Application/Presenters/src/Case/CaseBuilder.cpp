@@ -573,10 +573,7 @@ void settleFrame(const scene::Case& value, PartSource& source, const std::string
   const std::string image = primaryName(value);
   if (!isKnown(value.ct))
     return noteUnknown("the " + image + "'s is not known");
-  throw core::InvalidParameter(
-      source.path.string() + ": was drawn in another frame of reference than the " + image +
-      "'s, so its place in the " + image + " is not known; if it is this " + image +
-      "'s all the same, say FILE@ct, or add the MR on which it was drawn");
+  throw FrameUnclear(source.path, image);
 }
 
 // An RT structure set becomes voxels of the image on which it was drawn.
@@ -919,6 +916,14 @@ ImageSideUnclear::ImageSideUnclear(const fs::path& file, const std::string& opti
 {
 }
 
+FrameUnclear::FrameUnclear(const fs::path& file, const std::string& image)
+  : core::InvalidParameter(file.string() + ": was drawn in another frame of reference than the " +
+                           image + "'s, so its place in the " + image +
+                           " is not known; if it is this " + image +
+                           "'s all the same, say FILE@ct, or add the MR on which it was drawn")
+{
+}
+
 OtherPatient::OtherPatient(const fs::path& file)
   : core::Error(core::Fault::Refused,
                 file.string() + ": states another patient's ID, name or date of birth than the "
@@ -1170,6 +1175,11 @@ std::vector<PartFailure> addSoundParts(scene::Case& value, const PartSources& pa
       {
         failures.push_back({source, unclear.what()});
         failures.back().isSideUnclear = true;
+      }
+      catch (const FrameUnclear& unclear)
+      {
+        failures.push_back({source, unclear.what()});
+        failures.back().isFrameUnclear = true;
       }
       catch (const core::Error& error)
       {

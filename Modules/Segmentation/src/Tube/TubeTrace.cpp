@@ -327,6 +327,7 @@ Tube traceTube(const volume::IntensityVolume& image, const std::vector<Vector3d>
 
   tube.line = std::move(line.vertices);
   tube.radii = radiiFromHalfMaximum(line.halfRadius, sigma);
+  constexpr double kMostly = 0.5;
   constexpr double kAtLimit = 0.97; // of the largest radius: what is seen there is something else
   const double limit =
       options.radius ? std::numeric_limits<double>::infinity() : kAtLimit * options.widest;
@@ -348,6 +349,13 @@ Tube traceTube(const volume::IntensityVolume& image, const std::vector<Vector3d>
     // half of each neighbouring segment
     if (resolved)
       tube.resolvedLength += 0.5 * (lengths[std::min(i + 1, n - 1)] - lengths[i > 0 ? i - 1 : 0]);
+  }
+  // Of a tube that is mostly too thin or too faint to be seen, what stands out here and there is as
+  // well something else beside it: a cell, a marrow space.
+  if (tube.resolvedLength < kMostly * tube.length)
+  {
+    std::fill(tube.resolved.begin(), tube.resolved.end(), std::uint8_t{0});
+    tube.resolvedLength = 0.0;
   }
   if (!options.radius)
   {

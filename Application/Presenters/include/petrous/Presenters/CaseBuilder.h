@@ -100,6 +100,14 @@ struct ImageSideUnclear : core::InvalidParameter
   ImageSideUnclear(const std::filesystem::path& file, const std::string& option);
 };
 
+/// Structures that state another frame of reference than each image of the case: the user has to
+/// say on which image they were drawn.
+struct FrameUnclear : core::InvalidParameter
+{
+  /// `image`: primaryName.
+  FrameUnclear(const std::filesystem::path& file, const std::string& image);
+};
+
 /// "LPS mm", "RAS m", ..
 std::string textOf(const imaging::MeshSpace& space);
 /// "LPS (DICOM, ITK), mm", "RAS (Slicer, NIfTI), m", ..
@@ -188,6 +196,7 @@ struct PartFailure
   std::vector<imaging::MeshSpace> likely = {};          ///< of MeshSpaceUnclear
   bool isOtherPatient = false;                          ///< OtherPatient
   bool isSideUnclear = false;                           ///< ImageSideUnclear
+  bool isFrameUnclear = false;                          ///< FrameUnclear
   std::vector<PartSource> PartSources::*kind = nullptr; ///< of which it is one
 };
 

@@ -80,7 +80,8 @@ struct Tube
   /// it is.
   std::vector<double> radii;
   std::vector<double> contrast;       ///< surroundings against lumen, in sigma of the noise, >= 0
-  std::vector<std::uint8_t> resolved; ///< 1: contrast and diameter (two voxels) suffice
+  /// 1: contrast and diameter (two voxels) suffice; nowhere, unless they do over half of the length.
+  std::vector<std::uint8_t> resolved;
 
   std::vector<Eigen::Vector3d> points;    ///< as given
   std::vector<double> pointDistances;     ///< from each point to the line, mm

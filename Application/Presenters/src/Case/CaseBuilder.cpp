@@ -24,6 +24,7 @@
 #include "petrous/Imaging/StructureSet.h"
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Library/ObjectStore.h"
+#include "petrous/Presenters/ImageFacts.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/FreeName.h"
 #include "petrous/Scene/Placement.h"
@@ -57,11 +58,12 @@ std::string nameFromFile(const fs::path& path, const std::string& otherwise, con
 // The reader knows the series; the user knows the path.
 volume::IntensityVolume readNamed(const fs::path& path, const imaging::DicomSeries& series,
                                   const imaging::ReadOptions& options,
-                                  const core::Progress& progress, std::vector<std::string>& notes)
+                                  const core::Progress& progress, std::vector<std::string>& notes,
+                                  std::vector<int>& interpolated)
 {
   try
   {
-    return imaging::readSeries(series, options, progress, &notes);
+    return imaging::readSeries(series, options, progress, &notes, &interpolated);
   }
   catch (const imaging::DicomError& error)
   {
@@ -194,10 +196,13 @@ std::string codeText(const std::string& text)
 // A unit of a file, which may stand in a note if it is one.
 std::string unitText(const std::string& unit)
 {
-  static const char* const kUcum[] = {
-      "1",    "%",     "ms",      "s",         "/s",    "1/s",   "/min",        "mm2/s",
-      "um2/s", "ml/g", "g/ml",    "mg/ml",     "Bq/ml", "kPa",   "10-6.mm2/s",  "10*-6.mm2/s",
-      "ml/min/ml",     "ml/100ml/min",         "ug/ml", "ml/ml", "ml/(100.ml.min)"};
+  static const char* const kUcum[] = {"1",           "%",         "ms",
+                                      "s",           "/s",        "1/s",
+                                      "/min",        "mm2/s",     "um2/s",
+                                      "ml/g",        "g/ml",      "mg/ml",
+                                      "Bq/ml",       "kPa",       "10-6.mm2/s",
+                                      "10*-6.mm2/s", "ml/min/ml", "ml/100ml/min",
+                                      "ug/ml",       "ml/ml",     "ml/(100.ml.min)"};
   return std::find(std::begin(kUcum), std::end(kUcum), unit) != std::end(kUcum) ? unit
                                                                                 : codeText(unit);
 }
@@ -240,11 +245,13 @@ ReadImage readImage(const fs::path& path, const std::string& selector, bool repa
 {
   ReadImage read;
   scene::ImagePart& part = read.part;
+  scene::ImageFacts facts;
   if (!fs::is_directory(path) && imaging::isReadAs(path, imaging::kImage | imaging::kLabels))
   {
     auto image = imaging::readImageFile(path, roi, progress, assumeRas);
     part.volume = image.volume;
     part.notes = std::move(image.notes);
+    facts.isSideAssumed = image.assumedRas.has_value();
   }
   else
   {
@@ -274,7 +281,8 @@ ReadImage readImage(const fs::path& path, const std::string& selector, bool repa
         !left.empty())
       notes.push_back(left);
     part.volume = std::make_shared<const volume::IntensityVolume>(
-        readNamed(path, series, options, progress.part(0.2, 0.9), notes));
+        readNamed(path, series, options, progress.part(0.2, 0.9), notes, facts.interpolated));
+    take(facts, imaging::pixelFaults(series.geometry.slices));
     part.notes = std::move(notes);
     part.frameOfReference = withoutIdentity(series.frameOfReferenceUid);
     part.patient = patientOf(series);
@@ -283,6 +291,7 @@ ReadImage readImage(const fs::path& path, const std::string& selector, bool repa
                     : series.modality == "CT" ? scene::Modality::Ct
                                               : scene::Modality::Unknown;
   }
+  part.facts = std::move(facts);
   const auto image = part.volume.get();
   part.geometry = image->geometry();
   part.range = image->range();
@@ -710,11 +719,7 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     if (!source.labelNames.empty())
       naming = {source.labelNames, true};
     const auto gridOf = [](const scene::ImagePart& image)
-    {
-      return imaging::ImageGrid(
-          image.geometry,
-          std::any_of(image.notes.begin(), image.notes.end(), imaging::isNoteOfSide));
-    };
+    { return imaging::ImageGrid(image.geometry, factsOf(image).isSideAssumed); };
     std::vector<imaging::ImageGrid> images{gridOf(value.ct)};
     for (const scene::ImagePart& mr : value.mr)
       images.push_back(gridOf(mr));

@@ -12,6 +12,7 @@
 #include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Presenters/ImageFacts.h"
 #include "petrous/Presenters/SeriesPreview.h"
 
 namespace petrous::presenters
@@ -244,7 +245,7 @@ std::optional<double> writeCaseSeries(const std::filesystem::path& folder, const
   }
   series.modality = isMr ? Modality::Mr : Modality::Ct;
   series.derived = true;
-  series.faults = imaging::pixelFaults(part.notes);
+  series.faults = pixelFaultsOf(factsOf(part));
   if (const std::string guessed = interpolatedText(part); !guessed.empty())
     series.derivation = (onCt ? "Resampled from an image of which " : "Repaired: ") + guessed +
                         " between neighbours";

@@ -16,6 +16,7 @@
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CaseDicom.h"
 #include "petrous/Presenters/CaseExport.h"
+#include "petrous/Presenters/ImageFacts.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/LeavingImages.h"
 #include "petrous/Scene/Placement.h"
@@ -141,9 +142,8 @@ private:
     const fs::path folder = freshFolder();
     try
     {
-      if (const auto error =
-              writeCaseSeries(folder, m_value, what, part, *volume, drawnOn, false, m_options,
-                              progress);
+      if (const auto error = writeCaseSeries(folder, m_value, what, part, *volume, drawnOn, false,
+                                             m_options, progress);
           error && *error > 0.0)
         m_notes.push_back(roundingNote("'" + part.name + "'", *error));
     }
@@ -475,13 +475,12 @@ void warnOfIdentities(const std::string& what, const std::vector<std::string>& t
                        "send");
 }
 
-/// Text in the pixels of images that leave: the primary one, the MRs. Known by their notes, which
-/// every version of the program keeps with the case.
+/// Text in the pixels of images that leave: the primary one, the MRs.
 void warnOfText(const scene::Case& value, bool primary, bool mrs,
                 std::vector<std::string>& warnings)
 {
   const auto mayHaveText = [](const scene::ImagePart& image)
-  { return std::any_of(image.notes.begin(), image.notes.end(), imaging::isNoteOfText); };
+  { return factsOf(image).text != scene::ImageFacts::Text::None; };
   std::vector<std::string> images;
   if (primary && mayHaveText(value.ct))
     images.push_back(std::string("the ") + primaryName(value));

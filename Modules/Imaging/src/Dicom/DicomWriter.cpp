@@ -137,9 +137,9 @@ std::vector<char> storedValues(const volume::Volume<T>& image, int k, double slo
   std::vector<char> bytes(2 * count);
   for (std::size_t i = 0; i < count; ++i)
   {
-    const auto bits = static_cast<std::uint16_t>(static_cast<S>(
-        storedOf(static_cast<double>(values[i]), slope, intercept,
-                 std::numeric_limits<S>::lowest(), std::numeric_limits<S>::max())));
+    const auto bits = static_cast<std::uint16_t>(
+        static_cast<S>(storedOf(static_cast<double>(values[i]), slope, intercept,
+                                std::numeric_limits<S>::lowest(), std::numeric_limits<S>::max())));
     bytes[2 * i] = static_cast<char>(bits & 0xFF);
     bytes[2 * i + 1] = static_cast<char>(bits >> 8);
   }
@@ -258,7 +258,8 @@ void writeDicomSeries(const std::filesystem::path& folder, const volume::Intensi
           const auto isPadding = [&image](T value)
           { return static_cast<double>(value) == *image.padding(); };
           const auto padding =
-              image.padding() && std::any_of(voxels.data(), voxels.data() + voxels.size(), isPadding)
+              image.padding() &&
+                      std::any_of(voxels.data(), voxels.data() + voxels.size(), isPadding)
                   ? image.padding()
                   : std::nullopt;
           std::atomic<int> done{0};
@@ -272,9 +273,9 @@ void writeDicomSeries(const std::filesystem::path& folder, const volume::Intensi
             data = commonPart(description, grid, std::is_signed_v<S>, ct || isFloat);
             if (padding) // a voxel has it, so it fits
               put(data, 0x0028, 0x0120,
-                  static_cast<std::uint16_t>(static_cast<S>(storedOf(
-                      *padding, description.rescaleSlope, description.rescaleIntercept,
-                      std::numeric_limits<S>::lowest(), std::numeric_limits<S>::max()))),
+                  static_cast<std::uint16_t>(static_cast<S>(
+                      storedOf(*padding, description.rescaleSlope, description.rescaleIntercept,
+                               std::numeric_limits<S>::lowest(), std::numeric_limits<S>::max()))),
                   std::is_signed_v<S> ? "SS" : "US");
             if (ct && sliceStep)
             {

@@ -202,9 +202,9 @@ ImagePreview previewImageFile(const std::filesystem::path& path, std::size_t sli
     dims[1] = (whole[1] + plane - 1) / plane;
   }
   requireMemory(path, needed(), "give a smaller file", free);
-  const core::GridGeometry few(
-      dims, grid.spacing().cwiseProduct(Eigen::Vector3d(plane, plane, step)), grid.origin(),
-      grid.direction());
+  const core::GridGeometry few(dims,
+                               grid.spacing().cwiseProduct(Eigen::Vector3d(plane, plane, step)),
+                               grid.origin(), grid.direction());
   const std::size_t kept =
       static_cast<std::size_t>(dims[0]) * static_cast<std::size_t>(dims[1]) * voxelBytes;
   const auto buffer = std::make_shared<std::vector<char>>(kept * static_cast<std::size_t>(dims[2]));

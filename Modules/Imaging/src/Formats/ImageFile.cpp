@@ -194,8 +194,8 @@ ImagePreview previewImageFile(const std::filesystem::path& path, std::size_t sli
            (voxelBytes + sizeof(float)); // as read, and at most as converted
   };
   const std::uint64_t free = memory > 0 ? memory : core::systemMemory().available;
-  int plane = 1;
-  while (free > 0 && needed() > free && std::min(whole[0], whole[1]) / (plane + 1) >= 2)
+  int plane = 1; // with a slice in decoding, and what else runs
+  while (needed() > free / 2 && free > 0 && std::min(whole[0], whole[1]) / (plane + 1) >= 2)
   {
     ++plane;
     dims[0] = (whole[0] + plane - 1) / plane;

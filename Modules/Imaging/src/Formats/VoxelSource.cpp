@@ -138,12 +138,13 @@ bool VoxelSource::settleSide(const std::optional<bool>& isRas, const std::vector
     note(", as asked");
     return true;
   }
+  constexpr double kAside = 0.01; // mm, ten times what equal grids may differ by
   const bool first = *m_assumedRas;
   const auto isOfImage = [&](bool side)
   {
     assume(side);
     // From 0, 0, 0 on, which no header has to state, the grid is any image's.
-    const bool tells = m_geometry->origin().head<2>().norm() > 0.0;
+    const bool tells = m_geometry->origin().head<2>().norm() > kAside;
     return std::any_of(images.begin(), images.end(),
                        [&](const ImageGrid& grid) {
                          return (tells || grid.isSideAssumed) && core::sameGrid(grid, *m_geometry);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <fstream>
 #include <random>
 
@@ -13,6 +14,7 @@
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/SeriesPreview.h"
 #include "petrous/Presenters/SourceContent.h"
+#include "petrous/Scene/Manifest.h"
 
 using namespace petrous;
 using Eigen::Vector3d;
@@ -225,6 +227,35 @@ TEST_F(SourceContent, OffersTheStructureSetsOfAFolder)
   ASSERT_NE(set, found.series.end());
   EXPECT_EQ(set->content, Content::Labels);
   EXPECT_EQ(set->file.filename(), "set.dcm");
+
+  // A DICOMDIR stands for its folder.
+  std::string index(128, '\0');
+  index += "DICM" + std::string("\x02\0\x02\0UI\x14\0", 8) + "1.2.840.10008.1.3.10" +
+           std::string("\x02\0\x10\0UI\x14\0", 8) + std::string("1.2.840.10008.1.2.1\0", 20) +
+           std::string("\x04\0\x20\x12SQ\0\0\0\0\0\0", 12);
+  std::ofstream(m_folder / "ct" / "DICOMDIR", std::ios::binary) << index;
+  const auto disc = presenters::lookAt(m_folder / "ct" / "DICOMDIR", {});
+  ASSERT_EQ(disc.series.size(), found.series.size());
+  EXPECT_TRUE(std::any_of(disc.series.begin(), disc.series.end(),
+                          [](const auto& one) { return one.file.filename() == "set.dcm"; }));
+}
+
+TEST_F(SourceContent, MasksAreTakenForWhatTheyAreAlsoAboveDicom)
+{
+  phantom::SampleOptions options;
+  options.spacing = 1.5;
+  phantom::writeSamplePatient(m_folder, options);
+  auto voxels = volume::makeZeroVolume<std::uint16_t>(kGrid);
+  voxels->at(3, 4, 5) = 1;
+  std::filesystem::create_directories(m_folder / "study");
+  std::filesystem::rename(m_folder / "ct", m_folder / "study" / "ct");
+  imaging::writeLabelFile(m_folder / "study" / "incus.nii.gz", volume::makeLabelMap(voxels, {}));
+  EXPECT_EQ(presenters::lookAt(m_folder / "study", {}).content, Content::Ct);
+  const auto masks = presenters::lookAt(m_folder / "study", {}, Content::Labels);
+  EXPECT_EQ(masks.content, Content::Labels);
+  EXPECT_EQ(masks.structures, std::vector<std::string>{"incus"});
+  EXPECT_EQ(presenters::lookAt(m_folder / "study" / "ct", {}, Content::Labels).content, Content::Ct)
+      << "there are none";
 }
 
 TEST(SequenceName, KeepsOnlyWhatNamesASequence)
@@ -286,6 +317,40 @@ TEST_F(SourceContent, WhatRepairInterpolatedIsKnownFromTheCase)
   EXPECT_EQ(presenters::interpolatedSlices(many), (std::vector<int>{2, 6, 7, 8}));
   many.notes = {"Repaired: slices 3 of 61 were interpolated between neighbours"};
   EXPECT_TRUE(presenters::interpolatedSlices(many).empty()) << "of another grid";
+}
+
+TEST_F(SourceContent, ManyInterpolatedSlicesAreKnownOneByOne)
+{
+  // More gaps than a note names one by one.
+  phantom::SampleOptions options;
+  options.spacing = 1.0;
+  options.dims = core::Index3{24, 24, 300};
+  phantom::writeSamplePatient(m_folder, options);
+  const auto scan = imaging::scanDicom(m_folder / "ct", {});
+  std::vector<int> gone;
+  for (std::size_t k = 5; k < 265; k += 10)
+  {
+    std::filesystem::remove(scan.series.at(0).geometry.slices.at(k).file);
+    gone.push_back(static_cast<int>(k));
+  }
+  presenters::CaseSources sources;
+  sources.ct = m_folder / "ct";
+  sources.repair = true;
+  const auto value = presenters::buildCase("ear", sources, {});
+  EXPECT_EQ(presenters::interpolatedSlices(value.ct), gone);
+  const auto stored = scene::fromManifest(scene::toManifest(value), "case");
+  EXPECT_EQ(presenters::interpolatedSlices(stored.ct), gone);
+  EXPECT_EQ(presenters::interpolatedText(stored.ct),
+            "slices 6, 16, 26, 36 and others interpolated");
+  // Without the record the notes say what they can, whatever else is in them.
+  auto older = stored;
+  older.ct.facts.reset();
+  const auto noted = presenters::interpolatedSlices(older.ct);
+  EXPECT_GT(noted.size(), gone.size());
+  for (const int slice : gone)
+    EXPECT_TRUE(std::find(noted.begin(), noted.end(), slice) != noted.end()) << slice;
+  older.ct.facts = scene::ImageFacts();
+  EXPECT_TRUE(presenters::interpolatedSlices(older.ct).empty()) << "the record counts";
 }
 
 TEST_F(SourceContent, ThePreviewOfARegionCountsWhatWouldBeRead)

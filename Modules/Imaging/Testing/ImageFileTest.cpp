@@ -1,4 +1,5 @@
 #include "petrous/Imaging/ImageFile.h"
+#include "petrous/Imaging/ImagePreview.h"
 
 #include <cmath>
 #include <limits>
@@ -373,6 +374,33 @@ TEST(ImageFile, SaysWhereTheSideIsLeftOpen)
   EXPECT_EQ(assumedRasOf(putFile(folder / "e.mha", meta + end)), false);
   EXPECT_FALSE(assumedRasOf(
       putFile(folder / "f.mha", meta + "TransformMatrix = 1 0 0 0 1 0 0 0 1\n" + end)));
+}
+
+TEST(ImageFile, NotesOfAnOpenSideDoNotContradictEachOther)
+{
+  const TestFolder folder;
+  const std::string voxels = bytesOf(counting<std::int16_t>(24));
+  TestNifti nifti = shortNifti();
+  nifti.sform = 0;
+  const std::string head = "NRRD0004\ntype: short\ndimension: 3\nsizes: 4 3 2\nendian: little\n"
+                           "encoding: raw\n";
+  const std::string axes = "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n\n";
+  const std::string meta = "ObjectType = Image\nNDims = 3\nBinaryData = True\n"
+                           "BinaryDataByteOrderMSB = False\nElementSpacing = 1 1 1\n"
+                           "DimSize = 4 3 2\nElementType = MET_SHORT\nElementDataFile = LOCAL\n";
+  for (const auto& path :
+       {putFile(folder / "a.nii", nifti.bytes()),
+        putFile(folder / "b.nrrd", head + "spacings: 1 1 1\n\n" + voxels),
+        putFile(folder / "c.nrrd", head + "space dimension: 3\n" + axes + voxels),
+        putFile(folder / "d.nrrd", head + "space: scanner-xyz\n" + axes + voxels),
+        putFile(folder / "e.mha", meta + voxels)})
+    for (const bool isRas : {false, true})
+    {
+      const auto image = readImageFile(path, std::nullopt, {}, isRas);
+      EXPECT_TRUE(noted(image, isRas ? "taken as RAS, as asked" : "taken as LPS, as asked"));
+      for (const char* side : {"left,", "back", "posterior", isRas ? "LPS" : "RAS"})
+        EXPECT_FALSE(noted(image, side)) << path << ' ' << side;
+    }
 }
 
 TEST(ImageFile, KeepsThePaddingOfEveryFormatThatIsWritten)
@@ -886,6 +914,50 @@ TEST(ImageFile, KeepsOnlyTheRegionOfInterest)
                                  Eigen::Vector3d(60.0, 9.0, 109.0)};
   expectRefused(refusalOf([&] { readImageFile(folder / "a.nrrd", outside); }), Reason::Unsupported,
                 "region of interest");
+}
+
+TEST(ImageFile, APreviewTakesNoMoreMemoryThanThereIs)
+{
+  const TestFolder folder;
+  constexpr int kSide = 40;
+  constexpr int kSlices = 12;
+  std::vector<std::int16_t> voxels;
+  for (int k = 0; k < kSlices; ++k)
+    for (int j = 0; j < kSide; ++j)
+      for (int i = 0; i < kSide; ++i)
+        voxels.push_back(static_cast<std::int16_t>(1000 * k + 20 * j - 3 * i));
+  const auto path = putFile(
+      folder / "a.nrrd",
+      "NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 40 40 12\n"
+      "space directions: (0.5,0,0) (0,0.5,0) (0,0,2)\nspace origin: (-3,4,5)\nendian: little\n"
+      "encoding: raw\n\n" +
+          bytesOf(voxels));
+  for (const std::uint64_t memory : {0UL, 60000UL, 9000UL, 2000UL})
+  {
+    SCOPED_TRACE(memory);
+    const ImagePreview preview = previewImageFile(path, 4, {}, std::nullopt, memory);
+    EXPECT_TRUE(core::sameGrid(preview.grid, readImageFile(path).volume->geometry()));
+    const core::GridGeometry& grid = preview.volume->geometry();
+    EXPECT_EQ(grid.dims()[2], 4);
+    if (memory == 0)
+    {
+      EXPECT_EQ(grid.dims(), (core::Index3{kSide, kSide, 4}));
+    }
+    else
+    {
+      EXPECT_LE(grid.voxelCount() * sizeof(std::int16_t), memory);
+    }
+    for (int k = 0; k < grid.dims()[2]; ++k)
+      for (int j = 0; j < grid.dims()[1]; ++j)
+        for (int i = 0; i < grid.dims()[0]; ++i)
+        {
+          const Eigen::Vector3d at = grid.patientFromVoxel(Eigen::Vector3d(i, j, k));
+          ASSERT_NEAR(preview.volume->at(i, j, k),
+                      500.0 * (at[2] - 5.0) + 40.0 * (at[1] - 4.0) - 6.0 * (at[0] + 3.0), 1e-9);
+        }
+  }
+  expectRefused(refusalOf([&] { previewImageFile(path, 4, {}, std::nullopt, 16); }),
+                FileError::Reason::Unreadable, "memory");
 }
 
 TEST(ImageFile, AcceptsAFourthDimensionOfOneOnly)

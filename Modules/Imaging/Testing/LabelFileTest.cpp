@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -233,6 +235,43 @@ TEST(LabelFile, ReadsTheTerminologyOfSlicersSegments)
 }
 
 // By hand: voxel (2, 1, 1) lies at (1 + 1, 2 + 0.5, 3 + 1) in the file's own frame.
+TEST(LabelFile, ReadsThousandsOfSegments)
+{
+  constexpr int kCount = 4000;
+  const TestFolder folder;
+  std::string keys;
+  std::vector<std::uint16_t> voxels;
+  for (int n = 0; n < kCount; ++n)
+  {
+    const std::string prefix = "Segment" + std::to_string(n) + "_";
+    keys += prefix + "Name:=" + (n % 2 == 0 ? "same" : "part " + std::to_string(n)) + "\n" +
+            prefix + "LabelValue:=" + std::to_string(n + 1) + "\n" + prefix + "Color:=1 0 0\n" +
+            prefix + "Layer:=0\n" + prefix + "Tags:=TerminologyEntry:x~SCT^1^Tissue~SCT^" +
+            std::to_string(n) + "^thing~^^~y~^^~^^|\n";
+    voxels.push_back(static_cast<std::uint16_t>(n + 1));
+  }
+  const auto path = putFile(
+      folder / "many.seg.nrrd",
+      "NRRD0004\ntype: unsigned short\ndimension: 3\nspace: left-posterior-superior\nsizes: 40 10 "
+      "10\nspace directions: (1,0,0) (0,1,0) (0,0,1)\nkinds: domain domain domain\nendian: little\n"
+      "encoding: raw\nspace origin: (0,0,0)\n" +
+          keys + "\n" + bytesOf(voxels));
+  const LoadedLabels loaded = loadLabels(path);
+  ASSERT_EQ(loaded.maps.size(), 1U);
+  const auto& segments = loaded.maps[0].segments;
+  ASSERT_EQ(segments.size(), std::size_t{kCount});
+  EXPECT_EQ(segments[0].name, "same");
+  EXPECT_EQ(segments[3999].name, "part 3999");
+  std::set<std::string> names;
+  for (const auto& segment : segments)
+  {
+    names.insert(segment.name);
+    EXPECT_EQ(loaded.codes.at(segment.name).type.value, std::to_string(segment.index - 1));
+  }
+  EXPECT_EQ(names.size(), std::size_t{kCount});
+  EXPECT_EQ(names.count("same 2000"), 1U);
+}
+
 TEST(LabelFile, LiesWhereEverySpaceSays)
 {
   const TestFolder folder;
@@ -251,6 +290,54 @@ TEST(LabelFile, LiesWhereEverySpaceSays)
       EXPECT_TRUE(map.voxels->geometry().patientFromVoxel({2.0, 1.0, 1.0}).isApprox(place, 1e-12))
           << space << " " << name;
     }
+}
+
+/// Where voxel (1, 0, 0) lies, or nothing if it is left open which side is left.
+std::optional<Eigen::Vector3d> placed(const std::filesystem::path& path,
+                                      const std::vector<ImageGrid>& images)
+{
+  const LoadedLabels loaded = loadLabels(path, {}, {}, images);
+  if (loaded.isSideOpen)
+    return std::nullopt;
+  return loaded.maps.at(0).voxels->geometry().patientFromVoxel({1, 0, 0});
+}
+
+TEST(LabelFile, AGridSettlesTheSideOnlyWhereItTellsOne)
+{
+  const TestFolder folder;
+  const auto nrrdFrom = [&folder](const std::string& name, const std::string& origin)
+  {
+    return putFile(folder / name,
+                   "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 4 3 2\nspace dimension: 3\n"
+                   "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: " +
+                       origin + "\nendian: little\nencoding: raw\n\n" + std::string(23, '\0') +
+                       '\1');
+  };
+  const Eigen::Matrix3d turned = Eigen::Vector3d(-1, -1, 1).asDiagonal();
+  const core::GridGeometry middle({4, 3, 2}, {1, 1, 1}, {0, 0, 0});
+  const core::GridGeometry middleRas({4, 3, 2}, {1, 1, 1}, {0, 0, 0}, turned);
+  const core::GridGeometry aside({4, 3, 2}, {1, 1, 1}, {-8, 2, 3});
+  const core::GridGeometry asideRas({4, 3, 2}, {1, 1, 1}, {8, -2, 3}, turned);
+  const auto zero = nrrdFrom("zero.nrrd", "(0,0,0)");
+  const auto far = nrrdFrom("far.nrrd", "(-8,2,3)");
+  const Eigen::Vector3d lps(-7, 2, 3);
+  const Eigen::Vector3d ras(7, -2, 3);
+
+  // From 0, 0, 0 any image of the size has this grid, whichever side is meant.
+  EXPECT_FALSE(placed(zero, {middle}));
+  EXPECT_FALSE(placed(nrrdFrom("up.nrrd", "(0,0,3)"),
+                      {core::GridGeometry({4, 3, 2}, {1, 1, 1}, {0, 0, 3})}));
+  // Unless the image's own file was as silent: it counts as that was said to.
+  EXPECT_EQ(placed(zero, {{middle, true}}), Eigen::Vector3d(1, 0, 0));
+  EXPECT_EQ(placed(zero, {{middleRas, true}}), Eigen::Vector3d(-1, 0, 0));
+  // An origin on one side is that of one image only.
+  EXPECT_EQ(placed(far, {aside}), lps);
+  EXPECT_EQ(placed(far, {middle, asideRas}), ras);
+  EXPECT_FALSE(placed(far, {middle}));
+  // Two images, of one side each.
+  EXPECT_FALSE(placed(far, {aside, asideRas}));
+  EXPECT_FALSE(placed(far, {asideRas, aside}));
+  EXPECT_FALSE(placed(zero, {{middle, true}, {middleRas, true}}));
 }
 
 TEST(LabelFile, SaysWhichStructuresLieInNoLayer)

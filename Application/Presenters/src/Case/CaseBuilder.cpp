@@ -24,6 +24,7 @@
 #include "petrous/Imaging/StructureSet.h"
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Library/ObjectStore.h"
+#include "petrous/Presenters/ImageFacts.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/FreeName.h"
 #include "petrous/Scene/Placement.h"
@@ -57,11 +58,12 @@ std::string nameFromFile(const fs::path& path, const std::string& otherwise, con
 // The reader knows the series; the user knows the path.
 volume::IntensityVolume readNamed(const fs::path& path, const imaging::DicomSeries& series,
                                   const imaging::ReadOptions& options,
-                                  const core::Progress& progress, std::vector<std::string>& notes)
+                                  const core::Progress& progress, std::vector<std::string>& notes,
+                                  std::vector<int>& interpolated)
 {
   try
   {
-    return imaging::readSeries(series, options, progress, &notes);
+    return imaging::readSeries(series, options, progress, &notes, &interpolated);
   }
   catch (const imaging::DicomError& error)
   {
@@ -191,6 +193,20 @@ std::string codeText(const std::string& text)
                                                                                   : "unknown";
 }
 
+// A unit of a file, which may stand in a note if it is one.
+std::string unitText(const std::string& unit)
+{
+  static const char* const kUcum[] = {"1",           "%",         "ms",
+                                      "s",           "/s",        "1/s",
+                                      "/min",        "mm2/s",     "um2/s",
+                                      "ml/g",        "g/ml",      "mg/ml",
+                                      "Bq/ml",       "kPa",       "10-6.mm2/s",
+                                      "10*-6.mm2/s", "ml/min/ml", "ml/100ml/min",
+                                      "ug/ml",       "ml/ml",     "ml/(100.ml.min)"};
+  return std::find(std::begin(kUcum), std::end(kUcum), unit) != std::end(kUcum) ? unit
+                                                                                : codeText(unit);
+}
+
 // Why the values of a series are not the intensities of a CT or MR; empty if they may be. X-ray
 // volumes (cone beam) are CTs under other names, of old converters too.
 std::string otherQuantity(const imaging::DicomSeries& series)
@@ -203,7 +219,7 @@ std::string otherQuantity(const imaging::DicomSeries& series)
     if (const std::string& unit = series.geometry.slices.front().rescaleType;
         !unit.empty() && unit != "HU" && unit != "US")
       return "The file says that its values are no Hounsfield units, but of the type " +
-             codeText(unit) + ".";
+             unitText(unit) + ".";
   return {};
 }
 
@@ -229,11 +245,13 @@ ReadImage readImage(const fs::path& path, const std::string& selector, bool repa
 {
   ReadImage read;
   scene::ImagePart& part = read.part;
+  scene::ImageFacts facts;
   if (!fs::is_directory(path) && imaging::isReadAs(path, imaging::kImage | imaging::kLabels))
   {
     auto image = imaging::readImageFile(path, roi, progress, assumeRas);
     part.volume = image.volume;
     part.notes = std::move(image.notes);
+    facts.isSideAssumed = image.assumedRas.has_value();
   }
   else
   {
@@ -248,6 +266,12 @@ ReadImage readImage(const fs::path& path, const std::string& selector, bool repa
     for (const imaging::Finding& finding : series.geometry.findings) // accepted
       if (finding.kind != imaging::FindingKind::Unreadable)          // these name files
         notes.push_back(finding.text);
+    // What this series lost is one of its findings.
+    if (scan.lostFiles > 0 && series.lostFiles == 0)
+      notes.push_back("The index of the disc (DICOMDIR) lists " + std::to_string(scan.lostFiles) +
+                      (scan.lostFiles == 1 ? " file of another series that is"
+                                           : " files of other series that are") +
+                      " not there: what they showed is missing from this copy of the disc.");
     if (!scan.notes.empty()) // which name files and folders, possibly after patients
       notes.push_back("Of what lies beside its slices, something was left out in " +
                       std::to_string(scan.notes.size()) +
@@ -257,7 +281,8 @@ ReadImage readImage(const fs::path& path, const std::string& selector, bool repa
         !left.empty())
       notes.push_back(left);
     part.volume = std::make_shared<const volume::IntensityVolume>(
-        readNamed(path, series, options, progress.part(0.2, 0.9), notes));
+        readNamed(path, series, options, progress.part(0.2, 0.9), notes, facts.interpolated));
+    take(facts, imaging::pixelFaults(series.geometry.slices));
     part.notes = std::move(notes);
     part.frameOfReference = withoutIdentity(series.frameOfReferenceUid);
     part.patient = patientOf(series);
@@ -266,6 +291,7 @@ ReadImage readImage(const fs::path& path, const std::string& selector, bool repa
                     : series.modality == "CT" ? scene::Modality::Ct
                                               : scene::Modality::Unknown;
   }
+  part.facts = std::move(facts);
   const auto image = part.volume.get();
   part.geometry = image->geometry();
   part.range = image->range();
@@ -689,9 +715,11 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     imaging::LabelNaming naming{parts.labelNames, parts.labels.size() == 1};
     if (!source.labelNames.empty())
       naming = {source.labelNames, true};
-    std::vector<core::GridGeometry> images{value.ct.geometry};
+    const auto gridOf = [](const scene::ImagePart& image)
+    { return imaging::ImageGrid(image.geometry, factsOf(image).isSideAssumed); };
+    std::vector<imaging::ImageGrid> images{gridOf(value.ct)};
     for (const scene::ImagePart& mr : value.mr)
-      images.push_back(mr.geometry);
+      images.push_back(gridOf(mr));
     loaded = imaging::loadLabels(source.path, progress, naming, images, source.assumeRas);
     if (loaded.isSideOpen)
       throw ImageSideUnclear(source.path, "--labels-frame");

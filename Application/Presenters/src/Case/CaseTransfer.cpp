@@ -7,7 +7,6 @@
 #include <optional>
 #include <regex>
 #include <set>
-#include <variant>
 
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Library/Archive.h"
@@ -17,6 +16,7 @@
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CaseDicom.h"
 #include "petrous/Presenters/CaseExport.h"
+#include "petrous/Presenters/ImageFacts.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/LeavingImages.h"
 #include "petrous/Scene/Placement.h"
@@ -40,11 +40,6 @@ void addFiles(const fs::path& folder, std::vector<fs::path>& files)
       here.push_back(entry.path());
   std::sort(here.begin(), here.end());
   files.insert(files.end(), here.begin(), here.end());
-}
-
-bool hasFractions(const volume::IntensityVolume& image)
-{
-  return std::holds_alternative<std::shared_ptr<const volume::Volume<float>>>(image.voxels());
 }
 
 /// The structures by space and grid: a segmentation has one of each.
@@ -147,19 +142,19 @@ private:
     const fs::path folder = freshFolder();
     try
     {
-      if (const auto error =
-              writeCaseSeries(folder, m_value, what, *volume, drawnOn, false, m_options, progress);
+      if (const auto error = writeCaseSeries(folder, m_value, what, part, *volume, drawnOn, false,
+                                             m_options, progress);
           error && *error > 0.0)
         m_notes.push_back(roundingNote("'" + part.name + "'", *error));
     }
-    catch (const core::InvalidParameter&)
+    catch (const FractionsError&)
     {
-      if (!hasFractions(*volume))
-        throw;
       leaveOut("the voxels of '" + part.name +
                "' are fractions, which 16 bits of a DICOM series do not hold within half a unit");
       return;
     }
+    if (const std::string guessed = guessedNote(part); !guessed.empty())
+      m_notes.push_back(guessed);
     addFiles(folder, m_files);
   }
 
@@ -480,13 +475,12 @@ void warnOfIdentities(const std::string& what, const std::vector<std::string>& t
                        "send");
 }
 
-/// Text in the pixels of images that leave: the primary one, the MRs. Known by their notes, which
-/// every version of the program keeps with the case.
+/// Text in the pixels of images that leave: the primary one, the MRs.
 void warnOfText(const scene::Case& value, bool primary, bool mrs,
                 std::vector<std::string>& warnings)
 {
   const auto mayHaveText = [](const scene::ImagePart& image)
-  { return std::any_of(image.notes.begin(), image.notes.end(), imaging::isNoteOfText); };
+  { return factsOf(image).text != scene::ImageFacts::Text::None; };
   std::vector<std::string> images;
   if (primary && mayHaveText(value.ct))
     images.push_back(std::string("the ") + primaryName(value));

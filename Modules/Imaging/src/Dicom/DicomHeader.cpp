@@ -10,6 +10,7 @@
 #include "Codestream.h"
 #include "DicomElements.h"
 #include "DicomItem.h"
+#include "PixelCodec.h"
 #include "SegmentationReader.h"
 #include "petrous/Core/NumberText.h"
 
@@ -89,23 +90,52 @@ bool fragmentsComplete(ByteSource& source, std::uint64_t offset)
   return bytes > 0; // some writers omit the sequence delimiter
 }
 
-/// The beginning of the first compressed frame.
-std::vector<char> firstBytes(ByteSource& source, std::uint64_t offset)
+/// Whether compressed frames say that they were made with loss, the header of each followed as far
+/// as it goes: true if any does; nullopt if one of the others does not say.
+std::optional<bool> isLossy(ByteSource& source, const SliceHeader& slice)
 {
-  constexpr std::size_t kMost = 1024; // bytes: a JPEG-LS or JPEG 2000 header
-  std::array<unsigned char, 4> raw{};
-  const auto lengthAt = [&](std::uint64_t at) -> std::uint64_t
+  const std::vector<Fragment> fragments = readFragments(source, slice);
+  const auto byteAt = [&source](std::uint64_t at) -> std::optional<std::uint32_t>
   {
-    if (!source.read(at + 4, raw.data(), raw.size()))
-      return 0;
-    return raw[0] | (raw[1] << 8) | (raw[2] << 16) | (static_cast<std::uint64_t>(raw[3]) << 24);
+    unsigned char byte = 0;
+    return source.readNear(at, &byte, 1) ? std::optional<std::uint32_t>(byte) : std::nullopt;
   };
-  const std::uint64_t item = offset + 8 + lengthAt(offset); // after the basic offset table
-  std::vector<char> bytes(static_cast<std::size_t>(std::min<std::uint64_t>(
-      kMost, item + 8 <= source.size() ? std::min(lengthAt(item), source.size() - item - 8) : 0)));
-  if (!source.read(item + 8, bytes.data(), bytes.size()))
-    bytes.clear();
-  return bytes;
+  const auto begins = [&](const Fragment& fragment) // a frame of several fragments goes on
+  {
+    const auto first = byteAt(fragment.offset);
+    const auto second = byteAt(fragment.offset + 1);
+    const bool isJp2 = first == 0U && second == 0U && byteAt(fragment.offset + 3) == 12U;
+    return (first == 0xffU && (second == 0xd8U || second == 0x4fU)) || isJp2;
+  };
+  bool isKnown = true;
+  bool isAny = false;
+  for (std::size_t from = 1; from < fragments.size() && !isAny;)
+  {
+    std::size_t to = from + 1;
+    while (to < fragments.size() && (slice.frames == 1 || !begins(fragments[to])))
+      ++to;
+    const auto number = [&](std::uint64_t at, std::size_t bytes) -> std::optional<std::uint32_t>
+    {
+      std::uint32_t value = 0;
+      for (std::size_t b = 0; b < bytes; ++b)
+      {
+        std::uint64_t within = at + b;
+        std::size_t n = from;
+        for (; n < to && within >= fragments[n].length; ++n)
+          within -= fragments[n].length;
+        const auto byte = n < to ? byteAt(fragments[n].offset + within) : std::nullopt;
+        if (!byte)
+          return std::nullopt;
+        value = (value << 8) | *byte;
+      }
+      return value;
+    };
+    const auto frame = isLossyCodestream(number, slice.pixels.transferSyntax);
+    isKnown = isKnown && frame;
+    isAny = isAny || frame.value_or(false);
+    from = to;
+  }
+  return isAny || isKnown ? std::optional(isAny) : std::nullopt;
 }
 
 std::optional<Eigen::Vector3d> vectorAt(const std::vector<double>& values, std::size_t first)
@@ -318,8 +348,11 @@ const char* checkPixels(ByteSource& source, const DicomElements::Pixels& found, 
     // These may have loss or not, whatever the header says.
     if (pixels.transferSyntax == "1.2.840.10008.1.2.4.81" ||
         pixels.transferSyntax == "1.2.840.10008.1.2.4.91")
-      slice.isLossy = slice.isLossy ||
-                      isLossyCodestream(firstBytes(source, pixels.offset), pixels.transferSyntax);
+    {
+      const auto loss = isLossy(source, slice);
+      slice.isLossUnknown = !slice.isLossy && !loss;
+      slice.isLossy = slice.isLossy || loss.value_or(false);
+    }
   }
   else
   {
@@ -330,6 +363,26 @@ const char* checkPixels(ByteSource& source, const DicomElements::Pixels& found, 
       return "holds fewer pixels than its header says";
   }
   return checkFormat(slice, found.tag);
+}
+
+/// The mapping of a parametric map; what is wrong with it, or an empty string.
+const char* readMapping(const DicomElements& elements, SliceHeader& slice)
+{
+  const auto slope = elements.real(0x00409225);
+  const auto intercept = elements.real(0x00409224);
+  if (!slope || !intercept || *slope == 0.0)
+    return "does not say by a slope and an intercept what its values mean (real world value "
+           "mapping)";
+  if (elements.text(kRealWorldMapping) != "1")
+    return "says in several ways what its values mean (real world value mappings)";
+  slice.slope = *slope;
+  slice.intercept = *intercept;
+  if (const std::string unit = elements.text(0x00080100);
+      !unit.empty() && elements.text(0x00080102) == "UCUM")
+    slice.rescaleType = unit == "[hnsf'U]" ? "HU" : unit;
+  else
+    slice.rescaleType = "PARAMETRIC_MAP";
+  return "";
 }
 
 /// Each frame as a slice. None if the functional groups are not those of the frames; several frames
@@ -350,13 +403,7 @@ void readFrames(DicomElements& elements, FileHeader& header, bool isMap)
     SliceHeader slice = file;
     readPlace(elements, slice);
     readTraits(elements, slice);
-    slice.damage = readRescale(elements, slice);
-    if (isMap)
-    {
-      slice.slope = elements.real(0x00409225).value_or(1.0);
-      slice.intercept = elements.real(0x00409224).value_or(0.0);
-      slice.rescaleType = file.rescaleType;
-    }
+    slice.damage = isMap ? readMapping(elements, slice) : readRescale(elements, slice);
     if (const auto type = elements.words(0x00089007); !type.empty())
       slice.imageType = type;
     if (const auto acquisition = elements.integer(0x00209156))

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <mutex>
@@ -318,7 +319,8 @@ std::string firstNotEmpty(const std::vector<FileHeader*>& members, std::string F
 }
 
 /// nullopt: that could not be read.
-std::optional<bool> sameBytes(const fs::path& one, const fs::path& other)
+std::optional<bool> sameBytes(const fs::path& one, const fs::path& other,
+                              const core::Progress& progress)
 {
   std::error_code error;
   if (fs::file_size(one, error) != fs::file_size(other, error) || error)
@@ -329,6 +331,7 @@ std::optional<bool> sameBytes(const fs::path& one, const fs::path& other)
   std::vector<char> b(a.size());
   while (first && second)
   {
+    progress.check(kTask);
     first.read(a.data(), static_cast<std::streamsize>(a.size()));
     second.read(b.data(), static_cast<std::streamsize>(b.size()));
     if (first.gcount() != second.gcount() ||
@@ -341,12 +344,13 @@ std::optional<bool> sameBytes(const fs::path& one, const fs::path& other)
 }
 
 /// What comparing files and slices showed, in this scan and in an earlier one of the same files.
-/// Thread-safe.
+/// Throws CancelledError. Thread-safe.
 class Comparisons
 {
 public:
-  explicit Comparisons(KnownComparisons known)
+  Comparisons(KnownComparisons known, const core::Progress& progress)
     : m_known(std::move(known))
+    , m_progress(progress)
   {
   }
 
@@ -355,7 +359,7 @@ public:
   {
     const auto compare = [&]() -> std::optional<std::uint64_t>
     {
-      const auto same = sameBytes(one, other);
+      const auto same = sameBytes(one, other, m_progress);
       return same ? std::optional<std::uint64_t>(*same ? 1 : 0) : std::nullopt;
     };
     return result("bytes\n" + one.native() + "\n" + other.native(), compare).value_or(0) != 0;
@@ -368,7 +372,11 @@ public:
     const auto nameOf = [](const SliceHeader& slice)
     { return slice.file.native() + "\n" + std::to_string(slice.pixels.frame); };
     return *result("pixels\n" + nameOf(one) + "\n" + nameOf(other),
-                   [&] { return std::optional<std::uint64_t>(compare()); });
+                   [&]
+                   {
+                     m_progress.report(1.0, "comparing slices");
+                     return std::optional<std::uint64_t>(compare());
+                   });
   }
 
   const KnownComparisons& all() const noexcept { return m_known; }
@@ -391,6 +399,7 @@ private:
 
   std::mutex m_mutex;
   KnownComparisons m_known;
+  const core::Progress& m_progress;
 };
 
 /// Removes files that are copies of another, byte by byte; their number.
@@ -665,19 +674,25 @@ void compareEnds(std::vector<DicomSeries>& volumes, const Numbering& numbering)
            0.0});
 }
 
-/// The number of pixels in which two slices differ, as rescaled.
-std::uint64_t differingPixels(const SliceHeader& one, const SliceHeader& other)
+/// The number of pixels in which two slices differ, as rescaled. `first`: the decoded ones of
+/// `one`, or empty.
+std::uint64_t differingPixels(const SliceHeader& one, const SliceHeader& other,
+                              std::optional<StoredPixels>& first)
 {
-  StoredPixels first;
+  if (!first)
+  {
+    first.emplace();
+    decodePixels(one, *first);
+  }
   StoredPixels second;
-  decodePixels(one, first);
   decodePixels(other, second);
-  const std::size_t count = std::min(first.size(), second.size());
+  const std::size_t count = std::min(first->size(), second.size());
   std::uint64_t differing = 0;
   for (std::size_t p = 0; p < count; ++p)
     differing +=
-        one.slope * first.at(p) + one.intercept != other.slope * second.at(p) + other.intercept ? 1
-                                                                                                : 0;
+        one.slope * first->at(p) + one.intercept != other.slope * second.at(p) + other.intercept
+            ? 1
+            : 0;
   return differing;
 }
 
@@ -691,17 +706,20 @@ void compareDuplicates(SeriesGeometry& geometry, Comparisons& comparisons)
     return;
   const Eigen::Vector3d normal = geometry.grid->direction().col(2);
   const double same = sharedPlace(geometry.grid->spacing()[2]);
-  std::uint64_t differing = 0;       // pixels, of the pair that differs most
-  const SliceHeader* kept = nullptr; // of a place
+  std::uint64_t differing = 0;        // pixels, of the pair that differs most
+  const SliceHeader* kept = nullptr;  // of a place
+  std::optional<StoredPixels> pixels; // its own
   for (const SliceHeader& slice : geometry.slices)
   {
     if (!kept || normal.dot(*slice.position - *kept->position) > same)
     {
       kept = &slice;
+      pixels.reset();
       continue;
     }
     differing = std::max(
-        differing, comparisons.pixels(*kept, slice, [&] { return differingPixels(*kept, slice); }));
+        differing,
+        comparisons.pixels(*kept, slice, [&] { return differingPixels(*kept, slice, pixels); }));
     if (isMany && differing > 0)
       return; // refused already, and its slices may be thousands
   }
@@ -784,6 +802,10 @@ MadeSeries makeSeries(const std::vector<FileHeader*>& members, const Doubts& dou
   series.description = firstNotEmpty(members, &FileHeader::description);
   series.files = members.size() + doubts.own;
   series.kind = kindOf(members);
+  for (const FileHeader* member : members)
+    if (member->slice.damage.empty() &&
+        (isSegmentationClass(member->sopClass) || isStructureSetClass(member->sopClass)))
+      series.structures.push_back(member->slice.file);
   std::vector<SliceHeader> slices;
   slices.reserve(members.size());
   for (FileHeader* member : members)
@@ -857,43 +879,127 @@ std::string discName(const fs::path& path)
   return name;
 }
 
-/// What a DICOMDIR lists and that is not there: a copy that broke off leaves it whole. Empty:
-/// nothing.
-std::string missingFrom(const fs::path& index, const std::set<std::string>& names)
+/// What a DICOMDIR lists and that is not there: a copy that broke off leaves it whole.
+struct Lost
+{
+  struct File
+  {
+    fs::path path;
+    std::string seriesUid; ///< empty: the index does not say
+  };
+  std::size_t listed = 0;
+  std::vector<File> files;
+};
+
+/// The series of each record of a DICOMDIR: a record names the first of those below it, and each
+/// of these the next, by the offsets of their items in the file (PS3.3 F.3.2.2).
+std::vector<std::string> seriesOfRecords(const std::vector<DicomItem>& records,
+                                         const std::function<std::uint64_t(const DicomItem&)>& at)
+{
+  std::map<std::uint64_t, std::size_t> byOffset;
+  for (std::size_t n = 0; n < records.size(); ++n)
+    if (!records[n].bytes().empty())
+      byOffset.emplace(at(records[n]), n);
+  std::vector<std::string> series(records.size());
+  const auto follow = [&](const DicomItem& record, Tag tag)
+  {
+    const auto found = byOffset.find(record.whole(tag).value_or(0));
+    return found == byOffset.end() ? records.size() : found->second;
+  };
+  for (const DicomItem& record : records)
+  {
+    const std::string uid = record.text(0x0020000e);
+    if (uid.empty() || record.text(0x00041430) != "SERIES")
+      continue;
+    // Each record once: a hostile index may go in circles.
+    for (std::size_t n = follow(record, 0x00041420); n < records.size() && series[n].empty();
+         n = follow(records[n], 0x00041400))
+      series[n] = uid;
+  }
+  return series;
+}
+
+Lost lostOf(const fs::path& index, const std::set<std::string>& names)
 {
   constexpr std::uint64_t kLargest = std::uint64_t{64} << 20; // bytes
+  Lost lost;
   ByteSource source(index);
   const DicomElements elements(source);
   if (!source.isOpen() || elements.state() != DicomElements::State::Complete ||
       source.size() > kLargest || elements.dataStart() > source.size())
-    return {};
+    return lost;
   std::string bytes(static_cast<std::size_t>(source.size() - elements.dataStart()), '\0');
   if (!source.read(elements.dataStart(), bytes.data(), bytes.size()))
-    return {};
+    return lost;
   const DicomItem data(bytes, {elements.isExplicit(), elements.isBigEndian()});
-  std::size_t listed = 0;
-  std::size_t missing = 0;
-  fs::path first;
-  for (const DicomItem& record : data.items(0x00041220))
+  const std::vector<DicomItem> records = data.items(0x00041220);
+  const auto offsetOf = [&](const DicomItem& record)
   {
-    std::string id = record.text(0x00041500); // components separated by backslashes
+    constexpr std::uint64_t kHead = 8; // bytes: tag and length of an item
+    return elements.dataStart() + static_cast<std::uint64_t>(record.bytes().data() - bytes.data()) -
+           kHead;
+  };
+  const std::vector<std::string> series = seriesOfRecords(records, offsetOf);
+  for (std::size_t n = 0; n < records.size(); ++n)
+  {
+    std::string id = records[n].text(0x00041500); // components separated by backslashes
     if (id.empty())
       continue;
-    ++listed;
+    ++lost.listed;
     std::replace(id.begin(), id.end(), '\\', '/');
     std::error_code error;
-    const fs::path file = index.parent_path() / id;
-    if (names.count(discName(file)) > 0 || fs::exists(file, error))
-      continue;
-    if (missing++ == 0)
-      first = id;
+    fs::path file = index.parent_path() / id;
+    if (names.count(discName(file)) == 0 && !fs::exists(file, error))
+      lost.files.push_back({std::move(file), series[n]});
   }
-  if (missing == 0)
-    return {};
-  return "'" + index.filename().string() + "' lists " + std::to_string(listed) +
-         " files, of which " + std::to_string(missing) + (missing == 1 ? " is" : " are") +
-         " not there (the first is '" + first.string() +
+  return lost;
+}
+
+std::string lossNote(const fs::path& index, const Lost& lost)
+{
+  const std::size_t count = lost.files.size();
+  return "'" + index.filename().string() + "' lists " + std::to_string(lost.listed) +
+         " files, of which " + std::to_string(count) + (count == 1 ? " is" : " are") +
+         " not there (the first is '" +
+         lost.files.front().path.lexically_relative(index.parent_path()).string() +
          "'): slices or whole series may be missing. Copy the disc again.";
+}
+
+/// Which series lost how many files of a DICOMDIR: those of the UID that it states, else those with
+/// files in the same folder, else every one. A series of which nothing is there has no entry.
+std::map<std::string, std::size_t> lossesOf(const Lost& lost, const Groups& groups)
+{
+  std::map<std::string, std::set<std::string>> byFolder;
+  for (const auto& [key, members] : groups)
+    for (const FileHeader* member : members)
+      byFolder[discName(member->slice.file.parent_path())].insert(key);
+  std::map<std::string, std::size_t> losses;
+  for (const Lost::File& file : lost.files)
+  {
+    if (!file.seriesUid.empty())
+    {
+      if (groups.count(file.seriesUid) > 0)
+        ++losses[file.seriesUid];
+      continue;
+    }
+    const auto folder = byFolder.find(discName(file.path.parent_path()));
+    if (folder != byFolder.end())
+      for (const std::string& key : folder->second)
+        ++losses[key];
+    else
+      for (const auto& group : groups)
+        ++losses[group.first];
+  }
+  return losses;
+}
+
+Finding lossFinding(std::size_t lost)
+{
+  return {FindingKind::MissingEnd,
+          "The index of the disc (DICOMDIR) lists " + std::to_string(lost) +
+              (lost == 1 ? " file of the series that is" : " files of the series that are") +
+              " not there; the stack may have no gap, but slices are missing. Copy the disc again.",
+          0.0};
 }
 
 bool isImageSeries(const DicomSeries& series)
@@ -983,7 +1089,7 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress,
       found ? std::move(found->headers) : readHeaders(list.files, progress);
   // Now, as what follows takes the headers apart.
   const auto keepable = kept && !found ? kept->packed(headers, listed) : std::nullopt;
-  Comparisons comparisons(found ? std::move(found->comparisons) : KnownComparisons());
+  Comparisons comparisons(found ? std::move(found->comparisons) : KnownComparisons(), progress);
   std::move(list.lost.begin(), list.lost.end(), std::back_inserter(headers));
 
   ScanResult result;
@@ -1006,14 +1112,20 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress,
           .push_back(&header);
   }
   std::set<std::string> names;
+  std::map<std::string, std::size_t> losses; // of the series
   for (const FileHeader& header : headers)
     if (header.kind == FileKind::Directory)
     {
       if (names.empty())
         for (const ListedFile& file : list.files)
           names.insert(discName(file.path));
-      if (std::string missing = missingFrom(header.slice.file, names); !missing.empty())
-        result.notes.push_back(std::move(missing));
+      const Lost lost = lostOf(header.slice.file, names);
+      if (lost.files.empty())
+        continue;
+      result.lostFiles += lost.files.size();
+      result.lossNotes.push_back(lossNote(header.slice.file, lost));
+      for (const auto& [key, count] : lossesOf(lost, groups))
+        losses[key] += count;
     }
   const auto folders = namesOf(groups);
   for (FileHeader* header : foreign)
@@ -1049,6 +1161,12 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress,
                         made[n] = makeSeries(all[n]->second,
                                              open == doubts.end() ? Doubts() : open->second,
                                              folderDoubts, comparisons);
+                        if (const auto loss = losses.find(all[n]->first); loss != losses.end())
+                          for (DicomSeries& volume : made[n].volumes)
+                          {
+                            volume.lostFiles = loss->second;
+                            volume.geometry.findings.push_back(lossFinding(loss->second));
+                          }
                       }
                     });
   for (const auto& [file, n] : order)

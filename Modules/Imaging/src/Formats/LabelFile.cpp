@@ -201,8 +201,8 @@ constexpr const char* kTableUnused =
 
 LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
                         const core::Progress& progress, const LabelNaming& naming,
-                        const std::vector<core::GridGeometry>& images,
-                        const std::optional<bool>& isRas, std::uint64_t memory)
+                        const std::vector<ImageGrid>& images, const std::optional<bool>& isRas,
+                        std::uint64_t memory)
 {
   progress.report(0.0, "reading labels");
   if (isDicomSegmentation(path))
@@ -249,14 +249,16 @@ LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
                        { return toLabels<decltype(type)>(source, path, raw, layer); });
     auto names = named ? segmentsOfLayer(path, *source.nrrd(), layer)
                        : namesFromOutside(path, naming, *labels, loaded);
+    const auto codes = named ? codesOfLayer(*source.nrrd(), layer)
+                             : std::map<std::uint16_t, volume::SegmentCodes>();
     for (const volume::Segment& segment : names)
       unique.reserve(segment.name);
     for (volume::Segment& segment : names)
     {
       segment.name = unique.take(segment.name, loaded.notes);
       if (named)
-        if (auto codes = codesOfSegment(*source.nrrd(), layer, segment.index); !codes.empty())
-          loaded.codes[segment.name] = std::move(codes);
+        if (const auto found = codes.find(segment.index); found != codes.end())
+          loaded.codes[segment.name] = found->second;
     }
     loaded.maps.push_back(volume::makeLabelMap(labels, std::move(names)));
   }
@@ -273,7 +275,7 @@ bool isDicomSegmentation(const std::filesystem::path& path)
 }
 
 LoadedLabels loadLabels(const std::filesystem::path& path, const core::Progress& progress,
-                        const LabelNaming& naming, const std::vector<core::GridGeometry>& images,
+                        const LabelNaming& naming, const std::vector<ImageGrid>& images,
                         const std::optional<bool>& isRas, std::uint64_t memory)
 {
   std::error_code error;

@@ -5,9 +5,10 @@
 
 Prints a line for each batch: its sources, separated by semicolons. Two sources share a batch only
 if neither mentions a name that the other declares outside of classes and functions, nor calls a
-function of which the other's headers declare another overload. A name in one source therefore means the same with and without the batch, and names in anonymous namespaces need
-not be unique in a target. A source that includes ITK is alone, since ITK brings headers of another
-version of Eigen. Exempt is a name that both declare by the same `using NAME = ...;`.
+function of which the other's headers declare another overload. A name in one source therefore means
+the same with and without the batch, and names in anonymous namespaces need not be unique in a
+target. A source that includes ITK is alone, since ITK brings headers of another version of Eigen.
+Exempt is a name that both declare by the same `using NAME = ...;`.
 """
 import collections
 import functools
@@ -23,11 +24,14 @@ INCLUDED = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+\.h)[>"]', re.MULTILINE)
 DEFINE = re.compile(r'^\s*#\s*define\s+(\w+)', re.MULTILINE)
 # As clang-format writes it: what is declared in a namespace begins in the first column.
 ALIAS = re.compile(r'^using\s+(\w+)\s*=[^;]*;', re.MULTILINE)
-TYPE = re.compile(r'^(?:template\s*<[^\n]*>\s*)?(?:class|struct|union|enum(?:\s+(?:class|struct))?)\s+(\w+)\b(?!\s*;)',
-                  re.MULTILINE)
-FUNCTION = re.compile(r'^(?!using|namespace|return)[A-Za-z_][\w:<>,*& \[\]]*[ *&>](\w+)\(', re.MULTILINE)
-VARIABLE = re.compile(r'^(?!using|namespace|class|struct|union|enum|template|extern|friend|return|#)\w[^\n;(){}=]*?[\s*&>](\w+)\s*(?:\[[^\]\n]*\]\s*)*(?:=|;|\{)',
-                      re.MULTILINE)
+TYPE = re.compile(
+    r'^(?:template\s*<[^\n]*>\s*)?(?:class|struct|union|enum(?:\s+(?:class|struct))?)\s+'
+    r'(\w+)\b(?!\s*;)', re.MULTILINE)
+FUNCTION = re.compile(
+    r'^(?!using|namespace|return)[A-Za-z_][\w:<>,*& \[\]]*[ *&>](\w+)\(', re.MULTILINE)
+VARIABLE = re.compile(
+    r'^(?!using|namespace|class|struct|union|enum|template|extern|friend|return|#)'
+    r'\w[^\n;(){}=]*?[\s*&>](\w+)\s*(?:\[[^\]\n]*\]\s*)*(?:=|;|\{)', re.MULTILINE)
 # Members, names in a named scope and suites of tests are not looked up as plain names.
 QUALIFIED = re.compile(r'(?:\.|->|::)\s*(?:template\s+)?~?\w+')
 SUITE = re.compile(r'\bTEST\s*\(\s*\w+\s*,\s*\w+|\bTEST_[FP]\s*\(\s*\w+\s*,\s*\w+')

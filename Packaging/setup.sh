@@ -86,10 +86,11 @@ install_packages()
 }
 
 # configure [-DNAME=VALUE...]: runs cmake unless it has already run with these settings. Changed
-# CMakeLists.txt files are handled by ninja.
+# CMakeLists.txt files are handled by ninja. A new build folder compiles sources in batches.
 configure()
 {
   local stamp=$build/petrous-configured fresh=() log=$top/build/configure.log
+  [[ -f $build/CMakeCache.txt ]] || fresh=(-DPETROUS_UNITY=ON)
   if [[ -f $build/CMakeCache.txt ]] &&
     ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$top" "$build/CMakeCache.txt"; then
     fresh=(--fresh) # the checkout was moved

@@ -1,5 +1,45 @@
 include(GoogleTest)
 
+if(PETROUS_UNITY)
+  find_program(PETROUS_PYTHON3 python3 REQUIRED)
+  file(GLOB_RECURSE headers Application/*.h Modules/*.h Testing/*.h)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${headers})
+endif()
+
+# Compiles the sources of a target in batches, PETROUS_UNITY_BATCH at most in each. Which sources can
+# share one is found by reading them and their headers, whenever one has changed.
+function(petrous_unity_batches target)
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "[.](cpp|cxx)$")
+  list(LENGTH sources count)
+  if(count LESS 2)
+    return()
+  endif()
+  set(script ${CMAKE_SOURCE_DIR}/Packaging/cmake/unity-batches.py)
+  execute_process(COMMAND ${PETROUS_PYTHON3} -B ${script} ${PETROUS_UNITY_BATCH} ${sources}
+    WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}
+    OUTPUT_VARIABLE batches OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  foreach(source IN LISTS sources) # some by a relative path to another folder
+    get_filename_component(source ${source} ABSOLUTE)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${script} ${source})
+  endforeach()
+  string(REPLACE ";" "|" batches "${batches}")
+  string(REPLACE "\n" ";" batches "${batches}")
+  set(number 0)
+  foreach(batch IN LISTS batches)
+    string(REPLACE "|" ";" batch "${batch}")
+    list(LENGTH batch count)
+    if(count GREATER 1)
+      set_source_files_properties(${batch} PROPERTIES UNITY_GROUP ${target}${number})
+      math(EXPR number "${number} + 1")
+    endif()
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # A batch includes its sources, and the fixtures of a test are in anonymous namespaces.
+  target_compile_options(${target} PRIVATE
+    $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-subobject-linkage>)
+endfunction()
+
 # Common settings of all targets: language level, warnings, sanitizers.
 function(petrous_target_defaults target)
   target_compile_features(${target} PUBLIC cxx_std_17)
@@ -10,6 +50,9 @@ function(petrous_target_defaults target)
     target_compile_options(${target} PRIVATE
       -fsanitize=${PETROUS_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
     target_link_options(${target} PRIVATE -fsanitize=${PETROUS_SANITIZE})
+  endif()
+  if(PETROUS_UNITY)
+    petrous_unity_batches(${target})
   endif()
 endfunction()
 

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <fstream>
 #include <random>
 
@@ -14,7 +13,6 @@
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/SeriesPreview.h"
 #include "petrous/Presenters/SourceContent.h"
-#include "petrous/Scene/Manifest.h"
 
 using namespace petrous;
 using Eigen::Vector3d;
@@ -317,40 +315,6 @@ TEST_F(SourceContent, WhatRepairInterpolatedIsKnownFromTheCase)
   EXPECT_EQ(presenters::interpolatedSlices(many), (std::vector<int>{2, 6, 7, 8}));
   many.notes = {"Repaired: slices 3 of 61 were interpolated between neighbours"};
   EXPECT_TRUE(presenters::interpolatedSlices(many).empty()) << "of another grid";
-}
-
-TEST_F(SourceContent, ManyInterpolatedSlicesAreKnownOneByOne)
-{
-  // More gaps than a note names one by one.
-  phantom::SampleOptions options;
-  options.spacing = 1.0;
-  options.dims = core::Index3{24, 24, 300};
-  phantom::writeSamplePatient(m_folder, options);
-  const auto scan = imaging::scanDicom(m_folder / "ct", {});
-  std::vector<int> gone;
-  for (std::size_t k = 5; k < 265; k += 10)
-  {
-    std::filesystem::remove(scan.series.at(0).geometry.slices.at(k).file);
-    gone.push_back(static_cast<int>(k));
-  }
-  presenters::CaseSources sources;
-  sources.ct = m_folder / "ct";
-  sources.repair = true;
-  const auto value = presenters::buildCase("ear", sources, {});
-  EXPECT_EQ(presenters::interpolatedSlices(value.ct), gone);
-  const auto stored = scene::fromManifest(scene::toManifest(value), "case");
-  EXPECT_EQ(presenters::interpolatedSlices(stored.ct), gone);
-  EXPECT_EQ(presenters::interpolatedText(stored.ct),
-            "slices 6, 16, 26, 36 and others interpolated");
-  // Without the record the notes say what they can, whatever else is in them.
-  auto older = stored;
-  older.ct.facts.reset();
-  const auto noted = presenters::interpolatedSlices(older.ct);
-  EXPECT_GT(noted.size(), gone.size());
-  for (const int slice : gone)
-    EXPECT_TRUE(std::find(noted.begin(), noted.end(), slice) != noted.end()) << slice;
-  older.ct.facts = scene::ImageFacts();
-  EXPECT_TRUE(presenters::interpolatedSlices(older.ct).empty()) << "the record counts";
 }
 
 TEST_F(SourceContent, ThePreviewOfARegionCountsWhatWouldBeRead)

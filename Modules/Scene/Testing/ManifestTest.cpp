@@ -515,36 +515,6 @@ scene::Description fullDescription()
 
 } // namespace
 
-TEST(Manifest, KeepsWhatIsKnownOfAnImage)
-{
-  auto value = fullCase();
-  EXPECT_EQ(scene::toManifest(value).find("\"facts\""), std::string::npos);
-  EXPECT_FALSE(scene::fromManifest(scene::toManifest(value), "case").ct.facts) << "an older case";
-  scene::ImageFacts facts;
-  facts.interpolated = {0, 7, 8, 165};
-  facts.isSideAssumed = true;
-  facts.text = scene::ImageFacts::Text::Suspected;
-  facts.isLossy = true;
-  facts.lossyRatio = 12.3;
-  value.ct.facts = facts;
-  value.mr[0].facts = scene::ImageFacts();
-  const std::string text = scene::toManifest(value);
-  const auto back = scene::fromManifest(text, "case");
-  ASSERT_TRUE(back.ct.facts && back.mr[0].facts);
-  EXPECT_EQ(back.ct.facts->interpolated, facts.interpolated);
-  EXPECT_TRUE(back.ct.facts->isSideAssumed);
-  EXPECT_EQ(back.ct.facts->text, facts.text);
-  EXPECT_TRUE(back.ct.facts->isLossy);
-  EXPECT_EQ(back.ct.facts->lossyRatio, 12.3);
-  EXPECT_TRUE(back.mr[0].facts->interpolated.empty());
-  EXPECT_FALSE(back.mr[0].facts->isLossy || back.mr[0].facts->lossyRatio);
-  for (const std::vector<int>& wrong : {std::vector<int>{166}, {-1}, {8, 7}, {7, 7}})
-  {
-    value.ct.facts->interpolated = wrong;
-    EXPECT_THROW(scene::fromManifest(scene::toManifest(value), "case"), core::Error);
-  }
-}
-
 TEST(Manifest, KeepsTheDescription)
 {
   scene::Case value = fullCase();

@@ -151,44 +151,6 @@ constexpr std::pair<const char*, Hash> kPatientHashes[] = {{"id", &PatientHash::
                                                            {"name", &PatientHash::name},
                                                            {"birth_date", &PatientHash::birthDate}};
 
-constexpr const char* kFacts = "facts"; // absent: written by older programs
-constexpr const char* kTexts[] = {"none", "suspected", "stated"};
-
-json factsOut(const ImageFacts& facts)
-{
-  json j{{"interpolated_slices", facts.interpolated},
-         {"side_assumed", facts.isSideAssumed},
-         {"burned_in_text", kTexts[static_cast<std::size_t>(facts.text)]},
-         {"lossy", facts.isLossy}};
-  if (facts.lossyRatio)
-    j["lossy_ratio"] = *facts.lossyRatio;
-  return j;
-}
-
-ImageFacts factsIn(const json& j, const core::GridGeometry& grid)
-{
-  ImageFacts facts;
-  facts.interpolated = j.at("interpolated_slices").get<std::vector<int>>();
-  int before = -1;
-  for (const int slice : facts.interpolated)
-  {
-    if (slice <= before || slice >= grid.dims()[2])
-      throw core::InvalidParameter("an image's interpolated slices are none of its slices, or not "
-                                   "in order");
-    before = slice;
-  }
-  facts.isSideAssumed = j.at("side_assumed").get<bool>();
-  const auto text = j.at("burned_in_text").get<std::string>();
-  const auto* found = std::find(std::begin(kTexts), std::end(kTexts), text);
-  if (found == std::end(kTexts))
-    throw core::InvalidParameter("an image's burned-in text is none of none, suspected and stated");
-  facts.text = static_cast<ImageFacts::Text>(std::distance(std::begin(kTexts), found));
-  facts.isLossy = j.at("lossy").get<bool>();
-  if (j.contains("lossy_ratio"))
-    facts.lossyRatio = j.at("lossy_ratio").get<double>();
-  return facts;
-}
-
 json imageOut(const ImagePart& image)
 {
   json j{{"name", image.name},     {"object", image.object}, {"grid", gridOut(image.geometry)},
@@ -201,8 +163,6 @@ json imageOut(const ImagePart& image)
         j[kPatient][key] = image.patient.*hash;
   if (image.modality != Modality::Unknown)
     j[kModality] = image.modality == Modality::Mr ? "MR" : "CT";
-  if (image.facts)
-    j[kFacts] = factsOut(*image.facts);
   return j;
 }
 
@@ -214,8 +174,6 @@ ImagePart imageIn(const json& j)
   image.geometry = gridIn(j.at("grid"));
   image.range = {j.at("min").get<double>(), j.at("max").get<double>()};
   image.notes = j.at("notes").get<std::vector<std::string>>();
-  if (j.contains(kFacts))
-    image.facts = factsIn(j.at(kFacts), image.geometry);
   image.isFrameSalted = !j.contains(kUnsaltedFrame);
   image.frameOfReference = j.value(image.isFrameSalted ? kFrame : kUnsaltedFrame, std::string());
   if (j.contains(kPatient))

@@ -24,7 +24,6 @@
 #include "petrous/Imaging/StructureSet.h"
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Library/ObjectStore.h"
-#include "petrous/Presenters/ImageFacts.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/FreeName.h"
 #include "petrous/Scene/Placement.h"
@@ -58,12 +57,11 @@ std::string nameFromFile(const fs::path& path, const std::string& otherwise, con
 // The reader knows the series; the user knows the path.
 volume::IntensityVolume readNamed(const fs::path& path, const imaging::DicomSeries& series,
                                   const imaging::ReadOptions& options,
-                                  const core::Progress& progress, std::vector<std::string>& notes,
-                                  std::vector<int>& interpolated)
+                                  const core::Progress& progress, std::vector<std::string>& notes)
 {
   try
   {
-    return imaging::readSeries(series, options, progress, &notes, &interpolated);
+    return imaging::readSeries(series, options, progress, &notes);
   }
   catch (const imaging::DicomError& error)
   {
@@ -245,13 +243,11 @@ ReadImage readImage(const fs::path& path, const std::string& selector, bool repa
 {
   ReadImage read;
   scene::ImagePart& part = read.part;
-  scene::ImageFacts facts;
   if (!fs::is_directory(path) && imaging::isReadAs(path, imaging::kImage | imaging::kLabels))
   {
     auto image = imaging::readImageFile(path, roi, progress, assumeRas);
     part.volume = image.volume;
     part.notes = std::move(image.notes);
-    facts.isSideAssumed = image.assumedRas.has_value();
   }
   else
   {
@@ -281,8 +277,7 @@ ReadImage readImage(const fs::path& path, const std::string& selector, bool repa
         !left.empty())
       notes.push_back(left);
     part.volume = std::make_shared<const volume::IntensityVolume>(
-        readNamed(path, series, options, progress.part(0.2, 0.9), notes, facts.interpolated));
-    take(facts, imaging::pixelFaults(series.geometry.slices));
+        readNamed(path, series, options, progress.part(0.2, 0.9), notes));
     part.notes = std::move(notes);
     part.frameOfReference = withoutIdentity(series.frameOfReferenceUid);
     part.patient = patientOf(series);
@@ -291,7 +286,6 @@ ReadImage readImage(const fs::path& path, const std::string& selector, bool repa
                     : series.modality == "CT" ? scene::Modality::Ct
                                               : scene::Modality::Unknown;
   }
-  part.facts = std::move(facts);
   const auto image = part.volume.get();
   part.geometry = image->geometry();
   part.range = image->range();
@@ -716,7 +710,10 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     if (!source.labelNames.empty())
       naming = {source.labelNames, true};
     const auto gridOf = [](const scene::ImagePart& image)
-    { return imaging::ImageGrid(image.geometry, factsOf(image).isSideAssumed); };
+    {
+      return imaging::ImageGrid(image.geometry, std::any_of(image.notes.begin(), image.notes.end(),
+                                                            imaging::isNoteOfSide));
+    };
     std::vector<imaging::ImageGrid> images{gridOf(value.ct)};
     for (const scene::ImagePart& mr : value.mr)
       images.push_back(gridOf(mr));

@@ -12,7 +12,6 @@
 #include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Presenters/CaseBuilder.h"
-#include "petrous/Presenters/ImageFacts.h"
 #include "petrous/Presenters/SeriesPreview.h"
 
 namespace petrous::presenters
@@ -245,7 +244,7 @@ std::optional<double> writeCaseSeries(const std::filesystem::path& folder, const
   }
   series.modality = isMr ? Modality::Mr : Modality::Ct;
   series.derived = true;
-  series.faults = pixelFaultsOf(factsOf(part));
+  series.faults = imaging::pixelFaults(part.notes);
   if (const std::string guessed = interpolatedText(part); !guessed.empty())
     series.derivation = (onCt ? "Resampled from an image of which " : "Repaired: ") + guessed +
                         " between neighbours";

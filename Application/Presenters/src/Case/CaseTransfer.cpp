@@ -16,7 +16,6 @@
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CaseDicom.h"
 #include "petrous/Presenters/CaseExport.h"
-#include "petrous/Presenters/ImageFacts.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/LeavingImages.h"
 #include "petrous/Scene/Placement.h"
@@ -475,12 +474,13 @@ void warnOfIdentities(const std::string& what, const std::vector<std::string>& t
                        "send");
 }
 
-/// Text in the pixels of images that leave: the primary one, the MRs.
+/// Text in the pixels of images that leave: the primary one, the MRs. Known by their notes, which
+/// every version of the program keeps with the case.
 void warnOfText(const scene::Case& value, bool primary, bool mrs,
                 std::vector<std::string>& warnings)
 {
   const auto mayHaveText = [](const scene::ImagePart& image)
-  { return factsOf(image).text != scene::ImageFacts::Text::None; };
+  { return std::any_of(image.notes.begin(), image.notes.end(), imaging::isNoteOfText); };
   std::vector<std::string> images;
   if (primary && mayHaveText(value.ct))
     images.push_back(std::string("the ") + primaryName(value));

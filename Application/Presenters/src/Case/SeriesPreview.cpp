@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include <Eigen/Geometry>
 
@@ -10,7 +11,6 @@
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Imaging/ImagePreview.h"
 #include "petrous/Library/DerivedCache.h"
-#include "petrous/Presenters/ImageFacts.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Volume/IntensityScale.h"
 
@@ -126,13 +126,10 @@ RepairPreview previewRepair(const fs::path& path, const std::string& selector,
   preview.before = previewOf(imaging::readSeries(series, options, progress.part(0.2, 0.5)), grid);
   options.acceptDefects = false;
   options.repair = true;
-  scene::ImageFacts facts;
-  auto after = imaging::readSeries(series, options, progress.part(0.5, 1.0), &preview.notes,
-                                   &facts.interpolated);
+  auto after = imaging::readSeries(series, options, progress.part(0.5, 1.0), &preview.notes);
   const core::GridGeometry straight = after.geometry();
   preview.after = previewOf(std::move(after), straight);
   preview.after.value.ct.notes = preview.notes;
-  preview.after.value.ct.facts = facts;
   // One grey window for both.
   preview.after.value.iso = preview.before.value.iso;
   preview.after.value.denseBone = preview.before.value.denseBone;
@@ -141,7 +138,34 @@ RepairPreview previewRepair(const fs::path& path, const std::string& selector,
 
 std::vector<int> interpolatedSlices(const scene::ImagePart& image)
 {
-  return factsOf(image).interpolated;
+  // "Repaired: slices 3, 7 to 9 of 60 were interpolated between neighbours, ..."
+  const std::string begins[] = {"Repaired: slices ", "Repaired: slice "};
+  std::vector<int> found;
+  for (const std::string& note : image.notes)
+    for (const std::string& begin : begins)
+    {
+      const auto of = note.find(" of ");
+      if (note.rfind(begin, 0) != 0 || of == std::string::npos ||
+          note.find("interpolated between neighbours") == std::string::npos)
+        continue;
+      int count = 0;
+      if (std::sscanf(note.c_str() + of, " of %d", &count) != 1 ||
+          count != image.geometry.dims()[2])
+        continue;
+      for (std::size_t at = begin.size(); at < of;)
+      {
+        int first = 0;
+        int last = 0;
+        const int read = std::sscanf(note.c_str() + at, "%d to %d", &first, &last);
+        if (read < 1)
+          break;
+        for (int n = std::max(first, 1); n <= std::min(read == 2 ? last : first, count); ++n)
+          found.push_back(n - 1);
+        const auto comma = note.find(", ", at);
+        at = comma == std::string::npos ? of : comma + 2;
+      }
+    }
+  return found;
 }
 
 std::string interpolatedText(const scene::ImagePart& image)

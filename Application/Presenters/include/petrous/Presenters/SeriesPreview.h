@@ -44,7 +44,8 @@ RepairPreview previewRepair(const std::filesystem::path& path, const std::string
                             const core::Progress& progress);
 
 /// Slices of an image (indices along the third axis of its grid, increasing) that repair
-/// interpolated (factsOf).
+/// interpolated, according to its notes. Of very many only the first and last are noted; then all
+/// between are returned.
 std::vector<int> interpolatedSlices(const scene::ImagePart& image);
 
 /// "slices 41-42, 60 interpolated", numbered from 1, for a picture of the image; empty: none is.

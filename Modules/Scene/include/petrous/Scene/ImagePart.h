@@ -33,24 +33,6 @@ struct PatientHash
   bool empty() const { return id.empty() && name.empty() && birthDate.empty(); }
 };
 
-/// What was known of an image when it was read and matters wherever it goes; its notes say the same
-/// to the user.
-struct ImageFacts
-{
-  enum class Text ///< in the pixels, which may name the patient
-  {
-    None,
-    Suspected,
-    Stated
-  };
-
-  std::vector<int> interpolated; ///< slices that repair guessed: along the third axis, ascending
-  bool isSideAssumed = false;    ///< its file left open which side of the patient is left
-  Text text = Text::None;
-  bool isLossy = false;             ///< once compressed with loss
-  std::optional<double> lossyRatio; ///< of that, if stated
-};
-
 /// A CT or MR image of the case. Voxels are loaded on demand; the rest is available without them.
 struct ImagePart
 {
@@ -59,7 +41,6 @@ struct ImagePart
   core::GridGeometry geometry;
   volume::ValueRange range;
   std::vector<std::string> notes;        ///< what was accepted on reading the image, for the user
-  std::optional<ImageFacts> facts;       ///< nullopt: an older case, whose notes alone say it
   Modality modality = Modality::Unknown; ///< of the primary image (Case::ct); others: Unknown
   core::Lazy<volume::IntensityVolume> volume;
   /// X_MC: CT patient points to this image's patient points, LPS mm; identity until registered.

@@ -117,3 +117,12 @@ TEST_F(AttachCommand, ArchivesLeaveVideosAndDocumentsUnlessAsked)
   EXPECT_EQ(restored("--with-documents", "documents"), 1U);
   EXPECT_EQ(restored("--with-documents --with-videos", "all"), 2U);
 }
+
+TEST_F(AttachCommand, WarnsOfALinkWhosePathMayNameThePatient)
+{
+  const auto named = run("attach ear --link " + file("Doe_John.mp4", kVideo));
+  EXPECT_EQ(named.code, 0);
+  EXPECT_NE(named.err.find("path of the file"), std::string::npos) << named.err;
+  const auto plain = run("attach ear --link " + file("film.mp4", kVideo));
+  EXPECT_EQ(plain.err.find("path of the file"), std::string::npos) << plain.err;
+}

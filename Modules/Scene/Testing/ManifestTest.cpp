@@ -819,3 +819,38 @@ TEST(Manifest, RefusesAHostileViewOrAttachment)
   refused("/attachments/1/sha256", "abc");
   refused("/attachments", nlohmann::json(std::vector<int>(7)));
 }
+
+// Terminals obey escape sequences (ECMA-48), and a manifest may be another's.
+TEST(Manifest, HoldsNoTextThatATerminalObeys)
+{
+  const std::string escape = "\x1b]0;owned\x07";
+  auto j = nlohmann::json::parse(scene::toManifest(fullCase()));
+  j["ct"]["name"] = "ct" + escape;
+  j["ct"]["notes"] = {"one" + escape, "two"};
+  j["mr"][0]["notes"] = {escape};
+  j["labels"][0]["notes"] = {"three\u202e"};
+  j["meshes"][0]["notes"] = {"four" + escape};
+  j["mr"][0]["registration"]["text"] = "text" + escape;
+  j["mr"][0]["registration"]["through"] = escape;
+  j["mr"][0]["registration"]["error"] = {{"point_mm", {0, 0, 0}},
+                                         {"place", "place" + escape},
+                                         {"median_mm", 1},
+                                         {"p95_mm", 1},
+                                         {"max_mm", 1}};
+  j["mr"][0]["registration"]["signed_off"]["who"] = "who" + escape;
+  j["mr"][0]["registration"]["signed_off"]["when"] = "when" + escape;
+  j["mr"][0]["registration"]["signed_off"]["mr_from_ct"] = j["mr"][0]["mr_from_ct"];
+  j["labels"][0]["structures"][0]["codes"] = {
+      {"type", {{"value", "1" + escape}, {"scheme", "S" + escape}, {"meaning", "M" + escape}}},
+      {"algorithm_name", "A" + escape}};
+  j["dissection"]["strokes"][0]["started_at"] = escape;
+  j["dissection"]["strokes"][0]["structures"] = {{{"name", "N" + escape}, {"removed_mm3", 1.0}}};
+  const scene::Case back = scene::fromManifest(j.dump(), "m.json");
+  EXPECT_EQ(back.ct.notes, (std::vector<std::string>{"one]0;owned", "two"}));
+  EXPECT_EQ(back.mr[0].registration->text, "text]0;owned");
+  EXPECT_EQ(back.mr[0].registration->signOff->who, "who]0;owned");
+  const std::string text = scene::toManifest(back);
+  EXPECT_EQ(text.find("\\u001b"), std::string::npos) << text;
+  EXPECT_EQ(text.find("\\u0007"), std::string::npos);
+  EXPECT_EQ(text.find("\xe2\x80\xae"), std::string::npos);
+}

@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "MeshSpace.h"
+#include "PatientHashes.h"
 #include "petrous/Appearance/DistinctColors.h"
 #include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Core/Fingerprint.h"
@@ -91,12 +92,17 @@ std::string withoutIdentity(std::size_t key, std::size_t with = 0)
              : withoutIdentity(std::to_string(key) + (with == 0 ? "" : " " + std::to_string(with)));
 }
 
+} // namespace
+
 scene::PatientHash withoutIdentity(const imaging::PatientKey& key)
 {
   // Of a date alone there are too few to hide it in a hash.
   return {withoutIdentity(key.id), withoutIdentity(key.issuer), withoutIdentity(key.name),
           key.name == 0 ? std::string() : withoutIdentity(key.birthDate, key.name)};
 }
+
+namespace
+{
 
 // What its slices state of the patient, all the same where they do (imaging::assess).
 scene::PatientHash patientOf(const imaging::DicomSeries& series)

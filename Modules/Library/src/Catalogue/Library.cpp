@@ -9,6 +9,7 @@
 #include <random>
 #include <set>
 #include <sstream>
+#include <string_view>
 
 #include <sys/stat.h>
 
@@ -55,7 +56,7 @@ void storeParts(scene::Case& value, ObjectStore& store, const core::Progress& pr
 {
   const auto storeImage = [&](scene::ImagePart& image, const core::Progress& part)
   {
-    if (mustStore(image.object, store, image.volume.peek() != nullptr))
+    if (!image.isStandIn && mustStore(image.object, store, image.volume.peek() != nullptr))
       image.object = store.add("nrrd", [&](const fs::path& path)
                                { imaging::writeRawNrrd(path, *image.volume.get(), part); });
   };
@@ -561,6 +562,21 @@ void Library::checkAllRead(const core::Progress& progress) const
   refuse(m_checks->waitForAll(progress));
 }
 
+bool Library::standInForCt(scene::Case& value, const core::Progress& progress) const
+{
+  const fs::path object = objectFolder() / value.ct.object;
+  m_checks->forget(object);
+  if (m_checks->wait(object, imageText(value, value.ct), progress).empty())
+    return false;
+  constexpr double kLeast = -32768.0, kMost = 32767.0; // of 16 bits
+  using Voxels = volume::Volume<std::int16_t>;
+  value.ct.volume = std::make_shared<const volume::IntensityVolume>(std::make_shared<const Voxels>(
+      value.ct.geometry, static_cast<std::int16_t>(std::clamp(value.ct.range.min, kLeast, kMost))));
+  value.ct.isStandIn = true;
+  value.derived.reset(); // its keys identify the stored voxels
+  return true;
+}
+
 std::vector<std::string> Library::damageFound(const scene::Case& value) const
 {
   std::vector<std::string> damage;
@@ -578,6 +594,47 @@ std::string saltedFrame(const Library& library, const std::string& frameOfRefere
   makeFolder(library.folder());
   const core::FileLock lock = lockFolder(library.folder());
   return withSalt(frameOfReference, library.folder());
+}
+
+namespace
+{
+
+// Of two texts of 64 hexadecimal digits; empty of any other text.
+std::string exclusiveOr(const std::string& a, const std::string& b)
+{
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string result;
+  for (std::size_t n = 0; n < a.size() && a.size() == b.size(); ++n)
+  {
+    const std::size_t x = kDigits.find(a[n]);
+    const std::size_t y = kDigits.find(b[n]);
+    if (x == kDigits.npos || y == kDigits.npos)
+      return {};
+    result += kDigits[x ^ y];
+  }
+  return result;
+}
+
+} // namespace
+
+void sealIdentity(const Library& library, scene::Case& value)
+{
+  const auto seal = [&](const char* field, std::string& hash)
+  {
+    if (!hash.empty())
+      hash = exclusiveOr(
+          hash, saltedFrame(library, std::string("leaving ") + field + " " + value.ct.object));
+  };
+  const auto sealAll = [&seal](scene::ImagePart& image)
+  {
+    seal("frame", image.frameOfReference);
+    seal("id", image.patient.id);
+    seal("issuer", image.patient.issuer);
+    seal("name", image.patient.name);
+    seal("birth date", image.patient.birthDate);
+  };
+  sealAll(value.ct);
+  std::for_each(value.mr.begin(), value.mr.end(), sealAll);
 }
 
 Description Library::description(const std::string& name) const
@@ -612,7 +669,7 @@ void Library::saveWith(scene::Case& value,
   scene::checkCaseName(value.name);
   makeFolder(m_folder / "cases");
   makeFolder(objectFolder());
-  const core::FileLock lock = lockFolder(m_folder);
+  const core::FileLock lock = lockFolder(m_folder, progress, m_waiting);
 
   const fs::path path = manifestPath(value.name);
   const bool there = contains(value.name);

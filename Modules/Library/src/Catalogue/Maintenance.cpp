@@ -88,10 +88,19 @@ void refuseWhereUnrecovered(const fs::path& library, const std::string& name)
 namespace
 {
 
-// Renames the case in its manifest; false if the disk did not confirm it.
+// Renames the case in its manifest, unless that cannot be read; false if the disk did not confirm
+// it.
 bool writeName(const fs::path& manifest, const std::string& from, const std::string& to)
 {
-  scene::Case value = manifestIn(manifest, from);
+  scene::Case value;
+  try
+  {
+    value = manifestIn(manifest, from);
+  }
+  catch (const core::Error&)
+  {
+    return true;
+  }
   value.name = to;
   try
   {
@@ -136,7 +145,7 @@ void Library::rename(const std::string& from, const std::string& to)
   // What it is called stands in the manifest too, and a former name must not leave with it. Where a
   // case stands in the folder is its name whatever its manifest says: killed here, it has its old
   // one.
-  bool onDisk = damaged || writeName(path, from, to);
+  bool onDisk = writeName(path, from, to);
   // The manifest before the journals: a kill then leaves journals that are set aside when the old
   // name is used again, and never a journal beside the manifest of another case.
   onDisk = moveFile(path, manifestPath(to)) && onDisk;

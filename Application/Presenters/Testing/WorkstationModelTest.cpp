@@ -600,7 +600,7 @@ TEST_F(WorkstationModelTest, ACaseWhoseCtIsLostOpensWithWhatIsLeft)
     WorkstationModel model{library::Library(folder / "library")};
     model.open("block");
     ASSERT_TRUE(model.hasCase());
-    EXPECT_TRUE(model.value().ct.isStandIn);
+    EXPECT_TRUE(model.library().isStandIn(model.value().ct));
     EXPECT_EQ(model.value().description.note, "of the left ear");
     EXPECT_EQ(model.value().attachments.size(), 1u);
     EXPECT_EQ(model.value().applied(), 1u);
@@ -624,7 +624,7 @@ TEST_F(WorkstationModelTest, ACaseWhoseCtIsLostOpensWithWhatIsLeft)
   ASSERT_EQ(again.ct.object, value.ct.object);
   WorkstationModel model{library::Library(folder / "library")};
   model.open("block");
-  EXPECT_FALSE(model.value().ct.isStandIn);
+  EXPECT_FALSE(model.library().isStandIn(model.value().ct));
   EXPECT_TRUE(model.damage().empty());
   EXPECT_EQ(model.value().ct.volume.get()->at(6, 6, 6), again.ct.volume.get()->at(6, 6, 6));
 }

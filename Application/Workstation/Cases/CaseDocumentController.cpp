@@ -1172,7 +1172,7 @@ void CaseDocumentController::lookForDamage()
     lines += tr("Damaged: %1. Do not rely on what is shown of it; nothing is drilled in this case "
                 "until it is whole and opened again.")
                  .arg(words(one));
-  if (m_model.hasCase() && m_model.value().ct.isStandIn)
+  if (m_model.hasCase() && m_model.library().isStandIn(m_model.value().ct))
     lines +=
         tr("The case is open with what is left of it: description, attachments, structures and "
            "strokes; where its image was is nothing. Import the same image again, as a case of "

@@ -275,7 +275,8 @@ void WorkstationModel::stored(const StoreTask& done)
     m_library = done.library;
     listen();
   }
-  m_case->derived = m_leftOut.empty() && !m_case->ct.isStandIn ? m_library.derived() : nullptr;
+  m_case->derived =
+      m_leftOut.empty() && !m_library.isStandIn(m_case->ct) ? m_library.derived() : nullptr;
   m_unsaved = m_changes != done.changes;
   keepJournal(saved, other); // what was drilled since then is written at once
   notify(events.stateChanged);

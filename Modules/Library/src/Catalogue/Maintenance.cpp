@@ -134,7 +134,7 @@ void Library::rename(const std::string& from, const std::string& to)
       return true;
     }
   }();
-  const core::FileLock lock = lockFolder(m_folder, {}, m_waiting);
+  const core::FileLock lock = lockForWriting();
   refuseWhereDrilled(from);
   refuseWhereUnrecovered(m_folder, from);
   checkedManifestPath(from);
@@ -182,7 +182,7 @@ void Library::remove(const std::string& name)
 {
   scene::checkCaseName(name);
   const fs::path path = checkedManifestPath(name);
-  const core::FileLock lock = lockFolder(m_folder, {}, m_waiting);
+  const core::FileLock lock = lockForWriting();
   refuseWhereDrilled(name);
   std::error_code error;
   if (fs::is_directory(fs::symlink_status(path, error)))
@@ -220,7 +220,7 @@ void Library::undelete(const std::string& name)
   scene::checkCaseName(name);
   if (!fs::is_directory(m_folder / "cases"))
     throw LibraryError(Reason::NotFound, "no case '" + name + "' was deleted here");
-  const core::FileLock lock = lockFolder(m_folder, {}, m_waiting);
+  const core::FileLock lock = lockForWriting();
   const std::vector<DeletedFile> files = deletedIn(m_folder / "cases");
   const auto file = std::find_if(files.begin(), files.end(),
                                  [&name](const DeletedFile& one) { return one.name == name; });
@@ -458,7 +458,7 @@ Collected Library::collectGarbage(const core::Progress& progress)
   if (namesIn(m_folder / "cases").empty() && deletedIn(m_folder / "cases").empty() &&
       ObjectStore(objectFolder()).list().empty())
     return result;
-  const core::FileLock lock = lockFolder(m_folder, progress, m_waiting);
+  const core::FileLock lock = lockForWriting(progress);
   std::set<std::string> used;
   std::set<std::string> ids;
   for (const std::string& name : namesIn(m_folder / "cases"))
@@ -526,7 +526,7 @@ Repaired Library::repair(const core::Progress& progress)
     }
   if (names.empty())
     return result;
-  const core::FileLock lock = lockFolder(m_folder, progress, m_waiting);
+  const core::FileLock lock = lockForWriting(progress);
   removeLeftovers(objectFolder());
   removeLeftovers(m_folder / "cases");
   for (const char* ending : {"", "-journal", "-wal", "-shm"})

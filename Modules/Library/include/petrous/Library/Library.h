@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "petrous/Core/FileLock.h"
 #include "petrous/Core/Progress.h"
 #include "petrous/Library/LibraryError.h"
 #include "petrous/Scene/Case.h"
@@ -46,7 +47,7 @@ struct CaseFilter
   std::string from, to; ///< of the planned date, both included: "2026-03-31"
 };
 
-class ObjectChecks;
+struct LibraryState;
 class ObjectStore;
 struct SavedState;
 
@@ -116,8 +117,8 @@ public:
   void onNotice(std::function<void(const std::string&)> notice) { m_notice = std::move(notice); }
 
   /// Called ten times a second while another program has the library's lock, with the time waited,
-  /// s; what it throws ends the wait and what was to be done.
-  void onWait(std::function<void(double)> waiting) { m_waiting = std::move(waiting); }
+  /// s; what it throws ends the wait and what was to be done. Of all copies.
+  void onWait(std::function<void(double)> waiting);
 
   std::vector<CaseSummary> list() const; ///< sorted by name
   /// Sorted by name. Throws InvalidParameter if `from` or `to` is no date, or `from` the later one.
@@ -158,6 +159,7 @@ public:
   /// checkVoxels refuses them, and damageFound has them. Returns false, and changes nothing, if the
   /// file is sound.
   bool standInForCt(scene::Case& value, const core::Progress& progress = {}) const;
+  bool isStandIn(const scene::ImagePart& image) const;
   /// Damage of the case's images found so far, one sentence each. Does not wait.
   std::vector<std::string> damageFound(const scene::Case& value) const;
 
@@ -238,6 +240,7 @@ private:
   std::filesystem::path checkedManifestPath(const std::string& name) const;
   scene::Case readManifest(const std::string& name) const;
   void attach(scene::Case& value) const;
+  core::FileLock lockForWriting(const core::Progress& progress = {}) const;
   std::vector<std::pair<std::filesystem::path, std::string>>
   mappedImages(const scene::Case& value) const;
   std::optional<scene::Case> mergedWithSaved(const scene::Case& value,
@@ -245,8 +248,7 @@ private:
 
   std::filesystem::path m_folder;
   std::function<void(const std::string&)> m_notice;
-  std::function<void(double)> m_waiting;
-  std::shared_ptr<ObjectChecks> m_checks; ///< shared by copies and by the cases they opened
+  std::shared_ptr<LibraryState> m_state; ///< shared by copies
 };
 
 } // namespace petrous::library

@@ -43,8 +43,6 @@ struct ImagePart
   std::vector<std::string> notes;        ///< what was accepted on reading the image, for the user
   Modality modality = Modality::Unknown; ///< of the primary image (Case::ct); others: Unknown
   core::Lazy<volume::IntensityVolume> volume;
-  /// `volume` stands in for voxels that cannot be read (Library::standInForCt): never stored.
-  bool isStandIn = false;
   /// X_MC: CT patient points to this image's patient points, LPS mm; identity until registered.
   core::RigidTransform mrFromCt;
   bool registered = false;

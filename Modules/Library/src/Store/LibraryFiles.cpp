@@ -3,7 +3,7 @@
 #include <string>
 
 #include "petrous/Core/Error.h"
-#include "petrous/Core/OutputFile.h"
+#include "petrous/Core/InputFile.h"
 
 namespace petrous::library
 {

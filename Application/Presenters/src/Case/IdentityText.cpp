@@ -150,7 +150,7 @@ bool IdentityText::isOfPatient(const std::string& text) const
     return false;
   for (const std::string& words : candidatesIn(text))
   {
-    const std::string hash = withoutIdentity(imaging::patientKey(words, {}, {}, {})).id;
+    const std::string hash = patientHash(imaging::patientKey(words, {}, {}, {})).id;
     if (!hash.empty() && (m_unsalted.count(hash) > 0 ||
                           (m_salted && !m_salts.empty() && m_salts.count(m_salted(hash)) > 0)))
       return true;

@@ -7,6 +7,6 @@ namespace petrous::presenters
 {
 
 /// What a case keeps of a patient before its library salts it.
-scene::PatientHash withoutIdentity(const imaging::PatientKey& key);
+scene::PatientHash patientHash(const imaging::PatientKey& key);
 
 } // namespace petrous::presenters

@@ -629,6 +629,28 @@ TEST_F(WorkstationModelTest, ACaseWhoseCtIsLostOpensWithWhatIsLeft)
   EXPECT_EQ(model.value().ct.volume.get()->at(6, 6, 6), again.ct.volume.get()->at(6, 6, 6));
 }
 
+TEST_F(WorkstationModelTest, ARecordingReplacesNothingThatALibraryKeeps)
+{
+  library::Library library(folder / "library");
+  scene::Case value = block("block");
+  library.save(value);
+  WorkstationModel model{library};
+  model.opened(ReadCase::from(library, "block"));
+  model.prepareNow();
+  const std::filesystem::path manifest = folder / "library/cases/block.json";
+  const auto size = std::filesystem::file_size(manifest);
+  model.record(manifest);
+  std::string fault;
+  model.events.recordingChanged = [&fault](const std::string& words) { fault = words; };
+  HeldTool held({6, 6, 8.5});
+  held.setup.cuts = true;
+  model.startTouch(held.device, held.setup);
+  model.stopTouch();
+  EXPECT_NE(fault.find("Nothing is recorded"), std::string::npos) << fault;
+  EXPECT_EQ(std::filesystem::file_size(manifest), size);
+  EXPECT_NO_THROW(library.open("block"));
+}
+
 TEST_F(WorkstationModelTest, ACtOfTheLibraryIsCheckedBeforeAToolIsTakenUp)
 {
   library::Library library(folder);

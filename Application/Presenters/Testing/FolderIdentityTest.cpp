@@ -5,6 +5,7 @@
 #include "../../../Modules/Imaging/Testing/TestDicom.h"
 #include "BoneCase.h"
 #include "petrous/Imaging/SeriesGeometry.h"
+#include "petrous/Library/ObjectStore.h"
 #include "petrous/Library/PseudonymMap.h"
 #include "petrous/Presenters/CaseExport.h"
 #include "petrous/Presenters/CaseTransfer.h"

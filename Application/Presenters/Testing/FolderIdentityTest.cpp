@@ -152,7 +152,7 @@ TEST(IdentityOfACase, EveryNameThatLeavesIsLookedAt)
   const auto warnings = identityReport(value, parts).warnings;
   EXPECT_TRUE(mentions(warnings, "names of structures that are gone, in strokes that touched "
                                  "them: 1 of 1"));
-  EXPECT_TRUE(mentions(warnings, "names of MRs and approaches: 1 of 2"));
+  EXPECT_TRUE(mentions(warnings, "names of MRs, approaches and saved views: 1 of 2"));
   EXPECT_TRUE(mentions(warnings, "segmentation files gave structures: 1 of 1"));
   EXPECT_TRUE(mentions(warnings, "names and notes of attachments: 2 of 3"));
   parts.note = false;

@@ -695,7 +695,9 @@ IdentityReport reportOf(scene::Case value, const SendParts& parts,
       others.push_back(mr.name);
     for (const dissection::History::Branch& branch : value.dissection.history().branches())
       others.push_back(branch.name);
-    warn("names of MRs and approaches", others);
+    for (const auto& [name, saved] : value.view.saved)
+      others.push_back(name);
+    warn("names of MRs, approaches and saved views", others);
     warn("names of structures that are gone, in strokes that touched them", goneStructures(value));
     warn("names of measurements", measurements);
     warn("tags", value.description.tags);

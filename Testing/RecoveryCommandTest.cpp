@@ -471,12 +471,12 @@ TEST_F(RecoveryCommand, ALostImageIsSaidByWhatLooksAtItsCase)
   std::filesystem::remove(object);
   const auto lost = json("info bone")["lost"];
   ASSERT_EQ(lost.size(), 1u);
-  EXPECT_NE(lost[0].get<std::string>().find("the CT of case 'bone' is lost"), std::string::npos);
+  EXPECT_NE(lost[0].get<std::string>().find("the CT of case 'bone' is missing"), std::string::npos);
   const Outcome shown = run("info bone");
-  EXPECT_NE(shown.out.find("is lost"), std::string::npos) << shown.out;
+  EXPECT_NE(shown.out.find("is missing"), std::string::npos) << shown.out;
   const Outcome copied = run("library copy bone twin");
   EXPECT_EQ(copied.code, 0) << copied.err;
-  EXPECT_NE(copied.err.find("the CT of case 'bone' is lost"), std::string::npos) << copied.err;
+  EXPECT_NE(copied.err.find("the CT of case 'bone' is missing"), std::string::npos) << copied.err;
   const Outcome repaired = run("library repair --json");
   EXPECT_EQ(repaired.code, 3);
   const auto said = nlohmann::json::parse(repaired.out);

@@ -682,7 +682,7 @@ TEST_F(Maintenance, ALostImageIsSaidAndComesBackWithTheSameImport)
   fs::remove(object(value.ct.object));
   const auto lost = m_library.lost(m_library.open("a"));
   ASSERT_EQ(lost.size(), 1u);
-  EXPECT_NE(lost[0].find("the CT of case 'a' is lost"), std::string::npos) << lost[0];
+  EXPECT_NE(lost[0].find("the CT of case 'a' is missing"), std::string::npos) << lost[0];
   const Repaired repaired = m_library.repair();
   EXPECT_EQ(repaired.lost.size(), 2u) << "of each case that needs it";
   make("c");

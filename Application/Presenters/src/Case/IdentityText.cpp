@@ -43,8 +43,13 @@ std::vector<std::string> wordsOf(const std::string& text, bool (*isOf)(unsigned 
       words.back() += c;
     else if (!words.back().empty())
       words.emplace_back();
-  if (words.back().empty())
-    words.pop_back();
+  // Quotation marks and dashes around a word are none of it.
+  for (std::string& word : words)
+  {
+    const std::size_t first = std::min(word.find_first_not_of("'-"), word.size());
+    word = word.substr(first, word.find_last_not_of("'-") + 1 - first);
+  }
+  words.erase(std::remove(words.begin(), words.end(), std::string()), words.end());
   return words;
 }
 

@@ -296,13 +296,15 @@ std::vector<std::string> Library::lost(const scene::Case& value) const
   const ObjectStore store(objectFolder());
   std::vector<std::string> all;
   for (const ObjectUse& use : objectsOf(value))
-    if (use.kind != ObjectUse::Kind::Attachment && !store.contains(use.object))
-      all.push_back(use.what + " of case '" + value.name +
-                    "' is lost: " + core::printable(objectFolder() / use.object) +
-                    " is missing; restore it from a copy of the library" +
-                    (use.kind == ObjectUse::Kind::Stroke
-                         ? ""
-                         : ", or import the same file again, into any case, which puts it back"));
+    try
+    {
+      if (use.kind != ObjectUse::Kind::Attachment)
+        store.path(use.object, use.what + " of case '" + value.name + "'");
+    }
+    catch (const LibraryError& error)
+    {
+      all.emplace_back(error.what());
+    }
   for (const scene::Attachment& one : value.attachments)
     if (one.link.empty() && !attachmentProblem(*this, one).empty())
       all.push_back("attachment '" + one.name + "' of case '" + value.name +

@@ -23,7 +23,7 @@ namespace
 namespace fs = std::filesystem;
 using volume::IntensityVolume;
 
-class DicomData : public testing::Test
+class DicomData : public ::testing::Test
 {
 protected:
   void SetUp() override
@@ -289,8 +289,8 @@ TEST_F(DicomData, OddFilesNeverCrashAndNeverSpeak)
   {
     const fs::path folder = part(name);
     PETROUS_NEEDS(folder);
-    testing::internal::CaptureStderr();
-    testing::internal::CaptureStdout();
+    ::testing::internal::CaptureStderr();
+    ::testing::internal::CaptureStdout();
     const ScanResult result = scanDicom(folder, {});
     ReadOptions options;
     options.acceptDefects = true;
@@ -304,8 +304,8 @@ TEST_F(DicomData, OddFilesNeverCrashAndNeverSpeak)
       catch (const DicomError&)
       {
       }
-    std::string spoken = testing::internal::GetCapturedStderr();
-    spoken += testing::internal::GetCapturedStdout();
+    std::string spoken = ::testing::internal::GetCapturedStderr();
+    spoken += ::testing::internal::GetCapturedStdout();
     EXPECT_EQ(spoken, "");
     EXPECT_GT(result.series.size(), 10U);
     EXPECT_GT(readable, 1U);

@@ -1421,11 +1421,11 @@ TEST(DicomScan, KeepsThePatientOutOfEveryMessage)
   const TemporaryFolder folder;
   writeSeries(folder.path(), 5, [](int k, TestSlice& s) { s.z = k == 3 ? 9.0 : 0.5 * k; });
   fs::resize_file(folder.path() / "s2.dcm", fs::file_size(folder.path() / "s2.dcm") - 10);
-  testing::internal::CaptureStderr();
-  testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStdout();
   const ScanResult result = scanDicom(folder.path(), {});
-  std::string all = testing::internal::GetCapturedStderr();
-  all += testing::internal::GetCapturedStdout();
+  std::string all = ::testing::internal::GetCapturedStderr();
+  all += ::testing::internal::GetCapturedStdout();
   EXPECT_EQ(all, "");
   for (const Finding& finding : result.series.front().geometry.findings)
     EXPECT_EQ(finding.text.find("SECRET"), std::string::npos);

@@ -317,10 +317,10 @@ TEST(MeshFile, ReadsStripsOfVtpAndRefusesWhatItsCountsDoNotAllow)
                                                 {"999999999999", "0 1 2 3", "4"},
                                                 {"99999999999999999999", "0 1 2 3", "4"}})
   {
-    testing::internal::CaptureStderr();
+    ::testing::internal::CaptureStderr();
     EXPECT_TRUE(refusalOf([&, path = file(count, corners, offsets)] { readMesh(path); }).thrown)
         << count << " " << corners << " " << offsets;
-    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
   }
 }
 

@@ -56,7 +56,7 @@ void compress(const fs::path& from, const fs::path& to, gdcm::TransferSyntax::TS
   ASSERT_TRUE(writer.Write());
 }
 
-class PixelCodec : public testing::TestWithParam<gdcm::TransferSyntax::TSType>
+class PixelCodec : public ::testing::TestWithParam<gdcm::TransferSyntax::TSType>
 {
 };
 
@@ -118,9 +118,9 @@ TEST_P(PixelCodec, RefusesACodestreamOfAnotherSize)
 template <class Action>
 std::string saidDuring(const Action& action)
 {
-  testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStderr();
   action();
-  return testing::internal::GetCapturedStderr();
+  return ::testing::internal::GetCapturedStderr();
 }
 
 // The libraries' messages may quote the file, and would mix with those of this program.
@@ -213,7 +213,7 @@ TEST_P(PixelCodec, RefusesACodestreamThatEndsEarlyAndNamesTheFile)
 }
 
 INSTANTIATE_TEST_SUITE_P(Syntaxes, PixelCodec,
-                         testing::Values(gdcm::TransferSyntax::RLELossless,
+                         ::testing::Values(gdcm::TransferSyntax::RLELossless,
                                          gdcm::TransferSyntax::JPEGLosslessProcess14_1,
                                          gdcm::TransferSyntax::JPEGLSLossless,
                                          gdcm::TransferSyntax::JPEG2000Lossless));

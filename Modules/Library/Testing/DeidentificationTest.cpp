@@ -223,7 +223,7 @@ std::string planted(const TableRow& row, int n)
   return element(row.tag, (isUid(row) ? "1.2.77." : "PLANT") + std::to_string(n));
 }
 
-class Deidentification : public testing::Test
+class Deidentification : public ::testing::Test
 {
 protected:
   DeidentificationResult run(const DeidentificationOptions& options = {})

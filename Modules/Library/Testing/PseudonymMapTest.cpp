@@ -34,7 +34,7 @@ PseudonymMapError::Reason reasonOf(const std::filesystem::path& path, const std:
   return {};
 }
 
-class PseudonymMapFile : public testing::Test
+class PseudonymMapFile : public ::testing::Test
 {
 protected:
   void SetUp() override

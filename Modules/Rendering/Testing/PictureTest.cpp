@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 namespace
 {
 
-class PictureFiles : public testing::Test
+class PictureFiles : public ::testing::Test
 {
 protected:
   void SetUp() override

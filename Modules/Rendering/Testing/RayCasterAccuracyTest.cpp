@@ -203,7 +203,7 @@ std::vector<Case> cases()
 
 } // namespace
 
-class RayCasterAccuracy : public testing::TestWithParam<Case>
+class RayCasterAccuracy : public ::testing::TestWithParam<Case>
 {
 };
 
@@ -220,7 +220,7 @@ TEST_P(RayCasterAccuracy, KeepsToTheReference)
   RecordProperty("depth_median_voxels", std::to_string(agreement.median));
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, RayCasterAccuracy, testing::ValuesIn(cases()),
+INSTANTIATE_TEST_SUITE_P(Scenes, RayCasterAccuracy, ::testing::ValuesIn(cases()),
                          [](const auto& entry) { return std::string(entry.param.name); });
 
 // Pearls of 1.4 voxels: most rays that meet one have part of it between two samples, and many only

@@ -49,7 +49,7 @@ struct Cast
   }
 };
 
-class RayCasterArea : public testing::Test
+class RayCasterArea : public ::testing::Test
 {
 protected:
   RayCasterArea() { m_window->Initialize(); }

@@ -33,7 +33,9 @@ void expectOrthogonal(const SlicePlanes& planes)
                 usual.right.cross(usual.down).dot(usual.next), 1e-12);
     for (const SliceOrientation other : kSlices)
       if (other != slice)
+      {
         EXPECT_NEAR(planes.axes(slice).next.dot(planes.axes(other).next), 0.0, 1e-9);
+      }
   }
 }
 

@@ -178,3 +178,19 @@ TEST(PlainText, NamesHaveOnlyWhatIsSeen)
   words.note = "left\u202e ear";
   EXPECT_THROW(scene::checkDescription(words), core::InvalidParameter);
 }
+
+TEST(Case, AnMrThatIsRemovedNoLongerLiesOverTheSlices)
+{
+  scene::Case value;
+  for (const char* name : {"T1", "T2"})
+  {
+    value.mr.emplace_back();
+    value.mr.back().name = name;
+  }
+  value.view.slices.emplace();
+  value.view.slices->overlay = scene::ViewState::Slices::Overlay{"T2", "blend", 0.5};
+  scene::removePart(value, "T1");
+  EXPECT_TRUE(value.view.slices->overlay);
+  scene::removePart(value, "T2");
+  EXPECT_FALSE(value.view.slices->overlay);
+}

@@ -130,6 +130,8 @@ void removePart(Case& value, const std::string& name)
     checkNothingHangsOn(value, name);
     removeNamed(value.mr);
     readCtInsteadOf(value, name);
+    if (auto& slices = value.view.slices; slices && slices->overlay && slices->overlay->mr == name)
+      slices->overlay.reset();
     return;
   }
   std::string there;

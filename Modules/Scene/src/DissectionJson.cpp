@@ -4,6 +4,7 @@
 #include "petrous/Scene/Branches.h"
 #include "petrous/Scene/HistoryText.h"
 #include "petrous/Scene/Manifest.h"
+#include "petrous/Scene/PlainText.h"
 
 namespace petrous::scene
 {
@@ -41,6 +42,12 @@ auto parsed(std::string_view text, Parse parse)
 }
 
 } // namespace
+
+std::string plainIn(const json& j)
+{
+  auto text = j.get<std::string>();
+  return hasInvisible(text) ? withoutInvisible(text) : text;
+}
 
 json vectorOut(const Eigen::Vector3d& v)
 {
@@ -105,7 +112,7 @@ dissection::Stroke strokeIn(const json& j)
   dissection::Stroke stroke;
   stroke.object = j.at("object").get<std::string>();
   stroke.bytes = j.at("bytes").get<std::size_t>();
-  stroke.info.startedAt = j.at("started_at").get<std::string>();
+  stroke.info.startedAt = plainIn(j.at("started_at"));
   stroke.info.duration = j.at("duration_s").get<double>();
   stroke.info.burr.kind = dissection::parseBurrKind(j.at("burr").get<std::string>())
                               .value_or(dissection::Burr::Kind::Cutting);
@@ -114,7 +121,7 @@ dissection::Stroke strokeIn(const json& j)
   stroke.info.removed = j.at("removed_mm3").get<double>();
   for (const json& touched : j.at("structures"))
     stroke.info.structures.push_back(
-        {touched.at("name").get<std::string>(), touched.at("removed_mm3").get<double>()});
+        {plainIn(touched.at("name")), touched.at("removed_mm3").get<double>()});
   if (j.contains("camera"))
     stroke.info.camera = cameraIn(j.at("camera"));
   stroke.info.recovered = j.value("recovered", false);

@@ -10,6 +10,10 @@ namespace petrous::scene
 // The parts of a manifest that are also in a journal. `...In` throws json::exception or
 // InvalidParameter.
 
+/// Text of a manifest, which may be another's: terminals obey what may stand in it. A case at home
+/// is never refused for that: what is not seen is left out (withoutInvisible).
+std::string plainIn(const nlohmann::json& j);
+
 nlohmann::json vectorOut(const Eigen::Vector3d& v);
 Eigen::Vector3d vectorIn(const nlohmann::json& j);
 

@@ -18,6 +18,24 @@ namespace petrous::scene
 nlohmann::json poseOut(const core::RigidTransform& x);
 core::RigidTransform poseIn(const nlohmann::json& j);
 
+namespace
+{
+
+std::vector<std::string> plainTextsIn(const nlohmann::json& j)
+{
+  std::vector<std::string> texts;
+  for (const nlohmann::json& one : j.get<std::vector<nlohmann::json>>())
+    texts.push_back(plainIn(one));
+  return texts;
+}
+
+std::string plainAt(const nlohmann::json& j, const char* key)
+{
+  return j.contains(key) ? plainIn(j.at(key)) : std::string();
+}
+
+} // namespace
+
 nlohmann::json registrationOut(const Registration& registration);
 Registration registrationIn(const nlohmann::json& j);
 
@@ -52,7 +70,7 @@ RegistrationError errorIn(const json& j)
 {
   RegistrationError error;
   error.point = vectorIn(j.at("point_mm"));
-  error.place = j.at("place").get<std::string>();
+  error.place = plainIn(j.at("place"));
   error.median = j.at("median_mm").get<double>();
   error.p95 = j.at("p95_mm").get<double>();
   error.max = j.at("max_mm").get<double>();
@@ -68,8 +86,7 @@ json signOffOut(const SignOff& signOff)
 
 SignOff signOffIn(const json& j)
 {
-  return {j.at("who").get<std::string>(), j.at("when").get<std::string>(),
-          poseIn(j.at("mr_from_ct"))};
+  return {plainIn(j.at("who")), plainIn(j.at("when")), poseIn(j.at("mr_from_ct"))};
 }
 
 } // namespace
@@ -97,12 +114,12 @@ Registration registrationIn(const json& j)
   registration.method = methodFromName(j.at("method").get<std::string>());
   registration.refined = j.at("refined").get<bool>();
   registration.verdict = verdictFromName(j.at("verdict").get<std::string>());
-  registration.text = j.at("text").get<std::string>();
+  registration.text = plainIn(j.at("text"));
   if (j.contains("metric_nats"))
     registration.metric = j.at("metric_nats").get<double>();
   if (j.contains("error"))
     registration.error = errorIn(j.at("error"));
-  registration.through = j.value("through", std::string());
+  registration.through = plainAt(j, "through");
   if (j.contains("signed_off"))
     registration.signOff = signOffIn(j.at("signed_off"));
   return registration;
@@ -172,7 +189,7 @@ ImagePart imageIn(const json& j)
   image.object = j.at("object").get<std::string>();
   image.geometry = gridIn(j.at("grid"));
   image.range = {j.at("min").get<double>(), j.at("max").get<double>()};
-  image.notes = j.at("notes").get<std::vector<std::string>>();
+  image.notes = plainTextsIn(j.at("notes"));
   image.isFrameSalted = !j.contains(kUnsaltedFrame);
   image.frameOfReference = j.value(image.isFrameSalted ? kFrame : kUnsaltedFrame, std::string());
   if (j.contains(kPatient))
@@ -219,8 +236,8 @@ volume::SegmentCodes codesIn(const json& j)
     if (j.contains(key))
     {
       const json& code = j.at(key);
-      codes.*concept = {code.at("value").get<std::string>(), code.at("scheme").get<std::string>(),
-                        code.at("meaning").get<std::string>()};
+      codes.*concept = {plainIn(code.at("value")), plainIn(code.at("scheme")),
+                        plainIn(code.at("meaning"))};
     }
   const auto algorithm = j.value("algorithm", std::string());
   const auto* found = std::find(std::begin(kAlgorithms), std::end(kAlgorithms), algorithm);
@@ -229,7 +246,7 @@ volume::SegmentCodes codesIn(const json& j)
                                  "automatic");
   codes.algorithm =
       static_cast<volume::SegmentCodes::Algorithm>(std::distance(std::begin(kAlgorithms), found));
-  codes.algorithmName = j.value("algorithm_name", std::string());
+  codes.algorithmName = plainAt(j, "algorithm_name");
   return codes;
 }
 
@@ -260,7 +277,8 @@ LabelPart labelsIn(const json& j, const appearance::StructurePresets& presets)
   part.object = j.at("object").get<std::string>();
   if (j.contains("drawn_on"))
     part.drawnOn = j.at("drawn_on").get<std::string>();
-  part.notes = j.value("notes", std::vector<std::string>());
+  if (j.contains("notes"))
+    part.notes = plainTextsIn(j.at("notes"));
   for (const json& s : j.at("structures"))
     part.structures.push_back(
         {s.at("name").get<std::string>(), s.at("index").get<std::uint16_t>(),
@@ -348,7 +366,7 @@ ViewState::Slices slicesIn(const json& j)
   if (j.contains("overlay"))
   {
     const json& overlay = j.at("overlay");
-    slices.overlay = {overlay.at("mr").get<std::string>(), overlay.at("mode").get<std::string>(),
+    slices.overlay = {plainIn(overlay.at("mr")), overlay.at("mode").get<std::string>(),
                       overlay.at("opacity").get<double>()};
   }
   return slices;
@@ -536,6 +554,7 @@ Case caseIn(const json& j)
   value.iso = j.at("iso_hu").get<double>();
   value.denseBone = j.value("dense_bone_hu", value.denseBone);
   value.ct = imageIn(j.at("ct"));
+  value.ct.name = plainIn(j.at("ct").at("name")); // no part's, which are checked
   if (j.contains("bone"))
     value.boneLook = lookIn(j.at("bone"), presets);
   for (const json& m : j.at("mr"))
@@ -555,7 +574,7 @@ Case caseIn(const json& j)
     mesh.name = m.at("name").get<std::string>();
     mesh.object = m.at("object").get<std::string>();
     mesh.triangles = m.at("triangles").get<std::size_t>();
-    mesh.notes = m.at("notes").get<std::vector<std::string>>();
+    mesh.notes = plainTextsIn(m.at("notes"));
     mesh.look = lookIn(m.at("look"), presets);
     mesh.drawnOn = m.value("drawn_on", std::string());
     value.meshes.push_back(std::move(mesh));

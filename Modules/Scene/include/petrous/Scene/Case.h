@@ -112,7 +112,8 @@ std::vector<std::string> partNames(const Case& value);
 const char* kindOfPart(const Case& value, const std::string& name);
 
 /// Removes a structure, a mesh or an MR: one of them, in this order, where an older case has
-/// several of one name. Appearances that read a removed MR read the CT again. Throws
+/// several of one name. Appearances that read a removed MR read the CT again, and it no longer lies
+/// over the slices. Throws
 /// InvalidParameter listing the existing parts, Error (Refused) for an MR on which remaining
 /// structures were drawn.
 void removePart(Case& value, const std::string& name);

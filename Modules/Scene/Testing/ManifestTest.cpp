@@ -1,6 +1,9 @@
 #include <limits>
 #include <type_traits>
 
+#include <fstream>
+#include <iterator>
+
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -818,4 +821,159 @@ TEST(Manifest, RefusesAHostileViewOrAttachment)
   refused("/attachments/1/link", "");
   refused("/attachments/1/sha256", "abc");
   refused("/attachments", nlohmann::json(std::vector<int>(7)));
+}
+
+// Terminals obey escape sequences (ECMA-48), and a manifest may be another's.
+TEST(Manifest, HoldsNoTextThatATerminalObeys)
+{
+  const std::string escape = "\x1b]0;owned\x07";
+  auto j = nlohmann::json::parse(scene::toManifest(fullCase()));
+  j["ct"]["name"] = "ct" + escape;
+  j["ct"]["notes"] = {"one" + escape, "two"};
+  j["mr"][0]["notes"] = {escape};
+  j["labels"][0]["notes"] = {"three\u202e"};
+  j["meshes"][0]["notes"] = {"four" + escape};
+  j["mr"][0]["registration"]["text"] = "text" + escape;
+  j["mr"][0]["registration"]["through"] = escape;
+  j["mr"][0]["registration"]["error"] = {{"point_mm", {0, 0, 0}},
+                                         {"place", "place" + escape},
+                                         {"median_mm", 1},
+                                         {"p95_mm", 1},
+                                         {"max_mm", 1}};
+  j["mr"][0]["registration"]["signed_off"]["who"] = "who" + escape;
+  j["mr"][0]["registration"]["signed_off"]["when"] = "when" + escape;
+  j["mr"][0]["registration"]["signed_off"]["mr_from_ct"] = j["mr"][0]["mr_from_ct"];
+  j["labels"][0]["structures"][0]["codes"] = {
+      {"type", {{"value", "1" + escape}, {"scheme", "S" + escape}, {"meaning", "M" + escape}}},
+      {"algorithm_name", "A" + escape}};
+  j["dissection"]["strokes"][0]["started_at"] = escape;
+  j["dissection"]["strokes"][0]["structures"] = {{{"name", "N" + escape}, {"removed_mm3", 1.0}}};
+  const scene::Case back = scene::fromManifest(j.dump(), "m.json");
+  EXPECT_EQ(back.ct.notes, (std::vector<std::string>{"one]0;owned", "two"}));
+  EXPECT_EQ(back.mr[0].registration->text, "text]0;owned");
+  EXPECT_EQ(back.mr[0].registration->signOff->who, "who]0;owned");
+  const std::string text = scene::toManifest(back);
+  EXPECT_EQ(text.find("\\u001b"), std::string::npos) << text;
+  EXPECT_EQ(text.find("\\u0007"), std::string::npos);
+  EXPECT_EQ(text.find("\xe2\x80\xae"), std::string::npos);
+}
+
+namespace
+{
+
+std::string textOf(const std::string& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  EXPECT_TRUE(file) << path;
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// It is saved as what it is, in whichever format, and nothing of it changes any more.
+scene::Case savedAgain(const scene::Case& value)
+{
+  const std::string text = scene::toManifest(value);
+  EXPECT_GE(nlohmann::json::parse(text).at("petrous_case").get<int>(), 3);
+  scene::Case back = scene::fromManifest(text, "saved.json");
+  EXPECT_EQ(scene::toManifest(back), text);
+  return back;
+}
+
+} // namespace
+
+// Files as the programs of that time wrote them (Testing/Manifests: of a made-up case, by the
+// commits that are named there), with the values that they were given.
+TEST(Manifest, OpensStoredFilesOfEarlierPrograms)
+{
+  for (const int format : {1, 2, 4})
+  {
+    const std::string file = PETROUS_STORED "format-" + std::to_string(format) + ".json";
+    const std::string text = textOf(file);
+    ASSERT_EQ(nlohmann::json::parse(text).at("petrous_case").get<int>(), format);
+    const scene::Case opened = scene::fromManifest(text, file);
+    for (const scene::Case& value : {opened, savedAgain(opened)})
+    {
+      EXPECT_EQ(value.name, "Ohr links \u00fc");
+      EXPECT_EQ(value.revision, 41u);
+      EXPECT_EQ(value.iso, 287.123456789012345);
+      EXPECT_EQ(value.denseBone, 21034.7);
+      EXPECT_FALSE(value.boneLook.shown);
+      EXPECT_EQ(value.boneLook.opacity, 0.3F);
+      EXPECT_EQ(value.ct.object, "abc.nrrd");
+      EXPECT_EQ(value.ct.geometry.dims(), (core::Index3{512, 512, 166}));
+      EXPECT_EQ(value.ct.geometry.spacing(), Vector3d(1.0 / 3.0, 0.45, 0.7000000001));
+      EXPECT_EQ(value.ct.geometry.origin(), Vector3d(-123.456789, 0.1, 1e-7));
+      EXPECT_EQ(value.ct.range.max, 3617);
+      EXPECT_EQ(value.ct.notes, std::vector<std::string>{"jitter of 0.02 mm"});
+      EXPECT_EQ(value.ct.modality, scene::Modality::Unknown);
+      EXPECT_TRUE(value.ct.patient.empty());
+      ASSERT_EQ(value.mr.size(), 1u);
+      EXPECT_EQ(value.mr[0].name, "t2");
+      EXPECT_TRUE(value.mr[0].registered);
+      EXPECT_EQ(value.mr[0].mrFromCt.translation(), Vector3d(1, 2, 3));
+      EXPECT_EQ(value.mr[0].registration.has_value(), format >= 3);
+      ASSERT_EQ(value.labels.size(), 1u);
+      ASSERT_EQ(value.labels[0].structures.size(), 1u);
+      const scene::StructurePart& nerve = value.labels[0].structures[0];
+      EXPECT_EQ(nerve.name, "nerve");
+      EXPECT_EQ(nerve.index, 300);
+      EXPECT_EQ(nerve.voxels, 123456789012ULL);
+      EXPECT_EQ(nerve.look.stiffness, 0.35);
+      EXPECT_EQ(nerve.look.sourceImage, "t2");
+      EXPECT_FALSE(nerve.look.touchable);
+      ASSERT_TRUE(nerve.look.transfer);
+      EXPECT_EQ(nerve.codes.type.value, format == 4 ? "56052001" : "");
+      EXPECT_EQ(nerve.codes.algorithmName, format == 4 ? "a network" : "");
+      ASSERT_EQ(value.meshes.size(), 1u);
+      EXPECT_EQ(value.meshes[0].triangles, 12u);
+      ASSERT_TRUE(value.camera);
+      EXPECT_EQ(value.camera->parallelScale, 33.0);
+      EXPECT_TRUE(value.description.empty());
+      EXPECT_TRUE(value.attachments.empty());
+      // The first format has a list and how many of it are applied, later ones a tree.
+      ASSERT_EQ(value.dissection.strokes().size(), format == 1 ? 2u : 3u);
+      EXPECT_EQ(value.applied(), format == 1 ? 1u : 2u);
+      EXPECT_EQ(value.dissection.history().ahead(), 1u);
+      EXPECT_EQ(value.dissection.history().branches().size(), format == 1 ? 1u : 2u);
+      const dissection::StrokeInfo& info = value.dissection.strokes()[0]->info;
+      EXPECT_EQ(info.removed, 1.0 / 7.0);
+      EXPECT_EQ(info.burr.kind, dissection::Burr::Kind::Diamond);
+      EXPECT_EQ(info.startedAt, "2026-01-01T00:00:00Z");
+      ASSERT_EQ(info.structures.size(), 1u);
+      EXPECT_EQ(info.structures[0].volume, 0.25);
+    }
+  }
+}
+
+// Of the phantom patient, as the fuzzers read them.
+TEST(Manifest, OpensStoredCasesOfEarlierPrograms)
+{
+  const auto opened = [](const char* name, int format)
+  {
+    const std::string text = textOf(std::string(PETROUS_CORPUS) + name);
+    EXPECT_EQ(nlohmann::json::parse(text).at("petrous_case").get<int>(), format);
+    return scene::fromManifest(text, name);
+  };
+  const scene::Case third = opened("drilled.json", 3);
+  for (const scene::Case& value : {third, savedAgain(third)})
+  {
+    EXPECT_EQ(value.revision, 7u);
+    EXPECT_EQ(value.ct.geometry.dims(), (core::Index3{24, 24, 24}));
+    EXPECT_EQ(value.dissection.history().branch().name, "two");
+    EXPECT_EQ(value.dissection.history().branches().size(), 2u);
+    EXPECT_EQ(value.dissection.strokes().size(), 2u);
+    EXPECT_EQ(value.dissection.strokes()[0]->info.removed, 22.359116226434708);
+    ASSERT_EQ(value.mr.size(), 1u);
+    EXPECT_FALSE(value.mr[0].registered);
+    ASSERT_NE(scene::findStructure(value, "sigmoid_sinus"), nullptr);
+    EXPECT_EQ(scene::findStructure(value, "sigmoid_sinus")->voxels, 53u);
+  }
+  const scene::Case fifth = opened("described.json", 5);
+  for (const scene::Case& value : {fifth, savedAgain(fifth)})
+  {
+    EXPECT_EQ(value.description.note, "one line\n\tand \"another\" \u00fc\n");
+    EXPECT_EQ(value.description.diagnosis, "cholesteatoma");
+    EXPECT_EQ(value.description.side, scene::Side::Left);
+    EXPECT_EQ(value.description.date, "2028-02-29");
+    EXPECT_EQ(value.description.tags.size(), 2u);
+  }
 }

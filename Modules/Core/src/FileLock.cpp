@@ -1,6 +1,8 @@
 #include "petrous/Core/FileLock.h"
 
 #include <cerrno>
+#include <chrono>
+#include <thread>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -11,24 +13,65 @@
 namespace petrous::core
 {
 
-FileLock::FileLock(const std::filesystem::path& file, IfHeld ifHeld)
-  : m_descriptor(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666))
+namespace
 {
-  if (m_descriptor < 0)
+
+int opened(const std::filesystem::path& file)
+{
+  const int descriptor =
+      ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
+  if (descriptor < 0)
     throwOutputError(errno, file);
-  while (::flock(m_descriptor, ifHeld == IfHeld::Wait ? LOCK_EX : LOCK_EX | LOCK_NB) != 0)
-    if (const int error = errno; error != EINTR)
+  return descriptor;
+}
+
+} // namespace
+
+FileLock::FileLock(const std::filesystem::path& file, IfHeld ifHeld)
+  : m_descriptor(opened(file))
+{
+  if (!take(ifHeld == IfHeld::Wait ? LOCK_EX : LOCK_EX | LOCK_NB, file))
+  {
+    ::close(m_descriptor);
+    throw OutputFileError(OutputFileError::Reason::NotPermitted, file,
+                          "is in use by another program; wait until it has ended");
+  }
+}
+
+FileLock::FileLock(const std::filesystem::path& file, const std::function<void(double)>& waiting)
+  : m_descriptor(opened(file))
+{
+  constexpr std::chrono::milliseconds kEvery(100);
+  const auto begun = std::chrono::steady_clock::now();
+  while (!take(LOCK_EX | LOCK_NB, file))
+    try
+    {
+      waiting(std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());
+      std::this_thread::sleep_for(kEvery);
+    }
+    catch (...)
     {
       ::close(m_descriptor);
+      throw;
+    }
+}
+
+// False if another holds it.
+bool FileLock::take(int operation, const std::filesystem::path& file)
+{
+  while (::flock(m_descriptor, operation) != 0)
+    if (const int error = errno; error != EINTR)
+    {
       if (error == EWOULDBLOCK)
-        throw OutputFileError(OutputFileError::Reason::NotPermitted, file,
-                              "is in use by another program; wait until it has ended");
+        return false;
+      ::close(m_descriptor);
       if (error == ENOLCK || error == ENOSYS || error == EOPNOTSUPP || error == EINVAL)
         throw OutputFileError(OutputFileError::Reason::WrongPlace, file,
                               "cannot be locked: this drive has no file locks, as some network "
                               "drives; choose a folder on a local disk");
       throwOutputError(error, file);
     }
+  return true;
 }
 
 FileLock::~FileLock()

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 namespace petrous::core
 {
@@ -18,11 +19,16 @@ public:
     Throw
   };
   explicit FileLock(const std::filesystem::path& file, IfHeld ifHeld = IfHeld::Wait);
+  /// Waits, and calls `waiting` ten times a second with the time that it has waited, s. What that
+  /// throws ends it.
+  FileLock(const std::filesystem::path& file, const std::function<void(double)>& waiting);
   ~FileLock();
   FileLock(const FileLock&) = delete;
   FileLock& operator=(const FileLock&) = delete;
 
 private:
+  bool take(int operation, const std::filesystem::path& file);
+
   int m_descriptor;
 };
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <set>
 
@@ -160,6 +161,13 @@ protected:
     EXPECT_EQ(other.verify().objects, 0U);
     EXPECT_EQ(text.find('\n'), text.npos);
     return text;
+  }
+
+  /// So that the library has a salt.
+  static void savedWith(Library& library)
+  {
+    scene::Case value = test::smallCase("own", 16);
+    library.save(value);
   }
 
   TemporaryFolder m_folder;
@@ -388,13 +396,19 @@ TEST_F(Archives, RemoveWhatAKilledProcessLeft)
   make(".petrous-0011223344556679", "archive");  // of a process that is at work
   make(".petrous-001122334455667a", "1/ct.dcm"); // something else grows there
   make("petrous-mine", "archive");
+  // Killed before anything was made in it; and about to be filled by another program.
+  fs::create_directory(here / ".petrous-001122334455667b");
+  fs::last_write_time(here / ".petrous-001122334455667b",
+                      fs::file_time_type::clock::now() - std::chrono::hours(2));
+  fs::create_directory(here / ".petrous-001122334455667c");
   const OwnerLock alive(here / ".petrous-0011223344556679");
   archiveCase(m_library, "ear", m_file);
   std::set<std::string> left;
   for (const auto& entry : fs::directory_iterator(here))
     left.insert(entry.path().filename().string());
   EXPECT_EQ(left, (std::set<std::string>{".petrous-0011223344556679", ".petrous-001122334455667a",
-                                         "petrous-mine", "library", "ear.petrous"}));
+                                         ".petrous-001122334455667c", "petrous-mine", "library",
+                                         "ear.petrous"}));
 }
 
 TEST_F(Archives, CanBeCancelled)
@@ -678,6 +692,246 @@ TEST_F(Archives, OfAnotherFrameOfReferenceAreNotMistaken)
       << "the salt of the other library is not known";
   restoreCase(m_library, m_file, {"copy", ""});
   EXPECT_EQ(m_library.open("copy").ct.frameOfReference, m_library.open("ear").ct.frameOfReference);
+}
+
+// Two cases of one patient: who gets both archives must not see that by them, and a hospital's
+// archives must not be told from another's.
+TEST_F(Archives, OfOnePatientHaveNothingInCommonButForTheirLibrary)
+{
+  const std::string frame(64, 'a'), id(64, 'b'), name(64, 'c');
+  const auto archived = [&](const char* of, int n)
+  {
+    scene::Case value = test::smallCase(of, n);
+    value.ct.frameOfReference = frame;
+    value.ct.patient.id = id;
+    value.ct.patient.name = name;
+    value.mr.push_back(test::smallCase("other", n + 1).ct);
+    value.mr.back().name = "T2";
+    value.mr.back().frameOfReference = frame;
+    m_library.save(value);
+    archiveCase(m_library, of, m_file);
+    TestZip zip = unpacked();
+    return std::pair{nlohmann::json::parse(find(zip, "case.json").bytes),
+                     nlohmann::json::parse(find(zip, "petrous.json").bytes)};
+  };
+  const auto [first, firstIndex] = archived("first", 18);
+  const auto [second, secondIndex] = archived("second", 20);
+  const scene::Case here = m_library.open("first");
+  EXPECT_NE(firstIndex["library_sha256"], secondIndex["library_sha256"]);
+  const auto all = [](const nlohmann::json& image)
+  {
+    return std::set<std::string>{image["frame_of_reference_salted_sha256"],
+                                 image["patient_salted_sha256"]["id"],
+                                 image["patient_salted_sha256"]["name"]};
+  };
+  std::set<std::string> seen{here.ct.frameOfReference, here.ct.patient.id, here.ct.patient.name};
+  ASSERT_EQ(here.ct.patient.id, m_library.open("second").ct.patient.id);
+  for (const std::string& hash : all(first["ct"]))
+    EXPECT_TRUE(seen.insert(hash).second) << "another than at home";
+  for (const std::string& hash : all(second["ct"]))
+    EXPECT_TRUE(seen.insert(hash).second) << "another than in the first";
+
+  // The library that wrote it gets them back, another one nothing.
+  restoreCase(m_library, m_file, {"again", ""});
+  const scene::Case again = m_library.open("again");
+  EXPECT_EQ(again.ct.frameOfReference, here.ct.frameOfReference);
+  EXPECT_EQ(again.ct.patient.id, here.ct.patient.id);
+  EXPECT_EQ(again.ct.patient.name, here.ct.patient.name);
+  EXPECT_EQ(again.mr[0].frameOfReference, here.ct.frameOfReference);
+  Library other(m_folder.path() / "other");
+  savedWith(other);
+  const auto notes = restoreCase(other, m_file).notes;
+  EXPECT_TRUE(other.open("second").ct.patient.empty());
+  EXPECT_EQ(other.open("second").ct.frameOfReference, "");
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(),
+                          [](const std::string& note)
+                          { return note.find("acquired in one position") != note.npos; }));
+}
+
+// The mark of older programs is the same in all archives of a library, and their hashes are those
+// at home.
+TEST_F(Archives, OfOlderProgramsAreKnownByTheirLibrary)
+{
+  scene::Case value = m_library.open("ear");
+  value.ct.frameOfReference = std::string(64, 'a');
+  value.ct.isFrameSalted = false;
+  m_library.save(value);
+  archiveCase(m_library, "ear", m_file);
+  TestZip zip = unpacked();
+  if (zip.entries.empty())
+    GTEST_SKIP() << "no python3 to unpack the archive with";
+  nlohmann::json manifest = nlohmann::json::parse(find(zip, "case.json").bytes);
+  manifest["ct"]["frame_of_reference_salted_sha256"] = m_library.open("ear").ct.frameOfReference;
+  std::string& text = find(zip, "case.json").bytes;
+  text = manifest.dump();
+  const std::string salt = bytesOf(m_library.folder() / "salt") + "archive";
+  nlohmann::json index = nlohmann::json::parse(find(zip, "petrous.json").bytes);
+  const auto hashOf = [](const std::string& of)
+  { return sha256Of(reinterpret_cast<const std::uint8_t*>(of.data()), of.size()); };
+  index["manifest_sha256"] = hashOf(text);
+  index["library_sha256"] = hashOf(salt);
+  find(zip, "petrous.json").bytes = index.dump();
+  write(zip.bytes());
+  restoreCase(m_library, m_file, {"old", ""});
+  EXPECT_EQ(m_library.open("old").ct.frameOfReference, m_library.open("ear").ct.frameOfReference);
+}
+
+// A structure that no voxel carries, or that was renamed: its former name is a note's, and a
+// place's, and nobody sees it.
+TEST_F(Archives, NameNothingThatTheCaseDoesNotHave)
+{
+  scene::Case value = m_library.open("ear");
+  value.labels[0].notes = {"'DOE^JOHN 19500101' left out, as no voxel carries it",
+                           "'nerve' is thin"};
+  value.ct.notes = {"is in inch; converted to mm"};
+  scene::ImagePart mr = test::smallCase("mr", 20).ct;
+  mr.name = "T2";
+  mr.registered = true;
+  mr.registration.emplace();
+  mr.registration->error = scene::RegistrationError{};
+  mr.registration->error->place = "the middle of 'DOE^JOHN 19500101'";
+  mr.registration->through = "DOE^JOHN MR";
+  value.mr.push_back(mr);
+  value.view.slices.emplace();
+  value.view.slices->width = 100;
+  value.view.slices->overlay = scene::ViewState::Slices::Overlay{"DOE^JOHN MR", "blend", 0.5};
+  m_library.save(value);
+  for (const bool planOnly : {false, true})
+  {
+    ArchiveOptions options;
+    options.planOnly = planOnly;
+    const auto notes = archiveCase(m_library, "ear", m_file, options).notes;
+    EXPECT_TRUE(std::any_of(notes.begin(), notes.end(),
+                            [](const std::string& note)
+                            { return note.rfind("1 note on the import", 0) == 0; }));
+    TestZip zip = unpacked();
+    for (const TestZip::Entry& entry : zip.entries)
+      EXPECT_EQ(entry.bytes.find("DOE"), std::string::npos) << entry.name;
+    const std::string& text = find(zip, "case.json").bytes;
+    for (const char* kept : {"'nerve' is thin", "is in inch"})
+      EXPECT_NE(text.find(kept), std::string::npos) << kept;
+  }
+  EXPECT_EQ(m_library.open("ear").labels[0].notes.size(), 2U) << "at home it stays";
+}
+
+// Each is whole to its hashes, as a program that makes archives could write it.
+TEST_F(Archives, ThatContradictThemselvesAreRefused)
+{
+  scene::Case value = m_library.open("ear");
+  scene::ImagePart mr = test::smallCase("mr", 20).ct;
+  mr.name = "T2";
+  value.mr.push_back(mr);
+  value.attachments.emplace_back();
+  value.attachments.back().name = "tool.ticks";
+  value.attachments.back().kind = scene::Attachment::Kind::Recording;
+  value.attachments.back().content = std::make_shared<std::vector<std::uint8_t>>(
+      std::vector<std::uint8_t>{'P', 'T', 'R', 'T', 'I', 'C', 'K', '\n', 'x'});
+  m_library.save(value);
+  archiveCase(m_library, "ear", m_file);
+  const TestZip whole = unpacked();
+  if (whole.entries.empty())
+    GTEST_SKIP() << "no python3 to unpack the archive with";
+  const auto hashOf = [](const std::string& of)
+  { return sha256Of(reinterpret_cast<const std::uint8_t*>(of.data()), of.size()); };
+  using Json = nlohmann::json;
+  const auto with = [&](const std::function<void(Json&)>& change, const std::string& entry = {},
+                        const std::string& content = {})
+  {
+    TestZip zip = whole;
+    Json manifest = Json::parse(find(zip, "case.json").bytes);
+    Json index = Json::parse(find(zip, "petrous.json").bytes);
+    if (!entry.empty())
+    {
+      find(zip, entry).bytes = content;
+      for (auto& one : index["objects"])
+        if (one["file"] == entry)
+        {
+          const std::string before = one["object"];
+          const std::string after = hashOf(content) + before.substr(64);
+          one["object"] = after;
+          one["bytes"] = content.size();
+          std::string text = manifest.dump();
+          for (std::size_t at = text.find(before); at != text.npos; at = text.find(before))
+            text.replace(at, before.size(), after);
+          manifest = Json::parse(text);
+        }
+    }
+    if (change)
+      change(manifest);
+    std::string& text = find(zip, "case.json").bytes;
+    text = manifest.dump();
+    index["manifest_sha256"] = hashOf(text);
+    find(zip, "petrous.json").bytes = index.dump();
+    write(zip.bytes());
+  };
+  with({});
+  Library sound(m_folder.path() / "sound");
+  EXPECT_EQ(restoreCase(sound, m_file).parts, 7U) << "the way to change it is right";
+
+  const auto expectRefused = [&](const std::string& words)
+  {
+    const std::string text = refused();
+    EXPECT_NE(text.find(words), text.npos) << words << ": " << text;
+  };
+  with({}, "labels/nerve.seg.nrrd", "garbage");
+  expectRefused("a label map cannot be read");
+  with({}, "meshes/incus.obj", "garbage");
+  expectRefused("a mesh cannot be read");
+  with({}, "strokes/0001.stroke", "garbage");
+  expectRefused("a stroke");
+  with({}, "strokes/0002.stroke", "garbage"); // undone
+  expectRefused("a stroke");
+  with([](Json& j) { j["attachments"][0]["kind"] = "screenshot"; });
+  expectRefused("an attachment");
+  with([](Json& j) { j["labels"].push_back(j["labels"][0]); });
+  expectRefused("two structures of one name");
+  with([](Json& j) { j["meshes"].push_back(j["meshes"][0]); });
+  expectRefused("two meshes of one name");
+  with(
+      [](Json& j)
+      {
+        j["labels"][0]["structures"].push_back(j["labels"][0]["structures"][0]);
+        j["labels"][0]["structures"][1]["name"] = "tumour";
+      });
+  expectRefused("one label");
+  with([](Json& j) { j["labels"][0]["structures"][0]["index"] = 999; });
+  expectRefused("not in its label map");
+  with([](Json& j)
+       { j["labels"][0]["structures"][0]["voxels"] = std::uint64_t{1000000000000000000}; });
+  expectRefused("larger than its label map");
+  with([](Json& j) { j["labels"][0]["structures"][0]["volume_mm3"] = 1e9; });
+  expectRefused("larger than its label map");
+  for (const char* part : {"labels", "meshes"})
+  {
+    with([part](Json& j) { j[part][0]["drawn_on"] = "nobody"; });
+    expectRefused("an MR that it does not have");
+  }
+  with([](Json& j) { j["iso_hu"] = 1e308; });
+  expectRefused("threshold of bone");
+  with([](Json& j) { j["dense_bone_hu"] = -1e308; });
+  expectRefused("threshold of bone");
+  with([](Json& j) { std::swap(j["ct"]["min"], j["ct"]["max"]); });
+  expectRefused("least intensity");
+
+  // What older programs left in a case is mended.
+  with(
+      [](Json& j)
+      {
+        j["petrous_case"] = 6;
+        j["view"]["slices"] = {{"crosshair_mm", {0, 0, 0}},
+                               {"window_width", 100},
+                               {"window_level", 50},
+                               {"overlay", {{"mr", "gone"}, {"mode", "blend"}, {"opacity", 0.5}}}};
+        j["mr"][0]["registration"] = {{"method", "by hand"},
+                                      {"refined", false},
+                                      {"verdict", "good"},
+                                      {"text", ""},
+                                      {"through", "gone"}};
+      });
+  Library mended(m_folder.path() / "mended");
+  restoreCase(mended, m_file);
+  EXPECT_FALSE(mended.open("ear").view.slices->overlay);
+  EXPECT_EQ(mended.open("ear").mr[0].registration->through, "");
 }
 
 TEST_F(Archives, AreRestoredInAnEmptyFolder)

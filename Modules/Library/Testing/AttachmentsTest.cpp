@@ -332,7 +332,7 @@ TEST_F(Attachments, AreLostAlone)
                             [name](const std::string& text)
                             { return text.find(name) != text.npos; }))
         << name;
-  const auto said = m_library.repair();
+  const auto said = m_library.repair().lost;
   EXPECT_EQ(std::count_if(said.begin(), said.end(),
                           [](const std::string& text)
                           { return text.find("is lost") != text.npos; }),
@@ -427,4 +427,83 @@ TEST_F(Attachments, BelongToAStrokeByItsObject)
   scene::Case without = back;
   without.dissection = dissection::Dissection();
   EXPECT_EQ(scene::strokeOf(without, back.attachments.front()), 0U);
+}
+
+// What leaves is the picture, also where the case has a link, which it keeps as it is.
+TEST_F(Attachments, LoseTheMetadataOfALinkedPngWhereTheyLeave)
+{
+  const std::string png = pngWith(chunk("tEXt", std::string("Author\0Doe^John", 15)));
+  add("far.png", png, true);
+  const std::string spoilt = pngWith(chunk("tEXt", "Doe^John").replace(12, 1, "!"));
+  add("spoilt.png", spoilt, true);
+  const fs::path file = m_folder.path() / "ear.petrous";
+  const auto notes = archiveCase(m_library, "ear", file).notes;
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(),
+                          [](const std::string& note)
+                          {
+                            return note.find("'spoilt.png'") != note.npos &&
+                                   note.find("not in the archive") != note.npos;
+                          }));
+  EXPECT_EQ(read(file).find("Doe^John"), std::string::npos);
+  Library second(m_folder.path() / "second");
+  restoreCase(second, file);
+  EXPECT_EQ(namesOf(second.open("ear")), Names{"far.png"});
+  EXPECT_EQ(extracted(second, "ear", "far.png"), pngWith(""));
+  EXPECT_TRUE(second.verify().damaged.empty());
+  EXPECT_EQ(read(m_folder.path() / "far.png"), png);
+  EXPECT_EQ(extracted(m_library, "ear", "far.png"), png);
+}
+
+// One bit of the same size: only its hash tells.
+TEST_F(Attachments, ADamagedOneKeepsNothingElseFromLeaving)
+{
+  add("tool.ticks", kRecording);
+  add("view.png", pngWith(""));
+  std::string other = kRecording;
+  other.back() = '!';
+  write(m_library.folder() / "objects" / scene::findAttachment(m_value, "tool.ticks").object,
+        other);
+  const fs::path file = m_folder.path() / "ear.petrous";
+  const auto notes = archiveCase(m_library, "ear", file).notes;
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(),
+                          [](const std::string& note)
+                          {
+                            return note.find("'tool.ticks' is not in the archive") != note.npos &&
+                                   note.find("damaged") != note.npos;
+                          }));
+  Library second(m_folder.path() / "second");
+  restoreCase(second, file);
+  EXPECT_EQ(namesOf(second.open("ear")), Names{"view.png"});
+}
+
+TEST_F(Attachments, AreNotExtractedOverWhatALibraryKeeps)
+{
+  add("plan.pdf", kDocument);
+  savedCase(m_library, "other");
+  Library second(m_folder.path() / "second");
+  savedCase(second, "there");
+  const auto before = test::contentOf(m_folder.path());
+  const scene::Case value = m_library.open("ear");
+  const fs::path link = m_folder.path() / "link";
+  fs::create_directory_symlink(m_library.folder() / "objects", link);
+  for (const fs::path& out :
+       {m_library.folder() / "cases/other.json", m_library.folder() / "library.sqlite",
+        m_library.folder() / "objects" / value.ct.object, link / value.ct.object,
+        second.folder() / "cases/there.json"})
+  {
+    try
+    {
+      extractAttachment(m_library, value, value.attachments.front(), out);
+      ADD_FAILURE() << out;
+    }
+    catch (const core::Error& error)
+    {
+      EXPECT_EQ(error.fault(), core::Fault::Refused) << error.what();
+    }
+    EXPECT_THROW(archiveCase(m_library, "ear", out), core::Error) << out;
+  }
+  fs::remove(link);
+  EXPECT_EQ(test::contentOf(m_folder.path()), before);
+  extractAttachment(m_library, value, value.attachments.front(), m_library.folder() / "my.pdf");
+  EXPECT_EQ(read(m_library.folder() / "my.pdf"), kDocument);
 }

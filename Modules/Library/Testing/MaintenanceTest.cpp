@@ -530,7 +530,9 @@ TEST_F(Maintenance, RepairBringsStrokesBackAndMakesTheIndexAgain)
   journal.follow(value.dissection);
   journal.leave();
   std::ofstream(m_folder.path() / "library.sqlite") << "no database";
-  EXPECT_EQ(m_library.repair().size(), 2u);
+  const Repaired repaired = m_library.repair();
+  EXPECT_EQ(repaired.done.size(), 2u);
+  EXPECT_TRUE(repaired.lost.empty());
   EXPECT_EQ(m_library.open("a").dissection.strokes().size(), 1u);
   std::ifstream index(m_folder.path() / "library.sqlite", std::ios::binary);
   std::string magic(6, ' ');
@@ -576,4 +578,149 @@ TEST_F(Maintenance, TheIndexIsNotReadWhileSomebodyWritesIt)
   sqlite3_exec(database, "ROLLBACK", nullptr, nullptr, nullptr);
   sqlite3_close(database);
   EXPECT_EQ(m_library.list().at(0).structures, 1u);
+}
+
+// The former name may be a patient's; the index deletes its rows with what they held.
+TEST_F(Maintenance, ARenamedCaseHasItsFormerNameNowhere)
+{
+  scene::Case value = make("Zyx4711Wvu");
+  drill(value, {8, 8, 8});
+  m_library.save(value);
+  m_library.list();
+  const auto hasName = [this]
+  {
+    for (const auto& entry : fs::recursive_directory_iterator(m_folder.path()))
+    {
+      if (entry.path().filename().string().find("Zyx4711Wvu") != std::string::npos)
+        return true;
+      if (!entry.is_regular_file())
+        continue;
+      std::ifstream file(entry.path(), std::ios::binary);
+      const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+      if (bytes.find("Zyx4711Wvu") != std::string::npos)
+        return true;
+    }
+    return false;
+  };
+  ASSERT_TRUE(hasName()) << "looked for at the right place";
+  m_library.rename("Zyx4711Wvu", "ear");
+  EXPECT_FALSE(hasName());
+  EXPECT_EQ(m_library.open("ear").dissection.strokes().size(), 1u);
+  EXPECT_EQ(m_library.open("ear").revision, value.revision);
+  EXPECT_TRUE(m_library.verify().damaged.empty());
+}
+
+TEST_F(Maintenance, ADeletedCaseThatCannotComeBackIsFoundAndStaysDeleted)
+{
+  make("a");
+  make("b", 20);
+  m_library.remove("a");
+  const fs::path deleted = m_folder.path() / "cases/a.json.deleted-1";
+  ASSERT_TRUE(fs::exists(deleted));
+  std::ofstream(deleted) << "{";
+  const Inspection found = m_library.verify();
+  ASSERT_EQ(found.damaged.size(), 1u);
+  EXPECT_EQ(found.cases, 1u);
+  EXPECT_EQ(found.damaged[0].object, "cases/a.json.deleted-1");
+  EXPECT_EQ(found.damaged[0].deletedCases, std::vector<std::string>{"a"});
+  EXPECT_TRUE(found.damaged[0].cases.empty());
+  const auto before = contentOf(m_folder.path());
+  EXPECT_EQ(refusal([&] { m_library.undelete("a"); }).first, LibraryError::Reason::Damaged);
+  EXPECT_EQ(contentOf(m_folder.path()), before);
+  EXPECT_NO_THROW(m_library.collectGarbage());
+  EXPECT_TRUE(m_library.verify().damaged.empty());
+}
+
+TEST_F(Maintenance, DamageNamesAllCasesThatNeedTheFileDeletedOnesToo)
+{
+  const scene::Case value = make("a");
+  m_library.copy("a", "b");
+  m_library.copy("a", "c");
+  m_library.remove("c");
+  flipBit(object(value.ct.object), fs::file_size(object(value.ct.object)) - 100);
+  const Inspection found = m_library.verify();
+  ASSERT_EQ(found.damaged.size(), 1u);
+  EXPECT_EQ(found.damaged[0].cases, (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(found.damaged[0].deletedCases, std::vector<std::string>{"c"});
+  EXPECT_NE(found.damaged[0].text.find("needed by: 'a', 'b', 'c' (deleted)"), std::string::npos)
+      << found.damaged[0].text;
+  m_library.remove("a");
+  m_library.remove("b");
+  const Inspection deleted = m_library.verify();
+  ASSERT_EQ(deleted.damaged.size(), 1u) << "it could come back";
+  EXPECT_TRUE(deleted.damaged[0].cases.empty());
+  EXPECT_NE(deleted.damaged[0].text.find("deleted case"), std::string::npos)
+      << deleted.damaged[0].text;
+}
+
+// Another program deletes a case while its files are read.
+TEST_F(Maintenance, WhatIsDeletedMeanwhileIsNotDamage)
+{
+  make("a");
+  make("b", 20);
+  bool done = false;
+  const core::Progress progress(
+      [this, &done](double, const std::string&)
+      {
+        if (std::exchange(done, true))
+          return;
+        Library other(m_folder.path());
+        other.remove("a");
+        other.remove("b");
+        other.collectGarbage();
+      });
+  const Inspection found = m_library.verify(progress);
+  EXPECT_TRUE(done);
+  EXPECT_TRUE(found.damaged.empty()) << found.damaged[0].text;
+}
+
+TEST_F(Maintenance, ALostImageIsSaidAndComesBackWithTheSameImport)
+{
+  const scene::Case value = make("a");
+  m_library.copy("a", "b");
+  EXPECT_TRUE(m_library.lost(value).empty());
+  fs::remove(object(value.ct.object));
+  const auto lost = m_library.lost(m_library.open("a"));
+  ASSERT_EQ(lost.size(), 1u);
+  EXPECT_NE(lost[0].find("the CT of case 'a' is missing"), std::string::npos) << lost[0];
+  const Repaired repaired = m_library.repair();
+  EXPECT_EQ(repaired.lost.size(), 2u) << "of each case that needs it";
+  make("c");
+  EXPECT_TRUE(m_library.repair().lost.empty());
+  EXPECT_NO_THROW(m_library.open("a").ct.volume.get());
+}
+
+// Another program holds the lock: it ends only when the user wants.
+TEST_F(Maintenance, WaitingForTheLibraryCanBeCancelledAndChangesNothing)
+{
+  scene::Case value = make("a");
+  const auto before = contentOf(m_folder.path());
+  const int other = ::open((m_folder.path() / ".lock").c_str(), O_RDWR);
+  ASSERT_EQ(::flock(other, LOCK_EX), 0);
+  auto token = std::make_shared<core::CancelToken>();
+  std::string said;
+  const core::Progress progress(
+      [&](double, const std::string& text)
+      {
+        said = text;
+        token->cancel();
+      },
+      token);
+  value.iso = 500;
+  EXPECT_THROW(m_library.save(value, progress), core::CancelledError);
+  EXPECT_EQ(said, "another program is using the library");
+  EXPECT_THROW(m_library.collectGarbage(progress), core::CancelledError);
+  Library told(m_folder.path());
+  int calls = 0;
+  told.onWait(
+      [&calls](double)
+      {
+        if (++calls >= 2)
+          throw core::CancelledError("waiting");
+      });
+  EXPECT_THROW(told.rename("a", "b"), core::CancelledError);
+  EXPECT_THROW(told.remove("a"), core::CancelledError);
+  EXPECT_EQ(contentOf(m_folder.path()), before);
+  ::close(other);
+  EXPECT_NO_THROW(m_library.save(value));
 }

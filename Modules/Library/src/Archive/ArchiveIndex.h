@@ -25,10 +25,20 @@ struct ArchiveIndex
   std::string name;      ///< of the case
   bool planOnly = false; ///< images, label maps and meshes are left out
   std::string manifest;  ///< SHA-256 of kManifestEntry
-  std::string library;   ///< tells libraries of different salt apart
+  /// archiveMark, salted: by it the library knows its own archive, and nobody that two are of one
+  /// library.
+  std::string library;
   std::vector<Object> objects;
   std::vector<std::uint8_t> thumbnail; ///< or empty
 };
+
+/// `manifest`: its SHA-256.
+inline std::string archiveMark(const std::string& manifest)
+{
+  return "archive " + manifest;
+}
+
+constexpr const char* kMarkOfAll = "archive"; ///< of archives that older programs wrote
 
 std::string toText(const ArchiveIndex& index);
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <optional>
@@ -8,15 +9,20 @@
 #include <sodium.h>
 
 #include "ArchiveIndex.h"
+#include "AttachmentFiles.h"
 #include "GzipMembers.h"
 #include "LibraryFolder.h"
 #include "ManifestFile.h"
 #include "Thumbnail.h"
 #include "ZipEntries.h"
+#include "petrous/Dissection/StrokeCodec.h"
+#include "petrous/Imaging/LabelFile.h"
+#include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/NrrdFile.h"
 #include "petrous/Library/Archive.h"
 #include "petrous/Library/FrameSalt.h"
 #include "petrous/Library/ObjectStore.h"
+#include "petrous/Scene/GoneNames.h"
 #include "petrous/Scene/Manifest.h"
 
 namespace petrous::library
@@ -77,6 +83,51 @@ void refuseBloated(const fs::path& path, std::string_view text, const char* entr
                            std::to_string(kMostValues) + " values");
 }
 
+/// What the manifest says of the parts can be so, whatever their objects are.
+void checkSense(const scene::Case& value, const fs::path& path)
+{
+  constexpr double kLargest = 1e9; // of intensities
+  const auto isSensible = [](double number) { return std::abs(number) <= kLargest; };
+  if (!isSensible(value.iso) || !isSensible(value.denseBone))
+    throwUnsound(path, "its threshold of bone is no intensity");
+  std::set<std::string> images, structures, meshes;
+  const auto checkRange = [&](const scene::ImagePart& image)
+  {
+    if (!(image.range.min <= image.range.max))
+      throwUnsound(path, "an image's least intensity is above its largest");
+  };
+  checkRange(value.ct);
+  for (const scene::ImagePart& mr : value.mr)
+  {
+    checkRange(mr);
+    if (!images.insert(mr.name).second)
+      throwUnsound(path, "it has two MRs of one name");
+  }
+  const auto checkDrawnOn = [&](const std::string& mr)
+  {
+    if (!mr.empty() && images.count(mr) == 0)
+      throwUnsound(path, "a part was drawn on an MR that it does not have");
+  };
+  for (const scene::LabelPart& part : value.labels)
+  {
+    checkDrawnOn(part.drawnOn.value_or(std::string()));
+    std::set<std::uint16_t> indices;
+    for (const scene::StructurePart& structure : part.structures)
+    {
+      if (!structures.insert(structure.name).second)
+        throwUnsound(path, "it has two structures of one name");
+      if (structure.index == 0 || !indices.insert(structure.index).second)
+        throwUnsound(path, "two of its structures have one label, or one has none");
+    }
+  }
+  for (const scene::MeshPart& mesh : value.meshes)
+  {
+    checkDrawnOn(mesh.drawnOn);
+    if (!meshes.insert(mesh.name).second)
+      throwUnsound(path, "it has two meshes of one name");
+  }
+}
+
 /// An archive whose directory, index and manifest are sound and agree.
 struct Archive
 {
@@ -100,10 +151,8 @@ struct Archive
     {
       throwUnsound(path, "it has a name that is not a valid one");
     }
-    std::set<std::string> images; // by which structures say where they lie
-    for (const scene::ImagePart& mr : value.mr)
-      if (!images.insert(mr.name).second)
-        throwUnsound(path, "it has two MRs of one name");
+    checkSense(value, path);
+    scene::forgetGoneReferences(value); // older programs kept them
 
     std::set<std::string> listed{kIndexEntry, kManifestEntry};
     for (const ArchiveIndex::Object& one : index.objects)
@@ -327,6 +376,84 @@ void checkImages(const scene::Case& value, const ObjectStore& store, const fs::p
     check(mr, "an MR");
 }
 
+void checkLabels(const scene::LabelPart& part, const fs::path& object, const fs::path& file,
+                 const core::Progress& progress)
+{
+  const volume::LabelMap map = imaging::readLabelFile(object, progress);
+  const auto voxels = static_cast<std::uint64_t>(map.voxels->size());
+  constexpr double kRounding = 1.0 + 1e-6;
+  const double largest =
+      map.voxels->geometry().spacing().prod() * static_cast<double>(voxels) * kRounding;
+  for (const scene::StructurePart& structure : part.structures)
+  {
+    const auto isIt = [&structure](const volume::Segment& segment)
+    { return segment.index == structure.index; };
+    if (std::none_of(map.segments.begin(), map.segments.end(), isIt))
+      throwUnsound(file, "a structure is not in its label map");
+    if (structure.voxels > voxels || !(structure.volume >= 0.0 && structure.volume <= largest))
+      throwUnsound(file, "a structure is larger than its label map");
+  }
+}
+
+/// Each object is what the manifest says that it is, not only to its hash: what made the archive
+/// may have been another program.
+void checkContents(const scene::Case& value, const ObjectStore& store, const fs::path& file,
+                   const core::Progress& progress)
+{
+  const auto check = [&](const std::string& what, const auto& read)
+  {
+    progress.check("restoring");
+    try
+    {
+      read();
+    }
+    catch (const core::CancelledError&)
+    {
+      throw;
+    }
+    catch (const LibraryError&)
+    {
+      throw;
+    }
+    catch (const core::Error&)
+    {
+      throwUnsound(file, what);
+    }
+  };
+  for (const scene::LabelPart& part : value.labels)
+    check("a label map cannot be read",
+          [&] { checkLabels(part, store.path(part.object), file, progress); });
+  for (const scene::MeshPart& mesh : value.meshes)
+    check("a mesh cannot be read", [&] { imaging::readMesh(store.path(mesh.object)); });
+  const volume::CutMask untouched(value.ct.geometry);
+  volume::CutMask applied = untouched;
+  dissection::BrickDraft draft(applied);
+  const auto& strokes = value.dissection.strokes();
+  const auto& history = value.dissection.history();
+  const auto line = history.lineTo(history.position());
+  for (std::size_t n = 0; n < strokes.size(); ++n)
+    check("what a stroke removed cannot be read",
+          [&]
+          {
+            dissection::BrickDraft alone(untouched);
+            dissection::applyDeltas(store.readChecked(strokes[n]->object, "a stroke"),
+                                    dissection::Step::Redo, alone);
+          });
+  for (const std::size_t n : line)
+    check("a stroke removes what was removed before",
+          [&]
+          {
+            dissection::applyDeltas(store.readChecked(strokes[n]->object, "a stroke"),
+                                    dissection::Step::Redo, draft);
+          });
+  for (const scene::Attachment& one : value.attachments)
+  {
+    const fs::path object = store.path(one.object);
+    if (!isOfKind(object, one.kind) || fs::file_size(object) != one.bytes)
+      throwUnsound(file, "an attachment is not of the kind or size that is stated");
+  }
+}
+
 std::vector<std::uint8_t> thumbnailFrom(const std::string& base64, const fs::path& file)
 {
   std::vector<std::uint8_t> png(kLargestThumbnail);
@@ -482,8 +609,13 @@ RestoreSummary restoreCase(Library& library, const fs::path& file, const Restore
   refuseWithoutRoom(library.folder(), archive, present);
 
   std::error_code error;
-  const bool isFrameKnown = fs::is_directory(library.folder(), error) &&
-                            archive.index.library == saltedFrame(library, "archive");
+  const auto isMarked = [&](const std::string& mark)
+  {
+    return fs::is_directory(library.folder(), error) &&
+           archive.index.library == saltedFrame(library, mark);
+  };
+  const bool isSealed = isMarked(archiveMark(archive.index.manifest));
+  const bool isFrameKnown = isSealed || isMarked(kMarkOfAll);
 
   RestoreSummary summary;
   summary.parts = archive.objects.size();
@@ -492,16 +624,20 @@ RestoreSummary restoreCase(Library& library, const fs::path& file, const Restore
       value,
       [&](scene::Case& next, ObjectStore& store)
       {
-        if (!isFrameKnown)
+        if (isSealed)
+          sealIdentity(library, next);
+        else if (!isFrameKnown)
           forgetFrames(next, summary.notes);
         if (archive.index.planOnly)
         {
           checkObject(store.path(next.ct.object, "the CT"), "the CT", progress.part(0.0, 0.5));
           const auto notes = leaveOutMissing(next, store);
           summary.notes.insert(summary.notes.end(), notes.begin(), notes.end());
+          scene::forgetGoneReferences(next);
         }
         summary.newParts = addObjects(archive, store, progress);
         checkImages(next, store, file);
+        checkContents(next, store, file, progress);
       },
       progress);
   summary.name = value.name;

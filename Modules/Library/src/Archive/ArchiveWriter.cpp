@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <optional>
 #include <set>
@@ -25,8 +26,10 @@
 #include "petrous/Library/Archive.h"
 #include "petrous/Library/Attachments.h"
 #include "petrous/Library/FrameSalt.h"
+#include "petrous/Library/LibraryFiles.h"
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Library/OwnerLock.h"
+#include "petrous/Scene/GoneNames.h"
 #include "petrous/Scene/Manifest.h"
 
 namespace petrous::library
@@ -272,6 +275,8 @@ public:
         core::throwOutputError(errno, archive);
       m_lock = std::make_unique<OwnerLock>(m_folder);
     }
+    if (!m_lock->isThere())
+      core::throwOutputError(EBUSY, archive);
     const fs::path objects = m_folder / kObjects;
     if (::mkdir(objects.c_str(), 0700) != 0)
     {
@@ -297,7 +302,7 @@ private:
   static constexpr const char* kObjects = "objects";
 
   // Such a folder, and not one in which something else grows: it has what is made here, and no
-  // more.
+  // more. An empty one may be about to be filled, unless it is old.
   static bool isLeftover(const fs::path& path)
   {
     std::error_code error;
@@ -312,6 +317,9 @@ private:
       if (name != kObjects && name.rfind("archive", 0) != 0) // libzip adds an ending
         return false;
     }
+    constexpr auto kOld = std::chrono::hours(1);
+    if (!error && isEmpty)
+      isEmpty = fs::last_write_time(path, error) + kOld > fs::file_time_type::clock::now();
     return !error && !isEmpty;
   }
 
@@ -320,9 +328,59 @@ private:
   std::unique_ptr<ObjectStore> m_store;
 };
 
+/// Makes an attachment one whose object can be archived: sound, embedded, and of a PNG without what
+/// is no picture. Returns what is wrong with its file where that cannot be, else nothing.
+std::string embed(scene::Attachment& one, const Library& library, ArchiveStaging& passing,
+                  const core::Progress& progress)
+{
+  const ObjectStore kept(library.folder() / "objects");
+  if (one.bytes > kLargestEmbedded)
+    return "larger than can be embedded";
+  if (!one.link.empty())
+  {
+    scene::Case linked;
+    one.source = std::exchange(one.link, {});
+    linked.attachments.push_back(one);
+    storeAttachments(linked, passing.store(), progress);
+    const std::string expected = std::exchange(one.sha256, {});
+    one.object = linked.attachments.front().object;
+    if (one.object.rfind(expected, 0) != 0)
+      return "changed";
+  }
+  else
+    try
+    {
+      checkObject(kept.path(one.object), attachmentText(one), progress);
+    }
+    catch (const LibraryError&)
+    {
+      return "damaged";
+    }
+  if (one.kind != scene::Attachment::Kind::Screenshot)
+    return {};
+  if (one.bytes > kLargestPng)
+    return "too large for its metadata to be removed";
+  // A link was kept as it is, and so may another program have done that wrote an archive.
+  const ObjectStore& store = passing.store().contains(one.object) ? passing.store() : kept;
+  const std::vector<std::uint8_t> png = store.readChecked(one.object, attachmentText(one));
+  try
+  {
+    const std::vector<std::uint8_t> cleaned = cleanedPng(png);
+    if (cleaned != png)
+      one.object = passing.store().add("png", cleaned);
+    one.bytes = cleaned.size();
+  }
+  catch (const core::InvalidParameter&)
+  {
+    return "no PNG whose metadata can be removed";
+  }
+  return {};
+}
+
 /// Leaves out what stays in the library, embeds what is linked, and notes both.
 void chooseAttachments(scene::Case& value, const Library& library, const ArchiveOptions& options,
-                       ArchiveStaging& passing, std::vector<std::string>& notes)
+                       ArchiveStaging& passing, std::vector<std::string>& notes,
+                       const core::Progress& progress)
 {
   using scene::Attachment;
   std::vector<Attachment> chosen;
@@ -341,22 +399,10 @@ void chooseAttachments(scene::Case& value, const Library& library, const Archive
                              "(--with-documents takes it along)"));
     else if (const std::string problem = attachmentProblem(library, one); !problem.empty())
       notes.push_back(what + " is not in the archive: its file is " + problem);
+    else if (const std::string fault = embed(one, library, passing, progress); !fault.empty())
+      notes.push_back(what + " is not in the archive: its file is " + fault);
     else
     {
-      if (!one.link.empty())
-      {
-        scene::Case linked;
-        one.source = std::exchange(one.link, {});
-        linked.attachments.push_back(one);
-        storeAttachments(linked, passing.store());
-        const std::string expected = std::exchange(one.sha256, {});
-        one.object = linked.attachments.front().object;
-        if (one.object.rfind(expected, 0) != 0)
-        {
-          notes.push_back(what + " is not in the archive: its file is changed");
-          continue;
-        }
-      }
       if (!options.keepIdentity)
         one.date.clear();
       if (options.withoutNotes)
@@ -397,6 +443,20 @@ void forgetTimesAndSigners(scene::Case& value, std::vector<std::string>& notes)
   if (isSigned)
     notes.emplace_back("who signed a registration, and when, stays in this library; that it was "
                        "signed goes along");
+}
+
+std::size_t noteCount(const scene::Case& value)
+{
+  std::size_t count = value.ct.notes.size();
+  const auto add = [&count](const auto& parts)
+  {
+    for (const auto& part : parts)
+      count += part.notes.size();
+  };
+  add(value.mr);
+  add(value.labels);
+  add(value.meshes);
+  return count;
 }
 
 std::string entryOf(const ObjectUse& use, bool isCt, std::set<std::string>& used)
@@ -464,6 +524,7 @@ try
 {
   if (options.level < 1 || options.level > 12)
     throw core::InvalidParameter("archive: the level of compression is 1 to 12");
+  refuseOverwriting(file, library.folder());
   scene::Case value = library.open(name); // recovers unsaved drilling
   ArchiveSummary summary;
   const bool isPrepared = !options.planOnly && options.prepare;
@@ -513,7 +574,16 @@ try
   }
   else if (!description.note.empty())
     summary.notes.emplace_back("the note goes along as it was typed; see that it names nobody");
-  chooseAttachments(value, library, options, passing, summary.notes);
+  chooseAttachments(value, library, options, passing, summary.notes, progress.part(0.0, 0.0));
+  const std::size_t before = noteCount(value);
+  scene::forgetGoneNames(value);
+  if (const std::size_t left = before - noteCount(value); left > 0)
+    summary.notes.push_back(
+        std::to_string(left) +
+        (left == 1 ? " note on the import names" : " notes on the import name") +
+        " what the case does not have, or calls otherwise by now, and " +
+        (left == 1 ? "stays" : "stay") + " in this library");
+  sealIdentity(library, value);
   const std::string manifest = scene::toManifest(value);
   const auto storeOf = [&](const std::string& object) -> const ObjectStore&
   { return passing.store().contains(object) ? passing.store() : kept; };
@@ -525,7 +595,7 @@ try
   index.planOnly = options.planOnly;
   index.manifest =
       sha256Of(reinterpret_cast<const std::uint8_t*>(manifest.data()), manifest.size());
-  index.library = saltedFrame(library, "archive");
+  index.library = saltedFrame(library, archiveMark(index.manifest));
   if (!options.planOnly && !isPrepared)
     index.thumbnail = readThumbnail(library.folder(), value.id);
   std::set<std::string> used;

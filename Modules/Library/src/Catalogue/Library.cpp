@@ -9,6 +9,7 @@
 #include <random>
 #include <set>
 #include <sstream>
+#include <string_view>
 
 #include <sys/stat.h>
 
@@ -17,8 +18,8 @@
 #include "Graft.h"
 #include "JournalFile.h"
 #include "LibraryFolder.h"
+#include "LibraryState.h"
 #include "ManifestFile.h"
-#include "ObjectChecks.h"
 #include "Recovery.h"
 #include "Thumbnail.h"
 #include "petrous/Core/Log.h"
@@ -51,11 +52,12 @@ bool mustStore(const std::string& object, const ObjectStore& store, bool inMemor
 }
 
 // Stores the voxels of every part that has no object yet.
-void storeParts(scene::Case& value, ObjectStore& store, const core::Progress& progress)
+void storeParts(const Library& library, scene::Case& value, ObjectStore& store,
+                const core::Progress& progress)
 {
   const auto storeImage = [&](scene::ImagePart& image, const core::Progress& part)
   {
-    if (mustStore(image.object, store, image.volume.peek() != nullptr))
+    if (!library.isStandIn(image) && mustStore(image.object, store, image.volume.peek() != nullptr))
       image.object = store.add("nrrd", [&](const fs::path& path)
                                { imaging::writeRawNrrd(path, *image.volume.get(), part); });
   };
@@ -252,8 +254,18 @@ auto structure(const Read& read)
 
 Library::Library(fs::path folder)
   : m_folder(std::move(folder))
-  , m_checks(std::make_shared<ObjectChecks>())
+  , m_state(std::make_shared<LibraryState>())
 {
+}
+
+void Library::onWait(std::function<void(double)> waiting)
+{
+  m_state->waiting = std::move(waiting);
+}
+
+core::FileLock Library::lockForWriting(const core::Progress& progress) const
+{
+  return lockFolder(m_folder, progress, m_state->waiting);
 }
 
 fs::path Library::manifestPath(const std::string& name) const
@@ -410,7 +422,7 @@ void Library::attach(scene::Case& value) const
   const auto attachImage = [&](scene::ImagePart& image)
   {
     image.volume = core::Lazy<volume::IntensityVolume>(
-        [store, checks = m_checks, object = image.object, what = imageText(value, image)]
+        [store, checks = m_state->checks, object = image.object, what = imageText(value, image)]
         {
           const fs::path path = store.path(object, what);
           auto volume = imaging::mapRawNrrd(path);
@@ -505,7 +517,7 @@ std::vector<std::pair<fs::path, std::string>> Library::mappedImages(const scene:
   const auto add = [&](const scene::ImagePart& image)
   {
     const fs::path path = objectFolder() / image.object;
-    if (image.volume.peek() && m_checks->knows(path)) // others were created in memory
+    if (image.volume.peek() && m_state->checks->knows(path)) // others were created in memory
       images.emplace_back(path, imageText(value, image));
   };
   add(value.ct);
@@ -517,7 +529,7 @@ void Library::checkVoxels(const scene::Case& value, const core::Progress& progre
 {
   std::vector<std::string> damage;
   for (const auto& [path, what] : mappedImages(value))
-    if (const std::string words = m_checks->wait(path, what, progress); !words.empty())
+    if (const std::string words = m_state->checks->wait(path, what, progress); !words.empty())
       damage.push_back(words);
   refuse(damage);
 }
@@ -558,14 +570,40 @@ void Library::checkStructures(const scene::Case& value, const core::Progress& pr
 
 void Library::checkAllRead(const core::Progress& progress) const
 {
-  refuse(m_checks->waitForAll(progress));
+  refuse(m_state->checks->waitForAll(progress));
+}
+
+bool Library::standInForCt(scene::Case& value, const core::Progress& progress) const
+{
+  const fs::path object = objectFolder() / value.ct.object;
+  m_state->checks->forget(object);
+  if (m_state->checks->wait(object, imageText(value, value.ct), progress).empty())
+    return false;
+  constexpr double kLeast = -32768.0, kMost = 32767.0; // of 16 bits
+  using Voxels = volume::Volume<std::int16_t>;
+  const auto standIn =
+      std::make_shared<const volume::IntensityVolume>(std::make_shared<const Voxels>(
+          value.ct.geometry,
+          static_cast<std::int16_t>(std::clamp(value.ct.range.min, kLeast, kMost))));
+  value.ct.volume = standIn;
+  value.derived.reset(); // its keys identify the stored voxels
+  const std::lock_guard<std::mutex> guard(m_state->mutex);
+  m_state->standIns.insert(standIn);
+  return true;
+}
+
+bool Library::isStandIn(const scene::ImagePart& image) const
+{
+  const std::shared_ptr<const volume::IntensityVolume> volume = image.volume.peek();
+  const std::lock_guard<std::mutex> guard(m_state->mutex);
+  return volume && m_state->standIns.count(volume) > 0;
 }
 
 std::vector<std::string> Library::damageFound(const scene::Case& value) const
 {
   std::vector<std::string> damage;
   for (const auto& [path, what] : mappedImages(value))
-    if (const std::string words = m_checks->found(path); !words.empty())
+    if (const std::string words = m_state->checks->found(path); !words.empty())
       damage.push_back(words);
   return damage;
 }
@@ -578,6 +616,47 @@ std::string saltedFrame(const Library& library, const std::string& frameOfRefere
   makeFolder(library.folder());
   const core::FileLock lock = lockFolder(library.folder());
   return withSalt(frameOfReference, library.folder());
+}
+
+namespace
+{
+
+// Of two texts of 64 hexadecimal digits; empty of any other text.
+std::string exclusiveOr(const std::string& a, const std::string& b)
+{
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string result;
+  for (std::size_t n = 0; n < a.size() && a.size() == b.size(); ++n)
+  {
+    const std::size_t x = kDigits.find(a[n]);
+    const std::size_t y = kDigits.find(b[n]);
+    if (x == kDigits.npos || y == kDigits.npos)
+      return {};
+    result += kDigits[x ^ y];
+  }
+  return result;
+}
+
+} // namespace
+
+void sealIdentity(const Library& library, scene::Case& value)
+{
+  const auto seal = [&](const char* field, std::string& hash)
+  {
+    if (!hash.empty())
+      hash = exclusiveOr(
+          hash, saltedFrame(library, std::string("leaving ") + field + " " + value.ct.object));
+  };
+  const auto sealAll = [&seal](scene::ImagePart& image)
+  {
+    seal("frame", image.frameOfReference);
+    seal("id", image.patient.id);
+    seal("issuer", image.patient.issuer);
+    seal("name", image.patient.name);
+    seal("birth date", image.patient.birthDate);
+  };
+  sealAll(value.ct);
+  std::for_each(value.mr.begin(), value.mr.end(), sealAll);
 }
 
 Description Library::description(const std::string& name) const
@@ -601,7 +680,8 @@ void Library::save(scene::Case& value, const core::Progress& progress)
 {
   saveWith(
       value,
-      [&progress](scene::Case& next, ObjectStore& store) { storeParts(next, store, progress); },
+      [this, &progress](scene::Case& next, ObjectStore& store)
+      { storeParts(*this, next, store, progress); },
       progress);
 }
 
@@ -612,7 +692,7 @@ void Library::saveWith(scene::Case& value,
   scene::checkCaseName(value.name);
   makeFolder(m_folder / "cases");
   makeFolder(objectFolder());
-  const core::FileLock lock = lockFolder(m_folder);
+  const core::FileLock lock = lockForWriting(progress);
 
   const fs::path path = manifestPath(value.name);
   const bool there = contains(value.name);

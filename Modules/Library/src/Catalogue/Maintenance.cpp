@@ -85,6 +85,37 @@ void refuseWhereUnrecovered(const fs::path& library, const std::string& name)
 
 } // namespace
 
+namespace
+{
+
+// Renames the case in its manifest, unless that cannot be read; false if the disk did not confirm
+// it.
+bool writeName(const fs::path& manifest, const std::string& from, const std::string& to)
+{
+  scene::Case value;
+  try
+  {
+    value = manifestIn(manifest, from);
+  }
+  catch (const core::Error&)
+  {
+    return true;
+  }
+  value.name = to;
+  try
+  {
+    core::OutputFile file(manifest);
+    file.write(scene::toManifest(value));
+    return file.commit();
+  }
+  catch (const core::OutputFileError& error)
+  {
+    throw libraryError(error, "case '" + from + "' is as it was");
+  }
+}
+
+} // namespace
+
 void Library::rename(const std::string& from, const std::string& to)
 {
   scene::checkCaseName(from);
@@ -103,7 +134,7 @@ void Library::rename(const std::string& from, const std::string& to)
       return true;
     }
   }();
-  const core::FileLock lock = lockFolder(m_folder);
+  const core::FileLock lock = lockForWriting();
   refuseWhereDrilled(from);
   refuseWhereUnrecovered(m_folder, from);
   checkedManifestPath(from);
@@ -111,9 +142,13 @@ void Library::rename(const std::string& from, const std::string& to)
     throw LibraryError(Reason::NameTaken, "case '" + to + "' is there already in " +
                                               m_folder.string() + "; choose another name");
   setOrphanAside(m_folder, to);
-  // The manifest first: a kill then leaves journals that are set aside when the old name is used
-  // again, and never a journal beside the manifest of another case.
-  bool onDisk = moveFile(path, manifestPath(to));
+  // What it is called stands in the manifest too, and a former name must not leave with it. Where a
+  // case stands in the folder is its name whatever its manifest says: killed here, it has its old
+  // one.
+  bool onDisk = writeName(path, from, to);
+  // The manifest before the journals: a kill then leaves journals that are set aside when the old
+  // name is used again, and never a journal beside the manifest of another case.
+  onDisk = moveFile(path, manifestPath(to)) && onDisk;
   // The case is renamed: nothing throws from here on.
   const std::string old = journalPath(m_folder, from).string();
   for (const fs::path& journal : journalsOf(m_folder, from))
@@ -147,7 +182,7 @@ void Library::remove(const std::string& name)
 {
   scene::checkCaseName(name);
   const fs::path path = checkedManifestPath(name);
-  const core::FileLock lock = lockFolder(m_folder);
+  const core::FileLock lock = lockForWriting();
   refuseWhereDrilled(name);
   std::error_code error;
   if (fs::is_directory(fs::symlink_status(path, error)))
@@ -185,7 +220,7 @@ void Library::undelete(const std::string& name)
   scene::checkCaseName(name);
   if (!fs::is_directory(m_folder / "cases"))
     throw LibraryError(Reason::NotFound, "no case '" + name + "' was deleted here");
-  const core::FileLock lock = lockFolder(m_folder);
+  const core::FileLock lock = lockForWriting();
   const std::vector<DeletedFile> files = deletedIn(m_folder / "cases");
   const auto file = std::find_if(files.begin(), files.end(),
                                  [&name](const DeletedFile& one) { return one.name == name; });
@@ -203,6 +238,15 @@ void Library::undelete(const std::string& name)
                                               m_folder.string() +
                                               "; rename that one, then bring the other back");
   const std::string ending = deletedEnding(file->number);
+  try
+  {
+    manifestIn(file->manifest, name);
+  }
+  catch (const core::Error& error)
+  {
+    throw LibraryError(Reason::Damaged, std::string(error.what()) + "; deleted case '" + name +
+                                            "' cannot be brought back as it is, and stays deleted");
+  }
   refuseWhereDrilled(name);
   for (const fs::path& journal : journalsOf(m_folder, name, ending))
   {
@@ -247,45 +291,130 @@ void Library::copy(const std::string& from, const std::string& to, const core::P
   }
 }
 
+std::vector<std::string> Library::lost(const scene::Case& value) const
+{
+  const ObjectStore store(objectFolder());
+  std::vector<std::string> all;
+  for (const ObjectUse& use : objectsOf(value))
+    try
+    {
+      if (use.kind != ObjectUse::Kind::Attachment)
+        store.path(use.object, use.what + " of case '" + value.name + "'");
+    }
+    catch (const LibraryError& error)
+    {
+      all.emplace_back(error.what());
+    }
+  for (const scene::Attachment& one : value.attachments)
+    if (one.link.empty() && !attachmentProblem(*this, one).empty())
+      all.push_back("attachment '" + one.name + "' of case '" + value.name +
+                    "' is lost: attach the same file again, which puts it back, or take it out "
+                    "('petrous attachments " +
+                    value.name + " --remove')");
+  return all;
+}
+
+namespace
+{
+
+// Of the manifests that need an object.
+struct Use
+{
+  struct By
+  {
+    fs::path manifest;
+    std::string name; // of the case
+    bool isDeleted = false;
+    std::string what; // of the object in it
+  };
+  std::vector<By> all;
+
+  std::string text() const
+  {
+    return all.empty() ? "of no case"
+                       : all.front().what + " of " + (all.front().isDeleted ? "deleted " : "") +
+                             "case '" + all.front().name + "'";
+  }
+};
+
+std::string needText(const Use& use)
+{
+  std::string text;
+  for (const Use::By& by : use.all)
+    text += (text.empty() ? "needed by: '" : ", '") + by.name + "'" +
+            (by.isDeleted ? " (deleted)" : "");
+  return use.all.size() > 1 ? "; " + text : std::string();
+}
+
+// Another program may have deleted the case, or saved it without the part, since its manifest was
+// read, and what nobody needs may be gone.
+bool isStillNeeded(const std::string& object, const Use::By& by)
+{
+  try
+  {
+    if (!stateOf(by.manifest))
+      return false;
+    const auto uses = objectsOf(manifestIn(by.manifest, by.name));
+    return std::any_of(uses.begin(), uses.end(),
+                       [&object](const ObjectUse& use) { return use.object == object; });
+  }
+  catch (const core::Error&)
+  {
+    return true;
+  }
+}
+
+} // namespace
+
 Inspection Library::verify(const core::Progress& progress) const
 {
   Inspection result;
-  struct Use
-  {
-    std::vector<std::string> cases;
-    std::string what;
-  };
   std::map<std::string, Use> uses;
   std::vector<std::pair<std::string, std::string>> ids; // of cases, with their names
-  for (const std::string& name : namesIn(m_folder / "cases"))
+  const auto damaged =
+      [&result](const std::string& object, const std::vector<Use::By>& by, const std::string& text)
   {
-    ++result.cases;
+    Inspection::Damage one;
+    one.object = object;
+    one.text = text;
+    for (const Use::By& of : by)
+      (of.isDeleted ? one.deletedCases : one.cases).push_back(of.name);
+    result.damaged.push_back(std::move(one));
+  };
+  const auto read = [&](const fs::path& path, const std::string& name, bool isDeleted)
+  {
     try
     {
-      const scene::Case value = readManifest(name);
-      ids.emplace_back(value.id, name);
+      const scene::Case value = manifestIn(path, name);
+      if (!isDeleted)
+        ids.emplace_back(value.id, name);
       for (const ObjectUse& use : objectsOf(value))
-      {
-        uses[use.object].cases.push_back(name);
-        uses[use.object].what = use.what + " of case '" + name + "'";
-      }
+        uses[use.object].all.push_back({path, name, isDeleted, use.what});
     }
     catch (const core::Error& error)
     {
-      result.damaged.push_back({"cases/" + name + ".json", {name}, error.what()});
+      if (stateOf(path)) // else deleted in the meantime
+        damaged(path.lexically_relative(m_folder).string(), {Use::By{path, name, isDeleted, {}}},
+                error.what() + (isDeleted ? "; deleted case '" + name + "' cannot be brought back"
+                                          : std::string()));
     }
+  };
+  for (const std::string& name : namesIn(m_folder / "cases"))
+  {
+    ++result.cases;
+    read(manifestPath(name), name, false);
   }
+  for (const DeletedFile& file : deletedIn(m_folder / "cases"))
+    read(file.manifest, file.name, true);
   for (const auto& [id, name] : ids)
   {
     const fs::path path = thumbnailPath(m_folder, id);
     std::error_code error;
     if (!path.empty() && fs::exists(fs::symlink_status(path, error)) &&
         readThumbnail(m_folder, id).empty())
-      result.damaged.push_back({path.lexically_relative(m_folder).string(),
-                                {name},
-                                core::printable(path) + ": the thumbnail of case '" + name +
-                                    "' is damaged; make it anew: petrous describe '" + name +
-                                    "' --thumbnail"});
+      damaged(path.lexically_relative(m_folder).string(), {Use::By{{}, name, false, {}}},
+              core::printable(path) + ": the thumbnail of case '" + name +
+                  "' is damaged; make it anew: petrous describe '" + name + "' --thumbnail");
   }
   const ObjectStore store(objectFolder());
   std::map<std::string, std::uintmax_t> sizes;
@@ -298,30 +427,40 @@ Inspection Library::verify(const core::Progress& progress) const
   }
   result.objects = sizes.size();
   std::uintmax_t done = 0;
-  for (const auto& [object, use] : uses)
+  for (auto& [object, use] : uses)
   {
     const double from = static_cast<double>(done) / static_cast<double>(total);
     done += sizes.count(object) > 0 ? sizes[object] : 0;
     try
     {
-      checkObject(store.path(object, use.what), use.what.empty() ? "of no case" : use.what,
+      checkObject(store.path(object, use.text()), use.text(),
                   progress.part(from, static_cast<double>(done) / static_cast<double>(total)));
     }
     catch (const LibraryError& error)
     {
-      result.damaged.push_back({object, use.cases, error.what()});
+      if (!store.contains(object))
+      {
+        auto& all = use.all;
+        all.erase(std::remove_if(all.begin(), all.end(),
+                                 [&object = object](const Use::By& by)
+                                 { return !isStillNeeded(object, by); }),
+                  all.end());
+        if (all.empty())
+          continue;
+      }
+      damaged(object, use.all, error.what() + needText(use));
     }
   }
   return result;
 }
 
-Collected Library::collectGarbage()
+Collected Library::collectGarbage(const core::Progress& progress)
 {
   Collected result;
   if (namesIn(m_folder / "cases").empty() && deletedIn(m_folder / "cases").empty() &&
       ObjectStore(objectFolder()).list().empty())
     return result;
-  const core::FileLock lock = lockFolder(m_folder);
+  const core::FileLock lock = lockForWriting(progress);
   std::set<std::string> used;
   std::set<std::string> ids;
   for (const std::string& name : namesIn(m_folder / "cases"))
@@ -365,30 +504,31 @@ Collected Library::collectGarbage()
   return result;
 }
 
-std::vector<std::string> Library::repair()
+Repaired Library::repair(const core::Progress& progress)
 {
-  std::vector<std::string> done;
+  Repaired result;
+  std::vector<std::string>& done = result.done;
   Library quiet = *this;
   quiet.onNotice([&done](const std::string& words) { done.push_back(words); });
   const std::vector<std::string> names = namesIn(m_folder / "cases");
   for (const std::string& name : names)
     try
     {
-      const scene::Case value = quiet.open(name);
-      for (const scene::Attachment& one : value.attachments)
-        if (one.link.empty() && !attachmentProblem(*this, one).empty())
-          done.push_back("attachment '" + one.name + "' of case '" + name +
-                         "' is lost: attach the same file again, which puts it back, or take it "
-                         "out ('petrous attachments " +
-                         name + " --remove')");
+      progress.check("repairing");
+      for (std::string& words : lost(quiet.open(name)))
+        result.lost.push_back(std::move(words));
+    }
+    catch (const core::CancelledError&)
+    {
+      throw;
     }
     catch (const core::Error& error)
     {
       done.push_back(error.what());
     }
   if (names.empty())
-    return done;
-  const core::FileLock lock = lockFolder(m_folder);
+    return result;
+  const core::FileLock lock = lockForWriting(progress);
   removeLeftovers(objectFolder());
   removeLeftovers(m_folder / "cases");
   for (const char* ending : {"", "-journal", "-wal", "-shm"})
@@ -406,7 +546,7 @@ std::vector<std::string> Library::repair()
     }
   done.push_back("the index holds " + std::to_string(index.entries().size()) + " of " +
                  std::to_string(names.size()) + " cases");
-  return done;
+  return result;
 }
 
 } // namespace petrous::library

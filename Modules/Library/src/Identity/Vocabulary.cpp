@@ -1,5 +1,7 @@
 #include "Vocabulary.h"
 
+#include "petrous/Library/Deidentification.h"
+
 #include <algorithm>
 #include <cctype>
 #include <functional>
@@ -89,6 +91,11 @@ bool isShortNumber(const std::string& word)
 bool isInVocabulary(const std::string& word)
 {
   return kVocabulary.find(" " + word + " ") != std::string_view::npos;
+}
+
+bool isDescriptorWord(const std::string& word)
+{
+  return isInVocabulary(upper(word));
 }
 
 bool isKnownManufacturer(const std::string& text)

@@ -12,6 +12,7 @@
 #include "AttachmentFiles.h"
 #include "LibraryFolder.h"
 #include "Sha256.h"
+#include "petrous/Library/LibraryFiles.h"
 
 namespace petrous::library
 {
@@ -165,6 +166,18 @@ std::vector<std::uint8_t> bytesOf(const std::string& text)
 }
 
 } // namespace
+
+bool isOfKind(const fs::path& file, Attachment::Kind kind)
+{
+  try
+  {
+    return kindOf(readHead(core::InputFile(file)), file) == kind;
+  }
+  catch (const core::InvalidParameter&)
+  {
+    return false;
+  }
+}
 
 Attachment attachmentOf(const fs::path& file, const AttachOptions& options,
                         const core::Progress& progress)
@@ -346,6 +359,7 @@ void extractAttachment(const Library& library, const scene::Case& value,
                        const core::Progress& progress)
 try
 {
+  refuseOverwriting(out, library.folder());
   const std::string what = attachmentText(attachment) + " of case '" + value.name + "'";
   const bool isLink = !attachment.link.empty();
   const fs::path path =

@@ -100,11 +100,23 @@ void removeLeftovers(const fs::path& folder) noexcept
   }
 }
 
-core::FileLock lockFolder(const fs::path& library)
+core::FileLock lockFolder(const fs::path& library, const core::Progress& progress,
+                          const std::function<void(double)>& waiting)
 {
+  constexpr double kSay = 1.0; // s
+  const auto wait = [&](double seconds)
+  {
+    const std::string text = "another program is using the library";
+    if (seconds >= kSay)
+      progress.report(0.0, text);
+    else
+      progress.check(text);
+    if (waiting)
+      waiting(seconds);
+  };
   try
   {
-    return core::FileLock(library / ".lock");
+    return core::FileLock(library / ".lock", wait);
   }
   catch (const core::OutputFileError& error)
   {

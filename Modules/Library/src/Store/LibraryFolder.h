@@ -1,11 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "petrous/Core/FileLock.h"
 #include "petrous/Core/InputFile.h"
 #include "petrous/Core/OutputFile.h"
+#include "petrous/Core/Progress.h"
 #include "petrous/Library/LibraryError.h"
 
 namespace petrous::library
@@ -28,7 +30,10 @@ void makeFolder(const std::filesystem::path& path);
 /// Removes leftovers of killed writers. Only while no other process writes there.
 void removeLeftovers(const std::filesystem::path& folder) noexcept;
 
-/// The lock that every writer of the library holds. Throws LibraryError.
-core::FileLock lockFolder(const std::filesystem::path& library);
+/// The lock that every writer of the library holds. While another program has it, `progress` says
+/// so after a second and can cancel, and `waiting` is called with the time waited, s. Throws
+/// LibraryError, CancelledError and what `waiting` throws.
+core::FileLock lockFolder(const std::filesystem::path& library, const core::Progress& progress = {},
+                          const std::function<void(double)>& waiting = {});
 
 } // namespace petrous::library

@@ -123,6 +123,14 @@ bool ObjectChecks::knows(const fs::path& object) const
   return m_checks.count(object) > 0;
 }
 
+void ObjectChecks::forget(const fs::path& object)
+{
+  const std::lock_guard<std::mutex> lock(m_mutex);
+  const auto check = m_checks.find(object);
+  if (check != m_checks.end() && check->second.done)
+    m_checks.erase(check);
+}
+
 std::string ObjectChecks::found(const fs::path& object) const
 {
   const std::lock_guard<std::mutex> lock(m_mutex);

@@ -31,6 +31,9 @@ public:
 
   bool knows(const std::filesystem::path& object) const;
 
+  /// Lets an object be checked again that was intact: it may have been removed since.
+  void forget(const std::filesystem::path& object);
+
   /// Starts the check if necessary, and waits for it: returns one sentence on the damage, empty if
   /// there is none. Throws CancelledError.
   std::string wait(const std::filesystem::path& object, const std::string& what,

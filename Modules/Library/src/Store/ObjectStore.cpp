@@ -58,6 +58,13 @@ std::string remedyFor(const fs::path& object)
                          " is damaged: not what was stored there" + remedyFor(object));
 }
 
+[[noreturn]] void throwMissing(const fs::path& object, const std::string& what)
+{
+  throw LibraryError(LibraryError::Reason::NotFound, core::printable(object) + ": " +
+                                                         (what.empty() ? "" : what + " is ") +
+                                                         "missing" + remedyFor(object));
+}
+
 } // namespace
 
 Sha256::Sha256()
@@ -121,6 +128,9 @@ std::string sha256Of(const std::uint8_t* bytes, std::size_t count)
 
 void checkObject(const fs::path& object, const std::string& what, const core::Progress& progress)
 {
+  std::error_code error;
+  if (fs::symlink_status(object, error).type() == fs::file_type::not_found)
+    throwMissing(object, what);
   if (sha256OfFile(object, progress) != object.filename().string().substr(0, kHashDigits))
     throwDamaged(object, what);
 }
@@ -188,9 +198,7 @@ fs::path ObjectStore::path(const std::string& object, const std::string& what) c
                            "manifest from a copy of the library");
   fs::path result = m_folder / object;
   if (!contains(object))
-    throw LibraryError(LibraryError::Reason::NotFound, core::printable(result) + ": " +
-                                                           (what.empty() ? "" : what + " is ") +
-                                                           "missing" + remedyFor(result));
+    throwMissing(result, what);
   return result;
 }
 

@@ -28,6 +28,10 @@ ScratchFolder::ScratchFolder()
     m_path = name;
     m_lock = std::make_unique<OwnerLock>(m_path);
   }
+  if (!m_lock->isThere())
+    throw core::Error(core::Fault::Refused,
+                      parent.string() + ": folders that are made there are gone at once; is TMPDIR "
+                                        "right?");
 }
 
 ScratchFolder::~ScratchFolder()

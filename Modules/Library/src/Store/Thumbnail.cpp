@@ -188,7 +188,7 @@ void Library::setThumbnail(const std::string& name, const std::vector<std::uint8
                                  " x " + std::to_string(kThumbnailHeight) +
                                  " pixels, RGB, without metadata");
   checkedManifestPath(name);
-  const core::FileLock lock = lockFolder(m_folder);
+  const core::FileLock lock = lockForWriting();
   checkedManifestPath(name);
   const std::string id = readManifest(name).id;
   if (thumbnailPath(m_folder, id).empty())

@@ -124,4 +124,7 @@ deidentify(const std::filesystem::path& input, const std::filesystem::path& outp
            const core::Progress& progress = {},
            const std::function<void(const std::vector<Pseudonym>&)>& keep = {});
 
+/// Whether `cleanDescriptors` keeps this word: one of anatomy or of imaging.
+bool isDescriptorWord(const std::string& word);
+
 } // namespace petrous::library

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "petrous/Scene/Case.h"
+
 namespace petrous::library
 {
 
@@ -12,5 +14,11 @@ class Library;
 /// the salt cannot be read, or created where there is none yet (not while the library is locked by
 /// the caller).
 std::string saltedFrame(const Library& library, const std::string& frameOfReference);
+
+/// Changes the salted hashes of the images' frames of reference and patients, exclusive or with
+/// what only this library knows and another CT changes. So they leave in an archive: this library
+/// gets them back by the same call, and to anyone else two archives of a patient have nothing in
+/// common by them. Within a case equal ones stay equal. Throws as saltedFrame.
+void sealIdentity(const Library& library, scene::Case& value);
 
 } // namespace petrous::library

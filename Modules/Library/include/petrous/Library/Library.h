@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "petrous/Core/FileLock.h"
 #include "petrous/Core/Progress.h"
 #include "petrous/Library/LibraryError.h"
 #include "petrous/Scene/Case.h"
@@ -46,7 +47,7 @@ struct CaseFilter
   std::string from, to; ///< of the planned date, both included: "2026-03-31"
 };
 
-class ObjectChecks;
+struct LibraryState;
 class ObjectStore;
 struct SavedState;
 
@@ -57,6 +58,7 @@ struct Inspection
   {
     std::string object;             ///< its name, or the manifest's path relative to the library
     std::vector<std::string> cases; ///< cases that use it
+    std::vector<std::string> deletedCases; ///< that use it and could be brought back
     std::string text;
   };
   std::size_t cases = 0;
@@ -76,6 +78,13 @@ struct DeletedCase
 {
   std::string name;
   std::string deleted; ///< when; UTC, ISO 8601
+};
+
+/// What Library::repair did, a sentence each.
+struct Repaired
+{
+  std::vector<std::string> done;
+  std::vector<std::string> lost; ///< what cases need and cannot be brought back: Library::lost
 };
 
 /// What Library::collectGarbage removed.
@@ -106,6 +115,10 @@ public:
 
   /// Called with one sentence that the user should know about a case that was opened.
   void onNotice(std::function<void(const std::string&)> notice) { m_notice = std::move(notice); }
+
+  /// Called ten times a second while another program has the library's lock, with the time waited,
+  /// s; what it throws ends the wait and what was to be done. Of all copies.
+  void onWait(std::function<void(double)> waiting);
 
   std::vector<CaseSummary> list() const; ///< sorted by name
   /// Sorted by name. Throws InvalidParameter if `from` or `to` is no date, or `from` the later one.
@@ -141,6 +154,12 @@ public:
   void checkVoxels(const scene::Case& value, const core::Progress& progress = {}) const;
   /// The same for all images, of any case, that were read through this object or a copy of it.
   void checkAllRead(const core::Progress& progress = {}) const;
+  /// For a case whose CT cannot be read, and that is to be opened with what is left of it: puts the
+  /// CT's least intensity in the place of its voxels. `save` keeps the reference to the lost ones;
+  /// checkVoxels refuses them, and damageFound has them. Returns false, and changes nothing, if the
+  /// file is sound.
+  bool standInForCt(scene::Case& value, const core::Progress& progress = {}) const;
+  bool isStandIn(const scene::ImagePart& image) const;
   /// Damage of the case's images found so far, one sentence each. Does not wait.
   std::vector<std::string> damageFound(const scene::Case& value) const;
 
@@ -176,33 +195,38 @@ public:
   /// Throws LibraryError (Conflict) if another process is drilling in the case.
   void refuseWhereDrilled(const std::string& name) const;
 
-  /// Both also accept a damaged case. `rename` recovers unsaved drilling first, `remove` takes it
-  /// along. Throw LibraryError: NotFound; NameTaken; Conflict while another process is drilling in
-  /// the case, or for a rename if recovery failed.
+  /// Both also accept a damaged case. `rename` recovers unsaved drilling first, and leaves the
+  /// former name nowhere; `remove` takes what is unsaved along. Throw LibraryError: NotFound;
+  /// NameTaken; Conflict while another process is drilling in the case, or for a rename if recovery
+  /// failed.
   void rename(const std::string& from, const std::string& to);
   void remove(const std::string& name);
 
   /// Until collectGarbage a deleted case stays in the library, with what was drilled and not saved.
   std::vector<DeletedCase> deleted() const; ///< newest first
   /// Brings back the case of this name that was deleted last. Throws LibraryError: NotFound,
-  /// NameTaken.
+  /// NameTaken, Damaged if its manifest cannot be read.
   void undelete(const std::string& name);
 
   /// The copy shares the objects. Throws like `open` and `save`.
   void copy(const std::string& from, const std::string& to, const core::Progress& progress = {});
 
-  /// Reads and verifies everything. Throws LibraryError if the library cannot be read at all.
+  /// What the case needs and the library has not, a sentence each. A look at the folder alone: what
+  /// is there may be damaged.
+  std::vector<std::string> lost(const scene::Case& value) const;
+
+  /// Reads and verifies everything, also what only deleted cases need that could be brought back.
+  /// Throws LibraryError if the library cannot be read at all.
   Inspection verify(const core::Progress& progress = {}) const;
 
   /// Removes deleted cases, objects that no manifest references, and leftovers of killed writers.
   /// Throws
   /// LibraryError (Damaged) without removing anything if a manifest cannot be read, since its
   /// references are unknown.
-  Collected collectGarbage();
+  Collected collectGarbage(const core::Progress& progress = {});
 
   /// Recovers unsaved drilling, removes leftovers of killed writers, and rebuilds the index.
-  /// Returns what was done, one sentence each.
-  std::vector<std::string> repair();
+  Repaired repair(const core::Progress& progress = {});
 
   /// Like `save`; `storeObjects` adds the objects of the case, whose names it completes, while the
   /// library is locked. What it added is removed again if anything throws.
@@ -216,6 +240,7 @@ private:
   std::filesystem::path checkedManifestPath(const std::string& name) const;
   scene::Case readManifest(const std::string& name) const;
   void attach(scene::Case& value) const;
+  core::FileLock lockForWriting(const core::Progress& progress = {}) const;
   std::vector<std::pair<std::filesystem::path, std::string>>
   mappedImages(const scene::Case& value) const;
   std::optional<scene::Case> mergedWithSaved(const scene::Case& value,
@@ -223,7 +248,7 @@ private:
 
   std::filesystem::path m_folder;
   std::function<void(const std::string&)> m_notice;
-  std::shared_ptr<ObjectChecks> m_checks; ///< shared by copies and by the cases they opened
+  std::shared_ptr<LibraryState> m_state; ///< shared by copies
 };
 
 } // namespace petrous::library

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+
+namespace petrous::library
+{
+
+/// Absolute, without links as far as it exists; never throws.
+std::filesystem::path resolvedPath(const std::filesystem::path& file);
+
+/// Whether the library in `folder`, which need not be there yet, keeps its own data at this path.
+bool isOfLibrary(const std::filesystem::path& file, const std::filesystem::path& folder);
+/// The same of any library that is there.
+bool isOfAnyLibrary(const std::filesystem::path& file);
+
+/// Throws Error (Refused) naming the file if isOfLibrary, or isOfAnyLibrary: what is written there
+/// would replace a case or a part of one.
+void refuseOverwriting(const std::filesystem::path& file, const std::filesystem::path& folder = {});
+
+} // namespace petrous::library

@@ -65,6 +65,36 @@ TEST_F(SceneObjects, GiveTheArchiveBackInAnyOrder)
   }
 }
 
+// Read as the bytes that PS3.5 7.1 has: tag, VR, length and value, little endian.
+TEST_F(SceneObjects, SayNothingOfThePatientThatIsNotKnown)
+{
+  const std::string bytes = contentOf(write("x", 5).front());
+  EXPECT_NE(bytes.find(std::string("\x10\0\x40\0CS\0\0", 8)), std::string::npos) << "sex: empty";
+  EXPECT_NE(bytes.find(std::string("\x12\0\x62\0CS\4\0YES ", 12)), std::string::npos);
+  const std::size_t codes = bytes.find(std::string("\x12\0\x64\0SQ", 6));
+  ASSERT_NE(codes, std::string::npos) << "(0012,0064)";
+  EXPECT_NE(bytes.find(std::string("\x08\0\0\1SH\6\000113100", 14), codes), std::string::npos);
+}
+
+TEST_F(SceneObjects, TheLatestIsThatOfTheHighestNumber)
+{
+  std::vector<Series> series(4);
+  for (int n = 0; n < 4; ++n)
+  {
+    series[static_cast<std::size_t>(n)].description = "Petrous scene";
+    series[static_cast<std::size_t>(n)].modality = "OT";
+  }
+  series[0].number = 1003;
+  series[1].number = 1012;
+  series[2].number = 1007;
+  series[3].number = 2000;
+  series[3].modality = "CT";
+  EXPECT_FALSE(isScene(series[3]));
+  EXPECT_EQ(latestScene(series), series.begin() + 1);
+  series.erase(series.begin(), series.begin() + 3);
+  EXPECT_EQ(latestScene(series), series.end());
+}
+
 TEST_F(SceneObjects, AreEqualForEqualArchives)
 {
   const auto first = write("the same", 5), second = write("the same", 5, "again");

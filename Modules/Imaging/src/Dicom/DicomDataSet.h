@@ -59,7 +59,7 @@ void putIdentification(gdcm::DataSet& data, const Description& of)
              {0x0010, 0x0010, "PN", of.patientName},
              {0x0010, 0x0020, "LO", of.patientId},
              {0x0010, 0x0030, "DA", ""},
-             {0x0010, 0x0040, "CS", "O"},
+             {0x0010, 0x0040, "CS", ""},
              {0x0018, 0x1020, "LO", "1"},
              {0x0020, 0x000D, "UI", of.studyUid},
              {0x0020, 0x000E, "UI", of.seriesUid},

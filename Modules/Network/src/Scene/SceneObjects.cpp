@@ -154,6 +154,20 @@ Part partOf(const fs::path& file, DcmFileFormat& content)
 
 } // namespace
 
+bool isScene(const Series& series)
+{
+  return series.description == kSceneDescription && series.modality == kSceneModality;
+}
+
+std::vector<Series>::const_iterator latestScene(const std::vector<Series>& series)
+{
+  auto latest = series.end();
+  for (auto one = series.begin(); one != series.end(); ++one)
+    if (isScene(*one) && (latest == series.end() || one->number > latest->number))
+      latest = one;
+  return latest;
+}
+
 std::vector<fs::path> writeSceneObjects(const fs::path& archive, const fs::path& folder,
                                         const SceneDescription& description,
                                         const core::Progress& progress, std::uintmax_t partBytes)
@@ -190,7 +204,9 @@ std::vector<fs::path> writeSceneObjects(const fs::path& archive, const fs::path&
     put(data, DCM_SOPInstanceUID, imaging::instanceUid(series, static_cast<int>(n)));
     put(data, DCM_StudyDate, "");
     put(data, DCM_StudyTime, "");
-    put(data, DCM_ContentDate, "19000101"); // required, and no date is known
+    // Required with a value, and when the scene was made is not told: a dummy (PS3.15 E.3), which
+    // Documentation/user-guide.md states.
+    put(data, DCM_ContentDate, "19000101");
     put(data, DCM_ContentTime, "000000");
     put(data, DCM_AccessionNumber, "");
     put(data, DCM_Modality, kSceneModality);
@@ -202,9 +218,16 @@ std::vector<fs::path> writeSceneObjects(const fs::path& archive, const fs::path&
     put(data, DCM_PatientName, description.patientName);
     put(data, DCM_PatientID, description.patientId);
     put(data, DCM_PatientBirthDate, "");
-    put(data, DCM_PatientSex, "O");
+    put(data, DCM_PatientSex, ""); // not known; "O" would say that it is neither male nor female
     put(data, DCM_PatientIdentityRemoved, "YES");
     put(data, DCM_DeidentificationMethod, "written from voxels and geometry alone");
+    DcmItem* code = nullptr; // PS3.16 CID 7050
+    if (data.findOrCreateSequenceItem(DCM_DeidentificationMethodCodeSequence, code, 0).good())
+    {
+      put(*code, DCM_CodeValue, "113100");
+      put(*code, DCM_CodingSchemeDesignator, "DCM");
+      put(*code, DCM_CodeMeaning, "Basic Application Confidentiality Profile");
+    }
     put(data, DCM_StudyInstanceUID, description.studyUid);
     put(data, DCM_SeriesInstanceUID, series);
     put(data, DCM_StudyID, description.studyId);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "petrous/Core/Progress.h"
+#include "petrous/Network/DicomNode.h"
 
 namespace petrous::network
 {
@@ -26,6 +27,11 @@ constexpr std::uintmax_t kScenePartBytes = std::uintmax_t{32} << 20;
 /// Series Description and Modality of such a series.
 constexpr const char* kSceneDescription = "Petrous scene";
 constexpr const char* kSceneModality = "OT";
+
+bool isScene(const Series& series);
+
+/// The latest scene among the series, that of the highest number; end() if there is none.
+std::vector<Series>::const_iterator latestScene(const std::vector<Series>& series);
 
 /// None of them is a person's.
 struct SceneDescription

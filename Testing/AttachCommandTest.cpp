@@ -117,3 +117,23 @@ TEST_F(AttachCommand, ArchivesLeaveVideosAndDocumentsUnlessAsked)
   EXPECT_EQ(restored("--with-documents", "documents"), 1U);
   EXPECT_EQ(restored("--with-documents --with-videos", "all"), 2U);
 }
+
+TEST_F(AttachCommand, WarnsOfALinkWhosePathMayNameThePatient)
+{
+  std::string letters = m_folder.filename().string(); // its numbers look like a record's
+  for (char& c : letters)
+    c = c >= '0' && c <= '9' ? static_cast<char>(c - '0' + 'a') : c;
+  const auto folder = std::filesystem::temp_directory_path() / letters;
+  std::filesystem::create_directories(folder);
+  const auto linked = [&](const char* name)
+  {
+    std::ofstream(folder / name, std::ios::binary) << kVideo;
+    const auto outcome = run("attach ear --link " + quoted(folder / name));
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return outcome.err.find("path of the file") != std::string::npos;
+  };
+  EXPECT_TRUE(linked("Doe_John.mp4"));
+  EXPECT_TRUE(linked("4711471.mp4"));
+  EXPECT_FALSE(linked("film.mp4"));
+  std::filesystem::remove_all(folder);
+}

@@ -2,6 +2,8 @@
 #include <thread>
 
 #include <fcntl.h>
+#include <spawn.h>
+#include <sys/file.h>
 
 #include "CommandRunner.h"
 
@@ -460,4 +462,63 @@ TEST_F(RecoveryCommand, NothingIsSavedOrSaidOfADamagedCt)
   EXPECT_TRUE(nlohmann::json::parse(outcome.out).contains("error")) << outcome.out;
   json("export bone --what mr --part other --out " + quoted(m_folder / "other.nrrd"));
   EXPECT_TRUE(std::filesystem::exists(m_folder / "other.nrrd")) << "it reads nothing of the CT";
+}
+
+TEST_F(RecoveryCommand, ALostImageIsSaidByWhatLooksAtItsCase)
+{
+  EXPECT_FALSE(json("info bone").contains("lost"));
+  const auto object = library() / "objects" / addStructures()["ct"]["object"].get<std::string>();
+  std::filesystem::remove(object);
+  const auto lost = json("info bone")["lost"];
+  ASSERT_EQ(lost.size(), 1u);
+  EXPECT_NE(lost[0].get<std::string>().find("the CT of case 'bone' is missing"), std::string::npos);
+  const Outcome shown = run("info bone");
+  EXPECT_NE(shown.out.find("is missing"), std::string::npos) << shown.out;
+  const Outcome copied = run("library copy bone twin");
+  EXPECT_EQ(copied.code, 0) << copied.err;
+  EXPECT_NE(copied.err.find("the CT of case 'bone' is missing"), std::string::npos) << copied.err;
+  const Outcome repaired = run("library repair --json");
+  EXPECT_EQ(repaired.code, 3);
+  const auto said = nlohmann::json::parse(repaired.out);
+  ASSERT_EQ(said["lost"].size(), 2u);
+  EXPECT_NE(said["lost"][1].get<std::string>().find("case 'twin'"), std::string::npos);
+  const Outcome verified = run("library verify");
+  EXPECT_EQ(verified.code, 3);
+  EXPECT_NE(verified.out.find("needed by: 'bone', 'twin'"), std::string::npos) << verified.out;
+  json("new other --ct " + quoted(m_folder / "bone.nrrd")); // the same image again
+  EXPECT_EQ(run("library repair").code, 0);
+  EXPECT_FALSE(json("info bone").contains("lost"));
+}
+
+TEST_F(RecoveryCommand, CtrlCEndsTheWaitForALibraryThatAnotherProgramUses)
+{
+  const int lock = ::open((library() / ".lock").c_str(), O_RDWR | O_CLOEXEC);
+  ASSERT_EQ(::flock(lock, LOCK_EX), 0);
+  const auto before = libraryContent();
+  const std::string log = m_folder / "log";
+  std::string words[] = {PETROUS_PROGRAM, "library",   "copy",   "bone",
+                         "twin",          "--library", library()};
+  std::vector<char*> arguments;
+  for (std::string& word : words)
+    arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(), O_WRONLY | O_CREAT, 0600);
+  pid_t process = 0;
+  ASSERT_EQ(::posix_spawn(&process, PETROUS_PROGRAM, &actions, nullptr, arguments.data(), environ),
+            0);
+  posix_spawn_file_actions_destroy(&actions);
+  while (textOf(log).find("another program is using the library") == std::string::npos)
+  {
+    ASSERT_EQ(::waitpid(process, nullptr, WNOHANG), 0) << "it waits, and says so";
+    ::usleep(10000);
+  }
+  ::kill(process, SIGINT);
+  int status = 0;
+  ASSERT_EQ(::waitpid(process, &status, 0), process);
+  ASSERT_TRUE(WIFSIGNALED(status)) << status;
+  EXPECT_EQ(WTERMSIG(status), SIGINT);
+  ::close(lock);
+  EXPECT_EQ(libraryContent(), before);
 }

@@ -47,7 +47,7 @@ void archive(const Context& context, const ArchiveCommandOptions& options)
                                     options.withDocuments,
                                     presenters::maskForArchive(library, mask)};
   const presenters::IdentityReport report =
-      presenters::identityReport(library.open(options.caseName), how, mask);
+      presenters::identityReport(library.open(options.caseName), how, mask, &library);
   if (options.dryRun)
     return printIdentityReport(context, report);
   for (const std::string& warning : report.warnings) // before anything is written

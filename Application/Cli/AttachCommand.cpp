@@ -3,6 +3,7 @@
 #include "Commands.h"
 #include "Numbers.h"
 #include "petrous/Library/Attachments.h"
+#include "petrous/Presenters/IdentityText.h"
 
 namespace petrous::cli
 {
@@ -81,6 +82,10 @@ void attach(const Context& context, const AttachCommandOptions& options)
                  "gives another name");
   library.save(value, context.progress());
   const scene::Attachment& one = scene::findAttachment(value, name);
+  if (presenters::IdentityText(value, library).mayIdentifyPath(one.link))
+    context.warn(
+        "the path of the file, which the case keeps, may name the patient: it stays in this "
+        "library, but 'attachments' shows it; link a file of another name if it must not");
   if (one.kind == scene::Attachment::Kind::Video)
     context.warn("a video may show or name the patient; archives and send leave it here unless "
                  "asked (--with-videos), and its metadata is not removed");

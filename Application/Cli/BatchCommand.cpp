@@ -672,7 +672,7 @@ private:
     how.withVideos = row.withVideos;
     how.withDocuments = row.withDocuments;
     how.prepare = presenters::maskForArchive(library, mask);
-    noteIdentities(presenters::identityReport(value, how, mask), result);
+    noteIdentities(presenters::identityReport(value, how, mask, &library), result);
     if (m_options.dryRun)
       return true;
     const library::ArchiveSummary done =
@@ -702,7 +702,7 @@ private:
     parts.videos = row.withVideos;
     parts.documents = row.withDocuments;
     parts.mask.face = row.masksFace;
-    noteIdentities(presenters::identityReport(value, parts), result);
+    noteIdentities(presenters::identityReport(value, parts, nullptr, &library), result);
     if (m_options.dryRun)
       return true;
     const presenters::SendSummary done =

@@ -376,6 +376,9 @@ void addInfo(CLI::App& app, Context& context)
         nlohmann::json areas = nlohmann::json::array();
         const std::vector<MeshFacts> meshes = meshFacts(value);
         printCase(context, value, meshes);
+        const std::vector<std::string> lost = library.lost(value);
+        for (const std::string& words : lost)
+          context.print("  " + words);
         if (*exposed)
         {
           library.loadDissection(value);
@@ -389,6 +392,8 @@ void addInfo(CLI::App& app, Context& context)
         nlohmann::json info = infoJson(value, meshes);
         if (*exposed)
           info["dissection"]["exposed"] = std::move(areas);
+        if (!lost.empty())
+          info["lost"] = lost;
         context.printJson(info);
       });
   command->add_option("CASE", *name)->required();

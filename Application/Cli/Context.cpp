@@ -7,10 +7,12 @@
 #include <mutex>
 #include <thread>
 #include <type_traits>
+#include <utility>
 
 #include <unistd.h>
 
 #include "petrous/Core/Log.h"
+#include "petrous/Library/LibraryFiles.h"
 
 namespace petrous::cli
 {
@@ -153,29 +155,10 @@ namespace
 
 namespace fs = std::filesystem;
 
-fs::path resolved(const fs::path& file)
-{
-  std::error_code error;
-  const fs::path path = fs::weakly_canonical(file, error);
-  return error ? fs::absolute(file).lexically_normal() : path;
-}
-
 bool isSameFile(const fs::path& a, const fs::path& b)
 {
   std::error_code error;
-  return resolved(a) == resolved(b) || fs::equivalent(a, b, error);
-}
-
-// Whether a library keeps its own data there.
-bool isOfLibrary(const fs::path& file, const fs::path& library)
-{
-  const fs::path below = resolved(file).lexically_relative(resolved(library));
-  const std::string first = below.empty() ? "" : below.begin()->string();
-  for (const char* own : {"cases", "objects", "thumbnails", "derived", "salt", ".lock",
-                          "materials.json", "burrs.json"})
-    if (first == own)
-      return true;
-  return first.rfind("library.sqlite", 0) == 0;
+  return library::resolvedPath(a) == library::resolvedPath(b) || fs::equivalent(a, b, error);
 }
 
 } // namespace
@@ -189,8 +172,7 @@ void Context::refuseOverwriting(const std::vector<std::string>& outputs,
   {
     if (out->empty())
       continue;
-    if (isOfLibrary(*out, libraryFolder()))
-      refuse(*out, "the library keeps its own data there");
+    library::refuseOverwriting(*out, libraryFolder());
     for (const std::string& in : inputs)
       if (!in.empty() && isSameFile(*out, in))
         refuse(*out, "is also read by this command, and would be replaced");
@@ -208,6 +190,16 @@ library::Library Context::openLibrary() const
       {
         m_notices.push_back(words);
         warn(words);
+      });
+  library.onWait(
+      [this, told = std::make_shared<bool>(false)](double seconds)
+      {
+        constexpr double kSay = 1.0; // s
+        if (seconds >= kSay && !std::exchange(*told, true))
+          warn(
+              "another program is using the library; waiting for it (Ctrl+C ends this, and nothing "
+              "is changed)");
+        core::Progress(nullptr, interruptToken()).check("waiting for the library");
       });
   m_opened = library;
   return library;

@@ -76,7 +76,10 @@ void verify(const Context& context, const library::Library& library)
   nlohmann::json damaged = nlohmann::json::array();
   for (const auto& one : found.damaged)
   {
-    damaged.push_back({{"object", one.object}, {"cases", one.cases}, {"text", one.text}});
+    damaged.push_back({{"object", one.object},
+                       {"cases", one.cases},
+                       {"deleted_cases", one.deletedCases},
+                       {"text", one.text}});
     context.print(one.text);
   }
   context.print(std::to_string(found.cases) + " cases, " + std::to_string(found.objects) +
@@ -92,7 +95,7 @@ void verify(const Context& context, const library::Library& library)
 
 void collect(const Context& context, library::Library& library)
 {
-  const library::Collected removed = library.collectGarbage();
+  const library::Collected removed = library.collectGarbage(context.progress());
   if (removed.cases > 0)
     context.print(std::to_string(removed.cases) +
                   (removed.cases == 1 ? " deleted case" : " deleted cases") + " removed for good");
@@ -109,10 +112,19 @@ void collect(const Context& context, library::Library& library)
 
 void repair(const Context& context, library::Library& library)
 {
-  const std::vector<std::string> done = library.repair();
-  for (const std::string& line : done)
-    context.print(line);
-  context.printJson({{"done", done}});
+  const library::Repaired found = library.repair(context.progress());
+  for (const auto* lines : {&found.lost, &found.done})
+    for (const std::string& line : *lines)
+      context.print(line);
+  context.printJson({{"done", found.done}, {"lost", found.lost}});
+  if (!found.lost.empty())
+    throw library::LibraryError(library::LibraryError::Reason::Damaged,
+                                library.folder().string() + ": " +
+                                    std::to_string(found.lost.size()) +
+                                    (found.lost.size() == 1 ? " file that a case needs is lost"
+                                                            : " files that cases need are lost") +
+                                    " and cannot be repaired; restore from a copy of the library, "
+                                    "or import the data again");
 }
 
 void run(const Context& context, const Options& options)
@@ -168,6 +180,8 @@ void run(const Context& context, const Options& options)
   else if (action == "copy")
   {
     names(2, "copy A B");
+    for (const std::string& words : library.lost(library.open(options.names[0])))
+      context.warn(words);
     library.copy(options.names[0], options.names[1], context.progress());
     context.print("case '" + options.names[1] + "' is a copy of '" + options.names[0] + "'");
     context.printJson({{"case", options.names[1]}, {"from", options.names[0]}});

@@ -140,7 +140,7 @@ void send(const Context& context, const SendOptions& options)
   parts.videos = options.withVideos;
   parts.documents = options.withDocuments;
   const presenters::IdentityReport report =
-      presenters::identityReport(library.open(options.caseName), parts);
+      presenters::identityReport(library.open(options.caseName), parts, nullptr, &library);
   if (options.dryRun)
     return printIdentityReport(context, report);
   for (const std::string& warning : report.warnings) // before anything leaves

@@ -5,9 +5,11 @@
 #include "../../../Modules/Imaging/Testing/TestDicom.h"
 #include "BoneCase.h"
 #include "petrous/Imaging/SeriesGeometry.h"
+#include "petrous/Library/ObjectStore.h"
 #include "petrous/Library/PseudonymMap.h"
 #include "petrous/Presenters/CaseExport.h"
 #include "petrous/Presenters/CaseTransfer.h"
+#include "petrous/Presenters/IdentityText.h"
 
 namespace petrous::presenters
 {
@@ -155,6 +157,71 @@ TEST(IdentityOfACase, EveryNameThatLeavesIsLookedAt)
   EXPECT_TRUE(mentions(warnings, "names and notes of attachments: 2 of 3"));
   parts.note = false;
   EXPECT_TRUE(mentions(identityReport(value, parts).warnings, "attachments: 1 of 2"));
+}
+
+TEST(IdentityOfACase, OrdinaryNamesAndNumbersAreFound)
+{
+  const scene::Case value = describedCase();
+  const IdentityText identity(value);
+  for (const char* text :
+       {"John Doe", "Doe John, ward 3", "Mrs Smith A12-345", "DOE_JOHN", "Doe^John",
+        "seen by Dr. Roe", "M\u00fcller Anna", "record A12345", "MRN 12-34567", "943 476 919",
+        "born 14.03.62", "a@b.example", "1931-05-17"})
+    EXPECT_TRUE(identity.mayIdentify(text)) << text;
+  for (const char* text :
+       {"", "left ear", "Facial Nerve", "facial_nerve_left", "T2 CISS", "DWI b1000", "teaching",
+        "Vestibular Schwannoma, left", "Translabyrinthine Approach", "L5-S1", "0.6 mm", "main",
+        "MR 3T", "Segment 1", "Incus 2", "cholesteatoma revision", "Sigmoid Sinus R"})
+    EXPECT_FALSE(identity.mayIdentify(text)) << text;
+}
+
+// By the salted hash that the case keeps; whoever has the case alone cannot compare.
+TEST(IdentityOfACase, ThePatientsOwnNameAndNumberAreFoundByTheirHashes)
+{
+  const auto salted = [](const std::string& hash) { return "salted " + hash; };
+  scene::Case value = describedCase();
+  const auto hashOf = [&](const std::string& id, const std::string& name)
+  {
+    const imaging::PatientKey key = imaging::patientKey(id, {}, name, {});
+    const auto hash = [&](std::size_t number)
+    {
+      const std::string text = std::to_string(number);
+      return salted(
+          library::sha256Of(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+    };
+    scene::PatientHash patient;
+    patient.id = hash(key.id);
+    patient.name = hash(key.name);
+    return patient;
+  };
+  value.ct.isFrameSalted = true;
+  value.ct.patient = hashOf("q7-b", "sharp^plain");
+  const IdentityText identity(value, salted);
+  for (const char* text :
+       {"the ear of plain sharp, left", "sharp plain", "SHARP, Plain", "of q7-b", "Q7-B"})
+    EXPECT_TRUE(identity.mayIdentify(text)) << text;
+  for (const char* text : {"plain", "sharp", "q7", "sharp ear plain"})
+    EXPECT_FALSE(identity.mayIdentify(text)) << text;
+  EXPECT_TRUE(identity.mayIdentifySentence("'plain sharp' lies outside the CT"));
+  EXPECT_FALSE(IdentityText(value).mayIdentify("plain sharp")) << "without the salt";
+}
+
+TEST(IdentityOfACase, NotesAreLookedAtAndThoseOfGoneNamesStay)
+{
+  scene::Case value = describedCase();
+  value.labels.front().notes = {"'facial nerve' is thin", "'DOE^JOHN' left out"};
+  SendParts parts;
+  parts.scene = true;
+  IdentityReport report = identityReport(value, parts);
+  EXPECT_TRUE(mentions(report.leaves, "noted on import and registration: 1 sentence"));
+  EXPECT_TRUE(mentions(report.stays, "noted of parts that the case does not have"));
+  EXPECT_FALSE(mentions(report.warnings, "noted on import"));
+  value.ct.notes = {"of Doe^John"};
+  report = identityReport(value, parts);
+  EXPECT_TRUE(mentions(report.warnings, "noted on import"));
+  EXPECT_FALSE(mentions(report.leaves, "sealed"));
+  value.ct.patient.id = "a hash";
+  EXPECT_TRUE(mentions(identityReport(value, parts).leaves, "sealed"));
 }
 
 TEST(IdentityOfACase, TextInThePixelsIsWarnedOfWhereverTheyLeave)

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <map>
 #include <optional>
+#include <set>
 #include <thread>
 
 #include <sys/resource.h>
@@ -563,6 +564,91 @@ TEST_F(WorkstationModelTest, NothingIsDrilledInADamagedCtAndNothingIsStoredOfIt)
   EXPECT_THROW(model.saveElsewhere(folder / "other", "block"), library::LibraryError);
   EXPECT_TRUE(library::Library(folder / "other").list().empty());
   EXPECT_EQ(model.library().folder(), folder / "library");
+}
+
+TEST_F(WorkstationModelTest, ACaseWhoseCtIsLostOpensWithWhatIsLeft)
+{
+  library::Library library(folder / "library");
+  scene::Case value = block("block");
+  value.description.note = "of the left ear";
+  value.attachments.emplace_back();
+  value.attachments.back().name = "tool.ticks";
+  value.attachments.back().kind = scene::Attachment::Kind::Recording;
+  value.attachments.back().content =
+      std::make_shared<std::vector<std::uint8_t>>(std::vector<std::uint8_t>(16, 'x'));
+  library.save(value);
+  library.loadDissection(value);
+  const Eigen::Vector3d p = value.ct.geometry.center();
+  value.dissection.beginStroke({});
+  value.dissection.cut({p, p + Eigen::Vector3d(0.5, 0, 0), 1.0});
+  value.dissection.endStroke();
+  library.save(value);
+  const std::filesystem::path object = folder / "library/objects" / value.ct.object;
+  const auto objects = [this]
+  {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "library/objects"))
+      names.insert(entry.path().filename().string());
+    return names;
+  };
+  for (const bool isCut : {false, true}) // cut short: it cannot be mapped
+  {
+    std::filesystem::remove(object);
+    if (isCut)
+      std::ofstream(object) << "NRRD";
+    const auto before = objects();
+    WorkstationModel model{library::Library(folder / "library")};
+    model.open("block");
+    ASSERT_TRUE(model.hasCase());
+    EXPECT_TRUE(model.library().isStandIn(model.value().ct));
+    EXPECT_EQ(model.value().description.note, "of the left ear");
+    EXPECT_EQ(model.value().attachments.size(), 1u);
+    EXPECT_EQ(model.value().applied(), 1u);
+    EXPECT_EQ(model.value().labels.size(), value.labels.size());
+    ASSERT_EQ(model.damage().size(), 1u);
+    EXPECT_NE(model.damage()[0].find("the CT of case 'block'"), std::string::npos);
+    EXPECT_NO_THROW(model.sceneContents());
+    HeldTool held({6, 6, 8.5});
+    EXPECT_THROW(model.startTouch(held.device, held.setup), library::LibraryError);
+    EXPECT_THROW(model.saveElsewhere(folder / "other", "block"), library::LibraryError);
+    model.setAttachmentNote("tool.ticks", isCut ? "cut" : "gone");
+    model.save();
+    EXPECT_EQ(objects(), before) << "nothing that stands in is stored";
+    const scene::Case saved = library.open("block");
+    EXPECT_EQ(saved.ct.object, value.ct.object) << "the reference stays";
+    EXPECT_EQ(saved.attachments[0].note, isCut ? "cut" : "gone");
+  }
+  // The same image again puts it back.
+  scene::Case again = block("again");
+  library.save(again);
+  ASSERT_EQ(again.ct.object, value.ct.object);
+  WorkstationModel model{library::Library(folder / "library")};
+  model.open("block");
+  EXPECT_FALSE(model.library().isStandIn(model.value().ct));
+  EXPECT_TRUE(model.damage().empty());
+  EXPECT_EQ(model.value().ct.volume.get()->at(6, 6, 6), again.ct.volume.get()->at(6, 6, 6));
+}
+
+TEST_F(WorkstationModelTest, ARecordingReplacesNothingThatALibraryKeeps)
+{
+  library::Library library(folder / "library");
+  scene::Case value = block("block");
+  library.save(value);
+  WorkstationModel model{library};
+  model.opened(ReadCase::from(library, "block"));
+  model.prepareNow();
+  const std::filesystem::path manifest = folder / "library/cases/block.json";
+  const auto size = std::filesystem::file_size(manifest);
+  model.record(manifest);
+  std::string fault;
+  model.events.recordingChanged = [&fault](const std::string& words) { fault = words; };
+  HeldTool held({6, 6, 8.5});
+  held.setup.cuts = true;
+  model.startTouch(held.device, held.setup);
+  model.stopTouch();
+  EXPECT_NE(fault.find("Nothing is recorded"), std::string::npos) << fault;
+  EXPECT_EQ(std::filesystem::file_size(manifest), size);
+  EXPECT_NO_THROW(library.open("block"));
 }
 
 TEST_F(WorkstationModelTest, ACtOfTheLibraryIsCheckedBeforeAToolIsTakenUp)

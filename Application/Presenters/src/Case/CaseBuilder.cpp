@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "MeshSpace.h"
+#include "PatientHashes.h"
 #include "petrous/Appearance/DistinctColors.h"
 #include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Core/Fingerprint.h"
@@ -91,12 +92,17 @@ std::string withoutIdentity(std::size_t key, std::size_t with = 0)
              : withoutIdentity(std::to_string(key) + (with == 0 ? "" : " " + std::to_string(with)));
 }
 
-scene::PatientHash withoutIdentity(const imaging::PatientKey& key)
+} // namespace
+
+scene::PatientHash patientHash(const imaging::PatientKey& key)
 {
   // Of a date alone there are too few to hide it in a hash.
   return {withoutIdentity(key.id), withoutIdentity(key.issuer), withoutIdentity(key.name),
           key.name == 0 ? std::string() : withoutIdentity(key.birthDate, key.name)};
 }
+
+namespace
+{
 
 // What its slices state of the patient, all the same where they do (imaging::assess).
 scene::PatientHash patientOf(const imaging::DicomSeries& series)
@@ -110,7 +116,7 @@ scene::PatientHash patientOf(const imaging::DicomSeries& series)
     take(all.name, slice.patient.name);
     take(all.birthDate, slice.patient.birthDate);
   }
-  return withoutIdentity(all);
+  return patientHash(all);
 }
 
 // Whether the images state different patients; false if that cannot be told.
@@ -582,7 +588,7 @@ imaging::LoadedLabels loadStructureSet(const scene::Case& value, PartSource& sou
                                        const core::Progress& progress)
 {
   const imaging::StructureSet set = imaging::readStructureSet(source.path);
-  isOfOtherPatient(value, source, withoutIdentity(set.patient), salted); // before it is computed
+  isOfOtherPatient(value, source, patientHash(set.patient), salted); // before it is computed
   std::vector<std::string> notes;
   settleFrame(value, source, set.frameOfReferenceUid, nullptr, salted, notes);
   const scene::ImagePart* mr = nullptr;
@@ -700,7 +706,7 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
                   &loaded.maps.front().voxels->geometry(), salted, loaded.notes);
   }
   std::vector<std::string> notes = std::move(loaded.notes);
-  if (isOfOtherPatient(value, source, withoutIdentity(loaded.patient), salted))
+  if (isOfOtherPatient(value, source, patientHash(loaded.patient), salted))
     notes.push_back("states another patient's ID, name or date of birth than the case's images; it "
                     "was added as asked");
   std::vector<std::string> empty;

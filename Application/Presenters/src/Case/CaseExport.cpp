@@ -16,6 +16,7 @@
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/VolumeFile.h"
+#include "petrous/Library/LibraryFiles.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CaseDicom.h"
 #include "petrous/Presenters/CaseTransfer.h"
@@ -429,7 +430,10 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
                          const std::function<void(const std::string&)>& warn,
                          const core::Progress& progress)
 {
-  for (const std::string& warning : identityWarnings(value, options)) // before anything is written
+  for (const std::string& file : exportedFiles(options))
+    library::refuseOverwriting(file, library.folder());
+  for (const std::string& warning :
+       identityWarnings(value, options, &library)) // before anything is written
     warn(warning);
   if (options.mask.any())
   {

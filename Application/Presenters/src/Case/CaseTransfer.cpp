@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <memory>
 #include <optional>
-#include <regex>
 #include <set>
 #include <variant>
 
@@ -17,8 +16,10 @@
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CaseDicom.h"
 #include "petrous/Presenters/CaseExport.h"
+#include "petrous/Presenters/IdentityText.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/LeavingImages.h"
+#include "petrous/Scene/GoneNames.h"
 #include "petrous/Scene/Placement.h"
 
 namespace petrous::presenters
@@ -250,12 +251,6 @@ std::size_t supersededSegmentations(const network::Node& node, const std::string
   }
 }
 
-bool isScene(const network::Series& series)
-{
-  return series.description == network::kSceneDescription &&
-         series.modality == network::kSceneModality;
-}
-
 std::string studyOf(const library::Library& library, const network::Node& node,
                     const ReceiveRequest& request, const core::Progress& progress)
 {
@@ -266,7 +261,7 @@ std::string studyOf(const library::Library& library, const network::Node& node,
   const auto lacksScene = [&](const network::Study& study)
   {
     const auto series = network::findSeries(node, study.uid, progress);
-    return std::none_of(series.begin(), series.end(), isScene);
+    return std::none_of(series.begin(), series.end(), network::isScene);
   };
   if (studies.size() > 1)
     studies.erase(std::remove_if(studies.begin(), studies.end(), lacksScene), studies.end());
@@ -453,13 +448,6 @@ bool showsHead(const core::GridGeometry& grid, const scene::ImageMask& mask)
   return size[1] >= kHead && size[0] >= kHeight;
 }
 
-// A person's name as DICOM writes it, an address, a date, or a number as long as a record's.
-bool resemblesIdentity(const std::string& text)
-{
-  static const std::regex kIdentity("[0-9]{6}|[0-9]{1,4}[./-][0-9]{1,2}[./-][0-9]{2,4}|[\\^@]");
-  return std::regex_search(text, kIdentity);
-}
-
 constexpr const char* kHeadText =
     "the image holds a whole head: a face can be rendered from it. It can be masked; a case of the "
     "region of the ear alone (File > Open a region) has none";
@@ -470,10 +458,12 @@ bool anyShowsHead(const std::vector<scene::ImagePart>& images, const scene::Imag
                      [&mask](const auto& image) { return showsHead(image.geometry, mask); });
 }
 
-void warnOfIdentities(const std::string& what, const std::vector<std::string>& texts,
-                      std::vector<std::string>& warnings)
+void warnOfIdentities(const IdentityText& identity, const std::string& what,
+                      const std::vector<std::string>& texts, std::vector<std::string>& warnings)
 {
-  const auto count = std::count_if(texts.begin(), texts.end(), resemblesIdentity);
+  const auto count =
+      std::count_if(texts.begin(), texts.end(),
+                    [&identity](const std::string& text) { return identity.mayIdentify(text); });
   if (count > 0)
     warnings.push_back(what + ": " + std::to_string(count) + " of " + std::to_string(texts.size()) +
                        " may be a patient's name, number or date; change what is one before you "
@@ -496,6 +486,27 @@ void warnOfText(const scene::Case& value, bool primary, bool mrs,
   if (!images.empty())
     warnings.push_back("the pixels of " + joined(images) +
                        " may have text in them, which may name the patient: look at them");
+}
+
+/// What import and registration noted, in sentences of the program's own.
+std::vector<std::string> notesOf(const scene::Case& value)
+{
+  std::vector<std::string> all = value.ct.notes;
+  const auto add = [&all](const std::vector<std::string>& notes)
+  { all.insert(all.end(), notes.begin(), notes.end()); };
+  for (const scene::ImagePart& mr : value.mr)
+  {
+    add(mr.notes);
+    if (mr.registration && !mr.registration->text.empty())
+      all.push_back(mr.registration->text);
+    if (mr.registration && mr.registration->error)
+      all.push_back(mr.registration->error->place);
+  }
+  for (const scene::LabelPart& part : value.labels)
+    add(part.notes);
+  for (const scene::MeshPart& mesh : value.meshes)
+    add(mesh.notes);
+  return all;
 }
 
 /// Structures that strokes removed from and that the case has no more, by the names of then.
@@ -523,12 +534,21 @@ std::vector<std::string> facesToMask(const scene::Case& value)
 namespace
 {
 
+IdentityText identityOf(const scene::Case& value, const library::Library* library)
+{
+  return library ? IdentityText(value, *library) : IdentityText(value);
+}
+
 // `options`: of the archive, if `parts.scene`.
-IdentityReport reportOf(const scene::Case& value, const SendParts& parts,
+IdentityReport reportOf(scene::Case value, const SendParts& parts,
                         const library::ArchiveOptions& options,
-                        const std::vector<std::string>* faces)
+                        const std::vector<std::string>* faces, const IdentityText& identity)
 {
   IdentityReport report;
+  const std::size_t noted = notesOf(value).size();
+  scene::forgetGoneNames(value); // as the archive does
+  const auto warn = [&](const std::string& what, const std::vector<std::string>& texts)
+  { warnOfIdentities(identity, what, texts, report.warnings); };
   const bool planOnly = options.planOnly;
   const bool keepIdentity = options.keepIdentity;
   const bool isCt = value.ct.modality != scene::Modality::Mr;
@@ -576,6 +596,28 @@ IdentityReport reportOf(const scene::Case& value, const SendParts& parts,
     if (const auto gone = goneStructures(value); !gone.empty())
       report.leaves.push_back("names of structures that are gone, in strokes that touched them: " +
                               joined(gone));
+    const std::vector<std::string> notes = notesOf(value);
+    if (!notes.empty())
+      report.leaves.push_back(
+          "what was noted on import and registration: " + std::to_string(notes.size()) +
+          (notes.size() == 1 ? " sentence" : " sentences"));
+    if (notes.size() < noted)
+      report.stays.emplace_back("what was noted of parts that the case does not have any more, or "
+                                "calls otherwise by now");
+    if (std::any_of(notes.begin(), notes.end(),
+                    [&identity](const std::string& note)
+                    { return identity.mayIdentifySentence(note); }))
+      report.warnings.emplace_back("what was noted on import and registration: has what may be a "
+                                   "patient's name, number or date; look at the notes of the case");
+    if (!value.ct.patient.empty() || !value.ct.frameOfReference.empty() ||
+        std::any_of(value.mr.begin(), value.mr.end(),
+                    [](const scene::ImagePart& mr)
+                    { return !mr.patient.empty() || !mr.frameOfReference.empty(); }))
+    {
+      report.leaves.emplace_back("marks of the patient and of the scanner's frame of reference, "
+                                 "sealed: nobody but this library can read them, or tell by them "
+                                 "that two cases are of one patient");
+    }
     if (planOnly && !value.mr.empty())
     {
       std::vector<std::string> mrs;
@@ -631,38 +673,35 @@ IdentityReport reportOf(const scene::Case& value, const SendParts& parts,
       report.leaves.push_back("attachments: " + joined(files));
       report.warnings.push_back("attachments: what they show and say is not looked at, and only "
                                 "screenshots are cleaned of metadata");
-      warnOfIdentities("names and notes of attachments", texts, report.warnings);
+      warn("names and notes of attachments", texts);
     }
     if (!staying.empty())
       report.stays.push_back("attachments: " + joined(staying));
   }
   if (parts.scene && parts.note && !value.description.note.empty())
     report.warnings.push_back(
-        resemblesIdentity(value.description.note)
+        identity.mayIdentify(value.description.note)
             ? "the note: has what may be a patient's name, number or date, and nothing is removed "
               "from it"
             : "the note: read it once more, nothing is removed from it");
   if (parts.labels || parts.scene)
   {
-    warnOfIdentities("names of structures", structures, report.warnings);
-    warnOfIdentities("codes and algorithms that segmentation files gave structures", codes,
-                     report.warnings);
+    warn("names of structures", structures);
+    warn("codes and algorithms that segmentation files gave structures", codes);
   }
   if (parts.scene)
   {
-    warnOfIdentities("names of meshes", meshes, report.warnings);
+    warn("names of meshes", meshes);
     std::vector<std::string> others;
     for (const scene::ImagePart& mr : value.mr)
       others.push_back(mr.name);
     for (const dissection::History::Branch& branch : value.dissection.history().branches())
       others.push_back(branch.name);
-    warnOfIdentities("names of MRs and approaches", others, report.warnings);
-    warnOfIdentities("names of structures that are gone, in strokes that touched them",
-                     goneStructures(value), report.warnings);
-    warnOfIdentities("tags", value.description.tags, report.warnings);
-    warnOfIdentities("name of the case, diagnosis and procedure",
-                     {value.name, value.description.diagnosis, value.description.procedure},
-                     report.warnings);
+    warn("names of MRs and approaches", others);
+    warn("names of structures that are gone, in strokes that touched them", goneStructures(value));
+    warn("tags", value.description.tags);
+    warn("name of the case, diagnosis and procedure",
+         {value.name, value.description.diagnosis, value.description.procedure});
   }
   warnOfText(value, images, parts.mr || whole, report.warnings);
   if (faces)
@@ -686,9 +725,11 @@ IdentityReport reportOf(const scene::Case& value, const SendParts& parts,
 } // namespace
 
 IdentityReport identityReport(const scene::Case& value, const SendParts& parts,
-                              const std::vector<std::string>* faces)
+                              const std::vector<std::string>* faces,
+                              const library::Library* library)
 {
-  IdentityReport report = reportOf(value, parts, archiveOptions(parts), faces);
+  IdentityReport report =
+      reportOf(value, parts, archiveOptions(parts), faces, identityOf(value, library));
   report.stays.push_back("name, birth date, numbers and other data of the patient, hospital and "
                          "physicians, dates and times: the case has none of them. The objects "
                          "name the patient 'Anonymous'");
@@ -699,20 +740,21 @@ IdentityReport identityReport(const scene::Case& value, const SendParts& parts,
 }
 
 IdentityReport identityReport(const scene::Case& value, const library::ArchiveOptions& options,
-                              const scene::ImageMask& mask)
+                              const scene::ImageMask& mask, const library::Library* library)
 {
   SendParts parts;
   parts.scene = true;
   parts.note = !options.withoutNotes;
   parts.mask = mask;
-  IdentityReport report = reportOf(value, parts, options, nullptr);
+  IdentityReport report = reportOf(value, parts, options, nullptr, identityOf(value, library));
   report.stays.push_back("name, birth date, numbers and other data of the patient, hospital and "
                          "physicians, dates and times of the scan: the case has none of them");
   report.stays.push_back("UIDs of the scanner's files: the case has none of them");
   return report;
 }
 
-std::vector<std::string> identityWarnings(const scene::Case& value, const ExportOptions& options)
+std::vector<std::string> identityWarnings(const scene::Case& value, const ExportOptions& options,
+                                          const library::Library* library)
 {
   std::vector<std::string> warnings;
   const std::string& what = options.what;
@@ -731,7 +773,7 @@ std::vector<std::string> identityWarnings(const scene::Case& value, const Export
              std::any_of(value.meshes.begin(), value.meshes.end(),
                          [&name](const scene::MeshPart& mesh) { return mesh.name == name; })))
           names.push_back(name);
-  warnOfIdentities("names of structures", names, warnings);
+  warnOfIdentities(identityOf(value, library), "names of structures", names, warnings);
   return warnings;
 }
 
@@ -803,12 +845,8 @@ ReceiveSummary receiveCase(library::Library& library, const network::Node& node,
   const fs::path folder = (scratch ? scratch->path() : request.partial) / shortHash(study);
 
   ReceiveSummary summary;
-  const network::Series* scene = nullptr;
-  if (request.series.empty())
-    for (const auto& one : series)
-      if (isScene(one) && (!scene || one.number > scene->number))
-        scene = &one;
-  if (scene)
+  const auto scene = request.series.empty() ? network::latestScene(series) : series.end();
+  if (scene != series.end())
   {
     if (request.as.empty())
       refuseTakenScene(library, node, study, progress);

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "petrous/Core/Error.h"
+#include "petrous/Library/LibraryFiles.h"
 #include "petrous/Library/PseudonymMap.h"
 
 namespace petrous::presenters
@@ -31,6 +32,9 @@ library::DeidentificationResult deidentifyFolder(const DeidentifyRequest& reques
                       request.output.string() +
                           ": is there already; name another file, or allow it to be replaced "
                           "(--replace)");
+  library::refuseOverwriting(request.output);
+  if (!request.map.empty())
+    library::refuseOverwriting(request.map);
   std::unique_ptr<library::PseudonymMap> map;
   if (!request.map.empty())
   {

@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "Notify.h"
+#include "petrous/Core/InputFile.h"
 #include "petrous/Library/Attachments.h"
+#include "petrous/Library/LibraryFiles.h"
 #include "petrous/Presenters/Recordings.h"
 #include "petrous/Scene/Placement.h"
 
@@ -461,6 +463,12 @@ void WorkstationModel::startTouch(haptics::Device& device,
   whole.recording = m_recordingBegun ? unusedName(m_recordingAs) : m_recordingAs;
   try
   {
+    if (library::isOfLibrary(whole.recording, m_library.folder()) ||
+        library::isOfAnyLibrary(whole.recording))
+      throw session::RecordingError(
+          session::RecordingError::Reason::NotWritten,
+          core::printable(whole.recording) +
+              ": the library keeps its own data there; name another file");
     start();
     m_recordingBegun = true;
     m_recordedTo = whole.recording;

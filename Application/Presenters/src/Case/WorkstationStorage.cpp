@@ -47,7 +47,19 @@ ReadCase ReadCase::from(const library::Library& library, const std::string& name
   result.strokes = own.loadSoundDissection(*result.value);
   result.undone = applied - result.value->applied();
   progress.report(0.8, "reading the CT");
-  result.value->ct.volume.get(); // reports a missing object now
+  try
+  {
+    result.value->ct.volume.get(); // reports a missing object now
+  }
+  catch (const core::CancelledError&)
+  {
+    throw;
+  }
+  catch (const core::Error&)
+  {
+    if (!own.standInForCt(*result.value, progress))
+      throw;
+  }
   progress.check("opening " + name);
   return result;
 }
@@ -263,7 +275,8 @@ void WorkstationModel::stored(const StoreTask& done)
     m_library = done.library;
     listen();
   }
-  m_case->derived = m_leftOut.empty() ? m_library.derived() : nullptr;
+  m_case->derived =
+      m_leftOut.empty() && !m_library.isStandIn(m_case->ct) ? m_library.derived() : nullptr;
   m_unsaved = m_changes != done.changes;
   keepJournal(saved, other); // what was drilled since then is written at once
   notify(events.stateChanged);

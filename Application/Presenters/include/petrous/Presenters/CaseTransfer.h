@@ -44,15 +44,19 @@ struct IdentityReport
 };
 
 /// `faces`: images in which a face can be recognised (facesToMask); nullptr: not looked for, and
-/// then images that hold a whole head are warned of. Reads no voxels.
+/// then images that hold a whole head are warned of. Reads no voxels. `library`: of the case, by
+/// whose salt texts are compared with the patient's name (IdentityText); nullptr: they are not.
 IdentityReport identityReport(const scene::Case& value, const SendParts& parts,
-                              const std::vector<std::string>* faces = nullptr);
+                              const std::vector<std::string>* faces = nullptr,
+                              const library::Library* library = nullptr);
 /// The same of an archive with these options (library::archiveCase), of which `mask` is what
 /// `prepare` does to the images.
 IdentityReport identityReport(const scene::Case& value, const library::ArchiveOptions& options,
-                              const scene::ImageMask& mask = {});
+                              const scene::ImageMask& mask = {},
+                              const library::Library* library = nullptr);
 /// What may identify the patient in a file that exportCase writes.
-std::vector<std::string> identityWarnings(const scene::Case& value, const ExportOptions& options);
+std::vector<std::string> identityWarnings(const scene::Case& value, const ExportOptions& options,
+                                          const library::Library* library = nullptr);
 
 /// scene::imagesWithFace, without reading images that are smaller than a head.
 std::vector<std::string> facesToMask(const scene::Case& value);

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <set>
+#include <string>
+
+#include "petrous/Appearance/StructurePresets.h"
+#include "petrous/Library/Library.h"
+#include "petrous/Scene/Case.h"
+
+namespace petrous::presenters
+{
+
+/// Tells whether a text may identify the patient of a case. It cannot find every name: it looks for
+/// forms (a name as DICOM writes it, a title before a name, two words with capitals that are no
+/// words of anatomy or imaging, an address, a date, a number as long as a record's, one of letters
+/// and digits), and compares the words with the salted hashes of the patient's name and ID that the
+/// case keeps.
+class IdentityText
+{
+public:
+  using Salted = std::function<std::string(const std::string&)>;
+
+  /// `salted`: library::saltedFrame of the case's library. Without it words are not compared.
+  explicit IdentityText(const scene::Case& value, Salted salted = {});
+  /// The same of a case in this library.
+  IdentityText(const scene::Case& value, const library::Library& library);
+
+  bool mayIdentify(const std::string& text) const;
+
+  /// The same of a sentence that the program wrote, in which numbers and capitals say nothing.
+  bool mayIdentifySentence(const std::string& text) const;
+
+  /// Of one of its folders, or of the file.
+  bool mayIdentifyPath(const std::filesystem::path& path) const;
+
+private:
+  bool isOfPatient(const std::string& text) const;
+  bool hasName(const std::string& text) const;
+  bool isKnownWord(const std::string& word) const;
+
+  appearance::StructurePresets m_presets = appearance::StructurePresets::builtIn();
+  Salted m_salted;
+  std::set<std::string> m_salts;    ///< hashes of names and IDs, salted
+  std::set<std::string> m_unsalted; ///< of cases that are not saved yet
+};
+
+} // namespace petrous::presenters

@@ -20,9 +20,11 @@
 namespace petrous::workstation
 {
 
-ArchiveDialog::ArchiveDialog(const scene::Case& value, QWidget* parent)
+ArchiveDialog::ArchiveDialog(const scene::Case& value, const library::Library& library,
+                             QWidget* parent)
   : QDialog(parent)
   , m_value(value)
+  , m_library(library)
   , m_file(new PathRow("archiveFile", PathRow::Kind::NewFile, tr("File of the archive")))
   , m_plan(new QCheckBox(tr("&Plan only, without images and structures")))
   , m_note(new QCheckBox(tr("with its &note")))
@@ -108,7 +110,8 @@ void ArchiveDialog::update()
     advice = tr("There is no such folder.");
   m_advice->setText(advice);
   m_accept->setEnabled(advice.isEmpty());
-  m_report->setPlainText(words(presenters::identityReport(m_value, options()).text()));
+  m_report->setPlainText(
+      words(presenters::identityReport(m_value, options(), {}, &m_library).text()));
 }
 
 void ArchiveDialog::accept()

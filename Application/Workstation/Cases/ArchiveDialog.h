@@ -24,7 +24,8 @@ class ArchiveDialog : public QDialog
   Q_OBJECT
 public:
   /// The case must outlive the dialog.
-  explicit ArchiveDialog(const scene::Case& value, QWidget* parent = nullptr);
+  ArchiveDialog(const scene::Case& value, const library::Library& library,
+                QWidget* parent = nullptr);
 
   std::filesystem::path file() const; ///< with its ending
   library::ArchiveOptions options() const;
@@ -35,6 +36,7 @@ private:
   void update();
 
   const scene::Case& m_value;
+  library::Library m_library;
   PathRow* m_file;
   QCheckBox* m_plan;
   QCheckBox* m_note;

@@ -12,6 +12,7 @@
 #include "Theme.h"
 #include "ThreeDView.h"
 #include "petrous/Library/Attachments.h"
+#include "petrous/Presenters/IdentityText.h"
 
 namespace petrous::workstation
 {
@@ -100,11 +101,24 @@ void AttachmentsController::add(scene::Attachment attachment)
   attachment.stroke = presentStroke(m_model.value());
   const bool isVideo = attachment.kind == scene::Attachment::Kind::Video;
   const bool isDocument = attachment.kind == scene::Attachment::Kind::Document;
+  bool isNamed = false;
+  guarded(
+      [&]
+      {
+        isNamed = presenters::IdentityText(m_model.value(), m_model.library())
+                      .mayIdentifyPath(attachment.link);
+      },
+      [this](const QString& why) { emit statusMessage(why); });
   std::string name;
   change([&] { name = m_model.attach(std::move(attachment)); });
   if (name.empty())
     return;
   emit panelWanted();
+  if (isNamed)
+    return emit statusMessage(
+        tr("“%1” is attached; the path of its file, which the case keeps, may "
+           "name the patient. It stays in this library")
+            .arg(words(name)));
   emit statusMessage(
       isVideo ? tr("“%1” is attached; a video may show or name the patient, and stays here when "
                    "the case is archived or sent, unless asked")

@@ -1172,6 +1172,12 @@ void CaseDocumentController::lookForDamage()
     lines += tr("Damaged: %1. Do not rely on what is shown of it; nothing is drilled in this case "
                 "until it is whole and opened again.")
                  .arg(words(one));
+  if (m_model.hasCase() && m_model.library().isStandIn(m_model.value().ct))
+    lines +=
+        tr("The case is open with what is left of it: description, attachments, structures and "
+           "strokes; where its image was is nothing. Import the same image again, as a case of "
+           "its own, or restore the file from a copy of the library: then open this case again. "
+           "Or remove it (Library > Cases).");
   for (const std::string& one : m_model.leftOut())
     lines += tr("Left out, neither shown nor felt: %1.").arg(words(one));
   for (const std::string& one : m_model.damagedStrokes())
@@ -1405,7 +1411,7 @@ void CaseDocumentController::archive(const std::string& which)
     try
     {
       const scene::Case stored = isOpen ? scene::Case() : m_model.library().open(name);
-      ArchiveDialog dialog(isOpen ? m_model.value() : stored, &m_window);
+      ArchiveDialog dialog(isOpen ? m_model.value() : stored, m_model.library(), &m_window);
       if (dialog.exec() != QDialog::Accepted || (isOpen && !m_model.hasCase()))
         return;
       file = dialog.file();

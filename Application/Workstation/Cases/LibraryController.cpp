@@ -45,6 +45,8 @@ QString damageText(const library::Inspection& found)
     lines += words(one.object);
     lines += LibraryController::tr("    needed by: %1")
                  .arg(one.cases.empty() ? LibraryController::tr("no case") : listed(one.cases));
+    if (!one.deletedCases.empty())
+      lines += LibraryController::tr("    and by deleted cases: %1").arg(listed(one.deletedCases));
     lines += "    " + windowText(words(one.text));
   }
   return lines.join('\n') + '\n';
@@ -286,7 +288,7 @@ void LibraryController::collect()
       [this](library::Library& library, const core::Progress& progress) -> BackgroundWork::Reply
       {
         progress.report(0.0, "looking for what no case needs");
-        const library::Collected removed = library.collectGarbage();
+        const library::Collected removed = library.collectGarbage(progress);
         library::DerivedCache derived(library::derivedFolder(library.folder()));
         const std::uintmax_t freed = derived.prune(0);
         return [this, removed, freed]
@@ -308,16 +310,20 @@ void LibraryController::repair()
       [this](library::Library& library, const core::Progress& progress) -> BackgroundWork::Reply
       {
         progress.report(0.0, "looking for strokes that were not saved");
-        const std::vector<std::string> done = library.repair();
-        return [this, done]
+        const library::Repaired found = library.repair(progress);
+        return [this, found]
         {
           refresh();
           QStringList lines;
-          for (const std::string& line : done)
-            lines += windowText(words(line));
+          for (const auto* all : {&found.lost, &found.done})
+            for (const std::string& line : *all)
+              lines += windowText(words(line));
+          const QString verify = tr("Library > Verify tells whether files are damaged.");
           showReport(&m_window, tr("Repair"),
-                     tr("The library is repaired. Library > Verify tells whether files are "
-                        "damaged or missing."),
+                     (found.lost.empty()
+                          ? tr("The library is repaired.")
+                          : tr("What could be repaired is; what cases need is missing.")) +
+                         ' ' + verify,
                      lines.join('\n'), "petrous-repair.txt");
         };
       });

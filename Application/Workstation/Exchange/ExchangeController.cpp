@@ -5,11 +5,11 @@
 #include <QAction>
 #include <QDir>
 #include <QFile>
-#include <QInputDialog>
 #include <QMenu>
 #include <QMessageBox>
 
 #include "Application.h"
+#include "AskName.h"
 #include "CaseDocumentController.h"
 #include "DeidentifyDialog.h"
 #include "NodesDialog.h"
@@ -161,7 +161,7 @@ void ExchangeController::send(const std::string& which)
 
 void ExchangeController::offer(const scene::Case& value, const std::vector<network::Node>& nodes)
 {
-  SendDialog dialog(value, lookForFaces(value, m_window), nodes, &m_window);
+  SendDialog dialog(value, m_model.library(), lookForFaces(value, m_window), nodes, &m_window);
   if (dialog.exec() != QDialog::Accepted)
     return;
   const std::string name = value.name;
@@ -242,12 +242,11 @@ void ExchangeController::receiveUnderOtherName(const ReceiveDialog::Choice& choi
                                                const std::string& taken)
 {
   const QString suggested = words(presenters::freeCaseName(m_model.library(), taken));
-  const QString name =
-      QInputDialog::getText(
-          &m_window, tr("Receive"),
-          tr("The library has a case “%1”. Name of the received one:").arg(words(taken)),
-          QLineEdit::Normal, suggested)
-          .trimmed();
+  const QString name = askName(
+      m_window, tr("Receive"),
+      tr("The library has a case “%1”. Name of the received one:").arg(words(taken)), suggested,
+      [this](const std::string& wanted)
+      { presenters::checkFreeCaseName(m_model.library(), wanted); });
   if (name.isEmpty())
     return emit statusMessage(tr("Stopped; nothing was changed"));
   receiveScene(choice, bytes(name));

@@ -244,18 +244,14 @@ void ReceiveDialog::listSeries(QTreeWidgetItem* study)
               return;
             const QSignalBlocker blocked(m_found); // each change looks at all rows
             above->setData(0, kIsListed, true);
-            int latest = -1; // of the scenes
-            for (const network::Series& one : series)
-              if (one.description == network::kSceneDescription &&
-                  one.modality == network::kSceneModality)
-                latest = std::max(latest, one.number);
+            const auto latest = network::latestScene(series);
+            const bool hasScene = latest != series.end();
             for (const network::Series& one : series)
             {
-              const bool isScene = one.description == network::kSceneDescription &&
-                                   one.modality == network::kSceneModality;
+              const bool isScene = network::isScene(one);
               const bool isImage =
                   one.modality == "CT" || one.modality == "MR" || one.modality == "SEG";
-              if (isScene && one.number != latest)
+              if (isScene && one.number != latest->number)
                 continue; // replaced by a later one
               auto* item = new QTreeWidgetItem(
                   above, {isScene ? tr("Petrous case") : tr("Series %1").arg(one.number),
@@ -266,13 +262,13 @@ void ReceiveDialog::listSeries(QTreeWidgetItem* study)
                           countText(one.instances)});
               item->setData(0, kUid, words(one.uid));
               item->setData(0, kIsScene, isScene);
-              const bool chosen = latest >= 0 ? isScene : isImage && series.size() == 1;
+              const bool chosen = hasScene ? isScene : isImage && series.size() == 1;
               item->setCheckState(0, chosen ? Qt::Checked : Qt::Unchecked);
               item->setDisabled(!isScene && !isImage);
             }
-            say(latest >= 0 ? tr("The study holds a case of Petrous: it comes as it was sent.")
-                            : tr("Tick the series to receive; they are then imported as a folder "
-                                 "of DICOM is."));
+            say(hasScene ? tr("The study holds a case of Petrous: it comes as it was sent.")
+                         : tr("Tick the series to receive; they are then imported as a folder "
+                              "of DICOM is."));
           };
         });
 }

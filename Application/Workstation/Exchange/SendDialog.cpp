@@ -15,10 +15,12 @@
 namespace petrous::workstation
 {
 
-SendDialog::SendDialog(const scene::Case& value, const FaceCheck& faces,
-                       const std::vector<network::Node>& nodes, QWidget* parent)
+SendDialog::SendDialog(const scene::Case& value, const library::Library& library,
+                       const FaceCheck& faces, const std::vector<network::Node>& nodes,
+                       QWidget* parent)
   : QDialog(parent)
   , m_value(value)
+  , m_library(library)
   , m_nodes(nodes)
   , m_node(new QComboBox)
   , m_ct(new QCheckBox(value.ct.modality == scene::Modality::Mr
@@ -120,7 +122,7 @@ void SendDialog::update()
   if (!any)
     return m_report->setPlainText(tr("Nothing is chosen."));
   const auto* faces = m_faces.isKnown ? &m_faces.images : nullptr;
-  QString text = words(presenters::identityReport(m_value, what, faces).text());
+  QString text = words(presenters::identityReport(m_value, what, faces, &m_library).text());
   if (!m_faces.isKnown)
     text += '\n' + textOf(m_faces);
   m_report->setPlainText(text);

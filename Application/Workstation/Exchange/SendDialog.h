@@ -20,7 +20,7 @@ class SendDialog : public QDialog
   Q_OBJECT
 public:
   /// `nodes`: at least one. The case must outlive the dialog.
-  SendDialog(const scene::Case& value, const FaceCheck& faces,
+  SendDialog(const scene::Case& value, const library::Library& library, const FaceCheck& faces,
              const std::vector<network::Node>& nodes, QWidget* parent = nullptr);
 
   presenters::SendParts parts() const;
@@ -30,6 +30,7 @@ private:
   void update();
 
   const scene::Case& m_value;
+  library::Library m_library;
   std::vector<network::Node> m_nodes;
   QComboBox* m_node;
   QCheckBox* m_ct;

@@ -14,6 +14,7 @@
 #include "Application.h"
 #include "Theme.h"
 #include "petrous/Core/OutputFile.h"
+#include "petrous/Library/LibraryFiles.h"
 #include "petrous/Presenters/FolderIdentity.h"
 
 namespace petrous::workstation
@@ -59,6 +60,7 @@ void showReport(QWidget* parent, const QString& title, const QString& head, cons
           const std::filesystem::path from = QFile::encodeName(input).toStdString();
           if (!input.isEmpty())
             presenters::refuseWithin(QFile::encodeName(path).toStdString(), from, "report");
+          library::refuseOverwriting(QFile::encodeName(path).toStdString());
           core::writeFile(QFile::encodeName(path).toStdString(), bytes(whole->toPlainText()));
           outcome->setText(QObject::tr("Saved as %1").arg(path));
         }

@@ -32,6 +32,7 @@
 #include "petrous/Library/FrameSalt.h"
 #include "petrous/Phantom/SamplePatient.h"
 #include "petrous/Presenters/CaseNaming.h"
+#include "petrous/Presenters/IdentityText.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/LeavingImages.h"
 #include "petrous/Scene/FreeName.h"
@@ -727,7 +728,7 @@ void CaseDocumentController::makeCase(
     return;
   m_model.notOpened(); // it stays usable while the other one is made
   work(tr("Making the case %1").arg(words(name)),
-       [this, name,
+       [this, name, library = m_model.library(),
         sources = std::move(sources)](const core::Progress& progress) -> BackgroundWork::Reply
        {
          double reached = 0.0; // a quick preparation does not count as half of the work
@@ -745,11 +746,19 @@ void CaseDocumentController::makeCase(
          std::vector<presenters::StructureReport> report;
          const auto failures =
              presenters::addSoundParts(*value, parts, progress.part(image, 1.0), &report);
-         return [this, value, failures, report]
+         // A folder is often named after the patient, and the case's name goes wherever it goes.
+         const bool isPatients = presenters::IdentityText(*value).mayIdentify(name);
+         if (isPatients)
+           value->name = presenters::freeCaseName(library, "case");
+         return [this, value, failures, report, isPatients]
          {
            endWork();
            const QString named = words(value->name);
            const bool isShown = adopt(std::move(*value));
+           if (isPatients)
+             emit statusMessage(tr("The case is called “%1”, since the name of its folder may be "
+                                   "the patient's; F2 in the library gives it another one")
+                                    .arg(named));
            // Where it could only be kept, the case that stays open is another one.
            tell(failures, report, {isShown ? m_model.shownAs() : 0, named});
          };

@@ -796,6 +796,33 @@ TEST_F(Import, AnMrOfAnotherPatientIsAskedAbout)
   EXPECT_TRUE(settled());
 }
 
+// The name of a case is its file's, and goes along wherever it is sent.
+TEST_F(Import, ACaseIsNotNamedAfterThePatient)
+{
+  const auto ball = ballCase("x");
+  imaging::SeriesDescription series;
+  series.modality = imaging::SeriesDescription::Modality::Ct;
+  series.patientName = "Mustermann^Erika";
+  series.studyUid = "1.2.3.1";
+  series.seriesUid = "1.2.3.1.4";
+  series.frameOfReferenceUid = "1.2.3.1.9";
+  openWindow();
+  const std::pair<const char*, const char*> cases[] = {
+      {"erika mustermann", "case"}, {"DOE_JOHN_19500101", "case 2"}, {"left ear", "left ear"}};
+  for (const auto& [name, called] : cases)
+  {
+    imaging::writeDicomSeries(folder() / name, *ball.ct.volume.get(), series);
+    dropPath(folder() / name);
+    ASSERT_TRUE(waitFor(
+        [&, name = called]
+        {
+          return window().model().hasCase() && window().model().value().name == name &&
+                 !window().busy();
+        }))
+        << called;
+  }
+}
+
 // From the same CT in another library: new identifiers, the same place.
 TEST_F(Import, ASegmentationOfAnotherFrameIsAskedAbout)
 {

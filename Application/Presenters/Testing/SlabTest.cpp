@@ -154,10 +154,12 @@ TEST(Slab, ObliqueIsTheProjectionOfItsNodes)
   {
     weights += nodes[n].weight;
     if (n > 0) // in voxels, along a ray
+    {
       EXPECT_LE((grid.voxelFromPatientLinear() *
                  ((nodes[n].offset - nodes[n - 1].offset) * plane.axes.next))
                     .norm(),
                 0.5 + 1e-9);
+    }
   }
   EXPECT_NEAR(weights, 1.0, 1e-12);
   EXPECT_DOUBLE_EQ(nodes.front().offset, -0.5 * kThickness);

@@ -105,7 +105,9 @@ TEST(ViewArrangement, AnEnlargedViewFillsTheAreaUntilToggledAgain)
       {
         ASSERT_EQ(after[n].has_value(), before[n].has_value());
         if (after[n])
+        {
           EXPECT_EQ(after[n]->width, before[n]->width);
+        }
       }
     }
 }

@@ -95,11 +95,12 @@ std::string complaintOf(const imaging::ScanResult& result)
     const bool isSound = series.geometry.verdict == imaging::Verdict::Ok && !isCut;
     unsound += isSound || series.kind != imaging::SeriesKind::Image ? 0 : 1;
   }
-  if (unsound == 0 && result.unreadable.empty())
+  if (unsound == 0 && result.unreadable.empty() && result.lostFiles == 0)
     return {};
   return std::to_string(unsound) + " of " + std::to_string(result.series.size()) +
          " series not ok, " + std::to_string(result.unreadable.size()) +
-         " findings outside of series; --strict wants none";
+         " findings outside of series, " + std::to_string(result.lostFiles) +
+         " files of a DICOMDIR not there; --strict wants none";
 }
 
 void scan(const Context& context, const Options& options)
@@ -143,11 +144,14 @@ void scan(const Context& context, const Options& options)
   if (!volumes.empty())
     list.push_back(seriesJson(volumes));
   printFindings(context, result.unreadable);
-  for (const auto& note : result.notes)
+  std::vector<std::string> notes = result.lossNotes;
+  notes.insert(notes.end(), result.notes.begin(), result.notes.end());
+  for (const auto& note : notes)
     context.print("noted: " + note);
   context.printJson({{"series", std::move(list)},
                      {"unreadable", findingsJson(result.unreadable)},
-                     {"notes", result.notes},
+                     {"notes", notes},
+                     {"lost_files", result.lostFiles},
                      {"foreign_files", result.foreignFiles}});
   if (const std::string complaint = complaintOf(result); options.strict && !complaint.empty())
     throw core::InvalidParameter(path + ": " + complaint);
@@ -163,7 +167,8 @@ void addScanCommand(CLI::App& app, Context& context)
                          [options, &context] { scan(context, *options); });
   command->add_option("PATH", options->path, "Folder or file")->required();
   command->add_flag("--strict", options->strict,
-                    "Exit 3 unless every image series is ok and every DICOM file readable");
+                    "Exit 3 unless every image series is ok with no end that may be missing, every "
+                    "DICOM file is readable, and all is there that a DICOMDIR lists");
   command->add_flag("--no-cache", options->noCache,
                     "Read every header, and remember none for the next scan of the same files");
 }

@@ -339,6 +339,71 @@ TEST(DicomScan, DoesNotDivideASeriesOfTwoPatientsIntoVolumes)
   EXPECT_EQ(result.series.front().geometry.verdict, Verdict::Refused);
 }
 
+/// A DICOMDIR by the offsets of PS3.3 F.3: SERIES records with the files of each, or IMAGE records
+/// alone (uid "").
+void writeIndex(const fs::path& path,
+                const std::vector<std::pair<std::string, std::vector<std::string>>>& series)
+{
+  struct Record
+  {
+    std::string type, uid, file;
+    std::size_t next = 0; ///< number of a record; 0: none, as the first one is never named
+    std::size_t below = 0;
+  };
+  std::vector<Record> records{{"PATIENT", {}, {}}};
+  std::size_t before = 0;
+  for (const auto& [uid, files] : series)
+  {
+    const std::size_t parent = records.size();
+    if (!uid.empty())
+    {
+      records.push_back({"SERIES", uid, {}});
+      (before == 0 ? records[0].below : records[before].next) = parent;
+      before = parent;
+    }
+    for (std::size_t n = 0; n < files.size(); ++n)
+    {
+      if (!uid.empty())
+        (n == 0 ? records[parent].below : records.back().next) = records.size();
+      records.push_back({"IMAGE", {}, files[n]});
+    }
+  }
+  TestSlice index;
+  std::string head = std::string(128, '\0') + "DICM";
+  index.element(head, 0x00020002, "UI", "1.2.840.10008.1.3.10");
+  index.element(head, 0x00020010, "UI", "1.2.840.10008.1.2.1");
+  std::vector<std::size_t> offsets(records.size(), 0);
+  std::string items;
+  for (int round = 0; round < 2; ++round) // the offsets are known after the first
+  {
+    items.clear();
+    for (std::size_t n = 0; n < records.size(); ++n)
+    {
+      constexpr std::size_t kSequenceHead = 12; // bytes
+      offsets[n] = head.size() + kSequenceHead + items.size();
+      const auto offset = [&](std::size_t of)
+      {
+        std::string bytes;
+        index.append(bytes, of == 0 ? 0 : static_cast<std::uint32_t>(offsets[of]), 4);
+        return bytes;
+      };
+      std::string record;
+      index.element(record, 0x00041400, "UL", offset(records[n].next));
+      index.element(record, 0x00041420, "UL", offset(records[n].below));
+      index.element(record, 0x00041430, "CS", records[n].type);
+      if (!records[n].file.empty())
+        index.element(record, 0x00041500, "CS", records[n].file);
+      if (!records[n].uid.empty())
+        index.element(record, 0x0020000e, "UI", records[n].uid);
+      items += std::string("\xfe\xff\x00\xe0", 4);
+      index.append(items, static_cast<std::uint32_t>(record.size()), 4);
+      items += record;
+    }
+  }
+  index.element(head, 0x00041220, "SQ", items);
+  writeText(path, head);
+}
+
 TEST(DicomScan, NamesWhatADicomdirListsAndIsNotThere)
 {
   const TemporaryFolder folder;
@@ -346,33 +411,66 @@ TEST(DicomScan, NamesWhatADicomdirListsAndIsNotThere)
   for (int k = 0; k < 4; ++k)
     fs::rename(folder.path() / "A" / ("s" + std::to_string(k) + ".dcm"),
                folder.path() / "A" / ("im" + std::to_string(k)));
-  const auto notes = [&](int listed)
+  const auto scanned = [&](int listed)
   {
-    TestSlice index;
-    index.sopClass = "1.2.840.10008.1.3.10";
-    std::string file = std::string(128, '\0') + "DICM";
-    index.element(file, 0x00020002, "UI", index.sopClass);
-    index.element(file, 0x00020010, "UI", "1.2.840.10008.1.2.1");
-    std::string items;
+    std::vector<std::string> files;
     for (int k = 0; k < listed; ++k)
-    {
-      std::string record;
-      index.element(record, 0x00041430, "CS", "IMAGE");
-      index.element(record, 0x00041500, "CS", "A\\IM" + std::to_string(k));
-      items += std::string("\xfe\xff\x00\xe0", 4);
-      index.append(items, static_cast<std::uint32_t>(record.size()), 4);
-      items += record;
-    }
-    index.element(file, 0x00041220, "SQ", items);
-    writeText(folder.path() / "DICOMDIR", file);
-    return scanDicom(folder.path(), {}).notes;
+      files.push_back("A\\IM" + std::to_string(k));
+    writeIndex(folder.path() / "DICOMDIR", {{"", files}});
+    return scanDicom(folder.path(), {});
   };
-  EXPECT_TRUE(notes(4).empty()) << "case does not count";
-  const auto lost = notes(6);
-  ASSERT_EQ(lost.size(), 1U);
-  EXPECT_NE(lost[0].find("lists 6 files, of which 2 are not there (the first is 'A/IM4')"),
-            std::string::npos)
-      << lost[0];
+  const auto whole = scanned(4);
+  EXPECT_TRUE(whole.lossNotes.empty()) << "case does not count";
+  EXPECT_EQ(whole.lostFiles, 0U);
+  ASSERT_EQ(whole.series.size(), 1U);
+  EXPECT_FALSE(has(whole.series[0].geometry, FindingKind::MissingEnd));
+  const auto lost = scanned(6);
+  ASSERT_EQ(lost.lossNotes.size(), 1U);
+  EXPECT_NE(
+      lost.lossNotes[0].find("lists 6 files, of which 2 are not there (the first is 'A/IM4')"),
+      std::string::npos)
+      << lost.lossNotes[0];
+  EXPECT_EQ(lost.lostFiles, 2U);
+  // The series whose files lie in the folder is told to be short, without a file's name.
+  ASSERT_EQ(lost.series.size(), 1U);
+  const SeriesGeometry& geometry = lost.series[0].geometry;
+  EXPECT_EQ(geometry.verdict, Verdict::Ok);
+  ASSERT_EQ(geometry.findings.size(), 1U);
+  EXPECT_EQ(geometry.findings[0].kind, FindingKind::MissingEnd);
+  EXPECT_NE(geometry.findings[0].text.find("2 files of the series"), std::string::npos)
+      << geometry.findings[0].text;
+  EXPECT_EQ(geometry.findings[0].text.find("IM4"), std::string::npos);
+}
+
+TEST(DicomScan, HoldsWhatADicomdirLostAgainstTheSeriesThatItNames)
+{
+  const TemporaryFolder folder;
+  // Both in one folder: only the index tells whose the lost ones are.
+  for (int k = 0; k < 5; ++k)
+    for (const char* uid : {"1.2.3.10", "1.2.3.20"})
+    {
+      TestSlice slice;
+      slice.seriesUid = uid;
+      slice.z = 0.5 * k;
+      slice.write(folder.path() / "A" / (std::string(uid).substr(6) + std::to_string(k)));
+    }
+  const auto names = [](const std::string& series, int count)
+  {
+    std::vector<std::string> files;
+    for (int k = 0; k < count; ++k)
+      files.push_back("A\\" + series + std::to_string(k));
+    return files;
+  };
+  writeIndex(folder.path() / "DICOMDIR",
+             {{"1.2.3.10", names("10", 5)}, {"1.2.3.20", names("20", 8)}, {"1.2.3.30", {"B\\X"}}});
+  const auto result = scanDicom(folder.path(), {});
+  EXPECT_EQ(result.lostFiles, 4U);
+  ASSERT_EQ(result.series.size(), 2U);
+  for (const DicomSeries& series : result.series)
+  {
+    EXPECT_EQ(series.lostFiles, series.uid == "1.2.3.20" ? 3U : 0U) << series.uid;
+    EXPECT_EQ(has(series.geometry, FindingKind::MissingEnd), series.uid == "1.2.3.20");
+  }
 }
 
 TEST(DicomScan, KnowsSegmentationsAndStructureSets)

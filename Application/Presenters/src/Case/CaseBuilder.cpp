@@ -248,6 +248,12 @@ ReadImage readImage(const fs::path& path, const std::string& selector, bool repa
     for (const imaging::Finding& finding : series.geometry.findings) // accepted
       if (finding.kind != imaging::FindingKind::Unreadable)          // these name files
         notes.push_back(finding.text);
+    // What this series lost is one of its findings.
+    if (scan.lostFiles > 0 && series.lostFiles == 0)
+      notes.push_back("The index of the disc (DICOMDIR) lists " + std::to_string(scan.lostFiles) +
+                      (scan.lostFiles == 1 ? " file of another series that is"
+                                           : " files of other series that are") +
+                      " not there: what they showed is missing from this copy of the disc.");
     if (!scan.notes.empty()) // which name files and folders, possibly after patients
       notes.push_back("Of what lies beside its slices, something was left out in " +
                       std::to_string(scan.notes.size()) +

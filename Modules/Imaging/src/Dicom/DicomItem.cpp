@@ -151,6 +151,7 @@ bool isUtf8(const std::string& text)
 } // namespace
 
 DicomItem::DicomItem(std::string_view bytes, Encoding encoding)
+  : m_bytes(bytes)
 {
   std::size_t at = 0;
   Head head;
@@ -236,6 +237,14 @@ std::optional<int> DicomItem::integer(Tag tag) const
 {
   const auto all = shorts(tag);
   return all.size() == 1 ? std::optional(all.front()) : std::nullopt;
+}
+
+std::optional<std::uint32_t> DicomItem::whole(Tag tag) const
+{
+  const Element* element = find(tag);
+  return element && element->value.size() == 4
+             ? std::optional(imaging::number(element->value, 0, 4, element->isBigEndian))
+             : std::nullopt;
 }
 
 std::vector<DicomItem> DicomItem::items(Tag tag) const

@@ -28,6 +28,8 @@ public:
   DicomItem(std::string_view bytes, Encoding encoding);
 
   bool isDamaged() const noexcept { return m_isDamaged; }
+  /// What it was made from.
+  std::string_view bytes() const noexcept { return m_bytes; }
   bool has(Tag tag) const noexcept { return find(tag) != nullptr; }
 
   /// Without padding and control characters; "" if absent.
@@ -38,6 +40,8 @@ public:
   /// Binary values of two bytes (US); empty if absent.
   std::vector<int> shorts(Tag tag) const;
   std::optional<int> integer(Tag tag) const;
+  /// A binary value of four bytes (UL).
+  std::optional<std::uint32_t> whole(Tag tag) const;
   /// The items of a sequence, the last one damaged if more follows that is none, and its first one
   /// (an item without elements if there is none).
   std::vector<DicomItem> items(Tag tag) const;
@@ -53,6 +57,7 @@ private:
   };
   const Element* find(Tag tag) const noexcept;
 
+  std::string_view m_bytes;
   std::vector<Element> m_elements; ///< ascending
   bool m_isDamaged = false;
 };

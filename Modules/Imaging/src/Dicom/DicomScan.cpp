@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <mutex>
@@ -857,43 +858,127 @@ std::string discName(const fs::path& path)
   return name;
 }
 
-/// What a DICOMDIR lists and that is not there: a copy that broke off leaves it whole. Empty:
-/// nothing.
-std::string missingFrom(const fs::path& index, const std::set<std::string>& names)
+/// What a DICOMDIR lists and that is not there: a copy that broke off leaves it whole.
+struct Lost
+{
+  struct File
+  {
+    fs::path path;
+    std::string seriesUid; ///< empty: the index does not say
+  };
+  std::size_t listed = 0;
+  std::vector<File> files;
+};
+
+/// The series of each record of a DICOMDIR: a record names the first of those below it, and each
+/// of these the next, by the offsets of their items in the file (PS3.3 F.3.2.2).
+std::vector<std::string> seriesOfRecords(const std::vector<DicomItem>& records,
+                                         const std::function<std::uint64_t(const DicomItem&)>& at)
+{
+  std::map<std::uint64_t, std::size_t> byOffset;
+  for (std::size_t n = 0; n < records.size(); ++n)
+    if (!records[n].bytes().empty())
+      byOffset.emplace(at(records[n]), n);
+  std::vector<std::string> series(records.size());
+  const auto follow = [&](const DicomItem& record, Tag tag)
+  {
+    const auto found = byOffset.find(record.whole(tag).value_or(0));
+    return found == byOffset.end() ? records.size() : found->second;
+  };
+  for (const DicomItem& record : records)
+  {
+    const std::string uid = record.text(0x0020000e);
+    if (uid.empty() || record.text(0x00041430) != "SERIES")
+      continue;
+    // Each record once: a hostile index may go in circles.
+    for (std::size_t n = follow(record, 0x00041420); n < records.size() && series[n].empty();
+         n = follow(records[n], 0x00041400))
+      series[n] = uid;
+  }
+  return series;
+}
+
+Lost lostOf(const fs::path& index, const std::set<std::string>& names)
 {
   constexpr std::uint64_t kLargest = std::uint64_t{64} << 20; // bytes
+  Lost lost;
   ByteSource source(index);
   const DicomElements elements(source);
   if (!source.isOpen() || elements.state() != DicomElements::State::Complete ||
       source.size() > kLargest || elements.dataStart() > source.size())
-    return {};
+    return lost;
   std::string bytes(static_cast<std::size_t>(source.size() - elements.dataStart()), '\0');
   if (!source.read(elements.dataStart(), bytes.data(), bytes.size()))
-    return {};
+    return lost;
   const DicomItem data(bytes, {elements.isExplicit(), elements.isBigEndian()});
-  std::size_t listed = 0;
-  std::size_t missing = 0;
-  fs::path first;
-  for (const DicomItem& record : data.items(0x00041220))
+  const std::vector<DicomItem> records = data.items(0x00041220);
+  const auto offsetOf = [&](const DicomItem& record)
   {
-    std::string id = record.text(0x00041500); // components separated by backslashes
+    constexpr std::uint64_t kHead = 8; // bytes: tag and length of an item
+    return elements.dataStart() +
+           static_cast<std::uint64_t>(record.bytes().data() - bytes.data()) - kHead;
+  };
+  const std::vector<std::string> series = seriesOfRecords(records, offsetOf);
+  for (std::size_t n = 0; n < records.size(); ++n)
+  {
+    std::string id = records[n].text(0x00041500); // components separated by backslashes
     if (id.empty())
       continue;
-    ++listed;
+    ++lost.listed;
     std::replace(id.begin(), id.end(), '\\', '/');
     std::error_code error;
-    const fs::path file = index.parent_path() / id;
-    if (names.count(discName(file)) > 0 || fs::exists(file, error))
-      continue;
-    if (missing++ == 0)
-      first = id;
+    fs::path file = index.parent_path() / id;
+    if (names.count(discName(file)) == 0 && !fs::exists(file, error))
+      lost.files.push_back({std::move(file), series[n]});
   }
-  if (missing == 0)
-    return {};
-  return "'" + index.filename().string() + "' lists " + std::to_string(listed) +
-         " files, of which " + std::to_string(missing) + (missing == 1 ? " is" : " are") +
-         " not there (the first is '" + first.string() +
+  return lost;
+}
+
+std::string lossNote(const fs::path& index, const Lost& lost)
+{
+  const std::size_t count = lost.files.size();
+  return "'" + index.filename().string() + "' lists " + std::to_string(lost.listed) +
+         " files, of which " + std::to_string(count) + (count == 1 ? " is" : " are") +
+         " not there (the first is '" +
+         lost.files.front().path.lexically_relative(index.parent_path()).string() +
          "'): slices or whole series may be missing. Copy the disc again.";
+}
+
+/// Which series lost how many files of a DICOMDIR: those of the UID that it states, else those with
+/// files in the same folder, else every one. A series of which nothing is there has no entry.
+std::map<std::string, std::size_t> lossesOf(const Lost& lost, const Groups& groups)
+{
+  std::map<std::string, std::set<std::string>> byFolder;
+  for (const auto& [key, members] : groups)
+    for (const FileHeader* member : members)
+      byFolder[discName(member->slice.file.parent_path())].insert(key);
+  std::map<std::string, std::size_t> losses;
+  for (const Lost::File& file : lost.files)
+  {
+    if (!file.seriesUid.empty())
+    {
+      if (groups.count(file.seriesUid) > 0)
+        ++losses[file.seriesUid];
+      continue;
+    }
+    const auto folder = byFolder.find(discName(file.path.parent_path()));
+    if (folder != byFolder.end())
+      for (const std::string& key : folder->second)
+        ++losses[key];
+    else
+      for (const auto& group : groups)
+        ++losses[group.first];
+  }
+  return losses;
+}
+
+Finding lossFinding(std::size_t lost)
+{
+  return {FindingKind::MissingEnd,
+          "The index of the disc (DICOMDIR) lists " + std::to_string(lost) +
+              (lost == 1 ? " file of the series that is" : " files of the series that are") +
+              " not there; the stack may have no gap, but slices are missing. Copy the disc again.",
+          0.0};
 }
 
 bool isImageSeries(const DicomSeries& series)
@@ -1006,14 +1091,20 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress,
           .push_back(&header);
   }
   std::set<std::string> names;
+  std::map<std::string, std::size_t> losses; // of the series
   for (const FileHeader& header : headers)
     if (header.kind == FileKind::Directory)
     {
       if (names.empty())
         for (const ListedFile& file : list.files)
           names.insert(discName(file.path));
-      if (std::string missing = missingFrom(header.slice.file, names); !missing.empty())
-        result.notes.push_back(std::move(missing));
+      const Lost lost = lostOf(header.slice.file, names);
+      if (lost.files.empty())
+        continue;
+      result.lostFiles += lost.files.size();
+      result.lossNotes.push_back(lossNote(header.slice.file, lost));
+      for (const auto& [key, count] : lossesOf(lost, groups))
+        losses[key] += count;
     }
   const auto folders = namesOf(groups);
   for (FileHeader* header : foreign)
@@ -1049,6 +1140,12 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress,
                         made[n] = makeSeries(all[n]->second,
                                              open == doubts.end() ? Doubts() : open->second,
                                              folderDoubts, comparisons);
+                        if (const auto loss = losses.find(all[n]->first); loss != losses.end())
+                          for (DicomSeries& volume : made[n].volumes)
+                          {
+                            volume.lostFiles = loss->second;
+                            volume.geometry.findings.push_back(lossFinding(loss->second));
+                          }
                       }
                     });
   for (const auto& [file, n] : order)

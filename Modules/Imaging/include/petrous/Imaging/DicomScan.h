@@ -60,6 +60,7 @@ struct DicomSeries
   std::string description; ///< may identify the patient: for the user's own screen only
   std::string frameOfReferenceUid;
   std::size_t files = 0; ///< all files of the series, including those that are not slices
+  std::size_t lostFiles = 0; ///< that a DICOMDIR lists and that are not there
   SeriesGeometry geometry;
 };
 
@@ -69,9 +70,14 @@ struct ScanResult
       series; ///< sorted by path of the first file; volumes of one series adjoin
   std::vector<Finding> unreadable; ///< damaged DICOM files of no known series
   std::size_t foreignFiles = 0;    ///< files that are not DICOM
+  /// Files that a DICOMDIR lists and that are not there. Those of a series that is are a finding of
+  /// it (MissingEnd), too.
+  std::size_t lostFiles = 0;
   /// What was skipped below the path, one sentence each. Contains file and folder names, which may
   /// identify the patient: for the user's own screen only.
   std::vector<std::string> notes;
+  /// Likewise, of each DICOMDIR with files that are not there.
+  std::vector<std::string> lossNotes;
 };
 
 /// Reads the header of every DICOM file at or below `path` (of a DICOMDIR: its folder), in

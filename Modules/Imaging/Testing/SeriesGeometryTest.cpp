@@ -353,6 +353,53 @@ TEST(SeriesGeometry, GuessesFewSlicesOnly)
   EXPECT_EQ(of({1, 1, 1, 2, 1, 1, 1, 1}, 6).verdict, Verdict::Repairable) << "one, of few";
 }
 
+TEST(SeriesGeometry, TellsALossFromAPitchByTheInstanceNumbers)
+{
+  // 100 slices at 1 mm, of which 31, 33 … 69 are gone.
+  Headers lost;
+  for (int k = 0; k < 100; ++k)
+    if (k < 31 || k > 69 || k % 2 == 0)
+      lost.push_back(stack(100, 1.0)[static_cast<std::size_t>(k)]);
+  const SeriesGeometry cut = assess(lost);
+  EXPECT_EQ(cut.verdict, Verdict::Refused);
+  EXPECT_EQ(only(cut).kind, FindingKind::MissingSlice);
+  EXPECT_NE(only(cut).text.find("20 slices are missing"), std::string::npos) << only(cut).text;
+  EXPECT_NE(only(cut).text.find("at most 8 slices are interpolated"), std::string::npos)
+      << only(cut).text;
+  // The same places, numbered on: the scanner took them so.
+  Headers taken = lost;
+  for (std::size_t k = 0; k < taken.size(); ++k)
+    taken[k].instanceNumber = static_cast<int>(k) + 1;
+  EXPECT_EQ(assess(taken).verdict, Verdict::Repairable);
+  EXPECT_EQ(only(assess(taken)).kind, FindingKind::UnevenSpacing);
+  // Downwards, and in steps of ten.
+  for (std::size_t k = 0; k < taken.size(); ++k)
+    taken[k].instanceNumber = 1000 - 10 * static_cast<int>(k);
+  EXPECT_EQ(assess(taken).verdict, Verdict::Repairable);
+  for (SliceHeader& slice : lost)
+    slice.instanceNumber = 10 * (200 - slice.instanceNumber);
+  EXPECT_EQ(assess(lost).verdict, Verdict::Refused);
+  // Without numbers nobody knows; twenty of eighty are too many to guess.
+  for (SliceHeader& slice : lost)
+    slice.instanceNumber = 0;
+  EXPECT_EQ(assess(lost).verdict, Verdict::Refused);
+}
+
+TEST(SeriesGeometry, CountsASliceThatCameTwiceOnceAmongThoseThatAllowGuessing)
+{
+  Headers slices = stack(29, 1.0);
+  slices.erase(slices.begin() + 20);
+  slices.erase(slices.begin() + 14);
+  slices.erase(slices.begin() + 7);
+  ASSERT_EQ(slices.size(), 26U); // three guessed of twenty-nine, two allowed
+  EXPECT_EQ(assess(slices).verdict, Verdict::Refused);
+  EXPECT_FALSE(assess(slices).isBridgeable);
+  const Headers once = slices;
+  for (const std::size_t twice : {0U, 1U, 2U, 3U}) // thirty files of as many slices
+    slices.push_back(once[twice]);
+  EXPECT_FALSE(assess(slices).isBridgeable);
+}
+
 TEST(SeriesGeometry, NamesADuplicateSlice)
 {
   Headers slices = stack(20, 1.0);

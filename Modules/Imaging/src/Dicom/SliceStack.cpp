@@ -165,6 +165,7 @@ std::size_t SliceStack::duplicates() const
 void SliceStack::judge(SeriesGeometry& result)
 {
   m_spacing = usualGap();
+  followNumbers();
   judgeGaps(result);
   if (m_spacing <= 0.0)
     return;
@@ -174,44 +175,70 @@ void SliceStack::judge(SeriesGeometry& result)
   noteDeclarations(result);
 }
 
+void SliceStack::followNumbers()
+{
+  constexpr double kMostly = 0.75; // of the usual gaps have the usual step of the numbers
+  std::vector<double> steps;       // from slice to slice
+  std::vector<double> usual;       // of those across a usual gap
+  for (std::size_t k = 0; k + 1 < m_place.size(); ++k)
+  {
+    const double gap = m_place[k + 1] - m_place[k];
+    steps.push_back(std::abs(static_cast<double>(m_slices[k + 1].instanceNumber) -
+                             static_cast<double>(m_slices[k].instanceNumber)));
+    if (gap > std::max(kSamePlace, kSameFraction * m_spacing) && gap <= kLostGap * m_spacing)
+      usual.push_back(steps.back());
+  }
+  if (usual.empty())
+    return;
+  const double step = median(usual);
+  if (step < 1.0 || static_cast<double>(std::count(usual.begin(), usual.end(), step)) <
+                        kMostly * static_cast<double>(usual.size()))
+    return;
+  for (const double one : steps)
+    m_goesOn.push_back(one <= step);
+}
+
 void SliceStack::judgeGaps(SeriesGeometry& result)
 {
   const double usual = m_spacing;
   std::size_t doubled = 0;
   std::size_t firstDoubled = 0;
-  std::size_t missing = 0;
-  std::size_t wide = 0;
   std::size_t run = 0;
   std::size_t longestRun = 0;
-  std::string where;
-  std::vector<double> numbers{0.0};
-  std::vector<double> plain{0.0}; // as if no slice were missing
+  std::vector<double> steps; // 1 where no slice is missing
   for (std::size_t k = 0; k + 1 < m_place.size(); ++k)
   {
     const double gap = m_place[k + 1] - m_place[k];
     double step = 1.0;
-    double plainStep = 1.0;
     if (gap <= std::max(kSamePlace, kSameFraction * usual))
     {
       firstDoubled = doubled++ == 0 ? k : firstDoubled;
-      step = plainStep = 0.0;
+      step = 0.0;
     }
     else if (std::round(gap / usual) >= 2.0 &&
              std::abs(gap / usual - std::round(gap / usual)) <= kWholeGap)
-    {
       step = std::round(gap / usual);
-      if (wide < kPlacesNamed)
-        where += (wide == 0 ? "between " : ", between ") + decimals(m_place[k], 2) + " and " +
-                 decimals(m_place[k + 1], 2) + " mm";
-      else if (wide == kPlacesNamed)
-        where += " and elsewhere";
-      ++wide;
-      missing += static_cast<std::size_t>(std::min(step, 1e6)) - 1;
-    }
-    run = step > 1.0 ? run + 1 : 0;
+    run = step > 1.0 && (m_goesOn.empty() || m_goesOn[k]) ? run + 1 : 0;
     longestRun = std::max(longestRun, run);
-    numbers.push_back(numbers.back() + step);
-    plain.push_back(plain.back() + plainStep);
+    steps.push_back(step);
+  }
+  std::size_t missing = 0;
+  std::size_t wide = 0;
+  std::string where;
+  m_number = {0.0};
+  for (std::size_t k = 0; k < steps.size(); ++k)
+  {
+    const bool isPitch = longestRun >= kPitchChange && (m_goesOn.empty() || m_goesOn[k]);
+    m_number.push_back(m_number.back() + (isPitch ? std::min(steps[k], 1.0) : steps[k]));
+    if (steps[k] <= 1.0 || isPitch)
+      continue;
+    if (wide < kPlacesNamed)
+      where += (wide == 0 ? "between " : ", between ") + decimals(m_place[k], 2) + " and " +
+               decimals(m_place[k + 1], 2) + " mm";
+    else if (wide == kPlacesNamed)
+      where += " and elsewhere";
+    ++wide;
+    missing += static_cast<std::size_t>(std::min(steps[k], 1e6)) - 1;
   }
 
   if (doubled > 0)
@@ -226,7 +253,7 @@ void SliceStack::judgeGaps(SeriesGeometry& result)
                                    decimals(excess, 1) + " mm too long.",
                                excess});
   }
-  if (missing > 0 && longestRun < kPitchChange)
+  if (missing > 0)
   {
     const double lost = static_cast<double>(missing) * usual;
     result.findings.push_back(
@@ -236,7 +263,6 @@ void SliceStack::judgeGaps(SeriesGeometry& result)
              " mm apart; closed up, what lies beyond would be " + decimals(lost, 1) + " mm off.",
          lost});
   }
-  m_number = longestRun < kPitchChange ? numbers : plain;
 }
 
 /// What interpolation would have to guess: it may close what one missing slice leaves, in few
@@ -260,13 +286,15 @@ void SliceStack::judgeLosses(SeriesGeometry& result)
     }
     const bool isLost = gap - m_step > kLostGap * usual;
     guessed += isLost ? 1 : 0;
-    run = isLost ? run + 1 : 0;
+    // Without numbers a coarser pitch cannot be told from slices lost in turn.
+    run = isLost && !m_goesOn.empty() && m_goesOn[k] ? run + 1 : 0;
     pitches += run == kPitchChange ? 1 : 0;
     ofPitches += run == kPitchChange ? kPitchChange : run > kPitchChange ? 1 : 0;
   }
   if (pitches <= kPitches)
     guessed -= ofPitches;
-  const std::size_t most = std::max<std::size_t>(1, m_slices.size() / kFewGuessed);
+  const std::size_t places = m_slices.size() - duplicates(); // a slice that came twice is one
+  const std::size_t most = std::max<std::size_t>(1, places / kFewGuessed);
   if (widest - m_step > kWidestGap * usual)
     m_loss = " Nothing was measured for " + decimals(widest, 2) + " mm between " +
              decimals(m_place[at], 2) + " and " + decimals(m_place[at + 1], 2) +

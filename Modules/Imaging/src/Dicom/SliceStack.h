@@ -38,6 +38,7 @@ public:
   std::optional<core::GridGeometry> grid() const;
 
 private:
+  void followNumbers();
   void judgeGaps(SeriesGeometry& result);
   void judgeLosses(SeriesGeometry& result);
   void judgeEvenness(SeriesGeometry& result);
@@ -50,6 +51,9 @@ private:
   Eigen::Matrix3d m_direction;
   std::vector<double> m_place;  ///< t_k, mm
   std::vector<double> m_number; ///< k, with jumps where slices are missing
+  /// Whether the instance numbers go on across gap k as they do within the stack, so that no slice
+  /// was lost in it. Empty: they tell nothing.
+  std::vector<bool> m_goesOn;
   double m_spacing = 0.0;       ///< mm
   double m_step = 0.0;          ///< unit of the last decimal of the positions, mm
   std::string m_loss;           ///< why its gaps are not interpolated; a sentence, or empty

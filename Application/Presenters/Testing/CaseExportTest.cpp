@@ -1,12 +1,18 @@
 #include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
 #include <map>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include <unistd.h>
 
 #include "BoneCase.h"
+#include "petrous/Imaging/DicomReader.h"
+#include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Presenters/CaseExport.h"
 
@@ -146,6 +152,106 @@ constexpr const char* kFiles[] = {"all.dcm", "all.seg.nrrd", "all.nrrd", "all.ni
 
 // A segmentation with the slices that have a structure, one counted downwards with other axes
 // first, and structures made on the CT: all on its lattice, so no voxel is lost or moved.
+/// An element of a file as PS3.5 7.1.2 encodes it: explicit VR of short length, little endian.
+std::string element(int group, int number, const std::string& vr, std::string text)
+{
+  text += std::string(text.size() % 2, ' ');
+  std::string bytes;
+  for (const int value : {group, number})
+    bytes += {static_cast<char>(value & 0xff), static_cast<char>(value >> 8)};
+  return bytes + vr + static_cast<char>(text.size()) + '\0' + text;
+}
+
+TEST_F(CaseExport, DicomStatesWhatIsKnownToBeWrongWithTheImage)
+{
+  const auto written = [this](const std::string& name)
+  {
+    ExportOptions options;
+    options.what = "ct";
+    options.out = (m_folder / name).string() + "/";
+    m_warnings.clear();
+    exportCase(m_library, m_case, options, {},
+               [this](const std::string& line) { m_warnings += line + '\n'; }, {});
+    std::ifstream file(m_folder / name / "slice-0001.dcm", std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  const std::string removed = element(0x0012, 0x0062, "CS", "YES");
+  const std::string text = element(0x0028, 0x0301, "CS", "YES");
+  const std::string loss = element(0x0028, 0x2110, "CS", "01");
+  const std::string clean = written("clean");
+  EXPECT_NE(clean.find(removed), std::string::npos);
+  EXPECT_EQ(clean.find(element(0x0028, 0x0301, "CS", "").substr(0, 6)), std::string::npos);
+  EXPECT_EQ(clean.find(element(0x0028, 0x2110, "CS", "").substr(0, 6)), std::string::npos);
+  EXPECT_EQ(m_warnings, "");
+
+  // The notes are those of a series.
+  const auto notesOf = [](const std::function<void(imaging::SliceHeader&)>& change)
+  {
+    std::vector<imaging::SliceHeader> slices;
+    for (int k = 0; k < 4; ++k)
+    {
+      imaging::SliceHeader slice;
+      slice.file = "s" + std::to_string(k);
+      slice.position = Vector3d(0, 0, k);
+      slice.rowDirection = Vector3d(1, 0, 0);
+      slice.columnDirection = Vector3d(0, 1, 0);
+      slice.pixelSpacing = Eigen::Vector2d(0.5, 0.5);
+      slice.rows = slice.columns = 16;
+      slice.instanceNumber = k + 1;
+      change(slice);
+      slices.push_back(slice);
+    }
+    return imaging::assess(slices).notes;
+  };
+  for (const auto kind : {imaging::BurnedInText::Stated, imaging::BurnedInText::Suspected})
+  {
+    m_case.ct.notes = notesOf([kind](auto& slice) { slice.burnedIn = kind; });
+    const std::string file = written(kind == imaging::BurnedInText::Stated ? "text" : "suspect");
+    EXPECT_NE(file.find(text), std::string::npos);
+    EXPECT_EQ(file.find(removed), std::string::npos);
+  }
+  m_case.ct.notes = notesOf(
+      [](auto& slice)
+      {
+        slice.isLossy = true;
+        slice.lossyRatio = 12.5;
+      });
+  m_case.ct.notes.push_back("Repaired: slices 3, 7 to 9 of 40 were interpolated between "
+                            "neighbours, up to 0.15 mm from the nearer one.");
+  const std::string file = written("lossy");
+  EXPECT_NE(file.find(removed), std::string::npos);
+  EXPECT_NE(file.find(loss), std::string::npos);
+  EXPECT_NE(file.find(element(0x0028, 0x2112, "DS", "12.5")), std::string::npos);
+  EXPECT_NE(file.find("Repaired: slices 3, 7-9 interpolated"), std::string::npos);
+  EXPECT_NE(m_warnings.find("slices 3, 7-9 interpolated"), std::string::npos) << m_warnings;
+}
+
+TEST_F(CaseExport, PaddingThatNoVoxelHasNeedsNoRoom)
+{
+  auto voxels = std::make_shared<volume::Volume<float>>(m_case.ct.geometry);
+  for (std::size_t v = 0; v < voxels->size(); ++v)
+    voxels->data()[v] = 0.5F * static_cast<float>(v % 1000);
+  const auto write = [&](const std::string& name)
+  {
+    m_case.ct.volume = std::make_shared<const volume::IntensityVolume>(
+        std::shared_ptr<const volume::Volume<float>>(voxels), -2000.0);
+    ExportOptions options;
+    options.what = "ct";
+    options.out = (m_folder / name).string() + "/";
+    exportCase(m_library, m_case, options, {}, [](const std::string&) {}, {});
+    const auto scan = imaging::scanDicom(m_folder / name, {});
+    return imaging::readSeries(scan.series.at(0), {}, {});
+  };
+  const volume::IntensityVolume without = write("without");
+  EXPECT_FALSE(without.padding());
+  EXPECT_EQ(without.at(1, 0, 0), 0.5);
+  voxels->data()[0] = -2000.0F;
+  const volume::IntensityVolume with = write("with");
+  EXPECT_EQ(with.padding(), -2000.0);
+  EXPECT_EQ(with.at(0, 0, 0), -2000.0);
+  EXPECT_EQ(with.at(1, 0, 0), 0.5);
+}
+
 TEST_F(CaseExport, BringsLabelsOnPartsOfTheCtsGridOntoIt)
 {
   add("sinus", m_case.ct.geometry, {{1, 1, 1}, {9, 9, 9}});

@@ -883,6 +883,17 @@ TEST(DicomScan, SaysThatTextMayBeInThePixels)
   EXPECT_TRUE(scanned([](int, TestSlice&) {}).empty()) << "a CT that does not say";
 }
 
+TEST(DicomScan, SuspectsTextInSecondaryCapturesAndNotInClassesOfLongerNumbers)
+{
+  const auto ofClass = [](const std::string& number)
+  { return burnedInText("", "CT", "1.2.840.10008.5.1.4.1.1." + number, "ORIGINAL", false); };
+  EXPECT_EQ(ofClass("7"), BurnedInText::Suspected);
+  EXPECT_EQ(ofClass("7.4"), BurnedInText::Suspected);
+  EXPECT_EQ(ofClass("77.1.5.1"), BurnedInText::None); // PS3.4 B.5: ophthalmic photography
+  EXPECT_EQ(ofClass("78.1"), BurnedInText::None);
+  EXPECT_EQ(ofClass("2"), BurnedInText::None);
+}
+
 TEST(DicomScan, SetsABrokenOrForeignFileBesideAWholeStackAside)
 {
   const std::function<void(const fs::path&)> spoilers[] = {

@@ -12,6 +12,7 @@
 #include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Presenters/SeriesPreview.h"
 
 namespace petrous::presenters
 {
@@ -215,7 +216,8 @@ std::string CaseIdentifiers::series(const std::string& what,
 }
 
 std::optional<double> writeCaseSeries(const std::filesystem::path& folder, const scene::Case& value,
-                                      const std::string& what, const volume::IntensityVolume& image,
+                                      const std::string& what, const scene::ImagePart& part,
+                                      const volume::IntensityVolume& image,
                                       const std::string& drawnOn, bool onCt,
                                       const CaseDicomOptions& options,
                                       const core::Progress& progress)
@@ -231,7 +233,7 @@ std::optional<double> writeCaseSeries(const std::filesystem::path& folder, const
     constexpr double kCoarsest = 1.0; // of a CT: a step of one unit, an error of half of one
     const auto stored = imaging::storedFractions(**voxels);
     if (!stored || (!isMr && stored->slope > kCoarsest))
-      throw core::InvalidParameter(
+      throw FractionsError(
           "export " + what +
           ": its voxels are fractions, and spread too far for the 16 bits of a DICOM series to "
           "hold them within half a unit; write " +
@@ -242,6 +244,10 @@ std::optional<double> writeCaseSeries(const std::filesystem::path& folder, const
   }
   series.modality = isMr ? Modality::Mr : Modality::Ct;
   series.derived = true;
+  series.faults = imaging::pixelFaults(part.notes);
+  if (const std::string guessed = interpolatedText(part); !guessed.empty())
+    series.derivation = (onCt ? "Resampled from an image of which " : "Repaired: ") + guessed +
+                        " between neighbours";
   series.description = what == "dissected" ? (isMr ? "MR, dissected" : "CT, dissected")
                        : what == "ct"      ? (isMr ? "MR" : "CT")
                        : onCt              ? "MR, resampled on the CT"
@@ -270,6 +276,14 @@ std::string roundingNote(const std::string& name, double error)
   return "the voxels of " + name +
          " are fractions and were written in 16 bits with a rescale slope; they are off by up to " +
          core::generalText(error);
+}
+
+std::string guessedNote(const scene::ImagePart& part)
+{
+  const std::string guessed = interpolatedText(part);
+  return guessed.empty() ? guessed
+                         : "in '" + part.name + "', " + guessed +
+                               " between neighbours: nothing was measured there";
 }
 
 std::size_t writeCaseSegmentation(const std::filesystem::path& path, const scene::Case& value,

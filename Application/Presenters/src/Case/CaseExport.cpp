@@ -346,11 +346,11 @@ std::shared_ptr<const volume::IntensityVolume> shared(volume::Volume<T> voxels,
 
 // A DICOM series, whole or not at all.
 void writeSeries(const Warn& warn, const ExportOptions& options, const scene::Case& value,
-                 const volume::IntensityVolume& image, const std::string& drawnOn,
-                 const core::Progress& progress)
+                 const scene::ImagePart& part, const volume::IntensityVolume& image,
+                 const std::string& drawnOn, const core::Progress& progress)
 {
   core::OutputFolder folder(options.out);
-  if (const auto error = writeCaseSeries(folder.path(), value, options.what, image, drawnOn,
+  if (const auto error = writeCaseSeries(folder.path(), value, options.what, part, image, drawnOn,
                                          options.onCt, {}, progress);
       error && *error > 0.0)
     warn(roundingNote("the image", *error));
@@ -451,11 +451,18 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
     return value.dissection.mask();
   };
   ExportSummary summary;
-  const auto writeImage = [&](const volume::IntensityVolume& image, const std::string& drawnOn)
+  const auto warnOfGuesses = [&](const scene::ImagePart& part)
   {
+    if (const std::string guessed = guessedNote(part); !guessed.empty())
+      warn(guessed);
+  };
+  const auto writeImage = [&](const scene::ImagePart& part, const volume::IntensityVolume& image,
+                              const std::string& drawnOn)
+  {
+    warnOfGuesses(part);
     if (isSeries(options))
     {
-      writeSeries(warn, options, value, image, drawnOn, progress.part(0.5, 1.0));
+      writeSeries(warn, options, value, part, image, drawnOn, progress.part(0.5, 1.0));
       summary.instances = static_cast<std::size_t>(image.geometry().dims()[2]);
       summary.words = ", " + std::to_string(image.geometry().dims()[2]) + " DICOM files";
     }
@@ -498,7 +505,7 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
     imaging::writeMesh(options.out, mesh, color);
   };
   if (options.what == "ct")
-    writeImage(*checked(value.ct), "");
+    writeImage(value.ct, *checked(value.ct), "");
   else if (options.what == "mr")
   {
     const scene::ImagePart& mr = chooseMr(value, options.part);
@@ -507,9 +514,9 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
                                    primaryName(value) + "; register it first");
     const auto image = checked(mr);
     if (!options.onCt)
-      writeImage(*image, mr.name);
+      writeImage(mr, *image, mr.name);
     else
-      writeImage(*mrOnCt(*image, value.ct.geometry, mr.mrFromCt, progress.part(0.0, 0.5)), "");
+      writeImage(mr, *mrOnCt(*image, value.ct.geometry, mr.mrFromCt, progress.part(0.0, 0.5)), "");
   }
   else if (options.what == "labels")
   {
@@ -548,8 +555,10 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
   {
     const auto image = checked(value.ct);
     image->visit(
-        [&](const auto& ct) {
-          writeImage(*shared(dissected(ct, mask(), value.iso, airOf(value)), image->padding()), "");
+        [&](const auto& ct)
+        {
+          writeImage(value.ct,
+                     *shared(dissected(ct, mask(), value.iso, airOf(value)), image->padding()), "");
         });
   }
   else if (options.what == "structure")
@@ -562,6 +571,7 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
   {
     mask();
     checked(value.ct);
+    warnOfGuesses(value.ct);
     const volume::TissueField field = scene::tissueField(value);
     writeSurface(
         rendering::extractSurface(field, field.geometry().fullBox(), progress.part(0.0, 0.7)),

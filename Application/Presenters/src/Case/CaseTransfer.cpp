@@ -7,7 +7,6 @@
 #include <optional>
 #include <regex>
 #include <set>
-#include <variant>
 
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Library/Archive.h"
@@ -40,11 +39,6 @@ void addFiles(const fs::path& folder, std::vector<fs::path>& files)
       here.push_back(entry.path());
   std::sort(here.begin(), here.end());
   files.insert(files.end(), here.begin(), here.end());
-}
-
-bool hasFractions(const volume::IntensityVolume& image)
-{
-  return std::holds_alternative<std::shared_ptr<const volume::Volume<float>>>(image.voxels());
 }
 
 /// The structures by space and grid: a segmentation has one of each.
@@ -148,18 +142,19 @@ private:
     try
     {
       if (const auto error =
-              writeCaseSeries(folder, m_value, what, *volume, drawnOn, false, m_options, progress);
+              writeCaseSeries(folder, m_value, what, part, *volume, drawnOn, false, m_options,
+                              progress);
           error && *error > 0.0)
         m_notes.push_back(roundingNote("'" + part.name + "'", *error));
     }
-    catch (const core::InvalidParameter&)
+    catch (const FractionsError&)
     {
-      if (!hasFractions(*volume))
-        throw;
       leaveOut("the voxels of '" + part.name +
                "' are fractions, which 16 bits of a DICOM series do not hold within half a unit");
       return;
     }
+    if (const std::string guessed = guessedNote(part); !guessed.empty())
+      m_notes.push_back(guessed);
     addFiles(folder, m_files);
   }
 

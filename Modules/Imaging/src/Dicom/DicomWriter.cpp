@@ -68,8 +68,16 @@ gdcm::DataSet commonPart(const SeriesDescription& series, const core::GridGeomet
           {0x0028, 0x1050, "DS", decimal(series.windowCenter)},
           {0x0028, 0x1051, "DS", decimal(series.windowWidth)}});
   putPixelFormat(d, grid, 16, isSigned);
-  if (series.derived)
+  if (series.faults.burnedIn != BurnedInText::None)
+    put(d, 0x0028, 0x0301, "CS", "YES");
+  else if (series.derived)
     putDeidentified(d);
+  if (series.faults.isLossy) // stays for ever (PS3.3 C.7.6.1.1.5)
+    put(d, 0x0028, 0x2110, "CS", "01");
+  if (series.faults.isLossy && series.faults.lossyRatio)
+    put(d, 0x0028, 0x2112, "DS", decimal(*series.faults.lossyRatio));
+  if (!series.derivation.empty())
+    put(d, 0x0008, 0x2111, "ST", series.derivation);
   if (isRescaled)
     put(d, {{0x0028, 0x1052, "DS", decimal(series.rescaleIntercept)},
             {0x0028, 0x1053, "DS", decimal(series.rescaleSlope)},
@@ -90,16 +98,23 @@ gdcm::DataSet commonPart(const SeriesDescription& series, const core::GridGeomet
   return d;
 }
 
+/// What stands for `value` in a file, from `least` to `most`.
+double storedOf(double value, double slope, double intercept, double least, double most)
+{
+  return std::clamp(std::round((value - intercept) / slope), least, most);
+}
+
+constexpr double kMostStored = 65535.0; // of float voxels
+
 /// Whether float voxels are kept within half a step, or exactly where nothing is rescaled.
 void requireKept(const volume::Volume<float>& image, double slope, double intercept)
 {
-  constexpr double kMost = 65535.0;
   const double most = slope == 1.0 && intercept == 0.0 ? 0.0 : 0.5 * slope * (1.0 + 1e-6);
   const float* values = image.data();
   for (std::size_t v = 0; v < image.size(); ++v)
   {
     const double value = static_cast<double>(values[v]);
-    const double stored = std::clamp(std::round((value - intercept) / slope), 0.0, kMost);
+    const double stored = storedOf(value, slope, intercept, 0.0, kMostStored);
     if (!(std::abs(slope * stored + intercept - value) <=
           most + 1e-9 * std::max(std::abs(value), std::abs(intercept))))
       throw core::InvalidParameter(
@@ -122,10 +137,9 @@ std::vector<char> storedValues(const volume::Volume<T>& image, int k, double slo
   std::vector<char> bytes(2 * count);
   for (std::size_t i = 0; i < count; ++i)
   {
-    const double stored = std::round((static_cast<double>(values[i]) - intercept) / slope);
-    const auto bits = static_cast<std::uint16_t>(
-        static_cast<S>(std::clamp(stored, static_cast<double>(std::numeric_limits<S>::lowest()),
-                                  static_cast<double>(std::numeric_limits<S>::max()))));
+    const auto bits = static_cast<std::uint16_t>(static_cast<S>(
+        storedOf(static_cast<double>(values[i]), slope, intercept,
+                 std::numeric_limits<S>::lowest(), std::numeric_limits<S>::max())));
     bytes[2 * i] = static_cast<char>(bits & 0xFF);
     bytes[2 * i + 1] = static_cast<char>(bits >> 8);
   }
@@ -163,7 +177,6 @@ std::string deterministicUid(std::uint64_t seed, const std::string& role)
 
 std::optional<StoredFractions> storedFractions(const volume::Volume<float>& image)
 {
-  constexpr double kMost = 65535.0;
   constexpr int kFinest = 16; // 2^-16
   const float* begin = image.data();
   const float* end = begin + image.size();
@@ -182,8 +195,8 @@ std::optional<StoredFractions> storedFractions(const volume::Volume<float>& imag
   StoredFractions result;
   const auto asWritten = [](double value) // as the file's decimal string holds it
   { return core::parseDouble(decimal(value)).value_or(value); };
-  const bool isBinary = binary <= kFinest && std::ldexp(high - low, binary) <= kMost;
-  result.slope = isBinary ? std::ldexp(1.0, -binary) : (high - low) / kMost;
+  const bool isBinary = binary <= kFinest && std::ldexp(high - low, binary) <= kMostStored;
+  result.slope = isBinary ? std::ldexp(1.0, -binary) : (high - low) / kMostStored;
   result.slope = result.slope > 0.0 ? asWritten(result.slope) : 1.0;
   result.intercept = asWritten(low);
   if (!(result.slope > 0.0))
@@ -191,8 +204,7 @@ std::optional<StoredFractions> storedFractions(const volume::Volume<float>& imag
   for (const float* v = begin; v != end; ++v)
   {
     const double value = static_cast<double>(*v);
-    const double stored =
-        std::clamp(std::round((value - result.intercept) / result.slope), 0.0, kMost);
+    const double stored = storedOf(value, result.slope, result.intercept, 0.0, kMostStored);
     result.error =
         std::max(result.error, std::abs(result.slope * stored + result.intercept - value));
   }
@@ -242,6 +254,13 @@ void writeDicomSeries(const std::filesystem::path& folder, const volume::Intensi
           const Eigen::Vector3d step =
               sliceStep.value_or(grid.spacing()[2] * grid.direction().col(2));
           const int slices = grid.dims()[2];
+          // What no voxel has need not fit.
+          const auto isPadding = [&image](T value)
+          { return static_cast<double>(value) == *image.padding(); };
+          const auto padding =
+              image.padding() && std::any_of(voxels.data(), voxels.data() + voxels.size(), isPadding)
+                  ? image.padding()
+                  : std::nullopt;
           std::atomic<int> done{0};
           const auto writeSlice = [&](int k)
           {
@@ -251,18 +270,12 @@ void writeDicomSeries(const std::filesystem::path& folder, const volume::Intensi
             gdcm::DataSet& data = writer.GetFile().GetDataSet();
             // GDCM's reference counts are not thread-safe, so slices share no values
             data = commonPart(description, grid, std::is_signed_v<S>, ct || isFloat);
-            if (image.padding())
-            {
-              const double stored = std::round((*image.padding() - description.rescaleIntercept) /
-                                               description.rescaleSlope);
-              if (!(stored >= static_cast<double>(std::numeric_limits<S>::lowest()) &&
-                    stored <= static_cast<double>(std::numeric_limits<S>::max())))
-                throw core::InvalidParameter(
-                    "DICOM series: the padding value " + core::generalText(*image.padding()) +
-                    " does not fit its 16 bits with this rescale; choose another");
-              put(data, 0x0028, 0x0120, static_cast<std::uint16_t>(static_cast<S>(stored)),
+            if (padding) // a voxel has it, so it fits
+              put(data, 0x0028, 0x0120,
+                  static_cast<std::uint16_t>(static_cast<S>(storedOf(
+                      *padding, description.rescaleSlope, description.rescaleIntercept,
+                      std::numeric_limits<S>::lowest(), std::numeric_limits<S>::max()))),
                   std::is_signed_v<S> ? "SS" : "US");
-            }
             if (ct && sliceStep)
             {
               const double lean =

@@ -10,6 +10,7 @@
 #include "SeriesVolumes.h"
 #include "SliceStack.h"
 #include "petrous/Core/Error.h"
+#include "petrous/Core/NumberText.h"
 
 namespace petrous::imaging
 {
@@ -23,6 +24,9 @@ constexpr double kFarthest = 1e5;       // mm; positions beyond are invalid
 constexpr double kCoarsest = 1e3;       // mm
 constexpr double kPerpendicular = 1e-3; // dot product of direction cosines; ten times rounding
 constexpr double kUnitLength = 1e-2;
+constexpr const char* kStatedText = "The header states text in the pixels (Burned In Annotation)";
+constexpr const char* kLossy = "Compressed with loss";
+constexpr const char* kRatio = ", to 1/";
 constexpr const char* kOfText =
     ": it may name the patient; look at the image before it is handed on.";
 
@@ -351,7 +355,7 @@ private:
                       [worst](const SliceHeader& slice) { return slice.burnedIn == worst; });
     m_result.notes.push_back(
         (worst == BurnedInText::Stated
-             ? "The header states text in the pixels (Burned In Annotation), in "
+             ? kStatedText + std::string(", in ")
              : "Text may be in the pixels, as of a screenshot or a converted image, in ") +
         countOf(static_cast<std::size_t>(count), m_slices.size()) + kOfText);
   }
@@ -367,8 +371,8 @@ private:
     }
     if (lossy > 0)
       m_result.notes.push_back(
-          "Compressed with loss" +
-          (ratio > 0.0 ? ", to 1/" + decimals(ratio, 1) + " of the size" : std::string()) +
+          kLossy +
+          (ratio > 0.0 ? kRatio + decimals(ratio, 1) + " of the size" : std::string()) +
           ", in " + countOf(lossy, m_slices.size()) +
           ": values are not those measured, and thin walls may be blurred; the archive may have "
           "the series without loss.");
@@ -583,10 +587,11 @@ BurnedInText burnedInText(const std::string& annotation, const std::string& moda
     return BurnedInText::None;
   static const char* const kModalities[] = {"SC", "OT",  "US", "ES",  "XC",
                                             "GM", "DOC", "SM", "IVUS"};
+  const std::string kSecondary = "1.2.840.10008.5.1.4.1.1.7"; // capture; with a dot, multi-frame
   const bool isSuspected =
       std::find(std::begin(kModalities), std::end(kModalities), modality) !=
           std::end(kModalities) ||
-      sopClass.rfind("1.2.840.10008.5.1.4.1.1.7", 0) == 0 || // secondary capture
+      sopClass == kSecondary || sopClass.rfind(kSecondary + ".", 0) == 0 ||
       imageType.find("SCREEN") != std::string::npos || isConverted;
   return isSuspected ? BurnedInText::Suspected : BurnedInText::None;
 }
@@ -594,6 +599,26 @@ BurnedInText burnedInText(const std::string& annotation, const std::string& moda
 bool isNoteOfText(const std::string& note)
 {
   return note.find(kOfText) != note.npos;
+}
+
+PixelFaults pixelFaults(const std::vector<std::string>& notes)
+{
+  PixelFaults faults;
+  for (const std::string& note : notes)
+  {
+    if (isNoteOfText(note))
+      faults.burnedIn =
+          std::max(faults.burnedIn, note.rfind(kStatedText, 0) == 0 ? BurnedInText::Stated
+                                                                    : BurnedInText::Suspected);
+    if (note.rfind(kLossy, 0) != 0)
+      continue;
+    faults.isLossy = true;
+    const std::string begin = std::string(kLossy) + kRatio;
+    if (note.rfind(begin, 0) == 0)
+      faults.lossyRatio =
+          core::parseDouble(note.substr(begin.size(), note.find(' ', begin.size()) - begin.size()));
+  }
+  return faults;
 }
 
 SeriesGeometry assess(std::vector<SliceHeader> slices)

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "petrous/Core/Error.h"
 #include "petrous/Core/Fingerprint.h"
 #include "petrous/Core/Progress.h"
 #include "petrous/Scene/Case.h"
@@ -56,6 +57,12 @@ std::optional<std::size_t> padToOneGrid(std::vector<PlacedLabels>& placed,
                                         const core::GridGeometry& image,
                                         const core::Progress& progress = {});
 
+/// The voxels of an image are fractions that the 16 bits of a DICOM series do not hold.
+struct FractionsError : core::InvalidParameter
+{
+  using core::InvalidParameter::InvalidParameter;
+};
+
 /// What all objects of a case state.
 struct CaseDicomOptions
 {
@@ -66,20 +73,26 @@ struct CaseDicomOptions
 /// patient's into a folder that is to be committed by the caller. Equal voxels give equal files.
 ///
 /// what     "ct", "mr" or "dissected"
+/// part     of the case, which `image` is or was made from: what its notes say of its pixels, and
+///          which slices repair interpolated, is written with it
 /// drawnOn  the MR whose space it is; empty: the CT's
 /// onCt     an MR, resampled on the CT's grid
 ///
 /// Fractions are written with a rescale slope; returns by how much a voxel is off at most (nullopt:
-/// there are none). Throws InvalidParameter for a CT whose fractions would be off by more than half
-/// a unit and for an MR with a voxel that is not finite, and like writeDicomSeries.
+/// there are none). Throws FractionsError for a CT whose fractions would be off by more than half a
+/// unit and for an MR with a voxel that is not finite, and like writeDicomSeries.
 std::optional<double> writeCaseSeries(const std::filesystem::path& folder, const scene::Case& value,
-                                      const std::string& what, const volume::IntensityVolume& image,
+                                      const std::string& what, const scene::ImagePart& part,
+                                      const volume::IntensityVolume& image,
                                       const std::string& drawnOn, bool onCt,
                                       const CaseDicomOptions& options,
                                       const core::Progress& progress);
 
 /// What the user is told of it.
 std::string roundingNote(const std::string& name, double error);
+
+/// Likewise of the slices that repair interpolated; empty: none.
+std::string guessedNote(const scene::ImagePart& part);
 
 /// Writes structures as a DICOM segmentation that belongs to the series of the CT, or of the MR,
 /// which writeCaseSeries writes; `placed`: on one grid in one space. Returns the number of

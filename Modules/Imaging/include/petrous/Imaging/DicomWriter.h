@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include "petrous/Core/Progress.h"
+#include "petrous/Imaging/SeriesGeometry.h"
 #include "petrous/Volume/IntensityVolume.h"
 #include "petrous/Volume/LabelMap.h"
 #include "petrous/Volume/SegmentCodes.h"
@@ -48,6 +49,11 @@ struct SeriesDescription
   /// position on the table or date, which are not known, and stated to be without identity. Else a
   /// phantom's.
   bool derived = false;
+  /// What is known to be wrong with the pixels, which those that get the file must know, too. With
+  /// text in them, also if only suspected, it is written that they have some (0028,0301), and
+  /// nothing of a removed identity.
+  PixelFaults faults = {};
+  std::string derivation = {};  ///< (0008,2111) what was done to the image; empty: nothing
   double windowCenter = 700.0; ///< in the image's units
   double windowWidth = 4000.0;
 };
@@ -74,7 +80,7 @@ std::string instanceUid(const std::string& seriesUid, int k);
 /// folder     created if missing; files of the same name are replaced. For a series that is whole
 ///            or absent, and durable, give a folder in a core::OutputFolder
 /// image      int16 or uint16 voxels; float ones are stored as uint16 by the description's rescale
-///            (storedFractions). Padding goes to PixelPaddingValue
+///            (storedFractions). Padding that a voxel has goes to PixelPaddingValue
 /// sliceStep  patient displacement (mm) from one slice to the next if it is not along the slice
 ///            normal, as with a tilted gantry
 ///

@@ -77,6 +77,16 @@ BurnedInText burnedInText(const std::string& annotation, const std::string& moda
 /// Whether this is the note of a series that text may be in its pixels, stated or suspected.
 bool isNoteOfText(const std::string& note);
 
+/// What the notes of a series say of its pixels, wherever they go: they stay with the image in the
+/// case, of every version of the program.
+struct PixelFaults
+{
+  BurnedInText burnedIn = BurnedInText::None;
+  bool isLossy = false;
+  std::optional<double> lossyRatio; ///< if stated
+};
+PixelFaults pixelFaults(const std::vector<std::string>& notes);
+
 /// Header of one slice. Absent or malformed numbers are nullopt.
 struct SliceHeader
 {

@@ -58,6 +58,7 @@
 #include "WindowSettings.h"
 #include "WindowTexts.h"
 #include "petrous/Dissection/Catalogues.h"
+#include "petrous/Imaging/ImageFile.h"
 #include "petrous/Presenters/CasePicture.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/Recordings.h"
@@ -751,7 +752,7 @@ void MainWindow::caseChanged()
   m_notesBanner->hide();
   m_notesTold = value.revision == 0 ? QStringList() : notesOf(value);
   const auto isOfSide = [](const QString& note)
-  { return note.contains("does not say which side of the patient is left"); };
+  { return imaging::isNoteOfSide(note.toStdString()); };
   m_notesTold.erase(std::remove_if(m_notesTold.begin(), m_notesTold.end(), isOfSide),
                     m_notesTold.end()); // told whenever the case is opened
   notifyNotes();

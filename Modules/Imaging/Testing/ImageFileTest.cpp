@@ -375,6 +375,33 @@ TEST(ImageFile, SaysWhereTheSideIsLeftOpen)
       putFile(folder / "f.mha", meta + "TransformMatrix = 1 0 0 0 1 0 0 0 1\n" + end)));
 }
 
+TEST(ImageFile, NotesOfAnOpenSideDoNotContradictEachOther)
+{
+  const TestFolder folder;
+  const std::string voxels = bytesOf(counting<std::int16_t>(24));
+  TestNifti nifti = shortNifti();
+  nifti.sform = 0;
+  const std::string head = "NRRD0004\ntype: short\ndimension: 3\nsizes: 4 3 2\nendian: little\n"
+                           "encoding: raw\n";
+  const std::string axes = "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n\n";
+  const std::string meta = "ObjectType = Image\nNDims = 3\nBinaryData = True\n"
+                           "BinaryDataByteOrderMSB = False\nElementSpacing = 1 1 1\n"
+                           "DimSize = 4 3 2\nElementType = MET_SHORT\nElementDataFile = LOCAL\n";
+  for (const auto& path :
+       {putFile(folder / "a.nii", nifti.bytes()),
+        putFile(folder / "b.nrrd", head + "spacings: 1 1 1\n\n" + voxels),
+        putFile(folder / "c.nrrd", head + "space dimension: 3\n" + axes + voxels),
+        putFile(folder / "d.nrrd", head + "space: scanner-xyz\n" + axes + voxels),
+        putFile(folder / "e.mha", meta + voxels)})
+    for (const bool isRas : {false, true})
+    {
+      const auto image = readImageFile(path, std::nullopt, {}, isRas);
+      EXPECT_TRUE(noted(image, isRas ? "taken as RAS, as asked" : "taken as LPS, as asked"));
+      for (const char* side : {"left,", "back", "posterior", isRas ? "LPS" : "RAS"})
+        EXPECT_FALSE(noted(image, side)) << path << ' ' << side;
+    }
+}
+
 TEST(ImageFile, KeepsThePaddingOfEveryFormatThatIsWritten)
 {
   const TestFolder folder;

@@ -253,6 +253,54 @@ TEST(LabelFile, LiesWhereEverySpaceSays)
     }
 }
 
+/// Where voxel (1, 0, 0) lies, or nothing if it is left open which side is left.
+std::optional<Eigen::Vector3d> placed(const std::filesystem::path& path,
+                                      const std::vector<ImageGrid>& images)
+{
+  const LoadedLabels loaded = loadLabels(path, {}, {}, images);
+  if (loaded.isSideOpen)
+    return std::nullopt;
+  return loaded.maps.at(0).voxels->geometry().patientFromVoxel({1, 0, 0});
+}
+
+TEST(LabelFile, AGridSettlesTheSideOnlyWhereItTellsOne)
+{
+  const TestFolder folder;
+  const auto nrrdFrom = [&folder](const std::string& name, const std::string& origin)
+  {
+    return putFile(folder / name,
+                   "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 4 3 2\nspace dimension: 3\n"
+                   "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: " +
+                       origin + "\nendian: little\nencoding: raw\n\n" + std::string(23, '\0') +
+                       '\1');
+  };
+  const Eigen::Matrix3d turned = Eigen::Vector3d(-1, -1, 1).asDiagonal();
+  const core::GridGeometry middle({4, 3, 2}, {1, 1, 1}, {0, 0, 0});
+  const core::GridGeometry middleRas({4, 3, 2}, {1, 1, 1}, {0, 0, 0}, turned);
+  const core::GridGeometry aside({4, 3, 2}, {1, 1, 1}, {-8, 2, 3});
+  const core::GridGeometry asideRas({4, 3, 2}, {1, 1, 1}, {8, -2, 3}, turned);
+  const auto zero = nrrdFrom("zero.nrrd", "(0,0,0)");
+  const auto far = nrrdFrom("far.nrrd", "(-8,2,3)");
+  const Eigen::Vector3d lps(-7, 2, 3);
+  const Eigen::Vector3d ras(7, -2, 3);
+
+  // From 0, 0, 0 any image of the size has this grid, whichever side is meant.
+  EXPECT_FALSE(placed(zero, {middle}));
+  EXPECT_FALSE(placed(nrrdFrom("up.nrrd", "(0,0,3)"),
+                      {core::GridGeometry({4, 3, 2}, {1, 1, 1}, {0, 0, 3})}));
+  // Unless the image's own file was as silent: it counts as that was said to.
+  EXPECT_EQ(placed(zero, {{middle, true}}), Eigen::Vector3d(1, 0, 0));
+  EXPECT_EQ(placed(zero, {{middleRas, true}}), Eigen::Vector3d(-1, 0, 0));
+  // An origin on one side is that of one image only.
+  EXPECT_EQ(placed(far, {aside}), lps);
+  EXPECT_EQ(placed(far, {middle, asideRas}), ras);
+  EXPECT_FALSE(placed(far, {middle}));
+  // Two images, of one side each.
+  EXPECT_FALSE(placed(far, {aside, asideRas}));
+  EXPECT_FALSE(placed(far, {asideRas, aside}));
+  EXPECT_FALSE(placed(zero, {{middle, true}, {middleRas, true}}));
+}
+
 TEST(LabelFile, SaysWhichStructuresLieInNoLayer)
 {
   const TestFolder folder;

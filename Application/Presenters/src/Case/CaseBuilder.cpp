@@ -695,9 +695,15 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     imaging::LabelNaming naming{parts.labelNames, parts.labels.size() == 1};
     if (!source.labelNames.empty())
       naming = {source.labelNames, true};
-    std::vector<core::GridGeometry> images{value.ct.geometry};
+    const auto gridOf = [](const scene::ImagePart& image)
+    {
+      return imaging::ImageGrid(
+          image.geometry,
+          std::any_of(image.notes.begin(), image.notes.end(), imaging::isNoteOfSide));
+    };
+    std::vector<imaging::ImageGrid> images{gridOf(value.ct)};
     for (const scene::ImagePart& mr : value.mr)
-      images.push_back(mr.geometry);
+      images.push_back(gridOf(mr));
     loaded = imaging::loadLabels(source.path, progress, naming, images, source.assumeRas);
     if (loaded.isSideOpen)
       throw ImageSideUnclear(source.path, "--labels-frame");

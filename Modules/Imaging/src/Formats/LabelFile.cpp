@@ -201,7 +201,7 @@ constexpr const char* kTableUnused =
 
 LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
                         const core::Progress& progress, const LabelNaming& naming,
-                        const std::vector<core::GridGeometry>& images,
+                        const std::vector<ImageGrid>& images,
                         const std::optional<bool>& isRas, std::uint64_t memory)
 {
   progress.report(0.0, "reading labels");
@@ -273,7 +273,7 @@ bool isDicomSegmentation(const std::filesystem::path& path)
 }
 
 LoadedLabels loadLabels(const std::filesystem::path& path, const core::Progress& progress,
-                        const LabelNaming& naming, const std::vector<core::GridGeometry>& images,
+                        const LabelNaming& naming, const std::vector<ImageGrid>& images,
                         const std::optional<bool>& isRas, std::uint64_t memory)
 {
   std::error_code error;

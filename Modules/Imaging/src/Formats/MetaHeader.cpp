@@ -190,7 +190,7 @@ void readPlacement(const std::filesystem::path& path, const Fields& fields, Meta
   header.isSideAssumed = !axes;
   if (!place || !axes)
     header.notes.emplace_back("states no full place in the patient (Offset, TransformMatrix): what "
-                              "is missing is taken as 0, 0, 0 and axes to the left, back and top");
+                              "is missing is taken as 0, 0, 0 and the patient's axes");
   noteOrientation(fields, axes != nullptr, cosines, n, header.notes);
   for (std::size_t a = 0; a < 3; ++a)
   {

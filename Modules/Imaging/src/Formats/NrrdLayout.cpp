@@ -147,9 +147,9 @@ Eigen::Vector3d lpsFromSpace(const Path& path, const NrrdHeader& header, NrrdLay
   if (space == "left-anterior-superior" || space == "las")
     return {1.0, -1.0, 1.0};
   if (space.empty())
-    notes.emplace_back("states no patient frame; taken as left, posterior, superior (LPS)");
+    notes.emplace_back("states no patient frame: its axes are taken as the patient's");
   else if (space == "scanner-xyz" || space == "3d-right-handed")
-    notes.emplace_back("its frame is not a patient's; taken as left, posterior, superior (LPS)");
+    notes.emplace_back("its frame is not a patient's, and its axes are taken as the patient's");
   else
     fail(FileError::Reason::NoGeometry, path,
          space == "3d-left-handed"
@@ -234,8 +234,8 @@ void readPlacement(const Path& path, const NrrdHeader& header, std::size_t first
   if (directions.empty())
   {
     layout.isSideAssumed = true;
-    layout.notes.emplace_back("states no place in the patient: its axes are taken as to the left, "
-                              "back and top of the patient, from 0, 0, 0");
+    layout.notes.emplace_back("states no place in the patient: its axes are taken as the "
+                              "patient's, from 0, 0, 0"); // which way, is settled later
     for (std::size_t a = 0; a < 3; ++a)
     {
       const auto size =

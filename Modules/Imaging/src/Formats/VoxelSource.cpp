@@ -12,12 +12,15 @@
 #include "NiftiHeader.h"
 #include "NrrdLayout.h"
 #include "petrous/Imaging/FileFormats.h"
+#include "petrous/Imaging/ImageFile.h"
 
 namespace petrous::imaging
 {
 
 namespace
 {
+
+constexpr const char* kSideOpen = "does not say which side of the patient is left";
 
 /// The most decoded bytes that a byte of the file can stand for; beyond, the header does not belong
 /// to the voxels.
@@ -121,14 +124,13 @@ void VoxelSource::assume(bool isRas)
 }
 
 bool VoxelSource::settleSide(const std::optional<bool>& isRas,
-                             const std::vector<core::GridGeometry>& images)
+                             const std::vector<ImageGrid>& images)
 {
   if (!m_assumedRas)
     return true;
   const auto note = [this](const char* why)
   {
-    m_notes.push_back(std::string("does not say which side of the patient is left; its axes were "
-                                  "taken as ") +
+    m_notes.push_back(kSideOpen + std::string("; its axes were taken as ") +
                       (*m_assumedRas ? "RAS" : "LPS") + why);
   };
   if (isRas)
@@ -138,19 +140,32 @@ bool VoxelSource::settleSide(const std::optional<bool>& isRas,
     return true;
   }
   const bool first = *m_assumedRas;
-  for (const bool side : {first, !first})
+  const auto isOfImage = [&](bool side)
   {
     assume(side);
-    if (std::any_of(images.begin(), images.end(),
-                    [this](const core::GridGeometry& grid)
-                    { return core::sameGrid(grid, *m_geometry); }))
-    {
-      note(", as its grid is then that of an image of the case");
-      return true;
-    }
+    // From 0, 0, 0 on, which no header has to state, the grid is any image's.
+    const bool tells = m_geometry->origin().head<2>().norm() > 0.0;
+    return std::any_of(images.begin(), images.end(),
+                       [&](const ImageGrid& grid)
+                       {
+                         return (tells || grid.isSideAssumed) &&
+                                core::sameGrid(grid, *m_geometry);
+                       });
+  };
+  const bool isOther = isOfImage(!first);
+  if (isOfImage(first) == isOther)
+  {
+    assume(first);
+    return false;
   }
-  assume(first);
-  return false;
+  assume(isOther ? !first : first);
+  note(", as its grid is then that of an image of the case");
+  return true;
+}
+
+bool isNoteOfSide(const std::string& note)
+{
+  return note.find(kSideOpen) != note.npos;
 }
 
 void VoxelSource::openNrrd()

@@ -15,6 +15,7 @@
 #include "Component.h"
 #include "NrrdHeader.h"
 #include "VoxelStream.h"
+#include "petrous/Imaging/ImageGrid.h"
 
 namespace petrous::imaging
 {
@@ -39,9 +40,9 @@ public:
   const std::optional<bool>& assumedRas() const noexcept { return m_assumedRas; }
   /// Places the voxels by these axes instead, if the file leaves it open.
   void assume(bool isRas);
-  /// Settles a side that is left open: as `isRas` says, else as the file then has the grid of one
-  /// of `images`; notes it. Whether it is settled, or was stated.
-  bool settleSide(const std::optional<bool>& isRas, const std::vector<core::GridGeometry>& images);
+  /// Settles a side that is left open: as `isRas` says, else as loadLabels; notes it. Whether it is
+  /// settled, or was stated.
+  bool settleSide(const std::optional<bool>& isRas, const std::vector<ImageGrid>& images);
   /// The value of voxels outside the scanned field, as this program's files keep it.
   const std::optional<double>& padding() const noexcept { return m_padding; }
   /// The text header of a NRRD; nullopt for other formats.

@@ -258,7 +258,7 @@ bool liesOnSlices(const std::vector<double>& at, double spacing)
 }
 
 /// The spacing of the slices of an image in which all frames lie; 0: there is none.
-double spacingOfImage(const Segmentation& file, const std::vector<core::GridGeometry>& images)
+double spacingOfImage(const Segmentation& file, const std::vector<ImageGrid>& images)
 {
   const Eigen::Vector3d normal = file.row.cross(file.column).normalized();
   for (const core::GridGeometry& image : images)
@@ -288,7 +288,7 @@ double spacingOfImage(const Segmentation& file, const std::vector<core::GridGeom
 /// is true to the places, which may be far apart; else that of an image that has all of them; else
 /// the thickness; else the smallest gap. Guesses are noted.
 double spacingOf(const Segmentation& file, const std::vector<double>& at,
-                 const std::vector<core::GridGeometry>& images, std::vector<std::string>& notes)
+                 const std::vector<ImageGrid>& images, std::vector<std::string>& notes)
 {
   if (at.size() < 2)
     return file.sliceSpacing > 0.0 ? file.sliceSpacing
@@ -326,7 +326,7 @@ double spacingOf(const Segmentation& file, const std::vector<double>& at,
 }
 
 /// Puts each frame into its slice.
-core::GridGeometry placeFrames(Segmentation& file, const std::vector<core::GridGeometry>& images,
+core::GridGeometry placeFrames(Segmentation& file, const std::vector<ImageGrid>& images,
                                std::vector<std::string>& notes)
 {
   const Eigen::Vector3d normal = file.row.cross(file.column).normalized();
@@ -742,7 +742,7 @@ std::array<std::uint16_t, 3> cieLabFromColor(const std::array<float, 3>& color)
 }
 
 LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Progress& progress,
-                              const std::vector<core::GridGeometry>& images, std::uint64_t memory)
+                              const std::vector<ImageGrid>& images, std::uint64_t memory)
 {
   progress.report(0.0, "reading labels");
   ByteSource source(path);

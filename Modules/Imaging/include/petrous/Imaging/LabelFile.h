@@ -9,6 +9,7 @@
 
 #include "petrous/Core/Progress.h"
 #include "petrous/Imaging/FileError.h"
+#include "petrous/Imaging/ImageGrid.h"
 #include "petrous/Imaging/PatientKey.h"
 #include "petrous/Volume/LabelMap.h"
 #include "petrous/Volume/SegmentCodes.h"
@@ -73,7 +74,10 @@ bool isDicomSegmentation(const std::filesystem::path& path);
 /// on whose slices its frames lie, else their thickness or distance, which is noted.
 ///
 /// Of another file that leaves open which side of the patient is left (readImageFile) `isRas` says
-/// how its axes count; without it they count so that its grid is that of one of `images`.
+/// how its axes count. Without it they count so that its grid is that of one of `images`, if only
+/// one side gives such a grid, and if it tells a side: the file states an origin beside the middle,
+/// or the image's own file left its side open, too. Any two files from 0, 0, 0 of one size share
+/// their grid.
 ///
 /// Names and colours are taken from the file itself (3D Slicer's .seg.nrrd), else from the table
 /// given in `naming`, else from a table in the same folder that has the same base name (.ctbl,
@@ -94,7 +98,7 @@ bool isDicomSegmentation(const std::filesystem::path& path);
 /// without a structure. CancelledError.
 LoadedLabels loadLabels(const std::filesystem::path& path, const core::Progress& progress = {},
                         const LabelNaming& naming = {},
-                        const std::vector<core::GridGeometry>& images = {},
+                        const std::vector<ImageGrid>& images = {},
                         const std::optional<bool>& isRas = std::nullopt, std::uint64_t memory = 0);
 
 /// Like loadLabels, without the notes, for a file whose structures do not overlap. Throws FileError

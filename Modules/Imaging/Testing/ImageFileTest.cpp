@@ -1,4 +1,5 @@
 #include "petrous/Imaging/ImageFile.h"
+#include "petrous/Imaging/ImagePreview.h"
 
 #include <cmath>
 #include <limits>
@@ -913,6 +914,50 @@ TEST(ImageFile, KeepsOnlyTheRegionOfInterest)
                                  Eigen::Vector3d(60.0, 9.0, 109.0)};
   expectRefused(refusalOf([&] { readImageFile(folder / "a.nrrd", outside); }), Reason::Unsupported,
                 "region of interest");
+}
+
+TEST(ImageFile, APreviewTakesNoMoreMemoryThanThereIs)
+{
+  const TestFolder folder;
+  constexpr int kSide = 40;
+  constexpr int kSlices = 12;
+  std::vector<std::int16_t> voxels;
+  for (int k = 0; k < kSlices; ++k)
+    for (int j = 0; j < kSide; ++j)
+      for (int i = 0; i < kSide; ++i)
+        voxels.push_back(static_cast<std::int16_t>(1000 * k + 20 * j - 3 * i));
+  const auto path = putFile(
+      folder / "a.nrrd",
+      "NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 40 40 12\n"
+      "space directions: (0.5,0,0) (0,0.5,0) (0,0,2)\nspace origin: (-3,4,5)\nendian: little\n"
+      "encoding: raw\n\n" +
+          bytesOf(voxels));
+  for (const std::uint64_t memory : {0UL, 60000UL, 9000UL, 2000UL})
+  {
+    SCOPED_TRACE(memory);
+    const ImagePreview preview = previewImageFile(path, 4, {}, std::nullopt, memory);
+    EXPECT_TRUE(core::sameGrid(preview.grid, readImageFile(path).volume->geometry()));
+    const core::GridGeometry& grid = preview.volume->geometry();
+    EXPECT_EQ(grid.dims()[2], 4);
+    if (memory == 0)
+    {
+      EXPECT_EQ(grid.dims(), (core::Index3{kSide, kSide, 4}));
+    }
+    else
+    {
+      EXPECT_LE(grid.voxelCount() * sizeof(std::int16_t), memory);
+    }
+    for (int k = 0; k < grid.dims()[2]; ++k)
+      for (int j = 0; j < grid.dims()[1]; ++j)
+        for (int i = 0; i < grid.dims()[0]; ++i)
+        {
+          const Eigen::Vector3d at = grid.patientFromVoxel(Eigen::Vector3d(i, j, k));
+          ASSERT_NEAR(preview.volume->at(i, j, k),
+                      500.0 * (at[2] - 5.0) + 40.0 * (at[1] - 4.0) - 6.0 * (at[0] + 3.0), 1e-9);
+        }
+  }
+  expectRefused(refusalOf([&] { previewImageFile(path, 4, {}, std::nullopt, 16); }),
+                FileError::Reason::Unreadable, "memory");
 }
 
 TEST(ImageFile, AcceptsAFourthDimensionOfOneOnly)

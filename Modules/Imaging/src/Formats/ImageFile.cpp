@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "FileHelpers.h"
+#include "MemoryCheck.h"
 #include "VoxelSource.h"
+#include "petrous/Core/SystemMemory.h"
 #include "petrous/Imaging/ImagePreview.h"
 
 namespace petrous::imaging
@@ -171,7 +173,8 @@ LoadedImage readImageFile(const std::filesystem::path& path,
 }
 
 ImagePreview previewImageFile(const std::filesystem::path& path, std::size_t slices,
-                              const core::Progress& progress, const std::optional<bool>& isRas)
+                              const core::Progress& progress, const std::optional<bool>& isRas,
+                              std::uint64_t memory)
 {
   VoxelSource source(path);
   if (isRas)
@@ -180,27 +183,53 @@ ImagePreview previewImageFile(const std::filesystem::path& path, std::size_t sli
   const core::GridGeometry& grid = source.geometry();
   core::Index3 dims = grid.dims();
   const int step = std::max(dims[2] / static_cast<int>(std::max<std::size_t>(slices, 2)), 1);
-  const int whole = dims[2];
-  dims[2] = (whole + step - 1) / step;
-  Eigen::Vector3d spacing = grid.spacing();
-  spacing[2] *= step;
-  const core::GridGeometry few(dims, spacing, grid.origin(), grid.direction());
-  const std::size_t bytes =
-      static_cast<std::size_t>(dims[0]) * static_cast<std::size_t>(dims[1]) *
+  const core::Index3 whole = dims;
+  dims[2] = (whole[2] + step - 1) / step;
+  const std::size_t voxelBytes =
       visitComponent(source.component(), [](auto type) { return sizeof type; });
-  const auto memory =
-      std::make_shared<std::vector<char>>(bytes * static_cast<std::size_t>(dims[2]));
+  const auto needed = [&]
+  {
+    return static_cast<std::uint64_t>(dims[0]) * static_cast<std::uint64_t>(dims[1]) *
+           static_cast<std::uint64_t>(dims[2]) *
+           (voxelBytes + sizeof(float)); // as read, and at most as converted
+  };
+  const std::uint64_t free = memory > 0 ? memory : core::systemMemory().available;
+  int plane = 1;
+  while (free > 0 && needed() > free && std::min(whole[0], whole[1]) / (plane + 1) >= 2)
+  {
+    ++plane;
+    dims[0] = (whole[0] + plane - 1) / plane;
+    dims[1] = (whole[1] + plane - 1) / plane;
+  }
+  requireMemory(path, needed(), "give a smaller file", free);
+  const core::GridGeometry few(
+      dims, grid.spacing().cwiseProduct(Eigen::Vector3d(plane, plane, step)), grid.origin(),
+      grid.direction());
+  const std::size_t kept =
+      static_cast<std::size_t>(dims[0]) * static_cast<std::size_t>(dims[1]) * voxelBytes;
+  const auto buffer = std::make_shared<std::vector<char>>(kept * static_cast<std::size_t>(dims[2]));
   source.forEachSlice(
       [&](int k, const void* values)
       {
-        if (k % step == 0)
-          std::memcpy(memory->data() + bytes * static_cast<std::size_t>(k / step), values, bytes);
-        if (k % step == 0)
-          progress.report(static_cast<double>(k) / whole, "reading image");
+        if (k % step != 0)
+          return true;
+        const char* from = static_cast<const char*>(values);
+        char* to = buffer->data() + kept * static_cast<std::size_t>(k / step);
+        if (plane == 1)
+          std::memcpy(to, from, kept);
+        else
+          for (int j = 0; j < whole[1]; j += plane)
+            for (int i = 0; i < whole[0]; i += plane, to += voxelBytes)
+              std::memcpy(to,
+                          from + voxelBytes * (static_cast<std::size_t>(j) *
+                                                   static_cast<std::size_t>(whole[0]) +
+                                               static_cast<std::size_t>(i)),
+                          voxelBytes);
+        progress.report(static_cast<double>(k) / whole[2], "reading image");
         return true;
       },
       progress);
-  const std::shared_ptr<void> raw(memory, memory->data());
+  const std::shared_ptr<void> raw(buffer, buffer->data());
   Voxels voxels =
       visitComponent(source.component(), [&](auto type)
                      { return keepOrNarrow<decltype(type)>(few, raw, source.rescaled()); });

@@ -571,6 +571,97 @@ TEST(DicomReader, RefusesFramesThatNothingPlaces)
   EXPECT_THROW(readSeries(result.series.front(), {}, {}), DicomError);
 }
 
+/// A parametric map of floats (PS3.3 A.75) with these items of Real World Value Mapping.
+void writeMap(const fs::path& file, const std::vector<std::string>& mappings)
+{
+  TestSlice s;
+  s.sopClass = "1.2.840.10008.5.1.4.1.1.30";
+  s.modality = "MR";
+  s.bitsAllocated = 32;
+  s.pixels = false;
+  s.slope.reset();
+  const auto sequence = [&s](std::uint32_t tag, const std::vector<std::string>& items)
+  {
+    std::string content;
+    for (const std::string& one : items)
+    {
+      s.append(content, 0xfffe, 2);
+      s.append(content, 0xe000, 2);
+      s.append(content, static_cast<std::uint32_t>(one.size()), 4);
+      content += one;
+    }
+    std::string out;
+    s.element(out, tag, "SQ", content);
+    return out;
+  };
+  constexpr int kFrames = 4;
+  std::string orientation, measures, frames, data;
+  s.element(orientation, 0x00200037, "DS", "1\\0\\0\\0\\1\\0");
+  s.element(measures, 0x00280030, "DS", "1\\1");
+  std::vector<std::string> places;
+  for (int f = 0; f < kFrames; ++f)
+  {
+    std::string place;
+    s.element(place, 0x00200032, "DS", "0\\0\\" + std::to_string(f));
+    places.push_back(sequence(0x00209113, {place}));
+    for (int n = 0; n < s.rows * s.columns; ++n)
+      s.appendReal(data, 0.25F * static_cast<float>(n + f));
+  }
+  std::string all = s.bytes();
+  s.element(all, 0x00280008, "IS", std::to_string(kFrames));
+  std::string shared = sequence(0x00209116, {orientation}) + sequence(0x00289110, {measures});
+  if (!mappings.empty())
+    shared += sequence(0x00409096, mappings);
+  all += sequence(0x52009229, {shared}) + sequence(0x52009230, places);
+  s.element(all, 0x7fe00008, "OF", data);
+  test::writeText(file, all);
+}
+
+TEST(DicomReader, AParametricMapSaysWhatItsValuesMean)
+{
+  TestSlice s;
+  const auto linear = [&s](double slope, double intercept, const std::string& unit)
+  {
+    std::string code, item;
+    s.element(code, 0x00080100, "SH", unit);
+    s.element(code, 0x00080102, "SH", "UCUM");
+    std::string units;
+    s.append(units, 0xfffe, 2);
+    s.append(units, 0xe000, 2);
+    s.append(units, static_cast<std::uint32_t>(code.size()), 4);
+    s.element(item, 0x004008ea, "SQ", units + code);
+    for (const auto& [tag, value] : {std::pair(0x00409224U, intercept), {0x00409225U, slope}})
+    {
+      std::string bytes;
+      s.appendReal(bytes, value);
+      s.element(item, tag, "FD", bytes);
+    }
+    return item;
+  };
+  std::string table;
+  s.element(table, 0x00409212, "FD", std::string(24, '\0'));
+  const auto read = [](const std::vector<std::string>& mappings)
+  {
+    const TemporaryFolder folder;
+    writeMap(folder.path() / "map", mappings);
+    const ScanResult result = scanDicom(folder.path(), {});
+    const SeriesGeometry& geometry = result.series.at(0).geometry;
+    if (geometry.verdict != Verdict::Ok)
+      return "refused: " + geometry.findings.at(0).text;
+    return geometry.slices.at(0).rescaleType + " " +
+           core::generalText(readSeries(result.series.at(0), {}, {}).at(3, 0, 1));
+  };
+  // The stored value of pixel 3 of frame 1 is 1.
+  EXPECT_EQ(read({linear(2.0, 5.0, "mm2/s")}), "mm2/s 7");
+  EXPECT_EQ(read({linear(1.0, -1024.0, "[hnsf'U]")}), "HU -1023");
+  for (const std::vector<std::string>& silent : {std::vector<std::string>{}, {table}})
+    EXPECT_NE(read(silent).find("does not say by a slope and an intercept what its values mean"),
+              std::string::npos)
+        << read(silent);
+  EXPECT_NE(read({linear(2.0, 5.0, "mm2/s"), linear(0.001, 0.0, "um2/s")}).find("in several ways"),
+            std::string::npos);
+}
+
 TEST(DicomReader, NeverCrashesOnAnEnhancedFileCutAnywhere)
 {
   const TemporaryFolder folder;

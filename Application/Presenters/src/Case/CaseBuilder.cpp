@@ -191,6 +191,17 @@ std::string codeText(const std::string& text)
                                                                                   : "unknown";
 }
 
+// A unit of a file, which may stand in a note if it is one.
+std::string unitText(const std::string& unit)
+{
+  static const char* const kUcum[] = {
+      "1",    "%",     "ms",      "s",         "/s",    "1/s",   "/min",        "mm2/s",
+      "um2/s", "ml/g", "g/ml",    "mg/ml",     "Bq/ml", "kPa",   "10-6.mm2/s",  "10*-6.mm2/s",
+      "ml/min/ml",     "ml/100ml/min",         "ug/ml", "ml/ml", "ml/(100.ml.min)"};
+  return std::find(std::begin(kUcum), std::end(kUcum), unit) != std::end(kUcum) ? unit
+                                                                                : codeText(unit);
+}
+
 // Why the values of a series are not the intensities of a CT or MR; empty if they may be. X-ray
 // volumes (cone beam) are CTs under other names, of old converters too.
 std::string otherQuantity(const imaging::DicomSeries& series)
@@ -203,7 +214,7 @@ std::string otherQuantity(const imaging::DicomSeries& series)
     if (const std::string& unit = series.geometry.slices.front().rescaleType;
         !unit.empty() && unit != "HU" && unit != "US")
       return "The file says that its values are no Hounsfield units, but of the type " +
-             codeText(unit) + ".";
+             unitText(unit) + ".";
   return {};
 }
 

@@ -65,7 +65,7 @@ bool isGroup(Tag tag)
       0x00209113, 0x00209116, 0x00289110, 0x00289145, 0x00209111, // place, values, frame content
       0x00189117, 0x00189076, 0x00189114, 0x00189112, 0x00189118, // diffusion, echo, timing, heart
       0x00189226, 0x00189329, 0x00189314, 0x00189325, 0x00209310, // type, kernel, tube, time
-      0x00409096};                                                // real world values
+      kRealWorldMapping, 0x004008ea};                             // real world values, their unit
   return std::find(std::begin(kGroups), std::end(kGroups), tag) != std::end(kGroups);
 }
 
@@ -321,7 +321,8 @@ bool DicomElements::skipItemContent(std::uint64_t& offset, bool explicitVr, int 
   return false;
 }
 
-/// The items of a functional group, each flattened: no value occurs in two of the groups read.
+/// The items of a functional group, each flattened. Where a value occurs in several (real world
+/// value mappings), it is that of the first.
 bool DicomElements::readGroups(const Element& sequence, std::uint64_t& offset, bool explicitVr,
                                int depth, std::vector<Values>& items)
 {
@@ -368,6 +369,8 @@ bool DicomElements::readGroupItem(std::uint64_t& offset, std::uint64_t end, bool
         for (auto& [tag, value] : item)
           if (!find(values, tag))
             set(values, tag, std::move(value));
+      if (element.tag == kRealWorldMapping)
+        set(values, element.tag, std::to_string(items.size()));
     }
     else if (element.length == kUndefinedLength)
     {

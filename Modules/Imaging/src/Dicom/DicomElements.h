@@ -20,6 +20,8 @@ constexpr Tag kFloatPixelData = 0x7fe00008;
 constexpr Tag kDoublePixelData = 0x7fe00009;
 constexpr Tag kPixelData = 0x7fe00010;
 constexpr Tag kExtendedOffsets = 0x7fe00001;
+/// In the functional groups of a frame; kept is the number of its items.
+constexpr Tag kRealWorldMapping = 0x00409096;
 
 /// The short top-level elements of a DICOM file up to its pixel data (PS3.5 section 7, PS3.10).
 ///

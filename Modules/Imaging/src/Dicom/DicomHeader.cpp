@@ -332,6 +332,26 @@ const char* checkPixels(ByteSource& source, const DicomElements::Pixels& found, 
   return checkFormat(slice, found.tag);
 }
 
+/// The mapping of a parametric map; what is wrong with it, or an empty string.
+const char* readMapping(const DicomElements& elements, SliceHeader& slice)
+{
+  const auto slope = elements.real(0x00409225);
+  const auto intercept = elements.real(0x00409224);
+  if (!slope || !intercept || *slope == 0.0)
+    return "does not say by a slope and an intercept what its values mean (real world value "
+           "mapping)";
+  if (elements.text(kRealWorldMapping) != "1")
+    return "says in several ways what its values mean (real world value mappings)";
+  slice.slope = *slope;
+  slice.intercept = *intercept;
+  if (const std::string unit = elements.text(0x00080100);
+      !unit.empty() && elements.text(0x00080102) == "UCUM")
+    slice.rescaleType = unit == "[hnsf'U]" ? "HU" : unit;
+  else
+    slice.rescaleType = "PARAMETRIC_MAP";
+  return "";
+}
+
 /// Each frame as a slice. None if the functional groups are not those of the frames; several frames
 /// are then refused.
 ///
@@ -350,13 +370,7 @@ void readFrames(DicomElements& elements, FileHeader& header, bool isMap)
     SliceHeader slice = file;
     readPlace(elements, slice);
     readTraits(elements, slice);
-    slice.damage = readRescale(elements, slice);
-    if (isMap)
-    {
-      slice.slope = elements.real(0x00409225).value_or(1.0);
-      slice.intercept = elements.real(0x00409224).value_or(0.0);
-      slice.rescaleType = file.rescaleType;
-    }
+    slice.damage = isMap ? readMapping(elements, slice) : readRescale(elements, slice);
     if (const auto type = elements.words(0x00089007); !type.empty())
       slice.imageType = type;
     if (const auto acquisition = elements.integer(0x00209156))

@@ -531,23 +531,55 @@ TEST(PixelForms, AnExtendedOffsetTableSaysWhereFramesBegin)
   EXPECT_THROW(readFolder(folder.path()), DicomError);
 }
 
-/// One slice whose only fragment is `codestream`.
-bool isLossyFile(const std::string& syntax, std::string codestream)
+/// A slice, or several frames of one file, of these fragments.
+SliceHeader compressedSlice(const std::string& syntax, const std::vector<std::string>& fragments,
+                            int frames = 1)
 {
   TestSlice code;
   code.pixels = false;
   code.syntax = syntax;
-  codestream += std::string(codestream.size() % 2, '\0');
-  std::string file = code.bytes() + std::string("\xe0\x7f\x10\x00OB\0\0\xff\xff\xff\xff", 12) +
-                     std::string("\xfe\xff\x00\xe0\0\0\0\0\xfe\xff\x00\xe0", 12);
-  for (int b = 0; b < 4; ++b)
-    file += static_cast<char>(codestream.size() >> 8 * b);
-  file += codestream + std::string("\xfe\xff\xdd\xe0\0\0\0\0", 8);
+  std::string file;
+  const auto item = [&code](const std::string& content)
+  {
+    std::string out("\xfe\xff\x00\xe0", 4);
+    code.append(out, static_cast<std::uint32_t>(content.size()), 4);
+    return out + content;
+  };
+  if (frames > 1)
+  {
+    code.sopClass = "1.2.840.10008.5.1.4.1.1.2.1";
+    code.element(code.extraPixel, 0x00280008, "IS", std::to_string(frames));
+    std::string groups;
+    for (int k = 0; k < frames; ++k)
+    {
+      std::string place, sequence;
+      code.element(place, 0x00200032, "DS", "0\\0\\" + std::to_string(k));
+      code.element(sequence, 0x00209113, "SQ", item(place));
+      groups += item(sequence);
+    }
+    file = code.bytes();
+    code.element(file, 0x52009230, "SQ", groups);
+  }
+  else
+    file = code.bytes();
+  file += std::string("\xe0\x7f\x10\x00OB\0\0\xff\xff\xff\xff", 12) + item("");
+  for (const std::string& one : fragments)
+    file += item(one + std::string(one.size() % 2, '\0'));
+  file += std::string("\xfe\xff\xdd\xe0\0\0\0\0", 8);
   const TemporaryFolder folder;
   test::writeText(folder.path() / "s.dcm", file);
   const ScanResult result = scanDicom(folder.path(), {});
-  const auto& slices = result.series.front().geometry.slices;
-  return !slices.empty() && slices.front().isLossy;
+  const auto& slices = result.series.at(0).geometry.slices;
+  if (slices.size() != static_cast<std::size_t>(frames))
+    ADD_FAILURE() << slices.size() << " slices";
+  return slices.empty() ? SliceHeader() : slices.front();
+}
+
+bool isLossyFile(const std::string& syntax, const std::string& codestream)
+{
+  const SliceHeader slice = compressedSlice(syntax, {codestream});
+  EXPECT_FALSE(slice.isLossUnknown);
+  return slice.isLossy;
 }
 
 TEST(PixelForms, TheCodestreamSaysWhetherItHasLoss)
@@ -572,6 +604,63 @@ TEST(PixelForms, TheCodestreamSaysWhetherItHasLoss)
   };
   EXPECT_TRUE(isLossyFile("1.2.840.10008.1.2.4.91", jpeg2000(0)));
   EXPECT_FALSE(isLossyFile("1.2.840.10008.1.2.4.91", jpeg2000(1)));
+}
+
+TEST(PixelForms, ALongHeaderOrALaterFrameHidesNoLoss)
+{
+  const std::string kLs = "1.2.840.10008.1.2.4.81";
+  const std::string k2000 = "1.2.840.10008.1.2.4.91";
+  const std::string frame("\xff\xf7\0\x0b\x08\0\x06\0\x08\x01\x01\x11\0", 13);
+  const auto jpegLs = [&](char near, std::size_t comment) // T.81 B.2.4.5: COM
+  {
+    std::string text("\xff\xfe", 2);
+    text += static_cast<char>((comment + 2) >> 8);
+    text += static_cast<char>((comment + 2) & 0xff);
+    return std::string("\xff\xd8", 2) + text + std::string(comment, 'x') + frame +
+           std::string("\xff\xda\0\x08\x01\x01\0", 7) + near + std::string("\0\0\xff\xd9", 4);
+  };
+  for (const std::size_t comment : {0U, 900U, 1100U, 5000U, 60000U})
+  {
+    EXPECT_TRUE(isLossyFile(kLs, jpegLs(2, comment))) << comment;
+    EXPECT_FALSE(isLossyFile(kLs, jpegLs(0, comment))) << comment;
+  }
+  // T.800 A.9.2: COM before COD, in a JP2 file (I.5.1) with a long box before the codestream.
+  const auto jpeg2000 = [&](char wavelet, std::size_t comment, std::size_t box)
+  {
+    std::string siz("\xff\x4f\xff\x51\0\x29\0\0", 8);
+    for (const char size : {'\x08', '\x06', '\0', '\0', '\x08', '\x06', '\0', '\0'})
+      siz += std::string(3, '\0') + size;
+    siz += std::string("\0\x01\x07\x01\x01", 5);
+    std::string text("\xff\x64", 2);
+    text += static_cast<char>((comment + 4) >> 8);
+    text += static_cast<char>((comment + 4) & 0xff);
+    text += std::string("\0\x01", 2) + std::string(comment, 'x');
+    const std::string stream =
+        siz + text + std::string("\xff\x52\0\x0c\0\0\0\x01\0\x01\x04\x04\0", 13) + wavelet +
+        std::string("\xff\x90\0\x0a\0\0\0\0\0\0\0\x01\xff\x93\xff\xd9", 16);
+    if (box == 0)
+      return stream;
+    std::string file("\0\0\0\x0cjP  \r\n\x87\n", 12);
+    for (int b = 3; b >= 0; --b)
+      file += static_cast<char>((box + 8) >> 8 * b);
+    return file + "xml " + std::string(box, 'y') + std::string("\0\0\0\0jp2c", 8) + stream;
+  };
+  for (const std::size_t comment : {0U, 1100U, 5000U})
+    for (const std::size_t box : {0U, 30U, 3000U})
+    {
+      EXPECT_TRUE(isLossyFile(k2000, jpeg2000(0, comment, box))) << comment << ' ' << box;
+      EXPECT_FALSE(isLossyFile(k2000, jpeg2000(1, comment, box))) << comment << ' ' << box;
+    }
+  // The header in two fragments.
+  const std::string split = jpegLs(2, 1100);
+  EXPECT_TRUE(compressedSlice(kLs, {split.substr(0, 500), split.substr(500)}).isLossy);
+  // Loss in the last of three frames.
+  EXPECT_TRUE(compressedSlice(kLs, {jpegLs(0, 0), jpegLs(0, 0), jpegLs(1, 0)}, 3).isLossy);
+  EXPECT_FALSE(compressedSlice(kLs, {jpegLs(0, 0), jpegLs(0, 0), jpegLs(0, 0)}, 3).isLossy);
+  // A stream that ends before it says.
+  EXPECT_TRUE(compressedSlice(kLs, {jpegLs(2, 100).substr(0, 60)}).isLossUnknown);
+  EXPECT_TRUE(compressedSlice(k2000, {jpeg2000(0, 100, 0).substr(0, 60)}).isLossUnknown);
+  EXPECT_TRUE(compressedSlice(k2000, {"nothing like it"}).isLossUnknown);
 }
 
 TEST(PixelCodecDeflated, ReadsADeflatedSeries)

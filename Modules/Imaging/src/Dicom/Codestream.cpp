@@ -136,27 +136,74 @@ bool codestreamFits(const std::vector<char>& bytes, const SliceHeader& slice)
   return jpegPrecision(bytes, slice) > 0;
 }
 
-bool isLossyCodestream(const std::vector<char>& bytes, const std::string& transferSyntax)
+namespace
 {
-  const Head head(bytes);
+
+/// The first of some marker segments from `at` on, at one of which the header ends otherwise;
+/// nullopt: there is none.
+std::optional<std::uint64_t> findSegment(const CodestreamNumber& number, std::uint64_t at,
+                                         std::uint32_t wanted, std::uint32_t end)
+{
+  for (std::optional<std::uint32_t> marker; (marker = number(at, 2)) && *marker != end;)
+  {
+    if (*marker == wanted)
+      return at;
+    if (*marker == 0xffff) // fill byte
+    {
+      ++at;
+      continue;
+    }
+    const auto length = number(at + 2, 2);
+    if (*marker < 0xff00 || !length || *length < 2)
+      break;
+    at += 2 + *length;
+  }
+  return std::nullopt;
+}
+
+/// The beginning of the JPEG 2000 codestream, which some writers wrap in a JP2 file (T.800 I.4).
+std::optional<std::uint64_t> findJpeg2000(const CodestreamNumber& number)
+{
+  std::uint64_t at = 0;
+  while (number(at, 2) != 0xff4fU)
+  {
+    const auto length = number(at, 4);
+    const auto type = number(at + 4, 4);
+    if (!length || !type)
+      return std::nullopt;
+    const bool isLong = *length == 1; // eight more bytes of length
+    if (*type == 0x6a703263U)
+      at += isLong ? 16 : 8;
+    else if (isLong && number(at + 8, 4) == 0U)
+      at += std::max<std::uint64_t>(number(at + 12, 4).value_or(0), 16);
+    else if (!isLong && *length >= 8)
+      at += *length;
+    else
+      return std::nullopt;
+  }
+  return at;
+}
+
+} // namespace
+
+std::optional<bool> isLossyCodestream(const CodestreamNumber& number,
+                                      const std::string& transferSyntax)
+{
   if (transferSyntax == "1.2.840.10008.1.2.4.81")
   {
-    std::size_t at = 2;
-    while (at + 4 <= head.size() && head.number(at, 2) != 0xffda)
-      at += 2 + head.number(at + 2, 2);
+    const auto scan = findSegment(number, 2, 0xffda, 0xffd9);
     // SOS (T.87 C.2.3): length, components, two bytes for each, then NEAR
-    return head.number(at, 2) == 0xffda && head.number(at + 5 + 2 * head.number(at + 4, 1), 1) > 0;
+    const auto components = scan ? number(*scan + 4, 1) : std::nullopt;
+    const auto near = components ? number(*scan + 5 + 2 * *components, 1) : std::nullopt;
+    return near ? std::optional(*near > 0) : std::nullopt;
   }
   if (transferSyntax != "1.2.840.10008.1.2.4.91")
     return false;
-  std::size_t at = 0;
-  while (at + 4 <= head.size() && head.number(at, 4) != 0xff4fff51U)
-    ++at;
-  at += 2;
-  while (at + 4 <= head.size() && head.number(at, 2) != 0xff52 && head.number(at, 2) != 0xff90)
-    at += 2 + head.number(at + 2, 2);
+  const auto start = findJpeg2000(number);
+  const auto style = start ? findSegment(number, *start + 2, 0xff52, 0xff90) : std::nullopt;
   // COD (T.800 A.6.1): the transformation is its tenth byte, 0 the irreversible one
-  return at + 14 <= head.size() && head.number(at, 2) == 0xff52 && head.number(at + 13, 1) == 0;
+  const auto wavelet = style ? number(*style + 13, 1) : std::nullopt;
+  return wavelet ? std::optional(*wavelet == 0) : std::nullopt;
 }
 
 int jpegPrecision(const std::vector<char>& bytes, const SliceHeader& slice)

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "petrous/Imaging/SeriesGeometry.h"
@@ -15,9 +20,14 @@ bool codestreamFits(const std::vector<char>& bytes, const SliceHeader& slice);
 /// Bits of a sample by the frame header of a JPEG or JPEG-LS codestream; 0 if it does not fit.
 int jpegPrecision(const std::vector<char>& bytes, const SliceHeader& slice);
 
+/// A big-endian number of up to four bytes of a codestream; nullopt beyond its end.
+using CodestreamNumber =
+    std::function<std::optional<std::uint32_t>(std::uint64_t at, std::size_t bytes)>;
+
 /// Whether a codestream says that it was made with loss: a JPEG-LS of near-lossless samples, or a
-/// JPEG 2000 of the irreversible wavelet. `bytes`: its beginning. Of the other syntaxes the
-/// transfer syntax says it.
-bool isLossyCodestream(const std::vector<char>& bytes, const std::string& transferSyntax);
+/// JPEG 2000 of the irreversible wavelet. Of the other syntaxes the transfer syntax says it.
+/// nullopt: what should say it is not there.
+std::optional<bool> isLossyCodestream(const CodestreamNumber& number,
+                                      const std::string& transferSyntax);
 
 } // namespace petrous::imaging

@@ -68,9 +68,18 @@ bool isNative(const std::string& syntax)
   return syntax == kImplicit || syntax == kExplicit || syntax == kBigEndian || syntax == kDeflated;
 }
 
-/// Walks the items of an encapsulated element; false if one extends beyond the end of the file.
-bool fragmentsComplete(ByteSource& source, std::uint64_t offset)
+/// An item of an encapsulated element.
+struct Fragment
 {
+  std::uint64_t offset = 0; ///< of its value, in the file
+  std::uint64_t length = 0;
+};
+
+/// The items, of which the first is the basic offset table; none if one extends beyond the end of
+/// the file, or if they are empty.
+std::vector<Fragment> fragmentsOf(ByteSource& source, std::uint64_t offset)
+{
+  std::vector<Fragment> fragments;
   std::uint64_t bytes = 0;
   std::array<unsigned char, 8> item{};
   while (source.read(offset, item.data(), item.size()))
@@ -81,31 +90,61 @@ bool fragmentsComplete(ByteSource& source, std::uint64_t offset)
       break;
     const std::uint64_t length =
         item[4] | (item[5] << 8) | (item[6] << 16) | (static_cast<std::uint64_t>(item[7]) << 24);
+    fragments.push_back({offset + item.size(), length});
     offset += item.size() + length;
     if (offset > source.size())
-      return false;
+      return {};
     bytes += length;
   }
-  return bytes > 0; // some writers omit the sequence delimiter
+  return bytes > 0 ? fragments : std::vector<Fragment>(); // some writers omit the delimiter
 }
 
-/// The beginning of the first compressed frame.
-std::vector<char> firstBytes(ByteSource& source, std::uint64_t offset)
+/// Whether compressed frames say that they were made with loss, the header of each followed as far
+/// as it goes: true if any does; nullopt if one of the others does not say.
+std::optional<bool> isLossy(ByteSource& source, const std::vector<Fragment>& fragments,
+                            const PixelFormat& pixels, int frames)
 {
-  constexpr std::size_t kMost = 1024; // bytes: a JPEG-LS or JPEG 2000 header
-  std::array<unsigned char, 4> raw{};
-  const auto lengthAt = [&](std::uint64_t at) -> std::uint64_t
+  const auto byteAt = [&source](std::uint64_t at) -> std::optional<std::uint32_t>
   {
-    if (!source.read(at + 4, raw.data(), raw.size()))
-      return 0;
-    return raw[0] | (raw[1] << 8) | (raw[2] << 16) | (static_cast<std::uint64_t>(raw[3]) << 24);
+    unsigned char byte = 0;
+    return source.readNear(at, &byte, 1) ? std::optional<std::uint32_t>(byte) : std::nullopt;
   };
-  const std::uint64_t item = offset + 8 + lengthAt(offset); // after the basic offset table
-  std::vector<char> bytes(static_cast<std::size_t>(std::min<std::uint64_t>(
-      kMost, item + 8 <= source.size() ? std::min(lengthAt(item), source.size() - item - 8) : 0)));
-  if (!source.read(item + 8, bytes.data(), bytes.size()))
-    bytes.clear();
-  return bytes;
+  const auto begins = [&](const Fragment& fragment) // a frame of several fragments goes on
+  {
+    const auto first = byteAt(fragment.offset);
+    const auto second = byteAt(fragment.offset + 1);
+    return (first == 0xffU && (second == 0xd8U || second == 0x4fU)) ||
+           (first == 0U && second == 0U);
+  };
+  bool isKnown = true;
+  bool isAny = false;
+  for (std::size_t from = 1; from < fragments.size() && !isAny;)
+  {
+    std::size_t to = from + 1;
+    while (to < fragments.size() && (frames == 1 || !begins(fragments[to])))
+      ++to;
+    const auto number = [&](std::uint64_t at, std::size_t bytes) -> std::optional<std::uint32_t>
+    {
+      std::uint32_t value = 0;
+      for (std::size_t b = 0; b < bytes; ++b)
+      {
+        std::uint64_t within = at + b;
+        std::size_t n = from;
+        for (; n < to && within >= fragments[n].length; ++n)
+          within -= fragments[n].length;
+        const auto byte = n < to ? byteAt(fragments[n].offset + within) : std::nullopt;
+        if (!byte)
+          return std::nullopt;
+        value = (value << 8) | *byte;
+      }
+      return value;
+    };
+    const auto frame = isLossyCodestream(number, pixels.transferSyntax);
+    isKnown = isKnown && frame;
+    isAny = isAny || frame.value_or(false);
+    from = to;
+  }
+  return isAny || isKnown ? std::optional(isAny) : std::nullopt;
 }
 
 std::optional<Eigen::Vector3d> vectorAt(const std::vector<double>& values, std::size_t first)
@@ -313,13 +352,17 @@ const char* checkPixels(ByteSource& source, const DicomElements::Pixels& found, 
     return ""; // excluded for that reason, which is the better one to report
   if (pixels.isEncapsulated)
   {
-    if (!fragmentsComplete(source, pixels.offset))
+    const std::vector<Fragment> fragments = fragmentsOf(source, pixels.offset);
+    if (fragments.empty())
       return kCutShort;
     // These may have loss or not, whatever the header says.
     if (pixels.transferSyntax == "1.2.840.10008.1.2.4.81" ||
         pixels.transferSyntax == "1.2.840.10008.1.2.4.91")
-      slice.isLossy = slice.isLossy ||
-                      isLossyCodestream(firstBytes(source, pixels.offset), pixels.transferSyntax);
+    {
+      const auto loss = isLossy(source, fragments, pixels, slice.frames);
+      slice.isLossUnknown = !slice.isLossy && !loss;
+      slice.isLossy = slice.isLossy || loss.value_or(false);
+    }
   }
   else
   {

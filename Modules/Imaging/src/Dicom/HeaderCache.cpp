@@ -20,7 +20,7 @@ namespace petrous::imaging
 namespace
 {
 
-constexpr const char* kMethod = "dicom headers 5"; // increment with the fields below
+constexpr const char* kMethod = "dicom headers 6"; // increment with the fields below
 constexpr std::int64_t kCoarsest = 2'000'000'000;  // ns; FAT
 constexpr std::size_t kSampled = 8;                // files
 constexpr std::size_t kSample = 4096;              // bytes
@@ -240,12 +240,12 @@ template <class Archive>
 void pass(Archive& archive, SliceHeader& value)
 {
   auto& [file, stamp, position, row, column, pixelSpacing, rows, columns, frames, slope, intercept,
-         hasRescale, rescaleType, isLossy, lossyRatio, burnedIn, declaredSpacing, thickness,
+         hasRescale, rescaleType, isLossy, isLossUnknown, lossyRatio, burnedIn, declaredSpacing, thickness,
          declaredTilt, padding, paddingLimit, taken, patientPosition, instance, count, isImage,
          imageType, frameOfReference, patient, study, modality, kernel, tube, seriesNumber,
          acquisition, traits, step, hasLut, pixels, damage] = value;
   passAll(archive, file, stamp, position, row, column, pixelSpacing, rows, columns, frames, slope,
-          intercept, hasRescale, rescaleType, isLossy, lossyRatio, burnedIn, declaredSpacing,
+          intercept, hasRescale, rescaleType, isLossy, isLossUnknown, lossyRatio, burnedIn, declaredSpacing,
           thickness, declaredTilt, padding, paddingLimit, taken, patientPosition, instance, count,
           isImage, imageType, frameOfReference, patient, study, modality, kernel, tube,
           seriesNumber, acquisition, traits, step, hasLut, pixels, damage);

@@ -363,12 +363,18 @@ private:
   void noteLoss()
   {
     std::size_t lossy = 0;
+    std::size_t unknown = 0;
     double ratio = 0.0;
     for (const SliceHeader& slice : m_slices)
     {
       lossy += slice.isLossy ? 1 : 0;
+      unknown += slice.isLossUnknown ? 1 : 0;
       ratio = std::max(ratio, slice.lossyRatio.value_or(0.0));
     }
+    if (unknown > 0)
+      m_result.notes.push_back("Whether they were compressed with loss cannot be told of " +
+                               countOf(unknown, m_slices.size()) +
+                               ", as neither the header nor the compressed image says it.");
     if (lossy > 0)
       m_result.notes.push_back(
           kLossy +

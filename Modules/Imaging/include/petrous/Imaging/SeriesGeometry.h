@@ -104,6 +104,7 @@ struct SliceHeader
   bool hasRescale = false;
   std::string rescaleType; ///< (0028,1054) unit of the rescaled values, e.g. HU; empty: not stated
   bool isLossy = false;    ///< the pixels were compressed with loss, once
+  bool isLossUnknown = false; ///< the compressed pixels do not say whether they were
   std::optional<double> lossyRatio; ///< of that compression, if stated
   BurnedInText burnedIn = BurnedInText::None;
   std::optional<double> declaredSpacing;   ///< SpacingBetweenSlices, mm; noted, never used

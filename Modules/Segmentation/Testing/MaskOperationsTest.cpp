@@ -205,6 +205,60 @@ TEST(ProposedRegion, IsTheBrightLesionBesideBrain)
   }
 }
 
+TEST(ProposedRegion, BeginsWhereTheMeanOfABallIsLargest)
+{
+  // Sparse, noisy voxels of which some are padding; every ball is looked at from its definition.
+  const core::GridGeometry grid({30, 26, 22}, Vector3d(0.5, 0.6, 0.9), Vector3d(-7, 2, 3));
+  constexpr std::int16_t kPadding = -1;
+  for (const unsigned seed : {1U, 2U, 3U})
+  {
+    std::mt19937 random(seed);
+    std::uniform_int_distribution<int> noise(0, 90);
+    std::bernoulli_distribution isPadding(0.05);
+    auto voxels = std::make_shared<volume::Volume<std::int16_t>>(grid);
+    const Vector3d lesion = grid.patientFromVoxel(
+        Vector3d(8.0 + seed, 12.0, 5.0 + 4.0 * seed));
+    for (int k = 0; k < 22; ++k)
+      for (int j = 0; j < 26; ++j)
+        for (int i = 0; i < 30; ++i)
+        {
+          const double away = (grid.patientFromVoxel(Vector3d(i, j, k)) - lesion).norm();
+          voxels->at(i, j, k) = static_cast<std::int16_t>(
+              isPadding(random) ? kPadding : (away < 2.5 ? 900 : away < 6.0 ? 300 : 20) + noise(random));
+        }
+    const volume::IntensityVolume mr(
+        std::shared_ptr<const volume::Volume<std::int16_t>>(voxels), double{kPadding});
+    const auto region = proposedRegion(mr);
+    ASSERT_TRUE(region);
+    double largest = 0.0;
+    Vector3d there = Vector3d::Zero();
+    for (int k = 2; k < 20; ++k)
+      for (int j = 2; j < 24; ++j)
+        for (int i = 2; i < 28; ++i)
+        {
+          if (voxels->at(i, j, k) < 600)
+            continue;
+          double sum = 0.0;
+          int count = 0;
+          for (int c = 0; c < 22; ++c)
+            for (int b = 0; b < 26; ++b)
+              for (int a = 0; a < 30; ++a)
+                if (Vector3d(0.5 * (a - i), 0.6 * (b - j), 0.9 * (c - k)).norm() <= 1.5 &&
+                    voxels->at(a, b, c) != kPadding)
+                {
+                  sum += voxels->at(a, b, c);
+                  ++count;
+                }
+          if (sum / count > largest)
+          {
+            largest = sum / count;
+            there = grid.patientFromVoxel(Vector3d(i, j, k));
+          }
+        }
+    EXPECT_TRUE(region->seed.isApprox(there, 1e-12)) << region->seed << "\n\n" << there;
+  }
+}
+
 TEST(ProposedRegion, IsNoneWhereNothingIsBrighter)
 {
   const core::GridGeometry grid({60, 60, 30}, Vector3d(1, 1, 2), Vector3d::Zero());

@@ -1,5 +1,6 @@
 #include "petrous/Segmentation/MaskOperations.h"
 
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -172,46 +173,82 @@ std::optional<ProposedRegion> proposedRegion(const volume::IntensityVolume& imag
     inner.upper[a] -= border;
     reach[a] = static_cast<int>(kRadius / grid.spacing()[static_cast<Eigen::Index>(a)]);
   }
-  const auto valueAt = [&image](int i, int j, int k) -> std::optional<double>
+  // The ball as rows along the first axis.
+  struct Row
   {
-    const double value = image.at(i, j, k);
-    return std::isfinite(value) && value != image.padding() ? std::optional(value) : std::nullopt;
+    int j, k, half;
   };
-  const auto meanAbout = [&](const core::Index3& at)
+  std::vector<Row> ball;
+  for (int k = -reach[2]; k <= reach[2]; ++k)
+    for (int j = -reach[1]; j <= reach[1]; ++j)
+    {
+      int half = -1;
+      while (half < reach[0] &&
+             Eigen::Vector3d(half + 1, j, k).cwiseProduct(grid.spacing()).norm() <= kRadius)
+        ++half;
+      if (half >= 0)
+        ball.push_back({j, k, half});
+    }
+  struct Brightest
   {
-    double sum = 0.0;
-    int count = 0;
-    for (int k = std::max(at[2] - reach[2], 0); k <= std::min(at[2] + reach[2], grid.dims()[2] - 1);
-         ++k)
-      for (int j = std::max(at[1] - reach[1], 0);
-           j <= std::min(at[1] + reach[1], grid.dims()[1] - 1); ++j)
-        for (int i = std::max(at[0] - reach[0], 0);
-             i <= std::min(at[0] + reach[0], grid.dims()[0] - 1); ++i)
+    double mean = 0.0;
+    std::optional<core::Index3> place;
+  };
+  const core::IndexBox box = bright.extent.intersected(inner);
+  std::vector<Brightest> bySlice(
+      static_cast<std::size_t>(std::max(box.upper[2] - box.lower[2], 0)),
+      {histogram.range().min, std::nullopt});
+  std::atomic<int> done{0};
+  image.visit(
+      [&](const auto& volume)
+      {
+        using T = typename std::decay_t<decltype(volume)>::Value;
+        const auto meanAbout = [&](const core::Index3& at)
         {
-          const Eigen::Vector3d away =
-              Eigen::Vector3d(i - at[0], j - at[1], k - at[2]).cwiseProduct(grid.spacing());
-          const auto value = away.norm() <= kRadius ? valueAt(i, j, k) : std::nullopt;
-          sum += value.value_or(0.0);
-          count += value.has_value();
-        }
-    return count > 0 ? sum / count : histogram.range().min;
-  };
+          double sum = 0.0;
+          int count = 0;
+          for (const Row& row : ball)
+          {
+            const int j = at[1] + row.j;
+            const int k = at[2] + row.k;
+            if (j < 0 || k < 0 || j >= grid.dims()[1] || k >= grid.dims()[2])
+              continue;
+            const T* values = &volume.at(0, j, k);
+            const int last = std::min(at[0] + row.half, grid.dims()[0] - 1);
+            for (int i = std::max(at[0] - row.half, 0); i <= last; ++i)
+            {
+              const auto value = static_cast<double>(values[i]);
+              if (std::isfinite(value) && value != image.padding())
+              {
+                sum += value;
+                ++count;
+              }
+            }
+          }
+          return count > 0 ? sum / count : histogram.range().min;
+        };
+        tbb::parallel_for(
+            box.lower[2], box.upper[2],
+            [&](int k)
+            {
+              progress.part(0.2, 0.7).report(static_cast<double>(done++) / box.size()[2],
+                                             "looking for the brightest region");
+              Brightest& slice = bySlice[static_cast<std::size_t>(k - box.lower[2])];
+              for (int j = box.lower[1]; j < box.upper[1]; ++j)
+                for (int i = box.lower[0]; i < box.upper[0]; ++i)
+                  if (bright.at({i, j, k}))
+                    if (const double mean = meanAbout({i, j, k}); mean > slice.mean)
+                      slice = {mean, core::Index3{i, j, k}};
+            });
+      });
   double peak = histogram.range().min;
   std::optional<core::Index3> place;
-  const core::IndexBox box = bright.extent.intersected(inner);
-  for (int k = box.lower[2]; k < box.upper[2]; ++k)
-  {
-    progress.part(0.2, 0.7).report(static_cast<double>(k - box.lower[2]) / box.size()[2],
-                                   "looking for the brightest region");
-    for (int j = box.lower[1]; j < box.upper[1]; ++j)
-      for (int i = box.lower[0]; i < box.upper[0]; ++i)
-        if (bright.at({i, j, k}))
-          if (const double mean = meanAbout({i, j, k}); mean > peak)
-          {
-            peak = mean;
-            place = {i, j, k};
-          }
-  }
+  for (const Brightest& slice : bySlice) // the first of equal ones, whatever the threads did
+    if (slice.place && slice.mean > peak)
+    {
+      peak = slice.mean;
+      place = slice.place;
+    }
   if (!place)
     return std::nullopt;
   struct Class // of the histogram

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -233,6 +235,43 @@ TEST(LabelFile, ReadsTheTerminologyOfSlicersSegments)
 }
 
 // By hand: voxel (2, 1, 1) lies at (1 + 1, 2 + 0.5, 3 + 1) in the file's own frame.
+TEST(LabelFile, ReadsThousandsOfSegments)
+{
+  constexpr int kCount = 4000;
+  const TestFolder folder;
+  std::string keys;
+  std::vector<std::uint16_t> voxels;
+  for (int n = 0; n < kCount; ++n)
+  {
+    const std::string prefix = "Segment" + std::to_string(n) + "_";
+    keys += prefix + "Name:=" + (n % 2 == 0 ? "same" : "part " + std::to_string(n)) + "\n" +
+            prefix + "LabelValue:=" + std::to_string(n + 1) + "\n" + prefix + "Color:=1 0 0\n" +
+            prefix + "Layer:=0\n" + prefix + "Tags:=TerminologyEntry:x~SCT^1^Tissue~SCT^" +
+            std::to_string(n) + "^thing~^^~y~^^~^^|\n";
+    voxels.push_back(static_cast<std::uint16_t>(n + 1));
+  }
+  const auto path = putFile(
+      folder / "many.seg.nrrd",
+      "NRRD0004\ntype: unsigned short\ndimension: 3\nspace: left-posterior-superior\nsizes: 40 10 "
+      "10\nspace directions: (1,0,0) (0,1,0) (0,0,1)\nkinds: domain domain domain\nendian: little\n"
+      "encoding: raw\nspace origin: (0,0,0)\n" +
+          keys + "\n" + bytesOf(voxels));
+  const LoadedLabels loaded = loadLabels(path);
+  ASSERT_EQ(loaded.maps.size(), 1U);
+  const auto& segments = loaded.maps[0].segments;
+  ASSERT_EQ(segments.size(), std::size_t{kCount});
+  EXPECT_EQ(segments[0].name, "same");
+  EXPECT_EQ(segments[3999].name, "part 3999");
+  std::set<std::string> names;
+  for (const auto& segment : segments)
+  {
+    names.insert(segment.name);
+    EXPECT_EQ(loaded.codes.at(segment.name).type.value, std::to_string(segment.index - 1));
+  }
+  EXPECT_EQ(names.size(), std::size_t{kCount});
+  EXPECT_EQ(names.count("same 2000"), 1U);
+}
+
 TEST(LabelFile, LiesWhereEverySpaceSays)
 {
   const TestFolder folder;

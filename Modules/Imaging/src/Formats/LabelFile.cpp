@@ -249,14 +249,16 @@ LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
                        { return toLabels<decltype(type)>(source, path, raw, layer); });
     auto names = named ? segmentsOfLayer(path, *source.nrrd(), layer)
                        : namesFromOutside(path, naming, *labels, loaded);
+    const auto codes =
+        named ? codesOfLayer(*source.nrrd(), layer) : std::map<std::uint16_t, volume::SegmentCodes>();
     for (const volume::Segment& segment : names)
       unique.reserve(segment.name);
     for (volume::Segment& segment : names)
     {
       segment.name = unique.take(segment.name, loaded.notes);
       if (named)
-        if (auto codes = codesOfSegment(*source.nrrd(), layer, segment.index); !codes.empty())
-          loaded.codes[segment.name] = std::move(codes);
+        if (const auto found = codes.find(segment.index); found != codes.end())
+          loaded.codes[segment.name] = found->second;
     }
     loaded.maps.push_back(volume::makeLabelMap(labels, std::move(names)));
   }

@@ -179,17 +179,19 @@ std::int64_t labelValueOf(const NrrdHeader& header, std::size_t segment)
 
 } // namespace
 
-volume::SegmentCodes codesOfSegment(const NrrdHeader& header, std::size_t layer,
-                                    std::uint16_t index)
+std::map<std::uint16_t, volume::SegmentCodes> codesOfLayer(const NrrdHeader& header,
+                                                           std::size_t layer)
 {
   constexpr std::string_view kEntry = "TerminologyEntry:";
-  volume::SegmentCodes codes;
+  std::map<std::uint16_t, volume::SegmentCodes> all;
   for (const std::size_t s : segmentNumbers(header))
   {
     const std::string* tags = header.key(prefixOf(s) + "Tags");
-    if (!tags || layerOf(header, s) != static_cast<std::int64_t>(layer) ||
-        labelValueOf(header, s) != index)
+    const std::int64_t index = labelValueOf(header, s);
+    if (!tags || layerOf(header, s) != static_cast<std::int64_t>(layer) || index < 1 ||
+        index > 65535)
       continue;
+    volume::SegmentCodes codes;
     for (const std::string_view tag : partsOf(*tags, '|'))
     {
       if (tag.substr(0, kEntry.size()) != kEntry)
@@ -204,9 +206,10 @@ volume::SegmentCodes codesOfSegment(const NrrdHeader& header, std::size_t layer,
       codes.region = part(5);
       codes.regionModifier = part(6);
     }
-    break;
+    if (!codes.empty())
+      all.emplace(static_cast<std::uint16_t>(index), std::move(codes));
   }
-  return codes;
+  return all;
 }
 
 bool hasSegments(const NrrdHeader& header)
@@ -218,8 +221,8 @@ std::string UniqueNames::take(const std::string& wanted, std::vector<std::string
 {
   std::string name = wanted;
   const auto isStated = [&] { return name != wanted && m_stated.count(name) > 0; };
-  for (int n = 2; isStated() || !m_taken.insert(name).second; ++n)
-    name = wanted + " " + std::to_string(n);
+  for (int& n = m_next[wanted]; isStated() || !m_taken.insert(name).second;)
+    name = wanted + " " + std::to_string(n = std::max(n + 1, 2));
   if (name != wanted)
     notes.push_back("several structures are called '" + wanted + "'; one of them was named '" +
                     name + "'");

@@ -30,6 +30,7 @@ public:
 
 private:
   std::set<std::string> m_taken, m_stated;
+  std::map<std::string, int> m_next; ///< the last number given to a name
 };
 
 /// Whether the header is that of a .seg.nrrd: it describes a segment.
@@ -41,10 +42,10 @@ bool hasSegments(const NrrdHeader& header);
 std::vector<volume::Segment> segmentsOfLayer(const std::filesystem::path& path,
                                              const NrrdHeader& header, std::size_t layer);
 
-/// The codes of the segment of a layer with this label value: 3D Slicer's TerminologyEntry, a tag
-/// of SegmentN_Tags.
-volume::SegmentCodes codesOfSegment(const NrrdHeader& header, std::size_t layer,
-                                    std::uint16_t index);
+/// The codes of the segments of a layer that have some, by label value: 3D Slicer's
+/// TerminologyEntry, a tag of SegmentN_Tags.
+std::map<std::uint16_t, volume::SegmentCodes> codesOfLayer(const NrrdHeader& header,
+                                                           std::size_t layer);
 
 /// Names of the segments that lie in none of the first `layers` layers.
 std::vector<std::string> segmentsWithoutLayer(const NrrdHeader& header, std::size_t layers);

@@ -84,7 +84,8 @@ const std::string* NrrdHeader::field(const std::string& name) const
 
 const std::string* NrrdHeader::key(const std::string& name) const
 {
-  return find(keys, name);
+  const auto at = byName.find(name);
+  return at == byName.end() ? nullptr : &keys[at->second].second;
 }
 
 NrrdHeader readNrrdHeader(const std::filesystem::path& path)
@@ -132,6 +133,7 @@ NrrdHeader readNrrdHeader(const std::filesystem::path& path)
     if (pair)
     {
       header.keys.emplace_back(line.substr(0, colon), unescaped(line.substr(colon + 2)));
+      header.byName.emplace(header.keys.back().first, header.keys.size() - 1); // the first of equals
       continue;
     }
     if (colon == line.npos)

@@ -974,7 +974,14 @@ TEST_F(CommandLine, StrictScanTakesASegmentationForWhatItIs)
   std::map<std::string, std::string> kinds;
   const auto found = nlohmann::json::parse(strict.out);
   for (const auto& series : found["series"])
+  {
     kinds[series["modality"]] = series["kind"];
+    if (series["kind"] == "segmentation") // of which nothing is judged
+    {
+      EXPECT_TRUE(series["verdict"].is_null());
+      EXPECT_TRUE(series["findings"].empty());
+    }
+  }
   EXPECT_EQ(kinds["CT"], "image");
   EXPECT_EQ(kinds["SEG"], "segmentation");
 }

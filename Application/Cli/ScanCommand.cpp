@@ -39,9 +39,14 @@ json volumeJson(const imaging::DicomSeries& series)
              {"spacing_mm", nullptr},
              {"origin_mm", nullptr},
              {"direction", nullptr},
-             {"verdict", imaging::verdictName(geometry.verdict)},
-             {"findings", findingsJson(geometry.findings)},
+             {"verdict", nullptr},
+             {"findings", json::array()},
              {"notes", geometry.notes}};
+  if (series.kind == imaging::SeriesKind::Image) // else nothing is judged
+  {
+    entry["verdict"] = imaging::verdictName(geometry.verdict);
+    entry["findings"] = findingsJson(geometry.findings);
+  }
   if (geometry.grid)
     entry.update(gridJson(*geometry.grid));
   return entry;

@@ -225,6 +225,35 @@ TEST_F(SourceContent, OffersTheStructureSetsOfAFolder)
   ASSERT_NE(set, found.series.end());
   EXPECT_EQ(set->content, Content::Labels);
   EXPECT_EQ(set->file.filename(), "set.dcm");
+
+  // A DICOMDIR stands for its folder.
+  std::string index(128, '\0');
+  index += "DICM" + std::string("\x02\0\x02\0UI\x14\0", 8) + "1.2.840.10008.1.3.10" +
+           std::string("\x02\0\x10\0UI\x14\0", 8) + std::string("1.2.840.10008.1.2.1\0", 20) +
+           std::string("\x04\0\x20\x12SQ\0\0\0\0\0\0", 12);
+  std::ofstream(m_folder / "ct" / "DICOMDIR", std::ios::binary) << index;
+  const auto disc = presenters::lookAt(m_folder / "ct" / "DICOMDIR", {});
+  ASSERT_EQ(disc.series.size(), found.series.size());
+  EXPECT_TRUE(std::any_of(disc.series.begin(), disc.series.end(),
+                          [](const auto& one) { return one.file.filename() == "set.dcm"; }));
+}
+
+TEST_F(SourceContent, MasksAreTakenForWhatTheyAreAlsoAboveDicom)
+{
+  phantom::SampleOptions options;
+  options.spacing = 1.5;
+  phantom::writeSamplePatient(m_folder, options);
+  auto voxels = volume::makeZeroVolume<std::uint16_t>(kGrid);
+  voxels->at(3, 4, 5) = 1;
+  std::filesystem::create_directories(m_folder / "study");
+  std::filesystem::rename(m_folder / "ct", m_folder / "study" / "ct");
+  imaging::writeLabelFile(m_folder / "study" / "incus.nii.gz", volume::makeLabelMap(voxels, {}));
+  EXPECT_EQ(presenters::lookAt(m_folder / "study", {}).content, Content::Ct);
+  const auto masks = presenters::lookAt(m_folder / "study", {}, Content::Labels);
+  EXPECT_EQ(masks.content, Content::Labels);
+  EXPECT_EQ(masks.structures, std::vector<std::string>{"incus"});
+  EXPECT_EQ(presenters::lookAt(m_folder / "study" / "ct", {}, Content::Labels).content, Content::Ct)
+      << "there are none";
 }
 
 TEST(SequenceName, KeepsOnlyWhatNamesASequence)

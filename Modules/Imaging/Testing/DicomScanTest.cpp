@@ -1,6 +1,7 @@
 #include "petrous/Imaging/DicomScan.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <map>
@@ -1394,6 +1395,25 @@ TEST(DicomScan, StopsWhenCancelled)
   const auto token = std::make_shared<core::CancelToken>();
   const core::Progress progress([&](double, const std::string&) { token->cancel(); }, token);
   EXPECT_THROW(scanDicom(folder.path(), progress), core::CancelledError);
+}
+
+TEST(DicomScan, StopsWhileSlicesAreCompared)
+{
+  const TemporaryFolder folder;
+  writeTwice(folder.path(), 3, [](int, int) { return false; });
+  const auto token = std::make_shared<core::CancelToken>();
+  std::atomic<int> compared{0};
+  const core::Progress progress(
+      [&](double, const std::string& text)
+      {
+        if (text != "comparing slices")
+          return;
+        ++compared;
+        token->cancel();
+      },
+      token);
+  EXPECT_THROW(scanDicom(folder.path(), progress), core::CancelledError);
+  EXPECT_EQ(compared, 1) << "of 24";
 }
 
 TEST(DicomScan, KeepsThePatientOutOfEveryMessage)

@@ -4,7 +4,6 @@
 #include <cctype>
 #include <cmath>
 #include <cstdint>
-#include <set>
 #include <string_view>
 #include <vector>
 
@@ -135,43 +134,27 @@ SeriesContent contentOf(const imaging::DicomSeries& series)
   return result;
 }
 
-// DICOM segmentations and RT structure sets below a folder in which the scan met some: it keeps no
-// file of theirs.
-std::vector<SeriesContent> segmentationsIn(const fs::path& folder, const imaging::ScanResult& scan,
-                                           const core::Progress& progress)
+// The DICOM segmentations and RT structure sets of a scan, each a file.
+std::vector<SeriesContent> segmentationsOf(const imaging::ScanResult& scan)
 {
   std::vector<SeriesContent> found;
-  if (!fs::is_directory(folder) ||
-      std::none_of(scan.series.begin(), scan.series.end(),
-                   [](const imaging::DicomSeries& series)
-                   { return series.modality == "SEG" || series.modality == "RTSTRUCT"; }))
-    return found;
-  std::set<fs::path> slices;
   for (const imaging::DicomSeries& series : scan.series)
-    for (const imaging::SliceHeader& slice : series.geometry.slices)
-      slices.insert(slice.file.lexically_normal());
-  std::error_code error;
-  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
-       at.increment(error))
-  {
-    progress.check("looking for segmentations");
-    std::error_code unreadable;
-    if (!fs::is_regular_file(at->path(), unreadable) ||
-        slices.count(at->path().lexically_normal()) > 0)
-      continue;
-    const bool isSet = imaging::isStructureSet(at->path());
-    if (!isSet && !imaging::isDicomSegmentation(at->path()))
-      continue;
-    SeriesContent segmentation;
-    segmentation.content = Content::Labels;
-    segmentation.modality = isSet ? "RTSTRUCT" : "SEG";
-    segmentation.description = at->path().filename().string();
-    segmentation.folder = at->path().parent_path().filename().string();
-    segmentation.file = at->path();
-    found.push_back(std::move(segmentation));
-  }
+    for (const std::filesystem::path& file : series.structures)
+    {
+      SeriesContent segmentation;
+      segmentation.content = Content::Labels;
+      segmentation.modality = series.modality;
+      segmentation.description = file.filename().string();
+      segmentation.folder = file.parent_path().filename().string();
+      segmentation.file = file;
+      found.push_back(std::move(segmentation));
+    }
   std::sort(found.begin(), found.end(),
             [](const SeriesContent& a, const SeriesContent& b) { return a.file < b.file; });
+  found.erase(std::unique(found.begin(), found.end(),
+                          [](const SeriesContent& a, const SeriesContent& b)
+                          { return a.file == b.file; }), // volumes of one series
+              found.end());
   return found;
 }
 
@@ -203,7 +186,7 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress,
                        scan.series.front().uid);
   const auto readable = std::count_if(scan.series.begin(), scan.series.end(), wanted);
   const auto segmentations =
-      uid.empty() ? segmentationsIn(path, scan, progress) : std::vector<SeriesContent>();
+      uid.empty() ? segmentationsOf(scan) : std::vector<SeriesContent>();
   if (readable == 0 && segmentations.size() == 1)
   {
     result.path = segmentations.front().file;
@@ -217,7 +200,7 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress,
   if (readable > 1 || hasOthers || !segmentations.empty())
   {
     for (const imaging::DicomSeries& series : scan.series)
-      if (!series.geometry.slices.empty())
+      if (!series.geometry.slices.empty() && series.kind == imaging::SeriesKind::Image)
         result.series.push_back(contentOf(series));
     result.series.insert(result.series.end(), segmentations.begin(), segmentations.end());
     return result;
@@ -335,6 +318,9 @@ SourceContent lookAt(const fs::path& path, const core::Progress& progress,
     result.why = "is a DICOM RT structure set";
     return result;
   }
+  if (expected == Content::Labels && fs::is_directory(path))
+    if (auto masks = lookAtMasks(path, progress.part(0.0, 0.5)))
+      return *masks;
   if (!format || format->reads == imaging::kDicom)
     try
     {

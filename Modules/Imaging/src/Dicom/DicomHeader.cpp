@@ -79,6 +79,7 @@ struct Fragment
 /// the file, or if they are empty.
 std::vector<Fragment> fragmentsOf(ByteSource& source, std::uint64_t offset)
 {
+  constexpr std::size_t kMostFragments = 1'000'000; // a hostile file may have empty ones only
   std::vector<Fragment> fragments;
   std::uint64_t bytes = 0;
   std::array<unsigned char, 8> item{};
@@ -90,7 +91,8 @@ std::vector<Fragment> fragmentsOf(ByteSource& source, std::uint64_t offset)
       break;
     const std::uint64_t length =
         item[4] | (item[5] << 8) | (item[6] << 16) | (static_cast<std::uint64_t>(item[7]) << 24);
-    fragments.push_back({offset + item.size(), length});
+    if (fragments.size() < kMostFragments)
+      fragments.push_back({offset + item.size(), length});
     offset += item.size() + length;
     if (offset > source.size())
       return {};

@@ -319,7 +319,8 @@ std::string firstNotEmpty(const std::vector<FileHeader*>& members, std::string F
 }
 
 /// nullopt: that could not be read.
-std::optional<bool> sameBytes(const fs::path& one, const fs::path& other)
+std::optional<bool> sameBytes(const fs::path& one, const fs::path& other,
+                              const core::Progress& progress)
 {
   std::error_code error;
   if (fs::file_size(one, error) != fs::file_size(other, error) || error)
@@ -330,6 +331,7 @@ std::optional<bool> sameBytes(const fs::path& one, const fs::path& other)
   std::vector<char> b(a.size());
   while (first && second)
   {
+    progress.check(kTask);
     first.read(a.data(), static_cast<std::streamsize>(a.size()));
     second.read(b.data(), static_cast<std::streamsize>(b.size()));
     if (first.gcount() != second.gcount() ||
@@ -342,12 +344,13 @@ std::optional<bool> sameBytes(const fs::path& one, const fs::path& other)
 }
 
 /// What comparing files and slices showed, in this scan and in an earlier one of the same files.
-/// Thread-safe.
+/// Throws CancelledError. Thread-safe.
 class Comparisons
 {
 public:
-  explicit Comparisons(KnownComparisons known)
+  Comparisons(KnownComparisons known, const core::Progress& progress)
     : m_known(std::move(known))
+    , m_progress(progress)
   {
   }
 
@@ -356,7 +359,7 @@ public:
   {
     const auto compare = [&]() -> std::optional<std::uint64_t>
     {
-      const auto same = sameBytes(one, other);
+      const auto same = sameBytes(one, other, m_progress);
       return same ? std::optional<std::uint64_t>(*same ? 1 : 0) : std::nullopt;
     };
     return result("bytes\n" + one.native() + "\n" + other.native(), compare).value_or(0) != 0;
@@ -369,7 +372,11 @@ public:
     const auto nameOf = [](const SliceHeader& slice)
     { return slice.file.native() + "\n" + std::to_string(slice.pixels.frame); };
     return *result("pixels\n" + nameOf(one) + "\n" + nameOf(other),
-                   [&] { return std::optional<std::uint64_t>(compare()); });
+                   [&]
+                   {
+                     m_progress.report(1.0, "comparing slices");
+                     return std::optional<std::uint64_t>(compare());
+                   });
   }
 
   const KnownComparisons& all() const noexcept { return m_known; }
@@ -392,6 +399,7 @@ private:
 
   std::mutex m_mutex;
   KnownComparisons m_known;
+  const core::Progress& m_progress;
 };
 
 /// Removes files that are copies of another, byte by byte; their number.
@@ -666,18 +674,23 @@ void compareEnds(std::vector<DicomSeries>& volumes, const Numbering& numbering)
            0.0});
 }
 
-/// The number of pixels in which two slices differ, as rescaled.
-std::uint64_t differingPixels(const SliceHeader& one, const SliceHeader& other)
+/// The number of pixels in which two slices differ, as rescaled. `first`: the decoded ones of
+/// `one`, or empty.
+std::uint64_t differingPixels(const SliceHeader& one, const SliceHeader& other,
+                              std::optional<StoredPixels>& first)
 {
-  StoredPixels first;
+  if (!first)
+  {
+    first.emplace();
+    decodePixels(one, *first);
+  }
   StoredPixels second;
-  decodePixels(one, first);
   decodePixels(other, second);
-  const std::size_t count = std::min(first.size(), second.size());
+  const std::size_t count = std::min(first->size(), second.size());
   std::uint64_t differing = 0;
   for (std::size_t p = 0; p < count; ++p)
     differing +=
-        one.slope * first.at(p) + one.intercept != other.slope * second.at(p) + other.intercept ? 1
+        one.slope * first->at(p) + one.intercept != other.slope * second.at(p) + other.intercept ? 1
                                                                                                 : 0;
   return differing;
 }
@@ -694,15 +707,18 @@ void compareDuplicates(SeriesGeometry& geometry, Comparisons& comparisons)
   const double same = sharedPlace(geometry.grid->spacing()[2]);
   std::uint64_t differing = 0;       // pixels, of the pair that differs most
   const SliceHeader* kept = nullptr; // of a place
+  std::optional<StoredPixels> pixels; // its own
   for (const SliceHeader& slice : geometry.slices)
   {
     if (!kept || normal.dot(*slice.position - *kept->position) > same)
     {
       kept = &slice;
+      pixels.reset();
       continue;
     }
-    differing = std::max(
-        differing, comparisons.pixels(*kept, slice, [&] { return differingPixels(*kept, slice); }));
+    differing =
+        std::max(differing, comparisons.pixels(
+                                *kept, slice, [&] { return differingPixels(*kept, slice, pixels); }));
     if (isMany && differing > 0)
       return; // refused already, and its slices may be thousands
   }
@@ -785,6 +801,10 @@ MadeSeries makeSeries(const std::vector<FileHeader*>& members, const Doubts& dou
   series.description = firstNotEmpty(members, &FileHeader::description);
   series.files = members.size() + doubts.own;
   series.kind = kindOf(members);
+  for (const FileHeader* member : members)
+    if (member->slice.damage.empty() &&
+        (isSegmentationClass(member->sopClass) || isStructureSetClass(member->sopClass)))
+      series.structures.push_back(member->slice.file);
   std::vector<SliceHeader> slices;
   slices.reserve(members.size());
   for (FileHeader* member : members)
@@ -1068,7 +1088,7 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress,
       found ? std::move(found->headers) : readHeaders(list.files, progress);
   // Now, as what follows takes the headers apart.
   const auto keepable = kept && !found ? kept->packed(headers, listed) : std::nullopt;
-  Comparisons comparisons(found ? std::move(found->comparisons) : KnownComparisons());
+  Comparisons comparisons(found ? std::move(found->comparisons) : KnownComparisons(), progress);
   std::move(list.lost.begin(), list.lost.end(), std::back_inserter(headers));
 
   ScanResult result;

@@ -68,6 +68,7 @@ struct SourceContent
 /// by SOP class and modality, a folder without DICOM images by the masks in it, other images by
 /// their voxels (see contentOf), which are read. Throws as the readers do, and CancelledError.
 /// `expected`, Mr or Labels: what the user says of an image file; its voxels then decide nothing.
+/// Labels also says that of a folder with masks and DICOM images the masks are meant.
 SourceContent lookAt(const std::filesystem::path& path, const core::Progress& progress,
                      std::optional<Content> expected = std::nullopt);
 

@@ -385,6 +385,27 @@ TEST(SeriesGeometry, TellsALossFromAPitchByTheInstanceNumbers)
   EXPECT_EQ(assess(lost).verdict, Verdict::Refused);
 }
 
+TEST(SeriesGeometry, WhatIsKnownOfThePixelsIsSaidByTheNotesToo)
+{
+  for (const auto text : {BurnedInText::None, BurnedInText::Suspected, BurnedInText::Stated})
+    for (const bool isLossy : {false, true})
+      for (const double ratio : {0.0, 12.5})
+      {
+        Headers slices = stack(6, 1.0);
+        slices[2].burnedIn = text;
+        slices[4].isLossy = isLossy;
+        if (isLossy && ratio > 0.0)
+          slices[4].lossyRatio = ratio;
+        for (const PixelFaults& faults :
+             {pixelFaults(slices), pixelFaults(assess(slices).notes)}) // older cases have these
+        {
+          EXPECT_EQ(faults.burnedIn, text);
+          EXPECT_EQ(faults.isLossy, isLossy);
+          EXPECT_EQ(faults.lossyRatio.value_or(0.0), isLossy ? ratio : 0.0);
+        }
+      }
+}
+
 TEST(SeriesGeometry, CountsASliceThatCameTwiceOnceAmongThoseThatAllowGuessing)
 {
   Headers slices = stack(29, 1.0);
@@ -677,7 +698,9 @@ TEST(SeriesRepair, SaysWhatItGuessed)
   EXPECT_NE(repair.notes(box).front().find("slice 8 of 30 is missing from the files"),
             std::string::npos)
       << repair.notes(box).front();
+  EXPECT_EQ(repair.interpolated(box), std::vector<int>{7});
   box.lower[2] = 3; // as the stored volume counts them
+  EXPECT_EQ(repair.interpolated(box), std::vector<int>{4});
   EXPECT_NE(repair.notes(box).front().find("slice 5 of 27 is missing"), std::string::npos);
   box.lower[2] = 8;
   EXPECT_TRUE(repair.notes(box).empty());

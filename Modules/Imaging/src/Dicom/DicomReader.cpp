@@ -424,7 +424,8 @@ void requireMemory(const DicomSeries& series, const GridGeometry& grid, const In
 } // namespace
 
 IntensityVolume readSeries(const DicomSeries& series, const ReadOptions& options,
-                           const core::Progress& progress, std::vector<std::string>* notes)
+                           const core::Progress& progress, std::vector<std::string>* notes,
+                           std::vector<int>* interpolated)
 {
   const SeriesGeometry& geometry = series.geometry;
   const bool accepted = geometry.verdict == Verdict::Ok || options.acceptDefects ||
@@ -457,6 +458,8 @@ IntensityVolume readSeries(const DicomSeries& series, const ReadOptions& options
   if (notes)
     for (std::string& note : repair.notes(box))
       notes->push_back(std::move(note));
+  if (interpolated)
+    *interpolated = repair.interpolated(box);
   return repair.resample(stacked, box, progress.part(0.7, 1.0));
 }
 

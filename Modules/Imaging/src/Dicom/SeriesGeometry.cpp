@@ -377,8 +377,7 @@ private:
                                ", as neither the header nor the compressed image says it.");
     if (lossy > 0)
       m_result.notes.push_back(
-          kLossy +
-          (ratio > 0.0 ? kRatio + decimals(ratio, 1) + " of the size" : std::string()) +
+          kLossy + (ratio > 0.0 ? kRatio + decimals(ratio, 1) + " of the size" : std::string()) +
           ", in " + countOf(lossy, m_slices.size()) +
           ": values are not those measured, and thin walls may be blurred; the archive may have "
           "the series without loss.");
@@ -594,11 +593,10 @@ BurnedInText burnedInText(const std::string& annotation, const std::string& moda
   static const char* const kModalities[] = {"SC", "OT",  "US", "ES",  "XC",
                                             "GM", "DOC", "SM", "IVUS"};
   const std::string kSecondary = "1.2.840.10008.5.1.4.1.1.7"; // capture; with a dot, multi-frame
-  const bool isSuspected =
-      std::find(std::begin(kModalities), std::end(kModalities), modality) !=
-          std::end(kModalities) ||
-      sopClass == kSecondary || sopClass.rfind(kSecondary + ".", 0) == 0 ||
-      imageType.find("SCREEN") != std::string::npos || isConverted;
+  const bool isSuspected = std::find(std::begin(kModalities), std::end(kModalities), modality) !=
+                               std::end(kModalities) ||
+                           sopClass == kSecondary || sopClass.rfind(kSecondary + ".", 0) == 0 ||
+                           imageType.find("SCREEN") != std::string::npos || isConverted;
   return isSuspected ? BurnedInText::Suspected : BurnedInText::None;
 }
 
@@ -623,6 +621,19 @@ PixelFaults pixelFaults(const std::vector<std::string>& notes)
     if (note.rfind(begin, 0) == 0)
       faults.lossyRatio =
           core::parseDouble(note.substr(begin.size(), note.find(' ', begin.size()) - begin.size()));
+  }
+  return faults;
+}
+
+PixelFaults pixelFaults(const std::vector<SliceHeader>& slices)
+{
+  PixelFaults faults;
+  for (const SliceHeader& slice : slices)
+  {
+    faults.burnedIn = std::max(faults.burnedIn, slice.burnedIn);
+    faults.isLossy = faults.isLossy || slice.isLossy;
+    if (slice.lossyRatio && *slice.lossyRatio > faults.lossyRatio.value_or(0.0))
+      faults.lossyRatio = slice.lossyRatio;
   }
   return faults;
 }

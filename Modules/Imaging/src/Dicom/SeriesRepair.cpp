@@ -187,6 +187,15 @@ std::vector<std::string> SeriesRepair::notes(const core::IndexBox& box) const
   return notes;
 }
 
+std::vector<int> SeriesRepair::interpolated(const core::IndexBox& box) const
+{
+  std::vector<int> slices;
+  for (int m = box.lower[2]; m < box.upper[2]; ++m)
+    if (const Blend blend = blendAt(m); blend.a != blend.b)
+      slices.push_back(m - box.lower[2]);
+  return slices;
+}
+
 SeriesRepair::Blend SeriesRepair::blendAt(int m) const
 {
   const double place = m * m_grid.spacing()[2];
@@ -210,22 +219,21 @@ SeriesRepair::Blend SeriesRepair::blendAt(int m) const
 std::string SeriesRepair::blendNote(const core::IndexBox& box) const
 {
   std::vector<std::pair<int, int>> ranges; // first and last, numbered from 1
-  int guessed = 0;
   double farthest = 0.0;
-  for (int m = box.lower[2]; m < box.upper[2]; ++m)
+  const std::vector<int> slices = interpolated(box);
+  for (const int slice : slices)
   {
+    const int m = box.lower[2] + slice;
     const Blend blend = blendAt(m);
-    if (blend.a == blend.b)
-      continue;
     const double place = m * m_grid.spacing()[2];
     farthest = std::max(farthest, std::min(place - blend.a->place, blend.b->place - place));
-    ++guessed;
-    const int number = m - box.lower[2] + 1;
+    const int number = slice + 1;
     if (!ranges.empty() && ranges.back().second + 1 == number)
       ranges.back().second = number;
     else
       ranges.emplace_back(number, number);
   }
+  const std::size_t guessed = slices.size();
   if (guessed == 0)
     return {};
   const bool isMany = ranges.size() > kNamed;

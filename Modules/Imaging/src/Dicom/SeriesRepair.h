@@ -30,6 +30,9 @@ public:
   volume::IntensityVolume resample(const volume::IntensityVolume& stacked,
                                    const core::IndexBox& box, const core::Progress& progress) const;
 
+  /// The slices of `box`, from its first on, that are interpolated between neighbours.
+  std::vector<int> interpolated(const core::IndexBox& box) const;
+
   /// What was changed and guessed, one sentence each. Slices are numbered from 1, as in `box`.
   std::vector<std::string> notes(const core::IndexBox& box) const;
 

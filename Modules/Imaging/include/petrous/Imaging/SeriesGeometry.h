@@ -77,14 +77,15 @@ BurnedInText burnedInText(const std::string& annotation, const std::string& moda
 /// Whether this is the note of a series that text may be in its pixels, stated or suspected.
 bool isNoteOfText(const std::string& note);
 
-/// What the notes of a series say of its pixels, wherever they go: they stay with the image in the
-/// case, of every version of the program.
+/// What is known of the pixels of an image and goes with them.
 struct PixelFaults
 {
   BurnedInText burnedIn = BurnedInText::None;
   bool isLossy = false;
   std::optional<double> lossyRatio; ///< if stated
 };
+
+/// By the notes of its series, as older cases keep them.
 PixelFaults pixelFaults(const std::vector<std::string>& notes);
 
 /// Header of one slice. Absent or malformed numbers are nullopt.
@@ -104,7 +105,7 @@ struct SliceHeader
   bool hasRescale = false;
   std::string rescaleType; ///< (0028,1054) unit of the rescaled values, e.g. HU; empty: not stated
   bool isLossy = false;    ///< the pixels were compressed with loss, once
-  bool isLossUnknown = false; ///< the compressed pixels do not say whether they were
+  bool isLossUnknown = false;       ///< the compressed pixels do not say whether they were
   std::optional<double> lossyRatio; ///< of that compression, if stated
   BurnedInText burnedIn = BurnedInText::None;
   std::optional<double> declaredSpacing;   ///< SpacingBetweenSlices, mm; noted, never used
@@ -134,6 +135,8 @@ struct SliceHeader
   PixelFormat pixels;
   std::string damage; ///< empty, or why the file cannot be read ("is cut short")
 };
+
+PixelFaults pixelFaults(const std::vector<SliceHeader>& slices);
 
 /// Possible defects of a series; kindName gives the names used in the command's JSON.
 enum class FindingKind

@@ -216,18 +216,20 @@ TEST(ProposedRegion, BeginsWhereTheMeanOfABallIsLargest)
     std::uniform_int_distribution<int> noise(0, 90);
     std::bernoulli_distribution isPadding(0.05);
     auto voxels = std::make_shared<volume::Volume<std::int16_t>>(grid);
-    const Vector3d lesion = grid.patientFromVoxel(
-        Vector3d(8.0 + seed, 12.0, 5.0 + 4.0 * seed));
+    const Vector3d lesion = grid.patientFromVoxel(Vector3d(8.0 + seed, 12.0, 5.0 + 4.0 * seed));
     for (int k = 0; k < 22; ++k)
       for (int j = 0; j < 26; ++j)
         for (int i = 0; i < 30; ++i)
         {
           const double away = (grid.patientFromVoxel(Vector3d(i, j, k)) - lesion).norm();
-          voxels->at(i, j, k) = static_cast<std::int16_t>(
-              isPadding(random) ? kPadding : (away < 2.5 ? 900 : away < 6.0 ? 300 : 20) + noise(random));
+          voxels->at(i, j, k) = static_cast<std::int16_t>(isPadding(random) ? kPadding
+                                                                            : (away < 2.5   ? 900
+                                                                               : away < 6.0 ? 300
+                                                                                            : 20) +
+                                                                                  noise(random));
         }
-    const volume::IntensityVolume mr(
-        std::shared_ptr<const volume::Volume<std::int16_t>>(voxels), double{kPadding});
+    const volume::IntensityVolume mr(std::shared_ptr<const volume::Volume<std::int16_t>>(voxels),
+                                     double{kPadding});
     const auto region = proposedRegion(mr);
     ASSERT_TRUE(region);
     double largest = 0.0;

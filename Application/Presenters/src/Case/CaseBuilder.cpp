@@ -194,10 +194,13 @@ std::string codeText(const std::string& text)
 // A unit of a file, which may stand in a note if it is one.
 std::string unitText(const std::string& unit)
 {
-  static const char* const kUcum[] = {
-      "1",    "%",     "ms",      "s",         "/s",    "1/s",   "/min",        "mm2/s",
-      "um2/s", "ml/g", "g/ml",    "mg/ml",     "Bq/ml", "kPa",   "10-6.mm2/s",  "10*-6.mm2/s",
-      "ml/min/ml",     "ml/100ml/min",         "ug/ml", "ml/ml", "ml/(100.ml.min)"};
+  static const char* const kUcum[] = {"1",           "%",         "ms",
+                                      "s",           "/s",        "1/s",
+                                      "/min",        "mm2/s",     "um2/s",
+                                      "ml/g",        "g/ml",      "mg/ml",
+                                      "Bq/ml",       "kPa",       "10-6.mm2/s",
+                                      "10*-6.mm2/s", "ml/min/ml", "ml/100ml/min",
+                                      "ug/ml",       "ml/ml",     "ml/(100.ml.min)"};
   return std::find(std::begin(kUcum), std::end(kUcum), unit) != std::end(kUcum) ? unit
                                                                                 : codeText(unit);
 }
@@ -708,9 +711,8 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
       naming = {source.labelNames, true};
     const auto gridOf = [](const scene::ImagePart& image)
     {
-      return imaging::ImageGrid(
-          image.geometry,
-          std::any_of(image.notes.begin(), image.notes.end(), imaging::isNoteOfSide));
+      return imaging::ImageGrid(image.geometry, std::any_of(image.notes.begin(), image.notes.end(),
+                                                            imaging::isNoteOfSide));
     };
     std::vector<imaging::ImageGrid> images{gridOf(value.ct)};
     for (const scene::ImagePart& mr : value.mr)

@@ -141,9 +141,8 @@ private:
     const fs::path folder = freshFolder();
     try
     {
-      if (const auto error =
-              writeCaseSeries(folder, m_value, what, part, *volume, drawnOn, false, m_options,
-                              progress);
+      if (const auto error = writeCaseSeries(folder, m_value, what, part, *volume, drawnOn, false,
+                                             m_options, progress);
           error && *error > 0.0)
         m_notes.push_back(roundingNote("'" + part.name + "'", *error));
     }

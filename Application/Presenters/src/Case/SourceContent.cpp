@@ -185,8 +185,7 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress,
     return lookAtDicom(fs::absolute(path).parent_path(), progress.part(0.1, 1.0),
                        scan.series.front().uid);
   const auto readable = std::count_if(scan.series.begin(), scan.series.end(), wanted);
-  const auto segmentations =
-      uid.empty() ? segmentationsOf(scan) : std::vector<SeriesContent>();
+  const auto segmentations = uid.empty() ? segmentationsOf(scan) : std::vector<SeriesContent>();
   if (readable == 0 && segmentations.size() == 1)
   {
     result.path = segmentations.front().file;

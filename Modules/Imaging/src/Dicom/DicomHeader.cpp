@@ -10,6 +10,7 @@
 #include "Codestream.h"
 #include "DicomElements.h"
 #include "DicomItem.h"
+#include "PixelCodec.h"
 #include "SegmentationReader.h"
 #include "petrous/Core/NumberText.h"
 
@@ -68,19 +69,9 @@ bool isNative(const std::string& syntax)
   return syntax == kImplicit || syntax == kExplicit || syntax == kBigEndian || syntax == kDeflated;
 }
 
-/// An item of an encapsulated element.
-struct Fragment
+/// Walks the items of an encapsulated element; false if one extends beyond the end of the file.
+bool fragmentsComplete(ByteSource& source, std::uint64_t offset)
 {
-  std::uint64_t offset = 0; ///< of its value, in the file
-  std::uint64_t length = 0;
-};
-
-/// The items, of which the first is the basic offset table; none if one extends beyond the end of
-/// the file, or if they are empty.
-std::vector<Fragment> fragmentsOf(ByteSource& source, std::uint64_t offset)
-{
-  constexpr std::size_t kMostFragments = 1'000'000; // a hostile file may have empty ones only
-  std::vector<Fragment> fragments;
   std::uint64_t bytes = 0;
   std::array<unsigned char, 8> item{};
   while (source.read(offset, item.data(), item.size()))
@@ -91,21 +82,19 @@ std::vector<Fragment> fragmentsOf(ByteSource& source, std::uint64_t offset)
       break;
     const std::uint64_t length =
         item[4] | (item[5] << 8) | (item[6] << 16) | (static_cast<std::uint64_t>(item[7]) << 24);
-    if (fragments.size() < kMostFragments)
-      fragments.push_back({offset + item.size(), length});
     offset += item.size() + length;
     if (offset > source.size())
-      return {};
+      return false;
     bytes += length;
   }
-  return bytes > 0 ? fragments : std::vector<Fragment>(); // some writers omit the delimiter
+  return bytes > 0; // some writers omit the sequence delimiter
 }
 
 /// Whether compressed frames say that they were made with loss, the header of each followed as far
 /// as it goes: true if any does; nullopt if one of the others does not say.
-std::optional<bool> isLossy(ByteSource& source, const std::vector<Fragment>& fragments,
-                            const PixelFormat& pixels, int frames)
+std::optional<bool> isLossy(ByteSource& source, const SliceHeader& slice)
 {
+  const std::vector<Fragment> fragments = readFragments(source, slice);
   const auto byteAt = [&source](std::uint64_t at) -> std::optional<std::uint32_t>
   {
     unsigned char byte = 0;
@@ -115,15 +104,15 @@ std::optional<bool> isLossy(ByteSource& source, const std::vector<Fragment>& fra
   {
     const auto first = byteAt(fragment.offset);
     const auto second = byteAt(fragment.offset + 1);
-    return (first == 0xffU && (second == 0xd8U || second == 0x4fU)) ||
-           (first == 0U && second == 0U);
+    const bool isJp2 = first == 0U && second == 0U && byteAt(fragment.offset + 3) == 12U;
+    return (first == 0xffU && (second == 0xd8U || second == 0x4fU)) || isJp2;
   };
   bool isKnown = true;
   bool isAny = false;
   for (std::size_t from = 1; from < fragments.size() && !isAny;)
   {
     std::size_t to = from + 1;
-    while (to < fragments.size() && (frames == 1 || !begins(fragments[to])))
+    while (to < fragments.size() && (slice.frames == 1 || !begins(fragments[to])))
       ++to;
     const auto number = [&](std::uint64_t at, std::size_t bytes) -> std::optional<std::uint32_t>
     {
@@ -141,7 +130,7 @@ std::optional<bool> isLossy(ByteSource& source, const std::vector<Fragment>& fra
       }
       return value;
     };
-    const auto frame = isLossyCodestream(number, pixels.transferSyntax);
+    const auto frame = isLossyCodestream(number, slice.pixels.transferSyntax);
     isKnown = isKnown && frame;
     isAny = isAny || frame.value_or(false);
     from = to;
@@ -354,14 +343,13 @@ const char* checkPixels(ByteSource& source, const DicomElements::Pixels& found, 
     return ""; // excluded for that reason, which is the better one to report
   if (pixels.isEncapsulated)
   {
-    const std::vector<Fragment> fragments = fragmentsOf(source, pixels.offset);
-    if (fragments.empty())
+    if (!fragmentsComplete(source, pixels.offset))
       return kCutShort;
     // These may have loss or not, whatever the header says.
     if (pixels.transferSyntax == "1.2.840.10008.1.2.4.81" ||
         pixels.transferSyntax == "1.2.840.10008.1.2.4.91")
     {
-      const auto loss = isLossy(source, fragments, pixels, slice.frames);
+      const auto loss = isLossy(source, slice);
       slice.isLossUnknown = !slice.isLossy && !loss;
       slice.isLossy = slice.isLossy || loss.value_or(false);
     }

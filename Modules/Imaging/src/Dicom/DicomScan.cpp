@@ -690,8 +690,9 @@ std::uint64_t differingPixels(const SliceHeader& one, const SliceHeader& other,
   std::uint64_t differing = 0;
   for (std::size_t p = 0; p < count; ++p)
     differing +=
-        one.slope * first->at(p) + one.intercept != other.slope * second.at(p) + other.intercept ? 1
-                                                                                                : 0;
+        one.slope * first->at(p) + one.intercept != other.slope * second.at(p) + other.intercept
+            ? 1
+            : 0;
   return differing;
 }
 
@@ -705,8 +706,8 @@ void compareDuplicates(SeriesGeometry& geometry, Comparisons& comparisons)
     return;
   const Eigen::Vector3d normal = geometry.grid->direction().col(2);
   const double same = sharedPlace(geometry.grid->spacing()[2]);
-  std::uint64_t differing = 0;       // pixels, of the pair that differs most
-  const SliceHeader* kept = nullptr; // of a place
+  std::uint64_t differing = 0;        // pixels, of the pair that differs most
+  const SliceHeader* kept = nullptr;  // of a place
   std::optional<StoredPixels> pixels; // its own
   for (const SliceHeader& slice : geometry.slices)
   {
@@ -716,9 +717,9 @@ void compareDuplicates(SeriesGeometry& geometry, Comparisons& comparisons)
       pixels.reset();
       continue;
     }
-    differing =
-        std::max(differing, comparisons.pixels(
-                                *kept, slice, [&] { return differingPixels(*kept, slice, pixels); }));
+    differing = std::max(
+        differing,
+        comparisons.pixels(*kept, slice, [&] { return differingPixels(*kept, slice, pixels); }));
     if (isMany && differing > 0)
       return; // refused already, and its slices may be thousands
   }
@@ -935,8 +936,8 @@ Lost lostOf(const fs::path& index, const std::set<std::string>& names)
   const auto offsetOf = [&](const DicomItem& record)
   {
     constexpr std::uint64_t kHead = 8; // bytes: tag and length of an item
-    return elements.dataStart() +
-           static_cast<std::uint64_t>(record.bytes().data() - bytes.data()) - kHead;
+    return elements.dataStart() + static_cast<std::uint64_t>(record.bytes().data() - bytes.data()) -
+           kHead;
   };
   const std::vector<std::string> series = seriesOfRecords(records, offsetOf);
   for (std::size_t n = 0; n < records.size(); ++n)

@@ -98,10 +98,10 @@ gdcm::DataSet commonPart(const SeriesDescription& series, const core::GridGeomet
   return d;
 }
 
-/// What stands for `value` in a file, from `least` to `most`.
-double storedOf(double value, double slope, double intercept, double least, double most)
+/// What stands for `value` in a file.
+double storedOf(double value, double slope, double intercept)
 {
-  return std::clamp(std::round((value - intercept) / slope), least, most);
+  return std::round((value - intercept) / slope);
 }
 
 constexpr double kMostStored = 65535.0; // of float voxels
@@ -114,7 +114,7 @@ void requireKept(const volume::Volume<float>& image, double slope, double interc
   for (std::size_t v = 0; v < image.size(); ++v)
   {
     const double value = static_cast<double>(values[v]);
-    const double stored = storedOf(value, slope, intercept, 0.0, kMostStored);
+    const double stored = std::clamp(storedOf(value, slope, intercept), 0.0, kMostStored);
     if (!(std::abs(slope * stored + intercept - value) <=
           most + 1e-9 * std::max(std::abs(value), std::abs(intercept))))
       throw core::InvalidParameter(
@@ -137,9 +137,10 @@ std::vector<char> storedValues(const volume::Volume<T>& image, int k, double slo
   std::vector<char> bytes(2 * count);
   for (std::size_t i = 0; i < count; ++i)
   {
-    const auto bits = static_cast<std::uint16_t>(static_cast<S>(
-        storedOf(static_cast<double>(values[i]), slope, intercept,
-                 std::numeric_limits<S>::lowest(), std::numeric_limits<S>::max())));
+    const double stored = storedOf(static_cast<double>(values[i]), slope, intercept);
+    const auto bits = static_cast<std::uint16_t>(
+        static_cast<S>(std::clamp(stored, static_cast<double>(std::numeric_limits<S>::lowest()),
+                                  static_cast<double>(std::numeric_limits<S>::max()))));
     bytes[2 * i] = static_cast<char>(bits & 0xFF);
     bytes[2 * i + 1] = static_cast<char>(bits >> 8);
   }
@@ -204,7 +205,8 @@ std::optional<StoredFractions> storedFractions(const volume::Volume<float>& imag
   for (const float* v = begin; v != end; ++v)
   {
     const double value = static_cast<double>(*v);
-    const double stored = storedOf(value, result.slope, result.intercept, 0.0, kMostStored);
+    const double stored =
+        std::clamp(storedOf(value, result.slope, result.intercept), 0.0, kMostStored);
     result.error =
         std::max(result.error, std::abs(result.slope * stored + result.intercept - value));
   }
@@ -258,7 +260,8 @@ void writeDicomSeries(const std::filesystem::path& folder, const volume::Intensi
           const auto isPadding = [&image](T value)
           { return static_cast<double>(value) == *image.padding(); };
           const auto padding =
-              image.padding() && std::any_of(voxels.data(), voxels.data() + voxels.size(), isPadding)
+              image.padding() &&
+                      std::any_of(voxels.data(), voxels.data() + voxels.size(), isPadding)
                   ? image.padding()
                   : std::nullopt;
           std::atomic<int> done{0};
@@ -270,12 +273,18 @@ void writeDicomSeries(const std::filesystem::path& folder, const volume::Intensi
             gdcm::DataSet& data = writer.GetFile().GetDataSet();
             // GDCM's reference counts are not thread-safe, so slices share no values
             data = commonPart(description, grid, std::is_signed_v<S>, ct || isFloat);
-            if (padding) // a voxel has it, so it fits
-              put(data, 0x0028, 0x0120,
-                  static_cast<std::uint16_t>(static_cast<S>(storedOf(
-                      *padding, description.rescaleSlope, description.rescaleIntercept,
-                      std::numeric_limits<S>::lowest(), std::numeric_limits<S>::max()))),
+            if (padding)
+            {
+              const double stored =
+                  storedOf(*padding, description.rescaleSlope, description.rescaleIntercept);
+              if (!(stored >= static_cast<double>(std::numeric_limits<S>::lowest()) &&
+                    stored <= static_cast<double>(std::numeric_limits<S>::max())))
+                throw core::InvalidParameter(
+                    "DICOM series: the padding value " + core::generalText(*padding) +
+                    " does not fit its 16 bits with this rescale; choose another");
+              put(data, 0x0028, 0x0120, static_cast<std::uint16_t>(static_cast<S>(stored)),
                   std::is_signed_v<S> ? "SS" : "US");
+            }
             if (ct && sliceStep)
             {
               const double lean =

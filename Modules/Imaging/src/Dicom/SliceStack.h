@@ -54,9 +54,9 @@ private:
   /// Whether the instance numbers go on across gap k as they do within the stack, so that no slice
   /// was lost in it. Empty: they tell nothing.
   std::vector<bool> m_goesOn;
-  double m_spacing = 0.0;       ///< mm
-  double m_step = 0.0;          ///< unit of the last decimal of the positions, mm
-  std::string m_loss;           ///< why its gaps are not interpolated; a sentence, or empty
+  double m_spacing = 0.0; ///< mm
+  double m_step = 0.0;    ///< unit of the last decimal of the positions, mm
+  std::string m_loss;     ///< why its gaps are not interpolated; a sentence, or empty
 };
 
 } // namespace petrous::imaging

@@ -194,17 +194,17 @@ ImagePreview previewImageFile(const std::filesystem::path& path, std::size_t sli
            (voxelBytes + sizeof(float)); // as read, and at most as converted
   };
   const std::uint64_t free = memory > 0 ? memory : core::systemMemory().available;
-  int plane = 1;
-  while (free > 0 && needed() > free && std::min(whole[0], whole[1]) / (plane + 1) >= 2)
+  int plane = 1; // with a slice in decoding, and what else runs
+  while (needed() > free / 2 && free > 0 && std::min(whole[0], whole[1]) / (plane + 1) >= 2)
   {
     ++plane;
     dims[0] = (whole[0] + plane - 1) / plane;
     dims[1] = (whole[1] + plane - 1) / plane;
   }
   requireMemory(path, needed(), "give a smaller file", free);
-  const core::GridGeometry few(
-      dims, grid.spacing().cwiseProduct(Eigen::Vector3d(plane, plane, step)), grid.origin(),
-      grid.direction());
+  const core::GridGeometry few(dims,
+                               grid.spacing().cwiseProduct(Eigen::Vector3d(plane, plane, step)),
+                               grid.origin(), grid.direction());
   const std::size_t kept =
       static_cast<std::size_t>(dims[0]) * static_cast<std::size_t>(dims[1]) * voxelBytes;
   const auto buffer = std::make_shared<std::vector<char>>(kept * static_cast<std::size_t>(dims[2]));

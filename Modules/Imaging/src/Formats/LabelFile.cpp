@@ -201,8 +201,8 @@ constexpr const char* kTableUnused =
 
 LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
                         const core::Progress& progress, const LabelNaming& naming,
-                        const std::vector<ImageGrid>& images,
-                        const std::optional<bool>& isRas, std::uint64_t memory)
+                        const std::vector<ImageGrid>& images, const std::optional<bool>& isRas,
+                        std::uint64_t memory)
 {
   progress.report(0.0, "reading labels");
   if (isDicomSegmentation(path))
@@ -249,8 +249,8 @@ LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
                        { return toLabels<decltype(type)>(source, path, raw, layer); });
     auto names = named ? segmentsOfLayer(path, *source.nrrd(), layer)
                        : namesFromOutside(path, naming, *labels, loaded);
-    const auto codes =
-        named ? codesOfLayer(*source.nrrd(), layer) : std::map<std::uint16_t, volume::SegmentCodes>();
+    const auto codes = named ? codesOfLayer(*source.nrrd(), layer)
+                             : std::map<std::uint16_t, volume::SegmentCodes>();
     for (const volume::Segment& segment : names)
       unique.reserve(segment.name);
     for (volume::Segment& segment : names)

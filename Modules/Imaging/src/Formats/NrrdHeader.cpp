@@ -133,7 +133,8 @@ NrrdHeader readNrrdHeader(const std::filesystem::path& path)
     if (pair)
     {
       header.keys.emplace_back(line.substr(0, colon), unescaped(line.substr(colon + 2)));
-      header.byName.emplace(header.keys.back().first, header.keys.size() - 1); // the first of equals
+      header.byName.emplace(header.keys.back().first,
+                            header.keys.size() - 1); // the first of equals
       continue;
     }
     if (colon == line.npos)

@@ -26,7 +26,8 @@ struct NrrdHeader
 {
   std::vector<std::pair<std::string, std::string>> fields;
   std::vector<std::pair<std::string, std::string>> keys;
-  std::unordered_map<std::string, std::size_t> byName; ///< the keys: of segments there are thousands
+  std::unordered_map<std::string, std::size_t>
+      byName;                         ///< the keys: of segments there are thousands
   std::vector<std::string> dataFiles; ///< the lines after "data file: LIST"
   std::size_t dataOffset = 0;         ///< first byte after the blank line
 

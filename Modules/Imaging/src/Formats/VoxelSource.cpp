@@ -123,8 +123,7 @@ void VoxelSource::assume(bool isRas)
   m_assumedRas = isRas;
 }
 
-bool VoxelSource::settleSide(const std::optional<bool>& isRas,
-                             const std::vector<ImageGrid>& images)
+bool VoxelSource::settleSide(const std::optional<bool>& isRas, const std::vector<ImageGrid>& images)
 {
   if (!m_assumedRas)
     return true;
@@ -139,17 +138,16 @@ bool VoxelSource::settleSide(const std::optional<bool>& isRas,
     note(", as asked");
     return true;
   }
+  constexpr double kAside = 0.01; // mm, ten times what equal grids may differ by
   const bool first = *m_assumedRas;
   const auto isOfImage = [&](bool side)
   {
     assume(side);
     // From 0, 0, 0 on, which no header has to state, the grid is any image's.
-    const bool tells = m_geometry->origin().head<2>().norm() > 0.0;
+    const bool tells = m_geometry->origin().head<2>().norm() > kAside;
     return std::any_of(images.begin(), images.end(),
-                       [&](const ImageGrid& grid)
-                       {
-                         return (tells || grid.isSideAssumed) &&
-                                core::sameGrid(grid, *m_geometry);
+                       [&](const ImageGrid& grid) {
+                         return (tells || grid.isSideAssumed) && core::sameGrid(grid, *m_geometry);
                        });
   };
   const bool isOther = isOfImage(!first);

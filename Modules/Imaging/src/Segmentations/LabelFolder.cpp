@@ -95,8 +95,8 @@ bool addSlice(const T* values, std::uint64_t count, std::uint64_t first, T& labe
   return true;
 }
 
-void readMask(Mask& mask, const core::Progress& progress,
-              const std::vector<ImageGrid>& images, const std::optional<bool>& isRas)
+void readMask(Mask& mask, const core::Progress& progress, const std::vector<ImageGrid>& images,
+              const std::optional<bool>& isRas)
 {
   VoxelSource source(mask.path);
   mask.isSideOpen = !source.settleSide(isRas, images);
@@ -229,8 +229,7 @@ struct Layer
 } // namespace
 
 LoadedLabels readLabelFolder(const fs::path& folder, const core::Progress& progress,
-                             const std::vector<ImageGrid>& images,
-                             const std::optional<bool>& isRas)
+                             const std::vector<ImageGrid>& images, const std::optional<bool>& isRas)
 {
   progress.report(0.0, "reading labels");
   LoadedLabels loaded;

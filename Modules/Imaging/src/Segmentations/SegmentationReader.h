@@ -31,8 +31,7 @@ bool isStructureSetClass(const std::string& sopClass);
 /// straight into the grid. Segments that overlap lie in several maps. Throws FileError (Unreadable
 /// also if the voxels need more than `memory` bytes, 0: what the machine has left), CancelledError.
 LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Progress& progress,
-                              const std::vector<ImageGrid>& images = {},
-                              std::uint64_t memory = 0);
+                              const std::vector<ImageGrid>& images = {}, std::uint64_t memory = 0);
 
 /// The code in an item of a code sequence (short, long or URN); its texts are in the character set
 /// `characters` (0008,0005).

@@ -195,9 +195,8 @@ std::optional<ProposedRegion> proposedRegion(const volume::IntensityVolume& imag
     std::optional<core::Index3> place;
   };
   const core::IndexBox box = bright.extent.intersected(inner);
-  std::vector<Brightest> bySlice(
-      static_cast<std::size_t>(std::max(box.upper[2] - box.lower[2], 0)),
-      {histogram.range().min, std::nullopt});
+  std::vector<Brightest> bySlice(static_cast<std::size_t>(std::max(box.upper[2] - box.lower[2], 0)),
+                                 {histogram.range().min, std::nullopt});
   std::atomic<int> done{0};
   image.visit(
       [&](const auto& volume)
@@ -227,19 +226,19 @@ std::optional<ProposedRegion> proposedRegion(const volume::IntensityVolume& imag
           }
           return count > 0 ? sum / count : histogram.range().min;
         };
-        tbb::parallel_for(
-            box.lower[2], box.upper[2],
-            [&](int k)
-            {
-              progress.part(0.2, 0.7).report(static_cast<double>(done++) / box.size()[2],
-                                             "looking for the brightest region");
-              Brightest& slice = bySlice[static_cast<std::size_t>(k - box.lower[2])];
-              for (int j = box.lower[1]; j < box.upper[1]; ++j)
-                for (int i = box.lower[0]; i < box.upper[0]; ++i)
-                  if (bright.at({i, j, k}))
-                    if (const double mean = meanAbout({i, j, k}); mean > slice.mean)
-                      slice = {mean, core::Index3{i, j, k}};
-            });
+        tbb::parallel_for(box.lower[2], box.upper[2],
+                          [&](int k)
+                          {
+                            progress.part(0.2, 0.7).report(static_cast<double>(done++) /
+                                                               box.size()[2],
+                                                           "looking for the brightest region");
+                            Brightest& slice = bySlice[static_cast<std::size_t>(k - box.lower[2])];
+                            for (int j = box.lower[1]; j < box.upper[1]; ++j)
+                              for (int i = box.lower[0]; i < box.upper[0]; ++i)
+                                if (bright.at({i, j, k}))
+                                  if (const double mean = meanAbout({i, j, k}); mean > slice.mean)
+                                    slice = {mean, core::Index3{i, j, k}};
+                          });
       });
   double peak = histogram.range().min;
   std::optional<core::Index3> place;

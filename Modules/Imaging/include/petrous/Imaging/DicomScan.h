@@ -61,7 +61,7 @@ struct DicomSeries
   std::string frameOfReferenceUid;
   std::size_t files = 0; ///< all files of the series, including those that are not slices
   std::vector<std::filesystem::path> structures; ///< segmentations and structure sets in it
-  std::size_t lostFiles = 0; ///< that a DICOMDIR lists and that are not there
+  std::size_t lostFiles = 0;                     ///< that a DICOMDIR lists and that are not there
   SeriesGeometry geometry;
 };
 

@@ -97,8 +97,7 @@ bool isDicomSegmentation(const std::filesystem::path& path);
 /// Throws FileError; Unsupported reports a value below 0, above 65535 or not integral, and a folder
 /// without a structure. CancelledError.
 LoadedLabels loadLabels(const std::filesystem::path& path, const core::Progress& progress = {},
-                        const LabelNaming& naming = {},
-                        const std::vector<ImageGrid>& images = {},
+                        const LabelNaming& naming = {}, const std::vector<ImageGrid>& images = {},
                         const std::optional<bool>& isRas = std::nullopt, std::uint64_t memory = 0);
 
 /// Like loadLabels, without the notes, for a file whose structures do not overlap. Throws FileError

@@ -38,9 +38,10 @@ using presenters::MeasurementEditor;
 using scene::Measurement;
 using Tool = MeasurementEditor::Tool;
 
-constexpr double kClick = 4.0; // px, that a click may move
-constexpr double kReach = 8.0; // px, to a handle
-constexpr double kDrag = 6.0;  // px, from which on a drag is one
+constexpr double kClick = 4.0;   // px, that a click may move
+constexpr double kReach = 8.0;   // px, to a handle
+constexpr double kDeepest = 3.0; // mm, of a handle below the surface on which it is dragged
+constexpr double kDrag = 6.0;    // px, from which on a drag is one
 
 struct ToolEntry
 {
@@ -206,6 +207,10 @@ void MeasureController::connectSlices()
             if (!active())
               return;
             m_editor.setImage(m_slices.mrAlone());
+            if (m_slices.slab().thickness > 0.0)
+              emit statusMessage(
+                  tr("The slices are slabs: the point lies in the middle of the slab, whatever "
+                     "depth is seen there"));
             const bool begins = m_editor.tool() == Tool::Distance && m_editor.points().empty();
             set(patient);
             m_pressed = begins ? std::optional<Eigen::Vector3d>(patient) : std::nullopt;
@@ -275,6 +280,7 @@ void MeasureController::partsChanged()
 
 void MeasureController::measurementsChanged()
 {
+  m_editor.measurementsChanged();
   refresh();
   if (!m_editor.dragging())
     emit changed();
@@ -289,6 +295,11 @@ void MeasureController::leaveTool()
 {
   if (active())
     choose(Tool::None);
+}
+
+bool MeasureController::hasPoints() const
+{
+  return !m_editor.points().empty();
 }
 
 bool MeasureController::canUndo() const
@@ -504,6 +515,12 @@ std::optional<std::array<std::size_t, 2>> MeasureController::handleAt(const QPoi
       best = away;
       found = std::array<std::size_t, 2>{n, p};
     }
+  if (!found)
+    return std::nullopt;
+  // Dragging moves it along the surface that is seen: one that lies deep below it stays.
+  const auto surface = m_model.surfaceAt(m_view.sightLine(position));
+  if (!surface || (*surface - all[(*found)[0]].points[(*found)[1]]).norm() > kDeepest)
+    return std::nullopt;
   return found;
 }
 
@@ -578,6 +595,7 @@ bool MeasureController::handleMouse(QMouseEvent& event)
     if (const auto handle = handleAt(event.localPos()))
     {
       m_holdsHandle = true;
+      m_clicked = event.localPos(); // until it is dragged
       m_editor.take((*handle)[0], (*handle)[1]);
       return true;
     }
@@ -588,13 +606,17 @@ bool MeasureController::handleMouse(QMouseEvent& event)
     if (!isLeft || !active())
       return false;
     m_swallowsRelease = true;
-    if (const auto at = surface())
+    // Its first click may have made a measurement: the second one begins no other.
+    if (const auto at = m_editor.points().empty() ? std::nullopt : surface())
       set(*at);
     attempt([this] { m_editor.finish(); });
     return true;
   case QEvent::MouseMove:
     if (m_holdsHandle)
     {
+      if (m_clicked && QLineF(*m_clicked, event.localPos()).length() <= kClick)
+        return true;
+      m_clicked.reset();
       if (const auto at = surface())
         attempt([&] { m_editor.drag(*at); });
       return true;
@@ -615,6 +637,7 @@ bool MeasureController::handleMouse(QMouseEvent& event)
   if (m_holdsHandle)
   {
     m_holdsHandle = false;
+    m_clicked.reset();
     m_editor.release();
     emit changed();
     return true;

@@ -46,6 +46,7 @@ public:
   /// A tool is in use: the left button and undo are its.
   bool active() const;
   void leaveTool();
+  bool hasPoints() const; ///< of what is being measured
   bool canUndo() const;
   bool canRedo() const;
   QString undoText() const;

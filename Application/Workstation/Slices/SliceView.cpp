@@ -83,9 +83,18 @@ void SliceView::setPlane(const scene::ViewState::Slices::Plane& plane)
 void SliceView::setPlanes(const presenters::SlicePlanes& planes)
 {
   const presenters::SliceAxes before = axes();
+  const bool keeps = m_presenter && m_zoom > 1.0;
+  const Eigen::Vector2d crosshair =
+      keeps ? slice().pixelFromPatient(m_crosshair) : Eigen::Vector2d::Zero();
   m_planes = planes;
   if (before.right != axes().right || before.down != axes().down)
+  {
+    // An offset of the former plane has a part across this one.
+    m_offset -= axes().next.dot(m_offset) * axes().next;
+    if (keeps)
+      putCrosshairAt(crosshair);
     stale();
+  }
   update(); // the others' lines
 }
 
@@ -301,10 +310,12 @@ void SliceView::draw()
 
 presenters::SliceGeometry SliceView::slice() const
 {
+  // One that was saved with other axes must not leave the crosshair's plane.
+  const Eigen::Vector3d offset = m_offset - axes().next.dot(m_offset) * axes().next;
   return presenters::zoomed(presenters::SliceGeometry::fitting(m_orientation, axes(), m_grid,
                                                                m_crosshair, std::max(width(), 1),
                                                                std::max(height(), 1)),
-                            m_zoom, m_offset);
+                            m_zoom, offset);
 }
 
 Eigen::Vector3d SliceView::patientAt(const QPointF& position) const
@@ -524,6 +535,7 @@ void SliceView::mousePressEvent(QMouseEvent* event)
   if (handle && !(event->modifiers() & (Qt::ShiftModifier | Qt::ControlModifier)))
   {
     m_handleDown = true;
+    m_pressed = event->localPos();
     emit handleTaken(handle->measurement, handle->point);
   }
   else if (event->modifiers() & Qt::ControlModifier)
@@ -541,11 +553,13 @@ void SliceView::mousePressEvent(QMouseEvent* event)
 void SliceView::mouseDoubleClickEvent(QMouseEvent* event)
 {
   const bool isTools = m_tool && !(event->modifiers() & Qt::ShiftModifier);
-  if (event->button() == Qt::LeftButton && !isTools)
+  const bool turns = event->modifiers() & Qt::ControlModifier;
+  if (event->button() == Qt::LeftButton && !isTools && !turns)
     return emit enlargeAsked(m_orientation);
+  // A point of a measurement was set by the first click already.
+  if (isTools && !turns && m_tool->measures && event->button() == Qt::LeftButton)
+    return emit toolDoubleClicked();
   mousePressEvent(event);
-  if (m_toolDown)
-    emit toolDoubleClicked();
 }
 
 void SliceView::mouseReleaseEvent(QMouseEvent* event)
@@ -627,7 +641,12 @@ void SliceView::mouseMoveEvent(QMouseEvent* event)
     return;
   }
   if (m_handleDown)
+  {
+    if (m_pressed && (event->localPos() - *m_pressed).manhattanLength() < kClick)
+      return;
+    m_pressed.reset();
     emit handleDragged(patientAt(event->localPos()));
+  }
   else if (m_toolDown)
     emit toolDragged(patientAt(event->localPos()));
   else if (event->buttons() & Qt::LeftButton)
@@ -679,14 +698,19 @@ void SliceView::zoom(double factor)
   emit zoomed();
 }
 
+void SliceView::putCrosshairAt(const Eigen::Vector2d& pixel)
+{
+  const auto picture = slice();
+  const Eigen::Vector2d off = picture.pixelFromPatient(m_crosshair) - pixel;
+  m_offset += picture.mmPerPixel() * (off[0] * axes().right + off[1] * axes().down);
+}
+
 // What is under the crosshair stays there.
 void SliceView::applyZoom(double zoom)
 {
   const Eigen::Vector2d before = slice().pixelFromPatient(m_crosshair);
   m_zoom = std::clamp(zoom, 1.0, kMaxZoom);
-  const auto picture = slice();
-  const Eigen::Vector2d off = picture.pixelFromPatient(m_crosshair) - before;
-  m_offset += picture.mmPerPixel() * (off[0] * axes().right + off[1] * axes().down);
+  putCrosshairAt(before);
   if (m_zoom == 1.0)
     m_offset.setZero();
   stale();

@@ -120,6 +120,7 @@ private:
   Eigen::Vector3d patientAt(const QPointF& position) const;
   void scroll(int slices);
   void zoom(double factor);
+  void putCrosshairAt(const Eigen::Vector2d& pixel);
   void applyZoom(double zoom);
   void stale();
   void recolour(); // of the same samples
@@ -190,6 +191,7 @@ private:
   std::optional<QPointF> m_pointer; // where the tool's ball is drawn
   bool m_toolDown = false;
   bool m_handleDown = false;
+  std::optional<QPointF> m_pressed; // a handle, until it is dragged
   std::vector<DrawnMeasure> m_measures;
 };
 

@@ -527,10 +527,15 @@ void AppearancePanel::chooseColor()
   dialog.setObjectName("colorDialog");
   dialog.setOption(QColorDialog::DontUseNativeDialog);
   connect(&dialog, &QColorDialog::currentColorChanged, this, &AppearancePanel::setColor);
+  // What is tried is one step, and none if nothing is chosen.
+  m_model.edits().hold();
+  const auto last = m_model.edits().last();
+  const auto of = m_model.shownAs();
   if (dialog.exec() == QDialog::Accepted)
     setColor(dialog.selectedColor());
-  else if (toColor(m_editor.color()) != before)
-    setColor(before);
+  else if (const auto tried = m_model.edits().last(); tried != last && m_model.shownAs() == of)
+    m_model.takeBack(tried);
+  m_model.edits().release();
 }
 
 void AppearancePanel::setColor(const QColor& color)

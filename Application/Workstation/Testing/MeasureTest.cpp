@@ -160,7 +160,11 @@ TEST_F(MeasureWindow, UndoAndRedoAreTheToolsWhileItIsInUse)
   ASSERT_EQ(all().size(), 1U);
   EXPECT_EQ(saved().size(), 1U);
   QTest::keyClick(&axial(), Qt::Key_Escape);
-  EXPECT_EQ(action("Undo")->isEnabled(), false) << "nothing was drilled";
+  EXPECT_TRUE(action("Undo")->isEnabled()) << "whatever tool is in use";
+  action("Undo")->trigger();
+  EXPECT_TRUE(all().empty());
+  action("Redo")->trigger();
+  EXPECT_EQ(all().size(), 1U);
 }
 
 TEST_F(MeasureWindow, AnAngleAndAPolygonInASlice)

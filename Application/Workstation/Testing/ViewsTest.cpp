@@ -165,6 +165,29 @@ TEST_F(Views, PetrousPlanesAreAtHalfARightAngleToTheSide)
   EXPECT_EQ(coronal().slice().axes().next, Eigen::Vector3d(0, 1, 0));
 }
 
+// What is seen is the plane through the crosshair, and the crosshair stays where it was.
+TEST_F(Views, AZoomedSliceThatIsTurnedShowsThePlaneOfTheCrosshair)
+{
+  auto& model = const_cast<presenters::WorkstationModel&>(window().model());
+  model.setCrosshair(model.crosshair() + Eigen::Vector3d(6, 5, -4));
+  for (SliceView* slice : {&axial(), &coronal(), &sagittal()})
+    for (int n = 0; n < 6; ++n)
+      QTest::keyClick(slice, Qt::Key_Plus);
+  const Eigen::Vector3d crosshair = model.crosshair();
+  const Eigen::Vector2d before = coronal().slice().pixelFromPatient(crosshair);
+  for (const int planes : {Qt::Key_7, Qt::Key_6})
+  {
+    key(planes, Qt::ControlModifier);
+    for (SliceView* one : {&axial(), &coronal(), &sagittal()})
+    {
+      const auto slice = one->slice();
+      const Eigen::Vector2d pixel = slice.pixelFromPatient(crosshair);
+      EXPECT_LT((slice.patientFromPixel(pixel[0], pixel[1]) - crosshair).norm(), 1e-6) << planes;
+    }
+    EXPECT_LT((coronal().slice().pixelFromPatient(crosshair) - before).norm(), 1e-6) << planes;
+  }
+}
+
 TEST_F(Views, ControlDragAndControlKeysTurnPlanes)
 {
   axial().setFocus();

@@ -337,7 +337,7 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event)
 void MainWindow::addPanels()
 {
   const PanelContext context{m_model,    *m_picture,     *m_registration, *m_segment,
-                             *m_library, *m_attachments, *m_measure, *m_sliceControl};
+                             *m_library, *m_attachments, *m_measure,      *m_sliceControl};
   std::map<Qt::DockWidgetArea, QDockWidget*> tabs;
   for (const PanelEntry& entry : panelEntries())
   {
@@ -566,18 +566,12 @@ void MainWindow::connectActions()
   on(m_actions->restore, [this] { m_keeper->restore(); });
   on(m_actions->quit, [this] { close(); });
   on(m_actions->undo,
-     [this]
-     {
-       undoesMeasure()   ? m_measure->undo()
-       : undoesSegment() ? m_segment->undo()
-                         : step(true);
+     [this] {
+       undoesMeasure() ? m_measure->undo() : undoesSegment() ? m_segment->undo() : step(true);
      });
   on(m_actions->redo,
-     [this]
-     {
-       undoesMeasure()   ? m_measure->redo()
-       : redoesSegment() ? m_segment->redo()
-                         : step(false);
+     [this] {
+       undoesMeasure() ? m_measure->redo() : redoesSegment() ? m_segment->redo() : step(false);
      });
   on(m_actions->centerView,
      [this]
@@ -746,9 +740,10 @@ bool MainWindow::undoesSegment() const
   return m_segment->active() && (m_segment->canUndoStep() || m_model.undoesStroke());
 }
 
+// Points that are set; what was measured is undone in the order of all changes.
 bool MainWindow::undoesMeasure() const
 {
-  return m_measure->active();
+  return m_measure->active() && m_measure->hasPoints();
 }
 
 bool MainWindow::redoesSegment() const

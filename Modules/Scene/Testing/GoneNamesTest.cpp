@@ -59,7 +59,22 @@ TEST(GoneNames, AreForgottenWhereverTheyStand)
   value.labels[0].structures[0].look.sourceImage = "T2";
   value.view.slices.emplace();
   value.view.slices->overlay = scene::ViewState::Slices::Overlay{"Doe", "blend", 0.5};
+  for (const char* image : {"Doe", "T2", ""})
+  {
+    scene::Measurement mark;
+    mark.name = std::string("mark on ") + image;
+    mark.points = {Eigen::Vector3d::Zero()};
+    mark.image = image;
+    mark.structure = image == std::string("T2") ? "nerve" : "Doe";
+    value.measurements.push_back(mark);
+  }
   scene::forgetGoneNames(value);
+  EXPECT_NE(value.measurements[0].image, "Doe");
+  EXPECT_NE(value.measurements[0].image, "") << "an empty image is the CT";
+  EXPECT_EQ(value.measurements[0].structure, "");
+  EXPECT_EQ(value.measurements[1].image, "T2");
+  EXPECT_EQ(value.measurements[1].structure, "nerve");
+  EXPECT_EQ(value.measurements[2].image, "");
   const std::vector<std::string> left{kept};
   EXPECT_EQ(value.ct.notes, left);
   EXPECT_EQ(value.mr[0].notes, left);

@@ -13,6 +13,8 @@ namespace
 // What notes quote that is no name: commands.
 constexpr const char* kCommand = "petrous scan";
 
+constexpr const char* kRemovedImage = "removed image";
+
 void removeAll(std::string& text, const std::string& words)
 {
   for (std::size_t at = text.find(words); at != text.npos; at = text.find(words, at))
@@ -93,6 +95,14 @@ void forgetGoneNames(Case& value)
       how.text.clear();
     if (how.error && !quotesOnly(names, how.error->place))
       how.error->place = kUnnamedPlace;
+  }
+  // Where it was set counts (an empty image is the CT), its name does not.
+  for (Measurement& measurement : value.measurements)
+  {
+    if (!measurement.image.empty() && !findMr(value, measurement.image))
+      measurement.image = kRemovedImage;
+    if (!measurement.structure.empty() && !kindOfPart(value, measurement.structure))
+      measurement.structure.clear();
   }
   for (LabelPart& part : value.labels)
     clean(part.notes);

@@ -20,8 +20,6 @@ using scene::Measurement;
 using Kind = Measurement::Kind;
 using Tool = MeasurementEditor::Tool;
 
-constexpr std::size_t kMostSteps = 200;
-
 Kind kindOf(Tool tool)
 {
   switch (tool)
@@ -79,8 +77,6 @@ void MeasurementEditor::caseChanged()
   m_hover.reset();
   m_chosen.reset();
   m_dragged.reset();
-  m_steps.clear();
-  m_position = 0;
   m_lines.clear();
   tell();
 }
@@ -257,8 +253,10 @@ const CentreLine* MeasurementEditor::lineAt(const Vector3d& patient, std::string
 std::optional<Measurement> MeasurementEditor::alongTheStructure()
 {
   std::string structure, image;
+  if (m_model.structureAt(m_points[0]) != m_model.structureAt(m_points[1]))
+    return std::nullopt; // before a centre line is computed
   const CentreLine* line = lineAt(m_points[0], structure, image);
-  if (!line || m_model.structureAt(m_points[1]) != structure)
+  if (!line)
     return std::nullopt;
   Measurement along;
   along.kind = Kind::Length;
@@ -301,21 +299,39 @@ void MeasurementEditor::change(const std::string& text, std::vector<Measurement>
 {
   if (next == all())
     return;
-  Step step{text, all(), next};
-  m_model.setMeasurements(std::move(next));
-  m_steps.resize(m_position);
-  m_steps.push_back(std::move(step));
-  if (m_steps.size() > kMostSteps)
-    m_steps.erase(m_steps.begin());
-  m_position = m_steps.size();
+  auto before = all();
+  store(std::move(next));
+  record(text, std::move(before));
   tell();
 }
 
-void MeasurementEditor::restore(const std::vector<Measurement>& measurements)
+void MeasurementEditor::store(std::vector<Measurement> next)
 {
-  m_model.setMeasurements(measurements);
-  if (m_chosen && *m_chosen >= measurements.size())
-    m_chosen.reset();
+  m_storing = true;
+  try
+  {
+    m_model.setMeasurements(std::move(next));
+  }
+  catch (...)
+  {
+    m_storing = false;
+    throw;
+  }
+  m_storing = false;
+}
+
+void MeasurementEditor::record(const std::string& text, std::vector<Measurement> before)
+{
+  const auto back = [&model = m_model](std::vector<Measurement> list)
+  { return [&model, list = std::move(list)] { model.setMeasurements(list); }; };
+  m_model.edits().did({text, {}, back(std::move(before)), back(all())});
+}
+
+void MeasurementEditor::measurementsChanged()
+{
+  if (m_storing)
+    return;
+  m_chosen.reset();
   tell();
 }
 
@@ -370,7 +386,7 @@ void MeasurementEditor::drag(const Vector3d& patient)
   }
   else
     moved.points[m_dragged->point] = patient;
-  m_model.setMeasurements(std::move(next));
+  store(std::move(next));
   tell();
 }
 
@@ -381,9 +397,7 @@ void MeasurementEditor::release()
   const Drag done = *std::exchange(m_dragged, std::nullopt);
   if (done.before == all() || done.measurement >= all().size())
     return tell();
-  m_steps.resize(m_position);
-  m_steps.push_back({"move " + described(all()[done.measurement]), done.before, all()});
-  m_position = m_steps.size();
+  record("move " + described(all()[done.measurement]), done.before);
   tell();
 }
 
@@ -437,35 +451,26 @@ void MeasurementEditor::choose(std::optional<std::size_t> measurement)
 
 std::string MeasurementEditor::undoText() const
 {
-  if (!m_points.empty())
-    return "the last point";
-  return m_position > 0 ? m_steps[m_position - 1].text : std::string();
+  return m_points.empty() ? m_model.undoText() : "the last point";
 }
 
 std::string MeasurementEditor::redoText() const
 {
-  return canRedo() ? m_steps[m_position].text : std::string();
+  return canRedo() ? m_model.redoText() : std::string();
 }
 
 void MeasurementEditor::undo()
 {
-  if (!m_points.empty())
-  {
-    m_points.pop_back();
-    return tell();
-  }
-  if (m_position == 0)
-    return;
-  --m_position;
-  restore(m_steps[m_position].before);
+  if (m_points.empty())
+    return m_model.undo();
+  m_points.pop_back();
+  tell();
 }
 
 void MeasurementEditor::redo()
 {
-  if (!canRedo())
-    return;
-  ++m_position;
-  restore(m_steps[m_position - 1].after);
+  if (canRedo())
+    m_model.redo();
 }
 
 } // namespace petrous::presenters

@@ -84,20 +84,19 @@ public:
   std::optional<std::size_t> chosen() const noexcept { return m_chosen; }
   void choose(std::optional<std::size_t> measurement);
 
-  /// A point that was set, or the last change.
-  bool canUndo() const noexcept { return !m_points.empty() || m_position > 0; }
-  bool canRedo() const noexcept { return m_points.empty() && m_position < m_steps.size(); }
+  /// By another than this: undo, another case.
+  void measurementsChanged();
+
+  /// A point that was set, or the last change of the case: changes of measurements stand in its
+  /// order with all others (WorkstationModel::edits).
+  bool canUndo() const { return !m_points.empty() || m_model.canUndo(); }
+  bool canRedo() const { return m_points.empty() && m_model.canRedo(); }
   std::string undoText() const; ///< "distance 'distance 2'"; empty: nothing
   std::string redoText() const;
   void undo();
   void redo();
 
 private:
-  struct Step
-  {
-    std::string text;
-    std::vector<scene::Measurement> before, after;
-  };
   struct Drag
   {
     std::size_t measurement, point;
@@ -106,7 +105,8 @@ private:
 
   void change(const std::string& text, std::vector<scene::Measurement> next);
   void add(scene::Measurement measurement);
-  void restore(const std::vector<scene::Measurement>& measurements);
+  void store(std::vector<scene::Measurement> next);
+  void record(const std::string& text, std::vector<scene::Measurement> before);
   scene::Measurement thicknessAt(const Eigen::Vector3d& patient);
   void tell() const;
   /// The structure at a point that is a tube, with its centre line; nullptr: none.
@@ -128,8 +128,7 @@ private:
   std::optional<Eigen::Vector3d> m_hover;
   std::optional<std::size_t> m_chosen;
   std::optional<Drag> m_dragged;
-  std::vector<Step> m_steps;
-  std::size_t m_position = 0; ///< steps that are done
+  bool m_storing = false;
   std::map<std::string, Line> m_lines;
 };
 

@@ -12,7 +12,8 @@ namespace petrous::scene
 ///
 /// A note, or the reason for a registration's verdict, that quotes ('NAME') what is no part of the
 /// case is dropped as a whole; the place of a registration's error becomes kUnnamedPlace; and
-/// forgetGoneReferences. Strokes keep the names of the structures that they touched.
+/// forgetGoneReferences. A measurement forgets the structure that is gone, and the name of the MR,
+/// not that it was set on one. Strokes keep the names of the structures that they touched.
 void forgetGoneNames(Case& value);
 
 /// Forgets an MR that the case does not have: over the slices, through which a registration went,

@@ -53,7 +53,8 @@ std::vector<StructureAppearance> OwnPresets::all() const
   { throw core::InvalidParameter(core::printable(m_file) + ": " + what); };
   try
   {
-    for (const json& entry : json::parse(text).at("presets"))
+    const json file = json::parse(text);
+    for (const json& entry : file.at("presets"))
     {
       presets.push_back(presetFrom(entry));
       const std::string name = presets.back().preset;

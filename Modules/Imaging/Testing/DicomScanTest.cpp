@@ -474,6 +474,34 @@ TEST(DicomScan, HoldsWhatADicomdirLostAgainstTheSeriesThatItNames)
   }
 }
 
+// As other programs keep a disc: other names and folders, and its index beside them.
+TEST(DicomScan, MissesNothingThatADicomdirKnowsByAnotherName)
+{
+  const TemporaryFolder folder;
+  for (int k = 0; k < 5; ++k)
+  {
+    TestSlice slice;
+    slice.seriesUid = "1.2.3.10";
+    slice.z = 0.5 * k;
+    slice.write(folder.path() / "copied" / ("slice " + std::to_string(k)));
+  }
+  const auto scanned = [&](int count)
+  {
+    std::vector<std::string> files;
+    for (int k = 0; k < count; ++k)
+      files.push_back("DICOM\\I" + std::to_string(k));
+    writeIndex(folder.path() / "DICOMDIR", {{"1.2.3.10", files}});
+    return scanDicom(folder.path(), {});
+  };
+  const auto whole = scanned(5);
+  EXPECT_EQ(whole.lostFiles, 0U);
+  EXPECT_TRUE(whole.series.at(0).geometry.findings.empty());
+  EXPECT_TRUE(whole.lossNotes.empty());
+  const auto broken = scanned(7);
+  EXPECT_EQ(broken.lostFiles, 2U);
+  EXPECT_EQ(broken.series.at(0).lostFiles, 2U);
+}
+
 TEST(DicomScan, KnowsSegmentationsAndStructureSets)
 {
   const TemporaryFolder folder;

@@ -888,6 +888,7 @@ struct Lost
     std::string seriesUid; ///< empty: the index does not say
   };
   std::size_t listed = 0;
+  std::map<std::string, std::size_t> listedOf; ///< by UID of the series
   std::vector<File> files;
 };
 
@@ -946,6 +947,8 @@ Lost lostOf(const fs::path& index, const std::set<std::string>& names)
     if (id.empty())
       continue;
     ++lost.listed;
+    if (!series[n].empty())
+      ++lost.listedOf[series[n]];
     std::replace(id.begin(), id.end(), '\\', '/');
     std::error_code error;
     fs::path file = index.parent_path() / id;
@@ -953,6 +956,28 @@ Lost lostOf(const fs::path& index, const std::set<std::string>& names)
       lost.files.push_back({std::move(file), series[n]});
   }
   return lost;
+}
+
+// Of a disc whose files were copied to other folders or names no path is there: of a series no more
+// is lost than it has fewer files than are listed.
+void findRenamed(Lost& lost, const Groups& groups)
+{
+  std::map<std::string, std::size_t> missing;
+  for (const auto& [uid, listed] : lost.listedOf)
+    if (const auto group = groups.find(uid); group != groups.end())
+      missing[uid] = listed - std::min(listed, group->second.size());
+  lost.files.erase(std::remove_if(lost.files.begin(), lost.files.end(),
+                                  [&missing](const Lost::File& file)
+                                  {
+                                    const auto left = missing.find(file.seriesUid);
+                                    if (left == missing.end())
+                                      return false;
+                                    if (left->second == 0)
+                                      return true;
+                                    --left->second;
+                                    return false;
+                                  }),
+                   lost.files.end());
 }
 
 std::string lossNote(const fs::path& index, const Lost& lost)
@@ -1119,7 +1144,8 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress,
       if (names.empty())
         for (const ListedFile& file : list.files)
           names.insert(discName(file.path));
-      const Lost lost = lostOf(header.slice.file, names);
+      Lost lost = lostOf(header.slice.file, names);
+      findRenamed(lost, groups);
       if (lost.files.empty())
         continue;
       result.lostFiles += lost.files.size();

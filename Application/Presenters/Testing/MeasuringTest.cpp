@@ -121,6 +121,21 @@ TEST(Uncertainty, OfAMarkOnAnMrHasItsRegistration)
   EXPECT_FALSE(quantitiesOf(value, mark)[0].uncertainty);
 }
 
+TEST(Measuring, AWallToWhatWasDrawnOnAnMrHasNoUncertaintyOfTheCtAlone)
+{
+  scene::Case value = twoBallsAndATube();
+  scene::Measurement wall = made(Kind::Thickness, {{0, 0, 0}, {0, 0, 2}, {0, 0, 1.5}});
+  wall.structure = "canal";
+  for (const Quantity& one : quantitiesOf(value, wall))
+    EXPECT_TRUE(one.uncertainty) << one.name;
+  value.labels[0].drawnOn = "T2";
+  const auto quantities = quantitiesOf(value, wall);
+  ASSERT_EQ(quantities.size(), 2U);
+  for (const Quantity& one : quantities)
+    EXPECT_FALSE(one.uncertainty) << one.name;
+  EXPECT_NE(quantities[0].remark.find("drawn on the MR 'T2'"), std::string::npos);
+}
+
 TEST(Measuring, FindsTheGapBetweenStructuresMarksAndPoints)
 {
   scene::Case value = twoBallsAndATube();
@@ -144,7 +159,8 @@ TEST(Measuring, StatesTheDimensionsOfACanal)
 {
   const scene::Case value = twoBallsAndATube();
   const auto canal = dimensionsOf(value, "canal");
-  // Of the lattice 59 points lie within the circle, in 49 sections: coarse voxels, and their volume.
+  // Of the lattice 59 points lie within the circle, in 49 sections: coarse voxels, and their
+  // volume.
   EXPECT_NEAR(*named(canal, "volume").value, 59 * 49 * 0.4 * 0.4 * 0.5, 1e-9);
   EXPECT_NEAR(*named(canal, "volume").value, kPi * 4.0 * 20.0, 0.1 * kPi * 80.0);
   EXPECT_GT(*named(canal, "volume").uncertainty, 0.0);

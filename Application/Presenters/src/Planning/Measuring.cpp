@@ -227,6 +227,19 @@ std::string safeForSpreadsheets(const std::string& text)
                                                                                         : text;
 }
 
+// The MR on which a structure or mesh was drawn; empty: the CT, or there is none of that name.
+std::string mrOf(const scene::Case& value, const std::string& structure)
+{
+  for (const scene::LabelPart& part : value.labels)
+    for (const scene::StructurePart& one : part.structures)
+      if (one.name == structure)
+        return part.drawnOn.value_or(std::string());
+  for (const scene::MeshPart& mesh : value.meshes)
+    if (mesh.name == structure)
+      return mesh.drawnOn;
+  return {};
+}
+
 } // namespace
 
 std::string toString(const Quantity& quantity)
@@ -279,13 +292,21 @@ std::vector<Quantity> quantitiesOf(const scene::Case& value, const Measurement& 
   main.remark =
       joined({measurement.structure.empty() ? std::string() : "to '" + measurement.structure + "'",
               main.remark});
+  // What was drawn on an MR lies as well as that is registered, which the image's voxels do not
+  // say.
+  const std::string mr = mrOf(value, measurement.structure);
+  if (!mr.empty())
+  {
+    main.uncertainty.reset();
+    main.remark = joined({main.remark, "which was drawn on the MR '" + mr + "'"});
+  }
   std::vector<Quantity> both{main};
   if (measurement.points.size() == 3)
   {
     Measurement shortest = measurement;
     shortest.points = {measurement.points[0], measurement.points[2]};
     both.push_back({"shortest thickness", scene::valueOf(Kind::Thickness, shortest.points), "mm",
-                    propagated(value, shortest), main.remark});
+                    mr.empty() ? propagated(value, shortest) : std::nullopt, main.remark});
   }
   return both;
 }

@@ -119,25 +119,36 @@ TEST(CentreLine, OfThePhantomsFacialNerveIsItsCanalsAxis)
                                      { return patient.signedDistance(nerve, at) < 0.0; });
   const auto line = centreLine(*occupancy);
   ASSERT_TRUE(line);
-  double off = 0.0;
+  // The nerve goes on beyond both ends of its canal: those parts are left out.
   const auto axis = phantom::Phantom::facialCanalAxis();
-  for (std::size_t p = 4; p + 4 < line->points.size(); ++p)
+  double off = 0.0, within = 0.0, length = 0.0;
+  std::size_t count = 0;
+  for (std::size_t p = 1; p < line->points.size(); ++p)
   {
     double best = 1e9;
+    bool isBeyond = true;
     for (std::size_t n = 1; n < axis.size(); ++n)
     {
       const Vector3d edge = axis[n].position - axis[n - 1].position;
-      const double share = std::clamp(
-          (line->points[p] - axis[n - 1].position).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
-      best = std::min(best, (axis[n - 1].position + share * edge - line->points[p]).norm());
+      const double along = (line->points[p] - axis[n - 1].position).dot(edge) / edge.squaredNorm();
+      const double share = std::clamp(along, 0.0, 1.0);
+      const double away = (axis[n - 1].position + share * edge - line->points[p]).norm();
+      if (away >= best)
+        continue;
+      best = away;
+      isBeyond = (n == 1 && along < 0.0) || (n + 1 == axis.size() && along > 1.0);
     }
+    if (isBeyond)
+      continue;
     off += best;
+    within += (line->points[p] - line->points[p - 1]).norm();
+    ++count;
   }
-  EXPECT_LT(off / static_cast<double>(line->points.size() - 8), 0.25);
-  double length = 0.0;
   for (std::size_t n = 1; n < axis.size(); ++n)
     length += (axis[n].position - axis[n - 1].position).norm();
-  EXPECT_NEAR(line->length(), length, 0.06 * length);
+  ASSERT_GT(count, 30U);
+  EXPECT_LT(off / static_cast<double>(count), 0.25);
+  EXPECT_NEAR(within, length, 0.06 * length);
 }
 
 TEST(ShortestWay, IsTheGapBetweenTwoBalls)

@@ -116,8 +116,8 @@ StructureEditor::StructureEditor(presenters::WorkstationModel& model, QWidget* p
 void StructureEditor::addOpacity(QGridLayout& grid, int row)
 {
   const StructureProperty& property = propertyOf("opacity");
-  m_opacity = percentSlider("structureOpacity", tr("Opacity; of a lumen, how much it tints the "
-                                                   "bone around it"));
+  m_opacity = percentSlider("structureOpacity",
+                            tr("Opacity; of a lumen, how much it tints what is around it"));
   auto* box = new QSpinBox;
   box->setObjectName("structureOpacityBox");
   box->setRange(0, 100);

@@ -32,7 +32,7 @@ namespace petrous::workstation
 namespace
 {
 constexpr int kPadding = 4;     // px, beside a column's text
-constexpr int kIndent = 12;     // px, of a structure below its kind
+constexpr int kIndent = 10;     // px, of a structure below its kind
 constexpr int kSwatch = 30;     // px, colour and margins of a name
 constexpr int kSwatchHit = 20;  // px, of the colour, to be clicked
 constexpr int kFitAfter = 30;   // ms

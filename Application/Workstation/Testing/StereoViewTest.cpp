@@ -38,9 +38,10 @@ protected:
 
   QAction* stereoAction(StereoMode mode)
   {
+    const QStringList texts{"Off", "Side by side", "Line-interleaved", "Anaglyph", "Quad buffer"};
     for (QAction* action : window().findChildren<QAction*>())
-      if (action->data().isValid() && action->data().toInt() == static_cast<int>(mode) &&
-          action->isCheckable())
+      if (texts.contains(QString(action->text()).remove('&')) && action->data().isValid() &&
+          action->data().toInt() == static_cast<int>(mode) && action->isCheckable())
         return action;
     return nullptr;
   }

@@ -195,9 +195,12 @@ TEST_F(Window, AnMrAsPrimaryImageIsCalledSo)
     for (const auto* button : window().findChildren<QAbstractButton*>())
       all += button->text();
     for (const auto* action : window().findChildren<QAction*>())
-      all += action->text();
+      if (action->isVisible())
+        all += action->text();
+    // The catalogues of presets and materials name tissues, whatever the image is.
+    const QStringList catalogues{"structurePreset", "structureMaterial"};
     for (const auto* box : window().findChildren<QComboBox*>())
-      for (int n = 0; n < box->count(); ++n)
+      for (int n = 0; n < box->count() && !catalogues.contains(box->objectName()); ++n)
         all += box->itemText(n);
     for (const auto* box : window().findChildren<QAbstractSpinBox*>())
       all += box->specialValueText();
@@ -422,12 +425,14 @@ TEST_F(Window, NamesOfStructuresAreNotCutOff)
     auto* list = window().findChild<QTreeView*>("structures");
     const QAbstractItemView* view = list; // public there
     for (int column = 0; column < list->model()->columnCount(); ++column)
-      EXPECT_GE(list->columnWidth(column), view->sizeHintForColumn(column)) << name << column;
-    for (int column = 0; column < list->model()->columnCount(); ++column)
-      EXPECT_GT(list->columnWidth(column),
-                list->header()->fontMetrics().horizontalAdvance(
-                    list->model()->headerData(column, Qt::Horizontal).toString()))
-          << column;
+      if (!list->isColumnHidden(column)) // that of distances, without a burr
+      {
+        EXPECT_GE(list->columnWidth(column), view->sizeHintForColumn(column)) << name << column;
+        EXPECT_GT(list->columnWidth(column),
+                  list->header()->fontMetrics().horizontalAdvance(
+                      list->model()->headerData(column, Qt::Horizontal).toString()))
+            << column;
+      }
     EXPECT_LE(list->header()->length(), list->viewport()->width()) << name;
     EXPECT_EQ(structureCell(name).data(Qt::ToolTipRole).toString(), QString::fromStdString(name));
     closeWindow();

@@ -428,7 +428,8 @@ void MeasurementEditor::setShown(std::size_t measurement, bool shown)
     return;
   std::vector<Measurement> next = all();
   next[measurement].shown = shown;
-  change((shown ? "show " : "hide ") + described(next[measurement]), std::move(next));
+  const std::string text = (shown ? "show " : "hide ") + described(next[measurement]);
+  change(text, std::move(next));
 }
 
 void MeasurementEditor::setAllShown(bool shown)

@@ -454,7 +454,10 @@ void StructuresPanel::fitNames()
   const QScopedValueRollback<bool> fitting(m_fitting, true);
   QHeaderView* header = m_list->header();
   const int others = header->length() - header->sectionSize(StructuresModel::Name);
-  const int least = kSwatch + kLeastName * m_list->fontMetrics().averageCharWidth();
+  constexpr int kWidest = 200;            // px, of a name that is not cut off
+  const QAbstractItemView* view = m_list; // public there
+  const int least = std::max(kSwatch + kLeastName * m_list->fontMetrics().averageCharWidth(),
+                             std::min(view->sizeHintForColumn(StructuresModel::Name), kWidest));
   header->resizeSection(StructuresModel::Name,
                         std::max({m_list->viewport()->width() - others, m_nameWidth, least}));
 }

@@ -962,6 +962,11 @@ Lost lostOf(const fs::path& index, const std::set<std::string>& names)
 // is lost than it has fewer files than are listed.
 void findRenamed(Lost& lost, const Groups& groups)
 {
+  std::size_t present = 0;
+  for (const auto& group : groups)
+    present += group.second.size();
+  if (present >= lost.listed)
+    return lost.files.clear();
   std::map<std::string, std::size_t> missing;
   for (const auto& [uid, listed] : lost.listedOf)
     if (const auto group = groups.find(uid); group != groups.end())

@@ -442,7 +442,7 @@ void StructuresPanel::fitColumns()
         width = std::max(
             width, textWidth(*m_list,
                              m_structures->index(row, column, m_structures->index(top, 0)).data()));
-    header->resizeSection(column, width + 2 * kPadding + 4);
+    header->resizeSection(column, width + 2 * kPadding);
   }
   fitNames();
 }

@@ -32,7 +32,7 @@ namespace petrous::workstation
 namespace
 {
 constexpr int kPadding = 4;     // px, beside a column's text
-constexpr int kIndent = 10;     // px, of a structure below its kind
+constexpr int kIndent = 8;      // px, of a structure below its kind
 constexpr int kSwatch = 30;     // px, colour and margins of a name
 constexpr int kSwatchHit = 20;  // px, of the colour, to be clicked
 constexpr int kFitAfter = 30;   // ms
@@ -442,7 +442,7 @@ void StructuresPanel::fitColumns()
         width = std::max(
             width, textWidth(*m_list,
                              m_structures->index(row, column, m_structures->index(top, 0)).data()));
-    header->resizeSection(column, width + 2 * kPadding);
+    header->resizeSection(column, width + 2 * kPadding + (width > kCheckBox * 3 ? 3 : 0));
   }
   fitNames();
 }

@@ -84,7 +84,9 @@ TEST_F(SliceCommand, LoadsNoMrUnlessAskedAndSaysThatItIsNotRegistered)
 
 TEST_F(SliceCommand, RefusesWhatCannotBeInOneLine)
 {
-  expectRefused(slice("--plane oblique"), 2, "axial, coronal, sagittal");
+  expectRefused(slice("--plane diagonal"), 2, "axial, coronal, sagittal");
+  expectRefused(slice("--plane oblique"), 2, "needs its --normal x,y,z");
+  expectRefused(slice("--plane axial --normal 0,0,1"), 2, "goes with --plane oblique");
   expectRefused(slice("--plane axial --overlay T7"), 2, "it has 'T2'");
   expectRefused(slice("--plane axial --at nowhere"), 2, "name of a structure");
   expectRefused(slice("--plane axial --opacity 1.5"), 2, "--opacity");

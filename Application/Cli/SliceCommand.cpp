@@ -144,7 +144,9 @@ struct WantedPlane
 WantedPlane planeOf(const SliceOptions& options, const scene::Case& value)
 {
   const std::string& word = options.plane;
-  if ((word == "oblique") == options.normal.empty())
+  if (word == "oblique" && options.normal.empty())
+    throw UsageError("--plane oblique needs its --normal x,y,z, in patient LPS");
+  if (word != "oblique" && !options.normal.empty())
     throw UsageError("--normal x,y,z goes with --plane oblique");
   const bool isPetrous = word == "poeschl" || word == "stenver";
   if (!isPetrous && !options.side.empty())

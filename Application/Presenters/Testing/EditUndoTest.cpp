@@ -47,7 +47,7 @@ protected:
     value.ct.name = "ct";
     value.ct.geometry = core::GridGeometry({40, 40, 40}, Vector3d::Constant(0.3), Vector3d::Zero());
     auto ct = std::make_shared<volume::Volume<std::int16_t>>(value.ct.geometry);
-    auto labels = std::make_shared<volume::Volume<std::uint16_t>>(value.ct.geometry);
+    auto labels = volume::makeZeroVolume<std::uint16_t>(value.ct.geometry);
     for (int k = 0; k < 40; ++k)
       for (int j = 0; j < 40; ++j)
         for (int i = 0; i < 40; ++i)

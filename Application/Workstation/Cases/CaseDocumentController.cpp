@@ -1554,13 +1554,8 @@ void CaseDocumentController::changeCase(const QString& title, const std::string&
 {
   if (m_work.busy() || m_asking)
     return emit statusMessage(tr("One at a time: something is being read already"));
-  if (m_model.hasCase() && m_model.value().name == name)
-  {
-    if (!leaveCase())
-      return;
-    m_reopen = m_model.value().name; // a save after a conflict may have changed it
-    m_model.close();
-  }
+  if (m_model.hasCase() && m_model.value().name == name && !closeToReopen())
+    return;
   work(title,
        [this, library = m_model.library(), after, change = std::move(change),
         changed = std::move(changed)](const core::Progress&) mutable -> BackgroundWork::Reply
@@ -1583,13 +1578,8 @@ void CaseDocumentController::maintain(
 {
   if (m_work.busy() || m_asking)
     return emit statusMessage(tr("One at a time: something is being read already"));
-  if (m_model.hasCase())
-  {
-    if (!leaveCase())
-      return;
-    m_reopen = m_model.value().name;
-    m_model.close();
-  }
+  if (m_model.hasCase() && !closeToReopen())
+    return;
   work(title,
        [this, library = m_model.library(),
         task = std::move(task)](const core::Progress& progress) mutable -> BackgroundWork::Reply
@@ -1601,6 +1591,15 @@ void CaseDocumentController::maintain(
            reopen();
          };
        });
+}
+
+bool CaseDocumentController::closeToReopen()
+{
+  if (!leaveCase())
+    return false;
+  m_reopen = m_model.value().name; // a save after a conflict may have changed it
+  m_model.close();
+  return true;
 }
 
 // What was closed for maintenance, however that ended.

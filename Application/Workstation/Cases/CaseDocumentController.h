@@ -160,6 +160,7 @@ private:
   void offerCtGrid(const presenters::ExportOptions& options, const QString& why);
   void work(const QString& title, BackgroundWork::Work work);
   void endWork();
+  bool closeToReopen(); ///< false if the user stays
   void reopen();
   void connectBanners();
   void watchForDamage();

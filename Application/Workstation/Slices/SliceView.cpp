@@ -310,12 +310,10 @@ void SliceView::draw()
 
 presenters::SliceGeometry SliceView::slice() const
 {
-  // One that was saved with other axes must not leave the crosshair's plane.
-  const Eigen::Vector3d offset = m_offset - axes().next.dot(m_offset) * axes().next;
   return presenters::zoomed(presenters::SliceGeometry::fitting(m_orientation, axes(), m_grid,
                                                                m_crosshair, std::max(width(), 1),
                                                                std::max(height(), 1)),
-                            m_zoom, offset);
+                            m_zoom, m_offset);
 }
 
 Eigen::Vector3d SliceView::patientAt(const QPointF& position) const

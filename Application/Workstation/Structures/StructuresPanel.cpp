@@ -428,21 +428,19 @@ void StructuresPanel::rebuild(bool another)
 // Numbers, check boxes and titles get what they need, and names all that is left.
 void StructuresPanel::fitColumns()
 {
-  constexpr int kCheckBox = 14; // px
-  const auto textWidth = [](const QWidget& widget, const QVariant& text)
-  { return widget.fontMetrics().horizontalAdvance(text.toString()); };
   QHeaderView* header = m_list->header();
   for (int column = StructuresModel::VolumeColumn; column < m_structures->columnCount(); ++column)
   {
-    int width = std::max(
-        kCheckBox,
-        textWidth(*header, m_structures->headerData(column, Qt::Horizontal, Qt::DisplayRole)));
+    const QString title =
+        m_structures->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
+    int width = header->fontMetrics().horizontalAdvance(title) + 2 * kPadding;
     for (int top = 0; top < m_structures->rowCount(); ++top)
       for (int row = 0; row < m_structures->rowCount(m_structures->index(top, 0)); ++row)
-        width = std::max(
-            width, textWidth(*m_list,
-                             m_structures->index(row, column, m_structures->index(top, 0)).data()));
-    header->resizeSection(column, width + 2 * kPadding + (width > kCheckBox * 3 ? 3 : 0));
+      {
+        const QModelIndex cell = m_structures->index(row, column, m_structures->index(top, 0));
+        width = std::max(width, m_list->sizeHintForIndex(cell).width() + kPadding);
+      }
+    header->resizeSection(column, width);
   }
   fitNames();
 }

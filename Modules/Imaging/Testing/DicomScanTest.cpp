@@ -502,6 +502,36 @@ TEST(DicomScan, MissesNothingThatADicomdirKnowsByAnotherName)
   EXPECT_EQ(broken.series.at(0).lostFiles, 2U);
 }
 
+// A disc that broke off is short however many other series lie in the tree that is scanned.
+TEST(DicomScan, HoldsWhatADiscLostAgainstItHoweverMuchLiesBesideIt)
+{
+  const TemporaryFolder folder;
+  const auto write = [&](const fs::path& to, const std::string& uid, int count)
+  {
+    for (int k = 0; k < count; ++k)
+    {
+      TestSlice slice;
+      slice.seriesUid = uid;
+      slice.z = 0.5 * k;
+      slice.write(to / ("I" + std::to_string(k)));
+    }
+  };
+  write(folder.path() / "disc" / "DICOM", "1.2.3.10", 5);
+  write(folder.path() / "other", "1.2.3.99", 20);
+  std::vector<std::string> files;
+  for (int k = 0; k < 8; ++k)
+    files.push_back("DICOM\\I" + std::to_string(k));
+  for (const std::string uid : {"1.2.3.10", ""})
+  {
+    writeIndex(folder.path() / "disc" / "DICOMDIR", {{uid, files}});
+    const ScanResult result = scanDicom(folder.path(), {});
+    EXPECT_EQ(result.lostFiles, 3U) << uid;
+    ASSERT_EQ(result.series.size(), 2U);
+    for (const DicomSeries& series : result.series)
+      EXPECT_EQ(series.lostFiles, series.uid == "1.2.3.10" ? 3U : 0U) << series.uid;
+  }
+}
+
 TEST(DicomScan, KnowsSegmentationsAndStructureSets)
 {
   const TemporaryFolder folder;

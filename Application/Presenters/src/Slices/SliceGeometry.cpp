@@ -114,7 +114,9 @@ double scaleBarLength(double longest)
 
 SliceGeometry zoomed(const SliceGeometry& whole, double zoom, const Eigen::Vector3d& offset)
 {
-  return {whole.orientation(),       whole.axes(),  whole.center() + offset,
+  const SliceAxes& axes = whole.axes();
+  const Eigen::Vector3d inPlane = offset - axes.next.dot(offset) * axes.next;
+  return {whole.orientation(),       axes,          whole.center() + inPlane,
           whole.mmPerPixel() / zoom, whole.width(), whole.height()};
 }
 

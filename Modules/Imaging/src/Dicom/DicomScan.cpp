@@ -888,7 +888,7 @@ struct Lost
     std::string seriesUid; ///< empty: the index does not say
   };
   std::size_t listed = 0;
-  std::map<std::string, std::size_t> listedOf; ///< by UID of the series
+  std::map<std::string, std::size_t> listedOf; ///< by UID of the series, as of a File
   std::vector<File> files;
 };
 
@@ -947,8 +947,7 @@ Lost lostOf(const fs::path& index, const std::set<std::string>& names)
     if (id.empty())
       continue;
     ++lost.listed;
-    if (!series[n].empty())
-      ++lost.listedOf[series[n]];
+    ++lost.listedOf[series[n]];
     std::replace(id.begin(), id.end(), '\\', '/');
     std::error_code error;
     fs::path file = index.parent_path() / id;
@@ -958,28 +957,38 @@ Lost lostOf(const fs::path& index, const std::set<std::string>& names)
   return lost;
 }
 
-// Of a disc whose files were copied to other folders or names no path is there: of a series no more
-// is lost than it has fewer files than are listed.
-void findRenamed(Lost& lost, const Groups& groups)
+bool isBelow(const fs::path& file, const fs::path& folder)
 {
-  std::size_t present = 0;
-  for (const auto& group : groups)
-    present += group.second.size();
-  if (present >= lost.listed)
-    return lost.files.clear();
-  std::map<std::string, std::size_t> missing;
-  for (const auto& [uid, listed] : lost.listedOf)
-    if (const auto group = groups.find(uid); group != groups.end())
-      missing[uid] = listed - std::min(listed, group->second.size());
+  const fs::path relative = file.lexically_relative(folder);
+  return !relative.empty() && *relative.begin() != "..";
+}
+
+// Of a disc whose files were copied to other names no listed path is there: of a series no more is
+// lost than it has fewer files than are listed. Records that name no series are made up for by what
+// else lies beside the index, but by nothing beyond: other series of the tree say nothing of a disc.
+void findRenamed(Lost& lost, const fs::path& index, const Groups& groups)
+{
+  std::map<std::string, std::size_t> missing = lost.listedOf;
+  const auto subtract = [&missing](const std::string& uid, std::size_t present)
+  {
+    if (const auto listed = missing.find(uid); listed != missing.end())
+      listed->second -= std::min(listed->second, present);
+  };
+  for (const auto& [key, members] : groups)
+    if (lost.listedOf.count(key) > 0)
+      subtract(key, members.size());
+    else
+      subtract({}, static_cast<std::size_t>(
+                     std::count_if(members.begin(), members.end(),
+                                   [&index](const FileHeader* member)
+                                   { return isBelow(member->slice.file, index.parent_path()); })));
   lost.files.erase(std::remove_if(lost.files.begin(), lost.files.end(),
                                   [&missing](const Lost::File& file)
                                   {
-                                    const auto left = missing.find(file.seriesUid);
-                                    if (left == missing.end())
-                                      return false;
-                                    if (left->second == 0)
+                                    std::size_t& left = missing[file.seriesUid];
+                                    if (left == 0)
                                       return true;
-                                    --left->second;
+                                    --left;
                                     return false;
                                   }),
                    lost.files.end());
@@ -1150,7 +1159,7 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress,
         for (const ListedFile& file : list.files)
           names.insert(discName(file.path));
       Lost lost = lostOf(header.slice.file, names);
-      findRenamed(lost, groups);
+      findRenamed(lost, header.slice.file, groups);
       if (lost.files.empty())
         continue;
       result.lostFiles += lost.files.size();

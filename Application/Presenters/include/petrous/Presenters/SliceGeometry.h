@@ -80,7 +80,8 @@ private:
   int m_height;
 };
 
-/// The slice enlarged, its centre moved by `offset`, patient LPS mm.
+/// The slice enlarged, its centre moved by `offset`, patient LPS mm. What of the offset is across
+/// the slice's plane, one saved with other axes, is dropped: the depth stays that of `whole`.
 SliceGeometry zoomed(const SliceGeometry& whole, double zoom, const Eigen::Vector3d& offset);
 
 /// Length of a scale bar, mm: the largest of 1, 2, 5, 10, 20, ... not exceeding `longest` mm.

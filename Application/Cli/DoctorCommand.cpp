@@ -10,6 +10,7 @@
 #include "petrous/Core/SystemMemory.h"
 #include "petrous/Devices/DeviceCatalogue.h"
 #include "petrous/Rendering/GraphicsReport.h"
+#include "petrous/Rendering/RenderQuality.h"
 #include "petrous/Rendering/RenderingError.h"
 
 namespace petrous::cli
@@ -66,6 +67,7 @@ nlohmann::json graphicsJson(const std::optional<rendering::GraphicsReport>& grap
     return {{"gl_renderer", nullptr},
             {"gl_version", nullptr},
             {"largest_3d_texture", nullptr},
+            {"filter_bits", nullptr},
             {"ray_caster", {{"works", false}, {"variants", nlohmann::json::array()}}}};
   nlohmann::json variants = nlohmann::json::array();
   for (const auto& variant : graphics->variants)
@@ -77,6 +79,7 @@ nlohmann::json graphicsJson(const std::optional<rendering::GraphicsReport>& grap
       {"gl_renderer", graphics->renderer},
       {"gl_version", graphics->version},
       {"largest_3d_texture", graphics->largestTexture3d},
+      {"filter_bits", graphics->filterBits},
       {"ray_caster", {{"works", rayCasterWorks(*graphics)}, {"variants", std::move(variants)}}}};
 }
 
@@ -127,6 +130,10 @@ void doctor(const Context& context)
     context.print("            version " + graphics->version);
     context.print("            volumes up to " + std::to_string(graphics->largestTexture3d) +
                   " voxels along an axis");
+    if (graphics->filterBits > 0 &&
+        graphics->filterBits < rendering::RenderQuality::kExactFilterBits)
+      context.print("            filters with weights of " + std::to_string(graphics->filterBits) +
+                    " bits; surfaces are found with an exact filter");
     for (const auto& variant : graphics->variants)
       context.print("ray caster  " + joined(variant.features) +
                     (variant.compiles ? "" : ": does not work: " + variant.error));

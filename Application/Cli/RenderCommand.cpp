@@ -266,6 +266,7 @@ Result drawOnGpu(const rendering::SceneContents& contents, const Shot& shot, boo
                    {"first_frame_milliseconds", first},
                    {"gl_renderer", view.glRenderer()},
                    {"variant", statistics.variant},
+                   {"filter_bits", statistics.filterBits},
                    {"fetches_per_pixel", statistics.fetchesPerPixel},
                    {"samples_per_pixel", statistics.samplesPerPixel},
                    {"notes", statistics.notes}};

@@ -29,9 +29,12 @@ Names namesOf(const std::map<std::string, std::size_t>& resources)
 
 RenderStatistics counted(const SceneContents& contents, const core::CameraPose& pose)
 {
+  RenderQuality exact;
+  exact.filterBits = RenderQuality::kExactFilterBits;
   ScenePicture scene;
   scene.setContents(contents);
   scene.setCamera(pose);
+  scene.setQuality(exact);
   scene.setCounting(true);
   OffscreenView view(kWidth, kHeight);
   view.render(scene);
@@ -115,6 +118,39 @@ TEST(RendererVariant, DrawsAnotherSecondImageThatCameWhileNobodyReadIt)
   contents.materials = {waveMaterial(0.3F)};
   scene.setContents(contents);
   EXPECT_EQ(countDifferentPixels(view.render(scene), draw(contents, slanting())), 0U);
+}
+
+// NVIDIA's cards have 8 bits, llvmpipe takes the weights as they are.
+TEST(RendererVariant, MeasuresToHowManyBitsTheCardRoundsItsFilter)
+{
+  const int bits = shoot(hollowBall(), slanting(), {}, 32, 24).statistics.filterBits;
+  EXPECT_TRUE(bits == RenderQuality::kExactFilterBits || (bits >= 6 && bits <= 9)) << bits;
+  RenderQuality rounded;
+  rounded.filterBits = 6;
+  EXPECT_EQ(shoot(hollowBall(), slanting(), rounded, 32, 24).statistics.filterBits, 6);
+}
+
+// As on a card whose filter rounds: surfaces lie, and look, as where it does not.
+TEST(RendererVariant, FindsSurfacesExactlyWhereTheCardRoundsItsFilter)
+{
+  SceneContents structures = labelledBall(cube(64, 0.35, obliqueMirrored()), 1.0F);
+  structures.mask = cut(structures.ct->geometry(), cavity);
+  RenderQuality exact, rounded;
+  exact.filterBits = RenderQuality::kExactFilterBits;
+  rounded.filterBits = 8;
+  for (const SceneContents& contents :
+       {hollowBall(oblique()), cutBall(), cutBall(0.35F), structures, fullScene()})
+  {
+    const ReferencePicture truth = truthOf(contents, slanting());
+    const double voxel = contents.ct->geometry().minSpacing();
+    const Agreement wanted = compare(shoot(contents, slanting(), exact), truth, voxel);
+    const Agreement got = compare(shoot(contents, slanting(), rounded), truth, voxel);
+    EXPECT_LE(got.rms, wanted.rms + 0.05);
+    EXPECT_LE(got.others, wanted.others + 0.02);
+    EXPECT_LE(got.median, wanted.median + 1e-4);
+    EXPECT_LE(got.farthest, wanted.farthest + 0.01);
+    EXPECT_LE(got.background, 1);
+  }
 }
 
 TEST(RendererVariant, CountsWithoutChangingThePicture)

@@ -1,5 +1,6 @@
 #include "petrous/Rendering/GraphicsReport.h"
 
+#include <algorithm>
 #include <functional>
 
 #include <vtkNew.h>
@@ -89,7 +90,7 @@ std::vector<Change> features()
           [](SceneContents& contents) { contents.clipping.emplace_back(); }};
 }
 
-GraphicsReport::Variant drawn(const SceneContents& contents)
+GraphicsReport::Variant drawn(const SceneContents& contents, int& filterBits)
 {
   GraphicsReport::Variant variant;
   ScenePicture picture;
@@ -109,6 +110,7 @@ GraphicsReport::Variant drawn(const SceneContents& contents)
     variant.error = error.what();
   }
   variant.features = picture.statistics().variant;
+  filterBits = std::max(filterBits, picture.statistics().filterBits);
   return variant;
 }
 
@@ -135,16 +137,16 @@ GraphicsReport reportGraphics()
   }
   SceneContents plain;
   plain.ct = std::make_shared<const volume::IntensityVolume>(filled<std::int16_t>(-1000));
-  report.variants.push_back(drawn(plain));
+  report.variants.push_back(drawn(plain, report.filterBits));
   SceneContents all = plain;
   for (const Change& add : features())
   {
     SceneContents one = plain;
     add(one);
-    report.variants.push_back(drawn(one));
+    report.variants.push_back(drawn(one, report.filterBits));
     add(all);
   }
-  report.variants.push_back(drawn(all));
+  report.variants.push_back(drawn(all, report.filterBits));
   return report;
 }
 

@@ -10,6 +10,7 @@
 
 #include <Eigen/LU>
 
+#include "CardFilter.h"
 #include "PresentShader.h"
 #include "RayCastVertexShader.h"
 #include "SceneCheck.h"
@@ -298,6 +299,8 @@ RayFeatures RayCaster::features() const
   features.interior = translucent(m_contents.materials);
   features.thickness = static_cast<bool>(m_contents.thickness.distance);
   features.clip = !m_contents.clipping.empty();
+  features.exact = m_statistics.filterBits < RenderQuality::kExactFilterBits;
+  features.rounded = features.exact && m_quality.filterBits > 0;
   return features;
 }
 
@@ -420,6 +423,13 @@ GlProgram& RayCaster::program(bool count)
   return result;
 }
 
+void RayCaster::findFilterBits()
+{
+  if (m_quality.filterBits == 0 && m_filterBits == 0)
+    m_filterBits = measureFilterBits(m_triangle);
+  m_statistics.filterBits = m_quality.filterBits > 0 ? m_quality.filterBits : m_filterBits;
+}
+
 void RayCaster::draw(const Frame& frame, bool count)
 {
   const int width = std::max(1, static_cast<int>(std::lround(frame.width * m_quality.imageScale)));
@@ -427,7 +437,10 @@ void RayCaster::draw(const Frame& frame, bool count)
       std::max(1, static_cast<int>(std::lround(frame.height * m_quality.imageScale)));
   const bool anything = drawable(m_contents);
   if (anything)
+  {
     upload();
+    findFilterBits();
+  }
   m_target.prepare(width, height, count);
   glViewport(0, 0, width, height);
   const std::array<float, 4> nothing{0.0F, 0.0F, 0.0F, 0.0F};
@@ -490,6 +503,7 @@ void RayCaster::release()
   m_present.release();
   m_target.release();
   m_triangle.release();
+  m_filterBits = 0; // the next context may be of another card
 }
 
 } // namespace petrous::rendering

@@ -94,6 +94,7 @@ private:
   void findTissue(const core::IndexBox& bricks);
   core::IndexBox tissueOnScreen(const Frame& frame, int width, int height) const;
   GlProgram& program(bool count);
+  void findFilterBits();
   void bindTextures(GlProgram& program, const Frame& frame) const;
   void setRays(GlProgram& program, const Frame& frame) const;
   void setVolume(GlProgram& program) const;
@@ -122,6 +123,7 @@ private:
   GlTexture m_bricks;
   RayTarget m_target;
   ScreenTriangle m_triangle;
+  int m_filterBits = 0; // of the card; 0: not measured yet
   std::unordered_map<unsigned, GlProgram> m_programs;
   GlProgram m_present;
 };

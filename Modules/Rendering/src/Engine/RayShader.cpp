@@ -37,6 +37,8 @@ constexpr Part kParts[] = {
     {&RayFeatures::clip, "PETROUS_CLIP", "clipping"},
     {&RayFeatures::thickness, "PETROUS_THICKNESS", "thickness"},
     {&RayFeatures::count, "PETROUS_COUNT", nullptr},
+    {&RayFeatures::exact, "PETROUS_EXACT", nullptr},
+    {&RayFeatures::rounded, "PETROUS_ROUNDED", nullptr},
 };
 
 std::string constants()

@@ -22,9 +22,12 @@ struct RayFeatures
   bool clip = false;      ///< clipping planes
   bool thickness = false; ///< bone is coloured by its distance to a structure
   bool count = false;     ///< texture fetches and samples are counted
+  bool exact = false;     ///< surfaces by a filter of our own: the card's rounds its weights
+  bool rounded = false;   ///< the card's filter is made to round its weights
 
-  unsigned key() const noexcept;          ///< unique per variant
-  std::vector<std::string> names() const; ///< "ct" and the added features; counting is not named
+  unsigned key() const noexcept; ///< unique per variant
+  std::vector<std::string>
+  names() const; ///< "ct" and the added features; counting and filters are not named
 };
 
 /// Fragment shader of a variant (for GlProgram), with the constants of OpticalModel.h and

@@ -32,6 +32,8 @@ void RenderQuality::validate() const
   require(imageScale >= 0.1 && imageScale <= 1.0, "imageScale", imageScale, "0.1 to 1");
   require(largestTexture == 0 || largestTexture >= 16, "largestTexture", largestTexture,
           "0 (what the driver takes) or at least 16 texels");
+  require(filterBits == 0 || (filterBits >= 4 && filterBits <= kExactFilterBits), "filterBits",
+          filterBits, "0 (what the card has) or 4 to 16");
 }
 
 namespace

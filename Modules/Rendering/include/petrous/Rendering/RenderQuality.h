@@ -21,6 +21,10 @@ struct RenderQuality
   int maskBits = 16;       ///< of the cut mask on the GPU: 8 or 16
   double imageScale = 1.0; ///< samples per pixel along each axis, 0.1 to 1
   int largestTexture = 0;  ///< max. texels along an edge of a volume; 0: driver's limit
+  /// Bits of the weights with which the card filters volumes: 0, as measured; 4 to 15, rounded so
+  /// (to try on one card what another does); kExactFilterBits, taken for exact.
+  int filterBits = 0;
+  static constexpr int kExactFilterBits = 16;
 
   /// Throws InvalidParameter naming the first value out of range.
   void validate() const;
@@ -29,7 +33,9 @@ struct RenderQuality
 /// Statistics of the last frame.
 struct RenderStatistics
 {
-  std::vector<std::string> variant;             ///< features the shader was compiled with
+  std::vector<std::string> variant; ///< features the shader was compiled with
+  int filterBits = 0; ///< of the card's filter weights; below kExactFilterBits, surfaces are
+                      ///< located and shaded with a filter of our own. 0: nothing was drawn
   std::map<std::string, std::size_t> resources; ///< GPU memory in bytes, by name
   std::vector<std::string> notes; ///< descriptions of what was reduced to fit the driver's limits
   double fetchesPerPixel = 0.0;   ///< of the last counted frame, averaged over all its pixels

@@ -44,7 +44,7 @@ void narrow(inout Bracket bracket, inout Ray ray, const bool plain)
     a *= bracket.weight.x;
     b *= bracket.weight.y;
     bracket.hit = mix(bracket.low, bracket.high, secant ? a / (a - b) : 0.5);
-    ray.at = operandsAt(ray.ways, bracket.hit, plain);
+    ray.at = operandsAt(ray.ways, bracket.hit, plain, true);
     bracket.state = stateOf(ray.at, ray.ways, bracket.hit, plain);
     vec3 here = operandsOf(ray.at);
     bool before = bracket.state == ray.state;
@@ -351,7 +351,7 @@ void main()
 #endif
   ray.color = vec3(0.0);
   ray.transmittance = 1.0;
-  ray.at = operandsAt(ray.ways, 0.0, false);
+  ray.at = operandsAt(ray.ways, 0.0, false, true);
   ray.next = alive ? stateOf(ray.at, ray.ways, 0.0, false) : kAir;
   bool face = ray.next != kAir; // enters tissue through the border of the drawn region
   if (alive)

@@ -187,8 +187,8 @@ int takeSamples(inout Ray ray, Run run, float from, const bool plain)
     // The next brick may be of the other kind.
     float most = plain ? max(min(run.last, ray.last), ray.summit) : ray.last;
     float s2 = aside ? min(ray.summit + ray.aside, most) : min(n2, ray.last);
-    Operands at1 = operandsAt(ray.ways, s1, plain);
-    Operands at2 = operandsAt(ray.ways, s2, plain);
+    Operands at1 = operandsAt(ray.ways, s1, plain, false);
+    Operands at2 = operandsAt(ray.ways, s2, plain, false);
     SAMPLES(2);
     int next1 = stateOf(at1, ray.ways, s1, plain);
     int next2 = stateOf(at2, ray.ways, s2, plain);

@@ -8,6 +8,8 @@
 //   INTERIOR   translucent tissue             CLIP     clipping planes
 //   THICKNESS  bone is coloured by its distance to a structure
 //   COUNT      fetches and samples are counted
+//   EXACT      surfaces are located and shaded with a filter of our own: the card's rounds
+//   ROUNDED    the card's filter is made to round its weights, for tests on one that does not
 // Preceded by the constants that the C++ code defines (RayShader.cpp): kMaxPlanes,
 // kInteriorFacing, kWetShininess, kOccupancyThreshold, kSmoothOpacity (OpticalModel.h),
 // kThicknessColors (ThicknessColor.h), kMixed, kLabels, kBorder (OccupancyGrid.h), kMeeting,
@@ -62,6 +64,9 @@ uniform float termination; // transmittance at which a ray terminates
 uniform mat3 normalFromVoxel; // gradient over voxels -> gradient over mm
 uniform mat3 voxelFromMm;
 uniform float colorDepth; // mm
+#ifdef PETROUS_ROUNDED
+uniform float weights; // of the card's filter between two texels
+#endif
 
 uniform vec4 light; // intensity, ambient, specular, wetness
 uniform float falloff;
@@ -129,17 +134,59 @@ float samples = 0.0;
 #define SAMPLES(n)
 #endif
 
+// Trilinear value at a texture coordinate. Most cards round the weights to 1/256 (Vulkan reports it
+// as subTexelPrecisionBits): good enough for what is integrated along a ray, but the field becomes
+// a staircase on which no root is found, and its slope is wrong by more than 1/100.
+#ifdef PETROUS_ROUNDED
+float byCard(sampler3D image, vec3 at)
+{
+  vec3 size = vec3(textureSize(image, 0));
+  vec3 texel = at * size - 0.5;
+  vec3 lower = floor(texel);
+  vec3 weight = floor((texel - lower) * weights + 0.5) / weights;
+  return texture(image, (lower + weight + 0.5) / size).r;
+}
+#else
+#define byCard(image, at) texture(image, at).r
+#endif
+
+#ifdef PETROUS_EXACT
+float exactly(sampler3D image, vec3 at)
+{
+  COUNT(7); // and one where it is called
+  ivec3 last = textureSize(image, 0) - 1;
+  vec3 texel = at * vec3(last + 1) - 0.5;
+  vec3 lower = floor(texel);
+  vec3 weight = texel - lower;
+  ivec3 a = clamp(ivec3(lower), ivec3(0), last);
+  ivec3 b = clamp(ivec3(lower) + 1, ivec3(0), last);
+  vec4 low = vec4(texelFetch(image, a, 0).r, texelFetch(image, ivec3(b.x, a.yz), 0).r,
+                  texelFetch(image, ivec3(a.x, b.y, a.z), 0).r,
+                  texelFetch(image, ivec3(b.xy, a.z), 0).r);
+  vec4 high = vec4(texelFetch(image, ivec3(a.xy, b.z), 0).r,
+                   texelFetch(image, ivec3(b.x, a.y, b.z), 0).r,
+                   texelFetch(image, ivec3(a.x, b.yz), 0).r, texelFetch(image, b, 0).r);
+  vec4 between = mix(low, high, weight.z);
+  vec2 row = mix(between.xy, between.zw, weight.y);
+  return mix(row.x, row.y, weight.x);
+}
+#define FILTERED(image, at, refined) (refined ? exactly(image, at) : byCard(image, at))
+#else
+#define exactly(image, at) byCard(image, at)
+#define FILTERED(image, at, refined) byCard(image, at)
+#endif
+
 float ctAt(vec3 v)
 {
   COUNT(1);
-  return texture(ctTexture, v * ctScale + ctOffset).r * ctUnit;
+  return exactly(ctTexture, v * ctScale + ctOffset) * ctUnit;
 }
 
 #ifdef PETROUS_MASK
 float maskAt(vec3 v)
 {
   COUNT(1);
-  return texture(maskTexture, v * maskScale + maskOffset).r;
+  return exactly(maskTexture, v * maskScale + maskOffset);
 }
 #endif
 
@@ -152,7 +199,7 @@ vec3 labelPosition(vec3 v)
 float occupancyAtLabel(vec3 l)
 {
   COUNT(1);
-  return texture(occupancyTexture, l * labelScale + labelOffset).r;
+  return exactly(occupancyTexture, l * labelScale + labelOffset);
 }
 
 // Index and border of a voxel; 0 outside the grid.
@@ -266,13 +313,13 @@ struct Operands
   float margin; // inside a structure: distance to another one, in units of occupancy
 };
 
-// `plain`: neither labels nor mask matter there.
-Operands operandsAt(Ways ways, float s, const bool plain)
+// `plain`: neither labels nor mask matter there. `refined`: by the exact filter.
+Operands operandsAt(Ways ways, float s, const bool plain, const bool refined)
 {
   Operands at;
 #if defined(PETROUS_BONE) || defined(PETROUS_INTERIOR)
   COUNT(1);
-  at.value = texture(ctTexture, along(ways.ct, s)).r * ctUnit;
+  at.value = FILTERED(ctTexture, along(ways.ct, s), refined) * ctUnit;
 #else
   at.value = 0.0;
 #endif
@@ -288,14 +335,14 @@ Operands operandsAt(Ways ways, float s, const bool plain)
   if (!plain)
   {
     COUNT(1);
-    at.occupancy = texture(occupancyTexture, along(ways.occupancy, s)).r;
+    at.occupancy = FILTERED(occupancyTexture, along(ways.occupancy, s), refined);
   }
 #endif
 #ifdef PETROUS_MASK
   if (!plain)
   {
     COUNT(1);
-    at.left = texture(maskTexture, along(ways.mask, s)).r;
+    at.left = FILTERED(maskTexture, along(ways.mask, s), refined);
   }
 #endif
   return at;

@@ -133,7 +133,7 @@ void doctor(const Context& context)
     if (graphics->filterBits > 0 &&
         graphics->filterBits < rendering::RenderQuality::kExactFilterBits)
       context.print("            filters with weights of " + std::to_string(graphics->filterBits) +
-                    " bits; surfaces are found with an exact filter");
+                    " bits; an exact filter takes its place");
     for (const auto& variant : graphics->variants)
       context.print("ray caster  " + joined(variant.features) +
                     (variant.compiles ? "" : ": does not work: " + variant.error));

@@ -124,6 +124,7 @@ void RayCaster::setVolume(GlProgram& program) const
   program.set("brickEdge", double(m_quality.brick));
   program.set("stepLength", m_quality.step * grid.minSpacing());
   program.set("bisections", m_quality.bisections);
+  program.set("exactSamples", m_quality.exactSamples ? 1 : 0);
   program.set("weights", std::ldexp(1.0, m_statistics.filterBits));
   program.set("termination", m_quality.termination);
   program.set("normalFromVoxel", Eigen::Matrix3d(voxelFromMm.transpose()));

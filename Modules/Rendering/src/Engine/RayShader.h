@@ -22,7 +22,7 @@ struct RayFeatures
   bool clip = false;      ///< clipping planes
   bool thickness = false; ///< bone is coloured by its distance to a structure
   bool count = false;     ///< texture fetches and samples are counted
-  bool exact = false;     ///< surfaces by a filter of our own: the card's rounds its weights
+  bool exact = false;     ///< values by a filter of our own: the card's rounds its weights
   bool rounded = false;   ///< the card's filter is made to round its weights
 
   unsigned key() const noexcept; ///< unique per variant

@@ -59,6 +59,7 @@ InteractionQuality::InteractionQuality(double hz)
 RenderQuality InteractionQuality::coarser(const RenderQuality& full) const noexcept
 {
   RenderQuality quality = full;
+  quality.exactSamples = false;
   if (m_cost == 0.0)
   {
     quality.imageScale = std::min(full.imageScale, 0.5);

@@ -25,6 +25,9 @@ struct RenderQuality
   /// (to try on one card what another does); kExactFilterBits, taken for exact.
   int filterBits = 0;
   static constexpr int kExactFilterBits = 16;
+  /// Where the card's filter rounds, samples along rays come from an exact one, too, not only
+  /// surfaces and their slopes.
+  bool exactSamples = true;
 
   /// Throws InvalidParameter naming the first value out of range.
   void validate() const;
@@ -34,8 +37,8 @@ struct RenderQuality
 struct RenderStatistics
 {
   std::vector<std::string> variant; ///< features the shader was compiled with
-  int filterBits = 0; ///< of the card's filter weights; below kExactFilterBits, surfaces are
-                      ///< located and shaded with a filter of our own. 0: nothing was drawn
+  int filterBits = 0; ///< of the card's filter weights; below kExactFilterBits, an exact filter
+                      ///< of our own takes its place. 0: nothing was drawn
   std::map<std::string, std::size_t> resources; ///< GPU memory in bytes, by name
   std::vector<std::string> notes; ///< descriptions of what was reduced to fit the driver's limits
   double fetchesPerPixel = 0.0;   ///< of the last counted frame, averaged over all its pixels

@@ -8,7 +8,7 @@
 //   INTERIOR   translucent tissue             CLIP     clipping planes
 //   THICKNESS  bone is coloured by its distance to a structure
 //   COUNT      fetches and samples are counted
-//   EXACT      surfaces are located and shaded with a filter of our own: the card's rounds
+//   EXACT      the card's filter rounds: values come from one of our own
 //   ROUNDED    the card's filter is made to round its weights, for tests on one that does not
 // Preceded by the constants that the C++ code defines (RayShader.cpp): kMaxPlanes,
 // kInteriorFacing, kWetShininess, kOccupancyThreshold, kSmoothOpacity (OpticalModel.h),
@@ -135,8 +135,8 @@ float samples = 0.0;
 #endif
 
 // Trilinear value at a texture coordinate. Most cards round the weights to 1/256 (Vulkan reports it
-// as subTexelPrecisionBits): good enough for what is integrated along a ray, but the field becomes
-// a staircase on which no root is found, and its slope is wrong by more than 1/100.
+// as subTexelPrecisionBits). The field becomes a staircase: no root is found to better than a step,
+// slopes are wrong, and what a ray grazes comes and goes. Good enough while the picture moves.
 #ifdef PETROUS_ROUNDED
 float byCard(sampler3D image, vec3 at)
 {
@@ -170,10 +170,16 @@ float exactly(sampler3D image, vec3 at)
   vec2 row = mix(between.xy, between.zw, weight.y);
   return mix(row.x, row.y, weight.x);
 }
-#define FILTERED(image, at, refined) (refined ? exactly(image, at) : byCard(image, at))
+uniform bool exactSamples;
+float filtered(sampler3D image, vec3 at, const bool refined)
+{
+  if (refined || exactSamples)
+    return exactly(image, at);
+  return byCard(image, at);
+}
 #else
 #define exactly(image, at) byCard(image, at)
-#define FILTERED(image, at, refined) byCard(image, at)
+#define filtered(image, at, refined) byCard(image, at)
 #endif
 
 float ctAt(vec3 v)
@@ -313,13 +319,13 @@ struct Operands
   float margin; // inside a structure: distance to another one, in units of occupancy
 };
 
-// `plain`: neither labels nor mask matter there. `refined`: by the exact filter.
+// `plain`: neither labels nor mask matter there. `refined`: always by the exact filter.
 Operands operandsAt(Ways ways, float s, const bool plain, const bool refined)
 {
   Operands at;
 #if defined(PETROUS_BONE) || defined(PETROUS_INTERIOR)
   COUNT(1);
-  at.value = FILTERED(ctTexture, along(ways.ct, s), refined) * ctUnit;
+  at.value = filtered(ctTexture, along(ways.ct, s), refined) * ctUnit;
 #else
   at.value = 0.0;
 #endif
@@ -335,14 +341,14 @@ Operands operandsAt(Ways ways, float s, const bool plain, const bool refined)
   if (!plain)
   {
     COUNT(1);
-    at.occupancy = FILTERED(occupancyTexture, along(ways.occupancy, s), refined);
+    at.occupancy = filtered(occupancyTexture, along(ways.occupancy, s), refined);
   }
 #endif
 #ifdef PETROUS_MASK
   if (!plain)
   {
     COUNT(1);
-    at.left = FILTERED(maskTexture, along(ways.mask, s), refined);
+    at.left = filtered(maskTexture, along(ways.mask, s), refined);
   }
 #endif
   return at;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <thread>
+#include <utility>
 
 #include <fcntl.h>
 #include <sqlite3.h>
@@ -723,4 +724,56 @@ TEST_F(Maintenance, WaitingForTheLibraryCanBeCancelledAndChangesNothing)
   EXPECT_EQ(contentOf(m_folder.path()), before);
   ::close(other);
   EXPECT_NO_THROW(m_library.save(value));
+}
+
+// A copy is made to be kept when the original goes.
+TEST_F(Maintenance, ACopyThatWaitedIsRefusedWhereTheOriginalIsGone)
+{
+  make("a");
+  make("b", 20);
+  int other = ::open((m_folder.path() / ".lock").c_str(), O_RDWR);
+  ASSERT_EQ(::flock(other, LOCK_EX), 0);
+  Library waiting(m_folder.path());
+  waiting.onWait(
+      [&](double)
+      {
+        ::close(std::exchange(other, -1));
+        m_library.remove("a");
+        m_library.collectGarbage();
+      });
+  const auto [reason, words] = refusal([&] { waiting.copy("a", "twin"); });
+  EXPECT_EQ(reason, LibraryError::Reason::NotFound) << words;
+  EXPECT_FALSE(m_library.contains("twin"));
+  EXPECT_TRUE(m_library.verify().damaged.empty());
+}
+
+TEST_F(Maintenance, ACopyThatWaitedIsOfTheCaseAsItIsThen)
+{
+  scene::Case value = make("a");
+  int other = ::open((m_folder.path() / ".lock").c_str(), O_RDWR);
+  ASSERT_EQ(::flock(other, LOCK_EX), 0);
+  Library waiting(m_folder.path());
+  waiting.onWait(
+      [&](double)
+      {
+        ::close(std::exchange(other, -1));
+        value.iso = 512;
+        m_library.save(value);
+      });
+  waiting.copy("a", "twin");
+  EXPECT_EQ(m_library.open("twin").iso, 512);
+}
+
+TEST_F(Maintenance, SavingUnderAnotherNameSaysWhatIsLost)
+{
+  scene::Case value = make("a");
+  value = m_library.open("a");
+  m_library.remove("a");
+  m_library.collectGarbage();
+  std::string said;
+  m_library.onNotice([&said](const std::string& words) { said += words; });
+  value.name = "b";
+  value.revision = 0;
+  m_library.save(value);
+  EXPECT_NE(said.find("missing"), std::string::npos) << said;
 }

@@ -749,6 +749,10 @@ void Library::saveWith(scene::Case& value,
     if (!onDisk && m_notice)
       m_notice("case '" + value.name +
                "' is saved, but the disk reported an error; check the disk");
+    // Another program may have removed for good what only a deleted case of the same parts kept.
+    if (m_notice && value.revision == 1)
+      for (const std::string& words : lost(value))
+        m_notice("case '" + value.name + "' is saved, but not all of it is there: " + words);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - started;
     core::log::info("library: case saved in " + core::fixedText(seconds.count(), 3) + " s, " +
                     std::to_string(value.dissection.strokes().size()) + " strokes, " +

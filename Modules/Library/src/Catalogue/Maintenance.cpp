@@ -273,12 +273,42 @@ void Library::undelete(const std::string& name)
 
 void Library::copy(const std::string& from, const std::string& to, const core::Progress& progress)
 {
+  constexpr int kAttempts = 20; // another program keeps saving
   scene::checkCaseName(to);
-  scene::Case value = open(from);
-  const std::vector<std::uint8_t> png = readThumbnail(m_folder, value.id);
-  value.name = to;
-  value.revision = 0;
-  save(value, progress);
+  std::vector<std::uint8_t> png;
+  bool isCurrent = false;
+  for (int attempt = 1; !isCurrent; ++attempt)
+  {
+    scene::Case value = open(from);
+    const std::uint64_t revision = value.revision;
+    png = readThumbnail(m_folder, value.id);
+    value.name = to;
+    value.revision = 0;
+    // A copy shares what the original keeps, and that may have been deleted and removed for good
+    // while this waited for the library.
+    const auto requireOriginal = [&](scene::Case& next, ObjectStore&)
+    {
+      isCurrent = contains(from);
+      if (isCurrent)
+      {
+        const scene::Case now = readManifest(from);
+        isCurrent = now.id == next.id && now.revision == revision;
+      }
+      if (!isCurrent)
+        throw LibraryError(Reason::Conflict, "case '" + from +
+                                                 "' was changed by another program while it was "
+                                                 "copied; copy it again");
+    };
+    try
+    {
+      saveWith(value, requireOriginal, progress);
+    }
+    catch (const LibraryError& error)
+    {
+      if (error.reason != Reason::Conflict || isCurrent || attempt == kAttempts || contains(to))
+        throw;
+    }
+  }
   if (png.empty())
     return;
   try

@@ -1,3 +1,4 @@
+#include <cstring>
 #include <map>
 #include <sstream>
 
@@ -456,6 +457,51 @@ TEST_F(Deidentification, KnowsThePatientsNumberAndANameThatIsAWordOfTheVocabular
   {
     EXPECT_EQ(value.find("4711471"), std::string::npos) << path;
     EXPECT_NE(value, "Wu") << path;
+  }
+}
+
+TEST_F(Deidentification, KnowsThePatientsNumberInAnyFormOfANumber)
+{
+  const std::string patient = element(0x00100020, "4711471") +
+                              element(0x00101000, "OTHER\\0815815") +
+                              element(0x00080050, "943-476-919");
+  for (const char* form : {" 4711471", "04711471", "+4711471", "-4711471", "815815", "943476919",
+                           "4711471.0", "4.711471e6", "943476919.00"})
+  {
+    const bool isWhole = std::string(form).find_first_of(".e") == std::string::npos;
+    const Elements found = cleaned(patient + element(0x00181150, isWhole ? form : "4711471") +
+                                   element(0x00180050, form) + element(0x00200013, "471147"));
+    EXPECT_EQ(found.at("00181150"), "") << form;
+    EXPECT_EQ(found.at("00180050"), "") << form;
+    EXPECT_EQ(found.at("00200013"), "471147") << form << ": another number";
+  }
+  const auto real = [](double value)
+  {
+    std::string bytes(sizeof value, '\0');
+    std::memcpy(bytes.data(), &value, sizeof value);
+    return bytes;
+  };
+  const Elements binary = cleaned(
+      patient + element(0x00209057, little(4711471, 4)) + element(0x00209128, little(471147, 4)) +
+      element(0x00189073, real(4711471.0)) + element(0x00189328, real(0.1)));
+  EXPECT_EQ(binary.count("00209057"), 0U);
+  EXPECT_EQ(binary.count("00209128"), 1U);
+  EXPECT_EQ(binary.count("00189073"), 0U);
+  EXPECT_EQ(binary.count("00189328"), 1U);
+  EXPECT_EQ(cleaned(element(0x00100020, "00012") + element(0x00200013, "12")).at("00200013"), "12")
+      << "a short number is that of anything";
+}
+
+TEST_F(Deidentification, KeepsNoTextInPlaceOfNumbers)
+{
+  for (const std::string name : {"O'Brien^Mary", "M\xfcller^Hans", "M\xc3\xbcller^H.", "J. R. Doe"})
+  {
+    const std::string text = (name + std::string(12, ' ')).substr(0, 12);
+    const Elements found =
+        cleaned(element(0x00100010, name) + element(0x00189328, text.substr(0, 8)) +
+                element(0x00209157, text));
+    EXPECT_EQ(found.count("00189328"), 0U) << name;
+    EXPECT_EQ(found.count("00209157"), 0U) << name;
   }
 }
 

@@ -13,6 +13,7 @@
 #include <iterator>
 #include <memory>
 #include <mutex>
+#include <type_traits>
 #include <vector>
 
 #include "FaceSlices.h"
@@ -427,18 +428,36 @@ bool hasFormOf(DcmEVR vr, const std::string& value)
   }
 }
 
-// Numbers whose bytes are letters.
-bool areLetters(const Uint8* bytes, std::size_t count)
+std::string textIn(const void* bytes, std::size_t count)
 {
-  constexpr std::size_t kTelling = 6;
-  while (count > 0 && (bytes[count - 1] == ' ' || bytes[count - 1] == 0))
-    --count;
-  const auto isLetter = [](Uint8 c)
-  {
-    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '^' || c == ' ' || c == '-' ||
-           c == ',';
-  };
-  return count >= kTelling && std::all_of(bytes, bytes + count, isLetter);
+  std::string text(static_cast<const char*>(bytes), count);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\0'))
+    text.pop_back();
+  return text;
+}
+
+bool isLetter(char c)
+{
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+}
+
+constexpr std::size_t kTellingBytes = 6;
+
+// Numbers whose bytes are those of a name.
+bool areLetters(const std::string& text)
+{
+  const auto isOfName = [](char c)
+  { return isLetter(c) || (c != '\0' && std::strchr("^ -,.'", c) != nullptr); };
+  return text.size() >= kTellingBytes && std::all_of(text.begin(), text.end(), isOfName);
+}
+
+// Numbers that have no other bytes than text has, in any character set; real numbers may, too.
+bool mayBeText(const std::string& text)
+{
+  const auto isPrinted = [](unsigned char c) { return c >= 0x20 && c != 0x7f; };
+  const auto letters = std::count_if(text.begin(), text.end(), isLetter);
+  return text.size() >= kTellingBytes && std::all_of(text.begin(), text.end(), isPrinted) &&
+         2 * static_cast<std::size_t>(letters) >= text.size();
 }
 
 // Values of the safe private attributes of VR CS, LO and SH: a ratio, anatomical directions, GE's
@@ -589,7 +608,8 @@ private:
         m_words.add(valueOf(*element));
         if (const std::uint32_t tag = tagOf(element->getTag());
             tag >> 16 == 0x0010 || tag == 0x00080050 || tag == 0x00200010)
-          m_people.addIdentifier(valueOf(*element));
+          for (const std::string& one : split(valueOf(*element)))
+            m_people.addIdentifier(one);
         break;
       default:
         if (element->getVR() == EVR_PN)
@@ -737,51 +757,63 @@ private:
             return true;
           if (vr == EVR_CS)
             return isCodedTerm(tag, withoutPadding(part));
-          return tag == kZone ? isZone(part)
-                              : hasFormOf(vr, part) &&
-                                    !(isText(vr) && (!isPlainText(part) || m_people.hasWord(part)));
+          return tag == kZone
+                     ? isZone(part)
+                     : hasFormOf(vr, part) &&
+                           !(isText(vr) && (!isPlainText(part) || m_people.hasWord(part))) &&
+                           !((vr == EVR_DS || vr == EVR_IS) && m_people.isIdentifier(part));
         });
   }
 
-  // With no bytes after the last whole one, which no reader shows.
-  static bool arePlainNumbers(DcmElement& element)
+  // With no bytes after the last whole one, which no reader shows, and neither text nor an
+  // identifier of the patient.
+  bool arePlainNumbers(DcmElement& element) const
   {
     const std::size_t width = DcmVR(element.getVR()).getValueWidth();
-    if (width > 1 && element.getLength() % width != 0)
+    const std::size_t length = element.getLength();
+    if (width > 1 && length % width != 0)
       return false;
+    const auto arePlain = [&](const auto* values)
+    {
+      using Number = std::remove_const_t<std::remove_pointer_t<decltype(values)>>;
+      const std::string text = textIn(values, length);
+      return !areLetters(text) &&
+             !(mayBeText(text) && (std::is_integral_v<Number> || m_people.hasWord(text))) &&
+             std::none_of(values, values + length / sizeof(Number),
+                          [this](Number value)
+                          { return m_people.isIdentifier(static_cast<double>(value)); });
+    };
     Uint16* u16 = nullptr;
     Sint16* s16 = nullptr;
     Uint32* u32 = nullptr;
     Sint32* s32 = nullptr;
     Float32* f32 = nullptr;
     Float64* f64 = nullptr;
-    const void* bytes = nullptr;
+    Uint64* u64 = nullptr;
+    Sint64* s64 = nullptr;
     switch (element.getVR())
     {
     case EVR_US:
     case EVR_xs:
     case EVR_AT:
-      bytes = element.getUint16Array(u16).good() ? u16 : nullptr;
-      break;
+      return element.getUint16Array(u16).bad() || !u16 || arePlain(u16);
     case EVR_SS:
-      bytes = element.getSint16Array(s16).good() ? s16 : nullptr;
-      break;
+      return element.getSint16Array(s16).bad() || !s16 || arePlain(s16);
     case EVR_UL:
-      bytes = element.getUint32Array(u32).good() ? u32 : nullptr;
-      break;
+      return element.getUint32Array(u32).bad() || !u32 || arePlain(u32);
     case EVR_SL:
-      bytes = element.getSint32Array(s32).good() ? s32 : nullptr;
-      break;
+      return element.getSint32Array(s32).bad() || !s32 || arePlain(s32);
     case EVR_FL:
-      bytes = element.getFloat32Array(f32).good() ? f32 : nullptr;
-      break;
+      return element.getFloat32Array(f32).bad() || !f32 || arePlain(f32);
     case EVR_FD:
-      bytes = element.getFloat64Array(f64).good() ? f64 : nullptr;
-      break;
-    default: // 64-bit integers
-      return element.getLength() <= 8;
+      return element.getFloat64Array(f64).bad() || !f64 || arePlain(f64);
+    case EVR_UV:
+      return length <= width && (element.getUint64Array(u64).bad() || !u64 || arePlain(u64));
+    case EVR_SV:
+      return length <= width && (element.getSint64Array(s64).bad() || !s64 || arePlain(s64));
+    default:
+      return false;
     }
-    return !bytes || !areLetters(static_cast<const Uint8*>(bytes), element.getLength());
   }
 
   std::string vocabularyOf(const std::string& text) const

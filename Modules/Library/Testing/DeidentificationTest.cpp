@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <csignal>
 #include <cstring>
 #include <map>
 #include <sstream>
@@ -14,6 +16,7 @@
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Library/Deidentification.h"
 #include "petrous/Library/OwnerLock.h"
+#include "petrous/Library/PseudonymMap.h"
 
 namespace petrous::library
 {
@@ -1077,6 +1080,50 @@ TEST_F(Deidentification, RemovesWhatAKilledRunLeftButNothingOfARunningOne)
   EXPECT_FALSE(fs::exists(out / ".petrous-0006"));
   EXPECT_FALSE(fs::exists(out / ".petrous-0007"));
   EXPECT_TRUE(fs::exists(out / "series-001-CT" / "00001.dcm"));
+}
+
+// The map of pseudonyms is the only way back.
+TEST_F(Deidentification, GivesNamesOfAnyCharacterSetInUtf8)
+{
+  struct Name
+  {
+    const char *set, *bytes, *utf8;
+  };
+  // The same names as PS3.5 annexes H and K, or the code charts, have them.
+  const std::vector<Name> names{
+      {"ISO_IR 100", "M\xfcller^Hans", "M\xc3\xbcller^Hans"},
+      {"ISO_IR 144", "\xbb\xee\xda\xdd\xd5\xe6",
+       "\xd0\x9b\xd1\x8e\xd0\xba\xd0\xbd\xd0\xb5\xd1\x86"},
+      {"ISO_IR 126", "\xc4\xe9\xef\xed", "\xce\x94\xce\xb9\xce\xbf\xce\xbd"},
+      {"\\ISO 2022 IR 87", "Yamada^Tarou=\x1b$B;3ED\x1b(B^\x1b$BB@O:\x1b(B",
+       "Yamada^Tarou=\xe5\xb1\xb1\xe7\x94\xb0^\xe5\xa4\xaa\xe9\x83\x8e"},
+      {"GB18030", "Wang=\xcd\xf5", "Wang=\xe7\x8e\x8b"},
+      {"ISO_IR 192", "Zo\xc3\xab", "Zo\xc3\xab"},
+      {"", "Zo\xc3\xab", "Zo\xc3\xab"}, // not stated
+      {"", "Zo\xeb", "Zo\xc3\xab"},
+      {"ISO_IR 192", "Zo\xeb", "Zo\xc3\xab"},
+  };
+  for (const Name& name : names)
+  {
+    write(in / "a.dcm", withBody((*name.set ? element(0x00080005, name.set) : std::string()) +
+                                 element(0x00100010, name.bytes)));
+    fs::remove_all(out);
+    const std::vector<Pseudonym> given = run().pseudonyms;
+    const auto patient = std::find_if(given.begin(), given.end(),
+                                      [](const auto& one) { return one.kind == "patient"; });
+    ASSERT_NE(patient, given.end());
+    EXPECT_EQ(patient->identity, std::string(" ") + name.utf8) << name.set;
+    // Kept and read, it is known again.
+    const fs::path file = folder.path() / "map";
+    constexpr PseudonymMap::Cost kCheap{1, 1 << 16};
+    {
+      PseudonymMap map(file, "correct horse", kCheap);
+      map.takeIn(given);
+    }
+    PseudonymMap map(file, "correct horse", kCheap);
+    EXPECT_EQ(map.add(given), 0U) << name.set;
+    fs::remove(file);
+  }
 }
 
 TEST_F(Deidentification, GivesThePseudonymsBeforeTheOutputIsThere)

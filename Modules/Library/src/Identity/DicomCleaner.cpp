@@ -19,6 +19,7 @@
 #include "FaceSlices.h"
 #include "PixelMetadata.h"
 #include "Vocabulary.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Imaging/DicomReader.h"
 #include "petrous/Imaging/SeriesGeometry.h"
@@ -1620,6 +1621,32 @@ bool hasPreamble(const std::filesystem::path& path)
          start.find_first_not_of('\0') < kPreamble;
 }
 
+// Of a file's character set. What is not of it is taken for UTF-8, or else for Latin-1, so that no
+// byte is lost.
+std::string utf8Of(const std::string& text, const std::string& characterSet)
+{
+  if (isPlainText(text))
+    return text;
+  DcmDataset item;
+  if (item.putAndInsertString(DCM_SpecificCharacterSet, characterSet.c_str()).good() &&
+      item.putAndInsertString(DCM_PatientName, text.c_str()).good() && item.convertToUTF8().good())
+    if (std::string converted = valueOf(item, DCM_PatientName);
+        !converted.empty() && core::isUtf8(converted))
+      return converted;
+  if (core::isUtf8(text))
+    return text;
+  std::string latin;
+  for (const char c : text)
+    if (const auto byte = static_cast<unsigned char>(c); byte < 0x80)
+      latin += c;
+    else
+    {
+      latin += static_cast<char>(0xc0U | byte >> 6U);
+      latin += static_cast<char>(0x80U | (byte & 0x3fU));
+    }
+  return latin;
+}
+
 std::string folded(const std::string& name)
 {
   std::string text;
@@ -1711,8 +1738,9 @@ DicomCleaner::Outcome DicomCleaner::clean(const std::filesystem::path& input,
 
   const std::string study = valueOf(*dataSet, DCM_StudyInstanceUID);
   const std::string series = valueOf(*dataSet, DCM_SeriesInstanceUID);
-  const std::string patientId = valueOf(*dataSet, DCM_PatientID);
-  const std::string patientName = valueOf(*dataSet, DCM_PatientName);
+  const std::string characterSet = valueOf(*dataSet, DCM_SpecificCharacterSet);
+  const std::string patientId = utf8Of(valueOf(*dataSet, DCM_PatientID), characterSet);
+  const std::string patientName = utf8Of(valueOf(*dataSet, DCM_PatientName), characterSet);
   const std::string birthDate = valueOf(*dataSet, DCM_PatientBirthDate);
   const std::string newSeries = m_key.uid(series), newStudy = m_key.uid(study);
 

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "../../Imaging/Testing/TestDicom.h"
 #include "ConfidentialityProfile.h"
@@ -1080,6 +1081,42 @@ TEST_F(Deidentification, RemovesWhatAKilledRunLeftButNothingOfARunningOne)
   EXPECT_FALSE(fs::exists(out / ".petrous-0006"));
   EXPECT_FALSE(fs::exists(out / ".petrous-0007"));
   EXPECT_TRUE(fs::exists(out / "series-001-CT" / "00001.dcm"));
+}
+
+// What a stream of the C library still holds when the file is closed may find no room.
+TEST_F(Deidentification, ADiskThatIsFullAtAnyByteLeavesWhatWasThere)
+{
+  write(in / "a.dcm", {});
+  write(in / "b.dcm", {});
+  const fs::path file = folder.path() / "one.dcm";
+  deidentify(in / "a.dcm", file, {}, key);
+  const auto size = static_cast<rlim_t>(fs::file_size(file));
+  imaging::test::writeText(file, "former");
+  rlimit before{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  const auto former = std::signal(SIGXFSZ, SIG_IGN);
+  for (const rlim_t most : {rlim_t{0}, rlim_t{1}, rlim_t{200}, size / 2, size - 1})
+    for (const bool isFolder : {false, true})
+    {
+      rlimit limit = before;
+      limit.rlim_cur = most;
+      ::setrlimit(RLIMIT_FSIZE, &limit);
+      try
+      {
+        deidentify(isFolder ? in : in / "a.dcm", isFolder ? out : file, {}, key);
+        ADD_FAILURE() << most << ": the disk took it";
+      }
+      catch (const core::OutputFileError& error)
+      {
+        EXPECT_EQ(error.reason, core::OutputFileError::Reason::DiskFull) << error.what();
+      }
+      ::setrlimit(RLIMIT_FSIZE, &before);
+      EXPECT_EQ(core::readFile(file), "former");
+      EXPECT_FALSE(fs::exists(out));
+    }
+  std::signal(SIGXFSZ, former);
+  run();
+  EXPECT_EQ(fs::file_size(out / "series-001-CT" / "00002.dcm"), size);
 }
 
 // The map of pseudonyms is the only way back.

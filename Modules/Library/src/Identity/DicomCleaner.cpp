@@ -8,13 +8,18 @@
 #include "DicomCleaner.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <type_traits>
 #include <vector>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 #include "FaceSlices.h"
 #include "PixelMetadata.h"
@@ -1621,6 +1626,100 @@ bool hasPreamble(const std::filesystem::path& path)
          start.find_first_not_of('\0') < kPreamble;
 }
 
+/// Writes a file from its start. Unlike DCMTK's own, keeps what the disk says, also at the end.
+class WrittenFile : public DcmConsumer
+{
+public:
+  explicit WrittenFile(const std::filesystem::path& path)
+    : m_descriptor(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666))
+    , m_error(m_descriptor < 0 ? errno : 0)
+  {
+    m_waiting.reserve(kBlock);
+  }
+  ~WrittenFile() override { close(); }
+  WrittenFile(const WrittenFile&) = delete;
+  WrittenFile& operator=(const WrittenFile&) = delete;
+
+  /// Returns errno of the first failure, or 0.
+  int close()
+  {
+    if (m_descriptor < 0)
+      return m_error;
+    empty();
+    if (::close(m_descriptor) != 0 && errno != EINTR && m_error == 0)
+      m_error = errno;
+    m_descriptor = -1;
+    return m_error;
+  }
+
+  OFBool good() const override { return m_error == 0; }
+  OFCondition status() const override { return good() ? EC_Normal : EC_InvalidStream; }
+  OFBool isFlushed() const override { return OFTrue; }
+  offile_off_t avail() const override { return std::numeric_limits<offile_off_t>::max(); }
+  offile_off_t write(const void* bytes, offile_off_t count) override
+  {
+    const auto size = static_cast<std::size_t>(count);
+    if (m_waiting.size() + size > kBlock)
+      empty();
+    if (size >= kBlock)
+      put(static_cast<const char*>(bytes), size);
+    else
+      m_waiting.append(static_cast<const char*>(bytes), size);
+    return good() ? count : 0;
+  }
+  void flush() override {}
+
+private:
+  static constexpr std::size_t kBlock = std::size_t{1} << 16;
+
+  void empty()
+  {
+    put(m_waiting.data(), m_waiting.size());
+    m_waiting.clear();
+  }
+
+  void put(const char* bytes, std::size_t count)
+  {
+    for (std::size_t done = 0; done < count && m_error == 0;)
+      if (const ssize_t written = ::write(m_descriptor, bytes + done, count - done); written >= 0)
+        done += static_cast<std::size_t>(written);
+      else if (errno != EINTR)
+        m_error = errno;
+  }
+
+  int m_descriptor;
+  int m_error;
+  std::string m_waiting;
+};
+
+class WritingStream : public DcmOutputStream
+{
+public:
+  explicit WritingStream(WrittenFile& file)
+    : DcmOutputStream(&file)
+  {
+  }
+};
+
+// Throws core::OutputFileError.
+void save(DcmFileFormat& content, E_TransferSyntax syntax, const std::filesystem::path& path)
+{
+  WrittenFile file(path);
+  OFCondition saved = file.status();
+  if (saved.good())
+  {
+    WritingStream stream(file);
+    content.transferInit();
+    saved = content.write(stream, syntax, EET_UndefinedLength, nullptr, EGL_withoutGL,
+                          EPD_withoutPadding, 0, 0, 0, EWM_createNewMeta);
+    content.transferEnd();
+  }
+  if (const int error = file.close())
+    core::throwOutputError(error, path);
+  if (saved.bad())
+    throw core::OutputFileError(core::OutputFileError::Reason::Failed, path, "cannot be written");
+}
+
 // Of a file's character set. What is not of it is taken for UTF-8, or else for Latin-1, so that no
 // byte is lost.
 std::string utf8Of(const std::string& text, const std::string& characterSet)
@@ -1782,14 +1881,8 @@ DicomCleaner::Outcome DicomCleaner::clean(const std::filesystem::path& input,
   pseudonyms["series " + newSeries] = {"series", newSeries, series};
 
   const std::filesystem::path target = placed(newSeries, valueOf(*dataSet, DCM_Modality));
-  DcmFileFormat clean(dataSet.get(), OFFalse);
-  const OFCondition saved =
-      clean.saveFile(target.c_str(), syntax, EET_UndefinedLength, EGL_withoutGL, EPD_withoutPadding,
-                     0, 0, EWM_createNewMeta);
-  dataSet.release(); // owned by `clean`
-  if (saved.bad())
-    throw core::OutputFileError(core::OutputFileError::Reason::Failed, target,
-                                "cannot be written (is the disk full?)");
+  DcmFileFormat clean(dataSet.release(), OFFalse); // which owns it
+  save(clean, syntax, target);
   return {};
 }
 

@@ -14,6 +14,7 @@
 
 #include <dcmtk/config/osconfig.h>
 
+#include <dcmtk/dcmdata/dcostrmf.h>
 #include <dcmtk/dcmdata/dctk.h>
 
 #include "petrous/Core/Error.h"
@@ -99,6 +100,29 @@ std::string sha256(const core::InputFile& file, const core::Progress& progress)
 void put(DcmItem& item, const DcmTagKey& key, const std::string& value)
 {
   item.putAndInsertString(key, value.c_str());
+}
+
+// Throws core::OutputFileError.
+void save(DcmFileFormat& content, const fs::path& path)
+{
+  errno = 0;
+  OFCondition saved;
+  offile_off_t size = 0;
+  {
+    DcmOutputFileStream stream(path.c_str());
+    saved = stream.status();
+    if (saved.good())
+    {
+      content.transferInit();
+      saved = content.write(stream, EXS_LittleEndianExplicit, EET_UndefinedLength, nullptr);
+      content.transferEnd();
+      size = stream.tell();
+    }
+  } // which does not tell what the disk says then
+  const int error = errno;
+  std::error_code fault;
+  if (saved.bad() || fs::file_size(path, fault) != static_cast<std::uintmax_t>(size) || fault)
+    core::throwOutputError(saved.bad() && error != 0 ? error : ENOSPC, path);
 }
 
 struct Part
@@ -245,9 +269,7 @@ std::vector<fs::path> writeSceneObjects(const fs::path& archive, const fs::path&
     std::array<char, 32> name{};
     std::snprintf(name.data(), name.size(), "scene-%04u.dcm", static_cast<unsigned>(n + 1));
     files.push_back(folder / name.data());
-    if (content.saveFile(files.back().c_str(), EXS_LittleEndianExplicit).bad())
-      throw core::Error(core::Fault::Refused,
-                        files.back().string() + ": cannot be written; is the disk full?");
+    save(content, files.back());
   }
   return files;
 }

@@ -263,6 +263,69 @@ TEST_F(Maintenance, ADeletedCaseThatIsNamedAsAJournalComesBack)
   }
 }
 
+// Nor is its manifest a journal that was set aside.
+TEST_F(Maintenance, ACaseThatIsNamedAsAJournalStaysWhereAnotherIsDeleted)
+{
+  for (const std::string name : {"x.journal.aside-1", "x.journal", "x.journal.new"})
+  {
+    make("x");
+    make(name);
+    m_library.rename("x", "y");
+    m_library.remove("y");
+    make("x");
+    m_library.remove("x");
+    m_library.collectGarbage();
+    ASSERT_EQ(m_library.list().size(), 1u) << name;
+    EXPECT_NO_THROW(m_library.open(name));
+    m_library.remove(name);
+    m_library.collectGarbage();
+  }
+}
+
+// A kill between the removal of a manifest and that of its journals.
+TEST_F(Maintenance, WhatWasDrilledInADeletedCaseIsCollectedAfterAKill)
+{
+  const fs::path cases = m_folder.path() / "cases";
+  const auto drilled = [this](const std::string& name)
+  {
+    scene::Case value = make(name);
+    Journal journal(m_library, value);
+    drill(value, {8, 8, 8});
+    journal.follow(value.dissection);
+    journal.leave();
+  };
+  drilled("a");
+  m_library.remove("a");
+  fs::remove(cases / "a.json.deleted-1");
+  std::ofstream(cases / "a.journal.aside-2.deleted-1") << "x";
+  std::ofstream(cases / "a.journal.new.deleted-1") << "x";
+  ASSERT_TRUE(fs::exists(cases / "a.journal.deleted-1"));
+  // Another case of that name does not take it for its own.
+  make("a", 20);
+  m_library.remove("a");
+  m_library.undelete("a");
+  EXPECT_FALSE(fs::exists(cases / "a.journal"));
+  m_library.remove("a");
+  m_library.collectGarbage();
+  EXPECT_TRUE(fs::is_empty(cases));
+
+  // The same where the deletion was killed.
+  drilled("b");
+  m_library.remove("b");
+  fs::rename(cases / "b.journal.deleted-1", cases / "b.journal");
+  drilled("c");
+  m_library.collectGarbage();
+  EXPECT_FALSE(fs::exists(cases / "b.journal"));
+  EXPECT_EQ(m_library.open("c").dissection.strokes().size(), 1u);
+
+  // Alone.
+  m_library.remove("c");
+  m_library.collectGarbage();
+  std::ofstream(cases / "c.journal.deleted-1") << "x";
+  m_library.collectGarbage();
+  EXPECT_TRUE(fs::is_empty(cases));
+}
+
 TEST_F(Maintenance, TheCaseOfANameThatWasDeletedLastComesBackFirst)
 {
   for (const int n : {16, 20, 24})

@@ -26,6 +26,14 @@ namespace
 
 constexpr const char* kIndex = "library.sqlite";
 
+// That one is named as setAside does; a case may be named so, too.
+bool isAsideOf(const std::string& journal, const std::string& file)
+{
+  const std::string start = journal + ".aside-";
+  return file.size() > start.size() && file.rfind(start, 0) == 0 &&
+         file.find_first_not_of("0123456789", start.size()) == file.npos;
+}
+
 // The journals of a case, including those set aside. `ending`: of a deleted case's (deletedEnding).
 std::vector<fs::path> journalsOf(const fs::path& library, const std::string& name,
                                  const std::string& ending = {})
@@ -42,7 +50,7 @@ std::vector<fs::path> journalsOf(const fs::path& library, const std::string& nam
       continue;
     file.resize(file.size() - ending.size());
     const std::string own = journal.filename().string();
-    if (file == own || file == own + ".new" || file.rfind(own + ".aside-", 0) == 0)
+    if (file == own || file == own + ".new" || isAsideOf(own, file))
       journals.push_back(entry->path());
   }
   return journals;
@@ -56,14 +64,24 @@ void removeFile(const fs::path& path)
 
 } // namespace
 
-void Library::refuseWhereDrilled(const std::string& name) const
+namespace
+{
+
+bool isDrilled(const fs::path& library, const std::string& name)
 {
   std::error_code error;
-  const fs::path path = journalPath(m_folder, name);
+  const fs::path path = journalPath(library, name);
   if (!fs::is_regular_file(path, error))
-    return;
+    return false;
   const JournalFile journal(path);
-  if (journal.there() && !journal.held())
+  return journal.there() && !journal.held();
+}
+
+} // namespace
+
+void Library::refuseWhereDrilled(const std::string& name) const
+{
+  if (isDrilled(m_folder, name))
     throw LibraryError(Reason::Conflict,
                        "case '" + name + "' is being drilled by another process; end that first");
 }
@@ -187,8 +205,7 @@ void Library::remove(const std::string& name)
   std::error_code error;
   if (fs::is_directory(fs::symlink_status(path, error)))
     throw LibraryError(Reason::Damaged, core::printable(path) + ": is a folder; remove it by hand");
-  const std::vector<DeletedFile> earlier = deletedIn(m_folder / "cases");
-  const std::string ending = deletedEnding(earlier.empty() ? 1 : earlier.front().number + 1);
+  const std::string ending = deletedEnding(unusedDeletionNumber(m_folder / "cases"));
   // The manifest first: a kill then leaves journals that are set aside when the name is used again,
   // or are still in place when the case is brought back.
   bool onDisk = moveFile(path, path.string() + ending);
@@ -488,7 +505,7 @@ Collected Library::collectGarbage(const core::Progress& progress)
 {
   Collected result;
   if (namesIn(m_folder / "cases").empty() && deletedIn(m_folder / "cases").empty() &&
-      ObjectStore(objectFolder()).list().empty())
+      deletedJournalsIn(m_folder / "cases").empty() && ObjectStore(objectFolder()).list().empty())
     return result;
   const core::FileLock lock = lockForWriting(progress);
   std::set<std::string> used;
@@ -510,11 +527,18 @@ Collected Library::collectGarbage(const core::Progress& progress)
     }
   for (const DeletedFile& file : deletedIn(m_folder / "cases"))
   {
-    removeFile(file.manifest);
+    // Journals first: what was drilled in a case that is gone would be found by nothing.
     for (const fs::path& journal : journalsOf(m_folder, file.name, deletedEnding(file.number)))
       removeFile(journal);
+    // Of a deletion that was killed. Beside another case of that name they are that one's.
+    if (!contains(file.name) && !isDrilled(m_folder, file.name))
+      for (const fs::path& journal : journalsOf(m_folder, file.name))
+        removeFile(journal);
+    removeFile(file.manifest);
     ++result.cases;
   }
+  for (const fs::path& journal : deletedJournalsIn(m_folder / "cases"))
+    removeFile(journal);
   core::syncFolder(m_folder / "cases");
   removeLeftovers(objectFolder());
   removeLeftovers(m_folder / "cases");

@@ -385,6 +385,29 @@ TEST_F(IdentityCommand, ACaseAndAllThatIsMadeOfItHoldNoIdentifier)
              quoted(m_folder / ("batch/report." + ending)),
          "batch.txt");
   }
+  // One that fails says why in words: of two series either may be meant.
+  fs::create_directories(in / plant());
+  for (const auto& entry : fs::directory_iterator(in))
+    if (entry.is_regular_file())
+    {
+      std::string bytes = textOf(entry.path());
+      bytes.replace(bytes.rfind("1.2.77777.1"), 11, "1.2.77777.3"); // of the series
+      std::ofstream(in / m_plants.back() / entry.path().filename(), std::ios::binary) << bytes;
+    }
+  for (const std::string ending : {"csv", "json"})
+  {
+    std::ofstream(m_folder / "table.csv")
+        << "name,folder,mr\nunclear,\"" << in.string() << "\",\"" << in.string() << "\"\n"
+        << "torn,\"" << (in / (m_plants.back() + "x")).string() << "\",\n";
+    const auto outcome = run("batch " + quoted(m_folder / "table.csv") + " --progress --report " +
+                             quoted(m_folder / ("batch/failed." + ending)));
+    EXPECT_EQ(outcome.code, 3);
+    std::ofstream(m_folder / "batch" / ("failed in words." + ending)) << outcome.out << outcome.err;
+    EXPECT_NE(textOf(m_folder / ("batch/failed." + ending)).find("2 series"), std::string::npos);
+    EXPECT_NE(textOf(m_folder / ("batch/failed." + ending)).find("UID 2 (CT, 12 slices)"),
+              std::string::npos)
+        << textOf(m_folder / ("batch/failed." + ending));
+  }
   expectNoPlantIn({library(), m_folder / "other", m_folder / "made", m_folder / "state",
                    m_folder / "batch", m_folder / "out.recording"});
 }

@@ -95,6 +95,11 @@ TEST_F(SceneObjects, TheLatestIsThatOfTheHighestNumber)
   series[3].modality = "CT";
   EXPECT_FALSE(isScene(series[3]));
   EXPECT_EQ(latestScene(series), series.begin() + 1);
+  const std::vector<Series> scenes = scenesAmong(series);
+  ASSERT_EQ(scenes.size(), 3U);
+  EXPECT_EQ(scenes[0].number, 1012);
+  EXPECT_EQ(scenes[1].number, 1007);
+  EXPECT_EQ(scenes[2].number, 1003);
   series.erase(series.begin(), series.begin() + 3);
   EXPECT_EQ(latestScene(series), series.end());
 }

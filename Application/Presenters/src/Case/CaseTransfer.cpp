@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <set>
@@ -390,6 +391,54 @@ void add(network::Transfer& sum, const network::Transfer& more)
   sum.asked = std::max(sum.asked, more.asked);
   sum.bytes += more.bytes;
   sum.seconds += more.seconds;
+}
+
+/// The archive of the latest scene that is whole: of one whose sending was cut, the node has parts.
+void receiveScene(const network::Node& node, const std::string& study,
+                  const std::vector<network::Series>& scenes, const fs::path& folder,
+                  const fs::path& archive, ReceiveSummary& summary, const core::Progress& progress)
+{
+  std::exception_ptr first;
+  std::string why;
+  for (const network::Series& scene : scenes)
+  {
+    const auto fail = [&](const core::Error& error)
+    {
+      if (!first)
+        first = std::current_exception();
+      why = why.empty() ? error.what() : why;
+    };
+    try
+    {
+      // Of each state of the scene: an earlier transfer may have left parts of another one.
+      const fs::path parts = folder / ("scene-" + shortHash(scene.uid));
+      const network::Transfer transfer =
+          network::retrieve(node, study, {scene.uid}, parts, progress.part(0.0, 0.9));
+      std::vector<fs::path> files;
+      for (const auto& entry : fs::directory_iterator(parts))
+        if (entry.path().extension() == network::kInstanceEnding)
+          files.push_back(entry.path());
+      network::readSceneObjects(files, archive, progress.part(0.9, 1.0));
+      summary.transfer = transfer;
+      if (first)
+        summary.notes.push_back("a later state of the case is at node '" + node.name +
+                                "', but cannot be received: " + why +
+                                ". This is the state before it");
+      return;
+    }
+    catch (const core::InvalidParameter& error)
+    {
+      fail(error);
+    }
+    catch (const NetworkError& error)
+    {
+      if (error.reason != NetworkError::Reason::Incomplete &&
+          error.reason != NetworkError::Reason::NotFound)
+        throw;
+      fail(error);
+    }
+  }
+  std::rethrow_exception(first);
 }
 
 } // namespace
@@ -846,20 +895,14 @@ ReceiveSummary receiveCase(library::Library& library, const network::Node& node,
   const fs::path folder = (scratch ? scratch->path() : request.partial) / shortHash(study);
 
   ReceiveSummary summary;
-  const auto scene = request.series.empty() ? network::latestScene(series) : series.end();
-  if (scene != series.end())
+  if (const auto scenes =
+          request.series.empty() ? network::scenesAmong(series) : std::vector<network::Series>();
+      !scenes.empty())
   {
     if (request.as.empty())
       refuseTakenScene(library, node, study, progress);
-    // Of each state of the scene: an earlier transfer may have left parts of another one.
-    const fs::path parts = folder / ("scene-" + shortHash(scene->uid));
-    summary.transfer = network::retrieve(node, study, {scene->uid}, parts, progress.part(0.0, 0.7));
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(parts))
-      if (entry.path().extension() == network::kInstanceEnding)
-        files.push_back(entry.path());
     const fs::path archive = folder / (std::string("scene") + library::kArchiveEnding);
-    network::readSceneObjects(files, archive, progress.part(0.7, 0.8));
+    receiveScene(node, study, scenes, folder, archive, summary, progress.part(0.0, 0.8));
     freeName(library, request.as.empty() ? library::inspectArchive(archive).name : request.as);
     library::RestoreOptions options;
     options.name = request.as;

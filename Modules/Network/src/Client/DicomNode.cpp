@@ -1316,7 +1316,7 @@ Transfer store(const Node& node, const std::vector<fs::path>& files, const core:
   counter.progress = &progress;
   counter.task = "sending";
   counter.of = all.size();
-  waiting = all;
+  waiting.assign(all.rbegin(), all.rend()); // sent from its end: in the order of the files
   DIC_US refusal = STATUS_Success;
   std::size_t refused = 0;
   std::size_t fewest = all.size(); // that were missing after a round

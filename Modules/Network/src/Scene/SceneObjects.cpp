@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 #include <locale>
 #include <memory>
 #include <sstream>
@@ -190,6 +191,15 @@ std::vector<Series>::const_iterator latestScene(const std::vector<Series>& serie
     if (isScene(*one) && (latest == series.end() || one->number > latest->number))
       latest = one;
   return latest;
+}
+
+std::vector<Series> scenesAmong(const std::vector<Series>& series)
+{
+  std::vector<Series> scenes;
+  std::copy_if(series.begin(), series.end(), std::back_inserter(scenes), isScene);
+  std::stable_sort(scenes.begin(), scenes.end(),
+                   [](const Series& a, const Series& b) { return a.number > b.number; });
+  return scenes;
 }
 
 std::vector<fs::path> writeSceneObjects(const fs::path& archive, const fs::path& folder,

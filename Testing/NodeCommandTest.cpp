@@ -177,6 +177,24 @@ TEST_F(NodeCommand, BuildsACaseOfImages)
          quoted(m_folder / (std::string(name) + ".nrrd")) + (name[0] == 'e' ? "" : other()));
   EXPECT_EQ(textOf(m_folder / "ear.nrrd"), textOf(m_folder / "both.nrrd"));
 
+  // Of several states of the structures the latest, whatever their files are called.
+  for (const int threshold : {900, 1000, 1100, 1200})
+  {
+    json("segment ear block --replace --threshold " + std::to_string(threshold) + ",1300");
+    json("send ear --to pacs --what labels");
+    const std::string name = "at" + std::to_string(threshold);
+    const auto received = json("receive --from pacs --as " + name + study + other());
+    EXPECT_NE(received["notes"].dump().find("the latest by its series number"), std::string::npos)
+        << received;
+    std::map<std::string, int> here, there;
+    for (const auto& one : json("info ear")["labels"])
+      here[one["name"]] = one["voxels"];
+    for (const auto& one : json("info " + name + other())["labels"])
+      there[one["name"]] = one["voxels"];
+    EXPECT_GT(here["block"], 0);
+    EXPECT_EQ(there, here) << threshold;
+  }
+
   // Two patients by one folder of what arrived.
   json("new plain --ct " + quoted(m_folder / "patient/ct"));
   const auto plain = json("send plain --to pacs --what ct");
@@ -191,6 +209,18 @@ TEST_F(NodeCommand, BuildsACaseOfImages)
   // The study is there already when its scene follows.
   json("send plain --to pacs --what scene");
   EXPECT_EQ(json("receive --from pacs --case plain" + other())["scene"], true);
+
+  // Of two CTs one is asked for, before anything is transferred.
+  json("export ear --what dissected --out " + quoted(m_folder / "dissected/"));
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(m_folder / "dissected"))
+    files.push_back(entry.path());
+  petrous::network::store(m_server->node(), files);
+  expectRefused("receive --from pacs --as two --partial " + quoted(m_folder / "two") + study +
+                    other(),
+                3, "2 CT series; name one by --series: ");
+  EXPECT_TRUE(!std::filesystem::exists(m_folder / "two") ||
+              std::filesystem::is_empty(m_folder / "two"));
 }
 
 // A send that was cut leaves parts of a scene; the one before it can still be received.

@@ -1401,8 +1401,12 @@ Transfer store(const Node& node, const std::vector<fs::path>& files, const core:
         break;
       if (isTransient(error) && !isIdle())
         continue;
-      if (!confirmed)
+      if (!confirmed && !isTransient(error))
         throw;
+      if (!confirmed)
+        throw NetworkError(error.reason, std::string(error.what()) + "; " +
+                                             std::to_string(all.size() - waiting.size()) + " of " +
+                                             numberOf(all.size(), "instance") + " were confirmed");
       break;
     }
     if (!listed && isIdle())
@@ -1491,8 +1495,12 @@ Transfer retrieve(const Node& node, const std::string& studyUid,
     }
     catch (const NetworkError& error)
     {
-      if (!isTransient(error) || (reception.arrived() == before && ++idle >= kMaxIdleRounds))
+      if (!isTransient(error))
         throw;
+      if (reception.arrived() == before && ++idle >= kMaxIdleRounds)
+        throw NetworkError(error.reason,
+                           std::string(error.what()) + "; " + std::to_string(reception.arrived()) +
+                               " of " + numberOf(reception.expected(), "instance") + " arrived");
       continue;
     }
     if (reception.arrived() == before && ++idle >= kMaxIdleRounds)

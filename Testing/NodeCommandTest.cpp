@@ -266,6 +266,15 @@ TEST_F(NodeCommand, ABatchSendsWhatIsNew)
   json("receive --from pacs --case ct" + other());
   expectSameCase("ear");
   EXPECT_EQ(json(batch)["counts"]["already done"], 2);
+  // The same name at another place.
+  json("nodes remove pacs");
+  json("nodes add pacs --host 127.0.0.1 --aet ORTHANC --port " +
+       std::to_string(servers::freePort()));
+  EXPECT_EQ(run(batch).code, 3) << "nothing is sent there, nor said to be";
+  json("nodes remove pacs");
+  json("nodes add pacs --host 127.0.0.1 --aet ORTHANC --port " +
+       std::to_string(m_server->node().port));
+  EXPECT_EQ(json(batch)["counts"]["already done"], 2);
   json("undo ear");
   const auto rows = json(batch)["rows"];
   EXPECT_EQ(rows[0]["steps"]["send"]["status"], "done") << "a later state is sent";

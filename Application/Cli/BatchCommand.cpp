@@ -743,6 +743,14 @@ private:
     return true;
   }
 
+  // A node of the same name at another place is another one.
+  static std::string placeOf(const network::Node& node)
+  {
+    const std::string place = node.host + "\n" + std::to_string(node.port) + "\n" + node.aeTitle;
+    return library::sha256Of(reinterpret_cast<const std::uint8_t*>(place.data()), place.size())
+        .substr(0, 16);
+  }
+
   // What leaves is another thing with other choices, so that they belong to the key of the step.
   static std::string choicesOf(const BatchRow& row)
   {
@@ -805,7 +813,8 @@ private:
     step.text = "'" + row.node + "'";
     if (isPlanned(library, row))
       return true;
-    const std::string key = "send " + row.name + " " + row.node + choicesOf(row);
+    const std::string key =
+        "send " + row.name + " " + row.node + " " + placeOf(node) + choicesOf(row);
     const scene::Case value = library.open(row.name);
     if (isDoneWith(value, m_state.find(key)))
       return false;
@@ -825,7 +834,10 @@ private:
     if (const std::string why = presenters::unlistedText(done.transfer); !why.empty())
       result.notes.push_back("node '" + row.node + "' confirmed every instance, but " + why);
     step.text += ", " + std::to_string(done.transfer.instances) + " instances";
-    put(key, {{"case_id", value.id}, {"revision", value.revision}, {"study", done.studyUid}});
+    // What could not be counted there is asked for again in the next run, and sent if it is not
+    // there; of a node without queries nothing more will be known.
+    if (done.transfer.verified || done.transfer.listed == network::Transfer::Listed::NotOffered)
+      put(key, {{"case_id", value.id}, {"revision", value.revision}, {"study", done.studyUid}});
     return true;
   }
 

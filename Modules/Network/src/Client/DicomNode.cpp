@@ -1178,6 +1178,15 @@ void fetchMissing(const Node& node, Reception& reception, ByteCounter& counter, 
                                            " arrived: " + statusText(refusal));
 }
 
+constexpr int kMaxListings = 2;
+
+void pause(std::chrono::milliseconds time, const core::Progress& progress)
+{
+  constexpr std::chrono::milliseconds kStep{50};
+  for (const auto end = Clock::now() + time; Clock::now() < end; std::this_thread::sleep_for(kStep))
+    progress.check("waiting for the node's list");
+}
+
 double secondsSince(Clock::time_point start)
 {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -1377,7 +1386,18 @@ Transfer store(const Node& node, const std::vector<fs::path>& files, const core:
       // them, or not yet.
       if (waiting.empty())
       {
-        const auto held = heldThere(association, all);
+        auto held = heldThere(association, all);
+        const auto listsNone = [&]
+        {
+          return held &&
+                 std::none_of(all.begin(), all.end(),
+                              [&](const OutgoingFile& file) { return held->count(file.uid) != 0; });
+        };
+        for (int again = 0; again < kMaxListings && listsNone(); ++again)
+        {
+          pause(node.timeouts.listing, progress);
+          held = heldThere(association, all);
+        }
         for (const OutgoingFile& file : all)
           if (held && held->count(file.uid) == 0)
             waiting.push_back(file);

@@ -1083,6 +1083,18 @@ TEST_F(Deidentification, RemovesWhatAKilledRunLeftButNothingOfARunningOne)
   EXPECT_TRUE(fs::exists(out / "series-001-CT" / "00001.dcm"));
 }
 
+TEST_F(Deidentification, FollowsLinksToFoldersOnce)
+{
+  const fs::path elsewhere = folder.path() / "elsewhere";
+  write(in / "a.dcm", {});
+  write(elsewhere / "study" / "b.dcm", {});
+  fs::create_directory_symlink(elsewhere, in / "2");
+  fs::create_directory_symlink(elsewhere, in / "3");
+  fs::create_directory_symlink(in, elsewhere / "study" / "back");
+  fs::create_symlink(elsewhere / "none", in / "broken");
+  EXPECT_EQ(run().report.filesWritten, 2U);
+}
+
 // What a stream of the C library still holds when the file is closed may find no room.
 TEST_F(Deidentification, ADiskThatIsFullAtAnyByteLeavesWhatWasThere)
 {

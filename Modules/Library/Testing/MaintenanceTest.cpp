@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <map>
+#include <set>
 #include <thread>
 #include <utility>
 
@@ -672,6 +674,42 @@ TEST_F(Maintenance, ARenamedCaseHasItsFormerNameNowhere)
   EXPECT_EQ(m_library.open("ear").dissection.strokes().size(), 1u);
   EXPECT_EQ(m_library.open("ear").revision, value.revision);
   EXPECT_TRUE(m_library.verify().damaged.empty());
+}
+
+// As the window names them; others are the user's own.
+TEST_F(Maintenance, RecordingsLoseTheFormerNameToo)
+{
+  const fs::path folder = m_folder.path() / "recordings";
+  fs::create_directory(folder);
+  make("Doe");
+  make("Doe 2");
+  for (const char* file :
+       {"Doe 2026-03-01 09-30-00.ticks", "Doe 2026-03-01 09-30-00 (2).ticks",
+        "Doe 2 2026-03-01 09-30-00.ticks", "Doe and others.ticks", "ear 2026-03-01 09-30-00.ticks"})
+    std::ofstream(folder / file) << file;
+  const auto files = [&folder]
+  {
+    std::map<std::string, std::string> all;
+    for (const auto& entry : fs::directory_iterator(folder))
+    {
+      std::ifstream stream(entry.path());
+      std::getline(stream, all[entry.path().filename().string()]);
+    }
+    return all;
+  };
+  m_library.rename("Doe", "ear");
+  std::set<std::string> contents;
+  for (const auto& [name, content] : files())
+  {
+    EXPECT_TRUE(name.rfind("ear ", 0) == 0 || content == name) << name;
+    contents.insert(content);
+  }
+  EXPECT_EQ(contents.size(), 5u) << "none replaced another";
+  m_library.remove("Doe 2");
+  EXPECT_TRUE(fs::exists(folder / "Doe 2 2026-03-01 09-30-00.ticks")) << "it may come back";
+  m_library.collectGarbage();
+  EXPECT_TRUE(fs::exists(folder / "2026-03-01 09-30-00.ticks"));
+  EXPECT_EQ(files().size(), 5u);
 }
 
 TEST_F(Maintenance, ADeletedCaseThatCannotComeBackIsFoundAndStaysDeleted)

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <string_view>
 
 #include <unistd.h>
 
@@ -54,6 +55,52 @@ std::vector<fs::path> journalsOf(const fs::path& library, const std::string& nam
       journals.push_back(entry->path());
   }
   return journals;
+}
+
+// The recordings that the window named after a case, "CASE 2026-03-01 09-30-00.ticks", each with
+// its name from the date on.
+std::vector<std::pair<fs::path, std::string>> recordingsOf(const fs::path& library,
+                                                           const std::string& name)
+{
+  constexpr std::string_view kDate = "0000-00-00 00-00-00";
+  std::vector<std::pair<fs::path, std::string>> recordings;
+  std::error_code error;
+  for (fs::directory_iterator entry(library / "recordings", error), end; !error && entry != end;
+       entry.increment(error))
+  {
+    const std::string file = entry->path().filename().string();
+    if (file.rfind(name + " ", 0) != 0 || entry->path().extension() != ".ticks")
+      continue;
+    const std::string rest = file.substr(name.size() + 1);
+    const bool isDated = rest.size() > kDate.size() &&
+                         std::equal(kDate.begin(), kDate.end(), rest.begin(),
+                                    [](char form, char c)
+                                    { return form == '0' ? c >= '0' && c <= '9' : c == form; });
+    if (isDated)
+      recordings.emplace_back(entry->path(), rest);
+  }
+  return recordings;
+}
+
+// `to`: the case's new name; empty: none. They stay what they are; a failure leaves the old name.
+bool renameRecordings(const fs::path& library, const std::string& from, const std::string& to)
+{
+  bool isDone = true;
+  for (const auto& [file, rest] : recordingsOf(library, from))
+    try
+    {
+      fs::path renamed = file.parent_path() / (to.empty() ? rest : to + " " + rest);
+      std::error_code error;
+      for (int n = 2; fs::exists(fs::symlink_status(renamed, error)); ++n)
+        renamed.replace_filename((to.empty() ? "" : to + " ") + fs::path(rest).stem().string() +
+                                 " (" + std::to_string(n) + ").ticks");
+      isDone = moveFile(file, renamed) && isDone;
+    }
+    catch (const LibraryError&)
+    {
+      isDone = false;
+    }
+  return isDone;
 }
 
 void removeFile(const fs::path& path)
@@ -181,6 +228,7 @@ void Library::rename(const std::string& from, const std::string& to)
     {
       onDisk = false; // it stays beside no manifest, and is set aside when that name is used
     }
+  onDisk = renameRecordings(m_folder, from, to) && onDisk;
   Catalogue index(m_folder / kIndex);
   index.remove(from);
   try
@@ -534,6 +582,8 @@ Collected Library::collectGarbage(const core::Progress& progress)
     if (!contains(file.name) && !isDrilled(m_folder, file.name))
       for (const fs::path& journal : journalsOf(m_folder, file.name))
         removeFile(journal);
+    if (!contains(file.name)) // they may be of that one
+      renameRecordings(m_folder, file.name, {});
     removeFile(file.manifest);
     ++result.cases;
   }

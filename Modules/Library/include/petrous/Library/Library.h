@@ -196,9 +196,9 @@ public:
   void refuseWhereDrilled(const std::string& name) const;
 
   /// Both also accept a damaged case. `rename` recovers unsaved drilling first, and leaves the
-  /// former name nowhere; `remove` takes what is unsaved along. Throw LibraryError: NotFound;
-  /// NameTaken; Conflict while another process is drilling in the case, or for a rename if recovery
-  /// failed.
+  /// former name nowhere, recordings that were named after the case included; `remove` takes what
+  /// is unsaved along. Throw LibraryError: NotFound; NameTaken; Conflict while another process is
+  /// drilling in the case, or for a rename if recovery failed.
   void rename(const std::string& from, const std::string& to);
   void remove(const std::string& name);
 
@@ -219,9 +219,9 @@ public:
   /// Throws LibraryError if the library cannot be read at all.
   Inspection verify(const core::Progress& progress = {}) const;
 
-  /// Removes deleted cases, objects that no manifest references, and leftovers of killed writers.
-  /// Throws
-  /// LibraryError (Damaged) without removing anything if a manifest cannot be read, since its
+  /// Removes deleted cases, objects that no manifest references, and leftovers of killed writers;
+  /// recordings that were named after such a case lose that name. Throws LibraryError (Damaged)
+  /// without removing anything if a manifest cannot be read, since its
   /// references are unknown.
   Collected collectGarbage(const core::Progress& progress = {});
 

@@ -792,6 +792,48 @@ TEST_F(Maintenance, ALostImageIsSaidAndComesBackWithTheSameImport)
   EXPECT_NO_THROW(m_library.open("a").ct.volume.get());
 }
 
+TEST_F(Maintenance, CleaningUpAndRepairingCanBeCancelledAtAnyStep)
+{
+  for (const char* name : {"a", "b", "c"})
+    make(name, 16 + name[0] % 8);
+  m_library.remove("a");
+  const auto cancelledAfter = [](int reports)
+  {
+    auto token = std::make_shared<core::CancelToken>();
+    return core::Progress(
+        [token, left = std::make_shared<int>(reports)](double, const std::string&)
+        {
+          if (--*left <= 0)
+            token->cancel();
+        },
+        token);
+  };
+  const auto before = contentOf(m_folder.path());
+  EXPECT_THROW(m_library.repair(cancelledAfter(1)), core::CancelledError);
+  EXPECT_THROW(m_library.collectGarbage(cancelledAfter(1)), core::CancelledError);
+  EXPECT_THROW(m_library.collectGarbage(cancelledAfter(2)), core::CancelledError);
+  EXPECT_EQ(contentOf(m_folder.path()), before) << "while cases are read, nothing is removed";
+  // Then it goes on where it was.
+  int runs = 0;
+  for (bool isDone = false; !isDone; ++runs)
+  {
+    ASSERT_LT(runs, 20);
+    try
+    {
+      m_library.collectGarbage(cancelledAfter(3 + runs));
+      isDone = true;
+    }
+    catch (const core::CancelledError&)
+    {
+      EXPECT_TRUE(m_library.verify().damaged.empty());
+    }
+  }
+  EXPECT_GT(runs, 1);
+  EXPECT_EQ(m_library.collectGarbage().objects, 0u);
+  EXPECT_TRUE(m_library.deleted().empty());
+  EXPECT_EQ(m_library.repair().done.back(), "the index holds 2 of 2 cases");
+}
+
 // Another program holds the lock: it ends only when the user wants.
 TEST_F(Maintenance, WaitingForTheLibraryCanBeCancelledAndChangesNothing)
 {

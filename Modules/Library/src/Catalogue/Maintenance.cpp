@@ -558,13 +558,21 @@ Collected Library::collectGarbage(const core::Progress& progress)
   const core::FileLock lock = lockForWriting(progress);
   std::set<std::string> used;
   std::set<std::string> ids;
-  for (const std::string& name : namesIn(m_folder / "cases"))
+  const std::vector<std::string> names = namesIn(m_folder / "cases");
+  std::size_t read = 0;
+  for (const std::string& name : names)
     try
     {
+      progress.report(0.5 * static_cast<double>(read++) / static_cast<double>(names.size()),
+                      "reading cases");
       const scene::Case value = readManifest(name);
       ids.insert(value.id);
       for (const ObjectUse& use : objectsOf(value))
         used.insert(use.object);
+    }
+    catch (const core::CancelledError&)
+    {
+      throw;
     }
     catch (const core::Error& error)
     {
@@ -573,6 +581,8 @@ Collected Library::collectGarbage(const core::Progress& progress)
                              "' needs is not known, so nothing was removed: delete the case first, "
                              "or restore its manifest");
     }
+  // What was removed when it is cancelled stays removed, and the next run goes on.
+  progress.check("removing deleted cases");
   for (const DeletedFile& file : deletedIn(m_folder / "cases"))
   {
     // Journals first: what was drilled in a case that is gone would be found by nothing.
@@ -593,8 +603,13 @@ Collected Library::collectGarbage(const core::Progress& progress)
   removeLeftovers(objectFolder());
   removeLeftovers(m_folder / "cases");
   ObjectStore store(objectFolder());
-  for (const auto& [object, bytes] : store.list())
-    if (used.count(object) == 0)
+  const auto objects = store.list();
+  std::size_t looked = 0;
+  for (const auto& [object, bytes] : objects)
+    if (progress.report(0.5 + 0.5 * static_cast<double>(looked++) /
+                                  static_cast<double>(objects.size()),
+                        "removing what no case needs");
+        used.count(object) == 0)
     {
       store.remove(object);
       ++result.objects;
@@ -615,12 +630,16 @@ Repaired Library::repair(const core::Progress& progress)
   Library quiet = *this;
   quiet.onNotice([&done](const std::string& words) { done.push_back(words); });
   const std::vector<std::string> names = namesIn(m_folder / "cases");
+  std::vector<Catalogue::Entry> entries; // made before the library is locked: others may save
+  std::size_t read = 0;
   for (const std::string& name : names)
     try
     {
-      progress.check("repairing");
+      progress.report(static_cast<double>(read++) / static_cast<double>(names.size()), "repairing");
       for (std::string& words : lost(quiet.open(name)))
         result.lost.push_back(std::move(words));
+      if (const auto state = stateOf(manifestPath(name)))
+        entries.push_back(entryOf(readManifest(name), *state));
     }
     catch (const core::CancelledError&)
     {
@@ -638,16 +657,7 @@ Repaired Library::repair(const core::Progress& progress)
   for (const char* ending : {"", "-journal", "-wal", "-shm"})
     removeFile((m_folder / kIndex).string() + ending);
   Catalogue index(m_folder / kIndex);
-  for (const std::string& name : names)
-    try
-    {
-      if (const auto state = stateOf(manifestPath(name)))
-        index.put(entryOf(readManifest(name), *state));
-    }
-    catch (const core::Error&)
-    {
-      // reported above
-    }
+  index.put(entries);
   done.push_back("the index holds " + std::to_string(index.entries().size()) + " of " +
                  std::to_string(names.size()) + " cases");
   return result;

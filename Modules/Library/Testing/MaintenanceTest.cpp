@@ -552,6 +552,22 @@ TEST_F(Maintenance, SearchesCaseAndPartNames)
   }
 }
 
+TEST_F(Maintenance, ASearchTellsTheTagsOfAllCases)
+{
+  for (const char* name : {"a", "b"})
+  {
+    make(name);
+    Description description;
+    description.tags = {std::string("tag ") + name};
+    m_library.describe(name, description);
+  }
+  CaseFilter filter;
+  filter.text = "b";
+  std::set<std::string> tags;
+  ASSERT_EQ(m_library.search(filter, tags).size(), 1u);
+  EXPECT_EQ(tags, (std::set<std::string>{"tag a", "tag b"}));
+}
+
 TEST_F(Maintenance, WhatAListReadsOfManifestsGoesIntoTheIndex)
 {
   make("a");

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -123,6 +124,8 @@ public:
   std::vector<CaseSummary> list() const; ///< sorted by name
   /// Sorted by name. Throws InvalidParameter if `from` or `to` is no date, or `from` the later one.
   std::vector<CaseSummary> search(const CaseFilter& filter) const;
+  /// The same; adds the tags of all cases to `tags`, of one listing.
+  std::vector<CaseSummary> search(const CaseFilter& filter, std::set<std::string>& tags) const;
   std::vector<CaseSummary> search(const std::string& text) const; ///< CaseFilter::text
   bool contains(const std::string& name) const;                   ///< including damaged ones
 

@@ -502,6 +502,44 @@ TEST_F(IdentityCommand, DeidentifiesAFolderWithMapAndReport)
                 "--passphrase-file");
 }
 
+TEST_F(IdentityCommand, WritesDeflatedFilesToTheirEnd)
+{
+  const fs::path in = m_folder / "in", out = m_folder / "out";
+  for (int k = 0; k < 12; ++k)
+  {
+    TestSlice slice;
+    slice.columns = slice.rows = 64;
+    slice.z = 0.5 * k;
+    slice.marker = false;
+    // Noise: what a compression holds at the end is many bytes.
+    slice.cell = [k](int i, int j)
+    { return (static_cast<unsigned>(i * 64 + j + 4096 * k) * 2654435761U >> 16) % 2000U; };
+    std::string meta;
+    slice.element(meta, 0x00020010, "UI", "1.2.840.10008.1.2.1.99");
+    const std::string bytes = slice.bytes();
+    std::string packed(2 * bytes.size(), '\0');
+    z_stream stream = {};
+    ASSERT_EQ(::deflateInit2(&stream, 6, Z_DEFLATED, -15, 8, Z_DEFAULT_STRATEGY), Z_OK);
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+    stream.avail_in = static_cast<uInt>(bytes.size());
+    stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+    stream.avail_out = static_cast<uInt>(packed.size());
+    ASSERT_EQ(::deflate(&stream, Z_FINISH), Z_STREAM_END);
+    packed.resize(packed.size() - stream.avail_out);
+    ::deflateEnd(&stream);
+    petrous::imaging::test::writeText(in / (std::to_string(k) + ".dcm"),
+                                      std::string(128, '\0') + "DICM" + meta + packed);
+  }
+  json("deidentify " + quoted(in) + " " + quoted(out));
+  for (const fs::path& folder : {in, out})
+  {
+    const std::string name = folder.filename().string();
+    json("new " + name + " --ct " + quoted(folder));
+    json("export " + name + " --what ct --out " + quoted(m_folder / (name + ".nrrd")));
+  }
+  EXPECT_EQ(textOf(m_folder / "in.nrrd"), textOf(m_folder / "out.nrrd"));
+}
+
 TEST_F(IdentityCommand, ReplacesAFileOnRequestOnly)
 {
   const std::string in = quoted(fs::directory_iterator(writePlanted())->path());

@@ -1146,6 +1146,8 @@ TEST_F(Deidentification, GivesNamesOfAnyCharacterSetInUtf8)
       {"ISO_IR 126", "\xc4\xe9\xef\xed", "\xce\x94\xce\xb9\xce\xbf\xce\xbd"},
       {"\\ISO 2022 IR 87", "Yamada^Tarou=\x1b$B;3ED\x1b(B^\x1b$BB@O:\x1b(B",
        "Yamada^Tarou=\xe5\xb1\xb1\xe7\x94\xb0^\xe5\xa4\xaa\xe9\x83\x8e"},
+      {"\\ISO 2022 IR 149", "Hong^Gildong=\x1b$)C\xfb\xf3^\x1b$)C\xd1\xce\xd4\xd7",
+       "Hong^Gildong=\xe6\xb4\xaa^\xe5\x90\x89\xe6\xb4\x9e"},
       {"GB18030", "Wang=\xcd\xf5", "Wang=\xe7\x8e\x8b"},
       {"ISO_IR 192", "Zo\xc3\xab", "Zo\xc3\xab"},
       {"", "Zo\xc3\xab", "Zo\xc3\xab"}, // not stated

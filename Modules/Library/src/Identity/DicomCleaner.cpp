@@ -19,6 +19,7 @@
 #include <vector>
 
 #include <fcntl.h>
+#include <iconv.h>
 #include <unistd.h>
 
 #include "FaceSlices.h"
@@ -1713,6 +1714,9 @@ void save(DcmFileFormat& content, E_TransferSyntax syntax, const std::filesystem
     saved = content.write(stream, syntax, EET_UndefinedLength, nullptr, EGL_withoutGL,
                           EPD_withoutPadding, 0, 0, 0, EWM_createNewMeta);
     content.transferEnd();
+    stream.flush(); // what a compression holds
+    if (saved.good() && !stream.isFlushed())
+      saved = EC_InvalidStream;
   }
   if (const int error = file.close())
     core::throwOutputError(error, path);
@@ -1720,10 +1724,46 @@ void save(DcmFileFormat& content, E_TransferSyntax syntax, const std::filesystem
     throw core::OutputFileError(core::OutputFileError::Reason::Failed, path, "cannot be written");
 }
 
+// By iconv; empty if it is not of that set.
+std::string converted(std::string text, const char* set)
+{
+  const iconv_t state = ::iconv_open("UTF-8", set);
+  if (state == reinterpret_cast<iconv_t>(-1))
+    return {};
+  std::string utf8(4 * text.size() + 16, '\0');
+  char *from = text.data(), *to = utf8.data();
+  std::size_t left = text.size(), room = utf8.size();
+  const bool isDone =
+      ::iconv(state, &from, &left, &to, &room) != static_cast<std::size_t>(-1) && left == 0;
+  ::iconv_close(state);
+  utf8.resize(isDone ? utf8.size() - room : 0);
+  return utf8;
+}
+
+// Code extensions by escape sequences (PS3.3 C.12.1.1.2), which DCMTK does not convert with the C
+// library's iconv: Japanese, and Korean and Chinese, whose characters stand in the upper half.
+// Empty: none of them.
+std::string fromEastAsian(const std::string& text)
+{
+  if (text.find('\x1b') == std::string::npos)
+    return {};
+  for (const auto& [escape, set] : {std::pair("\x1b$)C", "EUC-KR"), std::pair("\x1b$)A", "EUC-CN")})
+    if (text.find(escape) != std::string::npos)
+    {
+      std::string rest = text;
+      for (std::size_t at = rest.find(escape); at != std::string::npos; at = rest.find(escape))
+        rest.erase(at, std::strlen(escape));
+      return converted(rest, set);
+    }
+  return converted(text, "ISO-2022-JP-2");
+}
+
 // Of a file's character set. What is not of it is taken for UTF-8, or else for Latin-1, so that no
 // byte is lost.
 std::string utf8Of(const std::string& text, const std::string& characterSet)
 {
+  if (std::string converted = fromEastAsian(text); !converted.empty())
+    return converted;
   if (isPlainText(text))
     return text;
   DcmDataset item;

@@ -709,11 +709,51 @@ void Library::describe(const std::string& name, const Description& description)
 
 void Library::save(scene::Case& value, const core::Progress& progress)
 {
+  const bool isFirst = value.revision == 0;
   saveWith(
       value,
       [this, &progress](scene::Case& next, ObjectStore& store)
       { storeParts(*this, next, store, progress); },
       progress);
+  if (isFirst && m_notice)
+    for (const std::string& words : goneWithAnother(value))
+      m_notice("case '" + value.name + "' is saved, but not all of it is there: " + words);
+}
+
+// What the case shares with one that another program removed for good meanwhile. What other cases
+// need, too, is damage, which they tell.
+std::vector<std::string> Library::goneWithAnother(const scene::Case& value) const
+{
+  const ObjectStore store(objectFolder());
+  std::vector<ObjectUse> missing;
+  for (const ObjectUse& use : objectsOf(value))
+    if (!store.contains(use.object))
+      missing.push_back(use);
+  if (missing.empty())
+    return {};
+  std::set<std::string> needed;
+  const auto need = [&needed](const fs::path& manifest, const std::string& name)
+  {
+    try
+    {
+      for (const ObjectUse& use : objectsOf(manifestIn(manifest, name)))
+        needed.insert(use.object);
+    }
+    catch (const core::Error&)
+    {
+      // damaged, which is told where it is opened
+    }
+  };
+  for (const std::string& name : namesIn(m_folder / "cases"))
+    if (name != value.name)
+      need(manifestPath(name), name);
+  for (const DeletedFile& file : deletedIn(m_folder / "cases"))
+    need(file.manifest, file.name);
+  std::vector<std::string> gone;
+  for (const ObjectUse& use : missing)
+    if (needed.count(use.object) == 0)
+      gone.push_back(use.what + " is missing");
+  return gone;
 }
 
 void Library::saveWith(scene::Case& value,
@@ -780,10 +820,6 @@ void Library::saveWith(scene::Case& value,
     if (!onDisk && m_notice)
       m_notice("case '" + value.name +
                "' is saved, but the disk reported an error; check the disk");
-    // Another program may have removed for good what only a deleted case of the same parts kept.
-    if (m_notice && value.revision == 1)
-      for (const std::string& words : lost(value))
-        m_notice("case '" + value.name + "' is saved, but not all of it is there: " + words);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - started;
     core::log::info("library: case saved in " + core::fixedText(seconds.count(), 3) + " s, " +
                     std::to_string(value.dissection.strokes().size()) + " strokes, " +

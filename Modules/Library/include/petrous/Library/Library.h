@@ -243,6 +243,7 @@ private:
   std::filesystem::path checkedManifestPath(const std::string& name) const;
   scene::Case readManifest(const std::string& name) const;
   void attach(scene::Case& value) const;
+  std::vector<std::string> goneWithAnother(const scene::Case& value) const;
   core::FileLock lockForWriting(const core::Progress& progress = {}) const;
   std::vector<std::pair<std::filesystem::path, std::string>>
   mappedImages(const scene::Case& value) const;

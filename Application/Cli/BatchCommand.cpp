@@ -265,7 +265,8 @@ std::string rowText(const RowResult& row)
 std::string withoutUids(const std::string& text)
 {
   constexpr const char* kOfUid = "0123456789.";
-  constexpr std::ptrdiff_t kLeastDots = 3;
+  constexpr std::ptrdiff_t kLeastDots = 3; // or of a UUID, "2.25." and up to 39 digits
+  constexpr std::size_t kLongNumber = 16;
   const auto isAddress = [](const std::string& word) // IPv4
   {
     std::array<unsigned char, 4> bytes{};
@@ -289,7 +290,8 @@ std::string withoutUids(const std::string& text)
         from > 0 && (std::isalnum(static_cast<unsigned char>(text[from - 1])) != 0 ||
                      text[from - 1] == '.'); // a number's end
     const auto dots = std::count(word.begin(), word.end(), '.');
-    if (isWithin || word.size() < 2 || word[1] != '.' || dots < kLeastDots || isAddress(word))
+    if (isWithin || word.size() < 2 || word[1] != '.' || isAddress(word) ||
+        (dots < kLeastDots && (dots < 2 || word.size() < kLongNumber)))
     {
       result += word;
       continue;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <map>
@@ -485,13 +486,15 @@ TEST_F(Deidentification, KnowsThePatientsNumberInAnyFormOfANumber)
     std::memcpy(bytes.data(), &value, sizeof value);
     return bytes;
   };
-  const Elements binary = cleaned(
-      patient + element(0x00209057, little(4711471, 4)) + element(0x00209128, little(471147, 4)) +
-      element(0x00189073, real(4711471.0)) + element(0x00189328, real(0.1)));
+  const Elements binary =
+      cleaned(patient + element(0x00209057, little(4711471, 4)) +
+              element(0x00209128, little(471147, 4)) + element(0x00189073, real(4711471.0)) +
+              element(0x00189328, real(0.1)) + element(0x00189220, real(std::nan(""))));
   EXPECT_EQ(binary.count("00209057"), 0U);
   EXPECT_EQ(binary.count("00209128"), 1U);
   EXPECT_EQ(binary.count("00189073"), 0U);
   EXPECT_EQ(binary.count("00189328"), 1U);
+  EXPECT_EQ(binary.count("00189220"), 1U) << "not a number is not the patient's";
   EXPECT_EQ(cleaned(element(0x00100020, "00012") + element(0x00200013, "12")).at("00200013"), "12")
       << "a short number is that of anything";
 }

@@ -207,7 +207,7 @@ bool IdentityWords::isIdentifier(const std::string& text) const
 
 bool IdentityWords::isIdentifier(double number) const
 {
-  return m_numbers.count(std::abs(number)) > 0;
+  return std::isfinite(number) && m_numbers.count(std::abs(number)) > 0;
 }
 
 bool IdentityWords::foundIn(const std::string& text) const

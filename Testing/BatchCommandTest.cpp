@@ -132,8 +132,9 @@ TEST_F(BatchCommand, DoesEachRowAndGoesOnPastABadOne)
   EXPECT_EQ(answer["counts"]["failed"], 2);
   EXPECT_EQ(answer["rows"][0]["line"], 2);
   EXPECT_EQ(answer["rows"][1]["line"], 4) << "the first row has two lines";
-  EXPECT_NE(answer["rows"][1]["error"].get<std::string>().find("no such folder"),
-            std::string::npos);
+  EXPECT_NE(answer["rows"][1]["error"].get<std::string>().find("'folder': no such"),
+            std::string::npos)
+      << answer["rows"][1]["error"];
   EXPECT_NE(answer["rows"][2]["error"].get<std::string>().find("6 numbers"), std::string::npos);
   EXPECT_EQ(answer["rows"][4]["steps"]["describe"]["status"], "done");
 

@@ -834,6 +834,26 @@ TEST_F(CommandLine, OutputsReplaceNeitherInputsNorTheLibrary)
   EXPECT_EQ(textOf(path), written);
   EXPECT_EQ(libraryContent(), before);
   EXPECT_FALSE(std::filesystem::exists(m_folder / "a.csv"));
+
+  // Whatever lies in a library once all that it keeps is there.
+  json("nodes add pacs --host localhost --port 4242 --aet PACS");
+  json("appearance ear --save-preset bone=mine");
+  json("describe ear --thumbnail");
+  std::filesystem::create_directory(library() / "recordings");
+  json(drill + " --record " + quoted(library() / "recordings/a.ticks"));
+  std::vector<std::filesystem::path> own;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(library()))
+    if (entry.is_regular_file())
+      own.push_back(entry.path());
+  for (const char* name : {"nodes.json", ".nodes.lock", "presets.json", ".presets.lock", "salt",
+                           "recordings/a.ticks", "library.sqlite"})
+    EXPECT_EQ(std::count(own.begin(), own.end(), library() / name), 1) << name;
+  for (const auto& file : own)
+  {
+    const std::string content = textOf(file);
+    expectRefused("archive ear " + quoted(file), 4, "keeps its own data there");
+    EXPECT_EQ(textOf(file), content) << file;
+  }
   json("export ear --what ct --out " + quoted(library() / "mine.nrrd"));
 }
 

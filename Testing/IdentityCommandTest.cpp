@@ -385,6 +385,29 @@ TEST_F(IdentityCommand, ACaseAndAllThatIsMadeOfItHoldNoIdentifier)
              quoted(m_folder / ("batch/report." + ending)),
          "batch.txt");
   }
+  // One that fails says why in words: of two series either may be meant.
+  fs::create_directories(in / plant());
+  for (const auto& entry : fs::directory_iterator(in))
+    if (entry.is_regular_file())
+    {
+      std::string bytes = textOf(entry.path());
+      bytes.replace(bytes.rfind("1.2.77777.1"), 11, "1.2.77777.3"); // of the series
+      std::ofstream(in / m_plants.back() / entry.path().filename(), std::ios::binary) << bytes;
+    }
+  for (const std::string ending : {"csv", "json"})
+  {
+    std::ofstream(m_folder / "table.csv")
+        << "name,folder,mr\nunclear,\"" << in.string() << "\",\"" << in.string() << "\"\n"
+        << "torn,\"" << (in / (m_plants.back() + "x")).string() << "\",\n";
+    const auto outcome = run("batch " + quoted(m_folder / "table.csv") + " --progress --report " +
+                             quoted(m_folder / ("batch/failed." + ending)));
+    EXPECT_EQ(outcome.code, 3);
+    std::ofstream(m_folder / "batch" / ("failed in words." + ending)) << outcome.out << outcome.err;
+    EXPECT_NE(textOf(m_folder / ("batch/failed." + ending)).find("2 series"), std::string::npos);
+    EXPECT_NE(textOf(m_folder / ("batch/failed." + ending)).find("UID 2 (CT, 12 slices)"),
+              std::string::npos)
+        << textOf(m_folder / ("batch/failed." + ending));
+  }
   expectNoPlantIn({library(), m_folder / "other", m_folder / "made", m_folder / "state",
                    m_folder / "batch", m_folder / "out.recording"});
 }
@@ -477,6 +500,44 @@ TEST_F(IdentityCommand, DeidentifiesAFolderWithMapAndReport)
   expectRefused("deidentify " + quoted(in) + " " + quoted(m_folder / "out"), 4, "empty");
   expectRefused("deidentify " + quoted(in) + " " + quoted(m_folder / "x") + " --map " + map, 2,
                 "--passphrase-file");
+}
+
+TEST_F(IdentityCommand, WritesDeflatedFilesToTheirEnd)
+{
+  const fs::path in = m_folder / "in", out = m_folder / "out";
+  for (int k = 0; k < 12; ++k)
+  {
+    TestSlice slice;
+    slice.columns = slice.rows = 64;
+    slice.z = 0.5 * k;
+    slice.marker = false;
+    // Noise: what a compression holds at the end is many bytes.
+    slice.cell = [k](int i, int j)
+    { return (static_cast<unsigned>(i * 64 + j + 4096 * k) * 2654435761U >> 16) % 2000U; };
+    std::string meta;
+    slice.element(meta, 0x00020010, "UI", "1.2.840.10008.1.2.1.99");
+    const std::string bytes = slice.bytes();
+    std::string packed(2 * bytes.size(), '\0');
+    z_stream stream = {};
+    ASSERT_EQ(::deflateInit2(&stream, 6, Z_DEFLATED, -15, 8, Z_DEFAULT_STRATEGY), Z_OK);
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+    stream.avail_in = static_cast<uInt>(bytes.size());
+    stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+    stream.avail_out = static_cast<uInt>(packed.size());
+    ASSERT_EQ(::deflate(&stream, Z_FINISH), Z_STREAM_END);
+    packed.resize(packed.size() - stream.avail_out);
+    ::deflateEnd(&stream);
+    petrous::imaging::test::writeText(in / (std::to_string(k) + ".dcm"),
+                                      std::string(128, '\0') + "DICM" + meta + packed);
+  }
+  json("deidentify " + quoted(in) + " " + quoted(out));
+  for (const fs::path& folder : {in, out})
+  {
+    const std::string name = folder.filename().string();
+    json("new " + name + " --ct " + quoted(folder));
+    json("export " + name + " --what ct --out " + quoted(m_folder / (name + ".nrrd")));
+  }
+  EXPECT_EQ(textOf(m_folder / "in.nrrd"), textOf(m_folder / "out.nrrd"));
 }
 
 TEST_F(IdentityCommand, ReplacesAFileOnRequestOnly)

@@ -1,5 +1,6 @@
 #include "DicomValidator.h"
 #include "TestServers.h"
+#include "petrous/Network/SceneObjects.h"
 
 using namespace petrous::testing;
 namespace servers = petrous::network::test;
@@ -176,6 +177,24 @@ TEST_F(NodeCommand, BuildsACaseOfImages)
          quoted(m_folder / (std::string(name) + ".nrrd")) + (name[0] == 'e' ? "" : other()));
   EXPECT_EQ(textOf(m_folder / "ear.nrrd"), textOf(m_folder / "both.nrrd"));
 
+  // Of several states of the structures the latest, whatever their files are called.
+  for (const int threshold : {900, 1000, 1100, 1200})
+  {
+    json("segment ear block --replace --threshold " + std::to_string(threshold) + ",1300");
+    json("send ear --to pacs --what labels");
+    const std::string name = "at" + std::to_string(threshold);
+    const auto received = json("receive --from pacs --as " + name + study + other());
+    EXPECT_NE(received["notes"].dump().find("the latest by its series number"), std::string::npos)
+        << received;
+    std::map<std::string, int> here, there;
+    for (const auto& one : json("info ear")["labels"])
+      here[one["name"]] = one["voxels"];
+    for (const auto& one : json("info " + name + other())["labels"])
+      there[one["name"]] = one["voxels"];
+    EXPECT_GT(here["block"], 0);
+    EXPECT_EQ(there, here) << threshold;
+  }
+
   // Two patients by one folder of what arrived.
   json("new plain --ct " + quoted(m_folder / "patient/ct"));
   const auto plain = json("send plain --to pacs --what ct");
@@ -190,6 +209,49 @@ TEST_F(NodeCommand, BuildsACaseOfImages)
   // The study is there already when its scene follows.
   json("send plain --to pacs --what scene");
   EXPECT_EQ(json("receive --from pacs --case plain" + other())["scene"], true);
+
+  // Of two CTs one is asked for, before anything is transferred.
+  json("export ear --what dissected --out " + quoted(m_folder / "dissected/"));
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(m_folder / "dissected"))
+    files.push_back(entry.path());
+  petrous::network::store(m_server->node(), files);
+  expectRefused("receive --from pacs --as two --partial " + quoted(m_folder / "two") + study +
+                    other(),
+                3, "2 CT series; name one by --series: ");
+  EXPECT_TRUE(!std::filesystem::exists(m_folder / "two") ||
+              std::filesystem::is_empty(m_folder / "two"));
+}
+
+// A send that was cut leaves parts of a scene; the one before it can still be received.
+TEST_F(NodeCommand, ReceivesTheLatestSceneThatIsWhole)
+{
+  if (!servers::Orthanc::installed())
+    GTEST_SKIP() << "Orthanc (package orthanc) is not installed";
+  start(false);
+  const auto sent = json("send ear --to pacs --what scene");
+  const std::filesystem::path archive = m_folder / "later.petrous";
+  json("archive ear " + quoted(archive));
+  petrous::network::SceneDescription description;
+  description.studyUid = sent["study"];
+  description.studyId =
+      petrous::network::findStudies(m_server->node(), {description.studyUid, {}}).at(0).studyId;
+  description.seriesNumber = 5000;
+  std::filesystem::create_directories(m_folder / "parts");
+  auto parts = petrous::network::writeSceneObjects(archive, m_folder / "parts", description, {},
+                                                   std::filesystem::file_size(archive) / 3);
+  ASSERT_GE(parts.size(), 3U);
+  const auto last = parts.back();
+  parts.pop_back();
+  petrous::network::store(m_server->node(), parts);
+  const auto got = json("receive --from pacs --case ear" + other());
+  EXPECT_EQ(got["scene"], true);
+  ASSERT_EQ(got["notes"].size(), 1U) << got;
+  EXPECT_NE(got["notes"][0].get<std::string>().find("a later state of the case"),
+            std::string::npos);
+  expectSameCase("ear");
+  petrous::network::store(m_server->node(), {last});
+  EXPECT_TRUE(json("receive --from pacs --case ear --as whole" + other())["notes"].empty());
 }
 
 TEST_F(NodeCommand, ABatchSendsWhatIsNew)
@@ -203,6 +265,15 @@ TEST_F(NodeCommand, ABatchSendsWhatIsNew)
   json("receive --from pacs --case ear" + other());
   json("receive --from pacs --case ct" + other());
   expectSameCase("ear");
+  EXPECT_EQ(json(batch)["counts"]["already done"], 2);
+  // The same name at another place.
+  json("nodes remove pacs");
+  json("nodes add pacs --host 127.0.0.1 --aet ORTHANC --port " +
+       std::to_string(servers::freePort()));
+  EXPECT_EQ(run(batch).code, 3) << "nothing is sent there, nor said to be";
+  json("nodes remove pacs");
+  json("nodes add pacs --host 127.0.0.1 --aet ORTHANC --port " +
+       std::to_string(m_server->node().port));
   EXPECT_EQ(json(batch)["counts"]["already done"], 2);
   json("undo ear");
   const auto rows = json(batch)["rows"];

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <chrono>
 #include <iostream>
@@ -8,6 +9,7 @@
 #include <mutex>
 #include <optional>
 
+#include <arpa/inet.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -258,6 +260,111 @@ std::string rowText(const RowResult& row)
   return text + (row.error.empty() ? "" : ": " + row.error);
 }
 
+/// UIDs name patients to whoever has them, and a report is handed on: "UID 1" and so on, in the
+/// order of the text, in their place.
+std::string withoutUids(const std::string& text)
+{
+  constexpr const char* kOfUid = "0123456789.";
+  constexpr std::ptrdiff_t kLeastDots = 3; // or of a UUID, "2.25." and up to 39 digits
+  constexpr std::size_t kLongNumber = 16;
+  const auto isAddress = [](const std::string& word) // IPv4
+  {
+    std::array<unsigned char, 4> bytes{};
+    return ::inet_pton(AF_INET, word.c_str(), bytes.data()) == 1;
+  };
+  std::vector<std::string> uids;
+  std::string result;
+  for (std::size_t at = 0; at < text.size();)
+  {
+    const std::size_t from = std::min(text.find_first_of("012", at), text.size());
+    result += text.substr(at, from - at);
+    const std::size_t to = std::min(text.find_first_not_of(kOfUid, from), text.size());
+    std::string word = text.substr(from, to - from);
+    at = to;
+    while (!word.empty() && word.back() == '.')
+    {
+      word.pop_back();
+      --at;
+    }
+    const bool isWithin =
+        from > 0 && (std::isalnum(static_cast<unsigned char>(text[from - 1])) != 0 ||
+                     text[from - 1] == '.'); // a number's end
+    const auto dots = std::count(word.begin(), word.end(), '.');
+    if (isWithin || word.size() < 2 || word[1] != '.' || isAddress(word) ||
+        (dots < kLeastDots && (dots < 2 || word.size() < kLongNumber)))
+    {
+      result += word;
+      continue;
+    }
+    const auto known = std::find(uids.begin(), uids.end(), word);
+    result += "UID " + std::to_string(known - uids.begin() + 1);
+    if (known == uids.end())
+      uids.push_back(word);
+  }
+  return result + (uids.empty() ? "" : " ('petrous scan' shows the UIDs)");
+}
+
+/// The same of the paths of a row's sources, which are often named after patients: the column in
+/// their place, which the row's line has.
+class SourceNames
+{
+public:
+  explicit SourceNames(const BatchRow& row)
+  {
+    if (!row.sources)
+      return;
+    const presenters::PartSources& parts = row.sources->parts;
+    add("folder", {row.sources->ct});
+    const auto pathsOf = [](const std::vector<presenters::PartSource>& list)
+    {
+      std::vector<fs::path> paths;
+      for (const presenters::PartSource& one : list)
+        paths.push_back(one.path);
+      return paths;
+    };
+    add("mr", pathsOf(parts.mr));
+    add("labels", pathsOf(parts.labels));
+    add("label names", {parts.labelNames});
+    add("meshes", pathsOf(parts.meshes));
+    // A path may begin as another one does.
+    std::stable_sort(m_names.begin(), m_names.end(),
+                     [](const auto& a, const auto& b) { return a.first.size() > b.first.size(); });
+  }
+
+  std::string in(std::string text) const
+  {
+    for (const auto& [path, name] : m_names)
+      for (std::size_t at = text.find(path); at != text.npos; at = text.find(path, at))
+      {
+        std::size_t end = at + path.size();
+        const bool isFileIn = end < text.size() && text[end] == '/';
+        if (isFileIn)
+        {
+          const std::size_t rest = end;
+          end = text.size();
+          for (const char* next : {": ", "; ", ", ", "'"})
+            end = std::min(end, text.find(next, rest));
+        }
+        const std::string words = isFileIn ? "a file in " + name : name;
+        text.replace(at, end - at, words);
+        at += words.size();
+      }
+    return withoutUids(text);
+  }
+
+private:
+  void add(const std::string& column, const std::vector<fs::path>& paths)
+  {
+    for (std::size_t n = 0; n < paths.size(); ++n)
+      if (!paths[n].empty())
+        m_names.emplace_back(paths[n].string(),
+                             "'" + column + "'" +
+                                 (paths.size() > 1 ? " " + std::to_string(n + 1) : ""));
+  }
+
+  std::vector<std::pair<std::string, std::string>> m_names; ///< path, column
+};
+
 /// Progress as JSON lines on stderr, for programs; otherwise the bar of every command.
 class BatchProgress
 {
@@ -271,12 +378,14 @@ public:
   }
 
   /// Of a step of the row with this index, which covers `first` to `last` of the row.
-  core::Progress of(std::size_t index, const RowResult& row, Step step, double first, double last)
+  core::Progress of(std::size_t index, const RowResult& row, const SourceNames& sources, Step step,
+                    double first, double last)
   {
     return m_context.progress(
-        [this, index, line = row.line, name = row.name, step, first, last,
-         shown = std::make_shared<int>(-1)](double fraction, const std::string& text)
+        [this, index, line = row.line, name = row.name, sources, step, first, last,
+         shown = std::make_shared<int>(-1)](double fraction, const std::string& whole)
         {
+          const std::string text = sources.in(whole);
           const double total =
               (static_cast<double>(index) + first + fraction * (last - first)) / m_rows;
           if (!m_asJson)
@@ -381,10 +490,15 @@ public:
   void run(std::size_t index, const BatchRow& row, RowResult& result)
   {
     const auto start = std::chrono::steady_clock::now();
+    const SourceNames sources(row);
     const auto finish = [&](const std::string& status, const std::string& error)
     {
       result.status = status;
-      result.error = error;
+      result.error = sources.in(error);
+      for (StepResult& step : result.steps)
+        step.text = sources.in(step.text);
+      for (std::string& note : result.notes)
+        note = sources.in(note);
       const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
       result.seconds = seconds.count();
     };
@@ -398,7 +512,7 @@ public:
     {
       if (!row.problem.empty())
         throw core::InvalidParameter(row.problem);
-      steps(index, row, result);
+      steps(index, row, sources, result);
       const bool anew =
           std::any_of(result.steps.begin(), result.steps.end(),
                       [](const StepResult& step) { return step.status != "already done"; });
@@ -445,7 +559,7 @@ private:
     }
   }
 
-  void steps(std::size_t index, const BatchRow& row, RowResult& result)
+  void steps(std::size_t index, const BatchRow& row, const SourceNames& sources, RowResult& result)
   {
     std::vector<Step> wanted;
     if (row.sources)
@@ -476,7 +590,7 @@ private:
       StepResult& step = result.steps.back();
       const auto count = static_cast<double>(wanted.size());
       const core::Progress progress =
-          m_progress.of(index, result, wanted[n], static_cast<double>(n) / count,
+          m_progress.of(index, result, sources, wanted[n], static_cast<double>(n) / count,
                         static_cast<double>(n + 1) / count);
       bool isDone = true;
       switch (wanted[n])
@@ -631,6 +745,14 @@ private:
     return true;
   }
 
+  // A node of the same name at another place is another one.
+  static std::string placeOf(const network::Node& node)
+  {
+    const std::string place = node.host + "\n" + std::to_string(node.port) + "\n" + node.aeTitle;
+    return library::sha256Of(reinterpret_cast<const std::uint8_t*>(place.data()), place.size())
+        .substr(0, 16);
+  }
+
   // What leaves is another thing with other choices, so that they belong to the key of the step.
   static std::string choicesOf(const BatchRow& row)
   {
@@ -693,7 +815,8 @@ private:
     step.text = "'" + row.node + "'";
     if (isPlanned(library, row))
       return true;
-    const std::string key = "send " + row.name + " " + row.node + choicesOf(row);
+    const std::string key =
+        "send " + row.name + " " + row.node + " " + placeOf(node) + choicesOf(row);
     const scene::Case value = library.open(row.name);
     if (isDoneWith(value, m_state.find(key)))
       return false;
@@ -713,7 +836,10 @@ private:
     if (const std::string why = presenters::unlistedText(done.transfer); !why.empty())
       result.notes.push_back("node '" + row.node + "' confirmed every instance, but " + why);
     step.text += ", " + std::to_string(done.transfer.instances) + " instances";
-    put(key, {{"case_id", value.id}, {"revision", value.revision}, {"study", done.studyUid}});
+    // What could not be counted there is asked for again in the next run, and sent if it is not
+    // there; of a node without queries nothing more will be known.
+    if (done.transfer.verified || done.transfer.listed == network::Transfer::Listed::NotOffered)
+      put(key, {{"case_id", value.id}, {"revision", value.revision}, {"study", done.studyUid}});
     return true;
   }
 

@@ -122,6 +122,7 @@ struct SendOptions
   std::string caseName, node, what = "all";
   MaskOptions mask;
   bool withoutNotes = false, withVideos = false, withDocuments = false, dryRun = false;
+  bool isUnverified = false;
 };
 
 void send(const Context& context, const SendOptions& options)
@@ -149,6 +150,12 @@ void send(const Context& context, const SendOptions& options)
       presenters::sendCase(library, options.caseName, node, parts, context.progress());
   for (const std::string& note : done.notes)
     context.warn(note);
+  if (done.transfer.listed == network::Transfer::Listed::None && !options.isUnverified)
+    throw network::NetworkError(network::NetworkError::Reason::Incomplete,
+                                "node '" + options.node +
+                                    "': confirmed every instance, but lists none of them; look "
+                                    "there whether it has them, or give --unverified for a node "
+                                    "that does not list what it keeps");
   if (const std::string why = presenters::unlistedText(done.transfer); !why.empty())
     context.warn("node '" + options.node + "' confirmed every instance, but " + why +
                  ", so they could not be counted there");
@@ -257,6 +264,8 @@ void addNodeCommands(CLI::App& app, Context& context)
                     "is not removed");
   command->add_flag("--without-notes", out->withoutNotes,
                     "Leave out the note of the description, which else goes along as it is");
+  command->add_flag("--unverified", out->isUnverified,
+                    "Believe a node that lists nothing of what it confirmed");
   command->add_flag("--dry-run", out->dryRun,
                     "Only say what of the case would leave, and what may identify the patient; "
                     "nothing is sent");

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "HeldTool.h"
+#include "petrous/Library/FrameSalt.h"
 #include "petrous/Library/LibraryError.h"
 #include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/RecordingPlayer.h"
@@ -367,6 +368,36 @@ TEST_F(WorkstationModelTest, SavesWithAllVoxelsIntoAnotherLibrary)
   EXPECT_EQ(opened.applied(), 1u);
   EXPECT_EQ(opened.ct.volume.get()->at(1, 1, 1), 1500.0);
   EXPECT_EQ(model.library().folder(), folder / "two");
+}
+
+// Their salt is another: nothing of the same patient would be taken for the same.
+TEST_F(WorkstationModelTest, ForgetsIdentityMarksOfTheLibraryThatACaseLeaves)
+{
+  const std::string frame(64, 'a'), name(64, 'b');
+  const auto marked = [&]
+  {
+    scene::Case value = block("block");
+    value.ct.frameOfReference = frame;
+    value.ct.patient.name = name;
+    return value;
+  };
+  library::Library library(folder / "one");
+  scene::Case value = marked();
+  library.save(value);
+  WorkstationModel model{library};
+  model.open("block");
+  ASSERT_EQ(model.value().ct.frameOfReference, library::saltedFrame(library, frame));
+  model.saveElsewhere(folder / "two", "block");
+  EXPECT_EQ(model.value().ct.frameOfReference, "");
+  EXPECT_TRUE(model.value().ct.patient.empty());
+  EXPECT_TRUE(model.library().open("block").ct.patient.empty());
+
+  // Not yet salted, they are salted there.
+  WorkstationModel fresh{library};
+  fresh.adopt(marked());
+  fresh.saveElsewhere(folder / "two", "block 2");
+  EXPECT_EQ(fresh.value().ct.frameOfReference, library::saltedFrame(fresh.library(), frame));
+  EXPECT_EQ(fresh.value().ct.patient.name, library::saltedFrame(fresh.library(), name));
 }
 
 TEST_F(WorkstationModelTest, HoldsTheCrosshairInTheCt)

@@ -7,6 +7,7 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDateEdit>
+#include <QElapsedTimer>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QKeyEvent>
@@ -32,6 +33,8 @@ namespace
 {
 constexpr int kNameWidth = 168;   // px
 constexpr int kSampledLines = 50; // for the widths of columns
+constexpr int kTyping = 150;      // ms between keys
+constexpr qint64 kPrompt = 30;    // ms; a search as short as that is done at each key
 } // namespace
 
 LibraryPanel::LibraryPanel(const presenters::WorkstationModel& model, QWidget* parent)
@@ -49,6 +52,7 @@ LibraryPanel::LibraryPanel(const presenters::WorkstationModel& model, QWidget* p
   , m_count(new QLabel)
   , m_deleted(new QMenu(this))
   , m_undelete(new QToolButton)
+  , m_typing(new QTimer(this))
 {
   m_search->setObjectName("searchCases");
   m_search->setPlaceholderText(tr("Search names, structures, tags, diagnoses"));
@@ -59,8 +63,17 @@ LibraryPanel::LibraryPanel(const presenters::WorkstationModel& model, QWidget* p
   m_search->setAccessibleName(tr("Search cases"));
   m_search->setClearButtonEnabled(true);
   m_search->setAcceptDrops(false); // an archive that is dropped is for the window
-  connect(m_search, &QLineEdit::textChanged, this, &LibraryPanel::refresh);
-  connect(m_search, &QLineEdit::returnPressed, this, &LibraryPanel::focusList);
+  m_typing->setSingleShot(true);
+  m_typing->setInterval(kTyping);
+  connect(m_typing, &QTimer::timeout, this, &LibraryPanel::refresh);
+  connect(m_search, &QLineEdit::textChanged, this, &LibraryPanel::refreshTyped);
+  connect(m_search, &QLineEdit::returnPressed, this,
+          [this]
+          {
+            if (m_typing->isActive())
+              refresh();
+            focusList();
+          });
   m_cases->thumbnail = [this](const library::CaseSummary& one)
   { return m_model.library().thumbnail(one); };
   m_list->setObjectName("cases");
@@ -181,11 +194,8 @@ library::CaseFilter LibraryPanel::filter() const
 }
 
 // The tags of all cases; the chosen one stays while a case has it.
-void LibraryPanel::listTags()
+void LibraryPanel::listTags(const std::set<std::string>& tags)
 {
-  std::set<std::string> tags;
-  for (const auto& one : m_model.library().list())
-    tags.insert(one.description.tags.begin(), one.description.tags.end());
   const QSignalBlocker quiet(m_tag);
   const QString chosen = m_tag->currentData().toString();
   while (m_tag->count() > 1)
@@ -278,15 +288,29 @@ void LibraryPanel::refreshSoon()
                      });
 }
 
+// A large library, or one on a slow drive, is not read again at each key.
+void LibraryPanel::refreshTyped()
+{
+  m_lastRefresh <= kPrompt ? refresh() : m_typing->start();
+}
+
 void LibraryPanel::refresh()
 {
+  QElapsedTimer time;
+  time.start();
   m_stale = false;
+  m_typing->stop();
   try
   {
     const std::string before = current();
     const std::string open = m_model.hasCase() ? m_model.value().name : std::string();
-    listTags();
-    m_cases->setCases(m_model.library().search(filter()), open);
+    std::set<std::string> tags;
+    const int tag = m_tag->currentIndex();
+    auto found = m_model.library().search(filter(), tags);
+    listTags(tags);
+    if (tag > 0 && m_tag->currentIndex() == 0) // no case has it any more
+      found = m_model.library().search(filter());
+    m_cases->setCases(std::move(found), open);
     int row = m_cases->rowOf(before);
     if (row < 0)
       row = m_cases->rowOf(open);
@@ -307,6 +331,7 @@ void LibraryPanel::refresh()
     m_cases->setCases({}, {});
     m_count->setText(toString(error));
   }
+  m_lastRefresh = time.elapsed();
   emit refreshed();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <set>
 #include <string>
 
 #include "Panels.h"
@@ -13,6 +14,7 @@ class QDateEdit;
 class QLabel;
 class QLineEdit;
 class QMenu;
+class QTimer;
 class QToolButton;
 class QTreeView;
 
@@ -73,7 +75,8 @@ private:
   void addButtons(QLayout& layout);
   void addFilters(QBoxLayout& layout);
   library::CaseFilter filter() const;
-  void listTags();
+  void listTags(const std::set<std::string>& tags);
+  void refreshTyped();
   void listDeleted();
   void update();
 
@@ -94,6 +97,8 @@ private:
   QList<QAction*> m_needEntry; ///< damaged or not
   std::string m_before;        ///< the selected case, while the list changes
   bool m_stale = true;
+  QTimer* m_typing;         ///< runs until what was typed is searched
+  qint64 m_lastRefresh = 0; ///< how long it took, ms
 };
 
 } // namespace petrous::workstation

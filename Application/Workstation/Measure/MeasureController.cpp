@@ -26,6 +26,7 @@
 #include "ThreeDView.h"
 #include "WindowTexts.h"
 #include "petrous/Core/OutputFile.h"
+#include "petrous/Library/LibraryFiles.h"
 #include "petrous/Presenters/Measuring.h"
 
 namespace petrous::workstation
@@ -464,8 +465,9 @@ void MeasureController::exportCsv()
   if (attempt(
           [&]
           {
-            core::writeFile(QFile::encodeName(file).toStdString(),
-                            presenters::measurementsCsv(m_model.value()));
+            const std::string path = QFile::encodeName(file).toStdString();
+            library::refuseOverwriting(path);
+            core::writeFile(path, presenters::measurementsCsv(m_model.value()));
           }))
     emit statusMessage(tr("The measurements are in %1").arg(file));
 }

@@ -24,6 +24,7 @@
 #include "WindowTexts.h"
 #include "petrous/Core/InputFile.h"
 #include "petrous/Core/OutputFile.h"
+#include "petrous/Library/LibraryFiles.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 
 namespace petrous::workstation
@@ -597,7 +598,12 @@ void AppearancePanel::exportFile()
   if (dialog.exec() != QDialog::Accepted)
     return;
   const std::string file = QFile::encodeName(dialog.selectedFiles().value(0)).toStdString();
-  attempt([&] { core::writeFile(file, m_editor.json() + "\n"); });
+  attempt(
+      [&]
+      {
+        library::refuseOverwriting(file);
+        core::writeFile(file, m_editor.json() + "\n");
+      });
 }
 
 } // namespace petrous::workstation

@@ -1,7 +1,12 @@
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstring>
 #include <map>
 #include <sstream>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "../../Imaging/Testing/TestDicom.h"
 #include "ConfidentialityProfile.h"
@@ -13,6 +18,7 @@
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Library/Deidentification.h"
 #include "petrous/Library/OwnerLock.h"
+#include "petrous/Library/PseudonymMap.h"
 
 namespace petrous::library
 {
@@ -456,6 +462,53 @@ TEST_F(Deidentification, KnowsThePatientsNumberAndANameThatIsAWordOfTheVocabular
   {
     EXPECT_EQ(value.find("4711471"), std::string::npos) << path;
     EXPECT_NE(value, "Wu") << path;
+  }
+}
+
+TEST_F(Deidentification, KnowsThePatientsNumberInAnyFormOfANumber)
+{
+  const std::string patient = element(0x00100020, "4711471") +
+                              element(0x00101000, "OTHER\\0815815") +
+                              element(0x00080050, "943-476-919");
+  for (const char* form : {" 4711471", "04711471", "+4711471", "-4711471", "815815", "943476919",
+                           "4711471.0", "4.711471e6", "943476919.00"})
+  {
+    const bool isWhole = std::string(form).find_first_of(".e") == std::string::npos;
+    const Elements found = cleaned(patient + element(0x00181150, isWhole ? form : "4711471") +
+                                   element(0x00180050, form) + element(0x00200013, "471147"));
+    EXPECT_EQ(found.at("00181150"), "") << form;
+    EXPECT_EQ(found.at("00180050"), "") << form;
+    EXPECT_EQ(found.at("00200013"), "471147") << form << ": another number";
+  }
+  const auto real = [](double value)
+  {
+    std::string bytes(sizeof value, '\0');
+    std::memcpy(bytes.data(), &value, sizeof value);
+    return bytes;
+  };
+  const Elements binary =
+      cleaned(patient + element(0x00209057, little(4711471, 4)) +
+              element(0x00209128, little(471147, 4)) + element(0x00189073, real(4711471.0)) +
+              element(0x00189328, real(0.1)) + element(0x00189220, real(std::nan(""))));
+  EXPECT_EQ(binary.count("00209057"), 0U);
+  EXPECT_EQ(binary.count("00209128"), 1U);
+  EXPECT_EQ(binary.count("00189073"), 0U);
+  EXPECT_EQ(binary.count("00189328"), 1U);
+  EXPECT_EQ(binary.count("00189220"), 1U) << "not a number is not the patient's";
+  EXPECT_EQ(cleaned(element(0x00100020, "00012") + element(0x00200013, "12")).at("00200013"), "12")
+      << "a short number is that of anything";
+}
+
+TEST_F(Deidentification, KeepsNoTextInPlaceOfNumbers)
+{
+  for (const std::string name : {"O'Brien^Mary", "M\xfcller^Hans", "M\xc3\xbcller^H.", "J. R. Doe"})
+  {
+    const std::string text = (name + std::string(12, ' ')).substr(0, 12);
+    const Elements found =
+        cleaned(element(0x00100010, name) + element(0x00189328, text.substr(0, 8)) +
+                element(0x00209157, text));
+    EXPECT_EQ(found.count("00189328"), 0U) << name;
+    EXPECT_EQ(found.count("00209157"), 0U) << name;
   }
 }
 
@@ -1031,6 +1084,100 @@ TEST_F(Deidentification, RemovesWhatAKilledRunLeftButNothingOfARunningOne)
   EXPECT_FALSE(fs::exists(out / ".petrous-0006"));
   EXPECT_FALSE(fs::exists(out / ".petrous-0007"));
   EXPECT_TRUE(fs::exists(out / "series-001-CT" / "00001.dcm"));
+}
+
+TEST_F(Deidentification, FollowsLinksToFoldersOnce)
+{
+  const fs::path elsewhere = folder.path() / "elsewhere";
+  write(in / "a.dcm", {});
+  write(elsewhere / "study" / "b.dcm", {});
+  fs::create_directory_symlink(elsewhere, in / "2");
+  fs::create_directory_symlink(elsewhere, in / "3");
+  fs::create_directory_symlink(in, elsewhere / "study" / "back");
+  fs::create_symlink(elsewhere / "none", in / "broken");
+  EXPECT_EQ(run().report.filesWritten, 2U);
+}
+
+// What a stream of the C library still holds when the file is closed may find no room.
+TEST_F(Deidentification, ADiskThatIsFullAtAnyByteLeavesWhatWasThere)
+{
+  write(in / "a.dcm", {});
+  write(in / "b.dcm", {});
+  const fs::path file = folder.path() / "one.dcm";
+  deidentify(in / "a.dcm", file, {}, key);
+  const auto size = static_cast<rlim_t>(fs::file_size(file));
+  imaging::test::writeText(file, "former");
+  rlimit before{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  const auto former = std::signal(SIGXFSZ, SIG_IGN);
+  for (const rlim_t most : {rlim_t{0}, rlim_t{1}, rlim_t{200}, size / 2, size - 1})
+    for (const bool isFolder : {false, true})
+    {
+      rlimit limit = before;
+      limit.rlim_cur = most;
+      ::setrlimit(RLIMIT_FSIZE, &limit);
+      try
+      {
+        deidentify(isFolder ? in : in / "a.dcm", isFolder ? out : file, {}, key);
+        ADD_FAILURE() << most << ": the disk took it";
+      }
+      catch (const core::OutputFileError& error)
+      {
+        EXPECT_EQ(error.reason, core::OutputFileError::Reason::DiskFull) << error.what();
+      }
+      ::setrlimit(RLIMIT_FSIZE, &before);
+      EXPECT_EQ(core::readFile(file), "former");
+      EXPECT_FALSE(fs::exists(out));
+    }
+  std::signal(SIGXFSZ, former);
+  run();
+  EXPECT_EQ(fs::file_size(out / "series-001-CT" / "00002.dcm"), size);
+}
+
+// The map of pseudonyms is the only way back.
+TEST_F(Deidentification, GivesNamesOfAnyCharacterSetInUtf8)
+{
+  struct Name
+  {
+    const char *set, *bytes, *utf8;
+  };
+  // The same names as PS3.5 annexes H and K, or the code charts, have them.
+  const std::vector<Name> names{
+      {"ISO_IR 100", "M\xfcller^Hans", "M\xc3\xbcller^Hans"},
+      {"ISO_IR 144", "\xbb\xee\xda\xdd\xd5\xe6",
+       "\xd0\x9b\xd1\x8e\xd0\xba\xd0\xbd\xd0\xb5\xd1\x86"},
+      {"ISO_IR 126", "\xc4\xe9\xef\xed", "\xce\x94\xce\xb9\xce\xbf\xce\xbd"},
+      {"\\ISO 2022 IR 87", "Yamada^Tarou=\x1b$B;3ED\x1b(B^\x1b$BB@O:\x1b(B",
+       "Yamada^Tarou=\xe5\xb1\xb1\xe7\x94\xb0^\xe5\xa4\xaa\xe9\x83\x8e"},
+      {"\\ISO 2022 IR 149", "Hong^Gildong=\x1b$)C\xfb\xf3^\x1b$)C\xd1\xce\xd4\xd7",
+       "Hong^Gildong=\xe6\xb4\xaa^\xe5\x90\x89\xe6\xb4\x9e"},
+      {"GB18030", "Wang=\xcd\xf5", "Wang=\xe7\x8e\x8b"},
+      {"ISO_IR 192", "Zo\xc3\xab", "Zo\xc3\xab"},
+      {"", "Zo\xc3\xab", "Zo\xc3\xab"}, // not stated
+      {"", "Zo\xeb", "Zo\xc3\xab"},
+      {"ISO_IR 192", "Zo\xeb", "Zo\xc3\xab"},
+  };
+  for (const Name& name : names)
+  {
+    write(in / "a.dcm", withBody((*name.set ? element(0x00080005, name.set) : std::string()) +
+                                 element(0x00100010, name.bytes)));
+    fs::remove_all(out);
+    const std::vector<Pseudonym> given = run().pseudonyms;
+    const auto patient = std::find_if(given.begin(), given.end(),
+                                      [](const auto& one) { return one.kind == "patient"; });
+    ASSERT_NE(patient, given.end());
+    EXPECT_EQ(patient->identity, std::string(" ") + name.utf8) << name.set;
+    // Kept and read, it is known again.
+    const fs::path file = folder.path() / "map";
+    constexpr PseudonymMap::Cost kCheap{1, 1 << 16};
+    {
+      PseudonymMap map(file, "correct horse", kCheap);
+      map.takeIn(given);
+    }
+    PseudonymMap map(file, "correct horse", kCheap);
+    EXPECT_EQ(map.add(given), 0U) << name.set;
+    fs::remove(file);
+  }
 }
 
 TEST_F(Deidentification, GivesThePseudonymsBeforeTheOutputIsThere)

@@ -9,6 +9,7 @@
 
 #include "TestCase.h"
 #include "petrous/Imaging/NrrdFile.h"
+#include "petrous/Library/FrameSalt.h"
 #include "petrous/Library/ObjectStore.h"
 
 using namespace petrous;
@@ -337,6 +338,12 @@ TEST(Library, SaltsWhatTellsFramesOfReferenceApart)
   EXPECT_EQ(one, savedIn("a", "other ear")) << "in one library the same are known as such";
   EXPECT_NE(one, savedIn("b", "ear"));
   EXPECT_EQ(contentOf(folder.path() / "a").count("salt"), 1U);
+  const auto salted = frameSalter(Library(folder.path() / "a"));
+  const std::string hash = salted("frame");
+  EXPECT_EQ(hash, saltedFrame(Library(folder.path() / "a"), "frame"));
+  std::filesystem::rename(folder.path() / "a" / "salt", folder.path() / "salt");
+  EXPECT_EQ(salted("frame"), hash) << "read once";
+  std::filesystem::rename(folder.path() / "salt", folder.path() / "a" / "salt");
   EXPECT_EQ(std::filesystem::status(folder.path() / "a" / "salt").permissions(),
             std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
 }

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <map>
+#include <set>
 #include <thread>
+#include <utility>
 
 #include <fcntl.h>
 #include <sqlite3.h>
@@ -262,6 +265,69 @@ TEST_F(Maintenance, ADeletedCaseThatIsNamedAsAJournalComesBack)
   }
 }
 
+// Nor is its manifest a journal that was set aside.
+TEST_F(Maintenance, ACaseThatIsNamedAsAJournalStaysWhereAnotherIsDeleted)
+{
+  for (const std::string name : {"x.journal.aside-1", "x.journal", "x.journal.new"})
+  {
+    make("x");
+    make(name);
+    m_library.rename("x", "y");
+    m_library.remove("y");
+    make("x");
+    m_library.remove("x");
+    m_library.collectGarbage();
+    ASSERT_EQ(m_library.list().size(), 1u) << name;
+    EXPECT_NO_THROW(m_library.open(name));
+    m_library.remove(name);
+    m_library.collectGarbage();
+  }
+}
+
+// A kill between the removal of a manifest and that of its journals.
+TEST_F(Maintenance, WhatWasDrilledInADeletedCaseIsCollectedAfterAKill)
+{
+  const fs::path cases = m_folder.path() / "cases";
+  const auto drilled = [this](const std::string& name)
+  {
+    scene::Case value = make(name);
+    Journal journal(m_library, value);
+    drill(value, {8, 8, 8});
+    journal.follow(value.dissection);
+    journal.leave();
+  };
+  drilled("a");
+  m_library.remove("a");
+  fs::remove(cases / "a.json.deleted-1");
+  std::ofstream(cases / "a.journal.aside-2.deleted-1") << "x";
+  std::ofstream(cases / "a.journal.new.deleted-1") << "x";
+  ASSERT_TRUE(fs::exists(cases / "a.journal.deleted-1"));
+  // Another case of that name does not take it for its own.
+  make("a", 20);
+  m_library.remove("a");
+  m_library.undelete("a");
+  EXPECT_FALSE(fs::exists(cases / "a.journal"));
+  m_library.remove("a");
+  m_library.collectGarbage();
+  EXPECT_TRUE(fs::is_empty(cases));
+
+  // The same where the deletion was killed.
+  drilled("b");
+  m_library.remove("b");
+  fs::rename(cases / "b.journal.deleted-1", cases / "b.journal");
+  drilled("c");
+  m_library.collectGarbage();
+  EXPECT_FALSE(fs::exists(cases / "b.journal"));
+  EXPECT_EQ(m_library.open("c").dissection.strokes().size(), 1u);
+
+  // Alone.
+  m_library.remove("c");
+  m_library.collectGarbage();
+  std::ofstream(cases / "c.journal.deleted-1") << "x";
+  m_library.collectGarbage();
+  EXPECT_TRUE(fs::is_empty(cases));
+}
+
 TEST_F(Maintenance, TheCaseOfANameThatWasDeletedLastComesBackFirst)
 {
   for (const int n : {16, 20, 24})
@@ -486,6 +552,22 @@ TEST_F(Maintenance, SearchesCaseAndPartNames)
   }
 }
 
+TEST_F(Maintenance, ASearchTellsTheTagsOfAllCases)
+{
+  for (const char* name : {"a", "b"})
+  {
+    make(name);
+    Description description;
+    description.tags = {std::string("tag ") + name};
+    m_library.describe(name, description);
+  }
+  CaseFilter filter;
+  filter.text = "b";
+  std::set<std::string> tags;
+  ASSERT_EQ(m_library.search(filter, tags).size(), 1u);
+  EXPECT_EQ(tags, (std::set<std::string>{"tag a", "tag b"}));
+}
+
 TEST_F(Maintenance, WhatAListReadsOfManifestsGoesIntoTheIndex)
 {
   make("a");
@@ -610,6 +692,42 @@ TEST_F(Maintenance, ARenamedCaseHasItsFormerNameNowhere)
   EXPECT_TRUE(m_library.verify().damaged.empty());
 }
 
+// As the window names them; others are the user's own.
+TEST_F(Maintenance, RecordingsLoseTheFormerNameToo)
+{
+  const fs::path folder = m_folder.path() / "recordings";
+  fs::create_directory(folder);
+  make("Doe");
+  make("Doe 2");
+  for (const char* file :
+       {"Doe 2026-03-01 09-30-00.ticks", "Doe 2026-03-01 09-30-00 (2).ticks",
+        "Doe 2 2026-03-01 09-30-00.ticks", "Doe and others.ticks", "ear 2026-03-01 09-30-00.ticks"})
+    std::ofstream(folder / file) << file;
+  const auto files = [&folder]
+  {
+    std::map<std::string, std::string> all;
+    for (const auto& entry : fs::directory_iterator(folder))
+    {
+      std::ifstream stream(entry.path());
+      std::getline(stream, all[entry.path().filename().string()]);
+    }
+    return all;
+  };
+  m_library.rename("Doe", "ear");
+  std::set<std::string> contents;
+  for (const auto& [name, content] : files())
+  {
+    EXPECT_TRUE(name.rfind("ear ", 0) == 0 || content == name) << name;
+    contents.insert(content);
+  }
+  EXPECT_EQ(contents.size(), 5u) << "none replaced another";
+  m_library.remove("Doe 2");
+  EXPECT_TRUE(fs::exists(folder / "Doe 2 2026-03-01 09-30-00.ticks")) << "it may come back";
+  m_library.collectGarbage();
+  EXPECT_TRUE(fs::exists(folder / "2026-03-01 09-30-00.ticks"));
+  EXPECT_EQ(files().size(), 5u);
+}
+
 TEST_F(Maintenance, ADeletedCaseThatCannotComeBackIsFoundAndStaysDeleted)
 {
   make("a");
@@ -690,6 +808,48 @@ TEST_F(Maintenance, ALostImageIsSaidAndComesBackWithTheSameImport)
   EXPECT_NO_THROW(m_library.open("a").ct.volume.get());
 }
 
+TEST_F(Maintenance, CleaningUpAndRepairingCanBeCancelledAtAnyStep)
+{
+  for (const char* name : {"a", "b", "c"})
+    make(name, 16 + name[0] % 8);
+  m_library.remove("a");
+  const auto cancelledAfter = [](int reports)
+  {
+    auto token = std::make_shared<core::CancelToken>();
+    return core::Progress(
+        [token, left = std::make_shared<int>(reports)](double, const std::string&)
+        {
+          if (--*left <= 0)
+            token->cancel();
+        },
+        token);
+  };
+  const auto before = contentOf(m_folder.path());
+  EXPECT_THROW(m_library.repair(cancelledAfter(1)), core::CancelledError);
+  EXPECT_THROW(m_library.collectGarbage(cancelledAfter(1)), core::CancelledError);
+  EXPECT_THROW(m_library.collectGarbage(cancelledAfter(2)), core::CancelledError);
+  EXPECT_EQ(contentOf(m_folder.path()), before) << "while cases are read, nothing is removed";
+  // Then it goes on where it was.
+  int runs = 0;
+  for (bool isDone = false; !isDone; ++runs)
+  {
+    ASSERT_LT(runs, 20);
+    try
+    {
+      m_library.collectGarbage(cancelledAfter(3 + runs));
+      isDone = true;
+    }
+    catch (const core::CancelledError&)
+    {
+      EXPECT_TRUE(m_library.verify().damaged.empty());
+    }
+  }
+  EXPECT_GT(runs, 1);
+  EXPECT_EQ(m_library.collectGarbage().objects, 0u);
+  EXPECT_TRUE(m_library.deleted().empty());
+  EXPECT_EQ(m_library.repair().done.back(), "the index holds 2 of 2 cases");
+}
+
 // Another program holds the lock: it ends only when the user wants.
 TEST_F(Maintenance, WaitingForTheLibraryCanBeCancelledAndChangesNothing)
 {
@@ -723,4 +883,56 @@ TEST_F(Maintenance, WaitingForTheLibraryCanBeCancelledAndChangesNothing)
   EXPECT_EQ(contentOf(m_folder.path()), before);
   ::close(other);
   EXPECT_NO_THROW(m_library.save(value));
+}
+
+// A copy is made to be kept when the original goes.
+TEST_F(Maintenance, ACopyThatWaitedIsRefusedWhereTheOriginalIsGone)
+{
+  make("a");
+  make("b", 20);
+  int other = ::open((m_folder.path() / ".lock").c_str(), O_RDWR);
+  ASSERT_EQ(::flock(other, LOCK_EX), 0);
+  Library waiting(m_folder.path());
+  waiting.onWait(
+      [&](double)
+      {
+        ::close(std::exchange(other, -1));
+        m_library.remove("a");
+        m_library.collectGarbage();
+      });
+  const auto [reason, words] = refusal([&] { waiting.copy("a", "twin"); });
+  EXPECT_EQ(reason, LibraryError::Reason::NotFound) << words;
+  EXPECT_FALSE(m_library.contains("twin"));
+  EXPECT_TRUE(m_library.verify().damaged.empty());
+}
+
+TEST_F(Maintenance, ACopyThatWaitedIsOfTheCaseAsItIsThen)
+{
+  scene::Case value = make("a");
+  int other = ::open((m_folder.path() / ".lock").c_str(), O_RDWR);
+  ASSERT_EQ(::flock(other, LOCK_EX), 0);
+  Library waiting(m_folder.path());
+  waiting.onWait(
+      [&](double)
+      {
+        ::close(std::exchange(other, -1));
+        value.iso = 512;
+        m_library.save(value);
+      });
+  waiting.copy("a", "twin");
+  EXPECT_EQ(m_library.open("twin").iso, 512);
+}
+
+TEST_F(Maintenance, SavingUnderAnotherNameSaysWhatIsLost)
+{
+  scene::Case value = make("a");
+  value = m_library.open("a");
+  m_library.remove("a");
+  m_library.collectGarbage();
+  std::string said;
+  m_library.onNotice([&said](const std::string& words) { said += words; });
+  value.name = "b";
+  value.revision = 0;
+  m_library.save(value);
+  EXPECT_NE(said.find("missing"), std::string::npos) << said;
 }

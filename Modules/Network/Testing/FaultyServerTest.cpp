@@ -663,7 +663,20 @@ TEST_F(FaultyNode, ThatNeverSaysWhatItHasIsNotSaidToListNothing)
   }
   m_behaviour.cuts = {};
   const FaultyServer server(m_behaviour);
-  EXPECT_EQ(store(server.node(), m_files).listed, Transfer::Listed::None);
+  Node node = server.node();
+  node.timeouts.listing = std::chrono::milliseconds(60);
+  EXPECT_EQ(store(node, m_files).listed, Transfer::Listed::None);
+}
+
+TEST_F(FaultyNode, WhoseListLagsIsAskedAgain)
+{
+  m_behaviour.lists = [this](int query) { return query < 3 ? std::vector<fs::path>() : m_files; };
+  const FaultyServer server(m_behaviour);
+  Node node = server.node();
+  node.timeouts.listing = std::chrono::milliseconds(60);
+  const Transfer sent = store(node, m_files);
+  EXPECT_EQ(sent.listed, Transfer::Listed::All);
+  EXPECT_TRUE(sent.verified);
 }
 
 TEST_F(FaultyNode, WhoseListChangesIsNotSentToForEver)

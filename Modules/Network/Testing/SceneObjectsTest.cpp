@@ -1,8 +1,12 @@
 #include "petrous/Network/SceneObjects.h"
 
+#include <csignal>
+
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "TestServers.h"
+#include "petrous/Core/OutputFile.h"
 #include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Network/NodeList.h"
 
@@ -91,6 +95,11 @@ TEST_F(SceneObjects, TheLatestIsThatOfTheHighestNumber)
   series[3].modality = "CT";
   EXPECT_FALSE(isScene(series[3]));
   EXPECT_EQ(latestScene(series), series.begin() + 1);
+  const std::vector<Series> scenes = scenesAmong(series);
+  ASSERT_EQ(scenes.size(), 3U);
+  EXPECT_EQ(scenes[0].number, 1012);
+  EXPECT_EQ(scenes[1].number, 1007);
+  EXPECT_EQ(scenes[2].number, 1003);
   series.erase(series.begin(), series.begin() + 3);
   EXPECT_EQ(latestScene(series), series.end());
 }
@@ -129,6 +138,31 @@ TEST_F(SceneObjects, OfAnotherSceneMissingTwiceOrDamagedAreRefused)
   expectRefused(files);
   std::ofstream(files[3], std::ios::binary) << "no DICOM file";
   expectRefused(files);
+}
+
+TEST_F(SceneObjects, AFullDiskIsSaid)
+{
+  rlimit before{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  const auto former = std::signal(SIGXFSZ, SIG_IGN);
+  const auto size = static_cast<rlim_t>(fs::file_size(write("abc", 1000).front()));
+  for (const rlim_t most : {rlim_t{0}, rlim_t{1}, size / 2, size - 1})
+  {
+    rlimit limit = before;
+    limit.rlim_cur = most;
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    try
+    {
+      write("abc", 1000);
+      ADD_FAILURE() << most << ": the disk took it";
+    }
+    catch (const core::OutputFileError& error)
+    {
+      EXPECT_EQ(error.reason, core::OutputFileError::Reason::DiskFull) << error.what();
+    }
+    ::setrlimit(RLIMIT_FSIZE, &before);
+  }
+  std::signal(SIGXFSZ, former);
 }
 
 TEST(NodeList, IsKeptAndHoldsNoKey)

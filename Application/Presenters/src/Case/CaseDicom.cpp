@@ -328,6 +328,7 @@ std::size_t writeCaseSegmentation(const std::filesystem::path& path, const scene
   segmentation.description = "Segmentation";
   segmentation.studyUid = identifiers.study();
   segmentation.studyId = options.studyId;
+  segmentation.seriesNumber = options.segmentationNumber;
   segmentation.frameOfReferenceUid = identifiers.frameOfReference(drawnOn);
   segmentation.seriesUid = seriesUid(
       identifiers.fingerprint(), "labels", grid,

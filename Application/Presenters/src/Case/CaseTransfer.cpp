@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <set>
@@ -95,6 +96,7 @@ public:
     , m_alone(parts.ct + parts.mr + parts.labels + parts.scene == 1)
   {
     m_options.studyId = studyIdOf(value.name);
+    m_options.segmentationNumber = stateNumber();
   }
 
   std::vector<fs::path> write(const core::Progress& progress)
@@ -119,6 +121,13 @@ public:
   const std::vector<std::string>& notes() const noexcept { return m_notes; }
 
 private:
+  // Series number of what the case has in this state: the highest at a node is the latest.
+  int stateNumber() const
+  {
+    constexpr std::uint64_t kMaxRevision = 1000000000; // of an integer string
+    return 1000 + static_cast<int>(std::min<std::uint64_t>(m_value.revision, kMaxRevision));
+  }
+
   // What was asked for by itself is refused, else noted.
   void leaveOut(const std::string& why)
   {
@@ -198,9 +207,7 @@ private:
     network::SceneDescription description;
     description.studyUid = CaseIdentifiers(m_value).study();
     description.studyId = m_options.studyId;
-    constexpr std::uint64_t kMaxRevision = 1000000000; // of an integer string
-    description.seriesNumber =
-        1000 + static_cast<int>(std::min<std::uint64_t>(m_value.revision, kMaxRevision));
+    description.seriesNumber = stateNumber();
     const auto files =
         network::writeSceneObjects(archive, folder, description, progress.part(0.8, 1.0));
     fs::remove(archive);
@@ -218,9 +225,9 @@ private:
   std::vector<std::string> m_notes;
 };
 
-/// Segmentations that the node has in the study, and that are not among the files. 0 also for a
-/// node that does not say.
-std::size_t supersededSegmentations(const network::Node& node, const std::string& study,
+/// What to say of segmentations that the node has in the study, and that are not among the files:
+/// of earlier states. Empty also for a node that does not say.
+std::string supersededSegmentations(const network::Node& node, const std::string& study,
                                     const std::vector<fs::path>& files,
                                     const core::Progress& progress)
 {
@@ -229,19 +236,30 @@ std::size_t supersededSegmentations(const network::Node& node, const std::string
     if (file.filename() == kSegmentationFile)
       sent.insert(network::seriesOfFile(file));
   if (sent.empty())
-    return 0;
+    return {};
   try
   {
-    const auto series = network::findSeries(node, study, progress);
-    return static_cast<std::size_t>(std::count_if(series.begin(), series.end(),
-                                                  [&sent](const network::Series& one) {
-                                                    return one.modality == "SEG" &&
-                                                           sent.count(one.uid) == 0;
-                                                  }));
+    std::size_t count = 0;
+    int own = -1, other = -1; // the highest numbers
+    for (const network::Series& one : network::findSeries(node, study, progress))
+      if (sent.count(one.uid) > 0)
+        own = std::max(own, one.number);
+      else if (one.modality == "SEG")
+      {
+        ++count;
+        other = std::max(other, one.number);
+      }
+    if (count == 0)
+      return {};
+    // Structures as they were before are the series that they were then.
+    return "node '" + node.name + "' still has " + std::to_string(count) +
+           (count == 1 ? " segmentation" : " segmentations") + " of an earlier state of this case" +
+           (other >= own ? ", which 'petrous receive --study' would take for the latest" : "") +
+           "; have what is superseded deleted there";
   }
   catch (const NetworkError&)
   {
-    return 0; // everything arrived all the same
+    return {}; // everything arrived all the same
   }
 }
 
@@ -356,18 +374,36 @@ scene::Case builtCase(const fs::path& folder, const std::string& name,
   return value;
 }
 
-/// The structures of DICOM segmentations. One that does not belong to the images is left out.
-void addSegmentations(scene::Case& value, const fs::path& folder, std::vector<std::string>& notes,
+/// The structures of DICOM segmentations, the latest first: of those of one name the others are
+/// left out, as one that does not belong to the images.
+void addSegmentations(scene::Case& value, const std::vector<network::Series>& series,
+                      const fs::path& folder, std::vector<std::string>& notes,
                       const core::Progress& progress)
 {
   std::vector<fs::path> files;
   addFiles(folder, files);
+  const auto numberOf = [&series](const fs::path& file)
+  {
+    const std::string uid = network::seriesOfFile(file);
+    const auto of = std::find_if(series.begin(), series.end(),
+                                 [&uid](const network::Series& one) { return one.uid == uid; });
+    return of == series.end() ? -1 : of->number;
+  };
+  std::vector<std::pair<int, fs::path>> ordered;
   for (const fs::path& file : files)
+    if (file.extension() == network::kInstanceEnding)
+      ordered.emplace_back(numberOf(file), file);
+  std::stable_sort(ordered.begin(), ordered.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::optional<int> latest; // of those that were added
+  std::size_t earlier = 0;
+  for (const auto& [number, file] : ordered)
     try
     {
       PartSources sources;
       sources.labels.push_back({{}, file});
       addParts(value, sources, progress);
+      latest = latest.value_or(number);
     }
     catch (const core::CancelledError&)
     {
@@ -375,10 +411,22 @@ void addSegmentations(scene::Case& value, const fs::path& folder, std::vector<st
     }
     catch (const core::Error&)
     {
-      notes.push_back(
-          "a segmentation of the study is left out: it does not belong to these images, "
-          "cannot be read, or names structures that are there already");
+      if (latest && number < *latest)
+        ++earlier;
+      else
+        notes.push_back(
+            latest && number == *latest
+                ? "a segmentation of the study is left out: it does not belong to these images, "
+                  "cannot be read, or names structures of another one, and the node does not tell "
+                  "which is the later; compare them there"
+                : "a segmentation of the study is left out: it does not belong to these images, "
+                  "cannot be read, or names structures that are there already");
     }
+  if (earlier > 0)
+    notes.push_back((earlier == 1
+                         ? "a segmentation of an earlier state is"
+                         : std::to_string(earlier) + " segmentations of earlier states are") +
+                    " left out: the latest by its series number was taken");
 }
 
 void add(network::Transfer& sum, const network::Transfer& more)
@@ -390,6 +438,73 @@ void add(network::Transfer& sum, const network::Transfer& more)
   sum.asked = std::max(sum.asked, more.asked);
   sum.bytes += more.bytes;
   sum.seconds += more.seconds;
+}
+
+/// Before minutes of transfer, which would end in the same question.
+void refuseSeveralCts(const network::Node& node, const std::vector<network::Series>& series,
+                      const ReceiveRequest& request)
+{
+  constexpr int kScout = 2; // images; what has more may be a volume
+  std::string counts;
+  std::size_t cts = 0;
+  for (const network::Series& one : series)
+    if (one.modality == "CT" && (one.instances < 0 || one.instances > kScout))
+    {
+      ++cts;
+      counts += (counts.empty() ? "" : ", ") + one.uid +
+                (one.instances >= 0 ? " (" + std::to_string(one.instances) + " images)" : "");
+    }
+  if (cts > 1 && request.series.empty())
+    throw core::InvalidParameter("node '" + node.name + "': the study has " + std::to_string(cts) +
+                                 " CT series; name one by --series: " + counts);
+}
+
+/// The archive of the latest scene that is whole: of one whose sending was cut, the node has parts.
+void receiveScene(const network::Node& node, const std::string& study,
+                  const std::vector<network::Series>& scenes, const fs::path& folder,
+                  const fs::path& archive, ReceiveSummary& summary, const core::Progress& progress)
+{
+  std::exception_ptr first;
+  std::string why;
+  for (const network::Series& scene : scenes)
+  {
+    const auto fail = [&](const core::Error& error)
+    {
+      if (!first)
+        first = std::current_exception();
+      why = why.empty() ? error.what() : why;
+    };
+    try
+    {
+      // Of each state of the scene: an earlier transfer may have left parts of another one.
+      const fs::path parts = folder / ("scene-" + shortHash(scene.uid));
+      const network::Transfer transfer =
+          network::retrieve(node, study, {scene.uid}, parts, progress.part(0.0, 0.9));
+      std::vector<fs::path> files;
+      for (const auto& entry : fs::directory_iterator(parts))
+        if (entry.path().extension() == network::kInstanceEnding)
+          files.push_back(entry.path());
+      network::readSceneObjects(files, archive, progress.part(0.9, 1.0));
+      summary.transfer = transfer;
+      if (first)
+        summary.notes.push_back("a later state of the case is at node '" + node.name +
+                                "', but cannot be received: " + why +
+                                ". This is the state before it");
+      return;
+    }
+    catch (const core::InvalidParameter& error)
+    {
+      fail(error);
+    }
+    catch (const NetworkError& error)
+    {
+      if (error.reason != NetworkError::Reason::Incomplete &&
+          error.reason != NetworkError::Reason::NotFound)
+        throw;
+      fail(error);
+    }
+  }
+  std::rethrow_exception(first);
 }
 
 } // namespace
@@ -816,11 +931,9 @@ SendSummary sendCase(const library::Library& library, const std::string& name,
   summary.studyUid = CaseIdentifiers(value).study();
   library.checkVoxels(value, progress);
   summary.transfer = network::store(node, files, progress.part(0.4, 1.0));
-  if (const std::size_t count = supersededSegmentations(node, summary.studyUid, files, progress))
-    summary.notes.push_back("node '" + node.name + "' still has " + std::to_string(count) +
-                            (count == 1 ? " segmentation" : " segmentations") +
-                            " of an earlier state of this case; have what is superseded deleted "
-                            "there");
+  if (std::string note = supersededSegmentations(node, summary.studyUid, files, progress);
+      !note.empty())
+    summary.notes.push_back(std::move(note));
   return summary;
 }
 
@@ -846,20 +959,14 @@ ReceiveSummary receiveCase(library::Library& library, const network::Node& node,
   const fs::path folder = (scratch ? scratch->path() : request.partial) / shortHash(study);
 
   ReceiveSummary summary;
-  const auto scene = request.series.empty() ? network::latestScene(series) : series.end();
-  if (scene != series.end())
+  if (const auto scenes =
+          request.series.empty() ? network::scenesAmong(series) : std::vector<network::Series>();
+      !scenes.empty())
   {
     if (request.as.empty())
       refuseTakenScene(library, node, study, progress);
-    // Of each state of the scene: an earlier transfer may have left parts of another one.
-    const fs::path parts = folder / ("scene-" + shortHash(scene->uid));
-    summary.transfer = network::retrieve(node, study, {scene->uid}, parts, progress.part(0.0, 0.7));
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(parts))
-      if (entry.path().extension() == network::kInstanceEnding)
-        files.push_back(entry.path());
     const fs::path archive = folder / (std::string("scene") + library::kArchiveEnding);
-    network::readSceneObjects(files, archive, progress.part(0.7, 0.8));
+    receiveScene(node, study, scenes, folder, archive, summary, progress.part(0.0, 0.8));
     freeName(library, request.as.empty() ? library::inspectArchive(archive).name : request.as);
     library::RestoreOptions options;
     options.name = request.as;
@@ -884,6 +991,7 @@ ReceiveSummary receiveCase(library::Library& library, const network::Node& node,
                                                    ? one.modality == "CT"
                                                    : one.uid == seriesUidOf(request.series);
                                       });
+  refuseSeveralCts(node, series, request);
   if (!hasPrimary)
     throw NetworkError(
         NetworkError::Reason::NotFound,
@@ -909,7 +1017,8 @@ ReceiveSummary receiveCase(library::Library& library, const network::Node& node,
   scene::Case value =
       builtCase(folder / "images", request.as, request, summary.notes, progress.part(0.7, 0.85));
   if (!segmentations.empty())
-    addSegmentations(value, folder / "segmentations", summary.notes, progress.part(0.85, 0.9));
+    addSegmentations(value, series, folder / "segmentations", summary.notes,
+                     progress.part(0.85, 0.9));
   library.save(value, progress.part(0.9, 1.0));
   summary.name = value.name;
   return summary;

@@ -125,8 +125,7 @@ IdentityText::IdentityText(const scene::Case& value, Salted salted)
 }
 
 IdentityText::IdentityText(const scene::Case& value, const library::Library& library)
-  : IdentityText(value,
-                 [library](const std::string& hash) { return library::saltedFrame(library, hash); })
+  : IdentityText(value, library::frameSalter(library))
 {
 }
 

@@ -530,10 +530,9 @@ try
   const bool isPrepared = !options.planOnly && options.prepare;
   if (isPrepared)
     summary.notes = options.prepare(value, progress.part(0.0, 0.3));
-  const auto salt = [&library](scene::ImagePart& image) // older manifests have plain hashes
+  const auto salt = [salted = frameSalter(library)](scene::ImagePart& image)
   {
-    scene::saltIdentity(image,
-                        [&library](const std::string& hash) { return saltedFrame(library, hash); });
+    scene::saltIdentity(image, salted); // older manifests have plain hashes
   };
   salt(value.ct);
   std::for_each(value.mr.begin(), value.mr.end(), salt);

@@ -159,6 +159,23 @@ catch (const std::exception&)
   // The manifest is authoritative; `entries` will not match it, so it is read again.
 }
 
+void Catalogue::put(const std::vector<Entry>& entries) noexcept
+try
+{
+  write(m_file,
+        [&](SQLite::Database& database)
+        {
+          SQLite::Transaction change(database);
+          for (const Entry& entry : entries)
+            insertEntry(database, entry);
+          change.commit();
+        });
+}
+catch (const std::exception&)
+{
+  // As above.
+}
+
 void Catalogue::putIfThere(const std::vector<Entry>& entries) noexcept
 try
 {

@@ -39,6 +39,7 @@ public:
   /// Keyed by name; one consistent read that locks out writers. Creates no files.
   std::map<std::string, Entry> entries() const noexcept;
   void put(const Entry& entry) noexcept;
+  void put(const std::vector<Entry>& entries) noexcept; ///< in one transaction
 
   /// Like `put`, of many at once; nothing happens without a database.
   void putIfThere(const std::vector<Entry>& entries) noexcept;

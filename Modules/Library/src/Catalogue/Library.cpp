@@ -158,10 +158,15 @@ std::string saltOf(const fs::path& folder)
 }
 
 // A plain hash would allow anyone who knows a hospital's UIDs to test them against it.
+std::string saltedHash(const std::string& salt, const std::string& frame)
+{
+  const std::string text = salt + frame;
+  return sha256Of(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+}
+
 std::string withSalt(const std::string& frame, const fs::path& folder)
 {
-  const std::string text = saltOf(folder) + frame;
-  return sha256Of(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+  return saltedHash(saltOf(folder), frame);
 }
 
 void saltFrames(scene::Case& value, const fs::path& folder)
@@ -333,6 +338,13 @@ void checkDates(const CaseFilter& filter)
 
 std::vector<CaseSummary> Library::search(const CaseFilter& filter) const
 {
+  std::set<std::string> tags;
+  return search(filter, tags);
+}
+
+std::vector<CaseSummary> Library::search(const CaseFilter& filter,
+                                         std::set<std::string>& tags) const
+{
   checkDates(filter);
   const auto words = wordsOf(filter.text);
   const auto diagnosis = wordsOf(filter.diagnosis);
@@ -347,6 +359,7 @@ std::vector<CaseSummary> Library::search(const CaseFilter& filter) const
   for (Catalogue::Entry& entry : entriesIn(m_folder))
   {
     const Description& description = entry.summary.description;
+    tags.insert(description.tags.begin(), description.tags.end());
     if (!hasAll(scene::lowerCase(description.diagnosis), diagnosis) ||
         !hasAll(scene::lowerCase(description.procedure), procedure) ||
         (filter.side && (*filter.side != description.side || entry.summary.damaged)) ||
@@ -610,12 +623,30 @@ std::vector<std::string> Library::damageFound(const scene::Case& value) const
 
 std::string saltedFrame(const Library& library, const std::string& frameOfReference)
 {
-  std::error_code error;
-  if (fs::exists(library.folder() / "salt", error))
-    return withSalt(frameOfReference, library.folder());
-  makeFolder(library.folder());
-  const core::FileLock lock = lockFolder(library.folder());
-  return withSalt(frameOfReference, library.folder());
+  return frameSalter(library)(frameOfReference);
+}
+
+std::function<std::string(const std::string&)> frameSalter(const Library& library)
+{
+  struct Salt
+  {
+    std::mutex mutex;
+    std::string text; ///< empty: not read yet
+  };
+  return [folder = library.folder(), salt = std::make_shared<Salt>()](const std::string& frame)
+  {
+    const std::lock_guard<std::mutex> guard(salt->mutex);
+    std::error_code error;
+    if (salt->text.empty() && fs::exists(folder / "salt", error))
+      salt->text = saltOf(folder);
+    if (salt->text.empty())
+    {
+      makeFolder(folder);
+      const core::FileLock lock = lockFolder(folder);
+      salt->text = saltOf(folder);
+    }
+    return saltedHash(salt->text, frame);
+  };
 }
 
 namespace
@@ -678,11 +709,51 @@ void Library::describe(const std::string& name, const Description& description)
 
 void Library::save(scene::Case& value, const core::Progress& progress)
 {
+  const bool isFirst = value.revision == 0;
   saveWith(
       value,
       [this, &progress](scene::Case& next, ObjectStore& store)
       { storeParts(*this, next, store, progress); },
       progress);
+  if (isFirst && m_notice)
+    for (const std::string& words : goneWithAnother(value))
+      m_notice("case '" + value.name + "' is saved, but not all of it is there: " + words);
+}
+
+// What the case shares with one that another program removed for good meanwhile. What other cases
+// need, too, is damage, which they tell.
+std::vector<std::string> Library::goneWithAnother(const scene::Case& value) const
+{
+  const ObjectStore store(objectFolder());
+  std::vector<ObjectUse> missing;
+  for (const ObjectUse& use : objectsOf(value))
+    if (!store.contains(use.object))
+      missing.push_back(use);
+  if (missing.empty())
+    return {};
+  std::set<std::string> needed;
+  const auto need = [&needed](const fs::path& manifest, const std::string& name)
+  {
+    try
+    {
+      for (const ObjectUse& use : objectsOf(manifestIn(manifest, name)))
+        needed.insert(use.object);
+    }
+    catch (const core::Error&)
+    {
+      // damaged, which is told where it is opened
+    }
+  };
+  for (const std::string& name : namesIn(m_folder / "cases"))
+    if (name != value.name)
+      need(manifestPath(name), name);
+  for (const DeletedFile& file : deletedIn(m_folder / "cases"))
+    need(file.manifest, file.name);
+  std::vector<std::string> gone;
+  for (const ObjectUse& use : missing)
+    if (needed.count(use.object) == 0)
+      gone.push_back(use.what + " is missing");
+  return gone;
 }
 
 void Library::saveWith(scene::Case& value,

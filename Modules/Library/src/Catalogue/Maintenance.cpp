@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <string_view>
 
 #include <unistd.h>
 
@@ -26,6 +27,14 @@ namespace
 
 constexpr const char* kIndex = "library.sqlite";
 
+// That one is named as setAside does; a case may be named so, too.
+bool isAsideOf(const std::string& journal, const std::string& file)
+{
+  const std::string start = journal + ".aside-";
+  return file.size() > start.size() && file.rfind(start, 0) == 0 &&
+         file.find_first_not_of("0123456789", start.size()) == file.npos;
+}
+
 // The journals of a case, including those set aside. `ending`: of a deleted case's (deletedEnding).
 std::vector<fs::path> journalsOf(const fs::path& library, const std::string& name,
                                  const std::string& ending = {})
@@ -42,10 +51,56 @@ std::vector<fs::path> journalsOf(const fs::path& library, const std::string& nam
       continue;
     file.resize(file.size() - ending.size());
     const std::string own = journal.filename().string();
-    if (file == own || file == own + ".new" || file.rfind(own + ".aside-", 0) == 0)
+    if (file == own || file == own + ".new" || isAsideOf(own, file))
       journals.push_back(entry->path());
   }
   return journals;
+}
+
+// The recordings that the window named after a case, "CASE 2026-03-01 09-30-00.ticks", each with
+// its name from the date on.
+std::vector<std::pair<fs::path, std::string>> recordingsOf(const fs::path& library,
+                                                           const std::string& name)
+{
+  constexpr std::string_view kDate = "0000-00-00 00-00-00";
+  std::vector<std::pair<fs::path, std::string>> recordings;
+  std::error_code error;
+  for (fs::directory_iterator entry(library / "recordings", error), end; !error && entry != end;
+       entry.increment(error))
+  {
+    const std::string file = entry->path().filename().string();
+    if (file.rfind(name + " ", 0) != 0 || entry->path().extension() != ".ticks")
+      continue;
+    const std::string rest = file.substr(name.size() + 1);
+    const bool isDated = rest.size() > kDate.size() &&
+                         std::equal(kDate.begin(), kDate.end(), rest.begin(),
+                                    [](char form, char c)
+                                    { return form == '0' ? c >= '0' && c <= '9' : c == form; });
+    if (isDated)
+      recordings.emplace_back(entry->path(), rest);
+  }
+  return recordings;
+}
+
+// `to`: the case's new name; empty: none. They stay what they are; a failure leaves the old name.
+bool renameRecordings(const fs::path& library, const std::string& from, const std::string& to)
+{
+  bool isDone = true;
+  for (const auto& [file, rest] : recordingsOf(library, from))
+    try
+    {
+      fs::path renamed = file.parent_path() / (to.empty() ? rest : to + " " + rest);
+      std::error_code error;
+      for (int n = 2; fs::exists(fs::symlink_status(renamed, error)); ++n)
+        renamed.replace_filename((to.empty() ? "" : to + " ") + fs::path(rest).stem().string() +
+                                 " (" + std::to_string(n) + ").ticks");
+      isDone = moveFile(file, renamed) && isDone;
+    }
+    catch (const LibraryError&)
+    {
+      isDone = false;
+    }
+  return isDone;
 }
 
 void removeFile(const fs::path& path)
@@ -56,14 +111,24 @@ void removeFile(const fs::path& path)
 
 } // namespace
 
-void Library::refuseWhereDrilled(const std::string& name) const
+namespace
+{
+
+bool isDrilled(const fs::path& library, const std::string& name)
 {
   std::error_code error;
-  const fs::path path = journalPath(m_folder, name);
+  const fs::path path = journalPath(library, name);
   if (!fs::is_regular_file(path, error))
-    return;
+    return false;
   const JournalFile journal(path);
-  if (journal.there() && !journal.held())
+  return journal.there() && !journal.held();
+}
+
+} // namespace
+
+void Library::refuseWhereDrilled(const std::string& name) const
+{
+  if (isDrilled(m_folder, name))
     throw LibraryError(Reason::Conflict,
                        "case '" + name + "' is being drilled by another process; end that first");
 }
@@ -163,6 +228,7 @@ void Library::rename(const std::string& from, const std::string& to)
     {
       onDisk = false; // it stays beside no manifest, and is set aside when that name is used
     }
+  onDisk = renameRecordings(m_folder, from, to) && onDisk;
   Catalogue index(m_folder / kIndex);
   index.remove(from);
   try
@@ -187,8 +253,7 @@ void Library::remove(const std::string& name)
   std::error_code error;
   if (fs::is_directory(fs::symlink_status(path, error)))
     throw LibraryError(Reason::Damaged, core::printable(path) + ": is a folder; remove it by hand");
-  const std::vector<DeletedFile> earlier = deletedIn(m_folder / "cases");
-  const std::string ending = deletedEnding(earlier.empty() ? 1 : earlier.front().number + 1);
+  const std::string ending = deletedEnding(unusedDeletionNumber(m_folder / "cases"));
   // The manifest first: a kill then leaves journals that are set aside when the name is used again,
   // or are still in place when the case is brought back.
   bool onDisk = moveFile(path, path.string() + ending);
@@ -273,12 +338,42 @@ void Library::undelete(const std::string& name)
 
 void Library::copy(const std::string& from, const std::string& to, const core::Progress& progress)
 {
+  constexpr int kAttempts = 20; // another program keeps saving
   scene::checkCaseName(to);
-  scene::Case value = open(from);
-  const std::vector<std::uint8_t> png = readThumbnail(m_folder, value.id);
-  value.name = to;
-  value.revision = 0;
-  save(value, progress);
+  std::vector<std::uint8_t> png;
+  bool isCurrent = false;
+  for (int attempt = 1; !isCurrent; ++attempt)
+  {
+    scene::Case value = open(from);
+    const std::uint64_t revision = value.revision;
+    png = readThumbnail(m_folder, value.id);
+    value.name = to;
+    value.revision = 0;
+    // A copy shares what the original keeps, and that may have been deleted and removed for good
+    // while this waited for the library.
+    const auto requireOriginal = [&](scene::Case& next, ObjectStore&)
+    {
+      isCurrent = contains(from);
+      if (isCurrent)
+      {
+        const scene::Case now = readManifest(from);
+        isCurrent = now.id == next.id && now.revision == revision;
+      }
+      if (!isCurrent)
+        throw LibraryError(Reason::Conflict, "case '" + from +
+                                                 "' was changed by another program while it was "
+                                                 "copied; copy it again");
+    };
+    try
+    {
+      saveWith(value, requireOriginal, progress);
+    }
+    catch (const LibraryError& error)
+    {
+      if (error.reason != Reason::Conflict || isCurrent || attempt == kAttempts || contains(to))
+        throw;
+    }
+  }
   if (png.empty())
     return;
   try
@@ -458,18 +553,26 @@ Collected Library::collectGarbage(const core::Progress& progress)
 {
   Collected result;
   if (namesIn(m_folder / "cases").empty() && deletedIn(m_folder / "cases").empty() &&
-      ObjectStore(objectFolder()).list().empty())
+      deletedJournalsIn(m_folder / "cases").empty() && ObjectStore(objectFolder()).list().empty())
     return result;
   const core::FileLock lock = lockForWriting(progress);
   std::set<std::string> used;
   std::set<std::string> ids;
-  for (const std::string& name : namesIn(m_folder / "cases"))
+  const std::vector<std::string> names = namesIn(m_folder / "cases");
+  std::size_t read = 0;
+  for (const std::string& name : names)
     try
     {
+      progress.report(0.5 * static_cast<double>(read++) / static_cast<double>(names.size()),
+                      "reading cases");
       const scene::Case value = readManifest(name);
       ids.insert(value.id);
       for (const ObjectUse& use : objectsOf(value))
         used.insert(use.object);
+    }
+    catch (const core::CancelledError&)
+    {
+      throw;
     }
     catch (const core::Error& error)
     {
@@ -478,19 +581,35 @@ Collected Library::collectGarbage(const core::Progress& progress)
                              "' needs is not known, so nothing was removed: delete the case first, "
                              "or restore its manifest");
     }
+  // What was removed when it is cancelled stays removed, and the next run goes on.
+  progress.check("removing deleted cases");
   for (const DeletedFile& file : deletedIn(m_folder / "cases"))
   {
-    removeFile(file.manifest);
+    // Journals first: what was drilled in a case that is gone would be found by nothing.
     for (const fs::path& journal : journalsOf(m_folder, file.name, deletedEnding(file.number)))
       removeFile(journal);
+    // Of a deletion that was killed. Beside another case of that name they are that one's.
+    if (!contains(file.name) && !isDrilled(m_folder, file.name))
+      for (const fs::path& journal : journalsOf(m_folder, file.name))
+        removeFile(journal);
+    if (!contains(file.name)) // they may be of that one
+      renameRecordings(m_folder, file.name, {});
+    removeFile(file.manifest);
     ++result.cases;
   }
+  for (const fs::path& journal : deletedJournalsIn(m_folder / "cases"))
+    removeFile(journal);
   core::syncFolder(m_folder / "cases");
   removeLeftovers(objectFolder());
   removeLeftovers(m_folder / "cases");
   ObjectStore store(objectFolder());
-  for (const auto& [object, bytes] : store.list())
-    if (used.count(object) == 0)
+  const auto objects = store.list();
+  std::size_t looked = 0;
+  for (const auto& [object, bytes] : objects)
+    if (progress.report(0.5 + 0.5 * static_cast<double>(looked++) /
+                                  static_cast<double>(objects.size()),
+                        "removing what no case needs");
+        used.count(object) == 0)
     {
       store.remove(object);
       ++result.objects;
@@ -511,12 +630,16 @@ Repaired Library::repair(const core::Progress& progress)
   Library quiet = *this;
   quiet.onNotice([&done](const std::string& words) { done.push_back(words); });
   const std::vector<std::string> names = namesIn(m_folder / "cases");
+  std::vector<Catalogue::Entry> entries; // made before the library is locked: others may save
+  std::size_t read = 0;
   for (const std::string& name : names)
     try
     {
-      progress.check("repairing");
+      progress.report(static_cast<double>(read++) / static_cast<double>(names.size()), "repairing");
       for (std::string& words : lost(quiet.open(name)))
         result.lost.push_back(std::move(words));
+      if (const auto state = stateOf(manifestPath(name)))
+        entries.push_back(entryOf(readManifest(name), *state));
     }
     catch (const core::CancelledError&)
     {
@@ -534,16 +657,7 @@ Repaired Library::repair(const core::Progress& progress)
   for (const char* ending : {"", "-journal", "-wal", "-shm"})
     removeFile((m_folder / kIndex).string() + ending);
   Catalogue index(m_folder / kIndex);
-  for (const std::string& name : names)
-    try
-    {
-      if (const auto state = stateOf(manifestPath(name)))
-        index.put(entryOf(readManifest(name), *state));
-    }
-    catch (const core::Error&)
-    {
-      // reported above
-    }
+  index.put(entries);
   done.push_back("the index holds " + std::to_string(index.entries().size()) + " of " +
                  std::to_string(names.size()) + " cases");
   return result;

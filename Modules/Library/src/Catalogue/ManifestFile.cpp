@@ -106,31 +106,77 @@ std::string deletedEnding(std::uint64_t number)
   return kDeletedEnding + std::to_string(number);
 }
 
-std::vector<DeletedFile> deletedIn(const fs::path& folder)
+namespace
 {
-  std::vector<DeletedFile> found;
+
+// The number of a deletion in the name of a file; 0: of none.
+std::uint64_t deletionNumber(const fs::path& file)
+{
+  constexpr std::string_view kEnding = kDeletedEnding;
+  constexpr std::size_t kMostDigits = 18;
+  const std::string ending = file.extension().string();
+  const std::string digits = ending.substr(std::min(kEnding.size(), ending.size()));
+  return ending.rfind(kEnding, 0) != 0 || digits.empty() || digits.size() > kMostDigits ||
+                 digits.find_first_not_of("0123456789") != digits.npos
+             ? 0
+             : std::stoull(digits);
+}
+
+// Without the ending of a deletion. A case may be named so, whose manifest then ends in ".json".
+bool isJournal(const fs::path& file)
+{
+  const std::string name = file.string();
+  return file.extension() == ".journal" || name.find(".journal.aside-") != name.npos ||
+         (file.extension() == ".new" && file.stem().extension() == ".journal");
+}
+
+template <class Use>
+void forEachDeleted(const fs::path& folder, const Use& use)
+{
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error))
-  {
-    constexpr std::string_view kEnding = kDeletedEnding;
-    constexpr std::size_t kMostDigits = 18;
-    const std::string ending = entry->path().extension().string();
-    const std::string digits = ending.substr(std::min(kEnding.size(), ending.size()));
-    if (ending.rfind(kEnding, 0) != 0 || digits.empty() || digits.size() > kMostDigits ||
-        digits.find_first_not_of("0123456789") != digits.npos)
-      continue;
-    // The others are journals; manifests of earlier versions have no ".json".
-    const fs::path file = entry->path().stem();
-    const std::string name = file.string();
-    if (file.extension() == ".json")
-      found.push_back({file.stem().string(), std::stoull(digits), entry->path()});
-    else if (file.extension() != ".journal" && name.find(".journal.aside-") == name.npos)
-      found.push_back({name, std::stoull(digits), entry->path()});
-  }
+    if (const std::uint64_t number = deletionNumber(entry->path()); number > 0)
+      use(entry->path(), entry->path().stem(), number);
+}
+
+} // namespace
+
+std::vector<DeletedFile> deletedIn(const fs::path& folder)
+{
+  std::vector<DeletedFile> found;
+  forEachDeleted(folder,
+                 [&found](const fs::path& path, const fs::path& file, std::uint64_t number)
+                 {
+                   // Manifests of earlier versions have no ".json".
+                   if (file.extension() == ".json")
+                     found.push_back({file.stem().string(), number, path});
+                   else if (!isJournal(file))
+                     found.push_back({file.string(), number, path});
+                 });
   std::sort(found.begin(), found.end(),
             [](const DeletedFile& a, const DeletedFile& b) { return a.number > b.number; });
   return found;
+}
+
+std::vector<fs::path> deletedJournalsIn(const fs::path& folder)
+{
+  std::vector<fs::path> found;
+  forEachDeleted(folder,
+                 [&found](const fs::path& path, const fs::path& file, std::uint64_t)
+                 {
+                   if (file.extension() != ".json" && isJournal(file))
+                     found.push_back(path);
+                 });
+  return found;
+}
+
+std::uint64_t unusedDeletionNumber(const fs::path& folder)
+{
+  std::uint64_t last = 0;
+  forEachDeleted(folder, [&last](const fs::path&, const fs::path&, std::uint64_t number)
+                 { last = std::max(last, number); });
+  return last + 1;
 }
 
 std::optional<FileState> stateOf(const fs::path& path)

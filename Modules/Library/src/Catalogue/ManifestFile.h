@@ -57,6 +57,12 @@ struct DeletedFile
 /// The manifests of deleted cases in the folder, the newest first.
 std::vector<DeletedFile> deletedIn(const std::filesystem::path& folder);
 
+/// The journals of deleted cases in the folder.
+std::vector<std::filesystem::path> deletedJournalsIn(const std::filesystem::path& folder);
+
+/// That no file of a deleted case has, whether its manifest is there or not.
+std::uint64_t unusedDeletionNumber(const std::filesystem::path& folder);
+
 /// What the names of files of a deleted case end in.
 constexpr const char* kDeletedEnding = ".deleted-";
 std::string deletedEnding(std::uint64_t number);

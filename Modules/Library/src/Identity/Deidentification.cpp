@@ -48,17 +48,23 @@ std::string numbered(std::size_t number, int digits)
   return std::string(text.size() < width ? width - text.size() : 0, '0') + text;
 }
 
-// Regular files below a folder, sorted; or the file itself.
+// Regular files below a folder, sorted; or the file itself. Of folders behind links, too; none
+// twice.
 std::vector<fs::path> filesOf(const fs::path& input)
 {
   std::error_code error;
   if (!fs::is_directory(input, error))
     return {core::InputFile(input).path()}; // throws what is wrong with it
   std::vector<fs::path> files;
-  fs::recursive_directory_iterator entry(input, fs::directory_options::none, error);
+  std::set<fs::path> seen{fs::canonical(input, error)};
+  fs::recursive_directory_iterator entry(input, fs::directory_options::follow_directory_symlink,
+                                         error);
   for (const fs::recursive_directory_iterator end; !error && entry != end; entry.increment(error))
     if (std::error_code ignored; entry->is_regular_file(ignored))
       files.push_back(entry->path());
+    else if (entry->is_directory(ignored) &&
+             !seen.insert(fs::canonical(entry->path(), ignored)).second)
+      entry.disable_recursion_pending();
   if (error)
     throw core::InputFileError(core::InputFileError::Reason::Unreadable, input,
                                "a folder in it cannot be read");

@@ -8,16 +8,24 @@
 #include "DicomCleaner.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <memory>
 #include <mutex>
+#include <type_traits>
 #include <vector>
+
+#include <fcntl.h>
+#include <iconv.h>
+#include <unistd.h>
 
 #include "FaceSlices.h"
 #include "PixelMetadata.h"
 #include "Vocabulary.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Imaging/DicomReader.h"
 #include "petrous/Imaging/SeriesGeometry.h"
@@ -427,18 +435,36 @@ bool hasFormOf(DcmEVR vr, const std::string& value)
   }
 }
 
-// Numbers whose bytes are letters.
-bool areLetters(const Uint8* bytes, std::size_t count)
+std::string textIn(const void* bytes, std::size_t count)
 {
-  constexpr std::size_t kTelling = 6;
-  while (count > 0 && (bytes[count - 1] == ' ' || bytes[count - 1] == 0))
-    --count;
-  const auto isLetter = [](Uint8 c)
-  {
-    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '^' || c == ' ' || c == '-' ||
-           c == ',';
-  };
-  return count >= kTelling && std::all_of(bytes, bytes + count, isLetter);
+  std::string text(static_cast<const char*>(bytes), count);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\0'))
+    text.pop_back();
+  return text;
+}
+
+bool isLetter(char c)
+{
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+}
+
+constexpr std::size_t kTellingBytes = 6;
+
+// Numbers whose bytes are those of a name.
+bool areLetters(const std::string& text)
+{
+  const auto isOfName = [](char c)
+  { return isLetter(c) || (c != '\0' && std::strchr("^ -,.'", c) != nullptr); };
+  return text.size() >= kTellingBytes && std::all_of(text.begin(), text.end(), isOfName);
+}
+
+// Numbers that have no other bytes than text has, in any character set; real numbers may, too.
+bool mayBeText(const std::string& text)
+{
+  const auto isPrinted = [](unsigned char c) { return c >= 0x20 && c != 0x7f; };
+  const auto letters = std::count_if(text.begin(), text.end(), isLetter);
+  return text.size() >= kTellingBytes && std::all_of(text.begin(), text.end(), isPrinted) &&
+         2 * static_cast<std::size_t>(letters) >= text.size();
 }
 
 // Values of the safe private attributes of VR CS, LO and SH: a ratio, anatomical directions, GE's
@@ -589,7 +615,8 @@ private:
         m_words.add(valueOf(*element));
         if (const std::uint32_t tag = tagOf(element->getTag());
             tag >> 16 == 0x0010 || tag == 0x00080050 || tag == 0x00200010)
-          m_people.addIdentifier(valueOf(*element));
+          for (const std::string& one : split(valueOf(*element)))
+            m_people.addIdentifier(one);
         break;
       default:
         if (element->getVR() == EVR_PN)
@@ -737,51 +764,63 @@ private:
             return true;
           if (vr == EVR_CS)
             return isCodedTerm(tag, withoutPadding(part));
-          return tag == kZone ? isZone(part)
-                              : hasFormOf(vr, part) &&
-                                    !(isText(vr) && (!isPlainText(part) || m_people.hasWord(part)));
+          return tag == kZone
+                     ? isZone(part)
+                     : hasFormOf(vr, part) &&
+                           !(isText(vr) && (!isPlainText(part) || m_people.hasWord(part))) &&
+                           !((vr == EVR_DS || vr == EVR_IS) && m_people.isIdentifier(part));
         });
   }
 
-  // With no bytes after the last whole one, which no reader shows.
-  static bool arePlainNumbers(DcmElement& element)
+  // With no bytes after the last whole one, which no reader shows, and neither text nor an
+  // identifier of the patient.
+  bool arePlainNumbers(DcmElement& element) const
   {
     const std::size_t width = DcmVR(element.getVR()).getValueWidth();
-    if (width > 1 && element.getLength() % width != 0)
+    const std::size_t length = element.getLength();
+    if (width > 1 && length % width != 0)
       return false;
+    const auto arePlain = [&](const auto* values)
+    {
+      using Number = std::remove_const_t<std::remove_pointer_t<decltype(values)>>;
+      const std::string text = textIn(values, length);
+      return !areLetters(text) &&
+             !(mayBeText(text) && (std::is_integral_v<Number> || m_people.hasWord(text))) &&
+             std::none_of(values, values + length / sizeof(Number),
+                          [this](Number value)
+                          { return m_people.isIdentifier(static_cast<double>(value)); });
+    };
     Uint16* u16 = nullptr;
     Sint16* s16 = nullptr;
     Uint32* u32 = nullptr;
     Sint32* s32 = nullptr;
     Float32* f32 = nullptr;
     Float64* f64 = nullptr;
-    const void* bytes = nullptr;
+    Uint64* u64 = nullptr;
+    Sint64* s64 = nullptr;
     switch (element.getVR())
     {
     case EVR_US:
     case EVR_xs:
     case EVR_AT:
-      bytes = element.getUint16Array(u16).good() ? u16 : nullptr;
-      break;
+      return element.getUint16Array(u16).bad() || !u16 || arePlain(u16);
     case EVR_SS:
-      bytes = element.getSint16Array(s16).good() ? s16 : nullptr;
-      break;
+      return element.getSint16Array(s16).bad() || !s16 || arePlain(s16);
     case EVR_UL:
-      bytes = element.getUint32Array(u32).good() ? u32 : nullptr;
-      break;
+      return element.getUint32Array(u32).bad() || !u32 || arePlain(u32);
     case EVR_SL:
-      bytes = element.getSint32Array(s32).good() ? s32 : nullptr;
-      break;
+      return element.getSint32Array(s32).bad() || !s32 || arePlain(s32);
     case EVR_FL:
-      bytes = element.getFloat32Array(f32).good() ? f32 : nullptr;
-      break;
+      return element.getFloat32Array(f32).bad() || !f32 || arePlain(f32);
     case EVR_FD:
-      bytes = element.getFloat64Array(f64).good() ? f64 : nullptr;
-      break;
-    default: // 64-bit integers
-      return element.getLength() <= 8;
+      return element.getFloat64Array(f64).bad() || !f64 || arePlain(f64);
+    case EVR_UV:
+      return length <= width && (element.getUint64Array(u64).bad() || !u64 || arePlain(u64));
+    case EVR_SV:
+      return length <= width && (element.getSint64Array(s64).bad() || !s64 || arePlain(s64));
+    default:
+      return false;
     }
-    return !bytes || !areLetters(static_cast<const Uint8*>(bytes), element.getLength());
   }
 
   std::string vocabularyOf(const std::string& text) const
@@ -1588,6 +1627,165 @@ bool hasPreamble(const std::filesystem::path& path)
          start.find_first_not_of('\0') < kPreamble;
 }
 
+/// Writes a file from its start. Unlike DCMTK's own, keeps what the disk says, also at the end.
+class WrittenFile : public DcmConsumer
+{
+public:
+  explicit WrittenFile(const std::filesystem::path& path)
+    : m_descriptor(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666))
+    , m_error(m_descriptor < 0 ? errno : 0)
+  {
+    m_waiting.reserve(kBlock);
+  }
+  ~WrittenFile() override { close(); }
+  WrittenFile(const WrittenFile&) = delete;
+  WrittenFile& operator=(const WrittenFile&) = delete;
+
+  /// Returns errno of the first failure, or 0.
+  int close()
+  {
+    if (m_descriptor < 0)
+      return m_error;
+    empty();
+    if (::close(m_descriptor) != 0 && errno != EINTR && m_error == 0)
+      m_error = errno;
+    m_descriptor = -1;
+    return m_error;
+  }
+
+  OFBool good() const override { return m_error == 0; }
+  OFCondition status() const override { return good() ? EC_Normal : EC_InvalidStream; }
+  OFBool isFlushed() const override { return OFTrue; }
+  offile_off_t avail() const override { return std::numeric_limits<offile_off_t>::max(); }
+  offile_off_t write(const void* bytes, offile_off_t count) override
+  {
+    const auto size = static_cast<std::size_t>(count);
+    if (m_waiting.size() + size > kBlock)
+      empty();
+    if (size >= kBlock)
+      put(static_cast<const char*>(bytes), size);
+    else
+      m_waiting.append(static_cast<const char*>(bytes), size);
+    return good() ? count : 0;
+  }
+  void flush() override {}
+
+private:
+  static constexpr std::size_t kBlock = std::size_t{1} << 16;
+
+  void empty()
+  {
+    put(m_waiting.data(), m_waiting.size());
+    m_waiting.clear();
+  }
+
+  void put(const char* bytes, std::size_t count)
+  {
+    for (std::size_t done = 0; done < count && m_error == 0;)
+      if (const ssize_t written = ::write(m_descriptor, bytes + done, count - done); written >= 0)
+        done += static_cast<std::size_t>(written);
+      else if (errno != EINTR)
+        m_error = errno;
+  }
+
+  int m_descriptor;
+  int m_error;
+  std::string m_waiting;
+};
+
+class WritingStream : public DcmOutputStream
+{
+public:
+  explicit WritingStream(WrittenFile& file)
+    : DcmOutputStream(&file)
+  {
+  }
+};
+
+// Throws core::OutputFileError.
+void save(DcmFileFormat& content, E_TransferSyntax syntax, const std::filesystem::path& path)
+{
+  WrittenFile file(path);
+  OFCondition saved = file.status();
+  if (saved.good())
+  {
+    WritingStream stream(file);
+    content.transferInit();
+    saved = content.write(stream, syntax, EET_UndefinedLength, nullptr, EGL_withoutGL,
+                          EPD_withoutPadding, 0, 0, 0, EWM_createNewMeta);
+    content.transferEnd();
+    stream.flush(); // what a compression holds
+    if (saved.good() && !stream.isFlushed())
+      saved = EC_InvalidStream;
+  }
+  if (const int error = file.close())
+    core::throwOutputError(error, path);
+  if (saved.bad())
+    throw core::OutputFileError(core::OutputFileError::Reason::Failed, path, "cannot be written");
+}
+
+// By iconv; empty if it is not of that set.
+std::string converted(std::string text, const char* set)
+{
+  const iconv_t state = ::iconv_open("UTF-8", set);
+  if (state == reinterpret_cast<iconv_t>(-1))
+    return {};
+  std::string utf8(4 * text.size() + 16, '\0');
+  char *from = text.data(), *to = utf8.data();
+  std::size_t left = text.size(), room = utf8.size();
+  const bool isDone =
+      ::iconv(state, &from, &left, &to, &room) != static_cast<std::size_t>(-1) && left == 0;
+  ::iconv_close(state);
+  utf8.resize(isDone ? utf8.size() - room : 0);
+  return utf8;
+}
+
+// Code extensions by escape sequences (PS3.3 C.12.1.1.2), which DCMTK does not convert with the C
+// library's iconv: Japanese, and Korean and Chinese, whose characters stand in the upper half.
+// Empty: none of them.
+std::string fromEastAsian(const std::string& text)
+{
+  if (text.find('\x1b') == std::string::npos)
+    return {};
+  for (const auto& [escape, set] : {std::pair("\x1b$)C", "EUC-KR"), std::pair("\x1b$)A", "EUC-CN")})
+    if (text.find(escape) != std::string::npos)
+    {
+      std::string rest = text;
+      for (std::size_t at = rest.find(escape); at != std::string::npos; at = rest.find(escape))
+        rest.erase(at, std::strlen(escape));
+      return converted(rest, set);
+    }
+  return converted(text, "ISO-2022-JP-2");
+}
+
+// Of a file's character set. What is not of it is taken for UTF-8, or else for Latin-1, so that no
+// byte is lost.
+std::string utf8Of(const std::string& text, const std::string& characterSet)
+{
+  if (std::string converted = fromEastAsian(text); !converted.empty())
+    return converted;
+  if (isPlainText(text))
+    return text;
+  DcmDataset item;
+  if (item.putAndInsertString(DCM_SpecificCharacterSet, characterSet.c_str()).good() &&
+      item.putAndInsertString(DCM_PatientName, text.c_str()).good() && item.convertToUTF8().good())
+    if (std::string converted = valueOf(item, DCM_PatientName);
+        !converted.empty() && core::isUtf8(converted))
+      return converted;
+  if (core::isUtf8(text))
+    return text;
+  std::string latin;
+  for (const char c : text)
+    if (const auto byte = static_cast<unsigned char>(c); byte < 0x80)
+      latin += c;
+    else
+    {
+      latin += static_cast<char>(0xc0U | byte >> 6U);
+      latin += static_cast<char>(0x80U | (byte & 0x3fU));
+    }
+  return latin;
+}
+
 std::string folded(const std::string& name)
 {
   std::string text;
@@ -1679,8 +1877,9 @@ DicomCleaner::Outcome DicomCleaner::clean(const std::filesystem::path& input,
 
   const std::string study = valueOf(*dataSet, DCM_StudyInstanceUID);
   const std::string series = valueOf(*dataSet, DCM_SeriesInstanceUID);
-  const std::string patientId = valueOf(*dataSet, DCM_PatientID);
-  const std::string patientName = valueOf(*dataSet, DCM_PatientName);
+  const std::string characterSet = valueOf(*dataSet, DCM_SpecificCharacterSet);
+  const std::string patientId = utf8Of(valueOf(*dataSet, DCM_PatientID), characterSet);
+  const std::string patientName = utf8Of(valueOf(*dataSet, DCM_PatientName), characterSet);
   const std::string birthDate = valueOf(*dataSet, DCM_PatientBirthDate);
   const std::string newSeries = m_key.uid(series), newStudy = m_key.uid(study);
 
@@ -1722,14 +1921,8 @@ DicomCleaner::Outcome DicomCleaner::clean(const std::filesystem::path& input,
   pseudonyms["series " + newSeries] = {"series", newSeries, series};
 
   const std::filesystem::path target = placed(newSeries, valueOf(*dataSet, DCM_Modality));
-  DcmFileFormat clean(dataSet.get(), OFFalse);
-  const OFCondition saved =
-      clean.saveFile(target.c_str(), syntax, EET_UndefinedLength, EGL_withoutGL, EPD_withoutPadding,
-                     0, 0, EWM_createNewMeta);
-  dataSet.release(); // owned by `clean`
-  if (saved.bad())
-    throw core::OutputFileError(core::OutputFileError::Reason::Failed, target,
-                                "cannot be written (is the disk full?)");
+  DcmFileFormat clean(dataSet.release(), OFFalse); // which owns it
+  save(clean, syntax, target);
   return {};
 }
 

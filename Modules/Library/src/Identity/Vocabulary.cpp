@@ -1,12 +1,16 @@
 #include "Vocabulary.h"
 
-#include "petrous/Library/Deidentification.h"
-
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <functional>
+#include <iterator>
+#include <optional>
 #include <string_view>
 #include <vector>
+
+#include "petrous/Core/NumberText.h"
+#include "petrous/Library/Deidentification.h"
 
 namespace petrous::library
 {
@@ -59,6 +63,12 @@ std::string upper(std::string text)
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   return text;
+}
+
+std::string trimmed(const std::string& text)
+{
+  const std::size_t first = text.find_first_not_of(' '), last = text.find_last_not_of(' ');
+  return first == std::string::npos ? std::string() : text.substr(first, last - first + 1);
 }
 
 bool isPartOfWord(unsigned char c)
@@ -167,8 +177,17 @@ void IdentityWords::addIdentifier(const std::string& text)
 {
   add(text);
   constexpr std::size_t kTelling = 5; // characters
-  if (text.size() >= kTelling)
-    m_identifiers.insert(upper(text));
+  const std::string whole = trimmed(text);
+  if (whole.size() >= kTelling)
+    m_identifiers.insert(upper(whole));
+  std::string digits; // "943-476-919"
+  std::remove_copy_if(whole.begin(), whole.end(), std::back_inserter(digits),
+                      [](char c) { return c == ' ' || c == '-' || c == '/' || c == '.'; });
+  const auto number = digits.find_first_not_of("0123456789") == std::string::npos
+                          ? core::parseDouble(digits)
+                          : std::nullopt;
+  if (number && *number >= kMinNumber)
+    m_numbers.insert(*number);
 }
 
 bool IdentityWords::hasWord(const std::string& text) const
@@ -181,7 +200,14 @@ bool IdentityWords::hasWord(const std::string& text) const
 
 bool IdentityWords::isIdentifier(const std::string& text) const
 {
-  return m_identifiers.count(upper(text)) > 0;
+  const std::string whole = trimmed(text);
+  const auto number = m_numbers.empty() ? std::nullopt : core::parseDouble(whole);
+  return m_identifiers.count(upper(whole)) > 0 || (number && isIdentifier(*number));
+}
+
+bool IdentityWords::isIdentifier(double number) const
+{
+  return std::isfinite(number) && m_numbers.count(std::abs(number)) > 0;
 }
 
 bool IdentityWords::foundIn(const std::string& text) const

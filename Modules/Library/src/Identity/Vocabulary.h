@@ -26,15 +26,20 @@ public:
   /// One of the words.
   bool hasWord(const std::string& text) const;
 
-  /// An identifier of at least five characters, all of it.
+  /// An identifier of at least five characters, all of it, or its number in another form (blanks
+  /// around it, leading zeros, a sign, ".0", an exponent).
   bool isIdentifier(const std::string& text) const;
+  bool isIdentifier(double number) const;
 
   /// A word of the text is among them; or the text looks like an identity by itself: an e-mail
   /// address, a name with "^", a date, six digits in a row.
   bool foundIn(const std::string& text) const;
 
 private:
+  static constexpr double kMinNumber = 10000.0;
+
   std::set<std::string> m_words, m_identifiers; ///< upper case
+  std::set<double> m_numbers;                   ///< of identifiers, at least kMinNumber
 };
 
 /// `text` without words other than those of a vocabulary of anatomy and technique (English, German,

@@ -21,10 +21,14 @@ bool isOfLibrary(const fs::path& file, const fs::path& folder)
 {
   const fs::path below = resolvedPath(file).lexically_relative(resolvedPath(folder));
   const std::string first = below.empty() ? "" : below.begin()->string();
-  for (const char* own : {"cases", "objects", "thumbnails", "derived", "salt", ".lock",
-                          "materials.json", "burrs.json"})
+  for (const char* own :
+       {"cases", "objects", "thumbnails", "derived", "salt", ".lock", "materials.json",
+        "burrs.json", "nodes.json", ".nodes.lock", "presets.json", ".presets.lock"})
     if (first == own)
       return true;
+  std::error_code error; // new recordings are written there
+  if (first == "recordings" && fs::exists(fs::symlink_status(file, error)))
+    return true;
   return first.rfind("library.sqlite", 0) == 0;
 }
 

@@ -1178,6 +1178,15 @@ void fetchMissing(const Node& node, Reception& reception, ByteCounter& counter, 
                                            " arrived: " + statusText(refusal));
 }
 
+constexpr int kMaxListings = 2;
+
+void pause(std::chrono::milliseconds time, const core::Progress& progress)
+{
+  constexpr std::chrono::milliseconds kStep{50};
+  for (const auto end = Clock::now() + time; Clock::now() < end; std::this_thread::sleep_for(kStep))
+    progress.check("waiting for the node's list");
+}
+
 double secondsSince(Clock::time_point start)
 {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -1316,7 +1325,7 @@ Transfer store(const Node& node, const std::vector<fs::path>& files, const core:
   counter.progress = &progress;
   counter.task = "sending";
   counter.of = all.size();
-  waiting = all;
+  waiting.assign(all.rbegin(), all.rend()); // sent from its end: in the order of the files
   DIC_US refusal = STATUS_Success;
   std::size_t refused = 0;
   std::size_t fewest = all.size(); // that were missing after a round
@@ -1377,7 +1386,18 @@ Transfer store(const Node& node, const std::vector<fs::path>& files, const core:
       // them, or not yet.
       if (waiting.empty())
       {
-        const auto held = heldThere(association, all);
+        auto held = heldThere(association, all);
+        const auto listsNone = [&]
+        {
+          return held &&
+                 std::none_of(all.begin(), all.end(),
+                              [&](const OutgoingFile& file) { return held->count(file.uid) != 0; });
+        };
+        for (int again = 0; again < kMaxListings && listsNone(); ++again)
+        {
+          pause(node.timeouts.listing, progress);
+          held = heldThere(association, all);
+        }
         for (const OutgoingFile& file : all)
           if (held && held->count(file.uid) == 0)
             waiting.push_back(file);
@@ -1401,8 +1421,12 @@ Transfer store(const Node& node, const std::vector<fs::path>& files, const core:
         break;
       if (isTransient(error) && !isIdle())
         continue;
-      if (!confirmed)
+      if (!confirmed && !isTransient(error))
         throw;
+      if (!confirmed)
+        throw NetworkError(error.reason, std::string(error.what()) + "; " +
+                                             std::to_string(all.size() - waiting.size()) + " of " +
+                                             numberOf(all.size(), "instance") + " were confirmed");
       break;
     }
     if (!listed && isIdle())
@@ -1491,8 +1515,12 @@ Transfer retrieve(const Node& node, const std::string& studyUid,
     }
     catch (const NetworkError& error)
     {
-      if (!isTransient(error) || (reception.arrived() == before && ++idle >= kMaxIdleRounds))
+      if (!isTransient(error))
         throw;
+      if (reception.arrived() == before && ++idle >= kMaxIdleRounds)
+        throw NetworkError(error.reason,
+                           std::string(error.what()) + "; " + std::to_string(reception.arrived()) +
+                               " of " + numberOf(reception.expected(), "instance") + " arrived");
       continue;
     }
     if (reception.arrived() == before && ++idle >= kMaxIdleRounds)

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 #include <locale>
 #include <memory>
 #include <sstream>
@@ -14,6 +15,7 @@
 
 #include <dcmtk/config/osconfig.h>
 
+#include <dcmtk/dcmdata/dcostrmf.h>
 #include <dcmtk/dcmdata/dctk.h>
 
 #include "petrous/Core/Error.h"
@@ -101,6 +103,29 @@ void put(DcmItem& item, const DcmTagKey& key, const std::string& value)
   item.putAndInsertString(key, value.c_str());
 }
 
+// Throws core::OutputFileError.
+void save(DcmFileFormat& content, const fs::path& path)
+{
+  errno = 0;
+  OFCondition saved;
+  offile_off_t size = 0;
+  {
+    DcmOutputFileStream stream(path.c_str());
+    saved = stream.status();
+    if (saved.good())
+    {
+      content.transferInit();
+      saved = content.write(stream, EXS_LittleEndianExplicit, EET_UndefinedLength, nullptr);
+      content.transferEnd();
+      size = stream.tell();
+    }
+  } // which does not tell what the disk says then
+  const int error = errno;
+  std::error_code fault;
+  if (saved.bad() || fs::file_size(path, fault) != static_cast<std::uintmax_t>(size) || fault)
+    core::throwOutputError(saved.bad() && error != 0 ? error : ENOSPC, path);
+}
+
 struct Part
 {
   fs::path file;
@@ -166,6 +191,15 @@ std::vector<Series>::const_iterator latestScene(const std::vector<Series>& serie
     if (isScene(*one) && (latest == series.end() || one->number > latest->number))
       latest = one;
   return latest;
+}
+
+std::vector<Series> scenesAmong(const std::vector<Series>& series)
+{
+  std::vector<Series> scenes;
+  std::copy_if(series.begin(), series.end(), std::back_inserter(scenes), isScene);
+  std::stable_sort(scenes.begin(), scenes.end(),
+                   [](const Series& a, const Series& b) { return a.number > b.number; });
+  return scenes;
 }
 
 std::vector<fs::path> writeSceneObjects(const fs::path& archive, const fs::path& folder,
@@ -245,9 +279,7 @@ std::vector<fs::path> writeSceneObjects(const fs::path& archive, const fs::path&
     std::array<char, 32> name{};
     std::snprintf(name.data(), name.size(), "scene-%04u.dcm", static_cast<unsigned>(n + 1));
     files.push_back(folder / name.data());
-    if (content.saveFile(files.back().c_str(), EXS_LittleEndianExplicit).bad())
-      throw core::Error(core::Fault::Refused,
-                        files.back().string() + ": cannot be written; is the disk full?");
+    save(content, files.back());
   }
   return files;
 }

@@ -67,6 +67,7 @@ struct FractionsError : core::InvalidParameter
 struct CaseDicomOptions
 {
   std::string studyId = "1";
+  int segmentationNumber = 10; ///< series number; the highest of a study is the latest
 };
 
 /// Writes a DICOM series (imaging::writeDicomSeries) with identifiers of its own and nothing of the

@@ -70,7 +70,7 @@ struct Pseudonym
 {
   std::string kind; ///< "patient", "study", "series"
   std::string pseudonym;
-  std::string identity; ///< patient ID and name, or UID
+  std::string identity; ///< patient ID and name, UTF-8; or UID
 };
 
 /// What was done, without any value, file name or UID. Attributes are named by their path of tags,

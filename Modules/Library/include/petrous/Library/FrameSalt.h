@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "petrous/Scene/Case.h"
@@ -14,6 +15,9 @@ class Library;
 /// the salt cannot be read, or created where there is none yet (not while the library is locked by
 /// the caller).
 std::string saltedFrame(const Library& library, const std::string& frameOfReference);
+
+/// The same of many: the salt is read once, by the first call. Thread-safe.
+std::function<std::string(const std::string&)> frameSalter(const Library& library);
 
 /// Changes the salted hashes of the images' frames of reference and patients, exclusive or with
 /// what only this library knows and another CT changes. So they leave in an archive: this library

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -123,6 +124,8 @@ public:
   std::vector<CaseSummary> list() const; ///< sorted by name
   /// Sorted by name. Throws InvalidParameter if `from` or `to` is no date, or `from` the later one.
   std::vector<CaseSummary> search(const CaseFilter& filter) const;
+  /// The same; adds the tags of all cases to `tags`, of one listing.
+  std::vector<CaseSummary> search(const CaseFilter& filter, std::set<std::string>& tags) const;
   std::vector<CaseSummary> search(const std::string& text) const; ///< CaseFilter::text
   bool contains(const std::string& name) const;                   ///< including damaged ones
 
@@ -196,9 +199,9 @@ public:
   void refuseWhereDrilled(const std::string& name) const;
 
   /// Both also accept a damaged case. `rename` recovers unsaved drilling first, and leaves the
-  /// former name nowhere; `remove` takes what is unsaved along. Throw LibraryError: NotFound;
-  /// NameTaken; Conflict while another process is drilling in the case, or for a rename if recovery
-  /// failed.
+  /// former name nowhere, recordings that were named after the case included; `remove` takes what
+  /// is unsaved along. Throw LibraryError: NotFound; NameTaken; Conflict while another process is
+  /// drilling in the case, or for a rename if recovery failed.
   void rename(const std::string& from, const std::string& to);
   void remove(const std::string& name);
 
@@ -219,9 +222,9 @@ public:
   /// Throws LibraryError if the library cannot be read at all.
   Inspection verify(const core::Progress& progress = {}) const;
 
-  /// Removes deleted cases, objects that no manifest references, and leftovers of killed writers.
-  /// Throws
-  /// LibraryError (Damaged) without removing anything if a manifest cannot be read, since its
+  /// Removes deleted cases, objects that no manifest references, and leftovers of killed writers;
+  /// recordings that were named after such a case lose that name. Throws LibraryError (Damaged)
+  /// without removing anything if a manifest cannot be read, since its
   /// references are unknown.
   Collected collectGarbage(const core::Progress& progress = {});
 
@@ -240,6 +243,7 @@ private:
   std::filesystem::path checkedManifestPath(const std::string& name) const;
   scene::Case readManifest(const std::string& name) const;
   void attach(scene::Case& value) const;
+  std::vector<std::string> goneWithAnother(const scene::Case& value) const;
   core::FileLock lockForWriting(const core::Progress& progress = {}) const;
   std::vector<std::pair<std::filesystem::path, std::string>>
   mappedImages(const scene::Case& value) const;

@@ -9,6 +9,7 @@ namespace petrous::library
 std::filesystem::path resolvedPath(const std::filesystem::path& file);
 
 /// Whether the library in `folder`, which need not be there yet, keeps its own data at this path.
+/// Of recordings, those that are there.
 bool isOfLibrary(const std::filesystem::path& file, const std::filesystem::path& folder);
 /// The same of any library that is there.
 bool isOfAnyLibrary(const std::filesystem::path& file);

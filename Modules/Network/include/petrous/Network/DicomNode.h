@@ -56,6 +56,8 @@ constexpr const char* kAnyName = "*";
 struct Timeouts
 {
   std::chrono::milliseconds reply{60000}; ///< without a byte from the node; to connect: 10 s
+  /// Before a node that lists nothing of what it confirmed is asked again, twice: indexes lag.
+  std::chrono::milliseconds listing{2000};
 };
 
 /// A DICOM application entity (PS3.8) that this program may call.

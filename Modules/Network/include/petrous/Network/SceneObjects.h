@@ -33,6 +33,9 @@ bool isScene(const Series& series);
 /// The latest scene among the series, that of the highest number; end() if there is none.
 std::vector<Series>::const_iterator latestScene(const std::vector<Series>& series);
 
+/// The scenes among the series, the latest first.
+std::vector<Series> scenesAmong(const std::vector<Series>& series);
+
 /// None of them is a person's.
 struct SceneDescription
 {

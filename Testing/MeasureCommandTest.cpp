@@ -170,6 +170,35 @@ TEST_F(MeasureCommand, AgreesWithThePhantomsAnatomy)
   expectRefused("measure ear --wall 1,2", 2, "x,y,z");
 }
 
+// What is between an image and another one is saved as that, not as the CT's alone.
+TEST_F(MeasureCommand, ASavedDistanceKeepsTheImageOfEachEnd)
+{
+  makePatient("--dims 32,32,32 --spacing 1.5");
+  json("new ear --ct " + quoted(m_folder / "patient/ct") +
+       " --mr T2=" + quoted(m_folder / "patient/mr") + " --labels " +
+       quoted(m_folder / "patient/labels.seg.nrrd"));
+  const Json ct = json("measure ear --between -50,20,5 -47,24,5 --save");
+  EXPECT_NEAR(ct.at("between").at("uncertainty_mm"), std::sqrt(2.0) * 0.75, 1e-6);
+  json("measure ear --between facial_nerve -47,24,5 --image T2 --save");
+  json("measure ear --save --points " +
+       file("p.csv", "name,x_mm,y_mm,z_mm,image\nmixed,-50,20,5,\nmixed,-47,24,5,T2\n"));
+  const Json kept = json("measure ear").at("measurements");
+  ASSERT_EQ(kept.size(), 3U);
+  EXPECT_EQ(kept[0].at("images"), Json({nullptr, nullptr}));
+  EXPECT_NEAR(kept[0].at("quantities")[0].at("uncertainty"), std::sqrt(2.0) * 0.75, 1e-6);
+  for (const Json& one : {kept[1], kept[2]})
+  {
+    EXPECT_EQ(one.at("images"), Json({nullptr, "T2"})) << one;
+    // Its registration is in error by nobody knows what.
+    EXPECT_TRUE(one.at("quantities")[0].at("uncertainty").is_null()) << one;
+    EXPECT_NE(one.at("quantities")[0].at("remark").get<std::string>().find("MR 'T2'"),
+              std::string::npos);
+  }
+  expectRefused("measure ear --points " +
+                    file("bad.csv", "name,x_mm,y_mm,z_mm,image\na,-50,20,5,T9\n"),
+                3, "no MR 'T9'");
+}
+
 TEST_F(MeasureCommand, TravelWithCopiesArchivesAndPlans)
 {
   makeEar("--dims 32,32,32 --spacing 1.5");

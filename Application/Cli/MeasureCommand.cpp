@@ -137,6 +137,7 @@ std::vector<Measurement> readMeasurements(const fs::path& path)
       hasKind[place->second] = true;
     }
     one.points.emplace_back(number("x_mm"), number("y_mm"), number("z_mm"));
+    one.images.push_back(cell("image"));
   }
   if (measurements.empty())
     throw core::InvalidParameter(file + ": there is no row after the header");
@@ -180,8 +181,17 @@ nlohmann::json measurementJson(const scene::Case& value, const Measurement& one)
     quantities.push_back(quantityJson({one.name, scene::nameOf(one.kind), quantity}));
   const auto text = [](const std::string& words)
   { return words.empty() ? nlohmann::json(nullptr) : nlohmann::json(words); };
-  return {{"name", one.name},        {"kind", scene::nameOf(one.kind)},  {"points_mm", points},
-          {"shown", one.shown},      {"structure", text(one.structure)}, {"image", text(one.image)},
+  nlohmann::json images = nlohmann::json::array();
+  for (std::size_t n = 0; n < one.points.size(); ++n)
+    images.push_back(text(scene::imageOf(one, n)));
+  return {{"name", one.name},
+          {"kind", scene::nameOf(one.kind)},
+          {"points_mm", points},
+          {"shown", one.shown},
+          {"structure", text(one.structure)},
+          {"structure_gone", one.structureGone},
+          {"image", text(one.image)},
+          {"images", std::move(images)},
           {"quantities", quantities}};
 }
 
@@ -199,6 +209,8 @@ void addLegs(Answer& answer, const scene::Case& value, const Measurement& line)
     Measurement leg = line;
     leg.kind = Kind::Distance;
     leg.points = {line.points[n - 1], line.points[n]};
+    std::vector<std::string> images{scene::imageOf(line, n - 1), scene::imageOf(line, n)};
+    scene::setImages(leg, images);
     Quantity quantity = presenters::quantitiesOf(value, leg).front();
     quantity.name = "distance " + std::to_string(n) + " to " + std::to_string(n + 1);
     answer.add(line.name, "distance", quantity);
@@ -206,6 +218,8 @@ void addLegs(Answer& answer, const scene::Case& value, const Measurement& line)
       continue;
     leg.kind = Kind::Angle;
     leg.points.push_back(line.points[n + 1]);
+    images.push_back(scene::imageOf(line, n + 1));
+    scene::setImages(leg, images);
     quantity = presenters::quantitiesOf(value, leg).front();
     quantity.name = "angle at " + std::to_string(n + 1);
     answer.add(line.name, "angle", quantity);
@@ -232,7 +246,7 @@ std::optional<Eigen::Vector3d> pointIn(const std::string& text)
 }
 
 // A copy in which a typed point is a mark.
-std::string asMark(scene::Case& value, const std::string& text)
+std::string asMark(scene::Case& value, const std::string& text, const std::string& image)
 {
   const auto point = pointIn(text);
   if (!point)
@@ -240,6 +254,7 @@ std::string asMark(scene::Case& value, const std::string& text)
   Measurement mark;
   mark.name = scene::freeMeasurementName(value.measurements, text);
   mark.points = {*point};
+  mark.image = image;
   value.measurements.push_back(mark);
   scene::checkMeasurements(value.measurements);
   return mark.name;
@@ -296,7 +311,14 @@ void measure(Context& context, const Options& options)
     throw core::InvalidParameter("case '" + value.name + "' has no MR '" + options.image + "'");
   for (Measurement& one : fresh)
   {
-    one.image = options.image;
+    std::vector<std::string> images;
+    for (std::size_t n = 0; n < one.points.size(); ++n)
+    {
+      images.push_back(scene::imageOf(one, n).empty() ? options.image : scene::imageOf(one, n));
+      if (!images.back().empty() && !scene::findMr(value, images.back()))
+        throw core::InvalidParameter("case '" + value.name + "' has no MR '" + images.back() + "'");
+    }
+    scene::setImages(one, std::move(images));
     addAll(answer, value, one);
     addLegs(answer, value, one);
   }
@@ -337,7 +359,8 @@ void measure(Context& context, const Options& options)
   if (!options.between.empty())
   {
     scene::Case with = value;
-    std::string a = asMark(with, options.between[0]), b = asMark(with, options.between[1]);
+    const std::string a = asMark(with, options.between[0], options.image);
+    const std::string b = asMark(with, options.between[1], options.image);
     const presenters::Between between = presenters::distanceBetween(with, a, b, progress);
     const std::string name = options.between[0] + " - " + options.between[1];
     answer.add(name, "between", between.distance);
@@ -349,6 +372,7 @@ void measure(Context& context, const Options& options)
     distance.kind = Kind::Distance;
     distance.name = core::utf8Prefix(name, Measurement::kLongestName - 10);
     distance.points = {between.from, between.to};
+    scene::setImages(distance, {between.images[0], between.images[1]});
     fresh.push_back(std::move(distance));
   }
   if (options.save)
@@ -407,10 +431,11 @@ void addMeasureCommand(CLI::App& app, Context& context)
       ->add_option("--points", options->points,
                    "CSV with x_mm,y_mm,z_mm, patient LPS; rows of one name, if there is a column "
                    "name, are one measurement, of the kind in a column kind: mark, distance, "
-                   "length, angle, area, thickness")
+                   "length, angle, area, thickness; a column image names the MR of each point")
       ->type_name("F.csv");
   command
-      ->add_option("--image", options->image, "The MR on which these points were set, not the CT")
+      ->add_option("--image", options->image,
+                   "The MR on which these points, and those of --between, were set, not the CT")
       ->type_name("MR");
   command
       ->add_option("--between", options->between,

@@ -77,11 +77,11 @@ TEST_F(EditHistoryTest, ASliderThatMovesIsOneStepUntilItRests)
 TEST_F(EditHistoryTest, WhatIsHeldIsOneStepHoweverLongItTakes)
 {
   set(1);
-  history.hold();
+  EditHistory::Hold hold(history);
   set(2);
   now += std::chrono::minutes(5);
   set(3);
-  history.release();
+  hold.release();
   set(4);
   EXPECT_TRUE(history.undo(0));
   EXPECT_EQ(number, 3);
@@ -170,17 +170,89 @@ TEST_F(EditHistoryTest, AStepTakenBackElsewhereLeavesItsPlace)
 TEST_F(EditHistoryTest, WhatWasOnlyTriedLeavesNoTrace)
 {
   set(1, "one");
-  history.hold();
+  EditHistory::Hold hold(history);
   set(7, "colour");
   const std::uint64_t tried = history.last();
   set(8, "colour");
   history.takeBack(tried);
-  history.release();
+  hold.release();
   EXPECT_EQ(number, 1);
   EXPECT_EQ(next(), "one");
   EXPECT_EQ(history.nextRedo(0), nullptr);
   history.takeBack(tried);
   EXPECT_EQ(number, 1) << "it is not the last one";
+}
+
+// A colour that is looked at and given up with Esc costs nothing.
+TEST_F(EditHistoryTest, WhatCouldBeRedoneComesBackWithWhatWasOnlyTried)
+{
+  set(1, "one");
+  set(2, "two");
+  EXPECT_TRUE(history.undo(0));
+  {
+    const EditHistory::Hold hold(history);
+    set(7, "colour");
+    set(8, "colour");
+    EXPECT_EQ(history.nextRedo(0), nullptr);
+    history.takeBack(history.last());
+  }
+  EXPECT_EQ(number, 1);
+  EXPECT_EQ(next(), "one");
+  ASSERT_NE(history.nextRedo(0), nullptr);
+  EXPECT_TRUE(history.redo(0));
+  EXPECT_EQ(number, 2);
+  // What is kept is a branch of its own.
+  EXPECT_TRUE(history.undo(0));
+  {
+    const EditHistory::Hold hold(history);
+    set(9, "colour");
+  }
+  EXPECT_EQ(history.nextRedo(0), nullptr);
+  history.takeBack(history.last());
+  EXPECT_EQ(history.nextRedo(0), nullptr) << "it was not only tried";
+}
+
+TEST_F(EditHistoryTest, WhatIsTriedInAFullHistoryForgetsNothing)
+{
+  for (std::size_t n = 1; n <= EditHistory::kMaxSteps; ++n)
+    set(static_cast<int>(n), "number", false);
+  {
+    const EditHistory::Hold hold(history);
+    set(-1, "colour");
+    history.takeBack(history.last());
+  }
+  std::size_t steps = 0;
+  while (history.undo(0))
+    ++steps;
+  EXPECT_EQ(steps, EditHistory::kMaxSteps);
+  EXPECT_EQ(number, 0);
+}
+
+// Of whatever way it ends, and another case ends it, too.
+TEST_F(EditHistoryTest, AHoldEndsWithWhatHoldsIt)
+{
+  try
+  {
+    const EditHistory::Hold hold(history);
+    set(1);
+    throw core::InvalidParameter("refused");
+  }
+  catch (const core::InvalidParameter&)
+  {
+  }
+  now += std::chrono::minutes(5);
+  set(2);
+  EXPECT_TRUE(history.undo(0));
+  EXPECT_EQ(number, 1) << "a step of its own";
+  EditHistory::Hold first(history);
+  history.clear();
+  EditHistory::Hold second(history);
+  set(3);
+  first.release(); // of the case before
+  now += std::chrono::minutes(5);
+  set(4);
+  EXPECT_TRUE(history.undo(0));
+  EXPECT_EQ(number, 1) << "still held";
 }
 
 TEST_F(EditHistoryTest, ForgetsTheEarliestSteps)

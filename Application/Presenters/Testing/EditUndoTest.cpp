@@ -306,6 +306,48 @@ TEST_F(EditUndoTest, ARemovalIsUndoneWhereverItIsAmongOthersThatWerePutBack)
   EXPECT_EQ(model->value().labels.front().structures[2].name, "s2") << "at its place";
 }
 
+TEST_F(EditUndoTest, AViewThatIsReplacedOrRemovedComesBack)
+{
+  open();
+  const auto positionOf = [this](const char* view)
+  { return model->value().view.saved.at(view).camera.position; };
+  core::CameraPose camera;
+  camera.position = {1, 0, 0};
+  model->saveView("recess", camera, {});
+  camera.position = {2, 0, 0};
+  model->saveView("recess", camera, {});
+  EXPECT_EQ(model->undoText(), "view 'recess'");
+  model->undo();
+  EXPECT_EQ(positionOf("recess"), Vector3d(1, 0, 0));
+  model->redo();
+  EXPECT_EQ(positionOf("recess"), Vector3d(2, 0, 0));
+  int told = 0;
+  model->events.savedViewsChanged = [&told] { ++told; };
+  model->removeView("recess");
+  EXPECT_TRUE(model->value().view.saved.empty());
+  EXPECT_EQ(model->undoText(), "removal of view 'recess'");
+  model->undo();
+  EXPECT_EQ(positionOf("recess"), Vector3d(2, 0, 0));
+  EXPECT_EQ(told, 2);
+  model->removeView("nothing");
+  EXPECT_EQ(told, 2);
+  model->undo();
+  model->undo();
+  EXPECT_TRUE(model->value().view.saved.empty());
+}
+
+TEST_F(EditUndoTest, OneViewMoreThanThereMayBeIsRefusedInWordsWithoutEffect)
+{
+  open();
+  for (std::size_t n = 0; n < scene::ViewState::kMaxSaved; ++n)
+    model->saveView("view " + std::to_string(n), {}, {});
+  const std::string before = model->undoText();
+  EXPECT_THROW(model->saveView("one more", {}, {}), core::InvalidParameter);
+  EXPECT_EQ(model->value().view.saved.size(), scene::ViewState::kMaxSaved);
+  EXPECT_EQ(model->undoText(), before);
+  EXPECT_NO_THROW(model->saveView("view 7", {}, {})) << "it is there already";
+}
+
 TEST_F(EditUndoTest, AnotherCaseHasNoStepsYet)
 {
   open();

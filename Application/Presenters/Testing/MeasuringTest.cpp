@@ -57,6 +57,102 @@ TEST(Quantity, IsWrittenAsItsUncertaintyDeserves)
   EXPECT_EQ(toString({"", std::nullopt, "mm²", std::nullopt, {}}), "unknown");
 }
 
+// Points of several images: each has its own voxels, and the registration lies between them.
+TEST(Uncertainty, OfPointsOnSeveralImagesIsThatOfTheWorseAndOfTheRegistration)
+{
+  scene::Case value = twoBallsAndATube(); // 0.4 x 0.4 x 0.5 mm
+  scene::ImagePart mr;
+  mr.name = "T2";
+  mr.geometry = core::GridGeometry({10, 10, 10}, Vector3d(1.0, 1.2, 3.0), Vector3d::Zero());
+  mr.registration.emplace();
+  mr.registration->error = scene::RegistrationError{};
+  mr.registration->error->p95 = 1.5;
+  value.mr.push_back(mr);
+  const auto of = [&](std::vector<std::string> images)
+  {
+    scene::Measurement one = made(Kind::Distance, {{1, 2, 3}, {11, 2, 3}});
+    scene::setImages(one, std::move(images));
+    return quantitiesOf(value, one)[0];
+  };
+  EXPECT_NEAR(*of({"", ""}).uncertainty, std::sqrt(2.0) * 0.2, 1e-6);
+  EXPECT_NEAR(*of({"T2", "T2"}).uncertainty, std::sqrt(2.0) * 0.5, 1e-6);
+  EXPECT_NEAR(*of({"", "T2"}).uncertainty, std::sqrt(0.2 * 0.2 + 0.5 * 0.5 + 1.5 * 1.5), 1e-6);
+  const std::string remark = of({"", "T2"}).remark;
+  EXPECT_NE(remark.find("point 1 set on the CT"), std::string::npos) << remark;
+  EXPECT_NE(remark.find("point 2 set on the MR 'T2', voxels 1.00 x 1.20 x 3.00 mm"),
+            std::string::npos);
+  EXPECT_NE(remark.find("registered to 1.50 mm"), std::string::npos);
+  value.mr[0].registration->error->p95 = 0.01; // as good as none: still no better than the MR
+  EXPECT_NEAR(*of({"", "T2"}).uncertainty, std::sqrt(2.0) * 0.5, 1e-6);
+  value.mr[0].registration->error.reset();
+  EXPECT_FALSE(of({"", "T2"}).uncertainty);
+  EXPECT_NE(of({"", "T2"}).remark.find("error unknown"), std::string::npos);
+  EXPECT_FALSE(of({"", "gone"}).uncertainty);
+}
+
+// Kept as a measurement, a distance between two images states what it did.
+TEST(Between, KnowsTheImagesThatItComparesAndTheRegistrationBetweenThem)
+{
+  scene::Case value = twoBallsAndATube();
+  scene::ImagePart mr;
+  mr.name = "T2";
+  mr.geometry = core::GridGeometry({10, 10, 10}, Vector3d(1.0, 1.2, 3.0), Vector3d::Zero());
+  mr.registration.emplace();
+  mr.registration->error = scene::RegistrationError{};
+  mr.registration->error->p95 = 1.5;
+  value.mr.push_back(mr);
+  value.measurements = {made(Kind::Mark, {{1, 2, 3}}), made(Kind::Mark, {{4, 6, 3}}, "T2")};
+  value.measurements[1].name = "other";
+  const Between between = distanceBetween(value, "one", "other");
+  EXPECT_EQ(between.images[0], "");
+  EXPECT_EQ(between.images[1], "T2");
+  scene::Measurement kept = made(Kind::Distance, {between.from, between.to});
+  scene::setImages(kept, {between.images[0], between.images[1]});
+  ASSERT_TRUE(between.distance.uncertainty);
+  EXPECT_NEAR(*quantitiesOf(value, kept)[0].uncertainty, *between.distance.uncertainty, 1e-9);
+  EXPECT_GT(*between.distance.uncertainty, 1.5);
+  EXPECT_EQ(distanceBetween(value, "left", "other").images[1], "T2");
+}
+
+// Two points of the MR move alike with it: what is between them stays.
+TEST(Uncertainty, OfAnAngleTakesTheRegistrationOfWhatMovesTogether)
+{
+  scene::Case value = twoBallsAndATube();
+  scene::ImagePart mr;
+  mr.name = "T2";
+  mr.geometry = core::GridGeometry({9, 9, 9}, Vector3d(1e-3, 1e-3, 1e-3), Vector3d::Zero());
+  mr.registration.emplace();
+  mr.registration->error = scene::RegistrationError{};
+  mr.registration->error->p95 = 1.0;
+  value.mr.push_back(mr);
+  value.ct.geometry = core::GridGeometry({9, 9, 9}, Vector3d(1e-3, 1e-3, 1e-3), Vector3d::Zero());
+  const auto of = [&](std::vector<std::string> images)
+  {
+    scene::Measurement one = made(Kind::Angle, {{10, 0, 0}, {0, 0, 0}, {0, 10, 0}});
+    scene::setImages(one, std::move(images));
+    return *quantitiesOf(value, one)[0].uncertainty;
+  };
+  constexpr double kDegree = 180.0 / kPi;
+  // An end moves by 1 mm at 10 mm, or the vertex along the diagonal.
+  EXPECT_NEAR(of({"T2", "", ""}), 0.1 * kDegree, 0.02);
+  EXPECT_NEAR(of({"", "T2", ""}), std::sqrt(2.0) * 0.1 * kDegree, 0.02);
+  EXPECT_NEAR(of({"T2", "", "T2"}), std::sqrt(2.0) * 0.1 * kDegree, 0.02);
+}
+
+TEST(Quantity, OfWhatFollowedARemovedStructureSaysSo)
+{
+  const scene::Case value = twoBallsAndATube();
+  scene::Measurement along = made(Kind::Length, {{0, 0, 0}, {10, 0, 0}});
+  along.structure = "canal";
+  along.structureGone = true; // and another is called so
+  EXPECT_NE(quantitiesOf(value, along)[0].remark.find("which was removed"), std::string::npos);
+  scene::Measurement wall = made(Kind::Thickness, {{0, 0, 0}, {0, 0, 3}});
+  wall.structure = "canal";
+  EXPECT_TRUE(quantitiesOf(value, wall)[0].uncertainty);
+  wall.structureGone = true;
+  EXPECT_FALSE(quantitiesOf(value, wall)[0].uncertainty) << "nobody knows on what it was drawn";
+}
+
 // Each of the two points may lie half a voxel off along each axis.
 TEST(Uncertainty, OfADistanceIsHalfAVoxelAtEachEnd)
 {

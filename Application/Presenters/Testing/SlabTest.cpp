@@ -139,6 +139,51 @@ TEST(Slab, AlongTheGridIsThatOfTheTrilinearField)
     }
 }
 
+// What is seen at a pixel is the image at that depth.
+TEST(Slab, ShowsWhatLiesAtTheDepthThatItStates)
+{
+  const core::GridGeometry grid({12, 11, 13}, Vector3d(0.5, 0.6, 0.7), Vector3d(-3, 2, 7));
+  const auto image = noise(grid);
+  constexpr double kThickness = 2.3;
+  const auto expectShown = [&](const SliceGeometry& slice)
+  {
+    for (const Projection projection : {Projection::Maximum, Projection::Minimum})
+    {
+      const PlaneSamples shown = drawn(image, slice, projection, kThickness);
+      int seen = 0;
+      double farthest = 0.0;
+      for (int row = 0; row < slice.height(); ++row)
+        for (int column = 0; column < slice.width(); ++column)
+        {
+          if (std::isnan(shown.at(column, row)))
+            continue;
+          const double depth = shownDepth(volume::IntensityVolume(image), slice,
+                                          {kThickness, projection}, {column, row});
+          const Vector3d at = slice.patientFromPixel(column, row) + depth * slice.axes().next;
+          EXPECT_NEAR(trilinear(*image, grid.voxelFromPatient(at)), shown.at(column, row), 0.02);
+          EXPECT_LE(std::abs(depth), 0.5 * kThickness + 1e-9);
+          farthest = std::max(farthest, std::abs(depth));
+          ++seen;
+        }
+      EXPECT_GT(seen, 50);
+      EXPECT_GT(farthest, 0.5);
+    }
+  };
+  expectShown(SliceGeometry::fitting(SliceOrientation::Coronal, grid, grid.center(), 15, 13));
+  const ObliquePlane plane = planeWithNormal({0.3, 0.7, -0.5});
+  expectShown(SliceGeometry::fitting(plane.orientation, plane.axes, grid, grid.center(), 21, 17));
+  const auto slice = SliceGeometry::fitting(SliceOrientation::Axial, grid, grid.center(), 9, 9);
+  EXPECT_EQ(shownDepth(volume::IntensityVolume(image), slice, {2.3, Projection::Mean}, {4, 4}),
+            0.0);
+  EXPECT_EQ(shownDepth(volume::IntensityVolume(image), slice, {}, {4, 4}), 0.0);
+  // Where all is alike, in the middle.
+  auto flat = std::make_shared<Noise>(grid);
+  std::fill_n(flat->data(), flat->size(), 100.0F);
+  EXPECT_EQ(shownDepth(volume::IntensityVolume(std::shared_ptr<const Noise>(flat)), slice,
+                       {2.3, Projection::Maximum}, {4, 4}),
+            0.0);
+}
+
 // At its own nodes, another trilinear function gives the same; the nodes are close enough.
 TEST(Slab, ObliqueIsTheProjectionOfItsNodes)
 {

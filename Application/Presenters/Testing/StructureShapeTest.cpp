@@ -93,6 +93,76 @@ TEST(CentreLine, OfABallIsNone)
   EXPECT_FALSE(centreLine(*occupancyOf(cube(4, 0.5), [](const Vector3d&) { return false; })));
 }
 
+// Along the middle of the hole it would lie where there is nothing of the structure.
+TEST(CentreLine, OfARingOrAcrossAHoleIsRefusedInWords)
+{
+  const auto ring = [](double bend, double radius)
+  {
+    return [=](const Vector3d& at)
+    { return std::hypot(std::hypot(at.x(), at.y()) - bend, at.z()) < radius; };
+  };
+  const auto bar = [](const Vector3d& at, double half)
+  { return std::abs(at.x()) < half && std::abs(at.y()) < 2.0 && std::abs(at.z()) < 1.0; };
+  const auto pierced = [&](const Vector3d& at)
+  { return bar(at, 8.0) && std::hypot(at.x(), at.y()) > 1.2; };
+  const auto pipe = [](const Vector3d& at)
+  {
+    return std::abs(at.x()) < 8.0 && std::hypot(at.y(), at.z()) < 2.5 &&
+           std::hypot(at.y(), at.z()) > 1.5;
+  };
+  const auto whyNot = [](const Inside& isInside)
+  {
+    std::string why;
+    EXPECT_FALSE(centreLine(*occupancyOf(cube(18, 0.25), isInside), {}, &why));
+    return why;
+  };
+  EXPECT_NE(whyNot(ring(6.0, 1.0)).find("ring"), std::string::npos);
+  EXPECT_NE(whyNot(ring(2.2, 1.2)).find("ring"), std::string::npos);
+  EXPECT_NE(whyNot(pierced).find("hole"), std::string::npos);
+  EXPECT_NE(whyNot(pipe).find("hollow"), std::string::npos);
+  EXPECT_NE(whyNot(ball({0, 0, 0}, 6.0)).find("too short"), std::string::npos);
+  // Without the hole the bar is a tube.
+  const auto whole = [&](const Vector3d& at) { return bar(at, 8.0); };
+  std::string why;
+  const auto line = centreLine(*occupancyOf(cube(18, 0.25), whole), {}, &why);
+  ASSERT_TRUE(line) << why;
+  EXPECT_NEAR(line->length(), 16.0, 0.3);
+  EXPECT_EQ(why, "");
+  // Nor does a hole of three voxels make it none.
+  const auto pricked = [&](const Vector3d& at)
+  { return bar(at, 8.0) && std::hypot(at.x(), at.y()) > 0.4; };
+  const auto past = centreLine(*occupancyOf(cube(18, 0.25), pricked), {}, &why);
+  ASSERT_TRUE(past) << why;
+  EXPECT_NEAR(past->length(), 16.0, 0.8);
+}
+
+// From end to end along the longer branch, not between the two.
+TEST(CentreLine, OfWhatBranchesStaysInIt)
+{
+  const auto stem = cylinder({-9, 0, 0}, {0, 0, 0}, 1.0);
+  const auto one = cylinder({-0.5, 0, 0}, {7, 6, 0}, 1.0);
+  const auto other = cylinder({-0.5, 0, 0}, {6, -5.5, 0}, 1.0);
+  const auto occupancy = occupancyOf(cube(20, 0.25), [&](const Vector3d& at)
+                                     { return stem(at) || one(at) || other(at); });
+  const auto line = centreLine(*occupancy);
+  ASSERT_TRUE(line);
+  EXPECT_GT((line->points.front() - line->points.back()).norm(), 11.0);
+  for (const Vector3d& point : line->points)
+  {
+    const bool isBetween = point.x() > 3.0 && std::abs(point.y()) < 1.0;
+    EXPECT_FALSE(isBetween) << point.transpose();
+  }
+}
+
+TEST(CentreLine, IsGivenUpWhenAsked)
+{
+  const auto token = std::make_shared<core::CancelToken>();
+  token->cancel();
+  EXPECT_THROW(centreLine(*occupancyOf(cube(10, 0.5), cylinder({-4, 0, 0}, {4, 0, 0}, 1.0)),
+                          core::Progress(nullptr, token)),
+               core::CancelledError);
+}
+
 TEST(CentreLine, OfSeveralPiecesIsThatOfTheLargest)
 {
   const auto line = centreLine(*occupancyOf(

@@ -110,6 +110,7 @@ MeasureController::MeasureController(presenters::WorkstationModel& model, SliceC
   , m_window(window)
   , m_editor(model)
   , m_work(std::make_unique<BackgroundWork>())
+  , m_computing(std::make_unique<BackgroundWork>())
   , m_menu(new QMenu(tr("&Measure"), &window))
   , m_tools(new QActionGroup(this))
 {
@@ -119,6 +120,18 @@ MeasureController::MeasureController(presenters::WorkstationModel& model, SliceC
   m_view.installEventFilter(this);
   m_editor.events.changed = [this] { refresh(); };
   m_editor.events.hovered = [this] { draw(); };
+  m_editor.inBackground = [this](MeasurementEditor::Work work) { compute(std::move(work)); };
+  connect(m_computing.get(), &BackgroundWork::progressed, this,
+          [this](double fraction)
+          { emit statusMessage(tr("Measuring: %1 %").arg(static_cast<int>(100.0 * fraction))); });
+  connect(m_computing.get(), &BackgroundWork::failed, this,
+          [this](const QString& why)
+          {
+            attempt([this] { m_editor.workEnded(); });
+            m_panel->say(sentence(why));
+          });
+  connect(m_computing.get(), &BackgroundWork::cancelled, this,
+          [this] { attempt([this] { m_editor.workEnded(); }); });
   connect(m_work.get(), &BackgroundWork::failed, this,
           [this](const QString& why)
           {
@@ -131,6 +144,7 @@ MeasureController::MeasureController(presenters::WorkstationModel& model, SliceC
 MeasureController::~MeasureController()
 {
   m_editor.events = {};
+  m_editor.inBackground = {};
   m_view.removeEventFilter(this);
 }
 
@@ -208,14 +222,16 @@ void MeasureController::connectSlices()
             if (!active())
               return;
             m_editor.setImage(m_slices.mrAlone());
-            if (m_slices.slab().thickness > 0.0)
+            const presenters::Slab& slab = m_slices.slab();
+            if (slab.thickness > 0.0 && slab.projection == presenters::Projection::Mean)
               emit statusMessage(
-                  tr("The slices are slabs: the point lies in the middle of the slab, whatever "
+                  tr("The slices show the mean of a slab: the point lies in its middle, whatever "
                      "depth is seen there"));
             const bool begins = m_editor.tool() == Tool::Distance && m_editor.points().empty();
             set(patient);
             m_pressed = begins ? std::optional<Eigen::Vector3d>(patient) : std::nullopt;
             m_apart = kDrag * m_slices.mmPerPixel(plane);
+            m_facing = m_slices.planes().axes(plane).next;
           });
   connect(&m_slices, &SliceColumn::toolDragged, this,
           [this](const Eigen::Vector3d& patient)
@@ -223,14 +239,15 @@ void MeasureController::connectSlices()
             if (!active())
               return;
             m_dragged = patient;
-            m_hoversInView = false;
-            m_editor.hover(patient);
+            hoverInSlice(patient);
           });
   connect(&m_slices, &SliceColumn::toolReleased, this,
           [this]
           {
-            if (active() && m_pressed && m_dragged && (*m_dragged - *m_pressed).norm() > m_apart)
-              set(*m_dragged); // pulled from one end to the other
+            // Pulled from one end to the other; depths in a slab differ from pixel to pixel.
+            if (active() && m_pressed && m_dragged &&
+                (*m_dragged - *m_pressed).cross(m_facing).norm() > m_apart)
+              set(*m_dragged);
             m_pressed.reset();
             m_dragged.reset();
           });
@@ -245,14 +262,17 @@ void MeasureController::connectSlices()
           {
             if (!active() || m_editor.points().empty())
               return;
-            m_hoversInView = false;
-            m_editor.hover(patient);
+            hoverInSlice(patient);
           });
   connect(&m_slices, &SliceColumn::handleTaken, this,
           [this](std::size_t measurement, std::size_t point)
           { m_editor.take(measurement, point); });
   connect(&m_slices, &SliceColumn::handleDragged, this,
-          [this](const Eigen::Vector3d& patient) { attempt([&] { m_editor.drag(patient); }); });
+          [this](const Eigen::Vector3d& patient)
+          {
+            m_editor.setImage(m_slices.mrAlone());
+            attempt([&] { m_editor.drag(patient); });
+          });
   connect(&m_slices, &SliceColumn::handleReleased, this,
           [this]
           {
@@ -263,9 +283,35 @@ void MeasureController::connectSlices()
     view->installEventFilter(this);
 }
 
+void MeasureController::hoverInSlice(const Eigen::Vector3d& patient)
+{
+  m_hoversInView = false;
+  m_editor.setImage(m_slices.mrAlone());
+  m_editor.hover(patient);
+}
+
+// Nothing waits for the work before.
+void MeasureController::compute(MeasurementEditor::Work work)
+{
+  if (!work)
+    return m_computing->abandon();
+  m_computing->replace(
+      [this, work = std::move(work)](const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        return [this, apply = work(progress)]
+        {
+          const std::size_t before = m_editor.all().size();
+          attempt(apply);
+          announce(before);
+          if (!m_editor.dragging())
+            emit changed(); // a drag that ended meanwhile
+        };
+      });
+}
+
 void MeasureController::caseChanged()
 {
-  m_work->drop();
+  m_work->abandon();
   m_pressed.reset();
   m_dragged.reset();
   m_holdsHandle = false;
@@ -275,14 +321,15 @@ void MeasureController::caseChanged()
 
 void MeasureController::partsChanged()
 {
-  m_work->drop();
+  if (m_work->busy())
+    m_panel->showQuantities({});
+  m_work->abandon();
   m_editor.partsChanged();
 }
 
 void MeasureController::measurementsChanged()
 {
-  m_editor.measurementsChanged();
-  refresh();
+  m_editor.measurementsChanged(); // which refreshes, unless it is about to
   if (!m_editor.dragging())
     emit changed();
 }
@@ -360,7 +407,14 @@ bool MeasureController::attempt(const std::function<void()>& what)
 void MeasureController::set(const Eigen::Vector3d& patient)
 {
   const std::size_t before = m_editor.all().size();
-  if (!attempt([&] { m_editor.set(patient); }) || m_editor.all().size() == before)
+  attempt([&] { m_editor.set(patient); });
+  announce(before);
+}
+
+// What was added to so many measurements.
+void MeasureController::announce(std::size_t before)
+{
+  if (m_editor.all().size() <= before)
     return;
   const Measurement& made = m_editor.all().back();
   emit statusMessage(words(made.name) + ": " + words(presenters::summaryOf(m_model.value(), made)));
@@ -481,7 +535,7 @@ void MeasureController::measureStructure(const std::string& structure, const std
   if (!m_model.loaded())
     return m_panel->say(tr("The structures are still being loaded."));
   m_panel->showBusy();
-  m_work->start(
+  m_work->replace(
       [this, structure, other,
        value = m_model.presentable()](const core::Progress& progress) -> BackgroundWork::Reply
       {
@@ -609,6 +663,7 @@ bool MeasureController::handleMouse(QMouseEvent& event)
       return false;
     m_swallowsRelease = true;
     // Its first click may have made a measurement: the second one begins no other.
+    m_editor.setImage({});
     if (const auto at = m_editor.points().empty() ? std::nullopt : surface())
       set(*at);
     attempt([this] { m_editor.finish(); });
@@ -619,6 +674,7 @@ bool MeasureController::handleMouse(QMouseEvent& event)
       if (m_clicked && QLineF(*m_clicked, event.localPos()).length() <= kClick)
         return true;
       m_clicked.reset();
+      m_editor.setImage({});
       if (const auto at = surface())
         attempt([&] { m_editor.drag(*at); });
       return true;
@@ -628,6 +684,7 @@ bool MeasureController::handleMouse(QMouseEvent& event)
     if (active() && !m_editor.points().empty() && event.buttons() == Qt::NoButton)
     {
       m_hoversInView = true;
+      m_editor.setImage({});
       m_editor.hover(surface());
     }
     return false;

@@ -74,6 +74,9 @@ private:
   void connectPanel();
   void choose(Tool tool);
   void set(const Eigen::Vector3d& patient);
+  void announce(std::size_t before);
+  void compute(presenters::MeasurementEditor::Work work);
+  void hoverInSlice(const Eigen::Vector3d& patient);
   bool attempt(const std::function<void()>& what);
   void refresh();
   void draw();
@@ -90,7 +93,8 @@ private:
   ThreeDView& m_view;
   QWidget& m_window;
   presenters::MeasurementEditor m_editor;
-  std::unique_ptr<BackgroundWork> m_work;
+  std::unique_ptr<BackgroundWork> m_work;      ///< dimensions of structures
+  std::unique_ptr<BackgroundWork> m_computing; ///< the editor's
   QMenu* m_menu;
   QActionGroup* m_tools;
   QAction* m_finish;
@@ -100,10 +104,11 @@ private:
   MeasurePanel* m_panel;
   std::optional<Eigen::Vector3d> m_pressed; ///< in a slice, where a distance may begin
   std::optional<Eigen::Vector3d> m_dragged;
-  double m_apart = 0.0;             ///< mm, from which on a drag is one
-  std::optional<QPointF> m_clicked; ///< in the 3D view
-  bool m_holdsHandle = false;       ///< in the 3D view
-  bool m_swallowsRelease = false;   ///< of a double click there
+  double m_apart = 0.0;                                ///< mm, from which on a drag is one
+  Eigen::Vector3d m_facing = Eigen::Vector3d::UnitZ(); ///< normal of that slice
+  std::optional<QPointF> m_clicked;                    ///< in the 3D view
+  bool m_holdsHandle = false;                          ///< in the 3D view
+  bool m_swallowsRelease = false;                      ///< of a double click there
   bool m_hoversInView = false;
 };
 

@@ -145,6 +145,7 @@ MeasurePanel::MeasurePanel(presenters::WorkstationModel& model,
   m_list->header()->setSectionResizeMode(Name, QHeaderView::ResizeToContents);
   m_list->setTextElideMode(Qt::ElideMiddle);
   m_list->installEventFilter(this);
+  keepKeysInEditors(*m_list);
   connect(m_list, &QTreeWidget::itemChanged, this, &MeasurePanel::takeItem);
   connect(m_list, &QTreeWidget::itemSelectionChanged, this,
           [this]

@@ -6,6 +6,7 @@
 #include <QMenu>
 #include <QScopedValueRollback>
 
+#include "Application.h"
 #include "AskName.h"
 #include "DrillBar.h"
 #include "PictureController.h"
@@ -13,6 +14,7 @@
 #include "SliceColumn.h"
 #include "Theme.h"
 #include "ThreeDView.h"
+#include "WindowTexts.h"
 #include "petrous/Presenters/CasePicture.h"
 
 namespace petrous::workstation
@@ -68,6 +70,12 @@ ViewStateController::ViewStateController(presenters::WorkstationModel& model, Th
   connect(m_savedMenu, &QMenu::aboutToShow, this, &ViewStateController::fillSaved);
 }
 
+void ViewStateController::savedViewsChanged()
+{
+  // The menu may still be in use.
+  QMetaObject::invokeMethod(this, &ViewStateController::fillSaved, Qt::QueuedConnection);
+}
+
 // The first ones have keys, which work without the menu; hence whenever the views change.
 void ViewStateController::fillSaved()
 {
@@ -95,9 +103,7 @@ void ViewStateController::fillSaved()
             [this, key = name]
             {
               m_model.removeView(key);
-              emit statusMessage(tr("View “%1” removed").arg(words(key)));
-              QMetaObject::invokeMethod(this, &ViewStateController::fillSaved,
-                                        Qt::QueuedConnection); // the menu is still in use
+              emit statusMessage(tr("View “%1” removed; Ctrl+Z brings it back").arg(words(key)));
             });
   }
   m_savedMenu->addSeparator();
@@ -108,15 +114,34 @@ void ViewStateController::saveAs()
 {
   if (!m_model.hasCase())
     return;
+  const auto& saved = m_model.value().view.saved;
   const QString name =
-      askName(m_window, tr("Keep this view"), tr("Name of the view (camera and slices):"), {},
-              [](const std::string& text) { scene::checkViewName(text); });
+      askName(m_window, tr("Keep this view"),
+              tr("Name of the view (camera and slices). One of that name is replaced."), {},
+              [&saved](const std::string& text)
+              {
+                scene::checkViewName(text);
+                if (saved.count(text) == 0 && saved.size() >= scene::ViewState::kMaxSaved)
+                  throw core::InvalidParameter(
+                      "The case keeps " + std::to_string(scene::ViewState::kMaxSaved) +
+                      " views, and no more; type the name of one to replace it, or remove one "
+                      "first");
+              });
   if (name.isEmpty())
     return;
+  const bool replaces = saved.count(bytes(name)) > 0;
   const State now = present();
-  m_model.saveView(bytes(name), now.camera, *now.view.slices);
-  fillSaved();
-  emit statusMessage(tr("View “%1” kept; Save (Ctrl+S) writes it").arg(name));
+  try
+  {
+    m_model.saveView(bytes(name), now.camera, *now.view.slices);
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    return emit statusMessage(sentence(toString(error)));
+  }
+  emit statusMessage((replaces ? tr("View “%1” replaced; Ctrl+Z brings back the one before")
+                               : tr("View “%1” kept; Save (Ctrl+S) writes it"))
+                         .arg(name));
 }
 
 void ViewStateController::showSaved(const std::string& name)

@@ -32,6 +32,7 @@ public:
   void collect(); ///< before a save
   bool isShowing() const noexcept { return m_isShowing; }
 
+  void savedViewsChanged(); ///< of the model
   /// Camera and slices, under a name of the user's; they are saved with the case.
   QMenu* savedMenu() const noexcept { return m_savedMenu; }
 

@@ -75,9 +75,9 @@ void paintCurve(QPainter& painter, const std::vector<Eigen::Vector3d>& points, c
 }
 
 bool isInSlice(const Eigen::Vector3d& point, const presenters::SliceGeometry& slice,
-               const Eigen::Vector3d& at)
+               const Eigen::Vector3d& at, double beyond)
 {
-  return std::abs(slice.axes().next.dot(point - at)) <= kReach;
+  return std::abs(slice.axes().next.dot(point - at)) <= kReach + beyond;
 }
 
 namespace
@@ -89,17 +89,19 @@ QPointF pixelOf(const presenters::SliceGeometry& slice, const Eigen::Vector3d& p
   return {pixel[0], pixel[1]};
 }
 
-// 1 in the slice, less beside it, 0 where it is not seen.
-double strengthOf(double off)
+// 1 in the slice, less beside it, 0 where it is not seen. `away`: mm from it; what lies up to
+// `beyond` from it is in it.
+double strengthOf(double away, double beyond)
 {
   constexpr double kFaint = 0.4;
+  const double off = away - beyond;
   if (off <= kReach)
     return 1.0;
   return off < kFaintReach ? kFaint * (kFaintReach - off) / (kFaintReach - kReach) : 0.0;
 }
 
 void paintLine(QPainter& painter, const DrawnMeasure& measure,
-               const presenters::SliceGeometry& slice, const Eigen::Vector3d& at)
+               const presenters::SliceGeometry& slice, const Eigen::Vector3d& at, double beyond)
 {
   const Eigen::Vector3d next = slice.axes().next;
   const std::size_t edges = measure.points.size() - (measure.closed ? 0 : 1);
@@ -115,7 +117,7 @@ void paintLine(QPainter& painter, const DrawnMeasure& measure,
       {
         const Eigen::Vector3d a = from + (to - from) * part / parts;
         const Eigen::Vector3d b = from + (to - from) * (part + 1) / parts;
-        const double strength = strengthOf(std::abs(next.dot(0.5 * (a + b) - at)));
+        const double strength = strengthOf(std::abs(next.dot(0.5 * (a + b) - at)), beyond);
         if (strength <= 0.0)
           continue;
         QColor color = halo ? QColor(0, 0, 0) : measure.color;
@@ -130,12 +132,12 @@ void paintLine(QPainter& painter, const DrawnMeasure& measure,
 }
 
 void paintHandles(QPainter& painter, const DrawnMeasure& measure,
-                  const presenters::SliceGeometry& slice, const Eigen::Vector3d& at)
+                  const presenters::SliceGeometry& slice, const Eigen::Vector3d& at, double beyond)
 {
   const Eigen::Vector3d next = slice.axes().next;
   for (const std::size_t n : measure.handles)
   {
-    const double strength = strengthOf(std::abs(next.dot(measure.points[n] - at)));
+    const double strength = strengthOf(std::abs(next.dot(measure.points[n] - at)), beyond);
     if (strength <= 0.0)
       continue;
     const bool inside = strength == 1.0;
@@ -172,13 +174,13 @@ QRectF placeOfLabel(const QPainter& painter, const QString& label, const QPointF
 } // namespace
 
 void paintMeasures(QPainter& painter, const std::vector<DrawnMeasure>& measures,
-                   const presenters::SliceGeometry& slice, const Eigen::Vector3d& at)
+                   const presenters::SliceGeometry& slice, const Eigen::Vector3d& at, double beyond)
 {
   for (const DrawnMeasure& measure : measures)
     if (!measure.points.empty())
     {
-      paintLine(painter, measure, slice, at);
-      paintHandles(painter, measure, slice, at);
+      paintLine(painter, measure, slice, at, beyond);
+      paintHandles(painter, measure, slice, at, beyond);
     }
   // On top of all lines, none on another.
   QFont font = painter.font();
@@ -187,9 +189,9 @@ void paintMeasures(QPainter& painter, const std::vector<DrawnMeasure>& measures,
   std::vector<QRectF> taken;
   for (const DrawnMeasure& measure : measures)
   {
-    const auto handle =
-        std::find_if(measure.handles.rbegin(), measure.handles.rend(),
-                     [&](std::size_t n) { return isInSlice(measure.points[n], slice, at); });
+    const auto handle = std::find_if(measure.handles.rbegin(), measure.handles.rend(),
+                                     [&](std::size_t n)
+                                     { return isInSlice(measure.points[n], slice, at, beyond); });
     if (measure.label.isEmpty() || handle == measure.handles.rend())
       continue;
     QRectF box = placeOfLabel(painter, measure.label, pixelOf(slice, measure.points[*handle]));

@@ -44,13 +44,15 @@ struct DrawnMeasure
 };
 
 /// Full where it lies within a millimetre of the slice, which contains `at`, and faint elsewhere up
-/// to 15 mm; the label where a handle lies in the slice, or the middle does.
+/// to 15 mm; the label where a handle lies in the slice, or the middle does. `beyond`: mm on both
+/// sides that are seen as the slice, as in a slab.
 void paintMeasures(QPainter& painter, const std::vector<DrawnMeasure>& measures,
-                   const presenters::SliceGeometry& slice, const Eigen::Vector3d& at);
+                   const presenters::SliceGeometry& slice, const Eigen::Vector3d& at,
+                   double beyond = 0.0);
 
 /// Whether a point counts as lying in the slice.
 bool isInSlice(const Eigen::Vector3d& point, const presenters::SliceGeometry& slice,
-               const Eigen::Vector3d& at);
+               const Eigen::Vector3d& at, double beyond = 0.0);
 
 /// Intersection of the slice with a cube of this edge (mm) centred at `at`.
 void paintCube(QPainter& painter, double edge, const presenters::SliceGeometry& slice,

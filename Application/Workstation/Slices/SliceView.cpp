@@ -321,6 +321,30 @@ Eigen::Vector3d SliceView::patientAt(const QPointF& position) const
   return slice().patientFromPixel(position.x() - 0.5, position.y() - 0.5);
 }
 
+// Of the pixel under the pointer, in the image that is measured in (SliceColumn::mrAlone).
+Eigen::Vector3d SliceView::shownAt(const QPointF& position) const
+{
+  const Eigen::Vector3d inSlice = patientAt(position);
+  const bool isMr = m_overlay && m_overlay->mr && m_overlayAlone;
+  const auto& image = isMr ? m_overlay->mr : m_presenter->image();
+  if (!image)
+    return inSlice;
+  const Eigen::Vector2d pixel(std::floor(position.x()), std::floor(position.y()));
+  return inSlice + presenters::shownDepth(*image, slice(), m_slab, pixel,
+                                          isMr ? m_overlay->mrFromCt : core::RigidTransform()) *
+                       axes().next;
+}
+
+Eigen::Vector3d SliceView::pointedAt(const QPointF& position) const
+{
+  return m_tool && m_tool->measures ? shownAt(position) : patientAt(position);
+}
+
+double SliceView::shownReach() const
+{
+  return m_slab.projection == presenters::Projection::Mean ? 0.0 : 0.5 * m_slab.thickness;
+}
+
 void SliceView::paintEvent(QPaintEvent*)
 {
   QPainter painter(this);
@@ -342,7 +366,7 @@ void SliceView::paintEvent(QPaintEvent*)
   paintMarks(painter, m_drawing.marks, picture, m_crosshair);
   paintInterpolated(painter);
   paintCrosshair(painter);
-  paintMeasures(painter, m_measures, picture, m_crosshair);
+  paintMeasures(painter, m_measures, picture, m_crosshair, shownReach());
   paintLetters(painter);
   paintScaleBar(painter);
   paintTool(painter);
@@ -541,7 +565,7 @@ void SliceView::mousePressEvent(QMouseEvent* event)
   else if (m_tool && !(event->modifiers() & Qt::ShiftModifier))
   {
     m_toolDown = true;
-    emit toolPressed(patientAt(event->localPos()), m_orientation);
+    emit toolPressed(pointedAt(event->localPos()), m_orientation);
   }
   else
     emit crosshairMoved(patientAt(event->localPos()));
@@ -590,7 +614,7 @@ std::optional<SliceView::Handle> SliceView::handleAt(const QPointF& position) co
   for (const DrawnMeasure& measure : m_measures)
     for (const std::size_t n : measure.handles)
     {
-      if (measure.draft || !isInSlice(measure.points[n], picture, m_crosshair))
+      if (measure.draft || !isInSlice(measure.points[n], picture, m_crosshair, shownReach()))
         continue;
       const Eigen::Vector2d at =
           picture.pixelFromPatient(measure.points[n]) + Eigen::Vector2d(0.5, 0.5);
@@ -643,10 +667,10 @@ void SliceView::mouseMoveEvent(QMouseEvent* event)
     if (m_pressed && (event->localPos() - *m_pressed).manhattanLength() < kClick)
       return;
     m_pressed.reset();
-    emit handleDragged(patientAt(event->localPos()));
+    emit handleDragged(shownAt(event->localPos()));
   }
   else if (m_toolDown)
-    emit toolDragged(patientAt(event->localPos()));
+    emit toolDragged(pointedAt(event->localPos()));
   else if (event->buttons() & Qt::LeftButton)
     emit crosshairMoved(patientAt(event->localPos()));
   else if (event->buttons() & Qt::RightButton)
@@ -662,7 +686,7 @@ void SliceView::mouseMoveEvent(QMouseEvent* event)
     m_offset -= slice().mmPerPixel() * (step.x() * axes.right + step.y() * axes.down);
     stale();
   }
-  emit pointed(patientAt(event->localPos()));
+  emit pointed(pointedAt(event->localPos()));
 }
 
 void SliceView::wheelEvent(QWheelEvent* event)
@@ -675,7 +699,7 @@ void SliceView::wheelEvent(QWheelEvent* event)
                          : std::min(-1, static_cast<int>(notches)));
   event->accept();
   if (m_pointer && m_presenter) // another place lies under it now
-    emit pointed(patientAt(event->position()));
+    emit pointed(pointedAt(event->position()));
 }
 
 void SliceView::scroll(int slices)

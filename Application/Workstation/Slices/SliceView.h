@@ -95,7 +95,9 @@ signals:
   void pointed(const Eigen::Vector3d& patient);
   void moveAsked(const Eigen::Vector3d& millimetres); ///< of the MR over the CT
   void turnAsked(const Eigen::Vector3d& axis, double degrees);
-  /// With a tool: where the left button went down, was dragged to, and that it was released.
+  /// With a tool: where the left button went down, was dragged to, and that it was released. Where
+  /// it measures, in a slab of the brightest or darkest at the depth of what is seen; so are
+  /// handles.
   void toolPressed(const Eigen::Vector3d& patient, petrous::presenters::SliceOrientation plane);
   void toolDragged(const Eigen::Vector3d& patient);
   void toolReleased();
@@ -118,6 +120,9 @@ protected:
 
 private:
   Eigen::Vector3d patientAt(const QPointF& position) const;
+  Eigen::Vector3d shownAt(const QPointF& position) const;   // at the depth that a projection shows
+  Eigen::Vector3d pointedAt(const QPointF& position) const; // which of them, by the tool
+  double shownReach() const; // mm from the slice, of what counts as lying in it, beyond it
   void scroll(int slices);
   void zoom(double factor);
   void putCrosshairAt(const Eigen::Vector2d& pixel);

@@ -529,14 +529,13 @@ void AppearancePanel::chooseColor()
   dialog.setOption(QColorDialog::DontUseNativeDialog);
   connect(&dialog, &QColorDialog::currentColorChanged, this, &AppearancePanel::setColor);
   // What is tried is one step, and none if nothing is chosen.
-  m_model.edits().hold();
+  const presenters::EditHistory::Hold hold(m_model.edits());
   const auto last = m_model.edits().last();
   const auto of = m_model.shownAs();
   if (dialog.exec() == QDialog::Accepted)
     setColor(dialog.selectedColor());
   else if (const auto tried = m_model.edits().last(); tried != last && m_model.shownAs() == of)
-    m_model.takeBack(tried);
-  m_model.edits().release();
+    attempt([&] { m_model.takeBack(tried); });
 }
 
 void AppearancePanel::setColor(const QColor& color)

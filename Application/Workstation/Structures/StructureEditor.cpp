@@ -30,6 +30,7 @@ namespace
 
 using appearance::StructureAppearance;
 using appearance::StructureProperty;
+using presenters::EditHistory;
 
 constexpr char kBone[] = "ct";
 
@@ -145,8 +146,9 @@ void StructureEditor::addOpacity(QGridLayout& grid, int row)
   for (QWidget* widget : {static_cast<QWidget*>(m_opacity), static_cast<QWidget*>(box)})
     widget->setAccessibleName(tr("Opacity"));
   // A drag is one step, however long it takes.
-  connect(m_opacity, &QSlider::sliderPressed, this, [this] { m_model.edits().hold(); });
-  connect(m_opacity, &QSlider::sliderReleased, this, [this] { m_model.edits().release(); });
+  connect(m_opacity, &QSlider::sliderPressed, this,
+          [this] { m_opacityHold = std::make_unique<EditHistory::Hold>(m_model.edits()); });
+  connect(m_opacity, &QSlider::sliderReleased, this, [this] { m_opacityHold.reset(); });
   auto* label = new QLabel(tr("&Opacity"));
   label->setBuddy(m_opacity);
   grid.addWidget(label, row, 0);
@@ -353,6 +355,12 @@ void StructureEditor::keyPressEvent(QKeyEvent* event)
     QWidget::keyPressEvent(event);
 }
 
+void StructureEditor::hideEvent(QHideEvent* event)
+{
+  m_opacity->setSliderDown(false); // no release of the button will tell
+  QWidget::hideEvent(event);
+}
+
 void StructureEditor::chooseColor(const std::vector<std::string>& parts, const QPoint& global)
 {
   const auto* present = parts.empty() ? nullptr : m_model.lookOf(parts.front());
@@ -360,7 +368,7 @@ void StructureEditor::chooseColor(const std::vector<std::string>& parts, const Q
     return;
   auto* chooser = new ColorChooser(colorOf(*present), this);
   // What is tried is one step, and none if nothing is chosen.
-  m_model.edits().hold();
+  const auto hold = std::make_shared<EditHistory::Hold>(m_model.edits()); // dies with the chooser
   const auto before = m_model.edits().last();
   const auto of = m_model.shownAs();
   const auto paint = [this, parts, of](const QColor& color)
@@ -376,18 +384,18 @@ void StructureEditor::chooseColor(const std::vector<std::string>& parts, const Q
   };
   connect(chooser, &ColorChooser::previewed, this, paint);
   connect(chooser, &ColorChooser::chosen, this,
-          [this, paint](const QColor& color)
+          [paint, hold](const QColor& color)
           {
             paint(color);
-            m_model.edits().release();
+            hold->release();
           });
   connect(chooser, &ColorChooser::cancelled, this,
-          [this, before, of]
+          [this, before, of, hold]
           {
             if (const auto tried = m_model.edits().last();
                 tried != before && m_model.shownAs() == of)
               m_model.takeBack(tried);
-            m_model.edits().release();
+            hold->release();
           });
   chooser->open(global);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,7 @@ signals:
 
 protected:
   void keyPressEvent(QKeyEvent* event) override;
+  void hideEvent(QHideEvent* event) override;
 
 private:
   using Property = appearance::StructureProperty;
@@ -77,6 +79,7 @@ private:
   QLabel* m_title;
   QPushButton* m_color;
   QSlider* m_opacity;
+  std::unique_ptr<presenters::EditHistory::Hold> m_opacityHold; ///< while it is dragged
   QComboBox* m_materials;
   std::vector<Number> m_numbers;
   std::vector<Flag> m_flags;

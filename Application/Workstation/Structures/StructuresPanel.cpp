@@ -162,6 +162,7 @@ void StructuresPanel::addList(QVBoxLayout& layout)
           });
   m_list->viewport()->installEventFilter(this);
   m_list->installEventFilter(this);
+  keepKeysInEditors(*m_list);
   header->setSectionHidden(StructuresModel::Burr, true);
   connect(m_structures, &QAbstractItemModel::modelReset, this, &StructuresPanel::fitColumns);
   m_fitLater.setSingleShot(true);

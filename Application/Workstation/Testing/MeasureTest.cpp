@@ -9,9 +9,13 @@
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QLabel>
+#include <QLineEdit>
 #include <QPushButton>
+#include <QSignalSpy>
 #include <QTreeWidget>
 
+#include "MeasureController.h"
+#include "SliceColumn.h"
 #include "SliceView.h"
 #include "petrous/Core/CsvTable.h"
 
@@ -238,7 +242,9 @@ TEST_F(MeasureWindow, AWallIsMeasuredByOneClick)
   picture();
   key(Qt::Key_W);
   clickView(view().rect().center());
-  ASSERT_EQ(all().size(), 1U) << find<QLabel>("measureHint").text().toStdString();
+  EXPECT_TRUE(all().empty()) << "the window's thread does not wait for it";
+  ASSERT_TRUE(waitFor([this] { return all().size() == 1U; }))
+      << find<QLabel>("measureHint").text().toStdString();
   EXPECT_EQ(all()[0].kind, Kind::Thickness);
   EXPECT_EQ(all()[0].points.size(), 3U);
   EXPECT_GT(value(0), 1.0);
@@ -315,6 +321,123 @@ TEST_F(MeasureWindow, StatesTheDimensionsOfAStructure)
   ASSERT_TRUE(waitFor([&] { return quantities.topLevelItemCount() >= 5; }));
   EXPECT_EQ(quantities.topLevelItem(0)->text(0), "volume");
   EXPECT_TRUE(quantities.topLevelItem(0)->text(1).contains("mm³ ± "));
+}
+
+// Enter ends the name and nothing else.
+TEST_F(MeasureWindow, ANameIsTypedAndTheCrosshairStays)
+{
+  openBall();
+  key(Qt::Key_D);
+  click(kBallCenter + Vector3d(-8, 0, 0));
+  click(kBallCenter + Vector3d(8, 6, 0));
+  QTest::keyClick(&axial(), Qt::Key_Escape);
+  model().setCrosshair(kBallCenter + Vector3d(3, 3, 3));
+  const Vector3d before = model().crosshair();
+  list().setFocus();
+  list().setCurrentItem(list().topLevelItem(0));
+  find<QPushButton>("renameMeasurement").click();
+  auto* line = list().viewport()->findChild<QLineEdit*>();
+  ASSERT_TRUE(line);
+  line->selectAll();
+  QTest::keyClicks(line, "Bulb to canal");
+  QTest::keyClick(line, Qt::Key_Return);
+  EXPECT_TRUE(waitFor([this] { return all()[0].name == "Bulb to canal"; }));
+  EXPECT_EQ(model().crosshair(), before);
+  QTest::keyClick(&list(), Qt::Key_Return); // now it is the list's
+  EXPECT_GT((model().crosshair() - before).norm(), 1.0);
+}
+
+// Each move of the pointer once: labels, list and picture are drawn anew for it.
+TEST_F(MeasureWindow, ADraggedHandleRefreshesOnceForEachMove)
+{
+  openBall();
+  key(Qt::Key_D);
+  const Vector3d end = kBallCenter + Vector3d(8, 0, 0);
+  click(kBallCenter + Vector3d(-8, 0, 0));
+  click(end);
+  QTest::keyClick(&axial(), Qt::Key_Escape);
+  QSignalSpy refreshed(window().findChild<MeasureController*>(), &MeasureController::stateChanged);
+  QTest::mousePress(&axial(), Qt::LeftButton, Qt::NoModifier, pixelOf(end));
+  const int before = refreshed.count();
+  pull(axial(), pixelOf(end) + QPoint(10, 0));
+  EXPECT_EQ(refreshed.count(), before + 1);
+  pull(axial(), pixelOf(end) + QPoint(20, 5));
+  EXPECT_EQ(refreshed.count(), before + 2);
+  QTest::mouseRelease(&axial(), Qt::LeftButton, Qt::NoModifier, pixelOf(end) + QPoint(20, 5));
+  EXPECT_GT((all()[0].points[1] - end).norm(), 1.0);
+}
+
+// The slice lies above the ball, of which a slab shows the top.
+TEST_F(MeasureWindow, InASlabOfTheBrightestAPointLiesWhereWhatIsSeenLies)
+{
+  openBall();
+  model().setCrosshair(kBallCenter + Vector3d(0, 0, 14));
+  const double slice = model().crosshair().z();
+  ASSERT_LT(*model().hounsfieldAt(model().crosshair()), 0.0) << "air";
+  auto& slices = find<SliceColumn>("slices");
+  slices.setSlab({10.0, presenters::Projection::Maximum});
+  key(Qt::Key_D);
+  const Vector3d off = kBallCenter + Vector3d(4, 0, 14);
+  click(model().crosshair());
+  click(off);
+  ASSERT_EQ(all().size(), 1U);
+  for (const Vector3d& point : all()[0].points)
+  {
+    EXPECT_GT(*model().hounsfieldAt(point), 500.0) << point.transpose();
+    EXPECT_LE(std::abs(point.z() - slice), 5.0 + 1e-9);
+    EXPECT_LT((point - kBallCenter).norm(), kBallRadius + 0.6);
+  }
+  // It is seen there, too: its handle can be taken, and stays on what is seen.
+  QTest::keyClick(&axial(), Qt::Key_Escape);
+  QTest::mousePress(&axial(), Qt::LeftButton, Qt::NoModifier, pixelOf(off));
+  pull(axial(), pixelOf(kBallCenter + Vector3d(4, 2, 0)));
+  pull(axial(), pixelOf(kBallCenter + Vector3d(4, 3, 0)));
+  QTest::mouseRelease(&axial(), Qt::LeftButton, Qt::NoModifier,
+                      pixelOf(kBallCenter + Vector3d(4, 3, 0)));
+  EXPECT_NEAR(all()[0].points[1].y(), kBallCenter.y() + 3.0, 1.0);
+  EXPECT_GT(*model().hounsfieldAt(all()[0].points[1]), 500.0);
+  // The darkest of a slab that reaches out of the ball is the air above it.
+  model().setCrosshair(kBallCenter + Vector3d(0, 0, 10));
+  slices.setSlab({10.0, presenters::Projection::Minimum});
+  key(Qt::Key_K);
+  click(kBallCenter + Vector3d(-5, -5, 10)); // away from the handles
+  ASSERT_EQ(all().size(), 2U);
+  EXPECT_LT(*model().hounsfieldAt(all()[1].points[0]), 0.0);
+  // The mean has no depth of its own.
+  slices.setSlab({10.0, presenters::Projection::Mean});
+  click(kBallCenter + Vector3d(-5, 5, 10));
+  ASSERT_EQ(all().size(), 3U);
+  EXPECT_NEAR(all()[2].points[0].z(), model().crosshair().z(), 1e-9);
+}
+
+TEST_F(MeasureWindow, MeasuresAlikeInZoomedAndInTurnedSlices)
+{
+  openBall();
+  const Vector3d from = kBallCenter + Vector3d(-3, 1, 0);
+  const Vector3d to = kBallCenter + Vector3d(2, 3, 0);
+  for (int n = 0; n < 8; ++n)
+    QTest::keyClick(&axial(), Qt::Key_Plus);
+  ASSERT_GT(axial().plane().zoom, 4.0);
+  key(Qt::Key_D);
+  click(from);
+  click(to);
+  ASSERT_EQ(all().size(), 1U);
+  EXPECT_NEAR(value(0), (to - from).norm(), 3.0 * axial().slice().mmPerPixel());
+  EXPECT_LT((all()[0].points[0] - from).norm(), 2.0 * axial().slice().mmPerPixel());
+  // In a plane that was turned and tilted about the crosshair.
+  for (int n = 0; n < 25; ++n)
+    QTest::keyClick(&axial(), Qt::Key_Down, Qt::ControlModifier);
+  const presenters::SliceAxes axes = axial().slice().axes();
+  ASSERT_LT(axes.next.z(), 0.95);
+  const Vector3d a = kBallCenter - 2.0 * axes.right - 3.0 * axes.down; // away from the handles
+  const Vector3d b = kBallCenter + 3.0 * axes.right - axes.down;
+  click(a);
+  click(b);
+  ASSERT_EQ(all().size(), 2U);
+  EXPECT_NEAR(value(1), std::sqrt(29.0), 3.0 * axial().slice().mmPerPixel());
+  for (const Vector3d& point : all()[1].points)
+    EXPECT_NEAR(axes.next.dot(point - kBallCenter), 0.0, 1e-6) << "in the plane";
+  EXPECT_LT((all()[1].points[1] - b).norm(), 2.0 * axial().slice().mmPerPixel());
 }
 
 TEST_F(MeasureWindow, OneToolAtATime)

@@ -5,8 +5,11 @@
 #include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
+#include <QDockWidget>
 #include <QDoubleSpinBox>
+#include <QKeyEvent>
 #include <QLineEdit>
+#include <QSlider>
 #include <QSpinBox>
 #include <QToolButton>
 #include <QTreeView>
@@ -283,6 +286,33 @@ TEST_F(Structures, SeveralAreEditedAtOnceInOneStep)
   EXPECT_FALSE(action("Undo")->isEnabled());
   EXPECT_EQ(look("s2").opacity, 1.0F);
   EXPECT_EQ(look("s2").warning, 2.0);
+}
+
+TEST_F(Structures, ASliderThatIsHiddenWhileItIsDraggedIsLetGo)
+{
+  openWith({});
+  structureList().setCurrentIndex(structureCell("nerve"));
+  auto* slider = window().findChild<QSlider*>("structureOpacity");
+  ASSERT_TRUE(slider && slider->isEnabled());
+  slider->setSliderDown(true);
+  window().findChild<QDockWidget*>("structuresDock")->hide();
+  EXPECT_FALSE(slider->isSliderDown());
+}
+
+// Return would create the structure that is being segmented, say.
+TEST_F(Structures, ReturnInACellIsNoShortcut)
+{
+  openWith({});
+  const QModelIndex cell = structureCell("nerve", StructuresModel::columnOf("warn_mm"));
+  structureList().setColumnHidden(cell.column(), false);
+  structureList().edit(cell);
+  auto* box = structureList().viewport()->findChild<QAbstractSpinBox*>();
+  ASSERT_TRUE(box);
+  box->setFocus();
+  QKeyEvent shortcut(QEvent::ShortcutOverride, Qt::Key_Return, Qt::NoModifier);
+  shortcut.ignore();
+  QApplication::sendEvent(box, &shortcut);
+  EXPECT_TRUE(shortcut.isAccepted());
 }
 
 TEST_F(Structures, AllOfItIsReachedByKeys)

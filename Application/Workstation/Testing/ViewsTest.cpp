@@ -3,9 +3,12 @@
 #include <cmath>
 
 #include <QComboBox>
+#include <QDialogButtonBox>
 #include <QDoubleSpinBox>
+#include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
+#include <QPushButton>
 
 #include "SliceColumn.h"
 #include "SliceController.h"
@@ -367,4 +370,84 @@ TEST_F(Views, AViewIsKeptByNameAndComesBackWithTheCase)
   openWindow("ball");
   EXPECT_EQ(window().model().value().view.saved.count("Facial recess"), 1u);
   EXPECT_NE(action("Facial recess"), nullptr);
+}
+
+// As it was kept: zoomed, off the middle, and turned.
+TEST_F(Views, AKeptViewHasZoomOffsetAndTurnedPlanes)
+{
+  const auto keep = [this](const char* name)
+  {
+    onDialog(
+        [name](QDialog& dialog)
+        {
+          auto* line = dialog.findChild<QLineEdit*>();
+          if (!line)
+            return false;
+          line->setText(name);
+          dialog.accept();
+          return true;
+        });
+    key(Qt::Key_K, Qt::ControlModifier);
+  };
+  for (int n = 0; n < 6; ++n)
+    QTest::keyClick(&coronal(), Qt::Key_Plus);
+  for (int n = 0; n < 20; ++n)
+    QTest::keyClick(&coronal(), Qt::Key_Down, Qt::ControlModifier);
+  const presenters::SliceGeometry before = coronal().slice();
+  const auto plane = coronal().plane();
+  ASSERT_GT(plane.zoom, 2.5);
+  ASSERT_LT(before.axes().next.y(), 0.96);
+  keep("Turned");
+  key(Qt::Key_6, Qt::ControlModifier);
+  coronal().fit();
+  ASSERT_NE(coronal().slice().mmPerPixel(), before.mmPerPixel());
+  ASSERT_TRUE(waitFor([this] { return action("Turned") != nullptr; }));
+  key(Qt::Key_1, Qt::AltModifier);
+  const presenters::SliceGeometry after = coronal().slice();
+  EXPECT_NEAR(after.mmPerPixel(), before.mmPerPixel(), 1e-9);
+  EXPECT_LT((after.center() - before.center()).norm(), 1e-6);
+  EXPECT_LT((after.axes().next - before.axes().next).norm(), 1e-9);
+  EXPECT_LT((after.axes().right - before.axes().right).norm(), 1e-9);
+
+  // Replaced and removed by mistake.
+  key(Qt::Key_6, Qt::ControlModifier);
+  keep("Turned");
+  const auto& saved = window().model().value().view.saved;
+  EXPECT_FALSE(saved.at("Turned").slices->turned);
+  key(Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_TRUE(saved.at("Turned").slices->turned);
+  auto& views = const_cast<presenters::WorkstationModel&>(window().model());
+  views.removeView("Turned");
+  EXPECT_TRUE(waitFor([this] { return action("Turned") == nullptr; }));
+  key(Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_TRUE(waitFor([this] { return action("Turned") != nullptr; }));
+}
+
+TEST_F(Views, TheLimitOfKeptViewsIsSaidBeforeItIsReached)
+{
+  auto& model = const_cast<presenters::WorkstationModel&>(window().model());
+  const auto slices = this->slices().shown();
+  for (std::size_t n = 0; n < scene::ViewState::kMaxSaved; ++n)
+    model.saveView("v" + std::to_string(n), view().picture().camera(), slices);
+  QString words;
+  bool canKeep = true, canReplace = false;
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        auto* line = dialog.findChild<QLineEdit*>();
+        if (!line)
+          return false;
+        auto* ok = dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok);
+        line->setText("one more");
+        words = dialog.findChild<QLabel*>()->text();
+        canKeep = ok->isEnabled();
+        line->setText("v7");
+        canReplace = ok->isEnabled();
+        dialog.reject();
+        return true;
+      });
+  key(Qt::Key_K, Qt::ControlModifier);
+  EXPECT_TRUE(words.contains("100")) << words.toStdString();
+  EXPECT_FALSE(canKeep);
+  EXPECT_TRUE(canReplace);
 }

@@ -27,6 +27,21 @@ void BackgroundWork::start(Work work)
   m_busy = true; // what it posts is handled later
 }
 
+void BackgroundWork::replace(Work work)
+{
+  if (!m_busy)
+    return start(std::move(work));
+  abandon();
+  m_next = std::move(work);
+}
+
+void BackgroundWork::abandon()
+{
+  cancel();
+  m_isAbandoned = m_busy;
+  m_next = {};
+}
+
 void BackgroundWork::cancel()
 {
   if (m_token)
@@ -44,7 +59,8 @@ void BackgroundWork::wait()
   if (m_thread.joinable())
     m_thread.join();
   ++m_number; // pending results are ignored
-  m_busy = false;
+  m_busy = m_isAbandoned = false;
+  m_next = {};
 }
 
 // m_number changes in the window's thread only after the worker thread ended.
@@ -54,7 +70,7 @@ void BackgroundWork::post(Reply what)
       this,
       [this, number = m_number, what = std::move(what)]
       {
-        if (number == m_number)
+        if (number == m_number && !m_isAbandoned)
           what();
       },
       Qt::QueuedConnection);
@@ -62,12 +78,19 @@ void BackgroundWork::post(Reply what)
 
 void BackgroundWork::end(Reply what)
 {
-  post(
-      [this, what = std::move(what)]
+  QMetaObject::invokeMethod(
+      this,
+      [this, number = m_number, what = std::move(what)]
       {
+        if (number != m_number)
+          return;
         m_busy = false;
-        what();
-      });
+        if (!std::exchange(m_isAbandoned, false))
+          return what();
+        if (Work next = std::exchange(m_next, {}))
+          start(std::move(next));
+      },
+      Qt::QueuedConnection);
 }
 
 // The receiver may be slower than the task.

@@ -30,9 +30,13 @@ public:
   /// Cancels a running task and waits for it, ignoring its results. A task ends with exactly one
   /// of: the reply that it returned, `failed` or `cancelled`.
   void start(Work work);
+  /// As `start`, without waiting: a running task is cancelled, its results are ignored, and this
+  /// one begins when it has ended.
+  void replace(Work work);
+  void abandon();        ///< likewise without another one
   void cancel();         ///< requests cancellation
   void drop();           ///< cancels and waits; its results are ignored
-  void wait();           ///< waits; its results are ignored
+  void wait();           ///< waits; its results are ignored; no other one begins
   void post(Reply what); ///< from the worker thread, while the task runs
 
 signals:
@@ -55,6 +59,8 @@ private:
   std::shared_ptr<core::CancelToken> m_token;
   std::thread m_thread;
   bool m_busy = false;
+  bool m_isAbandoned = false;
+  Work m_next;           // when the abandoned one has ended
   unsigned m_number = 0; // of the task whose results are handled
 };
 

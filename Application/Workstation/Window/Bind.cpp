@@ -4,9 +4,11 @@
 #include <utility>
 
 #include <QAbstractButton>
+#include <QAbstractItemView>
 #include <QAction>
 #include <QComboBox>
 #include <QDoubleSpinBox>
+#include <QKeyEvent>
 #include <QPushButton>
 #include <QScopedValueRollback>
 #include <QSlider>
@@ -169,6 +171,42 @@ QPushButton* button(const QString& text, const char* name, const QString& tip)
   result->setObjectName(name);
   result->setToolTip(tip);
   return result;
+}
+
+namespace
+{
+
+// What an editor leaves over comes to the viewport, its parent, next; the list's own keys do not.
+class EditorKeys : public QObject
+{
+public:
+  explicit EditorKeys(QAbstractItemView& list)
+    : QObject(&list)
+  {
+    list.viewport()->installEventFilter(this);
+  }
+
+  bool eventFilter(QObject* watched, QEvent* event) override
+  {
+    const bool isPress = event->type() == QEvent::KeyPress;
+    if (!isPress && event->type() != QEvent::ShortcutOverride)
+      return false;
+    const auto* viewport = static_cast<const QWidget*>(watched);
+    const int key = static_cast<QKeyEvent*>(event)->key();
+    const bool isTaken = isPress || key == Qt::Key_Return || key == Qt::Key_Enter ||
+                         key == Qt::Key_Escape || key == Qt::Key_Delete;
+    if (!isTaken || !viewport->focusWidget() || viewport->focusWidget() == viewport)
+      return false;
+    event->accept();
+    return true;
+  }
+};
+
+} // namespace
+
+void keepKeysInEditors(QAbstractItemView& list)
+{
+  new EditorKeys(list);
 }
 
 int percent(double fraction)

@@ -7,6 +7,7 @@
 #include <QString>
 
 class QAbstractButton;
+class QAbstractItemView;
 class QAction;
 class QComboBox;
 class QDoubleSpinBox;
@@ -80,6 +81,10 @@ QDoubleSpinBox* numberBox(const char* name, const QString& tip, const NumberRang
 QSlider* percentSlider(const char* name, const QString& tip);
 QComboBox* choiceBox(const char* name, const QString& tip);
 QPushButton* button(const QString& text, const char* name, const QString& tip);
+
+/// Return, Enter and other keys that a cell's editor leaves over stay in it: neither the list nor
+/// the window takes them for its own.
+void keepKeysInEditors(QAbstractItemView& list);
 
 int percent(double fraction);
 

@@ -439,6 +439,7 @@ void MainWindow::connectModel()
     m_segment->mrMoved();
     m_measure->partsChanged();
   };
+  m_model.events.savedViewsChanged = [this] { m_viewState->savedViewsChanged(); };
   m_model.events.measurementsChanged = [this] { m_measure->measurementsChanged(); };
   m_model.events.toolPutAway = [this]
   { statusBar()->showMessage(tr("Tool put away: what was drawn on the MR moved"), kMessage); };

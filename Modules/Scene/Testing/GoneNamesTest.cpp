@@ -68,7 +68,14 @@ TEST(GoneNames, AreForgottenWhereverTheyStand)
     mark.structure = image == std::string("T2") ? "nerve" : "Doe";
     value.measurements.push_back(mark);
   }
+  value.measurements.push_back(value.measurements[1]);
+  value.measurements.back().images = {"Doe", "T2"};
+  value.measurements.back().structureGone = true; // another is called "nerve" since
   scene::forgetGoneNames(value);
+  EXPECT_NE(value.measurements[3].images[0], "Doe");
+  EXPECT_NE(value.measurements[3].images[0], "");
+  EXPECT_EQ(value.measurements[3].images[1], "T2");
+  EXPECT_EQ(value.measurements[3].structure, "");
   EXPECT_NE(value.measurements[0].image, "Doe");
   EXPECT_NE(value.measurements[0].image, "") << "an empty image is the CT";
   EXPECT_EQ(value.measurements[0].structure, "");

@@ -49,7 +49,9 @@ Case measuredCase()
       made(Kind::Area, "area 1", {a, b, c}),         made(Kind::Thickness, "wall", {a, b, c})};
   value.measurements[1].shown = false;
   value.measurements[2].structure = "facial_nerve";
+  value.measurements[2].structureGone = true;
   value.measurements[3].image = "T2";
+  setImages(value.measurements[4], {"", "T2", "FLAIR"});
   return value;
 }
 
@@ -177,6 +179,53 @@ TEST(MeasurementManifest, LeavesEachEarlierFormatAsItIs)
   }
 }
 
+TEST(Measurement, KnowsTheImageOfEachPoint)
+{
+  Measurement one = made(Kind::Distance, "one", {{0, 0, 0}, {1, 0, 0}});
+  setImages(one, {"T2", "T2"});
+  EXPECT_EQ(one.image, "T2");
+  EXPECT_TRUE(one.images.empty());
+  EXPECT_EQ(imageOf(one, 1), "T2");
+  setImages(one, {"", "T2"});
+  EXPECT_EQ(imageOf(one, 0), "");
+  EXPECT_EQ(imageOf(one, 1), "T2");
+  one.images.pop_back();
+  EXPECT_THROW(checkMeasurements({one}), core::InvalidParameter);
+}
+
+// What follows a structure that was removed does not follow another one of its name.
+TEST(Measurement, RemembersThatItsStructureWasRemoved)
+{
+  Case value = emptyCase();
+  const auto addNerve = [&value]
+  {
+    LabelPart part;
+    part.structures.emplace_back();
+    part.structures.back().name = "nerve";
+    value.labels.push_back(part);
+  };
+  addNerve();
+  value.measurements = {made(Kind::Length, "along", {{0, 0, 0}, {1, 0, 0}}),
+                        made(Kind::Distance, "free", {{0, 0, 0}, {1, 0, 0}})};
+  value.measurements[0].structure = "nerve";
+  removePart(value, "nerve");
+  EXPECT_TRUE(value.measurements[0].structureGone);
+  EXPECT_FALSE(value.measurements[1].structureGone);
+  addNerve();
+  EXPECT_TRUE(value.measurements[0].structureGone);
+  recallStructure(value.measurements, "nerve", {"along"});
+  EXPECT_FALSE(value.measurements[0].structureGone);
+}
+
+// As programs wrote that did not know better.
+TEST(MeasurementManifest, AStructureThatIsNotThereIsGone)
+{
+  Case value = emptyCase();
+  value.measurements = {made(Kind::Length, "along", {{0, 0, 0}, {1, 0, 0}})};
+  value.measurements[0].structure = "nerve";
+  EXPECT_TRUE(fromManifest(toManifest(value), "m").measurements[0].structureGone);
+}
+
 TEST(MeasurementManifest, RefusesWhatIsHostile)
 {
   const auto good = manifestOf(measuredCase());
@@ -220,6 +269,10 @@ TEST(MeasurementManifest, RefusesWhatIsHostile)
   refused("/0/structure", "a\x07");
   refused("/0/structure", std::string(201, 's'));
   refused("/0/image", 7);
+  refused("/0/structure_gone", "yes");
+  refused("/4/images", {"T2", ""});
+  refused("/4/images", {"T2", "", "ct"});
+  refused("/4/images", {"T2", "", 7});
   nlohmann::json many = nlohmann::json::array();
   for (std::size_t n = 0; n <= Measurement::kMostPoints; ++n)
     many.push_back({1.0 * static_cast<double>(n), 0.0, 0.0});

@@ -116,15 +116,21 @@ void removePart(Case& value, const std::string& name)
     parts.erase(found);
     return true;
   };
+  // One of the same name may remain, as label or mesh, and is followed from now on.
+  const auto forget = [&]
+  {
+    if (!kindOfPart(value, name))
+      forgetStructure(value.measurements, name);
+  };
   for (auto part = value.labels.begin(); part != value.labels.end(); ++part)
     if (removeNamed(part->structures))
     {
       if (part->structures.empty())
         value.labels.erase(part);
-      return;
+      return forget();
     }
   if (removeNamed(value.meshes))
-    return;
+    return forget();
   if (findMr(value, name))
   {
     checkNothingHangsOn(value, name);

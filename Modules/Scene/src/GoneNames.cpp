@@ -99,10 +99,19 @@ void forgetGoneNames(Case& value)
   // Where it was set counts (an empty image is the CT), its name does not.
   for (Measurement& measurement : value.measurements)
   {
-    if (!measurement.image.empty() && !findMr(value, measurement.image))
-      measurement.image = kRemovedImage;
-    if (!measurement.structure.empty() && !kindOfPart(value, measurement.structure))
+    const auto forget = [&value](std::string& image)
+    {
+      if (!image.empty() && !findMr(value, image))
+        image = kRemovedImage;
+    };
+    forget(measurement.image);
+    std::for_each(measurement.images.begin(), measurement.images.end(), forget);
+    if (measurement.structureGone ||
+        (!measurement.structure.empty() && !kindOfPart(value, measurement.structure)))
+    {
       measurement.structure.clear();
+      measurement.structureGone = false;
+    }
   }
   for (LabelPart& part : value.labels)
     clean(part.notes);

@@ -581,8 +581,12 @@ json measurementOut(const Measurement& measurement)
     j["shown"] = false;
   if (!measurement.structure.empty())
     j["structure"] = measurement.structure;
+  if (measurement.structureGone)
+    j["structure_gone"] = true;
   if (!measurement.image.empty())
     j["image"] = measurement.image;
+  if (!measurement.images.empty())
+    j["images"] = measurement.images;
   return j;
 }
 
@@ -595,7 +599,9 @@ Measurement measurementIn(const json& j)
     measurement.points.push_back(vectorIn(point));
   measurement.shown = j.value("shown", true);
   measurement.structure = j.value("structure", std::string());
+  measurement.structureGone = j.value("structure_gone", false);
   measurement.image = j.value("image", std::string());
+  measurement.images = j.value("images", std::vector<std::string>());
   return measurement;
 }
 
@@ -667,6 +673,9 @@ Case caseIn(const json& j)
     for (const json& measurement : j.at("measurements").get_ref<const json::array_t&>())
       value.measurements.push_back(measurementIn(measurement));
   checkMeasurements(value.measurements);
+  for (Measurement& one : value.measurements)
+    if (!one.structure.empty() && !kindOfPart(value, one.structure))
+      one.structureGone = true;
   const json& drilled = j.at("dissection");
   dissection::Dissection::Strokes strokes;
   for (const json& stroke : drilled.at("strokes"))

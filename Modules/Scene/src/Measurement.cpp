@@ -108,8 +108,43 @@ bool isName(const std::string& name)
 
 bool operator==(const Measurement& a, const Measurement& b)
 {
-  return std::tie(a.kind, a.name, a.points, a.shown, a.structure, a.image) ==
-         std::tie(b.kind, b.name, b.points, b.shown, b.structure, b.image);
+  return std::tie(a.kind, a.name, a.points, a.shown, a.structure, a.structureGone, a.image,
+                  a.images) == std::tie(b.kind, b.name, b.points, b.shown, b.structure,
+                                        b.structureGone, b.image, b.images);
+}
+
+const std::string& imageOf(const Measurement& measurement, std::size_t point)
+{
+  return point < measurement.images.size() ? measurement.images[point] : measurement.image;
+}
+
+void setImages(Measurement& measurement, std::vector<std::string> images)
+{
+  const bool isOne = std::all_of(images.begin(), images.end(),
+                                 [&](const std::string& one) { return one == images.front(); });
+  measurement.image = isOne && !images.empty() ? images.front() : std::string();
+  measurement.images = isOne ? std::vector<std::string>() : std::move(images);
+}
+
+std::vector<std::string> forgetStructure(std::vector<Measurement>& measurements,
+                                         const std::string& structure)
+{
+  std::vector<std::string> names;
+  for (Measurement& one : measurements)
+    if (!structure.empty() && one.structure == structure && !one.structureGone)
+    {
+      one.structureGone = true;
+      names.push_back(one.name);
+    }
+  return names;
+}
+
+void recallStructure(std::vector<Measurement>& measurements, const std::string& structure,
+                     const std::vector<std::string>& names)
+{
+  for (Measurement& one : measurements)
+    if (one.structure == structure && std::count(names.begin(), names.end(), one.name) > 0)
+      one.structureGone = false;
 }
 
 const char* nameOf(Kind kind) noexcept
@@ -169,6 +204,12 @@ void checkMeasurements(const std::vector<Measurement>& measurements)
     for (const std::string* part : {&one.structure, &one.image})
       if (!part->empty())
         checkPartName(*part);
+    require(one.images.empty() || one.images.size() == one.points.size(),
+            "it has " + std::to_string(one.points.size()) + " points, but images of " +
+                std::to_string(one.images.size()));
+    for (const std::string& image : one.images)
+      if (!image.empty())
+        checkPartName(image);
   }
 }
 

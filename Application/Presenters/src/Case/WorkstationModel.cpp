@@ -39,6 +39,7 @@ void WorkstationModel::show(std::unique_ptr<scene::Case> next, bool unsaved)
   m_assembly = {}; // its cache is of the previous case
   m_leftOut.clear();
   m_removed.clear();
+  m_taken.clear();
   m_edits.clear();
   m_damagedStrokes.clear();
   m_undoneForDamage = 0;
@@ -181,14 +182,39 @@ void WorkstationModel::saveView(const std::string& name, const core::CameraPose&
   with.view.saved = m_case->view.saved;
   with.view.slices = slices;
   scene::saveView(with, name, camera);
-  m_case->view.saved = std::move(with.view.saved);
-  setUnsaved(true);
+  changeView(name, with.view.saved.at(name), "view");
 }
 
 void WorkstationModel::removeView(const std::string& name)
 {
-  if (m_case && m_case->view.saved.erase(name) > 0)
-    setUnsaved(true);
+  if (m_case && m_case->view.saved.count(name) > 0)
+    changeView(name, std::nullopt, "removal of view");
+}
+
+void WorkstationModel::changeView(const std::string& name,
+                                  const std::optional<scene::ViewState::Saved>& to,
+                                  const std::string& what)
+{
+  const auto found = m_case->view.saved.find(name);
+  std::optional<scene::ViewState::Saved> before;
+  if (found != m_case->view.saved.end())
+    before = found->second;
+  putView(name, to);
+  recordEdit({what + " '" + name + "'",
+              {},
+              [this, name, before] { putView(name, before); },
+              [this, name, to] { putView(name, to); }});
+}
+
+void WorkstationModel::putView(const std::string& name,
+                               const std::optional<scene::ViewState::Saved>& saved)
+{
+  if (saved)
+    m_case->view.saved[name] = *saved;
+  else
+    m_case->view.saved.erase(name);
+  setUnsaved(true);
+  notify(events.savedViewsChanged);
 }
 
 void WorkstationModel::setClipping(const scene::ViewState::Clipping& clipping)
@@ -342,11 +368,17 @@ session::DrillSession& WorkstationModel::session()
   return *m_session;
 }
 
+void WorkstationModel::forgetReader()
+{
+  m_reader.reset();
+  ++m_tissueChanges;
+}
+
 // Drops what was derived from the case's voxels, threshold and structures.
 void WorkstationModel::forgetTissue()
 {
   stopTouch();
-  m_reader.reset();
+  forgetReader();
   m_scene.reset();
   m_session.reset();
   ++m_tissue;
@@ -376,15 +408,6 @@ PlaceReading WorkstationModel::readPlace(const Eigen::Vector3d& patient)
                                      return part ? part->look.shown : mesh && mesh->look.shown;
                                    });
   return reading;
-}
-
-std::optional<WallReading> WorkstationModel::readWall(const Eigen::Vector3d& patient)
-{
-  if (!m_case || !ready())
-    return std::nullopt;
-  if (!m_reader)
-    m_reader = std::make_unique<PointProbe>(*m_case, session().field());
-  return m_reader->wall(patient);
 }
 
 std::optional<double> WorkstationModel::tissueAlong(const interaction::PickRay& line)
@@ -513,7 +536,7 @@ session::TouchSession::News WorkstationModel::stopTouch()
   session::TouchSession::News news = m_touch->stop();
   if (m_touch->failed()) // touched and rendered tissue may differ
   {
-    m_reader.reset();
+    forgetReader();
     m_touch.reset();
     m_scene.reset();
   }
@@ -531,7 +554,7 @@ void WorkstationModel::notifyMask(const std::vector<std::size_t>& bricks)
 {
   if (bricks.empty())
     return;
-  m_reader.reset();
+  forgetReader();
   notify(events.maskChanged, m_case->dissection.mask().boxOf(bricks));
 }
 

@@ -193,7 +193,11 @@ void WorkstationModel::takeOut(const std::string& name, std::uint64_t removal)
     }
   if (const std::size_t at = indexOf(next.meshes, name); at < next.meshes.size())
     removed.mesh = {at, next.meshes[at]};
+  const std::vector<scene::Measurement> before = next.measurements;
   scene::removePart(next, name);
+  for (std::size_t n = 0; n < before.size(); ++n)
+    if (before[n] != next.measurements[n])
+      removed.measured.push_back(before[n].name);
 
   forgetTissue();
   for (LeftOut& parts : m_leftOut)
@@ -212,6 +216,7 @@ void WorkstationModel::takeOut(const std::string& name, std::uint64_t removal)
   if (m_assembly.thicknessOver() == name)
     m_assembly.showThickness({});
   partsMoved();
+  setMeasurements(std::move(next.measurements));
 }
 
 std::string WorkstationModel::removedPart() const
@@ -295,9 +300,12 @@ void WorkstationModel::bringBack(std::uint64_t removal)
     for (LeftOut& parts : m_leftOut)
       makeRoom(parts.meshes, at);
   }
+  auto measurements = m_case->measurements;
+  scene::recallStructure(measurements, removed.name, removed.measured);
   m_removed.erase(found);
   m_partsMoved = true;
   partsMoved();
+  setMeasurements(std::move(measurements));
 }
 
 void WorkstationModel::renamePart(const std::string& name, const std::string& to)
@@ -345,7 +353,10 @@ void WorkstationModel::rename(const std::string& name, const std::string& to)
     for (scene::MeshPart& mesh : m_case->meshes)
       follow(mesh.drawnOn);
     for (scene::Measurement& measurement : m_case->measurements)
+    {
       follow(measurement.image);
+      std::for_each(measurement.images.begin(), measurement.images.end(), follow);
+    }
     forEachLook(*m_case, [&](const std::string&, appearance::StructureAppearance& look)
                 { follow(look.sourceImage); });
     follow(m_case->boneLook.sourceImage);
@@ -375,7 +386,8 @@ void WorkstationModel::rename(const std::string& name, const std::string& to)
   for (scene::MeshPart& mesh : m_case->meshes)
     follow(mesh.name);
   for (scene::Measurement& measurement : m_case->measurements)
-    follow(measurement.structure);
+    if (!measurement.structureGone)
+      follow(measurement.structure);
   for (RemovedPart& removed : m_removed)
     std::for_each(removed.colored.begin(), removed.colored.end(), follow);
   if (m_assembly.thicknessOver() == name)
@@ -409,6 +421,40 @@ std::optional<scene::LabelPart> WorkstationModel::removeLabels(const std::string
     return taken;
   }
   return std::nullopt;
+}
+
+// It may be put back, see recallStructures; another one of its name is another.
+void WorkstationModel::forgetStructure(const std::string& name, const scene::LabelPart& taken)
+{
+  if (scene::kindOfPart(*m_case, name))
+    return;
+  auto measurements = m_case->measurements;
+  auto measured = scene::forgetStructure(measurements, name);
+  if (measured.empty())
+    return;
+  m_taken.push_back({taken.labels.peek(), name, std::move(measured)});
+  setMeasurements(std::move(measurements));
+}
+
+void WorkstationModel::recallStructures(const scene::LabelPart& part,
+                                        const scene::LabelPart* inPlaceOf)
+{
+  const auto isOf = [](const TakenStructure& taken, const scene::LabelPart& one)
+  {
+    const auto labels = taken.labels.lock();
+    return labels && labels == one.labels.peek();
+  };
+  auto measurements = m_case->measurements;
+  for (auto taken = m_taken.begin(); taken != m_taken.end();)
+  {
+    const bool isBack = (isOf(*taken, part) || (inPlaceOf && isOf(*taken, *inPlaceOf))) &&
+                        std::any_of(part.structures.begin(), part.structures.end(),
+                                    [&](const auto& one) { return one.name == taken->name; });
+    if (isBack)
+      scene::recallStructure(measurements, taken->name, taken->measured);
+    taken = isBack || taken->labels.expired() ? m_taken.erase(taken) : taken + 1;
+  }
+  setMeasurements(std::move(measurements));
 }
 
 void WorkstationModel::labelsChanged()
@@ -445,6 +491,8 @@ std::optional<scene::LabelPart> WorkstationModel::addStructure(volume::LabelMap 
           keepsLook(structure.name, taken->structures.front().look.preset))
         keepIdentity(structure, taken->structures.front());
   labelsChanged();
+  if (taken)
+    forgetStructure(replaced, *taken);
   return taken;
 }
 
@@ -452,11 +500,14 @@ std::optional<scene::LabelPart> WorkstationModel::takeStructure(const std::strin
 {
   auto taken = m_case ? removeLabels(name) : std::nullopt;
   if (taken)
+  {
     labelsChanged();
+    forgetStructure(name, *taken);
+  }
   return taken;
 }
 
-void WorkstationModel::putStructure(scene::LabelPart part)
+void WorkstationModel::putStructure(const scene::LabelPart& part, const scene::LabelPart* inPlaceOf)
 {
   if (!m_case)
     return;
@@ -464,8 +515,9 @@ void WorkstationModel::putStructure(scene::LabelPart part)
     if (scene::findStructure(*m_case, structure.name))
       throw core::InvalidParameter("structure '" + structure.name +
                                    "' is in the case already; remove it first");
-  m_case->labels.push_back(std::move(part));
+  m_case->labels.push_back(part);
   labelsChanged();
+  recallStructures(part, inPlaceOf);
 }
 
 } // namespace petrous::presenters

@@ -11,12 +11,25 @@ EditHistory::EditHistory(std::function<Clock::time_point()> now)
 {
 }
 
+// What is only tried, while edits are held, may be taken back, and what was undone before it then
+// comes back.
 void EditHistory::push(Step step)
 {
+  if (m_held > 0 && !m_undone.empty())
+  {
+    m_displaced = std::move(m_undone);
+    m_displacedBy = step.id;
+  }
   m_undone.clear();
   m_done.push_back(std::move(step));
-  if (m_done.size() > kMaxSteps)
-    m_done.erase(m_done.begin());
+  trim();
+}
+
+void EditHistory::trim()
+{
+  if (m_held == 0 && m_done.size() > kMaxSteps)
+    m_done.erase(m_done.begin(),
+                 m_done.begin() + static_cast<std::ptrdiff_t>(m_done.size() - kMaxSteps));
 }
 
 std::uint64_t EditHistory::did(Edit edit)
@@ -54,22 +67,39 @@ void EditHistory::strokeStepped(bool back)
 
 void EditHistory::forgetStrokes()
 {
-  for (Steps* steps : {&m_done, &m_undone})
+  for (Steps* steps : {&m_done, &m_undone, &m_displaced})
     steps->erase(std::remove_if(steps->begin(), steps->end(),
                                 [](const Step& step) { return !step.edit.has_value(); }),
                  steps->end());
 }
 
-void EditHistory::hold() noexcept
+EditHistory::Hold::Hold(EditHistory& history)
+  : m_history(&history)
+  , m_generation(history.m_generation)
 {
-  if (m_held++ == 0)
-    close();
+  if (history.m_held++ == 0)
+    history.close();
 }
 
-void EditHistory::release() noexcept
+EditHistory::Hold::~Hold()
 {
-  if (m_held > 0 && --m_held == 0)
-    close();
+  release();
+}
+
+void EditHistory::Hold::release()
+{
+  EditHistory* history = std::exchange(m_history, nullptr);
+  if (history && history->m_generation == m_generation)
+    history->letGo();
+}
+
+void EditHistory::letGo()
+{
+  if (--m_held > 0)
+    return;
+  close();
+  m_displaced.clear();
+  trim();
 }
 
 EditHistory::Steps::iterator EditHistory::find(Steps& steps, std::uint64_t id)
@@ -149,6 +179,8 @@ void EditHistory::takeBack(std::uint64_t step)
   const Step last = std::move(m_done.back());
   m_done.pop_back();
   m_open = false;
+  if (m_displacedBy == step && m_undone.empty())
+    m_undone = std::exchange(m_displaced, {});
   last.edit->undo();
 }
 
@@ -161,6 +193,9 @@ void EditHistory::clear()
 {
   m_done.clear();
   m_undone.clear();
+  m_displaced.clear();
+  m_held = 0;
+  ++m_generation;
   m_open = false;
 }
 

@@ -8,6 +8,7 @@
 #include "petrous/Core/NumberText.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/Measuring.h"
+#include "petrous/Scene/CaseField.h"
 
 namespace petrous::presenters
 {
@@ -60,6 +61,20 @@ const char* nameOf(Tool tool) noexcept
   return kNames[static_cast<std::size_t>(tool)];
 }
 
+/// A copy of the case in which walls are read, in one thread at a time.
+struct MeasurementEditor::Wall
+{
+  Wall(scene::Case copy, const core::Progress& progress)
+    : value(std::move(copy))
+    , field(scene::regionalTissueField(value, progress))
+    , probe(value, field)
+  {
+  }
+  scene::Case value;
+  volume::TissueField field;
+  PointProbe probe;
+};
+
 MeasurementEditor::MeasurementEditor(WorkstationModel& model)
   : m_model(model)
 {
@@ -72,19 +87,75 @@ void MeasurementEditor::tell() const
 
 void MeasurementEditor::caseChanged()
 {
+  giveUp();
   m_tool = Tool::None;
-  m_points.clear();
-  m_hover.reset();
+  forgetPoints();
   m_chosen.reset();
   m_dragged.reset();
   m_lines.clear();
+  m_wall.reset();
   tell();
 }
 
 void MeasurementEditor::partsChanged()
 {
+  giveUp();
+  endDrag();
   m_lines.clear();
+  m_wall.reset();
   tell();
+}
+
+// Nothing of it is applied any more.
+void MeasurementEditor::giveUp()
+{
+  if (!m_computing)
+    return;
+  m_computing = false;
+  if (inBackground)
+    inBackground({});
+}
+
+void MeasurementEditor::run(Work work)
+{
+  if (!inBackground)
+    return work({})();
+  m_computing = true;
+  inBackground(
+      [this, work = std::move(work)](const core::Progress& progress) -> Apply
+      {
+        return [this, apply = work(progress)]
+        {
+          m_computing = false;
+          apply();
+        };
+      });
+  tell();
+}
+
+void MeasurementEditor::workEnded()
+{
+  m_computing = false;
+  if (m_dragged)
+    dragOn();
+  tell();
+}
+
+void MeasurementEditor::forgetPoints()
+{
+  m_points.clear();
+  m_images.clear();
+  m_noLine.clear();
+  m_hover.reset();
+}
+
+Measurement MeasurementEditor::pointsAs(Kind kind) const
+{
+  Measurement made;
+  made.kind = kind;
+  made.points = m_points;
+  scene::setImages(made, m_images);
+  return made;
 }
 
 const std::vector<Measurement>& MeasurementEditor::all() const
@@ -99,15 +170,23 @@ void MeasurementEditor::setTool(Tool tool)
     tool = Tool::None;
   if (tool == m_tool && m_points.empty())
     return;
+  giveUp();
+  endDrag();
   m_tool = tool;
-  m_points.clear();
-  m_hover.reset();
+  forgetPoints();
+  if (tool != Tool::Thickness)
+    m_wall.reset(); // a copy of the case, which a drill would have to leave alone
   tell();
 }
 
 std::string MeasurementEditor::hint() const
 {
   const bool first = m_points.empty();
+  if (m_computing)
+    return m_tool == Tool::Along
+               ? "The centre line is being computed; another click goes on with a "
+                 "line of your own."
+               : "It is being measured.";
   switch (m_tool)
   {
   case Tool::None:
@@ -121,7 +200,8 @@ std::string MeasurementEditor::hint() const
     return first ? "Click where it begins: in a nerve or canal of the case, or anywhere."
            : m_points.size() == 1 ? "Click where it ends in the same structure, or the next point "
                                     "of a line of your own."
-                                  : "Click the next point; Return or a double click ends the line.";
+                                  : m_noLine + "Click the next point; Return or a double click "
+                                               "ends the line.";
   case Tool::Angle:
     return first                  ? "Click a point on the first leg."
            : m_points.size() == 1 ? "Click the vertex."
@@ -140,12 +220,14 @@ std::optional<Measurement> MeasurementEditor::draft() const
 {
   if (m_points.empty())
     return std::nullopt;
-  Measurement draft;
-  draft.kind = kindOf(m_tool);
-  draft.points = m_points;
-  draft.image = m_image;
+  Measurement draft = pointsAs(kindOf(m_tool));
   if (m_hover && draft.points.size() < scene::pointsOf(draft.kind).most)
+  {
     draft.points.push_back(*m_hover);
+    std::vector<std::string> images = m_images;
+    images.push_back(m_image);
+    scene::setImages(draft, std::move(images));
+  }
   return draft;
 }
 
@@ -162,108 +244,120 @@ void MeasurementEditor::hover(const std::optional<Vector3d>& patient)
 
 void MeasurementEditor::drop()
 {
-  m_points.clear();
-  m_hover.reset();
+  giveUp();
+  endDrag();
+  forgetPoints();
   tell();
 }
 
 bool MeasurementEditor::canFinish() const
 {
-  return isOpenEnded(m_tool) && m_points.size() >= scene::pointsOf(kindOf(m_tool)).least;
+  return isOpenEnded(m_tool) && !m_computing &&
+         m_points.size() >= scene::pointsOf(kindOf(m_tool)).least;
 }
 
 void MeasurementEditor::set(const Vector3d& patient)
 {
   if (m_tool == Tool::None || !m_model.hasCase())
     return;
+  endDrag();
   if (m_tool == Tool::Thickness)
-    return add(thicknessAt(patient));
+    return run(wallWork(patient, [this](const Measurement& thickness) { add(thickness); }));
   // A double click ends what has any number of points; its second click is none.
   if (!m_points.empty() && (m_points.back() - patient).norm() < 1e-6)
     return;
+  giveUp(); // the line goes on through points
   m_points.push_back(patient);
+  m_images.push_back(m_image);
+  m_noLine.clear();
   if (m_tool == Tool::Along && m_points.size() == 2)
-    if (auto along = alongTheStructure())
-      return add(std::move(*along));
+    if (const std::string structure = m_model.structureAt(m_points[0]);
+        !structure.empty() && m_model.structureAt(m_points[1]) == structure)
+    {
+      if (m_lines.count(structure) > 0)
+        return measureAlong(structure);
+      return run(lineWork(structure, [this, structure] { measureAlong(structure); }));
+    }
   const Kind kind = kindOf(m_tool);
   if (m_points.size() < scene::pointsOf(kind).most)
     return tell();
-  finish();
-  if (m_points.empty())
-    return;
-  Measurement made;
-  made.kind = kind;
-  made.points = m_points;
-  made.image = m_image;
-  add(std::move(made));
+  add(pointsAs(kind));
 }
 
 void MeasurementEditor::finish()
 {
-  if (!canFinish())
-    return;
-  Measurement made;
-  made.kind = kindOf(m_tool);
-  made.points = m_points;
-  made.image = m_image;
-  add(std::move(made));
+  if (canFinish())
+    add(pointsAs(kindOf(m_tool)));
 }
 
-Measurement MeasurementEditor::thicknessAt(const Vector3d& patient)
+MeasurementEditor::Work MeasurementEditor::wallWork(const Vector3d& patient,
+                                                    std::function<void(const Measurement&)> apply)
 {
   if (!m_model.ready())
     throw core::InvalidParameter("The case is still being prepared; then walls can be measured.");
-  const auto wall = m_model.readWall(patient);
-  if (!wall)
-    throw core::InvalidParameter("There is no surface within 3 mm; click on one.");
-  if (!wall->along)
-    throw core::InvalidParameter("The wall is thicker than 30 mm here: nothing lies behind it.");
-  Measurement thickness;
-  thickness.kind = Kind::Thickness;
-  thickness.points = {wall->surface, wall->along->point, wall->shortest->point};
-  thickness.structure = wall->along->behind;
-  return thickness;
-}
-
-const CentreLine* MeasurementEditor::lineOf(const std::string& structure, std::string& image)
-{
-  const auto known = m_lines.find(structure);
-  if (known == m_lines.end())
+  if (m_wallOf != m_model.tissueChanges())
+    m_wall.reset();
+  return [this, patient, apply = std::move(apply), wall = m_wall,
+          copy = m_wall ? scene::Case() : m_model.value(),
+          of = m_model.tissueChanges()](const core::Progress& progress) mutable -> Apply
   {
-    Line& line = m_lines[structure];
+    if (!wall)
+      wall = std::make_shared<Wall>(std::move(copy), progress.part(0.0, 0.5));
+    const auto reading = wall->probe.wall(patient, progress.part(0.5, 1.0));
+    if (!reading)
+      throw core::InvalidParameter("There is no surface within 3 mm; click on one.");
+    if (!reading->along)
+      throw core::InvalidParameter("The wall is thicker than 30 mm here: nothing lies behind it.");
+    Measurement thickness;
+    thickness.kind = Kind::Thickness;
+    thickness.points = {reading->surface, reading->along->point, reading->shortest->point};
+    thickness.structure = reading->along->behind;
+    return [this, wall, of, apply, thickness]
+    {
+      m_wall = wall;
+      m_wallOf = of;
+      apply(thickness);
+    };
+  };
+}
+
+MeasurementEditor::Work MeasurementEditor::lineWork(const std::string& structure, Apply apply)
+{
+  return [this, structure, apply = std::move(apply),
+          value = m_model.presentable()](const core::Progress& progress) -> Apply
+  {
+    Line line;
     const scene::StructureOccupancy occupancy =
-        namedOccupancy(m_model.value(), structure, "length");
+        namedOccupancy(value, structure, "length", progress.part(0.0, 0.3));
     line.image = occupancy.mr;
+    line.why = "it encloses nothing";
+    progress.check("centre line");
     if (const auto share = occupancy.make())
-      line.line = centreLine(*share);
+      line.line = centreLine(*share, progress.part(0.3, 1.0), &line.why);
+    return [this, structure, line = std::move(line), apply]
+    {
+      m_lines[structure] = line;
+      apply();
+    };
+  };
+}
+
+void MeasurementEditor::measureAlong(const std::string& structure)
+{
+  const Line& known = m_lines[structure];
+  if (m_points.size() != 2)
+    return;
+  if (!known.line)
+  {
+    m_noLine = "'" + structure + "' has no centre line: " + known.why + ". ";
+    return tell();
   }
-  const Line& line = m_lines[structure];
-  image = line.image;
-  return line.line ? &*line.line : nullptr;
-}
-
-const CentreLine* MeasurementEditor::lineAt(const Vector3d& patient, std::string& structure,
-                                            std::string& image)
-{
-  structure = m_model.structureAt(patient);
-  return structure.empty() ? nullptr : lineOf(structure, image);
-}
-
-// If both points are in one tube.
-std::optional<Measurement> MeasurementEditor::alongTheStructure()
-{
-  std::string structure, image;
-  if (m_model.structureAt(m_points[0]) != m_model.structureAt(m_points[1]))
-    return std::nullopt; // before a centre line is computed
-  const CentreLine* line = lineAt(m_points[0], structure, image);
-  if (!line)
-    return std::nullopt;
   Measurement along;
   along.kind = Kind::Length;
   along.structure = structure;
-  along.image = image;
-  along.points = partOf(*line, m_points[0], m_points[1]);
-  return along;
+  along.image = known.image;
+  along.points = partOf(*known.line, m_points[0], m_points[1]);
+  add(std::move(along));
 }
 
 void MeasurementEditor::add(Measurement measurement)
@@ -289,14 +383,18 @@ void MeasurementEditor::add(Measurement measurement)
   const std::string text = described(measurement);
   next.push_back(std::move(measurement));
   scene::checkMeasurements(next); // before the points are dropped
-  m_points.clear();
-  m_hover.reset();
+  forgetPoints();
   m_chosen = next.size() - 1;
   change(text, std::move(next));
 }
 
 void MeasurementEditor::change(const std::string& text, std::vector<Measurement> next)
 {
+  if (m_dragged) // else it would bring back what it began with
+  {
+    giveUp();
+    endDrag();
+  }
   if (next == all())
     return;
   auto before = all();
@@ -331,6 +429,9 @@ void MeasurementEditor::measurementsChanged()
 {
   if (m_storing)
     return;
+  if (m_dragged)
+    giveUp();
+  m_dragged.reset();
   m_chosen.reset();
   tell();
 }
@@ -347,57 +448,121 @@ void MeasurementEditor::take(std::size_t measurement, std::size_t point)
 {
   if (measurement >= all().size() || point >= all()[measurement].points.size())
     return;
+  giveUp();
+  endDrag();
   m_dragged = Drag{measurement, point, all()};
   m_chosen = measurement;
   tell();
 }
 
+// What takes long is computed for one place after another: of those between, none.
 void MeasurementEditor::drag(const Vector3d& patient)
 {
   if (!m_dragged || m_dragged->measurement >= all().size())
     return;
+  if (m_computing)
+    m_dragged->wanted = patient;
+  else
+    follow(patient);
+}
+
+void MeasurementEditor::dragOn()
+{
+  if (const auto wanted = std::exchange(m_dragged->wanted, std::nullopt))
+    follow(*wanted);
+  if (m_dragged && m_dragged->isReleased && !m_computing)
+    endDrag();
+}
+
+void MeasurementEditor::follow(const Vector3d& patient)
+{
   std::vector<Measurement> next = m_dragged->before;
   Measurement& moved = next[m_dragged->measurement];
+  const auto show = [this](std::vector<Measurement> changed)
+  {
+    store(std::move(changed));
+    tell();
+  };
   if (moved.kind == Kind::Thickness)
   {
-    Measurement again;
-    try
+    const auto apply = [this, next, show](const Measurement& again) mutable
     {
-      again = thicknessAt(patient);
-    }
-    catch (const core::InvalidParameter&) // there is no wall under the pointer: as it was
-    {
-      return;
-    }
-    moved.points = again.points;
-    moved.structure = again.structure;
+      if (!m_dragged)
+        return;
+      Measurement& wall = next[m_dragged->measurement];
+      wall.points = again.points;
+      wall.structure = again.structure;
+      wall.structureGone = false;
+      show(std::move(next));
+      dragOn();
+    };
+    // There is no wall under the pointer: as it was.
+    return run(
+        [this, work = wallWork(patient, apply)](const core::Progress& progress) -> Apply
+        {
+          try
+          {
+            return work(progress);
+          }
+          catch (const core::InvalidParameter&)
+          {
+            return [this]
+            {
+              if (m_dragged)
+                dragOn();
+            };
+          }
+        });
   }
-  else if (moved.kind == Kind::Length && !moved.structure.empty())
+  if (moved.kind == Kind::Length && !moved.structure.empty())
   {
-    const bool front = m_dragged->point == 0;
-    std::string image;
-    const CentreLine* line = nullptr;
-    if (scene::kindOfPart(m_model.value(), moved.structure))
-      line = lineOf(moved.structure, image);
-    if (!line)
+    if (moved.structureGone || !scene::kindOfPart(m_model.value(), moved.structure))
       return;
-    moved.points = front ? partOf(*line, patient, moved.points.back())
-                         : partOf(*line, moved.points.front(), patient);
+    const auto known = m_lines.find(moved.structure);
+    if (known == m_lines.end())
+    {
+      m_dragged->wanted = patient;
+      return run(lineWork(moved.structure,
+                          [this]
+                          {
+                            if (m_dragged)
+                              dragOn();
+                          }));
+    }
+    if (!known->second.line)
+      return;
+    moved.points = m_dragged->point == 0
+                       ? partOf(*known->second.line, patient, moved.points.back())
+                       : partOf(*known->second.line, moved.points.front(), patient);
+    moved.image = known->second.image;
+    return show(std::move(next));
   }
-  else
-    moved.points[m_dragged->point] = patient;
-  store(std::move(next));
-  tell();
+  std::vector<std::string> images;
+  for (std::size_t n = 0; n < moved.points.size(); ++n)
+    images.push_back(n == m_dragged->point ? m_image : scene::imageOf(moved, n));
+  moved.points[m_dragged->point] = patient;
+  scene::setImages(moved, std::move(images));
+  show(std::move(next));
 }
 
 void MeasurementEditor::release()
 {
   if (!m_dragged)
     return;
+  m_dragged->isReleased = true;
+  if (!m_computing)
+    endDrag();
+}
+
+void MeasurementEditor::endDrag()
+{
+  if (!m_dragged)
+    return;
   const Drag done = *std::exchange(m_dragged, std::nullopt);
-  if (done.before == all() || done.measurement >= all().size())
-    return tell();
-  record("move " + described(all()[done.measurement]), done.before);
+  if (m_tool == Tool::None)
+    m_wall.reset();
+  if (done.before != all() && done.measurement < all().size())
+    record("move " + described(all()[done.measurement]), done.before);
   tell();
 }
 
@@ -464,7 +629,10 @@ void MeasurementEditor::undo()
 {
   if (m_points.empty())
     return m_model.undo();
+  giveUp();
   m_points.pop_back();
+  m_images.pop_back();
+  m_noLine.clear();
   tell();
 }
 

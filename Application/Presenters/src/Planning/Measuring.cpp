@@ -59,6 +59,32 @@ std::string voxelsOf(const scene::Case& value, const std::string& image)
          core::fixedText(edge[2], 2) + " mm";
 }
 
+std::string joined(const std::vector<std::string>& phrases)
+{
+  std::string text;
+  for (const std::string& phrase : phrases)
+    if (!phrase.empty())
+      text += (text.empty() ? "" : "; ") + phrase;
+  return text;
+}
+
+// The points that were set on each image, in the order of their first ones.
+std::vector<std::pair<std::string, std::vector<std::size_t>>> pointsByImage(const Measurement& one)
+{
+  std::vector<std::pair<std::string, std::vector<std::size_t>>> groups;
+  for (std::size_t n = 0; n < one.points.size(); ++n)
+  {
+    const std::string& image = scene::imageOf(one, n);
+    const auto found = std::find_if(groups.begin(), groups.end(),
+                                    [&image](const auto& group) { return group.first == image; });
+    if (found == groups.end())
+      groups.push_back({image, {n}});
+    else
+      found->second.push_back(n);
+  }
+  return groups;
+}
+
 // Of the MR's registration, as a place on the CT depends on it.
 struct RegistrationShare
 {
@@ -79,13 +105,21 @@ RegistrationShare registrationOf(const scene::Case& value, const std::string& im
                          " mm from here"};
 }
 
-std::string joined(const std::vector<std::string>& phrases)
+// Where the points were set: "points 1, 3 set on the CT, voxels ...; point 2 set on the MR ...".
+std::string imagesOf(const scene::Case& value, const Measurement& one)
 {
-  std::string text;
-  for (const std::string& phrase : phrases)
-    if (!phrase.empty())
-      text += (text.empty() ? "" : "; ") + phrase;
-  return text;
+  if (one.images.empty())
+    return voxelsOf(value, one.image);
+  std::vector<std::string> phrases;
+  for (const auto& [image, points] : pointsByImage(one))
+  {
+    std::string which = points.size() > 1 ? "points " : "point ";
+    for (std::size_t n = 0; n < points.size(); ++n)
+      which += (n > 0 ? ", " : "") + std::to_string(points[n] + 1);
+    phrases.push_back(which + " " + voxelsOf(value, image));
+    phrases.push_back(registrationOf(value, image, one.points[points.front()]).text);
+  }
+  return joined(phrases);
 }
 
 int decimalsFor(const Quantity& quantity)
@@ -255,13 +289,37 @@ std::string toString(const Quantity& quantity)
 
 std::optional<double> propagated(const scene::Case& value, const Measurement& measurement)
 {
-  const auto spread = spreadAt(value, measurement.image);
-  if (!spread || !scene::valueOf(measurement.kind, measurement.points))
+  if (!scene::valueOf(measurement.kind, measurement.points))
     return std::nullopt;
-  double square = 0.0;
-  for (const Vector3d& slope : slopesOf(measurement.kind, measurement.points))
-    square += slope.dot(*spread * slope);
-  return square > 0.0 ? std::optional<double>(std::sqrt(square)) : std::nullopt;
+  const std::vector<Vector3d> slopes = slopesOf(measurement.kind, measurement.points);
+  const auto groups = pointsByImage(measurement);
+  double square = 0.0, worst = 0.0, registrations = 0.0;
+  for (const auto& [image, points] : groups)
+  {
+    const auto spread = spreadAt(value, image);
+    if (!spread)
+      return std::nullopt;
+    double alone = 0.0; // as if all points had been set on this image
+    for (const Vector3d& slope : slopes)
+      alone += slope.dot(*spread * slope);
+    worst = std::max(worst, alone);
+    Vector3d together = Vector3d::Zero();
+    for (const std::size_t n : points)
+    {
+      square += slopes[n].dot(*spread * slopes[n]);
+      together += slopes[n];
+    }
+    // Within one image a registration moves all alike.
+    if (groups.size() == 1)
+      continue;
+    const RegistrationShare share =
+        registrationOf(value, image, measurement.points[points.front()]);
+    if (!share.millimetres)
+      return std::nullopt;
+    registrations += std::pow(*share.millimetres * together.norm(), 2);
+  }
+  const double all = std::max(square + registrations, worst);
+  return all > 0.0 ? std::optional<double>(std::sqrt(all)) : std::nullopt;
 }
 
 std::vector<Quantity> quantitiesOf(const scene::Case& value, const Measurement& measurement)
@@ -269,11 +327,13 @@ std::vector<Quantity> quantitiesOf(const scene::Case& value, const Measurement& 
   if (measurement.kind == Kind::Mark)
     return coordinatesOf(value, measurement);
   Quantity main{nameOfValue(measurement.kind), scene::valueOf(measurement.kind, measurement.points),
-                scene::unitOf(measurement.kind), std::nullopt, voxelsOf(value, measurement.image)};
+                scene::unitOf(measurement.kind), std::nullopt, imagesOf(value, measurement)};
   if (measurement.kind == Kind::Length && !measurement.structure.empty())
   {
     main.uncertainty = spreadOfEnds(value, measurement);
-    main.remark = joined({"along the centre line of '" + measurement.structure + "'", main.remark});
+    main.remark = joined({"along the centre line of '" + measurement.structure + "'" +
+                              (measurement.structureGone ? ", which was removed" : ""),
+                          main.remark});
     return {main};
   }
   main.uncertainty = propagated(value, measurement);
@@ -289,24 +349,27 @@ std::vector<Quantity> quantitiesOf(const scene::Case& value, const Measurement& 
     main.remark = "its points coincide";
   if (measurement.kind != Kind::Thickness)
     return {main};
-  main.remark =
-      joined({measurement.structure.empty() ? std::string() : "to '" + measurement.structure + "'",
-              main.remark});
+  main.remark = joined({measurement.structure.empty()
+                            ? std::string()
+                            : "to '" + measurement.structure + "'" +
+                                  (measurement.structureGone ? ", which was removed" : ""),
+                        main.remark});
   // What was drawn on an MR lies as well as that is registered, which the image's voxels do not
   // say.
-  const std::string mr = mrOf(value, measurement.structure);
-  if (!mr.empty())
-  {
+  const std::string mr =
+      measurement.structureGone ? std::string() : mrOf(value, measurement.structure);
+  const bool isKnown = mr.empty() && !measurement.structureGone;
+  if (!isKnown)
     main.uncertainty.reset();
+  if (!mr.empty())
     main.remark = joined({main.remark, "which was drawn on the MR '" + mr + "'"});
-  }
   std::vector<Quantity> both{main};
   if (measurement.points.size() == 3)
   {
     Measurement shortest = measurement;
     shortest.points = {measurement.points[0], measurement.points[2]};
     both.push_back({"shortest thickness", scene::valueOf(Kind::Thickness, shortest.points), "mm",
-                    mr.empty() ? propagated(value, shortest) : std::nullopt, main.remark});
+                    isKnown ? propagated(value, shortest) : std::nullopt, main.remark});
   }
   return both;
 }
@@ -373,11 +436,12 @@ std::vector<Quantity> dimensionsOf(const scene::Case& value, const std::string& 
          joined({"along a principal axis of inertia, direction " + fixed(box->axes(0, a), 3) +
                      ", " + fixed(box->axes(1, a), 3) + ", " + fixed(box->axes(2, a), 3) + " (LPS)",
                  share.text})});
-  const auto line = centreLine(*occupancy, progress.part(0.5, 1.0));
+  std::string why;
+  const auto line = centreLine(*occupancy, progress.part(0.5, 1.0), &why);
   if (!line)
   {
-    quantities.push_back({"length of the centre line", std::nullopt, "mm", std::nullopt,
-                          "it is no tube: too short for its width"});
+    quantities.push_back(
+        {"length of the centre line", std::nullopt, "mm", std::nullopt, std::move(why)});
     return quantities;
   }
   quantities.push_back({"length of the centre line", line->length(), "mm", across, share.text});
@@ -397,10 +461,11 @@ Measurement alongStructure(const scene::Case& value, const std::string& structur
   const scene::StructureOccupancy known =
       namedOccupancy(value, structure, "length", progress.part(0.0, 0.3));
   const auto occupancy = known.make();
-  const auto line = occupancy ? centreLine(*occupancy, progress.part(0.3, 1.0)) : std::nullopt;
+  std::string why = "it encloses nothing";
+  const auto line =
+      occupancy ? centreLine(*occupancy, progress.part(0.3, 1.0), &why) : std::nullopt;
   if (!line)
-    throw core::InvalidParameter("length: '" + structure +
-                                 "' is no tube: too short for its width, so it has no centre line");
+    throw core::InvalidParameter("length: '" + structure + "' has no centre line: " + why);
   Measurement along;
   along.kind = Kind::Length;
   along.structure = structure;
@@ -456,7 +521,8 @@ Between distanceBetween(const scene::Case& value, const std::string& a, const st
   Side other = sideOf(b, progress.part(0.2, 0.4));
   Between result{{"shortest distance", std::nullopt, "mm", std::nullopt, {}},
                  Vector3d::Zero(),
-                 Vector3d::Zero()};
+                 Vector3d::Zero(),
+                 {one.image, other.image}};
   ShortestWay way;
   if (one.mark && other.mark)
     way = {(*one.mark - *other.mark).norm(), *one.mark, *other.mark};

@@ -149,8 +149,10 @@ std::optional<WallReading::End> PointProbe::wayOut(const Eigen::Vector3d& from,
   return std::nullopt;
 }
 
-std::optional<WallReading> PointProbe::wall(const Eigen::Vector3d& patient)
+std::optional<WallReading> PointProbe::wall(const Eigen::Vector3d& patient,
+                                            const core::Progress& progress)
 {
+  progress.check("wall");
   const auto nearest = m_surface.find(patient, kNearWall);
   if (!nearest)
     return std::nullopt;
@@ -165,6 +167,7 @@ std::optional<WallReading> PointProbe::wall(const Eigen::Vector3d& patient)
   const std::string own =
       structureAt(reading.surface + 0.5 * m_field.finestSpacing() * reading.inward);
   const Eigen::Vector3d whole = Eigen::Vector3d::Constant(kThickest);
+  progress.check("wall");
   m_field.prepare({reading.surface - whole, reading.surface + whole});
   reading.along = wayOut(reading.surface, reading.inward, kThickest, own);
   if (!reading.along)
@@ -177,6 +180,7 @@ std::optional<WallReading> PointProbe::wall(const Eigen::Vector3d& patient)
   {
     for (const Eigen::Vector3d& direction : cone(axis, angle, count))
     {
+      progress.check("wall");
       if (direction.dot(reading.inward) < std::cos(kTilt * kDegree) - 1e-9)
         continue;
       const auto end = wayOut(reading.surface, direction, best, own);

@@ -4,8 +4,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <queue>
+#include <set>
+#include <tuple>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
@@ -90,8 +93,9 @@ public:
   const Vector3d& patient(std::size_t node) const { return m_patient[node]; }
 
   /// Length of the shortest way from a node to each, mm; infinite for those of other pieces.
-  std::vector<double> distancesFrom(std::size_t start) const
+  std::vector<double> distancesFrom(std::size_t start, const core::Progress& progress) const
   {
+    std::size_t visited = 0;
     std::vector<double> distance(size(), std::numeric_limits<double>::infinity());
     using Entry = std::pair<double, std::uint32_t>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
@@ -103,6 +107,8 @@ public:
       open.pop();
       if (way > distance[node])
         continue;
+      if (++visited % kBetweenChecks == 0)
+        progress.check("centre line");
       forEachNeighbour(node,
                        [&, w = way, from = node](std::uint32_t next)
                        {
@@ -117,8 +123,9 @@ public:
   }
 
   /// A node of the largest piece.
-  std::size_t largestPiece() const
+  std::size_t largestPiece(const core::Progress& progress) const
   {
+    progress.check("centre line");
     std::vector<bool> seen(size(), false);
     std::size_t best = 0, most = 0;
     for (std::size_t start = 0; start < size(); ++start)
@@ -147,16 +154,6 @@ public:
     return best;
   }
 
-private:
-  static constexpr std::uint32_t kNone = ~0U;
-
-  std::size_t place(int i, int j, int k) const
-  {
-    return static_cast<std::size_t>(i) +
-           std::size_t(m_dims[0]) *
-               (static_cast<std::size_t>(j) + std::size_t(m_dims[1]) * static_cast<std::size_t>(k));
-  }
-
   template <class Visit>
   void forEachNeighbour(std::uint32_t node, const Visit& visit) const
   {
@@ -169,6 +166,17 @@ private:
       if (const std::uint32_t next = m_node[place(i, j, k)]; next != kNone)
         visit(next);
     }
+  }
+
+private:
+  static constexpr std::uint32_t kNone = ~0U;
+  static constexpr std::size_t kBetweenChecks = 8192; // nodes: some milliseconds
+
+  std::size_t place(int i, int j, int k) const
+  {
+    return static_cast<std::size_t>(i) +
+           std::size_t(m_dims[0]) *
+               (static_cast<std::size_t>(j) + std::size_t(m_dims[1]) * static_cast<std::size_t>(k));
   }
 
   int m_stride;
@@ -327,8 +335,169 @@ Vector3d exitFrom(const Occupancy& occupancy, const Vector3d& at, const Vector3d
   return at + inside * direction;
 }
 
-/// Centroids of the voxels equally far from one end.
-Line roughLine(const Occupancy& occupancy)
+/// The structure by distance from one end: in each layer its connected pieces, and which pieces of
+/// neighbouring layers touch [Reeb graph].
+class Layers
+{
+public:
+  Layers(const VoxelGraph& graph, const std::vector<double>& distances, double width)
+    : m_pieceOf(graph.size(), kNone)
+  {
+    const auto layerOf = [&](std::size_t node)
+    { return static_cast<std::size_t>(distances[node] / width); };
+    std::vector<std::uint32_t> open;
+    for (std::size_t start = 0; start < graph.size(); ++start)
+    {
+      if (m_pieceOf[start] != kNone || !std::isfinite(distances[start]))
+        continue;
+      const std::size_t layer = layerOf(start);
+      const auto piece = static_cast<std::uint32_t>(m_pieces.size());
+      m_pieces.push_back({layer, 0, Vector3d::Zero()});
+      m_pieceOf[start] = piece;
+      open.assign(1, static_cast<std::uint32_t>(start));
+      while (!open.empty())
+      {
+        const std::uint32_t node = open.back();
+        open.pop_back();
+        ++m_pieces[piece].count;
+        m_pieces[piece].sum += graph.patient(node);
+        graph.forEachNeighbour(node,
+                               [&](std::uint32_t next)
+                               {
+                                 if (m_pieceOf[next] == kNone && layerOf(next) == layer)
+                                 {
+                                   m_pieceOf[next] = piece;
+                                   open.push_back(next);
+                                 }
+                               });
+      }
+    }
+    for (std::uint32_t node = 0; node < graph.size(); ++node)
+      if (m_pieceOf[node] != kNone)
+        graph.forEachNeighbour(node,
+                               [&](std::uint32_t next)
+                               {
+                                 if (m_pieceOf[next] < m_pieceOf[node])
+                                   m_joins.emplace(m_pieceOf[next], m_pieceOf[node]);
+                               });
+    closeNotches();
+  }
+
+  /// Whether two ways part and meet again: a ring, or a hole from side to side. Pieces that are
+  /// small in their layer, as of a rough surface, do not count.
+  bool hasLoop() const
+  {
+    constexpr double kSmall = 0.1; // of the layer
+    std::map<std::size_t, std::size_t> sizes;
+    for (const Piece& piece : m_pieces)
+      sizes[piece.layer] += piece.count;
+    const auto counts = [&](std::uint32_t n)
+    { return double(m_pieces[n].count) >= kSmall * double(sizes[m_pieces[n].layer]); };
+    // A graph without loops falls into one more part for each join that is taken out.
+    std::vector<std::uint32_t> root(m_pieces.size());
+    std::iota(root.begin(), root.end(), 0U);
+    const auto rootOf = [&root](std::uint32_t n)
+    {
+      while (root[n] != n)
+        n = root[n] = root[root[n]];
+      return n;
+    };
+    for (const auto& [a, b] : m_joins)
+    {
+      if (!counts(a) || !counts(b))
+        continue;
+      const std::uint32_t one = rootOf(a), other = rootOf(b);
+      if (one == other)
+        return true;
+      root[one] = other;
+    }
+    return false;
+  }
+
+  /// Centroids of the pieces through which the shortest way to a node leads, from the first on.
+  Line wayTo(const VoxelGraph& graph, const std::vector<double>& distances, std::size_t node) const
+  {
+    std::vector<std::uint32_t> pieces;
+    for (auto at = static_cast<std::uint32_t>(node);;)
+    {
+      if (pieces.empty() || pieces.back() != m_pieceOf[at])
+        pieces.push_back(m_pieceOf[at]);
+      std::uint32_t before = at;
+      double least = distances[at];
+      graph.forEachNeighbour(at,
+                             [&](std::uint32_t next)
+                             {
+                               const double way = distances[next] +
+                                                  (graph.patient(next) - graph.patient(at)).norm();
+                               if (distances[next] < distances[at] && way <= least + 1e-9)
+                               {
+                                 least = way;
+                                 before = next;
+                               }
+                             });
+      if (before == at)
+        break;
+      at = before;
+    }
+    Line line;
+    for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece)
+      line.push_back(m_pieces[*piece].sum / double(m_pieces[*piece].count));
+    return line;
+  }
+
+private:
+  static constexpr std::uint32_t kNone = ~0U;
+
+  // Pieces of one layer that join the same one before and the same one behind are parted by a hole
+  // of a few voxels, which is no way of its own.
+  void closeNotches()
+  {
+    using Pair = std::pair<std::uint32_t, std::uint32_t>;
+    std::vector<std::vector<std::uint32_t>> before(m_pieces.size()), behind(m_pieces.size());
+    for (auto [a, b] : m_joins)
+    {
+      if (m_pieces[a].layer > m_pieces[b].layer)
+        std::swap(a, b);
+      behind[a].push_back(b);
+      before[b].push_back(a);
+    }
+    std::map<Pair, std::uint32_t> first; // between two pieces
+    std::vector<std::uint32_t> is(m_pieces.size());
+    std::iota(is.begin(), is.end(), 0U);
+    for (std::uint32_t n = 0; n < m_pieces.size(); ++n)
+      for (const std::uint32_t a : before[n])
+        for (const std::uint32_t b : behind[n])
+          is[n] = std::min(is[n], is[first.emplace(Pair(a, b), n).first->second]);
+    for (std::uint32_t n = 0; n < m_pieces.size(); ++n)
+      if (is[n] != n)
+      {
+        m_pieces[is[n]].count += m_pieces[n].count;
+        m_pieces[is[n]].sum += m_pieces[n].sum;
+        m_pieces[n].count = 0;
+      }
+    for (std::uint32_t& piece : m_pieceOf)
+      if (piece != kNone)
+        piece = is[piece];
+    std::set<Pair> joins;
+    for (const auto& [a, b] : m_joins)
+      joins.insert(std::minmax(is[a], is[b]));
+    m_joins = std::move(joins);
+  }
+
+  struct Piece
+  {
+    std::size_t layer, count;
+    Vector3d sum;
+  };
+  std::vector<std::uint32_t> m_pieceOf; // by node
+  std::vector<Piece> m_pieces;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> m_joins; // the lower number first
+};
+
+constexpr char kNoTube[] = "it is no tube: too short for its width";
+
+/// Centroids of the voxels equally far from one end, along the way to the other one.
+Line roughLine(const Occupancy& occupancy, const core::Progress& progress, std::string& why)
 {
   const std::size_t inside = countInside(occupancy);
   if (inside == 0)
@@ -338,28 +507,43 @@ Line roughLine(const Occupancy& occupancy)
   const VoxelGraph graph(occupancy, stride);
   if (graph.size() == 0)
     return {};
-  const std::size_t end = farthest(graph.distancesFrom(graph.largestPiece()));
-  const std::vector<double> distances = graph.distancesFrom(end);
-  const double whole = distances[farthest(distances)];
+  progress.check("centre line");
+  const std::size_t end = farthest(graph.distancesFrom(graph.largestPiece(progress), progress));
+  const std::vector<double> distances = graph.distancesFrom(end, progress);
+  const std::size_t other = farthest(distances);
+  const double whole = distances[other];
   const double width =
       std::max(2.0 * stride * occupancy.geometry().spacing().maxCoeff(), whole / 200.0);
-  const auto bins = static_cast<std::size_t>(whole / width) + 1;
-  if (bins < 3)
+  if (whole < 2.0 * width)
     return {};
-  std::vector<Vector3d> sums(bins, Vector3d::Zero());
-  std::vector<std::size_t> counts(bins, 0);
-  for (std::size_t n = 0; n < graph.size(); ++n)
-    if (std::isfinite(distances[n]))
+  progress.check("centre line");
+  const Layers layers(graph, distances, width);
+  if (layers.hasLoop())
+  {
+    why = "it closes to a ring, or has a hole from side to side, so that no single line leads "
+          "through it";
+    return {};
+  }
+  return layers.wayTo(graph, distances, other);
+}
+
+/// Length of the longest stretch that lies outside, mm.
+double longestOutside(const Occupancy& occupancy, const Line& line)
+{
+  const double step = 0.25 * occupancy.geometry().minSpacing();
+  double longest = 0.0, outside = 0.0;
+  for (std::size_t n = 1; n < line.size(); ++n)
+  {
+    const double edge = (line[n] - line[n - 1]).norm();
+    const int parts = std::max(1, static_cast<int>(std::ceil(edge / step)));
+    for (int part = 0; part < parts; ++part)
     {
-      const auto bin = std::min(static_cast<std::size_t>(distances[n] / width), bins - 1);
-      sums[bin] += graph.patient(n);
-      ++counts[bin];
+      const Vector3d at = line[n - 1] + (part + 0.5) / parts * (line[n] - line[n - 1]);
+      outside = isInside(occupancy, at) ? 0.0 : outside + edge / parts;
+      longest = std::max(longest, outside);
     }
-  Line line;
-  for (std::size_t bin = 0; bin < bins; ++bin)
-    if (counts[bin] > 0)
-      line.push_back(sums[bin] / static_cast<double>(counts[bin]));
-  return line;
+  }
+  return longest;
 }
 
 double nearestParameter(const Line& line, const Vector3d& patient) // in points
@@ -464,10 +648,15 @@ double CentreLine::length() const
   return lengthOf(points);
 }
 
-std::optional<CentreLine> centreLine(const Occupancy& occupancy, const core::Progress& progress)
+std::optional<CentreLine> centreLine(const Occupancy& occupancy, const core::Progress& progress,
+                                     std::string* why)
 {
+  constexpr double kLeaves = 4.0; // voxels outside: a notch, no way of its own
+  std::string reason;
+  std::string& noTube = why ? *why : reason;
+  noTube = kNoTube;
   progress.check("centre line");
-  Line line = roughLine(occupancy);
+  Line line = roughLine(occupancy, progress, noTube);
   const double voxel = occupancy.geometry().spacing().maxCoeff();
   if (line.size() < 3 || lengthOf(line) < 2.0 * voxel)
     return std::nullopt;
@@ -490,6 +679,7 @@ std::optional<CentreLine> centreLine(const Occupancy& occupancy, const core::Pro
     Line centred;
     for (std::size_t n = 0; n < line.size(); ++n)
     {
+      progress.check("centre line");
       const Section section = sectionAt(occupancy, line[n], tangentAt(line, n, reach));
       centred.push_back(section.centroid);
       diameters.push_back(diameterOf(section.area));
@@ -525,6 +715,7 @@ std::optional<CentreLine> centreLine(const Occupancy& occupancy, const core::Pro
   // At the ends themselves a section is that of the cap: the one beside it counts.
   for (std::size_t n = 0; n < line.size(); ++n)
   {
+    progress.check("centre line");
     const std::size_t m = std::clamp<std::size_t>(n, 1, line.size() - 2);
     result.diameters.push_back(
         diameterOf(sectionAt(occupancy, line[m], tangentAt(line, m, reach)).area));
@@ -532,6 +723,12 @@ std::optional<CentreLine> centreLine(const Occupancy& occupancy, const core::Pro
   const double median = medianOf(result.diameters);
   if (result.length() < kTube * median || result.length() < 4.0 * voxel)
     return std::nullopt;
+  if (longestOutside(occupancy, line) > kLeaves * voxel)
+  {
+    noTube = "its middle lies outside of it, as it is hollow or folded";
+    return std::nullopt;
+  }
+  noTube.clear();
   return result;
 }
 

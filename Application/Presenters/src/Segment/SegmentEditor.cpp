@@ -1536,7 +1536,7 @@ void SegmentEditor::undoCreated(const std::shared_ptr<Created>& made)
   }
   if (created.replaced)
   {
-    m_model.putStructure(*created.replaced);
+    m_model.putStructure(*created.replaced, created.taken ? &*created.taken : nullptr);
     if (becomesDraft)
       m_draft->edited = created.replaced->structures.front().name;
   }
@@ -1557,7 +1557,8 @@ void SegmentEditor::createAgain(Created& created)
   if (name != edited)
     checkFree(name);
   keepReplaced(created, edited.empty() ? std::nullopt : m_model.takeStructure(edited));
-  m_model.putStructure(*std::exchange(created.taken, std::nullopt));
+  m_model.putStructure(*std::exchange(created.taken, std::nullopt),
+                       created.replaced ? &*created.replaced : nullptr);
   if (wasDraft)
   {
     m_tool = Tool::None;

@@ -498,6 +498,49 @@ PlaneSamples sampleSlab(const volume::IntensityVolume& image, const SliceGeometr
   return sampling.take();
 }
 
+double shownDepth(const volume::IntensityVolume& image, const SliceGeometry& slice,
+                  const Slab& slab, const Eigen::Vector2d& pixel,
+                  const core::RigidTransform& imageFromSlice)
+{
+  if (!(slab.thickness > 0.0) || slab.projection == Projection::Mean)
+    return 0.0;
+  const VoxelPlane plane(image.geometry(), slice, imageFromSlice);
+  const Eigen::Vector3d start = plane.origin + pixel[0] * plane.across + pixel[1] * plane.down;
+  const Eigen::Vector3d normal =
+      image.geometry().voxelFromPatientLinear() * (imageFromSlice.rotation() * slice.axes().next);
+  const double sign = slab.projection == Projection::Maximum ? 1.0 : -1.0;
+  std::vector<SlabNode> nodes = slabNodes(image.geometry(), slice, imageFromSlice, slab.thickness);
+  std::stable_sort(nodes.begin(), nodes.end(),
+                   [](const SlabNode& a, const SlabNode& b)
+                   { return std::abs(a.offset) < std::abs(b.offset); });
+  std::optional<double> best;
+  double depth = 0.0;
+  image.visit(
+      [&](const auto& voxels)
+      {
+        const CellSampler sample(voxels);
+        const auto valueAt = [&](double offset)
+        {
+          const Eigen::Vector3d voxel = start + offset * normal;
+          const bool isInside = (voxel.array() >= plane.lower.array()).all() &&
+                                (voxel.array() <= plane.upper.array()).all();
+          return isInside ? sign * sample(voxel) : std::numeric_limits<double>::quiet_NaN();
+        };
+        const auto exceeds = [&](double value)
+        { return !best || value > *best + kRounding * (1.0 + std::abs(*best)); };
+        for (const SlabNode& node : nodes)
+          if (const double value = valueAt(node.offset); !std::isnan(value) && exceeds(value))
+          {
+            best = value;
+            depth = node.offset;
+          }
+        const double middle = valueAt(0.0); // no node: as good as the best where all are alike
+        if (best && middle >= *best - kRounding * (1.0 + std::abs(*best)))
+          depth = 0.0;
+      });
+  return depth;
+}
+
 std::vector<ContourSegment> contours(const PlaneSamples& samples, float level, float minSlope)
 {
   std::vector<ContourSegment> segments;

@@ -44,10 +44,21 @@ public:
 
   /// The next edit does not continue the last one.
   void close() noexcept { m_open = false; }
-  /// Until `release`, edits continue one with the same text however old it is, as while a mouse
-  /// button is down or a dialog is open.
-  void hold() noexcept;
-  void release() noexcept;
+  /// While there is one, edits continue one with the same text however old it is, as while a mouse
+  /// button is down or a dialog is open. The history must outlive it; `clear` ends it.
+  class Hold
+  {
+  public:
+    explicit Hold(EditHistory& history);
+    ~Hold();
+    Hold(const Hold&) = delete;
+    Hold& operator=(const Hold&) = delete;
+    void release(); ///< earlier than it dies
+
+  private:
+    EditHistory* m_history;
+    std::uint64_t m_generation;
+  };
 
   /// The step that was taken back or made again by other means, wherever it is.
   void undone(std::uint64_t step);
@@ -62,7 +73,8 @@ public:
   bool undo(std::size_t strokes);
   bool redo(std::size_t strokes);
   /// Takes back the last step, if it has this number and nothing came after it, and drops it: it
-  /// was only tried.
+  /// was only tried. What could be redone before it can be again, if the Hold is still there in
+  /// which it was tried.
   void takeBack(std::uint64_t step);
   /// Of the last step; 0: there is none.
   std::uint64_t last() const noexcept;
@@ -81,9 +93,14 @@ private:
   static auto* nextOf(AllSteps& steps, std::size_t strokes) noexcept;
   static bool step(Steps& from, Steps& to, std::size_t strokes, bool back);
   void push(Step step);
+  void trim();
+  void letGo(); // of a Hold
 
   std::function<Clock::time_point()> m_now;
   Steps m_done, m_undone; // latest last
+  Steps m_displaced;      // m_undone before the step that is being tried
+  std::uint64_t m_displacedBy = 0;
+  std::uint64_t m_generation = 0; // of holds
   std::uint64_t m_ids = 0;
   bool m_open = false; // the last edit can be continued
   int m_held = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -18,6 +19,10 @@ namespace petrous::presenters
 ///
 /// Every change goes through WorkstationModel::setMeasurements with all measurements, so a history
 /// for all of a case needs to keep no more than these lists.
+///
+/// Centre lines and walls take long: they are computed by `inBackground`, and what comes of them
+/// later. Whatever is set, taken or changed meanwhile gives them up; a handle that is dragged on
+/// follows when they are there.
 class MeasurementEditor
 {
 public:
@@ -37,20 +42,31 @@ public:
     std::function<void()> hovered; ///< the draft alone
   };
 
+  using Apply = std::function<void()>; ///< in this thread, while the editor lives
+  /// In any thread. Throws CancelledError, and InvalidParameter for what cannot be measured.
+  using Work = std::function<Apply(const core::Progress&)>;
+
   explicit MeasurementEditor(WorkstationModel& model);
 
   Events events;
+
+  /// Does a Work elsewhere in place of the one before, which is given up; an empty one: of none.
+  /// Without it, at once.
+  std::function<void(Work)> inBackground;
+  void workEnded(); ///< without an Apply: it failed or was cancelled
+  bool isComputing() const noexcept { return m_computing; }
 
   void caseChanged();  ///< or closed: forgets points, choice and undo
   void partsChanged(); ///< structures came, went or moved
 
   Tool tool() const noexcept { return m_tool; }
   void setTool(Tool tool); ///< drops the points that were set
-  /// The MR over which points are set from now on; empty: the CT.
+  /// The MR over which points are set, or dragged, from now on; empty: the CT.
   void setImage(const std::string& mr) { m_image = mr; }
 
-  /// Sets a point, patient LPS mm; the last one makes the measurement. Throws InvalidParameter
-  /// where nothing can be measured there; the points before it stay.
+  /// Sets a point, patient LPS mm; the last one makes the measurement, at once or when it is
+  /// computed. Throws InvalidParameter where nothing can be measured there; the points before it
+  /// stay.
   void set(const Eigen::Vector3d& patient);
   /// A line along points and a polygon end with the points that are there, if they suffice.
   void finish();
@@ -101,35 +117,49 @@ private:
   {
     std::size_t measurement, point;
     std::vector<scene::Measurement> before;
+    std::optional<Eigen::Vector3d> wanted = {}; ///< where it goes when the place before is computed
+    bool isReleased = false;                    ///< likewise
   };
+  struct Line
+  {
+    std::optional<CentreLine> line;
+    std::string image; ///< the MR on which the structure was drawn
+    std::string why;   ///< there is no line
+  };
+  struct Wall;
 
   void change(const std::string& text, std::vector<scene::Measurement> next);
   void add(scene::Measurement measurement);
   void store(std::vector<scene::Measurement> next);
   void record(const std::string& text, std::vector<scene::Measurement> before);
-  scene::Measurement thicknessAt(const Eigen::Vector3d& patient);
   void tell() const;
-  /// The structure at a point that is a tube, with its centre line; nullptr: none.
-  const CentreLine* lineAt(const Eigen::Vector3d& patient, std::string& structure,
-                           std::string& image);
-  const CentreLine* lineOf(const std::string& structure, std::string& image);
-  std::optional<scene::Measurement> alongTheStructure();
-
-  struct Line
-  {
-    std::optional<CentreLine> line;
-    std::string image; ///< the MR on which the structure was drawn
-  };
+  scene::Measurement pointsAs(scene::Measurement::Kind kind) const; ///< those that are set
+  void forgetPoints();
+  void run(Work work);
+  void giveUp();
+  /// Of a wall: `apply` gets it.
+  Work wallWork(const Eigen::Vector3d& patient,
+                std::function<void(const scene::Measurement&)> apply);
+  Work lineWork(const std::string& structure, std::function<void()> apply);
+  void measureAlong(const std::string& structure); ///< if it is a tube, else the points stay
+  void follow(const Eigen::Vector3d& patient);     ///< of a drag
+  void dragOn();                                   ///< what was computed is there
+  void endDrag();
 
   WorkstationModel& m_model;
   Tool m_tool = Tool::None;
   std::string m_image;
   std::vector<Eigen::Vector3d> m_points;
+  std::vector<std::string> m_images; // of each
   std::optional<Eigen::Vector3d> m_hover;
   std::optional<std::size_t> m_chosen;
   std::optional<Drag> m_dragged;
   bool m_storing = false;
+  bool m_computing = false;
+  std::string m_noLine; // why there is none along what the points are in
   std::map<std::string, Line> m_lines;
+  std::shared_ptr<Wall> m_wall; // as the tissue was at m_wallOf
+  std::uint64_t m_wallOf = 0;
 };
 
 const char* nameOf(MeasurementEditor::Tool tool) noexcept; ///< "Distance", ...

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,9 +35,11 @@ std::vector<Quantity> quantitiesOf(const scene::Case& value, const scene::Measur
 /// In one line, for lists and labels: "12.34 mm ± 0.35".
 std::string summaryOf(const scene::Case& value, const scene::Measurement& measurement);
 
-/// Half-width of a value of these points, by linear propagation: each may lie half a voxel of the
-/// image off along each of its axes. None where the value depends on them in no linear way, as a
-/// distance of 0.
+/// Half-width of a value of these points, by linear propagation: each may lie half a voxel of its
+/// image off along each of that one's axes. Points of several images lie besides as far off each
+/// other as the registrations are in error (p95), and the half-width is at least that of the worst
+/// image alone. None where the value depends on them in no linear way, as a distance of 0, or where
+/// an image or the error of its registration is not known.
 std::optional<double> propagated(const scene::Case& value, const scene::Measurement& measurement);
 
 /// Volumes of the structures and of what was drilled. Reads no voxels.
@@ -58,7 +61,8 @@ scene::Measurement alongStructure(const scene::Case& value, const std::string& s
 struct Between
 {
   Quantity distance;
-  Eigen::Vector3d from, to; ///< patient LPS mm
+  Eigen::Vector3d from, to;          ///< patient LPS mm
+  std::array<std::string, 2> images; ///< the MR on which each was set or drawn; empty: the CT
 };
 /// Throws InvalidParameter for a name that is neither.
 Between distanceBetween(const scene::Case& value, const std::string& a, const std::string& b,

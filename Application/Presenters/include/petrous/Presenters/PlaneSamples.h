@@ -104,6 +104,12 @@ private:
 PlaneSamples sampleSlab(const volume::IntensityVolume& image, const SliceGeometry& slice,
                         const Slab& slab, const core::RigidTransform& imageFromSlice = {});
 
+/// How far from the slice, mm along the normal, that lies which a slab shows at a pixel: the sample
+/// with the largest or least value, of several the nearest. 0 where the mean or nothing is shown.
+double shownDepth(const volume::IntensityVolume& image, const SliceGeometry& slice,
+                  const Slab& slab, const Eigen::Vector2d& pixel,
+                  const core::RigidTransform& imageFromSlice = {});
+
 /// A contour segment, in pixels; integers are pixel centres.
 struct ContourSegment
 {

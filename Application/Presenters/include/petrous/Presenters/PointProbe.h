@@ -58,7 +58,8 @@ public:
   /// The wall at the surface nearest to the point; none if that is farther than 3 mm. A structure
   /// that contains the surface is part of the wall, as a labelled temporal bone is; so are the
   /// partitions in a lumen.
-  std::optional<WallReading> wall(const Eigen::Vector3d& patient);
+  std::optional<WallReading> wall(const Eigen::Vector3d& patient,
+                                  const core::Progress& progress = {});
 
 private:
   struct Labels

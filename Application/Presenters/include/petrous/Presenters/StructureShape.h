@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -38,11 +39,13 @@ struct CentreLine
 
 /// The line through the centroids of the cross-sections perpendicular to itself; at its ends it is
 /// straight up to the surface. It begins as the centroids of what is equally far, inside the
-/// structure, from one of the two points that are farthest from each other. Of several pieces, of
-/// the largest. None if the structure is no tube: shorter than 1.5 times its median diameter, or
-/// than 4 voxels.
+/// structure, from one of the two points that are farthest from each other; of a structure that
+/// branches along the way between them. Of several pieces, of the largest. None, and `why` in
+/// words, if the structure is no tube: shorter than 1.5 times its median diameter, or than 4
+/// voxels; closed to a ring, or with a hole from side to side; or if the line would leave it.
 std::optional<CentreLine> centreLine(const volume::Volume<float>& occupancy,
-                                     const core::Progress& progress = {});
+                                     const core::Progress& progress = {},
+                                     std::string* why = nullptr);
 
 /// Between the places of the line nearest to two points, from the first to the second.
 std::vector<Eigen::Vector3d> partOf(const CentreLine& line, const Eigen::Vector3d& from,

@@ -20,7 +20,8 @@ struct WorkstationEvents
   std::function<void()> crosshairMoved;
   std::function<void()> attachmentsChanged;
   std::function<void()> measurementsChanged;
-  std::function<void()> mrMoved;     ///< an MR's registration or its sign-off changed
+  std::function<void()> savedViewsChanged; ///< kept, removed, or that undone
+  std::function<void()> mrMoved;           ///< an MR's registration or its sign-off changed
   std::function<void()> toolPutAway; ///< since a structure drawn on an MR moved; before mrMoved
   /// One stroke undone (true) or redone, on request; the case's history is already updated.
   std::function<void(bool back)> stepped;

@@ -123,8 +123,10 @@ public:
   /// Removes a structure of a label map and returns it as a part of its own, for `putStructure`;
   /// none if there is none. Ends the touch session, as that does.
   std::optional<scene::LabelPart> takeStructure(const std::string& name);
-  /// Throws InvalidParameter, without effect, if its name has been taken meanwhile.
-  void putStructure(scene::LabelPart part);
+  /// Measurements that followed it do so again, and those of `inPlaceOf`, the structure that was
+  /// taken out for it, if that has its name. Throws InvalidParameter, without effect, if its name
+  /// has been taken meanwhile.
+  void putStructure(const scene::LabelPart& part, const scene::LabelPart* inPlaceOf = nullptr);
   // These three can be undone.
   /// Takes a structure, a mesh or an MR out of the case, and puts the tool away. Throws as
   /// scene::removePart does. No effect while drilling.
@@ -160,12 +162,13 @@ public:
   void setCamera(const core::CameraPose& camera); ///< stored with the next save
   /// The view, without the cameras of branches, which stay. Stored with the next save.
   void setView(const scene::ViewState& view);
-  /// What is cut away from the picture; throws InvalidParameter (scene::checkView).
-  /// Keeps `camera` and `slices` under a name (scene::saveView). Throws InvalidParameter for a name
-  /// that is not valid.
+  // These two can be undone.
+  /// Keeps `camera` and `slices` under a name (scene::saveView), in place of what was kept under
+  /// it. Throws InvalidParameter for a name that is not valid, and beyond ViewState::kMaxSaved.
   void saveView(const std::string& name, const core::CameraPose& camera,
                 const scene::ViewState::Slices& slices);
   void removeView(const std::string& name); ///< unknown: no effect
+  /// What is cut away from the picture; throws InvalidParameter (scene::checkView).
   void setClipping(const scene::ViewState::Clipping& clipping);
   /// Adds a file, under a free name, which is returned; its content is stored with the next save.
   std::string attach(scene::Attachment attachment);
@@ -266,8 +269,8 @@ public:
   /// As `petrous probe` reports it, plus the nearest structure; requires a case. The first reading
   /// of a case scans its labels (some tenths of a second).
   PlaceReading readPlace(const Eigen::Vector3d& patient);
-  /// The wall of tissue at the surface near a point; none before `ready` (PointProbe::wall).
-  std::optional<WallReading> readWall(const Eigen::Vector3d& patient);
+  /// Changes with the tissue, also by drilling.
+  std::uint64_t tissueChanges() const noexcept { return m_tissueChanges; }
   static constexpr double kNear = 20.0; ///< mm; farther structures are not reported
   /// Structures within kNear of a burr (patient LPS mm) and injured ones, nearest first. The first
   /// call for a case starts computing their distance fields in a separate thread; none until that
@@ -326,9 +329,17 @@ private:
     std::optional<At<scene::ImagePart>> mr = {};
     std::optional<At<scene::LabelPart>> labels = {};
     std::optional<At<scene::MeshPart>> mesh = {};
-    std::size_t structure = 0;             ///< place in its label part
-    bool wasAlone = true;                  ///< the label part went with it
-    std::vector<std::string> colored = {}; ///< structures whose appearance read the MR
+    std::size_t structure = 0;              ///< place in its label part
+    bool wasAlone = true;                   ///< the label part went with it
+    std::vector<std::string> colored = {};  ///< structures whose appearance read the MR
+    std::vector<std::string> measured = {}; ///< measurements that followed it
+  };
+  /// What followed a structure that was taken out, until it is put back.
+  struct TakenStructure
+  {
+    std::weak_ptr<const volume::LabelMap> labels;
+    std::string name;
+    std::vector<std::string> measured;
   };
   session::DrillSession& session();
   Eigen::Vector3d clampedToCt(const Eigen::Vector3d& patient) const;
@@ -340,6 +351,12 @@ private:
   std::optional<scene::LabelPart> removeLabels(const std::string& structure);
   void labelsChanged();
   void forgetTissue();
+  void forgetReader();
+  void changeView(const std::string& name, const std::optional<scene::ViewState::Saved>& to,
+                  const std::string& what);
+  void putView(const std::string& name, const std::optional<scene::ViewState::Saved>& saved);
+  void forgetStructure(const std::string& name, const scene::LabelPart& taken);
+  void recallStructures(const scene::LabelPart& part, const scene::LabelPart* inPlaceOf);
   void notifyMask(const std::vector<std::size_t>& bricks);
   session::TouchSession::News hear(session::TouchSession::News news);
   void step(bool back);
@@ -383,7 +400,8 @@ private:
   bool m_checked = true;              ///< the CT was checked against its hash
   std::vector<LeftOut> m_leftOut;     ///< of m_case, by each preparation that found some
   std::vector<RemovedPart> m_removed; ///< latest last
-  std::uint64_t m_removals = 0;       ///< ever made
+  std::vector<TakenStructure> m_taken;
+  std::uint64_t m_removals = 0; ///< ever made
   EditHistory m_edits;
   bool m_partsMoved = false; ///< since beginStore: the stored parts have other indices
   std::vector<std::string> m_damagedStrokes;
@@ -391,6 +409,7 @@ private:
   std::uint64_t m_shown = 0;
   std::uint64_t m_parts = 0;  ///< of the case and its parts
   std::uint64_t m_tissue = 0; ///< of what is tissue
+  std::uint64_t m_tissueChanges = 0;
 };
 
 } // namespace petrous::presenters

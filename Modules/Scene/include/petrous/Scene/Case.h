@@ -115,9 +115,8 @@ const char* kindOfPart(const Case& value, const std::string& name);
 
 /// Removes a structure, a mesh or an MR: one of them, in this order, where an older case has
 /// several of one name. Appearances that read a removed MR read the CT again, and it no longer lies
-/// over the slices. Throws
-/// InvalidParameter listing the existing parts, Error (Refused) for an MR on which remaining
-/// structures were drawn.
+/// over the slices; measurements along what was removed remember that. Throws InvalidParameter
+/// listing the existing parts, Error (Refused) for an MR on which remaining structures were drawn.
 void removePart(Case& value, const std::string& name);
 
 /// Throws InvalidParameter unless the name is a valid file name on every system: 1 to 100 bytes of

@@ -39,8 +39,25 @@ struct Measurement
   /// Of a length: the structure whose centre line it follows. Of a thickness: what lies behind the
   /// wall. Empty: none.
   std::string structure;
+  /// That structure was removed: one that has its name since is another.
+  bool structureGone = false;
   std::string image; ///< the MR on which the points were set; empty: the CT
+  /// That of each point, where they were set on several images (setImages); else empty.
+  std::vector<std::string> images;
 };
+
+/// The MR on which a point was set; empty: the CT.
+const std::string& imageOf(const Measurement& measurement, std::size_t point);
+/// One of each point.
+void setImages(Measurement& measurement, std::vector<std::string> images);
+
+/// What follows a structure of this name remembers that it was removed; returns the names of these
+/// measurements.
+std::vector<std::string> forgetStructure(std::vector<Measurement>& measurements,
+                                         const std::string& structure);
+/// The structure is the case's again, for the measurements of these names.
+void recallStructure(std::vector<Measurement>& measurements, const std::string& structure,
+                     const std::vector<std::string>& names);
 
 bool operator==(const Measurement& a, const Measurement& b);
 inline bool operator!=(const Measurement& a, const Measurement& b)

@@ -33,7 +33,6 @@
 #include "petrous/Library/Archive.h"
 #include "petrous/Phantom/SamplePatient.h"
 #include "petrous/Presenters/CaseBuilder.h"
-#include "petrous/Presenters/SeriesPreview.h"
 
 using namespace petrous;
 using namespace petrous::workstation;

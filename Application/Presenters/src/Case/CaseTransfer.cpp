@@ -464,13 +464,12 @@ void warnOfIdentities(const IdentityText& identity, const std::string& what,
                        "send");
 }
 
-/// Text in the pixels of images that leave: the primary one, the MRs. Known by their notes, which
-/// every version of the program keeps with the case.
+/// Text in the pixels of images that leave: the primary one, the MRs.
 void warnOfText(const scene::Case& value, bool primary, bool mrs,
                 std::vector<std::string>& warnings)
 {
   const auto mayHaveText = [](const scene::ImagePart& image)
-  { return std::any_of(image.notes.begin(), image.notes.end(), imaging::isNoteOfText); };
+  { return image.provenance.pixels.burnedIn != volume::BurnedInText::None; };
   std::vector<std::string> images;
   if (primary && mayHaveText(value.ct))
     images.push_back(std::string("the ") + primaryName(value));

@@ -285,6 +285,11 @@ void writeDicomSeries(const std::filesystem::path& folder, const volume::Intensi
               put(data, 0x0028, 0x0120, static_cast<std::uint16_t>(static_cast<S>(stored)),
                   std::is_signed_v<S> ? "SS" : "US");
             }
+            if (volume::contains(description.interpolated, k))
+              put(data, 0x0008, 0x2111, "ST",
+                  "This slice was interpolated between its neighbours, nothing was measured in "
+                  "it. " +
+                      description.derivation);
             if (ct && sliceStep)
             {
               const double lean =

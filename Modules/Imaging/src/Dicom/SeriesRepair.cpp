@@ -158,8 +158,9 @@ SeriesRepair::SeriesRepair(const SeriesGeometry& geometry)
     const Slice& last = m_slices.back();
     const double slide =
         std::hypot((last.u - m_slices.front().u) * h[0], (last.v - m_slices.front().v) * h[1]);
-    m_notes.push_back("Repaired: the gantry's tilt of " +
-                      decimals(std::atan2(slide, last.place) * 180.0 / M_PI, 1) +
+    m_tilt = std::atan2(slide, last.place) * 180.0 / M_PI;
+    m_shift = slide;
+    m_notes.push_back("Repaired: the gantry's tilt of " + decimals(m_tilt, 1) +
                       " degrees was undone by shifting each slice to where its position puts it, "
                       "the last by " +
                       decimals(slide, 1) + " mm against the first.");
@@ -171,9 +172,12 @@ SeriesRepair::SeriesRepair(const SeriesGeometry& geometry)
       farthest = std::max(farthest, std::hypot((slice.u - m_slices.front().u) * h[0],
                                                (slice.v - m_slices.front().v) * h[1]));
     if (farthest > kOnPlace)
+    {
+      m_shift = farthest;
       m_notes.push_back("Repaired: slices were shifted sideways to where their positions put them, "
                         "by up to " +
                         decimals(farthest, 2) + " mm against the first.");
+    }
   }
   if (hasFinding(geometry, FindingKind::MixedRescale))
     m_notes.push_back("Repaired: each slice's own rescale slope and intercept were applied.");
@@ -187,13 +191,23 @@ std::vector<std::string> SeriesRepair::notes(const core::IndexBox& box) const
   return notes;
 }
 
-std::vector<int> SeriesRepair::interpolated(const core::IndexBox& box) const
+volume::ImageProvenance SeriesRepair::provenance(const core::IndexBox& box) const
 {
-  std::vector<int> slices;
+  volume::ImageProvenance provenance;
+  provenance.tilt = m_tilt;
+  provenance.shift = m_shift;
   for (int m = box.lower[2]; m < box.upper[2]; ++m)
-    if (const Blend blend = blendAt(m); blend.a != blend.b)
-      slices.push_back(m - box.lower[2]);
-  return slices;
+  {
+    const Blend blend = blendAt(m);
+    if (blend.a == blend.b)
+      continue;
+    const int slice = m - box.lower[2];
+    if (!provenance.interpolated.empty() && provenance.interpolated.back().last + 1 == slice)
+      provenance.interpolated.back().last = slice;
+    else
+      provenance.interpolated.push_back({slice, slice});
+  }
+  return provenance;
 }
 
 SeriesRepair::Blend SeriesRepair::blendAt(int m) const
@@ -218,31 +232,25 @@ SeriesRepair::Blend SeriesRepair::blendAt(int m) const
 
 std::string SeriesRepair::blendNote(const core::IndexBox& box) const
 {
-  std::vector<std::pair<int, int>> ranges; // first and last, numbered from 1
-  double farthest = 0.0;
-  const std::vector<int> slices = interpolated(box);
-  for (const int slice : slices)
-  {
-    const int m = box.lower[2] + slice;
-    const Blend blend = blendAt(m);
-    const double place = m * m_grid.spacing()[2];
-    farthest = std::max(farthest, std::min(place - blend.a->place, blend.b->place - place));
-    const int number = slice + 1;
-    if (!ranges.empty() && ranges.back().second + 1 == number)
-      ranges.back().second = number;
-    else
-      ranges.emplace_back(number, number);
-  }
-  const std::size_t guessed = slices.size();
+  std::vector<volume::SliceRange> ranges = provenance(box).interpolated;
+  const int guessed = volume::sliceCount(ranges);
   if (guessed == 0)
     return {};
+  double farthest = 0.0;
+  for (const auto& [first, last] : ranges)
+    for (int m = box.lower[2] + first; m <= box.lower[2] + last; ++m)
+    {
+      const Blend blend = blendAt(m);
+      const double place = m * m_grid.spacing()[2];
+      farthest = std::max(farthest, std::min(place - blend.a->place, blend.b->place - place));
+    }
   const bool isMany = ranges.size() > kNamed;
   if (isMany)
-    ranges = {{ranges.front().first, ranges.back().second}};
+    ranges = {{ranges.front().first, ranges.back().last}};
   std::string where;
   for (const auto& [first, last] : ranges)
-    where += (where.empty() ? "" : ", ") + std::to_string(first) +
-             (last > first ? " to " + std::to_string(last) : "");
+    where += (where.empty() ? "" : ", ") + std::to_string(first + 1) +
+             (last > first ? " to " + std::to_string(last + 1) : "");
   return std::string("Repaired: ") + (guessed == 1 ? "slice " : "slices ") + where + " of " +
          std::to_string(box.upper[2] - box.lower[2]) +
          (m_isMissing

@@ -5,6 +5,7 @@
 
 #include "petrous/Core/Progress.h"
 #include "petrous/Imaging/DicomScan.h"
+#include "petrous/Volume/ImageProvenance.h"
 #include "petrous/Volume/IntensityVolume.h"
 
 namespace petrous::imaging
@@ -30,10 +31,11 @@ public:
   volume::IntensityVolume resample(const volume::IntensityVolume& stacked,
                                    const core::IndexBox& box, const core::Progress& progress) const;
 
-  /// The slices of `box`, from its first on, that are interpolated between neighbours.
-  std::vector<int> interpolated(const core::IndexBox& box) const;
+  /// What of `box`, its slices counted from its first on, is other than in the files.
+  volume::ImageProvenance provenance(const core::IndexBox& box) const;
 
-  /// What was changed and guessed, one sentence each. Slices are numbered from 1, as in `box`.
+  /// The same, what was changed and guessed, one sentence each. Slices are numbered from 1, as in
+  /// `box`; of very many only the first and last are named.
   std::vector<std::string> notes(const core::IndexBox& box) const;
 
 private:
@@ -56,6 +58,8 @@ private:
   std::vector<Slice> m_slices; ///< without duplicates
   bool m_isUneven = false;
   bool m_isMissing = false; ///< and not uneven
+  double m_tilt = 0.0;      ///< volume::ImageProvenance
+  double m_shift = 0.0;
   core::GridGeometry m_grid;
   std::vector<std::string> m_notes;
 };

@@ -73,8 +73,7 @@ struct CaseDicomOptions
 /// patient's into a folder that is to be committed by the caller. Equal voxels give equal files.
 ///
 /// what     "ct", "mr" or "dissected"
-/// part     of the case, which `image` is or was made from: what its notes say of its pixels, and
-///          which slices repair interpolated, is written with it
+/// part     of the case, which `image` is or was made from: its provenance is written with it
 /// drawnOn  the MR whose space it is; empty: the CT's
 /// onCt     an MR, resampled on the CT's grid
 ///

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -172,6 +173,36 @@ TEST_F(Provenance, IsWrittenIntoEachFileOfAnExportedSlice)
   }
   EXPECT_NE(warnings.find("386, 396 interpolated between neighbours"), std::string::npos)
       << warnings;
+  // A case that is built of them knows it, of a region too, and its notes say so.
+  CaseSources sources;
+  sources.ct = m_folder / "out";
+  scene::Case again = buildCase("again", sources, {});
+  EXPECT_EQ(again.ct.provenance.interpolated, gaps());
+  const auto isNoted = [&again](const std::string& text)
+  {
+    return std::any_of(again.ct.notes.begin(), again.ct.notes.end(),
+                       [&text](const std::string& note)
+                       { return note.find(text) != std::string::npos; });
+  };
+  EXPECT_TRUE(isNoted("slices 6 to 396 of 420 were interpolated"));
+  const core::GridGeometry& grid = value.ct.geometry;
+  core::PatientBox box(grid.patientFromVoxel({1, 1, 12}));
+  box.extend(grid.patientFromVoxel({6, 6, 40}));
+  sources.roi = box;
+  again = buildCase("again", sources, {});
+  EXPECT_EQ(again.ct.provenance.interpolated,
+            (std::vector<SliceRange>{{3, 3}, {13, 13}, {23, 23}}));
+  EXPECT_TRUE(isNoted("slices 4, 14, 24 of 29 were interpolated"));
+  // Two slices get lost: repair guesses these, and keeps the mark of the others.
+  sources.roi.reset();
+  sources.repair = true;
+  std::filesystem::remove(fileOf(m_folder / "out", 5));
+  std::filesystem::remove(fileOf(m_folder / "out", 200));
+  again = buildCase("again", sources, {});
+  std::vector<SliceRange> all = gaps();
+  all.insert(all.begin() + 20, SliceRange{200, 200});
+  EXPECT_EQ(again.ct.provenance.interpolated, all);
+  EXPECT_TRUE(isNoted("slices 6, 201 of 420 are missing and were interpolated"));
 }
 
 TEST_F(Provenance, FitsADerivationHoweverManySlicesWereInterpolated)

@@ -446,9 +446,13 @@ IntensityVolume readSeries(const DicomSeries& series, const ReadOptions& options
     const IndexBox box = boxToRead(*geometry.grid, options);
     const std::function<void(std::size_t)> require = [&](std::size_t bytes)
     { requireMemory(series, *geometry.grid, box, false, options, bytes); };
+    const auto before = interpolatedBefore(geometry, box.lower[2], box.upper[2]);
+    if (std::string note = interpolatedBeforeNote(before, box.size()[2]); notes && !note.empty())
+      notes->push_back(std::move(note));
     if (provenance)
     {
       *provenance = {};
+      provenance->interpolated = before;
       provenance->pixels = pixelFaults(geometry.slices);
     }
     return SeriesReader(series, box, require, progress).read(notes);

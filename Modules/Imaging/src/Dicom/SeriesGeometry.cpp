@@ -610,6 +610,12 @@ PixelFaults pixelFaults(const std::vector<SliceHeader>& slices)
   return faults;
 }
 
+bool isInterpolated(const SliceHeader& slice)
+{
+  return std::find(slice.imageType.begin(), slice.imageType.end(), kInterpolatedType) !=
+         slice.imageType.end();
+}
+
 SeriesGeometry assess(std::vector<SliceHeader> slices)
 {
   return Assessor(std::move(slices)).run();

@@ -31,6 +31,26 @@ bool hasFinding(const SeriesGeometry& geometry, FindingKind kind)
                      [kind](const Finding& f) { return f.kind == kind; });
 }
 
+void appendSlice(std::vector<volume::SliceRange>& ranges, int slice)
+{
+  if (!ranges.empty() && ranges.back().last + 1 == slice)
+    ranges.back().last = slice;
+  else
+    ranges.push_back({slice, slice});
+}
+
+/// "3, 7 to 9"; of too many the first and the last: "3 to 99".
+std::string namedRanges(std::vector<volume::SliceRange> ranges)
+{
+  if (ranges.size() > kNamed)
+    ranges = {{ranges.front().first, ranges.back().last}};
+  std::string text;
+  for (const auto& [first, last] : ranges)
+    text += (text.empty() ? "" : ", ") + std::to_string(first + 1) +
+            (last > first ? " to " + std::to_string(last + 1) : "");
+  return text;
+}
+
 /// The lower quartile of the gaps: where the pitch changes, the finer one is kept.
 double fineGap(const std::vector<double>& places)
 {
@@ -114,6 +134,7 @@ SeriesRepair::SeriesRepair(const SeriesGeometry& geometry)
     Slice slice;
     slice.index = static_cast<int>(k);
     slice.place = way[2];
+    slice.isGuess = isInterpolated(geometry.slices[k]);
     if (isTilted || m_isUneven) // else within the tolerance
     {
       slice.u = way[0] / nominal.spacing()[0];
@@ -183,11 +204,38 @@ SeriesRepair::SeriesRepair(const SeriesGeometry& geometry)
     m_notes.push_back("Repaired: each slice's own rescale slope and intercept were applied.");
 }
 
+std::vector<volume::SliceRange> interpolatedBefore(const SeriesGeometry& geometry, int first,
+                                                   int end)
+{
+  std::vector<volume::SliceRange> ranges;
+  for (int k = first; k < end; ++k)
+    if (isInterpolated(geometry.slices[static_cast<std::size_t>(k)]))
+      appendSlice(ranges, k - first);
+  return ranges;
+}
+
+std::string interpolatedBeforeNote(const std::vector<volume::SliceRange>& slices, int count)
+{
+  if (slices.empty())
+    return {};
+  const bool isOne = volume::sliceCount(slices) == 1;
+  return std::string("Repaired: ") + (isOne ? "slice " : "slices ") + namedRanges(slices) + " of " +
+         std::to_string(count) + (isOne ? " was" : " were") +
+         " interpolated between neighbours before the series was written; small structures may be "
+         "absent there.";
+}
+
 std::vector<std::string> SeriesRepair::notes(const core::IndexBox& box) const
 {
   std::vector<std::string> notes = m_notes;
   if (std::string blends = blendNote(box); !blends.empty())
     notes.push_back(std::move(blends));
+  std::vector<volume::SliceRange> before;
+  for (int m = box.lower[2]; m < box.upper[2]; ++m)
+    if (const Blend blend = blendAt(m); blend.a == blend.b && blend.a->isGuess)
+      appendSlice(before, m - box.lower[2]);
+  if (std::string note = interpolatedBeforeNote(before, box.size()[2]); !note.empty())
+    notes.push_back(std::move(note));
   return notes;
 }
 
@@ -199,13 +247,8 @@ volume::ImageProvenance SeriesRepair::provenance(const core::IndexBox& box) cons
   for (int m = box.lower[2]; m < box.upper[2]; ++m)
   {
     const Blend blend = blendAt(m);
-    if (blend.a == blend.b)
-      continue;
-    const int slice = m - box.lower[2];
-    if (!provenance.interpolated.empty() && provenance.interpolated.back().last + 1 == slice)
-      provenance.interpolated.back().last = slice;
-    else
-      provenance.interpolated.push_back({slice, slice});
+    if (blend.a != blend.b || blend.a->isGuess)
+      appendSlice(provenance.interpolated, m - box.lower[2]);
   }
   return provenance;
 }
@@ -232,27 +275,23 @@ SeriesRepair::Blend SeriesRepair::blendAt(int m) const
 
 std::string SeriesRepair::blendNote(const core::IndexBox& box) const
 {
-  std::vector<volume::SliceRange> ranges = provenance(box).interpolated;
+  std::vector<volume::SliceRange> ranges;
+  double farthest = 0.0;
+  for (int m = box.lower[2]; m < box.upper[2]; ++m)
+  {
+    const Blend blend = blendAt(m);
+    const double place = m * m_grid.spacing()[2];
+    if (blend.a == blend.b)
+      continue;
+    appendSlice(ranges, m - box.lower[2]);
+    farthest = std::max(farthest, std::min(place - blend.a->place, blend.b->place - place));
+  }
   const int guessed = volume::sliceCount(ranges);
   if (guessed == 0)
     return {};
-  double farthest = 0.0;
-  for (const auto& [first, last] : ranges)
-    for (int m = box.lower[2] + first; m <= box.lower[2] + last; ++m)
-    {
-      const Blend blend = blendAt(m);
-      const double place = m * m_grid.spacing()[2];
-      farthest = std::max(farthest, std::min(place - blend.a->place, blend.b->place - place));
-    }
   const bool isMany = ranges.size() > kNamed;
-  if (isMany)
-    ranges = {{ranges.front().first, ranges.back().last}};
-  std::string where;
-  for (const auto& [first, last] : ranges)
-    where += (where.empty() ? "" : ", ") + std::to_string(first + 1) +
-             (last > first ? " to " + std::to_string(last + 1) : "");
-  return std::string("Repaired: ") + (guessed == 1 ? "slice " : "slices ") + where + " of " +
-         std::to_string(box.upper[2] - box.lower[2]) +
+  return std::string("Repaired: ") + (guessed == 1 ? "slice " : "slices ") + namedRanges(ranges) +
+         " of " + std::to_string(box.upper[2] - box.lower[2]) +
          (m_isMissing
               ? (guessed == 1 ? " is missing from the files and was" : " are missing and were")
           : isMany       ? " were in part"

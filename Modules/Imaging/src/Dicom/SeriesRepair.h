@@ -11,6 +11,14 @@
 namespace petrous::imaging
 {
 
+/// The slices of a series that were interpolated before it was written (isInterpolated), of those
+/// from `first` up to `end`, counted from `first` on.
+std::vector<volume::SliceRange> interpolatedBefore(const SeriesGeometry& geometry, int first,
+                                                   int end);
+
+/// What the user is told of these; empty: there are none. `count`: slices of the volume.
+std::string interpolatedBeforeNote(const std::vector<volume::SliceRange>& slices, int count);
+
 /// The straight grid that a repairable series is resampled to, and how.
 ///
 ///   t_m = t_0 + m h                     place of slice m of the grid along the normal, mm
@@ -41,10 +49,11 @@ public:
 private:
   struct Slice
   {
-    int index = 0;      ///< in `stacked`
-    double place = 0.0; ///< t_k - t_0, mm
-    double u = 0.0;     ///< pixels, relative to the grid's first column
-    double v = 0.0;     ///< pixels, relative to the grid's first row
+    int index = 0;        ///< in `stacked`
+    double place = 0.0;   ///< t_k - t_0, mm
+    double u = 0.0;       ///< pixels, relative to the grid's first column
+    double v = 0.0;       ///< pixels, relative to the grid's first row
+    bool isGuess = false; ///< isInterpolated
   };
   struct Blend
   {

@@ -55,7 +55,8 @@ struct SeriesDescription
   PixelFaults faults = {};
   /// (0008,2111) what was done to the image, up to 900 characters; empty: nothing.
   std::string derivation = {};
-  /// Slices in which nothing was measured, which the derivation of each of them says.
+  /// Slices in which nothing was measured, which derivation and Image Type (kInterpolatedType) of
+  /// each of them say; readSeries knows them again.
   std::vector<volume::SliceRange> interpolated = {};
   double windowCenter = 700.0; ///< in the image's units
   double windowWidth = 4000.0;

@@ -120,6 +120,11 @@ struct SliceHeader
 
 PixelFaults pixelFaults(const std::vector<SliceHeader>& slices);
 
+/// Value of Image Type (0008,0008; PS3.3 C.7.6.1.1.2 leaves those from the fourth on to programs)
+/// of a slice that repair interpolated, as writeDicomSeries writes it.
+constexpr const char* kInterpolatedType = "INTERPOLATED_GAP";
+bool isInterpolated(const SliceHeader& slice);
+
 /// Possible defects of a series; kindName gives the names used in the command's JSON.
 enum class FindingKind
 {

@@ -924,6 +924,24 @@ TEST_F(Import, WhatWasAssumedIsToldUntilSomebodyHasReadIt)
   EXPECT_FALSE(banner->isVisible());
 }
 
+// Not once only: nobody sees from the picture that it is mirrored.
+TEST_F(Import, ASideThatWasAssumedIsToldWheneverTheCaseIsOpened)
+{
+  scene::Case value = ballCase("ball");
+  value.ct.provenance.assumedRas = true;
+  library().save(value);
+  for (int n = 0; n < 2; ++n)
+  {
+    openWindow();
+    auto* banner = window().findChild<Banner*>("notesBanner");
+    ASSERT_TRUE(waitFor([banner] { return banner->isVisible(); }));
+    EXPECT_TRUE(banner->text().contains("CT: left and right taken as RAS axes"))
+        << banner->text().toStdString();
+    banner->findChild<QPushButton*>("dismissNotes")->click();
+    closeWindow();
+  }
+}
+
 TEST_F(Import, ATiltedScanIsStraightenedOnlyWithConsent)
 {
   phantom::SampleOptions options;

@@ -13,6 +13,7 @@
 #include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Library/Archive.h"
 #include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Presenters/CaseDicom.h"
 #include "petrous/Presenters/CaseExport.h"
 #include "petrous/Presenters/ProvenanceText.h"
 #include "petrous/Scene/Manifest.h"
@@ -282,4 +283,9 @@ TEST_F(Provenance, SaysWhichSidesAreAssumed)
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(lines[0].find("CT: left and right taken as RAS axes"), 0U) << lines[0];
   EXPECT_EQ(lines[1].find("incus: left and right taken as LPS axes"), 0U) << lines[1];
+  EXPECT_EQ(guessedNote(value.labels[0]).find("'incus': left and right taken as LPS axes"), 0U);
+  EXPECT_NE(guessedNote(value.ct).find("left and right taken as RAS axes"), std::string::npos);
+  EXPECT_NE(derivationText(value.ct, false).find("taken as RAS axes"), std::string::npos);
+  value.labels[0].provenance = {};
+  EXPECT_EQ(guessedNote(value.labels[0]), "");
 }

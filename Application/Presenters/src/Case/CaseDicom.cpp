@@ -280,11 +280,26 @@ std::string roundingNote(const std::string& name, double error)
 
 std::string guessedNote(const scene::ImagePart& part)
 {
+  std::string text;
   const std::vector<volume::SliceRange>& slices = part.provenance.interpolated;
-  if (slices.empty())
-    return {};
-  return "in '" + part.name + "', " + (volume::sliceCount(slices) == 1 ? "slice " : "slices ") +
-         volume::toString(slices) + " interpolated between neighbours: nothing was measured there";
+  if (!slices.empty())
+    text = (volume::sliceCount(slices) == 1 ? "slice " : "slices ") + volume::toString(slices) +
+           " interpolated between neighbours: nothing was measured there";
+  if (const auto& assumed = part.provenance.assumedRas)
+    text += (text.empty() ? "" : "; ") + assumedSideText(*assumed);
+  return text.empty() ? text : "in '" + part.name + "', " + text;
+}
+
+std::string guessedNote(const scene::LabelPart& part)
+{
+  std::string text;
+  for (const std::string& one : provenanceTexts(part))
+    text += (text.empty() ? (part.structures.size() == 1
+                                 ? "'" + part.structures.front().name + "': "
+                                 : std::to_string(part.structures.size()) + " structures: ")
+                          : "; ") +
+            one;
+  return text;
 }
 
 std::size_t writeCaseSegmentation(const std::filesystem::path& path, const scene::Case& value,

@@ -178,6 +178,9 @@ private:
       writeCaseSegmentation(file, m_value, group, series, m_options, progress);
       m_files.push_back(file);
     }
+    for (const scene::LabelPart& part : m_value.labels)
+      if (std::string guessed = guessedNote(part); !guessed.empty())
+        m_notes.push_back(std::move(guessed));
   }
 
   void scene(const core::Progress& progress)

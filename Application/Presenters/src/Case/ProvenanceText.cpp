@@ -18,12 +18,6 @@ std::string slicesText(const std::vector<volume::SliceRange>& ranges, std::size_
   return (volume::sliceCount(ranges) == 1 ? "slice " : "slices ") + volume::toString(ranges, most);
 }
 
-std::string sideText(bool assumedRas)
-{
-  return std::string("left and right taken as ") + (assumedRas ? "RAS" : "LPS") +
-         " axes, as the file does not say which side of the patient is left";
-}
-
 // What repair did to the voxels. `most`: slice ranges that are named, 0: all.
 std::vector<std::string> repairs(const scene::ImagePart& image, std::size_t most = 0)
 {
@@ -51,6 +45,12 @@ void addMasks(const ImageProvenance& provenance, std::vector<std::string>& texts
 }
 
 } // namespace
+
+std::string assumedSideText(bool assumedRas)
+{
+  return std::string("left and right taken as ") + (assumedRas ? "RAS" : "LPS") +
+         " axes, as the file does not say which side of the patient is left";
+}
 
 std::string interpolatedText(const scene::ImagePart& image)
 {
@@ -96,7 +96,7 @@ std::vector<std::string> provenanceTexts(const scene::ImagePart& image)
   std::vector<std::string> texts = repairs(image);
   addMasks(provenance, texts);
   if (provenance.assumedRas)
-    texts.push_back(sideText(*provenance.assumedRas));
+    texts.push_back(assumedSideText(*provenance.assumedRas));
   if (provenance.pixels.isLossy)
     texts.push_back(
         "compressed with loss" +
@@ -114,7 +114,7 @@ std::vector<std::string> provenanceTexts(const scene::LabelPart& part)
 {
   std::vector<std::string> texts;
   if (part.provenance.assumedRas)
-    texts.push_back(sideText(*part.provenance.assumedRas));
+    texts.push_back(assumedSideText(*part.provenance.assumedRas));
   if (part.provenance.isFrameAssumed)
     texts.push_back("not known to be in the frame of reference of the image on which it is shown");
   return texts;
@@ -126,7 +126,7 @@ std::vector<std::string> assumedSideTexts(const scene::Case& value)
   const auto add = [&lines](const std::string& name, const std::optional<bool>& assumedRas)
   {
     if (assumedRas)
-      lines.push_back(name + ": " + sideText(*assumedRas));
+      lines.push_back(name + ": " + assumedSideText(*assumedRas));
   };
   add(primaryName(value), value.ct.provenance.assumedRas);
   for (const scene::ImagePart& mr : value.mr)
@@ -148,7 +148,7 @@ std::string derivationText(const scene::ImagePart& image, bool onCt)
                                        : "Repaired: ";
     addMasks(image.provenance, texts);
     if (image.provenance.assumedRas)
-      texts.push_back(sideText(*image.provenance.assumedRas));
+      texts.push_back(assumedSideText(*image.provenance.assumedRas));
     for (std::size_t n = 0; n < texts.size(); ++n)
       text += (n == 0 ? "" : "; ") + texts[n];
     return texts.empty() ? std::string() : text;

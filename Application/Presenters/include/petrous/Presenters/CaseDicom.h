@@ -90,8 +90,12 @@ std::optional<double> writeCaseSeries(const std::filesystem::path& folder, const
 /// What the user is told of it.
 std::string roundingNote(const std::string& name, double error);
 
-/// Likewise of the slices that repair interpolated; empty: none.
+/// Likewise of the slices that repair interpolated, and of left and right that are assumed; empty:
+/// nothing is.
 std::string guessedNote(const scene::ImagePart& part);
+
+/// Likewise of the place of structures.
+std::string guessedNote(const scene::LabelPart& part);
 
 /// Writes structures as a DICOM segmentation that belongs to the series of the CT, or of the MR,
 /// which writeCaseSeries writes; `placed`: on one grid in one space. Returns the number of

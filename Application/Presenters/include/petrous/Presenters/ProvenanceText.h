@@ -28,6 +28,9 @@ std::vector<std::string> provenanceTexts(const scene::ImagePart& image);
 /// Likewise of the place of structures.
 std::vector<std::string> provenanceTexts(const scene::LabelPart& part);
 
+/// "left and right taken as RAS axes, .."
+std::string assumedSideText(bool assumedRas);
+
 /// The images and structures whose left and right are assumed, a line each: "CT: left and right
 /// taken as RAS axes, ..".
 std::vector<std::string> assumedSideTexts(const scene::Case& value);

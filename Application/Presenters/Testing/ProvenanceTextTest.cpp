@@ -26,7 +26,7 @@ using volume::SliceRange;
 namespace
 {
 
-constexpr int kSlices = 420;
+constexpr int kSlices = 450;
 constexpr int kGaps = 40; // more than a note names one by one
 
 class Provenance : public ::testing::Test
@@ -170,7 +170,7 @@ TEST_F(Provenance, IsWrittenIntoEachFileOfAnExportedSlice)
               volume::contains(gaps(), slice))
         << slice;
     EXPECT_NE(file.find("Repaired: slices 6, 16, 26, 36, 46, "), std::string::npos) << slice;
-    EXPECT_NE(file.find("386, 396 of 420 interpolated between neighbours"), std::string::npos);
+    EXPECT_NE(file.find("386, 396 of 450 interpolated between neighbours"), std::string::npos);
   }
   EXPECT_NE(warnings.find("386, 396 interpolated between neighbours"), std::string::npos)
       << warnings;
@@ -185,7 +185,7 @@ TEST_F(Provenance, IsWrittenIntoEachFileOfAnExportedSlice)
                        [&text](const std::string& note)
                        { return note.find(text) != std::string::npos; });
   };
-  EXPECT_TRUE(isNoted("slices 6 to 396 of 420 were interpolated"));
+  EXPECT_TRUE(isNoted("slices 6 to 396 of 450 were interpolated"));
   const core::GridGeometry& grid = value.ct.geometry;
   core::PatientBox box(grid.patientFromVoxel({1, 1, 12}));
   box.extend(grid.patientFromVoxel({6, 6, 40}));
@@ -203,7 +203,7 @@ TEST_F(Provenance, IsWrittenIntoEachFileOfAnExportedSlice)
   std::vector<SliceRange> all = gaps();
   all.insert(all.begin() + 20, SliceRange{200, 200});
   EXPECT_EQ(again.ct.provenance.interpolated, all);
-  EXPECT_TRUE(isNoted("slices 6, 201 of 420 are missing and were interpolated"));
+  EXPECT_TRUE(isNoted("slices 6, 201 of 450 are missing and were interpolated"));
 }
 
 TEST_F(Provenance, FitsADerivationHoweverManySlicesWereInterpolated)
@@ -244,7 +244,7 @@ TEST_F(Provenance, NamesFourRangesInAPictureAndCountsTheOthers)
             (std::vector<std::string>{"CT: slices 6, 16, 26, 36 and 36 others interpolated",
                                       "T2: slices 3, 7-9 interpolated"}));
   EXPECT_EQ(provenanceTexts(value.mr[0]),
-            (std::vector<std::string>{"slices 3, 7-9 of 420 interpolated between neighbours"}));
+            (std::vector<std::string>{"slices 3, 7-9 of 450 interpolated between neighbours"}));
   value.mr[0].provenance.interpolated = {{4, 4}};
   EXPECT_EQ(interpolatedText(value.mr[0]), "slice 5 interpolated");
 }

@@ -1,4 +1,5 @@
-#include <functional>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
@@ -195,6 +196,27 @@ TEST(Provenance, OfAnOlderCaseIsReadFromItsNotes)
                                                                      "rescale was applied."});
   EXPECT_TRUE(none.interpolated.empty());
   EXPECT_FALSE(none.assumedRas || none.pixels.isLossy || none.isFaceMasked || none.isCropped);
+}
+
+// Forty gaps of a case on somebody's disk, of which only the first and last slice are known.
+TEST(Provenance, OfAStoredOlderCaseMarksNoSliceTooFew)
+{
+  const std::string file = PETROUS_STORED "format-3-repaired.json";
+  std::ifstream stream(file);
+  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  ASSERT_EQ(text.find("provenance"), std::string::npos);
+  const Case opened = fromManifest(text, file);
+  for (const Case& value : {opened, again(opened)})
+  {
+    EXPECT_EQ(value.ct.geometry.dims()[2], 450);
+    EXPECT_EQ(value.ct.provenance.interpolated, (std::vector<SliceRange>{{5, 395}}));
+    EXPECT_EQ(value.ct.notes, opened.ct.notes);
+    EXPECT_EQ(value.ct.provenance.tilt, 0.0);
+    EXPECT_FALSE(value.ct.provenance.pixels.isLossy || value.ct.provenance.assumedRas);
+    EXPECT_FALSE(value.labels.at(0).provenance.isFrameAssumed);
+  }
+  const json saved = json::parse(toManifest(opened));
+  EXPECT_EQ(saved.at("petrous_case"), 3) << "older programs still open it";
 }
 
 TEST(Provenance, OfOlderLabelsIsReadFromTheirNotes)

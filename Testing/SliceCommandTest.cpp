@@ -133,6 +133,25 @@ TEST_F(SliceCommand, SaysWhichSlicesWereInterpolated)
       ASSERT_NE(at, std::string::npos) << outcome.err;
       EXPECT_NE(outcome.err.find("interpolated", at), std::string::npos) << outcome.err;
     }
+  // The slice itself says so, and those beside it do not.
+  const nlohmann::json ct = json("info guessed").at("ct");
+  const nlohmann::json slices = ct.at("provenance").at("interpolated_slices");
+  ASSERT_EQ(slices.size(), 1U);
+  EXPECT_EQ(slices[0][0], slices[0][1]);
+  const double spacing = ct.at("spacing_mm")[2];
+  const auto isMarked = [&](int number)
+  {
+    const double z = ct.at("origin_mm")[2].get<double>() + (number - 1) * spacing;
+    return json("slice guessed --plane axial --at 0,0," + std::to_string(z) + out)
+        .at("interpolated")
+        .get<bool>();
+  };
+  const int gone = slices[0][0];
+  EXPECT_TRUE(isMarked(gone));
+  EXPECT_FALSE(isMarked(gone - 1));
+  EXPECT_FALSE(isMarked(gone + 1));
+  EXPECT_NE(run("info guessed").out.find("slice " + std::to_string(gone) + " of "),
+            std::string::npos);
 }
 
 // Left ear: Stenvers along the pyramid, (-1, -1, 0); Poeschl across it.

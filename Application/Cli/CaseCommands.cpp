@@ -8,6 +8,7 @@
 #include "petrous/Library/FrameSalt.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/ProvenanceText.h"
 #include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/ExposedSurfaces.h"
 
@@ -141,13 +142,25 @@ void printCase(const Context& context, const scene::Case& value,
                 display.number(value.ct.range.min) + " to " + display.text(value.ct.range.max) +
                 (display.hounsfield ? "" : " (not in Hounsfield units)") + ", surface at " +
                 display.text(value.iso));
+  const auto printProvenance = [&context](const auto& part)
+  {
+    for (const std::string& text : presenters::provenanceTexts(part))
+      context.print("    " + text);
+  };
+  printProvenance(value.ct);
   for (const auto& mr : value.mr)
+  {
     context.print("  MR '" + mr.name + "' " + sizeText(mr.geometry) + ", " +
                   scene::registrationToString(mr));
+    printProvenance(mr);
+  }
   for (const auto& part : value.labels)
     for (const auto& s : part.structures)
+    {
       context.print("  structure '" + s.name + "', " + fixed(s.volume, 1) + " mm3, " +
                     s.look.preset + placeText(value, scene::placementOf(value, part)));
+      printProvenance(part);
+    }
   for (std::size_t n = 0; n < value.meshes.size(); ++n)
   {
     const scene::MeshPart& mesh = value.meshes[n];

@@ -124,6 +124,36 @@ json registrationJson(const scene::ImagePart& mr)
 namespace
 {
 
+json axesJson(const std::optional<bool>& assumedRas)
+{
+  return assumedRas ? json(*assumedRas ? "RAS" : "LPS") : json();
+}
+
+// Slices are numbered from 1, as in texts and views.
+json provenanceJson(const volume::ImageProvenance& provenance)
+{
+  constexpr const char* kBurnedIn[] = {"none", "suspected", "stated"};
+  json slices = json::array();
+  for (const volume::SliceRange& range : provenance.interpolated)
+    slices.push_back({range.first + 1, range.last + 1});
+  json masked = json::array();
+  if (provenance.isFaceMasked)
+    masked.push_back("face");
+  if (provenance.areEarsMasked)
+    masked.push_back("auricles");
+  if (provenance.isCropped)
+    masked.push_back("outside");
+  return {
+      {"interpolated_slices", std::move(slices)},
+      {"tilt_deg", provenance.tilt},
+      {"shift_mm", provenance.shift},
+      {"assumed_axes", axesJson(provenance.assumedRas)},
+      {"burned_in_text", kBurnedIn[static_cast<std::size_t>(provenance.pixels.burnedIn)]},
+      {"lossy", provenance.pixels.isLossy},
+      {"lossy_ratio", provenance.pixels.lossyRatio ? json(*provenance.pixels.lossyRatio) : json()},
+      {"masked", std::move(masked)}};
+}
+
 // Only for what was drawn on an MR.
 void addPlace(json& part, const scene::Placement& place)
 {
@@ -184,12 +214,14 @@ json infoJson(const scene::Case& value, const std::vector<MeshFacts>& facts)
   ct["min"] = value.ct.range.min;
   ct["max"] = value.ct.range.max;
   ct["notes"] = value.ct.notes;
+  ct["provenance"] = provenanceJson(value.ct.provenance);
   json mr = json::array();
   for (const auto& image : value.mr)
   {
     json part = gridJson(image.geometry);
     part["name"] = image.name;
     part["notes"] = image.notes;
+    part["provenance"] = provenanceJson(image.provenance);
     part["registered"] = image.registered;
     part["transform"] = transformJson(image.mrFromCt);
     part["registration"] = registrationJson(image);
@@ -208,7 +240,10 @@ json infoJson(const scene::Case& value, const std::vector<MeshFacts>& facts)
                         {"color", s.look.color},
                         {"preset", s.look.preset},
                         {"flags", appearance::flagsOf(s.look)},
-                        {"solid", s.look.solid}});
+                        {"solid", s.look.solid},
+                        {"provenance",
+                         {{"assumed_axes", axesJson(part.provenance.assumedRas)},
+                          {"frame_assumed", part.provenance.isFrameAssumed}}}});
       addPlace(labels.back(), place);
     }
   }

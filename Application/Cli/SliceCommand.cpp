@@ -13,7 +13,7 @@
 #include "petrous/Core/NumberText.h"
 #include "petrous/Presenters/CaseRegistration.h"
 #include "petrous/Presenters/IntensityDisplay.h"
-#include "petrous/Presenters/SeriesPreview.h"
+#include "petrous/Presenters/ProvenanceText.h"
 #include "petrous/Presenters/SlicePlanes.h"
 #include "petrous/Presenters/SlicePresenter.h"
 #include "petrous/Rendering/Picture.h"
@@ -383,6 +383,10 @@ void slice(const Context& context, SliceOptions options)
     lines.push_back(name + ": " + guessed);
     context.warn(lines.back() + "; small structures may be absent there");
   };
+  const bool isGuess = presenters::showsInterpolated(value.ct, geometry, slab.thickness);
+  if (isGuess)
+    lines.push_back(slab.thickness > 0.0 ? "slab with an interpolated slice"
+                                         : "interpolated slice: not measured here");
   addInterpolated(presenters::primaryName(value), value.ct);
   if (mr)
     addInterpolated(mr->name, *mr);
@@ -402,6 +406,7 @@ void slice(const Context& context, SliceOptions options)
                      {"down", vectorJson(geometry.axes().down)},
                      {"normal", vectorJson(geometry.axes().next)},
                      {"slab", slabJson(slab)},
+                     {"interpolated", isGuess},
                      {"mm_per_pixel", geometry.mmPerPixel()},
                      {"milliseconds", elapsed},
                      {"window", {{"width", window.width}, {"level", window.level}}},

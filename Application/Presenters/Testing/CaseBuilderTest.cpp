@@ -459,6 +459,10 @@ TEST_F(CaseBuilder, AsksWhichSideIsLeft)
   const auto ras = presenters::buildCase("ear", m_sources, {});
   m_sources.assumeRas = false;
   const auto lps = presenters::buildCase("ear", m_sources, {});
+  EXPECT_EQ(ras.ct.provenance.assumedRas, true);
+  EXPECT_EQ(lps.ct.provenance.assumedRas, false);
+  m_sources.ct = m_folder / "ct.nrrd";
+  EXPECT_FALSE(presenters::buildCase("ear", m_sources, {}).ct.provenance.assumedRas) << "stated";
   const Vector3d there = ras.ct.geometry.patientFromVoxel({7, 6, 5});
   EXPECT_TRUE(lps.ct.geometry.patientFromVoxel({7, 6, 5}).isApprox(
       Vector3d(-there[0], -there[1], there[2])));
@@ -510,6 +514,7 @@ TEST_F(CaseBuilder, PartsOfAHeaderlessExportLieWhereTheCtDoes)
       EXPECT_TRUE(map.labels.get()->voxels->geometry().patientFromVoxel({3, 2, 1}).isApprox(there))
           << labels << isRas;
       EXPECT_EQ(map.drawnOn, std::string()) << "the CT's grid";
+      EXPECT_EQ(map.provenance.assumedRas, isRas);
       EXPECT_TRUE(std::any_of(map.notes.begin(), map.notes.end(),
                               [](const std::string& note)
                               { return note.find("which side") != std::string::npos; }));
@@ -530,6 +535,8 @@ TEST_F(CaseBuilder, PartsOfAHeaderlessExportLieWhereTheCtDoes)
     parts.labels.pop_back();
     presenters::addParts(value, parts, {});
     EXPECT_TRUE(value.mr[0].geometry.patientFromVoxel({3, 2, 1}).isApprox(there));
+    EXPECT_EQ(value.mr[0].provenance.assumedRas, isRas);
+    EXPECT_EQ(value.labels[0].provenance.assumedRas, isRas);
     EXPECT_TRUE(
         value.labels[0].labels.get()->voxels->geometry().patientFromVoxel({3, 2, 1}).isApprox(
             isRas ? Vector3d(-6, -4, 2) : Vector3d(6, 4, 2)));
@@ -602,15 +609,37 @@ TEST_F(CaseBuilder, SaysWhereAFrameOfReferenceCannotBeCompared)
   segmentation.segments = {segment};
   imaging::writeDicomSegmentation(m_folder / "seg.dcm", {volume::makeLabelMap(voxels, {incus})},
                                   segmentation);
-  const auto notes = [this](const std::string& on)
+  const auto labels = [this](const std::string& on)
   {
     m_sources.parts.labels = {{"", m_folder / "seg.dcm", on}};
-    return presenters::buildCase("ear", m_sources, {}).labels.at(0).notes;
+    return presenters::buildCase("ear", m_sources, {}).labels.at(0);
   };
-  const auto unsaid = notes("");
-  ASSERT_EQ(unsaid.size(), 1u);
-  EXPECT_NE(unsaid[0].find("could not be compared with the CT's"), std::string::npos) << unsaid[0];
-  EXPECT_TRUE(notes("ct").empty()) << "the user knows";
+  const auto unsaid = labels("");
+  ASSERT_EQ(unsaid.notes.size(), 1u);
+  EXPECT_NE(unsaid.notes[0].find("could not be compared with the CT's"), std::string::npos)
+      << unsaid.notes[0];
+  EXPECT_TRUE(unsaid.provenance.isFrameAssumed);
+  const auto said = labels("ct");
+  EXPECT_TRUE(said.notes.empty()) << "the user knows";
+  EXPECT_FALSE(said.provenance.isFrameAssumed);
+
+  // A CT whose frame is known: another one, overruled, stays known to be another one.
+  const auto ct = std::make_shared<const volume::Volume<std::int16_t>>(
+      core::GridGeometry({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3)), std::int16_t{40});
+  imaging::SeriesDescription series;
+  series.studyUid = "1.2.3";
+  series.seriesUid = "1.2.3.5";
+  for (const bool isOther : {true, false})
+  {
+    series.frameOfReferenceUid = isOther ? "1.2.3.9" : segmentation.frameOfReferenceUid;
+    m_sources.ct = m_folder / (isOther ? "other" : "same");
+    imaging::writeDicomSeries(m_sources.ct, volume::IntensityVolume(ct), series);
+    EXPECT_EQ(labels("ct").provenance.isFrameAssumed, isOther);
+    if (isOther)
+      EXPECT_THROW(labels(""), presenters::FrameUnclear);
+    else
+      EXPECT_FALSE(labels("").provenance.isFrameAssumed);
+  }
 }
 
 // The CT lacks slices in the middle: the sound MR beside it is not taken in its place.

@@ -184,46 +184,23 @@ TEST_F(CaseExport, DicomStatesWhatIsKnownToBeWrongWithTheImage)
   EXPECT_EQ(clean.find(element(0x0028, 0x2110, "CS", "").substr(0, 6)), std::string::npos);
   EXPECT_EQ(m_warnings, "");
 
-  // The notes are those of a series.
-  const auto notesOf = [](const std::function<void(imaging::SliceHeader&)>& change)
-  {
-    std::vector<imaging::SliceHeader> slices;
-    for (int k = 0; k < 4; ++k)
-    {
-      imaging::SliceHeader slice;
-      slice.file = "s" + std::to_string(k);
-      slice.position = Vector3d(0, 0, k);
-      slice.rowDirection = Vector3d(1, 0, 0);
-      slice.columnDirection = Vector3d(0, 1, 0);
-      slice.pixelSpacing = Eigen::Vector2d(0.5, 0.5);
-      slice.rows = slice.columns = 16;
-      slice.instanceNumber = k + 1;
-      change(slice);
-      slices.push_back(slice);
-    }
-    return imaging::assess(slices).notes;
-  };
+  volume::ImageProvenance& provenance = m_case.ct.provenance;
   for (const auto kind : {imaging::BurnedInText::Stated, imaging::BurnedInText::Suspected})
   {
-    m_case.ct.notes = notesOf([kind](auto& slice) { slice.burnedIn = kind; });
+    provenance.pixels.burnedIn = kind;
     const std::string file = written(kind == imaging::BurnedInText::Stated ? "text" : "suspect");
     EXPECT_NE(file.find(text), std::string::npos);
     EXPECT_EQ(file.find(removed), std::string::npos);
   }
-  m_case.ct.notes = notesOf(
-      [](auto& slice)
-      {
-        slice.isLossy = true;
-        slice.lossyRatio = 12.5;
-      });
-  m_case.ct.notes.push_back("Repaired: slices 3, 7 to 9 of 40 were interpolated between "
-                            "neighbours, up to 0.15 mm from the nearer one.");
+  provenance.pixels = {imaging::BurnedInText::None, true, 12.5};
+  provenance.interpolated = {{2, 2}, {6, 8}};
   const std::string file = written("lossy");
   EXPECT_NE(file.find(removed), std::string::npos);
   EXPECT_NE(file.find(loss), std::string::npos);
   EXPECT_NE(file.find(element(0x0028, 0x2112, "DS", "12.5")), std::string::npos);
-  EXPECT_NE(file.find("Repaired: slices 3, 7-9 interpolated"), std::string::npos);
-  EXPECT_NE(m_warnings.find("slices 3, 7-9 interpolated"), std::string::npos) << m_warnings;
+  const std::string slices = "slices 3, 7-9";
+  EXPECT_NE(file.find("Repaired: " + slices + " of 40 interpolated"), std::string::npos);
+  EXPECT_NE(m_warnings.find(slices + " interpolated"), std::string::npos) << m_warnings;
 }
 
 TEST_F(CaseExport, PaddingThatNoVoxelHasNeedsNoRoom)

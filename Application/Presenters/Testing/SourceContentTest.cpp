@@ -292,7 +292,7 @@ TEST_F(SourceContent, WhatRepairInterpolatedIsKnownFromTheCase)
   sources.ct = ct;
   sources.repair = true;
   auto value = presenters::buildCase("ear", sources, {});
-  EXPECT_EQ(presenters::interpolatedSlices(value.ct), std::vector<int>{11});
+  EXPECT_EQ(value.ct.provenance.interpolated, (std::vector<volume::SliceRange>{{11, 11}}));
   const auto found = presenters::lookAt(ct, {});
   EXPECT_FALSE(found.repair.empty());
   EXPECT_TRUE(std::any_of(found.repair.begin(), found.repair.end(),
@@ -306,15 +306,7 @@ TEST_F(SourceContent, WhatRepairInterpolatedIsKnownFromTheCase)
   box.extend(to);
   sources.roi = box;
   value = presenters::buildCase("ear", sources, {});
-  EXPECT_EQ(presenters::interpolatedSlices(value.ct), std::vector<int>{6});
-
-  scene::ImagePart many;
-  many.geometry = core::GridGeometry({4, 4, 60}, Vector3d::Ones(), Vector3d::Zero());
-  many.notes = {"Repaired: slices 3, 7 to 9 of 60 were interpolated between neighbours, up to "
-                "0.50 mm from what was measured."};
-  EXPECT_EQ(presenters::interpolatedSlices(many), (std::vector<int>{2, 6, 7, 8}));
-  many.notes = {"Repaired: slices 3 of 61 were interpolated between neighbours"};
-  EXPECT_TRUE(presenters::interpolatedSlices(many).empty()) << "of another grid";
+  EXPECT_EQ(value.ct.provenance.interpolated, (std::vector<volume::SliceRange>{{6, 6}}));
 }
 
 TEST_F(SourceContent, ThePreviewOfARegionCountsWhatWouldBeRead)

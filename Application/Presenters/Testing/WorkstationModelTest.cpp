@@ -797,6 +797,7 @@ TEST_F(WorkstationModelTest, PartsComeBesideWhatWasMadeMeanwhile)
   scene::Case value = block("block");
   value.labels.push_back(ballOf(value.ct.geometry, "first"));
   value.labels.push_back(ballOf(value.ct.geometry, "second"));
+  value.labels[0].provenance.isFrameAssumed = true;
   model.adopt(std::move(value));
   const auto mapOf = [](const std::string& name, const core::GridGeometry& grid)
   {
@@ -835,6 +836,9 @@ TEST_F(WorkstationModelTest, PartsComeBesideWhatWasMadeMeanwhile)
     EXPECT_EQ(part.notes, part.structures[0].name == "second" ? std::vector<std::string>{"moved"}
                                                               : std::vector<std::string>{});
   EXPECT_NE(drawnOn.at("first"), "t2 2");
+  for (const scene::LabelPart& part : model.value().labels)
+    EXPECT_EQ(part.provenance.isFrameAssumed, part.structures[0].name == "first")
+        << "also of the one that replaced it";
 }
 
 TEST_F(WorkstationModelTest, TheOpenCaseHasTheFramesOfReferenceThatWereSaved)

@@ -106,7 +106,7 @@ void RepairDialog::show(const presenters::RepairPreview& preview)
     view->setIntensityDisplay(display);
     view->setGreyWindow(display.bone);
     view->setCrosshair(preview.after.grid.center());
-    view->setInterpolated(presenters::interpolatedSlices(scan.value.ct));
+    view->setInterpolated(scan.value.ct.provenance.interpolated);
     auto* column = new QVBoxLayout;
     column->addWidget(plain(title));
     column->addWidget(view, 1);
@@ -121,7 +121,7 @@ void RepairDialog::show(const presenters::RepairPreview& preview)
   const Eigen::Vector3d& spacing = preview.after.grid.spacing();
   remains += tr("• Linear interpolation smooths detail below about %1 mm.")
                  .arg(spacing.maxCoeff(), 0, 'f', 2);
-  if (!presenters::interpolatedSlices(preview.after.value.ct).empty())
+  if (!preview.after.value.ct.provenance.interpolated.empty())
     remains += tr("• Interpolated slices are orange here, and marked wherever the case is shown.");
   m_remains->setText(remains.join('\n'));
   m_isPictured = true;

@@ -8,7 +8,7 @@
 #include "SliceColumn.h"
 #include "SliceView.h"
 #include "Theme.h"
-#include "petrous/Presenters/SeriesPreview.h"
+#include "petrous/Presenters/ProvenanceText.h"
 
 namespace petrous::workstation
 {

@@ -5,7 +5,6 @@
 #include "SliceView.h"
 #include "Theme.h"
 #include "petrous/Presenters/IntensityDisplay.h"
-#include "petrous/Presenters/SeriesPreview.h"
 
 namespace petrous::workstation
 {
@@ -91,7 +90,7 @@ void SliceColumn::appearanceChanged()
     if (isNew) // the views draw anew
       view->setPresenter(m_presenter, m_model.value().ct.geometry);
     view->setIntensityDisplay(presenters::displayOf(m_model.value()));
-    view->setInterpolated(presenters::interpolatedSlices(m_model.value().ct));
+    view->setInterpolated(m_model.value().ct.provenance.interpolated);
   }
 }
 

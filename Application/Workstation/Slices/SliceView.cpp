@@ -165,7 +165,7 @@ void SliceView::setMarks(std::vector<SliceMark> marks)
   update();
 }
 
-void SliceView::setInterpolated(std::vector<int> slices)
+void SliceView::setInterpolated(std::vector<volume::SliceRange> slices)
 {
   m_interpolated = std::move(slices);
   update();
@@ -406,7 +406,7 @@ void SliceView::paintCrosshair(QPainter& painter) const
 bool SliceView::showsInterpolated() const
 {
   const int slice = static_cast<int>(std::lround(m_grid.voxelFromPatient(m_crosshair)[2]));
-  return std::binary_search(m_interpolated.begin(), m_interpolated.end(), slice);
+  return volume::contains(m_interpolated, slice);
 }
 
 // An edge around the view if it shows such a slice itself, and bands where it crosses them.
@@ -444,15 +444,11 @@ void SliceView::paintInterpolated(QPainter& painter) const
   edge.setAlpha(170);
   painter.setPen(QPen(edge, 1.0));
   painter.setBrush(fill);
-  for (std::size_t n = 0; n < m_interpolated.size();)
+  for (const volume::SliceRange& range : m_interpolated)
   {
-    std::size_t last = n;
-    while (last + 1 < m_interpolated.size() && m_interpolated[last + 1] == m_interpolated[last] + 1)
-      ++last;
-    const double from = m_interpolated[n] - 0.5;
-    const double to = m_interpolated[last] + 0.5;
+    const double from = range.first - 0.5;
+    const double to = range.last + 0.5;
     painter.drawPolygon(QPolygonF({at(0.0, from), at(1.0, from), at(1.0, to), at(0.0, to)}));
-    n = last + 1;
   }
 }
 

@@ -12,6 +12,7 @@
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/SlicePlanes.h"
 #include "petrous/Presenters/SlicePresenter.h"
+#include "petrous/Volume/ImageProvenance.h"
 
 namespace petrous::workstation
 {
@@ -70,7 +71,7 @@ public:
                   const std::optional<presenters::IntensityDisplay>& alone);
   void setNotice(const QString& text); ///< a note on what is shown
   void setMarks(std::vector<SliceMark> marks);
-  void setInterpolated(std::vector<int> slices); ///< of the grid (presenters::interpolatedSlices)
+  void setInterpolated(std::vector<volume::SliceRange> slices); ///< of the grid
   void setRegion(double edge); ///< edge of the cube about the crosshair to fit in, mm; 0: none
   void maskChanged(const core::PatientBox& box);
   void setTool(const std::optional<SliceTool>& tool);
@@ -163,7 +164,7 @@ private:
   std::optional<presenters::IntensityDisplay> m_overlayAlone; // none: the CT is seen, too
   QString m_notice;
   std::vector<SliceMark> m_marks;
-  std::vector<int> m_interpolated; // increasing
+  std::vector<volume::SliceRange> m_interpolated;
   double m_region = 0.0;
   QString m_readout;
   presenters::SlicePlanes m_planes;

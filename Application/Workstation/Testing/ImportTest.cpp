@@ -33,7 +33,6 @@
 #include "petrous/Library/Archive.h"
 #include "petrous/Phantom/SamplePatient.h"
 #include "petrous/Presenters/CaseBuilder.h"
-#include "petrous/Presenters/SeriesPreview.h"
 
 using namespace petrous;
 using namespace petrous::workstation;
@@ -925,6 +924,24 @@ TEST_F(Import, WhatWasAssumedIsToldUntilSomebodyHasReadIt)
   EXPECT_FALSE(banner->isVisible());
 }
 
+// Not once only: nobody sees from the picture that it is mirrored.
+TEST_F(Import, ASideThatWasAssumedIsToldWheneverTheCaseIsOpened)
+{
+  scene::Case value = ballCase("ball");
+  value.ct.provenance.assumedRas = true;
+  library().save(value);
+  for (int n = 0; n < 2; ++n)
+  {
+    openWindow();
+    auto* banner = window().findChild<Banner*>("notesBanner");
+    ASSERT_TRUE(waitFor([banner] { return banner->isVisible(); }));
+    EXPECT_TRUE(banner->text().contains("CT: left and right taken as RAS axes"))
+        << banner->text().toStdString();
+    banner->findChild<QPushButton*>("dismissNotes")->click();
+    closeWindow();
+  }
+}
+
 TEST_F(Import, ATiltedScanIsStraightenedOnlyWithConsent)
 {
   phantom::SampleOptions options;
@@ -1088,8 +1105,8 @@ TEST_F(Import, TheRepairPageShowsBeforeAndAfterAndTheCaseMarksWhatWasGuessed)
   EXPECT_TRUE(
       window().findChild<Banner*>("notesBanner")->text().contains("missing from the files"));
   const scene::Case& value = window().model().value();
-  const auto guessed = presenters::interpolatedSlices(value.ct);
-  ASSERT_EQ(guessed.size(), 1u);
+  ASSERT_EQ(volume::sliceCount(value.ct.provenance.interpolated), 1);
+  const int guessed = value.ct.provenance.interpolated[0].first;
   auto* axial = window().findChild<SliceView*>("axialView");
   auto* coronal = window().findChild<SliceView*>("coronalView");
   const QColor mark("#ff8c2b");
@@ -1100,11 +1117,11 @@ TEST_F(Import, TheRepairPageShowsBeforeAndAfterAndTheCaseMarksWhatWasGuessed)
     for (SliceView* view : {axial, coronal})
       view->setCrosshair(value.ct.geometry.patientFromVoxel(voxel));
   };
-  showSlice(guessed[0]);
+  showSlice(guessed);
   EXPECT_TRUE(hasColor(axial->grab().toImage(), mark));
   keepPicture(*axial, "interpolated-axial");
   keepPicture(*coronal, "interpolated-coronal");
-  showSlice(guessed[0] + 2);
+  showSlice(guessed + 2);
   EXPECT_FALSE(hasColor(axial->grab().toImage(), mark));
   const QImage marked = coronal->grab().toImage();
   coronal->setInterpolated({});
@@ -1113,7 +1130,7 @@ TEST_F(Import, TheRepairPageShowsBeforeAndAfterAndTheCaseMarksWhatWasGuessed)
   const auto* note = view().findChild<QLabel*>("guessed");
   ASSERT_NE(note, nullptr);
   EXPECT_TRUE(note->isVisible());
-  EXPECT_EQ(note->text(), QString("CT: slice %1 interpolated").arg(guessed[0] + 1));
+  EXPECT_EQ(note->text(), QString("CT: slice %1 interpolated").arg(guessed + 1));
 }
 
 TEST_F(Import, OneSliceStandsForItsSeries)

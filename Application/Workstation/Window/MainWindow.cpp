@@ -62,12 +62,11 @@
 #include "WindowSettings.h"
 #include "WindowTexts.h"
 #include "petrous/Dissection/Catalogues.h"
-#include "petrous/Imaging/ImageFile.h"
 #include "petrous/Interaction/OrbitCamera.h"
 #include "petrous/Presenters/CasePicture.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/ProvenanceText.h"
 #include "petrous/Presenters/Recordings.h"
-#include "petrous/Presenters/SeriesPreview.h"
 
 namespace petrous::workstation
 {
@@ -855,12 +854,11 @@ void MainWindow::caseChanged()
   m_viewState->show();
   m_view->setFocus();
   m_notesBanner->hide();
-  m_notesTold = value.revision == 0 ? QStringList() : notesOf(value);
-  const auto isOfSide = [](const QString& note)
-  { return imaging::isNoteOfSide(note.toStdString()); };
-  m_notesTold.erase(std::remove_if(m_notesTold.begin(), m_notesTold.end(), isOfSide),
-                    m_notesTold.end()); // told whenever the case is opened
+  const bool isNew = value.revision == 0;
+  m_notesTold = isNew ? QStringList() : notesOf(value);
   notifyNotes();
+  if (!isNew) // told whenever the case is opened
+    warnOfSides();
   showUnregistered(true);
 }
 
@@ -883,6 +881,18 @@ void MainWindow::showUnregistered(bool opened)
           .arg(names.join(", "), presenters::primaryName(m_model.value())));
   if (opened)
     m_mrBanner->show();
+}
+
+// Left and right that were assumed.
+void MainWindow::warnOfSides()
+{
+  QStringList lines;
+  for (const std::string& line : presenters::assumedSideTexts(m_model.value()))
+    lines += words(line);
+  if (lines.isEmpty())
+    return;
+  m_notesBanner->setText(lines.join('\n'));
+  m_notesBanner->show();
 }
 
 // What was assumed or left out when files were read, until it is acknowledged.

@@ -92,6 +92,7 @@ private:
   void caseClosed();
   void partsChanged();
   void notifyNotes();
+  void warnOfSides();
   void showFault(const QString& why);
   void offerBurrs();
   void maskChanged(const core::IndexBox& box);

@@ -385,7 +385,7 @@ TEST(SeriesGeometry, TellsALossFromAPitchByTheInstanceNumbers)
   EXPECT_EQ(assess(lost).verdict, Verdict::Refused);
 }
 
-TEST(SeriesGeometry, WhatIsKnownOfThePixelsIsSaidByTheNotesToo)
+TEST(SeriesGeometry, WhatIsKnownOfThePixelsIsThatOfTheWorstSlice)
 {
   for (const auto text : {BurnedInText::None, BurnedInText::Suspected, BurnedInText::Stated})
     for (const bool isLossy : {false, true})
@@ -396,13 +396,12 @@ TEST(SeriesGeometry, WhatIsKnownOfThePixelsIsSaidByTheNotesToo)
         slices[4].isLossy = isLossy;
         if (isLossy && ratio > 0.0)
           slices[4].lossyRatio = ratio;
-        for (const PixelFaults& faults :
-             {pixelFaults(slices), pixelFaults(assess(slices).notes)}) // older cases have these
-        {
-          EXPECT_EQ(faults.burnedIn, text);
-          EXPECT_EQ(faults.isLossy, isLossy);
-          EXPECT_EQ(faults.lossyRatio.value_or(0.0), isLossy ? ratio : 0.0);
-        }
+        const PixelFaults faults = pixelFaults(slices);
+        EXPECT_EQ(faults.burnedIn, text);
+        EXPECT_EQ(faults.isLossy, isLossy);
+        EXPECT_EQ(faults.lossyRatio.value_or(0.0), isLossy ? ratio : 0.0);
+        EXPECT_EQ(assess(slices).notes.size(),
+                  (isLossy ? 1U : 0U) + (text == BurnedInText::None ? 0U : 1U));
       }
 }
 
@@ -698,16 +697,23 @@ TEST(SeriesRepair, SaysWhatItGuessed)
   EXPECT_NE(repair.notes(box).front().find("slice 8 of 30 is missing from the files"),
             std::string::npos)
       << repair.notes(box).front();
-  EXPECT_EQ(repair.interpolated(box), std::vector<int>{7});
+  using Ranges = std::vector<volume::SliceRange>;
+  EXPECT_EQ(repair.provenance(box).interpolated, (Ranges{{7, 7}}));
   box.lower[2] = 3; // as the stored volume counts them
-  EXPECT_EQ(repair.interpolated(box), std::vector<int>{4});
+  EXPECT_EQ(repair.provenance(box).interpolated, (Ranges{{4, 4}}));
   EXPECT_NE(repair.notes(box).front().find("slice 5 of 27 is missing"), std::string::npos);
   box.lower[2] = 8;
   EXPECT_TRUE(repair.notes(box).empty());
+  EXPECT_TRUE(repair.provenance(box).interpolated.empty());
+  EXPECT_EQ(repair.provenance(box).shift, 0.0);
   const SeriesRepair tilt(assess(tilted(-18.5, {1, 0, 0})));
   const auto tiltNotes = tilt.notes(tilt.grid().fullBox());
   ASSERT_EQ(tiltNotes.size(), 1U);
   EXPECT_NE(tiltNotes.front().find("18.5 degrees"), std::string::npos);
+  const auto undone = tilt.provenance(tilt.grid().fullBox());
+  EXPECT_NEAR(undone.tilt, 18.5, 1e-6);
+  const double height = tilt.grid().spacing()[2] * (tilt.grid().dims()[2] - 1);
+  EXPECT_NEAR(undone.shift, height * std::tan(18.5 * M_PI / 180.0), 1e-6);
   Headers pushed = stack(30, 1.0);
   (*pushed[12].position)[0] += 3.0;
   const SeriesRepair aside(assess(pushed));
@@ -716,6 +722,8 @@ TEST(SeriesRepair, SaysWhatItGuessed)
   EXPECT_NE(asideNotes.front().find("sideways to where their positions put them, by up to 3.00 mm"),
             std::string::npos)
       << asideNotes.front();
+  EXPECT_NEAR(aside.provenance(aside.grid().fullBox()).shift, 3.0, 1e-9);
+  EXPECT_EQ(aside.provenance(aside.grid().fullBox()).tilt, 0.0);
 }
 
 } // namespace

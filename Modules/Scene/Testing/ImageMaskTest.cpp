@@ -115,12 +115,13 @@ TEST(ImageMask, MasksCtAndMrAndLeavesAllElse)
   }
 }
 
-// A note is text, and may come with an archive of another's.
-TEST(ImageMask, BelievesNoNoteOfAMask)
+// What a case says of its image may come with an archive of another's.
+TEST(ImageMask, BelievesNoNoteAndNoRecordOfAMask)
 {
   scene::Case value = headCase();
   value.ct.notes.push_back("the face is masked to a plane 50 mm behind the tip of the nose, with "
                            "the auricles");
+  value.ct.provenance.isFaceMasked = value.ct.provenance.areEarsMasked = true;
   EXPECT_EQ(scene::imagesWithFace(value), (std::vector<std::string>{"the CT"}));
   scene::ImageMask mask;
   mask.face = true;
@@ -146,6 +147,9 @@ TEST(ImageMask, RefusesAuriclesThatAnEarlierMaskLeft)
   const auto again = scene::maskImages(both, mask);
   EXPECT_EQ(again.images.front().face, Kind::Masked);
   EXPECT_EQ(again.images.front().changed, 0u);
+  EXPECT_TRUE(both.ct.provenance.isFaceMasked && both.ct.provenance.areEarsMasked);
+  EXPECT_TRUE(value.ct.provenance.isFaceMasked);
+  EXPECT_FALSE(value.ct.provenance.areEarsMasked || value.ct.provenance.isCropped);
 }
 
 TEST(ImageMask, KeepsStructuresAndDrillingOfAllApproaches)

@@ -21,9 +21,6 @@ using volume::CellSet;
 using volume::FaceFinding;
 using volume::IntensityVolume;
 
-constexpr const char* kMaskedNote = "the face is masked";
-constexpr const char* kWithEars = ", with the auricles";
-
 std::string nameOf(const Case& value, const ImagePart& image)
 {
   if (&image != &value.ct)
@@ -34,16 +31,6 @@ std::string nameOf(const Case& value, const ImagePart& image)
 bool isMr(const Case& value, const ImagePart& image)
 {
   return &image != &value.ct || image.modality == Modality::Mr;
-}
-
-// Only said, and never enough to let an image pass.
-bool areEarsNotedAsMasked(const ImagePart& image)
-{
-  return std::any_of(image.notes.begin(), image.notes.end(),
-                     [](const std::string& note) {
-                       return note.rfind(kMaskedNote, 0) == 0 &&
-                              note.find(kWithEars) != std::string::npos;
-                     });
 }
 
 /// What stays.
@@ -255,6 +242,7 @@ struct Result
   MaskedImagePart part;
   std::vector<std::string> notes; ///< for the user
   std::string kept;               ///< note of the image itself
+  volume::ImageProvenance provenance;
 };
 
 Result masked(const Case& value, const ImagePart& image, const ImageMask& mask,
@@ -262,6 +250,7 @@ Result masked(const Case& value, const ImagePart& image, const ImageMask& mask,
 {
   const std::string name = nameOf(value, image);
   Result result;
+  result.provenance = image.provenance;
   result.image = image.volume.get();
   result.part.name = &image == &value.ct ? std::string() : image.name;
   result.part.voxels = image.geometry.voxelCount();
@@ -286,7 +275,8 @@ Result masked(const Case& value, const ImagePart& image, const ImageMask& mask,
                         name + ": " + finding.text +
                             "; it cannot be masked. Leave the image out, or hand on the region of "
                             "the ear alone (--roi)");
-    if (finding.kind == FaceFinding::Kind::Masked && mask.ears && !areEarsNotedAsMasked(image))
+    // What is said of them is never enough to let an image pass.
+    if (finding.kind == FaceFinding::Kind::Masked && mask.ears && !image.provenance.areEarsMasked)
       throw core::Error(core::Fault::Refused,
                         name + ": the face is masked already, but not the auricles, which are "
                                "found by it; mask both in the image as it was");
@@ -299,11 +289,13 @@ Result masked(const Case& value, const ImagePart& image, const ImageMask& mask,
       const auto done =
           volume::maskFace(*result.image, finding.region, &kept.all, progress.part(0.4, 0.7));
       take(done, kept);
-      result.kept = std::string(kMaskedNote) + " to a plane " +
-                    core::fixedText(finding.region.reach, 0) + " mm behind the tip of the nose, " +
-                    core::fixedText(volume::kFaceDepth, 0) + " mm or more below its skin (median " +
+      result.provenance.isFaceMasked = true;
+      result.provenance.areEarsMasked = image.provenance.areEarsMasked || mask.ears;
+      result.kept = "the face is masked to a plane " + core::fixedText(finding.region.reach, 0) +
+                    " mm behind the tip of the nose, " + core::fixedText(volume::kFaceDepth, 0) +
+                    " mm or more below its skin (median " +
                     core::fixedText(finding.region.depth, 0) + " mm)" +
-                    (mask.ears ? kWithEars : "");
+                    (mask.ears ? ", with the auricles" : "");
       if (!finding.text.empty())
         result.notes.push_back(name + ": " + finding.text);
       result.notes.push_back(name + ": " + result.kept + "; " +
@@ -325,6 +317,7 @@ Result masked(const Case& value, const ImagePart& image, const ImageMask& mask,
     take(done, kept);
     result.notes.push_back(name + ": all outside of the region is air; " +
                            percent(done.changed, result.part.voxels) + " of its voxels changed");
+    result.provenance.isCropped = true;
     result.kept += std::string(result.kept.empty() ? "" : "; ") + "cropped to a region";
   }
   return result;
@@ -370,6 +363,7 @@ ImageMaskReport maskImages(Case& value, const ImageMask& mask, const core::Progr
     }
     if (!result.kept.empty())
       images[n]->notes.push_back(result.kept);
+    images[n]->provenance = std::move(result.provenance);
     report.notes.insert(report.notes.end(), result.notes.begin(), result.notes.end());
     report.images.push_back(std::move(result.part));
   }

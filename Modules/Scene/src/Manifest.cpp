@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "DissectionJson.h"
+#include "NotedProvenance.h"
 #include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Dissection/BurrName.h"
 #include "petrous/Scene/Registration.h"
@@ -168,6 +169,95 @@ constexpr std::pair<const char*, Hash> kPatientHashes[] = {{"id", &PatientHash::
                                                            {"name", &PatientHash::name},
                                                            {"birth_date", &PatientHash::birthDate}};
 
+constexpr const char* kProvenance = "provenance"; // absent: older programs, whose notes say it
+constexpr const char* kAssumedAxes = "assumed_axes";
+constexpr const char* kBurnedIn[] = {"none", "suspected", "stated"};
+using Flag = bool volume::ImageProvenance::*;
+constexpr std::pair<const char*, Flag> kMasked[] = {
+    {"face", &volume::ImageProvenance::isFaceMasked},
+    {"auricles", &volume::ImageProvenance::areEarsMasked},
+    {"outside", &volume::ImageProvenance::isCropped}};
+
+void putAssumedAxes(json& j, const std::optional<bool>& assumedRas)
+{
+  if (assumedRas)
+    j[kAssumedAxes] = *assumedRas ? "RAS" : "LPS";
+}
+
+std::optional<bool> assumedRasIn(const json& j)
+{
+  if (!j.contains(kAssumedAxes))
+    return std::nullopt;
+  const auto axes = j.at(kAssumedAxes).get<std::string>();
+  if (axes != "RAS" && axes != "LPS")
+    throw core::InvalidParameter("provenance: assumed axes must be RAS or LPS");
+  return axes == "RAS";
+}
+
+// Slices are numbered from 1, as where a user sees them.
+json provenanceOut(const volume::ImageProvenance& provenance)
+{
+  json j = json::object();
+  for (const volume::SliceRange& range : provenance.interpolated)
+    j["interpolated_slices"].push_back({range.first + 1, range.last + 1});
+  if (provenance.tilt != 0.0)
+    j["tilt_deg"] = provenance.tilt;
+  if (provenance.shift != 0.0)
+    j["shift_mm"] = provenance.shift;
+  putAssumedAxes(j, provenance.assumedRas);
+  if (provenance.pixels.burnedIn != volume::BurnedInText::None)
+    j["burned_in_text"] = kBurnedIn[static_cast<std::size_t>(provenance.pixels.burnedIn)];
+  if (provenance.pixels.isLossy)
+    j["lossy"] = true;
+  if (provenance.pixels.lossyRatio)
+    j["lossy_ratio"] = *provenance.pixels.lossyRatio;
+  for (const auto& [name, flag] : kMasked)
+    if (provenance.*flag)
+      j["masked"].push_back(name);
+  return j;
+}
+
+volume::ImageProvenance provenanceIn(const json& j, int slices)
+{
+  volume::ImageProvenance provenance;
+  if (j.contains("interpolated_slices"))
+    for (const json& range : j.at("interpolated_slices").get_ref<const json::array_t&>())
+    {
+      const auto [first, last] = range.get<std::array<int, 2>>();
+      const int after = provenance.interpolated.empty() ? 0 : provenance.interpolated.back().last;
+      if (first < 1 || last < first || last > slices ||
+          (!provenance.interpolated.empty() && first - 1 <= after + 1))
+        throw core::InvalidParameter("provenance: interpolated slices must be ranges of the "
+                                     "image's slices, from 1, in order and apart");
+      provenance.interpolated.push_back({first - 1, last - 1});
+    }
+  provenance.tilt = j.value("tilt_deg", 0.0);
+  provenance.shift = j.value("shift_mm", 0.0);
+  provenance.assumedRas = assumedRasIn(j);
+  const auto burnedIn = j.value("burned_in_text", std::string(kBurnedIn[0]));
+  const auto* found = std::find(std::begin(kBurnedIn), std::end(kBurnedIn), burnedIn);
+  if (found == std::end(kBurnedIn))
+    throw core::InvalidParameter("provenance: burned-in text must be none, suspected or stated");
+  provenance.pixels.burnedIn =
+      static_cast<volume::BurnedInText>(std::distance(std::begin(kBurnedIn), found));
+  provenance.pixels.isLossy = j.value("lossy", false);
+  if (j.contains("lossy_ratio"))
+    provenance.pixels.lossyRatio = j.at("lossy_ratio").get<double>();
+  if (provenance.pixels.lossyRatio && !(*provenance.pixels.lossyRatio > 0.0))
+    throw core::InvalidParameter("provenance: a ratio of compression must be above 0");
+  if (j.contains("masked"))
+    for (const json& one : j.at("masked").get_ref<const json::array_t&>())
+    {
+      const auto name = one.get<std::string>();
+      const auto* flag = std::find_if(std::begin(kMasked), std::end(kMasked),
+                                      [&name](const auto& known) { return known.first == name; });
+      if (flag == std::end(kMasked))
+        throw core::InvalidParameter("provenance: masked must be face, auricles or outside");
+      provenance.*(flag->second) = true;
+    }
+  return provenance;
+}
+
 json imageOut(const ImagePart& image)
 {
   json j{{"name", image.name},     {"object", image.object}, {"grid", gridOut(image.geometry)},
@@ -178,6 +268,7 @@ json imageOut(const ImagePart& image)
     for (const auto& [key, hash] : kPatientHashes)
       if (!(image.patient.*hash).empty())
         j[kPatient][key] = image.patient.*hash;
+  j[kProvenance] = provenanceOut(image.provenance);
   if (image.modality != Modality::Unknown)
     j[kModality] = image.modality == Modality::Mr ? "MR" : "CT";
   return j;
@@ -191,6 +282,9 @@ ImagePart imageIn(const json& j)
   image.geometry = gridIn(j.at("grid"));
   image.range = {j.at("min").get<double>(), j.at("max").get<double>()};
   image.notes = plainTextsIn(j.at("notes"));
+  const int slices = image.geometry.dims()[2];
+  image.provenance = j.contains(kProvenance) ? provenanceIn(j.at(kProvenance), slices)
+                                             : provenanceFromNotes(image.notes, slices);
   image.isFrameSalted = !j.contains(kUnsaltedFrame);
   image.frameOfReference = j.value(image.isFrameSalted ? kFrame : kUnsaltedFrame, std::string());
   if (j.contains(kPatient))
@@ -269,6 +363,10 @@ json labelsOut(const LabelPart& part)
     j["drawn_on"] = *part.drawnOn;
   if (!part.notes.empty())
     j["notes"] = part.notes;
+  json& provenance = j[kProvenance] = json::object();
+  putAssumedAxes(provenance, part.provenance.assumedRas);
+  if (part.provenance.isFrameAssumed)
+    provenance["frame_assumed"] = true;
   return j;
 }
 
@@ -280,6 +378,11 @@ LabelPart labelsIn(const json& j, const appearance::StructurePresets& presets)
     part.drawnOn = j.at("drawn_on").get<std::string>();
   if (j.contains("notes"))
     part.notes = plainTextsIn(j.at("notes"));
+  if (j.contains(kProvenance))
+    part.provenance = {assumedRasIn(j.at(kProvenance)),
+                       j.at(kProvenance).value("frame_assumed", false)};
+  else
+    part.provenance = labelProvenanceFromNotes(part.notes);
   for (const json& s : j.at("structures"))
     part.structures.push_back(
         {s.at("name").get<std::string>(), s.at("index").get<std::uint16_t>(),

@@ -58,11 +58,12 @@ std::string nameFromFile(const fs::path& path, const std::string& otherwise, con
 // The reader knows the series; the user knows the path.
 volume::IntensityVolume readNamed(const fs::path& path, const imaging::DicomSeries& series,
                                   const imaging::ReadOptions& options,
-                                  const core::Progress& progress, std::vector<std::string>& notes)
+                                  const core::Progress& progress, std::vector<std::string>& notes,
+                                  volume::ImageProvenance& provenance)
 {
   try
   {
-    return imaging::readSeries(series, options, progress, &notes);
+    return imaging::readSeries(series, options, progress, &notes, &provenance);
   }
   catch (const imaging::DicomError& error)
   {
@@ -254,6 +255,7 @@ ReadImage readImage(const fs::path& path, const std::string& selector, bool repa
     auto image = imaging::readImageFile(path, roi, progress, assumeRas);
     part.volume = image.volume;
     part.notes = std::move(image.notes);
+    part.provenance.assumedRas = image.assumedRas;
   }
   else
   {
@@ -283,7 +285,7 @@ ReadImage readImage(const fs::path& path, const std::string& selector, bool repa
         !left.empty())
       notes.push_back(left);
     part.volume = std::make_shared<const volume::IntensityVolume>(
-        readNamed(path, series, options, progress.part(0.2, 0.9), notes));
+        readNamed(path, series, options, progress.part(0.2, 0.9), notes, part.provenance));
     part.notes = std::move(notes);
     part.frameOfReference = withoutIdentity(series.frameOfReferenceUid);
     part.patient = patientOf(series);
@@ -554,47 +556,56 @@ void noteOutside(const scene::Case& value, scene::LabelPart& part, const volume:
 
 // A DICOM segmentation states the frame of reference in which it was drawn: that of the CT, or of
 // an MR. Of a stored case only salted hashes are known. What cannot be compared is noted, unless
-// the grid shows it.
-void settleFrame(const scene::Case& value, PartSource& source, const std::string& frameUid,
+// the grid shows it. Returns LabelProvenance::isFrameAssumed.
+bool settleFrame(const scene::Case& value, PartSource& source, const std::string& frameUid,
                  const core::GridGeometry* grid,
                  const std::function<std::string(const std::string&)>& salted,
                  std::vector<std::string>& notes)
 {
   const std::string frame = withoutIdentity(frameUid);
-  if (!source.drawnOn.empty())
-    return;
-  const auto noteUnknown = [&](const std::string& why)
-  {
-    if (!grid ||
-        (!core::sameGrid(*grid, value.ct.geometry) && scene::mrWithGrid(value, *grid).empty()))
-      notes.push_back(std::string("its frame of reference could not be compared with the ") +
-                      primaryName(value) + "'s, as " + why +
-                      "; look whether it lies where it belongs");
-  };
-  if (frame.empty())
-    return noteUnknown("it states none");
-  if (frame == withoutIdentity(exportedFrame(value, "")))
-  {
-    source.drawnOn = "ct";
-    return;
-  }
-  for (const scene::ImagePart& mr : value.mr)
-    if (frame == withoutIdentity(exportedFrame(value, mr.name)))
-    {
-      source.drawnOn = mr.name;
-      return;
-    }
+  const auto isExported = [&](const std::string& mr)
+  { return frame == withoutIdentity(exportedFrame(value, mr)); };
   const auto isKnown = [&salted](const scene::ImagePart& image)
   { return !image.frameOfReference.empty() && (!image.isFrameSalted || salted); };
   const auto isOf = [&](const scene::ImagePart& image)
   { return image.frameOfReference == (image.isFrameSalted ? salted(frame) : frame); };
+  if (!source.drawnOn.empty())
+  {
+    const bool isCt = source.drawnOn == "ct";
+    const scene::ImagePart* image = isCt ? &value.ct : scene::findMr(value, source.drawnOn);
+    return image && !frame.empty() && isKnown(*image) && !isOf(*image) &&
+           !isExported(isCt ? "" : image->name);
+  }
+  const auto noteUnknown = [&](const std::string& why)
+  {
+    const bool isShown = grid && (core::sameGrid(*grid, value.ct.geometry) ||
+                                  !scene::mrWithGrid(value, *grid).empty());
+    if (!isShown)
+      notes.push_back(std::string("its frame of reference could not be compared with the ") +
+                      primaryName(value) + "'s, as " + why +
+                      "; look whether it lies where it belongs");
+    return !isShown;
+  };
+  if (frame.empty())
+    return noteUnknown("it states none");
+  if (isExported(""))
+  {
+    source.drawnOn = "ct";
+    return false;
+  }
+  for (const scene::ImagePart& mr : value.mr)
+    if (isExported(mr.name))
+    {
+      source.drawnOn = mr.name;
+      return false;
+    }
   if (isKnown(value.ct) && isOf(value.ct))
-    return;
+    return false;
   for (const scene::ImagePart& mr : value.mr)
     if (isKnown(mr) && isOf(mr))
     {
       source.drawnOn = mr.name;
-      return;
+      return false;
     }
   const std::string image = primaryName(value);
   if (!isKnown(value.ct))
@@ -605,12 +616,12 @@ void settleFrame(const scene::Case& value, PartSource& source, const std::string
 // An RT structure set becomes voxels of the image on which it was drawn.
 imaging::LoadedLabels loadStructureSet(const scene::Case& value, PartSource& source,
                                        const std::function<std::string(const std::string&)>& salted,
-                                       const core::Progress& progress)
+                                       const core::Progress& progress, bool& isFrameAssumed)
 {
   const imaging::StructureSet set = imaging::readStructureSet(source.path);
   isOfOtherPatient(value, source, patientHash(set.patient), salted); // before it is computed
   std::vector<std::string> notes;
-  settleFrame(value, source, set.frameOfReferenceUid, nullptr, salted, notes);
+  isFrameAssumed = settleFrame(value, source, set.frameOfReferenceUid, nullptr, salted, notes);
   const scene::ImagePart* mr = nullptr;
   if (!source.drawnOn.empty() && source.drawnOn != "ct")
     mr = scene::findMr(value, drawnOnNamed(value, source));
@@ -708,18 +719,16 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
   const auto& salted = parts.salted;
   const auto presets = appearance::StructurePresets::builtIn();
   imaging::LoadedLabels loaded;
+  scene::LabelProvenance provenance;
   if (imaging::isStructureSet(source.path))
-    loaded = loadStructureSet(value, source, salted, progress);
+    loaded = loadStructureSet(value, source, salted, progress, provenance.isFrameAssumed);
   else
   {
     imaging::LabelNaming naming{parts.labelNames, parts.labels.size() == 1};
     if (!source.labelNames.empty())
       naming = {source.labelNames, true};
     const auto gridOf = [](const scene::ImagePart& image)
-    {
-      return imaging::ImageGrid(image.geometry, std::any_of(image.notes.begin(), image.notes.end(),
-                                                            imaging::isNoteOfSide));
-    };
+    { return imaging::ImageGrid(image.geometry, image.provenance.assumedRas.has_value()); };
     std::vector<imaging::ImageGrid> images{gridOf(value.ct)};
     for (const scene::ImagePart& mr : value.mr)
       images.push_back(gridOf(mr));
@@ -727,8 +736,10 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     if (loaded.isSideOpen)
       throw ImageSideUnclear(source.path, "--labels-frame");
     if (imaging::isDicomSegmentation(source.path))
-      settleFrame(value, source, loaded.frameOfReferenceUid,
-                  &loaded.maps.front().voxels->geometry(), salted, loaded.notes);
+      provenance.isFrameAssumed =
+          settleFrame(value, source, loaded.frameOfReferenceUid,
+                      &loaded.maps.front().voxels->geometry(), salted, loaded.notes);
+    provenance.assumedRas = loaded.assumedRas;
   }
   std::vector<std::string> notes = std::move(loaded.notes);
   if (isOfOtherPatient(value, source, patientHash(loaded.patient), salted))
@@ -855,6 +866,7 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     ++layer;
     if (part.structures.empty())
       continue;
+    part.provenance = provenance;
     part.drawnOn = drawnOn(value, source, map.voxels->geometry());
     noteOutside(value, part, map);
     part.labels = std::make_shared<const volume::LabelMap>(std::move(map));

@@ -12,7 +12,7 @@
 #include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Presenters/CaseBuilder.h"
-#include "petrous/Presenters/SeriesPreview.h"
+#include "petrous/Presenters/ProvenanceText.h"
 
 namespace petrous::presenters
 {
@@ -244,10 +244,10 @@ std::optional<double> writeCaseSeries(const std::filesystem::path& folder, const
   }
   series.modality = isMr ? Modality::Mr : Modality::Ct;
   series.derived = true;
-  series.faults = imaging::pixelFaults(part.notes);
-  if (const std::string guessed = interpolatedText(part); !guessed.empty())
-    series.derivation = (onCt ? "Resampled from an image of which " : "Repaired: ") + guessed +
-                        " between neighbours";
+  series.faults = part.provenance.pixels;
+  series.derivation = derivationText(part, onCt);
+  if (!onCt)
+    series.interpolated = part.provenance.interpolated;
   series.description = what == "dissected" ? (isMr ? "MR, dissected" : "CT, dissected")
                        : what == "ct"      ? (isMr ? "MR" : "CT")
                        : onCt              ? "MR, resampled on the CT"
@@ -280,10 +280,26 @@ std::string roundingNote(const std::string& name, double error)
 
 std::string guessedNote(const scene::ImagePart& part)
 {
-  const std::string guessed = interpolatedText(part);
-  return guessed.empty() ? guessed
-                         : "in '" + part.name + "', " + guessed +
-                               " between neighbours: nothing was measured there";
+  std::string text;
+  const std::vector<volume::SliceRange>& slices = part.provenance.interpolated;
+  if (!slices.empty())
+    text = (volume::sliceCount(slices) == 1 ? "slice " : "slices ") + volume::toString(slices) +
+           " interpolated between neighbours: nothing was measured there";
+  if (const auto& assumed = part.provenance.assumedRas)
+    text += (text.empty() ? "" : "; ") + assumedSideText(*assumed);
+  return text.empty() ? text : "in '" + part.name + "', " + text;
+}
+
+std::string guessedNote(const scene::LabelPart& part)
+{
+  std::string text;
+  for (const std::string& one : provenanceTexts(part))
+    text += (text.empty() ? (part.structures.size() == 1
+                                 ? "'" + part.structures.front().name + "': "
+                                 : std::to_string(part.structures.size()) + " structures: ")
+                          : "; ") +
+            one;
+  return text;
 }
 
 std::size_t writeCaseSegmentation(const std::filesystem::path& path, const scene::Case& value,

@@ -218,6 +218,8 @@ std::vector<PlacedLabels> placedLabels(const Warn& warn, const scene::Case& valu
                                      "' is missing or damaged, and nothing else is asked for");
       continue;
     }
+    if (const std::string guessed = guessedNote(part); !guessed.empty())
+      warn(guessed);
     const std::string& name = labels.structures.front()->name;
     labels.map = scene::labelsOnCt(value, part);
     if (!labels.map)

@@ -187,6 +187,9 @@ private:
       writeCaseSegmentation(file, m_value, group, series, m_options, progress);
       m_files.push_back(file);
     }
+    for (const scene::LabelPart& part : m_value.labels)
+      if (std::string guessed = guessedNote(part); !guessed.empty())
+        m_notes.push_back(std::move(guessed));
   }
 
   void scene(const core::Progress& progress)
@@ -579,13 +582,12 @@ void warnOfIdentities(const IdentityText& identity, const std::string& what,
                        "send");
 }
 
-/// Text in the pixels of images that leave: the primary one, the MRs. Known by their notes, which
-/// every version of the program keeps with the case.
+/// Text in the pixels of images that leave: the primary one, the MRs.
 void warnOfText(const scene::Case& value, bool primary, bool mrs,
                 std::vector<std::string>& warnings)
 {
   const auto mayHaveText = [](const scene::ImagePart& image)
-  { return std::any_of(image.notes.begin(), image.notes.end(), imaging::isNoteOfText); };
+  { return image.provenance.pixels.burnedIn != volume::BurnedInText::None; };
   std::vector<std::string> images;
   if (primary && mayHaveText(value.ct))
     images.push_back(std::string("the ") + primaryName(value));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include <Eigen/Geometry>
 
@@ -11,7 +10,6 @@
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Imaging/ImagePreview.h"
 #include "petrous/Library/DerivedCache.h"
-#include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Volume/IntensityScale.h"
 
 namespace petrous::presenters
@@ -126,81 +124,17 @@ RepairPreview previewRepair(const fs::path& path, const std::string& selector,
   preview.before = previewOf(imaging::readSeries(series, options, progress.part(0.2, 0.5)), grid);
   options.acceptDefects = false;
   options.repair = true;
-  auto after = imaging::readSeries(series, options, progress.part(0.5, 1.0), &preview.notes);
+  volume::ImageProvenance provenance;
+  auto after =
+      imaging::readSeries(series, options, progress.part(0.5, 1.0), &preview.notes, &provenance);
   const core::GridGeometry straight = after.geometry();
   preview.after = previewOf(std::move(after), straight);
   preview.after.value.ct.notes = preview.notes;
+  preview.after.value.ct.provenance = std::move(provenance);
   // One grey window for both.
   preview.after.value.iso = preview.before.value.iso;
   preview.after.value.denseBone = preview.before.value.denseBone;
   return preview;
-}
-
-std::vector<int> interpolatedSlices(const scene::ImagePart& image)
-{
-  // "Repaired: slices 3, 7 to 9 of 60 were interpolated between neighbours, ..."
-  const std::string begins[] = {"Repaired: slices ", "Repaired: slice "};
-  std::vector<int> found;
-  for (const std::string& note : image.notes)
-    for (const std::string& begin : begins)
-    {
-      const auto of = note.find(" of ");
-      if (note.rfind(begin, 0) != 0 || of == std::string::npos ||
-          note.find("interpolated between neighbours") == std::string::npos)
-        continue;
-      int count = 0;
-      if (std::sscanf(note.c_str() + of, " of %d", &count) != 1 ||
-          count != image.geometry.dims()[2])
-        continue;
-      for (std::size_t at = begin.size(); at < of;)
-      {
-        int first = 0;
-        int last = 0;
-        const int read = std::sscanf(note.c_str() + at, "%d to %d", &first, &last);
-        if (read < 1)
-          break;
-        for (int n = std::max(first, 1); n <= std::min(read == 2 ? last : first, count); ++n)
-          found.push_back(n - 1);
-        const auto comma = note.find(", ", at);
-        at = comma == std::string::npos ? of : comma + 2;
-      }
-    }
-  return found;
-}
-
-std::string interpolatedText(const scene::ImagePart& image)
-{
-  constexpr std::size_t kNamed = 4; // ranges
-  const std::vector<int> slices = interpolatedSlices(image);
-  std::string text;
-  std::size_t ranges = 0;
-  for (std::size_t n = 0; n < slices.size();)
-  {
-    std::size_t last = n;
-    while (last + 1 < slices.size() && slices[last + 1] == slices[last] + 1)
-      ++last;
-    if (++ranges <= kNamed)
-      text += (text.empty() ? "" : ", ") + std::to_string(slices[n] + 1) +
-              (last > n ? "-" + std::to_string(slices[last] + 1) : "");
-    n = last + 1;
-  }
-  if (ranges > kNamed)
-    text += " and others";
-  return text.empty() ? text : (slices.size() == 1 ? "slice " : "slices ") + text + " interpolated";
-}
-
-std::vector<std::string> interpolatedTexts(const scene::Case& value)
-{
-  std::vector<std::string> lines;
-  const auto add = [&lines](const std::string& name, const scene::ImagePart& image)
-  {
-    if (const std::string text = interpolatedText(image); !text.empty())
-      lines.push_back(name + ": " + text);
-  };
-  add(primaryName(value), value.ct);
-  for (const scene::ImagePart& mr : value.mr)
-    add(mr.name, mr);
-  return lines;
 }
 
 } // namespace petrous::presenters

@@ -486,10 +486,14 @@ std::optional<scene::LabelPart> WorkstationModel::addStructure(volume::LabelMap 
     throw;
   }
   if (taken)
-    for (scene::StructurePart& structure : m_case->labels.back().structures)
+  {
+    scene::LabelPart& added = m_case->labels.back();
+    added.provenance = taken->provenance;
+    for (scene::StructurePart& structure : added.structures)
       if (structure.name == replaced ||
           keepsLook(structure.name, taken->structures.front().look.preset))
         keepIdentity(structure, taken->structures.front());
+  }
   labelsChanged();
   if (taken)
     forgetStructure(replaced, *taken);

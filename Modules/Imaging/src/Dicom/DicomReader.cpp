@@ -425,7 +425,7 @@ void requireMemory(const DicomSeries& series, const GridGeometry& grid, const In
 
 IntensityVolume readSeries(const DicomSeries& series, const ReadOptions& options,
                            const core::Progress& progress, std::vector<std::string>* notes,
-                           std::vector<int>* interpolated)
+                           volume::ImageProvenance* provenance)
 {
   const SeriesGeometry& geometry = series.geometry;
   const bool accepted = geometry.verdict == Verdict::Ok || options.acceptDefects ||
@@ -446,6 +446,15 @@ IntensityVolume readSeries(const DicomSeries& series, const ReadOptions& options
     const IndexBox box = boxToRead(*geometry.grid, options);
     const std::function<void(std::size_t)> require = [&](std::size_t bytes)
     { requireMemory(series, *geometry.grid, box, false, options, bytes); };
+    const auto before = interpolatedBefore(geometry, box.lower[2], box.upper[2]);
+    if (std::string note = interpolatedBeforeNote(before, box.size()[2]); notes && !note.empty())
+      notes->push_back(std::move(note));
+    if (provenance)
+    {
+      *provenance = {};
+      provenance->interpolated = before;
+      provenance->pixels = pixelFaults(geometry.slices);
+    }
     return SeriesReader(series, box, require, progress).read(notes);
   }
   const SeriesRepair repair(geometry);
@@ -458,8 +467,11 @@ IntensityVolume readSeries(const DicomSeries& series, const ReadOptions& options
   if (notes)
     for (std::string& note : repair.notes(box))
       notes->push_back(std::move(note));
-  if (interpolated)
-    *interpolated = repair.interpolated(box);
+  if (provenance)
+  {
+    *provenance = repair.provenance(box);
+    provenance->pixels = pixelFaults(geometry.slices);
+  }
   return repair.resample(stacked, box, progress.part(0.7, 1.0));
 }
 

@@ -31,6 +31,12 @@ namespace
 
 using Modality = SeriesDescription::Modality;
 
+std::string imageType(const SeriesDescription& series)
+{
+  return std::string(series.derived ? "DERIVED\\SECONDARY" : "ORIGINAL\\PRIMARY") +
+         (series.modality == Modality::Ct ? "\\AXIAL" : "\\OTHER");
+}
+
 /// The attributes common to all slices of a series.
 gdcm::DataSet commonPart(const SeriesDescription& series, const core::GridGeometry& grid,
                          bool isSigned, bool isRescaled)
@@ -57,9 +63,7 @@ gdcm::DataSet commonPart(const SeriesDescription& series, const core::GridGeomet
           {0x0018, 0x5100, "CS", series.derived ? "" : "HFS"},
           {0x0008, 0x1090, "LO", series.derived ? "" : "Phantom"},
           // image
-          {0x0008, 0x0008, "CS",
-           std::string(series.derived ? "DERIVED\\SECONDARY" : "ORIGINAL\\PRIMARY") +
-               (ct ? "\\AXIAL" : "\\OTHER")},
+          {0x0008, 0x0008, "CS", imageType(series)},
           {0x0020, 0x0012, "IS", "1"},
           {0x0020, 0x0037, "DS",
            decimals({axes(0, 0), axes(1, 0), axes(2, 0), axes(0, 1), axes(1, 1), axes(2, 1)})},
@@ -284,6 +288,14 @@ void writeDicomSeries(const std::filesystem::path& folder, const volume::Intensi
                     " does not fit its 16 bits with this rescale; choose another");
               put(data, 0x0028, 0x0120, static_cast<std::uint16_t>(static_cast<S>(stored)),
                   std::is_signed_v<S> ? "SS" : "US");
+            }
+            if (volume::contains(description.interpolated, k))
+            {
+              put(data, 0x0008, 0x0008, "CS", imageType(description) + "\\" + kInterpolatedType);
+              put(data, 0x0008, 0x2111, "ST",
+                  "This slice was interpolated between its neighbours, nothing was measured in "
+                  "it. " +
+                      description.derivation);
             }
             if (ct && sliceStep)
             {

@@ -24,11 +24,6 @@ constexpr double kFarthest = 1e5;       // mm; positions beyond are invalid
 constexpr double kCoarsest = 1e3;       // mm
 constexpr double kPerpendicular = 1e-3; // dot product of direction cosines; ten times rounding
 constexpr double kUnitLength = 1e-2;
-constexpr const char* kStatedText = "The header states text in the pixels (Burned In Annotation)";
-constexpr const char* kLossy = "Compressed with loss";
-constexpr const char* kRatio = ", to 1/";
-constexpr const char* kOfText =
-    ": it may name the patient; look at the image before it is handed on.";
 
 bool isFinite(const std::optional<Eigen::Vector3d>& v)
 {
@@ -355,9 +350,10 @@ private:
                       [worst](const SliceHeader& slice) { return slice.burnedIn == worst; });
     m_result.notes.push_back(
         (worst == BurnedInText::Stated
-             ? kStatedText + std::string(", in ")
+             ? std::string("The header states text in the pixels (Burned In Annotation), in ")
              : "Text may be in the pixels, as of a screenshot or a converted image, in ") +
-        countOf(static_cast<std::size_t>(count), m_slices.size()) + kOfText);
+        countOf(static_cast<std::size_t>(count), m_slices.size()) +
+        ": it may name the patient; look at the image before it is handed on.");
   }
 
   void noteLoss()
@@ -377,7 +373,8 @@ private:
                                ", as neither the header nor the compressed image says it.");
     if (lossy > 0)
       m_result.notes.push_back(
-          kLossy + (ratio > 0.0 ? kRatio + decimals(ratio, 1) + " of the size" : std::string()) +
+          "Compressed with loss" +
+          (ratio > 0.0 ? ", to 1/" + decimals(ratio, 1) + " of the size" : std::string()) +
           ", in " + countOf(lossy, m_slices.size()) +
           ": values are not those measured, and thin walls may be blurred; the archive may have "
           "the series without loss.");
@@ -600,31 +597,6 @@ BurnedInText burnedInText(const std::string& annotation, const std::string& moda
   return isSuspected ? BurnedInText::Suspected : BurnedInText::None;
 }
 
-bool isNoteOfText(const std::string& note)
-{
-  return note.find(kOfText) != note.npos;
-}
-
-PixelFaults pixelFaults(const std::vector<std::string>& notes)
-{
-  PixelFaults faults;
-  for (const std::string& note : notes)
-  {
-    if (isNoteOfText(note))
-      faults.burnedIn =
-          std::max(faults.burnedIn, note.rfind(kStatedText, 0) == 0 ? BurnedInText::Stated
-                                                                    : BurnedInText::Suspected);
-    if (note.rfind(kLossy, 0) != 0)
-      continue;
-    faults.isLossy = true;
-    const std::string begin = std::string(kLossy) + kRatio;
-    if (note.rfind(begin, 0) == 0)
-      faults.lossyRatio =
-          core::parseDouble(note.substr(begin.size(), note.find(' ', begin.size()) - begin.size()));
-  }
-  return faults;
-}
-
 PixelFaults pixelFaults(const std::vector<SliceHeader>& slices)
 {
   PixelFaults faults;
@@ -636,6 +608,12 @@ PixelFaults pixelFaults(const std::vector<SliceHeader>& slices)
       faults.lossyRatio = slice.lossyRatio;
   }
   return faults;
+}
+
+bool isInterpolated(const SliceHeader& slice)
+{
+  return std::find(slice.imageType.begin(), slice.imageType.end(), kInterpolatedType) !=
+         slice.imageType.end();
 }
 
 SeriesGeometry assess(std::vector<SliceHeader> slices)

@@ -31,6 +31,26 @@ bool hasFinding(const SeriesGeometry& geometry, FindingKind kind)
                      [kind](const Finding& f) { return f.kind == kind; });
 }
 
+void appendSlice(std::vector<volume::SliceRange>& ranges, int slice)
+{
+  if (!ranges.empty() && ranges.back().last + 1 == slice)
+    ranges.back().last = slice;
+  else
+    ranges.push_back({slice, slice});
+}
+
+/// "3, 7 to 9"; of too many the first and the last: "3 to 99".
+std::string namedRanges(std::vector<volume::SliceRange> ranges)
+{
+  if (ranges.size() > kNamed)
+    ranges = {{ranges.front().first, ranges.back().last}};
+  std::string text;
+  for (const auto& [first, last] : ranges)
+    text += (text.empty() ? "" : ", ") + std::to_string(first + 1) +
+            (last > first ? " to " + std::to_string(last + 1) : "");
+  return text;
+}
+
 /// The lower quartile of the gaps: where the pitch changes, the finer one is kept.
 double fineGap(const std::vector<double>& places)
 {
@@ -114,6 +134,7 @@ SeriesRepair::SeriesRepair(const SeriesGeometry& geometry)
     Slice slice;
     slice.index = static_cast<int>(k);
     slice.place = way[2];
+    slice.isGuess = isInterpolated(geometry.slices[k]);
     if (isTilted || m_isUneven) // else within the tolerance
     {
       slice.u = way[0] / nominal.spacing()[0];
@@ -158,8 +179,9 @@ SeriesRepair::SeriesRepair(const SeriesGeometry& geometry)
     const Slice& last = m_slices.back();
     const double slide =
         std::hypot((last.u - m_slices.front().u) * h[0], (last.v - m_slices.front().v) * h[1]);
-    m_notes.push_back("Repaired: the gantry's tilt of " +
-                      decimals(std::atan2(slide, last.place) * 180.0 / M_PI, 1) +
+    m_tilt = std::atan2(slide, last.place) * 180.0 / M_PI;
+    m_shift = slide;
+    m_notes.push_back("Repaired: the gantry's tilt of " + decimals(m_tilt, 1) +
                       " degrees was undone by shifting each slice to where its position puts it, "
                       "the last by " +
                       decimals(slide, 1) + " mm against the first.");
@@ -171,12 +193,36 @@ SeriesRepair::SeriesRepair(const SeriesGeometry& geometry)
       farthest = std::max(farthest, std::hypot((slice.u - m_slices.front().u) * h[0],
                                                (slice.v - m_slices.front().v) * h[1]));
     if (farthest > kOnPlace)
+    {
+      m_shift = farthest;
       m_notes.push_back("Repaired: slices were shifted sideways to where their positions put them, "
                         "by up to " +
                         decimals(farthest, 2) + " mm against the first.");
+    }
   }
   if (hasFinding(geometry, FindingKind::MixedRescale))
     m_notes.push_back("Repaired: each slice's own rescale slope and intercept were applied.");
+}
+
+std::vector<volume::SliceRange> interpolatedBefore(const SeriesGeometry& geometry, int first,
+                                                   int end)
+{
+  std::vector<volume::SliceRange> ranges;
+  for (int k = first; k < end; ++k)
+    if (isInterpolated(geometry.slices[static_cast<std::size_t>(k)]))
+      appendSlice(ranges, k - first);
+  return ranges;
+}
+
+std::string interpolatedBeforeNote(const std::vector<volume::SliceRange>& slices, int count)
+{
+  if (slices.empty())
+    return {};
+  const bool isOne = volume::sliceCount(slices) == 1;
+  return std::string("Repaired: ") + (isOne ? "slice " : "slices ") + namedRanges(slices) + " of " +
+         std::to_string(count) + (isOne ? " was" : " were") +
+         " interpolated between neighbours before the series was written; small structures may be "
+         "absent there.";
 }
 
 std::vector<std::string> SeriesRepair::notes(const core::IndexBox& box) const
@@ -184,16 +230,27 @@ std::vector<std::string> SeriesRepair::notes(const core::IndexBox& box) const
   std::vector<std::string> notes = m_notes;
   if (std::string blends = blendNote(box); !blends.empty())
     notes.push_back(std::move(blends));
+  std::vector<volume::SliceRange> before;
+  for (int m = box.lower[2]; m < box.upper[2]; ++m)
+    if (const Blend blend = blendAt(m); blend.a == blend.b && blend.a->isGuess)
+      appendSlice(before, m - box.lower[2]);
+  if (std::string note = interpolatedBeforeNote(before, box.size()[2]); !note.empty())
+    notes.push_back(std::move(note));
   return notes;
 }
 
-std::vector<int> SeriesRepair::interpolated(const core::IndexBox& box) const
+volume::ImageProvenance SeriesRepair::provenance(const core::IndexBox& box) const
 {
-  std::vector<int> slices;
+  volume::ImageProvenance provenance;
+  provenance.tilt = m_tilt;
+  provenance.shift = m_shift;
   for (int m = box.lower[2]; m < box.upper[2]; ++m)
-    if (const Blend blend = blendAt(m); blend.a != blend.b)
-      slices.push_back(m - box.lower[2]);
-  return slices;
+  {
+    const Blend blend = blendAt(m);
+    if (blend.a != blend.b || blend.a->isGuess)
+      appendSlice(provenance.interpolated, m - box.lower[2]);
+  }
+  return provenance;
 }
 
 SeriesRepair::Blend SeriesRepair::blendAt(int m) const
@@ -218,33 +275,23 @@ SeriesRepair::Blend SeriesRepair::blendAt(int m) const
 
 std::string SeriesRepair::blendNote(const core::IndexBox& box) const
 {
-  std::vector<std::pair<int, int>> ranges; // first and last, numbered from 1
+  std::vector<volume::SliceRange> ranges;
   double farthest = 0.0;
-  const std::vector<int> slices = interpolated(box);
-  for (const int slice : slices)
+  for (int m = box.lower[2]; m < box.upper[2]; ++m)
   {
-    const int m = box.lower[2] + slice;
     const Blend blend = blendAt(m);
     const double place = m * m_grid.spacing()[2];
+    if (blend.a == blend.b)
+      continue;
+    appendSlice(ranges, m - box.lower[2]);
     farthest = std::max(farthest, std::min(place - blend.a->place, blend.b->place - place));
-    const int number = slice + 1;
-    if (!ranges.empty() && ranges.back().second + 1 == number)
-      ranges.back().second = number;
-    else
-      ranges.emplace_back(number, number);
   }
-  const std::size_t guessed = slices.size();
+  const int guessed = volume::sliceCount(ranges);
   if (guessed == 0)
     return {};
   const bool isMany = ranges.size() > kNamed;
-  if (isMany)
-    ranges = {{ranges.front().first, ranges.back().second}};
-  std::string where;
-  for (const auto& [first, last] : ranges)
-    where += (where.empty() ? "" : ", ") + std::to_string(first) +
-             (last > first ? " to " + std::to_string(last) : "");
-  return std::string("Repaired: ") + (guessed == 1 ? "slice " : "slices ") + where + " of " +
-         std::to_string(box.upper[2] - box.lower[2]) +
+  return std::string("Repaired: ") + (guessed == 1 ? "slice " : "slices ") + namedRanges(ranges) +
+         " of " + std::to_string(box.upper[2] - box.lower[2]) +
          (m_isMissing
               ? (guessed == 1 ? " is missing from the files and was" : " are missing and were")
           : isMany       ? " were in part"

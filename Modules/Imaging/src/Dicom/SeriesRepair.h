@@ -5,10 +5,19 @@
 
 #include "petrous/Core/Progress.h"
 #include "petrous/Imaging/DicomScan.h"
+#include "petrous/Volume/ImageProvenance.h"
 #include "petrous/Volume/IntensityVolume.h"
 
 namespace petrous::imaging
 {
+
+/// The slices of a series that were interpolated before it was written (isInterpolated), of those
+/// from `first` up to `end`, counted from `first` on.
+std::vector<volume::SliceRange> interpolatedBefore(const SeriesGeometry& geometry, int first,
+                                                   int end);
+
+/// What the user is told of these; empty: there are none. `count`: slices of the volume.
+std::string interpolatedBeforeNote(const std::vector<volume::SliceRange>& slices, int count);
 
 /// The straight grid that a repairable series is resampled to, and how.
 ///
@@ -30,19 +39,21 @@ public:
   volume::IntensityVolume resample(const volume::IntensityVolume& stacked,
                                    const core::IndexBox& box, const core::Progress& progress) const;
 
-  /// The slices of `box`, from its first on, that are interpolated between neighbours.
-  std::vector<int> interpolated(const core::IndexBox& box) const;
+  /// What of `box`, its slices counted from its first on, is other than in the files.
+  volume::ImageProvenance provenance(const core::IndexBox& box) const;
 
-  /// What was changed and guessed, one sentence each. Slices are numbered from 1, as in `box`.
+  /// The same, what was changed and guessed, one sentence each. Slices are numbered from 1, as in
+  /// `box`; of very many only the first and last are named.
   std::vector<std::string> notes(const core::IndexBox& box) const;
 
 private:
   struct Slice
   {
-    int index = 0;      ///< in `stacked`
-    double place = 0.0; ///< t_k - t_0, mm
-    double u = 0.0;     ///< pixels, relative to the grid's first column
-    double v = 0.0;     ///< pixels, relative to the grid's first row
+    int index = 0;        ///< in `stacked`
+    double place = 0.0;   ///< t_k - t_0, mm
+    double u = 0.0;       ///< pixels, relative to the grid's first column
+    double v = 0.0;       ///< pixels, relative to the grid's first row
+    bool isGuess = false; ///< isInterpolated
   };
   struct Blend
   {
@@ -56,6 +67,8 @@ private:
   std::vector<Slice> m_slices; ///< without duplicates
   bool m_isUneven = false;
   bool m_isMissing = false; ///< and not uneven
+  double m_tilt = 0.0;      ///< volume::ImageProvenance
+  double m_shift = 0.0;
   core::GridGeometry m_grid;
   std::vector<std::string> m_notes;
 };

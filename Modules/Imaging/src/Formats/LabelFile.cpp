@@ -227,6 +227,7 @@ LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
   LoadedLabels loaded;
   loaded.notes = source.notes();
   loaded.isSideOpen = !isSideKnown;
+  loaded.assumedRas = source.assumedRas();
   if (named)
     for (const std::string& name : segmentsWithoutLayer(*source.nrrd(), source.components()))
     {

@@ -12,15 +12,12 @@
 #include "NiftiHeader.h"
 #include "NrrdLayout.h"
 #include "petrous/Imaging/FileFormats.h"
-#include "petrous/Imaging/ImageFile.h"
 
 namespace petrous::imaging
 {
 
 namespace
 {
-
-constexpr const char* kSideOpen = "does not say which side of the patient is left";
 
 /// The most decoded bytes that a byte of the file can stand for; beyond, the header does not belong
 /// to the voxels.
@@ -129,7 +126,8 @@ bool VoxelSource::settleSide(const std::optional<bool>& isRas, const std::vector
     return true;
   const auto note = [this](const char* why)
   {
-    m_notes.push_back(kSideOpen + std::string("; its axes were taken as ") +
+    m_notes.push_back(std::string("does not say which side of the patient is left; its axes were "
+                                  "taken as ") +
                       (*m_assumedRas ? "RAS" : "LPS") + why);
   };
   if (isRas)
@@ -159,11 +157,6 @@ bool VoxelSource::settleSide(const std::optional<bool>& isRas, const std::vector
   assume(isOther ? !first : first);
   note(", as its grid is then that of an image of the case");
   return true;
-}
-
-bool isNoteOfSide(const std::string& note)
-{
-  return note.find(kSideOpen) != note.npos;
 }
 
 void VoxelSource::openNrrd()

@@ -47,6 +47,7 @@ struct Mask
   std::string why; ///< why it is not a mask; empty: it is one
   bool isDamaged = false;
   bool isSideOpen = false; ///< LoadedLabels
+  std::optional<bool> assumedRas;
 };
 
 template <class T>
@@ -100,6 +101,7 @@ void readMask(Mask& mask, const core::Progress& progress, const std::vector<Imag
 {
   VoxelSource source(mask.path);
   mask.isSideOpen = !source.settleSide(isRas, images);
+  mask.assumedRas = source.assumedRas();
   mask.grid = source.geometry();
   mask.notes = source.notes();
   if (source.components() != 1)
@@ -291,6 +293,8 @@ LoadedLabels readLabelFolder(const fs::path& folder, const core::Progress& progr
       loaded.notes.emplace_back(kAlike);
     segment.index = ++index;
     loaded.isSideOpen = loaded.isSideOpen || mask.isSideOpen;
+    if (!loaded.assumedRas)
+      loaded.assumedRas = mask.assumedRas;
     for (const std::string& note : mask.notes)
       if (std::find(loaded.notes.begin(), loaded.notes.end(), note) == loaded.notes.end())
         loaded.notes.push_back(note);

@@ -74,8 +74,7 @@ struct CaseDicomOptions
 /// patient's into a folder that is to be committed by the caller. Equal voxels give equal files.
 ///
 /// what     "ct", "mr" or "dissected"
-/// part     of the case, which `image` is or was made from: what its notes say of its pixels, and
-///          which slices repair interpolated, is written with it
+/// part     of the case, which `image` is or was made from: its provenance is written with it
 /// drawnOn  the MR whose space it is; empty: the CT's
 /// onCt     an MR, resampled on the CT's grid
 ///
@@ -92,8 +91,12 @@ std::optional<double> writeCaseSeries(const std::filesystem::path& folder, const
 /// What the user is told of it.
 std::string roundingNote(const std::string& name, double error);
 
-/// Likewise of the slices that repair interpolated; empty: none.
+/// Likewise of the slices that repair interpolated, and of left and right that are assumed; empty:
+/// nothing is.
 std::string guessedNote(const scene::ImagePart& part);
+
+/// Likewise of the place of structures.
+std::string guessedNote(const scene::LabelPart& part);
 
 /// Writes structures as a DICOM segmentation that belongs to the series of the CT, or of the MR,
 /// which writeCaseSeries writes; `placed`: on one grid in one space. Returns the number of

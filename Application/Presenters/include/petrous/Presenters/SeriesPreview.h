@@ -43,15 +43,4 @@ struct RepairPreview
 RepairPreview previewRepair(const std::filesystem::path& path, const std::string& selector,
                             const core::Progress& progress);
 
-/// Slices of an image (indices along the third axis of its grid, increasing) that repair
-/// interpolated, according to its notes. Of very many only the first and last are noted; then all
-/// between are returned.
-std::vector<int> interpolatedSlices(const scene::ImagePart& image);
-
-/// "slices 41-42, 60 interpolated", numbered from 1, for a picture of the image; empty: none is.
-std::string interpolatedText(const scene::ImagePart& image);
-
-/// Likewise of all images of a case, "CT: ..", a line each.
-std::vector<std::string> interpolatedTexts(const scene::Case& value);
-
 } // namespace petrous::presenters

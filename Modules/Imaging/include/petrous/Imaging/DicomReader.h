@@ -8,6 +8,7 @@
 #include "petrous/Core/PatientBox.h"
 #include "petrous/Core/Progress.h"
 #include "petrous/Imaging/DicomScan.h"
+#include "petrous/Volume/ImageProvenance.h"
 #include "petrous/Volume/IntensityVolume.h"
 
 namespace petrous::imaging
@@ -40,14 +41,14 @@ struct ReadOptions
 /// real value; padding that would be mistaken for tissue is replaced by the smallest real value (at
 /// most -1024 for CT) and reported in `notes`.
 ///
-/// interpolated  slices of the volume that repair guessed between their neighbours
+/// provenance  what repair guessed and moved, and what the headers state of the pixels
 ///
 /// Throws DicomError (Misleading, Unreadable, Unsupported, OutsideRoi, TooLarge) and
 /// CancelledError.
 volume::IntensityVolume readSeries(const DicomSeries& series, const ReadOptions& options,
                                    const core::Progress& progress,
                                    std::vector<std::string>* notes = nullptr,
-                                   std::vector<int>* interpolated = nullptr);
+                                   volume::ImageProvenance* provenance = nullptr);
 
 /// False for a DICOM file whose data set is deflated (PS3.5 A.5) and damaged, or larger than 256 MB
 /// when it is inflated: a few kilobytes can stand for more than there is memory, so other readers

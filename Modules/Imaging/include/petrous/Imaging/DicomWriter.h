@@ -53,7 +53,11 @@ struct SeriesDescription
   /// text in them, also if only suspected, it is written that they have some (0028,0301), and
   /// nothing of a removed identity.
   PixelFaults faults = {};
-  std::string derivation = {}; ///< (0008,2111) what was done to the image; empty: nothing
+  /// (0008,2111) what was done to the image, up to 900 characters; empty: nothing.
+  std::string derivation = {};
+  /// Slices in which nothing was measured, which derivation and Image Type (kInterpolatedType) of
+  /// each of them say; readSeries knows them again.
+  std::vector<volume::SliceRange> interpolated = {};
   double windowCenter = 700.0; ///< in the image's units
   double windowWidth = 4000.0;
 };

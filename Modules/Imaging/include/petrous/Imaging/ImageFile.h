@@ -42,7 +42,4 @@ LoadedImage readImageFile(const std::filesystem::path& path,
 /// LoadedImage::assumedRas of a file, by its header alone. Throws FileError.
 std::optional<bool> assumedRasOf(const std::filesystem::path& path);
 
-/// Whether this is the note of an image or of labels whose file left that open.
-bool isNoteOfSide(const std::string& note);
-
 } // namespace petrous::imaging

@@ -36,6 +36,9 @@ struct LoadedLabels
   /// A file leaves open which side of the patient is left, and neither the caller nor the grid of
   /// an image settled it: the place of the maps is a guess.
   bool isSideOpen = false;
+  /// Whether RAS (true) or LPS (false) axes were taken where a file leaves that open; of a folder,
+  /// of the first that does. nullopt: it is stated.
+  std::optional<bool> assumedRas = {};
   bool isNamedAfterFile = false; ///< structures are named only by the names of their files
   /// DICOM: what structures are, by the codes of the file; by name. An appearance may be chosen by
   /// it where the name says nothing.

@@ -10,6 +10,7 @@
 
 #include "petrous/Core/GridGeometry.h"
 #include "petrous/Imaging/PatientKey.h"
+#include "petrous/Volume/ImageProvenance.h"
 
 namespace petrous::imaging
 {
@@ -60,33 +61,14 @@ struct FileStamp
   std::int64_t changed = 0;  ///< contents, name or rights, ns since 1970
 };
 
-/// Text in the pixels, which may name the patient: Burned In Annotation (0028,0301).
-enum class BurnedInText
-{
-  None,      ///< stated, or not stated of an image that gives no reason to suspect it
-  Suspected, ///< not stated, of a screenshot, a secondary capture and the like
-  Stated
-};
+using volume::BurnedInText;
+using volume::PixelFaults;
 
 /// Of an image's attributes. `sopClass`: its UID; `imageType`: all values; `isConverted`: it has a
 /// Conversion Type (0008,0064).
 BurnedInText burnedInText(const std::string& annotation, const std::string& modality,
                           const std::string& sopClass, const std::string& imageType,
                           bool isConverted);
-
-/// Whether this is the note of a series that text may be in its pixels, stated or suspected.
-bool isNoteOfText(const std::string& note);
-
-/// What is known of the pixels of an image and goes with them.
-struct PixelFaults
-{
-  BurnedInText burnedIn = BurnedInText::None;
-  bool isLossy = false;
-  std::optional<double> lossyRatio; ///< if stated
-};
-
-/// By the notes of its series, as older cases keep them.
-PixelFaults pixelFaults(const std::vector<std::string>& notes);
 
 /// Header of one slice. Absent or malformed numbers are nullopt.
 struct SliceHeader
@@ -137,6 +119,11 @@ struct SliceHeader
 };
 
 PixelFaults pixelFaults(const std::vector<SliceHeader>& slices);
+
+/// Value of Image Type (0008,0008; PS3.3 C.7.6.1.1.2 leaves those from the fourth on to programs)
+/// of a slice that repair interpolated, as writeDicomSeries writes it.
+constexpr const char* kInterpolatedType = "INTERPOLATED_GAP";
+bool isInterpolated(const SliceHeader& slice);
 
 /// Possible defects of a series; kindName gives the names used in the command's JSON.
 enum class FindingKind

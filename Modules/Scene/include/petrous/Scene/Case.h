@@ -37,6 +37,15 @@ struct StructurePart
   volume::SegmentCodes codes = {}; ///< as the file said that it was read from
 };
 
+/// What of the place of structures was assumed when their file was read.
+struct LabelProvenance
+{
+  std::optional<bool> assumedRas; ///< as volume::ImageProvenance
+  /// Whether the file's frame of reference is not known to be that of the image whose space they
+  /// are taken to lie in: it could not be compared, or the user overruled it (FILE@ct).
+  bool isFrameAssumed = false;
+};
+
 /// A label map with the structures that the case uses.
 struct LabelPart
 {
@@ -44,6 +53,7 @@ struct LabelPart
   core::Lazy<volume::LabelMap> labels; ///< as drawn; in CT space: labelsOnCt (Placement.h)
   std::vector<StructurePart> structures;
   std::vector<std::string> notes; ///< what was assumed or skipped on reading the file, for the user
+  LabelProvenance provenance;
   /// The MR in whose patient space the labels lie; empty: the CT's. nullopt if an older case does
   /// not state it (placementOf).
   std::optional<std::string> drawnOn;

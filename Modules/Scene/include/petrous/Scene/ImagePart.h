@@ -8,6 +8,7 @@
 #include "petrous/Core/Lazy.h"
 #include "petrous/Core/RigidTransform.h"
 #include "petrous/Scene/Registration.h"
+#include "petrous/Volume/ImageProvenance.h"
 #include "petrous/Volume/IntensityVolume.h"
 
 namespace petrous::scene
@@ -41,6 +42,7 @@ struct ImagePart
   core::GridGeometry geometry;
   volume::ValueRange range;
   std::vector<std::string> notes;        ///< what was accepted on reading the image, for the user
+  volume::ImageProvenance provenance;    ///< what of it counts wherever the image goes
   Modality modality = Modality::Unknown; ///< of the primary image (Case::ct); others: Unknown
   core::Lazy<volume::IntensityVolume> volume;
   /// X_MC: CT patient points to this image's patient points, LPS mm; identity until registered.

@@ -82,6 +82,9 @@ QString windowText(const QString& text)
       {", or say --(ct|mr|labels)-frame ras \\(NIfTI's own\\) or lps \\(DICOM, ITK\\) if you know "
        "it",
        ""},
+      {"; give its structures other names with NAME=FILE, which puts NAME before each(, or leave "
+       ".* with --skip-taken)?",
+       "; rename those of the case first (F2 in the list)"},
       {", and say --other-patient if it is to be added all the same", ""},
       {"say FILE@ct, or add", "add it again and choose “on the CT”, or add"},
       {"; say on which it was drawn with FILE@.* or FILE@.*$",

@@ -5,6 +5,7 @@
 #include "CaseWarnings.h"
 #include "Commands.h"
 #include "Numbers.h"
+#include "petrous/Core/InputFile.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Library/FrameSalt.h"

@@ -5,6 +5,7 @@
 #include "CaseJson.h"
 #include "Commands.h"
 #include "Numbers.h"
+#include "petrous/Core/InputFile.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Presenters/PartFiles.h"

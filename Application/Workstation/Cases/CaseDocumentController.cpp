@@ -767,12 +767,10 @@ void CaseDocumentController::decide(std::vector<Item> items, const Purpose& purp
       part.roi = item.roi;
       part.assumeRas = item.assumeRas;
     }
-  if (!ct && !askTaken(sources.parts, others))
-    return;
   const std::string name =
       ct ? presenters::freeCaseName(m_model.library(), presenters::caseNameFrom(ct->path))
          : std::string();
-  if (!askNames(sources, others, name))
+  if (!askNames(sources, others, name) || (!ct && !askTaken(sources.parts, others)))
     return;
   if (ct)
     makeCase(name, [sources](const core::Progress&) { return sources; });

@@ -93,6 +93,7 @@ void SliceColumn::appearanceChanged()
     view->setIntensityDisplay(presenters::displayOf(m_model.value()));
     view->setInterpolated(presenters::interpolatedSlices(m_model.value().ct));
   }
+  showReadout(); // structures may be loaded only now, or have other names
 }
 
 void SliceColumn::clear()

@@ -422,6 +422,10 @@ void addMr(scene::Case& value, const PartSource& source,
   if (!read.otherQuantity.empty())
     part.notes.push_back(read.otherQuantity);
   part.name = name;
+  if (source.roi)
+    part.notes.push_back("Only a region of it was read, as asked; labels on the grid of the whole "
+                         "image lie on it only as FILE@" +
+                         name + ".");
   if (isOfOtherPatient(value, source, part.patient, salted))
     part.notes.push_back("Its files state another patient's ID, name or date of birth than those "
                          "of the case's other images; it was added as asked.");

@@ -5,7 +5,9 @@
 #include <string_view>
 
 #include "petrous/Appearance/StructurePresets.h"
+#include "petrous/Imaging/ImageFile.h"
 #include "petrous/Library/Library.h"
+#include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/SceneAssembly.h"
 #include "petrous/Rendering/OffscreenView.h"
 #include "petrous/Volume/IntensityHistogram.h"
@@ -19,8 +21,36 @@ rendering::SceneContents sceneContents(const scene::Case& value, const core::Pro
   return SceneAssembly().contents(value, progress);
 }
 
+namespace
+{
+
+// Which view is the lateral one: from the side of which the case is; else from that of the image's
+// centre. Of an image that does not state where it lies, from where it opens into air.
+rendering::StandardView lateralView(const scene::Case& value)
+{
+  using rendering::StandardView;
+  if (value.description.side == scene::Side::Left)
+    return StandardView::Left;
+  if (value.description.side == scene::Side::Right)
+    return StandardView::Right;
+  const scene::ImagePart& image = value.ct;
+  const Eigen::Vector3d& origin = image.geometry.origin();
+  const bool isPlaced = (origin.x() != 0.0 || origin.y() != 0.0) &&
+                        std::none_of(image.notes.begin(), image.notes.end(), imaging::isNoteOfSide);
+  if (isPlaced)
+    return StandardView::Lateral;
+  constexpr double kAir = -500.0; // HU
+  const double air = calibratedScale(value).calibrated ? kAir : 0.5 * (image.range.min + value.iso);
+  const int side = volume::openSide(*image.volume.get(), air);
+  return side > 0 ? StandardView::Left : side < 0 ? StandardView::Right : StandardView::Lateral;
+}
+
+} // namespace
+
 core::CameraPose standardCamera(const scene::Case& value, rendering::StandardView view)
 {
+  if (view == rendering::StandardView::Lateral)
+    view = lateralView(value);
   const auto extent = volume::tissueExtent(*value.ct.volume.get(), value.iso);
   return rendering::standardCamera(view, value.ct.geometry, extent.center, extent.radius);
 }

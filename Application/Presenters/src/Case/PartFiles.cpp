@@ -238,7 +238,9 @@ PartFiles entryOf(const PartFile& file, const imaging::ScanResult& scan)
                : file.kind == PartFile::Kind::Mask ? "mask of a structure"
                : file.structures == 1              ? "1 structure"
                : file.structures > 1               ? std::to_string(file.structures) + " structures"
-                                                   : "label map";
+               : imaging::formatOf(file.path)->reads == imaging::kLabels
+                   ? "segmentation of 3D Slicer"
+                   : "label map";
   entry.isBelow = file.isBelow;
   entry.image = imageOf(file, scan);
   return entry;

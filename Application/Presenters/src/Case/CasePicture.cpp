@@ -5,10 +5,9 @@
 #include <string_view>
 
 #include "petrous/Appearance/StructurePresets.h"
-#include "petrous/Imaging/ImageFile.h"
 #include "petrous/Library/Library.h"
-#include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/SceneAssembly.h"
+#include "petrous/Presenters/SlicePlanes.h"
 #include "petrous/Rendering/OffscreenView.h"
 #include "petrous/Volume/IntensityHistogram.h"
 #include "petrous/Volume/TissueExtent.h"
@@ -24,25 +23,15 @@ rendering::SceneContents sceneContents(const scene::Case& value, const core::Pro
 namespace
 {
 
-// Which view is the lateral one: from the side of which the case is; else from that of the image's
-// centre. Of an image that does not state where it lies, from where it opens into air.
+// Of a case without a side the renderer knows it by the place of the image, if that states one.
 rendering::StandardView lateralView(const scene::Case& value)
 {
   using rendering::StandardView;
-  if (value.description.side == scene::Side::Left)
-    return StandardView::Left;
-  if (value.description.side == scene::Side::Right)
-    return StandardView::Right;
-  const scene::ImagePart& image = value.ct;
-  const Eigen::Vector3d& origin = image.geometry.origin();
-  const bool isPlaced = (origin.x() != 0.0 || origin.y() != 0.0) &&
-                        std::none_of(image.notes.begin(), image.notes.end(), imaging::isNoteOfSide);
-  if (isPlaced)
+  const bool isDescribed =
+      value.description.side == scene::Side::Left || value.description.side == scene::Side::Right;
+  if (!isDescribed && statesPlace(value.ct))
     return StandardView::Lateral;
-  constexpr double kAir = -500.0; // HU
-  const double air = calibratedScale(value).calibrated ? kAir : 0.5 * (image.range.min + value.iso);
-  const int side = volume::openSide(*image.volume.get(), air);
-  return side > 0 ? StandardView::Left : side < 0 ? StandardView::Right : StandardView::Lateral;
+  return earOf(value) == scene::Side::Left ? StandardView::Left : StandardView::Right;
 }
 
 } // namespace

@@ -23,7 +23,7 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLooked = 16;      // slices of a file
-constexpr std::size_t kSamples = 4;      // masks of a folder that are looked into
+constexpr std::size_t kSampledMasks = 4; // masks of a folder that are looked into
 constexpr std::size_t kFew = 64;         // entries of a folder; more are of several patients
 constexpr std::size_t kMany = 1024;      // files of a folder beside
 constexpr std::size_t kListedMeshes = 8; // of a folder, one by one
@@ -197,16 +197,17 @@ void look(std::vector<PartFile>& files, const core::Progress& progress)
   std::vector<PartFile*> first;
   for (const auto& [folder, inside] : folders)
     first.insert(first.end(), inside.begin(),
-                 inside.begin() + static_cast<std::ptrdiff_t>(std::min(kSamples, inside.size())));
+                 inside.begin() +
+                     static_cast<std::ptrdiff_t>(std::min(kSampledMasks, inside.size())));
   readEach(first, progress.part(0.1, 0.5));
   std::vector<PartFile*> rest;
   for (const auto& [folder, inside] : folders)
   {
     const bool areMasks =
-        inside.size() > kSamples &&
-        std::all_of(inside.begin(), inside.begin() + kSamples,
+        inside.size() > kSampledMasks &&
+        std::all_of(inside.begin(), inside.begin() + kSampledMasks,
                     [](const PartFile* file) { return file->kind == PartFile::Kind::Mask; });
-    for (std::size_t n = kSamples; n < inside.size(); ++n)
+    for (std::size_t n = kSampledMasks; n < inside.size(); ++n)
       if (areMasks && core::sameGrid(*inside[n]->grid, *inside.front()->grid))
         inside[n]->kind = PartFile::Kind::Mask;
       else

@@ -1126,8 +1126,7 @@ bool CaseDocumentController::askSkip(const fs::path& path, const std::vector<std
   return box.clickedButton() == skip;
 }
 
-// Asks of folders of masks, whose names are known, before they are read. False: the user gave up,
-// or was told why it cannot be.
+// Asks of folders of masks, whose names are known, before they are read. False: the user gave up.
 bool CaseDocumentController::askTaken(presenters::PartSources& parts,
                                       const std::vector<Item>& others)
 {

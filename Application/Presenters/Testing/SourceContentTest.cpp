@@ -240,8 +240,9 @@ TEST_F(SourceContent, OffersTheStructureSetsOfAFolder)
   const auto disc = presenters::lookAt(m_folder / "ct" / "DICOMDIR", {});
   ASSERT_EQ(disc.series.size(), found.series.size());
   EXPECT_TRUE(std::any_of(disc.series.begin(), disc.series.end(),
-                          [](const auto& one)
-                          { return one.files.front().filename() == "set.dcm"; }));
+                          [](const auto& one) {
+                            return !one.files.empty() && one.files.front().filename() == "set.dcm";
+                          }));
 }
 
 TEST_F(SourceContent, MasksAreTakenForWhatTheyAreAlsoAboveDicom)

@@ -181,7 +181,7 @@ TEST_F(Segment, LabelsOfTheThresholdAreSeenWhole)
         EXPECT_TRUE(at.left() >= 0 && at.right() <= viewport->width())
             << label->text().toStdString();
       }
-    EXPECT_GE(seen, 5);
+    EXPECT_GE(seen, 4) << "structure, image, range, result";
     closeWindow();
   }
 }

@@ -980,6 +980,43 @@ TEST_F(CommandLine, StrictScanWantsEverySeriesSound)
   EXPECT_EQ(nlohmann::json::parse(strict.out)["series"][0]["verdict"], "repairable");
 }
 
+TEST_F(CommandLine, SaysWhichStructuresLieWithTheSlices)
+{
+  makePatient("--dims 32,32,30 --spacing 2.0");
+  const auto patient = m_folder / "patient";
+  const auto of = [](const nlohmann::json& scan, const std::string& name)
+  {
+    for (const auto& one : scan["parts"])
+      if (one["paths"].at(0).get<std::string>().find(name) != std::string::npos)
+        return one;
+    return nlohmann::json();
+  };
+  const auto all = json("scan " + quoted(patient));
+  std::string ct;
+  for (const auto& series : all["series"])
+    if (series["modality"] == "CT")
+      ct = series["uid"];
+  const auto segmentation = of(all, "labels.seg.nrrd");
+  EXPECT_EQ(segmentation["kind"], "labels");
+  EXPECT_EQ(segmentation["grid_of"], ct);
+  EXPECT_EQ(segmentation["below"], true);
+  EXPECT_EQ(of(all, "meshes")["kind"], "mesh");
+  const auto beside = json("scan " + quoted(patient / "ct"));
+  EXPECT_EQ(of(beside, "labels.seg.nrrd")["below"], false);
+  EXPECT_NE(run("scan " + quoted(patient)).out.find("on the grid of " + ct), std::string::npos);
+
+  const Outcome without = run("new ear --ct " + quoted(patient / "ct"));
+  EXPECT_EQ(without.code, 0) << without.err;
+  EXPECT_NE(without.err.find("labels.seg.nrrd"), std::string::npos) << without.err;
+  std::string options = " --labels x=" + quoted(patient / "labels") +
+                        " --labels y=" + quoted(patient / "labels.seg.nrrd");
+  for (const auto& mesh : std::filesystem::directory_iterator(patient / "meshes"))
+    options += " --mesh m_" + mesh.path().stem().string() + "=" + quoted(mesh.path());
+  const Outcome with = run("new all --ct " + quoted(patient / "ct") + options);
+  EXPECT_EQ(with.code, 0) << with.err;
+  EXPECT_EQ(with.err.find("were not taken"), std::string::npos) << with.err;
+}
+
 TEST_F(CommandLine, StrictScanTakesASegmentationForWhatItIs)
 {
   makePatient("--dims 32,32,40 --spacing 2");

@@ -94,6 +94,39 @@ TEST_F(LabelsCommand, NamesTheIndicesByATableAndTellsWhatBecameOfEach)
                 3, "none.csv");
 }
 
+TEST_F(LabelsCommand, LeavesOutStructuresWhoseNamesAreTakenIfAsked)
+{
+  put("masks/cochlea.nrrd", "short", [](int i, int, int) { return i < 5; });
+  put("masks/incus.nrrd", "short", [](int i, int, int) { return i == 7; });
+  const std::string add = "add ear --labels " + quoted(m_folder / "masks");
+  json(add);
+  put("masks/cochlea.nrrd", "short", [](int i, int, int) { return i < 6; });
+  put("masks/stapes.nrrd", "short", [](int i, int, int) { return i == 9; });
+  expectRefused(add, 4, "'cochlea' and 'incus' are names");
+  expectRefused(add, 4, "--skip-taken");
+  const auto added = json(add + " --skip-taken");
+  EXPECT_EQ(statusOf(added, "cochlea"), "skipped 2400");
+  EXPECT_EQ(statusOf(added, "stapes"), "read 400");
+  const auto info = json("info ear")["labels"];
+  ASSERT_EQ(info.size(), 3U);
+  for (const auto& one : info)
+    EXPECT_EQ(one["voxels"], one["name"] == "cochlea" ? 2000 : 400) << "as they were";
+  expectRefused("add ear --skip-taken --mesh x.obj", 2, "--labels");
+}
+
+TEST_F(LabelsCommand, TakesARegionOfAnMr)
+{
+  const auto mr =
+      put("mr.nrrd", "short", [](int i, int j, int k) { return i + 20 * (j + 20 * k); });
+  const auto added =
+      json("add ear --mr t2=" + quoted(mr) + " --mr-roi 3,8,4,9,5,9"); // voxels of 1 mm from 0
+  EXPECT_EQ(added["mr"][0]["dims"], nlohmann::json({6, 6, 5}));
+  EXPECT_EQ(added["mr"][0]["origin_mm"], nlohmann::json({3.0, 4.0, 5.0}));
+  expectRefused("add ear --mr x=" + quoted(mr) + " --mr-roi 100,110,0,5,0,5", 3, "mr.nrrd");
+  expectRefused("add ear --mr x=" + quoted(mr) + " --mr-roi 3,8", 2, "--mr-roi");
+  expectRefused("add ear --labels x=" + quoted(mr) + " --mr-roi 3,8,4,9,5,9", 2, "--mr");
+}
+
 TEST_F(LabelsCommand, TakesAFolderOfMasksAndNoPatientsNameFromIt)
 {
   put("masks/MUELLER_cochlea.nrrd", "short", [](int i, int, int) { return i < 5; });

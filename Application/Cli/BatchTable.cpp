@@ -41,19 +41,21 @@ struct Column
   const char* text;
 };
 
-constexpr std::array<Column, 26> kColumns{{
+constexpr std::array<Column, 28> kColumns{{
     {"name", Step::None, "the case's name (needed)"},
     {"folder", Step::Build, "CT: DICOM folder or image file; blank: the case is there already"},
     {"series", Step::Build, "which series of the folder: UID or UID#VOLUME"},
     {"modality", Step::Build, "CT or MR, if the file does not say"},
     {"ct_frame", Step::Build, "lps or ras, if an image file does not say which side is left"},
     {"mr_frame", Step::Build, "likewise, of the MR"},
+    {"mr_roi", Step::Build, "x0,x1,y0,y1,z0,z1 in LPS mm of each MR"},
     {"labels_frame", Step::Build, "likewise, of the labels that do not have the CT's grid"},
     {"roi", Step::Build, "x0,x1,y0,y1,z0,z1 in patient LPS mm"},
     {"repair", Step::Build, "yes or no: resample tilted, uneven or gapped slices"},
     {"mr", Step::Build, "[NAME=]PATH[#UID[#VOLUME]], several with |"},
     {"other_patient", Step::Build, "yes or no: add an MR or structures that state another patient"},
     {"labels", Step::Build, "[NAME=]FILE[@MR], several with |"},
+    {"skip_taken", Step::Build, "yes or no: leave out structures whose names are taken"},
     {"label_names", Step::Build, "table of the names of the labels"},
     {"meshes", Step::Build, "[NAME=]FILE[@MR], several with |"},
     {"tags", Step::Describe, "several with |"},
@@ -228,6 +230,21 @@ private:
     return text.empty() ? std::nullopt : std::optional<bool>(text == "ras");
   }
 
+  // A box in mm; nullopt: the column is blank.
+  std::optional<core::PatientBox> box(const std::string& column) const
+  {
+    if (cell(column).empty())
+      return std::nullopt;
+    try
+    {
+      return parseBox(cell(column), "'" + column + "'");
+    }
+    catch (const UsageError& error)
+    {
+      throw core::InvalidParameter(error.what());
+    }
+  }
+
   presenters::CaseSources sources() const
   {
     presenters::CaseSources sources;
@@ -241,19 +258,12 @@ private:
                        : modality == "ct" ? scene::Modality::Ct
                                           : scene::Modality::Unknown;
     sources.assumeRas = frame("ct_frame");
-    if (!cell("roi").empty())
-      try
-      {
-        sources.roi = parseBox(cell("roi"), "'roi'");
-      }
-      catch (const UsageError& error)
-      {
-        throw core::InvalidParameter(error.what());
-      }
+    sources.roi = box("roi");
     sources.parts.mr = parts("mr", presenters::PartSource::parseSeries);
     for (presenters::PartSource& mr : sources.parts.mr)
     {
       mr.repair = sources.repair;
+      mr.roi = box("mr_roi");
       mr.assumeRas = frame("mr_frame");
       mr.isOtherPatient = isYes("other_patient", cell("other_patient"));
     }
@@ -262,6 +272,7 @@ private:
     {
       labels.assumeRas = frame("labels_frame");
       labels.isOtherPatient = isYes("other_patient", cell("other_patient"));
+      labels.skipsTaken = isYes("skip_taken", cell("skip_taken"));
     }
     if (!cell("label_names").empty())
       sources.parts.labelNames = at(cell("label_names"));

@@ -5,9 +5,13 @@
 #include "CaseWarnings.h"
 #include "Commands.h"
 #include "Numbers.h"
+#include "petrous/Core/InputFile.h"
+#include "petrous/Imaging/DicomScan.h"
+#include "petrous/Library/DerivedCache.h"
 #include "petrous/Library/FrameSalt.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/PartFiles.h"
 #include "petrous/Presenters/ProvenanceText.h"
 #include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/ExposedSurfaces.h"
@@ -27,9 +31,11 @@ struct PartOptions
   std::string meshFrame;
   std::string meshUnit;
   std::string mrFrame;
+  std::string mrRoi;
   std::string labelsFrame;
   bool repair = false;
   bool otherPatient = false;
+  bool skipTaken = false;
 
   void addTo(CLI::App& command)
   {
@@ -43,6 +49,10 @@ struct PartOptions
         .add_option("--mr-frame", mrFrame,
                     "Axes of MR files that do not say which side is left: lps or ras")
         ->check(oneOf({"lps", "ras"}));
+    command
+        .add_option("--mr-roi", mrRoi,
+                    "Part of each MR to load, in LPS mm of the MR as its own files place it")
+        ->type_name("x0,x1,y0,y1,z0,z1");
     command.add_flag("--repair", repair,
                      "Resample tilted, uneven or gapped DICOM slices to a straight volume");
     command.add_flag("--other-patient", otherPatient,
@@ -59,6 +69,8 @@ struct PartOptions
                     "Axes of label files that do not say which side is left, and do not have the "
                     "grid of an image of the case: lps or ras")
         ->check(oneOf({"lps", "ras"}));
+    command.add_flag("--skip-taken", skipTaken,
+                     "Of several structures leave out those whose names are in the case already");
     command
         .add_option("--label-names", labelNames,
                     "Names and colours of the indices: .ctbl, ITK-SNAP, CSV, TSV or JSON")
@@ -85,6 +97,10 @@ struct PartOptions
       throw UsageError("--other-patient goes with --mr or --labels");
     if (!mrFrame.empty() && mr.empty())
       throw UsageError("--mr-frame goes with --mr");
+    if (!mrRoi.empty() && mr.empty())
+      throw UsageError("--mr-roi goes with --mr");
+    if (skipTaken && labels.empty())
+      throw UsageError("--skip-taken goes with --labels");
     if (!labelsFrame.empty() && labels.empty())
       throw UsageError("--labels-frame goes with --labels");
     for (const std::string& text : mr)
@@ -93,6 +109,8 @@ struct PartOptions
       result.mr.back().repair = repair;
       if (!mrFrame.empty())
         result.mr.back().assumeRas = mrFrame == "ras";
+      if (!mrRoi.empty())
+        result.mr.back().roi = parseBox(mrRoi, "--mr-roi");
       result.mr.back().isOtherPatient = otherPatient;
     }
     for (const std::string& text : labels)
@@ -101,6 +119,7 @@ struct PartOptions
       if (!labelsFrame.empty())
         result.labels.back().assumeRas = labelsFrame == "ras";
       result.labels.back().isOtherPatient = otherPatient;
+      result.labels.back().skipsTaken = skipTaken;
     }
     result.labelNames = labelNames;
     if (meshes.empty() && !(meshFrame.empty() && meshUnit.empty()))
@@ -253,6 +272,38 @@ void warnNotes(const Context& context, const scene::Case& value, const PartCount
   std::for_each(from(value.meshes, before.meshes), value.meshes.end(), remark);
 }
 
+// Structures and meshes that lie with the slices of the CT and were not given.
+void warnOfParts(const Context& context, const presenters::CaseSources& sources)
+{
+  if (!std::filesystem::is_directory(sources.ct))
+    return;
+  std::vector<std::filesystem::path> given;
+  std::error_code error;
+  for (const auto* kind : {&sources.parts.labels, &sources.parts.meshes})
+    for (const presenters::PartSource& source : *kind)
+      given.push_back(std::filesystem::weakly_canonical(source.path, error));
+  const auto scan = imaging::scanDicom(sources.ct, {}, library::scanCache().get());
+  std::string text;
+  for (const presenters::PartFiles& files : presenters::partFilesOf(sources.ct, scan, {}))
+  {
+    const auto isGiven = [&](const std::filesystem::path& path)
+    {
+      const auto canonical = std::filesystem::weakly_canonical(path, error);
+      return std::any_of(given.begin(), given.end(),
+                         [&](const auto& one)
+                         { return one == canonical || one.parent_path() == canonical; });
+    };
+    if (!std::any_of(files.paths.begin(), files.paths.end(), isGiven))
+      text += (text.empty() ? "" : "; ") +
+              core::printable(files.paths.size() == 1 ? files.paths.front()
+                                                      : files.paths.front().parent_path()) +
+              " (" + files.text + ")";
+  }
+  if (!text.empty())
+    context.warn("with the CT's slices lie structures that were not taken: " + text +
+                 "; --labels and --mesh take them, 'petrous scan' says on which grid they are");
+}
+
 void addNew(CLI::App& app, Context& context)
 {
   struct Options
@@ -291,6 +342,7 @@ void addNew(CLI::App& app, Context& context)
             presenters::buildCase(options->name, sources, progress.part(0.0, 0.8), &structures);
         library.save(value, progress.part(0.8, 1.0));
         warnNotes(context, value);
+        warnOfParts(context, sources);
         const std::vector<MeshFacts> meshes = meshFacts(value);
         printCase(context, value, meshes);
         nlohmann::json info = infoJson(value, meshes);

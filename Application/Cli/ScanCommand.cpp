@@ -5,8 +5,10 @@
 #include "CaseJson.h"
 #include "Commands.h"
 #include "Numbers.h"
+#include "petrous/Core/InputFile.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Library/DerivedCache.h"
+#include "petrous/Presenters/PartFiles.h"
 
 namespace petrous::cli
 {
@@ -80,6 +82,40 @@ void printFindings(const Context& context, const std::vector<imaging::Finding>& 
     context.print(std::string("    ") + imaging::kindName(finding.kind) + ": " + finding.text);
 }
 
+// "labels.nii.gz: label map, on the grid of 1.2.3, which --labels reads"
+std::string lineOf(const presenters::PartFiles& files)
+{
+  const bool isMesh = files.content == presenters::Content::Mesh;
+  const auto& first = files.paths.front();
+  std::string line =
+      core::printable(files.paths.size() == 1 ? first : first.parent_path()) + ": " + files.text;
+  if (!files.isBelow)
+    line += ", beside this path";
+  if (!files.image.empty())
+    line += ", on the grid of " + files.image;
+  else if (!isMesh)
+    line += ", on another grid";
+  return line + (isMesh ? ", which --mesh reads" : ", which --labels reads");
+}
+
+json partsJson(const std::vector<presenters::PartFiles>& parts)
+{
+  json list = json::array();
+  for (const presenters::PartFiles& files : parts)
+  {
+    json paths = json::array();
+    for (const auto& path : files.paths)
+      paths.push_back(core::printable(path));
+    list.push_back({{"kind", files.content == presenters::Content::Mesh ? "mesh" : "labels"},
+                    {"text", files.text},
+                    {"paths", std::move(paths)},
+                    {"files", files.count},
+                    {"below", files.isBelow},
+                    {"grid_of", files.image.empty() ? json() : json(files.image)}});
+  }
+  return list;
+}
+
 struct Options
 {
   std::string path;
@@ -112,7 +148,8 @@ void scan(const Context& context, const Options& options)
 {
   const std::string& path = options.path;
   const auto cache = options.noCache ? nullptr : library::scanCache();
-  const auto result = imaging::scanDicom(path, context.progress(), cache.get());
+  const core::Progress progress = context.progress();
+  const auto result = imaging::scanDicom(path, progress.part(0.0, 0.7), cache.get());
   if (result.series.empty() && result.unreadable.empty())
     imaging::chooseSeries(result, path); // throws, reporting what was found instead
   json list = json::array();
@@ -148,12 +185,16 @@ void scan(const Context& context, const Options& options)
   }
   if (!volumes.empty())
     list.push_back(seriesJson(volumes));
+  const auto parts = presenters::partFilesOf(path, result, progress.part(0.7, 1.0));
+  for (const presenters::PartFiles& files : parts)
+    context.print("structures  " + lineOf(files));
   printFindings(context, result.unreadable);
   std::vector<std::string> notes = result.lossNotes;
   notes.insert(notes.end(), result.notes.begin(), result.notes.end());
   for (const auto& note : notes)
     context.print("noted: " + note);
   context.printJson({{"series", std::move(list)},
+                     {"parts", partsJson(parts)},
                      {"unreadable", findingsJson(result.unreadable)},
                      {"notes", notes},
                      {"lost_files", result.lostFiles},

@@ -2,6 +2,7 @@
 #include <cctype>
 #include <fstream>
 #include <locale>
+#include <map>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -743,6 +744,99 @@ TEST_F(CaseBuilder, CropsToTheRegionAsked)
   EXPECT_EQ(value.ct.geometry.dims(), (core::Index3{5, 5, 5}));
   EXPECT_EQ(value.ct.geometry.origin(), Vector3d(-2, 6, 6));
   EXPECT_EQ(value.ct.range.max, 1200.0);
+}
+
+TEST_F(CaseBuilder, CropsAnMrToItsOwnRegion)
+{
+  const core::GridGeometry grid({20, 16, 12}, Vector3d(1, 1, 2), Vector3d(100, -50, 10));
+  auto mr = std::make_shared<volume::Volume<std::int16_t>>(grid);
+  for (int k = 0; k < 12; ++k)
+    for (int j = 0; j < 16; ++j)
+      for (int i = 0; i < 20; ++i)
+        mr->at(i, j, k) = static_cast<std::int16_t>(i + 20 * (j + 16 * k));
+  imaging::writeVolume(m_folder / "mr.nrrd", *mr);
+  auto value = presenters::buildCase("ear", m_sources, {});
+  presenters::PartSources parts;
+  parts.mr = {{"t2", m_folder / "mr.nrrd"}};
+  parts.mr[0].roi = core::PatientBox(Vector3d(103, -46, 14), Vector3d(108, -41, 20));
+  presenters::addParts(value, parts, {});
+  const scene::ImagePart& part = value.mr.at(0);
+  EXPECT_EQ(part.geometry.dims(), (core::Index3{6, 6, 4}));
+  EXPECT_EQ(part.geometry.origin(), Vector3d(103, -46, 14)) << "in its own space, not the CT's";
+  EXPECT_EQ(part.range.min, 3.0 + 20 * (4 + 16 * 2));
+  EXPECT_EQ(part.range.max, 8.0 + 20 * (9 + 16 * 5));
+  EXPECT_TRUE(std::any_of(part.notes.begin(), part.notes.end(),
+                          [](const std::string& note)
+                          { return note.find("FILE@t2") != std::string::npos; }));
+
+  parts.mr[0].name = "far";
+  parts.mr[0].roi = core::PatientBox(Vector3d(0, 0, 0), Vector3d(5, 5, 5));
+  EXPECT_THROW(presenters::addParts(value, parts, {}), core::Error);
+  EXPECT_EQ(value.mr.size(), 1u);
+}
+
+TEST_F(CaseBuilder, NamesAllThatAreTakenAndAddsTheOthersWithoutThem)
+{
+  const auto folder = m_folder / "masks";
+  std::filesystem::create_directory(folder);
+  const core::GridGeometry grid({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3));
+  const auto write = [&](const std::string& name, int size)
+  {
+    auto voxels = volume::makeZeroVolume<std::uint16_t>(grid);
+    for (int n = 0; n < size; ++n)
+      voxels->at(n, 3, 3) = 1;
+    imaging::writeLabelFile(folder / (name + ".nii"), volume::makeLabelMap(voxels, {}));
+  };
+  write("incus", 1);
+  write("malleus", 2);
+  m_sources.parts.labels = {{"", folder}};
+  auto value = presenters::buildCase("ear", m_sources, {});
+  write("incus", 3);
+  write("malleus", 4);
+  write("stapes", 5);
+  write("cochlea", 6);
+
+  presenters::PartSources more;
+  more.labels = {{"", folder}};
+  auto copy = value;
+  const auto failures = presenters::addSoundParts(copy, more, {});
+  ASSERT_EQ(failures.size(), 1u);
+  EXPECT_EQ(failures[0].taken, (std::vector<std::string>{"incus", "malleus"}));
+  for (const char* told : {"'incus' and 'malleus'", "other 2", "--skip-taken", "NAME=FILE"})
+    EXPECT_NE(failures[0].why.find(told), std::string::npos) << told << ": " << failures[0].why;
+  EXPECT_EQ(copy.labels.size(), value.labels.size());
+
+  more.labels[0].skipsTaken = true;
+  std::vector<presenters::StructureReport> reports;
+  presenters::addParts(value, more, {}, &reports);
+  std::map<std::string, std::uint64_t> voxels;
+  for (const auto& part : value.labels)
+    for (const auto& structure : part.structures)
+      voxels[structure.name] += structure.voxels;
+  EXPECT_EQ(voxels, (std::map<std::string, std::uint64_t>{
+                        {"incus", 1}, {"malleus", 2}, {"stapes", 5}, {"cochlea", 6}}))
+      << "those of the case stay";
+  std::string notes;
+  for (const auto& part : value.labels)
+    for (const std::string& note : part.notes)
+      notes += note + "\n";
+  EXPECT_NE(notes.find("'incus', 'malleus' left out"), std::string::npos) << notes;
+  const auto summary = presenters::summaryOf(reports);
+  EXPECT_EQ(summary.read, 2u);
+  EXPECT_EQ(summary.skipped, 2u);
+
+  try
+  {
+    presenters::addParts(value, more, {}); // all of them, now
+    ADD_FAILURE() << "nothing was added, and nothing said";
+  }
+  catch (const presenters::NamesTaken& taken)
+  {
+    EXPECT_EQ(taken.names.size(), 4u);
+    EXPECT_EQ(taken.others, 0u);
+    EXPECT_EQ(taken.fault(), core::Fault::Refused);
+    EXPECT_EQ(std::string(taken.what()).find("--skip-taken"), std::string::npos) << taken.what();
+  }
 }
 
 TEST_F(CaseBuilder, RefusesAStructureTwiceAndLeavesTheCase)

@@ -30,6 +30,6 @@ TEST(SourceContentData, SegmentationsAreFoundInAFolder)
   EXPECT_EQ(both.series[0].content, Content::Ct);
   EXPECT_EQ(both.series[0].slices, 3u);
   EXPECT_EQ(both.series[1].content, Content::Labels);
-  EXPECT_EQ(both.series[1].file, folder / "export" / "seg" / "liver.dcm");
+  EXPECT_EQ(both.series[1].files.at(0), folder / "export" / "seg" / "liver.dcm");
   std::filesystem::remove_all(folder);
 }

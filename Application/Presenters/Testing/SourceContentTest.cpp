@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -11,6 +13,7 @@
 #include "petrous/Imaging/VolumeFile.h"
 #include "petrous/Phantom/SamplePatient.h"
 #include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Presenters/PartFiles.h"
 #include "petrous/Presenters/SeriesPreview.h"
 #include "petrous/Presenters/SourceContent.h"
 
@@ -188,7 +191,9 @@ TEST_F(SourceContent, OfAFolderWithCtAndMrTheUserSaysWhich)
   std::filesystem::rename(m_folder / "ct", m_folder / "visit" / "ct");
   std::filesystem::rename(m_folder / "mr", m_folder / "visit" / "mr");
   const auto found = presenters::lookAt(m_folder / "visit", {});
-  ASSERT_EQ(found.series.size(), 2u);
+  EXPECT_EQ(std::count_if(found.series.begin(), found.series.end(),
+                          [](const auto& one) { return one.files.empty(); }),
+            2);
   EXPECT_EQ(found.series[0].content, Content::Ct);
   EXPECT_EQ(found.series[1].content, Content::Mr);
   EXPECT_GT(found.series[0].slices, 10u);
@@ -224,7 +229,7 @@ TEST_F(SourceContent, OffersTheStructureSetsOfAFolder)
                                 [](const auto& one) { return one.modality == "RTSTRUCT"; });
   ASSERT_NE(set, found.series.end());
   EXPECT_EQ(set->content, Content::Labels);
-  EXPECT_EQ(set->file.filename(), "set.dcm");
+  EXPECT_EQ(set->files.front().filename(), "set.dcm");
 
   // A DICOMDIR stands for its folder.
   std::string index(128, '\0');
@@ -235,7 +240,9 @@ TEST_F(SourceContent, OffersTheStructureSetsOfAFolder)
   const auto disc = presenters::lookAt(m_folder / "ct" / "DICOMDIR", {});
   ASSERT_EQ(disc.series.size(), found.series.size());
   EXPECT_TRUE(std::any_of(disc.series.begin(), disc.series.end(),
-                          [](const auto& one) { return one.file.filename() == "set.dcm"; }));
+                          [](const auto& one) {
+                            return !one.files.empty() && one.files.front().filename() == "set.dcm";
+                          }));
 }
 
 TEST_F(SourceContent, MasksAreTakenForWhatTheyAreAlsoAboveDicom)
@@ -248,12 +255,89 @@ TEST_F(SourceContent, MasksAreTakenForWhatTheyAreAlsoAboveDicom)
   std::filesystem::create_directories(m_folder / "study");
   std::filesystem::rename(m_folder / "ct", m_folder / "study" / "ct");
   imaging::writeLabelFile(m_folder / "study" / "incus.nii.gz", volume::makeLabelMap(voxels, {}));
-  EXPECT_EQ(presenters::lookAt(m_folder / "study", {}).content, Content::Ct);
+  auto both = presenters::lookAt(m_folder / "study", {}).series;
+  both.erase(std::remove_if(both.begin(), both.end(), [](const auto& one) { return one.isBeside; }),
+             both.end());
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_EQ(both[0].content, Content::Ct);
+  EXPECT_EQ(both[1].content, Content::Labels);
+  EXPECT_EQ(both[1].files, std::vector{m_folder / "study" / "incus.nii.gz"});
+  EXPECT_EQ(both[1].image, "") << "on another grid";
   const auto masks = presenters::lookAt(m_folder / "study", {}, Content::Labels);
   EXPECT_EQ(masks.content, Content::Labels);
   EXPECT_EQ(masks.structures, std::vector<std::string>{"incus"});
   EXPECT_EQ(presenters::lookAt(m_folder / "study" / "ct", {}, Content::Labels).content, Content::Ct)
       << "there are none";
+}
+
+TEST_F(SourceContent, OffersStructuresAndMeshesThatLieWithTheSlices)
+{
+  namespace fs = std::filesystem;
+  const fs::path visit = m_folder / "visit";
+  phantom::SampleOptions options;
+  options.spacing = 1.5;
+  phantom::writeSamplePatient(visit, options);
+  const auto masks = std::distance(fs::directory_iterator(visit / "labels"), {});
+  const auto meshes = std::distance(fs::directory_iterator(visit / "meshes"), {});
+  ASSERT_GT(masks, 4);
+  presenters::CaseSources sources;
+  sources.ct = visit / "ct";
+  const scene::Case truth = presenters::buildCase("ear", sources, {});
+  imaging::writeVolume(visit / "ct" / "converted.nii.gz", *truth.ct.volume.get());
+  auto voxels = volume::makeZeroVolume<std::uint16_t>(kGrid);
+  voxels->at(3, 4, 5) = 1;
+  voxels->at(6, 4, 5) = 2;
+  imaging::writeLabelFile(visit / "other.nrrd", volume::makeLabelMap(voxels, {}));
+  fs::copy(visit / "other.nrrd", visit / "._other.nrrd");
+  std::ofstream(visit / "broken.nii.gz") << "not one";
+
+  const auto of = [](const std::vector<presenters::SeriesContent>& all, const std::string& name)
+  {
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [&](const auto& one)
+                                    { return !one.files.empty() && one.description == name; });
+    return found == all.end() ? presenters::SeriesContent() : *found;
+  };
+  const auto found = presenters::lookAt(visit, {}).series;
+  ASSERT_GT(found.size(), 2u);
+  const std::string ct = found[0].selector;
+  EXPECT_EQ(found[0].content, Content::Ct);
+  const auto folder = of(found, "labels");
+  EXPECT_EQ(folder.content, Content::Labels);
+  EXPECT_EQ(folder.files, std::vector{visit / "labels"});
+  EXPECT_EQ(folder.slices, static_cast<std::size_t>(masks));
+  EXPECT_EQ(folder.image, ct) << "its grid";
+  const auto slicer = of(found, "labels.seg.nrrd");
+  EXPECT_EQ(slicer.image, ct);
+  EXPECT_EQ(slicer.content, Content::Labels);
+  const auto other = of(found, "other.nrrd");
+  EXPECT_EQ(other.what, "label map");
+  EXPECT_EQ(other.image, "") << "the grid of no image";
+  for (const char* none : {"converted.nii.gz", "._other.nrrd", "broken.nii.gz"})
+    EXPECT_TRUE(of(found, none).files.empty()) << none;
+  std::size_t surfaces = 0;
+  for (const auto& one : found)
+  {
+    surfaces += one.content == Content::Mesh ? one.files.size() : 0;
+    EXPECT_FALSE(one.isBeside);
+  }
+  EXPECT_EQ(surfaces, static_cast<std::size_t>(meshes));
+
+  // Of the folders beside the scan only what fits its images, and a lone CT asks nothing.
+  EXPECT_EQ(presenters::lookAt(visit / "ct", {}).content, Content::Ct);
+  EXPECT_TRUE(presenters::lookAt(visit / "ct", {}).series.empty());
+  const auto scan = imaging::scanDicom(visit / "ct", {});
+  bool hasFolder = false;
+  for (const presenters::PartFiles& files : presenters::partFilesOf(visit / "ct", scan, {}))
+  {
+    EXPECT_FALSE(files.isBelow);
+    EXPECT_NE(files.paths.front().filename(), "other.nrrd");
+    hasFolder = hasFolder || files.paths.front().filename() == "labels";
+  }
+  EXPECT_TRUE(hasFolder);
+  // An MR or labels were asked for: nothing else is offered.
+  for (const auto& one : presenters::lookAt(visit, {}, Content::Mr).series)
+    EXPECT_TRUE(one.files.empty());
 }
 
 TEST(SequenceName, KeepsOnlyWhatNamesASequence)

@@ -436,13 +436,19 @@ bool CaseDocumentController::chooseSeries(const SourceContent& source, const Pur
     item.source.selector = series.selector;
     item.source.content = series.content;
     item.source.name = series.name;
-    if (!series.file.empty())
-      item.source.path = series.file;
     if (series.verdict == imaging::Verdict::Repairable)
       item.source.repair = series.findings;
     item.source.why =
         series.modality.empty() ? "says no modality" : "says modality " + series.modality;
-    items.push_back(std::move(item));
+    if (series.files.empty())
+      items.push_back(item);
+    for (const fs::path& file : series.files)
+    {
+      item.source.path = file;
+      item.region = false;
+      item.isSeen = series.isDicom;
+      items.push_back(item);
+    }
   }
   return true;
 }
@@ -507,13 +513,13 @@ bool CaseDocumentController::askRepair(const SourceContent& source)
   return false;
 }
 
-// Of the primary image.
 bool CaseDocumentController::askRegion(Item& item)
 {
   if (!item.region && !item.source.isTooLarge)
     return true;
   RegionDialog dialog(item.source.path, item.source.selector, !item.source.repair.empty(),
                       item.assumeRas, &m_window);
+  dialog.setWindowTitle(tr("Region of the %1").arg(lineOf(item.source)));
   if (dialog.exec() != QDialog::Accepted)
     return false;
   item.roi = dialog.region();
@@ -537,11 +543,11 @@ bool CaseDocumentController::ask(Item& item, const Purpose& purpose)
     return false;
   if (source.content == Content::Image)
     source.content = Content::Ct;
-  return source.content != Content::Ct || askPrimary(item);
+  return source.content != Content::Ct || askPlace(item);
 }
 
-// Side and region of the image with which a case begins.
-bool CaseDocumentController::askPrimary(Item& item)
+// Side and region of an image: a file's side is needed to picture it.
+bool CaseDocumentController::askPlace(Item& item)
 {
   if (item.source.isSideOpen)
   {
@@ -640,11 +646,50 @@ bool CaseDocumentController::askNames(presenters::CaseSources& sources,
 
 void CaseDocumentController::decide(const Sources& found, const Purpose& purpose)
 {
-  const QScopedValueRollback<bool> asking(m_asking, true);
   std::vector<Item> items;
-  for (const SourceContent& source : found)
-    if (!chooseSeries(source, purpose, items))
-      return;
+  {
+    const QScopedValueRollback<bool> asking(m_asking, true);
+    for (const SourceContent& source : found)
+      if (!chooseSeries(source, purpose, items))
+        return;
+  }
+  if (std::all_of(items.begin(), items.end(), [](const Item& item) { return item.isSeen; }))
+    decide(std::move(items), purpose);
+  else
+    lookAtChosen(std::move(items), purpose);
+}
+
+// What the files beside a series hold.
+void CaseDocumentController::lookAtChosen(std::vector<Item> items, const Purpose& purpose)
+{
+  work(tr("Looking at the files"),
+       [this, items = std::move(items),
+        purpose](const core::Progress& progress) mutable -> BackgroundWork::Reply
+       {
+         const auto count = static_cast<double>(items.size());
+         double n = 0.0;
+         for (Item& item : items)
+         {
+           const core::Progress part = progress.part(n / count, (n + 1.0) / count);
+           n += 1.0;
+           if (item.isSeen)
+             continue;
+           const bool isMesh = item.source.content == Content::Mesh;
+           item.source = presenters::lookAt(item.source.path, part,
+                                            isMesh ? std::nullopt : std::optional(Content::Labels));
+           item.isSeen = true;
+         }
+         return [this, items = std::move(items), purpose]
+         {
+           endWork();
+           decide(items, purpose);
+         };
+       });
+}
+
+void CaseDocumentController::decide(std::vector<Item> items, const Purpose& purpose)
+{
+  const QScopedValueRollback<bool> asking(m_asking, true);
   std::vector<Item> others;
   const SourceContent* ct = nullptr;
   presenters::CaseSources sources;
@@ -695,7 +740,7 @@ void CaseDocumentController::decide(const Sources& found, const Purpose& purpose
                         .arg(what.join(", ")));
     if (!askMrAlone(mr->source))
       return;
-    if (!askPrimary(*mr))
+    if (!askPlace(*mr))
       return;
     sources.assumeRas = mr->assumeRas;
     sources.roi = mr->roi;
@@ -710,10 +755,22 @@ void CaseDocumentController::decide(const Sources& found, const Purpose& purpose
     items = {first};
     ct = &items.front().source;
   }
+  std::size_t next = 0; // of the MRs
+  for (Item& item : others)
+    if (item.source.content == Content::Mr)
+    {
+      presenters::PartSource& part = sources.parts.mr[next++];
+      if (!item.region && !item.source.isTooLarge)
+        continue;
+      if (!askPlace(item))
+        return;
+      part.roi = item.roi;
+      part.assumeRas = item.assumeRas;
+    }
   const std::string name =
       ct ? presenters::freeCaseName(m_model.library(), presenters::caseNameFrom(ct->path))
          : std::string();
-  if (!askNames(sources, others, name))
+  if (!askNames(sources, others, name) || (!ct && !askTaken(sources.parts, others)))
     return;
   if (ct)
     makeCase(name, [sources](const core::Progress&) { return sources; });
@@ -862,7 +919,8 @@ void CaseDocumentController::tell(const std::vector<presenters::PartFailure>& fa
     for (const presenters::PartFailure& failure : failures)
     {
       const bool isQuestion = !failure.likely.empty() || failure.isOtherPatient ||
-                              failure.isSideUnclear || failure.isFrameUnclear;
+                              failure.isSideUnclear || failure.isFrameUnclear ||
+                              !failure.taken.empty();
       if (!isQuestion || !isOpen(target))
         lost += words(failure.why);
       else if (const auto source = askAgain(failure, target))
@@ -964,6 +1022,12 @@ CaseDocumentController::askAgain(const presenters::PartFailure& failure, const T
     if (source.drawnOn.empty())
       return std::nullopt;
   }
+  else if (!failure.taken.empty())
+  {
+    if (!askSkip(source.path, failure.taken))
+      return std::nullopt;
+    source.skipsTaken = true;
+  }
   else
   {
     const auto space = askMeshSpace(failure);
@@ -1026,6 +1090,64 @@ std::string CaseDocumentController::askDrawnOn(const presenters::PartFailure& fa
     if (box.clickedButton() == button)
       return name;
   return {};
+}
+
+// Whether structures whose names the case has already may be left out, and the others added.
+bool CaseDocumentController::askSkip(const fs::path& path, const std::vector<std::string>& taken)
+{
+  constexpr std::size_t kShown = 12;
+  QStringList names;
+  for (const std::string& name : taken)
+    names += words(name).replace('_', ' ');
+  QMessageBox box(
+      QMessageBox::Question, tr("Names that are taken"),
+      taken.size() == 1
+          ? tr("The case has “%1” already, which is in “%2”, too.").arg(names.front(), nameOf(path))
+          : tr("The case has parts of %1 of the names in “%2” already.")
+                .arg(taken.size())
+                .arg(nameOf(path)),
+      QMessageBox::NoButton, &m_window);
+  box.setTextFormat(Qt::PlainText);
+  box.setObjectName("askSkip");
+  QString text = taken.size() == 1 ? QString() : names.mid(0, kShown).join(", ") + "\n\n";
+  if (taken.size() > kShown)
+  {
+    text = names.mid(0, kShown).join(", ") + ", …\n\n";
+    box.setDetailedText(names.join('\n'));
+  }
+  box.setInformativeText(text +
+                         tr("Those of the case stay as they are. To have both, cancel, rename "
+                            "those of the case (F2 in the list) and add the file again."));
+  const auto* skip = box.addButton(taken.size() == 1 ? tr("Add the &others without it")
+                                                     : tr("Add the &others without them"),
+                                   QMessageBox::AcceptRole);
+  box.setDefaultButton(box.addButton(QMessageBox::Cancel));
+  box.exec();
+  return box.clickedButton() == skip;
+}
+
+// Asks of folders of masks, whose names are known, before they are read. False: the user gave up.
+bool CaseDocumentController::askTaken(presenters::PartSources& parts,
+                                      const std::vector<Item>& others)
+{
+  std::size_t next = 0; // of the labels
+  for (const Item& item : others)
+  {
+    if (item.source.content != Content::Labels)
+      continue;
+    presenters::PartSource& part = parts.labels[next++];
+    std::vector<std::string> taken;
+    for (const std::string& name : item.source.structures)
+      if (scene::kindOfPart(m_model.value(), name))
+        taken.push_back(name);
+    if (taken.empty() || item.source.structures.size() < 2 ||
+        taken.size() == item.source.structures.size()) // told when it is added
+      continue;
+    if (!askSkip(item.source.path, taken))
+      return false;
+    part.skipsTaken = true;
+  }
+  return true;
 }
 
 bool CaseDocumentController::askOtherPatient(const presenters::PartFailure& failure,
@@ -1213,8 +1335,8 @@ void CaseDocumentController::openFolder()
 
 void CaseDocumentController::openRegion()
 {
-  const QString folder = QFileDialog::getExistingDirectory(
-      &m_window, tr("Open a DICOM folder, and choose a region of the CT"));
+  const QString folder =
+      QFileDialog::getExistingDirectory(&m_window, tr("Open a DICOM folder, and choose a region"));
   if (!folder.isEmpty())
     open({folder}, {std::nullopt, true});
 }

@@ -44,7 +44,7 @@ public:
   void open(const QStringList& what);
   void openCase(const std::string& name);
   void openFolder();     ///< with a dialog
-  void openRegion();     ///< likewise, and a region of the CT is chosen first
+  void openRegion();     ///< likewise, and a region of each image is chosen first
   void openFileRegion(); ///< likewise, of a file
   void openFiles();      ///< with a dialog
   /// With a dialog, to the open case. `folder`: of DICOM, or of masks.
@@ -109,7 +109,7 @@ private:
   struct Purpose
   {
     std::optional<presenters::Content> content = {}; ///< as the user says
-    bool region = false;                             ///< of the primary image, to be chosen
+    bool region = false;                             ///< of each image, to be chosen
   };
   /// A series or a file, and what was asked about it.
   struct Item
@@ -118,6 +118,7 @@ private:
     bool region = false;
     std::optional<core::PatientBox> roi = {};
     std::optional<bool> assumeRas = {}; ///< presenters::CaseSources
+    bool isSeen = true; ///< false: chosen by name, and presenters::lookAt has more to say
   };
   /// The case to which parts come, as it is open now.
   struct Target
@@ -130,6 +131,8 @@ private:
   void restore(const std::filesystem::path& file, const std::string& name);
   void lookAt(const std::vector<std::filesystem::path>& paths, const Purpose& purpose);
   void decide(const Sources& found, const Purpose& purpose);
+  void lookAtChosen(std::vector<Item> items, const Purpose& purpose);
+  void decide(std::vector<Item> items, const Purpose& purpose);
   bool ask(Item& item, const Purpose& purpose);
   bool chooseSeries(const presenters::SourceContent& source, const Purpose& purpose,
                     std::vector<Item>& items);
@@ -137,7 +140,7 @@ private:
   bool askMrAlone(const presenters::SourceContent& source);
   bool askRepair(const presenters::SourceContent& source);
   bool askRegion(Item& item);
-  bool askPrimary(Item& item);
+  bool askPlace(Item& item);
   bool askNames(presenters::CaseSources& sources, const std::vector<Item>& others,
                 const std::string& newCase);
   void makeCase(const std::string& name,
@@ -152,6 +155,8 @@ private:
                                                  const Target& target);
   std::optional<bool> askSide(const std::filesystem::path& path);
   std::string askDrawnOn(const presenters::PartFailure& failure);
+  bool askSkip(const std::filesystem::path& path, const std::vector<std::string>& taken);
+  bool askTaken(presenters::PartSources& parts, const std::vector<Item>& others);
   bool askOtherPatient(const presenters::PartFailure& failure, const Target& target);
   std::optional<imaging::MeshSpace> askMeshSpace(const presenters::PartFailure& failure);
   bool adopt(scene::Case value);

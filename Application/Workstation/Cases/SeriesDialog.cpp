@@ -46,6 +46,22 @@ QString takenIn(const QString& text)
   return day.toString(Qt::ISODate) + (time.isValid() ? time.toString(" HH:mm") : QString());
 }
 
+// What parts beside the series have to do with its images.
+QString placeText(const SeriesContent& part, const std::vector<SeriesContent>& all)
+{
+  if (part.isDicom)
+    return SeriesDialog::tr("structures");
+  if (part.content == Content::Mesh)
+    return SeriesDialog::tr("surface");
+  const auto image = std::find_if(all.begin(), all.end(),
+                                  [&part](const SeriesContent& one)
+                                  { return !part.image.empty() && one.selector == part.image; });
+  if (image == all.end())
+    return SeriesDialog::tr("structures on another grid");
+  return SeriesDialog::tr("structures on the grid of the %1")
+      .arg(image->modality.empty() ? SeriesDialog::tr("image") : words(image->modality));
+}
+
 QString verdictText(const SeriesContent& series)
 {
   switch (series.verdict)
@@ -60,12 +76,14 @@ QString verdictText(const SeriesContent& series)
   return SeriesDialog::tr("cannot be used");
 }
 
-void fillLine(QTreeWidgetItem& line, const SeriesContent& series)
+void fillLine(QTreeWidgetItem& line, const SeriesContent& series,
+              const std::vector<SeriesContent>& all)
 {
+  const bool isPart = !series.files.empty();
   const auto spacing = [&series](Eigen::Index axis)
   { return QString::number(series.spacing[axis], 'g', 3); };
   line.setText(Series, (words(series.modality) + "  " + words(series.description)).trimmed());
-  if (series.file.empty())
+  if (!isPart)
     line.setText(Images, QString::number(series.slices));
   line.setTextAlignment(Images, Qt::AlignRight | Qt::AlignVCenter);
   if (series.spacing[0] > 0.0)
@@ -76,11 +94,13 @@ void fillLine(QTreeWidgetItem& line, const SeriesContent& series)
   for (const std::string& one : {series.patientPosition, series.kernel})
     if (!one.empty())
       more += words(one);
+  if (isPart)
+    more += words(series.what);
   if (!series.folder.empty())
-    more += SeriesDialog::tr("in “%1”").arg(QFile::decodeName(series.folder.c_str()));
+    more += (series.isBeside ? SeriesDialog::tr("beside it in “%1”") : SeriesDialog::tr("in “%1”"))
+                .arg(QFile::decodeName(series.folder.c_str()));
   line.setText(More, more.join(", "));
-  line.setText(VerdictColumn,
-               series.file.empty() ? verdictText(series) : SeriesDialog::tr("structures"));
+  line.setText(VerdictColumn, isPart ? placeText(series, all) : verdictText(series));
   QStringList why;
   for (const imaging::Finding& finding : series.findings)
     why += words(finding.text);
@@ -99,7 +119,7 @@ SeriesDialog::SeriesDialog(const presenters::SourceContent& source, bool hasCase
   , m_series(source.series)
   , m_hasCase(hasCase)
   , m_list(new QTreeWidget)
-  , m_region(new QCheckBox(tr("Choose a &region of the CT first")))
+  , m_region(new QCheckBox(tr("Choose a &region of each image first")))
   , m_advice(new QLabel)
 {
   setObjectName("chooseSeries");
@@ -107,8 +127,8 @@ SeriesDialog::SeriesDialog(const presenters::SourceContent& source, bool hasCase
   resizeOnScreen(*this, {860, 380});
   const auto path = source.path.lexically_normal();
   auto* title = new QLabel(
-      tr("“%1” holds more than one series. A CT begins a case; MRs and structures go with it, or "
-         "come to the open case.")
+      tr("“%1” holds more than one series, or structures beside it. A CT begins a case; MRs, "
+         "structures and meshes go with it, or come to the open case.")
           .arg(QFile::decodeName(
               (path.has_filename() ? path : path.parent_path()).filename().c_str())));
   title->setTextFormat(Qt::PlainText);
@@ -119,7 +139,7 @@ SeriesDialog::SeriesDialog(const presenters::SourceContent& source, bool hasCase
   m_list->setHeaderLabels({tr("Series"), tr("Images"), tr("Voxel"), tr("Taken"),
                            tr("Position, kernel, folder"), tr("Geometry")});
   for (const SeriesContent& series : m_series)
-    fillLine(*new QTreeWidgetItem(m_list), series);
+    fillLine(*new QTreeWidgetItem(m_list), series, m_series);
   m_list->header()->setStretchLastSection(false);
   m_list->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
   m_list->header()->setSectionResizeMode(More, QHeaderView::Stretch);
@@ -150,15 +170,30 @@ SeriesDialog::SeriesDialog(const presenters::SourceContent& source, bool hasCase
   layout->addWidget(m_advice);
   layout->addWidget(m_region);
   layout->addWidget(buttons);
-  // The only sound CT is what is most likely wanted.
-  const auto isCt = [](const SeriesContent& series)
-  { return series.content == Content::Ct && series.verdict == imaging::Verdict::Ok; };
-  if (std::count_if(m_series.begin(), m_series.end(), isCt) == 1)
-    m_list
-        ->topLevelItem(static_cast<int>(std::find_if(m_series.begin(), m_series.end(), isCt) -
-                                        m_series.begin()))
-        ->setCheckState(Series, Qt::Checked);
+  proposeTicks();
   check();
+}
+
+// The only sound CT is what is most likely wanted, with the structures that lie below it on its
+// grid; of several sources of structures none, as they may hold the same.
+void SeriesDialog::proposeTicks()
+{
+  const auto tickOnly = [this](const auto& isMeant)
+  {
+    const auto first = std::find_if(m_series.begin(), m_series.end(), isMeant);
+    if (std::count_if(m_series.begin(), m_series.end(), isMeant) != 1)
+      return std::string();
+    m_list->topLevelItem(static_cast<int>(first - m_series.begin()))
+        ->setCheckState(Series, Qt::Checked);
+    return first->selector;
+  };
+  const std::string ct =
+      tickOnly([](const SeriesContent& series)
+               { return series.content == Content::Ct && series.verdict == imaging::Verdict::Ok; });
+  const auto isLabels = [](const SeriesContent& part) { return part.content == Content::Labels; };
+  if (!ct.empty() && std::count_if(m_series.begin(), m_series.end(), isLabels) == 1)
+    tickOnly([&](const SeriesContent& part)
+             { return isLabels(part) && part.image == ct && !part.isBeside; });
 }
 
 std::vector<SeriesContent> SeriesDialog::chosen() const
@@ -195,7 +230,7 @@ void SeriesDialog::check()
     advice = tr("No case is open, and one begins with the patient's CT; tick that, too.");
   m_advice->setText(advice);
   m_open->setEnabled(!all.empty() && advice.isEmpty());
-  m_region->setEnabled(cts == 1);
+  m_region->setEnabled(advice.isEmpty() && cts + count(Content::Mr) + count(Content::Image) > 0);
 }
 
 } // namespace petrous::workstation

@@ -14,8 +14,8 @@ class QTreeWidget;
 namespace petrous::workstation
 {
 
-/// The series and volumes of a DICOM folder with their verdicts, to be ticked: at most one CT,
-/// which begins a case, and any number of MRs.
+/// The series and volumes of a DICOM folder with their verdicts, and structures and meshes beside
+/// them, to be ticked: at most one CT, which begins a case, and any number of the others.
 class SeriesDialog : public QDialog
 {
   Q_OBJECT
@@ -24,9 +24,10 @@ public:
   SeriesDialog(const presenters::SourceContent& source, bool hasCase, QWidget* parent = nullptr);
 
   std::vector<presenters::SeriesContent> chosen() const;
-  bool wantsRegion() const; ///< a region of the CT is to be chosen before it is read
+  bool wantsRegion() const; ///< a region of each image is to be chosen before it is read
 
 private:
+  void proposeTicks();
   void check();
 
   std::vector<presenters::SeriesContent> m_series;

@@ -241,8 +241,7 @@ void SegmentPanel::addRange(QFormLayout& form, const char* lower, const char* up
       Bindings::kSettle);
   m_ranges.push_back(low);
   m_ranges.push_back(high);
-  form.addRow(tr("F&rom"), low);
-  form.addRow(tr("&To"), high);
+  addRow(form, tr("Ra&nge"), low, high);
 }
 
 void SegmentPanel::addBrush(QFormLayout& form, const char* radius, const char* shape,

@@ -92,6 +92,7 @@ void SliceColumn::appearanceChanged()
     view->setIntensityDisplay(presenters::displayOf(m_model.value()));
     view->setInterpolated(m_model.value().ct.provenance.interpolated);
   }
+  showReadout(); // structures may be loaded only now, or have other names
 }
 
 void SliceColumn::clear()

@@ -65,6 +65,7 @@ public:
   void setGreyWindow(const presenters::GreyWindow& window);
   void setIntensityDisplay(const presenters::IntensityDisplay& display); ///< of the CT
   void setReadout(const QString& text); ///< values under the crosshair
+  const QString& readout() const noexcept { return m_readout; }
   /// nullptr: CT alone. `alone`: how its intensities are displayed where no other's are seen; the
   /// grey window is its own then.
   void setOverlay(std::shared_ptr<const presenters::SliceOverlay> overlay,

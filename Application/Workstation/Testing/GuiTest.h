@@ -11,6 +11,7 @@
 #include <QMessageBox>
 #include <QModelIndex>
 #include <QTemporaryDir>
+#include <QTranslator>
 #include <QtTest>
 
 #include "MainWindow.h"
@@ -72,6 +73,20 @@ protected:
 private:
   QTemporaryDir m_folder;
   std::unique_ptr<MainWindow> m_window;
+};
+
+/// As long as German texts are, at least.
+class LongTexts : public QTranslator
+{
+public:
+  bool isEmpty() const override { return false; }
+  QString translate(const char* context, const char* text, const char*, int) const override
+  {
+    if (!QByteArray(context).startsWith("petrous"))
+      return {};
+    const QString plain = QString::fromUtf8(text);
+    return plain + QString(plain.size() * 2 / 5, 'n');
+  }
 };
 
 /// Pixels that differ by more than `tolerance` in a channel.

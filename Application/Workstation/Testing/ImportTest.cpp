@@ -77,7 +77,8 @@ TEST_F(Import, AFolderOfSeveralSeriesAsksWhich)
   phantom::SampleOptions options;
   options.spacing = 1.5;
   phantom::writeSamplePatient(folder() / "visit", options);
-  fs::remove_all(folder() / "visit" / "labels");
+  for (const char* part : {"labels", "labels.seg.nrrd", "meshes"})
+    fs::remove_all(folder() / "visit" / part);
   openWindow();
   QStringList offered;
   onDialog(
@@ -115,6 +116,57 @@ TEST_F(Import, AFolderOfSeveralSeriesAsksWhich)
   EXPECT_GT(value.ct.range.max, 1000.0); // HU: the CT, not the MR
   ASSERT_EQ(value.mr.size(), 1u) << "both were ticked";
   EXPECT_EQ(value.mr[0].name, "T2 3D") << "of “T2 3D inner ear right” what names a sequence";
+}
+
+// A sound CT, its structures, and structures of something else, in one tree.
+TEST_F(Import, StructuresOfADroppedTreeAreOfferedWithItsSeries)
+{
+  phantom::SampleOptions options;
+  options.spacing = 1.5;
+  phantom::writeSamplePatient(folder() / "visit", options);
+  for (const char* part : {"labels", "mr"})
+    fs::remove_all(folder() / "visit" / part);
+  openWindow();
+  QStringList ticked;
+  QStringList offered;
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        auto* list = dialog.findChild<QTreeWidget*>("series");
+        if (!list)
+          return false;
+        QTreeWidgetItem* mesh = nullptr;
+        for (int n = 0; n < list->topLevelItemCount(); ++n)
+        {
+          QTreeWidgetItem* item = list->topLevelItem(n);
+          QStringList line;
+          for (int column = 0; column < list->columnCount(); ++column)
+            line += item->text(column);
+          offered += line.join(" | ");
+          if (item->checkState(0) == Qt::Checked)
+            ticked += item->text(0);
+          if (item->text(0).startsWith("OBJ"))
+            mesh = item;
+        }
+        const QString pictures = qEnvironmentVariable("PETROUS_GUI_PICTURES");
+        if (!pictures.isEmpty())
+          dialog.grab().save(pictures + "/series.png");
+        if (mesh)
+          mesh->setCheckState(0, Qt::Checked);
+        dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Open)->click();
+        return true;
+      });
+  dropPath(folder() / "visit");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  EXPECT_EQ(ticked.size(), 2) << ticked.join("; ").toStdString();
+  EXPECT_TRUE(ticked.filter("labels.seg.nrrd").size() == 1) << "the only ones on the CT's grid";
+  const QString all = offered.join('\n');
+  EXPECT_TRUE(all.contains("structures on the grid of the CT")) << all.toStdString();
+  EXPECT_TRUE(all.contains("mesh")) << all.toStdString();
+  const scene::Case& value = window().model().value();
+  EXPECT_FALSE(value.labels.empty());
+  EXPECT_FALSE(value.meshes.empty());
+  EXPECT_TRUE(value.mr.empty());
 }
 
 TEST_F(Import, ADroppedWordOpensTheCaseOfThatName)
@@ -341,6 +393,72 @@ TEST_F(Import, AFolderOfMasksBecomesStructures)
       names.push_back(structure.name);
   std::sort(names.begin(), names.end());
   EXPECT_EQ(names, (std::vector<std::string>{"incus", "malleus", "nerve", "stapes"}));
+}
+
+// Of a folder some of whose names the case has; and of a label file, whose names are not known
+// before it is read.
+TEST_F(Import, NamesThatAreTakenAreAskedAboutAtOnce)
+{
+  saveBall("ball"); // with a "nerve"
+  const core::GridGeometry grid = ballCase("x").ct.geometry;
+  fs::create_directories(folder() / "masks");
+  auto voxels = volume::makeZeroVolume<std::uint16_t>(grid);
+  voxels->at(4, 4, 4) = 1;
+  for (const char* name : {"nerve", "malleus", "stapes"})
+    imaging::writeLabelFile(folder() / "masks" / (name + std::string(".nii.gz")),
+                            volume::makeLabelMap(voxels, {}));
+  auto several = volume::makeZeroVolume<std::uint16_t>(grid);
+  several->at(4, 4, 4) = 1;
+  several->at(5, 4, 4) = 2;
+  several->at(6, 4, 4) = 3;
+  imaging::writeLabelFile(
+      folder() / "some.seg.nrrd",
+      volume::makeLabelMap(several,
+                           {{"nerve", 1, {}, 0}, {"stapes", 2, {}, 0}, {"vein", 3, {}, 0}}));
+  openWindow();
+  const auto names = [this]
+  {
+    QStringList all;
+    for (const scene::LabelPart& part : window().model().value().labels)
+      for (const scene::StructurePart& structure : part.structures)
+        all += QString::fromStdString(structure.name);
+    all.sort();
+    return all;
+  };
+  const auto add = [&](const char* file, bool skips)
+  {
+    QString asked;
+    onDialog(
+        [&asked, skips](QDialog& dialog)
+        {
+          if (auto* into = buttonOf(dialog, "Add to"))
+          {
+            into->click();
+            return false;
+          }
+          if (dialog.objectName() != "askSkip")
+            return false;
+          asked = textOf(dialog);
+          skips ? buttonOf(dialog, "Add the others")->click() : dialog.reject();
+          return true;
+        });
+    dropPath(folder() / file);
+    EXPECT_TRUE(waitFor([&asked] { return !asked.isEmpty(); })) << file;
+    EXPECT_TRUE(settled());
+    return asked;
+  };
+  EXPECT_TRUE(add("masks", false).contains(QString::fromUtf8("“nerve”")));
+  EXPECT_EQ(names(), QStringList({"nerve"}));
+  add("masks", true);
+  ASSERT_TRUE(waitFor([&] { return names().size() == 3; })) << names().join(", ").toStdString();
+  EXPECT_EQ(names(), QStringList({"malleus", "nerve", "stapes"}));
+  const QString both = add("some.seg.nrrd", true);
+  EXPECT_TRUE(both.contains("nerve, stapes")) << both.toStdString();
+  ASSERT_TRUE(waitFor([&] { return names().size() == 4; })) << names().join(", ").toStdString();
+  EXPECT_TRUE(names().contains("vein"));
+  EXPECT_EQ(window().model().value().labels.front().structures.front().voxels,
+            ballCase("x").labels.front().structures.front().voxels)
+      << "the case's own stays";
 }
 
 TEST_F(Import, WithoutACaseAnMrAndLabelsSayWhatIsNeeded)
@@ -1226,6 +1344,48 @@ TEST_F(Import, ARegionIsDrawnBeforeTheScanIsRead)
   sources.roi.reset();
   EXPECT_LT(truth.ct.geometry.voxelCount(),
             presenters::buildCase("whole", sources, {}).ct.geometry.voxelCount());
+}
+
+TEST_F(Import, ARegionOfAnMrIsDrawnBeforeItComesToTheOpenCase)
+{
+  writePatient(folder() / "sample");
+  openWindow();
+  dropPath(folder() / "sample" / "ct");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  core::PatientBox box;
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        if (auto* files = qobject_cast<QFileDialog*>(&dialog))
+        {
+          choose(*files, folder() / "sample" / "mr");
+          return false;
+        }
+        if (auto* region = qobject_cast<RegionDialog*>(&dialog); region && region->isPictured())
+        {
+          EXPECT_TRUE(region->windowTitle().contains("MR")) << region->windowTitle().toStdString();
+          auto* left = dialog.findChild<QDoubleSpinBox*>("x0");
+          left->setValue(left->minimum() + 12.0);
+          box = *region->region();
+          region->accept();
+          return false;
+        }
+        auto* add = buttonOf(dialog, "Add to");
+        if (!add)
+          return false;
+        add->click();
+        return true;
+      });
+  trigger(window(), "Open a region…");
+  ASSERT_TRUE(waitFor([this] { return window().model().value().mr.size() == 1; }));
+  EXPECT_TRUE(settled());
+  presenters::CaseSources sources;
+  sources.ct = folder() / "sample" / "mr";
+  sources.modality = scene::Modality::Mr;
+  const auto whole = presenters::buildCase("whole", sources, {}).ct.geometry;
+  const core::GridGeometry& grid = window().model().value().mr[0].geometry;
+  EXPECT_EQ(grid.voxelCount(), whole.boxCovering(box.min(), box.max()).count());
+  EXPECT_LT(grid.voxelCount(), whole.voxelCount());
 }
 
 TEST_F(Import, ARegionOfAFileIsDrawnBeforeItIsRead)

@@ -15,7 +15,6 @@
 #include <QPushButton>
 #include <QTimer>
 #include <QToolButton>
-#include <QTranslator>
 #include <QTreeView>
 
 #include "CasesModel.h"
@@ -569,25 +568,6 @@ TEST_F(LibraryWindow, TheFirstPageHasTheRecentCases)
   ASSERT_TRUE(isOpen("first"));
   EXPECT_FALSE(page.isVisible());
 }
-
-namespace
-{
-
-// As long as German texts are, at least.
-class LongTexts : public QTranslator
-{
-public:
-  bool isEmpty() const override { return false; }
-  QString translate(const char* context, const char* text, const char*, int) const override
-  {
-    if (!QByteArray(context).startsWith("petrous"))
-      return {};
-    const QString plain = QString::fromUtf8(text);
-    return plain + QString(plain.size() * 2 / 5, 'n');
-  }
-};
-
-} // namespace
 
 // With texts that are 40 % longer, on the smallest screen, with panels open beside it.
 TEST_F(LibraryWindow, TheFirstPageHasRoomForLongTexts)

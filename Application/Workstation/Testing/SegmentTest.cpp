@@ -146,6 +146,46 @@ TEST_F(Segment, ThePanelIsNeverCutOff)
   }
 }
 
+TEST_F(Segment, LabelsOfTheThresholdAreSeenWhole)
+{
+  saveBall("ball");
+  LongTexts longer;
+  for (const bool isLong : {false, true})
+  {
+    if (isLong)
+      QApplication::installTranslator(&longer);
+    openWindow("ball");
+    QApplication::removeTranslator(&longer);
+    choose(Qt::Key_T);
+    QTest::qWait(100);
+    const auto& dock = find<QDockWidget>("segmentDock");
+    const QString pictures = qEnvironmentVariable("PETROUS_GUI_PICTURES");
+    if (!pictures.isEmpty())
+      window().grab().save(pictures + (isLong ? "/threshold-long.png" : "/threshold.png"));
+    const auto* viewport = dock.findChild<QScrollArea*>()->viewport();
+    for (const char* box : {"segmentLower", "segmentUpper"})
+    {
+      const auto& number = find<QDoubleSpinBox>(box);
+      EXPECT_TRUE(viewport->rect().contains(QRect(number.mapTo(viewport, QPoint()), number.size())))
+          << box;
+      EXPECT_GE(number.width(), number.minimumSizeHint().width()) << box;
+    }
+    int seen = 0;
+    for (const auto* label : dock.findChildren<QLabel*>())
+      if (label->isVisible() && label->buddy())
+      {
+        ++seen;
+        EXPECT_GE(label->width(), label->sizeHint().width()) << label->text().toStdString();
+        EXPECT_GE(label->height(), label->sizeHint().height()) << label->text().toStdString();
+        const QRect at(label->mapTo(viewport, QPoint()), label->size());
+        EXPECT_TRUE(at.left() >= 0 && at.right() <= viewport->width())
+            << label->text().toStdString();
+      }
+    EXPECT_GE(seen, 4) << "structure, image, range, result";
+    closeWindow();
+  }
+}
+
 TEST_F(Segment, AStrokePaintsTheBallThatIsSeenAndUndoTakesItBack)
 {
   saveBall("ball");

@@ -322,6 +322,21 @@ TEST_F(Window, SlicesShowBoneAndStructure)
   EXPECT_GT(nerve.green(), nerve.blue());
 }
 
+// Its structures are read after it is shown.
+TEST_F(Window, TheReadoutOfACaseOpenedAgainNamesTheStructure)
+{
+  saveBall("ball"); // the crosshair begins in its middle, in the nerve
+  for (int n = 0; n < 2; ++n)
+  {
+    openWindow();
+    auto* axial = window().findChild<SliceView*>("axialView");
+    ASSERT_TRUE(waitFor([&] { return window().model().ready(); }));
+    EXPECT_LT((window().model().crosshair() - kBallCenter).norm(), 1.0);
+    EXPECT_TRUE(axial->readout().contains("nerve")) << axial->readout().toStdString();
+    closeWindow();
+  }
+}
+
 TEST_F(Window, TheThresholdTakesTheBoneAway)
 {
   saveBall("ball");

@@ -71,9 +71,10 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
       make(file, tr("Open &files…"), {},
            tr("A CT as NRRD, NIfTI or MetaImage: a new case; MR, label maps and meshes: for "
               "the open case"));
-  openRegion = make(file, tr("Open a &region…"), {},
-                    tr("A DICOM folder, of whose CT only a box is read that you draw: the ear of a "
-                       "whole head"));
+  openRegion =
+      make(file, tr("Open a &region…"), {},
+           tr("A DICOM folder, of whose CT or MR only a box is read that you draw: the ear "
+              "of a whole head"));
   openFileRegion = make(file, tr("Open a region of a f&ile…"), {},
                         tr("A CT, cone beam or MR as NRRD, NIfTI or MetaImage, of which only a box "
                            "is read that you draw"));

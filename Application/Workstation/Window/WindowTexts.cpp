@@ -82,7 +82,13 @@ QString windowText(const QString& text)
       {", or say --(ct|mr|labels)-frame ras \\(NIfTI's own\\) or lps \\(DICOM, ITK\\) if you know "
        "it",
        ""},
+      {"; give its structures other names with NAME=FILE, which puts NAME before each(, or leave "
+       ".* with --skip-taken)?",
+       "; rename those of the case first (F2 in the list)"},
       {", and say --other-patient if it is to be added all the same", ""},
+      {"labels on the grid of the whole image lie on it only as FILE@.*\\.$",
+       "when labels on the grid of the whole image are added, choose it as the one on which they "
+       "were drawn."},
       {"say FILE@ct, or add", "add it again and choose “on the CT”, or add"},
       {"; say on which it was drawn with FILE@.* or FILE@.*$",
        "; add it again and choose the one on which it was drawn"},

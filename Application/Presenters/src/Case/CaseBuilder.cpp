@@ -418,12 +418,16 @@ void addMr(scene::Case& value, const PartSource& source,
                             { return scene::kindOfPart(value, taken) != nullptr; });
   checkNewName(value, source.path, name);
   requireSide(source.path, source.assumeRas, "--mr-frame");
-  ReadImage read = readImage(source.path, source.series, source.repair, std::nullopt, false,
+  ReadImage read = readImage(source.path, source.series, source.repair, source.roi, false,
                              source.assumeRas, progress);
   scene::ImagePart& part = read.part;
   if (!read.otherQuantity.empty())
     part.notes.push_back(read.otherQuantity);
   part.name = name;
+  if (source.roi)
+    part.notes.push_back("Only a region of it was read, as asked; labels on the grid of the whole "
+                         "image lie on it only as FILE@" +
+                         name + ".");
   if (isOfOtherPatient(value, source, part.patient, salted))
     part.notes.push_back("Its files state another patient's ID, name or date of birth than those "
                          "of the case's other images; it was added as asked.");
@@ -767,6 +771,12 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
                      : known.size() == count ? ": " + scene::listed(known)
                                              : ", among them " + scene::listed(known)));
   }
+  std::size_t structures = 0;
+  for (const volume::LabelMap& map : loaded.maps)
+    structures += static_cast<std::size_t>(std::count_if(map.segments.begin(), map.segments.end(),
+                                                         [](const volume::Segment& segment)
+                                                         { return segment.voxels > 0; }));
+  std::vector<std::string> taken;
   std::vector<StructureReport> reports;
   for (const imaging::UnreadStructure& unread : loaded.unread)
   {
@@ -851,6 +861,14 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
       if (isUnknown(structure.look))
         structure.look.color =
             colored ? segment.color : appearance::distinctColor(colorsOf(value, part.structures));
+      // Of several all that are taken are told at once.
+      if (structures > 1 && scene::kindOfPart(value, structure.name))
+      {
+        taken.push_back(structure.name);
+        reports.push_back(
+            {structure.name, StructureReport::Status::Skipped, structure.voxels, structure.volume});
+        continue;
+      }
       checkNewName(value, source.path, structure.name);
       StructureReport one{structure.name, StructureReport::Status::Read, structure.voxels,
                           structure.volume};
@@ -872,12 +890,12 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     part.labels = std::make_shared<const volume::LabelMap>(std::move(map));
     value.labels.push_back(std::move(part));
   }
-  std::size_t structures = 0;
-  for (std::size_t n = before; n < value.labels.size(); ++n)
-    structures += value.labels[n].structures.size();
-  core::log::info("import: " + std::to_string(structures) + " structures in " +
+  if (!taken.empty() && (!source.skipsTaken || taken.size() == structures))
+    throw NamesTaken(source.path, taken, structures - taken.size());
+  core::log::info("import: " + std::to_string(structures - taken.size()) + " structures in " +
                   std::to_string(value.labels.size() - before) + " label maps, " +
-                  std::to_string(empty.size()) + " empty");
+                  std::to_string(empty.size()) + " empty, " + std::to_string(taken.size()) +
+                  " skipped");
   if (value.labels.size() == before)
     throw core::InvalidParameter(source.path.string() +
                                  ": none of its structures has a voxel; export it again with what "
@@ -885,6 +903,10 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
   if (!empty.empty())
     notes.push_back(scene::listed(empty) + " left out, as no voxel carries " +
                     (empty.size() == 1 ? "it" : "them"));
+  if (!taken.empty())
+    notes.push_back(scene::listed(taken) + " left out as asked, as the case has " +
+                    (taken.size() == 1 ? "a part of this name" : "parts of these names") +
+                    " already");
   auto& first = value.labels[before].notes;
   first.insert(first.begin(), notes.begin(), notes.end());
   if (report)
@@ -956,6 +978,34 @@ ImageSideUnclear::ImageSideUnclear(const fs::path& file, const std::string& opti
         "NRRD: space, MetaImage: TransformMatrix), so the anatomy could be "
         "mirrored; export it again with its geometry, or say " +
         option + " ras (NIfTI's own) or lps (DICOM, ITK) if you know it")
+{
+}
+
+namespace
+{
+
+std::string takenText(const fs::path& file, const std::vector<std::string>& names,
+                      std::size_t others)
+{
+  std::string text = file.string() + ": ";
+  for (std::size_t n = 0; n < names.size(); ++n)
+    text += (n == 0 ? "'" : n + 1 == names.size() ? " and '" : ", '") + names[n] + "'";
+  const bool isOne = names.size() == 1;
+  text += isOne ? " is the name of a part that is in the case already; "
+                : " are names of parts that are in the case already; ";
+  text += "give its structures other names with NAME=FILE, which puts NAME before each";
+  if (others > 0)
+    text += ", or leave " + std::string(isOne ? "this one" : "these") + " out and add the other " +
+            (others == 1 ? std::string("one") : std::to_string(others)) + " with --skip-taken";
+  return text;
+}
+
+} // namespace
+
+NamesTaken::NamesTaken(const fs::path& file, std::vector<std::string> taken, std::size_t left)
+  : core::Error(core::Fault::Refused, takenText(file, taken, left))
+  , names(std::move(taken))
+  , others(left)
 {
 }
 
@@ -1061,9 +1111,10 @@ std::optional<double> StructureReport::volumeError() const
 
 const char* nameOf(StructureReport::Status status)
 {
-  return status == StructureReport::Status::Read    ? "read"
-         : status == StructureReport::Status::Empty ? "empty"
-                                                    : "unread";
+  return status == StructureReport::Status::Read      ? "read"
+         : status == StructureReport::Status::Empty   ? "empty"
+         : status == StructureReport::Status::Skipped ? "skipped"
+                                                      : "unread";
 }
 
 StructureSummary summaryOf(const std::vector<StructureReport>& reports)
@@ -1072,9 +1123,10 @@ StructureSummary summaryOf(const std::vector<StructureReport>& reports)
   double largest = -1.0;
   for (const StructureReport& one : reports)
   {
-    ++(one.status == StructureReport::Status::Read    ? summary.read
-       : one.status == StructureReport::Status::Empty ? summary.empty
-                                                      : summary.unread);
+    ++(one.status == StructureReport::Status::Read      ? summary.read
+       : one.status == StructureReport::Status::Empty   ? summary.empty
+       : one.status == StructureReport::Status::Skipped ? summary.skipped
+                                                        : summary.unread);
     if (const auto error = one.volumeError(); error && std::abs(*error) > largest)
     {
       largest = std::abs(*error);
@@ -1085,6 +1137,8 @@ StructureSummary summaryOf(const std::vector<StructureReport>& reports)
       std::to_string(summary.read) + (summary.read == 1 ? " structure read" : " structures read");
   if (summary.empty > 0)
     summary.text += ", " + std::to_string(summary.empty) + " empty";
+  if (summary.skipped > 0)
+    summary.text += ", " + std::to_string(summary.skipped) + " left out";
   if (summary.unread > 0)
     summary.text += ", " + std::to_string(summary.unread) + " not read";
   return summary;
@@ -1223,6 +1277,12 @@ std::vector<PartFailure> addSoundParts(scene::Case& value, const PartSources& pa
       {
         failures.push_back({source, unclear.what()});
         failures.back().isFrameUnclear = true;
+      }
+      catch (const NamesTaken& taken)
+      {
+        failures.push_back({source, taken.what()});
+        if (taken.others > 0)
+          failures.back().taken = taken.names;
       }
       catch (const core::Error& error)
       {

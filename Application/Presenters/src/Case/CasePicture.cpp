@@ -7,6 +7,7 @@
 #include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Library/Library.h"
 #include "petrous/Presenters/SceneAssembly.h"
+#include "petrous/Presenters/SlicePlanes.h"
 #include "petrous/Rendering/OffscreenView.h"
 #include "petrous/Volume/IntensityHistogram.h"
 #include "petrous/Volume/TissueExtent.h"
@@ -19,8 +20,26 @@ rendering::SceneContents sceneContents(const scene::Case& value, const core::Pro
   return SceneAssembly().contents(value, progress);
 }
 
+namespace
+{
+
+// Of a case without a side the renderer knows it by the place of the image, if that states one.
+rendering::StandardView lateralView(const scene::Case& value)
+{
+  using rendering::StandardView;
+  const bool isDescribed =
+      value.description.side == scene::Side::Left || value.description.side == scene::Side::Right;
+  if (!isDescribed && statesPlace(value.ct))
+    return StandardView::Lateral;
+  return earOf(value) == scene::Side::Left ? StandardView::Left : StandardView::Right;
+}
+
+} // namespace
+
 core::CameraPose standardCamera(const scene::Case& value, rendering::StandardView view)
 {
+  if (view == rendering::StandardView::Lateral)
+    view = lateralView(value);
   const auto extent = volume::tissueExtent(*value.ct.volume.get(), value.iso);
   return rendering::standardCamera(view, value.ct.geometry, extent.center, extent.radius);
 }

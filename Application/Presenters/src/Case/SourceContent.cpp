@@ -16,6 +16,7 @@
 #include "petrous/Imaging/StructureSet.h"
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Presenters/PartFiles.h"
 #include "petrous/Volume/IntensityScale.h"
 
 namespace petrous::presenters
@@ -146,25 +147,55 @@ std::vector<SeriesContent> segmentationsOf(const imaging::ScanResult& scan)
       segmentation.modality = series.modality;
       segmentation.description = file.filename().string();
       segmentation.folder = file.parent_path().filename().string();
-      segmentation.file = file;
+      segmentation.files = {file};
+      segmentation.what = imaging::kindName(series.kind) == std::string("structure-set")
+                              ? "RT structure set"
+                              : "DICOM segmentation";
       found.push_back(std::move(segmentation));
     }
   std::sort(found.begin(), found.end(),
-            [](const SeriesContent& a, const SeriesContent& b) { return a.file < b.file; });
+            [](const SeriesContent& a, const SeriesContent& b) { return a.files < b.files; });
   found.erase(std::unique(found.begin(), found.end(),
                           [](const SeriesContent& a, const SeriesContent& b)
-                          { return a.file == b.file; }), // volumes of one series
+                          { return a.files == b.files; }), // volumes of one series
               found.end());
   return found;
 }
 
-// `uid`: this series alone; empty: all.
+// Structures and meshes that are not DICOM.
+std::vector<SeriesContent> partsOf(const fs::path& path, const imaging::ScanResult& scan,
+                                   const core::Progress& progress)
+{
+  std::vector<SeriesContent> found;
+  for (const PartFiles& files : partFilesOf(path, scan, progress))
+  {
+    SeriesContent part;
+    part.content = files.content;
+    const fs::path& first = files.paths.front();
+    if (const auto* format = imaging::formatOf(first))
+      part.modality = format->name;
+    const bool isFile = files.paths.size() == 1;
+    part.description = (isFile ? first : first.parent_path()).filename().string();
+    part.folder =
+        (isFile ? first.parent_path() : first.parent_path().parent_path()).filename().string();
+    part.files = files.paths;
+    part.slices = files.count;
+    part.what = files.text;
+    part.image = files.image;
+    part.isDicom = false;
+    part.isBeside = !files.isBelow;
+    found.push_back(std::move(part));
+  }
+  return found;
+}
+
+// `uid`: this series alone; empty: all. `offersParts`: beside images also what is not DICOM.
 SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress,
-                          const std::string& uid = {})
+                          const std::string& uid = {}, bool offersParts = false)
 {
   SourceContent result;
   result.path = path;
-  auto scan = imaging::scanDicom(path, progress, library::scanCache().get());
+  auto scan = imaging::scanDicom(path, progress.part(0.0, 0.5), library::scanCache().get());
   if (!uid.empty())
     scan.series.erase(std::remove_if(scan.series.begin(), scan.series.end(),
                                      [&uid](const imaging::DicomSeries& series)
@@ -188,7 +219,7 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress,
   const auto segmentations = uid.empty() ? segmentationsOf(scan) : std::vector<SeriesContent>();
   if (readable == 0 && segmentations.size() == 1)
   {
-    result.path = segmentations.front().file;
+    result.path = segmentations.front().files.front();
     result.content = Content::Labels;
     result.why = "is a DICOM segmentation";
     return result;
@@ -196,12 +227,18 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress,
   const auto only = std::find_if(scan.series.begin(), scan.series.end(), wanted);
   // Also one that cannot be used as it is may have been meant.
   const bool hasOthers = readable == 1 && uid.empty() && !imaging::otherImages(scan, *only).empty();
-  if (readable > 1 || hasOthers || !segmentations.empty())
+  const bool isChoice = readable > 1 || hasOthers || !segmentations.empty();
+  std::vector<SeriesContent> parts;
+  if (offersParts && uid.empty() && readable > 0 && (isChoice || !scan.notDicom.empty()))
+    parts = partsOf(path, scan, progress.part(0.5, 1.0));
+  if (isChoice || std::any_of(parts.begin(), parts.end(),
+                              [](const SeriesContent& one) { return !one.isBeside; }))
   {
     for (const imaging::DicomSeries& series : scan.series)
       if (!series.geometry.slices.empty() && series.kind == imaging::SeriesKind::Image)
         result.series.push_back(contentOf(series));
     result.series.insert(result.series.end(), segmentations.begin(), segmentations.end());
+    result.series.insert(result.series.end(), parts.begin(), parts.end());
     return result;
   }
   // If none is readable, the reader reports why.
@@ -323,7 +360,7 @@ SourceContent lookAt(const fs::path& path, const core::Progress& progress,
   if (!format || format->reads == imaging::kDicom)
     try
     {
-      return lookAtDicom(path, progress.part(0.0, 0.5));
+      return lookAtDicom(path, progress.part(0.0, 0.5), {}, !expected);
     }
     catch (const imaging::DicomError& error)
     {

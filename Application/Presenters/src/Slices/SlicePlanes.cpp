@@ -8,7 +8,10 @@
 
 #include "petrous/Core/Error.h"
 #include "petrous/Core/NumberText.h"
+#include "petrous/Imaging/ImageFile.h"
+#include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/Case.h"
+#include "petrous/Volume/TissueExtent.h"
 
 namespace petrous::presenters
 {
@@ -195,11 +198,24 @@ ObliquePlane planeWithNormal(const Eigen::Vector3d& normal)
   return {slice, rotated(axesOf(slice), onto(unit, slice))};
 }
 
+bool statesPlace(const scene::ImagePart& image)
+{
+  const Eigen::Vector3d& origin = image.geometry.origin();
+  return (origin.x() != 0.0 || origin.y() != 0.0) &&
+         std::none_of(image.notes.begin(), image.notes.end(), imaging::isNoteOfSide);
+}
+
 scene::Side earOf(const scene::Case& value)
 {
+  constexpr double kAir = -500.0; // HU
   const scene::Side side = value.description.side;
   if (side == scene::Side::Left || side == scene::Side::Right)
     return side;
+  const auto image = statesPlace(value.ct) ? nullptr : value.ct.volume.get();
+  const double air =
+      calibratedScale(value).calibrated ? kAir : 0.5 * (value.ct.range.min + value.iso);
+  if (const int open = image ? volume::openSide(*image, air) : 0; open != 0)
+    return open > 0 ? scene::Side::Left : scene::Side::Right;
   return value.ct.geometry.center().x() > 0.0 ? scene::Side::Left : scene::Side::Right;
 }
 

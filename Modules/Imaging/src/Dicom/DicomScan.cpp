@@ -28,6 +28,7 @@
 #include "SeriesVolumes.h"
 #include "SliceStack.h"
 #include "petrous/Core/Log.h"
+#include "petrous/Imaging/FileFormats.h"
 
 namespace petrous::imaging
 {
@@ -1173,6 +1174,8 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress,
     if (!isLostSlice(*header, folders))
     {
       ++result.foreignFiles;
+      if (isReadAs(header->slice.file, kImage | kLabels | kMesh))
+        result.notDicom.push_back(header->slice.file);
       continue;
     }
     if (header->slice.damage.empty())

@@ -238,6 +238,12 @@ ImagePreview previewImageFile(const std::filesystem::path& path, std::size_t sli
           grid};
 }
 
+ImageHeader readImageHeader(const std::filesystem::path& path)
+{
+  const VoxelSource source(path);
+  return {source.geometry(), source.components(), source.assumedRas()};
+}
+
 std::optional<bool> assumedRasOf(const std::filesystem::path& path)
 {
   return VoxelSource(path).assumedRas();

@@ -1,6 +1,9 @@
 #include "petrous/Volume/TissueExtent.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <numeric>
 #include <vector>
 
@@ -40,6 +43,27 @@ Counts countPlanes(const Volume<T>& v, double iso)
   return counts;
 }
 
+// How much of each plane across the axis lies below `air`.
+template <class T>
+std::vector<double> airOfPlanes(const Volume<T>& v, double air, int axis)
+{
+  const core::Index3& n = v.geometry().dims();
+  const auto across = static_cast<std::size_t>(axis);
+  std::vector<double> below(static_cast<std::size_t>(n[across]), 0.0);
+  std::vector<double> all(below.size(), 0.0);
+  for (int k = 0; k < n[2]; k += kStride)
+    for (int j = 0; j < n[1]; j += kStride)
+      for (int i = 0; i < n[0]; i += kStride)
+      {
+        const auto plane = static_cast<std::size_t>(std::array<int, 3>{i, j, k}[across]);
+        below[plane] += static_cast<double>(v.at(i, j, k)) < air ? 1.0 : 0.0;
+        all[plane] += 1.0;
+      }
+  for (std::size_t p = 0; p < below.size(); ++p)
+    below[p] = all[p] > 0.0 ? below[p] / all[p] : -1.0; // not read
+  return below;
+}
+
 // First plane up to which more than the fraction `share` is found.
 double quantile(const std::vector<std::uint64_t>& counts, double share)
 {
@@ -72,6 +96,38 @@ TissueExtent tissueExtent(const IntensityVolume& image, double iso)
   const double halfDiagonal = 0.5 * (upper - lower).cwiseProduct(grid.spacing()).norm();
   return {grid.patientFromVoxel(0.5 * (lower + upper)),
           std::max(kMargin * halfDiagonal, grid.minSpacing())};
+}
+
+int openSide(const IntensityVolume& image, double air)
+{
+  constexpr double kOuter = 1.0 / 6.0;
+  constexpr double kTelling = 0.1;
+  const core::GridGeometry& grid = image.geometry();
+  Eigen::Index axis = 0;
+  grid.direction().row(0).cwiseAbs().maxCoeff(&axis);
+  const auto planes =
+      image.visit([&](const auto& v) { return airOfPlanes(v, air, static_cast<int>(axis)); });
+  const auto outer = static_cast<std::ptrdiff_t>(
+      std::max<double>(kStride, kOuter * static_cast<double>(planes.size())));
+  const auto mean = [](auto from, auto to)
+  {
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (; from != to; ++from)
+      if (*from >= 0.0)
+      {
+        sum += *from;
+        ++count;
+      }
+    return count > 0 ? sum / static_cast<double>(count) : 0.0;
+  };
+  if (static_cast<std::ptrdiff_t>(planes.size()) < 2 * outer)
+    return 0;
+  const double more =
+      mean(planes.end() - outer, planes.end()) - mean(planes.begin(), planes.begin() + outer);
+  if (std::abs(more) < kTelling)
+    return 0;
+  return (more > 0.0) == (grid.direction()(0, axis) > 0.0) ? 1 : -1;
 }
 
 } // namespace petrous::volume

@@ -26,6 +26,8 @@ struct PartSource
   /// MR: which series and volume of a DICOM folder (imaging::chooseSeries); empty: automatic.
   std::string series = {};
   bool repair = false; ///< MR: as CaseSources
+  /// MR: crops it on load, patient LPS mm of the MR itself.
+  std::optional<core::PatientBox> roi = std::nullopt;
   /// MR, DICOM SEG, RT structure set: whether it may state another patient than the case's images
   /// do.
   bool isOtherPatient = false;
@@ -37,6 +39,8 @@ struct PartSource
   std::optional<bool> assumeRas = std::nullopt;
   /// Structures: a table of names for this file alone; empty: PartSources::labelNames.
   std::filesystem::path labelNames = {};
+  /// Structures: those whose names are taken are left out; otherwise none is added.
+  bool skipsTaken = false;
 
   /// "NAME=FILE" or "FILE". A string that is the path of an existing file is a FILE.
   static PartSource parse(const std::string& text);
@@ -108,6 +112,16 @@ struct FrameUnclear : core::InvalidParameter
   FrameUnclear(const std::filesystem::path& file, const std::string& image);
 };
 
+/// Several structures of one source, some of which have names that the case has already: the user
+/// has to say whether the others come without them.
+struct NamesTaken : core::Error
+{
+  /// `others`: how many structures are left without them.
+  NamesTaken(const std::filesystem::path& file, std::vector<std::string> names, std::size_t others);
+  std::vector<std::string> names;
+  std::size_t others;
+};
+
 /// "LPS mm", "RAS m", ..
 std::string textOf(const imaging::MeshSpace& space);
 /// "LPS (DICOM, ITK), mm", "RAS (Slicer, NIfTI), m", ..
@@ -119,8 +133,9 @@ struct StructureReport
   enum class Status
   {
     Read,
-    Empty, ///< no voxel
-    Unread ///< what describes it is damaged or not read here; the part's notes say why
+    Empty,   ///< no voxel
+    Skipped, ///< its name is taken (PartSource::skipsTaken)
+    Unread   ///< what describes it is damaged or not read here; the part's notes say why
   };
   std::string name;
   Status status = Status::Read;
@@ -135,13 +150,13 @@ struct StructureReport
   std::optional<double> volumeError() const;
 };
 
-/// "read", "empty" or "unread"
+/// "read", "empty", "skipped" or "unread"
 const char* nameOf(StructureReport::Status status);
 
 /// Counts over the structures of files.
 struct StructureSummary
 {
-  std::size_t read = 0, empty = 0, unread = 0;
+  std::size_t read = 0, empty = 0, skipped = 0, unread = 0;
   /// The structure whose voxels are farthest from the volume by the file, of those with one;
   /// nullptr if there is none. Into the reports.
   const StructureReport* worst = nullptr;
@@ -181,7 +196,7 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
 /// source allows it; its notes then say so. An MR or label file that leaves open which side of the
 /// patient is left is ImageSideUnclear unless its source says it, or it is a label file with the
 /// grid of an image of the case, which it follows. Throws Error (Refused) for a name that is taken,
-/// InvalidParameter for labels without a
+/// NamesTaken for those of a source of several structures; InvalidParameter for labels without a
 /// voxel, and for a mesh that extends beyond the image on which it was drawn by more than
 /// volume::maxReach; MeshSpaceUnclear for one that lies in it only in another frame or unit.
 /// `report`, if given, gets every structure of `parts.labels`.
@@ -197,6 +212,7 @@ struct PartFailure
   bool isOtherPatient = false;                          ///< OtherPatient
   bool isSideUnclear = false;                           ///< ImageSideUnclear
   bool isFrameUnclear = false;                          ///< FrameUnclear
+  std::vector<std::string> taken = {};                  ///< NamesTaken, if others are left
   std::vector<PartSource> PartSources::*kind = nullptr; ///< of which it is one
 };
 

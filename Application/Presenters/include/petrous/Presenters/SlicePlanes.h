@@ -11,6 +11,7 @@
 namespace petrous::scene
 {
 struct Case;
+struct ImagePart;
 }
 
 namespace petrous::presenters
@@ -85,8 +86,13 @@ struct ObliquePlane
 };
 ObliquePlane planeWithNormal(const Eigen::Vector3d& normal);
 
+/// Whether an image states where in the patient it lies: not if its file left a side open, or its
+/// first voxel is in the middle of the scanner (x and y 0), where exports without a header put it.
+bool statesPlace(const scene::ImagePart& image);
+
 /// The side that the case is described with; if none or both, left where the middle of its CT is
-/// left of the midline (LPS x > 0), else right.
+/// left of the midline (LPS x > 0), else right. Of a CT that does not state its place it is the
+/// side on which it opens into air (volume::openSide), if it does, which loads it.
 scene::Side earOf(const scene::Case& value);
 
 } // namespace petrous::presenters

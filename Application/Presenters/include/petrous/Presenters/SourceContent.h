@@ -22,12 +22,13 @@ enum class Content
   Mesh
 };
 
-/// A DICOM series, or one of its volumes; or a DICOM segmentation, which is a file.
+/// A DICOM series, or one of its volumes; or structures or meshes beside it: a DICOM segmentation,
+/// or other files (PartFiles).
 struct SeriesContent
 {
   std::string selector;             ///< of imaging::chooseSeries
-  Content content = Content::Image; ///< Ct, Mr or Image; Labels: a segmentation
-  std::string modality;             ///< DICOM (0008,0060); may be empty
+  Content content = Content::Image; ///< Labels, Mesh: of parts beside a series
+  std::string modality;             ///< DICOM (0008,0060), or a file's format; may be empty
   std::string description;          ///< may identify the patient: for local display only
   std::size_t slices = 0;
   Eigen::Vector3d spacing = Eigen::Vector3d::Zero(); ///< mm
@@ -39,7 +40,12 @@ struct SeriesContent
   imaging::Verdict verdict = imaging::Verdict::Ok; ///< Refused: cannot be chosen
   std::vector<imaging::Finding> findings;          ///< the reasons for it
   std::string name;                                ///< see sequenceName
-  std::filesystem::path file;                      ///< of a segmentation; else empty
+  /// Of parts: a file, a folder of masks, or several meshes; else empty.
+  std::vector<std::filesystem::path> files;
+  std::string what;      ///< of parts: "12 masks, one structure a file"
+  std::string image;     ///< of parts: the selector of the image whose grid they have; else empty
+  bool isDicom = true;   ///< of parts: a segmentation or structure set
+  bool isBeside = false; ///< of parts: not below what was opened, but in a folder beside it
 };
 
 /// A file or folder that the user opens or drops, and its content.
@@ -53,8 +59,8 @@ struct SourceContent
   std::string name = {};     ///< proposed for an MR, see sequenceName; may be empty
   /// A DICOM series that can be read only with repair (CaseSources): why. Else empty.
   std::vector<imaging::Finding> repair = {};
-  /// Of a DICOM folder with several series that may be meant, sound or not: all of them; the user
-  /// chooses. `content` is then meaningless.
+  /// Of a DICOM folder with several series that may be meant, sound or not, or with structures or
+  /// meshes below it: all of them; the user chooses. `content` is then meaningless.
   std::vector<SeriesContent> series = {};
   /// Structures of a label map that neither it nor a table beside it names.
   std::size_t unnamed = 0;

@@ -71,6 +71,8 @@ struct ScanResult
       series; ///< sorted by path of the first file; volumes of one series adjoin
   std::vector<Finding> unreadable; ///< damaged DICOM files of no known series
   std::size_t foreignFiles = 0;    ///< files that are not DICOM
+  /// Those of them whose names are of voxels or meshes (FileFormats.h): perhaps structures.
+  std::vector<std::filesystem::path> notDicom;
   /// Files that a DICOMDIR lists and that are not there. Those of a series that is are a finding of
   /// it (MissingEnd), too.
   std::size_t lostFiles = 0;

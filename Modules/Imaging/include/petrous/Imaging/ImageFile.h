@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "petrous/Core/GridGeometry.h"
 #include "petrous/Core/PatientBox.h"
 #include "petrous/Core/Progress.h"
 #include "petrous/Imaging/FileError.h"
@@ -38,6 +40,16 @@ LoadedImage readImageFile(const std::filesystem::path& path,
                           const std::optional<core::PatientBox>& roi = std::nullopt,
                           const core::Progress& progress = {},
                           const std::optional<bool>& isRas = std::nullopt);
+
+/// What the header of a file of voxels says.
+struct ImageHeader
+{
+  core::GridGeometry grid;        ///< patient LPS mm
+  std::size_t components = 1;     ///< numbers a voxel: layers of a segmentation, vectors, colours
+  std::optional<bool> assumedRas; ///< LoadedImage
+};
+/// Throws FileError.
+ImageHeader readImageHeader(const std::filesystem::path& path);
 
 /// LoadedImage::assumedRas of a file, by its header alone. Throws FileError.
 std::optional<bool> assumedRasOf(const std::filesystem::path& path);

@@ -18,4 +18,9 @@ struct TissueExtent
 /// voxel per axis.
 TissueExtent tissueExtent(const IntensityVolume& image, double iso);
 
+/// The patient's side on which an image of one ear opens into the air around the head: 1 left, -1
+/// right. The one of the outer sixths along the left-right axis of which more lies below `air`, if
+/// that is a tenth of it or more; 0: neither. Reads every second voxel per axis.
+int openSide(const IntensityVolume& image, double air);
+
 } // namespace petrous::volume

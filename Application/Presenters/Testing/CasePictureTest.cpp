@@ -1,0 +1,72 @@
+#include <gtest/gtest.h>
+
+#include "petrous/Imaging/ImageFile.h"
+#include "petrous/Presenters/CasePicture.h"
+
+using namespace petrous;
+using Eigen::Vector3d;
+using rendering::StandardView;
+
+namespace
+{
+
+// A block of bone with air beside it: in patient x below `air` mm from its middle, or above.
+scene::Case earAt(const Vector3d& origin, bool isAirOnTheLeft)
+{
+  scene::Case value;
+  value.ct.geometry = core::GridGeometry({40, 20, 20}, Vector3d::Ones(), origin);
+  auto ct = std::make_shared<volume::Volume<std::int16_t>>(value.ct.geometry);
+  for (int k = 0; k < 20; ++k)
+    for (int j = 0; j < 20; ++j)
+      for (int i = 0; i < 40; ++i)
+        ct->at(i, j, k) = (isAirOnTheLeft ? i < 25 : i >= 15) ? 1000 : -1000;
+  value.ct.volume = std::make_shared<const volume::IntensityVolume>(
+      std::shared_ptr<const volume::Volume<std::int16_t>>(ct));
+  value.ct.range = {-1000.0, 1000.0};
+  return value;
+}
+
+// 1: from the patient's left, -1: from the right.
+int sideOf(const scene::Case& value)
+{
+  const core::CameraPose pose = presenters::standardCamera(value, StandardView::Lateral);
+  const Vector3d eye = (pose.position - pose.focalPoint).normalized();
+  EXPECT_NEAR(std::abs(eye.x()), 1.0, 1e-9);
+  return eye.x() > 0.0 ? 1 : -1;
+}
+
+} // namespace
+
+TEST(CasePicture, AnImageThatSaysWhereItLiesIsSeenFromThere)
+{
+  for (const bool isAirOnTheLeft : {false, true})
+  {
+    EXPECT_EQ(sideOf(earAt(Vector3d(20, -30, 0), isAirOnTheLeft)), 1);
+    EXPECT_EQ(sideOf(earAt(Vector3d(-80, -30, 0), isAirOnTheLeft)), -1);
+  }
+}
+
+// Its middle is 20 mm to the left of a corner that no scanner puts at 0.
+TEST(CasePicture, AnImageWithoutAPlaceIsSeenFromWhereItOpensIntoAir)
+{
+  EXPECT_EQ(sideOf(earAt(Vector3d::Zero(), true)), 1);
+  EXPECT_EQ(sideOf(earAt(Vector3d::Zero(), false)), -1);
+  scene::Case moved = earAt(Vector3d(20, -30, 0), false);
+  EXPECT_EQ(sideOf(moved), 1);
+  moved.ct.notes = {"The file does not say which side of the patient is left; its axes were taken "
+                    "as RAS, as asked."};
+  ASSERT_TRUE(imaging::isNoteOfSide(moved.ct.notes[0]));
+  EXPECT_EQ(sideOf(moved), -1);
+}
+
+TEST(CasePicture, TheSideOfTheCaseComesFirst)
+{
+  scene::Case value = earAt(Vector3d::Zero(), true);
+  value.description.side = scene::Side::Right;
+  EXPECT_EQ(sideOf(value), -1);
+  value.description.side = scene::Side::Left;
+  value.ct.geometry = earAt(Vector3d(-20, -30, 0), false).ct.geometry; // over the midline
+  EXPECT_EQ(sideOf(value), 1);
+  value.description.side = scene::Side::Both;
+  EXPECT_EQ(sideOf(value), -1);
+}

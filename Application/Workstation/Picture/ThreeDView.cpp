@@ -36,6 +36,10 @@ ThreeDView::ThreeDView(QWidget* parent)
     letter->setObjectName("direction");
     letter->setAttribute(Qt::WA_TransparentForMouseEvents);
   }
+  m_stamp = new QLabel(this);
+  m_stamp->setObjectName("caseStamp");
+  m_stamp->setTextFormat(Qt::PlainText);
+  m_stamp->setAttribute(Qt::WA_TransparentForMouseEvents);
   observe();
 }
 
@@ -97,6 +101,20 @@ void ThreeDView::handleTool(vtkObject*, unsigned long event, void*)
       });
 }
 
+void ThreeDView::setStamp(const QString& text)
+{
+  if (text == m_stamp->text())
+    return;
+  m_stamp->setText(text);
+  placeLetters();
+  emit stampChanged(text);
+}
+
+QString ThreeDView::stamp() const
+{
+  return m_stamp->text();
+}
+
 void ThreeDView::placeLetters()
 {
   constexpr int margin = 10;
@@ -104,9 +122,12 @@ void ThreeDView::placeLetters()
   const bool mono = m_display->stereo() == rendering::StereoMode::None;
   for (QLabel* letter : m_letters)
     letter->setVisible(mono);
+  m_stamp->setVisible(mono && !m_stamp->text().isEmpty());
   m_display->setFirstRow(mapToGlobal(QPoint(0, 0)).y());
   if (!mono)
     return;
+  m_stamp->adjustSize();
+  m_stamp->move(width() - margin - m_stamp->width(), margin);
   const auto edges = interaction::edgeDirections(picture().camera());
   const std::string* const texts[] = {&edges.left, &edges.right, &edges.top, &edges.bottom};
   for (std::size_t n = 0; n < m_letters.size(); ++n)

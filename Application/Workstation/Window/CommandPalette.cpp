@@ -13,6 +13,7 @@
 #include <QVBoxLayout>
 
 #include "Theme.h"
+#include "WindowTexts.h"
 
 namespace petrous::workstation
 {
@@ -104,8 +105,9 @@ void CommandPalette::tell()
     return m_tip->setText(tr("No command is called so."));
   if (command->isEnabled)
     return m_tip->setText(command->tip);
-  m_tip->setText(command->whyNot.isEmpty() ? tr("Not available now.")
-                                           : tr("Not available now: %1.").arg(command->whyNot));
+  m_tip->setText(command->whyNot.isEmpty()
+                     ? tr("Not available now.")
+                     : tr("Not available now: %1").arg(sentence(command->whyNot)));
 }
 
 // After the palette is gone: a command may open a dialog of its own.

@@ -67,7 +67,7 @@ public:
       {
         m_taken.insert(action);
         addMenu(*inside, path + QString::fromUtf8(" › ") + plain(action->text()),
-                action->isEnabled() ? whyNot : reasonOf(*action));
+                action->isEnabled() ? whyNot : reasonOfMenu(*action));
       }
       else
         add(*action, path, whyNot);
@@ -80,6 +80,13 @@ public:
       if (!action->shortcut().isEmpty() && !action->text().isEmpty() && !action->menu() &&
           action->isVisible())
         add(*action, placeOf(*action), {});
+  }
+
+  // Of a menu: never empty, as nothing in it can be done.
+  QString reasonOfMenu(const QAction& action) const
+  {
+    const QString why = reasonOf(action);
+    return why.isEmpty() ? QObject::tr("The menu is not available") : why;
   }
 
   std::vector<Command> commands;
@@ -128,7 +135,8 @@ std::vector<Command> commandsOf(const QMainWindow& window, bool hasCase)
   if (const auto* bar = qobject_cast<QMenuBar*>(window.menuWidget()))
     for (QAction* top : bar->actions())
       if (QMenu* menu = top->menu(); menu && top->isVisible())
-        collector.addMenu(*menu, plain(top->text()), {});
+        collector.addMenu(*menu, plain(top->text()),
+                          top->isEnabled() ? QString() : collector.reasonOfMenu(*top));
   collector.addRest(window);
   return collector.commands;
 }

@@ -22,9 +22,9 @@ namespace
 {
 enum PaletteColumn
 {
-  kName,
-  kMenu,
-  kKeys
+  kCommandName,
+  kCommandMenu,
+  kCommandKeys
 };
 } // namespace
 
@@ -66,9 +66,9 @@ CommandPalette::CommandPalette(std::vector<Command> commands, QWidget* parent)
   resize(std::min(760, room.width() - 40), std::min(520, room.height() - 40));
   search();
   m_list->header()->setStretchLastSection(false);
-  m_list->header()->setSectionResizeMode(kName, QHeaderView::Stretch);
-  m_list->header()->setSectionResizeMode(kMenu, QHeaderView::ResizeToContents);
-  m_list->header()->setSectionResizeMode(kKeys, QHeaderView::ResizeToContents);
+  m_list->header()->setSectionResizeMode(kCommandName, QHeaderView::Stretch);
+  m_list->header()->setSectionResizeMode(kCommandMenu, QHeaderView::ResizeToContents);
+  m_list->header()->setSectionResizeMode(kCommandKeys, QHeaderView::ResizeToContents);
 }
 
 void CommandPalette::search()
@@ -79,13 +79,13 @@ void CommandPalette::search()
   {
     const Command& command = m_commands[n];
     auto* item = new QTreeWidgetItem(m_list, {command.name, command.menu, command.keys});
-    item->setData(kName, Qt::UserRole, static_cast<qulonglong>(n));
+    item->setData(kCommandName, Qt::UserRole, static_cast<qulonglong>(n));
     if (command.isEnabled)
       continue;
-    for (const int column : {kName, kMenu, kKeys})
+    for (const int column : {kCommandName, kCommandMenu, kCommandKeys})
       item->setForeground(column, grey);
-    item->setToolTip(kName, command.whyNot);
-    item->setData(kName, Qt::AccessibleDescriptionRole,
+    item->setToolTip(kCommandName, command.whyNot);
+    item->setData(kCommandName, Qt::AccessibleDescriptionRole,
                   tr("not available now. %1").arg(command.whyNot));
   }
   m_list->setCurrentItem(m_list->topLevelItem(0));
@@ -95,7 +95,7 @@ void CommandPalette::search()
 const Command* CommandPalette::chosen() const
 {
   const QTreeWidgetItem* item = m_list->currentItem();
-  return item ? &m_commands[item->data(kName, Qt::UserRole).toULongLong()] : nullptr;
+  return item ? &m_commands[item->data(kCommandName, Qt::UserRole).toULongLong()] : nullptr;
 }
 
 void CommandPalette::tell()

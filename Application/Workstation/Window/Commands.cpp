@@ -24,7 +24,7 @@ namespace
 constexpr char kWhyNot[] = "whyNot";
 
 // Without the marks of mnemonics.
-QString plain(const QString& text)
+QString withoutMnemonics(const QString& text)
 {
   static const QRegularExpression mark("&(.)");
   return QString(text).replace(mark, "\\1");
@@ -66,7 +66,7 @@ public:
       if (QMenu* inside = action->menu())
       {
         m_taken.insert(action);
-        addMenu(*inside, path + QString::fromUtf8(" › ") + plain(action->text()),
+        addMenu(*inside, path + QString::fromUtf8(" › ") + withoutMnemonics(action->text()),
                 action->isEnabled() ? whyNot : reasonOfMenu(*action));
       }
       else
@@ -105,7 +105,7 @@ private:
       return;
     Command command;
     command.action = &action;
-    command.name = plain(action.text());
+    command.name = withoutMnemonics(action.text());
     command.menu = menu;
     command.keys = keysOf(action);
     command.tip = action.statusTip();
@@ -135,7 +135,7 @@ std::vector<Command> commandsOf(const QMainWindow& window, bool hasCase)
   if (const auto* bar = qobject_cast<QMenuBar*>(window.menuWidget()))
     for (QAction* top : bar->actions())
       if (QMenu* menu = top->menu(); menu && top->isVisible())
-        collector.addMenu(*menu, plain(top->text()),
+        collector.addMenu(*menu, withoutMnemonics(top->text()),
                           top->isEnabled() ? QString() : collector.reasonOfMenu(*top));
   collector.addRest(window);
   return collector.commands;

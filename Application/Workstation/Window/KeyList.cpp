@@ -17,9 +17,9 @@ namespace
 {
 enum KeyColumn
 {
-  kKey,
-  kWhat,
-  kTip
+  kKeyItself,
+  kKeyName,
+  kKeyTip
 };
 } // namespace
 
@@ -67,8 +67,8 @@ KeyList::KeyList(const std::vector<Command>& commands, QWidget* parent)
 
   m_list->expandAll();
   m_list->header()->setStretchLastSection(true);
-  m_list->header()->setSectionResizeMode(kKey, QHeaderView::ResizeToContents);
-  m_list->header()->setSectionResizeMode(kWhat, QHeaderView::ResizeToContents);
+  m_list->header()->setSectionResizeMode(kKeyItself, QHeaderView::ResizeToContents);
+  m_list->header()->setSectionResizeMode(kKeyName, QHeaderView::ResizeToContents);
   connect(m_search, &QLineEdit::textChanged, this, &KeyList::search);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
@@ -85,7 +85,7 @@ void KeyList::add(const QString& group, const QString& name, const QString& keys
 {
   QTreeWidgetItem* top = nullptr;
   for (int n = 0; n < m_list->topLevelItemCount(); ++n)
-    if (m_list->topLevelItem(n)->text(kKey) == group)
+    if (m_list->topLevelItem(n)->text(kKeyItself) == group)
       top = m_list->topLevelItem(n);
   if (!top)
   {
@@ -93,10 +93,10 @@ void KeyList::add(const QString& group, const QString& name, const QString& keys
     top->setFirstColumnSpanned(true);
     QFont bold = font();
     bold.setBold(true);
-    top->setFont(kKey, bold);
+    top->setFont(kKeyItself, bold);
   }
   auto* item = new QTreeWidgetItem(top, {keys, name, tip});
-  item->setToolTip(kTip, tip);
+  item->setToolTip(kKeyTip, tip);
 }
 
 void KeyList::search()
@@ -109,8 +109,8 @@ void KeyList::search()
     for (int row = 0; row < group->childCount(); ++row)
     {
       QTreeWidgetItem* item = group->child(row);
-      bool isFound = group->text(kKey).contains(wanted, Qt::CaseInsensitive);
-      for (const int column : {kKey, kWhat, kTip})
+      bool isFound = group->text(kKeyItself).contains(wanted, Qt::CaseInsensitive);
+      for (const int column : {kKeyItself, kKeyName, kKeyTip})
         isFound |= item->text(column).contains(wanted, Qt::CaseInsensitive);
       item->setHidden(!isFound);
       isAnyShown |= isFound;

@@ -146,7 +146,7 @@ constexpr char kScale[] = "fontScale";
 constexpr char kSystemFont[] = "systemFont";
 
 // The theme that was applied last; none before the first one.
-std::optional<Theme> current(const QApplication& application)
+std::optional<Theme> appliedTheme(const QApplication& application)
 {
   const QVariant scheme = application.property(kScheme);
   if (!scheme.isValid())
@@ -177,7 +177,7 @@ QString styleSheet(const Theme& theme)
 
 void applyTheme(QApplication& application, const Theme& theme)
 {
-  const auto before = current(application);
+  const auto before = appliedTheme(application);
   if (before && *before == theme)
     return;
   if (!before)

@@ -1,5 +1,6 @@
 #include "ThreeDView.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <QApplication>
@@ -18,6 +19,11 @@
 
 namespace petrous::workstation
 {
+
+namespace
+{
+constexpr int kLetterMargin = 10; // px
+} // namespace
 
 ThreeDView::ThreeDView(QWidget* parent)
   : QVTKOpenGLNativeWidget(parent)
@@ -103,31 +109,35 @@ void ThreeDView::handleTool(vtkObject*, unsigned long event, void*)
 
 void ThreeDView::setStamp(const QString& text)
 {
-  if (text == m_stamp->text())
+  if (text == m_stampText)
     return;
-  m_stamp->setText(text);
+  m_stampText = text;
   placeLetters();
   emit stampChanged(text);
 }
 
-QString ThreeDView::stamp() const
+// Below the letter at the top where there is no room beside it. What it ends with counts most.
+void ThreeDView::placeStamp()
 {
-  return m_stamp->text();
+  m_stamp->setText(m_stamp->fontMetrics().elidedText(m_stampText, Qt::ElideLeft,
+                                                     std::max(width() - 4 * kLetterMargin, 0)));
+  m_stamp->adjustSize();
+  const QLabel& top = *m_letters[2];
+  const int left = width() - kLetterMargin - m_stamp->width();
+  const bool isBeside = left > top.geometry().right();
+  m_stamp->move(left, isBeside ? kLetterMargin : top.geometry().bottom() + kLetterMargin / 2);
 }
 
 void ThreeDView::placeLetters()
 {
-  constexpr int margin = 10;
   // In stereo they would float in front of or behind the patient.
   const bool mono = m_display->stereo() == rendering::StereoMode::None;
   for (QLabel* letter : m_letters)
     letter->setVisible(mono);
-  m_stamp->setVisible(mono && !m_stamp->text().isEmpty());
+  m_stamp->setVisible(mono && !m_stampText.isEmpty());
   m_display->setFirstRow(mapToGlobal(QPoint(0, 0)).y());
   if (!mono)
     return;
-  m_stamp->adjustSize();
-  m_stamp->move(width() - margin - m_stamp->width(), margin);
   const auto edges = interaction::edgeDirections(picture().camera());
   const std::string* const texts[] = {&edges.left, &edges.right, &edges.top, &edges.bottom};
   for (std::size_t n = 0; n < m_letters.size(); ++n)
@@ -139,10 +149,11 @@ void ThreeDView::placeLetters()
   const auto put = [this](std::size_t n, int x, int y) { m_letters[n]->move(x, y); };
   const int across = width();
   const int down = height();
-  put(0, margin, middle(down, m_letters[0]->height()));
-  put(1, across - margin - m_letters[1]->width(), middle(down, m_letters[1]->height()));
-  put(2, middle(across, m_letters[2]->width()), margin);
-  put(3, middle(across, m_letters[3]->width()), down - margin - m_letters[3]->height());
+  put(0, kLetterMargin, middle(down, m_letters[0]->height()));
+  put(1, across - kLetterMargin - m_letters[1]->width(), middle(down, m_letters[1]->height()));
+  put(2, middle(across, m_letters[2]->width()), kLetterMargin);
+  put(3, middle(across, m_letters[3]->width()), down - kLetterMargin - m_letters[3]->height());
+  placeStamp();
 }
 
 void ThreeDView::resizeEvent(QResizeEvent* event)

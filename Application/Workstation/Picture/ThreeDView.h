@@ -35,7 +35,7 @@ public:
 
   /// Whose case it is, in the upper right corner; not in stereo, where it would float.
   void setStamp(const QString& text);
-  QString stamp() const;
+  const QString& stamp() const noexcept { return m_stampText; }
 
   /// Pick ray through the pixel at a position in the widget; side by side, of the eye whose half
   /// contains it. None: through the centre of the view.
@@ -64,6 +64,7 @@ private:
   void followClick(const QMouseEvent& event);
   void sendWheel(const QWheelEvent& event);
   void placeLetters();
+  void placeStamp();
 
   vtkNew<vtkGenericOpenGLRenderWindow> m_window;
   std::unique_ptr<SceneDisplay> m_display;
@@ -71,6 +72,7 @@ private:
   vtkNew<vtkPetrousToolInteraction> m_tool;
   std::array<QLabel*, 4> m_letters; // left, right, top, bottom
   QLabel* m_stamp;
+  QString m_stampText;              // whole
   std::optional<QPointF> m_clicked; // where the left button went down, until the pointer leaves
 };
 

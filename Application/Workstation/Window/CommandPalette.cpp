@@ -75,6 +75,8 @@ void CommandPalette::search()
 {
   m_list->clear();
   const QBrush grey = palette().brush(QPalette::Disabled, QPalette::Text);
+  QFont slanted = m_list->font(); // seen on a selected row too
+  slanted.setItalic(true);
   for (const std::size_t n : presenters::findCommands(m_entries, bytes(m_search->text())))
   {
     const Command& command = m_commands[n];
@@ -83,7 +85,10 @@ void CommandPalette::search()
     if (command.isEnabled)
       continue;
     for (const int column : {kCommandName, kCommandMenu, kCommandKeys})
+    {
       item->setForeground(column, grey);
+      item->setFont(column, slanted);
+    }
     item->setToolTip(kCommandName, command.whyNot);
     item->setData(kCommandName, Qt::AccessibleDescriptionRole,
                   tr("not available now. %1").arg(command.whyNot));

@@ -106,6 +106,23 @@ protected:
 
 } // namespace
 
+TEST_F(EditUndoTest, TheSideIsKeptWithTheCaseAndCanBeUndone)
+{
+  open();
+  model->save();
+  model->setSide(scene::Side::Left);
+  EXPECT_TRUE(model->unsaved());
+  EXPECT_EQ(model->undoText(), "side");
+  model->save();
+  EXPECT_EQ(library::Library(folder).open("block").description.side, scene::Side::Left);
+  model->setSide(scene::Side::Left); // nothing to undo
+  model->undo();
+  EXPECT_EQ(model->value().description.side, scene::Side::Unknown);
+  EXPECT_FALSE(model->canUndo());
+  model->redo();
+  EXPECT_EQ(model->value().description.side, scene::Side::Left);
+}
+
 TEST_F(EditUndoTest, TakesEachChangeBackInTheOrderInWhichItWasMade)
 {
   open();

@@ -9,6 +9,7 @@
 
 #include "Application.h"
 #include "AttachmentsPanel.h"
+#include "CaseStamps.h"
 #include "Theme.h"
 #include "ThreeDView.h"
 #include "petrous/Library/Attachments.h"
@@ -137,9 +138,14 @@ void AttachmentsController::attachScreenshot()
   QByteArray png;
   QBuffer buffer(&png);
   buffer.open(QIODevice::WriteOnly);
-  m_view.grabFramebuffer().convertToFormat(QImage::Format_RGB888).save(&buffer, "PNG");
   guarded(
-      [&] {
+      [&]
+      {
+        QImage picture = m_view.grabFramebuffer().convertToFormat(QImage::Format_RGB32);
+        const presenters::IdentityText identity(m_model.value(), m_model.library());
+        drawStamp(picture, stampText(presenters::leavingStampOf(m_model.value(), identity)),
+                  m_view.display().stereo() == rendering::StereoMode::SideBySide);
+        picture.convertToFormat(QImage::Format_RGB888).save(&buffer, "PNG");
         add(library::screenshotOf({png.begin(), png.end()}, {}));
       },
       [this](const QString& why) { emit statusMessage(why); });

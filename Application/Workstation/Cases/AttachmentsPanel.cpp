@@ -112,7 +112,7 @@ void AttachmentsPanel::attachmentsChanged()
             !problem.empty())
         {
           item->setText(Kind, tr("%1, its file is %2").arg(item->text(Kind), words(problem)));
-          item->setForeground(Kind, QColor("#f0a04d"));
+          item->setForeground(Kind, warningColor());
         }
       item->setToolTip(Note, tip);
       item->setToolTip(Name, name);

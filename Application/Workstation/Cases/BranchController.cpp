@@ -6,6 +6,7 @@
 
 #include "Application.h"
 #include "AskName.h"
+#include "Commands.h"
 #include "Theme.h"
 #include "petrous/Scene/Branches.h"
 
@@ -60,10 +61,11 @@ BranchController::BranchController(presenters::WorkstationModel& model, QMenu& m
 void BranchController::stateChanged()
 {
   const bool open = m_model.hasCase();
-  m_start->setEnabled(open);
+  enable(*m_start, open, tr("Open a case first"));
   const bool several = open && m_model.value().dissection.history().branches().size() > 1;
-  m_next->setEnabled(several);
-  m_previous->setEnabled(several);
+  const QString why = open ? tr("The case has one approach only") : tr("Open a case first");
+  enable(*m_next, several, why);
+  enable(*m_previous, several, why);
 }
 
 void BranchController::fill()

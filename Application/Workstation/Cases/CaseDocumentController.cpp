@@ -779,13 +779,14 @@ void CaseDocumentController::decide(std::vector<Item> items, const Purpose& purp
 }
 
 void CaseDocumentController::makeCase(
-    const std::string& name, std::function<presenters::CaseSources(const core::Progress&)> sources)
+    const std::string& name, std::function<presenters::CaseSources(const core::Progress&)> sources,
+    scene::Side side)
 {
   if (!leaveCase())
     return;
   m_model.notOpened(); // it stays usable while the other one is made
   work(tr("Making the case %1").arg(words(name)),
-       [this, name, library = m_model.library(),
+       [this, name, side, library = m_model.library(),
         sources = std::move(sources)](const core::Progress& progress) -> BackgroundWork::Reply
        {
          double reached = 0.0; // a quick preparation does not count as half of the work
@@ -800,6 +801,7 @@ void CaseDocumentController::makeCase(
          const double image = reached + 0.5 * (1.0 - reached);
          const auto value = std::make_shared<scene::Case>(
              presenters::buildCase(name, from, progress.part(reached, image)));
+         value->description.side = side;
          std::vector<presenters::StructureReport> report;
          const auto failures =
              presenters::addSoundParts(*value, parts, progress.part(image, 1.0), &report);
@@ -1740,16 +1742,18 @@ void CaseDocumentController::makeSample()
     return refuse(tr("No temporary folder can be made: %1").arg(folder->errorString()));
   try
   {
-    makeCase(presenters::freeCaseName(m_model.library(), "sample patient"),
-             [folder](const core::Progress& progress)
-             {
-               const fs::path out = pathOf(folder->filePath("sample patient"));
-               phantom::writeSamplePatient(out, {}, progress);
-               presenters::CaseSources sources;
-               sources.ct = out / "ct";
-               sources.parts.labels.push_back({"", out / "labels.seg.nrrd"});
-               return sources;
-             });
+    makeCase(
+        presenters::freeCaseName(m_model.library(), "sample patient"),
+        [folder](const core::Progress& progress)
+        {
+          const fs::path out = pathOf(folder->filePath("sample patient"));
+          phantom::writeSamplePatient(out, {}, progress);
+          presenters::CaseSources sources;
+          sources.ct = out / "ct";
+          sources.parts.labels.push_back({"", out / "labels.seg.nrrd"});
+          return sources;
+        },
+        scene::Side::Right); // as it is made
   }
   catch (const std::exception& fault)
   {

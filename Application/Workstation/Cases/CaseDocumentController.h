@@ -144,7 +144,8 @@ private:
   bool askNames(presenters::CaseSources& sources, const std::vector<Item>& others,
                 const std::string& newCase);
   void makeCase(const std::string& name,
-                std::function<presenters::CaseSources(const core::Progress&)> sources);
+                std::function<presenters::CaseSources(const core::Progress&)> sources,
+                scene::Side side = scene::Side::Unknown);
   void addParts(const presenters::PartSources& parts, const QString& what);
   void tell(const std::vector<presenters::PartFailure>& failures,
             const std::vector<presenters::StructureReport>& report, const Target& target);

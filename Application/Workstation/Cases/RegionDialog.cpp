@@ -15,6 +15,7 @@
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 
+#include "Bind.h"
 #include "PanelLayout.h"
 #include "PreviewBar.h"
 #include "Theme.h"
@@ -197,11 +198,8 @@ RegionDialog::RegionDialog(const std::filesystem::path& path, const std::string&
     numbers->addWidget(label, axis, 0);
     for (int end = 0; end < 2; ++end)
     {
-      auto* box = new QDoubleSpinBox;
-      box->setObjectName(QString("%1%2").arg("xyz"[axis]).arg(end));
-      box->setDecimals(1);
-      box->setSuffix(tr(" mm"));
-      box->setKeyboardTracking(false);
+      const QByteArray name = QString("%1%2").arg("xyz"[axis]).arg(end).toLatin1();
+      QDoubleSpinBox* box = numberBox(name.constData(), {}, {0.0, 99.9, tr(" mm"), 1, 1.0});
       box->setEnabled(false);
       m_numbers[static_cast<std::size_t>(2 * axis + end)] = box;
       numbers->addWidget(box, axis, 1 + end);

@@ -1,8 +1,10 @@
 #include "StartPage.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <QApplication>
+#include <QFile>
 #include <QFrame>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -15,6 +17,7 @@
 #include "Application.h"
 #include "CasesModel.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
 namespace petrous::workstation
@@ -89,6 +92,7 @@ StartPage::StartPage(const presenters::WorkstationModel& model, QWidget* parent)
   , m_model(model)
   , m_cases(new CasesModel(this))
   , m_heading(new QLabel(tr("Recent cases")))
+  , m_trouble(new QLabel)
   , m_recent(new QListView)
 {
   auto* title = new QLabel(tr("Drop a folder of DICOM here, or choose File > Open DICOM…"));
@@ -152,12 +156,13 @@ StartPage::StartPage(const presenters::WorkstationModel& model, QWidget* parent)
   m_recent->setAcceptDrops(false);
   m_recent->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
   m_recent->setTabKeyNavigation(false);
-  const auto open = [this](const QModelIndex& index)
-  {
-    if (index.isValid())
-      emit caseAsked(words(m_cases->at(index.row()).name));
-  };
-  connect(m_recent, &QListView::activated, this, open); // a double click, Enter
+  connect(m_recent, &QListView::activated, this,
+          [this](const QModelIndex& index) { open(index.row()); }); // a double click, Enter
+  m_trouble->setObjectName("recentTrouble");
+  m_trouble->setTextFormat(Qt::PlainText);
+  m_trouble->setWordWrap(true);
+  m_trouble->setStyleSheet(kWarningStyle);
+  m_trouble->hide();
   QWidget::setTabOrder(m_recent, folder);
 
   auto* layout = new QVBoxLayout(this);
@@ -166,6 +171,7 @@ StartPage::StartPage(const presenters::WorkstationModel& model, QWidget* parent)
   layout->addStretch(1);
   layout->addWidget(place);
   layout->addWidget(m_heading);
+  layout->addWidget(m_trouble);
   layout->addWidget(m_recent, 8);
   layout->addStretch(1);
 }
@@ -193,15 +199,42 @@ void StartPage::showEvent(QShowEvent* event)
   (m_recent->isHidden() ? m_begin : m_recent)->setFocus();
 }
 
+// A medium may have been taken away, or another program deleted the case, since it was listed.
+void StartPage::open(int row)
+{
+  if (row < 0 || row >= m_cases->rowCount())
+    return;
+  const std::string name = m_cases->at(row).name;
+  list();
+  if (!m_trouble->isHidden())
+    return;
+  if (m_cases->rowOf(name) >= 0)
+    return emit caseAsked(words(name));
+  const std::filesystem::path& folder = m_model.library().folder();
+  const QString place = QFile::decodeName(folder.c_str());
+  tell(std::filesystem::exists(folder)
+           ? tr("The case “%1” is no longer in the library %2.").arg(words(name), place)
+           : tr("The case “%1” cannot be opened: the folder %2 is gone. Is its disk connected?")
+                 .arg(words(name), place));
+}
+
+void StartPage::tell(const QString& trouble)
+{
+  m_trouble->setText(trouble);
+  m_trouble->setVisible(!trouble.isEmpty());
+}
+
 void StartPage::list()
 {
   std::vector<library::CaseSummary> cases;
+  tell({});
   try
   {
     cases = m_model.library().list();
   }
-  catch (const std::exception&) // the library panel tells why
+  catch (const std::exception& error)
   {
+    tell(tr("The cases cannot be listed: %1").arg(sentence(toString(error))));
   }
   cases.erase(std::remove_if(cases.begin(), cases.end(),
                              [](const library::CaseSummary& one) { return one.damaged; }),

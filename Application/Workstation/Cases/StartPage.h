@@ -47,10 +47,13 @@ protected:
 
 private:
   void list();
+  void open(int row);
+  void tell(const QString& trouble); ///< empty: there is none
 
   const presenters::WorkstationModel& m_model;
   CasesModel* m_cases;
   QLabel* m_heading;
+  QLabel* m_trouble;
   QListView* m_recent;
   QWidget* m_begin; ///< has the focus where there is no case
 };

@@ -312,7 +312,7 @@ void MeasurePanel::refresh()
                   : hint.empty() ? tr("Choose a tool, then click in the slices or on the surface "
                                       "in the 3D view. Points can be dragged.")
                                  : words(hint) + " " + tr("Esc puts the tool away."));
-  m_hint->setStyleSheet(m_refusal.isEmpty() ? QString() : "color: #ffb454;");
+  m_hint->setStyleSheet(m_refusal.isEmpty() ? QString() : QString(kWarningStyle));
 }
 
 void MeasurePanel::say(const QString& line)

@@ -44,6 +44,8 @@ void SurgeonWindow::addView()
   m_view->setObjectName("surgeonView");
   m_view->tool().SetLeader(&m_main.tool());
   connect(m_view, &ThreeDView::cameraMoved, &m_main, &ThreeDView::setCamera);
+  m_view->setStamp(m_main.stamp());
+  connect(&m_main, &ThreeDView::stampChanged, m_view, &ThreeDView::setStamp);
 }
 
 void SurgeonWindow::addStereoView()

@@ -1,5 +1,6 @@
 #include "ThreeDView.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <QApplication>
@@ -19,6 +20,11 @@
 namespace petrous::workstation
 {
 
+namespace
+{
+constexpr int kLetterMargin = 10; // px
+} // namespace
+
 ThreeDView::ThreeDView(QWidget* parent)
   : QVTKOpenGLNativeWidget(parent)
   , m_display(std::make_unique<SceneDisplay>(*m_window, [this] { return isVisible(); }))
@@ -36,6 +42,10 @@ ThreeDView::ThreeDView(QWidget* parent)
     letter->setObjectName("direction");
     letter->setAttribute(Qt::WA_TransparentForMouseEvents);
   }
+  m_stamp = new QLabel(this);
+  m_stamp->setObjectName("caseStamp");
+  m_stamp->setTextFormat(Qt::PlainText);
+  m_stamp->setAttribute(Qt::WA_TransparentForMouseEvents);
   observe();
 }
 
@@ -97,13 +107,34 @@ void ThreeDView::handleTool(vtkObject*, unsigned long event, void*)
       });
 }
 
+void ThreeDView::setStamp(const QString& text)
+{
+  if (text == m_stampText)
+    return;
+  m_stampText = text;
+  placeLetters();
+  emit stampChanged(text);
+}
+
+// Below the letter at the top where there is no room beside it. What it ends with counts most.
+void ThreeDView::placeStamp()
+{
+  m_stamp->setText(m_stamp->fontMetrics().elidedText(m_stampText, Qt::ElideLeft,
+                                                     std::max(width() - 4 * kLetterMargin, 0)));
+  m_stamp->adjustSize();
+  const QLabel& top = *m_letters[2];
+  const int left = width() - kLetterMargin - m_stamp->width();
+  const bool isBeside = left > top.geometry().right();
+  m_stamp->move(left, isBeside ? kLetterMargin : top.geometry().bottom() + kLetterMargin / 2);
+}
+
 void ThreeDView::placeLetters()
 {
-  constexpr int margin = 10;
   // In stereo they would float in front of or behind the patient.
   const bool mono = m_display->stereo() == rendering::StereoMode::None;
   for (QLabel* letter : m_letters)
     letter->setVisible(mono);
+  m_stamp->setVisible(mono && !m_stampText.isEmpty());
   m_display->setFirstRow(mapToGlobal(QPoint(0, 0)).y());
   if (!mono)
     return;
@@ -118,10 +149,11 @@ void ThreeDView::placeLetters()
   const auto put = [this](std::size_t n, int x, int y) { m_letters[n]->move(x, y); };
   const int across = width();
   const int down = height();
-  put(0, margin, middle(down, m_letters[0]->height()));
-  put(1, across - margin - m_letters[1]->width(), middle(down, m_letters[1]->height()));
-  put(2, middle(across, m_letters[2]->width()), margin);
-  put(3, middle(across, m_letters[3]->width()), down - margin - m_letters[3]->height());
+  put(0, kLetterMargin, middle(down, m_letters[0]->height()));
+  put(1, across - kLetterMargin - m_letters[1]->width(), middle(down, m_letters[1]->height()));
+  put(2, middle(across, m_letters[2]->width()), kLetterMargin);
+  put(3, middle(across, m_letters[3]->width()), down - kLetterMargin - m_letters[3]->height());
+  placeStamp();
 }
 
 void ThreeDView::resizeEvent(QResizeEvent* event)

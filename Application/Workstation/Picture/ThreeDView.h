@@ -33,6 +33,10 @@ public:
   vtkPetrousToolInteraction& tool() noexcept { return *m_tool; }
   void setCamera(const core::CameraPose& pose);
 
+  /// Whose case it is, in the upper right corner; not in stereo, where it would float.
+  void setStamp(const QString& text);
+  const QString& stamp() const noexcept { return m_stampText; }
+
   /// Pick ray through the pixel at a position in the widget; side by side, of the eye whose half
   /// contains it. None: through the centre of the view.
   interaction::PickRay sightLine(const std::optional<QPointF>& position) const;
@@ -45,6 +49,7 @@ signals:
   void drillPressed();                                    ///< before the tool is pressed
   void toolModeSet();                                     ///< drills, probes, or neither
   void cameraMoved(const petrous::core::CameraPose& pose);
+  void stampChanged(const QString& text);
 
 protected:
   bool event(QEvent* event) override;
@@ -59,12 +64,15 @@ private:
   void followClick(const QMouseEvent& event);
   void sendWheel(const QWheelEvent& event);
   void placeLetters();
+  void placeStamp();
 
   vtkNew<vtkGenericOpenGLRenderWindow> m_window;
   std::unique_ptr<SceneDisplay> m_display;
   vtkNew<vtkPetrousCameraStyle> m_style;
   vtkNew<vtkPetrousToolInteraction> m_tool;
   std::array<QLabel*, 4> m_letters; // left, right, top, bottom
+  QLabel* m_stamp;
+  QString m_stampText;              // whole
   std::optional<QPointF> m_clicked; // where the left button went down, until the pointer leaves
 };
 

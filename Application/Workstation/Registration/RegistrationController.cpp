@@ -10,6 +10,7 @@
 
 #include "Application.h"
 #include "BackgroundWork.h"
+#include "Commands.h"
 #include "MetricCurve.h"
 #include "MrOverlay.h"
 #include "RegistrationPanel.h"
@@ -101,7 +102,7 @@ void RegistrationController::nameImages()
 void RegistrationController::enableMenu()
 {
   for (QAction* action : m_menu->actions())
-    action->setEnabled(m_session.part() != nullptr);
+    enable(*action, m_session.part() != nullptr, tr("The case has no MR (Case > Add MR…)"));
 }
 
 void RegistrationController::connectPanel()

@@ -55,7 +55,7 @@ QString stateStyle(const scene::ImagePart* mr)
 {
   const bool good = mr && mr->registered && mr->registration &&
                     mr->registration->verdict == scene::Registration::Verdict::Good;
-  return mr && mr->registered && !good ? "color: #ffb454;" : QString();
+  return mr && mr->registered && !good ? QString(kWarningStyle) : QString();
 }
 
 QHBoxLayout* rowOf(std::initializer_list<QWidget*> widgets)

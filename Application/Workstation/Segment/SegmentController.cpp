@@ -20,6 +20,7 @@
 
 #include "Application.h"
 #include "BackgroundWork.h"
+#include "Commands.h"
 #include "SegmentPanel.h"
 #include "SliceColumn.h"
 #include "SliceView.h"
@@ -367,7 +368,8 @@ void SegmentController::changed()
     action->setChecked(action->data().toInt() == static_cast<int>(tool));
   }
   const bool draft = m_editor.hasDraft();
-  m_step->setEnabled(open && m_editor.whyNotStep().empty());
+  const std::string whyNot = m_editor.whyNotStep();
+  enable(*m_step, open && whyNot.empty(), open ? words(whyNot) : tr("Open a case first"));
   m_create->setEnabled(open && draft);
   m_escape->setEnabled(open && (draft || tool != Tool::None));
   m_slices.setHidden(m_editor.edited());

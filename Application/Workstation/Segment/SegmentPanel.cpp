@@ -150,7 +150,7 @@ void SegmentPanel::addHead(QVBoxLayout& layout)
   m_shown->setObjectName("segmentShown");
   m_shown->setWordWrap(true);
   m_shown->setTextFormat(Qt::PlainText);
-  m_shown->setStyleSheet("color: #ffb454;");
+  m_shown->setStyleSheet(kWarningStyle);
   m_showSource = button({}, "segmentShowSource", tr("The slices show what the tools work on"));
   m_takeShown = button({}, "segmentTakeShown", tr("The tools work on what the slices show"));
   connect(m_showSource, &QPushButton::clicked, this,
@@ -485,7 +485,7 @@ QWidget* SegmentPanel::addFoot()
     label->setTextFormat(Qt::PlainText);
     label->setTextInteractionFlags(Qt::TextSelectableByMouse);
   }
-  m_remark->setStyleSheet("color: #ffb454;");
+  m_remark->setStyleSheet(kWarningStyle);
   m_volume->setObjectName("segmentVolume");
   m_volume->setToolTip(tr("Volume of the structure as it is now, with the preview"));
   m_progress->setObjectName("segmentProgress");
@@ -623,7 +623,7 @@ void SegmentPanel::showPoints()
                                         : QString::fromUtf8("–"));
     item->setText(2, words(points[n].problem));
     item->setToolTip(2, words(points[n].problem));
-    const QColor warned("#ffb454");
+    const QColor warned = warningColor();
     for (int column = 0; column < 2; ++column)
       item->setForeground(column, isOutside ? QBrush(warned) : palette().text());
     item->setForeground(2, warned);

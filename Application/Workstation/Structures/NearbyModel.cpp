@@ -120,8 +120,8 @@ QVariant NearbyModel::data(const QModelIndex& index, int role) const
     return {};
   const NearbyStructure& row = m_rows[static_cast<std::size_t>(index.row())];
   if (role == Qt::ForegroundRole && index.column() != Name)
-    return harmed(row)                  ? QVariant(QColor("#ff8f8f"))
-           : row.state == State::Warned ? QVariant(QColor("#f2c04e"))
+    return harmed(row)                  ? QVariant(harmColor())
+           : row.state == State::Warned ? QVariant(warningColor())
                                         : QVariant();
   if (role == Qt::ToolTipRole)
     return tr("%1: %2\nIts surface is known to ±%3 mm: %4")

@@ -331,6 +331,7 @@ void StructuresPanel::selectionChanged()
   m_editor->setParts(parts, titleOf(parts));
   m_only->setEnabled(!parts.empty());
   m_only->setChecked(m_alone.isOn(parts));
+  emit selected();
 }
 
 void StructuresPanel::setShown(const std::vector<std::string>& parts, bool shown)

@@ -47,6 +47,7 @@ public:
 
 signals:
   void thicknessAsked(const QString& structure); ///< a second request turns it off
+  void selected();                               ///< perhaps others than before
   void removalAsked(const QString& part);
   void renamingAsked(const QString& part);
 

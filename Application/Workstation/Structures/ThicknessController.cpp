@@ -12,6 +12,11 @@
 namespace petrous::workstation
 {
 
+namespace
+{
+constexpr int kFollowAfter = 250; // ms
+} // namespace
+
 ThicknessController::ThicknessController(presenters::WorkstationModel& model, ThreeDView& view,
                                          StructuresPanel& panel, QAction& action)
   : QObject(&view)
@@ -29,6 +34,19 @@ ThicknessController::ThicknessController(presenters::WorkstationModel& model, Th
         showOver(on ? chosen : QString());
       });
   connect(&panel, &StructuresPanel::thicknessAsked, this, &ThicknessController::showOver);
+  m_followLater.setSingleShot(true);
+  m_followLater.setInterval(kFollowAfter);
+  connect(&m_followLater, &QTimer::timeout, this, &ThicknessController::follow);
+  connect(&panel, &StructuresPanel::selected, &m_followLater, qOverload<>(&QTimer::start));
+}
+
+// Bone and kinds have no thickness over them: the colours stay.
+void ThicknessController::follow()
+{
+  const QString chosen = m_panel.chosen();
+  const std::string& over = m_model.thicknessOver();
+  if (!over.empty() && !chosen.isEmpty() && bytes(chosen) != over)
+    showOver(chosen);
 }
 
 void ThicknessController::showOver(const QString& structure)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QObject>
+#include <QTimer>
 
 #include "Bind.h"
 #include "petrous/Presenters/WorkstationModel.h"
@@ -14,7 +15,8 @@ class StructuresPanel;
 class ThicknessLegend;
 class ThreeDView;
 
-/// Toggles colouring bone by its thickness over the structure selected in the panel.
+/// Toggles colouring bone by its thickness over the structure selected in the panel; while it is on
+/// it follows the selection.
 class ThicknessController : public QObject
 {
   Q_OBJECT
@@ -30,11 +32,13 @@ signals:
 
 private:
   void showOver(const QString& structure); // empty: none
+  void follow();
   void bringUpToDate();
 
   presenters::WorkstationModel& m_model;
   StructuresPanel& m_panel;
   ThicknessLegend* m_legend;
+  QTimer m_followLater; // measuring takes about a second: not for each row that is passed
   Bindings m_bound;
 };
 

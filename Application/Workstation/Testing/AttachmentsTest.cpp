@@ -6,6 +6,7 @@
 #include <QPushButton>
 #include <QTreeWidget>
 
+#include "CaseStamps.h"
 #include "petrous/Library/Attachments.h"
 
 using namespace petrous;
@@ -106,6 +107,9 @@ TEST_F(AttachmentsPanels, TakeTheWindowsPictureAndTheLastRecordingWithOneClick)
   ASSERT_TRUE(kept.loadFromData(reinterpret_cast<const uchar*>(png.data()),
                                 static_cast<int>(png.size()), "PNG"));
   EXPECT_EQ(kept.size(), shown.size());
-  EXPECT_EQ(differentPixels(kept.convertToFormat(QImage::Format_RGB32), shown, 0), 0);
+  QImage stamped = shown;
+  drawStamp(stamped, QString::fromUtf8("ball · right"));
+  EXPECT_EQ(differentPixels(kept.convertToFormat(QImage::Format_RGB32), stamped, 0), 0);
+  EXPECT_GT(differentPixels(stamped, shown, 60), 50) << "the stamp can be read";
   EXPECT_EQ(png.find("tEXt"), std::string::npos);
 }

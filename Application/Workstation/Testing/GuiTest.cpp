@@ -44,6 +44,7 @@ scene::Case GuiTest::ballCase(const std::string& name)
 {
   scene::Case value;
   value.name = name;
+  value.description.side = scene::Side::Right;
   const Eigen::Vector3d origin = kBallCenter - Eigen::Vector3d::Constant(0.5 * 63 * 0.5);
   value.ct.geometry = core::GridGeometry({64, 64, 64}, Eigen::Vector3d::Constant(0.5), origin);
   auto ct = std::make_shared<volume::Volume<std::int16_t>>(value.ct.geometry);

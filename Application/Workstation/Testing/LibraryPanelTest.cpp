@@ -425,7 +425,7 @@ TEST_F(LibraryWindow, ACaseIsDescribedAndFoundByThat)
   EXPECT_EQ(names().size(), 2);
   auto* side = panel().findChild<QComboBox*>("searchSide");
   side->setCurrentIndex(side->findText("right"));
-  EXPECT_EQ(names(), QStringList());
+  EXPECT_EQ(names(), QStringList{"other"});
   side->setCurrentIndex(side->findText("left"));
   EXPECT_EQ(names(), QStringList{"ball"});
   side->setCurrentIndex(0);
@@ -570,6 +570,47 @@ TEST_F(LibraryWindow, TheFirstPageHasTheRecentCases)
 }
 
 // With texts that are 40 % longer, on the smallest screen, with panels open beside it.
+TEST_F(LibraryWindow, TheFirstPageSaysThatACaseOrTheLibraryIsGone)
+{
+  saveBall("first");
+  saveBall("second");
+  openWindow("first");
+  action("Close the case")->trigger();
+  auto& page = *window().findChild<StartPage*>();
+  ASSERT_TRUE(waitFor([&] { return page.isVisible() && !window().busy(); }));
+  auto& recent = *page.findChild<QListView*>("recentCases");
+  auto& trouble = *page.findChild<QLabel*>("recentTrouble");
+  ASSERT_EQ(recent.model()->rowCount(), 2);
+  EXPECT_FALSE(trouble.isVisible());
+  const auto openRow = [&](const QString& name)
+  {
+    for (int row = 0; row < recent.model()->rowCount(); ++row)
+      if (recent.model()->index(row, 0).data().toString() == name)
+        recent.setCurrentIndex(recent.model()->index(row, 0));
+    recent.setFocus();
+    QTest::keyClick(&recent, Qt::Key_Return);
+  };
+  library().remove("second"); // by another program
+  openRow("second");
+  EXPECT_TRUE(trouble.isVisible());
+  EXPECT_TRUE(trouble.text().contains("second") && trouble.text().contains("no longer"))
+      << trouble.text().toStdString();
+  EXPECT_EQ(recent.model()->rowCount(), 1);
+  EXPECT_FALSE(window().model().hasCase());
+
+  std::filesystem::rename(folder() / "library", folder() / "taken away");
+  openRow("first");
+  EXPECT_TRUE(trouble.text().contains(QString::fromStdString((folder() / "library").string())))
+      << trouble.text().toStdString();
+  EXPECT_FALSE(window().model().hasCase());
+  std::filesystem::remove_all(folder() / "library");
+  std::filesystem::rename(folder() / "taken away", folder() / "library");
+  page.refresh();
+  EXPECT_FALSE(trouble.isVisible());
+  openRow("first");
+  EXPECT_TRUE(isOpen("first"));
+}
+
 TEST_F(LibraryWindow, TheFirstPageHasRoomForLongTexts)
 {
   LongTexts longer;

@@ -74,6 +74,31 @@ TEST_F(Thickness, ColorsBoneOverTheChosenStructureUntilAskedAgain)
   EXPECT_EQ(differentPixels(before, picture()), 0);
 }
 
+TEST_F(Thickness, FollowsTheSelectionWhileItIsOn)
+{
+  saveThinBall();
+  scene::Case value = library().open("ball");
+  scene::LabelPart second = ballCase("other").labels[0]; // a sphere of 4 mm: 8 mm below the surface
+  second.structures[0].name = "cyst";
+  value.labels.push_back(second);
+  library().save(value);
+  openWindow();
+  choose("cyst");
+  QTest::qWait(400);
+  EXPECT_FALSE(legend().isVisible()) << "it is off";
+  choose("nerve");
+  QTest::keyClick(&window(), Qt::Key_F6);
+  ASSERT_EQ(legend().structure(), "nerve");
+  choose("cyst");
+  EXPECT_TRUE(waitFor([this] { return legend().structure() == "cyst"; }));
+  EXPECT_EQ(window().model().thicknessOver(), "cyst");
+  structureList().setCurrentIndex(structureCell("ct"));
+  QTest::qWait(400);
+  EXPECT_EQ(legend().structure(), "cyst") << "bone has no thickness over itself";
+  QTest::keyClick(&window(), Qt::Key_F6);
+  EXPECT_FALSE(legend().isVisible());
+}
+
 TEST_F(Thickness, IsOfTheCaseThatIsOpen)
 {
   saveThinBall();

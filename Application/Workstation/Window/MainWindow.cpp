@@ -34,11 +34,15 @@
 #include "BurrWarnings.h"
 #include "CaseDocumentController.h"
 #include "CaseSaver.h"
+#include "CaseStamps.h"
+#include "CommandPalette.h"
+#include "Commands.h"
 #include "DeviceToolBar.h"
 #include "DeviceWatcher.h"
 #include "DrillBar.h"
 #include "DrillController.h"
 #include "ExchangeController.h"
+#include "KeyList.h"
 #include "LibraryController.h"
 #include "LibraryPanel.h"
 #include "MeasureController.h"
@@ -48,6 +52,7 @@
 #include "ProbeLabel.h"
 #include "RegistrationController.h"
 #include "SegmentController.h"
+#include "SettingsDialog.h"
 #include "SliceColumn.h"
 #include "SliceController.h"
 #include "StartPage.h"
@@ -148,11 +153,13 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_recordingBanner(new Banner("recordingBanner", Banner::Kind::Warning))
   , m_removedBanner(new Banner("removedBanner", Banner::Kind::Notice))
   , m_mrBanner(new Banner("mrBanner", Banner::Kind::Notice))
+  , m_sideBanner(new Banner("sideBanner", Banner::Kind::Notice))
   , m_place(new ProbeLabel(m_model))
   , m_sum(new QLabel)
   , m_touch(new QLabel)
   , m_recording(new QLabel)
   , m_actions(new WindowActions(*this, *m_bar, *m_deviceBar, options.quadBuffer))
+  , m_stamps(new CaseStamps(m_model, *m_view, *m_slices, *m_sideBanner, *m_actions->sides, this))
   , m_saver(new CaseSaver(m_model))
   , m_keeper(new CaseDocumentController(m_model, *m_saver, *this, *m_unsavedBanner,
                                         *m_loadingBanner, *m_damageBanner, *m_removedBanner))
@@ -172,6 +179,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_viewState(new ViewStateController(m_model, *m_view, *m_slices, *m_picture, *m_registration,
                                         *m_bar, *this))
 {
+  applyTheme(*qApp, m_settings->theme());
   addPanels();
   m_thickness = new ThicknessController(m_model, *m_view, *findChild<StructuresPanel*>(),
                                         *m_actions->boneThickness);
@@ -212,6 +220,7 @@ MainWindow::~MainWindow()
   for (const auto& [entry, panel] : m_panels)
     delete panel;   // one may query the model when hidden
   delete m_watcher; // stops a server
+  delete m_stamps; // looks at the model when a slice is resized
   delete m_viewState;
   delete m_attachments; // its thread must not outlive the model
   delete m_picture;     // the surgeon's window follows the view
@@ -245,7 +254,7 @@ void MainWindow::layOut()
   auto* whole = new QWidget;
   auto* banners = new BannerStack(*whole);
   for (Banner* banner : {m_damageBanner, m_faultBanner, m_unsavedBanner, m_recordingBanner,
-                         m_loadingBanner, m_removedBanner, m_mrBanner, m_notesBanner})
+                         m_loadingBanner, m_removedBanner, m_mrBanner, m_sideBanner, m_notesBanner})
     banners->add(banner);
   connect(m_view, &ThreeDView::toolModeSet, banners,
           [this, banners]
@@ -503,6 +512,7 @@ void MainWindow::connectModel()
   connect(m_drill, &DrillController::tissueWanted, m_keeper,
           &CaseDocumentController::prepareUnlessUnderWay);
   connect(m_viewState, &ViewStateController::statusMessage, this, showMessage);
+  connect(m_stamps, &CaseStamps::answered, m_saver, &CaseSaver::save);
   connect(m_branches, &BranchController::changed, m_saver, &CaseSaver::save);
   connect(m_branches, &BranchController::statusMessage, this, showMessage);
   connect(m_library, &LibraryController::statusMessage, this, showMessage);
@@ -596,6 +606,9 @@ void MainWindow::connectActions()
      [this] { m_segment->hasBrush() ? m_segment->stepBrush(-1) : m_bar->stepDiameter(-1); });
   on(m_actions->largerBurr,
      [this] { m_segment->hasBrush() ? m_segment->stepBrush(1) : m_bar->stepDiameter(1); });
+  on(m_actions->settings, [this] { showSettings(); });
+  on(m_actions->keyList, [this] { showKeys(); });
+  on(m_actions->findCommand, [this] { findCommand(); });
   on(m_actions->about, [this] { QMessageBox::about(this, tr("About Petrous"), aboutText()); });
   m_bound.add(
       m_actions->record, [this] { return !m_model.recording().empty(); },
@@ -714,9 +727,12 @@ void MainWindow::connectThumbnails()
 
 void MainWindow::showUndo()
 {
-  const auto show = [](QAction& action, const QString& text, bool can, const QString& what)
+  const auto show = [this](QAction& action, const QString& text, bool can, const QString& what)
   {
-    action.setEnabled(can);
+    enable(action, can,
+           !m_model.hasCase()           ? tr("Open a case first")
+           : &action == m_actions->undo ? tr("Nothing was changed")
+                                        : tr("Nothing was undone"));
     action.setText(what.isEmpty() ? text : text + ' ' + QString(what).replace('&', "&&"));
   };
   const QString undo = tr("&Undo"), redo = tr("&Redo");
@@ -814,6 +830,7 @@ void MainWindow::caseClosed()
   m_sum->clear();
   m_picture->speed()->clear();
   m_mrBanner->hide();
+  m_stamps->caseClosed();
   m_notesBanner->hide();
   m_pages->setCurrentIndex(0);
 }
@@ -860,6 +877,7 @@ void MainWindow::caseChanged()
   if (!isNew) // told whenever the case is opened
     warnOfSides();
   showUnregistered(true);
+  m_stamps->caseOpened();
 }
 
 // Without a registration an MR is not seen: that it came along is said until it is registered or
@@ -939,6 +957,7 @@ void MainWindow::stateChanged()
   m_sliceControl->setCaseOpen(open);
   m_actions->setOnMr(open && m_model.value().ct.modality == scene::Modality::Mr);
   m_branches->stateChanged();
+  m_stamps->stateChanged();
   showUndo();
   if (!open)
     return setWindowTitle("Petrous");
@@ -1010,7 +1029,7 @@ void MainWindow::fillCaseMenu()
   for (int n = actions.indexOf(m_actions->restorePart) + 1; n < actions.size(); ++n)
     delete actions[n];
   const std::string removed = m_model.removedPart();
-  m_actions->restorePart->setEnabled(!removed.empty());
+  enable(*m_actions->restorePart, !removed.empty(), tr("Nothing was taken out of the case"));
   m_actions->restorePart->setText(
       removed.empty() ? tr("Put &back")
                       : tr("Put &back “%1”").arg(words(removed).replace('&', "&&")));
@@ -1040,6 +1059,29 @@ void MainWindow::showLibrary()
 {
   raisePanel("libraryDock");
   m_library->panel()->focusList();
+}
+
+void MainWindow::showKeys()
+{
+  auto* keys = new KeyList(commandsOf(*this, m_model.hasCase()), this);
+  keys->setAttribute(Qt::WA_DeleteOnClose);
+  keys->show();
+}
+
+void MainWindow::findCommand()
+{
+  auto* palette = new CommandPalette(commandsOf(*this, m_model.hasCase()), this);
+  palette->setAttribute(Qt::WA_DeleteOnClose);
+  palette->open();
+}
+
+void MainWindow::showSettings()
+{
+  auto* dialog = new SettingsDialog(
+      *m_settings, m_model.library().folder(),
+      {m_library->drawThumbnails(), m_actions->strokeCamera, m_actions->slicesFollow}, this);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->open();
 }
 
 // Begins with the tool: in use, it is taken up again.

@@ -1,8 +1,15 @@
 #include "Theme.h"
 
+#include <cmath>
+#include <cstring>
+#include <optional>
+
 #include <QApplication>
+#include <QFont>
 #include <QPalette>
+#include <QRegularExpression>
 #include <QStyleFactory>
+#include <QVariant>
 
 #include "DecimalPoint.h"
 
@@ -11,97 +18,203 @@ namespace petrous::workstation
 
 namespace
 {
-// What a palette cannot express. Colours: background 16191d, panel 1c2026, line 2e343c, text
-// d7dce2, accent 3d8fd1, drill e07b39.
+struct ThemeColor
+{
+  const char* name;
+  const char* dark;
+  const char* light;
+};
+
+// Of the style sheet.
+constexpr ThemeColor kColors[] = {
+    {"gap", "#101317", "#c3c8ce"},          {"panel", "#1c2026", "#f2f4f6"},
+    {"line", "#2e343c", "#cfd5db"},         {"rule", "#343b44", "#c2c9d1"},
+    {"hover", "#2b3139", "#e1e6eb"},        {"pressed", "#353d47", "#d3dae1"},
+    {"accent", "#3d8fd1", "#1f6fb2"},       {"off", "#5c646e", "#9aa3ad"},
+    {"frame", "#4a525c", "#aab3bd"},        {"checked", "#2f79b5", "#2f79b5"},
+    {"checkedEdge", "#62b0ec", "#1d5c92"},  {"drill", "#d96b27", "#c85a16"},
+    {"edgeOfDrill", "#f08a48", "#a84a10"},  {"tool", "#232930", "#e9edf1"},
+    {"toolEdge", "#3a424c", "#bcc4cc"},     {"select", "#2f6ea3", "#2f79b5"},
+    {"bySelect", "#d7dce2", "#ffffff"},     {"menu", "#20252b", "#ffffff"},
+    {"dim", "#9aa4af", "#59636e"},          {"tree", "#171a1f", "#ffffff"},
+    {"otherRow", "#1a1e23", "#f5f7f9"},     {"idle", "#2a4d6b", "#b5cfe6"},
+    {"byIdle", "#ffffff", "#10202e"},       {"box", "#14171b", "#ffffff"},
+    {"edgeOfBox", "#66707c", "#7c8792"},    {"edgeOfOn", "#7fbdf0", "#164f80"},
+    {"onOff", "#2b4558", "#b7cbdc"},        {"focus", "#b9dcf8", "#124a78"},
+    {"strong", "#e4e8ed", "#1b2026"},       {"primaryEdge", "#4a98d6", "#1d5c92"},
+    {"primaryHover", "#3a8acb", "#3a8acb"}, {"primaryOff", "#262c33", "#e4e8ec"},
+    {"notice", "#24384a", "#dcecf9"},       {"edgeOfNotice", "#3d6b92", "#8fb8da"},
+    {"warning", "#5a3217", "#fde3cf"},      {"bannerText", "#f2f5f8", "#1b2026"},
+    {"recording", "#ff6b6b", "#c4161c"},
+};
+
+struct RoleColor
+{
+  QPalette::ColorRole role;
+  const char* dark;
+  const char* light;
+};
+
+constexpr RoleColor kRoles[] = {
+    {QPalette::Window, "#1c2026", "#f2f4f6"},
+    {QPalette::WindowText, "#d7dce2", "#1b2026"},
+    {QPalette::Base, "#14171b", "#ffffff"},
+    {QPalette::AlternateBase, "#1a1e23", "#f5f7f9"},
+    {QPalette::Text, "#d7dce2", "#1b2026"},
+    {QPalette::Button, "#2a3037", "#e4e8ec"},
+    {QPalette::ButtonText, "#d7dce2", "#1b2026"},
+    {QPalette::BrightText, "#ffffff", "#ffffff"},
+    {QPalette::Highlight, "#2f79b5", "#2f79b5"},
+    {QPalette::HighlightedText, "#ffffff", "#ffffff"},
+    {QPalette::ToolTipBase, "#2b3139", "#fffdf2"},
+    {QPalette::ToolTipText, "#e4e8ed", "#1b2026"},
+    {QPalette::Link, "#62b0ec", "#1d5c92"},
+    {QPalette::LinkVisited, "#ffb454", "#9a5200"}, // warningColor
+    {QPalette::PlaceholderText, "#7c8691", "#6b757f"},
+};
+
+// What a palette cannot express. What lies over pictures has the same colours in both schemes.
 constexpr const char* kStyleSheet = R"(
-QMainWindow::separator { background: #101317; width: 5px; height: 5px; }
-QSplitter::handle { background: #101317; }
-QToolBar { background: #1c2026; border: 0; border-bottom: 1px solid #2e343c; padding: 4px 6px;
+QMainWindow::separator { background: @gap; width: 5px; height: 5px; }
+QSplitter::handle { background: @gap; }
+QToolBar { background: @panel; border: 0; border-bottom: 1px solid @line; padding: 4px 6px;
            spacing: 5px; }
-QToolBar::separator { background: #343b44; width: 1px; margin: 4px 6px; }
+QToolBar::separator { background: @rule; width: 1px; margin: 4px 6px; }
 QToolButton { padding: 5px 10px; border-radius: 4px; border: 1px solid transparent; }
-QToolButton:hover { background: #2b3139; }
-QToolButton:pressed { background: #353d47; }
-QToolButton:focus { border-color: #3d8fd1; }
-QToolButton:disabled { color: #5c646e; }
-QToolButton#drillButton { border: 1px solid #4a525c; font-weight: 600; padding: 5px 16px; }
-QToolButton#pointerButton { border: 1px solid #4a525c; padding: 5px 12px; }
-QToolButton#pointerButton:checked { background: #2f79b5; border-color: #62b0ec; color: #ffffff; }
-QToolButton#wheelButton { border: 1px solid #4a525c; }
-QToolButton#wheelButton:checked { background: #2f79b5; border-color: #62b0ec; color: #ffffff; }
-QToolButton#drillButton:checked { background: #d96b27; border-color: #f08a48; color: #ffffff; }
-QToolButton#segmentTool { border: 1px solid #3a424c; background: #232930; padding: 6px 4px; }
-QToolButton#segmentTool:hover { background: #2b3139; }
-QToolButton#segmentTool:focus { border-color: #3d8fd1; }
-QToolButton#segmentTool:checked { background: #2f79b5; border-color: #62b0ec; color: #ffffff; }
-QMenuBar { background: #1c2026; }
-QMenuBar::item:selected, QMenu::item:selected { background: #2f6ea3; }
-QMenu { background: #20252b; border: 1px solid #343b44; }
-QStatusBar { background: #1c2026; border-top: 1px solid #2e343c; }
+QToolButton:hover { background: @hover; }
+QToolButton:pressed { background: @pressed; }
+QToolButton:focus { border-color: @accent; }
+QToolButton:disabled { color: @off; }
+QToolButton#drillButton { border: 1px solid @frame; font-weight: 600; padding: 5px 16px; }
+QToolButton#pointerButton { border: 1px solid @frame; padding: 5px 12px; }
+QToolButton#pointerButton:checked { background: @checked; border-color: @checkedEdge; color: #ffffff; }
+QToolButton#wheelButton { border: 1px solid @frame; }
+QToolButton#wheelButton:checked { background: @checked; border-color: @checkedEdge; color: #ffffff; }
+QToolButton#drillButton:checked { background: @drill; border-color: @edgeOfDrill; color: #ffffff; }
+QToolButton#segmentTool { border: 1px solid @toolEdge; background: @tool; padding: 6px 4px; }
+QToolButton#segmentTool:hover { background: @hover; }
+QToolButton#segmentTool:focus { border-color: @accent; }
+QToolButton#segmentTool:checked { background: @checked; border-color: @checkedEdge; color: #ffffff; }
+QMenuBar { background: @panel; }
+QMenuBar::item:selected, QMenu::item:selected { background: @select; color: @bySelect; }
+QMenu { background: @menu; border: 1px solid @rule; }
+QStatusBar { background: @panel; border-top: 1px solid @line; }
 QStatusBar::item { border: 0; }
 QDockWidget { font-weight: 600; }
-QDockWidget::title { background: #1c2026; padding: 7px 10px; border-bottom: 1px solid #2e343c; }
-QHeaderView::section { background: #1c2026; color: #9aa4af; border: 0;
-                       border-bottom: 1px solid #2e343c; padding: 4px 6px; }
-QTreeView { border: 0; background: #171a1f; alternate-background-color: #1a1e23; }
+QDockWidget::title { background: @panel; padding: 7px 10px; border-bottom: 1px solid @line; }
+QHeaderView::section { background: @panel; color: @dim; border: 0;
+                       border-bottom: 1px solid @line; padding: 4px 6px; }
+QTreeView { border: 0; background: @tree; alternate-background-color: @otherRow; }
 QTreeView::item { padding: 3px 2px; }
-QTreeView::item:selected { background: #2f6ea3; color: #ffffff; }
-QTreeView::item:selected:!active { background: #2a4d6b; color: #ffffff; }
-QTreeView:focus { border: 1px solid #3d8fd1; }
-QTreeView::indicator, QCheckBox::indicator { width: 12px; height: 12px; background: #14171b;
-                       border: 1px solid #66707c; border-radius: 3px; }
-QTreeView::indicator:checked, QCheckBox::indicator:checked { background: #3d8fd1;
-                       border-color: #7fbdf0; }
-QTreeView::indicator:indeterminate, QCheckBox::indicator:indeterminate { background: #5c646e;
-                       border-color: #9aa4af; }
-QTreeView::indicator:selected { border-color: #e4e8ed; }
-QTreeView::indicator:disabled, QCheckBox::indicator:disabled { border-color: #343b44; }
-QCheckBox::indicator:checked:disabled { background: #2b4558; }
-QCheckBox:focus { color: #b9dcf8; }
-QToolTip { background: #2b3139; color: #e4e8ed; border: 1px solid #4a525c; padding: 4px; }
+QTreeView::item:selected { background: @select; color: #ffffff; }
+QTreeView::item:selected:!active { background: @idle; color: @byIdle; }
+QTreeView:focus { border: 1px solid @accent; }
+QTreeView::indicator, QCheckBox::indicator { width: 12px; height: 12px; background: @box;
+                       border: 1px solid @edgeOfBox; border-radius: 3px; }
+QTreeView::indicator:checked, QCheckBox::indicator:checked { background: @accent;
+                       border-color: @edgeOfOn; }
+QTreeView::indicator:indeterminate, QCheckBox::indicator:indeterminate { background: @off;
+                       border-color: @dim; }
+QTreeView::indicator:selected { border-color: @strong; }
+QTreeView::indicator:disabled, QCheckBox::indicator:disabled { border-color: @rule; }
+QCheckBox::indicator:checked:disabled { background: @onOff; }
+QCheckBox:focus { color: @focus; }
+QToolTip { background: @hover; color: @strong; border: 1px solid @frame; padding: 4px; }
 QPushButton { padding: 6px 18px; }
-QPushButton#primary, QPushButton#segmentCreate { background: #2f79b5; border: 1px solid #4a98d6;
+QPushButton#primary, QPushButton#segmentCreate { background: @checked; border: 1px solid @primaryEdge;
                       border-radius: 5px; color: #ffffff; padding: 9px 22px; font-weight: 600; }
-QPushButton#primary:hover, QPushButton#segmentCreate:hover { background: #3a8acb; }
-QPushButton#primary:focus, QPushButton#segmentCreate:focus { border-color: #b9dcf8; }
-QPushButton#segmentCreate:disabled { background: #262c33; border-color: #343b44; color: #5c646e; }
+QPushButton#primary:hover, QPushButton#segmentCreate:hover { background: @primaryHover; }
+QPushButton#primary:focus, QPushButton#segmentCreate:focus { border-color: @focus; }
+QPushButton#segmentCreate:disabled { background: @primaryOff; border-color: @rule; color: @off; }
 QLabel#guessed { color: #ff8c2b; background: rgba(16, 19, 23, 150); border-radius: 4px;
                  padding: 1px 6px; }
-QLabel#direction { color: #c9d2dc; font-size: 15px; font-weight: 700;
+QLabel#direction { color: #c9d2dc; font-size: %1px; font-weight: 700;
                    background: rgba(16, 19, 23, 150); border-radius: 4px; padding: 1px 6px; }
-QFrame[banner="notice"] { background: #24384a; border-bottom: 1px solid #3d6b92; }
-QFrame[banner="warning"] { background: #5a3217; border-bottom: 1px solid #d96b27; }
-QFrame[banner] QLabel { color: #f2f5f8; }
+QLabel#caseStamp { color: #c9d2dc; background: rgba(16, 19, 23, 150); border-radius: 4px;
+                   padding: 1px 6px; }
+QFrame[banner="notice"] { background: @notice; border-bottom: 1px solid @edgeOfNotice; }
+QFrame[banner="warning"] { background: @warning; border-bottom: 1px solid @drill; }
+QFrame[banner] QLabel { color: @bannerText; }
 QFrame[banner] QPushButton { padding: 4px 12px; }
-QLabel#dim { color: #9aa4af; }
-QLabel#recording { color: #ff6b6b; font-weight: 600; }
-QLabel#big { font-size: 20px; color: #e4e8ed; }
+QLabel#dim { color: @dim; }
+QLabel#recording { color: @recording; font-weight: 600; }
+QLabel#big { font-size: %2px; color: @strong; }
 )";
+
+constexpr char kScheme[] = "colorScheme";
+constexpr char kScale[] = "fontScale";
+constexpr char kSystemFont[] = "systemFont";
+
+// The theme that was applied last; none before the first one.
+std::optional<Theme> appliedTheme(const QApplication& application)
+{
+  const QVariant scheme = application.property(kScheme);
+  if (!scheme.isValid())
+    return std::nullopt;
+  return Theme{static_cast<ColorScheme>(scheme.toInt()), application.property(kScale).toDouble()};
+}
+
+const char* colorOf(const char* name, bool isDark)
+{
+  for (const ThemeColor& one : kColors)
+    if (std::strcmp(one.name, name) == 0)
+      return isDark ? one.dark : one.light;
+  return "#ff00ff";
+}
+
+QString styleSheet(const Theme& theme)
+{
+  QString sheet = kStyleSheet;
+  static const QRegularExpression name("@(\\w+)");
+  for (QRegularExpressionMatch found = name.match(sheet); found.hasMatch();
+       found = name.match(sheet))
+    sheet.replace(
+        found.capturedStart(), found.capturedLength(),
+        colorOf(found.captured(1).toLatin1().constData(), theme.scheme == ColorScheme::Dark));
+  return sheet.arg(std::lround(15.0 * theme.fontScale)).arg(std::lround(20.0 * theme.fontScale));
+}
 } // namespace
 
-void applyTheme(QApplication& application)
+void applyTheme(QApplication& application, const Theme& theme)
 {
-  new DecimalPoint(application);
-  application.setStyle(QStyleFactory::create("Fusion"));
+  const auto before = appliedTheme(application);
+  if (before && *before == theme)
+    return;
+  if (!before)
+  {
+    application.setProperty(kSystemFont, QApplication::font());
+    new DecimalPoint(application);
+    QApplication::setStyle(QStyleFactory::create("Fusion"));
+  }
+  application.setProperty(kScheme, static_cast<int>(theme.scheme));
+  application.setProperty(kScale, theme.fontScale);
+  const bool isDark = theme.scheme == ColorScheme::Dark;
   QPalette palette;
-  palette.setColor(QPalette::Window, QColor("#1c2026"));
-  palette.setColor(QPalette::WindowText, QColor("#d7dce2"));
-  palette.setColor(QPalette::Base, QColor("#14171b"));
-  palette.setColor(QPalette::AlternateBase, QColor("#1a1e23"));
-  palette.setColor(QPalette::Text, QColor("#d7dce2"));
-  palette.setColor(QPalette::Button, QColor("#2a3037"));
-  palette.setColor(QPalette::ButtonText, QColor("#d7dce2"));
-  palette.setColor(QPalette::BrightText, Qt::white);
-  palette.setColor(QPalette::Highlight, QColor("#2f79b5"));
-  palette.setColor(QPalette::HighlightedText, Qt::white);
-  palette.setColor(QPalette::ToolTipBase, QColor("#2b3139"));
-  palette.setColor(QPalette::ToolTipText, QColor("#e4e8ed"));
-  palette.setColor(QPalette::Link, QColor("#62b0ec"));
-  palette.setColor(QPalette::PlaceholderText, QColor("#7c8691"));
+  for (const RoleColor& one : kRoles)
+    palette.setColor(one.role, QColor(isDark ? one.dark : one.light));
   for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText})
-    palette.setColor(QPalette::Disabled, role, QColor("#5c646e"));
-  application.setPalette(palette);
-  application.setStyleSheet(kStyleSheet);
+    palette.setColor(QPalette::Disabled, role, QColor(colorOf("off", isDark)));
+  QApplication::setPalette(palette);
+  const auto system = application.property(kSystemFont).value<QFont>();
+  QFont font = system;
+  if (system.pointSizeF() > 0.0)
+    font.setPointSizeF(theme.fontScale * system.pointSizeF());
+  else
+    font.setPixelSize(static_cast<int>(std::lround(theme.fontScale * system.pixelSize())));
+  QApplication::setFont(font);
+  application.setStyleSheet(styleSheet(theme));
+}
+
+QColor warningColor()
+{
+  return QApplication::palette().color(QPalette::LinkVisited);
+}
+
+QColor harmColor()
+{
+  // Of the same lightness as the other text of the scheme.
+  const bool isDark = QApplication::palette().color(QPalette::Base).lightness() < 128;
+  return {isDark ? "#ff8f8f" : "#b3131a"};
 }
 
 QColor planeColor(presenters::SliceOrientation orientation)

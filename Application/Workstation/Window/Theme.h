@@ -10,9 +10,35 @@ class QApplication;
 namespace petrous::workstation
 {
 
-/// A dark theme, so that bone is the brightest thing on the screen; numbers with a decimal point
+/// Of panels, menus and dialogs. 3D view and slices stay dark, so that bone is the brightest there.
+enum class ColorScheme
+{
+  Dark,
+  Light
+};
+
+struct Theme
+{
+  static constexpr double kMinScale = 0.8, kMaxScale = 2.0;
+
+  ColorScheme scheme = ColorScheme::Dark;
+  double fontScale = 1.0; ///< of the system's font
+};
+
+inline bool operator==(const Theme& a, const Theme& b)
+{
+  return a.scheme == b.scheme && a.fontScale == b.fontScale;
+}
+
+/// Colours and letters of all windows, also of those that are open; numbers with a decimal point
 /// (DecimalPoint.h). Call before the first widget.
-void applyTheme(QApplication& application);
+void applyTheme(QApplication& application, const Theme& theme = {});
+
+/// Of text in the present theme that tells of something doubtful, or of harm.
+QColor warningColor();
+/// The same as a style sheet of a widget, which follows the theme.
+constexpr const char* kWarningStyle = "color: palette(link-visited);";
+QColor harmColor();
 
 /// The colour of a slice plane in every view.
 QColor planeColor(presenters::SliceOrientation orientation);

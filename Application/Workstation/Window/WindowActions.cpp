@@ -10,10 +10,12 @@
 #include <QToolBar>
 #include <QToolButton>
 
+#include "Commands.h"
 #include "DeviceToolBar.h"
 #include "DrillBar.h"
 #include "petrous/Presenters/ViewArrangement.h"
 #include "petrous/Rendering/Stereo.h"
+#include "petrous/Scene/Description.h"
 
 namespace petrous::workstation
 {
@@ -99,6 +101,9 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   strokeCamera = make(edit, tr("Undo goes back to the stroke's &view"), {},
                       tr("Turn the patient as they lay when the stroke was drilled"));
   strokeCamera->setCheckable(true);
+  edit->addSeparator();
+  settings = make(edit, tr("Se&ttings…"), Qt::CTRL + Qt::Key_Comma,
+                  tr("Theme, size of the letters, library, and how the window behaves"));
 
   casePart = window.menuBar()->addMenu(tr("&Case"));
   addMrFolder = make(casePart, tr("Add &MR…"), {}, tr("A DICOM folder with an MR of this patient"));
@@ -110,6 +115,7 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                   tr("Structures of this patient, one a file, as TotalSegmentator writes them"));
   addMesh = make(casePart, tr("Add m&esh…"), {}, tr("Surfaces of this patient, in mm"));
   casePart->addSeparator();
+  addSides();
   attach = make(casePart, tr("A&ttach…"), {},
                 tr("A file goes with the case: recording of the tool, PNG, PDF or video"));
   exportPart = make(casePart, tr("E&xport…"), Qt::CTRL + Qt::Key_E,
@@ -192,6 +198,10 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   record->setCheckable(true);
 
   QMenu* help = window.menuBar()->addMenu(tr("&Help"));
+  keyList = make(help, tr("&Keys"), Qt::Key_F1, tr("All keys of the window, with a search"));
+  findCommand = make(help, tr("&Find a command…"), Qt::CTRL + Qt::SHIFT + Qt::Key_P,
+                     tr("Anything that the menus have, by its name"));
+  help->addSeparator();
   about = make(help, tr("&About Petrous"), {}, tr("What this program is"));
 
   auto* bar = new QToolBar(tr("Case"), &window);
@@ -245,6 +255,25 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                                        drillBar.drillAction(),
                                        drillBar.pointerAction(),
                                        record});
+}
+
+void WindowActions::addSides()
+{
+  sides = new QActionGroup(this);
+  QMenu* menu = casePart->addMenu(tr("&Side"));
+  const auto add = [this, menu](const QString& text, scene::Side side, const QString& tip)
+  {
+    QAction* action = make(menu, text, {}, tip);
+    action->setCheckable(true);
+    action->setData(static_cast<int>(side));
+    sides->addAction(action);
+    m_needCase.push_back(action);
+  };
+  const QString tip = tr("The side of the patient that is operated on; it stands over every view");
+  add(tr("Side: &left"), scene::Side::Left, tip);
+  add(tr("Side: &right"), scene::Side::Right, tip);
+  add(tr("Side: &both"), scene::Side::Both, tip);
+  add(tr("Side: &not stated"), scene::Side::Unknown, tr("It is asked for when the case is opened"));
 }
 
 QMenu* WindowActions::addLayouts()
@@ -349,7 +378,7 @@ void WindowActions::setOnMr(bool isMr)
 void WindowActions::setCaseOpen(bool open)
 {
   for (QAction* action : m_needCase)
-    action->setEnabled(open);
+    enable(*action, open, tr("Open a case first"));
 }
 
 } // namespace petrous::workstation

@@ -49,6 +49,7 @@ public:
   QAction* addLabels;
   QAction* addMasks;
   QAction* addMesh;
+  QActionGroup* sides; ///< checkable; each one's data is its scene::Side
   QAction* restorePart;
   QAction* exportPart;
   QAction* attach;
@@ -76,6 +77,9 @@ public:
   QAction* smallerBurr;
   QAction* largerBurr;
   QAction* record; ///< checkable
+  QAction* settings;
+  QAction* keyList;
+  QAction* findCommand;
   QAction* about;
 
 signals:
@@ -86,6 +90,7 @@ private:
   QAction* make(QMenu* menu, const QString& text, const QKeySequence& keys, const QString& tip);
   QMenu* addStereo(bool quadBuffer);
   QMenu* addLayouts();
+  void addSides();
 
   QMenu* m_view = nullptr;
   QMenu* m_viewButton = nullptr; ///< in the tool bar

@@ -1,5 +1,6 @@
 #include "WindowSettings.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -223,6 +224,22 @@ void WindowSettings::forgetGreyWindow(const QString& kind, const std::string& na
     if (one.name != name)
       list << QString::fromStdString(one.name) << one.window.width << one.window.level;
   m_file.setValue("windows/" + kind, list);
+}
+
+Theme WindowSettings::theme() const
+{
+  Theme theme;
+  if (m_file.value("look/theme").toString() == "light")
+    theme.scheme = ColorScheme::Light;
+  if (const auto scale = number("look/font_scale"))
+    theme.fontScale = std::clamp(*scale, Theme::kMinScale, Theme::kMaxScale);
+  return theme;
+}
+
+void WindowSettings::keepTheme(const Theme& theme)
+{
+  m_file.setValue("look/theme", theme.scheme == ColorScheme::Light ? "light" : "dark");
+  m_file.setValue("look/font_scale", theme.fontScale);
 }
 
 bool WindowSettings::thumbnails() const

@@ -4,6 +4,7 @@
 
 #include <QSettings>
 
+#include "Theme.h"
 #include "petrous/Dissection/Stroke.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/ViewArrangement.h"
@@ -55,6 +56,9 @@ public:
   std::vector<presenters::NamedWindow> greyWindows(const QString& kind) const;
   void keepGreyWindow(const QString& kind, const presenters::NamedWindow& window);
   void forgetGreyWindow(const QString& kind, const std::string& name);
+
+  Theme theme() const;
+  void keepTheme(const Theme& theme);
 
   /// Whether thumbnails of cases are drawn in the background.
   bool thumbnails() const;

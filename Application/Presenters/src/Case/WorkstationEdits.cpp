@@ -203,6 +203,20 @@ void WorkstationModel::takeBack(std::uint64_t step)
   notify(events.stateChanged);
 }
 
+void WorkstationModel::setSide(scene::Side side)
+{
+  if (!m_case || drilling() || m_case->description.side == side)
+    return;
+  const auto set = [this](scene::Side value)
+  {
+    m_case->description.side = value;
+    setUnsaved(true);
+  };
+  const scene::Side before = m_case->description.side;
+  set(side);
+  recordEdit({"side", {}, [set, before] { set(before); }, [set, side] { set(side); }});
+}
+
 void WorkstationModel::setIso(double hounsfield)
 {
   if (!m_case || drilling() || m_case->iso == hounsfield)

@@ -177,6 +177,8 @@ public:
   /// Marks and measurements, all at once: what MeasurementEditor steps back and forth. Throws
   /// InvalidParameter (scene::checkMeasurements), without effect.
   void setMeasurements(std::vector<scene::Measurement> measurements);
+  /// Which side is operated on; can be undone. No effect while drilling.
+  void setSide(scene::Side side);
   void save();                          ///< throws as Library::save does
   void saveAs(const std::string& name); ///< a new case; strong exception guarantee
   void saveElsewhere(const std::filesystem::path& folder, const std::string& name);

@@ -1,0 +1,43 @@
+#include <gtest/gtest.h>
+
+#include "petrous/Presenters/CaseStamp.h"
+
+using namespace petrous;
+using namespace petrous::presenters;
+
+namespace
+{
+
+scene::Case stampedCase(const std::string& name)
+{
+  scene::Case value;
+  value.name = name;
+  value.description.side = scene::Side::Right;
+  value.description.date = "2026-03-31";
+  return value;
+}
+
+} // namespace
+
+TEST(CaseStamp, HasNameSideAndPlannedDateOfTheCase)
+{
+  const CaseStamp stamp = stampOf(stampedCase("Smith, John"));
+  EXPECT_EQ(stamp.name, "Smith, John");
+  EXPECT_EQ(stamp.side, scene::Side::Right);
+  EXPECT_EQ(stamp.planned, "2026-03-31");
+  EXPECT_EQ(stampOf(scene::Case{}).side, scene::Side::Unknown);
+}
+
+TEST(CaseStamp, ThatLeavesHasNoDateAndNoNameThatMayBeThePatients)
+{
+  for (const char* name : {"DOE^JANE", "Mrs Smith", "A12-345678", "born 1961-02-03"})
+  {
+    const scene::Case value = stampedCase(name);
+    const CaseStamp stamp = leavingStampOf(value, IdentityText(value));
+    EXPECT_EQ(stamp.name, "") << name;
+    EXPECT_EQ(stamp.planned, "");
+    EXPECT_EQ(stamp.side, scene::Side::Right);
+  }
+  const scene::Case plain = stampedCase("ear 7");
+  EXPECT_EQ(leavingStampOf(plain, IdentityText(plain)).name, "ear 7");
+}

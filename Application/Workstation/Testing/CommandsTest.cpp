@@ -1,0 +1,199 @@
+#include "GuiTest.h"
+
+#include <QHeaderView>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMenuBar>
+#include <QTreeWidget>
+
+#include "CommandPalette.h"
+#include "Commands.h"
+#include "KeyList.h"
+#include "ViewArea.h"
+
+using namespace petrous;
+using namespace petrous::workstation;
+
+namespace
+{
+
+class CommandsWindow : public GuiTest
+{
+protected:
+  /// Opens the palette by its key, and does something with it.
+  void inPalette(const std::function<void(CommandPalette&)>& act)
+  {
+    QApplication::setActiveWindow(&window());
+    QTest::keyClick(&window(), Qt::Key_P, Qt::ControlModifier | Qt::ShiftModifier);
+    auto* palette = window().findChild<CommandPalette*>();
+    ASSERT_TRUE(palette && palette->isVisible());
+    act(*palette);
+    if (auto* still = window().findChild<CommandPalette*>())
+      still->close();
+    QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+    QTest::qWait(10);
+  }
+  static QTreeWidget& listOf(QDialog& dialog) { return *dialog.findChild<QTreeWidget*>(); }
+  static QLineEdit& searchOf(QDialog& dialog) { return *dialog.findChild<QLineEdit*>(); }
+  static QString tipOf(QDialog& dialog) { return dialog.findChild<QLabel*>("dim")->text(); }
+};
+
+// Of all menus, without those that open others.
+void collect(const QMenu& menu, QStringList& names)
+{
+  for (const QAction* action : menu.actions())
+    if (action->menu())
+      collect(*action->menu(), names);
+    else if (!action->isSeparator() && action->isVisible())
+      names += action->text().remove('&');
+}
+
+} // namespace
+
+TEST_F(CommandsWindow, ThePaletteHasAllThatTheMenusHave)
+{
+  saveBall("ball");
+  openWindow();
+  QStringList inMenus;
+  for (const QAction* top : window().menuBar()->actions())
+    collect(*top->menu(), inMenus);
+  EXPECT_GT(inMenus.size(), 80);
+  inPalette(
+      [&](CommandPalette& palette)
+      {
+        QStringList listed;
+        for (int n = 0; n < listOf(palette).topLevelItemCount(); ++n)
+          listed += listOf(palette).topLevelItem(n)->text(0);
+        for (const QString& name : inMenus)
+          EXPECT_TRUE(listed.contains(name)) << name.toStdString();
+      });
+}
+
+TEST_F(CommandsWindow, ACommandIsFoundByNameShowsItsKeyAndIsRun)
+{
+  saveBall("ball");
+  openWindow();
+  const auto* area = window().findChild<ViewArea*>();
+  ASSERT_FALSE(area->arrangement().enlarged());
+  inPalette(
+      [&](CommandPalette& palette)
+      {
+        QTest::keyClicks(&searchOf(palette), "view ENLARGE");
+        ASSERT_GE(listOf(palette).topLevelItemCount(), 1);
+        const QTreeWidgetItem* first = listOf(palette).topLevelItem(0);
+        EXPECT_EQ(first->text(0), "Enlarge the view");
+        EXPECT_EQ(first->text(1), QString::fromUtf8("View › Layout"));
+        EXPECT_EQ(first->text(2), "E");
+        EXPECT_TRUE(tipOf(palette).contains("fills the window"));
+        QTest::keyClick(&searchOf(palette), Qt::Key_Return);
+        EXPECT_FALSE(palette.isVisible());
+      });
+  EXPECT_TRUE(waitFor([&] { return area->arrangement().enlarged().has_value(); }));
+}
+
+TEST_F(CommandsWindow, ArrowKeysChooseWhileTheSearchHasTheFocus)
+{
+  saveBall("ball");
+  openWindow();
+  inPalette(
+      [&](CommandPalette& palette)
+      {
+        const QTreeWidget& list = listOf(palette);
+        EXPECT_EQ(list.currentItem(), list.topLevelItem(0));
+        QTest::keyClick(&searchOf(palette), Qt::Key_Down);
+        EXPECT_EQ(list.currentItem(), list.topLevelItem(1));
+        QTest::keyClicks(&searchOf(palette), "no such thing");
+        EXPECT_EQ(list.topLevelItemCount(), 0);
+        EXPECT_TRUE(tipOf(palette).contains("No command"));
+        QTest::keyClick(&searchOf(palette), Qt::Key_Return);
+        EXPECT_TRUE(palette.isVisible());
+      });
+}
+
+TEST_F(CommandsWindow, WhatCannotBeDoneIsGreyAndSaysWhy)
+{
+  saveBall("ball");
+  openWindow();
+  const auto why = [this](const char* text)
+  {
+    QString told;
+    inPalette(
+        [&](CommandPalette& palette)
+        {
+          QTest::keyClicks(&searchOf(palette), text);
+          ASSERT_GE(listOf(palette).topLevelItemCount(), 1);
+          EXPECT_EQ(listOf(palette).topLevelItem(0)->foreground(0).color(),
+                    palette.palette().color(QPalette::Disabled, QPalette::Text))
+              << text;
+          told = tipOf(palette);
+          QTest::keyClick(&searchOf(palette), Qt::Key_Return);
+          EXPECT_TRUE(palette.isVisible()) << "nothing was done";
+        });
+    return told;
+  };
+  EXPECT_TRUE(why("register the mr").contains("no MR"));
+  EXPECT_TRUE(why("next approach").contains("one approach only"));
+  EXPECT_TRUE(why("redo").contains("Nothing was undone"));
+  action("Close the case")->trigger();
+  ASSERT_TRUE(waitFor([this] { return !window().model().hasCase() && !window().busy(); }));
+  EXPECT_TRUE(why("save as").contains("Open a case first"));
+  EXPECT_TRUE(why("thicker slab").contains("Open a case first"));
+}
+
+TEST_F(CommandsWindow, TheListOfKeysHasTheKeysOfAllActions)
+{
+  saveBall("ball");
+  openWindow();
+  QTest::keyClick(&window(), Qt::Key_F1);
+  auto* keys = window().findChild<KeyList*>();
+  ASSERT_TRUE(keys && keys->isVisible());
+  EXPECT_FALSE(keys->isModal()) << "the window can be used beside it";
+  QTreeWidget& list = listOf(*keys);
+  const auto listed = [&](const QString& name)
+  {
+    QStringList found;
+    for (QTreeWidgetItemIterator it(&list); *it; ++it)
+      if ((*it)->parent() && (*it)->text(1) == name)
+        found += (*it)->text(0).split(" or ");
+    return found;
+  };
+  int count = 0;
+  for (const auto* one : window().findChildren<QAction*>())
+    if (!one->shortcut().isEmpty() && !one->text().isEmpty() && one->isVisible())
+      for (const QKeySequence& key : one->shortcuts())
+      {
+        ++count;
+        EXPECT_TRUE(
+            listed(one->text().remove('&')).contains(key.toString(QKeySequence::NativeText)))
+            << one->text().toStdString() << ", " << key.toString().toStdString();
+      }
+  EXPECT_GT(count, 70);
+  EXPECT_EQ(listed("Keys"), QStringList{"F1"});
+
+  QTest::keyClicks(&searchOf(*keys), "burr");
+  int shown = 0;
+  for (QTreeWidgetItemIterator it(&list); *it; ++it)
+    if ((*it)->parent() && !(*it)->isHidden() && !(*it)->parent()->isHidden())
+    {
+      ++shown;
+      EXPECT_TRUE(((*it)->text(0) + (*it)->text(1) + (*it)->text(2) + (*it)->parent()->text(0))
+                      .contains("burr", Qt::CaseInsensitive));
+    }
+  EXPECT_GE(shown, 3);
+  keys->close();
+}
+
+// A key of two actions does nothing but warn.
+TEST_F(CommandsWindow, NoKeyIsOfTwoActionsOfTheWholeWindow)
+{
+  saveBall("ball");
+  openWindow();
+  QMap<QString, QStringList> owners;
+  for (const auto* one : window().findChildren<QAction*>())
+    if (one->shortcutContext() == Qt::WindowShortcut)
+      for (const QKeySequence& key : one->shortcuts())
+        if (!key.isEmpty())
+          owners[key.toString()] += one->text();
+  for (auto it = owners.begin(); it != owners.end(); ++it)
+    EXPECT_EQ(it->size(), 1) << it.key().toStdString() << ": " << it->join(", ").toStdString();
+}

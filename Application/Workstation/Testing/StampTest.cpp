@@ -1,0 +1,145 @@
+#include "GuiTest.h"
+
+#include <QLabel>
+#include <QPushButton>
+
+#include "Banner.h"
+#include "CaseStamps.h"
+#include "SliceColumn.h"
+#include "SliceView.h"
+#include "petrous/Library/Attachments.h"
+
+using namespace petrous;
+using namespace petrous::workstation;
+
+namespace
+{
+
+class Stamps : public GuiTest
+{
+protected:
+  void saveSide(const std::string& name, scene::Side side)
+  {
+    scene::Case value = ballCase(name);
+    value.description.side = side;
+    library().save(value);
+  }
+  Banner& question() { return *window().findChild<Banner*>("sideBanner"); }
+  void answer(const char* button) { question().findChild<QPushButton*>(button)->click(); }
+  QLabel& stampOn(QWidget& view) { return *view.findChild<QLabel*>("caseStamp"); }
+  void open(const std::string& name)
+  {
+    window().begin(QString::fromStdString(name));
+    ASSERT_TRUE(waitFor([&] { return window().model().value().name == name; }));
+    ASSERT_TRUE(settled());
+  }
+  scene::Side side() { return window().model().value().description.side; }
+};
+
+} // namespace
+
+TEST_F(Stamps, EveryViewSaysWhoseCaseItIsAndWhichSide)
+{
+  scene::Case value = ballCase("ear 7");
+  value.description.side = scene::Side::Left;
+  value.description.date = "2026-03-31";
+  library().save(value);
+  openWindow("ear 7");
+  EXPECT_EQ(stampOn(view()).text(), QString::fromUtf8("ear 7 · left · planned 2026-03-31"));
+  EXPECT_FALSE(stampOn(view()).visibleRegion().isEmpty());
+  for (SliceView* slice : window().findChild<SliceColumn*>()->views())
+  {
+    QLabel& stamp = stampOn(*slice);
+    EXPECT_EQ(stamp.text(), QString::fromUtf8("ear 7 · left"));
+    EXPECT_FALSE(stamp.visibleRegion().isEmpty());
+    EXPECT_TRUE(slice->rect().contains(stamp.geometry()));
+  }
+  action("Close the case")->trigger();
+  ASSERT_TRUE(waitFor([this] { return !window().model().hasCase(); }));
+  EXPECT_TRUE(stampOn(view()).text().isEmpty());
+}
+
+TEST_F(Stamps, ALongNameIsElidedInTheSlicesAndTheSideIsNot)
+{
+  const std::string name = "the ninth temporal bone of the course for residents in the autumn";
+  saveSide(name, scene::Side::Both);
+  openWindow(QString::fromStdString(name));
+  for (SliceView* slice : window().findChild<SliceColumn*>()->views())
+  {
+    QLabel& stamp = stampOn(*slice);
+    EXPECT_TRUE(stamp.text().endsWith(QString::fromUtf8(" · both"))) << stamp.text().toStdString();
+    EXPECT_TRUE(slice->rect().contains(stamp.geometry()));
+  }
+}
+
+TEST_F(Stamps, TheSideIsAskedForOnceAndKept)
+{
+  saveSide("ball", scene::Side::Unknown);
+  openWindow("ball");
+  ASSERT_TRUE(question().isVisible());
+  EXPECT_TRUE(stampOn(view()).text().contains("side not stated"));
+  answer("sideLeft");
+  EXPECT_FALSE(question().isVisible());
+  EXPECT_EQ(side(), scene::Side::Left);
+  EXPECT_EQ(stampOn(view()).text(), QString::fromUtf8("ball · left"));
+  ASSERT_TRUE(settled());
+  EXPECT_EQ(library().open("ball").description.side, scene::Side::Left);
+  EXPECT_TRUE(action("Side: left")->isChecked());
+
+  QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(side(), scene::Side::Unknown);
+  EXPECT_TRUE(action("Side: not stated")->isChecked());
+  action("Side: both")->trigger();
+  EXPECT_EQ(stampOn(view()).text(), QString::fromUtf8("ball · both"));
+  ASSERT_TRUE(settled());
+  closeWindow();
+  openWindow("ball");
+  EXPECT_FALSE(question().isVisible());
+  EXPECT_EQ(side(), scene::Side::Both);
+}
+
+TEST_F(Stamps, TheQuestionCanBePutOffUntilTheNextStart)
+{
+  saveSide("ball", scene::Side::Unknown);
+  saveSide("other", scene::Side::Right);
+  openWindow("ball");
+  ASSERT_TRUE(question().isVisible());
+  answer("sideLater");
+  EXPECT_FALSE(question().isVisible());
+  EXPECT_EQ(side(), scene::Side::Unknown);
+  open("other");
+  EXPECT_FALSE(question().isVisible()) << "it knows its side";
+  open("ball");
+  EXPECT_FALSE(question().isVisible());
+  closeWindow();
+  openWindow("ball");
+  EXPECT_TRUE(question().isVisible());
+}
+
+TEST_F(Stamps, AScreenshotOfACaseThatMayBearThePatientsNameHasTheSideAlone)
+{
+  saveSide("Mrs Smith", scene::Side::Right);
+  openWindow("Mrs Smith");
+  QImage wanted = picture();
+  drawStamp(wanted, "right");
+  window().findChild<QPushButton*>("attachScreenshot")->click();
+  ASSERT_TRUE(waitFor([this] { return window().model().value().attachments.size() == 1; }));
+  ASSERT_TRUE(settled());
+  const auto out = folder() / "picture.png";
+  const scene::Case saved = library().open("Mrs Smith");
+  library::extractAttachment(library(), saved, saved.attachments.front(), out);
+  const QImage kept(QString::fromStdString(out.string()));
+  EXPECT_EQ(differentPixels(kept.convertToFormat(QImage::Format_RGB32), wanted, 0), 0);
+}
+
+TEST_F(Stamps, SideBySideBothHalvesHaveIt)
+{
+  QImage image(400, 100, QImage::Format_RGB32);
+  image.fill(Qt::darkGray);
+  QImage half = image.copy(0, 0, 200, 100);
+  drawStamp(half, "right");
+  drawStamp(image, "right", true);
+  EXPECT_GT(pixelsUnlikeTheCorner(half), 50);
+  EXPECT_EQ(differentPixels(image.copy(0, 0, 200, 100), half, 0), 0);
+  EXPECT_LT(differentPixels(image.copy(200, 0, 200, 100), half, 3), 5);
+}

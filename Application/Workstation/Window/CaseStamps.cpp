@@ -1,0 +1,169 @@
+#include "CaseStamps.h"
+
+#include <algorithm>
+
+#include <QAction>
+#include <QActionGroup>
+#include <QEvent>
+#include <QImage>
+#include <QLabel>
+#include <QPainter>
+#include <QPainterPath>
+#include <QStringList>
+
+#include "Banner.h"
+#include "DescriptionDialog.h"
+#include "SliceColumn.h"
+#include "SliceView.h"
+#include "Theme.h"
+#include "ThreeDView.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+
+constexpr int kMostName = 260;      // px
+constexpr int kSliceMargin = 5;     // px
+constexpr int kOverScaleBar = 34;   // px
+constexpr double kOfHeight = 0.024; // a stamp's letters, of a picture
+
+QString sideOfStamp(scene::Side side)
+{
+  const QString said = sideText(side);
+  return said.isEmpty() ? CaseStamps::tr("side not stated") : said;
+}
+
+} // namespace
+
+QString stampText(const presenters::CaseStamp& stamp)
+{
+  QStringList parts;
+  if (!stamp.name.empty())
+    parts += words(stamp.name);
+  parts += sideOfStamp(stamp.side);
+  if (!stamp.planned.empty())
+    parts += CaseStamps::tr("planned %1").arg(words(stamp.planned));
+  return parts.join(QString::fromUtf8(" · "));
+}
+
+void drawStamp(QImage& picture, const QString& text, bool isSideBySide)
+{
+  QPainter painter(&picture);
+  painter.setRenderHint(QPainter::Antialiasing);
+  QFont font = painter.font();
+  font.setPixelSize(std::max(11, static_cast<int>(kOfHeight * picture.height())));
+  const QFontMetricsF metrics(font);
+  const double margin = 0.6 * font.pixelSize();
+  const int views = isSideBySide ? 2 : 1;
+  const double width = double(picture.width()) / views;
+  const QString shown = metrics.elidedText(text, Qt::ElideLeft, width - 2.0 * margin);
+  for (int n = 1; n <= views; ++n)
+  {
+    QPainterPath letters; // legible on bone and on the background
+    letters.addText(n * width - margin - metrics.horizontalAdvance(shown),
+                    margin + metrics.ascent(), font, shown);
+    painter.strokePath(letters, QPen(QColor(0, 0, 0, 200), 0.25 * font.pixelSize()));
+    painter.fillPath(letters, QColor("#f2f5f8"));
+  }
+}
+
+CaseStamps::CaseStamps(presenters::WorkstationModel& model, ThreeDView& view, SliceColumn& slices,
+                       Banner& question, QActionGroup& sides, QObject* parent)
+  : QObject(parent)
+  , m_model(model)
+  , m_view(view)
+  , m_question(question)
+  , m_sides(sides)
+{
+  for (SliceView* slice : slices.views())
+  {
+    auto* label = new QLabel(slice);
+    label->setObjectName("caseStamp");
+    label->setTextFormat(Qt::PlainText);
+    label->setAttribute(Qt::WA_TransparentForMouseEvents);
+    label->hide();
+    slice->installEventFilter(this);
+    m_inSlices.push_back(label);
+  }
+  const auto offer = [this](const char* name, const QString& text, scene::Side side)
+  { m_question.addButton(name, text, [this, side] { setSide(side); }); };
+  offer("sideLeft", tr("Left"), scene::Side::Left);
+  offer("sideRight", tr("Right"), scene::Side::Right);
+  offer("sideBoth", tr("Both"), scene::Side::Both);
+  m_question.addButton("sideLater", tr("Later"), [this] { putOff(); });
+  m_question.setText(tr("Which side of the patient is operated on? It stands over every view and "
+                        "is kept with the case (Case > Side)."));
+  connect(&m_sides, &QActionGroup::triggered, this,
+          [this](QAction* action) { setSide(static_cast<scene::Side>(action->data().toInt())); });
+}
+
+void CaseStamps::setSide(scene::Side side)
+{
+  m_question.hide();
+  if (!m_model.hasCase() || m_model.value().description.side == side)
+    return;
+  m_model.setSide(side);
+  stateChanged(); // also where it was refused
+  emit answered();
+}
+
+void CaseStamps::putOff()
+{
+  m_question.hide();
+  if (m_model.hasCase())
+    m_putOff.insert(m_model.value().id.empty() ? m_model.value().name : m_model.value().id);
+}
+
+void CaseStamps::caseOpened()
+{
+  const scene::Case& value = m_model.value();
+  const bool isPutOff = m_putOff.count(value.id.empty() ? value.name : value.id) > 0;
+  m_question.setVisible(value.description.side == scene::Side::Unknown && !isPutOff);
+}
+
+void CaseStamps::caseClosed()
+{
+  m_question.hide();
+}
+
+void CaseStamps::stateChanged()
+{
+  const bool open = m_model.hasCase();
+  for (QAction* action : m_sides.actions())
+    action->setChecked(open && action->data().toInt() ==
+                                   static_cast<int>(m_model.value().description.side));
+  if (open && m_model.value().description.side != scene::Side::Unknown)
+    m_question.hide();
+  m_view.setStamp(open ? stampText(presenters::stampOf(m_model.value())) : QString());
+  placeInSlices();
+}
+
+// The side is never cut off.
+void CaseStamps::placeInSlices()
+{
+  for (QLabel* label : m_inSlices)
+  {
+    label->setVisible(m_model.hasCase());
+    if (!m_model.hasCase())
+      continue;
+    const QWidget& slice = *label->parentWidget();
+    const scene::Case& value = m_model.value();
+    const int room = std::min(kMostName, slice.width() / 3);
+    label->setText(label->fontMetrics().elidedText(words(value.name), Qt::ElideMiddle, room) +
+                   QString::fromUtf8(" · ") + sideOfStamp(value.description.side));
+    label->adjustSize();
+    label->move(slice.width() - kSliceMargin - label->width(),
+                slice.height() - kOverScaleBar - label->height());
+  }
+}
+
+bool CaseStamps::eventFilter(QObject* watched, QEvent* event)
+{
+  if (event->type() == QEvent::Resize)
+    placeInSlices();
+  return QObject::eventFilter(watched, event);
+}
+
+} // namespace petrous::workstation

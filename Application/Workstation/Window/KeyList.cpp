@@ -1,0 +1,122 @@
+#include "KeyList.h"
+
+#include <algorithm>
+
+#include <QDialogButtonBox>
+#include <QHeaderView>
+#include <QLineEdit>
+#include <QTreeWidget>
+#include <QVBoxLayout>
+
+#include "Theme.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+enum KeyColumn
+{
+  kKeyItself,
+  kKeyName,
+  kKeyTip
+};
+} // namespace
+
+KeyList::KeyList(const std::vector<Command>& commands, QWidget* parent)
+  : QDialog(parent)
+  , m_search(new QLineEdit)
+  , m_list(new QTreeWidget)
+{
+  setObjectName("keyList");
+  setWindowTitle(tr("Keys"));
+  m_search->setObjectName("keySearch");
+  m_search->setPlaceholderText(tr("Search keys and what they do"));
+  m_search->setAccessibleName(tr("Search keys"));
+  m_search->setClearButtonEnabled(true);
+  m_list->setObjectName("keys");
+  m_list->setAccessibleName(tr("Keys"));
+  m_list->setColumnCount(3);
+  m_list->setHeaderLabels({tr("Key"), tr("Command"), tr("What it does")});
+  m_list->setAllColumnsShowFocus(true);
+  m_list->setSelectionMode(QAbstractItemView::SingleSelection);
+  for (const Command& command : commands)
+    if (!command.keys.isEmpty())
+      add(command.menu, command.name, command.keys, command.tip);
+
+  // Taken by the views themselves.
+  const QString view = tr("3D view");
+  add(view, tr("Turn the patient"), tr("drag"), {});
+  add(view, tr("Zoom"), tr("wheel"), tr("With Depth by wheel on: Ctrl with the wheel"));
+  add(view, tr("Crosshair on the surface"), tr("click"), {});
+  add(view, tr("Enlarge, and back"), tr("double click"), {});
+  add(view, tr("Drill, while the drill is on"), tr("Space, or the left button"),
+      tr("With Ctrl the button presses the burr without drilling"));
+  add(view, tr("Clutch"), tr("X"), tr("Held: the tool stays while hand or mouse goes on"));
+  const QString slices = tr("Slices");
+  add(slices, tr("Move the crosshair"), tr("click or drag, arrow keys"), {});
+  add(slices, tr("Through the slices"), tr("wheel, Page up, Page down"), {});
+  add(slices, tr("Zoom"), tr("Ctrl with the wheel, + and -"), {});
+  add(slices, tr("Move the picture"), tr("drag with the middle button"), {});
+  add(slices, tr("Window and level"), tr("drag with the right button"), {});
+  add(slices, tr("Turn the other two planes"), tr("Ctrl and drag, Ctrl+left, Ctrl+right"), {});
+  add(slices, tr("Tilt the slice"), tr("Ctrl+up, Ctrl+down"),
+      tr("With Shift and left or right about its other axis"));
+  add(slices, tr("Move the MR"), tr("Alt with the arrow keys, Page up, Page down"),
+      tr("Where an MR lies over the slice; with Shift by the larger step"));
+
+  m_list->expandAll();
+  m_list->header()->setStretchLastSection(true);
+  m_list->header()->setSectionResizeMode(kKeyItself, QHeaderView::ResizeToContents);
+  m_list->header()->setSectionResizeMode(kKeyName, QHeaderView::ResizeToContents);
+  connect(m_search, &QLineEdit::textChanged, this, &KeyList::search);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  auto* layout = new QVBoxLayout(this);
+  layout->addWidget(m_search);
+  layout->addWidget(m_list, 1);
+  layout->addWidget(buttons);
+  const QSize room = parent ? parent->size() : QSize(900, 700);
+  resize(std::min(860, room.width() - 40), std::min(680, room.height() - 40));
+}
+
+void KeyList::add(const QString& group, const QString& name, const QString& keys,
+                  const QString& tip)
+{
+  QTreeWidgetItem* top = nullptr;
+  for (int n = 0; n < m_list->topLevelItemCount(); ++n)
+    if (m_list->topLevelItem(n)->text(kKeyItself) == group)
+      top = m_list->topLevelItem(n);
+  if (!top)
+  {
+    top = new QTreeWidgetItem(m_list, {group});
+    top->setFirstColumnSpanned(true);
+    QFont bold = font();
+    bold.setBold(true);
+    top->setFont(kKeyItself, bold);
+  }
+  auto* item = new QTreeWidgetItem(top, {keys, name, tip});
+  item->setToolTip(kKeyTip, tip);
+}
+
+void KeyList::search()
+{
+  const QString wanted = m_search->text().trimmed();
+  for (int n = 0; n < m_list->topLevelItemCount(); ++n)
+  {
+    QTreeWidgetItem* group = m_list->topLevelItem(n);
+    bool isAnyShown = false;
+    for (int row = 0; row < group->childCount(); ++row)
+    {
+      QTreeWidgetItem* item = group->child(row);
+      bool isFound = group->text(kKeyItself).contains(wanted, Qt::CaseInsensitive);
+      for (const int column : {kKeyItself, kKeyName, kKeyTip})
+        isFound |= item->text(column).contains(wanted, Qt::CaseInsensitive);
+      item->setHidden(!isFound);
+      isAnyShown |= isFound;
+    }
+    group->setHidden(!isAnyShown);
+  }
+}
+
+} // namespace petrous::workstation

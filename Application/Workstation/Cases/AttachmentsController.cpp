@@ -142,8 +142,7 @@ void AttachmentsController::attachScreenshot()
       [&]
       {
         QImage picture = m_view.grabFramebuffer().convertToFormat(QImage::Format_RGB32);
-        const presenters::IdentityText identity(m_model.value(), m_model.library());
-        drawStamp(picture, stampText(presenters::leavingStampOf(m_model.value(), identity)),
+        drawStamp(picture, stampText(presenters::leavingStampOf(m_model.value())),
                   m_view.display().stereo() == rendering::StereoMode::SideBySide);
         picture.convertToFormat(QImage::Format_RGB888).save(&buffer, "PNG");
         add(library::screenshotOf({png.begin(), png.end()}, {}));

@@ -8,13 +8,9 @@ CaseStamp stampOf(const scene::Case& value)
   return {value.name, value.description.side, value.description.date};
 }
 
-CaseStamp leavingStampOf(const scene::Case& value, const IdentityText& identity)
+CaseStamp leavingStampOf(const scene::Case& value)
 {
-  CaseStamp stamp = stampOf(value);
-  stamp.planned.clear();
-  if (identity.mayIdentify(stamp.name))
-    stamp.name.clear();
-  return stamp;
+  return {{}, value.description.side, {}};
 }
 
 } // namespace petrous::presenters

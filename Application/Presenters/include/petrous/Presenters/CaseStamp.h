@@ -2,8 +2,7 @@
 
 #include <string>
 
-#include "petrous/Presenters/IdentityText.h"
-#include "petrous/Scene/Description.h"
+#include "petrous/Scene/Case.h"
 
 namespace petrous::presenters
 {
@@ -19,8 +18,8 @@ struct CaseStamp
 
 CaseStamp stampOf(const scene::Case& value);
 
-/// Of a picture that may leave this computer: without the planned date, which with the list of a
-/// day's operations tells who the patient is, and without a name that may do so.
-CaseStamp leavingStampOf(const scene::Case& value, const IdentityText& identity);
+/// Of a picture that may leave this computer, the side alone: the planned date tells who the patient
+/// is to who has the list of that day's operations, and a name in pixels would outlive its change.
+CaseStamp leavingStampOf(const scene::Case& value);
 
 } // namespace petrous::presenters

@@ -220,7 +220,7 @@ MainWindow::~MainWindow()
   for (const auto& [entry, panel] : m_panels)
     delete panel;   // one may query the model when hidden
   delete m_watcher; // stops a server
-  delete m_stamps; // looks at the model when a slice is resized
+  delete m_stamps;  // looks at the model when a slice is resized
   delete m_viewState;
   delete m_attachments; // its thread must not outlive the model
   delete m_picture;     // the surgeon's window follows the view

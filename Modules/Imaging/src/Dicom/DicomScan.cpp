@@ -966,7 +966,8 @@ bool isBelow(const fs::path& file, const fs::path& folder)
 
 // Of a disc whose files were copied to other names no listed path is there: of a series no more is
 // lost than it has fewer files than are listed. Records that name no series are made up for by what
-// else lies beside the index, but by nothing beyond: other series of the tree say nothing of a disc.
+// else lies beside the index, but by nothing beyond: other series of the tree say nothing of a
+// disc.
 void findRenamed(Lost& lost, const fs::path& index, const Groups& groups)
 {
   std::map<std::string, std::size_t> missing = lost.listedOf;
@@ -979,10 +980,11 @@ void findRenamed(Lost& lost, const fs::path& index, const Groups& groups)
     if (lost.listedOf.count(key) > 0)
       subtract(key, members.size());
     else
-      subtract({}, static_cast<std::size_t>(
-                     std::count_if(members.begin(), members.end(),
-                                   [&index](const FileHeader* member)
-                                   { return isBelow(member->slice.file, index.parent_path()); })));
+      subtract({}, static_cast<std::size_t>(std::count_if(members.begin(), members.end(),
+                                                          [&index](const FileHeader* member) {
+                                                            return isBelow(member->slice.file,
+                                                                           index.parent_path());
+                                                          })));
   lost.files.erase(std::remove_if(lost.files.begin(), lost.files.end(),
                                   [&missing](const Lost::File& file)
                                   {

@@ -18,8 +18,9 @@ struct CaseStamp
 
 CaseStamp stampOf(const scene::Case& value);
 
-/// Of a picture that may leave this computer, the side alone: the planned date tells who the patient
-/// is to who has the list of that day's operations, and a name in pixels would outlive its change.
+/// Of a picture that may leave this computer, the side alone: the planned date tells who the
+/// patient is to who has the list of that day's operations, and a name in pixels would outlive its
+/// change.
 CaseStamp leavingStampOf(const scene::Case& value);
 
 } // namespace petrous::presenters

@@ -12,7 +12,7 @@ namespace petrous::scene
 {
 struct Case;
 struct ImagePart;
-}
+} // namespace petrous::scene
 
 namespace petrous::presenters
 {

@@ -774,7 +774,9 @@ void Library::saveWith(scene::Case& value,
     setOrphanAside(m_folder, value.name);
   else
   {
-    const scene::Case present = there ? readManifest(value.name) : scene::Case{};
+    scene::Case present;
+    if (there)
+      present = readManifest(value.name);
     if (present.revision != value.revision || present.id != value.id)
       throw LibraryError(
           Reason::Conflict,

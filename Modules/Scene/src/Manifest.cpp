@@ -225,7 +225,7 @@ volume::ImageProvenance provenanceIn(const json& j, int slices)
     {
       const auto [first, last] = range.get<std::array<int, 2>>();
       const int after = provenance.interpolated.empty() ? 0 : provenance.interpolated.back().last;
-      if (first < 1 || last < first || last > slices ||
+      if (range.size() != 2 || first < 1 || last < first || last > slices ||
           (!provenance.interpolated.empty() && first - 1 <= after + 1))
         throw core::InvalidParameter("provenance: interpolated slices must be ranges of the "
                                      "image's slices, from 1, in order and apart");

@@ -53,9 +53,7 @@ TEST(CasePicture, AnImageWithoutAPlaceIsSeenFromWhereItOpensIntoAir)
   EXPECT_EQ(sideOf(earAt(Vector3d::Zero(), false)), -1);
   scene::Case moved = earAt(Vector3d(20, -30, 0), false);
   EXPECT_EQ(sideOf(moved), 1);
-  moved.ct.notes = {"The file does not say which side of the patient is left; its axes were taken "
-                    "as RAS, as asked."};
-  ASSERT_TRUE(imaging::isNoteOfSide(moved.ct.notes[0]));
+  moved.ct.provenance.assumedRas = true;
   EXPECT_EQ(sideOf(moved), -1);
 }
 

@@ -8,7 +8,6 @@
 
 #include "petrous/Core/Error.h"
 #include "petrous/Core/NumberText.h"
-#include "petrous/Imaging/ImageFile.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/Case.h"
 #include "petrous/Volume/TissueExtent.h"
@@ -201,8 +200,7 @@ ObliquePlane planeWithNormal(const Eigen::Vector3d& normal)
 bool statesPlace(const scene::ImagePart& image)
 {
   const Eigen::Vector3d& origin = image.geometry.origin();
-  return (origin.x() != 0.0 || origin.y() != 0.0) &&
-         std::none_of(image.notes.begin(), image.notes.end(), imaging::isNoteOfSide);
+  return (origin.x() != 0.0 || origin.y() != 0.0) && !image.provenance.assumedRas;
 }
 
 scene::Side earOf(const scene::Case& value)

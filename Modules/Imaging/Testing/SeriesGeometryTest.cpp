@@ -181,6 +181,19 @@ TEST(SeriesGeometry, AcceptsPositionsRoundedToTheDecimalsOfTheFile)
   }
 }
 
+// A writer that trims zeros has one decimal in some slices and two in others: it rounds to two.
+TEST(SeriesGeometry, TakesTheFinestDecimalsOfAStackForItsRounding)
+{
+  Headers slices = stack(40, 0.25);
+  for (std::size_t k = 0; k < slices.size(); ++k)
+    slices[k].positionStep = k % 2 == 0 ? 0.1 : 0.01; // 4.5, 4.75
+  EXPECT_EQ(assess(slices).verdict, Verdict::Ok);
+  slices[3].positionStep = 0.0; // 4, of which nothing is known
+  EXPECT_EQ(assess(slices).verdict, Verdict::Ok);
+  (*slices[17].position)[2] += 0.09; // more than a third of the spacing
+  EXPECT_EQ(only(assess(slices)).kind, FindingKind::UnevenSpacing);
+}
+
 TEST(SeriesGeometry, CallsRepairableWhatThePositionsSettle)
 {
   const auto verdictOf = [](const std::function<void(Headers&)>& change)
@@ -480,6 +493,52 @@ TEST(SeriesGeometry, NamesMixedRescale)
   EXPECT_EQ(finding.errorMm, 0.0);
 }
 
+// A slice that states nothing agrees with every patient and must not make them one.
+TEST(SeriesGeometry, TellsPatientsAndStudiesApartWhicheverSliceStatesNothing)
+{
+  const PatientKey one = patientKey("111", "", "Doe^Ann", "");
+  const PatientKey other = patientKey("222", "", "Roe^Eve", "");
+  for (std::size_t silent = 0; silent < 12; ++silent)
+  {
+    Headers slices = stack(12, 1.0);
+    Headers studies = stack(12, 1.0);
+    for (std::size_t k = 0; k < 12; ++k)
+      if (k != silent)
+      {
+        slices[k].patient = k < 5 ? one : other;
+        studies[k].studyUid = k < 5 ? "1.2.3" : "1.2.4";
+      }
+    const SeriesGeometry patients = assess(slices);
+    ASSERT_FALSE(patients.findings.empty()) << silent;
+    EXPECT_EQ(patients.findings.front().kind, FindingKind::MixedPatients) << silent;
+    EXPECT_EQ(patients.verdict, Verdict::Refused);
+    EXPECT_EQ(patients.slices.size(), silent < 5 ? 8U : 7U) << "the larger group, and the silent";
+    const SeriesGeometry studied = assess(studies);
+    ASSERT_FALSE(studied.findings.empty()) << silent;
+    EXPECT_EQ(studied.findings.front().kind, FindingKind::MixedStudies) << silent;
+  }
+  // An ID of one slice and a name of another may be one patient's, but not of two.
+  Headers parts = stack(12, 1.0);
+  parts[3].patient = patientKey("111", "", "", "");
+  parts[4].patient = patientKey("", "", "Doe^Ann", "");
+  EXPECT_EQ(assess(parts).verdict, Verdict::Ok);
+  parts[5].patient = other;
+  EXPECT_EQ(assess(parts).findings.front().kind, FindingKind::MixedPatients);
+}
+
+// Neither that states both contradicts the one that states an issuer alone.
+TEST(SeriesGeometry, ComparesIdsOfOneIssuerAcrossThoseOfOthers)
+{
+  Headers slices = stack(9, 1.0);
+  for (std::size_t k = 0; k < 9; ++k)
+    slices[k].patient = k < 3   ? patientKey("111", "here", "", "")
+                        : k < 6 ? patientKey("222", "there", "", "")
+                                : patientKey("333", "there", "", "");
+  EXPECT_EQ(assess(slices).findings.front().kind, FindingKind::MixedPatients);
+  slices.resize(6);
+  EXPECT_EQ(assess(slices).verdict, Verdict::Ok) << "one patient of two hospitals, or unknown";
+}
+
 TEST(SeriesGeometry, SetsALocalizerAside)
 {
   Headers slices = stack(20, 1.0);
@@ -502,6 +561,13 @@ TEST(SeriesGeometry, KnowsAnUndeclaredLocalizerByItsPlane)
   EXPECT_EQ(series.findings.front().kind, FindingKind::LocalizerMixedIn);
   EXPECT_EQ(series.verdict, Verdict::Ok);
   EXPECT_EQ(series.slices.size(), 20U);
+}
+
+TEST(SeriesGeometry, StopsWhenCancelled)
+{
+  const auto token = std::make_shared<core::CancelToken>();
+  token->cancel();
+  EXPECT_THROW(assess(stack(20), core::Progress({}, token)), core::CancelledError);
 }
 
 TEST(SeriesGeometry, HasNoGridWithoutUsableNumbers)
@@ -683,6 +749,61 @@ TEST(SeriesRepair, FollowsALinearFunctionWhereverTheSlicesLie)
           }
     EXPECT_GT(compared, grid.voxelCount() / 2);
   }
+}
+
+/// A stack of 2 mm with a stretch of `fine` mm, `count` gaps of it, in the middle.
+Headers withFineStretch(double fine, int count)
+{
+  Headers slices = stack(60 + count, 1.0);
+  double z = 0.0;
+  for (int k = 0; k < 60 + count; ++k)
+  {
+    (*slices[static_cast<std::size_t>(k)].position)[2] = z;
+    z += k >= 30 && k < 30 + count ? fine : 2.0;
+  }
+  return slices;
+}
+
+// Every second fine slice is bright: a grid that skips some of them loses it.
+TEST(SeriesRepair, KeepsAFineStretchHoweverShort)
+{
+  for (const auto& [fine, count] : {std::pair{0.6, 15}, {0.5, 8}, {0.25, 12}, {1.0, 3}})
+  {
+    const SeriesGeometry geometry = assess(withFineStretch(fine, count));
+    ASSERT_EQ(geometry.verdict, Verdict::Repairable) << fine;
+    const SeriesRepair repair(geometry);
+    EXPECT_NEAR(repair.grid().spacing()[2], fine, 0.02 * fine);
+    const auto bright = [f = fine](const Eigen::Vector3d& p)
+    {
+      const double k = (p[2] - 60.0) / f; // the stretch begins at 60 mm
+      return k > 0.5 && k < 2.5 && std::lround(k) == 1 ? 3000.0 : 1000.0;
+    };
+    EXPECT_GE(repaired(geometry, bright).range().max, 1999.0) << fine << ", at least half of it";
+    for (const std::string& note : repair.notes(repair.grid().fullBox()))
+      EXPECT_EQ(note.find("measured slices"), std::string::npos) << note;
+  }
+}
+
+// A few slices close to others set no pitch, and what the grid skips is counted.
+TEST(SeriesRepair, CountsTheMeasuredSlicesThatItSkips)
+{
+  Headers slices = stack(40, 1.0);
+  for (const std::size_t k : {10U, 20U, 30U})
+  {
+    slices.push_back(slices[k]);
+    (*slices.back().position)[2] += 0.2;
+  }
+  const SeriesGeometry geometry = assess(slices);
+  ASSERT_EQ(geometry.verdict, Verdict::Repairable);
+  const SeriesRepair repair(geometry);
+  EXPECT_NEAR(repair.grid().spacing()[2], 1.0, 1e-9);
+  std::string said;
+  for (const std::string& note : repair.notes(repair.grid().fullBox()))
+    if (note.find("measured slices") != note.npos)
+      said = note;
+  EXPECT_EQ(said.find("Repaired: 3 of 43 measured slices lie between those of the volume, 1.00 mm"),
+            0U)
+      << said;
 }
 
 TEST(SeriesRepair, SaysWhatItGuessed)

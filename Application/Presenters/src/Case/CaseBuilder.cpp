@@ -112,8 +112,9 @@ scene::PatientHash patientOf(const imaging::DicomSeries& series)
   const auto take = [](std::size_t& key, std::size_t stated) { key = key == 0 ? stated : key; };
   for (const imaging::SliceHeader& slice : series.geometry.slices)
   {
+    if (all.id == 0) // with the issuer that it has there: another one's makes it another ID
+      all.issuer = slice.patient.issuer;
     take(all.id, slice.patient.id);
-    take(all.issuer, slice.patient.issuer);
     take(all.name, slice.patient.name);
     take(all.birthDate, slice.patient.birthDate);
   }
@@ -605,12 +606,30 @@ bool settleFrame(const scene::Case& value, PartSource& source, const std::string
     }
   if (isKnown(value.ct) && isOf(value.ct))
     return false;
+  // The MRs of one session share a frame of reference, and each may be registered by itself.
+  std::vector<std::string> ofFrame;
   for (const scene::ImagePart& mr : value.mr)
     if (isKnown(mr) && isOf(mr))
-    {
-      source.drawnOn = mr.name;
-      return false;
-    }
+      ofFrame.push_back(mr.name);
+  if (ofFrame.size() > 1 && grid)
+  {
+    std::vector<std::string> ofGrid;
+    for (const std::string& name : ofFrame)
+      if (core::sameGrid(*grid, scene::findMr(value, name)->geometry))
+        ofGrid.push_back(name);
+    if (!ofGrid.empty())
+      ofFrame = std::move(ofGrid);
+  }
+  if (ofFrame.size() > 1)
+    throw core::InvalidParameter(source.path.string() +
+                                 ": several MR images have its frame of reference; say on which "
+                                 "it was drawn with FILE@" +
+                                 ofFrame[0] + " or FILE@" + ofFrame[1]);
+  if (!ofFrame.empty())
+  {
+    source.drawnOn = ofFrame.front();
+    return false;
+  }
   const std::string image = primaryName(value);
   if (!isKnown(value.ct))
     return noteUnknown("the " + image + "'s is not known");

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "petrous/Core/AsciiCase.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Library/Deidentification.h"
 
@@ -60,8 +61,7 @@ constexpr std::string_view kManufacturers =
 
 std::string upper(std::string text)
 {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::transform(text.begin(), text.end(), text.begin(), core::asciiUpper);
   return text;
 }
 

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "petrous/Core/GridGeometry.h"
+#include "petrous/Core/Progress.h"
 #include "petrous/Imaging/PatientKey.h"
 #include "petrous/Volume/ImageProvenance.h"
 
@@ -193,12 +194,13 @@ constexpr double kJitterTolerance = 0.1;
 constexpr double kJitterShare = 0.01;
 
 /// A slice may lie this far from its place, mm; or this fraction of the slice spacing (sideways: of
-/// the pixel spacing); or one unit of the last decimal of the positions, if that is more.
+/// the pixel spacing); or one unit of the last decimal of the positions, if that is more: of the
+/// slice with the most decimals, as writers trim zeros.
 constexpr double kPlaceTolerance = 0.05;
 constexpr double kPlaceShare = 0.1;
 
 /// Assesses the stack from the slice positions alone. The order of `slices` does not matter. Never
-/// throws on bad headers: they become findings.
-SeriesGeometry assess(std::vector<SliceHeader> slices);
+/// throws on bad headers: they become findings. Throws CancelledError.
+SeriesGeometry assess(std::vector<SliceHeader> slices, const core::Progress& progress = {});
 
 } // namespace petrous::imaging

@@ -25,7 +25,8 @@ TEST(CaseStamp, HasNameSideAndPlannedDateOfTheCase)
   EXPECT_EQ(stamp.name, "Smith, John");
   EXPECT_EQ(stamp.side, scene::Side::Right);
   EXPECT_EQ(stamp.planned, "2026-03-31");
-  EXPECT_EQ(stampOf(scene::Case{}).side, scene::Side::Unknown);
+  const scene::Case fresh;
+  EXPECT_EQ(stampOf(fresh).side, scene::Side::Unknown);
 }
 
 TEST(CaseStamp, ThatLeavesHasTheSideAlone)

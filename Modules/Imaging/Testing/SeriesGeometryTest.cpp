@@ -494,6 +494,52 @@ TEST(SeriesGeometry, SetsALocalizerAside)
 
 TEST(SeriesGeometry, KnowsAnUndeclaredLocalizerByItsPlane)
 {
+// A slice that states nothing agrees with every patient and must not make them one.
+TEST(SeriesGeometry, TellsPatientsAndStudiesApartWhicheverSliceStatesNothing)
+{
+  const PatientKey one = patientKey("111", "", "Doe^Ann", "");
+  const PatientKey other = patientKey("222", "", "Roe^Eve", "");
+  for (std::size_t silent = 0; silent < 12; ++silent)
+  {
+    Headers slices = stack(12, 1.0);
+    Headers studies = stack(12, 1.0);
+    for (std::size_t k = 0; k < 12; ++k)
+      if (k != silent)
+      {
+        slices[k].patient = k < 5 ? one : other;
+        studies[k].studyUid = k < 5 ? "1.2.3" : "1.2.4";
+      }
+    const SeriesGeometry patients = assess(slices);
+    ASSERT_FALSE(patients.findings.empty()) << silent;
+    EXPECT_EQ(patients.findings.front().kind, FindingKind::MixedPatients) << silent;
+    EXPECT_EQ(patients.verdict, Verdict::Refused);
+    EXPECT_EQ(patients.slices.size(), silent < 5 ? 8U : 7U) << "the larger group, and the silent";
+    const SeriesGeometry studied = assess(studies);
+    ASSERT_FALSE(studied.findings.empty()) << silent;
+    EXPECT_EQ(studied.findings.front().kind, FindingKind::MixedStudies) << silent;
+  }
+  // An ID of one slice and a name of another may be one patient's, but not of two.
+  Headers parts = stack(12, 1.0);
+  parts[3].patient = patientKey("111", "", "", "");
+  parts[4].patient = patientKey("", "", "Doe^Ann", "");
+  EXPECT_EQ(assess(parts).verdict, Verdict::Ok);
+  parts[5].patient = other;
+  EXPECT_EQ(assess(parts).findings.front().kind, FindingKind::MixedPatients);
+}
+
+// Neither that states both contradicts the one that states an issuer alone.
+TEST(SeriesGeometry, ComparesIdsOfOneIssuerAcrossThoseOfOthers)
+{
+  Headers slices = stack(9, 1.0);
+  for (std::size_t k = 0; k < 9; ++k)
+    slices[k].patient = k < 3   ? patientKey("111", "here", "", "")
+                        : k < 6 ? patientKey("222", "there", "", "")
+                                : patientKey("333", "there", "", "");
+  EXPECT_EQ(assess(slices).findings.front().kind, FindingKind::MixedPatients);
+  slices.resize(6);
+  EXPECT_EQ(assess(slices).verdict, Verdict::Ok) << "one patient of two hospitals, or unknown";
+}
+
   Headers slices = stack(20, 1.0);
   SliceHeader scout = slices[0];
   scout.columnDirection = Eigen::Vector3d(0, 0, -1);

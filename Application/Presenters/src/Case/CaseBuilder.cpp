@@ -111,8 +111,9 @@ scene::PatientHash patientOf(const imaging::DicomSeries& series)
   const auto take = [](std::size_t& key, std::size_t stated) { key = key == 0 ? stated : key; };
   for (const imaging::SliceHeader& slice : series.geometry.slices)
   {
+    if (all.id == 0) // with the issuer that it has there: another one's makes it another ID
+      all.issuer = slice.patient.issuer;
     take(all.id, slice.patient.id);
-    take(all.issuer, slice.patient.issuer);
     take(all.name, slice.patient.name);
     take(all.birthDate, slice.patient.birthDate);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <tuple>
 
 #include <Eigen/Geometry>
@@ -72,6 +73,44 @@ Headers takeMinority(Headers& from,
   return takeOut(from, [&](const SliceHeader& s) { return !alike(model, s); });
 }
 
+/// Keeps the largest group of slices whose keys agree, each with each other: one that states
+/// nothing agrees with all and tells no group. Returns the others.
+template <class KeyOf, class AreAlike>
+Headers takeStrangers(Headers& from, const KeyOf& keyOf, const AreAlike& alike)
+{
+  using Key = std::decay_t<decltype(keyOf(from.front()))>;
+  struct Group
+  {
+    std::vector<Key> keys;
+    std::size_t slices = 0;
+    bool fits(const Key& key, const AreAlike& areAlike) const
+    {
+      return std::all_of(keys.begin(), keys.end(),
+                         [&](const Key& own) { return areAlike(own, key); });
+    }
+  };
+  std::map<Key, std::size_t> counts;
+  std::vector<Key> keys; // by first appearance
+  for (const SliceHeader& slice : from)
+    if (Key key = keyOf(slice); key != Key{} && counts[key]++ == 0)
+      keys.push_back(std::move(key));
+  std::vector<Group> groups;
+  for (const Key& key : keys)
+  {
+    auto group = std::find_if(groups.begin(), groups.end(),
+                              [&](const Group& g) { return g.fits(key, alike); });
+    if (group == groups.end())
+      group = groups.insert(groups.end(), Group());
+    group->keys.push_back(key);
+    group->slices += counts[key];
+  }
+  if (groups.size() < 2)
+    return {};
+  const auto largest = std::max_element(groups.begin(), groups.end(),
+                                        [](auto& a, auto& b) { return a.slices < b.slices; });
+  return takeOut(from, [&](const SliceHeader& s) { return !largest->fits(keyOf(s), alike); });
+}
+
 std::string countOf(std::size_t part, std::size_t whole)
 {
   return std::to_string(part) + " of " + std::to_string(whole) +
@@ -111,9 +150,21 @@ bool agree(const T& a, const T& b)
   return a == T{} || b == T{} || a == b;
 }
 
-bool ofOnePatient(const SliceHeader& a, const SliceHeader& b)
+/// PatientKey with an order.
+using PatientTuple = std::tuple<std::size_t, std::size_t, std::size_t, std::size_t>;
+
+PatientTuple patientTupleOf(const SliceHeader& slice)
 {
-  return samePatient(a.patient, b.patient);
+  const PatientKey& key = slice.patient;
+  return {key.id, key.issuer, key.name, key.birthDate};
+}
+
+bool isOnePatient(const PatientTuple& a, const PatientTuple& b)
+{
+  const auto key = [](const PatientTuple& t) {
+    return PatientKey{std::get<0>(t), std::get<1>(t), std::get<2>(t), std::get<3>(t)};
+  };
+  return samePatient(key(a), key(b));
 }
 
 class Assessor
@@ -131,17 +182,15 @@ public:
 
   SeriesGeometry run()
   {
-    setAsideUnreadable();
-    setAsideNonImages();
-    setAsideStrangers();
-    setAsideUnplaced();
-    setAsideMinorities();
-    judgeRescale();
-    noteLoss();
-    noteText();
-    judgeStack();
-    judgeDamaged();
-    judgeAcquisitions();
+    for (const auto step :
+         {&Assessor::setAsideUnreadable, &Assessor::setAsideNonImages, &Assessor::setAsideStrangers,
+          &Assessor::setAsideUnplaced, &Assessor::setAsideMinorities, &Assessor::judgeRescale,
+          &Assessor::noteLoss, &Assessor::noteText, &Assessor::judgeStack, &Assessor::judgeDamaged,
+          &Assessor::judgeAcquisitions})
+    {
+      m_progress.check("judging the slices");
+      (this->*step)();
+    }
     m_result.verdict = verdict();
     if (m_result.verdict == Verdict::Refused && m_duplicates > 0)
     {
@@ -238,14 +287,14 @@ private:
   void setAsideStrangers()
   {
     const std::size_t images = m_slices.size();
-    const Headers others = takeMinority(m_slices, ofOnePatient);
+    const Headers others = takeStrangers(m_slices, patientTupleOf, isOnePatient);
     if (!others.empty())
       find(FindingKind::MixedPatients, "Another patient than in the rest is named in " +
                                            countOf(others.size(), images) +
                                            "; keep the files of one patient in the folder.");
     const std::size_t ofPatient = m_slices.size();
-    const Headers studies = takeMinority(m_slices, [](const SliceHeader& a, const SliceHeader& b)
-                                         { return agree(a.studyUid, b.studyUid); });
+    const Headers studies = takeStrangers(
+        m_slices, [](const SliceHeader& slice) { return slice.studyUid; }, agree<std::string>);
     if (!studies.empty())
       find(FindingKind::MixedStudies, "Another study than the rest is named in " +
                                           countOf(studies.size(), ofPatient) +
@@ -439,7 +488,12 @@ private:
   {
     const SliceHeader& first = m_slices.front();
     if (!isPlaced(slice) || !sameTurn(first, slice) || !sameSize(first, slice) ||
-        slice.frameOfReferenceUid != first.frameOfReferenceUid || !ofOnePatient(first, slice))
+        slice.frameOfReferenceUid != first.frameOfReferenceUid ||
+        !std::all_of(m_slices.begin(), m_slices.end(),
+                     [&slice](const SliceHeader& s) {
+                       return samePatient(s.patient, slice.patient) &&
+                              agree(s.studyUid, slice.studyUid);
+                     }))
       return false;
     const Eigen::Vector3d normal = first.rowDirection->cross(*first.columnDirection).normalized();
     const double place = normal.dot(*slice.position);

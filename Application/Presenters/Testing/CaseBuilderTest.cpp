@@ -947,6 +947,59 @@ TEST_F(CaseBuilder, KnowsTheFrameOfReferenceOfWhatItsCaseExports)
   EXPECT_THROW(write("malleus", presenters::exportedFrame(other, "")), core::InvalidParameter);
 }
 
+// T1 and T2 of one session share their frame of reference, and each is registered by itself.
+TEST_F(CaseBuilder, HangsASegmentationOnTheMrOfItsGridOrAsks)
+{
+  const core::GridGeometry t1({8, 8, 6}, Vector3d(0.6, 0.6, 1), Vector3d(-4, 4, 5));
+  const core::GridGeometry t2({12, 12, 6}, Vector3d(0.4, 0.4, 1), Vector3d(-4, 4, 5));
+  const std::pair<const char*, core::GridGeometry> images[] = {{"t1", t1}, {"t2", t2}};
+  for (const auto& [name, grid] : images)
+  {
+    imaging::SeriesDescription series;
+    series.modality = imaging::SeriesDescription::Modality::Mr;
+    series.studyUid = "1.2.3";
+    series.seriesUid = imaging::deterministicUid(1, name);
+    series.frameOfReferenceUid = "1.2.3.9";
+    imaging::writeDicomSeries(
+        m_folder / name,
+        volume::IntensityVolume(
+            std::make_shared<const volume::Volume<std::int16_t>>(grid, std::int16_t{40})),
+        series);
+  }
+  const auto drawnOn = [this](const core::GridGeometry& grid, const std::string& first,
+                              const std::string& second, const std::string& on = "")
+  {
+    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
+    for (int k = 0; k < grid.dims()[2]; ++k) // a frame for each slice: the grid is the image's
+      voxels->at(1, 1, k) = 1;
+    volume::Segment cochlea;
+    cochlea.name = "cochlea";
+    cochlea.index = 1;
+    imaging::SegmentationDescription segmentation;
+    segmentation.studyUid = "1.2.3";
+    segmentation.seriesUid = "1.2.3.4";
+    segmentation.frameOfReferenceUid = "1.2.3.9";
+    imaging::SegmentationDescription::Segment segment;
+    segment.index = 1;
+    segment.label = "cochlea";
+    segmentation.segments = {segment};
+    imaging::writeDicomSegmentation(m_folder / "seg.dcm", {volume::makeLabelMap(voxels, {cochlea})},
+                                    segmentation);
+    m_sources.parts.mr = {{first, m_folder / first}};
+    if (!second.empty())
+      m_sources.parts.mr.push_back({second, m_folder / second});
+    m_sources.parts.labels = {{"", m_folder / "seg.dcm", on}};
+    return presenters::buildCase("ear", m_sources, {}).labels.at(0).drawnOn.value_or("");
+  };
+  EXPECT_EQ(drawnOn(t2, "t1", "t2"), "t2");
+  EXPECT_EQ(drawnOn(t2, "t2", "t1"), "t2");
+  EXPECT_EQ(drawnOn(t1, "t2", "t1"), "t1");
+  const core::GridGeometry other({20, 20, 6}, Vector3d(0.3, 0.3, 1), Vector3d(-4, 4, 5));
+  EXPECT_EQ(drawnOn(other, "t1", ""), "t1") << "there is no other";
+  EXPECT_THROW(drawnOn(other, "t1", "t2"), core::InvalidParameter);
+  EXPECT_EQ(drawnOn(other, "t1", "t2", "t2"), "t2") << "the user says so";
+}
+
 TEST_F(CaseBuilder, TakesCodesFromASegmentationAndLooksByThem)
 {
   const core::GridGeometry grid({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3));

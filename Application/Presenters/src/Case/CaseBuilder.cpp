@@ -591,12 +591,30 @@ void settleFrame(const scene::Case& value, PartSource& source, const std::string
   { return image.frameOfReference == (image.isFrameSalted ? salted(frame) : frame); };
   if (isKnown(value.ct) && isOf(value.ct))
     return;
+  // The MRs of one session share a frame of reference, and each may be registered by itself.
+  std::vector<std::string> ofFrame;
   for (const scene::ImagePart& mr : value.mr)
     if (isKnown(mr) && isOf(mr))
-    {
-      source.drawnOn = mr.name;
-      return;
-    }
+      ofFrame.push_back(mr.name);
+  if (ofFrame.size() > 1 && grid)
+  {
+    std::vector<std::string> ofGrid;
+    for (const std::string& name : ofFrame)
+      if (core::sameGrid(*grid, scene::findMr(value, name)->geometry))
+        ofGrid.push_back(name);
+    if (!ofGrid.empty())
+      ofFrame = std::move(ofGrid);
+  }
+  if (ofFrame.size() > 1)
+    throw core::InvalidParameter(source.path.string() +
+                                 ": several MR images have its frame of reference; say on which "
+                                 "it was drawn with FILE@" +
+                                 ofFrame[0] + " or FILE@" + ofFrame[1]);
+  if (!ofFrame.empty())
+  {
+    source.drawnOn = ofFrame.front();
+    return;
+  }
   const std::string image = primaryName(value);
   if (!isKnown(value.ct))
     return noteUnknown("the " + image + "'s is not known");

@@ -752,6 +752,61 @@ TEST(SeriesRepair, SaysWhatItGuessed)
   EXPECT_TRUE(repair.notes(box).empty());
   const SeriesRepair tilt(assess(tilted(-18.5, {1, 0, 0})));
   const auto tiltNotes = tilt.notes(tilt.grid().fullBox());
+/// A stack of 2 mm with a stretch of `fine` mm, `count` gaps of it, in the middle.
+Headers withFineStretch(double fine, int count)
+{
+  Headers slices = stack(60 + count, 1.0);
+  double z = 0.0;
+  for (int k = 0; k < 60 + count; ++k)
+  {
+    (*slices[static_cast<std::size_t>(k)].position)[2] = z;
+    z += k >= 30 && k < 30 + count ? fine : 2.0;
+  }
+  return slices;
+}
+
+// Every second fine slice is bright: a grid that skips some of them loses it.
+TEST(SeriesRepair, KeepsAFineStretchHoweverShort)
+{
+  for (const auto& [fine, count] : {std::pair{0.6, 15}, {0.5, 8}, {0.25, 12}, {1.0, 3}})
+  {
+    const SeriesGeometry geometry = assess(withFineStretch(fine, count));
+    ASSERT_EQ(geometry.verdict, Verdict::Repairable) << fine;
+    const SeriesRepair repair(geometry);
+    EXPECT_NEAR(repair.grid().spacing()[2], fine, 0.02 * fine);
+    const auto bright = [f = fine](const Eigen::Vector3d& p)
+    {
+      const double k = (p[2] - 60.0) / f; // the stretch begins at 60 mm
+      return k > 0.5 && k < 2.5 && std::lround(k) == 1 ? 3000.0 : 1000.0;
+    };
+    EXPECT_GE(repaired(geometry, bright).range().max, 1999.0) << fine << ", at least half of it";
+    for (const std::string& note : repair.notes(repair.grid().fullBox()))
+      EXPECT_EQ(note.find("measured slices"), std::string::npos) << note;
+  }
+}
+
+// A few slices close to others set no pitch, and what the grid skips is counted.
+TEST(SeriesRepair, CountsTheMeasuredSlicesThatItSkips)
+{
+  Headers slices = stack(40, 1.0);
+  for (const std::size_t k : {10U, 20U, 30U})
+  {
+    slices.push_back(slices[k]);
+    (*slices.back().position)[2] += 0.2;
+  }
+  const SeriesGeometry geometry = assess(slices);
+  ASSERT_EQ(geometry.verdict, Verdict::Repairable);
+  const SeriesRepair repair(geometry);
+  EXPECT_NEAR(repair.grid().spacing()[2], 1.0, 1e-9);
+  std::string said;
+  for (const std::string& note : repair.notes(repair.grid().fullBox()))
+    if (note.find("measured slices") != note.npos)
+      said = note;
+  EXPECT_EQ(said.find("Repaired: 3 of 43 measured slices lie between those of the volume, 1.00 mm"),
+            0U)
+      << said;
+}
+
   ASSERT_EQ(tiltNotes.size(), 1U);
   EXPECT_NE(tiltNotes.front().find("18.5 degrees"), std::string::npos);
   Headers pushed = stack(30, 1.0);

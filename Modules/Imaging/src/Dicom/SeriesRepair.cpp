@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -23,7 +24,6 @@ namespace
 constexpr double kWhole = 1e-3;    // pixels; a smaller shift moves nothing
 constexpr double kOnPlace = 1e-3;  // mm
 constexpr std::size_t kNamed = 24; // ranges of slices named in a note
-constexpr double kFinest = 0.25;   // of the mean spacing
 
 bool hasFinding(const SeriesGeometry& geometry, FindingKind kind)
 {
@@ -31,14 +31,28 @@ bool hasFinding(const SeriesGeometry& geometry, FindingKind kind)
                      [kind](const Finding& f) { return f.kind == kind; });
 }
 
-/// The lower quartile of the gaps: where the pitch changes, the finer one is kept.
-double fineGap(const std::vector<double>& places)
+/// The finest pitch: of the runs of equal gaps the smallest, however few slices it has, or where
+/// there is none the lower quartile of the gaps.
+double fineGap(const std::vector<double>& places, double mean)
 {
+  constexpr std::size_t kPitch = 3; // gaps in a row that are a pitch
+  constexpr double kEqual = 0.1;    // share by which they may differ
+  constexpr double kFinestPitch = 0.05;
+  constexpr double kFinest = 0.25; // of the mean; by chance a few slices lie closer together
   std::vector<double> gaps;
   for (std::size_t k = 0; k + 1 < places.size(); ++k)
     gaps.push_back(places[k + 1] - places[k]);
+  std::optional<double> pitch;
+  for (std::size_t k = 0; k + kPitch <= gaps.size(); ++k)
+  {
+    const auto [low, high] = std::minmax({gaps[k], gaps[k + 1], gaps[k + 2]});
+    const double gap = (gaps[k] + gaps[k + 1] + gaps[k + 2]) / kPitch;
+    if (high <= (1.0 + kEqual) * low && gap >= kFinestPitch * mean && (!pitch || gap < *pitch))
+      pitch = gap;
+  }
   std::sort(gaps.begin(), gaps.end());
-  return gaps[gaps.size() / 4];
+  const double usual = std::max(gaps[gaps.size() / 4], kFinest * mean);
+  return pitch ? std::min(*pitch, usual) : usual;
 }
 
 /// One row of a slice shifted by (u, v) pixels, by linear interpolation; NaN beyond its edges and
@@ -139,8 +153,8 @@ SeriesRepair::SeriesRepair(const SeriesGeometry& geometry)
     slice.u -= lower[0];
     slice.v -= lower[1];
   }
-  const double usual =
-      m_isUneven ? std::max(fineGap(places), kFinest * nominal.spacing()[2]) : nominal.spacing()[2];
+  const double mean = nominal.spacing()[2];
+  const double usual = m_isUneven ? fineGap(places, mean) : mean;
   const int steps = std::max(1, static_cast<int>(std::lround(places.back() / usual)));
   const Eigen::Vector3d& h = nominal.spacing();
   m_grid = core::GridGeometry(
@@ -184,6 +198,8 @@ std::vector<std::string> SeriesRepair::notes(const core::IndexBox& box) const
   std::vector<std::string> notes = m_notes;
   if (std::string blends = blendNote(box); !blends.empty())
     notes.push_back(std::move(blends));
+  if (std::string lost = lossNote(box); !lost.empty())
+    notes.push_back(std::move(lost));
   return notes;
 }
 
@@ -252,6 +268,39 @@ std::string SeriesRepair::blendNote(const core::IndexBox& box) const
                          : " were") +
          " interpolated between neighbours, up to " + decimals(farthest, 2) +
          " mm from what was measured; small structures may be absent there.";
+}
+
+std::string SeriesRepair::lossNote(const core::IndexBox& box) const
+{
+  constexpr double kHalf = 0.499; // of the weight in a slice of the volume
+  std::vector<double> weights(m_slices.size(), 0.0);
+  const auto count = [&](const Slice* slice, double weight)
+  {
+    double& most = weights[static_cast<std::size_t>(slice - m_slices.data())];
+    most = std::max(most, weight);
+  };
+  for (int m = 0; m < m_grid.dims()[2]; ++m)
+  {
+    const Blend blend = blendAt(m);
+    count(blend.a, 1.0 - blend.weight);
+    count(blend.b, blend.a == blend.b ? 1.0 : blend.weight);
+  }
+  const double first = (box.lower[2] - 0.5) * m_grid.spacing()[2];
+  const double last = (box.upper[2] - 0.5) * m_grid.spacing()[2];
+  std::size_t all = 0;
+  std::size_t lost = 0;
+  for (std::size_t k = 0; k < m_slices.size(); ++k)
+    if (m_slices[k].place >= first && m_slices[k].place < last)
+    {
+      ++all;
+      lost += weights[k] < kHalf ? 1 : 0;
+    }
+  if (lost == 0)
+    return {};
+  return "Repaired: " + std::to_string(lost) + " of " + std::to_string(all) + " measured slices " +
+         (lost == 1 ? "lies" : "lie") + " between those of the volume, " +
+         decimals(m_grid.spacing()[2], 2) + " mm apart, and " + (lost == 1 ? "makes" : "make") +
+         " up less than half of any; small structures may be absent there.";
 }
 
 volume::IntensityVolume SeriesRepair::resample(const volume::IntensityVolume& stacked,

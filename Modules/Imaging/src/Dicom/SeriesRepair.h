@@ -52,6 +52,7 @@ private:
   };
   Blend blendAt(int m) const;
   std::string blendNote(const core::IndexBox& box) const; ///< empty: nothing was interpolated
+  std::string lossNote(const core::IndexBox& box) const;  ///< empty: all that was measured is there
 
   std::vector<Slice> m_slices; ///< without duplicates
   bool m_isUneven = false;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -187,6 +188,66 @@ TEST(StructureSet, InnerContoursAreHolesWhicheverWayTheyTurn)
   EXPECT_NEAR(
       volumeOf(named("eight", {{{-5, -15, 10}, {-1, -13, 10}, {-1, -15, 10}, {-5, -13, 10}}})), 4.0,
       0.2);
+}
+
+// Squares of 10 x 10 mm with holes of 4 x 4 mm that another program wrote a little higher.
+TEST(StructureSet, ContoursALittleApartAreOfOnePlane)
+{
+  for (const double apart : {0.0, 0.011, 0.03, 0.08})
+  {
+    Roi roi = named("ring", {});
+    for (double z = 10.0; z < 16.5; z += 1.0)
+    {
+      roi.contours.push_back(square(0.25, 10.25, -10.25, -0.25, z));
+      roi.contours.push_back(square(3.25, 7.25, -7.25, -3.25, z + apart + 0.002 * (z - 10.0)));
+    }
+    EXPECT_NEAR(contourVolume(roi, grid()), 7.0 * (100.0 - 16.0), 7.0) << apart;
+    EXPECT_NEAR(volumeOf(roi), 7.0 * (100.0 - 16.0), 14.0) << apart;
+  }
+  // On a grid whose slices are ten times as thick the planes of a fine image stay apart, with a
+  // second part far above too.
+  Roi fine = named("fine", {});
+  for (int n = 0; n < 20; ++n)
+    fine.contours.push_back(square(0.25, 10.25, -10.25, -0.25, 10.0 + 0.1 * n));
+  for (int n = 0; n < 20; ++n)
+    fine.contours.push_back(square(0.25, 10.25, -10.25, -0.25, 30.0 + 0.1 * n));
+  EXPECT_NEAR(contourVolume(fine, grid()), 2.0 * 20.0 * 0.1 * 100.0, 1e-6);
+}
+
+TEST(StructureSet, AContourThatIsThereTwiceCountsOnce)
+{
+  const auto notesOf = [](const Roi& roi)
+  {
+    StructureSet set;
+    set.rois = {roi};
+    std::string all;
+    for (const std::string& note : imaging::labelsOf(set, grid(), "set.dcm").notes)
+      all += note + "\n";
+    return all;
+  };
+  Roi roi = named("cube", {});
+  for (double z = 10.0; z < 16.5; z += 1.0)
+    roi.contours.push_back(square(0.25, 4.25, -4.25, -0.25, z));
+  EXPECT_EQ(notesOf(roi), "");
+  Roi again = roi; // begun elsewhere and turned the other way
+  std::vector<Vector3d> copy(roi.contours[3].rbegin(), roi.contours[3].rend());
+  std::rotate(copy.begin(), copy.begin() + 1, copy.end());
+  again.contours.push_back(copy);
+  EXPECT_NEAR(contourVolume(again, grid()), 7.0 * 16.0, 1e-6);
+  EXPECT_NEAR(volumeOf(again), 7.0 * 16.0, 1e-6);
+  EXPECT_NE(notesOf(again).find("1 contour that is there twice"), std::string::npos)
+      << notesOf(again);
+  Roi merged = roi;
+  merged.contours.insert(merged.contours.end(), roi.contours.begin(), roi.contours.end());
+  EXPECT_NEAR(volumeOf(merged), 7.0 * 16.0, 1e-6);
+  // Beside each other, touching, or one within the other: nothing to say.
+  Roi holed = roi;
+  holed.contours.push_back(square(4.25, 8.25, -4.25, -0.25, 12.0));
+  holed.contours.push_back(square(1.25, 2.25, -2.25, -1.25, 12.0));
+  EXPECT_EQ(notesOf(holed), "");
+  Roi crossed = roi;
+  crossed.contours.push_back(square(2.25, 8.25, -3.25, -1.25, 12.0));
+  EXPECT_NE(notesOf(crossed).find("cross each other"), std::string::npos) << notesOf(crossed);
 }
 
 TEST(StructureSet, ContoursOnSomeSlicesFillTheOthers)

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "ByteSource.h"
 #include "DicomElements.h"
@@ -28,7 +29,7 @@ constexpr std::size_t kMostRois = 65535;
 constexpr double kFarthest = 1e4; // mm, of a point; scanners put the patient within 2 m
 constexpr std::uint64_t kMaxVoxels = std::uint64_t{1} << 31; // of all layers
 constexpr double kPlanar = 0.1;     // slices, by which a contour may leave its plane
-constexpr double kSamePlane = 0.02; // slices, between contours of one plane
+constexpr double kSamePlane = 0.02; // slices, between contours of one plane at least
 constexpr double kThinVoxels = 4.0; // volume from which on a shape is judged
 constexpr double kGap = 1.5;        // of the usual distance of planes: a part of its own
 constexpr int kLines = 32;          // in a row of voxels
@@ -105,7 +106,52 @@ struct Placed
   Axes axes;
   std::vector<Plane> planes; ///< ascending
   double step = 1.0;         ///< slices, between neighbouring planes
+  std::size_t twice = 0;     ///< contours that are another one of their plane again
 };
+
+using Outline = std::vector<std::pair<std::int64_t, std::int64_t>>;
+
+/// A contour to a thousandth of a voxel, the same wherever it begins and whichever way it turns.
+Outline outlineOf(const std::vector<Eigen::Vector2d>& contour)
+{
+  constexpr double kPerVoxel = 1000.0;
+  Outline outline;
+  for (const Eigen::Vector2d& p : contour)
+    outline.emplace_back(std::llround(p[0] * kPerVoxel), std::llround(p[1] * kPerVoxel));
+  const auto rotate = [](Outline& points)
+  { std::rotate(points.begin(), std::min_element(points.begin(), points.end()), points.end()); };
+  rotate(outline);
+  Outline back(outline.rbegin(), outline.rend());
+  rotate(back);
+  return std::min(outline, back);
+}
+
+/// How far contours of one plane may lie apart along the normal, slices: writers and origins differ
+/// in decimals. Their distances stand out: those between planes are many times larger.
+double planeWidth(const std::vector<double>& sorted)
+{
+  constexpr double kLarger = 4.0;
+  std::vector<double> steps;
+  for (std::size_t n = 1; n < sorted.size(); ++n)
+    steps.push_back(sorted[n] - sorted[n - 1]);
+  std::sort(steps.begin(), steps.end());
+  const auto isFlat = [&sorted](double width) // no plane grows thick by contours in a row
+  {
+    double from = sorted.front();
+    for (std::size_t n = 1; n < sorted.size(); ++n)
+    {
+      from = sorted[n] - sorted[n - 1] > width ? sorted[n] : from;
+      if (sorted[n] - from > kPlanar)
+        return false;
+    }
+    return true;
+  };
+  for (std::size_t n = steps.size(); n-- > 1;)
+    if (const double width = steps[n - 1];
+        width > kSamePlane && width <= kPlanar && steps[n] >= kLarger * width && isFlat(width))
+      return width;
+  return kSamePlane;
+}
 
 /// The contours of a structure as slabs on the grid; nullopt if they lie across none of its axes.
 std::optional<Placed> place(const StructureSet::Roi& roi, const core::GridGeometry& grid)
@@ -142,14 +188,31 @@ std::optional<Placed> place(const StructureSet::Roi& roi, const core::GridGeomet
       continue;
     std::sort(planes.begin(), planes.end(),
               [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<double> ats;
     for (const auto& [at, contour] : planes)
+      ats.push_back(at);
+    const double width = planeWidth(ats);
+    std::set<Outline> outlines; // of the plane
+    for (std::size_t n = 0; n < planes.size(); ++n)
     {
-      if (placed.planes.empty() || at > placed.planes.back().at + kSamePlane)
+      const auto& [at, contour] = planes[n];
+      // Within kSamePlane of the first, or of the one before where they are many times closer than
+      // planes.
+      const bool isNew = n == 0 || (width > kSamePlane ? at - planes[n - 1].first > width
+                                                       : at > placed.planes.back().at + width);
+      if (isNew)
+      {
         placed.planes.push_back({at, 0.0, 0.0, {}});
-      auto& flat = placed.planes.back().contours.emplace_back();
+        outlines.clear();
+      }
+      std::vector<Eigen::Vector2d> flat;
       for (const Eigen::Vector3d& p : *contour)
         flat.emplace_back(p[static_cast<int>(placed.axes.first)],
                           p[static_cast<int>(placed.axes.second)]);
+      if (outlines.insert(outlineOf(flat)).second)
+        placed.planes.back().contours.push_back(std::move(flat));
+      else
+        ++placed.twice; // by the odd-even rule it would take away what it surrounds
     }
     std::vector<double> steps;
     for (std::size_t n = 1; n < placed.planes.size(); ++n)
@@ -226,6 +289,73 @@ void forEachSpan(const Plane& plane, const Span& span)
           span(row, at[c], at[c + 1], 1.0 / kLines);
     }
   }
+}
+
+/// Whether outlines of the plane cross: by the odd-even rule what both surround is then outside.
+/// Where one lies within the other, or beside it, lines leave the contours in the reverse order of
+/// entering them.
+bool hasCrossing(const Plane& plane)
+{
+  constexpr double kTouch = 0.05; // voxels, by which outlines that touch may overlap
+  constexpr std::size_t kMostLines = 256;
+  constexpr std::size_t kMostCrossings = std::size_t{1} << 22; // bounds the memory
+  if (plane.contours.size() < 2)
+    return false;
+  double lowest = plane.contours.front().front()[1];
+  double highest = lowest;
+  std::size_t points = 0;
+  for (const auto& contour : plane.contours)
+  {
+    points += contour.size();
+    for (const Eigen::Vector2d& p : contour)
+    {
+      lowest = std::min(lowest, p[1]);
+      highest = std::max(highest, p[1]);
+    }
+  }
+  const std::size_t lines = std::min(kMostLines, kMostCrossings / points);
+  if (lines == 0 || !(highest > lowest))
+    return false;
+  const double apart = (highest - lowest) / static_cast<double>(lines);
+  std::vector<std::vector<std::pair<double, std::size_t>>> crossings(lines); // x and contour
+  for (std::size_t c = 0; c < plane.contours.size(); ++c)
+    for (std::size_t n = 0; n < plane.contours[c].size(); ++n)
+    {
+      Eigen::Vector2d a = plane.contours[c][n];
+      Eigen::Vector2d b = plane.contours[c][(n + 1) % plane.contours[c].size()];
+      if (a[1] > b[1])
+        std::swap(a, b);
+      const auto lineAbove = [&](double y)
+      {
+        return static_cast<std::size_t>(
+            std::clamp(std::ceil((y - lowest) / apart - 0.5), 0.0, static_cast<double>(lines)));
+      };
+      for (std::size_t line = lineAbove(a[1]); line < lineAbove(b[1]); ++line)
+      {
+        const double y = lowest + (static_cast<double>(line) + 0.5) * apart;
+        crossings[line].emplace_back(a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]), c);
+      }
+    }
+  std::vector<std::pair<double, std::size_t>> open;
+  for (auto& line : crossings)
+  {
+    std::sort(line.begin(), line.end());
+    open.clear();
+    for (const auto& [x, contour] : line)
+    {
+      const auto own = std::find_if(open.begin(), open.end(),
+                                    [id = contour](const auto& o) { return o.second == id; });
+      if (own == open.end())
+      {
+        open.emplace_back(x, contour);
+        continue;
+      }
+      if (own + 1 != open.end() && x - (own + 1)->first > kTouch)
+        return true;
+      open.erase(own);
+    }
+  }
+  return false;
 }
 
 double areaOf(const Plane& plane) // voxels
@@ -578,6 +708,7 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
   };
   std::vector<std::string> oblique;
   std::vector<std::string> coarse; // drawn on every second slice or fewer
+  std::vector<std::string> crossed;
   std::size_t others = 0;
   std::size_t drawn = 0;
   UniqueNames unique;
@@ -611,6 +742,13 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
       }
       if (placed->step > kGap)
         coarse.push_back("'" + name + "'");
+      if (placed->twice > 0)
+        loaded.notes.push_back("'" + name + "': " + std::to_string(placed->twice) +
+                               (placed->twice == 1 ? " contour that is" : " contours that are") +
+                               " there twice in one plane " +
+                               (placed->twice == 1 ? "was" : "were") + " taken once");
+      if (std::any_of(placed->planes.begin(), placed->planes.end(), hasCrossing))
+        crossed.push_back("'" + name + "'");
       requireMemory(path, boxOf(*placed, grid).count() * (sizeof(std::uint16_t) + sizeof(char)),
                     kFewer, memory);
       const Shares shares = sharesOf(*placed, grid, part);
@@ -690,6 +828,10 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
   if (!coarse.empty())
     loaded.notes.push_back(list(coarse) + ": drawn on some of the slices only; each contour stands "
                                           "for the slices half-way to the next");
+  if (!crossed.empty())
+    loaded.notes.push_back(list(crossed) +
+                           ": contours of one plane cross each other; what two of them surround is "
+                           "outside, as within an inner contour");
   if (others > 0)
     loaded.notes.push_back(
         std::to_string(others) +

@@ -38,6 +38,9 @@ void printSummary(const Context& context, const scene::Case& value, const Option
   give("triangles", done.triangles);
   give("volume_mm3", done.volume);
   give("voxels_mm3", done.voxelsVolume);
+  for (const auto& one : done.resampled)
+    json["resampled"].push_back(
+        {{"name", one.name}, {"own_mm3", one.own}, {"written_mm3", one.written}});
   if (done.triangles)
   {
     json["closed"] = done.closed;

@@ -319,6 +319,27 @@ TEST_F(CaseExport, NamesLabelsOnAnotherLatticeAndWritesThemOnTheCt)
   EXPECT_GT(found.at("vein").voxels, 0U);
 }
 
+// A thread of a quarter of a voxel: the nearest voxel's centre is beside it.
+TEST_F(CaseExport, SaysWhatTheCtsGridLosesOfAStructure)
+{
+  const core::GridGeometry& ct = m_case.ct.geometry;
+  const Vector3d fine = 0.25 * ct.spacing();
+  const Vector3d at = ct.patientFromVoxel({10.3, 10.3, 10.3});
+  add("facial nerve", core::GridGeometry({2, 2, 40}, fine, at, ct.direction()),
+      {{0, 0, 0}, {1, 1, 40}});
+  add("block", core::GridGeometry({40, 40, 40}, fine, at, ct.direction()),
+      {{0, 0, 0}, {40, 40, 40}});
+  const auto done = write("on.seg.nrrd", true);
+  EXPECT_NE(m_warnings.find("'facial nerve' has no voxel on the CT's grid"), m_warnings.npos)
+      << m_warnings;
+  EXPECT_EQ(m_warnings.find("'block'"), m_warnings.npos) << m_warnings;
+  ASSERT_EQ(done.resampled.size(), 2U);
+  const double voxel = ct.voxelVolume();
+  EXPECT_NEAR(done.resampled[0].own, 32.0 * voxel / 64.0, 1e-9 * voxel) << "four of five";
+  EXPECT_EQ(done.resampled[0].written, 0.0);
+  EXPECT_NEAR(done.resampled[1].written, 800.0 * voxel, 1e-6 * voxel);
+}
+
 // One grid of both would fill the memory.
 TEST_F(CaseExport, RefusesLabelsThatLieTooFarApartForOneGrid)
 {

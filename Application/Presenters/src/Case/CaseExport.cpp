@@ -190,11 +190,39 @@ void warnOfWhatIsBeyond(const Warn& warn, const PlacedLabels& labels, const core
     }
 }
 
+// What the CT's grid made of the structures: warns where more than a hundredth is gone or added.
+void compareVolumes(const Warn& warn, const PlacedLabels& labels, const volume::LabelMap& own,
+                    std::vector<ExportSummary::Resampled>& resampled)
+{
+  constexpr double kNoted = 0.01; // share of the volume
+  const auto volumeOf = [](const volume::LabelMap& map, std::uint16_t index)
+  {
+    double volume = 0.0;
+    for (const volume::Segment& segment : map.segments)
+      volume += segment.index == index ? map.volume(segment) : 0.0;
+    return volume;
+  };
+  for (const auto* structure : labels.structures)
+  {
+    const double before = volumeOf(own, structure->index);
+    const double after = volumeOf(*labels.map, structure->index);
+    resampled.push_back({structure->name, before, after});
+    if (std::abs(after - before) <= kNoted * before)
+      continue;
+    const std::string change = core::generalText(before, 3) + " mm3";
+    warn("'" + structure->name + "' " +
+         (after == 0.0
+              ? "has no voxel on the CT's grid, of " + change
+              : "has " + core::generalText(after, 3) + " mm3 on the CT's grid, of " + change) +
+         ": its voxels are finer than the CT's; without --on-ct it keeps its own");
+  }
+}
+
 // The label maps with structures that are asked for (all, or the one named), all on one grid in one
 // space.
 std::vector<PlacedLabels> placedLabels(const Warn& warn, const scene::Case& value,
                                        const ExportOptions& options, const LeftOut& leftOut,
-                                       const core::Progress& progress)
+                                       ExportSummary& summary, const core::Progress& progress)
 {
   const std::string& only = options.part;
   const auto isLeftOut = [&](const scene::LabelPart& labels)
@@ -234,8 +262,10 @@ std::vector<PlacedLabels> placedLabels(const Warn& warn, const scene::Case& valu
     if (options.onCt && !core::sameGrid(labels.map->voxels->geometry(), value.ct.geometry))
     {
       warnOfWhatIsBeyond(warn, labels, value.ct.geometry);
-      labels.map = std::make_shared<const volume::LabelMap>(
-          onGrid(*labels.map, value.ct.geometry, progress));
+      const std::shared_ptr<const volume::LabelMap> own = labels.map;
+      labels.map =
+          std::make_shared<const volume::LabelMap>(onGrid(*own, value.ct.geometry, progress));
+      compareVolumes(warn, labels, *own, summary.resampled);
     }
     if (!placed.empty() && labels.drawnOn != placed.front().drawnOn)
       throw ExportChoiceError("export labels: " + spaceText(labels) + ", and " +
@@ -524,7 +554,8 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
   }
   else if (options.what == "labels")
   {
-    const auto placed = placedLabels(warn, value, options, leftOut, progress.part(0.0, 0.4));
+    const auto placed =
+        placedLabels(warn, value, options, leftOut, summary, progress.part(0.0, 0.4));
     if (isSegmentation(options))
     {
       const std::string& drawnOn = placed.front().drawnOn;

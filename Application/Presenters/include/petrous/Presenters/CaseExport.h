@@ -56,10 +56,18 @@ struct ExportSummary
     double mean;     ///< mm, mean distance of it from the full surface
     std::size_t selfIntersections; ///< pairs of triangles
   };
+  /// A structure on the CT's grid (nearest voxel), which loses what is thinner than its voxels.
+  struct Resampled
+  {
+    std::string name;
+    double own;     ///< mm^3, of its voxels
+    double written; ///< mm^3
+  };
   std::string words;                         ///< ", 12 DICOM files": after a file's name
   std::optional<std::size_t> instances = {}; ///< of a DICOM series
   std::optional<std::size_t> segments = {};  ///< of a DICOM segmentation
   std::optional<std::size_t> layers = {};    ///< of label maps
+  std::vector<Resampled> resampled = {};     ///< labels
   std::optional<std::string> names = {};     ///< the file with the labels' names
   std::optional<std::size_t> triangles = {}; ///< of a surface
   std::optional<Decimation> decimation = {}; ///< of a surface that has fewer than it had

@@ -181,6 +181,19 @@ TEST(SeriesGeometry, AcceptsPositionsRoundedToTheDecimalsOfTheFile)
   }
 }
 
+// A writer that trims zeros has one decimal in some slices and two in others: it rounds to two.
+TEST(SeriesGeometry, TakesTheFinestDecimalsOfAStackForItsRounding)
+{
+  Headers slices = stack(40, 0.25);
+  for (std::size_t k = 0; k < slices.size(); ++k)
+    slices[k].positionStep = k % 2 == 0 ? 0.1 : 0.01; // 4.5, 4.75
+  EXPECT_EQ(assess(slices).verdict, Verdict::Ok);
+  slices[3].positionStep = 0.0; // 4, of which nothing is known
+  EXPECT_EQ(assess(slices).verdict, Verdict::Ok);
+  (*slices[17].position)[2] += 0.09; // more than a third of the spacing
+  EXPECT_EQ(only(assess(slices)).kind, FindingKind::UnevenSpacing);
+}
+
 TEST(SeriesGeometry, CallsRepairableWhatThePositionsSettle)
 {
   const auto verdictOf = [](const std::function<void(Headers&)>& change)

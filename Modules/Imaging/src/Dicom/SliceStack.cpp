@@ -127,7 +127,9 @@ SliceStack::SliceStack(std::vector<SliceHeader>& slices)
   for (const SliceHeader& slice : slices)
   {
     m_place.push_back(normal.dot(*slice.position));
-    m_step = std::max(m_step, slice.positionStep);
+    // The finest that occurs: some writers trim zeros.
+    if (slice.positionStep > 0.0 && (m_step == 0.0 || slice.positionStep < m_step))
+      m_step = slice.positionStep;
   }
 }
 

@@ -206,7 +206,8 @@ constexpr double kJitterTolerance = 0.1;
 constexpr double kJitterShare = 0.01;
 
 /// A slice may lie this far from its place, mm; or this fraction of the slice spacing (sideways: of
-/// the pixel spacing); or one unit of the last decimal of the positions, if that is more.
+/// the pixel spacing); or one unit of the last decimal of the positions, if that is more: of the
+/// slice with the most decimals, as writers trim zeros.
 constexpr double kPlaceTolerance = 0.05;
 constexpr double kPlaceShare = 0.1;
 

@@ -89,6 +89,67 @@ TEST_P(PixelCodec, EqualsTheUncompressedSeriesToTheBit)
   }
 }
 
+/// States 12 bits stored in a file of 16.
+void stateTwelveBits(const fs::path& file)
+{
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  const std::size_t stored = bytes.find(std::string("\x28\x00\x01\x01US\x02\x00\x10", 9));
+  const std::size_t high = bytes.find(std::string("\x28\x00\x02\x01US\x02\x00\x0f", 9));
+  ASSERT_NE(stored, std::string::npos);
+  ASSERT_NE(high, std::string::npos);
+  bytes[stored + 8] = 12;
+  bytes[high + 8] = 11;
+  test::writeText(file, bytes);
+}
+
+TEST_P(PixelCodec, ACodestreamOfMoreBitsThanTheHeaderStatesIsNeverCut)
+{
+  if (GetParam() == gdcm::TransferSyntax::RLELossless)
+    GTEST_SKIP() << "a stream that states no bits";
+  for (const bool isSigned : {false, true})
+    for (const bool isLarge : {false, true})
+    {
+      const TemporaryFolder folder;
+      writeSeries(folder.path() / "raw", 2,
+                  [&](int, TestSlice& s)
+                  {
+                    s.columns = 40;
+                    s.rows = 30;
+                    s.isSigned = isSigned;
+                    s.cell = [=](int i, int j) {
+                      return 0xFFFFU &
+                             ((isLarge ? 40000U : 0U) + ramp(i, j, 0) - (isSigned ? 1000U : 0U));
+                    };
+                  });
+      fs::create_directories(folder.path() / "packed");
+      for (const char* name : {"s0.dcm", "s1.dcm"})
+      {
+        compress(folder.path() / "raw" / name, folder.path() / "packed" / name, GetParam());
+        stateTwelveBits(folder.path() / "packed" / name);
+      }
+      if (isLarge)
+      {
+        try
+        {
+          readFolder(folder.path() / "packed");
+          ADD_FAILURE() << "read";
+        }
+        catch (const DicomError& error)
+        {
+          EXPECT_NE(std::string(error.what()).find("bits of a pixel"), std::string::npos)
+              << error.what();
+        }
+        continue;
+      }
+      const IntensityVolume raw = readFolder(folder.path() / "raw");
+      const IntensityVolume packed = readFolder(folder.path() / "packed");
+      for (int j = 0; j < 30; ++j)
+        for (int i = 0; i < 40; ++i)
+          ASSERT_EQ(raw.at(i, j, 1), packed.at(i, j, 1)) << i << " " << j;
+    }
+}
+
 TEST_P(PixelCodec, RefusesACodestreamOfAnotherSize)
 {
   const TemporaryFolder folder;
@@ -214,9 +275,9 @@ TEST_P(PixelCodec, RefusesACodestreamThatEndsEarlyAndNamesTheFile)
 
 INSTANTIATE_TEST_SUITE_P(Syntaxes, PixelCodec,
                          ::testing::Values(gdcm::TransferSyntax::RLELossless,
-                                         gdcm::TransferSyntax::JPEGLosslessProcess14_1,
-                                         gdcm::TransferSyntax::JPEGLSLossless,
-                                         gdcm::TransferSyntax::JPEG2000Lossless));
+                                           gdcm::TransferSyntax::JPEGLosslessProcess14_1,
+                                           gdcm::TransferSyntax::JPEGLSLossless,
+                                           gdcm::TransferSyntax::JPEG2000Lossless));
 
 struct PixelForm
 {
@@ -573,6 +634,59 @@ SliceHeader compressedSlice(const std::string& syntax, const std::vector<std::st
   if (slices.size() != static_cast<std::size_t>(frames))
     ADD_FAILURE() << slices.size() << " slices";
   return slices.empty() ? SliceHeader() : slices.front();
+}
+
+// Two slices at one place are compared in the scan; without a bound each would take 17 GB.
+TEST(PixelForms, MoreCompressedPixelsThanTheirBytesCanHoldAreRefusedBeforeMemoryIsTaken)
+{
+  for (const char* syntax : {"1.2.840.10008.1.2.5", "1.2.840.10008.1.2.4.70",
+                             "1.2.840.10008.1.2.4.80", "1.2.840.10008.1.2.4.90"})
+  {
+    const TemporaryFolder folder;
+    for (int k = 0; k < 24; ++k)
+    {
+      TestSlice code;
+      code.pixels = false;
+      code.syntax = syntax;
+      code.z = 0.5 * (k / 2);
+      code.rows = code.columns = 65535;
+      std::string file = code.bytes();
+      file += std::string("\xe0\x7f\x10\x00OB\0\0\xff\xff\xff\xff", 12) +
+              std::string("\xfe\xff\x00\xe0\0\0\0\0", 8) +
+              std::string("\xfe\xff\x00\xe0\x40\0\0\0", 8) + std::string(64, '\1') +
+              std::string("\xfe\xff\xdd\xe0\0\0\0\0", 8);
+      test::writeText(folder.path() / ("s" + std::to_string(k) + ".dcm"), file);
+    }
+    const ScanResult result = scanDicom(folder.path(), {});
+    ASSERT_EQ(result.series.size(), 1U);
+    const SeriesGeometry& geometry = result.series.front().geometry;
+    EXPECT_EQ(geometry.verdict, Verdict::Refused);
+    ASSERT_FALSE(geometry.findings.empty());
+    EXPECT_NE(geometry.findings.front().text.find("fewer pixels"), std::string::npos)
+        << geometry.findings.front().text;
+  }
+}
+
+TEST(PixelForms, FewerFragmentsThanFramesAreRefused)
+{
+  TestSlice code;
+  code.pixels = false;
+  code.syntax = "1.2.840.10008.1.2.5";
+  code.sopClass = "1.2.840.10008.5.1.4.1.1.2.1";
+  code.element(code.extraPixel, 0x00280008, "IS", "3");
+  std::string file = code.bytes();
+  const std::string item("\xfe\xff\x00\xe0\0\0\0\0", 8); // of a frame that says nothing
+  code.element(file, 0x52009230, "SQ", item + item + item);
+  file += std::string("\xe0\x7f\x10\x00OB\0\0\xff\xff\xff\xff", 12) + item +
+          std::string("\xfe\xff\x00\xe0\x40\0\0\0", 8) + std::string(64, '\1') +
+          std::string("\xfe\xff\xdd\xe0\0\0\0\0", 8);
+  const TemporaryFolder folder;
+  test::writeText(folder.path() / "s.dcm", file);
+  const ScanResult result = scanDicom(folder.path(), {});
+  ASSERT_EQ(result.series.size(), 1U);
+  const auto& findings = result.series.front().geometry.findings;
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_NE(findings.front().text.find("fewer pixels"), std::string::npos) << findings.front().text;
 }
 
 bool isLossyFile(const std::string& syntax, const std::string& codestream)

@@ -108,8 +108,9 @@ int precisionOf(const Head& head, const SliceHeader& slice)
   return 0;
 }
 
-/// The SIZ segment of ITU-T T.800 A.5.1, always the second marker.
-bool jpeg2000Fits(const Head& head, const SliceHeader& slice)
+/// The bits of a component by the SIZ segment of ITU-T T.800 A.5.1, always the second marker; 0 if
+/// that does not fit.
+int jpeg2000Precision(const Head& head, const SliceHeader& slice)
 {
   // Some writers wrap the codestream in a JP2 file.
   std::size_t at = 0;
@@ -117,23 +118,36 @@ bool jpeg2000Fits(const Head& head, const SliceHeader& slice)
     while (at + 4 <= head.size() && head.number(at, 4) != 0xff4fff51U)
       ++at;
   if (head.number(at, 4) != 0xff4fff51U)
-    return false;
+    return 0;
   const auto field = [&head, at](std::size_t offset) { return head.number(at + offset, 4); };
+  const std::uint32_t bits = (head.number(at + 42, 1) & 0x7fU) + 1;
   return sizeFits(field(8) - field(16), field(12) - field(20), head.number(at + 40, 2), slice) &&
-         bitsFit((head.number(at + 42, 1) & 0x7fU) + 1, slice);
+                 bitsFit(bits, slice)
+             ? static_cast<int>(bits)
+             : 0;
 }
 
 } // namespace
 
-bool codestreamFits(const std::vector<char>& bytes, const SliceHeader& slice)
+int codestreamPrecision(const std::vector<char>& bytes, const SliceHeader& slice)
 {
   const std::string& syntax = slice.pixels.transferSyntax;
-  const Head head(bytes);
-  if (syntax == "1.2.840.10008.1.2.5")
-    return true;
   if (syntax == "1.2.840.10008.1.2.4.90" || syntax == "1.2.840.10008.1.2.4.91")
-    return jpeg2000Fits(head, slice);
-  return jpegPrecision(bytes, slice) > 0;
+    return jpeg2000Precision(Head(bytes), slice);
+  return jpegPrecision(bytes, slice);
+}
+
+std::uint64_t mostPixels(const PixelFormat& format, std::uint64_t bytes)
+{
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 26; // JPEG-LS and JPEG 2000 have no bound
+  constexpr std::uint64_t kPackBits = 64; // bytes of a pixel for one: a run of 128 takes two
+  constexpr std::uint64_t kHuffman = 256; // a block of 64 takes two bits at least (T.81 F.1.2)
+  if (format.transferSyntax == "1.2.840.10008.1.2.5")
+    return std::min(kMost, kPackBits * bytes * 8 /
+                               static_cast<std::uint64_t>(std::max(format.bitsAllocated, 8)));
+  const bool isHuffman = format.transferSyntax.rfind("1.2.840.10008.1.2.4.5", 0) == 0 ||
+                         format.transferSyntax == "1.2.840.10008.1.2.4.70";
+  return isHuffman ? std::min(kMost, kHuffman * bytes) : kMost;
 }
 
 namespace

@@ -12,10 +12,14 @@
 namespace petrous::imaging
 {
 
-/// Whether the header of a JPEG, JPEG-LS or JPEG 2000 codestream matches the greyscale image that
-/// `slice` describes. Decoders trust the codestream, and misbehave on a corrupt one. True for
-/// compressions without such a header (RLE).
-bool codestreamFits(const std::vector<char>& bytes, const SliceHeader& slice);
+/// Bits of a sample by the header of a JPEG, JPEG-LS or JPEG 2000 codestream; 0 if that does not
+/// match the greyscale image that `slice` describes. Decoders trust the codestream, and misbehave
+/// on a corrupt one.
+int codestreamPrecision(const std::vector<char>& bytes, const SliceHeader& slice);
+
+/// The most pixels that a compressed image of so many bytes can have, and that are read at all:
+/// memory is taken only for what may be there.
+std::uint64_t mostPixels(const PixelFormat& format, std::uint64_t bytes);
 
 /// Bits of a sample by the frame header of a JPEG or JPEG-LS codestream; 0 if it does not fit.
 int jpegPrecision(const std::vector<char>& bytes, const SliceHeader& slice);

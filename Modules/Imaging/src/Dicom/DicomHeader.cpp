@@ -21,6 +21,7 @@ namespace
 {
 
 constexpr const char* kCutShort = "is cut short";
+constexpr const char* kFewPixels = "holds fewer pixels than its header says";
 constexpr const char* kReadError = "could not be read: the disk or medium reports an error";
 
 const char* const kDeflated = "1.2.840.10008.1.2.1.99";
@@ -69,25 +70,33 @@ bool isNative(const std::string& syntax)
   return syntax == kImplicit || syntax == kExplicit || syntax == kBigEndian || syntax == kDeflated;
 }
 
-/// Walks the items of an encapsulated element; false if one extends beyond the end of the file.
-bool fragmentsComplete(ByteSource& source, std::uint64_t offset)
+/// The values of a compressed image.
+struct Fragments
 {
-  std::uint64_t bytes = 0;
+  std::uint64_t count = 0; ///< without the offset table
+  std::uint64_t bytes = 0; ///< of all; 0 also where they reach beyond the file
+};
+
+Fragments fragmentsAt(ByteSource& source, std::uint64_t offset)
+{
+  Fragments all;
+  std::uint64_t items = 0;
   std::array<unsigned char, 8> item{};
   while (source.read(offset, item.data(), item.size()))
   {
     const bool isDelimiter = item[0] == 0xfe && item[1] == 0xff && item[2] == 0xdd;
     const bool isItem = item[0] == 0xfe && item[1] == 0xff && item[2] == 0x00;
     if (isDelimiter || !isItem)
-      break;
+      break; // some writers omit the sequence delimiter
     const std::uint64_t length =
         item[4] | (item[5] << 8) | (item[6] << 16) | (static_cast<std::uint64_t>(item[7]) << 24);
     offset += item.size() + length;
     if (offset > source.size())
-      return false;
-    bytes += length;
+      return {};
+    all.bytes += length;
+    all.count = items++;
   }
-  return bytes > 0; // some writers omit the sequence delimiter
+  return all;
 }
 
 /// Whether compressed frames say that they were made with loss, the header of each followed as far
@@ -343,8 +352,13 @@ const char* checkPixels(ByteSource& source, const DicomElements::Pixels& found, 
     return ""; // excluded for that reason, which is the better one to report
   if (pixels.isEncapsulated)
   {
-    if (!fragmentsComplete(source, pixels.offset))
+    const Fragments fragments = fragmentsAt(source, pixels.offset);
+    if (fragments.bytes == 0)
       return kCutShort;
+    const std::uint64_t count = static_cast<std::uint64_t>(slice.rows) * slice.columns;
+    if ((slice.frames > 1 && fragments.count < static_cast<std::uint64_t>(slice.frames)) ||
+        count > mostPixels(pixels, fragments.bytes))
+      return kFewPixels;
     // These may have loss or not, whatever the header says.
     if (pixels.transferSyntax == "1.2.840.10008.1.2.4.81" ||
         pixels.transferSyntax == "1.2.840.10008.1.2.4.91")
@@ -360,7 +374,7 @@ const char* checkPixels(ByteSource& source, const DicomElements::Pixels& found, 
     if (!isNative(pixels.transferSyntax) && !pixels.isReal)
       return "says it is compressed, but is not";
     if (pixels.length < (count * pixels.bitsAllocated + 7) / 8)
-      return "holds fewer pixels than its header says";
+      return kFewPixels;
   }
   return checkFormat(slice, found.tag);
 }

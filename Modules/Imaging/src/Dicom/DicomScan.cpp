@@ -10,6 +10,7 @@
 #include <iterator>
 #include <map>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <set>
 #include <utility>
@@ -873,6 +874,12 @@ std::string discName(const fs::path& path)
                  [](unsigned char c)
                  { return static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c); });
   if (const std::size_t version = name.rfind(';'); version != std::string::npos)
+    catch (const std::bad_alloc&)
+    {
+      findings.push_back({FindingKind::Unreadable,
+                          "Its slices need more memory than is free, even one by one.", 0.0});
+      one.geometry.verdict = Verdict::Refused;
+    }
     name.resize(version);
   if (!name.empty() && name.back() == '.')
     name.pop_back();

@@ -161,6 +161,44 @@ std::uint64_t littleEndian(const unsigned char* bytes, std::size_t count)
   return value;
 }
 
+/// Whether no value has bits beyond those that the header says are stored: but for copies of the
+/// sign.
+template <class Cell>
+bool areWithin(const PixelFormat& format, const std::vector<unsigned char>& bytes)
+{
+  const int above = static_cast<int>(8 * sizeof(Cell)) - format.highBit - 1;
+  const std::uint64_t all = (std::uint64_t{1} << above) - 1;
+  for (std::size_t at = 0; at + sizeof(Cell) <= bytes.size(); at += sizeof(Cell))
+  {
+    Cell cell = 0;
+    std::memcpy(&cell, bytes.data() + at, sizeof cell);
+    const std::uint64_t high = std::uint64_t{cell} >> format.highBit >> 1;
+    const bool isNegative = format.isSigned && (std::uint64_t{cell} >> format.highBit & 1U) != 0;
+    if (high != 0 && !(isNegative && high == all))
+      return false;
+  }
+  return true;
+}
+
+/// A codestream of more bits than the header says are stored: cut to those, larger values would
+/// turn into smaller ones.
+void requireWithin(const SliceHeader& slice, const std::vector<unsigned char>& bytes)
+{
+  const PixelFormat& format = slice.pixels;
+  const bool isWithin = format.bitsAllocated == 8    ? areWithin<std::uint8_t>(format, bytes)
+                        : format.bitsAllocated == 16 ? areWithin<std::uint16_t>(format, bytes)
+                                                     : areWithin<std::uint32_t>(format, bytes);
+  if (!isWithin)
+    throw DicomError(DicomError::Reason::Unreadable,
+                     slice.file.filename().string() +
+                         " contradicts itself about the bits of a "
+                         "pixel: its compressed image has values of "
+                         "more than the " +
+                         std::to_string(format.bitsStored) +
+                         " bits that its header states (Bits Stored); export it again, "
+                         "uncompressed");
+}
+
 /// The fragments of the slice's frame (PS3.5 A.4): all of them if it is the only one, those that
 /// the extended offset table gives it, one each if there are as many as frames, else those that the
 /// basic offset table gives it.
@@ -362,16 +400,21 @@ void decodeFrame(ByteSource& source, const SliceHeader& slice,
   if (slice.pixels.bitsAllocated % 8 != 0)
     fail(slice, "has a damaged compressed image");
   pixels.reals.clear();
-  pixels.values.resize(static_cast<std::size_t>(slice.rows) *
-                       static_cast<std::size_t>(slice.columns));
   const CodecMessages messages;
   const PixelFormat& format = slice.pixels;
   gdcm::DataElement element(gdcm::Tag(0x7fe0, 0x0010));
   element.SetVR(gdcm::VR::OB);
   std::vector<char> codestream = readCodestream(source, slice, fragments);
-  if (codestream.empty() || !codestreamFits(codestream, slice))
+  const std::size_t count =
+      static_cast<std::size_t>(slice.rows) * static_cast<std::size_t>(slice.columns);
+  const bool isRle = format.transferSyntax == kRleLossless;
+  const int precision = isRle ? 0 : codestreamPrecision(codestream, slice);
+  if (codestream.empty() || (!isRle && precision == 0) ||
+      count > mostPixels(format, codestream.size()))
     fail(slice, "has a damaged compressed image");
-  if (format.transferSyntax == kRleLossless)
+  pixels.values.resize(count);
+  const bool isWider = precision > format.bitsStored;
+  if (isRle)
   {
     const auto bytes = static_cast<std::size_t>(format.bitsAllocated / 8);
     pixels.scratch.assign(pixels.values.size() * bytes, 0);
@@ -383,12 +426,13 @@ void decodeFrame(ByteSource& source, const SliceHeader& slice,
   }
   if (isJpeg(format.transferSyntax))
   {
-    const int precision = jpegPrecision(codestream, slice);
     const std::size_t bytes = precision <= 8 ? 1 : 2;
     pixels.scratch.assign(pixels.values.size() * bytes, 0);
     if (format.bitsAllocated != static_cast<int>(8 * bytes) ||
         !decodeJpeg(codestream, precision, pixels.scratch))
       fail(slice, "has a damaged compressed image");
+    if (isWider)
+      requireWithin(slice, pixels.scratch);
     unpackCells(slice, format.bitsAllocated,
                 bitField(format.bitsStored, format.highBit, format.isSigned), false, pixels);
     return;
@@ -403,10 +447,11 @@ void decodeFrame(ByteSource& source, const SliceHeader& slice,
   image.SetNumberOfDimensions(2);
   image.SetDimension(0, static_cast<unsigned int>(slice.columns));
   image.SetDimension(1, static_cast<unsigned int>(slice.rows));
-  image.SetPixelFormat(gdcm::PixelFormat(1, static_cast<unsigned short>(format.bitsAllocated),
-                                         static_cast<unsigned short>(format.bitsStored),
-                                         static_cast<unsigned short>(format.highBit),
-                                         static_cast<unsigned short>(format.isSigned ? 1 : 0)));
+  image.SetPixelFormat(
+      gdcm::PixelFormat(1, static_cast<unsigned short>(format.bitsAllocated),
+                        static_cast<unsigned short>(isWider ? precision : format.bitsStored),
+                        static_cast<unsigned short>(isWider ? precision - 1 : format.highBit),
+                        static_cast<unsigned short>(format.isSigned ? 1 : 0)));
   image.SetPhotometricInterpretation(gdcm::PhotometricInterpretation::MONOCHROME2);
   image.SetTransferSyntax(
       gdcm::TransferSyntax(gdcm::TransferSyntax::GetTSType(format.transferSyntax.c_str())));
@@ -427,18 +472,27 @@ void decodeFrame(ByteSource& source, const SliceHeader& slice,
   {
     decoded = false;
   }
-  // Bits and sign in the codestream take precedence over the header.
   const gdcm::PixelFormat& real = image.GetPixelFormat();
   if (!decoded || messages.any() || real.GetSamplesPerPixel() != 1 ||
       real.GetBitsAllocated() != format.bitsAllocated)
     fail(slice, "has a damaged compressed image");
-  const BitField field =
-      bitField(real.GetBitsStored(), real.GetHighBit(), real.GetPixelRepresentation() == 1);
+  if (isWider)
+    requireWithin(slice, pixels.scratch);
+  const BitField field = isWider ? bitField(format.bitsStored, format.highBit, format.isSigned)
+                                 : bitField(real.GetBitsStored(), real.GetHighBit(),
+                                            real.GetPixelRepresentation() == 1);
   unpackCells(slice, format.bitsAllocated, field, false, pixels);
 }
 
 namespace
 {
+
+/// Before memory is taken for them.
+void requireBytes(const ByteSource& source, const SliceHeader& slice, std::uint64_t bytes)
+{
+  if (slice.pixels.offset > source.size() || bytes > source.size() - slice.pixels.offset)
+    fail(slice, "is cut short");
+}
 
 void decodeUnchecked(ByteSource& source, const SliceHeader& slice, StoredPixels& pixels)
 {
@@ -452,6 +506,7 @@ void decodeUnchecked(ByteSource& source, const SliceHeader& slice, StoredPixels&
   {
     if ((bits != 32 && bits != 64) || format.samplesPerPixel != 1 || format.isEncapsulated)
       fail(slice, "does not have one floating-point value of 32 or 64 bits");
+    requireBytes(source, slice, count * bits / 8);
     pixels.values.clear();
     pixels.reals.resize(count);
     pixels.scratch.resize(count * bits / 8);
@@ -465,12 +520,13 @@ void decodeUnchecked(ByteSource& source, const SliceHeader& slice, StoredPixels&
   }
   requireWholePixels(slice);
   pixels.reals.clear();
-  pixels.values.resize(count);
   if (format.isEncapsulated)
   {
     decodeFrame(source, slice, readFragments(source, slice), pixels);
     return;
   }
+  requireBytes(source, slice, (count * bits + 7) / 8);
+  pixels.values.resize(count);
   pixels.scratch.resize((count * bits + 7) / 8);
   const bool isPaired = format.isBigEndian && format.isWords && bits % 16 != 0;
   if (isPaired)

@@ -807,6 +807,64 @@ TEST(DicomScan, SaysThatEndsMayBeMissing)
   EXPECT_TRUE(scan(101, 20, 20).findings.empty()) << "as many as stated";
 }
 
+TEST(DicomScan, SaysThatEverySecondSliceMayBeMissing)
+{
+  const auto notes = [](int step, const std::string& thickness)
+  {
+    const TemporaryFolder folder;
+    writeSeries(folder.path(), 20,
+                [&](int k, TestSlice& slice)
+                {
+                  slice.z = 1.0 * k;
+                  slice.element(slice.extra, 0x00180050, "DS", thickness);
+                  putNumber(slice, step > 0 ? 1 + step * k : 100 + step * k);
+                });
+    const SeriesGeometry geometry = scanDicom(folder.path(), {}).series.front().geometry;
+    EXPECT_EQ(geometry.verdict, Verdict::Ok);
+    return geometry.notes;
+  };
+  for (const int step : {2, -2, 3})
+  {
+    ASSERT_EQ(notes(step, "0.5").size(), 1U);
+    EXPECT_NE(notes(step, "0.5")[0].find("in steps of " + std::to_string(std::abs(step))),
+              std::string::npos);
+  }
+  EXPECT_TRUE(notes(1, "0.5").empty()) << "a scan with gaps";
+  EXPECT_TRUE(notes(2, "1.0").empty()) << "numbered with those of another reconstruction";
+}
+
+// As many slices as make a stack are no scouts, however few beside another.
+TEST(DicomScan, ListsAFewReformatsOfASeriesAsAVolume)
+{
+  for (const int coronal : {2, 3, 10})
+  {
+    const TemporaryFolder folder;
+    int number = 0;
+    writeSeries(folder.path() / "axial", 40,
+                [&](int, TestSlice& slice) { putNumber(slice, ++number); });
+    writeSeries(folder.path() / "coronal", coronal,
+                [&](int k, TestSlice& slice)
+                {
+                  slice.orientation = "1\\0\\0\\0\\0\\-1";
+                  slice.y = 2.0 * k;
+                  slice.z = 0.0;
+                  putNumber(slice, ++number);
+                });
+    const ScanResult result = scanDicom(folder.path(), {});
+    if (coronal == 2)
+    {
+      ASSERT_EQ(result.series.size(), 1U);
+      EXPECT_EQ(result.series[0].geometry.slices.size(), 40U);
+      continue;
+    }
+    ASSERT_EQ(result.series.size(), 2U) << coronal;
+    EXPECT_EQ(result.series[0].volume, "axial");
+    EXPECT_EQ(result.series[1].volume, "coronal");
+    EXPECT_EQ(result.series[1].geometry.slices.size(), static_cast<std::size_t>(coronal));
+    EXPECT_EQ(result.series[1].geometry.verdict, Verdict::Ok);
+  }
+}
+
 TEST(DicomScan, SaysThatAVolumeIsShorterThanItsSiblings)
 {
   // slices of each phase: from and to

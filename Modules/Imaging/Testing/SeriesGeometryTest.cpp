@@ -494,19 +494,6 @@ TEST(SeriesGeometry, NamesMixedRescale)
   EXPECT_EQ(finding.errorMm, 0.0);
 }
 
-TEST(SeriesGeometry, SetsALocalizerAside)
-{
-  Headers slices = stack(20, 1.0);
-  slices[0].imageType = {"ORIGINAL", "PRIMARY", "LOCALIZER"};
-  const SeriesGeometry series = assess(slices);
-  ASSERT_EQ(series.findings.size(), 1U);
-  EXPECT_EQ(series.findings.front().kind, FindingKind::LocalizerMixedIn);
-  EXPECT_EQ(series.verdict, Verdict::Ok);
-  EXPECT_EQ(series.slices.size(), 19U);
-}
-
-TEST(SeriesGeometry, KnowsAnUndeclaredLocalizerByItsPlane)
-{
 // A slice that states nothing agrees with every patient and must not make them one.
 TEST(SeriesGeometry, TellsPatientsAndStudiesApartWhicheverSliceStatesNothing)
 {
@@ -553,6 +540,19 @@ TEST(SeriesGeometry, ComparesIdsOfOneIssuerAcrossThoseOfOthers)
   EXPECT_EQ(assess(slices).verdict, Verdict::Ok) << "one patient of two hospitals, or unknown";
 }
 
+TEST(SeriesGeometry, SetsALocalizerAside)
+{
+  Headers slices = stack(20, 1.0);
+  slices[0].imageType = {"ORIGINAL", "PRIMARY", "LOCALIZER"};
+  const SeriesGeometry series = assess(slices);
+  ASSERT_EQ(series.findings.size(), 1U);
+  EXPECT_EQ(series.findings.front().kind, FindingKind::LocalizerMixedIn);
+  EXPECT_EQ(series.verdict, Verdict::Ok);
+  EXPECT_EQ(series.slices.size(), 19U);
+}
+
+TEST(SeriesGeometry, KnowsAnUndeclaredLocalizerByItsPlane)
+{
   Headers slices = stack(20, 1.0);
   SliceHeader scout = slices[0];
   scout.columnDirection = Eigen::Vector3d(0, 0, -1);
@@ -562,6 +562,13 @@ TEST(SeriesGeometry, ComparesIdsOfOneIssuerAcrossThoseOfOthers)
   EXPECT_EQ(series.findings.front().kind, FindingKind::LocalizerMixedIn);
   EXPECT_EQ(series.verdict, Verdict::Ok);
   EXPECT_EQ(series.slices.size(), 20U);
+}
+
+TEST(SeriesGeometry, StopsWhenCancelled)
+{
+  const auto token = std::make_shared<core::CancelToken>();
+  token->cancel();
+  EXPECT_THROW(assess(stack(20), core::Progress({}, token)), core::CancelledError);
 }
 
 TEST(SeriesGeometry, HasNoGridWithoutUsableNumbers)
@@ -745,26 +752,6 @@ TEST(SeriesRepair, FollowsALinearFunctionWhereverTheSlicesLie)
   }
 }
 
-TEST(SeriesRepair, SaysWhatItGuessed)
-{
-  Headers slices = stack(30, 1.0);
-  slices.erase(slices.begin() + 7);
-  const SeriesGeometry geometry = assess(slices);
-  const SeriesRepair repair(geometry);
-  EXPECT_EQ(repair.grid().dims(), (core::Index3{100, 80, 30}));
-  core::IndexBox box = repair.grid().fullBox();
-  ASSERT_EQ(repair.notes(box).size(), 1U);
-  EXPECT_NE(repair.notes(box).front().find("slice 8 of 30 is missing from the files"),
-            std::string::npos)
-      << repair.notes(box).front();
-  EXPECT_EQ(repair.interpolated(box), std::vector<int>{7});
-  box.lower[2] = 3; // as the stored volume counts them
-  EXPECT_EQ(repair.interpolated(box), std::vector<int>{4});
-  EXPECT_NE(repair.notes(box).front().find("slice 5 of 27 is missing"), std::string::npos);
-  box.lower[2] = 8;
-  EXPECT_TRUE(repair.notes(box).empty());
-  const SeriesRepair tilt(assess(tilted(-18.5, {1, 0, 0})));
-  const auto tiltNotes = tilt.notes(tilt.grid().fullBox());
 /// A stack of 2 mm with a stretch of `fine` mm, `count` gaps of it, in the middle.
 Headers withFineStretch(double fine, int count)
 {
@@ -820,6 +807,26 @@ TEST(SeriesRepair, CountsTheMeasuredSlicesThatItSkips)
       << said;
 }
 
+TEST(SeriesRepair, SaysWhatItGuessed)
+{
+  Headers slices = stack(30, 1.0);
+  slices.erase(slices.begin() + 7);
+  const SeriesGeometry geometry = assess(slices);
+  const SeriesRepair repair(geometry);
+  EXPECT_EQ(repair.grid().dims(), (core::Index3{100, 80, 30}));
+  core::IndexBox box = repair.grid().fullBox();
+  ASSERT_EQ(repair.notes(box).size(), 1U);
+  EXPECT_NE(repair.notes(box).front().find("slice 8 of 30 is missing from the files"),
+            std::string::npos)
+      << repair.notes(box).front();
+  EXPECT_EQ(repair.interpolated(box), std::vector<int>{7});
+  box.lower[2] = 3; // as the stored volume counts them
+  EXPECT_EQ(repair.interpolated(box), std::vector<int>{4});
+  EXPECT_NE(repair.notes(box).front().find("slice 5 of 27 is missing"), std::string::npos);
+  box.lower[2] = 8;
+  EXPECT_TRUE(repair.notes(box).empty());
+  const SeriesRepair tilt(assess(tilted(-18.5, {1, 0, 0})));
+  const auto tiltNotes = tilt.notes(tilt.grid().fullBox());
   ASSERT_EQ(tiltNotes.size(), 1U);
   EXPECT_NE(tiltNotes.front().find("18.5 degrees"), std::string::npos);
   Headers pushed = stack(30, 1.0);

@@ -49,6 +49,7 @@ struct TestSlice
   int columns = 8;
   int rows = 6;
   double z = 0.0;
+  double y = 20.5;
   std::string orientation = "1\\0\\0\\0\\1\\0";
   std::string seriesUid = "1.2.3.4";
   std::string studyUid = "1.2.3.8";
@@ -128,7 +129,7 @@ struct TestSlice
     element(out, 0x00100010, "PN", "SECRET^NAME");
     element(out, 0x0020000d, "UI", studyUid);
     element(out, 0x0020000e, "UI", seriesUid);
-    element(out, 0x00200032, "DS", "-10\\20.5\\" + here);
+    element(out, 0x00200032, "DS", "-10\\" + core::generalText(y) + "\\" + here);
     element(out, 0x00200037, "DS", orientation);
     element(out, 0x00200052, "UI", "1.2.3.9");
     number(out, 0x00280002, 1);

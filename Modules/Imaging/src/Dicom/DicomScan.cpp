@@ -403,7 +403,7 @@ private:
   const core::Progress& m_progress;
 };
 
-/// Removes files that are copies of another, byte by byte; their number.
+/// Removes the slices of files that are copies of another, byte by byte; the number of files.
 std::size_t dropCopies(std::vector<SliceHeader>& slices, Comparisons& comparisons)
 {
   std::map<std::tuple<int, double, double, double>, std::vector<std::size_t>> alike;
@@ -424,9 +424,13 @@ std::size_t dropCopies(std::vector<SliceHeader>& slices, Comparisons& comparison
           copies.insert(members[m]);
           break;
         }
+  std::set<fs::path> files; // which may have many frames
   for (auto copy = copies.rbegin(); copy != copies.rend(); ++copy)
+  {
+    files.insert(slices[*copy].file);
     slices.erase(slices.begin() + static_cast<std::ptrdiff_t>(*copy));
-  return copies.size();
+  }
+  return files.size();
 }
 
 /// Removes damaged files whose slice is also there whole, as after a copy that was begun twice;
@@ -515,10 +519,11 @@ void refuseSetAside(SeriesGeometry& geometry)
 }
 
 /// The stacks of a series, each assessed; a single unnamed one if it cannot be divided.
-std::vector<std::pair<std::string, SeriesGeometry>> assessVolumes(std::vector<SliceHeader> slices)
+std::vector<std::pair<std::string, SeriesGeometry>> assessVolumes(std::vector<SliceHeader> slices,
+                                                                  const core::Progress& progress)
 {
   using Kind = FindingKind;
-  SeriesGeometry whole = assess(slices);
+  SeriesGeometry whole = assess(slices, progress);
   std::vector<std::pair<std::string, SeriesGeometry>> volumes;
   if (hasFinding(whole,
                  {Kind::DuplicateSlice, Kind::OddOrientation, Kind::OddSize, Kind::MixedRescale}) &&
@@ -529,7 +534,7 @@ std::vector<std::pair<std::string, SeriesGeometry>> assessVolumes(std::vector<Sl
     for (NamedSlices& part : parts)
     {
       setAside += part.isSetAside ? part.slices.size() : 0;
-      SeriesGeometry geometry = assess(std::move(part.slices));
+      SeriesGeometry geometry = assess(std::move(part.slices), progress);
       if (part.isSetAside)
         refuseSetAside(geometry);
       volumes.emplace_back(part.name, std::move(geometry));
@@ -582,6 +587,34 @@ std::string missingEnds(const SeriesGeometry& geometry, const Numbering& numberi
   return text.empty() ? text
                       : text + "; the stack has no gap, but its ends may be missing. Look whether "
                                "all of the skull base that is needed is there.";
+}
+
+/// What the numbers of a stack say of slices between those that are there: they go in equal steps
+/// of more than one, farther apart than the slices are thick. Empty: nothing.
+std::string numbersBetween(const SeriesGeometry& geometry)
+{
+  const std::vector<SliceHeader>& slices = geometry.slices;
+  constexpr std::size_t kTelling = 4; // slices
+  if (geometry.verdict == Verdict::Refused || !geometry.grid || slices.size() < kTelling ||
+      slices.front().pixels.frameCount > 1)
+    return {};
+  const auto stepAt = [&slices](std::size_t k)
+  {
+    return static_cast<std::int64_t>(slices[k].instanceNumber) -
+           static_cast<std::int64_t>(slices[k - 1].instanceNumber);
+  };
+  const std::int64_t step = stepAt(1);
+  for (std::size_t k = 2; k < slices.size(); ++k)
+    if (stepAt(k) != step)
+      return {};
+  constexpr double kThicker = 1.5; // by which slices without a gap may stand apart
+  const double spacing = geometry.grid->spacing()[2];
+  const auto& thickness = slices.front().thickness;
+  if (std::abs(step) < 2 || !thickness || !(*thickness > 0.0) || spacing <= kThicker * *thickness)
+    return {};
+  return "The slices are numbered in steps of " + std::to_string(std::abs(step)) + " and are " +
+         decimals(*thickness, 2) + " mm thick, but stand " + decimals(spacing, 2) +
+         " mm apart: those between them may be missing. Look whether the series has more files.";
 }
 
 /// The stretch of a stack along a normal, mm.
@@ -795,7 +828,8 @@ struct MadeSeries
 /// `folders`: findings about unreadable folders, in which any series may go on. The slices of
 /// `members` are moved from.
 MadeSeries makeSeries(const std::vector<FileHeader*>& members, const Doubts& doubts,
-                      const std::vector<Finding>& folders, Comparisons& comparisons)
+                      const std::vector<Finding>& folders, Comparisons& comparisons,
+                      const core::Progress& progress)
 {
   DicomSeries series;
   series.uid = firstNotEmpty(members, &FileHeader::seriesUid);
@@ -819,7 +853,7 @@ MadeSeries makeSeries(const std::vector<FileHeader*>& members, const Doubts& dou
   const Numbering numbering = numberingOf(slices);
   MadeSeries made;
   bool isSetAside = !doubts.files.empty();
-  for (auto& [name, geometry] : assessVolumes(std::move(slices)))
+  for (auto& [name, geometry] : assessVolumes(std::move(slices), progress))
   {
     DicomSeries one = series;
     one.volume = name;
@@ -840,8 +874,16 @@ MadeSeries makeSeries(const std::vector<FileHeader*>& members, const Doubts& dou
     catch (const DicomError&) // read again, it says so
     {
     }
+    catch (const std::bad_alloc&)
+    {
+      findings.push_back({FindingKind::Unreadable,
+                          "Its slices need more memory than is free, even one by one.", 0.0});
+      one.geometry.verdict = Verdict::Refused;
+    }
     if (std::string ends = missingEnds(one.geometry, numbering); name.empty() && !ends.empty())
       findings.push_back({FindingKind::MissingEnd, std::move(ends), 0.0});
+    if (std::string between = numbersBetween(one.geometry); !between.empty())
+      one.geometry.notes.push_back(std::move(between));
     const std::size_t lost = doubts.files.size();
     if (lost > 0 && isWholeWithout(lost, one.geometry, numbering))
       one.geometry.notes.push_back(setAsideNote(lost, one.geometry, numbering));
@@ -874,12 +916,6 @@ std::string discName(const fs::path& path)
                  [](unsigned char c)
                  { return static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c); });
   if (const std::size_t version = name.rfind(';'); version != std::string::npos)
-    catch (const std::bad_alloc&)
-    {
-      findings.push_back({FindingKind::Unreadable,
-                          "Its slices need more memory than is free, even one by one.", 0.0});
-      one.geometry.verdict = Verdict::Refused;
-    }
     name.resize(version);
   if (!name.empty() && name.back() == '.')
     name.pop_back();
@@ -972,7 +1008,8 @@ bool isBelow(const fs::path& file, const fs::path& folder)
 
 // Of a disc whose files were copied to other names no listed path is there: of a series no more is
 // lost than it has fewer files than are listed. Records that name no series are made up for by what
-// else lies beside the index, but by nothing beyond: other series of the tree say nothing of a disc.
+// else lies beside the index, but by nothing beyond: other series of the tree say nothing of a
+// disc.
 void findRenamed(Lost& lost, const fs::path& index, const Groups& groups)
 {
   std::map<std::string, std::size_t> missing = lost.listedOf;
@@ -985,10 +1022,11 @@ void findRenamed(Lost& lost, const fs::path& index, const Groups& groups)
     if (lost.listedOf.count(key) > 0)
       subtract(key, members.size());
     else
-      subtract({}, static_cast<std::size_t>(
-                     std::count_if(members.begin(), members.end(),
-                                   [&index](const FileHeader* member)
-                                   { return isBelow(member->slice.file, index.parent_path()); })));
+      subtract({}, static_cast<std::size_t>(std::count_if(members.begin(), members.end(),
+                                                          [&index](const FileHeader* member) {
+                                                            return isBelow(member->slice.file,
+                                                                           index.parent_path());
+                                                          })));
   lost.files.erase(std::remove_if(lost.files.begin(), lost.files.end(),
                                   [&missing](const Lost::File& file)
                                   {
@@ -1207,7 +1245,7 @@ ScanResult scanDicom(const fs::path& path, const core::Progress& progress,
                         const auto open = doubts.find(all[n]->first);
                         made[n] = makeSeries(all[n]->second,
                                              open == doubts.end() ? Doubts() : open->second,
-                                             folderDoubts, comparisons);
+                                             folderDoubts, comparisons, progress);
                         if (const auto loss = losses.find(all[n]->first); loss != losses.end())
                           for (DicomSeries& volume : made[n].volumes)
                           {

@@ -170,8 +170,9 @@ bool isOnePatient(const PatientTuple& a, const PatientTuple& b)
 class Assessor
 {
 public:
-  explicit Assessor(Headers slices)
-    : m_slices(std::move(slices))
+  Assessor(Headers slices, const core::Progress& progress)
+    : m_progress(progress)
+    , m_slices(std::move(slices))
     , m_all(m_slices.size())
   {
     // The result must not depend on the order of the files.
@@ -329,11 +330,25 @@ private:
     std::size_t odd = 0;
     double worst = 0.0;
     double angle = 0.0;
+    std::vector<std::pair<const SliceHeader*, std::size_t>> stacks; // first, and how many
+    for (const SliceHeader& slice : turned)
+    {
+      const auto stack =
+          std::find_if(stacks.begin(), stacks.end(),
+                       [&slice](const auto& s) { return sameTurn(*s.first, slice); });
+      if (stack == stacks.end())
+        stacks.emplace_back(&slice, 1);
+      else
+        ++stack->second;
+    }
+    const bool isStack = std::any_of(stacks.begin(), stacks.end(),
+                                     [](const auto& s) { return s.second >= kFewest; });
     for (const SliceHeader& slice : turned)
     {
       const double slant = normalAngle(slice, m_slices.front());
-      // A few slices across a whole stack are scouts even if not labelled as such.
-      if (slant > 45.0 && turned.size() * 4 <= m_slices.size())
+      // A few slices across a whole stack are scouts even if not labelled as such; as many as make
+      // a stack may be a reformat.
+      if (slant > 45.0 && turned.size() * 4 <= m_slices.size() && !isStack)
       {
         ++m_scouts;
         continue;
@@ -549,6 +564,7 @@ private:
     }
   }
 
+  const core::Progress& m_progress;
   Headers m_slices;
   Headers m_damaged;
   bool m_damageIsMissing = false; ///< each damaged file is one of the missing slices
@@ -692,9 +708,9 @@ PixelFaults pixelFaults(const std::vector<SliceHeader>& slices)
   return faults;
 }
 
-SeriesGeometry assess(std::vector<SliceHeader> slices)
+SeriesGeometry assess(std::vector<SliceHeader> slices, const core::Progress& progress)
 {
-  return Assessor(std::move(slices)).run();
+  return Assessor(std::move(slices), progress).run();
 }
 
 } // namespace petrous::imaging

@@ -18,8 +18,6 @@ namespace
 
 using Headers = std::vector<SliceHeader>;
 
-constexpr std::size_t kFewest = 3; // fewer slices of another orientation or size are no stack
-
 /// A value that is the same for all slices of a stack.
 struct Trait
 {

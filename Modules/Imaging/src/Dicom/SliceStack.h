@@ -13,6 +13,8 @@ namespace petrous::imaging
 /// Fixed-point text with this many decimals, locale-independent.
 std::string decimals(double value, int digits);
 
+constexpr std::size_t kFewest = 3; ///< fewer slices of another orientation or size are no stack
+
 /// Slices closer to each other than this share one place, mm along the normal.
 double sharedPlace(double spacing);
 

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "petrous/Core/GridGeometry.h"
+#include "petrous/Core/Progress.h"
 #include "petrous/Imaging/PatientKey.h"
 
 namespace petrous::imaging
@@ -212,7 +213,7 @@ constexpr double kPlaceTolerance = 0.05;
 constexpr double kPlaceShare = 0.1;
 
 /// Assesses the stack from the slice positions alone. The order of `slices` does not matter. Never
-/// throws on bad headers: they become findings.
-SeriesGeometry assess(std::vector<SliceHeader> slices);
+/// throws on bad headers: they become findings. Throws CancelledError.
+SeriesGeometry assess(std::vector<SliceHeader> slices, const core::Progress& progress = {});
 
 } // namespace petrous::imaging

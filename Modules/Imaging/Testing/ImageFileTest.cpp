@@ -99,6 +99,29 @@ TEST(ImageFile, NarrowsOtherTypesOnlyWhereNoValueChanges)
   EXPECT_EQ(half.volume->at(3, 2, 1), 0.5);
 }
 
+TEST(ImageFile, SaysByHowMuchValuesWereRounded)
+{
+  const TestFolder folder;
+  const auto note = [&folder](const std::string& type, const std::string& voxels)
+  {
+    for (const std::string& each :
+         readImageFile(putFile(folder / "a.nrrd", nrrd(type, voxels))).notes)
+      if (each.find("rounded") != each.npos)
+        return each;
+    return std::string();
+  };
+  std::vector<std::int32_t> whole(24, 16777216); // 2^24: what float counts up to
+  EXPECT_EQ(note("int", bytesOf(whole)), "");
+  whole[5] = 16777217;
+  EXPECT_EQ(note("int", bytesOf(whole)),
+            "Values were rounded to 32-bit floating point, by up to 1.");
+  std::vector<double> real(24, 0.5);
+  EXPECT_EQ(note("double", bytesOf(real)), "");
+  real[7] = 0.5 + std::ldexp(1.0, -26);
+  EXPECT_EQ(note("double", bytesOf(real)),
+            "Values were rounded to 32-bit floating point, by up to 1.49012e-08.");
+}
+
 TEST(ImageFile, ReadsBigEndianVoxels)
 {
   const TestFolder folder;

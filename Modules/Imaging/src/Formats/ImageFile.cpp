@@ -12,6 +12,7 @@
 #include "FileHelpers.h"
 #include "MemoryCheck.h"
 #include "VoxelSource.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Core/SystemMemory.h"
 #include "petrous/Imaging/ImagePreview.h"
 
@@ -70,8 +71,21 @@ bool fits(const Contents& contents)
 }
 
 template <class T>
+double roundingOf(const T* in, std::size_t count)
+{
+  double worst = 0.0;
+  for (std::size_t v = 0; v < count; ++v)
+  {
+    const auto value = static_cast<double>(in[v]);
+    worst = std::max(worst, std::abs(value - static_cast<double>(static_cast<float>(in[v]))));
+  }
+  return worst;
+}
+
+/// `rounding`: by how much values that the file states exactly were rounded to float.
+template <class T>
 Voxels keepOrNarrow(const core::GridGeometry& geometry, const std::shared_ptr<void>& raw,
-                    bool rescaled)
+                    bool rescaled, double& rounding)
 {
   const auto* in = static_cast<const T*>(raw.get());
   constexpr bool kKept = std::is_same_v<T, std::int16_t> || std::is_same_v<T, std::uint16_t>;
@@ -92,7 +106,11 @@ Voxels keepOrNarrow(const core::GridGeometry& geometry, const std::shared_ptr<vo
     if constexpr (std::is_same_v<T, float>)
       return adopted<float>(geometry, raw);
     else
+    {
+      if (!rescaled)
+        rounding = roundingOf(in, geometry.voxelCount());
       return converted<float>(geometry, in);
+    }
   }
 }
 
@@ -157,14 +175,18 @@ LoadedImage readImageFile(const std::filesystem::path& path,
   const core::IndexBox box = boxOf(path, source.geometry(), roi);
   const core::GridGeometry geometry = source.geometry().cropped(box);
   auto raw = source.read(box, progress.part(0.0, 0.8));
-  Voxels voxels =
-      visitComponent(source.component(), [&](auto type)
-                     { return keepOrNarrow<decltype(type)>(geometry, raw, source.rescaled()); });
+  double rounding = 0.0;
+  Voxels voxels = visitComponent(
+      source.component(), [&](auto type)
+      { return keepOrNarrow<decltype(type)>(geometry, raw, source.rescaled(), rounding); });
   raw.reset();
   requireFinite(path, voxels);
 
   LoadedImage image;
   image.notes = source.notes();
+  if (rounding > 0.0)
+    image.notes.push_back("Values were rounded to 32-bit floating point, by up to " +
+                          core::generalText(rounding) + ".");
   image.assumedRas = source.assumedRas();
   image.volume =
       std::make_shared<const volume::IntensityVolume>(std::move(voxels), source.padding());
@@ -230,9 +252,10 @@ ImagePreview previewImageFile(const std::filesystem::path& path, std::size_t sli
       },
       progress);
   const std::shared_ptr<void> raw(buffer, buffer->data());
-  Voxels voxels =
-      visitComponent(source.component(), [&](auto type)
-                     { return keepOrNarrow<decltype(type)>(few, raw, source.rescaled()); });
+  double rounding = 0.0;
+  Voxels voxels = visitComponent(
+      source.component(), [&](auto type)
+      { return keepOrNarrow<decltype(type)>(few, raw, source.rescaled(), rounding); });
   requireFinite(path, voxels);
   return {std::make_shared<const volume::IntensityVolume>(std::move(voxels), source.padding()),
           grid};

@@ -1,5 +1,6 @@
-# Numbers are written and read by Core/NumberText.h, which is locale-independent: no source of a
-# module or of the application uses functions that depend on LC_NUMERIC or the global std::locale.
+# Numbers are written and read by Core/NumberText.h, and letters change their case by
+# Core/AsciiCase.h, which are locale-independent: no source of a module or of the application uses
+# functions that depend on LC_NUMERIC, LC_CTYPE or the global std::locale.
 #
 #   cmake -D TREE=<top> -P LocaleFreeNumbers.cmake
 #
@@ -15,6 +16,10 @@ function(violation text result)
   string(REPLACE ";" "@" text "${text}")
   if(text MATCHES "(std::sto[fd]|std::stold|strto[fd]|strtold|[^a-z]atof) *\\(")
     set(${result} "${CMAKE_MATCH_1} follows the locale" PARENT_SCOPE)
+    return()
+  endif()
+  if(text MATCHES "std::(tolower|toupper)|[^A-Za-z:](tolower|toupper) *\\(")
+    set(${result} "${CMAKE_MATCH_0} follows the locale" PARENT_SCOPE)
     return()
   endif()
   string(REGEX MATCHALL "[a-z]*(printf|scanf)[^@]*@" calls "${text}")
@@ -33,7 +38,8 @@ endfunction()
 
 foreach(bad "x = std::stod(text)\;" "x = strtod(text, 0)\;" "std::snprintf(t, 9, \"%5.2f\", x)\;"
     "std::snprintf(t, 9, format, x)\;" "std::sscanf(t, \"%lf\", &x)\;" "std::ostringstream s\; s << x\;"
-    "std::stringstream s\; s >> x\;")
+    "std::stringstream s\; s >> x\;"
+    "c = std::tolower(c)\;" "c = toupper(c)\;")
   violation("${bad}" seen)
   if(NOT seen)
     message(FATAL_ERROR "not seen: ${bad}")
@@ -41,7 +47,8 @@ foreach(bad "x = std::stod(text)\;" "x = strtod(text, 0)\;" "std::snprintf(t, 9,
 endforeach()
 foreach(good "std::snprintf(t, 9, \"%04d\", n)\;" "// snprintf(t, 9, \"%g\", x)\;\n"
     "std::ostringstream s\; s << file.rdbuf()\;" "x = std::stoi(text)\;"
-    "std::istringstream words(line)\;")
+    "std::istringstream words(line)\;"
+    "text.toLower()\;" "c = core::asciiLower(c)\;")
   violation("${good}" seen)
   if(seen)
     message(FATAL_ERROR "wrongly seen in ${good}: ${seen}")
@@ -60,6 +67,6 @@ foreach(file IN LISTS files)
   violation("${text}" seen)
   if(seen)
     file(RELATIVE_PATH name ${TREE} ${file})
-    message(SEND_ERROR "${name}: ${seen}; use Core/NumberText.h")
+    message(SEND_ERROR "${name}: ${seen}; use Core/NumberText.h, Core/AsciiCase.h")
   endif()
 endforeach()

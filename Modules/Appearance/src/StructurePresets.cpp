@@ -8,6 +8,7 @@
 #include "PresetEntry.h"
 #include "Structures.h"
 #include "petrous/Appearance/StructureProperties.h"
+#include "petrous/Core/AsciiCase.h"
 #include "petrous/Core/Error.h"
 
 namespace petrous::appearance
@@ -33,7 +34,7 @@ std::vector<std::string> wordsOf(const std::string& name)
     if (((!isDigit && !isLetter) || begins) && !words.back().empty())
       words.emplace_back();
     if (isDigit || isLetter)
-      words.back() += c < 0x80 ? static_cast<char>(std::tolower(c)) : each;
+      words.back() += core::asciiLower(each);
     before = c;
   }
   if (words.back().empty())
@@ -73,7 +74,7 @@ std::string folded(const std::string& word)
       ++n;
     }
     else
-      result += static_cast<char>(c < 0x80 ? std::tolower(c) : c);
+      result += core::asciiLower(static_cast<char>(c));
   }
   return result;
 }

@@ -13,6 +13,7 @@
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
 
+#include "petrous/Core/AsciiCase.h"
 #include "petrous/Core/Error.h"
 #include "petrous/Interaction/PointerDevice.h"
 #include "petrous/Interaction/PointerToolController.h"
@@ -481,8 +482,7 @@ std::string vtkPetrousToolInteraction::Key() const
 {
   const char* sym = this->Interactor->GetKeySym();
   std::string key = sym ? sym : "";
-  std::transform(key.begin(), key.end(), key.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(key.begin(), key.end(), key.begin(), petrous::core::asciiLower);
   return key;
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "petrous/Core/AsciiCase.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Imaging/ImageFile.h"
@@ -279,8 +280,7 @@ std::string sequenceName(const std::string& description)
       continue;
     }
     std::string lower = word;
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::transform(lower.begin(), lower.end(), lower.begin(), core::asciiLower);
     if (isIn(kNumbered, before) && isNumber(lower, 0))
       word = before + " " + word;
     else if (!isIn(kWords, lower) && !(lower[0] == 'b' && isNumber(lower, 1)))

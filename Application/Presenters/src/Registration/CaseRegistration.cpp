@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "petrous/Core/AsciiCase.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Registration/LiveMetric.h"
 #include "petrous/Scene/ApplyRegistration.h"
@@ -31,7 +32,7 @@ void add(std::string& text, const std::string& sentence)
     return;
   text += (text.empty() ? "" : " ") + sentence;
   char& first = text[text.size() - sentence.size()];
-  first = static_cast<char>(std::toupper(static_cast<unsigned char>(first)));
+  first = core::asciiUpper(first);
   if (text.back() != '.')
     text += '.';
 }

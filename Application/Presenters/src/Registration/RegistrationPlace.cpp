@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "petrous/Appearance/StructurePresets.h"
+#include "petrous/Core/AsciiCase.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Presenters/CaseRegistration.h"
 #include "petrous/Presenters/IntensityDisplay.h"
@@ -73,8 +74,7 @@ std::optional<Eigen::Vector3d> middleOf(const scene::Case& value, const std::str
 bool contains(std::string name, const char* words)
 {
   std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c)
-                 { return c == '_' || c == '-' ? ' ' : static_cast<char>(std::tolower(c)); });
+                 [](char c) { return c == '_' || c == '-' ? ' ' : core::asciiLower(c); });
   return name.find(words) != std::string::npos;
 }
 

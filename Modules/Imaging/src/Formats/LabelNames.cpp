@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "FileHelpers.h"
+#include "petrous/Core/AsciiCase.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/FileFormats.h"
 
@@ -67,7 +68,7 @@ std::vector<std::string> wordsOf(const std::string& name)
     if ((std::isalpha(letter) == 0 || (capital && lowerBefore)) && !words.back().empty())
       words.emplace_back();
     if (std::isalpha(letter) != 0)
-      words.back() += static_cast<char>(std::tolower(letter));
+      words.back() += core::asciiLower(c);
     lowerBefore = std::islower(letter) != 0;
   }
   return words;

@@ -14,6 +14,7 @@
 
 #include "DicomItem.h"
 #include "FileHelpers.h"
+#include "petrous/Core/AsciiCase.h"
 
 namespace petrous::imaging
 {
@@ -155,7 +156,7 @@ std::optional<bool> statedOpacity(std::string_view text)
       std::string plain;
       for (const char c : word)
         if (std::isalpha(static_cast<unsigned char>(c)) != 0)
-          plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+          plain += core::asciiLower(c);
       if (!plain.empty())
         words.push_back(std::move(plain));
     }
@@ -292,7 +293,7 @@ std::string plainHeader(const std::string& cell)
   std::string plain;
   for (const char c : cell)
     if (const auto letter = static_cast<unsigned char>(c); std::isalnum(letter) != 0 || c == '#')
-      plain += static_cast<char>(std::tolower(letter));
+      plain += core::asciiLower(c);
   return plain;
 }
 

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "petrous/Core/AsciiCase.h"
+
 namespace petrous::library
 {
 
@@ -56,8 +58,7 @@ constexpr std::string_view kManufacturers =
 
 std::string upper(std::string text)
 {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::transform(text.begin(), text.end(), text.begin(), core::asciiUpper);
   return text;
 }
 

@@ -1083,11 +1083,11 @@ TEST_F(CaseBuilder, HangsASegmentationOnTheMrOfItsGridOrAsks)
     series.studyUid = "1.2.3";
     series.seriesUid = imaging::deterministicUid(1, name);
     series.frameOfReferenceUid = "1.2.3.9";
-    imaging::writeDicomSeries(m_folder / name,
-                              volume::IntensityVolume(
-                                  std::make_shared<const volume::Volume<std::int16_t>>(
-                                      grid, std::int16_t{40})),
-                              series);
+    imaging::writeDicomSeries(
+        m_folder / name,
+        volume::IntensityVolume(
+            std::make_shared<const volume::Volume<std::int16_t>>(grid, std::int16_t{40})),
+        series);
   }
   const auto drawnOn = [this](const core::GridGeometry& grid, const std::string& first,
                               const std::string& second, const std::string& on = "")
@@ -1106,8 +1106,8 @@ TEST_F(CaseBuilder, HangsASegmentationOnTheMrOfItsGridOrAsks)
     segment.index = 1;
     segment.label = "cochlea";
     segmentation.segments = {segment};
-    imaging::writeDicomSegmentation(m_folder / "seg.dcm",
-                                    {volume::makeLabelMap(voxels, {cochlea})}, segmentation);
+    imaging::writeDicomSegmentation(m_folder / "seg.dcm", {volume::makeLabelMap(voxels, {cochlea})},
+                                    segmentation);
     m_sources.parts.mr = {{first, m_folder / first}};
     if (!second.empty())
       m_sources.parts.mr.push_back({second, m_folder / second});

@@ -118,8 +118,8 @@ TEST_P(PixelCodec, ACodestreamOfMoreBitsThanTheHeaderStatesIsNeverCut)
                     s.rows = 30;
                     s.isSigned = isSigned;
                     s.cell = [=](int i, int j) {
-                      return 0xFFFFU & ((isLarge ? 40000U : 0U) + ramp(i, j, 0) -
-                                        (isSigned ? 1000U : 0U));
+                      return 0xFFFFU &
+                             ((isLarge ? 40000U : 0U) + ramp(i, j, 0) - (isSigned ? 1000U : 0U));
                     };
                   });
       fs::create_directories(folder.path() / "packed");
@@ -275,9 +275,9 @@ TEST_P(PixelCodec, RefusesACodestreamThatEndsEarlyAndNamesTheFile)
 
 INSTANTIATE_TEST_SUITE_P(Syntaxes, PixelCodec,
                          ::testing::Values(gdcm::TransferSyntax::RLELossless,
-                                         gdcm::TransferSyntax::JPEGLosslessProcess14_1,
-                                         gdcm::TransferSyntax::JPEGLSLossless,
-                                         gdcm::TransferSyntax::JPEG2000Lossless));
+                                           gdcm::TransferSyntax::JPEGLosslessProcess14_1,
+                                           gdcm::TransferSyntax::JPEGLSLossless,
+                                           gdcm::TransferSyntax::JPEG2000Lossless));
 
 struct PixelForm
 {
@@ -686,8 +686,7 @@ TEST(PixelForms, FewerFragmentsThanFramesAreRefused)
   ASSERT_EQ(result.series.size(), 1U);
   const auto& findings = result.series.front().geometry.findings;
   ASSERT_EQ(findings.size(), 1U);
-  EXPECT_NE(findings.front().text.find("fewer pixels"), std::string::npos)
-      << findings.front().text;
+  EXPECT_NE(findings.front().text.find("fewer pixels"), std::string::npos) << findings.front().text;
 }
 
 bool isLossyFile(const std::string& syntax, const std::string& codestream)

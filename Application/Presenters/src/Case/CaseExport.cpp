@@ -211,9 +211,9 @@ void compareVolumes(const Warn& warn, const PlacedLabels& labels, const volume::
       continue;
     const std::string change = core::generalText(before, 3) + " mm3";
     warn("'" + structure->name + "' " +
-         (after == 0.0 ? "has no voxel on the CT's grid, of " + change
-                       : "has " + core::generalText(after, 3) + " mm3 on the CT's grid, of " +
-                             change) +
+         (after == 0.0
+              ? "has no voxel on the CT's grid, of " + change
+              : "has " + core::generalText(after, 3) + " mm3 on the CT's grid, of " + change) +
          ": its voxels are finer than the CT's; without --on-ct it keeps its own");
   }
 }
@@ -556,7 +556,8 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
   }
   else if (options.what == "labels")
   {
-    const auto placed = placedLabels(warn, value, options, leftOut, summary, progress.part(0.0, 0.4));
+    const auto placed =
+        placedLabels(warn, value, options, leftOut, summary, progress.part(0.0, 0.4));
     if (isSegmentation(options))
     {
       const std::string& drawnOn = placed.front().drawnOn;

@@ -13,8 +13,8 @@ namespace petrous::imaging
 {
 
 /// Bits of a sample by the header of a JPEG, JPEG-LS or JPEG 2000 codestream; 0 if that does not
-/// match the greyscale image that `slice` describes. Decoders trust the codestream, and misbehave on
-/// a corrupt one.
+/// match the greyscale image that `slice` describes. Decoders trust the codestream, and misbehave
+/// on a corrupt one.
 int codestreamPrecision(const std::vector<char>& bytes, const SliceHeader& slice);
 
 /// The most pixels that a compressed image of so many bytes can have, and that are read at all:

@@ -190,9 +190,10 @@ void requireWithin(const SliceHeader& slice, const std::vector<unsigned char>& b
                                                      : areWithin<std::uint32_t>(format, bytes);
   if (!isWithin)
     throw DicomError(DicomError::Reason::Unreadable,
-                     slice.file.filename().string() + " contradicts itself about the bits of a "
-                                                      "pixel: its compressed image has values of "
-                                                      "more than the " +
+                     slice.file.filename().string() +
+                         " contradicts itself about the bits of a "
+                         "pixel: its compressed image has values of "
+                         "more than the " +
                          std::to_string(format.bitsStored) +
                          " bits that its header states (Bits Stored); export it again, "
                          "uncompressed");
@@ -477,9 +478,9 @@ void decodeFrame(ByteSource& source, const SliceHeader& slice,
     fail(slice, "has a damaged compressed image");
   if (isWider)
     requireWithin(slice, pixels.scratch);
-  const BitField field =
-      isWider ? bitField(format.bitsStored, format.highBit, format.isSigned)
-              : bitField(real.GetBitsStored(), real.GetHighBit(), real.GetPixelRepresentation() == 1);
+  const BitField field = isWider ? bitField(format.bitsStored, format.highBit, format.isSigned)
+                                 : bitField(real.GetBitsStored(), real.GetHighBit(),
+                                            real.GetPixelRepresentation() == 1);
   unpackCells(slice, format.bitsAllocated, field, false, pixels);
 }
 

@@ -156,8 +156,9 @@ PatientTuple patientTupleOf(const SliceHeader& slice)
 
 bool isOnePatient(const PatientTuple& a, const PatientTuple& b)
 {
-  const auto key = [](const PatientTuple& t)
-  { return PatientKey{std::get<0>(t), std::get<1>(t), std::get<2>(t), std::get<3>(t)}; };
+  const auto key = [](const PatientTuple& t) {
+    return PatientKey{std::get<0>(t), std::get<1>(t), std::get<2>(t), std::get<3>(t)};
+  };
   return samePatient(key(a), key(b));
 }
 
@@ -327,15 +328,16 @@ private:
     std::vector<std::pair<const SliceHeader*, std::size_t>> stacks; // first, and how many
     for (const SliceHeader& slice : turned)
     {
-      const auto stack = std::find_if(stacks.begin(), stacks.end(),
-                                      [&slice](const auto& s) { return sameTurn(*s.first, slice); });
+      const auto stack =
+          std::find_if(stacks.begin(), stacks.end(),
+                       [&slice](const auto& s) { return sameTurn(*s.first, slice); });
       if (stack == stacks.end())
         stacks.emplace_back(&slice, 1);
       else
         ++stack->second;
     }
-    const bool isStack =
-        std::any_of(stacks.begin(), stacks.end(), [](const auto& s) { return s.second >= kFewest; });
+    const bool isStack = std::any_of(stacks.begin(), stacks.end(),
+                                     [](const auto& s) { return s.second >= kFewest; });
     for (const SliceHeader& slice : turned)
     {
       const double slant = normalAngle(slice, m_slices.front());

@@ -344,10 +344,9 @@ std::string SeriesRepair::lossNote(const core::IndexBox& box) const
     }
   if (lost == 0)
     return {};
-  return "Repaired: " + std::to_string(lost) + " of " + std::to_string(all) +
-         " measured slices " + (lost == 1 ? "lies" : "lie") + " between those of the volume, " +
-         decimals(m_grid.spacing()[2], 2) +
-         " mm apart, and " + (lost == 1 ? "makes" : "make") +
+  return "Repaired: " + std::to_string(lost) + " of " + std::to_string(all) + " measured slices " +
+         (lost == 1 ? "lies" : "lie") + " between those of the volume, " +
+         decimals(m_grid.spacing()[2], 2) + " mm apart, and " + (lost == 1 ? "makes" : "make") +
          " up less than half of any; small structures may be absent there.";
 }
 

@@ -147,8 +147,8 @@ double planeWidth(const std::vector<double>& sorted)
     return true;
   };
   for (std::size_t n = steps.size(); n-- > 1;)
-    if (const double width = steps[n - 1]; width > kSamePlane && width <= kPlanar &&
-                                           steps[n] >= kLarger * width && isFlat(width))
+    if (const double width = steps[n - 1];
+        width > kSamePlane && width <= kPlanar && steps[n] >= kLarger * width && isFlat(width))
       return width;
   return kSamePlane;
 }
@@ -745,8 +745,8 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
       if (placed->twice > 0)
         loaded.notes.push_back("'" + name + "': " + std::to_string(placed->twice) +
                                (placed->twice == 1 ? " contour that is" : " contours that are") +
-                               " there twice in one plane " + (placed->twice == 1 ? "was" : "were") +
-                               " taken once");
+                               " there twice in one plane " +
+                               (placed->twice == 1 ? "was" : "were") + " taken once");
       if (std::any_of(placed->planes.begin(), placed->planes.end(), hasCrossing))
         crossed.push_back("'" + name + "'");
       requireMemory(path, boxOf(*placed, grid).count() * (sizeof(std::uint16_t) + sizeof(char)),

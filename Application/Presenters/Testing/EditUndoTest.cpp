@@ -75,6 +75,12 @@ protected:
     model->adopt(std::move(value));
     model->prepareNow();
   }
+  static scene::ViewState::Slices slices()
+  {
+    scene::ViewState::Slices slices;
+    slices.width = 400.0; // HU
+    return slices;
+  }
   static std::string name(int n)
   {
     return n == kNerve ? "facial_nerve" : n == kVein ? "sigmoid sinus" : "s" + std::to_string(n);
@@ -330,9 +336,9 @@ TEST_F(EditUndoTest, AViewThatIsReplacedOrRemovedComesBack)
   { return model->value().view.saved.at(view).camera.position; };
   core::CameraPose camera;
   camera.position = {1, 0, 0};
-  model->saveView("recess", camera, {});
+  model->saveView("recess", camera, slices());
   camera.position = {2, 0, 0};
-  model->saveView("recess", camera, {});
+  model->saveView("recess", camera, slices());
   EXPECT_EQ(model->undoText(), "view 'recess'");
   model->undo();
   EXPECT_EQ(positionOf("recess"), Vector3d(1, 0, 0));
@@ -357,12 +363,12 @@ TEST_F(EditUndoTest, OneViewMoreThanThereMayBeIsRefusedInWordsWithoutEffect)
 {
   open();
   for (std::size_t n = 0; n < scene::ViewState::kMaxSaved; ++n)
-    model->saveView("view " + std::to_string(n), {}, {});
+    model->saveView("view " + std::to_string(n), {}, slices());
   const std::string before = model->undoText();
-  EXPECT_THROW(model->saveView("one more", {}, {}), core::InvalidParameter);
+  EXPECT_THROW(model->saveView("one more", {}, slices()), core::InvalidParameter);
   EXPECT_EQ(model->value().view.saved.size(), scene::ViewState::kMaxSaved);
   EXPECT_EQ(model->undoText(), before);
-  EXPECT_NO_THROW(model->saveView("view 7", {}, {})) << "it is there already";
+  EXPECT_NO_THROW(model->saveView("view 7", {}, slices())) << "it is there already";
 }
 
 TEST_F(EditUndoTest, AnotherCaseHasNoStepsYet)

@@ -237,17 +237,16 @@ TEST(IdentityOfACase, TextInThePixelsIsWarnedOfWhereverTheyLeave)
     stack[k].rows = stack[k].columns = 4;
     stack[k].burnedIn = imaging::BurnedInText::Stated;
   }
-  const auto notes = imaging::assess(stack).notes;
-  ASSERT_EQ(notes.size(), 1U);
+  const volume::PixelFaults pixels = imaging::pixelFaults(stack);
   scene::Case value = describedCase();
   value.mr.emplace_back();
   value.mr.back().name = "T2";
   SendParts parts;
   parts.ct = parts.mr = parts.scene = true;
   EXPECT_FALSE(mentions(identityReport(value, parts).warnings, "text in them"));
-  value.mr.back().notes = notes;
+  value.mr.back().provenance.pixels = pixels;
   EXPECT_TRUE(mentions(identityReport(value, parts).warnings, "the pixels of MR 'T2' may have"));
-  value.ct.notes = notes;
+  value.ct.provenance.pixels = pixels;
   EXPECT_TRUE(mentions(identityReport(value, parts).warnings, "the pixels of the CT, MR 'T2'"));
   library::ArchiveOptions options;
   EXPECT_TRUE(mentions(identityReport(value, options).warnings, "the CT, MR 'T2'"));

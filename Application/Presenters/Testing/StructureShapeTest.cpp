@@ -133,7 +133,9 @@ TEST(CentreLine, OfARingOrAcrossAHoleIsRefusedInWords)
   { return bar(at, 8.0) && std::hypot(at.x(), at.y()) > 0.4; };
   const auto past = centreLine(*occupancyOf(cube(18, 0.25), pricked), {}, &why);
   ASSERT_TRUE(past) << why;
-  EXPECT_NEAR(past->length(), 16.0, 0.8);
+  // It goes past the hole in the middle of what is left beside it, 1.2 mm off, and back.
+  EXPECT_GT(past->length(), 16.0 - 0.3);
+  EXPECT_LT(past->length(), 16.0 + 2.0 * 1.2);
 }
 
 // From end to end along the longer branch, not between the two.

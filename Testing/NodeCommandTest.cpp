@@ -187,9 +187,10 @@ TEST_F(NodeCommand, BuildsACaseOfImages)
     EXPECT_NE(received["notes"].dump().find("the latest by its series number"), std::string::npos)
         << received;
     std::map<std::string, int> here, there;
-    for (const auto& one : json("info ear")["labels"])
+    const auto ours = json("info ear"), theirs = json("info " + name + other());
+    for (const auto& one : ours["labels"])
       here[one["name"]] = one["voxels"];
-    for (const auto& one : json("info " + name + other())["labels"])
+    for (const auto& one : theirs["labels"])
       there[one["name"]] = one["voxels"];
     EXPECT_GT(here["block"], 0);
     EXPECT_EQ(there, here) << threshold;
@@ -231,7 +232,9 @@ TEST_F(NodeCommand, ReceivesTheLatestSceneThatIsWhole)
   start(false);
   const auto sent = json("send ear --to pacs --what scene");
   const std::filesystem::path archive = m_folder / "later.petrous";
-  json("archive ear " + quoted(archive));
+  // Another content: the same archive would be of the same series.
+  json("new later --ct " + quoted(m_folder / "patient/ct"));
+  json("archive later " + quoted(archive));
   petrous::network::SceneDescription description;
   description.studyUid = sent["study"];
   description.studyId =

@@ -440,7 +440,7 @@ void StructuresPanel::fitColumns()
       for (int row = 0; row < m_structures->rowCount(m_structures->index(top, 0)); ++row)
       {
         const QModelIndex cell = m_structures->index(row, column, m_structures->index(top, 0));
-        width = std::max(width, m_list->sizeHintForIndex(cell).width() + kPadding);
+        width = std::max(width, m_list->sizeHintForIndex(cell).width());
       }
     header->resizeSection(column, width);
   }

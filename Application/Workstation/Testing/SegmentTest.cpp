@@ -182,6 +182,7 @@ TEST_F(Segment, LabelsOfTheThresholdAreSeenWhole)
             << label->text().toStdString();
       }
     EXPECT_GE(seen, 4) << "structure, image, range, result";
+    onMessage([](QMessageBox& box) { answer(box, "Discard"); });
     closeWindow();
   }
 }

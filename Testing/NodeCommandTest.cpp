@@ -224,6 +224,39 @@ TEST_F(NodeCommand, BuildsACaseOfImages)
               std::filesystem::is_empty(m_folder / "two"));
 }
 
+// A send that was cut leaves parts of a scene; the one before it can still be received.
+TEST_F(NodeCommand, ReceivesTheLatestSceneThatIsWhole)
+{
+  if (!servers::Orthanc::installed())
+    GTEST_SKIP() << "Orthanc (package orthanc) is not installed";
+  start(false);
+  const auto sent = json("send ear --to pacs --what scene");
+  const std::filesystem::path archive = m_folder / "later.petrous";
+  // Another content: the same archive would be of the same series.
+  json("new later --ct " + quoted(m_folder / "patient/ct"));
+  json("archive later " + quoted(archive));
+  petrous::network::SceneDescription description;
+  description.studyUid = sent["study"];
+  description.studyId =
+      petrous::network::findStudies(m_server->node(), {description.studyUid, {}}).at(0).studyId;
+  description.seriesNumber = 5000; // a later state than that of the revision
+  std::filesystem::create_directories(m_folder / "parts");
+  auto parts = petrous::network::writeSceneObjects(archive, m_folder / "parts", description, {},
+                                                   std::filesystem::file_size(archive) / 3);
+  ASSERT_GE(parts.size(), 3U);
+  const auto last = parts.back();
+  parts.pop_back();
+  petrous::network::store(m_server->node(), parts);
+  const auto got = json("receive --from pacs --case ear" + other());
+  EXPECT_EQ(got["scene"], true);
+  ASSERT_EQ(got["notes"].size(), 1U) << got;
+  EXPECT_NE(got["notes"][0].get<std::string>().find("a later state of the case"),
+            std::string::npos);
+  expectSameCase("ear");
+  petrous::network::store(m_server->node(), {last});
+  EXPECT_TRUE(json("receive --from pacs --case ear --as whole" + other())["notes"].empty());
+}
+
 TEST_F(NodeCommand, ABatchSendsWhatIsNew)
 {
   if (!servers::Orthanc::installed())

@@ -972,10 +972,10 @@ ReceiveSummary receiveCase(library::Library& library, const network::Node& node,
     freeName(library, request.as.empty() ? library::inspectArchive(archive).name : request.as);
     library::RestoreOptions options;
     options.name = request.as;
-    auto restored = library::restoreCase(library, archive, options, progress.part(0.8, 1.0));
+    const auto restored = library::restoreCase(library, archive, options, progress.part(0.8, 1.0));
     summary.name = restored.name;
     summary.scene = true;
-    summary.notes = std::move(restored.notes);
+    summary.notes.insert(summary.notes.end(), restored.notes.begin(), restored.notes.end());
     return summary;
   }
 

@@ -51,6 +51,26 @@ protected:
   }
   void TearDown() override { std::filesystem::remove_all(m_folder); }
 
+  /// One structure, of index 1.
+  void writeSegmentation(const std::string& file,
+                         std::shared_ptr<const volume::Volume<std::uint16_t>> voxels,
+                         const std::string& name, const std::string& frameOfReference) const
+  {
+    volume::Segment structure;
+    structure.name = name;
+    structure.index = 1;
+    imaging::SegmentationDescription segmentation;
+    segmentation.studyUid = "1.2.3";
+    segmentation.seriesUid = "1.2.3.4";
+    segmentation.frameOfReferenceUid = frameOfReference;
+    imaging::SegmentationDescription::Segment segment;
+    segment.index = 1;
+    segment.label = name;
+    segmentation.segments = {segment};
+    imaging::writeDicomSegmentation(
+        m_folder / file, {volume::makeLabelMap(std::move(voxels), {structure})}, segmentation);
+  }
+
   std::filesystem::path m_folder;
   presenters::CaseSources m_sources;
 };
@@ -597,19 +617,8 @@ TEST_F(CaseBuilder, SaysWhereAFrameOfReferenceCannotBeCompared)
   const core::GridGeometry grid({8, 8, 4}, Vector3d::Ones(), Vector3d(-4, 4, 5)); // not the CT's
   auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
   voxels->at(1, 1, 1) = 1;
-  volume::Segment incus;
-  incus.name = "incus";
-  incus.index = 1;
-  imaging::SegmentationDescription segmentation;
-  segmentation.studyUid = "1.2.3";
-  segmentation.seriesUid = "1.2.3.4";
-  segmentation.frameOfReferenceUid = "1.2.3.4.5";
-  imaging::SegmentationDescription::Segment segment;
-  segment.index = 1;
-  segment.label = "incus";
-  segmentation.segments = {segment};
-  imaging::writeDicomSegmentation(m_folder / "seg.dcm", {volume::makeLabelMap(voxels, {incus})},
-                                  segmentation);
+  const std::string frame = "1.2.3.4.5";
+  writeSegmentation("seg.dcm", voxels, "incus", frame);
   const auto labels = [this](const std::string& on)
   {
     m_sources.parts.labels = {{"", m_folder / "seg.dcm", on}};
@@ -632,7 +641,7 @@ TEST_F(CaseBuilder, SaysWhereAFrameOfReferenceCannotBeCompared)
   series.seriesUid = "1.2.3.5";
   for (const bool isOther : {true, false})
   {
-    series.frameOfReferenceUid = isOther ? "1.2.3.9" : segmentation.frameOfReferenceUid;
+    series.frameOfReferenceUid = isOther ? "1.2.3.9" : frame;
     m_sources.ct = m_folder / (isOther ? "other" : "same");
     imaging::writeDicomSeries(m_sources.ct, volume::IntensityVolume(ct), series);
     EXPECT_EQ(labels("ct").provenance.isFrameAssumed, isOther);
@@ -1045,19 +1054,7 @@ TEST_F(CaseBuilder, KnowsTheFrameOfReferenceOfWhatItsCaseExports)
   {
     auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
     voxels->at(1, 1, 1) = 1;
-    volume::Segment incus;
-    incus.name = name;
-    incus.index = 1;
-    imaging::SegmentationDescription segmentation;
-    segmentation.studyUid = "1.2.3";
-    segmentation.seriesUid = "1.2.3.4";
-    segmentation.frameOfReferenceUid = frame;
-    imaging::SegmentationDescription::Segment segment;
-    segment.index = 1;
-    segment.label = name;
-    segmentation.segments = {segment};
-    imaging::writeDicomSegmentation(m_folder / name, {volume::makeLabelMap(voxels, {incus})},
-                                    segmentation);
+    writeSegmentation(name, voxels, name, frame);
     presenters::PartSources parts;
     parts.labels = {{"", m_folder / name}};
     presenters::addParts(value, parts, {});
@@ -1095,19 +1092,7 @@ TEST_F(CaseBuilder, HangsASegmentationOnTheMrOfItsGridOrAsks)
     auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
     for (int k = 0; k < grid.dims()[2]; ++k) // a frame for each slice: the grid is the image's
       voxels->at(1, 1, k) = 1;
-    volume::Segment cochlea;
-    cochlea.name = "cochlea";
-    cochlea.index = 1;
-    imaging::SegmentationDescription segmentation;
-    segmentation.studyUid = "1.2.3";
-    segmentation.seriesUid = "1.2.3.4";
-    segmentation.frameOfReferenceUid = "1.2.3.9";
-    imaging::SegmentationDescription::Segment segment;
-    segment.index = 1;
-    segment.label = "cochlea";
-    segmentation.segments = {segment};
-    imaging::writeDicomSegmentation(m_folder / "seg.dcm", {volume::makeLabelMap(voxels, {cochlea})},
-                                    segmentation);
+    writeSegmentation("seg.dcm", voxels, "cochlea", "1.2.3.9");
     m_sources.parts.mr = {{first, m_folder / first}};
     if (!second.empty())
       m_sources.parts.mr.push_back({second, m_folder / second});

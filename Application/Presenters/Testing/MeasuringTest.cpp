@@ -26,6 +26,18 @@ scene::Case twoBallsAndATube()
                           {"canal", cylinder({-10, -8, -8}, {10, -8, -8}, 2.0)}});
 }
 
+/// Of coarse voxels, registered to 1.5 mm.
+void addT2(scene::Case& value)
+{
+  scene::ImagePart mr;
+  mr.name = "T2";
+  mr.geometry = core::GridGeometry({10, 10, 10}, Vector3d(1.0, 1.2, 3.0), Vector3d::Zero());
+  mr.registration.emplace();
+  mr.registration->error = scene::RegistrationError{};
+  mr.registration->error->p95 = 1.5;
+  value.mr.push_back(mr);
+}
+
 scene::Measurement made(Kind kind, std::vector<Vector3d> points, const std::string& image = {})
 {
   scene::Measurement one;
@@ -61,13 +73,7 @@ TEST(Quantity, IsWrittenAsItsUncertaintyDeserves)
 TEST(Uncertainty, OfPointsOnSeveralImagesIsThatOfTheWorseAndOfTheRegistration)
 {
   scene::Case value = twoBallsAndATube(); // 0.4 x 0.4 x 0.5 mm
-  scene::ImagePart mr;
-  mr.name = "T2";
-  mr.geometry = core::GridGeometry({10, 10, 10}, Vector3d(1.0, 1.2, 3.0), Vector3d::Zero());
-  mr.registration.emplace();
-  mr.registration->error = scene::RegistrationError{};
-  mr.registration->error->p95 = 1.5;
-  value.mr.push_back(mr);
+  addT2(value);
   const auto of = [&](std::vector<std::string> images)
   {
     scene::Measurement one = made(Kind::Distance, {{1, 2, 3}, {11, 2, 3}});
@@ -94,13 +100,7 @@ TEST(Uncertainty, OfPointsOnSeveralImagesIsThatOfTheWorseAndOfTheRegistration)
 TEST(Between, KnowsTheImagesThatItComparesAndTheRegistrationBetweenThem)
 {
   scene::Case value = twoBallsAndATube();
-  scene::ImagePart mr;
-  mr.name = "T2";
-  mr.geometry = core::GridGeometry({10, 10, 10}, Vector3d(1.0, 1.2, 3.0), Vector3d::Zero());
-  mr.registration.emplace();
-  mr.registration->error = scene::RegistrationError{};
-  mr.registration->error->p95 = 1.5;
-  value.mr.push_back(mr);
+  addT2(value);
   value.measurements = {made(Kind::Mark, {{1, 2, 3}}), made(Kind::Mark, {{4, 6, 3}}, "T2")};
   value.measurements[1].name = "other";
   const Between between = distanceBetween(value, "one", "other");

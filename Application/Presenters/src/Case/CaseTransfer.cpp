@@ -43,6 +43,18 @@ void addFiles(const fs::path& folder, std::vector<fs::path>& files)
   files.insert(files.end(), here.begin(), here.end());
 }
 
+/// What was retrieved into a folder, sorted.
+std::vector<fs::path> instancesIn(const fs::path& folder)
+{
+  std::vector<fs::path> files;
+  addFiles(folder, files);
+  files.erase(std::remove_if(files.begin(), files.end(),
+                             [](const fs::path& file)
+                             { return file.extension() != network::kInstanceEnding; }),
+              files.end());
+  return files;
+}
+
 /// The structures by space and grid: a segmentation has one of each.
 std::vector<std::vector<PlacedLabels>> labelGroups(const scene::Case& value)
 {
@@ -383,8 +395,6 @@ void addSegmentations(scene::Case& value, const std::vector<network::Series>& se
                       const fs::path& folder, std::vector<std::string>& notes,
                       const core::Progress& progress)
 {
-  std::vector<fs::path> files;
-  addFiles(folder, files);
   const auto numberOf = [&series](const fs::path& file)
   {
     const std::string uid = network::seriesOfFile(file);
@@ -393,9 +403,8 @@ void addSegmentations(scene::Case& value, const std::vector<network::Series>& se
     return of == series.end() ? -1 : of->number;
   };
   std::vector<std::pair<int, fs::path>> ordered;
-  for (const fs::path& file : files)
-    if (file.extension() == network::kInstanceEnding)
-      ordered.emplace_back(numberOf(file), file);
+  for (const fs::path& file : instancesIn(folder))
+    ordered.emplace_back(numberOf(file), file);
   std::stable_sort(ordered.begin(), ordered.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   std::optional<int> latest; // of those that were added
@@ -483,11 +492,7 @@ void receiveScene(const network::Node& node, const std::string& study,
       const fs::path parts = folder / ("scene-" + shortHash(scene.uid));
       const network::Transfer transfer =
           network::retrieve(node, study, {scene.uid}, parts, progress.part(0.0, 0.9));
-      std::vector<fs::path> files;
-      for (const auto& entry : fs::directory_iterator(parts))
-        if (entry.path().extension() == network::kInstanceEnding)
-          files.push_back(entry.path());
-      network::readSceneObjects(files, archive, progress.part(0.9, 1.0));
+      network::readSceneObjects(instancesIn(parts), archive, progress.part(0.9, 1.0));
       summary.transfer = transfer;
       if (first)
         summary.notes.push_back("a later state of the case is at node '" + node.name +

@@ -149,9 +149,8 @@ std::vector<SeriesContent> segmentationsOf(const imaging::ScanResult& scan)
       segmentation.description = file.filename().string();
       segmentation.folder = file.parent_path().filename().string();
       segmentation.files = {file};
-      segmentation.what = imaging::kindName(series.kind) == std::string("structure-set")
-                              ? "RT structure set"
-                              : "DICOM segmentation";
+      segmentation.what = series.kind == imaging::SeriesKind::StructureSet ? "RT structure set"
+                                                                           : "DICOM segmentation";
       found.push_back(std::move(segmentation));
     }
   std::sort(found.begin(), found.end(),

@@ -98,7 +98,7 @@ TEST_F(ArchiveCommand, WarnsOfWhatMayIdentifyBeforeItWrites)
   EXPECT_NE(quiet.err.find("tags: 1 of 1 may be"), std::string::npos) << quiet.err;
   EXPECT_EQ(quiet.err.find("whole head"), std::string::npos) << "64 mm";
 
-  json("sample " + quoted(m_folder / "wide") + " --dims 80,80,20 --spacing 2.0");
+  makeSample(m_folder / "wide", "--dims 80,80,20 --spacing 2.0");
   json("new wide --ct " + quoted(m_folder / "wide/ct"));
   for (const std::string& line : {"archive wide " + quoted(m_folder / "wide.petrous"),
                                   "export wide --what ct --out " + quoted(m_folder / "wide.nrrd"),

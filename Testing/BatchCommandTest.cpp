@@ -187,7 +187,7 @@ TEST_F(BatchCommand, DoesEachRowAndGoesOnPastABadOne)
 // What leaves is looked at as by the commands, and chosen.
 TEST_F(BatchCommand, NotesWhatMayIdentifyAndLeavesOutWhatIsAskedFor)
 {
-  json("sample " + quoted(m_folder / "wide") + " --dims 80,80,20 --spacing 2.0");
+  makeSample(m_folder / "wide", "--dims 80,80,20 --spacing 2.0");
   std::ofstream(m_folder / "Doe.pdf") << "%PDF-1.7 of Doe";
   std::ofstream(m_folder / "Doe.mp4") << std::string("\0\0\0\x18", 4) + "ftypmp42 of Doe";
   json("new wide --ct " + quoted(m_folder / "wide/ct"));
@@ -358,7 +358,7 @@ TEST_F(BatchCommand, ADryRunOnlyLooks)
   EXPECT_TRUE(libraryContent().empty());
 
   // What needs repair is told before.
-  json("sample " + quoted(m_folder / "tilted") + " --dims 32,32,30 --spacing 2.0 --tilt 12");
+  makeSample(m_folder / "tilted", "--dims 32,32,30 --spacing 2.0 --tilt 12");
   write("name,folder,repair\nleft,tilted/ct,\nright,tilted/ct,yes\n");
   const auto tilted = parsed(run(batch("--dry-run --json")))["rows"];
   EXPECT_EQ(tilted[0]["status"], "failed");

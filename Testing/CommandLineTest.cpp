@@ -967,10 +967,7 @@ TEST_F(CommandLine, StrictScanWantsEverySeriesSound)
 {
   makePatient("--dims 32,32,40 --spacing 2");
   EXPECT_EQ(run("scan --strict " + quoted(m_folder / "patient/ct")).code, 0);
-  ASSERT_EQ(
-      run("sample " + quoted(m_folder / "tilted") + " --dims 32,32,40 --spacing 2 --tilt 18.5")
-          .code,
-      0);
+  makeSample(m_folder / "tilted", "--dims 32,32,40 --spacing 2 --tilt 18.5");
   const std::string tilted = quoted(m_folder / "tilted/ct");
   EXPECT_EQ(run("scan " + tilted).code, 0);
   const auto strict = run("scan --json --strict " + tilted);

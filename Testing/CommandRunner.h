@@ -18,6 +18,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "MadeOnce.h"
+
 namespace petrous::testing
 {
 
@@ -88,11 +90,21 @@ protected:
     EXPECT_TRUE(outcome.out.empty()) << outcome.out;
   }
 
-  /// Creates a small phantom patient in patient/, once per test.
+  /// The sample patient of these options in `out`, made by the program once for all tests.
+  void makeSample(const std::filesystem::path& out, const std::string& options) const
+  {
+    copyMadeOnce("command " + options, out,
+                 [&](const std::filesystem::path& made)
+                 {
+                   const Outcome outcome = run("sample " + quoted(made) + " " + options);
+                   ASSERT_EQ(outcome.code, 0) << outcome.err;
+                 });
+  }
+
+  /// A small one in patient/.
   void makePatient(const std::string& options = "--dims 64,64,60 --spacing 1.0") const
   {
-    const Outcome outcome = run("sample " + quoted(m_folder / "patient") + " " + options);
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    makeSample(m_folder / "patient", options);
   }
 
   /// A straight path from `from` to `to` (LPS mm), drilling all the way, one second.

@@ -13,8 +13,7 @@ protected:
   void SetUp() override
   {
     CommandLine::SetUp();
-    ASSERT_EQ(run("sample " + (m_folder / "s").string() + " --dims 32,32,32 --spacing 1.5").code,
-              0);
+    makeSample(m_folder / "s", "--dims 32,32,32 --spacing 1.5");
     ASSERT_EQ(run("new ear --ct " + (m_folder / "s/ct").string()).code, 0);
   }
 

@@ -82,6 +82,13 @@ function(petrous_add_tests target)
       ENVIRONMENT_MODIFICATION "XDG_CACHE_HOME=set:${CMAKE_BINARY_DIR}/Testing/cache")
 endfunction()
 
+# petrous_share_samples(<target>): tests that begin with a sample patient, made once for all (MadeOnce.h).
+function(petrous_share_samples target)
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/Modules/Phantom/Testing)
+  target_compile_definitions(${target} PRIVATE PETROUS_CACHED_BY="$<TARGET_FILE:petrous>"
+    PETROUS_TEST_CACHE="${PROJECT_BINARY_DIR}/Testing/samples")
+endfunction()
+
 # petrous_add_module(<Name>
 #   SOURCES file...            the library's sources, src/<Part>/<Name>.cpp
 #   DEPENDS Module...          modules whose public headers it includes

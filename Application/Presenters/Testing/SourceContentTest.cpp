@@ -7,11 +7,11 @@
 
 #include <unistd.h>
 
+#include "SharedSample.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/VolumeFile.h"
-#include "petrous/Phantom/SamplePatient.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/PartFiles.h"
 #include "petrous/Presenters/SeriesPreview.h"
@@ -129,7 +129,7 @@ TEST_F(SourceContent, IsKnownOfEachKindOfFile)
 {
   phantom::SampleOptions options;
   options.spacing = 1.5;
-  phantom::writeSamplePatient(m_folder, options);
+  petrous::testing::writeSharedSample(m_folder, options);
   EXPECT_EQ(at("ct"), Content::Ct);
   EXPECT_EQ(at("mr"), Content::Mr);
   EXPECT_EQ(at("labels.seg.nrrd"), Content::Labels);
@@ -186,7 +186,7 @@ TEST_F(SourceContent, OfAFolderWithCtAndMrTheUserSaysWhich)
 {
   phantom::SampleOptions options;
   options.spacing = 1.5;
-  phantom::writeSamplePatient(m_folder, options);
+  petrous::testing::writeSharedSample(m_folder, options);
   std::filesystem::create_directory(m_folder / "visit");
   std::filesystem::rename(m_folder / "ct", m_folder / "visit" / "ct");
   std::filesystem::rename(m_folder / "mr", m_folder / "visit" / "mr");
@@ -208,7 +208,7 @@ TEST_F(SourceContent, OffersTheStructureSetsOfAFolder)
 {
   phantom::SampleOptions options;
   options.spacing = 1.5;
-  phantom::writeSamplePatient(m_folder, options);
+  petrous::testing::writeSharedSample(m_folder, options);
   std::string file(128, '\0');
   file += "DICM";
   const auto element = [&file](const std::string& tag, const char* vr, std::string value)
@@ -249,7 +249,7 @@ TEST_F(SourceContent, MasksAreTakenForWhatTheyAreAlsoAboveDicom)
 {
   phantom::SampleOptions options;
   options.spacing = 1.5;
-  phantom::writeSamplePatient(m_folder, options);
+  petrous::testing::writeSharedSample(m_folder, options);
   auto voxels = volume::makeZeroVolume<std::uint16_t>(kGrid);
   voxels->at(3, 4, 5) = 1;
   std::filesystem::create_directories(m_folder / "study");
@@ -276,7 +276,7 @@ TEST_F(SourceContent, OffersStructuresAndMeshesThatLieWithTheSlices)
   const fs::path visit = m_folder / "visit";
   phantom::SampleOptions options;
   options.spacing = 1.5;
-  phantom::writeSamplePatient(visit, options);
+  petrous::testing::writeSharedSample(visit, options);
   const auto masks = std::distance(fs::directory_iterator(visit / "labels"), {});
   const auto meshes = std::distance(fs::directory_iterator(visit / "meshes"), {});
   ASSERT_GT(masks, 4);
@@ -361,7 +361,7 @@ std::filesystem::path withoutSlice(const std::filesystem::path& folder, std::siz
 {
   phantom::SampleOptions options;
   options.spacing = 1.5;
-  phantom::writeSamplePatient(folder, options);
+  petrous::testing::writeSharedSample(folder, options);
   const auto scan = imaging::scanDicom(folder / "ct", {});
   std::filesystem::remove(scan.series.at(0).geometry.slices.at(missing).file);
   return folder / "ct";
@@ -398,7 +398,7 @@ TEST_F(SourceContent, ThePreviewOfARegionCountsWhatWouldBeRead)
   phantom::SampleOptions options;
   options.spacing = 0.3; // more slices than a preview takes
   options.dims = {24, 24, 300};
-  phantom::writeSamplePatient(m_folder, options);
+  petrous::testing::writeSharedSample(m_folder, options);
   const auto preview = presenters::previewScan(m_folder / "ct", {}, false, {});
   presenters::CaseSources sources;
   sources.ct = m_folder / "ct";
@@ -420,7 +420,7 @@ TEST_F(SourceContent, ThePreviewOfARepairShowsTheSlicesAsTheyLieAndAsTheyBelong)
   phantom::SampleOptions options;
   options.spacing = 1.5;
   options.tilt = 15.0;
-  phantom::writeSamplePatient(m_folder, options);
+  petrous::testing::writeSharedSample(m_folder, options);
   const auto preview = presenters::previewRepair(m_folder / "ct", {}, {});
   EXPECT_EQ(preview.orientation, presenters::SliceOrientation::Sagittal) << "where the tilt shows";
   presenters::CaseSources sources;

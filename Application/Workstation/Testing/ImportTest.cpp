@@ -23,6 +23,7 @@
 #include "CaseDocumentController.h"
 #include "RegionDialog.h"
 #include "RepairDialog.h"
+#include "SharedSample.h"
 #include "StartPage.h"
 #include "WindowTexts.h"
 #include "petrous/Imaging/DicomScan.h"
@@ -31,7 +32,6 @@
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/VolumeFile.h"
 #include "petrous/Library/Archive.h"
-#include "petrous/Phantom/SamplePatient.h"
 #include "petrous/Presenters/CaseBuilder.h"
 
 using namespace petrous;
@@ -61,7 +61,7 @@ TEST_F(Import, ADroppedDicomFolderCanBeDrilledAtOnce)
 {
   phantom::SampleOptions options;
   options.spacing = 1.0;
-  phantom::writeSamplePatient(folder() / "sample", options);
+  petrous::testing::writeSharedSample(folder() / "sample", options);
   openWindow();
   dropPath(folder() / "sample" / "ct");
   ASSERT_TRUE(waitFor([this] { return window().model().hasCase(); }));
@@ -76,7 +76,7 @@ TEST_F(Import, AFolderOfSeveralSeriesAsksWhich)
 {
   phantom::SampleOptions options;
   options.spacing = 1.5;
-  phantom::writeSamplePatient(folder() / "visit", options);
+  petrous::testing::writeSharedSample(folder() / "visit", options);
   for (const char* part : {"labels", "labels.seg.nrrd", "meshes"})
     fs::remove_all(folder() / "visit" / part);
   openWindow();
@@ -123,7 +123,7 @@ TEST_F(Import, StructuresOfADroppedTreeAreOfferedWithItsSeries)
 {
   phantom::SampleOptions options;
   options.spacing = 1.5;
-  phantom::writeSamplePatient(folder() / "visit", options);
+  petrous::testing::writeSharedSample(folder() / "visit", options);
   for (const char* part : {"labels", "mr"})
     fs::remove_all(folder() / "visit" / part);
   openWindow();
@@ -235,7 +235,7 @@ void writePatient(const fs::path& folder)
 {
   phantom::SampleOptions options;
   options.spacing = 1.5;
-  phantom::writeSamplePatient(folder, options);
+  petrous::testing::writeSharedSample(folder, options);
 }
 
 using OnDialog = std::function<void(const std::function<bool(QDialog&)>&)>;
@@ -1060,7 +1060,7 @@ TEST_F(Import, ATiltedScanIsStraightenedOnlyWithConsent)
   phantom::SampleOptions options;
   options.spacing = 1.5;
   options.tilt = 12.0;
-  phantom::writeSamplePatient(folder() / "tilted", options);
+  petrous::testing::writeSharedSample(folder() / "tilted", options);
   openWindow();
   const auto drop = [this](const QString& button)
   {
@@ -1087,7 +1087,7 @@ TEST_F(Import, ASoundSeriesIsNotTakenUnaskedBesideOneThatNeedsRepair)
   phantom::SampleOptions options;
   options.spacing = 1.5;
   options.tilt = 12.0;
-  phantom::writeSamplePatient(folder() / "sample", options);
+  petrous::testing::writeSharedSample(folder() / "sample", options);
   fs::create_directories(folder() / "visit");
   fs::rename(folder() / "sample" / "ct", folder() / "visit" / "thin");
   const auto thick = std::make_shared<const volume::Volume<std::int16_t>>(

@@ -115,7 +115,7 @@ core::RigidTransform Phantom::mrFromCt() const
 }
 
 Phantom::Scene::Stack Phantom::Scene::stackAround(const shapes::Point& center, double reach,
-                                                  const Stack* among) const
+                                                  const Stack* among, std::size_t lowest) const
 {
   // Signed distances may exceed the true distance to a border, at most by these factors.
   constexpr double kOutside = 1.3;
@@ -143,7 +143,7 @@ Phantom::Scene::Stack Phantom::Scene::stackAround(const shapes::Point& center, d
       }
     return stack;
   }
-  for (std::size_t l = layers.size(); l-- > 0;)
+  for (std::size_t l = layers.size(); l-- > lowest;)
     if (covers(l))
     {
       stack.base = static_cast<int>(l);

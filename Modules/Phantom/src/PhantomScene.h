@@ -27,8 +27,11 @@ struct Phantom::Scene
     std::vector<std::size_t> layers;
     int base = -1;
   };
-  /// `among`: the stack of an enclosing neighbourhood, to test fewer layers.
-  Stack stackAround(const shapes::Point& center, double reach, const Stack* among = nullptr) const;
+  /// `among`: the stack of an enclosing neighbourhood, to test fewer layers. Where only the layers
+  /// from `lowest` upwards matter, those below are left out, and `base` is -1 where none covers
+  /// all.
+  Stack stackAround(const shapes::Point& center, double reach, const Stack* among = nullptr,
+                    std::size_t lowest = 0) const;
 
   static double intensity(const anatomy::Layer& layer, Modality modality)
   {
@@ -95,12 +98,16 @@ struct Phantom::Scene
 
   double distance(std::size_t structure, const shapes::Point& p) const;
 
-  /// The same within a neighbourhood; +-kFar if the layer has no border in it.
-  double distance(const Stack& stack, std::size_t layer, const shapes::Point& p) const
+  /// The same within a neighbourhood; +-kFar if the layer has no border in it. A distance of
+  /// `enough` or more may be too small.
+  double distance(const Stack& stack, std::size_t layer, const shapes::Point& p,
+                  double enough = kFar) const
   {
     double d = -kFar;
     for (const std::size_t l : stack.layers)
     {
+      if (d >= enough)
+        return d;
       if (l < layer)
         return kFar; // the layer is not in the stack
       if (l == layer)

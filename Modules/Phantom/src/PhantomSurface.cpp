@@ -22,45 +22,71 @@ double boxDistance(const shapes::Box& box, const shapes::Point& p)
   return std::max((box.min() - p).maxCoeff(), (p - box.max()).maxCoeff());
 }
 
-/// Volume of a layer in a cell: recursively split in eight down to the resolution.
-double cellVolume(const Phantom::Scene& scene, std::size_t layer,
-                  const Phantom::Scene::Stack* among, const shapes::Point& center,
-                  const Eigen::Vector3d& edge, double resolution)
+/// Volume of a layer in a cell, split in eight where it has a border, down to a resolution.
+struct CellVolume
 {
-  const auto stack = scene.stackAround(center, 0.5 * edge.norm(), among);
+  double fine = 0.0;
+  double coarse = 0.0; ///< the same at twice the resolution
+};
+
+CellVolume cellVolume(const Phantom::Scene& scene, std::size_t layer,
+                      const Phantom::Scene::Stack& around, const shapes::Point& center,
+                      const Eigen::Vector3d& edge, double resolution)
+{
   const double width = std::cbrt(edge.prod());
-  const double d = scene.distance(stack, layer, center);
-  if (d >= Phantom::Scene::kFar)
-    return 0.0;
-  if (stack.layers.empty())
-    return edge.prod();
-  if (width <= resolution)
+  const auto covered = [&]
+  {
+    const double d = scene.distance(around, layer, center, 0.5 * width);
     return edge.prod() * std::clamp(0.5 - d / width, 0.0, 1.0);
-  double sum = 0.0;
+  };
+  if (width <= resolution)
+  {
+    const double volume = covered();
+    return {volume, volume};
+  }
+  const auto stack = scene.stackAround(center, 0.5 * edge.norm(), &around, layer);
+  if (stack.layers.empty())
+  {
+    const double volume = stack.base == static_cast<int>(layer) ? edge.prod() : 0.0;
+    return {volume, volume};
+  }
+  if (scene.distance(stack, layer, center, Phantom::Scene::kFar) >= Phantom::Scene::kFar)
+    return {};
+  CellVolume sum;
   for (int corner = 0; corner < 8; ++corner)
   {
     const Eigen::Vector3d side((corner & 1) ? 0.25 : -0.25, (corner & 2) ? 0.25 : -0.25,
                                (corner & 4) ? 0.25 : -0.25);
-    sum +=
-        cellVolume(scene, layer, &stack, center + edge.cwiseProduct(side), 0.5 * edge, resolution);
+    const CellVolume part =
+        cellVolume(scene, layer, stack, center + edge.cwiseProduct(side), 0.5 * edge, resolution);
+    sum.fine += part.fine;
+    sum.coarse += part.coarse;
   }
+  if (width <= 2.0 * resolution)
+    sum.coarse = covered();
   return sum;
 }
 
-/// Marching tetrahedra over a lattice of signed distances: closed by construction, since every
-/// crossed edge gives one vertex and every crossed face one segment.
+/// Marching tetrahedra over a lattice of signed distances to a layer within a box: closed by
+/// construction, since every crossed edge gives one vertex and every crossed face one segment.
 class Polygoniser
 {
 public:
-  template <class Distance>
-  Polygoniser(const shapes::Box& box, double step, const Distance& distance)
-    : m_origin(box.min().array() - 1.5 * step)
+  Polygoniser(const Phantom::Scene& scene, std::size_t layer, const shapes::Box& clip, double step)
+    : m_scene(scene)
+    , m_layer(layer)
+    , m_clip(clip)
     , m_step(step)
   {
+    const shapes::Box box = scene.layers[layer].shape.box.intersection(clip);
+    m_origin = box.min().array() - 1.5 * step;
     for (std::size_t a = 0; a < 3; ++a)
+    {
       m_dims[a] = static_cast<int>(std::ceil(box.sizes()[static_cast<Eigen::Index>(a)] / step)) + 4;
-    sample(distance);
-    cut(distance);
+      m_blocks[a] = (m_dims[a] + kBlock - 1) / kBlock;
+    }
+    sample();
+    cut();
   }
 
   core::TriangleMesh take() { return std::move(m_mesh); }
@@ -80,35 +106,52 @@ private:
     return m_origin + m_step * Eigen::Vector3d(i, j, k);
   }
 
-  /// Blocks without a border get the value of their centre everywhere.
-  template <class Distance>
-  void sample(const Distance& distance)
+  /// The layers near the block of a lattice point; they hold for the edges that begin there too.
+  Phantom::Scene::Stack& stackOf(int i, int j, int k)
+  {
+    return m_stacks[(static_cast<std::size_t>(k / kBlock) * static_cast<std::size_t>(m_blocks[1]) +
+                     static_cast<std::size_t>(j / kBlock)) *
+                        static_cast<std::size_t>(m_blocks[0]) +
+                    static_cast<std::size_t>(i / kBlock)];
+  }
+  double distance(const Phantom::Scene::Stack& stack, const shapes::Point& p) const
+  {
+    return std::max(m_scene.distance(stack, m_layer, p), boxDistance(m_clip, p));
+  }
+
+  /// Blocks without a border get one value everywhere.
+  void sample()
   {
     m_values.resize(index(0, 0, m_dims[2]));
+    m_stacks.resize(static_cast<std::size_t>(m_blocks[0]) * static_cast<std::size_t>(m_blocks[1]) *
+                    static_cast<std::size_t>(m_blocks[2]));
     const double reach = 0.5 * std::sqrt(3.0) * kBlock * m_step;
-    const int slabs = (m_dims[2] + kBlock - 1) / kBlock;
-    tbb::parallel_for(0, slabs,
+    tbb::parallel_for(0, m_blocks[2],
                       [&](int slab)
                       {
                         const int k0 = slab * kBlock;
-                        const int k1 = std::min(k0 + kBlock, m_dims[2]);
                         for (int j0 = 0; j0 < m_dims[1]; j0 += kBlock)
                           for (int i0 = 0; i0 < m_dims[0]; i0 += kBlock)
-                          {
-                            const double half = 0.5 * (kBlock - 1);
-                            const double middle = distance(at(i0 + half, j0 + half, k0 + half));
-                            const bool far = middle > kOutside * reach || middle < -kInside * reach;
-                            for (int k = k0; k < k1; ++k)
-                              for (int j = j0; j < std::min(j0 + kBlock, m_dims[1]); ++j)
-                                for (int i = i0; i < std::min(i0 + kBlock, m_dims[0]); ++i)
-                                  m_values[index(i, j, k)] =
-                                      static_cast<float>(far ? middle : distance(at(i, j, k)));
-                          }
+                            sampleBlock({i0, j0, k0}, reach);
                       });
   }
 
-  template <class Distance>
-  void cut(const Distance& distance)
+  void sampleBlock(const core::Index3& first, double reach)
+  {
+    const double half = 0.5 * (kBlock - 1);
+    const shapes::Point center = at(first[0] + half, first[1] + half, first[2] + half);
+    auto& stack = stackOf(first[0], first[1], first[2]);
+    stack = m_scene.stackAround(center, reach, nullptr, m_layer);
+    const double middle = distance(stack, center);
+    const bool far = middle > kOutside * reach || middle < -kInside * reach;
+    for (int k = first[2]; k < std::min(first[2] + kBlock, m_dims[2]); ++k)
+      for (int j = first[1]; j < std::min(first[1] + kBlock, m_dims[1]); ++j)
+        for (int i = first[0]; i < std::min(first[0] + kBlock, m_dims[0]); ++i)
+          m_values[index(i, j, k)] =
+              static_cast<float>(far ? middle : distance(stack, at(i, j, k)));
+  }
+
+  void cut()
   {
     // the six tetrahedra of a cube share the diagonal 0-7; corners are bits x, y, z
     static constexpr std::array<std::array<int, 4>, 6> kTetrahedra{
@@ -124,7 +167,7 @@ private:
           if (inside == 0 || inside == 0xFF)
             continue;
           for (const auto& tetrahedron : kTetrahedra)
-            cutTetrahedron(distance, i, j, k, inside, tetrahedron);
+            cutTetrahedron(i, j, k, inside, tetrahedron);
         }
   }
 
@@ -133,9 +176,7 @@ private:
     return m_values[index(i + (corner & 1), j + ((corner >> 1) & 1), k + (corner >> 2))];
   }
 
-  template <class Distance>
-  void cutTetrahedron(const Distance& distance, int i, int j, int k, unsigned inside,
-                      const std::array<int, 4>& corners)
+  void cutTetrahedron(int i, int j, int k, unsigned inside, const std::array<int, 4>& corners)
   {
     std::array<int, 4> in{};
     std::array<int, 4> out{};
@@ -143,7 +184,7 @@ private:
     std::size_t outs = 0;
     for (const int c : corners)
       ((inside >> c) & 1U) ? in[ins++] = c : out[outs++] = c;
-    const auto vertex = [&](int a, int b) { return edgeVertex(distance, i, j, k, a, b); };
+    const auto vertex = [&](int a, int b) { return edgeVertex(i, j, k, a, b); };
     const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c)
     {
       // oriented outwards: away from an inside corner
@@ -172,8 +213,7 @@ private:
   }
 
   /// Position of the border on an edge, by regula falsi on the signed distance itself.
-  template <class Distance>
-  std::uint32_t edgeVertex(const Distance& distance, int i, int j, int k, int a, int b)
+  std::uint32_t edgeVertex(int i, int j, int k, int a, int b)
   {
     const int low = std::min(a, b);
     const int high = std::max(a, b);
@@ -185,6 +225,7 @@ private:
       return entry->second;
     const shapes::Point p = at(i + (low & 1), j + ((low >> 1) & 1), k + (low >> 2));
     const shapes::Point q = at(i + (high & 1), j + ((high >> 1) & 1), k + (high >> 2));
+    const auto& stack = stackOf(i + (low & 1), j + ((low >> 1) & 1), k + (low >> 2));
     double t0 = 0.0;
     double t1 = 1.0;
     double f0 = value(i, j, k, low);
@@ -193,7 +234,7 @@ private:
     for (int round = 0; round < 4; ++round)
     {
       t = std::clamp(t0 + (t1 - t0) * f0 / (f0 - f1), t0 + 0.05 * (t1 - t0), t1 - 0.05 * (t1 - t0));
-      const double f = distance(p + t * (q - p));
+      const double f = distance(stack, p + t * (q - p));
       if ((f < 0.0) == (f0 < 0.0))
       {
         t0 = t;
@@ -210,9 +251,14 @@ private:
     return entry->second;
   }
 
+  const Phantom::Scene& m_scene;
+  std::size_t m_layer;
+  shapes::Box m_clip;
   Eigen::Vector3d m_origin;
   double m_step;
   core::Index3 m_dims{};
+  core::Index3 m_blocks{};
+  std::vector<Phantom::Scene::Stack> m_stacks;
   std::vector<float> m_values;
   std::unordered_map<std::size_t, std::uint32_t> m_vertexOf;
   core::TriangleMesh m_mesh;
@@ -233,27 +279,33 @@ double Phantom::volume(std::size_t structure, const core::PatientBox& within) co
   const Eigen::Vector3d edge = size.array() / cells.cast<double>();
   const std::size_t layer = m_scene->layerOf[structure];
 
-  const auto measure = [&](double finest)
+  // one sum per layer of cells, added in order: independent of thread scheduling
+  std::vector<CellVolume> sums(static_cast<std::size_t>(cells[2]));
+  tbb::parallel_for(
+      0, cells[2],
+      [&](int k)
+      {
+        CellVolume& sum = sums[static_cast<std::size_t>(k)];
+        for (int j = 0; j < cells[1]; ++j)
+          for (int i = 0; i < cells[0]; ++i)
+          {
+            const shapes::Point center =
+                box.min() + edge.cwiseProduct(Eigen::Vector3d(i + 0.5, j + 0.5, k + 0.5));
+            const auto stack = m_scene->stackAround(center, 0.5 * edge.norm(), nullptr, layer);
+            const CellVolume part = cellVolume(*m_scene, layer, stack, center, edge, resolution);
+            sum.fine += part.fine;
+            sum.coarse += part.coarse;
+          }
+      });
+  CellVolume all;
+  for (const CellVolume& sum : sums)
   {
-    // one sum per layer of cells, added in order: independent of thread scheduling
-    std::vector<double> sums(static_cast<std::size_t>(cells[2]), 0.0);
-    tbb::parallel_for(0, cells[2],
-                      [&](int k)
-                      {
-                        double sum = 0.0;
-                        for (int j = 0; j < cells[1]; ++j)
-                          for (int i = 0; i < cells[0]; ++i)
-                            sum += cellVolume(*m_scene, layer, nullptr,
-                                              box.min() + edge.cwiseProduct(Eigen::Vector3d(
-                                                              i + 0.5, j + 0.5, k + 0.5)),
-                                              edge, finest);
-                        sums[static_cast<std::size_t>(k)] = sum;
-                      });
-    return std::accumulate(sums.begin(), sums.end(), 0.0);
-  };
+    all.fine += sum.fine;
+    all.coarse += sum.coarse;
+  }
   // The coverage error of a border cell is proportional to the square of its edge where the border
   // is curved: two edges, one twice the other, cancel it (Richardson extrapolation).
-  return (4.0 * measure(resolution) - measure(2.0 * resolution)) / 3.0;
+  return (4.0 * all.fine - all.coarse) / 3.0;
 }
 
 core::TriangleMesh Phantom::surface(std::size_t structure, const core::PatientBox& within,
@@ -261,13 +313,10 @@ core::TriangleMesh Phantom::surface(std::size_t structure, const core::PatientBo
 {
   const anatomy::Layer& layer = m_scene->layers[m_scene->layerOf[structure]];
   const shapes::Box clip(within.min(), within.max());
-  const shapes::Box box = layer.shape.box.intersection(clip);
-  if (box.isEmpty())
+  if (layer.shape.box.intersection(clip).isEmpty())
     return {};
   const double step = resolution > 0.0 ? resolution : (layer.mesh > 0.0 ? layer.mesh : 0.3);
-  const auto distance = [&](const shapes::Point& p)
-  { return std::max(m_scene->distance(structure, p), boxDistance(clip, p)); };
-  return Polygoniser(box, step, distance).take();
+  return Polygoniser(*m_scene, m_scene->layerOf[structure], clip, step).take();
 }
 
 } // namespace petrous::phantom

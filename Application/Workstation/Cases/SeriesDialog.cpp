@@ -127,8 +127,8 @@ SeriesDialog::SeriesDialog(const presenters::SourceContent& source, bool hasCase
   resizeOnScreen(*this, {860, 380});
   const auto path = source.path.lexically_normal();
   auto* title = new QLabel(
-      tr("“%1” holds more than one series, or structures beside it. A CT begins a case; MRs, "
-         "structures and meshes go with it, or come to the open case.")
+      tr("“%1” holds more than one series or volume, or structures beside it. A CT begins a case; "
+         "MRs, structures and meshes go with it, or come to the open case.")
           .arg(QFile::decodeName(
               (path.has_filename() ? path : path.parent_path()).filename().c_str())));
   title->setTextFormat(Qt::PlainText);

@@ -162,11 +162,11 @@ void printImage(const Context& context, const ImageFile& image)
   const core::GridGeometry& grid = image.header.grid;
   const auto& n = grid.dims();
   const std::size_t volumes = image.header.volumes;
-  context.print("image  " + std::to_string(volumes) + (volumes == 1 ? " volume of " : " volumes of ") +
-                std::to_string(n[0]) + " x " + std::to_string(n[1]) + " x " +
-                std::to_string(n[2]) + ", " + fixed(grid.spacing()[0], 3) + " x " +
-                fixed(grid.spacing()[1], 3) + " x " + fixed(grid.spacing()[2], 3) + " mm  " +
-                core::printable(image.path));
+  context.print("image  " + std::to_string(volumes) +
+                (volumes == 1 ? " volume of " : " volumes of ") + std::to_string(n[0]) + " x " +
+                std::to_string(n[1]) + " x " + std::to_string(n[2]) + ", " +
+                fixed(grid.spacing()[0], 3) + " x " + fixed(grid.spacing()[1], 3) + " x " +
+                fixed(grid.spacing()[2], 3) + " mm  " + core::printable(image.path));
   if (volumes > 1)
     context.print("    volumes '1' to '" + std::to_string(volumes) +
                   "', of which --ct FILE --volume N takes one, or --mr FILE##N");

@@ -809,9 +809,8 @@ TEST(DicomScan, DividesAVShapedTiltIntoStacksThatRepairStraightens)
       const double hinge = 0.5 * (kHalf - 1);
       return tangent(low) * std::min(z, hinge) + tangent(up) * std::max(z - hinge, 0.0);
     };
-    const auto centreOf = [&](double z) {
-      return Eigen::Vector3d(-10.0 + 0.4 * 23.3, 20.5 + forwardOf(z) + 0.5 * 24.6, z);
-    };
+    const auto centreOf = [&](double z)
+    { return Eigen::Vector3d(-10.0 + 0.4 * 23.3, 20.5 + forwardOf(z) + 0.5 * 24.6, z); };
     const Eigen::Vector3d marks[] = {centreOf(5.63), centreOf(17.81)};
     const TemporaryFolder folder;
     for (int k = 0; k < 2 * kHalf; ++k)

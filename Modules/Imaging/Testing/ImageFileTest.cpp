@@ -1126,8 +1126,8 @@ void expectVolume(const LoadedImage& image, int volume, int volumes, const std::
     for (int j = 0; j < 3; ++j)
       for (int i = 0; i < 4; ++i)
         ASSERT_EQ(image.volume->at(i, j, k), 24 * volume + i + 4 * j + 12 * k) << name;
-  EXPECT_TRUE(noted(image, "holds " + std::to_string(volumes) + " volumes, of which this is number " +
-                               std::to_string(volume + 1)))
+  EXPECT_TRUE(noted(image, "holds " + std::to_string(volumes) +
+                               " volumes, of which this is number " + std::to_string(volume + 1)))
       << name;
 }
 
@@ -1151,9 +1151,9 @@ TEST(ImageFile, ReadsOneOfTheVolumesOfAFile)
   {
     const std::string vectors = "(0.5,0,0) (0,0.25,0) (0,0,2)";
     return "NRRD0005\ntype: short\ndimension: 4\nspace: left-posterior-superior\nsizes: " +
-           std::string(isList ? "3 4 3 2" : "4 3 2 3") + "\nspace directions: " +
-           (isList ? "none " + vectors : vectors + " none") + "\nkinds: " +
-           (isList ? "list domain domain domain" : "domain domain domain list") +
+           std::string(isList ? "3 4 3 2" : "4 3 2 3") +
+           "\nspace directions: " + (isList ? "none " + vectors : vectors + " none") +
+           "\nkinds: " + (isList ? "list domain domain domain" : "domain domain domain list") +
            "\nspace origin: (10,20,30)\n" + more + "\n";
   };
   const std::string little = "endian: little\nencoding: raw\n";
@@ -1236,9 +1236,8 @@ TEST(ImageFile, StopsWithinTextAndLabels)
   const auto words = putFile(folder / "a.nrrd", head + "encoding: text\n\n" + text);
   EXPECT_NO_THROW(readImageFile(words));
   EXPECT_THROW(readImageFile(words, {}, cancelledAt("reading voxels")), core::CancelledError);
-  const auto labels =
-      putFile(folder / "b.nrrd", head + "endian: little\nencoding: raw\n\n" +
-                                     bytesOf(std::vector<std::int32_t>(64000, 1)));
+  const auto labels = putFile(folder / "b.nrrd", head + "endian: little\nencoding: raw\n\n" +
+                                                     bytesOf(std::vector<std::int32_t>(64000, 1)));
   int reports = 0; // the second of this name is after the voxels were read
   const auto token = std::make_shared<core::CancelToken>();
   const core::Progress second(

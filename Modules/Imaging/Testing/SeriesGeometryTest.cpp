@@ -672,11 +672,11 @@ TEST(SeriesGeometry, GivesEveryFindingKindItsOwnName)
   for (int kind = 0; kind <= static_cast<int>(FindingKind::Unreadable); ++kind)
     names.insert(kindName(static_cast<FindingKind>(kind)));
   const std::set<std::string> expected{
-      "gantry-tilt",        "missing-slice",  "uneven-spacing", "duplicate-slice", "side-by-side",
-      "odd-orientation",    "odd-size",       "mixed-rescale",  "no-geometry",
-      "localizer-mixed-in", "multi-frame",    "not-an-image",   "unreadable",
-      "modality-lut",       "mixed-patients", "mixed-studies",  "mixed-acquisitions",
-      "missing-end"};
+      "gantry-tilt",        "missing-slice",      "uneven-spacing", "duplicate-slice",
+      "side-by-side",       "odd-orientation",    "odd-size",       "mixed-rescale",
+      "no-geometry",        "localizer-mixed-in", "multi-frame",    "not-an-image",
+      "unreadable",         "modality-lut",       "mixed-patients", "mixed-studies",
+      "mixed-acquisitions", "missing-end"};
   EXPECT_EQ(names, expected);
 }
 

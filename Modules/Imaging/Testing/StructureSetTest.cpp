@@ -146,8 +146,8 @@ TEST(StructureSet, StopsBetweenContoursAndPlanes)
   const auto path = set.write(folder);
   int checks = 0;
   const auto token = std::make_shared<core::CancelToken>();
-  const core::Progress progress([&](double, const std::string&)
-                                { ++checks == 1 ? token->cancel() : void(); }, token);
+  const core::Progress progress(
+      [&](double, const std::string&) { ++checks == 1 ? token->cancel() : void(); }, token);
   EXPECT_THROW(readStructureSet(path, progress), core::CancelledError);
   EXPECT_EQ(checks, 1) << "of the file; the contours do not report";
   const auto second = std::make_shared<core::CancelToken>();

@@ -258,7 +258,7 @@ Content contentOfFile(const fs::path& path, std::size_t volume, bool& isTooLarge
                       const core::Progress& progress)
 try
 {
-  return contentOf(
+  return presenters::contentOf(
       *imaging::readImageFile(path, std::nullopt, progress, std::nullopt, volume).volume);
 }
 catch (const imaging::FileError& error)
@@ -266,7 +266,7 @@ catch (const imaging::FileError& error)
   if (error.fault() != core::Fault::Internal) // no memory
     throw;
   isTooLarge = true;
-  return contentOf(
+  return presenters::contentOf(
       *imaging::previewImageFile(path, kSlices, progress, std::nullopt, 0, volume).volume);
 }
 
@@ -423,9 +423,9 @@ SourceContent lookAt(const fs::path& path, const core::Progress& progress,
   }
   const imaging::ImageHeader header = imaging::readImageHeader(path);
   const bool isSeries = header.volumes > 1 && expected != Content::Labels;
-  result.content = expected ? *expected
-                            : contentOfFile(path, isSeries ? 1 : 0, result.isTooLarge,
-                                            progress.part(0.0, 0.8));
+  result.content =
+      expected ? *expected
+               : contentOfFile(path, isSeries ? 1 : 0, result.isTooLarge, progress.part(0.0, 0.8));
   result.isSideOpen = header.assumedRas.has_value();
   if (isSeries)
   {

@@ -511,13 +511,13 @@ void refuseSetAside(SeriesGeometry& geometry)
   geometry.verdict = Verdict::Refused;
   geometry.isRepairableIfEqual = false;
   if (geometry.findings.empty())
-    geometry.findings.push_back(
-        {FindingKind::OddOrientation,
-         std::to_string(geometry.slices.size()) +
-             (geometry.slices.size() == 1 ? " slice is" : " slices are") +
-             " turned against the stacks of the series, of another size or beside them, too few for "
-             "a stack.",
-         0.0});
+    geometry.findings.push_back({FindingKind::OddOrientation,
+                                 std::to_string(geometry.slices.size()) +
+                                     (geometry.slices.size() == 1 ? " slice is" : " slices are") +
+                                     " turned against the stacks of the series, of another size or "
+                                     "beside them, too few for "
+                                     "a stack.",
+                                 0.0});
 }
 
 /// The stacks of a series, each assessed; a single unnamed one if it cannot be divided.

@@ -263,18 +263,33 @@ void nameBySide(Groups& groups)
   for (NamedSlices& group : groups)
   {
     const double at = group.isSetAside ? 0.0 : centreOf(group.slices)[axis];
-    group.name = joined(group.name, group.isSetAside
-                                        ? std::string("set aside")
-                                        : "centre " + decimals(std::abs(at), 0) + " mm " +
-                                              kSides[axis][at < 0.0 ? 0 : 1]);
+    group.name = joined(group.name, group.isSetAside ? std::string("set aside")
+                                                     : "centre " + decimals(std::abs(at), 0) +
+                                                           " mm " + kSides[axis][at < 0.0 ? 0 : 1]);
   }
 }
 
-/// Reconstructions beside each other, as of either ear.
+bool isOneColumn(const Headers& slices)
+{
+  if (slices.size() < 2)
+    return true;
+  Headers sorted = slices;
+  const SliceStack stack(sorted);
+  return stack.besides() == 0 && stack.columns().size() == 1;
+}
+
+/// Reconstructions beside each other, as of either ear: by what the headers say of them, else by
+/// their place.
 Groups byColumn(const NamedSlices& from)
 {
-  if (from.slices.size() < 2)
+  if (isOneColumn(from.slices))
     return {from};
+  for (const Trait& trait : traits())
+    if (Groups groups = byTrait(from, trait);
+        groups.size() > 1 &&
+        std::all_of(groups.begin(), groups.end(),
+                    [](const NamedSlices& group) { return isOneColumn(group.slices); }))
+      return groups;
   Headers sorted = from.slices;
   const auto columns = SliceStack(sorted).columns();
   if (columns.size() < 2)

@@ -199,6 +199,12 @@ std::size_t SliceStack::duplicates() const
   return static_cast<std::size_t>(std::count(all.begin(), all.end(), Twin::SamePlace));
 }
 
+std::size_t SliceStack::besides() const
+{
+  const std::vector<Twin> all = twins();
+  return static_cast<std::size_t>(std::count(all.begin(), all.end(), Twin::Beside));
+}
+
 std::vector<std::vector<std::size_t>> SliceStack::columns() const
 {
   const double sameHeight = std::max(kSamePlace, kSameFraction * usualGap());
@@ -231,12 +237,12 @@ std::vector<std::vector<std::size_t>> SliceStack::columns() const
                                [](const auto& column) { return column.size() < kFewest; }),
                 columns.end());
   bool areBeside = false;
-  double top = 0.0; // of those before
+  double top = 0.0;                  // of those before
   for (const auto& column : columns) // in the order of their lowest slices
   {
     areBeside = areBeside || (&column != columns.data() && m_place[column.front()] <= top);
-    top = std::max(&column == columns.data() ? m_place[column.back()] : top,
-                   m_place[column.back()]);
+    top =
+        std::max(&column == columns.data() ? m_place[column.back()] : top, m_place[column.back()]);
   }
   if (areBeside)
     return columns;
@@ -402,8 +408,8 @@ void SliceStack::judgeGaps(SeriesGeometry& result)
   }
   if (doubled > 0)
   {
-    const auto first = static_cast<std::size_t>(
-        std::find(all.begin(), all.end(), Twin::SamePlace) - all.begin());
+    const auto first =
+        static_cast<std::size_t>(std::find(all.begin(), all.end(), Twin::SamePlace) - all.begin());
     const double step = usual > 0.0 ? usual : m_slices.front().thickness.value_or(0.0);
     const double excess = static_cast<double>(doubled) * step;
     result.findings.push_back({FindingKind::DuplicateSlice,

@@ -35,6 +35,9 @@ public:
   /// Slices that share their place with another, in all three axes.
   std::size_t duplicates() const;
 
+  /// Slices that lie beside another of the same height.
+  std::size_t besides() const;
+
   /// Columns of slices beside each other, at overlapping heights, by index: those that are farther
   /// sideways of the last slice of a column than any tilt puts them are of another one. One column
   /// if there are no several of kFewest slices; slices of none are left out.

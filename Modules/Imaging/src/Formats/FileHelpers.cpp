@@ -145,8 +145,8 @@ std::string readWholeFile(const std::filesystem::path& path, const core::Progres
   for (std::size_t done = 0; done < bytes.size();)
   {
     progress.report(static_cast<double>(done) / static_cast<double>(size), "reading file");
-    const ssize_t got = pread(file.descriptor(), &bytes[done],
-                              std::min(kPart, bytes.size() - done), static_cast<off_t>(done));
+    const ssize_t got = pread(file.descriptor(), &bytes[done], std::min(kPart, bytes.size() - done),
+                              static_cast<off_t>(done));
     if (got <= 0 && !(got < 0 && errno == EINTR))
       fail(FileError::Reason::Unreadable, path, "broke off while it was read; check the disk");
     done += static_cast<std::size_t>(std::max<ssize_t>(got, 0));

@@ -44,8 +44,7 @@ using Labels = std::shared_ptr<volume::Volume<std::uint16_t>>;
 
 template <class T>
 Labels toLabels(const VoxelSource& source, const std::filesystem::path& path,
-                const std::shared_ptr<void>& raw, std::size_t layer,
-                const core::Progress& progress)
+                const std::shared_ptr<void>& raw, std::size_t layer, const core::Progress& progress)
 {
   const core::GridGeometry& geometry = source.geometry();
   const std::size_t stride = source.components();

@@ -377,8 +377,7 @@ std::shared_ptr<void> VoxelSource::read(const core::IndexBox& box,
     readBox(stream, m_geometry->dims(), box, perVoxel, memory.get(), progress);
     if (m_swapped)
       inParts(box.count() * m_components, progress,
-              [&](std::size_t first, std::size_t size)
-              {
+              [&](std::size_t first, std::size_t size) {
                 swapBytes(static_cast<char*>(memory.get()) + first * numberBytes, size,
                           numberBytes);
               });

@@ -92,7 +92,7 @@ private:
   std::size_t m_volumes = 1;
   std::optional<std::size_t> m_volume; ///< selected; 0 for the first
   std::size_t m_listed = 1;            ///< volumes whose voxels are interleaved, if one is selected
-  double m_slope = 0.0; ///< 0: no rescaling
+  double m_slope = 0.0;                ///< 0: no rescaling
   double m_intercept = 0.0;
   std::optional<bool> m_assumedRas;
   std::optional<double> m_padding;

@@ -379,7 +379,8 @@ bool hasCrossing(const Plane& plane)
 double areaOf(const Plane& plane, const core::Progress& progress) // voxels
 {
   double area = 0.0;
-  forEachSpan(plane, progress, [&area](std::int64_t, double x0, double x1, double share)
+  forEachSpan(plane, progress,
+              [&area](std::int64_t, double x0, double x1, double share)
               { area += (x1 - x0) * share; });
   return area;
 }

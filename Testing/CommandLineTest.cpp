@@ -977,6 +977,41 @@ TEST_F(CommandLine, StrictScanWantsEverySeriesSound)
   EXPECT_EQ(nlohmann::json::parse(strict.out)["series"][0]["verdict"], "repairable");
 }
 
+// The voxels are written here: 100 times the volume and their number in it.
+TEST_F(CommandLine, TakesAVolumeOfAFourDimensionalFile)
+{
+  std::string voxels;
+  for (int volume = 1; volume <= 3; ++volume)
+    for (int v = 0; v < 4 * 3 * 5; ++v)
+    {
+      const auto value = static_cast<std::int16_t>(100 * volume + v);
+      voxels.append(reinterpret_cast<const char*>(&value), sizeof value);
+    }
+  const auto file = m_folder / "run.nrrd";
+  std::ofstream(file, std::ios::binary)
+      << "NRRD0004\ntype: short\ndimension: 4\nspace: left-posterior-superior\nsizes: 4 3 5 3\n"
+         "space directions: (1,0,0) (0,2,0) (0,0,3) none\nkinds: domain domain domain time\n"
+         "endian: little\nencoding: raw\nspace origin: (7,8,9)\n\n"
+      << voxels;
+  for (const auto& path : {file, m_folder})
+  {
+    const auto scan = json("scan " + quoted(path));
+    ASSERT_EQ(scan["images"].size(), 1U);
+    EXPECT_EQ(scan["images"][0]["volumes"], 3);
+    EXPECT_EQ(scan["images"][0]["dims"], (std::vector<int>{4, 3, 5}));
+    EXPECT_NE(run("scan " + quoted(path)).out.find("volumes '1' to '3'"), std::string::npos);
+  }
+  expectRefused("new none --ct " + quoted(file), 3, "--volume N");
+  expectRefused("new none --ct " + quoted(file) + " --volume 4", 3, "volumes 1 to 3");
+  expectRefused("new none --ct " + quoted(file) + " --volume first", 3, "one of 1 to 3");
+  const auto info = json("new two --modality CT --ct " + quoted(file) + " --volume 2 --mr late=" +
+                         quoted(std::filesystem::path(file.string() + "##3")));
+  EXPECT_EQ(info["ct"]["min"], 200.0) << info;
+  EXPECT_EQ(info["ct"]["max"], 259.0) << info;
+  EXPECT_NE(info["mr"][0]["notes"].dump().find("of which this is number 3"), std::string::npos)
+      << info;
+}
+
 TEST_F(CommandLine, SaysWhichStructuresLieWithTheSlices)
 {
   makePatient("--dims 32,32,30 --spacing 2.0");

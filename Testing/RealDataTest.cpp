@@ -1,3 +1,7 @@
+#include <map>
+#include <set>
+#include <sstream>
+
 #include "CommandRunner.h"
 
 using petrous::testing::CommandLine;
@@ -64,6 +68,87 @@ TEST_F(RealData, VisibleHumanHeadIsBuiltDrilledUndoneAndDrawnAgain)
 TEST_F(RealData, PhilipsPhantomIsBuiltDrilledUndoneAndDrawnAgain)
 {
   walk(m_data / "ct_phantom/philips_S21570_S2020_notilt_1mm", "-90,90,-90,60,-400,1000");
+}
+
+namespace
+{
+
+// Of a cell "36: unreadable 24, no-geometry" the volumes and how many of them have each finding.
+std::map<std::string, int> countsIn(const std::string& cell)
+{
+  std::map<std::string, int> counts;
+  std::istringstream text(cell);
+  std::string all;
+  std::getline(text, all, ':');
+  if (all.find_first_not_of(' ') != all.npos)
+    counts["volumes"] = std::stoi(all);
+  for (std::string kind; std::getline(text, kind, ',');)
+  {
+    std::istringstream words(kind);
+    std::string name;
+    int count = 1;
+    words >> name >> count;
+    counts[name] = words.fail() ? 1 : count;
+  }
+  return counts;
+}
+
+} // namespace
+
+// The table of the guide is what the command says.
+TEST_F(RealData, TheGuideCountsWhatScanSays)
+{
+  const std::map<std::string, std::string> folders{
+      {"Visible Human head, CT", "ct_head_vhm"},
+      {"CT of a head phantom, Philips", "ct_phantom"},
+      {"MR, Siemens, supine and prone", "mr_positions"},
+      {"enhanced MR, Philips and Siemens", "dicom_enhanced"},
+      {"MR in every compression (dicom2nifti)", "dicom_odd/dicom2nifti_generic"},
+      {"broken on purpose (dicom2nifti)", "dicom_odd/dicom2nifti_failing_public"},
+      {"12 bits stored", "dicom_odd/dcm_qa_12bit"},
+      {"odd files (pydicom)", "dicom_odd/pydicom_test_files"},
+      {"segmentations with their CT (dcmqi)", "seg_rt/dcmqi"},
+      {"structure sets with their CT (rt-utils)", "seg_rt/rt-utils"}};
+  const std::filesystem::path guide = std::filesystem::path(__FILE__).parent_path().parent_path() /
+                                      "Documentation" / "user-guide.md";
+  if (!std::filesystem::exists(guide))
+    GTEST_SKIP() << "no guide beside the sources";
+  std::istringstream text(textOf(guide));
+  std::size_t rows = 0;
+  for (std::string line; std::getline(text, line);)
+  {
+    std::vector<std::string> cells;
+    std::istringstream rest(line);
+    for (std::string cell; std::getline(rest, cell, '|');)
+    {
+      const std::size_t first = cell.find_first_not_of(' ');
+      cells.push_back(first == cell.npos
+                          ? std::string()
+                          : cell.substr(first, cell.find_last_not_of(' ') - first + 1));
+    }
+    const auto row = cells.size() > 5 ? folders.find(cells[1]) : folders.end();
+    if (row == folders.end() || !std::filesystem::exists(m_data / row->second))
+      continue;
+    ++rows;
+    std::map<std::string, std::map<std::string, int>> counts;
+    for (const auto& series : json("scan " + quoted(m_data / row->second))["series"])
+      for (const auto& volume : series["volumes"])
+      {
+        const bool isImage = volume["kind"] == "image";
+        auto& of = counts[isImage ? volume["verdict"].get<std::string>() : "structures"];
+        ++of["volumes"];
+        std::set<std::string> kinds;
+        for (const auto& finding : volume["findings"])
+          kinds.insert(finding["kind"]);
+        if (isImage && volume["verdict"] != "ok")
+          for (const std::string& kind : kinds)
+            ++of[kind];
+      }
+    const char* const columns[] = {"ok", "repairable", "refused", "structures"};
+    for (std::size_t n = 0; n < 4; ++n)
+      EXPECT_EQ(countsIn(cells[n + 2]), counts[columns[n]]) << cells[1] << ", " << columns[n];
+  }
+  EXPECT_GT(rows, 0U);
 }
 
 TEST_F(RealData, TiltedPhilipsScanIsRefusedWithTheMillimetres)

@@ -25,6 +25,7 @@
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/FileFormats.h"
+#include "petrous/Imaging/ImageFile.h"
 #include "petrous/Library/Archive.h"
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Library/ObjectStore.h"
@@ -441,6 +442,7 @@ std::string lookAtImage(const fs::path& path, const std::string& selector, bool 
   if (!fs::is_directory(path) && imaging::isReadAs(path, imaging::kImage | imaging::kLabels))
   {
     const core::InputFile opens(path);
+    imaging::readImageHeader(path, imaging::volumeNumber(path, selector));
     return "an image file of " + fixed(1e-6 * static_cast<double>(opens.size()), 1) + " MB";
   }
   const auto scan = imaging::scanDicom(path, progress, library::scanCache().get());

@@ -44,7 +44,7 @@ struct Column
 constexpr std::array<Column, 28> kColumns{{
     {"name", Step::None, "the case's name (needed)"},
     {"folder", Step::Build, "CT: DICOM folder or image file; blank: the case is there already"},
-    {"series", Step::Build, "which series of the folder: UID or UID#VOLUME"},
+    {"series", Step::Build, "which series of the folder: UID or UID#VOLUME; of a file #VOLUME"},
     {"modality", Step::Build, "CT or MR, if the file does not say"},
     {"ct_frame", Step::Build, "lps or ras, if an image file does not say which side is left"},
     {"mr_frame", Step::Build, "likewise, of the MR"},

@@ -364,7 +364,7 @@ void addNew(CLI::App& app, Context& context)
   command->add_option("--series", options->series, "Which series of the folder")->type_name("UID");
   command
       ->add_option("--volume", options->volume,
-                   "Which volume of a series with several, as 'petrous scan' names it")
+                   "Which volume of a series or file with several, as 'petrous scan' names it")
       ->type_name("NAME");
   command->add_option("--roi", options->roi, "Part of the CT to load, patient LPS mm")
       ->type_name("x0,x1,y0,y1,z0,z1");

@@ -7,6 +7,8 @@
 #include "Numbers.h"
 #include "petrous/Core/InputFile.h"
 #include "petrous/Imaging/DicomScan.h"
+#include "petrous/Imaging/FileFormats.h"
+#include "petrous/Imaging/ImageFile.h"
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Presenters/PartFiles.h"
 
@@ -116,6 +118,60 @@ json partsJson(const std::vector<presenters::PartFiles>& parts)
   return list;
 }
 
+struct ImageFile
+{
+  std::filesystem::path path;
+  imaging::ImageHeader header;
+};
+
+// Images that are not DICOM: `path` itself, or what lies below it and holds several volumes.
+std::vector<ImageFile> imageFilesOf(const std::filesystem::path& path,
+                                    const imaging::ScanResult& result)
+{
+  std::vector<ImageFile> images;
+  for (const auto& file : result.notDicom)
+    if (imaging::isReadAs(file, imaging::kImage))
+      try
+      {
+        const imaging::ImageHeader header = imaging::readImageHeader(file);
+        if (header.volumes > 1 || (file == path && header.components == 1))
+          images.push_back({file, header});
+      }
+      catch (const imaging::FileError&)
+      {
+        if (file == path)
+          throw;
+      }
+  return images;
+}
+
+nlohmann::json imagesJson(const std::vector<ImageFile>& images)
+{
+  json list = json::array();
+  for (const ImageFile& image : images)
+  {
+    json entry{{"path", core::printable(image.path)}, {"volumes", image.header.volumes}};
+    entry.update(gridJson(image.header.grid));
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+void printImage(const Context& context, const ImageFile& image)
+{
+  const core::GridGeometry& grid = image.header.grid;
+  const auto& n = grid.dims();
+  const std::size_t volumes = image.header.volumes;
+  context.print("image  " + std::to_string(volumes) +
+                (volumes == 1 ? " volume of " : " volumes of ") + std::to_string(n[0]) + " x " +
+                std::to_string(n[1]) + " x " + std::to_string(n[2]) + ", " +
+                fixed(grid.spacing()[0], 3) + " x " + fixed(grid.spacing()[1], 3) + " x " +
+                fixed(grid.spacing()[2], 3) + " mm  " + core::printable(image.path));
+  if (volumes > 1)
+    context.print("    volumes '1' to '" + std::to_string(volumes) +
+                  "', of which --ct FILE --volume N takes one, or --mr FILE##N");
+}
+
 struct Options
 {
   std::string path;
@@ -150,7 +206,8 @@ void scan(const Context& context, const Options& options)
   const auto cache = options.noCache ? nullptr : library::scanCache();
   const core::Progress progress = context.progress();
   const auto result = imaging::scanDicom(path, progress.part(0.0, 0.7), cache.get());
-  if (result.series.empty() && result.unreadable.empty())
+  const std::vector<ImageFile> images = imageFilesOf(path, result);
+  if (result.series.empty() && result.unreadable.empty() && images.empty())
     imaging::chooseSeries(result, path); // throws, reporting what was found instead
   json list = json::array();
   std::vector<const imaging::DicomSeries*> volumes; // of one series
@@ -185,6 +242,8 @@ void scan(const Context& context, const Options& options)
   }
   if (!volumes.empty())
     list.push_back(seriesJson(volumes));
+  for (const ImageFile& image : images)
+    printImage(context, image);
   const auto parts = presenters::partFilesOf(path, result, progress.part(0.7, 1.0));
   for (const presenters::PartFiles& files : parts)
     context.print("structures  " + lineOf(files));
@@ -194,6 +253,7 @@ void scan(const Context& context, const Options& options)
   for (const auto& note : notes)
     context.print("noted: " + note);
   context.printJson({{"series", std::move(list)},
+                     {"images", imagesJson(images)},
                      {"parts", partsJson(parts)},
                      {"unreadable", findingsJson(result.unreadable)},
                      {"notes", notes},

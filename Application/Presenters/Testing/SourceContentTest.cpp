@@ -270,6 +270,45 @@ TEST_F(SourceContent, MasksAreTakenForWhatTheyAreAlsoAboveDicom)
       << "there are none";
 }
 
+TEST_F(SourceContent, OffersTheVolumesOfAFile)
+{
+  std::string voxels;
+  for (const double more : {0.0, 25.0})
+  {
+    const auto image =
+        filled<std::int16_t>([more](const Vector3d& at) { return headInHounsfield(at) + more; });
+    voxels.append(reinterpret_cast<const char*>(image->data()),
+                  image->size() * sizeof(std::int16_t));
+  }
+  const auto path = m_folder / "t2 rest.nrrd";
+  std::ofstream(path, std::ios::binary)
+      << "NRRD0004\ntype: short\ndimension: 4\nspace: left-posterior-superior\n"
+         "sizes: 24 20 16 2\nspace directions: (.5,0,0) (0,.5,0) (0,0,.5) none\n"
+         "kinds: domain domain domain list\nendian: little\nencoding: raw\n"
+         "space origin: (0,0,0)\n\n"
+      << voxels;
+  for (const auto expected : {std::optional<Content>(), std::optional(Content::Mr)})
+  {
+    const auto source = presenters::lookAt(path, {}, expected);
+    ASSERT_EQ(source.series.size(), 2U);
+    for (std::size_t n = 0; n < 2; ++n)
+    {
+      const presenters::SeriesContent& one = source.series[n];
+      EXPECT_EQ(one.selector, "#" + std::to_string(n + 1));
+      EXPECT_EQ(one.content, expected.value_or(Content::Ct));
+      EXPECT_EQ(one.name, "t2 " + std::to_string(n + 1));
+      EXPECT_EQ(one.slices, 16U);
+      EXPECT_EQ(one.verdict, imaging::Verdict::Ok);
+      EXPECT_TRUE(one.files.empty());
+      const auto preview = presenters::previewScan(path, one.selector, false, {});
+      EXPECT_EQ(preview.value.ct.volume.get()->at(12, 10, 8),
+                std::trunc(headInHounsfield({12 / 11.5 - 1.0, 10 / 9.5 - 1.0, 8 / 7.5 - 1.0}) +
+                           25.0 * static_cast<double>(n)));
+    }
+  }
+  EXPECT_THROW(presenters::lookAt(path, {}, Content::Labels), imaging::FileError);
+}
+
 TEST_F(SourceContent, OffersStructuresAndMeshesThatLieWithTheSlices)
 {
   namespace fs = std::filesystem;

@@ -438,8 +438,9 @@ bool CaseDocumentController::chooseSeries(const SourceContent& source, const Pur
     item.source.name = series.name;
     if (series.verdict == imaging::Verdict::Repairable)
       item.source.repair = series.findings;
-    item.source.why =
-        series.modality.empty() ? "says no modality" : "says modality " + series.modality;
+    if (source.why.empty())
+      item.source.why =
+          series.modality.empty() ? "says no modality" : "says modality " + series.modality;
     if (series.files.empty())
       items.push_back(item);
     for (const fs::path& file : series.files)

@@ -9,6 +9,7 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QPushButton>
+#include <QScrollBar>
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
@@ -124,11 +125,10 @@ SeriesDialog::SeriesDialog(const presenters::SourceContent& source, bool hasCase
 {
   setObjectName("chooseSeries");
   setWindowTitle(tr("Which series?"));
-  resizeOnScreen(*this, {860, 380});
   const auto path = source.path.lexically_normal();
   auto* title = new QLabel(
-      tr("“%1” holds more than one series, or structures beside it. A CT begins a case; MRs, "
-         "structures and meshes go with it, or come to the open case.")
+      tr("“%1” holds more than one series or volume, or structures beside it. A CT begins a case; "
+         "MRs, structures and meshes go with it, or come to the open case.")
           .arg(QFile::decodeName(
               (path.has_filename() ? path : path.parent_path()).filename().c_str())));
   title->setTextFormat(Qt::PlainText);
@@ -140,9 +140,10 @@ SeriesDialog::SeriesDialog(const presenters::SourceContent& source, bool hasCase
                            tr("Position, kernel, folder"), tr("Geometry")});
   for (const SeriesContent& series : m_series)
     fillLine(*new QTreeWidgetItem(m_list), series, m_series);
+  constexpr int kWidest = 420; // px, of a column; longer texts are in its tooltip
   m_list->header()->setStretchLastSection(false);
+  m_list->header()->setMaximumSectionSize(kWidest);
   m_list->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  m_list->header()->setSectionResizeMode(More, QHeaderView::Stretch);
   m_region->setObjectName("wantsRegion");
   m_region->setToolTip(tr("Only that region is read: a whole head then takes no more memory than "
                           "the ear alone"));
@@ -172,6 +173,12 @@ SeriesDialog::SeriesDialog(const presenters::SourceContent& source, bool hasCase
   layout->addWidget(buttons);
   proposeTicks();
   check();
+  ensurePolished();
+  m_list->header()->resizeSections(QHeaderView::ResizeToContents);
+  const QMargins margins = layout->contentsMargins();
+  const int around = margins.left() + margins.right() + 2 * m_list->frameWidth() +
+                     m_list->verticalScrollBar()->sizeHint().width();
+  resizeOnScreen(*this, {std::max(860, m_list->header()->length() + around), 380});
 }
 
 // The only sound CT is what is most likely wanted, with the structures that lie below it on its

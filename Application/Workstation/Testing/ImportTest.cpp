@@ -164,6 +164,112 @@ TEST_F(Import, StructuresOfADroppedTreeAreOfferedWithItsSeries)
   EXPECT_TRUE(value.mr.empty());
 }
 
+// Every column of the list is readable, and what is ticked comes: meshes and one of several sources
+// of structures.
+TEST_F(Import, MeshesAndMasksThatAreTickedComeWithTheCt)
+{
+  phantom::SampleOptions options;
+  options.spacing = 2.0;
+  phantom::writeSamplePatient(folder() / "visit", options);
+  fs::remove_all(folder() / "visit" / "mr");
+  openWindow();
+  QStringList ticked;
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        auto* list = dialog.findChild<QTreeWidget*>("series");
+        if (!list)
+          return false;
+        int right = 0;
+        for (int column = 0; column < list->columnCount(); ++column)
+        {
+          EXPECT_GE(list->columnWidth(column),
+                    list->fontMetrics().horizontalAdvance(list->headerItem()->text(column)))
+              << "the header of column " << column;
+          for (int n = 0; n < list->topLevelItemCount(); ++n)
+            EXPECT_GE(list->columnWidth(column),
+                      list->fontMetrics().horizontalAdvance(list->topLevelItem(n)->text(column)))
+                << list->topLevelItem(n)->text(column).toStdString();
+          right += list->columnWidth(column);
+        }
+        EXPECT_LE(right, list->viewport()->width()) << "all of them are in sight";
+        for (int n = 0; n < list->topLevelItemCount(); ++n)
+        {
+          QTreeWidgetItem* item = list->topLevelItem(n);
+          if (item->text(0).contains("mesh") || item->text(0).endsWith(" labels") ||
+              item->text(0).contains(".obj") || item->text(0).contains(".stl"))
+          {
+            item->setCheckState(0, Qt::Checked);
+            ticked += item->text(0);
+          }
+        }
+        const QString pictures = qEnvironmentVariable("PETROUS_GUI_PICTURES");
+        if (!pictures.isEmpty())
+          dialog.grab().save(pictures + "/series-parts.png");
+        dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Open)->click();
+        return true;
+      });
+  dropPath(folder() / "visit");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  const scene::Case& value = window().model().value();
+  const auto meshes = std::distance(fs::directory_iterator(folder() / "visit" / "meshes"), {});
+  EXPECT_EQ(static_cast<long>(value.meshes.size()), meshes) << ticked.join("; ").toStdString();
+  const auto masks = std::distance(fs::directory_iterator(folder() / "visit" / "labels"), {});
+  std::size_t structures = 0;
+  for (const scene::LabelPart& part : value.labels)
+    structures += part.labels.get()->segments.size();
+  EXPECT_GE(static_cast<long>(structures), masks) << ticked.join("; ").toStdString();
+  EXPECT_EQ(value.ct.geometry.dims()[0], value.ct.volume.get()->geometry().dims()[0]);
+}
+
+// A file of several volumes offers them as a series does.
+TEST_F(Import, AVolumeOfAFourDimensionalFileIsChosen)
+{
+  const auto ball = ballCase("x");
+  const volume::IntensityVolume& first = *ball.ct.volume.get();
+  const core::Index3 dims = first.geometry().dims();
+  const auto size =
+      std::to_string(dims[0]) + " " + std::to_string(dims[1]) + " " + std::to_string(dims[2]);
+  std::string voxels;
+  for (const int more : {0, 7, 20})
+    for (int k = 0; k < dims[2]; ++k)
+      for (int j = 0; j < dims[1]; ++j)
+        for (int i = 0; i < dims[0]; ++i)
+        {
+          const auto value = static_cast<std::int16_t>(first.at(i, j, k) + more);
+          voxels.append(reinterpret_cast<const char*>(&value), sizeof value);
+        }
+  std::ofstream(folder() / "phases.nrrd", std::ios::binary)
+      << "NRRD0004\ntype: short\ndimension: 4\nspace: left-posterior-superior\nsizes: " << size
+      << " 3\nspace directions: (1,0,0) (0,1,0) (0,0,1) none\nkinds: domain domain domain time\n"
+         "endian: little\nencoding: raw\nspace origin: (0,0,0)\n\n"
+      << voxels;
+  openWindow();
+  QStringList offered;
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        auto* list = dialog.findChild<QTreeWidget*>("series");
+        if (!list)
+          return false;
+        for (int n = 0; n < list->topLevelItemCount(); ++n)
+        {
+          offered += list->topLevelItem(n)->text(0);
+          list->topLevelItem(n)->setCheckState(0, n == 1 ? Qt::Checked : Qt::Unchecked);
+        }
+        dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Open)->click();
+        return true;
+      });
+  dropPath(folder() / "phases.nrrd");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  ASSERT_EQ(offered.size(), 3);
+  EXPECT_TRUE(offered[2].contains("volume 3")) << offered[2].toStdString();
+  const volume::IntensityVolume& chosen = *window().model().value().ct.volume.get();
+  ASSERT_EQ(chosen.geometry().dims(), dims);
+  EXPECT_EQ(chosen.at(dims[0] / 2, dims[1] / 2, dims[2] / 2),
+            first.at(dims[0] / 2, dims[1] / 2, dims[2] / 2) + 7);
+}
+
 TEST_F(Import, ADroppedWordOpensTheCaseOfThatName)
 {
   saveBall("ball");

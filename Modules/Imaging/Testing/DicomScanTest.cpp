@@ -777,6 +777,122 @@ TEST(DicomScan, SplitsTiltsIntoStacksAndSetsTheRestAside)
   }
 }
 
+/// The centre of mass of what is brighter than 0, and its distance from `mark` in voxels.
+double distanceInVoxels(const volume::IntensityVolume& image, const Eigen::Vector3d& mark)
+{
+  const core::GridGeometry& grid = image.geometry();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double weight = 0.0;
+  for (int k = 0; k < grid.dims()[2]; ++k)
+    for (int j = 0; j < grid.dims()[1]; ++j)
+      for (int i = 0; i < grid.dims()[0]; ++i)
+      {
+        sum += image.at(i, j, k) * grid.patientFromVoxel(Eigen::Vector3d(i, j, k));
+        weight += image.at(i, j, k);
+      }
+  return (sum / weight - mark).norm() / grid.minSpacing();
+}
+
+// Parallel slices that slide forwards and then backwards; each stretch has a landmark of its own.
+TEST(DicomScan, DividesAVShapedTiltIntoStacksThatRepairStraightens)
+{
+  struct Lean
+  {
+    double lower, upper; // degrees
+  };
+  for (const auto& [lower, upper] : {Lean{20.0, -20.0}, {12.0, -7.0}, {-15.0, 0.0}, {6.0, 25.0}})
+  {
+    constexpr int kHalf = 24;
+    const auto tangent = [](double degrees) { return std::tan(degrees * M_PI / 180.0); };
+    const auto forwardOf = [&, low = lower, up = upper](double z)
+    {
+      const double hinge = 0.5 * (kHalf - 1);
+      return tangent(low) * std::min(z, hinge) + tangent(up) * std::max(z - hinge, 0.0);
+    };
+    const auto centreOf = [&](double z)
+    { return Eigen::Vector3d(-10.0 + 0.4 * 23.3, 20.5 + forwardOf(z) + 0.5 * 24.6, z); };
+    const Eigen::Vector3d marks[] = {centreOf(5.63), centreOf(17.81)};
+    const TemporaryFolder folder;
+    for (int k = 0; k < 2 * kHalf; ++k)
+    {
+      TestSlice slice;
+      slice.z = 0.5 * k;
+      slice.y = 20.5 + forwardOf(slice.z);
+      slice.columns = slice.rows = 48;
+      slice.cell = [&](int i, int j)
+      {
+        const Eigen::Vector3d p(-10.0 + 0.4 * i, slice.y + 0.5 * j, slice.z);
+        double value = 0.0;
+        for (const Eigen::Vector3d& mark : marks)
+          value += 20000.0 * std::exp(-(p - mark).squaredNorm() / 1.5);
+        return static_cast<std::uint32_t>(std::lround(value));
+      };
+      putNumber(slice, k + 1);
+      slice.write(folder.path() / ("s" + std::to_string(100 + k) + ".dcm"));
+    }
+    const ScanResult result = scanDicom(folder.path(), {});
+    ASSERT_EQ(result.series.size(), 2U) << lower << " and " << upper;
+    ReadOptions options;
+    options.repair = true;
+    std::size_t slices = 0;
+    for (std::size_t n = 0; n < 2; ++n)
+    {
+      const DicomSeries& series = result.series[n];
+      const double degrees = n == 0 ? lower : upper;
+      EXPECT_EQ(series.volume, "tilt " + core::fixedText(degrees, 1));
+      EXPECT_EQ(series.geometry.verdict, degrees == 0.0 ? Verdict::Ok : Verdict::Repairable);
+      EXPECT_EQ(has(series.geometry, FindingKind::GantryTilt), degrees != 0.0);
+      EXPECT_FALSE(has(series.geometry, FindingKind::UnevenSpacing));
+      EXPECT_LT(distanceInVoxels(readSeries(series, options, {}), marks[n]), 0.1) << degrees;
+      slices += series.geometry.slices.size();
+    }
+    EXPECT_EQ(slices, 48U) << "each slice is in one stack";
+  }
+}
+
+// Two targeted reconstructions of one series: `apart` mm from each other, numbered in turn.
+void writeBothEars(const fs::path& folder, double apart, double higher, bool areEqual)
+{
+  for (int k = 0; k < 24; ++k)
+  {
+    TestSlice slice;
+    const bool isSecond = k % 2 == 1;
+    slice.z = 0.5 * (k / 2) + (isSecond ? higher : 0.0);
+    slice.y = 20.5 + (isSecond ? apart : 0.0);
+    slice.cell = [=](int, int) { return areEqual ? 7U : static_cast<std::uint32_t>(100 + k); };
+    putNumber(slice, k + 1);
+    slice.write(folder / ("s" + std::to_string(100 + k) + ".dcm"));
+  }
+}
+
+TEST(DicomScan, DividesReconstructionsBesideEachOther)
+{
+  for (const double higher : {0.0, 0.2})
+    for (const bool areEqual : {false, true})
+      for (const double apart : {80.0, 12.0})
+      {
+        const TemporaryFolder folder;
+        writeBothEars(folder.path(), apart, higher, areEqual);
+        const ScanResult result = scanDicom(folder.path(), {});
+        ASSERT_EQ(result.series.size(), 2U) << apart << ", " << higher;
+        for (std::size_t n = 0; n < 2; ++n)
+        {
+          const DicomSeries& series = result.series[n];
+          EXPECT_EQ(series.volume,
+                    "centre " + core::fixedText(std::round(21.75 + (n == 0 ? 0.0 : apart)), 0) +
+                        " mm posterior");
+          EXPECT_EQ(series.geometry.verdict, Verdict::Ok);
+          const volume::IntensityVolume image = readSeries(series, {}, {});
+          ASSERT_EQ(image.geometry().dims(), (core::Index3{8, 6, 12}));
+          EXPECT_TRUE(image.geometry().origin().isApprox(
+              Eigen::Vector3d(-10.0, n == 0 ? 20.5 : 20.5 + apart, n == 0 ? 0.0 : higher)));
+          for (int k = 0; k < 12 && !areEqual; ++k)
+            EXPECT_EQ(image.at(3, 3, k), 100 + 2 * k + static_cast<int>(n));
+        }
+        EXPECT_THROW(chooseSeries(result, folder.path()), DicomError) << "the user says which ear";
+      }
+}
+
 void cutHeader(const fs::path& folder)
 {
   writeText(folder / "s8.dcm", TestSlice().bytes().substr(0, 190)); // before the series UID

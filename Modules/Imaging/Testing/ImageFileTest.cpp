@@ -992,7 +992,10 @@ TEST(ImageFile, AcceptsAFourthDimensionOfOneOnly)
   nifti.dims = {4, 4, 3, 2, 5, 1, 1, 1};
   nifti.voxels.assign(240, '\0');
   expectRefused(refusalOf([&] { readImageFile(putFile(folder / "b.nii", nifti.bytes())); }),
-                Reason::Unsupported, "4 x 3 x 2 x 5");
+                Reason::Unsupported, "5 volumes of 4 x 3 x 2 voxels");
+  nifti.dims = {5, 4, 3, 2, 1, 5, 1, 1}; // vectors
+  expectRefused(refusalOf([&] { readImageFile(putFile(folder / "f.nii", nifti.bytes())); }),
+                Reason::Unsupported, "4 x 3 x 2 x 1 x 5");
   nifti.dims = {2, 4, 3, 1, 1, 1, 1, 1};
   expectRefused(refusalOf([&] { readImageFile(putFile(folder / "c.nii", nifti.bytes())); }),
                 Reason::Unsupported);
@@ -1113,6 +1116,139 @@ TEST(ImageFile, RefusesPipesAndDevicesOfEveryFormat)
   // A name table next to the labels is optional.
   EXPECT_NO_THROW(readLabelFile(
       putFile(folder / "b.nrrd", nrrd("short", bytesOf(counting<std::int16_t>(24))))));
+}
+
+/// Volume n of a file of several, as counted up over all its voxels.
+void expectVolume(const LoadedImage& image, int volume, int volumes, const std::string& name)
+{
+  ASSERT_EQ(image.volume->geometry().dims(), (core::Index3{4, 3, 2})) << name;
+  for (int k = 0; k < 2; ++k)
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 4; ++i)
+        ASSERT_EQ(image.volume->at(i, j, k), 24 * volume + i + 4 * j + 12 * k) << name;
+  EXPECT_TRUE(noted(image, "holds " + std::to_string(volumes) +
+                               " volumes, of which this is number " + std::to_string(volume + 1)))
+      << name;
+}
+
+// Along a fourth axis, and interleaved in each voxel as 3D Slicer writes sequences.
+TEST(ImageFile, ReadsOneOfTheVolumesOfAFile)
+{
+  const TestFolder folder;
+  constexpr int kVolumes = 3;
+  const auto values = counting<std::int16_t>(24 * kVolumes);
+  std::vector<std::int16_t> listed;
+  std::string text;
+  for (int v = 0; v < 24; ++v)
+    for (int n = 0; n < kVolumes; ++n)
+      listed.push_back(static_cast<std::int16_t>(24 * n + v));
+  for (const std::int16_t value : listed)
+    text += std::to_string(value) + (value % 5 == 0 ? ",\n" : " ");
+  std::string swapped = bytesOf(values);
+  for (std::size_t n = 0; n < swapped.size(); n += 2)
+    std::swap(swapped[n], swapped[n + 1]);
+  const auto head = [](bool isList, const std::string& more)
+  {
+    const std::string vectors = "(0.5,0,0) (0,0.25,0) (0,0,2)";
+    return "NRRD0005\ntype: short\ndimension: 4\nspace: left-posterior-superior\nsizes: " +
+           std::string(isList ? "3 4 3 2" : "4 3 2 3") +
+           "\nspace directions: " + (isList ? "none " + vectors : vectors + " none") +
+           "\nkinds: " + (isList ? "list domain domain domain" : "domain domain domain list") +
+           "\nspace origin: (10,20,30)\n" + more + "\n";
+  };
+  const std::string little = "endian: little\nencoding: raw\n";
+  TestNifti nifti;
+  nifti.dims = {4, 4, 3, 2, kVolumes, 1, 1, 1};
+  nifti.voxels = bytesOf(values);
+  putFile(folder / "1.raw", bytesOf(values).substr(0, 48));
+  putFile(folder / "2.raw", bytesOf(values).substr(48, 48));
+  putFile(folder / "3.raw", bytesOf(values).substr(96, 48));
+  const std::filesystem::path files[] = {
+      putFile(folder / "a.nii", nifti.bytes()),
+      putGzip(folder / "a.nii.gz", nifti.bytes()),
+      putFile(folder / "time.nrrd", head(false, little) + bytesOf(values)),
+      putFile(folder / "big.nrrd", head(false, "endian: big\nencoding: raw\n") + swapped),
+      putFile(folder / "list.nrrd", head(true, little) + bytesOf(listed)),
+      putFile(folder / "text.nrrd", head(true, "encoding: text\n") + text),
+      putFile(folder / "parts.nhdr", head(false, little + "data file: %d.raw 1 3 1\n")),
+      putFile(folder / "a.mha",
+              "ObjectType = Image\nNDims = 4\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
+              "TransformMatrix = 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\nOffset = 0 0 0 0\n"
+              "ElementSpacing = 1 1 1 1\nDimSize = 4 3 2 3\nElementType = MET_SHORT\n"
+              "ElementDataFile = LOCAL\n" +
+                  bytesOf(values))};
+  for (const auto& path : files)
+  {
+    const std::string name = path.filename().string();
+    EXPECT_EQ(readImageHeader(path).volumes, 3U) << name;
+    for (int n = 0; n < kVolumes; ++n)
+    {
+      const auto volume = static_cast<std::size_t>(n + 1);
+      expectVolume(readImageFile(path, {}, {}, {}, volume), n, kVolumes, name);
+      const auto preview = previewImageFile(path, 8, {}, {}, 0, volume);
+      EXPECT_EQ(preview.volume->at(3, 2, 1), 24 * n + 23) << name;
+    }
+    const auto grid = readImageHeader(path).grid;
+    core::PatientBox box(grid.patientFromVoxel({1.0, 1.0, 0.0}));
+    box.extend(grid.patientFromVoxel({2.0, 2.0, 1.0}));
+    const auto part = readImageFile(path, box, {}, {}, 2);
+    EXPECT_EQ(part.volume->geometry().dims(), (core::Index3{2, 2, 2})) << name;
+    EXPECT_EQ(part.volume->at(1, 1, 1), 24 + 2 + 8 + 12) << name;
+    expectRefused(refusalOf([&] { readImageFile(path); }), Reason::Unsupported,
+                  "by its number, 1 to 3");
+    expectRefused(refusalOf([&] { readImageFile(path, {}, {}, {}, 4); }), Reason::Unsupported,
+                  "no volume 4; it holds volumes 1 to 3");
+    expectRefused(refusalOf([&] { readLabelFile(path); }), Reason::Unsupported, "3 volumes");
+    EXPECT_EQ(volumeNumber(path, "#2"), 2U);
+    EXPECT_EQ(volumeNumber(path, "2"), 2U);
+    EXPECT_EQ(volumeNumber(path, {}), 0U);
+    expectRefused(refusalOf([&] { volumeNumber(path, "#echo 2"); }), Reason::Unsupported,
+                  "one of 1 to 3");
+  }
+  const auto single = putFile(folder / "one.nii", shortNifti().bytes());
+  EXPECT_EQ(readImageFile(single, {}, {}, {}, 1).volume->at(3, 2, 1), 23);
+  expectRefused(refusalOf([&] { readImageFile(single, {}, {}, {}, 2); }), Reason::Unsupported,
+                "it holds one");
+}
+
+/// Progress whose task is cancelled when it reports one of this name.
+core::Progress cancelledAt(const std::string& task)
+{
+  const auto token = std::make_shared<core::CancelToken>();
+  return core::Progress(
+      [token, task](double, const std::string& text)
+      {
+        if (text == task)
+          token->cancel();
+      },
+      token);
+}
+
+TEST(ImageFile, StopsWithinTextAndLabels)
+{
+  const TestFolder folder;
+  const std::string head = "NRRD0004\ntype: int\ndimension: 3\nspace: left-posterior-superior\n"
+                           "sizes: 40 40 40\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n"
+                           "space origin: (0,0,0)\n";
+  std::string text;
+  for (int v = 0; v < 64000; ++v)
+    text += "1 ";
+  const auto words = putFile(folder / "a.nrrd", head + "encoding: text\n\n" + text);
+  EXPECT_NO_THROW(readImageFile(words));
+  EXPECT_THROW(readImageFile(words, {}, cancelledAt("reading voxels")), core::CancelledError);
+  const auto labels = putFile(folder / "b.nrrd", head + "endian: little\nencoding: raw\n\n" +
+                                                     bytesOf(std::vector<std::int32_t>(64000, 1)));
+  int reports = 0; // the second of this name is after the voxels were read
+  const auto token = std::make_shared<core::CancelToken>();
+  const core::Progress second(
+      [&](double, const std::string& task)
+      {
+        if (task == "reading labels" && ++reports == 2)
+          token->cancel();
+      },
+      token);
+  EXPECT_NO_THROW(readLabelFile(labels));
+  EXPECT_THROW(readLabelFile(labels, second), core::CancelledError);
 }
 
 TEST(ImageFile, StopsWhenAsked)

@@ -98,6 +98,54 @@ TEST(MeshFile, ObjAndPlyKeepEveryBitOfAVertex)
   }
 }
 
+// Cancelled when the file is in memory, so that the parser has to notice.
+TEST(MeshFile, StopsWithinAFile)
+{
+  const TestFolder folder;
+  core::TriangleMesh mesh;
+  constexpr std::uint32_t kMany = 70000; // more than lie between two checks
+  for (std::uint32_t v = 0; v < kMany; ++v)
+    mesh.vertices.emplace_back(static_cast<float>(v), static_cast<float>(v % 7), 0.0F);
+  for (std::uint32_t v = 0; v + 2 < kMany; ++v)
+    mesh.triangles.push_back({v, v + 1, v + 2});
+  std::string text = "solid a\n";
+  for (int v = 0; v < 12000; ++v)
+    text += "facet normal 0 0 1\nouter loop\nvertex " + std::to_string(v) +
+            " 0 0\nvertex 0 1 0\nvertex 0 0 1\nendloop\nendfacet\n";
+  putFile(folder / "text.stl", text + "endsolid a\n");
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> cells;
+  for (const auto& v : mesh.vertices)
+    points->InsertNextPoint(v[0], v[1], v[2]);
+  for (const auto& t : mesh.triangles)
+    cells->InsertNextCell({t[0], t[1], t[2]});
+  vtkNew<vtkPolyData> poly;
+  poly->SetPoints(points);
+  poly->SetPolys(cells);
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetInputData(poly);
+  writer->SetFileName((folder / "a.vtp").c_str());
+  ASSERT_EQ(writer->Write(), 1);
+  for (const char* name : {"a.obj", "a.ply", "a.stl"})
+    writeMesh(folder / name, mesh);
+  for (const char* name : {"a.obj", "a.ply", "a.stl", "text.stl", "a.vtp"})
+  {
+    EXPECT_NO_THROW(loadMesh(folder / name)) << name;
+    const auto token = std::make_shared<core::CancelToken>();
+    bool isParsing = false;
+    const core::Progress progress(
+        [&](double, const std::string& task)
+        {
+          isParsing = task == "reading mesh";
+          if (isParsing)
+            token->cancel();
+        },
+        token);
+    EXPECT_THROW(loadMesh(folder / name, {}, {}, progress), core::CancelledError) << name;
+    EXPECT_TRUE(isParsing) << name;
+  }
+}
+
 TEST(MeshFile, ReadsTextStlAndMergesEqualCorners)
 {
   const TestFolder folder;

@@ -452,6 +452,34 @@ TEST(SeriesGeometry, NamesTwoAcquisitionsAtTheSamePlaces)
   EXPECT_NEAR(series.grid->spacing()[2], 1.0, 1e-9);
 }
 
+TEST(SeriesGeometry, CallsNoDuplicateWhatLiesBesideASlice)
+{
+  Headers slices = stack(20);
+  Headers beside = stack(20, 0.6, Eigen::Matrix3d::Identity(), {60.0, -16.0, 100.0});
+  slices.insert(slices.end(), beside.begin(), beside.end());
+  const Finding finding = only(assess(slices));
+  EXPECT_EQ(finding.kind, FindingKind::SideBySide);
+  EXPECT_NEAR(finding.errorMm, 80.0, 1e-9);
+  EXPECT_EQ(assess(slices).verdict, Verdict::Refused);
+  // The same place but for the tolerance is a duplicate.
+  Headers twice = stack(20);
+  twice.push_back(twice[7]);
+  (*twice.back().position)[0] += 0.04;
+  EXPECT_EQ(only(assess(twice)).kind, FindingKind::DuplicateSlice);
+  (*twice.back().position)[0] += 0.3;
+  EXPECT_EQ(only(assess(twice)).kind, FindingKind::SideBySide);
+}
+
+TEST(SeriesGeometry, NeverCallsALeanOfMoreThan45DegreesATilt)
+{
+  Headers slices = stack(20);
+  for (std::size_t k = 0; k < slices.size(); k += 2)
+    (*slices[k].position)[1] += 80.0;
+  const SeriesGeometry series = assess(slices);
+  EXPECT_FALSE(has(series, FindingKind::GantryTilt));
+  EXPECT_TRUE(has(series, FindingKind::UnevenSpacing));
+}
+
 TEST(SeriesGeometry, HasNoGridWhenAllSlicesShareOnePlace)
 {
   Headers slices(4, stack(1).front());
@@ -644,11 +672,11 @@ TEST(SeriesGeometry, GivesEveryFindingKindItsOwnName)
   for (int kind = 0; kind <= static_cast<int>(FindingKind::Unreadable); ++kind)
     names.insert(kindName(static_cast<FindingKind>(kind)));
   const std::set<std::string> expected{
-      "gantry-tilt",        "missing-slice",  "uneven-spacing", "duplicate-slice",
-      "odd-orientation",    "odd-size",       "mixed-rescale",  "no-geometry",
-      "localizer-mixed-in", "multi-frame",    "not-an-image",   "unreadable",
-      "modality-lut",       "mixed-patients", "mixed-studies",  "mixed-acquisitions",
-      "missing-end"};
+      "gantry-tilt",        "missing-slice",      "uneven-spacing", "duplicate-slice",
+      "side-by-side",       "odd-orientation",    "odd-size",       "mixed-rescale",
+      "no-geometry",        "localizer-mixed-in", "multi-frame",    "not-an-image",
+      "unreadable",         "modality-lut",       "mixed-patients", "mixed-studies",
+      "mixed-acquisitions", "missing-end"};
   EXPECT_EQ(names, expected);
 }
 

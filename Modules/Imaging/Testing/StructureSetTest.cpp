@@ -138,6 +138,24 @@ std::string refusal(const std::filesystem::path& path)
 
 } // namespace
 
+TEST(StructureSet, StopsBetweenContoursAndPlanes)
+{
+  const TemporaryFolder folder;
+  TestSet set;
+  set.add(1, "a", {"0\\0\\10\\5\\0\\10\\5\\5\\10", "0\\0\\11\\5\\0\\11\\5\\5\\11"});
+  const auto path = set.write(folder);
+  int checks = 0;
+  const auto token = std::make_shared<core::CancelToken>();
+  const core::Progress progress(
+      [&](double, const std::string&) { ++checks == 1 ? token->cancel() : void(); }, token);
+  EXPECT_THROW(readStructureSet(path, progress), core::CancelledError);
+  EXPECT_EQ(checks, 1) << "of the file; the contours do not report";
+  const auto second = std::make_shared<core::CancelToken>();
+  const core::Progress placing([&](double, const std::string&) { second->cancel(); }, second);
+  EXPECT_THROW(imaging::labelsOf(readStructureSet(path), grid(), path, placing),
+               core::CancelledError);
+}
+
 TEST(StructureSet, BallsKeepTheVolumeOfTheirContours)
 {
   for (const double radius : {1.7, 3.3, 8.0})

@@ -605,6 +605,96 @@ TEST(Vocabulary, KeepsNoNumbersThatStandTogether)
   EXPECT_EQ(reducedToVocabulary("AXIAL 3 MM", people), "AXIAL 3 MM");
 }
 
+// Structures as TotalSegmentator, 3D Slicer and SNOMED CT name them.
+TEST(Vocabulary, KnowsTheAnatomyOfTheTemporalBone)
+{
+  const char* const names[] = {"Cochlea",
+                               "Vestibule",
+                               "Labyrinth inner ear",
+                               "Lateral semicircular canal",
+                               "Superior semicircular canal",
+                               "Posterior semicircular canal",
+                               "Auditory ossicles",
+                               "Malleus",
+                               "Incus",
+                               "Stapes",
+                               "Incudostapedial joint",
+                               "Sigmoid sinus",
+                               "Transverse sinus",
+                               "Superior petrosal sinus",
+                               "Jugular bulb",
+                               "Internal jugular vein",
+                               "Internal carotid artery",
+                               "Common carotid artery",
+                               "Facial nerve",
+                               "Geniculate ganglion",
+                               "Chorda tympani",
+                               "Greater superficial petrosal nerve",
+                               "Vestibulocochlear nerve",
+                               "Cochlear nerve",
+                               "Glossopharyngeal nerve",
+                               "Vagus nerve",
+                               "Accessory nerve",
+                               "Hypoglossal canal",
+                               "Trigeminal nerve",
+                               "Tegmen tympani",
+                               "Dura mater",
+                               "Middle cranial fossa",
+                               "EAC",
+                               "IAC",
+                               "External auditory canal",
+                               "Internal acoustic meatus",
+                               "Endolymphatic sac",
+                               "Endolymphatic duct",
+                               "Vestibular aqueduct",
+                               "Cochlear aqueduct",
+                               "Tympanic membrane",
+                               "Round window",
+                               "Oval window",
+                               "Basal turn",
+                               "Modiolus",
+                               "Scala tympani",
+                               "Scala vestibuli",
+                               "Promontory",
+                               "Stapedius muscle",
+                               "Tensor tympani muscle",
+                               "Eustachian tube",
+                               "Auricle",
+                               "Scutum",
+                               "Mastoid antrum",
+                               "Aditus",
+                               "Attic",
+                               "Epitympanum",
+                               "Facial recess",
+                               "Pyramidal eminence",
+                               "Arcuate eminence",
+                               "Cochleariform process",
+                               "Subarcuate artery",
+                               "Styloid process",
+                               "Stylomastoid foramen",
+                               "Mastoid air cells",
+                               "Petrous apex",
+                               "Clivus",
+                               "Zygomatic arch",
+                               "Parotid gland",
+                               "TMJ",
+                               "Mandible",
+                               "Brainstem",
+                               "Cerebellum",
+                               "Cerebrospinal fluid",
+                               "Cochlear implant",
+                               "Vestibular schwannoma",
+                               "Glomus tumor"};
+  for (const char* name : names)
+  {
+    std::istringstream words(name);
+    for (std::string word; words >> word;)
+      EXPECT_TRUE(isDescriptorWord(word)) << word << " of " << name;
+  }
+  for (const char* surname : {"Hammer", "Henle", "Koerner", "Pons", "Burr", "Meier"})
+    EXPECT_FALSE(isDescriptorWord(surname)) << surname;
+}
+
 TEST_F(Deidentification, FindsTheNameInTextThatWouldStay)
 {
   const std::string body = element(0x00100010, "Lindqvist^Aurelia") +

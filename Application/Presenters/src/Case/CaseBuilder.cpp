@@ -253,7 +253,8 @@ ReadImage readImage(const fs::path& path, const std::string& selector, bool repa
   scene::ImagePart& part = read.part;
   if (!fs::is_directory(path) && imaging::isReadAs(path, imaging::kImage | imaging::kLabels))
   {
-    auto image = imaging::readImageFile(path, roi, progress, assumeRas);
+    auto image = imaging::readImageFile(path, roi, progress, assumeRas,
+                                        imaging::volumeNumber(path, selector));
     part.volume = image.volume;
     part.notes = std::move(image.notes);
     part.provenance.assumedRas = image.assumedRas;
@@ -641,7 +642,7 @@ imaging::LoadedLabels loadStructureSet(const scene::Case& value, PartSource& sou
                                        const std::function<std::string(const std::string&)>& salted,
                                        const core::Progress& progress, bool& isFrameAssumed)
 {
-  const imaging::StructureSet set = imaging::readStructureSet(source.path);
+  const imaging::StructureSet set = imaging::readStructureSet(source.path, progress.part(0.0, 0.3));
   isOfOtherPatient(value, source, patientHash(set.patient), salted); // before it is computed
   std::vector<std::string> notes;
   isFrameAssumed = settleFrame(value, source, set.frameOfReferenceUid, nullptr, salted, notes);
@@ -651,7 +652,7 @@ imaging::LoadedLabels loadStructureSet(const scene::Case& value, PartSource& sou
   if (source.drawnOn.empty())
     source.drawnOn = "ct"; // not an MR of the same grid
   const core::GridGeometry& grid = mr ? mr->geometry : value.ct.geometry;
-  imaging::LoadedLabels loaded = imaging::labelsOf(set, grid, source.path, progress);
+  imaging::LoadedLabels loaded = imaging::labelsOf(set, grid, source.path, progress.part(0.3, 1.0));
   loaded.notes.insert(loaded.notes.begin(), notes.begin(), notes.end());
   return loaded;
 }
@@ -946,7 +947,7 @@ void requireNear(const fs::path& path, const core::TriangleMesh& mesh,
       " mm; look for a coordinate without its decimal point, and give it in mm");
 }
 
-void addMesh(scene::Case& value, const PartSource& source)
+void addMesh(scene::Case& value, const PartSource& source, const core::Progress& progress)
 {
   scene::MeshPart part;
   std::vector<std::string> notes;
@@ -965,7 +966,7 @@ void addMesh(scene::Case& value, const PartSource& source)
   checkNewName(value, source.path, part.name);
   if (!source.drawnOn.empty())
     part.drawnOn = drawnOnNamed(value, source);
-  auto loaded = imaging::loadMesh(source.path, source.isRas, source.unit);
+  auto loaded = imaging::loadMesh(source.path, source.isRas, source.unit, progress.part(0.0, 0.9));
   const scene::ImagePart* mr = scene::findMr(value, part.drawnOn);
   const std::string image =
       mr ? "the MR on which it was drawn" : std::string("the ") + primaryName(value);
@@ -1241,10 +1242,7 @@ void addParts(scene::Case& value, const PartSources& parts, const core::Progress
   for (const PartSource& source : parts.labels)
     addLabels(next, source, parts, share(), &reports);
   for (const PartSource& source : parts.meshes)
-  {
-    share().report(0.0, "reading meshes");
-    addMesh(next, source);
-  }
+    addMesh(next, source, share());
   value = std::move(next);
   if (report)
     report->insert(report->end(), reports.begin(), reports.end());

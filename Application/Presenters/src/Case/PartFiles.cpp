@@ -143,7 +143,7 @@ bool readHead(PartFile& file)
     file.structures = header.components == 1 ? imaging::readSegments(file.path).size() : 0;
     return true;
   }
-  return header.components != 1; // colours, vectors
+  return header.components != 1 || header.volumes != 1; // colours, vectors; series
 }
 
 void readVoxels(PartFile& file, const core::Progress& progress)

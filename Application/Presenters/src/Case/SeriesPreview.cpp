@@ -8,6 +8,7 @@
 #include "petrous/Imaging/DicomReader.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/FileFormats.h"
+#include "petrous/Imaging/ImageFile.h"
 #include "petrous/Imaging/ImagePreview.h"
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Volume/IntensityScale.h"
@@ -96,7 +97,8 @@ ScanPreview previewScan(const fs::path& path, const std::string& selector, bool 
 {
   if (!fs::is_directory(path) && imaging::isReadAs(path, imaging::kImage | imaging::kLabels))
   {
-    const auto image = imaging::previewImageFile(path, kSlices, progress, assumeRas);
+    const auto image = imaging::previewImageFile(path, kSlices, progress, assumeRas, 0,
+                                                 imaging::volumeNumber(path, selector));
     return previewOf(*image.volume, image.grid);
   }
   const auto scan = imaging::scanDicom(path, progress.part(0.0, 0.3), library::scanCache().get());

@@ -253,6 +253,52 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress,
   return result;
 }
 
+// As the voxels of an image file say; of one that the memory does not hold, a few of them.
+Content contentOfFile(const fs::path& path, std::size_t volume, bool& isTooLarge,
+                      const core::Progress& progress)
+try
+{
+  return presenters::contentOf(
+      *imaging::readImageFile(path, std::nullopt, progress, std::nullopt, volume).volume);
+}
+catch (const imaging::FileError& error)
+{
+  if (error.fault() != core::Fault::Internal) // no memory
+    throw;
+  isTooLarge = true;
+  return presenters::contentOf(
+      *imaging::previewImageFile(path, kSlices, progress, std::nullopt, 0, volume).volume);
+}
+
+std::string whyOf(Content content)
+{
+  return content == Content::Labels ? "has a few whole numbers in patches, as labels do"
+         : content == Content::Ct   ? "is in Hounsfield units"
+                                    : "does not say whether it is a CT or an MR, and its numbers "
+                                      "are no Hounsfield units";
+}
+
+// The volumes of a file with several, which are alike.
+void listVolumes(const imaging::ImageHeader& header, SourceContent& result)
+{
+  constexpr std::size_t kMost = 4096; // lines of a list
+  const std::string name = sequenceName(imaging::baseName(result.path));
+  for (std::size_t n = 1; n <= std::min(header.volumes, kMost); ++n)
+  {
+    SeriesContent volume;
+    const std::string number = std::to_string(n);
+    volume.selector = "#" + number;
+    volume.content = result.content;
+    volume.description = result.path.filename().string() + ", volume " + number;
+    volume.name = name.empty() ? name : name + " " + number;
+    volume.slices = static_cast<std::size_t>(header.grid.dims()[2]);
+    volume.spacing = header.grid.spacing();
+    volume.folder = result.path.parent_path().filename().string();
+    volume.isDicom = false;
+    result.series.push_back(std::move(volume));
+  }
+}
+
 // Nothing if the folder holds no mask.
 std::optional<SourceContent> lookAtMasks(const fs::path& folder, const core::Progress& progress)
 try
@@ -375,23 +421,20 @@ SourceContent lookAt(const fs::path& path, const core::Progress& progress,
     result.why = "is a segmentation of 3D Slicer";
     return result;
   }
-  if (expected)
-    result.content = *expected;
-  else
-    try
-    {
-      result.content =
-          contentOf(*imaging::readImageFile(path, std::nullopt, progress.part(0.0, 0.8)).volume);
-    }
-    catch (const imaging::FileError& error)
-    {
-      if (error.fault() != core::Fault::Internal) // no memory
-        throw;
-      result.isTooLarge = true;
-      result.content =
-          contentOf(*imaging::previewImageFile(path, kSlices, progress.part(0.0, 0.8)).volume);
-    }
-  result.isSideOpen = imaging::assumedRasOf(path).has_value();
+  const imaging::ImageHeader header = imaging::readImageHeader(path);
+  const bool isSeries = header.volumes > 1 && expected != Content::Labels;
+  result.content =
+      expected ? *expected
+               : contentOfFile(path, isSeries ? 1 : 0, result.isTooLarge, progress.part(0.0, 0.8));
+  result.isSideOpen = header.assumedRas.has_value();
+  if (isSeries)
+  {
+    if (result.content == Content::Labels) // which have one volume
+      result.content = Content::Image;
+    result.why = whyOf(result.content);
+    listVolumes(header, result);
+    return result;
+  }
   result.name = sequenceName(imaging::baseName(path));
   if (result.content == Content::Labels)
   {
@@ -408,11 +451,7 @@ SourceContent lookAt(const fs::path& path, const core::Progress& progress,
         throw;
     }
   }
-  result.why = result.content == Content::Labels
-                   ? "has a few whole numbers in patches, as labels do"
-               : result.content == Content::Ct ? "is in Hounsfield units"
-                                               : "does not say whether it is a CT or an MR, and "
-                                                 "its numbers are no Hounsfield units";
+  result.why = whyOf(result.content);
   return result;
 }
 

@@ -511,12 +511,13 @@ void refuseSetAside(SeriesGeometry& geometry)
   geometry.verdict = Verdict::Refused;
   geometry.isRepairableIfEqual = false;
   if (geometry.findings.empty())
-    geometry.findings.push_back(
-        {FindingKind::OddOrientation,
-         std::to_string(geometry.slices.size()) +
-             (geometry.slices.size() == 1 ? " slice is" : " slices are") +
-             " turned against the stacks of the series or of another size, too few for a stack.",
-         0.0});
+    geometry.findings.push_back({FindingKind::OddOrientation,
+                                 std::to_string(geometry.slices.size()) +
+                                     (geometry.slices.size() == 1 ? " slice is" : " slices are") +
+                                     " turned against the stacks of the series, of another size or "
+                                     "beside them, too few for "
+                                     "a stack.",
+                                 0.0});
 }
 
 /// The stacks of a series, each assessed; a single unnamed one if it cannot be divided.
@@ -527,7 +528,8 @@ std::vector<std::pair<std::string, SeriesGeometry>> assessVolumes(std::vector<Sl
   SeriesGeometry whole = assess(slices, progress);
   std::vector<std::pair<std::string, SeriesGeometry>> volumes;
   if (hasFinding(whole,
-                 {Kind::DuplicateSlice, Kind::OddOrientation, Kind::OddSize, Kind::MixedRescale}) &&
+                 {Kind::DuplicateSlice, Kind::SideBySide, Kind::OddOrientation, Kind::OddSize,
+                  Kind::MixedRescale, Kind::GantryTilt, Kind::UnevenSpacing}) &&
       !hasFinding(whole, {Kind::MixedPatients, Kind::MixedStudies}))
   {
     std::size_t setAside = 0;
@@ -545,7 +547,8 @@ std::vector<std::pair<std::string, SeriesGeometry>> assessVolumes(std::vector<Sl
         volumes[n].second.notes.push_back(
             std::to_string(setAside) +
             (setAside == 1 ? " slice of the series is" : " slices of the series are") +
-            " turned against its stacks or of another size, too few for a stack, and set aside.");
+            " turned against its stacks, of another size or beside them, too few for a stack, and "
+            "set aside.");
   }
   const bool helps =
       volumes.size() > 1 &&

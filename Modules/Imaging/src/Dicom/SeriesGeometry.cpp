@@ -614,6 +614,8 @@ const char* kindName(FindingKind kind) noexcept
     return "uneven-spacing";
   case FindingKind::DuplicateSlice:
     return "duplicate-slice";
+  case FindingKind::SideBySide:
+    return "side-by-side";
   case FindingKind::OddOrientation:
     return "odd-orientation";
   case FindingKind::OddSize:

@@ -1,6 +1,7 @@
 #include "SeriesVolumes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <set>
@@ -229,12 +230,148 @@ Groups byLikeness(const NamedSlices& from,
   return groups;
 }
 
+NamedSlices partOf(const NamedSlices& from, const Headers& sorted,
+                   const std::vector<std::size_t>& members)
+{
+  NamedSlices part{from.name, {}};
+  for (const std::size_t k : members)
+    part.slices.push_back(sorted[k]);
+  return part;
+}
+
+/// Mean centre of the slices, patient LPS mm.
+Eigen::Vector3d centreOf(const Headers& slices)
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const SliceHeader& s : slices)
+    sum += *s.position + 0.5 * (s.columns - 1) * (*s.pixelSpacing)[1] * *s.rowDirection +
+           0.5 * (s.rows - 1) * (*s.pixelSpacing)[0] * *s.columnDirection;
+  return sum / static_cast<double>(slices.size());
+}
+
+/// "centre 41 mm left": of a field, along the patient's axis in which they differ most.
+void nameBySide(Groups& groups)
+{
+  Eigen::AlignedBox3d box;
+  for (const NamedSlices& group : groups)
+    if (!group.isSetAside)
+      box.extend(centreOf(group.slices));
+  static constexpr const char* kSides[3][2] = {
+      {"right", "left"}, {"anterior", "posterior"}, {"inferior", "superior"}};
+  Eigen::Index axis = 0;
+  box.sizes().maxCoeff(&axis);
+  for (NamedSlices& group : groups)
+  {
+    const double at = group.isSetAside ? 0.0 : centreOf(group.slices)[axis];
+    group.name = joined(group.name, group.isSetAside ? std::string("set aside")
+                                                     : "centre " + decimals(std::abs(at), 0) +
+                                                           " mm " + kSides[axis][at < 0.0 ? 0 : 1]);
+  }
+}
+
+bool isOneColumn(const Headers& slices)
+{
+  if (slices.size() < 2)
+    return true;
+  Headers sorted = slices;
+  const SliceStack stack(sorted);
+  return stack.besides() == 0 && stack.columns().size() == 1;
+}
+
+/// Reconstructions beside each other, as of either ear: by what the headers say of them, else by
+/// their place.
+Groups byColumn(const NamedSlices& from)
+{
+  if (isOneColumn(from.slices))
+    return {from};
+  for (const Trait& trait : traits())
+    if (Groups groups = byTrait(from, trait);
+        groups.size() > 1 &&
+        std::all_of(groups.begin(), groups.end(),
+                    [](const NamedSlices& group) { return isOneColumn(group.slices); }))
+      return groups;
+  Headers sorted = from.slices;
+  const auto columns = SliceStack(sorted).columns();
+  if (columns.size() < 2)
+    return {from};
+  Groups groups;
+  std::vector<bool> isOfColumn(sorted.size(), false);
+  for (const auto& column : columns)
+  {
+    groups.push_back(partOf(from, sorted, column));
+    for (const std::size_t k : column)
+      isOfColumn[k] = true;
+  }
+  std::vector<std::size_t> rest;
+  for (std::size_t k = 0; k < sorted.size(); ++k)
+    if (!isOfColumn[k])
+      rest.push_back(k);
+  if (!rest.empty())
+  {
+    groups.push_back(partOf(from, sorted, rest));
+    groups.back().isSetAside = true;
+  }
+  nameBySide(groups);
+  return groups;
+}
+
+/// Stretches of one tilt each, of slices that are parallel.
+Groups byTilt(const NamedSlices& from)
+{
+  if (from.slices.size() < 2)
+    return {from};
+  Headers sorted = from.slices;
+  const SliceStack stack(sorted);
+  const std::vector<std::size_t> changes = stack.tiltChanges();
+  if (changes.size() < 2)
+    return {from};
+  std::vector<Eigen::Vector2d> leans;
+  Eigen::AlignedBox2d box;
+  Groups groups;
+  for (std::size_t n = 0; n < changes.size(); ++n)
+  {
+    const std::size_t end = n + 1 < changes.size() ? changes[n + 1] : sorted.size();
+    leans.push_back(stack.lean(changes[n], end));
+    box.extend(leans.back());
+    groups.push_back({from.name, Headers(sorted.begin() + static_cast<std::ptrdiff_t>(changes[n]),
+                                         sorted.begin() + static_cast<std::ptrdiff_t>(end))});
+  }
+  Eigen::Index axis = 0; // in which they differ
+  box.sizes().maxCoeff(&axis);
+  for (std::size_t n = 0; n < groups.size(); ++n)
+  {
+    const std::string degrees = decimals(std::atan(leans[n].norm()) * 180.0 / M_PI, 1);
+    const bool isNegative = leans[n][axis] < 0.0 && degrees != "0.0";
+    groups[n].name = joined(groups[n].name, (isNegative ? "tilt -" : "tilt ") + degrees);
+  }
+  return groups;
+}
+
 bool areAlike(const Headers& slices)
 {
   return std::all_of(slices.begin(), slices.end(),
                      [&slices](const SliceHeader& slice) {
                        return sameTurn(slices.front(), slice) && sameSize(slices.front(), slice);
                      });
+}
+
+/// Slices of one orientation and size by column, by what tells those at one place apart, and by
+/// tilt.
+void splitStacks(const NamedSlices& from, Groups& result)
+{
+  for (const NamedSlices& column : byColumn(from))
+  {
+    if (column.isSetAside)
+    {
+      result.push_back(column);
+      continue;
+    }
+    Groups places;
+    splitPlaces(column, places);
+    for (const NamedSlices& stack : places)
+      for (NamedSlices& stretch : byTilt(stack))
+        result.push_back(std::move(stretch));
+  }
 }
 
 void makeDistinct(Groups& groups)
@@ -272,7 +409,7 @@ std::vector<NamedSlices> splitVolumes(const std::vector<SliceHeader>& slices)
     else
       for (const NamedSlices& sized : byLikeness(part, sameSize, sizeText))
         if (!sized.isSetAside && areAlike(sized.slices))
-          splitPlaces(sized, groups);
+          splitStacks(sized, groups);
         else
           groups.push_back(sized); // places of slices turned against each other say nothing
   if (groups.size() < 2)

@@ -22,6 +22,11 @@ constexpr std::size_t kPitches = 2;     // runs of them: coarse, fine, coarse
 constexpr double kWidestGap = 2.05;     // of the usual gap: what one missing slice leaves
 constexpr double kLostGap = 1.5;        // of the usual gap: a slice may have stood in it
 constexpr std::size_t kFewGuessed = 10; // one slice in so many may be guessed
+constexpr double kSteepest = 1.0;       // tangent; no gantry or oblique stack leans by 45 degrees
+constexpr std::size_t kStretches = 4;   // of one tilt each, of a series
+constexpr std::size_t kStretch = 5;     // slices; fewer may lean by chance
+constexpr double kBeside = 10.0;        // mm, between columns whose slices are at other heights
+constexpr std::size_t kColumns = 64;    // of a series; more are no columns
 
 double median(std::vector<double> values) ///< the lower of two middle values; not empty
 {
@@ -155,13 +160,157 @@ double SliceStack::tolerance(double spacing) const
   return std::max({kPlaceTolerance, kPlaceShare * spacing, m_step});
 }
 
-std::size_t SliceStack::duplicates() const
+double SliceStack::sidewaysTolerance() const
+{
+  return tolerance(m_slices.front().pixelSpacing->minCoeff());
+}
+
+Eigen::Vector3d SliceStack::sideways(std::size_t k) const
+{
+  return *m_slices[k].position - *m_slices.front().position -
+         m_direction.col(2) * (m_place[k] - m_place.front());
+}
+
+std::vector<SliceStack::Twin> SliceStack::twins() const
 {
   const double apart = std::max(kSamePlace, kSameFraction * usualGap());
-  std::size_t count = 0;
-  for (std::size_t k = 0; k + 1 < m_place.size(); ++k)
-    count += m_place[k + 1] - m_place[k] <= apart ? 1 : 0;
-  return count;
+  const double beside = sidewaysTolerance();
+  std::vector<Twin> twins(m_place.size(), Twin::None);
+  std::vector<Eigen::Vector3d> taken; // places of this height
+  for (std::size_t k = 0; k < m_place.size(); ++k)
+  {
+    if (k == 0 || m_place[k] - m_place[k - 1] > apart)
+      taken.clear();
+    const Eigen::Vector3d here = sideways(k);
+    if (std::any_of(taken.begin(), taken.end(),
+                    [&](const Eigen::Vector3d& place) { return (here - place).norm() <= beside; }))
+      twins[k] = Twin::SamePlace;
+    else if (!taken.empty())
+      twins[k] = Twin::Beside;
+    if (twins[k] != Twin::SamePlace && taken.size() < kColumns)
+      taken.push_back(here);
+  }
+  return twins;
+}
+
+std::size_t SliceStack::duplicates() const
+{
+  const std::vector<Twin> all = twins();
+  return static_cast<std::size_t>(std::count(all.begin(), all.end(), Twin::SamePlace));
+}
+
+std::size_t SliceStack::besides() const
+{
+  const std::vector<Twin> all = twins();
+  return static_cast<std::size_t>(std::count(all.begin(), all.end(), Twin::Beside));
+}
+
+std::vector<std::vector<std::size_t>> SliceStack::columns() const
+{
+  const double sameHeight = std::max(kSamePlace, kSameFraction * usualGap());
+  const double tolerated = sidewaysTolerance();
+  std::vector<std::vector<std::size_t>> columns;
+  for (std::size_t k = 0; k < m_place.size() && columns.size() <= kColumns; ++k)
+  {
+    std::vector<std::size_t>* nearest = nullptr;
+    double least = 0.0;
+    for (auto& column : columns)
+    {
+      const double apart = (sideways(k) - sideways(column.back())).norm();
+      const double up = m_place[k] - m_place[column.back()];
+      const double allowed =
+          up <= sameHeight ? tolerated : std::max(kBeside, tolerated + kSteepest * up);
+      if (apart <= allowed && (!nearest || apart < least))
+      {
+        nearest = &column;
+        least = apart;
+      }
+    }
+    if (nearest)
+      nearest->push_back(k);
+    else
+      columns.push_back({k});
+  }
+  if (columns.size() > kColumns)
+    columns.clear();
+  columns.erase(std::remove_if(columns.begin(), columns.end(),
+                               [](const auto& column) { return column.size() < kFewest; }),
+                columns.end());
+  bool areBeside = false;
+  double top = 0.0;                  // of those before
+  for (const auto& column : columns) // in the order of their lowest slices
+  {
+    areBeside = areBeside || (&column != columns.data() && m_place[column.front()] <= top);
+    top =
+        std::max(&column == columns.data() ? m_place[column.back()] : top, m_place[column.back()]);
+  }
+  if (areBeside)
+    return columns;
+  columns.assign(1, std::vector<std::size_t>(m_place.size()));
+  std::iota(columns.front().begin(), columns.front().end(), std::size_t{0});
+  return columns;
+}
+
+Eigen::Vector2d SliceStack::lean(std::size_t first, std::size_t end) const
+{
+  std::vector<double> t;
+  std::vector<Eigen::Vector3d> shift;
+  for (std::size_t k = first; k < end; ++k)
+  {
+    t.push_back(m_place[k]);
+    shift.push_back(sideways(k));
+  }
+  return (m_direction.transpose() * leastSquares(t, shift).slope).head<2>();
+}
+
+std::vector<std::size_t> SliceStack::tiltChanges() const
+{
+  const double allowed = sidewaysTolerance();
+  const auto isStraight = [&](std::size_t first, std::size_t end)
+  {
+    std::vector<double> t;
+    std::vector<Eigen::Vector3d> shift;
+    for (std::size_t k = first; k < end; ++k)
+    {
+      t.push_back(m_place[k]);
+      shift.push_back(sideways(k));
+    }
+    return leastSquares(t, shift).worst <= allowed;
+  };
+  const std::size_t count = m_place.size();
+  std::vector<std::size_t> changes = {0};
+  for (std::size_t first = 0;;)
+  {
+    std::size_t end = std::min(first + kStretch, count);
+    if (end - first < kStretch || !isStraight(first, end))
+      return {0};
+    // The farthest end: a stretch is straight up to it and not beyond.
+    std::size_t beyond = count + 1;
+    for (std::size_t step = 1; end + step < beyond; step *= 2)
+      (isStraight(first, end + step) ? end : beyond) = end + step;
+    while (end + 1 < beyond)
+    {
+      const std::size_t middle = end + (beyond - end) / 2;
+      (isStraight(first, middle) ? end : beyond) = middle;
+    }
+    if (end == count)
+      break;
+    changes.push_back(end);
+    first = end;
+    if (changes.size() > kStretches)
+      return {0};
+  }
+  // A jump sideways is no change of tilt.
+  for (std::size_t n = 1; n < changes.size(); ++n)
+  {
+    const std::size_t end = n + 1 < changes.size() ? changes[n + 1] : count;
+    const double shorter = std::min(m_place[changes[n] - 1] - m_place[changes[n - 1]],
+                                    m_place[end - 1] - m_place[changes[n]]);
+    if ((lean(changes[n - 1], changes[n]) - lean(changes[n], end)).norm() * shorter <=
+        2.0 * allowed)
+      return {0};
+  }
+  return changes;
 }
 
 void SliceStack::judge(SeriesGeometry& result)
@@ -203,8 +352,10 @@ void SliceStack::followNumbers()
 void SliceStack::judgeGaps(SeriesGeometry& result)
 {
   const double usual = m_spacing;
-  std::size_t doubled = 0;
-  std::size_t firstDoubled = 0;
+  const std::vector<Twin> all = twins();
+  const auto doubled =
+      static_cast<std::size_t>(std::count(all.begin(), all.end(), Twin::SamePlace));
+  const auto beside = static_cast<std::size_t>(std::count(all.begin(), all.end(), Twin::Beside));
   std::size_t run = 0;
   std::size_t longestRun = 0;
   std::vector<double> steps; // 1 where no slice is missing
@@ -212,11 +363,8 @@ void SliceStack::judgeGaps(SeriesGeometry& result)
   {
     const double gap = m_place[k + 1] - m_place[k];
     double step = 1.0;
-    if (gap <= std::max(kSamePlace, kSameFraction * usual))
-    {
-      firstDoubled = doubled++ == 0 ? k : firstDoubled;
+    if (all[k + 1] != Twin::None)
       step = 0.0;
-    }
     else if (std::round(gap / usual) >= 2.0 &&
              std::abs(gap / usual - std::round(gap / usual)) <= kWholeGap)
       step = std::round(gap / usual);
@@ -243,14 +391,31 @@ void SliceStack::judgeGaps(SeriesGeometry& result)
     missing += static_cast<std::size_t>(std::min(steps[k], 1e6)) - 1;
   }
 
+  if (beside > 0)
+  {
+    double farthest = 0.0;
+    for (std::size_t k = 1; k < m_place.size(); ++k)
+      if (all[k] == Twin::Beside)
+        farthest = std::max(farthest, (sideways(k) - sideways(k - 1)).norm());
+    result.findings.push_back(
+        {FindingKind::SideBySide,
+         std::to_string(beside) + " of " + std::to_string(m_slices.size()) +
+             (beside == 1 ? " slices lies" : " slices lie") +
+             " beside another at the same height, up to " + decimals(farthest, 1) +
+             " mm away, as of reconstructions of either ear: they are not of one stack; keep the "
+             "files of one in the folder.",
+         farthest});
+  }
   if (doubled > 0)
   {
+    const auto first =
+        static_cast<std::size_t>(std::find(all.begin(), all.end(), Twin::SamePlace) - all.begin());
     const double step = usual > 0.0 ? usual : m_slices.front().thickness.value_or(0.0);
     const double excess = static_cast<double>(doubled) * step;
     result.findings.push_back({FindingKind::DuplicateSlice,
                                std::to_string(doubled) + " of " + std::to_string(m_slices.size()) +
                                    " slices share their place with another (the first at " +
-                                   decimals(m_place[firstDoubled], 2) +
+                                   decimals(m_place[first], 2) +
                                    " mm along the normal); stacked, the volume would be " +
                                    decimals(excess, 1) + " mm too long.",
                                excess});
@@ -348,18 +513,25 @@ void SliceStack::judgeEvenness(SeriesGeometry& result)
 
 void SliceStack::judgeSideways(SeriesGeometry& result) const
 {
+  if (std::any_of(result.findings.begin(), result.findings.end(),
+                  [](const Finding& f) { return f.kind == FindingKind::SideBySide; }))
+    return; // several stacks lean in no way
   std::vector<double> t;
   std::vector<Eigen::Vector3d> shift;
-  const Eigen::Vector3d normal = m_direction.col(2);
   for (std::size_t k = 0; k < m_slices.size(); ++k)
   {
     t.push_back(m_place[k] - m_place.front());
-    shift.push_back(*m_slices[k].position - *m_slices.front().position - normal * t[k]);
+    shift.push_back(sideways(k));
   }
-  const double allowed = tolerance(m_slices.front().pixelSpacing->minCoeff());
+  const double allowed = sidewaysTolerance();
   ShiftLine line = leastSquares(t, shift);
   if (line.worst > allowed)
     line = robustLine(t, shift);
+  if (line.slope.norm() > kSteepest)
+  {
+    line = {shift.front(), Eigen::Vector3d::Zero(), 0.0};
+    line.measure(t, shift);
+  }
 
   const double tangent = line.slope.norm();
   const double slide = tangent * t.back();

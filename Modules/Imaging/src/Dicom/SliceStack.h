@@ -15,7 +15,7 @@ std::string decimals(double value, int digits);
 
 constexpr std::size_t kFewest = 3; ///< fewer slices of another orientation or size are no stack
 
-/// Slices closer to each other than this share one place, mm along the normal.
+/// Slices closer to each other than this are at one height, mm along the normal.
 double sharedPlace(double spacing);
 
 /// Slices of one size and orientation as a stack along their common normal.
@@ -32,8 +32,23 @@ public:
   /// Adds the defects of the stack to `result`, and what was accepted.
   void judge(SeriesGeometry& result);
 
-  /// Slices that share their place with another.
+  /// Slices that share their place with another, in all three axes.
   std::size_t duplicates() const;
+
+  /// Slices that lie beside another of the same height.
+  std::size_t besides() const;
+
+  /// Columns of slices beside each other, at overlapping heights, by index: those that are farther
+  /// sideways of the last slice of a column than any tilt puts them are of another one. One column
+  /// if there are no several of kFewest slices; slices of none are left out.
+  std::vector<std::vector<std::size_t>> columns() const;
+
+  /// The slices from which a straight line through the stack leans otherwise, the first being 0:
+  /// {0} unless all of it is a few straight stretches.
+  std::vector<std::size_t> tiltChanges() const;
+
+  /// Tangents of the lean along rows and columns, of the slices from `first` to before `end`.
+  Eigen::Vector2d lean(std::size_t first, std::size_t end) const;
 
   /// The straight grid closest to the slices, or nullopt if all coincide. Throws
   /// core::InvalidParameter.
@@ -46,8 +61,19 @@ private:
   void judgeEvenness(SeriesGeometry& result);
   void judgeSideways(SeriesGeometry& result) const;
   void noteDeclarations(SeriesGeometry& result) const;
+  /// Of a slice whether one of the same height precedes it: at its place, or beside it.
+  enum class Twin
+  {
+    None,
+    SamePlace,
+    Beside
+  };
+  std::vector<Twin> twins() const;
+  /// p_k - p_0, without the part along the normal.
+  Eigen::Vector3d sideways(std::size_t k) const;
   double usualGap() const;
   double tolerance(double spacing) const;
+  double sidewaysTolerance() const;
 
   const std::vector<SliceHeader>& m_slices;
   Eigen::Matrix3d m_direction;

@@ -1,9 +1,12 @@
 #include "FileHelpers.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <system_error>
+
+#include <unistd.h>
 
 #include <gdcmTrace.h>
 #include <itkObjectFactory.h>
@@ -128,15 +131,27 @@ std::uintmax_t checkedFileSize(const std::filesystem::path& path)
   return opened(path).size();
 }
 
-std::string readWholeFile(const std::filesystem::path& path)
+std::string readWholeFile(const std::filesystem::path& path, const core::Progress& progress)
 {
   constexpr std::uintmax_t kMaxWhole = std::uintmax_t{4} << 30;
-  const std::uintmax_t size = checkedFileSize(path);
+  constexpr std::size_t kPart = std::size_t{16} << 20;
+  const core::InputFile file = opened(path);
+  const std::uintmax_t size = file.size();
   if (size > kMaxWhole)
     fail(FileError::Reason::Unsupported, path,
          "is " + roughText(static_cast<double>(size) / 1e9) +
              " GB large; a file of this kind is read up to 4.3 GB");
-  return readBytes(path, size);
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  for (std::size_t done = 0; done < bytes.size();)
+  {
+    progress.report(static_cast<double>(done) / static_cast<double>(size), "reading file");
+    const ssize_t got = pread(file.descriptor(), &bytes[done], std::min(kPart, bytes.size() - done),
+                              static_cast<off_t>(done));
+    if (got <= 0 && !(got < 0 && errno == EINTR))
+      fail(FileError::Reason::Unreadable, path, "broke off while it was read; check the disk");
+    done += static_cast<std::size_t>(std::max<ssize_t>(got, 0));
+  }
+  return bytes;
 }
 
 std::string readBytes(const std::filesystem::path& path, std::uintmax_t limit)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "petrous/Core/NumberText.h"
+#include "petrous/Core/Progress.h"
 #include "petrous/Imaging/FileError.h"
 
 namespace petrous::imaging
@@ -40,8 +41,9 @@ void checkFormat(const std::filesystem::path& path, std::string_view expected);
 /// empty file or one that cannot be opened.
 std::uintmax_t checkedFileSize(const std::filesystem::path& path);
 
-/// Throws FileError (Unsupported) for a file above 4 GiB, the limit for reading whole files.
-std::string readWholeFile(const std::filesystem::path& path);
+/// Throws FileError (Unsupported) for a file above 4 GiB, the limit for reading whole files, and
+/// CancelledError.
+std::string readWholeFile(const std::filesystem::path& path, const core::Progress& progress);
 
 /// The first `limit` bytes of a file, or fewer if it is shorter.
 std::string readBytes(const std::filesystem::path& path, std::uintmax_t limit);

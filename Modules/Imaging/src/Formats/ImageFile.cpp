@@ -149,8 +149,12 @@ core::IndexBox boxOf(const std::filesystem::path& path, const core::GridGeometry
            range);
 }
 
-void requireImage(const std::filesystem::path& path, const VoxelSource& source)
+/// `volume`: as readImageFile.
+void requireImage(const std::filesystem::path& path, VoxelSource& source, std::size_t volume)
 {
+  if (volume > 0)
+    source.select(volume);
+  source.requireOneVolume();
   if (source.components() > 1)
     fail(FileError::Reason::Unsupported, path,
          "holds " + std::to_string(source.components()) +
@@ -165,13 +169,14 @@ void requireImage(const std::filesystem::path& path, const VoxelSource& source)
 
 LoadedImage readImageFile(const std::filesystem::path& path,
                           const std::optional<core::PatientBox>& roi,
-                          const core::Progress& progress, const std::optional<bool>& isRas)
+                          const core::Progress& progress, const std::optional<bool>& isRas,
+                          std::size_t volume)
 {
   progress.report(0.0, "reading image");
   VoxelSource source(path);
   if (isRas)
     source.settleSide(isRas, {});
-  requireImage(path, source);
+  requireImage(path, source, volume);
   const core::IndexBox box = boxOf(path, source.geometry(), roi);
   const core::GridGeometry geometry = source.geometry().cropped(box);
   auto raw = source.read(box, progress.part(0.0, 0.8));
@@ -196,12 +201,12 @@ LoadedImage readImageFile(const std::filesystem::path& path,
 
 ImagePreview previewImageFile(const std::filesystem::path& path, std::size_t slices,
                               const core::Progress& progress, const std::optional<bool>& isRas,
-                              std::uint64_t memory)
+                              std::uint64_t memory, std::size_t volume)
 {
   VoxelSource source(path);
   if (isRas)
     source.settleSide(isRas, {});
-  requireImage(path, source);
+  requireImage(path, source, volume);
   const core::GridGeometry& grid = source.geometry();
   core::Index3 dims = grid.dims();
   const int step = std::max(dims[2] / static_cast<int>(std::max<std::size_t>(slices, 2)), 1);
@@ -261,10 +266,30 @@ ImagePreview previewImageFile(const std::filesystem::path& path, std::size_t sli
           grid};
 }
 
-ImageHeader readImageHeader(const std::filesystem::path& path)
+ImageHeader readImageHeader(const std::filesystem::path& path,
+                            const std::optional<std::size_t>& volume)
 {
-  const VoxelSource source(path);
-  return {source.geometry(), source.components(), source.assumedRas()};
+  VoxelSource source(path);
+  if (volume)
+    requireImage(path, source, *volume);
+  return {source.geometry(), source.components(), source.volumes(), source.assumedRas()};
+}
+
+std::size_t volumeNumber(const std::filesystem::path& path, const std::string& selector)
+{
+  const std::string text = selector.substr(selector.find('#') + 1); // all of it without one
+  if (text.empty())
+    return 0;
+  const auto number = parseInteger(text);
+  if (!number || *number < 1)
+  {
+    const std::size_t volumes = VoxelSource(path).volumes();
+    fail(FileError::Reason::Unsupported, path,
+         "is a file of voxels, whose volumes are told by number; " +
+             (volumes == 1 ? std::string("it holds one, so name none")
+                           : "name one of 1 to " + std::to_string(volumes)));
+  }
+  return static_cast<std::size_t>(*number);
 }
 
 std::optional<bool> assumedRasOf(const std::filesystem::path& path)

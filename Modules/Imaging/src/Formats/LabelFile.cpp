@@ -44,7 +44,7 @@ using Labels = std::shared_ptr<volume::Volume<std::uint16_t>>;
 
 template <class T>
 Labels toLabels(const VoxelSource& source, const std::filesystem::path& path,
-                const std::shared_ptr<void>& raw, std::size_t layer)
+                const std::shared_ptr<void>& raw, std::size_t layer, const core::Progress& progress)
 {
   const core::GridGeometry& geometry = source.geometry();
   const std::size_t stride = source.components();
@@ -60,8 +60,15 @@ Labels toLabels(const VoxelSource& source, const std::filesystem::path& path,
   const std::size_t size = labels->size();
   constexpr std::size_t kRun = 64; // numbers compared with zero at once: most of a file is empty
   static constexpr std::array<T, kRun> kZeros{};
+  constexpr std::size_t kChecked = 65536; // voxels between two checks, at least
+  std::size_t unchecked = 0;
   for (std::size_t v = 0; v < size; ++v)
   {
+    if (v >= unchecked)
+    {
+      progress.check("reading labels");
+      unchecked = v + kChecked;
+    }
     while (stride == 1 && v + kRun <= size &&
            std::memcmp(in + v, kZeros.data(), sizeof kZeros) == 0)
       v += kRun;
@@ -217,6 +224,8 @@ LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
   VoxelSource source(path);
   const bool isSideKnown = source.settleSide(isRas, images);
   const bool named = hasSegments(source);
+  if (!named || source.components() == 1) // else the layers of a segmentation
+    source.requireOneVolume();
   if (source.components() > 1 && !named)
     fail(FileError::Reason::Unsupported, path,
          "holds " + std::to_string(source.components()) +
@@ -247,7 +256,7 @@ LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
     progress.report(0.7, "reading labels");
     const Labels labels =
         visitComponent(source.component(), [&](auto type)
-                       { return toLabels<decltype(type)>(source, path, raw, layer); });
+                       { return toLabels<decltype(type)>(source, path, raw, layer, progress); });
     auto names = named ? segmentsOfLayer(path, *source.nrrd(), layer)
                        : namesFromOutside(path, naming, *labels, loaded);
     const auto codes = named ? codesOfLayer(*source.nrrd(), layer)

@@ -354,7 +354,8 @@ void findVoxels(const Path& path, const NrrdHeader& header, NrrdLayout& layout)
     for (const std::string& name : dataFileNames(header, *data))
       place.parts.push_back({detachedFile(path, name), 0});
     // Each file holds as many slices.
-    const std::uint64_t slices = layout.dims[2];
+    const std::uint64_t slices =
+        layout.dims[2] * (layout.dims.size() > 3 ? layout.dims[3] : std::uint64_t{1});
     if (place.parts.empty() || slices % place.parts.size() != 0)
       fail(FileError::Reason::Unreadable, path,
            "its list of data files is damaged, or does not share the " + std::to_string(slices) +
@@ -418,12 +419,11 @@ NrrdLayout readNrrdLayout(const Path& path, const NrrdHeader& header)
          "holds more than 65536 numbers a voxel; one is needed");
   layout.components = static_cast<std::size_t>(components);
   layout.dims.assign(sizes.begin() + static_cast<std::ptrdiff_t>(first), sizes.end());
-  std::vector<std::uint64_t> kept = layout.dims;
-  while (kept.size() > 3 && kept.back() == 1)
-    kept.pop_back();
-  if (kept.size() != 3)
+  if (layout.dims.size() < 3)
     fail(FileError::Reason::Unsupported, path,
-         "holds " + dimsText(kept) + " voxels; one volume of 3 dimensions is needed");
+         "holds " + dimsText(layout.dims) + " voxels; a volume of 3 dimensions is needed");
+  if (const auto kinds = axisWords(header.field("kinds")); first == 1 && !kinds.empty())
+    layout.isList = inLowerCase(kinds.front()) == "list" || inLowerCase(kinds.front()) == "time";
   const std::string endian = valueOf(header, "endian");
   if (endian != "little" && endian != "big" && valueOf(header, "encoding") != "text" &&
       visitComponent(layout.component, [](auto type) { return sizeof type; }) > 1 &&

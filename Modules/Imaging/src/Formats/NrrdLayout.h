@@ -22,6 +22,7 @@ struct NrrdLayout
 {
   std::vector<std::uint64_t> dims;
   std::size_t components = 1; ///< numbers per voxel: the leading non-spatial axes
+  bool isList = false;        ///< these are one axis of kind "list" or "time": of volumes
   Component component = Component::Int16;
   Eigen::Matrix3d linear;     ///< d patient / d voxel of the first three axes, LPS mm
   Eigen::Vector3d origin;     ///< LPS mm

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
+#include <fstream>
 #include <limits>
 #include <utility>
 
@@ -51,6 +53,70 @@ std::optional<Component> niftiComponent(int dataType)
   return std::nullopt;
 }
 
+constexpr std::size_t kChecked = 65536; // numbers between two checks for a cancellation
+
+/// Calls visit(first, count) for parts of `all` numbers.
+template <class Visit>
+void inParts(std::size_t all, const core::Progress& progress, const Visit& visit)
+{
+  for (std::size_t first = 0; first < all; first += kChecked)
+  {
+    progress.check("reading voxels");
+    visit(first, std::min(kChecked, all - first));
+  }
+}
+
+/// The numbers of a text, one after the other; the file is read in pieces.
+class TextNumbers
+{
+public:
+  TextNumbers(const std::filesystem::path& path, std::uint64_t offset)
+    : m_file(path, std::ios::binary)
+  {
+    m_file.seekg(static_cast<std::streamoff>(offset));
+  }
+
+  /// The next word, which stands until the next call; empty at the end, or if it is too long for a
+  /// number.
+  std::string_view next()
+  {
+    while (true)
+    {
+      while (m_at < m_end && isBetween(m_bytes[m_at]))
+        ++m_at;
+      std::size_t end = m_at;
+      while (end < m_end && !isBetween(m_bytes[end]))
+        ++end;
+      if (end < m_end || !refill())
+      {
+        const std::string_view word(m_bytes.data() + m_at, end - m_at);
+        m_at = end;
+        return word;
+      }
+    }
+  }
+
+private:
+  static bool isBetween(char c) { return c == ',' || c == ' ' || (c >= '\t' && c <= '\r'); }
+
+  /// Keeps what is not taken yet; false if nothing comes after it.
+  bool refill()
+  {
+    std::copy(m_bytes.begin() + static_cast<std::ptrdiff_t>(m_at),
+              m_bytes.begin() + static_cast<std::ptrdiff_t>(m_end), m_bytes.begin());
+    m_end -= m_at;
+    m_at = 0;
+    m_file.read(m_bytes.data() + m_end, static_cast<std::streamsize>(m_bytes.size() - m_end));
+    m_end += static_cast<std::size_t>(m_file.gcount());
+    return m_file.gcount() > 0;
+  }
+
+  std::ifstream m_file;
+  std::vector<char> m_bytes = std::vector<char>(std::size_t{1} << 16);
+  std::size_t m_at = 0;
+  std::size_t m_end = 0;
+};
+
 std::shared_ptr<void> allocate(const std::filesystem::path& path, std::size_t bytes)
 {
   const char* const advice = "give a region of interest";
@@ -82,10 +148,6 @@ void VoxelSource::openNifti()
   NiftiHeader header = readNiftiHeader(m_path);
   m_notes = std::move(header.notes);
   m_padding = paddingIn(header.description);
-  if (header.dims.size() > 3)
-    fail(FileError::Reason::Unsupported, m_path,
-         "holds " + dimsText(header.dims) +
-             " voxels; one volume of 3 dimensions is needed, so save one of them alone");
   const auto stored = niftiComponent(header.dataType);
   if (!stored)
     fail(FileError::Reason::Unsupported, m_path,
@@ -98,6 +160,7 @@ void VoxelSource::openNifti()
     m_intercept = header.intercept;
   }
   m_dims = header.dims;
+  countVolumes();
   m_dataBytes = checkedFileSize(header.file);
   m_place.parts = {{header.file, 0}};
   m_place.packedOffset = header.voxelOffset;
@@ -168,6 +231,9 @@ void VoxelSource::openNrrd()
   m_notes = std::move(layout.notes);
   m_dims = std::move(layout.dims);
   m_components = layout.components;
+  countVolumes();
+  if (layout.isList)
+    m_volumes = m_components;
   m_stored = layout.component;
   m_dataBytes = layout.dataBytes;
   m_place = std::move(layout.place);
@@ -185,7 +251,7 @@ void VoxelSource::openMeta()
   m_padding = paddingIn(header.comment);
   m_notes = std::move(header.notes);
   m_dims = std::move(header.dims);
-  requireThreeDims();
+  countVolumes();
   m_stored = header.component;
   if (header.slope != 1.0 || header.intercept != 0.0)
   {
@@ -207,14 +273,40 @@ void VoxelSource::openMeta()
     m_assumedRas = false;
 }
 
-void VoxelSource::requireThreeDims() const
+void VoxelSource::countVolumes()
 {
-  std::vector<std::uint64_t> kept = m_dims;
-  while (kept.size() > 3 && kept.back() == 1)
-    kept.pop_back();
-  if (kept.size() != 3)
+  while (m_dims.size() > 3 && m_dims.back() == 1)
+    m_dims.pop_back();
+  if (m_dims.size() < 3 || m_dims.size() > 4 || (m_dims.size() == 4 && m_components > 1))
     fail(FileError::Reason::Unsupported, m_path,
-         "holds " + dimsText(kept) + " voxels; one volume of 3 dimensions is needed");
+         "holds " + dimsText(m_dims) +
+             " voxels; volumes of 3 dimensions are needed, at most one after the other along a "
+             "fourth");
+  m_volumes = m_dims.size() == 4 ? static_cast<std::size_t>(m_dims[3]) : 1;
+}
+
+void VoxelSource::select(std::size_t volume)
+{
+  if (volume < 1 || volume > m_volumes)
+    fail(FileError::Reason::Unsupported, m_path,
+         "has no volume " + std::to_string(volume) + "; it holds " +
+             (m_volumes == 1 ? "one" : "volumes 1 to " + std::to_string(m_volumes)));
+  if (m_volumes == 1)
+    return;
+  m_volume = volume - 1;
+  m_listed = std::exchange(m_components, 1); // of other files one number a voxel, too
+  m_notes.push_back("holds " + std::to_string(m_volumes) + " volumes, of which this is number " +
+                    std::to_string(volume));
+}
+
+void VoxelSource::requireOneVolume() const
+{
+  if (m_volumes > 1 && !m_volume)
+    fail(FileError::Reason::Unsupported, m_path,
+         "holds " + std::to_string(m_volumes) + " volumes of " +
+             dimsText({m_dims.begin(), m_dims.begin() + 3}) +
+             " voxels; one is needed: name it by its number, 1 to " + std::to_string(m_volumes) +
+             " (--volume N, of an MR FILE##N), or save it alone");
 }
 
 long double VoxelSource::voxelBytes() const
@@ -244,7 +336,8 @@ void VoxelSource::checkRoom()
   m_place.partBytes = static_cast<std::uint64_t>(voxelBytes()) / m_place.parts.size();
 }
 
-std::shared_ptr<void> VoxelSource::rescaledCopy(const void* stored, std::size_t count) const
+std::shared_ptr<void> VoxelSource::rescaledCopy(const void* stored, std::size_t count,
+                                                const core::Progress& progress) const
 {
   auto copy = allocate(m_path, count * sizeof(float));
   auto* out = static_cast<float*>(copy.get());
@@ -252,11 +345,16 @@ std::shared_ptr<void> VoxelSource::rescaledCopy(const void* stored, std::size_t 
                  [&](auto type)
                  {
                    const auto* in = static_cast<const decltype(type)*>(stored);
-                   std::transform(in, in + count, out,
-                                  [this](auto value) {
-                                    return static_cast<float>(m_slope * static_cast<double>(value) +
-                                                              m_intercept);
-                                  });
+                   inParts(count, progress,
+                           [&](std::size_t first, std::size_t size)
+                           {
+                             std::transform(in + first, in + first + size, out + first,
+                                            [this](auto value) {
+                                              return static_cast<float>(
+                                                  m_slope * static_cast<double>(value) +
+                                                  m_intercept);
+                                            });
+                           });
                  });
   return copy;
 }
@@ -269,15 +367,22 @@ std::shared_ptr<void> VoxelSource::read(const core::IndexBox& box,
   progress.report(0.0, "reading voxels");
   auto memory = allocate(m_path, box.count() * perVoxel);
   if (m_isText)
-    readText(box, memory.get());
+    readText(box, memory.get(), progress);
+  else if (m_listed > 1)
+    readList(box, memory.get(), progress);
   else
   {
     VoxelStream stream(m_place);
+    stream.skip(m_volume.value_or(0) * m_geometry->voxelCount() * perVoxel);
     readBox(stream, m_geometry->dims(), box, perVoxel, memory.get(), progress);
     if (m_swapped)
-      swapBytes(memory.get(), box.count() * m_components, numberBytes);
+      inParts(box.count() * m_components, progress,
+              [&](std::size_t first, std::size_t size) {
+                swapBytes(static_cast<char*>(memory.get()) + first * numberBytes, size,
+                          numberBytes);
+              });
   }
-  return rescaled() ? rescaledCopy(memory.get(), box.count()) : memory;
+  return rescaled() ? rescaledCopy(memory.get(), box.count(), progress) : memory;
 }
 
 void VoxelSource::forEachSlice(const std::function<bool(int k, const void* values)>& visit,
@@ -297,26 +402,76 @@ void VoxelSource::forEachSlice(const std::function<bool(int k, const void* value
     return;
   }
   const auto memory = allocate(m_path, count * numberBytes);
+  const auto listed = m_listed > 1 ? allocate(m_path, count * m_listed * numberBytes) : memory;
   VoxelStream stream(m_place);
+  if (m_listed == 1)
+    stream.skip(m_volume.value_or(0) * m_geometry->voxelCount() * numberBytes);
   for (int k = 0; k < dims[2]; ++k)
   {
     progress.check("reading voxels");
-    stream.read(memory.get(), count * numberBytes);
+    stream.read(listed.get(), count * m_listed * numberBytes);
+    if (m_listed > 1)
+      takeFromList(listed.get(), count, memory.get());
     if (m_swapped)
       swapBytes(memory.get(), count, numberBytes);
-    if (!visit(k, rescaled() ? rescaledCopy(memory.get(), count).get() : memory.get()))
+    if (!visit(k, rescaled() ? rescaledCopy(memory.get(), count, progress).get() : memory.get()))
       return;
   }
   stream.finish(progress);
 }
 
-void VoxelSource::readText(const core::IndexBox& box, void* out) const
+void VoxelSource::takeFromList(const void* voxels, std::size_t count, void* out) const
 {
-  std::string bytes = readWholeFile(m_place.parts.front().file);
-  std::replace(bytes.begin(), bytes.end(), ',', ' ');
-  std::string_view rest =
-      std::string_view(bytes).substr(static_cast<std::size_t>(m_place.parts.front().offset));
+  const std::size_t bytes = visitComponent(m_stored, [](auto type) { return sizeof type; });
+  const auto* from = static_cast<const char*>(voxels) + *m_volume * bytes;
+  auto* to = static_cast<char*>(out);
+  for (std::size_t v = 0; v < count; ++v, from += m_listed * bytes, to += bytes)
+    std::memcpy(to, from, bytes);
+}
+
+/// Of volumes whose voxels are interleaved the one that is selected.
+void VoxelSource::readList(const core::IndexBox& box, void* out,
+                           const core::Progress& progress) const
+{
+  const std::size_t bytes = visitComponent(m_stored, [](auto type) { return sizeof type; });
   const core::Index3& dims = m_geometry->dims();
+  const core::Index3 size = box.size();
+  const auto slice = static_cast<std::size_t>(dims[0]) * static_cast<std::size_t>(dims[1]);
+  const auto row = static_cast<std::size_t>(size[0]);
+  const auto memory = allocate(m_path, slice * m_listed * bytes);
+  VoxelStream stream(m_place);
+  stream.skip(static_cast<std::uint64_t>(box.lower[2]) * slice * m_listed * bytes);
+  auto* next = static_cast<char*>(out);
+  for (int k = 0; k < size[2]; ++k)
+  {
+    progress.report(static_cast<double>(k) / size[2], "reading voxels");
+    stream.read(memory.get(), slice * m_listed * bytes);
+    for (int j = box.lower[1]; j < box.upper[1]; ++j, next += row * bytes)
+      takeFromList(static_cast<const char*>(memory.get()) +
+                       (static_cast<std::size_t>(j) * static_cast<std::size_t>(dims[0]) +
+                        static_cast<std::size_t>(box.lower[0])) *
+                           m_listed * bytes,
+                   row, next);
+  }
+  stream.finish(progress);
+  if (m_swapped)
+    swapBytes(out, box.count(), bytes);
+}
+
+void VoxelSource::readText(const core::IndexBox& box, void* out,
+                           const core::Progress& progress) const
+{
+  TextNumbers numbers(m_place.parts.front().file, m_place.parts.front().offset);
+  const core::Index3& dims = m_geometry->dims();
+  if (m_listed == 1)
+    for (std::size_t n = m_volume.value_or(0) * m_geometry->voxelCount(); n > 0; --n)
+    {
+      numbers.next();
+      if (n % kChecked == 0)
+        progress.check("reading voxels");
+    }
+  const std::size_t before = m_listed > 1 ? *m_volume : 0;
+  const std::size_t behind = m_listed - 1 - before;
   visitComponent(
       m_stored,
       [&](auto type)
@@ -325,10 +480,15 @@ void VoxelSource::readText(const core::IndexBox& box, void* out) const
         auto* next = static_cast<T*>(out);
         for (int k = 0; k < box.upper[2]; ++k)
           for (int j = 0; j < dims[1]; ++j)
+          {
+            progress.report(static_cast<double>(k) / box.upper[2], "reading voxels");
             for (int i = 0; i < dims[0]; ++i)
+            {
+              for (std::size_t n = 0; n < before; ++n)
+                numbers.next();
               for (std::size_t c = 0; c < m_components; ++c)
               {
-                const auto value = parseDouble(takeWord(rest));
+                const auto value = parseDouble(numbers.next());
                 if (!value || *value < static_cast<double>(std::numeric_limits<T>::lowest()) ||
                     *value > static_cast<double>(std::numeric_limits<T>::max()))
                   fail(FileError::Reason::Unreadable, m_path,
@@ -337,6 +497,10 @@ void VoxelSource::readText(const core::IndexBox& box, void* out) const
                 if (box.contains({i, j, k}))
                   *next++ = static_cast<T>(*value);
               }
+              for (std::size_t n = 0; n < behind; ++n)
+                numbers.next();
+            }
+          }
       });
 }
 

@@ -28,6 +28,14 @@ class VoxelSource
 public:
   explicit VoxelSource(const std::filesystem::path& path);
 
+  /// Volumes of one grid that the file holds: its fourth axis, or of a NRRD a first one of kind
+  /// "list" or "time".
+  std::size_t volumes() const noexcept { return m_volumes; }
+  /// Of several, the one that is read: 1 for the first. Notes it.
+  void select(std::size_t volume);
+  /// Throws unless there is one volume, or one was selected.
+  void requireOneVolume() const;
+
   const core::GridGeometry& geometry() const noexcept { return *m_geometry; }
   Component component() const noexcept { return rescaled() ? Component::Float : m_stored; }
   /// Numbers per voxel: above 1 for vectors, colours, and the layers of a segmentation.
@@ -64,11 +72,14 @@ public:
   void openMeta();
 
 private:
-  void requireThreeDims() const;
+  void countVolumes();
   long double voxelBytes() const;
   void checkRoom();
-  void readText(const core::IndexBox& box, void* out) const;
-  std::shared_ptr<void> rescaledCopy(const void* stored, std::size_t count) const;
+  void readText(const core::IndexBox& box, void* out, const core::Progress& progress) const;
+  void readList(const core::IndexBox& box, void* out, const core::Progress& progress) const;
+  void takeFromList(const void* voxels, std::size_t count, void* out) const;
+  std::shared_ptr<void> rescaledCopy(const void* stored, std::size_t count,
+                                     const core::Progress& progress) const;
 
   std::filesystem::path m_path;
   std::vector<std::uint64_t> m_dims;
@@ -78,7 +89,10 @@ private:
   bool m_isText = false;                 ///< decimal numbers
   Component m_stored = Component::Int16; ///< before rescaling
   std::size_t m_components = 1;
-  double m_slope = 0.0; ///< 0: no rescaling
+  std::size_t m_volumes = 1;
+  std::optional<std::size_t> m_volume; ///< selected; 0 for the first
+  std::size_t m_listed = 1;            ///< volumes whose voxels are interleaved, if one is selected
+  double m_slope = 0.0;                ///< 0: no rescaling
   double m_intercept = 0.0;
   std::optional<bool> m_assumedRas;
   std::optional<double> m_padding;

@@ -119,8 +119,9 @@ std::string plyBytes(const core::TriangleMesh& mesh, const MeshColor& color)
   return bytes;
 }
 
-MeshBuilder::MeshBuilder(const std::filesystem::path& path)
+MeshBuilder::MeshBuilder(const std::filesystem::path& path, core::Progress progress)
   : m_path(path)
+  , m_progress(std::move(progress))
 {
 }
 
@@ -132,6 +133,7 @@ void MeshBuilder::reserve(std::size_t vertices, std::size_t triangles)
 
 void MeshBuilder::addVertex(float x, float y, float z)
 {
+  step();
   if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
     failUnreadable("a vertex has a coordinate that is not a number");
   if (m_mesh.vertices.size() >= std::numeric_limits<std::uint32_t>::max())
@@ -141,6 +143,7 @@ void MeshBuilder::addVertex(float x, float y, float z)
 
 void MeshBuilder::addPolygon(const std::vector<std::int64_t>& corners)
 {
+  step();
   if (corners.size() < 3)
     failUnreadable("a face has fewer than three corners");
   std::array<std::uint32_t, 3> triangle{};
@@ -172,12 +175,13 @@ core::TriangleMesh MeshBuilder::take()
   if (m_mesh.triangles.empty())
     fail(FileError::Reason::Unsupported, m_path,
          "holds no triangle; a surface of at least one is needed");
+  check();
   dropUnusedVertices(m_mesh);
   return std::move(m_mesh);
 }
 
 LoadedMesh loadMesh(const std::filesystem::path& path, const std::optional<bool>& isRas,
-                    const std::optional<double>& unit)
+                    const std::optional<double>& unit, const core::Progress& progress)
 {
   checkedFileSize(path);
   const FileFormat* format = formatOf(path);
@@ -185,9 +189,10 @@ LoadedMesh loadMesh(const std::filesystem::path& path, const std::optional<bool>
     fail(FileError::Reason::UnknownFormat, path,
          "is of no surface format that is read; give a " + orText(readEndings(kMesh)) + " file");
   checkFormat(path, format->name);
-  const std::string bytes = readWholeFile(path);
+  const std::string bytes = readWholeFile(path, progress.part(0.0, 0.4));
+  progress.report(0.4, "reading mesh");
   LoadedMesh loaded;
-  loaded.mesh = format->parseMesh(path, bytes);
+  loaded.mesh = format->parseMesh(path, bytes, progress);
   const std::string_view start = std::string_view(bytes).substr(0, kFrameWithin);
   const bool saysRas = start.find("SPACE=RAS") != start.npos;
   const bool saysFrame = saysRas || start.find("SPACE=LPS") != start.npos;

@@ -52,13 +52,15 @@ std::string_view takeRecord(std::string_view& rest, std::string& joined)
 
 } // namespace
 
-core::TriangleMesh parseObj(const std::filesystem::path& path, std::string_view bytes)
+core::TriangleMesh parseObj(const std::filesystem::path& path, std::string_view bytes,
+                            const core::Progress& progress)
 {
-  MeshBuilder builder(path);
+  MeshBuilder builder(path, progress);
   std::string joined;
   std::vector<std::int64_t> corners;
   while (!bytes.empty())
   {
+    builder.step();
     std::string_view line = takeRecord(bytes, joined);
     const std::string_view keyword = takeWord(line);
     if (keyword.empty() || keyword.front() == '#')

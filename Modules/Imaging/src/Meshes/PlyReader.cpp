@@ -70,8 +70,9 @@ std::size_t sizeOf(Component type)
 class PlyParser
 {
 public:
-  PlyParser(const std::filesystem::path& path, std::string_view bytes)
-    : m_builder(path)
+  PlyParser(const std::filesystem::path& path, std::string_view bytes,
+            const core::Progress& progress)
+    : m_builder(path, progress)
     , m_rest(bytes)
   {
   }
@@ -177,6 +178,7 @@ private:
 
   double take(Component type)
   {
+    m_builder.step();
     if (m_encoding == Encoding::Text)
     {
       const auto value = parseDouble(takeWord(m_rest));
@@ -296,9 +298,10 @@ private:
 
 } // namespace
 
-core::TriangleMesh parsePly(const std::filesystem::path& path, std::string_view bytes)
+core::TriangleMesh parsePly(const std::filesystem::path& path, std::string_view bytes,
+                            const core::Progress& progress)
 {
-  return PlyParser(path, bytes).parse();
+  return PlyParser(path, bytes, progress).parse();
 }
 
 } // namespace petrous::imaging

@@ -58,9 +58,9 @@ private:
 };
 
 core::TriangleMesh parseBinary(const std::filesystem::path& path, std::string_view bytes,
-                               std::size_t facets)
+                               std::size_t facets, const core::Progress& progress)
 {
-  MeshBuilder builder(path);
+  MeshBuilder builder(path, progress);
   builder.reserve(facets / 2, facets);
   Merger merger(builder);
   std::vector<std::int64_t> corners(3);
@@ -75,14 +75,16 @@ core::TriangleMesh parseBinary(const std::filesystem::path& path, std::string_vi
   return builder.take();
 }
 
-core::TriangleMesh parseText(const std::filesystem::path& path, std::string_view bytes)
+core::TriangleMesh parseText(const std::filesystem::path& path, std::string_view bytes,
+                             const core::Progress& progress)
 {
-  MeshBuilder builder(path);
+  MeshBuilder builder(path, progress);
   Merger merger(builder);
   std::vector<std::int64_t> corners;
   bool closed = false;
   while (!bytes.empty())
   {
+    builder.step();
     std::string_view line = takeLine(bytes);
     const std::string_view word = takeWord(line);
     if (word == "vertex")
@@ -116,7 +118,8 @@ core::TriangleMesh parseText(const std::filesystem::path& path, std::string_view
 
 } // namespace
 
-core::TriangleMesh parseStl(const std::filesystem::path& path, std::string_view bytes)
+core::TriangleMesh parseStl(const std::filesystem::path& path, std::string_view bytes,
+                            const core::Progress& progress)
 {
   // Some writers start the binary header with "solid" too, so the size decides first.
   std::uint32_t facets = 0;
@@ -124,11 +127,11 @@ core::TriangleMesh parseStl(const std::filesystem::path& path, std::string_view 
   {
     std::memcpy(&facets, bytes.data() + kHeaderBytes, sizeof facets);
     if (bytes.size() == kPrefixBytes + std::uint64_t{facets} * kFacetBytes)
-      return parseBinary(path, bytes, facets);
+      return parseBinary(path, bytes, facets, progress);
   }
   std::string_view rest = bytes;
   if (takeWord(rest) == "solid")
-    return parseText(path, bytes);
+    return parseText(path, bytes, progress);
   fail(FileError::Reason::Unreadable, path,
        "is " + std::to_string(bytes.size()) + " bytes long, but an STL of the " +
            std::to_string(facets) + " triangles that it counts has " +

@@ -94,11 +94,12 @@ public:
         { static_cast<XmlReader*>(self)->stop("it declares a document type"); });
   }
 
-  Document read()
+  Document read(const MeshBuilder& builder)
   {
     constexpr std::size_t kStep = 1 << 24; // lengths are int
     for (std::size_t at = 0; !m_isStopped; at += kStep)
     {
+      builder.check();
       const bool isLast = m_bytes.size() - at <= kStep;
       const std::string_view part = m_bytes.substr(at, kStep);
       if (XML_Parse(m_parser.get(), part.data(), static_cast<int>(part.size()), isLast) ==
@@ -465,6 +466,7 @@ private:
     values.reserve(count);
     while ((at = std::find_if_not(at, end, isSpace)) != end)
     {
+      m_builder.step();
       T value{};
       const auto [rest, fault] = std::from_chars(at, end, value);
       if (fault != std::errc() || (rest != end && !isSpace(*rest)))
@@ -509,9 +511,14 @@ private:
                       std::to_string(needed));
     if (needed > from.most())
       fail(array, "states more bytes than the file holds");
+    constexpr std::size_t kPart = std::size_t{1} << 20;
     std::string bytes(needed, '\0');
-    if (!from.read(bytes.data(), needed))
-      fail(array, "ends too early");
+    for (std::size_t at = 0; at < needed; at += kPart)
+    {
+      m_builder.check();
+      if (!from.read(bytes.data() + at, std::min(kPart, needed - at)))
+        fail(array, "ends too early");
+    }
     return bytes;
   }
 
@@ -545,6 +552,7 @@ private:
     std::string packed;
     for (std::size_t n = 0; n < sizes.size(); ++n)
     {
+      m_builder.check();
       const std::size_t count = n < whole ? blockBytes : lastBytes;
       packed.resize(sizes[n]);
       if (!from.read(packed.data(), packed.size()))
@@ -598,11 +606,12 @@ void forEachCell(const Cells& cells, std::uint64_t firstPoint, std::uint64_t poi
 
 } // namespace
 
-core::TriangleMesh parseVtp(const std::filesystem::path& path, std::string_view bytes)
+core::TriangleMesh parseVtp(const std::filesystem::path& path, std::string_view bytes,
+                            const core::Progress& progress)
 try
 {
-  MeshBuilder builder(path);
-  const Document document = XmlReader(bytes).read();
+  MeshBuilder builder(path, progress);
+  const Document document = XmlReader(bytes).read(builder);
   if (!document.problem.empty())
     builder.failUnreadable(document.problem);
   const ArrayReader arrays(document, builder);

@@ -104,9 +104,9 @@ void readMask(Mask& mask, const core::Progress& progress, const std::vector<Imag
   mask.assumedRas = source.assumedRas();
   mask.grid = source.geometry();
   mask.notes = source.notes();
-  if (source.components() != 1)
+  if (source.components() != 1 || source.volumes() != 1)
   {
-    mask.why = "holds several layers or numbers a voxel; give it by itself";
+    mask.why = "holds several volumes, layers or numbers a voxel; give it by itself";
     return;
   }
   const auto& dims = source.geometry().dims();

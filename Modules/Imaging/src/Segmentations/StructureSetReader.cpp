@@ -33,11 +33,13 @@ constexpr double kSamePlane = 0.02; // slices, between contours of one plane at 
 constexpr double kThinVoxels = 4.0; // volume from which on a shape is judged
 constexpr double kGap = 1.5;        // of the usual distance of planes: a part of its own
 constexpr int kLines = 32;          // in a row of voxels
+constexpr const char* kTask = "reading contours";
+constexpr std::size_t kChecked = 65536; // points between two checks
 constexpr const char* kFewer = "export fewer structures at a time";
 
 /// A data set of a structure set, which has no pixels.
 std::string dataSet(const std::filesystem::path& path, DicomItem::Encoding& encoding,
-                    PatientKey& patient)
+                    PatientKey& patient, const core::Progress& progress)
 {
   ByteSource source(path);
   const DicomElements elements(source);
@@ -50,16 +52,24 @@ std::string dataSet(const std::filesystem::path& path, DicomItem::Encoding& enco
          "holds more than 1 GB of contours; export fewer structures at a time");
   requireMemory(path, size, kFewer);
   std::string bytes(static_cast<std::size_t>(size), '\0');
-  if (!source.read(elements.dataStart(), bytes.data(), bytes.size()))
-    fail(Reason::Unreadable, path, "cannot be read to its end; copy it again");
+  constexpr std::size_t kPart = std::size_t{16} << 20;
+  for (std::size_t at = 0; at < bytes.size(); at += kPart)
+  {
+    progress.check(kTask);
+    if (!source.read(elements.dataStart() + at, bytes.data() + at,
+                     std::min(kPart, bytes.size() - at)))
+      fail(Reason::Unreadable, path, "cannot be read to its end; copy it again");
+  }
   encoding = {elements.isExplicit(), elements.isBigEndian()};
   patient = patientOf(elements);
   return bytes;
 }
 
 /// The points of a contour.
-std::vector<Eigen::Vector3d> readPoints(const DicomItem& contour, const std::filesystem::path& path)
+std::vector<Eigen::Vector3d> readPoints(const DicomItem& contour, const std::filesystem::path& path,
+                                        const core::Progress& progress)
 {
+  progress.check(kTask);
   std::vector<Eigen::Vector3d> points;
   const std::vector<double> values = contour.numbers(0x30060050);
   if (values.empty() || values.size() % 3 != 0)
@@ -67,6 +77,8 @@ std::vector<Eigen::Vector3d> readPoints(const DicomItem& contour, const std::fil
          "has a contour whose points are not numbers, three a point; export it again");
   for (std::size_t n = 0; n < values.size(); n += 3)
   {
+    if (n % (3 * kChecked) == 0)
+      progress.check(kTask);
     const Eigen::Vector3d p(values[n], values[n + 1], values[n + 2]);
     if (!(p.cwiseAbs().maxCoeff() <= kFarthest)) // NaN too
       fail(Reason::Unreadable, path,
@@ -154,11 +166,13 @@ double planeWidth(const std::vector<double>& sorted)
 }
 
 /// The contours of a structure as slabs on the grid; nullopt if they lie across none of its axes.
-std::optional<Placed> place(const StructureSet::Roi& roi, const core::GridGeometry& grid)
+std::optional<Placed> place(const StructureSet::Roi& roi, const core::GridGeometry& grid,
+                            const core::Progress& progress = {})
 {
   std::vector<std::vector<Eigen::Vector3d>> contours;
   for (const auto& contour : roi.contours)
   {
+    progress.check(kTask);
     contours.emplace_back();
     for (const Eigen::Vector3d& p : contour)
       contours.back().push_back(grid.voxelFromPatient(p));
@@ -172,6 +186,7 @@ std::optional<Placed> place(const StructureSet::Roi& roi, const core::GridGeomet
     bool isAcross = true;
     for (const auto& contour : contours)
     {
+      progress.check(kTask);
       double lowest = contour.front()[axis];
       double highest = lowest;
       double sum = 0.0;
@@ -195,6 +210,7 @@ std::optional<Placed> place(const StructureSet::Roi& roi, const core::GridGeomet
     std::set<Outline> outlines; // of the plane
     for (std::size_t n = 0; n < planes.size(); ++n)
     {
+      progress.check(kTask);
       const auto& [at, contour] = planes[n];
       // Within kSamePlane of the first, or of the one before where they are many times closer than
       // planes.
@@ -242,7 +258,7 @@ std::optional<Placed> place(const StructureSet::Roi& roi, const core::GridGeomet
 /// Calls span(row, x0, x1, share) for the parts of lines that lie within the contours of a plane,
 /// in voxel coordinates; `share`: of a row's height for which a line stands.
 template <class Span>
-void forEachSpan(const Plane& plane, const Span& span)
+void forEachSpan(const Plane& plane, const core::Progress& progress, const Span& span)
 {
   double lowest = plane.contours.front().front()[1];
   double highest = lowest;
@@ -265,6 +281,8 @@ void forEachSpan(const Plane& plane, const Span& span)
     for (const auto& contour : plane.contours)
       for (std::size_t n = 0; n < contour.size(); ++n)
       {
+        if (n % kChecked == 0)
+          progress.check(kTask);
         Eigen::Vector2d a = contour[n];
         Eigen::Vector2d b = contour[(n + 1) % contour.size()];
         if (a[1] > b[1])
@@ -358,19 +376,20 @@ bool hasCrossing(const Plane& plane)
   return false;
 }
 
-double areaOf(const Plane& plane) // voxels
+double areaOf(const Plane& plane, const core::Progress& progress) // voxels
 {
   double area = 0.0;
-  forEachSpan(plane, [&area](std::int64_t, double x0, double x1, double share)
+  forEachSpan(plane, progress,
+              [&area](std::int64_t, double x0, double x1, double share)
               { area += (x1 - x0) * share; });
   return area;
 }
 
-double volumeOf(const Placed& placed) // voxels
+double volumeOf(const Placed& placed, const core::Progress& progress = {}) // voxels
 {
   double volume = 0.0;
   for (const Plane& plane : placed.planes)
-    volume += areaOf(plane) * (plane.upper - plane.lower);
+    volume += areaOf(plane, progress) * (plane.upper - plane.lower);
   return volume;
 }
 
@@ -445,7 +464,7 @@ Shares sharesOf(const Placed& placed, const core::GridGeometry& grid,
   std::size_t from = 0; // the first plane whose slab may reach the slice
   for (int k = box.lower[normal]; k < box.upper[normal]; ++k)
   {
-    progress.check("reading contours");
+    progress.check(kTask);
     std::fill(slice.begin(), slice.end(), 0.0);
     while (from < placed.planes.size() && placed.planes[from].upper <= k - 0.5)
       ++from;
@@ -455,7 +474,7 @@ Shares sharesOf(const Placed& placed, const core::GridGeometry& grid,
       const double part = std::min(plane.upper, k + 0.5) - std::max(plane.lower, k - 0.5);
       if (part <= 0.0)
         continue;
-      forEachSpan(plane,
+      forEachSpan(plane, progress,
                   [&](std::int64_t row, double x0, double x1, double share)
                   {
                     if (row < box.lower[second] || row >= box.upper[second])
@@ -597,11 +616,11 @@ bool isStructureSet(const std::filesystem::path& path)
   return (!format || format->reads == kDicom) && isStructureSetClass(sopClassOf(path));
 }
 
-StructureSet readStructureSet(const std::filesystem::path& path)
+StructureSet readStructureSet(const std::filesystem::path& path, const core::Progress& progress)
 {
   DicomItem::Encoding encoding;
   StructureSet set;
-  const std::string bytes = dataSet(path, encoding, set.patient);
+  const std::string bytes = dataSet(path, encoding, set.patient, progress);
   const DicomItem data(bytes, encoding);
   const auto checkDamage = [&path](const DicomItem& item)
   {
@@ -651,6 +670,7 @@ StructureSet readStructureSet(const std::filesystem::path& path)
       if (roi.meaning.empty())
         roi.meaning = toUtf8(item.text(0x300600a4), characters);
     }
+  progress.report(0.5, kTask);
   for (const DicomItem& item : data.items(0x30060039))
   {
     checkDamage(item);
@@ -673,7 +693,7 @@ StructureSet readStructureSet(const std::filesystem::path& path)
         ++roi.otherContours;
         continue;
       }
-      std::vector<Eigen::Vector3d> points = readPoints(contour, path);
+      std::vector<Eigen::Vector3d> points = readPoints(contour, path, progress);
       if (points.size() < 3)
         ++roi.otherContours;
       else
@@ -721,7 +741,7 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
     const core::Progress part =
         progress.part(static_cast<double>(n) / static_cast<double>(set.rois.size()),
                       static_cast<double>(n + 1) / static_cast<double>(set.rois.size()));
-    part.report(0.0, "reading contours");
+    part.report(0.0, kTask);
     const auto label = static_cast<std::uint16_t>(n + 1);
     volume::Segment segment{name, label, roi.color, 0};
     if (!roi.meaning.empty())
@@ -733,7 +753,7 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
     if (!roi.contours.empty())
     {
       ++drawn;
-      const auto placed = place(roi, grid);
+      const auto placed = place(roi, grid, part);
       if (!placed)
       {
         oblique.push_back("'" + name + "'");
@@ -747,13 +767,18 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
                                (placed->twice == 1 ? " contour that is" : " contours that are") +
                                " there twice in one plane " +
                                (placed->twice == 1 ? "was" : "were") + " taken once");
-      if (std::any_of(placed->planes.begin(), placed->planes.end(), hasCrossing))
+      if (std::any_of(placed->planes.begin(), placed->planes.end(),
+                      [&part](const Plane& plane)
+                      {
+                        part.check(kTask);
+                        return hasCrossing(plane);
+                      }))
         crossed.push_back("'" + name + "'");
       requireMemory(path, boxOf(*placed, grid).count() * (sizeof(std::uint16_t) + sizeof(char)),
                     kFewer, memory);
       const Shares shares = sharesOf(*placed, grid, part);
       constexpr double kNoted = 0.01; // of the volume
-      const double whole = volumeOf(*placed);
+      const double whole = volumeOf(*placed, part);
       loaded.fileVolumes[name] = whole * grid.voxelVolume();
       if (shares.sum < (1.0 - kNoted) * whole)
         loaded.notes.push_back(
@@ -839,7 +864,7 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
         " nothing and became no voxels");
   for (std::size_t layer = 0; layer < layers.size(); ++layer)
     loaded.maps.push_back(volume::makeLabelMap(std::move(layers[layer]), std::move(names[layer])));
-  progress.report(1.0, "reading contours");
+  progress.report(1.0, kTask);
   return loaded;
 }
 

@@ -60,7 +60,8 @@ struct SourceContent
   /// A DICOM series that can be read only with repair (CaseSources): why. Else empty.
   std::vector<imaging::Finding> repair = {};
   /// Of a DICOM folder with several series that may be meant, sound or not, or with structures or
-  /// meshes below it: all of them; the user chooses. `content` is then meaningless.
+  /// meshes below it: all of them; the user chooses. `content` is then meaningless. Of an image
+  /// file with several volumes these.
   std::vector<SeriesContent> series = {};
   /// Structures of a label map that neither it nor a table beside it names.
   std::size_t unnamed = 0;

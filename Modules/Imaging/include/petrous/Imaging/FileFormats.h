@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "petrous/Core/Progress.h"
 #include "petrous/Core/TriangleMesh.h"
 #include "petrous/Imaging/FileError.h"
 
@@ -43,7 +44,8 @@ struct FileFormat
   // Private to the module; null for what is not read or written so.
   void (VoxelSource::*openVoxels)();
   void (*writeVoxels)(OutputFile& file, const VoxelsToWrite& voxels);
-  core::TriangleMesh (*parseMesh)(const std::filesystem::path& path, std::string_view bytes);
+  core::TriangleMesh (*parseMesh)(const std::filesystem::path& path, std::string_view bytes,
+                                  const core::Progress& progress);
   std::string (*meshBytes)(const core::TriangleMesh& mesh,
                            const std::optional<std::array<float, 3>>& color);
 };

@@ -32,24 +32,33 @@ struct LoadedImage
 /// whose hull covers it is kept. Positions are converted to patient LPS mm; an unstated unit is
 /// taken as mm and noted. Of a file that leaves open which side of the patient is left (NIfTI
 /// without qform and sform, NRRD without a patient's 'space', MetaImage without TransformMatrix)
-/// `isRas` says how its axes count.
+/// `isRas` says how its axes count. Of a file of several volumes (a fourth axis; of a NRRD also a
+/// first one of kind "list" or "time") `volume` is the number of the one that is read, from 1; 0:
+/// there is but one.
 ///
-/// Throws FileError: NoGeometry for axes that are not perpendicular; Unsupported for 2-D and 4-D
-/// images, vectors, colours and non-finite values, and for a roi outside the image; CancelledError.
+/// Throws FileError: NoGeometry for axes that are not perpendicular; Unsupported for 2-D images,
+/// vectors, colours and non-finite values, for a roi outside the image, for a volume that is not
+/// there, and for several if none is named; CancelledError.
 LoadedImage readImageFile(const std::filesystem::path& path,
                           const std::optional<core::PatientBox>& roi = std::nullopt,
                           const core::Progress& progress = {},
-                          const std::optional<bool>& isRas = std::nullopt);
+                          const std::optional<bool>& isRas = std::nullopt, std::size_t volume = 0);
 
 /// What the header of a file of voxels says.
 struct ImageHeader
 {
   core::GridGeometry grid;        ///< patient LPS mm
   std::size_t components = 1;     ///< numbers a voxel: layers of a segmentation, vectors, colours
+  std::size_t volumes = 1;        ///< see readImageFile
   std::optional<bool> assumedRas; ///< LoadedImage
 };
-/// Throws FileError.
-ImageHeader readImageHeader(const std::filesystem::path& path);
+/// Throws FileError; with a `volume` also where readImageFile would, as far as the header tells.
+ImageHeader readImageHeader(const std::filesystem::path& path,
+                            const std::optional<std::size_t>& volume = std::nullopt);
+
+/// The volume that a selector as of a DICOM series names ("#3", "3"); 0: none. Throws FileError for
+/// one that is no number.
+std::size_t volumeNumber(const std::filesystem::path& path, const std::string& selector);
 
 /// LoadedImage::assumedRas of a file, by its header alone. Throws FileError.
 std::optional<bool> assumedRasOf(const std::filesystem::path& path);

@@ -25,10 +25,10 @@ struct ImagePreview
 ///
 /// memory  bytes that it may take; 0: what the machine has left
 ///
-/// `isRas` and what is thrown: as readImageFile.
+/// `isRas`, `volume` and what is thrown: as readImageFile.
 ImagePreview previewImageFile(const std::filesystem::path& path, std::size_t slices,
                               const core::Progress& progress = {},
                               const std::optional<bool>& isRas = std::nullopt,
-                              std::uint64_t memory = 0);
+                              std::uint64_t memory = 0, std::size_t volume = 0);
 
 } // namespace petrous::imaging

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "petrous/Core/Progress.h"
 #include "petrous/Core/TriangleMesh.h"
 #include "petrous/Imaging/FileError.h"
 
@@ -39,10 +40,11 @@ struct LoadedMesh
 /// STL corners become one vertex.
 ///
 /// Throws FileError: Unreadable for a damaged file and for counts that exceed the file size,
-/// Unsupported for a file without triangles.
+/// Unsupported for a file without triangles. CancelledError.
 LoadedMesh loadMesh(const std::filesystem::path& path,
                     const std::optional<bool>& isRas = std::nullopt,
-                    const std::optional<double>& unit = std::nullopt);
+                    const std::optional<double>& unit = std::nullopt,
+                    const core::Progress& progress = {});
 
 /// Like loadMesh, without the notes.
 core::TriangleMesh readMesh(const std::filesystem::path& path);

@@ -133,6 +133,7 @@ enum class FindingKind
   MissingSlice,
   UnevenSpacing,
   DuplicateSlice,
+  SideBySide, ///< several stacks, at the same heights and places beside each other
   OddOrientation,
   OddSize,
   MixedRescale,

@@ -36,8 +36,9 @@ struct StructureSet
 /// Whether a file is an RT structure set, whatever its name.
 bool isStructureSet(const std::filesystem::path& path);
 
-/// Throws FileError.
-StructureSet readStructureSet(const std::filesystem::path& path);
+/// Throws FileError, CancelledError.
+StructureSet readStructureSet(const std::filesystem::path& path,
+                              const core::Progress& progress = {});
 
 /// The structures as voxels of `grid`, that of the image on which they were drawn. `path` names the
 /// file in errors.

@@ -5,11 +5,12 @@ in every library; and reads what left the
 program by independent readers: the parts of the archive by zipfile, gzip and numpy, the exported
 files by nibabel and pydicom, what the node keeps by pydicom and dciodvfy.
 
-whole_way.py PETROUS [FOLDER] [--ct DICOM_FOLDER --roi x0,x1,y0,y1,z0,z1]
+whole_way.py PETROUS [FOLDER] [--ct DICOM_FOLDER --roi x0,x1,y0,y1,z0,z1 | --data REAL_DATA]
 
-FOLDER is new or empty, and keeps what was made; without it, nothing is kept. Without --ct the case is the program's sample patient, with MR and
-structures. Prints a line for each step; exit 0: everything is equal; 1: something is not, which is
-said; 77: Python lacks numpy."""
+FOLDER is new or empty, and keeps what was made; without it, nothing is kept. Without --ct the case
+is the program's sample patient, with MR and structures; with --data a part of the head CT
+in that folder of real data. Prints a line for each step; exit 0: everything is equal; 1: something
+is not, which is said; 77: Python lacks numpy, or the folder the CT."""
 import argparse
 import gzip
 import json
@@ -29,6 +30,7 @@ except ImportError:
     sys.exit(77)
 
 ORTHANC = "/usr/sbin/Orthanc"
+REAL_CT, REAL_ROI = "ct_head_vhm/vhm_1080-1245", "150,330,150,330,1090,1190"
 wrong = []
 
 
@@ -320,7 +322,13 @@ def take(scratch):
     parser.add_argument("folder", type=pathlib.Path, nargs="?", default=scratch)
     parser.add_argument("--ct")
     parser.add_argument("--roi")
+    parser.add_argument("--data")
     asked = parser.parse_args()
+    if asked.data is not None:
+        asked.ct, asked.roi = pathlib.Path(asked.data) / REAL_CT, REAL_ROI
+        if not asked.data or not asked.ct.is_dir():
+            print("skip   no real data: %s is not there" % asked.ct)
+            return 77
     folder = asked.folder.absolute()
     folder.mkdir(parents=True, exist_ok=True)
 

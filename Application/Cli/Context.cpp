@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "petrous/Core/Log.h"
+#include "petrous/Library/DefaultFolder.h"
 #include "petrous/Library/LibraryFiles.h"
 
 namespace petrous::cli
@@ -209,17 +210,10 @@ std::filesystem::path Context::libraryFolder() const
 {
   if (!m_library.empty())
     return m_library;
-  const auto fromEnvironment = [](const char* name)
-  {
-    const char* value = std::getenv(name);
-    return std::filesystem::path(value ? value : "");
-  };
-  if (const auto path = fromEnvironment("PETROUS_LIBRARY"); !path.empty())
+  if (const char* path = std::getenv("PETROUS_LIBRARY"); path && *path)
     return path;
-  if (const auto path = fromEnvironment("XDG_DATA_HOME"); !path.empty())
-    return path / "petrous";
-  if (const auto path = fromEnvironment("HOME"); !path.empty())
-    return path / ".local/share/petrous";
+  if (const auto path = library::defaultFolder(); !path.empty())
+    return path;
   throw UsageError("no home folder for the library; give --library DIR");
 }
 

@@ -1,6 +1,7 @@
 #include "CaseJson.h"
 #include "Commands.h"
 #include "Numbers.h"
+#include "petrous/Library/DefaultFolder.h"
 #include "petrous/Library/DerivedCache.h"
 
 namespace petrous::cli
@@ -127,9 +128,30 @@ void repair(const Context& context, library::Library& library)
                                     "or import the data again");
 }
 
+// Also where the folder that was chosen before is not there.
+void chooseFolder(const Context& context, const std::vector<std::string>& names)
+{
+  const bool isChosen = !names.empty();
+  if (isChosen)
+    library::chooseDefaultFolder(names[0]);
+  const std::filesystem::path folder =
+      isChosen ? library::defaultFolder() : context.openLibrary().folder();
+  context.print(folder.string() +
+                (isChosen ? ": is the library from now on, for window and command; nothing was "
+                            "moved, and --library and PETROUS_LIBRARY still go first"
+                          : ""));
+  context.printJson({{"library", folder.string()}});
+}
+
 void run(const Context& context, const Options& options)
 {
   const std::string& action = options.action;
+  if (action == "folder")
+  {
+    if (options.names.size() > 1)
+      throw UsageError("library folder: give 'petrous library folder [DIR]'");
+    return chooseFolder(context, options.names);
+  }
   const auto names = [&](std::size_t count, const std::string& form)
   {
     if (options.names.size() != count)
@@ -218,7 +240,7 @@ void run(const Context& context, const Options& options)
   else
     throw UsageError("library: '" + action +
                      "' is unknown; there are list, search TEXT, verify, gc, repair, rename A B, "
-                     "copy A B, delete NAME, deleted and undelete NAME");
+                     "copy A B, delete NAME, deleted, undelete NAME and folder [DIR]");
 }
 
 } // namespace
@@ -232,7 +254,8 @@ void addLibraryCommand(CLI::App& app, Context& context)
   command
       ->add_option("ACTION", options->action,
                    "list, search TEXT, verify, gc, repair, rename A B, copy A B, delete NAME, "
-                   "deleted, undelete NAME")
+                   "deleted, undelete NAME, folder [DIR] (the one in use, or another one from now "
+                   "on)")
       ->required();
   command->add_option("NAMES", options->names, "Arguments of the action");
   command->add_flag("--notes", options->filter.inNotes,

@@ -6,7 +6,8 @@
 #include <QApplication>
 #include <QCommandLineParser>
 #include <QFile>
-#include <QStandardPaths>
+#include <QMessageBox>
+#include <QPushButton>
 
 #include "Application.h"
 #include "MainWindow.h"
@@ -15,19 +16,44 @@
 #include "petrous/Core/Log.h"
 #include "petrous/Devices/ServerCatalogue.h"
 #include "petrous/Imaging/FileError.h"
+#include "petrous/Library/DefaultFolder.h"
 #include "petrous/Rendering/RenderingError.h"
 
 namespace
 {
 
+// Empty: the user gives up.
 std::filesystem::path libraryFolder(const QCommandLineParser& parser)
 {
   QString folder = parser.value("library");
   if (folder.isEmpty())
     folder = qEnvironmentVariable("PETROUS_LIBRARY");
-  if (folder.isEmpty()) // the same default as the petrous command
-    folder = QStandardPaths::writableLocation(QStandardPaths::GenericDataLocation) + "/petrous";
-  return QFile::encodeName(folder).toStdString();
+  if (!folder.isEmpty())
+    return QFile::encodeName(folder).toStdString();
+  for (;;) // the same default as the petrous command
+    try
+    {
+      return petrous::library::defaultFolder();
+    }
+    catch (const petrous::library::LibraryError& error)
+    {
+      using petrous::workstation::MainWindow;
+      QMessageBox box(QMessageBox::Warning, MainWindow::tr("Library"),
+                      petrous::workstation::toString(error));
+      box.setTextFormat(Qt::PlainText);
+      box.setInformativeText(
+          MainWindow::tr("Another library has other cases. The usual folder is %1.")
+              .arg(QFile::decodeName(petrous::library::usualFolder().c_str())));
+      const auto* again = box.addButton(MainWindow::tr("&Try again"), QMessageBox::AcceptRole);
+      const auto* usual =
+          box.addButton(MainWindow::tr("&Usual folder, this time"), QMessageBox::ActionRole);
+      box.addButton(MainWindow::tr("&Quit"), QMessageBox::RejectRole);
+      box.exec();
+      if (box.clickedButton() == usual)
+        return petrous::library::usualFolder();
+      if (box.clickedButton() != again)
+        return {};
+    }
 }
 
 petrous::presenters::DeviceSources deviceSources()
@@ -116,7 +142,10 @@ int main(int argc, char** argv)
   workstation::WindowOptions options;
   options.quadBuffer = workstation::quadBufferOffered();
   options.devices = deviceSources();
-  workstation::MainWindow window(library::Library(libraryFolder(parser)), options);
+  const std::filesystem::path folder = libraryFolder(parser);
+  if (folder.empty())
+    return 3;
+  workstation::MainWindow window(library::Library(folder), options);
   window.show();
   workstation::guarded([&] { window.begin(parser.positionalArguments().value(0)); });
   const int code = QApplication::exec();

@@ -14,6 +14,12 @@
 namespace petrous::workstation
 {
 
+namespace
+{
+constexpr std::size_t kReadAtOnce = 8;
+constexpr std::size_t kMostWanted = 64; // what was scrolled past is asked for again when it is seen
+} // namespace
+
 QString localTime(const std::string& utc)
 {
   return QDateTime::fromString(words(utc), Qt::ISODate).toLocalTime().toString("yyyy-MM-dd HH:mm");
@@ -23,6 +29,11 @@ CasesModel::CasesModel(QObject* parent)
   : QAbstractTableModel(parent)
   , m_pictureSize(kCasePicture)
 {
+  m_soon.setSingleShot(true);
+  connect(&m_soon, &QTimer::timeout, this, &CasesModel::read);
+  const auto goOn = [this] { take({}); };
+  connect(&m_work, &BackgroundWork::failed, this, goOn);
+  connect(&m_work, &BackgroundWork::cancelled, this, goOn);
 }
 
 QString operationText(const library::CaseSummary& one)
@@ -51,16 +62,29 @@ int CasesModel::rowOf(const std::string& name) const
 
 void CasesModel::forgetPictures()
 {
-  m_pictures.clear();
+  for (auto& [id, picture] : m_pictures)
+    picture.isOld = true;
+  m_reading.clear();
+  if (!m_cases.empty())
+    emit dataChanged(index(0, Name), index(rowCount() - 1, Name), {Qt::DecorationRole});
 }
 
 void CasesModel::pictureDrawn(const std::string& id)
 {
-  m_pictures.erase(id);
+  for (library::CaseSummary& one : m_cases)
+    if (one.id == id)
+      one.hasThumbnail = true;
+  if (const auto known = m_pictures.find(id); known != m_pictures.end())
+    known->second.isOld = true;
+  m_reading.erase(id);
+  pictureChanged(id);
+}
+
+void CasesModel::pictureChanged(const std::string& id)
+{
   for (std::size_t row = 0; row < m_cases.size(); ++row)
     if (m_cases[row].id == id)
     {
-      m_cases[row].hasThumbnail = true;
       const QModelIndex changed = index(static_cast<int>(row), Name);
       emit dataChanged(changed, changed, {Qt::DecorationRole});
     }
@@ -71,20 +95,66 @@ QVariant CasesModel::picture(const library::CaseSummary& one) const
 {
   if (seen)
     seen(one);
-  const bool exists = one.hasThumbnail && thumbnail; // only what was read is remembered
   const auto known = m_pictures.find(one.id);
-  if (exists && known != m_pictures.end())
-    return known->second;
-  QPixmap picture(m_pictureSize);
-  picture.fill(Qt::transparent);
-  if (!exists)
-    return picture;
-  const auto png = thumbnail(one);
-  QPixmap read;
-  if (read.loadFromData(png.data(), static_cast<unsigned>(png.size()), "PNG"))
-    picture = read.scaled(m_pictureSize, Qt::KeepAspectRatio, Qt::SmoothTransformation);
-  m_pictures[one.id] = picture;
-  return picture;
+  const bool isKnown = one.hasThumbnail && known != m_pictures.end();
+  if (one.hasThumbnail && (!isKnown || known->second.isOld))
+    want(one);
+  if (isKnown && !known->second.pixmap.isNull())
+    return known->second.pixmap;
+  QPixmap blank(m_pictureSize);
+  blank.fill(Qt::transparent);
+  return blank;
+}
+
+void CasesModel::want(const library::CaseSummary& one) const
+{
+  if (!library || m_reading.count(one.id) > 0)
+    return;
+  m_wanted.erase(std::remove_if(m_wanted.begin(), m_wanted.end(),
+                                [&one](const auto& other) { return other.id == one.id; }),
+                 m_wanted.end());
+  if (m_wanted.size() == kMostWanted)
+    m_wanted.erase(m_wanted.begin());
+  m_wanted.push_back(one);
+  m_soon.start();
+}
+
+void CasesModel::read()
+{
+  if (m_work.busy() || m_wanted.empty())
+    return;
+  std::vector<library::CaseSummary> cases;
+  for (; cases.size() < kReadAtOnce && !m_wanted.empty(); m_wanted.pop_back())
+  {
+    m_reading.insert(m_wanted.back().id);
+    cases.push_back(std::move(m_wanted.back()));
+  }
+  m_work.start(
+      [this, cases = std::move(cases), library = library(),
+       size = m_pictureSize](const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        std::vector<Read> pictures;
+        for (const library::CaseSummary& one : cases)
+        {
+          progress.check("reading pictures");
+          const auto png = library.thumbnail(one);
+          Read read{one.id, {}};
+          if (read.image.loadFromData(png.data(), static_cast<int>(png.size()), "PNG"))
+            read.image = read.image.scaled(size, Qt::KeepAspectRatio, Qt::SmoothTransformation);
+          pictures.push_back(std::move(read));
+        }
+        return [this, pictures = std::move(pictures)] { take(pictures); };
+      });
+}
+
+void CasesModel::take(const std::vector<Read>& pictures)
+{
+  for (const Read& one : pictures)
+    m_pictures[one.id] = {QPixmap::fromImage(one.image), m_reading.count(one.id) == 0};
+  m_reading.clear();
+  for (const Read& one : pictures)
+    pictureChanged(one.id);
+  read();
 }
 
 int CasesModel::rowCount(const QModelIndex& parent) const

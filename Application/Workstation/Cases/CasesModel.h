@@ -3,18 +3,22 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 #include <QAbstractTableModel>
 #include <QPixmap>
+#include <QTimer>
 
+#include "BackgroundWork.h"
 #include "petrous/Library/Library.h"
 
 namespace petrous::workstation
 {
 
-/// The cases of a library as a table, a line each.
+/// The cases of a library as a table, a line each. Thumbnails are read in a separate thread, of the
+/// cases that are seen, the last seen first.
 class CasesModel : public QAbstractTableModel
 {
   Q_OBJECT
@@ -36,8 +40,8 @@ public:
 
   explicit CasesModel(QObject* parent = nullptr);
 
-  /// Reads a case's picture as PNG; asked for those that are seen.
-  std::function<std::vector<std::uint8_t>(const library::CaseSummary&)> thumbnail;
+  /// That of the cases; called in the window's thread.
+  std::function<library::Library()> library;
   /// Hears which cases are seen.
   std::function<void(const library::CaseSummary&)> seen;
 
@@ -58,15 +62,33 @@ public:
   void sort(int column, Qt::SortOrder order) override;
 
 private:
+  struct Picture
+  {
+    QPixmap pixmap;
+    bool isOld = false; ///< shown until it is read again
+  };
+  struct Read
+  {
+    std::string id;
+    QImage image; ///< null: it cannot be read
+  };
   void sortCases();
   QVariant picture(const library::CaseSummary& one) const;
+  void want(const library::CaseSummary& one) const;
+  void read();
+  void take(const std::vector<Read>& pictures);
+  void pictureChanged(const std::string& id);
 
   std::vector<library::CaseSummary> m_cases;
   std::string m_open;
-  mutable std::map<std::string, QPixmap> m_pictures; ///< by id of the case; what was looked at
+  std::map<std::string, Picture> m_pictures;          ///< by id of the case; what was looked at
+  mutable std::vector<library::CaseSummary> m_wanted; ///< to be read, the last one first
+  std::set<std::string> m_reading;                    ///< ids; not of those that changed meanwhile
   QSize m_pictureSize;
   int m_column = Changed;
   Qt::SortOrder m_order = Qt::DescendingOrder;
+  mutable QTimer m_soon; ///< what is painted at once is read at once
+  BackgroundWork m_work;
 };
 
 constexpr QSize kCasePicture{64, 48}; ///< px, of the thumbnails in the list

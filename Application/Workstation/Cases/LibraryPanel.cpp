@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include <QAction>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDateEdit>
-#include <QElapsedTimer>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QKeyEvent>
@@ -24,6 +24,7 @@
 #include "CasesModel.h"
 #include "DescriptionDialog.h"
 #include "Theme.h"
+#include "petrous/Library/CaseSearch.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
 namespace petrous::workstation
@@ -33,8 +34,6 @@ namespace
 {
 constexpr int kNameWidth = 168;   // px
 constexpr int kSampledLines = 50; // for the widths of columns
-constexpr int kTyping = 150;      // ms between keys
-constexpr qint64 kPrompt = 30;    // ms; a search as short as that is done at each key
 } // namespace
 
 LibraryPanel::LibraryPanel(const presenters::WorkstationModel& model, QWidget* parent)
@@ -52,7 +51,6 @@ LibraryPanel::LibraryPanel(const presenters::WorkstationModel& model, QWidget* p
   , m_count(new QLabel)
   , m_deleted(new QMenu(this))
   , m_undelete(new QToolButton)
-  , m_typing(new QTimer(this))
 {
   m_search->setObjectName("searchCases");
   m_search->setPlaceholderText(tr("Search names, structures, tags, diagnoses"));
@@ -63,19 +61,10 @@ LibraryPanel::LibraryPanel(const presenters::WorkstationModel& model, QWidget* p
   m_search->setAccessibleName(tr("Search cases"));
   m_search->setClearButtonEnabled(true);
   m_search->setAcceptDrops(false); // an archive that is dropped is for the window
-  m_typing->setSingleShot(true);
-  m_typing->setInterval(kTyping);
-  connect(m_typing, &QTimer::timeout, this, &LibraryPanel::refresh);
-  connect(m_search, &QLineEdit::textChanged, this, &LibraryPanel::refreshTyped);
-  connect(m_search, &QLineEdit::returnPressed, this,
-          [this]
-          {
-            if (m_typing->isActive())
-              refresh();
-            focusList();
-          });
-  m_cases->thumbnail = [this](const library::CaseSummary& one)
-  { return m_model.library().thumbnail(one); };
+  connect(m_search, &QLineEdit::textChanged, this, &LibraryPanel::refresh);
+  connect(m_search, &QLineEdit::returnPressed, this, &LibraryPanel::focusList);
+  m_cases->library = [this] { return m_model.library(); };
+  connect(&m_work, &BackgroundWork::failed, this, &LibraryPanel::showFault);
   m_list->setObjectName("cases");
   m_list->setModel(m_cases);
   m_list->setAccessibleName(tr("Cases of the library"));
@@ -288,50 +277,54 @@ void LibraryPanel::refreshSoon()
                      });
 }
 
-// A large library, or one on a slow drive, is not read again at each key.
-void LibraryPanel::refreshTyped()
-{
-  m_lastRefresh <= kPrompt ? refresh() : m_typing->start();
-}
-
 void LibraryPanel::refresh()
 {
-  QElapsedTimer time;
-  time.start();
   m_stale = false;
-  m_typing->stop();
-  try
-  {
-    const std::string before = current();
-    const std::string open = m_model.hasCase() ? m_model.value().name : std::string();
-    std::set<std::string> tags;
-    const int tag = m_tag->currentIndex();
-    auto found = m_model.library().search(filter(), tags);
-    listTags(tags);
-    if (tag > 0 && m_tag->currentIndex() == 0) // no case has it any more
-      found = m_model.library().search(filter());
-    m_cases->setCases(std::move(found), open);
-    int row = m_cases->rowOf(before);
-    if (row < 0)
-      row = m_cases->rowOf(open);
-    m_list->setCurrentIndex(m_cases->index(std::max(row, 0), 0));
-    const int count = m_cases->rowCount();
-    if (count > 0)
-      m_count->setText(count == 1 ? tr("1 case") : tr("%1 cases").arg(count));
-    else
-      m_count->setText(!isFiltered()
-                           ? tr("No case yet. Drop a DICOM folder, or an archive (.petrous), on "
-                                "the window.")
-                           : tr("No case has all of that."));
-    m_count->setToolTip(words(m_model.library().folder().string()));
-    listDeleted();
-  }
-  catch (const std::exception& error)
-  {
-    m_cases->setCases({}, {});
-    m_count->setText(toString(error));
-  }
-  m_lastRefresh = time.elapsed();
+  m_work.replace(
+      [this, library = m_model.library(), filter = filter(),
+       isFiltered = isFiltered()](const core::Progress& progress) mutable -> BackgroundWork::Reply
+      {
+        Found found;
+        found.isFiltered = isFiltered;
+        found.cases = library::searchCases(library, filter, found.tags, progress);
+        if (!filter.tags.empty() && found.tags.count(filter.tags[0]) == 0)
+        {
+          filter.tags.clear(); // no case has it any more
+          found.cases = library::searchCases(library, filter, found.tags, progress);
+        }
+        found.deleted = library.deleted();
+        return [this, found = std::move(found)]() mutable { showFound(std::move(found)); };
+      });
+}
+
+void LibraryPanel::showFound(Found found)
+{
+  const std::string before = std::exchange(m_wanted, {});
+  const std::string selected = before.empty() ? current() : before;
+  const std::string open = m_model.hasCase() ? m_model.value().name : std::string();
+  listTags(found.tags);
+  m_cases->setCases(std::move(found.cases), open);
+  int row = m_cases->rowOf(selected);
+  if (row < 0)
+    row = m_cases->rowOf(open);
+  m_list->setCurrentIndex(m_cases->index(std::max(row, 0), 0));
+  const int count = m_cases->rowCount();
+  if (count > 0)
+    m_count->setText(count == 1 ? tr("1 case") : tr("%1 cases").arg(count));
+  else
+    m_count->setText(!found.isFiltered
+                         ? tr("No case yet. Drop a DICOM folder, or an archive (.petrous), on "
+                              "the window.")
+                         : tr("No case has all of that."));
+  m_count->setToolTip(words(m_model.library().folder().string()));
+  listDeleted(found.deleted);
+  emit refreshed();
+}
+
+void LibraryPanel::showFault(const QString& why)
+{
+  m_cases->setCases({}, {});
+  m_count->setText(why);
   emit refreshed();
 }
 
@@ -365,9 +358,8 @@ void LibraryPanel::select(const std::string& name)
     m_tag->setCurrentIndex(0);
     m_dated->setChecked(false);
   }
+  m_wanted = name;
   refresh();
-  if (const int row = m_cases->rowOf(name); row >= 0)
-    m_list->setCurrentIndex(m_cases->index(row, 0));
 }
 
 void LibraryPanel::focusList()
@@ -375,11 +367,11 @@ void LibraryPanel::focusList()
   m_list->setFocus();
 }
 
-void LibraryPanel::listDeleted()
+void LibraryPanel::listDeleted(const std::vector<library::DeletedCase>& cases)
 {
   m_deleted->clear();
   std::set<std::string> listed; // of several of one name the last is brought back
-  for (const auto& one : m_model.library().deleted())
+  for (const auto& one : cases)
     if (listed.insert(one.name).second)
       connect(
           m_deleted->addAction(

@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 
+#include "BackgroundWork.h"
 #include "Panels.h"
 #include "petrous/Library/Library.h"
 
@@ -14,7 +15,6 @@ class QDateEdit;
 class QLabel;
 class QLineEdit;
 class QMenu;
-class QTimer;
 class QToolButton;
 class QTreeView;
 
@@ -30,7 +30,8 @@ class CasesModel;
 
 /// The cases of the library: searched as one types (Ctrl+F in the panel), opened (Enter), renamed
 /// (F2), copied (Ctrl+C), deleted (Del), brought back; archived and sent. It asks for changes, and
-/// shows what the library has then (`refresh`).
+/// shows what the library has then (`refresh`). The library is read in a separate thread; a search
+/// that another one follows is cancelled.
 class LibraryPanel : public Panel
 {
   Q_OBJECT
@@ -44,6 +45,7 @@ public:
   void refreshSoon(); ///< when it is next seen
 
   void refresh();
+  bool isReading() const noexcept { return m_work.busy(); } ///< the list is not yet what is asked
   void forgetPictures();
   void pictureDrawn(const std::string& id);
   /// Hears which cases of the list are seen.
@@ -75,9 +77,17 @@ private:
   void addButtons(QLayout& layout);
   void addFilters(QBoxLayout& layout);
   library::CaseFilter filter() const;
+  struct Found
+  {
+    std::vector<library::CaseSummary> cases;
+    std::set<std::string> tags; ///< of all cases
+    std::vector<library::DeletedCase> deleted;
+    bool isFiltered = false;
+  };
   void listTags(const std::set<std::string>& tags);
-  void refreshTyped();
-  void listDeleted();
+  void listDeleted(const std::vector<library::DeletedCase>& cases);
+  void showFound(Found found);
+  void showFault(const QString& why);
   void update();
 
   const presenters::WorkstationModel& m_model;
@@ -96,9 +106,9 @@ private:
   QList<QAction*> m_needCase;  ///< that can be opened
   QList<QAction*> m_needEntry; ///< damaged or not
   std::string m_before;        ///< the selected case, while the list changes
+  std::string m_wanted;        ///< to be selected when the list is read; empty: as before
   bool m_stale = true;
-  QTimer* m_typing;         ///< runs until what was typed is searched
-  qint64 m_lastRefresh = 0; ///< how long it took, ms
+  BackgroundWork m_work;
 };
 
 } // namespace petrous::workstation

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
+#include <utility>
 
 #include <QApplication>
 #include <QFile>
@@ -18,6 +20,7 @@
 #include "CasesModel.h"
 #include "Theme.h"
 #include "WindowTexts.h"
+#include "petrous/Library/CaseSearch.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
 namespace petrous::workstation
@@ -139,8 +142,14 @@ StartPage::StartPage(const presenters::WorkstationModel& model, QWidget* parent)
   inside->addLayout(buttons);
 
   m_cases->setPictureSize(kPicture);
-  m_cases->thumbnail = [this](const library::CaseSummary& one)
-  { return m_model.library().thumbnail(one); };
+  m_cases->library = [this] { return m_model.library(); };
+  connect(&m_work, &BackgroundWork::failed, this,
+          [this](const QString& why)
+          {
+            m_listed = {};
+            showCases({});
+            tell(tr("The cases cannot be listed: %1").arg(sentence(why)));
+          });
   m_heading->setObjectName("big");
   m_recent->setObjectName("recentCases");
   m_recent->setAccessibleName(tr("Recent cases"));
@@ -195,8 +204,9 @@ void StartPage::refresh()
 void StartPage::showEvent(QShowEvent* event)
 {
   QWidget::showEvent(event);
-  list();
+  m_takesFocus = true;
   (m_recent->isHidden() ? m_begin : m_recent)->setFocus();
+  list();
 }
 
 // A medium may have been taken away, or another program deleted the case, since it was listed.
@@ -205,17 +215,18 @@ void StartPage::open(int row)
   if (row < 0 || row >= m_cases->rowCount())
     return;
   const std::string name = m_cases->at(row).name;
+  m_listed = [this, name]
+  {
+    if (m_cases->rowOf(name) >= 0)
+      return emit caseAsked(words(name));
+    const std::filesystem::path& folder = m_model.library().folder();
+    const QString place = QFile::decodeName(folder.c_str());
+    tell(std::filesystem::exists(folder)
+             ? tr("The case “%1” is no longer in the library %2.").arg(words(name), place)
+             : tr("The case “%1” cannot be opened: the folder %2 is gone. Is its disk connected?")
+                   .arg(words(name), place));
+  };
   list();
-  if (!m_trouble->isHidden())
-    return;
-  if (m_cases->rowOf(name) >= 0)
-    return emit caseAsked(words(name));
-  const std::filesystem::path& folder = m_model.library().folder();
-  const QString place = QFile::decodeName(folder.c_str());
-  tell(std::filesystem::exists(folder)
-           ? tr("The case “%1” is no longer in the library %2.").arg(words(name), place)
-           : tr("The case “%1” cannot be opened: the folder %2 is gone. Is its disk connected?")
-                 .arg(words(name), place));
 }
 
 void StartPage::tell(const QString& trouble)
@@ -226,28 +237,39 @@ void StartPage::tell(const QString& trouble)
 
 void StartPage::list()
 {
-  std::vector<library::CaseSummary> cases;
+  m_work.replace(
+      [this, library = m_model.library()](const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        std::set<std::string> tags;
+        auto cases = library::searchCases(library, {}, tags, progress);
+        cases.erase(std::remove_if(cases.begin(), cases.end(),
+                                   [](const library::CaseSummary& one) { return one.damaged; }),
+                    cases.end());
+        std::stable_sort(cases.begin(), cases.end(),
+                         [](const auto& a, const auto& b) { return a.modified > b.modified; });
+        cases.resize(std::min(cases.size(), kRecent));
+        return [this, cases = std::move(cases)]
+        {
+          showCases(cases);
+          if (const auto listed = std::exchange(m_listed, {}))
+            listed();
+        };
+      });
+}
+
+void StartPage::showCases(std::vector<library::CaseSummary> cases)
+{
   tell({});
-  try
-  {
-    cases = m_model.library().list();
-  }
-  catch (const std::exception& error)
-  {
-    tell(tr("The cases cannot be listed: %1").arg(sentence(toString(error))));
-  }
-  cases.erase(std::remove_if(cases.begin(), cases.end(),
-                             [](const library::CaseSummary& one) { return one.damaged; }),
-              cases.end());
-  std::stable_sort(cases.begin(), cases.end(),
-                   [](const auto& a, const auto& b) { return a.modified > b.modified; });
-  cases.resize(std::min(cases.size(), kRecent));
+  const bool takesFocus = std::exchange(m_takesFocus, false) &&
+                          (m_begin->hasFocus() || m_recent->hasFocus() || !focusWidget());
   m_cases->setCases(std::move(cases), {});
   const bool any = m_cases->rowCount() > 0;
   m_heading->setVisible(any);
   m_recent->setVisible(any);
   if (any)
     m_recent->setCurrentIndex(m_cases->index(0, 0));
+  if (takesFocus)
+    (any ? m_recent : m_begin)->setFocus();
 }
 
 } // namespace petrous::workstation

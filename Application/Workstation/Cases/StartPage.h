@@ -2,8 +2,12 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include <QWidget>
+
+#include "BackgroundWork.h"
+#include "petrous/Library/Library.h"
 
 class QLabel;
 class QListView;
@@ -11,11 +15,6 @@ class QListView;
 namespace petrous::presenters
 {
 class WorkstationModel;
-}
-
-namespace petrous::library
-{
-struct CaseSummary;
 }
 
 namespace petrous::workstation
@@ -31,6 +30,7 @@ public:
   explicit StartPage(const presenters::WorkstationModel& model, QWidget* parent = nullptr);
 
   void refresh(); ///< what the library has, when it is next seen
+  bool isReading() const noexcept { return m_work.busy(); }
   void pictureDrawn(const std::string& id);
   /// Hears which cases are seen.
   void onSeen(std::function<void(const library::CaseSummary&)> seen);
@@ -46,7 +46,8 @@ protected:
   void showEvent(QShowEvent* event) override;
 
 private:
-  void list();
+  void list(); ///< in a separate thread
+  void showCases(std::vector<library::CaseSummary> cases);
   void open(int row);
   void tell(const QString& trouble); ///< empty: there is none
 
@@ -55,7 +56,10 @@ private:
   QLabel* m_heading;
   QLabel* m_trouble;
   QListView* m_recent;
-  QWidget* m_begin; ///< has the focus where there is no case
+  QWidget* m_begin;               ///< has the focus where there is no case
+  bool m_takesFocus = false;      ///< when it is listed
+  std::function<void()> m_listed; ///< called when it is
+  BackgroundWork m_work;
 };
 
 } // namespace petrous::workstation

@@ -27,7 +27,7 @@ ThumbnailDrawer::ThumbnailDrawer(std::function<library::Library()> library, int 
   connect(&m_work, &BackgroundWork::cancelled, this,
           [this]
           {
-            if (m_enabled)
+            if (m_enabled && !m_current.empty())
               ask(std::exchange(m_current, {}), true);
           });
 }
@@ -39,6 +39,7 @@ void ThumbnailDrawer::setEnabled(bool enabled)
   if (enabled)
     return;
   m_wanted.clear();
+  m_listed.clear();
   m_work.cancel();
 }
 
@@ -49,9 +50,10 @@ void ThumbnailDrawer::caseSaved(const std::string& name)
 
 void ThumbnailDrawer::caseSeen(const library::CaseSummary& summary)
 {
-  if (m_enabled && m_delay >= 0 && m_seen.insert(summary.id + summary.modified).second &&
-      library::needsThumbnail(m_library(), summary))
-    ask(summary.name, false);
+  if (!m_enabled || m_delay < 0 || !m_seen.insert(summary.id + summary.modified).second)
+    return;
+  m_listed.push_back(summary);
+  m_timer.start();
 }
 
 void ThumbnailDrawer::ask(const std::string& name, bool first)
@@ -75,12 +77,33 @@ void ThumbnailDrawer::look()
     if (!idle)
       m_work.cancel();
   }
+  else if (!m_listed.empty())
+    examine();
   else if (m_wanted.empty())
     m_timer.stop();
   else if (!idle)
     m_asked.start();
   else if (m_asked.elapsed() >= m_delay)
     draw();
+}
+
+// Which of the listed cases need one.
+void ThumbnailDrawer::examine()
+{
+  m_work.start(
+      [this, library = m_library(),
+       listed = std::exchange(m_listed, {})](const core::Progress&) -> BackgroundWork::Reply
+      {
+        std::vector<std::string> names;
+        for (const library::CaseSummary& one : listed)
+          if (library::needsThumbnail(library, one))
+            names.push_back(one.name);
+        return [this, names]
+        {
+          for (const std::string& name : names)
+            ask(name, false);
+        };
+      });
 }
 
 void ThumbnailDrawer::draw()

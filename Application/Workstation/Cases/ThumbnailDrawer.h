@@ -45,14 +45,16 @@ signals:
 private:
   void ask(const std::string& name, bool first);
   void look();
+  void examine();
   void draw();
 
   std::function<library::Library()> m_library;
   int m_delay;
   bool m_enabled = true;
-  std::vector<std::string> m_wanted; ///< names of cases, the next one first
-  std::string m_current;             ///< the one being drawn
-  std::set<std::string> m_seen;      ///< id and time of change of those that were looked at
+  std::vector<std::string> m_wanted;          ///< names of cases, the next one first
+  std::string m_current;                      ///< the one being drawn
+  std::vector<library::CaseSummary> m_listed; ///< may need one, which their files tell
+  std::set<std::string> m_seen; ///< id and time of change of those that were looked at
   QElapsedTimer m_asked;
   QTimer m_timer;
   BackgroundWork m_work;

@@ -2,6 +2,7 @@
 
 #include <fstream>
 
+#include <QBuffer>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDateEdit>
@@ -35,7 +36,19 @@ namespace fs = std::filesystem;
 class LibraryWindow : public GuiTest
 {
 protected:
-  LibraryPanel& panel() { return *window().findChild<LibraryPanel*>(); }
+  // With what was asked for: it is read in a separate thread.
+  LibraryPanel& panel()
+  {
+    auto& panel = *window().findChild<LibraryPanel*>();
+    EXPECT_TRUE(waitFor([&panel] { return !panel.isReading(); }));
+    return panel;
+  }
+  StartPage& firstPage()
+  {
+    auto& page = *window().findChild<StartPage*>();
+    EXPECT_TRUE(waitFor([&page] { return !page.isReading(); }));
+    return page;
+  }
   QTreeView& list() { return *panel().findChild<QTreeView*>("cases"); }
   QStringList names()
   {
@@ -453,6 +466,68 @@ TEST_F(LibraryWindow, ACaseIsDescribedAndFoundByThat)
   EXPECT_EQ(names().size(), 2);
 }
 
+// Reading happens elsewhere: the list stays as it was until it is done, and what is typed meanwhile
+// takes the place of a search that is not.
+TEST_F(LibraryWindow, TheLastOfSeveralSearchesIsShownWithoutWaiting)
+{
+  for (const char* name : {"first", "second", "third"})
+  {
+    scene::Case value = ballCase(name);
+    value.description.note = std::string("a note on the ") + name;
+    library().save(value);
+  }
+  openWindow();
+  showPanel();
+  ASSERT_EQ(names().size(), 3);
+  panel().findChild<QCheckBox*>("searchNotes")->setChecked(true);
+  auto& search = *panel().findChild<QLineEdit*>("searchCases");
+  auto& model = *list().model();
+  for (const char* typed : {"on", "on the f", "on the first", "on the se"})
+  {
+    search.setText(typed);
+    EXPECT_EQ(model.rowCount(), 3);
+  }
+  EXPECT_TRUE(window().findChild<LibraryPanel*>()->isReading());
+  EXPECT_EQ(names(), QStringList{"second"});
+}
+
+// Nor is a picture read while it is painted.
+TEST_F(LibraryWindow, PicturesAreReadInTheBackground)
+{
+  saveBall("ball");
+  const auto keep = [this](const QColor& color)
+  {
+    QImage image(library::kThumbnailWidth, library::kThumbnailHeight, QImage::Format_RGB888);
+    image.fill(color);
+    QByteArray png;
+    QBuffer buffer(&png);
+    ASSERT_TRUE(buffer.open(QIODevice::WriteOnly) && image.save(&buffer, "PNG"));
+    if (const int at = png.indexOf("pHYs"); at > 0)
+      png.remove(at - 4, 21); // length, name, 9 bytes, CRC
+    library().setThumbnail("ball", {png.begin(), png.end()});
+  };
+  keep(Qt::red);
+  const auto cases = library().list();
+  ASSERT_EQ(cases.size(), 1U);
+  ASSERT_TRUE(cases[0].hasThumbnail);
+  CasesModel model;
+  model.library = [this] { return library(); };
+  model.setCases(cases, {});
+  const auto shown = [&model]
+  {
+    const auto picture = model.index(0, 0).data(Qt::DecorationRole).value<QPixmap>().toImage();
+    return picture.pixelColor(picture.rect().center());
+  };
+  EXPECT_EQ(shown().alpha(), 0);
+  EXPECT_TRUE(waitFor([&] { return shown() == QColor(Qt::red); }));
+  // Drawn anew: the former one is shown until it is read.
+  keep(Qt::blue);
+  model.pictureDrawn(cases[0].id);
+  EXPECT_EQ(shown(), QColor(Qt::red));
+  EXPECT_TRUE(waitFor([&] { return shown() == QColor(Qt::blue); }));
+  openWindow();
+}
+
 TEST_F(LibraryWindow, ACaseHasAPicture)
 {
   saveBall("ball");
@@ -534,7 +609,7 @@ TEST_F(LibraryWindow, TheFirstPageHasTheRecentCases)
   auto& page = *window().findChild<StartPage*>();
   EXPECT_FALSE(page.isVisible());
   action("Close the case")->trigger();
-  ASSERT_TRUE(page.isVisible());
+  ASSERT_TRUE(firstPage().isVisible());
   EXPECT_FALSE(window().model().hasCase());
   EXPECT_FALSE(action("Close the case")->isEnabled());
   auto& recent = *page.findChild<QListView*>("recentCases");
@@ -562,6 +637,8 @@ TEST_F(LibraryWindow, TheFirstPageHasTheRecentCases)
   library().remove("second");
   panel().show();
   panel().refresh();
+  panel();
+  firstPage();
   EXPECT_EQ(recent.model()->rowCount(), 1);
   recent.setFocus();
   QTest::keyClick(&recent, Qt::Key_Return);
@@ -578,7 +655,7 @@ TEST_F(LibraryWindow, TheFirstPageSaysThatACaseOrTheLibraryIsGone)
   action("Close the case")->trigger();
   auto& page = *window().findChild<StartPage*>();
   ASSERT_TRUE(waitFor([&] { return page.isVisible() && !window().busy(); }));
-  auto& recent = *page.findChild<QListView*>("recentCases");
+  auto& recent = *firstPage().findChild<QListView*>("recentCases");
   auto& trouble = *page.findChild<QLabel*>("recentTrouble");
   ASSERT_EQ(recent.model()->rowCount(), 2);
   EXPECT_FALSE(trouble.isVisible());
@@ -589,6 +666,7 @@ TEST_F(LibraryWindow, TheFirstPageSaysThatACaseOrTheLibraryIsGone)
         recent.setCurrentIndex(recent.model()->index(row, 0));
     recent.setFocus();
     QTest::keyClick(&recent, Qt::Key_Return);
+    firstPage();
   };
   library().remove("second"); // by another program
   openRow("second");
@@ -606,6 +684,7 @@ TEST_F(LibraryWindow, TheFirstPageSaysThatACaseOrTheLibraryIsGone)
   std::filesystem::remove_all(folder() / "library");
   std::filesystem::rename(folder() / "taken away", folder() / "library");
   page.refresh();
+  firstPage();
   EXPECT_FALSE(trouble.isVisible());
   openRow("first");
   EXPECT_TRUE(isOpen("first"));
@@ -623,7 +702,7 @@ TEST_F(LibraryWindow, TheFirstPageHasRoomForLongTexts)
     if (action->text().startsWith("&Close the case"))
       action->trigger();
   auto& page = *window().findChild<StartPage*>();
-  ASSERT_TRUE(waitFor([&] { return page.isVisible(); }));
+  ASSERT_TRUE(waitFor([&] { return page.isVisible() && !page.isReading(); }));
   QTest::qWait(0);
   EXPECT_LE(window().width(), 1280);
   EXPECT_LE(window().height(), 720);

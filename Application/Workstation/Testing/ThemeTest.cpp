@@ -5,7 +5,9 @@
 
 #include <QCheckBox>
 #include <QComboBox>
+#include <QFileDialog>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMenuBar>
 #include <QPushButton>
 #include <QSpinBox>
@@ -14,6 +16,7 @@
 #include "SettingsDialog.h"
 #include "Theme.h"
 #include "WindowSettings.h"
+#include "petrous/Library/DefaultFolder.h"
 
 using namespace petrous;
 using namespace petrous::workstation;
@@ -147,4 +150,51 @@ TEST_F(ThemeTest, SettingsThatNobodyUnderstandsAreTheUsual)
   const Theme theme = WindowSettings(QString::fromStdString(file.string())).theme();
   EXPECT_EQ(theme.scheme, ColorScheme::Light);
   EXPECT_EQ(theme.fontScale, Theme::kMaxScale);
+}
+
+// From the next start on; what happens is said before, and nothing is moved.
+TEST_F(ThemeTest, TheLibrarysFolderIsChosen)
+{
+  ASSERT_TRUE(qputenv("XDG_CONFIG_HOME", QByteArray((folder() / "settings").c_str())));
+  std::filesystem::create_directory(folder() / "other");
+  scene::Case value = ballCase("ball");
+  library::Library(folder() / "other").save(value);
+  openWindow();
+  auto& dialog = settings();
+  const QString other = QString::fromStdString((folder() / "other").string());
+  QString said;
+  const auto change = [&](const QString& answer)
+  {
+    said.clear();
+    onDialog(
+        [&](QDialog& asking)
+        {
+          if (auto* files = qobject_cast<QFileDialog*>(&asking))
+          {
+            files->setDirectory(other);
+            files->findChild<QLineEdit*>("fileNameEdit")->setText(other);
+            static_cast<QDialog*>(files)->accept();
+            return false;
+          }
+          auto* box = qobject_cast<QMessageBox*>(&asking);
+          if (!box)
+            return false;
+          said = box->text() + ' ' + box->informativeText();
+          for (auto* button : box->buttons())
+            if (button->text().remove('&') == answer)
+              button->click();
+          return true;
+        });
+    dialog.findChild<QPushButton*>("changeLibrary")->click();
+  };
+  const auto shown = [&dialog] { return dialog.findChild<QLabel*>("libraryFolder")->text(); };
+  change("Cancel");
+  EXPECT_TRUE(said.contains(other) && said.contains("1 case.") && said.contains("stay there"))
+      << said.toStdString();
+  EXPECT_FALSE(shown().contains(other));
+  change("Use it");
+  EXPECT_TRUE(shown().contains("next start") && shown().contains(other)) << shown().toStdString();
+  EXPECT_EQ(library::defaultFolder(), folder() / "other");
+  EXPECT_EQ(window().model().library().folder(), library().folder());
+  qunsetenv("XDG_CONFIG_HOME");
 }

@@ -6,14 +6,20 @@
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QFile>
+#include <QFileDialog>
 #include <QFormLayout>
+#include <QHBoxLayout>
 #include <QLabel>
+#include <QMessageBox>
 #include <QPushButton>
 #include <QSpinBox>
 #include <QVBoxLayout>
 
+#include "Application.h"
 #include "Theme.h"
 #include "WindowSettings.h"
+#include "petrous/Library/DefaultFolder.h"
+#include "petrous/Library/Library.h"
 
 namespace petrous::workstation
 {
@@ -22,6 +28,8 @@ SettingsDialog::SettingsDialog(WindowSettings& settings, const std::filesystem::
                                const std::vector<QAction*>& switches, QWidget* parent)
   : QDialog(parent)
   , m_settings(settings)
+  , m_library(library)
+  , m_place(new QLabel)
 {
   setObjectName("settings");
   setWindowTitle(tr("Settings"));
@@ -68,14 +76,7 @@ SettingsDialog::SettingsDialog(WindowSettings& settings, const std::filesystem::
         });
     form->addRow(box);
   }
-  auto* place = new QLabel(QFile::decodeName(library.c_str()));
-  place->setObjectName("libraryFolder");
-  place->setTextFormat(Qt::PlainText);
-  place->setWordWrap(true);
-  place->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
-  place->setToolTip(tr("Another one is chosen when Petrous is started: --library, or "
-                       "PETROUS_LIBRARY, as for the command"));
-  form->addRow(tr("Library:"), place);
+  addLibrary(*form);
 
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
   QPushButton* usual = buttons->addButton(tr("&As at first"), QDialogButtonBox::ResetRole);
@@ -93,6 +94,90 @@ SettingsDialog::SettingsDialog(WindowSettings& settings, const std::filesystem::
   layout->addLayout(form);
   layout->addWidget(buttons);
   m_bound.refresh();
+}
+
+// The folder in use, and the one of the next start if that is another.
+void SettingsDialog::addLibrary(QFormLayout& form)
+{
+  m_place->setObjectName("libraryFolder");
+  m_place->setTextFormat(Qt::PlainText);
+  m_place->setWordWrap(true);
+  m_place->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
+  auto* change = new QPushButton(tr("Another &folder…"));
+  change->setObjectName("changeLibrary");
+  change->setToolTip(tr("From the next start on, for the command too; --library and "
+                        "PETROUS_LIBRARY go first. Nothing is moved."));
+  connect(change, &QPushButton::clicked, this, &SettingsDialog::changeLibrary);
+  auto* row = new QHBoxLayout;
+  row->addWidget(m_place, 1);
+  row->addWidget(change);
+  form.addRow(tr("Library:"), row);
+  showLibrary();
+}
+
+void SettingsDialog::showLibrary()
+{
+  const auto name = [](const std::filesystem::path& folder)
+  { return QFile::decodeName(folder.c_str()); };
+  QString text = name(m_library);
+  try
+  {
+    const std::filesystem::path next = library::defaultFolder();
+    const bool isGiven = !qEnvironmentVariableIsEmpty("PETROUS_LIBRARY");
+    std::error_code error;
+    if (isGiven)
+      text += '\n' + tr("named by PETROUS_LIBRARY, which goes first");
+    else if (std::filesystem::exists(library::defaultFolderFile(), error) &&
+             !std::filesystem::equivalent(next, m_library, error))
+      text += '\n' + tr("from the next start on: %1").arg(name(next));
+  }
+  catch (const std::exception& fault)
+  {
+    text += '\n' + toString(fault);
+  }
+  m_place->setText(text);
+}
+
+void SettingsDialog::changeLibrary()
+{
+  const QString chosen = QFileDialog::getExistingDirectory(
+      this, tr("Folder of the library"), QFile::decodeName(m_library.parent_path().c_str()));
+  if (chosen.isEmpty())
+    return;
+  const std::filesystem::path folder = QFile::encodeName(chosen).toStdString();
+  try
+  {
+    std::error_code error;
+    const bool isLibrary = std::filesystem::is_directory(folder / "cases", error);
+    const bool isEmpty = std::filesystem::is_empty(folder, error);
+    const std::size_t count = isLibrary ? library::Library(folder).list().size() : 0;
+    QMessageBox box(QMessageBox::Question, tr("Library"),
+                    tr("Use the library in %1 from the next start on?").arg(chosen),
+                    QMessageBox::NoButton, this);
+    box.setObjectName("askLibrary");
+    box.setTextFormat(Qt::PlainText);
+    box.setInformativeText(
+        (isLibrary ? (count == 1 ? tr("It has 1 case.") : tr("It has %1 cases.").arg(count))
+         : isEmpty ? tr("It is empty: a new library begins there.")
+                   : tr("It has other files and no cases: a new library begins among them.")) +
+        ' ' +
+        tr("Nothing is moved or copied: the cases in %1 stay there. Archive and Restore take a "
+           "case "
+           "along.")
+            .arg(QFile::decodeName(m_library.c_str())));
+    const QAbstractButton* yes = box.addButton(tr("&Use it"), QMessageBox::AcceptRole);
+    box.setDefaultButton(box.addButton(QMessageBox::Cancel));
+    box.exec();
+    if (box.clickedButton() != yes)
+      return;
+    library::chooseDefaultFolder(folder);
+  }
+  catch (const std::exception& fault)
+  {
+    QMessageBox::warning(this, tr("Library"), toString(fault));
+  }
+  showLibrary();
+  adjustSize();
 }
 
 void SettingsDialog::apply()

@@ -9,6 +9,7 @@
 
 #include "TestCase.h"
 #include "petrous/Library/Archive.h"
+#include "petrous/Library/FrameSalt.h"
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Library/OwnerLock.h"
 #include "petrous/Scene/ApplyRegistration.h"
@@ -745,7 +746,35 @@ TEST_F(Archives, OfOnePatientHaveNothingInCommonButForTheirLibrary)
   EXPECT_EQ(other.open("second").ct.frameOfReference, "");
   EXPECT_TRUE(std::any_of(notes.begin(), notes.end(),
                           [](const std::string& note)
-                          { return note.find("acquired in one position") != note.npos; }));
+                          { return note.find("in the CT's position") != note.npos; }));
+}
+
+// Salted hashes are another library's; the public ones of older programs can still be compared.
+TEST(ForeignIdentity, IsForgottenWhereSaltedAndNamedWhereAnMrMustBeRegistered)
+{
+  const auto imageOf = [](const char* name, bool isSalted, bool isRegistered, char frame)
+  {
+    scene::ImagePart image;
+    image.name = name;
+    image.frameOfReference = std::string(64, frame);
+    image.patient.id = std::string(64, 'p');
+    image.isFrameSalted = isSalted;
+    image.registered = isRegistered;
+    return image;
+  };
+  scene::Case value;
+  value.ct = imageOf("ct", true, false, 'a');
+  value.mr = {imageOf("T1", true, false, 'a'), imageOf("T2", true, true, 'a'),
+              imageOf("FLAIR", true, false, 'b'), imageOf("old", false, false, 'a')};
+  const auto notes = forgetForeignIdentity(value);
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].find("MR 'T1'"), std::string::npos) << notes[0];
+  EXPECT_TRUE(value.ct.frameOfReference.empty() && value.ct.patient.empty());
+  for (int n = 0; n < 3; ++n)
+    EXPECT_TRUE(value.mr[n].frameOfReference.empty() && value.mr[n].patient.empty()) << n;
+  EXPECT_EQ(value.mr[3].frameOfReference, std::string(64, 'a'));
+  EXPECT_FALSE(value.mr[3].patient.empty());
+  EXPECT_TRUE(forgetForeignIdentity(value).empty()) << "idempotent";
 }
 
 // The mark of older programs is the same in all archives of a library, and their hashes are those

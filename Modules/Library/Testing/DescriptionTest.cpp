@@ -6,6 +6,7 @@
 
 #include "TestCase.h"
 #include "petrous/Library/Archive.h"
+#include "petrous/Library/CaseSearch.h"
 #include "petrous/Library/Journal.h"
 #include "petrous/Library/ThumbnailAge.h"
 #include "petrous/Scene/Manifest.h"
@@ -247,6 +248,23 @@ TEST_F(Descriptions, AreFound)
     filter.to = to;
     EXPECT_THROW(m_library.search(filter), core::InvalidParameter) << from << " " << to;
   }
+}
+
+// A window gives up a search that another one follows.
+TEST_F(Descriptions, OfManyCasesAreSearchedUntilThatIsCancelled)
+{
+  scene::Case value = smallCase("a");
+  value.description.note = "bulbus";
+  m_library.save(value);
+  CaseFilter filter;
+  filter.text = "bulbus";
+  const auto token = std::make_shared<core::CancelToken>();
+  const core::Progress progress(nullptr, token);
+  std::set<std::string> tags;
+  filter.inNotes = true;
+  EXPECT_EQ(namesOf(searchCases(m_library, filter, tags, progress)), (Names{"a"}));
+  token->cancel();
+  EXPECT_THROW(searchCases(m_library, filter, tags, progress), core::CancelledError);
 }
 
 TEST_F(Descriptions, LeaveNoNoteInTheIndexAndNothingThatWasTakenOut)

@@ -1,5 +1,7 @@
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
+#include <optional>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -9,6 +11,7 @@
 
 #include "TestCase.h"
 #include "petrous/Imaging/NrrdFile.h"
+#include "petrous/Library/DefaultFolder.h"
 #include "petrous/Library/FrameSalt.h"
 #include "petrous/Library/ObjectStore.h"
 
@@ -346,4 +349,59 @@ TEST(Library, SaltsWhatTellsFramesOfReferenceApart)
   std::filesystem::rename(folder.path() / "salt", folder.path() / "a" / "salt");
   EXPECT_EQ(std::filesystem::status(folder.path() / "a" / "salt").permissions(),
             std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+}
+
+namespace
+{
+
+/// An environment variable, as before when it goes.
+class Variable
+{
+public:
+  Variable(const char* name, const std::string& value)
+    : m_name(name)
+  {
+    if (const char* before = std::getenv(name))
+      m_before = before;
+    ::setenv(name, value.c_str(), 1);
+  }
+  ~Variable()
+  {
+    if (m_before)
+      ::setenv(m_name, m_before->c_str(), 1);
+    else
+      ::unsetenv(m_name);
+  }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+
+private:
+  const char* m_name;
+  std::optional<std::string> m_before;
+};
+
+} // namespace
+
+// Another library never takes its place silently.
+TEST(DefaultFolder, IsTheChosenOneWhichMustBeThere)
+{
+  namespace fs = std::filesystem;
+  const test::TemporaryFolder folder;
+  const Variable settings("XDG_CONFIG_HOME", folder.path() / "settings");
+  const Variable data("XDG_DATA_HOME", folder.path() / "data");
+  EXPECT_EQ(defaultFolder(), folder.path() / "data/petrous");
+  const fs::path chosen = folder.path() / "on a disk";
+  chooseDefaultFolder(chosen);
+  EXPECT_TRUE(fs::is_directory(chosen));
+  EXPECT_EQ(defaultFolder(), chosen);
+  fs::remove(chosen);
+  const auto [reason, words] = test::refusal([] { defaultFolder(); });
+  EXPECT_EQ(reason, LibraryError::Reason::NotFound);
+  EXPECT_NE(words.find(chosen.string()), std::string::npos) << words;
+  EXPECT_NE(words.find("connect its disk"), std::string::npos) << words;
+  std::ofstream(defaultFolderFile()) << "relative";
+  EXPECT_EQ(test::refusal([] { defaultFolder(); }).first, LibraryError::Reason::Damaged);
+  chooseDefaultFolder(usualFolder());
+  EXPECT_FALSE(fs::exists(defaultFolderFile()));
+  EXPECT_EQ(defaultFolder(), usualFolder());
 }

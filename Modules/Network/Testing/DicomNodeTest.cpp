@@ -163,6 +163,53 @@ void roundTrip(const Node& node, const fs::path& folder)
   ct.expectIn(back);
 }
 
+/// A node of dcmjs-dimse (npm), whose DICOM network is neither DCMTK's, on which this program and
+/// Orthanc stand, nor the Central Test Node's. Null where it is not installed.
+class DimsePeer
+{
+public:
+  static std::unique_ptr<DimsePeer> start(const fs::path& folder, const Certificate* own = nullptr,
+                                          const Certificate* client = nullptr)
+  {
+    auto peer = std::unique_ptr<DimsePeer>(new DimsePeer);
+    peer->m_node.name = "dimse";
+    peer->m_node.host = "127.0.0.1";
+    peer->m_node.port = freePort();
+    peer->m_node.aeTitle = "DIMSE";
+    std::vector<std::string> command{"/usr/bin/env",
+                                     "NODE_PATH=/usr/local/lib/node_modules:/usr/lib/node_modules",
+                                     "node", PETROUS_DIMSE_PEER, std::to_string(peer->m_node.port)};
+    if (const char* path = std::getenv("NODE_PATH"))
+      command[1] = std::string("NODE_PATH=") + path;
+    if (own)
+    {
+      command.insert(command.end(), {own->key(), own->certificate(), client->certificate()});
+      peer->m_node.tls = TlsFiles{own->certificate(), client->certificate(), client->key()};
+    }
+    peer->m_process = std::make_unique<ServerProcess>(command, folder / "dimse.log");
+    bool isThere = false;
+    waitFor(
+        [&]
+        {
+          const int connection = connectTo(peer->m_node.port);
+          isThere = connection >= 0;
+          if (isThere)
+            ::close(connection);
+          return isThere || !peer->m_process->running();
+        });
+    return isThere ? std::move(peer) : nullptr;
+  }
+  const Node& node() const { return m_node; }
+
+private:
+  DimsePeer() = default;
+  Node m_node;
+  std::unique_ptr<ServerProcess> m_process;
+};
+
+constexpr const char* kNoDimsePeer =
+    "dcmjs-dimse is not installed (npm install -g dcmjs-dimse, or name its folder in NODE_PATH)";
+
 class OrthancNode : public ::testing::Test
 {
 protected:
@@ -180,6 +227,36 @@ TEST_F(OrthancNode, KeepsASeriesAndGivesItBack)
 {
   const Orthanc server(m_folder.path(), {});
   roundTrip(server.node(), m_folder.path());
+}
+
+// A second implementation of all services, plain and with certificates of both sides.
+TEST(OtherNode, KeepsASeriesAndGivesItBack)
+{
+  const TemporaryFolder folder;
+  const auto peer = DimsePeer::start(folder.path());
+  if (!peer)
+    GTEST_SKIP() << kNoDimsePeer;
+  roundTrip(peer->node(), folder.path());
+}
+
+TEST(OtherNode, SpeaksTlsWithCertificatesOfBothSides)
+{
+  const TemporaryFolder folder;
+  const Certificate own(folder.path(), "server"), client(folder.path(), "client"),
+      stranger(folder.path(), "stranger");
+  const auto peer = DimsePeer::start(folder.path(), &own, &client);
+  if (!peer)
+    GTEST_SKIP() << kNoDimsePeer;
+  roundTrip(peer->node(), folder.path());
+  Node node = peer->node();
+  node.tls->authority = stranger.certificate();
+  EXPECT_EQ(failure([&] { echo(node); }).reason, Reason::Tls);
+  node = peer->node();
+  node.tls->certificate = stranger.certificate();
+  node.tls->key = stranger.key();
+  const Reason reason = failure([&] { echo(node); }).reason;
+  EXPECT_TRUE(reason == Reason::Tls || reason == Reason::Cut)
+      << "of a client that it does not know";
 }
 
 TEST_F(OrthancNode, SpeaksTlsWithCertificatesOfBothSides)

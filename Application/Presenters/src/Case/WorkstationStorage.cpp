@@ -3,6 +3,7 @@
 
 #include "Notify.h"
 #include "petrous/Library/Attachments.h"
+#include "petrous/Library/FrameSalt.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
@@ -174,24 +175,8 @@ void StoreTask::run(const core::Progress& progress)
     std::for_each(value.meshes.begin(), value.meshes.end(), asNew);
     for (std::size_t n = 0; n < value.dissection.strokes().size(); ++n)
       value.dissection.setStored(n, "", value.dissection.strokes()[n]->packed);
-    // Salted by the library that it leaves: comparable with nothing in the other one.
-    const bool isShared = value.ct.isFrameSalted &&
-                          std::any_of(value.mr.begin(), value.mr.end(),
-                                      [this](const scene::ImagePart& mr)
-                                      {
-                                        return !mr.registered && !mr.frameOfReference.empty() &&
-                                               mr.frameOfReference == value.ct.frameOfReference;
-                                      });
-    const auto forget = [](scene::ImagePart& image)
-    {
-      if (image.isFrameSalted)
-        scene::forgetIdentity(image);
-    };
-    forget(value.ct);
-    std::for_each(value.mr.begin(), value.mr.end(), forget);
-    if (isShared)
-      notices.emplace_back("that CT and MR were acquired in one position is not known in the other "
-                           "library; register the MR");
+    for (std::string& note : library::forgetForeignIdentity(value))
+      notices.push_back(std::move(note));
     for (scene::Attachment& one : value.attachments)
       if (!one.object.empty() && library::attachmentProblem(*source, one).empty())
         one.source = source->folder() / "objects" / one.object;

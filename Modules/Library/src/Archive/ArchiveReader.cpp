@@ -511,23 +511,6 @@ std::vector<std::string> leaveOutMissing(scene::Case& value, const ObjectStore& 
   return notes;
 }
 
-/// The library's salt is not this one's: hashes of frames of reference and patients cannot be
-/// compared with those of images that are added here.
-void forgetFrames(scene::Case& value, std::vector<std::string>& notes)
-{
-  bool shared = false;
-  for (auto& mr : value.mr)
-  {
-    shared = shared ||
-             (!mr.frameOfReference.empty() && mr.frameOfReference == value.ct.frameOfReference);
-    scene::forgetIdentity(mr);
-  }
-  scene::forgetIdentity(value.ct);
-  if (shared)
-    notes.push_back("that CT and MR were acquired in one position is not known in this library; "
-                    "registrations that the case has are kept");
-}
-
 } // namespace
 
 ArchiveIndex archiveIndex(std::string_view text, const fs::path& file)
@@ -627,7 +610,7 @@ RestoreSummary restoreCase(Library& library, const fs::path& file, const Restore
         if (isSealed)
           sealIdentity(library, next);
         else if (!isFrameKnown)
-          forgetFrames(next, summary.notes);
+          summary.notes = forgetForeignIdentity(next);
         if (archive.index.planOnly)
         {
           checkObject(store.path(next.ct.object, "the CT"), "the CT", progress.part(0.0, 0.5));

@@ -28,6 +28,7 @@
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/NrrdFile.h"
+#include "petrous/Library/CaseSearch.h"
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Library/FrameSalt.h"
 #include "petrous/Library/ObjectStore.h"
@@ -200,7 +201,7 @@ std::shared_ptr<const volume::LabelMap> unpackedLabels(const ObjectStore& store,
   return labels;
 }
 
-std::vector<Catalogue::Entry> entriesIn(const fs::path& folder)
+std::vector<Catalogue::Entry> entriesIn(const fs::path& folder, const core::Progress& progress = {})
 {
   std::vector<Catalogue::Entry> cases;
   Catalogue catalogue(folder / "library.sqlite");
@@ -220,6 +221,7 @@ std::vector<Catalogue::Entry> entriesIn(const fs::path& folder)
       cases.push_back(std::move(entry->second));
       continue;
     }
+    progress.check("listing the cases");
     try
     {
       cases.push_back(entryOf(manifestIn(path, name), *state));
@@ -345,6 +347,12 @@ std::vector<CaseSummary> Library::search(const CaseFilter& filter) const
 std::vector<CaseSummary> Library::search(const CaseFilter& filter,
                                          std::set<std::string>& tags) const
 {
+  return searchCases(*this, filter, tags, {});
+}
+
+std::vector<CaseSummary> searchCases(const Library& library, const CaseFilter& filter,
+                                     std::set<std::string>& tags, const core::Progress& progress)
+{
   checkDates(filter);
   const auto words = wordsOf(filter.text);
   const auto diagnosis = wordsOf(filter.diagnosis);
@@ -355,8 +363,13 @@ std::vector<CaseSummary> Library::search(const CaseFilter& filter,
                        [wanted = scene::lowerCase(tag)](const std::string& one)
                        { return scene::lowerCase(one) == wanted; });
   };
+  const auto noteOf = [&](const std::string& name)
+  {
+    progress.check("searching the notes");
+    return scene::lowerCase(descriptionIn(library.folder() / "cases" / (name + ".json")).note);
+  };
   std::vector<CaseSummary> found;
-  for (Catalogue::Entry& entry : entriesIn(m_folder))
+  for (Catalogue::Entry& entry : entriesIn(library.folder(), progress))
   {
     const Description& description = entry.summary.description;
     tags.insert(description.tags.begin(), description.tags.end());
@@ -372,10 +385,12 @@ std::vector<CaseSummary> Library::search(const CaseFilter& filter,
       try
       {
         if (!filter.inNotes || !entry.summary.hasNote ||
-            !hasAll(entry.text + "\n" +
-                        scene::lowerCase(descriptionIn(manifestPath(entry.summary.name)).note),
-                    words))
+            !hasAll(entry.text + "\n" + noteOf(entry.summary.name), words))
           continue;
+      }
+      catch (const core::CancelledError&)
+      {
+        throw;
       }
       catch (const core::Error&)
       {
@@ -688,6 +703,25 @@ void sealIdentity(const Library& library, scene::Case& value)
   };
   sealAll(value.ct);
   std::for_each(value.mr.begin(), value.mr.end(), sealAll);
+}
+
+std::vector<std::string> forgetForeignIdentity(scene::Case& value)
+{
+  std::vector<std::string> notes;
+  for (const scene::ImagePart& mr : value.mr)
+    if (!mr.registered && mr.isFrameSalted && value.ct.isFrameSalted &&
+        !mr.frameOfReference.empty() && mr.frameOfReference == value.ct.frameOfReference)
+      notes.push_back("MR '" + mr.name +
+                      "' was acquired in the CT's position, which the library that it comes to "
+                      "cannot know; register it");
+  const auto forget = [](scene::ImagePart& image)
+  {
+    if (image.isFrameSalted)
+      scene::forgetIdentity(image);
+  };
+  forget(value.ct);
+  std::for_each(value.mr.begin(), value.mr.end(), forget);
+  return notes;
 }
 
 Description Library::description(const std::string& name) const

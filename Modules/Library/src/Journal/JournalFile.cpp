@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <chrono>
+#include <limits>
 #include <thread>
 #include <utility>
 
@@ -31,7 +32,6 @@ using nlohmann::json;
 constexpr std::size_t kHash = 64;
 constexpr std::size_t kBefore = 8 + kHash;
 constexpr std::size_t kMin = 5;
-constexpr int kFormat = 1;
 constexpr std::uint64_t kMaxHead = 1 << 24;
 
 void putNumber(std::string& to, std::uint64_t value, int bytes)
@@ -74,11 +74,23 @@ std::size_t frameIn(std::string_view bytes, JournalFrame& frame)
   return kBefore + rest.size();
 }
 
+// 0 unless the head is one that a newer program wrote.
+int newerFormatOf(const JournalFrame& frame)
+{
+  const json j = json::parse(frame.text, nullptr, false);
+  const auto format = j.is_object() ? j.find("petrous_journal") : j.end();
+  return frame.kind == JournalFrame::Kind::Head && format != j.end() &&
+                 format->is_number_integer() && format->get<std::int64_t>() > kJournalFormat &&
+                 format->get<std::int64_t>() <= std::numeric_limits<int>::max()
+             ? format->get<int>()
+             : 0;
+}
+
 bool headIn(const JournalFrame& frame, JournalHead& head)
 {
   const json j = json::parse(frame.text, nullptr, false);
   if (frame.kind != JournalFrame::Kind::Head || !j.is_object() ||
-      j.value("petrous_journal", json()) != kFormat)
+      j.value("petrous_journal", json()) != kJournalFormat)
     return false;
   const auto name = j.find("case"), revision = j.find("revision"), strokes = j.find("strokes");
   if (name == j.end() || revision == j.end() || strokes == j.end() || !name->is_string() ||
@@ -158,7 +170,7 @@ std::string encoded(const JournalFrame& frame)
 
 std::string encoded(const JournalHead& head)
 {
-  json j{{"petrous_journal", kFormat},
+  json j{{"petrous_journal", kJournalFormat},
          {"case", head.caseName},
          {"revision", head.revision},
          {"strokes", head.strokes}};
@@ -178,6 +190,7 @@ JournalContent journalFrom(std::string_view bytes)
   std::size_t length = frameIn(bytes, frame);
   content.started = !endsInHead(bytes);
   content.headed = length > 0 && headIn(frame, content.head);
+  content.newerFormat = length > 0 ? newerFormatOf(frame) : 0;
   while (content.headed && length > 0)
   {
     bytes.remove_prefix(length);

@@ -46,9 +46,12 @@ struct JournalHead
 /// JournalHead::strokesHash of these strokes.
 std::string hashOfNames(const std::vector<std::string>& strokes);
 
+constexpr int kJournalFormat = 1;
+
 struct JournalContent
 {
   bool headed = false;  ///< else nothing else is known
+  int newerFormat = 0;  ///< that of a newer program, which alone can read it; 0: it is none
   bool started = false; ///< else the writer terminated before its head was complete
   JournalHead head;
   std::vector<JournalFrame> frames; ///< valid frames up to the first invalid one

@@ -192,6 +192,10 @@ std::string recoverFrom(JournalFile& file, const fs::path& path, Library& librar
   const std::string about = "case '" + value.name + "': ";
   const auto aside = [&](const std::string& why)
   { return about + why + "; it was set aside as " + setAside(path).string(); };
+  if (content.newerFormat > 0)
+    throw LibraryError(LibraryError::Reason::Damaged,
+                       "written by format " + std::to_string(content.newerFormat) +
+                           "; this program reads up to " + std::to_string(kJournalFormat));
   if (!content.headed && content.started)
     return aside("the journal of a session that ended without saving cannot be read");
   if (!content.headed)

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "petrous/Scene/Case.h"
 
@@ -24,5 +25,11 @@ std::function<std::string(const std::string&)> frameSalter(const Library& librar
 /// gets them back by the same call, and to anyone else two archives of a patient have nothing in
 /// common by them. Within a case equal ones stay equal. Throws as saltedFrame.
 void sealIdentity(const Library& library, scene::Case& value);
+
+/// Of a case that comes from another library: forgets the images' frames of reference and patients
+/// where they are salted, since they can be compared with nothing here. Hashes without a salt can,
+/// and stay. Returns a sentence for each MR that is not registered and was known to be acquired in
+/// the CT's position.
+std::vector<std::string> forgetForeignIdentity(scene::Case& value);
 
 } // namespace petrous::library

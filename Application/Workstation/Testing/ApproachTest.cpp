@@ -10,6 +10,7 @@
 #include <QLineEdit>
 #include <QMenu>
 #include <QPushButton>
+#include <QScreen>
 #include <QSlider>
 #include <QTableWidget>
 #include <QTreeWidget>
@@ -106,7 +107,7 @@ TEST_F(Approaches, AreATreeOfTheirStrokesWithWhatEachRemoved)
                                  ".2"}));
   EXPECT_EQ(current(), "2");
   QTreeWidgetItem* main = tree().topLevelItem(0);
-  EXPECT_EQ(main->text(1), QString::fromUtf8("21.0 mm³"));
+  EXPECT_EQ(main->text(1), QString::fromUtf8("21.00 mm³"));
   EXPECT_EQ(main->child(1)->text(2), "5.0 s");
   EXPECT_EQ(main->child(1)->text(3), "5.0 mm cutting");
   EXPECT_EQ(main->child(1)->child(0)->text(2), "1 min 15 s") << "with the first stroke";
@@ -279,7 +280,7 @@ TEST_F(Approaches, AComparisonFollowsWhatIsUndone)
   QApplication::setActiveWindow(&window());
   QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier);
   EXPECT_TRUE(waitFor([this] { return cell("Strokes, 1 in common", 1) == "1"; }));
-  EXPECT_EQ(cell("Removed there alone", 1), QString::fromUtf8("0 mm³"));
+  EXPECT_EQ(cell("Removed there alone", 1), QString::fromUtf8("0.00 mm³"));
   window().findChild<QTreeWidget*>("approaches");
   action("Close the case")->trigger();
   EXPECT_TRUE(waitFor([this] { return !comparison(); }));

@@ -67,7 +67,7 @@ void ComparisonController::compare(const std::string& first, const std::string& 
               close();
             });
   }
-  m_window->QWidget::show();
+  m_window->show();
   m_window->raise();
   m_window->activateWindow();
   start();
@@ -97,7 +97,7 @@ void ComparisonController::start()
         {
           m_comparison = comparison;
           if (m_window && m_model.hasCase())
-            m_window->show(m_model.sceneContents(), comparison);
+            m_window->setComparison(m_model.sceneContents(), comparison);
           showInSlices();
         };
       });

@@ -192,8 +192,9 @@ void ComparisonWindow::fail(const QString& why)
   m_fault->show();
 }
 
-void ComparisonWindow::show(const rendering::SceneContents& contents,
-                            const std::shared_ptr<const presenters::ApproachComparison>& comparison)
+void ComparisonWindow::setComparison(
+    const rendering::SceneContents& contents,
+    const std::shared_ptr<const presenters::ApproachComparison>& comparison)
 {
   m_progress->hide();
   m_contents = contents;

@@ -33,8 +33,8 @@ public:
   void setProgress(double fraction); ///< of comparing
   void fail(const QString& why);
   /// `contents`: the scene of the case; its mask is not used.
-  void show(const rendering::SceneContents& contents,
-            const std::shared_ptr<const presenters::ApproachComparison>& comparison);
+  void setComparison(const rendering::SceneContents& contents,
+                     const std::shared_ptr<const presenters::ApproachComparison>& comparison);
 
   bool showsDifference() const;
   const std::array<ThreeDView*, 2>& views() const noexcept { return m_views; }

@@ -1172,6 +1172,7 @@ void MainWindow::closeEvent(QCloseEvent* event)
     for (const auto& [entry, panel] : m_panels)
       m_settings->keepPanelShown(entry.name, !panel->parentWidget()->isHidden());
   m_picture->closeSurgeonWindow();
+  m_comparison->close();
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event)

@@ -242,6 +242,8 @@ void BranchController::compare(const std::string& with)
 {
   if (!m_model.hasCase())
     return;
+  if (m_model.drilling() && settle)
+    settle(); // an open stroke is in no state yet
   const dissection::History& history = m_model.value().dissection.history();
   const auto& branches = history.branches();
   if (branches.size() < 2)

@@ -147,7 +147,15 @@ TEST_F(CommandLine, KeepsApproachesSideBySide)
   EXPECT_EQ(both["common_strokes"], 1);
   EXPECT_DOUBLE_EQ(both["compare"][0]["removed_mm3"], first + other);
   EXPECT_DOUBLE_EQ(both["compare"][1]["removed_mm3"], first + second);
-  EXPECT_NE(run("branch bone --compare main main~1").out.find("main~1"), std::string::npos);
+  EXPECT_NEAR(both["compare"][0]["tissue_mm3"].get<double>(), first + other, 0.01 * first);
+  EXPECT_NEAR(both["compare"][0]["only_mm3"].get<double>() + both["both_mm3"].get<double>(),
+              both["compare"][0]["tissue_mm3"].get<double>(), 1e-6);
+  EXPECT_GT(both["both_mm3"], 0.0) << "the first stroke";
+  const auto picture = m_folder / "difference.png";
+  EXPECT_NE(run("branch bone --compare main main~1 --out " + quoted(picture)).out.find("main~1"),
+            std::string::npos);
+  EXPECT_EQ(textOf(picture).substr(1, 3), "PNG");
+  expectRefused("branch bone main --out x.png", 2, "--compare");
 
   // The voxels are those of the current branch.
   const auto mask = [this](const std::string& branch)

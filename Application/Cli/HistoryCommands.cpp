@@ -1,4 +1,3 @@
-#include <array>
 #include <cstdio>
 #include <limits>
 #include <map>
@@ -8,9 +7,12 @@
 #include "CaseWarnings.h"
 #include "Commands.h"
 #include "Numbers.h"
+#include "ViewOptions.h"
 #include "petrous/Dissection/BurrName.h"
+#include "petrous/Presenters/ApproachComparison.h"
+#include "petrous/Presenters/CasePicture.h"
+#include "petrous/Rendering/OffscreenView.h"
 #include "petrous/Scene/Branches.h"
-#include "petrous/Scene/ExposedSurfaces.h"
 
 namespace petrous::cli
 {
@@ -94,7 +96,7 @@ void printHistory(const Context& context, const scene::Case& value)
 
 struct BranchOptions
 {
-  std::string caseName, name, newName;
+  std::string caseName, name, newName, out, camera;
   std::vector<std::string> compared;
   std::size_t after = 0;
   bool list = false, remove = false, withoutDamaged = false;
@@ -148,28 +150,14 @@ void printRow(const Context& context, const std::string& what, const std::string
   context.print(row);
 }
 
-dissection::Dissection workOf(const scene::Case& value, const Branch& branch)
+std::string distanceText(const presenters::ComparedApproach& approach, const std::string& structure,
+                         double uncertainty)
 {
-  dissection::History there = value.dissection.history();
-  there.goTo(branch.name);
-  dissection::Dissection work = value.dissection;
-  work.follow(there);
-  return work;
-}
-
-// mm^2 of each structure exposed by each branch, by name.
-std::array<std::map<std::string, double>, 2>
-exposedBy(const Context& context, const scene::Case& value, const Branch& a, const Branch& b)
-{
-  const auto workA = workOf(value, a);
-  const auto workB = workOf(value, b);
-  const auto surfaces =
-      scene::exposedSurfaces(value, {&workA.mask(), &workB.mask()}, context.progress());
-  std::array<std::map<std::string, double>, 2> areas;
-  for (std::size_t side = 0; side < 2; ++side)
-    for (const auto& surface : surfaces[side])
-      areas[side][surface.name] = surface.area;
-  return areas;
+  const auto found = approach.distances.find(structure);
+  if (found == approach.distances.end())
+    return "-";
+  return (found->second > 0.0 ? fixed(found->second, 1) : "reached") + " +- " +
+         fixed(uncertainty, 1);
 }
 
 // A row for each name of either side, 0 if one lacks it.
@@ -187,12 +175,22 @@ void printRows(const Context& context, const std::string& before, const std::str
              fixed(numbers.second, digits));
 }
 
-std::map<std::string, double> volumesOf(const scene::StateSummary& summary)
+// Bone and structures, what one of the approaches removed in the colours of the difference.
+void drawDifference(const Context& context, const scene::Case& value, const BranchOptions& options,
+                    const presenters::ApproachComparison& comparison)
 {
-  std::map<std::string, double> volumes;
-  for (const auto& touched : summary.structures)
-    volumes[touched.name] = touched.volume;
-  return volumes;
+  rendering::SceneContents contents = presenters::sceneContents(value, context.progress());
+  presenters::showDifference(contents, comparison);
+  rendering::ScenePicture picture;
+  picture.setContents(contents);
+  picture.setCamera(options.given("--camera")
+                        ? readCamera(options.camera)
+                        : presenters::standardCamera(value, rendering::StandardView::Lateral));
+  constexpr int kWidth = 1024, kHeight = 768; // pixels
+  rendering::OffscreenView view(kWidth, kHeight);
+  const rendering::Picture drawn = view.render(picture);
+  context.refuseDamaged();
+  rendering::writePng(options.out, drawn);
 }
 
 void compare(const Context& context, const scene::Case& value, const BranchOptions& options,
@@ -200,23 +198,38 @@ void compare(const Context& context, const scene::Case& value, const BranchOptio
 {
   const Branch& a = branchOf(value, options.compared[0]);
   const Branch& b = branchOf(value, options.compared[1]);
-  const auto ofA = scene::summaryOf(value, a.position);
-  const auto ofB = scene::summaryOf(value, b.position);
-  const std::size_t common =
-      ofA.strokes - value.dissection.history().path(a.position, b.position).undone.size();
+  const auto comparison = presenters::compareApproaches(value, a.name, b.name, context.progress());
+  const auto& [ofA, ofB] = comparison.sides;
+  if (options.given("--out"))
+    drawDifference(context, value, options, comparison);
   printRow(context, "", a.name, b.name);
-  printRow(context, "strokes (" + std::to_string(common) + " in common)",
+  printRow(context, "strokes (" + std::to_string(comparison.commonStrokes) + " in common)",
            std::to_string(ofA.strokes), std::to_string(ofB.strokes));
+  printRow(context, "drilling, s", fixed(ofA.drilling, 1), fixed(ofB.drilling, 1));
   printRow(context, "removed, mm3", fixed(ofA.removed, 2), fixed(ofB.removed, 2));
-  printRows(context, "  of ", ", mm3", volumesOf(ofA), volumesOf(ofB), 2);
-  const auto [openA, openB] = exposedBy(context, value, a, b);
-  printRows(context, "exposed ", ", mm2", openA, openB, 1);
+  printRow(context, "  only there, mm3", fixed(ofA.only, 2), fixed(ofB.only, 2));
+  printRow(context, "  in both, mm3", fixed(comparison.both, 2), fixed(comparison.both, 2));
+  printRows(context, "  of ", ", mm3", ofA.injured, ofB.injured, 2);
+  printRows(context, "exposed ", ", mm2", ofA.exposed, ofB.exposed, 1);
+  for (const auto& [name, uncertainty] : comparison.uncertainties)
+    printRow(context, "to " + name + ", mm", distanceText(ofA, name, uncertainty),
+             distanceText(ofB, name, uncertainty));
   nlohmann::json sides = {branchJson(value, a), branchJson(value, b)};
-  sides[0]["exposed_mm2"] = nlohmann::json(openA);
-  sides[1]["exposed_mm2"] = nlohmann::json(openB);
+  for (std::size_t side = 0; side < 2; ++side)
+  {
+    const presenters::ComparedApproach& of = comparison.sides[side];
+    sides[side]["drilling_s"] = of.drilling;
+    sides[side]["tissue_mm3"] = of.removed;
+    sides[side]["only_mm3"] = of.only;
+    sides[side]["exposed_mm2"] = nlohmann::json(of.exposed);
+    sides[side]["distance_mm"] = nlohmann::json(of.distances);
+  }
   context.printJson({{"case", value.name},
-                     {"common_strokes", common},
+                     {"common_strokes", comparison.commonStrokes},
+                     {"both_mm3", comparison.both},
+                     {"uncertainty_mm", nlohmann::json(comparison.uncertainties)},
                      {"compare", std::move(sides)},
+                     {"out", options.given("--out") ? nlohmann::json(options.out) : nullptr},
                      {"left_out", leftOutJson(value, leftOut)}});
 }
 
@@ -267,6 +280,12 @@ void branch(const Context& context, const BranchOptions& options)
                            : "branch: give the NAME of a branch, or --list");
   if (options.withoutDamaged && !options.given("--compare"))
     throw UsageError(std::string("branch: ") + kWithoutDamaged + " is for --compare");
+  if (options.given("--out") && !options.given("--compare"))
+    throw UsageError("branch: --out is for --compare");
+  if (options.given("--camera") && !options.given("--out"))
+    throw UsageError("branch: --camera is for --out");
+  if (options.given("--out"))
+    context.refuseOverwriting({options.out}, {options.camera});
   library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
   if (options.list)
@@ -300,9 +319,17 @@ void addBranchCommand(CLI::App& app, Context& context)
       ->type_name("N")
       ->transform(wholeNumber(0, std::numeric_limits<int>::max()));
   command
-      ->add_option("--compare", options->compared, "Compare what two branches removed and exposed")
+      ->add_option("--compare", options->compared,
+                   "Compare two branches: what they removed, exposed and came near to")
       ->expected(2)
       ->type_name("A B");
+  command
+      ->add_option("--out", options->out,
+                   "With --compare: a picture of the difference; orange: removed by A only, blue: "
+                   "by B only, grey: by both")
+      ->type_name("PNG");
+  command->add_option("--camera", options->camera, "Of that picture, a JSON file as for render")
+      ->type_name("JSON");
   command->add_option("--rename", options->newName, "Rename branch NAME");
   command->add_flag("--delete", options->remove,
                     "Delete branch NAME and the strokes that only it leads to");

@@ -311,6 +311,61 @@ TEST_F(EditUndoTest, StrokesOfAnotherBranchDoNotBarTheWay)
   EXPECT_EQ(look().color, (Color{1.0F, 0.0F, 0.0F}));
 }
 
+TEST_F(EditUndoTest, AnApproachThatWasDeletedComesBackWithItsStrokes)
+{
+  open();
+  stroke();
+  model->startBranch("other");
+  stroke();
+  model->goToBranch("main");
+  const double removed = model->value().removedVolume();
+  model->renameBranch("other", "deep");
+  EXPECT_EQ(model->undoText(), "name of approach deep");
+  EXPECT_THROW(model->renameBranch("deep", "main"), core::InvalidParameter);
+  EXPECT_THROW(model->removeBranch("main"), core::InvalidParameter) << "the present one";
+  model->removeBranch("deep");
+  EXPECT_EQ(model->undoText(), "deletion of approach deep");
+  EXPECT_TRUE(model->undoChangesParts());
+  EXPECT_EQ(model->value().dissection.history().branches().size(), 1u);
+  model->save();
+  stroke();
+  model->undo();
+  EXPECT_EQ(model->value().removedVolume(), removed);
+  model->undo();
+  ASSERT_TRUE(model->value().dissection.history().find("deep"));
+  model->undo();
+  ASSERT_TRUE(model->value().dissection.history().find("other"));
+  model->redo();
+  model->redo();
+  EXPECT_EQ(model->value().dissection.history().branches().size(), 1u);
+  model->undo();
+  model->goToState("deep", 1);
+  EXPECT_GT(model->value().removedVolume(), removed);
+  model->save();
+  WorkstationModel again{library::Library(folder)};
+  again.open("block");
+  EXPECT_EQ(again.value().dissection.history().branch().name, "deep");
+  EXPECT_EQ(again.value().removedVolume(), model->value().removedVolume());
+}
+
+TEST_F(EditUndoTest, GoingToAStateIsAsUndoingOrRedoingItsStrokes)
+{
+  open();
+  stroke();
+  stroke();
+  paint({1.0F, 0.0F, 0.0F});
+  model->goToState("main", dissection::History::kStart);
+  EXPECT_TRUE(model->value().dissection.mask().untouched());
+  EXPECT_EQ(model->redoText(), "stroke 1");
+  model->redo();
+  EXPECT_EQ(model->value().applied(), 1u);
+  model->goToState("main", 1);
+  EXPECT_EQ(model->value().applied(), 2u);
+  EXPECT_EQ(model->undoText(), "stroke 2");
+  EXPECT_THROW(model->goToState("main", 7), core::InvalidParameter);
+  EXPECT_EQ(model->value().applied(), 2u);
+}
+
 TEST_F(EditUndoTest, ARemovalIsUndoneWhereverItIsAmongOthersThatWerePutBack)
 {
   open(4);

@@ -18,6 +18,8 @@ namespace
 
 using Branch = dissection::History::Branch;
 
+constexpr int kSaveAfter = 1000; // ms
+
 // "main: 3 strokes, 1738.7 mm³"; prefixed by `number` and its shortcut, up to 9.
 QString lineOf(const scene::Case& value, const Branch& branch, int number)
 {
@@ -45,12 +47,30 @@ BranchController::BranchController(presenters::WorkstationModel& model, QMenu& m
   , m_start(menu.addAction(tr("&New approach from here…")))
   , m_next(menu.addAction(tr("Ne&xt approach")))
   , m_previous(menu.addAction(tr("&Previous approach")))
+  , m_compare(menu.addAction(tr("&Compare")))
+  , m_others(menu.addMenu(tr("C&ompare with")))
+  , m_rename(menu.addAction(tr("&Rename the approach…")))
+  , m_remove(menu.addAction(tr("&Delete the approach")))
 {
   m_start->setShortcut(Qt::CTRL + Qt::Key_B);
   m_start->setStatusTip(tr("Drill another way from the present state; the present one stays"));
   m_next->setShortcut(Qt::CTRL + Qt::Key_PageDown);
   m_previous->setShortcut(Qt::CTRL + Qt::Key_PageUp);
+  m_compare->setShortcut(Qt::CTRL + Qt::Key_D);
+  m_compare->setStatusTip(tr("The present approach and the one that was left last, side by side "
+                             "and as difference"));
+  m_remove->setStatusTip(tr("Takes the present approach out of the case; Undo brings it back"));
   menu.addSeparator();
+  m_changed.setSingleShot(true);
+  m_changed.setInterval(kSaveAfter);
+  connect(&m_changed, &QTimer::timeout, this, &BranchController::changed);
+  const auto present = [this] {
+    return m_model.hasCase() ? m_model.value().dissection.history().branch().name : std::string();
+  };
+  connect(m_compare, &QAction::triggered, this, [this, present] { compare(present()); });
+  connect(m_others, &QMenu::aboutToShow, this, &BranchController::fillComparisons);
+  connect(m_rename, &QAction::triggered, this, [this, present] { rename(present()); });
+  connect(m_remove, &QAction::triggered, this, [this, present] { remove(present()); });
   connect(m_start, &QAction::triggered, this, &BranchController::start);
   connect(m_next, &QAction::triggered, this, [this] { goOn(1); });
   connect(m_previous, &QAction::triggered, this, [this] { goOn(-1); });
@@ -66,12 +86,16 @@ void BranchController::stateChanged()
   const QString why = open ? tr("The case has one approach only") : tr("Open a case first");
   enable(*m_next, several, why);
   enable(*m_previous, several, why);
+  enable(*m_compare, several, why);
+  enable(*m_others->menuAction(), several, why);
+  enable(*m_remove, several, why);
+  enable(*m_rename, open, tr("Open a case first"));
 }
 
 void BranchController::fill()
 {
   const QList<QAction*> actions = m_menu.actions();
-  for (int n = actions.indexOf(m_previous) + 2; n < actions.size(); ++n)
+  for (int n = actions.indexOf(m_remove) + 2; n < actions.size(); ++n)
     delete actions[n];
   if (!m_model.hasCase())
     return;
@@ -86,6 +110,19 @@ void BranchController::fill()
   }
 }
 
+void BranchController::fillComparisons()
+{
+  m_others->clear();
+  if (!m_model.hasCase())
+    return;
+  const scene::Case& value = m_model.value();
+  for (const Branch& branch : value.dissection.history().branches())
+    if (&branch != &value.dissection.history().branch())
+      connect(m_others->addAction(lineOf(value, branch, 10)), &QAction::triggered, this,
+              [this, name = branch.name] { compare(name); });
+}
+
+// A copy of the name: the history moves when the tool is put away.
 void BranchController::goTo(std::string name)
 {
   if (!m_model.hasCase() || name == m_model.value().dissection.history().branch().name)
@@ -94,6 +131,38 @@ void BranchController::goTo(std::string name)
     emit statusMessage(
         tr("Approach %1")
             .arg(lineOf(m_model.value(), m_model.value().dissection.history().branch(), 10)));
+}
+
+void BranchController::goToState(std::string name, std::size_t state)
+{
+  if (!m_model.hasCase())
+    return;
+  const dissection::History& history = m_model.value().dissection.history();
+  const bool isPresent = name == history.branch().name;
+  if (isPresent && state == history.position())
+    return;
+  const auto go = [this, &name, state] { m_model.goToState(name, state); };
+  if (!isPresent)
+  {
+    if (!change(go))
+      return;
+  }
+  else
+    try
+    {
+      if (settle)
+        settle();
+      go();
+      m_changed.start();
+    }
+    catch (const std::exception& fault) // a damaged stroke
+    {
+      return emit statusMessage(toString(fault));
+    }
+  emit statusMessage(tr("Approach %1, after %2 of %3 strokes")
+                         .arg(words(name))
+                         .arg(history.applied())
+                         .arg(history.applied() + history.ahead()));
 }
 
 void BranchController::goOn(int steps)
@@ -127,10 +196,72 @@ void BranchController::start()
     emit statusMessage(tr("On the new approach %1").arg(words(chosen)));
 }
 
+void BranchController::rename(const std::string& name)
+{
+  if (!m_model.hasCase() || !m_model.value().dissection.history().find(name))
+    return;
+  const std::string to = bytes(askName(
+      m_window, tr("Rename the approach"), tr("New name of “%1”:").arg(words(name)), words(name),
+      [this, &name](const std::string& wanted)
+      {
+        scene::checkBranchName(wanted);
+        if (wanted != name && m_model.hasCase() &&
+            m_model.value().dissection.history().find(wanted))
+          throw core::InvalidParameter("there is an approach '" + wanted +
+                                       "' already; take another name");
+      }));
+  if (!to.empty() && to != name && m_model.hasCase() &&
+      change([this, &name, &to] { m_model.renameBranch(name, to); }))
+    emit statusMessage(tr("“%1” is now “%2”").arg(words(name), words(to)));
+}
+
+void BranchController::remove(const std::string& name)
+{
+  if (!m_model.hasCase())
+    return;
+  const dissection::History& history = m_model.value().dissection.history();
+  if (history.branches().size() < 2 || !history.find(name))
+    return;
+  const std::string next = name != history.branch().name            ? std::string()
+                           : m_left != name && history.find(m_left) ? m_left
+                           : history.branches().front().name != name
+                               ? history.branches().front().name
+                               : history.branches()[1].name;
+  const std::string gone = name;
+  if (change(
+          [&]
+          {
+            if (!next.empty())
+              m_model.goToBranch(next);
+            m_model.removeBranch(gone);
+          }))
+    emit statusMessage(tr("The approach “%1” is deleted; Undo brings it back").arg(words(gone)));
+}
+
+void BranchController::compare(const std::string& with)
+{
+  if (!m_model.hasCase())
+    return;
+  if (m_model.drilling() && settle)
+    settle(); // an open stroke is in no state yet
+  const dissection::History& history = m_model.value().dissection.history();
+  const auto& branches = history.branches();
+  if (branches.size() < 2)
+    return;
+  const std::string present = history.branch().name;
+  std::string other = with;
+  if (other == present || !history.find(other))
+    other = m_left;
+  if (other == present || !history.find(other))
+    other = branches.front().name != present ? branches.front().name : branches[1].name;
+  emit comparisonAsked(present, other);
+}
+
 bool BranchController::change(const std::function<void()>& what)
 {
   if (settle)
     settle();
+  const std::string before = m_model.value().dissection.history().branch().name;
   try
   {
     if (camera)
@@ -144,6 +275,9 @@ bool BranchController::change(const std::function<void()>& what)
     QMessageBox::warning(&m_window, tr("Approach"), toString(fault));
     return false;
   }
+  const dissection::History& history = m_model.value().dissection.history();
+  if (before != history.branch().name)
+    m_left = before;
   emit changed();
   return true;
 }

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include <QObject>
+#include <QTimer>
 
 #include "petrous/Presenters/WorkstationModel.h"
 
@@ -13,7 +14,8 @@ class QWidget;
 namespace petrous::workstation
 {
 
-/// Menu of the case's approaches: list, switch, begin one at the case's current state.
+/// The case's approaches: list, switch, go to any of their states, begin one at the present state,
+/// rename, delete, compare. Fills their menu.
 class BranchController : public QObject
 {
   Q_OBJECT
@@ -29,15 +31,23 @@ public:
 
   void stateChanged(); ///< strokes, approaches or the case changed
 
+  void goTo(std::string name); ///< in the state in which it was left
+  void goToState(std::string name, std::size_t state);
+  void start();                         ///< asks for a name
+  void rename(const std::string& name); ///< likewise
+  void remove(const std::string& name); ///< of the present one the case goes to another first
+  /// Of the present one with this one; if they are the same, with the one that was left last.
+  void compare(const std::string& with);
+
 signals:
-  void changed(); ///< the case is on another approach and unsaved
+  void changed(); ///< the case is on another approach or state and unsaved
+  void comparisonAsked(const std::string& first, const std::string& second);
   void statusMessage(const QString& line);
 
 private:
   void fill();
-  void goTo(std::string name); // a copy: the history moves when the tool is put away
+  void fillComparisons();
   void goOn(int steps);
-  void start();
   bool change(const std::function<void()>& what);
 
   presenters::WorkstationModel& m_model;
@@ -46,6 +56,12 @@ private:
   QAction* m_start;
   QAction* m_next;
   QAction* m_previous;
+  QAction* m_compare;
+  QMenu* m_others; // to compare with
+  QAction* m_rename;
+  QAction* m_remove;
+  std::string m_left; // the approach that was left last
+  QTimer m_changed;   // states that are passed are not saved
 };
 
 } // namespace petrous::workstation

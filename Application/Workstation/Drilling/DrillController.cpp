@@ -21,14 +21,15 @@ namespace petrous::workstation
 
 namespace
 {
-constexpr int kFrame = 16;        // ms
-constexpr int kFaultShown = 1500; // ms after the last tick with a fault
-constexpr int kStart = 500;       // ms for a device to settle after it was taken up
-constexpr int kGone = 1000;       // ms; a crashed server restarts sooner
-constexpr int kAnew = 300;        // ms after the last change of the tool
-constexpr double kStill = 0.02;   // mm
-constexpr double kBeyond = 0.2;   // mm below the tissue's surface
-constexpr int kReadAgain = 500;   // ms, while the tip rests: tissue may have been restored
+constexpr int kFrame = 16;              // ms
+constexpr int kFaultShown = 1500;       // ms after the last tick with a fault
+constexpr int kStart = 500;             // ms for a device to settle after it was taken up
+constexpr int kGone = 1000;             // ms; a crashed server restarts sooner
+constexpr int kAnew = 300;              // ms after the last change of the tool
+constexpr double kThrustPerNotch = 0.5; // N
+constexpr double kStill = 0.02;         // mm
+constexpr double kBeyond = 0.2;         // mm below the tissue's surface
+constexpr int kReadAgain = 500;         // ms, while the tip rests: tissue may have been restored
 
 using haptics::DeviceVerdict;
 using session::ServoFault;
@@ -75,6 +76,8 @@ DrillController::DrillController(presenters::WorkstationModel& model, ThreeDView
   connectBar();
   connectView();
   connectDevices();
+  connect(this, &DrillController::strokeEnded, this, // for another thrust than it began with
+          [this] { QTimer::singleShot(0, this, &DrillController::applyBar); });
   applyBar();
 }
 
@@ -104,6 +107,12 @@ void DrillController::connectView()
           {
             if (const auto hit = m_model.surfaceAt(line))
               m_model.setCrosshair(*hit);
+          });
+  connect(&m_view, &ThreeDView::thrustTurned, this,
+          [this](double notches)
+          {
+            m_bar.setThrust(m_bar.thrust() + kThrustPerNotch * notches);
+            emit statusMessage(tr("Thrust %1 N").arg(m_bar.thrust(), 0, 'f', 1));
           });
   connect(&m_view, &ThreeDView::drillPressed, this, &DrillController::press);
 }
@@ -141,8 +150,9 @@ void DrillController::applyBar()
   settings.mode = wheel && m_tool != Tool::Pointer ? Mode::Depth : Mode::Surface;
   if (m_tool == Tool::Pointer)
     settings.lift = 0.0;
+  m_view.setWheelPresses(settings.mode == Mode::Surface);
   m_driver.set(settings);
-  if (m_model.touching() && m_driver.outgrown())
+  if (m_model.touching() && !m_model.drilling() && m_driver.outgrown())
     putAway(); // the pointer's next move takes it up
 }
 

@@ -23,6 +23,7 @@ namespace petrous::workstation
 namespace
 {
 constexpr int kLetterMargin = 10; // px
+constexpr double kFine = 0.2;     // of a notch of the wheel, with Shift
 } // namespace
 
 ThreeDView::ThreeDView(QWidget* parent)
@@ -292,6 +293,8 @@ void ThreeDView::sendWheel(const QWheelEvent& event)
   const double notches = (delta.y() != 0 ? delta.y() : delta.x()) / 120.0;
   if (notches == 0.0)
     return;
+  if (m_tool->GetDrilling() && m_wheelPresses && !(event.modifiers() & Qt::ControlModifier))
+    return emit thrustTurned(event.modifiers() & Qt::ShiftModifier ? kFine * notches : notches);
   const auto [x, y] = pixelAt(event.position());
   vtkRenderWindowInteractor* interactor = m_window->GetInteractor();
   interactor->SetEventInformation(x, y, event.modifiers() & Qt::ControlModifier ? 1 : 0,

@@ -32,6 +32,7 @@ public:
   rendering::ScenePicture& picture() noexcept { return m_display->picture(); }
   vtkPetrousToolInteraction& tool() noexcept { return *m_tool; }
   void setCamera(const core::CameraPose& pose);
+  void setWheelPresses(bool presses) { m_wheelPresses = presses; } ///< see thrustTurned
 
   /// Whose case it is, in the upper right corner; not in stereo, where it would float.
   void setStamp(const QString& text);
@@ -46,8 +47,10 @@ signals:
   void pointerLeft();
   void picked(const petrous::interaction::PickRay& line); ///< clicked, without a tool that drills
   void enlargeAsked();                                    ///< double click
-  void drillPressed();                                    ///< before the tool is pressed
-  void toolModeSet();                                     ///< drills, probes, or neither
+  /// The wheel was turned while the tool drills, unless it moves the tool in depth.
+  void thrustTurned(double notches);
+  void drillPressed(); ///< before the tool is pressed
+  void toolModeSet();  ///< drills, probes, or neither
   void cameraMoved(const petrous::core::CameraPose& pose);
   void stampChanged(const QString& text);
 
@@ -72,6 +75,7 @@ private:
   vtkNew<vtkPetrousToolInteraction> m_tool;
   std::array<QLabel*, 4> m_letters; // left, right, top, bottom
   QLabel* m_stamp;
+  bool m_wheelPresses = false;
   QString m_stampText;              // whole
   std::optional<QPointF> m_clicked; // where the left button went down, until the pointer leaves
 };

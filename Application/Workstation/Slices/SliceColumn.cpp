@@ -316,6 +316,12 @@ void SliceColumn::setHidden(const std::string& structure)
     appearanceChanged();
 }
 
+void SliceColumn::setDifference(const std::shared_ptr<const presenters::DraftLayer>& difference)
+{
+  for (SliceView* view : m_views)
+    view->setDifference(difference);
+}
+
 void SliceColumn::draftChanged(const core::PatientBox& box)
 {
   for (SliceView* view : m_views)

@@ -80,6 +80,7 @@ public:
   /// A structure that is not shown, as its draft is; empty: none.
   void setHidden(const std::string& structure);
   void draftChanged(const core::PatientBox& box);
+  void setDifference(const std::shared_ptr<const presenters::DraftLayer>& difference);
   /// What an image shows alone: an MR; empty: the CT is seen, too.
   std::string mrAlone() const { return m_shown.ct ? std::string() : m_shown.mr; }
   double mmPerPixel(presenters::SliceOrientation plane) const;

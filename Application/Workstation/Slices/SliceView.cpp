@@ -215,6 +215,14 @@ void SliceView::setDraft(std::shared_ptr<const presenters::DraftLayer> draft)
   recolour();
 }
 
+void SliceView::setDifference(std::shared_ptr<const presenters::DraftLayer> difference)
+{
+  if (!difference && !m_difference)
+    return;
+  m_difference = std::move(difference);
+  recolour();
+}
+
 void SliceView::draftChanged(const core::PatientBox& box)
 {
   maskChanged(box);
@@ -296,6 +304,8 @@ void SliceView::draw()
 {
   const presenters::SliceGeometry& picture = m_drawn->picture;
   auto pixels = m_presenter->draw(picture, m_window, m_overlay.get(), m_drawn->samples);
+  if (m_difference)
+    m_difference->paint(picture, pixels);
   if (m_draft)
     m_draft->paint(picture, pixels);
   m_image = QImage(pixels.rgb.data(), pixels.width, pixels.height, 3 * pixels.width,

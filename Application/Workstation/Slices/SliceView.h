@@ -81,6 +81,8 @@ public:
   /// What is being segmented; nullptr: nothing.
   void setDraft(std::shared_ptr<const presenters::DraftLayer> draft);
   void draftChanged(const core::PatientBox& box); ///< its voxels, in this box
+  /// Below the draft: where two dissections differ. nullptr: nothing.
+  void setDifference(std::shared_ptr<const presenters::DraftLayer> difference);
 
   /// The displayed slice; requires a presenter.
   presenters::SliceGeometry slice() const;
@@ -193,6 +195,7 @@ private:
   bool m_turning = false; // the other planes, with the left button
   bool m_mayMenu = false; // the right button went down and was not dragged
   std::shared_ptr<const presenters::DraftLayer> m_draft;
+  std::shared_ptr<const presenters::DraftLayer> m_difference;
   std::optional<SliceTool> m_tool;
   SliceDrawing m_drawing;
   std::optional<QPointF> m_pointer; // where the tool's ball is drawn

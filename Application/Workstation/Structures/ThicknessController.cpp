@@ -1,7 +1,8 @@
 #include "ThicknessController.h"
 
+#include <utility>
+
 #include <QAction>
-#include <QApplication>
 
 #include "Application.h"
 #include "StructuresPanel.h"
@@ -25,7 +26,7 @@ ThicknessController::ThicknessController(presenters::WorkstationModel& model, Th
   , m_legend(new ThicknessLegend(view))
 {
   m_bound.add(
-      &action, [this] { return !m_model.thicknessOver().empty(); },
+      &action, [this] { return !m_model.thicknessOver().empty() || !m_measured.empty(); },
       [this](bool on)
       {
         const QString chosen = m_panel.chosen();
@@ -37,6 +38,8 @@ ThicknessController::ThicknessController(presenters::WorkstationModel& model, Th
   m_followLater.setSingleShot(true);
   m_followLater.setInterval(kFollowAfter);
   connect(&m_followLater, &QTimer::timeout, this, &ThicknessController::follow);
+  connect(&m_work, &BackgroundWork::progressed, m_legend, &ThicknessLegend::setProgress);
+  connect(&m_work, &BackgroundWork::failed, this, &ThicknessController::endMeasuring);
   connect(&panel, &StructuresPanel::selected, &m_followLater, qOverload<>(&QTimer::start));
 }
 
@@ -44,29 +47,59 @@ ThicknessController::ThicknessController(presenters::WorkstationModel& model, Th
 void ThicknessController::follow()
 {
   const QString chosen = m_panel.chosen();
-  const std::string& over = m_model.thicknessOver();
+  const std::string& over = m_measured.empty() ? m_model.thicknessOver() : m_measured;
   if (!over.empty() && !chosen.isEmpty() && bytes(chosen) != over)
     showOver(chosen);
 }
 
+// Asked again for the same one, it ends.
 void ThicknessController::showOver(const QString& structure)
 {
   const std::string wanted = bytes(structure);
-  QApplication::setOverrideCursor(Qt::WaitCursor);
-  QString why;
+  const bool isMeasuring = !m_measured.empty();
+  m_work.abandon();
+  if (isMeasuring && (wanted.empty() || wanted == m_measured))
+  {
+    emit statusMessage(tr("Measuring the thickness was stopped"));
+    if (wanted.empty() && !m_model.thicknessOver().empty())
+      m_model.showThickness({}, nullptr);
+    return endMeasuring();
+  }
+  if (!wanted.empty() && wanted != m_model.thicknessOver())
+    return measure(wanted);
+  if (!m_model.thicknessOver().empty())
+    m_model.showThickness({}, nullptr);
+  endMeasuring();
+}
+
+void ThicknessController::measure(const std::string& structure)
+{
   try
   {
-    m_model.showThickness(wanted == m_model.thicknessOver() ? std::string() : wanted);
+    m_measured = structure;
+    m_work.replace(
+        [this, structure, work = m_model.thicknessMeasurement(structure)](
+            const core::Progress& progress) -> BackgroundWork::Reply
+        {
+          auto measured = work(progress);
+          return [this, structure, measured = std::move(measured)]
+          {
+            m_model.showThickness(structure, measured);
+            endMeasuring();
+          };
+        });
+    m_legend->setProgress(0.0);
+    bringUpToDate();
   }
   catch (const core::Error& error)
   {
-    why = toString(error);
+    endMeasuring(toString(error));
   }
-  catch (const std::exception&)
-  {
-    why = tr("The thickness cannot be measured: the computer has no room for it");
-  }
-  QApplication::restoreOverrideCursor();
+}
+
+void ThicknessController::endMeasuring(const QString& why)
+{
+  m_measured.clear();
   if (!why.isEmpty())
     emit statusMessage(why);
   bringUpToDate();
@@ -74,7 +107,10 @@ void ThicknessController::showOver(const QString& structure)
 
 void ThicknessController::bringUpToDate()
 {
-  const QString over = words(m_model.thicknessOver()).replace('_', ' ');
+  const bool isMeasuring = !m_measured.empty();
+  if (!isMeasuring)
+    m_legend->setProgress(1.0);
+  const QString over = words(isMeasuring ? m_measured : m_model.thicknessOver()).replace('_', ' ');
   m_legend->setStructure(over,
                          m_model.hasCase() && m_model.value().ct.modality == scene::Modality::Mr);
   m_bound.refresh();
@@ -82,6 +118,8 @@ void ThicknessController::bringUpToDate()
 
 void ThicknessController::caseChanged()
 {
+  m_work.abandon();
+  m_measured.clear();
   bringUpToDate();
 }
 

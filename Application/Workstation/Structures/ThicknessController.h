@@ -3,6 +3,7 @@
 #include <QObject>
 #include <QTimer>
 
+#include "BackgroundWork.h"
 #include "Bind.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
@@ -16,7 +17,8 @@ class ThicknessLegend;
 class ThreeDView;
 
 /// Toggles colouring bone by its thickness over the structure selected in the panel; while it is on
-/// it follows the selection.
+/// it follows the selection. The thickness is measured in a separate thread, the latest selection's
+/// alone; meanwhile the colours are those of before, and asking again stops it.
 class ThicknessController : public QObject
 {
   Q_OBJECT
@@ -33,13 +35,17 @@ signals:
 private:
   void showOver(const QString& structure); // empty: none
   void follow();
+  void measure(const std::string& structure);
+  void endMeasuring(const QString& why = {});
   void bringUpToDate();
 
   presenters::WorkstationModel& m_model;
   StructuresPanel& m_panel;
   ThicknessLegend* m_legend;
-  QTimer m_followLater; // measuring takes about a second: not for each row that is passed
+  QTimer m_followLater;   // not for each row that is passed
+  std::string m_measured; // the structure over which it is being measured; empty: none
   Bindings m_bound;
+  BackgroundWork m_work;
 };
 
 } // namespace petrous::workstation

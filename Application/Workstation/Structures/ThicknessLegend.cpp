@@ -37,6 +37,12 @@ void ThicknessLegend::setStructure(const QString& name, bool onMr)
   update();
 }
 
+void ThicknessLegend::setProgress(double fraction)
+{
+  m_progress = fraction;
+  update();
+}
+
 void ThicknessLegend::paintEvent(QPaintEvent*)
 {
   QPainter painter(this);
@@ -51,13 +57,22 @@ void ThicknessLegend::paintEvent(QPaintEvent*)
     scale.setColorAt(
         static_cast<double>(n) / static_cast<double>(colors.size() - 1),
         QColor::fromRgbF(double{colors[n][0]}, double{colors[n][1]}, double{colors[n][2]}));
-  painter.fillRect(bar, scale);
+  const bool isDone = m_progress >= 1.0;
+  painter.fillRect(bar, isDone ? QBrush(scale) : QBrush(QColor(60, 66, 74)));
+  if (!isDone)
+    painter.fillRect(
+        QRect(bar.topLeft(), QSize(static_cast<int>(m_progress * bar.width()), bar.height())),
+        QColor("#d7dce2"));
   painter.setPen(QColor("#d7dce2"));
-  painter.drawText(
-      QRect(kMargin, 4, kWidth - 2 * kMargin, kBarTop - 6), Qt::AlignLeft | Qt::AlignVCenter,
-      painter.fontMetrics().elidedText(
-          (m_isOnMr ? tr("Tissue over %1, mm") : tr("Bone over %1, mm")).arg(m_structure),
-          Qt::ElideRight, kWidth - 2 * kMargin));
+  painter.drawText(QRect(kMargin, 4, kWidth - 2 * kMargin, kBarTop - 6),
+                   Qt::AlignLeft | Qt::AlignVCenter,
+                   painter.fontMetrics().elidedText((!isDone    ? tr("Measuring over %1, F6 stops")
+                                                     : m_isOnMr ? tr("Tissue over %1, mm")
+                                                                : tr("Bone over %1, mm"))
+                                                        .arg(m_structure),
+                                                    Qt::ElideRight, kWidth - 2 * kMargin));
+  if (!isDone)
+    return;
   const int last = static_cast<int>(presenters::kFarthestThickness);
   for (int mm = 0; mm <= last; ++mm)
   {

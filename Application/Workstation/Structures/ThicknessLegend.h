@@ -16,6 +16,8 @@ public:
 
   /// Empty: hidden. `onMr`: it is tissue that is coloured.
   void setStructure(const QString& name, bool onMr);
+  /// Of measuring; 1: it is done. Takes a share of the scale's place.
+  void setProgress(double fraction);
   const QString& structure() const noexcept { return m_structure; }
 
 protected:
@@ -24,6 +26,7 @@ protected:
 private:
   QString m_structure;
   bool m_isOnMr = false;
+  double m_progress = 1.0;
 };
 
 } // namespace petrous::workstation

@@ -71,7 +71,7 @@ TEST_F(Branches, BeginAtThePresentStateAndLeaveTheOtherAsItWas)
   ASSERT_GT(removed, 0.0);
   // To main, by its shortcut in the menu.
   emit menu().aboutToShow();
-  menu().actions().at(4)->trigger();
+  menu().actions().at(8)->trigger();
   EXPECT_EQ(value().dissection.history().branch().name, "main");
   EXPECT_EQ(value().applied(), 0u);
   EXPECT_TRUE(value().dissection.mask().untouched());

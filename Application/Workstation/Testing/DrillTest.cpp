@@ -167,6 +167,41 @@ TEST_F(Drill, TheWheelPressesTheBurrIntoTheBone)
   EXPECT_NE(view().picture().camera().position, before.position);
 }
 
+// Without putting the burr away: the stroke goes on.
+TEST_F(Drill, TheWheelSetsTheThrustWhileTheBurrDrills)
+{
+  saveBall("ball");
+  openWindow();
+  auto* thrust = window().findChild<QDoubleSpinBox*>("thrust");
+  thrust->setValue(1.0);
+  QTest::keyClick(&view(), Qt::Key_D);
+  const QPoint middle = view().rect().center();
+  QTest::mouseMove(&view(), middle + QPoint(3, 0));
+  QTest::mouseMove(&view(), middle);
+  ASSERT_TRUE(waitFor([this] { return window().model().touching(); }));
+  const auto turn = [&](int notches, Qt::KeyboardModifiers keys = {})
+  {
+    QWheelEvent wheel(middle, view().mapToGlobal(middle), {}, {0, 120 * notches}, Qt::NoButton,
+                      keys, Qt::NoScrollPhase, false);
+    QApplication::sendEvent(&view(), &wheel);
+  };
+  const auto before = view().picture().camera();
+  QTest::keyPress(&view(), Qt::Key_Space);
+  ASSERT_TRUE(waitFor([this] { return window().model().drilling(); }));
+  turn(3);
+  EXPECT_DOUBLE_EQ(thrust->value(), 2.5);
+  turn(-1, Qt::ShiftModifier);
+  EXPECT_DOUBLE_EQ(thrust->value(), 2.4);
+  EXPECT_EQ(view().picture().camera().position, before.position) << "it does not zoom";
+  EXPECT_TRUE(window().model().drilling());
+  EXPECT_TRUE(waitFor([this] { return !window().model().value().dissection.mask().untouched(); }));
+  QTest::keyRelease(&view(), Qt::Key_Space);
+  EXPECT_TRUE(strokeEnds());
+  EXPECT_EQ(window().model().value().dissection.strokes().size(), 1u);
+  turn(1); // zooms again
+  EXPECT_NE(view().picture().camera().position, before.position);
+}
+
 // The coupling differs between a set thrust and the wheel.
 TEST_F(Drill, TheBurrIsTakenUpAnewWhereTheWheelPresses)
 {

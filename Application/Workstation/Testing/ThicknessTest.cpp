@@ -3,6 +3,7 @@
 #include <QStatusBar>
 #include <QTreeView>
 
+#include "StructuresPanel.h"
 #include "ThicknessLegend.h"
 #include "petrous/Rendering/ThicknessColor.h"
 
@@ -37,6 +38,10 @@ protected:
   {
     structureList().setCurrentIndex(structureCell(structure));
   }
+  bool measured(const std::string& structure)
+  {
+    return waitFor([&] { return window().model().thicknessOver() == structure; });
+  }
 };
 
 } // namespace
@@ -55,6 +60,7 @@ TEST_F(Thickness, ColorsBoneOverTheChosenStructureUntilAskedAgain)
   QTest::keyClick(&window(), Qt::Key_F6);
   EXPECT_TRUE(legend().isVisible());
   EXPECT_EQ(legend().structure(), "nerve");
+  ASSERT_TRUE(measured("nerve"));
   const QImage colored = picture();
   EXPECT_GT(differentPixels(before, colored, 20), 5000);
   // 2.5 mm, half of the scale: red, with shading; beside the highlight at the ball's centre.
@@ -89,9 +95,10 @@ TEST_F(Thickness, FollowsTheSelectionWhileItIsOn)
   choose("nerve");
   QTest::keyClick(&window(), Qt::Key_F6);
   ASSERT_EQ(legend().structure(), "nerve");
+  ASSERT_TRUE(measured("nerve"));
   choose("cyst");
-  EXPECT_TRUE(waitFor([this] { return legend().structure() == "cyst"; }));
-  EXPECT_EQ(window().model().thicknessOver(), "cyst");
+  EXPECT_TRUE(measured("cyst"));
+  EXPECT_EQ(legend().structure(), "cyst");
   structureList().setCurrentIndex(structureCell("ct"));
   QTest::qWait(400);
   EXPECT_EQ(legend().structure(), "cyst") << "bone has no thickness over itself";
@@ -107,7 +114,42 @@ TEST_F(Thickness, IsOfTheCaseThatIsOpen)
   choose("nerve");
   QTest::keyClick(&window(), Qt::Key_F6);
   ASSERT_TRUE(legend().isVisible());
+  ASSERT_TRUE(measured("nerve"));
   const_cast<presenters::WorkstationModel&>(window().model()).open("other");
   EXPECT_FALSE(legend().isVisible());
   EXPECT_TRUE(window().model().thicknessOver().empty());
+}
+
+// Not one after the other: what is not wanted any more is not shown, however late it comes.
+TEST_F(Thickness, TheLatestOneAskedForIsShownAndAskingAgainStopsIt)
+{
+  saveThinBall();
+  scene::Case value = library().open("ball");
+  scene::LabelPart second = ballCase("other").labels[0];
+  second.structures[0].name = "cyst";
+  value.labels.push_back(second);
+  library().save(value);
+  openWindow();
+  std::vector<std::string> shown;
+  auto& model = const_cast<presenters::WorkstationModel&>(window().model());
+  const auto before = model.events.appearanceChanged;
+  model.events.appearanceChanged = [&]
+  {
+    before();
+    shown.push_back(model.thicknessOver());
+  };
+  auto* panel = window().findChild<StructuresPanel*>();
+  emit panel->thicknessAsked("nerve");
+  emit panel->thicknessAsked("cyst");
+  EXPECT_EQ(legend().structure(), "cyst");
+  ASSERT_TRUE(measured("cyst"));
+  EXPECT_EQ(shown, std::vector<std::string>{"cyst"});
+
+  emit panel->thicknessAsked("nerve");
+  EXPECT_EQ(legend().structure(), "nerve");
+  emit panel->thicknessAsked("nerve");
+  QTest::qWait(300);
+  EXPECT_EQ(model.thicknessOver(), "cyst") << "the one before stays";
+  EXPECT_EQ(legend().structure(), "cyst");
+  model.events.appearanceChanged = before;
 }

@@ -37,6 +37,7 @@
 #include "CaseStamps.h"
 #include "CommandPalette.h"
 #include "Commands.h"
+#include "ComparisonController.h"
 #include "DeviceToolBar.h"
 #include "DeviceWatcher.h"
 #include "DrillBar.h"
@@ -56,6 +57,7 @@
 #include "SliceColumn.h"
 #include "SliceController.h"
 #include "StartPage.h"
+#include "StrokeThumbnails.h"
 #include "StructuresPanel.h"
 #include "Theme.h"
 #include "ThicknessController.h"
@@ -169,6 +171,8 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_picture(
         new PictureController(m_model, *m_view, *m_actions, *m_settings, *this, options.quadBuffer))
   , m_branches(new BranchController(m_model, *m_actions->approaches, *this))
+  , m_strokes(new StrokeThumbnails(m_model, options.drawThumbnailsAfter, this))
+  , m_comparison(new ComparisonController(m_model, *m_view, *m_slices, *this))
   , m_registration(new RegistrationController(m_model, *m_slices, *this))
   , m_segment(new SegmentController(m_model, *m_slices, *this))
   , m_measure(new MeasureController(m_model, *m_slices, *m_view, *this))
@@ -212,13 +216,15 @@ MainWindow::~MainWindow()
 {
   m_model.events = {};
   m_drill->releaseTool(); // before the devices that control it
-  delete m_registration;  // ends its threads
+  delete m_comparison;    // ends its threads
+  delete m_registration;  // likewise
   delete m_segment;       // likewise
   delete m_measure;       // likewise
   delete m_drill;
   delete m_devices;
   for (const auto& [entry, panel] : m_panels)
     delete panel;   // one may query the model when hidden
+  delete m_strokes; // its thread must not outlive the model
   delete m_watcher; // stops a server
   delete m_stamps;  // looks at the model when a slice is resized
   delete m_viewState;
@@ -344,8 +350,8 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event)
 
 void MainWindow::addPanels()
 {
-  const PanelContext context{m_model,    *m_picture,     *m_registration, *m_segment,
-                             *m_library, *m_attachments, *m_measure,      *m_sliceControl};
+  const PanelContext context{m_model,        *m_picture, *m_registration, *m_segment,  *m_library,
+                             *m_attachments, *m_measure, *m_sliceControl, *m_branches, *m_strokes};
   std::map<Qt::DockWidgetArea, QDockWidget*> tabs;
   for (const PanelEntry& entry : panelEntries())
   {
@@ -414,6 +420,7 @@ void MainWindow::tellPanels()
 {
   m_registration->caseChanged();
   m_thickness->caseChanged();
+  m_comparison->caseChanged();
   for (const auto& [entry, panel] : m_panels)
     panel->caseChanged();
 }
@@ -514,6 +521,8 @@ void MainWindow::connectModel()
   connect(m_viewState, &ViewStateController::statusMessage, this, showMessage);
   connect(m_stamps, &CaseStamps::answered, m_saver, &CaseSaver::save);
   connect(m_branches, &BranchController::changed, m_saver, &CaseSaver::save);
+  connect(m_branches, &BranchController::comparisonAsked, m_comparison,
+          &ComparisonController::compare);
   connect(m_branches, &BranchController::statusMessage, this, showMessage);
   connect(m_library, &LibraryController::statusMessage, this, showMessage);
   connect(m_exchange, &ExchangeController::statusMessage, this, showMessage);
@@ -713,6 +722,8 @@ void MainWindow::connectThumbnails()
 {
   ThumbnailDrawer* drawer = m_library->thumbnails();
   drawer->isIdle = [this] { return !busy() && !m_model.touching() && !m_model.unsaved(); };
+  m_strokes->isIdle = [this] { return !busy() && !m_model.touching(); };
+  m_strokes->camera = [this] { return m_view->picture().camera(); };
   connect(m_saver, &CaseSaver::saved, drawer,
           [drawer](const QString& name) { drawer->caseSaved(bytes(name)); });
   connect(m_library->panel(), &LibraryPanel::refreshed, m_start, &StartPage::refresh);
@@ -780,6 +791,7 @@ void MainWindow::step(bool back)
   };
   if (back ? m_model.undoChangesParts() : m_model.redoChangesParts())
   {
+    m_drill->releaseTool();
     if (m_keeper->changeParts(act))
       done();
     return;
@@ -845,6 +857,7 @@ void MainWindow::partsChanged()
   m_measure->partsChanged();
   m_registration->partsChanged();
   m_thickness->caseChanged();
+  m_comparison->caseChanged();
   for (const auto& [entry, panel] : m_panels)
     panel->partsChanged();
   showUnregistered(false);
@@ -957,6 +970,7 @@ void MainWindow::stateChanged()
   m_sliceControl->setCaseOpen(open);
   m_actions->setOnMr(open && m_model.value().ct.modality == scene::Modality::Mr);
   m_branches->stateChanged();
+  m_comparison->stateChanged();
   m_stamps->stateChanged();
   showUndo();
   if (!open)
@@ -1158,6 +1172,7 @@ void MainWindow::closeEvent(QCloseEvent* event)
     for (const auto& [entry, panel] : m_panels)
       m_settings->keepPanelShown(entry.name, !panel->parentWidget()->isHidden());
   m_picture->closeSurgeonWindow();
+  m_comparison->close();
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event)

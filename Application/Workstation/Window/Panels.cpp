@@ -3,8 +3,10 @@
 #include <QCoreApplication>
 
 #include "AppearancePanel.h"
+#include "ApproachPanel.h"
 #include "AttachmentsController.h"
 #include "AttachmentsPanel.h"
+#include "BranchController.h"
 #include "LibraryController.h"
 #include "LibraryPanel.h"
 #include "MeasureController.h"
@@ -19,9 +21,37 @@
 #include "SliceController.h"
 #include "SlicesPanel.h"
 #include "StructuresPanel.h"
+#include "Theme.h"
 
 namespace petrous::workstation
 {
+
+namespace
+{
+
+Panel* approachPanel(const PanelContext& context)
+{
+  auto* panel = new ApproachPanel(context.model, context.strokes);
+  BranchController& branches = context.branches;
+  QObject::connect(panel, &ApproachPanel::stateAsked, &branches,
+                   [&branches](const QString& name, quint64 state)
+                   { branches.goToState(bytes(name), static_cast<std::size_t>(state)); });
+  const auto on =
+      [panel, &branches](auto signal, void (BranchController::*what)(const std::string&))
+  {
+    QObject::connect(panel, signal, &branches,
+                     [&branches, what](const QString& name) { (branches.*what)(bytes(name)); });
+  };
+  QObject::connect(panel, &ApproachPanel::approachAsked, &branches,
+                   [&branches](const QString& name) { branches.goTo(bytes(name)); });
+  QObject::connect(panel, &ApproachPanel::startAsked, &branches, &BranchController::start);
+  on(&ApproachPanel::renamingAsked, &BranchController::rename);
+  on(&ApproachPanel::removalAsked, &BranchController::remove);
+  on(&ApproachPanel::comparisonAsked, &BranchController::compare);
+  return panel;
+}
+
+} // namespace
 
 std::vector<PanelEntry> panelEntries()
 {
@@ -52,6 +82,8 @@ std::vector<PanelEntry> panelEntries()
        kNeedsCase, [](C c) -> Panel* { return c.attachments.panel(); }},
       {"measureDock", tr("Measurements"), Qt::CTRL + Qt::Key_M, Qt::LeftDockWidgetArea, kTabbed,
        kHidden, kNeedsCase, [](C c) -> Panel* { return c.measure.panel(); }},
+      {"approachDock", tr("Approaches"), Qt::SHIFT + Qt::Key_F9, Qt::LeftDockWidgetArea, kTabbed,
+       kHidden, kNeedsCase, approachPanel},
   };
 }
 

@@ -15,12 +15,14 @@ namespace petrous::workstation
 {
 
 class AttachmentsController;
+class BranchController;
 class LibraryController;
 class MeasureController;
 class PictureController;
 class RegistrationController;
 class SegmentController;
 class SliceController;
+class StrokeThumbnails;
 
 /// The widget of a dock. A panel overrides what it wants to hear.
 class Panel : public QWidget
@@ -49,6 +51,8 @@ struct PanelContext
   AttachmentsController& attachments;
   MeasureController& measure;
   SliceController& slices;
+  BranchController& branches;
+  StrokeThumbnails& strokes;
 };
 
 struct PanelEntry

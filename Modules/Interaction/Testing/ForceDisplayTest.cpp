@@ -95,9 +95,9 @@ TEST(ForceDisplay, DrawsTheForceFromTheToolInItsDirectionAndLength)
         Vector3d(0.8, 0.6, 1.5), Vector3d(0.5, 1.2, -2.0)})
   {
     const auto pixels = difference(scene.draw(force, tool), scene.empty);
-    ASSERT_GT(pixels.size(), 50U);
+    ASSERT_GT(pixels.size(), 15U);
     const Vector2d start = kPixels * tool.head<2>();
-    const Vector2d seen = kPixels * 10.0 * force.head<2>(); // 10 mm/N
+    const Vector2d seen = kPixels * 3.0 * force.head<2>(); // 3 mm/N
     const Reach arrow = reach(pixels, start, seen);
     // The cone's apex is thinner than a pixel; its base and the shaft's are tilted towards the
     // viewer.
@@ -106,6 +106,13 @@ TEST(ForceDisplay, DrawsTheForceFromTheToolInItsDirectionAndLength)
     EXPECT_NEAR(arrow.least, -lean, 1.0) << force.transpose();
     EXPECT_LT(arrow.aside, kPixels * 1.4 * 0.8 + 1.0) << force.transpose();
   }
+}
+
+TEST(ForceDisplay, IsAtMostFifteenMillimetresLong)
+{
+  Scene scene;
+  const auto pixels = difference(scene.draw({80.0, 0.0, 0.0}), scene.empty);
+  EXPECT_NEAR(reach(pixels, {0.0, 0.0}, {1.0, 0.0}).most, kPixels * 15.0, 2.5);
 }
 
 TEST(ForceDisplay, SetsTheLengthOfANewton)

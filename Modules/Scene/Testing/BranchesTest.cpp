@@ -57,6 +57,58 @@ TEST(Branches, BeginWhereOneIsOrAfterSoManyStrokes)
   expectTogether(value);
 }
 
+TEST(Branches, GoToAnyStateOfAnyBranch)
+{
+  scene::Case value = drilledCase(3); // 10, 11, 12 mm3
+  scene::startBranch(value, "other", 1);
+  drill(value, {4, 4, 8}, 5.0);
+  scene::goToState(value, "main", 1);
+  EXPECT_EQ(value.dissection.history().branch().name, "main");
+  EXPECT_DOUBLE_EQ(value.removedVolume(), 21.0);
+  EXPECT_EQ(value.dissection.history().ahead(), 1u);
+  expectTogether(value);
+  scene::goToState(value, "main", dissection::History::kStart);
+  EXPECT_TRUE(value.dissection.mask().untouched());
+  scene::goToState(value, "other", 3);
+  EXPECT_DOUBLE_EQ(value.removedVolume(), 15.0);
+  expectTogether(value);
+  EXPECT_THROW(scene::goToState(value, "other", 2), core::InvalidParameter) << "it is not on it";
+  EXPECT_THROW(scene::goToState(value, "none", 0), core::InvalidParameter);
+  EXPECT_DOUBLE_EQ(value.removedVolume(), 15.0);
+  const dissection::Dissection there = scene::dissectionAt(value, 2);
+  scene::goToState(value, "main", 2);
+  EXPECT_EQ(volume::differentVoxels(value.dissection.mask(), there.mask()), 0u);
+}
+
+TEST(Branches, ThatWereTakenOutComeBackToTheirPlace)
+{
+  scene::Case value = drilledCase(2);
+  scene::startBranch(value, "other", 1);
+  drill(value, {4, 4, 8}, 5.0);
+  scene::goToBranch(value, "main");
+  value.view.branchCameras["other"].position = {1, 2, 3};
+  EXPECT_THROW(scene::takeBranch(value, "main"), core::InvalidParameter) << "the present one";
+  scene::TakenBranch taken = scene::takeBranch(value, "other");
+  EXPECT_FALSE(value.dissection.history().find("other"));
+  EXPECT_EQ(value.dissection.strokes().size(), 3u);
+  EXPECT_EQ(value.view.branchCameras.count("other"), 0u);
+  drill(value, {4, 8, 4}, 7.0);
+  // Stored and read, what no branch leads to is still there.
+  const scene::Case read = scene::fromManifest(scene::toManifest(value), "m");
+  EXPECT_EQ(read.dissection.strokes().size(), 4u);
+  EXPECT_EQ(scene::putBranch(value, taken), "other");
+  EXPECT_EQ(value.view.branchCameras.at("other").position, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(value.dissection.history().branch().name, "main");
+  EXPECT_DOUBLE_EQ(value.removedVolume(), 28.0);
+  scene::goToBranch(value, "other");
+  EXPECT_DOUBLE_EQ(value.removedVolume(), 15.0);
+  expectTogether(value);
+  scene::goToBranch(value, "main");
+  taken = scene::takeBranch(value, "other");
+  scene::startBranch(value, "other");
+  EXPECT_EQ(scene::putBranch(value, taken), "other 2") << "its name was given away";
+}
+
 TEST(Branches, NeedNoVoxels)
 {
   scene::Case value = drilledCase(3);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "Notify.h"
+#include "petrous/Presenters/BoneThickness.h"
 #include "petrous/Presenters/WorkstationModel.h"
 #include "petrous/Scene/Branches.h"
 #include "petrous/Scene/Placement.h"
@@ -71,6 +72,73 @@ void WorkstationModel::startBranch(const std::string& name)
   followHistory();
 }
 
+void WorkstationModel::goToState(const std::string& branch, std::size_t state)
+{
+  if (!m_case)
+    return;
+  stopTouch();
+  const dissection::History& history = m_case->dissection.history();
+  const bool isPresent = history.branch().name == branch;
+  const std::size_t before = history.position();
+  scene::goToState(*m_case, branch, state);
+  if (isPresent)
+  {
+    const auto path = history.path(before, state);
+    for (std::size_t n = 0; n < path.undone.size(); ++n)
+      m_edits.strokeStepped(true);
+    for (std::size_t n = 0; n < path.redone.size(); ++n)
+      m_edits.strokeStepped(false);
+  }
+  else
+    m_edits.forgetStrokes();
+  followHistory();
+}
+
+void WorkstationModel::nameBranch(const std::string& from, const std::string& to)
+{
+  stopTouch();
+  scene::renameBranch(*m_case, from, to);
+  followHistory();
+}
+
+void WorkstationModel::renameBranch(const std::string& from, const std::string& to)
+{
+  if (!m_case || from == to)
+    return;
+  nameBranch(from, to);
+  recordEdit({"name of approach " + to,
+              {},
+              [this, from, to] { nameBranch(to, from); },
+              [this, from, to] { nameBranch(from, to); },
+              true});
+}
+
+void WorkstationModel::removeBranch(const std::string& name)
+{
+  if (!m_case)
+    return;
+  struct Removed
+  {
+    std::string name; // another one than at first if that was given away
+    scene::TakenBranch taken;
+  };
+  const auto removed = std::make_shared<Removed>(Removed{name, {}});
+  const auto takeOut = [this, removed]
+  {
+    stopTouch();
+    removed->taken = scene::takeBranch(*m_case, removed->name);
+    followHistory();
+  };
+  const auto putBack = [this, removed]
+  {
+    stopTouch();
+    removed->name = scene::putBranch(*m_case, removed->taken);
+    followHistory();
+  };
+  takeOut();
+  recordEdit({"deletion of approach " + name, {}, putBack, takeOut, true});
+}
+
 namespace
 {
 
@@ -106,16 +174,25 @@ bool same(const std::vector<scene::Placement>& a, const std::vector<scene::Place
 
 void WorkstationModel::showThickness(const std::string& structure)
 {
-  if (!m_case || structure == thicknessOver())
-    return;
+  if (m_case && structure != thicknessOver())
+    showThickness(structure, structure.empty() ? nullptr : thicknessMeasurement(structure)({}));
+}
+
+std::function<WorkstationModel::Thickness(const core::Progress&)>
+WorkstationModel::thicknessMeasurement(const std::string& structure) const
+{
   if (!m_loaded)
     throw core::InvalidParameter("The structures are still being loaded.");
-  SceneAssembly next = m_assembly;
-  next.showThickness(structure);
-  next.contents(*m_case);
-  m_assembly = std::move(next);
-  if (events.appearanceChanged)
-    events.appearanceChanged();
+  scene::Case copy = *m_case; // shares voxels
+  copy.dissection.unload();   // not needed
+  return [copy = std::move(copy), structure](const core::Progress& progress)
+  { return boneThickness(copy, structure, progress); };
+}
+
+void WorkstationModel::showThickness(const std::string& structure, Thickness measured)
+{
+  m_assembly.showThickness(structure, std::move(measured));
+  notify(events.appearanceChanged);
 }
 
 void WorkstationModel::changeMr(const std::function<void(scene::Case&)>& change)

@@ -239,6 +239,13 @@ public:
   /// Puts the tool away first. Throws as scene::goToBranch and scene::startBranch do.
   void goToBranch(const std::string& name);
   void startBranch(const std::string& name); ///< at the case's current state
+  /// Puts the tool away first. Throws as scene::goToState does. On the present branch it is as if
+  /// the strokes had been undone or redone.
+  void goToState(const std::string& branch, std::size_t state);
+  // These two put the tool away and can be undone. They throw as scene::renameBranch and
+  // scene::takeBranch do, without effect.
+  void renameBranch(const std::string& from, const std::string& to);
+  void removeBranch(const std::string& name); ///< its strokes stay in the case
 
   // These can be undone. Those that come quickly after one another and change the same property of
   // the same parts are one step (EditHistory::kPause), so that they may be called at any rate.
@@ -261,6 +268,12 @@ public:
   /// Colours bone by its thickness over a structure; empty: off. Takes about a second. Throws
   /// InvalidParameter, without effect, if it cannot be measured.
   void showThickness(const std::string& structure);
+  /// The same in two parts. The first may run in any thread and throws what `boneThickness` does;
+  /// the second is fast.
+  using Thickness = std::shared_ptr<const volume::Volume<float>>;
+  std::function<Thickness(const core::Progress&)>
+  thicknessMeasurement(const std::string& structure) const;
+  void showThickness(const std::string& structure, Thickness measured);
   const std::string& thicknessOver() const noexcept { return m_assembly.thicknessOver(); }
 
   const Eigen::Vector3d& crosshair() const noexcept { return m_crosshair; }
@@ -369,6 +382,7 @@ private:
   void bringBack(std::uint64_t removal);
   void rename(const std::string& name, const std::string& to);
   void followHistory();
+  void nameBranch(const std::string& from, const std::string& to);
   void setUnsaved(bool unsaved);
   void setRecording(const std::filesystem::path& file, const std::string& fault = {});
   /// `another`: under another name or in another library.

@@ -12,7 +12,7 @@ namespace petrous::interaction
 /// How a force is displayed.
 struct ForceLook
 {
-  double millimetresPerNewton = 10.0; ///< of the arrow, in (0, 1000]
+  double millimetresPerNewton = 3.0; ///< of the arrow, in (0, 1000]
   double fullScale = 5.0;             ///< N: end of the bar, and maximum of the arrow; > 0.1
   double least = 0.02;                ///< N: below it no arrow is shown, >= 0
   double thickness = 0.8;             ///< mm, of the arrow's shaft, in (0, 20]

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "petrous/Core/CameraPose.h"
 #include "petrous/Scene/Case.h"
 
 namespace petrous::scene
@@ -21,6 +22,11 @@ void startBranch(Case& value, const std::string& name,
 /// InvalidParameter.
 void goToBranch(Case& value, const std::string& name);
 
+/// Goes to a state of a branch, between the start and its tip, as goToBranch does if that is
+/// another one; the strokes after it can be redone. Throws InvalidParameter if the state is not on
+/// the branch.
+void goToState(Case& value, const std::string& branch, std::size_t state);
+
 /// Replaces the automatic name of a branch, created by drilling after an undo, by a chosen one.
 /// Throws InvalidParameter.
 void renameBranch(Case& value, const std::string& from, const std::string& to);
@@ -29,11 +35,32 @@ void renameBranch(Case& value, const std::string& from, const std::string& to);
 /// are lost. Returns their number. Throws InvalidParameter.
 std::size_t removeBranch(Case& value, const std::string& name);
 
+/// The case's dissection in any state: the start, or after a stroke and those before it; the case
+/// stays. Throws InvalidParameter if there is no such stroke, and as Dissection::follow.
+dissection::Dissection dissectionAt(const Case& value, std::size_t state);
+
+/// A branch that was taken out, for putBranch.
+struct TakenBranch
+{
+  dissection::History::Branch branch;
+  std::size_t index = 0; ///< its place among the branches
+  std::optional<core::CameraPose> camera;
+};
+
+/// Takes out a branch other than the current one. Its strokes stay in the case, numbered as they
+/// are, until removeBranch removes what no branch leads to. Throws InvalidParameter.
+TakenBranch takeBranch(Case& value, const std::string& name);
+
+/// Brings it back, under another name if its own has been given away since (freeName); returns the
+/// name. Throws InvalidParameter if its strokes are gone.
+std::string putBranch(Case& value, TakenBranch taken);
+
 /// What the strokes up to a state removed.
 struct StateSummary
 {
   std::size_t strokes = 0;
   double removed = 0.0;                                 ///< mm^3
+  double duration = 0.0;                                ///< s
   std::vector<dissection::TouchedStructure> structures; ///< sorted by name
 };
 StateSummary summaryOf(const Case& value, std::size_t state);

@@ -1,0 +1,292 @@
+#include "GuiTest.h"
+
+#include <QAbstractItemModelTester>
+#include <QCheckBox>
+#include <QDialogButtonBox>
+#include <QDockWidget>
+#include <QHeaderView>
+#include <QInputDialog>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMenu>
+#include <QPushButton>
+#include <QScreen>
+#include <QSlider>
+#include <QTableWidget>
+#include <QTreeWidget>
+
+#include "ApproachPanel.h"
+#include "ComparisonWindow.h"
+#include "SliceColumn.h"
+#include "SliceView.h"
+#include "StrokeThumbnails.h"
+#include "petrous/Scene/Branches.h"
+
+using namespace petrous;
+using namespace petrous::workstation;
+using Eigen::Vector3d;
+
+namespace
+{
+
+class Approaches : public GuiTest
+{
+protected:
+  // main: two strokes; above: forks after the first of them, one stroke. On main, all applied.
+  void saveApproaches()
+  {
+    scene::Case value = ballCase("ball");
+    value.dissection = dissection::Dissection(value.ct.geometry);
+    const auto drill = [&value](const Vector3d& from, double removed, double seconds)
+    {
+      dissection::StrokeInfo info;
+      info.duration = seconds;
+      info.burr.diameter = 5.0;
+      core::CameraPose camera;
+      camera.position = kBallCenter + Vector3d(20, -60, 20);
+      camera.focalPoint = kBallCenter;
+      camera.viewUp = {0, 0, 1};
+      info.camera = camera;
+      value.dissection.beginStroke(info);
+      const Vector3d at = kBallCenter + kBallRadius * from.normalized();
+      value.dissection.cut({at, at, 3.0});
+      value.dissection.openInfo().removed = removed;
+      value.dissection.endStroke();
+    };
+    drill({0, -1, 0}, 10.0, 5.0);
+    drill({1, -1, 0}, 11.0, 6.5);
+    scene::startBranch(value, "above", 1);
+    drill({0, -1, 1}, 12.0, 70.0);
+    scene::goToBranch(value, "main");
+    library().save(value);
+  }
+  void openPanel()
+  {
+    QTest::keyClick(&window(), Qt::Key_F9, Qt::ShiftModifier);
+    ASSERT_TRUE(waitFor([this] { return tree().isVisible(); }));
+    QTest::qWait(20);
+  }
+  QTreeWidget& tree() { return *window().findChild<QTreeWidget*>("approaches"); }
+  QSlider& line() { return *window().findChild<QSlider*>("strokeLine"); }
+  // Rows from the top, with their depth.
+  QStringList rows()
+  {
+    QStringList texts;
+    for (QTreeWidgetItemIterator at(&tree()); *at; ++at)
+    {
+      int depth = 0;
+      for (const QTreeWidgetItem* above = (*at)->parent(); above; above = above->parent())
+        ++depth;
+      texts += QString(depth, '.') + (*at)->text(0);
+    }
+    return texts;
+  }
+  QString current() { return tree().currentItem() ? tree().currentItem()->text(0) : QString(); }
+  const scene::Case& value() { return window().model().value(); }
+  std::string branch() { return value().dissection.history().branch().name; }
+  void press(int key)
+  {
+    QTest::keyClick(&tree(), static_cast<Qt::Key>(key));
+    QTest::qWait(20);
+  }
+  ComparisonWindow* comparison() { return window().findChild<ComparisonWindow*>("comparison"); }
+  QString cell(const QString& row, int column)
+  {
+    QTableWidget& table = comparison()->table();
+    for (int n = 0; n < table.rowCount(); ++n)
+      if (table.item(n, 0)->text().startsWith(row))
+        return table.item(n, column)->text();
+    return {};
+  }
+};
+
+} // namespace
+
+TEST_F(Approaches, AreATreeOfTheirStrokesWithWhatEachRemoved)
+{
+  saveApproaches();
+  openWindow();
+  openPanel();
+  const QAbstractItemModelTester tester(tree().model());
+  EXPECT_EQ(rows(), QStringList({QString::fromUtf8("▶ main"), ".Untouched", ".1", "..above", "...2",
+                                 ".2"}));
+  EXPECT_EQ(current(), "2");
+  QTreeWidgetItem* main = tree().topLevelItem(0);
+  EXPECT_EQ(main->text(1), QString::fromUtf8("21.00 mm³"));
+  EXPECT_EQ(main->child(1)->text(2), "5.0 s");
+  EXPECT_EQ(main->child(1)->text(3), "5.0 mm cutting");
+  EXPECT_EQ(main->child(1)->child(0)->text(2), "1 min 15 s") << "with the first stroke";
+}
+
+TEST_F(Approaches, ArrowKeysGoToTheStatesLive)
+{
+  saveApproaches();
+  openWindow();
+  openPanel();
+  tree().setFocus();
+  press(Qt::Key_Up); // 2 of "above"
+  EXPECT_EQ(branch(), "above");
+  EXPECT_EQ(value().applied(), 2u);
+  EXPECT_DOUBLE_EQ(value().removedVolume(), 22.0);
+  EXPECT_EQ(current(), "2");
+  press(Qt::Key_Up); // the approach itself
+  EXPECT_EQ(branch(), "above");
+  press(Qt::Key_Up); // 1 of main
+  EXPECT_EQ(branch(), "main");
+  EXPECT_EQ(value().applied(), 1u);
+  EXPECT_EQ(value().dissection.history().ahead(), 1u);
+  EXPECT_EQ(window().model().redoText(), "stroke 2") << "as after an undo";
+  press(Qt::Key_Up);
+  EXPECT_TRUE(value().dissection.mask().untouched());
+  EXPECT_EQ(line().value(), 0);
+  EXPECT_EQ(line().maximum(), 2);
+  line().setFocus();
+  QTest::keyClick(&line(), Qt::Key_Right);
+  QTest::keyClick(&line(), Qt::Key_Right);
+  EXPECT_EQ(value().applied(), 2u);
+  EXPECT_EQ(current(), "2");
+  QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(value().applied(), 1u);
+  EXPECT_EQ(line().value(), 1);
+  EXPECT_EQ(current(), "1");
+  // Saved when it rests.
+  EXPECT_TRUE(waitFor([this] { return !window().model().unsaved() && !window().busy(); }));
+  EXPECT_EQ(library().open("ball").applied(), 1u);
+}
+
+TEST_F(Approaches, BranchRenameAndDeleteAndUndoThem)
+{
+  saveApproaches();
+  openWindow();
+  openPanel();
+  tree().setFocus();
+  const auto answer = [this](const QString& name)
+  {
+    onDialog(
+        [name](QDialog& dialog)
+        {
+          auto* ask = qobject_cast<QInputDialog*>(&dialog);
+          if (!ask)
+            return false;
+          auto* ok = ask->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok);
+          auto* edit = ask->findChild<QLineEdit*>();
+          edit->setText(QString(QChar(0xe4)).repeated(51)); // 102 bytes
+          EXPECT_FALSE(ok->isEnabled());
+          EXPECT_TRUE(ask->findChild<QLabel*>()->text().contains("100 bytes"));
+          edit->setText(name);
+          ok->click();
+          return true;
+        });
+  };
+  press(Qt::Key_Up);
+  ASSERT_EQ(branch(), "above");
+  answer("retrosigmoid");
+  QTest::keyClick(&tree(), Qt::Key_F2);
+  EXPECT_EQ(branch(), "retrosigmoid");
+  EXPECT_TRUE(rows().contains(QString::fromUtf8("..▶ retrosigmoid")));
+  QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(branch(), "above");
+  QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_EQ(branch(), "retrosigmoid");
+
+  tree().setFocus();
+  QTest::keyClick(&tree(), Qt::Key_Delete);
+  QTest::qWait(20);
+  EXPECT_EQ(branch(), "main");
+  EXPECT_EQ(rows(), QStringList({QString::fromUtf8("▶ main"), ".Untouched", ".1", ".2"}));
+  EXPECT_TRUE(settled());
+  EXPECT_EQ(library().open("ball").dissection.history().branches().size(), 1u);
+  QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_TRUE(rows().contains("..retrosigmoid"));
+  EXPECT_TRUE(settled());
+  EXPECT_EQ(library().open("ball").dissection.history().branches().size(), 2u);
+
+  answer("deeper");
+  QTest::keyClick(&window(), Qt::Key_B, Qt::ControlModifier);
+  EXPECT_EQ(branch(), "deeper");
+  EXPECT_TRUE(rows().contains(QString::fromUtf8("..▶ deeper")));
+}
+
+TEST_F(Approaches, ThumbnailsAreDrawnOfTheRowsThatAreSeen)
+{
+  saveApproaches();
+  drawThumbnailsAfter = 0;
+  openWindow();
+  auto* thumbnails = window().findChild<StrokeThumbnails*>();
+  QTest::qWait(250);
+  EXPECT_TRUE(thumbnails->of(0).isNull()) << "the panel is hidden";
+  openPanel();
+  ASSERT_TRUE(waitFor(
+      [&]
+      {
+        return !thumbnails->of(0).isNull() && !thumbnails->of(1).isNull() &&
+               !thumbnails->of(2).isNull();
+      }));
+  const QImage untouched = thumbnails->of(dissection::History::kStart);
+  EXPECT_EQ(untouched.size(), QSize(StrokeThumbnails::kWidth, StrokeThumbnails::kHeight));
+  EXPECT_NE(thumbnails->of(0), untouched);
+  EXPECT_NE(thumbnails->of(0), thumbnails->of(1));
+  EXPECT_NE(thumbnails->of(1), thumbnails->of(2));
+  picture();
+}
+
+TEST_F(Approaches, AreComparedByOneKey)
+{
+  saveApproaches();
+  openWindow();
+  QTest::keyClick(&window(), Qt::Key_D, Qt::ControlModifier);
+  ASSERT_TRUE(comparison());
+  ASSERT_TRUE(waitFor([this] { return comparison()->table().rowCount() > 0; }));
+  EXPECT_TRUE(cell("Strokes, 1 in common", 1) == "2") << cell("Strokes", 1).toStdString();
+  EXPECT_EQ(cell("Drilling time", 2), "75.0 s");
+  // The nerve is a ball of 4 mm in one of 12: burrs of 3 mm leave 5.
+  EXPECT_NEAR(cell("Distance to nerve", 1).section(' ', 0, 0).toDouble(), 5.0, 0.31);
+  const auto [first, second] = comparison()->views();
+  EXPECT_TRUE(second->isVisible());
+  core::CameraPose camera = first->picture().camera();
+  camera.position = kBallCenter + Vector3d(0, -60, 30);
+  first->setCamera(camera);
+  EXPECT_EQ(second->picture().camera().position, camera.position) << "they turn together";
+  camera.position = kBallCenter + Vector3d(10, -60, 0);
+  second->setCamera(camera);
+  EXPECT_EQ(first->picture().camera().position, camera.position);
+
+  auto* slice = window().findChild<SliceColumn*>()->views()[0];
+  QTest::qWait(300);
+  const QImage before = slice->grab().toImage();
+  comparison()->findChild<QCheckBox*>("showDifference")->click();
+  EXPECT_FALSE(second->isVisible());
+  QTest::qWait(700);
+  const QString pictures = qEnvironmentVariable("PETROUS_GUI_PICTURES");
+  if (!pictures.isEmpty())
+    window().screen()->grabWindow(comparison()->winId()).save(pictures + "/comparison.png");
+  // Orange where main alone removed bone.
+  const QImage drawn = first->grabFramebuffer();
+  int orange = 0, blue = 0;
+  for (int y = 0; y < drawn.height(); ++y)
+    for (int x = 0; x < drawn.width(); ++x)
+    {
+      const QColor pixel = drawn.pixelColor(x, y);
+      orange += pixel.red() > 2 * pixel.blue() + 40;
+      blue += pixel.blue() > 2 * pixel.red() + 20;
+    }
+  EXPECT_GT(orange, 100);
+  EXPECT_GT(blue, 100);
+  QTest::keyClick(comparison(), Qt::Key_Escape);
+  EXPECT_TRUE(waitFor([this] { return !comparison(); }));
+  EXPECT_EQ(differentPixels(before, slice->grab().toImage()), 0) << "its colours went with it";
+}
+
+TEST_F(Approaches, AComparisonFollowsWhatIsUndone)
+{
+  saveApproaches();
+  openWindow();
+  QTest::keyClick(&window(), Qt::Key_D, Qt::ControlModifier);
+  ASSERT_TRUE(waitFor([this] { return comparison() && comparison()->table().rowCount() > 0; }));
+  QApplication::setActiveWindow(&window());
+  QTest::keyClick(&window(), Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_TRUE(waitFor([this] { return cell("Strokes, 1 in common", 1) == "1"; }));
+  EXPECT_EQ(cell("Removed there alone", 1), QString::fromUtf8("0.00 mm³"));
+  action("Close the case")->trigger();
+  EXPECT_TRUE(waitFor([this] { return !comparison(); }));
+}

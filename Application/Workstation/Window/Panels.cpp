@@ -16,6 +16,8 @@
 #include "RegistrationPanel.h"
 #include "SegmentController.h"
 #include "SegmentPanel.h"
+#include "ShareController.h"
+#include "SharePanel.h"
 #include "SliceController.h"
 #include "SlicesPanel.h"
 #include "StructuresPanel.h"
@@ -52,6 +54,8 @@ std::vector<PanelEntry> panelEntries()
        kNeedsCase, [](C c) -> Panel* { return c.attachments.panel(); }},
       {"measureDock", tr("Measurements"), Qt::CTRL + Qt::Key_M, Qt::LeftDockWidgetArea, kTabbed,
        kHidden, kNeedsCase, [](C c) -> Panel* { return c.measure.panel(); }},
+      {"shareDock", tr("Share"), Qt::SHIFT + Qt::Key_F12, Qt::LeftDockWidgetArea, kTabbed, kHidden,
+       kNeedsCase, [](C c) -> Panel* { return c.share.panel(); }},
   };
 }
 

@@ -20,6 +20,7 @@ class MeasureController;
 class PictureController;
 class RegistrationController;
 class SegmentController;
+class ShareController;
 class SliceController;
 
 /// The widget of a dock. A panel overrides what it wants to hear.
@@ -49,6 +50,7 @@ struct PanelContext
   AttachmentsController& attachments;
   MeasureController& measure;
   SliceController& slices;
+  ShareController& share;
 };
 
 struct PanelEntry

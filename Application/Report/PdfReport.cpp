@@ -55,9 +55,12 @@ public:
       return;
     const std::string before = std::setlocale(LC_ALL, nullptr);
     const QByteArray platform = qgetenv("QT_QPA_PLATFORM");
+    const QtMessageHandler told =
+        qInstallMessageHandler([](QtMsgType, const QMessageLogContext&, const QString&) {});
     qputenv("QT_QPA_PLATFORM", "offscreen");
     m_application = std::make_unique<QGuiApplication>(m_count, m_words);
     platform.isNull() ? qunsetenv("QT_QPA_PLATFORM") : qputenv("QT_QPA_PLATFORM", platform);
+    qInstallMessageHandler(told); // it was of folders of a desktop, which are not needed
     std::setlocale(LC_ALL, before.c_str());
   }
 
@@ -91,7 +94,7 @@ QString cellHtml(const ReportCell& cell, const QString& tag)
                 .arg(level(1), 2, 16, QChar('0'))
                 .arg(level(2), 2, 16, QChar('0'));
   }
-  QString text = escaped(cell.text);
+  QString text = escaped(presenters::shownText(cell));
   if (cell.isNumber)
     text.replace(' ', "&nbsp;");
   if (cell.isWarning)
@@ -120,7 +123,7 @@ QString tableHtml(const ReportTable& table)
       html += cellHtml(cell, "td");
     html += "</tr>";
   }
-  return html + "</table>";
+  return html + "</table><p style=\"font-size:3pt;margin:0px\">&nbsp;</p>";
 }
 
 QUrl urlOf(std::size_t picture)
@@ -143,8 +146,9 @@ QString picturesHtml(const std::vector<ReportPicture>& all,
       html += QString("<td width=\"%1%\" valign=\"top\">").arg(100 / inRow);
       if (n < all.size())
       {
-        html += QString("<img src=\"%1\" width=\"%2\" height=\"%3\"><br>"
-                        "<span style=\"font-size:7.5pt;color:%4\">%5</span>")
+        html += QString("<p style=\"margin:0px\"><img src=\"%1\" width=\"%2\" height=\"%3\"></p>"
+                        "<p style=\"font-size:7.5pt;color:%4;margin-top:5px;margin-bottom:2px\">%5"
+                        "</p>")
                     .arg(urlOf(pictures.size()).toString())
                     .arg(width)
                     .arg(width * all[n].height / std::max(all[n].width, 1))

@@ -311,6 +311,18 @@ private:
     return cell;
   }
 
+  static std::string volumeText(double volume)
+  {
+    return volume > 0.0 && volume < 0.005 ? "< 0.01 mm³" : core::fixedText(volume, 2) + " mm³";
+  }
+
+  // Underscores in names part no lines.
+  static std::string spaced(std::string name)
+  {
+    std::replace(name.begin(), name.end(), '_', ' ');
+    return name;
+  }
+
   static ReportCell textCell(std::string text)
   {
     ReportCell cell;
@@ -318,20 +330,27 @@ private:
     return cell;
   }
 
-  std::optional<std::array<float, 3>> colorOf(const std::string& structure) const
+  const appearance::StructureAppearance* lookOf(const std::string& structure) const
   {
     if (const auto* part = scene::findStructure(m_value, structure))
-      return part->look.color;
+      return &part->look;
     for (const scene::MeshPart& mesh : m_value.meshes)
       if (mesh.name == structure)
-        return mesh.look.color;
-    return std::nullopt;
+        return &mesh.look;
+    return nullptr;
+  }
+
+  bool isLumen(const std::string& structure) const
+  {
+    const auto* look = lookOf(structure);
+    return look && !look->solid;
   }
 
   ReportCell structureCell(const std::string& name) const
   {
     ReportCell cell = textCell(name);
-    cell.color = colorOf(name);
+    if (const auto* look = lookOf(name))
+      cell.color = look->color;
     return cell;
   }
 
@@ -410,8 +429,7 @@ private:
       }
       ReportCell injured = numberCell(one.injured, 2, "mm³");
       injured.isWarning = one.injured > 0.0;
-      if (one.injured <= 0.0)
-        injured.text = say("nothing");
+      injured.text = one.injured > 0.0 ? volumeText(one.injured) : say("nothing");
       table.table.rows.push_back({structureCell(one.name), distance, injured});
     }
     table.remarks.push_back(
@@ -427,7 +445,8 @@ private:
   };
 
   // Where the dissection came nearest to structures, and marks; else the crosshair.
-  std::vector<Place> keyPlaces(const std::vector<DissectionDistance>& distances) const
+  // What was injured counts most; a lumen is opened, and no danger.
+  std::vector<Place> keyPlaces(std::vector<DissectionDistance> distances) const
   {
     constexpr double kNear = 5.0;  // mm: of structures that count
     constexpr double kApart = 2.0; // mm: of places that differ
@@ -439,9 +458,12 @@ private:
                        [&](const Place& place) { return (place.point - point).norm() < kApart; }))
         places.push_back({name, point});
     };
+    std::stable_sort(distances.begin(), distances.end(),
+                     [](const DissectionDistance& a, const DissectionDistance& b)
+                     { return a.injured > b.injured; });
     for (const DissectionDistance& one : distances)
-      if (*one.distance.value <= kNear && places.size() < 3)
-        add(say("nearest to") + " " + one.name + ": " +
+      if (*one.distance.value <= kNear && places.size() < 3 && !isLumen(one.name))
+        add(say("nearest to") + " " + spaced(one.name) + ": " +
                 (*one.distance.value > 0.0 ? textOf(one.distance) : say("reached")),
             one.place);
     for (const scene::Measurement& one : m_value.measurements)
@@ -494,8 +516,8 @@ private:
   {
     std::string text;
     for (const dissection::TouchedStructure& one : touched)
-      text += (text.empty() ? "" : ", ") + m_withheld.name(one.name, "structure") + " " +
-              core::fixedText(one.volume, 2) + " mm³";
+      text += (text.empty() ? "" : ", ") + spaced(m_withheld.name(one.name, "structure")) + " " +
+              volumeText(one.volume);
     return text;
   }
 
@@ -618,8 +640,9 @@ private:
       row.push_back(volume ? cellOf(*volume) : textCell(say("unknown")));
       row.push_back(narrowest ? cellOf(*narrowest) : textCell(say("unknown")));
       row.push_back(textCell(voxelText(voxel)));
+      row.back().isNumber = true;
       const bool isResolved = narrowest && *narrowest->value >= 2.0 * voxel.maxCoeff();
-      row.push_back(textCell(say(isResolved ? "yes" : "no: thinner than two voxels")));
+      row.push_back(textCell(say(isResolved ? "yes" : "no")));
       row.back().isWarning = !isResolved;
       row.push_back(textCell(known.mr.empty() ? primaryName(m_value) : known.mr));
       table.table.rows.push_back(std::move(row));

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -69,7 +70,7 @@ void addCell(std::string& html, const ReportCell& cell)
               std::to_string(std::lround(255.0 * static_cast<double>((*cell.color)[c])));
     html += ")\"></span>";
   }
-  html += escapedHtml(cell.text) + "</td>";
+  html += escapedHtml(shownText(cell)) + "</td>";
 }
 
 void addTable(std::string& html, const ReportTable& table)
@@ -109,6 +110,14 @@ void addPictures(std::string& html, const std::vector<ReportPicture>& pictures)
 }
 
 } // namespace
+
+std::string shownText(const ReportCell& cell)
+{
+  std::string text = cell.text;
+  if (cell.color)
+    std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
 
 std::string escapedHtml(const std::string& text)
 {

@@ -99,7 +99,6 @@ const std::map<std::string, std::string>& germanTexts()
       {"Voxels", "Voxel"},
       {"Resolved", "Aufgelöst"},
       {"yes", "ja"},
-      {"no: thinner than two voxels", "nein: dünner als zwei Voxel"},
       {"Drawn on", "Gezeichnet auf"},
       {"Resolved: two voxels or more across at the narrowest of its extents. Of what is thinner, "
        "volume and distances say little.",

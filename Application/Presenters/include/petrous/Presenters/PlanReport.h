@@ -32,7 +32,7 @@ struct ReportOptions
   std::string made;        ///< ISO 8601 date that the report bears; empty: none
   std::string version;     ///< of the program
   int pictureWidth = 1200; ///< pixels of the 3-D pictures
-  int sliceWidth = 480;
+  int sliceWidth = 360;
   /// Whether a typed text, or a sentence of the program, may identify the patient (IdentityText);
   /// such a text is withheld unless `keepIdentity`. Null: every typed text is.
   std::function<bool(const std::string&)> mayIdentify;
@@ -47,7 +47,8 @@ struct ReportCell
   std::optional<double> uncertainty = {};
   bool isNumber = false; ///< aligned to the right
   bool isWarning = false;
-  std::optional<std::array<float, 3>> color = {}; ///< of a structure, shown before the text
+  /// Of a structure, shown before its name, of which underscores are written as spaces.
+  std::optional<std::array<float, 3>> color = {};
 };
 
 struct ReportTable
@@ -104,6 +105,9 @@ PlanReport planReport(scene::Case value, const ReportOptions& options,
 /// One self-contained file: pictures as data URIs, no script, nothing from elsewhere. A number's
 /// cell has its value and uncertainty, unrounded, as data-value and data-uncertainty.
 std::string htmlOf(const PlanReport& report);
+
+/// A cell's text as it is written.
+std::string shownText(const ReportCell& cell);
 
 /// "base64" of RFC 4648.
 std::string base64(const std::vector<std::uint8_t>& bytes);

@@ -331,7 +331,7 @@ TEST_F(RenderCommand, TurnsTheBallOnceAround)
   expectRefused("render ball --out " + quoted(m_folder / "one.mp4"), 2, "--turntable");
   expectRefused("render ball --turntable 1 --out " + out, 2, "2");
   expectRefused("render ball --turntable 4 --dpi 100 --out " + out, 2, "film");
-  expectRefused("render ball --along nothing --out " + out, 3, "nothing");
+  expectRefused("render ball --along nothing --out " + out, 3, "has no structures");
 }
 
 TEST_F(RenderCommand, FilmsAVideoOrNamesWhatIsMissing)

@@ -1,4 +1,4 @@
-#include <cstdio>
+#include <cmath>
 
 #include "CommandRunner.h"
 #include "petrous/Core/NumberText.h"
@@ -11,22 +11,55 @@ using petrous::testing::textOf;
 namespace
 {
 
-/// The built-in patient, drilled and measured.
+constexpr int kEdge = 28;        // voxels
+constexpr double kSpacing = 1.0; // mm
+constexpr double kMiddle = 0.5 * kSpacing * (kEdge - 1);
+
+/// A ball of bone with a nerve in it, drilled and measured.
 class ReportCommand : public CommandLine
 {
 protected:
+  template <class T, class Value>
+  std::string write(const std::string& name, const std::string& type, const Value& valueAt) const
+  {
+    std::ofstream file(m_folder / name, std::ios::binary);
+    file << "NRRD0004\ntype: " << type << "\ndimension: 3\nspace: left-posterior-superior\n"
+         << "sizes: 28 28 28\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n"
+         << "space origin: (0,0,0)\nencoding: raw\nendian: little\n\n";
+    for (int k = 0; k < kEdge; ++k)
+      for (int j = 0; j < kEdge; ++j)
+        for (int i = 0; i < kEdge; ++i)
+        {
+          const T value = valueAt(i * kSpacing, j * kSpacing, k * kSpacing);
+          file.write(reinterpret_cast<const char*>(&value), sizeof value);
+        }
+    return quoted(m_folder / name);
+  }
+
   void makeEar(const std::string& name = "ear") const
   {
-    makePatient("--dims 32,32,32 --spacing 1.5");
-    ASSERT_EQ(run("new " + word(name) + " --ct " + quoted(m_folder / "patient/ct") + " --labels " +
-                  quoted(m_folder / "patient/labels.seg.nrrd"))
-                  .code,
-              0);
-    json("drill " + word(name) + " --path " + quoted(writePath({-50, 0, 0}, {-45, 3, 3})) +
-         " --diameter 6");
+    const auto depth = [](double x, double y, double z, double middle, double radius)
+    {
+      return radius - std::sqrt(std::pow(x - middle, 2) + std::pow(y - kMiddle, 2) +
+                                std::pow(z - kMiddle, 2));
+    };
+    const std::string bone =
+        write<float>("bone.nrrd", "float",
+                     [&](double x, double y, double z)
+                     {
+                       return static_cast<float>(std::clamp(
+                           300.0 + 400.0 * depth(x, y, z, kMiddle, 11.0), -1000.0, 1800.0));
+                     });
+    const std::string nerve = write<unsigned char>(
+        "nerve.nrrd", "uchar",
+        [&](double x, double y, double z)
+        { return static_cast<unsigned char>(depth(x, y, z, 18.0, 3.0) > 0.0 ? 1 : 0); });
+    json("new " + word(name) + " --ct " + bone + " --labels nerve=" + nerve);
+    json("drill " + word(name) + " --path " +
+         quoted(writePath({-3.0, kMiddle, kMiddle}, {8.0, kMiddle, kMiddle})) + " --diameter 4");
     std::ofstream(m_folder / "points.csv") << "name,kind,x_mm,y_mm,z_mm\n"
-                                              "width,distance,-50,20,5\nwidth,distance,-47,24,17\n"
-                                              "bulb,,-48,21,7\n";
+                                              "width,distance,5,6,7\nwidth,distance,8,10,7\n"
+                                              "bulb,,12,13,14\n";
     json("measure " + word(name) + " --save --points " + quoted(m_folder / "points.csv"));
   }
   static Json section(const Json& report, const std::string& id)

@@ -513,7 +513,9 @@ void render(const Context& context, RenderOptions options)
 {
   Shot shot = parseShot(options);
   const std::vector<std::string> outputs = outputsOf(options);
-  context.refuseOverwriting({outputs.front(), outputs.back()}, {options.camera});
+  context.refuseOverwriting(outputs.size() > 2 ? std::vector{outputs.front(), outputs.back()}
+                                               : outputs, // of a film's files the names differ
+                            {options.camera});
   if (const std::string refusal =
           presenters::isVideo(options.out) ? presenters::videoRefusal() : std::string();
       !refusal.empty())

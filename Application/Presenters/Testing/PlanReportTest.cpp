@@ -23,7 +23,7 @@ scene::Case planned()
 {
   const core::GridGeometry grid({40, 32, 32}, Vector3d::Constant(0.5), {0.0, 0.0, 0.0});
   scene::Case value = shapes::shapeCase(grid, {{"facial nerve", shapes::ball({5.0, 8.0, 8.0}, 2.5)},
-                                               {"chorda", shapes::ball({15.0, 4.0, 4.0}, 0.6)}});
+                                               {"chorda", shapes::ball({15.0, 4.0, 4.0}, 0.4)}});
   value.name = "left ear";
   value.id = "3f2a90c1d4e5";
   value.description.side = scene::Side::Left;

@@ -272,3 +272,82 @@ TEST_F(RenderCommand, WithoutOpenGLNamesTheReferenceEngine)
   json(render("--engine reference"));
   ::unsetenv("__EGL_VENDOR_LIBRARY_DIRS");
 }
+
+TEST_F(RenderCommand, DrawsForPrintWithItsResolution)
+{
+  json("describe ball --side right");
+  const auto file = m_folder / "print.png";
+  // 127 mm at 100 dots per inch
+  const auto answer = json("render ball --view anterior --size 400x300 --width-mm 127 --dpi 100 "
+                           "--out " +
+                           quoted(file));
+  EXPECT_EQ(answer["size"][0], 500);
+  EXPECT_EQ(answer["size"][1], 375);
+  EXPECT_DOUBLE_EQ(answer["print"]["dpi"], 100.0);
+  EXPECT_NEAR(answer["print"]["width_mm"], 127.0, 1e-9);
+  const std::string png = textOf(file);
+  const auto number = [&png](std::size_t at) // most significant byte first
+  {
+    std::uint32_t value = 0;
+    for (std::size_t n = 0; n < 4; ++n)
+      value = (value << 8) | static_cast<unsigned char>(png[at + n]);
+    return value;
+  };
+  EXPECT_EQ(number(16), 500u); // IHDR
+  EXPECT_EQ(number(20), 375u);
+  const std::size_t at = png.find("pHYs");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_EQ(number(at + 4), 3937u); // 100 / 0.0254 m
+  // Perspective: the picture's height at the focal point over its pixels.
+  const auto& camera = answer["camera"];
+  double distance = 0.0;
+  for (std::size_t a = 0; a < 3; ++a)
+    distance += std::pow(
+        camera["position_mm"][a].get<double>() - camera["focal_point_mm"][a].get<double>(), 2);
+  const double height =
+      2.0 * std::sqrt(distance) * std::tan(camera["view_angle_deg"].get<double>() * M_PI / 360.0);
+  EXPECT_NEAR(answer["print"]["mm_per_pixel"], height / 375.0, 1e-9);
+  expectRefused("render ball --width-mm 2000 --dpi 2400 --out " + quoted(m_folder / "x.png"), 3,
+                "12000 are possible");
+  expectRefused("render ball --width-mm 100 --engine reference --out " + quoted(m_folder / "x.png"),
+                2, "for print");
+}
+
+TEST_F(RenderCommand, TurnsTheBallOnceAround)
+{
+  const std::string out = quoted(m_folder / "turn.png");
+  const auto answer = json("render ball --view anterior --size 64x48 --turntable 4 --out " + out);
+  EXPECT_EQ(answer["frames"], 4);
+  ASSERT_EQ(answer["files"].size(), 4u);
+  for (const char* name : {"turn-0001.png", "turn-0004.png"})
+    EXPECT_EQ(textOf(m_folder / name).substr(1, 3), "PNG") << name;
+  EXPECT_FALSE(std::filesystem::exists(m_folder / "turn-0005.png"));
+  // Half way round the camera is where it was, mirrored at the focal point but for its height.
+  const auto& first = answer["cameras"][0];
+  const auto& third = answer["cameras"][2];
+  for (std::size_t a = 0; a < 2; ++a)
+    EXPECT_NEAR(first["position_mm"][a].get<double>() + third["position_mm"][a].get<double>(),
+                2.0 * first["focal_point_mm"][a].get<double>(), 1e-6);
+  expectRefused("render ball --out " + quoted(m_folder / "one.mp4"), 2, "--turntable");
+  expectRefused("render ball --turntable 1 --out " + out, 2, "2");
+  expectRefused("render ball --turntable 4 --dpi 100 --out " + out, 2, "film");
+  expectRefused("render ball --along nothing --out " + out, 3, "has no structures");
+}
+
+TEST_F(RenderCommand, FilmsAVideoOrNamesWhatIsMissing)
+{
+  const std::string film =
+      "render ball --size 65x48 --turntable 3 --out " + quoted(m_folder / "turn.mp4");
+  if (std::system("command -v ffmpeg >/dev/null 2>&1") != 0)
+  {
+    expectRefused(film, 3, "needs the program ffmpeg");
+    EXPECT_FALSE(std::filesystem::exists(m_folder / "turn.mp4"));
+    return;
+  }
+  json(film);
+  EXPECT_EQ(textOf(m_folder / "turn.mp4").substr(4, 4), "ftyp");
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", "/nowhere", 1);
+  expectRefused(film, 3, "needs the program ffmpeg");
+  ::setenv("PATH", path.c_str(), 1);
+}

@@ -26,6 +26,7 @@ void addDrillCommand(CLI::App& app, Context& context);
 void addHistoryCommands(CLI::App& app, Context& context); ///< undo, redo, history, branch
 void addExportCommand(CLI::App& app, Context& context);
 void addRegisterCommand(CLI::App& app, Context& context);
+void addReportCommand(CLI::App& app, Context& context);
 void addSegmentCommand(CLI::App& app, Context& context);
 void addDoctorCommand(CLI::App& app, Context& context);
 

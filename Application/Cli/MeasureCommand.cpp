@@ -9,6 +9,7 @@
 #include "petrous/Core/InputFile.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Core/OutputFile.h"
+#include "petrous/Presenters/DissectionDistances.h"
 #include "petrous/Presenters/Measuring.h"
 #include "petrous/Presenters/PointProbe.h"
 #include "petrous/Scene/CaseField.h"
@@ -30,7 +31,7 @@ struct Options
 {
   std::string caseName, points, out, image;
   std::vector<std::string> between, dimensions, along, remove, wall;
-  bool save = false, list = false, withoutDamaged = false;
+  bool save = false, list = false, dissection = false, withoutDamaged = false;
 };
 
 struct Row
@@ -294,7 +295,7 @@ void measure(Context& context, const Options& options)
   library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
   const bool reads = !options.between.empty() || !options.dimensions.empty() ||
-                     !options.along.empty() || !options.wall.empty();
+                     !options.along.empty() || !options.wall.empty() || options.dissection;
   presenters::LeftOut leftOut;
   if (reads)
     leftOut = leaveOutDamaged(context, library, value, options.withoutDamaged);
@@ -375,10 +376,31 @@ void measure(Context& context, const Options& options)
     scene::setImages(distance, {between.images[0], between.images[1]});
     fresh.push_back(std::move(distance));
   }
+  if (options.dissection)
+  {
+    library.loadDissection(value);
+    nlohmann::json all = nlohmann::json::array();
+    for (const presenters::DissectionDistance& one :
+         presenters::dissectionDistances(value, progress))
+    {
+      answer.add(one.name, "structure", one.distance);
+      all.push_back({{"structure", one.name},
+                     {"distance_mm", orNull(one.distance.value)},
+                     {"uncertainty_mm", orNull(one.distance.uncertainty)},
+                     {"removed_mm3", one.injured},
+                     {"place_mm", vectorJson(one.place)}});
+    }
+    if (all.empty())
+      context.warn("case '" + value.name +
+                   "' has no distances of a dissection: nothing was "
+                   "drilled, or there are no structures");
+    answer.more["dissection"] = std::move(all);
+  }
   if (options.save)
     for (Measurement& one : fresh)
       keep(value, std::move(one));
-  const bool lists = options.list || (answer.rows.empty() && removed.empty());
+  const bool lists =
+      options.list || (answer.rows.empty() && removed.empty() && !options.dissection);
   if (lists)
   {
     for (const Measurement& one : value.measurements)
@@ -404,7 +426,7 @@ void measure(Context& context, const Options& options)
     for (const Row& row : answer.rows)
       context.print(row.name + ": " + row.quantity.name + " " + presenters::toString(row.quantity) +
                     (row.quantity.remark.empty() ? "" : "  (" + row.quantity.remark + ")"));
-  if (answer.rows.empty() && removed.empty())
+  if (answer.rows.empty() && removed.empty() && !options.dissection)
     context.print("case '" + value.name +
                   "' has no measurements and no structures; see 'petrous measure --help'");
   nlohmann::json measurements = nlohmann::json::array();
@@ -459,6 +481,8 @@ void addMeasureCommand(CLI::App& app, Context& context)
                    "shortest; may be repeated")
       ->type_name("x,y,z")
       ->allow_extra_args(false);
+  command->add_flag("--dissection", options->dissection,
+                    "Shortest distance of what was drilled from each structure, nearest first");
   command->add_flag("--save", options->save, "Keep in the case what was measured");
   command->add_flag("--list", options->list,
                     "All measurements of the case and volumes of its structures (the default)");

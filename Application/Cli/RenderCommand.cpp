@@ -18,13 +18,18 @@
 #include "ViewOptions.h"
 #include "petrous/Core/CameraPose.h"
 #include "petrous/Core/InputFile.h"
+#include "petrous/Core/OutputFile.h"
 #include "petrous/Presenters/BoneThickness.h"
+#include "petrous/Presenters/CameraPaths.h"
 #include "petrous/Presenters/CasePicture.h"
+#include "petrous/Presenters/FilmFile.h"
+#include "petrous/Presenters/LabelledPicture.h"
 #include "petrous/Presenters/LeavingImages.h"
 #include "petrous/Presenters/ProvenanceText.h"
 #include "petrous/Presenters/SceneAssembly.h"
 #include "petrous/Rendering/OffscreenView.h"
 #include "petrous/Rendering/PictureText.h"
+#include "petrous/Rendering/PrintPicture.h"
 #include "petrous/Rendering/ReferenceRayCaster.h"
 #include "petrous/Rendering/RenderingError.h"
 #include "petrous/Rendering/SceneContents.h"
@@ -50,9 +55,16 @@ struct RenderOptions
   std::vector<std::string> clip;
   std::optional<double> eyeSeparation, convergence;
   std::optional<double> falloff, wetness;
+  std::optional<double> widthMillimetres, dotsPerInch;
+  std::string along;
+  int turntable = 0, frames = 0; ///< 0: not given
+  double framesPerSecond = 25.0;
   bool plain = false;
   bool isSavedRig = false; ///< the eyes are as the case was saved with
   bool withoutDamaged = false, maskFace = false;
+
+  bool isPrint() const { return widthMillimetres || dotsPerInch; }
+  bool isFilm() const { return turntable > 0 || !along.empty(); }
 };
 
 /// Size, camera and stereo mode of a picture.
@@ -65,11 +77,42 @@ struct Shot
   std::vector<core::CameraPose> eyes; ///< one, or left and right
 };
 
+// What does not go together with pictures for print and with films.
+void checkKind(const RenderOptions& options)
+{
+  if (options.isPrint() && options.isFilm())
+    throw UsageError("render: --width-mm and --dpi are for one picture, not for a film");
+  if (options.turntable > 0 && !options.along.empty())
+    throw UsageError("render: give --turntable or --along, not both");
+  if (options.frames > 0 && options.along.empty())
+    throw UsageError("--frames goes with --along; of a turntable give --turntable N");
+  if (!options.isFilm() && presenters::isVideo(options.out))
+    throw UsageError("--out: a video goes with --turntable or --along, not one picture");
+  if (!options.isPrint() && !options.isFilm())
+    return;
+  const char* what = options.isFilm() ? "a film" : "a picture for print";
+  if (options.engine != "gpu" || !options.depth.empty() ||
+      (!options.stereo.empty() && options.stereo != "none"))
+    throw UsageError(std::string("render: ") + what +
+                     " takes no --engine reference, --depth or --stereo");
+}
+
 // Everything that needs no case. Throws UsageError for invalid values.
 Shot parseShot(const RenderOptions& options)
 {
   Shot shot;
   std::tie(shot.width, shot.height) = parseSize(options.size);
+  checkKind(options);
+  if (options.widthMillimetres)
+  {
+    rendering::PrintSize size;
+    size.widthMillimetres = *options.widthMillimetres;
+    size.dotsPerInch = options.dotsPerInch.value_or(size.dotsPerInch);
+    size.heightToWidth = static_cast<double>(shot.height) / shot.width;
+    size.validate();
+    shot.width = size.width();
+    shot.height = size.height();
+  }
   if (options.stereo == "none" && (options.eyeSeparation || options.convergence))
     throw UsageError("--eye-separation and --convergence need --stereo");
   parsePlanes(options.clip);
@@ -102,6 +145,8 @@ void takeView(RenderOptions& options, Shot& shot, const scene::ViewState& saved)
     options.falloff = view.light->falloff;
   if (view.light && !options.wetness)
     options.wetness = view.light->wetness;
+  if (options.isPrint() || options.isFilm())
+    options.stereo = "none";
   shot.stereo = *rendering::parseStereoMode(options.stereo);
   if (shot.stereo == rendering::StereoMode::SideBySide && shot.width % 2 != 0)
     throw UsageError("--size: side by side needs an even width, not " + std::to_string(shot.width));
@@ -129,8 +174,36 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
   command.add_option("CASE", options.caseName)->required();
   command.add_option("--out", options.out, "Picture to write")
       ->type_name("F.png")
-      ->check(endsIn(".png"))
+      ->check(endsIn(".png") | endsIn(".mp4"))
       ->required();
+  command
+      .add_option("--width-mm", options.widthMillimetres,
+                  "Width on paper, in place of --size, which gives the shape; with scale bar and "
+                  "side")
+      ->type_name("MM")
+      ->check(within({1.0, 5000.0, "mm"}));
+  command
+      .add_option("--dpi", options.dotsPerInch,
+                  "Dots per inch on paper, which the file states; with scale bar and side (300)")
+      ->type_name("N")
+      ->check(within({10.0, 2400.0}));
+  command
+      .add_option("--turntable", options.turntable,
+                  "A film of N frames once around the patient: F-0001.png, ..., or a video F.mp4, "
+                  "which needs ffmpeg")
+      ->type_name("N")
+      ->transform(wholeNumber(2, presenters::kMaxFrames));
+  command
+      .add_option("--along", options.along,
+                  "A film of a flight along the centre line of a canal or nerve, which is not "
+                  "drawn")
+      ->type_name("STRUCTURE");
+  command.add_option("--frames", options.frames, "Frames of the flight (250)")
+      ->type_name("N")
+      ->transform(wholeNumber(2, presenters::kMaxFrames));
+  command.add_option("--fps", options.framesPerSecond, "Frames per second of a video (25)")
+      ->type_name("N")
+      ->check(within({1.0, 120.0}));
   command.add_option("--size", options.size, "Pixels (800x600)")->type_name("WxH");
   command
       .add_option("--view", options.view,
@@ -190,6 +263,15 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
       ->type_name("F.npy")
       ->check(endsIn(".npy"));
   addWithoutDamaged(command, options.withoutDamaged);
+}
+
+std::size_t framesOf(const RenderOptions& options)
+{
+  constexpr int kOfFlight = 250;
+  const int frames = options.turntable > 0 ? options.turntable
+                     : options.frames > 0  ? options.frames
+                                           : kOfFlight;
+  return static_cast<std::size_t>(frames);
 }
 
 // Output of a rendering.
@@ -333,6 +415,31 @@ Result draw(const Context& context, const RenderOptions& options, const Shot& sh
   }
 }
 
+// In tiles, with scale bar and side.
+Result drawForPrint(const Context& context, const RenderOptions& options, const Shot& shot,
+                    const scene::Case& value)
+{
+  Result result;
+  rendering::ScenePicture picture;
+  picture.setContents(renderContents(options, value));
+  const auto start = std::chrono::steady_clock::now();
+  result.picture =
+      rendering::renderTiled(picture, shot.camera, shot.width, shot.height, context.progress());
+  const double elapsed =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  const double magnified = std::max(shot.height / 600.0, 1.0);
+  presenters::addLines(result.picture, {presenters::sideText(value.description.side)}, magnified);
+  presenters::addScaleBar(result.picture, rendering::millimetresPerPixel(shot.camera, shot.height),
+                          shot.camera.parallelScale ? "" : "in the focal plane", magnified);
+  const rendering::RenderStatistics statistics = picture.statistics();
+  result.resources = picture.resources();
+  result.report = {{"milliseconds", elapsed},      {"first_frame_milliseconds", elapsed},
+                   {"gl_renderer", nullptr},       {"variant", statistics.variant},
+                   {"fetches_per_pixel", nullptr}, {"samples_per_pixel", nullptr},
+                   {"notes", statistics.notes}};
+  return result;
+}
+
 // The colour scale, for the picture's reader.
 nlohmann::json thicknessJson(const RenderOptions& options)
 {
@@ -360,10 +467,59 @@ rendering::StereoGeometry stereoOf(const RenderOptions& options, const core::Cam
   }
 }
 
+std::vector<std::string> outputsOf(const RenderOptions& options)
+{
+  if (!options.isFilm())
+    return {options.out, options.depth};
+  std::vector<std::string> files;
+  for (const auto& file : presenters::filmFiles(options.out, framesOf(options)))
+    files.push_back(file.string());
+  return files;
+}
+
+void writeFilm(const Context& context, const RenderOptions& options, const Shot& shot,
+               scene::Case value)
+{
+  constexpr double kLine = 0.05; // of the work, to find the centre line
+  const core::Progress progress = context.progress();
+  const int frames = static_cast<int>(framesOf(options));
+  const auto cameras = options.along.empty() ? presenters::turntable(shot.camera, frames)
+                                             : presenters::flightAlong(value, options.along, frames,
+                                                                       progress.part(0.0, kLine));
+  presenters::FilmOptions film;
+  film.width = shot.width;
+  film.height = shot.height;
+  film.framesPerSecond = options.framesPerSecond;
+  film.lines = {presenters::sideText(value.description.side)};
+  for (const std::string& line : presenters::interpolatedTexts(value))
+    film.lines.push_back(line);
+  context.refuseDamaged();
+  presenters::writeFilm(options.out, renderContents(options, value), cameras, film,
+                        progress.part(kLine, 1.0));
+  nlohmann::json path = nlohmann::json::array();
+  for (const core::CameraPose& camera : cameras)
+    path.push_back(cameraJson(camera));
+  context.print(options.out + ": " + std::to_string(frames) + " frames, " +
+                std::to_string(shot.width) + "x" + std::to_string(shot.height));
+  context.printJson({{"case", value.name},
+                     {"size", {shot.width, shot.height}},
+                     {"frames", frames},
+                     {"cameras", std::move(path)},
+                     {"files", outputsOf(options)},
+                     {"out", options.out}});
+}
+
 void render(const Context& context, RenderOptions options)
 {
   Shot shot = parseShot(options);
-  context.refuseOverwriting({options.out, options.depth}, {options.camera});
+  const std::vector<std::string> outputs = outputsOf(options);
+  context.refuseOverwriting(outputs.size() > 2 ? std::vector{outputs.front(), outputs.back()}
+                                               : outputs, // of a film's files the names differ
+                            {options.camera});
+  if (const std::string refusal =
+          presenters::isVideo(options.out) ? presenters::videoRefusal() : std::string();
+      !refusal.empty())
+    throw core::InvalidParameter(options.out + ": " + refusal);
   const library::Library library = context.openLibrary();
   scene::Case value = library.open(options.caseName);
   takeView(options, shot, value.view);
@@ -392,13 +548,16 @@ void render(const Context& context, RenderOptions options)
       context.warn(note);
   }
 
-  Result result = draw(context, options, shot, renderContents(options, value));
+  if (options.isFilm())
+    return writeFilm(context, options, shot, std::move(value));
+  Result result = options.isPrint() ? drawForPrint(context, options, shot, value)
+                                    : draw(context, options, shot, renderContents(options, value));
   if (!options.thickness.empty())
     rendering::drawThicknessLegend(result.picture, options.thickness,
                                    presenters::kFarthestThickness);
   constexpr int kMargin = 8; // pixels
   constexpr int kLine = 14;
-  double row = kMargin;
+  double row = options.isPrint() ? kMargin + 2.0 * kLine : kMargin; // beneath the side
   for (const std::string& line : presenters::interpolatedTexts(value))
   {
     rendering::writeText(result.picture, line, {double(kMargin), row, 0.0, 0.0}, kLine,
@@ -407,7 +566,13 @@ void render(const Context& context, RenderOptions options)
     context.warn(line + "; small structures may be absent there");
   }
   context.refuseDamaged();
-  rendering::writePng(options.out, result.picture);
+  if (options.isPrint())
+  {
+    const auto png = rendering::pngOf(result.picture, options.dotsPerInch.value_or(300.0));
+    core::writeFile(options.out, {reinterpret_cast<const char*>(png.data()), png.size()});
+  }
+  else
+    rendering::writePng(options.out, result.picture);
   if (result.depth)
     rendering::writeNpy(options.depth, *result.depth);
   for (const auto& note : result.report.at("notes"))
@@ -426,7 +591,13 @@ void render(const Context& context, RenderOptions options)
   if (!options.thickness.empty())
     context.print("bone is coloured by its thickness over '" + options.thickness +
                   "': blue 0 mm, red 2.5 mm, yellow 5 mm, thicker in its own colour");
-  context.print(options.out + ": " + options.size + ", " +
+  if (options.isPrint())
+    result.report["print"] = {
+        {"dpi", options.dotsPerInch.value_or(300.0)},
+        {"width_mm", shot.width * 25.4 / options.dotsPerInch.value_or(300.0)},
+        {"mm_per_pixel", rendering::millimetresPerPixel(shot.camera, shot.height)}};
+  context.print(options.out + ": " + std::to_string(shot.width) + "x" +
+                std::to_string(shot.height) + ", " +
                 fixed(result.report["milliseconds"].get<double>(), 0) + " ms");
   context.printJson(result.report);
 }

@@ -61,6 +61,7 @@ void addCommands(CLI::App& app, cli::Context& context)
   cli::addHistoryCommands(app, context);
   cli::addExportCommand(app, context);
   cli::addRegisterCommand(app, context);
+  cli::addReportCommand(app, context);
   context
       .addCommand(app, "bench", "Benchmarks: run time against error (the package petrous-bench)",
                   []

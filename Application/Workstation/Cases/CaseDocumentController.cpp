@@ -1387,7 +1387,7 @@ void CaseDocumentController::openFiles()
 }
 
 // What is written is what the command would write: the case as it is saved.
-void CaseDocumentController::exportPart()
+void CaseDocumentController::exportPart(const QString& what, const QString& part)
 {
   if (!m_model.hasCase())
     return;
@@ -1401,7 +1401,19 @@ void CaseDocumentController::exportPart()
     const FaceCheck faces = lookForFaces(m_model.value(), m_window);
     if (!m_model.hasCase())
       return;
-    ExportDialog dialog(m_model.value(), faces, m_exported, &m_window);
+    std::optional<ExportDialog::Choices> proposed = m_exported;
+    if (!what.isEmpty())
+    {
+      // The name follows what is chosen, in the folder of the last one.
+      ExportDialog::Choices chosen = m_exported.value_or(ExportDialog::Choices());
+      chosen.caseName.clear();
+      chosen.what = what;
+      chosen.part = part;
+      if (chosen.path.isEmpty())
+        chosen.path = QDir::home().filePath("x");
+      proposed = chosen;
+    }
+    ExportDialog dialog(m_model.value(), faces, proposed, &m_window);
     if (dialog.exec() != QDialog::Accepted || !m_model.hasCase())
       return;
     options = dialog.options();

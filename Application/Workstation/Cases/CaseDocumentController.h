@@ -59,7 +59,9 @@ public:
   /// the case. False: it was not done; tells why.
   bool changeParts(const std::function<void()>& change);
 
-  void exportPart();                     ///< for other programs, with a dialog
+  /// For other programs, with a dialog, in which `what` and `part` (presenters::ExportOptions) are
+  /// chosen; empty: what was chosen last.
+  void exportPart(const QString& what = {}, const QString& part = {});
   void archive();                        ///< the open case to one file, with a dialog
   void archive(const std::string& name); ///< likewise any case of the library
   void restore();                        ///< the case of an archive, with a dialog
@@ -96,6 +98,7 @@ public:
   bool mayLeave();
 
   bool busy() const noexcept { return m_work.busy() || m_preparation.busy(); }
+  bool writing() const noexcept { return m_work.busy() || m_asking; } ///< or reading: one at a time
 
 signals:
   void statusMessage(const QString& line); ///< for the status bar

@@ -54,6 +54,7 @@
 #include "RegistrationController.h"
 #include "SegmentController.h"
 #include "SettingsDialog.h"
+#include "ShareController.h"
 #include "SliceColumn.h"
 #include "SliceController.h"
 #include "StartPage.h"
@@ -182,6 +183,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_attachments(new AttachmentsController(m_model, *m_view, *this))
   , m_viewState(new ViewStateController(m_model, *m_view, *m_slices, *m_picture, *m_registration,
                                         *m_bar, *this))
+  , m_share(new ShareController(m_model, *m_keeper, *m_exchange, *m_view, *this))
 {
   applyTheme(*qApp, m_settings->theme());
   addPanels();
@@ -196,6 +198,8 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   m_branches->camera = [this] { return m_viewState->camera(); };
   m_branches->showCamera = [this](const core::CameraPose& camera)
   { m_viewState->showCamera(camera); };
+  m_share->releaseTool = [this] { m_drill->releaseTool(); };
+  m_share->collectView = [this] { m_viewState->collect(); };
   m_keeper->setParent(this);
   m_saver->setParent(this);
   m_saver->aboutToSave = [this] { m_viewState->collect(); };
@@ -350,8 +354,9 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event)
 
 void MainWindow::addPanels()
 {
-  const PanelContext context{m_model,        *m_picture, *m_registration, *m_segment,  *m_library,
-                             *m_attachments, *m_measure, *m_sliceControl, *m_branches, *m_strokes};
+  const PanelContext context{m_model,     *m_picture,     *m_registration, *m_segment,
+                             *m_library,  *m_attachments, *m_measure,      *m_sliceControl,
+                             *m_branches, *m_strokes,     *m_share};
   std::map<Qt::DockWidgetArea, QDockWidget*> tabs;
   for (const PanelEntry& entry : panelEntries())
   {
@@ -526,6 +531,7 @@ void MainWindow::connectModel()
   connect(m_branches, &BranchController::statusMessage, this, showMessage);
   connect(m_library, &LibraryController::statusMessage, this, showMessage);
   connect(m_exchange, &ExchangeController::statusMessage, this, showMessage);
+  connect(m_share, &ShareController::statusMessage, this, showMessage);
   connect(m_library->panel(), &LibraryPanel::sendAsked, m_exchange,
           [this](const QString& name) {
             guarded([&] { m_exchange->send(bytes(name)); },
@@ -583,6 +589,9 @@ void MainWindow::connectActions()
        m_keeper->archive();
      });
   on(m_actions->restore, [this] { m_keeper->restore(); });
+  on(m_actions->report, [this] { m_share->report(); });
+  on(m_actions->printPicture, [this] { m_share->printPicture(); });
+  on(m_actions->film, [this] { m_share->film(); });
   on(m_actions->quit, [this] { close(); });
   on(m_actions->undo,
      [this] {

@@ -40,6 +40,7 @@ class PictureController;
 class ProbeLabel;
 class RegistrationController;
 class SegmentController;
+class ShareController;
 class SliceColumn;
 class SliceController;
 class StartPage;
@@ -168,6 +169,7 @@ private:
   ExchangeController* m_exchange;
   AttachmentsController* m_attachments;
   ViewStateController* m_viewState;
+  ShareController* m_share;
   std::vector<std::pair<PanelEntry, Panel*>> m_panels;
   ThicknessController* m_thickness;
   Bindings m_bound;

@@ -18,6 +18,8 @@
 #include "RegistrationPanel.h"
 #include "SegmentController.h"
 #include "SegmentPanel.h"
+#include "ShareController.h"
+#include "SharePanel.h"
 #include "SliceController.h"
 #include "SlicesPanel.h"
 #include "StructuresPanel.h"
@@ -84,6 +86,8 @@ std::vector<PanelEntry> panelEntries()
        kHidden, kNeedsCase, [](C c) -> Panel* { return c.measure.panel(); }},
       {"approachDock", tr("Approaches"), Qt::SHIFT + Qt::Key_F9, Qt::LeftDockWidgetArea, kTabbed,
        kHidden, kNeedsCase, approachPanel},
+      {"shareDock", tr("Share"), Qt::SHIFT + Qt::Key_F12, Qt::LeftDockWidgetArea, kTabbed, kHidden,
+       kNeedsCase, [](C c) -> Panel* { return c.share.panel(); }},
   };
 }
 

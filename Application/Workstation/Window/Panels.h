@@ -21,6 +21,7 @@ class MeasureController;
 class PictureController;
 class RegistrationController;
 class SegmentController;
+class ShareController;
 class SliceController;
 class StrokeThumbnails;
 
@@ -53,6 +54,7 @@ struct PanelContext
   SliceController& slices;
   BranchController& branches;
   StrokeThumbnails& strokes;
+  ShareController& share;
 };
 
 struct PanelEntry

@@ -90,6 +90,14 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   closeCase = make(file, tr("&Close the case"), QKeySequence(Qt::CTRL + Qt::Key_W),
                    tr("Saves the case, and goes back to the first page"));
   file->addSeparator();
+  report = make(file, tr("Plan &report…"), QKeySequence::Print,
+                tr("The plan as PDF or HTML: pictures, distances with uncertainty, strokes, "
+                   "measurements"));
+  printPicture = make(file, tr("&Picture for print…"), Qt::CTRL + Qt::SHIFT + Qt::Key_S,
+                      tr("The 3D view as a PNG of any size, with scale bar and side"));
+  film = make(file, tr("F&ilm…"), {},
+              tr("Once around the patient, or a flight along a canal or nerve"));
+  file->addSeparator();
   quit = make(file, tr("&Quit"), QKeySequence::Quit, tr("Save and quit"));
 
   QMenu* edit = window.menuBar()->addMenu(tr("&Edit"));
@@ -233,6 +241,9 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
 
   m_needCase.insert(m_needCase.end(), {save,
                                        saveAs,
+                                       report,
+                                       printPicture,
+                                       film,
                                        closeCase,
                                        attach,
                                        clipHere,

@@ -41,6 +41,9 @@ public:
   QAction* sample;
   QAction* save;
   QAction* saveAs;
+  QAction* report;
+  QAction* printPicture;
+  QAction* film;
   QAction* closeCase;
   QAction* quit;
   QMenu* casePart; ///< the Case menu; the window completes it

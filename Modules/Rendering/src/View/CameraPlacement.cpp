@@ -1,8 +1,12 @@
 #include "CameraPlacement.h"
 
+#include <cmath>
+
 #include <vtkCamera.h>
 #include <vtkMatrix4x4.h>
 #include <vtkRenderer.h>
+
+#include "petrous/Rendering/ScenePicture.h"
 
 namespace petrous::rendering
 {
@@ -23,6 +27,23 @@ void shiftLens(vtkRenderer* renderer, const core::CameraPose& pose)
 {
   renderer->GetActiveCamera()->SetWindowCenter(pose.lensShift / renderer->GetTiledAspectRatio(),
                                                0.0);
+}
+
+// The lens is shifted in half sizes of the window, whose image plane is that of the whole picture.
+void aimAtTile(vtkRenderer* renderer, const core::CameraPose& pose, const PictureTile& tile)
+{
+  constexpr double kHalfDegree = 3.14159265358979323846 / 360.0;
+  const int* size = renderer->GetSize();
+  const double share = static_cast<double>(size[1]) / tile.height;
+  vtkCamera* camera = renderer->GetActiveCamera();
+  if (pose.parallelScale)
+    camera->SetParallelScale(share * *pose.parallelScale);
+  else
+    camera->SetViewAngle(std::atan(share * std::tan(pose.viewAngle * kHalfDegree)) / kHalfDegree);
+  const double right =
+      tile.left + 0.5 * (size[0] - tile.width) + 0.5 * pose.lensShift * tile.height;
+  const double down = tile.top + 0.5 * (size[1] - tile.height);
+  camera->SetWindowCenter(2.0 * right / size[0], -2.0 * down / size[1]);
 }
 
 RayView raysOf(vtkCamera* camera, double aspect, const Eigen::Matrix4d& worldFromPatient)

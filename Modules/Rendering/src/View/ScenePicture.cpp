@@ -207,6 +207,7 @@ public:
 
   vtkWeakPointer<vtkRenderer> renderer;
   core::CameraPose pose;
+  std::optional<PictureTile> tile;
   std::shared_ptr<const volume::LabelField> labels; // whose indices were checked to have materials
   std::size_t materials = 0;
   vtkNew<vtkPetrousVolumeMapper> mapper;
@@ -249,7 +250,10 @@ void ScenePicture::Implementation::startFrame()
 {
   // The clipping range follows the props, whoever moved them or the camera.
   renderer->ResetCameraClippingRange();
-  shiftLens(renderer, pose);
+  if (tile)
+    aimAtTile(renderer, pose, *tile);
+  else
+    shiftLens(renderer, pose);
   drawn = interactive ? interaction.coarser(quality) : quality;
   mapper->SetQuality(drawn);
   // The light is at the camera, as in the ray caster; a parallel projection has no such position.
@@ -385,7 +389,7 @@ ScenePicture::~ScenePicture() = default;
 
 void ScenePicture::attach(vtkRenderer* renderer)
 {
-  if (m_implementation->renderer)
+  if (m_implementation->renderer && !m_implementation->tile)
     m_implementation->pose = camera();
   m_implementation->attach(renderer);
 }
@@ -418,6 +422,12 @@ void ScenePicture::setTool(const std::optional<ToolPose>& tool)
 void ScenePicture::setCamera(const core::CameraPose& pose)
 {
   m_implementation->pose = pose;
+  m_implementation->applyCamera();
+}
+
+void ScenePicture::setTile(const std::optional<PictureTile>& tile)
+{
+  m_implementation->tile = tile;
   m_implementation->applyCamera();
 }
 

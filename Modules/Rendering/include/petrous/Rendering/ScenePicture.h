@@ -16,6 +16,15 @@ class vtkRenderer;
 namespace petrous::rendering
 {
 
+/// What a window shows of a larger picture; pixels.
+struct PictureTile
+{
+  int width = 0; ///< of the whole picture
+  int height = 0;
+  int left = 0; ///< of the window in it; the window may reach beyond it
+  int top = 0;
+};
+
 /// The scene as props in a VTK renderer, used by both the window and the command line.
 ///
 /// CT, structures, cut mask and second image are drawn by vtkPetrousVolumeMapper from the same
@@ -49,6 +58,11 @@ public:
 
   void setCamera(const core::CameraPose& pose);
   core::CameraPose camera() const;
+
+  /// Until called without a tile, the window shows that part of the picture of `setCamera`, as it
+  /// would be were the window as large as the picture; `camera` and `pick` are not to be used. See
+  /// TiledPicture.h.
+  void setTile(const std::optional<PictureTile>& tile);
 
   /// While interactive, pictures are coarsened to reach the target rate (default 30 Hz; throws
   /// InvalidParameter outside 1 to 240); the next frame after it has full quality. The machine's

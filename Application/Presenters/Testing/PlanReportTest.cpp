@@ -1,0 +1,225 @@
+#include "petrous/Presenters/PlanReport.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "ShapeCase.h"
+#include "petrous/Core/Error.h"
+#include "petrous/Core/NumberText.h"
+#include "petrous/Presenters/IdentityText.h"
+#include "petrous/Presenters/Measuring.h"
+#include "petrous/Scene/Branches.h"
+
+using namespace petrous;
+using namespace petrous::presenters;
+namespace shapes = petrous::presenters::testing;
+using Eigen::Vector3d;
+
+namespace
+{
+
+scene::Case planned()
+{
+  const core::GridGeometry grid({40, 32, 32}, Vector3d::Constant(0.5), {0.0, 0.0, 0.0});
+  scene::Case value = shapes::shapeCase(grid, {{"facial nerve", shapes::ball({5.0, 8.0, 8.0}, 2.5)},
+                                               {"chorda", shapes::ball({15.0, 4.0, 4.0}, 0.4)}});
+  value.name = "left ear";
+  value.id = "3f2a90c1d4e5";
+  value.description.side = scene::Side::Left;
+  value.description.date = "2026-12-24";
+  value.ct.provenance.interpolated = {{3, 4}};
+  const auto drill = [&value](const Vector3d& at, double seconds)
+  {
+    dissection::StrokeInfo info;
+    info.burr = {dissection::Burr::Kind::Diamond, 4.0, 30000.0};
+    info.duration = seconds;
+    value.dissection.beginStroke(info);
+    value.dissection.cut({at, at, 2.0});
+    value.dissection.openInfo().removed = 33.5;
+    value.dissection.endStroke();
+  };
+  drill({12.0, 8.0, 8.0}, 1.5);
+  drill({12.0, 9.0, 8.0}, 2.0);
+  scene::startBranch(value, "second way", 1);
+  drill({11.0, 8.0, 8.0}, 4.0);
+  scene::goToBranch(value, "main");
+  scene::Measurement width;
+  width.kind = scene::Measurement::Kind::Distance;
+  width.name = "width";
+  width.points = {{1.0, 1.0, 1.0}, {4.0, 5.0, 1.0}};
+  value.measurements = {width};
+  return value;
+}
+
+ReportOptions small()
+{
+  ReportOptions options;
+  options.pictureWidth = 160;
+  options.sliceWidth = 96;
+  options.mayIdentify = [](const std::string&) { return false; };
+  return options;
+}
+
+const ReportSection* find(const PlanReport& report, const std::string& id)
+{
+  const auto found = std::find_if(report.sections.begin(), report.sections.end(),
+                                  [&](const ReportSection& one) { return one.id == id; });
+  return found == report.sections.end() ? nullptr : &*found;
+}
+
+} // namespace
+
+TEST(PlanReport, HasStrokesAndTimeOfEachApproach)
+{
+  const PlanReport report = planReport(planned(), small());
+  const ReportSection* approaches = find(report, "approaches");
+  ASSERT_TRUE(approaches);
+  ASSERT_EQ(approaches->table.rows.size(), 2U);
+  EXPECT_EQ(approaches->table.rows[0][1].value, 2.0);
+  EXPECT_EQ(approaches->table.rows[0][2].value, 3.5); // 1.5 s + 2 s
+  EXPECT_EQ(approaches->table.rows[1][2].value, 5.5); // 1.5 s + 4 s
+  const ReportSection* strokes = find(report, "strokes");
+  ASSERT_TRUE(strokes);
+  ASSERT_EQ(strokes->table.rows.size(), 3U) << "and their sum";
+  EXPECT_EQ(strokes->table.rows[0][1].text, "4.0 mm, diamond");
+  EXPECT_EQ(strokes->table.rows[0][4].text, "33.50 mm³");
+  EXPECT_EQ(strokes->table.rows[2][3].value, 3.5);
+
+  ReportOptions second = small();
+  for (const char* name : {"2", "second way"})
+  {
+    second.approach = name;
+    const PlanReport other = planReport(planned(), second);
+    EXPECT_EQ(find(other, "strokes")->table.rows[1][0].value, 3.0) << "the third that was drilled";
+    EXPECT_LT(*find(other, "distances")->table.rows[0][1].value,
+              *find(report, "distances")->table.rows[0][1].value)
+        << "a millimetre nearer";
+  }
+  second.approach = "7";
+  EXPECT_THROW(planReport(planned(), second), core::InvalidParameter);
+}
+
+TEST(PlanReport, SaysWhatIsNotResolvedAndWhatWasGuessed)
+{
+  const PlanReport report = planReport(planned(), small());
+  const ReportTable& structures = find(report, "structures")->table;
+  ASSERT_EQ(structures.rows.size(), 2U);
+  EXPECT_EQ(structures.rows[0][4].text, "yes");
+  EXPECT_EQ(structures.rows[1][4].text, "no");
+  EXPECT_TRUE(structures.rows[1][4].isWarning);
+  const ReportTable& assumed = find(report, "import")->table;
+  ASSERT_EQ(assumed.rows.size(), 1U);
+  EXPECT_EQ(assumed.rows[0][1].text, "slices 4-5 of 32 interpolated between neighbours");
+
+  scene::Case value = planned();
+  value.ct.provenance = {};
+  EXPECT_TRUE(find(planReport(value, small()), "import")->table.rows.empty());
+}
+
+TEST(PlanReport, HasTheValuesOfTheMeasurements)
+{
+  const scene::Case value = planned();
+  const std::string html = htmlOf(planReport(value, small()));
+  const Quantity width = quantitiesOf(value, value.measurements.front()).front();
+  EXPECT_EQ(*width.value, 5.0);
+  EXPECT_NE(html.find("data-value=\"5\" data-uncertainty=\"" + core::exactText(*width.uncertainty) +
+                      "\">" + toString(width) + "<"),
+            std::string::npos);
+}
+
+TEST(PlanReport, IsOneFileWithoutAnythingFromElsewhere)
+{
+  const PlanReport report = planReport(planned(), small());
+  const std::string html = htmlOf(report);
+  EXPECT_EQ(html.find("http:"), std::string::npos);
+  EXPECT_EQ(html.find("https:"), std::string::npos);
+  EXPECT_EQ(html.find("<script"), std::string::npos);
+  EXPECT_EQ(html.find("url("), std::string::npos);
+  std::size_t pictures = 0;
+  for (std::size_t at = 0; (at = html.find("<img", at)) != std::string::npos; ++at)
+    ++pictures;
+  std::size_t data = 0;
+  for (std::size_t at = 0;
+       (at = html.find("src=\"data:image/png;base64,iVBOR", at)) != std::string::npos; ++at)
+    ++data;
+  EXPECT_EQ(pictures, data);
+  EXPECT_GE(pictures, find(report, "places")->pictures.size());
+  EXPECT_EQ(find(report, "places")->pictures.size() % 3, 0U);
+}
+
+TEST(PlanReport, WithholdsNamesThatTellWhoThePatientIs)
+{
+  scene::Case value = planned();
+  value.name = "Erika Mustermann";
+  value.labels.front().structures[0].name = "Mustermann nerve";
+  value.measurements.front().name = "for Mustermann";
+  value.measurements.front().kind = scene::Measurement::Kind::Length;
+  value.measurements.front().structure = "Mustermann nerve";
+  value.description.diagnosis = "seen by Mustermann";
+  value.description.procedure = "cochlear implant";
+  value.description.note = "Mustermann, 1970";
+  scene::renameBranch(value, "second way", "Mustermann way");
+  ReportOptions options = small();
+  options.mayIdentify = [](const std::string& text)
+  { return text.find("Mustermann") != std::string::npos; };
+  const std::string html = htmlOf(planReport(value, options));
+  EXPECT_EQ(html.find("Mustermann"), std::string::npos);
+  EXPECT_NE(html.find("Case 3F2A90C1"), std::string::npos);
+  EXPECT_NE(html.find("cochlear implant"), std::string::npos);
+  EXPECT_NE(html.find("2026-12-24"), std::string::npos);
+  EXPECT_NE(html.find("withheld"), std::string::npos);
+  options.withDate = false;
+  const PlanReport undated = planReport(value, options);
+  EXPECT_EQ(htmlOf(undated).find("2026-12-24"), std::string::npos);
+  EXPECT_TRUE(undated.mayIdentify.empty());
+  options.keepIdentity = true;
+  const PlanReport kept = planReport(value, options);
+  EXPECT_NE(htmlOf(kept).find("Mustermann nerve"), std::string::npos);
+  EXPECT_FALSE(kept.mayIdentify.empty());
+  options = small();
+  options.mayIdentify = nullptr; // not known: all that was typed
+  EXPECT_EQ(htmlOf(planReport(value, options)).find("Mustermann"), std::string::npos);
+}
+
+TEST(PlanReport, SpeaksGerman)
+{
+  ReportOptions options = small();
+  options.language = ReportLanguage::German;
+  const PlanReport report = planReport(planned(), options);
+  EXPECT_EQ(report.title, "Operationsplan");
+  EXPECT_EQ(report.side, "Linke Seite");
+  EXPECT_EQ(find(report, "import")->table.rows[0][1].text,
+            "Schichten 4-5 von 32 zwischen Nachbarn interpoliert");
+  EXPECT_EQ(find(report, "strokes")->table.rows[0][1].text, "4.0 mm, Diamant");
+  // Titles and columns, all that does not come from the case, differ from the English ones.
+  const PlanReport english = planReport(planned(), small());
+  for (std::size_t n = 0; n < report.sections.size(); ++n)
+    EXPECT_NE(report.sections[n].title, english.sections[n].title);
+}
+
+TEST(PlanReport, CanBeCancelled)
+{
+  const auto token = std::make_shared<core::CancelToken>();
+  const core::Progress progress(
+      [&token](double fraction, const std::string&)
+      {
+        if (fraction > 0.5)
+          token->cancel();
+      },
+      token);
+  EXPECT_THROW(planReport(planned(), small(), progress), core::CancelledError);
+}
+
+TEST(ReportHtml, EncodesAsRfc4648)
+{
+  const auto of = [](const std::string& text)
+  { return base64(std::vector<std::uint8_t>(text.begin(), text.end())); };
+  EXPECT_EQ(of(""), "");
+  EXPECT_EQ(of("f"), "Zg==");
+  EXPECT_EQ(of("fo"), "Zm8=");
+  EXPECT_EQ(of("foo"), "Zm9v");
+  EXPECT_EQ(of("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(base64({0xfb, 0xff, 0xfe}), "+//+");
+  EXPECT_EQ(escapedHtml("<a href=\"x\">'&"), "&lt;a href=&quot;x&quot;&gt;&#39;&amp;");
+}

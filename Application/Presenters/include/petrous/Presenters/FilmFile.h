@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "petrous/Core/CameraPose.h"
+#include "petrous/Core/Progress.h"
+#include "petrous/Rendering/SceneContents.h"
+
+namespace petrous::presenters
+{
+
+/// How a film is written.
+struct FilmOptions
+{
+  int width = 1280; ///< pixels
+  int height = 720;
+  double framesPerSecond = 25.0;       ///< of a video
+  std::vector<std::string> lines = {}; ///< upper left of each frame
+};
+
+/// Whether a film of this name is a video (.mp4), else one PNG a frame (.png).
+bool isVideo(const std::filesystem::path& file);
+
+/// Empty, or why no video can be written here: which program is missing and where it comes from.
+std::string videoRefusal();
+
+/// The files of a film: of "turn.png" with 12 frames "turn-0001.png" to "turn-0012.png".
+std::vector<std::filesystem::path> filmFiles(const std::filesystem::path& file, std::size_t frames);
+
+/// Draws a scene from one camera after the other, off-screen, on any thread: complete or not at
+/// all. A video is encoded by ffmpeg (H.264). Throws InvalidParameter for a name that is neither
+/// or without ffmpeg, core::Error (Refused) where that fails, RenderingError,
+/// core::OutputFileError, CancelledError.
+void writeFilm(const std::filesystem::path& file, const rendering::SceneContents& contents,
+               const std::vector<core::CameraPose>& cameras, const FilmOptions& options,
+               const core::Progress& progress = {});
+
+} // namespace petrous::presenters

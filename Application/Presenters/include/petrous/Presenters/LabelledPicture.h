@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "petrous/Presenters/SliceGeometry.h"
+#include "petrous/Presenters/SliceOverlay.h"
+#include "petrous/Rendering/Picture.h"
+#include "petrous/Scene/Description.h"
+
+namespace petrous::presenters
+{
+
+/// What is written into pictures that leave the window, in the sizes of a picture on a screen.
+/// `magnified`: for one with more pixels, as for print.
+
+/// A scale bar at the lower right with its length, a round number; `where` follows it: "in the
+/// focal plane".
+void addScaleBar(rendering::Picture& picture, double mmPerPixel, const std::string& where = {},
+                 double magnified = 1.0);
+
+/// Lines at the upper left.
+void addLines(rendering::Picture& picture, const std::vector<std::string>& lines,
+              double magnified = 1.0);
+
+/// A cross with a gap in its middle at a place; pixels.
+void addCross(rendering::Picture& picture, const Eigen::Vector2d& place);
+
+/// A slice with orientation letters, a scale bar and lines.
+rendering::Picture labelledSlice(SlicePixels pixels, const SliceGeometry& slice,
+                                 const std::vector<std::string>& lines);
+
+/// "Left side", "Right side", "Both sides", "Side not stated".
+std::string sideText(scene::Side side);
+
+} // namespace petrous::presenters

@@ -1,0 +1,138 @@
+#include "petrous/Presenters/LabelledPicture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "petrous/Core/NumberText.h"
+#include "petrous/Rendering/PictureText.h"
+
+namespace petrous::presenters
+{
+
+namespace
+{
+
+using Color = std::array<std::uint8_t, 3>;
+constexpr Color kInk{242, 245, 248};
+constexpr Color kDark{0, 0, 0};
+constexpr Color kCross{255, 208, 64};
+constexpr int kMargin = 8;
+constexpr int kLetter = 17;
+constexpr int kLine = 14;
+
+int scaled(double pixels, double magnified)
+{
+  return static_cast<int>(std::lround(pixels * magnified));
+}
+
+void fill(rendering::Picture& picture, int left, int top, int right, int bottom, const Color& color)
+{
+  for (int row = std::max(top, 0); row < std::min(bottom, picture.height); ++row)
+    for (int column = std::max(left, 0); column < std::min(right, picture.width); ++column)
+      std::copy(color.begin(), color.end(),
+                picture.rgb.begin() +
+                    3 * (static_cast<std::ptrdiff_t>(row) * picture.width + column));
+}
+
+} // namespace
+
+// Text above a bar with end marks.
+void addScaleBar(rendering::Picture& picture, double mmPerPixel, const std::string& where,
+                 double magnified)
+{
+  const double length = scaleBarLength(0.28 * picture.width * mmPerPixel);
+  if (length <= 0.0)
+    return;
+  const auto pixels = [magnified](double count) { return scaled(count, magnified); };
+  const int right = picture.width - pixels(kMargin);
+  const int bottom = picture.height - pixels(kMargin);
+  const int left = right - static_cast<int>(std::lround(length / mmPerPixel));
+  const auto bar = [&](int wider, const Color& color)
+  {
+    fill(picture, left - wider, bottom - pixels(2) - wider, right + wider, bottom + wider, color);
+    fill(picture, left - wider, bottom - pixels(7) - wider, left + pixels(2) + wider, bottom,
+         color);
+    fill(picture, right - pixels(2) - wider, bottom - pixels(7) - wider, right + wider, bottom,
+         color);
+  };
+  bar(pixels(1), kDark);
+  bar(0, kInk);
+  const std::string text = core::generalText(length) + " mm";
+  const double middle = 0.5 * (left + right);
+  if (where.empty())
+    rendering::writeText(picture, text, {middle, bottom - 10.0 * magnified, 0.5, 1.0},
+                         pixels(kLine), kInk);
+  else
+    rendering::writeText(picture, text + " " + where,
+                         {double(right), bottom - 10.0 * magnified, 1.0, 1.0}, pixels(kLine), kInk);
+}
+
+void addLines(rendering::Picture& picture, const std::vector<std::string>& lines, double magnified)
+{
+  double row = kMargin * magnified;
+  for (const std::string& line : lines)
+  {
+    rendering::writeText(picture, line, {kMargin * magnified, row, 0.0, 0.0},
+                         scaled(kLine, magnified), kInk);
+    row += 1.5 * kLine * magnified;
+  }
+}
+
+void addCross(rendering::Picture& picture, const Eigen::Vector2d& place)
+{
+  constexpr int kGap = 6, kArm = 16;
+  const int column = static_cast<int>(std::lround(place[0]));
+  const int row = static_cast<int>(std::lround(place[1]));
+  const auto arms = [&](int wider, const Color& color)
+  {
+    for (const int side : {-1, 1})
+    {
+      const int near = side * kGap, far = side * kArm;
+      fill(picture, column + std::min(near, far) - wider, row - wider,
+           column + std::max(near, far) + 1 + wider, row + 1 + wider, color);
+      fill(picture, column - wider, row + std::min(near, far) - wider, column + 1 + wider,
+           row + std::max(near, far) + 1 + wider, color);
+    }
+  };
+  arms(1, kDark);
+  arms(0, kCross);
+}
+
+rendering::Picture labelledSlice(SlicePixels pixels, const SliceGeometry& slice,
+                                 const std::vector<std::string>& lines)
+{
+  rendering::Picture picture{pixels.width, pixels.height, std::move(pixels.rgb)};
+  const double width = picture.width;
+  const double height = picture.height;
+  const auto letter = [&](const std::string& text, const rendering::TextPlace& place)
+  { rendering::writeText(picture, text, place, kLetter, kInk); };
+  const auto letters = slice.edgeLetters();
+  letter(letters.left, {double(kMargin), 0.5 * height, 0.0, 0.5});
+  letter(letters.right, {width - kMargin, 0.5 * height, 1.0, 0.5});
+  letter(letters.top, {0.5 * width, double(kMargin), 0.5, 0.0});
+  letter(letters.bottom, {0.5 * width, height - kMargin, 0.5, 1.0});
+  addLines(picture, lines);
+  addScaleBar(picture, slice.mmPerPixel());
+  return picture;
+}
+
+std::string sideText(scene::Side side)
+{
+  switch (side)
+  {
+  case scene::Side::Left:
+    return "Left side";
+  case scene::Side::Right:
+    return "Right side";
+  case scene::Side::Both:
+    return "Both sides";
+  case scene::Side::Unknown:
+    break;
+  }
+  return "Side not stated";
+}
+
+} // namespace petrous::presenters

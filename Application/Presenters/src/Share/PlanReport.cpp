@@ -1,0 +1,809 @@
+#include "petrous/Presenters/PlanReport.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <utility>
+
+#include "ReportWords.h"
+#include "petrous/Core/NumberText.h"
+#include "petrous/Dissection/BurrName.h"
+#include "petrous/Presenters/CasePicture.h"
+#include "petrous/Presenters/DissectionDistances.h"
+#include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Presenters/LabelledPicture.h"
+#include "petrous/Presenters/Measuring.h"
+#include "petrous/Presenters/ProvenanceText.h"
+#include "petrous/Presenters/SlicePlanes.h"
+#include "petrous/Presenters/SlicePresenter.h"
+#include "petrous/Rendering/OffscreenView.h"
+#include "petrous/Rendering/PrintPicture.h"
+#include "petrous/Rendering/RenderingError.h"
+#include "petrous/Scene/ApplyRegistration.h"
+#include "petrous/Scene/Branches.h"
+#include "petrous/Scene/StructureOccupancy.h"
+
+namespace petrous::presenters
+{
+
+namespace
+{
+
+using dissection::History;
+using Eigen::Vector3d;
+
+constexpr std::size_t kMostRows = 200; // of a table
+constexpr std::size_t kMostPlaces = 4;
+
+std::string filled(std::string text, const std::string& first, const std::string& second = {})
+{
+  for (const auto& [marker, value] : {std::pair("%1", &first), std::pair("%2", &second)})
+    if (const std::size_t at = text.find(marker); at != std::string::npos)
+      text.replace(at, 2, *value);
+  return text;
+}
+
+/// Replaces typed texts that may tell who the patient is by what they name and a number.
+class Withheld
+{
+public:
+  explicit Withheld(const ReportOptions& options)
+    : m_options(options)
+  {
+  }
+
+  std::string name(const std::string& typed, const char* kind)
+  {
+    if (!withholds(typed))
+      return typed;
+    std::string& other = m_names[typed];
+    if (other.empty())
+      other = reportText(m_options.language, kind) + " " + std::to_string(m_names.size()) + " (" +
+              reportText(m_options.language, "withheld") + ")";
+    return other;
+  }
+
+  /// A line of the description; empty: it is withheld.
+  std::string line(const std::string& typed) const { return withholds(typed) ? "" : typed; }
+
+  /// Of the program, with names of parts in it.
+  std::string sentence(std::string text) const
+  {
+    for (const auto& [typed, other] : m_names)
+      for (std::size_t at = 0; (at = text.find(typed, at)) != std::string::npos; at += other.size())
+        text.replace(at, typed.size(), other);
+    return text;
+  }
+
+  std::size_t count() const noexcept { return m_names.size(); }
+
+private:
+  bool withholds(const std::string& typed) const
+  {
+    return !m_options.keepIdentity && !typed.empty() &&
+           (!m_options.mayIdentify || m_options.mayIdentify(typed));
+  }
+
+  const ReportOptions& m_options;
+  std::map<std::string, std::string> m_names;
+};
+
+// Everything downstream, such as the remarks of measurements, has the names of the copy.
+void withholdNames(scene::Case& value, Withheld& withheld)
+{
+  const auto structure = [&](std::string& name) { name = withheld.name(name, "structure"); };
+  const auto image = [&](std::string& name) { name = withheld.name(name, "Image"); };
+  const auto look = [&](appearance::StructureAppearance& one) { image(one.sourceImage); };
+  look(value.boneLook);
+  for (scene::ImagePart& mr : value.mr)
+  {
+    image(mr.name);
+    if (mr.registration)
+      image(mr.registration->through);
+  }
+  for (scene::LabelPart& part : value.labels)
+  {
+    if (part.drawnOn)
+      image(*part.drawnOn);
+    for (scene::StructurePart& one : part.structures)
+    {
+      structure(one.name);
+      look(one.look);
+    }
+  }
+  for (scene::MeshPart& mesh : value.meshes)
+  {
+    structure(mesh.name);
+    image(mesh.drawnOn);
+    look(mesh.look);
+  }
+  for (scene::Measurement& one : value.measurements)
+  {
+    one.name = withheld.name(one.name, "measurement");
+    structure(one.structure);
+    image(one.image);
+    std::for_each(one.images.begin(), one.images.end(), image);
+  }
+  for (scene::ImagePart& mr : value.mr)
+    if (mr.registration)
+    {
+      mr.registration->text = withheld.sentence(mr.registration->text);
+      if (mr.registration->error)
+        mr.registration->error->place = withheld.sentence(mr.registration->error->place);
+    }
+}
+
+/// Puts one report together.
+class Assembly
+{
+public:
+  Assembly(scene::Case value, const ReportOptions& options)
+    : m_value(std::move(value))
+    , m_options(options)
+    , m_withheld(options)
+  {
+  }
+
+  PlanReport make(const core::Progress& progress)
+  {
+    chooseApproach();
+    progress.report(0.0, "measuring distances");
+    auto distances = dissectionDistances(m_value, progress.part(0.0, 0.25));
+    withholdNames(m_value, m_withheld);
+    for (DissectionDistance& one : distances)
+      one.name = m_withheld.name(one.name, "structure");
+    addHead();
+    addViews(progress.part(0.25, 0.5));
+    addDistances(distances);
+    addPlaces(distances, progress.part(0.5, 0.7));
+    addApproaches();
+    addStrokes();
+    addMeasurements();
+    addStructures(progress.part(0.7, 1.0));
+    addRegistrations();
+    addAssumptions();
+    finish();
+    progress.report(1.0, "writing the report");
+    return std::move(m_report);
+  }
+
+private:
+  std::string say(const std::string& english) const
+  {
+    return reportText(m_options.language, english);
+  }
+
+  ReportSection& section(const char* id, const std::string& title)
+  {
+    ReportSection next;
+    next.id = id;
+    next.title = title;
+    m_report.sections.push_back(std::move(next));
+    return m_report.sections.back();
+  }
+
+  void chooseApproach()
+  {
+    const History& history = m_value.dissection.history();
+    if (!m_options.approach.empty())
+    {
+      std::string name = m_options.approach;
+      const auto number = core::parseDouble(name);
+      if (!history.find(name) && number && *number >= 1.0 &&
+          *number <= static_cast<double>(history.branches().size()) &&
+          *number == std::floor(*number))
+        name = history.branches()[static_cast<std::size_t>(*number) - 1].name;
+      if (name != history.branch().name)
+        scene::goToBranch(m_value, name); // throws, listing the branches
+    }
+    m_approach = approachName(m_value.dissection.history().branch().name);
+  }
+
+  std::string approachName(const std::string& typed) { return m_withheld.name(typed, "approach"); }
+
+  std::string sideName() const
+  {
+    switch (m_value.description.side)
+    {
+    case scene::Side::Left:
+      return say("left");
+    case scene::Side::Right:
+      return say("right");
+    case scene::Side::Both:
+      return say("both sides");
+    case scene::Side::Unknown:
+      break;
+    }
+    return say("not stated");
+  }
+
+  // "Case 3F2A90C1": of the case's random id, which says nothing of anybody.
+  std::string caseName() const
+  {
+    const std::string typed = m_withheld.line(m_value.name);
+    if (!typed.empty())
+      return typed;
+    std::string code = m_value.id.substr(0, 8);
+    for (char& c : code)
+      c = c >= 'a' && c <= 'f' ? static_cast<char>(c - 'a' + 'A') : c;
+    return say("Case") + (code.empty() ? "" : " " + code);
+  }
+
+  void addHead()
+  {
+    const scene::Description& description = m_value.description;
+    m_report.language = m_options.language;
+    m_report.title = say("Operation plan");
+    m_report.name = caseName();
+    m_report.side = say(sideText(description.side));
+    m_report.pageOf = say("Page %1 of %2");
+    m_report.stamp = m_report.name + "  ·  " + m_report.side;
+    m_report.colophon =
+        "Petrous" + (m_options.version.empty() ? "" : " " + m_options.version) +
+        (m_options.made.empty() ? "" : ", " + m_options.made) + ". " +
+        say("A plan, not a measurement of the patient: distances hold as far as the images and "
+            "their registration do.");
+    const auto fact = [this](const char* name, const std::string& text)
+    {
+      if (!text.empty())
+        m_report.facts.emplace_back(say(name), text);
+    };
+    fact("Case", m_report.name);
+    fact("Side", sideName());
+    if (m_options.withDate && !description.date.empty())
+    {
+      fact("Planned for", description.date);
+      m_report.stamp += "  ·  " + description.date;
+      m_report.mayIdentify.emplace_back("the date of the planned operation: who has the list of "
+                                        "that day's operations knows the patient by it");
+    }
+    fact("Diagnosis", m_withheld.line(description.diagnosis));
+    fact("Procedure", m_withheld.line(description.procedure));
+    const core::GridGeometry& grid = m_value.ct.geometry;
+    fact("Image", std::string(primaryName(m_value)) + ", " + std::to_string(grid.dims()[0]) +
+                      " x " + std::to_string(grid.dims()[1]) + " x " +
+                      std::to_string(grid.dims()[2]) + ", " + voxelText(grid.spacing()));
+    fact("Approach", m_approach);
+    fact("Report of", m_options.made);
+    if (m_options.keepIdentity)
+    {
+      fact("Note", m_value.description.note);
+      m_report.mayIdentify.emplace_back("names and the note, as they were typed");
+    }
+  }
+
+  static std::string voxelText(const Vector3d& spacing)
+  {
+    return core::fixedText(spacing[0], 2) + " x " + core::fixedText(spacing[1], 2) + " x " +
+           core::fixedText(spacing[2], 2) + " mm";
+  }
+
+  std::string textOf(const Quantity& quantity) const
+  {
+    std::string text = toString(quantity);
+    for (const char* english : {"uncertainty unknown", "unknown"})
+    {
+      const std::string tail = english;
+      if (text.size() >= tail.size() &&
+          text.compare(text.size() - tail.size(), tail.size(), tail) == 0)
+        return text.substr(0, text.size() - tail.size()) + say(tail);
+    }
+    return text;
+  }
+
+  ReportCell cellOf(const Quantity& quantity) const
+  {
+    ReportCell cell;
+    cell.text = textOf(quantity);
+    cell.value = quantity.value;
+    cell.uncertainty = quantity.uncertainty;
+    cell.isNumber = true;
+    return cell;
+  }
+
+  static ReportCell numberCell(double value, int decimals, const std::string& unit)
+  {
+    ReportCell cell;
+    cell.text = core::fixedText(value, decimals) + (unit.empty() ? "" : " " + unit);
+    cell.value = value;
+    cell.isNumber = true;
+    return cell;
+  }
+
+  static std::string volumeText(double volume)
+  {
+    return volume > 0.0 && volume < 0.005 ? "< 0.01 mm³" : core::fixedText(volume, 2) + " mm³";
+  }
+
+  // Underscores in names part no lines.
+  static std::string spaced(std::string name)
+  {
+    std::replace(name.begin(), name.end(), '_', ' ');
+    return name;
+  }
+
+  static ReportCell textCell(std::string text)
+  {
+    ReportCell cell;
+    cell.text = std::move(text);
+    return cell;
+  }
+
+  const appearance::StructureAppearance* lookOf(const std::string& structure) const
+  {
+    if (const auto* part = scene::findStructure(m_value, structure))
+      return &part->look;
+    for (const scene::MeshPart& mesh : m_value.meshes)
+      if (mesh.name == structure)
+        return &mesh.look;
+    return nullptr;
+  }
+
+  bool isLumen(const std::string& structure) const
+  {
+    const auto* look = lookOf(structure);
+    return look && !look->solid;
+  }
+
+  ReportCell structureCell(const std::string& name) const
+  {
+    ReportCell cell = textCell(name);
+    if (const auto* look = lookOf(name))
+      cell.color = look->color;
+    return cell;
+  }
+
+  // As the case was saved, and as the surgeon has the patient. Without identity nothing in front of
+  // bone is drawn by which a face could be recognised.
+  void addViews(const core::Progress& progress)
+  {
+    ReportSection& views = section("views", say("Views"));
+    const bool isLeft = earOf(m_value) == scene::Side::Left;
+    try
+    {
+      const scene::Case shown = m_options.keepIdentity ? m_value : thumbnailCase(m_value);
+      rendering::SceneContents contents = sceneContents(shown, progress.part(0.0, 0.4));
+      if (!contents.boneShown && contents.meshes.empty() && contents.materials.size() < 2)
+      {
+        views.paragraphs.push_back(say("Nothing of the case is shown in 3D."));
+        return;
+      }
+      if (m_value.view.light)
+      {
+        contents.light.falloff = m_value.view.light->falloff;
+        contents.light.wetness = m_value.view.light->wetness;
+      }
+      const auto add = [&](const std::string& caption, const core::CameraPose& camera,
+                           const scene::ViewState::Clipping& clipping, const core::Progress& part)
+      {
+        const int width = m_options.pictureWidth;
+        const int height = 3 * width / 4;
+        clip(contents, clipping, m_value.ct.geometry);
+        rendering::ScenePicture scene;
+        scene.setContents(contents);
+        rendering::Picture picture = rendering::renderTiled(scene, camera, width, height, part);
+        const double magnified = width / 600.0;
+        addLines(picture, {say(sideText(m_value.description.side))}, magnified);
+        addScaleBar(picture, rendering::millimetresPerPixel(camera, height),
+                    camera.parallelScale ? "" : say("in the focal plane"), magnified);
+        views.pictures.push_back({caption, rendering::pngOf(picture), width, height, 2});
+      };
+      add(say("3D view as saved"), currentCamera(m_value), m_value.view.clipping,
+          progress.part(0.4, 0.7));
+      add(say(isLeft ? "Surgical position, left ear" : "Surgical position, right ear"),
+          standardCamera(m_value, isLeft ? rendering::StandardView::SurgicalLeft
+                                         : rendering::StandardView::SurgicalRight),
+          {}, progress.part(0.7, 1.0));
+    }
+    catch (const rendering::RenderingError& error)
+    {
+      if (error.reason != rendering::RenderingError::Reason::NoOpenGL)
+        throw;
+      views.paragraphs.push_back(
+          say("There are no 3D pictures: OpenGL is missing on this computer."));
+    }
+  }
+
+  void addDistances(const std::vector<DissectionDistance>& distances)
+  {
+    ReportSection& table = section("distances", say("Distances of the dissection"));
+    if (m_value.dissection.mask().untouched())
+    {
+      table.paragraphs.push_back(say("Nothing was drilled on this approach."));
+      return;
+    }
+    if (distances.empty())
+    {
+      table.paragraphs.push_back(say("The case has no structures to measure to."));
+      return;
+    }
+    table.table.columns = {say("Structure"), say("Distance"), say("Removed from it")};
+    for (const DissectionDistance& one : distances)
+    {
+      ReportCell distance = cellOf(one.distance);
+      if (*one.distance.value <= 0.0)
+      {
+        distance.text = say("reached");
+        distance.isWarning = one.injured > 0.0;
+      }
+      ReportCell injured = numberCell(one.injured, 2, "mm³");
+      injured.isWarning = one.injured > 0.0;
+      injured.text = one.injured > 0.0 ? volumeText(one.injured) : say("nothing");
+      table.table.rows.push_back({structureCell(one.name), distance, injured});
+    }
+    table.remarks.push_back(
+        say("Shortest distance between the wall of what was drilled and the surface of each "
+            "structure, nearest first. ± is a half-width: half a voxel of structure and wall, and "
+            "the error of the registration where a structure was drawn on an MR."));
+  }
+
+  struct Place
+  {
+    std::string name;
+    Vector3d point;
+  };
+
+  // Where the dissection came nearest to structures, and marks; else the crosshair.
+  // What was injured counts most; a lumen is opened, and no danger.
+  std::vector<Place> keyPlaces(std::vector<DissectionDistance> distances) const
+  {
+    constexpr double kNear = 5.0;  // mm: of structures that count
+    constexpr double kApart = 2.0; // mm: of places that differ
+    std::vector<Place> places;
+    const auto add = [&](const std::string& name, const Vector3d& point)
+    {
+      if (places.size() < kMostPlaces &&
+          std::none_of(places.begin(), places.end(),
+                       [&](const Place& place) { return (place.point - point).norm() < kApart; }))
+        places.push_back({name, point});
+    };
+    std::stable_sort(distances.begin(), distances.end(),
+                     [](const DissectionDistance& a, const DissectionDistance& b)
+                     { return a.injured > b.injured; });
+    for (const DissectionDistance& one : distances)
+      if (*one.distance.value <= kNear && places.size() < 3 && !isLumen(one.name))
+        add(say("nearest to") + " " + spaced(one.name) + ": " +
+                (*one.distance.value > 0.0 ? textOf(one.distance) : say("reached")),
+            one.place);
+    for (const scene::Measurement& one : m_value.measurements)
+      if (one.kind == scene::Measurement::Kind::Mark)
+        add(say("mark") + " “" + one.name + "”", one.points.front());
+    if (places.empty())
+      add(say("crosshair"),
+          m_value.view.slices ? m_value.view.slices->crosshair : m_value.ct.geometry.center());
+    return places;
+  }
+
+  void addPlaces(const std::vector<DissectionDistance>& distances, const core::Progress& progress)
+  {
+    constexpr double kFieldOfView = 40.0; // mm
+    const auto places = keyPlaces(distances);
+    ReportSection& pictures = section("places", say("Key places"));
+    pictures.paragraphs.push_back(
+        say("Each row has the three slices through a place, which the yellow cross marks."));
+    const SlicePresenter presenter(m_value);
+    const GreyWindow window = displayOf(m_value).bone;
+    const int width = m_options.sliceWidth;
+    std::size_t drawn = 0;
+    for (const Place& place : places)
+      for (const SliceOrientation orientation :
+           {SliceOrientation::Axial, SliceOrientation::Coronal, SliceOrientation::Sagittal})
+      {
+        progress.report(static_cast<double>(drawn++) / static_cast<double>(3 * places.size()),
+                        "drawing slices");
+        const SliceGeometry slice(orientation, place.point, kFieldOfView / width, width, width);
+        std::vector<std::string> lines{say(nameOf(orientation))};
+        if (showsInterpolated(m_value.ct, slice))
+          lines.push_back(say("interpolated slice: not measured here"));
+        rendering::Picture picture = labelledSlice(presenter.draw(slice, window), slice, lines);
+        addCross(picture, slice.pixelFromPatient(place.point));
+        pictures.pictures.push_back({say(nameOf(orientation)) + ", " + place.name,
+                                     rendering::pngOf(picture), width, width, 3});
+      }
+  }
+
+  // Of the strokes up to a state.
+  double drillingTime(std::size_t state) const
+  {
+    double seconds = 0.0;
+    for (const std::size_t n : m_value.dissection.history().lineTo(state))
+      seconds += m_value.dissection.strokes()[n]->info.duration;
+    return seconds;
+  }
+
+  std::string touchedText(const std::vector<dissection::TouchedStructure>& touched)
+  {
+    std::string text;
+    for (const dissection::TouchedStructure& one : touched)
+      text += (text.empty() ? "" : ", ") + spaced(m_withheld.name(one.name, "structure")) + " " +
+              volumeText(one.volume);
+    return text;
+  }
+
+  void addApproaches()
+  {
+    const History& history = m_value.dissection.history();
+    ReportSection& table = section("approaches", say("Approaches"));
+    if (m_value.dissection.strokes().empty())
+    {
+      table.paragraphs.push_back(say("Nothing was drilled yet."));
+      return;
+    }
+    table.table.columns = {say("Approach"), say("Strokes"), say("Drilling time"), say("Removed"),
+                           say("Of structures")};
+    for (const History::Branch& branch : history.branches())
+    {
+      const scene::StateSummary summary = scene::summaryOf(m_value, branch.position);
+      const bool isThis = &branch == &history.branch();
+      table.table.rows.push_back(
+          {textCell(approachName(branch.name) + (isThis ? " (" + say("reported here") + ")" : "")),
+           numberCell(static_cast<double>(summary.strokes), 0, ""),
+           numberCell(drillingTime(branch.position), 1, "s"), numberCell(summary.removed, 1, "mm³"),
+           textCell(touchedText(summary.structures))});
+    }
+  }
+
+  void addStrokes()
+  {
+    const History& history = m_value.dissection.history();
+    const auto line = history.lineTo(history.position());
+    if (line.empty())
+      return;
+    ReportSection& table = section("strokes", say("Strokes") + ": " + m_approach);
+    table.table.columns = {say("Stroke"), say("Burr"),    say("Speed"),
+                           say("Time"),   say("Removed"), say("Of structures")};
+    for (const std::size_t n : line)
+    {
+      if (table.table.rows.size() == kMostRows)
+      {
+        table.remarks.push_back(filled(say("Only the first %1 of %2 are listed."),
+                                       std::to_string(kMostRows), std::to_string(line.size())));
+        break;
+      }
+      const dissection::StrokeInfo& info = m_value.dissection.strokes()[n]->info;
+      ReportCell number = numberCell(static_cast<double>(n + 1), 0, "");
+      table.table.rows.push_back(
+          {number,
+           textCell(core::fixedText(info.burr.diameter, 1) + " mm, " +
+                    say(dissection::nameOf(info.burr.kind))),
+           numberCell(info.burr.rpm, 0, "/min"), numberCell(info.duration, 1, "s"),
+           numberCell(info.removed, 2, "mm³"), textCell(touchedText(info.structures))});
+    }
+    const scene::StateSummary summary = scene::summaryOf(m_value, history.position());
+    table.table.rows.push_back({textCell(say("All together")), textCell({}), textCell({}),
+                                numberCell(drillingTime(history.position()), 1, "s"),
+                                numberCell(summary.removed, 2, "mm³"), textCell({})});
+    table.table.rows.back()[0].isNumber = true;
+  }
+
+  void addMeasurements()
+  {
+    ReportSection& table = section("measurements", say("Measurements and marks"));
+    if (m_value.measurements.empty())
+    {
+      table.paragraphs.push_back(say("Nothing was measured or marked."));
+      return;
+    }
+    table.table.columns = {say("Name"), say("Quantity"), say("Value"), say("Remark")};
+    for (const scene::Measurement& one : m_value.measurements)
+      for (const Quantity& quantity : quantitiesOf(m_value, one))
+      {
+        if (table.table.rows.size() >= kMostRows)
+        {
+          table.remarks.assign(1, filled(say("Only the first %1 of %2 are listed."),
+                                         std::to_string(kMostRows),
+                                         std::to_string(m_value.measurements.size())));
+          return;
+        }
+        const bool isMark = one.kind == scene::Measurement::Kind::Mark;
+        table.table.rows.push_back(
+            {textCell(one.name), textCell((isMark ? say("mark") + ", " : "") + say(quantity.name)),
+             cellOf(quantity), textCell(quantity.remark)});
+      }
+  }
+
+  void addStructures(const core::Progress& progress)
+  {
+    ReportSection& table = section("structures", say("Structures"));
+    const auto occupancies = scene::structureOccupancies(m_value);
+    if (occupancies.empty())
+    {
+      table.paragraphs.push_back(say("The case has no structures."));
+      return;
+    }
+    table.table.columns = {say("Structure"), say("Volume"),   say("Narrowest"),
+                           say("Voxels"),    say("Resolved"), say("Drawn on")};
+    std::size_t done = 0;
+    for (const scene::StructureOccupancy& known : occupancies)
+    {
+      const double share = static_cast<double>(done++) / static_cast<double>(occupancies.size());
+      progress.report(share, "measuring structures");
+      std::vector<ReportCell> row{structureCell(known.name)};
+      const Vector3d voxel = known.grid.spacing();
+      std::optional<Quantity> volume, narrowest;
+      try
+      {
+        for (const Quantity& one :
+             dimensionsOf(m_value, known.name,
+                          progress.part(share, static_cast<double>(done) /
+                                                   static_cast<double>(occupancies.size()))))
+          if (one.name == "volume")
+            volume = one;
+          else if ((one.name == "third extent" || one.name == "smallest diameter") && one.value &&
+                   (!narrowest || *one.value < *narrowest->value))
+            narrowest = one;
+      }
+      catch (const core::InvalidParameter&) // it encloses nothing
+      {
+      }
+      row.push_back(volume ? cellOf(*volume) : textCell(say("unknown")));
+      row.push_back(narrowest ? cellOf(*narrowest) : textCell(say("unknown")));
+      row.push_back(textCell(voxelText(voxel)));
+      row.back().isNumber = true;
+      const bool isResolved = narrowest && *narrowest->value >= 2.0 * voxel.maxCoeff();
+      row.push_back(textCell(say(isResolved ? "yes" : "no")));
+      row.back().isWarning = !isResolved;
+      row.push_back(textCell(known.mr.empty() ? primaryName(m_value) : known.mr));
+      table.table.rows.push_back(std::move(row));
+    }
+    table.remarks.push_back(
+        say("Resolved: two voxels or more across at the narrowest of its extents. Of what is "
+            "thinner, volume and distances say little."));
+  }
+
+  std::string methodText(const scene::Registration& how) const
+  {
+    using Method = scene::Registration::Method;
+    std::string text = say(how.method == Method::MutualInformation ? "mutual information"
+                           : how.method == Method::Landmarks       ? "landmarks"
+                           : how.method == Method::ByHand          ? "by hand"
+                                                                   : "frame of reference");
+    if (how.refined)
+      text += say(", refined by mutual information");
+    if (!how.through.empty())
+      text += say(", through ") + how.through;
+    return text;
+  }
+
+  void addRegistrations()
+  {
+    ReportSection& table = section("registration", say("Registration"));
+    if (m_value.mr.empty())
+    {
+      table.paragraphs.push_back(say("The case has no MR beside its primary image."));
+      return;
+    }
+    table.table.columns = {say("Image"), say("Verdict"), say("Method"), say("Error, median"),
+                           say("95 %"),  say("largest"), say("At"),     say("Signed off")};
+    for (const scene::ImagePart& mr : m_value.mr)
+    {
+      std::vector<ReportCell> row{textCell(mr.name)};
+      if (!mr.registered || !mr.registration)
+      {
+        row.push_back(textCell(say("not registered")));
+        row.back().isWarning = true;
+        row.resize(table.table.columns.size());
+        table.table.rows.push_back(std::move(row));
+        continue;
+      }
+      const scene::Registration& how = *mr.registration;
+      row.push_back(textCell(say(nameOf(how.verdict))));
+      row.back().isWarning = how.verdict == scene::Registration::Verdict::Doubtful;
+      row.push_back(textCell(methodText(how)));
+      for (const double scene::RegistrationError::*which :
+           {&scene::RegistrationError::median, &scene::RegistrationError::p95,
+            &scene::RegistrationError::max})
+        row.push_back(how.error ? numberCell((*how.error).*which, 2, "mm")
+                                : textCell(say("unknown")));
+      row.push_back(textCell(how.error ? how.error->place : ""));
+      const scene::SignOff* signOff = scene::validSignOff(mr);
+      const bool names = signOff && m_options.keepIdentity && !signOff->who.empty();
+      row.push_back(textCell(names     ? say("yes, by ") + signOff->who
+                             : signOff ? say("yes")
+                                       : say("no")));
+      table.table.rows.push_back(std::move(row));
+      if (!how.text.empty() && m_options.language == ReportLanguage::English)
+        table.remarks.push_back(mr.name + ": " + how.text);
+    }
+  }
+
+  std::vector<std::string> assumptionsOf(const volume::ImageProvenance& provenance,
+                                         int slices) const
+  {
+    std::vector<std::string> texts;
+    if (!provenance.interpolated.empty())
+      texts.push_back(filled(say("slices %1 of %2 interpolated between neighbours"),
+                             volume::toString(provenance.interpolated), std::to_string(slices)));
+    if (provenance.tilt != 0.0)
+      texts.push_back(filled(say("gantry tilt of %1 degrees undone, slices shifted by up to %2 mm"),
+                             core::fixedText(provenance.tilt, 1),
+                             core::fixedText(provenance.shift, 1)));
+    else if (provenance.shift != 0.0)
+      texts.push_back(filled(say("slices shifted sideways by up to %1 mm"),
+                             core::fixedText(provenance.shift, 2)));
+    if (provenance.isFaceMasked)
+      texts.push_back(say(provenance.areEarsMasked ? "face and auricles masked" : "face masked"));
+    if (provenance.isCropped)
+      texts.push_back(say("cropped to a region"));
+    if (provenance.assumedRas)
+      texts.push_back(sidesText(*provenance.assumedRas));
+    if (provenance.pixels.isLossy)
+      texts.push_back(say("compressed with loss") +
+                      (provenance.pixels.lossyRatio
+                           ? " (1/" + core::fixedText(*provenance.pixels.lossyRatio, 1) + ")"
+                           : ""));
+    if (provenance.pixels.burnedIn != volume::BurnedInText::None)
+      texts.push_back(say(provenance.pixels.burnedIn == volume::BurnedInText::Stated
+                              ? "text in the pixels"
+                              : "perhaps text in the pixels"));
+    return texts;
+  }
+
+  std::string sidesText(bool assumedRas) const
+  {
+    return filled(say("left and right taken as %1 axes, as the file does not say which side of the "
+                      "patient is left"),
+                  assumedRas ? "RAS" : "LPS");
+  }
+
+  void addAssumptions()
+  {
+    ReportSection& table = section("import", say("Assumed at import"));
+    const auto add = [&](const std::string& name, const std::vector<std::string>& texts)
+    {
+      for (const std::string& text : texts)
+        table.table.rows.push_back({textCell(name), textCell(text)});
+    };
+    const auto addImage = [&](const std::string& name, const scene::ImagePart& image)
+    { add(name, assumptionsOf(image.provenance, image.geometry.dims()[2])); };
+    addImage(primaryName(m_value), m_value.ct);
+    for (const scene::ImagePart& mr : m_value.mr)
+      addImage(mr.name, mr);
+    for (const scene::LabelPart& part : m_value.labels)
+    {
+      std::vector<std::string> texts;
+      if (part.provenance.assumedRas)
+        texts.push_back(sidesText(*part.provenance.assumedRas));
+      if (part.provenance.isFrameAssumed)
+        texts.push_back(say("not known to be in the frame of reference of the image on which it is "
+                            "shown"));
+      std::string names;
+      for (const scene::StructurePart& one : part.structures)
+        names += (names.empty() ? "" : ", ") + one.name;
+      add(names, texts);
+    }
+    if (table.table.rows.empty())
+      table.paragraphs.push_back(
+          say("Nothing: images and structures are as their files have them."));
+    else
+      table.table.columns = {say("Image"), say("What")};
+  }
+
+  void finish()
+  {
+    if (m_value.description.side == scene::Side::Unknown)
+      m_report.sections.front().paragraphs.insert(
+          m_report.sections.front().paragraphs.begin(),
+          say("The side that is operated on is not stated."));
+  }
+
+  scene::Case m_value;
+  const ReportOptions& m_options;
+  Withheld m_withheld;
+  std::string m_approach;
+  PlanReport m_report;
+};
+
+} // namespace
+
+PlanReport planReport(scene::Case value, const ReportOptions& options,
+                      const core::Progress& progress)
+{
+  if (!value.dissection.loaded())
+    throw core::InvalidParameter("report: the dissection of case '" + value.name +
+                                 "' is not loaded");
+  return Assembly(std::move(value), options).make(progress);
+}
+
+} // namespace petrous::presenters

@@ -1,0 +1,176 @@
+#include "ReportWords.h"
+
+#include <map>
+
+namespace petrous::presenters
+{
+
+namespace
+{
+
+const std::map<std::string, std::string>& germanTexts()
+{
+  static const std::map<std::string, std::string> kTexts{
+      {"Operation plan", "Operationsplan"},
+      {"Case", "Fall"},
+      {"Side", "Seite"},
+      {"Planned for", "Geplant für"},
+      {"Diagnosis", "Diagnose"},
+      {"Procedure", "Eingriff"},
+      {"Approach", "Zugang"},
+      {"Note", "Notiz"},
+      {"Image", "Bild"},
+      {"Report of", "Bericht vom"},
+      {"left", "links"},
+      {"right", "rechts"},
+      {"both sides", "beide Seiten"},
+      {"not stated", "nicht angegeben"},
+      {"Page %1 of %2", "Seite %1 von %2"},
+      {"A plan, not a measurement of the patient: distances hold as far as the images and their "
+       "registration do.",
+       "Ein Plan, keine Messung am Patienten: Abstände gelten, soweit die Bilder und ihre "
+       "Registrierung gelten."},
+      {"Views", "Ansichten"},
+      {"3D view as saved", "3D-Ansicht wie gespeichert"},
+      {"Surgical position, left ear", "Operationslage, linkes Ohr"},
+      {"Surgical position, right ear", "Operationslage, rechtes Ohr"},
+      {"There are no 3D pictures: OpenGL is missing on this computer.",
+       "Ohne 3D-Bilder: Auf diesem Rechner fehlt OpenGL."},
+      {"Nothing of the case is shown in 3D.", "Nichts vom Fall wird in 3D gezeigt."},
+      {"Distances of the dissection", "Abstände der Präparation"},
+      {"Shortest distance between the wall of what was drilled and the surface of each structure, "
+       "nearest first. ± is a half-width: half a voxel of structure and wall, and the error of the "
+       "registration where a structure was drawn on an MR.",
+       "Kürzester Abstand zwischen der Wand des Gebohrten und der Oberfläche jeder Struktur, die "
+       "nächste zuerst. ± ist eine halbe Breite: ein halbes Voxel von Struktur und Wand, dazu der "
+       "Fehler der Registrierung, wo eine Struktur im MR gezeichnet wurde."},
+      {"Nothing was drilled yet.", "Noch wurde nichts gebohrt."},
+      {"Nothing was drilled on this approach.", "Auf diesem Zugang wurde nichts gebohrt."},
+      {"The case has no structures to measure to.",
+       "Der Fall hat keine Strukturen, zu denen gemessen werden könnte."},
+      {"Structure", "Struktur"},
+      {"Distance", "Abstand"},
+      {"Removed from it", "Davon entfernt"},
+      {"reached", "erreicht"},
+      {"uncertainty unknown", "Unsicherheit unbekannt"},
+      {"unknown", "unbekannt"},
+      {"nothing", "nichts"},
+      {"Key places", "Wichtige Stellen"},
+      {"nearest to", "am nächsten an"},
+      {"mark", "Marke"},
+      {"crosshair", "Fadenkreuz"},
+      {"Axial", "Axial"},
+      {"Coronal", "Koronar"},
+      {"Sagittal", "Sagittal"},
+      {"Each row has the three slices through a place, which the yellow cross marks.",
+       "Jede Zeile hat die drei Schichten durch eine Stelle, die das gelbe Kreuz zeigt."},
+      {"interpolated slice: not measured here", "interpolierte Schicht: hier nicht gemessen"},
+      {"Approaches", "Zugänge"},
+      {"Strokes", "Bohrgänge"},
+      {"Drilling time", "Bohrzeit"},
+      {"Removed", "Entfernt"},
+      {"Of structures", "Von Strukturen"},
+      {"reported here", "hier berichtet"},
+      {"Stroke", "Bohrgang"},
+      {"Burr", "Bohrer"},
+      {"cutting", "schneidend"},
+      {"diamond", "Diamant"},
+      {"Speed", "Drehzahl"},
+      {"Time", "Zeit"},
+      {"All together", "Zusammen"},
+      {"Measurements and marks", "Messungen und Marken"},
+      {"Nothing was measured or marked.", "Nichts wurde gemessen oder markiert."},
+      {"Name", "Name"},
+      {"Kind", "Art"},
+      {"Quantity", "Größe"},
+      {"Value", "Wert"},
+      {"Remark", "Bemerkung"},
+      {"distance", "Abstand"},
+      {"length", "Länge"},
+      {"angle", "Winkel"},
+      {"area", "Fläche"},
+      {"thickness", "Dicke"},
+      {"thickness along the normal", "Dicke entlang der Normalen"},
+      {"shortest thickness", "kürzeste Dicke"},
+      {"Structures", "Strukturen"},
+      {"The case has no structures.", "Der Fall hat keine Strukturen."},
+      {"Volume", "Volumen"},
+      {"Narrowest", "Schmalste Ausdehnung"},
+      {"Voxels", "Voxel"},
+      {"Resolved", "Aufgelöst"},
+      {"yes", "ja"},
+      {"Drawn on", "Gezeichnet auf"},
+      {"Resolved: two voxels or more across at the narrowest of its extents. Of what is thinner, "
+       "volume and distances say little.",
+       "Aufgelöst: an der schmalsten Ausdehnung mindestens zwei Voxel breit. Von Dünnerem sagen "
+       "Volumen und Abstände wenig."},
+      {"Registration", "Registrierung"},
+      {"Verdict", "Urteil"},
+      {"good", "gut"},
+      {"doubtful", "zweifelhaft"},
+      {"not judged", "nicht beurteilt"},
+      {"not registered", "nicht registriert"},
+      {"Method", "Verfahren"},
+      {"Error, median", "Fehler, Median"},
+      {"95 %", "95 %"},
+      {"largest", "größter"},
+      {"At", "An"},
+      {"Signed off", "Freigegeben"},
+      {"yes, by ", "ja, von "},
+      {"no", "nein"},
+      {"The case has no MR beside its primary image.",
+       "Der Fall hat kein MR neben seinem Hauptbild."},
+      {"mutual information", "Transinformation"},
+      {"landmarks", "Landmarken"},
+      {"by hand", "von Hand"},
+      {"frame of reference", "Bezugssystem des Geräts"},
+      {", refined by mutual information", ", verfeinert durch Transinformation"},
+      {", through ", ", über "},
+      {"Assumed at import", "Beim Import angenommen"},
+      {"Nothing: images and structures are as their files have them.",
+       "Nichts: Bilder und Strukturen sind, wie ihre Dateien sie haben."},
+      {"What", "Was"},
+      {"slices %1 of %2 interpolated between neighbours",
+       "Schichten %1 von %2 zwischen Nachbarn interpoliert"},
+      {"gantry tilt of %1 degrees undone, slices shifted by up to %2 mm",
+       "Gantry-Neigung von %1 Grad rückgängig gemacht, Schichten um bis zu %2 mm verschoben"},
+      {"slices shifted sideways by up to %1 mm", "Schichten um bis zu %1 mm seitlich verschoben"},
+      {"left and right taken as %1 axes, as the file does not say which side of the patient is "
+       "left",
+       "links und rechts als %1-Achsen genommen, da die Datei nicht sagt, welche Seite des "
+       "Patienten links ist"},
+      {"compressed with loss", "verlustbehaftet komprimiert"},
+      {"text in the pixels", "Text in den Pixeln"},
+      {"perhaps text in the pixels", "vielleicht Text in den Pixeln"},
+      {"face masked", "Gesicht maskiert"},
+      {"face and auricles masked", "Gesicht und Ohrmuscheln maskiert"},
+      {"cropped to a region", "auf einen Bereich beschnitten"},
+      {"not known to be in the frame of reference of the image on which it is shown",
+       "nicht bekannt, ob im Bezugssystem des Bildes, auf dem sie gezeigt wird"},
+      {"withheld", "zurückgehalten"},
+      {"structure", "Struktur"},
+      {"measurement", "Messung"},
+      {"approach", "Zugang"},
+      {"in the focal plane", "in der Fokusebene"},
+      {"Left side", "Linke Seite"},
+      {"Right side", "Rechte Seite"},
+      {"Both sides", "Beide Seiten"},
+      {"Side not stated", "Seite nicht angegeben"},
+      {"The side that is operated on is not stated.",
+       "Die Seite der Operation ist nicht angegeben."},
+      {"Only the first %1 of %2 are listed.", "Nur die ersten %1 von %2 sind aufgeführt."},
+  };
+  return kTexts;
+}
+
+} // namespace
+
+std::string reportText(ReportLanguage language, const std::string& english)
+{
+  if (language == ReportLanguage::English)
+    return english;
+  const auto found = germanTexts().find(english);
+  return found == germanTexts().end() ? english : found->second;
+}
+
+} // namespace petrous::presenters

@@ -1,0 +1,304 @@
+#include "PdfReport.h"
+
+#include <clocale>
+#include <cmath>
+#include <memory>
+
+#include <QAbstractTextDocumentLayout>
+#include <QBuffer>
+#include <QFontDatabase>
+#include <QGuiApplication>
+#include <QImage>
+#include <QPainter>
+#include <QPdfWriter>
+#include <QTextBlock>
+#include <QTextCursor>
+#include <QTextDocument>
+#include <QUrl>
+
+#include "petrous/Core/Error.h"
+
+namespace petrous::report
+{
+
+namespace
+{
+
+using presenters::ReportCell;
+using presenters::ReportPicture;
+using presenters::ReportSection;
+using presenters::ReportTable;
+
+// All lengths are CSS pixels, 96 an inch.
+constexpr double kMillimetre = 96.0 / 25.4;
+constexpr double kPageWidth = 210.0 * kMillimetre;
+constexpr double kPageHeight = 297.0 * kMillimetre;
+constexpr double kMargin = 16.0 * kMillimetre;
+constexpr double kHead = 20.0 * kMillimetre; // above the text, with the stamp
+constexpr double kFoot = 18.0 * kMillimetre; // below it, with the page's number
+constexpr double kTextWidth = kPageWidth - 2.0 * kMargin;
+constexpr double kTextHeight = kPageHeight - kHead - kFoot;
+constexpr int kResolution = 1200; // dots per inch, of coordinates
+
+const char* const kInk = "#1a2430";
+const char* const kAccent = "#14506e";
+const char* const kDim = "#5a6875";
+
+/// QFont needs an application. QCoreApplication sets the locale of the user, by which the C library
+/// would write numbers: it is put back.
+class Application
+{
+public:
+  Application()
+  {
+    if (QCoreApplication::instance())
+      return;
+    const std::string before = std::setlocale(LC_ALL, nullptr);
+    const QByteArray platform = qgetenv("QT_QPA_PLATFORM");
+    const QtMessageHandler told =
+        qInstallMessageHandler([](QtMsgType, const QMessageLogContext&, const QString&) {});
+    qputenv("QT_QPA_PLATFORM", "offscreen");
+    m_application = std::make_unique<QGuiApplication>(m_count, m_words);
+    platform.isNull() ? qunsetenv("QT_QPA_PLATFORM") : qputenv("QT_QPA_PLATFORM", platform);
+    qInstallMessageHandler(told); // it was of folders of a desktop, which are not needed
+    std::setlocale(LC_ALL, before.c_str());
+  }
+
+private:
+  int m_count = 1;
+  char m_name[8] = "petrous";
+  char* m_words[2] = {m_name, nullptr};
+  std::unique_ptr<QGuiApplication> m_application;
+};
+
+QString words(const std::string& text)
+{
+  return QString::fromStdString(text);
+}
+
+QString escaped(const std::string& text)
+{
+  return words(presenters::escapedHtml(text)).replace('\n', "<br>");
+}
+
+QString cellHtml(const ReportCell& cell, const QString& tag)
+{
+  QString html =
+      QString("<%1 align=\"%2\" valign=\"top\">").arg(tag, cell.isNumber ? "right" : "left");
+  if (cell.color)
+  {
+    const auto level = [&cell](std::size_t c)
+    { return static_cast<int>(std::lround(255.0 * static_cast<double>((*cell.color)[c]))); };
+    html += QString("<span style=\"background-color:#%1%2%3\">&nbsp;&nbsp;&nbsp;</span>&nbsp;")
+                .arg(level(0), 2, 16, QChar('0'))
+                .arg(level(1), 2, 16, QChar('0'))
+                .arg(level(2), 2, 16, QChar('0'));
+  }
+  QString text = escaped(presenters::shownText(cell));
+  if (cell.isNumber)
+    text.replace(' ', "&nbsp;");
+  if (cell.isWarning)
+    text = "<b><span style=\"color:#a03410\">" + text + "</span></b>";
+  return html + text + "</" + tag + ">";
+}
+
+QString tableHtml(const ReportTable& table)
+{
+  if (table.rows.empty())
+    return {};
+  QString html = "<table width=\"100%\" cellspacing=\"0\" cellpadding=\"3\" border=\"0\" "
+                 "style=\"font-size:8.5pt\"><thead><tr>";
+  for (std::size_t n = 0; n < table.columns.size(); ++n)
+    html += QString("<th align=\"%1\" valign=\"bottom\" style=\"color:%2;background-color:"
+                    "#e4edf2\">%3</th>")
+                .arg(table.rows.front()[n].isNumber ? "right" : "left", kAccent,
+                     escaped(table.columns[n]));
+  html += "</tr></thead>";
+  bool isOdd = false;
+  for (const auto& row : table.rows)
+  {
+    html += isOdd ? "<tr bgcolor=\"#f4f7f9\">" : "<tr>";
+    isOdd = !isOdd;
+    for (const ReportCell& cell : row)
+      html += cellHtml(cell, "td");
+    html += "</tr>";
+  }
+  return html + "</table><p style=\"font-size:3pt;margin:0px\">&nbsp;</p>";
+}
+
+QUrl urlOf(std::size_t picture)
+{
+  return QUrl("picture:" + QString::number(picture));
+}
+
+/// `pictures`: of the document so far.
+QString picturesHtml(const std::vector<ReportPicture>& all,
+                     std::vector<const ReportPicture*>& pictures)
+{
+  QString html;
+  for (std::size_t n = 0; n < all.size();)
+  {
+    const int inRow = std::max(all[n].inRow, 1);
+    const int width = static_cast<int>(kTextWidth / inRow) - 8;
+    html += "<table width=\"100%\" cellspacing=\"0\" cellpadding=\"2\" border=\"0\"><tr>";
+    for (int column = 0; column < inRow; ++column, ++n)
+    {
+      html += QString("<td width=\"%1%\" valign=\"top\">").arg(100 / inRow);
+      if (n < all.size())
+      {
+        html += QString("<p style=\"margin:0px\"><img src=\"%1\" width=\"%2\" height=\"%3\"></p>"
+                        "<p style=\"font-size:7.5pt;color:%4;margin-top:5px;margin-bottom:2px\">%5"
+                        "</p>")
+                    .arg(urlOf(pictures.size()).toString())
+                    .arg(width)
+                    .arg(width * all[n].height / std::max(all[n].width, 1))
+                    .arg(kDim, escaped(all[n].caption));
+        pictures.push_back(&all[n]);
+      }
+      html += "</td>";
+    }
+    html += "</tr></table>";
+  }
+  return html;
+}
+
+QString sectionHtml(const ReportSection& section, std::vector<const ReportPicture*>& pictures)
+{
+  QString html = QString("<h2 style=\"font-size:12pt;color:%1;margin-top:16px;margin-bottom:4px\">"
+                         "%2</h2>")
+                     .arg(kAccent, escaped(section.title));
+  for (const std::string& paragraph : section.paragraphs)
+    html += "<p style=\"margin-top:2px;margin-bottom:4px\">" + escaped(paragraph) + "</p>";
+  html += picturesHtml(section.pictures, pictures);
+  html += tableHtml(section.table);
+  for (const std::string& remark : section.remarks)
+    html += QString("<p style=\"font-size:8pt;color:%1;margin-top:4px;margin-bottom:2px\">%2</p>")
+                .arg(kDim, escaped(remark));
+  return html;
+}
+
+QString factsHtml(const presenters::PlanReport& report)
+{
+  QString html = "<table cellspacing=\"0\" cellpadding=\"2\" border=\"0\">";
+  for (const auto& [name, text] : report.facts)
+    html += QString("<tr><td style=\"color:%1\">%2&nbsp;&nbsp;&nbsp;</td><td>%3</td></tr>")
+                .arg(kDim, escaped(name), escaped(text));
+  return html + "</table>";
+}
+
+void fill(QTextDocument& document, const presenters::PlanReport& report)
+{
+  std::vector<const ReportPicture*> pictures;
+  QString html =
+      QString("<body style=\"color:%1\"><table width=\"100%\" cellspacing=\"0\" cellpadding=\"0\" "
+              "border=\"0\"><tr><td valign=\"bottom\"><span style=\"font-size:20pt;font-weight:600;"
+              "color:%2\">%3</span><br><span style=\"font-size:12pt\">%4</span></td>"
+              "<td align=\"right\" valign=\"bottom\"><span style=\"font-size:16pt;font-weight:600;"
+              "color:%2\">%5</span></td></tr></table><hr>")
+          .arg(kInk, kAccent, escaped(report.title), escaped(report.name), escaped(report.side));
+  html += factsHtml(report);
+  for (const ReportSection& section : report.sections)
+    html += sectionHtml(section, pictures);
+  html += QString("<hr><p style=\"font-size:8pt;color:%1\">%2</p></body>")
+              .arg(kDim, escaped(report.colophon));
+  for (std::size_t n = 0; n < pictures.size(); ++n)
+    document.addResource(QTextDocument::ImageResource, urlOf(n),
+                         QImage::fromData(pictures[n]->png.data(),
+                                          static_cast<int>(pictures[n]->png.size()), "PNG"));
+  document.setHtml(html);
+}
+
+// A heading stands with what follows it.
+void keepHeadings(QTextDocument& document)
+{
+  constexpr double kRoom = 30.0 * kMillimetre;
+  for (QTextBlock block = document.begin(); block.isValid(); block = block.next())
+  {
+    if (block.blockFormat().headingLevel() == 0)
+      continue;
+    const QTextBlock next = block.next();
+    const double top = document.documentLayout()->blockBoundingRect(block).top();
+    const double page = std::floor(top / kTextHeight);
+    const bool isLow = top - page * kTextHeight > kTextHeight - kRoom;
+    const bool isParted =
+        next.isValid() &&
+        std::floor(document.documentLayout()->blockBoundingRect(next).top() / kTextHeight) > page;
+    if (!isLow && !isParted)
+      continue;
+    QTextBlockFormat format;
+    format.setPageBreakPolicy(QTextFormat::PageBreak_AlwaysBefore);
+    QTextCursor(block).mergeBlockFormat(format);
+  }
+}
+
+void drawFrame(QPainter& painter, const presenters::PlanReport& report, int page, int pages)
+{
+  QFont small(QGuiApplication::font().family());
+  small.setPixelSize(11);
+  painter.setFont(small);
+  painter.setPen(QColor(kDim));
+  const QRectF head(kMargin, 8.0 * kMillimetre, kTextWidth, 6.0 * kMillimetre);
+  painter.drawText(head, Qt::AlignLeft | Qt::AlignBottom, words(report.stamp));
+  painter.drawText(head, Qt::AlignRight | Qt::AlignBottom, words(report.title));
+  const QRectF foot(kMargin, kPageHeight - 13.0 * kMillimetre, kTextWidth, 6.0 * kMillimetre);
+  painter.drawText(foot, Qt::AlignRight | Qt::AlignTop, words(report.pageOf).arg(page).arg(pages));
+  painter.drawText(foot, Qt::AlignLeft | Qt::AlignTop, "Petrous");
+  painter.setPen(QPen(QColor("#b9c6d0"), 0.7));
+  painter.drawLine(QPointF(kMargin, head.bottom() + 3.0),
+                   QPointF(kMargin + kTextWidth, head.bottom() + 3.0));
+}
+
+} // namespace
+
+std::string pdfOf(const presenters::PlanReport& report, const core::Progress& progress)
+{
+  const Application application;
+  if (QFontDatabase().families().isEmpty())
+    throw core::Error(core::Fault::Refused,
+                      "a PDF needs a font, and this computer has none; install the package "
+                      "fonts-dejavu-core, or write an .html file");
+  progress.check("writing the report");
+  QTextDocument document;
+  QFont font(QGuiApplication::font().family());
+  font.setPointSizeF(9.5);
+  font.setHintingPreference(QFont::PreferNoHinting);
+  document.setDefaultFont(font);
+  document.setUseDesignMetrics(true);
+  document.setDocumentMargin(0.0);
+  fill(document, report);
+  document.setPageSize({kTextWidth, kTextHeight});
+  keepHeadings(document);
+
+  QByteArray bytes;
+  QBuffer buffer(&bytes);
+  buffer.open(QIODevice::WriteOnly);
+  {
+    QPdfWriter writer(&buffer);
+    writer.setPageLayout(QPageLayout(QPageSize(QPageSize::A4), QPageLayout::Portrait, QMarginsF()));
+    writer.setResolution(kResolution);
+    writer.setTitle(words(report.title));
+    writer.setCreator("Petrous");
+    QPainter painter(&writer);
+    painter.setRenderHint(QPainter::LosslessImageRendering);
+    painter.scale(kResolution / 96.0, kResolution / 96.0);
+    const int pages = document.pageCount();
+    for (int page = 0; page < pages; ++page)
+    {
+      progress.report(static_cast<double>(page) / pages, "writing the report");
+      if (page > 0)
+        writer.newPage();
+      drawFrame(painter, report, page + 1, pages);
+      painter.save();
+      painter.translate(kMargin, kHead - page * kTextHeight);
+      QAbstractTextDocumentLayout::PaintContext context;
+      context.clip = QRectF(0.0, page * kTextHeight, kTextWidth, kTextHeight);
+      context.palette.setColor(QPalette::Text, QColor(kInk));
+      painter.setClipRect(context.clip);
+      document.documentLayout()->draw(&painter, context);
+      painter.restore();
+    }
+  }
+  return bytes.toStdString();
+}
+
+} // namespace petrous::report

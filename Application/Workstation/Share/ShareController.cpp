@@ -1,0 +1,197 @@
+#include "ShareController.h"
+
+#include <algorithm>
+
+#include <QDesktopServices>
+#include <QFile>
+#include <QUrl>
+
+#include "Application.h"
+#include "CaseDocumentController.h"
+#include "ExchangeController.h"
+#include "PdfReport.h"
+#include "ShareDialogs.h"
+#include "SharePanel.h"
+#include "Theme.h"
+#include "ThreeDView.h"
+#include "petrous/Core/OutputFile.h"
+#include "petrous/Library/LibraryFiles.h"
+#include "petrous/Presenters/CameraPaths.h"
+#include "petrous/Presenters/CasePicture.h"
+#include "petrous/Presenters/FilmFile.h"
+#include "petrous/Presenters/IdentityText.h"
+#include "petrous/Presenters/LabelledPicture.h"
+#include "petrous/Presenters/PlanReport.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+
+// As the window draws it, but for tool and thickness.
+rendering::SceneContents contentsOf(const scene::Case& value, const core::Progress& progress)
+{
+  rendering::SceneContents contents = presenters::sceneContents(value, progress);
+  if (value.view.light)
+  {
+    contents.light.falloff = value.view.light->falloff;
+    contents.light.wetness = value.view.light->wetness;
+  }
+  presenters::clip(contents, value.view.clipping, value.ct.geometry);
+  return contents;
+}
+
+} // namespace
+
+ShareController::ShareController(presenters::WorkstationModel& model,
+                                 CaseDocumentController& keeper, ExchangeController& exchange,
+                                 ThreeDView& view, QWidget& window)
+  : QObject(&window)
+  , m_model(model)
+  , m_keeper(keeper)
+  , m_view(view)
+  , m_window(window)
+  , m_panel(new SharePanel(model))
+{
+  openFile = [](const QString& file)
+  { return QDesktopServices::openUrl(QUrl::fromLocalFile(file)); };
+  connect(m_panel, &SharePanel::reportAsked, this, &ShareController::report);
+  connect(m_panel, &SharePanel::pictureAsked, this, &ShareController::printPicture);
+  connect(m_panel, &SharePanel::filmAsked, this, &ShareController::film);
+  connect(m_panel, &SharePanel::exportAsked, this,
+          [this](const QString& what, const QString& part)
+          {
+            if (releaseTool)
+              releaseTool();
+            m_keeper.exportPart(what, part);
+          });
+  connect(m_panel, &SharePanel::archiveAsked, this,
+          [this]
+          {
+            if (releaseTool)
+              releaseTool();
+            m_keeper.archive();
+          });
+  connect(m_panel, &SharePanel::sendAsked, this,
+          [this, &exchange]
+          {
+            if (releaseTool)
+              releaseTool();
+            if (m_model.hasCase())
+              guarded([&] { exchange.send(m_model.value().name); },
+                      [this](const QString& why) { emit statusMessage(why); });
+          });
+}
+
+bool ShareController::mayBegin()
+{
+  if (!m_model.hasCase())
+    return false;
+  if (m_keeper.writing())
+  {
+    emit statusMessage(tr("One at a time: something is being read or written already"));
+    return false;
+  }
+  if (releaseTool)
+    releaseTool();
+  if (collectView)
+    collectView();
+  return m_model.hasCase();
+}
+
+scene::Case ShareController::shown()
+{
+  scene::Case value = m_model.value();
+  value.camera = m_view.picture().camera();
+  return value;
+}
+
+void ShareController::done(const std::filesystem::path& file, const QString& what, bool opens)
+{
+  const QString path = QFile::decodeName(file.c_str());
+  emit statusMessage(tr("%1: %2").arg(what, path));
+  if (opens && !openFile(path))
+    emit statusMessage(tr("%1: %2; no program is set up to open it").arg(what, path));
+}
+
+void ShareController::report()
+{
+  if (!mayBegin())
+    return;
+  ReportDialog dialog(m_model.value(), &m_window);
+  if (dialog.exec() != QDialog::Accepted || !m_model.hasCase())
+    return;
+  m_keeper.run(tr("Writing the report"),
+               [this, value = shown(), library = m_model.library(), options = dialog.options(),
+                file = dialog.file(), isPdf = dialog.isPdf()](
+                   const core::Progress& progress) mutable -> BackgroundWork::Reply
+               {
+                 library::refuseOverwriting(file);
+                 const presenters::IdentityText identity(value, library);
+                 options.mayIdentify = [&identity](const std::string& text)
+                 { return identity.mayIdentify(text); };
+                 if (!value.dissection.loaded())
+                   library.loadDissection(value);
+                 const presenters::PlanReport report =
+                     presenters::planReport(std::move(value), options, progress.part(0.0, 0.9));
+                 core::writeFile(file, isPdf ? report::pdfOf(report, progress.part(0.9, 1.0))
+                                             : presenters::htmlOf(report));
+                 return [this, file] { done(file, tr("The report is written"), true); };
+               });
+}
+
+void ShareController::printPicture()
+{
+  if (!mayBegin())
+    return;
+  PrintDialog dialog(m_model.value(),
+                     static_cast<double>(m_view.height()) / std::max(m_view.width(), 1), &m_window);
+  if (dialog.exec() != QDialog::Accepted || !m_model.hasCase())
+    return;
+  m_keeper.run(
+      tr("Drawing the picture"),
+      [this, value = shown(), size = dialog.size(),
+       file = dialog.file()](const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        library::refuseOverwriting(file);
+        rendering::ScenePicture scene;
+        scene.setContents(contentsOf(value, progress.part(0.0, 0.1)));
+        rendering::Picture picture = rendering::renderTiled(
+            scene, *value.camera, size.width(), size.height(), progress.part(0.1, 0.95));
+        const double magnified = std::max(size.height() / 600.0, 1.0);
+        presenters::addLines(picture, {presenters::sideText(value.description.side)}, magnified);
+        presenters::addScaleBar(picture,
+                                rendering::millimetresPerPixel(*value.camera, size.height()),
+                                value.camera->parallelScale ? "" : "in the focal plane", magnified);
+        const auto png = rendering::pngOf(picture, size.dotsPerInch);
+        core::writeFile(file, {reinterpret_cast<const char*>(png.data()), png.size()});
+        return [this, file] { done(file, tr("The picture is written"), false); };
+      });
+}
+
+void ShareController::film()
+{
+  if (!mayBegin())
+    return;
+  FilmDialog dialog(m_model.value(), &m_window);
+  if (dialog.exec() != QDialog::Accepted || !m_model.hasCase())
+    return;
+  m_keeper.run(
+      tr("Drawing the film"),
+      [this, value = shown(), along = dialog.along(), frames = dialog.frames(),
+       file = dialog.file()](const core::Progress& progress) mutable -> BackgroundWork::Reply
+      {
+        library::refuseOverwriting(file);
+        const auto cameras =
+            along.empty() ? presenters::turntable(*value.camera, frames)
+                          : presenters::flightAlong(value, along, frames, progress.part(0.0, 0.05));
+        presenters::FilmOptions film;
+        film.lines = {presenters::sideText(value.description.side)};
+        presenters::writeFilm(file, contentsOf(value, progress.part(0.05, 0.1)), cameras, film,
+                              progress.part(0.1, 1.0));
+        return [this, file] { done(file, tr("The film is written"), false); };
+      });
+}
+
+} // namespace petrous::workstation

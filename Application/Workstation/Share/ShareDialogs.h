@@ -1,0 +1,112 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <QDialog>
+
+#include "petrous/Core/CameraPose.h"
+#include "petrous/Presenters/PlanReport.h"
+#include "petrous/Rendering/PrintPicture.h"
+#include "petrous/Scene/Case.h"
+
+class QCheckBox;
+class QComboBox;
+class QDoubleSpinBox;
+class QFormLayout;
+class QLabel;
+class QPushButton;
+class QSpinBox;
+
+namespace petrous::workstation
+{
+
+class PathRow;
+
+/// A dialog that ends in a file to be written.
+class ShareDialog : public QDialog
+{
+  Q_OBJECT
+public:
+  std::filesystem::path file() const;
+
+protected:
+  /// `name`: object name of the dialog, of which "NameFile" is that of the path's line.
+  ShareDialog(const char* name, const QString& title, const QString& accept, QWidget* parent);
+
+  void setFile(const QString& file);
+  /// Why it cannot be written, beyond the folder that has to be there; empty: it can.
+  virtual QString problem() const { return {}; }
+  virtual std::vector<std::filesystem::path> files() const { return {file()}; }
+  void check();
+
+  QFormLayout* m_form;
+  QLabel* m_note;
+
+private:
+  void askAndAccept();
+
+  PathRow* m_path;
+  QLabel* m_advice;
+  QPushButton* m_accept;
+};
+
+/// `petrous report`.
+class ReportDialog : public ShareDialog
+{
+  Q_OBJECT
+public:
+  ReportDialog(const scene::Case& value, QWidget* parent = nullptr);
+
+  presenters::ReportOptions options() const; ///< without mayIdentify
+  bool isPdf() const;
+
+protected:
+  QString problem() const override;
+
+private:
+  QComboBox* m_approach;
+  QComboBox* m_language;
+  QCheckBox* m_date;
+  QCheckBox* m_identity;
+};
+
+/// `petrous render --width-mm`.
+class PrintDialog : public ShareDialog
+{
+  Q_OBJECT
+public:
+  /// `heightToWidth`: of the 3D view, whose shape the picture has.
+  PrintDialog(const scene::Case& value, double heightToWidth, QWidget* parent = nullptr);
+
+  rendering::PrintSize size() const;
+
+protected:
+  QString problem() const override;
+
+private:
+  double m_heightToWidth;
+  QDoubleSpinBox* m_width;
+  QSpinBox* m_dots;
+};
+
+/// `petrous render --turntable` and `--along`.
+class FilmDialog : public ShareDialog
+{
+  Q_OBJECT
+public:
+  FilmDialog(const scene::Case& value, QWidget* parent = nullptr);
+
+  std::string along() const; ///< the structure; empty: once around
+  int frames() const;
+
+protected:
+  QString problem() const override;
+  std::vector<std::filesystem::path> files() const override;
+
+private:
+  QComboBox* m_path;
+  QSpinBox* m_frames;
+};
+
+} // namespace petrous::workstation

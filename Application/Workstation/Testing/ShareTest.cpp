@@ -1,0 +1,169 @@
+#include "GuiTest.h"
+
+#include <fstream>
+#include <iterator>
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QImage>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QTreeWidget>
+
+#include "ShareController.h"
+
+using namespace petrous;
+using namespace petrous::workstation;
+
+namespace
+{
+
+class ShareWindow : public GuiTest
+{
+protected:
+  void openBall()
+  {
+    saveBall("ball");
+    openWindow("ball");
+    ASSERT_TRUE(waitFor([this] { return window().model().ready(); }));
+    ASSERT_TRUE(settled());
+    window().findChild<ShareController*>()->openFile = [this](const QString& path)
+    {
+      shown.push_back(path);
+      return true;
+    };
+  }
+  QStringList shown; ///< in place of a program that shows files
+  QString file(const char* name) const
+  {
+    return QString::fromStdString((folder() / name).string());
+  }
+  static std::string textOf(const QString& name)
+  {
+    std::ifstream stream(name.toStdString(), std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  /// Names the file of the dialog that opens, and accepts it by Return.
+  void answer(const char* dialogName, const QString& path,
+              const std::function<void(QDialog&)>& more = {})
+  {
+    onDialog(
+        [=](QDialog& dialog)
+        {
+          if (dialog.objectName() != dialogName)
+            return false;
+          auto* line = dialog.findChild<QLineEdit*>(QString(dialogName) + "File");
+          EXPECT_TRUE(line);
+          line->setText(path);
+          if (more)
+            more(dialog);
+          QTest::keyClick(&dialog, Qt::Key_Return);
+          return true;
+        });
+  }
+};
+
+} // namespace
+
+// Two actions of the user's: the key, and Return.
+TEST_F(ShareWindow, WritesAReportInTwoActionsAndOpensIt)
+{
+  openBall();
+  answer("planReport", file("plan.pdf"));
+  QTest::keyClick(&window(), Qt::Key_P, Qt::ControlModifier);
+  ASSERT_TRUE(waitFor([&] { return !shown.isEmpty(); }));
+  EXPECT_EQ(shown.first(), file("plan.pdf"));
+  EXPECT_EQ(textOf(file("plan.pdf")).substr(0, 5), "%PDF-");
+
+  answer("planReport", file("plan.html"),
+         [](QDialog& dialog)
+         { dialog.findChild<QComboBox*>("reportLanguage")->setCurrentIndex(1); });
+  QTest::mouseClick(window().findChild<QPushButton*>("shareReport"), Qt::LeftButton);
+  ASSERT_TRUE(waitFor([&] { return shown.size() == 2; }));
+  const std::string html = textOf(file("plan.html"));
+  EXPECT_NE(html.find("<html lang=\"de\">"), std::string::npos);
+  EXPECT_NE(html.find("nerve"), std::string::npos);
+}
+
+TEST_F(ShareWindow, DrawsThePictureOfTheViewForPrint)
+{
+  openBall();
+  answer("printPicture", file("view.png"),
+         [](QDialog& dialog)
+         {
+           dialog.findChild<QDoubleSpinBox*>("printWidth")->setValue(100.0);
+           dialog.findChild<QSpinBox*>("printDots")->setValue(50);
+         });
+  action("Picture for print…")->trigger();
+  ASSERT_TRUE(waitFor([&] { return QFile::exists(file("view.png")); }));
+  ASSERT_TRUE(settled());
+  const QImage picture(file("view.png"));
+  EXPECT_EQ(picture.width(), 197); // 100 mm / 25.4 * 50
+  EXPECT_EQ(picture.dotsPerMeterX(), 1969);
+  EXPECT_NEAR(static_cast<double>(picture.height()) / picture.width(),
+              static_cast<double>(view().height()) / view().width(), 0.01);
+  EXPECT_GT(pixelsUnlikeTheCorner(picture), 1000);
+}
+
+TEST_F(ShareWindow, FilmsOnceAroundAndNamesWhatAVideoNeeds)
+{
+  openBall();
+  answer("film", file("turn.png"),
+         [](QDialog& dialog) { dialog.findChild<QSpinBox*>("filmFrames")->setValue(2); });
+  action("Film…")->trigger();
+  ASSERT_TRUE(waitFor([&] { return QFile::exists(file("turn-0002.png")); }));
+  ASSERT_TRUE(settled());
+  EXPECT_EQ(QImage(file("turn-0001.png")).size(), QSize(1280, 720));
+  EXPECT_FALSE(QFile::exists(file("turn-0003.png")));
+  onDialog(
+      [this](QDialog& dialog)
+      {
+        auto* line = dialog.findChild<QLineEdit*>("filmFile");
+        line->setText(file("turn.avi"));
+        EXPECT_FALSE(dialog.findChild<QPushButton*>("primary")->isEnabled());
+        line->setText(file("nowhere/turn.png"));
+        EXPECT_FALSE(dialog.findChild<QPushButton*>("primary")->isEnabled());
+        dialog.reject();
+        return true;
+      });
+  action("Film…")->trigger();
+}
+
+TEST_F(ShareWindow, ExportsTheObjectThatIsChosen)
+{
+  openBall();
+  window().findChild<QWidget*>("shareDock")->show();
+  auto* objects = window().findChild<QTreeWidget*>("shareObjects");
+  ASSERT_TRUE(objects);
+  const auto found = objects->findItems("nerve", Qt::MatchExactly);
+  ASSERT_EQ(found.size(), 1);
+  objects->setCurrentItem(found.first());
+  bool asked = false;
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        if (dialog.objectName() != "exportCase")
+          return false;
+        asked = true;
+        EXPECT_EQ(dialog.findChild<QComboBox*>("exportWhat")->currentData(), "structure");
+        EXPECT_EQ(dialog.findChild<QComboBox*>("exportPart")->currentData(), "nerve");
+        EXPECT_TRUE(dialog.findChild<QLineEdit*>("exportPath")->text().contains("ball nerve"));
+        dialog.reject();
+        return true;
+      });
+  QTest::mouseClick(window().findChild<QPushButton*>("shareExport"), Qt::LeftButton);
+  EXPECT_TRUE(asked);
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        if (dialog.objectName() != "archiveCase")
+          return false;
+        asked = false;
+        dialog.reject();
+        return true;
+      });
+  QTest::mouseClick(window().findChild<QPushButton*>("shareArchive"), Qt::LeftButton);
+  EXPECT_FALSE(asked) << "the archive's dialog, with the identity report";
+}

@@ -1,7 +1,6 @@
 #include "ThicknessController.h"
 
 #include <QAction>
-#include <QApplication>
 
 #include "Application.h"
 #include "StructuresPanel.h"
@@ -25,7 +24,7 @@ ThicknessController::ThicknessController(presenters::WorkstationModel& model, Th
   , m_legend(new ThicknessLegend(view))
 {
   m_bound.add(
-      &action, [this] { return !m_model.thicknessOver().empty(); },
+      &action, [this] { return !over().empty(); },
       [this](bool on)
       {
         const QString chosen = m_panel.chosen();
@@ -34,54 +33,85 @@ ThicknessController::ThicknessController(presenters::WorkstationModel& model, Th
         showOver(on ? chosen : QString());
       });
   connect(&panel, &StructuresPanel::thicknessAsked, this, &ThicknessController::showOver);
+  connect(&m_work, &BackgroundWork::failed, this,
+          [this](const QString& why)
+          {
+            m_measured.clear();
+            emit statusMessage(why);
+            bringUpToDate();
+          });
+  connect(&m_work, &BackgroundWork::progressed, this,
+          [this](double fraction, const QString&)
+          {
+            emit statusMessage(tr("The bone over %1 is being measured: %2 % (F6 stops it)")
+                                   .arg(words(m_measured).replace('_', ' '))
+                                   .arg(100.0 * fraction, 0, 'f', 0));
+          });
   m_followLater.setSingleShot(true);
   m_followLater.setInterval(kFollowAfter);
   connect(&m_followLater, &QTimer::timeout, this, &ThicknessController::follow);
   connect(&panel, &StructuresPanel::selected, &m_followLater, qOverload<>(&QTimer::start));
 }
 
+const std::string& ThicknessController::over() const
+{
+  return m_measured.empty() ? m_model.thicknessOver() : m_measured;
+}
+
 // Bone and kinds have no thickness over them: the colours stay.
 void ThicknessController::follow()
 {
   const QString chosen = m_panel.chosen();
-  const std::string& over = m_model.thicknessOver();
-  if (!over.empty() && !chosen.isEmpty() && bytes(chosen) != over)
+  if (!over().empty() && !chosen.isEmpty() && bytes(chosen) != over())
     showOver(chosen);
 }
 
 void ThicknessController::showOver(const QString& structure)
 {
   const std::string wanted = bytes(structure);
-  QApplication::setOverrideCursor(Qt::WaitCursor);
-  QString why;
+  const bool isOff = wanted == over();
+  m_work.abandon();
+  m_measured.clear();
   try
   {
-    m_model.showThickness(wanted == m_model.thicknessOver() ? std::string() : wanted);
+    if (wanted.empty() || isOff || wanted == m_model.thicknessOver())
+      m_model.showThickness(isOff ? std::string() : wanted);
+    else
+    {
+      m_work.replace(
+          [this, measure = m_model.thicknessMeasurement(wanted)](
+              const core::Progress& progress) mutable -> BackgroundWork::Reply
+          {
+            return [this, measured = measure(progress)]
+            {
+              m_measured.clear();
+              emit statusMessage({});
+              m_model.showThickness(measured);
+              bringUpToDate();
+            };
+          });
+      m_measured = wanted;
+    }
   }
-  catch (const core::Error& error)
+  catch (const std::exception& error)
   {
-    why = toString(error);
+    emit statusMessage(toString(error));
   }
-  catch (const std::exception&)
-  {
-    why = tr("The thickness cannot be measured: the computer has no room for it");
-  }
-  QApplication::restoreOverrideCursor();
-  if (!why.isEmpty())
-    emit statusMessage(why);
   bringUpToDate();
 }
 
 void ThicknessController::bringUpToDate()
 {
-  const QString over = words(m_model.thicknessOver()).replace('_', ' ');
-  m_legend->setStructure(over,
+  const QString shown = words(m_model.thicknessOver()).replace('_', ' ');
+  m_legend->setStructure(shown,
                          m_model.hasCase() && m_model.value().ct.modality == scene::Modality::Mr);
   m_bound.refresh();
 }
 
 void ThicknessController::caseChanged()
 {
+  m_work.abandon();
+  m_measured.clear();
   bringUpToDate();
 }
 

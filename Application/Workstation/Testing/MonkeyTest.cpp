@@ -9,6 +9,7 @@
 #include <QComboBox>
 #include <QDir>
 #include <QDoubleSpinBox>
+#include <QDrag>
 #include <QFileDialog>
 #include <QLineEdit>
 #include <QMenu>
@@ -39,12 +40,28 @@ protected:
   {
     // What is written by chance is written here.
     qputenv("HOME", QByteArray::fromStdString(folder().string()));
+    QApplication::setQuitOnLastWindowClosed(false); // which would end the loops of dialogs
     m_before = QDir::currentPath();
     QDir::setCurrent(QString::fromStdString(folder().string()));
     m_chance.seed(qEnvironmentVariable("PETROUS_MONKEY_SEED", "20").toUInt());
     writeFiles();
   }
   void TearDown() override { QDir::setCurrent(m_before); }
+
+  void openAny(const QString& what = {})
+  {
+    openWindow(what);
+    // Takes long, and much memory.
+    for (auto* button : window().findChildren<QPushButton*>())
+      if (button->text() == kSample)
+        button->setEnabled(false);
+  }
+  static bool mayBeChosen(const QAction& action)
+  {
+    const QString text = action.text().remove('&');
+    return action.isEnabled() && !action.isSeparator() && !action.menu() && text != "Quit" &&
+           text != kSample;
+  }
 
   int upTo(int count) // 0 to count - 1
   {
@@ -137,7 +154,12 @@ protected:
             .arg(at.x())
             .arg(at.y()));
     if (kind < 6)
-      return QTest::mouseClick(target, button, keys, at);
+    {
+      QTest::mousePress(target, button, keys, at);
+      if (target)
+        QTest::mouseRelease(target, button, keys, at);
+      return;
+    }
     if (kind < 7)
       return QTest::mouseDClick(target, button, keys, at);
     if (kind == 9)
@@ -147,6 +169,7 @@ protected:
       QApplication::sendEvent(target, &wheel);
       return;
     }
+    const QScopedValueRollback<bool> dragging(m_dragging, true);
     QTest::mouseMove(target, at);
     QTest::mousePress(target, button, keys, at);
     for (int n = 0; n < 5 && target; ++n)
@@ -177,18 +200,19 @@ protected:
     if (quits || (with & Qt::AltModifier && key == Qt::Key_F4))
       return;
     QWidget* focus = QApplication::focusWidget();
-    QWidget* to = focus && focus->window() == &top ? focus : &top;
+    const QPointer<QWidget> to = focus && focus->window() == &top ? focus : &top;
     did("key " + QKeySequence(key + int(with)).toString() + " to " + to->metaObject()->className() +
         " " + to->objectName());
-    QTest::keyClick(to, static_cast<Qt::Key>(key), with);
+    QTest::keyPress(to, static_cast<Qt::Key>(key), with);
+    if (to)
+      QTest::keyRelease(to, static_cast<Qt::Key>(key), with);
   }
 
   void triggerAction()
   {
     std::vector<QAction*> all;
     for (QAction* one : window().findChildren<QAction*>())
-      if (one->isEnabled() && !one->isSeparator() && !one->menu() &&
-          one->text().remove('&') != "Quit")
+      if (mayBeChosen(*one))
         all.push_back(one);
     QAction* chosen = oneOf(all);
     did("action " + chosen->text());
@@ -267,7 +291,7 @@ protected:
     {
       did("the window is closed, and another opened");
       closeWindow();
-      openWindow();
+      openAny();
     }
   }
 
@@ -290,17 +314,20 @@ protected:
   /// Whatever is modal, or pops up. Some rounds of anything, then a way out.
   void answer()
   {
-    if (m_answering)
+    if (m_dragging)
+      QDrag::cancel(); // would wait for the true pointer
+    QWidget* popup = QApplication::activePopupWidget();
+    QWidget* present = popup ? popup : QApplication::activeModalWidget();
+    if (!present || present == m_present) // an answer may bring another one
       return;
-    const QScopedValueRollback<bool> answering(m_answering, true);
-    if (QWidget* popup = QApplication::activePopupWidget())
+    const QScopedValueRollback<QWidget*> answering(m_present, present);
+    if (popup)
     {
       if (auto* menu = qobject_cast<QMenu*>(popup); menu && inHundred(50))
       {
         std::vector<QAction*> all;
         for (QAction* one : menu->actions())
-          if (one->isEnabled() && !one->isSeparator() && !one->menu() &&
-              one->text().remove('&') != "Quit")
+          if (mayBeChosen(*one))
             all.push_back(one);
         if (!all.empty())
         {
@@ -316,8 +343,6 @@ protected:
       return;
     }
     const QPointer<QWidget> modal = QApplication::activeModalWidget();
-    if (!modal)
-      return;
     if (auto* progress = qobject_cast<QProgressDialog*>(modal.data()))
     {
       if (inHundred(3))
@@ -390,7 +415,7 @@ protected:
 
   void play(int count)
   {
-    openWindow("ball");
+    openAny("ball");
     QTimer answers;
     QObject::connect(&answers, &QTimer::timeout, &answers, [this] { answer(); });
     answers.start(15);
@@ -425,13 +450,15 @@ protected:
       EXPECT_NO_THROW(library().open(one.name)) << one.name;
   }
 
+  static constexpr const char* kSample = "Make the sample patient";
   std::mt19937 m_chance;
   std::deque<std::string> m_done;
   QPointer<QWidget> m_modal;
   QString m_before;
   int m_count = 0;
-  int m_rounds = 0; // with m_modal
-  bool m_answering = false;
+  int m_rounds = 0;             // with m_modal
+  QWidget* m_present = nullptr; // is being answered
+  bool m_dragging = false;
 };
 
 } // namespace

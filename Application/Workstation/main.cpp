@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <clocale>
 #include <filesystem>
 #include <iostream>
+#include <string_view>
 #include <thread>
 
 #include <QApplication>
@@ -104,6 +106,13 @@ void startLog(const QCommandLineParser& parser)
 int main(int argc, char** argv)
 {
   using namespace petrous;
+  const bool isSafe = std::any_of(
+      argv + 1, argv + argc, [](const char* one) { return std::string_view(one) == "--safe"; });
+  if (isSafe) // before the first use of OpenGL: drawn by Mesa on the processor
+  {
+    qputenv("LIBGL_ALWAYS_SOFTWARE", "1");
+    qputenv("__GLX_VENDOR_LIBRARY_NAME", "mesa");
+  }
   QSurfaceFormat::setDefaultFormat(workstation::surfaceFormat());
   QApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
   workstation::Application application(argc, argv);
@@ -117,6 +126,8 @@ int main(int argc, char** argv)
   parser.addHelpOption();
   parser.addVersionOption();
   parser.addOption({"library", "Folder of the library.", "DIR"});
+  parser.addOption({"safe", "Without settings, devices, graphics card and previous case: for a "
+                            "window that does not start, or not rightly, otherwise."});
   parser.addOption({"log-level",
                     "What the log holds: trace, debug, info, warning, error or off (info).",
                     "LEVEL"});
@@ -140,8 +151,12 @@ int main(int argc, char** argv)
   }
 
   workstation::WindowOptions options;
-  options.quadBuffer = workstation::quadBufferOffered();
-  options.devices = deviceSources();
+  options.isSafe = parser.isSet("safe");
+  if (!options.isSafe)
+  {
+    options.quadBuffer = workstation::quadBufferOffered();
+    options.devices = deviceSources();
+  }
   const std::filesystem::path folder = libraryFolder(parser);
   if (folder.empty())
     return 3;

@@ -51,6 +51,7 @@ ArchiveDialog::ArchiveDialog(const scene::Case& value, const library::Library& l
   m_date->setToolTip(tr("The dates of the planned operation and of attachments, the times of "
                         "strokes, names and times of sign-offs"));
   m_report->setObjectName("archiveReport");
+  m_report->setAccessibleName(tr("What the archive tells of the patient"));
   m_report->setReadOnly(true);
   m_report->setMinimumHeight(200);
   m_advice->setObjectName("dim");

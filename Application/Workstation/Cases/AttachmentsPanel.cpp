@@ -49,6 +49,7 @@ AttachmentsPanel::AttachmentsPanel(const presenters::WorkstationModel& model, QW
   , m_list(new QTreeWidget)
 {
   m_list->setObjectName("attachments");
+  m_list->setAccessibleName(tr("Attachments"));
   m_list->setColumnCount(Columns);
   m_list->setHeaderLabels({tr("Name"), tr("Kind"), tr("Date and note")});
   m_list->setRootIsDecorated(false);

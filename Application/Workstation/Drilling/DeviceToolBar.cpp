@@ -54,6 +54,7 @@ DeviceToolBar::DeviceToolBar(QWidget* parent)
     auto* label = new QLabel(name);
     label->setObjectName("dim");
     label->setContentsMargins(8, 0, 2, 0);
+    label->setBuddy(widget); // its name for a screen reader
     return std::vector<QAction*>{addWidget(label), addWidget(widget)};
   };
   add(tr("Device"), m_choice);

@@ -80,11 +80,14 @@ DrillBar::DrillBar(QWidget* parent)
     auto* label = new QLabel(name);
     label->setObjectName("dim");
     label->setContentsMargins(8, 0, 2, 0);
+    label->setBuddy(widget); // its name for a screen reader
     addWidget(label);
     addWidget(widget);
   };
   addNamed(tr("Burr"), m_diameter);
+  m_kind->setAccessibleName(tr("Kind of the burr"));
   addWidget(m_kind);
+  m_speed->setAccessibleName(tr("Speed of the spindle"));
   addWidget(m_speed);
   addNamed(tr("Thrust"), m_thrust);
   addAction(m_wheel);

@@ -85,6 +85,7 @@ ReceiveDialog::ReceiveDialog(const std::vector<network::Node>& nodes, QWidget* p
   for (const char* modality : {"CT", "MR", "OT"})
     m_modality->addItem(QString(modality) == "OT" ? tr("OT (Petrous scenes)") : modality, modality);
   m_found->setObjectName("receiveFound");
+  m_found->setAccessibleName(tr("Patients and series that were found"));
   m_found->setHeaderLabels({tr("Patient, or series"), tr("ID"), tr("Date"), tr("Description"),
                             tr("Modality"), tr("Images")});
   m_found->header()->setSectionResizeMode(QHeaderView::ResizeToContents);

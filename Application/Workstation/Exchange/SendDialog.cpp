@@ -57,6 +57,7 @@ SendDialog::SendDialog(const scene::Case& value, const library::Library& library
                             "not change"));
   m_maskFace->setEnabled(m_faces.mayHave());
   m_report->setObjectName("sendReport");
+  m_report->setAccessibleName(tr("What is sent of the patient"));
   m_report->setReadOnly(true);
   m_report->setMinimumHeight(200);
   const bool hasMr = !value.mr.empty();

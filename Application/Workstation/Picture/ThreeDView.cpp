@@ -31,6 +31,7 @@ ThreeDView::ThreeDView(QWidget* parent)
   , m_display(std::make_unique<SceneDisplay>(*m_window, [this] { return isVisible(); }))
 {
   setObjectName("threeDView");
+  setAccessibleName(tr("3D view"));
   setFocusPolicy(Qt::StrongFocus);
   setMouseTracking(true);
   setMinimumSize(240, 240);

@@ -15,6 +15,7 @@ HandlesBox::HandlesBox(presenters::RegistrationSession& session, QWidget* parent
   , m_moved(new QLabel)
 {
   m_step->setObjectName("nudgeStep");
+  m_step->setAccessibleName(tr("Step"));
   m_step->addItem(tr("0.1 mm, 0.1°"), 0.1);
   m_step->addItem(tr("1 mm, 1°"), 1.0);
   m_step->setToolTip(

@@ -20,6 +20,7 @@ LandmarksBox::LandmarksBox(presenters::RegistrationSession& session, QWidget* pa
   , m_table(new QTableView)
 {
   m_table->setObjectName("landmarks");
+  m_table->setAccessibleName(tr("Pairs of points"));
   m_table->setModel(m_rows);
   m_table->setSelectionBehavior(QAbstractItemView::SelectRows);
   m_table->setSelectionMode(QAbstractItemView::SingleSelection);

@@ -80,6 +80,7 @@ RegistrationPanel::RegistrationPanel(presenters::RegistrationSession& session, Q
   , m_points(new LandmarksBox(session))
 {
   m_mr->setObjectName("registrationMr");
+  m_mr->setAccessibleName(tr("MR"));
   m_state->setObjectName("registrationState");
   m_line->setObjectName("registrationLine");
   m_error->setObjectName("dim");
@@ -197,6 +198,7 @@ QWidget* RegistrationPanel::signOff()
   layout->addWidget(heading(tr("Sign-off")));
   m_name = new QLineEdit;
   m_name->setObjectName("signName");
+  m_name->setAccessibleName(tr("The surgeon's name"));
   m_name->setPlaceholderText(tr("The surgeon's name"));
   m_name->setMaxLength(100);
   m_sign = button(tr("Sign"), "sign",

@@ -390,6 +390,7 @@ QWidget* SegmentPanel::nervePage()
       {
         m_points = new QTreeWidget;
         m_points->setObjectName("nervePoints");
+        m_points->setAccessibleName(tr("Points along the nerve"));
         m_points->setRootIsDecorated(false);
         m_points->setAllColumnsShowFocus(true);
         m_points->setHeaderLabels({tr("#"), tr("To the path"), tr("What the scan shows here")});

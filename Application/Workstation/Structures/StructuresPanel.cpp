@@ -516,6 +516,7 @@ void StructuresPanel::showRange()
                            : tr("Bone is what is denser than this, in the image's own unit: it is "
                                 "not in Hounsfield units");
   m_slider->setToolTip(tip);
+  m_slider->setAccessibleName(QString(m_threshold->text()).remove('&'));
   m_box->setToolTip(tip);
   m_bound.refresh();
 }

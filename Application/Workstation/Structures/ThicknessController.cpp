@@ -26,7 +26,7 @@ ThicknessController::ThicknessController(presenters::WorkstationModel& model, Th
   , m_legend(new ThicknessLegend(view))
 {
   m_bound.add(
-      &action, [this] { return !m_model.thicknessOver().empty() || !m_measured.empty(); },
+      &action, [this] { return !over().empty(); },
       [this](bool on)
       {
         const QString chosen = m_panel.chosen();
@@ -35,6 +35,13 @@ ThicknessController::ThicknessController(presenters::WorkstationModel& model, Th
         showOver(on ? chosen : QString());
       });
   connect(&panel, &StructuresPanel::thicknessAsked, this, &ThicknessController::showOver);
+  connect(&m_work, &BackgroundWork::progressed, this,
+          [this](double fraction, const QString&)
+          {
+            emit statusMessage(tr("The bone over %1 is being measured: %2 % (F6 stops it)")
+                                   .arg(words(m_measured).replace('_', ' '))
+                                   .arg(100.0 * fraction, 0, 'f', 0));
+          });
   m_followLater.setSingleShot(true);
   m_followLater.setInterval(kFollowAfter);
   connect(&m_followLater, &QTimer::timeout, this, &ThicknessController::follow);
@@ -43,12 +50,16 @@ ThicknessController::ThicknessController(presenters::WorkstationModel& model, Th
   connect(&panel, &StructuresPanel::selected, &m_followLater, qOverload<>(&QTimer::start));
 }
 
+const std::string& ThicknessController::over() const
+{
+  return m_measured.empty() ? m_model.thicknessOver() : m_measured;
+}
+
 // Bone and kinds have no thickness over them: the colours stay.
 void ThicknessController::follow()
 {
   const QString chosen = m_panel.chosen();
-  const std::string& over = m_measured.empty() ? m_model.thicknessOver() : m_measured;
-  if (!over.empty() && !chosen.isEmpty() && bytes(chosen) != over)
+  if (!over().empty() && !chosen.isEmpty() && bytes(chosen) != over())
     showOver(chosen);
 }
 
@@ -62,13 +73,13 @@ void ThicknessController::showOver(const QString& structure)
   {
     emit statusMessage(tr("Measuring the thickness was stopped"));
     if (wanted.empty() && !m_model.thicknessOver().empty())
-      m_model.showThickness({}, nullptr);
+      m_model.showThickness(std::string());
     return endMeasuring();
   }
   if (!wanted.empty() && wanted != m_model.thicknessOver())
     return measure(wanted);
   if (!m_model.thicknessOver().empty())
-    m_model.showThickness({}, nullptr);
+    m_model.showThickness(std::string());
   endMeasuring();
 }
 
@@ -78,20 +89,20 @@ void ThicknessController::measure(const std::string& structure)
   {
     m_measured = structure;
     m_work.replace(
-        [this, structure, work = m_model.thicknessMeasurement(structure)](
-            const core::Progress& progress) -> BackgroundWork::Reply
+        [this, work = m_model.thicknessMeasurement(structure)](
+            const core::Progress& progress) mutable -> BackgroundWork::Reply
         {
-          auto measured = work(progress);
-          return [this, structure, measured = std::move(measured)]
+          return [this, measured = work(progress)]
           {
-            m_model.showThickness(structure, measured);
+            emit statusMessage({});
+            m_model.showThickness(measured);
             endMeasuring();
           };
         });
     m_legend->setProgress(0.0);
     bringUpToDate();
   }
-  catch (const core::Error& error)
+  catch (const std::exception& error)
   {
     endMeasuring(toString(error));
   }
@@ -107,11 +118,9 @@ void ThicknessController::endMeasuring(const QString& why)
 
 void ThicknessController::bringUpToDate()
 {
-  const bool isMeasuring = !m_measured.empty();
-  if (!isMeasuring)
+  if (m_measured.empty())
     m_legend->setProgress(1.0);
-  const QString over = words(isMeasuring ? m_measured : m_model.thicknessOver()).replace('_', ' ');
-  m_legend->setStructure(over,
+  m_legend->setStructure(words(over()).replace('_', ' '),
                          m_model.hasCase() && m_model.value().ct.modality == scene::Modality::Mr);
   m_bound.refresh();
 }

@@ -38,6 +38,7 @@ private:
   void measure(const std::string& structure);
   void endMeasuring(const QString& why = {});
   void bringUpToDate();
+  const std::string& over() const; // shown, or being measured
 
   presenters::WorkstationModel& m_model;
   StructuresPanel& m_panel;

@@ -92,6 +92,8 @@ void GuiTest::openWindow(const QString& what)
   options.devices = devices;
   options.lookForDevicesEvery = 50;
   options.drawThumbnailsAfter = drawThumbnailsAfter;
+  options.saveAfter = saveAfter;
+  options.isSafe = isSafe;
   // Where the last test left the pointer, a view might come to lie below it.
   QCursor::setPos(QGuiApplication::primaryScreen()->geometry().bottomRight());
   m_window = std::make_unique<MainWindow>(library(), options);

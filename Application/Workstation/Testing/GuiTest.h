@@ -41,6 +41,8 @@ protected:
 
   presenters::DeviceSources devices;         ///< of windows opened later; initially none
   int drawThumbnailsAfter = -1;              ///< ms, see WindowOptions; of windows opened later
+  int saveAfter = -1;                        ///< likewise
+  bool isSafe = false;                       ///< likewise
   void openWindow(const QString& what = {}); ///< the pointer is beside it
   void closeWindow();
   MainWindow& window() { return *m_window; }

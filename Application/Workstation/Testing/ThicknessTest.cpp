@@ -58,7 +58,7 @@ TEST_F(Thickness, ColorsBoneOverTheChosenStructureUntilAskedAgain)
 
   choose("nerve");
   QTest::keyClick(&window(), Qt::Key_F6);
-  EXPECT_TRUE(legend().isVisible());
+  EXPECT_TRUE(waitFor([this] { return legend().isVisible(); }));
   EXPECT_EQ(legend().structure(), "nerve");
   ASSERT_TRUE(measured("nerve"));
   const QImage colored = picture();
@@ -104,6 +104,20 @@ TEST_F(Thickness, FollowsTheSelectionWhileItIsOn)
   EXPECT_EQ(legend().structure(), "cyst") << "bone has no thickness over itself";
   QTest::keyClick(&window(), Qt::Key_F6);
   EXPECT_FALSE(legend().isVisible());
+}
+
+TEST_F(Thickness, IsNotShownOnceItWasStoppedWhileBeingMeasured)
+{
+  saveThinBall();
+  openWindow();
+  choose("nerve");
+  QTest::keyClick(&window(), Qt::Key_F6);
+  EXPECT_TRUE(action("Bone thickness over the structure")->isChecked()) << "it is being measured";
+  QTest::keyClick(&window(), Qt::Key_F6);
+  EXPECT_FALSE(action("Bone thickness over the structure")->isChecked());
+  QTest::qWait(300);
+  EXPECT_FALSE(legend().isVisible());
+  EXPECT_TRUE(window().model().thicknessOver().empty());
 }
 
 TEST_F(Thickness, IsOfTheCaseThatIsOpen)

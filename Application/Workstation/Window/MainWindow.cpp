@@ -136,11 +136,21 @@ QStringList notesOf(const scene::Case& value)
     add(mesh.name, mesh.notes);
   return notes;
 }
+
+WindowOptions safeOptions(WindowOptions options)
+{
+  options.quadBuffer = false;
+  options.settings = WindowSettings::kNone;
+  options.devices = {};
+  options.drawThumbnailsAfter = -1;
+  return options;
+}
 } // namespace
 
-MainWindow::MainWindow(library::Library library, const WindowOptions& options)
-  : m_model(std::move(library))
-  , m_settings(std::make_unique<WindowSettings>(options.settings))
+MainWindow::MainWindow(library::Library library, const WindowOptions& wanted)
+  : m_options(wanted.isSafe ? safeOptions(wanted) : wanted)
+  , m_model(std::move(library))
+  , m_settings(std::make_unique<WindowSettings>(m_options.settings))
   , m_bar(new DrillBar)
   , m_deviceBar(new DeviceToolBar)
   , m_view(new ThreeDView)
@@ -161,16 +171,16 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_sum(new QLabel)
   , m_touch(new QLabel)
   , m_recording(new QLabel)
-  , m_actions(new WindowActions(*this, *m_bar, *m_deviceBar, options.quadBuffer))
+  , m_actions(new WindowActions(*this, *m_bar, *m_deviceBar, m_options.quadBuffer))
   , m_stamps(new CaseStamps(m_model, *m_view, *m_slices, *m_sideBanner, *m_actions->sides, this))
   , m_saver(new CaseSaver(m_model))
   , m_keeper(new CaseDocumentController(m_model, *m_saver, *this, *m_unsavedBanner,
                                         *m_loadingBanner, *m_damageBanner, *m_removedBanner))
-  , m_watcher(new DeviceWatcher(options.devices, options.lookForDevicesEvery, this))
+  , m_watcher(new DeviceWatcher(m_options.devices, m_options.lookForDevicesEvery, this))
   , m_devices(new ActiveDeviceController(*m_watcher, *m_deviceBar, *m_settings, this))
   , m_drill(new DrillController(m_model, *m_view, *m_bar, *m_devices, this))
-  , m_picture(
-        new PictureController(m_model, *m_view, *m_actions, *m_settings, *this, options.quadBuffer))
+  , m_picture(new PictureController(m_model, *m_view, *m_actions, *m_settings, *this,
+                                    m_options.quadBuffer))
   , m_branches(new BranchController(m_model, *m_actions->approaches, *this))
   , m_strokes(new StrokeThumbnails(m_model, options.drawThumbnailsAfter, this))
   , m_comparison(new ComparisonController(m_model, *m_view, *m_slices, *this))
@@ -178,7 +188,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   , m_segment(new SegmentController(m_model, *m_slices, *this))
   , m_measure(new MeasureController(m_model, *m_slices, *m_view, *this))
   , m_sliceControl(new SliceController(m_model, *m_view, *m_slices, *m_settings, *this))
-  , m_library(new LibraryController(m_model, *m_keeper, *this, options.drawThumbnailsAfter))
+  , m_library(new LibraryController(m_model, *m_keeper, *this, m_options.drawThumbnailsAfter))
   , m_exchange(new ExchangeController(m_model, *m_keeper, *m_library->menu(), *this))
   , m_attachments(new AttachmentsController(m_model, *m_view, *this))
   , m_viewState(new ViewStateController(m_model, *m_view, *m_slices, *m_picture, *m_registration,
@@ -213,6 +223,9 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& options)
   connectMeasure();
   connectThumbnails();
   guardBoxes();
+  m_saveLater.setSingleShot(true);
+  m_saveLater.setInterval(std::max(m_options.saveAfter, 0));
+  connect(&m_saveLater, &QTimer::timeout, this, &MainWindow::saveLater);
   stateChanged();
 }
 
@@ -821,6 +834,8 @@ void MainWindow::begin(const QString& what)
 {
   if (!what.isEmpty())
     return m_keeper->open({what});
+  if (m_options.isSafe)
+    return;
   if (const auto latest = m_model.latestCase())
     m_keeper->open({words(*latest)});
 }
@@ -975,6 +990,7 @@ void MainWindow::maskChanged(const core::IndexBox& box)
 void MainWindow::stateChanged()
 {
   const bool open = m_model.hasCase();
+  const QString program = m_options.isSafe ? tr("Petrous (safe mode)") : QString("Petrous");
   m_actions->setCaseOpen(open);
   m_sliceControl->setCaseOpen(open);
   m_actions->setOnMr(open && m_model.value().ct.modality == scene::Modality::Mr);
@@ -983,14 +999,28 @@ void MainWindow::stateChanged()
   m_stamps->stateChanged();
   showUndo();
   if (!open)
-    return setWindowTitle("Petrous");
+    return setWindowTitle(program);
   for (const auto& [entry, panel] : m_panels)
     panel->stateChanged();
   const scene::Case& value = m_model.value();
   setWindowTitle(
       (m_model.unsaved() || m_model.beingStored() ? QString::fromUtf8("• ") : QString()) +
-      words(value.name) + QString::fromUtf8(" — Petrous"));
+      words(value.name) + QString::fromUtf8(" — ") + program);
   m_sum->setText(removedText(value, m_model.drilling()));
+  if (m_model.unsaved() && m_options.saveAfter >= 0 && !m_saveLater.isActive())
+    m_saveLater.start();
+}
+
+// What is lost in a crash is at most this old; a stroke is in the journal sooner.
+void MainWindow::saveLater()
+{
+  if (!m_model.hasCase() || !m_model.unsaved())
+    return;
+  // A save that failed is said, and its banner offers to try again.
+  if (busy() || m_model.drilling() || m_unsavedBanner->isVisible() ||
+      QApplication::mouseButtons() != Qt::NoButton)
+    return m_saveLater.start();
+  m_saver->save();
 }
 
 // Returns at once: the case is shown behind it.

@@ -7,6 +7,7 @@
 
 #include <QMainWindow>
 #include <QStringList>
+#include <QTimer>
 
 #include "Bind.h"
 #include "Panels.h"
@@ -60,6 +61,8 @@ struct WindowOptions
   presenters::DeviceSources devices; ///< none: mouse only
   int lookForDevicesEvery = 1000;    ///< ms
   int drawThumbnailsAfter = 2000;    ///< ms without anything else to do; negative: never
+  int saveAfter = 20000;             ///< ms since a change that nothing else saved; negative: never
+  bool isSafe = false;               ///< no settings, devices, thumbnails or previous case
 };
 
 /// The workstation's main window: assembles model, views and panels and connects them.
@@ -101,6 +104,7 @@ private:
   void offerBurrs();
   void maskChanged(const core::IndexBox& box);
   void stateChanged();
+  void saveLater();
   void showUndo();
   bool undoesSegment() const;
   bool redoesSegment() const;
@@ -127,6 +131,7 @@ private:
   bool flush(); // saves what was drilled
   void strokeEnded(const std::shared_ptr<const dissection::Stroke>& stroke);
 
+  const WindowOptions m_options;
   presenters::WorkstationModel m_model;
   std::unique_ptr<WindowSettings> m_settings;
   DrillBar* m_bar;
@@ -172,6 +177,7 @@ private:
   ShareController* m_share;
   std::vector<std::pair<PanelEntry, Panel*>> m_panels;
   ThicknessController* m_thickness;
+  QTimer m_saveLater;
   Bindings m_bound;
 };
 

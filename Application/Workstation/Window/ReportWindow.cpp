@@ -35,6 +35,7 @@ void showReport(QWidget* parent, const QString& title, const QString& head, cons
   first->setTextInteractionFlags(Qt::TextSelectableByMouse);
   auto* whole = new QPlainTextEdit(text);
   whole->setObjectName("reportText");
+  whole->setAccessibleName(title);
   whole->setReadOnly(true);
   whole->setLineWrapMode(QPlainTextEdit::NoWrap);
   whole->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));

@@ -18,6 +18,9 @@ namespace petrous::workstation
 class WindowSettings
 {
 public:
+  /// A file that cannot be: nothing was set before, and what is set ends with the window.
+  static constexpr const char* kNone = "/dev/null/none.ini";
+
   /// `file`: an INI file; empty: the user's default (~/.config/petrous/workstation.ini).
   explicit WindowSettings(const QString& file = {});
 

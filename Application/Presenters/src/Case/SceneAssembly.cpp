@@ -85,13 +85,6 @@ void SceneAssembly::showThickness(const std::string& structure)
   m_thicknessOver = structure;
 }
 
-void SceneAssembly::showThickness(const std::string& structure,
-                                  std::shared_ptr<const volume::Volume<float>> measured)
-{
-  m_thickness = std::move(measured);
-  m_thicknessOver = structure;
-}
-
 void SceneAssembly::takeThickness(const SceneAssembly& other)
 {
   if (other.m_thicknessOver == m_thicknessOver)

@@ -174,25 +174,32 @@ bool same(const std::vector<scene::Placement>& a, const std::vector<scene::Place
 
 void WorkstationModel::showThickness(const std::string& structure)
 {
-  if (m_case && structure != thicknessOver())
-    showThickness(structure, structure.empty() ? nullptr : thicknessMeasurement(structure)({}));
+  if (!m_case || structure == thicknessOver())
+    return;
+  showThickness(thicknessMeasurement(structure)({}));
 }
 
-std::function<WorkstationModel::Thickness(const core::Progress&)>
+std::function<MeasuredThickness(const core::Progress&)>
 WorkstationModel::thicknessMeasurement(const std::string& structure) const
 {
   if (!m_loaded)
     throw core::InvalidParameter("The structures are still being loaded.");
-  scene::Case copy = *m_case; // shares voxels
-  copy.dissection.unload();   // not needed
-  return [copy = std::move(copy), structure](const core::Progress& progress)
-  { return boneThickness(copy, structure, progress); };
+  MeasuredThickness next{m_assembly, m_parts};
+  next.assembly.showThickness(structure);
+  return [next = std::move(next), value = *m_case](const core::Progress& progress) mutable
+  {
+    next.assembly.contents(value, progress);
+    return std::move(next);
+  };
 }
 
-void WorkstationModel::showThickness(const std::string& structure, Thickness measured)
+bool WorkstationModel::showThickness(const MeasuredThickness& measured)
 {
-  m_assembly.showThickness(structure, std::move(measured));
+  if (!m_case || measured.parts != m_parts)
+    return false;
+  m_assembly.takeThickness(measured.assembly);
   notify(events.appearanceChanged);
+  return true;
 }
 
 void WorkstationModel::changeMr(const std::function<void(scene::Case&)>& change)

@@ -32,9 +32,6 @@ public:
   /// Colours bone by its thickness over this structure (BoneThickness.h) from the next `contents`
   /// on, which throws if there is none of this name; empty: off.
   void showThickness(const std::string& structure);
-  /// The same, measured already.
-  void showThickness(const std::string& structure,
-                     std::shared_ptr<const volume::Volume<float>> measured);
   const std::string& thicknessOver() const noexcept { return m_thicknessOver; }
   /// Takes over the thickness display of `other`, or none.
   void takeThickness(const SceneAssembly& other);

@@ -64,6 +64,14 @@ struct PreparedCase
   std::uint64_t tissue = 0; // likewise
 };
 
+/// The thickness of bone over a structure, measured in any thread from a copy of the case, see
+/// WorkstationModel::thicknessMeasurement.
+struct MeasuredThickness
+{
+  SceneAssembly assembly;
+  std::uint64_t parts = 0; // of the model when it was copied
+};
+
 /// The appearance of a part: of bone, or tissue of an MR, under the name "ct".
 struct PartLook
 {
@@ -268,12 +276,11 @@ public:
   /// Colours bone by its thickness over a structure; empty: off. Takes about a second. Throws
   /// InvalidParameter, without effect, if it cannot be measured.
   void showThickness(const std::string& structure);
-  /// The same in two parts. The first may run in any thread and throws what `boneThickness` does;
-  /// the second is fast.
-  using Thickness = std::shared_ptr<const volume::Volume<float>>;
-  std::function<Thickness(const core::Progress&)>
+  /// As above, to be measured in another thread, which throws what that throws.
+  std::function<MeasuredThickness(const core::Progress&)>
   thicknessMeasurement(const std::string& structure) const;
-  void showThickness(const std::string& structure, Thickness measured);
+  /// Returns false, without effect, if another case is open or its parts changed meanwhile.
+  bool showThickness(const MeasuredThickness& measured);
   const std::string& thicknessOver() const noexcept { return m_assembly.thicknessOver(); }
 
   const Eigen::Vector3d& crosshair() const noexcept { return m_crosshair; }

@@ -1,0 +1,501 @@
+#include "GuiTest.h"
+
+#include <fstream>
+#include <set>
+
+#include <malloc.h>
+
+#include <QAbstractButton>
+#include <QAbstractItemView>
+#include <QAbstractSlider>
+#include <QAbstractSpinBox>
+#include <QAccessible>
+#include <QComboBox>
+#include <QDockWidget>
+#include <QDoubleSpinBox>
+#include <QHeaderView>
+#include <QLineEdit>
+#include <QPointer>
+#include <QPushButton>
+#include <QScrollBar>
+#include <QTextEdit>
+#include <QTreeView>
+
+#include "Banner.h"
+#include "EventLoopWatchdog.h"
+#include "StructuresModel.h"
+#include "WindowSettings.h"
+#include "petrous/Imaging/VolumeFile.h"
+
+using namespace petrous;
+using namespace petrous::workstation;
+namespace fs = std::filesystem;
+
+namespace
+{
+
+// What holds for the whole window, whatever is done in it.
+class Manners : public GuiTest
+{
+protected:
+  /// The ball in `size`^3 voxels with `count` structures, small balls on a lattice in it, and the
+  /// CT itself, moved by a known motion, as an MR.
+  void saveMany(const std::string& name, int size, int count, bool withMr)
+  {
+    scene::Case value = ballCase(name);
+    const double spacing = 0.5 * 63 / (size - 1);
+    value.ct.geometry =
+        core::GridGeometry({size, size, size}, Eigen::Vector3d::Constant(spacing),
+                           kBallCenter - Eigen::Vector3d::Constant(0.5 * (size - 1) * spacing));
+    auto ct = std::make_shared<volume::Volume<std::int16_t>>(value.ct.geometry);
+    auto labels = volume::makeZeroVolume<std::uint16_t>(value.ct.geometry);
+    for (int k = 0; k < size; ++k)
+      for (int j = 0; j < size; ++j)
+        for (int i = 0; i < size; ++i)
+        {
+          const Eigen::Vector3d at =
+              value.ct.geometry.patientFromVoxel(Eigen::Vector3d(i, j, k)) - kBallCenter;
+          const double depth = kBallRadius - at.norm();
+          ct->at(i, j, k) =
+              static_cast<std::int16_t>(std::clamp(300.0 + 1000.0 * depth, -1000.0, 1600.0));
+          // 4 x 4 x 4 cells of 4 mm, a ball of 1.5 mm in each
+          const Eigen::Vector3d cell = at / 4.0 + Eigen::Vector3d::Constant(2.0);
+          const Eigen::Vector3d whole = cell.array().floor();
+          const Eigen::Vector3d middle = cell - whole - Eigen::Vector3d::Constant(0.5);
+          const int n = static_cast<int>(whole[0] + 4.0 * whole[1] + 16.0 * whole[2]);
+          if (whole.minCoeff() >= 0.0 && whole.maxCoeff() < 4.0 && n < count &&
+              middle.norm() < 1.5 / 4.0)
+            labels->at(i, j, k) = static_cast<std::uint16_t>(n + 1);
+        }
+    value.ct.volume = std::make_shared<const volume::IntensityVolume>(
+        std::shared_ptr<const volume::Volume<std::int16_t>>(ct));
+    std::vector<volume::Segment> segments;
+    const scene::StructurePart one = value.labels[0].structures[0];
+    value.labels[0].structures.clear();
+    for (int n = 0; n < count; ++n)
+    {
+      scene::StructurePart structure = one;
+      structure.name = "s" + std::to_string(n + 1);
+      structure.index = static_cast<std::uint16_t>(n + 1);
+      value.labels[0].structures.push_back(structure);
+      volume::Segment segment;
+      segment.name = structure.name;
+      segment.index = structure.index;
+      segments.push_back(segment);
+    }
+    value.labels[0].labels =
+        std::make_shared<const volume::LabelMap>(volume::makeLabelMap(labels, segments));
+    if (withMr)
+    {
+      scene::ImagePart mr = value.ct;
+      mr.name = "T2";
+      value.mr.push_back(mr);
+    }
+    library().save(value);
+  }
+
+  bool opened(const std::string& name)
+  {
+    return waitFor(
+        [&]
+        {
+          return window().model().hasCase() && !window().busy() &&
+                 window().model().value().name == name && window().model().ready() &&
+                 window().model().drawable();
+        });
+  }
+
+  /// Widgets that the keyboard or the mouse works, but for parts that Qt makes.
+  static std::vector<QWidget*> worked(QWidget& within)
+  {
+    std::vector<QWidget*> found;
+    for (QWidget* widget : within.findChildren<QWidget*>())
+    {
+      const bool isPart = widget->objectName().startsWith("qt_") ||
+                          qobject_cast<QHeaderView*>(widget) || qobject_cast<QScrollBar*>(widget) ||
+                          qobject_cast<QAbstractSpinBox*>(widget->parentWidget()) ||
+                          qobject_cast<QComboBox*>(widget->parentWidget()) ||
+                          widget->inherits("QComboBoxPrivateContainer") ||
+                          (widget->parentWidget() &&
+                           widget->parentWidget()->inherits("QComboBoxPrivateContainer")) ||
+                          (qobject_cast<QLineEdit*>(widget->parentWidget()));
+      const bool isWorked =
+          qobject_cast<QAbstractButton*>(widget) || qobject_cast<QComboBox*>(widget) ||
+          qobject_cast<QAbstractSpinBox*>(widget) || qobject_cast<QAbstractSlider*>(widget) ||
+          qobject_cast<QLineEdit*>(widget) || qobject_cast<QTextEdit*>(widget) ||
+          qobject_cast<QAbstractItemView*>(widget) ||
+          ((widget->focusPolicy() & Qt::TabFocus) == Qt::TabFocus &&
+           !widget->inherits("QScrollArea") && !widget->inherits("QStackedWidget"));
+      if (isWorked && !isPart)
+        found.push_back(widget);
+    }
+    return found;
+  }
+  static QString described(const QWidget& widget)
+  {
+    QString text = QString("%1 “%2”").arg(widget.metaObject()->className(), widget.objectName());
+    for (const QWidget* above = widget.parentWidget(); above; above = above->parentWidget())
+      if (!above->objectName().isEmpty() && !above->objectName().startsWith("qt_"))
+        text += " in " + above->objectName();
+    return text;
+  }
+  static void expectNamed(QWidget& within)
+  {
+    for (QWidget* widget : worked(within))
+    {
+      QAccessibleInterface* reader = QAccessible::queryAccessibleInterface(widget);
+      ASSERT_TRUE(reader) << described(*widget).toStdString();
+      EXPECT_FALSE(reader->text(QAccessible::Name).isEmpty())
+          << described(*widget).toStdString() << " has no name for a screen reader";
+    }
+  }
+  static void expectTips(QWidget& within)
+  {
+    for (QWidget* widget : worked(within))
+    {
+      const auto* line = qobject_cast<QLineEdit*>(widget);
+      const bool isControl =
+          line || qobject_cast<QAbstractButton*>(widget) || qobject_cast<QComboBox*>(widget) ||
+          qobject_cast<QAbstractSpinBox*>(widget) || qobject_cast<QAbstractSlider*>(widget);
+      const bool hasTip =
+          !widget->toolTip().isEmpty() || (line && !line->placeholderText().isEmpty());
+      EXPECT_TRUE(hasTip || !isControl) << described(*widget).toStdString() << " has no tip";
+    }
+  }
+  std::vector<QDockWidget*> docks()
+  {
+    std::vector<QDockWidget*> all;
+    for (const PanelEntry& entry : panelEntries())
+      all.push_back(window().findChild<QDockWidget*>(entry.name));
+    return all;
+  }
+};
+
+} // namespace
+
+// Figures are printed, not asserted. PETROUS_WATCHDOG_SIZE=320: with voxels as a patient has.
+TEST_F(Manners, TheWindowGoesOnDuringLongWork)
+{
+  const int size = qEnvironmentVariable("PETROUS_WATCHDOG_SIZE", "64").toInt();
+  openWindow(); // without a case
+  saveMany("sixty", size, 60, true);
+  const fs::path file = folder() / "ear.nrrd";
+  imaging::writeVolume(file, *library().open("sixty").ct.volume.get());
+  EventLoopWatchdog watchdog;
+  watchdog.begin("import of a CT");
+  dropPath(file);
+  ASSERT_TRUE(opened("ear"));
+  watchdog.begin("opening of 60 structures");
+  window().begin("sixty");
+  ASSERT_TRUE(opened("sixty"));
+  EXPECT_GT(watchdog.steps().back().beats, 0) << "it is read in another thread";
+  watchdog.begin("picture at rest");
+  QTest::qWait(700);
+  watchdog.begin("one of 60 alone, and undone");
+  structureList().setCurrentIndex(structureCell("s33"));
+  window().findChild<QAbstractButton*>("onlyThese")->click();
+  ASSERT_TRUE(waitFor([this] { return window().model().drawable(); }));
+  action("Undo")->trigger();
+  ASSERT_TRUE(waitFor([this] { return window().model().drawable(); }));
+  watchdog.begin("thickness");
+  structureList().setCurrentIndex(structureCell("s33"));
+  action("Bone thickness over the structure")->trigger();
+  EXPECT_TRUE(window().model().thicknessOver().empty()) << "it is measured in another thread";
+  ASSERT_TRUE(waitFor([this] { return window().model().thicknessOver() == "s33"; }));
+  watchdog.begin("burr taken up and a stroke");
+  drill(400);
+  watchdog.begin("stroke undone, and saved");
+  action("Undo")->trigger();
+  EXPECT_TRUE(strokeEnds());
+  action("Save")->trigger();
+  EXPECT_TRUE(settled());
+  EXPECT_FALSE(window().model().unsaved());
+  watchdog.begin("archive");
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        if (dialog.objectName() != "archiveCase")
+          return false;
+        dialog.findChild<QLineEdit*>("archiveFile")
+            ->setText(QString::fromStdString((folder() / "sixty").string()));
+        dialog.findChild<QPushButton*>("primary")->click();
+        return true;
+      });
+  bool told = false;
+  onMessage(
+      [&](QMessageBox& box)
+      {
+        told = true;
+        box.accept();
+      });
+  action(QString::fromUtf8("Archive…"))->trigger();
+  EXPECT_TRUE(waitFor([&] { return told && !window().busy(); }));
+  EXPECT_TRUE(fs::exists(folder() / "sixty.petrous"));
+  watchdog.begin("registration, begun and stopped");
+  action("Register the MR")->trigger();
+  QTest::qWait(300);
+  EXPECT_GT(watchdog.steps().back().beats, 1) << "it runs in another thread";
+  auto* cancel = window().findChild<QAbstractButton*>("cancelRegistration");
+  if (cancel->isEnabled()) // else it has ended
+  {
+    onMessage([](QMessageBox& box) { box.reject(); }); // of the best place by then, if any
+    cancel->click();
+    EXPECT_TRUE(waitFor([&] { return !cancel->isEnabled(); }));
+  }
+  watchdog.begin("case closed");
+  action("Close the case")->trigger();
+  EXPECT_TRUE(waitFor([this] { return !window().model().hasCase(); }));
+}
+
+TEST_F(Manners, NoVolumeOutlivesItsCaseAndMemoryComesBack)
+{
+  openWindow(); // without a case
+  saveMany("sixty", 40, 12, false);
+  const auto used = []
+  {
+    QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+    malloc_trim(0);
+    const auto info = mallinfo2();
+    return static_cast<double>(info.uordblks + info.hblkhd);
+  };
+  double before = 0.0;
+  constexpr int kTimes = 20, kWarm = 3; // what is made once and kept
+  for (int n = 0; n < kWarm + kTimes; ++n)
+  {
+    if (n == kWarm)
+      before = used();
+    window().begin("sixty");
+    ASSERT_TRUE(opened("sixty"));
+    const std::weak_ptr<const volume::IntensityVolume> ct =
+        window().model().value().ct.volume.peek();
+    const std::weak_ptr<const volume::LabelMap> labels =
+        window().model().value().labels[0].labels.peek();
+    EXPECT_FALSE(ct.expired() || labels.expired());
+    QTest::qWait(20); // it is drawn
+    action("Close the case")->trigger();
+    ASSERT_TRUE(waitFor([this] { return !window().model().hasCase() && !window().busy(); }));
+    EXPECT_TRUE(waitFor([&] { return ct.expired() && labels.expired(); }, 3000));
+  }
+  const double after = used();
+  std::printf("memory in use: %.1f MB before, %.1f MB after %d cases\n", 1e-6 * before,
+              1e-6 * after, kTimes);
+  EXPECT_LT(after, 1.05 * before);
+}
+
+TEST_F(Manners, SafeModeHasNoSettingsNoDevicesAndNoPreviousCase)
+{
+  saveBall("ball");
+  openWindow();
+  window().findChild<QDoubleSpinBox*>("thrust")->setValue(2.5);
+  ASSERT_TRUE(window().model().hasCase());
+  closeWindow();
+
+  isSafe = true;
+  openWindow();
+  EXPECT_FALSE(window().model().hasCase());
+  EXPECT_EQ(window().windowTitle(), "Petrous (safe mode)");
+  auto* thrust = window().findChild<QDoubleSpinBox*>("thrust");
+  EXPECT_EQ(thrust->value(), 1.0);
+  thrust->setValue(4.0);
+  EXPECT_EQ(window().findChild<QComboBox*>("deviceChoice")->count(), 1) << "the mouse";
+  window().begin("ball");
+  ASSERT_TRUE(opened("ball"));
+  EXPECT_EQ(window().windowTitle(), QString::fromUtf8("ball — Petrous (safe mode)"));
+  drill(300);
+  closeWindow();
+  EXPECT_FALSE(fs::exists(WindowSettings::kNone));
+
+  const auto file = QString::fromStdString((folder() / "settings.conf").string());
+  EXPECT_EQ(WindowSettings(file).thrust(), 2.5) << "as it was before";
+  EXPECT_EQ(library().open("ball").dissection.strokes().size(), 1u) << "cases are saved";
+}
+
+TEST_F(Manners, SettingsThatAreGarbageAreTheUsualAndAreWrittenAnew)
+{
+  saveBall("ball");
+  const fs::path file = folder() / "settings.conf"; // the window's
+  const std::string zeros(16, '\0');
+  for (const std::string& garbage :
+       {zeros + "\xff\xfe[[[[=\n\n]]%%%\\x\n=\n[hand]\nthrust_n=@Variant(" + zeros,
+        std::string(4096, '\xa5'), std::string("[hand\nthrust_n"),
+        std::string("[panels]\nstructuresDock=@ByteArray(\\x0)\n[views]\nlayout=-7\n")})
+  {
+    std::ofstream(file, std::ios::binary) << garbage;
+    const QString name = QString::fromStdString(file.string());
+    EXPECT_FALSE(WindowSettings(name).thrust());
+    WindowSettings(name).keepThrust(3.5);
+    EXPECT_EQ(WindowSettings(name).thrust(), 3.5);
+    std::ofstream(file, std::ios::binary) << garbage;
+  }
+  openWindow();
+  EXPECT_TRUE(window().model().hasCase());
+  EXPECT_TRUE(window().findChild<QDockWidget*>("structuresDock")->isVisible());
+}
+
+// What is no stroke is not in the journal: it is saved by itself.
+TEST_F(Manners, AChangeIsSavedAfterAWhile)
+{
+  saveBall("ball");
+  saveAfter = 50;
+  openWindow();
+  ASSERT_TRUE(opened("ball"));
+  auto& model = const_cast<presenters::WorkstationModel&>(window().model());
+  model.setIso(700.0);
+  ASSERT_TRUE(waitFor([this] { return !window().model().unsaved() && !window().busy(); }));
+  EXPECT_EQ(library().open("ball").iso, 700.0) << "as a window has it that starts after a crash";
+  EXPECT_TRUE(action("Undo")->isEnabled());
+}
+
+// Root may write anywhere but there.
+TEST_F(Manners, ALibraryThatCannotBeWrittenIsSaidAndTheCaseStaysOpen)
+{
+  const fs::path file = folder() / "ear.nrrd";
+  imaging::writeVolume(file, *ballCase("x").ct.volume.get());
+  std::ofstream(folder() / "library") << "a file in place of the folder";
+  openWindow();
+  EXPECT_FALSE(window().model().hasCase());
+  QStringList told;
+  QTimer answer;
+  QObject::connect(&answer, &QTimer::timeout, &answer,
+                   [&]
+                   {
+                     if (auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget()))
+                     {
+                       told += box->text();
+                       box->accept();
+                     }
+                   });
+  answer.start(10);
+  dropPath(file);
+  auto* banner = window().findChild<Banner*>("unsavedBanner");
+  EXPECT_TRUE(
+      waitFor([&] { return !window().busy() && (banner->isVisible() || !told.isEmpty()); }, 20000));
+  const QString why = banner->isVisible() ? banner->text() : told.join('\n');
+  EXPECT_TRUE(why.contains("library")) << why.toStdString();
+  EXPECT_FALSE(window().findChild<Banner*>("faultBanner")->isVisible());
+  if (!banner->isVisible())
+    return;
+  EXPECT_TRUE(window().model().hasCase());
+  fs::remove(folder() / "library"); // the medium is back
+  banner->findChild<QPushButton*>("retrySave")->click();
+  EXPECT_TRUE(waitFor([&] { return !banner->isVisible() && !window().busy(); }));
+  EXPECT_EQ(library().list().size(), 1u);
+}
+
+TEST_F(Manners, AllThatIsWorkedHasANameForScreenReadersAndATip)
+{
+  saveMany("sixty", 24, 3, true);
+  openWindow("sixty");
+  for (QDockWidget* dock : docks())
+  {
+    dock->show();
+    dock->raise();
+    QTest::qWait(1);
+  }
+  expectNamed(window());
+  expectTips(window());
+}
+
+TEST_F(Manners, DialogsHaveNamesForScreenReadersAndAWayOutByKey)
+{
+  saveMany("sixty", 24, 3, true);
+  openWindow("sixty");
+  for (const char* entry :
+       {"Export…", "Archive…", "Settings…", "Keys", "Find a command…", "Save as…", "About Petrous"})
+  {
+    SCOPED_TRACE(entry);
+    QPointer<QDialog> seen;
+    const auto look = [&](QDialog& dialog)
+    {
+      seen = &dialog;
+      expectNamed(dialog);
+      QTest::keyClick(&dialog, Qt::Key_Escape);
+      EXPECT_FALSE(dialog.isVisible());
+      dialog.close();
+    };
+    QTimer poll;
+    QObject::connect(&poll, &QTimer::timeout, &poll,
+                     [&]
+                     {
+                       if (auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget()))
+                       {
+                         poll.stop();
+                         look(*dialog);
+                       }
+                     });
+    poll.start(10);
+    action(QString::fromUtf8(entry))->trigger();
+    if (poll.isActive()) // not modal
+      for (QWidget* top : QApplication::topLevelWidgets())
+        if (auto* dialog = qobject_cast<QDialog*>(top);
+            dialog && dialog->isVisible() && poll.isActive())
+        {
+          poll.stop();
+          look(*dialog);
+        }
+    EXPECT_FALSE(poll.isActive()) << "no dialog";
+    QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+  }
+}
+
+// The smallest screen; 4K at scale 2 counts 1920 x 1080 of the same pixels. With texts that are
+// longer than English ones.
+TEST_F(Manners, NoPanelIsLargerThanTheSmallestScreen)
+{
+  constexpr int kWidth = 1280, kHeight = 680; // 40 are the title's
+  LongTexts longer;
+  QApplication::installTranslator(&longer);
+  saveMany("sixty", 24, 3, true);
+  openWindow("sixty");
+  QApplication::removeTranslator(&longer);
+  for (QDockWidget* dock : docks())
+  {
+    dock->show();
+    dock->raise();
+    window().resize(kWidth, kHeight);
+    QTest::qWait(20);
+    EXPECT_LE(dock->minimumSizeHint().width(), kWidth / 2) << dock->objectName().toStdString();
+    EXPECT_LE(window().minimumSizeHint().width(), kWidth) << dock->objectName().toStdString();
+    EXPECT_LE(window().minimumSizeHint().height(), kHeight) << dock->objectName().toStdString();
+    EXPECT_LE(window().width(), kWidth) << dock->objectName().toStdString();
+    EXPECT_LE(window().height(), kHeight) << dock->objectName().toStdString();
+    const QString pictures = qEnvironmentVariable("PETROUS_GUI_PICTURES");
+    if (!pictures.isEmpty())
+      window().grab().save(pictures + "/" + dock->objectName() + ".png");
+    if (dock->objectName() != "nearbyDock") // stands beside the others
+      dock->hide();
+  }
+}
+
+TEST_F(Manners, TabGoesThroughAllOfAPanel)
+{
+  saveMany("sixty", 24, 3, true);
+  openWindow("sixty");
+  for (QDockWidget* dock : docks())
+  {
+    SCOPED_TRACE(dock->objectName().toStdString());
+    dock->show();
+    dock->raise();
+    QTest::qWait(10);
+    QApplication::setActiveWindow(&window());
+    std::set<QWidget*> missed;
+    for (QWidget* widget : worked(*dock))
+      if (widget->isVisible() && widget->isEnabled() &&
+          (widget->focusPolicy() & Qt::TabFocus) == Qt::TabFocus &&
+          !qobject_cast<QAbstractButton*>(widget)) // one of a group has the focus
+        missed.insert(widget);
+    if (missed.empty())
+      continue;
+    (*missed.begin())->setFocus();
+    for (int n = 0; n < 120 && !missed.empty() && QApplication::focusWidget(); ++n)
+    {
+      QWidget* at = QApplication::focusWidget();
+      for (QWidget* above = at; above; above = above->parentWidget())
+        missed.erase(above);
+      QTest::keyClick(at, Qt::Key_Tab);
+    }
+    for (QWidget* one : missed)
+      ADD_FAILURE() << described(*one).toStdString() << " is not reached";
+    dock->hide();
+  }
+}

@@ -69,7 +69,8 @@ void proposeNodes(const std::filesystem::path& library)
 {
   if (!std::filesystem::exists(library / "nodes.json"))
     return;
-  for (const network::Node& node : network::NodeList(library).nodes())
+  const network::NodeList list(library);
+  for (const network::Node& node : list.nodes())
     propose(node.name);
 }
 

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <QString>
+
+namespace petrous::workstation
+{
+
+/// First page of the manual: installed with programs in this folder, or built beside them; empty if
+/// it is neither.
+QString manualFile(const QString& programs);
+
+/// Opens it in the desktop's browser. Returns what is to be said if that cannot be done; empty if
+/// it was.
+QString openManual(const QString& programs);
+
+} // namespace petrous::workstation

@@ -407,7 +407,7 @@ void MainWindow::showPanels()
   if (!front)
     return;
   front->raise();
-  resizeDocks({front}, {std::min(465, 2 * width() / 5)}, Qt::Horizontal);
+  resizeDocks({front}, {std::min(482, 2 * width() / 5)}, Qt::Horizontal);
 }
 
 // Another case is open, or none is any more.

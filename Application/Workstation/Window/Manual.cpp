@@ -1,10 +1,8 @@
 #include "Manual.h"
 
-#include <QDesktopServices>
 #include <QDir>
 #include <QFileInfo>
 #include <QObject>
-#include <QUrl>
 
 namespace petrous::workstation
 {
@@ -21,14 +19,14 @@ QString manualFile(const QString& programs)
   return {};
 }
 
-QString openManual(const QString& programs)
+QString openManual(const QString& programs, const std::function<bool(const QUrl&)>& open)
 {
   const QString file = manualFile(programs);
   if (file.isEmpty())
     return QObject::tr("The manual is not installed here. The package petrous has it; in a build "
                        "tree 'ninja manual' makes it (needs python3-sphinx and "
                        "python3-myst-parser)");
-  if (!QDesktopServices::openUrl(QUrl::fromLocalFile(file)))
+  if (!open(QUrl::fromLocalFile(file)))
     return QObject::tr("No browser could be started. The manual is %1").arg(file);
   return {};
 }

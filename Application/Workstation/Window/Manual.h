@@ -1,6 +1,10 @@
 #pragma once
 
+#include <functional>
+
+#include <QDesktopServices>
 #include <QString>
+#include <QUrl>
 
 namespace petrous::workstation
 {
@@ -11,6 +15,7 @@ QString manualFile(const QString& programs);
 
 /// Opens it in the desktop's browser. Returns what is to be said if that cannot be done; empty if
 /// it was.
-QString openManual(const QString& programs);
+QString openManual(const QString& programs,
+                   const std::function<bool(const QUrl&)>& open = QDesktopServices::openUrl);
 
 } // namespace petrous::workstation

@@ -122,8 +122,9 @@ TEST_F(Reference, ManPagesHaveEveryOptionOfEveryCommandAndRenderWithoutWarnings)
     EXPECT_EQ(shell("sh -c 'for page in man/*.1; do man --warnings -l $page >rendered || exit 1; "
                     "done'"),
               "");
-  if (has("mandoc"))
-    EXPECT_EQ(shell("mandoc -T lint -W warning man/*.1"), "");
+  if (has("mandoc")) // pages of the same version are the same: without a date
+    EXPECT_EQ(shell("sh -c 'mandoc -T lint -W warning man/*.1 | grep -v \"missing date\"; true'"),
+              "");
 }
 
 TEST_F(Reference, MarkdownHasEveryCommandAndItsOptions)

@@ -52,6 +52,7 @@ class Section:
     def __init__(self, heading):
         self.heading = heading
         self.lines = []
+        self.anchors = [slug(heading)]
 
 
 def sections(text):
@@ -64,7 +65,13 @@ def sections(text):
             found.append(Section(heading[2]))
         elif found:
             found[-1].lines.append(line)
-    return [one for one in found if any(line.strip() for line in one.lines)]
+    filled, anchors = [], []
+    for one in found:  # the anchor of a heading without text is the section after it
+        one.anchors = anchors = anchors + one.anchors
+        if any(line.strip() for line in one.lines):
+            filled.append(one)
+            anchors = []
+    return filled
 
 
 def chapters():
@@ -132,7 +139,8 @@ def section_text(section, title):
     if not title and section.heading.startswith("`"):
         synopsis = re.findall(r"`([^`]*)`", section.heading)
         title = ", ".join(dict.fromkeys(commands_in(one) for one in synopsis))
-    lines = [f"(guide-{slug(section.heading)})=", f"## {title or section.heading}", ""]
+    lines = [f"(guide-{anchor})=" for anchor in section.anchors]
+    lines += [f"## {title or section.heading}", ""]
     if synopsis:
         lines += ["    " + one for one in synopsis] + [""]
     code = False

@@ -119,9 +119,7 @@ TEST_F(Reference, ManPagesHaveEveryOptionOfEveryCommandAndRenderWithoutWarnings)
       EXPECT_NE(page.find("\\fB" + option + "\\fR"), std::string::npos) << command << option;
   }
   if (has("man"))
-    EXPECT_EQ(shell("sh -c 'for page in man/*.1; do man --warnings -l $page >rendered || exit 1; "
-                    "done'"),
-              "");
+    EXPECT_EQ(shell("sh -c 'man --warnings -l man/*.1 >rendered'"), "");
   if (has("mandoc")) // pages of the same version are the same: without a date
     EXPECT_EQ(shell("sh -c 'mandoc -T lint -W warning man/*.1 | grep -v \"missing date\"; true'"),
               "");

@@ -29,6 +29,8 @@ try:
 except ImportError:
     html_theme = "alabaster"
 html_title = "Petrous manual"
+html_static_path = ["static"]
+html_css_files = ["manual.css"]
 html_copy_source = False
 html_show_sourcelink = False
 html_show_sphinx = False
@@ -122,23 +124,16 @@ def adapted(text):
     return re.sub(r"(!?)\[([^\[\]]*)\]\(([^()\s]+)\)", link, text)
 
 
-def commands_in(heading):
-    """`petrous drill CASE --path F.csv` is a title too long: petrous drill --path."""
-    kept = []
-    for words in heading.split():
-        if words == "CASE" or words == "NAME":
-            continue
-        if not re.fullmatch(r"(--)?[a-z]+", words):
-            break
-        kept.append(words)
-    return " ".join(kept)
+def command_in(synopsis):
+    """`petrous nodes add NAME --host H` is a title too long: petrous nodes."""
+    return " ".join(synopsis.split()[:2])
 
 
 def section_text(section, title):
     body, synopsis = list(section.lines), []
-    if not title and section.heading.startswith("`"):
+    if section.heading.startswith("`"):
         synopsis = re.findall(r"`([^`]*)`", section.heading)
-        title = ", ".join(dict.fromkeys(commands_in(one) for one in synopsis))
+        title = title or ", ".join(dict.fromkeys(command_in(one) for one in synopsis))
     lines = [f"(guide-{anchor})=" for anchor in section.anchors]
     lines += [f"## {title or section.heading}", ""]
     if synopsis:

@@ -161,6 +161,9 @@ TEST_F(DISABLED_Pictures, Segment)
   ASSERT_TRUE(waitFor([&] { return points->topLevelItem(0)->text(1).contains("mm"); }));
   QTest::keyClicks(window().findChild<QLineEdit*>("segmentName"), "facial nerve");
   points->setCurrentItem(points->topLevelItem(3));
+  action("Zoom slices together")->trigger();
+  for (int n = 0; n < 6; ++n)
+    QTest::keyClick(window().findChild<SliceView*>("axialView"), Qt::Key_Plus);
   keep("segment-nerve");
 }
 
@@ -168,8 +171,12 @@ TEST_F(DISABLED_Pictures, Drilling)
 {
   open("petrous apex", {1600, 1000});
   raise("nearbyDock");
+  model().setCrosshair({-62.0, 14.0, 2.0}); // on the mastoid
   action("Surgical position, right ear")->trigger();
+  action("Centre on the crosshair")->trigger();
   drill(2500, 40);
+  const auto* near = window().findChild<QDockWidget*>("nearbyDock")->findChild<QTreeView*>();
+  EXPECT_TRUE(waitFor([near] { return near->model()->rowCount() > 0; }));
   QTest::qWait(500); // the picture is fine, and the burr still over it
   EXPECT_TRUE(window().screen()->grabWindow(window().winId()).save(fileOf("drilling")));
 }

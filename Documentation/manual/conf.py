@@ -34,6 +34,7 @@ html_css_files = ["manual.css"]
 html_copy_source = False
 html_show_sourcelink = False
 html_show_sphinx = False
+html_use_index = False
 smartquotes = False
 language = "en"
 myst_heading_anchors = None

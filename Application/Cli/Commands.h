@@ -29,5 +29,6 @@ void addRegisterCommand(CLI::App& app, Context& context);
 void addReportCommand(CLI::App& app, Context& context);
 void addSegmentCommand(CLI::App& app, Context& context);
 void addDoctorCommand(CLI::App& app, Context& context);
+void addReferenceCommand(CLI::App& app, Context& context); ///< of all that `app` has
 
 } // namespace petrous::cli

@@ -256,6 +256,8 @@ void addLibraryCommand(CLI::App& app, Context& context)
                    "list, search TEXT, verify, gc, repair, rename A B, copy A B, delete NAME, "
                    "deleted, undelete NAME, folder [DIR] (the one in use, or another one from now "
                    "on)")
+      ->check(offers({"list", "search", "verify", "gc", "repair", "rename", "copy", "delete",
+                      "deleted", "undelete", "folder"}))
       ->required();
   command->add_option("NAMES", options->names, "Arguments of the action");
   command->add_flag("--notes", options->filter.inNotes,

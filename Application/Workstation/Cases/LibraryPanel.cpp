@@ -15,6 +15,7 @@
 #include <QLineEdit>
 #include <QMenu>
 #include <QSignalBlocker>
+#include <QStyledItemDelegate>
 #include <QTimer>
 #include <QToolButton>
 #include <QTreeView>
@@ -32,8 +33,23 @@ namespace petrous::workstation
 
 namespace
 {
-constexpr int kNameWidth = 168;   // px
+constexpr int kNameWidth = 205;   // px
 constexpr int kSampledLines = 50; // for the widths of columns
+
+// A picture keeps its colours where its row is selected.
+class PictureDelegate : public QStyledItemDelegate
+{
+public:
+  using QStyledItemDelegate::QStyledItemDelegate;
+
+protected:
+  void initStyleOption(QStyleOptionViewItem* option, const QModelIndex& index) const override
+  {
+    QStyledItemDelegate::initStyleOption(option, index);
+    if (!option->icon.isNull())
+      option->icon.addPixmap(option->icon.pixmap(option->decorationSize), QIcon::Selected);
+  }
+};
 } // namespace
 
 LibraryPanel::LibraryPanel(const presenters::WorkstationModel& model, QWidget* parent)
@@ -70,6 +86,7 @@ LibraryPanel::LibraryPanel(const presenters::WorkstationModel& model, QWidget* p
   m_list->setAccessibleName(tr("Cases of the library"));
   m_list->setRootIsDecorated(false);
   m_list->setIconSize(kCasePicture);
+  m_list->setItemDelegate(new PictureDelegate(m_list));
   m_list->setUniformRowHeights(true);
   m_list->setAlternatingRowColors(true);
   m_list->setAllColumnsShowFocus(true);

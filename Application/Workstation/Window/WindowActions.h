@@ -82,6 +82,7 @@ public:
   QAction* record; ///< checkable
   QAction* settings;
   QAction* keyList;
+  QAction* manual;
   QAction* findCommand;
   QAction* about;
 

@@ -66,22 +66,23 @@ TEST(DissectionDistances, AreNoneWithoutACavityAndZeroWhereItReaches)
   EXPECT_THROW(dissectionDistances(value), core::InvalidParameter);
 }
 
-TEST(CavityWall, IsTheBurrsSphereAcrossBricks)
+// A burr on the border of bricks of 16 voxels, between bone to the left and air to the right, as
+// near to a structure in each.
+TEST(DissectionDistances, AreOfTissueAcrossBricksAndNotOfAir)
 {
-  // The middle is at the border of bricks of 16 voxels.
-  const core::GridGeometry grid({40, 40, 40}, Vector3d::Constant(kVoxel), {0.0, 0.0, 0.0});
-  volume::CutMask mask(grid);
+  const core::GridGeometry grid({48, 40, 40}, Vector3d::Constant(kVoxel), {0.0, 0.0, 0.0});
   const Vector3d middle(7.75, 7.75, 7.75);
-  dissection::cut(mask, {middle, middle, 3.0});
-  const auto wall = cavityWall(mask);
-  double least = 1e9, most = 0.0;
-  for (const Vector3d& point : wall)
-  {
-    least = std::min(least, (point - middle).norm());
-    most = std::max(most, (point - middle).norm());
-  }
-  EXPECT_NEAR(least, 3.0, 0.05 * kVoxel);
-  EXPECT_NEAR(most, 3.0, 0.05 * kVoxel);
-  // Each lattice line along an axis that meets the sphere meets it twice: 3 pi r^2 / h^2 lines.
-  EXPECT_NEAR(static_cast<double>(wall.size()), 6.0 * 3.14159 * 9.0 / (kVoxel * kVoxel), 40.0);
+  const auto isBone = [&](const Vector3d& at) { return at.x() < middle.x() + 0.9; };
+  scene::Case value = shapes::shapeCase(grid,
+                                        {{"left", shapes::ball(middle - Vector3d(5, 0, 0), 1.0)},
+                                         {"right", shapes::ball(middle + Vector3d(7, 0, 0), 2.0)}},
+                                        isBone);
+  drill(value, middle, middle, 2.5);
+  const auto distances = dissectionDistances(value);
+  ASSERT_EQ(distances.size(), 2U);
+  EXPECT_EQ(distances[0].name, "left");
+  EXPECT_NEAR(*distances[0].distance.value, 5.0 - 1.0 - 2.5, 0.5 * kVoxel);
+  EXPECT_EQ(distances[1].name, "right");
+  // bone ends 0.9 mm right of the middle, within a voxel; the burr went on to 2.5 mm
+  EXPECT_NEAR(*distances[1].distance.value, 7.0 - 2.0 - 0.9, 1.0 * kVoxel);
 }

@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include "petrous/Dissection/RemovedVolume.h"
+#include "petrous/Presenters/DissectionDistances.h"
 #include "petrous/Presenters/StructureSurfaces.h"
 #include "petrous/Rendering/SurfaceExtraction.h"
 #include "petrous/Scene/Branches.h"
@@ -24,7 +25,6 @@ namespace
 using volume::CutMask;
 
 constexpr std::uint16_t kHalf = 32768;
-constexpr int kCellEdge = 4; // voxels; divides CutMask::kBrickEdge
 
 // What is left after both.
 CutMask minimumOf(const CutMask& a, const CutMask& b)
@@ -61,100 +61,6 @@ double volumeOf(const volume::TissueField& tissue, const CutMask& mask)
 {
   const CutMask untouched(mask.geometry());
   return dissection::measureRemoved(tissue, untouched, mask, cutBricks(mask), {}).total;
-}
-
-// Points of removed tissue: its voxels, and its walls on the edges between voxels.
-struct Cell
-{
-  std::vector<Eigen::Vector3d> points; // patient LPS mm
-  Eigen::Vector3d center{0.0, 0.0, 0.0};
-  double radius = 0.0; // mm, around `center`
-};
-
-void addPoints(const volume::TissueField& tissue, const CutMask& mask, const core::Index3& voxel,
-               std::vector<Eigen::Vector3d>& points)
-{
-  const auto [i, j, k] = voxel;
-  const std::uint16_t here = mask.at(i, j, k);
-  if (here >= kHalf)
-    return;
-  const core::GridGeometry& grid = mask.geometry();
-  const Eigen::Vector3d middle(i, j, k);
-  const auto add = [&](const Eigen::Vector3d& at)
-  {
-    const Eigen::Vector3d patient = grid.patientFromVoxel(at);
-    if (tissue.uncut(patient) > 0.0)
-      points.push_back(patient);
-  };
-  add(middle);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    for (const int step : {-1, 1})
-    {
-      core::Index3 next = voxel;
-      next[axis] += step;
-      if (next[axis] < 0 || next[axis] >= grid.dims()[axis])
-        continue;
-      const std::uint16_t there = mask.at(next[0], next[1], next[2]);
-      if (there < kHalf)
-        continue;
-      const double fraction =
-          (0.5 * CutMask::kUntouched - here) / (static_cast<double>(there) - here);
-      Eigen::Vector3d wall = middle;
-      wall[static_cast<Eigen::Index>(axis)] += step * fraction;
-      add(wall);
-    }
-}
-
-std::vector<Cell> cellsOf(const volume::TissueField& tissue, const CutMask& mask,
-                          const core::Progress& progress)
-{
-  const auto bricks = cutBricks(mask);
-  std::vector<std::vector<Cell>> found(bricks.size());
-  tbb::parallel_for(std::size_t{0}, bricks.size(),
-                    [&](std::size_t n)
-                    {
-                      const core::IndexBox box = mask.brickBox(bricks[n]);
-                      for (int ck = box.lower[2]; ck < box.upper[2]; ck += kCellEdge)
-                        for (int cj = box.lower[1]; cj < box.upper[1]; cj += kCellEdge)
-                          for (int ci = box.lower[0]; ci < box.upper[0]; ci += kCellEdge)
-                          {
-                            Cell cell;
-                            for (int k = ck; k < std::min(ck + kCellEdge, box.upper[2]); ++k)
-                              for (int j = cj; j < std::min(cj + kCellEdge, box.upper[1]); ++j)
-                                for (int i = ci; i < std::min(ci + kCellEdge, box.upper[0]); ++i)
-                                  addPoints(tissue, mask, {i, j, k}, cell.points);
-                            if (cell.points.empty())
-                              continue;
-                            for (const Eigen::Vector3d& point : cell.points)
-                              cell.center += point / static_cast<double>(cell.points.size());
-                            for (const Eigen::Vector3d& point : cell.points)
-                              cell.radius = std::max(cell.radius, (point - cell.center).norm());
-                            found[n].push_back(std::move(cell));
-                          }
-                    });
-  progress.check("comparing approaches");
-  std::vector<Cell> cells;
-  for (auto& some : found)
-    std::move(some.begin(), some.end(), std::back_inserter(cells));
-  return cells;
-}
-
-// The distance is 1-Lipschitz: a cell is passed over where its centre is too far.
-std::optional<double> smallest(StructureSurfaces& surfaces, std::size_t structure,
-                               const std::vector<Cell>& cells)
-{
-  double best = StructureSurfaces::kFar;
-  for (const Cell& cell : cells)
-  {
-    if (best <= 0.0)
-      return 0.0;
-    const double reach = best + cell.radius;
-    if (surfaces.distance(structure, cell.center, reach) >= reach)
-      continue;
-    for (const Eigen::Vector3d& point : cell.points)
-      best = std::min(best, surfaces.distance(structure, point, best));
-  }
-  return best < StructureSurfaces::kFar ? std::optional(std::max(best, 0.0)) : std::nullopt;
 }
 
 // Positive where this difference is, zero at its surface.
@@ -226,10 +132,10 @@ ComparedApproach sideOf(const scene::Case& value, const std::string& branch)
 void measureDistances(const scene::Case& value, ApproachComparison& comparison,
                       const core::Progress& progress)
 {
-  std::array<std::vector<Cell>, 2> cells;
+  std::array<std::optional<RemovedTissue>, 2> removed;
   for (std::size_t side = 0; side < 2; ++side)
-    cells[side] = cellsOf(*comparison.tissue, *comparison.sides[side].mask, progress);
-  if (cells[0].empty() && cells[1].empty())
+    removed[side].emplace(*comparison.tissue, *comparison.sides[side].mask, progress);
+  if (removed[0]->empty() && removed[1]->empty())
     return;
   StructureSurfaces surfaces(value);
   for (std::size_t n = 0; n < surfaces.count(); ++n)
@@ -238,8 +144,8 @@ void measureDistances(const scene::Case& value, ApproachComparison& comparison,
                     "measuring distances");
     comparison.uncertainties[surfaces.name(n)] = surfaces.uncertainty(n).millimetres();
     for (std::size_t side = 0; side < 2; ++side)
-      if (const auto distance = smallest(surfaces, n, cells[side]))
-        comparison.sides[side].distances[surfaces.name(n)] = *distance;
+      if (const auto nearest = removed[side]->nearest(surfaces, n, progress))
+        comparison.sides[side].distances[surfaces.name(n)] = nearest->distance;
   }
 }
 

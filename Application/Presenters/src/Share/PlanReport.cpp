@@ -433,7 +433,7 @@ private:
       table.table.rows.push_back({structureCell(one.name), distance, injured});
     }
     table.remarks.push_back(
-        say("Shortest distance between the wall of what was drilled and the surface of each "
+        say("Shortest distance between what was removed and the surface of each "
             "structure, nearest first. ± is a half-width: half a voxel of structure and wall, and "
             "the error of the registration where a structure was drawn on an MR."));
   }

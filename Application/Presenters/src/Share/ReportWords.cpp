@@ -38,10 +38,10 @@ const std::map<std::string, std::string>& germanTexts()
        "Ohne 3D-Bilder: Auf diesem Rechner fehlt OpenGL."},
       {"Nothing of the case is shown in 3D.", "Nichts vom Fall wird in 3D gezeigt."},
       {"Distances of the dissection", "Abstände der Präparation"},
-      {"Shortest distance between the wall of what was drilled and the surface of each structure, "
+      {"Shortest distance between what was removed and the surface of each structure, "
        "nearest first. ± is a half-width: half a voxel of structure and wall, and the error of the "
        "registration where a structure was drawn on an MR.",
-       "Kürzester Abstand zwischen der Wand des Gebohrten und der Oberfläche jeder Struktur, die "
+       "Kürzester Abstand zwischen dem Entfernten und der Oberfläche jeder Struktur, die "
        "nächste zuerst. ± ist eine halbe Breite: ein halbes Voxel von Struktur und Wand, dazu der "
        "Fehler der Registrierung, wo eine Struktur im MR gezeichnet wurde."},
       {"Nothing was drilled yet.", "Noch wurde nichts gebohrt."},

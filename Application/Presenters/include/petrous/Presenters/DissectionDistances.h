@@ -8,9 +8,12 @@
 #include "petrous/Presenters/Measuring.h"
 #include "petrous/Scene/Case.h"
 #include "petrous/Volume/CutMask.h"
+#include "petrous/Volume/TissueField.h"
 
 namespace petrous::presenters
 {
+
+class StructureSurfaces;
 
 /// How near what was drilled came to a structure.
 struct DissectionDistance
@@ -18,20 +21,52 @@ struct DissectionDistance
   std::string name;
   Quantity distance;                    ///< mm; 0: reached
   double injured = 0.0;                 ///< mm^3 removed from it; of a lumen, which is opened, 0
-  Eigen::Vector3d place{0.0, 0.0, 0.0}; ///< of the cavity's wall, patient LPS mm
+  Eigen::Vector3d place{0.0, 0.0, 0.0}; ///< of the tissue removed, patient LPS mm
 };
 
-/// Points of the cavity's wall: where edges between voxel centres cross one half of the remaining
-/// fraction, linearly; patient LPS mm.
-std::vector<Eigen::Vector3d> cavityWall(const volume::CutMask& mask);
+/// The tissue that a mask takes away, as points: the centres of its voxels, and its walls on the
+/// edges between them, where the remaining fraction is one half, linearly. Where the burr was in
+/// air nothing was removed.
+class RemovedTissue
+{
+public:
+  /// `tissue`: before any mask. Throws CancelledError.
+  RemovedTissue(const volume::TissueField& tissue, const volume::CutMask& mask,
+                const core::Progress& progress = {});
 
-/// The distance of the cavity's wall from each structure that is drawn or touchable as a volume,
-/// nearest first. The wall is where a burr was, in bone or in air.
+  bool empty() const noexcept { return m_cells.empty(); }
+
+  struct Nearest
+  {
+    double distance; ///< mm, from the structure's surface; 0: reached
+    Eigen::Vector3d place;
+  };
+  /// None if nothing was removed. Throws CancelledError.
+  std::optional<Nearest> nearest(StructureSurfaces& surfaces, std::size_t structure,
+                                 const core::Progress& progress = {}) const;
+
+private:
+  struct Cell
+  {
+    std::vector<Eigen::Vector3d> points; // patient LPS mm
+    Eigen::Vector3d center{0.0, 0.0, 0.0};
+    double radius = 0.0; // mm, around `center`
+  };
+  static void addPoints(const volume::TissueField& tissue, const volume::CutMask& mask,
+                        const core::Index3& voxel, std::vector<Eigen::Vector3d>& points);
+  static std::vector<Cell> cellsOf(const volume::TissueField& tissue, const volume::CutMask& mask,
+                                   const core::IndexBox& box);
+
+  std::vector<Cell> m_cells;
+};
+
+/// The distance of the tissue removed (RemovedTissue) from each structure that is drawn or
+/// touchable as a volume, nearest first.
 ///
 /// The uncertainty is that of the structure's surface (SurfaceUncertainty) and half the longest
 /// edge of the CT's voxels for the wall, independently; none where the structure was drawn on an MR
-/// whose error is unknown. Loads labels; needs the dissection loaded, else throws InvalidParameter.
-/// Empty where nothing was drilled. Throws CancelledError.
+/// whose error is unknown. Loads the CT and labels; needs the dissection loaded, else throws
+/// InvalidParameter. Empty where nothing was removed. Throws CancelledError.
 std::vector<DissectionDistance> dissectionDistances(const scene::Case& value,
                                                     const core::Progress& progress = {});
 

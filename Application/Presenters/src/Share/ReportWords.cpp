@@ -96,7 +96,7 @@ const std::map<std::string, std::string>& germanTexts()
       {"The case has no structures.", "Der Fall hat keine Strukturen."},
       {"Volume", "Volumen"},
       {"Narrowest", "Schmalste Ausdehnung"},
-      {"Voxels", "Voxel"},
+      {"Voxel edge", "Voxelkante"},
       {"Resolved", "Aufgelöst"},
       {"yes", "ja"},
       {"Drawn on", "Gezeichnet auf"},

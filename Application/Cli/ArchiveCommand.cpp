@@ -123,7 +123,8 @@ void addArchiveCommands(CLI::App& app, Context& context)
                                [in, &context] { restore(context, *in); });
   command->add_option("FILE", in->file, "The archive")->required();
   command->add_option("--as", in->name, "Name of the new case, instead of that of the archive");
-  command->add_option("--ct", in->ct, "For an archive of a plan: a case with the very same CT");
+  command->add_option("--ct", in->ct, "For an archive of a plan: a case with the very same CT")
+      ->type_name("CASE");
 }
 
 } // namespace petrous::cli

@@ -11,6 +11,7 @@
 
 #include <unistd.h>
 
+#include "Numbers.h"
 #include "petrous/Core/Log.h"
 #include "petrous/Library/LibraryFiles.h"
 
@@ -75,7 +76,8 @@ void Context::addOptions(CLI::App& app)
   app.add_flag("--quiet", m_quiet, "No remarks and no progress");
   app.add_option("--log-level", m_logLevel,
                  "Level of the log: trace, debug, info, warning, error or off (info)")
-      ->type_name("LEVEL");
+      ->type_name("LEVEL")
+      ->check(offers({"trace", "debug", "info", "warning", "error", "off"}));
 }
 
 CLI::App* Context::addCommand(CLI::App& parent, const std::string& name, const std::string& text,

@@ -48,8 +48,7 @@ public:
   CLI::App* addCommand(CLI::App& parent, const std::string& name, const std::string& text,
                        std::function<void()> run);
 
-  /// --library, else $PETROUS_LIBRARY, else the user's data folder.
-  library::Library openLibrary() const;
+  library::Library openLibrary() const; ///< of libraryFolder
 
   bool json() const noexcept { return m_json; }
 
@@ -84,8 +83,10 @@ public:
   /// The same with a listener of one's own.
   core::Progress progress(core::Progress::Listener listener) const;
 
-private:
+  /// --library, else $PETROUS_LIBRARY, else the user's data folder; it need not be there.
   std::filesystem::path libraryFolder() const;
+
+private:
   void startLog(const std::string& program, const std::string& command);
 
   // CLI11 parses numbers in the C locale: a decimal point until the command runs.

@@ -233,6 +233,8 @@ void addLibraryCommand(CLI::App& app, Context& context)
       ->add_option("ACTION", options->action,
                    "list, search TEXT, verify, gc, repair, rename A B, copy A B, delete NAME, "
                    "deleted, undelete NAME")
+      ->check(offers({"list", "search", "verify", "gc", "repair", "rename", "copy", "delete",
+                      "deleted", "undelete"}))
       ->required();
   command->add_option("NAMES", options->names, "Arguments of the action");
   command->add_flag("--notes", options->filter.inNotes,

@@ -59,13 +59,20 @@ CLI::Validator wholeNumber(std::uint64_t lower, std::uint64_t upper)
 
 CLI::Validator oneOf(std::vector<std::string> names)
 {
+  const std::string choices = CLI::detail::join(names, std::string(1, kBetweenChoices));
   return {[names = std::move(names)](std::string& name)
           {
             if (std::find(names.begin(), names.end(), name) != names.end())
               return std::string();
             return "one of " + CLI::detail::join(names, ", ") + ", not '" + name + "'";
           },
-          ""};
+          "", choices};
+}
+
+CLI::Validator offers(const std::vector<std::string>& names)
+{
+  return {[](std::string&) { return std::string(); }, "",
+          CLI::detail::join(names, std::string(1, kBetweenChoices))};
 }
 
 CLI::Validator endsIn(const std::string& suffix)

@@ -29,6 +29,13 @@ CLI::Validator wholeNumber(std::uint64_t lower, std::uint64_t upper);
 /// One of these names. CLI::IsMember, with the text of the other checks.
 CLI::Validator oneOf(std::vector<std::string> names);
 
+/// Accepts everything: the choices, for the reference and for completion, of an option that is
+/// checked by its command.
+CLI::Validator offers(const std::vector<std::string>& names);
+
+/// Between the choices, in the name of such a check.
+constexpr char kBetweenChoices = '|';
+
 /// A file's name that ends in `suffix` (".png", case-insensitive): other programs rely on it. Not
 /// CLI::ExistingFile for files to be read: a missing one is bad input, not wrong usage.
 CLI::Validator endsIn(const std::string& suffix);

@@ -156,12 +156,8 @@ std::string listWithGap(CLI::App& command, const std::vector<std::string>& words
 int parsed(const Program& program, std::vector<std::string> words, Context& context)
 {
   const std::string help = "; see '" + program.name + " --help'";
-  CLI::App app(program.text, program.name);
-  app.set_version_flag("--version", program.name + " " PETROUS_VERSION);
-  app.require_subcommand(1);
-  app.footer("'" + program.name + " help COMMAND' shows the help of a command.\n" + kExitCodes);
-  context.addOptions(app);
-  program.addCommands(app, context);
+  CLI::App app;
+  define(app, program, context);
   const std::string name = subcommandIn(words);
   const auto isNamed = [&name](const CLI::App* command) { return command->get_name() == name; };
   if (!name.empty() && app.get_subcommands(isNamed).empty())
@@ -199,6 +195,17 @@ int parsed(const Program& program, std::vector<std::string> words, Context& cont
 }
 
 } // namespace
+
+void define(CLI::App& app, const Program& program, Context& context)
+{
+  app.name(program.name);
+  app.description(program.text);
+  app.set_version_flag("--version", program.name + " " PETROUS_VERSION);
+  app.require_subcommand(1);
+  app.footer("'" + program.name + " help COMMAND' shows the help of a command.\n" + kExitCodes);
+  context.addOptions(app);
+  program.addCommands(app, context);
+}
 
 std::string messageOf(const std::exception& error)
 {

@@ -19,6 +19,9 @@ struct Program
   std::function<void(CLI::App&, Context&)> addCommands;
 };
 
+/// Adds name, text, options and subcommands to an empty parser; the context must outlive it.
+void define(CLI::App& app, const Program& program, Context& context);
+
 /// Parses the arguments (without the program's name) and runs the selected subcommand. Exceptions
 /// become a line on stderr, with --json an object on stdout, and the exit code listed in
 /// kExitCodes.

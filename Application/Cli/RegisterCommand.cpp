@@ -294,7 +294,8 @@ void addRegisterCommand(CLI::App& app, Context& context)
                    "Initial transform: header (default), centres, or landmarks F.csv "
                    "(ct_x,ct_y,ct_z,mr_x,mr_y,mr_z, patient LPS mm)")
       ->expected(1, 2)
-      ->type_name("HOW");
+      ->type_name("HOW")
+      ->check(offers({"header", "centres", "landmarks"}));
   command
       ->add_option("--transform", options->transform,
                    "Initial transform from a file: 16 numbers, CT to MR patient points, LPS mm")

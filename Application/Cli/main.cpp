@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "Commands.h"
+#include "Completion.h"
 #include "Program.h"
 #include "petrous/Imaging/FileError.h"
 #include "petrous/Rendering/RenderingError.h"
@@ -71,6 +72,7 @@ void addCommands(CLI::App& app, cli::Context& context)
       ->allow_extras();
   cli::addSegmentCommand(app, context);
   cli::addDoctorCommand(app, context);
+  cli::addReferenceCommand(app, context);
 }
 
 } // namespace
@@ -79,14 +81,16 @@ int main(int argc, char** argv)
 {
   if (argc < 2)
     return openWorkstation(argv);
+  const cli::Program program{"petrous",
+                             "Rehearse temporal-bone surgery on the patient's own CT and MR.\n"
+                             "Without arguments, opens the workstation.",
+                             addCommands};
+  if (argv[1] == std::string("complete"))
+    return cli::printCompletions(program, {argv + 2, argv + argc});
   const std::vector<std::string> words = cli::wordsOf(argc, argv);
   if (cli::subcommandIn(words) == "bench")
     runBenchmarks(words);
   imaging::logToolkitMessages();
   rendering::logToolkitMessages();
-  return cli::run({"petrous",
-                   "Rehearse temporal-bone surgery on the patient's own CT and MR.\n"
-                   "Without arguments, opens the workstation.",
-                   addCommands},
-                  words);
+  return cli::run(program, words);
 }

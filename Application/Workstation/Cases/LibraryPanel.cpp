@@ -15,6 +15,7 @@
 #include <QLineEdit>
 #include <QMenu>
 #include <QSignalBlocker>
+#include <QStyledItemDelegate>
 #include <QTimer>
 #include <QToolButton>
 #include <QTreeView>
@@ -31,10 +32,25 @@ namespace petrous::workstation
 
 namespace
 {
-constexpr int kNameWidth = 168;   // px
+constexpr int kNameWidth = 205;   // px
 constexpr int kSampledLines = 50; // for the widths of columns
 constexpr int kTyping = 150;      // ms between keys
 constexpr qint64 kPrompt = 30;    // ms; a search as short as that is done at each key
+
+// A picture keeps its colours where its row is selected.
+class PictureDelegate : public QStyledItemDelegate
+{
+public:
+  using QStyledItemDelegate::QStyledItemDelegate;
+
+protected:
+  void initStyleOption(QStyleOptionViewItem* option, const QModelIndex& index) const override
+  {
+    QStyledItemDelegate::initStyleOption(option, index);
+    if (!option->icon.isNull())
+      option->icon.addPixmap(option->icon.pixmap(option->decorationSize), QIcon::Selected);
+  }
+};
 } // namespace
 
 LibraryPanel::LibraryPanel(const presenters::WorkstationModel& model, QWidget* parent)
@@ -81,6 +97,7 @@ LibraryPanel::LibraryPanel(const presenters::WorkstationModel& model, QWidget* p
   m_list->setAccessibleName(tr("Cases of the library"));
   m_list->setRootIsDecorated(false);
   m_list->setIconSize(kCasePicture);
+  m_list->setItemDelegate(new PictureDelegate(m_list));
   m_list->setUniformRowHeights(true);
   m_list->setAlternatingRowColors(true);
   m_list->setAllColumnsShowFocus(true);

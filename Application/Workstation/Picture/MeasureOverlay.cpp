@@ -184,9 +184,11 @@ void MeasureOverlay::place()
       continue;
     const auto at = *pixelOf(one.at);
     const double width = kPerLetter * m_measures[n].label.size();
+    // At the right of its handle, but within the view.
+    const double left = std::min(at[0] + kAway, std::max(m_renderer->GetSize()[0] - width, 0.0));
     double up = kAway;
     const auto boxOf = [&](double raised) {
-      return Box{at[0] + kAway, at[0] + kAway + width, at[1] - raised - kLine, at[1] - raised};
+      return Box{left, left + width, at[1] - raised - kLine, at[1] - raised};
     };
     for (std::size_t other = 0; other < taken.size(); ++other)
     {
@@ -200,7 +202,7 @@ void MeasureOverlay::place()
       }
     }
     taken.push_back(boxOf(up));
-    one.label->GetPositionCoordinate()->SetValue(kAway, up);
+    one.label->GetPositionCoordinate()->SetValue(left - at[0], up);
   }
 }
 

@@ -91,10 +91,12 @@ QToolButton#pointerButton:checked { background: @checked; border-color: @checked
 QToolButton#wheelButton { border: 1px solid @frame; }
 QToolButton#wheelButton:checked { background: @checked; border-color: @checkedEdge; color: #ffffff; }
 QToolButton#drillButton:checked { background: @drill; border-color: @edgeOfDrill; color: #ffffff; }
-QToolButton#segmentTool { border: 1px solid @toolEdge; background: @tool; padding: 6px 4px; }
-QToolButton#segmentTool:hover { background: @hover; }
-QToolButton#segmentTool:focus { border-color: @accent; }
-QToolButton#segmentTool:checked { background: @checked; border-color: @checkedEdge; color: #ffffff; }
+QToolButton#segmentTool, QToolButton#measureTool {
+  border: 1px solid @toolEdge; background: @tool; padding: 6px 4px; }
+QToolButton#segmentTool:hover, QToolButton#measureTool:hover { background: @hover; }
+QToolButton#segmentTool:focus, QToolButton#measureTool:focus { border-color: @accent; }
+QToolButton#segmentTool:checked, QToolButton#measureTool:checked {
+  background: @checked; border-color: @checkedEdge; color: #ffffff; }
 QMenuBar { background: @panel; }
 QMenuBar::item:selected, QMenu::item:selected { background: @select; color: @bySelect; }
 QMenu { background: @menu; border: 1px solid @rule; }

@@ -4,11 +4,13 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenuBar>
+#include <QStatusBar>
 #include <QTreeWidget>
 
 #include "CommandPalette.h"
 #include "Commands.h"
 #include "KeyList.h"
+#include "Manual.h"
 #include "ViewArea.h"
 
 using namespace petrous;
@@ -138,6 +140,49 @@ TEST_F(CommandsWindow, WhatCannotBeDoneIsGreyAndSaysWhy)
   ASSERT_TRUE(waitFor([this] { return !window().model().hasCase() && !window().busy(); }));
   EXPECT_TRUE(why("save as").contains("Open a case first"));
   EXPECT_TRUE(why("thicker slab").contains("Open a case first"));
+}
+
+TEST_F(CommandsWindow, TheManualIsOpenedWhereItIsInstalledOrBuilt)
+{
+  const QDir top(QString::fromStdString(folder().string()));
+  for (const char* programs : {"usr/bin", "build/Application/Workstation"})
+    top.mkpath(programs);
+  QUrl opened;
+  bool starts = true;
+  const auto open = [&](const char* programs)
+  {
+    return openManual(top.filePath(programs),
+                      [&](const QUrl& url)
+                      {
+                        opened = url;
+                        return starts;
+                      });
+  };
+  EXPECT_TRUE(open("usr/bin").contains("not installed"));
+  EXPECT_TRUE(opened.isEmpty());
+  const std::pair<const char*, const char*> places[] = {
+      {"usr/bin", "usr/share/doc/petrous/manual"},
+      {"build/Application/Workstation", "build/manual/html"}};
+  for (const auto& [programs, place] : places)
+  {
+    ASSERT_TRUE(top.mkpath(place));
+    QFile page(top.filePath(place) + "/index.html");
+    ASSERT_TRUE(page.open(QIODevice::WriteOnly));
+    EXPECT_EQ(open(programs), "");
+    EXPECT_EQ(opened, QUrl::fromLocalFile(page.fileName()));
+  }
+  starts = false;
+  EXPECT_TRUE(open("usr/bin").contains("usr/share/doc/petrous/manual/index.html")) << "no browser";
+}
+
+TEST_F(CommandsWindow, ShiftF1SaysThatTheManualIsNotInstalled)
+{
+  openWindow();
+  EXPECT_EQ(action("Manual")->shortcut(), QKeySequence(Qt::SHIFT + Qt::Key_F1));
+  if (!manualFile(QCoreApplication::applicationDirPath()).isEmpty())
+    GTEST_SKIP() << "the manual is built here: a browser would be started";
+  QTest::keyClick(&window(), Qt::Key_F1, Qt::ShiftModifier);
+  EXPECT_TRUE(window().statusBar()->currentMessage().contains("not installed"));
 }
 
 TEST_F(CommandsWindow, TheListOfKeysHasTheKeysOfAllActions)

@@ -45,6 +45,7 @@
 #include "KeyList.h"
 #include "LibraryController.h"
 #include "LibraryPanel.h"
+#include "Manual.h"
 #include "MeasureController.h"
 #include "MeasurePanel.h"
 #include "PanelLayout.h"
@@ -406,7 +407,7 @@ void MainWindow::showPanels()
   if (!front)
     return;
   front->raise();
-  resizeDocks({front}, {std::min(465, 2 * width() / 5)}, Qt::Horizontal);
+  resizeDocks({front}, {std::min(482, 2 * width() / 5)}, Qt::Horizontal);
 }
 
 // Another case is open, or none is any more.
@@ -608,6 +609,12 @@ void MainWindow::connectActions()
      [this] { m_segment->hasBrush() ? m_segment->stepBrush(1) : m_bar->stepDiameter(1); });
   on(m_actions->settings, [this] { showSettings(); });
   on(m_actions->keyList, [this] { showKeys(); });
+  on(m_actions->manual,
+     [this]
+     {
+       const QString why = openManual(QCoreApplication::applicationDirPath());
+       statusBar()->showMessage(why.isEmpty() ? tr("The manual is in the browser") : why, kMessage);
+     });
   on(m_actions->findCommand, [this] { findCommand(); });
   on(m_actions->about, [this] { QMessageBox::about(this, tr("About Petrous"), aboutText()); });
   m_bound.add(

@@ -199,6 +199,8 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
 
   QMenu* help = window.menuBar()->addMenu(tr("&Help"));
   keyList = make(help, tr("&Keys"), Qt::Key_F1, tr("All keys of the window, with a search"));
+  manual = make(help, tr("&Manual"), Qt::SHIFT + Qt::Key_F1,
+                tr("Opens the manual in the browser: a tutorial, and a chapter for each panel"));
   findCommand = make(help, tr("&Find a command…"), Qt::CTRL + Qt::SHIFT + Qt::Key_P,
                      tr("Anything that the menus have, by its name"));
   help->addSeparator();

@@ -79,6 +79,7 @@ public:
   QAction* record; ///< checkable
   QAction* settings;
   QAction* keyList;
+  QAction* manual;
   QAction* findCommand;
   QAction* about;
 

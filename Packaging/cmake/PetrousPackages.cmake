@@ -1,5 +1,6 @@
 # Install rules of `cmake --install`, and the Debian packages that `Packaging/deb` builds: petrous
-# (command, window, guide, device rules) and petrous-bench (`petrous bench`).
+# (command, window, guide, device rules; of Documentation the manual, man pages and completion) and
+# petrous-bench (`petrous bench`).
 include(GNUInstallDirs)
 
 install(TARGETS petrous RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT petrous)
@@ -15,8 +16,11 @@ install(FILES Packaging/70-petrous-devices.rules
   DESTINATION ${PETROUS_UDEV_RULES_DIR} COMPONENT petrous)
 install(FILES LICENSE README.md CHANGELOG.md
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT petrous)
-install(DIRECTORY Documentation
+install(FILES LICENSE RENAME copyright # where Debian looks for it
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT petrous)
+install(DIRECTORY Documentation
+  DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT petrous
+  PATTERN CMakeLists.txt EXCLUDE PATTERN conf.py EXCLUDE)
 # C headers for third-party device servers.
 install(FILES
   Modules/Devices/include/petrous/Devices/DeviceServerProtocol.h

@@ -125,7 +125,6 @@ SeriesDialog::SeriesDialog(const presenters::SourceContent& source, bool hasCase
 {
   setObjectName("chooseSeries");
   setWindowTitle(tr("Which series?"));
-  resizeOnScreen(*this, {1060, 380});
   const auto path = source.path.lexically_normal();
   auto* title = new QLabel(
       tr("“%1” holds more than one series or volume, or structures beside it. A CT begins a case; "

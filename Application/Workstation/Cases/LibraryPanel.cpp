@@ -142,17 +142,20 @@ void LibraryPanel::addFilters(QBoxLayout& layout)
 {
   m_side->setObjectName("searchSide");
   m_side->setAccessibleName(tr("Side"));
+  m_side->setToolTip(tr("Cases whose operation is on this side"));
   m_side->addItem(tr("any side"), -1);
   for (const auto side : {scene::Side::Left, scene::Side::Right, scene::Side::Both})
     m_side->addItem(sideText(side), static_cast<int>(side));
   connect(m_side, qOverload<int>(&QComboBox::currentIndexChanged), this, &LibraryPanel::refresh);
   m_tag->setObjectName("searchTag");
   m_tag->setAccessibleName(tr("Tag"));
+  m_tag->setToolTip(tr("Cases that bear this tag"));
   m_tag->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   m_tag->setMinimumContentsLength(8);
   m_tag->addItem(tr("any tag"), QString());
   connect(m_tag, qOverload<int>(&QComboBox::currentIndexChanged), this, &LibraryPanel::refresh);
   m_inNotes->setObjectName("searchNotes");
+  m_inNotes->setToolTip(tr("The search reads the notes of the cases, too"));
   connect(m_inNotes, &QCheckBox::toggled, this, &LibraryPanel::refresh);
   m_dated->setObjectName("searchDated");
   m_dated->setToolTip(tr("Cases whose planned date lies between these days, both included"));
@@ -164,6 +167,7 @@ void LibraryPanel::addFilters(QBoxLayout& layout)
     date->setCalendarPopup(true);
     date->setEnabled(false);
     date->setAccessibleName(date == m_from ? tr("Planned from") : tr("Planned to"));
+    date->setToolTip(m_dated->toolTip());
     connect(m_dated, &QCheckBox::toggled, date, &QWidget::setEnabled);
     connect(date, &QDateEdit::dateChanged, this, &LibraryPanel::refresh);
   }

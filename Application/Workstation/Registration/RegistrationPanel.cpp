@@ -81,6 +81,7 @@ RegistrationPanel::RegistrationPanel(presenters::RegistrationSession& session, Q
 {
   m_mr->setObjectName("registrationMr");
   m_mr->setAccessibleName(tr("MR"));
+  m_mr->setToolTip(tr("The MR that is registered and shown over the slices"));
   m_state->setObjectName("registrationState");
   m_line->setObjectName("registrationLine");
   m_error->setObjectName("dim");

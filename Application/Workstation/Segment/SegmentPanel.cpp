@@ -239,6 +239,7 @@ void SegmentPanel::addRange(QFormLayout& form, const char* lower, const char* up
       [this] { return m_editor.values().upper; },
       [this](double value) { change([=](Values& values) { values.upper = value; }); },
       Bindings::kSettle);
+  high->setAccessibleName(tr("Upper limit"));
   m_ranges.push_back(low);
   m_ranges.push_back(high);
   addRow(form, tr("Ra&nge"), low, high);

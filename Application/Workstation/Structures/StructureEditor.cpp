@@ -121,6 +121,7 @@ void StructureEditor::addOpacity(QGridLayout& grid, int row)
                             tr("Opacity; of a lumen, how much it tints what is around it"));
   auto* box = new QSpinBox;
   box->setObjectName("structureOpacityBox");
+  box->setToolTip(m_opacity->toolTip());
   box->setRange(0, 100);
   box->setSuffix(tr(" %"));
   box->setKeyboardTracking(false);

@@ -13,6 +13,7 @@ FoldBox::FoldBox(const QString& title, const char* name, QWidget* inside, QWidge
 {
   m_heading->setObjectName(name);
   m_heading->setText(title);
+  m_heading->setToolTip(tr("Shows or hides what belongs to it"));
   m_heading->setCheckable(true);
   m_heading->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   m_heading->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);

@@ -878,8 +878,8 @@ void MainWindow::caseClosed()
   m_mrBanner->hide();
   m_stamps->caseClosed();
   m_notesBanner->hide();
-  m_start->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Preferred);
   m_pages->setCurrentIndex(0);
+  m_start->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Preferred);
 }
 
 // The camera stays, and the tool is put away.
@@ -903,8 +903,9 @@ void MainWindow::caseChanged()
 {
   const scene::Case& value = m_model.value();
   const bool first = m_pages->currentIndex() == 0;
+  // The first page asks for no room behind the case: told before it is hidden, or it is not heard.
+  m_start->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);
   m_pages->setCurrentIndex(1);
-  m_start->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored); // asks for no room
   if (first)
     showPanels();
   m_place->clear(); // of the previous case

@@ -373,6 +373,57 @@ TEST(PixelForms, EqualTheExplicitLittleEndianSeriesToTheBit)
   }
 }
 
+// Metal of 3976 HU stored as 5000 in a series that states 12 bits would become soft tissue.
+TEST(PixelForms, AValueOfMoreThanTheBitsStoredIsRefused)
+{
+  for (const bool isBigEndian : {false, true})
+    for (const bool isSigned : {false, true})
+      for (const bool isRle : {false, true})
+      {
+        if (isRle && isBigEndian)
+          continue;
+        SCOPED_TRACE(std::to_string(isBigEndian) + std::to_string(isSigned) +
+                     std::to_string(isRle));
+        const TemporaryFolder folder;
+        const auto write = [&](const fs::path& to, unsigned metal)
+        {
+          writeSeries(to, 2,
+                      [&](int, TestSlice& s)
+                      {
+                        s.bitsStored = isRle ? 16 : 12;
+                        s.isSigned = isSigned;
+                        s.bigEndian = isBigEndian;
+                        s.cell = [=](int i, int j) {
+                          return i == 3 && j == 2 ? metal : isSigned ? 0xFF00U : 100U;
+                        };
+                      });
+          if (!isRle)
+            return;
+          for (const char* name : {"s0.dcm", "s1.dcm"})
+          {
+            compress(to / name, to / (std::string("packed") + name),
+                     gdcm::TransferSyntax::RLELossless);
+            stateTwelveBits(to / (std::string("packed") + name));
+            fs::remove(to / name);
+          }
+        };
+        write(folder.path() / "sound", 1000);
+        EXPECT_EQ(readFolder(folder.path() / "sound").at(3, 2, 0), 1000.0);
+        write(folder.path() / "metal", 5000);
+        try
+        {
+          readFolder(folder.path() / "metal");
+          ADD_FAILURE() << "read";
+        }
+        catch (const DicomError& error)
+        {
+          EXPECT_NE(std::string(error.what()).find("1 pixel has values of more than the 12 bits"),
+                    std::string::npos)
+              << error.what();
+        }
+      }
+}
+
 TEST(PixelForms, FloatingPointIsKeptToTheBit)
 {
   const auto value = [](int i, int j, int k) // floats that decimal digits do not hold

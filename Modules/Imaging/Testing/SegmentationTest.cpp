@@ -418,6 +418,53 @@ TEST(DicomSegmentation, AnImageSaysHowFarApartItsSlicesAre)
   EXPECT_NE(guessed.notes[0].find("2.5 mm apart"), std::string::npos) << guessed.notes[0];
 }
 
+// One slice is as thick as the image's slices are apart, whatever it says of itself.
+TEST(DicomSegmentation, AnImageSaysHowThickOneSliceIs)
+{
+  const TestFolder folder;
+  TestSegmentation file = sparse({20.0});
+  file.thickness = 3.0;
+  const std::string path = putFile(folder / "a.dcm", file.bytes());
+  const core::GridGeometry image({20, 20, 60}, {0.4, 0.5, 0.6}, {-10.0, 20.5, 20.0 - 18 * 0.6});
+  const auto loaded = loadLabels(path, {}, {}, {image});
+  EXPECT_NEAR(loaded.maps.at(0).voxels->geometry().spacing()[2], 0.6, 1e-9);
+  EXPECT_NEAR(loaded.fileVolumes.at("chorda"), 6 * 0.4 * 0.5 * 0.6, 1e-9);
+  EXPECT_TRUE(loaded.notes.empty());
+  const auto alone = loadLabels(path);
+  EXPECT_NEAR(alone.maps.at(0).voxels->geometry().spacing()[2], 3.0, 1e-9);
+  ASSERT_EQ(alone.notes.size(), 1u);
+  EXPECT_NE(alone.notes[0].find("mm thick"), std::string::npos) << alone.notes[0];
+}
+
+// Two frames of a segment at one place: equal ones count once, others contradict each other.
+TEST(DicomSegmentation, FramesOfOnePlaceMustBeEqual)
+{
+  const TestFolder folder;
+  const TestSegmentation once = sparse({20.0, 21.0, 22.0});
+  TestSegmentation file = once;
+  file.frames.push_back(file.frames[1]);
+  const auto loaded = loadLabels(putFile(folder / "a.dcm", file.bytes()));
+  const volume::LabelMap& map = loaded.maps.at(0);
+  EXPECT_EQ(map.segments.at(0).voxels, 3u * 6u);
+  EXPECT_NEAR(loaded.fileVolumes.at("chorda"), 3 * 6 * 0.4 * 0.5, 1e-9);
+  file.frames.back().value = [](int, int) { return 0; };
+  EXPECT_EQ(loadLabels(putFile(folder / "b.dcm", file.bytes())).maps.at(0).segments.at(0).voxels,
+            3u * 6u);
+  file.frames.back().value = [value = once.frames[1].value](int i, int j)
+  { return 1 - value(i, j); };
+  expectRefused(refusalOf([&] { loadLabels(putFile(folder / "c.dcm", file.bytes())); }),
+                Reason::NoGeometry, "frame 2");
+}
+
+TEST(DicomSegmentation, FramesAreOfSegmentsThatAreDescribed)
+{
+  const TestFolder folder;
+  TestSegmentation file = sparse({20.0, 21.0, 22.0});
+  file.frames[1].segment = 7;
+  expectRefused(refusalOf([&] { loadLabels(putFile(folder / "a.dcm", file.bytes())); }),
+                Reason::NoGeometry, "segment 7");
+}
+
 TEST(DicomSegmentation, OverlappingSlicesAreAsThickAsTheyAreApart)
 {
   const TestFolder folder;

@@ -255,6 +255,14 @@ TEST(StructureSet, AContourThatIsThereTwiceCountsOnce)
   EXPECT_NEAR(volumeOf(again), 7.0 * 16.0, 1e-6);
   EXPECT_NE(notesOf(again).find("1 contour that is there twice"), std::string::npos)
       << notesOf(again);
+  // a thousandth of a voxel larger, with another number of points
+  Roi nearly = roi;
+  nearly.contours.push_back(square(0.249, 4.251, -4.251, -0.249, roi.contours[3].front().z()));
+  nearly.contours.back().insert(nearly.contours.back().begin() + 1,
+                                0.5 * (nearly.contours.back()[0] + nearly.contours.back()[1]));
+  EXPECT_NEAR(volumeOf(nearly), 7.0 * 16.0, 1e-6);
+  EXPECT_NE(notesOf(nearly).find("1 contour that is there twice"), std::string::npos)
+      << notesOf(nearly);
   Roi merged = roi;
   merged.contours.insert(merged.contours.end(), roi.contours.begin(), roi.contours.end());
   EXPECT_NEAR(volumeOf(merged), 7.0 * 16.0, 1e-6);

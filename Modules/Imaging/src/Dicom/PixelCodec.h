@@ -47,7 +47,8 @@ void decodeFrame(ByteSource& source, const SliceHeader& slice,
 
 /// Reads and decodes the pixels that `slice` describes.
 ///
-/// Bits above the high bit (overlays of old scanners) are discarded. Thread-safe. Throws DicomError
+/// Bits above the high bit must be copies of the sign or none: those of a larger value, or the
+/// overlay of an old scanner, are refused. Thread-safe. Throws DicomError
 /// (Unreadable), naming the file; also if it was changed or replaced since its header was read
 /// (SliceHeader::stamp).
 void decodePixels(const SliceHeader& slice, StoredPixels& pixels);

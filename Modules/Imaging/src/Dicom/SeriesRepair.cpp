@@ -188,31 +188,30 @@ SeriesRepair::SeriesRepair(const SeriesGeometry& geometry)
     m_notes.push_back(
         "Repaired: of slices at one place, whose pixels are equal, the first was kept, and " +
         std::to_string(dropped) + " left out.");
-  if (isTilted)
+  const auto slideOf = [&](const Slice& slice)
   {
-    const Slice& last = m_slices.back();
-    const double slide =
-        std::hypot((last.u - m_slices.front().u) * h[0], (last.v - m_slices.front().v) * h[1]);
-    m_tilt = std::atan2(slide, last.place) * 180.0 / M_PI;
-    m_shift = slide;
+    return std::hypot((slice.u - m_slices.front().u) * h[0], (slice.v - m_slices.front().v) * h[1]);
+  };
+  double farthest = 0.0;
+  for (const Slice& slice : m_slices)
+    farthest = std::max(farthest, slideOf(slice));
+  const Slice& last = m_slices.back();
+  // A gantry leans one way: the last slice is the farthest.
+  if (isTilted && slideOf(last) >= farthest - kOnPlace)
+  {
+    m_tilt = std::atan2(slideOf(last), last.place) * 180.0 / M_PI;
+    m_shift = slideOf(last);
     m_notes.push_back("Repaired: the gantry's tilt of " + decimals(m_tilt, 1) +
                       " degrees was undone by shifting each slice to where its position puts it, "
                       "the last by " +
-                      decimals(slide, 1) + " mm against the first.");
+                      decimals(m_shift, 1) + " mm against the first.");
   }
-  else if (m_isUneven)
+  else if ((isTilted || m_isUneven) && farthest > kOnPlace)
   {
-    double farthest = 0.0;
-    for (const Slice& slice : m_slices)
-      farthest = std::max(farthest, std::hypot((slice.u - m_slices.front().u) * h[0],
-                                               (slice.v - m_slices.front().v) * h[1]));
-    if (farthest > kOnPlace)
-    {
-      m_shift = farthest;
-      m_notes.push_back("Repaired: slices were shifted sideways to where their positions put them, "
-                        "by up to " +
-                        decimals(farthest, 2) + " mm against the first.");
-    }
+    m_shift = farthest;
+    m_notes.push_back("Repaired: slices were shifted sideways to where their positions put them, "
+                      "by up to " +
+                      decimals(farthest, 2) + " mm against the first.");
   }
   if (hasFinding(geometry, FindingKind::MixedRescale))
     m_notes.push_back("Repaired: each slice's own rescale slope and intercept were applied.");

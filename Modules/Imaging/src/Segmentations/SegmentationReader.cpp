@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -291,9 +293,15 @@ double spacingOf(const Segmentation& file, const std::vector<double>& at,
                  const std::vector<ImageGrid>& images, std::vector<std::string>& notes)
 {
   if (at.size() < 2)
-    return file.sliceSpacing > 0.0 ? file.sliceSpacing
-           : file.thickness > 0.0  ? file.thickness
-                                   : spacingOfImage(file, images);
+  {
+    if (file.sliceSpacing > 0.0)
+      return file.sliceSpacing;
+    const double ofImage = spacingOfImage(file, images);
+    if (ofImage <= 0.0 && file.thickness > 0.0)
+      notes.push_back("states no spacing of its one slice, which is " + roughText(file.thickness) +
+                      " mm thick; that was taken");
+    return ofImage > 0.0 ? ofImage : file.thickness;
+  }
   if (liesOnSlices(at, file.sliceSpacing))
     return file.sliceSpacing;
   double smallest = std::numeric_limits<double>::infinity();
@@ -571,12 +579,52 @@ void paintSegment(Segmentation& file, ByteSource& source, const core::GridGeomet
   }
 }
 
+/// The pixels of a frame that belong to its segment.
+std::vector<std::size_t> pixelsOf(Segmentation& file, ByteSource& source, const Frame& frame)
+{
+  std::vector<unsigned char> bytes;
+  const std::size_t bit = readPixels(file, source, frame, bytes);
+  std::vector<std::size_t> pixels;
+  forEachPixel(file, bytes, bit,
+               [&pixels](std::size_t p)
+               {
+                 pixels.push_back(p);
+                 return true;
+               });
+  return pixels;
+}
+
+/// Of frames of one segment at one place, which lie together, keeps one if they are equal or the
+/// others are empty.
+void dropCopies(Segmentation& file, ByteSource& source)
+{
+  auto kept = file.frames.begin();
+  for (auto frame = std::next(kept); frame < file.frames.end(); ++frame)
+  {
+    if (frame->segment != kept->segment || frame->slice != kept->slice)
+    {
+      *++kept = *frame;
+      continue;
+    }
+    const auto first = pixelsOf(file, source, *kept);
+    const auto second = pixelsOf(file, source, *frame);
+    if (!first.empty() && !second.empty() && first != second)
+      failFrame(file.path, frame->number,
+                "lies where frame " + std::to_string(kept->number + 1) +
+                    " of the same segment does, and differs from it");
+    if (first.empty())
+      *kept = *frame;
+  }
+  file.frames.erase(std::next(kept), file.frames.end());
+}
+
 Layers paintSegments(Segmentation& file, ByteSource& source, const core::GridGeometry& grid,
                      const core::Progress& progress)
 {
   std::stable_sort(file.frames.begin(), file.frames.end(),
                    [](const Frame& a, const Frame& b)
                    { return std::pair(a.segment, a.slice) < std::pair(b.segment, b.slice); });
+  dropCopies(file, source);
   Layers layers;
   layers.add(file.path, grid, file.memory);
   const Frame* end = file.frames.data() + file.frames.size();
@@ -617,6 +665,21 @@ Layers copyLabelmap(Segmentation& file, ByteSource& source, const core::GridGeom
     }
   }
   return layers;
+}
+
+/// That the segments of all frames are described.
+void requireDeclared(const Segmentation& file, const std::vector<DicomItem>& segments)
+{
+  if (file.type == Type::Labelmap)
+    return; // their values are named by index, and found in the pixels
+  std::set<int> declared;
+  for (const DicomItem& item : segments)
+    declared.insert(item.integer(0x00620004).value_or(0));
+  for (const Frame& frame : file.frames)
+    if (declared.count(frame.segment) == 0)
+      failFrame(file.path, frame.number,
+                "is of segment " + std::to_string(frame.segment) +
+                    ", which the file does not describe");
 }
 
 // XYZ of white, of illuminant D50; Y is 1
@@ -789,6 +852,7 @@ LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Pro
   LoadedLabels loaded;
   loaded.frameOfReferenceUid = data.text(0x00200052);
   loaded.patient = patientOf(elements);
+  requireDeclared(file, data.items(0x00620002));
   const core::GridGeometry grid = placeFrames(file, images, loaded.notes);
   const double frameVolume = thicknessOf(file, grid) * grid.spacing()[0] * grid.spacing()[1];
   if (file.type == Type::Fractional)

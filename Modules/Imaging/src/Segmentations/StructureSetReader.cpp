@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <list>
 #include <map>
 #include <optional>
-#include <set>
+
+#include <Eigen/Geometry>
 
 #include "ByteSource.h"
 #include "DicomElements.h"
@@ -121,21 +123,46 @@ struct Placed
   std::size_t twice = 0;     ///< contours that are another one of their plane again
 };
 
-using Outline = std::vector<std::pair<std::int64_t, std::int64_t>>;
-
-/// A contour to a thousandth of a voxel, the same wherever it begins and whichever way it turns.
-Outline outlineOf(const std::vector<Eigen::Vector2d>& contour)
+/// A contour with its bounds, voxel coordinates.
+struct Outline
 {
-  constexpr double kPerVoxel = 1000.0;
-  Outline outline;
-  for (const Eigen::Vector2d& p : contour)
-    outline.emplace_back(std::llround(p[0] * kPerVoxel), std::llround(p[1] * kPerVoxel));
-  const auto rotate = [](Outline& points)
-  { std::rotate(points.begin(), std::min_element(points.begin(), points.end()), points.end()); };
-  rotate(outline);
-  Outline back(outline.rbegin(), outline.rend());
-  rotate(back);
-  return std::min(outline, back);
+  explicit Outline(const std::vector<Eigen::Vector2d>& contour)
+    : points(&contour)
+  {
+    for (const Eigen::Vector2d& p : contour)
+      bounds.extend(p);
+  }
+  const std::vector<Eigen::Vector2d>* points;
+  Eigen::AlignedBox2d bounds;
+};
+
+/// Whether each point of a contour lies within `reach` of another contour's line.
+bool liesOn(const Outline& contour, const Outline& other, double reach)
+{
+  const auto isNear = [&](const Eigen::Vector2d& p)
+  {
+    for (std::size_t n = 0; n < other.points->size(); ++n)
+    {
+      const Eigen::Vector2d& from = (*other.points)[n];
+      const Eigen::Vector2d along = (*other.points)[(n + 1) % other.points->size()] - from;
+      const double length = along.squaredNorm();
+      const double t = length > 0.0 ? std::clamp((p - from).dot(along) / length, 0.0, 1.0) : 0.0;
+      if ((p - from - t * along).squaredNorm() <= reach * reach)
+        return true;
+    }
+    return false;
+  };
+  return std::all_of(contour.points->begin(), contour.points->end(), isNear);
+}
+
+/// Whether two contours are one, wherever it begins and whichever way it turns: a ring between
+/// them would be thinner than a twentieth of a voxel.
+bool areOne(const Outline& a, const Outline& b)
+{
+  constexpr double kReach = 0.05; // voxels
+  return (a.bounds.min() - b.bounds.min()).cwiseAbs().maxCoeff() <= kReach &&
+         (a.bounds.max() - b.bounds.max()).cwiseAbs().maxCoeff() <= kReach &&
+         liesOn(a, b, kReach) && liesOn(b, a, kReach);
 }
 
 /// How far contours of one plane may lie apart along the normal, slices: writers and origins differ
@@ -207,7 +234,8 @@ std::optional<Placed> place(const StructureSet::Roi& roi, const core::GridGeomet
     for (const auto& [at, contour] : planes)
       ats.push_back(at);
     const double width = planeWidth(ats);
-    std::set<Outline> outlines; // of the plane
+    std::vector<Outline> outlines;                     // of the plane
+    std::list<std::vector<Eigen::Vector2d>> flattened; // that they are of
     for (std::size_t n = 0; n < planes.size(); ++n)
     {
       progress.check(kTask);
@@ -220,15 +248,21 @@ std::optional<Placed> place(const StructureSet::Roi& roi, const core::GridGeomet
       {
         placed.planes.push_back({at, 0.0, 0.0, {}});
         outlines.clear();
+        flattened.clear();
       }
       std::vector<Eigen::Vector2d> flat;
       for (const Eigen::Vector3d& p : *contour)
         flat.emplace_back(p[static_cast<int>(placed.axes.first)],
                           p[static_cast<int>(placed.axes.second)]);
-      if (outlines.insert(outlineOf(flat)).second)
-        placed.planes.back().contours.push_back(std::move(flat));
-      else
+      const Outline outline(flattened.emplace_back(std::move(flat)));
+      if (std::any_of(outlines.begin(), outlines.end(),
+                      [&outline](const Outline& other) { return areOne(outline, other); }))
+      {
         ++placed.twice; // by the odd-even rule it would take away what it surrounds
+        continue;
+      }
+      outlines.push_back(outline);
+      placed.planes.back().contours.push_back(flattened.back());
     }
     std::vector<double> steps;
     for (std::size_t n = 1; n < placed.planes.size(); ++n)

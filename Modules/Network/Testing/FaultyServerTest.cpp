@@ -43,6 +43,7 @@ struct Behaviour
   DIC_US storeStatus = STATUS_Success;
   bool silentToGet = false;
   int statedOfStudy = -1;   ///< instances; -1: it does not say
+  bool returnsClass = true; ///< of instances
   bool returnsKeys = false; ///< of study and series, which it ignores
   /// What it lists to query n (from 0) of instances; without: `files`.
   std::function<std::vector<fs::path>(int query)> lists;
@@ -239,8 +240,9 @@ private:
       if (level != "IMAGE")
         continue;
       DcmDataset one;
-      for (const DcmTagKey& key : {DCM_SOPInstanceUID, DCM_SOPClassUID})
-        one.putAndInsertString(key, valueOf(data, key).c_str());
+      one.putAndInsertString(DCM_SOPInstanceUID, valueOf(data, DCM_SOPInstanceUID).c_str());
+      if (m_behaviour.returnsClass)
+        one.putAndInsertString(DCM_SOPClassUID, valueOf(data, DCM_SOPClassUID).c_str());
       if (m_behaviour.returnsKeys)
         for (const DcmTagKey& key : {DCM_StudyInstanceUID, DCM_SeriesInstanceUID})
           one.putAndInsertString(key, valueOf(data, key).c_str());
@@ -459,6 +461,14 @@ TEST_F(FaultyNode, ThatIsInOrderGivesEverything)
   const Transfer got = retrieve(server.node(), m_study, {}, m_folder.path() / "back");
   EXPECT_EQ(got.completed, 10U);
   EXPECT_EQ(server.requests(), 1);
+}
+
+// The class of an instance is an optional key of a query.
+TEST_F(FaultyNode, ThatDoesNotSayTheClassesGivesEverything)
+{
+  m_behaviour.returnsClass = false;
+  const FaultyServer server(m_behaviour);
+  EXPECT_EQ(retrieve(server.node(), m_study, {}, m_folder.path() / "back").completed, 10U);
 }
 
 TEST_F(FaultyNode, IsAskedAgainForTheHalfThatItDidNotSend)

@@ -100,6 +100,10 @@ TEST_F(SceneObjects, TheLatestIsThatOfTheHighestNumber)
   EXPECT_EQ(scenes[0].number, 1012);
   EXPECT_EQ(scenes[1].number, 1007);
   EXPECT_EQ(scenes[2].number, 1003);
+  series[1].description.clear(); // an optional key of a query
+  EXPECT_EQ(latestScene(series), series.begin() + 1);
+  series[1].number = 3; // anybody's
+  EXPECT_FALSE(isScene(series[1]));
   series.erase(series.begin(), series.begin() + 3);
   EXPECT_EQ(latestScene(series), series.end());
 }

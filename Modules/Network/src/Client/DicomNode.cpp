@@ -62,6 +62,19 @@ constexpr std::array<const char*, 9> kTransferSyntaxes{
     UID_JPEG2000TransferSyntax,
     UID_DeflatedExplicitVRLittleEndianTransferSyntax};
 
+/// What Petrous reads, for a node that does not say of what class its instances are: the key is
+/// optional (PS3.4 C.6.2.1.5).
+const std::array<const char*, 10> kReadClasses{UID_CTImageStorage,
+                                               UID_EnhancedCTImageStorage,
+                                               UID_LegacyConvertedEnhancedCTImageStorage,
+                                               UID_MRImageStorage,
+                                               UID_EnhancedMRImageStorage,
+                                               UID_LegacyConvertedEnhancedMRImageStorage,
+                                               UID_SegmentationStorage,
+                                               "1.2.840.10008.5.1.4.1.1.66.7", // label map
+                                               UID_RTStructureSetStorage,
+                                               UID_RawDataStorage};
+
 std::string numberOf(std::size_t count, const std::string& what)
 {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
@@ -521,6 +534,8 @@ public:
     std::set<std::string> classes;
     for (const auto& [uid, instance] : m_expected)
       classes.insert(instance.sopClass);
+    if (classes.erase("") > 0)
+      classes.insert(kReadClasses.begin(), kReadClasses.end());
     return classes;
   }
 

@@ -181,7 +181,10 @@ Part partOf(const fs::path& file, DcmFileFormat& content)
 
 bool isScene(const Series& series)
 {
-  return series.description == kSceneDescription && series.modality == kSceneModality;
+  if (series.modality != kSceneModality)
+    return false;
+  return series.description.empty() ? series.number >= kFirstSceneNumber
+                                    : series.description == kSceneDescription;
 }
 
 std::vector<Series>::const_iterator latestScene(const std::vector<Series>& series)

@@ -27,6 +27,9 @@ constexpr std::uintmax_t kScenePartBytes = std::uintmax_t{32} << 20;
 /// Series Description and Modality of such a series.
 constexpr const char* kSceneDescription = "Petrous scene";
 constexpr const char* kSceneModality = "OT";
+/// Series Number of the first; by it and the modality it is known where a node does not answer the
+/// description, which is an optional key (PS3.4 C.6.2.1.4).
+constexpr int kFirstSceneNumber = 1000;
 
 bool isScene(const Series& series);
 
@@ -43,7 +46,7 @@ struct SceneDescription
   std::string patientName = "Anonymous";
   std::string studyUid; ///< required
   std::string studyId = "1";
-  int seriesNumber = 1000; ///< the highest is the latest
+  int seriesNumber = kFirstSceneNumber; ///< the highest is the latest
 };
 
 /// Writes the parts into a folder, `scene-0001.dcm` onwards. Series and instance UIDs are derived

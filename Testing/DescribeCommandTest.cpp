@@ -125,3 +125,20 @@ TEST_F(DescribeCommand, DrawsAThumbnail)
   ASSERT_EQ(run("restore " + file + " --as again").code, 0);
   EXPECT_TRUE(json("describe again").at("thumbnail"));
 }
+
+// What is done is done: the exit code and a line tell that only its answer is lost.
+TEST_F(DescribeCommand, SaysThatItIsDoneWhereTheAnswerCannotBeWritten)
+{
+  for (const std::string lost : {">/dev/full", ">&-"})
+  {
+    const std::string tag = lost == ">&-" ? "closed" : "full";
+    const auto lines = m_folder / "lines.txt";
+    const auto outcome =
+        run("describe ear --tag " + tag + " --json " + lost + " 2>" + lines.string() + "; echo $?");
+    EXPECT_EQ(outcome.out, "1\n") << lost;
+    EXPECT_NE(textOf(lines).find("it is done"), std::string::npos) << textOf(lines);
+    const Json tags = json("describe ear").at("description").at("tags");
+    EXPECT_NE(std::find(tags.begin(), tags.end(), tag), tags.end()) << lost;
+  }
+  EXPECT_EQ(run("library verify").code, 0);
+}

@@ -7,6 +7,9 @@
 #include <new>
 #include <sstream>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include "petrous/Core/Error.h"
 #include "petrous/Core/Log.h"
 
@@ -80,6 +83,14 @@ int complain(const Program& program, const std::string& text, const Failure& fai
   std::signal(SIGINT, SIG_DFL);
   std::raise(SIGINT);
   return failure.exitCode;
+}
+
+// Else the first file that is opened would become stdout or stderr, and be written to.
+void holdStandardStreams()
+{
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) < 0) // closed: what is written there fails, as it would have
+      ::open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
 }
 
 bool isBlank(const std::string& text)
@@ -189,8 +200,10 @@ int parsed(const Program& program, std::vector<std::string> words, Context& cont
   }
   std::cout.flush();
   if (!std::cout)
-    throw core::Error(core::Fault::Refused,
-                      "the answer could not be written to stdout (a full disk?)");
+    throw core::Error(
+        core::Fault::Internal,
+        "it is done, but the answer could not be written to stdout (is the disk full, "
+        "or stdout closed?)");
   return kDone;
 }
 
@@ -251,6 +264,7 @@ std::filesystem::path programBeside(const std::string& name, const std::string& 
 
 int run(const Program& program, const std::vector<std::string>& words)
 {
+  holdStandardStreams();
   Context context;
   // Invalid command lines are answered in JSON too.
   const auto fail = [&](const std::string& text, const Failure& as, const std::exception& error)

@@ -1,4 +1,6 @@
 #include <filesystem>
+#include <tuple>
+#include <utility>
 
 #include "CaseJson.h"
 #include "Commands.h"
@@ -106,6 +108,17 @@ void runNodes(const Context& context, const NodeOptions& options)
   node.name = options.name;
   if (node.host.empty() || node.aeTitle.empty())
     throw UsageError("nodes add: give --host, --port and --aet");
+  for (const auto& [option, port, least] :
+       {std::tuple("--port", node.port, 1), std::tuple("--move-port", node.movePort, 0)})
+    if (port < least || port > 65535)
+      throw UsageError("nodes add: " + std::string(option) + " must lie within 1 to 65535, not " +
+                       std::to_string(port));
+  for (const auto& [option, title] :
+       {std::pair("--aet", &node.aeTitle), std::pair("--calling", &node.callingAeTitle)})
+    if (title->size() > 16)
+      throw UsageError("nodes add: " + std::string(option) +
+                       ": an AE title has 16 characters at most, not " +
+                       std::to_string(title->size()));
   if (options.tls || !options.ca.empty() || !options.certificate.empty() || !options.key.empty() ||
       !options.certifiedName.empty())
     node.tls = network::TlsFiles{absolute(options.ca), absolute(options.certificate),

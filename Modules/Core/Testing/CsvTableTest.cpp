@@ -69,3 +69,10 @@ TEST(CsvTable, AllowsEmptyFieldsAtTheEndAndCommasInQuotes)
   EXPECT_EQ(read("a,b,\n1,2\n3,4,,\r\n"), (std::vector<std::vector<double>>{{1, 2}, {3, 4}}));
   EXPECT_EQ(read("a,note,b\n1,\"left, or right\",2\n"), (std::vector<std::vector<double>>{{1, 2}}));
 }
+
+TEST(CsvTable, TakesTheDelimiterOfTheHeader)
+{
+  EXPECT_EQ(read("a;b\n1;-2.5\n"), (std::vector<std::vector<double>>{{1, -2.5}}));
+  EXPECT_EQ(read("b\ta\n1\t2\n"), (std::vector<std::vector<double>>{{2, 1}}));
+  EXPECT_NE(complaint("a;b\n1,5;2\n").find("decimal point"), std::string::npos);
+}

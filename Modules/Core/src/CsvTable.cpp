@@ -24,15 +24,15 @@ std::string trimmed(const std::string& text)
                             : text.substr(first, text.find_last_not_of(kBlank) + 1 - first);
 }
 
-/// The fields of a line; a comma in quotes separates none.
-std::vector<std::string> split(const std::string& line)
+/// The fields of a line; a delimiter in quotes separates none.
+std::vector<std::string> split(const std::string& line, char delimiter)
 {
   std::vector<std::string> fields(1);
   bool isQuoted = false;
   for (const char c : line)
   {
     isQuoted = isQuoted != (c == '"');
-    if (c == ',' && !isQuoted)
+    if (c == delimiter && !isQuoted)
       fields.emplace_back();
     else
       fields.back() += c;
@@ -67,13 +67,13 @@ struct Header
   std::vector<std::size_t> positions; ///< of the requested columns
 };
 
-Header readHeader(const std::string& line, const std::string& name,
+Header readHeader(const std::string& line, const std::string& name, char delimiter,
                   const std::vector<std::string>& columns)
 {
   constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";
   const bool marked = line.rfind(kByteOrderMark, 0) == 0;
   std::map<std::string, std::size_t> there;
-  const auto names = split(marked ? line.substr(3) : line);
+  const auto names = split(marked ? line.substr(3) : line, delimiter);
   for (std::size_t c = 0; c < names.size(); ++c)
     there.emplace(names[c], c);
   Header header{countOf(names), {}};
@@ -95,14 +95,15 @@ void readCsv(std::istream& csv, const std::string& name, const std::vector<std::
 {
   std::string line;
   std::getline(csv, line);
-  const Header header = readHeader(line, name, columns);
+  const char delimiter = csvDelimiter(line);
+  const Header header = readHeader(line, name, delimiter, columns);
   std::vector<double> values(columns.size());
   bool any = false;
   for (std::size_t at = 2; std::getline(csv, line); ++at)
   {
     if (line.find_first_not_of(" \t\r") == std::string::npos)
       continue;
-    const auto fields = split(line);
+    const auto fields = split(line, delimiter);
     const auto refuse = [&](std::size_t count)
     {
       throw InvalidParameter(name + ", line " + std::to_string(at) + ": " + std::to_string(count) +
@@ -120,7 +121,7 @@ void readCsv(std::istream& csv, const std::string& name, const std::vector<std::
       const auto value = position < fields.size() ? number(fields[position]) : std::nullopt;
       if (!value)
         throw InvalidParameter(name + ", line " + std::to_string(at) + ": '" + columns[c] +
-                               "' is not a finite number");
+                               "' is not a finite number; numbers need a decimal point");
       values[c] = *value;
     }
     if (fields.size() < header.fields)

@@ -140,6 +140,8 @@ TEST(NrrdFile, RefusesHeadersOfOtherWritersAndContradictions)
   EXPECT_FALSE(with("left-posterior-superior", "left-posterior-superior").thrown);
   expectRefused(with("encoding: raw", "encoding: gzip"), Reason::Unsupported, "encoding");
   expectRefused(with("endian: little", "endian: big"), Reason::Unsupported, "endian");
+  expectRefused(with("space origin:", "space origin: (9,9,9)\nspace origin:"), Reason::Unreadable,
+                "twice");
   expectRefused(with("sizes: 7 5 3", "sizes: 70000000 50000000 30000000"), Reason::Unreadable);
   expectRefused(with("sizes: 7 5 3", "sizes: 7 5 -3"), Reason::Unreadable);
   expectRefused(with("petrous_spacing:=0.3", "petrous_spacing:=0.4"), Reason::Unreadable,

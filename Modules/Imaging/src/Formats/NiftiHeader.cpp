@@ -125,6 +125,10 @@ std::string headerBytes(const std::filesystem::path& path)
   std::string bytes(kHeaderBytes2, '\0');
   const int got =
       file ? gzread(file.get(), bytes.data(), static_cast<unsigned>(kHeaderBytes2)) : -1;
+  int state = Z_OK;
+  if (file && got < 0 && (gzerror(file.get(), &state), state == Z_DATA_ERROR))
+    fail(FileError::Reason::Unreadable, path,
+         "is damaged: its data are not those of their checksum; copy it again from where it came");
   if (got < static_cast<int>(kHeaderBytes))
     fail(FileError::Reason::Unreadable, path,
          "breaks off in its NIfTI header; copy it again from where it came");
@@ -218,6 +222,9 @@ void readPlacement(const std::filesystem::path& path, const Fields& fields, Nift
            "its geometry");
     header.linear = *qLinear;
     header.origin = qOrigin;
+    if (std::min({fields.pixdim(1), fields.pixdim(2), fields.pixdim(3)}) < 0.0)
+      header.notes.emplace_back("states a negative voxel size (pixdim), which was taken without "
+                                "its sign");
     return;
   }
   for (int row = 0; row < 3; ++row)

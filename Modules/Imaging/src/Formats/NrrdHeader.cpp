@@ -146,7 +146,11 @@ NrrdHeader readNrrdHeader(const std::filesystem::path& path)
         c = static_cast<char>(c - 'A' + 'a');
     if (name == "datafile")
       name = "data file";
-    header.fields.emplace_back(name, trimmed(line.substr(colon + 1)));
+    const std::string value(trimmed(line.substr(colon + 1)));
+    if (const std::string* other = header.field(name); other && *other != value)
+      fail(FileError::Reason::Unreadable, path,
+           "its NRRD header has a field twice, with another value each; export it again");
+    header.fields.emplace_back(name, value);
   }
   return header;
 }

@@ -844,7 +844,7 @@ void Library::saveWith(scene::Case& value,
   catch (const core::OutputFileError& error)
   {
     store.discardNew();
-    throw libraryError(error, "case '" + value.name + "' is as it was");
+    throw libraryError(error, "case '" + value.name + (there ? "' is as it was" : "' is not kept"));
   }
   catch (...)
   {

@@ -9,8 +9,8 @@
 namespace petrous::core
 {
 
-/// Reads a CSV table of numbers: a header with the column names (in any order; other columns are
-/// ignored), then one row per line; empty lines, and empty fields at the end of a line, are
+/// Reads a CSV table of numbers, delimited by commas, semicolons or tabs (csvDelimiter): a header
+/// with the column names (in any order; other columns are ignored), then one row per line; empty lines, and empty fields at the end of a line, are
 /// skipped. `row` receives the line number, counted from 1, and the values in the order of
 /// `columns`.
 ///

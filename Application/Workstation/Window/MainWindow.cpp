@@ -144,7 +144,7 @@ WindowOptions safeOptions(WindowOptions options)
   options.quadBuffer = false;
   options.settings = WindowSettings::kNone;
   options.devices = {};
-  options.drawThumbnailsAfter = -1;
+  m_options.drawThumbnailsAfter = -1;
   return options;
 }
 } // namespace
@@ -184,7 +184,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& wanted)
   , m_picture(new PictureController(m_model, *m_view, *m_actions, *m_settings, *this,
                                     m_options.quadBuffer))
   , m_branches(new BranchController(m_model, *m_actions->approaches, *this))
-  , m_strokes(new StrokeThumbnails(m_model, options.drawThumbnailsAfter, this))
+  , m_strokes(new StrokeThumbnails(m_model, m_options.drawThumbnailsAfter, this))
   , m_comparison(new ComparisonController(m_model, *m_view, *m_slices, *this))
   , m_registration(new RegistrationController(m_model, *m_slices, *this))
   , m_segment(new SegmentController(m_model, *m_slices, *this))

@@ -95,6 +95,11 @@ QToolButton#segmentTool { border: 1px solid @toolEdge; background: @tool; paddin
 QToolButton#segmentTool:hover { background: @hover; }
 QToolButton#segmentTool:focus { border-color: @accent; }
 QToolButton#segmentTool:checked { background: @checked; border-color: @checkedEdge; color: #ffffff; }
+QToolButton#measureTool { border: 1px solid @toolEdge; background: @tool; }
+QToolButton#measureTool:hover { background: @hover; }
+QToolButton#measureTool:focus { border-color: @accent; }
+QToolButton#measureTool:checked { background: @checked; border-color: @checkedEdge; color: #ffffff; }
+QAbstractSpinBox[refused="true"] { color: @drill; }
 QMenuBar { background: @panel; }
 QMenuBar::item:selected, QMenu::item:selected { background: @select; color: @bySelect; }
 QMenu { background: @menu; border: 1px solid @rule; }

@@ -9,6 +9,7 @@
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Library/FrameSalt.h"
+#include "petrous/Library/LibraryFiles.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/PartFiles.h"
@@ -332,10 +333,7 @@ void addNew(CLI::App& app, Context& context)
         sources.parts = options->parts.sources();
         library::Library library = context.openLibrary();
         scene::checkCaseName(options->name);
-        if (library.contains(options->name)) // before minutes of reading
-          throw library::LibraryError(library::LibraryError::Reason::NameTaken,
-                                      "case '" + options->name + "' is there already in " +
-                                          library.folder().string() + "; choose another name");
+        library::refuseTakenName(library.folder(), options->name); // before minutes of reading
         const core::Progress progress = context.progress();
         std::vector<presenters::StructureReport> structures;
         scene::Case value =

@@ -7,6 +7,7 @@
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/MrOnCt.h"
+#include "petrous/Scene/FreeName.h"
 #include "petrous/Segmentation/MaskOperations.h"
 #include "petrous/Segmentation/TubeTrace.h"
 
@@ -205,7 +206,10 @@ std::optional<scene::StructurePart> takeOut(scene::Case& value, const SegmentOpt
                           "structures only)");
   const scene::StructurePart* there = scene::findStructure(value, options.name);
   if (!there)
+  {
+    scene::checkNewPartName(value, {}, options.name);
     return std::nullopt;
+  }
   if (!options.replace)
     throw core::Error(core::Fault::Refused, "structure '" + options.name + "' is in case '" +
                                                 value.name +

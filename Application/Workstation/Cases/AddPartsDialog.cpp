@@ -18,6 +18,7 @@
 #include "Theme.h"
 #include "WindowTexts.h"
 #include "petrous/Scene/Case.h"
+#include "petrous/Scene/FreeName.h"
 
 namespace petrous::workstation
 {
@@ -155,7 +156,9 @@ void AddPartsDialog::check()
     const std::string name = bytes(row.name->text().trimmed());
     if (name.empty())
       advice = tr("Each part needs a name.");
-    else if (std::find(taken.begin(), taken.end(), name) != taken.end())
+    else if (std::any_of(taken.begin(), taken.end(),
+                         [read = scene::asRead(name)](const auto& one)
+                         { return scene::asRead(one) == read; }))
       advice = tr("“%1” is taken; give another name.").arg(words(name));
     else
       try

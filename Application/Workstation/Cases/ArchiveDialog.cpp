@@ -16,6 +16,7 @@
 #include "Theme.h"
 #include "petrous/Library/Attachments.h"
 #include "petrous/Presenters/CaseTransfer.h"
+#include "petrous/Presenters/IdentityText.h"
 
 namespace petrous::workstation
 {
@@ -42,7 +43,9 @@ ArchiveDialog::ArchiveDialog(const scene::Case& value, const library::Library& l
                         "very same CT is"));
   m_note->setObjectName("archiveNote");
   m_note->setEnabled(!value.description.note.empty());
-  m_note->setChecked(m_note->isEnabled());
+  const presenters::IdentityText identity(value, library);
+  m_noteIsPlain = m_note->isEnabled() && !identity.mayIdentify(value.description.note);
+  m_note->setChecked(m_noteIsPlain);
   m_videos->setObjectName("archiveVideos");
   m_videos->setEnabled(library::hasAttachment(value, scene::Attachment::Kind::Video));
   m_documents->setObjectName("archiveDocuments");
@@ -71,6 +74,14 @@ ArchiveDialog::ArchiveDialog(const scene::Case& value, const library::Library& l
   connect(buttons, &QDialogButtonBox::accepted, this, &ArchiveDialog::accept);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   connect(m_file, &PathRow::changed, this, &ArchiveDialog::update);
+  // A plan is made to be handed on. What the user chose stays.
+  connect(m_note, &QCheckBox::clicked, this, [this] { m_noteIsChosen = true; });
+  connect(m_plan, &QCheckBox::toggled, this,
+          [this](bool plan)
+          {
+            if (!m_noteIsChosen)
+              m_note->setChecked(m_noteIsPlain && !plan);
+          });
   for (QCheckBox* box : {m_plan, m_note, m_videos, m_documents, m_date})
     connect(box, &QCheckBox::toggled, this, &ArchiveDialog::update);
   auto* layout = new QVBoxLayout(this);

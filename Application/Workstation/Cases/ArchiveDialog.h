@@ -46,6 +46,8 @@ private:
   QPlainTextEdit* m_report;
   QLabel* m_advice;
   QPushButton* m_accept;
+  bool m_noteIsPlain = false; ///< it is there, and nothing in it looks like the patient
+  bool m_noteIsChosen = false;
 };
 
 } // namespace petrous::workstation

@@ -126,8 +126,13 @@ QString contentsOf(const scene::Case& value, bool planOnly)
 
 std::string unusedName(const std::string& wanted, const std::vector<std::string>& taken)
 {
-  return scene::freeName(wanted, [&taken](const std::string& name)
-                         { return std::find(taken.begin(), taken.end(), name) != taken.end(); });
+  return scene::freeName(wanted,
+                         [&taken](const std::string& name)
+                         {
+                           return std::any_of(taken.begin(), taken.end(),
+                                              [read = scene::asRead(name)](const auto& one)
+                                              { return scene::asRead(one) == read; });
+                         });
 }
 
 } // namespace
@@ -1141,7 +1146,7 @@ bool CaseDocumentController::askTaken(presenters::PartSources& parts,
     presenters::PartSource& part = parts.labels[next++];
     std::vector<std::string> taken;
     for (const std::string& name : item.source.structures)
-      if (scene::kindOfPart(m_model.value(), name))
+      if (!scene::partReadAs(m_model.value(), name).empty())
         taken.push_back(name);
     if (taken.empty() || item.source.structures.size() < 2 ||
         taken.size() == item.source.structures.size()) // told when it is added
@@ -1245,13 +1250,8 @@ void CaseDocumentController::renamePart(const std::string& name)
       bytes(askName(m_window, tr("Rename"), tr("New name of “%1”:").arg(words(name)), words(name),
                     [this, &name](const std::string& wanted)
                     {
-                      scene::checkPartName(wanted);
-                      if (!m_model.hasCase() || wanted == name)
-                        return;
-                      const auto names = scene::partNames(m_model.value());
-                      if (std::count(names.begin(), names.end(), wanted) > 0)
-                        throw core::InvalidParameter("'" + wanted +
-                                                     "' is in the case already; take another name");
+                      if (m_model.hasCase() && wanted != name)
+                        scene::checkNewPartName(m_model.value(), name, wanted);
                     }));
   m_asking = false;
   if (!to.empty() && to != name &&

@@ -126,7 +126,7 @@ void DeidentifyDialog::check()
   else if (mapped && map.isEmpty())
     advice = tr("Choose the file of the pseudonyms; it need not exist yet.");
   else if (mapped && m_first->text().toUtf8().size() < kShortestPassphrase)
-    advice = tr("The passphrase has at least %1 characters.").arg(kShortestPassphrase);
+    advice = tr("The passphrase must have at least %1 characters.").arg(kShortestPassphrase);
   else if (isNew && m_second->text() != m_first->text())
     advice = tr("The file is new: type the same passphrase once more. Who forgets it cannot find "
                 "out any more who is who.");

@@ -119,6 +119,8 @@ PseudonymsDialog::PseudonymsDialog(std::chrono::milliseconds lockAfter, QWidget*
           {
             m_entries.show(m_map.get());
             say(why);
+            if (!m_map) // disabled while it was tried
+              m_passphrase->setFocus();
           });
   QApplication::instance()->installEventFilter(this);
   say({});
@@ -309,7 +311,7 @@ bool PseudonymsDialog::ask(const QString& title, const QString& text, bool fresh
     else if (file && !fresh && !isThere)
       why = tr("There is no such file.");
     else if (first->text().toUtf8().size() < kShortestPassphrase)
-      why = tr("The passphrase has at least %1 characters.").arg(kShortestPassphrase);
+      why = tr("The passphrase must have at least %1 characters.").arg(kShortestPassphrase);
     else if (fresh && first->text() != second->text())
       why = tr("Type the same passphrase once more. Who forgets it cannot find out who is who.");
     advice->setText(why);

@@ -601,6 +601,7 @@ bool SegmentController::mayLeave()
   create->setEnabled(whyNot.empty());
   auto* drop = box.addButton(tr("Discard"), QMessageBox::DestructiveRole);
   auto* stay = box.addButton(QMessageBox::Cancel);
+  box.setDefaultButton(stay);
   box.setEscapeButton(stay);
   box.exec();
   if (box.clickedButton() == create)

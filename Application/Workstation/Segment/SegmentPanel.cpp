@@ -37,10 +37,11 @@ using presenters::SegmentEditor;
 using presenters::SegmentValues;
 
 constexpr int kToolsInRow = 3;
-constexpr double kTubeRadius = 0.6; // mm, until another one is entered
-constexpr int kLeastPointRows = 6;  // of the nerve's list, as many as are usually clicked
-constexpr int kMostPointRows = 12;  // then it scrolls
-constexpr int kNarrowButton = 34;   // px
+constexpr int kImageName = Qt::UserRole + 1; // of the source images, without why not
+constexpr double kTubeRadius = 0.6;          // mm, until another one is entered
+constexpr int kLeastPointRows = 6;           // of the nerve's list, as many as are usually clicked
+constexpr int kMostPointRows = 12;           // then it scrolls
+constexpr int kNarrowButton = 34;            // px
 
 QHBoxLayout* rowOf(std::initializer_list<QWidget*> widgets)
 {
@@ -561,9 +562,9 @@ void SegmentPanel::showSources()
   const auto sources = m_editor.sources();
   QStringList names, shown;
   for (const auto& source : sources)
-    names << imageName(source.name) + words(source.why);
+    names << imageName(source.name) + words(source.name) + words(source.why);
   for (int n = 0; n < m_source->count(); ++n)
-    shown << imageName(bytes(m_source->itemData(n).toString())) +
+    shown << m_source->itemData(n, kImageName).toString() + m_source->itemData(n).toString() +
                  m_source->itemData(n, Qt::ToolTipRole).toString();
   if (names == shown)
     return;
@@ -577,6 +578,7 @@ void SegmentPanel::showSources()
           m_source->addItem(source.why.empty() ? name : tr("%1 (%2)").arg(name, words(source.why)),
                             words(source.name));
           const int row = m_source->count() - 1;
+          m_source->setItemData(row, name, kImageName);
           m_source->setItemData(row, words(source.why), Qt::ToolTipRole);
           static_cast<QStandardItemModel*>(m_source->model())
               ->item(row)

@@ -12,6 +12,28 @@ class DecimalPointTest : public GuiTest
 {
 };
 
+TEST_F(DecimalPointTest, WhatAFieldCannotTakeLeavesItsNumber)
+{
+  openWindow();
+  QDoubleSpinBox box;
+  box.setDecimals(0);
+  box.setRange(-1000.0, 3000.0);
+  box.setValue(300.0);
+  for (const char* typed : {"1,200", "1.200,5", "99999"})
+  {
+    box.selectAll();
+    QTest::keyClicks(&box, typed);
+    QTest::keyClick(&box, Qt::Key_Enter);
+    EXPECT_EQ(box.value(), 300.0) << typed;
+    EXPECT_TRUE(box.property("refused").toBool()) << typed;
+  }
+  box.selectAll();
+  QTest::keyClicks(&box, "1200");
+  QTest::keyClick(&box, Qt::Key_Enter);
+  EXPECT_EQ(box.value(), 1200.0);
+  EXPECT_FALSE(box.property("refused").toBool());
+}
+
 // Run once more under a locale with a decimal comma.
 TEST_F(DecimalPointTest, NumbersHaveAPointAndATypedCommaBecomesOne)
 {

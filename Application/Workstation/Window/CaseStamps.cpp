@@ -1,6 +1,7 @@
 #include "CaseStamps.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <QAction>
 #include <QActionGroup>
@@ -93,8 +94,6 @@ CaseStamps::CaseStamps(presenters::WorkstationModel& model, ThreeDView& view, Sl
   offer("sideRight", tr("Right"), scene::Side::Right);
   offer("sideBoth", tr("Both"), scene::Side::Both);
   m_question.addButton("sideLater", tr("Later"), [this] { putOff(); });
-  m_question.setText(tr("Which side of the patient is operated on? It stands over every view and "
-                        "is kept with the case (Case > Side)."));
   connect(&m_sides, &QActionGroup::triggered, this,
           [this](QAction* action) { setSide(static_cast<scene::Side>(action->data().toInt())); });
 }
@@ -106,6 +105,11 @@ void CaseStamps::setSide(scene::Side side)
     return;
   m_model.setSide(side);
   stateChanged(); // also where it was refused
+  if (const QString doubt = words(presenters::sideDoubt(m_model.value())); !doubt.isEmpty())
+  {
+    m_question.setText(doubt);
+    m_question.show();
+  }
   emit answered();
 }
 
@@ -119,8 +123,19 @@ void CaseStamps::putOff()
 void CaseStamps::caseOpened()
 {
   const scene::Case& value = m_model.value();
+  m_asked = scene::Side::Unknown;
   const bool isPutOff = m_putOff.count(value.id.empty() ? value.name : value.id) > 0;
-  m_question.setVisible(value.description.side == scene::Side::Unknown && !isPutOff);
+  if (value.description.side == scene::Side::Unknown && !isPutOff)
+    ask();
+  else
+    m_question.hide();
+}
+
+void CaseStamps::ask()
+{
+  m_question.setText(tr("Which side of the patient is operated on? It stands over every view and "
+                        "is kept with the case (Case > Side)."));
+  m_question.show();
 }
 
 void CaseStamps::caseClosed()
@@ -134,8 +149,10 @@ void CaseStamps::stateChanged()
   for (QAction* action : m_sides.actions())
     action->setChecked(open && action->data().toInt() ==
                                    static_cast<int>(m_model.value().description.side));
-  if (open && m_model.value().description.side != scene::Side::Unknown)
-    m_question.hide();
+  // Undo may take an answer back, or give it again.
+  if (const auto side = open ? m_model.value().description.side : scene::Side::Unknown;
+      open && side != std::exchange(m_asked, side))
+    side == scene::Side::Unknown ? caseOpened() : m_question.hide();
   m_view.setStamp(open ? stampText(presenters::stampOf(m_model.value())) : QString());
   placeInSlices();
 }

@@ -50,6 +50,7 @@ protected:
 private:
   void setSide(scene::Side side);
   void putOff();
+  void ask();
   void placeInSlices();
 
   presenters::WorkstationModel& m_model;
@@ -57,6 +58,8 @@ private:
   Banner& m_question;
   QActionGroup& m_sides;
   std::vector<QLabel*> m_inSlices;
+  scene::Side m_asked =
+      scene::Side::Unknown;       ///< the side when the question was last shown or hidden
   std::set<std::string> m_putOff; ///< cases that were not told their side until the next start
 };
 

@@ -1,14 +1,51 @@
 #include "DecimalPoint.h"
 
+#include <algorithm>
 #include <clocale>
 
 #include <QApplication>
+#include <QClipboard>
 #include <QDoubleSpinBox>
 #include <QKeyEvent>
+#include <QLineEdit>
 #include <QLocale>
+#include <QSpinBox>
+#include <QStyle>
+#include <QToolTip>
 
 namespace petrous::workstation
 {
+
+namespace
+{
+
+int decimalsOf(const QAbstractSpinBox& box)
+{
+  const auto* number = qobject_cast<const QDoubleSpinBox*>(&box);
+  return number ? number->decimals() : 0;
+}
+
+bool isOfNumber(QChar c)
+{
+  return c.isDigit() || QString(".,-+").contains(c);
+}
+
+// Words for what the field takes.
+QString possibleIn(const QAbstractSpinBox& box)
+{
+  if (const QString said = box.property("possible").toString(); !said.isEmpty())
+    return said;
+  const int decimals = decimalsOf(box);
+  const auto text = [&](const char* name)
+  { return QLocale::c().toString(box.property(name).toDouble(), 'f', decimals); };
+  const QString range =
+      DecimalPoint::tr("From %1 to %2%3")
+          .arg(text("minimum"), text("maximum"), box.property("suffix").toString());
+  return decimals == 0 ? DecimalPoint::tr("%1, whole numbers").arg(range)
+                       : DecimalPoint::tr("%1, decimals: at most %2").arg(range).arg(decimals);
+}
+
+} // namespace
 
 DecimalPoint::DecimalPoint(QApplication& application)
   : QObject(&application)
@@ -18,16 +55,113 @@ DecimalPoint::DecimalPoint(QApplication& application)
   application.installEventFilter(this);
 }
 
+void DecimalPoint::mark(QAbstractSpinBox& box, bool refused)
+{
+  if (box.property("refused").toBool() == refused)
+    return;
+  box.setProperty("refused", refused);
+  box.style()->unpolish(&box);
+  box.style()->polish(&box);
+}
+
+void DecimalPoint::refuse(QAbstractSpinBox& box, const QString& what)
+{
+  box.setProperty("value", m_before);
+  if (auto* line = box.findChild<QLineEdit*>()) // what was typed of it is not the number that was
+    line->setText(box.property("prefix").toString() +
+                  QLocale::c().toString(m_before.toDouble(), 'f', decimalsOf(box)) +
+                  box.property("suffix").toString());
+  box.selectAll();
+  mark(box, true);
+  m_isRest = true;
+  QToolTip::showText(
+      box.mapToGlobal(QPoint(0, box.height())),
+      tr("“%1” is not possible here; the number is as it was. %2.").arg(what, possibleIn(box)),
+      &box);
+}
+
+// True: the field has had it.
+bool DecimalPoint::typed(QAbstractSpinBox& box, const QString& text)
+{
+  auto* line = box.findChild<QLineEdit*>();
+  if (!line || line->isReadOnly() || box.metaObject()->indexOfProperty("value") < 0 ||
+      !box.isEnabled() || text.isEmpty() || !std::all_of(text.begin(), text.end(), isOfNumber))
+    return false;
+  if (m_box != &box)
+  {
+    m_box = &box;
+    m_before = box.property("value");
+    m_isRest = false;
+  }
+  if (m_isRest)
+    return true;
+  QString points = text;
+  if (decimalsOf(box) > 0)
+    points.replace(',', '.');
+  QString wanted = line->text();
+  int at = line->cursorPosition();
+  if (line->hasSelectedText())
+  {
+    at = line->selectionStart();
+    wanted.remove(at, line->selectedText().size());
+  }
+  wanted.insert(at, points);
+  const QString suffix = box.property("suffix").toString();
+  const QString shown = wanted.endsWith(suffix) ? wanted.chopped(suffix.size()) : wanted;
+  int end = at + points.size();
+  // Commas between thousands are the C locale's own, which nobody means who types a comma.
+  if (points.contains(','))
+  {
+    refuse(box, shown);
+    return true;
+  }
+  QString checked = wanted;
+  if (box.validate(checked, end) == QValidator::Invalid)
+  {
+    refuse(box, shown);
+    return true;
+  }
+  mark(box, false);
+  if (points == text)
+    return false; // as it is
+  for (const QChar point : points)
+  {
+    QKeyEvent key(QEvent::KeyPress, Qt::Key_Period, Qt::NoModifier, QString(point));
+    box.event(&key);
+  }
+  return true;
+}
+
 bool DecimalPoint::eventFilter(QObject* watched, QEvent* event)
 {
-  if (event->type() != QEvent::KeyPress)
+  auto* box = qobject_cast<QAbstractSpinBox*>(watched);
+  if (!box || (event->type() != QEvent::KeyPress && event->type() != QEvent::FocusOut))
     return false;
-  const auto* key = static_cast<const QKeyEvent*>(event);
-  if (key->text() != "," || !qobject_cast<QDoubleSpinBox*>(watched))
+  const auto* key =
+      event->type() == QEvent::KeyPress ? static_cast<const QKeyEvent*>(event) : nullptr;
+  if (key && key->matches(QKeySequence::Paste))
+    return typed(*box, QApplication::clipboard()->text().trimmed());
+  if (key && !(key->modifiers() & (Qt::ControlModifier | Qt::AltModifier)) &&
+      typed(*box, key->text()))
+    return true;
+  if (m_box != box)
     return false;
-  QKeyEvent point(QEvent::KeyPress, Qt::Key_Period, key->modifiers(), ".");
-  QCoreApplication::sendEvent(watched, &point);
-  return true;
+  const bool isEnd = !key || key->key() == Qt::Key_Return || key->key() == Qt::Key_Enter ||
+                     key->key() == Qt::Key_Tab || key->key() == Qt::Key_Backtab;
+  if (isEnd && !m_isRest && !box->hasAcceptableInput())
+    refuse(*box, box->findChild<QLineEdit*>()->text());
+  if (isEnd)
+  {
+    m_box.clear(); // the mark stays until another number is typed
+    m_isRest = false;
+  }
+  else if (const int code = key->key();
+           code == Qt::Key_Backspace || (code >= Qt::Key_Escape && code < Qt::Key_Shift))
+  {
+    m_isRest = false;
+    mark(*box, false);
+  }
+  return false;
 }
 
 } // namespace petrous::workstation

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <QObject>
+#include <QPointer>
+#include <QVariant>
 
+class QAbstractSpinBox;
 class QApplication;
 
 namespace petrous::workstation
@@ -9,16 +12,30 @@ namespace petrous::workstation
 
 /// Numbers use a decimal point whatever the session's locale: in the window as in command output,
 /// files and the distances beside the burr. Qt applies the session's locale to the C library too;
-/// this resets LC_NUMERIC, for the libraries that follow it. A comma typed into a number field
-/// becomes a point.
+/// this resets LC_NUMERIC, for the libraries that follow it. A comma typed or pasted into a number
+/// field with decimals becomes a point.
+///
+/// A number that a field cannot take never becomes another one by losing characters: the field goes
+/// back to what it had, is marked (property "refused"), says what is possible, and takes no more of
+/// that number until it is left, or Return, an arrow or a deleting key is pressed.
 class DecimalPoint : public QObject
 {
+  Q_OBJECT
 public:
   /// Create after the application, which owns it, and before the first widget.
   explicit DecimalPoint(QApplication& application);
 
 protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
+
+private:
+  bool typed(QAbstractSpinBox& box, const QString& text);
+  void refuse(QAbstractSpinBox& box, const QString& what);
+  void mark(QAbstractSpinBox& box, bool refused);
+
+  QPointer<QAbstractSpinBox> m_box; ///< in which a number is being typed
+  QVariant m_before;                ///< its value before that
+  bool m_isRest = false;            ///< it was refused, and what follows is its rest
 };
 
 } // namespace petrous::workstation

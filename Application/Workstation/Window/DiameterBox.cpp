@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <QLocale>
+#include <QStringList>
+
 namespace petrous::workstation
 {
 
@@ -19,6 +22,10 @@ void DiameterBox::setDiameters(std::vector<double> diameters)
   m_diameters = std::move(diameters);
   const double present = *nearest(value());
   setRange(m_diameters.front(), m_diameters.back());
+  QStringList all;
+  for (const double diameter : m_diameters)
+    all += QLocale::c().toString(diameter, 'g', 3);
+  setProperty("possible", tr("Burrs of %1 mm").arg(all.join(", ")));
   setValue(present);
 }
 
@@ -38,10 +45,13 @@ void DiameterBox::stepBy(int steps)
   setValue(m_diameters[static_cast<std::size_t>(std::clamp(place + steps, 0, last))]);
 }
 
-double DiameterBox::valueFromText(const QString& text) const
+QValidator::State DiameterBox::validate(QString& text, int& at) const
 {
-  const double typed = QDoubleSpinBox::valueFromText(text);
-  return m_diameters.empty() ? typed : *nearest(typed);
+  const QValidator::State state = QDoubleSpinBox::validate(text, at);
+  if (state != QValidator::Acceptable || m_diameters.empty())
+    return state;
+  const double typed = valueFromText(text);
+  return std::abs(*nearest(typed) - typed) < 0.01 ? state : QValidator::Intermediate;
 }
 
 } // namespace petrous::workstation

@@ -7,7 +7,7 @@
 namespace petrous::workstation
 {
 
-/// Burr diameter, mm: steps through the available ones; typed values are rounded to the nearest.
+/// Burr diameter, mm: steps through the available ones; another one is not taken.
 class DiameterBox : public QDoubleSpinBox
 {
   Q_OBJECT
@@ -18,7 +18,7 @@ public:
   void setDiameters(std::vector<double> diameters);
 
   void stepBy(int steps) override;
-  double valueFromText(const QString& text) const override;
+  QValidator::State validate(QString& text, int& at) const override;
 
 private:
   std::vector<double>::const_iterator nearest(double diameter) const;

@@ -79,7 +79,9 @@ SettingsDialog::SettingsDialog(WindowSettings& settings, const std::filesystem::
   addLibrary(*form);
 
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
-  QPushButton* usual = buttons->addButton(tr("&As at first"), QDialogButtonBox::ResetRole);
+  QPushButton* usual = buttons->addButton(tr("&Restore defaults"), QDialogButtonBox::ResetRole);
+  usual->setAutoDefault(false);
+  buttons->button(QDialogButtonBox::Close)->setDefault(true);
   usual->setObjectName("usualTheme");
   usual->setToolTip(tr("Theme and letters as they were before any choice"));
   connect(usual, &QPushButton::clicked, this,

@@ -97,6 +97,7 @@ QToolButton#segmentTool:hover, QToolButton#measureTool:hover { background: @hove
 QToolButton#segmentTool:focus, QToolButton#measureTool:focus { border-color: @accent; }
 QToolButton#segmentTool:checked, QToolButton#measureTool:checked {
   background: @checked; border-color: @checkedEdge; color: #ffffff; }
+QAbstractSpinBox[refused="true"] { color: @drill; }
 QMenuBar { background: @panel; }
 QMenuBar::item:selected, QMenu::item:selected { background: @select; color: @bySelect; }
 QMenu { background: @menu; border: 1px solid @rule; }

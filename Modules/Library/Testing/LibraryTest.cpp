@@ -145,6 +145,19 @@ TEST(Library, RefusesATakenNameAndStaysAsItWas)
   EXPECT_EQ(other.revision, 0u);
 }
 
+TEST(Library, RefusesANewNameThatOnlyCapitalsTellApart)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  scene::Case value = smallCase("ear");
+  library.save(value);
+  scene::Case other = smallCase("EAR", 20);
+  EXPECT_EQ(refusal([&] { library.save(other); }).first, LibraryError::Reason::NameTaken);
+  EXPECT_FALSE(library.contains("EAR"));
+  library.rename("ear", "Ear"); // its own
+  EXPECT_TRUE(library.contains("Ear"));
+}
+
 TEST(Library, RefusesToOverwriteWhatAnotherProgramSaved)
 {
   const TemporaryFolder folder;

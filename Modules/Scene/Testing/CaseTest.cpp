@@ -3,6 +3,7 @@
 #include "DrilledCase.h"
 #include "MaskComparison.h"
 #include "petrous/Scene/Branches.h"
+#include "petrous/Scene/FreeName.h"
 #include "petrous/Scene/PlainText.h"
 
 using namespace petrous;
@@ -26,6 +27,24 @@ scene::LabelPart labelsNamed(std::vector<std::string> names)
 }
 
 } // namespace
+
+TEST(Case, NamesThatReadTheSameAreOne)
+{
+  // Unicode's CaseFolding.txt: 00C4; C; 00E4. 03A3; C; 03C3. 03C2; C; 03C3. 00DF; F; 0073 0073.
+  EXPECT_EQ(scene::caseFolded("\u00c4RZTE"), "\u00e4rzte");
+  EXPECT_EQ(scene::caseFolded("\u03a3"), scene::caseFolded("\u03c2"));
+  EXPECT_EQ(scene::caseFolded("\u00df"), "ss");
+  EXPECT_EQ(scene::caseFolded("a_B"), "a_b");
+  EXPECT_EQ(scene::asRead(" Facial__Nerve "), "facial nerve");
+
+  scene::Case value;
+  value.labels.push_back(labelsNamed({"facial_nerve", "facial nerve", "dura"}));
+  EXPECT_EQ(scene::partReadAs(value, "Facial Nerve"), "facial_nerve");
+  EXPECT_EQ(scene::partReadAs(value, "facial nerve"), "facial nerve");
+  EXPECT_EQ(scene::partReadAs(value, "nerve"), "");
+  EXPECT_THROW(scene::checkNewPartName(value, "dura", "FACIAL_nerve"), core::InvalidParameter);
+  EXPECT_NO_THROW(scene::checkNewPartName(value, "dura", "Dura")); // its own
+}
 
 TEST(Case, UndoAndRedoMoveListAndVoxelsTogether)
 {

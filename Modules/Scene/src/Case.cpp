@@ -1,10 +1,15 @@
 #include "petrous/Scene/Case.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <cwchar>
+#include <cwctype>
+#include <locale.h>
 #include <utility>
 
 #include "petrous/Core/NumberText.h"
 #include "petrous/Scene/Branches.h"
+#include "petrous/Scene/FreeName.h"
 #include "petrous/Scene/Placement.h"
 #include "petrous/Scene/PlainText.h"
 
@@ -72,6 +77,83 @@ const char* kindOfPart(const Case& value, const std::string& name)
          : findStructure(value, name)                                      ? "structure"
          : std::any_of(value.meshes.begin(), value.meshes.end(), isCalled) ? "mesh"
                                                                            : nullptr;
+}
+
+std::string caseFolded(const std::string& text)
+{
+  // Whatever the session's locale: the C library has this one always.
+  static const locale_t unicode = newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
+  std::string folded;
+  for (std::size_t at = 0; at < text.size();)
+  {
+    const auto first = static_cast<unsigned char>(text[at]);
+    const std::size_t bytes = first < 0x80 ? 1 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
+    if (bytes == 1 || at + bytes > text.size() || first < 0xc0)
+    {
+      folded += first >= 'A' && first <= 'Z' ? static_cast<char>(first + 0x20) : text[at];
+      ++at;
+      continue;
+    }
+    std::uint32_t letter = first & (0x7fU >> bytes);
+    for (std::size_t n = 1; n < bytes; ++n)
+      letter = letter << 6 | (static_cast<unsigned char>(text[at + n]) & 0x3fU);
+    at += bytes;
+    if (unicode) // through the capital: both small sigmas are one letter
+      letter = static_cast<std::uint32_t>(
+          towlower_l(towupper_l(static_cast<wint_t>(letter), unicode), unicode));
+    if (letter == 0xdf)
+    {
+      folded += "ss";
+      continue;
+    }
+    const auto tail = [&](unsigned shift)
+    { folded += static_cast<char>(0x80U | (letter >> shift & 0x3fU)); };
+    if (letter < 0x80) // as the long s
+      folded += static_cast<char>(letter);
+    else if (letter < 0x800)
+      folded += static_cast<char>(0xc0U | letter >> 6);
+    else if (letter < 0x10000)
+      folded += static_cast<char>(0xe0U | letter >> 12), tail(6);
+    else
+      folded += static_cast<char>(0xf0U | letter >> 18), tail(12), tail(6);
+    if (letter >= 0x80)
+      tail(0);
+  }
+  return folded;
+}
+
+std::string asRead(const std::string& name)
+{
+  std::string read;
+  for (const char c : caseFolded(name))
+    if (c != ' ' && c != '_' && c != '\t')
+      read += c;
+    else if (!read.empty() && read.back() != ' ')
+      read += ' ';
+  if (!read.empty() && read.back() == ' ')
+    read.pop_back();
+  return read;
+}
+
+std::string partReadAs(const Case& value, const std::string& name)
+{
+  if (kindOfPart(value, name))
+    return name;
+  const std::string read = asRead(name);
+  for (const std::string& part : partNames(value))
+    if (asRead(part) == read)
+      return part;
+  return {};
+}
+
+void checkNewPartName(const Case& value, const std::string& name, const std::string& to)
+{
+  checkPartName(to);
+  const std::string read = asRead(to);
+  for (const std::string& taken : partNames(value))
+    if (taken != name && asRead(taken) == read)
+      throw core::InvalidParameter("'" + taken + "' is in the case already; take another name" +
+                                   (taken == to ? "" : " than '" + to + "', which reads the same"));
 }
 
 namespace

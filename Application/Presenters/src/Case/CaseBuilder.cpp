@@ -387,10 +387,12 @@ void checkName(const fs::path& path, const std::string& name)
 void checkNewName(const scene::Case& value, const fs::path& path, const std::string& name)
 {
   checkName(path, name);
-  if (const char* kind = scene::kindOfPart(value, name))
+  if (const std::string taken = scene::partReadAs(value, name); !taken.empty())
     throw core::Error(core::Fault::Refused,
-                      path.string() + ": " + kind + " '" + name +
-                          "' is in the case already; give it another name with NAME=FILE");
+                      path.string() + ": " + scene::kindOfPart(value, taken) + " '" + taken +
+                          "' is in the case already; give it another name " +
+                          (taken == name ? "" : "than '" + name + "', which reads the same, ") +
+                          "with NAME=FILE");
 }
 
 // Structures on a grid of neither the CT nor an MR lie in the CT's space until an MR of their grid
@@ -414,10 +416,9 @@ void addMr(scene::Case& value, const PartSource& source,
            const core::Progress& progress)
 {
   const std::string name =
-      !source.name.empty()
-          ? source.name
-          : scene::freeName("mr", [&value](const std::string& taken)
-                            { return scene::kindOfPart(value, taken) != nullptr; });
+      !source.name.empty() ? source.name
+                           : scene::freeName("mr", [&value](const std::string& taken)
+                                             { return !scene::partReadAs(value, taken).empty(); });
   checkNewName(value, source.path, name);
   requireSide(source.path, source.assumeRas, "--mr-frame");
   ReadImage read = readImage(source.path, source.series, source.repair, source.roi, false,
@@ -840,7 +841,7 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
               structure.name.empty() ? "structure" : structure.name,
               [&](const std::string& name)
               {
-                return scene::kindOfPart(value, name) != nullptr ||
+                return !scene::partReadAs(value, name).empty() ||
                        std::any_of(part.structures.begin(), part.structures.end(),
                                    [&](const auto& one) { return one.name == name; });
               });
@@ -848,14 +849,15 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
       else if (source.name.empty() && loaded.isNamedAfterFile)
         structure.name = nameFromFile(
             source.path, "structure",
-            [&value](const std::string& name) { return scene::kindOfPart(value, name) != nullptr; },
+            [&value](const std::string& name) { return !scene::partReadAs(value, name).empty(); },
             notes);
       else if (source.name.empty())
         structure.name = validName(
             structure.name,
             [&](const std::string& name)
             {
-              const auto isCalled = [&name](const auto& one) { return one.name == name; };
+              const auto isCalled = [read = scene::asRead(name)](const auto& one)
+              { return scene::asRead(one.name) == read; };
               return std::any_of(part.structures.begin(), part.structures.end(), isCalled) ||
                      std::any_of(value.labels.begin() + static_cast<std::ptrdiff_t>(before),
                                  value.labels.end(),
@@ -882,7 +884,7 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
         structure.look.color =
             colored ? segment.color : appearance::distinctColor(colorsOf(value, part.structures));
       // Of several all that are taken are told at once.
-      if (structures > 1 && scene::kindOfPart(value, structure.name))
+      if (structures > 1 && !scene::partReadAs(value, structure.name).empty())
       {
         taken.push_back(structure.name);
         reports.push_back(
@@ -954,13 +956,13 @@ void addMesh(scene::Case& value, const PartSource& source, const core::Progress&
   part.name = source.name.empty() ? nameFromFile(
                                         source.path, "mesh",
                                         [&value](const std::string& name)
-                                        { return scene::kindOfPart(value, name) != nullptr; },
+                                        { return !scene::partReadAs(value, name).empty(); },
                                         notes)
                                   : source.name;
-  if (source.name.empty() && scene::kindOfPart(value, part.name))
+  if (source.name.empty() && !scene::partReadAs(value, part.name).empty())
   {
     part.name = scene::freeName(part.name, [&value](const std::string& name)
-                                { return scene::kindOfPart(value, name) != nullptr; });
+                                { return !scene::partReadAs(value, name).empty(); });
     notes.push_back("named so as another part has the name of its file");
   }
   checkNewName(value, source.path, part.name);

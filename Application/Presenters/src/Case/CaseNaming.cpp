@@ -1,4 +1,5 @@
 #include "petrous/Presenters/CaseNaming.h"
+#include "petrous/Library/LibraryFiles.h"
 
 #include <algorithm>
 
@@ -45,15 +46,15 @@ std::string caseNameFrom(const std::filesystem::path& source)
 
 std::string freeCaseName(const library::Library& library, const std::string& name)
 {
-  return scene::freeName(name,
-                         [&library](const std::string& taken) { return library.contains(taken); });
+  return scene::freeName(name, [&library](const std::string& taken)
+                         { return !library::caseLike(library.folder(), taken).empty(); });
 }
 
 void checkFreeCaseName(const library::Library& library, const std::string& name)
 {
   scene::checkCaseName(name);
-  if (library.contains(name))
-    throw core::InvalidParameter("the library has a case '" + name +
+  if (const std::string taken = library::caseLike(library.folder(), name); !taken.empty())
+    throw core::InvalidParameter("the library has a case '" + taken +
                                  "' already; take another name");
 }
 

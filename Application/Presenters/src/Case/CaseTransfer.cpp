@@ -1,4 +1,5 @@
 #include "petrous/Presenters/CaseTransfer.h"
+#include "petrous/Library/LibraryFiles.h"
 
 #include <algorithm>
 #include <array>
@@ -312,8 +313,8 @@ std::string studyOf(const library::Library& library, const network::Node& node,
 
 std::string freeName(const library::Library& library, const std::string& name)
 {
-  if (library.contains(name))
-    throw NameTakenError(name, "case '" + name + "' is there already in " +
+  if (const std::string taken = library::caseLike(library.folder(), name); !taken.empty())
+    throw NameTakenError(name, "case '" + taken + "' is there already in " +
                                    library.folder().string() + "; choose another name with --as");
   return name;
 }

@@ -88,8 +88,13 @@ void WorkstationModel::takeParts(const scene::Case& before, scene::Case with)
   auto names = scene::partNames(*m_case);
   const auto rename = [&names](std::string& name)
   {
-    name = scene::freeName(name, [&names](const std::string& taken)
-                           { return std::find(names.begin(), names.end(), taken) != names.end(); });
+    name = scene::freeName(name,
+                           [&names](const std::string& taken)
+                           {
+                             return std::any_of(names.begin(), names.end(),
+                                                [read = scene::asRead(taken)](const auto& one)
+                                                { return scene::asRead(one) == read; });
+                           });
     names.push_back(name);
   };
   std::map<std::string, std::string> images; // added MR: their names here
@@ -312,6 +317,7 @@ void WorkstationModel::renamePart(const std::string& name, const std::string& to
 {
   if (!m_case || drilling() || name == to)
     return;
+  scene::checkNewPartName(*m_case, name, to);
   rename(name, to);
   recordEdit({"name of " + spoken(to),
               {},

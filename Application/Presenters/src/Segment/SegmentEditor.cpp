@@ -11,6 +11,7 @@
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/MrOnCt.h"
 #include "petrous/Rendering/SurfaceExtraction.h"
+#include "petrous/Scene/FreeName.h"
 #include "petrous/Scene/Placement.h"
 #include "petrous/Segmentation/MaskOperations.h"
 #include "petrous/Segmentation/TubeTrace.h"
@@ -526,11 +527,16 @@ std::string SegmentEditor::whyNotCreate() const
   {
     return error.what();
   }
-  const char* taken = scene::kindOfPart(m_model.value(), m_draft->name);
-  return taken && m_draft->name != m_draft->edited
-             ? std::string("The case has ") + (taken == std::string("MR") ? "an " : "a ") + taken +
-                   " '" + m_draft->name + "' already; choose another name."
-             : std::string();
+  if (m_draft->name == m_draft->edited)
+    return {};
+  for (const std::string& taken : scene::partNames(m_model.value()))
+    if (taken != m_draft->edited && scene::asRead(taken) == scene::asRead(m_draft->name))
+    {
+      const std::string kind = scene::kindOfPart(m_model.value(), taken);
+      return "The case has " + std::string(kind == "MR" || kind == "image" ? "an " : "a ") + kind +
+             " '" + taken + "' already; choose another name.";
+    }
+  return {};
 }
 
 std::vector<std::string> SegmentEditor::editable() const

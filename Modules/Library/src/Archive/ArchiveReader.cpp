@@ -21,6 +21,7 @@
 #include "petrous/Imaging/NrrdFile.h"
 #include "petrous/Library/Archive.h"
 #include "petrous/Library/FrameSalt.h"
+#include "petrous/Library/LibraryFiles.h"
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Scene/GoneNames.h"
 #include "petrous/Scene/Manifest.h"
@@ -566,8 +567,8 @@ RestoreSummary restoreCase(Library& library, const fs::path& file, const Restore
   value.id.clear();
   value.revision = 0;
   scene::checkCaseName(value.name);
-  if (library.contains(value.name))
-    throw LibraryError(Reason::NameTaken, "case '" + value.name + "' is there already in " +
+  if (const std::string taken = caseLike(library.folder(), value.name); !taken.empty())
+    throw LibraryError(Reason::NameTaken, "case '" + taken + "' is there already in " +
                                               core::printable(library.folder()) +
                                               "; give the restored one another name (--as NAME)");
   const ObjectStore present(library.folder() / "objects");

@@ -31,7 +31,9 @@
 #include "petrous/Library/CaseSearch.h"
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Library/FrameSalt.h"
+#include "petrous/Library/LibraryFiles.h"
 #include "petrous/Library/ObjectStore.h"
+#include "petrous/Scene/FreeName.h"
 #include "petrous/Scene/Manifest.h"
 #include "petrous/Volume/VolumeBytes.h"
 
@@ -406,6 +408,30 @@ std::vector<CaseSummary> Library::search(const std::string& text) const
   CaseFilter filter;
   filter.text = text;
   return search(filter);
+}
+
+std::string caseLike(const fs::path& library, const std::string& name)
+{
+  const std::string folded = scene::caseFolded(name);
+  std::string like;
+  for (const std::string& one : namesIn(library / "cases"))
+    if (one == name)
+      return one;
+    else if (scene::caseFolded(one) == folded)
+      like = one;
+  return like;
+}
+
+void refuseTakenName(const fs::path& library, const std::string& name, const std::string& besides)
+{
+  for (const std::string& taken : namesIn(library / "cases"))
+    if (taken != besides && scene::caseFolded(taken) == scene::caseFolded(name))
+      throw LibraryError(Reason::NameTaken, "case '" + taken + "' is there already in " +
+                                                library.string() + "; choose another name" +
+                                                (taken == name ? ""
+                                                               : " than '" + name +
+                                                                     "', which only capitals "
+                                                                     "tell apart"));
 }
 
 bool Library::contains(const std::string& name) const
@@ -801,9 +827,8 @@ void Library::saveWith(scene::Case& value,
 
   const fs::path path = manifestPath(value.name);
   const bool there = contains(value.name);
-  if (value.revision == 0 && there)
-    throw LibraryError(Reason::NameTaken, "case '" + value.name + "' is there already in " +
-                                              m_folder.string() + "; choose another name");
+  if (value.revision == 0)
+    refuseTakenName(m_folder, value.name);
   if (value.revision == 0)
     setOrphanAside(m_folder, value.name);
   else
@@ -911,7 +936,7 @@ std::string Library::saveDrilled(scene::Case& value, const SavedState& base,
     std::string stem = core::utf8Prefix(value.name, 80);
     while (!stem.empty() && stem.back() == ' ') // at which names must not end
       stem.pop_back();
-    for (int n = 1; own.name == value.name || contains(own.name); ++n)
+    for (int n = 1; own.name == value.name || !caseLike(m_folder, own.name).empty(); ++n)
       own.name = stem + " drilled " + std::to_string(n);
     save(own, progress);
     const std::string name = std::exchange(value, std::move(own)).name;

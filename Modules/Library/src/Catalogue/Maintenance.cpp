@@ -12,6 +12,7 @@
 #include "Thumbnail.h"
 #include "petrous/Library/Attachments.h"
 #include "petrous/Library/Library.h"
+#include "petrous/Library/LibraryFiles.h"
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Scene/Manifest.h"
 
@@ -203,9 +204,7 @@ void Library::rename(const std::string& from, const std::string& to)
   refuseWhereDrilled(from);
   refuseWhereUnrecovered(m_folder, from);
   checkedManifestPath(from);
-  if (contains(to))
-    throw LibraryError(Reason::NameTaken, "case '" + to + "' is there already in " +
-                                              m_folder.string() + "; choose another name");
+  refuseTakenName(m_folder, to, from);
   setOrphanAside(m_folder, to);
   // What it is called stands in the manifest too, and a former name must not leave with it. Where a
   // case stands in the folder is its name whatever its manifest says: killed here, it has its old
@@ -298,8 +297,8 @@ void Library::undelete(const std::string& name)
                                              core::printable(m_folder) + " can be brought back" +
                                              there);
   }
-  if (contains(name))
-    throw LibraryError(Reason::NameTaken, "case '" + name + "' is there already in " +
+  if (const std::string taken = caseLike(m_folder, name); !taken.empty())
+    throw LibraryError(Reason::NameTaken, "case '" + taken + "' is there already in " +
                                               m_folder.string() +
                                               "; rename that one, then bring the other back");
   const std::string ending = deletedEnding(file->number);

@@ -18,6 +18,11 @@ struct CaseStamp
 
 CaseStamp stampOf(const scene::Case& value);
 
+/// Why the stated side is doubtful, in words: all of the CT (or primary MR) lies on the other side
+/// of the scanner's middle (LPS x = 0), where the image states its place. A hint only, as a patient
+/// need not lie in the middle. Empty: nothing speaks against it.
+std::string sideDoubt(const scene::Case& value);
+
 /// Of a picture that may leave this computer, the side alone: the planned date tells who the
 /// patient is to who has the list of that day's operations, and a name in pixels would outlive its
 /// change.

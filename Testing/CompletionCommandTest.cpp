@@ -119,10 +119,14 @@ TEST_F(Reference, ManPagesHaveEveryOptionOfEveryCommandAndRenderWithoutWarnings)
       EXPECT_NE(page.find("\\fB" + option + "\\fR"), std::string::npos) << command << option;
   }
   if (has("man"))
+  {
     EXPECT_EQ(shell("sh -c 'man --warnings -l man/*.1 >rendered'"), "");
+  }
   if (has("mandoc")) // pages of the same version are the same: without a date
+  {
     EXPECT_EQ(shell("sh -c 'mandoc -T lint -W warning man/*.1 | grep -v \"missing date\"; true'"),
               "");
+  }
 }
 
 TEST_F(Reference, MarkdownHasEveryCommandAndItsOptions)
@@ -198,7 +202,9 @@ TEST_F(Completion, FishAndZshReadTheirScripts)
 {
   const std::string scripts = PETROUS_SOURCE "/Packaging/completion/";
   if (has("zsh"))
+  {
     EXPECT_EQ(shell("zsh -n " + scripts + "_petrous"), "");
+  }
   if (!has("fish"))
     GTEST_SKIP() << "fish is not installed";
   const auto fish = [&](const std::string& line) {

@@ -87,10 +87,11 @@ public:
       std::size_t end = m_at;
       while (end < m_end && !isBetween(m_bytes[end]))
         ++end;
-      if (end < m_end || !refill())
+      const std::size_t length = end - m_at;
+      if (end < m_end || !refill()) // which moves the word to the front
       {
-        const std::string_view word(m_bytes.data() + m_at, end - m_at);
-        m_at = end;
+        const std::string_view word(m_bytes.data() + m_at, length);
+        m_at += length;
         return word;
       }
     }

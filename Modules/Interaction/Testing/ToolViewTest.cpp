@@ -51,7 +51,7 @@ TEST(ToolView, TheHandpieceHidesTheFieldOnlyBetweenItAndTheEye)
   tool.center = {10.0, -20.0, 5.0};
   const auto seenFrom = [&tool](double degrees, double away)
   {
-    const double angle = degrees * EIGEN_PI / 180.0;
+    const double angle = degrees * M_PI / 180.0;
     return hidesField(tool, tool.center + away * Vector3d(std::sin(angle), 0.0, std::cos(angle)));
   };
   EXPECT_TRUE(seenFrom(0.0, 300.0));

@@ -5925,6 +5925,18 @@ Verletzt: %1, %2</translation>
         <source>&amp;Use it</source>
         <translation>&amp;Verwenden</translation>
     </message>
+    <message>
+        <source>System: German where the computer&apos;s language is German, otherwise English</source>
+        <translation>System: Deutsch, wo die Sprache des Rechners Deutsch ist, sonst Englisch</translation>
+    </message>
+    <message>
+        <source>System</source>
+        <translation>System</translation>
+    </message>
+    <message>
+        <source>La&amp;nguage from the next start on:</source>
+        <translation>S&amp;prache ab dem nächsten Start:</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::ShareController</name>
@@ -6688,6 +6700,38 @@ Nichts verlässt diesen Rechner.</translation>
     <message>
         <source>From the burr&apos;s ball to the structure&apos;s surface</source>
         <translation>Von der Kugel der Fräse zur Oberfläche der Struktur</translation>
+    </message>
+    <message>
+        <source>Show</source>
+        <translation>Zeigen</translation>
+    </message>
+    <message>
+        <source>Drawn in 3D and outlined in the slices</source>
+        <translation>In 3D gezeichnet und in den Schichten umrandet</translation>
+    </message>
+    <message>
+        <source>Touch</source>
+        <translation>Fühlen</translation>
+    </message>
+    <message>
+        <source>Felt by the burr: part of the tissue it rests on</source>
+        <translation>Von der Fräse gefühlt: Teil des Gewebes, auf dem sie liegt</translation>
+    </message>
+    <message>
+        <source>Drill</source>
+        <translation>Bohren</translation>
+    </message>
+    <message>
+        <source>Taken by the drill; without the mark the drill leaves it whole</source>
+        <translation>Wird gebohrt; ohne das Häkchen lässt der Bohrer es heil</translation>
+    </message>
+    <message>
+        <source>Warn</source>
+        <translation>Warnen</translation>
+    </message>
+    <message>
+        <source>How near a burr may come before it is warned of, mm; 0: no warning. Double click to change</source>
+        <translation>Wie nahe eine Fräse kommen darf, bevor gewarnt wird, mm; 0: keine Warnung. Doppelklick zum Ändern</translation>
     </message>
 </context>
 <context>

@@ -79,6 +79,23 @@ const char* titleOfKind(StructureKind kind)
   return QT_TRANSLATE_NOOP("petrous::workstation::StructuresModel", "Other structures");
 }
 
+// Titles and tips of appearance::kStructureProperties, which knows no Qt, as lupdate finds them.
+[[maybe_unused]] constexpr const char* kPropertyTexts[] = {
+    QT_TRANSLATE_NOOP("petrous::workstation::StructuresModel", "Show"),
+    QT_TRANSLATE_NOOP("petrous::workstation::StructuresModel",
+                      "Drawn in 3D and outlined in the slices"),
+    QT_TRANSLATE_NOOP("petrous::workstation::StructuresModel", "Touch"),
+    QT_TRANSLATE_NOOP("petrous::workstation::StructuresModel",
+                      "Felt by the burr: part of the tissue it rests on"),
+    QT_TRANSLATE_NOOP("petrous::workstation::StructuresModel", "Drill"),
+    QT_TRANSLATE_NOOP("petrous::workstation::StructuresModel",
+                      "Taken by the drill; without the mark the drill leaves it whole"),
+    QT_TRANSLATE_NOOP("petrous::workstation::StructuresModel", "Warn"),
+    QT_TRANSLATE_NOOP("petrous::workstation::StructuresModel",
+                      "How near a burr may come before it is warned of, mm; 0: no warning. Double "
+                      "click to change"),
+};
+
 // What bone has not: it is what is touched, drilled and not warned of.
 bool isOfBone(const StructureProperty& property)
 {

@@ -8,13 +8,16 @@
 #include <QApplication>
 #include <QCommandLineParser>
 #include <QFile>
+#include <QLocale>
 #include <QMessageBox>
 #include <QPushButton>
 
 #include "Application.h"
+#include "Language.h"
 #include "MainWindow.h"
 #include "SceneDisplay.h"
 #include "Theme.h"
+#include "WindowSettings.h"
 #include "petrous/Core/Log.h"
 #include "petrous/Devices/ServerCatalogue.h"
 #include "petrous/Imaging/FileError.h"
@@ -128,6 +131,10 @@ int main(int argc, char** argv)
   parser.addOption({"library", "Folder of the library.", "DIR"});
   parser.addOption({"safe", "Without settings, devices, graphics card and previous case: for a "
                             "window that does not start, or not rightly, otherwise."});
+  parser.addOption({"language",
+                    "Language of the window: de or en. Otherwise as in the settings, "
+                    "else the system's where the window has it.",
+                    "LANGUAGE"});
   parser.addOption({"log-level",
                     "What the log holds: trace, debug, info, warning, error or off (info).",
                     "LEVEL"});
@@ -137,6 +144,15 @@ int main(int argc, char** argv)
   if (parser.positionalArguments().size() > 1)
   {
     std::cerr << "petrous-workstation: one case or path at a time; see --help\n";
+    return 2;
+  }
+
+  const QString language = parser.value("language");
+  if (parser.isSet("language") && !workstation::hasLanguage(language))
+  {
+    std::cerr << "petrous-workstation: --language: '" << language.toStdString() << "' is none of: "
+              << (workstation::hasLanguage("de") ? "de, en" : "en (built without translations)")
+              << '\n';
     return 2;
   }
 
@@ -157,6 +173,12 @@ int main(int argc, char** argv)
     options.quadBuffer = workstation::quadBufferOffered();
     options.devices = deviceSources();
   }
+  workstation::installLanguage(
+      application,
+      workstation::languageOf(!language.isEmpty() ? language
+                              : options.isSafe    ? QString()
+                                                  : workstation::WindowSettings().language(),
+                              QLocale::system().uiLanguages()));
   const std::filesystem::path folder = libraryFolder(parser);
   if (folder.empty())
     return 3;

@@ -56,5 +56,6 @@ find_package(VTK 9.1 REQUIRED COMPONENTS
 find_package(OpenGL REQUIRED COMPONENTS EGL OpenGL)
 if(PETROUS_WORKSTATION)
   find_package(Qt5 5.15 REQUIRED COMPONENTS Core Gui Widgets Test)
+  find_package(Qt5LinguistTools 5.15 QUIET)
   find_package(VTK 9.1 REQUIRED COMPONENTS GUISupportQt)
 endif()

@@ -53,15 +53,30 @@ struct ToolEntry
 };
 // In the order of the panel's buttons.
 constexpr ToolEntry kTools[] = {
-    {Tool::Distance, "&Distance", Qt::SHIFT + Qt::Key_D, "Between two points"},
-    {Tool::Angle, "&Angle", Qt::SHIFT + Qt::Key_A, "At the second of three points"},
-    {Tool::Area, "A&rea", Qt::SHIFT + Qt::Key_R,
-     "Of a polygon; Return or a double click closes it"},
-    {Tool::Mark, "&Mark", Qt::SHIFT + Qt::Key_K, "A place with a name"},
-    {Tool::Along, "Along a &structure", Qt::SHIFT + Qt::Key_L,
-     "Along the centre line of a nerve or canal between two points, or along points of your own"},
-    {Tool::Thickness, "&Wall thickness", Qt::SHIFT + Qt::Key_W,
-     "Of the bone at a point of its surface, to the next structure or cavity"},
+    {Tool::Distance, QT_TRANSLATE_NOOP("petrous::workstation::MeasureController", "&Distance"),
+     Qt::SHIFT + Qt::Key_D,
+     QT_TRANSLATE_NOOP("petrous::workstation::MeasureController", "Between two points")},
+    {Tool::Angle, QT_TRANSLATE_NOOP("petrous::workstation::MeasureController", "&Angle"),
+     Qt::SHIFT + Qt::Key_A,
+     QT_TRANSLATE_NOOP("petrous::workstation::MeasureController", "At the second of three points")},
+    {Tool::Area, QT_TRANSLATE_NOOP("petrous::workstation::MeasureController", "A&rea"),
+     Qt::SHIFT + Qt::Key_R,
+     QT_TRANSLATE_NOOP("petrous::workstation::MeasureController",
+                       "Of a polygon; Return or a double click closes it")},
+    {Tool::Mark, QT_TRANSLATE_NOOP("petrous::workstation::MeasureController", "&Mark"),
+     Qt::SHIFT + Qt::Key_K,
+     QT_TRANSLATE_NOOP("petrous::workstation::MeasureController", "A place with a name")},
+    {Tool::Along,
+     QT_TRANSLATE_NOOP("petrous::workstation::MeasureController", "Along a &structure"),
+     Qt::SHIFT + Qt::Key_L,
+     QT_TRANSLATE_NOOP("petrous::workstation::MeasureController",
+                       "Along the centre line of a nerve or canal between two points, or along "
+                       "points of your own")},
+    {Tool::Thickness,
+     QT_TRANSLATE_NOOP("petrous::workstation::MeasureController", "&Wall thickness"),
+     Qt::SHIFT + Qt::Key_W,
+     QT_TRANSLATE_NOOP("petrous::workstation::MeasureController",
+                       "Of the bone at a point of its surface, to the next structure or cavity")},
 };
 
 DrawnMeasure drawn(const scene::Case& value, const Measurement& measurement, std::size_t index)

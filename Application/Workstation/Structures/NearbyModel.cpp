@@ -150,16 +150,17 @@ QVariant NearbyModel::headerData(int section, Qt::Orientation orientation, int r
 {
   if (orientation != Qt::Horizontal || section < 0 || section >= ColumnCount)
     return {};
-  static const char* const titles[] = {"Structure", "From the burr", ""};
-  static const char* const tips[] = {
-      "The nearest first",
-      "From the burr's ball to the structure's surface, and how well that "
-      "surface is known to either side",
-      "Whether the burr is within the warning distance, and what was taken"};
   if (role == Qt::DisplayRole)
-    return tr(titles[section]);
+    return section == Name       ? tr("Structure")
+           : section == Distance ? tr("From the burr")
+                                 : QString();
   if (role == Qt::ToolTipRole)
-    return tr(tips[section]);
+    return section == Name ? tr("The nearest first")
+           : section == Distance
+               ? tr("From the burr's ball to the structure's surface, and how well "
+                    "that surface is known to either side")
+               : tr("Whether the burr is within the warning distance, and what was "
+                    "taken");
   return {};
 }
 

@@ -16,6 +16,7 @@
 #include <QSpinBox>
 
 #include "ColorChooser.h"
+#include "StructuresModel.h"
 #include "Theme.h"
 #include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Dissection/MaterialCatalogue.h"
@@ -192,9 +193,9 @@ QCheckBox* StructureEditor::addFlag(const char* key)
 {
   const StructureProperty& property = propertyOf(key);
   const auto flag = std::get<StructureProperty::Flag>(property.member);
-  auto* box = new QCheckBox(tr(property.column.title));
+  auto* box = new QCheckBox(StructuresModel::tr(property.column.title));
   box->setObjectName(QString("structure_") + key);
-  box->setToolTip(tr(property.column.tip));
+  box->setToolTip(StructuresModel::tr(property.column.tip));
   connect(box, &QCheckBox::clicked, this,
           [this, box, flag, &property]
           {

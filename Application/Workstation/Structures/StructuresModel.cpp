@@ -59,25 +59,42 @@ const char* titleOfKind(StructureKind kind)
   switch (kind)
   {
   case StructureKind::Nerve:
-    return QT_TR_NOOP("Nerves");
+    return QT_TRANSLATE_NOOP("petrous::workstation::StructuresModel", "Nerves");
   case StructureKind::Vessel:
-    return QT_TR_NOOP("Vessels");
+    return QT_TRANSLATE_NOOP("petrous::workstation::StructuresModel", "Vessels");
   case StructureKind::Ossicle:
-    return QT_TR_NOOP("Ossicles");
+    return QT_TRANSLATE_NOOP("petrous::workstation::StructuresModel", "Ossicles");
   case StructureKind::InnerEar:
-    return QT_TR_NOOP("Inner ear");
+    return QT_TRANSLATE_NOOP("petrous::workstation::StructuresModel", "Inner ear");
   case StructureKind::Dura:
-    return QT_TR_NOOP("Dura");
+    return QT_TRANSLATE_NOOP("petrous::workstation::StructuresModel", "Dura");
   case StructureKind::Lumen:
-    return QT_TR_NOOP("Lumens");
+    return QT_TRANSLATE_NOOP("petrous::workstation::StructuresModel", "Lumens");
   case StructureKind::Mesh:
-    return QT_TR_NOOP("Meshes");
+    return QT_TRANSLATE_NOOP("petrous::workstation::StructuresModel", "Meshes");
   case StructureKind::Bone:
   case StructureKind::Other:
     break;
   }
-  return QT_TR_NOOP("Other structures");
+  return QT_TRANSLATE_NOOP("petrous::workstation::StructuresModel", "Other structures");
 }
+
+// Titles and tips of appearance::kStructureProperties, which knows no Qt, as lupdate finds them.
+[[maybe_unused]] constexpr const char* kPropertyTexts[] = {
+    QT_TRANSLATE_NOOP("petrous::workstation::StructuresModel", "Show"),
+    QT_TRANSLATE_NOOP("petrous::workstation::StructuresModel",
+                      "Drawn in 3D and outlined in the slices"),
+    QT_TRANSLATE_NOOP("petrous::workstation::StructuresModel", "Touch"),
+    QT_TRANSLATE_NOOP("petrous::workstation::StructuresModel",
+                      "Felt by the burr: part of the tissue it rests on"),
+    QT_TRANSLATE_NOOP("petrous::workstation::StructuresModel", "Drill"),
+    QT_TRANSLATE_NOOP("petrous::workstation::StructuresModel",
+                      "Taken by the drill; without the mark the drill leaves it whole"),
+    QT_TRANSLATE_NOOP("petrous::workstation::StructuresModel", "Warn"),
+    QT_TRANSLATE_NOOP("petrous::workstation::StructuresModel",
+                      "How near a burr may come before it is warned of, mm; 0: no warning. Double "
+                      "click to change"),
+};
 
 // What bone has not: it is what is touched, drilled and not warned of.
 bool isOfBone(const StructureProperty& property)
@@ -529,15 +546,15 @@ QVariant StructuresModel::headerData(int section, Qt::Orientation orientation, i
     return {};
   const bool isProperty = section >= FirstProperty;
   if (role == Qt::DisplayRole)
-    return tr(isProperty                ? propertyAt(section).column.title
-              : section == Name         ? "Structure"
-              : section == VolumeColumn ? "Volume"
-                                        : "Burr");
+    return isProperty                ? tr(propertyAt(section).column.title)
+           : section == Name         ? tr("Structure")
+           : section == VolumeColumn ? tr("Volume")
+                                     : tr("Burr");
   if (role == Qt::ToolTipRole)
-    return tr(isProperty                ? propertyAt(section).column.tip
-              : section == Name         ? "Name and colour: click the colour to change it"
-              : section == VolumeColumn ? "Volume, mm³"
-                                        : "From the burr's ball to the structure's surface");
+    return isProperty                ? tr(propertyAt(section).column.tip)
+           : section == Name         ? tr("Name and colour: click the colour to change it")
+           : section == VolumeColumn ? tr("Volume, mm³")
+                                     : tr("From the burr's ball to the structure's surface");
   const bool isNumber = isProperty ? propertyAt(section).isNumber() : section != Name;
   if (role == Qt::TextAlignmentRole)
     return int((isNumber ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);

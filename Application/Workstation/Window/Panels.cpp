@@ -58,7 +58,7 @@ Panel* approachPanel(const PanelContext& context)
 std::vector<PanelEntry> panelEntries()
 {
   const auto tr = [](const char* text)
-  { return QCoreApplication::translate("petrous::workstation::MainWindow", text); };
+  { return QCoreApplication::translate("petrous::workstation", text); };
   constexpr bool kTabbed = true, kAlone = false;
   constexpr bool kShown = true, kHidden = false;
   constexpr bool kNeedsCase = true, kAlways = false;

@@ -1,5 +1,8 @@
 #include "SettingsDialog.h"
 
+#include <algorithm>
+#include <array>
+
 #include <QAction>
 #include <QApplication>
 #include <QCheckBox>
@@ -16,6 +19,7 @@
 #include <QVBoxLayout>
 
 #include "Application.h"
+#include "Language.h"
 #include "Theme.h"
 #include "WindowSettings.h"
 #include "petrous/Library/DefaultFolder.h"
@@ -63,6 +67,23 @@ SettingsDialog::SettingsDialog(WindowSettings& settings, const std::filesystem::
                                       m_settings.keepTheme(theme);
                                       apply();
                                     }));
+  if (hasLanguage("de"))
+  {
+    QComboBox* language = choiceBox("language", tr("System: German where the computer's language "
+                                                   "is German, otherwise English"));
+    const std::array<QString, 3> codes{"", "en", "de"};
+    language->addItems({tr("System"), "English", "Deutsch"});
+    form->addRow(tr("La&nguage from the next start on:"),
+                 m_bound.add(
+                     language,
+                     [this, codes]
+                     {
+                       const auto at = std::find(codes.begin(), codes.end(), m_settings.language());
+                       return at == codes.end() ? 0 : static_cast<int>(at - codes.begin());
+                     },
+                     [this, codes](int row)
+                     { m_settings.keepLanguage(codes.at(static_cast<std::size_t>(row))); }));
+  }
   for (QAction* action : switches)
   {
     auto* box = new QCheckBox(action->text());

@@ -30,19 +30,33 @@ struct ViewEntry
 };
 using rendering::StandardView;
 constexpr ViewEntry kViews[] = {
-    {StandardView::Lateral, "&Lateral", "From the side of the ear"},
-    {StandardView::Anterior, "&Anterior", "From the face"},
-    {StandardView::Posterior, "&Posterior", "From the back of the head"},
-    {StandardView::Superior, "&Superior", "From above, the face up"},
-    {StandardView::Inferior, "&Inferior", "From below, the face up"},
-    {StandardView::Left, "L&eft", "From the patient's left"},
-    {StandardView::Right, "&Right", "From the patient's right"},
-    {StandardView::SurgicalLeft, "Surgical position, &left ear",
-     "The patient on the back, the head turned to the right, seen from the left ear: the face up, "
-     "the vertex on the right"},
-    {StandardView::SurgicalRight, "Surgical position, r&ight ear",
-     "The patient on the back, the head turned to the left, seen from the right ear: the face up, "
-     "the vertex on the left"},
+    {StandardView::Lateral, QT_TRANSLATE_NOOP("petrous::workstation::WindowActions", "&Lateral"),
+     QT_TRANSLATE_NOOP("petrous::workstation::WindowActions", "From the side of the ear")},
+    {StandardView::Anterior, QT_TRANSLATE_NOOP("petrous::workstation::WindowActions", "&Anterior"),
+     QT_TRANSLATE_NOOP("petrous::workstation::WindowActions", "From the face")},
+    {StandardView::Posterior,
+     QT_TRANSLATE_NOOP("petrous::workstation::WindowActions", "&Posterior"),
+     QT_TRANSLATE_NOOP("petrous::workstation::WindowActions", "From the back of the head")},
+    {StandardView::Superior, QT_TRANSLATE_NOOP("petrous::workstation::WindowActions", "&Superior"),
+     QT_TRANSLATE_NOOP("petrous::workstation::WindowActions", "From above, the face up")},
+    {StandardView::Inferior, QT_TRANSLATE_NOOP("petrous::workstation::WindowActions", "&Inferior"),
+     QT_TRANSLATE_NOOP("petrous::workstation::WindowActions", "From below, the face up")},
+    {StandardView::Left, QT_TRANSLATE_NOOP("petrous::workstation::WindowActions", "L&eft"),
+     QT_TRANSLATE_NOOP("petrous::workstation::WindowActions", "From the patient's left")},
+    {StandardView::Right, QT_TRANSLATE_NOOP("petrous::workstation::WindowActions", "&Right"),
+     QT_TRANSLATE_NOOP("petrous::workstation::WindowActions", "From the patient's right")},
+    {StandardView::SurgicalLeft,
+     QT_TRANSLATE_NOOP("petrous::workstation::WindowActions", "Surgical position, &left ear"),
+     QT_TRANSLATE_NOOP("petrous::workstation::WindowActions",
+                       "The patient on the back, the head turned to the right, seen from the left "
+                       "ear: the face up, "
+                       "the vertex on the right")},
+    {StandardView::SurgicalRight,
+     QT_TRANSLATE_NOOP("petrous::workstation::WindowActions", "Surgical position, r&ight ear"),
+     QT_TRANSLATE_NOOP("petrous::workstation::WindowActions",
+                       "The patient on the back, the head turned to the left, seen from the right "
+                       "ear: the face up, "
+                       "the vertex on the left")},
 };
 } // namespace
 

@@ -226,6 +226,19 @@ void WindowSettings::forgetGreyWindow(const QString& kind, const std::string& na
   m_file.setValue("windows/" + kind, list);
 }
 
+QString WindowSettings::language() const
+{
+  return m_file.value("look/language").toString();
+}
+
+void WindowSettings::keepLanguage(const QString& code)
+{
+  if (code.isEmpty())
+    m_file.remove("look/language");
+  else
+    m_file.setValue("look/language", code);
+}
+
 Theme WindowSettings::theme() const
 {
   Theme theme;

@@ -60,6 +60,10 @@ public:
   void keepGreyWindow(const QString& kind, const presenters::NamedWindow& window);
   void forgetGreyWindow(const QString& kind, const std::string& name);
 
+  /// Code of the window's language; empty: the system's.
+  QString language() const;
+  void keepLanguage(const QString& code);
+
   Theme theme() const;
   void keepTheme(const Theme& theme);
 

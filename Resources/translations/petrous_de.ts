@@ -1840,6 +1840,25 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     </message>
 </context>
 <context>
+    <name>petrous::workstation::DecimalPoint</name>
+    <message>
+        <source>From %1 to %2%3</source>
+        <translation>Von %1 bis %2%3</translation>
+    </message>
+    <message>
+        <source>%1, whole numbers</source>
+        <translation>%1, ganze Zahlen</translation>
+    </message>
+    <message>
+        <source>%1, decimals: at most %2</source>
+        <translation>%1, Nachkommastellen: höchstens %2</translation>
+    </message>
+    <message>
+        <source>“%1” is not possible here; the number is as it was. %2.</source>
+        <translation>„%1“ ist hier nicht möglich; die Zahl ist wie zuvor. %2.</translation>
+    </message>
+</context>
+<context>
     <name>petrous::workstation::DeidentifyDialog</name>
     <message>
         <source>Folder of DICOM files</source>
@@ -1970,16 +1989,16 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <translation>Wählen Sie die Datei der Pseudonyme; es muss sie noch nicht geben.</translation>
     </message>
     <message>
-        <source>The passphrase has at least %1 characters.</source>
-        <translation>Die Passphrase hat mindestens %1 Zeichen.</translation>
-    </message>
-    <message>
         <source>The file is new: type the same passphrase once more. Who forgets it cannot find out any more who is who.</source>
         <translation>Die Datei ist neu: Tippen Sie dieselbe Passphrase noch einmal. Wer sie vergisst, kann nicht mehr herausfinden, wer wer ist.</translation>
     </message>
     <message>
         <source>By PS3.15, Basic Application Level Confidentiality Profile. What stays and why is listed at the end.</source>
         <translation>Nach PS3.15, Basic Application Level Confidentiality Profile. Was bleibt und warum, steht am Ende.</translation>
+    </message>
+    <message>
+        <source>The passphrase must have at least %1 characters.</source>
+        <translation>Die Passphrase muss mindestens %1 Zeichen haben.</translation>
     </message>
 </context>
 <context>
@@ -2103,6 +2122,13 @@ X oder die zweite Taste des Geräts, gehalten: Nur die Hand bewegt sich.</transl
     <message>
         <source>%1 cannot be opened</source>
         <translation>%1 lässt sich nicht öffnen</translation>
+    </message>
+</context>
+<context>
+    <name>petrous::workstation::DiameterBox</name>
+    <message>
+        <source>Burrs of %1 mm</source>
+        <translation>Fräsen von %1 mm</translation>
     </message>
 </context>
 <context>
@@ -2612,6 +2638,13 @@ Ohne dies liegt die Fräse auf dem Gewebe und wird mit dem Andruck gedrückt. St
     <message>
         <source>A video needs the program ffmpeg, which is not installed (Debian&apos;s package ffmpeg). Let the name end in .png.</source>
         <translation>Ein Video braucht das Programm ffmpeg, das nicht installiert ist (Debians Paket ffmpeg). Lassen Sie den Namen auf .png enden.</translation>
+    </message>
+</context>
+<context>
+    <name>petrous::workstation::FoldBox</name>
+    <message>
+        <source>Shows or hides what belongs to it</source>
+        <translation>Zeigt oder verbirgt, was dazugehört</translation>
     </message>
 </context>
 <context>
@@ -3286,6 +3319,18 @@ Ohne dies liegt die Fräse auf dem Gewebe und wird mit dem Andruck gedrückt. St
     <message>
         <source>%1, deleted %2</source>
         <translation>%1, gelöscht %2</translation>
+    </message>
+    <message>
+        <source>Cases whose operation is on this side</source>
+        <translation>Fälle, deren Operation auf dieser Seite ist</translation>
+    </message>
+    <message>
+        <source>Cases that bear this tag</source>
+        <translation>Fälle mit diesem Stichwort</translation>
+    </message>
+    <message>
+        <source>The search reads the notes of the cases, too</source>
+        <translation>Die Suche liest auch die Notizen der Fälle</translation>
     </message>
 </context>
 <context>
@@ -4293,10 +4338,6 @@ Verletzt: %1, %2</translation>
         <translation>Diese Datei gibt es nicht.</translation>
     </message>
     <message>
-        <source>The passphrase has at least %1 characters.</source>
-        <translation>Die Passphrase hat mindestens %1 Zeichen.</translation>
-    </message>
-    <message>
         <source>Type the same passphrase once more. Who forgets it cannot find out who is who.</source>
         <translation>Tippen Sie dieselbe Passphrase noch einmal. Wer sie vergisst, kann nicht herausfinden, wer wer ist.</translation>
     </message>
@@ -4355,6 +4396,10 @@ Verletzt: %1, %2</translation>
     <message>
         <source>%1 entries</source>
         <translation>%1 Einträge</translation>
+    </message>
+    <message>
+        <source>The passphrase must have at least %1 characters.</source>
+        <translation>Die Passphrase muss mindestens %1 Zeichen haben.</translation>
     </message>
 </context>
 <context>
@@ -4861,6 +4906,10 @@ Verletzt: %1, %2</translation>
     <message>
         <source>The case has no MR; add one with File &gt; Open DICOM… or Open files…</source>
         <translation>Der Fall hat kein MR; fügen Sie eines hinzu: Datei &gt; DICOM öffnen… oder Dateien öffnen…</translation>
+    </message>
+    <message>
+        <source>The MR that is registered and shown over the slices</source>
+        <translation>Die MR, die registriert und über den Schichten gezeigt wird</translation>
     </message>
 </context>
 <context>
@@ -5648,6 +5697,10 @@ Verletzt: %1, %2</translation>
         <source>Save the changes</source>
         <translation>Änderungen speichern</translation>
     </message>
+    <message>
+        <source>Upper limit</source>
+        <translation>Obere Grenze</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::SendDialog</name>
@@ -5862,10 +5915,6 @@ Verletzt: %1, %2</translation>
         <translation>S&amp;chrift:</translation>
     </message>
     <message>
-        <source>&amp;As at first</source>
-        <translation>Wie am &amp;Anfang</translation>
-    </message>
-    <message>
         <source>Theme and letters as they were before any choice</source>
         <translation>Design und Schrift, wie sie vor jeder Wahl waren</translation>
     </message>
@@ -5936,6 +5985,10 @@ Verletzt: %1, %2</translation>
     <message>
         <source>La&amp;nguage from the next start on:</source>
         <translation>S&amp;prache ab dem nächsten Start:</translation>
+    </message>
+    <message>
+        <source>&amp;Restore defaults</source>
+        <translation>Sta&amp;ndardwerte</translation>
     </message>
 </context>
 <context>

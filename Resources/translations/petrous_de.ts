@@ -4909,7 +4909,7 @@ Verletzt: %1, %2</translation>
     </message>
     <message>
         <source>The MR that is registered and shown over the slices</source>
-        <translation>Die MR, die registriert und über den Schichten gezeigt wird</translation>
+        <translation>Das MR, das registriert und über den Schichten gezeigt wird</translation>
     </message>
 </context>
 <context>

@@ -144,7 +144,7 @@ WindowOptions safeOptions(WindowOptions options)
   options.quadBuffer = false;
   options.settings = WindowSettings::kNone;
   options.devices = {};
-  m_options.drawThumbnailsAfter = -1;
+  options.drawThumbnailsAfter = -1;
   return options;
 }
 } // namespace

@@ -5863,7 +5863,7 @@ Verletzt: %1, %2</translation>
     </message>
     <message>
         <source>&amp;As at first</source>
-        <translation>Wie am &amp;Anfang</translation>
+        <translation>&amp;Wie am Anfang</translation>
     </message>
     <message>
         <source>Theme and letters as they were before any choice</source>

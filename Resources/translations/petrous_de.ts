@@ -5427,7 +5427,7 @@ Verletzt: %1, %2</translation>
     </message>
     <message>
         <source>Drag in a slice to erase.</source>
-        <translation>Ziehen Sie in einer Schicht, um zu löschen.</translation>
+        <translation>Ziehen Sie in einer Schicht, um zu radieren.</translation>
     </message>
     <message>
         <source>Drag in a slice to paint.</source>
@@ -7342,7 +7342,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     </message>
     <message>
         <source>&amp;Centre on the crosshair</source>
-        <translation>AuAuf das Fadenkreuz &amp;zentrierenf das Fadenkreuz zentrieren</translation>
+        <translation>Au&amp;f das Fadenkreuz zentrieren</translation>
     </message>
     <message>
         <source>The 3D view turns and zooms about the crosshair from now on</source>

@@ -967,14 +967,14 @@ TEST_F(CaseBuilder, TakesNoPatientsNameFromAFilesName)
                             copy("facial_nerve.nii.gz", "DOEJOHN19630412.nii.gz"),
                             copy("facial_nerve.nii.gz", "doe.nii.gz"),
                             {"John's tumour", m_folder / "facial_nerve.nii.gz"},
-                            {"", m_folder / "facial_nerve.nii.gz"}};
+                            copy("facial_nerve.nii.gz", "chorda_tympani.nii.gz")};
   m_sources.parts.meshes = {copy("incus.obj", "John Doe.obj"), copy("incus.obj", "incus_left.obj")};
   const auto value = presenters::buildCase("ear", m_sources, {});
   std::vector<std::string> names;
   for (const auto& part : value.labels)
     names.push_back(part.structures[0].name);
   EXPECT_EQ(names, (std::vector<std::string>{"facial nerve", "structure", "structure 2",
-                                             "John's tumour", "facial_nerve"}));
+                                             "John's tumour", "chorda_tympani"}));
   EXPECT_EQ(value.meshes[0].name, "mesh");
   EXPECT_EQ(value.meshes[1].name, "incus_left");
   EXPECT_EQ(value.meshes[1].notes.size(), 0U);

@@ -165,7 +165,7 @@ TEST(ForceDisplay, ShowsNoForceThatIsNotGiven)
 
 TEST(ForceDisplay, IsSeenOverTissueAndTool)
 {
-  const Vector3d force(0.6, 0.0, 0.0);
+  const Vector3d force(2.0, 0.0, 0.0);
   const auto places = [&force](Scene& scene, double z) {
     return difference(scene.draw(force, {-3.0, 0.0, z}), scene.empty);
   };

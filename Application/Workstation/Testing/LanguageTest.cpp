@@ -32,9 +32,8 @@ TEST_F(LanguageTest, TheMenusAreGermanAndNumbersKeepTheirPoint)
     const QString key = text.mid(text.indexOf('&') + 1, 1).toLower();
     EXPECT_TRUE(keys.insert(key).second) << "Alt+" << key.toStdString() << " twice";
   }
-  for (const char* title :
-       {"Datei", "Bearbeiten", "Fall", "Zugang", "Ansicht", "Schichten", "Registrierung",
-        "Segmentierung", "Messen", "Bohren", "Bibliothek", "Hilfe"})
+  for (const char* title : {"Datei", "Bearbeiten", "Fall", "Zugang", "Ansicht", "Registrierung",
+                            "Segmentierung", "Messen", "Bohren", "Bibliothek", "Hilfe"})
     EXPECT_TRUE(titles.count(title)) << title;
   auto* thrust = window().findChild<QDoubleSpinBox*>("thrust");
   ASSERT_TRUE(thrust);

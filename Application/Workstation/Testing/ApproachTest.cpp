@@ -274,7 +274,8 @@ TEST_F(Approaches, AreComparedByOneKey)
   EXPECT_GT(blue, 100);
   QTest::keyClick(comparison(), Qt::Key_Escape);
   EXPECT_TRUE(waitFor([this] { return !comparison(); }));
-  EXPECT_EQ(differentPixels(before, slice->grab().toImage()), 0) << "its colours went with it";
+  EXPECT_TRUE(waitFor([&] { return differentPixels(before, slice->grab().toImage()) == 0; }))
+      << "its colours went with it";
 }
 
 TEST_F(Approaches, AComparisonFollowsWhatIsUndone)

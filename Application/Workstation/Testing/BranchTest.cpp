@@ -142,7 +142,7 @@ TEST_F(Branches, ANameThatIsTooLongCanBeShortened)
         auto* line = ask->findChild<QLineEdit*>();
         EXPECT_FALSE(ok->isEnabled()) << "no name yet";
         const QString name = QString(QChar(0xe4)).repeated(51); // 102 bytes
-        line->insert(name); // keyClicks takes ASCII alone
+        line->insert(name);                                     // keyClicks takes ASCII alone
         EXPECT_FALSE(ok->isEnabled());
         EXPECT_TRUE(ask->labelText().contains("100 bytes") ||
                     ask->findChild<QLabel*>()->text().contains("100 bytes"))

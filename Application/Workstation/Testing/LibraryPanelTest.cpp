@@ -347,7 +347,7 @@ TEST_F(LibraryWindow, AnArchiveIsWrittenAsTheDialogSays)
         {
           EXPECT_TRUE(below("Leaves:", "the note"));
           EXPECT_TRUE(below("Stays here:", "planned date"));
-          dialog.findChild<QCheckBox*>("archiveNote")->setChecked(false);
+          dialog.findChild<QCheckBox*>("archiveNote")->click();
           EXPECT_TRUE(below("Stays here:", "the note"));
           dialog.findChild<QCheckBox*>("archiveDate")->setChecked(true);
           EXPECT_TRUE(below("Leaves:", "planned date"));

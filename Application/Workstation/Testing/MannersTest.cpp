@@ -18,6 +18,7 @@
 #include <QPointer>
 #include <QPushButton>
 #include <QScrollBar>
+#include <QTabBar>
 #include <QTextEdit>
 #include <QTreeView>
 
@@ -116,6 +117,8 @@ protected:
                           qobject_cast<QAbstractSpinBox*>(widget->parentWidget()) ||
                           qobject_cast<QComboBox*>(widget->parentWidget()) ||
                           widget->inherits("QComboBoxPrivateContainer") ||
+                          widget->inherits("QTableCornerButton") ||
+                          qobject_cast<QTabBar*>(widget->parentWidget()) ||
                           (widget->parentWidget() &&
                            widget->parentWidget()->inherits("QComboBoxPrivateContainer")) ||
                           (qobject_cast<QLineEdit*>(widget->parentWidget()));
@@ -186,6 +189,7 @@ protected:
 TEST_F(Manners, TheWindowGoesOnDuringLongWork)
 {
   const int size = qEnvironmentVariable("PETROUS_WATCHDOG_SIZE", "64").toInt();
+  saveAfter = 50;
   openWindow(); // without a case
   saveMany("sixty", size, 60, true);
   const fs::path file = folder() / "ear.nrrd";
@@ -216,7 +220,6 @@ TEST_F(Manners, TheWindowGoesOnDuringLongWork)
   watchdog.begin("stroke undone, and saved");
   action("Undo")->trigger();
   EXPECT_TRUE(strokeEnds());
-  action("Save")->trigger();
   EXPECT_TRUE(waitFor([this] { return !window().model().unsaved() && !window().busy(); }));
   watchdog.begin("archive");
   onDialog(

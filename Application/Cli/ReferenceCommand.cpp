@@ -7,6 +7,7 @@
 #include "CommandDefinitions.h"
 #include "Commands.h"
 #include "Numbers.h"
+#include "petrous/Core/AsciiCase.h"
 #include "petrous/Core/OutputFile.h"
 
 namespace petrous::cli
@@ -91,8 +92,7 @@ std::string italic(const std::string& text)
 std::string heading(const std::string& name, const std::string& text, const std::string& version)
 {
   std::string upper = name;
-  std::transform(upper.begin(), upper.end(), upper.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::transform(upper.begin(), upper.end(), upper.begin(), core::asciiUpper);
   const std::string firstLine = text.substr(0, text.find('\n'));
   return ".TH " + roff(upper) + " 1 \"\" \"" + roff(version) + "\" Petrous\n.SH NAME\n" +
          roff(name) + " \\- " + roff(firstLine) + "\n";

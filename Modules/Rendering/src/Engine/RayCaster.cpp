@@ -492,7 +492,11 @@ void RayCaster::releaseData()
   m_thickness.texture.release();
   m_materials.release();
   m_bricks.release();
-  m_target.release(); // what was drawn of them has no depth any more
+}
+
+void RayCaster::releasePicture()
+{
+  m_target.release();
   m_statistics = {};
 }
 
@@ -503,6 +507,7 @@ void RayCaster::release()
     shader.release();
   m_programs.clear();
   m_present.release();
+  m_target.release();
   m_triangle.release();
   m_filterBits = 0; // the next context may be of another card
 }

@@ -84,7 +84,8 @@ public:
   const RayTarget& target() const noexcept { return m_target; }
 
   void release();
-  void releaseData(); ///< what is of the contents; the programs stay
+  void releaseData();    ///< what is of the contents; the programs stay
+  void releasePicture(); ///< what was drawn, with its depth
   const RenderStatistics& statistics() const noexcept { return m_statistics; }
 
 private:

@@ -251,6 +251,7 @@ void vtkPetrousVolumeMapper::SetContents(const SceneContents& contents)
     this->Internal->window->MakeCurrent();
     this->Internal->caster.setContents(contents);
     this->Internal->caster.releaseData();
+    this->Internal->caster.releasePicture();
   }
   this->Internal->clipped = 0; // to be merged with the mapper's own clipping
   this->Modified();

@@ -131,7 +131,8 @@ TEST_F(RealData, TheGuideCountsWhatScanSays)
       continue;
     ++rows;
     std::map<std::string, std::map<std::string, int>> counts;
-    for (const auto& series : json("scan " + quoted(m_data / row->second))["series"])
+    const auto scanned = json("scan " + quoted(m_data / row->second));
+    for (const auto& series : scanned["series"])
       for (const auto& volume : series["volumes"])
       {
         const bool isImage = volume["kind"] == "image";

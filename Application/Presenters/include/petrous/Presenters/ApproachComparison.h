@@ -59,8 +59,8 @@ struct ApproachComparison
 };
 
 /// Compares two branches of a case whose dissection is loaded. Volumes as measureRemoved; distances
-/// are those of RemovedTissue. Loads the CT, labels and meshes; takes seconds for many structures. Throws
-/// InvalidParameter, CancelledError, and what loading throws.
+/// are those of RemovedTissue. Loads the CT, labels and meshes; takes seconds for many structures.
+/// Throws InvalidParameter, CancelledError, and what loading throws.
 ApproachComparison compareApproaches(const scene::Case& value, const std::string& first,
                                      const std::string& second,
                                      const core::Progress& progress = {});

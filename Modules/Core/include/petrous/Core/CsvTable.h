@@ -10,9 +10,9 @@ namespace petrous::core
 {
 
 /// Reads a CSV table of numbers, delimited by commas, semicolons or tabs (csvDelimiter): a header
-/// with the column names (in any order; other columns are ignored), then one row per line; empty lines, and empty fields at the end of a line, are
-/// skipped. `row` receives the line number, counted from 1, and the values in the order of
-/// `columns`.
+/// with the column names (in any order; other columns are ignored), then one row per line; empty
+/// lines, and empty fields at the end of a line, are skipped. `row` receives the line number,
+/// counted from 1, and the values in the order of `columns`.
 ///
 /// Throws InvalidParameter "NAME, line N: ..." if the header lacks a column, a row has another
 /// number of fields than the header or a value is not a finite number, and if the file has no row.

@@ -13,10 +13,10 @@ namespace petrous::interaction
 struct ForceLook
 {
   double millimetresPerNewton = 3.0; ///< of the arrow, in (0, 1000]
-  double fullScale = 5.0;             ///< N: end of the bar, and maximum of the arrow; > 0.1
-  double least = 0.02;                ///< N: below it no arrow is shown, >= 0
-  double thickness = 0.8;             ///< mm, of the arrow's shaft, in (0, 20]
-  double pixels = 1.0;                ///< screen pixels per bar pixel, in [0.25, 8]: 2 for high-DPI
+  double fullScale = 5.0;            ///< N: end of the bar, and maximum of the arrow; > 0.1
+  double least = 0.02;               ///< N: below it no arrow is shown, >= 0
+  double thickness = 0.8;            ///< mm, of the arrow's shaft, in (0, 20]
+  double pixels = 1.0;               ///< screen pixels per bar pixel, in [0.25, 8]: 2 for high-DPI
 };
 
 /// Displays the force on the hand as an arrow at the tool and as a bar with its value in the lower

@@ -424,6 +424,74 @@ TEST(PixelForms, AValueOfMoreThanTheBitsStoredIsRefused)
       }
 }
 
+// As scanners wrote them until 2004: graphics in a bit above those of the values.
+TEST(PixelForms, OverlaysThatAreDeclaredAreLeftOut)
+{
+  struct Case
+  {
+    unsigned group, bit;
+    bool isRead;
+  };
+  for (const auto& [group, bit, isRead] :
+       {Case{0x6000, 12, true}, {0x601e, 15, true}, {0x6000, 13, false}, {0x6001, 12, false}})
+    for (const bool isSigned : {false, true})
+    {
+      SCOPED_TRACE(std::to_string(group) + " " + std::to_string(bit) + std::to_string(isSigned));
+      const unsigned used = group == 0x601e ? 15 : 12;
+      const TemporaryFolder folder;
+      writeSeries(folder.path(), 2,
+                  [=, group = group, bit = bit](int, TestSlice& s)
+                  {
+                    s.bitsStored = 12;
+                    s.isSigned = isSigned;
+                    s.cell = [=](int i, int j)
+                    {
+                      const unsigned value = isSigned && i == 1 ? 0xFFFFU : 100U + i; // -1
+                      return i == j ? value | 1U << used : value & ~(1U << used);
+                    };
+                    s.number(s.extraPixel, group << 16 | 0x0100U, 16);
+                    s.number(s.extraPixel, group << 16 | 0x0102U, bit);
+                  });
+      if (!isRead)
+      {
+        EXPECT_THROW(readFolder(folder.path()), DicomError);
+        continue;
+      }
+      const auto image = readFolder(folder.path());
+      for (int i = 0; i < 5; ++i)
+        EXPECT_EQ(image.at(i, 3, 0), isSigned && i == 1 ? -1.0 : 100.0 + i) << i;
+    }
+}
+
+// 12 bits with a sign: 3000 has the bits of -1096 but for the copies of the sign that -1000 has.
+TEST(PixelForms, APositiveValueIsNotTakenForANegativeOne)
+{
+  for (const bool hasCopies : {true, false})
+  {
+    const TemporaryFolder folder;
+    writeSeries(folder.path(), 2,
+                [hasCopies](int, TestSlice& s)
+                {
+                  s.bitsStored = 12;
+                  s.isSigned = true;
+                  s.cell = [hasCopies](int i, int j)
+                  {
+                    const unsigned air =
+                        static_cast<unsigned>(-1000) & (hasCopies ? 0xFFFFU : 0xFFFU);
+                    return i == 3 && j == 2 ? 3000U : air;
+                  };
+                });
+    if (hasCopies)
+    {
+      EXPECT_THROW(readFolder(folder.path()), DicomError);
+      continue;
+    }
+    const auto image = readFolder(folder.path());
+    EXPECT_EQ(image.at(0, 0, 0), -1000.0);
+    EXPECT_EQ(image.at(3, 2, 0), 3000.0 - 4096.0) << "as the header says";
+  }
+}
+
 TEST(PixelForms, FloatingPointIsKeptToTheBit)
 {
   const auto value = [](int i, int j, int k) // floats that decimal digits do not hold

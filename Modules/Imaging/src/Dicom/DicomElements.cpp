@@ -53,7 +53,11 @@ bool isWanted(Tag tag)
   constexpr Tag kGeB = 0x00431039;
   constexpr Tag kRealIntercept = 0x00409224;
   constexpr Tag kRealSlope = 0x00409225;
+  constexpr Tag kOverlayBits = 0x60000100;     // allocated, of the first of 16 groups
+  constexpr Tag kOverlayPosition = 0x60000102; // of its bit
+  constexpr Tag kOverlay = 0xffe1ffff;         // all but the number of the group
   return tag == kSiemensB || tag == kGeB || tag == kRealIntercept || tag == kRealSlope ||
+         (tag & kOverlay) == kOverlayBits || (tag & kOverlay) == kOverlayPosition ||
          group == 0x0002 || group == 0x0008 || group == 0x0018 || group == 0x0020 ||
          group == 0x0028;
 }

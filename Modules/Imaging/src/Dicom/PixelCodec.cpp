@@ -162,10 +162,12 @@ std::uint64_t littleEndian(const unsigned char* bytes, std::size_t count)
 }
 
 /// The pixels that have bits above those that the header says are stored, but for copies of the
-/// sign. Most images have none, which one pass without a branch tells.
+/// sign and the bits of `others`. Where some negative values have copies of the sign, one without
+/// them is a positive one that is too large. Most images have none, which one pass without a branch
+/// tells.
 template <class Cell>
 std::size_t countBeyond(const PixelFormat& format, const std::vector<unsigned char>& bytes,
-                        bool swap)
+                        bool swap, std::uint64_t others)
 {
   const std::size_t count = bytes.size() / sizeof(Cell);
   const auto cellAt = [&](std::size_t n)
@@ -183,23 +185,60 @@ std::size_t countBeyond(const PixelFormat& format, const std::vector<unsigned ch
     std::memcpy(&cell, own.data(), sizeof cell);
     return cell;
   };
-  const auto high = [&](Cell cell) { return std::uint64_t{cell} >> format.highBit >> 1; };
+  const int above = static_cast<int>(8 * sizeof(Cell)) - format.highBit - 1;
+  const std::uint64_t all = ((std::uint64_t{1} << above) - 1) & ~(others >> format.highBit >> 1);
+  const auto high = [&](Cell cell) { return std::uint64_t{cell} >> format.highBit >> 1 & all; };
   Cell any = 0;
   for (std::size_t n = 0; n < count; ++n)
     any = static_cast<Cell>(any | cellAt(n));
   if (high(swapped(any)) == 0)
     return 0;
-  const int above = static_cast<int>(8 * sizeof(Cell)) - format.highBit - 1;
-  const std::uint64_t all = (std::uint64_t{1} << above) - 1;
   std::size_t beyond = 0;
+  std::size_t signs = 0; // with copies, and without
+  std::size_t bare = 0;
   for (std::size_t n = 0; n < count; ++n)
   {
     const Cell cell = swapped(cellAt(n));
     const bool isNegative = format.isSigned && (std::uint64_t{cell} >> format.highBit & 1U) != 0;
-    if (high(cell) != 0 && !(isNegative && high(cell) == all))
+    if (high(cell) == 0)
+      bare += isNegative ? 1 : 0;
+    else if (isNegative && high(cell) == all)
+      ++signs;
+    else
       ++beyond;
   }
-  return beyond;
+  return beyond + (signs > 0 ? bare : 0);
+}
+
+std::size_t countBeyond(const PixelFormat& format, const std::vector<unsigned char>& bytes,
+                        bool swap, std::uint64_t others = 0)
+{
+  if (format.highBit + 1 >= format.bitsAllocated)
+    return 0;
+  return format.bitsAllocated == 8    ? countBeyond<std::uint8_t>(format, bytes, swap, others)
+         : format.bitsAllocated == 16 ? countBeyond<std::uint16_t>(format, bytes, swap, others)
+         : format.bitsAllocated == 32 ? countBeyond<std::uint32_t>(format, bytes, swap, others)
+                                      : 0;
+}
+
+/// The bits of a cell in which the file declares overlays, as old scanners wrote them (PS3.3 of
+/// 2004, C.9.2).
+std::uint64_t overlayBits(const std::filesystem::path& file)
+{
+  constexpr Tag kFirst = 0x60000102;     // Overlay Bit Position
+  constexpr Tag kAllocated = 0x60000100; // Overlay Bits Allocated: 1 where its data are apart
+  constexpr Tag kNext = 0x00020000;      // group
+  constexpr Tag kMostOverlays = 16;
+  ByteSource source(file);
+  const DicomElements elements(source);
+  std::uint64_t bits = 0;
+  for (Tag n = 0; n < kMostOverlays; ++n)
+  {
+    const int place = elements.integer(kFirst + n * kNext).value_or(0);
+    if (elements.integer(kAllocated + n * kNext).value_or(1) > 1 && place > 0 && place < 32)
+      bits |= std::uint64_t{1} << place;
+  }
+  return bits;
 }
 
 /// Cut to the bits that the header says are stored, larger values would turn into smaller ones:
@@ -207,13 +246,9 @@ std::size_t countBeyond(const PixelFormat& format, const std::vector<unsigned ch
 void requireWithin(const SliceHeader& slice, const std::vector<unsigned char>& bytes, bool swap)
 {
   const PixelFormat& format = slice.pixels;
-  if (format.highBit + 1 >= format.bitsAllocated)
+  if (countBeyond(format, bytes, swap) == 0)
     return;
-  const std::size_t beyond =
-      format.bitsAllocated == 8    ? countBeyond<std::uint8_t>(format, bytes, swap)
-      : format.bitsAllocated == 16 ? countBeyond<std::uint16_t>(format, bytes, swap)
-      : format.bitsAllocated == 32 ? countBeyond<std::uint32_t>(format, bytes, swap)
-                                   : 0;
+  const std::size_t beyond = countBeyond(format, bytes, swap, overlayBits(slice.file));
   if (beyond > 0)
     throw DicomError(DicomError::Reason::Unreadable,
                      slice.file.filename().string() +

@@ -47,10 +47,10 @@ void decodeFrame(ByteSource& source, const SliceHeader& slice,
 
 /// Reads and decodes the pixels that `slice` describes.
 ///
-/// Bits above the high bit must be copies of the sign or none: those of a larger value, or the
-/// overlay of an old scanner, are refused. Thread-safe. Throws DicomError
-/// (Unreadable), naming the file; also if it was changed or replaced since its header was read
-/// (SliceHeader::stamp).
+/// Bits above the high bit must be none, copies of the sign, or those of overlays that the file
+/// declares (of old scanners), which are left out: values that need them are refused. Thread-safe.
+/// Throws DicomError (Unreadable), naming the file; also if it was changed or replaced since its
+/// header was read (SliceHeader::stamp).
 void decodePixels(const SliceHeader& slice, StoredPixels& pixels);
 
 } // namespace petrous::imaging

@@ -146,7 +146,8 @@ ComparisonWindow::ComparisonWindow(QWidget* parent)
   whole->addWidget(pictures);
   whole->addWidget(m_table);
   whole->setStretchFactor(0, 3);
-  whole->setStretchFactor(1, 2);
+  whole->setStretchFactor(1, 1);
+  whole->setSizes({600, 240}); // the hints of tables are large
   whole->setChildrenCollapsible(false);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(8, 8, 8, 8);

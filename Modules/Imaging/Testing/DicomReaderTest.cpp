@@ -77,17 +77,19 @@ TEST(DicomReader, ReadsEveryVoxelAtItsPlace)
 
 TEST(DicomReader, ExtendsTheSignOfTwelveBits)
 {
-  const TemporaryFolder folder;
-  writeSeries(folder.path(), 2,
-              [](int, TestSlice& s)
-              {
-                s.bitsStored = 12;
-                s.cell = [](int i, int) { return i == 0 ? 0x801U : i == 1 ? 0xF801U : 0x7FFU; };
-              });
-  const IntensityVolume volume = readFolder(folder.path());
-  EXPECT_EQ(volume.at(0, 0, 0), -2047.0);
-  EXPECT_EQ(volume.at(1, 0, 0), -2047.0) << "with copies of the sign above";
-  EXPECT_EQ(volume.at(2, 0, 0), 2047.0);
+  for (const std::uint32_t negative : {0x801U, 0xF801U}) // without copies of the sign, and with
+  {
+    const TemporaryFolder folder;
+    writeSeries(folder.path(), 2,
+                [negative](int, TestSlice& s)
+                {
+                  s.bitsStored = 12;
+                  s.cell = [negative](int i, int) { return i == 0 ? negative : 0x7FFU; };
+                });
+    const IntensityVolume volume = readFolder(folder.path());
+    EXPECT_EQ(volume.at(0, 0, 0), -2047.0) << negative;
+    EXPECT_EQ(volume.at(1, 0, 0), 2047.0);
+  }
 }
 
 TEST(DicomReader, AppliesEachSlicesOwnSlope)

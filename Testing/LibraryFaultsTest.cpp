@@ -580,12 +580,12 @@ TEST_F(LibraryFaults, AKillAtAnyMomentLeavesTheOldOrTheNew)
 
 // A disk that is full at any write, a permission that is lost at any file, a rename or a sync that
 // fails: told in a line, and the library is the old or the new. PETROUS_FAULTS: at how many calls
-// of each kind (2; the calls are spread over the run).
+// of each kind (1; the calls are spread over the run).
 TEST_F(LibraryFaults, ACallThatFailsIsToldAndLeavesTheOldOrTheNew)
 {
   if (*PETROUS_SYSTEM_CALLS == '\0')
     GTEST_SKIP() << "nothing can be preloaded under a sanitizer";
-  const int most = static_cast<int>(numberFrom("PETROUS_FAULTS", 2));
+  const int most = static_cast<int>(numberFrom("PETROUS_FAULTS", 1));
   std::size_t refused = 0, done = 0;
   std::vector<Operation> all = operations();
   const std::unique_ptr<servers::Orthanc> pacs = startNode();

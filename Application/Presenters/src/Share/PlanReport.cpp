@@ -503,15 +503,6 @@ private:
       }
   }
 
-  // Of the strokes up to a state.
-  double drillingTime(std::size_t state) const
-  {
-    double seconds = 0.0;
-    for (const std::size_t n : m_value.dissection.history().lineTo(state))
-      seconds += m_value.dissection.strokes()[n]->info.duration;
-    return seconds;
-  }
-
   std::string touchedText(const std::vector<dissection::TouchedStructure>& touched)
   {
     std::string text;
@@ -539,7 +530,7 @@ private:
       table.table.rows.push_back(
           {textCell(approachName(branch.name) + (isThis ? " (" + say("reported here") + ")" : "")),
            numberCell(static_cast<double>(summary.strokes), 0, ""),
-           numberCell(drillingTime(branch.position), 1, "s"), numberCell(summary.removed, 1, "mm³"),
+           numberCell(summary.duration, 1, "s"), numberCell(summary.removed, 1, "mm³"),
            textCell(touchedText(summary.structures))});
     }
   }
@@ -572,7 +563,7 @@ private:
     }
     const scene::StateSummary summary = scene::summaryOf(m_value, history.position());
     table.table.rows.push_back({textCell(say("All together")), textCell({}), textCell({}),
-                                numberCell(drillingTime(history.position()), 1, "s"),
+                                numberCell(summary.duration, 1, "s"),
                                 numberCell(summary.removed, 2, "mm³"), textCell({})});
     table.table.rows.back()[0].isNumber = true;
   }

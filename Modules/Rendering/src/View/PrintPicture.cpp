@@ -7,6 +7,8 @@
 #include <cstring>
 #include <string>
 
+#include <libdeflate.h>
+
 #include "petrous/Core/Error.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Rendering/OffscreenView.h"
@@ -25,19 +27,6 @@ void append(std::vector<std::uint8_t>& bytes, std::uint32_t number) // most sign
 {
   for (int shift = 24; shift >= 0; shift -= 8)
     bytes.push_back(static_cast<std::uint8_t>(number >> shift));
-}
-
-// [ISO/IEC 15948, 5.5]
-std::uint32_t crc32(const std::uint8_t* bytes, std::size_t count)
-{
-  std::uint32_t crc = 0xffffffffU;
-  for (std::size_t n = 0; n < count; ++n)
-  {
-    crc ^= bytes[n];
-    for (int bit = 0; bit < 8; ++bit)
-      crc = (crc >> 1) ^ ((crc & 1U) != 0 ? 0xedb88320U : 0U);
-  }
-  return ~crc;
 }
 
 void checkEdges(int width, int height)
@@ -135,7 +124,7 @@ std::vector<std::uint8_t> pngOf(const Picture& picture, double dotsPerInch)
   append(chunk, perMetre);
   append(chunk, perMetre);
   chunk.push_back(1); // the unit is the metre
-  append(chunk, crc32(chunk.data() + 4, chunk.size() - 4));
+  append(chunk, libdeflate_crc32(0, chunk.data() + 4, chunk.size() - 4));
   png.insert(png.begin() + kHeader, chunk.begin(), chunk.end());
   return png;
 }

@@ -852,7 +852,8 @@ LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Pro
   LoadedLabels loaded;
   loaded.frameOfReferenceUid = data.text(0x00200052);
   loaded.patient = patientOf(elements);
-  requireDeclared(file, data.items(0x00620002));
+  const std::vector<DicomItem> segments = data.items(0x00620002);
+  requireDeclared(file, segments);
   const core::GridGeometry grid = placeFrames(file, images, loaded.notes);
   const double frameVolume = thicknessOf(file, grid) * grid.spacing()[0] * grid.spacing()[1];
   if (file.type == Type::Fractional)
@@ -867,9 +868,9 @@ LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Pro
   std::vector<std::vector<volume::Segment>> names(layers.voxels.size());
   std::vector<char> isKnown(65536, 0);
   UniqueNames unique;
-  for (const DicomItem& item : data.items(0x00620002))
+  for (const DicomItem& item : segments)
     unique.reserve(toUtf8(item.text(0x00620005), characters));
-  for (const DicomItem& item : data.items(0x00620002))
+  for (const DicomItem& item : segments)
   {
     const auto number = item.integer(0x00620004);
     if (!number || isKnown[static_cast<std::size_t>(*number)])

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <list>
 #include <map>
 #include <optional>
 
@@ -123,28 +122,17 @@ struct Placed
   std::size_t twice = 0;     ///< contours that are another one of their plane again
 };
 
-/// A contour with its bounds, voxel coordinates.
-struct Outline
-{
-  explicit Outline(const std::vector<Eigen::Vector2d>& contour)
-    : points(&contour)
-  {
-    for (const Eigen::Vector2d& p : contour)
-      bounds.extend(p);
-  }
-  const std::vector<Eigen::Vector2d>* points;
-  Eigen::AlignedBox2d bounds;
-};
+using Contour = std::vector<Eigen::Vector2d>; ///< voxel coordinates
 
 /// Whether each point of a contour lies within `reach` of another contour's line.
-bool liesOn(const Outline& contour, const Outline& other, double reach)
+bool liesOn(const Contour& contour, const Contour& other, double reach)
 {
   const auto isNear = [&](const Eigen::Vector2d& p)
   {
-    for (std::size_t n = 0; n < other.points->size(); ++n)
+    for (std::size_t n = 0; n < other.size(); ++n)
     {
-      const Eigen::Vector2d& from = (*other.points)[n];
-      const Eigen::Vector2d along = (*other.points)[(n + 1) % other.points->size()] - from;
+      const Eigen::Vector2d& from = other[n];
+      const Eigen::Vector2d along = other[(n + 1) % other.size()] - from;
       const double length = along.squaredNorm();
       const double t = length > 0.0 ? std::clamp((p - from).dot(along) / length, 0.0, 1.0) : 0.0;
       if ((p - from - t * along).squaredNorm() <= reach * reach)
@@ -152,16 +140,25 @@ bool liesOn(const Outline& contour, const Outline& other, double reach)
     }
     return false;
   };
-  return std::all_of(contour.points->begin(), contour.points->end(), isNear);
+  return std::all_of(contour.begin(), contour.end(), isNear);
+}
+
+Eigen::AlignedBox2d boundsOf(const Contour& contour)
+{
+  Eigen::AlignedBox2d bounds;
+  for (const Eigen::Vector2d& p : contour)
+    bounds.extend(p);
+  return bounds;
 }
 
 /// Whether two contours are one, wherever it begins and whichever way it turns: a ring between
 /// them would be thinner than a twentieth of a voxel.
-bool areOne(const Outline& a, const Outline& b)
+bool areOne(const Contour& a, const Eigen::AlignedBox2d& boundsOfA, const Contour& b,
+            const Eigen::AlignedBox2d& boundsOfB)
 {
   constexpr double kReach = 0.05; // voxels
-  return (a.bounds.min() - b.bounds.min()).cwiseAbs().maxCoeff() <= kReach &&
-         (a.bounds.max() - b.bounds.max()).cwiseAbs().maxCoeff() <= kReach &&
+  return (boundsOfA.min() - boundsOfB.min()).cwiseAbs().maxCoeff() <= kReach &&
+         (boundsOfA.max() - boundsOfB.max()).cwiseAbs().maxCoeff() <= kReach &&
          liesOn(a, b, kReach) && liesOn(b, a, kReach);
 }
 
@@ -234,8 +231,7 @@ std::optional<Placed> place(const StructureSet::Roi& roi, const core::GridGeomet
     for (const auto& [at, contour] : planes)
       ats.push_back(at);
     const double width = planeWidth(ats);
-    std::vector<Outline> outlines;                     // of the plane
-    std::list<std::vector<Eigen::Vector2d>> flattened; // that they are of
+    std::vector<Eigen::AlignedBox2d> bounds; // of the plane's contours
     for (std::size_t n = 0; n < planes.size(); ++n)
     {
       progress.check(kTask);
@@ -247,22 +243,24 @@ std::optional<Placed> place(const StructureSet::Roi& roi, const core::GridGeomet
       if (isNew)
       {
         placed.planes.push_back({at, 0.0, 0.0, {}});
-        outlines.clear();
-        flattened.clear();
+        bounds.clear();
       }
-      std::vector<Eigen::Vector2d> flat;
+      Contour flat;
       for (const Eigen::Vector3d& p : *contour)
         flat.emplace_back(p[static_cast<int>(placed.axes.first)],
                           p[static_cast<int>(placed.axes.second)]);
-      const Outline outline(flattened.emplace_back(std::move(flat)));
-      if (std::any_of(outlines.begin(), outlines.end(),
-                      [&outline](const Outline& other) { return areOne(outline, other); }))
+      std::vector<Contour>& ofPlane = placed.planes.back().contours;
+      const Eigen::AlignedBox2d own = boundsOf(flat);
+      std::size_t other = 0;
+      while (other < ofPlane.size() && !areOne(flat, own, ofPlane[other], bounds[other]))
+        ++other;
+      if (other < ofPlane.size())
       {
         ++placed.twice; // by the odd-even rule it would take away what it surrounds
         continue;
       }
-      outlines.push_back(outline);
-      placed.planes.back().contours.push_back(flattened.back());
+      bounds.push_back(own);
+      ofPlane.push_back(std::move(flat));
     }
     std::vector<double> steps;
     for (std::size_t n = 1; n < placed.planes.size(); ++n)

@@ -424,8 +424,9 @@ std::string caseLike(const fs::path& library, const std::string& name)
 
 void refuseTakenName(const fs::path& library, const std::string& name, const std::string& besides)
 {
+  const std::string folded = scene::caseFolded(name);
   for (const std::string& taken : namesIn(library / "cases"))
-    if (taken != besides && scene::caseFolded(taken) == scene::caseFolded(name))
+    if (taken != besides && scene::caseFolded(taken) == folded)
       throw LibraryError(Reason::NameTaken, "case '" + taken + "' is there already in " +
                                                 library.string() + "; choose another name" +
                                                 (taken == name ? ""

@@ -1,8 +1,6 @@
 #include "petrous/Presenters/ApproachComparison.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -46,15 +44,6 @@ CutMask minimumOf(const CutMask& a, const CutMask& b)
     least.setBrick(n, std::move(brick));
   }
   return least;
-}
-
-std::vector<std::size_t> cutBricks(const CutMask& mask)
-{
-  std::vector<std::size_t> bricks;
-  for (std::size_t n = 0; n < mask.brickCount(); ++n)
-    if (mask.brick(n))
-      bricks.push_back(n);
-  return bricks;
 }
 
 double volumeOf(const volume::TissueField& tissue, const CutMask& mask)

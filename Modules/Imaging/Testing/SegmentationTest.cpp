@@ -447,9 +447,14 @@ TEST(DicomSegmentation, FramesOfOnePlaceMustBeEqual)
   const volume::LabelMap& map = loaded.maps.at(0);
   EXPECT_EQ(map.segments.at(0).voxels, 3u * 6u);
   EXPECT_NEAR(loaded.fileVolumes.at("chorda"), 3 * 6 * 0.4 * 0.5, 1e-9);
+  const std::size_t before = loaded.notes.size();
   file.frames.back().value = [](int, int) { return 0; };
-  EXPECT_EQ(loadLabels(putFile(folder / "b.dcm", file.bytes())).maps.at(0).segments.at(0).voxels,
-            3u * 6u);
+  const auto withEmpty = loadLabels(putFile(folder / "b.dcm", file.bytes()));
+  EXPECT_EQ(withEmpty.maps.at(0).segments.at(0).voxels, 3u * 6u);
+  ASSERT_EQ(withEmpty.notes.size(), before + 1);
+  EXPECT_NE((withEmpty.notes.front() + withEmpty.notes.back()).find("the first is frame 4"),
+            std::string::npos)
+      << withEmpty.notes.back();
   file.frames.back().value = [value = once.frames[1].value](int i, int j)
   { return 1 - value(i, j); };
   expectRefused(refusalOf([&] { loadLabels(putFile(folder / "c.dcm", file.bytes())); }),

@@ -596,8 +596,10 @@ std::vector<std::size_t> pixelsOf(Segmentation& file, ByteSource& source, const 
 
 /// Of frames of one segment at one place, which lie together, keeps one if they are equal or the
 /// others are empty.
-void dropCopies(Segmentation& file, ByteSource& source)
+void dropCopies(Segmentation& file, ByteSource& source, std::vector<std::string>& notes)
 {
+  std::size_t empty = 0;
+  std::size_t firstEmpty = 0;
   auto kept = file.frames.begin();
   for (auto frame = std::next(kept); frame < file.frames.end(); ++frame)
   {
@@ -612,19 +614,26 @@ void dropCopies(Segmentation& file, ByteSource& source)
       failFrame(file.path, frame->number,
                 "lies where frame " + std::to_string(kept->number + 1) +
                     " of the same segment does, and differs from it");
+    if (first.empty() != second.empty() && empty++ == 0)
+      firstEmpty = (first.empty() ? *kept : *frame).number + 1;
     if (first.empty())
       *kept = *frame;
   }
   file.frames.erase(std::next(kept), file.frames.end());
+  if (empty > 0)
+    notes.push_back("has " + std::to_string(empty) +
+                    (empty == 1 ? " empty frame" : " empty frames") + " (the first is frame " +
+                    std::to_string(firstEmpty) +
+                    ") where another of the same segment lies, which was taken");
 }
 
 Layers paintSegments(Segmentation& file, ByteSource& source, const core::GridGeometry& grid,
-                     const core::Progress& progress)
+                     std::vector<std::string>& notes, const core::Progress& progress)
 {
   std::stable_sort(file.frames.begin(), file.frames.end(),
                    [](const Frame& a, const Frame& b)
                    { return std::pair(a.segment, a.slice) < std::pair(b.segment, b.slice); });
-  dropCopies(file, source);
+  dropCopies(file, source, notes);
   Layers layers;
   layers.add(file.path, grid, file.memory);
   const Frame* end = file.frames.data() + file.frames.size();
@@ -861,8 +870,9 @@ LoadedLabels readSegmentation(const std::filesystem::path& path, const core::Pro
                            (file.isOccupancy ? "occupancy" : "probability") +
                            "): voxels of 50 % and more were taken as the structure");
   const core::Progress painting = progress.part(0.1, 0.9);
-  Layers layers = file.type == Type::Labelmap ? copyLabelmap(file, source, grid, painting)
-                                              : paintSegments(file, source, grid, painting);
+  Layers layers = file.type == Type::Labelmap
+                      ? copyLabelmap(file, source, grid, painting)
+                      : paintSegments(file, source, grid, loaded.notes, painting);
 
   const std::string characters = data.text(0x00080005);
   std::vector<std::vector<volume::Segment>> names(layers.voxels.size());

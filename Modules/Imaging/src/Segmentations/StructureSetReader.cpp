@@ -124,19 +124,27 @@ struct Placed
 
 using Contour = std::vector<Eigen::Vector2d>; ///< voxel coordinates
 
-/// Whether each point of a contour lies within `reach` of another contour's line.
+/// Whether each point of a contour lies within `reach` of another contour's line. Points that
+/// follow each other lie on sides that do: each search begins at the side found before.
 bool liesOn(const Contour& contour, const Contour& other, double reach)
 {
+  const std::size_t sides = other.size();
+  std::size_t found = 0;
   const auto isNear = [&](const Eigen::Vector2d& p)
   {
-    for (std::size_t n = 0; n < other.size(); ++n)
+    for (std::size_t step = 0; step < sides; ++step) // 0, 1, -1, 2, -2 ...
     {
+      const std::size_t aside = (step + 1) / 2;
+      const std::size_t n = (found + (step % 2 == 1 ? aside : sides - aside)) % sides;
       const Eigen::Vector2d& from = other[n];
-      const Eigen::Vector2d along = other[(n + 1) % other.size()] - from;
+      const Eigen::Vector2d along = other[(n + 1) % sides] - from;
       const double length = along.squaredNorm();
       const double t = length > 0.0 ? std::clamp((p - from).dot(along) / length, 0.0, 1.0) : 0.0;
       if ((p - from - t * along).squaredNorm() <= reach * reach)
+      {
+        found = n;
         return true;
+      }
     }
     return false;
   };
@@ -415,6 +423,33 @@ double areaOf(const Plane& plane, const core::Progress& progress) // voxels
               [&area](std::int64_t, double x0, double x1, double share)
               { area += (x1 - x0) * share; });
   return area;
+}
+
+/// Whether contours of the plane lie within each other so closely that next to nothing is left
+/// between them, as where one was drawn twice.
+bool isEmptied(const Plane& plane, const core::Progress& progress)
+{
+  constexpr double kThin = 0.25; // voxels, the mean width of what is left
+  if (plane.contours.size() < 2)
+    return false;
+  double length = 0.0;
+  double enclosed = 0.0; // by each contour alone
+  for (const auto& contour : plane.contours)
+  {
+    double twice = 0.0;
+    for (std::size_t n = 0; n < contour.size(); ++n)
+    {
+      const Eigen::Vector2d a = contour[n] - contour[0];
+      const Eigen::Vector2d b = contour[(n + 1) % contour.size()] - contour[0];
+      length += (b - a).norm();
+      twice += a[0] * b[1] - a[1] * b[0];
+    }
+    enclosed += 0.5 * std::abs(twice);
+  }
+  if (enclosed < 2.0)
+    return false;
+  const double area = areaOf(plane, progress);
+  return area < 0.5 * enclosed && 2.0 * area < kThin * length;
 }
 
 double volumeOf(const Placed& placed, const core::Progress& progress = {}) // voxels
@@ -806,6 +841,15 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
                         return hasCrossing(plane);
                       }))
         crossed.push_back("'" + name + "'");
+      if (const auto emptied =
+              std::count_if(placed->planes.begin(), placed->planes.end(),
+                            [&part](const Plane& plane) { return isEmptied(plane, part); });
+          emptied > 0)
+        loaded.notes.push_back("'" + name +
+                               "' has contours that lie closely within each other in " +
+                               std::to_string(emptied) + (emptied == 1 ? " plane" : " planes") +
+                               ", where next to nothing is left between them (were they drawn "
+                               "twice?)");
       requireMemory(path, boxOf(*placed, grid).count() * (sizeof(std::uint16_t) + sizeof(char)),
                     kFewer, memory);
       const Shares shares = sharesOf(*placed, grid, part);

@@ -139,6 +139,25 @@ TEST(LabelTable, ReadsQuotesWithinANameOfItkSnap)
             "4:C:\\scan\\(1 2 3);");
 }
 
+// As spreadsheets write a line break within a cell; the lines are counted on.
+TEST(LabelTable, ReadsQuotedCellsOfSeveralLines)
+{
+  for (const std::string end : {"\n", "\r\n"})
+  {
+    EXPECT_EQ(entriesIn("index,name,r,g,b" + end + "1,\"facial" + end +
+                        "nerve, \"\"left\"\"\",1,2,3" + end + "2,stapes,4,5,6" + end),
+              "1:facial nerve, \"left\"(1 2 3);2:stapes(4 5 6);");
+    EXPECT_EQ(entriesIn("1;\"a" + end + end + "b\";1;2;3" + end), "1:a  b(1 2 3);");
+  }
+  const TestFolder folder;
+  const auto refused = [&folder](const std::string& text)
+  { return refusalOf([&] { readLabelTable(putFile(folder / "names.csv", text)); }); };
+  expectRefused(refused("index,name\n1,\"a\nb\"\n2.5,c\n"), Reason::Unreadable,
+                "line 4 gives an index");
+  expectRefused(refused("index,name\n1,incus\n2,\"stapes\n3,malleus\n"), Reason::Unreadable,
+                "line 3 opens a quote that is not closed");
+}
+
 TEST(LabelTable, RefusesWithTheLineThatIsWrong)
 {
   const TestFolder folder;

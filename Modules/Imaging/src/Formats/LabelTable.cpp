@@ -240,10 +240,10 @@ std::optional<volume::Segment> snapEntry(std::string_view line)
 }
 
 /// The cells of a row; quotes around a cell are taken off, and a doubled one in it is one.
-std::vector<std::string> cellsOf(std::string_view line, char delimiter)
+std::vector<std::string> cellsOf(std::string_view line, char delimiter, bool& isQuoted)
 {
   std::vector<std::string> cells(1);
-  bool isQuoted = false;
+  isQuoted = false;
   for (std::size_t n = 0; n < line.size(); ++n)
   {
     const char c = line[n];
@@ -261,6 +261,38 @@ std::vector<std::string> cellsOf(std::string_view line, char delimiter)
   }
   for (std::string& cell : cells)
     cell = std::string(trimmed(cell));
+  return cells;
+}
+
+std::vector<std::string> cellsOf(std::string_view line, char delimiter)
+{
+  bool isQuoted = false;
+  return cellsOf(line, delimiter, isQuoted);
+}
+
+/// The cells of a line of `text`, and of the lines after it that a quoted cell goes on in, as
+/// spreadsheets write a line break; adds those to `number`. nullopt: a quote is not closed.
+std::optional<std::vector<std::string>> takeCells(std::string_view line, std::string_view& text,
+                                                  char delimiter, std::size_t& number)
+{
+  bool isQuoted = false;
+  std::vector<std::string> cells = cellsOf(line, delimiter, isQuoted);
+  constexpr std::size_t kLongestRow = 1 << 16; // bytes; longer is a quote that nobody closed
+  std::string_view rest = text;
+  std::size_t more = 0;
+  for (std::string row(line); isQuoted && !rest.empty() && row.size() < kLongestRow; ++more)
+  {
+    const std::string_view next = takeLine(rest);
+    row += ' ';
+    row += next;
+    if (next.find('"') == next.npos)
+      continue;
+    cells = cellsOf(row, delimiter, isQuoted);
+  }
+  if (isQuoted)
+    return std::nullopt;
+  text = rest;
+  number += more;
   return cells;
 }
 
@@ -418,7 +450,14 @@ void readRows(std::string_view text, const Columns& columns, Entries& entries, L
     }
     if (trimmed(line).front() == '#')
       continue;
-    const std::vector<std::string> cells = cellsOf(line, columns.delimiter);
+    const std::size_t first = number;
+    const auto row = takeCells(line, text, columns.delimiter, number);
+    if (!row)
+    {
+      entries.problem(first, "opens a quote that is not closed");
+      return;
+    }
+    const std::vector<std::string>& cells = *row;
     if (std::all_of(cells.begin(), cells.end(),
                     [](const std::string& cell) { return cell.empty(); }))
       continue; // as spreadsheets end a sheet
@@ -427,7 +466,7 @@ void readRows(std::string_view text, const Columns& columns, Entries& entries, L
     const auto index = cellIndex(cell(columns.index));
     if (!index)
     {
-      entries.problem(number, "gives an index that is not a whole number from 0 to 65535");
+      entries.problem(first, "gives an index that is not a whole number from 0 to 65535");
       continue;
     }
     volume::Segment segment;
@@ -449,12 +488,12 @@ void readRows(std::string_view text, const Columns& columns, Entries& entries, L
       isBad = isBad || !(channel >= 0.0 && channel <= 255.0);
     if (isBad)
     {
-      entries.problem(number, "gives a colour that is neither three numbers from 0 to 255 (or 0 to "
-                              "1) nor #rrggbb");
+      entries.problem(first, "gives a colour that is neither three numbers from 0 to 255 (or 0 to "
+                             "1) nor #rrggbb");
       continue;
     }
     const std::size_t before = table.segments.size();
-    entries.add(number, *index, std::move(segment));
+    entries.add(first, *index, std::move(segment));
     if (table.segments.size() == before)
       continue;
     colors.push_back(color);

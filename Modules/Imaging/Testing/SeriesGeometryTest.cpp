@@ -875,5 +875,27 @@ TEST(SeriesRepair, SaysWhatItGuessed)
   EXPECT_EQ(aside.provenance(aside.grid().fullBox()).tilt, 0.0);
 }
 
+// Slices that slide 3 mm aside and back again: the last lies where the first does, or nearer.
+TEST(SeriesRepair, SaysHowFarTheFarthestSliceOfAVWasMoved)
+{
+  for (const int count : {31, 21})
+  {
+    Headers bent = stack(count, 1.0);
+    for (int k = 0; k < count; ++k)
+      (*bent[static_cast<std::size_t>(k)].position)[1] += 0.2 * std::min(k, 30 - k);
+    const SeriesGeometry geometry = assess(bent);
+    ASSERT_EQ(geometry.verdict, Verdict::Repairable) << count;
+    const SeriesRepair repair(geometry);
+    const core::IndexBox box = repair.grid().fullBox();
+    EXPECT_NEAR(repair.provenance(box).shift, 3.0, 1e-6) << count;
+    EXPECT_EQ(repair.provenance(box).tilt, 0.0) << count;
+    std::string all;
+    for (const std::string& note : repair.notes(box))
+      all += note;
+    EXPECT_NE(all.find("by up to 3.00 mm"), std::string::npos) << all;
+    EXPECT_EQ(all.find("degrees"), std::string::npos) << all;
+  }
+}
+
 } // namespace
 } // namespace petrous::imaging

@@ -12,8 +12,11 @@
 #include <dcmtk/dcmnet/dimse.h>
 #include <dcmtk/dcmtls/tlslayer.h>
 
+#include <arpa/inet.h>
 #include <openssl/ssl.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <gtest/gtest.h>
 
@@ -594,6 +597,31 @@ TEST_F(FaultyNode, ThatDoesNotAnswerIsLeft)
   Node node = server.node();
   node.timeouts.reply = std::chrono::milliseconds(200);
   EXPECT_EQ(retrieveFailure(node).reason, Reason::TimedOut);
+}
+
+// Nobody accepts the connection that the system's queue took.
+TEST_F(FaultyNode, ThatDoesNotAcceptTheAssociationIsLeftSooner)
+{
+  const int silent = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  ASSERT_EQ(::bind(silent, reinterpret_cast<const sockaddr*>(&address), size), 0);
+  ASSERT_EQ(::listen(silent, 8), 0);
+  ::getsockname(silent, reinterpret_cast<sockaddr*>(&address), &size);
+  Node node;
+  node.name = "silent";
+  node.host = "127.0.0.1";
+  node.port = ntohs(address.sin_port);
+  node.aeTitle = "SILENT";
+  node.timeouts.reply = std::chrono::hours(1);
+  node.timeouts.accept = std::chrono::milliseconds(200);
+  const NetworkError error = failure([&] { echo(node); });
+  EXPECT_EQ(error.reason, Reason::TimedOut);
+  EXPECT_NE(std::string(error.what()).find("is it a DICOM node"), std::string::npos)
+      << error.what();
+  ::close(silent);
 }
 
 TEST_F(FaultyNode, ThatRefusesToStoreIsNamed)

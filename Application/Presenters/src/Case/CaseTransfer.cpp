@@ -473,7 +473,9 @@ void refuseSeveralCts(const network::Node& node, const std::vector<network::Seri
 }
 
 /// The archive of the latest scene that is whole: of one whose sending was cut, the node has parts.
-void receiveScene(const network::Node& node, const std::string& study,
+/// Receives the latest state of the scene that is whole. False, with a note, if none is and the
+/// node describes none of the series: then they may be anybody's.
+bool receiveScene(const network::Node& node, const std::string& study,
                   const std::vector<network::Series>& scenes, const fs::path& folder,
                   const fs::path& archive, ReceiveSummary& summary, const core::Progress& progress)
 {
@@ -499,7 +501,7 @@ void receiveScene(const network::Node& node, const std::string& study,
         summary.notes.push_back("a later state of the case is at node '" + node.name +
                                 "', but cannot be received: " + why +
                                 ". This is the state before it");
-      return;
+      return true;
     }
     catch (const core::InvalidParameter& error)
     {
@@ -513,7 +515,13 @@ void receiveScene(const network::Node& node, const std::string& study,
       fail(error);
     }
   }
-  std::rethrow_exception(first);
+  if (std::any_of(scenes.begin(), scenes.end(),
+                  [](const network::Series& scene) { return !scene.description.empty(); }))
+    std::rethrow_exception(first);
+  summary.notes.push_back("node '" + node.name + "' does not describe series " +
+                          std::to_string(scenes.front().number) +
+                          ", which may hold a case of Petrous, but was not read as one: " + why);
+  return false;
 }
 
 } // namespace
@@ -974,20 +982,24 @@ ReceiveSummary receiveCase(library::Library& library, const network::Node& node,
     if (request.as.empty())
       refuseTakenScene(library, node, study, progress);
     const fs::path archive = folder / (std::string("scene") + library::kArchiveEnding);
-    receiveScene(node, study, scenes, folder, archive, summary, progress.part(0.0, 0.8));
-    freeName(library, request.as.empty() ? library::inspectArchive(archive).name : request.as);
-    library::RestoreOptions options;
-    options.name = request.as;
-    const auto restored = library::restoreCase(library, archive, options, progress.part(0.8, 1.0));
-    summary.name = restored.name;
-    summary.scene = true;
-    summary.notes.insert(summary.notes.end(), restored.notes.begin(), restored.notes.end());
-    return summary;
+    if (receiveScene(node, study, scenes, folder, archive, summary, progress.part(0.0, 0.8)))
+    {
+      freeName(library, request.as.empty() ? library::inspectArchive(archive).name : request.as);
+      library::RestoreOptions options;
+      options.name = request.as;
+      const auto restored =
+          library::restoreCase(library, archive, options, progress.part(0.8, 1.0));
+      summary.name = restored.name;
+      summary.scene = true;
+      summary.notes.insert(summary.notes.end(), restored.notes.begin(), restored.notes.end());
+      return summary;
+    }
   }
 
   if (request.as.empty())
     throw core::InvalidParameter(
-        "receive: the study has no Petrous scene; give --as NAME for the case that is built of it");
+        "receive: the study has no Petrous scene; give --as NAME for the case that is built of it" +
+        (summary.notes.empty() ? std::string() : " (" + summary.notes.front() + ")"));
   std::vector<std::string> wanted;
   for (const auto& one : series)
     if (one.modality == "MR" || (one.modality == "CT" && (request.series.empty() ||

@@ -301,7 +301,8 @@ struct Association::Connection
 Association::Association(const Node& node, const std::vector<Context>& contexts,
                          const core::Progress& progress)
   : m_node(node)
-  , m_connection(std::make_shared<Connection>(progress, node.timeouts.reply))
+  , m_connection(
+        std::make_shared<Connection>(progress, std::min(node.timeouts.accept, node.timeouts.reply)))
 {
   progress.check("network");
   open(contexts, progress);
@@ -406,9 +407,12 @@ void Association::fail(const OFCondition& result, const std::string& task) const
 
 void Association::failSilent(const std::string& task) const
 {
-  throw NetworkError(Reason::TimedOut, place(m_node) + ": has not answered for " +
-                                           std::to_string(m_node.timeouts.reply.count() / 1000) +
-                                           " s; " + task + " was ended");
+  const auto& [reply, accept, listing] = m_node.timeouts;
+  const auto limit = m_connection->opened ? reply : std::min(accept, reply);
+  throw NetworkError(Reason::TimedOut,
+                     place(m_node) + ": has not answered for " +
+                         std::to_string(limit.count() / 1000) + " s; " + task + " was ended" +
+                         (m_connection->opened ? "" : "; is it a DICOM node, and not too busy?"));
 }
 
 void Association::failCut(const std::string& task) const
@@ -477,10 +481,10 @@ void Association::open(const std::vector<Context>& contexts, const core::Progres
   }
   opener.join();
   const OFCondition result = pending.get();
-  if (result.good())
-    its.opened = true;
-  else
+  if (result.bad())
     fail(result, task);
+  its.opened = true;
+  its.watch.begin(m_node.timeouts.reply);
   if (ASC_countAcceptedPresentationContexts(its.association->params) == 0)
     throw NetworkError(Reason::Unsupported,
                        place(m_node) + ": accepts nothing of what was asked for; it is not a "

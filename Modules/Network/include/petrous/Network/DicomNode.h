@@ -55,7 +55,8 @@ constexpr const char* kAnyName = "*";
 
 struct Timeouts
 {
-  std::chrono::milliseconds reply{60000}; ///< without a byte from the node; to connect: 10 s
+  std::chrono::milliseconds reply{60000};  ///< without a byte from the node; to connect: 10 s
+  std::chrono::milliseconds accept{10000}; ///< the same, until it accepts the association
   /// Before a node that lists nothing of what it confirmed is asked again, twice: indexes lag.
   std::chrono::milliseconds listing{2000};
 };

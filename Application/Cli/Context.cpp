@@ -67,8 +67,9 @@ void watchInterrupt()
 } // namespace
 
 const char* const kExitCodes =
-    "Exit codes: 0 done; 1 internal error or fault of this machine; 2 wrong usage; 3 bad input; "
-    "4 refused so that nothing is lost; 130 interrupted (Ctrl+C)";
+    "Exit codes: 0 done; 1 internal error or fault of this machine, or done but the answer could "
+    "not be written to stdout; 2 wrong usage; 3 bad input; 4 refused so that nothing is lost; 130 "
+    "interrupted (Ctrl+C)";
 
 void Context::addOptions(CLI::App& app)
 {

@@ -4,10 +4,13 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <condition_variable>
+#include <deque>
 #include <functional>
 #include <limits>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <thread>
 #include <utility>
 
@@ -504,6 +507,102 @@ std::string fileNameOf(const std::string& instanceUid)
   return name + kInstanceEnding;
 }
 
+/// Brings files to the disk on a thread of its own while the next ones are received: each is synced
+/// and then renamed, so that a name never stands for half a file.
+class Keeper
+{
+public:
+  explicit Keeper(fs::path folder)
+    : m_folder(std::move(folder))
+  {
+  }
+  ~Keeper()
+  {
+    {
+      const std::lock_guard lock(m_mutex);
+      m_ended = true;
+    }
+    m_changed.notify_all();
+    if (m_thread.joinable())
+      m_thread.join(); // what was received is kept for the next time
+  }
+  Keeper(const Keeper&) = delete;
+  Keeper& operator=(const Keeper&) = delete;
+
+  /// Waits where the disk is far behind.
+  void keep(const fs::path& received, const fs::path& name)
+  {
+    std::unique_lock lock(m_mutex);
+    if (!m_thread.joinable())
+      m_thread = std::thread([this] { run(); });
+    m_changed.wait(lock, [this] { return m_waiting.size() < kMaxWaiting || m_error != 0; });
+    m_waiting.emplace_back(received, name);
+    m_changed.notify_all();
+  }
+
+  /// Waits until all are on the disk. Returns errno of the first that is not, or 0.
+  int settle()
+  {
+    std::unique_lock lock(m_mutex);
+    m_changed.wait(lock, [this] { return m_waiting.empty() && !m_isAtWork; });
+    return std::exchange(m_error, 0);
+  }
+
+private:
+  static constexpr std::size_t kMaxWaiting = 64;
+
+  static int sync(const fs::path& file)
+  {
+    const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0)
+      return errno;
+    const int error = ::fsync(descriptor) == 0 || errno == EINVAL ? 0 : errno; // EINVAL: of file
+    ::close(descriptor);                                                       // systems without
+    return error;
+  }
+
+  void run()
+  {
+    std::unique_lock lock(m_mutex);
+    for (;;)
+    {
+      m_changed.wait(lock, [this] { return !m_waiting.empty() || m_ended; });
+      if (m_waiting.empty())
+        return;
+      const auto [received, name] = m_waiting.front();
+      m_waiting.pop_front();
+      m_isAtWork = true;
+      const bool isLast = m_waiting.empty();
+      const bool failed = m_error != 0;
+      lock.unlock();
+      std::error_code fault;
+      int error = failed ? EIO : sync(received);
+      if (error == 0)
+      {
+        fs::rename(received, name, fault);
+        error = fault.value();
+      }
+      if (error != 0)
+        fs::remove(received, fault);
+      else if (isLast)
+        core::syncFolder(m_folder);
+      lock.lock();
+      m_error = m_error == 0 ? error : m_error;
+      m_isAtWork = false;
+      m_changed.notify_all();
+    }
+  }
+
+  const fs::path m_folder;
+  std::mutex m_mutex;
+  std::condition_variable m_changed;
+  std::deque<std::pair<fs::path, fs::path>> m_waiting; ///< received file, its name
+  int m_error = 0;
+  bool m_isAtWork = false;
+  bool m_ended = false;
+  std::thread m_thread;
+};
+
 /// What is asked for, and what of it has arrived.
 class Reception
 {
@@ -513,6 +612,7 @@ public:
     , m_study(std::move(study))
     , m_expected(std::move(expected))
     , m_folder(std::move(folder))
+    , m_keeper(m_folder)
   {
     for (const auto& [uid, instance] : m_expected)
       m_series.insert(instance.seriesUid);
@@ -585,14 +685,28 @@ public:
       fs::remove(received, fault);
       return STATUS_Success;
     }
-    if (!isSynced(received))
-      return 0xA700; // out of resources
-    fs::rename(received, m_folder / fileNameOf(uid), fault);
-    if (fault)
-      return 0xA700;
-    core::syncFolder(m_folder);
+    m_keeper.keep(received, m_folder / fileNameOf(uid));
     m_arrived.insert(uid);
     return STATUS_Success;
+  }
+
+  /// Name of the file to be received next.
+  fs::path nextPart()
+  {
+    return m_folder /
+           ("part-" + std::to_string(::getpid()) + '-' + std::to_string(m_parts++) + ".tmp");
+  }
+
+  /// Waits until what has arrived is on the disk; what is not counts as missing. Returns errno of
+  /// the first that is not, or 0.
+  int settle()
+  {
+    const int error = m_keeper.settle();
+    std::error_code ignored;
+    for (auto uid = m_arrived.begin(); error != 0 && uid != m_arrived.end();)
+      uid = fs::is_regular_file(m_folder / fileNameOf(*uid), ignored) ? std::next(uid)
+                                                                      : m_arrived.erase(uid);
+    return error;
   }
 
 private:
@@ -660,16 +774,6 @@ private:
     return text.empty() || text.back() != ' ' ? text : text.substr(0, text.size() - 1);
   }
 
-  static bool isSynced(const fs::path& file)
-  {
-    const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0)
-      return false;
-    const bool done = ::fsync(descriptor) == 0 || errno == EINVAL; // of file systems without it
-    ::close(descriptor);
-    return done;
-  }
-
   const Node& m_node;
   Study m_study;
   Instances m_expected;
@@ -680,6 +784,8 @@ private:
   std::size_t m_otherNames = 0;
   Person m_person;               ///< of the files that are taken
   std::size_t m_superfluous = 0; ///< of one request
+  std::size_t m_parts = 0;
+  Keeper m_keeper;
 };
 
 /// Appends to a file. Unlike DCMTK's own, keeps what the disk said.
@@ -765,7 +871,7 @@ OFCondition receiveInstance(T_ASC_Association* association, int timeout,
                             T_ASC_PresentationContextID context, T_DIMSE_C_StoreRQ& request,
                             Reception& reception, ByteCounter& counter, Transfer& transfer)
 {
-  const fs::path part = reception.folder() / ("part-" + std::to_string(::getpid()) + ".tmp");
+  const fs::path part = reception.nextPart();
   const std::string uid = request.AffectedSOPInstanceUID;
   beginFile(part, association, context, request);
   AppendedFile file(part);
@@ -1520,6 +1626,11 @@ Transfer retrieve(const Node& node, const std::string& studyUid,
   counter.progress = &progress;
   counter.task = "receiving";
   counter.of = reception.expected();
+  const auto settle = [&]
+  {
+    if (const int error = reception.settle())
+      core::throwOutputError(error, folder);
+  };
   for (int idle = 0; reception.arrived() < reception.expected();)
   {
     const std::size_t before = reception.arrived();
@@ -1527,11 +1638,13 @@ Transfer retrieve(const Node& node, const std::string& studyUid,
     try
     {
       fetchMissing(node, reception, counter, transfer, progress);
+      settle();
     }
     catch (const NetworkError& error)
     {
       if (!isTransient(error))
         throw;
+      settle();
       if (reception.arrived() == before && ++idle >= kMaxIdleRounds)
         throw NetworkError(error.reason,
                            std::string(error.what()) + "; " + std::to_string(reception.arrived()) +

@@ -611,7 +611,7 @@ TEST_F(FaultyNode, ThatDoesNotAcceptTheAssociationIsLeftSooner)
   ASSERT_EQ(::listen(silent, 8), 0);
   ::getsockname(silent, reinterpret_cast<sockaddr*>(&address), &size);
   Node node;
-  node.name = "silent";
+  node.name = "faulty";
   node.host = "127.0.0.1";
   node.port = ntohs(address.sin_port);
   node.aeTitle = "SILENT";

@@ -15,7 +15,7 @@ float intensityAt(vec3 v, vec4 more)
   {
     COUNT(1);
     vec3 s = clamp(secondFromVoxel * v + secondOrigin, vec3(0.0), secondUpper);
-    return texture(secondTexture, s * secondScale + secondOffset).r * secondUnit;
+    return exactly(secondTexture, s * secondScale + secondOffset) * secondUnit;
   }
 #endif
   return ctAt(clamp(v, vec3(0.0), hullUpper));
@@ -34,7 +34,7 @@ vec4 overlayAt(vec3 v)
   if (any(lessThan(at, vec3(0.0))) || any(greaterThan(at, thicknessUpper)))
     return vec4(0.0);
   COUNT(1);
-  float distance = texture(thicknessTexture, at * thicknessScale + thicknessOffset).r * thicknessUnit;
+  float distance = exactly(thicknessTexture, at * thicknessScale + thicknessOffset) * thicknessUnit;
   float share = distance / thicknessFarthest;
   if (share >= 1.0)
     return vec4(0.0);

@@ -26,7 +26,7 @@ namespace petrous::workstation
 AddPartsDialog::AddPartsDialog(const QString& title, const QString& more, const QString& accept,
                                const std::vector<Part>& parts, std::vector<std::string> taken,
                                const std::vector<std::string>& mr, const QString& primary,
-                               QWidget* parent)
+                               QWidget* parent, const QString& skip)
   : QDialog(parent)
   , m_taken(std::move(taken))
   , m_advice(new QLabel)
@@ -89,6 +89,9 @@ AddPartsDialog::AddPartsDialog(const QString& title, const QString& more, const 
   m_advice->setWordWrap(true);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
   m_accept = buttons->addButton(accept, QDialogButtonBox::AcceptRole);
+  if (!skip.isEmpty())
+    connect(buttons->addButton(skip, QDialogButtonBox::ActionRole), &QPushButton::clicked, this,
+            [this] { done(kSkipped); });
   connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   auto* layout = new QVBoxLayout(this);

@@ -14,6 +14,7 @@
 #include "ThumbnailDrawer.h"
 #include "WindowTexts.h"
 #include "petrous/Library/DerivedCache.h"
+#include "petrous/Library/NewerVersion.h"
 #include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/CasePicture.h"
 
@@ -243,10 +244,21 @@ void LibraryController::verify()
       [this, library = m_model.library()](const core::Progress& progress) -> BackgroundWork::Reply
       {
         const library::Inspection found = library.verify(progress);
-        return [this, found]
+        return [this, found, newer = library::casesOfNewerVersion(library.folder())]
         {
-          const QString sum =
-              tr("%1 cases and %2 files were read.").arg(found.cases).arg(found.objects);
+          QString sum = tr("%1 cases and %2 files were read.").arg(found.cases).arg(found.objects);
+          if (!newer.empty())
+          {
+            std::vector<std::string> names;
+            for (const library::NewerCase& one : newer)
+              names.push_back(one.name);
+            sum +=
+                ' ' +
+                tr("Written by a newer version of Petrous, and left alone: %1.").arg(listed(names));
+          }
+          if (found.damaged.empty() && !newer.empty())
+            return showReport(&m_window, tr("Verify"), sum + ' ' + tr("All others are sound."), {},
+                              {});
           if (found.damaged.empty())
             return showReport(&m_window, tr("Verify"), sum + ' ' + tr("All are sound."), {}, {});
           showReport(&m_window, tr("Verify"),

@@ -381,8 +381,13 @@ TEST_F(LibraryWindow, ADamagedCaseIsListed)
   saveBall("ball");
   saveBall("broken");
   std::ofstream(folder() / "library" / "cases" / "broken.json") << "{";
+  std::ofstream(folder() / "library" / "cases" / "newer.json") << "{\"petrous_case\": 1000}";
   openWindow("ball");
   showPanel();
+  ASSERT_TRUE(select("newer"));
+  EXPECT_EQ(
+      list().model()->index(list().currentIndex().row(), CasesModel::Structures).data().toString(),
+      "newer version");
   ASSERT_TRUE(select("broken"));
   EXPECT_EQ(panel().current(), "broken");
   EXPECT_EQ(panel().chosen(), "");

@@ -17,6 +17,7 @@
 #include "petrous/Library/NewerVersion.h"
 #include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/CasePicture.h"
+#include "petrous/Presenters/CaseStamp.h"
 
 namespace petrous::workstation
 {
@@ -204,11 +205,28 @@ void LibraryController::askDescription(const std::string& name, const scene::Des
   DescriptionDialog dialog(words(name), before, &m_window);
   if (dialog.exec() != QDialog::Accepted || dialog.description() == before)
     return;
+  const bool isOtherSide = dialog.description().side != before.side;
+  const auto doubt = std::make_shared<std::string>();
   m_keeper.changeCase(
       tr("Describing %1").arg(words(name)), name, name,
-      [name, after = dialog.description()](library::Library& library)
-      { library.describe(name, after); },
-      [this, name] { m_panel->select(name); });
+      [name, after = dialog.description(), isOtherSide, doubt](library::Library& library)
+      {
+        library.describe(name, after);
+        if (isOtherSide)
+          *doubt = presenters::sideDoubt(library.open(name));
+      },
+      [this, name, doubt]
+      {
+        m_panel->select(name);
+        if (doubt->empty())
+          return;
+        auto* box = new QMessageBox(QMessageBox::Warning, tr("Side"), words(*doubt),
+                                    QMessageBox::Ok, &m_window);
+        box->setObjectName("sideDoubt");
+        box->setAttribute(Qt::WA_DeleteOnClose);
+        box->setTextFormat(Qt::PlainText);
+        box->open();
+      });
 }
 
 void LibraryController::makePicture(const std::string& name)

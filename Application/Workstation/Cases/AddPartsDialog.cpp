@@ -150,7 +150,7 @@ std::vector<AddPartsDialog::Answer> AddPartsDialog::answers() const
 
 void AddPartsDialog::check()
 {
-  QString advice;
+  QStringList advice; // of all rows
   std::vector<std::string> taken = m_taken;
   for (const Row& row : m_rows)
   {
@@ -158,11 +158,11 @@ void AddPartsDialog::check()
       continue;
     const std::string name = bytes(row.name->text().trimmed());
     if (name.empty())
-      advice = tr("Each part needs a name.");
+      advice += tr("Each part needs a name.");
     else if (std::any_of(taken.begin(), taken.end(),
                          [read = scene::asRead(name)](const auto& one)
                          { return scene::asRead(one) == read; }))
-      advice = tr("“%1” is taken; give another name.").arg(words(name));
+      advice += tr("“%1” is taken; give another name.").arg(words(name));
     else
       try
       {
@@ -170,11 +170,12 @@ void AddPartsDialog::check()
       }
       catch (const core::InvalidParameter& fault)
       {
-        advice = windowText(words(fault.what()));
+        advice += windowText(words(fault.what()));
       }
     taken.push_back(name);
   }
-  m_advice->setText(advice);
+  advice.removeDuplicates();
+  m_advice->setText(advice.join('\n'));
   m_accept->setEnabled(advice.isEmpty());
 }
 

@@ -615,7 +615,8 @@ bool CaseDocumentController::askNames(presenters::CaseSources& sources,
     AddPartsDialog dialog(
         newCase.empty() ? tr("Add to the case “%1”?").arg(name)
                         : tr("Make the case “%1”").arg(name),
-        tr("It must be of the same patient.%1")
+        (others.size() == 1 ? tr("It must be of the same patient.%1")
+                            : tr("They must be of the same patient.%1"))
             .arg(sources.parts.mr.empty()
                      ? QString()
                      : tr(" An MR is shown over the %1 once it is registered (F5).").arg(primary)),
@@ -701,6 +702,7 @@ void CaseDocumentController::decide(std::vector<Item> items, const Purpose& purp
   presenters::CaseSources sources;
   for (Item& item : items)
   {
+    const bool isUndetermined = item.source.content == Content::Image;
     if (!ask(item, purpose))
       return;
     const SourceContent& source = item.source;
@@ -714,6 +716,8 @@ void CaseDocumentController::decide(std::vector<Item> items, const Purpose& purp
                          "other.")
                           .arg(nameOf(ct->path), nameOf(source.path)));
       ct = &source;
+      if (isUndetermined) // the user said so
+        sources.modality = scene::Modality::Ct;
       sources.ct = source.path;
       sources.series = source.selector;
       sources.repair = repair;
@@ -1316,7 +1320,7 @@ void CaseDocumentController::lookForDamage()
   for (const std::string& one : m_model.damage())
     lines += tr("Damaged: %1. Do not rely on what is shown of it; nothing is drilled in this case "
                 "until it is whole and opened again.")
-                 .arg(words(one));
+                 .arg(windowText(words(one)));
   if (m_model.hasCase() && m_model.library().isStandIn(m_model.value().ct))
     lines +=
         tr("The case is open with what is left of it: description, attachments, structures and "
@@ -1324,9 +1328,9 @@ void CaseDocumentController::lookForDamage()
            "its own, or restore the file from a copy of the library: then open this case again. "
            "Or remove it (Library > Cases).");
   for (const std::string& one : m_model.leftOut())
-    lines += tr("Left out, neither shown nor felt: %1.").arg(words(one));
+    lines += tr("Left out, neither shown nor felt: %1.").arg(windowText(words(one)));
   for (const std::string& one : m_model.damagedStrokes())
-    lines += tr("Damaged, and not applied: %1.").arg(words(one));
+    lines += tr("Damaged, and not applied: %1.").arg(windowText(words(one)));
   if (const std::size_t undone = m_model.undoneForDamage())
     lines +=
         (undone == 1

@@ -159,10 +159,35 @@ void LibraryController::copy(const std::string& name)
               { presenters::checkFreeCaseName(m_model.library(), wanted); });
   if (to.isEmpty())
     return;
+  if (m_model.hasCase() && m_model.value().name == name)
+  {
+    if (!m_keeper.saved())
+      return emit statusMessage(tr("The case is not saved yet, so it was not copied"));
+    return copyOpen(bytes(to));
+  }
   m_keeper.changeCase(
       tr("Copying %1").arg(words(name)), name, name,
       [name, to](library::Library& library) { library.copy(name, bytes(to)); },
       [this, to] { m_panel->select(bytes(to)); });
+}
+
+// As it is saved; it stays open, with all that can be undone. The copy shares its voxels.
+void LibraryController::copyOpen(const std::string& to)
+{
+  const auto copy = std::make_shared<scene::Case>(m_model.value());
+  const std::string name = std::exchange(copy->name, to);
+  copy->id.clear();
+  copy->revision = 0;
+  m_keeper.run(tr("Copying %1").arg(words(name)),
+               [this, name, copy, library = m_model.library()](
+                   const core::Progress& progress) mutable -> BackgroundWork::Reply
+               {
+                 const auto png = library.thumbnail(name);
+                 library.save(*copy, progress);
+                 if (!png.empty())
+                   library.setThumbnail(copy->name, png);
+                 return [this, to = copy->name] { m_panel->select(to); };
+               });
 }
 
 void LibraryController::remove(const std::string& name)
@@ -324,11 +349,12 @@ void LibraryController::collect()
         return [this, removed, freed]
         {
           refresh();
-          emit statusMessage(tr("Cleaned up: %1 deleted cases and %2 files are gone, %3 are free "
-                                "again")
-                                 .arg(removed.cases)
-                                 .arg(removed.objects)
-                                 .arg(megabytes(removed.bytes + freed)));
+          emit statusMessage(
+              tr("Cleaned up: %1 and %2 are gone, %3 are free again")
+                  .arg(removed.cases == 1 ? tr("1 deleted case")
+                                          : tr("%1 deleted cases").arg(removed.cases),
+                       removed.objects == 1 ? tr("1 file") : tr("%1 files").arg(removed.objects),
+                       megabytes(removed.bytes + freed)));
         };
       });
 }

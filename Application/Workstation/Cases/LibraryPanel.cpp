@@ -321,8 +321,11 @@ void LibraryPanel::refresh()
 void LibraryPanel::showFound(Found found)
 {
   const std::string before = std::exchange(m_wanted, {});
-  const std::string selected = before.empty() ? current() : before;
   const std::string open = m_model.hasCase() ? m_model.value().name : std::string();
+  const bool isOpened = open != std::exchange(m_open, open); // else what was selected stays
+  const std::string selected = !before.empty()             ? before
+                               : isOpened && !open.empty() ? open
+                                                           : current();
   listTags(found.tags);
   m_cases->setCases(std::move(found.cases), open);
   int row = m_cases->rowOf(selected);

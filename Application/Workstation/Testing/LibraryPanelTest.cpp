@@ -414,8 +414,12 @@ TEST_F(LibraryWindow, ACaseIsDescribedAndFoundByThat)
         auto* accept = dialog.findChild<QPushButton*>("primary");
         dialog.findChild<QLineEdit*>("plannedDate")->setText("2026-02-30");
         EXPECT_FALSE(accept->isEnabled()) << "there is no such day";
-        dialog.findChild<QLineEdit*>("plannedDate")->setText("2026-02-28");
-        dialog.findChild<QLineEdit*>("tags")->setText("teaching, , cholesteatoma ");
+        dialog.findChild<QLineEdit*>("tags")->setText(QString(300, 't'));
+        const auto* problem = dialog.findChild<QLabel*>("problem");
+        EXPECT_TRUE(problem->text().contains("2026-02-30") && problem->text().contains("tag"))
+            << problem->text().toStdString();
+        dialog.findChild<QLineEdit*>("plannedDate")->setText("28.2.2026");
+        dialog.findChild<QLineEdit*>("tags")->setText("teaching, , cholesteatoma , Teaching");
         dialog.findChild<QPlainTextEdit*>("note")->setPlainText("high jugular bulb");
         auto* side = dialog.findChild<QComboBox*>("side");
         side->setCurrentIndex(side->findText("left"));

@@ -63,7 +63,8 @@ std::vector<ObjectUse> objectsOf(const scene::Case& value)
     if (seen.insert(object).second)
       uses.push_back({object, kind, name, what});
   };
-  add(value.ct.object, ObjectUse::Kind::Image, "ct", "the CT");
+  add(value.ct.object, ObjectUse::Kind::Image, "ct",
+      value.ct.modality == scene::Modality::Mr ? "the MR" : "the CT");
   for (const auto& mr : value.mr)
     add(mr.object, ObjectUse::Kind::Image, mr.name, "MR '" + mr.name + "'");
   for (const auto& part : value.labels)

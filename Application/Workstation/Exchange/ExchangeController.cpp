@@ -67,9 +67,10 @@ QString listedText(network::Transfer::Listed listed)
 QString foundText(const std::string& name, const presenters::CasePatient& patient)
 {
   return (patient.isNameHidden
-              ? ExchangeController::tr("There it is the patient %1, without its name, which may be "
-                                       "a patient's. Receive finds it by the case “%2” as long as "
-                                       "this library has it, and by that ID.")
+              ? ExchangeController::tr(
+                    "There it is the patient %1, without the case's name, which may be a "
+                    "patient's. Receive finds it by the whole name “%2”, and by "
+                    "that ID.")
               : ExchangeController::tr("There it is the patient %1. Receive finds it by the case "
                                        "“%2”."))
       .arg(words(patient.id), words(name));

@@ -180,10 +180,13 @@ TEST_F(LibraryWindow, ACopyIsListedAndTheOriginalStaysOpen)
   showPanel();
   ASSERT_TRUE(select("ball"));
   answerName("copy");
+  const auto shown = window().model().shownAs();
   act("Copy…");
+  ASSERT_TRUE(waitFor([this] { return panel().current() == "copy"; }));
   ASSERT_TRUE(isOpen("ball"));
-  EXPECT_TRUE(library().contains("copy"));
-  EXPECT_EQ(panel().current(), "copy");
+  EXPECT_EQ(window().model().shownAs(), shown) << "opened again: nothing could be undone";
+  EXPECT_EQ(library().open("copy").ct.object, library().open("ball").ct.object);
+  EXPECT_NE(library().open("copy").id, library().open("ball").id);
 
   // Another order keeps the selection.
   list().sortByColumn(CasesModel::Name, Qt::DescendingOrder);

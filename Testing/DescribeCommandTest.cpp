@@ -56,6 +56,31 @@ TEST_F(DescribeCommand, KeepsWhatIsSaidOfACase)
   EXPECT_EQ(cleared.at("description").at("procedure"), "mastoidectomy");
 }
 
+// All of the image lies left of the scanner's middle, x = 0.
+TEST_F(DescribeCommand, DoubtsASideThatTheImageContradicts)
+{
+  std::ofstream image(m_folder / "left.nrrd", std::ios::binary);
+  image << "NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 8 8 8\n"
+           "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (20,0,0)\nencoding: raw\n"
+           "endian: little\n\n"
+        << std::string(1024, '\x04');
+  image.close();
+  ASSERT_EQ(run("new left --modality CT --ct " + (m_folder / "left.nrrd").string()).code, 0);
+  const auto doubts = [this](const std::string& arguments)
+  {
+    const auto outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return outcome.err.find("lies on the patient's left, 19.5 to 27.5 mm") != std::string::npos;
+  };
+  EXPECT_TRUE(doubts("describe left --side right"));
+  EXPECT_FALSE(doubts("describe left --tag a")) << "nothing was said of the side";
+  EXPECT_FALSE(doubts("describe left --side left"));
+  EXPECT_FALSE(doubts("view left --view surgical-left"));
+  EXPECT_FALSE(doubts("describe left --side unknown"));
+  EXPECT_TRUE(doubts("view left --view surgical-right"));
+  EXPECT_FALSE(doubts("view left --view lateral"));
+}
+
 TEST_F(DescribeCommand, FindsCasesByIt)
 {
   ASSERT_EQ(run("library copy ear other").code, 0);

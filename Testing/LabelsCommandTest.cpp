@@ -114,6 +114,28 @@ TEST_F(LabelsCommand, LeavesOutStructuresWhoseNamesAreTakenIfAsked)
   expectRefused("add ear --skip-taken --mesh x.obj", 2, "--labels");
 }
 
+TEST_F(LabelsCommand, GivesStructuresWhoseNamesAreTakenOtherOnes)
+{
+  put("masks/cochlea.nrrd", "short", [](int i, int, int) { return i < 5; });
+  put("masks/incus.nrrd", "short", [](int i, int, int) { return i == 7; });
+  const std::string add = "add ear --labels " + quoted(m_folder / "masks");
+  json(add);
+  put("masks/stapes.nrrd", "short", [](int i, int, int) { return i == 9; });
+  expectRefused(add, 4, "--rename-taken");
+  expectRefused(add + " --skip-taken --rename-taken", 2, "exclude");
+  expectRefused(add + " --rename cochlea", 2, "OLD=NEW");
+  expectRefused(add + " --rename cochlea=stapes --rename-taken", 4, "cochlea");
+  const auto added = json(add + " --rename-taken --rename 'incus=anvil'");
+  EXPECT_EQ(statusOf(added, "cochlea 2"), "read 2000");
+  EXPECT_EQ(statusOf(added, "anvil"), "read 400");
+  EXPECT_EQ(statusOf(added, "stapes"), "read 400");
+  EXPECT_EQ(json("info ear")["labels"].size(), 5U);
+  // A file of one structure.
+  const std::string one = "add ear --labels incus=" + quoted(m_folder / "masks/incus.nrrd");
+  expectRefused(one, 4, "give it another name");
+  EXPECT_EQ(statusOf(json(one + " --rename-taken"), "incus 2"), "read 400");
+}
+
 TEST_F(LabelsCommand, TakesARegionOfAnMr)
 {
   const auto mr =

@@ -1,3 +1,5 @@
+#include <set>
+
 #include "DicomValidator.h"
 #include "TestServers.h"
 #include "petrous/Network/SceneObjects.h"
@@ -147,6 +149,63 @@ TEST_F(NodeCommand, SendsACaseThatIsTheSameWhenReceived)
   EXPECT_EQ(logText().find(sent["study"].get<std::string>()), std::string::npos);
   if (!hasDicomValidator())
     GTEST_SKIP() << kNoDicomValidator;
+}
+
+// By names and IDs of nobody's; a name that may be a patient's does not leave but in the scene.
+TEST_F(NodeCommand, ListsCasesByTheirNamesAsPatientsOfTheirOwn)
+{
+  if (!servers::Orthanc::installed())
+    GTEST_SKIP() << "Orthanc (package orthanc) is not installed";
+  start(false);
+  json("library copy ear \"\xc3\xb6hr 2\"");
+  json("library copy ear \"Jane Doeberg\"");
+  std::set<std::string> patients;
+  for (const char* name : {"ear", "\xc3\xb6hr 2", "Jane Doeberg"})
+  {
+    const auto sent = json("send \"" + std::string(name) + "\" --to pacs --what labels");
+    const bool isHidden = std::string(name) == "Jane Doeberg";
+    EXPECT_EQ(sent["patient_name"],
+              "Petrous^" + (isHidden ? sent["patient_id"].get<std::string>() : name));
+    patients.insert(sent["patient_id"]);
+    EXPECT_EQ(json("send \"" + std::string(name) + "\" --to pacs --what ct")["patient_id"],
+              sent["patient_id"]);
+    const auto studies =
+        petrous::network::findStudies(m_server->node(), {sent["study"].get<std::string>(), {}});
+    ASSERT_EQ(studies.size(), 1U);
+    EXPECT_EQ(studies[0].patientName, sent["patient_name"].get<std::string>());
+    EXPECT_EQ(studies[0].patientId, sent["patient_id"].get<std::string>());
+  }
+  EXPECT_EQ(patients.size(), 3U);
+  const auto names = [this](const std::string& options)
+  {
+    std::multiset<std::string> all;
+    const auto answer = json("receive --from pacs --list " + options);
+    for (const auto& one : answer["cases"])
+      all.insert(one["case"].is_null() ? "?" : one["case"].get<std::string>());
+    return all;
+  };
+  using Names = std::multiset<std::string>;
+  EXPECT_EQ(names(""), (Names{"Jane Doeberg", "ear", "\xc3\xb6hr 2"})) << "of this library";
+  EXPECT_EQ(names(other()), (Names{"?", "ear", "\xc3\xb6hr 2"}));
+  EXPECT_EQ(names("--case EA" + other()), Names{"ear"});
+  EXPECT_EQ(names("--case \"\xc3\xb6h*2\"" + other()), Names{"\xc3\xb6hr 2"});
+  EXPECT_EQ(names("--case \"Jane Doeberg\"" + other()), Names{"?"}) << "by its hash";
+  EXPECT_EQ(names("--case nobody" + other()), Names{});
+  expectRefused("receive --from pacs --list --as x", 2, "--list");
+
+  // As the former version sent a scene: one patient for all, another study of the same case.
+  json("send ear --to pacs --what scene");
+  json("archive ear " + quoted(m_folder / "former.petrous"));
+  petrous::network::SceneDescription former;
+  former.studyUid = "2.25.4711";
+  former.studyId = "db889f25ec96f88a"; // sha256sum of "petrous case former ear"
+  std::filesystem::create_directories(m_folder / "former");
+  petrous::network::store(m_server->node(),
+                          petrous::network::writeSceneObjects(m_folder / "former.petrous",
+                                                              m_folder / "former", former));
+  EXPECT_EQ(names("--case \"former ear\"" + other()), Names{"?"});
+  EXPECT_EQ(names(other()).size(), 4U);
+  EXPECT_EQ(json("receive --from pacs --case \"former ear\" --as was" + other())["scene"], true);
 }
 
 TEST_F(NodeCommand, BuildsACaseOfImages)

@@ -32,6 +32,7 @@
 #include "petrous/Network/NodeList.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CaseRegistration.h"
+#include "petrous/Presenters/CaseStamp.h"
 #include "petrous/Presenters/CaseTransfer.h"
 #include "petrous/Presenters/LeavingImages.h"
 #include "petrous/Scene/Placement.h"
@@ -601,7 +602,7 @@ private:
         isDone = build(library, row, step, result, progress);
         break;
       case Step::Describe:
-        isDone = describe(library, row);
+        isDone = describe(library, row, result);
         break;
       case Step::Register:
         isDone = registerAll(library, row, step, progress);
@@ -685,7 +686,7 @@ private:
     return m_planned.count(row.name) > 0 && !library.contains(row.name);
   }
 
-  bool describe(library::Library& library, const BatchRow& row)
+  bool describe(library::Library& library, const BatchRow& row, RowResult& result)
   {
     if (isPlanned(library, row))
       return true;
@@ -696,6 +697,13 @@ private:
     scene::Description next = there.description;
     row.describe(next);
     const bool changes = next != there.description;
+    if (row.side)
+    {
+      scene::Case described = there;
+      described.description = next;
+      if (std::string doubt = presenters::sideDoubt(described); !doubt.empty())
+        result.notes.push_back(std::move(doubt));
+    }
     if (m_options.dryRun)
       return changes;
     library.describe(row.name, next);

@@ -41,7 +41,7 @@ struct Column
   const char* text;
 };
 
-constexpr std::array<Column, 28> kColumns{{
+constexpr std::array<Column, 29> kColumns{{
     {"name", Step::None, "the case's name (needed)"},
     {"folder", Step::Build, "CT: DICOM folder or image file; blank: the case is there already"},
     {"series", Step::Build, "which series of the folder: UID or UID#VOLUME; of a file #VOLUME"},
@@ -56,6 +56,7 @@ constexpr std::array<Column, 28> kColumns{{
     {"other_patient", Step::Build, "yes or no: add an MR or structures that state another patient"},
     {"labels", Step::Build, "[NAME=]FILE[@MR], several with |"},
     {"skip_taken", Step::Build, "yes or no: leave out structures whose names are taken"},
+    {"rename_taken", Step::Build, "yes or no: number those whose names are taken, meshes too"},
     {"label_names", Step::Build, "table of the names of the labels"},
     {"meshes", Step::Build, "[NAME=]FILE[@MR], several with |"},
     {"tags", Step::Describe, "several with |"},
@@ -273,12 +274,17 @@ private:
       labels.assumeRas = frame("labels_frame");
       labels.isOtherPatient = isYes("other_patient", cell("other_patient"));
       labels.skipsTaken = isYes("skip_taken", cell("skip_taken"));
+      labels.numbersTaken = isYes("rename_taken", cell("rename_taken"));
     }
+    if (isYes("skip_taken", cell("skip_taken")) && isYes("rename_taken", cell("rename_taken")))
+      throw core::InvalidParameter("'skip_taken' and 'rename_taken' exclude each other");
     if (!cell("label_names").empty())
       sources.parts.labelNames = at(cell("label_names"));
     if (!cell("label_names").empty() && sources.parts.labels.empty())
       throw core::InvalidParameter("'label_names' goes with 'labels', which is blank");
     sources.parts.meshes = parts("meshes", presenters::PartSource::parseDrawn);
+    for (presenters::PartSource& mesh : sources.parts.meshes)
+      mesh.numbersTaken = isYes("rename_taken", cell("rename_taken"));
     return sources;
   }
 

@@ -37,6 +37,8 @@ struct PartOptions
   bool repair = false;
   bool otherPatient = false;
   bool skipTaken = false;
+  bool renameTaken = false;
+  std::vector<std::string> renamed;
 
   void addTo(CLI::App& command)
   {
@@ -72,6 +74,13 @@ struct PartOptions
         ->check(oneOf({"lps", "ras"}));
     command.add_flag("--skip-taken", skipTaken,
                      "Of several structures leave out those whose names are in the case already");
+    command.add_flag("--rename-taken", renameTaken,
+                     "Structures and meshes whose names are in the case already get a number");
+    command
+        .add_option("--rename", renamed,
+                    "A structure or mesh of the files that is OLD there is called NEW here")
+        ->allow_extra_args(false)
+        ->type_name("OLD=NEW");
     command
         .add_option("--label-names", labelNames,
                     "Names and colours of the indices: .ctbl, ITK-SNAP, CSV, TSV or JSON")
@@ -102,6 +111,18 @@ struct PartOptions
       throw UsageError("--mr-roi goes with --mr");
     if (skipTaken && labels.empty())
       throw UsageError("--skip-taken goes with --labels");
+    if (skipTaken && renameTaken)
+      throw UsageError("--skip-taken and --rename-taken exclude each other");
+    if ((renameTaken || !renamed.empty()) && labels.empty() && meshes.empty())
+      throw UsageError("--rename-taken and --rename go with --labels or --mesh");
+    std::map<std::string, std::string> newNames;
+    for (const std::string& text : renamed)
+    {
+      const std::size_t at = text.find('=');
+      if (at == std::string::npos || at == 0 || at + 1 == text.size())
+        throw UsageError("--rename: give OLD=NEW, not '" + text + "'");
+      newNames[text.substr(0, at)] = text.substr(at + 1);
+    }
     if (!labelsFrame.empty() && labels.empty())
       throw UsageError("--labels-frame goes with --labels");
     for (const std::string& text : mr)
@@ -121,6 +142,8 @@ struct PartOptions
         result.labels.back().assumeRas = labelsFrame == "ras";
       result.labels.back().isOtherPatient = otherPatient;
       result.labels.back().skipsTaken = skipTaken;
+      result.labels.back().numbersTaken = renameTaken;
+      result.labels.back().newNames = newNames;
     }
     result.labelNames = labelNames;
     if (meshes.empty() && !(meshFrame.empty() && meshUnit.empty()))
@@ -128,6 +151,8 @@ struct PartOptions
     for (const std::string& text : meshes)
     {
       result.meshes.push_back(presenters::PartSource::parseDrawn(text));
+      result.meshes.back().numbersTaken = renameTaken;
+      result.meshes.back().newNames = newNames;
       if (!meshFrame.empty())
         result.meshes.back().isRas = meshFrame == "ras";
       if (!meshUnit.empty())

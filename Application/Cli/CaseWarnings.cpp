@@ -1,5 +1,6 @@
 #include "CaseWarnings.h"
 
+#include "petrous/Presenters/CaseStamp.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 
 namespace petrous::cli
@@ -11,6 +12,20 @@ std::string placeText(const scene::Case& value, const scene::Placement& placemen
     return std::string(", nowhere on the ") + presenters::primaryName(value) + ": " +
            placement.missing;
   return placement.drawnOn.empty() ? "" : ", drawn on the MR '" + placement.drawnOn + "'";
+}
+
+void warnOfEar(const Context& context, const scene::Case& value, scene::Side ear)
+{
+  if (const std::string doubt = presenters::earDoubt(value, ear); !doubt.empty())
+    context.warn(doubt);
+}
+
+void warnOfView(const Context& context, const scene::Case& value, const std::string& view)
+{
+  warnOfEar(context, value,
+            view == "surgical-left"    ? scene::Side::Left
+            : view == "surgical-right" ? scene::Side::Right
+                                       : scene::Side::Unknown);
 }
 
 void warnMissingPlaces(const Context& context, const scene::Case& value)

@@ -16,6 +16,12 @@ std::string placeText(const scene::Case& value, const scene::Placement& placemen
 /// Warns of parts that cannot be placed on the CT and are therefore ignored.
 void warnMissingPlaces(const Context& context, const scene::Case& value);
 
+/// Warns of an ear that the case does not have by its side or by the place of its images;
+/// Unknown: none is meant.
+void warnOfEar(const Context& context, const scene::Case& value, scene::Side ear);
+/// The same of the standard view of that name (rendering::parseView).
+void warnOfView(const Context& context, const scene::Case& value, const std::string& view);
+
 /// The option --without-damaged.
 void addWithoutDamaged(CLI::App& command, bool& chosen);
 

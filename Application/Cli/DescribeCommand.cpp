@@ -5,6 +5,7 @@
 #include "Numbers.h"
 #include "petrous/Core/InputFile.h"
 #include "petrous/Presenters/CasePicture.h"
+#include "petrous/Presenters/CaseStamp.h"
 
 namespace petrous::cli
 {
@@ -141,6 +142,9 @@ void run(const Context& context, const Options& options)
       library.setThumbnail(value.name, png);
   }
 
+  if (const std::string doubt = presenters::sideDoubt(value);
+      !options.side.empty() && !doubt.empty())
+    context.warn(doubt);
   const bool hasThumbnail = !library.thumbnail(value.name).empty();
   const std::string line = descriptionLine(value.description);
   context.print("case '" + value.name + "'" + (isChanged ? " is described anew" : ""));

@@ -3,6 +3,7 @@
 #include "Numbers.h"
 #include "petrous/Library/DefaultFolder.h"
 #include "petrous/Library/DerivedCache.h"
+#include "petrous/Library/NewerVersion.h"
 
 namespace petrous::cli
 {
@@ -38,13 +39,17 @@ void printCases(const Context& context, const library::Library& library,
       nlohmann::json description = descriptionJson(summary.description);
       description.erase("note");
       cases.back().update(description);
+      if (summary.damaged && library::isOfNewerVersion(library.folder(), summary.name))
+        cases.back().update({{"damaged", false}, {"newer", true}});
     }
     const std::string line = descriptionLine(summary.description);
     context.print(summary.name + "  " + summary.modified + "  " +
-                  (summary.damaged ? "damaged: its manifest cannot be read"
-                                   : std::to_string(summary.structures) + " structures, " +
-                                         std::to_string(summary.strokes) + " strokes, " +
-                                         fixed(summary.removed, 1) + " mm3 removed") +
+                  (summary.damaged && library::isOfNewerVersion(library.folder(), summary.name)
+                       ? "written by a newer version of Petrous"
+                   : summary.damaged ? "damaged: its manifest cannot be read"
+                                     : std::to_string(summary.structures) + " structures, " +
+                                           std::to_string(summary.strokes) + " strokes, " +
+                                           fixed(summary.removed, 1) + " mm3 removed") +
                   (line.empty() ? "" : "  " + line));
   }
   if (summaries.empty())
@@ -83,9 +88,21 @@ void verify(const Context& context, const library::Library& library)
                        {"text", one.text}});
     context.print(one.text);
   }
+  nlohmann::json newer = nlohmann::json::array();
+  for (const auto& one : library::casesOfNewerVersion(library.folder()))
+  {
+    newer.push_back({{"case", one.name}, {"deleted", one.isDeleted}, {"text", one.text}});
+    context.print(one.text);
+  }
   context.print(std::to_string(found.cases) + " cases, " + std::to_string(found.objects) +
-                " objects, " + std::to_string(found.damaged.size()) + " damaged");
-  context.printJson({{"cases", found.cases}, {"objects", found.objects}, {"damaged", damaged}});
+                " objects, " + std::to_string(found.damaged.size()) + " damaged" +
+                (newer.empty() ? std::string()
+                               : ", " + std::to_string(newer.size()) +
+                                     " written by a newer version, and not read"));
+  context.printJson({{"cases", found.cases},
+                     {"objects", found.objects},
+                     {"damaged", damaged},
+                     {"newer", std::move(newer)}});
   if (!found.damaged.empty())
     throw library::LibraryError(library::LibraryError::Reason::Damaged,
                                 library.folder().string() + ": " + std::to_string(count) +

@@ -174,11 +174,17 @@ void send(const Context& context, const SendOptions& options)
                  ", so they could not be counted there");
   context.print("case '" + options.caseName + "' is at node '" + options.node +
                 "': " + transferText(done.transfer));
-  context.print("study " + done.studyUid);
+  context.print("patient '" + done.patient.name + "', ID " + done.patient.id + ", study " +
+                done.studyUid +
+                (parts.scene ? "; to bring it back: petrous receive --from " + options.node +
+                                   " --case \"" + options.caseName + '"'
+                             : std::string()));
   nlohmann::json answer = transferJson(done.transfer);
   answer["case"] = options.caseName;
   answer["node"] = options.node;
   answer["study"] = done.studyUid;
+  answer["patient_id"] = done.patient.id;
+  answer["patient_name"] = done.patient.name;
   answer["verified"] = done.transfer.verified;
   context.printJson(answer);
 }
@@ -188,16 +194,47 @@ struct ReceiveOptions
   std::string node;
   presenters::ReceiveRequest request;
   std::string partial;
+  bool isList = false;
 };
+
+void listCases(const Context& context, const ReceiveOptions& options)
+{
+  const library::Library library = context.openLibrary();
+  presenters::StudySearch search;
+  search.caseName = options.request.caseName;
+  std::vector<std::string> names;
+  for (const auto& one : library.list())
+    names.push_back(one.name);
+  nlohmann::json cases = nlohmann::json::array();
+  for (const auto& found : presenters::searchStudies(
+           network::NodeList(library.folder()).at(options.node), search, names, context.progress()))
+  {
+    context.print((found.caseName.empty() ? "(name not told)" : "'" + found.caseName + "'") +
+                  ", patient ID " + found.study.patientId + ", study " + found.study.uid);
+    nlohmann::json one = {{"patient_id", found.study.patientId}, {"study", found.study.uid}};
+    one["case"] = found.caseName.empty() ? nlohmann::json() : nlohmann::json(found.caseName);
+    cases.push_back(std::move(one));
+  }
+  if (cases.empty())
+    context.print("node '" + options.node + "' has no such case of Petrous");
+  context.printJson({{"node", options.node}, {"cases", std::move(cases)}});
+}
 
 void receive(const Context& context, const ReceiveOptions& options)
 {
-  library::Library library = context.openLibrary();
-  const network::NodeList list(library.folder());
   presenters::ReceiveRequest request = options.request;
   request.partial = options.partial;
+  if (options.isList)
+  {
+    if (!request.studyUid.empty() || !request.as.empty() || !request.series.empty() ||
+        request.repair || !options.partial.empty())
+      throw UsageError("receive: --list goes with --from and --case alone");
+    return listCases(context, options);
+  }
   if (request.studyUid.empty() == request.caseName.empty())
-    throw UsageError("receive: give --study UID or --case NAME");
+    throw UsageError("receive: give --study UID or --case NAME, or --list");
+  library::Library library = context.openLibrary();
+  const network::NodeList list(library.folder());
   const auto done =
       presenters::receiveCase(library, list.at(options.node), request, context.progress());
   for (const std::string& note : done.notes)
@@ -293,6 +330,9 @@ void addNodeCommands(CLI::App& app, Context& context)
   command->add_option("--study", in->request.studyUid, "Study Instance UID")->type_name("UID");
   command->add_option("--case", in->request.caseName, "The case that was sent with its scene")
       ->type_name("NAME");
+  command->add_flag("--list", in->isList,
+                    "Only list the cases of Petrous that the node has; with --case those with "
+                    "this in their names");
   command->add_option("--as", in->request.as, "Name of the new case");
   command
       ->add_option("--series", in->request.series,

@@ -12,6 +12,7 @@
 
 #include "petrous/Core/Error.h"
 #include "petrous/Core/Log.h"
+#include "petrous/Core/StandardStreams.h"
 
 namespace petrous::cli
 {
@@ -83,14 +84,6 @@ int complain(const Program& program, const std::string& text, const Failure& fai
   std::signal(SIGINT, SIG_DFL);
   std::raise(SIGINT);
   return failure.exitCode;
-}
-
-// Else the first file that is opened would become stdout or stderr, and be written to.
-void holdStandardStreams()
-{
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    if (::fcntl(stream, F_GETFD) < 0) // closed: what is written there fails, as it would have
-      ::open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
 }
 
 bool isBlank(const std::string& text)
@@ -264,7 +257,7 @@ std::filesystem::path programBeside(const std::string& name, const std::string& 
 
 int run(const Program& program, const std::vector<std::string>& words)
 {
-  holdStandardStreams();
+  core::holdStandardStreams();
   Context context;
   // Invalid command lines are answered in JSON too.
   const auto fail = [&](const std::string& text, const Failure& as, const std::exception& error)

@@ -524,6 +524,7 @@ void render(const Context& context, RenderOptions options)
   scene::Case value = library.open(options.caseName);
   takeView(options, shot, value.view);
   shot.camera = chooseCamera(options, value);
+  warnOfView(context, value, options.view);
   nlohmann::json stereo = nullptr;
   shot.eyes = {shot.camera};
   if (shot.stereo != StereoMode::None)

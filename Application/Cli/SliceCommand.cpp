@@ -286,6 +286,8 @@ void slice(const Context& context, SliceOptions options)
                                                 : display.bone;
   checkWindow(window, value.ct.range, display);
   const WantedPlane plane = planeOf(options, value);
+  if (!options.side.empty())
+    warnOfEar(context, value, scene::sideFromName(options.side));
   const presenters::Slab slab = slabOf(options, saved);
   const SliceGeometry geometry = sliceOf(options, plane, value, saved, width, height);
   if (!meets(geometry, value.ct.geometry))

@@ -2,6 +2,7 @@
 #include <iterator>
 
 #include "CaseJson.h"
+#include "CaseWarnings.h"
 #include "Commands.h"
 #include "Numbers.h"
 #include "ViewOptions.h"
@@ -255,6 +256,7 @@ void run(const Context& context, const ViewCommandOptions& options)
   scene::Case value = library.open(options.caseName);
   const nlohmann::json before = viewJson(value);
   change(value, options);
+  warnOfView(context, value, options.view);
   const nlohmann::json now = viewJson(value);
   const bool isChanged = now != before;
   if (isChanged)

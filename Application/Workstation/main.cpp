@@ -19,6 +19,7 @@
 #include "Theme.h"
 #include "WindowSettings.h"
 #include "petrous/Core/Log.h"
+#include "petrous/Core/StandardStreams.h"
 #include "petrous/Devices/ServerCatalogue.h"
 #include "petrous/Imaging/FileError.h"
 #include "petrous/Library/DefaultFolder.h"
@@ -109,6 +110,7 @@ void startLog(const QCommandLineParser& parser)
 int main(int argc, char** argv)
 {
   using namespace petrous;
+  core::holdStandardStreams();
   const bool isSafe = std::any_of(
       argv + 1, argv + argc, [](const char* one) { return std::string_view(one) == "--safe"; });
   if (isSafe) // before the first use of OpenGL: drawn by Mesa on the processor

@@ -1295,22 +1295,6 @@
         <translation>Auf %1</translation>
     </message>
     <message>
-        <source>Names that are taken</source>
-        <translation>Vergebene Namen</translation>
-    </message>
-    <message>
-        <source>The case has “%1” already, which is in “%2”, too.</source>
-        <translation>Der Fall hat „%1“ schon, das auch in „%2“ ist.</translation>
-    </message>
-    <message>
-        <source>The case has parts of %1 of the names in “%2” already.</source>
-        <translation>Der Fall hat schon Teile mit %1 der Namen in „%2“.</translation>
-    </message>
-    <message>
-        <source>Those of the case stay as they are. To have both, cancel, rename those of the case (F2 in the list) and add the file again.</source>
-        <translation>Die des Falls bleiben, wie sie sind. Um beide zu haben, brechen Sie ab, benennen Sie die des Falls um (F2 in der Liste) und fügen Sie die Datei erneut hinzu.</translation>
-    </message>
-    <message>
         <source>Add the &amp;others without it</source>
         <translation>Die &amp;anderen ohne es hinzufügen</translation>
     </message>
@@ -1564,6 +1548,38 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <source>Name of the new case:</source>
         <translation>Name des neuen Falls:</translation>
     </message>
+    <message>
+        <source>They must be of the same patient.%1</source>
+        <translation>Sie müssen von demselben Patienten sein.%1</translation>
+    </message>
+    <message>
+        <source>Those of the case stay as they are.</source>
+        <translation>Die des Falls bleiben, wie sie sind.</translation>
+    </message>
+    <message>
+        <source>1 other structure of the file is new to the case.</source>
+        <translation>1 andere Struktur der Datei ist neu für den Fall.</translation>
+    </message>
+    <message>
+        <source>%1 other structures of the file are new to the case.</source>
+        <translation>%1 andere Strukturen der Datei sind neu für den Fall.</translation>
+    </message>
+    <message>
+        <source>The case has “%1” already, which is in “%2”, too. What is it to be called?</source>
+        <translation>Der Fall hat bereits „%1“, das auch in „%2“ steht. Wie soll es heißen?</translation>
+    </message>
+    <message>
+        <source>The case has parts of %1 of the names in “%2” already. What are they to be called?</source>
+        <translation>Der Fall hat bereits Teile mit %1 der Namen in „%2“. Wie sollen sie heißen?</translation>
+    </message>
+    <message>
+        <source>&amp;Add under this name</source>
+        <translation>Unter diesem Namen &amp;hinzufügen</translation>
+    </message>
+    <message>
+        <source>&amp;Add under these names</source>
+        <translation>Unter diesen Namen &amp;hinzufügen</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::CaseSaver</name>
@@ -1676,6 +1692,14 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     <message>
         <source>Voxels</source>
         <translation>Voxel</translation>
+    </message>
+    <message>
+        <source>newer version</source>
+        <translation>neuere Version</translation>
+    </message>
+    <message>
+        <source>%1: was written by a newer version of Petrous; open it with that one. Here it is left alone.</source>
+        <translation>%1: wurde von einer neueren Version von Petrous geschrieben; öffnen Sie den Fall mit dieser. Hier bleibt er unberührt.</translation>
     </message>
 </context>
 <context>
@@ -2024,14 +2048,6 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <translation>nicht angegeben</translation>
     </message>
     <message>
-        <source>2026-03-31</source>
-        <translation>2026-03-31</translation>
-    </message>
-    <message>
-        <source>Of the planned operation, year-month-day. It stays here when the case is archived or sent</source>
-        <translation>Der geplanten Operation, Jahr-Monat-Tag. Es bleibt hier, wenn der Fall archiviert oder gesendet wird</translation>
-    </message>
-    <message>
         <source>separated by commas</source>
         <translation>durch Kommas getrennt</translation>
     </message>
@@ -2066,6 +2082,18 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     <message>
         <source>Do not name the patient here: tags, diagnosis, procedure and note go along when the case is handed on.</source>
         <translation>Nennen Sie hier nicht den Patienten: Schlagwörter, Diagnose, Eingriff und Notiz gehen mit, wenn der Fall weitergegeben wird.</translation>
+    </message>
+    <message>
+        <source>a day, such as 2026-12-31 or 31.12.2026</source>
+        <translation>ein Tag, etwa 31.12.2026 oder 2026-12-31</translation>
+    </message>
+    <message>
+        <source>Of the planned operation, year-month-day or day.month.year. It stays here when the case is archived or sent</source>
+        <translation>Der geplanten Operation, Tag.Monat.Jahr oder Jahr-Monat-Tag. Er bleibt hier, wenn der Fall archiviert oder gesendet wird</translation>
+    </message>
+    <message>
+        <source>“%1” is not a day; give it as 2026-12-31 or 31.12.2026</source>
+        <translation>„%1“ ist kein Tag; geben Sie ihn als 31.12.2026 oder 2026-12-31 an</translation>
     </message>
 </context>
 <context>
@@ -2448,6 +2476,14 @@ Ohne dies liegt die Fräse auf dem Gewebe und wird mit dem Andruck gedrückt. St
     <message>
         <source>De-identify</source>
         <translation>De-identifizieren</translation>
+    </message>
+    <message>
+        <source>There it is the patient %1. Receive finds it by the case “%2”.</source>
+        <translation>Dort ist er der Patient %1. „Empfangen“ findet ihn unter dem Fall „%2“.</translation>
+    </message>
+    <message>
+        <source>There it is the patient %1, without the case&apos;s name, which may be a patient&apos;s. Receive finds it by the whole name “%2”, and by that ID.</source>
+        <translation>Dort ist er der Patient %1, ohne den Namen des Falls, der der eines Patienten sein kann. „Empfangen“ findet ihn unter dem ganzen Namen „%2“ und unter dieser ID.</translation>
     </message>
 </context>
 <context>
@@ -3146,10 +3182,6 @@ Ohne dies liegt die Fräse auf dem Gewebe und wird mit dem Andruck gedrückt. St
         <translation>Die Bibliothek wird aufgeräumt</translation>
     </message>
     <message>
-        <source>Cleaned up: %1 deleted cases and %2 files are gone, %3 are free again</source>
-        <translation>Aufgeräumt: %1 gelöschte Fälle und %2 Dateien sind weg, %3 sind wieder frei</translation>
-    </message>
-    <message>
         <source>Repairing the library</source>
         <translation>Die Bibliothek wird repariert</translation>
     </message>
@@ -3168,6 +3200,42 @@ Ohne dies liegt die Fräse auf dem Gewebe und wird mit dem Andruck gedrückt. St
     <message>
         <source>What could be repaired is; what cases need is missing.</source>
         <translation>Was sich reparieren ließ, ist repariert; was Fälle brauchen, fehlt.</translation>
+    </message>
+    <message>
+        <source>The case is not saved yet, so it was not copied</source>
+        <translation>Der Fall ist noch nicht gespeichert und wurde deshalb nicht kopiert</translation>
+    </message>
+    <message>
+        <source>Side</source>
+        <translation>Seite</translation>
+    </message>
+    <message>
+        <source>Written by a newer version of Petrous, and left alone: %1.</source>
+        <translation>Von einer neueren Version von Petrous geschrieben und unberührt gelassen: %1.</translation>
+    </message>
+    <message>
+        <source>All others are sound.</source>
+        <translation>Alle anderen sind heil.</translation>
+    </message>
+    <message>
+        <source>Cleaned up: %1 and %2 are gone, %3 are free again</source>
+        <translation>Aufgeräumt: %1 und %2 sind weg, %3 sind wieder frei</translation>
+    </message>
+    <message>
+        <source>1 deleted case</source>
+        <translation>1 gelöschter Fall</translation>
+    </message>
+    <message>
+        <source>%1 deleted cases</source>
+        <translation>%1 gelöschte Fälle</translation>
+    </message>
+    <message>
+        <source>1 file</source>
+        <translation>1 Datei</translation>
+    </message>
+    <message>
+        <source>%1 files</source>
+        <translation>%1 Dateien</translation>
     </message>
 </context>
 <context>
@@ -4464,10 +4532,6 @@ Verletzt: %1, %2</translation>
         <translation>Gefundene Patienten und Serien</translation>
     </message>
     <message>
-        <source>Patient, or series</source>
-        <translation>Patient oder Serie</translation>
-    </message>
-    <message>
         <source>ID</source>
         <translation>ID</translation>
     </message>
@@ -4524,16 +4588,8 @@ Verletzt: %1, %2</translation>
         <translation>Angehalten</translation>
     </message>
     <message>
-        <source>Give the patient&apos;s ID, name or a date, then search. Open a study to see its series.</source>
-        <translation>Geben Sie die ID oder den Namen des Patienten oder ein Datum an, dann suchen Sie. Öffnen Sie eine Studie, um ihre Serien zu sehen.</translation>
-    </message>
-    <message>
         <source>&amp;Stop</source>
         <translation>&amp;Anhalten</translation>
-    </message>
-    <message>
-        <source>Give the patient&apos;s ID, name or a date: else the node would list all that it has.</source>
-        <translation>Geben Sie die ID oder den Namen des Patienten oder ein Datum an: Sonst zählte der Knoten alles auf, was er hat.</translation>
     </message>
     <message>
         <source>The first date is after the last one.</source>
@@ -4582,6 +4638,34 @@ Verletzt: %1, %2</translation>
     <message>
         <source>Series of one study, or a case of Petrous</source>
         <translation>Serien einer Studie oder ein Fall von Petrous</translation>
+    </message>
+    <message>
+        <source>of a case that was sent by Petrous</source>
+        <translation>eines Falls, den Petrous gesendet hat</translation>
+    </message>
+    <message>
+        <source>A part of the name is enough; * stands for any text</source>
+        <translation>Ein Teil des Namens genügt; * steht für beliebigen Text</translation>
+    </message>
+    <message>
+        <source>Case, patient, or series</source>
+        <translation>Fall, Patient oder Serie</translation>
+    </message>
+    <message>
+        <source>C&amp;ase:</source>
+        <translation>F&amp;all:</translation>
+    </message>
+    <message>
+        <source>Search as it is for all cases of Petrous, or give the name of a case, or the patient&apos;s ID, name or a date. Open a study to see its series.</source>
+        <translation>Suchen Sie ohne Angaben nach allen Fällen von Petrous, oder geben Sie den Namen eines Falls oder ID, Namen oder ein Datum des Patienten an. Öffnen Sie eine Studie, um ihre Serien zu sehen.</translation>
+    </message>
+    <message>
+        <source>Case “%1”</source>
+        <translation>Fall „%1“</translation>
+    </message>
+    <message>
+        <source>Case, name not told</source>
+        <translation>Fall, Name nicht genannt</translation>
     </message>
 </context>
 <context>

@@ -26,7 +26,7 @@ namespace petrous::workstation
 AddPartsDialog::AddPartsDialog(const QString& title, const QString& more, const QString& accept,
                                const std::vector<Part>& parts, std::vector<std::string> taken,
                                const std::vector<std::string>& mr, const QString& primary,
-                               QWidget* parent)
+                               QWidget* parent, const QString& skip)
   : QDialog(parent)
   , m_taken(std::move(taken))
   , m_advice(new QLabel)
@@ -89,6 +89,9 @@ AddPartsDialog::AddPartsDialog(const QString& title, const QString& more, const 
   m_advice->setWordWrap(true);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
   m_accept = buttons->addButton(accept, QDialogButtonBox::AcceptRole);
+  if (!skip.isEmpty())
+    connect(buttons->addButton(skip, QDialogButtonBox::ActionRole), &QPushButton::clicked, this,
+            [this] { done(kSkipped); });
   connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   auto* layout = new QVBoxLayout(this);
@@ -147,7 +150,7 @@ std::vector<AddPartsDialog::Answer> AddPartsDialog::answers() const
 
 void AddPartsDialog::check()
 {
-  QString advice;
+  QStringList advice; // of all rows
   std::vector<std::string> taken = m_taken;
   for (const Row& row : m_rows)
   {
@@ -155,11 +158,11 @@ void AddPartsDialog::check()
       continue;
     const std::string name = bytes(row.name->text().trimmed());
     if (name.empty())
-      advice = tr("Each part needs a name.");
+      advice += tr("Each part needs a name.");
     else if (std::any_of(taken.begin(), taken.end(),
                          [read = scene::asRead(name)](const auto& one)
                          { return scene::asRead(one) == read; }))
-      advice = tr("“%1” is taken; give another name.").arg(words(name));
+      advice += tr("“%1” is taken; give another name.").arg(words(name));
     else
       try
       {
@@ -167,11 +170,12 @@ void AddPartsDialog::check()
       }
       catch (const core::InvalidParameter& fault)
       {
-        advice = windowText(words(fault.what()));
+        advice += windowText(words(fault.what()));
       }
     taken.push_back(name);
   }
-  m_advice->setText(advice);
+  advice.removeDuplicates();
+  m_advice->setText(advice.join('\n'));
   m_accept->setEnabled(advice.isEmpty());
 }
 

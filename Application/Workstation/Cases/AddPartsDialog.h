@@ -35,12 +35,16 @@ public:
     std::filesystem::path labelNames = {}; ///< likewise
   };
 
-  /// `title` asks, `accept` is the button's text; `taken` are names of other parts, `mr` those of
+  /// What exec() returns where the parts are not wanted, and others are.
+  static constexpr int kSkipped = 2;
+
+  /// `title` asks, `accept` is the button's text, `skip` that of one for kSkipped (empty: there is
+  /// none); `taken` are names of other parts, `mr` those of
   /// MRs on which structures may have been drawn, `primary` "CT" or "MR".
   AddPartsDialog(const QString& title, const QString& more, const QString& accept,
                  const std::vector<Part>& parts, std::vector<std::string> taken,
                  const std::vector<std::string>& mr, const QString& primary,
-                 QWidget* parent = nullptr);
+                 QWidget* parent = nullptr, const QString& skip = {});
 
   std::vector<Answer> answers() const; ///< for each part
 

@@ -615,7 +615,8 @@ bool CaseDocumentController::askNames(presenters::CaseSources& sources,
     AddPartsDialog dialog(
         newCase.empty() ? tr("Add to the case “%1”?").arg(name)
                         : tr("Make the case “%1”").arg(name),
-        tr("It must be of the same patient.%1")
+        (others.size() == 1 ? tr("It must be of the same patient.%1")
+                            : tr("They must be of the same patient.%1"))
             .arg(sources.parts.mr.empty()
                      ? QString()
                      : tr(" An MR is shown over the %1 once it is registered (F5).").arg(primary)),
@@ -701,6 +702,7 @@ void CaseDocumentController::decide(std::vector<Item> items, const Purpose& purp
   presenters::CaseSources sources;
   for (Item& item : items)
   {
+    const bool isUndetermined = item.source.content == Content::Image;
     if (!ask(item, purpose))
       return;
     const SourceContent& source = item.source;
@@ -714,6 +716,8 @@ void CaseDocumentController::decide(std::vector<Item> items, const Purpose& purp
                          "other.")
                           .arg(nameOf(ct->path), nameOf(source.path)));
       ct = &source;
+      if (isUndetermined) // the user said so
+        sources.modality = scene::Modality::Ct;
       sources.ct = source.path;
       sources.series = source.selector;
       sources.repair = repair;
@@ -872,13 +876,14 @@ void CaseDocumentController::keepInLibrary(scene::Case value)
        });
 }
 
-void CaseDocumentController::addParts(const presenters::PartSources& parts, const QString& what)
+void CaseDocumentController::addParts(const presenters::PartSources& parts, const QString& what,
+                                      const std::vector<presenters::StructureReport>& earlier)
 {
   m_model.stopTouch();
   const auto value = std::make_shared<scene::Case>(m_model.value()); // shares voxels
   work(
       tr("Adding to %1").arg(words(value->name)),
-      [this, value, before = scene::Case(*value), parts, what, library = m_model.library(),
+      [this, value, before = scene::Case(*value), parts, what, earlier, library = m_model.library(),
        shownAs = m_model.shownAs()](const core::Progress& progress) -> BackgroundWork::Reply
       {
         presenters::PartSources sources = parts;
@@ -889,7 +894,7 @@ void CaseDocumentController::addParts(const presenters::PartSources& parts, cons
         const bool onlyImages = parts.labels.empty() && parts.meshes.empty();
         const bool isAny =
             failures.size() < parts.mr.size() + parts.labels.size() + parts.meshes.size();
-        return [this, value, before, what, shownAs, onlyImages, isAny, failures, report]
+        return [this, value, before, what, shownAs, onlyImages, isAny, failures, report, earlier]
         {
           endWork();
           const Target target{shownAs, words(before.name)};
@@ -907,18 +912,20 @@ void CaseDocumentController::addParts(const presenters::PartSources& parts, cons
                                : tr("Added to %1: %2; %3")
                                      .arg(name, what, words(presenters::summaryOf(report).text)));
           }
-          tell(failures, report, target);
+          std::vector<presenters::StructureReport> all = earlier;
+          all.insert(all.end(), report.begin(), report.end());
+          tell(failures, all, target);
         };
       });
 }
 
 // What did not come into the case, and structures that are not as their file says. Parts are added
-// on an answer only to the case for which it was asked: another one may be open by then.
+// on an answer only to the case for which it was asked: another one may be open by then. One box at
+// a time: what structures are like is told when nothing is left to ask.
 void CaseDocumentController::tell(const std::vector<presenters::PartFailure>& failures,
                                   const std::vector<presenters::StructureReport>& report,
                                   const Target& target)
 {
-  tellStructures(report);
   presenters::PartSources again; // of all answers: reading one ends the reading of another
   QStringList names;
   QStringList lost;
@@ -938,15 +945,16 @@ void CaseDocumentController::tell(const std::vector<presenters::PartFailure>& fa
       }
     }
   }
-  if (!names.isEmpty() && !isOpen(target))
-    lost += tr("%1 was not added: the case “%2” is not open any more.")
-                .arg(names.join(", "), target.name);
-  else if (!names.isEmpty() && m_work.busy())
-    lost += tr("%1 was not added, as something else is being read; add it again.")
-                .arg(names.join(", "));
-  else if (!names.isEmpty())
-    addParts(again, names.join(", "));
   refuseAll(lost);
+  if (!names.isEmpty() && isOpen(target) && !m_work.busy())
+    return addParts(again, names.join(", "), report);
+  const QString which = names.join(", ");
+  if (!names.isEmpty())
+    refuse(
+        isOpen(target)
+            ? tr("%1 was not added, as something else is being read; add it again.").arg(which)
+            : tr("%1 was not added: the case “%2” is not open any more.").arg(which, target.name));
+  tellStructures(report);
 }
 
 bool CaseDocumentController::isOpen(const Target& target) const
@@ -1032,9 +1040,8 @@ CaseDocumentController::askAgain(const presenters::PartFailure& failure, const T
   }
   else if (!failure.taken.empty())
   {
-    if (!askSkip(source.path, failure.taken))
+    if (!askNewNames(source, failure.taken, failure.others))
       return std::nullopt;
-    source.skipsTaken = true;
   }
   else
   {
@@ -1100,38 +1107,48 @@ std::string CaseDocumentController::askDrawnOn(const presenters::PartFailure& fa
   return {};
 }
 
-// Whether structures whose names the case has already may be left out, and the others added.
-bool CaseDocumentController::askSkip(const fs::path& path, const std::vector<std::string>& taken)
+// Parts of a file that have names of the case: what they are called here, or whether the others
+// come without them. False: the file is left out.
+bool CaseDocumentController::askNewNames(presenters::PartSource& source,
+                                         const std::vector<std::string>& taken, std::size_t others)
 {
-  constexpr std::size_t kShown = 12;
-  QStringList names;
+  std::vector<std::string> there = scene::partNames(m_model.value());
+  there.emplace_back("ct");
+  std::vector<std::string> proposed = there;
+  std::vector<AddPartsDialog::Part> parts;
   for (const std::string& name : taken)
-    names += words(name).replace('_', ' ');
-  QMessageBox box(
-      QMessageBox::Question, tr("Names that are taken"),
-      taken.size() == 1
-          ? tr("The case has “%1” already, which is in “%2”, too.").arg(names.front(), nameOf(path))
-          : tr("The case has parts of %1 of the names in “%2” already.")
-                .arg(taken.size())
-                .arg(nameOf(path)),
-      QMessageBox::NoButton, &m_window);
-  box.setTextFormat(Qt::PlainText);
-  box.setObjectName("askSkip");
-  QString text = taken.size() == 1 ? QString() : names.mid(0, kShown).join(", ") + "\n\n";
-  if (taken.size() > kShown)
   {
-    text = names.mid(0, kShown).join(", ") + ", …\n\n";
-    box.setDetailedText(names.join('\n'));
+    AddPartsDialog::Part part;
+    part.what = words(name).replace('_', ' ');
+    part.name = unusedName(name, proposed);
+    proposed.push_back(part.name);
+    parts.push_back(std::move(part));
   }
-  box.setInformativeText(text +
-                         tr("Those of the case stay as they are. To have both, cancel, rename "
-                            "those of the case (F2 in the list) and add the file again."));
-  const auto* skip = box.addButton(taken.size() == 1 ? tr("Add the &others without it")
-                                                     : tr("Add the &others without them"),
-                                   QMessageBox::AcceptRole);
-  box.setDefaultButton(box.addButton(QMessageBox::Cancel));
-  box.exec();
-  return box.clickedButton() == skip;
+  QString more = tr("Those of the case stay as they are.");
+  if (others > 0)
+    more += ' ' + (others == 1
+                       ? tr("1 other structure of the file is new to the case.")
+                       : tr("%1 other structures of the file are new to the case.").arg(others));
+  AddPartsDialog dialog(
+      taken.size() == 1
+          ? tr("The case has “%1” already, which is in “%2”, too. What is it to be called?")
+                .arg(parts.front().what, nameOf(source.path))
+          : tr("The case has parts of %1 of the names in “%2” already. What are they to be called?")
+                .arg(taken.size())
+                .arg(nameOf(source.path)),
+      more, taken.size() == 1 ? tr("&Add under this name") : tr("&Add under these names"), parts,
+      there, {}, {}, &m_window,
+      others == 0         ? QString()
+      : taken.size() == 1 ? tr("Add the &others without it")
+                          : tr("Add the &others without them"));
+  dialog.setObjectName("askNewNames");
+  const int answer = dialog.exec();
+  if (answer == AddPartsDialog::kSkipped)
+    source.skipsTaken = true;
+  else if (answer == QDialog::Accepted)
+    for (std::size_t n = 0; n < taken.size(); ++n)
+      source.newNames[taken[n]] = dialog.answers()[n].name;
+  return answer != QDialog::Rejected;
 }
 
 // Asks of folders of masks, whose names are known, before they are read. False: the user gave up.
@@ -1148,12 +1165,10 @@ bool CaseDocumentController::askTaken(presenters::PartSources& parts,
     for (const std::string& name : item.source.structures)
       if (!scene::partReadAs(m_model.value(), name).empty())
         taken.push_back(name);
-    if (taken.empty() || item.source.structures.size() < 2 ||
-        taken.size() == item.source.structures.size()) // told when it is added
-      continue;
-    if (!askSkip(item.source.path, taken))
+    if (taken.empty() || item.source.structures.size() < 2)
+      continue; // told when it is added
+    if (!askNewNames(part, taken, item.source.structures.size() - taken.size()))
       return false;
-    part.skipsTaken = true;
   }
   return true;
 }
@@ -1305,7 +1320,7 @@ void CaseDocumentController::lookForDamage()
   for (const std::string& one : m_model.damage())
     lines += tr("Damaged: %1. Do not rely on what is shown of it; nothing is drilled in this case "
                 "until it is whole and opened again.")
-                 .arg(words(one));
+                 .arg(windowText(words(one)));
   if (m_model.hasCase() && m_model.library().isStandIn(m_model.value().ct))
     lines +=
         tr("The case is open with what is left of it: description, attachments, structures and "
@@ -1313,9 +1328,9 @@ void CaseDocumentController::lookForDamage()
            "its own, or restore the file from a copy of the library: then open this case again. "
            "Or remove it (Library > Cases).");
   for (const std::string& one : m_model.leftOut())
-    lines += tr("Left out, neither shown nor felt: %1.").arg(words(one));
+    lines += tr("Left out, neither shown nor felt: %1.").arg(windowText(words(one)));
   for (const std::string& one : m_model.damagedStrokes())
-    lines += tr("Damaged, and not applied: %1.").arg(words(one));
+    lines += tr("Damaged, and not applied: %1.").arg(windowText(words(one)));
   if (const std::size_t undone = m_model.undoneForDamage())
     lines +=
         (undone == 1

@@ -149,7 +149,8 @@ private:
   void makeCase(const std::string& name,
                 std::function<presenters::CaseSources(const core::Progress&)> sources,
                 scene::Side side = scene::Side::Unknown);
-  void addParts(const presenters::PartSources& parts, const QString& what);
+  void addParts(const presenters::PartSources& parts, const QString& what,
+                const std::vector<presenters::StructureReport>& earlier = {});
   void tell(const std::vector<presenters::PartFailure>& failures,
             const std::vector<presenters::StructureReport>& report, const Target& target);
   void tellStructures(const std::vector<presenters::StructureReport>& report);
@@ -159,7 +160,8 @@ private:
                                                  const Target& target);
   std::optional<bool> askSide(const std::filesystem::path& path);
   std::string askDrawnOn(const presenters::PartFailure& failure);
-  bool askSkip(const std::filesystem::path& path, const std::vector<std::string>& taken);
+  bool askNewNames(presenters::PartSource& source, const std::vector<std::string>& taken,
+                   std::size_t others);
   bool askTaken(presenters::PartSources& parts, const std::vector<Item>& others);
   bool askOtherPatient(const presenters::PartFailure& failure, const Target& target);
   std::optional<imaging::MeshSpace> askMeshSpace(const presenters::PartFailure& failure);

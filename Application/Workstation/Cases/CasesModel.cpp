@@ -10,6 +10,7 @@
 
 #include "DescriptionDialog.h"
 #include "Theme.h"
+#include "petrous/Library/NewerVersion.h"
 
 namespace petrous::workstation
 {
@@ -49,6 +50,10 @@ void CasesModel::setCases(std::vector<library::CaseSummary> cases, const std::st
   beginResetModel();
   m_cases = std::move(cases);
   m_open = open;
+  m_newer.clear();
+  for (const library::CaseSummary& one : m_cases)
+    if (one.damaged && library && library::isOfNewerVersion(library().folder(), one.name))
+      m_newer.insert(one.name);
   sortCases();
   endResetModel();
 }
@@ -178,12 +183,14 @@ QString tagsText(const library::CaseSummary& one)
 namespace
 {
 
-QString textOf(const library::CaseSummary& one, int column)
+QString textOf(const library::CaseSummary& one, int column, bool isNewer = false)
 {
   if (column == CasesModel::Name)
     return words(one.name);
   if (one.damaged)
-    return column == CasesModel::Structures ? CasesModel::tr("damaged") : QString();
+    return column != CasesModel::Structures ? QString()
+           : isNewer                        ? CasesModel::tr("newer version")
+                                            : CasesModel::tr("damaged");
   switch (column)
   {
   case CasesModel::Changed:
@@ -209,8 +216,12 @@ QString textOf(const library::CaseSummary& one, int column)
   }
 }
 
-QString tipOf(const library::CaseSummary& one, bool open)
+QString tipOf(const library::CaseSummary& one, bool open, bool isNewer)
 {
+  if (isNewer)
+    return CasesModel::tr("%1: was written by a newer version of Petrous; open it with that one. "
+                          "Here it is left alone.")
+        .arg(words(one.name));
   if (one.damaged)
     return CasesModel::tr("%1: its file cannot be read. It can still be renamed and deleted; "
                           "Library > Verify says what is wrong.")
@@ -239,14 +250,15 @@ QVariant CasesModel::data(const QModelIndex& index, int role) const
     return {};
   const library::CaseSummary& one = at(index.row());
   const bool open = one.name == m_open;
+  const bool isNewer = m_newer.count(one.name) > 0;
   switch (role)
   {
   case Qt::DisplayRole:
-    return textOf(one, index.column());
+    return textOf(one, index.column(), isNewer);
   case Qt::DecorationRole:
     return index.column() == Name ? picture(one) : QVariant();
   case Qt::ToolTipRole:
-    return tipOf(one, open);
+    return tipOf(one, open, isNewer);
   case Qt::AccessibleTextRole:
   {
     if (index.column() != Name)

@@ -80,6 +80,7 @@ private:
   void pictureChanged(const std::string& id);
 
   std::vector<library::CaseSummary> m_cases;
+  std::set<std::string> m_newer; ///< library::isOfNewerVersion
   std::string m_open;
   std::map<std::string, Picture> m_pictures;          ///< by id of the case; what was looked at
   mutable std::vector<library::CaseSummary> m_wanted; ///< to be read, the last one first

@@ -1,6 +1,9 @@
 #include "DescriptionDialog.h"
 
+#include <set>
+
 #include <QComboBox>
+#include <QDate>
 #include <QDialogButtonBox>
 #include <QFormLayout>
 #include <QLabel>
@@ -40,7 +43,7 @@ DescriptionDialog::DescriptionDialog(const QString& name, const scene::Descripti
   , m_date(new QLineEdit(words(description.date)))
   , m_tags(new QLineEdit)
   , m_note(new QPlainTextEdit(words(description.note)))
-  , m_advice(new QLabel)
+  , m_problem(new QLabel)
 {
   setObjectName("describeCase");
   setWindowTitle(tr("Describe “%1”").arg(name));
@@ -53,9 +56,9 @@ DescriptionDialog::DescriptionDialog(const QString& name, const scene::Descripti
                     static_cast<int>(side));
   m_side->setCurrentIndex(m_side->findData(static_cast<int>(description.side)));
   m_date->setObjectName("plannedDate");
-  m_date->setPlaceholderText(tr("2026-03-31"));
-  m_date->setToolTip(tr("Of the planned operation, year-month-day. It stays here when the case is "
-                        "archived or sent"));
+  m_date->setPlaceholderText(tr("a day, such as 2026-12-31 or 31.12.2026"));
+  m_date->setToolTip(tr("Of the planned operation, year-month-day or day.month.year. It stays here "
+                        "when the case is archived or sent"));
   QStringList tags;
   for (const std::string& tag : description.tags)
     tags += words(tag);
@@ -64,8 +67,14 @@ DescriptionDialog::DescriptionDialog(const QString& name, const scene::Descripti
   m_tags->setPlaceholderText(tr("separated by commas"));
   m_note->setObjectName("note");
   m_note->setTabChangesFocus(true);
-  m_advice->setTextFormat(Qt::PlainText);
-  m_advice->setWordWrap(true);
+  auto* advice = new QLabel(tr("Do not name the patient here: tags, diagnosis, procedure and note "
+                               "go along when the case is handed on."));
+  m_problem->setObjectName("problem");
+  for (QLabel* label : {advice, m_problem})
+  {
+    label->setTextFormat(Qt::PlainText);
+    label->setWordWrap(true);
+  }
 
   auto* form = new QFormLayout;
   form->addRow(tr("&Diagnosis:"), m_diagnosis);
@@ -84,7 +93,8 @@ DescriptionDialog::DescriptionDialog(const QString& name, const scene::Descripti
   connect(m_note, &QPlainTextEdit::textChanged, this, &DescriptionDialog::check);
   auto* layout = new QVBoxLayout(this);
   layout->addLayout(form, 1);
-  layout->addWidget(m_advice);
+  layout->addWidget(advice);
+  layout->addWidget(m_problem);
   layout->addWidget(buttons);
   resize(520, 440);
   check();
@@ -96,29 +106,45 @@ scene::Description DescriptionDialog::description() const
   result.diagnosis = bytes(m_diagnosis->text().trimmed());
   result.procedure = bytes(m_procedure->text().trimmed());
   result.side = static_cast<scene::Side>(m_side->currentData().toInt());
-  result.date = bytes(m_date->text().trimmed());
+  const QDate day = QDate::fromString(m_date->text().trimmed(), "d.M.yyyy");
+  result.date = bytes(day.isValid() ? day.toString("yyyy-MM-dd") : m_date->text().trimmed());
+  std::set<std::string> there; // twice is once
   for (const QString& tag : m_tags->text().split(',', Qt::SkipEmptyParts))
-    if (!tag.trimmed().isEmpty())
-      result.tags.push_back(bytes(tag.trimmed()));
+    if (const std::string one = bytes(tag.trimmed());
+        !one.empty() && there.insert(scene::lowerCase(one)).second)
+      result.tags.push_back(one);
   result.note = bytes(m_note->toPlainText());
   return result;
 }
 
+// All that is wrong at once.
 void DescriptionDialog::check()
 {
-  QString why;
-  try
+  const scene::Description whole = description();
+  QStringList problems;
+  const auto judge = [&](auto scene::Description::*field)
   {
-    scene::checkDescription(description());
-  }
-  catch (const std::exception& error)
-  {
-    why = toString(error);
-  }
-  m_advice->setText(why.isEmpty() ? tr("Do not name the patient here: tags, diagnosis, procedure "
-                                       "and note go along when the case is handed on.")
-                                  : why);
-  m_accept->setEnabled(why.isEmpty());
+    scene::Description alone;
+    alone.*field = whole.*field;
+    try
+    {
+      scene::checkDescription(alone);
+    }
+    catch (const std::exception& error)
+    {
+      problems += toString(error);
+    }
+  };
+  judge(&scene::Description::diagnosis);
+  judge(&scene::Description::procedure);
+  judge(&scene::Description::tags);
+  judge(&scene::Description::note);
+  if (!whole.date.empty() && !scene::isDate(whole.date))
+    problems +=
+        tr("“%1” is not a day; give it as 2026-12-31 or 31.12.2026").arg(m_date->text().trimmed());
+  m_problem->setText(problems.join('\n'));
+  m_problem->setVisible(!problems.isEmpty());
+  m_accept->setEnabled(problems.isEmpty());
 }
 
 } // namespace petrous::workstation

@@ -32,7 +32,7 @@ private:
   QLineEdit* m_date;
   QLineEdit* m_tags;
   QPlainTextEdit* m_note;
-  QLabel* m_advice;
+  QLabel* m_problem;
   QPushButton* m_accept;
 };
 

@@ -14,8 +14,10 @@
 #include "ThumbnailDrawer.h"
 #include "WindowTexts.h"
 #include "petrous/Library/DerivedCache.h"
+#include "petrous/Library/NewerVersion.h"
 #include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/CasePicture.h"
+#include "petrous/Presenters/CaseStamp.h"
 
 namespace petrous::workstation
 {
@@ -157,10 +159,35 @@ void LibraryController::copy(const std::string& name)
               { presenters::checkFreeCaseName(m_model.library(), wanted); });
   if (to.isEmpty())
     return;
+  if (m_model.hasCase() && m_model.value().name == name)
+  {
+    if (!m_keeper.saved())
+      return emit statusMessage(tr("The case is not saved yet, so it was not copied"));
+    return copyOpen(bytes(to));
+  }
   m_keeper.changeCase(
       tr("Copying %1").arg(words(name)), name, name,
       [name, to](library::Library& library) { library.copy(name, bytes(to)); },
       [this, to] { m_panel->select(bytes(to)); });
+}
+
+// As it is saved; it stays open, with all that can be undone. The copy shares its voxels.
+void LibraryController::copyOpen(const std::string& to)
+{
+  const auto copy = std::make_shared<scene::Case>(m_model.value());
+  const std::string name = std::exchange(copy->name, to);
+  copy->id.clear();
+  copy->revision = 0;
+  m_keeper.run(tr("Copying %1").arg(words(name)),
+               [this, name, copy, library = m_model.library()](
+                   const core::Progress& progress) mutable -> BackgroundWork::Reply
+               {
+                 const auto png = library.thumbnail(name);
+                 library.save(*copy, progress);
+                 if (!png.empty())
+                   library.setThumbnail(copy->name, png);
+                 return [this, to = copy->name] { m_panel->select(to); };
+               });
 }
 
 void LibraryController::remove(const std::string& name)
@@ -203,11 +230,28 @@ void LibraryController::askDescription(const std::string& name, const scene::Des
   DescriptionDialog dialog(words(name), before, &m_window);
   if (dialog.exec() != QDialog::Accepted || dialog.description() == before)
     return;
+  const bool isOtherSide = dialog.description().side != before.side;
+  const auto doubt = std::make_shared<std::string>();
   m_keeper.changeCase(
       tr("Describing %1").arg(words(name)), name, name,
-      [name, after = dialog.description()](library::Library& library)
-      { library.describe(name, after); },
-      [this, name] { m_panel->select(name); });
+      [name, after = dialog.description(), isOtherSide, doubt](library::Library& library)
+      {
+        library.describe(name, after);
+        if (isOtherSide)
+          *doubt = presenters::sideDoubt(library.open(name));
+      },
+      [this, name, doubt]
+      {
+        m_panel->select(name);
+        if (doubt->empty())
+          return;
+        auto* box = new QMessageBox(QMessageBox::Warning, tr("Side"), words(*doubt),
+                                    QMessageBox::Ok, &m_window);
+        box->setObjectName("sideDoubt");
+        box->setAttribute(Qt::WA_DeleteOnClose);
+        box->setTextFormat(Qt::PlainText);
+        box->open();
+      });
 }
 
 void LibraryController::makePicture(const std::string& name)
@@ -243,10 +287,21 @@ void LibraryController::verify()
       [this, library = m_model.library()](const core::Progress& progress) -> BackgroundWork::Reply
       {
         const library::Inspection found = library.verify(progress);
-        return [this, found]
+        return [this, found, newer = library::casesOfNewerVersion(library.folder())]
         {
-          const QString sum =
-              tr("%1 cases and %2 files were read.").arg(found.cases).arg(found.objects);
+          QString sum = tr("%1 cases and %2 files were read.").arg(found.cases).arg(found.objects);
+          if (!newer.empty())
+          {
+            std::vector<std::string> names;
+            for (const library::NewerCase& one : newer)
+              names.push_back(one.name);
+            sum +=
+                ' ' +
+                tr("Written by a newer version of Petrous, and left alone: %1.").arg(listed(names));
+          }
+          if (found.damaged.empty() && !newer.empty())
+            return showReport(&m_window, tr("Verify"), sum + ' ' + tr("All others are sound."), {},
+                              {});
           if (found.damaged.empty())
             return showReport(&m_window, tr("Verify"), sum + ' ' + tr("All are sound."), {}, {});
           showReport(&m_window, tr("Verify"),
@@ -294,11 +349,12 @@ void LibraryController::collect()
         return [this, removed, freed]
         {
           refresh();
-          emit statusMessage(tr("Cleaned up: %1 deleted cases and %2 files are gone, %3 are free "
-                                "again")
-                                 .arg(removed.cases)
-                                 .arg(removed.objects)
-                                 .arg(megabytes(removed.bytes + freed)));
+          emit statusMessage(
+              tr("Cleaned up: %1 and %2 are gone, %3 are free again")
+                  .arg(removed.cases == 1 ? tr("1 deleted case")
+                                          : tr("%1 deleted cases").arg(removed.cases),
+                       removed.objects == 1 ? tr("1 file") : tr("%1 files").arg(removed.objects),
+                       megabytes(removed.bytes + freed)));
         };
       });
 }

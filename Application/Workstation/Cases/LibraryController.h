@@ -42,6 +42,7 @@ private:
   void connectPanel();
   void rename(const std::string& name);
   void copy(const std::string& name);
+  void copyOpen(const std::string& to);
   void remove(const std::string& name);
   void describe(const std::string& name);
   void askDescription(const std::string& name, const scene::Description& before);

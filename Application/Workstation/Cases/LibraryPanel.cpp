@@ -321,8 +321,10 @@ void LibraryPanel::refresh()
 void LibraryPanel::showFound(Found found)
 {
   const std::string before = std::exchange(m_wanted, {});
-  const std::string selected = before.empty() ? current() : before;
   const std::string open = m_model.hasCase() ? m_model.value().name : std::string();
+  // Else what was selected stays, also while a case is closed for a moment.
+  const bool isOpened = !open.empty() && open != std::exchange(m_open, open);
+  const std::string selected = !before.empty() ? before : isOpened ? open : current();
   listTags(found.tags);
   m_cases->setCases(std::move(found.cases), open);
   int row = m_cases->rowOf(selected);

@@ -106,6 +106,7 @@ private:
   QList<QAction*> m_needCase;  ///< that can be opened
   QList<QAction*> m_needEntry; ///< damaged or not
   std::string m_before;        ///< the selected case, while the list changes
+  std::string m_open;          // when the list was shown last
   std::string m_wanted;        ///< to be selected when the list is read; empty: as before
   bool m_stale = true;
   BackgroundWork m_work;

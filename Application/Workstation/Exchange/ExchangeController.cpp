@@ -63,6 +63,19 @@ QString listedText(network::Transfer::Listed listed)
                                 "could not be counted there.");
 }
 
+// How it is found again.
+QString foundText(const std::string& name, const presenters::CasePatient& patient)
+{
+  return (patient.isNameHidden
+              ? ExchangeController::tr(
+                    "There it is the patient %1, without the case's name, which may be a "
+                    "patient's. Receive finds it by the whole name “%2”, and by "
+                    "that ID.")
+              : ExchangeController::tr("There it is the patient %1. Receive finds it by the case "
+                                       "“%2”."))
+      .arg(words(patient.id), words(name));
+}
+
 QString lines(const std::vector<std::string>& all)
 {
   QString text;
@@ -176,6 +189,7 @@ void ExchangeController::offer(const scene::Case& value, const std::vector<netwo
           QString head =
               tr("“%1” is at “%2”: %3.").arg(words(name), place, transferText(done.transfer));
           head += ' ' + listedText(done.transfer.listed);
+          head += ' ' + foundText(name, done.patient);
           showReport(&m_window, tr("Send"), head, lines(done.notes), "petrous-send.txt");
         };
       });
@@ -186,7 +200,10 @@ void ExchangeController::receive()
   const auto all = nodes();
   if (all.empty())
     return;
-  ReceiveDialog dialog(all, &m_window);
+  std::vector<std::string> cases;
+  for (const auto& one : m_model.library().list())
+    cases.push_back(one.name);
+  ReceiveDialog dialog(all, cases, &m_window);
   if (dialog.exec() != QDialog::Accepted)
     return;
   const ReceiveDialog::Choice choice = dialog.choice();

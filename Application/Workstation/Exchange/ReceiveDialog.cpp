@@ -50,10 +50,13 @@ QString countText(int count)
 
 } // namespace
 
-ReceiveDialog::ReceiveDialog(const std::vector<network::Node>& nodes, QWidget* parent)
+ReceiveDialog::ReceiveDialog(const std::vector<network::Node>& nodes,
+                             const std::vector<std::string>& cases, QWidget* parent)
   : QDialog(parent)
   , m_nodes(nodes)
+  , m_cases(cases)
   , m_node(new QComboBox)
+  , m_case(new QLineEdit)
   , m_id(new QLineEdit)
   , m_name(new QLineEdit)
   , m_dated(new QCheckBox(tr("&Between")))
@@ -68,6 +71,9 @@ ReceiveDialog::ReceiveDialog(const std::vector<network::Node>& nodes, QWidget* p
   m_node->setObjectName("receiveNode");
   for (const network::Node& node : nodes)
     m_node->addItem(words(node.name));
+  m_case->setObjectName("receiveCaseName");
+  m_case->setPlaceholderText(tr("of a case that was sent by Petrous"));
+  m_case->setToolTip(tr("A part of the name is enough; * stands for any text"));
   m_id->setObjectName("receiveId");
   m_id->setToolTip(tr("* stands for any text"));
   m_name->setObjectName("receiveName");
@@ -86,7 +92,7 @@ ReceiveDialog::ReceiveDialog(const std::vector<network::Node>& nodes, QWidget* p
     m_modality->addItem(QString(modality) == "OT" ? tr("OT (Petrous scenes)") : modality, modality);
   m_found->setObjectName("receiveFound");
   m_found->setAccessibleName(tr("Patients and series that were found"));
-  m_found->setHeaderLabels({tr("Patient, or series"), tr("ID"), tr("Date"), tr("Description"),
+  m_found->setHeaderLabels({tr("Case, patient, or series"), tr("ID"), tr("Date"), tr("Description"),
                             tr("Modality"), tr("Images")});
   m_found->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
   m_found->header()->setStretchLastSection(false);
@@ -103,6 +109,7 @@ ReceiveDialog::ReceiveDialog(const std::vector<network::Node>& nodes, QWidget* p
   dates->addStretch();
   auto* form = new QFormLayout;
   form->addRow(tr("&Node:"), m_node);
+  form->addRow(tr("C&ase:"), m_case);
   form->addRow(tr("Patient &ID:"), m_id);
   form->addRow(tr("Patient &name:"), m_name);
   form->addRow(tr("Study date:"), dates);
@@ -133,7 +140,19 @@ ReceiveDialog::ReceiveDialog(const std::vector<network::Node>& nodes, QWidget* p
   layout->addWidget(m_outcome);
   layout->addWidget(buttons);
   resize(820, 560);
-  say(tr("Give the patient's ID, name or a date, then search. Open a study to see its series."));
+  // Cases have a patient each, who is nobody.
+  const auto caseAlone = [this]
+  {
+    const bool isCase = !m_case->text().trimmed().isEmpty();
+    m_id->setEnabled(!isCase);
+    m_name->setEnabled(!isCase);
+    m_dated->setEnabled(!isCase);
+    for (QDateEdit* date : {m_from, m_to})
+      date->setEnabled(!isCase && m_dated->isChecked());
+  };
+  connect(m_case, &QLineEdit::textChanged, this, caseAlone);
+  say(tr("Search as it is for all cases of Petrous, or give the name of a case, or the patient's "
+         "ID, name or a date. Open a study to see its series."));
 }
 
 ReceiveDialog::~ReceiveDialog()
@@ -146,9 +165,14 @@ network::Node ReceiveDialog::node() const
   return m_nodes.at(static_cast<std::size_t>(m_node->currentIndex()));
 }
 
-network::StudyFilter ReceiveDialog::filter() const
+presenters::StudySearch ReceiveDialog::wanted() const
 {
-  network::StudyFilter filter;
+  presenters::StudySearch search;
+  search.caseName = bytes(m_case->text().trimmed());
+  network::StudyFilter& filter = search.filter;
+  filter.modality = bytes(m_modality->currentData().toString());
+  if (!search.caseName.empty())
+    return search;
   filter.patientId = bytes(m_id->text().trimmed());
   filter.patientName = bytes(m_name->text().trimmed());
   if (!filter.patientName.empty() && filter.patientName.find('*') == std::string::npos)
@@ -158,8 +182,7 @@ network::StudyFilter ReceiveDialog::filter() const
     filter.from = bytes(m_from->date().toString("yyyyMMdd"));
     filter.to = bytes(m_to->date().toString("yyyyMMdd"));
   }
-  filter.modality = bytes(m_modality->currentData().toString());
-  return filter;
+  return search;
 }
 
 void ReceiveDialog::begin(const QString& text, BackgroundWork::Work work)
@@ -180,33 +203,37 @@ void ReceiveDialog::search()
 {
   if (m_work.busy())
     return m_work.cancel();
-  const network::StudyFilter wanted = filter();
-  if (wanted.patientId.empty() && wanted.patientName.empty() && wanted.from.empty())
-    return say(tr("Give the patient's ID, name or a date: else the node would list all that it "
-                  "has."));
-  if (!wanted.from.empty() && wanted.from > wanted.to)
+  const presenters::StudySearch search = wanted();
+  if (!search.filter.from.empty() && search.filter.from > search.filter.to)
     return say(tr("The first date is after the last one."));
   m_found->clear();
   begin(tr("Asking “%1”…").arg(words(node().name)),
-        [this, node = node(), wanted](const core::Progress& progress) -> BackgroundWork::Reply {
-          return [this, studies = network::findStudies(node, wanted, progress)] { show(studies); };
+        [this, node = node(), search,
+         cases = m_cases](const core::Progress& progress) -> BackgroundWork::Reply
+        {
+          return [this, studies = presenters::searchStudies(node, search, cases, progress)]
+          { show(studies); };
         });
 }
 
-void ReceiveDialog::show(const std::vector<network::Study>& studies)
+void ReceiveDialog::show(const std::vector<presenters::FoundStudy>& studies)
 {
-  std::vector<network::Study> latest = studies;
+  std::vector<presenters::FoundStudy> latest = studies;
   std::stable_sort(latest.begin(), latest.end(),
-                   [](const network::Study& a, const network::Study& b)
-                   { return a.date > b.date; });
+                   [](const presenters::FoundStudy& a, const presenters::FoundStudy& b) {
+                     return std::make_pair(a.study.date, b.caseName) >
+                            std::make_pair(b.study.date, a.caseName);
+                   });
   latest.resize(std::min(latest.size(), kMaxShown));
   QList<QTreeWidgetItem*> items;
-  for (const network::Study& study : latest)
+  for (const auto& [study, isCase, caseName] : latest)
   {
+    const QString who = !caseName.empty() ? tr("Case “%1”").arg(words(caseName))
+                        : isCase          ? tr("Case, name not told")
+                                          : nameText(study.patientName);
     auto* item = new QTreeWidgetItem(
-        QStringList{nameText(study.patientName), words(study.patientId), dateText(study.date),
-                    words(study.description), words(study.modalities).replace('\\', ", "),
-                    countText(study.instances)});
+        QStringList{who, words(study.patientId), dateText(study.date), words(study.description),
+                    words(study.modalities).replace('\\', ", "), countText(study.instances)});
     item->setData(0, kUid, words(study.uid));
     item->setChildIndicatorPolicy(QTreeWidgetItem::ShowIndicator);
     item->setFlags(item->flags() & ~Qt::ItemIsUserCheckable);

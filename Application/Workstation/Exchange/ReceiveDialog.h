@@ -6,6 +6,7 @@
 
 #include "BackgroundWork.h"
 #include "petrous/Network/NodeList.h"
+#include "petrous/Presenters/CaseTransfer.h"
 
 class QComboBox;
 class QDateEdit;
@@ -19,8 +20,8 @@ class QTreeWidgetItem;
 namespace petrous::workstation
 {
 
-/// Looks for a patient at a node and lets the user choose a study and its series. What it shows may
-/// identify patients, and is not kept.
+/// Looks for a case or a patient at a node and lets the user choose a study and its series. What it
+/// shows may identify patients, and is not kept.
 class ReceiveDialog : public QDialog
 {
   Q_OBJECT
@@ -34,23 +35,27 @@ public:
     bool scene = false;              ///< the case that was sent with its scene
   };
 
-  explicit ReceiveDialog(const std::vector<network::Node>& nodes, QWidget* parent = nullptr);
+  /// `cases`: the names of those of the library.
+  ReceiveDialog(const std::vector<network::Node>& nodes, const std::vector<std::string>& cases,
+                QWidget* parent = nullptr);
   ~ReceiveDialog() override;
 
   Choice choice() const;
 
 private:
-  network::StudyFilter filter() const;
+  presenters::StudySearch wanted() const;
   network::Node node() const;
   void search();
   void listSeries(QTreeWidgetItem* study);
-  void show(const std::vector<network::Study>& studies);
+  void show(const std::vector<presenters::FoundStudy>& studies);
   void update();
   void begin(const QString& text, BackgroundWork::Work work);
   void say(const QString& text);
 
   std::vector<network::Node> m_nodes;
+  std::vector<std::string> m_cases;
   QComboBox* m_node;
+  QLineEdit* m_case;
   QLineEdit* m_id;
   QLineEdit* m_name;
   QCheckBox* m_dated;

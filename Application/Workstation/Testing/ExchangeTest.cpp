@@ -227,6 +227,7 @@ TEST_F(Exchange, ACaseGoesToANodeAndComesBack)
   for (const network::Study& study : network::findStudies(orthanc.node(), {}))
     for (const network::Series& series : network::findSeries(orthanc.node(), study.uid))
       objects += series.instances;
+  EXPECT_TRUE(reportHead().contains("by the case “ball”")) << reportHead().toStdString();
   EXPECT_EQ(sums.captured(1).toInt(), objects) << reportHead().toStdString();
   report()->close();
   library().rename("ball", "original");
@@ -239,10 +240,7 @@ TEST_F(Exchange, ACaseGoesToANodeAndComesBack)
       {
         if (dialog.objectName() != "receive")
           return false;
-        button(dialog, "receiveSearch").click();
-        EXPECT_TRUE(dialog.findChild<QLabel*>("receiveOutcome")->text().contains("ID"))
-            << "not everything that a PACS has";
-        type(dialog, "receiveId", "ANONYMOUS");
+        type(dialog, "receiveCaseName", "BAL");
         button(dialog, "receiveSearch").click();
         auto* found = dialog.findChild<QTreeWidget*>("receiveFound");
         EXPECT_TRUE(waitFor(
@@ -250,6 +248,8 @@ TEST_F(Exchange, ACaseGoesToANodeAndComesBack)
               return found->topLevelItemCount() == 1 && found->topLevelItem(0)->childCount() == 3;
             }));
         keepPicture(dialog, "receive");
+        EXPECT_EQ(found->topLevelItem(0)->text(0), "Case “ball”");
+        EXPECT_TRUE(found->topLevelItem(0)->text(1).startsWith("PETROUS-"));
         EXPECT_TRUE(button(dialog, "primary").isEnabled()) << "the scene is proposed";
         chosen = true;
         button(dialog, "primary").click();
@@ -367,7 +367,7 @@ TEST_F(Exchange, ReceivingIsCancelledAndGoesOn)
         {
           if (dialog.objectName() != "receive")
             return false;
-          type(dialog, "receiveId", "ANONYMOUS");
+          dialog.findChild<QCheckBox*>("receiveDated")->setChecked(true);
           button(dialog, "receiveSearch").click();
           auto* found = dialog.findChild<QTreeWidget*>("receiveFound");
           EXPECT_TRUE(waitFor(
@@ -434,7 +434,6 @@ TEST_F(Exchange, AReceivedCaseOfATakenNameGetsAnotherOne)
           return false;
         auto* found = dialog.findChild<QTreeWidget*>("receiveFound");
         auto* which = dialog.findChild<QComboBox*>("receiveNode");
-        type(dialog, "receiveId", "ANONYMOUS");
         const auto search = [&]
         {
           button(dialog, "receiveSearch").click();

@@ -521,20 +521,31 @@ TEST_F(Import, NamesThatAreTakenAreAskedAboutAtOnce)
     all.sort();
     return all;
   };
-  const auto add = [&](const char* file, bool skips)
+  const auto add = [&](const char* file, bool skips, const QString& newName = {})
   {
     QString asked;
     onDialog(
-        [&asked, skips](QDialog& dialog)
+        [&asked, skips, &newName](QDialog& dialog)
         {
           if (auto* into = buttonOf(dialog, "Add to"))
           {
             into->click();
             return false;
           }
-          if (dialog.objectName() != "askSkip")
+          if (dialog.objectName() != "askNewNames")
             return false;
           asked = textOf(dialog);
+          for (const auto* name : dialog.findChildren<QLineEdit*>("partName"))
+            asked += " " + name->text();
+          if (!newName.isEmpty())
+          {
+            auto* name = dialog.findChild<QLineEdit*>("partName");
+            name->setText("Nerve"); // reads as one that is there
+            EXPECT_FALSE(buttonOf(dialog, "Add under")->isEnabled());
+            name->setText(newName);
+            buttonOf(dialog, "Add under")->click();
+            return true;
+          }
           skips ? buttonOf(dialog, "Add the others")->click() : dialog.reject();
           return true;
         });
@@ -549,12 +560,21 @@ TEST_F(Import, NamesThatAreTakenAreAskedAboutAtOnce)
   ASSERT_TRUE(waitFor([&] { return names().size() == 3; })) << names().join(", ").toStdString();
   EXPECT_EQ(names(), QStringList({"malleus", "nerve", "stapes"}));
   const QString both = add("some.seg.nrrd", true);
-  EXPECT_TRUE(both.contains("nerve, stapes")) << both.toStdString();
+  EXPECT_TRUE(both.contains("nerve 2") && both.contains("stapes 2")) << both.toStdString();
   ASSERT_TRUE(waitFor([&] { return names().size() == 4; })) << names().join(", ").toStdString();
   EXPECT_TRUE(names().contains("vein"));
   EXPECT_EQ(window().model().value().labels.front().structures.front().voxels,
             ballCase("x").labels.front().structures.front().voxels)
       << "the case's own stays";
+
+  // One structure, of a name that its file gives it: there are no others.
+  auto alone = volume::makeZeroVolume<std::uint16_t>(grid);
+  alone->at(4, 4, 4) = 1;
+  imaging::writeLabelFile(folder() / "one.seg.nrrd",
+                          volume::makeLabelMap(alone, {{"nerve", 1, {}, 0}}));
+  add("one.seg.nrrd", false, "nerve, second reader");
+  ASSERT_TRUE(waitFor([&] { return names().size() == 5; })) << names().join(", ").toStdString();
+  EXPECT_TRUE(names().contains("nerve, second reader"));
 }
 
 TEST_F(Import, WithoutACaseAnMrAndLabelsSayWhatIsNeeded)

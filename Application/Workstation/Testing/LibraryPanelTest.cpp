@@ -180,10 +180,13 @@ TEST_F(LibraryWindow, ACopyIsListedAndTheOriginalStaysOpen)
   showPanel();
   ASSERT_TRUE(select("ball"));
   answerName("copy");
+  const auto shown = window().model().shownAs();
   act("Copy…");
+  ASSERT_TRUE(waitFor([this] { return panel().current() == "copy"; }));
   ASSERT_TRUE(isOpen("ball"));
-  EXPECT_TRUE(library().contains("copy"));
-  EXPECT_EQ(panel().current(), "copy");
+  EXPECT_EQ(window().model().shownAs(), shown) << "opened again: nothing could be undone";
+  EXPECT_EQ(library().open("copy").ct.object, library().open("ball").ct.object);
+  EXPECT_NE(library().open("copy").id, library().open("ball").id);
 
   // Another order keeps the selection.
   list().sortByColumn(CasesModel::Name, Qt::DescendingOrder);
@@ -381,8 +384,13 @@ TEST_F(LibraryWindow, ADamagedCaseIsListed)
   saveBall("ball");
   saveBall("broken");
   std::ofstream(folder() / "library" / "cases" / "broken.json") << "{";
+  std::ofstream(folder() / "library" / "cases" / "newer.json") << "{\"petrous_case\": 1000}";
   openWindow("ball");
   showPanel();
+  ASSERT_TRUE(select("newer"));
+  EXPECT_EQ(
+      list().model()->index(list().currentIndex().row(), CasesModel::Structures).data().toString(),
+      "newer version");
   ASSERT_TRUE(select("broken"));
   EXPECT_EQ(panel().current(), "broken");
   EXPECT_EQ(panel().chosen(), "");
@@ -409,8 +417,12 @@ TEST_F(LibraryWindow, ACaseIsDescribedAndFoundByThat)
         auto* accept = dialog.findChild<QPushButton*>("primary");
         dialog.findChild<QLineEdit*>("plannedDate")->setText("2026-02-30");
         EXPECT_FALSE(accept->isEnabled()) << "there is no such day";
-        dialog.findChild<QLineEdit*>("plannedDate")->setText("2026-02-28");
-        dialog.findChild<QLineEdit*>("tags")->setText("teaching, , cholesteatoma ");
+        dialog.findChild<QLineEdit*>("tags")->setText(QString(300, 't'));
+        const auto* problem = dialog.findChild<QLabel*>("problem");
+        EXPECT_TRUE(problem->text().contains("2026-02-30") && problem->text().contains("tag"))
+            << problem->text().toStdString();
+        dialog.findChild<QLineEdit*>("plannedDate")->setText("28.2.2026");
+        dialog.findChild<QLineEdit*>("tags")->setText("teaching, , cholesteatoma , Teaching");
         dialog.findChild<QPlainTextEdit*>("note")->setPlainText("high jugular bulb");
         auto* side = dialog.findChild<QComboBox*>("side");
         side->setCurrentIndex(side->findText("left"));

@@ -11,6 +11,7 @@
 #include <QLineEdit>
 #include <QMenu>
 #include <QPushButton>
+#include <QStatusBar>
 
 #include "SliceColumn.h"
 #include "SliceController.h"
@@ -332,6 +333,10 @@ TEST_F(Views, SurgicalPositionIsOneKeyAndRollsByKeys)
   key(Qt::Key_8);
   EXPECT_EQ(edges().top, "A");
   EXPECT_EQ(edges().right, "S");
+  window().findChild<QPushButton*>("sideRight")->click();
+  key(Qt::Key_8);
+  EXPECT_TRUE(window().statusBar()->currentMessage().contains("left ear"))
+      << window().statusBar()->currentMessage().toStdString();
   for (int n = 0; n < 18; ++n)
     key(Qt::Key_Period);
   EXPECT_EQ(edges().right, "A");

@@ -105,11 +105,6 @@ void CaseStamps::setSide(scene::Side side)
     return;
   m_model.setSide(side);
   stateChanged(); // also where it was refused
-  if (const QString doubt = words(presenters::sideDoubt(m_model.value())); !doubt.isEmpty())
-  {
-    m_question.setText(doubt);
-    m_question.show();
-  }
   emit answered();
 }
 
@@ -123,7 +118,7 @@ void CaseStamps::putOff()
 void CaseStamps::caseOpened()
 {
   const scene::Case& value = m_model.value();
-  m_asked = scene::Side::Unknown;
+  m_asked = value.description.side;
   const bool isPutOff = m_putOff.count(value.id.empty() ? value.name : value.id) > 0;
   if (value.description.side == scene::Side::Unknown && !isPutOff)
     ask();
@@ -136,6 +131,13 @@ void CaseStamps::ask()
   m_question.setText(tr("Which side of the patient is operated on? It stands over every view and "
                         "is kept with the case (Case > Side)."));
   m_question.show();
+}
+
+void CaseStamps::doubt()
+{
+  const QString why = words(presenters::sideDoubt(m_model.value()));
+  m_question.setText(why);
+  m_question.setVisible(!why.isEmpty());
 }
 
 void CaseStamps::caseClosed()
@@ -152,7 +154,7 @@ void CaseStamps::stateChanged()
   // Undo may take an answer back, or give it again.
   if (const auto side = open ? m_model.value().description.side : scene::Side::Unknown;
       open && side != std::exchange(m_asked, side))
-    side == scene::Side::Unknown ? caseOpened() : m_question.hide();
+    side == scene::Side::Unknown ? caseOpened() : doubt();
   m_view.setStamp(open ? stampText(presenters::stampOf(m_model.value())) : QString());
   placeInSlices();
 }

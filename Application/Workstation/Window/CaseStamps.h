@@ -51,6 +51,7 @@ private:
   void setSide(scene::Side side);
   void putOff();
   void ask();
+  void doubt(); ///< asks whether the side is right where the image speaks against it
   void placeInSlices();
 
   presenters::WorkstationModel& m_model;

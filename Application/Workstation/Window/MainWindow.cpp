@@ -74,6 +74,7 @@
 #include "petrous/Dissection/Catalogues.h"
 #include "petrous/Interaction/OrbitCamera.h"
 #include "petrous/Presenters/CasePicture.h"
+#include "petrous/Presenters/CaseStamp.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/ProvenanceText.h"
 #include "petrous/Presenters/Recordings.h"
@@ -1047,8 +1048,17 @@ void MainWindow::notice(const QString& text)
 
 void MainWindow::showView(rendering::StandardView view)
 {
-  if (m_model.hasCase())
-    m_view->setCamera(presenters::standardCamera(m_model.value(), view));
+  if (!m_model.hasCase())
+    return;
+  m_view->setCamera(presenters::standardCamera(m_model.value(), view));
+  if (view != rendering::StandardView::SurgicalLeft &&
+      view != rendering::StandardView::SurgicalRight)
+    return;
+  const bool isLeft = view == rendering::StandardView::SurgicalLeft;
+  const std::string doubt =
+      presenters::earDoubt(m_model.value(), isLeft ? scene::Side::Left : scene::Side::Right);
+  if (!doubt.empty())
+    statusBar()->showMessage(words(doubt));
 }
 
 // The plane through the crosshair, facing the viewer; a box that is shown alone stays.

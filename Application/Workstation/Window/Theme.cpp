@@ -128,7 +128,7 @@ QPushButton#primary, QPushButton#segmentCreate { background: @checked; border: 1
                       border-radius: 5px; color: #ffffff; padding: 9px 22px; font-weight: 600; }
 QPushButton#primary:hover, QPushButton#segmentCreate:hover { background: @primaryHover; }
 QPushButton#primary:focus, QPushButton#segmentCreate:focus { border-color: @focus; }
-QPushButton#segmentCreate:disabled { background: @primaryOff; border-color: @rule; color: @off; }
+QPushButton#primary:disabled, QPushButton#segmentCreate:disabled { background: @primaryOff; border-color: @rule; color: @off; }
 QLabel#guessed { color: #ff8c2b; background: rgba(16, 19, 23, 150); border-radius: 4px;
                  padding: 1px 6px; }
 QLabel#direction { color: #c9d2dc; font-size: %1px; font-weight: 700;
@@ -140,6 +140,7 @@ QFrame[banner="warning"] { background: @warning; border-bottom: 1px solid @drill
 QFrame[banner] QLabel { color: @bannerText; }
 QFrame[banner] QPushButton { padding: 4px 12px; }
 QLabel#dim { color: @dim; }
+QLabel#problem { color: @drill; }
 QLabel#recording { color: @recording; font-weight: 600; }
 QLabel#big { font-size: %2px; color: @strong; }
 )";

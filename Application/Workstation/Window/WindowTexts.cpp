@@ -82,8 +82,8 @@ QString windowText(const QString& text)
       {", or say --(ct|mr|labels)-frame ras \\(NIfTI's own\\) or lps \\(DICOM, ITK\\) if you know "
        "it",
        ""},
-      {"; give its structures other names with NAME=FILE, which puts NAME before each(, or leave "
-       ".* with --skip-taken)?",
+      {"; give its structures other names with NAME=FILE, which puts NAME before each, or numbers "
+       "with --rename-taken(, or leave .* with --skip-taken)?",
        "; rename those of the case first (F2 in the list)"},
       {", and say --other-patient if it is to be added all the same", ""},
       {"labels on the grid of the whole image lie on it only as FILE@.*\\.$",

@@ -13,6 +13,7 @@
 
 #include "SystemCalls.h"
 #include "petrous/Core/InputFile.h"
+#include "petrous/Core/StandardStreams.h"
 
 namespace
 {
@@ -292,6 +293,27 @@ TEST_F(OutputFolder, KilledAtEachStepTheNewFolderIsWholeOrNotThere)
     EXPECT_TRUE(!fs::exists(m_folder / "new") || isWhole(m_folder / "new")) << step;
     EXPECT_TRUE(!ended || isWhole(m_folder / "new"));
   }
+}
+
+// Else a file would be stdout or stderr, and what is printed would be in it.
+TEST_F(OutputFile, NoFileBecomesAStandardStreamThatWasClosed)
+{
+  const std::string file = m_file.string();
+  const pid_t child = ::fork();
+  if (child == 0)
+  {
+    for (int stream = 0; stream < 3; ++stream)
+      ::close(stream);
+    core::holdStandardStreams();
+    const bool isHeld = ::open(file.c_str(), O_WRONLY | O_CREAT, 0600) > STDERR_FILENO;
+    // stdout fails, as a closed one does; stderr swallows
+    ::_exit(isHeld && ::write(STDOUT_FILENO, "x", 1) < 0 && ::write(STDERR_FILENO, "x", 1) == 1
+                ? 0
+                : 1);
+  }
+  int status = 1;
+  ::waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "petrous/Imaging/CasePatient.h"
 #include "petrous/Imaging/PatientKey.h"
 
 namespace petrous::imaging
@@ -18,6 +19,21 @@ TEST(PatientKey, SpellingsOfOneIdentityAgree)
   EXPECT_TRUE(patientKey("", "X", " ^^ ", "").empty());
   EXPECT_TRUE(patientKey("ANONYMOUS", "", "Anonymous", "").empty());
   EXPECT_FALSE(key.empty());
+}
+
+// Written for the patient of a case: two cases may be of one patient.
+TEST(PatientKey, ThePatientOfACaseIsNobody)
+{
+  const std::string id = casePatientId(0x0123456789abcdefULL);
+  EXPECT_EQ(id, "PETROUS-0123456789ABCDEF");
+  EXPECT_TRUE(isCasePatientId(id));
+  EXPECT_TRUE(patientKey(id, "", "Petrous^left ear", "").empty());
+  EXPECT_TRUE(patientKey(" petrous-0123456789abcdef", "", "", "").empty());
+  for (const char* other : {"PETROUS-0123", "PETROUS-0123456789ABCDEG", "0123456789ABCDEF"})
+  {
+    EXPECT_FALSE(isCasePatientId(other));
+    EXPECT_FALSE(patientKey(other, "", "", "").empty()) << other;
+  }
 }
 
 TEST(PatientKey, AnyThatDiffersMakesAnotherPatient)

@@ -4,6 +4,7 @@
 
 #include "TestCase.h"
 #include "petrous/Library/Archive.h"
+#include "petrous/Library/NewerVersion.h"
 #include "petrous/Scene/Manifest.h"
 #include "petrous/Scene/Placement.h"
 
@@ -192,6 +193,20 @@ TEST_F(Formats, ACaseOfANewerFormatIsRefusedInWordsAndStays)
   }
   // It counts in what is kept: its objects are needed.
   EXPECT_THROW(m_library.collectGarbage(), core::Error);
+  // Not damage, and no other case's trouble.
+  bring(7);
+  EXPECT_TRUE(m_library.verify().damaged.empty());
+  const auto found = casesOfNewerVersion(m_library.folder());
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].name, "format-8");
+  EXPECT_FALSE(found[0].isDeleted);
+  EXPECT_NE(found[0].text.find("newer version of Petrous"), std::string::npos) << found[0].text;
+  EXPECT_TRUE(isOfNewerVersion(m_library.folder(), "format-8"));
+  EXPECT_FALSE(isOfNewerVersion(m_library.folder(), "format-7"));
+  EXPECT_FALSE(isOfNewerVersion(m_library.folder(), "none"));
+  std::ofstream(m_folder.path() / "cases" / "broken.json") << "{";
+  EXPECT_FALSE(isOfNewerVersion(m_library.folder(), "broken"));
+  EXPECT_EQ(m_library.verify().damaged.size(), 1U);
   EXPECT_EQ(manifestOf(formatName(newer)), before);
 }
 

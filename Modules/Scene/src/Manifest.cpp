@@ -877,7 +877,9 @@ auto readManifest(std::string_view text, const std::string& source,
     if (format > kManifestFormat)
       throw ManifestError(Reason::NewerFormat,
                           source + ": written by format " + std::to_string(format) +
-                              "; this program reads up to " + std::to_string(kManifestFormat));
+                              "; this program reads up to " + std::to_string(kManifestFormat) +
+                              ". A newer version of Petrous wrote it; open it with that one, here "
+                              "it is left alone");
     return read(j);
   }
   catch (const json::exception&)

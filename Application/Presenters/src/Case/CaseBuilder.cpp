@@ -371,6 +371,13 @@ void placeSurface(scene::Case& value, scene::Modality wanted, const std::string&
       ", by the image's histogram; 'petrous appearance --iso' moves the surface.");
 }
 
+bool isAmong(const std::vector<scene::StructurePart>& structures, const std::string& name)
+{
+  return std::any_of(structures.begin(), structures.end(),
+                     [read = scene::asRead(name)](const scene::StructurePart& one)
+                     { return scene::asRead(one.name) == read; });
+}
+
 void checkName(const fs::path& path, const std::string& name)
 {
   try
@@ -383,16 +390,35 @@ void checkName(const fs::path& path, const std::string& name)
   }
 }
 
-// A name that is valid and new to the case, over all kinds of parts.
-void checkNewName(const scene::Case& value, const fs::path& path, const std::string& name)
+// A name that is valid and new to the case, over all kinds of parts. `wanted`: which it would have
+// without PartSource::newNames.
+void checkNewName(const scene::Case& value, const fs::path& path, const std::string& name,
+                  const std::string& wanted)
 {
   checkName(path, name);
   if (const std::string taken = scene::partReadAs(value, name); !taken.empty())
-    throw core::Error(core::Fault::Refused,
-                      path.string() + ": " + scene::kindOfPart(value, taken) + " '" + taken +
-                          "' is in the case already; give it another name " +
-                          (taken == name ? "" : "than '" + name + "', which reads the same, ") +
-                          "with NAME=FILE");
+    throw NamesTaken(path.string() + ": " + scene::kindOfPart(value, taken) + " '" + taken +
+                         "' is in the case already; give it another name " +
+                         (taken == name ? "" : "than '" + name + "', which reads the same, ") +
+                         "with NAME=FILE",
+                     wanted);
+}
+
+// What is called `name` where the user did not say otherwise.
+std::string askedName(const scene::Case& value, const PartSource& source, const std::string& name,
+                      const std::vector<scene::StructurePart>& others,
+                      std::vector<std::string>& notes)
+{
+  if (const auto asked = source.newNames.find(name); asked != source.newNames.end())
+    return asked->second;
+  if (!source.numbersTaken || scene::partReadAs(value, name).empty())
+    return name;
+  const std::string numbered =
+      scene::freeName(name, [&](const std::string& one)
+                      { return !scene::partReadAs(value, one).empty() || isAmong(others, one); });
+  notes.push_back("'" + name + "' is called '" + numbered +
+                  "' here, as the case has a part of this name already");
+  return numbered;
 }
 
 // Structures on a grid of neither the CT nor an MR lie in the CT's space until an MR of their grid
@@ -415,11 +441,13 @@ void addMr(scene::Case& value, const PartSource& source,
            const std::function<std::string(const std::string&)>& salted,
            const core::Progress& progress)
 {
-  const std::string name =
+  const std::string wanted =
       !source.name.empty() ? source.name
                            : scene::freeName("mr", [&value](const std::string& taken)
                                              { return !scene::partReadAs(value, taken).empty(); });
-  checkNewName(value, source.path, name);
+  std::vector<std::string> notes;
+  const std::string name = askedName(value, source, wanted, {}, notes);
+  checkNewName(value, source.path, name, wanted);
   requireSide(source.path, source.assumeRas, "--mr-frame");
   ReadImage read = readImage(source.path, source.series, source.repair, source.roi, false,
                              source.assumeRas, progress);
@@ -427,6 +455,7 @@ void addMr(scene::Case& value, const PartSource& source,
   if (!read.otherQuantity.empty())
     part.notes.push_back(read.otherQuantity);
   part.name = name;
+  part.notes.insert(part.notes.end(), notes.begin(), notes.end());
   if (source.roi)
     part.notes.push_back("Only a region of it was read, as asked; labels on the grid of the whole "
                          "image lie on it only as FILE@" +
@@ -867,10 +896,14 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
                                  });
             },
             notes);
+      const std::string wanted = structure.name;
+      structure.name = askedName(value, source, wanted, part.structures, notes);
       structure.index = segment.index;
       structure.voxels = segment.voxels;
       structure.volume = map.volume(segment);
       structure.look = presets.lookFor(structure.name);
+      if (isUnknown(structure.look))
+        structure.look = presets.lookFor(wanted);
       if (const auto codes = loaded.codes.find(segment.name); codes != loaded.codes.end())
         structure.codes = codes->second;
       if (isUnknown(structure.look))
@@ -884,14 +917,16 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
         structure.look.color =
             colored ? segment.color : appearance::distinctColor(colorsOf(value, part.structures));
       // Of several all that are taken are told at once.
-      if (structures > 1 && !scene::partReadAs(value, structure.name).empty())
+      if (structures > 1 &&
+          (!scene::partReadAs(value, structure.name).empty() ||
+           (structure.name != wanted && isAmong(part.structures, structure.name))))
       {
-        taken.push_back(structure.name);
+        taken.push_back(wanted);
         reports.push_back(
-            {structure.name, StructureReport::Status::Skipped, structure.voxels, structure.volume});
+            {wanted, StructureReport::Status::Skipped, structure.voxels, structure.volume});
         continue;
       }
-      checkNewName(value, source.path, structure.name);
+      checkNewName(value, source.path, structure.name, wanted);
       StructureReport one{structure.name, StructureReport::Status::Read, structure.voxels,
                           structure.volume};
       if (const auto found = loaded.fileVolumes.find(segment.name);
@@ -965,7 +1000,9 @@ void addMesh(scene::Case& value, const PartSource& source, const core::Progress&
                                 { return !scene::partReadAs(value, name).empty(); });
     notes.push_back("named so as another part has the name of its file");
   }
-  checkNewName(value, source.path, part.name);
+  const std::string wanted = part.name;
+  part.name = askedName(value, source, wanted, {}, notes);
+  checkNewName(value, source.path, part.name, wanted);
   if (!source.drawnOn.empty())
     part.drawnOn = drawnOnNamed(value, source);
   auto loaded = imaging::loadMesh(source.path, source.isRas, source.unit, progress.part(0.0, 0.9));
@@ -1015,7 +1052,8 @@ std::string takenText(const fs::path& file, const std::vector<std::string>& name
   const bool isOne = names.size() == 1;
   text += isOne ? " is the name of a part that is in the case already; "
                 : " are names of parts that are in the case already; ";
-  text += "give its structures other names with NAME=FILE, which puts NAME before each";
+  text += "give its structures other names with NAME=FILE, which puts NAME before each, or numbers "
+          "with --rename-taken";
   if (others > 0)
     text += ", or leave " + std::string(isOne ? "this one" : "these") + " out and add the other " +
             (others == 1 ? std::string("one") : std::to_string(others)) + " with --skip-taken";
@@ -1028,6 +1066,13 @@ NamesTaken::NamesTaken(const fs::path& file, std::vector<std::string> taken, std
   : core::Error(core::Fault::Refused, takenText(file, taken, left))
   , names(std::move(taken))
   , others(left)
+{
+}
+
+NamesTaken::NamesTaken(const std::string& message, const std::string& name)
+  : core::Error(core::Fault::Refused, message)
+  , names{name}
+  , others(0)
 {
 }
 
@@ -1300,8 +1345,8 @@ std::vector<PartFailure> addSoundParts(scene::Case& value, const PartSources& pa
       catch (const NamesTaken& taken)
       {
         failures.push_back({source, taken.what()});
-        if (taken.others > 0)
-          failures.back().taken = taken.names;
+        failures.back().taken = taken.names;
+        failures.back().others = taken.others;
       }
       catch (const core::Error& error)
       {

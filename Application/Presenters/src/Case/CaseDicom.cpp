@@ -9,9 +9,12 @@
 #include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Core/Error.h"
 #include "petrous/Core/NumberText.h"
+#include "petrous/Imaging/CasePatient.h"
 #include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Imaging/FileFormats.h"
+#include "petrous/Library/ObjectStore.h"
 #include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Presenters/IdentityText.h"
 #include "petrous/Presenters/ProvenanceText.h"
 
 namespace petrous::presenters
@@ -68,6 +71,8 @@ void describe(imaging::SegmentationDescription::Segment& segment, const volume::
       segment.algorithmName = program;
 }
 
+constexpr std::size_t kStudyIdLength = 16; // of a short string (SH)
+
 constexpr double kLatticeTolerance = 0.01; // mm
 constexpr std::size_t kLargestGrowth = 8;  // of the largest grid
 
@@ -118,6 +123,20 @@ core::IndexBox boxOf(const LatticeMap& map, const core::Index3& dims)
     box.upper[a] = std::max(first[axis], last[axis]) + 1;
   }
   return box;
+}
+
+// As a component of a person's name (PN), which has 64 characters with the family name.
+std::string givenName(std::string text)
+{
+  constexpr std::size_t kMost = 64 - 8; // characters
+  std::replace(text.begin(), text.end(), '=', ' ');
+  std::replace(text.begin(), text.end(), '^', ' ');
+  const auto starts = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
+  std::size_t characters = 0;
+  for (std::size_t n = 0; n < text.size(); ++n)
+    if (starts(text[n]) && ++characters > kMost)
+      return text.substr(0, n);
+  return text;
 }
 
 } // namespace
@@ -186,16 +205,50 @@ std::optional<std::size_t> padToOneGrid(std::vector<PlacedLabels>& placed,
   return std::nullopt;
 }
 
+std::string studyIdOf(const std::string& caseName)
+{
+  const std::string text = "petrous case " + caseName;
+  return library::sha256Of(reinterpret_cast<const std::uint8_t*>(text.data()), text.size())
+      .substr(0, kStudyIdLength);
+}
+
+bool isStudyId(const std::string& text)
+{
+  return text.size() == kStudyIdLength &&
+         text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
 CaseIdentifiers::CaseIdentifiers(const scene::Case& value)
   : m_value(value)
 {
-  const std::string& id = value.id.empty() ? value.name : value.id;
-  m_case.add(id.data(), id.size());
+  m_case.add(value.id.data(), value.id.size());
+  m_case.add(value.name.data(), value.name.size());
 }
 
 std::string CaseIdentifiers::study() const
 {
   return imaging::deterministicUid(m_case.value(), "study");
+}
+
+std::string CaseIdentifiers::formerStudy() const
+{
+  core::Fingerprint all;
+  const std::string& id = m_value.id.empty() ? m_value.name : m_value.id;
+  all.add(id.data(), id.size());
+  return imaging::deterministicUid(all.value(), "study");
+}
+
+CasePatient CaseIdentifiers::patient(const library::Library& library) const
+{
+  const std::string what = "patient";
+  core::Fingerprint all = m_case;
+  all.add(what.data(), what.size());
+  CasePatient patient;
+  patient.id = imaging::casePatientId(all.value());
+  patient.isNameHidden = IdentityText(m_value, library).mayIdentify(m_value.name);
+  patient.name = std::string(imaging::kCaseFamilyName) + "^" +
+                 (patient.isNameHidden ? patient.id : givenName(m_value.name));
+  return patient;
 }
 
 std::string CaseIdentifiers::frameOfReference(const std::string& drawnOn) const
@@ -213,6 +266,14 @@ std::string CaseIdentifiers::series(const std::string& what,
                          [&all](const auto& voxels)
                          { all.add(voxels.data(), voxels.size() * sizeof *voxels.data()); });
                    });
+}
+
+CaseDicomOptions dicomOptionsOf(const scene::Case& value, const library::Library& library)
+{
+  CaseDicomOptions options;
+  options.patient = CaseIdentifiers(value).patient(library);
+  options.studyId = studyIdOf(value.name);
+  return options;
 }
 
 std::optional<double> writeCaseSeries(const std::filesystem::path& folder, const scene::Case& value,
@@ -253,8 +314,8 @@ std::optional<double> writeCaseSeries(const std::filesystem::path& folder, const
                        : onCt              ? "MR, resampled on the CT"
                                            : "MR";
   series.seriesNumber = what == "ct" ? 1 : what == "mr" ? 2 : 3;
-  series.patientId = "ANONYMOUS";
-  series.patientName = "Anonymous";
+  series.patientId = options.patient.id;
+  series.patientName = options.patient.name;
   series.studyUid = identifiers.study();
   series.studyId = options.studyId;
   series.seriesUid = identifiers.series(what, image);
@@ -342,6 +403,8 @@ std::size_t writeCaseSegmentation(const std::filesystem::path& path, const scene
             : imaging::SeriesDescription::Modality::Mr,
         sourceSeries, source->geometry.dims()[2], core::sameGrid(source->geometry, grid)};
   segmentation.description = "Segmentation";
+  segmentation.patientId = options.patient.id;
+  segmentation.patientName = options.patient.name;
   segmentation.studyUid = identifiers.study();
   segmentation.studyId = options.studyId;
   segmentation.seriesNumber = options.segmentationNumber;

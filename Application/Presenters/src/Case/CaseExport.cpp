@@ -378,13 +378,14 @@ std::shared_ptr<const volume::IntensityVolume> shared(volume::Volume<T> voxels,
 }
 
 // A DICOM series, whole or not at all.
-void writeSeries(const Warn& warn, const ExportOptions& options, const scene::Case& value,
-                 const scene::ImagePart& part, const volume::IntensityVolume& image,
-                 const std::string& drawnOn, const core::Progress& progress)
+void writeSeries(const Warn& warn, const library::Library& library, const ExportOptions& options,
+                 const scene::Case& value, const scene::ImagePart& part,
+                 const volume::IntensityVolume& image, const std::string& drawnOn,
+                 const core::Progress& progress)
 {
   core::OutputFolder folder(options.out);
   if (const auto error = writeCaseSeries(folder.path(), value, options.what, part, image, drawnOn,
-                                         options.onCt, {}, progress);
+                                         options.onCt, dicomOptionsOf(value, library), progress);
       error && *error > 0.0)
     warn(roundingNote("the image", *error));
   progress.check("writing DICOM slices");
@@ -498,7 +499,7 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
     warnOfGuesses(part);
     if (isSeries(options))
     {
-      writeSeries(warn, options, value, part, image, drawnOn, progress.part(0.5, 1.0));
+      writeSeries(warn, library, options, value, part, image, drawnOn, progress.part(0.5, 1.0));
       summary.instances = static_cast<std::size_t>(image.geometry().dims()[2]);
       summary.words = ", " + std::to_string(image.geometry().dims()[2]) + " DICOM files";
     }
@@ -565,7 +566,8 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
           drawnOn.empty() ? "ct" : "mr",
           *checked(drawnOn.empty() ? value.ct : chooseMr(value, drawnOn)));
       summary.segments =
-          writeCaseSegmentation(options.out, value, placed, series, {}, progress.part(0.5, 1.0));
+          writeCaseSegmentation(options.out, value, placed, series, dicomOptionsOf(value, library),
+                                progress.part(0.5, 1.0));
     }
     else
     {

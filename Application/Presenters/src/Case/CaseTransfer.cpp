@@ -5,10 +5,12 @@
 #include <array>
 #include <cstdlib>
 #include <exception>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
 
+#include "petrous/Imaging/CasePatient.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Library/Archive.h"
 #include "petrous/Library/ObjectStore.h"
@@ -107,8 +109,8 @@ public:
     , m_parts(parts)
     , m_folder(folder)
     , m_alone(parts.ct + parts.mr + parts.labels + parts.scene == 1)
+    , m_options(dicomOptionsOf(value, library))
   {
-    m_options.studyId = studyIdOf(value.name);
     m_options.segmentationNumber = stateNumber();
   }
 
@@ -221,6 +223,8 @@ private:
         library::archiveCase(m_library, m_value.name, archive, options, progress.part(0.0, 0.8));
     m_notes.insert(m_notes.end(), archived.notes.begin(), archived.notes.end());
     network::SceneDescription description;
+    description.patientId = m_options.patient.id;
+    description.patientName = m_options.patient.name;
     description.studyUid = CaseIdentifiers(m_value).study();
     description.studyId = m_options.studyId;
     description.seriesNumber = stateNumber();
@@ -301,14 +305,64 @@ std::string studyOf(const library::Library& library, const network::Node& node,
     return studies.front().uid;
   if (library.contains(request.caseName)) // the one of this very case
   {
-    const std::string own = CaseIdentifiers(library.open(request.caseName)).study();
-    for (const auto& study : studies)
-      if (study.uid == own)
-        return own;
+    const CaseIdentifiers own(library.open(request.caseName));
+    for (const std::string& uid : {own.study(), own.formerStudy()})
+      for (const auto& study : studies)
+        if (study.uid == uid)
+          return uid;
   }
   throw core::InvalidParameter("node '" + node.name + "': has " + std::to_string(studies.size()) +
                                " cases named '" + request.caseName +
-                               "'; give --study UID, which 'petrous send' printed");
+                               "'; give --study UID, which 'petrous send' printed and 'petrous "
+                               "receive --list' lists");
+}
+
+constexpr const char* kFormerPatientId = "ANONYMOUS"; // of all cases
+
+// `cases`: names of those of the library.
+FoundStudy foundStudy(network::Study study, const std::vector<std::string>& cases)
+{
+  FoundStudy found;
+  const bool isFormer = study.patientId == kFormerPatientId && isStudyId(study.studyId);
+  found.isCase = isFormer || imaging::isCasePatientId(study.patientId);
+  const std::string family = std::string(imaging::kCaseFamilyName) + "^";
+  if (found.isCase && !isFormer && study.patientName.compare(0, family.size(), family) == 0 &&
+      !imaging::isCasePatientId(study.patientName.substr(family.size())))
+    found.caseName = study.patientName.substr(family.size());
+  if (found.isCase)
+    for (const std::string& name : cases)
+      if (studyIdOf(name) == study.studyId)
+        found.caseName = name;
+  found.study = std::move(study);
+  return found;
+}
+
+// `part`: as StudySearch::caseName.
+bool hasName(const FoundStudy& found, const std::string& part)
+{
+  if (found.study.studyId == studyIdOf(part))
+    return true;
+  const std::string name = scene::lowerCase(found.caseName);
+  const std::string wanted = scene::lowerCase(part);
+  std::size_t at = 0;
+  for (std::size_t begin = 0; begin <= wanted.size();)
+  {
+    const std::size_t end = std::min(wanted.find('*', begin), wanted.size());
+    at = name.find(wanted.substr(begin, end - begin), at);
+    if (at == std::string::npos)
+      return false;
+    at += end - begin;
+    begin = end + 1;
+  }
+  return true;
+}
+
+std::vector<FoundStudy> valuesOf(std::map<std::string, FoundStudy> found)
+{
+  std::vector<FoundStudy> values;
+  for (auto& [uid, one] : found)
+    values.push_back(std::move(one));
+  return values;
 }
 
 std::string freeName(const library::Library& library, const std::string& name)
@@ -863,11 +917,19 @@ IdentityReport identityReport(const scene::Case& value, const SendParts& parts,
   IdentityReport report =
       reportOf(value, parts, archiveOptions(parts), faces, identityOf(value, library));
   report.stays.push_back("name, birth date, numbers and other data of the patient, hospital and "
-                         "physicians, dates and times: the case has none of them. The objects "
-                         "name the patient 'Anonymous'");
+                         "physicians, dates and times: the case has none of them");
+  if (library)
+  {
+    const CasePatient patient = CaseIdentifiers(value).patient(*library);
+    report.leaves.push_back(
+        "as the patient '" + patient.name + "', ID " + patient.id +
+        (patient.isNameHidden
+             ? ": a pseudonym without the name of the case, which may be a patient's"
+             : ": a pseudonym with the name of the case"));
+  }
   report.stays.push_back("UIDs of the scanner's files: the objects have new ones");
   if (!parts.scene)
-    report.stays.push_back("the name of the case, its strokes, views and description");
+    report.stays.push_back("strokes, views and description of the case");
   return report;
 }
 
@@ -909,11 +971,6 @@ std::vector<std::string> identityWarnings(const scene::Case& value, const Export
   return warnings;
 }
 
-std::string studyIdOf(const std::string& caseName)
-{
-  return shortHash("petrous case " + caseName);
-}
-
 std::string unlistedText(const network::Transfer& sent)
 {
   switch (sent.listed)
@@ -945,12 +1002,46 @@ SendSummary sendCase(const library::Library& library, const std::string& name,
   summary.notes = std::move(masked);
   summary.notes.insert(summary.notes.end(), outgoing.notes().begin(), outgoing.notes().end());
   summary.studyUid = CaseIdentifiers(value).study();
+  summary.patient = CaseIdentifiers(value).patient(library);
   library.checkVoxels(value, progress);
   summary.transfer = network::store(node, files, progress.part(0.4, 1.0));
   if (std::string note = supersededSegmentations(node, summary.studyUid, files, progress);
       !note.empty())
     summary.notes.push_back(std::move(note));
   return summary;
+}
+
+std::vector<FoundStudy> searchStudies(const network::Node& node, const StudySearch& search,
+                                      const std::vector<std::string>& cases,
+                                      const core::Progress& progress)
+{
+  std::map<std::string, FoundStudy> found;
+  const auto ask = [&](const network::StudyFilter& filter, bool onlyCases)
+  {
+    for (network::Study& study : network::findStudies(node, filter, progress))
+      if (FoundStudy one = foundStudy(std::move(study), cases);
+          !onlyCases || (one.isCase && hasName(one, search.caseName)))
+        found.emplace(one.study.uid, std::move(one));
+  };
+  network::StudyFilter filter = search.filter;
+  const bool isOfPatient = !filter.patientId.empty() || !filter.patientName.empty();
+  const bool isDated = !filter.from.empty() || !filter.to.empty();
+  if (search.caseName.empty() && (isOfPatient || isDated))
+    ask(filter, false);
+  if (search.caseName.empty() && isOfPatient && !isDated)
+    return valuesOf(std::move(found));
+  filter.from.clear();
+  filter.to.clear();
+  if (search.caseName.empty() && isOfPatient)
+    ask(filter, true);
+  else
+    for (const char* id : {imaging::kCasePatientIds, kFormerPatientId})
+    {
+      filter.patientId = id;
+      filter.patientName.clear();
+      ask(filter, true);
+    }
+  return valuesOf(std::move(found));
 }
 
 ReceiveSummary receiveCase(library::Library& library, const network::Node& node,

@@ -14,9 +14,13 @@ CaseStamp stampOf(const scene::Case& value)
   return {value.name, value.description.side, value.description.date};
 }
 
-std::string sideDoubt(const scene::Case& value)
+namespace
 {
-  const scene::Side side = value.description.side;
+
+// "on the patient's left, 12.0 to 40.0 mm from the scanner's middle", if all of the image lies on
+// the other side than this one; else empty.
+std::string oppositePlace(const scene::Case& value, scene::Side side)
+{
   if ((side != scene::Side::Left && side != scene::Side::Right) || !statesPlace(value.ct))
     return {};
   const core::PatientBox box = value.ct.geometry.patientBounds();
@@ -27,12 +31,33 @@ std::string sideDoubt(const scene::Case& value)
     return {};
   const double from = std::min(std::abs(least), std::abs(most));
   const double to = std::max(std::abs(least), std::abs(most));
-  const std::string is = isLeft ? "left" : "right";
-  return "The side is stated as " + std::string(isLeft ? "right" : "left") +
-         ", but all of the image lies on the patient's " + is + ", " + core::fixedText(from, 1) +
-         " to " + core::fixedText(to, 1) +
-         " mm from the scanner's middle. Is the side right? (A patient need not lie in the "
-         "middle.)";
+  return std::string("on the patient's ") + (isLeft ? "left" : "right") + ", " +
+         core::fixedText(from, 1) + " to " + core::fixedText(to, 1) +
+         " mm from the scanner's middle";
+}
+
+} // namespace
+
+std::string sideDoubt(const scene::Case& value)
+{
+  const scene::Side side = value.description.side;
+  const std::string place = oppositePlace(value, side);
+  return place.empty() ? place
+                       : std::string("The side is stated as ") + scene::nameOf(side) +
+                             ", but all of the image lies " + place +
+                             ". Is the side right? (A patient need not lie in the middle.)";
+}
+
+std::string earDoubt(const scene::Case& value, scene::Side ear)
+{
+  const scene::Side side = value.description.side;
+  if (ear != scene::Side::Left && ear != scene::Side::Right)
+    return {};
+  const std::string seen = std::string("This is the ") + scene::nameOf(ear) + " ear";
+  if ((side == scene::Side::Left || side == scene::Side::Right) && side != ear)
+    return seen + ", but the side of the case is stated as " + scene::nameOf(side) + ".";
+  const std::string place = oppositePlace(value, ear);
+  return place.empty() ? place : seen + ", but all of the image lies " + place + ".";
 }
 
 CaseStamp leavingStampOf(const scene::Case& value)

@@ -76,6 +76,8 @@ gdcm::DataSet commonPart(const SeriesDescription& series, const core::GridGeomet
     put(d, 0x0028, 0x0301, "CS", "YES");
   else if (series.derived)
     putDeidentified(d);
+  if (series.derived) // names of a case
+    put(d, 0x0008, 0x0005, "CS", "ISO_IR 192");
   if (series.faults.isLossy) // stays for ever (PS3.3 C.7.6.1.1.5)
     put(d, 0x0028, 0x2110, "CS", "01");
   if (series.faults.isLossy && series.faults.lossyRatio)

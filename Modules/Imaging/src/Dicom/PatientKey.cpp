@@ -4,12 +4,17 @@
 #include <iterator>
 
 #include "petrous/Core/Fingerprint.h"
+#include "petrous/Imaging/CasePatient.h"
 
 namespace petrous::imaging
 {
 
 namespace
 {
+
+constexpr const char* kCasePrefix = "PETROUS-";
+constexpr std::size_t kCaseDigits = 16;
+constexpr const char* kHexadecimal = "0123456789ABCDEF";
 
 /// Capital letters (ASCII and Latin-1), with one space for each run of spaces and delimiters.
 std::string plain(const std::string& text)
@@ -50,9 +55,26 @@ std::size_t hashOf(const std::string& text)
 
 } // namespace
 
+std::string casePatientId(std::uint64_t hash)
+{
+  std::string digits(kCaseDigits, '0');
+  for (auto digit = digits.rbegin(); digit != digits.rend(); ++digit, hash >>= 4)
+    *digit = kHexadecimal[hash & 0xF];
+  return kCasePrefix + digits;
+}
+
+bool isCasePatientId(const std::string& id)
+{
+  const std::string prefix = kCasePrefix;
+  return id.size() == prefix.size() + kCaseDigits && id.compare(0, prefix.size(), prefix) == 0 &&
+         id.find_first_not_of(kHexadecimal, prefix.size()) == std::string::npos;
+}
+
 PatientKey patientKey(const std::string& id, const std::string& issuer, const std::string& name,
                       const std::string& birthDate)
 {
+  if (isCasePatientId(plain(id)))
+    return {};
   const std::size_t alphabetic = name.find('=');
   return {hashOf(id), hashOf(issuer),
           hashOf(alphabetic == 0 ? name.substr(1) : name.substr(0, alphabetic)), hashOf(birthDate)};

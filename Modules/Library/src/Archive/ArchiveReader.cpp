@@ -372,7 +372,7 @@ void checkImages(const scene::Case& value, const ObjectStore& store, const fs::p
     }
     throwUnsound(file, what + " does not lie where its voxels say");
   };
-  check(value.ct, "the CT");
+  check(value.ct, value.ct.modality == scene::Modality::Mr ? "the MR" : "the CT");
   for (const scene::ImagePart& mr : value.mr)
     check(mr, "an MR");
 }
@@ -614,7 +614,8 @@ RestoreSummary restoreCase(Library& library, const fs::path& file, const Restore
           summary.notes = forgetForeignIdentity(next);
         if (archive.index.planOnly)
         {
-          checkObject(store.path(next.ct.object, "the CT"), "the CT", progress.part(0.0, 0.5));
+          const std::string image = next.ct.modality == scene::Modality::Mr ? "the MR" : "the CT";
+          checkObject(store.path(next.ct.object, image), image, progress.part(0.0, 0.5));
           const auto notes = leaveOutMissing(next, store);
           summary.notes.insert(summary.notes.end(), notes.begin(), notes.end());
           scene::forgetGoneReferences(next);

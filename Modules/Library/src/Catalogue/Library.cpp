@@ -114,8 +114,10 @@ std::string meshText(const scene::Case& value, const scene::MeshPart& mesh)
 
 std::string imageText(const scene::Case& value, const scene::ImagePart& image)
 {
-  return (&image == &value.ct ? "the CT" : "MR '" + image.name + "'") + " of case '" + value.name +
-         "'";
+  return (&image != &value.ct                     ? "MR '" + image.name + "'"
+          : image.modality == scene::Modality::Mr ? "the MR"
+                                                  : "the CT") +
+         " of case '" + value.name + "'";
 }
 
 void refuse(const std::vector<std::string>& damage)

@@ -475,6 +475,14 @@ Inspection Library::verify(const core::Progress& progress) const
       (of.isDeleted ? one.deletedCases : one.cases).push_back(of.name);
     result.damaged.push_back(std::move(one));
   };
+  const auto unread =
+      [&](const fs::path& path, const std::string& name, bool isDeleted, const core::Error& error)
+  {
+    if (stateOf(path)) // else deleted in the meantime
+      damaged(path.lexically_relative(m_folder).string(), {Use::By{path, name, isDeleted, {}}},
+              error.what() + (isDeleted ? "; deleted case '" + name + "' cannot be brought back"
+                                        : std::string()));
+  };
   const auto read = [&](const fs::path& path, const std::string& name, bool isDeleted)
   {
     try
@@ -485,12 +493,14 @@ Inspection Library::verify(const core::Progress& progress) const
       for (const ObjectUse& use : objectsOf(value))
         uses[use.object].all.push_back({path, name, isDeleted, use.what});
     }
+    catch (const scene::ManifestError& error)
+    {
+      if (error.reason != scene::ManifestError::Reason::NewerFormat) // casesOfNewerVersion
+        unread(path, name, isDeleted, error);
+    }
     catch (const core::Error& error)
     {
-      if (stateOf(path)) // else deleted in the meantime
-        damaged(path.lexically_relative(m_folder).string(), {Use::By{path, name, isDeleted, {}}},
-                error.what() + (isDeleted ? "; deleted case '" + name + "' cannot be brought back"
-                                          : std::string()));
+      unread(path, name, isDeleted, error);
     }
   };
   for (const std::string& name : namesIn(m_folder / "cases"))
@@ -572,6 +582,15 @@ Collected Library::collectGarbage(const core::Progress& progress)
     catch (const core::CancelledError&)
     {
       throw;
+    }
+    catch (const scene::ManifestError& error)
+    {
+      const bool isNewer = error.reason == scene::ManifestError::Reason::NewerFormat;
+      throw LibraryError(Reason::Damaged,
+                         std::string(error.what()) + "; what case '" + name +
+                             "' needs is not known, so nothing was removed: " +
+                             (isNewer ? "clean up with that version"
+                                      : "delete the case first, or restore its manifest"));
     }
     catch (const core::Error& error)
     {

@@ -10,6 +10,7 @@
 #include "AttachmentFiles.h"
 #include "JournalFile.h"
 #include "LibraryFolder.h"
+#include "petrous/Library/NewerVersion.h"
 #include "petrous/Scene/Manifest.h"
 
 namespace petrous::library
@@ -62,7 +63,8 @@ std::vector<ObjectUse> objectsOf(const scene::Case& value)
     if (seen.insert(object).second)
       uses.push_back({object, kind, name, what});
   };
-  add(value.ct.object, ObjectUse::Kind::Image, "ct", "the CT");
+  add(value.ct.object, ObjectUse::Kind::Image, "ct",
+      value.ct.modality == scene::Modality::Mr ? "the MR" : "the CT");
   for (const auto& mr : value.mr)
     add(mr.object, ObjectUse::Kind::Image, mr.name, "MR '" + mr.name + "'");
   for (const auto& part : value.labels)
@@ -235,6 +237,48 @@ void setOrphanAside(const fs::path& library, const std::string& name)
                                              "drilling in it; end that first");
   if (journal.there())
     setAside(path);
+}
+
+namespace
+{
+
+// Empty: it is whole or damaged.
+std::string newerText(const fs::path& manifest, const std::string& name)
+{
+  try
+  {
+    manifestIn(manifest, name);
+  }
+  catch (const scene::ManifestError& error)
+  {
+    if (error.reason == scene::ManifestError::Reason::NewerFormat)
+      return error.what();
+  }
+  catch (const core::Error&)
+  {
+    // Library::verify says so.
+  }
+  return {};
+}
+
+} // namespace
+
+std::vector<NewerCase> casesOfNewerVersion(const fs::path& library)
+{
+  const fs::path folder = library / "cases";
+  std::vector<NewerCase> found;
+  for (const std::string& name : namesIn(folder))
+    if (std::string text = newerText(folder / (name + ".json"), name); !text.empty())
+      found.push_back({name, false, std::move(text)});
+  for (const DeletedFile& file : deletedIn(folder))
+    if (std::string text = newerText(file.manifest, file.name); !text.empty())
+      found.push_back({file.name, true, std::move(text)});
+  return found;
+}
+
+bool isOfNewerVersion(const fs::path& library, const std::string& name)
+{
+  return !newerText(library / "cases" / (name + ".json"), name).empty();
 }
 
 } // namespace petrous::library

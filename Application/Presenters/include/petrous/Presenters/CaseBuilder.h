@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,6 +42,10 @@ struct PartSource
   std::filesystem::path labelNames = {};
   /// Structures: those whose names are taken are left out; otherwise none is added.
   bool skipsTaken = false;
+  /// Names that are taken get a number: "nerve 2".
+  bool numbersTaken = false;
+  /// Other names than the part, or its structures, would have.
+  std::map<std::string, std::string> newNames = {};
 
   /// "NAME=FILE" or "FILE". A string that is the path of an existing file is a FILE.
   static PartSource parse(const std::string& text);
@@ -112,10 +117,12 @@ struct FrameUnclear : core::InvalidParameter
   FrameUnclear(const std::filesystem::path& file, const std::string& image);
 };
 
-/// Several structures of one source, some of which have names that the case has already: the user
-/// has to say whether the others come without them.
+/// Names of a part or of structures of one source that the case has already: the user has to say
+/// what they are called here (PartSource::newNames), or that the others come without them.
 struct NamesTaken : core::Error
 {
+  /// `message`: of a part that is one.
+  NamesTaken(const std::string& message, const std::string& name);
   /// `others`: how many structures are left without them.
   NamesTaken(const std::filesystem::path& file, std::vector<std::string> names, std::size_t others);
   std::vector<std::string> names;
@@ -195,8 +202,8 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
 /// image of the case state different patients (imaging::samePatient), is OtherPatient unless its
 /// source allows it; its notes then say so. An MR or label file that leaves open which side of the
 /// patient is left is ImageSideUnclear unless its source says it, or it is a label file with the
-/// grid of an image of the case, which it follows. Throws Error (Refused) for a name that is taken,
-/// NamesTaken for those of a source of several structures; InvalidParameter for labels without a
+/// grid of an image of the case, which it follows. Throws NamesTaken (Refused) for names that are
+/// taken; InvalidParameter for labels without a
 /// voxel, and for a mesh that extends beyond the image on which it was drawn by more than
 /// volume::maxReach; MeshSpaceUnclear for one that lies in it only in another frame or unit.
 /// `report`, if given, gets every structure of `parts.labels`.
@@ -212,7 +219,8 @@ struct PartFailure
   bool isOtherPatient = false;                          ///< OtherPatient
   bool isSideUnclear = false;                           ///< ImageSideUnclear
   bool isFrameUnclear = false;                          ///< FrameUnclear
-  std::vector<std::string> taken = {};                  ///< NamesTaken, if others are left
+  std::vector<std::string> taken = {};                  ///< NamesTaken
+  std::size_t others = 0;                               ///< likewise
   std::vector<PartSource> PartSources::*kind = nullptr; ///< of which it is one
 };
 

@@ -10,21 +10,42 @@
 #include "petrous/Core/Error.h"
 #include "petrous/Core/Fingerprint.h"
 #include "petrous/Core/Progress.h"
+#include "petrous/Library/Library.h"
 #include "petrous/Scene/Case.h"
 
 namespace petrous::presenters
 {
 
-/// Identifiers of DICOM files that are written of a case: derived from the case's and the voxels,
-/// so that what is written at different times belongs together. Images and segmentations of one
-/// case share the study and, in one space, the frame of reference (exportedFrame). Refers to the
-/// case.
+/// Study ID (0020,0010) of DICOM objects of a case of this name: a hash, by which a node finds the
+/// case whatever the patient is called there.
+std::string studyIdOf(const std::string& caseName);
+/// Whether it has the form of one.
+bool isStudyId(const std::string& text);
+
+/// Whom DICOM objects name as the patient.
+struct CasePatient
+{
+  std::string id;            ///< (0010,0020) imaging::casePatientId
+  std::string name;          ///< (0010,0010) "Petrous^" and the case's name, or the ID
+  bool isNameHidden = false; ///< the case's name may identify the patient (IdentityText)
+};
+
+/// Identifiers of DICOM files that are written of a case: derived from the case's ID and name and
+/// the voxels, so that what is written at different times belongs together. Images and
+/// segmentations of one case share the patient, the study and, in one space, the frame of reference
+/// (exportedFrame). A node knows a study by one patient and one name: a case that was renamed is
+/// another one there. Refers to the case.
 class CaseIdentifiers
 {
 public:
   explicit CaseIdentifiers(const scene::Case& value);
 
   std::string study() const;
+  /// Of what the program's former version sent.
+  std::string formerStudy() const;
+
+  /// Nobody: by it a node tells cases apart. `library`: of the case.
+  CasePatient patient(const library::Library& library) const;
 
   /// `drawnOn`: the MR whose space it is; empty: the CT's.
   std::string frameOfReference(const std::string& drawnOn) const;
@@ -66,9 +87,12 @@ struct FractionsError : core::InvalidParameter
 /// What all objects of a case state.
 struct CaseDicomOptions
 {
-  std::string studyId = "1";
+  CasePatient patient;
+  std::string studyId;
   int segmentationNumber = 10; ///< series number; the highest of a study is the latest
 };
+
+CaseDicomOptions dicomOptionsOf(const scene::Case& value, const library::Library& library);
 
 /// Writes a DICOM series (imaging::writeDicomSeries) with identifiers of its own and nothing of the
 /// patient's into a folder that is to be committed by the caller. Equal voxels give equal files.

@@ -23,6 +23,10 @@ CaseStamp stampOf(const scene::Case& value);
 /// need not lie in the middle. Empty: nothing speaks against it.
 std::string sideDoubt(const scene::Case& value);
 
+/// Likewise of an ear that is looked at: the case states the other side, or all of its image lies
+/// there.
+std::string earDoubt(const scene::Case& value, scene::Side ear);
+
 /// Of a picture that may leave this computer, the side alone: the planned date tells who the
 /// patient is to who has the list of that day's operations, and a name in pixels would outlive its
 /// change.

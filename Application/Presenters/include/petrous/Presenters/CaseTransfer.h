@@ -8,14 +8,11 @@
 #include "petrous/Library/Archive.h"
 #include "petrous/Library/Library.h"
 #include "petrous/Network/DicomNode.h"
+#include "petrous/Presenters/CaseDicom.h"
 #include "petrous/Scene/ImageMask.h"
 
 namespace petrous::presenters
 {
-
-/// Study ID (0020,0010) under which the scene of a case of this name is found at a node: a hash,
-/// as the name is the user's and stays in the scene.
-std::string studyIdOf(const std::string& caseName);
 
 struct ExportOptions;
 
@@ -65,6 +62,7 @@ struct SendSummary
 {
   network::Transfer transfer;
   std::string studyUid;           ///< made by this program; nobody's identity
+  CasePatient patient;            ///< under which the node has it
   std::vector<std::string> notes; ///< for the user: what was left out, and why
 };
 
@@ -80,6 +78,30 @@ std::string unlistedText(const network::Transfer& sent);
 SendSummary sendCase(const library::Library& library, const std::string& name,
                      const network::Node& node, const SendParts& parts,
                      const core::Progress& progress = {});
+
+/// What is looked for at a node. Empty: all cases of Petrous there.
+struct StudySearch
+{
+  /// Part of the name of a case; capitals do not count, `*` stands for any text. Then the filter's
+  /// patient and dates do not count: cases have none of their own.
+  std::string caseName;
+  network::StudyFilter filter;
+};
+
+struct FoundStudy
+{
+  network::Study study;
+  bool isCase = false;  ///< sent, or exported, by Petrous
+  std::string caseName; ///< empty: not known, as it may identify the patient
+};
+
+/// The studies that a search finds at a node. Cases of Petrous state no date: those that are not
+/// excluded otherwise are found by every range of dates. `cases`: of the library, known also where
+/// the node does not tell their names, and where the former version of the program sent them.
+/// Throws NetworkError, CancelledError.
+std::vector<FoundStudy> searchStudies(const network::Node& node, const StudySearch& search,
+                                      const std::vector<std::string>& cases,
+                                      const core::Progress& progress = {});
 
 struct ReceiveRequest
 {

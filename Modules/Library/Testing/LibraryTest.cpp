@@ -412,6 +412,19 @@ TEST(DefaultFolder, IsTheChosenOneWhichMustBeThere)
   EXPECT_EQ(reason, LibraryError::Reason::NotFound);
   EXPECT_NE(words.find(chosen.string()), std::string::npos) << words;
   EXPECT_NE(words.find("connect its disk"), std::string::npos) << words;
+  for (const char* own : {"cases", "objects"})
+    fs::create_directories(folder.path() / "library" / own);
+  std::ofstream(folder.path() / "library/.lock");
+  for (const char* within : {"library/objects", "library/cases/Left ear"})
+    EXPECT_NE(test::refusal([&] { chooseDefaultFolder(folder.path() / within); })
+                  .second.find("keeps its own data there"),
+              std::string::npos)
+        << within;
+  EXPECT_FALSE(fs::exists(folder.path() / "library/cases/Left ear"));
+  chooseDefaultFolder(folder.path() / "library");
+  EXPECT_EQ(defaultFolder(), folder.path() / "library");
+  chooseDefaultFolder({});
+  EXPECT_EQ(defaultFolder(), usualFolder());
   std::ofstream(defaultFolderFile()) << "relative";
   EXPECT_EQ(test::refusal([] { defaultFolder(); }).first, LibraryError::Reason::Damaged);
   chooseDefaultFolder(usualFolder());

@@ -145,15 +145,20 @@ TEST(Library, RefusesATakenNameAndStaysAsItWas)
   EXPECT_EQ(other.revision, 0u);
 }
 
-TEST(Library, RefusesANewNameThatOnlyCapitalsTellApart)
+TEST(Library, RefusesANewNameThatReadsAsAnother)
 {
   const TemporaryFolder folder;
   Library library(folder.path());
   scene::Case value = smallCase("ear");
   library.save(value);
-  scene::Case other = smallCase("EAR", 20);
-  EXPECT_EQ(refusal([&] { library.save(other); }).first, LibraryError::Reason::NameTaken);
-  EXPECT_FALSE(library.contains("EAR"));
+  scene::Case letters = smallCase("M\u00fcller left", 20);
+  library.save(letters);
+  for (const char* name : {"EAR", "Mu\u0308ller left", "m\u00fcller_left", "M\u00fcller\u00a0left"})
+  {
+    scene::Case other = smallCase(name, 20);
+    EXPECT_EQ(refusal([&] { library.save(other); }).first, LibraryError::Reason::NameTaken) << name;
+    EXPECT_FALSE(library.contains(name));
+  }
   library.rename("ear", "Ear"); // its own
   EXPECT_TRUE(library.contains("Ear"));
 }

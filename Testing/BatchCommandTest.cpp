@@ -176,6 +176,13 @@ TEST_F(BatchCommand, DoesEachRowAndGoesOnPastABadOne)
               0)
         << report;
   }
+  // What reads as a case that is there is told before anything is read.
+  write("name,folder\nSAME,patient/ct\n");
+  const Outcome taken = run(batch("--dry-run --json"));
+  EXPECT_EQ(taken.code, 3);
+  EXPECT_NE(parsed(taken)["rows"][0]["error"].get<std::string>().find("'same' is there already"),
+            std::string::npos)
+      << taken.out;
   for (const char* archive : {"out/ear; left.petrous", "part.petrous"})
     EXPECT_EQ(
         run("restore " + quoted(m_folder / archive) + " --library " + quoted(m_folder / "other"))
@@ -356,6 +363,12 @@ TEST_F(BatchCommand, ADryRunOnlyLooks)
   EXPECT_FALSE(std::filesystem::exists(state()));
   EXPECT_FALSE(std::filesystem::exists(m_folder / "a.petrous"));
   EXPECT_TRUE(libraryContent().empty());
+
+  // Names that read the same are told before, too.
+  write("name,folder\nBat A,patient/ct\nbat_a,patient/ct\n");
+  const auto alike = parsed(run(batch("--dry-run --json")))["rows"];
+  EXPECT_EQ(alike[0]["status"], "would be done");
+  EXPECT_NE(alike[1]["error"].get<std::string>().find("is built by line 2"), std::string::npos);
 
   // What needs repair is told before.
   makeSample(m_folder / "tilted", "--dims 32,32,30 --spacing 2.0 --tilt 12");

@@ -28,6 +28,7 @@
 #include "petrous/Imaging/ImageFile.h"
 #include "petrous/Library/Archive.h"
 #include "petrous/Library/DerivedCache.h"
+#include "petrous/Library/LibraryFiles.h"
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Network/NodeList.h"
 #include "petrous/Presenters/CaseBuilder.h"
@@ -644,6 +645,7 @@ private:
                                       "' is in the library already, and not from this row; choose "
                                       "another name, or leave 'folder' blank to go on with it");
     }
+    library::refuseTakenName(library.folder(), row.name); // before minutes of reading
     const presenters::CaseSources& sources = *row.sources;
     if (m_options.dryRun)
     {

@@ -14,6 +14,7 @@
 #include "petrous/Library/Archive.h"
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Scene/Case.h"
+#include "petrous/Scene/FreeName.h"
 
 namespace petrous::cli
 {
@@ -399,7 +400,7 @@ BatchTable readBatchTable(const fs::path& file)
                                                          "columns");
   const std::vector<std::string> header = readHeader(file, *first);
   const fs::path folder = fs::absolute(file).parent_path().lexically_normal();
-  std::map<std::string, std::size_t> builtIn; // line of the row that builds a case
+  std::map<std::string, std::size_t> builtIn; // by name as it reads, the row that builds the case
   std::map<fs::path, std::size_t> archivedIn; // and that writes an archive
   for (auto row = first + 1; row != rows.end(); ++row)
   {
@@ -423,7 +424,8 @@ BatchTable readBatchTable(const fs::path& file)
     {
       RowReader(folder, std::move(cells)).read(next);
       if (next.sources)
-        if (const auto [other, isNew] = builtIn.emplace(next.name, next.line); !isNew)
+        if (const auto [other, isNew] = builtIn.emplace(scene::asRead(next.name), next.line);
+            !isNew)
           throw core::InvalidParameter("case '" + next.name + "' is built by line " +
                                        std::to_string(other->second) +
                                        " already; give it another name, or leave 'folder' blank");

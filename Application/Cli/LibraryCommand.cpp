@@ -1,6 +1,9 @@
+#include <algorithm>
+
 #include "CaseJson.h"
 #include "Commands.h"
 #include "Numbers.h"
+#include "Program.h"
 #include "petrous/Library/DefaultFolder.h"
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Library/NewerVersion.h"
@@ -150,7 +153,7 @@ void chooseFolder(const Context& context, const std::vector<std::string>& names)
 {
   const bool isChosen = !names.empty();
   if (isChosen)
-    library::chooseDefaultFolder(names[0]);
+    library::chooseDefaultFolder(names[0]); // empty: back to the usual one
   const std::filesystem::path folder =
       isChosen ? library::defaultFolder() : context.openLibrary().folder();
   context.print(folder.string() +
@@ -169,6 +172,10 @@ void run(const Context& context, const Options& options)
       throw UsageError("library folder: give 'petrous library folder [DIR]'");
     return chooseFolder(context, options.names);
   }
+  const auto isEmpty = [](const std::string& name)
+  { return name.find_first_not_of(" \t") == std::string::npos; };
+  if (std::any_of(options.names.begin(), options.names.end(), isEmpty))
+    throw UsageError("library " + action + ": the value is empty; give one, or leave it out");
   const auto names = [&](std::size_t count, const std::string& form)
   {
     if (options.names.size() != count)
@@ -276,7 +283,8 @@ void addLibraryCommand(CLI::App& app, Context& context)
       ->check(offers({"list", "search", "verify", "gc", "repair", "rename", "copy", "delete",
                       "deleted", "undelete", "folder"}))
       ->required();
-  command->add_option("NAMES", options->names, "Arguments of the action");
+  command->add_option("NAMES", options->names, "Arguments of the action")
+      ->check(CLI::Validator([](std::string&) { return std::string(); }, "", kMayBeEmpty));
   command->add_flag("--notes", options->filter.inNotes,
                     "Search: TEXT in the notes too (slower: they are not in the index)");
   command

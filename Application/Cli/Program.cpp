@@ -93,8 +93,10 @@ bool isBlank(const std::string& text)
 
 // An empty value is not an omitted option (an unset variable in a script), and the next option is
 // not a value. Also checks both sides of NAME=VALUE.
-std::string emptyValue(const std::string& value, bool pair)
+std::string emptyValue(const std::string& value, bool pair, bool mayBeEmpty)
 {
+  if (value.empty() && mayBeEmpty)
+    return "";
   if (isBlank(value))
     return "the value is empty; give one, or leave it out";
   if (value.size() > 2 && value.compare(0, 2, "--") == 0 &&
@@ -102,6 +104,19 @@ std::string emptyValue(const std::string& value, bool pair)
     return "a value is missing before '" + value + "'";
   const bool oneSided = pair && (value.front() == '=' || value.back() == '=');
   return oneSided ? "'" + value + "' is empty on one side of '='" : "";
+}
+
+bool mayBeEmpty(CLI::Option& option)
+{
+  try
+  {
+    option.get_validator(kMayBeEmpty);
+    return true;
+  }
+  catch (const CLI::OptionNotFound&)
+  {
+    return false;
+  }
 }
 
 // For every option and argument of the program and of every subcommand.
@@ -113,8 +128,9 @@ void refuseEmptyValues(CLI::App& app)
     {
       const bool pair = option->get_type_name().find('=') != std::string::npos;
       // before other checks, such as ranges
-      option->transform(
-          CLI::Validator([pair](std::string& value) { return emptyValue(value, pair); }, ""));
+      option->transform(CLI::Validator([pair, isOwn = mayBeEmpty(*option)](std::string& value)
+                                       { return emptyValue(value, pair, isOwn); },
+                                       ""));
     }
   for (CLI::App* command : app.get_subcommands(all))
     refuseEmptyValues(*command);

@@ -19,6 +19,9 @@ struct Program
   std::function<void(CLI::App&, Context&)> addCommands;
 };
 
+/// An option with a validator of this name takes an empty value, which others refuse.
+constexpr const char* kMayBeEmpty = "may be empty";
+
 /// Adds name, text, options and subcommands to an empty parser; the context must outlive it.
 void define(CLI::App& app, const Program& program, Context& context);
 

@@ -794,60 +794,76 @@ double distanceInVoxels(const volume::IntensityVolume& image, const Eigen::Vecto
 }
 
 // Parallel slices that slide forwards and then backwards; each stretch has a landmark of its own.
-TEST(DicomScan, DividesAVShapedTiltIntoStacksThatRepairStraightens)
+// Repair straightens the whole, but not across a gap in which too many slices are missing.
+TEST(DicomScan, DividesAVShapedTiltOnlyWhereTheWholeIsRefused)
 {
   struct Lean
   {
     double lower, upper; // degrees
   };
-  for (const auto& [lower, upper] : {Lean{20.0, -20.0}, {12.0, -7.0}, {-15.0, 0.0}, {6.0, 25.0}})
-  {
-    constexpr int kHalf = 24;
-    const auto tangent = [](double degrees) { return std::tan(degrees * M_PI / 180.0); };
-    const auto forwardOf = [&, low = lower, up = upper](double z)
+  for (const double gap : {0.0, 9.0})
+    for (const auto& [lower, upper] :
+         {Lean{20.0, -20.0}, {12.0, -7.0}, {-15.0, 0.0}, {6.0, 25.0}, {3.0, -3.0}})
     {
-      const double hinge = 0.5 * (kHalf - 1);
-      return tangent(low) * std::min(z, hinge) + tangent(up) * std::max(z - hinge, 0.0);
-    };
-    const auto centreOf = [&](double z)
-    { return Eigen::Vector3d(-10.0 + 0.4 * 23.3, 20.5 + forwardOf(z) + 0.5 * 24.6, z); };
-    const Eigen::Vector3d marks[] = {centreOf(5.63), centreOf(17.81)};
-    const TemporaryFolder folder;
-    for (int k = 0; k < 2 * kHalf; ++k)
-    {
-      TestSlice slice;
-      slice.z = 0.5 * k;
-      slice.y = 20.5 + forwardOf(slice.z);
-      slice.columns = slice.rows = 48;
-      slice.cell = [&](int i, int j)
+      if (gap > 0.0 && lower == 3.0)
+        continue;
+      constexpr int kHalf = 24;
+      const auto tangent = [](double degrees) { return std::tan(degrees * M_PI / 180.0); };
+      const auto forwardOf = [&, low = lower, up = upper](double z)
       {
-        const Eigen::Vector3d p(-10.0 + 0.4 * i, slice.y + 0.5 * j, slice.z);
-        double value = 0.0;
-        for (const Eigen::Vector3d& mark : marks)
-          value += 20000.0 * std::exp(-(p - mark).squaredNorm() / 1.5);
-        return static_cast<std::uint32_t>(std::lround(value));
+        const double hinge = 0.5 * (kHalf - 1);
+        return tangent(low) * std::min(z, hinge) + tangent(up) * std::max(z - hinge, 0.0);
       };
-      putNumber(slice, k + 1);
-      slice.write(folder.path() / ("s" + std::to_string(100 + k) + ".dcm"));
+      const auto centreOf = [&](double z)
+      { return Eigen::Vector3d(-10.0 + 0.4 * 23.3, 20.5 + forwardOf(z) + 0.5 * 24.6, z); };
+      const Eigen::Vector3d marks[] = {centreOf(5.63), centreOf(gap + 17.81)};
+      const TemporaryFolder folder;
+      for (int k = 0; k < 2 * kHalf; ++k)
+      {
+        TestSlice slice;
+        slice.z = 0.5 * k + (k < kHalf ? 0.0 : gap);
+        slice.y = 20.5 + forwardOf(slice.z);
+        slice.columns = slice.rows = 48;
+        slice.cell = [&](int i, int j)
+        {
+          const Eigen::Vector3d p(-10.0 + 0.4 * i, slice.y + 0.5 * j, slice.z);
+          double value = 0.0;
+          for (const Eigen::Vector3d& mark : marks)
+            value += 20000.0 * std::exp(-(p - mark).squaredNorm() / 1.5);
+          return static_cast<std::uint32_t>(std::lround(value));
+        };
+        putNumber(slice, k + 1);
+        slice.write(folder.path() / ("s" + std::to_string(100 + k) + ".dcm"));
+      }
+      const ScanResult result = scanDicom(folder.path(), {});
+      ReadOptions options;
+      options.repair = true;
+      if (gap == 0.0)
+      {
+        ASSERT_EQ(result.series.size(), 1U) << lower << " and " << upper;
+        const DicomSeries& whole = result.series[0];
+        EXPECT_EQ(whole.volume, "");
+        EXPECT_EQ(whole.geometry.verdict, Verdict::Repairable);
+        EXPECT_EQ(whole.geometry.slices.size(), 48U);
+        const Eigen::Vector3d middle = 0.5 * (marks[0] + marks[1]); // of equal ones
+        EXPECT_LT(distanceInVoxels(readSeries(whole, options, {}), middle), 0.1) << lower;
+        continue;
+      }
+      ASSERT_EQ(result.series.size(), 2U) << lower << " and " << upper;
+      std::size_t slices = 0;
+      for (std::size_t n = 0; n < 2; ++n)
+      {
+        const DicomSeries& series = result.series[n];
+        const double degrees = n == 0 ? lower : upper;
+        EXPECT_EQ(series.volume, "tilt " + core::fixedText(degrees, 1));
+        EXPECT_EQ(series.geometry.verdict, degrees == 0.0 ? Verdict::Ok : Verdict::Repairable);
+        EXPECT_EQ(has(series.geometry, FindingKind::GantryTilt), degrees != 0.0);
+        EXPECT_FALSE(has(series.geometry, FindingKind::UnevenSpacing));
+        EXPECT_LT(distanceInVoxels(readSeries(series, options, {}), marks[n]), 0.1) << degrees;
+        slices += series.geometry.slices.size();
+      }
+      EXPECT_EQ(slices, 48U) << "each slice is in one stack";
     }
-    const ScanResult result = scanDicom(folder.path(), {});
-    ASSERT_EQ(result.series.size(), 2U) << lower << " and " << upper;
-    ReadOptions options;
-    options.repair = true;
-    std::size_t slices = 0;
-    for (std::size_t n = 0; n < 2; ++n)
-    {
-      const DicomSeries& series = result.series[n];
-      const double degrees = n == 0 ? lower : upper;
-      EXPECT_EQ(series.volume, "tilt " + core::fixedText(degrees, 1));
-      EXPECT_EQ(series.geometry.verdict, degrees == 0.0 ? Verdict::Ok : Verdict::Repairable);
-      EXPECT_EQ(has(series.geometry, FindingKind::GantryTilt), degrees != 0.0);
-      EXPECT_FALSE(has(series.geometry, FindingKind::UnevenSpacing));
-      EXPECT_LT(distanceInVoxels(readSeries(series, options, {}), marks[n]), 0.1) << degrees;
-      slices += series.geometry.slices.size();
-    }
-    EXPECT_EQ(slices, 48U) << "each slice is in one stack";
-  }
 }
 
 // Two targeted reconstructions of one series: `apart` mm from each other, numbered in turn.
@@ -878,9 +894,7 @@ TEST(DicomScan, DividesReconstructionsBesideEachOther)
         for (std::size_t n = 0; n < 2; ++n)
         {
           const DicomSeries& series = result.series[n];
-          EXPECT_EQ(series.volume,
-                    "centre " + core::fixedText(std::round(21.75 + (n == 0 ? 0.0 : apart)), 0) +
-                        " mm posterior");
+          EXPECT_EQ(series.volume, n == 0 ? "farther anterior" : "farther posterior");
           EXPECT_EQ(series.geometry.verdict, Verdict::Ok);
           const volume::IntensityVolume image = readSeries(series, {}, {});
           ASSERT_EQ(image.geometry().dims(), (core::Index3{8, 6, 12}));
@@ -891,6 +905,37 @@ TEST(DicomScan, DividesReconstructionsBesideEachOther)
         }
         EXPECT_THROW(chooseSeries(result, folder.path()), DicomError) << "the user says which ear";
       }
+}
+
+// Cone beam writes places from the corner of its volume: both ears are left of the zero point.
+TEST(DicomScan, NamesReconstructionsBesideEachOtherByTheOthers)
+{
+  for (const double first : {-90.0, -40.0, 30.0})
+    for (const int count : {2, 3})
+    {
+      const TemporaryFolder folder;
+      for (int k = 0; k < 12; ++k)
+        for (int n = 0; n < count; ++n)
+        {
+          TestSlice slice;
+          slice.z = 0.5 * k;
+          slice.x = first + 60.0 * ((n + 1) % count); // not in their order
+          slice.cell = [n](int, int) { return 100U + static_cast<unsigned>(n); };
+          putNumber(slice, count * k + n + 1);
+          slice.write(folder.path() / ("s" + std::to_string(100 + count * k + n) + ".dcm"));
+        }
+      const ScanResult result = scanDicom(folder.path(), {});
+      ASSERT_EQ(result.series.size(), static_cast<std::size_t>(count));
+      std::map<std::string, double> xOf;
+      for (const DicomSeries& series : result.series)
+        xOf[series.volume] = series.geometry.grid->origin()[0];
+      const std::map<std::string, double> two = {{"farther right", first},
+                                                 {"farther left", first + 60.0}};
+      const std::map<std::string, double> three = {{"farthest right", first},
+                                                   {"2 of 3 from the right", first + 60.0},
+                                                   {"farthest left", first + 120.0}};
+      EXPECT_EQ(xOf, count == 2 ? two : three);
+    }
 }
 
 void cutHeader(const fs::path& folder)

@@ -156,6 +156,10 @@ TEST(LabelTable, ReadsQuotedCellsOfSeveralLines)
                 "line 4 gives an index");
   expectRefused(refused("index,name\n1,incus\n2,\"stapes\n3,malleus\n"), Reason::Unreadable,
                 "line 3 opens a quote that is not closed");
+  // The quote that opens another name does not close it.
+  expectRefused(refused("1,\"facial,255,0,0\n2,chorda,0,255,0\n3,incus,0,0,255\n"
+                        "4,\"stapes\",9,9,9\n"),
+                Reason::Unreadable, "line 1 opens a quote that is not closed");
 }
 
 TEST(LabelTable, RefusesWithTheLineThatIsWrong)

@@ -294,7 +294,12 @@ TEST(PixelForms, EqualTheExplicitLittleEndianSeriesToTheBit)
   {
     s.bitsStored = 12;
     s.highBit = 15;
-    // Values from -50, with rubbish in the four bits below.
+    // Values from -50, with overlays in the four bits below.
+    for (std::uint32_t n = 0; n < 4; ++n)
+    {
+      s.number(s.extraPixel, (0x6000U + 2 * n) << 16 | 0x0100U, 16);
+      s.number(s.extraPixel, (0x6000U + 2 * n) << 16 | 0x0102U, n);
+    }
     s.isSigned = true;
     s.intercept += 50.0;
     s.cell = [value, k](int i, int j)
@@ -490,6 +495,125 @@ TEST(PixelForms, APositiveValueIsNotTakenForANegativeOne)
     EXPECT_EQ(image.at(0, 0, 0), -1000.0);
     EXPECT_EQ(image.at(3, 2, 0), 3000.0 - 4096.0) << "as the header says";
   }
+}
+
+/// Twelve slices of 12 bits with a sign: in the first half air of -1000 with copies of its sign or
+/// without, in the second half the bits of 2500 HU, which are those of -1596 without copies.
+void writeAirAndMetal(const fs::path& folder, bool hasCopies)
+{
+  writeSeries(folder, 12,
+              [hasCopies](int k, TestSlice& s)
+              {
+                s.bitsStored = 12;
+                s.isSigned = true;
+                s.cell = [k, hasCopies](int i, int j)
+                {
+                  if (i == 3 && j == 2)
+                    return k < 6 ? 40U : 2500U;
+                  return k < 6 ? static_cast<unsigned>(-1000) & (hasCopies ? 0xFFFFU : 0xFFFU)
+                               : 100U;
+                };
+              });
+}
+
+TEST(PixelForms, CopiesOfTheSignInAnySliceTellPositiveValuesFromNegativeOnes)
+{
+  const TemporaryFolder folder;
+  writeAirAndMetal(folder.path(), true);
+  const ScanResult result = scanDicom(folder.path(), {});
+  const DicomSeries& series = result.series.at(0);
+  ReadOptions metalOnly; // the slices with the copies are outside of it
+  const auto bounds = series.geometry.grid->cropped({{0, 0, 8}, {8, 6, 12}}).patientBounds();
+  metalOnly.roi = bounds;
+  for (const ReadOptions& options : {ReadOptions{}, metalOnly})
+    try
+    {
+      readSeries(series, options, {});
+      ADD_FAILURE() << "read";
+    }
+    catch (const DicomError& error)
+    {
+      const std::string text = error.what();
+      const std::string file = options.roi ? "" : "s6.dcm contradicts";
+      EXPECT_NE(text.find(file), std::string::npos) << text;
+      EXPECT_NE(text.find("1 pixel has values of more than the 12 bits"), std::string::npos)
+          << text;
+      EXPECT_NE(text.find("negative values of s0.dcm"), std::string::npos) << text;
+    }
+}
+
+TEST(PixelForms, ValuesThatMayBePositiveAreNoted)
+{
+  const TemporaryFolder folder;
+  writeAirAndMetal(folder.path(), false);
+  const ScanResult result = scanDicom(folder.path(), {});
+  std::vector<std::string> notes;
+  const auto image = readSeries(result.series.at(0), {}, {}, &notes);
+  EXPECT_EQ(image.at(3, 2, 7), 2500.0 - 4096.0);
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].find("read as negative"), std::string::npos) << notes[0];
+}
+
+// 2227 in 16 bits is 139 in the upper 12 of them.
+TEST(PixelForms, BitsBelowTheStoredOnesAreRefused)
+{
+  const TemporaryFolder folder;
+  for (const unsigned low : {0U, 3U})
+  {
+    writeSeries(folder.path(), 2,
+                [low](int, TestSlice& s)
+                {
+                  s.bitsStored = 12;
+                  s.highBit = 15;
+                  s.isSigned = false;
+                  s.cell = [low](int i, int) { return (100U + i) << 4 | (i == 2 ? low : 0U); };
+                });
+    if (low == 0)
+    {
+      EXPECT_EQ(readFolder(folder.path()).at(2, 0, 0), 102.0);
+      continue;
+    }
+    try
+    {
+      readFolder(folder.path());
+      ADD_FAILURE() << "read";
+    }
+    catch (const DicomError& error)
+    {
+      EXPECT_NE(std::string(error.what()).find("6 pixels have values of more than the 12 bits"),
+                std::string::npos)
+          << error.what();
+    }
+  }
+}
+
+TEST(PixelForms, PaddingOfMoreThanTheBitsStoredIsPadding)
+{
+  for (const bool isCorner : {true, false})
+    for (const bool isBigEndian : {false, true})
+    {
+      SCOPED_TRACE(std::to_string(isCorner) + std::to_string(isBigEndian));
+      const TemporaryFolder folder;
+      writeSeries(folder.path(), 2,
+                  [=](int, TestSlice& s)
+                  {
+                    s.bitsStored = 12;
+                    s.isSigned = false;
+                    s.bigEndian = isBigEndian;
+                    s.intercept = -1024.0;
+                    s.padding = std::uint16_t{0xF830};
+                    s.cell = [=](int i, int j)
+                    {
+                      const bool isPadding = isCorner ? j == 0 : i == 3 && j == 2;
+                      return isPadding ? 0xF830U : i == 4 && j == 3 ? 0x830U : 1064U;
+                    };
+                  });
+      const IntensityVolume image = readFolder(folder.path());
+      EXPECT_EQ(image.padding(), -1024.0);
+      EXPECT_EQ(isCorner ? image.at(5, 0, 1) : image.at(3, 2, 1), -1024.0);
+      EXPECT_EQ(image.at(4, 3, 1), 0x830 - 1024.0) << "the same 12 bits";
+      EXPECT_EQ(image.at(4, 4, 1), 40.0);
+    }
 }
 
 TEST(PixelForms, FloatingPointIsKeptToTheBit)

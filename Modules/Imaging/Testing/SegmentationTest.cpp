@@ -418,7 +418,7 @@ TEST(DicomSegmentation, AnImageSaysHowFarApartItsSlicesAre)
   EXPECT_NE(guessed.notes[0].find("2.5 mm apart"), std::string::npos) << guessed.notes[0];
 }
 
-// One slice is as thick as the image's slices are apart, whatever it says of itself.
+// One slice is put on the image's slices; where it says that it is thicker, that is told.
 TEST(DicomSegmentation, AnImageSaysHowThickOneSliceIs)
 {
   const TestFolder folder;
@@ -428,12 +428,49 @@ TEST(DicomSegmentation, AnImageSaysHowThickOneSliceIs)
   const core::GridGeometry image({20, 20, 60}, {0.4, 0.5, 0.6}, {-10.0, 20.5, 20.0 - 18 * 0.6});
   const auto loaded = loadLabels(path, {}, {}, {image});
   EXPECT_NEAR(loaded.maps.at(0).voxels->geometry().spacing()[2], 0.6, 1e-9);
-  EXPECT_NEAR(loaded.fileVolumes.at("chorda"), 6 * 0.4 * 0.5 * 0.6, 1e-9);
-  EXPECT_TRUE(loaded.notes.empty());
+  EXPECT_NEAR(loaded.fileVolumes.at("chorda"), 6 * 0.4 * 0.5 * 3.0, 1e-9) << "as the file says";
+  ASSERT_EQ(loaded.notes.size(), 1u);
+  EXPECT_NE(loaded.notes[0].find("3 mm thick"), std::string::npos) << loaded.notes[0];
+  EXPECT_NE(loaded.notes[0].find("0.6 mm apart"), std::string::npos) << loaded.notes[0];
+  file.thickness = 0.6;
+  EXPECT_TRUE(loadLabels(putFile(folder / "b.dcm", file.bytes()), {}, {}, {image}).notes.empty());
   const auto alone = loadLabels(path);
   EXPECT_NEAR(alone.maps.at(0).voxels->geometry().spacing()[2], 3.0, 1e-9);
   ASSERT_EQ(alone.notes.size(), 1u);
   EXPECT_NE(alone.notes[0].find("mm thick"), std::string::npos) << alone.notes[0];
+}
+
+// Drawn on a reconstruction of 2 mm, and seen on the one of 0.5 mm.
+TEST(DicomSegmentation, FramesThatAreAsThickAsTheyAreApartFillTheImagesSlicesBetween)
+{
+  const TestFolder folder;
+  const core::GridGeometry image({20, 20, 60}, {0.4, 0.5, 0.5}, {-10.0, 20.5, 15.0});
+  const double frame = 6 * 0.4 * 0.5; // mm^2
+  for (const double thickness : {2.0, 1.5, 0.5})
+  {
+    SCOPED_TRACE(thickness);
+    TestSegmentation file = sparse({20.0, 22.0, 24.0, 30.0});
+    file.thickness = thickness;
+    const auto loaded = loadLabels(putFile(folder / "a.dcm", file.bytes()), {}, {}, {image});
+    const volume::LabelMap& map = loaded.maps.at(0);
+    EXPECT_NEAR(loaded.fileVolumes.at("chorda"), 4 * frame * thickness, 1e-9);
+    const bool isTiled = thickness == 2.0;
+    EXPECT_NEAR(map.volume(map.segments.at(0)), 4 * frame * (isTiled ? 2.0 : 0.5), 1e-9);
+    EXPECT_EQ(loaded.notes.empty(), thickness != 1.5);
+    if (thickness == 1.5)
+    {
+      EXPECT_NE(loaded.notes.at(0).find("1.5 mm thick"), std::string::npos) << loaded.notes[0];
+    }
+    if (!isTiled)
+      continue;
+    const auto at = [&](double z)
+    {
+      const Eigen::Vector3d voxel = map.voxels->geometry().voxelFromPatient({-10.0, 20.5, z});
+      return map.voxels->at(0, 0, static_cast<int>(std::lround(voxel[2])));
+    };
+    EXPECT_EQ(at(22.5), 1);
+    EXPECT_EQ(at(27.0), 0) << "no frame is there";
+  }
 }
 
 // Two frames of a segment at one place: equal ones count once, others contradict each other.
@@ -459,6 +496,38 @@ TEST(DicomSegmentation, FramesOfOnePlaceMustBeEqual)
   { return 1 - value(i, j); };
   expectRefused(refusalOf([&] { loadLabels(putFile(folder / "c.dcm", file.bytes())); }),
                 Reason::NoGeometry, "frame 2");
+}
+
+// 60 % and 100 % are the same voxels, and not the same volume.
+TEST(DicomSegmentation, FractionsOfOnePlaceMustBeEqual)
+{
+  const TestFolder folder;
+  TestSegmentation file = sparse({20.0, 21.0});
+  file.type = "FRACTIONAL";
+  file.bits = 8;
+  for (TestSegmentation::Frame& frame : file.frames)
+    frame.value = [](int i, int) { return i < 2 ? 60 : 0; };
+  file.frames.push_back(file.frames[1]);
+  const auto loaded = loadLabels(putFile(folder / "a.dcm", file.bytes()));
+  file.frames.pop_back();
+  EXPECT_EQ(loaded.fileVolumes, loadLabels(putFile(folder / "b.dcm", file.bytes())).fileVolumes);
+  file.frames.push_back({1, 21.0, [](int i, int) { return i < 2 ? 100 : 0; }});
+  expectRefused(refusalOf([&] { loadLabels(putFile(folder / "c.dcm", file.bytes())); }),
+                Reason::NoGeometry, "differs from it");
+}
+
+TEST(DicomSegmentation, EqualFramesOfALabelMapCountOnce)
+{
+  const TestFolder folder;
+  TestSegmentation file = sparse({20.0, 21.0});
+  file.type = "LABELMAP";
+  file.bits = 8;
+  file.frames.push_back(file.frames[1]);
+  const auto loaded = loadLabels(putFile(folder / "a.dcm", file.bytes()));
+  EXPECT_EQ(loaded.maps.at(0).segments.at(0).voxels, 2u * 6u);
+  file.frames.back().value = [](int i, int) { return i == 4 ? 1 : 0; };
+  expectRefused(refusalOf([&] { loadLabels(putFile(folder / "b.dcm", file.bytes())); }),
+                Reason::NoGeometry, "differs from it");
 }
 
 TEST(DicomSegmentation, FramesAreOfSegmentsThatAreDescribed)

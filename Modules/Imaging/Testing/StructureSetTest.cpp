@@ -269,6 +269,18 @@ TEST(StructureSet, AContourThatIsThereTwiceCountsOnce)
   EXPECT_NEAR(contourVolume(emptied, grid()), 6.0 * 16.0 + 16.0 - 3.8 * 3.8, 0.3);
   EXPECT_NE(notesOf(emptied).find("closely within each other in 1 plane"), std::string::npos)
       << notesOf(emptied);
+  // Drawn twice, then a quarter of the second moved inwards by 1 voxel: what is left is no thin
+  // ring.
+  Roi edited = roi;
+  const double z = roi.contours[3].front().z();
+  edited.contours.push_back({{0.3, -4.2, z},
+                             {4.2, -4.2, z},
+                             {4.2, -2.3, z},
+                             {2.3, -2.3, z},
+                             {2.3, -0.3, z},
+                             {0.3, -0.3, z}});
+  EXPECT_NE(notesOf(edited).find("closely within each other in 1 plane"), std::string::npos)
+      << notesOf(edited);
   Roi merged = roi;
   merged.contours.insert(merged.contours.end(), roi.contours.begin(), roi.contours.end());
   EXPECT_NEAR(volumeOf(merged), 7.0 * 16.0, 1e-6);
@@ -280,6 +292,23 @@ TEST(StructureSet, AContourThatIsThereTwiceCountsOnce)
   Roi crossed = roi;
   crossed.contours.push_back(square(2.25, 8.25, -3.25, -1.25, 12.0));
   EXPECT_NE(notesOf(crossed).find("cross each other"), std::string::npos) << notesOf(crossed);
+}
+
+// The points of each lie on the lines of the other, and half of the square is not in the second.
+TEST(StructureSet, ContoursThroughTheSamePointsAreNotOneIfTheirSidesDiffer)
+{
+  Roi roi = named("w", {});
+  for (double z = 10.0; z < 13.5; z += 1.0)
+  {
+    roi.contours.push_back(square(2.25, 12.25, -12.25, -2.25, z));
+    roi.contours.push_back({{2.25, -12.25, z},
+                            {12.25, -12.25, z},
+                            {12.25, -2.25, z},
+                            {7.25, -12.25, z},
+                            {2.25, -2.25, z}});
+  }
+  // by the odd-even rule the notch of 10 x 10 / 2 is left
+  EXPECT_NEAR(contourVolume(roi, grid()), 4.0 * 50.0, 1.0);
 }
 
 TEST(StructureSet, ContoursOnSomeSlicesFillTheOthers)

@@ -48,6 +48,7 @@ struct TestSlice
 {
   int columns = 8;
   int rows = 6;
+  double x = -10.0;
   double z = 0.0;
   double y = 20.5;
   std::string orientation = "1\\0\\0\\0\\1\\0";
@@ -129,7 +130,8 @@ struct TestSlice
     element(out, 0x00100010, "PN", "SECRET^NAME");
     element(out, 0x0020000d, "UI", studyUid);
     element(out, 0x0020000e, "UI", seriesUid);
-    element(out, 0x00200032, "DS", "-10\\" + core::generalText(y) + "\\" + here);
+    element(out, 0x00200032, "DS",
+            core::generalText(x) + "\\" + core::generalText(y) + "\\" + here);
     element(out, 0x00200037, "DS", orientation);
     element(out, 0x00200052, "UI", "1.2.3.9");
     number(out, 0x00280002, 1);

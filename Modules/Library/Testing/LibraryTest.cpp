@@ -145,15 +145,20 @@ TEST(Library, RefusesATakenNameAndStaysAsItWas)
   EXPECT_EQ(other.revision, 0u);
 }
 
-TEST(Library, RefusesANewNameThatOnlyCapitalsTellApart)
+TEST(Library, RefusesANewNameThatReadsAsAnother)
 {
   const TemporaryFolder folder;
   Library library(folder.path());
   scene::Case value = smallCase("ear");
   library.save(value);
-  scene::Case other = smallCase("EAR", 20);
-  EXPECT_EQ(refusal([&] { library.save(other); }).first, LibraryError::Reason::NameTaken);
-  EXPECT_FALSE(library.contains("EAR"));
+  scene::Case letters = smallCase("M\u00fcller left", 20);
+  library.save(letters);
+  for (const char* name : {"EAR", "Mu\u0308ller left", "m\u00fcller_left", "M\u00fcller\u00a0left"})
+  {
+    scene::Case other = smallCase(name, 20);
+    EXPECT_EQ(refusal([&] { library.save(other); }).first, LibraryError::Reason::NameTaken) << name;
+    EXPECT_FALSE(library.contains(name));
+  }
   library.rename("ear", "Ear"); // its own
   EXPECT_TRUE(library.contains("Ear"));
 }
@@ -412,6 +417,19 @@ TEST(DefaultFolder, IsTheChosenOneWhichMustBeThere)
   EXPECT_EQ(reason, LibraryError::Reason::NotFound);
   EXPECT_NE(words.find(chosen.string()), std::string::npos) << words;
   EXPECT_NE(words.find("connect its disk"), std::string::npos) << words;
+  for (const char* own : {"cases", "objects"})
+    fs::create_directories(folder.path() / "library" / own);
+  std::ofstream(folder.path() / "library/.lock");
+  for (const char* within : {"library/objects", "library/cases/Left ear"})
+    EXPECT_NE(test::refusal([&] { chooseDefaultFolder(folder.path() / within); })
+                  .second.find("keeps its own data there"),
+              std::string::npos)
+        << within;
+  EXPECT_FALSE(fs::exists(folder.path() / "library/cases/Left ear"));
+  chooseDefaultFolder(folder.path() / "library");
+  EXPECT_EQ(defaultFolder(), folder.path() / "library");
+  chooseDefaultFolder({});
+  EXPECT_EQ(defaultFolder(), usualFolder());
   std::ofstream(defaultFolderFile()) << "relative";
   EXPECT_EQ(test::refusal([] { defaultFolder(); }).first, LibraryError::Reason::Damaged);
   chooseDefaultFolder(usualFolder());

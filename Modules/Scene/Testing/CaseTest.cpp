@@ -36,6 +36,14 @@ TEST(Case, NamesThatReadTheSameAreOne)
   EXPECT_EQ(scene::caseFolded("\u00df"), "ss");
   EXPECT_EQ(scene::caseFolded("a_B"), "a_b");
   EXPECT_EQ(scene::asRead(" Facial__Nerve "), "facial nerve");
+  // As macOS writes the names of files, in letters and marks apart (Unicode TR15).
+  EXPECT_EQ(scene::caseFolded("Mu\u0308ller"), "m\u00fcller");
+  EXPECT_EQ(scene::caseFolded("\u1e9e"), "ss");
+  EXPECT_EQ(scene::caseFolded("\u01c4"), scene::caseFolded("\u01c5"));
+  EXPECT_EQ(scene::caseFolded("\xff\xfeX"), "\xff\xfex") << "no UTF-8";
+  for (const char* blank : {"\u00a0", "\u2009", "\u202f", "\u3000", "\t", "_ ", "\u00a0 _"})
+    EXPECT_EQ(scene::asRead("Facial" + std::string(blank) + "nerve\u00a0"), "facial nerve");
+  EXPECT_EQ(scene::asRead("Fa\u00adcial\u200b nerve"), "facial nerve");
 
   scene::Case value;
   value.labels.push_back(labelsNamed({"facial_nerve", "facial nerve", "dura"}));

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cwchar>
-#include <cwctype>
-#include <locale.h>
 #include <utility>
 
+#include <unicode/normalizer2.h>
+#include <unicode/uchar.h>
+#include <unicode/unistr.h>
+
+#include "petrous/Core/AsciiCase.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Scene/Branches.h"
 #include "petrous/Scene/FreeName.h"
@@ -81,58 +83,44 @@ const char* kindOfPart(const Case& value, const std::string& name)
 
 std::string caseFolded(const std::string& text)
 {
-  // Whatever the session's locale: the C library has this one always.
-  static const locale_t unicode = newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
+  const auto unicode = icu::UnicodeString::fromUTF8(text);
   std::string folded;
-  for (std::size_t at = 0; at < text.size();)
+  UErrorCode error = U_ZERO_ERROR;
+  const icu::Normalizer2* const decomposed = icu::Normalizer2::getNFDInstance(error);
+  const icu::Normalizer2* const composed = icu::Normalizer2::getNFCInstance(error);
+  if (U_SUCCESS(error) && unicode.toUTF8String(folded) == text) // it is UTF-8
   {
-    const auto first = static_cast<unsigned char>(text[at]);
-    const std::size_t bytes = first < 0x80 ? 1 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
-    if (bytes == 1 || at + bytes > text.size() || first < 0xc0)
-    {
-      folded += first >= 'A' && first <= 'Z' ? static_cast<char>(first + 0x20) : text[at];
-      ++at;
-      continue;
-    }
-    std::uint32_t letter = first & (0x7fU >> bytes);
-    for (std::size_t n = 1; n < bytes; ++n)
-      letter = letter << 6 | (static_cast<unsigned char>(text[at + n]) & 0x3fU);
-    at += bytes;
-    if (unicode) // through the capital: both small sigmas are one letter
-      letter = static_cast<std::uint32_t>(
-          towlower_l(towupper_l(static_cast<wint_t>(letter), unicode), unicode));
-    if (letter == 0xdf)
-    {
-      folded += "ss";
-      continue;
-    }
-    const auto tail = [&](unsigned shift)
-    { folded += static_cast<char>(0x80U | (letter >> shift & 0x3fU)); };
-    if (letter < 0x80) // as the long s
-      folded += static_cast<char>(letter);
-    else if (letter < 0x800)
-      folded += static_cast<char>(0xc0U | letter >> 6);
-    else if (letter < 0x10000)
-      folded += static_cast<char>(0xe0U | letter >> 12), tail(6);
-    else
-      folded += static_cast<char>(0xf0U | letter >> 18), tail(12), tail(6);
-    if (letter >= 0x80)
-      tail(0);
+    icu::UnicodeString small = decomposed->normalize(unicode, error).foldCase();
+    folded.clear();
+    composed->normalize(small, error).toUTF8String(folded);
+    if (U_SUCCESS(error))
+      return folded;
   }
+  folded = text;
+  std::transform(folded.begin(), folded.end(), folded.begin(), core::asciiLower);
   return folded;
 }
 
 std::string asRead(const std::string& name)
 {
-  std::string read;
-  for (const char c : caseFolded(name))
-    if (c != ' ' && c != '_' && c != '\t')
-      read += c;
-    else if (!read.empty() && read.back() != ' ')
-      read += ' ';
-  if (!read.empty() && read.back() == ' ')
-    read.pop_back();
-  return read;
+  const auto folded = icu::UnicodeString::fromUTF8(caseFolded(name));
+  icu::UnicodeString read;
+  bool isApart = false; // from the letter before, by blanks
+  for (std::int32_t at = 0; at < folded.length(); at = folded.moveIndex32(at, 1))
+  {
+    const UChar32 letter = folded.char32At(at);
+    if (u_isUWhiteSpace(letter) || letter == '_')
+      isApart = !read.isEmpty();
+    else if (!u_hasBinaryProperty(letter, UCHAR_DEFAULT_IGNORABLE_CODE_POINT))
+    {
+      if (std::exchange(isApart, false))
+        read += static_cast<UChar>(' ');
+      read += letter;
+    }
+  }
+  std::string text;
+  read.toUTF8String(text);
+  return text;
 }
 
 std::string partReadAs(const Case& value, const std::string& name)

@@ -91,6 +91,17 @@ struct Contents
   double rounding = 0.0;      ///< of whole and 64-bit values, by the float in which they are kept
 };
 
+/// A padding that no value of the bits stored has, so that it is none of tissue.
+bool isBeyondStored(const SliceHeader& slice)
+{
+  const PixelFormat& format = slice.pixels;
+  if (!slice.padding || format.isReal)
+    return false;
+  const double count = std::ldexp(1.0, format.bitsStored);
+  return *slice.padding < (format.isSigned ? -0.5 * count : 0.0) ||
+         *slice.padding >= (format.isSigned ? 0.5 * count : count);
+}
+
 class SeriesReader
 {
 public:
@@ -103,6 +114,7 @@ public:
     , m_box(box)
     , m_require(require)
     , m_progress(progress)
+    , m_signs(m_slices.size())
   {
   }
 
@@ -148,6 +160,7 @@ private:
     fill(*voxels, stand, usePadding);
     if (!m_contents.real.fits<T>())
       return std::nullopt;
+    judgeSigns();
     if (m_contents.rounding > 0.0)
       note("Values were rounded to 32-bit floating point, by up to " +
            core::generalText(m_contents.rounding) + ".");
@@ -180,6 +193,44 @@ private:
                ? IntensityVolume(std::shared_ptr<const Volume<T>>(voxels),
                                  static_cast<double>(target))
                : IntensityVolume(std::shared_ptr<const Volume<T>>(voxels));
+  }
+
+  /// One slice without copies of the sign cannot tell a negative value from a positive one that is
+  /// too large; the others of the series can.
+  void judgeSigns()
+  {
+    const auto bare = std::find_if(m_signs.begin(), m_signs.end(),
+                                   [](const SignCopies& s) { return s.none > 0; });
+    if (bare == m_signs.end())
+      return;
+    const auto has = [](const SignCopies& signs) { return signs.any; };
+    auto copies = std::find_if(m_signs.begin(), m_signs.end(), has);
+    StoredPixels pixels;
+    for (auto n = m_signs.begin(); copies == m_signs.end() && n != m_signs.end(); ++n)
+    {
+      const auto k = static_cast<int>(n - m_signs.begin());
+      if (k >= m_box.lower[2] && k < m_box.upper[2])
+        continue; // read already
+      m_progress.check("reading slices");
+      decodePixels(sliceOf(n), pixels);
+      copies = pixels.signs.any ? n : copies;
+    }
+    const SliceHeader& slice = sliceOf(bare);
+    if (copies != m_signs.end())
+      failBitsStored(slice, bare->none,
+                     ": without the copies of the sign that the negative values of " +
+                         sliceOf(copies).file.filename().string() + " have");
+    note(
+        "Values whose highest stored bit is set were read as negative, as the header says (signed, "
+        "Bits Stored " +
+        std::to_string(slice.pixels.bitsStored) +
+        "); no bit above tells them from positive ones that are too large. Look whether metal "
+        "shows as air.");
+  }
+
+  const SliceHeader& sliceOf(std::vector<SignCopies>::const_iterator signs) const
+  {
+    return m_slices[static_cast<std::size_t>(signs - m_signs.begin())];
   }
 
   /// The padding value of the first slice that has one, rescaled.
@@ -236,6 +287,7 @@ private:
   {
     const SliceHeader& slice = m_slices[static_cast<std::size_t>(m_box.lower[2] + k)];
     decodePixels(slice, pixels);
+    m_signs[static_cast<std::size_t>(m_box.lower[2] + k)] = pixels.signs;
     if (pixels.isReal())
       fillRows(k, slice, pixels.reals, voxels, stand, usePadding);
     else
@@ -281,7 +333,7 @@ private:
     }
 
     const std::size_t lastRow = columns * static_cast<std::size_t>(slice.rows - 1);
-    bool corner = false;
+    bool corner = padded && isBeyondStored(slice);
     for (const std::size_t at : {std::size_t{0}, columns - 1, lastRow, lastRow + columns - 1})
       corner = corner || padding.contains(stored[at]);
     const std::lock_guard<std::mutex> lock(m_mutex);
@@ -368,7 +420,8 @@ private:
   const std::function<void(std::size_t)>& m_require;
   const core::Progress& m_progress;
   std::vector<std::string>* m_notes = nullptr;
-  bool m_needsRange = true; ///< whether the range of the real values is needed
+  std::vector<SignCopies> m_signs; ///< of each slice; none outside of the box
+  bool m_needsRange = true;        ///< whether the range of the real values is needed
   std::mutex m_mutex;
   Contents m_contents;
 };

@@ -7,6 +7,7 @@
 #include <exception>
 #include <limits>
 #include <mutex>
+#include <optional>
 
 #include <gdcmDataElement.h>
 #include <gdcmFragment.h>
@@ -161,14 +162,37 @@ std::uint64_t littleEndian(const unsigned char* bytes, std::size_t count)
   return value;
 }
 
-/// The pixels that have bits above those that the header says are stored, but for copies of the
-/// sign and the bits of `others`. Where some negative values have copies of the sign, one without
-/// them is a positive one that is too large. Most images have none, which one pass without a branch
-/// tells.
+/// Pixels with bits outside of those that the header says are stored.
+struct OutsideBits
+{
+  std::size_t beyond = 0; ///< they are no copies of the sign, and not the declared padding
+  bool isPadded = false;  ///< some are of the declared padding
+  SignCopies signs;
+};
+
+/// The value of a whole cell, if the header declares it as padding.
+std::optional<std::int32_t> paddingOf(const SliceHeader& slice, std::uint64_t cell)
+{
+  const PixelFormat& format = slice.pixels;
+  if (!slice.padding || format.highBit + 1 != format.bitsStored)
+    return std::nullopt;
+  const int unused = 64 - format.bitsAllocated;
+  const std::int64_t value = format.isSigned ? static_cast<std::int64_t>(cell << unused) >> unused
+                                             : static_cast<std::int64_t>(cell);
+  const double limit = slice.paddingRangeLimit.value_or(*slice.padding);
+  const auto number = static_cast<double>(value);
+  if (number < std::min(*slice.padding, limit) || number > std::max(*slice.padding, limit))
+    return std::nullopt;
+  return static_cast<std::int32_t>(value);
+}
+
+/// `others`: bits of a cell that are left out. Most images have no bits outside, and no sign, which
+/// one pass without a branch tells.
 template <class Cell>
-std::size_t countBeyond(const PixelFormat& format, const std::vector<unsigned char>& bytes,
+OutsideBits outsideBits(const SliceHeader& slice, const std::vector<unsigned char>& bytes,
                         bool swap, std::uint64_t others)
 {
+  const PixelFormat& format = slice.pixels;
   const std::size_t count = bytes.size() / sizeof(Cell);
   const auto cellAt = [&](std::size_t n)
   {
@@ -185,40 +209,57 @@ std::size_t countBeyond(const PixelFormat& format, const std::vector<unsigned ch
     std::memcpy(&cell, own.data(), sizeof cell);
     return cell;
   };
-  const int above = static_cast<int>(8 * sizeof(Cell)) - format.highBit - 1;
-  const std::uint64_t all = ((std::uint64_t{1} << above) - 1) & ~(others >> format.highBit >> 1);
-  const auto high = [&](Cell cell) { return std::uint64_t{cell} >> format.highBit >> 1 & all; };
+  const std::uint64_t sign =
+      format.isSigned ? std::uint64_t{1} << format.highBit : std::uint64_t{0};
+  const std::uint64_t whole = ~std::uint64_t{0} >> (64 - format.bitsAllocated);
+  const std::uint64_t above = whole & ~std::uint64_t{0} << format.highBit << 1 & ~others;
+  const std::uint64_t below =
+      ((std::uint64_t{1} << (format.highBit + 1 - format.bitsStored)) - 1) & ~others;
   Cell any = 0;
   for (std::size_t n = 0; n < count; ++n)
     any = static_cast<Cell>(any | cellAt(n));
-  if (high(swapped(any)) == 0)
-    return 0;
-  std::size_t beyond = 0;
-  std::size_t signs = 0; // with copies, and without
-  std::size_t bare = 0;
+  OutsideBits outside;
+  if ((swapped(any) & (above | below | (above != 0 ? sign : 0))) == 0)
+    return outside;
   for (std::size_t n = 0; n < count; ++n)
   {
-    const Cell cell = swapped(cellAt(n));
-    const bool isNegative = format.isSigned && (std::uint64_t{cell} >> format.highBit & 1U) != 0;
-    if (high(cell) == 0)
-      bare += isNegative ? 1 : 0;
-    else if (isNegative && high(cell) == all)
-      ++signs;
+    const std::uint64_t cell = swapped(cellAt(n));
+    const bool isNegative = (cell & sign) != 0;
+    if ((cell & (above | below)) == 0)
+      outside.signs.none += isNegative && above != 0 ? 1 : 0;
+    else if (isNegative && above != 0 && (cell & (above | below)) == above)
+      outside.signs.any = true;
+    else if (paddingOf(slice, cell))
+      outside.isPadded = true;
     else
-      ++beyond;
+      ++outside.beyond;
   }
-  return beyond + (signs > 0 ? bare : 0);
+  return outside;
 }
 
-std::size_t countBeyond(const PixelFormat& format, const std::vector<unsigned char>& bytes,
+OutsideBits outsideBits(const SliceHeader& slice, const std::vector<unsigned char>& bytes,
                         bool swap, std::uint64_t others = 0)
 {
-  if (format.highBit + 1 >= format.bitsAllocated)
-    return 0;
-  return format.bitsAllocated == 8    ? countBeyond<std::uint8_t>(format, bytes, swap, others)
-         : format.bitsAllocated == 16 ? countBeyond<std::uint16_t>(format, bytes, swap, others)
-         : format.bitsAllocated == 32 ? countBeyond<std::uint32_t>(format, bytes, swap, others)
-                                      : 0;
+  const PixelFormat& format = slice.pixels;
+  if (format.bitsStored >= format.bitsAllocated)
+    return {};
+  return format.bitsAllocated == 8    ? outsideBits<std::uint8_t>(slice, bytes, swap, others)
+         : format.bitsAllocated == 16 ? outsideBits<std::uint16_t>(slice, bytes, swap, others)
+         : format.bitsAllocated == 32 ? outsideBits<std::uint32_t>(slice, bytes, swap, others)
+                                      : OutsideBits{};
+}
+
+/// Gives pixels of a padding that needs more than the bits stored its whole value.
+void restorePadding(const SliceHeader& slice, bool swap, StoredPixels& pixels)
+{
+  const auto bytes = static_cast<std::size_t>(slice.pixels.bitsAllocated / 8);
+  for (std::size_t p = 0; p < pixels.values.size(); ++p)
+  {
+    std::uint64_t cell = 0;
+    for (std::size_t b = 0; b < bytes; ++b)
+      cell = cell << 8 | pixels.scratch[p * bytes + (swap ? b : bytes - 1 - b)];
+    pixels.values[p] = paddingOf(slice, cell).value_or(pixels.values[p]);
+  }
 }
 
 /// The bits of a cell in which the file declares overlays, as old scanners wrote them (PS3.3 of
@@ -234,29 +275,30 @@ std::uint64_t overlayBits(const std::filesystem::path& file)
   std::uint64_t bits = 0;
   for (Tag n = 0; n < kMostOverlays; ++n)
   {
-    const int place = elements.integer(kFirst + n * kNext).value_or(0);
-    if (elements.integer(kAllocated + n * kNext).value_or(1) > 1 && place > 0 && place < 32)
+    const int place = elements.integer(kFirst + n * kNext).value_or(-1);
+    if (elements.integer(kAllocated + n * kNext).value_or(1) > 1 && place >= 0 && place < 32)
       bits |= std::uint64_t{1} << place;
   }
   return bits;
 }
 
-/// Cut to the bits that the header says are stored, larger values would turn into smaller ones:
-/// metal into soft tissue.
-void requireWithin(const SliceHeader& slice, const std::vector<unsigned char>& bytes, bool swap)
+/// Unpacks `scratch`. Cut to the bits that the header says are stored, larger values would turn
+/// into smaller ones: metal into soft tissue.
+void unpackWithin(const SliceHeader& slice, bool swap, StoredPixels& pixels)
 {
   const PixelFormat& format = slice.pixels;
-  if (countBeyond(format, bytes, swap) == 0)
-    return;
-  const std::size_t beyond = countBeyond(format, bytes, swap, overlayBits(slice.file));
-  if (beyond > 0)
-    throw DicomError(DicomError::Reason::Unreadable,
-                     slice.file.filename().string() +
-                         " contradicts itself about the bits of a pixel: " +
-                         std::to_string(beyond) + (beyond == 1 ? " pixel has" : " pixels have") +
-                         " values of more than the " + std::to_string(format.bitsStored) +
-                         " bits that its header states (Bits Stored); export it again, "
-                         "uncompressed and with all bits");
+  OutsideBits outside = outsideBits(slice, pixels.scratch, swap);
+  const auto beyond = [&outside]
+  { return outside.beyond + (outside.signs.any ? outside.signs.none : std::size_t{0}); };
+  if (beyond() > 0)
+    outside = outsideBits(slice, pixels.scratch, swap, overlayBits(slice.file));
+  if (beyond() > 0)
+    failBitsStored(slice, beyond());
+  pixels.signs = outside.signs;
+  unpackCells(slice, format.bitsAllocated,
+              bitField(format.bitsStored, format.highBit, format.isSigned), swap, pixels);
+  if (outside.isPadded)
+    restorePadding(slice, swap, pixels);
 }
 
 /// The fragments of the slice's frame (PS3.5 A.4): all of them if it is the only one, those that
@@ -456,6 +498,7 @@ void requireWholePixels(const SliceHeader& slice)
 void decodeFrame(ByteSource& source, const SliceHeader& slice,
                  const std::vector<Fragment>& fragments, StoredPixels& pixels)
 {
+  pixels.signs = {};
   requireWholePixels(slice);
   if (slice.pixels.bitsAllocated % 8 != 0)
     fail(slice, "has a damaged compressed image");
@@ -480,9 +523,7 @@ void decodeFrame(ByteSource& source, const SliceHeader& slice,
     pixels.scratch.assign(pixels.values.size() * bytes, 0);
     if (!decodeRle(codestream, bytes, pixels.scratch))
       fail(slice, "has a damaged compressed image");
-    requireWithin(slice, pixels.scratch, false);
-    unpackCells(slice, format.bitsAllocated,
-                bitField(format.bitsStored, format.highBit, format.isSigned), false, pixels);
+    unpackWithin(slice, false, pixels);
     return;
   }
   if (isJpeg(format.transferSyntax))
@@ -493,9 +534,10 @@ void decodeFrame(ByteSource& source, const SliceHeader& slice,
         !decodeJpeg(codestream, precision, pixels.scratch))
       fail(slice, "has a damaged compressed image");
     if (isWider)
-      requireWithin(slice, pixels.scratch, false);
-    unpackCells(slice, format.bitsAllocated,
-                bitField(format.bitsStored, format.highBit, format.isSigned), false, pixels);
+      unpackWithin(slice, false, pixels);
+    else
+      unpackCells(slice, format.bitsAllocated,
+                  bitField(format.bitsStored, format.highBit, format.isSigned), false, pixels);
     return;
   }
   gdcm::Fragment fragment;
@@ -538,11 +580,12 @@ void decodeFrame(ByteSource& source, const SliceHeader& slice,
       real.GetBitsAllocated() != format.bitsAllocated)
     fail(slice, "has a damaged compressed image");
   if (isWider)
-    requireWithin(slice, pixels.scratch, false);
-  const BitField field = isWider ? bitField(format.bitsStored, format.highBit, format.isSigned)
-                                 : bitField(real.GetBitsStored(), real.GetHighBit(),
-                                            real.GetPixelRepresentation() == 1);
-  unpackCells(slice, format.bitsAllocated, field, false, pixels);
+    unpackWithin(slice, false, pixels);
+  else
+    unpackCells(
+        slice, format.bitsAllocated,
+        bitField(real.GetBitsStored(), real.GetHighBit(), real.GetPixelRepresentation() == 1),
+        false, pixels);
 }
 
 namespace
@@ -569,6 +612,7 @@ void decodeUnchecked(ByteSource& source, const SliceHeader& slice, StoredPixels&
       fail(slice, "does not have one floating-point value of 32 or 64 bits");
     requireBytes(source, slice, count * bits / 8);
     pixels.values.clear();
+    pixels.signs = {};
     pixels.reals.resize(count);
     pixels.scratch.resize(count * bits / 8);
     if (!source.read(format.offset, pixels.scratch.data(), pixels.scratch.size()))
@@ -581,6 +625,7 @@ void decodeUnchecked(ByteSource& source, const SliceHeader& slice, StoredPixels&
   }
   requireWholePixels(slice);
   pixels.reals.clear();
+  pixels.signs = {};
   if (format.isEncapsulated)
   {
     decodeFrame(source, slice, readFragments(source, slice), pixels);
@@ -596,13 +641,21 @@ void decodeUnchecked(ByteSource& source, const SliceHeader& slice, StoredPixels&
     fail(slice, "is cut short");
   for (std::size_t at = 0; isPaired && at + 1 < pixels.scratch.size(); at += 2)
     std::swap(pixels.scratch[at], pixels.scratch[at + 1]);
-  requireWithin(slice, pixels.scratch, format.isBigEndian);
-  unpackCells(slice, format.bitsAllocated,
-              bitField(format.bitsStored, format.highBit, format.isSigned), format.isBigEndian,
-              pixels);
+  unpackWithin(slice, format.isBigEndian, pixels);
 }
 
 } // namespace
+
+void failBitsStored(const SliceHeader& slice, std::size_t count, const std::string& why)
+{
+  throw DicomError(DicomError::Reason::Unreadable,
+                   slice.file.filename().string() +
+                       " contradicts itself about the bits of a pixel: " + std::to_string(count) +
+                       (count == 1 ? " pixel has" : " pixels have") + " values of more than the " +
+                       std::to_string(slice.pixels.bitsStored) +
+                       " bits that its header states (Bits Stored)" + why +
+                       "; export it again, uncompressed and with all bits");
+}
 
 void decodePixels(const SliceHeader& slice, StoredPixels& pixels)
 {

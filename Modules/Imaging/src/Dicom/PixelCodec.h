@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "ByteSource.h"
@@ -9,6 +10,13 @@
 namespace petrous::imaging
 {
 
+/// Negative values of a slice that has unused bits above its values.
+struct SignCopies
+{
+  bool any = false;     ///< some have copies of the sign in the unused bits
+  std::size_t none = 0; ///< how many have none: larger positive values have the same bits
+};
+
 /// Stored values of one slice, sign-extended, row by row: whole numbers of 32 bits, or others. The
 /// memory is reused.
 struct StoredPixels
@@ -16,6 +24,7 @@ struct StoredPixels
   std::vector<std::int32_t> values; ///< empty: see `reals`
   std::vector<double> reals;        ///< floating point, and unsigned ones beyond 2^31 - 1; or empty
   std::vector<unsigned char> scratch;
+  SignCopies signs;
 
   bool isReal() const noexcept { return !reals.empty(); }
   std::size_t size() const noexcept { return isReal() ? reals.size() : values.size(); }
@@ -47,10 +56,17 @@ void decodeFrame(ByteSource& source, const SliceHeader& slice,
 
 /// Reads and decodes the pixels that `slice` describes.
 ///
-/// Bits above the high bit must be none, copies of the sign, or those of overlays that the file
-/// declares (of old scanners), which are left out: values that need them are refused. Thread-safe.
+/// Bits outside of the stored ones must be none, copies of the sign, or those of overlays that the
+/// file declares (of old scanners), which are left out: values that need them are refused, but for
+/// the declared padding, which keeps the value that the header gives it. Whether a positive value
+/// was taken for a negative one only the slices together tell (StoredPixels::signs). Thread-safe.
 /// Throws DicomError (Unreadable), naming the file; also if it was changed or replaced since its
 /// header was read (SliceHeader::stamp).
 void decodePixels(const SliceHeader& slice, StoredPixels& pixels);
+
+/// Throws DicomError (Unreadable): so many pixels of the slice have values of more than the bits
+/// stored. `why`: what tells, in brackets after a blank; or empty.
+[[noreturn]] void failBitsStored(const SliceHeader& slice, std::size_t count,
+                                 const std::string& why = {});
 
 } // namespace petrous::imaging

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <set>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -249,23 +250,35 @@ Eigen::Vector3d centreOf(const Headers& slices)
   return sum / static_cast<double>(slices.size());
 }
 
-/// "centre 41 mm left": of a field, along the patient's axis in which they differ most.
+/// "farther left": than the others, along the patient's axis in which they differ most. A scanner's
+/// zero point need not be the patient's middle, so that no side of it says which ear is there.
 void nameBySide(Groups& groups)
 {
   Eigen::AlignedBox3d box;
-  for (const NamedSlices& group : groups)
-    if (!group.isSetAside)
-      box.extend(centreOf(group.slices));
+  std::vector<std::pair<Eigen::Vector3d, NamedSlices*>> fields;
+  for (NamedSlices& group : groups)
+    if (group.isSetAside)
+      group.name = joined(group.name, "set aside");
+    else
+      fields.emplace_back(centreOf(group.slices), &group);
+  for (const auto& [centre, group] : fields)
+    box.extend(centre);
   static constexpr const char* kSides[3][2] = {
       {"right", "left"}, {"anterior", "posterior"}, {"inferior", "superior"}};
   Eigen::Index axis = 0;
   box.sizes().maxCoeff(&axis);
-  for (NamedSlices& group : groups)
+  std::stable_sort(fields.begin(), fields.end(),
+                   [axis](const auto& a, const auto& b) { return a.first[axis] < b.first[axis]; });
+  const std::size_t last = fields.size() - 1;
+  for (std::size_t n = 0; n < fields.size(); ++n)
   {
-    const double at = group.isSetAside ? 0.0 : centreOf(group.slices)[axis];
-    group.name = joined(group.name, group.isSetAside ? std::string("set aside")
-                                                     : "centre " + decimals(std::abs(at), 0) +
-                                                           " mm " + kSides[axis][at < 0.0 ? 0 : 1]);
+    const std::string farther =
+        std::string(fields.size() > 2 ? "farthest " : "farther ") + kSides[axis][n == last ? 1 : 0];
+    NamedSlices& group = *fields[n].second;
+    group.name = joined(group.name, n == 0 || n == last ? farther
+                                                        : std::to_string(n + 1) + " of " +
+                                                              std::to_string(fields.size()) +
+                                                              " from the " + kSides[axis][0]);
   }
 }
 
@@ -315,7 +328,8 @@ Groups byColumn(const NamedSlices& from)
   return groups;
 }
 
-/// Stretches of one tilt each, of slices that are parallel.
+/// Stretches of one tilt each, of slices that are parallel and as a whole make no volume, even
+/// repaired.
 Groups byTilt(const NamedSlices& from)
 {
   if (from.slices.size() < 2)
@@ -323,7 +337,7 @@ Groups byTilt(const NamedSlices& from)
   Headers sorted = from.slices;
   const SliceStack stack(sorted);
   const std::vector<std::size_t> changes = stack.tiltChanges();
-  if (changes.size() < 2)
+  if (changes.size() < 2 || assess(from.slices).verdict != Verdict::Refused)
     return {from};
   std::vector<Eigen::Vector2d> leans;
   Eigen::AlignedBox2d box;

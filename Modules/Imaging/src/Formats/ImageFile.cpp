@@ -154,7 +154,7 @@ void requireImage(const std::filesystem::path& path, VoxelSource& source, std::s
 {
   if (volume > 0)
     source.select(volume);
-  source.requireOneVolume();
+  source.requireOneVolume(true);
   if (source.components() > 1)
     fail(FileError::Reason::Unsupported, path,
          "holds " + std::to_string(source.components()) +

@@ -225,7 +225,7 @@ LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
   const bool isSideKnown = source.settleSide(isRas, images);
   const bool named = hasSegments(source);
   if (!named || source.components() == 1) // else the layers of a segmentation
-    source.requireOneVolume();
+    source.requireOneVolume(false);
   if (source.components() > 1 && !named)
     fail(FileError::Reason::Unsupported, path,
          "holds " + std::to_string(source.components()) +

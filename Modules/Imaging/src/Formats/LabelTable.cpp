@@ -270,32 +270,6 @@ std::vector<std::string> cellsOf(std::string_view line, char delimiter)
   return cellsOf(line, delimiter, isQuoted);
 }
 
-/// The cells of a line of `text`, and of the lines after it that a quoted cell goes on in, as
-/// spreadsheets write a line break; adds those to `number`. nullopt: a quote is not closed.
-std::optional<std::vector<std::string>> takeCells(std::string_view line, std::string_view& text,
-                                                  char delimiter, std::size_t& number)
-{
-  bool isQuoted = false;
-  std::vector<std::string> cells = cellsOf(line, delimiter, isQuoted);
-  constexpr std::size_t kLongestRow = 1 << 16; // bytes; longer is a quote that nobody closed
-  std::string_view rest = text;
-  std::size_t more = 0;
-  for (std::string row(line); isQuoted && !rest.empty() && row.size() < kLongestRow; ++more)
-  {
-    const std::string_view next = takeLine(rest);
-    row += ' ';
-    row += next;
-    if (next.find('"') == next.npos)
-      continue;
-    cells = cellsOf(row, delimiter, isQuoted);
-  }
-  if (isQuoted)
-    return std::nullopt;
-  text = rest;
-  number += more;
-  return cells;
-}
-
 std::optional<double> cellNumber(std::string cell)
 {
   std::replace(cell.begin(), cell.end(), ',', '.');
@@ -318,6 +292,48 @@ struct Columns
   std::size_t index = kMissing, name = kMissing, color = kMissing;
   std::array<std::size_t, 3> channels{kMissing, kMissing, kMissing};
 };
+
+/// Whether a line is a row of its own: with an index in its place, and all cells.
+bool isRow(std::string_view line, const Columns& columns)
+{
+  bool isQuoted = false;
+  const std::vector<std::string> cells = cellsOf(line, columns.delimiter, isQuoted);
+  std::size_t last = std::max(columns.index, columns.name);
+  for (const std::size_t column :
+       {columns.color, columns.channels[0], columns.channels[1], columns.channels[2]})
+    last = column == kMissing ? last : std::max(last, column);
+  return !isQuoted && cells.size() > last && cellIndex(cells[columns.index]);
+}
+
+/// The cells of a line of `text`, and of the lines after it that a quoted cell goes on in, as
+/// spreadsheets write a line break; adds those to `number`. nullopt: a quote is not closed, before
+/// a row of its own or at all.
+std::optional<std::vector<std::string>> takeCells(std::string_view line, std::string_view& text,
+                                                  const Columns& columns, std::size_t& number)
+{
+  const char delimiter = columns.delimiter;
+  bool isQuoted = false;
+  std::vector<std::string> cells = cellsOf(line, delimiter, isQuoted);
+  constexpr std::size_t kLongestRow = 1 << 16; // bytes; longer is a quote that nobody closed
+  std::string_view rest = text;
+  std::size_t more = 0;
+  for (std::string row(line); isQuoted && !rest.empty() && row.size() < kLongestRow; ++more)
+  {
+    const std::string_view next = takeLine(rest);
+    if (isRow(next, columns))
+      return std::nullopt;
+    row += ' ';
+    row += next;
+    if (next.find('"') == next.npos)
+      continue;
+    cells = cellsOf(row, delimiter, isQuoted);
+  }
+  if (isQuoted)
+    return std::nullopt;
+  text = rest;
+  number += more;
+  return cells;
+}
 
 /// Letters and digits of a header cell, in lower case.
 std::string plainHeader(const std::string& cell)
@@ -451,7 +467,7 @@ void readRows(std::string_view text, const Columns& columns, Entries& entries, L
     if (trimmed(line).front() == '#')
       continue;
     const std::size_t first = number;
-    const auto row = takeCells(line, text, columns.delimiter, number);
+    const auto row = takeCells(line, text, columns, number);
     if (!row)
     {
       entries.problem(first, "opens a quote that is not closed");

@@ -300,14 +300,16 @@ void VoxelSource::select(std::size_t volume)
                     std::to_string(volume));
 }
 
-void VoxelSource::requireOneVolume() const
+void VoxelSource::requireOneVolume(bool canBeNamed) const
 {
   if (m_volumes > 1 && !m_volume)
     fail(FileError::Reason::Unsupported, m_path,
          "holds " + std::to_string(m_volumes) + " volumes of " +
-             dimsText({m_dims.begin(), m_dims.begin() + 3}) +
-             " voxels; one is needed: name it by its number, 1 to " + std::to_string(m_volumes) +
-             " (--volume N, of an MR FILE##N), or save it alone");
+             dimsText({m_dims.begin(), m_dims.begin() + 3}) + " voxels; one is needed: " +
+             (canBeNamed
+                  ? "name it by its number, 1 to " + std::to_string(m_volumes) +
+                        " (--volume N, of an MR FILE##N), or save it alone"
+                  : "save each alone, or all as one volume with a value for each structure"));
 }
 
 long double VoxelSource::voxelBytes() const

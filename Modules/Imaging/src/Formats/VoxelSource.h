@@ -34,7 +34,7 @@ public:
   /// Of several, the one that is read: 1 for the first. Notes it.
   void select(std::size_t volume);
   /// Throws unless there is one volume, or one was selected.
-  void requireOneVolume() const;
+  void requireOneVolume(bool canBeNamed) const;
 
   const core::GridGeometry& geometry() const noexcept { return *m_geometry; }
   Component component() const noexcept { return rescaled() ? Component::Float : m_stored; }

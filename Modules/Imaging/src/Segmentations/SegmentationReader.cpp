@@ -85,7 +85,8 @@ struct Segmentation
   Eigen::Vector3d row = Eigen::Vector3d::UnitX(), column = Eigen::Vector3d::UnitY();
   Eigen::Vector2d pixelSpacing = Eigen::Vector2d::Zero(); ///< between rows, between columns; mm
   double sliceSpacing = 0.0;                              ///< as declared; 0: not
-  double thickness = 0.0;
+  double thickness = 0.0;                                 ///< likewise
+  double gap = std::numeric_limits<double>::infinity();   ///< of neighbouring frames, mm
   std::uint64_t memory = 0; ///< bytes that the voxels may take; 0: what is left
 };
 
@@ -286,28 +287,13 @@ double spacingOfImage(const Segmentation& file, const std::vector<ImageGrid>& im
   return 0.0;
 }
 
-/// The spacing of slices whose sorted places (mm along the normal) are `at`: as declared, if that
-/// is true to the places, which may be far apart; else that of an image that has all of them; else
-/// the thickness; else the smallest gap. Guesses are noted.
-double spacingOf(const Segmentation& file, const std::vector<double>& at,
-                 const std::vector<ImageGrid>& images, std::vector<std::string>& notes)
+/// The smallest distance of neighbouring places, as the mean of those that rounded decimals make
+/// differ.
+double smallestGap(const std::vector<double>& at)
 {
-  if (at.size() < 2)
-  {
-    if (file.sliceSpacing > 0.0)
-      return file.sliceSpacing;
-    const double ofImage = spacingOfImage(file, images);
-    if (ofImage <= 0.0 && file.thickness > 0.0)
-      notes.push_back("states no spacing of its one slice, which is " + roughText(file.thickness) +
-                      " mm thick; that was taken");
-    return ofImage > 0.0 ? ofImage : file.thickness;
-  }
-  if (liesOnSlices(at, file.sliceSpacing))
-    return file.sliceSpacing;
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t n = 1; n < at.size(); ++n)
     smallest = std::min(smallest, at[n] - at[n - 1]);
-  // The mean of the gaps of one slice, as rounded decimals make them differ.
   double sum = 0.0;
   int count = 0;
   for (std::size_t n = 1; n < at.size(); ++n)
@@ -316,9 +302,52 @@ double spacingOf(const Segmentation& file, const std::vector<double>& at,
       sum += gap;
       ++count;
     }
-  const double gap = sum / count;
+  return count > 0 ? sum / count : smallest;
+}
+
+/// That the frames are thicker than the image's slices, of which they have some only.
+std::string thickerText(const Segmentation& file, double spacing)
+{
+  return "states no spacing of its slices, which are " + roughText(file.thickness) +
+         " mm thick; those of the image are " + roughText(spacing) +
+         " mm apart, which was taken, so that what lies between the slices of the file is empty; "
+         "check the volumes";
+}
+
+/// The spacing of slices whose sorted places (mm along the normal) are `at`: as declared, if that
+/// is true to the places, which may be far apart; else their distance, if they are just as thick;
+/// else that of an image that has all of them; else the thickness; else the smallest gap. Guesses
+/// are noted.
+double spacingOf(const Segmentation& file, const std::vector<double>& at,
+                 const std::vector<ImageGrid>& images, std::vector<std::string>& notes)
+{
+  if (at.size() < 2)
+  {
+    if (file.sliceSpacing > 0.0)
+      return file.sliceSpacing;
+    const double ofImage = spacingOfImage(file, images);
+    if (ofImage > 0.0 && file.thickness > ofImage + toleranceOf(ofImage))
+      notes.push_back("states no spacing of its one slice, which is " + roughText(file.thickness) +
+                      " mm thick; the slices of the image are " + roughText(ofImage) +
+                      " mm apart, which was taken; check the volumes");
+    if (ofImage <= 0.0 && file.thickness > 0.0)
+      notes.push_back("states no spacing of its one slice, which is " + roughText(file.thickness) +
+                      " mm thick; that was taken");
+    return ofImage > 0.0 ? ofImage : file.thickness;
+  }
+  if (liesOnSlices(at, file.sliceSpacing))
+    return file.sliceSpacing;
+  const double gap = file.gap;
   if (const double spacing = spacingOfImage(file, images); spacing > 0.0)
-    return spacing < gap - toleranceOf(gap) ? spacing : gap;
+  {
+    const bool isTiled =
+        std::abs(file.thickness - gap) <= toleranceOf(gap) && liesOnSlices(at, gap);
+    if (isTiled || spacing >= gap - toleranceOf(gap))
+      return gap;
+    if (file.thickness > spacing + toleranceOf(spacing))
+      notes.push_back(thickerText(file, spacing));
+    return spacing;
+  }
   if (file.thickness >= gap - toleranceOf(gap)) // slices may overlap
     return gap;
   const std::string apart =
@@ -346,6 +375,7 @@ core::GridGeometry placeFrames(Segmentation& file, const std::vector<ImageGrid>&
   std::sort(at.begin(), at.end());
   at.erase(std::unique(at.begin(), at.end(), [](double a, double b) { return b - a < 1e-3; }),
            at.end());
+  file.gap = smallestGap(at);
   double spacing = spacingOf(file, at, images, notes);
   if (!(spacing > kMinSpacing))
     fail(Reason::NoGeometry, file.path,
@@ -396,12 +426,12 @@ core::GridGeometry placeFrames(Segmentation& file, const std::vector<ImageGrid>&
 double thicknessOf(const Segmentation& file, const core::GridGeometry& grid)
 {
   const double spacing = grid.spacing()[2];
-  if (file.sliceSpacing > kMinSpacing &&
-      std::abs(file.sliceSpacing - spacing) <= toleranceOf(spacing))
+  if (file.thickness <= kMinSpacing ||
+      (file.sliceSpacing > kMinSpacing &&
+       std::abs(file.sliceSpacing - spacing) <= toleranceOf(spacing)))
     return spacing;
-  return file.thickness > kMinSpacing && file.thickness < spacing - toleranceOf(spacing)
-             ? file.thickness
-             : spacing;
+  const double thickness = std::min(file.thickness, file.gap);
+  return std::abs(thickness - spacing) <= toleranceOf(spacing) ? spacing : thickness;
 }
 
 /// Calls visit(pixel) for the pixels of a frame that belong to its segment, until it returns false.
@@ -579,12 +609,19 @@ void paintSegment(Segmentation& file, ByteSource& source, const core::GridGeomet
   }
 }
 
-/// The pixels of a frame that belong to its segment.
+/// The pixels of a frame that belong to its segment; of fractions, each with its value.
 std::vector<std::size_t> pixelsOf(Segmentation& file, ByteSource& source, const Frame& frame)
 {
   std::vector<unsigned char> bytes;
   const std::size_t bit = readPixels(file, source, frame, bytes);
   std::vector<std::size_t> pixels;
+  if (file.type == Type::Fractional)
+  {
+    for (std::size_t p = 0; p < pixelsPerFrame(file); ++p)
+      if (bytes[p] != 0)
+        pixels.push_back(p << 8 | bytes[p]);
+    return pixels;
+  }
   forEachPixel(file, bytes, bit,
                [&pixels](std::size_t p)
                {
@@ -656,14 +693,22 @@ Layers copyLabelmap(Segmentation& file, ByteSource& source, const core::GridGeom
   Layers layers;
   layers.add(file.path, grid, file.memory);
   std::vector<unsigned char> bytes;
-  std::vector<char> isTaken(static_cast<std::size_t>(grid.dims()[2]), 0);
+  std::vector<const Frame*> taken(static_cast<std::size_t>(grid.dims()[2]), nullptr);
   for (const Frame& frame : file.frames)
   {
     progress.report(static_cast<double>(frame.number) / static_cast<double>(file.frames.size()),
                     "reading labels");
-    if (std::exchange(isTaken[static_cast<std::size_t>(frame.slice)], 1))
-      failFrame(file.path, frame.number, "lies where another one does");
     readPixels(file, source, frame, bytes);
+    if (const Frame* other = std::exchange(taken[static_cast<std::size_t>(frame.slice)], &frame))
+    {
+      std::vector<unsigned char> same;
+      readPixels(file, source, *other, same);
+      if (bytes != same)
+        failFrame(file.path, frame.number,
+                  "lies where frame " + std::to_string(other->number + 1) +
+                      " does, and differs from it");
+      continue;
+    }
     std::uint16_t* slice = &layers.voxels[0]->at(0, 0, frame.slice);
     const std::size_t size = static_cast<std::size_t>(file.bits) / 8;
     for (std::size_t p = 0; p < pixelsPerFrame(file); ++p)

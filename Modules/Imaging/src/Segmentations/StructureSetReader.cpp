@@ -124,31 +124,52 @@ struct Placed
 
 using Contour = std::vector<Eigen::Vector2d>; ///< voxel coordinates
 
-/// Whether each point of a contour lies within `reach` of another contour's line. Points that
-/// follow each other lie on sides that do: each search begins at the side found before.
-bool liesOn(const Contour& contour, const Contour& other, double reach)
+/// Says of points whether they lie within `reach` of a contour's line. Points that follow each
+/// other lie on sides that do: each search begins at the side found before.
+class NearLine
 {
-  const std::size_t sides = other.size();
-  std::size_t found = 0;
-  const auto isNear = [&](const Eigen::Vector2d& p)
+public:
+  NearLine(const Contour& contour, double reach)
+    : m_contour(contour)
+    , m_reach(reach)
   {
+  }
+
+  bool operator()(const Eigen::Vector2d& p)
+  {
+    const std::size_t sides = m_contour.size();
     for (std::size_t step = 0; step < sides; ++step) // 0, 1, -1, 2, -2 ...
     {
       const std::size_t aside = (step + 1) / 2;
-      const std::size_t n = (found + (step % 2 == 1 ? aside : sides - aside)) % sides;
-      const Eigen::Vector2d& from = other[n];
-      const Eigen::Vector2d along = other[(n + 1) % sides] - from;
+      const std::size_t n = (m_found + (step % 2 == 1 ? aside : sides - aside)) % sides;
+      const Eigen::Vector2d& from = m_contour[n];
+      const Eigen::Vector2d along = m_contour[(n + 1) % sides] - from;
       const double length = along.squaredNorm();
       const double t = length > 0.0 ? std::clamp((p - from).dot(along) / length, 0.0, 1.0) : 0.0;
-      if ((p - from - t * along).squaredNorm() <= reach * reach)
+      if ((p - from - t * along).squaredNorm() <= m_reach * m_reach)
       {
-        found = n;
+        m_found = n;
         return true;
       }
     }
     return false;
-  };
-  return std::all_of(contour.begin(), contour.end(), isNear);
+  }
+
+private:
+  const Contour& m_contour;
+  double m_reach = 0.0; // voxels
+  std::size_t m_found = 0;
+};
+
+/// Whether each point of a contour, and the middle of each side, lies within `reach` of another
+/// contour's line.
+bool liesOn(const Contour& contour, const Contour& other, double reach)
+{
+  NearLine isNear(other, reach);
+  for (std::size_t n = 0; n < contour.size(); ++n)
+    if (!isNear(contour[n]) || !isNear(0.5 * (contour[n] + contour[(n + 1) % contour.size()])))
+      return false;
+  return true;
 }
 
 Eigen::AlignedBox2d boundsOf(const Contour& contour)
@@ -425,8 +446,36 @@ double areaOf(const Plane& plane, const core::Progress& progress) // voxels
   return area;
 }
 
+/// Whether most of a contour's length lies within `reach` of another one's line.
+bool followsLine(const Contour& contour, const Contour& other, double reach)
+{
+  constexpr std::size_t kMostPoints = 400; // looked at
+  double length = 0.0;
+  for (std::size_t n = 0; n < contour.size(); ++n)
+    length += (contour[(n + 1) % contour.size()] - contour[n]).norm();
+  NearLine isNear(other, reach);
+  const double step = length / kMostPoints;
+  double next = 0.5 * step; // along the contour
+  double begin = 0.0;       // of the side
+  std::size_t near = 0;
+  std::size_t all = 0;
+  for (std::size_t n = 0; n < contour.size(); ++n)
+  {
+    const Eigen::Vector2d side = contour[(n + 1) % contour.size()] - contour[n];
+    const double end = begin + side.norm();
+    for (; next < end; next += step)
+    {
+      ++all;
+      near += isNear(contour[n] + (next - begin) / (end - begin) * side) ? 1 : 0;
+    }
+    begin = end;
+  }
+  return 2 * near > all;
+}
+
 /// Whether contours of the plane lie within each other so closely that next to nothing is left
-/// between them, as where one was drawn twice.
+/// between them, as where one was drawn twice; or most of one along another, as where the second
+/// was then edited.
 bool isEmptied(const Plane& plane, const core::Progress& progress)
 {
   constexpr double kThin = 0.25; // voxels, the mean width of what is left
@@ -449,7 +498,20 @@ bool isEmptied(const Plane& plane, const core::Progress& progress)
   if (enclosed < 2.0)
     return false;
   const double area = areaOf(plane, progress);
-  return area < 0.5 * enclosed && 2.0 * area < kThin * length;
+  if (area >= 0.5 * enclosed)
+    return false;
+  if (2.0 * area < kThin * length)
+    return true;
+  constexpr std::size_t kMostContours = 16; // bounds the time
+  const std::size_t count = std::min(plane.contours.size(), kMostContours);
+  for (std::size_t a = 0; a < count; ++a)
+    for (std::size_t b = 0; b < count; ++b)
+    {
+      progress.check(kTask);
+      if (a != b && followsLine(plane.contours[a], plane.contours[b], kThin))
+        return true;
+    }
+  return false;
 }
 
 double volumeOf(const Placed& placed, const core::Progress& progress = {}) // voxels

@@ -414,27 +414,25 @@ std::vector<CaseSummary> Library::search(const std::string& text) const
 
 std::string caseLike(const fs::path& library, const std::string& name)
 {
-  const std::string folded = scene::caseFolded(name);
+  const std::string read = scene::asRead(name);
   std::string like;
   for (const std::string& one : namesIn(library / "cases"))
     if (one == name)
       return one;
-    else if (scene::caseFolded(one) == folded)
+    else if (scene::asRead(one) == read)
       like = one;
   return like;
 }
 
 void refuseTakenName(const fs::path& library, const std::string& name, const std::string& besides)
 {
-  const std::string folded = scene::caseFolded(name);
+  const std::string read = scene::asRead(name);
   for (const std::string& taken : namesIn(library / "cases"))
-    if (taken != besides && scene::caseFolded(taken) == folded)
-      throw LibraryError(Reason::NameTaken, "case '" + taken + "' is there already in " +
-                                                library.string() + "; choose another name" +
-                                                (taken == name ? ""
-                                                               : " than '" + name +
-                                                                     "', which only capitals "
-                                                                     "tell apart"));
+    if (taken != besides && scene::asRead(taken) == read)
+      throw LibraryError(Reason::NameTaken,
+                         "case '" + taken + "' is there already in " + library.string() +
+                             "; choose another name" +
+                             (taken == name ? "" : " than '" + name + "', which reads the same"));
 }
 
 bool Library::contains(const std::string& name) const

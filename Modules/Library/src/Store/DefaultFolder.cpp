@@ -6,6 +6,7 @@
 #include "petrous/Core/InputFile.h"
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Library/LibraryError.h"
+#include "petrous/Library/LibraryFiles.h"
 
 namespace petrous::library
 {
@@ -86,6 +87,11 @@ void chooseDefaultFolder(const fs::path& folder)
   if (chosen.string().find('\n') != std::string::npos)
     throw LibraryError(LibraryError::Reason::Unwritable,
                        core::printable(chosen) + ": a library's path must be one line");
+  if (isOfAnyLibrary(chosen))
+    throw LibraryError(LibraryError::Reason::Unwritable,
+                       core::printable(chosen) +
+                           ": a library keeps its own data there; choose that library's folder, or "
+                           "one outside of it");
   makeFolder(chosen);
   makeFolder(file.parent_path());
   try

@@ -9,8 +9,8 @@ namespace petrous::library
 /// Absolute, without links as far as it exists; never throws.
 std::filesystem::path resolvedPath(const std::filesystem::path& file);
 
-/// The case of the library in that folder whose name is this one but for capitals, itself if it is
-/// there; empty: none. A file system without regard to case cannot hold two.
+/// The case of the library in that folder whose name reads as this one (scene::asRead), itself if
+/// it is there; empty: none. A file system without regard to case cannot hold two.
 std::string caseLike(const std::filesystem::path& library, const std::string& name);
 /// Throws LibraryError (NameTaken) if there is one; `besides` does not count.
 void refuseTakenName(const std::filesystem::path& library, const std::string& name,

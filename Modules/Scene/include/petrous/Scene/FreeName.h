@@ -7,12 +7,13 @@ namespace petrous::scene
 
 struct Case;
 
-/// The letters in small (Unicode, as far as one letter becomes one, and German sharp s), all else
-/// as it is: two names that a file system without regard to case holds for one are equal.
+/// The letters folded to one case and composed (Unicode 3.13, D145: canonical caseless matching),
+/// all else as it is: two names that a file system without regard to case or composition holds for
+/// one are equal. Bytes that are not UTF-8 stay, but for ASCII capitals.
 std::string caseFolded(const std::string& text);
 
 /// What a reader sees of a name: caseFolded, an underscore as the blank that lists show instead,
-/// and blanks only one at a time between words.
+/// blanks of any kind as one between words, and without what has no width.
 std::string asRead(const std::string& name);
 
 /// The name of a part of the case that reads as `name` does, itself if there is one; empty: none.

@@ -187,7 +187,7 @@ struct ReceiveOptions
 {
   std::string node;
   presenters::ReceiveRequest request;
-  std::string partial;
+  std::string volume, partial;
 };
 
 void receive(const Context& context, const ReceiveOptions& options)
@@ -196,6 +196,8 @@ void receive(const Context& context, const ReceiveOptions& options)
   const network::NodeList list(library.folder());
   presenters::ReceiveRequest request = options.request;
   request.partial = options.partial;
+  if (!options.volume.empty())
+    request.series += "#" + options.volume;
   if (request.studyUid.empty() == request.caseName.empty())
     throw UsageError("receive: give --study UID or --case NAME");
   const auto done =
@@ -298,6 +300,10 @@ void addNodeCommands(CLI::App& app, Context& context)
       ->add_option("--series", in->request.series,
                    "The CT series to build a case of, also where the study has a scene")
       ->type_name("UID");
+  command
+      ->add_option("--volume", in->volume,
+                   "Which volume of a CT series with several, as the refusal names it")
+      ->type_name("NAME");
   command->add_flag("--repair", in->request.repair,
                     "Resample tilted, uneven or gapped slices to a straight volume");
   command

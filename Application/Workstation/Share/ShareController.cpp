@@ -131,6 +131,10 @@ void ShareController::report()
                  const presenters::IdentityText identity(value, library);
                  options.mayIdentify = [&identity](const std::string& text)
                  { return identity.mayIdentify(text); };
+                 options.mayIdentifySentence = [&identity](const std::string& text)
+                 { return identity.mayIdentifySentence(text); };
+                 options.isOfField = [&identity](const std::string& text)
+                 { return identity.isOfField(text); };
                  if (!value.dissection.loaded())
                    library.loadDissection(value);
                  const presenters::PlanReport report =

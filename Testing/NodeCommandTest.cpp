@@ -2,6 +2,7 @@
 
 #include "DicomValidator.h"
 #include "TestServers.h"
+#include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Network/SceneObjects.h"
 
 using namespace petrous::testing;
@@ -83,6 +84,45 @@ protected:
 
   std::unique_ptr<servers::Orthanc> m_server;
 };
+
+// One CT series of two reconstructions 90 mm apart, of the first of which a slice is missing.
+std::vector<std::filesystem::path> writeBothEars(const std::filesystem::path& folder,
+                                                 const std::string& study)
+{
+  const std::string series = "2.25.71", other = "2.25.72"; // of one length
+  std::vector<std::filesystem::path> files;
+  for (const double x : {-60.0, 30.0})
+  {
+    const petrous::core::GridGeometry grid({16, 16, 20}, Eigen::Vector3d::Constant(0.5),
+                                           {x, 0.0, 0.0});
+    auto voxels = std::make_shared<petrous::volume::Volume<std::int16_t>>(grid, std::int16_t{0});
+    for (int k = 0; k < 20; ++k)
+      voxels->at(8, 8, k) = static_cast<std::int16_t>(100 + k);
+    petrous::imaging::SeriesDescription description;
+    description.studyUid = study;
+    description.seriesUid = x < 0.0 ? series : other;
+    description.frameOfReferenceUid = "2.25.73";
+    const auto ear = folder / description.seriesUid;
+    petrous::imaging::writeDicomSeries(
+        ear,
+        petrous::volume::IntensityVolume(
+            std::shared_ptr<const petrous::volume::Volume<std::int16_t>>(std::move(voxels))),
+        description);
+    if (x < 0.0)
+      std::filesystem::remove(ear / "slice-0010.dcm");
+    for (const auto& entry : std::filesystem::directory_iterator(ear))
+    {
+      std::string bytes = textOf(entry.path());
+      const std::string element = std::string("\x20\x00\x0e\x00UI", 6);
+      const std::size_t at = bytes.find(other, bytes.find(element));
+      if (x > 0.0 && at != std::string::npos)
+        bytes.replace(at, other.size(), series);
+      std::ofstream(entry.path(), std::ios::binary) << bytes;
+      files.push_back(entry.path());
+    }
+  }
+  return files;
+}
 
 } // namespace
 
@@ -281,6 +321,27 @@ TEST_F(NodeCommand, BuildsACaseOfImages)
                 3, "2 CT series; name one by --series: ");
   EXPECT_TRUE(!std::filesystem::exists(m_folder / "two") ||
               std::filesystem::is_empty(m_folder / "two"));
+
+  // Of two ears in one series neither is chosen, though only one is sound.
+  petrous::network::store(m_server->node(), writeBothEars(m_folder / "ears", "2.25.70"));
+  const std::string ears = "receive --from pacs --study 2.25.70 --as one" + other();
+  for (const char* series : {"", " --series 2.25.71"})
+  {
+    const auto asked = run(ears + series);
+    EXPECT_EQ(asked.code, 3) << asked.err;
+    for (const char* said : {"2 volumes", "--volume", "(19 images, doubtful)", "(20 images)"})
+      EXPECT_NE(asked.err.find(said), std::string::npos) << asked.err;
+  }
+  const auto asked = run(ears);
+  const std::size_t first = asked.err.find("--volume: '") + 11;
+  const std::size_t comma = asked.err.find("(20 images)");
+  const std::size_t last = asked.err.rfind('\'', comma);
+  const std::size_t start = asked.err.rfind('\'', last - 1) + 1;
+  ASSERT_TRUE(first < comma && start < last) << asked.err;
+  json(ears + " --volume '" + asked.err.substr(start, last - start) + "'");
+  const auto box = json("info one" + other())["ct"];
+  EXPECT_EQ(box["dims"][2], 20);
+  EXPECT_EQ(box["origin_mm"][0], 30.0);
 }
 
 // A send that was cut leaves parts of a scene; the one before it can still be received.

@@ -22,6 +22,9 @@ void warnOfEar(const Context& context, const scene::Case& value, scene::Side ear
 /// The same of the standard view of that name (rendering::parseView).
 void warnOfView(const Context& context, const scene::Case& value, const std::string& view);
 
+/// The same parts: an array of "structure" and "text".
+nlohmann::json missingPlacesJson(const scene::Case& value);
+
 /// The option --without-damaged.
 void addWithoutDamaged(CLI::App& command, bool& chosen);
 

@@ -193,7 +193,7 @@ struct ReceiveOptions
 {
   std::string node;
   presenters::ReceiveRequest request;
-  std::string partial;
+  std::string volume, partial;
   bool isList = false;
 };
 
@@ -231,6 +231,8 @@ void receive(const Context& context, const ReceiveOptions& options)
       throw UsageError("receive: --list goes with --from and --case alone");
     return listCases(context, options);
   }
+  if (!options.volume.empty())
+    request.series += "#" + options.volume;
   if (request.studyUid.empty() == request.caseName.empty())
     throw UsageError("receive: give --study UID or --case NAME, or --list");
   library::Library library = context.openLibrary();
@@ -338,6 +340,10 @@ void addNodeCommands(CLI::App& app, Context& context)
       ->add_option("--series", in->request.series,
                    "The CT series to build a case of, also where the study has a scene")
       ->type_name("UID");
+  command
+      ->add_option("--volume", in->volume,
+                   "Which volume of a CT series with several, as the refusal names it")
+      ->type_name("NAME");
   command->add_flag("--repair", in->request.repair,
                     "Resample tilted, uneven or gapped slices to a straight volume");
   command

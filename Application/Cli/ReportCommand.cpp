@@ -84,6 +84,7 @@ nlohmann::json sectionsJson(const presenters::PlanReport& report)
     }
     sections.push_back({{"id", section.id},
                         {"title", section.title},
+                        {"paragraphs", section.paragraphs},
                         {"pictures", section.pictures.size()},
                         {"columns", section.table.columns},
                         {"rows", std::move(rows)}});
@@ -112,6 +113,9 @@ void report(Context& context, const Options& options)
   wanted.made = today();
   wanted.version = PETROUS_VERSION;
   wanted.mayIdentify = [&identity](const std::string& text) { return identity.mayIdentify(text); };
+  wanted.mayIdentifySentence = [&identity](const std::string& text)
+  { return identity.mayIdentifySentence(text); };
+  wanted.isOfField = [&identity](const std::string& text) { return identity.isOfField(text); };
   const core::Progress progress = context.progress();
   const presenters::PlanReport plan =
       presenters::planReport(value, wanted, progress.part(0.0, 0.9));

@@ -10,6 +10,9 @@ void saltIdentity(ImagePart& image, const std::function<std::string(const std::s
        {&image.frameOfReference, &patient.id, &patient.issuer, &patient.name, &patient.birthDate})
     if (!image.isFrameSalted && !hash->empty())
       *hash = salted(*hash);
+  for (std::string& hash : patient.nameParts)
+    if (!image.isFrameSalted)
+      hash = salted(hash);
   image.isFrameSalted = true;
 }
 

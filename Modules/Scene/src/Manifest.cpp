@@ -169,6 +169,8 @@ constexpr std::pair<const char*, Hash> kPatientHashes[] = {{"id", &PatientHash::
                                                            {"name", &PatientHash::name},
                                                            {"birth_date", &PatientHash::birthDate}};
 
+constexpr const char* kNameParts = "name_parts";
+
 constexpr const char* kProvenance = "provenance"; // absent: older programs, whose notes say it
 constexpr const char* kAssumedAxes = "assumed_axes";
 constexpr const char* kBurnedIn[] = {"none", "suspected", "stated"};
@@ -268,6 +270,8 @@ json imageOut(const ImagePart& image)
     for (const auto& [key, hash] : kPatientHashes)
       if (!(image.patient.*hash).empty())
         j[kPatient][key] = image.patient.*hash;
+  if (image.isFrameSalted && !image.patient.nameParts.empty())
+    j[kPatient][kNameParts] = image.patient.nameParts;
   j[kProvenance] = provenanceOut(image.provenance);
   if (image.modality != Modality::Unknown)
     j[kModality] = image.modality == Modality::Mr ? "MR" : "CT";
@@ -290,6 +294,8 @@ ImagePart imageIn(const json& j)
   if (j.contains(kPatient))
     for (const auto& [key, hash] : kPatientHashes)
       image.patient.*hash = j.at(kPatient).value(key, std::string());
+  if (j.contains(kPatient))
+    image.patient.nameParts = j.at(kPatient).value(kNameParts, std::vector<std::string>());
   const std::string modality = j.value(kModality, std::string());
   image.modality = modality == "MR"   ? Modality::Mr
                    : modality == "CT" ? Modality::Ct

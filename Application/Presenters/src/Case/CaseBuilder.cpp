@@ -98,8 +98,13 @@ std::string withoutIdentity(std::size_t key, std::size_t with = 0)
 scene::PatientHash patientHash(const imaging::PatientKey& key)
 {
   // Of a date alone there are too few to hide it in a hash.
-  return {withoutIdentity(key.id), withoutIdentity(key.issuer), withoutIdentity(key.name),
-          key.name == 0 ? std::string() : withoutIdentity(key.birthDate, key.name)};
+  scene::PatientHash hash{withoutIdentity(key.id), withoutIdentity(key.issuer),
+                          withoutIdentity(key.name),
+                          key.name == 0 ? std::string() : withoutIdentity(key.birthDate, key.name)};
+  for (const std::size_t part : key.nameParts)
+    if (part != 0)
+      hash.nameParts.push_back(withoutIdentity(part));
+  return hash;
 }
 
 namespace
@@ -115,6 +120,8 @@ scene::PatientHash patientOf(const imaging::DicomSeries& series)
     if (all.id == 0) // with the issuer that it has there: another one's makes it another ID
       all.issuer = slice.patient.issuer;
     take(all.id, slice.patient.id);
+    if (all.name == 0)
+      all.nameParts = slice.patient.nameParts;
     take(all.name, slice.patient.name);
     take(all.birthDate, slice.patient.birthDate);
   }

@@ -390,10 +390,25 @@ void refuseTakenScene(const library::Library& library, const network::Node& node
         freeName(library, there.name);
 }
 
-/// Without the volume of a 4-D series.
+/// Without the volume of a series with several; empty: any CT.
 std::string seriesUidOf(const std::string& selector)
 {
   return selector.substr(0, selector.find('#'));
+}
+
+/// Which of a series' volumes a case is built of is the user's choice, even if only one is sound:
+/// they may be the two ears.
+void refuseVolumes(const std::vector<const imaging::DicomSeries*>& cts)
+{
+  if (std::none_of(cts.begin(), cts.end(), [](const auto* ct) { return !ct->volume.empty(); }))
+    return;
+  std::string volumes;
+  for (const imaging::DicomSeries* ct : cts)
+    volumes += (volumes.empty() ? "'" : ", '") + ct->volume + "' (" +
+               std::to_string(ct->geometry.slices.size()) + " images" +
+               (ct->geometry.verdict == imaging::Verdict::Ok ? ")" : ", doubtful)");
+  throw core::InvalidParameter("receive: the CT has " + std::to_string(cts.size()) +
+                               " volumes; name one by --volume: " + volumes);
 }
 
 /// A case of what imaging finds in the folder.
@@ -406,14 +421,19 @@ scene::Case builtCase(const fs::path& folder, const std::string& name,
   sources.ct = folder;
   sources.repair = request.repair;
   sources.series = request.series;
-  if (sources.series.empty())
+  if (sources.series == seriesUidOf(sources.series)) // without a volume
   {
-    std::vector<const imaging::DicomSeries*> cts;
+    std::vector<const imaging::DicomSeries*> cts, good;
     for (const auto& one : scan.series)
-      if (one.modality == "CT" && one.geometry.verdict == imaging::Verdict::Ok)
+      if (one.modality == "CT" && (sources.series.empty() || one.uid == sources.series))
+      {
         cts.push_back(&one);
-    if (cts.size() == 1)
-      sources.series = imaging::selectorOf(*cts.front());
+        if (one.geometry.verdict == imaging::Verdict::Ok)
+          good.push_back(&one);
+      }
+    refuseVolumes(cts);
+    if (good.size() == 1)
+      sources.series = imaging::selectorOf(*good.front());
   }
   int number = 0;
   for (const auto& one : scan.series)
@@ -521,7 +541,7 @@ void refuseSeveralCts(const network::Node& node, const std::vector<network::Seri
       counts += (counts.empty() ? "" : ", ") + one.uid +
                 (one.instances >= 0 ? " (" + std::to_string(one.instances) + " images)" : "");
     }
-  if (cts > 1 && request.series.empty())
+  if (cts > 1 && seriesUidOf(request.series).empty())
     throw core::InvalidParameter("node '" + node.name + "': the study has " + std::to_string(cts) +
                                  " CT series; name one by --series: " + counts);
 }
@@ -533,15 +553,20 @@ bool receiveScene(const network::Node& node, const std::string& study,
                   const std::vector<network::Series>& scenes, const fs::path& folder,
                   const fs::path& archive, ReceiveSummary& summary, const core::Progress& progress)
 {
-  std::exception_ptr first;
+  std::exception_ptr first; // of a described one, if there is any
+  bool isDescribedFailed = false;
   std::string why;
   for (const network::Series& scene : scenes)
   {
     const auto fail = [&](const core::Error& error)
     {
-      if (!first)
+      const bool isDescribed = !scene.description.empty();
+      if (!first || (isDescribed && !isDescribedFailed))
+      {
         first = std::current_exception();
-      why = why.empty() ? error.what() : why;
+        why = error.what();
+      }
+      isDescribedFailed = isDescribedFailed || isDescribed;
     };
     try
     {
@@ -551,7 +576,13 @@ bool receiveScene(const network::Node& node, const std::string& study,
           network::retrieve(node, study, {scene.uid}, parts, progress.part(0.0, 0.9));
       network::readSceneObjects(instancesIn(parts), archive, progress.part(0.9, 1.0));
       summary.transfer = transfer;
-      if (first)
+      if (first && !isDescribedFailed)
+        summary.notes.push_back("node '" + node.name + "' does not describe series " +
+                                std::to_string(scenes.front().number) +
+                                ", which may hold a later state of the case, but was not read as "
+                                "one: " +
+                                why);
+      else if (first)
         summary.notes.push_back("a later state of the case is at node '" + node.name +
                                 "', but cannot be received: " + why +
                                 ". This is the state before it");
@@ -563,7 +594,8 @@ bool receiveScene(const network::Node& node, const std::string& study,
     }
     catch (const NetworkError& error)
     {
-      if (error.reason != NetworkError::Reason::Incomplete &&
+      // One that is not described is a guess, and need not even be of a class that is received.
+      if (!scene.description.empty() && error.reason != NetworkError::Reason::Incomplete &&
           error.reason != NetworkError::Reason::NotFound)
         throw;
       fail(error);
@@ -1091,23 +1123,21 @@ ReceiveSummary receiveCase(library::Library& library, const network::Node& node,
     throw core::InvalidParameter(
         "receive: the study has no Petrous scene; give --as NAME for the case that is built of it" +
         (summary.notes.empty() ? std::string() : " (" + summary.notes.front() + ")"));
+  const std::string primary = seriesUidOf(request.series);
   std::vector<std::string> wanted;
   for (const auto& one : series)
-    if (one.modality == "MR" || (one.modality == "CT" && (request.series.empty() ||
-                                                          one.uid == seriesUidOf(request.series))))
+    if (one.modality == "MR" || (one.modality == "CT" && (primary.empty() || one.uid == primary)))
       wanted.push_back(one.uid);
-  const bool hasPrimary = std::any_of(series.begin(), series.end(),
-                                      [&request](const network::Series& one) {
-                                        return request.series.empty()
-                                                   ? one.modality == "CT"
-                                                   : one.uid == seriesUidOf(request.series);
-                                      });
+  const bool hasPrimary =
+      std::any_of(series.begin(), series.end(),
+                  [&primary](const network::Series& one)
+                  { return primary.empty() ? one.modality == "CT" : one.uid == primary; });
   refuseSeveralCts(node, series, request);
   if (!hasPrimary)
     throw NetworkError(
         NetworkError::Reason::NotFound,
         "node '" + node.name + "': the study has " +
-            (request.series.empty()
+            (primary.empty()
                  ? wanted.empty() ? "no CT and no MR" : "no CT; an MR begins a case by --series UID"
                  : "no such series"));
   summary.transfer =

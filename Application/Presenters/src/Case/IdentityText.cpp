@@ -19,6 +19,17 @@ namespace
 // A person's name as DICOM writes it, an address, or a date.
 const char* const kForms = "[0-9]{1,4}[./-][0-9]{1,2}[./-][0-9]{2,4}|[\\^@]";
 
+// A date with the month in letters, English or German: 12. April 1961, Apr 12, 1961, 12-APR-61.
+std::string namedMonths()
+{
+  const std::string month = "(jan(uary?)?|feb(ruary?)?|m(a|ae|\xC3\xA4|\xC3\x84)r(ch|z)?|apr(il)?|"
+                            "ma[iy]|jun[ei]?|jul[iy]?|"
+                            "aug(ust)?|sept?(ember)?|o[ck]t(ober)?|nov(ember)?|de[cz](ember)?)";
+  return "[0-9]{1,2}(st|nd|rd|th)?[. /_-]{0,2}" + month +
+         "[., /_-]{0,2}('?[0-9]{2}|[0-9]{4})([^0-9]|$)|(^|[^a-z])" + month +
+         "[. _-]{0,2}[0-9]{1,2}(st|nd|rd|th)?[., _-]{1,2}[0-9]{4}";
+}
+
 // A number as long as a record's, in groups too, or with letters in front; a title before a name.
 const char* const kNumbersAndTitles =
     "[0-9]{6}|[0-9]{3} [0-9]{3}|"
@@ -119,6 +130,8 @@ IdentityText::IdentityText(const scene::Case& value, Salted salted)
     for (const std::string* hash : {&image.patient.name, &image.patient.id})
       if (!hash->empty())
         (image.isFrameSalted ? m_salts : m_unsalted).insert(*hash);
+    (image.isFrameSalted ? m_salts : m_unsalted)
+        .insert(image.patient.nameParts.begin(), image.patient.nameParts.end());
   };
   add(value.ct);
   std::for_each(value.mr.begin(), value.mr.end(), add);
@@ -138,7 +151,8 @@ bool IdentityText::mayIdentify(const std::string& text) const
 bool IdentityText::mayIdentifySentence(const std::string& text) const
 {
   static const std::regex kFormed(kForms);
-  return std::regex_search(text, kFormed) || isOfPatient(text);
+  static const std::regex kDated(namedMonths(), std::regex::icase);
+  return std::regex_search(text, kFormed) || std::regex_search(text, kDated) || isOfPatient(text);
 }
 
 bool IdentityText::mayIdentifyPath(const std::filesystem::path& path) const
@@ -152,14 +166,30 @@ bool IdentityText::isOfPatient(const std::string& text) const
 {
   if (m_unsalted.empty() && (m_salts.empty() || !m_salted))
     return false;
-  for (const std::string& words : candidatesIn(text))
+  const auto isHis = [this](std::size_t key)
   {
-    const std::string hash = patientHash(imaging::patientKey(words, {}, {}, {})).id;
-    if (!hash.empty() && (m_unsalted.count(hash) > 0 ||
-                          (m_salted && !m_salts.empty() && m_salts.count(m_salted(hash)) > 0)))
+    const std::string hash = patientHash({key}).id;
+    return !hash.empty() && (m_unsalted.count(hash) > 0 ||
+                             (m_salted && !m_salts.empty() && m_salts.count(m_salted(hash)) > 0));
+  };
+  for (const std::string& words : candidatesIn(text))
+    if (isHis(imaging::patientKey(words, {}, {}, {}).id))
       return true;
-  }
-  return false;
+  // A surname alone, also with a number behind it.
+  const auto words =
+      wordsOf(text, [](unsigned char c) { return std::isalpha(c) != 0 || c >= 0x80; });
+  return std::any_of(words.begin(), words.end(),
+                     [&isHis](const std::string& word)
+                     { return isHis(imaging::namePartKey(word)); });
+}
+
+bool IdentityText::isOfField(const std::string& text) const
+{
+  const auto words =
+      wordsOf(text, [](unsigned char c) { return std::isalpha(c) != 0 || c >= 0x80; });
+  return std::all_of(words.begin(), words.end(),
+                     [this](const std::string& word)
+                     { return word.size() < 2 || isKnownWord(word); });
 }
 
 bool IdentityText::isKnownWord(const std::string& word) const

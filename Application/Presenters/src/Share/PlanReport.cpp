@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "ReportWords.h"
@@ -22,6 +23,8 @@
 #include "petrous/Rendering/RenderingError.h"
 #include "petrous/Scene/ApplyRegistration.h"
 #include "petrous/Scene/Branches.h"
+#include "petrous/Scene/GoneNames.h"
+#include "petrous/Scene/Placement.h"
 #include "petrous/Scene/StructureOccupancy.h"
 
 namespace petrous::presenters
@@ -56,7 +59,7 @@ public:
   std::string name(const std::string& typed, const char* kind)
   {
     if (!withholds(typed))
-      return typed;
+      return kept(typed);
     std::string& other = m_names[typed];
     if (other.empty())
       other = reportText(m_options.language, kind) + " " + std::to_string(m_names.size()) + " (" +
@@ -65,7 +68,15 @@ public:
   }
 
   /// A line of the description; empty: it is withheld.
-  std::string line(const std::string& typed) const { return withholds(typed) ? "" : typed; }
+  std::string line(const std::string& typed) { return withholds(typed) ? "" : kept(typed); }
+
+  /// Whether it withholds a sentence of the program.
+  bool withholdsSentence(const std::string& text) const
+  {
+    const auto& mayIdentify =
+        m_options.mayIdentifySentence ? m_options.mayIdentifySentence : m_options.mayIdentify;
+    return !m_options.keepIdentity && (!mayIdentify || mayIdentify(text));
+  }
 
   /// Of the program, with names of parts in it.
   std::string sentence(std::string text) const
@@ -76,9 +87,24 @@ public:
     return text;
   }
 
-  std::size_t count() const noexcept { return m_names.size(); }
+  /// What stands as it was typed, and is not of words of the field alone: "'a', 'b'".
+  std::string keptTexts() const
+  {
+    std::string all;
+    for (const std::string& typed : m_kept)
+      all += (all.empty() ? "'" : ", '") + typed + "'";
+    return all;
+  }
 
 private:
+  std::string kept(const std::string& typed)
+  {
+    if (!typed.empty() && typed != History::kMain &&
+        !(m_options.isOfField && m_options.isOfField(typed)))
+      m_kept.insert(typed);
+    return typed;
+  }
+
   bool withholds(const std::string& typed) const
   {
     return !m_options.keepIdentity && !typed.empty() &&
@@ -87,7 +113,29 @@ private:
 
   const ReportOptions& m_options;
   std::map<std::string, std::string> m_names;
+  std::set<std::string> m_kept;
 };
+
+// Before the names are: those of parts that are gone, or called otherwise by now, are nobody's
+// any more to replace. Empty: withheld.
+void withholdNotes(scene::Case& value, const Withheld& withheld, bool keepIdentity)
+{
+  const scene::Case before = value;
+  const auto withhold = [&](std::vector<std::string>& notes)
+  {
+    for (std::string& note : notes)
+      if (!keepIdentity &&
+          (withheld.withholdsSentence(note) || !scene::quotesOnlyParts(before, note)))
+        note.clear();
+  };
+  withhold(value.ct.notes);
+  for (scene::ImagePart& mr : value.mr)
+    withhold(mr.notes);
+  for (scene::LabelPart& part : value.labels)
+    withhold(part.notes);
+  for (scene::MeshPart& mesh : value.meshes)
+    withhold(mesh.notes);
+}
 
 // Everything downstream, such as the remarks of measurements, has the names of the copy.
 void withholdNames(scene::Case& value, Withheld& withheld)
@@ -150,7 +198,9 @@ public:
     chooseApproach();
     progress.report(0.0, "measuring distances");
     auto distances = dissectionDistances(m_value, progress.part(0.0, 0.25));
+    withholdNotes(m_value, m_withheld, m_options.keepIdentity);
     withholdNames(m_value, m_withheld);
+    m_absent = absentStructures();
     for (DissectionDistance& one : distances)
       one.name = m_withheld.name(one.name, "structure");
     addHead();
@@ -219,7 +269,7 @@ private:
   }
 
   // "Case 3F2A90C1": of the case's random id, which says nothing of anybody.
-  std::string caseName() const
+  std::string caseName()
   {
     const std::string typed = m_withheld.line(m_value.name);
     if (!typed.empty())
@@ -354,11 +404,88 @@ private:
     return cell;
   }
 
+  // Of a structure of which this paper says nothing but its name.
+  struct Absent
+  {
+    std::string name, why;
+    bool isDrawn = false;
+  };
+
+  std::string missingText(const scene::Placement& placement, bool isAmbiguous) const
+  {
+    if (isAmbiguous)
+      return say("it is not stated on which MR it was drawn");
+    return filled(say(scene::findMr(m_value, placement.drawnOn)
+                          ? "drawn on the MR '%1', which is not registered"
+                          : "drawn on the MR '%1', which is not in the case"),
+                  placement.drawnOn);
+  }
+
+  std::vector<Absent> absentStructures() const
+  {
+    std::set<std::string> measured;
+    for (const scene::StructureOccupancy& known : scene::structureOccupancies(m_value))
+      measured.insert(known.name);
+    std::vector<Absent> absent;
+    for (const scene::LabelPart& part : m_value.labels)
+    {
+      const scene::Placement placement = scene::placementOf(m_value, part);
+      const bool isAmbiguous =
+          !placement.missing.empty() && !part.drawnOn &&
+          scene::mrWithGrid(m_value, part.labels.get()->voxels->geometry()).size() > 1;
+      for (const scene::StructurePart& one : part.structures)
+        if (measured.count(one.name) == 0)
+          absent.push_back(
+              {one.name, !placement.missing.empty() ? missingText(placement, isAmbiguous)
+                         : one.voxels > 0 ? say("its data are missing or damaged in the library")
+                                          : say("it has no voxels")});
+    }
+    for (const scene::MeshPart& mesh : m_value.meshes)
+      if (measured.count(mesh.name) == 0)
+      {
+        const scene::Placement placement = scene::placementOf(m_value, mesh);
+        const bool isDrawn = placement.missing.empty() && !mesh.mesh.get()->triangles.empty();
+        absent.push_back({mesh.name,
+                          !placement.missing.empty() ? missingText(placement, false)
+                          : isDrawn ? say("a surface, which is not measured as a volume")
+                                    : say("its data are missing or damaged in the library"),
+                          isDrawn});
+      }
+    return absent;
+  }
+
+  // What else would read as if all structures were there.
+  void addAbsent(ReportSection& table) const
+  {
+    if (m_absent.empty())
+      return;
+    for (const Absent& one : m_absent)
+    {
+      std::vector<ReportCell> row{structureCell(one.name), textCell(say("left out"))};
+      row.back().isWarning = true;
+      row.resize(table.table.columns.size());
+      table.table.rows.push_back(std::move(row));
+    }
+    table.paragraphs.push_back(absentText(false));
+  }
+
+  std::string absentText(bool inPictures) const
+  {
+    std::string text;
+    for (const Absent& one : m_absent)
+      if (!inPictures || !one.isDrawn)
+        text += (text.empty() ? say("Left out:") + " " : "; ") + spaced(one.name) + " (" + one.why +
+                ")";
+    return text;
+  }
+
   // As the case was saved, and as the surgeon has the patient. Without identity nothing in front of
   // bone is drawn by which a face could be recognised.
   void addViews(const core::Progress& progress)
   {
     ReportSection& views = section("views", say("Views"));
+    if (std::string absent = absentText(true); !absent.empty())
+      views.paragraphs.push_back(std::move(absent));
     const bool isLeft = earOf(m_value) == scene::Side::Left;
     try
     {
@@ -391,7 +518,7 @@ private:
       };
       add(say("3D view as saved"), currentCamera(m_value), m_value.view.clipping,
           progress.part(0.4, 0.7));
-      add(say(isLeft ? "Surgical position, left ear" : "Surgical position, right ear"),
+      add(say(surgicalCaption()),
           standardCamera(m_value, isLeft ? rendering::StandardView::SurgicalLeft
                                          : rendering::StandardView::SurgicalRight),
           {}, progress.part(0.7, 1.0));
@@ -405,6 +532,20 @@ private:
     }
   }
 
+  // No ear is named that nobody stated.
+  const char* surgicalCaption() const
+  {
+    switch (m_value.description.side)
+    {
+    case scene::Side::Left:
+      return "Surgical position, left ear";
+    case scene::Side::Right:
+      return "Surgical position, right ear";
+    default:
+      return "Surgical position; the side is taken from where the image lies";
+    }
+  }
+
   void addDistances(const std::vector<DissectionDistance>& distances)
   {
     ReportSection& table = section("distances", say("Distances of the dissection"));
@@ -413,7 +554,7 @@ private:
       table.paragraphs.push_back(say("Nothing was drilled on this approach."));
       return;
     }
-    if (distances.empty())
+    if (distances.empty() && m_absent.empty())
     {
       table.paragraphs.push_back(say("The case has no structures to measure to."));
       return;
@@ -432,6 +573,7 @@ private:
       injured.text = one.injured > 0.0 ? volumeText(one.injured) : say("nothing");
       table.table.rows.push_back({structureCell(one.name), distance, injured});
     }
+    addAbsent(table);
     table.remarks.push_back(
         say("Shortest distance between what was removed and the surface of each "
             "structure, nearest first. ± is a half-width: half a voxel of structure and wall, and "
@@ -598,7 +740,7 @@ private:
   {
     ReportSection& table = section("structures", say("Structures"));
     const auto occupancies = scene::structureOccupancies(m_value);
-    if (occupancies.empty())
+    if (occupancies.empty() && m_absent.empty())
     {
       table.paragraphs.push_back(say("The case has no structures."));
       return;
@@ -639,6 +781,7 @@ private:
       row.push_back(textCell(known.mr.empty() ? primaryName(m_value) : known.mr));
       table.table.rows.push_back(std::move(row));
     }
+    addAbsent(table);
     table.remarks.push_back(
         say("Resolved: two voxels or more across at the narrowest of its extents. Of what is "
             "thinner, volume and distances say little."));
@@ -695,7 +838,7 @@ private:
                              : signOff ? say("yes")
                                        : say("no")));
       table.table.rows.push_back(std::move(row));
-      if (!how.text.empty() && m_options.language == ReportLanguage::English)
+      if (!how.text.empty()) // in the words of the registration, whatever the language
         table.remarks.push_back(mr.name + ": " + how.text);
     }
   }
@@ -747,8 +890,19 @@ private:
       for (const std::string& text : texts)
         table.table.rows.push_back({textCell(name), textCell(text)});
     };
+    const auto notesOf = [this](const std::vector<std::string>& notes)
+    {
+      std::vector<std::string> texts;
+      for (const std::string& note : notes)
+        texts.push_back(note.empty() ? say("a note") + " (" + say("withheld") + ")"
+                                     : m_withheld.sentence(note));
+      return texts;
+    };
     const auto addImage = [&](const std::string& name, const scene::ImagePart& image)
-    { add(name, assumptionsOf(image.provenance, image.geometry.dims()[2])); };
+    {
+      add(name, assumptionsOf(image.provenance, image.geometry.dims()[2]));
+      add(name, notesOf(image.notes));
+    };
     addImage(primaryName(m_value), m_value.ct);
     for (const scene::ImagePart& mr : m_value.mr)
       addImage(mr.name, mr);
@@ -764,7 +918,10 @@ private:
       for (const scene::StructurePart& one : part.structures)
         names += (names.empty() ? "" : ", ") + one.name;
       add(names, texts);
+      add(names, notesOf(part.notes));
     }
+    for (const scene::MeshPart& mesh : m_value.meshes)
+      add(mesh.name, notesOf(mesh.notes));
     if (table.table.rows.empty())
       table.paragraphs.push_back(
           say("Nothing: images and structures are as their files have them."));
@@ -778,12 +935,18 @@ private:
       m_report.sections.front().paragraphs.insert(
           m_report.sections.front().paragraphs.begin(),
           say("The side that is operated on is not stated."));
+    if (!m_options.keepIdentity)
+      m_report.keptTexts = m_withheld.keptTexts();
+    if (!m_report.keptTexts.empty())
+      m_report.mayIdentify.push_back("texts as they were typed, in which nobody was recognised: " +
+                                     m_report.keptTexts + "; read them yourself");
   }
 
   scene::Case m_value;
   const ReportOptions& m_options;
   Withheld m_withheld;
   std::string m_approach;
+  std::vector<Absent> m_absent;
   PlanReport m_report;
 };
 

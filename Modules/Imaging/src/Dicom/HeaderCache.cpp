@@ -20,7 +20,7 @@ namespace petrous::imaging
 namespace
 {
 
-constexpr const char* kMethod = "dicom headers 6"; // increment with the fields below
+constexpr const char* kMethod = "dicom headers 7"; // increment with the fields below
 constexpr std::int64_t kCoarsest = 2'000'000'000;  // ns; FAT
 constexpr std::size_t kSampled = 8;                // files
 constexpr std::size_t kSample = 4096;              // bytes
@@ -214,8 +214,10 @@ void pass(Archive& archive, FileStamp& value)
 template <class Archive>
 void pass(Archive& archive, PatientKey& value)
 {
-  auto& [id, issuer, name, birthDate] = value;
+  auto& [id, issuer, name, birthDate, nameParts] = value;
   passAll(archive, id, issuer, name, birthDate);
+  for (std::size_t& part : nameParts)
+    pass(archive, part);
 }
 
 template <class Archive>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "petrous/Core/Fingerprint.h"
 #include "petrous/Imaging/CasePatient.h"
@@ -53,6 +54,45 @@ std::size_t hashOf(const std::string& text)
   return std::max<std::size_t>(hash.value(), 1);
 }
 
+std::string transcribed(const std::string& capitals)
+{
+  std::string text = capitals;
+  for (const auto& [letter, ascii] : {std::pair("\xC3\x84", "AE"), std::pair("\xC3\x96", "OE"),
+                                      std::pair("\xC3\x9C", "UE"), std::pair("\xC3\x9F", "SS")})
+    for (std::size_t at = 0; (at = text.find(letter, at)) != std::string::npos;)
+      text.replace(at, 2, ascii);
+  return text;
+}
+
+/// Of family, given and middle name: what follows is a title.
+std::array<std::size_t, 6> partsOf(const std::string& name)
+{
+  constexpr int kTitles = 3; // delimiters before them
+  std::array<std::size_t, 6> parts{};
+  std::size_t count = 0;
+  int delimiters = 0;
+  std::string word;
+  for (const char c : name + " ")
+  {
+    const bool isDelimiter = static_cast<unsigned char>(c) <= 0x20 || c == '^' || c == ',' ||
+                             c == '-' || c == '.' || c == '\'';
+    if (!isDelimiter)
+    {
+      word += c;
+      continue;
+    }
+    const std::size_t key = namePartKey(word);
+    if (key != 0 && count < parts.size() &&
+        std::find(parts.begin(), parts.end(), key) == parts.end())
+      parts[count++] = key;
+    word.clear();
+    delimiters += c == '^' ? 1 : 0;
+    if (delimiters == kTitles)
+      break;
+  }
+  return parts;
+}
+
 } // namespace
 
 std::string casePatientId(std::uint64_t hash)
@@ -70,14 +110,33 @@ bool isCasePatientId(const std::string& id)
          id.find_first_not_of(kHexadecimal, prefix.size()) == std::string::npos;
 }
 
+std::size_t namePartKey(const std::string& word)
+{
+  static const char* const kNoName[] = {"VON",  "VAN",     "DER",     "DEN",  "DES",  "DEL",
+                                        "DOS",  "ZUR",     "ZUM",     "UND",  "THE",  "AND",
+                                        "TEST", "PHANTOM", "PETROUS", "DEMO", "MRS",  "HERR",
+                                        "FRAU", "PATIENT", "SAMPLE",  "CASE", "PROF", "NAME"};
+  constexpr std::size_t kShortest = 3;
+  const std::string what = transcribed(plain(word));
+  const bool isText =
+      std::any_of(what.begin(), what.end(), [](unsigned char c) { return c < '0' || c > '9'; });
+  if (what.size() < kShortest || !isText ||
+      std::find(std::begin(kNoName), std::end(kNoName), what) != std::end(kNoName))
+    return 0;
+  return hashOf(what);
+}
+
 PatientKey patientKey(const std::string& id, const std::string& issuer, const std::string& name,
                       const std::string& birthDate)
 {
   if (isCasePatientId(plain(id)))
     return {};
   const std::size_t alphabetic = name.find('=');
-  return {hashOf(id), hashOf(issuer),
-          hashOf(alphabetic == 0 ? name.substr(1) : name.substr(0, alphabetic)), hashOf(birthDate)};
+  const std::string first = alphabetic == 0 ? name.substr(1) : name.substr(0, alphabetic);
+  PatientKey key{hashOf(id), hashOf(issuer), hashOf(first), hashOf(birthDate)};
+  if (key.name != 0)
+    key.nameParts = partsOf(first);
+  return key;
 }
 
 } // namespace petrous::imaging

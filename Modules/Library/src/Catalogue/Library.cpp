@@ -727,6 +727,8 @@ void sealIdentity(const Library& library, scene::Case& value)
     seal("issuer", image.patient.issuer);
     seal("name", image.patient.name);
     seal("birth date", image.patient.birthDate);
+    for (std::size_t n = 0; n < image.patient.nameParts.size(); ++n)
+      seal(("name part " + std::to_string(n)).c_str(), image.patient.nameParts[n]);
   };
   sealAll(value.ct);
   std::for_each(value.mr.begin(), value.mr.end(), sealAll);

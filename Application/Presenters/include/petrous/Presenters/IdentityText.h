@@ -14,9 +14,10 @@ namespace petrous::presenters
 
 /// Tells whether a text may identify the patient of a case. It cannot find every name: it looks for
 /// forms (a name as DICOM writes it, a title before a name, two words with capitals that are no
-/// words of anatomy or imaging, an address, a date, a number as long as a record's, one of letters
-/// and digits), and compares the words with the salted hashes of the patient's name and ID that the
-/// case keeps.
+/// words of anatomy or imaging, an address, a date, also with its month in letters, a number as
+/// long as a record's, one of letters and digits), and compares the words with the salted hashes of
+/// the patient's ID, name and each word of the name that the case keeps (of a case that an earlier
+/// version imported: of the whole name alone).
 class IdentityText
 {
 public:
@@ -31,6 +32,9 @@ public:
 
   /// The same of a sentence that the program wrote, in which numbers and capitals say nothing.
   bool mayIdentifySentence(const std::string& text) const;
+
+  /// Whether all of its words are of anatomy, imaging and operations: no name is among them.
+  bool isOfField(const std::string& text) const;
 
   /// Of one of its folders, or of the file.
   bool mayIdentifyPath(const std::filesystem::path& path) const;

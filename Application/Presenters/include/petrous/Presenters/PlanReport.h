@@ -33,9 +33,14 @@ struct ReportOptions
   std::string version;     ///< of the program
   int pictureWidth = 1200; ///< pixels of the 3-D pictures
   int sliceWidth = 360;
-  /// Whether a typed text, or a sentence of the program, may identify the patient (IdentityText);
-  /// such a text is withheld unless `keepIdentity`. Null: every typed text is.
+  /// Whether a typed text may identify the patient (IdentityText); such a text is withheld unless
+  /// `keepIdentity`. Null: every typed text is.
   std::function<bool(const std::string&)> mayIdentify;
+  /// The same of a sentence of the program. Null: as `mayIdentify`.
+  std::function<bool(const std::string&)> mayIdentifySentence = {};
+  /// Whether a typed text has the field's own words alone, and need not be read for names. Null:
+  /// none has.
+  std::function<bool(const std::string&)> isOfField = {};
 };
 
 /// A cell of a table: text to read and, of a number, its value without rounding in the column's
@@ -90,6 +95,8 @@ struct PlanReport
   std::string pageOf;   ///< "Page %1 of %2"
   std::vector<std::pair<std::string, std::string>> facts; ///< at its head
   std::vector<ReportSection> sections;
+  /// Typed texts that it has as they are, and that are not of the field's words alone: "'a', 'b'".
+  std::string keptTexts;
   std::vector<std::string> mayIdentify; ///< what of it may tell who the patient is, a sentence each
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <type_traits>
@@ -14,6 +15,8 @@ struct PatientKey
   std::size_t issuer = 0; ///< (0010,0021) of the ID
   std::size_t name = 0;   ///< (0010,0010)
   std::size_t birthDate = 0;
+  /// namePartKey of the words of the name, by which a surname is known in a text; 0: none.
+  std::array<std::size_t, 6> nameParts{};
 
   bool empty() const { return id == 0 && name == 0 && birthDate == 0; }
 };
@@ -24,6 +27,10 @@ struct PatientKey
 /// in every run of the program.
 PatientKey patientKey(const std::string& id, const std::string& issuer, const std::string& name,
                       const std::string& birthDate);
+
+/// The key of one word of a name, or of a text; 0 for what is no name by itself: of less than three
+/// letters, "von", "Phantom" and the like. Umlauts and their transcriptions (ue) are equal.
+std::size_t namePartKey(const std::string& word);
 
 /// Whether two identities may be of one patient: no ID, name or birth date that both state differs.
 /// IDs of different issuers are not compared. `Key` has the members of PatientKey, each equal to

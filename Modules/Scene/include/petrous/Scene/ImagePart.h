@@ -30,6 +30,8 @@ struct PatientHash
   std::string id, issuer; ///< of the ID
   std::string name;
   std::string birthDate; ///< with the name: comparable only where the names are equal
+  /// Of the words of the name, to find one in a text.
+  std::vector<std::string> nameParts = {};
 
   bool empty() const { return id.empty() && name.empty() && birthDate.empty(); }
 };

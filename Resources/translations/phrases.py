@@ -27,7 +27,7 @@ SEPARATORS = {",", ";", "return", "throw", "=", "+=", "<<", "&&", "||", "==", "!
 # Whose value is a text of the program and not a name or a number.
 TEXT_OF_PROGRAM = re.compile(
     r"what|[tT]exts?$|[wW]ords?$|why|reason|problem|refusal|refused|message|note|describe|remark|advice"
-    r"|kind|toString|verb|explan|hint|said|say|question|phrase|missing|effect|limit|cause|range|unit|[nN]amed$|wanted|listed|joined|^list|possible|expected|counted|plural|many|states|missing")
+    r"|kind|verb|explan|hint|said|say|question|phrase|missing|effect|limit|cause|range|unit|[nN]amed$|wanted|listed|joined|^list|possible|expected|counted|plural|many|states|[tT]oString|verdict|fault|field|doubts|remedy|about|instead|decimation|goesOn|^is$|primary|kSides|^ours$|^others$|^code$")
 NOT_TEXT = re.compile(r"^(to_string|fixedText|generalText|exactText|string|filename|size|name|path|pathText|hexText)$")
 
 
@@ -277,7 +277,7 @@ WITHOUT = set("""
 """.split())
 # Of these the sources have single words, which are not told from names and codes otherwise.
 SHORT = {word.strip() for word in """
-    %1 mm ± %2 | %~1 mm ± %2 | Along a structure | Angle | Area | Bone | Distance | Mark | None
+    Axial | Coronal | Sagittal | left | right | closed | %1 mm ± %2 | %~1 mm ± %2 | Along a structure | Angle | Area | Bone | Distance | Mark | None
     | angle | appearance | area | cancelled | case | color | create | create %1 | cutting |
     damaged | diamond | difference %1 | dimensions | dissected | distance | document | doubtful
     | drilled | emptied | empty | encrypted | failed | good | gradient %1 | growing | half |

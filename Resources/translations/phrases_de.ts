@@ -4,8 +4,8 @@
 <context>
     <name>Presenters</name>
     <message>
-        <source>A lumen tints the bone around it and reads the %1</source>
-        <translation>Ein Hohlraum tönt den Knochen um ihn und liest das %1</translation>
+        <source>A lumen tints the bone around it and reads the %~1</source>
+        <translation>Ein Hohlraum tönt den Knochen um ihn und liest das %~1</translation>
     </message>
     <message>
         <source>'%1' is not registered: drawn in one colour until it is</source>
@@ -176,8 +176,8 @@
         <translation>%~1 liegen ganz außerhalb: %2. Nichts davon ist zu sehen oder zu fühlen; prüfen Sie, ob sie zu diesem Patienten gehören</translation>
     </message>
     <message>
-        <source>its frame of reference could not be compared with the %1's, as %~2; look whether it lies where it belongs</source>
-        <translation>das Bezugssystem ließ sich mit dem des %1 nicht vergleichen, da %~2; sehen Sie nach, ob die Lage stimmt</translation>
+        <source>its frame of reference could not be compared with the %~1's, as %~2; look whether it lies where it belongs</source>
+        <translation>das Bezugssystem ließ sich mit dem des %~1 nicht vergleichen, da %~2; sehen Sie nach, ob die Lage stimmt</translation>
     </message>
     <message>
         <source>it states none</source>
@@ -280,8 +280,8 @@
         <translation>das MR, auf dem gezeichnet wurde</translation>
     </message>
     <message>
-        <source>the %1</source>
-        <translation>das %1</translation>
+        <source>the %~1</source>
+        <translation>das %~1</translation>
     </message>
     <message>
         <source>%1: does not say which side of the patient is left (NIfTI: qform or sform, NRRD: space, MetaImage: TransformMatrix), so the anatomy could be mirrored; export it again with its geometry, or say %2 ras (NIfTI's own) or lps (DICOM, ITK) if you know it</source>
@@ -476,8 +476,8 @@
         <translation>der Fall „%1“ hat keine Struktur „%2“</translation>
     </message>
     <message>
-        <source>export labels: %~1, and %~2: no one grid holds both without resampling; export it alone with --part, or all on the %3's grid with --on-ct</source>
-        <translation>Labels exportieren: %~1, und %~2: Kein Gitter fasst beides ohne Umrechnen; exportieren Sie es allein, oder alles auf dem Gitter des %3</translation>
+        <source>export labels: %~1, and %~2: no one grid holds both without resampling; export it alone with --part, or all on the %~3's grid with --on-ct</source>
+        <translation>Labels exportieren: %~1, und %~2: Kein Gitter fasst beides ohne Umrechnen; exportieren Sie es allein, oder alles auf dem Gitter des %~3</translation>
     </message>
     <message>
         <source>writing structures</source>
@@ -536,16 +536,16 @@
         <translation>verkleinert von %1, höchstens %2 mm davon entfernt (im Mittel %3 mm)</translation>
     </message>
     <message>
-        <source>%1 triangles, %2, closed, %3 mm3</source>
-        <translation>%1 Dreiecke, %2, geschlossen, %3 mm³</translation>
+        <source>%1 triangles, %~2, closed, %3 mm3</source>
+        <translation>%1 Dreiecke, %~2, geschlossen, %3 mm³</translation>
     </message>
     <message>
-        <source>%1 triangles, %2, not closed</source>
-        <translation>%1 Dreiecke, %2, nicht geschlossen</translation>
+        <source>%1 triangles, %~2, not closed</source>
+        <translation>%1 Dreiecke, %~2, nicht geschlossen</translation>
     </message>
     <message>
-        <source>export mr: '%1' is not registered with the %2; register it first</source>
-        <translation>MR exportieren: „%1“ ist nicht mit dem %2 registriert; registrieren Sie es erst</translation>
+        <source>export mr: '%1' is not registered with the %~2; register it first</source>
+        <translation>MR exportieren: „%1“ ist nicht mit dem %~2 registriert; registrieren Sie es erst</translation>
     </message>
     <message>
         <source>its names in %1</source>
@@ -960,8 +960,8 @@
         <translation>ist %1 mm groß</translation>
     </message>
     <message>
-        <source>%1 it %~2, as %3 it would lie inside%~4</source>
-        <translation>%1 würde es %~2, als %3 läge es innerhalb%~4</translation>
+        <source>%1 it %~2, as %~3 it would lie inside%~4</source>
+        <translation>%1 würde es %~2, als %~3 läge es innerhalb%~4</translation>
     </message>
     <message>
         <source>%1 it follows %2 of the edges of %3, as %4 %5 (by chance 50 %)%~6</source>
@@ -1284,8 +1284,8 @@
         <translation>holen Sie zurück, was da war (Fall „%1“, %2)</translation>
     </message>
     <message>
-        <source>was recorded on another %1 than that of '%2'</source>
-        <translation>wurde auf einem anderen %1 aufgezeichnet als dem von „%2“</translation>
+        <source>was recorded on another %~1 than that of '%2'</source>
+        <translation>wurde auf einem anderen %~1 aufgezeichnet als dem von „%2“</translation>
     </message>
     <message>
         <source>was recorded with tissue from %~1 on, '%2' has it from %~3 on: petrous appearance '%4' --iso %5</source>
@@ -1524,8 +1524,8 @@
         <translation>gesetzt auf dem MR „%1“, das nicht mehr da ist</translation>
     </message>
     <message>
-        <source>set on the %1, voxels %2 x %3 x %4 mm</source>
-        <translation>gesetzt auf dem %1, Voxel %2 x %3 x %4 mm</translation>
+        <source>set on the %~1, voxels %2 x %3 x %4 mm</source>
+        <translation>gesetzt auf dem %~1, Voxel %2 x %3 x %4 mm</translation>
     </message>
     <message>
         <source>set on the MR '%1', voxels %2 x %3 x %4 mm</source>
@@ -1700,8 +1700,8 @@
         <translation>sie berühren oder überlappen sich</translation>
     </message>
     <message>
-        <source>%~1: '%2' is nowhere on the %3: %~4</source>
-        <translation>%~1: „%2“ liegt nirgends auf dem %3: %~4</translation>
+        <source>%~1: '%2' is nowhere on the %~3: %~4</source>
+        <translation>%~1: „%2“ liegt nirgends auf dem %~3: %~4</translation>
     </message>
     <message>
         <source>%~1: case '%2' has no structures</source>
@@ -1852,16 +1852,16 @@
         <translation>Mittelohr</translation>
     </message>
     <message>
-        <source>%1 is outside the %2, whose middle is %3</source>
-        <translation>%1 liegt außerhalb: %2, dessen Mitte bei %3 liegt</translation>
+        <source>%1 is outside the %~2, whose middle is %3</source>
+        <translation>%1 liegt außerhalb: %~2, dessen Mitte bei %3 liegt</translation>
     </message>
     <message>
         <source>the middle of '%1'</source>
         <translation>die Mitte von „%1“</translation>
     </message>
     <message>
-        <source>'%1' is nowhere on the %2: %~3</source>
-        <translation>„%1“ liegt nirgends auf dem %2: %~3</translation>
+        <source>'%1' is nowhere on the %~2: %~3</source>
+        <translation>„%1“ liegt nirgends auf dem %~2: %~3</translation>
     </message>
     <message>
         <source>case '%1' has no structure '%2'; it has none</source>
@@ -1872,8 +1872,8 @@
         <translation>der Fall „%1“ hat keine Struktur „%2“; er hat %3</translation>
     </message>
     <message>
-        <source>the centre of the %1</source>
-        <translation>die Mitte des %1</translation>
+        <source>the centre of the %~1</source>
+        <translation>die Mitte des %~1</translation>
     </message>
     <message>
         <source>the centre of what both images show</source>
@@ -1996,16 +1996,16 @@
         <translation>es gibt schon einen Entwurf; legen Sie ihn an oder verwerfen Sie ihn erst</translation>
     </message>
     <message>
-        <source>structure '%1' is not on the %2</source>
-        <translation>die Struktur „%1“ liegt nicht auf dem %2</translation>
+        <source>structure '%1' is not on the %~2</source>
+        <translation>die Struktur „%1“ liegt nicht auf dem %~2</translation>
     </message>
     <message>
-        <source>It was drawn on other voxels, and is now on those of the %1: %2 mm³ for %3 mm³. Saving replaces what was drawn.</source>
-        <translation>Sie wurde auf anderen Voxeln gezeichnet und liegt jetzt auf denen des %1: %2 mm³ statt %3 mm³. Speichern ersetzt das Gezeichnete.</translation>
+        <source>It was drawn on other voxels, and is now on those of the %~1: %2 mm³ for %3 mm³. Saving replaces what was drawn.</source>
+        <translation>Sie wurde auf anderen Voxeln gezeichnet und liegt jetzt auf denen des %~1: %2 mm³ statt %3 mm³. Speichern ersetzt das Gezeichnete.</translation>
     </message>
     <message>
-        <source>not registered to the %1; see Registration, F5</source>
-        <translation>nicht mit dem %1 registriert; siehe Registrierung, F5</translation>
+        <source>not registered to the %~1; see Registration, F5</source>
+        <translation>nicht mit dem %~1 registriert; siehe Registrierung, F5</translation>
     </message>
     <message>
         <source>the case has no image '%1'</source>
@@ -2024,8 +2024,8 @@
         <translation>Ein Schritt läuft; warten Sie, oder halten Sie ihn an.</translation>
     </message>
     <message>
-        <source>The MR is being brought onto the grid of the %1; then its range can be used.</source>
-        <translation>Das MR wird auf das Gitter des %1 gebracht; dann ist sein Bereich verwendbar.</translation>
+        <source>The MR is being brought onto the grid of the %~1; then its range can be used.</source>
+        <translation>Das MR wird auf das Gitter des %~1 gebracht; dann ist sein Bereich verwendbar.</translation>
     </message>
     <message>
         <source>There is nothing yet of which an island could be kept.</source>
@@ -2236,12 +2236,20 @@
         <translation>Ebene: Die Normale muss endlich und länger als 0 sein</translation>
     </message>
     <message>
-        <source>The side is stated as right, but all of the image lies on the patient's %1, %2 to %3 mm from the scanner's middle. Is the side right? (A patient need not lie in the middle.)</source>
-        <translation>Angegeben ist die rechte Seite, das ganze Bild liegt aber auf der Seite „%1“ des Patienten, %2 bis %3 mm von der Mitte des Geräts. Stimmt die Seite? (Ein Patient muss nicht in der Mitte liegen.)</translation>
+        <source>left</source>
+        <translation>links</translation>
     </message>
     <message>
-        <source>The side is stated as left, but all of the image lies on the patient's %1, %2 to %3 mm from the scanner's middle. Is the side right? (A patient need not lie in the middle.)</source>
-        <translation>Angegeben ist die linke Seite, das ganze Bild liegt aber auf der Seite „%1“ des Patienten, %2 bis %3 mm von der Mitte des Geräts. Stimmt die Seite? (Ein Patient muss nicht in der Mitte liegen.)</translation>
+        <source>right</source>
+        <translation>rechts</translation>
+    </message>
+    <message>
+        <source>The side is stated as right, but all of the image lies on the patient's %~1, %2 to %3 mm from the scanner's middle. Is the side right? (A patient need not lie in the middle.)</source>
+        <translation>Angegeben ist die rechte Seite, das ganze Bild liegt aber auf der Seite „%~1“ des Patienten, %2 bis %3 mm von der Mitte des Geräts. Stimmt die Seite? (Ein Patient muss nicht in der Mitte liegen.)</translation>
+    </message>
+    <message>
+        <source>The side is stated as left, but all of the image lies on the patient's %~1, %2 to %3 mm from the scanner's middle. Is the side right? (A patient need not lie in the middle.)</source>
+        <translation>Angegeben ist die linke Seite, das ganze Bild liegt aber auf der Seite „%~1“ des Patienten, %2 bis %3 mm von der Mitte des Geräts. Stimmt die Seite? (Ein Patient muss nicht in der Mitte liegen.)</translation>
     </message>
 </context>
 <context>
@@ -3222,20 +3230,28 @@
         <translation>%1 mm (%2 Schichten)</translation>
     </message>
     <message>
-        <source>Another volume of the series goes on for %1 before the first slice of this one and %2 beyond its last slice; the stack has no gap, but its ends may be missing. Look whether all of the skull base that is needed is there.</source>
-        <translation>Ein anderes Volumen der Serie reicht %1 vor die erste Schicht von diesem und %2 hinter seine letzte; der Stapel hat keine Lücke, aber seine Enden können fehlen. Sehen Sie nach, ob die ganze benötigte Schädelbasis da ist.</translation>
+        <source>Another volume of the series goes on for %~1 before the first slice of this one and %~2 beyond its last slice; the stack has no gap, but its ends may be missing. Look whether all of the skull base that is needed is there.</source>
+        <translation>Ein anderes Volumen der Serie reicht %~1 vor die erste Schicht von diesem und %~2 hinter seine letzte; der Stapel hat keine Lücke, aber seine Enden können fehlen. Sehen Sie nach, ob die ganze benötigte Schädelbasis da ist.</translation>
     </message>
     <message>
-        <source>Another volume of the series goes on for %1 before the first slice of this one%2 beyond its last slice; the stack has no gap, but its ends may be missing. Look whether all of the skull base that is needed is there.</source>
-        <translation>Ein anderes Volumen der Serie reicht %1 vor die erste Schicht von diesem%2 hinter seine letzte; der Stapel hat keine Lücke, aber seine Enden können fehlen. Sehen Sie nach, ob die ganze benötigte Schädelbasis da ist.</translation>
+        <source>Another volume of the series goes on for %~1 before the first slice of this one and ; the stack has no gap, but its ends may be missing. Look whether all of the skull base that is needed is there.</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Another volume of the series goes on for %1 before the first slice of this one; the stack has no gap, but its ends may be missing. Look whether all of the skull base that is needed is there.</source>
-        <translation>Ein anderes Volumen der Serie reicht %1 vor die erste Schicht von diesem; der Stapel hat keine Lücke, aber seine Enden können fehlen. Sehen Sie nach, ob die ganze benötigte Schädelbasis da ist.</translation>
+        <source>Another volume of the series goes on for %~1 before the first slice of this one%~2 beyond its last slice; the stack has no gap, but its ends may be missing. Look whether all of the skull base that is needed is there.</source>
+        <translation>Ein anderes Volumen der Serie reicht %~1 vor die erste Schicht von diesem%~2 hinter seine letzte; der Stapel hat keine Lücke, aber seine Enden können fehlen. Sehen Sie nach, ob die ganze benötigte Schädelbasis da ist.</translation>
     </message>
     <message>
-        <source>Another volume of the series goes on for %1 beyond its last slice; the stack has no gap, but its ends may be missing. Look whether all of the skull base that is needed is there.</source>
-        <translation>Ein anderes Volumen der Serie reicht %1 hinter die letzte Schicht von diesem; der Stapel hat keine Lücke, aber seine Enden können fehlen. Sehen Sie nach, ob die ganze benötigte Schädelbasis da ist.</translation>
+        <source>Another volume of the series goes on for %~1 before the first slice of this one; the stack has no gap, but its ends may be missing. Look whether all of the skull base that is needed is there.</source>
+        <translation>Ein anderes Volumen der Serie reicht %~1 vor die erste Schicht von diesem; der Stapel hat keine Lücke, aber seine Enden können fehlen. Sehen Sie nach, ob die ganze benötigte Schädelbasis da ist.</translation>
+    </message>
+    <message>
+        <source>Another volume of the series goes on for  and %~1 beyond its last slice; the stack has no gap, but its ends may be missing. Look whether all of the skull base that is needed is there.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Another volume of the series goes on for %~1 beyond its last slice; the stack has no gap, but its ends may be missing. Look whether all of the skull base that is needed is there.</source>
+        <translation>Ein anderes Volumen der Serie reicht %~1 hinter die letzte Schicht von diesem; der Stapel hat keine Lücke, aber seine Enden können fehlen. Sehen Sie nach, ob die ganze benötigte Schädelbasis da ist.</translation>
     </message>
     <message>
         <source>The header states %1 images of the series, and %2 are there in all its volumes, which are equally long; a volume or the ends of all may be missing. Look whether all of the skull base that is needed is there.</source>
@@ -3314,8 +3330,8 @@
         <translation>Das Inhaltsverzeichnis des Datenträgers (DICOMDIR) führt %1 Dateien der Serie auf, die nicht da sind; der Stapel hat vielleicht keine Lücke, aber Schichten fehlen. Kopieren Sie den Datenträger noch einmal.</translation>
     </message>
     <message>
-        <source>series: %1 files, %2 slices, %3</source>
-        <translation>Serie: %1 Dateien, %2 Schichten, %3</translation>
+        <source>series: %1 files, %2 slices, %~3</source>
+        <translation>Serie: %1 Dateien, %2 Schichten, %~3</translation>
     </message>
     <message>
         <source>%1 (%2, %3 slices, needs --repair)</source>
@@ -3650,8 +3666,8 @@
         <translation>beiseitegelegt</translation>
     </message>
     <message>
-        <source>centre %1 mm %2</source>
-        <translation>Mitte %1 mm %2</translation>
+        <source>centre %1 mm %~2</source>
+        <translation>Mitte %1 mm %~2</translation>
     </message>
     <message>
         <source>tilt %1</source>
@@ -4190,8 +4206,8 @@
         <translation>ihr Header nennt keine gültigen Abmessungen (dimension, sizes); exportieren Sie sie neu</translation>
     </message>
     <message>
-        <source>its header gives no valid '%1' in three dimensions; export it again with its geometry</source>
-        <translation>ihr Header nennt kein gültiges „%1“ in drei Dimensionen; exportieren Sie sie mit ihrer Geometrie neu</translation>
+        <source>its header gives no valid '%~1' in three dimensions; export it again with its geometry</source>
+        <translation>ihr Header nennt kein gültiges „%~1“ in drei Dimensionen; exportieren Sie sie mit ihrer Geometrie neu</translation>
     </message>
     <message>
         <source>its header gives no voxel size ('space directions'); export it again with its geometry</source>
@@ -5149,10 +5165,6 @@
         <translation>%~1 ist nicht im Archiv: Die Datei ist %~2</translation>
     </message>
     <message>
-        <source>%~1 is not in the archive: its file is %2</source>
-        <translation>%~1 ist nicht im Archiv: Die Datei ist %2</translation>
-    </message>
-    <message>
         <source>attachments go along under their names; see that they show and name nobody</source>
         <translation>Anlagen gehen mit ihren Namen mit; sehen Sie nach, dass sie niemanden zeigen oder nennen</translation>
     </message>
@@ -5369,8 +5381,8 @@
         <translation>%~1; %2 weitere fehlen oder sind beschädigt</translation>
     </message>
     <message>
-        <source>leaving %1 %2</source>
-        <translation>%1 wird weggelassen: %2</translation>
+        <source>leaving %~1 %2</source>
+        <translation>%~1 wird weggelassen: %2</translation>
     </message>
     <message>
         <source>birth date</source>
@@ -5877,12 +5889,12 @@
         <translation>das Journal einer Sitzung, die ohne Speichern endete, passt nicht (%~1)</translation>
     </message>
     <message>
-        <source>%1the last session ended without saving; %~2 came back, on branch '%3', as another program had changed the case</source>
-        <translation>%1die letzte Sitzung endete ohne Speichern; %~2 kam zurück, auf dem Zugang „%3“, da ein anderes Programm den Fall geändert hatte</translation>
+        <source>%~1the last session ended without saving; %~2 came back, on branch '%3', as another program had changed the case</source>
+        <translation>%~1die letzte Sitzung endete ohne Speichern; %~2 kam zurück, auf dem Zugang „%3“, da ein anderes Programm den Fall geändert hatte</translation>
     </message>
     <message>
-        <source>%1the last session ended without saving; %~2 came back</source>
-        <translation>%1die letzte Sitzung endete ohne Speichern; %~2 kam zurück</translation>
+        <source>%~1the last session ended without saving; %~2 came back</source>
+        <translation>%~1die letzte Sitzung endete ohne Speichern; %~2 kam zurück</translation>
     </message>
     <message>
         <source>case '%1': %2 holds what a session drilled and did not save, and could not be brought back now: %~3; it stays there for the next time</source>
@@ -5897,8 +5909,8 @@
         <translation>Video</translation>
     </message>
     <message>
-        <source>%1: is larger than the %2 MB that can be attached%3</source>
-        <translation>%1: ist größer als die %2 MB, die sich anhängen lassen%3</translation>
+        <source>%1: is larger than the %2 MB that can be attached%~3</source>
+        <translation>%1: ist größer als die %2 MB, die sich anhängen lassen%~3</translation>
     </message>
     <message>
         <source>link it (--link)</source>
@@ -5997,20 +6009,20 @@
         <translation>stellen Sie diese Datei aus einer Kopie der Bibliothek wieder her, oder hängen Sie dieselbe Datei noch einmal an, was sie zurückbringt</translation>
     </message>
     <message>
-        <source>%1: this file is damaged: not what was stored there%2</source>
-        <translation>%1: diese Datei ist beschädigt: nicht das, was dort gespeichert wurde%2</translation>
+        <source>%1: this file is damaged: not what was stored there%~2</source>
+        <translation>%1: diese Datei ist beschädigt: nicht das, was dort gespeichert wurde%~2</translation>
     </message>
     <message>
-        <source>%1: %~2 is damaged: not what was stored there%3</source>
-        <translation>%1: %~2 ist beschädigt: nicht das, was dort gespeichert wurde%3</translation>
+        <source>%1: %~2 is damaged: not what was stored there%~3</source>
+        <translation>%1: %~2 ist beschädigt: nicht das, was dort gespeichert wurde%~3</translation>
     </message>
     <message>
-        <source>%1: missing%2</source>
-        <translation>%1: fehlt%2</translation>
+        <source>%1: missing%~2</source>
+        <translation>%1: fehlt%~2</translation>
     </message>
     <message>
-        <source>%1: %~2 is missing%3</source>
-        <translation>%1: %~2 fehlt%3</translation>
+        <source>%1: %~2 is missing%~3</source>
+        <translation>%1: %~2 fehlt%~3</translation>
     </message>
     <message>
         <source>%1: the disk does not confirm what was written; check the disk</source>
@@ -6124,8 +6136,8 @@
         <translation>er lehnt das Zertifikat dieses Programms ab</translation>
     </message>
     <message>
-        <source>%1, or does not speak TLS 1.2 or later with a permitted cipher (BCP 195)</source>
-        <translation>%1, oder spricht kein TLS ab 1.2 mit erlaubter Chiffre (BCP 195)</translation>
+        <source>%~1, or does not speak TLS 1.2 or later with a permitted cipher (BCP 195)</source>
+        <translation>%~1, oder spricht kein TLS ab 1.2 mit erlaubter Chiffre (BCP 195)</translation>
     </message>
     <message>
         <source>it does not speak TLS 1.2 or later with a permitted cipher (BCP 195)</source>
@@ -6184,32 +6196,32 @@
         <translation>(Status %1)</translation>
     </message>
     <message>
-        <source>it is out of resources%1</source>
-        <translation>seine Mittel sind erschöpft%1</translation>
+        <source>it is out of resources%~1</source>
+        <translation>seine Mittel sind erschöpft%~1</translation>
     </message>
     <message>
-        <source>the request does not match its model, or it refuses the object%1</source>
-        <translation>die Anfrage passt nicht zu ihrem Modell, oder er lehnt das Objekt ab%1</translation>
+        <source>the request does not match its model, or it refuses the object%~1</source>
+        <translation>die Anfrage passt nicht zu ihrem Modell, oder er lehnt das Objekt ab%~1</translation>
     </message>
     <message>
-        <source>it does not know this program's AE title as a destination; have it added there%1</source>
-        <translation>er kennt den AE-Titel dieses Programms nicht als Ziel; lassen Sie ihn dort eintragen%1</translation>
+        <source>it does not know this program's AE title as a destination; have it added there%~1</source>
+        <translation>er kennt den AE-Titel dieses Programms nicht als Ziel; lassen Sie ihn dort eintragen%~1</translation>
     </message>
     <message>
-        <source>it does not support this kind of object%1</source>
-        <translation>er unterstützt diese Art von Objekt nicht%1</translation>
+        <source>it does not support this kind of object%~1</source>
+        <translation>er unterstützt diese Art von Objekt nicht%~1</translation>
     </message>
     <message>
-        <source>this program may not do that there%1</source>
-        <translation>dieses Programm darf das dort nicht%1</translation>
+        <source>this program may not do that there%~1</source>
+        <translation>dieses Programm darf das dort nicht%~1</translation>
     </message>
     <message>
-        <source>it cancelled the request%1</source>
-        <translation>er brach die Anfrage ab%1</translation>
+        <source>it cancelled the request%~1</source>
+        <translation>er brach die Anfrage ab%~1</translation>
     </message>
     <message>
-        <source>it cannot process the request%1</source>
-        <translation>er kann die Anfrage nicht bearbeiten%1</translation>
+        <source>it cannot process the request%~1</source>
+        <translation>er kann die Anfrage nicht bearbeiten%~1</translation>
     </message>
     <message>
         <source>%1: answers a query more than %2 times; narrow the search</source>
@@ -6535,8 +6547,8 @@
         <translation>was um den Punkt liegt, passt allein %1 mm daneben: Die Bilder unterscheiden sich um mehr als eine starre Bewegung</translation>
     </message>
     <message>
-        <source>the fit ended %1 mm from where it began: %2</source>
-        <translation>die Anpassung endete %1 mm von ihrem Anfang: %2</translation>
+        <source>the fit ended %1 mm from where it began: %~2</source>
+        <translation>die Anpassung endete %1 mm von ihrem Anfang: %~2</translation>
     </message>
     <message>
         <source>repeated fits agree; 95 of 100 errors are below %1 mm</source>
@@ -6693,8 +6705,8 @@
         <translation>registriert, unbekannt wie</translation>
     </message>
     <message>
-        <source>registered by %1, %2</source>
-        <translation>registriert durch %1, %2</translation>
+        <source>registered by %~1, %~2</source>
+        <translation>registriert durch %~1, %~2</translation>
     </message>
     <message>
         <source>error %1 mm (p95) at %2</source>
@@ -6861,28 +6873,24 @@
         <translation>Struktur „%1“: es gibt kein Material „%2“; geben Sie ein anderes („Der Bohrer trifft“ im Menü der Liste, F9)</translation>
     </message>
     <message>
-        <source>%1: must have at most %2 bytes, not %3</source>
-        <translation>%1: darf höchstens %2 Byte haben, nicht %3</translation>
+        <source>%~1: must have at most %2 bytes, not %3</source>
+        <translation>%~1: darf höchstens %2 Byte haben, nicht %3</translation>
     </message>
     <message>
-        <source>%1: is not UTF-8; type it anew</source>
-        <translation>%1: ist kein UTF-8; geben Sie es neu ein</translation>
+        <source>%~1: must have no control characters, and be one line</source>
+        <translation>%~1: darf keine Steuerzeichen haben und muss eine Zeile sein</translation>
     </message>
     <message>
-        <source>%1: must have no control characters, and be one line</source>
-        <translation>%1: darf keine Steuerzeichen haben und muss eine Zeile sein</translation>
+        <source>%~1: must have no control characters</source>
+        <translation>%~1: darf keine Steuerzeichen haben</translation>
     </message>
     <message>
-        <source>%1: must have no control characters</source>
-        <translation>%1: darf keine Steuerzeichen haben</translation>
+        <source>%~1: must have no characters that are not seen (zero-width spaces, marks of direction); type it anew</source>
+        <translation>%~1: darf keine unsichtbaren Zeichen haben (Leerzeichen ohne Breite, Richtungszeichen); geben Sie es neu ein</translation>
     </message>
     <message>
-        <source>%1: must have no characters that are not seen (zero-width spaces, marks of direction); type it anew</source>
-        <translation>%1: darf keine unsichtbaren Zeichen haben (Leerzeichen ohne Breite, Richtungszeichen); geben Sie es neu ein</translation>
-    </message>
-    <message>
-        <source>%1: must not begin or end with a space</source>
-        <translation>%1: darf nicht mit einem Leerzeichen beginnen oder enden</translation>
+        <source>%~1: must not begin or end with a space</source>
+        <translation>%~1: darf nicht mit einem Leerzeichen beginnen oder enden</translation>
     </message>
     <message>
         <source>tags: a case has at most %1, not %2</source>

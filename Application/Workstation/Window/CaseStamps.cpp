@@ -18,6 +18,7 @@
 #include "SliceView.h"
 #include "Theme.h"
 #include "ThreeDView.h"
+#include "WindowTexts.h"
 
 namespace petrous::workstation
 {
@@ -105,7 +106,7 @@ void CaseStamps::setSide(scene::Side side)
     return;
   m_model.setSide(side);
   stateChanged(); // also where it was refused
-  if (const QString doubt = words(presenters::sideDoubt(m_model.value())); !doubt.isEmpty())
+  if (const QString doubt = phrase(presenters::sideDoubt(m_model.value())); !doubt.isEmpty())
   {
     m_question.setText(doubt);
     m_question.show();

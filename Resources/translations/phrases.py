@@ -277,7 +277,7 @@ WITHOUT = set("""
 """.split())
 # Of these the sources have single words, which are not told from names and codes otherwise.
 SHORT = {word.strip() for word in """
-    Axial | Coronal | Sagittal | left | right | closed | %1 mm ± %2 | %~1 mm ± %2 | Along a structure | Angle | Area | Bone | Distance | Mark | None
+    %1 to %2 | %1 to %~2 | Axial | Coronal | Sagittal | left | right | closed | %1 mm ± %2 | %~1 mm ± %2 | Along a structure | Angle | Area | Bone | Distance | Mark | None
     | angle | appearance | area | cancelled | case | color | create | create %1 | cutting |
     damaged | diamond | difference %1 | dimensions | dissected | distance | document | doubtful
     | drilled | emptied | empty | encrypted | failed | good | gradient %1 | growing | half |
@@ -304,8 +304,8 @@ the reach must be above 0 mm
 readings must be stale after more than 0 s
 the quaternion's tolerance must be above 0
 at least 1 good reading is needed
-Another volume of the series goes on for %1 before the first slice of this one and ; the stack has no gap, but its ends may be missing. Look whether all of the skull base that is needed is there.
-Another volume of the series goes on for  and %1 beyond its last slice; the stack has no gap, but its ends may be missing. Look whether all of the skull base that is needed is there.
+Another volume of the series goes on for %~1 before the first slice of this one and ; the stack has no gap, but its ends may be missing. Look whether all of the skull base that is needed is there.
+Another volume of the series goes on for  and %~1 beyond its last slice; the stack has no gap, but its ends may be missing. Look whether all of the skull base that is needed is there.
 Another volume of the series goes on for  and ; the stack has no gap, but its ends may be missing. Look whether all of the skull base that is needed is there.
 Another volume of the series goes on for ; the stack has no gap, but its ends may be missing. Look whether all of the skull base that is needed is there.
 is missing from the files and was

@@ -2534,6 +2534,10 @@
         <translation>über %1, bis %~2</translation>
     </message>
     <message>
+        <source>%1 to %~2</source>
+        <translation>%1 bis %~2</translation>
+    </message>
+    <message>
         <source>must lie %~1, or be '%~2', not %3</source>
         <translation>muss %~1 liegen oder „%~2“ sein, nicht %3</translation>
     </message>
@@ -3130,6 +3134,10 @@
         <translation>%1 enthält Werte, die keine endlichen Zahlen sind (NaN, unendlich oder zu groß); geben Sie ihnen den Wert dessen, was außerhalb des Messfeldes liegt, etwa -1024 im CT</translation>
     </message>
     <message>
+        <source>%1 to %2</source>
+        <translation>%1 bis %2</translation>
+    </message>
+    <message>
         <source>the box asked for (%~1 mm) does not meet the image (%~2 mm, patient LPS)</source>
         <translation>der gewünschte Bereich (%~1 mm) trifft das Bild nicht (%~2 mm, LPS des Patienten)</translation>
     </message>
@@ -3234,20 +3242,12 @@
         <translation>Ein anderes Volumen der Serie reicht %~1 vor die erste Schicht von diesem und %~2 hinter seine letzte; der Stapel hat keine Lücke, aber seine Enden können fehlen. Sehen Sie nach, ob die ganze benötigte Schädelbasis da ist.</translation>
     </message>
     <message>
-        <source>Another volume of the series goes on for %~1 before the first slice of this one and ; the stack has no gap, but its ends may be missing. Look whether all of the skull base that is needed is there.</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
         <source>Another volume of the series goes on for %~1 before the first slice of this one%~2 beyond its last slice; the stack has no gap, but its ends may be missing. Look whether all of the skull base that is needed is there.</source>
         <translation>Ein anderes Volumen der Serie reicht %~1 vor die erste Schicht von diesem%~2 hinter seine letzte; der Stapel hat keine Lücke, aber seine Enden können fehlen. Sehen Sie nach, ob die ganze benötigte Schädelbasis da ist.</translation>
     </message>
     <message>
         <source>Another volume of the series goes on for %~1 before the first slice of this one; the stack has no gap, but its ends may be missing. Look whether all of the skull base that is needed is there.</source>
         <translation>Ein anderes Volumen der Serie reicht %~1 vor die erste Schicht von diesem; der Stapel hat keine Lücke, aber seine Enden können fehlen. Sehen Sie nach, ob die ganze benötigte Schädelbasis da ist.</translation>
-    </message>
-    <message>
-        <source>Another volume of the series goes on for  and %~1 beyond its last slice; the stack has no gap, but its ends may be missing. Look whether all of the skull base that is needed is there.</source>
-        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Another volume of the series goes on for %~1 beyond its last slice; the stack has no gap, but its ends may be missing. Look whether all of the skull base that is needed is there.</source>

@@ -13,14 +13,15 @@ namespace
 {
 
 constexpr std::size_t kFewLetters = 12;     // a shorter phrase has one word or phrase in each place
+constexpr std::size_t kFewestLetters = 3;   // one with less takes numbers or phrases only
 constexpr std::string_view kEnds = " ,;:."; // about a phrase, of the sentence that it stands in
 
-bool isLetter(char c) noexcept
+bool isLatinLetter(char c) noexcept
 {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-bool isDigit(char c) noexcept
+bool isDecimalDigit(char c) noexcept
 {
   return c >= '0' && c <= '9';
 }
@@ -41,6 +42,19 @@ bool startsWith(std::string_view text, std::string_view with)
 bool endsWith(std::string_view text, std::string_view with)
 {
   return text.size() >= with.size() && text.substr(text.size() - with.size()) == with;
+}
+
+bool hasLetters(std::string_view text) noexcept
+{
+  return std::any_of(text.begin(), text.end(), isLatinLetter);
+}
+
+// "5", "-0.2 N/mm".
+bool isNumber(std::string_view value)
+{
+  const std::size_t first = value.find_first_not_of("+-<");
+  return first != std::string_view::npos && isDecimalDigit(value[first]) &&
+         std::count(value.begin(), value.end(), ' ') <= 1;
 }
 
 // Whether it may be a name, a path or a number, and not sentences.
@@ -80,13 +94,13 @@ Phrasebook::Pieces Phrasebook::piecesOf(const std::string& phrase)
   {
     const bool isPhrase = phrase.compare(n, 2, "%~") == 0;
     const std::size_t digits = n + (isPhrase ? 2 : 1);
-    if (phrase[n] != '%' || digits >= phrase.size() || !isDigit(phrase[digits]))
+    if (phrase[n] != '%' || digits >= phrase.size() || !isDecimalDigit(phrase[digits]))
     {
       pieces.back().words += phrase[n++];
       continue;
     }
     int place = 0;
-    for (n = digits; n < phrase.size() && isDigit(phrase[n]); ++n)
+    for (n = digits; n < phrase.size() && isDecimalDigit(phrase[n]); ++n)
       place = 10 * place + (phrase[n] - '0');
     pieces.back().place = place;
     pieces.back().isPhrase = isPhrase;
@@ -102,12 +116,17 @@ Phrasebook::Phrasebook(const std::vector<Phrase>& phrases)
   {
     Entry entry{piecesOf(std::string(middleOf(english))), piecesOf(std::string(middleOf(other)))};
     for (const Piece& piece : entry.english)
-      entry.letters +=
-          static_cast<std::size_t>(std::count_if(piece.words.begin(), piece.words.end(), isLetter));
+    {
+      entry.letters += static_cast<std::size_t>(
+          std::count_if(piece.words.begin(), piece.words.end(), isLatinLetter));
+      entry.characters += piece.words.size();
+    }
     m_entries.push_back(std::move(entry));
   }
   std::stable_sort(m_entries.begin(), m_entries.end(),
-                   [](const Entry& a, const Entry& b) { return a.letters > b.letters; });
+                   [](const Entry& a, const Entry& b) {
+                     return std::pair(a.letters, a.characters) > std::pair(b.letters, b.characters);
+                   });
 }
 
 std::optional<std::string> Phrasebook::find(std::string_view english) const
@@ -182,7 +201,7 @@ std::optional<Phrasebook::Found> Phrasebook::matched(const Entry& entry, std::st
     if (at > end || upTo == std::string_view::npos || upTo > end)
       return std::nullopt;
     const std::string_view value = middle.substr(at, upTo - at);
-    const bool isSeveral = value.find(' ') != std::string_view::npos;
+    const bool isSeveral = value.find(' ') != std::string_view::npos && !isNumber(value);
     std::optional<Found> other;
     if (!value.empty() && (pieces[n].isPhrase || isSeveral))
       other = lookUp(value, memory);
@@ -190,7 +209,8 @@ std::optional<Phrasebook::Found> Phrasebook::matched(const Entry& entry, std::st
       values[pieces[n].place] = other->text;
     else
     {
-      if (!isPlain(value) || (isSeveral && entry.letters < kFewLetters))
+      if (!isPlain(value) || (isSeveral && entry.letters < kFewLetters) ||
+          (entry.letters < kFewestLetters && !isNumber(value)))
         return std::nullopt;
       isWhole = isWhole && !(pieces[n].isPhrase && isSeveral);
       values[pieces[n].place] = other ? other->text : std::string(value);
@@ -226,8 +246,8 @@ std::optional<Phrasebook::Found> Phrasebook::divided(std::string_view part, Memo
       if (!first && !second)
         continue;
       // What comes before a colon may be a name; a list is one only if all of it is known.
-      const bool isWhole =
-          (first ? first->isWhole : mark == ": ") && (second ? second->isWhole : mark == " (");
+      const bool isWhole = (first ? first->isWhole : mark == ": " || !hasLetters(head)) &&
+                           (second ? second->isWhole : mark == " (" || !hasLetters(tail));
       if (mark == ", " && !isWhole)
         continue;
       Found found{(first ? first->text : std::string(head)) + std::string(mark) +

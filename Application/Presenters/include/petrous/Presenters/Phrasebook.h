@@ -47,6 +47,7 @@ private:
     Pieces english;
     Pieces other;
     std::size_t letters = 0; ///< of its own
+    std::size_t characters = 0;
   };
   struct Found
   {

@@ -432,7 +432,8 @@ void MeasureController::announce(std::size_t before)
   if (m_editor.all().size() <= before)
     return;
   const Measurement& made = m_editor.all().back();
-  emit statusMessage(words(made.name) + ": " + phrase(presenters::summaryOf(m_model.value(), made)));
+  emit statusMessage(words(made.name) + ": " +
+                     phrase(presenters::summaryOf(m_model.value(), made)));
 }
 
 void MeasureController::refresh()
@@ -471,10 +472,9 @@ void MeasureController::draw()
   {
     DrawnMeasure one = drawn(m_model.value(), *draft, all.size());
     const auto value = scene::valueOf(draft->kind, draft->points);
-    one.label =
-        value
-            ? phrase(presenters::toString(presenters::quantitiesOf(m_model.value(), *draft).front()))
-            : QString();
+    one.label = value ? phrase(presenters::toString(
+                            presenters::quantitiesOf(m_model.value(), *draft).front()))
+                      : QString();
     one.closed = one.closed && draft->points.size() > 2;
     one.draft = true;
     one.handles.clear();

@@ -381,8 +381,8 @@ void MeasurePanel::showQuantities(const std::vector<presenters::Quantity>& quant
   m_quantities->clear();
   for (const presenters::Quantity& quantity : quantities)
   {
-    auto* item = new QTreeWidgetItem(m_quantities,
-                                     {phrase(quantity.name), phrase(presenters::toString(quantity))});
+    auto* item = new QTreeWidgetItem(
+        m_quantities, {phrase(quantity.name), phrase(presenters::toString(quantity))});
     for (int column = 0; column < 2; ++column)
       item->setToolTip(column, phrase(quantity.remark));
   }

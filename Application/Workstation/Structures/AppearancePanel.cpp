@@ -414,8 +414,9 @@ void AppearancePanel::showNote()
   if (text.isEmpty() && part)
   {
     if (const std::string notice = m_editor.notice(); !notice.empty())
-      text = phrase(notice) + (m_editor.canFit() ? tr(". Function > Fit to the histogram sets some.")
-                                                : QString('.'));
+      text =
+          phrase(notice) +
+          (m_editor.canFit() ? tr(". Function > Fit to the histogram sets some.") : QString('.'));
     else if (!part->look.solid)
       text = tr("A space without tissue tints the bone around it: its colours count, its opacities "
                 "do not.");

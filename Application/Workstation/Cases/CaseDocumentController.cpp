@@ -1428,46 +1428,46 @@ void CaseDocumentController::write(const presenters::ExportOptions& options)
   if (!m_saver.flush())
     return emit statusMessage(tr("The case is not saved yet, so nothing was exported"));
   const std::string name = m_model.value().name; // a save after a conflict may have changed it
-  work(
-      tr("Exporting from %1").arg(words(name)),
-      [this, library = m_model.library(), name, options,
-       isPart = !m_model.leftOut().empty()](const core::Progress& progress) -> BackgroundWork::Reply
-      {
-        scene::Case value = library.open(name);
-        presenters::LeftOut leftOut;
-        if (isPart) // what is damaged was said when the case was opened
-          leftOut = presenters::leaveOutDamaged(value, progress.part(0.0, 0.1));
-        else if (options.what == "surface") // that of all structures
-          library.checkStructures(value, progress.part(0.0, 0.1));
-        std::vector<std::string> warnings = leftOut.sentences();
-        try
-        {
-          const auto done = presenters::exportCase(
-              library, value, options, leftOut,
-              [&warnings](const std::string& line) { warnings.push_back(line); },
-              progress.part(0.1, 1.0));
-          return [this, done, warnings, options]
-          {
-            endWork();
-            QString text =
-                tr("Written: %1%2").arg(QFile::decodeName(options.out.c_str()), phrase(done.words));
-            if (done.voxelsVolume)
-              text += tr("\nVolume of the voxels: %1 mm³").arg(*done.voxelsVolume, 0, 'f', 2);
-            text += tr("\nCoordinates: %1").arg(phrase(presenters::coordinatesOf(options)));
-            for (const std::string& line : warnings)
-              text += '\n' + sentence(phrase(line));
-            inform(text);
-          };
-        }
-        catch (const presenters::ExportGridError& error)
-        {
-          return [this, options, why = phrase(error.what())]
-          {
-            endWork();
-            offerCtGrid(options, why);
-          };
-        }
-      });
+  work(tr("Exporting from %1").arg(words(name)),
+       [this, library = m_model.library(), name, options, isPart = !m_model.leftOut().empty()](
+           const core::Progress& progress) -> BackgroundWork::Reply
+       {
+         scene::Case value = library.open(name);
+         presenters::LeftOut leftOut;
+         if (isPart) // what is damaged was said when the case was opened
+           leftOut = presenters::leaveOutDamaged(value, progress.part(0.0, 0.1));
+         else if (options.what == "surface") // that of all structures
+           library.checkStructures(value, progress.part(0.0, 0.1));
+         std::vector<std::string> warnings = leftOut.sentences();
+         try
+         {
+           const auto done = presenters::exportCase(
+               library, value, options, leftOut,
+               [&warnings](const std::string& line) { warnings.push_back(line); },
+               progress.part(0.1, 1.0));
+           return [this, done, warnings, options]
+           {
+             endWork();
+             QString text =
+                 tr("Written: %1%2")
+                     .arg(QFile::decodeName(options.out.c_str()), windowText(words(done.words)));
+             if (done.voxelsVolume)
+               text += tr("\nVolume of the voxels: %1 mm³").arg(*done.voxelsVolume, 0, 'f', 2);
+             text += tr("\nCoordinates: %1").arg(phrase(presenters::coordinatesOf(options)));
+             for (const std::string& line : warnings)
+               text += '\n' + sentence(windowText(words(line)));
+             inform(text);
+           };
+         }
+         catch (const presenters::ExportGridError& error)
+         {
+           return [this, options, why = windowText(words(error.what()))]
+           {
+             endWork();
+             offerCtGrid(options, why);
+           };
+         }
+       });
 }
 
 // Returns at once; the window waits for the answer.

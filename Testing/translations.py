@@ -16,7 +16,7 @@ import xml.etree.ElementTree
 
 # What a translation has as often as the English text.
 ALIKE = {
-    "placeholders": r"%(?:[L~]?\d+|n|p)",
+    "placeholders": r"%(?:[L~#]?\d+|n|p)",
     "keys": r"&(?=[^\s&])",
     "ellipses": r"…|\.\.\.",
     "tags": r"<[^<>]+>",

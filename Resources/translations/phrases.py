@@ -1,6 +1,6 @@
 """The phrases of the presenters and modules, for the German window and report: the texts of their
-sources as they are put together with +, with "%1" where a name, a path or a number is put in and
-"%~1" where another text of the program is. Each value of `condition ? a : b` makes a phrase. See
+sources as they are put together with +, with "%1" where a name or a path is put in, "%#1" where a
+number is and "%~1" where another text of the program is. Each value of `condition ? a : b` makes a phrase. See
 Documentation/adr/0030-german-below-the-window.md.
 """
 import json
@@ -28,6 +28,9 @@ SEPARATORS = {",", ";", "return", "throw", "=", "+=", "<<", "&&", "||", "==", "!
 TEXT_OF_PROGRAM = re.compile(
     r"what|[tT]exts?$|[wW]ords?$|why|reason|problem|refusal|refused|message|note|describe|remark|advice"
     r"|kind|verb|explan|hint|said|say|question|phrase|missing|effect|limit|cause|range|unit|[nN]amed$|wanted|listed|joined|^list|possible|expected|counted|plural|many|states|[tT]oString|verdict|fault|field|doubts|remedy|about|instead|decimation|goesOn|^is$|primary|kSides|^ours$|^others$|^code$")
+# Functions that give a number, perhaps with its unit.
+NUMBERS = {"to_string", "fixedText", "generalText", "exactText", "decimals", "fixed", "percent",
+           "millimetres", "gigabytes", "seconds", "roughText"}
 NOT_TEXT = re.compile(r"^(to_string|fixedText|generalText|exactText|string|filename|size|name|path|pathText|hexText)$")
 
 
@@ -132,8 +135,8 @@ def words_of(tokens):
 
 
 class Argument:
-    def __init__(self, is_text):
-        self.is_text = is_text
+    def __init__(self, mark):
+        self.mark = mark  # "": a name, "#": a number, "~": a text of the program
 
 
 def spelled(tokens):
@@ -148,7 +151,7 @@ def values(tokens):
         condition, *branches = choice
         ways = []
         for is_first, branch in zip((True, False), branches):
-            of = values(branch) or [({}, [Argument(True)])]
+            of = values(branch) or [({}, [Argument("~")])]
             ways += [({**choices, condition: is_first}, pieces) for choices, pieces in of
                      if choices.get(condition, is_first) == is_first]
         return ways
@@ -172,7 +175,9 @@ def values(tokens):
         is_text = any(is_literal(t) and re.search("[a-z]{3}", t) for t in flat(operand)) or (
             not any(NOT_TEXT.match(n) for n in names) and
             any(TEXT_OF_PROGRAM.search(n) for n in names))
-        each.append([({}, [Argument(is_text)])])
+        is_number = (len(operand) > 1 and isinstance(operand[-1], Group) and operand[-1].opening == "("
+                     and is_mark(operand[-2]) and operand[-2] in NUMBERS and len(operand) < 5)
+        each.append([({}, [Argument("#" if is_number else "~" if is_text else "")])])
     ways = [({}, [])]
     for options in each:
         ways = [({**before, **choices}, pieces + more)
@@ -190,10 +195,10 @@ def pattern(way):
     for piece in way:
         if isinstance(piece, Argument):
             if previous_argument:
-                text = re.sub(r"%~?(\d+)$", lambda m: "%~" + m.group(1), text)
+                text = re.sub(r"%[#~]?(\d+)$", lambda m: "%~" + m.group(1), text)
                 continue
             count += 1
-            text += ("%~" if piece.is_text else "%") + str(count)
+            text += "%" + piece.mark + str(count)
             previous_argument = True
         elif piece:
             text += piece
@@ -277,7 +282,13 @@ WITHOUT = set("""
 """.split())
 # Of these the sources have single words, which are not told from names and codes otherwise.
 SHORT = {word.strip() for word in """
-    %1 to %2 | %1 to %~2 | Axial | Coronal | Sagittal | left | right | closed | %1 mm ± %2 | %~1 mm ± %2 | Along a structure | Angle | Area | Bone | Distance | Mark | None
+    the CT | the MR '%1' | MR '%1' | hand | %#1 (%#2 images) | %1 (%#2 images) | %#1 x %#2 x %#3 voxels |
+    %1 (%2, %#3 slices) | %1 '%2' (%3, %#4 slices) | %#1 mm ± %#2 | %~1 mm ± %#2 | mark %#1 | structure %#1 |
+    label %#1 | gradient %#1 | repeat %#1 | tilt %#1 | %#1 mm ± %2 | %1 mm ± %#2 |
+    %1 slices | %#1 slices | %1 empty | %#1 empty | %1 structures | %#1 structures | %1 (%2 images) | %1 x %2 x %3 voxels | %1 meshes | %#1 meshes |
+    %~1 interpolated | %1 parts | %#1 parts | %1 stroke | %#1 stroke | %1 strokes | %#1 strokes | %1 (%2, %3 slices) |
+    %1 '%2' (%3, %4 slices) |
+    %#1 to %#2 | %#1 to %~2 | Axial | Coronal | Sagittal | left | right | closed | %1 mm ± %2 | %~1 mm ± %2 | Along a structure | Angle | Area | Bone | Distance | Mark | None
     | angle | appearance | area | cancelled | case | color | create | create %1 | cutting |
     damaged | diamond | difference %1 | dimensions | dissected | distance | document | doubtful
     | drilled | emptied | empty | encrypted | failed | good | gradient %1 | growing | half |
@@ -313,7 +324,7 @@ are missing and were
 files are written in host byte order
 label map: no voxels given to write
 label layers: none given to write, or on different grids
-Segment%1_
+Segment%#1_
 TerminologyEntry:Segmentation category and type - DICOM master list~%~1~%~2~%~3~Anatomic codes - DICOM master list~%~4~%~5|
 Binary labelmap|
 Binary labelmap
@@ -349,7 +360,15 @@ petrous-scene creator
 phantom: the noise must be 0 to 1000
 scanning the phantom
 labelling the phantom
+labels %1 %2
 """.strip("\n").split("\n"))
+# Put together in steps, which a reading of single expressions does not see.
+ASSEMBLED = [
+    "The folder has another %1 of %#2 slices of %#3 mm",
+    "The folder has another %1 of %#2 slices of %#3 mm (needs --repair)",
+    "The folder has another %1 of %#2 slices of %#3 mm (refused)",
+    "The folder has another %1 of %#2 slices (refused)",
+]
 ENDS = " ,;:"
 
 
@@ -358,10 +377,10 @@ def is_phrase(text):
         return False
     if text in SHORT:
         return True
-    plain = re.sub(r"%~?\d+", " X ", text)
+    plain = re.sub(r"%[#~]?\d+", " X ", text)
     if not re.search(r"[a-z]{3}", plain) or "\n" in text:
         return False
-    if re.search(r"[{}<>=#]|gl_", text) and not re.search(r"[a-z]+ [a-z]+ [a-z]+", text):
+    if re.search(r"[{}<>=#]|gl_", plain) and not re.search(r"[a-z]+ [a-z]+ [a-z]+", text):
         return False
     return bool(re.search(r"[a-z]{2,}[,;:.')”]* +[a-zX('%“]|^(by|at|of|in|on|and|or) X", plain))
 
@@ -385,6 +404,8 @@ def phrases():
             text = text.strip(ENDS)
             if is_phrase(text) and not (file.stem == "PlanReport" and text in report):
                 found.setdefault(text, folder)
+    for text in ASSEMBLED:
+        found.setdefault(text, "Assembled")
     for material in json.loads((TREE / "Resources" / "materials.json").read_text())["materials"]:
         found.setdefault(material["title"], "Materials")
     return [(folder, text) for text, folder in found.items()]

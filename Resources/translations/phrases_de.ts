@@ -60,6 +60,10 @@
         <translation>%1: Das CT darin ist nicht verwendbar: %~2 Nur ein MR ist es; wählen Sie dessen Serie für einen Fall allein mit dem MR</translation>
     </message>
     <message>
+        <source>%#1 slices</source>
+        <translation>%#1 Schichten</translation>
+    </message>
+    <message>
         <source>The folder has another</source>
         <translation>Der Ordner hat eine weitere</translation>
     </message>
@@ -84,20 +88,20 @@
         <translation>Laut Datei sind die Werte keine Hounsfield-Einheiten, sondern vom Typ %~1.</translation>
     </message>
     <message>
-        <source>The index of the disc (DICOMDIR) lists %1 file of another series that is not there: what they showed is missing from this copy of the disc.</source>
-        <translation>Das Inhaltsverzeichnis des Datenträgers (DICOMDIR) führt %1 Datei einer anderen Serie auf, die nicht da ist: Was sie zeigte, fehlt auf dieser Kopie.</translation>
+        <source>The index of the disc (DICOMDIR) lists %#1 file of another series that is not there: what they showed is missing from this copy of the disc.</source>
+        <translation>Das Inhaltsverzeichnis des Datenträgers (DICOMDIR) führt %#1 Datei einer anderen Serie auf, die nicht da ist: Was sie zeigte, fehlt auf dieser Kopie.</translation>
     </message>
     <message>
-        <source>The index of the disc (DICOMDIR) lists %1 files of other series that are not there: what they showed is missing from this copy of the disc.</source>
-        <translation>Das Inhaltsverzeichnis des Datenträgers (DICOMDIR) führt %1 Dateien anderer Serien auf, die nicht da sind: Was sie zeigten, fehlt auf dieser Kopie.</translation>
+        <source>The index of the disc (DICOMDIR) lists %#1 files of other series that are not there: what they showed is missing from this copy of the disc.</source>
+        <translation>Das Inhaltsverzeichnis des Datenträgers (DICOMDIR) führt %#1 Dateien anderer Serien auf, die nicht da sind: Was sie zeigten, fehlt auf dieser Kopie.</translation>
     </message>
     <message>
-        <source>Of what lies beside its slices, something was left out in %1 place; 'petrous scan' says what.</source>
-        <translation>Neben den Schichten wurde an %1 Stelle etwas ausgelassen.</translation>
+        <source>Of what lies beside its slices, something was left out in %#1 place; 'petrous scan' says what.</source>
+        <translation>Neben den Schichten wurde an %#1 Stelle etwas ausgelassen.</translation>
     </message>
     <message>
-        <source>Of what lies beside its slices, something was left out in %1 places; 'petrous scan' says what.</source>
-        <translation>Neben den Schichten wurde an %1 Stellen etwas ausgelassen.</translation>
+        <source>Of what lies beside its slices, something was left out in %#1 places; 'petrous scan' says what.</source>
+        <translation>Neben den Schichten wurde an %#1 Stellen etwas ausgelassen.</translation>
     </message>
     <message>
         <source>The file says that it is an MR; it is taken for an MR, as asked.</source>
@@ -116,20 +120,20 @@
         <translation>Laut Datei ein CT; wie gewünscht als CT genommen.</translation>
     </message>
     <message>
-        <source>An MR shows no bone: its intensities are not Hounsfield units, and bone is as dark as air in it. The surface is where tissue begins, put at %1 by the image's histogram; what is drilled is this tissue, not bone. 'petrous appearance --iso' moves the surface.</source>
-        <translation>Ein MR zeigt keinen Knochen: Seine Intensitäten sind keine Hounsfield-Einheiten, und Knochen ist darin so dunkel wie Luft. Die Oberfläche liegt, wo Gewebe beginnt, nach dem Histogramm des Bildes bei %1; gebohrt wird dieses Gewebe, nicht Knochen. Die Oberflächenschwelle (F9) verschiebt die Oberfläche.</translation>
+        <source>An MR shows no bone: its intensities are not Hounsfield units, and bone is as dark as air in it. The surface is where tissue begins, put at %#1 by the image's histogram; what is drilled is this tissue, not bone. 'petrous appearance --iso' moves the surface.</source>
+        <translation>Ein MR zeigt keinen Knochen: Seine Intensitäten sind keine Hounsfield-Einheiten, und Knochen ist darin so dunkel wie Luft. Die Oberfläche liegt, wo Gewebe beginnt, nach dem Histogramm des Bildes bei %#1; gebohrt wird dieses Gewebe, nicht Knochen. Die Oberflächenschwelle (F9) verschiebt die Oberfläche.</translation>
     </message>
     <message>
-        <source>%1 It is shown as it is: nothing in it is known to be bone, and the surface is put at %2 by the image's histogram; 'petrous appearance --iso' moves it. Build the case with --modality CT if it is a CT in Hounsfield units all the same.</source>
-        <translation>%1 Gezeigt wird es, wie es ist: Nichts darin ist als Knochen bekannt, und die Oberfläche liegt nach dem Histogramm des Bildes bei %2; die Oberflächenschwelle (F9) verschiebt sie. Ist es doch ein CT in Hounsfield-Einheiten, öffnen Sie es noch einmal und geben Sie es auf die Frage an.</translation>
+        <source>%1 It is shown as it is: nothing in it is known to be bone, and the surface is put at %#2 by the image's histogram; 'petrous appearance --iso' moves it. Build the case with --modality CT if it is a CT in Hounsfield units all the same.</source>
+        <translation>%1 Gezeigt wird es, wie es ist: Nichts darin ist als Knochen bekannt, und die Oberfläche liegt nach dem Histogramm des Bildes bei %#2; die Oberflächenschwelle (F9) verschiebt sie. Ist es doch ein CT in Hounsfield-Einheiten, öffnen Sie es noch einmal und geben Sie es auf die Frage an.</translation>
     </message>
     <message>
         <source>The file does not say whether it is a CT or an MR; it is taken for a CT with units of its own, such as cone beam. Build the case with --modality MR if it is an MR, --modality CT if it is not.</source>
         <translation>Die Datei sagt nicht, ob sie ein CT oder ein MR ist; sie wird als CT mit eigenen Einheiten genommen, etwa eine DVT. Ist sie ein MR, öffnen Sie sie noch einmal und geben Sie es auf die Frage an.</translation>
     </message>
     <message>
-        <source>The intensities are not Hounsfield units: the surface of bone is put at %1, and dense bone taken for %2, by the image's histogram; 'petrous appearance --iso' moves the surface.</source>
-        <translation>Die Intensitäten sind keine Hounsfield-Einheiten: Die Oberfläche des Knochens liegt nach dem Histogramm des Bildes bei %1, dichter Knochen bei %2; die Knochenschwelle (F9) verschiebt die Oberfläche.</translation>
+        <source>The intensities are not Hounsfield units: the surface of bone is put at %#1, and dense bone taken for %#2, by the image's histogram; 'petrous appearance --iso' moves the surface.</source>
+        <translation>Die Intensitäten sind keine Hounsfield-Einheiten: Die Oberfläche des Knochens liegt nach dem Histogramm des Bildes bei %#1, dichter Knochen bei %#2; die Knochenschwelle (F9) verschiebt die Oberfläche.</translation>
     </message>
     <message>
         <source>%1: %~2 '%3' is in the case already; give it another name with NAME=FILE</source>
@@ -212,36 +216,36 @@
         <translation>nennt eine andere Patienten-ID, einen anderen Namen oder ein anderes Geburtsdatum als die Bilder des Falls; wie gewünscht hinzugefügt</translation>
     </message>
     <message>
-        <source>%1 word of the files' names, which may be a patient's, was left out of the structures' names</source>
-        <translation>%1 Wort der Dateinamen, das zum Namen eines Patienten gehören kann, wurde aus den Namen der Strukturen weggelassen</translation>
+        <source>%#1 word of the files' names, which may be a patient's, was left out of the structures' names</source>
+        <translation>%#1 Wort der Dateinamen, das zum Namen eines Patienten gehören kann, wurde aus den Namen der Strukturen weggelassen</translation>
     </message>
     <message>
-        <source>%1 words of the files' names, which may be a patient's, were left out of the structures' names</source>
-        <translation>%1 Wörter der Dateinamen, die zum Namen eines Patienten gehören können, wurden aus den Namen der Strukturen weggelassen</translation>
+        <source>%#1 words of the files' names, which may be a patient's, were left out of the structures' names</source>
+        <translation>%#1 Wörter der Dateinamen, die zum Namen eines Patienten gehören können, wurden aus den Namen der Strukturen weggelassen</translation>
     </message>
     <message>
-        <source>%1 file of the folder is not a mask of one structure, and left out</source>
-        <translation>%1 Datei des Ordners ist keine Maske einer Struktur und blieb weg</translation>
+        <source>%#1 file of the folder is not a mask of one structure, and left out</source>
+        <translation>%#1 Datei des Ordners ist keine Maske einer Struktur und blieb weg</translation>
     </message>
     <message>
-        <source>%1 file of the folder is not a mask of one structure, and left out: %~2</source>
-        <translation>%1 Datei des Ordners ist keine Maske einer Struktur und blieb weg: %~2</translation>
+        <source>%#1 file of the folder is not a mask of one structure, and left out: %~2</source>
+        <translation>%#1 Datei des Ordners ist keine Maske einer Struktur und blieb weg: %~2</translation>
     </message>
     <message>
-        <source>%1 file of the folder is not a mask of one structure, and left out, among them %~2</source>
-        <translation>%1 Datei des Ordners ist keine Maske einer Struktur und blieb weg, darunter %~2</translation>
+        <source>%#1 file of the folder is not a mask of one structure, and left out, among them %~2</source>
+        <translation>%#1 Datei des Ordners ist keine Maske einer Struktur und blieb weg, darunter %~2</translation>
     </message>
     <message>
-        <source>%1 files of the folder are not a mask of one structure, and left out</source>
-        <translation>%1 Dateien des Ordners sind keine Masken einer Struktur und blieben weg</translation>
+        <source>%#1 files of the folder are not a mask of one structure, and left out</source>
+        <translation>%#1 Dateien des Ordners sind keine Masken einer Struktur und blieben weg</translation>
     </message>
     <message>
-        <source>%1 files of the folder are not a mask of one structure, and left out: %~2</source>
-        <translation>%1 Dateien des Ordners sind keine Masken einer Struktur und blieben weg: %~2</translation>
+        <source>%#1 files of the folder are not a mask of one structure, and left out: %~2</source>
+        <translation>%#1 Dateien des Ordners sind keine Masken einer Struktur und blieben weg: %~2</translation>
     </message>
     <message>
-        <source>%1 files of the folder are not a mask of one structure, and left out, among them %~2</source>
-        <translation>%1 Dateien des Ordners sind keine Masken einer Struktur und blieben weg, darunter %~2</translation>
+        <source>%#1 files of the folder are not a mask of one structure, and left out, among them %~2</source>
+        <translation>%#1 Dateien des Ordners sind keine Masken einer Struktur und blieben weg, darunter %~2</translation>
     </message>
     <message>
         <source>%1: none of its structures has a voxel; export it again with what was drawn</source>
@@ -264,8 +268,8 @@
         <translation>%~1 blieben wie gewünscht weg, da der Fall schon Teile dieser Namen hat</translation>
     </message>
     <message>
-        <source>%1: reaches %2 mm beyond %~3, and a surface of this patient at most %4 mm; look for a coordinate without its decimal point, and give it in mm</source>
-        <translation>%1: reicht %2 mm über %~3 hinaus, eine Oberfläche dieses Patienten höchstens %4 mm; suchen Sie eine Koordinate ohne Dezimalpunkt, und geben Sie die Datei in mm</translation>
+        <source>%1: reaches %#2 mm beyond %~3, and a surface of this patient at most %#4 mm; look for a coordinate without its decimal point, and give it in mm</source>
+        <translation>%1: reicht %#2 mm über %~3 hinaus, eine Oberfläche dieses Patienten höchstens %#4 mm; suchen Sie eine Koordinate ohne Dezimalpunkt, und geben Sie die Datei in mm</translation>
     </message>
     <message>
         <source>mesh</source>
@@ -308,16 +312,16 @@
         <translation>oder lassen Sie diese weg und fügen Sie die andere hinzu</translation>
     </message>
     <message>
-        <source>or leave this one out and add the other %1 with --skip-taken</source>
-        <translation>oder lassen Sie diese weg und fügen Sie die anderen %1 hinzu</translation>
+        <source>or leave this one out and add the other %#1 with --skip-taken</source>
+        <translation>oder lassen Sie diese weg und fügen Sie die anderen %#1 hinzu</translation>
     </message>
     <message>
         <source>or leave these out and add the other one with --skip-taken</source>
         <translation>oder lassen Sie diese weg und fügen Sie die andere hinzu</translation>
     </message>
     <message>
-        <source>or leave these out and add the other %1 with --skip-taken</source>
-        <translation>oder lassen Sie diese weg und fügen Sie die anderen %1 hinzu</translation>
+        <source>or leave these out and add the other %#1 with --skip-taken</source>
+        <translation>oder lassen Sie diese weg und fügen Sie die anderen %#1 hinzu</translation>
     </message>
     <message>
         <source>one</source>
@@ -348,20 +352,24 @@
         <translation>nicht gelesen</translation>
     </message>
     <message>
-        <source>%1 structure read</source>
-        <translation>%1 Struktur gelesen</translation>
+        <source>%#1 structure read</source>
+        <translation>%#1 Struktur gelesen</translation>
     </message>
     <message>
-        <source>%1 structures read</source>
-        <translation>%1 Strukturen gelesen</translation>
+        <source>%#1 structures read</source>
+        <translation>%#1 Strukturen gelesen</translation>
     </message>
     <message>
-        <source>%1 left out</source>
-        <translation>%1 blieben weg</translation>
+        <source>%#1 empty</source>
+        <translation>%#1 leer</translation>
     </message>
     <message>
-        <source>%1 not read</source>
-        <translation>%1 nicht gelesen</translation>
+        <source>%#1 left out</source>
+        <translation>%#1 blieben weg</translation>
+    </message>
+    <message>
+        <source>%#1 not read</source>
+        <translation>%#1 nicht gelesen</translation>
     </message>
     <message>
         <source>%~1 '%2' is in the case already; give it another name</source>
@@ -396,8 +404,8 @@
         <translation>MR, auf das CT umgerechnet</translation>
     </message>
     <message>
-        <source>the voxels of %1 are fractions and were written in 16 bits with a rescale slope; they are off by up to %2</source>
-        <translation>die Voxel von %1 sind gebrochene Zahlen und wurden mit einer Steigung in 16 Bit geschrieben; sie weichen um bis zu %2 ab</translation>
+        <source>the voxels of %1 are fractions and were written in 16 bits with a rescale slope; they are off by up to %#2</source>
+        <translation>die Voxel von %1 sind gebrochene Zahlen und wurden mit einer Steigung in 16 Bit geschrieben; sie weichen um bis zu %#2 ab</translation>
     </message>
     <message>
         <source>slice %~1 interpolated between neighbours: nothing was measured there</source>
@@ -408,8 +416,12 @@
         <translation>Schichten %~1 zwischen Nachbarn interpoliert: dort wurde nichts gemessen</translation>
     </message>
     <message>
-        <source>%1 structures: %2</source>
-        <translation>%1 Strukturen: %2</translation>
+        <source>%#1 structures: %2</source>
+        <translation>%#1 Strukturen: %2</translation>
+    </message>
+    <message>
+        <source>%#1 structures</source>
+        <translation>%#1 Strukturen</translation>
     </message>
     <message>
         <source>labels</source>
@@ -448,8 +460,8 @@
         <translation>„%1“ hat auf dem Gitter des CT kein Voxel, von %2: Die Voxel sind feiner als die des CT; auf dem eigenen Gitter bleiben sie erhalten</translation>
     </message>
     <message>
-        <source>'%1' has %2 mm3 on the CT's grid, of %3: its voxels are finer than the CT's; without --on-ct it keeps its own</source>
-        <translation>„%1“ hat %2 mm³ auf dem Gitter des CT, von %3: Die Voxel sind feiner als die des CT; auf dem eigenen Gitter bleiben sie erhalten</translation>
+        <source>'%1' has %#2 mm3 on the CT's grid, of %3: its voxels are finer than the CT's; without --on-ct it keeps its own</source>
+        <translation>„%1“ hat %#2 mm³ auf dem Gitter des CT, von %3: Die Voxel sind feiner als die des CT; auf dem eigenen Gitter bleiben sie erhalten</translation>
     </message>
     <message>
         <source>export labels: '%1' is missing or damaged, and nothing else is asked for</source>
@@ -484,8 +496,8 @@
         <translation>Strukturen werden geschrieben</translation>
     </message>
     <message>
-        <source>'%1': %2 voxels are not written, as structures before it have them; .seg.nrrd and .dcm keep structures that overlap</source>
-        <translation>„%1“: %2 Voxel werden nicht geschrieben, da Strukturen davor sie haben; .seg.nrrd und .dcm behalten Strukturen, die sich überlappen</translation>
+        <source>'%1': %#2 voxels are not written, as structures before it have them; .seg.nrrd and .dcm keep structures that overlap</source>
+        <translation>„%1“: %#2 Voxel werden nicht geschrieben, da Strukturen davor sie haben; .seg.nrrd und .dcm behalten Strukturen, die sich überlappen</translation>
     </message>
     <message>
         <source>the image</source>
@@ -520,28 +532,28 @@
         <translation>nicht verkleinert</translation>
     </message>
     <message>
-        <source>it keeps %1 triangles instead of %2: %~3 (it is of %4 pieces that are not connected)</source>
-        <translation>es bleiben %1 Dreiecke statt %2: %~3 (es sind %4 Stücke, die nicht zusammenhängen)</translation>
+        <source>it keeps %#1 triangles instead of %#2: %~3 (it is of %#4 pieces that are not connected)</source>
+        <translation>es bleiben %#1 Dreiecke statt %#2: %~3 (es sind %#4 Stücke, die nicht zusammenhängen)</translation>
     </message>
     <message>
-        <source>it keeps %1 triangles instead of %2: %~3</source>
-        <translation>es bleiben %1 Dreiecke statt %2: %~3</translation>
+        <source>it keeps %#1 triangles instead of %#2: %~3</source>
+        <translation>es bleiben %#1 Dreiecke statt %#2: %~3</translation>
     </message>
     <message>
-        <source>the decimated surface passes through itself in %1 pairs of triangles; ask for more triangles if the other program objects</source>
-        <translation>die verkleinerte Oberfläche durchdringt sich selbst in %1 Paaren von Dreiecken; nehmen Sie mehr Dreiecke, falls das andere Programm sie ablehnt</translation>
+        <source>the decimated surface passes through itself in %#1 pairs of triangles; ask for more triangles if the other program objects</source>
+        <translation>die verkleinerte Oberfläche durchdringt sich selbst in %#1 Paaren von Dreiecken; nehmen Sie mehr Dreiecke, falls das andere Programm sie ablehnt</translation>
     </message>
     <message>
-        <source>decimated from %1, at most %2 mm from it (mean %3 mm)</source>
-        <translation>verkleinert von %1, höchstens %2 mm davon entfernt (im Mittel %3 mm)</translation>
+        <source>decimated from %#1, at most %#2 mm from it (mean %#3 mm)</source>
+        <translation>verkleinert von %#1, höchstens %#2 mm davon entfernt (im Mittel %#3 mm)</translation>
     </message>
     <message>
-        <source>%1 triangles, %~2, closed, %3 mm3</source>
-        <translation>%1 Dreiecke, %~2, geschlossen, %3 mm³</translation>
+        <source>%#1 triangles, %~2, closed, %#3 mm3</source>
+        <translation>%#1 Dreiecke, %~2, geschlossen, %#3 mm³</translation>
     </message>
     <message>
-        <source>%1 triangles, %~2, not closed</source>
-        <translation>%1 Dreiecke, %~2, nicht geschlossen</translation>
+        <source>%#1 triangles, %~2, not closed</source>
+        <translation>%#1 Dreiecke, %~2, nicht geschlossen</translation>
     </message>
     <message>
         <source>export mr: '%1' is not registered with the %~2; register it first</source>
@@ -588,28 +600,28 @@
         <translation>Szene%1</translation>
     </message>
     <message>
-        <source>node '%1' still has %2 segmentation of an earlier state of this case, which 'petrous receive --study' would take for the latest; have what is superseded deleted there</source>
-        <translation>der Knoten „%1“ hat noch %2 Segmentierung eines früheren Standes dieses Falls, die beim Empfangen als neueste gälte; lassen Sie das Überholte dort löschen</translation>
+        <source>node '%1' still has %#2 segmentation of an earlier state of this case, which 'petrous receive --study' would take for the latest; have what is superseded deleted there</source>
+        <translation>der Knoten „%1“ hat noch %#2 Segmentierung eines früheren Standes dieses Falls, die beim Empfangen als neueste gälte; lassen Sie das Überholte dort löschen</translation>
     </message>
     <message>
-        <source>node '%1' still has %2 segmentation of an earlier state of this case; have what is superseded deleted there</source>
-        <translation>der Knoten „%1“ hat noch %2 Segmentierung eines früheren Standes dieses Falls; lassen Sie das Überholte dort löschen</translation>
+        <source>node '%1' still has %#2 segmentation of an earlier state of this case; have what is superseded deleted there</source>
+        <translation>der Knoten „%1“ hat noch %#2 Segmentierung eines früheren Standes dieses Falls; lassen Sie das Überholte dort löschen</translation>
     </message>
     <message>
-        <source>node '%1' still has %2 segmentations of an earlier state of this case, which 'petrous receive --study' would take for the latest; have what is superseded deleted there</source>
-        <translation>der Knoten „%1“ hat noch %2 Segmentierungen eines früheren Standes dieses Falls, die beim Empfangen als neueste gälten; lassen Sie das Überholte dort löschen</translation>
+        <source>node '%1' still has %#2 segmentations of an earlier state of this case, which 'petrous receive --study' would take for the latest; have what is superseded deleted there</source>
+        <translation>der Knoten „%1“ hat noch %#2 Segmentierungen eines früheren Standes dieses Falls, die beim Empfangen als neueste gälten; lassen Sie das Überholte dort löschen</translation>
     </message>
     <message>
-        <source>node '%1' still has %2 segmentations of an earlier state of this case; have what is superseded deleted there</source>
-        <translation>der Knoten „%1“ hat noch %2 Segmentierungen eines früheren Standes dieses Falls; lassen Sie das Überholte dort löschen</translation>
+        <source>node '%1' still has %#2 segmentations of an earlier state of this case; have what is superseded deleted there</source>
+        <translation>der Knoten „%1“ hat noch %#2 Segmentierungen eines früheren Standes dieses Falls; lassen Sie das Überholte dort löschen</translation>
     </message>
     <message>
         <source>node '%1': has no scene of a case '%2'; give --study UID for a study that was not sent by Petrous</source>
         <translation>Knoten „%1“: hat keine Szene eines Falls „%2“; wählen Sie die Studie, wenn sie nicht von Petrous gesendet wurde</translation>
     </message>
     <message>
-        <source>node '%1': has %2 cases named '%3'; give --study UID, which 'petrous send' printed</source>
-        <translation>Knoten „%1“: hat %2 Fälle namens „%3“; wählen Sie die Studie</translation>
+        <source>node '%1': has %#2 cases named '%3'; give --study UID, which 'petrous send' printed</source>
+        <translation>Knoten „%1“: hat %#2 Fälle namens „%3“; wählen Sie die Studie</translation>
     </message>
     <message>
         <source>case '%1' is there already in %2; choose another name with --as</source>
@@ -632,20 +644,24 @@
         <translation>eine Segmentierung eines früheren Standes blieb weg: Genommen wurde die neueste nach ihrer Seriennummer</translation>
     </message>
     <message>
-        <source>%1 segmentations of earlier states are left out: the latest by its series number was taken</source>
-        <translation>%1 Segmentierungen früherer Stände blieben weg: Genommen wurde die neueste nach ihrer Seriennummer</translation>
+        <source>%#1 segmentations of earlier states are left out: the latest by its series number was taken</source>
+        <translation>%#1 Segmentierungen früherer Stände blieben weg: Genommen wurde die neueste nach ihrer Seriennummer</translation>
     </message>
     <message>
-        <source>node '%1': the study has %2 CT series; name one by --series: %3</source>
-        <translation>Knoten „%1“: Die Studie hat %2 CT-Serien; wählen Sie eine: %3</translation>
+        <source>%1 (%#2 images)</source>
+        <translation>%1 (%#2 Bilder)</translation>
+    </message>
+    <message>
+        <source>node '%1': the study has %#2 CT series; name one by --series: %3</source>
+        <translation>Knoten „%1“: Die Studie hat %#2 CT-Serien; wählen Sie eine: %3</translation>
     </message>
     <message>
         <source>a later state of the case is at node '%1', but cannot be received: %~2. This is the state before it</source>
         <translation>beim Knoten „%1“ liegt ein späterer Stand des Falls, der sich nicht empfangen lässt: %~2. Dies ist der Stand davor</translation>
     </message>
     <message>
-        <source>node '%1' does not describe series %2, which may hold a case of Petrous, but was not read as one: %~3</source>
-        <translation>der Knoten „%1“ beschreibt die Serie %2 nicht, die ein Fall von Petrous sein kann, aber nicht als solcher gelesen wurde: %~3</translation>
+        <source>node '%1' does not describe series %#2, which may hold a case of Petrous, but was not read as one: %~3</source>
+        <translation>der Knoten „%1“ beschreibt die Serie %#2 nicht, die ein Fall von Petrous sein kann, aber nicht als solcher gelesen wurde: %~3</translation>
     </message>
     <message>
         <source>May identify the patient</source>
@@ -660,12 +676,20 @@
         <translation>das Bild enthält einen ganzen Kopf: Ein Gesicht lässt sich daraus darstellen. Es lässt sich maskieren; ein Fall allein mit der Region des Ohrs (Datei &gt; Bereich öffnen) hat keines</translation>
     </message>
     <message>
-        <source>%~1: %2 of %3 may be a patient's name, number or date; change what is one before you send</source>
-        <translation>%~1: %2 von %3 kann Name, Nummer oder Datum eines Patienten sein; ändern Sie solche vor dem Senden</translation>
+        <source>%~1: %#2 of %#3 may be a patient's name, number or date; change what is one before you send</source>
+        <translation>%~1: %#2 von %#3 kann Name, Nummer oder Datum eines Patienten sein; ändern Sie solche vor dem Senden</translation>
+    </message>
+    <message>
+        <source>MR '%1'</source>
+        <translation>MR „%1“</translation>
     </message>
     <message>
         <source>the pixels of %~1 may have text in them, which may name the patient: look at them</source>
         <translation>die Pixel von %~1 können Text enthalten, der den Patienten nennt: sehen Sie nach</translation>
+    </message>
+    <message>
+        <source>%#1 x %#2 x %#3 voxels</source>
+        <translation>%#1 x %#2 x %#3 Voxel</translation>
     </message>
     <message>
         <source>CT: %1 and their place in space</source>
@@ -708,12 +732,12 @@
         <translation>Namen von Strukturen, die nicht mehr da sind, in Bohrzügen, die sie berührten: %~1</translation>
     </message>
     <message>
-        <source>what was noted on import and registration: %1 sentence</source>
-        <translation>was bei Import und Registrierung vermerkt wurde: %1 Satz</translation>
+        <source>what was noted on import and registration: %#1 sentence</source>
+        <translation>was bei Import und Registrierung vermerkt wurde: %#1 Satz</translation>
     </message>
     <message>
-        <source>what was noted on import and registration: %1 sentences</source>
-        <translation>was bei Import und Registrierung vermerkt wurde: %1 Sätze</translation>
+        <source>what was noted on import and registration: %#1 sentences</source>
+        <translation>was bei Import und Registrierung vermerkt wurde: %#1 Sätze</translation>
     </message>
     <message>
         <source>what was noted of parts that the case does not have any more, or calls otherwise by now</source>
@@ -900,8 +924,8 @@
         <translation>Knoten „%1“: Die Studie hat keine solche Serie</translation>
     </message>
     <message>
-        <source>%1 of %2 instances name the patient otherwise than the first: it is in doubt whether all are of one patient; compare them at the node</source>
-        <translation>%1 von %2 Instanzen nennen den Patienten anders als die erste: Es ist zweifelhaft, ob alle von einem Patienten sind; vergleichen Sie beim Knoten</translation>
+        <source>%#1 of %#2 instances name the patient otherwise than the first: it is in doubt whether all are of one patient; compare them at the node</source>
+        <translation>%#1 von %#2 Instanzen nennen den Patienten anders als die erste: Es ist zweifelhaft, ob alle von einem Patienten sind; vergleichen Sie beim Knoten</translation>
     </message>
     <message>
         <source>%1: the %~2 would lie in %3, which is never changed; give it another place</source>
@@ -952,24 +976,24 @@
         <translation>geben Sie Koordinatensystem und Einheit an</translation>
     </message>
     <message>
-        <source>reaches %1 mm beyond %2</source>
-        <translation>reicht %1 mm über %2 hinaus</translation>
+        <source>reaches %#1 mm beyond %2</source>
+        <translation>reicht %#1 mm über %2 hinaus</translation>
     </message>
     <message>
-        <source>is %1 mm large</source>
-        <translation>ist %1 mm groß</translation>
+        <source>is %#1 mm large</source>
+        <translation>ist %#1 mm groß</translation>
     </message>
     <message>
         <source>%1 it %~2, as %~3 it would lie inside%~4</source>
         <translation>%1 würde es %~2, als %~3 läge es innerhalb%~4</translation>
     </message>
     <message>
-        <source>%1 it follows %2 of the edges of %3, as %4 %5 (by chance 50 %)%~6</source>
-        <translation>%1 folgt es %2 der Kanten von %3, als %4 %5 (zufällig wären 50 %)%~6</translation>
+        <source>%1 it follows %#2 of the edges of %3, as %4 %#5 (by chance 50 %)%~6</source>
+        <translation>%1 folgt es %#2 der Kanten von %3, als %4 %#5 (zufällig wären 50 %)%~6</translation>
     </message>
     <message>
-        <source>follows %1 of the edges of %2 as %3, and %4 as %5, as it was taken; look whether it lies where it belongs</source>
-        <translation>folgt %1 der Kanten von %2 als %3, und %4 als %5, wie es genommen wurde; sehen Sie nach, ob die Lage stimmt</translation>
+        <source>follows %#1 of the edges of %2 as %3, and %#4 as %5, as it was taken; look whether it lies where it belongs</source>
+        <translation>folgt %#1 der Kanten von %2 als %3, und %#4 als %5, wie es genommen wurde; sehen Sie nach, ob die Lage stimmt</translation>
     </message>
     <message>
         <source>does not state its coordinate system and unit, and would lie inside %1 also as %2; it was taken as %3, so look whether it lies where it belongs</source>
@@ -980,8 +1004,8 @@
         <translation>liegt ganz außerhalb von %1, um bis zu %2</translation>
     </message>
     <message>
-        <source>reaches %1 beyond %2; %3 % of its surface lies outside</source>
-        <translation>reicht %1 über %2 hinaus; %3 % der Oberfläche liegen außerhalb</translation>
+        <source>reaches %1 beyond %2; %#3 % of its surface lies outside</source>
+        <translation>reicht %1 über %2 hinaus; %#3 % der Oberfläche liegen außerhalb</translation>
     </message>
     <message>
         <source>looking for structures</source>
@@ -1000,8 +1024,12 @@
         <translation>Labelkarte</translation>
     </message>
     <message>
-        <source>%1 masks, one structure a file</source>
-        <translation>%1 Masken, eine Datei je Struktur</translation>
+        <source>%#1 masks, one structure a file</source>
+        <translation>%#1 Masken, eine Datei je Struktur</translation>
+    </message>
+    <message>
+        <source>%#1 meshes</source>
+        <translation>%#1 Netze</translation>
     </message>
     <message>
         <source>slice %~1</source>
@@ -1012,16 +1040,16 @@
         <translation>Schichten %~1</translation>
     </message>
     <message>
-        <source>%~1 of %2 interpolated between neighbours</source>
-        <translation>%~1 von %2 zwischen Nachbarn interpoliert</translation>
+        <source>%~1 of %#2 interpolated between neighbours</source>
+        <translation>%~1 von %#2 zwischen Nachbarn interpoliert</translation>
     </message>
     <message>
-        <source>gantry tilt of %1 degrees undone, slices shifted by up to %2 mm</source>
-        <translation>Gantry-Neigung von %1 Grad rückgängig gemacht, Schichten um bis zu %2 mm verschoben</translation>
+        <source>gantry tilt of %#1 degrees undone, slices shifted by up to %#2 mm</source>
+        <translation>Gantry-Neigung von %#1 Grad rückgängig gemacht, Schichten um bis zu %#2 mm verschoben</translation>
     </message>
     <message>
-        <source>slices shifted sideways by up to %1 mm</source>
-        <translation>Schichten um bis zu %1 mm seitlich verschoben</translation>
+        <source>slices shifted sideways by up to %#1 mm</source>
+        <translation>Schichten um bis zu %#1 mm seitlich verschoben</translation>
     </message>
     <message>
         <source>face and auricles masked</source>
@@ -1044,8 +1072,12 @@
         <translation>links und rechts als LPS-Achsen genommen, da die Datei nicht sagt, welche Seite des Patienten links ist</translation>
     </message>
     <message>
-        <source>compressed with loss, to 1/%1 of the size</source>
-        <translation>verlustbehaftet komprimiert, auf 1/%1 der Größe</translation>
+        <source>%~1 interpolated</source>
+        <translation>%~1 interpoliert</translation>
+    </message>
+    <message>
+        <source>compressed with loss, to 1/%#1 of the size</source>
+        <translation>verlustbehaftet komprimiert, auf 1/%#1 der Größe</translation>
     </message>
     <message>
         <source>compressed with loss</source>
@@ -1148,6 +1180,10 @@
         <translation>Deckkraft</translation>
     </message>
     <message>
+        <source>%#1 parts</source>
+        <translation>%#1 Teile</translation>
+    </message>
+    <message>
         <source>show %1</source>
         <translation>%1 zeigen</translation>
     </message>
@@ -1156,8 +1192,8 @@
         <translation>%1 ausblenden</translation>
     </message>
     <message>
-        <source>stroke %1</source>
-        <translation>Bohrzug %1</translation>
+        <source>stroke %#1</source>
+        <translation>Bohrzug %#1</translation>
     </message>
     <message>
         <source>side</source>
@@ -1276,12 +1312,20 @@
         <translation>die Maus ist kein Gerät, das sich öffnen lässt</translation>
     </message>
     <message>
-        <source>take back what came after: petrous undo '%1' %2</source>
-        <translation>nehmen Sie zurück, was danach kam (Fall „%1“, %2)</translation>
+        <source>%#1 stroke</source>
+        <translation>%#1 Bohrzug</translation>
     </message>
     <message>
-        <source>bring back what was there: petrous redo '%1' %2</source>
-        <translation>holen Sie zurück, was da war (Fall „%1“, %2)</translation>
+        <source>%#1 strokes</source>
+        <translation>%#1 Bohrzüge</translation>
+    </message>
+    <message>
+        <source>take back what came after: petrous undo '%1' %#2</source>
+        <translation>nehmen Sie zurück, was danach kam (Fall „%1“, %#2)</translation>
+    </message>
+    <message>
+        <source>bring back what was there: petrous redo '%1' %#2</source>
+        <translation>holen Sie zurück, was da war (Fall „%1“, %#2)</translation>
     </message>
     <message>
         <source>was recorded on another %~1 than that of '%2'</source>
@@ -1308,8 +1352,8 @@
         <translation>wurde mit einer anderen Version dieses Programms aufgezeichnet, deren Werkzeug andere Punkte hatte</translation>
     </message>
     <message>
-        <source>recording: a tool of %1 degrees of freedom; this program has tools of 3 and of 6</source>
-        <translation>Aufzeichnung: ein Werkzeug mit %1 Freiheitsgraden; dieses Programm hat Werkzeuge mit 3 und mit 6</translation>
+        <source>recording: a tool of %#1 degrees of freedom; this program has tools of 3 and of 6</source>
+        <translation>Aufzeichnung: ein Werkzeug mit %#1 Freiheitsgraden; dieses Programm hat Werkzeuge mit 3 und mit 6</translation>
     </message>
     <message>
         <source>%1: cannot be made (no permission or a full disk); choose another place for the recording</source>
@@ -1328,8 +1372,8 @@
         <translation>nur %1</translation>
     </message>
     <message>
-        <source>only %1 parts</source>
-        <translation>nur %1 Teile</translation>
+        <source>only %#1 parts</source>
+        <translation>nur %#1 Teile</translation>
     </message>
     <message>
         <source>None</source>
@@ -1496,8 +1540,8 @@
         <translation>Abstände werden gemessen</translation>
     </message>
     <message>
-        <source>difference %1</source>
-        <translation>Unterschied %1</translation>
+        <source>difference %#1</source>
+        <translation>Unterschied %#1</translation>
     </message>
     <message>
         <source>drawing strokes</source>
@@ -1524,12 +1568,12 @@
         <translation>gesetzt auf dem MR „%1“, das nicht mehr da ist</translation>
     </message>
     <message>
-        <source>set on the %~1, voxels %2 x %3 x %4 mm</source>
-        <translation>gesetzt auf dem %~1, Voxel %2 x %3 x %4 mm</translation>
+        <source>set on the %~1, voxels %#2 x %#3 x %#4 mm</source>
+        <translation>gesetzt auf dem %~1, Voxel %#2 x %#3 x %#4 mm</translation>
     </message>
     <message>
-        <source>set on the MR '%1', voxels %2 x %3 x %4 mm</source>
-        <translation>gesetzt auf dem MR „%1“, Voxel %2 x %3 x %4 mm</translation>
+        <source>set on the MR '%1', voxels %#2 x %#3 x %#4 mm</source>
+        <translation>gesetzt auf dem MR „%1“, Voxel %#2 x %#3 x %#4 mm</translation>
     </message>
     <message>
         <source>set on the</source>
@@ -1540,8 +1584,8 @@
         <translation>Fehler der Registrierung unbekannt</translation>
     </message>
     <message>
-        <source>registered to %1 mm (p95) at %2, %3 mm from here</source>
-        <translation>registriert auf %1 mm (p95) an %2, %3 mm von hier</translation>
+        <source>registered to %#1 mm (p95) at %2, %#3 mm from here</source>
+        <translation>registriert auf %#1 mm (p95) an %2, %#3 mm von hier</translation>
     </message>
     <message>
         <source>points</source>
@@ -1576,8 +1620,8 @@
         <translation>die Kanten kreuzen sich, daher ohne Fläche</translation>
     </message>
     <message>
-        <source>points up to %1 mm off its plane</source>
-        <translation>Punkte bis zu %1 mm neben ihrer Ebene</translation>
+        <source>points up to %#1 mm off its plane</source>
+        <translation>Punkte bis zu %#1 mm neben ihrer Ebene</translation>
     </message>
     <message>
         <source>its points coincide</source>
@@ -1596,8 +1640,8 @@
         <translation>kürzeste Dicke</translation>
     </message>
     <message>
-        <source>%~1 mm ± %2</source>
-        <translation>%~1 mm ± %2</translation>
+        <source>%~1 mm ± %#2</source>
+        <translation>%~1 mm ± %#2</translation>
     </message>
     <message>
         <source>%~1 mm, uncertainty unknown</source>
@@ -1648,8 +1692,8 @@
         <translation>dritte Ausdehnung</translation>
     </message>
     <message>
-        <source>along a principal axis of inertia, direction %1, %2, %3 (LPS)</source>
-        <translation>entlang einer Hauptträgheitsachse, Richtung %1, %2, %3 (LPS)</translation>
+        <source>along a principal axis of inertia, direction %#1, %#2, %#3 (LPS)</source>
+        <translation>entlang einer Hauptträgheitsachse, Richtung %#1, %#2, %#3 (LPS)</translation>
     </message>
     <message>
         <source>length of the centre line</source>
@@ -1716,8 +1760,8 @@
         <translation>berührt (± %1 mm)</translation>
     </message>
     <message>
-        <source>%1 mm ± %2</source>
-        <translation>%1 mm ± %2</translation>
+        <source>%#1 mm ± %2</source>
+        <translation>%#1 mm ± %2</translation>
     </message>
     <message>
         <source>registration's error unknown</source>
@@ -1752,8 +1796,8 @@
         <translation>Strukturen werden vermessen</translation>
     </message>
     <message>
-        <source>voxels %1 x %2 x %3 mm, slices %4 mm apart</source>
-        <translation>Voxel %1 x %2 x %3 mm, Schichtabstand %4 mm</translation>
+        <source>voxels %#1 x %#2 x %#3 mm, slices %#4 mm apart</source>
+        <translation>Voxel %#1 x %#2 x %#3 mm, Schichtabstand %#4 mm</translation>
     </message>
     <message>
         <source>drawn on the MR '%1'</source>
@@ -1764,8 +1808,8 @@
         <translation>%~1registriert, Fehler unbekannt</translation>
     </message>
     <message>
-        <source>%~1registered to %2 mm (p95) at %3, %4 mm from here</source>
-        <translation>%~1registriert auf %2 mm (p95) an %3, %4 mm von hier</translation>
+        <source>%~1registered to %#2 mm (p95) at %3, %#4 mm from here</source>
+        <translation>%~1registriert auf %#2 mm (p95) an %3, %#4 mm von hier</translation>
     </message>
     <message>
         <source>case '%1' has no MR '%2'; it has none</source>
@@ -1784,8 +1828,8 @@
         <translation>das MR „%1“ ist nicht mit dem CT registriert; registrieren Sie es erst</translation>
     </message>
     <message>
-        <source>The %1 landmarks agree to %2 (root mean square; pair %3 least, %4).</source>
-        <translation>Die %1 Landmarken stimmen auf %2 überein (quadratisches Mittel; am wenigsten Paar %3, %4).</translation>
+        <source>The %#1 landmarks agree to %#2 (root mean square; pair %#3 least, %#4).</source>
+        <translation>Die %#1 Landmarken stimmen auf %#2 überein (quadratisches Mittel; am wenigsten Paar %#3, %#4).</translation>
     </message>
     <message>
         <source>where the landmarks put it</source>
@@ -1804,20 +1848,20 @@
         <translation>wo es von Hand hingelegt wurde</translation>
     </message>
     <message>
-        <source>The fit lies %1 from %~2, at %~3</source>
-        <translation>Die Anpassung liegt %1 neben der Lage, %~2, bei %~3</translation>
+        <source>The fit lies %#1 from %~2, at %~3</source>
+        <translation>Die Anpassung liegt %#1 neben der Lage, %~2, bei %~3</translation>
     </message>
     <message>
-        <source>which is more than the fit's error (at most %1): the patient moved between the two images, or one of them misleads</source>
-        <translation>mehr als der Fehler der Anpassung (höchstens %1): Der Patient bewegte sich zwischen den beiden Bildern, oder eines von beiden täuscht</translation>
+        <source>which is more than the fit's error (at most %#1): the patient moved between the two images, or one of them misleads</source>
+        <translation>mehr als der Fehler der Anpassung (höchstens %#1): Der Patient bewegte sich zwischen den beiden Bildern, oder eines von beiden täuscht</translation>
     </message>
     <message>
         <source>How well '%1' lies on the CT is not known, so the error is not either.</source>
         <translation>Wie gut „%1“ auf dem CT liegt, ist nicht bekannt, der Fehler daher auch nicht.</translation>
     </message>
     <message>
-        <source>The error is that of both ways: to '%1', and from there to the CT (%2 (p95) at %3).</source>
-        <translation>Der Fehler ist der beider Wege: zu „%1“ und von dort zum CT (%2 (p95) an %3).</translation>
+        <source>The error is that of both ways: to '%1', and from there to the CT (%#2 (p95) at %3).</source>
+        <translation>Der Fehler ist der beider Wege: zu „%1“ und von dort zum CT (%#2 (p95) an %3).</translation>
     </message>
     <message>
         <source>That '%1' lies right on the CT is not sure.</source>
@@ -1830,6 +1874,10 @@
     <message>
         <source>MR '%1' cannot be laid as it is: it has no frame of reference in common with '%2', and neither landmarks nor a transform are given</source>
         <translation>das MR „%1“ lässt sich nicht hinlegen, wie es ist: Es hat kein gemeinsames Bezugssystem mit „%2“, und weder Landmarken noch eine Transformation sind gegeben</translation>
+    </message>
+    <message>
+        <source>the CT</source>
+        <translation>das CT</translation>
     </message>
     <message>
         <source>It lies %~1, without a fit: its error is not known.</source>
@@ -1932,20 +1980,20 @@
         <translation>Röhre</translation>
     </message>
     <message>
-        <source>%1 long, radius %2</source>
-        <translation>%1 lang, Radius %2</translation>
+        <source>%#1 long, radius %#2</source>
+        <translation>%#1 lang, Radius %#2</translation>
     </message>
     <message>
         <source>The points seem not to be in their order along the structure: %1 would make a much shorter line.</source>
         <translation>Die Punkte scheinen nicht in ihrer Reihenfolge entlang der Struktur zu liegen: %1 ergäbe eine viel kürzere Linie.</translation>
     </message>
     <message>
-        <source>%~1The scan does not resolve it along %2 of %3: there the path and its radius are a guess between your points.</source>
-        <translation>%~1Die Aufnahme löst sie auf %2 von %3 nicht auf: Dort sind Verlauf und Radius eine Vermutung zwischen Ihren Punkten.</translation>
+        <source>%~1The scan does not resolve it along %#2 of %#3: there the path and its radius are a guess between your points.</source>
+        <translation>%~1Die Aufnahme löst sie auf %#2 von %#3 nicht auf: Dort sind Verlauf und Radius eine Vermutung zwischen Ihren Punkten.</translation>
     </message>
     <message>
-        <source>%~1 The scan does not resolve it along %2 of %3: there the path and its radius are a guess between your points.</source>
-        <translation>%~1 Die Aufnahme löst sie auf %2 von %3 nicht auf: Dort sind Verlauf und Radius eine Vermutung zwischen Ihren Punkten.</translation>
+        <source>%~1 The scan does not resolve it along %#2 of %#3: there the path and its radius are a guess between your points.</source>
+        <translation>%~1 Die Aufnahme löst sie auf %#2 von %#3 nicht auf: Dort sind Verlauf und Radius eine Vermutung zwischen Ihren Punkten.</translation>
     </message>
     <message>
         <source>change of</source>
@@ -2000,8 +2048,8 @@
         <translation>die Struktur „%1“ liegt nicht auf dem %~2</translation>
     </message>
     <message>
-        <source>It was drawn on other voxels, and is now on those of the %~1: %2 mm³ for %3 mm³. Saving replaces what was drawn.</source>
-        <translation>Sie wurde auf anderen Voxeln gezeichnet und liegt jetzt auf denen des %~1: %2 mm³ statt %3 mm³. Speichern ersetzt das Gezeichnete.</translation>
+        <source>It was drawn on other voxels, and is now on those of the %~1: %#2 mm³ for %#3 mm³. Saving replaces what was drawn.</source>
+        <translation>Sie wurde auf anderen Voxeln gezeichnet und liegt jetzt auf denen des %~1: %#2 mm³ statt %#3 mm³. Speichern ersetzt das Gezeichnete.</translation>
     </message>
     <message>
         <source>not registered to the %~1; see Registration, F5</source>
@@ -2012,8 +2060,12 @@
         <translation>der Fall hat kein Bild „%1“</translation>
     </message>
     <message>
+        <source>the MR '%1'</source>
+        <translation>das MR „%1“</translation>
+    </message>
+    <message>
         <source>The slices show %1, but the tools work on %2.</source>
-        <translation>Die Schichten zeigen %1, die Werkzeuge arbeiten aber auf %2.</translation>
+        <translation>Die Schichten zeigen %1, die Werkzeuge nutzen aber %2.</translation>
     </message>
     <message>
         <source>removal of the points</source>
@@ -2144,8 +2196,8 @@
         <translation>die Struktur wird angelegt</translation>
     </message>
     <message>
-        <source>a film has 2 to %1 frames, not %2</source>
-        <translation>ein Film hat 2 bis %1 Bilder, nicht %2</translation>
+        <source>a film has 2 to %#1 frames, not %#2</source>
+        <translation>ein Film hat 2 bis %#1 Bilder, nicht %#2</translation>
     </message>
     <message>
         <source>a flight needs a line of two different points</source>
@@ -2172,8 +2224,8 @@
         <translation>%1: ein Film ist ein Video (.mp4) oder Bilder (.png)</translation>
     </message>
     <message>
-        <source>drawing frame %1 of %2</source>
-        <translation>Bild %1 von %2 wird gezeichnet</translation>
+        <source>drawing frame %#1 of %#2</source>
+        <translation>Bild %#1 von %#2 wird gezeichnet</translation>
     </message>
     <message>
         <source>Left side</source>
@@ -2228,8 +2280,8 @@
         <translation>Längs des Werkzeugs</translation>
     </message>
     <message>
-        <source>%1, turned %2°</source>
-        <translation>%1, gedreht %2°</translation>
+        <source>%1, turned %#2°</source>
+        <translation>%1, gedreht %#2°</translation>
     </message>
     <message>
         <source>plane: the normal must be finite and longer than 0</source>
@@ -2244,12 +2296,12 @@
         <translation>rechts</translation>
     </message>
     <message>
-        <source>The side is stated as right, but all of the image lies on the patient's %~1, %2 to %3 mm from the scanner's middle. Is the side right? (A patient need not lie in the middle.)</source>
-        <translation>Angegeben ist die rechte Seite, das ganze Bild liegt aber auf der Seite „%~1“ des Patienten, %2 bis %3 mm von der Mitte des Geräts. Stimmt die Seite? (Ein Patient muss nicht in der Mitte liegen.)</translation>
+        <source>The side is stated as right, but all of the image lies on the patient's %~1, %#2 to %#3 mm from the scanner's middle. Is the side right? (A patient need not lie in the middle.)</source>
+        <translation>Angegeben ist die rechte Seite, das ganze Bild liegt aber auf der Seite „%~1“ des Patienten, %#2 bis %#3 mm von der Mitte des Geräts. Stimmt die Seite? (Ein Patient muss nicht in der Mitte liegen.)</translation>
     </message>
     <message>
-        <source>The side is stated as left, but all of the image lies on the patient's %~1, %2 to %3 mm from the scanner's middle. Is the side right? (A patient need not lie in the middle.)</source>
-        <translation>Angegeben ist die linke Seite, das ganze Bild liegt aber auf der Seite „%~1“ des Patienten, %2 bis %3 mm von der Mitte des Geräts. Stimmt die Seite? (Ein Patient muss nicht in der Mitte liegen.)</translation>
+        <source>The side is stated as left, but all of the image lies on the patient's %~1, %#2 to %#3 mm from the scanner's middle. Is the side right? (A patient need not lie in the middle.)</source>
+        <translation>Angegeben ist die linke Seite, das ganze Bild liegt aber auf der Seite „%~1“ des Patienten, %#2 bis %#3 mm von der Mitte des Geräts. Stimmt die Seite? (Ein Patient muss nicht in der Mitte liegen.)</translation>
     </message>
 </context>
 <context>
@@ -2343,8 +2395,8 @@
         <translation>Name der Vorgabe: %~1</translation>
     </message>
     <message>
-        <source>must have 1 to %1 bytes</source>
-        <translation>muss 1 bis %1 Byte haben</translation>
+        <source>must have 1 to %#1 bytes</source>
+        <translation>muss 1 bis %#1 Byte haben</translation>
     </message>
     <message>
         <source>must be UTF-8 text without control characters</source>
@@ -2371,8 +2423,8 @@
         <translation>%1: ist keine Zahl</translation>
     </message>
     <message>
-        <source>transfer function: point %1: %~2</source>
-        <translation>Transferfunktion: Punkt %1: %~2</translation>
+        <source>transfer function: point %#1: %~2</source>
+        <translation>Transferfunktion: Punkt %#1: %~2</translation>
     </message>
     <message>
         <source>transfer function: at least one point is needed</source>
@@ -2419,20 +2471,20 @@
         <translation>%1„color“ muss [Rot, Grün, Blau] sein, je 0 bis 1</translation>
     </message>
     <message>
-        <source>not JSON; look at line %1</source>
-        <translation>kein JSON; sehen Sie in Zeile %1 nach</translation>
+        <source>not JSON; look at line %#1</source>
+        <translation>kein JSON; sehen Sie in Zeile %#1 nach</translation>
     </message>
     <message>
         <source>not JSON that can be read: a number is too large</source>
         <translation>kein lesbares JSON: eine Zahl ist zu groß</translation>
     </message>
     <message>
-        <source>has %~1 points; at most %2 are taken</source>
-        <translation>hat %~1 Punkte; höchstens %2 werden genommen</translation>
+        <source>has %#1 points; at most %#2 are taken</source>
+        <translation>hat %#1 Punkte; höchstens %#2 werden genommen</translation>
     </message>
     <message>
-        <source>point %1</source>
-        <translation>Punkt %1</translation>
+        <source>point %#1</source>
+        <translation>Punkt %#1</translation>
     </message>
 </context>
 <context>
@@ -2442,24 +2494,24 @@
         <translation>%1, Zeile 1: Es gibt keine Spalte „%2“; die erste Zeile muss die Spalten benennen</translation>
     </message>
     <message>
-        <source>%1, line %2: %3 field, and %4 columns in the first line; numbers need a decimal point, and each column a field</source>
-        <translation>%1, Zeile %2: %3 Feld, und %4 Spalten in der ersten Zeile; Zahlen brauchen einen Dezimalpunkt und jede Spalte ein Feld</translation>
+        <source>%1, line %#2: %#3 field, and %#4 columns in the first line; numbers need a decimal point, and each column a field</source>
+        <translation>%1, Zeile %#2: %#3 Feld, und %#4 Spalten in der ersten Zeile; Zahlen brauchen einen Dezimalpunkt und jede Spalte ein Feld</translation>
     </message>
     <message>
-        <source>%1, line %2: %3 fields, and %4 columns in the first line; numbers need a decimal point, and each column a field</source>
-        <translation>%1, Zeile %2: %3 Felder, und %4 Spalten in der ersten Zeile; Zahlen brauchen einen Dezimalpunkt und jede Spalte ein Feld</translation>
+        <source>%1, line %#2: %#3 fields, and %#4 columns in the first line; numbers need a decimal point, and each column a field</source>
+        <translation>%1, Zeile %#2: %#3 Felder, und %#4 Spalten in der ersten Zeile; Zahlen brauchen einen Dezimalpunkt und jede Spalte ein Feld</translation>
     </message>
     <message>
-        <source>%1, line %2: '%3' is not a finite number; numbers need a decimal point</source>
-        <translation>%1, Zeile %2: „%3“ ist keine endliche Zahl; Zahlen brauchen einen Dezimalpunkt</translation>
+        <source>%1, line %#2: '%3' is not a finite number; numbers need a decimal point</source>
+        <translation>%1, Zeile %#2: „%3“ ist keine endliche Zahl; Zahlen brauchen einen Dezimalpunkt</translation>
     </message>
     <message>
         <source>%1: there is no row after the header</source>
         <translation>%1: Nach der Kopfzeile kommt keine Zeile</translation>
     </message>
     <message>
-        <source>%1, line %2: a quote is opened and not closed</source>
-        <translation>%1, Zeile %2: Ein Anführungszeichen wird geöffnet und nicht geschlossen</translation>
+        <source>%1, line %#2: a quote is opened and not closed</source>
+        <translation>%1, Zeile %#2: Ein Anführungszeichen wird geöffnet und nicht geschlossen</translation>
     </message>
     <message>
         <source>%1: cancelled; nothing was changed</source>
@@ -2474,8 +2526,8 @@
         <translation>lässt sich nicht sperren: Dieses Laufwerk kennt keine Dateisperren, wie manche Netzlaufwerke; wählen Sie einen Ordner auf einem lokalen Datenträger</translation>
     </message>
     <message>
-        <source>grid: every dimension must be at least 1, not %1 x %2 x %3</source>
-        <translation>Gitter: Jede Abmessung muss mindestens 1 sein, nicht %1 x %2 x %3</translation>
+        <source>grid: every dimension must be at least 1, not %#1 x %#2 x %#3</source>
+        <translation>Gitter: Jede Abmessung muss mindestens 1 sein, nicht %#1 x %#2 x %#3</translation>
     </message>
     <message>
         <source>grid: the spacing must be finite and above 0 mm</source>
@@ -2506,8 +2558,8 @@
         <translation>ist keine gewöhnliche Datei; nennen Sie eine</translation>
     </message>
     <message>
-        <source>cannot be opened (system error %1)</source>
-        <translation>lässt sich nicht öffnen (Systemfehler %1)</translation>
+        <source>cannot be opened (system error %#1)</source>
+        <translation>lässt sich nicht öffnen (Systemfehler %#1)</translation>
     </message>
     <message>
         <source>is a folder; name a file in it</source>
@@ -2530,28 +2582,28 @@
         <translation>brach beim Lesen ab; prüfen Sie den Datenträger</translation>
     </message>
     <message>
-        <source>above %1, up to %~2</source>
-        <translation>über %1, bis %~2</translation>
+        <source>above %#1, up to %~2</source>
+        <translation>über %#1, bis %~2</translation>
     </message>
     <message>
-        <source>%1 to %~2</source>
-        <translation>%1 bis %~2</translation>
+        <source>%#1 to %~2</source>
+        <translation>%#1 bis %~2</translation>
     </message>
     <message>
-        <source>must lie %~1, or be '%~2', not %3</source>
-        <translation>muss %~1 liegen oder „%~2“ sein, nicht %3</translation>
+        <source>must lie %~1, or be '%~2', not %#3</source>
+        <translation>muss %~1 liegen oder „%~2“ sein, nicht %#3</translation>
     </message>
     <message>
-        <source>must lie %~1, not %2</source>
-        <translation>muss %~1 liegen, nicht %2</translation>
+        <source>must lie %~1, not %#2</source>
+        <translation>muss %~1 liegen, nicht %#2</translation>
     </message>
     <message>
-        <source>must lie within %~1, or be '%~2', not %3</source>
-        <translation>muss in %~1 liegen oder „%~2“ sein, nicht %3</translation>
+        <source>must lie within %~1, or be '%~2', not %#3</source>
+        <translation>muss in %~1 liegen oder „%~2“ sein, nicht %#3</translation>
     </message>
     <message>
-        <source>must lie within %~1, not %2</source>
-        <translation>muss in %~1 liegen, nicht %2</translation>
+        <source>must lie within %~1, not %#2</source>
+        <translation>muss in %~1 liegen, nicht %#2</translation>
     </message>
     <message>
         <source>cannot be written, the disk is full; free some space and try again</source>
@@ -2590,8 +2642,8 @@
         <translation>lässt sich nicht schreiben, der Name ist zu lang; kürzen Sie ihn</translation>
     </message>
     <message>
-        <source>cannot be written (system error %1); check the disk</source>
-        <translation>lässt sich nicht schreiben (Systemfehler %1); prüfen Sie den Datenträger</translation>
+        <source>cannot be written (system error %#1); check the disk</source>
+        <translation>lässt sich nicht schreiben (Systemfehler %#1); prüfen Sie den Datenträger</translation>
     </message>
     <message>
         <source>is a device, pipe or socket; name a regular file</source>
@@ -2626,8 +2678,8 @@
         <translation>Netz: Eine Ecke ist nicht endlich</translation>
     </message>
     <message>
-        <source>mesh: a triangle names vertex %1 of %2</source>
-        <translation>Netz: Ein Dreieck nennt die Ecke %1 von %2</translation>
+        <source>mesh: a triangle names vertex %#1 of %#2</source>
+        <translation>Netz: Ein Dreieck nennt die Ecke %#1 von %#2</translation>
     </message>
 </context>
 <context>
@@ -2713,16 +2765,16 @@
         <translation>Geräteserver „%1“: Die Fristen müssen über 0 s liegen</translation>
     </message>
     <message>
-        <source>was killed by signal %1 (%2)</source>
-        <translation>wurde durch Signal %1 beendet (%2)</translation>
+        <source>was killed by signal %#1 (%2)</source>
+        <translation>wurde durch Signal %#1 beendet (%2)</translation>
     </message>
     <message>
-        <source>was killed by signal %1 (unknown)</source>
-        <translation>wurde durch Signal %1 beendet (unbekannt)</translation>
+        <source>was killed by signal %#1 (unknown)</source>
+        <translation>wurde durch Signal %#1 beendet (unbekannt)</translation>
     </message>
     <message>
-        <source>ended by itself with status %1</source>
-        <translation>beendete sich mit Status %1</translation>
+        <source>ended by itself with status %#1</source>
+        <translation>beendete sich mit Status %#1</translation>
     </message>
     <message>
         <source>cannot start %1: %2</source>
@@ -2733,8 +2785,8 @@
         <translation>endete; wie, sagt das System nicht</translation>
     </message>
     <message>
-        <source>describes a device with a %~1 of %2 %~3; it must lie between 0 and %4</source>
-        <translation>beschreibt ein Gerät mit %~1 von %2 %~3; sie muss zwischen 0 und %4 liegen</translation>
+        <source>describes a device with a %~1 of %#2 %~3; it must lie between 0 and %#4</source>
+        <translation>beschreibt ein Gerät mit %~1 von %#2 %~3; sie muss zwischen 0 und %#4 liegen</translation>
     </message>
     <message>
         <source>angular stiffness</source>
@@ -2745,24 +2797,24 @@
         <translation>auf den Geräteserver „%1“ wird nicht mehr gewartet</translation>
     </message>
     <message>
-        <source>speaks version %1 of the protocol, Petrous version %2</source>
-        <translation>spricht Version %1 des Protokolls, Petrous Version %2</translation>
+        <source>speaks version %#1 of the protocol, Petrous version %#2</source>
+        <translation>spricht Version %#1 des Protokolls, Petrous Version %#2</translation>
     </message>
     <message>
-        <source>%1; that was the %2th time in a row, and it is not started again</source>
-        <translation>%1; das war zum %2. Mal in Folge, und er wird nicht mehr gestartet</translation>
+        <source>%1; that was the %#2th time in a row, and it is not started again</source>
+        <translation>%1; das war zum %#2. Mal in Folge, und er wird nicht mehr gestartet</translation>
     </message>
     <message>
         <source>has gone</source>
         <translation>ist weg</translation>
     </message>
     <message>
-        <source>was not started: nobody opened %1 within %2</source>
-        <translation>wurde nicht gestartet: Niemand öffnete %1 innerhalb von %2</translation>
+        <source>was not started: nobody opened %1 within %#2</source>
+        <translation>wurde nicht gestartet: Niemand öffnete %1 innerhalb von %#2</translation>
     </message>
     <message>
-        <source>is not ready after %1</source>
-        <translation>ist nach %1 nicht bereit</translation>
+        <source>is not ready after %#1</source>
+        <translation>ist nach %#1 nicht bereit</translation>
     </message>
     <message>
         <source>has no device%~1</source>
@@ -2781,20 +2833,20 @@
         <translation>meldet einen Fehler: %~1</translation>
     </message>
     <message>
-        <source>is in state %1, which there is not</source>
-        <translation>ist im Zustand %1, den es nicht gibt</translation>
+        <source>is in state %#1, which there is not</source>
+        <translation>ist im Zustand %#1, den es nicht gibt</translation>
     </message>
     <message>
-        <source>hangs: it has not answered for %1</source>
-        <translation>hängt: antwortet seit %1 nicht</translation>
+        <source>hangs: it has not answered for %#1</source>
+        <translation>hängt: antwortet seit %#1 nicht</translation>
     </message>
     <message>
         <source>came back as another device (%1)</source>
         <translation>kam als ein anderes Gerät zurück (%1)</translation>
     </message>
     <message>
-        <source>device server '%1' (process %2)</source>
-        <translation>Geräteserver „%1“ (Prozess %2)</translation>
+        <source>device server '%1' (process %#2)</source>
+        <translation>Geräteserver „%1“ (Prozess %#2)</translation>
     </message>
     <message>
         <source>device server '%1'</source>
@@ -2836,8 +2888,8 @@
         <translation>Präparat: kein Bohrzug ist offen</translation>
     </message>
     <message>
-        <source>history: stroke %1 follows one that was made after it</source>
-        <translation>Verlauf: Der Bohrzug %1 folgt einem, der nach ihm entstand</translation>
+        <source>history: stroke %#1 follows one that was made after it</source>
+        <translation>Verlauf: Der Bohrzug %#1 folgt einem, der nach ihm entstand</translation>
     </message>
     <message>
         <source>history: the present branch does not exist</source>
@@ -2868,8 +2920,8 @@
         <translation>der Zugang „%1“ ist schon da; wählen Sie einen anderen Namen</translation>
     </message>
     <message>
-        <source>branch '%1': there are only %2 strokes</source>
-        <translation>Zugang „%1“: Es gibt nur %2 Bohrzüge</translation>
+        <source>branch '%1': there are only %#2 strokes</source>
+        <translation>Zugang „%1“: Es gibt nur %#2 Bohrzüge</translation>
     </message>
     <message>
         <source>branch '%1' is the present one; go to another branch first</source>
@@ -2924,8 +2976,8 @@
         <translation>Diamant</translation>
     </message>
     <message>
-        <source>%1, line %2: %~3</source>
-        <translation>%1, Zeile %2: %~3</translation>
+        <source>%1, line %#2: %~3</source>
+        <translation>%1, Zeile %#2: %~3</translation>
     </message>
     <message>
         <source>a position must lie within 1e6 mm</source>
@@ -2948,8 +3000,8 @@
         <translation>Werkzeugweg: Die Taktrate muss über 0 Hz liegen</translation>
     </message>
     <message>
-        <source>tool path: lasts %1 s, which is more than 1e8 ticks; cut it into parts</source>
-        <translation>Werkzeugweg: dauert %1 s, das sind mehr als 1e8 Takte; teilen Sie ihn</translation>
+        <source>tool path: lasts %#1 s, which is more than 1e8 ticks; cut it into parts</source>
+        <translation>Werkzeugweg: dauert %#1 s, das sind mehr als 1e8 Takte; teilen Sie ihn</translation>
     </message>
 </context>
 <context>
@@ -3015,28 +3067,28 @@
         <translation>Das Gerät ist in einem unbekannten Zustand.</translation>
     </message>
     <message>
-        <source>The device's handle jumped by %1 mm from one reading to the next, faster than a hand moves.</source>
-        <translation>Der Griff des Geräts sprang von einer Ablesung zur nächsten um %1 mm, schneller als eine Hand.</translation>
+        <source>The device's handle jumped by %#1 mm from one reading to the next, faster than a hand moves.</source>
+        <translation>Der Griff des Geräts sprang von einer Ablesung zur nächsten um %#1 mm, schneller als eine Hand.</translation>
     </message>
     <message>
-        <source>The device has sent nothing new for %1 ms.</source>
-        <translation>Das Gerät hat seit %1 ms nichts Neues gesendet.</translation>
+        <source>The device has sent nothing new for %#1 ms.</source>
+        <translation>Das Gerät hat seit %#1 ms nichts Neues gesendet.</translation>
     </message>
     <message>
-        <source>The device's clock went back by %1 ms.</source>
-        <translation>Die Uhr des Geräts lief um %1 ms zurück.</translation>
+        <source>The device's clock went back by %#1 ms.</source>
+        <translation>Die Uhr des Geräts lief um %#1 ms zurück.</translation>
     </message>
     <message>
-        <source>The device's clock is %1 ms ahead of the computer's.</source>
-        <translation>Die Uhr des Geräts geht der des Rechners um %1 ms voraus.</translation>
+        <source>The device's clock is %#1 ms ahead of the computer's.</source>
+        <translation>Die Uhr des Geräts geht der des Rechners um %#1 ms voraus.</translation>
     </message>
     <message>
-        <source>The device sent an invalid rotation: its quaternion's length is %1.</source>
-        <translation>Das Gerät sandte eine ungültige Drehung: Die Länge des Quaternions ist %1.</translation>
+        <source>The device sent an invalid rotation: its quaternion's length is %#1.</source>
+        <translation>Das Gerät sandte eine ungültige Drehung: Die Länge des Quaternions ist %#1.</translation>
     </message>
     <message>
-        <source>The device sent a position %1 mm away, farther than any hand reaches.</source>
-        <translation>Das Gerät sandte eine Lage in %1 mm Entfernung, die keine Hand erreicht.</translation>
+        <source>The device sent a position %#1 mm away, farther than any hand reaches.</source>
+        <translation>Das Gerät sandte eine Lage in %#1 mm Entfernung, die keine Hand erreicht.</translation>
     </message>
 </context>
 <context>
@@ -3114,16 +3166,16 @@
         <translation>lässt sich nicht öffnen</translation>
     </message>
     <message>
-        <source>Values were rounded to 32-bit floating point, by up to %1.</source>
-        <translation>Werte wurden auf 32-Bit-Gleitkommazahlen gerundet, um bis zu %1.</translation>
+        <source>Values were rounded to 32-bit floating point, by up to %#1.</source>
+        <translation>Werte wurden auf 32-Bit-Gleitkommazahlen gerundet, um bis zu %#1.</translation>
     </message>
     <message>
         <source>The header calls the value %1 padding, but it does not fill the corners of any slice; it is kept as an ordinary value.</source>
         <translation>Der Header nennt den Wert %1 Padding, er füllt aber in keiner Schicht die Ecken; er bleibt ein gewöhnlicher Wert.</translation>
     </message>
     <message>
-        <source>Padding had the value %1, which would pass for tissue; it was replaced by %2.</source>
-        <translation>Das Padding hatte den Wert %1, der als Gewebe gälte; er wurde durch %2 ersetzt.</translation>
+        <source>Padding had the value %1, which would pass for tissue; it was replaced by %#2.</source>
+        <translation>Das Padding hatte den Wert %1, der als Gewebe gälte; er wurde durch %#2 ersetzt.</translation>
     </message>
     <message>
         <source>reading slices</source>
@@ -3134,20 +3186,20 @@
         <translation>%1 enthält Werte, die keine endlichen Zahlen sind (NaN, unendlich oder zu groß); geben Sie ihnen den Wert dessen, was außerhalb des Messfeldes liegt, etwa -1024 im CT</translation>
     </message>
     <message>
-        <source>%1 to %2</source>
-        <translation>%1 bis %2</translation>
+        <source>%#1 to %#2</source>
+        <translation>%#1 bis %#2</translation>
     </message>
     <message>
         <source>the box asked for (%~1 mm) does not meet the image (%~2 mm, patient LPS)</source>
         <translation>der gewünschte Bereich (%~1 mm) trifft das Bild nicht (%~2 mm, LPS des Patienten)</translation>
     </message>
     <message>
-        <source>series %1: %2 x %3 x %4 voxels, of which the region need %5 of memory, and %6 are free; choose a smaller region of it (--roi)</source>
-        <translation>Serie %1: %2 x %3 x %4 Voxel, deren Bereich %5 Speicher braucht, %6 sind frei; wählen Sie einen kleineren Bereich</translation>
+        <source>series %1: %#2 x %#3 x %#4 voxels, of which the region need %#5 of memory, and %#6 are free; choose a smaller region of it (--roi)</source>
+        <translation>Serie %1: %#2 x %#3 x %#4 Voxel, deren Bereich %#5 Speicher braucht, %#6 sind frei; wählen Sie einen kleineren Bereich</translation>
     </message>
     <message>
-        <source>series %1: %2 x %3 x %4 voxels need %5 of memory, and %6 are free; choose a region of it (--roi)</source>
-        <translation>Serie %1: %2 x %3 x %4 Voxel brauchen %5 Speicher, %6 sind frei; wählen Sie einen Bereich</translation>
+        <source>series %1: %#2 x %#3 x %#4 voxels need %#5 of memory, and %#6 are free; choose a region of it (--roi)</source>
+        <translation>Serie %1: %#2 x %#3 x %#4 Voxel brauchen %#5 Speicher, %#6 sind frei; wählen Sie einen Bereich</translation>
     </message>
     <message>
         <source>series %1</source>
@@ -3194,48 +3246,48 @@
         <translation>Schichten werden verglichen</translation>
     </message>
     <message>
-        <source>%1 slice is turned against the stacks of the series, of another size or beside them, too few for a stack.</source>
-        <translation>%1 Schicht ist gegen die Stapel der Serie gedreht, von anderer Größe oder neben ihnen, zu wenig für einen Stapel.</translation>
+        <source>%#1 slice is turned against the stacks of the series, of another size or beside them, too few for a stack.</source>
+        <translation>%#1 Schicht ist gegen die Stapel der Serie gedreht, von anderer Größe oder neben ihnen, zu wenig für einen Stapel.</translation>
     </message>
     <message>
-        <source>%1 slices are turned against the stacks of the series, of another size or beside them, too few for a stack.</source>
-        <translation>%1 Schichten sind gegen die Stapel der Serie gedreht, von anderer Größe oder neben ihnen, zu wenige für einen Stapel.</translation>
+        <source>%#1 slices are turned against the stacks of the series, of another size or beside them, too few for a stack.</source>
+        <translation>%#1 Schichten sind gegen die Stapel der Serie gedreht, von anderer Größe oder neben ihnen, zu wenige für einen Stapel.</translation>
     </message>
     <message>
-        <source>%1 slice of the series is turned against its stacks, of another size or beside them, too few for a stack, and set aside.</source>
-        <translation>%1 Schicht der Serie ist gegen ihre Stapel gedreht, von anderer Größe oder neben ihnen, zu wenig für einen Stapel, und beiseitegelegt.</translation>
+        <source>%#1 slice of the series is turned against its stacks, of another size or beside them, too few for a stack, and set aside.</source>
+        <translation>%#1 Schicht der Serie ist gegen ihre Stapel gedreht, von anderer Größe oder neben ihnen, zu wenig für einen Stapel, und beiseitegelegt.</translation>
     </message>
     <message>
-        <source>%1 slices of the series are turned against its stacks, of another size or beside them, too few for a stack, and set aside.</source>
-        <translation>%1 Schichten der Serie sind gegen ihre Stapel gedreht, von anderer Größe oder neben ihnen, zu wenige für einen Stapel, und beiseitegelegt.</translation>
+        <source>%#1 slices of the series are turned against its stacks, of another size or beside them, too few for a stack, and set aside.</source>
+        <translation>%#1 Schichten der Serie sind gegen ihre Stapel gedreht, von anderer Größe oder neben ihnen, zu wenige für einen Stapel, und beiseitegelegt.</translation>
     </message>
     <message>
-        <source>The header states %1 images, and %2 are there</source>
-        <translation>Der Header nennt %1 Bilder, und %2 sind da</translation>
+        <source>The header states %#1 images, and %#2 are there</source>
+        <translation>Der Header nennt %#1 Bilder, und %#2 sind da</translation>
     </message>
     <message>
-        <source>The slices are numbered from %1 to %2</source>
-        <translation>Die Schichten sind von %1 bis %2 nummeriert</translation>
+        <source>The slices are numbered from %#1 to %#2</source>
+        <translation>Die Schichten sind von %#1 bis %#2 nummeriert</translation>
     </message>
     <message>
-        <source>numbered from %1 to %2</source>
-        <translation>nummeriert von %1 bis %2</translation>
+        <source>numbered from %#1 to %#2</source>
+        <translation>nummeriert von %#1 bis %#2</translation>
     </message>
     <message>
         <source>%~1; the stack has no gap, but its ends may be missing. Look whether all of the skull base that is needed is there.</source>
         <translation>%~1; der Stapel hat keine Lücke, aber seine Enden können fehlen. Sehen Sie nach, ob die ganze benötigte Schädelbasis da ist.</translation>
     </message>
     <message>
-        <source>The slices are numbered in steps of %1 and are %2 mm thick, but stand %3 mm apart: those between them may be missing. Look whether the series has more files.</source>
-        <translation>Die Schichten sind in Schritten von %1 nummeriert und %2 mm dick, stehen aber %3 mm auseinander: Die dazwischen können fehlen. Sehen Sie nach, ob die Serie weitere Dateien hat.</translation>
+        <source>The slices are numbered in steps of %#1 and are %#2 mm thick, but stand %#3 mm apart: those between them may be missing. Look whether the series has more files.</source>
+        <translation>Die Schichten sind in Schritten von %#1 nummeriert und %#2 mm dick, stehen aber %#3 mm auseinander: Die dazwischen können fehlen. Sehen Sie nach, ob die Serie weitere Dateien hat.</translation>
     </message>
     <message>
-        <source>%1 mm (%2 slice)</source>
-        <translation>%1 mm (%2 Schicht)</translation>
+        <source>%#1 mm (%#2 slice)</source>
+        <translation>%#1 mm (%#2 Schicht)</translation>
     </message>
     <message>
-        <source>%1 mm (%2 slices)</source>
-        <translation>%1 mm (%2 Schichten)</translation>
+        <source>%#1 mm (%#2 slices)</source>
+        <translation>%#1 mm (%#2 Schichten)</translation>
     </message>
     <message>
         <source>Another volume of the series goes on for %~1 before the first slice of this one and %~2 beyond its last slice; the stack has no gap, but its ends may be missing. Look whether all of the skull base that is needed is there.</source>
@@ -3254,56 +3306,56 @@
         <translation>Ein anderes Volumen der Serie reicht %~1 hinter die letzte Schicht von diesem; der Stapel hat keine Lücke, aber seine Enden können fehlen. Sehen Sie nach, ob die ganze benötigte Schädelbasis da ist.</translation>
     </message>
     <message>
-        <source>The header states %1 images of the series, and %2 are there in all its volumes, which are equally long; a volume or the ends of all may be missing. Look whether all of the skull base that is needed is there.</source>
-        <translation>Der Header nennt %1 Bilder der Serie, und %2 sind in allen ihren Volumen da, die gleich lang sind; ein Volumen oder die Enden aller können fehlen. Sehen Sie nach, ob die ganze benötigte Schädelbasis da ist.</translation>
+        <source>The header states %#1 images of the series, and %#2 are there in all its volumes, which are equally long; a volume or the ends of all may be missing. Look whether all of the skull base that is needed is there.</source>
+        <translation>Der Header nennt %#1 Bilder der Serie, und %#2 sind in allen ihren Volumen da, die gleich lang sind; ein Volumen oder die Enden aller können fehlen. Sehen Sie nach, ob die ganze benötigte Schädelbasis da ist.</translation>
     </message>
     <message>
         <source>Those at one place have equal pixels, so that one of each can be kept.</source>
         <translation>Die an einem Ort haben gleiche Pixel, sodass von jeder eine bleiben kann.</translation>
     </message>
     <message>
-        <source>They show different things, in up to %1 of %2 voxels of a slice, so none of them can be left out; keep the files of one reconstruction in the folder.</source>
-        <translation>Sie zeigen Verschiedenes, in bis zu %1 von %2 Voxeln einer Schicht, sodass keine weggelassen werden kann; lassen Sie im Ordner die Dateien einer einzigen Rekonstruktion.</translation>
+        <source>They show different things, in up to %#1 of %#2 voxels of a slice, so none of them can be left out; keep the files of one reconstruction in the folder.</source>
+        <translation>Sie zeigen Verschiedenes, in bis zu %#1 von %#2 Voxeln einer Schicht, sodass keine weggelassen werden kann; lassen Sie im Ordner die Dateien einer einzigen Rekonstruktion.</translation>
     </message>
     <message>
-        <source>%1 file beside the slices cannot be read and was set aside: the slices stand without a gap and are numbered %2 to %3</source>
-        <translation>%1 Datei neben den Schichten ist nicht lesbar und wurde beiseitegelegt: Die Schichten stehen ohne Lücke und sind von %2 bis %3 nummeriert</translation>
+        <source>%#1 file beside the slices cannot be read and was set aside: the slices stand without a gap and are numbered %#2 to %#3</source>
+        <translation>%#1 Datei neben den Schichten ist nicht lesbar und wurde beiseitegelegt: Die Schichten stehen ohne Lücke und sind von %#2 bis %#3 nummeriert</translation>
     </message>
     <message>
-        <source>%1 files beside the slices cannot be read and were set aside: the slices stand without a gap and are numbered %2 to %3</source>
-        <translation>%1 Dateien neben den Schichten sind nicht lesbar und wurden beiseitegelegt: Die Schichten stehen ohne Lücke und sind von %2 bis %3 nummeriert</translation>
+        <source>%#1 files beside the slices cannot be read and were set aside: the slices stand without a gap and are numbered %#2 to %#3</source>
+        <translation>%#1 Dateien neben den Schichten sind nicht lesbar und wurden beiseitegelegt: Die Schichten stehen ohne Lücke und sind von %#2 bis %#3 nummeriert</translation>
     </message>
     <message>
         <source>%~1, as many as the header states.</source>
         <translation>%~1, so viele, wie der Header nennt.</translation>
     </message>
     <message>
-        <source>%~1. If it was a slice beyond that, the volume ends %2 mm too early.</source>
-        <translation>%~1. War sie eine Schicht jenseits davon, endet das Volumen %2 mm zu früh.</translation>
+        <source>%~1. If it was a slice beyond that, the volume ends %#2 mm too early.</source>
+        <translation>%~1. War sie eine Schicht jenseits davon, endet das Volumen %#2 mm zu früh.</translation>
     </message>
     <message>
-        <source>%~1. If they were slices beyond that, the volume ends %2 mm too early.</source>
-        <translation>%~1. Waren sie Schichten jenseits davon, endet das Volumen %2 mm zu früh.</translation>
+        <source>%~1. If they were slices beyond that, the volume ends %#2 mm too early.</source>
+        <translation>%~1. Waren sie Schichten jenseits davon, endet das Volumen %#2 mm zu früh.</translation>
     </message>
     <message>
-        <source>%1 more files in the folder cannot be read.</source>
-        <translation>%1 weitere Dateien im Ordner sind nicht lesbar.</translation>
+        <source>%#1 more files in the folder cannot be read.</source>
+        <translation>%#1 weitere Dateien im Ordner sind nicht lesbar.</translation>
     </message>
     <message>
-        <source>%1 file is a copy of another, byte by byte, and left out.</source>
-        <translation>%1 Datei ist eine Kopie einer anderen, Byte für Byte, und blieb weg.</translation>
+        <source>%#1 file is a copy of another, byte by byte, and left out.</source>
+        <translation>%#1 Datei ist eine Kopie einer anderen, Byte für Byte, und blieb weg.</translation>
     </message>
     <message>
-        <source>%1 files are copies of another, byte by byte, and left out.</source>
-        <translation>%1 Dateien sind Kopien anderer, Byte für Byte, und blieben weg.</translation>
+        <source>%#1 files are copies of another, byte by byte, and left out.</source>
+        <translation>%#1 Dateien sind Kopien anderer, Byte für Byte, und blieben weg.</translation>
     </message>
     <message>
-        <source>%1 damaged file was left out: the same slice is there whole.</source>
-        <translation>%1 beschädigte Datei blieb weg: Dieselbe Schicht ist unversehrt da.</translation>
+        <source>%#1 damaged file was left out: the same slice is there whole.</source>
+        <translation>%#1 beschädigte Datei blieb weg: Dieselbe Schicht ist unversehrt da.</translation>
     </message>
     <message>
-        <source>%1 damaged files were left out: the same slice is there whole.</source>
-        <translation>%1 beschädigte Dateien blieben weg: Dieselbe Schicht ist unversehrt da.</translation>
+        <source>%#1 damaged files were left out: the same slice is there whole.</source>
+        <translation>%#1 beschädigte Dateien blieben weg: Dieselbe Schicht ist unversehrt da.</translation>
     </message>
     <message>
         <source>Its slices need more memory than is free, even one by one.</source>
@@ -3314,32 +3366,40 @@
         <translation>%~1 Sie wurde beiseitegelegt: Die Schichten daneben sind ohne sie vollständig.</translation>
     </message>
     <message>
-        <source>'%1' lists %2 files, of which %3 is not there (the first is '%4'): slices or whole series may be missing. Copy the disc again.</source>
-        <translation>„%1“ führt %2 Dateien auf, von denen %3 nicht da ist (die erste ist „%4“): Schichten oder ganze Serien können fehlen. Kopieren Sie den Datenträger noch einmal.</translation>
+        <source>'%1' lists %#2 files, of which %#3 is not there (the first is '%4'): slices or whole series may be missing. Copy the disc again.</source>
+        <translation>„%1“ führt %#2 Dateien auf, von denen %#3 nicht da ist (die erste ist „%4“): Schichten oder ganze Serien können fehlen. Kopieren Sie den Datenträger noch einmal.</translation>
     </message>
     <message>
-        <source>'%1' lists %2 files, of which %3 are not there (the first is '%4'): slices or whole series may be missing. Copy the disc again.</source>
-        <translation>„%1“ führt %2 Dateien auf, von denen %3 nicht da sind (die erste ist „%4“): Schichten oder ganze Serien können fehlen. Kopieren Sie den Datenträger noch einmal.</translation>
+        <source>'%1' lists %#2 files, of which %#3 are not there (the first is '%4'): slices or whole series may be missing. Copy the disc again.</source>
+        <translation>„%1“ führt %#2 Dateien auf, von denen %#3 nicht da sind (die erste ist „%4“): Schichten oder ganze Serien können fehlen. Kopieren Sie den Datenträger noch einmal.</translation>
     </message>
     <message>
-        <source>The index of the disc (DICOMDIR) lists %1 file of the series that is not there; the stack may have no gap, but slices are missing. Copy the disc again.</source>
-        <translation>Das Inhaltsverzeichnis des Datenträgers (DICOMDIR) führt %1 Datei der Serie auf, die nicht da ist; der Stapel hat vielleicht keine Lücke, aber Schichten fehlen. Kopieren Sie den Datenträger noch einmal.</translation>
+        <source>The index of the disc (DICOMDIR) lists %#1 file of the series that is not there; the stack may have no gap, but slices are missing. Copy the disc again.</source>
+        <translation>Das Inhaltsverzeichnis des Datenträgers (DICOMDIR) führt %#1 Datei der Serie auf, die nicht da ist; der Stapel hat vielleicht keine Lücke, aber Schichten fehlen. Kopieren Sie den Datenträger noch einmal.</translation>
     </message>
     <message>
-        <source>The index of the disc (DICOMDIR) lists %1 files of the series that are not there; the stack may have no gap, but slices are missing. Copy the disc again.</source>
-        <translation>Das Inhaltsverzeichnis des Datenträgers (DICOMDIR) führt %1 Dateien der Serie auf, die nicht da sind; der Stapel hat vielleicht keine Lücke, aber Schichten fehlen. Kopieren Sie den Datenträger noch einmal.</translation>
+        <source>The index of the disc (DICOMDIR) lists %#1 files of the series that are not there; the stack may have no gap, but slices are missing. Copy the disc again.</source>
+        <translation>Das Inhaltsverzeichnis des Datenträgers (DICOMDIR) führt %#1 Dateien der Serie auf, die nicht da sind; der Stapel hat vielleicht keine Lücke, aber Schichten fehlen. Kopieren Sie den Datenträger noch einmal.</translation>
     </message>
     <message>
-        <source>series: %1 files, %2 slices, %~3</source>
-        <translation>Serie: %1 Dateien, %2 Schichten, %~3</translation>
+        <source>series: %#1 files, %#2 slices, %~3</source>
+        <translation>Serie: %#1 Dateien, %#2 Schichten, %~3</translation>
     </message>
     <message>
-        <source>%1 (%2, %3 slices, needs --repair)</source>
-        <translation>%1 (%2, %3 Schichten, braucht Reparatur)</translation>
+        <source>%1 (%2, %#3 slices, needs --repair)</source>
+        <translation>%1 (%2, %#3 Schichten, braucht Reparatur)</translation>
     </message>
     <message>
-        <source>%1 '%2' (%3, %4 slices, needs --repair)</source>
-        <translation>%1 „%2“ (%3, %4 Schichten, braucht Reparatur)</translation>
+        <source>%1 (%2, %#3 slices)</source>
+        <translation>%1 (%2, %#3 Schichten)</translation>
+    </message>
+    <message>
+        <source>%1 '%2' (%3, %#4 slices, needs --repair)</source>
+        <translation>%1 „%2“ (%3, %#4 Schichten, braucht Reparatur)</translation>
+    </message>
+    <message>
+        <source>%1 '%2' (%3, %#4 slices)</source>
+        <translation>%1 „%2“ (%3, %#4 Schichten)</translation>
     </message>
     <message>
         <source>%1: is neither a folder nor an ordinary file; give the folder that holds the CT's .dcm files</source>
@@ -3370,12 +3430,12 @@
         <translation>%1: kein Volumen „%2“; es gibt %~3</translation>
     </message>
     <message>
-        <source>%1: %2 volumes; name one by --series and --volume: %3</source>
-        <translation>%1: %2 Volumen; wählen Sie eines: %3</translation>
+        <source>%1: %#2 volumes; name one by --series and --volume: %3</source>
+        <translation>%1: %#2 Volumen; wählen Sie eines: %3</translation>
     </message>
     <message>
-        <source>%1: %2 series; name one by --series: %3</source>
-        <translation>%1: %2 Serien; wählen Sie eine: %3</translation>
+        <source>%1: %#2 series; name one by --series: %3</source>
+        <translation>%1: %#2 Serien; wählen Sie eine: %3</translation>
     </message>
     <message>
         <source>%1: no DICOM image that can be used: %~2 Give the folder that holds the CT's .dcm files</source>
@@ -3386,8 +3446,8 @@
         <translation>%1: %~2 Kopieren Sie es noch einmal vom Ursprung</translation>
     </message>
     <message>
-        <source>%1: no DICOM image found (%2 other files); give the folder that holds the CT's .dcm files</source>
-        <translation>%1: kein DICOM-Bild gefunden (%2 andere Dateien); nennen Sie den Ordner mit den .dcm-Dateien des CT</translation>
+        <source>%1: no DICOM image found (%#2 other files); give the folder that holds the CT's .dcm files</source>
+        <translation>%1: kein DICOM-Bild gefunden (%#2 andere Dateien); nennen Sie den Ordner mit den .dcm-Dateien des CT</translation>
     </message>
     <message>
         <source>%1 %~2; copy it again from where it came from</source>
@@ -3398,12 +3458,12 @@
         <translation>%1 wurde geändert oder ersetzt, nachdem der Header gelesen war; warten Sie, bis das Kopieren beendet ist, und lesen Sie den Ordner dann neu</translation>
     </message>
     <message>
-        <source>%1 contradicts itself about the bits of a pixel: %2 pixel has values of more than the %3 bits that its header states (Bits Stored); export it again, uncompressed and with all bits</source>
-        <translation>%1 widerspricht sich bei den Bits eines Pixels: %2 Pixel hat einen Wert mit mehr als den %3 Bit, die der Header nennt (Bits Stored); exportieren Sie neu, unkomprimiert und mit allen Bits</translation>
+        <source>%1 contradicts itself about the bits of a pixel: %#2 pixel has values of more than the %#3 bits that its header states (Bits Stored); export it again, uncompressed and with all bits</source>
+        <translation>%1 widerspricht sich bei den Bits eines Pixels: %#2 Pixel hat einen Wert mit mehr als den %#3 Bit, die der Header nennt (Bits Stored); exportieren Sie neu, unkomprimiert und mit allen Bits</translation>
     </message>
     <message>
-        <source>%1 contradicts itself about the bits of a pixel: %2 pixels have values of more than the %3 bits that its header states (Bits Stored); export it again, uncompressed and with all bits</source>
-        <translation>%1 widerspricht sich bei den Bits eines Pixels: %2 Pixel haben Werte mit mehr als den %3 Bit, die der Header nennt (Bits Stored); exportieren Sie neu, unkomprimiert und mit allen Bits</translation>
+        <source>%1 contradicts itself about the bits of a pixel: %#2 pixels have values of more than the %#3 bits that its header states (Bits Stored); export it again, uncompressed and with all bits</source>
+        <translation>%1 widerspricht sich bei den Bits eines Pixels: %#2 Pixel haben Werte mit mehr als den %#3 Bit, die der Header nennt (Bits Stored); exportieren Sie neu, unkomprimiert und mit allen Bits</translation>
     </message>
     <message>
         <source>does not say where its compressed frames begin</source>
@@ -3426,36 +3486,36 @@
         <translation>%1 ließ sich nicht lesen: Der Datenträger wurde entfernt oder meldet einen Fehler</translation>
     </message>
     <message>
-        <source>%1 of %2 slice</source>
-        <translation>%1 von %2 Schicht</translation>
+        <source>%#1 of %#2 slice</source>
+        <translation>%#1 von %#2 Schicht</translation>
     </message>
     <message>
-        <source>%1 of %2 slices</source>
-        <translation>%1 von %2 Schichten</translation>
+        <source>%#1 of %#2 slices</source>
+        <translation>%#1 von %#2 Schichten</translation>
     </message>
     <message>
         <source>judging the slices</source>
         <translation>Schichten werden beurteilt</translation>
     </message>
     <message>
-        <source>%1 more files of the series are damaged.</source>
-        <translation>%1 weitere Dateien der Serie sind beschädigt.</translation>
+        <source>%#1 more files of the series are damaged.</source>
+        <translation>%#1 weitere Dateien der Serie sind beschädigt.</translation>
     </message>
     <message>
         <source>The DICOM objects hold no pixels (a report, a structure set or the like), so they are no image.</source>
         <translation>Die DICOM-Objekte enthalten keine Pixel (ein Befund, ein Struktursatz oder dergleichen) und sind daher kein Bild.</translation>
     </message>
     <message>
-        <source>%1 DICOM objects without pixels were left out.</source>
-        <translation>%1 DICOM-Objekte ohne Pixel blieben weg.</translation>
+        <source>%#1 DICOM objects without pixels were left out.</source>
+        <translation>%#1 DICOM-Objekte ohne Pixel blieben weg.</translation>
     </message>
     <message>
-        <source>%1 file holds many frames in one that are not those of an enhanced CT or MR; a DICOM segmentation is read as structures (--labels).</source>
-        <translation>%1 Datei enthält viele Frames in einem, die nicht die eines Enhanced CT oder MR sind; eine DICOM-Segmentierung wird als Strukturen gelesen.</translation>
+        <source>%#1 file holds many frames in one that are not those of an enhanced CT or MR; a DICOM segmentation is read as structures (--labels).</source>
+        <translation>%#1 Datei enthält viele Frames in einem, die nicht die eines Enhanced CT oder MR sind; eine DICOM-Segmentierung wird als Strukturen gelesen.</translation>
     </message>
     <message>
-        <source>%1 files hold many frames in one that are not those of an enhanced CT or MR; a DICOM segmentation is read as structures (--labels).</source>
-        <translation>%1 Dateien enthalten viele Frames in einem, die nicht die eines Enhanced CT oder MR sind; eine DICOM-Segmentierung wird als Strukturen gelesen.</translation>
+        <source>%#1 files hold many frames in one that are not those of an enhanced CT or MR; a DICOM segmentation is read as structures (--labels).</source>
+        <translation>%#1 Dateien enthalten viele Frames in einem, die nicht die eines Enhanced CT oder MR sind; eine DICOM-Segmentierung wird als Strukturen gelesen.</translation>
     </message>
     <message>
         <source>%1 are pictures in colour (a report or a screenshot), and left out.</source>
@@ -3482,20 +3542,20 @@
         <translation>Ein anderes Bezugssystem in %1, daher ist ihre Lage zu den anderen unbekannt.</translation>
     </message>
     <message>
-        <source>%1 localizer (scout) is mixed in with the %2 slices of the stack, and left out.</source>
-        <translation>%1 Übersichtsaufnahme (Scout) liegt zwischen den %2 Schichten des Stapels und blieb weg.</translation>
+        <source>%#1 localizer (scout) is mixed in with the %#2 slices of the stack, and left out.</source>
+        <translation>%#1 Übersichtsaufnahme (Scout) liegt zwischen den %#2 Schichten des Stapels und blieb weg.</translation>
     </message>
     <message>
-        <source>%1 localizers (scouts) are mixed in with the %2 slices of the stack, and left out.</source>
-        <translation>%1 Übersichtsaufnahmen (Scouts) liegen zwischen den %2 Schichten des Stapels und blieben weg.</translation>
+        <source>%#1 localizers (scouts) are mixed in with the %#2 slices of the stack, and left out.</source>
+        <translation>%#1 Übersichtsaufnahmen (Scouts) liegen zwischen den %#2 Schichten des Stapels und blieben weg.</translation>
     </message>
     <message>
-        <source>%1 are turned against the others, their normals by up to %2 degrees; read as one stack, their corners would lie up to %3 mm off.</source>
-        <translation>%1 sind gegen die anderen gedreht, ihre Normalen um bis zu %2 Grad; als ein Stapel gelesen, lägen ihre Ecken bis zu %3 mm falsch.</translation>
+        <source>%1 are turned against the others, their normals by up to %#2 degrees; read as one stack, their corners would lie up to %#3 mm off.</source>
+        <translation>%1 sind gegen die anderen gedreht, ihre Normalen um bis zu %#2 Grad; als ein Stapel gelesen, lägen ihre Ecken bis zu %#3 mm falsch.</translation>
     </message>
     <message>
-        <source>%1 have another size than %2 x %3 pixels of %4 x %5 mm: their fields of view differ by %6 mm.</source>
-        <translation>%1 haben eine andere Größe als %2 x %3 Pixel von %4 x %5 mm: Ihre Bildfelder unterscheiden sich um %6 mm.</translation>
+        <source>%1 have another size than %#2 x %#3 pixels of %#4 x %#5 mm: their fields of view differ by %#6 mm.</source>
+        <translation>%1 haben eine andere Größe als %#2 x %#3 Pixel von %#4 x %#5 mm: Ihre Bildfelder unterscheiden sich um %#6 mm.</translation>
     </message>
     <message>
         <source>A table (Modality LUT) says what the values mean in %1, and tables are not read; export the series with rescale slope and intercept.</source>
@@ -3522,8 +3582,8 @@
         <translation>Ob verlustbehaftet komprimiert wurde, lässt sich nicht sagen bei %1, da weder Header noch komprimiertes Bild es nennen.</translation>
     </message>
     <message>
-        <source>Compressed with loss, to 1/%1 of the size, in %2: values are not those measured, and thin walls may be blurred; the archive may have the series without loss.</source>
-        <translation>Verlustbehaftet komprimiert, auf 1/%1 der Größe, in %2: Die Werte sind nicht die gemessenen, und dünne Wände können verwischt sein; vielleicht hat das Archiv die Serie ohne Verlust.</translation>
+        <source>Compressed with loss, to 1/%#1 of the size, in %2: values are not those measured, and thin walls may be blurred; the archive may have the series without loss.</source>
+        <translation>Verlustbehaftet komprimiert, auf 1/%#1 der Größe, in %2: Die Werte sind nicht die gemessenen, und dünne Wände können verwischt sein; vielleicht hat das Archiv die Serie ohne Verlust.</translation>
     </message>
     <message>
         <source>Compressed with loss, in %1: values are not those measured, and thin walls may be blurred; the archive may have the series without loss.</source>
@@ -3574,60 +3634,60 @@
         <translation>abgelehnt</translation>
     </message>
     <message>
-        <source>Repaired: of slices at one place, whose pixels are equal, the first was kept, and %1 left out.</source>
-        <translation>Repariert: Von Schichten an einem Ort, deren Pixel gleich sind, blieb die erste, und %1 blieben weg.</translation>
+        <source>Repaired: of slices at one place, whose pixels are equal, the first was kept, and %#1 left out.</source>
+        <translation>Repariert: Von Schichten an einem Ort, deren Pixel gleich sind, blieb die erste, und %#1 blieben weg.</translation>
     </message>
     <message>
-        <source>Repaired: the gantry's tilt of %1 degrees was undone by shifting each slice to where its position puts it, the last by %2 mm against the first.</source>
-        <translation>Repariert: Die Gantry-Neigung von %1 Grad wurde rückgängig gemacht, indem jede Schicht an ihre Lage verschoben wurde, die letzte um %2 mm gegen die erste.</translation>
+        <source>Repaired: the gantry's tilt of %#1 degrees was undone by shifting each slice to where its position puts it, the last by %#2 mm against the first.</source>
+        <translation>Repariert: Die Gantry-Neigung von %#1 Grad wurde rückgängig gemacht, indem jede Schicht an ihre Lage verschoben wurde, die letzte um %#2 mm gegen die erste.</translation>
     </message>
     <message>
-        <source>Repaired: slices were shifted sideways to where their positions put them, by up to %1 mm against the first.</source>
-        <translation>Repariert: Schichten wurden seitlich an ihre Lage verschoben, um bis zu %1 mm gegen die erste.</translation>
+        <source>Repaired: slices were shifted sideways to where their positions put them, by up to %#1 mm against the first.</source>
+        <translation>Repariert: Schichten wurden seitlich an ihre Lage verschoben, um bis zu %#1 mm gegen die erste.</translation>
     </message>
     <message>
         <source>Repaired: each slice's own rescale slope and intercept were applied.</source>
         <translation>Repariert: Rescale Slope und Intercept jeder einzelnen Schicht wurden angewandt.</translation>
     </message>
     <message>
-        <source>Repaired: slice %1 of %2 was interpolated between neighbours before the series was written; small structures may be absent there.</source>
-        <translation>Repariert: Schicht %1 von %2 wurde zwischen Nachbarn interpoliert, bevor die Serie geschrieben wurde; kleine Strukturen können dort fehlen.</translation>
+        <source>Repaired: slice %1 of %#2 was interpolated between neighbours before the series was written; small structures may be absent there.</source>
+        <translation>Repariert: Schicht %1 von %#2 wurde zwischen Nachbarn interpoliert, bevor die Serie geschrieben wurde; kleine Strukturen können dort fehlen.</translation>
     </message>
     <message>
-        <source>Repaired: slices %1 of %2 were interpolated between neighbours before the series was written; small structures may be absent there.</source>
-        <translation>Repariert: Schichten %1 von %2 wurden zwischen Nachbarn interpoliert, bevor die Serie geschrieben wurde; kleine Strukturen können dort fehlen.</translation>
+        <source>Repaired: slices %1 of %#2 were interpolated between neighbours before the series was written; small structures may be absent there.</source>
+        <translation>Repariert: Schichten %1 von %#2 wurden zwischen Nachbarn interpoliert, bevor die Serie geschrieben wurde; kleine Strukturen können dort fehlen.</translation>
     </message>
     <message>
-        <source>Repaired: slice %~1 of %2 is missing from the files and was interpolated between neighbours, up to %3 mm from what was measured; small structures may be absent there.</source>
-        <translation>Repariert: Schicht %~1 von %2 fehlt in den Dateien und wurde zwischen Nachbarn interpoliert, bis zu %3 mm vom Gemessenen; kleine Strukturen können dort fehlen.</translation>
+        <source>Repaired: slice %~1 of %#2 is missing from the files and was interpolated between neighbours, up to %#3 mm from what was measured; small structures may be absent there.</source>
+        <translation>Repariert: Schicht %~1 von %#2 fehlt in den Dateien und wurde zwischen Nachbarn interpoliert, bis zu %#3 mm vom Gemessenen; kleine Strukturen können dort fehlen.</translation>
     </message>
     <message>
-        <source>Repaired: slice %~1 of %2 were in part interpolated between neighbours, up to %3 mm from what was measured; small structures may be absent there.</source>
-        <translation>Repariert: Schicht %~1 von %2 wurde teilweise zwischen Nachbarn interpoliert, bis zu %3 mm vom Gemessenen; kleine Strukturen können dort fehlen.</translation>
+        <source>Repaired: slice %~1 of %#2 were in part interpolated between neighbours, up to %#3 mm from what was measured; small structures may be absent there.</source>
+        <translation>Repariert: Schicht %~1 von %#2 wurde teilweise zwischen Nachbarn interpoliert, bis zu %#3 mm vom Gemessenen; kleine Strukturen können dort fehlen.</translation>
     </message>
     <message>
-        <source>Repaired: slice %~1 of %2 was interpolated between neighbours, up to %3 mm from what was measured; small structures may be absent there.</source>
-        <translation>Repariert: Schicht %~1 von %2 wurde zwischen Nachbarn interpoliert, bis zu %3 mm vom Gemessenen; kleine Strukturen können dort fehlen.</translation>
+        <source>Repaired: slice %~1 of %#2 was interpolated between neighbours, up to %#3 mm from what was measured; small structures may be absent there.</source>
+        <translation>Repariert: Schicht %~1 von %#2 wurde zwischen Nachbarn interpoliert, bis zu %#3 mm vom Gemessenen; kleine Strukturen können dort fehlen.</translation>
     </message>
     <message>
-        <source>Repaired: slices %~1 of %2 are missing and were interpolated between neighbours, up to %3 mm from what was measured; small structures may be absent there.</source>
-        <translation>Repariert: Schichten %~1 von %2 fehlen und wurden zwischen Nachbarn interpoliert, bis zu %3 mm vom Gemessenen; kleine Strukturen können dort fehlen.</translation>
+        <source>Repaired: slices %~1 of %#2 are missing and were interpolated between neighbours, up to %#3 mm from what was measured; small structures may be absent there.</source>
+        <translation>Repariert: Schichten %~1 von %#2 fehlen und wurden zwischen Nachbarn interpoliert, bis zu %#3 mm vom Gemessenen; kleine Strukturen können dort fehlen.</translation>
     </message>
     <message>
-        <source>Repaired: slices %~1 of %2 were in part interpolated between neighbours, up to %3 mm from what was measured; small structures may be absent there.</source>
-        <translation>Repariert: Schichten %~1 von %2 wurden teilweise zwischen Nachbarn interpoliert, bis zu %3 mm vom Gemessenen; kleine Strukturen können dort fehlen.</translation>
+        <source>Repaired: slices %~1 of %#2 were in part interpolated between neighbours, up to %#3 mm from what was measured; small structures may be absent there.</source>
+        <translation>Repariert: Schichten %~1 von %#2 wurden teilweise zwischen Nachbarn interpoliert, bis zu %#3 mm vom Gemessenen; kleine Strukturen können dort fehlen.</translation>
     </message>
     <message>
-        <source>Repaired: slices %~1 of %2 were interpolated between neighbours, up to %3 mm from what was measured; small structures may be absent there.</source>
-        <translation>Repariert: Schichten %~1 von %2 wurden zwischen Nachbarn interpoliert, bis zu %3 mm vom Gemessenen; kleine Strukturen können dort fehlen.</translation>
+        <source>Repaired: slices %~1 of %#2 were interpolated between neighbours, up to %#3 mm from what was measured; small structures may be absent there.</source>
+        <translation>Repariert: Schichten %~1 von %#2 wurden zwischen Nachbarn interpoliert, bis zu %#3 mm vom Gemessenen; kleine Strukturen können dort fehlen.</translation>
     </message>
     <message>
-        <source>Repaired: %1 of %2 measured slices lies between those of the volume, %3 mm apart, and makes up less than half of any; small structures may be absent there.</source>
-        <translation>Repariert: %1 von %2 gemessenen Schichten liegt zwischen denen des Volumens, %3 mm auseinander, und macht weniger als die Hälfte einer jeden aus; kleine Strukturen können dort fehlen.</translation>
+        <source>Repaired: %#1 of %#2 measured slices lies between those of the volume, %#3 mm apart, and makes up less than half of any; small structures may be absent there.</source>
+        <translation>Repariert: %#1 von %#2 gemessenen Schichten liegt zwischen denen des Volumens, %#3 mm auseinander, und macht weniger als die Hälfte einer jeden aus; kleine Strukturen können dort fehlen.</translation>
     </message>
     <message>
-        <source>Repaired: %1 of %2 measured slices lie between those of the volume, %3 mm apart, and make up less than half of any; small structures may be absent there.</source>
-        <translation>Repariert: %1 von %2 gemessenen Schichten liegen zwischen denen des Volumens, %3 mm auseinander, und machen weniger als die Hälfte einer jeden aus; kleine Strukturen können dort fehlen.</translation>
+        <source>Repaired: %#1 of %#2 measured slices lie between those of the volume, %#3 mm apart, and make up less than half of any; small structures may be absent there.</source>
+        <translation>Repariert: %#1 von %#2 gemessenen Schichten liegen zwischen denen des Volumens, %#3 mm auseinander, und machen weniger als die Hälfte einer jeden aus; kleine Strukturen können dort fehlen.</translation>
     </message>
     <message>
         <source>straightening the slices</source>
@@ -3654,92 +3714,92 @@
         <translation>ohne Gradient</translation>
     </message>
     <message>
-        <source>gradient %1</source>
-        <translation>Gradient %1</translation>
+        <source>gradient %#1</source>
+        <translation>Gradient %#1</translation>
     </message>
     <message>
-        <source>repeat %1</source>
-        <translation>Wiederholung %1</translation>
+        <source>repeat %#1</source>
+        <translation>Wiederholung %#1</translation>
     </message>
     <message>
         <source>set aside</source>
         <translation>beiseitegelegt</translation>
     </message>
     <message>
-        <source>centre %1 mm %~2</source>
-        <translation>Mitte %1 mm %~2</translation>
+        <source>centre %#1 mm %~2</source>
+        <translation>Mitte %#1 mm %~2</translation>
     </message>
     <message>
         <source>tilt %1</source>
         <translation>Neigung %1</translation>
     </message>
     <message>
-        <source>between %1 and %2 mm</source>
-        <translation>zwischen %1 und %2 mm</translation>
+        <source>between %#1 and %#2 mm</source>
+        <translation>zwischen %#1 und %#2 mm</translation>
     </message>
     <message>
         <source>and elsewhere</source>
         <translation>und anderswo</translation>
     </message>
     <message>
-        <source>%1 of %2 slices lies beside another at the same height, up to %3 mm away, as of reconstructions of either ear: they are not of one stack; keep the files of one in the folder.</source>
-        <translation>%1 von %2 Schichten liegt neben einer anderen auf gleicher Höhe, bis zu %3 mm entfernt, wie bei Rekonstruktionen der beiden Ohren: Sie sind nicht aus einem Stapel; lassen Sie im Ordner die Dateien eines einzigen.</translation>
+        <source>%#1 of %#2 slices lies beside another at the same height, up to %#3 mm away, as of reconstructions of either ear: they are not of one stack; keep the files of one in the folder.</source>
+        <translation>%#1 von %#2 Schichten liegt neben einer anderen auf gleicher Höhe, bis zu %#3 mm entfernt, wie bei Rekonstruktionen der beiden Ohren: Sie sind nicht aus einem Stapel; lassen Sie im Ordner die Dateien eines einzigen.</translation>
     </message>
     <message>
-        <source>%1 of %2 slices lie beside another at the same height, up to %3 mm away, as of reconstructions of either ear: they are not of one stack; keep the files of one in the folder.</source>
-        <translation>%1 von %2 Schichten liegen neben einer anderen auf gleicher Höhe, bis zu %3 mm entfernt, wie bei Rekonstruktionen der beiden Ohren: Sie sind nicht aus einem Stapel; lassen Sie im Ordner die Dateien eines einzigen.</translation>
+        <source>%#1 of %#2 slices lie beside another at the same height, up to %#3 mm away, as of reconstructions of either ear: they are not of one stack; keep the files of one in the folder.</source>
+        <translation>%#1 von %#2 Schichten liegen neben einer anderen auf gleicher Höhe, bis zu %#3 mm entfernt, wie bei Rekonstruktionen der beiden Ohren: Sie sind nicht aus einem Stapel; lassen Sie im Ordner die Dateien eines einzigen.</translation>
     </message>
     <message>
-        <source>%1 of %2 slices share their place with another (the first at %3 mm along the normal); stacked, the volume would be %4 mm too long.</source>
-        <translation>%1 von %2 Schichten haben den Ort einer anderen (die erste bei %3 mm entlang der Normalen); gestapelt wäre das Volumen %4 mm zu lang.</translation>
+        <source>%#1 of %#2 slices share their place with another (the first at %#3 mm along the normal); stacked, the volume would be %#4 mm too long.</source>
+        <translation>%#1 von %#2 Schichten haben den Ort einer anderen (die erste bei %#3 mm entlang der Normalen); gestapelt wäre das Volumen %#4 mm zu lang.</translation>
     </message>
     <message>
-        <source>%1 slice is missing along the normal %2, where slices stand %3 mm apart; closed up, what lies beyond would be %4 mm off.</source>
-        <translation>%1 Schicht fehlt entlang der Normalen %2, wo Schichten %3 mm auseinander stehen; zusammengeschoben läge, was dahinter kommt, %4 mm falsch.</translation>
+        <source>%#1 slice is missing along the normal %2, where slices stand %#3 mm apart; closed up, what lies beyond would be %#4 mm off.</source>
+        <translation>%#1 Schicht fehlt entlang der Normalen %2, wo Schichten %#3 mm auseinander stehen; zusammengeschoben läge, was dahinter kommt, %#4 mm falsch.</translation>
     </message>
     <message>
-        <source>%1 slices are missing along the normal %2, where slices stand %3 mm apart; closed up, what lies beyond would be %4 mm off.</source>
-        <translation>%1 Schichten fehlen entlang der Normalen %2, wo Schichten %3 mm auseinander stehen; zusammengeschoben läge, was dahinter kommt, %4 mm falsch.</translation>
+        <source>%#1 slices are missing along the normal %2, where slices stand %#3 mm apart; closed up, what lies beyond would be %#4 mm off.</source>
+        <translation>%#1 Schichten fehlen entlang der Normalen %2, wo Schichten %#3 mm auseinander stehen; zusammengeschoben läge, was dahinter kommt, %#4 mm falsch.</translation>
     </message>
     <message>
-        <source>Nothing was measured for %1 mm between %2 and %3 mm, more than one missing slice leaves where slices stand %4 mm apart; that is not interpolated.</source>
-        <translation>Auf %1 mm zwischen %2 und %3 mm wurde nichts gemessen, mehr, als eine fehlende Schicht lässt, wo Schichten %4 mm auseinander stehen; das wird nicht interpoliert.</translation>
+        <source>Nothing was measured for %#1 mm between %#2 and %#3 mm, more than one missing slice leaves where slices stand %#4 mm apart; that is not interpolated.</source>
+        <translation>Auf %#1 mm zwischen %#2 und %#3 mm wurde nichts gemessen, mehr, als eine fehlende Schicht lässt, wo Schichten %#4 mm auseinander stehen; das wird nicht interpoliert.</translation>
     </message>
     <message>
-        <source>In %1 places, %2 mm of %3 mm, a slice would have to be guessed; at most %4 slice is interpolated.</source>
-        <translation>An %1 Stellen, %2 mm von %3 mm, müsste eine Schicht geraten werden; höchstens %4 Schicht wird interpoliert.</translation>
+        <source>In %#1 places, %#2 mm of %#3 mm, a slice would have to be guessed; at most %#4 slice is interpolated.</source>
+        <translation>An %#1 Stellen, %#2 mm von %#3 mm, müsste eine Schicht geraten werden; höchstens %#4 Schicht wird interpoliert.</translation>
     </message>
     <message>
-        <source>In %1 places, %2 mm of %3 mm, a slice would have to be guessed; at most %4 slices are interpolated.</source>
-        <translation>An %1 Stellen, %2 mm von %3 mm, müsste eine Schicht geraten werden; höchstens %4 Schichten werden interpoliert.</translation>
+        <source>In %#1 places, %#2 mm of %#3 mm, a slice would have to be guessed; at most %#4 slices are interpolated.</source>
+        <translation>An %#1 Stellen, %#2 mm von %#3 mm, müsste eine Schicht geraten werden; höchstens %#4 Schichten werden interpoliert.</translation>
     </message>
     <message>
-        <source>The slices do not stand evenly: near %1 mm along the normal one lies %2 mm from where an even spacing of %3 mm would put it.%4</source>
-        <translation>Die Schichten stehen nicht gleichmäßig: Nahe %1 mm entlang der Normalen liegt eine %2 mm neben dem Ort, an den ein gleichmäßiger Abstand von %3 mm sie legte.%4</translation>
+        <source>The slices do not stand evenly: near %#1 mm along the normal one lies %#2 mm from where an even spacing of %#3 mm would put it.%4</source>
+        <translation>Die Schichten stehen nicht gleichmäßig: Nahe %#1 mm entlang der Normalen liegt eine %#2 mm neben dem Ort, an den ein gleichmäßiger Abstand von %#3 mm sie legte.%4</translation>
     </message>
     <message>
-        <source>Slices lie up to %1 mm off an even spacing; accepted.</source>
-        <translation>Schichten liegen bis zu %1 mm neben gleichmäßigem Abstand; angenommen.</translation>
+        <source>Slices lie up to %#1 mm off an even spacing; accepted.</source>
+        <translation>Schichten liegen bis zu %#1 mm neben gleichmäßigem Abstand; angenommen.</translation>
     </message>
     <message>
-        <source>The gantry was tilted: the stack leans by %1 degrees and slides %2 mm sideways; read as a straight stack, its ends would lie %3 mm off.</source>
-        <translation>Die Gantry war geneigt: Der Stapel lehnt um %1 Grad und gleitet %2 mm seitwärts; als gerader Stapel gelesen, lägen seine Enden %3 mm falsch.</translation>
+        <source>The gantry was tilted: the stack leans by %#1 degrees and slides %#2 mm sideways; read as a straight stack, its ends would lie %#3 mm off.</source>
+        <translation>Die Gantry war geneigt: Der Stapel lehnt um %#1 Grad und gleitet %#2 mm seitwärts; als gerader Stapel gelesen, lägen seine Enden %#3 mm falsch.</translation>
     </message>
     <message>
-        <source>Slices lie up to %1 mm sideways of one straight line through the stack.</source>
-        <translation>Schichten liegen bis zu %1 mm seitlich einer geraden Linie durch den Stapel.</translation>
+        <source>Slices lie up to %#1 mm sideways of one straight line through the stack.</source>
+        <translation>Schichten liegen bis zu %#1 mm seitlich einer geraden Linie durch den Stapel.</translation>
     </message>
     <message>
-        <source>Slices lie up to %1 mm sideways of a straight stack; accepted.</source>
-        <translation>Schichten liegen bis zu %1 mm seitlich eines geraden Stapels; angenommen.</translation>
+        <source>Slices lie up to %#1 mm sideways of a straight stack; accepted.</source>
+        <translation>Schichten liegen bis zu %#1 mm seitlich eines geraden Stapels; angenommen.</translation>
     </message>
     <message>
-        <source>The header states slices %1 mm apart, their positions %2 mm; the positions are used.</source>
-        <translation>Der Header nennt einen Schichtabstand von %1 mm, die Lagen ergeben %2 mm; die Lagen gelten.</translation>
+        <source>The header states slices %#1 mm apart, their positions %#2 mm; the positions are used.</source>
+        <translation>Der Header nennt einen Schichtabstand von %#1 mm, die Lagen ergeben %#2 mm; die Lagen gelten.</translation>
     </message>
     <message>
-        <source>The header states a gantry tilt of %1 degrees, but the slices make a straight stack.</source>
-        <translation>Der Header nennt eine Gantry-Neigung von %1 Grad, die Schichten ergeben aber einen geraden Stapel.</translation>
+        <source>The header states a gantry tilt of %#1 degrees, but the slices make a straight stack.</source>
+        <translation>Der Header nennt eine Gantry-Neigung von %#1 Grad, die Schichten ergeben aber einen geraden Stapel.</translation>
     </message>
     <message>
         <source>is named as %~1, but is not; it is %2, so end its name in %3</source>
@@ -3762,8 +3822,8 @@
         <translation>ist keine gewöhnliche Datei; nennen Sie eine, die gelesen werden darf</translation>
     </message>
     <message>
-        <source>is %1 GB large; a file of this kind is read up to 4.3 GB</source>
-        <translation>ist %1 GB groß; eine Datei dieser Art wird bis 4.3 GB gelesen</translation>
+        <source>is %#1 GB large; a file of this kind is read up to 4.3 GB</source>
+        <translation>ist %#1 GB groß; eine Datei dieser Art wird bis 4.3 GB gelesen</translation>
     </message>
     <message>
         <source>reading file</source>
@@ -3782,16 +3842,16 @@
         <translation>ihr Header nennt keine mögliche Voxelgröße oder Lage im Patienten; exportieren Sie sie mit ihrer Geometrie neu</translation>
     </message>
     <message>
-        <source>its header puts it %~1 mm from the origin of the patient's frame; a place within 100 m is believed, export it again with its geometry</source>
-        <translation>ihr Header legt sie %~1 mm vom Ursprung des Patientensystems; geglaubt wird eine Lage innerhalb von 100 m, exportieren Sie sie mit ihrer Geometrie neu</translation>
+        <source>its header puts it %#1 mm from the origin of the patient's frame; a place within 100 m is believed, export it again with its geometry</source>
+        <translation>ihr Header legt sie %#1 mm vom Ursprung des Patientensystems; geglaubt wird eine Lage innerhalb von 100 m, exportieren Sie sie mit ihrer Geometrie neu</translation>
     </message>
     <message>
-        <source>its axes are not perpendicular (off by %~1 degrees): taken as perpendicular, voxels would lie wrong by up to %~2 mm; resample it to perpendicular axes</source>
-        <translation>ihre Achsen stehen nicht senkrecht (um %~1 Grad): als senkrecht genommen, lägen Voxel bis zu %~2 mm falsch; rechnen Sie sie auf senkrechte Achsen um</translation>
+        <source>its axes are not perpendicular (off by %#1 degrees): taken as perpendicular, voxels would lie wrong by up to %#2 mm; resample it to perpendicular axes</source>
+        <translation>ihre Achsen stehen nicht senkrecht (um %#1 Grad): als senkrecht genommen, lägen Voxel bis zu %#2 mm falsch; rechnen Sie sie auf senkrechte Achsen um</translation>
     </message>
     <message>
-        <source>axes off perpendicular were straightened, which moves no voxel by more than %~1 mm</source>
-        <translation>nicht senkrechte Achsen wurden aufgerichtet, was kein Voxel um mehr als %~1 mm verschiebt</translation>
+        <source>axes off perpendicular were straightened, which moves no voxel by more than %#1 mm</source>
+        <translation>nicht senkrechte Achsen wurden aufgerichtet, was kein Voxel um mehr als %#1 mm verschiebt</translation>
     </message>
     <message>
         <source>is in %~1; converted to mm</source>
@@ -3806,16 +3866,16 @@
         <translation>nennt eine unbekannte Längeneinheit; als mm genommen</translation>
     </message>
     <message>
-        <source>holds %1 voxels that are not finite numbers (NaN, infinite or beyond float); give them the value of what lies outside the scanned field, such as -1024 in a CT</source>
-        <translation>enthält %1 Voxel, die keine endlichen Zahlen sind (NaN, unendlich oder zu groß); geben Sie ihnen den Wert dessen, was außerhalb des Messfeldes liegt, etwa -1024 im CT</translation>
+        <source>holds %#1 voxels that are not finite numbers (NaN, infinite or beyond float); give them the value of what lies outside the scanned field, such as -1024 in a CT</source>
+        <translation>enthält %#1 Voxel, die keine endlichen Zahlen sind (NaN, unendlich oder zu groß); geben Sie ihnen den Wert dessen, was außerhalb des Messfeldes liegt, etwa -1024 im CT</translation>
     </message>
     <message>
         <source>lies outside the region of interest, or that is thinner than a voxel; the image spans (x, y, z in LPS mm) %~1</source>
         <translation>liegt außerhalb des gewählten Bereichs, oder dieser ist dünner als ein Voxel; das Bild reicht (x, y, z in LPS mm) %~1</translation>
     </message>
     <message>
-        <source>holds %1 numbers a voxel (vectors or colours); an image of one number a voxel is needed</source>
-        <translation>enthält %1 Zahlen je Voxel (Vektoren oder Farben); nötig ist ein Bild mit einer Zahl je Voxel</translation>
+        <source>holds %#1 numbers a voxel (vectors or colours); an image of one number a voxel is needed</source>
+        <translation>enthält %#1 Zahlen je Voxel (Vektoren oder Farben); nötig ist ein Bild mit einer Zahl je Voxel</translation>
     </message>
     <message>
         <source>is a single slice; a volume of at least 2 voxels along each axis is needed</source>
@@ -3834,8 +3894,8 @@
         <translation>ist eine Datei mit Voxeln, deren Volumen nach Nummern gehen; sie enthält eines, nennen Sie daher keines</translation>
     </message>
     <message>
-        <source>is a file of voxels, whose volumes are told by number; name one of 1 to %1</source>
-        <translation>ist eine Datei mit Voxeln, deren Volumen nach Nummern gehen; nennen Sie eines von 1 bis %1</translation>
+        <source>is a file of voxels, whose volumes are told by number; name one of 1 to %#1</source>
+        <translation>ist eine Datei mit Voxeln, deren Volumen nach Nummern gehen; nennen Sie eines von 1 bis %#1</translation>
     </message>
     <message>
         <source>it holds one, so name none</source>
@@ -3846,8 +3906,8 @@
         <translation>enthält einen Wert, der keine ganze Zahl ist</translation>
     </message>
     <message>
-        <source>holds the value %1</source>
-        <translation>enthält den Wert %1</translation>
+        <source>holds the value %#1</source>
+        <translation>enthält den Wert %#1</translation>
     </message>
     <message>
         <source>%~1; labels are whole numbers from 0 to 65535 (an intensity image is given as CT or MR)</source>
@@ -3862,8 +3922,8 @@
         <translation>Labels werden gelesen</translation>
     </message>
     <message>
-        <source>and %1 more</source>
-        <translation>und %1 weitere</translation>
+        <source>and %#1 more</source>
+        <translation>und %#1 weitere</translation>
     </message>
     <message>
         <source>of the table of names beside it, %~1; that entry was left out</source>
@@ -3886,16 +3946,16 @@
         <translation>ihr einziger Wert hat keinen Namen in der Namenstabelle und heißt daher nach der Datei</translation>
     </message>
     <message>
-        <source>holds structures that overlap, in %1 layers; one layer is needed here</source>
-        <translation>enthält überlappende Strukturen, in %1 Ebenen; hier ist eine Ebene nötig</translation>
+        <source>holds structures that overlap, in %#1 layers; one layer is needed here</source>
+        <translation>enthält überlappende Strukturen, in %#1 Ebenen; hier ist eine Ebene nötig</translation>
     </message>
     <message>
         <source>names its structures itself, so the table of names was not used for it</source>
         <translation>benennt ihre Strukturen selbst, die Namenstabelle wurde daher nicht verwendet</translation>
     </message>
     <message>
-        <source>holds %1 numbers a voxel; a label file holds one whole number a voxel</source>
-        <translation>enthält %1 Zahlen je Voxel; eine Label-Datei enthält eine ganze Zahl je Voxel</translation>
+        <source>holds %#1 numbers a voxel; a label file holds one whole number a voxel</source>
+        <translation>enthält %#1 Zahlen je Voxel; eine Label-Datei enthält eine ganze Zahl je Voxel</translation>
     </message>
     <message>
         <source>'%1' was left out: the file puts it in a layer that it has not; save it again in 3D Slicer</source>
@@ -3914,40 +3974,40 @@
         <translation>mehrere Strukturen heißen „%~1“; eine davon wurde „%2“ genannt</translation>
     </message>
     <message>
-        <source>structure %1</source>
-        <translation>Struktur %1</translation>
+        <source>structure %#1</source>
+        <translation>Struktur %#1</translation>
     </message>
     <message>
-        <source>its structure number %1 has no label value from 1 to 65535; save it again in 3D Slicer</source>
-        <translation>ihre Struktur Nummer %1 hat keinen Labelwert von 1 bis 65535; speichern Sie sie in 3D Slicer neu</translation>
+        <source>its structure number %#1 has no label value from 1 to 65535; save it again in 3D Slicer</source>
+        <translation>ihre Struktur Nummer %#1 hat keinen Labelwert von 1 bis 65535; speichern Sie sie in 3D Slicer neu</translation>
     </message>
     <message>
-        <source>label %1</source>
-        <translation>Label %1</translation>
+        <source>label %#1</source>
+        <translation>Label %#1</translation>
     </message>
     <message>
-        <source>gives two structures the label value %1; each needs its own, save it again in 3D Slicer</source>
-        <translation>gibt zwei Strukturen den Labelwert %1; jede braucht einen eigenen, speichern Sie sie in 3D Slicer neu</translation>
+        <source>gives two structures the label value %#1; each needs its own, save it again in 3D Slicer</source>
+        <translation>gibt zwei Strukturen den Labelwert %#1; jede braucht einen eigenen, speichern Sie sie in 3D Slicer neu</translation>
     </message>
     <message>
-        <source>line %1 %~2</source>
-        <translation>Zeile %1 %~2</translation>
+        <source>line %#1 %~2</source>
+        <translation>Zeile %#1 %~2</translation>
     </message>
     <message>
-        <source>gives the index %1; an index is a whole number from 0 to 65535</source>
-        <translation>gibt den Index %1; ein Index ist eine ganze Zahl von 0 bis 65535</translation>
+        <source>gives the index %#1; an index is a whole number from 0 to 65535</source>
+        <translation>gibt den Index %#1; ein Index ist eine ganze Zahl von 0 bis 65535</translation>
     </message>
     <message>
-        <source>gives index %1 no name</source>
-        <translation>gibt dem Index %1 keinen Namen</translation>
+        <source>gives index %#1 no name</source>
+        <translation>gibt dem Index %#1 keinen Namen</translation>
     </message>
     <message>
-        <source>gives index %1 a second name; each index has one</source>
-        <translation>gibt dem Index %1 einen zweiten Namen; jeder Index hat einen</translation>
+        <source>gives index %#1 a second name; each index has one</source>
+        <translation>gibt dem Index %#1 einen zweiten Namen; jeder Index hat einen</translation>
     </message>
     <message>
-        <source>gives index %1 a second name (the first is in line %2); each index has one</source>
-        <translation>gibt dem Index %1 einen zweiten Namen (der erste steht in Zeile %2); jeder Index hat einen</translation>
+        <source>gives index %#1 a second name (the first is in line %#2); each index has one</source>
+        <translation>gibt dem Index %#1 einen zweiten Namen (der erste steht in Zeile %#2); jeder Index hat einen</translation>
     </message>
     <message>
         <source>opens a quote that is not closed</source>
@@ -4014,16 +4074,16 @@
         <translation>ihre %~1</translation>
     </message>
     <message>
-        <source>needs %~1 GB of memory, which is not free; close programs or %~2</source>
-        <translation>braucht %~1 GB Speicher, die nicht frei sind; schließen Sie Programme, oder %~2</translation>
+        <source>needs %#1 GB of memory, which is not free; close programs or %~2</source>
+        <translation>braucht %#1 GB Speicher, die nicht frei sind; schließen Sie Programme, oder %~2</translation>
     </message>
     <message>
         <source>its header gives no valid dimensions (NDims, DimSize); export it again</source>
         <translation>ihr Header nennt keine gültigen Abmessungen (NDims, DimSize); exportieren Sie sie neu</translation>
     </message>
     <message>
-        <source>holds a picture of %1 dimensions; a volume of 3 is needed</source>
-        <translation>enthält ein Bild mit %1 Dimensionen; nötig ist ein Volumen mit 3</translation>
+        <source>holds a picture of %#1 dimensions; a volume of 3 is needed</source>
+        <translation>enthält ein Bild mit %#1 Dimensionen; nötig ist ein Volumen mit 3</translation>
     </message>
     <message>
         <source>names its axes otherwise (AnatomicalOrientation) than %1, as its TransformMatrix says, which is used; check left and right</source>
@@ -4094,8 +4154,8 @@
         <translation>nennt ihre Lage zweimal, einmal mit einem Quaternion (qform), das keine Drehung ist; die sform gilt</translation>
     </message>
     <message>
-        <source>places itself twice (sform and qform), up to %~1 mm apart; the sform is used, as the NIfTI standard says</source>
-        <translation>nennt ihre Lage zweimal (sform und qform), bis zu %~1 mm auseinander; die sform gilt, wie der NIfTI-Standard sagt</translation>
+        <source>places itself twice (sform and qform), up to %#1 mm apart; the sform is used, as the NIfTI standard says</source>
+        <translation>nennt ihre Lage zweimal (sform und qform), bis zu %#1 mm auseinander; die sform gilt, wie der NIfTI-Standard sagt</translation>
     </message>
     <message>
         <source>is in metres; converted to mm</source>
@@ -4110,12 +4170,12 @@
         <translation>ist eine von einem Dateipaar; %1 ist nicht da, lassen Sie beide in einem Ordner</translation>
     </message>
     <message>
-        <source>its header counts %1 dimensions; a NIfTI file has 1 to 7</source>
-        <translation>ihr Header zählt %1 Dimensionen; eine NIfTI-Datei hat 1 bis 7</translation>
+        <source>its header counts %#1 dimensions; a NIfTI file has 1 to 7</source>
+        <translation>ihr Header zählt %#1 Dimensionen; eine NIfTI-Datei hat 1 bis 7</translation>
     </message>
     <message>
-        <source>its header gives a dimension of %1; export it again from where it came</source>
-        <translation>ihr Header nennt eine Abmessung von %1; exportieren Sie sie noch einmal vom Ursprung</translation>
+        <source>its header gives a dimension of %#1; export it again from where it came</source>
+        <translation>ihr Header nennt eine Abmessung von %#1; exportieren Sie sie noch einmal vom Ursprung</translation>
     </message>
     <message>
         <source>its voxels should start beyond any sense; export it again from where it came</source>
@@ -4170,8 +4230,8 @@
         <translation>ihre Voxel sind von einem Typ, der nicht eingeblendet wird; short, unsigned short oder float werden es</translation>
     </message>
     <message>
-        <source>is %1 bytes long; its header asks for %~2, so it was cut off or changed, restore it</source>
-        <translation>ist %1 Byte lang; ihr Header verlangt %~2, sie wurde also abgeschnitten oder geändert, stellen Sie sie wieder her</translation>
+        <source>is %#1 bytes long; its header asks for %#2, so it was cut off or changed, restore it</source>
+        <translation>ist %#1 Byte lang; ihr Header verlangt %#2, sie wurde also abgeschnitten oder geändert, stellen Sie sie wieder her</translation>
     </message>
     <message>
         <source>its NRRD header does not end; copy it again from where it came</source>
@@ -4222,8 +4282,8 @@
         <translation>ihre Voxel sind auf eine nicht lesbare Weise gepackt; speichern Sie sie mit encoding raw oder gzip</translation>
     </message>
     <message>
-        <source>its list of data files is damaged, or does not share the %1 slices evenly; save it as one .nrrd</source>
-        <translation>ihre Liste der Datendateien ist beschädigt oder teilt die %1 Schichten nicht gleich auf; speichern Sie sie als eine .nrrd</translation>
+        <source>its list of data files is damaged, or does not share the %#1 slices evenly; save it as one .nrrd</source>
+        <translation>ihre Liste der Datendateien ist beschädigt oder teilt die %#1 Schichten nicht gleich auf; speichern Sie sie als eine .nrrd</translation>
     </message>
     <message>
         <source>keeps its voxels as text in several files; save it as one .nrrd</source>
@@ -4262,8 +4322,8 @@
         <translation>Voxel werden komprimiert</translation>
     </message>
     <message>
-        <source>NIfTI holds at most 32767 voxels along an axis, not %1; write .nrrd</source>
-        <translation>NIfTI fasst höchstens 32767 Voxel entlang einer Achse, nicht %1; schreiben Sie .nrrd</translation>
+        <source>NIfTI holds at most 32767 voxels along an axis, not %#1; write .nrrd</source>
+        <translation>NIfTI fasst höchstens 32767 Voxel entlang einer Achse, nicht %#1; schreiben Sie .nrrd</translation>
     </message>
     <message>
         <source>reading voxels</source>
@@ -4274,8 +4334,8 @@
         <translation>wählen Sie einen Bereich</translation>
     </message>
     <message>
-        <source>needs %~1 GB of memory, which the system refuses; close programs or %~2</source>
-        <translation>braucht %~1 GB Speicher, die das System verweigert; schließen Sie Programme, oder %~2</translation>
+        <source>needs %#1 GB of memory, which the system refuses; close programs or %~2</source>
+        <translation>braucht %#1 GB Speicher, die das System verweigert; schließen Sie Programme, oder %~2</translation>
     </message>
     <message>
         <source>is of no format that is read; give a %~1 file</source>
@@ -4306,20 +4366,20 @@
         <translation>enthält %~1 Voxel; nötig sind Volumen mit 3 Dimensionen, höchstens eines nach dem anderen entlang einer vierten</translation>
     </message>
     <message>
-        <source>has no volume %1; it holds one</source>
-        <translation>hat kein Volumen %1; sie enthält eines</translation>
+        <source>has no volume %#1; it holds one</source>
+        <translation>hat kein Volumen %#1; sie enthält eines</translation>
     </message>
     <message>
-        <source>has no volume %1; it holds volumes 1 to %2</source>
-        <translation>hat kein Volumen %1; sie enthält die Volumen 1 bis %2</translation>
+        <source>has no volume %#1; it holds volumes 1 to %#2</source>
+        <translation>hat kein Volumen %#1; sie enthält die Volumen 1 bis %#2</translation>
     </message>
     <message>
-        <source>holds %1 volumes, of which this is number %2</source>
-        <translation>enthält %1 Volumen, von denen dies Nummer %2 ist</translation>
+        <source>holds %#1 volumes, of which this is number %#2</source>
+        <translation>enthält %#1 Volumen, von denen dies Nummer %#2 ist</translation>
     </message>
     <message>
-        <source>holds %1 volumes of %~2 voxels; one is needed: name it by its number, 1 to %3 (--volume N, of an MR FILE##N), or save it alone</source>
-        <translation>enthält %1 Volumen von %~2 Voxeln; nötig ist eines: Wählen Sie es nach der Nummer, 1 bis %3, oder speichern Sie es allein</translation>
+        <source>holds %#1 volumes of %~2 voxels; one is needed: name it by its number, 1 to %#3 (--volume N, of an MR FILE##N), or save it alone</source>
+        <translation>enthält %#1 Volumen von %~2 Voxeln; nötig ist eines: Wählen Sie es nach der Nummer, 1 bis %#3, oder speichern Sie es allein</translation>
     </message>
     <message>
         <source>its header speaks of %~1 voxels, which the file is too short to hold; copy it again from where it came</source>
@@ -4390,8 +4450,8 @@
         <translation>nennt SPACE=LPS und wurde, wie angegeben, anders gelesen</translation>
     </message>
     <message>
-        <source>has a unit of %1 mm, as given; brought to mm</source>
-        <translation>hat, wie angegeben, die Einheit %1 mm; in mm umgerechnet</translation>
+        <source>has a unit of %#1 mm, as given; brought to mm</source>
+        <translation>hat, wie angegeben, die Einheit %#1 mm; in mm umgerechnet</translation>
     </message>
     <message>
         <source>mesh: it has no triangle to write</source>
@@ -4482,8 +4542,8 @@
         <translation>sie bricht vor „endsolid“ ab</translation>
     </message>
     <message>
-        <source>is %1 bytes long, but an STL of the %2 triangles that it counts has %3; copy it again from where it came</source>
-        <translation>ist %1 Byte lang, eine STL mit den %2 Dreiecken, die sie zählt, aber %3; kopieren Sie sie noch einmal vom Ursprung</translation>
+        <source>is %#1 bytes long, but an STL of the %#2 triangles that it counts has %#3; copy it again from where it came</source>
+        <translation>ist %#1 Byte lang, eine STL mit den %#2 Dreiecken, die sie zählt, aber %#3; kopieren Sie sie noch einmal vom Ursprung</translation>
     </message>
     <message>
         <source>it declares a document type</source>
@@ -4526,8 +4586,8 @@
         <translation>Punkte oder Flächen sind genannt, ohne das Feld, das sie enthält</translation>
     </message>
     <message>
-        <source>has %1 components instead of %2</source>
-        <translation>hat %1 Komponenten statt %2</translation>
+        <source>has %#1 components instead of %#2</source>
+        <translation>hat %#1 Komponenten statt %#2</translation>
     </message>
     <message>
         <source>is stated with more numbers than it can hold</source>
@@ -4550,12 +4610,12 @@
         <translation>enthält ein Wort, das keine Zahl ist</translation>
     </message>
     <message>
-        <source>holds more than the %1 numbers stated</source>
-        <translation>enthält mehr als die genannten %1 Zahlen</translation>
+        <source>holds more than the %#1 numbers stated</source>
+        <translation>enthält mehr als die genannten %#1 Zahlen</translation>
     </message>
     <message>
-        <source>holds %1 of the %2 numbers stated</source>
-        <translation>enthält %1 der genannten %2 Zahlen</translation>
+        <source>holds %#1 of the %#2 numbers stated</source>
+        <translation>enthält %#1 der genannten %#2 Zahlen</translation>
     </message>
     <message>
         <source>ends within its header</source>
@@ -4570,8 +4630,8 @@
         <translation>liegt hinter dem Ende der angehängten Daten</translation>
     </message>
     <message>
-        <source>states %1 bytes, its points or faces take %2</source>
-        <translation>nennt %1 Byte, seine Punkte oder Flächen brauchen %2</translation>
+        <source>states %#1 bytes, its points or faces take %#2</source>
+        <translation>nennt %#1 Byte, seine Punkte oder Flächen brauchen %#2</translation>
     </message>
     <message>
         <source>states more bytes than the file holds</source>
@@ -4690,20 +4750,20 @@
         <translation>ist ein Ordner ohne Maske, eine Datei %~1 mit einem Wert neben 0%2</translation>
     </message>
     <message>
-        <source>its structures lie on %1 different grids, and each was kept on its own</source>
-        <translation>die Strukturen liegen auf %1 verschiedenen Gittern, und jede blieb auf ihrem eigenen</translation>
+        <source>its structures lie on %#1 different grids, and each was kept on its own</source>
+        <translation>die Strukturen liegen auf %#1 verschiedenen Gittern, und jede blieb auf ihrem eigenen</translation>
     </message>
     <message>
-        <source>some of its structures overlap, so they were kept in %1 layers</source>
-        <translation>einige der Strukturen überlappen sich und blieben daher in %1 Ebenen</translation>
+        <source>some of its structures overlap, so they were kept in %#1 layers</source>
+        <translation>einige der Strukturen überlappen sich und blieben daher in %#1 Ebenen</translation>
     </message>
     <message>
         <source>is a DICOM segmentation of a type that is not read; export it as BINARY, FRACTIONAL or LABELMAP</source>
         <translation>ist eine DICOM-Segmentierung von einem nicht lesbaren Typ; exportieren Sie sie als BINARY, FRACTIONAL oder LABELMAP</translation>
     </message>
     <message>
-        <source>its frame %1 %~2; export the segmentation again</source>
-        <translation>ihr Frame %1 %~2; exportieren Sie die Segmentierung neu</translation>
+        <source>its frame %#1 %~2; export the segmentation again</source>
+        <translation>ihr Frame %#1 %~2; exportieren Sie die Segmentierung neu</translation>
     </message>
     <message>
         <source>states no position</source>
@@ -4718,8 +4778,8 @@
         <translation>hat eine andere Orientierung oder Pixelgröße als der erste, was nicht gelesen wird</translation>
     </message>
     <message>
-        <source>its frame %1 names no segment; export the segmentation again</source>
-        <translation>ihr Frame %1 nennt kein Segment; exportieren Sie die Segmentierung neu</translation>
+        <source>its frame %#1 names no segment; export the segmentation again</source>
+        <translation>ihr Frame %#1 nennt kein Segment; exportieren Sie die Segmentierung neu</translation>
     </message>
     <message>
         <source>has a damaged compressed frame; copy or export it again</source>
@@ -4734,8 +4794,8 @@
         <translation>ist eine DICOM-Segmentierung mit einer Kompression, die nicht gelesen wird oder nicht verlustfrei ist; exportieren Sie sie unkomprimiert (explicit VR little endian)</translation>
     </message>
     <message>
-        <source>holds fewer pixels than its %1 frames need; copy or export it again</source>
-        <translation>enthält weniger Pixel, als ihre %1 Frames brauchen; kopieren oder exportieren Sie sie neu</translation>
+        <source>holds fewer pixels than its %#1 frames need; copy or export it again</source>
+        <translation>enthält weniger Pixel, als ihre %#1 Frames brauchen; kopieren oder exportieren Sie sie neu</translation>
     </message>
     <message>
         <source>its rows, columns and bits of a pixel are not those of its type of segmentation; export it again</source>
@@ -4746,16 +4806,16 @@
         <translation>enthält keine Pixeldaten; kopieren oder exportieren Sie sie neu</translation>
     </message>
     <message>
-        <source>states no spacing of its one slice, which is %~1 mm thick; that was taken</source>
-        <translation>nennt keinen Abstand ihrer einen Schicht, die %~1 mm dick ist; das wurde genommen</translation>
+        <source>states no spacing of its one slice, which is %#1 mm thick; that was taken</source>
+        <translation>nennt keinen Abstand ihrer einen Schicht, die %#1 mm dick ist; das wurde genommen</translation>
     </message>
     <message>
-        <source>states no spacing of its slices; its frames lie %~1 mm apart or more</source>
-        <translation>nennt keinen Schichtabstand; ihre Frames liegen %~1 mm oder mehr auseinander</translation>
+        <source>states no spacing of its slices; its frames lie %#1 mm apart or more</source>
+        <translation>nennt keinen Schichtabstand; ihre Frames liegen %#1 mm oder mehr auseinander</translation>
     </message>
     <message>
-        <source>%1 and are %~2 mm thick, so that what lies between them was taken to be empty</source>
-        <translation>%1 und sind %~2 mm dick, sodass als leer gilt, was dazwischen liegt</translation>
+        <source>%1 and are %#2 mm thick, so that what lies between them was taken to be empty</source>
+        <translation>%1 und sind %#2 mm dick, sodass als leer gilt, was dazwischen liegt</translation>
     </message>
     <message>
         <source>%1, which was taken for their thickness; check the volumes</source>
@@ -4770,16 +4830,16 @@
         <translation>ihre eine Schicht nennt weder Dicke noch Abstand; exportieren Sie die Segmentierung neu</translation>
     </message>
     <message>
-        <source>its frames lie %~1 mm apart, in more voxels than are read; crop it, or look at the positions of its frames</source>
-        <translation>ihre Frames liegen %~1 mm auseinander, in mehr Voxeln, als gelesen werden; beschneiden Sie sie, oder prüfen Sie die Lage ihrer Frames</translation>
+        <source>its frames lie %#1 mm apart, in more voxels than are read; crop it, or look at the positions of its frames</source>
+        <translation>ihre Frames liegen %#1 mm auseinander, in mehr Voxeln, als gelesen werden; beschneiden Sie sie, oder prüfen Sie die Lage ihrer Frames</translation>
     </message>
     <message>
-        <source>lies %~1 mm off the even slices of the others (uneven spacing or a tilted gantry), which is not read</source>
-        <translation>liegt %~1 mm neben den gleichmäßigen Schichten der anderen (ungleicher Abstand oder geneigte Gantry), was nicht gelesen wird</translation>
+        <source>lies %#1 mm off the even slices of the others (uneven spacing or a tilted gantry), which is not read</source>
+        <translation>liegt %#1 mm neben den gleichmäßigen Schichten der anderen (ungleicher Abstand oder geneigte Gantry), was nicht gelesen wird</translation>
     </message>
     <message>
-        <source>frames up to %~1 mm off even slices were taken to lie on them</source>
-        <translation>Frames bis zu %~1 mm neben gleichmäßigen Schichten wurden genommen, als lägen sie darauf</translation>
+        <source>frames up to %#1 mm off even slices were taken to lie on them</source>
+        <translation>Frames bis zu %#1 mm neben gleichmäßigen Schichten wurden genommen, als lägen sie darauf</translation>
     </message>
     <message>
         <source>cannot be read to its end; copy it again</source>
@@ -4794,24 +4854,24 @@
         <translation>ihre Segmente überlappen sich in mehr Ebenen, als gelesen werden; exportieren Sie weniger auf einmal</translation>
     </message>
     <message>
-        <source>lies where frame %1 of the same segment does, and differs from it</source>
-        <translation>liegt, wo der Frame %1 desselben Segments liegt, und weicht davon ab</translation>
+        <source>lies where frame %#1 of the same segment does, and differs from it</source>
+        <translation>liegt, wo der Frame %#1 desselben Segments liegt, und weicht davon ab</translation>
     </message>
     <message>
-        <source>has %1 empty frame (the first is frame %2) where another of the same segment lies, which was taken</source>
-        <translation>hat %1 leeren Frame (der erste ist Frame %2), wo ein anderer desselben Segments liegt, der genommen wurde</translation>
+        <source>has %#1 empty frame (the first is frame %#2) where another of the same segment lies, which was taken</source>
+        <translation>hat %#1 leeren Frame (der erste ist Frame %#2), wo ein anderer desselben Segments liegt, der genommen wurde</translation>
     </message>
     <message>
-        <source>has %1 empty frames (the first is frame %2) where another of the same segment lies, which was taken</source>
-        <translation>hat %1 leere Frames (der erste ist Frame %2), wo ein anderer desselben Segments liegt, der genommen wurde</translation>
+        <source>has %#1 empty frames (the first is frame %#2) where another of the same segment lies, which was taken</source>
+        <translation>hat %#1 leere Frames (der erste ist Frame %#2), wo ein anderer desselben Segments liegt, der genommen wurde</translation>
     </message>
     <message>
         <source>lies where another one does</source>
         <translation>liegt, wo ein anderer liegt</translation>
     </message>
     <message>
-        <source>is of segment %1, which the file does not describe</source>
-        <translation>gehört zum Segment %1, das die Datei nicht beschreibt</translation>
+        <source>is of segment %#1, which the file does not describe</source>
+        <translation>gehört zum Segment %#1, das die Datei nicht beschreibt</translation>
     </message>
     <message>
         <source>is cut short or damaged; copy or export it again</source>
@@ -4822,8 +4882,8 @@
         <translation>beschreibt ihre Frames in mehr als 512 MB; exportieren Sie weniger ihrer Segmente auf einmal</translation>
     </message>
     <message>
-        <source>describes another number of frames (%1) than it states; export the segmentation again</source>
-        <translation>beschreibt eine andere Zahl von Frames (%1), als sie nennt; exportieren Sie die Segmentierung neu</translation>
+        <source>describes another number of frames (%#1) than it states; export the segmentation again</source>
+        <translation>beschreibt eine andere Zahl von Frames (%#1), als sie nennt; exportieren Sie die Segmentierung neu</translation>
     </message>
     <message>
         <source>holds fractions (occupancy): voxels of 50 % and more were taken as the structure</source>
@@ -4874,36 +4934,36 @@
         <translation>hat Konturen einer Struktur, die sie nicht beschreibt; exportieren Sie sie neu</translation>
     </message>
     <message>
-        <source>'%1': %2 contour that is there twice in one plane was taken once</source>
-        <translation>„%1“: %2 Kontur, die in einer Ebene zweimal da ist, wurde einmal genommen</translation>
+        <source>'%1': %#2 contour that is there twice in one plane was taken once</source>
+        <translation>„%1“: %#2 Kontur, die in einer Ebene zweimal da ist, wurde einmal genommen</translation>
     </message>
     <message>
-        <source>'%1': %2 contours that are there twice in one plane were taken once</source>
-        <translation>„%1“: %2 Konturen, die in einer Ebene zweimal da sind, wurden einmal genommen</translation>
+        <source>'%1': %#2 contours that are there twice in one plane were taken once</source>
+        <translation>„%1“: %#2 Konturen, die in einer Ebene zweimal da sind, wurden einmal genommen</translation>
     </message>
     <message>
-        <source>'%1' has contours that lie closely within each other in %2 plane, where next to nothing is left between them (were they drawn twice?)</source>
-        <translation>„%1“ hat in %2 Ebene Konturen, die eng ineinander liegen und fast nichts zwischen sich lassen (wurden sie zweimal gezeichnet?)</translation>
+        <source>'%1' has contours that lie closely within each other in %#2 plane, where next to nothing is left between them (were they drawn twice?)</source>
+        <translation>„%1“ hat in %#2 Ebene Konturen, die eng ineinander liegen und fast nichts zwischen sich lassen (wurden sie zweimal gezeichnet?)</translation>
     </message>
     <message>
-        <source>'%1' has contours that lie closely within each other in %2 planes, where next to nothing is left between them (were they drawn twice?)</source>
-        <translation>„%1“ hat in %2 Ebenen Konturen, die eng ineinander liegen und fast nichts zwischen sich lassen (wurden sie zweimal gezeichnet?)</translation>
+        <source>'%1' has contours that lie closely within each other in %#2 planes, where next to nothing is left between them (were they drawn twice?)</source>
+        <translation>„%1“ hat in %#2 Ebenen Konturen, die eng ineinander liegen und fast nichts zwischen sich lassen (wurden sie zweimal gezeichnet?)</translation>
     </message>
     <message>
-        <source>'%1': %2 % of it lies outside this image and became no voxels</source>
-        <translation>„%1“: %2 % davon liegen außerhalb dieses Bildes und wurden keine Voxel</translation>
+        <source>'%1': %#2 % of it lies outside this image and became no voxels</source>
+        <translation>„%1“: %#2 % davon liegen außerhalb dieses Bildes und wurden keine Voxel</translation>
     </message>
     <message>
-        <source>'%1' has %2 contour smaller than a voxel, which became one voxel each</source>
-        <translation>„%1“ hat %2 Kontur, kleiner als ein Voxel, die je ein Voxel wurde</translation>
+        <source>'%1' has %#2 contour smaller than a voxel, which became one voxel each</source>
+        <translation>„%1“ hat %#2 Kontur, kleiner als ein Voxel, die je ein Voxel wurde</translation>
     </message>
     <message>
-        <source>'%1' has %2 contours smaller than a voxel, which became one voxel each</source>
-        <translation>„%1“ hat %2 Konturen, kleiner als ein Voxel, die je ein Voxel wurden</translation>
+        <source>'%1' has %#2 contours smaller than a voxel, which became one voxel each</source>
+        <translation>„%1“ hat %#2 Konturen, kleiner als ein Voxel, die je ein Voxel wurden</translation>
     </message>
     <message>
-        <source>'%1' is thinner than the voxels: those that it became lie on average %2 % within its contours and are scattered; its volume is right, its shape is not</source>
-        <translation>„%1“ ist dünner als die Voxel: Die daraus gewordenen liegen im Mittel zu %2 % in den Konturen und sind verstreut; das Volumen stimmt, die Form nicht</translation>
+        <source>'%1' is thinner than the voxels: those that it became lie on average %#2 % within its contours and are scattered; its volume is right, its shape is not</source>
+        <translation>„%1“ ist dünner als die Voxel: Die daraus gewordenen liegen im Mittel zu %#2 % in den Konturen und sind verstreut; das Volumen stimmt, die Form nicht</translation>
     </message>
     <message>
         <source>its structures overlap in more layers than are read; export fewer of them at a time</source>
@@ -4930,19 +4990,19 @@
         <translation>%~1: Konturen einer Ebene kreuzen einander; was zwei davon umschließen, gilt als außen, wie in einer inneren Kontur</translation>
     </message>
     <message>
-        <source>%1 point or open contour encloses nothing and became no voxels</source>
-        <translation>%1 Punkt oder offene Kontur umschließt nichts und wurde zu keinem Voxel</translation>
+        <source>%#1 point or open contour encloses nothing and became no voxels</source>
+        <translation>%#1 Punkt oder offene Kontur umschließt nichts und wurde zu keinem Voxel</translation>
     </message>
     <message>
-        <source>%1 points and open contours enclose nothing and became no voxels</source>
-        <translation>%1 Punkte und offene Konturen umschließen nichts und wurden zu keinem Voxel</translation>
+        <source>%#1 points and open contours enclose nothing and became no voxels</source>
+        <translation>%#1 Punkte und offene Konturen umschließen nichts und wurden zu keinem Voxel</translation>
     </message>
 </context>
 <context>
     <name>Library</name>
     <message>
-        <source>'%1' holds more than %2 values</source>
-        <translation>„%1“ enthält mehr als %2 Werte</translation>
+        <source>'%1' holds more than %#2 values</source>
+        <translation>„%1“ enthält mehr als %#2 Werte</translation>
     </message>
     <message>
         <source>its threshold of bone is no intensity</source>
@@ -5029,8 +5089,8 @@
         <translation>ein Objekt</translation>
     </message>
     <message>
-        <source>%1: the case needs %2 MB, %3 MB are free; nothing was restored; free some space</source>
-        <translation>%1: Der Fall braucht %2 MB, %3 MB sind frei; nichts wurde wiederhergestellt; schaffen Sie Platz</translation>
+        <source>%1: the case needs %#2 MB, %#3 MB are free; nothing was restored; free some space</source>
+        <translation>%1: Der Fall braucht %#2 MB, %#3 MB sind frei; nichts wurde wiederhergestellt; schaffen Sie Platz</translation>
     </message>
     <message>
         <source>%~1 does not lie where its voxels say</source>
@@ -5197,12 +5257,12 @@
         <translation>die Notiz geht mit, wie sie eingegeben wurde; sehen Sie nach, dass sie niemanden nennt</translation>
     </message>
     <message>
-        <source>%1 note on the import names what the case does not have, or calls otherwise by now, and stays in this library</source>
-        <translation>%1 Vermerk vom Import nennt, was der Fall nicht hat oder inzwischen anders nennt, und bleibt in dieser Bibliothek</translation>
+        <source>%#1 note on the import names what the case does not have, or calls otherwise by now, and stays in this library</source>
+        <translation>%#1 Vermerk vom Import nennt, was der Fall nicht hat oder inzwischen anders nennt, und bleibt in dieser Bibliothek</translation>
     </message>
     <message>
-        <source>%1 notes on the import name what the case does not have, or calls otherwise by now, and stay in this library</source>
-        <translation>%1 Vermerke vom Import nennen, was der Fall nicht hat oder inzwischen anders nennt, und bleiben in dieser Bibliothek</translation>
+        <source>%#1 notes on the import name what the case does not have, or calls otherwise by now, and stay in this library</source>
+        <translation>%#1 Vermerke vom Import nennen, was der Fall nicht hat oder inzwischen anders nennt, und bleiben in dieser Bibliothek</translation>
     </message>
     <message>
         <source>%~1 of case '%2'</source>
@@ -5253,8 +5313,8 @@
         <translation>sie hat mehr Einträge, als ein Fall haben kann</translation>
     </message>
     <message>
-        <source>entry %1</source>
-        <translation>Eintrag %1</translation>
+        <source>entry %#1</source>
+        <translation>Eintrag %#1</translation>
     </message>
     <message>
         <source>%1 is not described completely</source>
@@ -5293,8 +5353,8 @@
         <translation>„%1“ hat nicht die genannte Größe</translation>
     </message>
     <message>
-        <source>and %1 more structures</source>
-        <translation>und %1 weitere Strukturen</translation>
+        <source>and %#1 more structures</source>
+        <translation>und %#1 weitere Strukturen</translation>
     </message>
     <message>
         <source>structure %1 of case '%2'</source>
@@ -5325,8 +5385,8 @@
         <translation>%1: ist nicht, was dieses Programm schrieb; stellen Sie sie aus einer Kopie wieder her, oder entfernen Sie sie (vom Bezugssystem eines neuen Bildes ist dann nicht bekannt, ob es das älterer ist)</translation>
     </message>
     <message>
-        <source>labels %1 %2</source>
-        <translation>Labels %1 %2</translation>
+        <source>labels %#1 %2</source>
+        <translation>Labels %#1 %2</translation>
     </message>
     <message>
         <source>listing the cases</source>
@@ -5361,24 +5421,24 @@
         <translation>ein Fall „%1“ ist schon in %2; wählen Sie einen anderen Namen als „%3“, den nur Großbuchstaben unterscheiden</translation>
     </message>
     <message>
-        <source>stroke %1 of case '%2'</source>
-        <translation>Bohrzug %1 des Falls „%2“</translation>
+        <source>stroke %#1 of case '%2'</source>
+        <translation>Bohrzug %#1 des Falls „%2“</translation>
     </message>
     <message>
-        <source>%~1; or go back to before it, which loses nothing: petrous undo '%2' %3</source>
-        <translation>%~1; oder nehmen Sie die Bohrzüge ab ihm zurück, wobei nichts verloren geht (Fall „%2“, %3)</translation>
+        <source>%~1; or go back to before it, which loses nothing: petrous undo '%2' %#3</source>
+        <translation>%~1; oder nehmen Sie die Bohrzüge ab ihm zurück, wobei nichts verloren geht (Fall „%2“, %#3)</translation>
     </message>
     <message>
         <source>checking structures</source>
         <translation>Strukturen werden geprüft</translation>
     </message>
     <message>
-        <source>%~1; %2 more is missing or damaged</source>
-        <translation>%~1; %2 weiteres fehlt oder ist beschädigt</translation>
+        <source>%~1; %#2 more is missing or damaged</source>
+        <translation>%~1; %#2 weiteres fehlt oder ist beschädigt</translation>
     </message>
     <message>
-        <source>%~1; %2 more are missing or damaged</source>
-        <translation>%~1; %2 weitere fehlen oder sind beschädigt</translation>
+        <source>%~1; %#2 more are missing or damaged</source>
+        <translation>%~1; %#2 weitere fehlen oder sind beschädigt</translation>
     </message>
     <message>
         <source>leaving %~1 %2</source>
@@ -5425,8 +5485,8 @@
         <translation>der Fall „%1“ wurde inzwischen von einem anderen Programm geändert; das Gebohrte kam hinzu, auf dem Zugang „%2“</translation>
     </message>
     <message>
-        <source>%1 drilled %2</source>
-        <translation>%1 gebohrt %2</translation>
+        <source>%1 drilled %#2</source>
+        <translation>%1 gebohrt %#2</translation>
     </message>
     <message>
         <source>case '%1' was removed or changed by another program meanwhile so that what was drilled does not fit; it was saved as case '%2'</source>
@@ -5525,8 +5585,8 @@
         <translation>entfernt wird, was kein Fall braucht</translation>
     </message>
     <message>
-        <source>the index holds %1 of %2 cases</source>
-        <translation>das Verzeichnis enthält %1 von %2 Fällen</translation>
+        <source>the index holds %#1 of %#2 cases</source>
+        <translation>das Verzeichnis enthält %#1 von %#2 Fällen</translation>
     </message>
     <message>
         <source>%1: cannot be read (%~2); give the library's folder and check its permissions</source>
@@ -5557,8 +5617,8 @@
         <translation>%1: enthält keine DICOM-Datei, die sich de-identifizieren lässt; die erste %2</translation>
     </message>
     <message>
-        <source>de-identifying %1 of %2 files</source>
-        <translation>%1 von %2 Dateien werden de-identifiziert</translation>
+        <source>de-identifying %#1 of %#2 files</source>
+        <translation>%#1 von %#2 Dateien werden de-identifiziert</translation>
     </message>
     <message>
         <source>kept: block of safe private attributes</source>
@@ -5809,8 +5869,8 @@
         <translation>%1: ist in einem anderen Programm offen; versuchen Sie es noch einmal, wenn es beendet ist</translation>
     </message>
     <message>
-        <source>there is not enough memory to open the pseudonym map (Argon2id needs %1 MiB)</source>
-        <translation>der Speicher reicht nicht, um die Pseudonymtabelle zu öffnen (Argon2id braucht %1 MiB)</translation>
+        <source>there is not enough memory to open the pseudonym map (Argon2id needs %#1 MiB)</source>
+        <translation>der Speicher reicht nicht, um die Pseudonymtabelle zu öffnen (Argon2id braucht %#1 MiB)</translation>
     </message>
     <message>
         <source>is not a pseudonym map of Petrous, or damaged</source>
@@ -5849,12 +5909,12 @@
         <translation>%1: ist keine gewöhnliche Datei; entfernen Sie sie</translation>
     </message>
     <message>
-        <source>the first %1 s of a stroke that was being drilled</source>
-        <translation>die ersten %1 s eines Bohrzugs, der gerade lief</translation>
+        <source>the first %#1 s of a stroke that was being drilled</source>
+        <translation>die ersten %#1 s eines Bohrzugs, der gerade lief</translation>
     </message>
     <message>
-        <source>and the first %1 s of a stroke that was being drilled</source>
-        <translation>und die ersten %1 s eines Bohrzugs, der gerade lief</translation>
+        <source>and the first %#1 s of a stroke that was being drilled</source>
+        <translation>und die ersten %#1 s eines Bohrzugs, der gerade lief</translation>
     </message>
     <message>
         <source>the place in the history</source>
@@ -5873,8 +5933,8 @@
         <translation>%~1; es wurde als %2 beiseitegelegt</translation>
     </message>
     <message>
-        <source>written by format %1; this program reads up to %2</source>
-        <translation>im Format %1 geschrieben; dieses Programm liest bis %2</translation>
+        <source>written by format %#1; this program reads up to %#2</source>
+        <translation>im Format %#1 geschrieben; dieses Programm liest bis %#2</translation>
     </message>
     <message>
         <source>the journal of a session that ended without saving cannot be read</source>
@@ -5909,8 +5969,8 @@
         <translation>Video</translation>
     </message>
     <message>
-        <source>%1: is larger than the %2 MB that can be attached%~3</source>
-        <translation>%1: ist größer als die %2 MB, die sich anhängen lassen%~3</translation>
+        <source>%1: is larger than the %#2 MB that can be attached%~3</source>
+        <translation>%1: ist größer als die %#2 MB, die sich anhängen lassen%~3</translation>
     </message>
     <message>
         <source>link it (--link)</source>
@@ -6049,8 +6109,8 @@
         <translation>das Vorschaubild ist, wie es war</translation>
     </message>
     <message>
-        <source>thumbnail: must be a PNG of %1 x %2 pixels, RGB, without metadata</source>
-        <translation>Vorschaubild: muss ein PNG von %1 x %2 Pixeln sein, RGB, ohne Metadaten</translation>
+        <source>thumbnail: must be a PNG of %#1 x %#2 pixels, RGB, without metadata</source>
+        <translation>Vorschaubild: muss ein PNG von %#1 x %#2 Pixeln sein, RGB, ohne Metadaten</translation>
     </message>
     <message>
         <source>case '%1' is of a first version of this program and has no id, by which a thumbnail goes; a copy of it has ('petrous library copy')</source>
@@ -6144,8 +6204,8 @@
         <translation>er spricht kein TLS ab 1.2 mit erlaubter Chiffre (BCP 195)</translation>
     </message>
     <message>
-        <source>node '%1' (%2:%3)</source>
-        <translation>Knoten „%1“ (%2:%3)</translation>
+        <source>node '%1' (%2:%#3)</source>
+        <translation>Knoten „%1“ (%2:%#3)</translation>
     </message>
     <message>
         <source>%1: sends an instance of more than 4 GB; %2 was ended</source>
@@ -6160,12 +6220,12 @@
         <translation>%1: dort antwortet nichts; prüfen Sie Rechner, Port, Netz und Firewall</translation>
     </message>
     <message>
-        <source>%1: has not answered for %2 s; %3 was ended</source>
-        <translation>%1: antwortet seit %2 s nicht; %3 wurde beendet</translation>
+        <source>%1: has not answered for %#2 s; %3 was ended</source>
+        <translation>%1: antwortet seit %#2 s nicht; %3 wurde beendet</translation>
     </message>
     <message>
-        <source>%1: has not answered for %2 s; %3 was ended; is it a DICOM node, and not too busy?</source>
-        <translation>%1: antwortet seit %2 s nicht; %3 wurde beendet; ist es ein DICOM-Knoten, und nicht zu beschäftigt?</translation>
+        <source>%1: has not answered for %#2 s; %3 was ended; is it a DICOM node, and not too busy?</source>
+        <translation>%1: antwortet seit %#2 s nicht; %3 wurde beendet; ist es ein DICOM-Knoten, und nicht zu beschäftigt?</translation>
     </message>
     <message>
         <source>%1: the connection was lost during %2</source>
@@ -6224,8 +6284,8 @@
         <translation>er kann die Anfrage nicht bearbeiten%~1</translation>
     </message>
     <message>
-        <source>%1: answers a query more than %2 times; narrow the search</source>
-        <translation>%1: beantwortet eine Abfrage mehr als %2-mal; engen Sie die Suche ein</translation>
+        <source>%1: answers a query more than %#2 times; narrow the search</source>
+        <translation>%1: beantwortet eine Abfrage mehr als %#2-mal; engen Sie die Suche ein</translation>
     </message>
     <message>
         <source>the query</source>
@@ -6268,8 +6328,8 @@
         <translation>%1: C-MOVE mit TLS braucht ein Zertifikat dieses Programms; siehe Bibliothek &gt; DICOM-Knoten</translation>
     </message>
     <message>
-        <source>%1: this program cannot listen at port %2 for C-MOVE; is it in use, or below 1024?</source>
-        <translation>%1: dieses Programm kann am Port %2 nicht auf C-MOVE warten; ist er belegt oder unter 1024?</translation>
+        <source>%1: this program cannot listen at port %#2 for C-MOVE; is it in use, or below 1024?</source>
+        <translation>%1: dieses Programm kann am Port %#2 nicht auf C-MOVE warten; ist er belegt oder unter 1024?</translation>
     </message>
     <message>
         <source>%1: nothing was received by C-MOVE: %~2</source>
@@ -6292,8 +6352,8 @@
         <translation>%1: bietet keinen Abruf (C-GET oder C-MOVE)</translation>
     </message>
     <message>
-        <source>%1: ended the retrieval, %2 of %~3 arrived: %~4</source>
-        <translation>%1: beendete den Abruf, %2 von %~3 kamen an: %~4</translation>
+        <source>%1: ended the retrieval, %#2 of %~3 arrived: %~4</source>
+        <translation>%1: beendete den Abruf, %#2 von %~3 kamen an: %~4</translation>
     </message>
     <message>
         <source>waiting for the node's list</source>
@@ -6360,16 +6420,16 @@
         <translation>%1: hat die SOP Instance UID einer anderen Datei</translation>
     </message>
     <message>
-        <source>%~1; %2 of %~3 were confirmed</source>
-        <translation>%~1; %2 von %~3 wurden bestätigt</translation>
+        <source>%~1; %#2 of %~3 were confirmed</source>
+        <translation>%~1; %#2 von %~3 wurden bestätigt</translation>
     </message>
     <message>
-        <source>%1: has %2 of %~3 after %4 attempts: %~5</source>
-        <translation>%1: hat %2 von %~3 nach %4 Versuchen: %~5</translation>
+        <source>%1: has %#2 of %~3 after %#4 attempts: %~5</source>
+        <translation>%1: hat %#2 von %~3 nach %#4 Versuchen: %~5</translation>
     </message>
     <message>
-        <source>%1: has %2 of %~3 after %4 attempts, although it confirmed them</source>
-        <translation>%1: hat %2 von %~3 nach %4 Versuchen, obwohl er sie bestätigte</translation>
+        <source>%1: has %#2 of %~3 after %#4 attempts, although it confirmed them</source>
+        <translation>%1: hat %#2 von %~3 nach %#4 Versuchen, obwohl er sie bestätigte</translation>
     </message>
     <message>
         <source>%1: cannot be created</source>
@@ -6380,32 +6440,32 @@
         <translation>%1: hat keine solche Studie</translation>
     </message>
     <message>
-        <source>%1: does not have %2 of the series that were asked for</source>
-        <translation>%1: hat %2 der verlangten Serien nicht</translation>
+        <source>%1: does not have %#2 of the series that were asked for</source>
+        <translation>%1: hat %#2 der verlangten Serien nicht</translation>
     </message>
     <message>
         <source>%1: has no instances of that study</source>
         <translation>%1: hat keine Instanzen dieser Studie</translation>
     </message>
     <message>
-        <source>%1: states %~2 of what was asked for, but lists %3; it may still be receiving them, try again later</source>
-        <translation>%1: nennt %~2 des Verlangten, führt aber %3 auf; vielleicht empfängt er sie noch, versuchen Sie es später</translation>
+        <source>%1: states %~2 of what was asked for, but lists %#3; it may still be receiving them, try again later</source>
+        <translation>%1: nennt %~2 des Verlangten, führt aber %#3 auf; vielleicht empfängt er sie noch, versuchen Sie es später</translation>
     </message>
     <message>
-        <source>%~1; %2 of %~3 arrived</source>
-        <translation>%~1; %2 von %~3 kamen an</translation>
+        <source>%~1; %#2 of %~3 arrived</source>
+        <translation>%~1; %#2 von %~3 kamen an</translation>
     </message>
     <message>
-        <source>%1: sent %2 of %~3; the rest was asked for %4 times</source>
-        <translation>%1: sandte %2 von %~3; der Rest wurde %4-mal verlangt</translation>
+        <source>%1: sent %#2 of %~3; the rest was asked for %#4 times</source>
+        <translation>%1: sandte %#2 von %~3; der Rest wurde %#4-mal verlangt</translation>
     </message>
     <message>
         <source>%1: is not a list of DICOM nodes; remove it and add them again</source>
         <translation>%1: ist keine Liste von DICOM-Knoten; entfernen Sie sie, und fügen Sie die Knoten neu hinzu</translation>
     </message>
     <message>
-        <source>%1: written by format %2; this program reads up to %3</source>
-        <translation>%1: im Format %2 geschrieben; dieses Programm liest bis %3</translation>
+        <source>%1: written by format %#2; this program reads up to %#3</source>
+        <translation>%1: im Format %#2 geschrieben; dieses Programm liest bis %#3</translation>
     </message>
     <message>
         <source>no DICOM node '%1'; there is none, see 'petrous nodes add'</source>
@@ -6444,8 +6504,8 @@
         <translation>eines ist kein Teil einer Szene von Petrous, oder der Server behielt seine Daten nicht</translation>
     </message>
     <message>
-        <source>the scene's DICOM objects are of format %1; this program reads up to %2</source>
-        <translation>die DICOM-Objekte der Szene sind im Format %1; dieses Programm liest bis %2</translation>
+        <source>the scene's DICOM objects are of format %#1; this program reads up to %#2</source>
+        <translation>die DICOM-Objekte der Szene sind im Format %#1; dieses Programm liest bis %#2</translation>
     </message>
     <message>
         <source>one has a damaged head</source>
@@ -6464,8 +6524,8 @@
         <translation>die DICOM-Objekte der Szene lassen sich nicht erstellen</translation>
     </message>
     <message>
-        <source>%1 of %2 parts are there, or they are not of one scene</source>
-        <translation>%1 von %2 Teilen sind da, oder sie sind nicht aus einer Szene</translation>
+        <source>%#1 of %#2 parts are there, or they are not of one scene</source>
+        <translation>%#1 von %#2 Teilen sind da, oder sie sind nicht aus einer Szene</translation>
     </message>
     <message>
         <source>parts are missing</source>
@@ -6511,76 +6571,76 @@
         <translation>misslungen</translation>
     </message>
     <message>
-        <source>the images share too little: %1 of the smaller one's field</source>
-        <translation>die Bilder haben zu wenig gemeinsam: %1 vom Feld des kleineren</translation>
+        <source>the images share too little: %#1 of the smaller one's field</source>
+        <translation>die Bilder haben zu wenig gemeinsam: %#1 vom Feld des kleineren</translation>
     </message>
     <message>
-        <source>the images tell next to nothing about each other (%1 nats)</source>
-        <translation>die Bilder sagen fast nichts übereinander aus (%1 nat)</translation>
+        <source>the images tell next to nothing about each other (%#1 nats)</source>
+        <translation>die Bilder sagen fast nichts übereinander aus (%#1 nat)</translation>
     </message>
     <message>
-        <source>%1 of the repeated fits ended elsewhere</source>
-        <translation>%1 der wiederholten Anpassungen endeten anderswo</translation>
+        <source>%#1 of the repeated fits ended elsewhere</source>
+        <translation>%#1 der wiederholten Anpassungen endeten anderswo</translation>
     </message>
     <message>
         <source>the point lies outside one of the images: its error is extrapolated</source>
         <translation>der Punkt liegt außerhalb eines der Bilder: sein Fehler ist extrapoliert</translation>
     </message>
     <message>
-        <source>the moving image mirrored left to right fits as well (%1 times the score): wrong side, or a header with the sides exchanged?</source>
-        <translation>das bewegte Bild passt, links und rechts gespiegelt, ebenso gut (%1-faches Maß): falsche Seite, oder ein Header mit vertauschten Seiten?</translation>
+        <source>the moving image mirrored left to right fits as well (%#1 times the score): wrong side, or a header with the sides exchanged?</source>
+        <translation>das bewegte Bild passt, links und rechts gespiegelt, ebenso gut (%#1-faches Maß): falsche Seite, oder ein Header mit vertauschten Seiten?</translation>
     </message>
     <message>
-        <source>another pose fits nearly as well (%1 times the score)</source>
-        <translation>eine andere Lage passt fast ebenso gut (%1-faches Maß)</translation>
+        <source>another pose fits nearly as well (%#1 times the score)</source>
+        <translation>eine andere Lage passt fast ebenso gut (%#1-faches Maß)</translation>
     </message>
     <message>
-        <source>the error may reach %1 mm</source>
-        <translation>der Fehler kann %1 mm erreichen</translation>
+        <source>the error may reach %#1 mm</source>
+        <translation>der Fehler kann %#1 mm erreichen</translation>
     </message>
     <message>
-        <source>what lies within %1 mm of the point fits %2 mm beside the rest: it is displaced or the images are distorted there, and the error counts from where it lies</source>
-        <translation>was innerhalb von %1 mm um den Punkt liegt, passt %2 mm neben dem Rest: Es ist verschoben, oder die Bilder sind dort verzerrt, und der Fehler zählt von dort, wo es liegt</translation>
+        <source>what lies within %#1 mm of the point fits %#2 mm beside the rest: it is displaced or the images are distorted there, and the error counts from where it lies</source>
+        <translation>was innerhalb von %#1 mm um den Punkt liegt, passt %#2 mm neben dem Rest: Es ist verschoben, oder die Bilder sind dort verzerrt, und der Fehler zählt von dort, wo es liegt</translation>
     </message>
     <message>
-        <source>what lies about the point alone fits %1 mm beside: the images differ by more than a rigid motion</source>
-        <translation>was um den Punkt liegt, passt allein %1 mm daneben: Die Bilder unterscheiden sich um mehr als eine starre Bewegung</translation>
+        <source>what lies about the point alone fits %#1 mm beside: the images differ by more than a rigid motion</source>
+        <translation>was um den Punkt liegt, passt allein %#1 mm daneben: Die Bilder unterscheiden sich um mehr als eine starre Bewegung</translation>
     </message>
     <message>
-        <source>the fit ended %1 mm from where it began: %~2</source>
-        <translation>die Anpassung endete %1 mm von ihrem Anfang: %~2</translation>
+        <source>the fit ended %#1 mm from where it began: %~2</source>
+        <translation>die Anpassung endete %#1 mm von ihrem Anfang: %~2</translation>
     </message>
     <message>
-        <source>repeated fits agree; 95 of 100 errors are below %1 mm</source>
-        <translation>wiederholte Anpassungen stimmen überein; 95 von 100 Fehlern liegen unter %1 mm</translation>
+        <source>repeated fits agree; 95 of 100 errors are below %#1 mm</source>
+        <translation>wiederholte Anpassungen stimmen überein; 95 von 100 Fehlern liegen unter %#1 mm</translation>
     </message>
     <message>
         <source>coarse search</source>
         <translation>Grobsuche</translation>
     </message>
     <message>
-        <source>landmarks: %1 pair; a rigid fit needs three</source>
-        <translation>Landmarken: %1 Paar; eine starre Anpassung braucht drei</translation>
+        <source>landmarks: %#1 pair; a rigid fit needs three</source>
+        <translation>Landmarken: %#1 Paar; eine starre Anpassung braucht drei</translation>
     </message>
     <message>
-        <source>landmarks: %1 pairs; a rigid fit needs three</source>
-        <translation>Landmarken: %1 Paare; eine starre Anpassung braucht drei</translation>
+        <source>landmarks: %#1 pairs; a rigid fit needs three</source>
+        <translation>Landmarken: %#1 Paare; eine starre Anpassung braucht drei</translation>
     </message>
     <message>
-        <source>landmarks: pair %1 has a coordinate that is not a number</source>
-        <translation>Landmarken: Paar %1 hat eine Koordinate, die keine Zahl ist</translation>
+        <source>landmarks: pair %#1 has a coordinate that is not a number</source>
+        <translation>Landmarken: Paar %#1 hat eine Koordinate, die keine Zahl ist</translation>
     </message>
     <message>
         <source>landmarks: the points lie on one line within 1 mm; add one that does not</source>
         <translation>Landmarken: die Punkte liegen auf 1 mm genau auf einer Linie; fügen Sie einen hinzu, der es nicht tut</translation>
     </message>
     <message>
-        <source>still: %1 landmarks; four are needed</source>
-        <translation>Standbild: %1 Landmarken; vier sind nötig</translation>
+        <source>still: %#1 landmarks; four are needed</source>
+        <translation>Standbild: %#1 Landmarken; vier sind nötig</translation>
     </message>
     <message>
-        <source>still: %1 landmarks; six are needed to find the angle of view too, four if it is given</source>
-        <translation>Standbild: %1 Landmarken; sechs sind nötig, um auch den Bildwinkel zu finden, vier, wenn er gegeben ist</translation>
+        <source>still: %#1 landmarks; six are needed to find the angle of view too, four if it is given</source>
+        <translation>Standbild: %#1 Landmarken; sechs sind nötig, um auch den Bildwinkel zu finden, vier, wenn er gegeben ist</translation>
     </message>
     <message>
         <source>still: it has no pixels</source>
@@ -6591,8 +6651,8 @@
         <translation>Standbild: der Bildwinkel muss in 0.5 bis 120 Grad liegen</translation>
     </message>
     <message>
-        <source>still: landmark %1 has a coordinate that is not a number</source>
-        <translation>Standbild: Landmarke %1 hat eine Koordinate, die keine Zahl ist</translation>
+        <source>still: landmark %#1 has a coordinate that is not a number</source>
+        <translation>Standbild: Landmarke %#1 hat eine Koordinate, die keine Zahl ist</translation>
     </message>
     <message>
         <source>still: the landmarks lie on one line within 1 mm; add one that does not</source>
@@ -6634,16 +6694,16 @@
         <translation>ohne Bildschirm lässt sich nicht zeichnen: der Treiber bietet weniger als OpenGL 3.2 (Debian: apt install libegl1 libgl1-mesa-dri)</translation>
     </message>
     <message>
-        <source>the graphics driver has no room for a texture of %1 x %2 x %3 (OpenGL error %4)</source>
-        <translation>der Grafiktreiber hat keinen Platz für eine Textur von %1 x %2 x %3 (OpenGL-Fehler %4)</translation>
+        <source>the graphics driver has no room for a texture of %#1 x %#2 x %#3 (OpenGL error %#4)</source>
+        <translation>der Grafiktreiber hat keinen Platz für eine Textur von %#1 x %#2 x %#3 (OpenGL-Fehler %#4)</translation>
     </message>
     <message>
-        <source>a picture of %1 x %2 pixels; 1 to %3 are possible</source>
-        <translation>ein Bild von %1 x %2 Pixeln; möglich sind 1 bis %3</translation>
+        <source>a picture of %#1 x %#2 pixels; 1 to %#3 are possible</source>
+        <translation>ein Bild von %#1 x %#2 Pixeln; möglich sind 1 bis %#3</translation>
     </message>
     <message>
-        <source>a picture of %1 x %2 pixels; %3 draws up to %4</source>
-        <translation>ein Bild von %1 x %2 Pixeln; %3 zeichnet bis %4</translation>
+        <source>a picture of %#1 x %#2 pixels; %3 draws up to %#4</source>
+        <translation>ein Bild von %#1 x %#2 Pixeln; %3 zeichnet bis %#4</translation>
     </message>
     <message>
         <source>%1 gave no picture back</source>
@@ -6654,16 +6714,16 @@
         <translation>%1: lässt sich nicht schreiben: %~2</translation>
     </message>
     <message>
-        <source>%1: a picture of %2 x %3 pixels with %4 values cannot be written</source>
-        <translation>%1: ein Bild von %2 x %3 Pixeln mit %4 Werten lässt sich nicht schreiben</translation>
+        <source>%1: a picture of %#2 x %#3 pixels with %#4 values cannot be written</source>
+        <translation>%1: ein Bild von %#2 x %#3 Pixeln mit %#4 Werten lässt sich nicht schreiben</translation>
     </message>
     <message>
         <source>the picture could not be encoded</source>
         <translation>das Bild ließ sich nicht kodieren</translation>
     </message>
     <message>
-        <source>a picture of %1 x %2 pixels: %3 to %4 are possible</source>
-        <translation>ein Bild von %1 x %2 Pixeln: möglich sind %3 bis %4</translation>
+        <source>a picture of %#1 x %#2 pixels: %#3 to %#4 are possible</source>
+        <translation>ein Bild von %#1 x %#2 Pixeln: möglich sind %#3 bis %#4</translation>
     </message>
     <message>
         <source>drawing the picture</source>
@@ -6681,8 +6741,8 @@
 <context>
     <name>Scene</name>
     <message>
-        <source>MR '%1' cannot be registered so: the CT's middle would lie %2 mm outside it, and at most %3 mm are taken; check unit and decimal point of the transform</source>
-        <translation>das MR „%1“ lässt sich so nicht registrieren: die Mitte des CT läge %2 mm außerhalb, und höchstens %3 mm werden angenommen; prüfen Sie Einheit und Dezimalpunkt der Transformation</translation>
+        <source>MR '%1' cannot be registered so: the CT's middle would lie %#2 mm outside it, and at most %#3 mm are taken; check unit and decimal point of the transform</source>
+        <translation>das MR „%1“ lässt sich so nicht registrieren: die Mitte des CT läge %#2 mm außerhalb, und höchstens %#3 mm werden angenommen; prüfen Sie Einheit und Dezimalpunkt der Transformation</translation>
     </message>
     <message>
         <source>MR '%1' cannot lie on the CT through '%2', which lies there through '%3'</source>
@@ -6706,11 +6766,11 @@
     </message>
     <message>
         <source>registered by %~1, %~2</source>
-        <translation>registriert durch %~1, %~2</translation>
+        <translation>registriert: %~1, %~2</translation>
     </message>
     <message>
-        <source>error %1 mm (p95) at %2</source>
-        <translation>Fehler %1 mm (p95) an %2</translation>
+        <source>error %#1 mm (p95) at %2</source>
+        <translation>Fehler %#1 mm (p95) an %2</translation>
     </message>
     <message>
         <source>its error unknown</source>
@@ -6765,8 +6825,8 @@
         <translation>eine Anlage muss eine Aufzeichnung, ein Bildschirmfoto, ein Video oder ein Dokument sein</translation>
     </message>
     <message>
-        <source>a case has at most %1</source>
-        <translation>ein Fall hat höchstens %1</translation>
+        <source>a case has at most %#1</source>
+        <translation>ein Fall hat höchstens %#1</translation>
     </message>
     <message>
         <source>two have one name</source>
@@ -6781,8 +6841,8 @@
         <translation>eine Verknüpfung muss den SHA-256 ihrer Datei haben</translation>
     </message>
     <message>
-        <source>branch '%1' has %2 strokes, not %3</source>
-        <translation>der Zugang „%1“ hat %2 Bohrzüge, nicht %3</translation>
+        <source>branch '%1' has %#2 strokes, not %#3</source>
+        <translation>der Zugang „%1“ hat %#2 Bohrzüge, nicht %#3</translation>
     </message>
     <message>
         <source>'%1' is in the case already; take another name than '%2', which reads the same</source>
@@ -6825,8 +6885,8 @@
         <translation>%~1: ist kein UTF-8; geben Sie es neu ein</translation>
     </message>
     <message>
-        <source>%~1: must have 1 to 100 bytes, not %2</source>
-        <translation>%~1: muss 1 bis 100 Byte haben, nicht %2</translation>
+        <source>%~1: must have 1 to 100 bytes, not %#2</source>
+        <translation>%~1: muss 1 bis 100 Byte haben, nicht %#2</translation>
     </message>
     <message>
         <source>%~1: must have no control characters, nor characters that are not seen (zero-width spaces, marks of direction); type it anew</source>
@@ -6849,8 +6909,8 @@
         <translation>fester Anteil</translation>
     </message>
     <message>
-        <source>case '%1': %2 structures are to be drawn; at most %3 can be, hide the others</source>
-        <translation>Fall „%1“: %2 Strukturen sollen gezeichnet werden; höchstens %3 sind möglich, blenden Sie die anderen aus</translation>
+        <source>case '%1': %#2 structures are to be drawn; at most %#3 can be, hide the others</source>
+        <translation>Fall „%1“: %#2 Strukturen sollen gezeichnet werden; höchstens %#3 sind möglich, blenden Sie die anderen aus</translation>
     </message>
     <message>
         <source>label field</source>
@@ -6873,8 +6933,8 @@
         <translation>Struktur „%1“: es gibt kein Material „%2“; geben Sie ein anderes („Der Bohrer trifft“ im Menü der Liste, F9)</translation>
     </message>
     <message>
-        <source>%~1: must have at most %2 bytes, not %3</source>
-        <translation>%~1: darf höchstens %2 Byte haben, nicht %3</translation>
+        <source>%~1: must have at most %#2 bytes, not %#3</source>
+        <translation>%~1: darf höchstens %#2 Byte haben, nicht %#3</translation>
     </message>
     <message>
         <source>%~1: must have no control characters, and be one line</source>
@@ -6893,8 +6953,8 @@
         <translation>%~1: darf nicht mit einem Leerzeichen beginnen oder enden</translation>
     </message>
     <message>
-        <source>tags: a case has at most %1, not %2</source>
-        <translation>Schlagwörter: ein Fall hat höchstens %1, nicht %2</translation>
+        <source>tags: a case has at most %#1, not %#2</source>
+        <translation>Schlagwörter: ein Fall hat höchstens %#1, nicht %#2</translation>
     </message>
     <message>
         <source>tag: must not be empty</source>
@@ -6933,12 +6993,12 @@
         <translation>was gebohrt wurde</translation>
     </message>
     <message>
-        <source>%1: %2 % of the face's skin would stay, as %~3 lies there and is kept with %4 mm around it; remove it from a copy of the case first</source>
-        <translation>%1: %2 % der Gesichtshaut blieben, da %~3 dort liegt und mit %4 mm Umgebung bleibt; entfernen Sie es erst aus einer Kopie des Falls</translation>
+        <source>%1: %#2 % of the face's skin would stay, as %~3 lies there and is kept with %#4 mm around it; remove it from a copy of the case first</source>
+        <translation>%1: %#2 % der Gesichtshaut blieben, da %~3 dort liegt und mit %#4 mm Umgebung bleibt; entfernen Sie es erst aus einer Kopie des Falls</translation>
     </message>
     <message>
-        <source>%1: %~2 with %3 mm around lies in the masked part and stays, %4 voxels</source>
-        <translation>%1: %~2 mit %3 mm Umgebung liegt im maskierten Teil und bleibt, %4 Voxel</translation>
+        <source>%1: %~2 with %#3 mm around lies in the masked part and stays, %#4 voxels</source>
+        <translation>%1: %~2 mit %#3 mm Umgebung liegt im maskierten Teil und bleibt, %#4 Voxel</translation>
     </message>
     <message>
         <source>%1: %~2; it cannot be masked. Leave the image out, or hand on the region of the ear alone (--roi)</source>
@@ -6949,24 +7009,24 @@
         <translation>%1: das Gesicht ist schon maskiert, nicht aber die Ohrmuscheln, die danach gefunden werden; maskieren Sie beides im ursprünglichen Bild</translation>
     </message>
     <message>
-        <source>the face is masked to a plane %1 mm behind the tip of the nose, %2 mm or more below its skin (median %3 mm), with the auricles</source>
-        <translation>das Gesicht ist maskiert bis zu einer Ebene %1 mm hinter der Nasenspitze, %2 mm oder mehr unter der Haut (Median %3 mm), mit den Ohrmuscheln</translation>
+        <source>the face is masked to a plane %#1 mm behind the tip of the nose, %#2 mm or more below its skin (median %#3 mm), with the auricles</source>
+        <translation>das Gesicht ist maskiert bis zu einer Ebene %#1 mm hinter der Nasenspitze, %#2 mm oder mehr unter der Haut (Median %#3 mm), mit den Ohrmuscheln</translation>
     </message>
     <message>
-        <source>the face is masked to a plane %1 mm behind the tip of the nose, %2 mm or more below its skin (median %3 mm)</source>
-        <translation>das Gesicht ist maskiert bis zu einer Ebene %1 mm hinter der Nasenspitze, %2 mm oder mehr unter der Haut (Median %3 mm)</translation>
+        <source>the face is masked to a plane %#1 mm behind the tip of the nose, %#2 mm or more below its skin (median %#3 mm)</source>
+        <translation>das Gesicht ist maskiert bis zu einer Ebene %#1 mm hinter der Nasenspitze, %#2 mm oder mehr unter der Haut (Median %#3 mm)</translation>
     </message>
     <message>
-        <source>%1: %2; %3 of its voxels changed</source>
-        <translation>%1: %2; %3 seiner Voxel geändert</translation>
+        <source>%1: %2; %#3 of its voxels changed</source>
+        <translation>%1: %2; %#3 seiner Voxel geändert</translation>
     </message>
     <message>
         <source>%1: %~2; it stays as it is</source>
         <translation>%1: %~2; es bleibt, wie es ist</translation>
     </message>
     <message>
-        <source>%1: all outside of the region is air; %2 of its voxels changed</source>
-        <translation>%1: alles außerhalb des Bereichs ist Luft; %2 seiner Voxel geändert</translation>
+        <source>%1: all outside of the region is air; %#2 of its voxels changed</source>
+        <translation>%1: alles außerhalb des Bereichs ist Luft; %#2 seiner Voxel geändert</translation>
     </message>
     <message>
         <source>the region has no voxel of the image; it is stated in patient LPS mm, as 'petrous info' states the image's origin</source>
@@ -7041,24 +7101,24 @@
         <translation>eine Messung muss Marke, Abstand, Länge, Winkel, Fläche oder Dicke sein</translation>
     </message>
     <message>
-        <source>a name must be 1 to %1 bytes of UTF-8 without control characters or characters that are not seen, and without blanks at its ends</source>
-        <translation>ein Name muss 1 bis %1 Byte UTF-8 sein, ohne Steuerzeichen oder unsichtbare Zeichen und ohne Leerzeichen an den Enden</translation>
+        <source>a name must be 1 to %#1 bytes of UTF-8 without control characters or characters that are not seen, and without blanks at its ends</source>
+        <translation>ein Name muss 1 bis %#1 Byte UTF-8 sein, ohne Steuerzeichen oder unsichtbare Zeichen und ohne Leerzeichen an den Enden</translation>
     </message>
     <message>
-        <source>of the kind %~1 it has %2 to %3 points, not %4</source>
-        <translation>von der Art %~1 hat sie %2 bis %3 Punkte, nicht %4</translation>
+        <source>of the kind %~1 it has %#2 to %#3 points, not %#4</source>
+        <translation>von der Art %~1 hat sie %#2 bis %#3 Punkte, nicht %#4</translation>
     </message>
     <message>
-        <source>of the kind %~1 it has %2 points, not %3</source>
-        <translation>von der Art %~1 hat sie %2 Punkte, nicht %3</translation>
+        <source>of the kind %~1 it has %#2 points, not %#3</source>
+        <translation>von der Art %~1 hat sie %#2 Punkte, nicht %#3</translation>
     </message>
     <message>
         <source>a coordinate must lie within 100 m</source>
         <translation>eine Koordinate muss innerhalb von 100 m liegen</translation>
     </message>
     <message>
-        <source>it has %1 points, but images of %2</source>
-        <translation>sie hat %1 Punkte, aber Bilder von %2</translation>
+        <source>it has %#1 points, but images of %#2</source>
+        <translation>sie hat %#1 Punkte, aber Bilder von %#2</translation>
     </message>
     <message>
         <source>case '%1' has no measurement '%2'; it has none</source>
@@ -7105,6 +7165,10 @@
         <translation>Registrierung: es gibt nicht %~1 „%2“</translation>
     </message>
     <message>
+        <source>hand</source>
+        <translation>von Hand</translation>
+    </message>
+    <message>
         <source>through '%1'</source>
         <translation>über „%1“</translation>
     </message>
@@ -7145,12 +7209,12 @@
         <translation>das MR über den Schichten braucht einen Namen, die Weise blend, edges oder checker und eine Deckkraft von 0 bis 1</translation>
     </message>
     <message>
-        <source>a name must be 1 to %1 bytes of UTF-8 without characters that are not seen and without spaces around it</source>
-        <translation>ein Name muss 1 bis %1 Byte UTF-8 sein, ohne unsichtbare Zeichen und ohne Leerzeichen an den Enden</translation>
+        <source>a name must be 1 to %#1 bytes of UTF-8 without characters that are not seen and without spaces around it</source>
+        <translation>ein Name muss 1 bis %#1 Byte UTF-8 sein, ohne unsichtbare Zeichen und ohne Leerzeichen an den Enden</translation>
     </message>
     <message>
-        <source>there are at most %1 saved views</source>
-        <translation>es gibt höchstens %1 gespeicherte Ansichten</translation>
+        <source>there are at most %#1 saved views</source>
+        <translation>es gibt höchstens %#1 gespeicherte Ansichten</translation>
     </message>
     <message>
         <source>the light's falloff must be 0 to 10000 mm, the wetness 0 to 1</source>
@@ -7165,8 +7229,8 @@
         <translation>die Augen müssen 0 bis 200 mm auseinander stehen und sich bei 1 bis 10000 mm treffen</translation>
     </message>
     <message>
-        <source>there are at most %1 clipping planes</source>
-        <translation>es gibt höchstens %1 Schnittebenen</translation>
+        <source>there are at most %#1 clipping planes</source>
+        <translation>es gibt höchstens %#1 Schnittebenen</translation>
     </message>
     <message>
         <source>the normal of a clipping plane must have length 1</source>
@@ -7184,8 +7248,8 @@
 <context>
     <name>Segmentation</name>
     <message>
-        <source>the seed at %1, %2, %3 mm lies outside the image; give a point inside the structure</source>
-        <translation>der Startpunkt bei %1, %2, %3 mm liegt außerhalb des Bildes; geben Sie einen Punkt in der Struktur</translation>
+        <source>the seed at %#1, %#2, %#3 mm lies outside the image; give a point inside the structure</source>
+        <translation>der Startpunkt bei %#1, %#2, %#3 mm liegt außerhalb des Bildes; geben Sie einen Punkt in der Struktur</translation>
     </message>
     <message>
         <source>threshold: the lower limit (%~1) is above the upper one (%~2); give them in ascending order</source>
@@ -7196,8 +7260,8 @@
         <translation>Bereich: geben Sie einen Punkt in der Struktur</translation>
     </message>
     <message>
-        <source>the image has %~1 at the seed (%2, %3, %4 mm), which is not between %5 and %~6; choose a point inside the structure, or other limits</source>
-        <translation>das Bild hat %~1 am Startpunkt (%2, %3, %4 mm), nicht zwischen %5 und %~6; wählen Sie einen Punkt in der Struktur oder andere Grenzen</translation>
+        <source>the image has %~1 at the seed (%#2, %#3, %#4 mm), which is not between %#5 and %~6; choose a point inside the structure, or other limits</source>
+        <translation>das Bild hat %~1 am Startpunkt (%#2, %#3, %#4 mm), nicht zwischen %#5 und %~6; wählen Sie einen Punkt in der Struktur oder andere Grenzen</translation>
     </message>
     <message>
         <source>region: give a number of standard deviations above 0</source>
@@ -7216,8 +7280,8 @@
         <translation>Wachsen: malen Sie einen Strich neben der Struktur, in dem, was nicht zu ihr gehört</translation>
     </message>
     <message>
-        <source>growing: the strokes span %1 million voxels, more than the %2 million possible; draw them closer to the structure</source>
-        <translation>Wachsen: die Striche umspannen %1 Millionen Voxel, mehr als die möglichen %2 Millionen; malen Sie sie näher an der Struktur</translation>
+        <source>growing: the strokes span %#1 million voxels, more than the %#2 million possible; draw them closer to the structure</source>
+        <translation>Wachsen: die Striche umspannen %#1 Millionen Voxel, mehr als die möglichen %#2 Millionen; malen Sie sie näher an der Struktur</translation>
     </message>
     <message>
         <source>growing: the image has no values around the strokes</source>
@@ -7260,8 +7324,8 @@
         <translation>%~1: die Gitter unterscheiden sich; nehmen Sie Masken und Bilder auf einem Gitter</translation>
     </message>
     <message>
-        <source>threshold: the lower limit (%1) is above the upper one (%2); give them in ascending order</source>
-        <translation>Schwelle: die untere Grenze (%1) liegt über der oberen (%2); geben Sie sie aufsteigend</translation>
+        <source>threshold: the lower limit (%#1) is above the upper one (%#2); give them in ascending order</source>
+        <translation>Schwelle: die untere Grenze (%#1) liegt über der oberen (%#2); geben Sie sie aufsteigend</translation>
     </message>
     <message>
         <source>Otsu: give 2 to 4 classes</source>
@@ -7332,8 +7396,8 @@
         <translation>Röhre wird verfolgt</translation>
     </message>
     <message>
-        <source>tube: point %1</source>
-        <translation>Röhre: Punkt %1</translation>
+        <source>tube: point %#1</source>
+        <translation>Röhre: Punkt %#1</translation>
     </message>
     <message>
         <source>tube: the radius %~1</source>
@@ -7356,12 +7420,12 @@
         <translation>Röhre: der Kontrast, ab dem eine Struktur als aufgelöst gilt, %~1</translation>
     </message>
     <message>
-        <source>tube: %1 point is given; it needs 2 to %2, typically 4 to 6 along the structure</source>
-        <translation>Röhre: %1 Punkt ist gegeben; nötig sind 2 bis %2, üblich 4 bis 6 entlang der Struktur</translation>
+        <source>tube: %#1 point is given; it needs 2 to %#2, typically 4 to 6 along the structure</source>
+        <translation>Röhre: %#1 Punkt ist gegeben; nötig sind 2 bis %#2, üblich 4 bis 6 entlang der Struktur</translation>
     </message>
     <message>
-        <source>tube: %1 points are given; it needs 2 to %2, typically 4 to 6 along the structure</source>
-        <translation>Röhre: %1 Punkte sind gegeben; nötig sind 2 bis %2, üblich 4 bis 6 entlang der Struktur</translation>
+        <source>tube: %#1 points are given; it needs 2 to %#2, typically 4 to 6 along the structure</source>
+        <translation>Röhre: %#1 Punkte sind gegeben; nötig sind 2 bis %#2, üblich 4 bis 6 entlang der Struktur</translation>
     </message>
     <message>
         <source>%~1 is not a position; three finite numbers are needed</source>
@@ -7372,12 +7436,12 @@
         <translation>%~1 liegt außerhalb des Bildes; setzen Sie ihn hinein</translation>
     </message>
     <message>
-        <source>%~1 is where point %2 is; move or remove one of them</source>
-        <translation>%~1 liegt auf Punkt %2; verschieben oder entfernen Sie einen von beiden</translation>
+        <source>%~1 is where point %#2 is; move or remove one of them</source>
+        <translation>%~1 liegt auf Punkt %#2; verschieben oder entfernen Sie einen von beiden</translation>
     </message>
     <message>
-        <source>%~1 is %2 mm from point %3; neighbouring points may be %4 mm apart: add points between them</source>
-        <translation>%~1 liegt %2 mm von Punkt %3; benachbarte Punkte dürfen %4 mm auseinander liegen: fügen Sie Punkte dazwischen ein</translation>
+        <source>%~1 is %#2 mm from point %#3; neighbouring points may be %#4 mm apart: add points between them</source>
+        <translation>%~1 liegt %#2 mm von Punkt %#3; benachbarte Punkte dürfen %#4 mm auseinander liegen: fügen Sie Punkte dazwischen ein</translation>
     </message>
 </context>
 <context>
@@ -7411,8 +7475,8 @@
         <translation>der Kopf ist abgeschnitten</translation>
     </message>
     <message>
-        <source>%1: written by format 1, which does not say what was cut; this program plays format %2: record it again</source>
-        <translation>%1: im Format 1 geschrieben, das nicht sagt, was geschnitten wurde; dieses Programm spielt das Format %2: zeichnen Sie neu auf</translation>
+        <source>%1: written by format 1, which does not say what was cut; this program plays format %#2: record it again</source>
+        <translation>%1: im Format 1 geschrieben, das nicht sagt, was geschnitten wurde; dieses Programm spielt das Format %#2: zeichnen Sie neu auf</translation>
     </message>
     <message>
         <source>its head is damaged</source>
@@ -7423,12 +7487,12 @@
         <translation>die Einrichtung darin ist beschädigt</translation>
     </message>
     <message>
-        <source>block %1</source>
-        <translation>Block %1</translation>
+        <source>block %#1</source>
+        <translation>Block %#1</translation>
     </message>
     <message>
-        <source>it should hold %1 ticks and holds %2</source>
-        <translation>sie sollte %1 Takte enthalten und enthält %2</translation>
+        <source>it should hold %#1 ticks and holds %#2</source>
+        <translation>sie sollte %#1 Takte enthalten und enthält %#2</translation>
     </message>
     <message>
         <source>something follows its end</source>
@@ -7439,24 +7503,24 @@
         <translation>%1 beginnt nicht wie einer</translation>
     </message>
     <message>
-        <source>%1 is damaged (from tick %2 on)</source>
-        <translation>%1 ist beschädigt (ab Takt %2)</translation>
+        <source>%1 is damaged (from tick %#2 on)</source>
+        <translation>%1 ist beschädigt (ab Takt %#2)</translation>
     </message>
     <message>
-        <source>%1: was not closed; read up to its last whole block, %2 ticks</source>
-        <translation>%1: wurde nicht geschlossen; gelesen bis zum letzten vollständigen Block, %2 Takte</translation>
+        <source>%1: was not closed; read up to its last whole block, %#2 ticks</source>
+        <translation>%1: wurde nicht geschlossen; gelesen bis zum letzten vollständigen Block, %#2 Takte</translation>
     </message>
     <message>
-        <source>the recording has a gap after %1 ticks; what follows cannot be played</source>
-        <translation>die Aufzeichnung hat nach %1 Takten eine Lücke; was folgt, lässt sich nicht abspielen</translation>
+        <source>the recording has a gap after %#1 ticks; what follows cannot be played</source>
+        <translation>die Aufzeichnung hat nach %#1 Takten eine Lücke; was folgt, lässt sich nicht abspielen</translation>
     </message>
     <message>
-        <source>the cut of state %1 of the mask, before tick %2</source>
-        <translation>der Schnitt des Standes %1 der Maske, vor Takt %2</translation>
+        <source>the cut of state %#1 of the mask, before tick %#2</source>
+        <translation>der Schnitt des Standes %#1 der Maske, vor Takt %#2</translation>
     </message>
     <message>
-        <source>%~1 burr %2 mm, %3 degrees of freedom</source>
-        <translation>Fräse %~1 %2 mm, %3 Freiheitsgrade</translation>
+        <source>%~1 burr %#2 mm, %#3 degrees of freedom</source>
+        <translation>Fräse %~1 %#2 mm, %#3 Freiheitsgrade</translation>
     </message>
     <message>
         <source>recording: %1 is not a finite number</source>
@@ -7626,12 +7690,12 @@
         <translation>es ist kein Kopf darin</translation>
     </message>
     <message>
-        <source>%~1 and %2 other</source>
-        <translation>%~1 und %2 weitere</translation>
+        <source>%~1 and %#2 other</source>
+        <translation>%~1 und %#2 weitere</translation>
     </message>
     <message>
-        <source>%~1 and %2 others</source>
-        <translation>%~1 und %2 weitere</translation>
+        <source>%~1 and %#2 others</source>
+        <translation>%~1 und %#2 weitere</translation>
     </message>
     <message>
         <source>borders of structures</source>
@@ -7674,8 +7738,8 @@
         <translation>Verkleinern: die Oberfläche hat keine Dreiecke</translation>
     </message>
     <message>
-        <source>decimation: the surface has %1 pieces that are not connected, and each needs at least 4 triangles; ask for %2 or more, or choose a threshold with less noise</source>
-        <translation>Verkleinern: die Oberfläche hat %1 Stücke, die nicht zusammenhängen, und jedes braucht mindestens 4 Dreiecke; nehmen Sie %2 oder mehr, oder wählen Sie eine Schwelle mit weniger Rauschen</translation>
+        <source>decimation: the surface has %#1 pieces that are not connected, and each needs at least 4 triangles; ask for %#2 or more, or choose a threshold with less noise</source>
+        <translation>Verkleinern: die Oberfläche hat %#1 Stücke, die nicht zusammenhängen, und jedes braucht mindestens 4 Dreiecke; nehmen Sie %#2 oder mehr, oder wählen Sie eine Schwelle mit weniger Rauschen</translation>
     </message>
     <message>
         <source>collapsing further edges would fold the surface or change its topology</source>
@@ -7690,24 +7754,43 @@
         <translation>Netz: der Abstand seiner Voxel muss über 0 mm liegen</translation>
     </message>
     <message>
-        <source>it is %1 mm thick in places and would take %2 MB as voxels to stay whole; a mesh may take %3 MB</source>
-        <translation>es ist stellenweise %1 mm dick und brauchte %2 MB als Voxel, um ganz zu bleiben; ein Netz darf %3 MB brauchen</translation>
+        <source>it is %#1 mm thick in places and would take %#2 MB as voxels to stay whole; a mesh may take %#3 MB</source>
+        <translation>es ist stellenweise %#1 mm dick und brauchte %#2 MB als Voxel, um ganz zu bleiben; ein Netz darf %#3 MB brauchen</translation>
     </message>
     <message>
-        <source>it reaches %1 mm beyond the CT, so a coordinate lost its point or is not in mm</source>
-        <translation>es reicht %1 mm über das CT hinaus, eine Koordinate verlor also ihren Punkt oder ist nicht in mm</translation>
+        <source>it reaches %#1 mm beyond the CT, so a coordinate lost its point or is not in mm</source>
+        <translation>es reicht %#1 mm über das CT hinaus, eine Koordinate verlor also ihren Punkt oder ist nicht in mm</translation>
     </message>
     <message>
         <source>it lies outside the CT</source>
         <translation>es liegt außerhalb des CT</translation>
     </message>
     <message>
-        <source>it is not closed: its surface ends at %1 edges</source>
-        <translation>es ist nicht geschlossen: seine Oberfläche endet an %1 Kanten</translation>
+        <source>it is not closed: its surface ends at %#1 edges</source>
+        <translation>es ist nicht geschlossen: seine Oberfläche endet an %#1 Kanten</translation>
     </message>
     <message>
         <source>mesh: cannot become voxels: %~1</source>
         <translation>Netz: lässt sich nicht in Voxel wandeln: %~1</translation>
+    </message>
+</context>
+<context>
+    <name>Assembled</name>
+    <message>
+        <source>The folder has another %1 of %#2 slices of %#3 mm</source>
+        <translation>Der Ordner hat noch ein %1 mit %#2 Schichten von %#3 mm</translation>
+    </message>
+    <message>
+        <source>The folder has another %1 of %#2 slices of %#3 mm (needs --repair)</source>
+        <translation>Der Ordner hat noch ein %1 mit %#2 Schichten von %#3 mm (braucht Reparatur)</translation>
+    </message>
+    <message>
+        <source>The folder has another %1 of %#2 slices of %#3 mm (refused)</source>
+        <translation>Der Ordner hat noch ein %1 mit %#2 Schichten von %#3 mm (abgelehnt)</translation>
+    </message>
+    <message>
+        <source>The folder has another %1 of %#2 slices (refused)</source>
+        <translation>Der Ordner hat noch ein %1 mit %#2 Schichten (abgelehnt)</translation>
     </message>
 </context>
 <context>

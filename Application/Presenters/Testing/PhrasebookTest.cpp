@@ -14,18 +14,18 @@ namespace
 const Phrasebook& few()
 {
   static const Phrasebook kBook({
-      {"%1 slices are missing; copy the series again",
-       "%1 Schichten fehlen; kopieren Sie die Serie neu"},
-      {"%1 slice is missing; copy the series again",
-       "%1 Schicht fehlt; kopieren Sie die Serie neu"},
+      {"%#1 slices are missing; copy the series again",
+       "%#1 Schichten fehlen; kopieren Sie die Serie neu"},
+      {"%#1 slice is missing; copy the series again",
+       "%#1 Schicht fehlt; kopieren Sie die Serie neu"},
       {"'%1' cannot be sent: %~2", "„%1“ lässt sich nicht senden: %~2"},
-      {"%1 lies %2 mm from %3", "%3 ist von %1 um %2 mm entfernt"},
+      {"%1 lies %#2 mm from %3", "%3 ist von %1 um %#2 mm entfernt"},
       {"the disk is full", "der Datenträger ist voll"},
       {"the disk of %1 is full of old cases", "der Datenträger von %1 ist voll alter Fälle"},
       {"nothing", "nichts"},
       {"Repaired: slices were shifted.", "Repariert: Schichten wurden verschoben."},
-      {"%1 left out", "%1 blieben weg"},
-      {"%1 structures read", "%1 Strukturen gelesen"},
+      {"%#1 left out", "%#1 blieben weg"},
+      {"%#1 structures read", "%#1 Strukturen gelesen"},
   });
   return kBook;
 }
@@ -35,7 +35,7 @@ std::string filled(std::string phrase, const std::string& value)
   for (std::size_t at = 0; (at = phrase.find('%', at)) != std::string::npos;)
   {
     std::size_t end = at + 1;
-    if (end < phrase.size() && phrase[end] == '~')
+    if (end < phrase.size() && (phrase[end] == '~' || phrase[end] == '#'))
       ++end;
     const std::size_t digits = end;
     while (end < phrase.size() && phrase[end] >= '0' && phrase[end] <= '9')
@@ -87,6 +87,8 @@ TEST(Phrasebook, PartsOfATextAreFoundAndWhatIsNoPhraseStays)
   EXPECT_EQ(few().text("the disk is full\nConnection reset by peer"),
             "der Datenträger ist voll\nConnection reset by peer");
   EXPECT_FALSE(few().find("Connection reset by peer"));
+  EXPECT_FALSE(few().find("no structures read")); // no number
+  EXPECT_EQ(few().text("nothing: the disk is full"), "nothing: der Datenträger ist voll");
   EXPECT_FALSE(few().find(""));
 }
 

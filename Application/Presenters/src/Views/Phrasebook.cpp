@@ -52,6 +52,8 @@ bool hasLetters(std::string_view text) noexcept
 // "5", "-0.2 N/mm".
 bool isNumber(std::string_view value)
 {
+  if (value == "nan" || value == "inf" || value == "-inf")
+    return true;
   const std::size_t first = value.find_first_not_of("+-<");
   return first != std::string_view::npos && isDecimalDigit(value[first]) &&
          std::count(value.begin(), value.end(), ' ') <= 1;
@@ -92,8 +94,8 @@ Phrasebook::Pieces Phrasebook::piecesOf(const std::string& phrase)
   Pieces pieces(1);
   for (std::size_t n = 0; n < phrase.size();)
   {
-    const bool isPhrase = phrase.compare(n, 2, "%~") == 0;
-    const std::size_t digits = n + (isPhrase ? 2 : 1);
+    const char kind = n + 1 < phrase.size() ? phrase[n + 1] : ' ';
+    const std::size_t digits = n + (kind == '~' || kind == '#' ? 2 : 1);
     if (phrase[n] != '%' || digits >= phrase.size() || !isDecimalDigit(phrase[digits]))
     {
       pieces.back().words += phrase[n++];
@@ -103,7 +105,8 @@ Phrasebook::Pieces Phrasebook::piecesOf(const std::string& phrase)
     for (n = digits; n < phrase.size() && isDecimalDigit(phrase[n]); ++n)
       place = 10 * place + (phrase[n] - '0');
     pieces.back().place = place;
-    pieces.back().isPhrase = isPhrase;
+    pieces.back().isPhrase = kind == '~';
+    pieces.back().isNumber = kind == '#';
     pieces.emplace_back();
   }
   return pieces;
@@ -201,6 +204,14 @@ std::optional<Phrasebook::Found> Phrasebook::matched(const Entry& entry, std::st
     if (at > end || upTo == std::string_view::npos || upTo > end)
       return std::nullopt;
     const std::string_view value = middle.substr(at, upTo - at);
+    if (pieces[n].isNumber)
+    {
+      if (!isNumber(value))
+        return std::nullopt;
+      values[pieces[n].place] = std::string(value);
+      at = upTo + next.size();
+      continue;
+    }
     const bool isSeveral = value.find(' ') != std::string_view::npos && !isNumber(value);
     std::optional<Found> other;
     if (!value.empty() && (pieces[n].isPhrase || isSeveral))
@@ -209,7 +220,10 @@ std::optional<Phrasebook::Found> Phrasebook::matched(const Entry& entry, std::st
       values[pieces[n].place] = other->text;
     else
     {
-      if (!isPlain(value) || (isSeveral && entry.letters < kFewLetters) ||
+      const bool isFew = entry.letters < kFewLetters;
+      if (!isPlain(value) || (isSeveral && isFew) ||
+          (pieces[n].isPhrase && isFew && pieces.size() > 2 && !value.empty() &&
+           !isNumber(value)) ||
           (entry.letters < kFewestLetters && !isNumber(value)))
         return std::nullopt;
       isWhole = isWhole && !(pieces[n].isPhrase && isSeveral);
@@ -241,11 +255,14 @@ std::optional<Phrasebook::Found> Phrasebook::divided(std::string_view part, Memo
         continue;
       if (isClosed)
         tail.remove_suffix(1);
-      const auto first = lookUp(head, memory);
+      // Before a colon stands a name or a file, if it is one word.
+      const auto first = mark == ": " && head.find(' ') == std::string_view::npos
+                             ? std::nullopt
+                             : lookUp(head, memory);
       const auto second = lookUp(tail, memory);
       if (!first && !second)
         continue;
-      // What comes before a colon may be a name; a list is one only if all of it is known.
+      // A list is one only if all of it is known.
       const bool isWhole = (first ? first->isWhole : mark == ": " || !hasLetters(head)) &&
                            (second ? second->isWhole : mark == " (" || !hasLetters(tail));
       if (mark == ", " && !isWhole)

@@ -14,9 +14,9 @@ namespace petrous::presenters
 /// does by contract; a phrase is a text as the sources put it together, with places for what is put
 /// in:
 ///
-///   "%1: the case needs %2 MB, %3 MB are free; nothing was restored; free some space"
+///   "%1: the case needs %#2 MB, %#3 MB are free; nothing was restored; free some space"
 ///
-/// "%1" is a name, a path or a number and stays as it is; "%~1" is a phrase of its own. A phrase is
+/// "%1" is a name or a path, "%#1" a number, "%~1" a phrase of its own. A phrase is
 /// recognised as a whole: its words are those of the text, all of them and in their order. Of
 /// phrases that fit, the one with the most words of its own is taken. Where none fits, the text's
 /// parts are looked up, which lines, "; ", ". ", ": ", ", " and parentheses divide; what is not a
@@ -40,6 +40,7 @@ private:
     std::string words;     ///< before the place
     int place = 0;         ///< 0: none, the end
     bool isPhrase = false; ///< of the place
+    bool isNumber = false; ///< likewise
   };
   using Pieces = std::vector<Piece>;
   struct Entry

@@ -364,6 +364,8 @@ labels %1 %2
 """.strip("\n").split("\n"))
 # Put together in steps, which a reading of single expressions does not see.
 ASSEMBLED = [
+    "%1 touched (± %#2 mm)",
+    "under 0.01 mm³",
     "The folder has another %1 of %#2 slices of %#3 mm",
     "The folder has another %1 of %#2 slices of %#3 mm (needs --repair)",
     "The folder has another %1 of %#2 slices of %#3 mm (refused)",

@@ -7777,6 +7777,14 @@
 <context>
     <name>Assembled</name>
     <message>
+        <source>%1 touched (± %#2 mm)</source>
+        <translation>%1 berührt (± %#2 mm)</translation>
+    </message>
+    <message>
+        <source>under 0.01 mm³</source>
+        <translation>unter 0.01 mm³</translation>
+    </message>
+    <message>
         <source>The folder has another %1 of %#2 slices of %#3 mm</source>
         <translation>Der Ordner hat noch ein %1 mit %#2 Schichten von %#3 mm</translation>
     </message>

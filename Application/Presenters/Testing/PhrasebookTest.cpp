@@ -113,6 +113,17 @@ TEST(GermanPhrases, AreThoseOfMessagesAsTheyAreShown)
        "1.25 mm from what was measured; small structures may be absent there.",
        "Repariert: Schichten 3 bis 5 von 120 fehlen und wurden zwischen Nachbarn interpoliert, bis "
        "zu 1.25 mm vom Gemessenen; kleine Strukturen können dort fehlen."},
+      {"facial nerve touched (± 0.3 mm); injured, under 0.01 mm³\nsigmoid sinus 0.8 mm ± 0.3\nand "
+       "2 "
+       "more",
+       "facial nerve berührt (± 0.3 mm); verletzt, unter 0.01 mm³\nsigmoid sinus 0.8 mm ± 0.3\nund "
+       "2 "
+       "weitere"},
+      {"registered by landmarks, refined by mutual information, good, error 0.24 mm (p95) at the "
+       "middle of 'incus', not signed off",
+       "registriert: Landmarken, verfeinert durch Transinformation, gut, Fehler 0.24 mm (p95) an "
+       "die "
+       "Mitte von „incus“, nicht freigegeben"},
       {"MR 'T2' is not registered with the CT; register it first",
        "das MR „T2“ ist nicht mit dem CT registriert; registrieren Sie es erst"},
       {"tube: the radius must lie within 0.1 to 5 mm, not 7",

@@ -12,8 +12,10 @@ namespace petrous::presenters
 namespace
 {
 
-constexpr std::size_t kFewLetters = 12;     // a shorter phrase has one word or phrase in each place
-constexpr std::size_t kFewestLetters = 3;   // one with less takes numbers or phrases only
+// A phrase with fewer letters takes no long names, with fewer yet no names of several words: what
+// is no phrase would be found as one.
+constexpr std::size_t kFewLetters = 12;
+constexpr std::size_t kFewestLetters = 4;
 constexpr std::string_view kEnds = " ,;:."; // about a phrase, of the sentence that it stands in
 
 bool isLatinLetter(char c) noexcept
@@ -57,6 +59,13 @@ bool isNumber(std::string_view value)
   const std::size_t first = value.find_first_not_of("+-<");
   return first != std::string_view::npos && isDecimalDigit(value[first]) &&
          std::count(value.begin(), value.end(), ' ') <= 1;
+}
+
+// Three words at most, as in "lateral semicircular canal".
+bool isShort(std::string_view value)
+{
+  return value.find(", ") == std::string_view::npos && value.find(": ") == std::string_view::npos &&
+         std::count(value.begin(), value.end(), ' ') <= 2;
 }
 
 // Whether it may be a name, a path or a number, and not sentences.
@@ -221,10 +230,11 @@ std::optional<Phrasebook::Found> Phrasebook::matched(const Entry& entry, std::st
     else
     {
       const bool isFew = entry.letters < kFewLetters;
-      if (!isPlain(value) || (isSeveral && isFew) ||
+      if (!isPlain(value) || (isFew && !isShort(value)) ||
           (pieces[n].isPhrase && isFew && pieces.size() > 2 && !value.empty() &&
            !isNumber(value)) ||
-          (entry.letters < kFewestLetters && !isNumber(value)))
+          (entry.letters < kFewestLetters && isSeveral) ||
+          (entry.letters < kFewestLetters - 1 && !isNumber(value)))
         return std::nullopt;
       isWhole = isWhole && !(pieces[n].isPhrase && isSeveral);
       values[pieces[n].place] = other ? other->text : std::string(value);

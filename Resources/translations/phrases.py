@@ -265,6 +265,17 @@ def texts(source):
     collect(tree(source), found)
     return found
 
+# What the window throws and says of its progress itself; its other texts go through tr().
+SAYS = {"InvalidParameter", "report", "check"}
+
+
+def said(group, found):
+    for n, token in enumerate(group):
+        if isinstance(token, Group):
+            is_said = n > 0 and is_mark(group[n - 1]) and group[n - 1] in SAYS
+            (collect if is_said else said)(token, found)
+
+
 # Sources without phrases: words that are looked for, formats, and errors that only a defect of the
 # program causes.
 WITHOUT = set("""
@@ -406,6 +417,13 @@ def phrases():
             text = text.strip(ENDS)
             if is_phrase(text) and not (file.stem == "PlanReport" and text in report):
                 found.setdefault(text, folder)
+    for file in sorted((TREE / "Application" / "Workstation").rglob("*.cpp")):
+        if "Testing" not in file.parts:
+            of_window = []
+            said(tree(file.read_text(encoding="utf-8")), of_window)
+            for text in of_window:
+                if is_phrase(text.strip(ENDS)):
+                    found.setdefault(text.strip(ENDS), "Workstation")
     for text in ASSEMBLED:
         found.setdefault(text, "Assembled")
     for material in json.loads((TREE / "Resources" / "materials.json").read_text())["materials"]:

@@ -7775,6 +7775,45 @@
     </message>
 </context>
 <context>
+    <name>Workstation</name>
+    <message>
+        <source>there is an approach '%1' already; take another name</source>
+        <translation>ein Zugang „%1“ ist schon da; wählen Sie einen anderen Namen</translation>
+    </message>
+    <message>
+        <source>there is an approach '%~1' already; take another name</source>
+        <translation>ein Zugang „%~1“ ist schon da; wählen Sie einen anderen Namen</translation>
+    </message>
+    <message>
+        <source>reading pictures</source>
+        <translation>Bilder werden gelesen</translation>
+    </message>
+    <message>
+        <source>looking for what no case needs</source>
+        <translation>gesucht wird, was kein Fall braucht</translation>
+    </message>
+    <message>
+        <source>looking for strokes that were not saved</source>
+        <translation>nicht gespeicherte Bohrzüge werden gesucht</translation>
+    </message>
+    <message>
+        <source>The case keeps %#1 views, and no more; type the name of one to replace it, or remove one first</source>
+        <translation>Der Fall behält %#1 Ansichten, nicht mehr; geben Sie den Namen einer ein, um sie zu ersetzen, oder entfernen Sie erst eine</translation>
+    </message>
+    <message>
+        <source>A name has 1 to 60 bytes.</source>
+        <translation>Ein Name hat 1 bis 60 Byte.</translation>
+    </message>
+    <message>
+        <source>the clipboard holds no transfer function</source>
+        <translation>die Zwischenablage enthält keine Transferfunktion</translation>
+    </message>
+    <message>
+        <source>measuring meshes</source>
+        <translation>Netze werden vermessen</translation>
+    </message>
+</context>
+<context>
     <name>Assembled</name>
     <message>
         <source>%1 touched (± %#2 mm)</source>

@@ -98,7 +98,24 @@ def self_test():
                             f"{body}</message></context></TS>", encoding="utf-8")
             if (not faults(file)) != whole:
                 found.append(f"{body}: {faults(file)}")
-    return found
+    return found + phrases_test()
+
+
+def phrases_test():
+    """Whether phrases are those that a source puts together."""
+    sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "Resources/translations"))
+    import phrases
+    sources = [
+        ('throw E("a " + name + " of " + std::to_string(n) + (n == 1 ? " part" : " parts") + '
+         '(n == 1 ? " is" : " are") + ": " + error.what()); // "no text"',
+         ["a %1 of %#2 part is: %~3", "a %1 of %#2 parts are: %~3"]),
+        ('return isBad ? "it is bad" : path.string() + ": " "it is \\"good\\"";',
+         ["it is bad", '%1: it is "good"']),
+        ('list.push_back({std::string("one ") + two, "three"});', ["one %1", "three"]),
+        ('core::log::info("not shown"); x["key of JSON"] = "shown";', ["shown"]),
+    ]
+    return [f"{source}: {phrases.texts(source)}" for source, expected in sources
+            if sorted(phrases.texts(source)) != sorted(expected)]
 
 
 def main():

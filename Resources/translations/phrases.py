@@ -1,7 +1,7 @@
 """The phrases of the presenters and modules, for the German window and report: the texts of their
 sources as they are put together with +, with "%1" where a name or a path is put in, "%#1" where a
-number is and "%~1" where another text of the program is. Each value of `condition ? a : b` makes a phrase. See
-Documentation/adr/0030-german-below-the-window.md.
+number is and "%~1" where another text of the program is. Each value of `condition ? a : b` makes a
+phrase. See Documentation/adr/0030-german-below-the-window.md.
 """
 import json
 import pathlib
@@ -22,16 +22,21 @@ TOKEN = re.compile(r'''
 ESCAPES = {"n": "\n", "t": "\t", '"': '"', "\\": "\\", "'": "'", "0": "\0", "r": "\r", "?": "?"}
 STRING_OR_NOTHING = ([], ["std", "::", "string"], ["std", "::", "string_view"])
 CLOSING = {"(": ")", "[": "]", "{": "}"}
-SEPARATORS = {",", ";", "return", "throw", "=", "+=", "<<", "&&", "||", "==", "!=", "<=", ">=", "else", "case", "default",
-              "<", ">"}
+SEPARATORS = {",", ";", "return", "throw", "=", "+=", "<<", "&&", "||", "==", "!=", "<=", ">=",
+              "else", "case", "default", "<", ">"}
 # Whose value is a text of the program and not a name or a number.
 TEXT_OF_PROGRAM = re.compile(
-    r"what|[tT]exts?$|[wW]ords?$|why|reason|problem|refusal|refused|message|note|describe|remark|advice"
-    r"|kind|verb|explan|hint|said|say|question|phrase|missing|effect|limit|cause|range|unit|[nN]amed$|wanted|listed|joined|^list|possible|expected|counted|plural|many|states|[tT]oString|verdict|fault|field|doubts|remedy|about|instead|decimation|goesOn|^is$|primary|kSides|^ours$|^others$|^code$")
+    r"what|[tT]exts?$|[wW]ords?$|why|reason|problem|refusal|refused|message|note|describe|remark|"
+    r"advice|kind|verb|explan|hint|said|say|question|phrase|missing|effect|limit|cause|range|unit|"
+    r"[nN]amed$|wanted|listed|joined|^list|possible|expected|counted|plural|many|states|"
+    r"[tT]oString|verdict|fault|field|doubts|remedy|about|instead|decimation|goesOn|^is$|primary|kSides|^ours$|"
+    r"^others$|^code$")
+NOT_TEXT = re.compile(
+    r"^(to_string|fixedText|generalText|exactText|string|filename|size|name|path|pathText|"
+    r"hexText)$")
 # Functions that give a number, perhaps with its unit.
 NUMBERS = {"to_string", "fixedText", "generalText", "exactText", "decimals", "fixed", "percent",
            "millimetres", "gigabytes", "seconds", "roughText"}
-NOT_TEXT = re.compile(r"^(to_string|fixedText|generalText|exactText|string|filename|size|name|path|pathText|hexText)$")
 
 
 def unescaped(literal):
@@ -175,8 +180,8 @@ def values(tokens):
         is_text = any(is_literal(t) and re.search("[a-z]{3}", t) for t in flat(operand)) or (
             not any(NOT_TEXT.match(n) for n in names) and
             any(TEXT_OF_PROGRAM.search(n) for n in names))
-        is_number = (len(operand) > 1 and isinstance(operand[-1], Group) and operand[-1].opening == "("
-                     and is_mark(operand[-2]) and operand[-2] in NUMBERS and len(operand) < 5)
+        is_number = (1 < len(operand) < 5 and isinstance(operand[-1], Group)
+                     and is_mark(operand[-2]) and operand[-2] in NUMBERS)
         each.append([({}, [Argument("#" if is_number else "~" if is_text else "")])])
     ways = [({}, [])]
     for options in each:
@@ -233,7 +238,7 @@ def skip_call(tokens, n):
     """Whether the group at n is an index or the arguments of a log line."""
     group = tokens[n]
     if group.opening == "[":
-        return n > 0 and True
+        return n > 0
     before = [t for t in tokens[max(0, n - 4):n] if isinstance(t, str)]
     return bool(before) and "log" in before and SKIPPED_CALLS.match(before[-1]) is not None
 
@@ -265,6 +270,7 @@ def texts(source):
     collect(tree(source), found)
     return found
 
+
 # What the window throws and says of its progress itself; its other texts go through tr().
 SAYS = {"InvalidParameter", "report", "check"}
 
@@ -280,37 +286,38 @@ def said(group, found):
 # program causes.
 WITHOUT = set("""
     BurrCatalogue BurrShell Catalogue CheckedParameters ClippedRegion ConstrainedProxy ContactQp
-    DeviceCatalogueX DicomWriter DistanceField ForceDisplay ForceLimits GlProgram GoneNames
-    HapticField HeaderCache IdentityText IntensityHistogram IntensityVolume JsonFault LabelField
-    LabelMap LabelPriority LevelImage Log MaterialCatalogue NotedProvenance OccupancyGrid
-    PassivityGuard Pedal PedalledDevice Phantom PhantomShapes PixelRays PointProxy PointerDevice
+    DicomWriter DistanceField ForceDisplay ForceLimits GlProgram GoneNames HapticField
+    HeaderCache IdentityText IntensityHistogram IntensityVolume JsonFault LabelField LabelMap
+    LabelPriority LevelImage Log MaterialCatalogue NotedProvenance OccupancyGrid PassivityGuard
+    Pedal PedalledDevice Phantom PhantomShapes PixelRays PointProxy PointerDevice
     PointerToolController RateControl RayCaster RayShader RayView ReferenceRayCaster
     RemovalDepthSolver RemovalLaw RenderQuality ReportHtml ReportWords SamplePatient SceneCheck
     SegmentationWriter Servo ServoParameters ServoThread SliceGeometry SnapshotBuffer SpscRing
-    Stereo StructurePresets SurfaceDistance SurfaceDistance SurfaceGeometry SweptSphereCut
+    Stereo StructurePresets SurfaceDistance SurfaceGeometry SweptSphereCut
     TissueBricks TissueField TissueOptics TissueResistance ToolInteraction ToolView
     ViewArrangement Volume VolumeMapper VtkVolume
 """.split())
 # Of these the sources have single words, which are not told from names and codes otherwise.
-SHORT = {word.strip() for word in """
-    the CT | the MR '%1' | MR '%1' | hand | %#1 (%#2 images) | %1 (%#2 images) | %#1 x %#2 x %#3 voxels |
-    %1 (%2, %#3 slices) | %1 '%2' (%3, %#4 slices) | %#1 mm ± %#2 | %~1 mm ± %#2 | mark %#1 | structure %#1 |
-    label %#1 | gradient %#1 | repeat %#1 | tilt %#1 | %#1 mm ± %2 | %1 mm ± %#2 |
-    %1 slices | %#1 slices | %1 empty | %#1 empty | %1 structures | %#1 structures | %1 (%2 images) | %1 x %2 x %3 voxels | %1 meshes | %#1 meshes |
-    %~1 interpolated | %1 parts | %#1 parts | %1 stroke | %#1 stroke | %1 strokes | %#1 strokes | %1 (%2, %3 slices) |
-    %1 '%2' (%3, %4 slices) |
-    %#1 to %#2 | %#1 to %~2 | Axial | Coronal | Sagittal | left | right | closed | %1 mm ± %2 | %~1 mm ± %2 | Along a structure | Angle | Area | Bone | Distance | Mark | None
-    | angle | appearance | area | cancelled | case | color | create | create %1 | cutting |
-    damaged | diamond | difference %1 | dimensions | dissected | distance | document | doubtful
-    | drilled | emptied | empty | encrypted | failed | good | gradient %1 | growing | half |
-    hide %1 | hide %~1 | image | islands | iso | kept | label %1 | labels | landmarks | length |
-    margin | mark %1 | mask | mesh | metadata | missing | move %~1 | nerve | node | none | ok |
-    one | opacity | other | point | points | position | preset | read | recording | redoing |
-    refused | remove %~1 | removed | repairable | repeat %1 | resampling | screenshot | series |
-    set aside | show %1 | show %~1 | side | skipped | slices | smoothing | stroke | structure |
-    structure %1 | structures | study | surface | thickness | thickness along the normal |
-    threshold | tilt %1 | tissue | transfer | tube | undoing | unknown | unread | video | view |
-    volume | wall | withheld
+SHORT = {" ".join(word.split()) for word in """
+    %#1 (%#2 images) | %#1 empty | %#1 meshes | %#1 mm ± %#2 | %#1 mm ± %2 | %#1 parts | %#1
+    slices | %#1 stroke | %#1 strokes | %#1 structures | %#1 to %#2 | %#1 to %~2 | %#1 x %#2 x
+    %#3 voxels | %1 '%2' (%3, %#4 slices) | %1 '%2' (%3, %4 slices) | %1 (%#2 images) | %1 (%2
+    images) | %1 (%2, %#3 slices) | %1 (%2, %3 slices) | %1 empty | %1 meshes | %1 mm ± %#2 | %1
+    mm ± %2 | %1 parts | %1 slices | %1 stroke | %1 strokes | %1 structures | %1 x %2 x %3
+    voxels | %~1 interpolated | %~1 mm ± %#2 | %~1 mm ± %2 | Along a structure | Angle | Area |
+    Axial | Bone | Coronal | Distance | MR '%1' | Mark | None | Sagittal | angle | appearance |
+    area | cancelled | case | closed | color | create | create %1 | cutting | damaged | diamond
+    | difference %1 | dimensions | dissected | distance | document | doubtful | drilled |
+    emptied | empty | encrypted | failed | good | gradient %#1 | gradient %1 | growing | half |
+    hand | hide %1 | hide %~1 | image | islands | iso | kept | label %#1 | label %1 | labels |
+    landmarks | left | length | margin | mark %#1 | mark %1 | mask | mesh | metadata | missing |
+    move %~1 | nerve | node | none | ok | one | opacity | other | point | points | position |
+    preset | read | recording | redoing | refused | remove %~1 | removed | repairable | repeat
+    %#1 | repeat %1 | resampling | right | screenshot | series | set aside | show %1 | show %~1
+    | side | skipped | slices | smoothing | stroke | structure | structure %#1 | structure %1 |
+    structures | study | surface | the CT | the MR '%1' | thickness | thickness along the normal
+    | threshold | tilt %#1 | tilt %1 | tissue | transfer | tube | undoing | unknown | unread |
+    video | view | volume | wall | withheld
 """.split("|")}
 # Found, and no phrases: words of formats, parts of phrases, errors that only a defect causes.
 NOT_PHRASES = set(r"""

@@ -16,6 +16,7 @@ namespace
 // is no phrase would be found as one.
 constexpr std::size_t kFewLetters = 12;
 constexpr std::size_t kFewestLetters = 4;
+constexpr std::size_t kLongestLine = 2000;  // bytes; a longer one is no message
 constexpr std::string_view kEnds = " ,;:."; // about a phrase, of the sentence that it stands in
 
 bool isLatinLetter(char c) noexcept
@@ -139,15 +140,29 @@ Phrasebook::Phrasebook(const std::vector<Phrase>& phrases)
                    [](const Entry& a, const Entry& b) {
                      return std::pair(a.letters, a.characters) > std::pair(b.letters, b.characters);
                    });
+  for (const Entry& entry : m_entries)
+  {
+    const std::string& first = entry.english.front().words;
+    const std::string& last = entry.english.back().words;
+    m_ends.emplace_back(first.empty() ? '\0' : first.front(), last.empty() ? '\0' : last.back());
+  }
 }
 
 std::optional<std::string> Phrasebook::find(std::string_view english) const
 {
-  Memory memory;
-  auto found = lookUp(english, memory);
-  if (!found)
-    return std::nullopt;
-  return std::move(found->text);
+  std::string text;
+  bool isFound = false;
+  for (std::size_t begin = 0; begin <= english.size();) // no phrase has two lines
+  {
+    const std::size_t end = std::min(english.find('\n', begin), english.size());
+    const std::string_view line = english.substr(begin, end - begin);
+    Memory memory;
+    const auto found = line.size() <= kLongestLine ? lookUp(line, memory) : std::nullopt;
+    isFound = isFound || found;
+    text += (begin == 0 ? "" : "\n") + (found ? found->text : std::string(line));
+    begin = end + 1;
+  }
+  return isFound ? std::optional(text) : std::nullopt;
 }
 
 std::string Phrasebook::text(std::string_view english) const
@@ -181,14 +196,17 @@ std::optional<Phrasebook::Found> Phrasebook::lookUp(std::string_view part, Memor
 std::optional<Phrasebook::Found> Phrasebook::whole(std::string_view middle, Memory& memory) const
 {
   std::optional<Found> best;
-  for (const Entry& entry : m_entries)
-    if (auto found = matched(entry, middle, memory))
-    {
-      if (found->isWhole)
-        return found;
-      if (!best)
-        best = std::move(found);
-    }
+  for (std::size_t n = 0; n < m_entries.size(); ++n)
+  {
+    const auto [first, last] = m_ends[n];
+    if ((first != '\0' && first != middle.front()) || (last != '\0' && last != middle.back()))
+      continue;
+    auto found = matched(m_entries[n], middle, memory);
+    if (found && found->isWhole)
+      return found;
+    if (found && !best)
+      best = std::move(found);
+  }
   return best;
 }
 
@@ -254,7 +272,7 @@ std::optional<Phrasebook::Found> Phrasebook::matched(const Entry& entry, std::st
 std::optional<Phrasebook::Found> Phrasebook::divided(std::string_view part, Memory& memory) const
 {
   std::optional<Found> best;
-  for (const std::string_view mark : {"\n", ". ", "; ", ": ", " (", ", "})
+  for (const std::string_view mark : {". ", "; ", ": ", " (", ", "})
     for (std::size_t at = part.find(mark); at != std::string_view::npos;
          at = part.find(mark, at + 1))
     {

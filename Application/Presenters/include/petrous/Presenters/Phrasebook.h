@@ -65,7 +65,8 @@ private:
   std::optional<Found> matched(const Entry& entry, std::string_view core, Memory& memory) const;
   std::optional<Found> divided(std::string_view part, Memory& memory) const;
 
-  std::vector<Entry> m_entries; ///< those with the most letters first
+  std::vector<Entry> m_entries;              ///< those with the most letters first
+  std::vector<std::pair<char, char>> m_ends; ///< first and last character of each; 0: any
 };
 
 /// Resources/translations/phrases_de.ts.

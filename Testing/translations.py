@@ -1,4 +1,4 @@
-"""Checks the window's translations: each text of the sources has one, with the same placeholders,
+"""Checks the translations: each text of the sources has one, with the same placeholders,
 line ends, tags and final colon, an ampersand for a key where the English has one, and its ellipsis.
 
     translations.py RESOURCES    the folder `translations` there
@@ -16,7 +16,7 @@ import xml.etree.ElementTree
 
 # What a translation has as often as the English text.
 ALIKE = {
-    "placeholders": r"%(?:L?\d+|n|p)",
+    "placeholders": r"%(?:[L~#]?\d+|n|p)",
     "keys": r"&(?=[^\s&])",
     "ellipses": r"…|\.\.\.",
     "tags": r"<[^<>]+>",
@@ -85,7 +85,7 @@ def self_test():
     unlike = [("%1", "1"), ("%1 %2", "%1 %1"), ("&Open", "Öffnen"), ("Open", "&Öffnen"),
               ("Open…", "Öffnen"), ("Open…", "Öffnen..."), ("<b>a</b>", "<b>a<b>"), ("Name:", "Name"),
               ("Name", "Name:"), ("a\nb", "a b"), (" or ", " oder"), ("%n files", "Dateien"),
-              ("Tables (*.csv)", "Tabellen (*.cvs)")]
+              ("Tables (*.csv)", "Tabellen (*.cvs)"), ("%~1: %2", "%1: %2")]
     found = [f"{pair}: differ" for pair in alike if faults_of(*pair)]
     found += [f"{pair}: alike" for pair in unlike if not faults_of(*pair)]
     with tempfile.TemporaryDirectory() as folder:
@@ -98,7 +98,24 @@ def self_test():
                             f"{body}</message></context></TS>", encoding="utf-8")
             if (not faults(file)) != whole:
                 found.append(f"{body}: {faults(file)}")
-    return found
+    return found + phrases_test()
+
+
+def phrases_test():
+    """Whether phrases are those that a source puts together."""
+    sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "Resources/translations"))
+    import phrases
+    sources = [
+        ('throw E("a " + name + " of " + std::to_string(n) + (n == 1 ? " part" : " parts") + '
+         '(n == 1 ? " is" : " are") + ": " + error.what()); // "no text"',
+         ["a %1 of %#2 part is: %~3", "a %1 of %#2 parts are: %~3"]),
+        ('return isBad ? "it is bad" : path.string() + ": " "it is \\"good\\"";',
+         ["it is bad", '%1: it is "good"']),
+        ('list.push_back({std::string("one ") + two, "three"});', ["one %1", "three"]),
+        ('core::log::info("not shown"); x["key of JSON"] = "shown";', ["shown"]),
+    ]
+    return [f"{source}: {phrases.texts(source)}" for source, expected in sources
+            if sorted(phrases.texts(source)) != sorted(expected)]
 
 
 def main():
@@ -111,7 +128,7 @@ def main():
         updater = load(folder / "update")
         for file in files:
             found += faults(file)
-            if updater.LUPDATE:
+            if updater.LUPDATE or file.name.startswith("phrases"):
                 found += drift(file, updater)
             else:
                 print("lupdate is not installed: the sources are not compared")

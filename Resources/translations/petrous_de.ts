@@ -2,6 +2,14 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="de" sourcelanguage="en">
 <context>
+    <name>Language</name>
+    <message>
+        <source>en</source>
+        <extracomment>Code of the language of this file, ISO 639-1</extracomment>
+        <translation>de</translation>
+    </message>
+</context>
+<context>
     <name>MainWindow</name>
     <message>
         <source>Library</source>

@@ -10,6 +10,7 @@
 #include "petrous/Core/NumberText.h"
 #include "petrous/Presenters/IdentityText.h"
 #include "petrous/Presenters/Measuring.h"
+#include "petrous/Presenters/Phrasebook.h"
 #include "petrous/Scene/Branches.h"
 
 using namespace petrous;
@@ -306,6 +307,24 @@ TEST(PlanReport, SpeaksGerman)
   EXPECT_EQ(find(report, "import")->table.rows[0][1].text,
             "Schichten 4-5 von 32 zwischen Nachbarn interpoliert");
   EXPECT_EQ(find(report, "strokes")->table.rows[0][1].text, "4.0 mm, Diamant");
+  // No cell, remark or caption is a phrase of the program in English.
+  const auto expectGerman = [](const std::string& text)
+  { EXPECT_EQ(germanPhrases().text(text), text) << "not German"; };
+  for (const ReportSection& section : report.sections)
+  {
+    for (const std::string& text : section.paragraphs)
+      expectGerman(text);
+    for (const std::string& text : section.remarks)
+      expectGerman(text);
+    for (const ReportPicture& picture : section.pictures)
+      expectGerman(picture.caption);
+    for (const auto& row : section.table.rows)
+      for (const ReportCell& cell : row)
+        expectGerman(cell.text);
+  }
+  EXPECT_NE(find(report, "measurements")->table.rows[0][3].text.find("gesetzt auf dem CT"),
+            std::string::npos)
+      << find(report, "measurements")->table.rows[0][3].text;
   // Titles and columns, all that does not come from the case, differ from the English ones.
   const PlanReport english = planReport(planned(), small());
   for (std::size_t n = 0; n < report.sections.size(); ++n)

@@ -170,7 +170,7 @@ void AddPartsDialog::check()
       }
       catch (const core::InvalidParameter& fault)
       {
-        advice += windowText(words(fault.what()));
+        advice += phrase(fault.what());
       }
     taken.push_back(name);
   }

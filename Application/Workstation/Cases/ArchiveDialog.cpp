@@ -14,6 +14,7 @@
 
 #include "PathRow.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Library/Attachments.h"
 #include "petrous/Presenters/CaseTransfer.h"
 #include "petrous/Presenters/IdentityText.h"
@@ -123,7 +124,7 @@ void ArchiveDialog::update()
   m_advice->setText(advice);
   m_accept->setEnabled(advice.isEmpty());
   m_report->setPlainText(
-      words(presenters::identityReport(m_value, options(), {}, &m_library).text()));
+      phrase(presenters::identityReport(m_value, options(), {}, &m_library).text()));
 }
 
 void ArchiveDialog::accept()

@@ -8,6 +8,7 @@
 
 #include "Bind.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Library/Attachments.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
@@ -112,7 +113,7 @@ void AttachmentsPanel::attachmentsChanged()
         if (const std::string problem = library::attachmentProblem(m_model.library(), one);
             !problem.empty())
         {
-          item->setText(Kind, tr("%1, its file is %2").arg(item->text(Kind), words(problem)));
+          item->setText(Kind, tr("%1, its file is %2").arg(item->text(Kind), phrase(problem)));
           item->setForeground(Kind, warningColor());
         }
       item->setToolTip(Note, tip);

@@ -74,7 +74,7 @@ QString patternsOf(unsigned contents)
 
 QString lineOf(const SourceContent& source)
 {
-  return CaseDocumentController::tr("%1 “%2”").arg(words(presenters::nameOf(source.content)),
+  return CaseDocumentController::tr("%1 “%2”").arg(phrase(presenters::nameOf(source.content)),
                                                    nameOf(source.path));
 }
 
@@ -462,7 +462,7 @@ bool CaseDocumentController::chooseSeries(const SourceContent& source, const Pur
 bool CaseDocumentController::askContent(SourceContent& source)
 {
   QMessageBox box(QMessageBox::Question, tr("What is this?"),
-                  tr("What is “%1”? It %2.").arg(nameOf(source.path), words(source.why)),
+                  tr("What is “%1”? It %2.").arg(nameOf(source.path), phrase(source.why)),
                   QMessageBox::NoButton, &m_window);
   box.setTextFormat(Qt::PlainText);
   box.setObjectName("askContent");
@@ -541,8 +541,8 @@ bool CaseDocumentController::ask(Item& item, const Purpose& purpose)
   if (purpose.content && source.content != *purpose.content)
   {
     refuse(tr("“%1” is no %2: it %3. File > Open takes it for what it is.")
-               .arg(nameOf(source.path), words(presenters::nameOf(*purpose.content)),
-                    words(source.why)));
+               .arg(nameOf(source.path), phrase(presenters::nameOf(*purpose.content)),
+                    phrase(source.why)));
     return false;
   }
   if (!askRepair(source) || (source.content == Content::Image && !askContent(source)))
@@ -910,7 +910,7 @@ void CaseDocumentController::addParts(const presenters::PartSources& parts, cons
             emit statusMessage(
                 report.empty() ? tr("Added to %1: %2").arg(name, what)
                                : tr("Added to %1: %2; %3")
-                                     .arg(name, what, words(presenters::summaryOf(report).text)));
+                                     .arg(name, what, phrase(presenters::summaryOf(report).text)));
           }
           std::vector<presenters::StructureReport> all = earlier;
           all.insert(all.end(), report.begin(), report.end());
@@ -937,7 +937,7 @@ void CaseDocumentController::tell(const std::vector<presenters::PartFailure>& fa
                               failure.isSideUnclear || failure.isFrameUnclear ||
                               !failure.taken.empty();
       if (!isQuestion || !isOpen(target))
-        lost += words(failure.why);
+        lost += phrase(failure.why);
       else if (const auto source = askAgain(failure, target))
       {
         (again.*failure.kind).push_back(*source);
@@ -992,20 +992,20 @@ void CaseDocumentController::tellStructures(const std::vector<presenters::Struct
     const auto error = one.volumeError();
     // What is empty is said with the notes.
     isWhole = isWhole && one.status != Status::Unread && (!error || std::abs(*error) <= kTolerance);
-    QString line = words(one.name) + ": " + presenters::nameOf(one.status);
+    QString line = words(one.name) + ": " + phrase(presenters::nameOf(one.status));
     if (one.status == Status::Read)
       line += ", " + QString::number(one.volume, 'f', 1) + " mm³";
     if (one.fileVolume)
       line += tr(" (%1 mm³ by the file)").arg(*one.fileVolume, 0, 'f', 1);
     if (!one.why.empty())
-      line += ", " + words(one.why);
+      line += ", " + phrase(one.why);
     lines += line;
   }
   if (isWhole)
     return;
   auto* box =
       new QMessageBox(QMessageBox::Warning, tr("Structures"),
-                      words(presenters::summaryOf(report).text) + ".", QMessageBox::Ok, &m_window);
+                      phrase(presenters::summaryOf(report).text) + ".", QMessageBox::Ok, &m_window);
   box->setAttribute(Qt::WA_DeleteOnClose);
   box->setTextFormat(Qt::PlainText);
   box->setObjectName("structuresRead");
@@ -1203,10 +1203,10 @@ CaseDocumentController::askMeshSpace(const presenters::PartFailure& failure)
       QMessageBox::NoButton, &m_window);
   box.setTextFormat(Qt::PlainText);
   box.setObjectName("askMeshSpace");
-  box.setInformativeText(windowText(words(failure.why)));
+  box.setInformativeText(phrase(failure.why));
   std::vector<QAbstractButton*> buttons;
   for (const imaging::MeshSpace& space : failure.likely)
-    buttons.push_back(box.addButton(tr("Add as &%1").arg(words(presenters::coordinatesOf(space))),
+    buttons.push_back(box.addButton(tr("Add as &%1").arg(phrase(presenters::coordinatesOf(space))),
                                     QMessageBox::ActionRole));
   box.setDefaultButton(box.addButton(QMessageBox::Cancel));
   box.exec();
@@ -1320,7 +1320,7 @@ void CaseDocumentController::lookForDamage()
   for (const std::string& one : m_model.damage())
     lines += tr("Damaged: %1. Do not rely on what is shown of it; nothing is drilled in this case "
                 "until it is whole and opened again.")
-                 .arg(windowText(words(one)));
+                 .arg(phrase(one));
   if (m_model.hasCase() && m_model.library().isStandIn(m_model.value().ct))
     lines +=
         tr("The case is open with what is left of it: description, attachments, structures and "
@@ -1328,9 +1328,9 @@ void CaseDocumentController::lookForDamage()
            "its own, or restore the file from a copy of the library: then open this case again. "
            "Or remove it (Library > Cases).");
   for (const std::string& one : m_model.leftOut())
-    lines += tr("Left out, neither shown nor felt: %1.").arg(windowText(words(one)));
+    lines += tr("Left out, neither shown nor felt: %1.").arg(phrase(one));
   for (const std::string& one : m_model.damagedStrokes())
-    lines += tr("Damaged, and not applied: %1.").arg(windowText(words(one)));
+    lines += tr("Damaged, and not applied: %1.").arg(phrase(one));
   if (const std::size_t undone = m_model.undoneForDamage())
     lines +=
         (undone == 1
@@ -1443,46 +1443,46 @@ void CaseDocumentController::write(const presenters::ExportOptions& options)
   if (!m_saver.flush())
     return emit statusMessage(tr("The case is not saved yet, so nothing was exported"));
   const std::string name = m_model.value().name; // a save after a conflict may have changed it
-  work(tr("Exporting from %1").arg(words(name)),
-       [this, library = m_model.library(), name, options, isPart = !m_model.leftOut().empty()](
-           const core::Progress& progress) -> BackgroundWork::Reply
-       {
-         scene::Case value = library.open(name);
-         presenters::LeftOut leftOut;
-         if (isPart) // what is damaged was said when the case was opened
-           leftOut = presenters::leaveOutDamaged(value, progress.part(0.0, 0.1));
-         else if (options.what == "surface") // that of all structures
-           library.checkStructures(value, progress.part(0.0, 0.1));
-         std::vector<std::string> warnings = leftOut.sentences();
-         try
-         {
-           const auto done = presenters::exportCase(
-               library, value, options, leftOut,
-               [&warnings](const std::string& line) { warnings.push_back(line); },
-               progress.part(0.1, 1.0));
-           return [this, done, warnings, options]
-           {
-             endWork();
-             QString text =
-                 tr("Written: %1%2")
-                     .arg(QFile::decodeName(options.out.c_str()), windowText(words(done.words)));
-             if (done.voxelsVolume)
-               text += tr("\nVolume of the voxels: %1 mm³").arg(*done.voxelsVolume, 0, 'f', 2);
-             text += tr("\nCoordinates: %1").arg(words(presenters::coordinatesOf(options)));
-             for (const std::string& line : warnings)
-               text += '\n' + sentence(windowText(words(line)));
-             inform(text);
-           };
-         }
-         catch (const presenters::ExportGridError& error)
-         {
-           return [this, options, why = windowText(words(error.what()))]
-           {
-             endWork();
-             offerCtGrid(options, why);
-           };
-         }
-       });
+  work(
+      tr("Exporting from %1").arg(words(name)),
+      [this, library = m_model.library(), name, options,
+       isPart = !m_model.leftOut().empty()](const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        scene::Case value = library.open(name);
+        presenters::LeftOut leftOut;
+        if (isPart) // what is damaged was said when the case was opened
+          leftOut = presenters::leaveOutDamaged(value, progress.part(0.0, 0.1));
+        else if (options.what == "surface") // that of all structures
+          library.checkStructures(value, progress.part(0.0, 0.1));
+        std::vector<std::string> warnings = leftOut.sentences();
+        try
+        {
+          const auto done = presenters::exportCase(
+              library, value, options, leftOut,
+              [&warnings](const std::string& line) { warnings.push_back(line); },
+              progress.part(0.1, 1.0));
+          return [this, done, warnings, options]
+          {
+            endWork();
+            QString text =
+                tr("Written: %1%2").arg(QFile::decodeName(options.out.c_str()), phrase(done.words));
+            if (done.voxelsVolume)
+              text += tr("\nVolume of the voxels: %1 mm³").arg(*done.voxelsVolume, 0, 'f', 2);
+            text += tr("\nCoordinates: %1").arg(phrase(presenters::coordinatesOf(options)));
+            for (const std::string& line : warnings)
+              text += '\n' + sentence(phrase(line));
+            inform(text);
+          };
+        }
+        catch (const presenters::ExportGridError& error)
+        {
+          return [this, options, why = phrase(error.what())]
+          {
+            endWork();
+            offerCtGrid(options, why);
+          };
+        }
+      });
 }
 
 // Returns at once; the window waits for the answer.
@@ -1609,7 +1609,7 @@ void CaseDocumentController::archive(const std::string& which)
                tr("\nFile: %1, %2\nIn it: %3")
                    .arg(QFile::decodeName(file.c_str()), megabytes(done.archiveBytes), contents);
            for (const std::string& note : done.notes)
-             text += "\n" + windowText(words(note));
+             text += "\n" + phrase(note);
            if (!done.durable)
              text += tr("\nThe disk reported an error; check the disk.");
            inform(text);
@@ -1648,7 +1648,7 @@ void CaseDocumentController::restore(const fs::path& file, const std::string& na
              endWork();
              QStringList notes;
              for (const std::string& note : done.notes)
-               notes += words(note);
+               notes += phrase(note);
              if (!notes.isEmpty())
              {
                const QScopedValueRollback<bool> asking(m_asking, true);

@@ -21,6 +21,7 @@
 #include <QVBoxLayout>
 
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 
@@ -233,7 +234,7 @@ void ExportDialog::formatChanged()
   name.replace('/', '_');
   m_path->setText(
       QDir(folder).filePath(isSeries() ? name : name + m_format->currentData().toString()));
-  m_coordinates->setText(words(presenters::coordinatesOf(options())));
+  m_coordinates->setText(phrase(presenters::coordinatesOf(options())));
   check();
 }
 

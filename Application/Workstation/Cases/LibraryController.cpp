@@ -44,12 +44,12 @@ QString damageText(const library::Inspection& found)
   QStringList lines;
   for (const auto& one : found.damaged)
   {
-    lines += words(one.object);
+    lines += phrase(one.object);
     lines += LibraryController::tr("    needed by: %1")
                  .arg(one.cases.empty() ? LibraryController::tr("no case") : listed(one.cases));
     if (!one.deletedCases.empty())
       lines += LibraryController::tr("    and by deleted cases: %1").arg(listed(one.deletedCases));
-    lines += "    " + windowText(words(one.text));
+    lines += "    " + phrase(one.text);
   }
   return lines.join('\n') + '\n';
 }
@@ -245,7 +245,7 @@ void LibraryController::askDescription(const std::string& name, const scene::Des
         m_panel->select(name);
         if (doubt->empty())
           return;
-        auto* box = new QMessageBox(QMessageBox::Warning, tr("Side"), words(*doubt),
+        auto* box = new QMessageBox(QMessageBox::Warning, tr("Side"), phrase(*doubt),
                                     QMessageBox::Ok, &m_window);
         box->setObjectName("sideDoubt");
         box->setAttribute(Qt::WA_DeleteOnClose);
@@ -373,7 +373,7 @@ void LibraryController::repair()
           QStringList lines;
           for (const auto* all : {&found.lost, &found.done})
             for (const std::string& line : *all)
-              lines += windowText(words(line));
+              lines += phrase(line);
           const QString verify = tr("Library > Verify tells whether files are damaged.");
           showReport(&m_window, tr("Repair"),
                      (found.lost.empty()

@@ -11,6 +11,7 @@
 #include "PreviewBar.h"
 #include "SliceView.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 
 namespace petrous::workstation
@@ -32,7 +33,7 @@ QString findingsText(const std::vector<imaging::Finding>& findings)
   QStringList lines;
   for (const imaging::Finding& finding : findings)
   {
-    QString line = QString::fromUtf8("• ") + words(finding.text);
+    QString line = QString::fromUtf8("• ") + phrase(finding.text);
     if (finding.errorMm > 0.0 && finding.text.find(" mm") == std::string::npos)
       line += RepairDialog::tr(" At stake: %1 mm.").arg(finding.errorMm, 0, 'f', 1);
     lines += line;
@@ -117,7 +118,7 @@ void RepairDialog::show(const presenters::RepairPreview& preview)
 
   QStringList remains{tr("What remains:")};
   for (const std::string& note : preview.notes)
-    remains += QString::fromUtf8("• ") + words(note);
+    remains += QString::fromUtf8("• ") + phrase(note);
   const Eigen::Vector3d& spacing = preview.after.grid.spacing();
   remains += tr("• Linear interpolation smooths detail below about %1 mm.")
                  .arg(spacing.maxCoeff(), 0, 'f', 2);

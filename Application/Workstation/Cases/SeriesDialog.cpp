@@ -15,6 +15,7 @@
 
 #include "PanelLayout.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 
 namespace petrous::workstation
 {
@@ -94,9 +95,9 @@ void fillLine(QTreeWidgetItem& line, const SeriesContent& series,
   QStringList more;
   for (const std::string& one : {series.patientPosition, series.kernel})
     if (!one.empty())
-      more += words(one);
+      more += phrase(one);
   if (isPart)
-    more += words(series.what);
+    more += phrase(series.what);
   if (!series.folder.empty())
     more += (series.isBeside ? SeriesDialog::tr("beside it in “%1”") : SeriesDialog::tr("in “%1”"))
                 .arg(QFile::decodeName(series.folder.c_str()));
@@ -104,7 +105,7 @@ void fillLine(QTreeWidgetItem& line, const SeriesContent& series,
   line.setText(VerdictColumn, isPart ? placeText(series, all) : verdictText(series));
   QStringList why;
   for (const imaging::Finding& finding : series.findings)
-    why += words(finding.text);
+    why += phrase(finding.text);
   for (int column = 0; column < Columns; ++column)
     line.setToolTip(column, why.isEmpty() ? line.text(column) : why.join('\n'));
   if (series.verdict == imaging::Verdict::Refused)

@@ -6,6 +6,7 @@
 #include "DeviceToolBar.h"
 #include "Theme.h"
 #include "WindowSettings.h"
+#include "WindowTexts.h"
 
 namespace petrous::workstation
 {
@@ -60,7 +61,7 @@ void ActiveDeviceController::notifyAdvice()
   advice.erase("");
   for (const std::string& line : advice)
     if (m_told.count(line) == 0)
-      emit statusMessage(words(line));
+      emit statusMessage(phrase(line));
   m_told = std::move(advice);
 }
 

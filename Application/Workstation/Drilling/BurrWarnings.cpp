@@ -1,6 +1,7 @@
 #include "BurrWarnings.h"
 
 #include "Theme.h"
+#include "WindowTexts.h"
 
 namespace petrous::workstation
 {
@@ -25,7 +26,7 @@ void BurrWarnings::burrMoved(const Eigen::Vector3d& center, double radius)
   {
     const auto warnings = m_model.warnings(center, radius);
     // The user must know that there can be no warnings yet.
-    warn(warnings ? words(*warnings) : tr("no warnings yet: structures are being measured"));
+    warn(warnings ? phrase(*warnings) : tr("no warnings yet: structures are being measured"));
   }
   catch (const std::exception&) // out of memory, a missing file; the panel shows which
   {

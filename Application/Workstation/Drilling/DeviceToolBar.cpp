@@ -11,6 +11,7 @@
 
 #include "Bind.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Presenters/DeviceMapping.h"
 
 namespace petrous::workstation
@@ -93,7 +94,7 @@ void DeviceToolBar::showDevices(const presenters::DeviceList& found, const std::
       m_choice->setCurrentIndex(row);
     if (input.advice.empty())
       continue;
-    m_choice->setItemData(row, words(input.advice), Qt::ToolTipRole);
+    m_choice->setItemData(row, phrase(input.advice), Qt::ToolTipRole);
     qobject_cast<QStandardItemModel*>(m_choice->model())->item(row)->setEnabled(false);
   }
 }

@@ -339,11 +339,11 @@ void DrillController::hear(const session::TouchSession::News& news)
     emit strokeEnded(stroke); // may ask the user, and much may happen meanwhile
   if (!news.journalFault.empty())
     emit statusMessage(
-        tr("What is drilled is not on the disk yet: %1").arg(words(news.journalFault)));
+        tr("What is drilled is not on the disk yet: %1").arg(phrase(news.journalFault)));
   if (!news.failure.empty())
   {
     releaseTool();
-    emit statusMessage(words(news.failure));
+    emit statusMessage(phrase(news.failure));
   }
   if (news.record && m_model.touching() && isLost(*news.record))
     m_devices.giveUp(whyLost());
@@ -409,7 +409,7 @@ QString DrillController::whyLost() const
   const QString name = words(device.input().name);
   if (device.input().kind == presenters::InputDevice::Kind::SpaceMouse)
     return tr("%1 was unplugged").arg(name);
-  const QString why = words(device.problem());
+  const QString why = phrase(device.problem());
   return why.isEmpty() ? tr("%1 gives no place any more").arg(name) : why;
 }
 
@@ -425,7 +425,7 @@ void DrillController::showFault(const session::TouchSession::News& news)
                      static_cast<DeviceVerdict>(record.verdict) == DeviceVerdict::NotReady;
   if (!news.fault.empty() && !waits && m_sinceTaken.elapsed() > kStart)
   {
-    fault = words(news.fault);
+    fault = phrase(news.fault);
     m_sinceFault.start();
   }
   else if (fault.isEmpty() && m_sinceFault.isValid() && m_sinceFault.elapsed() <= kFaultShown)

@@ -80,7 +80,7 @@ QString lines(const std::vector<std::string>& all)
 {
   QString text;
   for (const std::string& one : all)
-    text += windowText(words(one)) + '\n';
+    text += phrase(one) + '\n';
   return text;
 }
 
@@ -306,10 +306,10 @@ void ExchangeController::deidentify()
           if (!done.leftOut.empty())
             head += ' ' + tr("%1 were left out.").arg(done.leftOut.size());
           for (const auto& [what, files] : done.report.warnings)
-            head += '\n' + tr("%1 files: %2").arg(files).arg(words(what));
+            head += '\n' + tr("%1 files: %2").arg(files).arg(phrase(what));
           if (!done.report.durable)
             head += '\n' + tr("The disk reported an error; check the disk.");
-          showReport(&m_window, tr("De-identify"), head, words(done.report.text()),
+          showReport(&m_window, tr("De-identify"), head, phrase(done.report.text()),
                      "deidentification.txt", in);
         };
       });

@@ -10,6 +10,7 @@
 #include <QVBoxLayout>
 
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Library/Attachments.h"
 
 namespace petrous::workstation
@@ -123,7 +124,7 @@ void SendDialog::update()
   if (!any)
     return m_report->setPlainText(tr("Nothing is chosen."));
   const auto* faces = m_faces.isKnown ? &m_faces.images : nullptr;
-  QString text = words(presenters::identityReport(m_value, what, faces, &m_library).text());
+  QString text = phrase(presenters::identityReport(m_value, what, faces, &m_library).text());
   if (!m_faces.isKnown)
     text += '\n' + textOf(m_faces);
   m_report->setPlainText(text);

@@ -88,7 +88,7 @@ DrawnMeasure drawn(const scene::Case& value, const Measurement& measurement, std
   one.color = measureColor(measurement.kind);
   one.label = words(measurement.name);
   if (measurement.kind != Measurement::Kind::Mark)
-    one.label += ": " + words(presenters::summaryOf(value, measurement));
+    one.label += ": " + phrase(presenters::summaryOf(value, measurement));
   if (measurement.kind == Measurement::Kind::Thickness) // the shortest way is in the list
     one.points.resize(2);
   for (std::size_t n = 0; n < one.points.size(); ++n)
@@ -377,12 +377,12 @@ bool MeasureController::canRedo() const
 
 QString MeasureController::undoText() const
 {
-  return words(m_editor.undoText());
+  return phrase(m_editor.undoText());
 }
 
 QString MeasureController::redoText() const
 {
-  return words(m_editor.redoText());
+  return phrase(m_editor.redoText());
 }
 
 void MeasureController::undo()
@@ -432,7 +432,8 @@ void MeasureController::announce(std::size_t before)
   if (m_editor.all().size() <= before)
     return;
   const Measurement& made = m_editor.all().back();
-  emit statusMessage(words(made.name) + ": " + words(presenters::summaryOf(m_model.value(), made)));
+  emit statusMessage(words(made.name) + ": " +
+                     phrase(presenters::summaryOf(m_model.value(), made)));
 }
 
 void MeasureController::refresh()
@@ -471,10 +472,9 @@ void MeasureController::draw()
   {
     DrawnMeasure one = drawn(m_model.value(), *draft, all.size());
     const auto value = scene::valueOf(draft->kind, draft->points);
-    one.label =
-        value
-            ? words(presenters::toString(presenters::quantitiesOf(m_model.value(), *draft).front()))
-            : QString();
+    one.label = value ? phrase(presenters::toString(
+                            presenters::quantitiesOf(m_model.value(), *draft).front()))
+                      : QString();
     one.closed = one.closed && draft->points.size() > 2;
     one.draft = true;
     one.handles.clear();
@@ -510,7 +510,7 @@ void MeasureController::copy(std::optional<std::size_t> measurement)
   for (std::size_t n = 0; n < all.size(); ++n)
     if (!measurement || *measurement == n)
       text +=
-          words(all[n].name) + "\t" + words(presenters::summaryOf(m_model.value(), all[n])) + "\n";
+          words(all[n].name) + "\t" + phrase(presenters::summaryOf(m_model.value(), all[n])) + "\n";
   if (text.isEmpty())
     return;
   QApplication::clipboard()->setText(text);

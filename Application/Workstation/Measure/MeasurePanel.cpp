@@ -17,6 +17,7 @@
 #include "Bind.h"
 #include "PanelLayout.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Scene/Placement.h"
 
 namespace petrous::workstation
@@ -74,8 +75,8 @@ QString tipOf(const scene::Case& value, const Measurement& measurement)
   QString remark;
   for (const presenters::Quantity& quantity : presenters::quantitiesOf(value, measurement))
   {
-    tip += "\n" + words(quantity.name) + ": " + words(presenters::toString(quantity));
-    remark = words(quantity.remark);
+    tip += "\n" + phrase(quantity.name) + ": " + phrase(presenters::toString(quantity));
+    remark = phrase(quantity.remark);
   }
   return remark.isEmpty() ? tip : tip + "\n" + remark;
 }
@@ -292,7 +293,7 @@ void MeasurePanel::refresh()
       item->setText(Name, name);
     item->setIcon(Name, dot(measureColor(one.kind)));
     item->setCheckState(Name, one.shown ? Qt::Checked : Qt::Unchecked);
-    const QString value = words(presenters::summaryOf(m_model.value(), one));
+    const QString value = phrase(presenters::summaryOf(m_model.value(), one));
     if (item->text(Value) != value)
       item->setText(Value, value);
     const QString tip = tipOf(m_model.value(), one);
@@ -311,7 +312,7 @@ void MeasurePanel::refresh()
   m_hint->setText(!m_refusal.isEmpty() ? m_refusal
                   : hint.empty() ? tr("Choose a tool, then click in the slices or on the surface "
                                       "in the 3D view. Points can be dragged.")
-                                 : words(hint) + " " + tr("Esc puts the tool away."));
+                                 : phrase(hint) + " " + tr("Esc puts the tool away."));
   m_hint->setStyleSheet(m_refusal.isEmpty() ? QString() : QString(kWarningStyle));
 }
 
@@ -380,10 +381,10 @@ void MeasurePanel::showQuantities(const std::vector<presenters::Quantity>& quant
   m_quantities->clear();
   for (const presenters::Quantity& quantity : quantities)
   {
-    auto* item = new QTreeWidgetItem(m_quantities,
-                                     {words(quantity.name), words(presenters::toString(quantity))});
+    auto* item = new QTreeWidgetItem(
+        m_quantities, {phrase(quantity.name), phrase(presenters::toString(quantity))});
     for (int column = 0; column < 2; ++column)
-      item->setToolTip(column, words(quantity.remark));
+      item->setToolTip(column, phrase(quantity.remark));
   }
   m_quantities->show();
 }

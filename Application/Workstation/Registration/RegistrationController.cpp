@@ -320,7 +320,7 @@ void RegistrationController::finished(const presenters::RegistrationOutcome& out
   endRun({});
   if (outcome.failed)
   {
-    m_panel->say(tr("Failed, and nothing was changed: %1").arg(words(outcome.how.text)));
+    m_panel->say(tr("Failed, and nothing was changed: %1").arg(phrase(outcome.how.text)));
     emit statusMessage(tr("The registration failed"));
     return;
   }
@@ -328,7 +328,7 @@ void RegistrationController::finished(const presenters::RegistrationOutcome& out
     return;
   if (!m_overlay->mode())
     m_overlay->set(presenters::OverlayMode::Edges, m_overlay->opacity()); // for inspection
-  emit statusMessage(tr("MR %1: %2").arg(words(m_session.mr()), words(m_session.stateText())));
+  emit statusMessage(tr("MR %1: %2").arg(words(m_session.mr()), phrase(m_session.stateText())));
 }
 
 void RegistrationController::waitForTheDrill(const presenters::RegistrationOutcome& outcome)

@@ -19,6 +19,7 @@
 #include "PanelLayout.h"
 #include "RegistrationTargetBox.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 
 namespace petrous::workstation
 {
@@ -46,7 +47,7 @@ QString errorText(const scene::ImagePart& mr)
     text = RegistrationPanel::tr("Median error %1 mm, largest %2 mm")
                .arg(error->median, 0, 'f', 2)
                .arg(error->max, 0, 'f', 2);
-  const QString why = words(mr.registration->text);
+  const QString why = phrase(mr.registration->text);
   return text.isEmpty() || why.isEmpty() ? text + why : text + "\n" + why;
 }
 
@@ -301,7 +302,7 @@ void RegistrationPanel::refresh()
   m_overlay->setItemText(0, tr("%1 alone").arg(primary));
   m_overlay->setItemText(2, tr("%1's edges over the MR").arg(primary));
   m_bound.refresh();
-  m_state->setText(m_session.part() ? words(m_session.stateText())
+  m_state->setText(m_session.part() ? phrase(m_session.stateText())
                    : m_session.primary() != "CT"
                        ? tr("The case has no other MR; add one with File > Open DICOM… or Open "
                             "files…")

@@ -306,12 +306,12 @@ bool SegmentController::canRedoStep() const
 
 QString SegmentController::undoText() const
 {
-  return words(m_editor.undoText());
+  return phrase(m_editor.undoText());
 }
 
 QString SegmentController::redoText() const
 {
-  return words(m_editor.redoText());
+  return phrase(m_editor.redoText());
 }
 
 bool SegmentController::hasBrush() const
@@ -392,7 +392,7 @@ void SegmentController::changed()
   }
   const bool draft = m_editor.hasDraft();
   const std::string whyNot = m_editor.whyNotStep();
-  enable(*m_step, open && whyNot.empty(), open ? words(whyNot) : tr("Open a case first"));
+  enable(*m_step, open && whyNot.empty(), open ? phrase(whyNot) : tr("Open a case first"));
   m_create->setEnabled(open && draft);
   m_escape->setEnabled(open && (draft || tool != Tool::None));
   m_slices.setHidden(m_editor.edited());
@@ -460,7 +460,7 @@ void SegmentController::step()
   if (auto work = m_editor.stepWork())
     run(std::move(*work), true);
   else
-    m_panel->say(words(m_editor.whyNotStep()));
+    m_panel->say(phrase(m_editor.whyNotStep()));
 }
 
 void SegmentController::edit(const std::string& structure)
@@ -619,7 +619,7 @@ bool SegmentController::mayLeave()
   box.setTextFormat(Qt::PlainText);
   box.setObjectName("askDraft");
   if (!whyNot.empty())
-    box.setInformativeText(tr("It cannot be created as it is: %1").arg(words(whyNot)));
+    box.setInformativeText(tr("It cannot be created as it is: %1").arg(phrase(whyNot)));
   auto* create = box.addButton(tr("Create"), QMessageBox::AcceptRole);
   create->setEnabled(whyNot.empty());
   auto* drop = box.addButton(tr("Discard"), QMessageBox::DestructiveRole);

@@ -164,7 +164,7 @@ void SegmentPanel::addHead(QVBoxLayout& layout)
 
 QString SegmentPanel::imageName(const std::string& source) const
 {
-  return words(m_editor.sourceName(source));
+  return phrase(m_editor.sourceName(source));
 }
 
 // The slices show it from now on.
@@ -562,7 +562,7 @@ void SegmentPanel::showSources()
   const auto sources = m_editor.sources();
   QStringList names, shown;
   for (const auto& source : sources)
-    names << imageName(source.name) + words(source.name) + words(source.why);
+    names << imageName(source.name) + words(source.name) + phrase(source.why);
   for (int n = 0; n < m_source->count(); ++n)
     shown << m_source->itemData(n, kImageName).toString() + m_source->itemData(n).toString() +
                  m_source->itemData(n, Qt::ToolTipRole).toString();
@@ -575,11 +575,11 @@ void SegmentPanel::showSources()
         for (const auto& source : sources)
         {
           const QString name = imageName(source.name);
-          m_source->addItem(source.why.empty() ? name : tr("%1 (%2)").arg(name, words(source.why)),
+          m_source->addItem(source.why.empty() ? name : tr("%1 (%2)").arg(name, phrase(source.why)),
                             words(source.name));
           const int row = m_source->count() - 1;
           m_source->setItemData(row, name, kImageName);
-          m_source->setItemData(row, words(source.why), Qt::ToolTipRole);
+          m_source->setItemData(row, phrase(source.why), Qt::ToolTipRole);
           static_cast<QStandardItemModel*>(m_source->model())
               ->item(row)
               ->setEnabled(source.why.empty());
@@ -625,8 +625,8 @@ void SegmentPanel::showPoints()
     item->setText(0, QString::number(row + 1) + (isOutside ? "!" : ""));
     item->setText(1, points[n].distance ? tr("%1 mm").arg(*points[n].distance, 0, 'f', 2)
                                         : QString::fromUtf8("–"));
-    item->setText(2, words(points[n].problem));
-    item->setToolTip(2, words(points[n].problem));
+    item->setText(2, phrase(points[n].problem));
+    item->setToolTip(2, phrase(points[n].problem));
     const QColor warned = warningColor();
     for (int column = 0; column < 2; ++column)
       item->setForeground(column, isOutside ? QBrush(warned) : palette().text());
@@ -696,7 +696,7 @@ void SegmentPanel::refresh()
   m_pages->setCurrentIndex(static_cast<int>(m_editor.tool()));
   const bool free = !m_editor.stepping();
   showVolume();
-  const QString notShown = words(m_editor.notShown());
+  const QString notShown = phrase(m_editor.notShown());
   m_shown->setText(notShown);
   m_showSource->setText(tr("Show %1").arg(imageName(m_editor.source())));
   const std::string instead = m_editor.shownInstead();
@@ -704,9 +704,9 @@ void SegmentPanel::refresh()
   m_shown->setVisible(!notShown.isEmpty());
   m_showSource->setVisible(!notShown.isEmpty());
   m_takeShown->setVisible(!instead.empty());
-  m_remark->setText(words(m_editor.warning()));
+  m_remark->setText(phrase(m_editor.warning()));
   m_remark->setVisible(!m_editor.warning().empty());
-  m_note->setText(words(m_editor.note()));
+  m_note->setText(phrase(m_editor.note()));
   m_note->setVisible(!m_editor.note().empty());
   const auto pieces = m_editor.pieces();
   if (pieces)
@@ -722,7 +722,7 @@ void SegmentPanel::refresh()
   {
     step->setEnabled(free && whyNot.empty());
     step->setToolTip(whyNot.empty() ? tr("One step, which can be undone (Shift+Return)")
-                                    : words(whyNot));
+                                    : phrase(whyNot));
   }
   if (free)
     showWork(false);
@@ -735,16 +735,16 @@ void SegmentPanel::refresh()
   m_undo->setToolTip(tr("%1 (Ctrl+Z while a tool is in use)")
                          .arg(m_editor.undoText().empty()
                                   ? tr("The last step")
-                                  : tr("Undo %1").arg(words(m_editor.undoText()))));
+                                  : tr("Undo %1").arg(phrase(m_editor.undoText()))));
   m_redo->setToolTip(tr("%1 (Ctrl+Shift+Z while a tool is in use)")
                          .arg(m_editor.redoText().empty()
                                   ? tr("Again")
-                                  : tr("Redo %1").arg(words(m_editor.redoText()))));
+                                  : tr("Redo %1").arg(phrase(m_editor.redoText()))));
   const std::string why = m_editor.whyNotCreate();
   m_create->setText(m_editor.edited().empty() ? tr("Create structure") : tr("Save the changes"));
   m_create->setEnabled(free && why.empty());
   m_create->setToolTip(why.empty() ? tr("The draft becomes a structure of the case (Return)")
-                                   : words(why));
+                                   : phrase(why));
   m_discard->setEnabled(m_editor.hasDraft());
   m_edit->setEnabled(free && !m_editor.hasDraft());
 }

@@ -19,6 +19,7 @@
 #include <QSpinBox>
 #include <QVBoxLayout>
 
+#include "Language.h"
 #include "PathRow.h"
 #include "Theme.h"
 #include "petrous/Presenters/CameraPaths.h"
@@ -134,7 +135,8 @@ ReportDialog::ReportDialog(const scene::Case& value, QWidget* parent)
   m_language->setObjectName("reportLanguage");
   m_language->addItem("English", static_cast<int>(presenters::ReportLanguage::English));
   m_language->addItem("Deutsch", static_cast<int>(presenters::ReportLanguage::German));
-  m_language->setCurrentIndex(QLocale::system().language() == QLocale::German ? 1 : 0);
+  m_language->setCurrentIndex(
+      shownLanguage() == "de" || QLocale::system().language() == QLocale::German ? 1 : 0);
   m_date->setObjectName("reportDate");
   m_date->setEnabled(!value.description.date.empty());
   m_date->setChecked(m_date->isEnabled());

@@ -8,6 +8,7 @@
 #include "SliceColumn.h"
 #include "SliceView.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Presenters/ProvenanceText.h"
 
 namespace petrous::workstation
@@ -148,7 +149,7 @@ void MrOverlay::draw()
   else if (!part->registered)
     notice += tr(": not registered");
   if (const std::string guessed = presenters::interpolatedText(*part); !guessed.empty())
-    notice += tr(": %1").arg(QString::fromStdString(guessed));
+    notice += tr(": %1").arg(phrase(guessed));
   m_slices.setNotice(notice);
 }
 

@@ -11,6 +11,7 @@
 
 #include "SliceMarks.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Core/NumberText.h"
 
 namespace petrous::workstation
@@ -482,7 +483,7 @@ void SliceView::paintLetters(QPainter& painter) const
 
   font.setPixelSize(12);
   painter.setFont(font);
-  QString name = words(m_planes.name(m_orientation));
+  QString name = phrase(m_planes.name(m_orientation));
   if (m_slab.thickness > 0.0)
     name += "  " + slabText(m_slab);
   drawText(painter, {double(kMargin), kMargin + 11.0}, name, planeColor(m_orientation));

@@ -368,7 +368,7 @@ void AppearancePanel::showSources()
         });
   const std::string fixed = m_editor.sourceFixed();
   m_source->setEnabled(sources.size() > 1 && fixed.empty());
-  m_source->setToolTip(!fixed.empty()       ? words(fixed)
+  m_source->setToolTip(!fixed.empty()       ? phrase(fixed)
                        : sources.size() > 1 ? tr("The image whose intensities are read")
                                             : tr("The image whose intensities are read; the case "
                                                  "has no MR beside it"));
@@ -414,8 +414,9 @@ void AppearancePanel::showNote()
   if (text.isEmpty() && part)
   {
     if (const std::string notice = m_editor.notice(); !notice.empty())
-      text = words(notice) + (m_editor.canFit() ? tr(". Function > Fit to the histogram sets some.")
-                                                : QString('.'));
+      text =
+          phrase(notice) +
+          (m_editor.canFit() ? tr(". Function > Fit to the histogram sets some.") : QString('.'));
     else if (!part->look.solid)
       text = tr("A space without tissue tints the bone around it: its colours count, its opacities "
                 "do not.");

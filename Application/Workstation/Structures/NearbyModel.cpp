@@ -128,7 +128,7 @@ QVariant NearbyModel::data(const QModelIndex& index, int role) const
         .arg(words(row.name).replace('_', ' '))
         .arg(noteOf(row))
         .arg(row.uncertainty.millimetres(), 0, 'f', 2)
-        .arg(words(toString(row.uncertainty)));
+        .arg(phrase(toString(row.uncertainty)));
   if (role == Qt::DecorationRole && index.column() == Name)
     return signOf(row);
   if (role == Qt::TextAlignmentRole && index.column() == Distance)

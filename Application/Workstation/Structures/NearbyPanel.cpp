@@ -7,6 +7,7 @@
 
 #include "NearbyModel.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 
 namespace petrous::workstation
 {
@@ -108,7 +109,7 @@ void NearbyPanel::burrMoved(const Eigen::Vector3d& center, double radius)
   catch (const std::exception& error) // out of memory, a missing file
   {
     m_structures->show({});
-    say(tr("The structures cannot be measured: %1").arg(words(error.what())));
+    say(tr("The structures cannot be measured: %1").arg(phrase(error.what())));
   }
 }
 

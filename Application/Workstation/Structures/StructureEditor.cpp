@@ -18,6 +18,7 @@
 #include "ColorChooser.h"
 #include "StructuresModel.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Dissection/MaterialCatalogue.h"
 #include "petrous/Presenters/BoneOpacity.h"
@@ -168,9 +169,9 @@ QDoubleSpinBox* StructureEditor::addNumber(const char* key, double step)
   if (*property.range.unit)
     range.unit = QString(" ") + property.range.unit;
   if (property.off)
-    range.atLeast = words(property.off);
+    range.atLeast = phrase(property.off);
   QDoubleSpinBox* box =
-      numberBox((std::string("structure_") + key).c_str(), words(property.option.text), range);
+      numberBox((std::string("structure_") + key).c_str(), phrase(property.option.text), range);
   m_bound.add(
       box,
       [this, &property]
@@ -233,11 +234,11 @@ QComboBox* StructureEditor::addPresets()
 QComboBox* StructureEditor::addMaterials()
 {
   const StructureProperty& property = propertyOf("tissue");
-  QComboBox* box = choiceBox("structureMaterial", words(property.option.text));
+  QComboBox* box = choiceBox("structureMaterial", phrase(property.option.text));
   box->addItem(tr("Bone, by its density"), QString());
   const auto catalogue = dissection::MaterialCatalogue::builtIn();
   for (const auto& material : catalogue.all())
-    box->addItem(words(material.title), words(material.name));
+    box->addItem(phrase(material.title), words(material.name));
   box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   connect(box, qOverload<int>(&QComboBox::activated), this,
           [this, box, &property](int row)

@@ -418,11 +418,11 @@ QString StructuresModel::untouchableText(const std::string& name) const
       try
       {
         const std::string reason = scene::untouchable(value, mesh);
-        return reason.empty() ? QString() : tr("Not felt: %1").arg(words(reason));
+        return reason.empty() ? QString() : tr("Not felt: %1").arg(phrase(reason));
       }
       catch (const core::Error& error)
       {
-        return words(error.what());
+        return phrase(error.what());
       }
   return {};
 }
@@ -456,7 +456,7 @@ QVariant StructuresModel::data(const QModelIndex& index, int role) const
                row.row.look.shown ? tr("shown") : tr("hidden"));
     if (role == Qt::ToolTipRole && !row.row.missing.empty())
       return tr("%1 is nowhere on the %2, and neither drawn nor felt nor warned of: %3")
-          .arg(words(row.row.part), primary(), windowText(words(row.row.missing)));
+          .arg(words(row.row.part), primary(), phrase(row.row.missing));
     if (role == Qt::ToolTipRole && row.row.kind == StructureKind::Bone)
       return tr("The %1 itself, where no structure is").arg(primary());
     if (role == Qt::ToolTipRole)
@@ -523,7 +523,7 @@ QVariant StructuresModel::propertyData(const Row& row, const StructureProperty& 
     if (role == Qt::DisplayRole)
       return isOff(row.row.look, property)
                  ? QString::fromUtf8("–")
-                 : QString("%1 %2").arg(words(toString(row.row.look, property)),
+                 : QString("%1 %2").arg(phrase(toString(row.row.look, property)),
                                         property.range.unit);
     if (role == Qt::TextAlignmentRole)
       return int(Qt::AlignRight | Qt::AlignVCenter);

@@ -1,12 +1,23 @@
 #include <set>
 
+#include <QAbstractButton>
+#include <QComboBox>
+#include <QDialogButtonBox>
 #include <QDoubleSpinBox>
+#include <QLabel>
+#include <QLibraryInfo>
 #include <QMenuBar>
+#include <QPushButton>
 #include <QTranslator>
 
+#include "Application.h"
 #include "GuiTest.h"
 #include "Language.h"
+#include "Theme.h"
 #include "WindowSettings.h"
+#include "WindowTexts.h"
+#include "petrous/Core/Error.h"
+#include "petrous/Presenters/Phrasebook.h"
 
 using namespace petrous;
 using namespace petrous::workstation;
@@ -14,6 +25,50 @@ using namespace petrous::workstation;
 class LanguageTest : public GuiTest
 {
 };
+
+namespace
+{
+
+// While it lives, texts are German.
+class GermanTexts
+{
+public:
+  GermanTexts()
+  {
+    m_isThere = m_texts.load(":/translations/petrous_de.qm");
+    QApplication::installTranslator(&m_texts);
+  }
+  ~GermanTexts() { QApplication::removeTranslator(&m_texts); }
+  GermanTexts(const GermanTexts&) = delete;
+  GermanTexts& operator=(const GermanTexts&) = delete;
+  bool isThere() const { return m_isThere; }
+
+private:
+  QTranslator m_texts;
+  bool m_isThere = false;
+};
+
+// What stands in widgets and actions.
+QStringList shownTexts()
+{
+  QStringList texts;
+  for (const QWidget* widget : QApplication::allWidgets())
+  {
+    texts << widget->toolTip() << widget->windowTitle();
+    if (const auto* label = qobject_cast<const QLabel*>(widget))
+      texts << label->text();
+    if (const auto* button = qobject_cast<const QAbstractButton*>(widget))
+      texts << button->text();
+    if (const auto* box = qobject_cast<const QComboBox*>(widget))
+      for (int n = 0; n < box->count(); ++n)
+        texts << box->itemText(n) << box->itemData(n, Qt::ToolTipRole).toString();
+    for (const QAction* one : widget->actions())
+      texts << one->text() << one->toolTip() << one->statusTip();
+  }
+  return texts;
+}
+
+} // namespace
 
 TEST_F(LanguageTest, TheMenusAreGermanAndNumbersKeepTheirPoint)
 {
@@ -63,4 +118,53 @@ TEST_F(LanguageTest, TheChoiceIsKept)
   EXPECT_EQ(WindowSettings(file).language(), "de");
   WindowSettings(file).keepLanguage("");
   EXPECT_EQ(WindowSettings(file).language(), "");
+}
+
+TEST_F(LanguageTest, WhatPresentersSayIsShownInGerman)
+{
+  if (!hasLanguage("de"))
+    GTEST_SKIP() << "built without lrelease";
+  saveBall("ball");
+  const GermanTexts german;
+  ASSERT_TRUE(german.isThere());
+  EXPECT_EQ(shownLanguage(), "de");
+  openWindow("ball");
+  ASSERT_TRUE(waitFor([this] { return settled(); }));
+  const std::set<QString> names{"nerve", "ball", "main"}; // of the case
+  const presenters::Phrasebook& phrases = presenters::germanPhrases();
+  int count = 0;
+  for (const QString& text : shownTexts())
+  {
+    const std::string plain = bytes(QString(text).remove('&'));
+    if (plain.empty() || names.count(words(plain)))
+      continue;
+    ++count;
+    const auto other = phrases.find(plain);
+    EXPECT_TRUE(!other || *other == plain) << plain;
+  }
+  EXPECT_GT(count, 300);
+  EXPECT_EQ(toString(core::InvalidParameter("case 'ear' has no MR 'T2'; it has none")),
+            "der Fall „ear“ hat kein MR „T2“; er hat keines");
+  EXPECT_EQ(phrase("ear.nii: is damaged: a face has fewer than three corners; export it again from "
+                   "where it came"),
+            "ear.nii: ist beschädigt: eine Fläche hat weniger als drei Ecken; exportieren Sie sie "
+            "noch einmal vom Ursprung");
+}
+
+TEST_F(LanguageTest, WithoutGermanPhrasesStayEnglish)
+{
+  EXPECT_EQ(shownLanguage(), "en");
+  EXPECT_EQ(phrase("case 'ear' has no structures"), "case 'ear' has no structures");
+}
+
+TEST_F(LanguageTest, ButtonsOfQtsDialogsAreGerman)
+{
+  QTranslator qt;
+  if (!qt.load("qtbase_de", QLibraryInfo::location(QLibraryInfo::TranslationsPath)))
+    GTEST_SKIP() << "Qt's German texts (qttranslations5-l10n) are not installed";
+  QApplication::installTranslator(&qt);
+  const QDialogButtonBox box(QDialogButtonBox::Cancel | QDialogButtonBox::Save);
+  EXPECT_EQ(box.button(QDialogButtonBox::Cancel)->text().remove('&'), "Abbrechen");
+  EXPECT_EQ(box.button(QDialogButtonBox::Save)->text().remove('&'), "Speichern");
+  QApplication::removeTranslator(&qt);
 }

@@ -4,6 +4,7 @@
 
 #include "Application.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Core/Error.h"
 
 namespace petrous::workstation
@@ -110,7 +111,7 @@ void BackgroundWork::notify(const std::shared_ptr<Latest>& latest, double fracti
         std::unique_lock<std::mutex> lock(latest->mutex);
         latest->onItsWay = false;
         const double reached = latest->fraction;
-        const QString step = words(latest->text);
+        const QString step = phrase(latest->text);
         lock.unlock();
         emit progressed(reached, step);
       });

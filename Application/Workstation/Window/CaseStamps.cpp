@@ -18,6 +18,7 @@
 #include "SliceView.h"
 #include "Theme.h"
 #include "ThreeDView.h"
+#include "WindowTexts.h"
 
 namespace petrous::workstation
 {
@@ -135,7 +136,7 @@ void CaseStamps::ask()
 
 void CaseStamps::doubt()
 {
-  const QString why = words(presenters::sideDoubt(m_model.value()));
+  const QString why = phrase(presenters::sideDoubt(m_model.value()));
   m_question.setText(why);
   m_question.setVisible(!why.isEmpty());
 }

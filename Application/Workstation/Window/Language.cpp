@@ -47,4 +47,10 @@ void installLanguage(QCoreApplication& application, const QString& code)
   install(textsOf(code), {});
 }
 
+QString shownLanguage()
+{
+  //: Code of the language of this file, ISO 639-1
+  return QCoreApplication::translate("Language", "en");
+}
+
 } // namespace petrous::workstation

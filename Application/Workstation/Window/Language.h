@@ -20,4 +20,7 @@ QString languageOf(const QString& chosen, const QStringList& users);
 /// not change. English installs nothing.
 void installLanguage(QCoreApplication& application, const QString& code);
 
+/// Code of the language whose texts are installed.
+QString shownLanguage();
+
 } // namespace petrous::workstation

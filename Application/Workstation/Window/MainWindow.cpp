@@ -106,7 +106,7 @@ void showInterpolated(QWidget& view, const scene::Case& value)
   constexpr int kMargin = 10;
   QStringList lines;
   for (const std::string& line : presenters::interpolatedTexts(value))
-    lines += words(line);
+    lines += phrase(line);
   auto* label = view.findChild<QLabel*>("guessed");
   if (!label)
   {
@@ -128,7 +128,7 @@ QStringList notesOf(const scene::Case& value)
   const auto add = [&notes](const std::string& part, const std::vector<std::string>& more)
   {
     for (const std::string& note : more)
-      notes += words(part) + ": " + windowText(words(note));
+      notes += words(part) + ": " + phrase(note);
   };
   add(presenters::primaryName(value), value.ct.notes);
   for (const auto& mr : value.mr)
@@ -486,8 +486,8 @@ void MainWindow::connectModel()
     stepped(back);
   };
   m_model.events.recordingChanged = [this](const std::string& fault)
-  { showRecording(words(fault)); };
-  m_model.events.noticed = [this](const std::string& text) { notice(words(text)); };
+  { showRecording(phrase(fault)); };
+  m_model.events.noticed = [this](const std::string& text) { notice(phrase(text)); };
   connect(m_registration, &RegistrationController::sceneStale, this,
           [this] { m_model.events.appearanceChanged(); });
   connect(m_slices, &SliceColumn::pointed, m_place,
@@ -783,13 +783,13 @@ void MainWindow::showUndo()
   else if (undoesSegment())
     show(*m_actions->undo, undo, m_segment->canUndoStep(), m_segment->undoText());
   else
-    show(*m_actions->undo, undo, m_model.canUndo(), words(m_model.undoText()));
+    show(*m_actions->undo, undo, m_model.canUndo(), phrase(m_model.undoText()));
   if (undoesMeasure())
     show(*m_actions->redo, redo, m_measure->canRedo(), m_measure->redoText());
   else if (redoesSegment())
     show(*m_actions->redo, redo, m_segment->canRedoStep(), m_segment->redoText());
   else
-    show(*m_actions->redo, redo, m_model.canRedo(), words(m_model.redoText()));
+    show(*m_actions->redo, redo, m_model.canRedo(), phrase(m_model.redoText()));
 }
 
 // A tool's steps first; and no stroke as long as the drill is put away for it.
@@ -812,7 +812,7 @@ bool MainWindow::redoesSegment() const
 void MainWindow::step(bool back)
 {
   const bool isStroke = back ? m_model.undoesStroke() : m_model.redoesStroke();
-  const QString what = words(back ? m_model.undoText() : m_model.redoText());
+  const QString what = phrase(back ? m_model.undoText() : m_model.redoText());
   const auto act = [this, back] { back ? m_model.undo() : m_model.redo(); };
   const auto done = [&]
   {
@@ -957,7 +957,7 @@ void MainWindow::warnOfSides()
 {
   QStringList lines;
   for (const std::string& line : presenters::assumedSideTexts(m_model.value()))
-    lines += words(line);
+    lines += phrase(line);
   if (lines.isEmpty())
     return;
   m_notesBanner->setText(lines.join('\n'));
@@ -1058,7 +1058,7 @@ void MainWindow::showView(rendering::StandardView view)
   const std::string doubt =
       presenters::earDoubt(m_model.value(), isLeft ? scene::Side::Left : scene::Side::Right);
   if (!doubt.empty())
-    statusBar()->showMessage(words(doubt));
+    statusBar()->showMessage(phrase(doubt));
 }
 
 // The plane through the crosshair, facing the viewer; a box that is shown alone stays.

@@ -6,7 +6,9 @@
 
 #include <QObject>
 
+#include "Language.h"
 #include "Theme.h"
+#include "petrous/Presenters/Phrasebook.h"
 
 namespace petrous::workstation
 {
@@ -117,9 +119,17 @@ QString windowText(const QString& text)
       {"\\bmm3\\b", "mm³"},
   };
   QString result = text;
+  if (shownLanguage() == "de")
+    if (const auto german = presenters::germanPhrases().find(bytes(text)))
+      result = words(*german);
   for (const Hint& hint : kHints)
     result.replace(QRegularExpression(hint.command), QString::fromUtf8(hint.window));
   return result;
+}
+
+QString phrase(const std::string& text)
+{
+  return windowText(words(text));
 }
 
 QString sentence(const QString& text)

@@ -19,8 +19,13 @@ QString removedText(const scene::Case& value, bool drilling);
 /// What a stroke removed; "Nothing was cut" for nullptr.
 QString strokeText(const dissection::Stroke* stroke);
 
-/// A message with what to do in the window in place of what it says to do with the command.
+/// A message of what lies below the window in the window's language, with what to do in the window
+/// in place of what it says to do with the command.
 QString windowText(const QString& text);
+
+/// The same of a text of the program that holds no more than names of the user's; of a name alone,
+/// words().
+QString phrase(const std::string& text);
 
 /// Adds a full stop if there is none.
 QString sentence(const QString& text);

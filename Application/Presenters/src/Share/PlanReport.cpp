@@ -732,7 +732,7 @@ private:
         const bool isMark = one.kind == scene::Measurement::Kind::Mark;
         table.table.rows.push_back(
             {textCell(one.name), textCell((isMark ? say("mark") + ", " : "") + say(quantity.name)),
-             cellOf(quantity), textCell(quantity.remark)});
+             cellOf(quantity), textCell(say(quantity.remark))});
       }
   }
 
@@ -831,15 +831,15 @@ private:
             &scene::RegistrationError::max})
         row.push_back(how.error ? numberCell((*how.error).*which, 2, "mm")
                                 : textCell(say("unknown")));
-      row.push_back(textCell(how.error ? how.error->place : ""));
+      row.push_back(textCell(how.error ? say(how.error->place) : ""));
       const scene::SignOff* signOff = scene::validSignOff(mr);
       const bool names = signOff && m_options.keepIdentity && !signOff->who.empty();
       row.push_back(textCell(names     ? say("yes, by ") + signOff->who
                              : signOff ? say("yes")
                                        : say("no")));
       table.table.rows.push_back(std::move(row));
-      if (!how.text.empty()) // in the words of the registration, whatever the language
-        table.remarks.push_back(mr.name + ": " + how.text);
+      if (!how.text.empty())
+        table.remarks.push_back(mr.name + ": " + say(how.text));
     }
   }
 

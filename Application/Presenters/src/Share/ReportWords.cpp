@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include "petrous/Presenters/Phrasebook.h"
+
 namespace petrous::presenters
 {
 
@@ -43,7 +45,7 @@ const std::map<std::string, std::string>& germanTexts()
       {"Shortest distance between what was removed and the surface of each structure, "
        "nearest first. ± is a half-width: half a voxel of structure and wall, and the error of the "
        "registration where a structure was drawn on an MR.",
-       "Kürzester Abstand zwischen dem Entfernten und der Oberfläche jeder Struktur, die "
+       "Kürzester Abstand zwischen dem Abgetragenen und der Oberfläche jeder Struktur, die "
        "nächste zuerst. ± ist eine halbe Breite: ein halbes Voxel von Struktur und Wand, dazu der "
        "Fehler der Registrierung, wo eine Struktur im MR gezeichnet wurde."},
       {"Nothing was drilled yet.", "Noch wurde nichts gebohrt."},
@@ -66,7 +68,7 @@ const std::map<std::string, std::string>& germanTexts()
       {"a note", "ein Vermerk"},
       {"Structure", "Struktur"},
       {"Distance", "Abstand"},
-      {"Removed from it", "Davon entfernt"},
+      {"Removed from it", "Davon abgetragen"},
       {"reached", "erreicht"},
       {"uncertainty unknown", "Unsicherheit unbekannt"},
       {"unknown", "unbekannt"},
@@ -82,13 +84,13 @@ const std::map<std::string, std::string>& germanTexts()
        "Jede Zeile hat die drei Schichten durch eine Stelle, die das gelbe Kreuz zeigt."},
       {"interpolated slice: not measured here", "interpolierte Schicht: hier nicht gemessen"},
       {"Approaches", "Zugänge"},
-      {"Strokes", "Bohrgänge"},
+      {"Strokes", "Bohrzüge"},
       {"Drilling time", "Bohrzeit"},
-      {"Removed", "Entfernt"},
+      {"Removed", "Abgetragen"},
       {"Of structures", "Von Strukturen"},
       {"reported here", "hier berichtet"},
-      {"Stroke", "Bohrgang"},
-      {"Burr", "Bohrer"},
+      {"Stroke", "Bohrzug"},
+      {"Burr", "Fräse"},
       {"cutting", "schneidend"},
       {"diamond", "Diamant"},
       {"Speed", "Drehzahl"},
@@ -186,7 +188,7 @@ std::string reportText(ReportLanguage language, const std::string& english)
   if (language == ReportLanguage::English)
     return english;
   const auto found = germanTexts().find(english);
-  return found == germanTexts().end() ? english : found->second;
+  return found == germanTexts().end() ? germanPhrases().text(english) : found->second;
 }
 
 } // namespace petrous::presenters

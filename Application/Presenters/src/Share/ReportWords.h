@@ -7,7 +7,8 @@
 namespace petrous::presenters
 {
 
-/// A text of the report in its language. Texts without a translation stay English.
+/// A text of the report in its language: by the report's own words, else as a phrase of the program.
+/// What is neither stays as it is.
 std::string reportText(ReportLanguage language, const std::string& english);
 
 } // namespace petrous::presenters

@@ -1,0 +1,144 @@
+#include "petrous/Presenters/Phrasebook.h"
+
+#include <set>
+
+#include <gtest/gtest.h>
+
+using petrous::presenters::germanPhraseList;
+using petrous::presenters::germanPhrases;
+using petrous::presenters::Phrasebook;
+
+namespace
+{
+
+const Phrasebook& few()
+{
+  static const Phrasebook kBook({
+      {"%#1 slices are missing; copy the series again",
+       "%#1 Schichten fehlen; kopieren Sie die Serie neu"},
+      {"%#1 slice is missing; copy the series again",
+       "%#1 Schicht fehlt; kopieren Sie die Serie neu"},
+      {"'%1' cannot be sent: %~2", "„%1“ lässt sich nicht senden: %~2"},
+      {"%1 lies %#2 mm from %3", "%3 ist von %1 um %#2 mm entfernt"},
+      {"the disk is full", "der Datenträger ist voll"},
+      {"the disk of %1 is full of old cases", "der Datenträger von %1 ist voll alter Fälle"},
+      {"nothing", "nichts"},
+      {"Repaired: slices were shifted.", "Repariert: Schichten wurden verschoben."},
+      {"%#1 left out", "%#1 blieben weg"},
+      {"%#1 structures read", "%#1 Strukturen gelesen"},
+  });
+  return kBook;
+}
+
+std::string filled(std::string phrase, const std::string& value)
+{
+  for (std::size_t at = 0; (at = phrase.find('%', at)) != std::string::npos;)
+  {
+    std::size_t end = at + 1;
+    if (end < phrase.size() && (phrase[end] == '~' || phrase[end] == '#'))
+      ++end;
+    const std::size_t digits = end;
+    while (end < phrase.size() && phrase[end] >= '0' && phrase[end] <= '9')
+      ++end;
+    if (end == digits)
+    {
+      ++at;
+      continue;
+    }
+    const std::string one = value + phrase.substr(digits, end - digits);
+    phrase.replace(at, end - at, one);
+    at += one.size();
+  }
+  return phrase;
+}
+
+} // namespace
+
+TEST(Phrasebook, PutsNamesAndNumbersWhereTheOtherLanguageHasThem)
+{
+  EXPECT_EQ(few().text("cochlea lies 1.25 mm from burr"),
+            "burr ist von cochlea um 1.25 mm entfernt");
+  EXPECT_EQ(few().text("3 slices are missing; copy the series again"),
+            "3 Schichten fehlen; kopieren Sie die Serie neu");
+  EXPECT_EQ(few().text("1 slice is missing; copy the series again"),
+            "1 Schicht fehlt; kopieren Sie die Serie neu");
+}
+
+TEST(Phrasebook, APhraseInAPhraseIsTranslatedAndANameThatReadsAsOneIsNot)
+{
+  EXPECT_EQ(few().text("'nothing' cannot be sent: the disk is full"),
+            "„nothing“ lässt sich nicht senden: der Datenträger ist voll");
+  EXPECT_EQ(few().text("'a' cannot be sent: nothing"), "„a“ lässt sich nicht senden: nichts");
+}
+
+TEST(Phrasebook, ThePhraseWithTheMostWordsOfItsOwnIsTaken)
+{
+  EXPECT_EQ(few().text("the disk of node 7 is full of old cases"),
+            "der Datenträger von node 7 ist voll alter Fälle");
+}
+
+TEST(Phrasebook, PartsOfATextAreFoundAndWhatIsNoPhraseStays)
+{
+  EXPECT_EQ(few().text("/data/a b.nrrd: the disk is full"),
+            "/data/a b.nrrd: der Datenträger ist voll");
+  EXPECT_EQ(few().text("3 structures read, 2 left out."), "3 Strukturen gelesen, 2 blieben weg.");
+  EXPECT_EQ(few().text("Repaired: slices were shifted. the disk is full"),
+            "Repariert: Schichten wurden verschoben. der Datenträger ist voll");
+  EXPECT_EQ(few().text("the disk is full\nConnection reset by peer"),
+            "der Datenträger ist voll\nConnection reset by peer");
+  EXPECT_FALSE(few().find("Connection reset by peer"));
+  EXPECT_FALSE(few().find("no structures read")); // no number
+  EXPECT_EQ(few().text("nothing: the disk is full"), "nothing: der Datenträger ist voll");
+  EXPECT_FALSE(few().find(""));
+}
+
+// The German of each, with its own values, and of no other.
+TEST(GermanPhrases, EachIsFoundAsItself)
+{
+  ASSERT_GT(germanPhraseList().size(), 1000U);
+  std::set<std::string> seen;
+  for (const auto& [english, german] : germanPhraseList())
+  {
+    EXPECT_TRUE(seen.insert(english).second) << english;
+    EXPECT_EQ(germanPhrases().text(filled(english, "7")), filled(german, "7")) << english;
+  }
+}
+
+TEST(GermanPhrases, AreThoseOfMessagesAsTheyAreShown)
+{
+  const std::pair<const char*, const char*> messages[] = {
+      {"/media/ct/7.dcm is cut short; copy it again from where it came from",
+       "/media/ct/7.dcm ist abgeschnitten; kopieren Sie es noch einmal vom Ursprung"},
+      {"Repaired: slices 3 to 5 of 120 are missing and were interpolated between neighbours, up to "
+       "1.25 mm from what was measured; small structures may be absent there.",
+       "Repariert: Schichten 3 bis 5 von 120 fehlen und wurden zwischen Nachbarn interpoliert, bis "
+       "zu 1.25 mm vom Gemessenen; kleine Strukturen können dort fehlen."},
+      {"facial nerve touched (± 0.3 mm); injured, under 0.01 mm³\nsigmoid sinus 0.8 mm ± 0.3\nand "
+       "2 "
+       "more",
+       "facial nerve berührt (± 0.3 mm); verletzt, unter 0.01 mm³\nsigmoid sinus 0.8 mm ± 0.3\nund "
+       "2 "
+       "weitere"},
+      {"registered by landmarks, refined by mutual information, good, error 0.24 mm (p95) at the "
+       "middle of 'incus', not signed off",
+       "registriert: Landmarken, verfeinert durch Transinformation, gut, Fehler 0.24 mm (p95) an "
+       "die "
+       "Mitte von „incus“, nicht freigegeben"},
+      {"MR 'T2' is not registered with the CT; register it first",
+       "das MR „T2“ ist nicht mit dem CT registriert; registrieren Sie es erst"},
+      {"tube: the radius must lie within 0.1 to 5 mm, not 7",
+       "Röhre: der Radius muss in 0.1 bis 5 mm liegen, nicht 7"},
+      {"The tool has no result: region: give a point inside the structure",
+       "Das Werkzeug hat kein Ergebnis: Bereich: geben Sie einen Punkt in der Struktur"},
+      {"/x/labels.nrrd: does not say which side of the patient is left; its axes were taken as "
+       "LPS, "
+       "as asked",
+       "/x/labels.nrrd: sagt nicht, welche Seite des Patienten links ist; die Achsen wurden als "
+       "LPS "
+       "genommen, wie gewünscht"},
+      {"3 structures read, 1 left out, 2 not read",
+       "3 Strukturen gelesen, 1 blieben weg, 2 nicht gelesen"},
+  };
+  for (const auto& [english, german] : messages)
+    EXPECT_EQ(germanPhrases().text(english), german);
+}

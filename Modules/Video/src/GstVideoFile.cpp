@@ -205,6 +205,7 @@ private:
     g_object_set(m_sink, "caps", caps.get(), "sync", FALSE, "max-buffers", 3U, nullptr);
     append(m_sink);
 
+    g_signal_connect(decoder, "element-added", G_CALLBACK(&Implementation::elementAdded), this);
     g_signal_connect(decoder, "autoplug-continue", G_CALLBACK(&Implementation::continues), this);
     g_signal_connect(decoder, "pad-added", G_CALLBACK(&Implementation::padAdded), this);
     g_signal_connect(decoder, "no-more-pads", G_CALLBACK(&Implementation::allPads), this);
@@ -247,6 +248,21 @@ private:
     const Owned<GstPad> sink(gst_element_get_static_pad(drain, "sink"));
     gst_pad_link(pad, sink.get());
     gst_element_sync_state_with_parent(drain);
+  }
+
+  // decodebin may lose the error of a demultiplexer that finds no stream.
+  static void elementAdded(GstBin* /*bin*/, GstElement* element, gpointer self)
+  {
+    g_signal_connect(element, "no-more-pads", G_CALLBACK(&Implementation::partsKnown), self);
+  }
+
+  static void partsKnown(GstElement* element, gpointer self)
+  {
+    GST_OBJECT_LOCK(element);
+    const bool isEmpty = element->numsrcpads == 0;
+    GST_OBJECT_UNLOCK(element);
+    if (isEmpty)
+      static_cast<Implementation*>(self)->m_isEmpty = true;
   }
 
   static void allPads(GstElement* /*bin*/, gpointer self)
@@ -315,7 +331,7 @@ private:
         return frame;
       }
       hear();
-      if (m_isBroken || (m_allPads && !m_hasPicture) ||
+      if (m_isBroken || m_isEmpty || (m_allPads && !m_hasPicture) ||
           gst_app_sink_is_eos(GST_APP_SINK(m_sink)) != FALSE)
         return std::nullopt;
     }
@@ -409,7 +425,7 @@ private:
   bool m_isBroken = false;
   bool m_isLost = false; // a jump led nowhere
   bool m_isForeign = false;
-  std::atomic<bool> m_hasPicture{false}, m_hasSound{false}, m_allPads{false};
+  std::atomic<bool> m_hasPicture{false}, m_hasSound{false}, m_allPads{false}, m_isEmpty{false};
 };
 
 bool isSupported() noexcept

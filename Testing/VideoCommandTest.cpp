@@ -55,7 +55,7 @@ std::array<double, 2> seen(const Vector3d& position, const Vector3d& focus, cons
 
 Vector3d vectorOf(const Json& j)
 {
-  return {j[0], j[1], j[2]};
+  return {j[0].get<double>(), j[1].get<double>(), j[2].get<double>()};
 }
 
 } // namespace

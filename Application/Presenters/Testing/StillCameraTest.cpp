@@ -116,7 +116,11 @@ Still exact(const core::CameraPose& camera, int count, unsigned seed)
 
 TEST(StillCamera, SeesAPointWhereOpticsPutsIt)
 {
-  const core::CameraPose camera = {{0.0, -100.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, 90.0};
+  core::CameraPose camera;
+  camera.position = {0.0, -100.0, 0.0};
+  camera.focalPoint = {0.0, 0.0, 0.0};
+  camera.viewUp = {0.0, 0.0, 1.0};
+  camera.viewAngle = 90.0;
   // right of the picture: into x up = y x z = x
   const auto at = seenAt(camera, {400, 200}, {50.0, 0.0, 25.0});
   ASSERT_TRUE(at);

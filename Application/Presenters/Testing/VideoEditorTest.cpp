@@ -22,7 +22,7 @@ constexpr std::array<int, 2> kStill{1280, 720};
 constexpr std::int64_t kSecond = 1'000'000'000;
 
 // A case of three strokes with a video.
-class Videos : public testing::Test
+class Videos : public ::testing::Test
 {
 protected:
   Videos()
@@ -33,7 +33,7 @@ protected:
   {
     m_model.events.attachmentsChanged = [this] { m_editor.refresh(); };
     const core::GridGeometry grid({32, 24, 24}, Vector3d::Constant(0.5), Vector3d::Zero());
-    scene::Case value = presenters::testing::shapeCase(grid, {});
+    scene::Case value = testing::shapeCase(grid, {});
     value.dissection = dissection::Dissection(grid);
     for (int n = 0; n < 3; ++n)
     {

@@ -9,10 +9,12 @@
 
 class QAction;
 class QCheckBox;
+class QComboBox;
 class QLabel;
 class QSlider;
 class QTableWidget;
 class QTreeWidget;
+class QVBoxLayout;
 
 namespace petrous::presenters
 {
@@ -68,8 +70,8 @@ signals:
   void overlayAsked(bool on);
 
 private:
-  void addBookmarks(class QVBoxLayout& layout, const Actions& actions);
-  void addStill(class QVBoxLayout& layout, const Actions& actions);
+  void addBookmarks(QVBoxLayout& layout, const Actions& actions);
+  void addStill(QVBoxLayout& layout, const Actions& actions);
   void refreshVideos();
   void refreshBookmarks();
   void refreshStill();
@@ -77,7 +79,7 @@ private:
 
   const presenters::WorkstationModel& m_model;
   presenters::VideoEditor& m_editor;
-  class QComboBox* m_videos;
+  QComboBox* m_videos;
   VideoPicture* m_picture;
   QSlider* m_place;
   QLabel* m_time;

@@ -1,5 +1,7 @@
 #include "petrous/Scene/VideoNotes.h"
 
+#include <functional>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -20,7 +22,11 @@ VideoNotes notes()
   still.size = {1920, 1080};
   still.landmarks = {{{-40.1, 5.0 / 3.0, 3.0}, {960.5, 540.25}}, {{-44.0, 12.0, 9.0}, {1.5, 2.5}}};
   still.viewAngle = 12.0;
-  still.camera = core::CameraPose{{-240.0, 1.0, 2.0}, {-40.0, 5.0, 3.0}, {0.0, 0.1, 1.0}, 12.0};
+  still.camera.emplace();
+  still.camera->position = {-240.0, 1.0, 2.0};
+  still.camera->focalPoint = {-40.0, 5.0, 3.0};
+  still.camera->viewUp = {0.0, 0.1, 1.0};
+  still.camera->viewAngle = 12.0;
   still.opacity = 0.25;
   notes.stills = {still};
   return notes;

@@ -204,7 +204,7 @@ presenters::StillFit setStill(const Context& context, VideoNotes& notes,
                 fixed(fit.pose.rotationSigma, 2) + " degrees, " +
                 fixed(fit.pose.positionSigma, 1) + " mm");
   for (const std::size_t n : fit.bad)
-    context.warn("landmark " + std::to_string(n + 1) + " does not fit the others");
+    context.warn("landmark " + std::to_string(n + 1) + " does not fit the others and is left out");
   if (fit.isPoor)
     context.warn("the landmarks do not fit each other; add some to tell which is wrong");
   if (fit.pose.ambiguous)

@@ -133,12 +133,12 @@ TEST(StillCamera, SeesAPointWhereOpticsPutsIt)
 // found within 0.5 degrees, and what it sees lies where it is seen within 0.3 mm.
 TEST(StillCamera, IsFoundOfRenderedStills)
 {
-  const std::array<int, 2> size{960, 540};
-  constexpr int kLandmarks = 10;
+  const std::array<int, 2> size{1280, 720};
+  constexpr int kLandmarks = 12;
   constexpr int kRounds = 8;
   std::mt19937 random(17);
   std::normal_distribution<double> click(0.0, 1.0);
-  const Vector3d sides[] = {{-1.0, 0.2, 0.3}, {-0.8, 0.6, 0.2}, {-0.7, -0.5, 0.6}};
+  const Vector3d sides[] = {{-1.0, 0.2, 0.3}, {-0.7, -0.5, 0.6}};
   for (const double angle : {12.0, 25.0})
     for (const Vector3d& side : sides)
     {
@@ -176,6 +176,7 @@ TEST(StillCamera, IsFoundOfRenderedStills)
       }
       const double turn = std::sqrt(turns / kRounds);
       const double miss = std::sqrt(misses / kRounds);
+      RecordProperty("mm_" + std::to_string(static_cast<int>(angle)), std::to_string(miss));
       RecordProperty("degrees_" + std::to_string(static_cast<int>(angle)), std::to_string(turn));
       EXPECT_LT(turn, 0.5) << angle << " degrees, side " << side.transpose();
       EXPECT_LT(miss, 0.3) << angle << " mm, side " << side.transpose();
@@ -185,12 +186,12 @@ TEST(StillCamera, IsFoundOfRenderedStills)
 
 TEST(StillCamera, NamesTheLandmarksThatDoNotFit)
 {
-  const core::CameraPose camera = cameraAt({-40.0, 5.0, 3.0}, {-0.8, 0.35, 0.45}, 250.0, 12.0);
+  const core::CameraPose camera = cameraAt({-40.0, 5.0, 3.0}, {-0.8, 0.35, 0.45}, 110.0, 25.0);
   for (const bool given : {true, false})
   {
     Still still = exact(camera, 9, 3);
     if (given)
-      still.viewAngle = 12.0;
+      still.viewAngle = 25.0;
     EXPECT_TRUE(fitStill(still).bad.empty());
     still.landmarks[4].still += Vector2d(60.0, -35.0);
     const StillFit one = fitStill(still);

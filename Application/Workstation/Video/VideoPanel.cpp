@@ -442,7 +442,7 @@ QString VideoPanel::stillText() const
     QStringList bad;
     for (const std::size_t n : fit->bad)
       bad += QString::number(n + 1);
-    lines += tr("Does not fit the others: landmark %1. Set it anew or remove it.")
+    lines += tr("Left out, as it does not fit the others: landmark %1. Set it anew or remove it.")
                  .arg(bad.join(", "));
   }
   if (fit->isPoor)

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "petrous/Core/Error.h"
 #include "petrous/Scene/Case.h"
@@ -53,6 +54,20 @@ void checkStill(const VideoNotes::Still& still)
                      camera.viewUp.norm() > 0.0 && camera.position != camera.focalPoint &&
                      camera.viewAngle > 0.0 && camera.viewAngle < 180.0 && !camera.parallelScale,
                  "the camera of a still must be a perspective one, of finite numbers");
+}
+
+template <class T>
+void sortByTime(std::vector<T>& all)
+{
+  std::vector<const T*> order;
+  for (const T& one : all)
+    order.push_back(&one);
+  std::stable_sort(order.begin(), order.end(),
+                   [](const T* a, const T* b) { return a->time < b->time; });
+  std::vector<T> sorted;
+  for (const T* one : order)
+    sorted.push_back(*one);
+  all = std::move(sorted);
 }
 
 auto poseTie(const core::CameraPose& c)
@@ -116,9 +131,8 @@ void checkVideoNotes(const VideoNotes& notes)
 
 void sortVideoNotes(VideoNotes& notes)
 {
-  const auto earlier = [](const auto& a, const auto& b) { return a.time < b.time; };
-  std::stable_sort(notes.bookmarks.begin(), notes.bookmarks.end(), earlier);
-  std::stable_sort(notes.stills.begin(), notes.stills.end(), earlier);
+  sortByTime(notes.bookmarks);
+  sortByTime(notes.stills);
 }
 
 std::size_t findBookmark(const VideoNotes& notes, const std::string& name)

@@ -29,35 +29,55 @@ registration::StillPose poseOf(const Landmarks& landmarks, const Still& still)
   return registration::poseOfStill(pairs, still.size, still.viewAngle);
 }
 
-// The landmark without which the others fit best, if it then stands out; its index in `landmarks`.
-std::optional<std::size_t> worstOf(const Landmarks& landmarks, const Still& still, double good,
-                                   const core::Progress& progress)
+Landmarks without(const Landmarks& all, const std::vector<std::size_t>& some)
 {
-  std::optional<std::size_t> worst;
-  double least = registration::StillPose{}.rms;
-  double away = 0.0;
-  for (std::size_t n = 0; n < landmarks.size(); ++n)
+  Landmarks others;
+  for (std::size_t n = 0; n < all.size(); ++n)
+    if (std::find(some.begin(), some.end(), n) == some.end())
+      others.push_back(all[n]);
+  return others;
+}
+
+// Those `count` landmarks, 1 or 2, without which the others fit, if they then stand out.
+std::vector<std::size_t> worstOf(const Still& still, std::size_t count, double good,
+                                 const core::Progress& progress)
+{
+  const Landmarks& all = still.landmarks;
+  std::vector<std::size_t> worst;
+  double least = good;
+  const auto consider = [&](const std::vector<std::size_t>& some)
   {
-    progress.report(static_cast<double>(n) / static_cast<double>(landmarks.size()),
-                    "looking for landmarks that do not fit");
-    Landmarks others = landmarks;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(n));
     try
     {
-      const auto pose = poseOf(others, still);
-      if (worst && pose.rms >= least)
-        continue;
-      const auto seen = seenAt(pose.camera, still.size, landmarks[n].patient);
-      worst = n;
+      const auto pose = poseOf(without(all, some), still);
+      if (pose.rms >= least)
+        return;
+      for (const std::size_t n : some)
+        if (const auto seen = seenAt(pose.camera, still.size, all[n].patient);
+            seen && (*seen - all[n].still).norm() <= kStandsOut * std::max(pose.rms, 0.5 * good))
+          return;
+      worst = some;
       least = pose.rms;
-      away = seen ? (*seen - landmarks[n].still).norm() : still.size[0] + still.size[1];
     }
     catch (const core::InvalidParameter&)
     {
       // The others leave the camera open.
     }
+  };
+  for (std::size_t n = 0; n < all.size(); ++n)
+  {
+    progress.report(static_cast<double>(n) / static_cast<double>(all.size()),
+                    "looking for landmarks that do not fit");
+    if (count == 1)
+      consider({n});
+    else
+      for (std::size_t m = n + 1; m < all.size(); ++m)
+      {
+        progress.check("looking for landmarks that do not fit");
+        consider({n, m});
+      }
   }
-  return worst && away > kStandsOut * std::max(least, good / 2.0) ? worst : std::nullopt;
+  return worst;
 }
 
 } // namespace
@@ -75,25 +95,37 @@ std::size_t landmarksNeeded(const Still& still) noexcept
 StillFit fitStill(const Still& still, const core::Progress& progress)
 {
   StillFit fit;
-  fit.pose = poseOf(still.landmarks, still);
   const double good = residualOfGoodClicks(still.size[1]);
-  Landmarks left = still.landmarks;
-  std::vector<std::size_t> numbers(left.size());
-  for (std::size_t n = 0; n < numbers.size(); ++n)
-    numbers[n] = n;
-  double rms = fit.pose.rms;
-  while (rms > good && left.size() > landmarksNeeded(still))
+  const std::size_t count = still.landmarks.size();
+  const std::size_t spare = count - std::min(count, landmarksNeeded(still));
+  std::optional<core::InvalidParameter> refusal;
+  try
   {
-    const auto worst = worstOf(left, still, good, progress);
-    if (!worst)
-      break;
-    const auto at = static_cast<std::ptrdiff_t>(*worst);
-    fit.bad.push_back(numbers[*worst]);
-    numbers.erase(numbers.begin() + at);
-    left.erase(left.begin() + at);
-    rms = poseOf(left, still).rms;
+    fit.pose = poseOf(still.landmarks, still);
+    if (fit.pose.rms <= good)
+      return fit;
   }
-  fit.isPoor = rms > good;
+  catch (const core::InvalidParameter& error) // one that is wrong may leave all open
+  {
+    refusal = error;
+  }
+  for (std::size_t n = 1; n <= std::min<std::size_t>(2, spare) && fit.bad.empty(); ++n)
+    fit.bad = worstOf(still, n, good, progress);
+  if (fit.bad.empty())
+  {
+    if (refusal)
+      throw *refusal;
+    fit.isPoor = true;
+    return fit;
+  }
+  fit.pose = poseOf(without(still.landmarks, fit.bad), still);
+  fit.pose.residuals.clear();
+  for (const auto& one : still.landmarks)
+  {
+    const auto seen = seenAt(fit.pose.camera, still.size, one.patient);
+    fit.pose.residuals.push_back(seen ? (*seen - one.still).norm()
+                                      : std::hypot(still.size[0], still.size[1]));
+  }
   return fit;
 }
 

@@ -17,8 +17,8 @@ namespace petrous::presenters
 /// The camera of a still, from its landmarks.
 struct StillFit
 {
-  registration::StillPose pose;
-  /// Landmarks that do not fit the others, worst first: without them the rest fits.
+  registration::StillPose pose; ///< without the bad ones, which have residuals, too
+  /// One or two landmarks that do not fit: without them the rest does, and they stand out of it.
   std::vector<std::size_t> bad;
   /// The residuals are larger than clicks explain, and no landmark stands out.
   bool isPoor = false;
@@ -30,7 +30,7 @@ double residualOfGoodClicks(int height) noexcept;
 std::size_t landmarksNeeded(const scene::VideoNotes::Still& still) noexcept; ///< 4 or 6
 
 /// Throws InvalidParameter as registration::poseOfStill, CancelledError. Without the angle of view
-/// some tenths of a second, and as often as there are landmarks where they do not fit.
+/// some tenths of a second, and as often as there are pairs of landmarks where they do not fit.
 StillFit fitStill(const scene::VideoNotes::Still& still, const core::Progress& progress = {});
 
 /// Where a camera sees a point: pixels from the upper left corner of a picture; nullopt behind it.

@@ -90,7 +90,8 @@ TEST_F(VideoCommand, SetsMovesAndRemovesBookmarks)
 
 TEST_F(VideoCommand, FindsTheCameraOfAStillAndDrawsItOverTheScene)
 {
-  const Vector3d focus = vectorOf(json("view ear --view lateral").at("camera").at("focal_point_mm"));
+  const Vector3d focus =
+      vectorOf(json("view ear --view lateral").at("camera").at("focal_point_mm"));
   const Vector3d position = focus + Vector3d(-120.0, -30.0, 40.0);
   const Vector3d up(0.1, 0.2, 1.0);
   std::string csv = "x_mm,y_mm,z_mm,u_px,v_px\n";
@@ -136,7 +137,8 @@ TEST_F(VideoCommand, FindsTheCameraOfAStillAndDrawsItOverTheScene)
   EXPECT_NE(with.err.find("landmark 8 does not fit"), std::string::npos) << with.err;
   EXPECT_TRUE(json("video ear --at 0.25 --remove-still").at("videos")[0].at("stills").empty());
   expectRefused("video ear --at 0.25 --overlay " + file("none.png"), 3, "has no camera");
-  expectRefused("video ear --at 0.25 --pairs " + write("few.csv", csv.substr(0, 150)), 3, "few.csv");
+  expectRefused("video ear --at 0.25 --pairs " + write("few.csv", csv.substr(0, 150)), 3,
+                "few.csv");
   EXPECT_EQ(run("library verify").code, 0);
 }
 

@@ -66,10 +66,10 @@ scene::Attachment& videoOf(scene::Case& value, const std::string& name)
     }
   if (count == 1)
     return *only;
-  throw core::InvalidParameter(
-      "case '" + value.name + "' has " +
-      (count == 0 ? "no video; 'petrous attach' adds one"
-                  : "several videos: " + names + "; say which with --video"));
+  throw core::InvalidParameter("case '" + value.name + "' has " +
+                               (count == 0
+                                    ? "no video; 'petrous attach' adds one"
+                                    : "several videos: " + names + "; say which with --video"));
 }
 
 video::VideoFile openVideo(const library::Library& library, const scene::Attachment& one)
@@ -99,8 +99,8 @@ nlohmann::json stillJson(const VideoNotes::Still& still)
 {
   nlohmann::json landmarks = nlohmann::json::array();
   for (const auto& one : still.landmarks)
-    landmarks.push_back({{"patient_mm", vectorJson(one.patient)},
-                         {"still_px", {one.still.x(), one.still.y()}}});
+    landmarks.push_back(
+        {{"patient_mm", vectorJson(one.patient)}, {"still_px", {one.still.x(), one.still.y()}}});
   return {{"time_s", seconds(still.time)},
           {"size", still.size},
           {"view_angle_deg",
@@ -126,8 +126,8 @@ nlohmann::json videoJson(const Context& context, const library::Library& library
     file = {{"width", info.width},
             {"height", info.height},
             {"duration_s", seconds(info.duration.count())},
-            {"frame_rate_hz", info.frameRate > 0.0 ? nlohmann::json(info.frameRate)
-                                                   : nlohmann::json(nullptr)},
+            {"frame_rate_hz",
+             info.frameRate > 0.0 ? nlohmann::json(info.frameRate) : nlohmann::json(nullptr)},
             {"sound", info.hasSound}};
     context.print("    " + std::to_string(info.width) + " x " + std::to_string(info.height) + ", " +
                   fixed(seconds(info.duration.count()), 2) + " s" +
@@ -142,9 +142,10 @@ nlohmann::json videoJson(const Context& context, const library::Library& library
   for (const auto& bookmark : notes.bookmarks)
   {
     const auto stroke = scene::strokeWith(value, bookmark.stroke);
-    bookmarks.push_back({{"name", bookmark.name},
-                         {"time_s", seconds(bookmark.time)},
-                         {"stroke", stroke ? nlohmann::json(*stroke + 1) : nlohmann::json(nullptr)}});
+    bookmarks.push_back(
+        {{"name", bookmark.name},
+         {"time_s", seconds(bookmark.time)},
+         {"stroke", stroke ? nlohmann::json(*stroke + 1) : nlohmann::json(nullptr)}});
     context.print("    " + presenters::timeText(bookmark.time) + "  " + bookmark.name +
                   (stroke ? ", after stroke " + std::to_string(*stroke + 1) : ""));
   }
@@ -156,8 +157,11 @@ nlohmann::json videoJson(const Context& context, const library::Library& library
                   std::to_string(still.landmarks.size()) + " landmarks" +
                   (still.camera ? "" : ", without a camera"));
   }
-  return {{"name", one.name},       {"file", file},     {"problem", problem},
-          {"bookmarks", bookmarks}, {"stills", stills}};
+  return {{"name", one.name},
+          {"file", file},
+          {"problem", problem},
+          {"bookmarks", bookmarks},
+          {"stills", stills}};
 }
 
 void setBookmark(VideoNotes& notes, const scene::Case& value, const VideoCommandOptions& options,
@@ -201,14 +205,15 @@ presenters::StillFit setStill(const Context& context, VideoNotes& notes,
   notes.stills.push_back(still);
   context.print("camera of the still: residual " + fixed(fit.pose.rms, 1) + " px, " +
                 fixed(fit.pose.rmsAtLandmarks, 2) + " mm at the landmarks; uncertainty " +
-                fixed(fit.pose.rotationSigma, 2) + " degrees, " +
-                fixed(fit.pose.positionSigma, 1) + " mm");
+                fixed(fit.pose.rotationSigma, 2) + " degrees, " + fixed(fit.pose.positionSigma, 1) +
+                " mm");
   for (const std::size_t n : fit.bad)
     context.warn("landmark " + std::to_string(n + 1) + " does not fit the others and is left out");
   if (fit.isPoor)
     context.warn("the landmarks do not fit each other; add some to tell which is wrong");
   if (fit.pose.ambiguous)
-    context.warn("another view explains the landmarks nearly as well; add landmarks of other depth");
+    context.warn(
+        "another view explains the landmarks nearly as well; add landmarks of other depth");
   return fit;
 }
 
@@ -222,9 +227,9 @@ void writeOverlay(const scene::Case& value, const VideoNotes::Still& still,
   picture.setContents(contents);
   picture.setCamera(*still.camera);
   rendering::OffscreenView view(width, height);
-  rendering::writePng(options.overlay,
-                      presenters::overlaid(view.render(picture), frame,
-                                           options.opacity.value_or(still.opacity)));
+  rendering::writePng(
+      options.overlay,
+      presenters::overlaid(view.render(picture), frame, options.opacity.value_or(still.opacity)));
 }
 
 void run(const Context& context, const VideoCommandOptions& options)
@@ -264,14 +269,13 @@ void run(const Context& context, const VideoCommandOptions& options)
                            notes.stills.end());
       if (!options.pairs.empty())
         answer["fit"] = fitJson(setStill(context, notes, options, frame));
-      auto still = std::find_if(notes.stills.begin(), notes.stills.end(),
-                                [&frame](const auto& each)
-                                { return each.time == frame.time.count(); });
+      auto still =
+          std::find_if(notes.stills.begin(), notes.stills.end(),
+                       [&frame](const auto& each) { return each.time == frame.time.count(); });
       if ((options.opacity || !options.overlay.empty()) &&
           (still == notes.stills.end() || !still->camera))
-        throw core::InvalidParameter(
-            "the frame at " + presenters::timeText(frame.time.count()) +
-            " has no camera; give pairs of points with --pairs");
+        throw core::InvalidParameter("the frame at " + presenters::timeText(frame.time.count()) +
+                                     " has no camera; give pairs of points with --pairs");
       if (options.opacity)
         still->opacity = *options.opacity;
       if (!options.frame.empty())
@@ -292,8 +296,7 @@ void run(const Context& context, const VideoCommandOptions& options)
   nlohmann::json videos = nlohmann::json::array();
   for (const scene::Attachment& one : value.attachments)
     if (one.kind == scene::Attachment::Kind::Video &&
-        (options.video.empty() ||
-         scene::lowerCase(one.name) == scene::lowerCase(options.video)))
+        (options.video.empty() || scene::lowerCase(one.name) == scene::lowerCase(options.video)))
       videos.push_back(videoJson(context, library, value, one));
   if (videos.empty())
     context.print("  has no video; 'petrous attach' adds one");
@@ -328,10 +331,11 @@ void addVideoCommand(CLI::App& app, Context& context)
       ->allow_extra_args(false)
       ->type_name("NAME");
   command
-      ->add_option("--pairs", options->pairs,
-                   "Find the camera of the frame from pairs of points: columns x_mm, y_mm, z_mm "
-                   "(patient LPS) and u_px, v_px (from the frame's upper left corner); six, or four "
-                   "with --view-angle")
+      ->add_option(
+          "--pairs", options->pairs,
+          "Find the camera of the frame from pairs of points: columns x_mm, y_mm, z_mm "
+          "(patient LPS) and u_px, v_px (from the frame's upper left corner); six, or four "
+          "with --view-angle")
       ->type_name("F.csv");
   command
       ->add_option("--view-angle", options->viewAngle,
@@ -348,8 +352,7 @@ void addVideoCommand(CLI::App& app, Context& context)
                    "Write the scene from the frame's camera with the frame over it")
       ->type_name("F.png")
       ->check(endsIn(".png"));
-  command->add_option("--size", options->size, "Pixels of the overlay (800x600)")
-      ->type_name("WxH");
+  command->add_option("--size", options->size, "Pixels of the overlay (800x600)")->type_name("WxH");
   command->add_option("--opacity", options->opacity, "Of the frame over the scene; kept")
       ->check(within({0.0, 1.0}));
 }

@@ -56,8 +56,8 @@ const scene::Case& ear()
   {
     scene::Case value;
     const Vector3d spacing = Vector3d::Constant(0.75);
-    value.ct.geometry = core::GridGeometry(
-        {60, 60, 60}, spacing, phantom::Phantom::center() - 30.0 * spacing);
+    value.ct.geometry =
+        core::GridGeometry({60, 60, 60}, spacing, phantom::Phantom::center() - 30.0 * spacing);
     phantom::ScanSettings settings;
     settings.noise = 0.0;
     value.ct.volume = std::make_shared<const volume::IntensityVolume>(
@@ -129,8 +129,8 @@ TEST(StillCamera, SeesAPointWhereOpticsPutsIt)
   EXPECT_FALSE(seenAt(camera, {400, 200}, {0.0, -101.0, 0.0}));
 }
 
-// Stills of the phantom from known cameras, landmarks picked with an error of a pixel: the camera is
-// found within 0.5 degrees, and what it sees lies where it is seen within 0.3 mm.
+// Stills of the phantom from known cameras, landmarks picked with an error of a pixel: the camera
+// is found within 0.5 degrees, and what it sees lies where it is seen within 0.3 mm.
 TEST(StillCamera, IsFoundOfRenderedStills)
 {
   const std::array<int, 2> size{1280, 720};
@@ -144,8 +144,7 @@ TEST(StillCamera, IsFoundOfRenderedStills)
     {
       // The ear fills the still.
       const double distance = 0.5 * 42.0 / std::tan(0.5 * angle * kDegree);
-      const core::CameraPose truth =
-          cameraAt(phantom::Phantom::center(), side, distance, angle);
+      const core::CameraPose truth = cameraAt(phantom::Phantom::center(), side, distance, angle);
       const DrawnStill seen = drawn(truth, size);
       ASSERT_GT(seen.seen.size(), 5000U);
       double turns = 0.0, misses = 0.0, stated = 0.0;
@@ -169,8 +168,7 @@ TEST(StillCamera, IsFoundOfRenderedStills)
         {
           const double depth = (patient - truth.position).norm();
           const double mm = 2.0 * depth * std::tan(0.5 * angle * kDegree) / size[1]; // of a pixel
-          squares +=
-              std::pow(mm * (*seenAt(fit.pose.camera, size, patient) - pixel).norm(), 2);
+          squares += std::pow(mm * (*seenAt(fit.pose.camera, size, patient) - pixel).norm(), 2);
         }
         misses += squares / static_cast<double>(seen.seen.size());
       }

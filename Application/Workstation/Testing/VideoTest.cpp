@@ -64,14 +64,23 @@ protected:
     emit box->activated(row);
   }
 
-  QDockWidget& dock() { return *window().findChild<QDockWidget*>("videoDock"); }
+  QDockWidget& dock()
+  {
+    return *window().findChild<QDockWidget*>("videoDock");
+  }
   template <class T>
   T& child(const char* name)
   {
     return *window().findChild<T*>(name);
   }
-  VideoPicture& video() { return child<VideoPicture>("videoPicture"); }
-  QTreeWidget& bookmarks() { return child<QTreeWidget>("bookmarks"); }
+  VideoPicture& video()
+  {
+    return child<VideoPicture>("videoPicture");
+  }
+  QTreeWidget& bookmarks()
+  {
+    return child<QTreeWidget>("bookmarks");
+  }
   const scene::VideoNotes& notes()
   {
     static const scene::VideoNotes kNone;

@@ -32,11 +32,13 @@ QImage imageOf(const video::Frame& frame)
   if (!frame.pixels)
     return {};
   auto* kept = new Pixels(frame.pixels);
-  return {
-      frame.pixels->data(),        frame.width,
-      frame.height,                3 * frame.width,
-      QImage::Format_RGB888,       [](void* pixels) { delete static_cast<Pixels*>(pixels); },
-      static_cast<void*>(kept)};
+  return {frame.pixels->data(),
+          frame.width,
+          frame.height,
+          3 * frame.width,
+          QImage::Format_RGB888,
+          [](void* pixels) { delete static_cast<Pixels*>(pixels); },
+          static_cast<void*>(kept)};
 }
 
 std::string strokeNow(const scene::Case& value)
@@ -172,8 +174,7 @@ void VideoController::connectPanel()
           [this](double degrees)
           {
             attempt(
-                [&]
-                {
+                [&] {
                   m_editor.setViewAngle(degrees > 0.0 ? std::optional<double>(degrees)
                                                       : std::nullopt);
                 });
@@ -293,7 +294,7 @@ void VideoController::opened(const video::VideoInfo& info)
 {
   if (!std::exchange(m_isOpening, false))
     return;
-  m_panel->setDuration(info.duration.count() / 1'000'000);
+  m_panel->setDuration(info.duration.count() / 1000000);
   takeFrame();
 }
 
@@ -377,8 +378,7 @@ void VideoController::setLoop(bool on)
     player().setLoop(std::nullopt);
   else
   {
-    player().setLoop(
-        video::VideoPlayer::Loop{video::Time((*loop)[0]), video::Time((*loop)[1])});
+    player().setLoop(video::VideoPlayer::Loop{video::Time((*loop)[0]), video::Time((*loop)[1])});
     player().seek(video::Time((*loop)[0]));
     player().play(true);
   }

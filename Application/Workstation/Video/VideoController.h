@@ -91,7 +91,7 @@ private:
   bool m_isPlaying = false;
   bool m_goesAlong = false; // to a bookmark's stroke: the video is there already
   bool m_showsStill = true;
-  std::string m_stroke; // after which the bone was last
+  std::string m_stroke;                         // after which the bone was last
   std::unique_ptr<video::VideoPlayer> m_player; // last: its thread calls this
 };
 

@@ -53,8 +53,8 @@ QString number(double value, int decimals)
 
 } // namespace
 
-VideoPanel::VideoPanel(const presenters::WorkstationModel& model,
-                       presenters::VideoEditor& editor, const Actions& actions, QWidget* parent)
+VideoPanel::VideoPanel(const presenters::WorkstationModel& model, presenters::VideoEditor& editor,
+                       const Actions& actions, QWidget* parent)
   : Panel(parent)
   , m_model(model)
   , m_editor(editor)
@@ -147,7 +147,8 @@ void VideoPanel::addBookmarks(QVBoxLayout& layout, const Actions& actions)
   layout.addWidget(m_bookmarks, 1);
   layout.addLayout(row);
 
-  const auto chosen = [this] { return m_bookmarks->indexOfTopLevelItem(m_bookmarks->currentItem()); };
+  const auto chosen = [this]
+  { return m_bookmarks->indexOfTopLevelItem(m_bookmarks->currentItem()); };
   connect(move, &QPushButton::clicked, this, [=] { emit moveAsked(chosen()); });
   connect(tie, &QPushButton::clicked, this, [=] { emit tieAsked(chosen()); });
   connect(remove, &QPushButton::clicked, this, [=] { emit bookmarkRemovalAsked(chosen()); });
@@ -259,18 +260,17 @@ void VideoPanel::setDuration(qint64 milliseconds)
 {
   m_duration = milliseconds;
   const QSignalBlocker quiet(m_place);
-  m_place->setRange(0, static_cast<int>(std::clamp<qint64>(milliseconds, 0, 2'000'000'000)));
+  m_place->setRange(0, static_cast<int>(std::clamp<qint64>(milliseconds, 0, 2000000000)));
 }
 
 void VideoPanel::setPlace(std::int64_t nanoseconds)
 {
   const QSignalBlocker quiet(m_place);
   if (!m_place->isSliderDown())
-    m_place->setValue(static_cast<int>(nanoseconds / 1'000'000));
-  m_time->setText(words(presenters::timeText(nanoseconds)) +
-                  (m_duration > 0
-                       ? " / " + words(presenters::timeText(m_duration * 1'000'000))
-                       : QString()));
+    m_place->setValue(static_cast<int>(nanoseconds / 1000000));
+  m_time->setText(
+      words(presenters::timeText(nanoseconds)) +
+      (m_duration > 0 ? " / " + words(presenters::timeText(m_duration * 1000000)) : QString()));
 }
 
 void VideoPanel::say(const QString& text)
@@ -318,11 +318,11 @@ void VideoPanel::refreshVideos()
   }
   m_videos->setEnabled(!names.empty() && video::isSupported());
   if (!video::isSupported())
-    m_picture->setText(tr("Video support was not built: this program was built without GStreamer."));
-  else
     m_picture->setText(
-        names.empty() ? tr("Attach a video of the operation, copied or as a link.")
-                      : tr("Choose a video above."));
+        tr("Video support was not built: this program was built without GStreamer."));
+  else
+    m_picture->setText(names.empty() ? tr("Attach a video of the operation, copied or as a link.")
+                                     : tr("Choose a video above."));
   m_place->setEnabled(m_editor.time().has_value());
   if (!m_editor.time())
     m_time->clear();
@@ -413,7 +413,7 @@ QString VideoPanel::stillText() const
   const std::size_t count = still ? still->landmarks.size() : 0;
   if (m_editor.mark())
     return tr("Now the same point of the patient: click it in the 3D view or a slice, then Add the "
-              "landmark (Shift+U).");
+              "landmark (Ctrl+U).");
   if (m_editor.isFitting())
     return tr("The camera is being sought…");
   if (!m_editor.problem().empty())

@@ -60,8 +60,8 @@ QSize VideoPicture::sizeHint() const
 
 int VideoPicture::heightForWidth(int width) const
 {
-  const double ratio = m_frame.isNull() ? 9.0 / 16.0
-                                        : static_cast<double>(m_frame.height()) / m_frame.width();
+  const double ratio =
+      m_frame.isNull() ? 9.0 / 16.0 : static_cast<double>(m_frame.height()) / m_frame.width();
   return static_cast<int>(width * std::min(ratio, 1.0));
 }
 
@@ -124,9 +124,8 @@ void VideoPicture::keepInside()
   const Eigen::Vector2d size(m_frame.width(), m_frame.height());
   const Eigen::Vector2d half = 0.5 * Eigen::Vector2d(width(), height()) / std::max(scale(), 1e-9);
   for (int n = 0; n < 2; ++n)
-    m_middle[n] = half[n] >= 0.5 * size[n]
-                      ? 0.5 * size[n]
-                      : std::clamp(m_middle[n], half[n], size[n] - half[n]);
+    m_middle[n] = half[n] >= 0.5 * size[n] ? 0.5 * size[n]
+                                           : std::clamp(m_middle[n], half[n], size[n] - half[n]);
   update();
 }
 
@@ -153,8 +152,8 @@ void VideoPicture::paintEvent(QPaintEvent* /*event*/)
     return;
   }
   painter.setRenderHint(QPainter::SmoothPixmapTransform, scale() < 3.0);
-  painter.drawImage(QRectF(place({0.0, 0.0}), place({1.0 * m_frame.width(), 1.0 * m_frame.height()})),
-                    m_frame);
+  painter.drawImage(
+      QRectF(place({0.0, 0.0}), place({1.0 * m_frame.width(), 1.0 * m_frame.height()})), m_frame);
   painter.setRenderHint(QPainter::Antialiasing);
   const auto cross = [&painter](const QPointF& at, const QColor& color)
   {

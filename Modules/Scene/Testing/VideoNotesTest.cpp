@@ -101,8 +101,12 @@ TEST(VideoNotes, AreCheckedWhereTheyComeIn)
       [](VideoNotes& n) { n.bookmarks.resize(1001, n.bookmarks[0]); },
       [](VideoNotes& n) { n.stills.push_back(n.stills[0]); },
       [](VideoNotes& n) { n.stills[0].time = -1; },
-      [](VideoNotes& n) { n.stills[0].size = {0, 5}; },
-      [](VideoNotes& n) { n.stills[0].size = {5, 40000}; },
+      [](VideoNotes& n) {
+        n.stills[0].size = {0, 5};
+      },
+      [](VideoNotes& n) {
+        n.stills[0].size = {5, 40000};
+      },
       [](VideoNotes& n) { n.stills[0].opacity = 1.1; },
       [](VideoNotes& n) { n.stills[0].viewAngle = 0.1; },
       [](VideoNotes& n) { n.stills[0].landmarks.resize(201); },

@@ -38,14 +38,14 @@ void checkStill(const VideoNotes::Still& still)
                    "a still has sides of 1 to " + std::to_string(VideoNotes::kLargestSide) +
                        " pixels");
   requireOfVideo(still.landmarks.size() <= VideoNotes::kMaxLandmarks,
-                 "a still has at most " + std::to_string(VideoNotes::kMaxLandmarks) +
-                     " landmarks");
+                 "a still has at most " + std::to_string(VideoNotes::kMaxLandmarks) + " landmarks");
   for (const VideoNotes::Landmark& one : still.landmarks)
     requireOfVideo(isWithin(one.patient, kFarthestPoint) && isWithin(one.still, kFarthestPixel),
                    "a landmark has a coordinate that is not a number or out of range");
   requireOfVideo(!still.viewAngle || (*still.viewAngle >= 0.5 && *still.viewAngle <= 120.0),
                  "the angle of view must lie within 0.5 to 120 degrees");
-  requireOfVideo(still.opacity >= 0.0 && still.opacity <= 1.0, "the opacity must lie within 0 to 1");
+  requireOfVideo(still.opacity >= 0.0 && still.opacity <= 1.0,
+                 "the opacity must lie within 0 to 1");
   if (!still.camera)
     return;
   const core::CameraPose& camera = *still.camera;
@@ -164,9 +164,8 @@ std::string freeBookmarkName(const VideoNotes& notes, const std::string& name)
 
 const VideoNotes::Still* findStill(const VideoNotes& notes, std::int64_t time)
 {
-  const auto at =
-      std::find_if(notes.stills.begin(), notes.stills.end(),
-                   [time](const VideoNotes::Still& one) { return one.time == time; });
+  const auto at = std::find_if(notes.stills.begin(), notes.stills.end(),
+                               [time](const VideoNotes::Still& one) { return one.time == time; });
   return at == notes.stills.end() ? nullptr : &*at;
 }
 

@@ -49,8 +49,8 @@ inline bool canMake(const Kind& kind)
   const std::string encoder(kind.encoder);
   if (encoder == "ffmpeg")
     return std::system("ffmpeg -version >/dev/null 2>&1") == 0 && has("avdec_h264");
-  return has(kind.muxer) && (encoder.rfind("video/", 0) == 0 ||
-                             has(encoder.substr(0, encoder.find(' ')).c_str()));
+  return has(kind.muxer) &&
+         (encoder.rfind("video/", 0) == 0 || has(encoder.substr(0, encoder.find(' ')).c_str()));
 }
 
 inline std::vector<std::uint8_t> pixelsOf(int number, int width, int height)
@@ -102,10 +102,10 @@ inline void writeByFfmpeg(const std::string& file, const Options& options)
               static_cast<std::streamsize>(pixels.size()));
   }
   raw.close();
-  const std::string line = "ffmpeg -loglevel error -y -f rawvideo -pix_fmt rgb24 -s " +
-                           std::to_string(options.width) + "x" + std::to_string(options.height) +
-                           " -r 25 -i '" + file + ".raw' -c:v libx264 -bf 3 -g 60 -pix_fmt yuv420p '" +
-                           file + "' </dev/null";
+  const std::string line =
+      "ffmpeg -loglevel error -y -f rawvideo -pix_fmt rgb24 -s " + std::to_string(options.width) +
+      "x" + std::to_string(options.height) + " -r 25 -i '" + file +
+      ".raw' -c:v libx264 -bf 3 -g 60 -pix_fmt yuv420p '" + file + "' </dev/null";
   ASSERT_EQ(std::system(line.c_str()), 0) << line;
 }
 

@@ -80,8 +80,8 @@ protected:
 };
 
 INSTANTIATE_TEST_SUITE_P(All, EveryKind,
-                         testing::Values(made::kRawAvi, made::kRawMatroska, made::kFfv1,
-                                         made::kVp8, made::kTheora, made::kH264),
+                         testing::Values(made::kRawAvi, made::kRawMatroska, made::kFfv1, made::kVp8,
+                                         made::kTheora, made::kH264),
                          [](const auto& kind)
                          {
                            std::string name = kind.param.name;
@@ -197,7 +197,7 @@ TEST_F(VideoFiles, IsShownUprightWithSquarePixels)
   options.frames = 3;
   std::string bytes = bytesOf(written({"phone.mov", "jpegenc", "qtmux"}, options));
   std::string quarterTurn(36, '\0');
-  quarterTurn.replace(4, 4, std::string("\0\1\0\0", 4));     // b = 1
+  quarterTurn.replace(4, 4, std::string("\0\1\0\0", 4));      // b = 1
   quarterTurn.replace(12, 4, std::string("\xff\xff\0\0", 4)); // c = -1
   quarterTurn.replace(32, 4, std::string("\x40\0\0\0", 4));   // w = 1
   bytes.replace(bytes.find("tkhd") + 44, quarterTurn.size(), quarterTurn);

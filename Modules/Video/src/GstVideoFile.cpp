@@ -309,7 +309,8 @@ private:
     if (m_hasSound && !m_hasPicture)
       throw VideoError(Reason::NoPicture, m_name + ": it has sound only, and no picture");
     throw VideoError(Reason::Damaged,
-                     m_name + ": damaged, or not whole: no frame of it can be decoded; copy it anew");
+                     m_name +
+                         ": damaged, or not whole: no frame of it can be decoded; copy it anew");
   }
 
   // None at the end, or where it cannot be decoded any more.
@@ -365,8 +366,9 @@ private:
     if (GST_BUFFER_PTS_IS_VALID(buffer) && GST_CLOCK_TIME_IS_VALID(stamp))
       frame.time = Time(static_cast<Time::rep>(stamp));
     else if (m_latest) // by the rate, where the file gives no times
-      frame.time = *m_latest + Time(static_cast<Time::rep>(
-                                   1e9 / (info.frameRate > 0.0 ? info.frameRate : 25.0)));
+      frame.time =
+          *m_latest +
+          Time(static_cast<Time::rep>(1e9 / (info.frameRate > 0.0 ? info.frameRate : 25.0)));
     return frame;
   }
 
@@ -390,10 +392,10 @@ private:
     m_latest.reset();
     m_ahead.reset();
     m_isLost = true;
-    if (gst_element_seek_simple(m_pipeline.get(), GST_FORMAT_TIME,
-                                static_cast<GstSeekFlags>(GST_SEEK_FLAG_FLUSH |
-                                                          GST_SEEK_FLAG_ACCURATE),
-                                from.count()) == FALSE)
+    if (gst_element_seek_simple(
+            m_pipeline.get(), GST_FORMAT_TIME,
+            static_cast<GstSeekFlags>(GST_SEEK_FLAG_FLUSH | GST_SEEK_FLAG_ACCURATE),
+            from.count()) == FALSE)
       return false;
     auto frame = pull();
     if (!frame)

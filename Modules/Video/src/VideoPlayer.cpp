@@ -31,8 +31,7 @@ public:
   Clock::time_point due() const
   {
     const auto next = m_file->nextTime();
-    return next ? m_origin + std::chrono::duration_cast<Clock::duration>(*next)
-                : Clock::now();
+    return next ? m_origin + std::chrono::duration_cast<Clock::duration>(*next) : Clock::now();
   }
 
   void act(const Wanted& wanted, const std::optional<Loop>& loop)

@@ -129,7 +129,8 @@ StillFit fitStill(const Still& still, const core::Progress& progress)
   return fit;
 }
 
-std::optional<Eigen::Vector2d> seenAt(const core::CameraPose& camera, const std::array<int, 2>& size,
+std::optional<Eigen::Vector2d> seenAt(const core::CameraPose& camera,
+                                      const std::array<int, 2>& size,
                                       const Eigen::Vector3d& patient)
 {
   const Eigen::Vector3d into = (camera.focalPoint - camera.position).normalized();
@@ -137,8 +138,7 @@ std::optional<Eigen::Vector2d> seenAt(const core::CameraPose& camera, const std:
   const Eigen::Vector3d q = patient - camera.position;
   if (q.dot(into) <= 0.0)
     return std::nullopt;
-  const double scale =
-      0.5 * size[1] / (std::tan(camera.viewAngle * kPi / 360.0) * q.dot(into));
+  const double scale = 0.5 * size[1] / (std::tan(camera.viewAngle * kPi / 360.0) * q.dot(into));
   return Eigen::Vector2d(0.5 * size[0] + scale * q.dot(right),
                          0.5 * size[1] - scale * q.dot(right.cross(into)));
 }
@@ -147,8 +147,9 @@ Landmarks landmarksFromCsv(std::istream& csv, const std::string& name)
 {
   Landmarks landmarks;
   core::readCsv(csv, name, {"x_mm", "y_mm", "z_mm", "u_px", "v_px"},
-                [&landmarks](std::size_t /*line*/, const std::vector<double>& v)
-                { landmarks.push_back({{v[0], v[1], v[2]}, {v[3], v[4]}}); });
+                [&landmarks](std::size_t /*line*/, const std::vector<double>& v) {
+                  landmarks.push_back({{v[0], v[1], v[2]}, {v[3], v[4]}});
+                });
   return landmarks;
 }
 
@@ -194,8 +195,7 @@ rendering::Picture overlaid(rendering::Picture picture, const video::Frame& stil
 
 rendering::Picture pictureOf(const video::Frame& frame)
 {
-  return {frame.width, frame.height,
-          frame.pixels ? *frame.pixels : std::vector<std::uint8_t>()};
+  return {frame.width, frame.height, frame.pixels ? *frame.pixels : std::vector<std::uint8_t>()};
 }
 
 std::string timeText(std::int64_t nanoseconds)

@@ -18,8 +18,7 @@ using dissection::History;
 bool isAlike(const scene::VideoNotes::Still& a, const scene::VideoNotes::Still& b)
 {
   return a.time == b.time && a.size == b.size && a.viewAngle == b.viewAngle &&
-         std::equal(a.landmarks.begin(), a.landmarks.end(), b.landmarks.begin(),
-                    b.landmarks.end(),
+         std::equal(a.landmarks.begin(), a.landmarks.end(), b.landmarks.begin(), b.landmarks.end(),
                     [](const auto& x, const auto& y)
                     { return x.patient == y.patient && x.still == y.still; });
 }
@@ -70,7 +69,8 @@ void VideoEditor::choose(const std::string& name)
 
 std::filesystem::path VideoEditor::file() const
 {
-  return library::attachmentFile(m_model.library(), scene::findAttachment(m_model.value(), m_video));
+  return library::attachmentFile(m_model.library(),
+                                 scene::findAttachment(m_model.value(), m_video));
 }
 
 const scene::VideoNotes& VideoEditor::notes() const
@@ -131,9 +131,9 @@ std::string VideoEditor::addBookmark(const std::string& name)
   requireFrame();
   Notes next = notes();
   const std::string free =
-      name.empty() ? scene::freeBookmarkName(
-                         next, "bookmark " + std::to_string(next.bookmarks.size() + 1))
-                   : name;
+      name.empty()
+          ? scene::freeBookmarkName(next, "bookmark " + std::to_string(next.bookmarks.size() + 1))
+          : name;
   next.bookmarks.push_back({free, *m_time, presentStroke()});
   set(next, "bookmark '" + free + "'");
   return free;
@@ -209,9 +209,9 @@ std::optional<std::size_t> VideoEditor::bookmarkHere() const
   const auto found = std::find_if(all.begin(), all.end(),
                                   [&stroke](const Notes::Bookmark& one)
                                   { return !stroke.empty() && one.stroke == stroke; });
-  return found == all.end() ? std::nullopt
-                            : std::optional<std::size_t>(
-                                  static_cast<std::size_t>(found - all.begin()));
+  return found == all.end()
+             ? std::nullopt
+             : std::optional<std::size_t>(static_cast<std::size_t>(found - all.begin()));
 }
 
 std::size_t VideoEditor::strokeOf(std::size_t bookmark) const

@@ -34,7 +34,8 @@ std::size_t landmarksNeeded(const scene::VideoNotes::Still& still) noexcept; ///
 StillFit fitStill(const scene::VideoNotes::Still& still, const core::Progress& progress = {});
 
 /// Where a camera sees a point: pixels from the upper left corner of a picture; nullopt behind it.
-std::optional<Eigen::Vector2d> seenAt(const core::CameraPose& camera, const std::array<int, 2>& size,
+std::optional<Eigen::Vector2d> seenAt(const core::CameraPose& camera,
+                                      const std::array<int, 2>& size,
                                       const Eigen::Vector3d& patient);
 
 /// A table with the columns x_mm, y_mm, z_mm (patient LPS) and u_px, v_px (in the still, from its

@@ -32,10 +32,10 @@ public:
 
   void refresh(); ///< call when the case or its attachments changed
 
-  std::vector<std::string> videos() const;                        ///< attached, by name
-  const std::string& video() const noexcept { return m_video; }   ///< empty: none is looked at
-  void choose(const std::string& name);                           ///< empty: none
-  std::filesystem::path file() const;                             ///< throws InvalidParameter
+  std::vector<std::string> videos() const;                      ///< attached, by name
+  const std::string& video() const noexcept { return m_video; } ///< empty: none is looked at
+  void choose(const std::string& name);                         ///< empty: none
+  std::filesystem::path file() const;                           ///< throws InvalidParameter
   const scene::VideoNotes& notes() const;
 
   void showFrame(const std::array<int, 2>& size, std::int64_t time); ///< it is seen now

@@ -43,12 +43,12 @@ struct VideoNotes
   /// A frame with landmarks, and the camera that they give.
   struct Still
   {
-    std::int64_t time = 0;                 ///< of the frame, ns; one still a frame
-    std::array<int, 2> size{0, 0};         ///< pixels, width and height
-    std::vector<Landmark> landmarks;       ///< pairs that are complete
-    std::optional<double> viewAngle;       ///< vertical, degrees, if it is known
+    std::int64_t time = 0;                  ///< of the frame, ns; one still a frame
+    std::array<int, 2> size{0, 0};          ///< pixels, width and height
+    std::vector<Landmark> landmarks;        ///< pairs that are complete
+    std::optional<double> viewAngle;        ///< vertical, degrees, if it is known
     std::optional<core::CameraPose> camera; ///< perspective; none before there are enough
-    double opacity = 0.5;                  ///< of the still over the 3D view, 0 to 1
+    double opacity = 0.5;                   ///< of the still over the 3D view, 0 to 1
   };
 
   std::vector<Bookmark> bookmarks; ///< by time

@@ -7070,10 +7070,6 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
         <translation>Seine Sicht</translation>
     </message>
     <message>
-        <source>“%1” is set</source>
-        <translation>„%1“ ist gesetzt</translation>
-    </message>
-    <message>
         <source>The video is being opened…</source>
         <translation>Das Video wird geöffnet …</translation>
     </message>
@@ -7112,6 +7108,14 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     <message>
         <source>Pause</source>
         <translation>Anhalten</translation>
+    </message>
+    <message>
+        <source>“%1” is set, tied to stroke %2</source>
+        <translation>„%1“ ist gesetzt, verbunden mit Bohrzug %2</translation>
+    </message>
+    <message>
+        <source>“%1” is set, tied to no stroke: nothing is drilled, or it is not saved yet</source>
+        <translation>„%1“ ist gesetzt, mit keinem Bohrzug verbunden: Es ist nichts gebohrt oder noch nicht gesichert</translation>
     </message>
 </context>
 <context>

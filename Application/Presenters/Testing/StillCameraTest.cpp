@@ -174,8 +174,10 @@ TEST(StillCamera, IsFoundOfRenderedStills)
       }
       const double turn = std::sqrt(turns / kRounds);
       const double miss = std::sqrt(misses / kRounds);
-      RecordProperty("mm_" + std::to_string(static_cast<int>(angle)), std::to_string(miss));
-      RecordProperty("degrees_" + std::to_string(static_cast<int>(angle)), std::to_string(turn));
+      const std::string of = std::to_string(static_cast<int>(angle)) +
+                             (side.y() > 0.0 ? "_from_front" : "_from_behind");
+      RecordProperty("degrees_" + of, std::to_string(turn));
+      RecordProperty("mm_" + of, std::to_string(miss));
       EXPECT_LT(turn, 0.5) << angle << " degrees, side " << side.transpose();
       EXPECT_LT(miss, 0.3) << angle << " mm, side " << side.transpose();
       EXPECT_NEAR(turn / std::sqrt(stated / kRounds), 1.0, 0.5);

@@ -149,6 +149,7 @@ TEST_F(VideoPanels, StepSeekAndSetBookmarksThatUndoTakesBack)
   ASSERT_TRUE(shows(20));
   action("Set a bookmark")->trigger();
   bookmarks().topLevelItem(1)->setText(0, "incus");
+  ASSERT_TRUE(waitFor([this] { return notes().bookmarks[1].name == "incus"; }));
   ASSERT_TRUE(settled());
   EXPECT_EQ(library().open("ball").attachments[0].video->bookmarks[1].name, "incus");
   action("Previous bookmark")->trigger();

@@ -6,6 +6,7 @@
 #include <QAction>
 #include <QMenu>
 #include <QMetaObject>
+#include <QTimer>
 
 #include "Application.h"
 #include "AttachmentsController.h"
@@ -133,8 +134,14 @@ void VideoController::addActions()
      [this]
      {
        std::string name;
-       if (attempt([&] { name = m_editor.addBookmark(); }))
-         emit statusMessage(tr("“%1” is set").arg(words(name)));
+       if (!attempt([&] { name = m_editor.addBookmark(); }))
+         return;
+       const std::size_t stroke = m_editor.strokeOf(scene::findBookmark(m_editor.notes(), name));
+       emit statusMessage(stroke > 0
+                              ? tr("“%1” is set, tied to stroke %2").arg(words(name)).arg(stroke)
+                              : tr("“%1” is set, tied to no stroke: nothing is drilled, or it is "
+                                   "not saved yet")
+                                    .arg(words(name)));
      });
   on(m_previousBookmark, [this] { stepBookmark(-1); });
   on(m_nextBookmark, [this] { stepBookmark(1); });
@@ -150,7 +157,12 @@ void VideoController::connectPanel()
   const auto index = [](int row) { return static_cast<std::size_t>(std::max(row, 0)); };
   connect(m_panel, &VideoPanel::videoChosen, this,
           [this](const QString& name) { choose(bytes(name)); });
-  connect(m_panel, &VideoPanel::attachAsked, this, [this] { m_attachments.attach(); });
+  connect(m_panel, &VideoPanel::attachAsked, this,
+          [this]
+          {
+            m_awaited = m_editor.videos().size() + 1;
+            m_attachments.attach();
+          });
   connect(m_panel, &VideoPanel::seekAsked, this,
           [this](qint64 at) { player().seek(std::chrono::milliseconds(at)); });
   connect(m_panel, &VideoPanel::bookmarkActivated, this, [=](int at) { goToBookmark(index(at)); });
@@ -158,7 +170,7 @@ void VideoController::connectPanel()
           [=](int at, const QString& name)
           {
             if (!attempt([&] { m_editor.renameBookmark(index(at), bytes(name)); }))
-              m_panel->refresh();
+              m_panel->refreshAnew();
           });
   connect(m_panel, &VideoPanel::moveAsked, this,
           [=](int at) { attempt([&] { m_editor.moveBookmark(index(at)); }); });
@@ -229,6 +241,7 @@ video::VideoPlayer& VideoController::player()
 
 void VideoController::caseChanged()
 {
+  m_awaited = 0;
   m_stroke = m_model.hasCase() ? strokeNow(m_model.value()) : std::string();
   attachmentsChanged();
 }
@@ -239,6 +252,17 @@ void VideoController::attachmentsChanged()
   attempt([this] { m_editor.refresh(); });
   if (!before.empty() && m_editor.video().empty())
     closeVideo();
+  // One that was attached from here is shown here.
+  const std::vector<std::string> all = m_editor.videos();
+  if (m_awaited == 0 || all.size() != m_awaited)
+    return;
+  m_awaited = 0;
+  QTimer::singleShot(0, this,
+                     [this, name = all.back()]
+                     {
+                       emit panelWanted();
+                       choose(name);
+                     });
 }
 
 // The bone is in another state: so is the video, where a bookmark is tied to it.
@@ -260,17 +284,17 @@ void VideoController::stateChanged()
 void VideoController::choose(const std::string& name)
 {
   closeVideo();
+  if (name.empty() || !m_model.hasCase())
+    return;
   attempt(
       [&]
       {
-        m_editor.choose(name);
-        if (name.empty())
-          return;
         const scene::Attachment& one = scene::findAttachment(m_model.value(), name);
         if (!one.object.empty() || !one.link.empty())
           if (const auto problem = library::attachmentProblem(m_model.library(), one);
               !problem.empty())
             throw core::InvalidParameter("the file of '" + name + "' is " + problem);
+        m_editor.choose(name);
         const auto file = m_editor.file();
         m_isOpening = true;
         player().open(file, name);

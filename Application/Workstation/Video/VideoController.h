@@ -87,6 +87,7 @@ private:
   StillOverlay* m_overlay;
   std::shared_ptr<Mail> m_mail;
   QImage m_frame;
+  std::size_t m_awaited = 0; // videos, once one that is being attached is there
   bool m_isOpening = false;
   bool m_isPlaying = false;
   bool m_goesAlong = false; // to a bookmark's stroke: the video is there already

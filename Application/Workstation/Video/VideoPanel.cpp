@@ -11,9 +11,11 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QPushButton>
+#include <QScrollArea>
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QTableWidget>
+#include <QTimer>
 #include <QToolButton>
 #include <QTreeWidget>
 #include <QVBoxLayout>
@@ -92,7 +94,15 @@ VideoPanel::VideoPanel(const presenters::WorkstationModel& model, presenters::Vi
   m_fault->setTextFormat(Qt::PlainText);
   m_fault->hide();
 
-  auto* layout = new QVBoxLayout(this);
+  auto* scroll = new QScrollArea; // on a low screen
+  auto* whole = new QWidget;
+  scroll->setWidget(whole);
+  scroll->setWidgetResizable(true);
+  scroll->setFrameShape(QFrame::NoFrame);
+  auto* around = new QVBoxLayout(this);
+  around->setContentsMargins(0, 0, 0, 0);
+  around->addWidget(scroll);
+  auto* layout = new QVBoxLayout(whole);
   layout->setContentsMargins(10, 8, 10, 8);
   layout->addLayout(top);
   layout->addWidget(m_picture, 3);
@@ -163,9 +173,13 @@ void VideoPanel::addBookmarks(QVBoxLayout& layout, const Actions& actions)
   connect(m_bookmarks, &QTreeWidget::itemChanged, this,
           [this](QTreeWidgetItem* item, int column)
           {
-            if (!m_refreshing && column == BookmarkName)
-              emit bookmarkRenamed(m_bookmarks->indexOfTopLevelItem(item),
-                                   item->text(BookmarkName));
+            if (m_refreshing || column != BookmarkName)
+              return;
+            // The list is made anew, which an item in the midst of its change would not survive.
+            const int at = m_bookmarks->indexOfTopLevelItem(item);
+            QTimer::singleShot(0, this,
+                               [this, at, name = item->text(BookmarkName)]
+                               { emit bookmarkRenamed(at, name); });
           });
 }
 
@@ -305,17 +319,26 @@ void VideoPanel::refresh()
   m_refreshing = false;
 }
 
+void VideoPanel::refreshAnew()
+{
+  m_bookmarksShown = QStringList(QString());
+  refresh();
+}
+
 void VideoPanel::refreshVideos()
 {
   const std::vector<std::string> names = m_editor.videos();
-  m_videos->clear();
-  m_videos->addItem(names.empty() ? tr("No video is attached") : tr("No video"), QString());
+  QStringList shown{names.empty() ? tr("No video is attached") : tr("No video")};
   for (const std::string& name : names)
+    shown += words(name);
+  if (shown != m_namesShown)
   {
-    m_videos->addItem(words(name), words(name));
-    if (name == m_editor.video())
-      m_videos->setCurrentIndex(m_videos->count() - 1);
+    m_namesShown = shown;
+    m_videos->clear();
+    for (int n = 0; n < shown.size(); ++n)
+      m_videos->addItem(shown[n], n == 0 ? QString() : shown[n]);
   }
+  m_videos->setCurrentIndex(std::max(m_videos->findData(words(m_editor.video())), 0));
   m_videos->setEnabled(!names.empty() && video::isSupported());
   if (!video::isSupported())
     m_picture->setText(
@@ -332,18 +355,27 @@ void VideoPanel::refreshBookmarks()
 {
   const auto chosen = chosenBookmarks();
   const auto& all = m_editor.notes().bookmarks;
-  m_bookmarks->clear();
   const auto here = m_editor.bookmarkHere();
+  QStringList shown;
+  for (std::size_t n = 0; n < all.size(); ++n)
+  {
+    const std::size_t stroke = m_editor.strokeOf(n);
+    shown += {words(all[n].name), words(presenters::timeText(all[n].time)),
+              stroke > 0              ? QString::number(stroke)
+              : all[n].stroke.empty() ? QString::fromUtf8("–")
+                                      : tr("gone"),
+              here == n ? "here" : ""};
+  }
+  if (shown == m_bookmarksShown)
+    return;
+  m_bookmarksShown = shown;
+  m_bookmarks->clear();
   for (std::size_t n = 0; n < all.size(); ++n)
   {
     auto* item = new QTreeWidgetItem(m_bookmarks);
     item->setFlags(item->flags() | Qt::ItemIsEditable);
-    item->setText(BookmarkName, words(all[n].name));
-    item->setText(BookmarkTime, words(presenters::timeText(all[n].time)));
-    const std::size_t stroke = m_editor.strokeOf(n);
-    item->setText(BookmarkStroke, stroke > 0              ? QString::number(stroke)
-                                  : all[n].stroke.empty() ? QString::fromUtf8("–")
-                                                          : tr("gone"));
+    for (int column = 0; column < BookmarkColumns; ++column)
+      item->setText(column, shown[4 * static_cast<int>(n) + column]);
     if (here == n)
     {
       QFont bold = item->font(BookmarkName);

@@ -4,6 +4,8 @@
 #include <functional>
 #include <optional>
 
+#include <QStringList>
+
 #include "Bind.h"
 #include "Panels.h"
 
@@ -45,6 +47,7 @@ public:
   void say(const QString& text); ///< what went wrong; empty: nothing
   void setOver(bool isOver);     ///< the 3D view is the still's
   void refresh();
+  void refreshAnew(); ///< also what was typed and refused
   std::vector<std::size_t> chosenBookmarks() const;
 
   // What the panel hears it hears through its controller, which knows the case, too.
@@ -93,7 +96,8 @@ private:
   QCheckBox* m_overlay;
   QSlider* m_opacity;
   Bindings m_bound;
-  qint64 m_duration = 0; // ms
+  QStringList m_namesShown, m_bookmarksShown; // lists are made anew where they differ
+  qint64 m_duration = 0;                      // ms
   bool m_refreshing = false;
 };
 

@@ -563,6 +563,7 @@ void MainWindow::connectModel()
   connect(m_attachments, &AttachmentsController::changed, m_saver, &CaseSaver::save);
   connect(m_video, &VideoController::statusMessage, this, showMessage);
   connect(m_video, &VideoController::changed, m_saver, &CaseSaver::save);
+  connect(m_video, &VideoController::panelWanted, this, [this] { raisePanel("videoDock"); });
   connect(m_attachments, &AttachmentsController::panelWanted, this,
           [this] { raisePanel("attachmentsDock"); });
   connect(m_picture, &PictureController::statusMessage, this,

@@ -19,6 +19,7 @@ void addNodeCommands(CLI::App& app, Context& context); ///< nodes, send, receive
 void addAppearanceCommand(CLI::App& app, Context& context);
 void addRenderCommand(CLI::App& app, Context& context);
 void addSliceCommand(CLI::App& app, Context& context);
+void addVideoCommand(CLI::App& app, Context& context);
 void addViewCommand(CLI::App& app, Context& context);
 void addMeasureCommand(CLI::App& app, Context& context);
 void addProbeCommand(CLI::App& app, Context& context);

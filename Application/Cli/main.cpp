@@ -54,6 +54,7 @@ void addCommands(CLI::App& app, cli::Context& context)
   cli::addBatchCommand(app, context);
   cli::addAppearanceCommand(app, context);
   cli::addViewCommand(app, context);
+  cli::addVideoCommand(app, context);
   cli::addRenderCommand(app, context);
   cli::addSliceCommand(app, context);
   cli::addMeasureCommand(app, context);

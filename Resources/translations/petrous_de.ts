@@ -189,6 +189,10 @@
         <source>Share</source>
         <translation>Weitergeben</translation>
     </message>
+    <message>
+        <source>Video</source>
+        <translation>Video</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::ActiveDeviceController</name>
@@ -7073,6 +7077,343 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     <message>
         <source>Transfer function of %1</source>
         <translation>Transferfunktion von %1</translation>
+    </message>
+</context>
+<context>
+    <name>petrous::workstation::VideoController</name>
+    <message>
+        <source>Vide&amp;o</source>
+        <translation>Vide&amp;o</translation>
+    </message>
+    <message>
+        <source>&amp;Play</source>
+        <translation>Ab&amp;spielen</translation>
+    </message>
+    <message>
+        <source>Plays the video, or pauses it</source>
+        <translation>Spielt das Video ab oder hält es an</translation>
+    </message>
+    <message>
+        <source>Step &amp;back</source>
+        <translation>Ein Bild &amp;zurück</translation>
+    </message>
+    <message>
+        <source>To the frame before</source>
+        <translation>Zum Bild davor</translation>
+    </message>
+    <message>
+        <source>Step &amp;forward</source>
+        <translation>Ein Bild &amp;weiter</translation>
+    </message>
+    <message>
+        <source>To the frame after</source>
+        <translation>Zum Bild danach</translation>
+    </message>
+    <message>
+        <source>Play</source>
+        <translation>Abspielen</translation>
+    </message>
+    <message>
+        <source>&amp;Loop</source>
+        <translation>Wieder&amp;holen</translation>
+    </message>
+    <message>
+        <source>Repeats the part between the two bookmarks that are chosen in the list</source>
+        <translation>Wiederholt den Teil zwischen den beiden Lesezeichen, die in der Liste gewählt sind</translation>
+    </message>
+    <message>
+        <source>Loop</source>
+        <translation>Wiederholen</translation>
+    </message>
+    <message>
+        <source>Set a book&amp;mark</source>
+        <translation>Lese&amp;zeichen setzen</translation>
+    </message>
+    <message>
+        <source>At the frame that is seen, tied to the stroke after which the bone is now</source>
+        <translation>Beim Bild, das zu sehen ist, verbunden mit dem Bohrzug, nach dem der Knochen jetzt ist</translation>
+    </message>
+    <message>
+        <source>Bookmark</source>
+        <translation>Lesezeichen</translation>
+    </message>
+    <message>
+        <source>Pre&amp;vious bookmark</source>
+        <translation>&amp;Voriges Lesezeichen</translation>
+    </message>
+    <message>
+        <source>With the bone as it was then</source>
+        <translation>Mit dem Knochen, wie er damals war</translation>
+    </message>
+    <message>
+        <source>&amp;Next bookmark</source>
+        <translation>&amp;Nächstes Lesezeichen</translation>
+    </message>
+    <message>
+        <source>&amp;Add the landmark</source>
+        <translation>&amp;Landmarke hinzufügen</translation>
+    </message>
+    <message>
+        <source>The crosshair marks the point of the patient that was clicked in the still</source>
+        <translation>Das Fadenkreuz markiert den Punkt des Patienten, der im Standbild angeklickt wurde</translation>
+    </message>
+    <message>
+        <source>Add landmark</source>
+        <translation>Landmarke</translation>
+    </message>
+    <message>
+        <source>&amp;View from the still</source>
+        <translation>Sicht des Stand&amp;bilds</translation>
+    </message>
+    <message>
+        <source>The 3D view from where the still was taken, with the still over it</source>
+        <translation>Die 3D-Ansicht von dort, wo das Standbild aufgenommen wurde, mit ihm darüber</translation>
+    </message>
+    <message>
+        <source>View from it</source>
+        <translation>Seine Sicht</translation>
+    </message>
+    <message>
+        <source>The video is being opened…</source>
+        <translation>Das Video wird geöffnet …</translation>
+    </message>
+    <message>
+        <source>No bookmark comes after this frame</source>
+        <translation>Nach diesem Bild kommt kein Lesezeichen</translation>
+    </message>
+    <message>
+        <source>No bookmark comes before this frame</source>
+        <translation>Vor diesem Bild liegt kein Lesezeichen</translation>
+    </message>
+    <message>
+        <source>Choose a video in the panel Video first</source>
+        <translation>Wählen Sie zuerst ein Video im Bereich Video</translation>
+    </message>
+    <message>
+        <source>The video has no bookmarks</source>
+        <translation>Das Video hat keine Lesezeichen</translation>
+    </message>
+    <message>
+        <source>The video has no two bookmarks</source>
+        <translation>Das Video hat keine zwei Lesezeichen</translation>
+    </message>
+    <message>
+        <source>Click the point in the still first</source>
+        <translation>Klicken Sie zuerst den Punkt im Standbild an</translation>
+    </message>
+    <message>
+        <source>The still has too few landmarks</source>
+        <translation>Das Standbild hat zu wenige Landmarken</translation>
+    </message>
+    <message>
+        <source>&amp;Pause</source>
+        <translation>An&amp;halten</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>Anhalten</translation>
+    </message>
+    <message>
+        <source>“%1” is set, tied to stroke %2</source>
+        <translation>„%1“ ist gesetzt, verbunden mit Bohrzug %2</translation>
+    </message>
+    <message>
+        <source>“%1” is set, tied to no stroke: nothing is drilled, or it is not saved yet</source>
+        <translation>„%1“ ist gesetzt, mit keinem Bohrzug verbunden: Es ist nichts gebohrt oder noch nicht gesichert</translation>
+    </message>
+</context>
+<context>
+    <name>petrous::workstation::VideoPanel</name>
+    <message>
+        <source>The attached video that is shown</source>
+        <translation>Das angehängte Video, das gezeigt wird</translation>
+    </message>
+    <message>
+        <source>&amp;Over the 3D view</source>
+        <translation>&amp;Über der 3D-Ansicht</translation>
+    </message>
+    <message>
+        <source>Opacity of the still over the 3D view</source>
+        <translation>Deckkraft des Standbilds über der 3D-Ansicht</translation>
+    </message>
+    <message>
+        <source>&amp;Attach…</source>
+        <translation>An&amp;hängen…</translation>
+    </message>
+    <message>
+        <source>A video goes with the case, copied or linked (Case &gt; Attach…)</source>
+        <translation>Ein Video gehört zum Fall, kopiert oder verknüpft (Fall &gt; Anhängen …)</translation>
+    </message>
+    <message>
+        <source>Place in the video</source>
+        <translation>Stelle im Video</translation>
+    </message>
+    <message>
+        <source>Bookmarks</source>
+        <translation>Lesezeichen</translation>
+    </message>
+    <message>
+        <source>Bookmark</source>
+        <translation>Lesezeichen</translation>
+    </message>
+    <message>
+        <source>Time</source>
+        <translation>Zeit</translation>
+    </message>
+    <message>
+        <source>After stroke</source>
+        <translation>Nach Bohrzug</translation>
+    </message>
+    <message>
+        <source>Return or a double click goes there; where a bookmark is tied to a stroke, the bone is shown as it is after it</source>
+        <translation>Eingabe oder Doppelklick geht dorthin; ist ein Lesezeichen mit einem Bohrzug verbunden, wird der Knochen gezeigt, wie er danach ist</translation>
+    </message>
+    <message>
+        <source>&amp;Move here</source>
+        <translation>&amp;Hierher</translation>
+    </message>
+    <message>
+        <source>To the frame that is seen</source>
+        <translation>Zum Bild, das zu sehen ist</translation>
+    </message>
+    <message>
+        <source>&amp;Tie</source>
+        <translation>&amp;Verbinden</translation>
+    </message>
+    <message>
+        <source>To the stroke after which the bone is now, or from any stroke</source>
+        <translation>Mit dem Bohrzug, nach dem der Knochen jetzt ist, oder mit keinem</translation>
+    </message>
+    <message>
+        <source>&amp;Remove</source>
+        <translation>&amp;Entfernen</translation>
+    </message>
+    <message>
+        <source>Takes the bookmark out</source>
+        <translation>Nimmt das Lesezeichen heraus</translation>
+    </message>
+    <message>
+        <source>Landmarks of the still</source>
+        <translation>Landmarken des Standbilds</translation>
+    </message>
+    <message>
+        <source>Patient, mm</source>
+        <translation>Patient, mm</translation>
+    </message>
+    <message>
+        <source>Residual</source>
+        <translation>Restfehler</translation>
+    </message>
+    <message>
+        <source>Re&amp;move</source>
+        <translation>&amp;Entfernen</translation>
+    </message>
+    <message>
+        <source>The landmark that is chosen</source>
+        <translation>Die gewählte Landmarke</translation>
+    </message>
+    <message>
+        <source>Remove all</source>
+        <translation>Alle entfernen</translation>
+    </message>
+    <message>
+        <source>All landmarks of this still</source>
+        <translation>Alle Landmarken dieses Standbilds</translation>
+    </message>
+    <message>
+        <source>Vertical angle of view, if it is known: then four landmarks are enough</source>
+        <translation>Senkrechter Bildwinkel, wenn er bekannt ist: dann genügen vier Landmarken</translation>
+    </message>
+    <message>
+        <source>°</source>
+        <translation>°</translation>
+    </message>
+    <message>
+        <source>to be found</source>
+        <translation>wird gesucht</translation>
+    </message>
+    <message>
+        <source>The still lies over the 3D view while that is the still&apos;s own view</source>
+        <translation>Das Standbild liegt über der 3D-Ansicht, solange sie dessen eigene Sicht ist</translation>
+    </message>
+    <message>
+        <source>Where the still was taken from</source>
+        <translation>Von wo das Standbild aufgenommen wurde</translation>
+    </message>
+    <message>
+        <source>An&amp;gle of view</source>
+        <translation>Bild&amp;winkel</translation>
+    </message>
+    <message>
+        <source>No video is attached</source>
+        <translation>Kein Video ist angehängt</translation>
+    </message>
+    <message>
+        <source>No video</source>
+        <translation>Kein Video</translation>
+    </message>
+    <message>
+        <source>Video support was not built: this program was built without GStreamer.</source>
+        <translation>Videos werden nicht unterstützt: Dieses Programm wurde ohne GStreamer gebaut.</translation>
+    </message>
+    <message>
+        <source>Attach a video of the operation, copied or as a link.</source>
+        <translation>Hängen Sie ein Video der Operation an, kopiert oder verknüpft.</translation>
+    </message>
+    <message>
+        <source>Choose a video above.</source>
+        <translation>Wählen Sie oben ein Video.</translation>
+    </message>
+    <message>
+        <source>gone</source>
+        <translation>fehlt</translation>
+    </message>
+    <message>
+        <source>%1 px</source>
+        <translation>%1 px</translation>
+    </message>
+    <message>
+        <source>%1, does not fit</source>
+        <translation>%1, passt nicht</translation>
+    </message>
+    <message>
+        <source>Now the same point of the patient: click it in the 3D view or a slice, then Add the landmark (Ctrl+U).</source>
+        <translation>Nun derselbe Punkt des Patienten: Klicken Sie ihn in der 3D-Ansicht oder einer Schicht an, dann Landmarke hinzufügen (Strg+U).</translation>
+    </message>
+    <message>
+        <source>The camera is being sought…</source>
+        <translation>Die Kamera wird gesucht …</translation>
+    </message>
+    <message>
+        <source>Click a point in the still, then the same point of the patient. %1 of at least %2 landmarks are set.</source>
+        <translation>Klicken Sie einen Punkt im Standbild an, dann denselben Punkt des Patienten. %1 von mindestens %2 Landmarken sind gesetzt.</translation>
+    </message>
+    <message>
+        <source>Residual %1 px, %2 mm at the landmarks (rms). Uncertainty (standard deviation): %3° of direction, %4 mm of the camera&apos;s place.</source>
+        <translation>Restfehler %1 px, %2 mm an den Landmarken (RMS). Unsicherheit (Standardabweichung): %3° der Richtung, %4 mm des Orts der Kamera.</translation>
+    </message>
+    <message>
+        <source>Angle of view %1° ± %2°.</source>
+        <translation>Bildwinkel %1° ± %2°.</translation>
+    </message>
+    <message>
+        <source>Left out, as it does not fit the others: landmark %1. Set it anew or remove it.</source>
+        <translation>Weggelassen, da sie nicht zu den anderen passt: Landmarke %1. Setzen Sie sie neu oder entfernen Sie sie.</translation>
+    </message>
+    <message>
+        <source>The landmarks do not fit each other; which one is wrong more landmarks would tell.</source>
+        <translation>Die Landmarken passen nicht zueinander; welche falsch ist, würden weitere Landmarken zeigen.</translation>
+    </message>
+    <message>
+        <source>Another view explains the landmarks nearly as well: add landmarks of other depth, and look whether the still fits.</source>
+        <translation>Eine andere Sicht erklärt die Landmarken fast ebenso gut: Setzen Sie Landmarken in anderer Tiefe, und sehen Sie nach, ob das Standbild passt.</translation>
+    </message>
+</context>
+<context>
+    <name>petrous::workstation::VideoPicture</name>
+    <message>
+        <source>Video</source>
+        <translation>Video</translation>
     </message>
 </context>
 <context>

@@ -66,6 +66,7 @@
 #include "ThicknessController.h"
 #include "ThreeDView.h"
 #include "ThumbnailDrawer.h"
+#include "VideoController.h"
 #include "ViewArea.h"
 #include "ViewStateController.h"
 #include "WindowActions.h"
@@ -197,6 +198,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& wanted)
   , m_viewState(new ViewStateController(m_model, *m_view, *m_slices, *m_picture, *m_registration,
                                         *m_bar, *this))
   , m_share(new ShareController(m_model, *m_keeper, *m_exchange, *m_view, *this))
+  , m_video(new VideoController(m_model, *m_view, *m_attachments, *this))
 {
   applyTheme(*qApp, m_settings->theme());
   addPanels();
@@ -213,6 +215,8 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& wanted)
   { m_viewState->showCamera(camera); };
   m_share->releaseTool = [this] { m_drill->releaseTool(); };
   m_share->collectView = [this] { m_viewState->collect(); };
+  m_video->goToState = [this](const std::string& branch, std::size_t stroke)
+  { m_branches->goToState(branch, stroke); };
   m_keeper->setParent(this);
   m_saver->setParent(this);
   m_saver->aboutToSave = [this] { m_viewState->collect(); };
@@ -240,6 +244,7 @@ MainWindow::~MainWindow()
   delete m_registration;  // likewise
   delete m_segment;       // likewise
   delete m_measure;       // likewise
+  delete m_video;         // likewise
   delete m_drill;
   delete m_devices;
   for (const auto& [entry, panel] : m_panels)
@@ -300,6 +305,7 @@ void MainWindow::layOut()
   menuBar()->insertMenu(menuBar()->actions().last(), m_registration->menu());
   menuBar()->insertMenu(menuBar()->actions().last(), m_segment->menu());
   menuBar()->insertMenu(menuBar()->actions().last(), m_measure->menu());
+  menuBar()->insertMenu(menuBar()->actions().last(), m_video->menu());
   menuBar()->insertMenu(menuBar()->actions().last(), m_library->menu());
 
   m_sum->setObjectName("dim");
@@ -372,7 +378,7 @@ void MainWindow::addPanels()
 {
   const PanelContext context{m_model,     *m_picture,     *m_registration, *m_segment,
                              *m_library,  *m_attachments, *m_measure,      *m_sliceControl,
-                             *m_branches, *m_strokes,     *m_share};
+                             *m_branches, *m_strokes,     *m_share,        *m_video};
   std::map<Qt::DockWidgetArea, QDockWidget*> tabs;
   for (const PanelEntry& entry : panelEntries())
   {
@@ -556,6 +562,9 @@ void MainWindow::connectModel()
   connect(m_saver, &CaseSaver::saved, m_library, &LibraryController::refresh);
   connect(m_attachments, &AttachmentsController::statusMessage, this, showMessage);
   connect(m_attachments, &AttachmentsController::changed, m_saver, &CaseSaver::save);
+  connect(m_video, &VideoController::statusMessage, this, showMessage);
+  connect(m_video, &VideoController::changed, m_saver, &CaseSaver::save);
+  connect(m_video, &VideoController::panelWanted, this, [this] { raisePanel("videoDock"); });
   connect(m_attachments, &AttachmentsController::panelWanted, this,
           [this] { raisePanel("attachmentsDock"); });
   connect(m_picture, &PictureController::statusMessage, this,
@@ -1074,6 +1083,7 @@ void MainWindow::clipHere()
 
 void MainWindow::stepped(bool back)
 {
+  m_video->stateChanged();
   const scene::Case& value = m_model.value();
   const auto& strokes = value.dissection.strokes();
   const dissection::History& history = value.dissection.history();

@@ -48,6 +48,7 @@ class StartPage;
 class StrokeThumbnails;
 class ThicknessController;
 class ThreeDView;
+class VideoController;
 class ViewArea;
 class ViewStateController;
 class WindowActions;
@@ -175,6 +176,7 @@ private:
   AttachmentsController* m_attachments;
   ViewStateController* m_viewState;
   ShareController* m_share;
+  VideoController* m_video;
   std::vector<std::pair<PanelEntry, Panel*>> m_panels;
   ThicknessController* m_thickness;
   QTimer m_saveLater;

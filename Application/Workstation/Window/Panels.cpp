@@ -24,6 +24,8 @@
 #include "SlicesPanel.h"
 #include "StructuresPanel.h"
 #include "Theme.h"
+#include "VideoController.h"
+#include "VideoPanel.h"
 
 namespace petrous::workstation
 {
@@ -88,6 +90,8 @@ std::vector<PanelEntry> panelEntries()
        kHidden, kNeedsCase, approachPanel},
       {"shareDock", tr("Share"), Qt::SHIFT + Qt::Key_F12, Qt::LeftDockWidgetArea, kTabbed, kHidden,
        kNeedsCase, [](C c) -> Panel* { return c.share.panel(); }},
+      {"videoDock", tr("Video"), Qt::SHIFT + Qt::Key_F7, Qt::LeftDockWidgetArea, kTabbed, kHidden,
+       kNeedsCase, [](C c) -> Panel* { return c.video.panel(); }},
   };
 }
 

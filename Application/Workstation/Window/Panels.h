@@ -24,6 +24,7 @@ class SegmentController;
 class ShareController;
 class SliceController;
 class StrokeThumbnails;
+class VideoController;
 
 /// The widget of a dock. A panel overrides what it wants to hear.
 class Panel : public QWidget
@@ -55,6 +56,7 @@ struct PanelContext
   BranchController& branches;
   StrokeThumbnails& strokes;
   ShareController& share;
+  VideoController& video;
 };
 
 struct PanelEntry

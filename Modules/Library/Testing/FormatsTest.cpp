@@ -7,6 +7,7 @@
 #include "petrous/Library/NewerVersion.h"
 #include "petrous/Scene/Manifest.h"
 #include "petrous/Scene/Placement.h"
+#include "petrous/Scene/VideoNotes.h"
 
 using namespace petrous;
 using namespace petrous::library;
@@ -112,7 +113,16 @@ void expectCase(const scene::Case& value, int format, bool isArchived = false)
   EXPECT_EQ(value.description.date, format >= 5 ? "2026-03-31" : "");
   EXPECT_EQ(value.view.branchCameras.count("main"), format >= 5 ? 1U : 0U);
   EXPECT_EQ(value.view.light.has_value(), format >= 6);
-  EXPECT_EQ(value.attachments.size(), format >= 6 ? 1U : 0U);
+  ASSERT_EQ(value.attachments.size(), format >= 8 ? 2U : format >= 6 ? 1U : 0U);
+  if (format >= 8)
+  {
+    ASSERT_TRUE(value.attachments[1].video);
+    const scene::VideoNotes& notes = *value.attachments[1].video;
+    EXPECT_EQ(notes.bookmarks.at(0).time, 1234567890);
+    EXPECT_EQ(scene::strokeWith(value, notes.bookmarks[0].stroke), 1U);
+    EXPECT_EQ(notes.stills.at(0).camera->viewAngle, 25.0);
+    EXPECT_EQ(notes.stills[0].landmarks.at(0).still.x(), 960.5);
+  }
   EXPECT_EQ(value.view.saved.count("from above"), format >= 7 ? 1U : 0U);
   ASSERT_EQ(value.measurements.size(), format >= 7 ? 1U : 0U);
   if (format >= 7)
@@ -186,8 +196,8 @@ TEST_F(Formats, ACaseOfANewerFormatIsRefusedInWordsAndStays)
   {
     EXPECT_EQ(error.reason, scene::ManifestError::Reason::NewerFormat);
     EXPECT_NE(std::string(error.what())
-                  .find("format-8.json: written by format 8; this program "
-                        "reads up to 7"),
+                  .find("format-9.json: written by format 9; this program "
+                        "reads up to 8"),
               std::string::npos)
         << error.what();
   }
@@ -304,6 +314,6 @@ TEST_F(Formats, AnArchiveOfANewerFormatIsRefusedInWords)
   };
   EXPECT_NE(refusedAs("archive-2.petrous").find("written by a newer version of this program"),
             std::string::npos);
-  EXPECT_NE(refusedAs("archive-1-case-8.petrous").find("written by format 8"), std::string::npos);
+  EXPECT_NE(refusedAs("archive-1-case-9.petrous").find("written by format 9"), std::string::npos);
   EXPECT_TRUE(m_library.list().empty());
 }

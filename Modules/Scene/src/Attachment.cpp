@@ -7,6 +7,7 @@
 
 #include "petrous/Core/NumberText.h"
 #include "petrous/Scene/Case.h"
+#include "petrous/Scene/VideoNotes.h"
 
 namespace petrous::scene
 {
@@ -81,6 +82,11 @@ void checkAttachments(const std::vector<Attachment>& attachments)
     text.date = one.date;
     checkDescription(text);
     require(one.object.empty() || one.link.empty(), "one is embedded and a link");
+    if (one.video)
+    {
+      require(one.kind == Attachment::Kind::Video, "bookmarks and stills are of a video");
+      checkVideoNotes(*one.video);
+    }
     if (one.link.empty())
       continue;
     checkLink(one.link);
@@ -118,11 +124,8 @@ std::string freeAttachmentName(const Case& value, const std::string& name)
 
 std::size_t strokeOf(const Case& value, const Attachment& attachment)
 {
-  const auto& strokes = value.dissection.strokes();
-  for (std::size_t n = 0; n < strokes.size() && !attachment.stroke.empty(); ++n)
-    if (strokes[n]->object == attachment.stroke)
-      return n + 1;
-  return 0;
+  const auto stroke = strokeWith(value, attachment.stroke);
+  return stroke ? *stroke + 1 : 0;
 }
 
 } // namespace petrous::scene

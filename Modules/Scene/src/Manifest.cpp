@@ -10,6 +10,7 @@
 #include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Dissection/BurrName.h"
 #include "petrous/Scene/Registration.h"
+#include "petrous/Scene/VideoNotes.h"
 
 namespace petrous::scene
 {
@@ -136,6 +137,7 @@ constexpr int kFormatWithoutCodes = 3;
 constexpr int kFormatWithoutDescription = 4;
 constexpr int kFormatWithoutAttachments = 5;
 constexpr int kFormatWithoutMeasurements = 6; // and without saved views
+constexpr int kFormatWithoutVideoNotes = 7;
 constexpr const char* kPlanes[] = {"axial", "coronal", "sagittal"};
 constexpr const char* kFrame = "frame_of_reference_salted_sha256";
 constexpr const char* kPatient = "patient_salted_sha256";
@@ -645,6 +647,76 @@ bool needsFormat7(const Case& value)
          (view.slices && (view.slices->turned || view.slices->slab));
 }
 
+// Likewise before format 8.
+bool needsFormat8(const Case& value)
+{
+  return std::any_of(value.attachments.begin(), value.attachments.end(),
+                     [](const Attachment& one) { return one.video && !one.video->empty(); });
+}
+
+json stillOut(const VideoNotes::Still& still)
+{
+  json j{{"time_ns", still.time},
+         {"size", still.size},
+         {"opacity", still.opacity},
+         {"landmarks", json::array()}};
+  for (const VideoNotes::Landmark& one : still.landmarks)
+    j["landmarks"].push_back(
+        {{"patient_mm", vectorOut(one.patient)}, {"still_px", {one.still.x(), one.still.y()}}});
+  if (still.viewAngle)
+    j["view_angle_deg"] = *still.viewAngle;
+  if (still.camera)
+    j["camera"] = cameraOut(*still.camera);
+  return j;
+}
+
+VideoNotes::Still stillIn(const json& j)
+{
+  VideoNotes::Still still;
+  still.time = j.at("time_ns").get<std::int64_t>();
+  still.size = j.at("size").get<std::array<int, 2>>();
+  still.opacity = j.at("opacity").get<double>();
+  for (const json& one : j.at("landmarks").get_ref<const json::array_t&>())
+  {
+    const auto at = one.at("still_px").get<std::array<double, 2>>();
+    still.landmarks.push_back({vectorIn(one.at("patient_mm")), {at[0], at[1]}});
+  }
+  if (j.contains("view_angle_deg"))
+    still.viewAngle = j.at("view_angle_deg").get<double>();
+  if (j.contains("camera"))
+    still.camera = cameraIn(j.at("camera"));
+  return still;
+}
+
+json videoOut(const VideoNotes& notes)
+{
+  json j = json::object();
+  for (const VideoNotes::Bookmark& one : notes.bookmarks)
+  {
+    j["bookmarks"].push_back({{"name", one.name}, {"time_ns", one.time}});
+    if (!one.stroke.empty())
+      j["bookmarks"].back()["stroke"] = one.stroke;
+  }
+  for (const VideoNotes::Still& one : notes.stills)
+    j["stills"].push_back(stillOut(one));
+  return j;
+}
+
+std::shared_ptr<const VideoNotes> videoIn(const json& j)
+{
+  VideoNotes notes;
+  if (j.contains("bookmarks"))
+    for (const json& one : j.at("bookmarks").get_ref<const json::array_t&>())
+      notes.bookmarks.push_back({one.at("name").get<std::string>(),
+                                 one.at("time_ns").get<std::int64_t>(),
+                                 one.value("stroke", std::string())});
+  if (j.contains("stills"))
+    for (const json& one : j.at("stills").get_ref<const json::array_t&>())
+      notes.stills.push_back(stillIn(one));
+  sortVideoNotes(notes);
+  return std::make_shared<const VideoNotes>(std::move(notes)); // checked with its attachment
+}
+
 json attachmentOut(const Attachment& attachment)
 {
   json j{{"kind", nameOf(attachment.kind)}, {"name", attachment.name}, {"bytes", attachment.bytes}};
@@ -660,6 +732,8 @@ json attachmentOut(const Attachment& attachment)
   add("link", attachment.link);
   if (!attachment.link.empty())
     j["sha256"] = attachment.sha256;
+  if (attachment.video && !attachment.video->empty())
+    j["video"] = videoOut(*attachment.video);
   return j;
 }
 
@@ -675,6 +749,8 @@ Attachment attachmentIn(const json& j)
   attachment.object = j.value("object", std::string());
   attachment.link = j.value("link", std::string());
   attachment.sha256 = j.value("sha256", std::string());
+  if (j.contains("video"))
+    attachment.video = videoIn(j.at("video"));
   if (attachment.object.empty() && attachment.link.empty())
     throw core::InvalidParameter("attachment: one has neither an object nor a link");
   return attachment;
@@ -819,7 +895,8 @@ std::string toManifest(const Case& value)
   checkAttachments(value.attachments);
   checkMeasurements(value.measurements);
   const bool isDescribed = !value.description.empty();
-  json j{{"petrous_case", needsFormat7(value)   ? kManifestFormat
+  json j{{"petrous_case", needsFormat8(value)   ? kManifestFormat
+                          : needsFormat7(value) ? kFormatWithoutVideoNotes
                           : needsFormat6(value) ? kFormatWithoutMeasurements
                           : isDescribed         ? kFormatWithoutAttachments
                           : hasCodes            ? kFormatWithoutDescription

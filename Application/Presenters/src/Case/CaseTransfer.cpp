@@ -24,6 +24,7 @@
 #include "petrous/Presenters/LeavingImages.h"
 #include "petrous/Scene/GoneNames.h"
 #include "petrous/Scene/Placement.h"
+#include "petrous/Scene/VideoNotes.h"
 
 namespace petrous::presenters
 {
@@ -880,6 +881,9 @@ IdentityReport reportOf(scene::Case value, const SendParts& parts,
       texts.push_back(one.name);
       if (parts.note && !one.note.empty())
         texts.push_back(one.note);
+      if (one.video)
+        for (const scene::VideoNotes::Bookmark& bookmark : one.video->bookmarks)
+          texts.push_back(bookmark.name);
     }
     if (!files.empty())
     {

@@ -10,6 +10,7 @@
 #include "petrous/Library/LibraryFiles.h"
 #include "petrous/Presenters/Recordings.h"
 #include "petrous/Scene/Placement.h"
+#include "petrous/Scene/VideoNotes.h"
 
 namespace petrous::presenters
 {
@@ -266,6 +267,28 @@ void WorkstationModel::removeAttachment(const std::string& name)
   m_case->attachments.erase(m_case->attachments.begin() + (&found - m_case->attachments.data()));
   setUnsaved(true);
   notify(events.attachmentsChanged);
+}
+
+void WorkstationModel::setVideoNotes(const std::string& name, const scene::VideoNotes& notes,
+                                     const std::string& what, const std::string& continues)
+{
+  if (!m_case)
+    return;
+  const auto before = scene::findAttachment(*m_case, name).video;
+  if (before ? *before == notes : notes.empty())
+    return;
+  scene::checkVideoNotes(notes);
+  const auto set = [this, name](const std::shared_ptr<const scene::VideoNotes>& to)
+  {
+    scene::findAttachment(*m_case, name).video = to;
+    setUnsaved(true);
+    notify(events.attachmentsChanged);
+  };
+  auto after = std::make_shared<scene::VideoNotes>(notes);
+  scene::sortVideoNotes(*after);
+  set(after);
+  if (!what.empty())
+    recordEdit({what, continues, [set, before] { set(before); }, [set, after] { set(after); }});
 }
 
 void WorkstationModel::setMeasurements(std::vector<scene::Measurement> measurements)

@@ -143,6 +143,14 @@ def manifest(version):
         case["view"]["saved"] = {"from above": {"camera": CAMERA}}
         case["measurements"] = [{"kind": "distance", "name": "width",
                                  "points_mm": [[10, -20, 30], [13, -16, 30]]}]
+    if version >= 8:
+        case["attachments"].append({
+            "kind": "video", "name": "theatre.mkv", "bytes": 5, "link": "/films/theatre.mkv",
+            "sha256": sha256(b"frame"), "video": {
+                "bookmarks": [{"name": "antrum", "time_ns": 1234567890, "stroke": STROKES[1]}],
+                "stills": [{"time_ns": 2000000000, "size": [1920, 1080], "opacity": 0.25, "view_angle_deg": 25,
+                            "camera": CAMERA,
+                            "landmarks": [{"patient_mm": [12, -18, 33], "still_px": [960.5, 540]}]}]}})
     return case
 
 
@@ -223,7 +231,7 @@ def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent)
     for part in ("cases", "objects"):
         (folder / part).mkdir(parents=True, exist_ok=True)
-    for version in range(1, 9):
+    for version in range(1, 10):
         (folder / "cases" / ("format-%d.json" % version)).write_text(json.dumps(manifest(version), indent=1))
     for name, data in objects.items():
         (folder / "objects" / name).write_bytes(data)
@@ -236,7 +244,7 @@ def main():
         archive(folder / ("archive-1-case-%d.petrous" % version), 1, manifest(version))
     archive(folder / "archive-1-plan.petrous", 1, manifest(5), isPlan=True)
     archive(folder / "archive-2.petrous", 2, manifest(5))
-    archive(folder / "archive-1-case-8.petrous", 1, manifest(8))
+    archive(folder / "archive-1-case-9.petrous", 1, manifest(9))
 
 
 main()

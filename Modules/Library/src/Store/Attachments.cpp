@@ -354,6 +354,18 @@ catch (const LibraryError&)
   return "missing";
 }
 
+fs::path attachmentFile(const Library& library, const Attachment& attachment)
+{
+  if (!attachment.link.empty())
+    return attachment.link;
+  if (!attachment.object.empty())
+    return ObjectStore(library.folder() / "objects")
+        .path(attachment.object, attachmentText(attachment));
+  if (attachment.source.empty())
+    throw core::InvalidParameter(attachmentText(attachment) + " is not saved yet");
+  return attachment.source;
+}
+
 void extractAttachment(const Library& library, const scene::Case& value,
                        const Attachment& attachment, const fs::path& out,
                        const core::Progress& progress)

@@ -182,6 +182,10 @@ public:
   std::string attach(scene::Attachment attachment);
   void setAttachmentNote(const std::string& name, const std::string& note);
   void removeAttachment(const std::string& name);
+  /// Bookmarks and stills of an attached video; can be undone as `what`, unless that is empty.
+  /// Throws InvalidParameter (scene::checkVideoNotes), without effect.
+  void setVideoNotes(const std::string& name, const scene::VideoNotes& notes,
+                     const std::string& what, const std::string& continues = {});
   /// Marks and measurements, all at once: what MeasurementEditor steps back and forth. Throws
   /// InvalidParameter (scene::checkMeasurements), without effect.
   void setMeasurements(std::vector<scene::Measurement> measurements);

@@ -48,6 +48,10 @@ std::vector<std::uint8_t> cleanedPng(const std::vector<std::uint8_t>& png);
 /// size. Empty: nothing.
 std::string attachmentProblem(const Library& library, const scene::Attachment& attachment);
 
+/// Where its content lies: in the library, where it is linked, or, not yet saved, where it comes
+/// from. Throws InvalidParameter naming it if that is nowhere yet.
+std::filesystem::path attachmentFile(const Library& library, const scene::Attachment& attachment);
+
 /// Copies the file of an attachment, verified against its hash, to `out`. Throws LibraryError
 /// (NotFound, Damaged), core::OutputFileError, CancelledError; `out` is then as it was.
 void extractAttachment(const Library& library, const scene::Case& value,

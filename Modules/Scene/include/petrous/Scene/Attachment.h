@@ -10,6 +10,7 @@ namespace petrous::scene
 {
 
 struct Case;
+struct VideoNotes;
 
 /// A file that belongs to a case: embedded, as an object of the library, or a link to a file
 /// outside of it.
@@ -33,6 +34,8 @@ struct Attachment
   std::string link;        ///< absolute path of the linked file; empty: embedded
   std::string sha256;      ///< of the linked file, hexadecimal
   std::uint64_t bytes = 0; ///< of the file
+  /// Of a video: its bookmarks and stills (VideoNotes.h). nullptr: none.
+  std::shared_ptr<const VideoNotes> video;
 
   /// Of one that is not stored yet, either: where its content is taken from by the next save. Not
   /// in the manifest.

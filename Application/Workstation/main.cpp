@@ -23,6 +23,7 @@
 #include "petrous/Devices/ServerCatalogue.h"
 #include "petrous/Imaging/FileError.h"
 #include "petrous/Library/DefaultFolder.h"
+#include "petrous/Presenters/DeviceLimits.h"
 #include "petrous/Rendering/RenderingError.h"
 
 namespace
@@ -73,6 +74,7 @@ petrous::presenters::DeviceSources deviceSources()
   {
   }
   sources.serverFolders = petrous::devices::serverFolders();
+  sources.limits = petrous::presenters::deviceLimitsFile();
   return sources;
 }
 

@@ -1,4 +1,5 @@
 #include "petrous/Core/NumberText.h"
+#include "petrous/Core/PositionText.h"
 
 #include <cmath>
 #include <cstdint>
@@ -169,3 +170,10 @@ TEST(NumberText, ARangeNamesItselfAndTheValueThatItRefuses)
 
 } // namespace
 } // namespace petrous::core
+
+// Towards right, anterior and inferior a coordinate in LPS is negative.
+TEST(PositionText, NamesTheDirectionsAndHasNoSigns)
+{
+  EXPECT_EQ(positionText({-40.21, -5.04, -0.04}), "R 40.2  A 5.0  I 0.0 mm");
+  EXPECT_EQ(positionText({3.0, 12.26, 145.0}), "L 3.0  P 12.3  S 145.0 mm");
+}

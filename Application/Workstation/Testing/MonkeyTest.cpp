@@ -468,6 +468,7 @@ protected:
       if (!window().isVisible())
         window().show();
     }
+    m_actionFor.start();
     EXPECT_TRUE(waitFor([this] { return !window().busy(); })) << lately();
     m_answers = false;
     for (QWidget* modal = QApplication::activeModalWidget(); modal;

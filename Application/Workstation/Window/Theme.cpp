@@ -85,6 +85,8 @@ QToolButton:hover { background: @hover; }
 QToolButton:pressed { background: @pressed; }
 QToolButton:focus { border-color: @accent; }
 QToolButton:disabled { color: @off; }
+QFileDialog QToolButton { padding: 3px; }
+QTabBar QToolButton { padding: 0; background: @panel; }
 QToolButton#drillButton { border: 1px solid @frame; font-weight: 600; padding: 5px 16px; }
 QToolButton#pointerButton { border: 1px solid @frame; padding: 5px 12px; }
 QToolButton#pointerButton:checked { background: @checked; border-color: @checkedEdge; color: #ffffff; }

@@ -385,7 +385,7 @@ void SegmentEditor::reset()
 {
   m_draft = std::make_shared<Draft>(m_model.hasCase() ? m_model.value().ct.geometry
                                                       : core::GridGeometry());
-  m_stepping = m_proposeDue = m_previewRunning = false;
+  m_stepping = m_proposeDue = m_proposesAgain = m_previewRunning = false;
   m_frozen.reset();
   m_stepDue.reset();
   m_surface.reset();
@@ -511,7 +511,7 @@ void SegmentEditor::dropProposal()
   m_draft->seeds.clear();
   m_draft->undo.clear();
   m_values.connected = false;
-  m_values.lower = m_values.upper = 0.0;
+  m_proposesAgain = true;
 }
 
 const std::string& SegmentEditor::name() const noexcept
@@ -642,7 +642,8 @@ void SegmentEditor::setTool(Tool tool)
   m_tool = tool;
   dropPreview();
   followShown();
-  if (tool == Tool::Threshold && m_values.lower == 0.0 && m_values.upper == 0.0)
+  if (tool == Tool::Threshold && ((m_values.lower == 0.0 && m_values.upper == 0.0) ||
+                                  std::exchange(m_proposesAgain, false)))
     m_proposeDue = true;
   if (needsPreview())
     outdate();

@@ -295,6 +295,7 @@ private:
   std::string m_refused; ///< why the tool has no result
   std::array<float, 3> m_color{};
   bool m_proposeDue = false;
+  bool m_proposesAgain = false; ///< the threshold, as it left with what it had proposed
   bool m_isOwnRange = false; ///< the limits were entered, not proposed
   bool m_previewDue = false;
   std::uint64_t m_inputs = 0;    // of previews: changes when one that is under way is outdated

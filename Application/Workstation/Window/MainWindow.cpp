@@ -149,6 +149,23 @@ WindowOptions safeOptions(WindowOptions options)
   options.drawThumbnailsAfter = -1;
   return options;
 }
+// Of panels that share a place the names are whole, with arrows where there is no room for all.
+class WholeTabs : public QObject
+{
+public:
+  using QObject::QObject;
+  bool eventFilter(QObject*, QEvent* event) override
+  {
+    if (event->type() == QEvent::ChildPolished)
+      if (auto* tabs = qobject_cast<QTabBar*>(static_cast<QChildEvent*>(event)->child()))
+      {
+        tabs->setElideMode(Qt::ElideNone);
+        tabs->setUsesScrollButtons(true);
+      }
+    return false;
+  }
+};
+
 } // namespace
 
 MainWindow::MainWindow(library::Library library, const WindowOptions& wanted)
@@ -372,19 +389,9 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event)
   return true;
 }
 
-// Of panels that share a place the names are whole, with arrows where there is no room for all.
-void MainWindow::childEvent(QChildEvent* event)
-{
-  QMainWindow::childEvent(event);
-  if (auto* tabs = event->polished() ? qobject_cast<QTabBar*>(event->child()) : nullptr)
-  {
-    tabs->setElideMode(Qt::ElideNone);
-    tabs->setUsesScrollButtons(true);
-  }
-}
-
 void MainWindow::addPanels()
 {
+  installEventFilter(new WholeTabs(this));
   const PanelContext context{m_model,     *m_picture,     *m_registration, *m_segment,
                              *m_library,  *m_attachments, *m_measure,      *m_sliceControl,
                              *m_branches, *m_strokes,     *m_share};

@@ -85,7 +85,6 @@ protected:
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
   bool eventFilter(QObject* watched, QEvent* event) override; ///< of number and choice boxes
-  void childEvent(QChildEvent* event) override;
 
 private:
   void guardBoxes();

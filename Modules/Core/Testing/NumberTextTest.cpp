@@ -168,12 +168,12 @@ TEST(NumberText, ARangeNamesItselfAndTheValueThatItRefuses)
   EXPECT_EQ((NumberRange{0.0, 1.0}.refusal(-1.0)), "must lie within 0 to 1, not -1");
 }
 
-} // namespace
-} // namespace petrous::core
-
 // Towards right, anterior and inferior a coordinate in LPS is negative.
 TEST(PositionText, NamesTheDirectionsAndHasNoSigns)
 {
   EXPECT_EQ(positionText({-40.21, -5.04, -0.04}), "R 40.2  A 5.0  I 0.0 mm");
   EXPECT_EQ(positionText({3.0, 12.26, 145.0}), "L 3.0  P 12.3  S 145.0 mm");
 }
+
+} // namespace
+} // namespace petrous::core

@@ -231,7 +231,7 @@ void SegmentController::connectPanel()
           [this](const QString& why)
           {
             m_editor.workFailed(bytes(why));
-            if (words(m_editor.warning()) != why)
+            if (windowText(words(m_editor.warning())) != why) // else it stands there already
               m_panel->complain(why);
           });
   connect(m_work.get(), &BackgroundWork::cancelled, this,

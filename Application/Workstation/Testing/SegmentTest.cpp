@@ -381,8 +381,8 @@ TEST_F(Segment, ReturnInTheNameCreatesWhenThePreviewIsDoneAndGivesTheKeysBack)
   const auto* made = scene::findStructure(window().model().value(), "tumour");
   ASSERT_TRUE(made);
   EXPECT_EQ(made->voxels, mask.count);
-  EXPECT_FALSE(line.hasFocus());
-  choose(Qt::Key_N);
+  ASSERT_TRUE(QApplication::focusWidget());
+  QTest::keyClick(QApplication::focusWidget(), Qt::Key_N, Qt::ShiftModifier);
   EXPECT_EQ(line.text(), "");
   EXPECT_TRUE(action("Nerve")->isChecked());
 }

@@ -46,6 +46,7 @@ struct PartSource
   bool numbersTaken = false;
   /// Other names than the part, or its structures, would have.
   std::map<std::string, std::string> newNames = {};
+  std::string description = {}; ///< MR: SourceContent's
 
   /// "NAME=FILE" or "FILE". A string that is the path of an existing file is a FILE.
   static PartSource parse(const std::string& text);

@@ -29,9 +29,6 @@ struct DissectionDistance
 /// longest edge of the CT's voxels for the wall, independently; none where the former is unknown.
 std::optional<double> wallUncertainty(const scene::Case& value, const SurfaceUncertainty& surface);
 
-/// The bricks in which something was cut.
-std::vector<std::size_t> cutBricks(const volume::CutMask& mask);
-
 /// The tissue that a mask takes away, as points: the centres of its voxels, and its walls on the
 /// edges between them, where the remaining fraction is one half, linearly. Where the burr was in
 /// air nothing was removed.

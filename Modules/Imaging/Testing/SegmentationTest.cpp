@@ -505,6 +505,7 @@ TEST(DicomSegmentation, FractionsOfOnePlaceMustBeEqual)
   TestSegmentation file = sparse({20.0, 21.0});
   file.type = "FRACTIONAL";
   file.bits = 8;
+  file.extra = file.number(0x0062000e, 100) + file.element(0x00620010, "CS", "OCCUPANCY");
   for (TestSegmentation::Frame& frame : file.frames)
     frame.value = [](int i, int) { return i < 2 ? 60 : 0; };
   file.frames.push_back(file.frames[1]);

@@ -1,4 +1,7 @@
+#include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 #include <vtkActor2D.h>
 #include <vtkNew.h>
@@ -207,6 +210,59 @@ TEST(RestPicture, ConvergesToTheSupersampledReference)
     scene.setProgressive(false);
     const Picture offscreen = renderTiled(scene, pose, kColumns, kRows, {}, 64, kPixelSamples);
     EXPECT_LT(rms(offscreen, truth), 1.0);
+  }
+}
+
+// Figures are printed, not asserted. PETROUS_PICTURE=1920x1080: of a window as large.
+TEST(RestPicture, GoesOnFromFramesThatKeepTheFieldFine)
+{
+  int width = 96, height = 72;
+  if (const char* size = std::getenv("PETROUS_PICTURE"))
+    ASSERT_EQ(std::sscanf(size, "%dx%d", &width, &height), 2);
+  using Clock = std::chrono::steady_clock;
+  const auto since = [](Clock::time_point start)
+  { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); };
+  for (const SceneContents& contents : {withTool(cutBall()), withTool(fullScene())})
+  {
+    ScenePicture scene;
+    scene.setContents(contents);
+    scene.setProgressive(true);
+    scene.setInteractive(true);
+    OffscreenView view(width, height);
+    double slowest = 0.0, sum = 0.0;
+    constexpr int kWarm = 20, kFrames = 20;
+    for (int n = 0; n < kWarm + kFrames; ++n)
+    {
+      core::CameraPose pose = slanting(55.0);
+      pose.position += 0.05 * n * Vector(1.0, 0.0, 0.0);
+      scene.setCamera(pose);
+      view.render(scene);
+      EXPECT_EQ(scene.restSamples(), 0);
+      EXPECT_GE(scene.foveaScale(), scene.drawnScale());
+      if (n < kWarm)
+        continue;
+      slowest = std::max(slowest, scene.frameMilliseconds());
+      sum += scene.frameMilliseconds();
+    }
+    if (scene.foveaScale() > scene.drawnScale())
+      EXPECT_GE(scene.foveaScale(), InteractionQuality::kFoveaScale);
+    const double rest = scene.drawnScale(), field = scene.foveaScale();
+    scene.setInteractive(false);
+    int parts = 0;
+    double longest = 0.0, whole = 0.0;
+    for (Refinement next = Refinement::More; next == Refinement::More; ++parts)
+    {
+      const auto start = Clock::now();
+      next = scene.refine(30.0);
+      longest = std::max(longest, since(start));
+      whole += since(start);
+    }
+    view.render(scene);
+    EXPECT_EQ(scene.restSamples(), 1);
+    std::printf("%d x %d, %s: a frame with a tool %.1f ms (slowest %.1f) at %.0f %%, around the "
+                "burr %.0f %%; at rest %.0f ms in %d parts, longest %.1f ms\n",
+                width, height, view.glRenderer().c_str(), sum / kFrames, slowest, 100.0 * rest,
+                100.0 * field, whole, parts, longest);
   }
 }
 

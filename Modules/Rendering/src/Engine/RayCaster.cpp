@@ -488,7 +488,7 @@ void RayCaster::draw(const Frame& frame, bool count)
   bindTextures(shader, frame);
   setRays(shader, frame);
   setVolume(shader);
-  castRays(frame, tissueOnScreen(frame, width, height));
+  castRays(tissueOnScreen(frame, width, height));
   if (frame.fovea && !count)
     drawFovea(frame);
   if (count)
@@ -548,7 +548,7 @@ void RayCaster::drawPart(const Frame& frame, const RenderQuality& quality,
   bindTextures(shader, frame);
   setRays(shader, frame);
   setVolume(shader);
-  castRays(frame, part);
+  castRays(part);
 }
 
 GlProgram& RayCaster::presenting()

@@ -132,7 +132,7 @@ private:
   void bindTextures(GlProgram& program, const Frame& frame) const;
   void setRays(GlProgram& program, const Frame& frame) const;
   void setVolume(GlProgram& program) const;
-  void castRays(const Frame& frame, const core::IndexBox& pixels);
+  void castRays(const core::IndexBox& pixels);
   GlProgram& presenting();
 
   SceneContents m_contents; // its mask only if in use

@@ -255,7 +255,7 @@ core::IndexBox RayCaster::tissueOnScreen(const Frame& frame, int width, int heig
 
 // Rays that miss all tissue are not cast: on SIMT hardware their pixels would pay for the code
 // after a hit even without one.
-void RayCaster::castRays(const Frame& frame, const core::IndexBox& pixels)
+void RayCaster::castRays(const core::IndexBox& pixels)
 {
   if (pixels.empty())
     return;

@@ -36,14 +36,14 @@ bool sameQuality(const RenderQuality& a, const RenderQuality& b)
   return parts(a) == parts(b);
 }
 
-bool same(const RestPicture::Key& a, const RestPicture::Key& b)
+bool samePicture(const RestPicture::Key& a, const RestPicture::Key& b)
 {
   return a.width == b.width && a.height == b.height && a.contents == b.contents &&
          a.opaque == b.opaque && sameQuality(a.quality, b.quality) && sameView(a.view, b.view);
 }
 
 /// The rays through another place of each pixel, which is `right` and `down` of its centre.
-RayCaster::Frame shifted(RayCaster::Frame frame, double right, double down)
+RayCaster::Frame throughPlace(RayCaster::Frame frame, double right, double down)
 {
   const double x = 2.0 * right / frame.width;
   const double y = -2.0 * down / frame.height;
@@ -52,7 +52,7 @@ RayCaster::Frame shifted(RayCaster::Frame frame, double right, double down)
   return frame;
 }
 
-double since(std::chrono::steady_clock::time_point start)
+double elapsedSince(std::chrono::steady_clock::time_point start)
 {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
       .count();
@@ -62,12 +62,12 @@ double since(std::chrono::steady_clock::time_point start)
 
 bool RestPicture::shows(const Key& key) const
 {
-  return m_shown > 0 && m_key && same(*m_key, key);
+  return m_shown > 0 && m_key && samePicture(*m_key, key);
 }
 
 void RestPicture::begin(const Key& key, const RayCaster::Frame& frame)
 {
-  const bool isSame = m_key && same(*m_key, key);
+  const bool isSame = m_key && samePicture(*m_key, key);
   m_frame = frame; // its depth texture may be another
   m_frame.fovea.reset();
   if (isSame)
@@ -92,7 +92,7 @@ Refinement RestPicture::advance(RayCaster& caster, double milliseconds, int samp
   glViewport(0, 0, m_key->width, m_key->height);
   const bool isWhole = drawCells(caster, milliseconds);
   if (m_drawn == 0)
-    m_milliseconds += since(start);
+    m_milliseconds += elapsedSince(start);
   if (!isWhole)
     return Refinement::More;
   m_next = -1;
@@ -117,7 +117,7 @@ bool RestPicture::drawCells(RayCaster& caster, double milliseconds)
   if (m_drawn > 0)
   {
     const auto [right, down] = pixelSample(m_drawn - 1);
-    frame = shifted(m_frame, right, down);
+    frame = throughPlace(m_frame, right, down);
   }
   const core::IndexBox whole{{0, 0, 0}, {m_key->width, m_key->height, 1}};
   if (m_next < 0)
@@ -146,7 +146,7 @@ bool RestPicture::drawCells(RayCaster& caster, double milliseconds)
     const core::IndexBox cells{{x, y, 0}, {x + run * kCell, y + kCell, 1}};
     caster.drawPart(frame, m_key->quality, cells.intersected(whole));
     glFinish();
-    const double now = since(start);
+    const double now = elapsedSince(start);
     const double perCell = (now - taken) / run;
     m_perCell = std::max(perCell, 0.5 * (m_perCell + perCell)); // soon longer, slowly shorter
     taken = now;

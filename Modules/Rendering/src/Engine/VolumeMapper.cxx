@@ -469,8 +469,12 @@ void vtkPetrousVolumeMapper::DrawRays(vtkRenderer* renderer, vtkVolume* volume)
   Internals::Rest* rest = my.restQuality && !this->Counting ? &my.restOf(renderer) : nullptr;
   petrous::rendering::RestPicture::Key key;
   if (rest)
-    key = {frame.view,          frame.width,           frame.height,
-           my.caster.changes(), opaqueState(renderer), *my.restQuality};
+    key = {frame.view,
+           frame.width,
+           frame.height,
+           my.caster.changes(),
+           petrous::rendering::opaqueState(renderer),
+           *my.restQuality};
   try
   {
     if (rest && rest->picture.shows(key))

@@ -204,12 +204,12 @@ TEST(RestPicture, ConvergesToTheSupersampledReference)
     }
     EXPECT_EQ(scene.refine(kOnePart, kPixelSamples), Refinement::Done);
     EXPECT_LT(errors[1], 0.6 * errors[0]);
-    EXPECT_LT(errors[3], 0.3 * errors[0]) << errors[0];
-    EXPECT_LT(errors[3], 1.0) << "of 255";
+    EXPECT_LT(errors[3], 0.45) << "of 255; rounding to 8 bits alone gives 0.29";
+    EXPECT_LT(errors[3], 0.6 * errors[0]) << errors[0];
 
     scene.setProgressive(false);
     const Picture offscreen = renderTiled(scene, pose, kColumns, kRows, {}, 64, kPixelSamples);
-    EXPECT_LT(rms(offscreen, truth), 1.0);
+    EXPECT_LT(rms(offscreen, truth), 0.45);
   }
 }
 
@@ -217,8 +217,8 @@ TEST(RestPicture, ConvergesToTheSupersampledReference)
 TEST(RestPicture, GoesOnFromFramesThatKeepTheFieldFine)
 {
   int width = 96, height = 72;
-  if (const char* size = std::getenv("PETROUS_PICTURE"))
-    ASSERT_EQ(std::sscanf(size, "%dx%d", &width, &height), 2);
+  const char* size = std::getenv("PETROUS_PICTURE");
+  ASSERT_TRUE(!size || std::sscanf(size, "%dx%d", &width, &height) == 2);
   using Clock = std::chrono::steady_clock;
   const auto since = [](Clock::time_point start)
   { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); };
@@ -244,8 +244,8 @@ TEST(RestPicture, GoesOnFromFramesThatKeepTheFieldFine)
       slowest = std::max(slowest, scene.frameMilliseconds());
       sum += scene.frameMilliseconds();
     }
-    if (scene.foveaScale() > scene.drawnScale())
-      EXPECT_GE(scene.foveaScale(), InteractionQuality::kFoveaScale);
+    EXPECT_TRUE(scene.foveaScale() == scene.drawnScale() ||
+                scene.foveaScale() >= InteractionQuality::kFoveaScale);
     const double rest = scene.drawnScale(), field = scene.foveaScale();
     scene.setInteractive(false);
     int parts = 0;

@@ -84,6 +84,7 @@ void ToolProps::setFading(bool fades, double field)
     shader->ClearAllFragmentShaderReplacements();
     uniforms->RemoveAllUniforms();
   }
+  m_actors[2]->GetProperty()->SetBackfaceCulling(fades ? 1 : 0); // no wall behind the faded one
   if (!fades)
     return;
   if (!faded)

@@ -76,6 +76,7 @@ void RestPicture::begin(const Key& key, const RayCaster::Frame& frame)
   m_drawn = m_shown = 0;
   m_next = -1;
   m_milliseconds = 0.0;
+  m_dearest *= 0.5; // the machine may have been busy
 }
 
 bool RestPicture::remains(std::uint64_t contents, int samples) const
@@ -139,7 +140,10 @@ bool RestPicture::drawCells(RayCaster& caster, double milliseconds)
   {
     const int column = m_next % columns;
     const int row = m_next / columns;
-    const double fit = m_perCell > 0.0 ? (milliseconds - taken) / m_perCell : 2.0;
+    // As many as fit, if they cost as the last did; not twice the time, if as the dearest.
+    const double fit = m_dearest > 0.0 ? std::min((milliseconds - taken) / m_perCell,
+                                                  2.0 * milliseconds / m_dearest)
+                                       : 2.0;
     const int run = std::clamp(static_cast<int>(std::min(fit, 1e6)), 1, columns - column);
     const int x = (m_cells.lower[0] + column) * kCell;
     const int y = (m_cells.lower[1] + row) * kCell;
@@ -149,6 +153,7 @@ bool RestPicture::drawCells(RayCaster& caster, double milliseconds)
     const double now = elapsedSince(start);
     const double perCell = (now - taken) / run;
     m_perCell = std::max(perCell, 0.5 * (m_perCell + perCell)); // soon longer, slowly shorter
+    m_dearest = std::max(m_dearest, perCell);
     taken = now;
     m_next += run;
   }

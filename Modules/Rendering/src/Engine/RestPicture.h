@@ -63,6 +63,7 @@ private:
   core::IndexBox m_cells; // that may meet tissue, of the sample that is drawn
   int m_next = -1;        // cell of m_cells; -1: the sample has not begun
   double m_perCell = 0.0; // ms, of the last parts
+  double m_dearest = 0.0; // the most of them
   double m_milliseconds = 0.0;
 };
 

@@ -10,7 +10,7 @@ namespace petrous::devices
 {
 
 /// A vendor's SDK, loaded at run time: a server is built without it, and says what is missing when
-/// it is started (Documentation/adr/0030-device-servers.md).
+/// it is started (Documentation/adr/0031-device-servers.md).
 class VendorLibrary
 {
 public:

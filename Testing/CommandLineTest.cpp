@@ -766,6 +766,16 @@ TEST_F(CommandLine, AnEmptyValueIsNeverAnAbsentOption)
   EXPECT_GT(tried, 70);
   expectRefused("info ''", 2, "CASE: the value is empty");
   expectRefused("info '  '", 2, "CASE: the value is empty");
+  expectRefused("library search ''", 2, "library search: the value is empty");
+  // All but this one, which goes back to the usual folder.
+  ::setenv("XDG_CONFIG_HOME", (m_folder / "settings").c_str(), 1);
+  ::setenv("XDG_DATA_HOME", (m_folder / "data").c_str(), 1);
+  EXPECT_EQ(run("library folder " + quoted(m_folder / "chosen")).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(m_folder / "settings/petrous/library"));
+  EXPECT_EQ(json("library folder ''")["library"], (m_folder / "data/petrous").string());
+  EXPECT_FALSE(std::filesystem::exists(m_folder / "settings/petrous/library"));
+  ::unsetenv("XDG_CONFIG_HOME");
+  ::unsetenv("XDG_DATA_HOME");
   for (const std::string list :
        {"--part ,", "--part=,", "--part 'pairs,'", "--edge ,", "--edge '24, ,32'", "--edge=,24"})
     expectRefused("bench renderer --quick --out x " + list, 2, "a value of its list is empty");

@@ -876,6 +876,20 @@ TEST(SeriesRepair, SaysWhatItGuessed)
 }
 
 // Slices that slide 3 mm aside and back again: the last lies where the first does, or nearer.
+// Straight, a jump of 6 mm sideways, and a slope: no gantry does that.
+TEST(SeriesRepair, AJumpSidewaysIsNoTilt)
+{
+  Headers jump = stack(40, 1.0);
+  for (std::size_t k = 20; k < jump.size(); ++k)
+    (*jump[k].position)[1] += 6.0 + 0.3 * static_cast<double>(k - 20);
+  const SeriesGeometry geometry = assess(jump);
+  ASSERT_EQ(geometry.verdict, Verdict::Repairable);
+  const SeriesRepair repair(geometry);
+  const core::IndexBox box = repair.grid().fullBox();
+  EXPECT_NEAR(repair.provenance(box).shift, 11.7, 1e-6);
+  EXPECT_EQ(repair.provenance(box).tilt, 0.0);
+}
+
 TEST(SeriesRepair, SaysHowFarTheFarthestSliceOfAVWasMoved)
 {
   for (const int count : {31, 21})

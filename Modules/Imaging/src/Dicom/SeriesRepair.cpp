@@ -23,6 +23,8 @@ namespace
 
 constexpr double kWhole = 1e-3;    // pixels; a smaller shift moves nothing
 constexpr double kOnPlace = 1e-3;  // mm
+constexpr double kOnLine = 0.5;    // pixels
+constexpr double kMost = 0.75;     // of the slices
 constexpr std::size_t kNamed = 24; // ranges of slices named in a note
 
 bool hasFinding(const SeriesGeometry& geometry, FindingKind kind)
@@ -196,8 +198,17 @@ SeriesRepair::SeriesRepair(const SeriesGeometry& geometry)
   for (const Slice& slice : m_slices)
     farthest = std::max(farthest, slideOf(slice));
   const Slice& last = m_slices.back();
-  // A gantry leans one way: the last slice is the farthest.
-  if (isTilted && slideOf(last) >= farthest - kOnPlace)
+  // A gantry leans one way, so that most slices lie on the line from the first to the last.
+  const Slice& base = m_slices.front();
+  const auto isOnLine = [&](const Slice& slice)
+  {
+    const double share = slice.place / last.place;
+    return std::hypot(slice.u - base.u - share * (last.u - base.u),
+                      slice.v - base.v - share * (last.v - base.v)) <= kOnLine;
+  };
+  const auto count = std::count_if(m_slices.begin(), m_slices.end(), isOnLine);
+  if (isTilted && slideOf(last) >= farthest - kOnPlace &&
+      static_cast<double>(count) >= kMost * static_cast<double>(m_slices.size()))
   {
     m_tilt = std::atan2(slideOf(last), last.place) * 180.0 / M_PI;
     m_shift = slideOf(last);

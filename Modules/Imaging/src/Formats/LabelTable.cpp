@@ -389,9 +389,19 @@ Columns columnsOf(std::string_view text)
       continue;
     for (const char delimiter : {'\t', ';', ','})
     {
-      const std::vector<std::string> cells = cellsOf(line, delimiter);
+      bool isQuoted = false;
+      std::vector<std::string> cells = cellsOf(line, delimiter, isQuoted);
       Columns columns;
       columns.delimiter = delimiter;
+      if (isQuoted) // a name of several lines
+      {
+        Columns named = columns;
+        named.index = 0;
+        named.name = 1;
+        std::string_view rest = text;
+        std::size_t number = 0;
+        cells = takeCells(line, rest, named, number).value_or(cells);
+      }
       if (cells.size() < 2)
         continue;
       columns.hasHeader = readHeader(cells, columns);

@@ -249,6 +249,14 @@ TEST_F(RecoveryCommand, OneFlippedBitOfTheCtIsToldBeforeAnythingIsDrilledOrWritt
   }
   EXPECT_FALSE(std::filesystem::exists(m_folder / "a.nrrd"));
   EXPECT_FALSE(std::filesystem::exists(m_folder / "a.stl"));
+  std::ofstream(m_folder / "camera.json")
+      << R"({"position_mm":[60,0,0],"focal_point_mm":[0,0,0],"view_up":[0,0,1],)"
+      << R"("view_angle_deg":30})"; // with it nothing reads the CT but the film itself
+  expectRefused("render bone --turntable 2 --size 16x16 --camera " +
+                    quoted(m_folder / "camera.json") + " --out " + quoted(m_folder / "film.png"),
+                3, object.filename().string());
+  for (const auto& entry : std::filesystem::directory_iterator(m_folder))
+    EXPECT_NE(entry.path().extension(), ".png") << entry.path();
   const Outcome outcome = run("library verify --json");
   EXPECT_EQ(outcome.code, 3);
   const auto found = nlohmann::json::parse(outcome.out);
@@ -322,6 +330,7 @@ TEST_F(RecoveryCommand, ADamagedStructureIsLeftOutOnlyIfThatIsChosen)
       "drill bone --tick-hz 200 --path " + quoted(writeSession()),
       "slice bone --plane axial --size 16x16 --out " + quoted(m_folder / "a.png"),
       "export bone --what surface --out " + quoted(m_folder / "a.stl"),
+      "render bone --turntable 2 --size 16x16 --out " + quoted(m_folder / "film.png"),
       "branch bone --compare main main"};
   const auto before = libraryContent();
   for (const std::string& command : commands)
@@ -333,6 +342,7 @@ TEST_F(RecoveryCommand, ADamagedStructureIsLeftOutOnlyIfThatIsChosen)
   EXPECT_EQ(libraryContent(), before);
   EXPECT_FALSE(std::filesystem::exists(m_folder / "a.png"));
   EXPECT_FALSE(std::filesystem::exists(m_folder / "a.stl"));
+  EXPECT_FALSE(std::filesystem::exists(m_folder / "film-0001.png"));
   json("slice bone --plane axial --no-structures --out " + quoted(m_folder / "a.png"));
   json("export bone --what mask --out " + quoted(m_folder / "a.nrrd"));
   for (const std::string& command : commands)

@@ -328,6 +328,11 @@ TEST_F(RenderCommand, TurnsTheBallOnceAround)
   for (std::size_t a = 0; a < 2; ++a)
     EXPECT_NEAR(first["position_mm"][a].get<double>() + third["position_mm"][a].get<double>(),
                 2.0 * first["focal_point_mm"][a].get<double>(), 1e-6);
+  EXPECT_EQ(answer["removed_frames"], 0);
+  EXPECT_TRUE(answer["left_out"].empty());
+  const auto shorter = run("render ball --view anterior --size 64x48 --turntable 2 --out " + out);
+  EXPECT_NE(shorter.err.find("2 frames of an earlier"), std::string::npos) << shorter.err;
+  EXPECT_FALSE(std::filesystem::exists(m_folder / "turn-0003.png"));
   expectRefused("render ball --out " + quoted(m_folder / "one.mp4"), 2, "--turntable");
   expectRefused("render ball --turntable 1 --out " + out, 2, "2");
   expectRefused("render ball --turntable 4 --dpi 100 --out " + out, 2, "film");

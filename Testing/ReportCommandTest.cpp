@@ -2,6 +2,7 @@
 
 #include "CommandRunner.h"
 #include "petrous/Core/NumberText.h"
+#include "petrous/Imaging/DicomWriter.h"
 
 using Json = nlohmann::json;
 using petrous::testing::CommandLine;
@@ -183,6 +184,87 @@ TEST_F(ReportCommand, HoldsNobodysNameAndNoPath)
 
   json("report " + word(name) + " --keep-identity --out " + quoted(m_folder / "home.html"));
   EXPECT_NE(textOf(m_folder / "home.html").find("Mustermann"), std::string::npos);
+}
+
+// By whatever command distances are asked for.
+TEST_F(ReportCommand, AStructureThatCannotBeMeasuredIsNamed)
+{
+  makeEar();
+  json("new mrear --ct " + quoted(m_folder / "bone.nrrd") +
+       " --mr T2=" + quoted(m_folder / "bone.nrrd") +
+       " --labels facial=" + quoted(m_folder / "nerve.nrrd") + "@T2");
+  json("drill mrear --path " +
+       quoted(writePath({-3.0, kMiddle, kMiddle}, {8.0, kMiddle, kMiddle})) + " --diameter 4");
+  const std::string out = " --out " + quoted(m_folder / "plan.html");
+  for (const std::string& command :
+       {std::string("measure mrear --dissection"), std::string("branch mrear --compare main main")})
+  {
+    const auto outcome = run(command + " --json");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("'facial' is left out"), std::string::npos) << outcome.err;
+    const Json missing = Json::parse(outcome.out).at("without_place");
+    ASSERT_EQ(missing.size(), 1U) << command;
+    EXPECT_EQ(missing[0].at("structure"), "facial");
+  }
+  for (const char* id : {"distances", "structures"})
+  {
+    const Json part = section(json("report mrear" + out), id);
+    ASSERT_EQ(part.at("rows").size(), 1U);
+    EXPECT_EQ(part.at("rows")[0][1], "left out");
+    EXPECT_NE(part.at("paragraphs").dump().find("not registered"), std::string::npos);
+  }
+
+  // Its error is not known, and no command gives one.
+  std::ofstream(m_folder / "identity.json") << "[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]";
+  json("register mrear --mr T2 --as-is --transform " + quoted(m_folder / "identity.json"));
+  const Json measured = json("measure mrear --dissection");
+  EXPECT_TRUE(measured.at("without_place").empty());
+  EXPECT_TRUE(measured.at("dissection")[0].at("uncertainty_mm").is_null());
+  const Json compared = json("branch mrear --compare main main");
+  EXPECT_TRUE(compared.at("uncertainty_mm").at("facial").is_null()) << compared;
+  EXPECT_NE(run("branch mrear --compare main main").out.find("+- unknown"), std::string::npos);
+  // Of the other ear all say the same.
+  EXPECT_EQ(json("branch ear --compare main main").at("uncertainty_mm").at("nerve"),
+            json("measure ear --dissection").at("dissection")[0].at("uncertainty_mm"));
+}
+
+// By the hashes of the import: no form tells that a word is this patient's surname.
+TEST_F(ReportCommand, ThePatientsSurnameAloneIsWithheld)
+{
+  const petrous::core::GridGeometry grid({16, 16, 16}, Eigen::Vector3d::Ones(),
+                                         Eigen::Vector3d::Zero());
+  auto voxels = std::make_shared<petrous::volume::Volume<std::int16_t>>(grid, std::int16_t{-1000});
+  for (int k = 4; k < 12; ++k)
+    for (int j = 4; j < 12; ++j)
+      for (int i = 4; i < 12; ++i)
+        voxels->at(i, j, k) = 1200;
+  petrous::imaging::SeriesDescription description;
+  description.studyUid = "2.25.1";
+  description.seriesUid = "2.25.2";
+  description.frameOfReferenceUid = "2.25.3";
+  description.patientName = "Quorndike^Jane";
+  petrous::imaging::writeDicomSeries(
+      m_folder / "ct",
+      petrous::volume::IntensityVolume(
+          std::shared_ptr<const petrous::volume::Volume<std::int16_t>>(std::move(voxels))),
+      description);
+  json("new 'quorndike links' --ct " + quoted(m_folder / "ct"));
+  json("describe 'quorndike links' --diagnosis 'geb. 12. April 1961, Station 3' "
+       "--procedure 'implant of Smith'");
+  const auto outcome =
+      run("report 'quorndike links' --json --out " + quoted(m_folder / "plan.html"));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::string html = textOf(m_folder / "plan.html");
+  for (const char* secret : {"uorndike", "1961"})
+    EXPECT_EQ(html.find(secret), std::string::npos) << secret;
+  EXPECT_NE(html.find("implant of Smith"), std::string::npos) << "nobody can know";
+  EXPECT_NE(outcome.err.find("'implant of Smith'"), std::string::npos) << outcome.err;
+  EXPECT_NE(Json::parse(outcome.out).at("may_identify").dump().find("implant of Smith"),
+            std::string::npos);
+  const std::string leaving =
+      run("archive 'quorndike links' --dry-run --out " + quoted(m_folder / "a.petrous")).out;
+  EXPECT_NE(leaving.find("name of the case, diagnosis and procedure: 2 of 3"), std::string::npos)
+      << leaving;
 }
 
 TEST_F(ReportCommand, RefusesWhatItCannotDo)

@@ -13,14 +13,17 @@ std::string placeText(const scene::Case& value, const scene::Placement& placemen
   return placement.drawnOn.empty() ? "" : ", drawn on the MR '" + placement.drawnOn + "'";
 }
 
-void warnMissingPlaces(const Context& context, const scene::Case& value)
+namespace
 {
-  const std::string primary = presenters::primaryName(value);
-  const auto remark = [&](const std::string& name, const scene::Placement& placement)
+
+// Of each part that has no place on the primary image: its name, and why.
+std::vector<std::pair<std::string, std::string>> missingPlaces(const scene::Case& value)
+{
+  std::vector<std::pair<std::string, std::string>> missing;
+  const auto remark = [&missing](const std::string& name, const scene::Placement& placement)
   {
     if (!placement.missing.empty())
-      context.warn("'" + name + "' is left out, as it is nowhere on the " + primary + ": " +
-                   placement.missing);
+      missing.emplace_back(name, placement.missing);
   };
   for (const scene::LabelPart& part : value.labels)
   {
@@ -30,6 +33,24 @@ void warnMissingPlaces(const Context& context, const scene::Case& value)
   }
   for (const scene::MeshPart& mesh : value.meshes)
     remark(mesh.name, scene::placementOf(value, mesh));
+  return missing;
+}
+
+} // namespace
+
+void warnMissingPlaces(const Context& context, const scene::Case& value)
+{
+  const std::string primary = presenters::primaryName(value);
+  for (const auto& [name, why] : missingPlaces(value))
+    context.warn("'" + name + "' is left out, as it is nowhere on the " + primary + ": " + why);
+}
+
+nlohmann::json missingPlacesJson(const scene::Case& value)
+{
+  nlohmann::json all = nlohmann::json::array();
+  for (const auto& [name, why] : missingPlaces(value))
+    all.push_back({{"structure", name}, {"text", why}});
+  return all;
 }
 
 void addWithoutDamaged(CLI::App& command, bool& chosen)

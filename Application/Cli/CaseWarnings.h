@@ -16,6 +16,9 @@ std::string placeText(const scene::Case& value, const scene::Placement& placemen
 /// Warns of parts that cannot be placed on the CT and are therefore ignored.
 void warnMissingPlaces(const Context& context, const scene::Case& value);
 
+/// The same parts: an array of "structure" and "text".
+nlohmann::json missingPlacesJson(const scene::Case& value);
+
 /// The option --without-damaged.
 void addWithoutDamaged(CLI::App& command, bool& chosen);
 

@@ -151,13 +151,13 @@ void printRow(const Context& context, const std::string& what, const std::string
 }
 
 std::string distanceText(const presenters::ComparedApproach& approach, const std::string& structure,
-                         double uncertainty)
+                         const std::optional<double>& uncertainty)
 {
   const auto found = approach.distances.find(structure);
   if (found == approach.distances.end())
     return "-";
-  return (found->second > 0.0 ? fixed(found->second, 1) : "reached") + " +- " +
-         fixed(uncertainty, 1);
+  return (found->second > 0.0 ? fixed(found->second, 2) : "reached") + " +- " +
+         (uncertainty ? fixed(*uncertainty, 2) : "unknown");
 }
 
 // A row for each name of either side, 0 if one lacks it.
@@ -214,6 +214,9 @@ void compare(const Context& context, const scene::Case& value, const BranchOptio
   for (const auto& [name, uncertainty] : comparison.uncertainties)
     printRow(context, "to " + name + ", mm", distanceText(ofA, name, uncertainty),
              distanceText(ofB, name, uncertainty));
+  nlohmann::json uncertainties = nlohmann::json::object();
+  for (const auto& [name, uncertainty] : comparison.uncertainties)
+    uncertainties[name] = uncertainty ? nlohmann::json(*uncertainty) : nlohmann::json();
   nlohmann::json sides = {branchJson(value, a), branchJson(value, b)};
   for (std::size_t side = 0; side < 2; ++side)
   {
@@ -227,10 +230,11 @@ void compare(const Context& context, const scene::Case& value, const BranchOptio
   context.printJson({{"case", value.name},
                      {"common_strokes", comparison.commonStrokes},
                      {"both_mm3", comparison.both},
-                     {"uncertainty_mm", nlohmann::json(comparison.uncertainties)},
+                     {"uncertainty_mm", std::move(uncertainties)},
                      {"compare", std::move(sides)},
                      {"out", options.given("--out") ? nlohmann::json(options.out) : nullptr},
-                     {"left_out", leftOutJson(value, leftOut)}});
+                     {"left_out", leftOutJson(value, leftOut)},
+                     {"without_place", missingPlacesJson(value)}});
 }
 
 void list(const Context& context, const scene::Case& value)
@@ -294,6 +298,7 @@ void branch(const Context& context, const BranchOptions& options)
   {
     library.loadDissection(value);
     const auto leftOut = leaveOutDamaged(context, library, value, options.withoutDamaged);
+    warnMissingPlaces(context, value);
     return compare(context, value, options, leftOut);
   }
   const std::string done = change(value, options);

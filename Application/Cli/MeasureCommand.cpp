@@ -379,6 +379,8 @@ void measure(Context& context, const Options& options)
   if (options.dissection)
   {
     library.loadDissection(value);
+    warnMissingPlaces(context, value);
+    answer.more["without_place"] = missingPlacesJson(value);
     nlohmann::json all = nlohmann::json::array();
     for (const presenters::DissectionDistance& one :
          presenters::dissectionDistances(value, progress))

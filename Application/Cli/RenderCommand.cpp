@@ -477,8 +477,14 @@ std::vector<std::string> outputsOf(const RenderOptions& options)
   return files;
 }
 
+void warnInterpolated(const Context& context, const scene::Case& value)
+{
+  for (const std::string& line : presenters::interpolatedTexts(value))
+    context.warn(line + "; small structures may be absent there");
+}
+
 void writeFilm(const Context& context, const RenderOptions& options, const Shot& shot,
-               scene::Case value)
+               scene::Case value, const presenters::LeftOut& leftOut)
 {
   constexpr double kLine = 0.05; // of the work, to find the centre line
   const core::Progress progress = context.progress();
@@ -493,9 +499,15 @@ void writeFilm(const Context& context, const RenderOptions& options, const Shot&
   film.lines = {presenters::sideText(value.description.side)};
   for (const std::string& line : presenters::interpolatedTexts(value))
     film.lines.push_back(line);
-  context.refuseDamaged();
-  presenters::writeFilm(options.out, renderContents(options, value), cameras, film,
-                        progress.part(kLine, 1.0));
+  film.thickness = options.thickness;
+  const rendering::SceneContents contents = renderContents(options, value);
+  context.refuseDamaged(); // the images are read
+  const std::size_t removed =
+      presenters::writeFilm(options.out, contents, cameras, film, progress.part(kLine, 1.0));
+  warnInterpolated(context, value);
+  if (removed > 0)
+    context.warn(std::to_string(removed) +
+                 " frames of an earlier, longer film of this name were removed");
   nlohmann::json path = nlohmann::json::array();
   for (const core::CameraPose& camera : cameras)
     path.push_back(cameraJson(camera));
@@ -506,6 +518,9 @@ void writeFilm(const Context& context, const RenderOptions& options, const Shot&
                      {"frames", frames},
                      {"cameras", std::move(path)},
                      {"files", outputsOf(options)},
+                     {"removed_frames", removed},
+                     {"thickness", thicknessJson(options)},
+                     {"left_out", leftOutJson(value, leftOut)},
                      {"out", options.out}});
 }
 
@@ -549,7 +564,7 @@ void render(const Context& context, RenderOptions options)
   }
 
   if (options.isFilm())
-    return writeFilm(context, options, shot, std::move(value));
+    return writeFilm(context, options, shot, std::move(value), leftOut);
   Result result = options.isPrint() ? drawForPrint(context, options, shot, value)
                                     : draw(context, options, shot, renderContents(options, value));
   if (!options.thickness.empty())
@@ -563,8 +578,8 @@ void render(const Context& context, RenderOptions options)
     rendering::writeText(result.picture, line, {double(kMargin), row, 0.0, 0.0}, kLine,
                          {255, 140, 43});
     row += 1.5 * kLine;
-    context.warn(line + "; small structures may be absent there");
   }
+  warnInterpolated(context, value);
   context.refuseDamaged();
   if (options.isPrint())
   {

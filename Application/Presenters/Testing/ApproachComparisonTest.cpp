@@ -137,8 +137,21 @@ TEST(ApproachComparison, DistancesAreFromTheWallsToTheSurface)
   constexpr double kWithin = 0.2 * kSpacing + 0.03; // of the voxels' surface, and of the walls
   EXPECT_NEAR(comparison.sides[0].distances.at("nerve"), apart(kFirst), kWithin);
   EXPECT_NEAR(comparison.sides[1].distances.at("nerve"), apart(kSecond), kWithin);
-  EXPECT_NEAR(comparison.uncertainties.at("nerve"), 0.5 * kSpacing, 1e-12);
+  // Half a voxel of the structure and half a voxel of the wall.
+  ASSERT_TRUE(comparison.uncertainties.at("nerve"));
+  EXPECT_NEAR(*comparison.uncertainties.at("nerve"), std::sqrt(0.5) * kSpacing, 1e-12);
   EXPECT_TRUE(comparison.sides[0].exposed.empty());
+
+  // Drawn on an MR of which nobody knows how far off it is.
+  scene::Case onMr = value;
+  onMr.mr.emplace_back();
+  onMr.mr.back().name = "T2";
+  onMr.mr.back().registered = true;
+  onMr.mr.back().registration.emplace();
+  onMr.labels.front().drawnOn = "T2";
+  const auto unknown = compareApproaches(onMr, "main", "second");
+  EXPECT_EQ(unknown.sides[0].distances.count("nerve"), 1U);
+  EXPECT_FALSE(unknown.uncertainties.at("nerve"));
 
   // A third one goes through the nerve; the first is undone.
   value.dissection.beginStroke({});

@@ -164,14 +164,34 @@ TEST(IdentityOfACase, OrdinaryNamesAndNumbersAreFound)
   const scene::Case value = describedCase();
   const IdentityText identity(value);
   for (const char* text :
-       {"John Doe", "Doe John, ward 3", "Mrs Smith A12-345", "DOE_JOHN", "Doe^John",
-        "seen by Dr. Roe", "M\u00fcller Anna", "record A12345", "MRN 12-34567", "943 476 919",
-        "born 14.03.62", "a@b.example", "1931-05-17"})
+       {"John Doe",       "Doe John, ward 3",    "Mrs Smith A12-345", "DOE_JOHN",
+        "Doe^John",       "seen by Dr. Roe",     "M\u00fcller Anna",  "record A12345",
+        "MRN 12-34567",   "943 476 919",         "born 14.03.62",     "a@b.example",
+        "1931-05-17",     "geb. 12. April 1961", "12 Apr 1961",       "12-APR-61",
+        "April 12, 1961", "3. M\u00e4rz 1958",   "3. Maerz 1958",     "1.Mai1970",
+        "May 1st, 1970",  "24. Dez. 2001"})
     EXPECT_TRUE(identity.mayIdentify(text)) << text;
-  for (const char* text :
-       {"", "left ear", "Facial Nerve", "facial_nerve_left", "T2 CISS", "DWI b1000", "teaching",
-        "Vestibular Schwannoma, left", "Translabyrinthine Approach", "L5-S1", "0.6 mm", "main",
-        "MR 3T", "Segment 1", "Incus 2", "cholesteatoma revision", "Sigmoid Sinus R"})
+  for (const char* text : {"",
+                           "left ear",
+                           "Facial Nerve",
+                           "facial_nerve_left",
+                           "T2 CISS",
+                           "DWI b1000",
+                           "teaching",
+                           "Vestibular Schwannoma, left",
+                           "Translabyrinthine Approach",
+                           "L5-S1",
+                           "0.6 mm",
+                           "main",
+                           "MR 3T",
+                           "Segment 1",
+                           "Incus 2",
+                           "cholesteatoma revision",
+                           "Sigmoid Sinus R",
+                           "3 margins 10 mm",
+                           "20 decibel 40",
+                           "implant of April",
+                           "2 junctions 30"})
     EXPECT_FALSE(identity.mayIdentify(text)) << text;
 }
 
@@ -204,6 +224,34 @@ TEST(IdentityOfACase, ThePatientsOwnNameAndNumberAreFoundByTheirHashes)
     EXPECT_FALSE(identity.mayIdentify(text)) << text;
   EXPECT_TRUE(identity.mayIdentifySentence("'plain sharp' lies outside the CT"));
   EXPECT_FALSE(IdentityText(value).mayIdentify("plain sharp")) << "without the salt";
+}
+
+// As import keeps them: a surname alone is found, in any case, and with a number behind it.
+TEST(IdentityOfACase, ThePatientsSurnameAloneIsFound)
+{
+  const auto salted = [](const std::string& hash) { return "salted " + hash; };
+  const auto saltedKey = [&](std::size_t key)
+  {
+    const std::string text = std::to_string(key);
+    return salted(
+        library::sha256Of(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+  };
+  scene::Case value = describedCase();
+  value.ct.isFrameSalted = true;
+  for (const std::size_t part : imaging::patientKey({}, {}, "M\u00fcller^Jane", {}).nameParts)
+    if (part != 0)
+      value.ct.patient.nameParts.push_back(saltedKey(part));
+  ASSERT_EQ(value.ct.patient.nameParts.size(), 2U);
+  const IdentityText identity(value, salted);
+  for (const char* text : {"M\u00fcller links", "mueller1", "ear of jane", "station MUELLER"})
+  {
+    EXPECT_TRUE(identity.mayIdentify(text)) << text;
+    EXPECT_FALSE(IdentityText(value).mayIdentify(text)) << "without the salt";
+  }
+  for (const char* text : {"left ear", "m\u00fchle", "janet"})
+    EXPECT_FALSE(identity.mayIdentify(text)) << text;
+  EXPECT_TRUE(identity.isOfField("facial nerve, left"));
+  EXPECT_FALSE(identity.isOfField("facial nerve of smith"));
 }
 
 TEST(IdentityOfACase, NotesAreLookedAtAndThoseOfGoneNamesStay)

@@ -1,6 +1,7 @@
 #include "petrous/Presenters/PlanReport.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -117,6 +118,115 @@ TEST(PlanReport, SaysWhatIsNotResolvedAndWhatWasGuessed)
   EXPECT_TRUE(find(planReport(value, small()), "import")->table.rows.empty());
 }
 
+// Who reads the paper must not take the table for whole.
+TEST(PlanReport, NamesWhatIsLeftOutAndWhy)
+{
+  scene::Case value = planned();
+  scene::LabelPart onMr = value.labels.front();
+  onMr.drawnOn = "T2";
+  onMr.structures.resize(1);
+  onMr.structures[0].name = "facial canal";
+  scene::LabelPart damaged = value.labels.front(); // as it is left out
+  damaged.structures.resize(1);
+  damaged.structures[0].name = "cochlea";
+  damaged.labels = std::make_shared<const volume::LabelMap>(volume::makeLabelMap(
+      std::make_shared<volume::Volume<std::uint16_t>>(
+          core::GridGeometry({2, 2, 2}, Vector3d::Ones(), Vector3d::Zero()), std::uint16_t{0}),
+      {}));
+  value.labels.push_back(onMr);
+  value.labels.push_back(damaged);
+  value.mr.emplace_back();
+  value.mr.back().name = "T2";
+  value.mr.back().geometry = value.ct.geometry;
+  for (const auto& [language, unregistered, missing] :
+       {std::tuple(ReportLanguage::English, "T2', which is not registered", "missing or damaged"),
+        std::tuple(ReportLanguage::German, "T2' gezeichnet, das nicht registriert", "fehlen")})
+  {
+    ReportOptions options = small();
+    options.language = language;
+    const PlanReport report = planReport(value, options);
+    for (const char* id : {"distances", "structures"})
+    {
+      const ReportSection* section = find(report, id);
+      ASSERT_TRUE(section);
+      ASSERT_EQ(section->table.rows.size(), 4U) << id;
+      for (const std::size_t row : {2U, 3U})
+      {
+        EXPECT_EQ(section->table.rows[row][0].text, row == 2 ? "facial canal" : "cochlea");
+        EXPECT_TRUE(section->table.rows[row][1].isWarning);
+        EXPECT_EQ(section->table.rows[row].size(), section->table.columns.size());
+      }
+      ASSERT_FALSE(section->paragraphs.empty());
+      const std::string& text = section->paragraphs.back();
+      EXPECT_NE(text.find(unregistered), std::string::npos) << text;
+      EXPECT_NE(text.find(missing), std::string::npos) << text;
+    }
+    EXPECT_NE(find(report, "views")->paragraphs.back().find("cochlea"), std::string::npos);
+  }
+  value.labels.erase(value.labels.begin()); // nothing else is there
+  EXPECT_EQ(find(planReport(value, small()), "distances")->table.rows.size(), 2U);
+}
+
+TEST(PlanReport, ListsTheNotesOfTheImport)
+{
+  scene::Case value = planned();
+  value.ct.provenance = {};
+  value.ct.notes = {"states no unit of length; taken as mm"};
+  value.labels.front().notes = {"'chorda': voxels of 50 % and more were taken",
+                                "'gone' was left out", "seen by Doe"};
+  ReportOptions options = small();
+  options.mayIdentifySentence = [](const std::string& text)
+  { return text.find("Doe") != std::string::npos; };
+  const auto texts = [](const PlanReport& report)
+  {
+    const ReportSection* import = find(report, "import");
+    EXPECT_TRUE(import->paragraphs.empty());
+    std::vector<std::string> all;
+    for (const auto& row : import->table.rows)
+      all.push_back(row[1].text);
+    return all;
+  };
+  EXPECT_EQ(texts(planReport(value, options)),
+            (std::vector<std::string>{"states no unit of length; taken as mm",
+                                      "'chorda': voxels of 50 % and more were taken",
+                                      "a note (withheld)", "a note (withheld)"}));
+  options.keepIdentity = true;
+  EXPECT_EQ(texts(planReport(value, options)).back(), "seen by Doe");
+}
+
+TEST(PlanReport, NamesNoEarThatNobodyStated)
+{
+  scene::Case value = planned();
+  const auto caption = [](const scene::Case& of)
+  { return find(planReport(of, small()), "views")->pictures.back().caption; };
+  EXPECT_EQ(caption(value), "Surgical position, left ear");
+  for (const scene::Side side : {scene::Side::Unknown, scene::Side::Both})
+  {
+    value.description.side = side;
+    EXPECT_EQ(caption(value), "Surgical position; the side is taken from where the image lies");
+  }
+}
+
+TEST(PlanReport, GivesTheReasonOfARegistrationInEveryLanguage)
+{
+  scene::Case value = planned();
+  value.mr.emplace_back();
+  value.mr.back().name = "T2";
+  value.mr.back().geometry = value.ct.geometry;
+  value.mr.back().registered = true;
+  value.mr.back().registration.emplace();
+  value.mr.back().registration->verdict = scene::Registration::Verdict::Doubtful;
+  value.mr.back().registration->text = "the starts end 3 mm apart";
+  for (const ReportLanguage language : {ReportLanguage::English, ReportLanguage::German})
+  {
+    ReportOptions options = small();
+    options.language = language;
+    const auto remarks = find(planReport(value, options), "registration")->remarks;
+    ASSERT_FALSE(remarks.empty());
+    EXPECT_EQ(remarks.front(), "T2: the starts end 3 mm apart");
+  }
+}
+
 TEST(PlanReport, HasTheValuesOfTheMeasurements)
 {
   const scene::Case value = planned();
@@ -172,7 +282,11 @@ TEST(PlanReport, WithholdsNamesThatTellWhoThePatientIs)
   options.withDate = false;
   const PlanReport undated = planReport(value, options);
   EXPECT_EQ(htmlOf(undated).find("2026-12-24"), std::string::npos);
-  EXPECT_TRUE(undated.mayIdentify.empty());
+  ASSERT_EQ(undated.mayIdentify.size(), 1U) << "what was kept as typed";
+  EXPECT_NE(undated.mayIdentify[0].find("'cochlear implant'"), std::string::npos);
+  EXPECT_EQ(undated.mayIdentify[0].find("'main'"), std::string::npos);
+  options.isOfField = [](const std::string&) { return true; };
+  EXPECT_TRUE(planReport(value, options).mayIdentify.empty());
   options.keepIdentity = true;
   const PlanReport kept = planReport(value, options);
   EXPECT_NE(htmlOf(kept).find("Mustermann nerve"), std::string::npos);

@@ -51,13 +51,18 @@ QString found(const std::map<std::string, double>& values, const std::string& na
                             : numberText(at->second, decimals) + ' ' + unit;
 }
 
-QString distanceText(const ComparedApproach& side, const std::string& name, double uncertainty)
+QString distanceText(const ComparedApproach& side, const std::string& name,
+                     const std::optional<double>& uncertainty)
 {
   const auto at = side.distances.find(name);
   if (at == side.distances.end())
     return QString::fromUtf8("–");
-  const QString error = numberText(uncertainty, 1);
-  return at->second > 0.0 ? ComparisonWindow::tr("%1 ± %2 mm").arg(numberText(at->second, 1), error)
+  const QString number = numberText(at->second, 2);
+  if (!uncertainty)
+    return at->second > 0.0 ? ComparisonWindow::tr("%1 mm, uncertainty unknown").arg(number)
+                            : ComparisonWindow::tr("reached, uncertainty unknown");
+  const QString error = numberText(*uncertainty, 2);
+  return at->second > 0.0 ? ComparisonWindow::tr("%1 ± %2 mm").arg(number, error)
                           : ComparisonWindow::tr("reached (± %1 mm)").arg(error);
 }
 

@@ -275,7 +275,11 @@ QString FilmDialog::problem() const
 
 std::vector<std::filesystem::path> FilmDialog::files() const
 {
-  return presenters::filmFiles(file(), static_cast<std::size_t>(frames()));
+  const auto count = static_cast<std::size_t>(frames());
+  auto all = presenters::filmFiles(file(), count);
+  for (std::filesystem::path& beyond : presenters::framesBeyond(file(), count)) // they are removed
+    all.push_back(std::move(beyond));
+  return all;
 }
 
 } // namespace petrous::workstation

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "petrous/Imaging/PatientKey.h"
@@ -28,6 +30,23 @@ TEST(PatientKey, AnyThatDiffersMakesAnotherPatient)
   EXPECT_FALSE(samePatient(key, patientKey("17", "CLINIC", "Doe^John", "19630412")));
   EXPECT_FALSE(samePatient(key, patientKey("17", "CLINIC", "Doe^Jane", "19630413")));
   EXPECT_FALSE(samePatient(key, patientKey("", "", "Roe", "")));
+}
+
+TEST(PatientKey, KnowsEachWordOfTheNameAlone)
+{
+  const auto has = [](const PatientKey& key, const std::string& word)
+  {
+    const std::size_t part = namePartKey(word);
+    return part != 0 &&
+           std::find(key.nameParts.begin(), key.nameParts.end(), part) != key.nameParts.end();
+  };
+  const PatientKey key = patientKey("", "", "von M\xc3\xbcller-Lang^Anna Li^^Prof^Senior", "");
+  for (const char* word : {"M\xc3\xbcller", "mueller", "MUELLER", "lang", "Anna"})
+    EXPECT_TRUE(has(key, word)) << word;
+  for (const char* word : {"von", "Li", "Prof", "Senior", "Mull", "17", ""})
+    EXPECT_FALSE(has(key, word)) << word;
+  EXPECT_FALSE(has(patientKey("", "", "Anonymous", ""), "anonymous"));
+  EXPECT_FALSE(has(patientKey("", "", "Phantom^Petrous", ""), "petrous"));
 }
 
 TEST(PatientKey, IdsOfTwoIssuersAreNotCompared)

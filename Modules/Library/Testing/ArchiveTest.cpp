@@ -706,6 +706,7 @@ TEST_F(Archives, OfOnePatientHaveNothingInCommonButForTheirLibrary)
     value.ct.frameOfReference = frame;
     value.ct.patient.id = id;
     value.ct.patient.name = name;
+    value.ct.patient.nameParts = {std::string(64, 'd'), std::string(64, 'e')};
     value.mr.push_back(test::smallCase("other", n + 1).ct);
     value.mr.back().name = "T2";
     value.mr.back().frameOfReference = frame;
@@ -721,11 +722,13 @@ TEST_F(Archives, OfOnePatientHaveNothingInCommonButForTheirLibrary)
   EXPECT_NE(firstIndex["library_sha256"], secondIndex["library_sha256"]);
   const auto all = [](const nlohmann::json& image)
   {
-    return std::set<std::string>{image["frame_of_reference_salted_sha256"],
-                                 image["patient_salted_sha256"]["id"],
-                                 image["patient_salted_sha256"]["name"]};
+    return std::set<std::string>{
+        image["frame_of_reference_salted_sha256"], image["patient_salted_sha256"]["name_parts"][0],
+        image["patient_salted_sha256"]["name_parts"][1], image["patient_salted_sha256"]["id"],
+        image["patient_salted_sha256"]["name"]};
   };
-  std::set<std::string> seen{here.ct.frameOfReference, here.ct.patient.id, here.ct.patient.name};
+  std::set<std::string> seen{here.ct.frameOfReference, here.ct.patient.id, here.ct.patient.name,
+                             here.ct.patient.nameParts.at(0), here.ct.patient.nameParts.at(1)};
   ASSERT_EQ(here.ct.patient.id, m_library.open("second").ct.patient.id);
   for (const std::string& hash : all(first["ct"]))
     EXPECT_TRUE(seen.insert(hash).second) << "another than at home";
@@ -738,6 +741,7 @@ TEST_F(Archives, OfOnePatientHaveNothingInCommonButForTheirLibrary)
   EXPECT_EQ(again.ct.frameOfReference, here.ct.frameOfReference);
   EXPECT_EQ(again.ct.patient.id, here.ct.patient.id);
   EXPECT_EQ(again.ct.patient.name, here.ct.patient.name);
+  EXPECT_EQ(again.ct.patient.nameParts, here.ct.patient.nameParts);
   EXPECT_EQ(again.mr[0].frameOfReference, here.ct.frameOfReference);
   Library other(m_folder.path() / "other");
   savedWith(other);

@@ -101,7 +101,12 @@ TEST_F(SceneObjects, TheLatestIsThatOfTheHighestNumber)
   EXPECT_EQ(scenes[1].number, 1007);
   EXPECT_EQ(scenes[2].number, 1003);
   series[1].description.clear(); // an optional key of a query
+  EXPECT_EQ(latestScene(series), series.begin() + 2) << "where others are described it is none";
+  EXPECT_EQ(scenesAmong(series).size(), 2U);
+  series[0].description.clear();
+  series[2].description.clear();
   EXPECT_EQ(latestScene(series), series.begin() + 1);
+  EXPECT_EQ(scenesAmong(series).size(), 3U);
   series[1].number = 3; // anybody's
   EXPECT_FALSE(isScene(series[1]));
   series.erase(series.begin(), series.begin() + 3);

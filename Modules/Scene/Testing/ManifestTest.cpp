@@ -133,7 +133,7 @@ TEST(Manifest, KeepsHowAnMrWasRegistered)
 TEST(Manifest, KeepsThePatientOnlyAsSaltedHashes)
 {
   scene::Case value = fullCase();
-  value.ct.patient = {"i", "j", "n", "b"};
+  value.ct.patient = {"i", "j", "n", "b", {"p", "q"}};
   value.ct.isFrameSalted = false;
   EXPECT_EQ(scene::toManifest(value).find("patient_"), std::string::npos);
   scene::saltIdentity(value.ct, [](const std::string& hash) { return hash + "1"; });
@@ -143,6 +143,7 @@ TEST(Manifest, KeepsThePatientOnlyAsSaltedHashes)
   EXPECT_EQ(back.ct.patient.issuer, "j1");
   EXPECT_EQ(back.ct.patient.name, "n1");
   EXPECT_EQ(back.ct.patient.birthDate, "b1");
+  EXPECT_EQ(back.ct.patient.nameParts, (std::vector<std::string>{"p1", "q1"}));
   EXPECT_TRUE(back.ct.isFrameSalted);
   EXPECT_TRUE(back.mr[0].patient.empty());
   EXPECT_EQ(scene::toManifest(back), scene::toManifest(value));

@@ -499,15 +499,20 @@ bool receiveScene(const network::Node& node, const std::string& study,
                   const std::vector<network::Series>& scenes, const fs::path& folder,
                   const fs::path& archive, ReceiveSummary& summary, const core::Progress& progress)
 {
-  std::exception_ptr first;
+  std::exception_ptr first; // of a described one, if there is any
+  bool isDescribedFailed = false;
   std::string why;
   for (const network::Series& scene : scenes)
   {
     const auto fail = [&](const core::Error& error)
     {
-      if (!first)
+      const bool isDescribed = !scene.description.empty();
+      if (!first || (isDescribed && !isDescribedFailed))
+      {
         first = std::current_exception();
-      why = why.empty() ? error.what() : why;
+        why = error.what();
+      }
+      isDescribedFailed = isDescribedFailed || isDescribed;
     };
     try
     {
@@ -517,7 +522,13 @@ bool receiveScene(const network::Node& node, const std::string& study,
           network::retrieve(node, study, {scene.uid}, parts, progress.part(0.0, 0.9));
       network::readSceneObjects(instancesIn(parts), archive, progress.part(0.9, 1.0));
       summary.transfer = transfer;
-      if (first)
+      if (first && !isDescribedFailed)
+        summary.notes.push_back("node '" + node.name + "' does not describe series " +
+                                std::to_string(scenes.front().number) +
+                                ", which may hold a later state of the case, but was not read as "
+                                "one: " +
+                                why);
+      else if (first)
         summary.notes.push_back("a later state of the case is at node '" + node.name +
                                 "', but cannot be received: " + why +
                                 ". This is the state before it");
@@ -529,7 +540,8 @@ bool receiveScene(const network::Node& node, const std::string& study,
     }
     catch (const NetworkError& error)
     {
-      if (error.reason != NetworkError::Reason::Incomplete &&
+      // One that is not described is a guess, and need not even be of a class that is received.
+      if (!scene.description.empty() && error.reason != NetworkError::Reason::Incomplete &&
           error.reason != NetworkError::Reason::NotFound)
         throw;
       fail(error);

@@ -131,7 +131,7 @@ void measureDistances(const scene::Case& value, ApproachComparison& comparison,
   {
     progress.report(static_cast<double>(n) / static_cast<double>(surfaces.count()),
                     "measuring distances");
-    comparison.uncertainties[surfaces.name(n)] = surfaces.uncertainty(n).millimetres();
+    comparison.uncertainties[surfaces.name(n)] = wallUncertainty(value, surfaces.uncertainty(n));
     for (std::size_t side = 0; side < 2; ++side)
       if (const auto nearest = removed[side]->nearest(surfaces, n, progress))
         comparison.sides[side].distances[surfaces.name(n)] = nearest->distance;

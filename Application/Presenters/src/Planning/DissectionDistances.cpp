@@ -125,6 +125,13 @@ std::optional<RemovedTissue::Nearest> RemovedTissue::nearest(StructureSurfaces& 
   return Nearest{std::max(best, 0.0), place};
 }
 
+std::optional<double> wallUncertainty(const scene::Case& value, const SurfaceUncertainty& surface)
+{
+  if (surface.incomplete())
+    return std::nullopt;
+  return std::hypot(surface.millimetres(), 0.5 * value.ct.geometry.spacing().maxCoeff());
+}
+
 std::vector<DissectionDistance> dissectionDistances(const scene::Case& value,
                                                     const core::Progress& progress)
 {
@@ -140,7 +147,6 @@ std::vector<DissectionDistance> dissectionDistances(const scene::Case& value,
     return distances;
   const auto injured = injuredVolumes(value);
   StructureSurfaces surfaces(value);
-  const double ofWall = 0.5 * value.ct.geometry.spacing().maxCoeff();
   for (std::size_t n = 0; n < surfaces.count(); ++n)
   {
     progress.report(static_cast<double>(n) / static_cast<double>(surfaces.count()),
@@ -154,10 +160,8 @@ std::vector<DissectionDistance> dissectionDistances(const scene::Case& value,
     const SurfaceUncertainty& surface = surfaces.uncertainty(n);
     DissectionDistance one;
     one.name = surfaces.name(n);
-    one.distance = {"distance of the dissection", nearest->distance, "mm", std::nullopt,
-                    toString(surface)};
-    if (!surface.incomplete())
-      one.distance.uncertainty = std::hypot(surface.millimetres(), ofWall);
+    one.distance = {"distance of the dissection", nearest->distance, "mm",
+                    wallUncertainty(value, surface), toString(surface)};
     if (const auto found = injured.find(one.name); found != injured.end())
       one.injured = found->second;
     one.place = nearest->place;

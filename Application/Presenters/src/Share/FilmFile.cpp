@@ -17,9 +17,11 @@
 #include "petrous/Core/Error.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Core/OutputFile.h"
+#include "petrous/Presenters/BoneThickness.h"
 #include "petrous/Presenters/LabelledPicture.h"
 #include "petrous/Rendering/OffscreenView.h"
 #include "petrous/Rendering/Picture.h"
+#include "petrous/Rendering/ThicknessLegend.h"
 #include "petrous/Scene/Description.h"
 
 namespace petrous::presenters
@@ -162,6 +164,16 @@ struct Unfinished
   }
 };
 
+// `n` from 1.
+fs::path frameFile(const fs::path& file, std::size_t n)
+{
+  char number[32];
+  std::snprintf(number, sizeof number, "-%04zu", n);
+  fs::path one = file;
+  one.replace_filename(file.stem().string() + number + file.extension().string());
+  return one;
+}
+
 std::string endingOf(const fs::path& file)
 {
   return scene::lowerCase(file.extension().string());
@@ -191,19 +203,28 @@ std::vector<fs::path> filmFiles(const fs::path& file, std::size_t frames)
     return {file};
   std::vector<fs::path> files;
   for (std::size_t n = 1; n <= frames; ++n)
-  {
-    char number[16];
-    std::snprintf(number, sizeof number, "-%04zu", n);
-    fs::path one = file;
-    one.replace_filename(file.stem().string() + number + file.extension().string());
-    files.push_back(std::move(one));
-  }
+    files.push_back(frameFile(file, n));
   return files;
 }
 
-void writeFilm(const fs::path& file, const rendering::SceneContents& contents,
-               const std::vector<core::CameraPose>& cameras, const FilmOptions& options,
-               const core::Progress& progress)
+std::vector<fs::path> framesBeyond(const fs::path& file, std::size_t frames)
+{
+  std::vector<fs::path> beyond;
+  if (isVideo(file))
+    return beyond;
+  std::error_code ignored;
+  for (std::size_t n = frames + 1;; ++n)
+  {
+    fs::path one = frameFile(file, n);
+    if (!fs::is_regular_file(fs::symlink_status(one, ignored)))
+      return beyond;
+    beyond.push_back(std::move(one));
+  }
+}
+
+std::size_t writeFilm(const fs::path& file, const rendering::SceneContents& contents,
+                      const std::vector<core::CameraPose>& cameras, const FilmOptions& options,
+                      const core::Progress& progress)
 {
   const bool video = isVideo(file);
   if (!video && endingOf(file) != ".png")
@@ -211,15 +232,17 @@ void writeFilm(const fs::path& file, const rendering::SceneContents& contents,
   const std::string refusal = video ? videoRefusal() : std::string();
   if (!refusal.empty())
     throw core::InvalidParameter(file.string() + ": " + refusal);
+  // Beside those that they replace, which stay until all are drawn.
   Unfinished unfinished;
+  std::vector<fs::path> targets;
+  for (const fs::path& one : filmFiles(file, cameras.size()))
+    targets.push_back(core::outputTarget(one));
   std::unique_ptr<Encoder> encoder;
-  const fs::path temporary = video ? core::temporaryBeside(file) : fs::path();
   if (video)
   {
-    unfinished.files.push_back(temporary);
-    encoder = std::make_unique<Encoder>(temporary, options);
+    unfinished.files.push_back(core::temporaryBeside(targets.front()));
+    encoder = std::make_unique<Encoder>(unfinished.files.front(), options);
   }
-  const auto files = filmFiles(file, cameras.size());
   rendering::ScenePicture scene;
   scene.setContents(contents);
   rendering::OffscreenView view(options.width, options.height);
@@ -232,23 +255,32 @@ void writeFilm(const fs::path& file, const rendering::SceneContents& contents,
     scene.setCamera(cameras[n]);
     rendering::Picture frame = view.render(scene);
     addLines(frame, options.lines, magnified);
+    if (!options.thickness.empty())
+      rendering::drawThicknessLegend(frame, options.thickness, kFarthestThickness);
     if (video)
       encoder->add(frame.rgb);
     else
     {
-      rendering::writePng(files[n], frame);
-      unfinished.files.push_back(files[n]);
+      unfinished.files.push_back(core::temporaryBeside(targets[n]));
+      rendering::writePng(unfinished.files.back(), frame);
     }
   }
   if (video)
-  {
     encoder->finish();
-    std::error_code error;
-    fs::rename(temporary, file, error);
+  progress.check("writing the film");
+  std::error_code error;
+  for (std::size_t n = 0; n < targets.size(); ++n)
+  {
+    fs::rename(unfinished.files[n], targets[n], error);
     if (error)
-      core::throwOutputError(error.value(), file);
+      core::throwOutputError(error.value(), targets[n]);
   }
   unfinished.files.clear();
+  const auto beyond = framesBeyond(file, cameras.size());
+  for (const fs::path& one : beyond)
+    if (!fs::remove(one, error) && error)
+      core::throwOutputError(error.value(), one);
+  return beyond.size();
 }
 
 } // namespace petrous::presenters

@@ -187,11 +187,29 @@ bool isScene(const Series& series)
                                     : series.description == kSceneDescription;
 }
 
+namespace
+{
+
+// Where scenes are described, what is not is none: only a node that describes nothing leaves
+// it to be guessed.
+bool isDescribed(const Series& series)
+{
+  return isScene(series) && !series.description.empty();
+}
+
+bool isSceneAmong(const std::vector<Series>& series, const Series& one)
+{
+  return isDescribed(one) ||
+         (isScene(one) && std::none_of(series.begin(), series.end(), isDescribed));
+}
+
+} // namespace
+
 std::vector<Series>::const_iterator latestScene(const std::vector<Series>& series)
 {
   auto latest = series.end();
   for (auto one = series.begin(); one != series.end(); ++one)
-    if (isScene(*one) && (latest == series.end() || one->number > latest->number))
+    if (isSceneAmong(series, *one) && (latest == series.end() || one->number > latest->number))
       latest = one;
   return latest;
 }
@@ -199,7 +217,8 @@ std::vector<Series>::const_iterator latestScene(const std::vector<Series>& serie
 std::vector<Series> scenesAmong(const std::vector<Series>& series)
 {
   std::vector<Series> scenes;
-  std::copy_if(series.begin(), series.end(), std::back_inserter(scenes), isScene);
+  std::copy_if(series.begin(), series.end(), std::back_inserter(scenes),
+               [&series](const Series& one) { return isSceneAmong(series, one); });
   std::stable_sort(scenes.begin(), scenes.end(),
                    [](const Series& a, const Series& b) { return a.number > b.number; });
   return scenes;

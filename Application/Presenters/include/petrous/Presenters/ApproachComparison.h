@@ -3,6 +3,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,8 +49,10 @@ struct ApproachComparison
 {
   std::array<ComparedApproach, 2> sides;
   std::size_t commonStrokes = 0;
-  double both = 0.0;                             ///< mm^3 removed by both
-  std::map<std::string, double> uncertainties;   ///< mm, of each structure's surface
+  double both = 0.0; ///< mm^3 removed by both
+  /// mm, half-width of the distances to each structure, as dissectionDistances has it; none:
+  /// unknown
+  std::map<std::string, std::optional<double>> uncertainties;
   std::shared_ptr<const volume::CutMask> either; ///< what one of them removed is removed
   /// Of each Difference but None, patient LPS mm; null: none.
   std::array<std::shared_ptr<const core::TriangleMesh>, 3> surfaces;

@@ -14,6 +14,7 @@ namespace petrous::presenters
 {
 
 class StructureSurfaces;
+struct SurfaceUncertainty;
 
 /// How near what was drilled came to a structure.
 struct DissectionDistance
@@ -23,6 +24,10 @@ struct DissectionDistance
   double injured = 0.0;                 ///< mm^3 removed from it; of a lumen, which is opened, 0
   Eigen::Vector3d place{0.0, 0.0, 0.0}; ///< of the tissue removed, patient LPS mm
 };
+
+/// Half-width of the distance of what was drilled from a structure: of its surface, and of half the
+/// longest edge of the CT's voxels for the wall, independently; none where the former is unknown.
+std::optional<double> wallUncertainty(const scene::Case& value, const SurfaceUncertainty& surface);
 
 /// The bricks in which something was cut.
 std::vector<std::size_t> cutBricks(const volume::CutMask& mask);
@@ -66,10 +71,8 @@ private:
 /// The distance of the tissue removed (RemovedTissue) from each structure that is drawn or
 /// touchable as a volume, nearest first.
 ///
-/// The uncertainty is that of the structure's surface (SurfaceUncertainty) and half the longest
-/// edge of the CT's voxels for the wall, independently; none where the structure was drawn on an MR
-/// whose error is unknown. Loads the CT and labels; needs the dissection loaded, else throws
-/// InvalidParameter. Empty where nothing was removed. Throws CancelledError.
+/// The uncertainty is wallUncertainty. Loads the CT and labels; needs the dissection loaded, else
+/// throws InvalidParameter. Empty where nothing was removed. Throws CancelledError.
 std::vector<DissectionDistance> dissectionDistances(const scene::Case& value,
                                                     const core::Progress& progress = {});
 

@@ -262,7 +262,7 @@ TEST_F(ReportCommand, ThePatientsSurnameAloneIsWithheld)
   EXPECT_NE(Json::parse(outcome.out).at("may_identify").dump().find("implant of Smith"),
             std::string::npos);
   const std::string leaving =
-      run("archive 'quorndike links' --dry-run --out " + quoted(m_folder / "a.petrous")).out;
+      run("archive 'quorndike links' --dry-run " + quoted(m_folder / "a.petrous")).out;
   EXPECT_NE(leaving.find("name of the case, diagnosis and procedure: 2 of 3"), std::string::npos)
       << leaving;
 }

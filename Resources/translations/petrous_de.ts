@@ -1838,6 +1838,14 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <source>From the walls of what was removed to the structure&apos;s surface</source>
         <translation>Von den Wänden des Abgetragenen zur Oberfläche der Struktur</translation>
     </message>
+    <message>
+        <source>%1 mm, uncertainty unknown</source>
+        <translation>%1 mm, Unsicherheit unbekannt</translation>
+    </message>
+    <message>
+        <source>reached, uncertainty unknown</source>
+        <translation>erreicht, Unsicherheit unbekannt</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::DecimalPoint</name>
@@ -6028,6 +6036,10 @@ Verletzt: %1, %2</translation>
     <message>
         <source>The film is written</source>
         <translation>Der Film ist geschrieben</translation>
+    </message>
+    <message>
+        <source>The report is written. Read what stands in it as it was typed, for names: %1</source>
+        <translation>Der Bericht ist geschrieben. Lesen Sie auf Namen, was darin steht, wie es eingegeben wurde: %1</translation>
     </message>
 </context>
 <context>

@@ -14,6 +14,7 @@
 #include "SharePanel.h"
 #include "Theme.h"
 #include "ThreeDView.h"
+#include "WindowTexts.h"
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Library/LibraryFiles.h"
 #include "petrous/Presenters/CameraPaths.h"
@@ -141,7 +142,14 @@ void ShareController::report()
                      presenters::planReport(std::move(value), options, progress.part(0.0, 0.9));
                  core::writeFile(file, isPdf ? report::pdfOf(report, progress.part(0.9, 1.0))
                                              : presenters::htmlOf(report));
-                 return [this, file] { done(file, tr("The report is written"), true); };
+                 return [this, file, kept = report.keptTexts]
+                 {
+                   done(file, tr("The report is written"), true);
+                   if (!kept.empty())
+                     emit statusMessage(tr("The report is written. Read what stands in it as it "
+                                           "was typed, for names: %1")
+                                            .arg(words(kept)));
+                 };
                });
 }
 

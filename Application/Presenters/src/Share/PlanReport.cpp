@@ -935,9 +935,11 @@ private:
       m_report.sections.front().paragraphs.insert(
           m_report.sections.front().paragraphs.begin(),
           say("The side that is operated on is not stated."));
-    if (const std::string kept = m_withheld.keptTexts(); !kept.empty() && !m_options.keepIdentity)
+    if (!m_options.keepIdentity)
+      m_report.keptTexts = m_withheld.keptTexts();
+    if (!m_report.keptTexts.empty())
       m_report.mayIdentify.push_back("texts as they were typed, in which nobody was recognised: " +
-                                     kept + "; read them yourself");
+                                     m_report.keptTexts + "; read them yourself");
   }
 
   scene::Case m_value;

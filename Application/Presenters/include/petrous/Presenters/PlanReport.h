@@ -95,6 +95,8 @@ struct PlanReport
   std::string pageOf;   ///< "Page %1 of %2"
   std::vector<std::pair<std::string, std::string>> facts; ///< at its head
   std::vector<ReportSection> sections;
+  /// Typed texts that it has as they are, and that are not of the field's words alone: "'a', 'b'".
+  std::string keptTexts;
   std::vector<std::string> mayIdentify; ///< what of it may tell who the patient is, a sentence each
 };
 

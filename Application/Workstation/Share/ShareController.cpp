@@ -23,6 +23,7 @@
 #include "petrous/Presenters/IdentityText.h"
 #include "petrous/Presenters/LabelledPicture.h"
 #include "petrous/Presenters/PlanReport.h"
+#include "petrous/Presenters/ProvenanceText.h"
 
 namespace petrous::workstation
 {
@@ -139,7 +140,8 @@ void ShareController::report()
                  if (!value.dissection.loaded())
                    library.loadDissection(value);
                  const presenters::PlanReport report =
-                     presenters::planReport(std::move(value), options, progress.part(0.0, 0.9));
+                     presenters::planReport(value, options, progress.part(0.0, 0.9));
+                 library.checkVoxels(value, progress);
                  core::writeFile(file, isPdf ? report::pdfOf(report, progress.part(0.9, 1.0))
                                              : presenters::htmlOf(report));
                  return [this, file, kept = report.keptTexts]
@@ -163,8 +165,8 @@ void ShareController::printPicture()
     return;
   m_keeper.run(
       tr("Drawing the picture"),
-      [this, value = shown(), size = dialog.size(),
-       file = dialog.file()](const core::Progress& progress) -> BackgroundWork::Reply
+      [this, value = shown(), size = dialog.size(), file = dialog.file(),
+       library = m_model.library()](const core::Progress& progress) -> BackgroundWork::Reply
       {
         library::refuseOverwriting(file);
         rendering::ScenePicture scene;
@@ -176,6 +178,7 @@ void ShareController::printPicture()
         presenters::addScaleBar(picture,
                                 rendering::millimetresPerPixel(*value.camera, size.height()),
                                 value.camera->parallelScale ? "" : "in the focal plane", magnified);
+        library.checkVoxels(value, progress);
         const auto png = rendering::pngOf(picture, size.dotsPerInch);
         core::writeFile(file, {reinterpret_cast<const char*>(png.data()), png.size()});
         return [this, file] { done(file, tr("The picture is written"), false); };
@@ -192,7 +195,8 @@ void ShareController::film()
   m_keeper.run(
       tr("Drawing the film"),
       [this, value = shown(), along = dialog.along(), frames = dialog.frames(),
-       file = dialog.file()](const core::Progress& progress) mutable -> BackgroundWork::Reply
+       file = dialog.file(),
+       library = m_model.library()](const core::Progress& progress) mutable -> BackgroundWork::Reply
       {
         library::refuseOverwriting(file);
         const auto cameras =
@@ -200,8 +204,11 @@ void ShareController::film()
                           : presenters::flightAlong(value, along, frames, progress.part(0.0, 0.05));
         presenters::FilmOptions film;
         film.lines = {presenters::sideText(value.description.side)};
-        presenters::writeFilm(file, contentsOf(value, progress.part(0.05, 0.1)), cameras, film,
-                              progress.part(0.1, 1.0));
+        for (const std::string& line : presenters::interpolatedTexts(value))
+          film.lines.push_back(line);
+        const rendering::SceneContents contents = contentsOf(value, progress.part(0.05, 0.1));
+        library.checkVoxels(value, progress); // before the first frame is there
+        presenters::writeFilm(file, contents, cameras, film, progress.part(0.1, 1.0));
         return [this, file] { done(file, tr("The film is written"), false); };
       });
 }

@@ -215,8 +215,8 @@ TEST_F(ReportCommand, AStructureThatCannotBeMeasuredIsNamed)
   }
 
   // Its error is not known, and no command gives one.
-  std::ofstream(m_folder / "identity.json") << "[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]";
-  json("register mrear --mr T2 --as-is --transform " + quoted(m_folder / "identity.json"));
+  std::ofstream(m_folder / "identity.txt") << "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
+  json("register mrear --mr T2 --as-is --transform " + quoted(m_folder / "identity.txt"));
   const Json measured = json("measure mrear --dissection");
   EXPECT_TRUE(measured.at("without_place").empty());
   EXPECT_TRUE(measured.at("dissection")[0].at("uncertainty_mm").is_null());

@@ -1,6 +1,7 @@
 #include "petrous/Presenters/FilmFile.h"
 
 #include <fstream>
+#include <map>
 #include <random>
 #include <sstream>
 
@@ -57,7 +58,7 @@ protected:
     std::ofstream(m_folder / name, std::ios::binary) << text;
   }
 
-  const scene::Case m_case = testing::block();
+  const scene::Case m_case = petrous::presenters::testing::block();
   fs::path m_folder;
   rendering::SceneContents m_contents;
   FilmOptions m_options;

@@ -65,7 +65,7 @@ std::string transcribed(const std::string& capitals)
 }
 
 /// Of family, given and middle name: what follows is a title.
-std::array<std::size_t, 6> partsOf(const std::string& name)
+std::array<std::size_t, 6> namePartsOf(const std::string& name)
 {
   constexpr int kTitles = 3; // delimiters before them
   std::array<std::size_t, 6> parts{};
@@ -135,7 +135,7 @@ PatientKey patientKey(const std::string& id, const std::string& issuer, const st
   const std::string first = alphabetic == 0 ? name.substr(1) : name.substr(0, alphabetic);
   PatientKey key{hashOf(id), hashOf(issuer), hashOf(first), hashOf(birthDate)};
   if (key.name != 0)
-    key.nameParts = partsOf(first);
+    key.nameParts = namePartsOf(first);
   return key;
 }
 

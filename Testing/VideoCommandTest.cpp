@@ -137,8 +137,9 @@ TEST_F(VideoCommand, FindsTheCameraOfAStillAndDrawsItOverTheScene)
   EXPECT_NE(with.err.find("landmark 8 does not fit"), std::string::npos) << with.err;
   EXPECT_TRUE(json("video ear --at 0.25 --remove-still").at("videos")[0].at("stills").empty());
   expectRefused("video ear --at 0.25 --overlay " + file("none.png"), 3, "has no camera");
-  expectRefused("video ear --at 0.25 --pairs " + write("few.csv", csv.substr(0, 150)), 3,
-                "few.csv");
+  expectRefused("video ear --at 0.25 --pairs " +
+                    write("few.csv", "x_mm,y_mm,z_mm,u_px,v_px\n1,2,3,4\n"),
+                3, "few.csv, line 2");
   EXPECT_EQ(run("library verify").code, 0);
 }
 

@@ -28,6 +28,7 @@ void addExportCommand(CLI::App& app, Context& context);
 void addRegisterCommand(CLI::App& app, Context& context);
 void addReportCommand(CLI::App& app, Context& context);
 void addSegmentCommand(CLI::App& app, Context& context);
+void addDeviceTestCommand(CLI::App& app, Context& context);
 void addDoctorCommand(CLI::App& app, Context& context);
 void addReferenceCommand(CLI::App& app, Context& context); ///< of all that `app` has
 

@@ -72,6 +72,7 @@ void addCommands(CLI::App& app, cli::Context& context)
                   })
       ->allow_extras();
   cli::addSegmentCommand(app, context);
+  cli::addDeviceTestCommand(app, context);
   cli::addDoctorCommand(app, context);
   cli::addReferenceCommand(app, context);
 }

@@ -72,6 +72,7 @@ petrous::presenters::DeviceSources deviceSources()
   {
   }
   sources.serverFolders = petrous::devices::serverFolders();
+  sources.limits = petrous::presenters::deviceLimitsFile();
   return sources;
 }
 

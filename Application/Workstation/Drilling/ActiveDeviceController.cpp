@@ -23,6 +23,7 @@ ActiveDeviceController::ActiveDeviceController(DeviceWatcher& finder, DeviceTool
   connect(&finder, &DeviceWatcher::changed, this, &ActiveDeviceController::showDevices);
   connect(&finder, &DeviceWatcher::opened, this, &ActiveDeviceController::take);
   connect(&finder, &DeviceWatcher::failed, this, &ActiveDeviceController::giveUp);
+  connect(&finder, &DeviceWatcher::waits, this, &ActiveDeviceController::statusMessage);
   connect(&bar, &DeviceToolBar::chosen, this, &ActiveDeviceController::choose);
   connect(&bar, &DeviceToolBar::mappingChanged, this,
           [this]

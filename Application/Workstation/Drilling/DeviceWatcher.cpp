@@ -93,13 +93,19 @@ void DeviceWatcher::open(const InputDevice& input)
       [this, input, question]
       {
         const auto wanted = [this, question] { return question == m_wanted; };
+        const auto advise = [this, name = words(input.name)](const std::string& text)
+        {
+          QMetaObject::invokeMethod(
+              this, [this, line = name + ": " + words(text)] { emit waits(line); },
+              Qt::QueuedConnection);
+        };
         if (!wanted())
           return;
         std::shared_ptr<ActiveDevice> device;
         QString why;
         try
         {
-          device = std::make_shared<ActiveDevice>(m_sources, input, wanted);
+          device = std::make_shared<ActiveDevice>(m_sources, input, wanted, advise);
         }
         catch (const core::Error& error)
         {

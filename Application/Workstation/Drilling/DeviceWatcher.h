@@ -45,6 +45,7 @@ signals:
   void changed(); ///< `found`, or the pedal
   void opened();
   void failed(const QString& why);
+  void waits(const QString& advice); ///< what to do first for the device being opened
 
 private:
   void run();

@@ -103,6 +103,7 @@ constexpr auto kAsk = std::chrono::milliseconds(50);
 constexpr double kMaxStep = 0.05; // s
 constexpr int kMaxFailures = 5;
 constexpr double kSettled = 10.0; // s; a server that ran this long may fail anew
+constexpr double kUserTime = 120.0; // s to do what a starting server asks for
 
 std::string seconds(double value)
 {
@@ -137,13 +138,26 @@ ServerWatch::~ServerWatch()
 haptics::DeviceDescription ServerWatch::awaitReady()
 {
   // Slightly longer than the watch's own limit, so that its message is the one thrown.
-  const auto end = Clock::now() + Seconds(m_options.startTimeout + 1.0);
+  const auto limit = Seconds(m_options.startTimeout + 1.0);
+  auto end = Clock::now() + limit;
   std::unique_lock<std::mutex> lock(m_mutex);
   const auto answered = [this] { return m_description || m_reason; };
   while (!m_wake.wait_for(lock, kAsk, answered) && Clock::now() < end)
+  {
     if (m_options.wanted && !m_options.wanted())
       throw ServerError(Reason::NotReady,
                         "device server '" + m_options.name + "' is not waited for any longer");
+    if (m_waitsFor.empty())
+      continue;
+    end = Clock::now() + limit;
+    if (m_options.waits)
+    {
+      const std::string text = m_waitsFor;
+      lock.unlock();
+      m_options.waits(text);
+      lock.lock();
+    }
+  }
   if (m_description)
     return *m_description;
   throw ServerError(m_reason.value_or(Reason::NotReady), m_status.fault);
@@ -259,12 +273,7 @@ void ServerWatch::lookAtState()
   {
   case PETROUS_SERVER_EMPTY:
   case PETROUS_SERVER_STARTING:
-    if (link() == Link::Starting && m_sinceBegin > m_options.startTimeout)
-      giveUpOn(m_pid.load() == 0 ? Link::Gone : Link::Hung,
-               m_pid.load() == 0 ? Reason::NotStarted : Reason::NotReady,
-               m_pid.load() == 0 ? "was not started: nobody opened " + m_block.path() + " within " +
-                                       seconds(m_options.startTimeout)
-                                 : "is not ready after " + seconds(m_options.startTimeout));
+    lookAtStart(state == PETROUS_SERVER_STARTING ? text : std::string());
     break;
   case PETROUS_SERVER_READY:
     if (!m_accepted)
@@ -281,6 +290,26 @@ void ServerWatch::lookAtState()
   default:
     fail(Reason::Fault, "is in state " + std::to_string(state) + ", which there is not");
   }
+}
+
+// `text`: what the user has to do first, if anything.
+void ServerWatch::lookAtStart(const std::string& text)
+{
+  {
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    m_waitsFor = text;
+  }
+  if (m_accepted && !text.empty())
+    fail(Reason::NotReady, "waits: " + text);
+  const double most = text.empty() ? m_options.startTimeout : kUserTime;
+  if (link() != Link::Starting || m_sinceBegin <= most)
+    return;
+  if (m_pid.load() == 0)
+    giveUpOn(Link::Gone, Reason::NotStarted,
+             "was not started: nobody opened " + m_block.path() + " within " + seconds(most));
+  else
+    giveUpOn(Link::Hung, Reason::NotReady,
+             "is not ready after " + seconds(most) + (text.empty() ? text : ": " + text));
 }
 
 void ServerWatch::lookAtBeat(double elapsed)

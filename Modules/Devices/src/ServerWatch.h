@@ -55,6 +55,7 @@ private:
   void lookForProcess();
   void lookAtBeat(double elapsed);
   void lookAtState();
+  void lookAtStart(const std::string& text);
   void accept();
   void begin();
   void start();
@@ -85,6 +86,7 @@ private:
   bool m_stop = false;
   std::optional<haptics::DeviceDescription> m_description;
   std::optional<Reason> m_reason;
+  std::string m_waitsFor; // what a starting server asks the user to do
   ServedDevice::Status m_status;
 
   std::thread m_thread;

@@ -11,6 +11,7 @@
 #include "petrous/Devices/ServerCatalogue.h"
 #include "petrous/Devices/SpaceMouseDevice.h"
 #include "petrous/Interaction/PointerToolController.h"
+#include "petrous/Presenters/DeviceLimits.h"
 
 namespace petrous::presenters
 {
@@ -87,7 +88,8 @@ DeviceList findDevices(const DeviceSources& sources)
 }
 
 ActiveDevice::ActiveDevice(const DeviceSources& sources, const InputDevice& input,
-                           std::function<bool()> wanted)
+                           std::function<bool()> wanted,
+                           std::function<void(const std::string&)> waits)
   : m_input(input)
 {
   if (input.kind == InputDevice::Kind::SpaceMouse)
@@ -107,6 +109,7 @@ ActiveDevice::ActiveDevice(const DeviceSources& sources, const InputDevice& inpu
     options.name = input.name;
     options.command = {input.program.string()};
     options.wanted = std::move(wanted);
+    options.waits = std::move(waits);
     auto device = std::make_unique<devices::ServedDevice>(options);
     m_problem = [served = device.get()]
     {
@@ -117,6 +120,13 @@ ActiveDevice::ActiveDevice(const DeviceSources& sources, const InputDevice& inpu
   }
   else
     throw core::InvalidParameter("the mouse is not a device that can be opened");
+  m_description = m_device->description();
+  // What was measured on this device goes before what its server assumes.
+  if (const auto kept = sources.limits.empty()
+                            ? std::nullopt
+                            : keptStiffness(sources.limits, input.name, m_description.name);
+      kept && m_description.givesForce)
+    m_description.maxStiffness = *kept;
   if (endless() || !m_device->description().sensesRotation)
     m_grip = mousesHeading();
 }
@@ -138,7 +148,7 @@ std::string ActiveDevice::problem() const
 
 const haptics::DeviceDescription& ActiveDevice::description() const noexcept
 {
-  return m_device->description();
+  return m_description;
 }
 
 haptics::DeviceReading ActiveDevice::read(double now) noexcept

@@ -52,6 +52,7 @@ struct DeviceSources
 {
   std::shared_ptr<const devices::HidLibrary> hid; ///< null: no SpaceMouse, no pedal
   std::vector<std::filesystem::path> serverFolders;
+  std::filesystem::path limits; ///< of DeviceLimits.h; empty: none are kept
 };
 
 /// The devices available now. Queries the system (some tenths of a second); starts no server.
@@ -66,10 +67,12 @@ public:
   static constexpr std::uint32_t kDrill = 1;  ///< the device's first button drills
   static constexpr std::uint32_t kClutch = 2; ///< its second button holds the tool still
 
-  /// Waits until a server is ready (up to 10 s) or `wanted` returns false. Throws
-  /// devices::ServerError, InvalidParameter.
+  /// Waits until a server is ready (up to 10 s, two minutes while the user has to calibrate the
+  /// device, as `waits` says) or `wanted` returns false. Throws devices::ServerError,
+  /// InvalidParameter.
   ActiveDevice(const DeviceSources& sources, const InputDevice& input,
-               std::function<bool()> wanted = {});
+               std::function<bool()> wanted = {},
+               std::function<void(const std::string&)> waits = {});
   ~ActiveDevice() override; ///< stops the server: up to 0.7 s
 
   const InputDevice& input() const noexcept { return m_input; }
@@ -91,6 +94,7 @@ private:
   InputDevice m_input;
   std::function<std::string()> m_problem;
   std::unique_ptr<haptics::Device> m_device;
+  haptics::DeviceDescription m_description;
   Eigen::Quaterniond m_grip = Eigen::Quaterniond::Identity();
   bool m_pedalled = false;
 };

@@ -55,6 +55,9 @@ public:
     double hungAfter = 1.0;           ///< s without a heartbeat of the server
     /// Polled about 20 times a second until the server is ready; false cancels the wait.
     std::function<bool()> wanted;
+    /// Called in the same rhythm, with what the user has to do for a server that waits for it,
+    /// such as calibrating the device; then it may take two minutes until the server is ready.
+    std::function<void(const std::string&)> waits;
   };
 
   struct Status

@@ -1,0 +1,265 @@
+#include "petrous/Devices/DeviceCheck.h"
+
+#include <cmath>
+#include <deque>
+#include <limits>
+
+#include <Eigen/Eigenvalues>
+
+#include <gtest/gtest.h>
+
+#include "SimulatedDevice.h"
+#include "petrous/Core/Error.h"
+
+using namespace petrous;
+using namespace petrous::devices;
+using haptics::DeviceReading;
+using haptics::Pose;
+using haptics::SimulatedDevice;
+using haptics::Wrench;
+using Stage = DeviceCheck::Stage;
+
+namespace
+{
+
+constexpr double kTick = 0.001; // s
+
+// What lies between the program and the motors.
+struct Transmission
+{
+  std::size_t delay = 0; // ticks until a wrench acts
+  double quantum = 0.0;  // mm, of the encoders
+  int dropEvery = 0;     // ticks: every so many is not read
+  bool crossed = false;  // x and y of the force are exchanged
+};
+
+Pose still(double)
+{
+  return {};
+}
+
+DeviceCheck::Options quick()
+{
+  DeviceCheck::Options options;
+  options.workspaceTime = 0.5;
+  return options;
+}
+
+// Runs the check on a simulated clock to its end; the largest force in each stage.
+DeviceCheck::Result examined(SimulatedDevice& device, const Transmission& way = {},
+                             const DeviceCheck::Options& options = quick())
+{
+  DeviceCheck check(device.description(), options);
+  std::deque<Wrench> underway(way.delay);
+  DeviceReading reading;
+  for (int n = 0; n < 400000 && check.stage() != Stage::Done; ++n)
+  {
+    DeviceReading fresh = device.read(kTick * n);
+    if (way.quantum > 0.0)
+      for (int i = 0; i < 3; ++i)
+        fresh.pose.position[i] = way.quantum * std::round(fresh.pose.position[i] / way.quantum);
+    if (n == 0 || way.dropEvery == 0 || n % way.dropEvery != 0)
+      reading = fresh;
+    underway.push_back(check.tick(reading, kTick * n, 0.002));
+    Wrench wrench = underway.front();
+    underway.pop_front();
+    if (way.crossed)
+      std::swap(wrench.linear[0], wrench.linear[1]);
+    device.send(wrench);
+  }
+  EXPECT_EQ(check.stage(), Stage::Done);
+  EXPECT_EQ(check.progress(), 1.0);
+  return check.result();
+}
+
+// The largest k, N/mm, at which the sampled spring F_n = -k x_(n-delay) with a zero-order hold on a
+// handle m, b that a hand with k_h holds, has all of its poles within the unit circle.
+double stabilityLimit(const SimulatedDevice::Hand& hand, int delay)
+{
+  const double scale = 1000.0 / hand.mass; // mm/s^2 of a newton
+  // [x, v] over a tick by the Taylor series of exp(A T), and of its integral for the held force.
+  Eigen::Matrix2d a;
+  a << 0.0, 1.0, -scale * hand.stiffness, -scale * hand.damping;
+  Eigen::Matrix2d power = Eigen::Matrix2d::Identity();
+  Eigen::Matrix2d whole = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d integral = Eigen::Matrix2d::Zero();
+  double factor = 1.0;
+  for (int n = 0; n < 30; ++n)
+  {
+    whole += factor * power;
+    integral += factor * kTick / (n + 1) * power;
+    power = (a * power).eval();
+    factor *= kTick / (n + 1);
+  }
+  const Eigen::Vector2d input = integral * Eigen::Vector2d(0.0, scale);
+  const auto stable = [&](double k)
+  {
+    Eigen::MatrixXd loop = Eigen::MatrixXd::Zero(2 + delay, 2 + delay);
+    loop.topLeftCorner(2, 2) = whole;
+    if (delay == 0)
+      loop.topLeftCorner(2, 2) -= k * input * Eigen::RowVector2d(1.0, 0.0);
+    else
+    {
+      loop.block(0, 2, 2, 1) = input; // the force that acts now, then those underway
+      for (int i = 0; i + 1 < delay; ++i)
+        loop(2 + i, 3 + i) = 1.0;
+      loop(1 + delay, 0) = -k;
+    }
+    return loop.eigenvalues().cwiseAbs().maxCoeff() < 1.0;
+  };
+  double low = 0.0;
+  double high = 100.0;
+  for (int n = 0; n < 50; ++n)
+    (stable(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+  return low;
+}
+
+} // namespace
+
+TEST(DeviceCheck, FindsTheStabilityLimitOfASampledSpringWithinItsMargin)
+{
+  struct
+  {
+    double mass, damping;
+    int delay;
+  } const cases[] = {{0.15, 0.003, 0}, {0.15, 0.003, 2}, {0.1, 0.006, 4}, {0.3, 0.002, 1}};
+  for (const auto& set : cases)
+  {
+    SimulatedDevice::Hand hand;
+    hand.mass = set.mass;
+    hand.damping = set.damping;
+    SimulatedDevice device(still, hand, {});
+    Transmission way;
+    way.delay = static_cast<std::size_t>(set.delay);
+    const double limit = stabilityLimit(hand, set.delay);
+    ASSERT_GT(limit, 0.2);
+    ASSERT_LT(limit, 9.0) << "below the ramp's end";
+    const auto result = examined(device, way);
+    for (const auto& axis : result.axes)
+    {
+      EXPECT_GT(axis.stable, 0.6 * limit) << set.delay;
+      EXPECT_LT(axis.stable, limit) << set.delay;
+      EXPECT_GT(axis.limit, axis.stable);
+      // An undamped mass on that spring.
+      const double hertz = std::sqrt(1000.0 * (axis.limit + hand.stiffness) / hand.mass) / 6.2832;
+      EXPECT_NEAR(axis.hertz, hertz, 0.25 * hertz);
+    }
+    EXPECT_NEAR(result.proposed, 0.5 * result.axes[0].stable, 0.1 * limit);
+    EXPECT_LT(device.velocity().linear.norm(), 50.0) << "the cycle was left at once";
+  }
+}
+
+TEST(DeviceCheck, EndsAtTheTopWhereNothingOscillates)
+{
+  SimulatedDevice::Hand hand;
+  hand.damping = 0.02;
+  SimulatedDevice device(still, hand, {});
+  DeviceCheck::Options options = quick();
+  options.maxStiffness = 5.0;
+  const auto result = examined(device, {}, options);
+  for (const auto& axis : result.axes)
+  {
+    EXPECT_EQ(axis.stable, 5.0);
+    EXPECT_EQ(axis.limit, 0.0);
+  }
+  EXPECT_EQ(result.proposed, 2.5);
+}
+
+TEST(DeviceCheck, ToleratesEncodersAndReadingsThatAreDropped)
+{
+  SimulatedDevice::Hand hand;
+  hand.damping = 0.006;
+  SimulatedDevice device(still, hand, {});
+  Transmission way;
+  way.quantum = 0.01;
+  way.dropEvery = 50;
+  const auto result = examined(device, way);
+  const double limit = stabilityLimit(hand, 0);
+  for (const auto& axis : result.axes)
+    EXPECT_GT(axis.stable, 0.25 * std::min(limit, 10.0));
+}
+
+TEST(DeviceCheck, StepsShowDirectionAndLatencyOfTheForce)
+{
+  SimulatedDevice device(still);
+  const auto straight = examined(device);
+  for (int i = 0; i < 3; ++i)
+  {
+    const auto& axis = straight.axes[static_cast<std::size_t>(i)];
+    EXPECT_TRUE(axis.follows);
+    EXPECT_GT(axis.moved[i], 0.9 * axis.moved.norm());
+    EXPECT_GT(axis.latency, 0.0);
+    EXPECT_LT(axis.latency, 0.03) << "0.5 N on 0.15 kg for 0.05 mm, with the rise: 12 ms";
+  }
+  SimulatedDevice other(still);
+  Transmission late;
+  late.delay = 20;
+  EXPECT_NEAR(examined(other, late).axes[0].latency, straight.axes[0].latency + 0.02, 1e-9);
+
+  SimulatedDevice wrong(still);
+  Transmission way;
+  way.crossed = true;
+  const auto crossed = examined(wrong, way);
+  EXPECT_FALSE(crossed.axes[0].follows);
+  EXPECT_FALSE(crossed.axes[1].follows);
+  EXPECT_GT(crossed.axes[0].moved.y(), 0.05) << "a force to the right moved it up";
+  EXPECT_TRUE(crossed.axes[2].follows);
+}
+
+TEST(DeviceCheck, MeasuresWorkspaceRateAndTrips)
+{
+  SimulatedDevice::Hand stiff;
+  stiff.stiffness = 30.0;
+  stiff.damping = 0.05;
+  const auto ellipse = [](double t)
+  {
+    return Pose{{40.0 * std::cos(12.6 * t), 30.0 * std::sin(12.6 * t), 10.0},
+                haptics::rotationFrom({0.0, 0.0, 0.4 * std::sin(12.6 * t)})};
+  };
+  haptics::DeviceDescription description = SimulatedDevice::usualDescription();
+  description.givesForce = false;
+  SimulatedDevice device(ellipse, stiff, {}, description);
+  device.press(5U, 0.75);
+  Transmission way;
+  way.dropEvery = 2;
+  DeviceCheck::Options options = quick();
+  options.workspaceTime = 1.0;
+  const auto result = examined(device, way, options);
+  EXPECT_NEAR(result.lowest.x(), -40.0, 2.0);
+  EXPECT_NEAR(result.highest.y(), 30.0, 2.0);
+  EXPECT_NEAR(result.highest.z(), 10.0, 0.1);
+  EXPECT_NEAR(result.turned, 0.4, 0.1);
+  EXPECT_EQ(result.buttons, 5U);
+  EXPECT_EQ(result.pedal, 0.75);
+  EXPECT_NEAR(result.rate, 500.0, 2.0);
+  EXPECT_NEAR(result.worstGap, 0.002, 1e-9);
+  ASSERT_FALSE(result.roundTrips.empty());
+  EXPECT_EQ(result.proposed, 0.0) << "it gives no force";
+}
+
+TEST(DeviceCheck, StopsAtOnceWhereTheDeviceIsLostOrNeverThere)
+{
+  SimulatedDevice::Faults faults;
+  faults.unplugAt = 3.0;
+  SimulatedDevice lost(still, {}, faults);
+  EXPECT_EQ(examined(lost).problem, "the device was lost");
+  faults = {};
+  faults.unplugAt = 0.0;
+  SimulatedDevice absent(still, {}, faults);
+  EXPECT_EQ(examined(absent).problem, "no good reading came from the device");
+  faults = {};
+  faults.nanFrom = 4.0;
+  SimulatedDevice broken(still, {}, faults);
+  EXPECT_EQ(examined(broken).problem, "the device was lost");
+  EXPECT_EQ(broken.sent().linear.norm(), 0.0);
+}
+
+TEST(DeviceCheck, RefusesOptionsThatMakeNoSense)
+{
+  for (const double value : {-1.0, 0.0, 30.0, std::numeric_limits<double>::quiet_NaN()})
+  {
+    DeviceCheck::Options options;
+    options.maxStiffness = value;
+    EXPECT_THROW(DeviceCheck({}, options), core::InvalidParameter) << value;
+  }
+}

@@ -1,0 +1,451 @@
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <memory>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "DeviceBlock.h"
+#include "ServerOptions.h"
+#include "ServerProcess.h"
+#include "StandInVendor/StandInDevice.h"
+#include "petrous/Devices/DeviceServerExchange.h"
+
+using namespace petrous;
+using namespace petrous::devices;
+using namespace petrous::devices::testing;
+using haptics::DeviceHealth;
+using haptics::DeviceReading;
+
+namespace
+{
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+const double kHalf = std::sqrt(0.5);
+
+struct Vendor
+{
+  const char* name;
+  const char* program;
+  const char* library;           // empty: a service
+  const char* service;           // empty: a library
+  double unit;                   // mm
+  std::atomic<int> StandInDevice::*forces; // set to `off`, forces do not work
+  int off;
+  const char* advice; // then
+};
+
+void PrintTo(const Vendor& vendor, std::ostream* out)
+{
+  *out << vendor.name;
+}
+
+const Vendor kForceDimension = {"ForceDimension",
+                                PETROUS_FORCE_DIMENSION_SERVER,
+                                PETROUS_STANDIN_DHD_LIBRARY,
+                                "",
+                                1000.0,
+                                &StandInDevice::forceOff,
+                                1,
+                                "press the force button"};
+const Vendor kTouch = {
+    "Touch", PETROUS_TOUCH_SERVER,     PETROUS_STANDIN_HD_LIBRARY, "", 1.0,
+    &StandInDevice::forceOff, 1, "disabled them"};
+#ifdef PETROUS_INVERSE3_SERVER
+const Vendor kInverse3 = {"Inverse3",
+                          PETROUS_INVERSE3_SERVER,
+                          "",
+                          PETROUS_STANDIN_INVERSE3,
+                          1000.0,
+                          &StandInDevice::powered,
+                          0,
+                          "power supply"};
+#endif
+
+// The stand-in of a vendor's device and what its server is started with.
+class Bench
+{
+public:
+  explicit Bench(const Vendor& vendor)
+    : m_path(::testing::TempDir() + "petrous-standin-" + std::to_string(::getpid()))
+    , m_device(mapStandIn(m_path, true))
+    , m_vendor(vendor)
+  {
+    ::setenv(StandInDevice::kVariable, m_path.c_str(), 1);
+  }
+  ~Bench()
+  {
+    if (m_service)
+      ::pclose(m_service); // ends it
+    ::unsetenv(StandInDevice::kVariable);
+    ::munmap(m_device, sizeof(StandInDevice));
+    ::unlink(m_path.c_str());
+  }
+  Bench(const Bench&) = delete;
+  Bench& operator=(const Bench&) = delete;
+
+  StandInDevice* operator->() const { return m_device; }
+
+  std::vector<std::string> command()
+  {
+    if (*m_vendor.library)
+      return {m_vendor.program, "--sdk", m_vendor.library};
+    if (!m_service)
+      m_service = ::popen(("exec " + std::string(m_vendor.service)).c_str(), "w");
+    EXPECT_TRUE(eventually([this] { return m_device->port != 0; }));
+    return {m_vendor.program, "--url", "ws://127.0.0.1:" + std::to_string(m_device->port.load())};
+  }
+
+  ServedDevice::Options options(const std::string& name)
+  {
+    ServedDevice::Options options = optionsFor(name);
+    options.command = command();
+    return options;
+  }
+
+  bool forceIs(double x, double y, double z) const
+  {
+    return std::abs(m_device->force[0] - x) + std::abs(m_device->force[1] - y) +
+               std::abs(m_device->force[2] - z) <
+           1e-9;
+  }
+
+private:
+  std::string m_path;
+  StandInDevice* m_device;
+  const Vendor& m_vendor;
+  std::FILE* m_service = nullptr;
+};
+
+// Ticks of a servo, each with this wrench, until `condition` holds.
+template <typename Condition>
+bool pushUntil(ServedDevice& device, const Eigen::Vector3d& force, Condition condition)
+{
+  return eventually(
+      [&]
+      {
+        const DeviceReading reading = device.read(steadySeconds());
+        device.send({force, Eigen::Vector3d(10.0, 20.0, 30.0)});
+        return condition(reading);
+      });
+}
+
+bool isAt(const DeviceReading& reading, double x, double y, double z)
+{
+  return (reading.pose.position - Eigen::Vector3d(x, y, z)).norm() < 1e-9;
+}
+
+bool isTurned(const DeviceReading& reading, double w, double x, double y, double z)
+{
+  return std::abs(std::abs(reading.pose.rotation.dot(Eigen::Quaterniond(w, x, y, z))) - 1.0) < 1e-9;
+}
+
+class VendorServer : public ::testing::TestWithParam<Vendor>
+{
+};
+
+} // namespace
+
+TEST(ForceDimensionServer, ConvertsAxesAndUnitsOfPoseAndWrench)
+{
+  Bench bench(kForceDimension);
+  bench->place(0.01, 0.02, 0.03); // to the user, right, up
+  // A quarter turn about the axis to the user: right becomes up.
+  const double quarter[9] = {1, 0, 0, 0, 0, -1, 0, 1, 0};
+  for (int i = 0; i < 9; ++i)
+    bench->rotation[i] = quarter[i];
+  bench->buttons = 5;
+  ServedDevice device(bench.options("fd-axes"));
+  EXPECT_EQ(device.description().name, "Force Dimension sigma.7");
+  EXPECT_TRUE(device.description().sensesRotation);
+  EXPECT_TRUE(device.description().givesTorque);
+  EXPECT_TRUE(pushUntil(device, {1.0, 2.0, 3.0},
+                        [&](const DeviceReading& reading)
+                        {
+                          return isAt(reading, 20.0, 30.0, 10.0) && reading.buttons == 5U &&
+                                 isTurned(reading, kHalf, 0.0, 0.0, kHalf) &&
+                                 bench.forceIs(3.0, 1.0, 2.0);
+                        }));
+  EXPECT_NEAR(bench->torque[0], 0.030, 1e-12); // N m
+  EXPECT_NEAR(bench->torque[1], 0.010, 1e-12);
+  EXPECT_NEAR(bench->torque[2], 0.020, 1e-12);
+  EXPECT_EQ(bench->gravity, 1);
+  EXPECT_EQ(bench->watchdog, 240) << "30 ms";
+}
+
+TEST(ForceDimensionServer, EnablesForcesAgainThatTheDeviceItselfSwitchedOff)
+{
+  Bench bench(kForceDimension);
+  ServedDevice device(bench.options("fd-watchdog"));
+  ASSERT_TRUE(becomes(device, DeviceHealth::Good));
+  bench->forceOff = 3; // its watchdog
+  EXPECT_TRUE(becomes(device, DeviceHealth::Faulty));
+  EXPECT_TRUE(becomes(device, DeviceHealth::Good));
+}
+
+TEST(TouchServer, ReadsTheColumnMajorTransformInMillimetres)
+{
+  Bench bench(kTouch);
+  bench->place(1.0, 2.0, 3.0);
+  const double quarter[9] = {0, -1, 0, 1, 0, 0, 0, 0, 1};
+  for (int i = 0; i < 9; ++i)
+    bench->rotation[i] = quarter[i];
+  bench->buttons = 2;
+  ServedDevice device(bench.options("touch-axes"));
+  EXPECT_EQ(device.description().name, "Touch");
+  EXPECT_DOUBLE_EQ(device.description().maxForce, 3.3);
+  EXPECT_DOUBLE_EQ(device.description().maxStiffness, 0.5);
+  EXPECT_FALSE(device.description().givesTorque);
+  EXPECT_TRUE(pushUntil(device, {0.5, 1.0, 1.5},
+                        [&](const DeviceReading& reading)
+                        {
+                          return isAt(reading, 1.0, 2.0, 3.0) && reading.buttons == 2U &&
+                                 isTurned(reading, kHalf, 0.0, 0.0, kHalf) &&
+                                 bench.forceIs(0.5, 1.0, 1.5);
+                        }));
+}
+
+TEST(TouchServer, RestsWithHotMotors)
+{
+  Bench bench(kTouch);
+  ServedDevice device(bench.options("touch-hot"));
+  ASSERT_TRUE(pushUntil(device, {1.0, 0.0, 0.0},
+                        [&](const DeviceReading&) { return bench.forceIs(1.0, 0.0, 0.0); }));
+  bench->error = 0x0200;
+  EXPECT_TRUE(pushUntil(device, {1.0, 0.0, 0.0}, [&](const DeviceReading& reading)
+                        { return reading.health == DeviceHealth::Faulty; }));
+  EXPECT_TRUE(eventually([&] { return device.status().fault.find("hot") != std::string::npos; }));
+  EXPECT_TRUE(bench.forceIs(0.0, 0.0, 0.0));
+}
+
+#ifdef PETROUS_INVERSE3_SERVER
+TEST(Inverse3Server, ConvertsAxesAndUnitsInBothFormatsOfTheService)
+{
+  for (const int format : {31, 35})
+  {
+    Bench bench(kInverse3);
+    bench->format = format;
+    bench->place(0.01, 0.02, 0.03); // right, forward, up
+    bench->rotation[0] = kHalf;     // a quarter turn about up
+    bench->rotation[1] = 0.0;
+    bench->rotation[2] = 0.0;
+    bench->rotation[3] = kHalf;
+    bench->buttons = 6;
+    ServedDevice device(bench.options("inverse3-axes"));
+    EXPECT_EQ(device.description().name, "Haply Inverse3 with VerseGrip");
+    EXPECT_TRUE(pushUntil(device, {0.5, 1.0, 1.5},
+                          [&](const DeviceReading& reading)
+                          {
+                            return isAt(reading, 10.0, 30.0, -20.0) && reading.buttons == 6U &&
+                                   isTurned(reading, kHalf, 0.0, kHalf, 0.0) &&
+                                   bench.forceIs(0.5, -1.5, 1.0);
+                          }))
+        << format;
+  }
+}
+
+TEST(Inverse3Server, WaitsForALateAnswerBeforeItSendsTheNextForce)
+{
+  Bench bench(kInverse3);
+  bench->stall = 60;
+  ServedDevice device(bench.options("inverse3-late"));
+  EXPECT_TRUE(eventually([&] { return bench->commands >= 5U; }));
+  EXPECT_EQ(bench->piled, 0);
+}
+#endif
+
+TEST_P(VendorServer, UnpluggedInContactIsReportedAndTakenUpAnewWithoutForce)
+{
+  Bench bench(GetParam());
+  ServedDevice device(bench.options("unplugged"));
+  const auto pushed = [&](const DeviceReading&) { return bench->force[0] != 0.0 || bench->force[1] != 0.0; };
+  ASSERT_TRUE(pushUntil(device, {1.0, 0.0, 0.0}, pushed));
+  bench->plugged = 0;
+  ASSERT_TRUE(pushUntil(device, {1.0, 0.0, 0.0}, [](const DeviceReading& reading)
+                        { return reading.health == DeviceHealth::Disconnected; }));
+  ASSERT_TRUE(eventually([&] { return !device.status().fault.empty(); }));
+  EXPECT_NE(device.status().fault.find("has no device: "), std::string::npos)
+      << device.status().fault;
+  bench->plugged = 1;
+  ASSERT_TRUE(becomes(device, DeviceHealth::Good));
+  EXPECT_TRUE(bench.forceIs(0.0, 0.0, 0.0)) << "nothing was sent since";
+  EXPECT_EQ(bench->opened, 2);
+  EXPECT_EQ(device.status().restarts, 0);
+  EXPECT_TRUE(pushUntil(device, {1.0, 0.0, 0.0}, pushed));
+}
+
+TEST_P(VendorServer, SaysHowToCalibrateAndWaitsForIt)
+{
+  Bench bench(GetParam());
+  bench->calibrated = 0;
+  ServedDevice::Options options = bench.options("calibration");
+  std::string advice;
+  options.waits = [&](const std::string& text)
+  {
+    advice = text;
+    bench->calibrated = 1;
+  };
+  ServedDevice device(options);
+  EXPECT_TRUE(becomes(device, DeviceHealth::Good));
+  EXPECT_NE(advice.find("not calibrated: "), std::string::npos) << advice;
+}
+
+TEST_P(VendorServer, GivesNoForceWhileForcesAreSwitchedOffAndSaysWhy)
+{
+  const Vendor& vendor = GetParam();
+  Bench bench(vendor);
+  ServedDevice device(bench.options("emergency"));
+  ASSERT_TRUE(becomes(device, DeviceHealth::Good));
+  (*bench.operator->()).*vendor.forces = vendor.off;
+  ASSERT_TRUE(pushUntil(device, {1.0, 0.0, 0.0}, [&](const DeviceReading& reading)
+                        { return reading.health == DeviceHealth::Faulty; }));
+  EXPECT_TRUE(eventually(
+      [&] { return device.status().fault.find(vendor.advice) != std::string::npos; }))
+      << device.status().fault;
+  EXPECT_TRUE(bench.forceIs(0.0, 0.0, 0.0));
+  (*bench.operator->()).*vendor.forces = 1 - vendor.off;
+  EXPECT_TRUE(becomes(device, DeviceHealth::Good));
+}
+
+TEST_P(VendorServer, GivesNoForceToAPoseThatIsNoNumber)
+{
+  Bench bench(GetParam());
+  ServedDevice device(bench.options("nan"));
+  ASSERT_TRUE(pushUntil(device, {0.0, 0.0, 1.0}, [&](const DeviceReading&)
+                        { return !bench.forceIs(0.0, 0.0, 0.0); }));
+  bench->position[1] = kNan;
+  ASSERT_TRUE(pushUntil(device, {0.0, 0.0, 1.0}, [&](const DeviceReading& reading)
+                        { return reading.health == DeviceHealth::Faulty; }));
+  EXPECT_TRUE(pushUntil(device, {0.0, 0.0, 1.0},
+                        [&](const DeviceReading&) { return bench.forceIs(0.0, 0.0, 0.0); }));
+  bench->position[1] = 0.0;
+  EXPECT_TRUE(becomes(device, DeviceHealth::Good));
+}
+
+TEST_P(VendorServer, ReportsAnSdkThatHangsAndGoesOnWithIt)
+{
+  Bench bench(GetParam());
+  ServedDevice::Options options = bench.options("hangs");
+  options.hungAfter = 1000.0;
+  ServedDevice device(options);
+  ASSERT_TRUE(becomes(device, DeviceHealth::Good));
+  bench->stall = 500;
+  EXPECT_TRUE(eventually([&]
+                         { return device.status().fault.find("not answered") != std::string::npos; }));
+  EXPECT_EQ(healthOf(device), DeviceHealth::Faulty);
+  bench->stall = 0;
+  EXPECT_TRUE(becomes(device, DeviceHealth::Good));
+  EXPECT_EQ(device.status().restarts, 0);
+}
+
+TEST_P(VendorServer, EndsWithForcesOffAndTheDeviceClosed)
+{
+  Bench bench(GetParam());
+  {
+    ServedDevice device(bench.options("end"));
+    ASSERT_TRUE(pushUntil(device, {1.0, 0.0, 0.0}, [&](const DeviceReading&)
+                          { return !bench.forceIs(0.0, 0.0, 0.0); }));
+  }
+  EXPECT_TRUE(eventually([&] { return bench->closed == 1; }));
+  EXPECT_TRUE(bench.forceIs(0.0, 0.0, 0.0));
+  EXPECT_EQ(bench->enabled, 0);
+}
+
+// Against a Petrous that sends what it never should.
+TEST_P(VendorServer, LimitsForcesByItselfAndStopsThemOnSilenceAndSigterm)
+{
+  Bench bench(GetParam());
+  DeviceBlock block("test-limits-" + std::to_string(::getpid()));
+  ServerProcess process;
+  ASSERT_FALSE(process.start(bench.command(), block.path()));
+  const auto ready = [&]
+  { return __atomic_load_n(&block->server_state, __ATOMIC_ACQUIRE) == PETROUS_SERVER_READY; };
+  ASSERT_TRUE(eventually(ready));
+  const double most = block->max_force;
+  ASSERT_GT(most, 0.0);
+
+  const auto strength = [&]
+  {
+    return std::sqrt(bench->force[0] * bench->force[0] + bench->force[1] * bench->force[1] +
+                     bench->force[2] * bench->force[2]);
+  };
+  petrous_device_wrench wrench{};
+  const auto send = [&](double force)
+  {
+    ++wrench.tick;
+    wrench.force[0] = wrench.force[1] = force;
+    petrous_device_put(&block->wrench_sequence, block->wrench, &wrench);
+    __atomic_add_fetch(&block->petrous_beat, 1, __ATOMIC_RELEASE);
+  };
+  EXPECT_TRUE(eventually(
+      [&]
+      {
+        send(1e6);
+        return std::abs(strength() - most) < 1e-9;
+      }));
+  EXPECT_TRUE(eventually(
+      [&]
+      {
+        send(kNan);
+        return strength() == 0.0;
+      }));
+  const auto push = [&]
+  {
+    send(1.0);
+    return std::abs(strength() - std::sqrt(2.0)) < 1e-9;
+  };
+  ASSERT_TRUE(eventually(push));
+  EXPECT_TRUE(eventually([&] { return strength() == 0.0; })) << "nothing was sent";
+  ASSERT_TRUE(eventually(push));
+  process.signal(SIGTERM);
+  EXPECT_TRUE(process.waitForEnd(20.0));
+  EXPECT_EQ(strength(), 0.0);
+  EXPECT_EQ(bench->enabled, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(, VendorServer,
+                         ::testing::Values(kForceDimension, kTouch
+#ifdef PETROUS_INVERSE3_SERVER
+                                           ,
+                                           kInverse3
+#endif
+                                           ),
+                         [](const auto& instance) { return std::string(instance.param.name); });
+
+TEST(VendorServerStart, NamesTheLibraryThatIsMissing)
+{
+  for (const char* program : {PETROUS_FORCE_DIMENSION_SERVER, PETROUS_TOUCH_SERVER})
+  {
+    ServedDevice::Options options = optionsFor("missing");
+    options.command = {program, "--sdk", "/nowhere/libvendor.so"};
+    try
+    {
+      const ServedDevice device(options);
+      ADD_FAILURE() << program;
+    }
+    catch (const ServerError& error)
+    {
+      EXPECT_EQ(error.reason(), ServerError::Reason::Fault);
+      EXPECT_NE(std::string(error.what()).find("/nowhere/libvendor.so"), std::string::npos)
+          << error.what();
+    }
+  }
+}
+
+TEST(VendorServerStart, RefusesOptionsThatMakeNoSense)
+{
+  for (const char* option : {"--max-force -1", "--max-force x", "--unknown 1"})
+  {
+    const std::string command =
+        std::string(PETROUS_TOUCH_SERVER) + " " + option + " /petrous-device-none 2>/dev/null";
+    const int status = std::system(command.c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 2) << option;
+  }
+}

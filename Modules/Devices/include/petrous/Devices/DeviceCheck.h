@@ -1,0 +1,130 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "petrous/Haptics/Device.h"
+
+namespace petrous::devices
+{
+
+/// Examines a haptic device tick by tick: workspace and rate while the user moves the handle, then,
+/// with the handle held lightly, a step of force along each axis and a spring of rising stiffness
+/// that ends at the first sign of a limit cycle.
+///
+/// Spring of one axis, at stiffness k, for a level of 0.4 s:
+///
+///   F_n = -k (x_n - x_0 - d_n), |F_n| <= forceCap
+///
+/// x_0    where the handle was when the axis began; again where it was pulled away for 0.1 s
+/// d      a tap of 0.2 mm in the first 20 ms, to be answered by a decaying oscillation
+///
+/// F is high-passed (two poles of 25 Hz). A limit cycle is an oscillation that from 0.12 s on does
+/// not decay: in the second half of that time at least 3 changes of sign, 0.05 N, and 0.85 of the
+/// first half's amplitude; or the handle faster than 500 mm/s at any time. A stable spring decays
+/// faster than that up to about 0.75 of the stability limit. k rises by 15 % a level.
+///
+/// Not thread-safe; `tick` does not throw.
+class DeviceCheck
+{
+public:
+  struct Options
+  {
+    double readyTime = 30.0;    ///< s to wait for a good reading, > 0
+    double workspaceTime = 8.0; ///< s, >= 0.5
+    bool force = true;          ///< give forces at all
+    double stepForce = 0.5;     ///< N, at most a quarter of the device's maximum; > 0
+    double maxStiffness = 10.0; ///< N/mm, the end of the ramp, in [0.1, 20]
+  };
+
+  enum class Stage : std::uint8_t
+  {
+    Ready,     ///< waits for the device
+    Workspace, ///< the user moves the handle through all of its workspace
+    ForceStep, ///< the user holds it lightly
+    Stiffness, ///< likewise
+    Done
+  };
+
+  struct Axis
+  {
+    // Step of force along +axis.
+    Eigen::Vector3d moved{0.0, 0.0, 0.0}; ///< mm, at its end
+    double latency = 0.0;                 ///< s until the handle moved by 0.05 mm; 0: it did not
+    bool follows = false;                 ///< it moved mainly along +axis
+    // Ramp.
+    double stable = 0.0;  ///< N/mm, the largest that was; 0: none
+    double limit = 0.0;   ///< N/mm at which a limit cycle began; 0: none up to maxStiffness
+    double hertz = 0.0;   ///< of the limit cycle
+  };
+
+  struct Result
+  {
+    std::string problem; ///< why the check ended early; empty if it did not
+    Eigen::Vector3d lowest{0.0, 0.0, 0.0};
+    Eigen::Vector3d highest{0.0, 0.0, 0.0}; ///< mm, of the workspace
+    double turned = 0.0;                    ///< rad, the largest rotation from the first pose
+    std::uint32_t buttons = 0;              ///< that were pressed in between
+    double pedal = 0.0;                     ///< its greatest pressure
+    double rate = 0.0;                      ///< readings per second
+    double worstGap = 0.0;                  ///< s between two readings
+    std::vector<double> roundTrips;         ///< s, of wrenches, unsorted
+    std::array<Axis, 3> axes;
+    double proposed = 0.0; ///< N/mm: half of the smallest `stable`; 0: no forces were tested
+  };
+
+  /// Throws InvalidParameter naming the first invalid option.
+  DeviceCheck(const haptics::DeviceDescription& description, const Options& options);
+
+  /// The wrench to send. roundTrip: of the latest wrench, s; 0 if unknown.
+  haptics::Wrench tick(const haptics::DeviceReading& reading, double now,
+                       double roundTrip = 0.0) noexcept;
+
+  Stage stage() const noexcept { return m_stage; }
+  int axis() const noexcept { return m_axis; }             ///< 0 to 2, of the present step or ramp
+  double stiffness() const noexcept { return m_stiffness; } ///< N/mm, of the ramp; at present
+  double progress() const noexcept;                        ///< 0 to 1, roughly
+  const Result& result() const noexcept { return m_result; }
+
+private:
+  void enter(Stage stage, double now) noexcept;
+  void nextAxis(double now) noexcept;
+  void beginLevel(double now) noexcept;
+  void end(const std::string& problem) noexcept;
+  void roam(const haptics::DeviceReading& reading, double now) noexcept;
+  double step(const Eigen::Vector3d& position, double now) noexcept;
+  double spring(const Eigen::Vector3d& position, double now) noexcept;
+  void judgeLevel(double now) noexcept;
+
+  haptics::DeviceDescription m_description;
+  Options m_options;
+  double m_stepForce = 0.0;
+  double m_forceCap = 0.0;
+  Stage m_stage = Stage::Ready;
+  Result m_result;
+
+  double m_since = 0.0; ///< s, begin of the stage, axis or level
+  bool m_started = false;
+  double m_lastGood = 0.0;    ///< s
+  double m_lastReading = 0.0; ///< s, time of the last reading
+  double m_firstReading = 0.0;
+  int m_readings = 0;
+  haptics::Pose m_first;
+  Eigen::Vector3d m_last{0.0, 0.0, 0.0}; ///< mm, the last position
+  double m_lastTime = 0.0;               ///< s
+
+  int m_axis = 0;
+  Eigen::Vector3d m_anchor{0.0, 0.0, 0.0};
+  double m_stiffness = 0.0;
+  int m_restarts = 0;
+  double m_pulledSince = 0.0; ///< s; 0: not pulled away
+  std::array<double, 2> m_low{0.0, 0.0}; ///< states of the two high-passes
+  double m_amplitudes[2] = {0.0, 0.0};   ///< N, of the halves
+  double m_sign = 0.0;
+  int m_changes = 0; ///< of sign in the second half
+  bool m_fast = false;
+};
+
+} // namespace petrous::devices

@@ -1,0 +1,325 @@
+#include "petrous/Devices/DeviceCheck.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "petrous/Core/Error.h"
+
+namespace petrous::devices
+{
+
+using haptics::DeviceHealth;
+using haptics::DeviceReading;
+using haptics::Wrench;
+
+namespace
+{
+
+constexpr double kPi = 3.14159265358979323846;
+
+constexpr double kLostFor = 0.5; // s without a good reading
+
+// Step of force.
+constexpr double kRest = 0.3;   // s before it
+constexpr double kRise = 0.02;  // s
+constexpr double kHold = 0.15;  // s, with the rise
+constexpr double kMoved = 0.05; // mm
+constexpr double kMain = 0.7;   // of the motion, along the axis
+
+// Ramp.
+constexpr double kLeast = 0.1;       // N/mm
+constexpr double kGrowth = 1.15;     // a level
+constexpr double kLevel = 0.4;       // s
+constexpr double kTap = 0.2;         // mm
+constexpr double kTapFor = 0.02;     // s
+constexpr double kSettle = 0.12;     // s
+constexpr double kCorner = 25.0;     // Hz, of the high-passes
+constexpr double kCycle = 0.05;      // N
+constexpr double kDecay = 0.85;      // of the first half's amplitude
+constexpr int kChanges = 3;          // of sign in half the time
+constexpr double kTooFast = 500.0;   // mm/s
+constexpr double kPulledFor = 0.1;   // s at the cap
+constexpr int kMaxRestarts = 20;     // of one axis
+constexpr double kLargestCap = 3.0;  // N
+constexpr double kCapShare = 0.6;    // of the device's maximum
+constexpr double kMargin = 0.5;      // proposed stiffness / largest that was stable
+constexpr std::size_t kTrips = 100000;
+
+const DeviceCheck::Options& checked(const DeviceCheck::Options& options)
+{
+  const auto check = [](bool good, const char* what)
+  {
+    if (!good)
+      throw core::InvalidParameter(std::string("device test: ") + what);
+  };
+  check(options.readyTime > 0.0 && std::isfinite(options.readyTime),
+        "the time to wait for the device must be above 0 s");
+  check(options.workspaceTime >= 0.5 && std::isfinite(options.workspaceTime),
+        "the time for the workspace must be 0.5 s or more");
+  check(options.stepForce > 0.0 && std::isfinite(options.stepForce),
+        "the step of force must be above 0 N");
+  check(options.maxStiffness >= kLeast && options.maxStiffness <= 20.0,
+        "the ramp must end between 0.1 and 20 N/mm");
+  return options;
+}
+
+} // namespace
+
+DeviceCheck::DeviceCheck(const haptics::DeviceDescription& description, const Options& options)
+  : m_description(description)
+  , m_options(checked(options))
+  , m_stepForce(std::min(options.stepForce, 0.25 * description.maxForce))
+  , m_forceCap(std::min(kLargestCap, kCapShare * description.maxForce))
+{
+  m_result.roundTrips.reserve(kTrips);
+}
+
+double DeviceCheck::progress() const noexcept
+{
+  const double whole = std::log(m_options.maxStiffness / kLeast);
+  const double ramp = m_stiffness > 0.0 ? std::log(m_stiffness / kLeast) / whole : 0.0;
+  switch (m_stage)
+  {
+  case Stage::Ready:
+    return 0.0;
+  case Stage::Workspace:
+    return 0.2 * std::min(1.0, (m_lastTime - m_since) / m_options.workspaceTime);
+  case Stage::ForceStep:
+    return 0.2 + 0.1 * m_axis / 3.0;
+  case Stage::Stiffness:
+    return 0.3 + 0.7 * (m_axis + ramp) / 3.0;
+  case Stage::Done:
+    break;
+  }
+  return 1.0;
+}
+
+void DeviceCheck::end(const std::string& problem) noexcept
+{
+  m_result.problem = problem;
+  m_stage = Stage::Done;
+}
+
+void DeviceCheck::enter(Stage stage, double now) noexcept
+{
+  m_stage = stage;
+  m_since = now;
+  m_axis = 0;
+  m_anchor = m_last;
+  if (stage == Stage::Stiffness)
+  {
+    m_stiffness = kLeast;
+    m_restarts = 0;
+    beginLevel(now);
+  }
+}
+
+void DeviceCheck::nextAxis(double now) noexcept
+{
+  m_since = now;
+  m_anchor = m_last;
+  if (++m_axis < 3)
+  {
+    m_stiffness = kLeast;
+    m_restarts = 0;
+    if (m_stage == Stage::Stiffness)
+      beginLevel(now);
+  }
+  else if (m_stage == Stage::ForceStep)
+    enter(Stage::Stiffness, now);
+  else
+  {
+    double least = m_options.maxStiffness;
+    for (const Axis& axis : m_result.axes)
+      least = std::min(least, axis.stable);
+    m_result.proposed = kMargin * least;
+    m_stage = Stage::Done;
+  }
+}
+
+// Extent, rate and buttons, in every stage without force.
+void DeviceCheck::roam(const DeviceReading& reading, double now) noexcept
+{
+  if (m_readings == 0)
+  {
+    m_first = reading.pose;
+    m_result.lowest = m_result.highest = reading.pose.position;
+    m_firstReading = m_lastReading = reading.time;
+    m_readings = 1;
+  }
+  if (reading.time > m_lastReading)
+  {
+    m_result.worstGap = std::max(m_result.worstGap, reading.time - m_lastReading);
+    m_lastReading = reading.time;
+    ++m_readings;
+  }
+  m_result.lowest = m_result.lowest.cwiseMin(reading.pose.position);
+  m_result.highest = m_result.highest.cwiseMax(reading.pose.position);
+  m_result.turned = std::max(
+      m_result.turned, haptics::motionBetween(m_first, reading.pose).angular.norm());
+  m_result.buttons |= reading.buttons;
+  m_result.pedal = std::max(m_result.pedal, reading.pedal);
+  if (now - m_since < m_options.workspaceTime)
+    return;
+  const double time = m_lastReading - m_firstReading;
+  m_result.rate = time > 0.0 ? (m_readings - 1) / time : 0.0;
+  if (m_options.force && m_description.givesForce)
+    enter(Stage::ForceStep, now);
+  else
+    m_stage = Stage::Done;
+}
+
+// N along the present axis.
+double DeviceCheck::step(const Eigen::Vector3d& position, double now) noexcept
+{
+  const double time = now - m_since - kRest;
+  if (time < 0.0)
+  {
+    m_anchor = position;
+    return 0.0;
+  }
+  Axis& axis = m_result.axes[static_cast<std::size_t>(m_axis)];
+  const Eigen::Vector3d moved = position - m_anchor;
+  if (axis.latency == 0.0 && std::abs(moved[m_axis]) > kMoved)
+    axis.latency = time;
+  if (time < kHold)
+    return m_stepForce * std::min(1.0, time / kRise);
+  axis.moved = moved;
+  axis.follows = moved[m_axis] > kMoved && moved[m_axis] > kMain * moved.norm();
+  nextAxis(now);
+  return 0.0;
+}
+
+void DeviceCheck::beginLevel(double now) noexcept
+{
+  m_since = now;
+  m_amplitudes[0] = m_amplitudes[1] = 0.0;
+  m_sign = 0.0;
+  m_changes = 0;
+  m_pulledSince = 0.0;
+}
+
+void DeviceCheck::judgeLevel(double now) noexcept
+{
+  Axis& axis = m_result.axes[static_cast<std::size_t>(m_axis)];
+  const bool cycles = m_fast || (m_changes >= kChanges && m_amplitudes[1] > kCycle &&
+                                 m_amplitudes[1] > kDecay * m_amplitudes[0]);
+  if (cycles)
+  {
+    axis.limit = m_stiffness;
+    axis.hertz = m_fast ? 0.0 : m_changes / (kLevel - kSettle); // half the time, half a period each
+    m_fast = false;
+    nextAxis(now);
+    return;
+  }
+  axis.stable = m_stiffness;
+  if (m_stiffness >= m_options.maxStiffness)
+  {
+    nextAxis(now);
+    return;
+  }
+  m_stiffness = std::min(kGrowth * m_stiffness, m_options.maxStiffness);
+  beginLevel(now);
+}
+
+double DeviceCheck::spring(const Eigen::Vector3d& position, double now) noexcept
+{
+  const double dt = now - m_lastTime;
+  m_fast = dt > 0.0 && std::abs(position[m_axis] - m_last[m_axis]) > kTooFast * dt;
+  if (m_fast || now - m_since >= kLevel)
+  {
+    const int axis = m_axis;
+    judgeLevel(now);
+    if (m_axis != axis)
+      return 0.0;
+  }
+  const double time = now - m_since;
+  const double tap = time < kTapFor ? kTap : 0.0;
+  const double wanted = -m_stiffness * (position[m_axis] - m_anchor[m_axis] - tap);
+  const double force = std::clamp(wanted, -m_forceCap, m_forceCap);
+  if (force == wanted)
+    m_pulledSince = 0.0;
+  else if (m_pulledSince == 0.0)
+    m_pulledSince = now;
+  else if (now - m_pulledSince > kPulledFor)
+  {
+    if (++m_restarts > kMaxRestarts)
+    {
+      end("the handle was pulled away again and again; hold it lightly where it is");
+      return 0.0;
+    }
+    m_anchor = position;
+    beginLevel(now);
+    return 0.0;
+  }
+
+  double high = force;
+  const double share = 1.0 - std::exp(-2.0 * kPi * kCorner * std::clamp(dt, 0.0, 0.01));
+  for (double& low : m_low)
+  {
+    low += share * (high - low);
+    high -= low;
+  }
+  const double half = 0.5 * (kSettle + kLevel);
+  if (time < kSettle)
+    return force;
+  double& amplitude = m_amplitudes[time < half ? 0 : 1];
+  amplitude = std::max(amplitude, std::abs(high));
+  const double sign = high > 0.0 ? 1.0 : -1.0;
+  if (time >= half && m_sign != 0.0 && sign != m_sign)
+    ++m_changes;
+  m_sign = sign;
+  return force;
+}
+
+Wrench DeviceCheck::tick(const DeviceReading& reading, double now, double roundTrip) noexcept
+{
+  if (m_stage == Stage::Done || !std::isfinite(now))
+    return {};
+  if (!m_started)
+  {
+    m_started = true;
+    m_since = m_lastGood = m_lastTime = now;
+  }
+  Wrench wrench;
+  const bool good = reading.health == DeviceHealth::Good && reading.pose.finite();
+  if (!good)
+  {
+    const double most = m_stage == Stage::Ready ? m_options.readyTime : kLostFor;
+    if (now - m_lastGood > most)
+      end(m_stage == Stage::Ready ? "no good reading came from the device"
+                                  : "the device was lost");
+    return wrench;
+  }
+  m_lastGood = now;
+  if (m_stage == Stage::Ready)
+  {
+    m_last = reading.pose.position;
+    m_lastTime = now;
+    enter(Stage::Workspace, now);
+  }
+  if (roundTrip > 0.0 && m_result.roundTrips.size() < kTrips)
+    m_result.roundTrips.push_back(roundTrip);
+  const int axis = std::min(m_axis, 2);
+  switch (m_stage)
+  {
+  case Stage::Workspace:
+    roam(reading, now);
+    break;
+  // The axis of this force, whichever is next.
+  case Stage::ForceStep:
+    wrench.linear[axis] = step(reading.pose.position, now);
+    break;
+  case Stage::Stiffness:
+    wrench.linear[axis] = spring(reading.pose.position, now);
+    break;
+  case Stage::Ready:
+  case Stage::Done:
+    break;
+  }
+  m_last = reading.pose.position;
+  m_lastTime = now;
+  return wrench;
+}
+
+} // namespace petrous::devices

@@ -22,6 +22,7 @@
 #include "petrous/Devices/ServerCatalogue.h"
 #include "petrous/Imaging/FileError.h"
 #include "petrous/Library/DefaultFolder.h"
+#include "petrous/Presenters/DeviceLimits.h"
 #include "petrous/Rendering/RenderingError.h"
 
 namespace

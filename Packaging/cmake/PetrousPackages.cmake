@@ -21,10 +21,14 @@ install(FILES LICENSE RENAME copyright # where Debian looks for it
 install(DIRECTORY Documentation
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT petrous
   PATTERN CMakeLists.txt EXCLUDE PATTERN conf.py EXCLUDE)
-# C headers for third-party device servers.
+# Device servers, not where they are searched for: the user links those of the devices that exist.
+get_property(servers GLOBAL PROPERTY PETROUS_DEVICE_SERVERS)
+install(TARGETS ${servers} RUNTIME DESTINATION lib/petrous/device-servers COMPONENT petrous)
+# What third-party device servers are built with, in C.
 install(FILES
   Modules/Devices/include/petrous/Devices/DeviceServerProtocol.h
   Modules/Devices/include/petrous/Devices/DeviceServerExchange.h
+  Modules/Devices/Servers/DeviceServer.h Modules/Devices/Servers/DeviceServer.c
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/petrous/Devices COMPONENT petrous)
 install(TARGETS petrous-bench RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT petrous-bench)
 install(PROGRAMS Testing/Benchmarks/plots.py

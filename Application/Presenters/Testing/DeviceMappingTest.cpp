@@ -35,7 +35,7 @@ core::CameraPose camera()
 
 TEST(DeviceMapping, TheUserNeverFeelsAStifferSpringThanTheDeviceRenders)
 {
-  for (const double stiffness : {0.1, 0.4, 2.0})
+  for (const double stiffness : {0.1, 0.4, 2.0, 10.0})
     for (const double scale : {0.05, 0.25, 0.5, 1.0, 2.0})
     {
       const auto device = motors(stiffness);
@@ -47,11 +47,20 @@ TEST(DeviceMapping, TheUserNeverFeelsAStifferSpringThanTheDeviceRenders)
       // At the device: k scale^2 gain (ServoSetup).
       const double felt = setup.tool.coupling.stiffness * scale * scale * parameters.forceGain;
       EXPECT_LE(felt, stiffness + 1e-12);
-      EXPECT_LE(setup.tool.coupling.stiffness, 1.0);
+      EXPECT_GE(felt, 0.5 * stiffness) << "a device is used as far as it goes";
       EXPECT_NEAR(setup.passivity->stiffness, felt, 1e-12);
       // Forces are not scaled: F_D = gain scale F_P (PoseMapping).
       EXPECT_NEAR(parameters.forceGain * parameters.scale, 1.0, 1e-12);
     }
+}
+
+TEST(DeviceMapping, NoDeviceGivesMoreThanTenNewtonsPerMillimetre)
+{
+  session::TouchSession::Setup setup;
+  DeviceMapping held;
+  held.scale = 0.5;
+  fit(setup, motors(50.0), held, false);
+  EXPECT_DOUBLE_EQ(setup.passivity->stiffness, 10.0);
 }
 
 TEST(DeviceMapping, TheUsersLimitOnlyLowersTheDevices)

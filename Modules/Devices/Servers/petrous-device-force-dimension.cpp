@@ -146,8 +146,11 @@ void describe(Device& device, petrous_device_server* server)
   const std::string title = name == "Force Dimension device" ? name : "Force Dimension " + name;
   petrous_device_description description{};
   description.name = title.c_str();
-  description.flags = PETROUS_GIVES_FORCE | (device.senses ? PETROUS_SENSES_ROTATION : 0U) |
-                      (device.torques ? PETROUS_GIVES_TORQUE : 0U);
+  description.flags = PETROUS_GIVES_FORCE;
+  if (device.senses)
+    description.flags |= PETROUS_SENSES_ROTATION;
+  if (device.torques)
+    description.flags |= PETROUS_GIVES_TORQUE;
   description.max_force = device.maxForce > 0.0 ? device.maxForce : model.force;
   description.max_torque = device.torques ? model.torque : 0.0;
   description.max_stiffness = device.maxStiffness > 0.0 ? device.maxStiffness : model.stiffness;

@@ -195,7 +195,9 @@ std::uint32_t openDevice(void* data, petrous_device_server* server)
     device.senses = !gripOf(state).is_null();
     petrous_device_description description{};
     description.name = device.senses ? "Haply Inverse3 with VerseGrip" : "Haply Inverse3";
-    description.flags = PETROUS_GIVES_FORCE | (device.senses ? PETROUS_SENSES_ROTATION : 0U);
+    description.flags = PETROUS_GIVES_FORCE;
+    if (device.senses)
+      description.flags |= PETROUS_SENSES_ROTATION;
     description.max_force = device.maxForce > 0.0 ? device.maxForce : kUsualForce;
     description.max_stiffness = device.maxStiffness > 0.0 ? device.maxStiffness : kUsualStiffness;
     petrous_device_describe(server, &description);

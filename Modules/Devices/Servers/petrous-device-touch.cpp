@@ -129,6 +129,8 @@ std::uint32_t openDevice(void* data, petrous_device_server* server)
   const HdApi& api = device.api;
   if (device.handle == HdApi::kInvalidHandle)
   {
+    for (int i = 0; i < 100 && api.getError().code != HdApi::kSuccess; ++i)
+      ; // those of the device that went
     device.handle = api.initDevice(device.name.empty() ? nullptr : device.name.c_str());
     const HdApi::ErrorInfo error = api.getError();
     if (error.code != HdApi::kSuccess || device.handle == HdApi::kInvalidHandle)

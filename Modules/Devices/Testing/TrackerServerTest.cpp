@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -26,19 +27,49 @@ using Bytes = std::vector<unsigned char>;
 
 // Messages written by OpenIGTLink 1.11 (igtl::TransformMessage, PositionMessage, StatusMessage).
 // "Stylus" at (10.5, -20.25, 30), turned by a quarter about z; header version 1.
-const char* const kTransform1 = "@TRANSFORM1@";
-// The same with header version 2, message 7 and metadata "status".
-const char* const kTransform2 = "@TRANSFORM2@";
-// "Stylus" at (1.5, -2.5, 3.5), likewise turned; header versions 1 and 2.
-const char* const kPosition1 = "@POSITION1@";
-const char* const kPosition2 = "@POSITION2@";
-const char* const kStatus = "@STATUS@";
+const char* const kTransform = 
+    "00015452414e53464f524d0000005374796c7573000000000000000000000000000000000000000000000000"
+    "000000000030d014c90aa45f55be000000003f80000000000000bf8000000000000000000000000000000000"
+    "00003f80000041280000c1a2000041f00000";
+// "Stylus" at (1.5, -2.5, 3.5), likewise turned.
+const char* const kPosition = 
+    "0001504f534954494f4e000000005374796c7573000000000000000000000000000000000000000000000000"
+    "00000000001cdbaa2327b53c2f203fc00000c02000004060000000000000000000003f3504f33f3504f3";
+const char* const kStatus = 
+    "0001535441545553000000000000446576696365000000000000000000000000000000000000000000000000"
+    "00000000002410ce46c5d04dfcd1000100000000000000000a00000000000000000000000000000000000000"
+    "726561647900";
 
 Bytes bytesOf(const std::string& hex)
 {
   Bytes bytes;
   for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
     bytes.push_back(static_cast<unsigned char>(std::stoi(hex.substr(i, 2), nullptr, 16)));
+  return bytes;
+}
+
+void put(Bytes& bytes, std::size_t at, std::uint64_t value, int count)
+{
+  for (int i = count - 1; i >= 0; --i, value >>= 8U)
+    bytes[at + static_cast<std::size_t>(i)] = static_cast<unsigned char>(value);
+}
+
+// The message with header version 2: an extended header before its content (sizes of it and of the
+// metadata, number of the message) and metadata behind.
+Bytes withMetadata(const Bytes& message)
+{
+  const Bytes metadata = {0, 1, 0, 1, 0, 3, 0, 0, 0, 2, 'k', 'v', 'v'};
+  Bytes extended(12);
+  put(extended, 0, 12, 2);
+  put(extended, 2, 10, 2);
+  put(extended, 4, 3, 4);
+  put(extended, 8, 7, 4);
+  Bytes bytes = message;
+  bytes.insert(bytes.begin() + 58, extended.begin(), extended.end());
+  bytes.insert(bytes.end(), metadata.begin(), metadata.end());
+  put(bytes, 0, 2, 2);
+  put(bytes, 42, bytes.size() - 58, 8);
+  put(bytes, 50, OpenIgtLinkStream::checksum(bytes.data() + 58, bytes.size() - 58), 8);
   return bytes;
 }
 
@@ -124,18 +155,18 @@ TEST(OpenIgtLinkStream, ChecksumIsCrc64OfEcma182)
             0x6C40DF5F0B497347U);
 }
 
-TEST(OpenIgtLinkStream, ReadsWhatTheReferenceLibraryWrites)
+TEST(OpenIgtLinkStream, ReadsWhatTheReferenceLibraryWritesAndTheSameOfVersion2)
 {
   OpenIgtLinkStream stream;
-  for (const char* message : {kTransform1, kTransform2})
+  for (const Bytes& bytes : {bytesOf(kTransform), withMetadata(bytesOf(kTransform))})
   {
-    const auto poses = posesIn(stream, bytesOf(message));
+    const auto poses = posesIn(stream, bytes);
     ASSERT_EQ(poses.size(), 1U);
     expectPose(poses.front(), 10.5, -20.25, 30.0);
   }
-  for (const char* message : {kPosition1, kPosition2})
+  for (const Bytes& bytes : {bytesOf(kPosition), withMetadata(bytesOf(kPosition))})
   {
-    const auto poses = posesIn(stream, bytesOf(message));
+    const auto poses = posesIn(stream, bytes);
     ASSERT_EQ(poses.size(), 1U);
     expectPose(poses.front(), 1.5, -2.5, 3.5);
   }
@@ -145,7 +176,7 @@ TEST(OpenIgtLinkStream, ReadsWhatTheReferenceLibraryWrites)
 TEST(OpenIgtLinkStream, PutsTogetherWhatComesInPiecesBetweenOtherMessages)
 {
   Bytes all;
-  for (const char* message : {kStatus, kTransform2, kStatus, kPosition1, kStatus, kTransform1})
+  for (const char* message : {kStatus, kTransform, kStatus, kPosition, kStatus, kTransform})
   {
     const Bytes one = bytesOf(message);
     all.insert(all.end(), one.begin(), one.end());
@@ -163,7 +194,7 @@ TEST(OpenIgtLinkStream, PutsTogetherWhatComesInPiecesBetweenOtherMessages)
 
 TEST(OpenIgtLinkStream, LeavesOutEveryMessageWithAnAlteredByteInItsBody)
 {
-  const Bytes good = bytesOf(kTransform2);
+  const Bytes good = withMetadata(bytesOf(kTransform));
   for (std::size_t at = 58; at < good.size(); ++at)
   {
     Bytes bad = good;
@@ -186,7 +217,7 @@ TEST(TrackerServer, IsAHandWithoutForcesInTheAxesItIsTold)
   ASSERT_TRUE(eventually(
       [&]
       {
-        tracker.send(bytesOf(kTransform1));
+        tracker.send(bytesOf(kTransform));
         reading = device.read(steadySeconds());
         return reading.health == DeviceHealth::Good;
       }));
@@ -203,7 +234,7 @@ TEST(TrackerServer, SaysWhenTheToolIsOutOfSightAndWhenTheTrackerEnds)
   ServedDevice device(tracker.options("sight"));
   const auto seen = [&]
   {
-    tracker.send(bytesOf(kPosition2));
+    tracker.send(withMetadata(bytesOf(kPosition)));
     return healthOf(device) == DeviceHealth::Good;
   };
   ASSERT_TRUE(eventually(seen));

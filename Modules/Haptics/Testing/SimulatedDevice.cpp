@@ -79,6 +79,7 @@ SimulatedDevice::SimulatedDevice(Target target, const Hand& hand, const Faults& 
   check(positive(hand.inertia), "the inertia must be above 0 kg mm^2");
   check(notNegative(hand.stiffness), "the hand's stiffness must not be below 0 N/mm");
   check(notNegative(hand.damping), "the hand's damping must not be below 0 N s/mm");
+  check(notNegative(hand.friction), "the friction must not be below 0 N");
   check(notNegative(hand.angularStiffness),
         "the hand's angular stiffness must not be below 0 N mm/rad");
   check(notNegative(hand.angularDamping),
@@ -127,6 +128,11 @@ void SimulatedDevice::advance(double from, double to) noexcept
     m_velocity.linear =
         nextVelocity(m_velocity.linear, m_wrench.linear + m_hand.stiffness * apart.linear,
                      way.linear, m_hand.damping, m_hand.mass, step);
+    // Friction stops the handle, it does not turn it back.
+    const double speed = m_velocity.linear.norm();
+    const double slower = kMilli / m_hand.mass * m_hand.friction * step;
+    if (slower > 0.0)
+      m_velocity.linear *= speed > slower ? 1.0 - slower / speed : 0.0;
     m_velocity.angular =
         nextVelocity(m_velocity.angular, m_wrench.angular + m_hand.angularStiffness * apart.angular,
                      way.angular, m_hand.angularDamping, m_hand.inertia, step);

@@ -12,11 +12,12 @@ namespace petrous::haptics
 
 /// A device without hardware: its handle is a rigid body held by a hand that follows target(t).
 ///
-///   m dv/dt     = F + k (x_t - x) + b (v_t - v)
+///   m dv/dt     = F + k (x_t - x) + b (v_t - v) - f v/|v|
 ///   I domega/dt = tau + k_a log(q_t q*) + b_a (omega_t - omega)
 ///
 /// F, tau          the last wrench sent, constant between two calls (zero-order hold)
 /// x_t, q_t        target, with hand tremor on x_t; v_t, omega_t its change over a sub-step
+/// f               Coulomb friction of the joints
 /// m, I            kg, kg mm^2 (the same about every axis); 1 N = 1 kg 1000 mm/s^2
 ///
 /// `read(now)` integrates up to `now` in equal sub-steps: the spring acts on the old position, the
@@ -38,6 +39,7 @@ public:
     double inertia = 100.0;          ///< kg mm^2, > 0
     double stiffness = 0.3;          ///< N/mm, >= 0
     double damping = 0.003;          ///< N s/mm, >= 0
+    double friction = 0.0;           ///< N, >= 0
     double angularStiffness = 500.0; ///< N mm/rad, >= 0
     double angularDamping = 5.0;     ///< N mm s/rad, >= 0
     double tremor = 0.0;             ///< mm, RMS along each axis, 8 to 12 Hz; >= 0

@@ -126,6 +126,26 @@ TEST(SimulatedDevice, AFreeBodyGainsTheMomentumOfTheForce)
   EXPECT_NEAR(run.device->pose().rotation.norm(), 1.0, 1e-15);
 }
 
+TEST(SimulatedDevice, FrictionStopsABodyAndHoldsItAgainstWeakerForces)
+{
+  Hand hand;
+  hand.stiffness = hand.damping = 0.0;
+  hand.friction = 0.15;
+  Handled run(still, hand);
+  run.until(0.0);
+  run.device->send({{0.45, 0, 0}, {0, 0, 0}});
+  run.until(0.1); // 2 m/s^2 for 0.1 s: 200 mm/s, 10 mm
+  EXPECT_NEAR(run.device->velocity().linear.x(), 200.0, 1e-6);
+  run.device->send({});
+  run.until(0.4); // -1 m/s^2: 20 mm further, in 0.2 s
+  EXPECT_EQ(run.device->velocity().linear.x(), 0.0);
+  EXPECT_NEAR(run.device->pose().position.x(), 30.0, 0.05);
+  const double there = run.device->pose().position.x();
+  run.device->send({{0.14, 0, 0}, {0, 0, 0}});
+  run.until(0.6);
+  EXPECT_EQ(run.device->pose().position.x(), there);
+}
+
 TEST(SimulatedDevice, FollowsASteadyHandWithoutLag)
 {
   Handled run([](double t) { return Pose{{20.0 * t, 0, 0}, rotationFrom({0, 0, 0.5 * t})}; });
@@ -315,7 +335,7 @@ TEST(SimulatedDevice, RefusesHandsThatMakeNoSense)
     EXPECT_THROW(SimulatedDevice(still, hand, {}), petrous::core::InvalidParameter);
   };
   for (const auto value :
-       {&Hand::mass, &Hand::inertia, &Hand::stiffness, &Hand::damping, &Hand::angularStiffness,
+       {&Hand::mass, &Hand::inertia, &Hand::stiffness, &Hand::damping, &Hand::friction, &Hand::angularStiffness,
         &Hand::angularDamping, &Hand::tremor, &Hand::subStep})
   {
     refuses(value, -1.0);

@@ -11,25 +11,30 @@ namespace
 {
 
 constexpr double kSoft = 0.2;          // N/mm: rendered by any device with force feedback
+constexpr double kStiffest = 10.0;     // N/mm felt: stiffer than any hand-held device renders
 constexpr double kMinStiffness = 0.02; // N/mm: anything softer is unusable
+constexpr double kMaxStiffness = 100.0; // N/mm, of a proxy
 constexpr double kEndless = 1e9;       // mm
 
 // N/mm, of the proxy's coupling.
 double stiffnessFor(const haptics::DeviceDescription& device, double scale)
 {
-  const double usual = haptics::ProxyParameters().stiffness;
   if (!device.givesForce)
-    return usual;
-  const double rendered = device.maxStiffness > 0.0 ? device.maxStiffness : kSoft;
-  return std::clamp(rendered / scale, kMinStiffness, usual);
+    return haptics::ProxyParameters().stiffness;
+  const double rendered =
+      device.maxStiffness > 0.0 ? std::min(device.maxStiffness, kStiffest) : kSoft;
+  return std::clamp(rendered / scale, kMinStiffness, kMaxStiffness);
 }
 
+// In the usual ratio to the stiffness, so that a tool held at its burr turns as easily.
 double angularStiffnessFor(const haptics::DeviceDescription& device, double scale)
 {
-  const double usual = haptics::ProxyParameters().angularStiffness;
+  const haptics::ProxyParameters usual;
+  const double inRatio =
+      usual.angularStiffness / usual.stiffness * stiffnessFor(device, scale);
   if (!device.givesTorque || !(device.maxAngularStiffness > 0.0))
-    return usual;
-  return std::min(device.maxAngularStiffness * scale, usual);
+    return std::max(inRatio, usual.angularStiffness);
+  return std::min(device.maxAngularStiffness * scale, inRatio);
 }
 
 } // namespace

@@ -84,7 +84,7 @@ int main(int argc, char** argv)
                            ++standIn().commands;
                            if (owed++ > 0)
                              ++standIn().piled;
-                           QTimer::singleShot(standIn().stall, Qt::PreciseTimer, socket,
+                           QTimer::singleShot(standIn().stall.load(), Qt::PreciseTimer, socket,
                                               [&owed, socket]
                                               {
                                                 --owed;

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <ostream>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -28,6 +30,11 @@ struct RealDevice
   int dropEvery;       // ticks: every so many the servo misses one
 };
 
+void PrintTo(const RealDevice& real, std::ostream* out)
+{
+  *out << real.name;
+}
+
 // Half of the exact stability limit, as `device-test` proposes, at most what a device may describe.
 double setting(const RealDevice& real, double handStiffness)
 {
@@ -37,13 +44,14 @@ double setting(const RealDevice& real, double handStiffness)
 
 struct Touching
 {
-  double energyOut = 0.0; // N mm (mJ) that the wall gave to the handle in all
+  double energyOut = 0.0; // N mm (mJ) that came out at the handle in the worst cycle: the motors'
+                          // work less the friction of the joints
   double ripple = 0.0;    // N, half of the force's range while the hand rests on the wall
   double mostForce = 0.0; // N
 };
 
 // Presses against a wall at x = 0 three times, through coupling, guard and limits as in the servo.
-Touching press(const RealDevice& real, double stiffness, double tremor)
+Touching press(const RealDevice& real, double stiffness, double tremor, bool guarded = true)
 {
   SimulatedDevice::Hand hand;
   hand.mass = real.mass;
@@ -72,13 +80,21 @@ Touching press(const RealDevice& real, double stiffness, double tremor)
   double low = 1e9;
   double high = -1e9;
   double before = device.read(0.0).pose.position.x();
-  for (int n = 1; n < static_cast<int>(3.0 * kPeriod / kTick); ++n)
+  double energy = 0.0; // of this cycle, which begins and ends before the wall
+  int cycle = 0;
+  for (int n = 1; n <= static_cast<int>(3.001 * kPeriod / kTick); ++n)
   {
     const double now = kTick * n;
     Pose pose = device.read(now).pose;
     const double x = device.pose().position.x();
-    result.energyOut += device.sent().linear.x() * (x - before);
+    energy += device.sent().linear.x() * (x - before) - real.friction * std::abs(x - before);
     before = x;
+    if (const int present = static_cast<int>(now / kPeriod); present != cycle)
+    {
+      cycle = present;
+      result.energyOut = std::max(result.energyOut, energy);
+      energy = 0.0;
+    }
     const double at = std::fmod(now, kPeriod);
     if (at > 0.8 && at < 1.2)
     {
@@ -92,7 +108,8 @@ Touching press(const RealDevice& real, double stiffness, double tremor)
       pose.position.x() = real.quantum * std::round(pose.position.x() / real.quantum);
     Wrench wanted;
     wanted.linear.x() = stiffness * std::max(0.0, -pose.position.x());
-    const Wrench output = limited.apply(guard.apply(wanted, pose, now), now);
+    const Wrench output =
+        limited.apply(guarded ? guard.apply(wanted, pose, now) : wanted, now);
     guard.sent(output);
     underway.push_back(output);
     device.send(underway.front());
@@ -118,7 +135,7 @@ TEST_P(CouplingStability, GivesNoEnergyAndDoesNotOscillateUpToTheSetting)
     const Touching still = press(real, share * most, 0.0);
     EXPECT_LE(still.energyOut, 0.1) << share * most << " N/mm";
     EXPECT_LE(still.ripple, 0.05) << share * most << " N/mm";
-    EXPECT_GT(still.mostForce, 1.0) << "the wall was felt";
+    EXPECT_GT(still.mostForce, 0.3) << "the wall was felt";
     EXPECT_LE(press(real, share * most, 0.05).energyOut, 0.1) << share * most << " N/mm, tremor";
   }
 }
@@ -129,7 +146,9 @@ TEST_P(CouplingStability, OscillatesFarBeyondTheLimitWithoutTheGuardsHelp)
   const RealDevice& real = GetParam();
   const double limit =
       sampledSpringLimit(real.mass, real.damping, SimulatedDevice::Hand().stiffness, real.delay);
-  EXPECT_GT(press(real, 4.0 * limit, 0.0).ripple, 0.05);
+  const Touching wild = press(real, 4.0 * limit, 0.0, false);
+  EXPECT_GT(wild.ripple, 0.05);
+  EXPECT_GT(wild.energyOut, 0.1);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -85,7 +85,7 @@ TEST_F(DeviceTestCommand, NamesWhatIsInstalled)
   install("one", "");
   install("two", "");
   expectRefused("device-test", 2, "one, two");
-  expectRefused("device-test three", 3, "'three' is not");
+  expectRefused("device-test three", 3, "'three' is installed; there are: one, two");
   expectRefused("device-test one --max-stiffness 50", 2, "--max-stiffness");
   expectRefused("device-test --server /nowhere/program", 3, "/nowhere/program");
 }

@@ -152,30 +152,30 @@ nlohmann::json answer(const devices::ServedDevice& device, const DeviceCheck::Re
   }
   const auto text = [](const std::string& words)
   { return words.empty() ? nlohmann::json(nullptr) : nlohmann::json(words); };
-  return {{"device", description.name},
-          {"senses_rotation", description.sensesRotation},
-          {"gives_force", description.givesForce},
-          {"gives_torque", description.givesTorque},
-          {"max_force_n", description.maxForce},
-          {"described_stiffness_n_per_mm", description.maxStiffness},
-          {"asked", asked},
-          {"problem", text(result.problem)},
-          {"last_fault", text(device.status().lastFault)},
-          {"workspace_mm",
-           {{"min", vectorJson(result.lowest)}, {"max", vectorJson(result.highest)}}},
-          {"turned_rad", result.turned},
-          {"buttons", result.buttons},
-          {"pedal", result.pedal},
-          {"rate_hz", result.rate},
-          {"worst_gap_ms", 1000.0 * result.worstGap},
-          {"round_trip_ms",
-           {{"p50", 1000.0 * quantile(result.roundTrips, 0.5)},
-            {"p99", 1000.0 * quantile(result.roundTrips, 0.99)},
-            {"max", 1000.0 * quantile(result.roundTrips, 1.0)}}},
-          {"axes", std::move(axes)},
-          {"proposed_stiffness_n_per_mm",
-           result.proposed > 0.0 ? nlohmann::json(result.proposed) : nlohmann::json(nullptr)},
-          {"kept", kept}};
+  return {
+      {"device", description.name},
+      {"senses_rotation", description.sensesRotation},
+      {"gives_force", description.givesForce},
+      {"gives_torque", description.givesTorque},
+      {"max_force_n", description.maxForce},
+      {"described_stiffness_n_per_mm", description.maxStiffness},
+      {"asked", asked},
+      {"problem", text(result.problem)},
+      {"last_fault", text(device.status().lastFault)},
+      {"workspace_mm", {{"min", vectorJson(result.lowest)}, {"max", vectorJson(result.highest)}}},
+      {"turned_rad", result.turned},
+      {"buttons", result.buttons},
+      {"pedal", result.pedal},
+      {"rate_hz", result.rate},
+      {"worst_gap_ms", 1000.0 * result.worstGap},
+      {"round_trip_ms",
+       {{"p50", 1000.0 * quantile(result.roundTrips, 0.5)},
+        {"p99", 1000.0 * quantile(result.roundTrips, 0.99)},
+        {"max", 1000.0 * quantile(result.roundTrips, 1.0)}}},
+      {"axes", std::move(axes)},
+      {"proposed_stiffness_n_per_mm",
+       result.proposed > 0.0 ? nlohmann::json(result.proposed) : nlohmann::json(nullptr)},
+      {"kept", kept}};
 }
 
 void printResult(const Context& context, const DeviceCheck::Result& result, bool forces)
@@ -194,11 +194,11 @@ void printResult(const Context& context, const DeviceCheck::Result& result, bool
   {
     const DeviceCheck::Axis& axis = result.axes[i];
     context.print(std::string("axis ") + kAxes[i] + "      " +
-                  (axis.follows ? "follows the force after " + fixed(1000.0 * axis.latency, 1) +
-                                      " ms"
-                                : "does NOT follow the force: it moved by " +
-                                      fixed(axis.moved.x(), 1) + ", " + fixed(axis.moved.y(), 1) +
-                                      ", " + fixed(axis.moved.z(), 1) + " mm") +
+                  (axis.follows
+                       ? "follows the force after " + fixed(1000.0 * axis.latency, 1) + " ms"
+                       : "does NOT follow the force: it moved by " + fixed(axis.moved.x(), 1) +
+                             ", " + fixed(axis.moved.y(), 1) + ", " + fixed(axis.moved.z(), 1) +
+                             " mm") +
                   "; stable up to " + fixed(axis.stable, 2) + " N/mm" +
                   (axis.limit > 0.0 ? ", oscillates at " + fixed(axis.limit, 2) : ""));
   }
@@ -235,14 +235,14 @@ void deviceTest(Context& context, const Choice& choice)
                               device.description().name, result.proposed);
   printResult(context, result, forces && result.problem.empty());
   if (forces && result.problem.empty())
-    context.print("proposed    a stiffness of " + fixed(result.proposed, 2) + " N/mm" +
-                  (keep ? ", kept for '" + server.name + "'"
-                        : "; --keep has the workstation use it"));
+    context.print(
+        "proposed    a stiffness of " + fixed(result.proposed, 2) + " N/mm" +
+        (keep ? ", kept for '" + server.name + "'" : "; --keep has the workstation use it"));
   if (choice.keep && !keep)
-    context.warn("nothing was kept: " +
-                 (!result.problem.empty() ? result.problem
-                  : !forces               ? std::string("no forces were tested")
-                                          : std::string("not every axis follows its force")));
+    context.warn("nothing was kept: " + (!result.problem.empty() ? result.problem
+                                         : !forces
+                                             ? std::string("no forces were tested")
+                                             : std::string("not every axis follows its force")));
   context.printJson(answer(device, result, forces, asked, keep));
   if (!result.problem.empty())
     throw core::InvalidParameter("device server '" + server.name + "': " + result.problem);

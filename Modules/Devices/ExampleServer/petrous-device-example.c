@@ -77,8 +77,8 @@ static void device_close(void* data)
 int main(int argc, char** argv)
 {
   struct device device = {20.0, 4.0, 0.0, {0.0, 0.0, 0.0}, 0, NULL};
-  const struct petrous_device_driver driver = {"petrous-device-example", &device, device_open,
-                                               device_step, device_close, 0};
+  const struct petrous_device_driver driver = {
+      "petrous-device-example", &device, device_open, device_step, device_close, 0};
   int i;
   for (i = 1; i + 2 < argc; i += 2)
   {

@@ -63,29 +63,23 @@ static void sleep_until(int64_t time)
 
 void petrous_device_quaternion(double m[3][3], double quaternion[4])
 {
-  /* Of the four, the component that is largest is computed first (Shepperd 1978). */
-  const double squares[4] = {1.0 + m[0][0] + m[1][1] + m[2][2], 1.0 + m[0][0] - m[1][1] - m[2][2],
-                             1.0 - m[0][0] + m[1][1] - m[2][2], 1.0 - m[0][0] - m[1][1] + m[2][2]};
-  double sums[4];
+  /* 4 q q^T, of which the row with the largest diagonal is normalised (Shepperd 1978). */
+  const double products[4][4] = {
+      {1.0 + m[0][0] + m[1][1] + m[2][2], m[2][1] - m[1][2], m[0][2] - m[2][0], m[1][0] - m[0][1]},
+      {m[2][1] - m[1][2], 1.0 + m[0][0] - m[1][1] - m[2][2], m[0][1] + m[1][0], m[0][2] + m[2][0]},
+      {m[0][2] - m[2][0], m[0][1] + m[1][0], 1.0 - m[0][0] + m[1][1] - m[2][2], m[1][2] + m[2][1]},
+      {m[1][0] - m[0][1], m[0][2] + m[2][0], m[1][2] + m[2][1], 1.0 - m[0][0] - m[1][1] + m[2][2]}};
   double norm = 0.0;
   int most = 0;
   int i;
   for (i = 1; i < 4; ++i)
-    if (squares[i] > squares[most])
+    if (products[i][i] > products[most][most])
       most = i;
-  sums[0] = most == 0 ? squares[0] : most == 1 ? m[2][1] - m[1][2] : most == 2 ? m[0][2] - m[2][0]
-                                                                               : m[1][0] - m[0][1];
-  sums[1] = most == 0 ? m[2][1] - m[1][2] : most == 1 ? squares[1] : most == 2 ? m[0][1] + m[1][0]
-                                                                               : m[0][2] + m[2][0];
-  sums[2] = most == 0 ? m[0][2] - m[2][0] : most == 1 ? m[0][1] + m[1][0] : most == 2 ? squares[2]
-                                                                                      : m[1][2] + m[2][1];
-  sums[3] = most == 0 ? m[1][0] - m[0][1] : most == 1 ? m[0][2] + m[2][0] : most == 2 ? m[1][2] + m[2][1]
-                                                                                      : squares[3];
   for (i = 0; i < 4; ++i)
-    norm += sums[i] * sums[i];
+    norm += products[most][i] * products[most][i];
   norm = sqrt(norm);
   for (i = 0; i < 4; ++i)
-    quaternion[i] = sums[i] / norm;
+    quaternion[i] = products[most][i] / norm;
 }
 
 /* ---- block --------------------------------------------------------------------------------- */
@@ -159,8 +153,7 @@ void petrous_device_explain(struct petrous_device_server* server, const char* te
 
 static void limit(double vector[3], double most)
 {
-  const double norm =
-      sqrt(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]);
+  const double norm = sqrt(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]);
   int i;
   if (norm > most)
     for (i = 0; i < 3; ++i)

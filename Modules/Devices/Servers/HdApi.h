@@ -26,7 +26,7 @@ struct HdApi
     kInvalidHandle = 0xFFFFFFFFU,
 
     kWarmMotors = 0x0200,
-    kForceErrors = 0x0200, ///< to 0x02ff
+    kForceErrors = 0x0200,  ///< to 0x02ff
     kDeviceErrors = 0x0300, ///< to 0x03ff
     kErrorFamily = 0xff00,
 

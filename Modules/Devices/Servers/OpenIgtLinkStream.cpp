@@ -11,7 +11,7 @@ namespace
 {
 
 constexpr std::size_t kHeader = 58;
-constexpr std::uint64_t kLargestBody = 65536; // of a pose, with its metadata
+constexpr std::uint64_t kLargestBody = 65536;             // of a pose, with its metadata
 constexpr std::uint64_t kPolynomial = 0x42F0E1EBA9EA3693; // ECMA-182
 
 std::uint64_t integer(const unsigned char* bytes, int count)
@@ -125,7 +125,8 @@ void OpenIgtLinkStream::take(const unsigned char* bytes, std::size_t count,
     if (good && version >= 2) // an extended header before, metadata behind
     {
       const std::uint64_t extended = size >= 12 ? integer(content, 2) : size + 1;
-      const std::uint64_t metadata = size >= 12 ? integer(content + 2, 2) + integer(content + 4, 4) : 0;
+      const std::uint64_t metadata =
+          size >= 12 ? integer(content + 2, 2) + integer(content + 4, 4) : 0;
       good = extended >= 12 && extended + metadata <= size;
       if (good)
       {

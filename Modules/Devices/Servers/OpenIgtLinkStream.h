@@ -11,9 +11,9 @@ namespace petrous::devices
 /// A tracked tool by an OpenIGTLink message: TRANSFORM or POSITION.
 struct TrackedPose
 {
-  std::string tool;       ///< the message's device name
-  double position[3];     ///< mm
-  double rotation[3][3];  ///< tool to tracker
+  std::string tool;      ///< the message's device name
+  double position[3];    ///< mm
+  double rotation[3][3]; ///< tool to tracker
 };
 
 /// Takes the bytes of an OpenIGTLink stream (protocol versions 1 to 3: header of 58 bytes, big

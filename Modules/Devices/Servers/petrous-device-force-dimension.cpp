@@ -23,8 +23,8 @@ using petrous::devices::DhdApi;
 using petrous::devices::ServerArguments;
 using petrous::devices::VendorLibrary;
 
-constexpr char kFirst = -1;              // the SDK's default device
-constexpr int kLookEvery = 20;           // steps between two looks at the status
+constexpr char kFirst = -1;                       // the SDK's default device
+constexpr int kLookEvery = 20;                    // steps between two looks at the status
 constexpr std::int64_t kEnableEvery = 1000000000; // ns
 constexpr unsigned char kWatchdog = 240; // 30 ms in eighths: motors off without a new force
 constexpr int kSdkAxis[3] = {1, 2, 0};   // of D's x, y, z
@@ -230,8 +230,8 @@ std::uint32_t step(void* data, petrous_device_server* server, const petrous_devi
   }
   double position[3] = {};
   double matrix[3][3] = {};
-  const int set = api.setForceAndTorque(force[0], force[1], force[2], torque[0], torque[1],
-                                        torque[2], kFirst);
+  const int set =
+      api.setForceAndTorque(force[0], force[1], force[2], torque[0], torque[1], torque[2], kFirst);
   const std::int64_t now = petrous_device_now();
   const int got = api.getPose(&position[0], &position[1], &position[2], matrix, kFirst);
   if (device.steps++ % kLookEvery == 0 || set < 0 || got < 0)

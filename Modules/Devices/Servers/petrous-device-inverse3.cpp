@@ -35,8 +35,8 @@ using petrous::devices::ServerArguments;
 constexpr double kUsualForce = 5.0;     // N
 constexpr double kUsualStiffness = 1.0; // N/mm
 
-constexpr int kConnectFor = 2000;             // ms
-constexpr int kAnswerFor = 20;                // ms waited for an answer in one step
+constexpr int kConnectFor = 2000;              // ms
+constexpr int kAnswerFor = 20;                 // ms waited for an answer in one step
 constexpr std::int64_t kSilentFor = 200000000; // ns without an answer: the service hangs
 
 struct Device
@@ -52,7 +52,7 @@ struct Device
   std::int64_t answeredAt = 0;
 
   std::string id;
-  bool senses = false;       // has a grip
+  bool senses = false;        // has a grip
   bool vectorCommand = false; // format 3.5
   double rotation[4] = {1.0, 0.0, 0.0, 0.0};
 };
@@ -119,8 +119,7 @@ void sendForce(Device& device, const double force[3])
   const json values = {{"x", force[0]}, {"y", -force[2]}, {"z", force[1]}};
   const json command = {{device.vectorCommand ? "vector" : "values", values}};
   const json message = {
-      {"inverse3",
-       {{{"device_id", device.id}, {"commands", {{"set_cursor_force", command}}}}}}};
+      {"inverse3", {{{"device_id", device.id}, {"commands", {{"set_cursor_force", command}}}}}}};
   device.owed = true;
   device.socket->sendTextMessage(QString::fromStdString(message.dump()));
   device.socket->flush();
@@ -282,16 +281,15 @@ int main(int argc, char** argv)
 {
   Device device;
   ServerArguments arguments;
-  if (!arguments.parse(argc, argv,
-                       {{"--url", "ws://127.0.0.1:10001"},
-                        {"--max-force", "0"},
-                        {"--max-stiffness", "0"}}) ||
+  if (!arguments.parse(
+          argc, argv,
+          {{"--url", "ws://127.0.0.1:10001"}, {"--max-force", "0"}, {"--max-stiffness", "0"}}) ||
       !arguments.number("--max-force", 0.0, 20.0, device.maxForce) ||
       !arguments.number("--max-stiffness", 0.0, 20.0, device.maxStiffness))
     return 2;
   device.url = QUrl(QString::fromStdString(arguments.text("--url")));
   QCoreApplication application(argc, argv);
-  const petrous_device_driver driver = {"petrous-device-inverse3", &device, openDevice, step,
-                                        closeDevice, 0};
+  const petrous_device_driver driver = {
+      "petrous-device-inverse3", &device, openDevice, step, closeDevice, 0};
   return petrous_device_serve(&driver, arguments.block().c_str());
 }

@@ -33,8 +33,8 @@ using petrous::devices::OpenIgtLinkStream;
 using petrous::devices::ServerArguments;
 using petrous::devices::TrackedPose;
 
-constexpr int kConnectFor = 2000;               // ms
-constexpr std::int64_t kUnseenFor = 500000000;  // ns
+constexpr int kConnectFor = 2000;              // ms
+constexpr std::int64_t kUnseenFor = 500000000; // ns
 
 struct Axes
 {
@@ -208,7 +208,7 @@ int main(int argc, char** argv)
   device.host = arguments.text("--host");
   device.port = arguments.text("--port");
   device.tool = arguments.text("--tool");
-  const petrous_device_driver driver = {"petrous-device-openigtlink", &device, openDevice, step,
-                                        closeDevice, 0};
+  const petrous_device_driver driver = {
+      "petrous-device-openigtlink", &device, openDevice, step, closeDevice, 0};
   return petrous_device_serve(&driver, arguments.block().c_str());
 }

@@ -1,5 +1,5 @@
-// Device server for the Touch, Touch X and Phantom Omni of 3D Systems, by OpenHaptics' HD API, which
-// is loaded at run time.
+// Device server for the Touch, Touch X and Phantom Omni of 3D Systems, by OpenHaptics' HD API,
+// which is loaded at run time.
 //
 //   petrous-device-touch [--sdk FILE] [--device NAME] [--max-force N] [--max-stiffness N/MM] BLOCK
 //
@@ -23,11 +23,11 @@ using petrous::devices::HdApi;
 using petrous::devices::ServerArguments;
 using petrous::devices::VendorLibrary;
 
-constexpr double kUsualForce = 3.3;                // N, the Touch, where the driver names none
-constexpr double kUsualStiffness = 0.4;            // N/mm, likewise
-constexpr std::int64_t kCoolFor = 3000000000;      // ns without force after warm motors
-constexpr std::int64_t kRestFor = 500000000;       // ns without force after another force error
-constexpr int kCalibrationEvery = 100;             // frames
+constexpr double kUsualForce = 3.3;           // N, the Touch, where the driver names none
+constexpr double kUsualStiffness = 0.4;       // N/mm, likewise
+constexpr std::int64_t kCoolFor = 3000000000; // ns without force after warm motors
+constexpr std::int64_t kRestFor = 500000000;  // ns without force after another force error
+constexpr int kCalibrationEvery = 100;        // frames
 
 struct Device
 {
@@ -76,7 +76,8 @@ std::uint32_t calibration(const Device& device, petrous_device_server* server)
     api.updateCalibration(style);
     return api.checkCalibration() == HdApi::kCalibrationOk
                ? std::uint32_t{PETROUS_SERVER_READY}
-               : explained(server, PETROUS_SERVER_STARTING, "it is being calibrated: hold it still");
+               : explained(server, PETROUS_SERVER_STARTING,
+                           "it is being calibrated: hold it still");
   default:
     return explained(server, PETROUS_SERVER_STARTING,
                      style == HdApi::kInkwell
@@ -98,10 +99,10 @@ void describe(const Device& device, petrous_device_server* server)
   petrous_device_description description{};
   description.name = title.c_str();
   description.flags = PETROUS_SENSES_ROTATION | PETROUS_GIVES_FORCE;
-  description.max_force = device.maxForce > 0.0           ? device.maxForce
+  description.max_force = device.maxForce > 0.0          ? device.maxForce
                           : force > 0.0 && force <= 40.0 ? force
                                                          : kUsualForce;
-  description.max_stiffness = device.maxStiffness > 0.0               ? device.maxStiffness
+  description.max_stiffness = device.maxStiffness > 0.0              ? device.maxStiffness
                               : stiffness > 0.0 && stiffness <= 10.0 ? stiffness
                                                                      : kUsualStiffness;
   petrous_device_describe(server, &description);
@@ -175,13 +176,15 @@ std::uint32_t stateFor(Device& device, petrous_device_server* server, const HdAp
   if ((error.code & HdApi::kErrorFamily) == HdApi::kForceErrors)
   {
     device.restUntil = now + kRestFor;
-    return explained(server, PETROUS_SERVER_FAULT, "its forces are off: " + textOf(device, error.code));
+    return explained(server, PETROUS_SERVER_FAULT,
+                     "its forces are off: " + textOf(device, error.code));
   }
   if ((error.code & HdApi::kErrorFamily) == HdApi::kDeviceErrors)
     return explained(server, PETROUS_SERVER_NO_DEVICE,
                      "it was unplugged or switched off: " + textOf(device, error.code));
   if (error.code != HdApi::kSuccess)
-    return explained(server, PETROUS_SERVER_FAULT, "the SDK reports: " + textOf(device, error.code));
+    return explained(server, PETROUS_SERVER_FAULT,
+                     "the SDK reports: " + textOf(device, error.code));
   return PETROUS_SERVER_READY;
 }
 
@@ -264,7 +267,7 @@ int main(int argc, char** argv)
     return 2;
   device.sdk = arguments.text("--sdk");
   device.name = arguments.text("--device");
-  const petrous_device_driver driver = {"petrous-device-touch", &device, openDevice, step,
-                                        closeDevice, 1};
+  const petrous_device_driver driver = {
+      "petrous-device-touch", &device, openDevice, step, closeDevice, 1};
   return petrous_device_serve(&driver, arguments.block().c_str());
 }

@@ -7,6 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
+#include "DeviceServer.h"
 #include "petrous/Devices/DeviceServerExchange.h"
 
 namespace
@@ -156,4 +159,26 @@ TEST(DeviceServerExchange, CutsTextsThatAreTooLong)
   EXPECT_EQ(std::strlen(block.name), sizeof block.name - 1);
   petrous_device_text(block.name, sizeof block.name, "Touch");
   EXPECT_STREQ(block.name, "Touch");
+}
+
+TEST(DeviceServer, QuaternionOfARotationMatrixIsEigens)
+{
+  // Half turns about each axis and rotations between, where each of the components is the largest.
+  for (int n = 0; n < 200; ++n)
+  {
+    const Eigen::Vector3d axis =
+        Eigen::Vector3d(std::cos(1.7 * n), std::sin(2.3 * n), std::cos(0.9 * n + 1.0)).normalized();
+    const Eigen::Matrix3d rotation =
+        n < 3 ? Eigen::AngleAxisd(3.14159265358979, Eigen::Vector3d::Unit(n)).toRotationMatrix()
+              : Eigen::AngleAxisd(0.0315 * n, axis).toRotationMatrix();
+    double matrix[3][3];
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        matrix[i][j] = rotation(i, j);
+    double q[4];
+    petrous_device_quaternion(matrix, q);
+    const Eigen::Quaterniond expected(rotation);
+    EXPECT_NEAR(std::abs(expected.dot(Eigen::Quaterniond(q[0], q[1], q[2], q[3]))), 1.0, 1e-12)
+        << n;
+  }
 }

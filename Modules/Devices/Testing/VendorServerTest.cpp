@@ -34,9 +34,9 @@ struct Vendor
 {
   const char* name;
   const char* program;
-  const char* library;           // empty: a service
-  const char* service;           // empty: a library
-  double unit;                   // mm
+  const char* library;                     // empty: a service
+  const char* service;                     // empty: a library
+  double unit;                             // mm
   std::atomic<int> StandInDevice::*forces; // set to `off`, forces do not work
   int off;
   const char* advice; // then
@@ -56,17 +56,11 @@ const Vendor kForceDimension = {"ForceDimension",
                                 1,
                                 "press the force button"};
 const Vendor kTouch = {
-    "Touch", PETROUS_TOUCH_SERVER,     PETROUS_STANDIN_HD_LIBRARY, "", 1.0,
-    &StandInDevice::forceOff, 1, "disabled them"};
+    "Touch", PETROUS_TOUCH_SERVER, PETROUS_STANDIN_HD_LIBRARY, "", 1.0, &StandInDevice::forceOff,
+    1,       "disabled them"};
 #ifdef PETROUS_INVERSE3_SERVER
-const Vendor kInverse3 = {"Inverse3",
-                          PETROUS_INVERSE3_SERVER,
-                          "",
-                          PETROUS_STANDIN_INVERSE3,
-                          1000.0,
-                          &StandInDevice::powered,
-                          0,
-                          "power supply"};
+const Vendor kInverse3 = {"Inverse3", PETROUS_INVERSE3_SERVER, "", PETROUS_STANDIN_INVERSE3,
+                          1000.0,     &StandInDevice::powered, 0,  "power supply"};
 #endif
 
 // The stand-in of a vendor's device and what its server is started with.
@@ -219,7 +213,8 @@ TEST(TouchServer, RestsWithHotMotors)
   ASSERT_TRUE(pushUntil(device, {1.0, 0.0, 0.0},
                         [&](const DeviceReading&) { return bench.forceIs(1.0, 0.0, 0.0); }));
   bench->error = 0x0200;
-  EXPECT_TRUE(pushUntil(device, {1.0, 0.0, 0.0}, [&](const DeviceReading& reading)
+  EXPECT_TRUE(pushUntil(device, {1.0, 0.0, 0.0},
+                        [&](const DeviceReading& reading)
                         { return reading.health == DeviceHealth::Faulty; }));
   EXPECT_TRUE(eventually([&] { return device.status().fault.find("hot") != std::string::npos; }));
   EXPECT_TRUE(bench.forceIs(0.0, 0.0, 0.0));
@@ -265,10 +260,12 @@ TEST_P(VendorServer, UnpluggedInContactIsReportedAndTakenUpAnewWithoutForce)
 {
   Bench bench(GetParam());
   ServedDevice device(bench.options("unplugged"));
-  const auto pushed = [&](const DeviceReading&) { return bench->force[0] != 0.0 || bench->force[1] != 0.0; };
+  const auto pushed = [&](const DeviceReading&)
+  { return bench->force[0] != 0.0 || bench->force[1] != 0.0; };
   ASSERT_TRUE(pushUntil(device, {1.0, 0.0, 0.0}, pushed));
   bench->plugged = 0;
-  ASSERT_TRUE(pushUntil(device, {1.0, 0.0, 0.0}, [](const DeviceReading& reading)
+  ASSERT_TRUE(pushUntil(device, {1.0, 0.0, 0.0},
+                        [](const DeviceReading& reading)
                         { return reading.health == DeviceHealth::Disconnected; }));
   ASSERT_TRUE(eventually([&] { return !device.status().fault.empty(); }));
   EXPECT_NE(device.status().fault.find("has no device: "), std::string::npos)
@@ -304,10 +301,11 @@ TEST_P(VendorServer, GivesNoForceWhileForcesAreSwitchedOffAndSaysWhy)
   ServedDevice device(bench.options("emergency"));
   ASSERT_TRUE(becomes(device, DeviceHealth::Good));
   (*bench.operator->()).*vendor.forces = vendor.off;
-  ASSERT_TRUE(pushUntil(device, {1.0, 0.0, 0.0}, [&](const DeviceReading& reading)
+  ASSERT_TRUE(pushUntil(device, {1.0, 0.0, 0.0},
+                        [&](const DeviceReading& reading)
                         { return reading.health == DeviceHealth::Faulty; }));
-  EXPECT_TRUE(eventually(
-      [&] { return device.status().fault.find(vendor.advice) != std::string::npos; }))
+  EXPECT_TRUE(
+      eventually([&] { return device.status().fault.find(vendor.advice) != std::string::npos; }))
       << device.status().fault;
   EXPECT_TRUE(bench.forceIs(0.0, 0.0, 0.0));
   (*bench.operator->()).*vendor.forces = 1 - vendor.off;
@@ -318,10 +316,11 @@ TEST_P(VendorServer, GivesNoForceToAPoseThatIsNoNumber)
 {
   Bench bench(GetParam());
   ServedDevice device(bench.options("nan"));
-  ASSERT_TRUE(pushUntil(device, {0.0, 0.0, 1.0}, [&](const DeviceReading&)
-                        { return !bench.forceIs(0.0, 0.0, 0.0); }));
+  ASSERT_TRUE(pushUntil(device, {0.0, 0.0, 1.0},
+                        [&](const DeviceReading&) { return !bench.forceIs(0.0, 0.0, 0.0); }));
   bench->position[1] = kNan;
-  ASSERT_TRUE(pushUntil(device, {0.0, 0.0, 1.0}, [&](const DeviceReading& reading)
+  ASSERT_TRUE(pushUntil(device, {0.0, 0.0, 1.0},
+                        [&](const DeviceReading& reading)
                         { return reading.health == DeviceHealth::Faulty; }));
   EXPECT_TRUE(pushUntil(device, {0.0, 0.0, 1.0},
                         [&](const DeviceReading&) { return bench.forceIs(0.0, 0.0, 0.0); }));
@@ -337,8 +336,8 @@ TEST_P(VendorServer, ReportsAnSdkThatHangsAndGoesOnWithIt)
   ServedDevice device(options);
   ASSERT_TRUE(becomes(device, DeviceHealth::Good));
   bench->stall = 500;
-  EXPECT_TRUE(eventually([&]
-                         { return device.status().fault.find("not answered") != std::string::npos; }));
+  EXPECT_TRUE(
+      eventually([&] { return device.status().fault.find("not answered") != std::string::npos; }));
   EXPECT_EQ(healthOf(device), DeviceHealth::Faulty);
   bench->stall = 0;
   EXPECT_TRUE(becomes(device, DeviceHealth::Good));
@@ -350,8 +349,8 @@ TEST_P(VendorServer, EndsWithForcesOffAndTheDeviceClosed)
   Bench bench(GetParam());
   {
     ServedDevice device(bench.options("end"));
-    ASSERT_TRUE(pushUntil(device, {1.0, 0.0, 0.0}, [&](const DeviceReading&)
-                          { return !bench.forceIs(0.0, 0.0, 0.0); }));
+    ASSERT_TRUE(pushUntil(device, {1.0, 0.0, 0.0},
+                          [&](const DeviceReading&) { return !bench.forceIs(0.0, 0.0, 0.0); }));
   }
   EXPECT_TRUE(eventually([&] { return bench->closed == 1; }));
   EXPECT_TRUE(bench.forceIs(0.0, 0.0, 0.0));

@@ -27,22 +27,22 @@ constexpr double kMoved = 0.05; // mm
 constexpr double kMain = 0.7;   // of the motion, along the axis
 
 // Ramp.
-constexpr double kLeast = 0.1;       // N/mm
-constexpr double kGrowth = 1.15;     // a level
-constexpr double kLevel = 0.4;       // s
-constexpr double kTap = 0.2;         // mm
-constexpr double kTapFor = 0.02;     // s
-constexpr double kSettle = 0.12;     // s
-constexpr double kCorner = 25.0;     // Hz, of the high-passes
-constexpr double kCycle = 0.05;      // N
-constexpr double kDecay = 0.85;      // of the first half's amplitude
-constexpr int kChanges = 3;          // of sign in half the time
-constexpr double kTooFast = 500.0;   // mm/s
-constexpr double kPulledFor = 0.1;   // s at the cap
-constexpr int kMaxRestarts = 20;     // of one axis
-constexpr double kLargestCap = 3.0;  // N
-constexpr double kCapShare = 0.6;    // of the device's maximum
-constexpr double kMargin = 0.5;      // proposed stiffness / largest that was stable
+constexpr double kLeast = 0.1;      // N/mm
+constexpr double kGrowth = 1.15;    // a level
+constexpr double kLevel = 0.4;      // s
+constexpr double kTap = 0.2;        // mm
+constexpr double kTapFor = 0.02;    // s
+constexpr double kSettle = 0.12;    // s
+constexpr double kCorner = 25.0;    // Hz, of the high-passes
+constexpr double kCycle = 0.05;     // N
+constexpr double kDecay = 0.85;     // of the first half's amplitude
+constexpr int kChanges = 3;         // of sign in half the time
+constexpr double kTooFast = 500.0;  // mm/s
+constexpr double kPulledFor = 0.1;  // s at the cap
+constexpr int kMaxRestarts = 20;    // of one axis
+constexpr double kLargestCap = 3.0; // N
+constexpr double kCapShare = 0.6;   // of the device's maximum
+constexpr double kMargin = 0.5;     // proposed stiffness / largest that was stable
 constexpr std::size_t kTrips = 100000;
 
 const DeviceCheck::Options& checked(const DeviceCheck::Options& options)
@@ -155,8 +155,8 @@ void DeviceCheck::roam(const DeviceReading& reading, double now) noexcept
   }
   m_result.lowest = m_result.lowest.cwiseMin(reading.pose.position);
   m_result.highest = m_result.highest.cwiseMax(reading.pose.position);
-  m_result.turned = std::max(
-      m_result.turned, haptics::motionBetween(m_first, reading.pose).angular.norm());
+  m_result.turned =
+      std::max(m_result.turned, haptics::motionBetween(m_first, reading.pose).angular.norm());
   m_result.buttons |= reading.buttons;
   m_result.pedal = std::max(m_result.pedal, reading.pedal);
   if (now - m_since < m_options.workspaceTime)
@@ -287,8 +287,7 @@ Wrench DeviceCheck::tick(const DeviceReading& reading, double now, double roundT
   {
     const double most = m_stage == Stage::Ready ? m_options.readyTime : kLostFor;
     if (now - m_lastGood > most)
-      end(m_stage == Stage::Ready ? "no good reading came from the device"
-                                  : "the device was lost");
+      end(m_stage == Stage::Ready ? "no good reading came from the device" : "the device was lost");
     return wrench;
   }
   m_lastGood = now;

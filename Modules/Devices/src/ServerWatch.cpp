@@ -102,7 +102,7 @@ constexpr auto kAsk = std::chrono::milliseconds(50);
 // A longer pause was ours (a debugger, a suspended laptop) and does not count against the server.
 constexpr double kMaxStep = 0.05; // s
 constexpr int kMaxFailures = 5;
-constexpr double kSettled = 10.0; // s; a server that ran this long may fail anew
+constexpr double kSettled = 10.0;   // s; a server that ran this long may fail anew
 constexpr double kUserTime = 120.0; // s to do what a starting server asks for
 
 std::string seconds(double value)

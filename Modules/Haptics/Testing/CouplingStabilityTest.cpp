@@ -22,12 +22,12 @@ constexpr double kTick = 0.001; // s
 struct RealDevice
 {
   const char* name;
-  double mass;         // kg
-  double damping;      // N s/mm
-  double friction;     // N
-  int delay;           // ticks until a wrench acts
-  double quantum;      // mm, of the encoders; at most 2 friction / stiffness (Diolaiti et al. 2006)
-  int dropEvery;       // ticks: every so many the servo misses one
+  double mass;     // kg
+  double damping;  // N s/mm
+  double friction; // N
+  int delay;       // ticks until a wrench acts
+  double quantum;  // mm, of the encoders; at most 2 friction / stiffness (Diolaiti et al. 2006)
+  int dropEvery;   // ticks: every so many the servo misses one
 };
 
 void PrintTo(const RealDevice& real, std::ostream* out)
@@ -38,8 +38,8 @@ void PrintTo(const RealDevice& real, std::ostream* out)
 // Half of the exact stability limit, as `device-test` proposes, at most what a device may describe.
 double setting(const RealDevice& real, double handStiffness)
 {
-  return std::min(
-      10.0, 0.5 * sampledSpringLimit(real.mass, real.damping, handStiffness, real.delay));
+  return std::min(10.0,
+                  0.5 * sampledSpringLimit(real.mass, real.damping, handStiffness, real.delay));
 }
 
 struct Touching
@@ -108,8 +108,7 @@ Touching press(const RealDevice& real, double stiffness, double tremor, bool gua
       pose.position.x() = real.quantum * std::round(pose.position.x() / real.quantum);
     Wrench wanted;
     wanted.linear.x() = stiffness * std::max(0.0, -pose.position.x());
-    const Wrench output =
-        limited.apply(guarded ? guard.apply(wanted, pose, now) : wanted, now);
+    const Wrench output = limited.apply(guarded ? guard.apply(wanted, pose, now) : wanted, now);
     guard.sent(output);
     underway.push_back(output);
     device.send(underway.front());
@@ -151,11 +150,10 @@ TEST_P(CouplingStability, OscillatesFarBeyondTheLimitWithoutTheGuardsHelp)
   EXPECT_GT(wild.energyOut, 0.1);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    , CouplingStability,
-    ::testing::Values(RealDevice{"Ideal", 0.15, 0.003, 0.0, 0, 0.0, 0},
-                      RealDevice{"Late", 0.1, 0.006, 0.05, 2, 0.005, 0},
-                      RealDevice{"VeryLate", 0.1, 0.004, 0.03, 4, 0.002, 0},
-                      RealDevice{"Dropping", 0.15, 0.01, 0.1, 1, 0.01, 50},
-                      RealDevice{"Stiff", 0.25, 0.025, 0.1, 0, 0.005, 20}),
-    [](const auto& instance) { return std::string(instance.param.name); });
+INSTANTIATE_TEST_SUITE_P(, CouplingStability,
+                         ::testing::Values(RealDevice{"Ideal", 0.15, 0.003, 0.0, 0, 0.0, 0},
+                                           RealDevice{"Late", 0.1, 0.006, 0.05, 2, 0.005, 0},
+                                           RealDevice{"VeryLate", 0.1, 0.004, 0.03, 4, 0.002, 0},
+                                           RealDevice{"Dropping", 0.15, 0.01, 0.1, 1, 0.01, 50},
+                                           RealDevice{"Stiff", 0.25, 0.025, 0.1, 0, 0.005, 20}),
+                         [](const auto& instance) { return std::string(instance.param.name); });

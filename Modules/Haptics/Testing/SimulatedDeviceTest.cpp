@@ -335,8 +335,8 @@ TEST(SimulatedDevice, RefusesHandsThatMakeNoSense)
     EXPECT_THROW(SimulatedDevice(still, hand, {}), petrous::core::InvalidParameter);
   };
   for (const auto value :
-       {&Hand::mass, &Hand::inertia, &Hand::stiffness, &Hand::damping, &Hand::friction, &Hand::angularStiffness,
-        &Hand::angularDamping, &Hand::tremor, &Hand::subStep})
+       {&Hand::mass, &Hand::inertia, &Hand::stiffness, &Hand::damping, &Hand::friction,
+        &Hand::angularStiffness, &Hand::angularDamping, &Hand::tremor, &Hand::subStep})
   {
     refuses(value, -1.0);
     refuses(value, kNan);

@@ -62,8 +62,8 @@ void keepStiffness(const std::filesystem::path& file, const std::string& server,
   std::error_code ignored; // writing then says what is wrong
   std::filesystem::create_directories(file.parent_path(), ignored);
   // A device's name is whatever its server sends.
-  core::writeFile(file, entries.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
-                            "\n");
+  core::writeFile(file,
+                  entries.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 } // namespace petrous::presenters

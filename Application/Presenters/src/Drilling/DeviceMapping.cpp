@@ -10,11 +10,11 @@ namespace petrous::presenters
 namespace
 {
 
-constexpr double kSoft = 0.2;          // N/mm: rendered by any device with force feedback
-constexpr double kStiffest = 10.0;     // N/mm felt: stiffer than any hand-held device renders
-constexpr double kMinStiffness = 0.02; // N/mm: anything softer is unusable
+constexpr double kSoft = 0.2;           // N/mm: rendered by any device with force feedback
+constexpr double kStiffest = 10.0;      // N/mm felt: stiffer than any hand-held device renders
+constexpr double kMinStiffness = 0.02;  // N/mm: anything softer is unusable
 constexpr double kMaxStiffness = 100.0; // N/mm, of a proxy
-constexpr double kEndless = 1e9;       // mm
+constexpr double kEndless = 1e9;        // mm
 
 // N/mm, of the proxy's coupling.
 double stiffnessFor(const haptics::DeviceDescription& device, double scale)
@@ -30,8 +30,7 @@ double stiffnessFor(const haptics::DeviceDescription& device, double scale)
 double angularStiffnessFor(const haptics::DeviceDescription& device, double scale)
 {
   const haptics::ProxyParameters usual;
-  const double inRatio =
-      usual.angularStiffness / usual.stiffness * stiffnessFor(device, scale);
+  const double inRatio = usual.angularStiffness / usual.stiffness * stiffnessFor(device, scale);
   if (!device.givesTorque || !(device.maxAngularStiffness > 0.0))
     return std::max(inRatio, usual.angularStiffness);
   return std::min(device.maxAngularStiffness * scale, inRatio);

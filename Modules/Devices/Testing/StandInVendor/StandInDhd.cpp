@@ -30,11 +30,26 @@ extern "C"
     return 0;
   }
 
-  const char* dhdErrorGetLastStr() { return "no device found"; }
-  const char* dhdGetSystemName(char) { return "sigma.7"; }
-  bool dhdHasWrist(char) { return true; }
-  bool dhdHasActiveWrist(char) { return true; }
-  bool dhdHasGripper(char) { return true; }
+  const char* dhdErrorGetLastStr()
+  {
+    return "no device found";
+  }
+  const char* dhdGetSystemName(char)
+  {
+    return "sigma.7";
+  }
+  bool dhdHasWrist(char)
+  {
+    return true;
+  }
+  bool dhdHasActiveWrist(char)
+  {
+    return true;
+  }
+  bool dhdHasGripper(char)
+  {
+    return true;
+  }
 
   int dhdGetStatus(int* status, char)
   {
@@ -58,7 +73,10 @@ extern "C"
     return 0;
   }
 
-  int dhdSetBrakes(int, char) { return 0; }
+  int dhdSetBrakes(int, char)
+  {
+    return 0;
+  }
 
   int dhdSetGravityCompensation(int on, char)
   {
@@ -66,9 +84,18 @@ extern "C"
     return 0;
   }
 
-  int dhdSetEffectorMass(double, char) { return 0; }
-  int dhdEmulateButton(unsigned char, char) { return 0; }
-  unsigned int dhdGetButtonMask(char) { return standIn().buttons; }
+  int dhdSetEffectorMass(double, char)
+  {
+    return 0;
+  }
+  int dhdEmulateButton(unsigned char, char)
+  {
+    return 0;
+  }
+  unsigned int dhdGetButtonMask(char)
+  {
+    return standIn().buttons;
+  }
 
   int dhdGetPositionAndOrientationFrame(double* x, double* y, double* z, double matrix[3][3], char)
   {
@@ -98,8 +125,14 @@ extern "C"
     return 0;
   }
 
-  int dhdEnableExpertMode() { return 0; }
-  int dhdDisableExpertMode() { return 0; }
+  int dhdEnableExpertMode()
+  {
+    return 0;
+  }
+  int dhdDisableExpertMode()
+  {
+    return 0;
+  }
 
   int dhdSetWatchdog(unsigned char eighths, char)
   {

@@ -52,9 +52,17 @@ extern "C"
     return 0;
   }
 
-  void hdDisableDevice(unsigned int) { ++standIn().closed; }
-  void hdMakeCurrentDevice(unsigned int) {}
-  void hdBeginFrame(unsigned int) { standIn().wait(); }
+  void hdDisableDevice(unsigned int)
+  {
+    ++standIn().closed;
+  }
+  void hdMakeCurrentDevice(unsigned int)
+  {
+  }
+  void hdBeginFrame(unsigned int)
+  {
+    standIn().wait();
+  }
 
   void hdEndFrame(unsigned int)
   {
@@ -63,8 +71,14 @@ extern "C"
     ++standIn().commands;
   }
 
-  ErrorInfo hdGetError() { return {static_cast<unsigned int>(standIn().error.exchange(0)), 0, 0}; }
-  const char* hdGetErrorString(unsigned int) { return "communication error"; }
+  ErrorInfo hdGetError()
+  {
+    return {static_cast<unsigned int>(standIn().error.exchange(0)), 0, 0};
+  }
+  const char* hdGetErrorString(unsigned int)
+  {
+    return "communication error";
+  }
 
   void hdEnable(unsigned int capability)
   {
@@ -95,9 +109,10 @@ extern "C"
     case 0x2052:
       for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)
-          values[4 * column + row] = column < 3 && row < 3 ? standIn().rotation[3 * row + column].load()
-                                     : row < 3             ? standIn().position[row].load()
-                                                           : (column == 3 ? 1.0 : 0.0);
+          values[4 * column + row] = column < 3 && row < 3
+                                         ? standIn().rotation[3 * row + column].load()
+                                     : row < 3 ? standIn().position[row].load()
+                                               : (column == 3 ? 1.0 : 0.0);
       break;
     case 0x2602:
       *values = 0.5;
@@ -116,9 +131,17 @@ extern "C"
       standIn().force[i] = standIn().enabled && standIn().plugged ? values[i] : 0.0;
   }
 
-  const char* hdGetString(unsigned int) { return "Touch"; }
-  unsigned int hdCheckCalibration() { return standIn().calibrated ? 0x5000 : 0x5002; }
-  void hdUpdateCalibration(unsigned int) {}
+  const char* hdGetString(unsigned int)
+  {
+    return "Touch";
+  }
+  unsigned int hdCheckCalibration()
+  {
+    return standIn().calibrated ? 0x5000 : 0x5002;
+  }
+  void hdUpdateCalibration(unsigned int)
+  {
+  }
 
   void hdStartScheduler()
   {
@@ -140,5 +163,8 @@ extern "C"
     return 1;
   }
 
-  void hdUnschedule(unsigned long) { callback = nullptr; }
+  void hdUnschedule(unsigned long)
+  {
+    callback = nullptr;
+  }
 }

@@ -1,5 +1,5 @@
-// Stand-in of Haply's Inverse service: a WebSocket that sends the list of devices, then answers each
-// message with the state of all. Ends with its parent's pipe on stdin.
+// Stand-in of Haply's Inverse service: a WebSocket that sends the list of devices, then answers
+// each message with the state of all. Ends with its parent's pipe on stdin.
 
 #include <cmath>
 
@@ -36,7 +36,8 @@ std::string state(bool inventory)
   if (standIn().plugged)
     message["inverse3"].push_back(
         {{"device_id", "049D"},
-         {"state", {{"cursor_position", {{"x", number(p[0])}, {"y", number(p[1])}, {"z", number(p[2])}}}}},
+         {"state",
+          {{"cursor_position", {{"x", number(p[0])}, {"y", number(p[1])}, {"z", number(p[2])}}}}},
          {"status",
           {{"calibrated", standIn().calibrated != 0},
            {"power_supply", standIn().powered != 0},
@@ -70,28 +71,27 @@ int main(int argc, char** argv)
         QWebSocket* socket = server.nextPendingConnection();
         ++standIn().opened;
         QObject::connect(socket, &QWebSocket::disconnected, [] { ++standIn().closed; });
-        QObject::connect(socket, &QWebSocket::textMessageReceived,
-                         [&owed, socket](const QString& text)
-                         {
-                           const json message = json::parse(text.toStdString());
-                           const json& device = message.at("inverse3").at(0);
-                           const json& command = device.at("commands").at("set_cursor_force");
-                           const json& force =
-                               command.at(standIn().format == 35 ? "vector" : "values");
-                           standIn().force[0] = force.at("x").get<double>();
-                           standIn().force[1] = force.at("y").get<double>();
-                           standIn().force[2] = force.at("z").get<double>();
-                           ++standIn().commands;
-                           if (owed++ > 0)
-                             ++standIn().piled;
-                           QTimer::singleShot(standIn().stall.load(), Qt::PreciseTimer, socket,
-                                              [&owed, socket]
-                                              {
-                                                --owed;
-                                                socket->sendTextMessage(
-                                                    QString::fromStdString(state(false)));
-                                              });
-                         });
+        QObject::connect(
+            socket, &QWebSocket::textMessageReceived,
+            [&owed, socket](const QString& text)
+            {
+              const json message = json::parse(text.toStdString());
+              const json& device = message.at("inverse3").at(0);
+              const json& command = device.at("commands").at("set_cursor_force");
+              const json& force = command.at(standIn().format == 35 ? "vector" : "values");
+              standIn().force[0] = force.at("x").get<double>();
+              standIn().force[1] = force.at("y").get<double>();
+              standIn().force[2] = force.at("z").get<double>();
+              ++standIn().commands;
+              if (owed++ > 0)
+                ++standIn().piled;
+              QTimer::singleShot(standIn().stall.load(), Qt::PreciseTimer, socket,
+                                 [&owed, socket]
+                                 {
+                                   --owed;
+                                   socket->sendTextMessage(QString::fromStdString(state(false)));
+                                 });
+            });
         socket->sendTextMessage(QString::fromStdString(state(true)));
       });
   const QSocketNotifier parent(0, QSocketNotifier::Read);

@@ -55,9 +55,9 @@ public:
     double latency = 0.0;                 ///< s until the handle moved by 0.05 mm; 0: it did not
     bool follows = false;                 ///< it moved mainly along +axis
     // Ramp.
-    double stable = 0.0;  ///< N/mm, the largest that was; 0: none
-    double limit = 0.0;   ///< N/mm at which a limit cycle began; 0: none up to maxStiffness
-    double hertz = 0.0;   ///< of the limit cycle
+    double stable = 0.0; ///< N/mm, the largest that was; 0: none
+    double limit = 0.0;  ///< N/mm at which a limit cycle began; 0: none up to maxStiffness
+    double hertz = 0.0;  ///< of the limit cycle
   };
 
   struct Result
@@ -83,9 +83,9 @@ public:
                        double roundTrip = 0.0) noexcept;
 
   Stage stage() const noexcept { return m_stage; }
-  int axis() const noexcept { return m_axis; }             ///< 0 to 2, of the present step or ramp
+  int axis() const noexcept { return m_axis; }              ///< 0 to 2, of the present step or ramp
   double stiffness() const noexcept { return m_stiffness; } ///< N/mm, of the ramp; at present
-  double progress() const noexcept;                        ///< 0 to 1, roughly
+  double progress() const noexcept;                         ///< 0 to 1, roughly
   const Result& result() const noexcept { return m_result; }
 
 private:
@@ -119,7 +119,7 @@ private:
   Eigen::Vector3d m_anchor{0.0, 0.0, 0.0};
   double m_stiffness = 0.0;
   int m_restarts = 0;
-  double m_pulledSince = 0.0; ///< s; 0: not pulled away
+  double m_pulledSince = 0.0;            ///< s; 0: not pulled away
   std::array<double, 2> m_low{0.0, 0.0}; ///< states of the two high-passes
   double m_amplitudes[2] = {0.0, 0.0};   ///< N, of the halves
   double m_sign = 0.0;

@@ -259,15 +259,16 @@ void addDeviceTestCommand(CLI::App& app, Context& context)
       [choice, &context] { deviceTest(context, *choice); });
   command->add_option("NAME", choice->name,
                       "Installed device server; not needed if there is only one");
-  command->add_option("--server", choice->program, "Program of a server that is not installed");
+  command->add_option("--server", choice->program, "Program of a server that is not installed")
+      ->type_name("FILE");
   command
       ->add_option("--workspace", choice->options.workspaceTime,
                    "Time to move the handle through its workspace, s (default 8)")
-      ->check(within({0.5, 120.0}));
+      ->check(within({0.5, 120.0, "s"}));
   command
       ->add_option("--max-stiffness", choice->options.maxStiffness,
                    "End of the stiffness ramp, N/mm (default 10)")
-      ->check(within({0.1, 20.0}));
+      ->check(within({0.1, 20.0, "N/mm"}));
   command->add_flag("--no-force", choice->noForce, "Only workspace, rate and buttons");
   command->add_flag("--keep", choice->keep,
                     "Have the workstation use the proposed stiffness for this device");

@@ -13,12 +13,13 @@
 #include <unistd.h>
 
 static const int64_t tick_ns = 1000000;
-static const int64_t look_ns = 10000000;             /* of the supervising thread */
-static const int64_t alone_ns = INT64_C(5000000000); /* Petrous is gone without notice */
-static const int64_t late_ns = 300000000;            /* the SDK hangs */
-static const int64_t end_ns = 400000000;             /* then the process ends without the SDK */
-static const int64_t ask_ns = 100000000;             /* between two looks at the calibration */
-static const int64_t retry_ns = 500000000;           /* between two attempts to open */
+static const int64_t look_ns = 10000000;                /* of the supervising thread */
+static const int64_t alone_ns = INT64_C(5000000000);    /* Petrous is gone without notice */
+static const int64_t late_ns = 300000000;               /* the SDK hangs */
+static const int64_t end_ns = 400000000;                /* then the process ends without the SDK */
+static const int64_t ask_ns = 100000000;                /* between two looks at the calibration */
+static const int64_t opening_ns = INT64_C(30000000000); /* an SDK may take to open a device */
+static const int64_t retry_ns = 500000000;              /* between two attempts to open */
 
 struct petrous_device_server
 {
@@ -33,7 +34,7 @@ struct petrous_device_server
   int open;             /* step may be called */
   int ending;           /* the device is to be closed */
   int told;             /* `text` is published */
-  int64_t exchanged_ns; /* end of the last exchange */
+  int64_t exchanged_ns; /* end of the last exchange, or when opening began */
   uint32_t result;      /* of the last step */
   char text[128];       /* of petrous_device_explain; read by the thread that writes it */
 };
@@ -231,8 +232,12 @@ static void* supervise(void* argument)
         _exit(4);
       }
     }
-    else if (__atomic_load_n(&server->open, __ATOMIC_ACQUIRE) &&
-             now - __atomic_load_n(&server->exchanged_ns, __ATOMIC_ACQUIRE) > late_ns &&
+    else if (!__atomic_load_n(&server->open, __ATOMIC_ACQUIRE))
+    {
+      if (now - __atomic_load_n(&server->exchanged_ns, __ATOMIC_ACQUIRE) < opening_ns)
+        __atomic_add_fetch(&block->server_beat, 1, __ATOMIC_RELEASE);
+    }
+    else if (now - __atomic_load_n(&server->exchanged_ns, __ATOMIC_ACQUIRE) > late_ns &&
              __atomic_load_n(&block->server_state, __ATOMIC_ACQUIRE) != PETROUS_SERVER_FAULT)
     {
       petrous_device_text(block->error, sizeof block->error,
@@ -272,11 +277,12 @@ static void serve(struct petrous_device_server* server)
   while (!__atomic_load_n(&server->ending, __ATOMIC_ACQUIRE))
   {
     uint32_t state;
-    int64_t wait = 0;
+    int64_t wait;
     memset(&server->guard, 0, sizeof server->guard);
     server->blind = 0;
     /* Until a step says otherwise; set before `open` may start the SDK's thread. */
     __atomic_store_n(&server->result, PETROUS_SERVER_READY, __ATOMIC_RELEASE);
+    __atomic_store_n(&server->exchanged_ns, petrous_device_now(), __ATOMIC_RELEASE);
     state = driver->open(driver->device, server);
     if (state == PETROUS_SERVER_READY)
     {
@@ -294,10 +300,7 @@ static void serve(struct petrous_device_server* server)
     for (wait = 0; wait < (state == PETROUS_SERVER_STARTING ? ask_ns : retry_ns) &&
                    !__atomic_load_n(&server->ending, __ATOMIC_ACQUIRE);
          wait += look_ns)
-    {
-      __atomic_add_fetch(&server->block->server_beat, 1, __ATOMIC_RELEASE);
       sleep_until(petrous_device_now() + look_ns);
-    }
   }
   driver->close(driver->device);
 }

@@ -246,6 +246,23 @@ TEST(Inverse3Server, ConvertsAxesAndUnitsInBothFormatsOfTheService)
   }
 }
 
+TEST(Inverse3Server, NamesTheServiceThatDoesNotAnswer)
+{
+  ServedDevice::Options options = optionsFor("no-service");
+  options.command = {PETROUS_INVERSE3_SERVER, "--url", "ws://127.0.0.1:1"};
+  try
+  {
+    const ServedDevice device(options);
+    ADD_FAILURE();
+  }
+  catch (const ServerError& error)
+  {
+    EXPECT_EQ(error.reason(), ServerError::Reason::NoDevice);
+    EXPECT_NE(std::string(error.what()).find("haply-inverse-service"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Inverse3Server, WaitsForALateAnswerBeforeItSendsTheNextForce)
 {
   Bench bench(kInverse3);
@@ -407,6 +424,26 @@ TEST_P(VendorServer, LimitsForcesByItselfAndStopsThemOnSilenceAndSigterm)
   EXPECT_TRUE(process.waitForEnd(20.0));
   EXPECT_EQ(strength(), 0.0);
   EXPECT_EQ(bench->enabled, 0);
+}
+
+TEST_P(VendorServer, EndsOnSigtermEvenWhileTheSdkHangs)
+{
+  Bench bench(GetParam());
+  DeviceBlock block("test-hung-end-" + std::to_string(::getpid()));
+  ServerProcess process;
+  ASSERT_FALSE(process.start(bench.command(), block.path()));
+  ASSERT_TRUE(eventually(
+      [&]
+      { return __atomic_load_n(&block->server_state, __ATOMIC_ACQUIRE) == PETROUS_SERVER_READY; }));
+  bench->stall = 60000;
+  ASSERT_TRUE(eventually(
+      [&]
+      {
+        __atomic_add_fetch(&block->petrous_beat, 1, __ATOMIC_RELEASE);
+        return __atomic_load_n(&block->server_state, __ATOMIC_ACQUIRE) == PETROUS_SERVER_FAULT;
+      }));
+  process.signal(SIGTERM);
+  EXPECT_TRUE(process.waitForEnd(20.0));
 }
 
 INSTANTIATE_TEST_SUITE_P(, VendorServer,

@@ -29,6 +29,7 @@
 #include "petrous/Presenters/SceneAssembly.h"
 #include "petrous/Rendering/OffscreenView.h"
 #include "petrous/Rendering/PictureText.h"
+#include "petrous/Rendering/PixelSamples.h"
 #include "petrous/Rendering/PrintPicture.h"
 #include "petrous/Rendering/ReferenceRayCaster.h"
 #include "petrous/Rendering/RenderingError.h"
@@ -58,6 +59,7 @@ struct RenderOptions
   std::optional<double> widthMillimetres, dotsPerInch;
   std::string along;
   int turntable = 0, frames = 0; ///< 0: not given
+  int samples = 1;
   double framesPerSecond = 25.0;
   bool plain = false;
   bool isSavedRig = false; ///< the eyes are as the case was saved with
@@ -75,6 +77,7 @@ struct Shot
   core::CameraPose camera;
   rendering::StereoMode stereo = rendering::StereoMode::None;
   std::vector<core::CameraPose> eyes; ///< one, or left and right
+  int samples = 1;                    ///< rays a pixel
 };
 
 // What does not go together with pictures for print and with films.
@@ -88,6 +91,8 @@ void checkKind(const RenderOptions& options)
     throw UsageError("--frames goes with --along; of a turntable give --turntable N");
   if (!options.isFilm() && presenters::isVideo(options.out))
     throw UsageError("--out: a video goes with --turntable or --along, not one picture");
+  if (options.samples > 1 && (options.isFilm() || options.engine != "gpu"))
+    throw UsageError("--samples is for one picture of the engine gpu");
   if (!options.isPrint() && !options.isFilm())
     return;
   const char* what = options.isFilm() ? "a film" : "a picture for print";
@@ -103,6 +108,7 @@ Shot parseShot(const RenderOptions& options)
   Shot shot;
   std::tie(shot.width, shot.height) = parseSize(options.size);
   checkKind(options);
+  shot.samples = options.samples;
   if (options.widthMillimetres)
   {
     rendering::PrintSize size;
@@ -206,6 +212,11 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
       ->check(within({1.0, 120.0}));
   command.add_option("--size", options.size, "Pixels (800x600)")->type_name("WxH");
   command
+      .add_option("--samples", options.samples,
+                  "Rays a pixel, 1 to 16: more smooth the edges and take as much longer (1)")
+      ->type_name("N")
+      ->transform(wholeNumber(1, rendering::kPixelSamples));
+  command
       .add_option("--view", options.view,
                   "lateral, left, right, superior, inferior, anterior or posterior")
       ->check(oneOf({"lateral", "left", "right", "superior", "inferior", "anterior", "posterior",
@@ -300,6 +311,8 @@ rendering::Picture together(std::vector<rendering::Picture> pictures, StereoMode
                               : rendering::composeStereo(pictures[0], pictures[1], mode);
 }
 
+constexpr int kTile = 1024; // pixels
+
 // No CT in the scene: no ray was cast.
 rendering::DepthImage depthOf(const rendering::ScenePicture& picture, const Shot& shot)
 {
@@ -313,7 +326,7 @@ rendering::DepthImage depthOf(const rendering::ScenePicture& picture, const Shot
 }
 
 Result drawOnGpu(const rendering::SceneContents& contents, const Shot& shot, bool wantDepth,
-                 bool wantReport)
+                 bool wantReport, const core::Progress& progress)
 {
   Result result;
   const auto [width, height] = rendering::eyeSize(shot.stereo, shot.width, shot.height);
@@ -328,6 +341,14 @@ Result drawOnGpu(const rendering::SceneContents& contents, const Shot& shot, boo
     picture.setCamera(eye);
     pictures.push_back(view.render(picture));
     first += view.milliseconds();
+  }
+  if (shot.samples > 1) // in a window of their own; the scene comes back with the next frame
+  {
+    rendering::ScenePicture smooth;
+    smooth.setContents(contents);
+    for (std::size_t n = 0; n < shot.eyes.size(); ++n)
+      pictures[n] = rendering::renderTiled(smooth, shot.eyes[n], width, height, progress, kTile,
+                                           shot.samples);
   }
   result.picture = together(std::move(pictures), shot.stereo);
   if (wantReport)
@@ -403,7 +424,7 @@ Result draw(const Context& context, const RenderOptions& options, const Shot& sh
     return drawReference(contents, shot, wantDepth, context.progress());
   try
   {
-    return drawOnGpu(contents, shot, wantDepth, context.json());
+    return drawOnGpu(contents, shot, wantDepth, context.json(), context.progress());
   }
   catch (const rendering::RenderingError& error)
   {
@@ -423,8 +444,8 @@ Result drawForPrint(const Context& context, const RenderOptions& options, const 
   rendering::ScenePicture picture;
   picture.setContents(renderContents(options, value));
   const auto start = std::chrono::steady_clock::now();
-  result.picture =
-      rendering::renderTiled(picture, shot.camera, shot.width, shot.height, context.progress());
+  result.picture = rendering::renderTiled(picture, shot.camera, shot.width, shot.height,
+                                          context.progress(), kTile, shot.samples);
   const double elapsed =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   const double magnified = std::max(shot.height / 600.0, 1.0);
@@ -582,6 +603,7 @@ void render(const Context& context, RenderOptions options)
   result.report.update({{"case", value.name},
                         {"size", {shot.width, shot.height}},
                         {"engine", options.engine},
+                        {"samples", shot.samples},
                         {"camera", cameraJson(shot.camera)},
                         {"stereo", std::move(stereo)},
                         {"thickness", thicknessJson(options)},

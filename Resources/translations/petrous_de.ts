@@ -2146,12 +2146,6 @@ X oder die zweite Taste des Geräts, gehalten: Nur die Hand bewegt sich.</transl
         <translation>Mit dem Rad</translation>
     </message>
     <message>
-        <source>How hard a hand without force (mouse, SpaceMouse) presses the burr on the tissue, N: the harder, the faster it goes in.
-The wheel changes it while the burr drills, 0.5 N a notch, with Shift a fifth of it</source>
-        <translation>Wie fest eine Hand ohne Kraft (Maus, SpaceMouse) die Fräse auf das Gewebe drückt, N: je fester, desto schneller dringt sie ein.
-Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein Fünftel davon</translation>
-    </message>
-    <message>
         <source> N</source>
         <translation> N</translation>
     </message>
@@ -2214,6 +2208,12 @@ Ohne dies liegt die Fräse auf dem Gewebe und wird mit dem Andruck gedrückt. St
     <message>
         <source>Thrust</source>
         <translation>Andruck</translation>
+    </message>
+    <message>
+        <source>How hard a hand without force (mouse, SpaceMouse) presses the burr on the tissue, N: the harder, the faster it goes in.
+The wheel changes it while the burr drills, 0.5 N a notch, with Shift a fifth of it. While Shift is held, it is twice as large</source>
+        <translation>Wie fest eine Hand ohne Kraft (Maus, SpaceMouse) die Fräse auf das Gewebe drückt, N: je fester, desto schneller dringt sie ein.
+Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein Fünftel davon. Solange Umschalt gehalten wird, ist es doppelt so groß</translation>
     </message>
 </context>
 <context>
@@ -4242,6 +4242,18 @@ Verletzt: %1, %2</translation>
     <message>
         <source>Let the name end in .png.</source>
         <translation>Der Name soll auf .png enden.</translation>
+    </message>
+    <message>
+        <source> rays a pixel</source>
+        <translation> Strahlen je Pixel</translation>
+    </message>
+    <message>
+        <source>More smooth the edges and take as much longer</source>
+        <translation>Mehr davon glätten die Ränder und dauern entsprechend länger</translation>
+    </message>
+    <message>
+        <source>&amp;Smoothness:</source>
+        <translation>&amp;Glättung:</translation>
     </message>
 </context>
 <context>

@@ -29,7 +29,8 @@ DrillBar::DrillBar(QWidget* parent)
         "thrust",
         tr("How hard a hand without force (mouse, SpaceMouse) presses the burr on "
            "the tissue, N: the harder, the faster it goes in.\nThe wheel changes it while the "
-           "burr drills, 0.5 N a notch, with Shift a fifth of it"),
+           "burr drills, 0.5 N a notch, with Shift a fifth of it. While Shift is held, it is "
+           "twice as large"),
         {0.1, 10.0, tr(" N"), 1, 0.1}))
 {
   setObjectName("drillBar");

@@ -9,15 +9,13 @@
 #include <vtkCommand.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkRenderer.h>
-#include <vtkVolume.h>
-#include <vtkVolumeCollection.h>
 
 #include "Application.h"
 #include "MeasureOverlay.h"
 #include "Theme.h"
 #include "TouchOverlay.h"
 #include "petrous/Core/Error.h"
-#include "petrous/Rendering/VolumeMapper.h"
+#include "petrous/Rendering/PixelSamples.h"
 
 namespace petrous::workstation
 {
@@ -26,6 +24,8 @@ namespace
 {
 constexpr int kSettle = 150;   // ms
 constexpr double kRate = 30.0; // Hz, target frame rate
+// A machine that takes so long for a picture gets as long a pause after each part of more samples.
+constexpr double kSlow = 500.0; // ms
 
 // A GPU reset (after a driver update or hang) loses all textures.
 bool contextLost()
@@ -47,10 +47,12 @@ SceneDisplay::SceneDisplay(vtkGenericOpenGLRenderWindow& window, std::function<b
   : QObject(parent)
   , m_window(window)
   , m_shown(std::move(shown))
+  , m_samples(rendering::kPixelSamples)
 {
   m_window.SetMultiSamples(0);
   m_window.AddRenderer(m_renderer);
   m_picture.setContents({});
+  m_picture.setProgressive(true);
   m_picture.attach(m_renderer);
   m_stereo = std::make_unique<rendering::StereoPicture>(m_picture);
   m_measures = std::make_unique<MeasureOverlay>(*m_renderer);
@@ -63,8 +65,11 @@ SceneDisplay::SceneDisplay(vtkGenericOpenGLRenderWindow& window, std::function<b
           {
             m_moving = false;
             m_picture.setInteractive(false);
-            redraw();
+            refineSoon();
           });
+  m_refine.setSingleShot(true);
+  connect(&m_refine, &QTimer::timeout, this, &SceneDisplay::refine);
+  m_rests.start();
   setRate();
 }
 
@@ -73,6 +78,7 @@ SceneDisplay::~SceneDisplay() = default;
 void SceneDisplay::release()
 {
   m_settle.stop();
+  m_refine.stop();
   for (const unsigned long observer : m_observers)
     m_window.RemoveObserver(observer);
   m_shown = [] { return false; };
@@ -175,7 +181,7 @@ void SceneDisplay::setMeasures(const std::vector<DrawnMeasure>& measures)
   if (!m_measures)
     return;
   if (m_measures->set(measures))
-    redraw(true);
+    redraw(m_moving);
 }
 
 std::optional<std::array<double, 2>> SceneDisplay::pixelOf(const Eigen::Vector3d& patient) const
@@ -259,6 +265,8 @@ void SceneDisplay::redraw(bool moving)
   {
     m_moving = true;
     m_picture.setInteractive(true);
+    m_refine.stop(); // given up
+    m_rests.start();
     m_settle.start();
   }
   if (m_pending)
@@ -276,6 +284,46 @@ void SceneDisplay::drawNow()
   m_window.Render();
 }
 
+void SceneDisplay::setSamples(int samples)
+{
+  m_samples = samples;
+}
+
+bool SceneDisplay::isFine() const
+{
+  return m_picture.restSamples() > 0;
+}
+
+// A part of the picture at rest, with time for events before the next one.
+void SceneDisplay::refineSoon()
+{
+  const bool isMore = isFine(); // samples
+  if (m_moving || !m_shown() || (isMore && m_refine.isActive()))
+    return;
+  const auto still = static_cast<int>(std::max<qint64>(kStill - m_rests.elapsed(), 0));
+  const bool isSlow = m_picture.frameMilliseconds() > kSlow;
+  m_refine.start(isMore ? std::max(still, isSlow ? static_cast<int>(kPart) : 0) : 0);
+}
+
+void SceneDisplay::refine()
+{
+  if (m_moving || m_failing || m_pending || !m_shown())
+    return; // the next frame goes on with it
+  using rendering::Refinement;
+  const bool isMore = isFine() && m_rests.elapsed() >= kStill;
+  switch (m_picture.refine(kPart, isMore ? m_samples : 1))
+  {
+  case Refinement::Better:
+    return redraw();
+  case Refinement::More:
+    return refineSoon();
+  case Refinement::Done:
+    break;
+  }
+  if (!isMore && isFine() && m_samples > 1)
+    refineSoon();
+}
+
 void SceneDisplay::frameStarted()
 {
   if (m_measures)
@@ -286,8 +334,10 @@ void SceneDisplay::frameStarted()
 void SceneDisplay::frameEnded()
 {
   // The longer of submitting commands and rendering, which overlap.
-  const double milliseconds =
-      std::max(1e-6 * static_cast<double>(m_clock.nsecsElapsed()), m_picture.frameMilliseconds());
+  const double milliseconds = isFine()
+                                  ? m_picture.frameMilliseconds()
+                                  : std::max(1e-6 * static_cast<double>(m_clock.nsecsElapsed()),
+                                             m_picture.frameMilliseconds());
   QString why;
   try
   {
@@ -310,21 +360,11 @@ void SceneDisplay::frameEnded()
     QMetaObject::invokeMethod(
         this, [this, why] { emit failed(why); }, Qt::QueuedConnection);
   else if (!m_failing)
-    emit drawn(milliseconds, scaleOfLastFrame(), m_moving);
+    emit drawn(milliseconds, m_picture.drawnScale(), !isFine());
   // A large undo is uploaded to the GPU over several frames.
   if (!m_failing && m_picture.statistics().pendingEdits > 0)
     QTimer::singleShot(0, this, [this] { redraw(m_moving); });
-}
-
-double SceneDisplay::scaleOfLastFrame() const
-{
-  vtkVolumeCollection* volumes = m_renderer->GetVolumes();
-  vtkCollectionSimpleIterator it;
-  volumes->InitTraversal(it);
-  while (vtkVolume* volume = volumes->GetNextVolume(it))
-    if (auto* mapper = vtkPetrousVolumeMapper::SafeDownCast(volume->GetMapper()))
-      return mapper->GetQuality().imageScale;
-  return 1.0;
+  refineSoon();
 }
 
 QSurfaceFormat surfaceFormat(bool stereo)

@@ -33,6 +33,10 @@ struct DrawnMeasure;
 /// A scene in one OpenGL context: coarse while something moves and fine when static, mono or
 /// stereo. Reports frame times and errors.
 ///
+/// The fine picture is drawn in parts of kPart, between which events are handled, and shown as a
+/// whole; after kStill it gets more rays a pixel. What is shown at rest does not become coarser by
+/// what is drawn over it.
+///
 /// A second display can follow: it gets the same scene, camera and tool, with textures of its own,
 /// since contexts of different windows are not shared here.
 class SceneDisplay : public QObject
@@ -79,6 +83,12 @@ public:
   const rendering::StereoPicture* stereoPicture() const noexcept { return m_stereo.get(); }
   void setFirstRow(int row); ///< see StereoPicture
 
+  static constexpr double kPart = 30.0; ///< ms
+  static constexpr int kStill = 1000;   ///< ms
+  /// Rays a pixel of a picture that rests long; 1: those of the fine picture.
+  void setSamples(int samples);
+  bool isFine() const; ///< the last frame showed the picture at full resolution
+
   /// Synchronizes another display from now on; nullptr ends that.
   void setFollower(SceneDisplay* follower);
 
@@ -94,11 +104,11 @@ signals:
 
 private:
   void drawNow();
+  void refine();
+  void refineSoon();
   void frameStarted();
   void frameEnded();
   void setRate();
-  double scaleOfLastFrame() const;
-
   vtkGenericOpenGLRenderWindow& m_window;
   std::function<bool()> m_shown;
   vtkNew<vtkRenderer> m_renderer;
@@ -112,6 +122,9 @@ private:
   double m_covered = 0.0; // fraction of the height, from the top
   QPointer<SceneDisplay> m_follower;
   QTimer m_settle;
+  QTimer m_refine;
+  int m_samples;
+  QElapsedTimer m_rests; // since the last motion
   QElapsedTimer m_clock;
   std::array<unsigned long, 2> m_observers{}; // of m_window
   double m_rate = 0.0;

@@ -151,14 +151,16 @@ void ShareController::printPicture()
     return;
   m_keeper.run(
       tr("Drawing the picture"),
-      [this, value = shown(), size = dialog.size(),
+      [this, value = shown(), size = dialog.size(), samples = dialog.samples(),
        file = dialog.file()](const core::Progress& progress) -> BackgroundWork::Reply
       {
+        constexpr int kTile = 1024; // pixels
         library::refuseOverwriting(file);
         rendering::ScenePicture scene;
         scene.setContents(contentsOf(value, progress.part(0.0, 0.1)));
-        rendering::Picture picture = rendering::renderTiled(
-            scene, *value.camera, size.width(), size.height(), progress.part(0.1, 0.95));
+        rendering::Picture picture =
+            rendering::renderTiled(scene, *value.camera, size.width(), size.height(),
+                                   progress.part(0.1, 0.95), kTile, samples);
         const double magnified = std::max(size.height() / 600.0, 1.0);
         presenters::addLines(picture, {presenters::sideText(value.description.side)}, magnified);
         presenters::addScaleBar(picture,

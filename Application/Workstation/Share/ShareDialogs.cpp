@@ -23,6 +23,7 @@
 #include "Theme.h"
 #include "petrous/Presenters/CameraPaths.h"
 #include "petrous/Presenters/FilmFile.h"
+#include "petrous/Rendering/PixelSamples.h"
 
 namespace petrous::workstation
 {
@@ -183,6 +184,7 @@ PrintDialog::PrintDialog(const scene::Case& value, double heightToWidth, QWidget
   , m_heightToWidth(heightToWidth)
   , m_width(new QDoubleSpinBox)
   , m_dots(new QSpinBox)
+  , m_samples(new QSpinBox)
 {
   m_width->setObjectName("printWidth");
   m_width->setRange(10.0, 1000.0);
@@ -197,7 +199,12 @@ PrintDialog::PrintDialog(const scene::Case& value, double heightToWidth, QWidget
   m_dots->setValue(300);
   m_dots->setToolTip(tr("Dots per inch: 300 for print, 600 for a journal's line art"));
   m_form->addRow(tr("&Width:"), m_width);
+  m_samples->setObjectName("printSamples");
+  m_samples->setRange(1, rendering::kPixelSamples);
+  m_samples->setSuffix(tr(" rays a pixel"));
+  m_samples->setToolTip(tr("More smooth the edges and take as much longer"));
   m_form->addRow(tr("&Resolution:"), m_dots);
+  m_form->addRow(tr("&Smoothness:"), m_samples);
   connect(m_width, qOverload<double>(&QDoubleSpinBox::valueChanged), this, &PrintDialog::check);
   connect(m_dots, qOverload<int>(&QSpinBox::valueChanged), this, &PrintDialog::check);
   setFile(proposed(value, tr("view"), ".png"));
@@ -210,6 +217,11 @@ rendering::PrintSize PrintDialog::size() const
   size.dotsPerInch = m_dots->value();
   size.heightToWidth = m_heightToWidth;
   return size;
+}
+
+int PrintDialog::samples() const
+{
+  return m_samples->value();
 }
 
 QString PrintDialog::problem() const

@@ -80,6 +80,7 @@ public:
   PrintDialog(const scene::Case& value, double heightToWidth, QWidget* parent = nullptr);
 
   rendering::PrintSize size() const;
+  int samples() const; ///< rays a pixel
 
 protected:
   QString problem() const override;
@@ -88,6 +89,7 @@ private:
   double m_heightToWidth;
   QDoubleSpinBox* m_width;
   QSpinBox* m_dots;
+  QSpinBox* m_samples;
 };
 
 /// `petrous render --turntable` and `--along`.

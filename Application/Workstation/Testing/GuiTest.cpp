@@ -98,6 +98,7 @@ void GuiTest::openWindow(const QString& what)
   QCursor::setPos(QGuiApplication::primaryScreen()->geometry().bottomRight());
   m_window = std::make_unique<MainWindow>(library(), options);
   m_window->resize(1200, 760);
+  view().display().setSamples(1); // a picture must not depend on how long it rests
   m_window->show();
   ASSERT_TRUE(QTest::qWaitForWindowExposed(m_window.get()));
   QApplication::setActiveWindow(m_window.get()); // needed for key events without a window manager
@@ -149,7 +150,8 @@ QModelIndex GuiTest::structureCell(const std::string& part, int column)
 
 QImage GuiTest::picture()
 {
-  QTest::qWait(600); // fine rendering starts 300 ms after the last motion
+  QTest::qWait(400); // fine rendering starts 150 ms after the last motion
+  waitFor([this] { return !m_window->model().hasCase() || view().display().isFine(); }, 2000);
   const QString pictures = qEnvironmentVariable("PETROUS_GUI_PICTURES");
   if (!pictures.isEmpty()) // for visual inspection
   {

@@ -148,6 +148,31 @@ TEST(ToolInteraction, DrillsWhileTheLeftButtonIsDown)
   EXPECT_EQ(program.eye(), eye); // no event reached the trackball
 }
 
+TEST(ToolInteraction, PressesTwiceAsHardWhileShiftIsHeld)
+{
+  Program program;
+  const double set = program.aim.settings().thrust;
+  const auto thrust = [&program] { return program.tool->GetParameters().thrust; };
+  program.key(vtkCommand::KeyPressEvent, "Shift_L", 1);
+  program.mouse(vtkCommand::MouseMoveEvent, 10, 5, 0, 1);
+  EXPECT_EQ(thrust(), set) << "it hovers";
+  program.mouse(vtkCommand::LeftButtonPressEvent, 10, 5, 0, 1);
+  EXPECT_EQ(thrust(), 2.0 * set);
+  program.key(vtkCommand::KeyReleaseEvent, "Shift_L", 0);
+  program.tool->See({}); // as once a frame
+  EXPECT_EQ(thrust(), set);
+  program.key(vtkCommand::KeyPressEvent, "Shift_L", 1);
+  program.tool->See({});
+  EXPECT_EQ(thrust(), 2.0 * set);
+  AimSettings settings = program.aim.settings();
+  settings.thrust = 15.0;
+  program.aim.setSettings(settings);
+  program.mouse(vtkCommand::MouseMoveEvent, 12, 5, 0, 1);
+  EXPECT_EQ(thrust(), 20.0) << "no more than may be set";
+  program.mouse(vtkCommand::LeftButtonReleaseEvent, 12, 5, 0, 1);
+  EXPECT_EQ(thrust(), 15.0);
+}
+
 TEST(ToolInteraction, PressesWithoutTheDrillWithCtrl)
 {
   Program program;

@@ -31,8 +31,10 @@ namespace
 constexpr float kBeforeTheStyle = 0.5F; // the style's priority is 0
 constexpr double kScalePerNotch = 1.25;
 constexpr double kPedalDown = 0.5;
-constexpr double kTiltStep = 5.0;  // degrees
-constexpr double kTurnStep = 15.0; // degrees
+constexpr double kShiftThrust = 2.0; // of the set thrust, while Shift is held
+constexpr double kMaxThrust = 20.0;  // N
+constexpr double kTiltStep = 5.0;    // degrees
+constexpr double kTurnStep = 15.0;   // degrees
 
 using Action = std::function<void(PointerToolController&, bool fine)>;
 
@@ -553,6 +555,10 @@ void vtkPetrousToolInteraction::Send()
     this->Device->setButtons(this->Aim->buttons() |
                              (this->FreezeKeyHeld ? PointerDevice::kFreeze : 0U));
     this->Aim->apply(this->Parameters);
+    vtkRenderWindowInteractor* interactor = this->From().Interactor;
+    if (interactor && interactor->GetShiftKey() && this->Pressed())
+      this->Parameters.thrust = std::min(kShiftThrust * this->Parameters.thrust,
+                                         std::max(kMaxThrust, this->Parameters.thrust));
   }
   else if (!this->PointerHand)
   {

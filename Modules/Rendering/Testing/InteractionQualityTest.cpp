@@ -137,3 +137,57 @@ TEST(InteractionQuality, RefusesARateOutOfItsRange)
     EXPECT_THROW(InteractionQuality{hz}, core::InvalidParameter);
   EXPECT_EQ(InteractionQuality(60.0).wantedRate(), 60.0);
 }
+
+namespace
+{
+
+double frameOf(const Machine& machine, const InteractionQuality::Foveated& frame)
+{
+  return machine.frame(frame.rest) + frame.area * (machine.frame(frame.fovea) - machine.constant);
+}
+
+} // namespace
+
+TEST(InteractionQuality, KeepsSixTenthsAroundABurrAndTheRate)
+{
+  for (const double whole : {60.0, 200.0, 600.0, 1500.0}) // ms for the whole picture
+    for (const double area : {0.005, 0.02, 0.05})
+    {
+      InteractionQuality interaction;
+      const Machine machine{1.0, 0.5 * whole, 0.25 * whole};
+      const RenderQuality plain = settled(interaction, machine);
+      std::optional<InteractionQuality::Foveated> frame;
+      for (int n = 0; n < 30; ++n)
+      {
+        frame = interaction.foveated({}, area);
+        ASSERT_TRUE(frame) << whole;
+        interaction.frameTook(frameOf(machine, *frame), InteractionQuality::workOf(*frame));
+      }
+      EXPECT_GE(frame->fovea.imageScale, 0.6);
+      EXPECT_GT(frame->fovea.imageScale, frame->rest.imageScale);
+      EXPECT_LE(frame->rest.imageScale, plain.imageScale + 0.051);
+      EXPECT_LE(frame->area, area);
+      EXPECT_GE(frame->area, 0.25 * area);
+      EXPECT_EQ(frame->fovea.step, RenderQuality().step);
+      EXPECT_NO_THROW(frame->rest.validate());
+      EXPECT_NO_THROW(frame->fovea.validate());
+      // Where the least of both is dearer than a frame may be, it is the least.
+      const double least =
+          machine.constant +
+          whole * (std::pow(InteractionQuality::kSmallestScale, 2) + 0.25 * area * 0.36);
+      EXPECT_LE(frameOf(machine, *frame), std::max(1000.0 / 30.0, 1.4 * least))
+          << whole << " " << area;
+    }
+}
+
+TEST(InteractionQuality, NeedsNoFinerPartWhereAllIsFine)
+{
+  InteractionQuality interaction;
+  EXPECT_FALSE(interaction.foveated({}, 0.02)) << "nothing is known yet";
+  settled(interaction, {0.2, 2.0, 2.0});
+  EXPECT_FALSE(interaction.foveated({}, 0.02));
+  InteractionQuality slow;
+  settled(slow, {1.0, 300.0, 300.0});
+  for (const double area : {0.0, -1.0, 1.5, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_FALSE(slow.foveated({}, area));
+}

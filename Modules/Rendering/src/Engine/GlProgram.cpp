@@ -124,6 +124,12 @@ void GlProgram::set(const char* name, double value)
   glUniform1f(location(name), static_cast<float>(value));
 }
 
+void GlProgram::set(const char* name, const Eigen::Vector2d& value)
+{
+  const Eigen::Vector2f single = value.cast<float>();
+  glUniform2fv(location(name), 1, single.data());
+}
+
 void GlProgram::set(const char* name, const Eigen::Vector3d& value)
 {
   const Eigen::Vector3f single = value.cast<float>();

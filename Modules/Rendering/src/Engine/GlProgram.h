@@ -59,6 +59,7 @@ public:
   // While in use:
   void set(const char* name, int value);
   void set(const char* name, double value);
+  void set(const char* name, const Eigen::Vector2d& value);
   void set(const char* name, const Eigen::Vector3d& value);
   void set(const char* name, const Eigen::Vector4d& value);
   void set(const char* name, const Eigen::Matrix3d& value);

@@ -21,10 +21,13 @@ namespace petrous::rendering
 
 void RayTarget::prepare(int width, int height, bool count)
 {
+  const std::array<GLenum, 3> buffers{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
+                                      GL_COLOR_ATTACHMENT2};
   if (m_framebuffer && m_color.dims()[0] == width && m_color.dims()[1] == height &&
       m_counting == count)
   {
     glBindFramebuffer(GL_FRAMEBUFFER, m_framebuffer);
+    glDrawBuffers(count ? 3 : 2, buffers.data());
     return;
   }
   m_color.create(texel::kColor, width, height, nullptr, GL_LINEAR);
@@ -41,8 +44,6 @@ void RayTarget::prepare(int width, int height, bool count)
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, m_depth.name(), 0);
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT2, GL_TEXTURE_2D,
                          count ? m_count.name() : 0, 0);
-  const std::array<GLenum, 3> buffers{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
-                                      GL_COLOR_ATTACHMENT2};
   glDrawBuffers(count ? 3 : 2, buffers.data());
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
     throw RenderingError(RenderingError::Reason::NoOpenGL,
@@ -110,6 +111,28 @@ float RayTarget::readDepth(double column, double row, int width, int height) con
   glReadBuffer(GL_COLOR_ATTACHMENT0);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(bound));
   return depth < 0.0F ? std::numeric_limits<float>::quiet_NaN() : depth;
+}
+
+void RayTarget::clear(const core::IndexBox& pixels) const
+{
+  if (pixels.empty())
+    return;
+  const std::array<float, 4> nothing{0.0F, 0.0F, 0.0F, 0.0F};
+  const std::array<float, 4> noDepth{-1.0F, 0.0F, 0.0F, 0.0F};
+  std::array<GLint, 4> before{};
+  glGetIntegerv(GL_SCISSOR_BOX, before.data()); // VTK caches its state
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(pixels.lower[0], pixels.lower[1], pixels.size()[0], pixels.size()[1]);
+  glClearBufferfv(GL_COLOR, 0, nothing.data());
+  glClearBufferfv(GL_COLOR, 1, noDepth.data());
+  glDisable(GL_SCISSOR_TEST);
+  glScissor(before[0], before[1], before[2], before[3]);
+}
+
+void RayTarget::bindColor() const
+{
+  glBindFramebuffer(GL_FRAMEBUFFER, m_framebuffer);
+  glDrawBuffer(GL_COLOR_ATTACHMENT0);
 }
 
 void RayTarget::release()
@@ -213,6 +236,7 @@ void RayCaster::setContents(const SceneContents& contents)
 {
   checkContents(contents);
   checkPlaneCount(contents);
+  ++m_changes;
   const bool sameCt = contents.ct == m_contents.ct;
   m_givenMask = contents.mask;
   std::shared_ptr<const volume::CutMask> mask = maskInUse();
@@ -258,6 +282,7 @@ void RayCaster::setQuality(const RenderQuality& quality)
 
 void RayCaster::maskChanged(std::shared_ptr<const volume::CutMask> mask, const core::IndexBox& box)
 {
+  ++m_changes;
   const bool wasCut = m_mask.inUse();
   m_givenMask = std::move(mask);
   mask = maskInUse();
@@ -276,6 +301,7 @@ void RayCaster::expectCut(bool expected)
   std::shared_ptr<const volume::CutMask> mask = maskInUse();
   if (static_cast<bool>(mask) == m_mask.inUse())
     return;
+  ++m_changes;
   // The bricks stay valid: a mask in which nothing is cut yields the same flags as no mask.
   m_contents.mask = mask;
   m_mask.reset(std::move(mask), m_quality.maskBits, m_quality.largestTexture);
@@ -436,6 +462,7 @@ void RayCaster::draw(const Frame& frame, bool count)
   const int height =
       std::max(1, static_cast<int>(std::lround(frame.height * m_quality.imageScale)));
   const bool anything = drawable(m_contents);
+  m_fovea.reset();
   if (anything)
   {
     upload();
@@ -461,7 +488,9 @@ void RayCaster::draw(const Frame& frame, bool count)
   bindTextures(shader, frame);
   setRays(shader, frame);
   setVolume(shader);
-  castRays(frame, width, height);
+  castRays(tissueOnScreen(frame, width, height));
+  if (frame.fovea && !count)
+    drawFovea(frame);
   if (count)
   {
     const auto [fetches, samples] = m_target.meanCounts();
@@ -470,17 +499,100 @@ void RayCaster::draw(const Frame& frame, bool count)
   }
 }
 
-void RayCaster::present(int width, int height)
+// The program of the whole picture is in use.
+void RayCaster::drawFovea(const Frame& frame)
+{
+  const Fovea& fovea = *frame.fovea;
+  const int width = std::max(1, static_cast<int>(std::lround(frame.width * fovea.scale)));
+  const int height = std::max(1, static_cast<int>(std::lround(frame.height * fovea.scale)));
+  constexpr int kMargin = 2; // texels, for interpolation
+  core::IndexBox pixels{{0, 0, 0}, {width, height, 1}};
+  const double reach = fovea.radius * fovea.scale + kMargin;
+  for (const auto& [axis, center] : {std::pair<std::size_t, double>{0, fovea.x}, {1, fovea.y}})
+  {
+    const double size = pixels.upper[axis];
+    const auto edge = [&](double at) { return static_cast<int>(std::clamp(at, 0.0, size)); };
+    pixels.lower[axis] = edge(std::floor(center * fovea.scale - reach));
+    pixels.upper[axis] = edge(std::ceil(center * fovea.scale + reach));
+  }
+  if (pixels.empty())
+    return;
+  m_foveaTarget.prepare(width, height, false);
+  glViewport(0, 0, width, height);
+  m_foveaTarget.clear(pixels);
+  RenderQuality quality = m_quality;
+  quality.step = fovea.step;
+  drawPart(frame, quality, pixels);
+  m_fovea = fovea;
+}
+
+void RayCaster::drawPart(const Frame& frame, const RenderQuality& quality,
+                         const core::IndexBox& pixels)
+{
+  if (!drawable(m_contents) || !m_occupancy)
+    return;
+  std::array<GLint, 4> viewport{};
+  glGetIntegerv(GL_VIEWPORT, viewport.data());
+  const core::IndexBox part = tissueOnScreen(frame, viewport[2], viewport[3]).intersected(pixels);
+  if (part.empty())
+    return;
+  struct Restored
+  {
+    RenderQuality& quality;
+    RenderQuality before;
+    ~Restored() { quality = before; }
+  } restored{m_quality, m_quality};
+  m_quality = quality;
+  GlProgram& shader = program(false);
+  shader.use();
+  bindTextures(shader, frame);
+  setRays(shader, frame);
+  setVolume(shader);
+  castRays(part);
+}
+
+GlProgram& RayCaster::presenting()
 {
   if (!m_present)
     m_present.build(kRayCastVertexShader, kPresentShader);
   m_present.use();
-  m_target.color().bind(0);
   m_present.set("picture", 0);
-  m_present.set("sameSize",
-                m_target.color().dims()[0] == width && m_target.color().dims()[1] == height ? 1
-                                                                                            : 0);
+  m_present.set("fovea", 1);
+  m_present.set("share", 1.0);
+  m_present.set("hasFovea", 0);
+  return m_present;
+}
+
+void RayCaster::present(int width, int height)
+{
+  GlProgram& shader = presenting();
+  if (m_fovea)
+  {
+    m_foveaTarget.color().bind(1);
+    shader.set("hasFovea", 1);
+    shader.set("windowSize", Eigen::Vector2d(width, height));
+    shader.set("foveaCircle", Eigen::Vector3d(m_fovea->x, m_fovea->y, m_fovea->radius));
+  }
+  m_target.color().bind(0);
+  shader.set("sameSize",
+             m_target.color().dims()[0] == width && m_target.color().dims()[1] == height ? 1 : 0);
   m_triangle.draw();
+}
+
+void RayCaster::copy(const GlTexture& picture, double share)
+{
+  GlProgram& shader = presenting();
+  picture.bind(0);
+  shader.set("sameSize", 1);
+  shader.set("share", share);
+  m_triangle.draw();
+}
+
+float RayCaster::readDepth(double column, double row, int width, int height) const
+{
+  const bool isIn = m_fovea && std::hypot(column + 0.5 - m_fovea->x,
+                                          height - 0.5 - row - m_fovea->y) < m_fovea->radius;
+  return (isIn ? m_foveaTarget : m_target).readDepth(column, row, width, height);
 }
 
 void RayCaster::releaseData()
@@ -497,6 +609,8 @@ void RayCaster::releaseData()
 void RayCaster::releasePicture()
 {
   m_target.release();
+  m_foveaTarget.release();
+  m_fovea.reset();
   m_statistics = {};
 }
 
@@ -508,6 +622,8 @@ void RayCaster::release()
   m_programs.clear();
   m_present.release();
   m_target.release();
+  m_foveaTarget.release();
+  m_fovea.reset();
   m_triangle.release();
   m_filterBits = 0; // the next context may be of another card
 }

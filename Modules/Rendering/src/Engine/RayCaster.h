@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <vtk_glew.h>
@@ -34,6 +36,11 @@ public:
   /// Depth at one pixel when shown as a picture of width x height, rows from the top.
   float readDepth(double column, double row, int width, int height) const;
 
+  /// Nothing is seen in a rectangle of the bound target.
+  void clear(const core::IndexBox& pixels) const;
+  /// Binds it so that only its colour is drawn; `prepare` ends that.
+  void bindColor() const;
+
   /// Fetches and samples, averaged over the pixels. The target must be bound.
   std::array<double, 2> meanCounts() const;
 
@@ -53,6 +60,14 @@ private:
 class RayCaster
 {
 public:
+  /// A circle that is drawn finer than the rest; pixels of the viewport from its lower left.
+  struct Fovea
+  {
+    double x = 0.0, y = 0.0, radius = 0.0;
+    double scale = 1.0; ///< of the picture's edge, as RenderQuality::imageScale
+    double step = 0.5;  ///< as RenderQuality::step
+  };
+
   /// Input of a frame. `opaque`: depth texture of the window's opaque polygons, or 0.
   struct Frame
   {
@@ -61,6 +76,7 @@ public:
     int height = 0;
     GLuint opaque = 0;
     bool everywhere = false; ///< also cast rays that cannot meet tissue
+    std::optional<Fovea> fovea = std::nullopt;
   };
 
   /// Unchanged data stay on the GPU. Throws RenderingError BadContents.
@@ -79,9 +95,25 @@ public:
 
   /// Draws the own target over the bound frame buffer; the caller sets up blending.
   void present(int width, int height);
+  /// The same of another target of that size.
+  void present(const RayTarget& target) { copy(target.color(), 1.0); }
+  /// Draws a picture texel by texel over the bound frame buffer, multiplied by `share`.
+  void copy(const GlTexture& picture, double share);
 
-  /// Target of the last frame.
+  /// Casts the rays of a rectangle of a target that is bound, of the frame's size, with `quality`;
+  /// after a `draw` since which nothing has changed.
+  void drawPart(const Frame& frame, const RenderQuality& quality, const core::IndexBox& pixels);
+
+  /// Pixel rectangle of a picture whose rays may meet tissue.
+  core::IndexBox tissueOnScreen(const Frame& frame, int width, int height) const;
+
+  /// Number of changes so far of what is drawn.
+  std::uint64_t changes() const noexcept { return m_changes; }
+
+  /// Target of the last frame, without its fovea.
   const RayTarget& target() const noexcept { return m_target; }
+  /// Depth at one pixel of the last frame, in the fovea that of it; see RayTarget.
+  float readDepth(double column, double row, int width, int height) const;
 
   void release();
   void releaseData();    ///< what is of the contents; the programs stay
@@ -94,13 +126,14 @@ private:
   OccupancyGrid::Rules rules() const;
   void upload();
   void findTissue(const core::IndexBox& bricks);
-  core::IndexBox tissueOnScreen(const Frame& frame, int width, int height) const;
+  void drawFovea(const Frame& frame);
   GlProgram& program(bool count);
   void findFilterBits();
   void bindTextures(GlProgram& program, const Frame& frame) const;
   void setRays(GlProgram& program, const Frame& frame) const;
   void setVolume(GlProgram& program) const;
-  void castRays(const Frame& frame, int width, int height);
+  void castRays(const core::IndexBox& pixels);
+  GlProgram& presenting();
 
   SceneContents m_contents; // its mask only if in use
   std::shared_ptr<const volume::CutMask> m_givenMask;
@@ -123,6 +156,9 @@ private:
   MaterialTables m_materials;
   GlTexture m_bricks;
   RayTarget m_target;
+  RayTarget m_foveaTarget;
+  std::optional<Fovea> m_fovea; // of the last frame
+  std::uint64_t m_changes = 0;
   ScreenTriangle m_triangle;
   int m_filterBits = 0; // of the card; 0: not measured yet
   std::unordered_map<unsigned, GlProgram> m_programs;

@@ -255,9 +255,8 @@ core::IndexBox RayCaster::tissueOnScreen(const Frame& frame, int width, int heig
 
 // Rays that miss all tissue are not cast: on SIMT hardware their pixels would pay for the code
 // after a hit even without one.
-void RayCaster::castRays(const Frame& frame, int width, int height)
+void RayCaster::castRays(const core::IndexBox& pixels)
 {
-  const core::IndexBox pixels = tissueOnScreen(frame, width, height);
   if (pixels.empty())
     return;
   std::array<GLint, 4> before{};

@@ -65,7 +65,13 @@ RenderQuality InteractionQuality::coarser(const RenderQuality& full) const noexc
     quality.imageScale = std::min(full.imageScale, 0.5);
     return quality;
   }
-  const double budget = kReserve * 1000.0 / m_hz;
+  return fitted(full, kReserve * 1000.0 / m_hz);
+}
+
+RenderQuality InteractionQuality::fitted(const RenderQuality& full, double budget) const noexcept
+{
+  RenderQuality quality = full;
+  quality.exactSamples = false;
   double scale = std::sqrt(budget / (m_cost * stepCost(full.step)));
   if (scale < kStepsFromScale)
   {
@@ -78,12 +84,50 @@ RenderQuality InteractionQuality::coarser(const RenderQuality& full) const noexc
   return quality;
 }
 
+std::optional<InteractionQuality::Foveated> InteractionQuality::foveated(const RenderQuality& full,
+                                                                         double area) const noexcept
+{
+  constexpr double kLeastArea = 0.25; // of what is wanted
+  if (m_cost == 0.0 || !(area > 0.0 && area <= 1.0))
+    return std::nullopt;
+  Foveated frame;
+  frame.rest = coarser(full);
+  if (frame.rest.imageScale >= full.imageScale)
+    return std::nullopt;
+  const double budget = kReserve * 1000.0 / m_hz;
+  const double whole = m_cost * stepCost(full.step); // ms, of the full picture
+  const double least = std::min(kFoveaScale, full.imageScale);
+  double scale = std::floor(20.0 * std::sqrt(kFoveaShare * budget / (whole * area))) / 20.0;
+  scale = std::clamp(scale, least, full.imageScale);
+  frame.area = std::clamp(kFoveaShare * budget / (whole * scale * scale), kLeastArea * area, area);
+  frame.fovea = full;
+  frame.fovea.exactSamples = false;
+  frame.fovea.imageScale = scale;
+  const double left = budget - frame.area * scale * scale * whole;
+  frame.rest = fitted(full, std::max(left, (1.0 - kFoveaShare) * budget));
+  return frame.rest.imageScale < scale ? std::optional(frame) : std::nullopt;
+}
+
+double InteractionQuality::workOf(const RenderQuality& quality) noexcept
+{
+  return quality.imageScale * quality.imageScale * stepCost(quality.step);
+}
+
+double InteractionQuality::workOf(const Foveated& frame) noexcept
+{
+  return workOf(frame.rest) + frame.area * workOf(frame.fovea);
+}
+
 void InteractionQuality::frameTook(double milliseconds, const RenderQuality& quality) noexcept
 {
-  if (!(milliseconds > 0.0) || !std::isfinite(milliseconds))
+  frameTook(milliseconds, workOf(quality));
+}
+
+void InteractionQuality::frameTook(double milliseconds, double work) noexcept
+{
+  if (!(milliseconds > 0.0) || !std::isfinite(milliseconds) || !(work > 0.0))
     return;
-  const double pixels = quality.imageScale * quality.imageScale;
-  const double cost = milliseconds / (pixels * stepCost(quality.step));
+  const double cost = milliseconds / work;
   m_cost = m_cost == 0.0 ? cost : 0.6 * m_cost + 0.4 * cost;
 }
 

@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <exception>
 #include <limits>
+#include <map>
 #include <set>
 #include <utility>
 
+#include <Eigen/LU>
+#include <vtkActor.h>
+#include <vtkCamera.h>
 #include <vtkColorTransferFunction.h>
 #include <vtkImageData.h>
 #include <vtkObjectFactory.h>
@@ -26,6 +31,7 @@
 #include "CameraPlacement.h"
 #include "GlTexture.h"
 #include "RayCaster.h"
+#include "RestPicture.h"
 #include "petrous/Core/Log.h"
 #include "petrous/Rendering/RenderingError.h"
 #include "petrous/Rendering/VtkVolume.h"
@@ -63,6 +69,47 @@ bool hasOpaqueProps(vtkRenderer* renderer)
     if (prop->GetVisibility() && prop->HasOpaqueGeometry())
       return true;
   return false;
+}
+
+// Changes with the opaque polygons, the camera aside. Overlays are none.
+std::uint64_t opaqueState(vtkRenderer* renderer)
+{
+  std::uint64_t state = 14695981039346656037ULL;
+  const auto mix = [&state](std::uint64_t value) { state = (state ^ value) * 1099511628211ULL; };
+  vtkPropCollection* props = renderer->GetViewProps();
+  vtkCollectionSimpleIterator it;
+  props->InitTraversal(it);
+  while (vtkProp* prop = props->GetNextProp(it))
+    if (vtkActor::SafeDownCast(prop) && prop->GetVisibility() && prop->HasOpaqueGeometry())
+    {
+      mix(reinterpret_cast<std::uintptr_t>(prop));
+      mix(prop->GetRedrawMTime());
+    }
+  return state;
+}
+
+// On the screen of a frame; nullopt: behind the camera, or nowhere.
+std::optional<RayCaster::Fovea> foveaOf(const vtkPetrousVolumeMapper::Fovea& wanted,
+                                        const RayCaster::Frame& frame)
+{
+  const RayView& view = frame.view;
+  Eigen::Matrix3d axes;
+  if (view.parallel)
+    axes << view.originX, view.originY, view.direction;
+  else
+    axes << view.directionX, view.directionY, view.direction;
+  const Eigen::Vector3d at = axes.inverse() * (wanted.center - view.origin);
+  const double depth = view.parallel ? 1.0 : at.z();
+  const double pixels = 0.5 * frame.width / (axes.col(0).norm() * depth); // a mm
+  if (!at.allFinite() || !(depth > 0.0) || !std::isfinite(pixels))
+    return std::nullopt;
+  RayCaster::Fovea fovea;
+  fovea.x = 0.5 * frame.width * (at.x() / depth + 1.0);
+  fovea.y = 0.5 * frame.height * (at.y() / depth + 1.0);
+  fovea.radius = pixels * wanted.radius;
+  fovea.scale = wanted.quality.imageScale;
+  fovea.step = wanted.quality.step;
+  return fovea;
 }
 
 // A depth blit requires identical source and destination formats.
@@ -206,6 +253,37 @@ public:
   petrous::rendering::RayCaster caster;
   petrous::rendering::OpaqueDepth opaque;
   petrous::rendering::RenderQuality quality;
+  std::optional<petrous::rendering::RenderQuality> restQuality;
+  std::optional<vtkPetrousVolumeMapper::Fovea> fovea;
+
+  /// The picture at rest of one eye, with the depth at which its rays end.
+  struct Rest
+  {
+    petrous::rendering::RestPicture picture;
+    petrous::rendering::OpaqueDepth opaque;
+  };
+  std::map<std::pair<const vtkRenderer*, bool>, Rest> rests; // by renderer and eye
+  const petrous::rendering::RestPicture* shown = nullptr;    // in the last frame; null: none
+
+  Rest& restOf(vtkRenderer* renderer)
+  {
+    const std::pair<const vtkRenderer*, bool> eye(renderer,
+                                                  renderer->GetActiveCamera()->GetLeftEye() != 0);
+    constexpr std::size_t kEyes = 2;
+    if (rests.size() >= kEyes && rests.count(eye) == 0)
+      releaseRests(); // of renderers that are gone
+    return rests[eye];
+  }
+  void releaseRests()
+  {
+    for (auto& [eye, rest] : rests)
+    {
+      rest.picture.release();
+      rest.opaque.release();
+    }
+    rests.clear();
+    shown = nullptr;
+  }
   SceneContents contents;
   bool given = false;                   // by SetContents, not by the pipeline
   vtkMTimeType made = 0;                // when `contents` was created from the pipeline
@@ -252,6 +330,7 @@ void vtkPetrousVolumeMapper::SetContents(const SceneContents& contents)
     this->Internal->caster.setContents(contents);
     this->Internal->caster.releaseData();
     this->Internal->caster.releasePicture();
+    this->Internal->releaseRests();
   }
   this->Internal->clipped = 0; // to be merged with the mapper's own clipping
   this->Modified();
@@ -386,17 +465,42 @@ void vtkPetrousVolumeMapper::DrawRays(vtkRenderer* renderer, vtkVolume* volume)
   const petrous::rendering::PlainDrawing plain(window);
   const vtkOpenGLState::ScopedglBlendFuncSeparate blendFunction(state);
   state->PushFramebufferBindings();
+  my.shown = nullptr;
+  Internals::Rest* rest = my.restQuality && !this->Counting ? &my.restOf(renderer) : nullptr;
+  petrous::rendering::RestPicture::Key key;
+  if (rest)
+    key = {frame.view,
+           frame.width,
+           frame.height,
+           my.caster.changes(),
+           petrous::rendering::opaqueState(renderer),
+           *my.restQuality};
   try
   {
-    frame.opaque = my.opaque.capture(renderer, x, y, frame.width, frame.height);
-    my.caster.draw(frame, this->Counting);
+    if (rest && rest->picture.shows(key))
+      my.shown = &rest->picture;
+    else
+    {
+      frame.opaque =
+          (rest ? rest->opaque : my.opaque).capture(renderer, x, y, frame.width, frame.height);
+      if (my.fovea)
+        frame.fovea = petrous::rendering::foveaOf(*my.fovea, frame);
+      my.caster.draw(frame, this->Counting);
+      if (rest && my.caster.statistics().pendingEdits == 0)
+        rest->picture.begin(key, frame);
+      else if (rest)
+        rest->picture.drop();
+    }
     state->ResetFramebufferBindings(); // bound outside of VTK's state cache
     state->PopFramebufferBindings();
     state->ResetGLViewportState();
     state->vtkglViewport(x, y, frame.width, frame.height);
     state->vtkglEnable(GL_BLEND);
     state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    my.caster.present(frame.width, frame.height);
+    if (my.shown)
+      my.caster.present(my.shown->target());
+    else
+      my.caster.present(frame.width, frame.height);
   }
   catch (...)
   {
@@ -421,12 +525,75 @@ void vtkPetrousVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
   }
 }
 
+void vtkPetrousVolumeMapper::SetRestQuality(
+    const std::optional<petrous::rendering::RenderQuality>& quality)
+{
+  this->Internal->restQuality = quality;
+}
+
+void vtkPetrousVolumeMapper::SetFovea(const std::optional<Fovea>& fovea)
+{
+  this->Internal->fovea = fovea;
+}
+
+int vtkPetrousVolumeMapper::GetRestSamples() const
+{
+  return this->Internal->shown ? this->Internal->shown->samples() : 0;
+}
+
+double vtkPetrousVolumeMapper::GetRestMilliseconds() const
+{
+  return this->Internal->shown ? this->Internal->shown->milliseconds() : 0.0;
+}
+
+petrous::rendering::Refinement vtkPetrousVolumeMapper::Refine(double milliseconds, int samples)
+{
+  using petrous::rendering::Refinement;
+  Internals& my = *this->Internal;
+  if (!my.window || !my.restQuality)
+    return Refinement::Done;
+  const std::uint64_t contents = my.caster.changes();
+  petrous::rendering::RestPicture* next = nullptr; // the one that lags behind
+  for (auto& [eye, rest] : my.rests)
+    if (rest.picture.remains(contents, samples) && (!next || rest.picture.drawn() < next->drawn()))
+      next = &rest.picture;
+  if (!next)
+    return Refinement::Done;
+  my.window->MakeCurrent();
+  vtkOpenGLState* state = my.window->GetState();
+  const petrous::rendering::PlainDrawing plain(my.window);
+  const vtkOpenGLState::ScopedglBlendFuncSeparate blendFunction(state);
+  state->PushFramebufferBindings();
+  Refinement refinement = Refinement::Done;
+  try
+  {
+    refinement = next->advance(my.caster, milliseconds, samples);
+  }
+  catch (const std::exception& error)
+  {
+    my.error = std::current_exception();
+    next->drop();
+    petrous::core::log::error("ray caster: " + petrous::core::log::typeOf(error));
+  }
+  state->ResetFramebufferBindings(); // bound outside of VTK's state cache
+  state->PopFramebufferBindings();
+  state->ResetGLViewportState();
+  state->ResetGLBlendFuncState();
+  // Both eyes at once.
+  for (const auto& [eye, rest] : my.rests)
+    if (refinement == Refinement::Better && rest.picture.remains(contents, samples) &&
+        rest.picture.samples() < next->samples())
+      refinement = Refinement::More;
+  return refinement;
+}
+
 petrous::rendering::DepthImage vtkPetrousVolumeMapper::GetDepth()
 {
   if (!this->Internal->window)
     return {};
   this->Internal->window->MakeCurrent();
-  return this->Internal->caster.target().readDepth();
+  return (this->Internal->shown ? this->Internal->shown->target() : this->Internal->caster.target())
+      .readDepth();
 }
 
 float vtkPetrousVolumeMapper::GetDepthAt(double column, double row)
@@ -434,8 +601,9 @@ float vtkPetrousVolumeMapper::GetDepthAt(double column, double row)
   if (!this->Internal->window)
     return std::numeric_limits<float>::quiet_NaN();
   this->Internal->window->MakeCurrent();
-  return this->Internal->caster.target().readDepth(column, row, this->Internal->width,
-                                                   this->Internal->height);
+  const Internals& my = *this->Internal;
+  return my.shown ? my.shown->target().readDepth(column, row, my.width, my.height)
+                  : my.caster.readDepth(column, row, my.width, my.height);
 }
 
 void vtkPetrousVolumeMapper::ReleaseGraphicsResources(vtkWindow* window)
@@ -445,6 +613,7 @@ void vtkPetrousVolumeMapper::ReleaseGraphicsResources(vtkWindow* window)
   window->MakeCurrent();
   this->Internal->caster.release();
   this->Internal->opaque.release();
+  this->Internal->releaseRests();
   this->Internal->window = nullptr;
   this->Internal->owner = nullptr;
 }

@@ -41,8 +41,8 @@ void aimAtTile(vtkRenderer* renderer, const core::CameraPose& pose, const Pictur
   else
     camera->SetViewAngle(std::atan(share * std::tan(pose.viewAngle * kHalfDegree)) / kHalfDegree);
   const double right =
-      tile.left + 0.5 * (size[0] - tile.width) + 0.5 * pose.lensShift * tile.height;
-  const double down = tile.top + 0.5 * (size[1] - tile.height);
+      tile.left + tile.right + 0.5 * (size[0] - tile.width) + 0.5 * pose.lensShift * tile.height;
+  const double down = tile.top + tile.down + 0.5 * (size[1] - tile.height);
   camera->SetWindowCenter(2.0 * right / size[0], -2.0 * down / size[1]);
 }
 

@@ -12,6 +12,7 @@
 #include "petrous/Core/Error.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Rendering/OffscreenView.h"
+#include "petrous/Rendering/PixelSamples.h"
 #include "petrous/Rendering/RenderingError.h"
 
 namespace petrous::rendering
@@ -76,10 +77,14 @@ double millimetresPerPixel(const core::CameraPose& camera, int height)
 // Tiles are counted from the bottom: whatever repeats with the pixels of a window (screen doors)
 // goes on from tile to tile, as their edges are multiples of its period.
 Picture renderTiled(ScenePicture& scene, const core::CameraPose& camera, int width, int height,
-                    const core::Progress& progress, int tile)
+                    const core::Progress& progress, int tile, int samples)
 {
   constexpr int kPeriod = 64;
   checkEdges(width, height);
+  if (samples < 1 || samples > kPixelSamples)
+    throw core::InvalidParameter("a picture of " + std::to_string(samples) +
+                                 " samples a pixel: 1 to " + std::to_string(kPixelSamples) +
+                                 " are possible");
   const auto edge = [tile](int whole)
   {
     const int longest = std::max(tile / kPeriod, 1) * kPeriod;
@@ -100,12 +105,31 @@ Picture renderTiled(ScenePicture& scene, const core::CameraPose& camera, int wid
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column)
     {
-      progress.report(static_cast<double>(row * columns + column) / (rows * columns),
-                      "drawing the picture");
-      const PictureTile place{width, height, column * edge(width),
-                              height - (row + 1) * edge(height)};
-      scene.setTile(place);
-      put(view.render(scene), place, picture);
+      PictureTile place{width, height, column * edge(width), height - (row + 1) * edge(height)};
+      std::vector<unsigned> sums;
+      Picture drawn;
+      for (int n = 0; n < samples; ++n)
+      {
+        progress.report((row * columns + column + static_cast<double>(n) / samples) /
+                            (rows * columns),
+                        "drawing the picture");
+        if (samples > 1)
+        {
+          const auto [right, down] = pixelSample(n);
+          place.right = right;
+          place.down = down;
+        }
+        scene.setTile(place);
+        drawn = view.render(scene);
+        sums.resize(drawn.rgb.size());
+        std::transform(drawn.rgb.begin(), drawn.rgb.end(), sums.begin(), sums.begin(),
+                       [](std::uint8_t value, unsigned sum) { return sum + value; });
+      }
+      const auto count = static_cast<unsigned>(samples);
+      std::transform(sums.begin(), sums.end(), drawn.rgb.begin(),
+                     [count](unsigned sum)
+                     { return static_cast<std::uint8_t>((sum + count / 2) / count); });
+      put(drawn, place, picture);
     }
   return picture;
 }

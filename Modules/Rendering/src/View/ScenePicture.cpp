@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -27,9 +28,11 @@
 #include "ShadedMesh.h"
 #include "SurfaceActor.h"
 #include "ToolProps.h"
+#include "petrous/Rendering/PixelSamples.h"
 #include "petrous/Rendering/ReferenceRayCaster.h"
 #include "petrous/Rendering/RenderQuality.h"
 #include "petrous/Rendering/RenderingError.h"
+#include "petrous/Rendering/ToolShape.h"
 #include "petrous/Rendering/VolumeMapper.h"
 
 namespace petrous::rendering
@@ -45,12 +48,12 @@ public:
   struct Frame
   {
     double milliseconds = 0.0;
-    RenderQuality quality; ///< used for the frame
+    double work = 0.0; ///< InteractionQuality::workOf the frame; 0: not to be learnt from
   };
 
   /// All calls need the same context current.
   void begin();
-  void end(const RenderQuality& quality);
+  void end(double work);
   bool holdsQueries() const noexcept { return m_queries[Begin] != 0; }
   void release(); ///< call before the context is destroyed or replaced
 
@@ -71,7 +74,7 @@ private:
   bool m_pending = false;                      // both stamped, not yet read
   bool m_open = false;                         // the first is stamped
   std::chrono::steady_clock::time_point m_begun;
-  RenderQuality m_quality; // of the pending frame
+  double m_work = 0.0; // of the pending frame
   std::optional<Frame> m_known;
 };
 
@@ -106,7 +109,7 @@ void FrameTimer::begin()
   glQueryCounter(m_queries[Begin], GL_TIMESTAMP);
 }
 
-void FrameTimer::end(const RenderQuality& quality)
+void FrameTimer::end(double work)
 {
   if (m_software.value_or(true))
   {
@@ -114,13 +117,13 @@ void FrameTimer::end(const RenderQuality& quality)
     m_known =
         Frame{std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - m_begun)
                   .count(),
-              quality};
+              work};
     return;
   }
   if (!m_open)
     return;
   glQueryCounter(m_queries[End], GL_TIMESTAMP);
-  m_quality = quality;
+  m_work = work;
   m_open = false;
   m_pending = true;
 }
@@ -139,7 +142,7 @@ void FrameTimer::read()
   glGetQueryObjectui64v(m_queries[End], GL_QUERY_RESULT, &ended);
   m_pending = false;
   if (ended > begun) // the clock may have wrapped around
-    m_known = Frame{1e-6 * static_cast<double>(ended - begun), m_quality};
+    m_known = Frame{1e-6 * static_cast<double>(ended - begun), m_work};
 }
 
 void FrameTimer::release()
@@ -170,6 +173,19 @@ void check(const SceneContents& contents)
                            "picture: mesh " + mesh.name + " has no triangles");
     mesh.mesh->validate();
   }
+}
+
+// In the plane through a point, parallel to the picture; NaN behind the camera.
+double millimetresPerPixelAt(const Eigen::Vector3d& point, const core::CameraPose& camera,
+                             int height)
+{
+  constexpr double kHalfDegree = 3.14159265358979323846 / 360.0;
+  if (camera.parallelScale)
+    return 2.0 * *camera.parallelScale / height;
+  const double depth =
+      (camera.focalPoint - camera.position).normalized().dot(point - camera.position);
+  return depth > 0.0 ? 2.0 * depth * std::tan(camera.viewAngle * kHalfDegree) / height
+                     : std::numeric_limits<double>::quiet_NaN();
 }
 
 struct MeshActor
@@ -204,6 +220,7 @@ public:
   void applyCamera();
   void startFrame();
   void endFrame();
+  void coarsen();
 
   vtkWeakPointer<vtkRenderer> renderer;
   core::CameraPose pose;
@@ -216,6 +233,10 @@ public:
   RenderQuality drawn; // of the last frame
   InteractionQuality interaction;
   bool interactive = false;
+  bool progressive = false;
+  bool isNew = false; // contents that no frame has shown: uploads and shaders take its time
+  std::optional<InteractionQuality::Foveated> foveated; // of the last frame
+  std::optional<ToolPose> toolPose;
   double milliseconds = 0.0; // of the latest frame with a known time
   std::vector<std::unique_ptr<MeshActor>> meshes;
   ToolProps tool;
@@ -254,22 +275,62 @@ void ScenePicture::Implementation::startFrame()
     aimAtTile(renderer, pose, *tile);
   else
     shiftLens(renderer, pose);
-  drawn = interactive ? interaction.coarser(quality) : quality;
+  foveated.reset();
+  drawn = quality;
+  if (interactive || progressive)
+    coarsen();
   mapper->SetQuality(drawn);
+  mapper->SetRestQuality(progressive ? std::optional(quality) : std::nullopt);
   // The light is at the camera, as in the ray caster; a parallel projection has no such position.
   m_lamp->SetPositional(renderer->GetActiveCamera()->GetParallelProjection() ? 0 : 1);
   m_timer.begin();
 }
 
+void ScenePicture::Implementation::coarsen()
+{
+  drawn = interaction.coarser(quality);
+  if (!progressive)
+    return;
+  if (!interaction.knows()) // nor whether the machine bears half of the picture
+    drawn.imageScale = std::min(quality.imageScale, InteractionQuality::kSmallestScale);
+  std::optional<vtkPetrousVolumeMapper::Fovea> fovea;
+  if (toolPose && tool::isShown(*toolPose))
+  {
+    const int* size = renderer->GetSize();
+    const double radius = toolPose->radius + tool::kField;
+    const double pixels = radius / millimetresPerPixelAt(toolPose->center, pose, size[1]);
+    constexpr double kPi = 3.14159265358979323846;
+    const double area = kPi * pixels * pixels / (static_cast<double>(size[0]) * size[1]);
+    foveated = interaction.foveated(quality, area);
+    if (foveated)
+    {
+      drawn = foveated->rest;
+      fovea.emplace();
+      fovea->center = toolPose->center;
+      fovea->radius = radius * std::sqrt(foveated->area / area);
+      fovea->quality = foveated->fovea;
+    }
+  }
+  mapper->SetFovea(fovea);
+}
+
 void ScenePicture::Implementation::endFrame()
 {
-  m_timer.end(drawn);
+  const bool isRest = mapper->GetRestSamples() > 0;
+  // In a window the first frame of a scene tells little.
+  const bool tells = !isRest && !(progressive && isNew);
+  m_timer.end(!tells     ? 0.0
+              : foveated ? InteractionQuality::workOf(*foveated)
+                         : InteractionQuality::workOf(drawn));
+  isNew = false;
   // Also at rest, so that the first interactive frame is not slower than the others.
   if (const auto frame = m_timer.take())
   {
     milliseconds = frame->milliseconds;
-    interaction.frameTook(frame->milliseconds, frame->quality);
+    interaction.frameTook(frame->milliseconds, frame->work);
   }
+  if (isRest)
+    milliseconds = mapper->GetRestMilliseconds();
 }
 
 void ScenePicture::Implementation::setVolume(const SceneContents& contents)
@@ -281,6 +342,7 @@ void ScenePicture::Implementation::setVolume(const SceneContents& contents)
   const double falloff = contents.light.falloff;
   m_lamp->SetAttenuationValues(1.0, 0.0, falloff > 0.0 ? 1.0 / (falloff * falloff) : 0.0);
   mapper->SetContents(contents);
+  isNew = true;
   volume->SetVisibility(mapper->GetTotalNumberOfInputConnections() > 0 ? 1 : 0);
 }
 
@@ -416,6 +478,7 @@ void ScenePicture::maskChanged(std::shared_ptr<const volume::CutMask> mask,
 void ScenePicture::setTool(const std::optional<ToolPose>& tool)
 {
   m_implementation->mapper->ExpectCut(tool.has_value());
+  m_implementation->toolPose = tool;
   m_implementation->tool.setPose(tool);
 }
 
@@ -455,6 +518,36 @@ void ScenePicture::setInteractive(bool interactive)
 void ScenePicture::setInteractionRate(double hz)
 {
   m_implementation->interaction = InteractionQuality(hz);
+}
+
+void ScenePicture::setProgressive(bool progressive)
+{
+  m_implementation->progressive = progressive;
+  if (!progressive)
+    m_implementation->mapper->SetFovea(std::nullopt);
+}
+
+Refinement ScenePicture::refine(double milliseconds, int samples)
+{
+  return m_implementation->mapper->Refine(milliseconds, std::clamp(samples, 1, kPixelSamples));
+}
+
+int ScenePicture::restSamples() const
+{
+  return m_implementation->mapper->GetRestSamples();
+}
+
+double ScenePicture::drawnScale() const
+{
+  return restSamples() > 0 ? m_implementation->quality.imageScale
+                           : m_implementation->drawn.imageScale;
+}
+
+double ScenePicture::foveaScale() const
+{
+  return restSamples() == 0 && m_implementation->foveated
+             ? m_implementation->foveated->fovea.imageScale
+             : drawnScale();
 }
 
 void ScenePicture::setQuality(const RenderQuality& quality)

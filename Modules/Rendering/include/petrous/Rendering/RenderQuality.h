@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,14 @@ struct RenderQuality
 
   /// Throws InvalidParameter naming the first value out of range.
   void validate() const;
+};
+
+/// How the picture at rest goes on (ScenePicture::refine).
+enum class Refinement
+{
+  Done,  ///< nothing remains to be drawn
+  More,  ///< to be called again
+  Better ///< to be called again, and another frame shows a better picture
 };
 
 /// Statistics of the last frame.
@@ -67,10 +76,34 @@ public:
   /// Quality of the next frame during interaction.
   RenderQuality coarser(const RenderQuality& full) const noexcept;
 
+  /// A frame with a part, such as that around a burr, drawn finer than the rest.
+  struct Foveated
+  {
+    RenderQuality rest;
+    RenderQuality fovea;
+    double area = 0.0; ///< of the finer part, fraction of the picture; at most what was wanted
+  };
+  static constexpr double kFoveaScale = 0.6; ///< at least, relative to the picture's edge
+
+  /// Quality of the next frame during interaction with a finer part of `area`, a fraction of the
+  /// picture. That part has up to kFoveaShare of the time; where even kFoveaScale is too dear, it
+  /// becomes smaller, but not below a quarter. nullopt: the whole is as fine.
+  std::optional<Foveated> foveated(const RenderQuality& full, double area) const noexcept;
+  static constexpr double kFoveaShare = 0.6; ///< of the frame time
+
+  /// Cost of a picture relative to one of scale 1 with kMaxStep.
+  static double workOf(const RenderQuality& quality) noexcept;
+  static double workOf(const Foveated& frame) noexcept;
+
   /// Reports the time in ms of a frame drawn with `quality`. Times <= 0 are ignored.
   void frameTook(double milliseconds, const RenderQuality& quality) noexcept;
+  void frameTook(double milliseconds, double work) noexcept; ///< see workOf
+
+  bool knows() const noexcept { return m_cost > 0.0; } ///< the time of a frame
 
 private:
+  RenderQuality fitted(const RenderQuality& full, double budget) const noexcept;
+
   double m_hz;
   double m_cost = 0.0; // ms for a picture of scale 1 with kMaxStep, smoothed; 0: unknown
 };

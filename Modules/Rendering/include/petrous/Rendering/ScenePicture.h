@@ -23,6 +23,8 @@ struct PictureTile
   int height = 0;
   int left = 0; ///< of the window in it; the window may reach beyond it
   int top = 0;
+  double right = 0.0; ///< by which all rays are shifted, fractions of a pixel
+  double down = 0.0;
 };
 
 /// The scene as props in a VTK renderer, used by both the window and the command line.
@@ -69,6 +71,28 @@ public:
   /// speed is estimated from previous frames, interactive or not.
   void setInteractive(bool interactive);
   void setInteractionRate(double hz);
+
+  /// For a window that stays responsive; off at first. A frame shows the picture at rest (full
+  /// quality, equal to the bit to one drawn in one go) only if `refine` has drawn it, and else a
+  /// coarse one. It stays as long as scene, camera and size do, whatever is drawn over it and
+  /// whether `setInteractive` or not.
+  ///
+  /// While interactive, the surroundings of a tool (tool::kField) are drawn with at least
+  /// InteractionQuality::kFoveaScale of the resolution and the rest coarser, where a frame of one
+  /// resolution would be coarser there.
+  void setProgressive(bool progressive);
+
+  /// Draws the picture at rest of the last frame for about `milliseconds`; what was drawn counts
+  /// until the scene changes. With more than one of up to kPixelSamples `samples` the picture then
+  /// becomes the mean of 4, 8 and 16 rays a pixel, of the volume: polygons keep their edges. Makes
+  /// the window's context current.
+  Refinement refine(double milliseconds, int samples = 1);
+
+  /// Of the last frame: rays a pixel of the picture at rest; 0 while it is a coarse one.
+  int restSamples() const;
+  /// Of the last frame, relative to the picture's edge: at which rays were cast, and near the tool.
+  double drawnScale() const;
+  double foveaScale() const;
 
   void setQuality(const RenderQuality& quality); ///< throws InvalidParameter
   const RenderQuality& quality() const;

@@ -16,6 +16,8 @@ constexpr double kShaftLength = 30.0;
 constexpr double kHandpieceLength = 60.0;
 constexpr double kHandpieceRadius = 6.0;
 
+constexpr double kField = 5.0; // mm around the burr: what a surgeon looks at
+
 constexpr std::array<double, 3> kBurrColor{0.85, 0.72, 0.35};
 constexpr std::array<double, 3> kDrillingColor{1.0, 0.55, 0.15};
 constexpr std::array<double, 3> kShaftColor{0.72, 0.74, 0.77};

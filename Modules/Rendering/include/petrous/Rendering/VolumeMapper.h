@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <memory>
+#include <optional>
 
 #include <vtkVolumeMapper.h>
 
@@ -50,6 +51,25 @@ public:
   /// Throws InvalidParameter.
   void SetQuality(const petrous::rendering::RenderQuality& quality);
   const petrous::rendering::RenderQuality& GetQuality() const;
+
+  /// Frames show the picture at rest once Refine has drawn it with this quality, and until then are
+  /// drawn with that of SetQuality. Null: every frame is.
+  void SetRestQuality(const std::optional<petrous::rendering::RenderQuality>& quality);
+
+  /// Goes on with the picture of the last frame for about so long, with up to `samples` rays a
+  /// pixel (ScenePicture::refine). Makes the window's context current.
+  petrous::rendering::Refinement Refine(double milliseconds, int samples);
+  int GetRestSamples() const; ///< rays a pixel in the last frame; 0: not of the picture at rest
+  double GetRestMilliseconds() const; ///< that the first of them took
+
+  /// A ball in patient mm; the circle around it is drawn with `imageScale` and `step` of its own.
+  struct Fovea
+  {
+    Eigen::Vector3d center{0.0, 0.0, 0.0};
+    double radius = 0.0; ///< on the screen at the centre's depth
+    petrous::rendering::RenderQuality quality;
+  };
+  void SetFovea(const std::optional<Fovea>& fovea);
 
   /// Counts texture fetches and samples of subsequent frames, which slows them down.
   vtkSetMacro(Counting, bool);

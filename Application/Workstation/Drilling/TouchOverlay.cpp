@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <vtkCamera.h>
 #include <vtkCoordinate.h>
 #include <vtkRenderer.h>
 #include <vtkTextActor.h>
@@ -100,13 +101,17 @@ bool TouchOverlay::update(const session::TickRecord& record)
 {
   auto tool = m_view.update(record);
   if (tool)
-    tool->handpiece = m_handpiece;
+  {
+    const double* eye = m_renderer->GetActiveCamera()->GetPosition();
+    // It gives way to what is drilled.
+    tool->handpiece = m_handpiece && !interaction::hidesField(*tool, {eye[0], eye[1], eye[2]});
+  }
   m_force.update(record);
   const auto same = [](double a, double b, double tolerance)
   { return std::abs(a - b) < tolerance; };
   const bool rests = m_tool && tool && (m_tool->center - tool->center).norm() < kPlace &&
                      (m_tool->axisToHand - tool->axisToHand).norm() < kHeading &&
-                     m_tool->drilling == tool->drilling &&
+                     m_tool->drilling == tool->drilling && m_tool->handpiece == tool->handpiece &&
                      same(m_shownForce, m_force.force(), kForce) &&
                      same(m_shownLag, m_view.lag(), kPlace);
   if (rests || !tool)

@@ -122,7 +122,7 @@ void SceneDisplay::setLight(const rendering::LightSettings& light)
 void SceneDisplay::setTool(const std::optional<rendering::ToolPose>& tool)
 {
   m_contents.tool = tool;
-  m_picture.setTool(tool, true);
+  m_picture.setTool(tool);
   if (m_follower)
     m_follower->setTool(tool);
   redraw(true);
@@ -141,7 +141,7 @@ void SceneDisplay::setTouch(const session::TickRecord& record, double burrRadius
   if (!m_touch->update(record))
     return;
   m_contents.tool = m_touch->tool();
-  m_picture.setTool(m_contents.tool, true);
+  m_picture.setTool(m_contents.tool);
   redraw(true);
 }
 

@@ -44,6 +44,26 @@ TEST(ToolView, DrawsTheToolThatIsFelt)
   }
 }
 
+// The handpiece begins 30 mm from the burr and is 6 mm in radius.
+TEST(ToolView, TheHandpieceHidesTheFieldOnlyBetweenItAndTheEye)
+{
+  rendering::ToolPose tool;
+  tool.center = {10.0, -20.0, 5.0};
+  const auto seenFrom = [&tool](double degrees, double away)
+  {
+    const double angle = degrees * M_PI / 180.0;
+    return hidesField(tool, tool.center + away * Vector3d(std::sin(angle), 0.0, std::cos(angle)));
+  };
+  EXPECT_TRUE(seenFrom(0.0, 300.0));
+  EXPECT_TRUE(seenFrom(11.0, 300.0)) << "its edge is 0.3 mm from the line of sight";
+  EXPECT_FALSE(seenFrom(25.0, 300.0)) << "12.7 mm beside it";
+  EXPECT_FALSE(seenFrom(90.0, 300.0));
+  EXPECT_FALSE(seenFrom(180.0, 300.0)) << "behind";
+  EXPECT_FALSE(seenFrom(0.0, 20.0)) << "the eye is nearer than the handpiece";
+  tool.handpiece = false;
+  EXPECT_FALSE(seenFrom(0.0, 300.0));
+}
+
 TEST(ToolView, ShowsTheProxyNotTheHand)
 {
   ToolView view(1.5);

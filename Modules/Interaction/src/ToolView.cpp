@@ -7,6 +7,7 @@
 #include <vtkRenderer.h>
 
 #include "petrous/Core/Error.h"
+#include "petrous/Rendering/ToolShape.h"
 
 namespace petrous::interaction
 {
@@ -59,6 +60,19 @@ std::optional<rendering::ToolPose> ToolView::update(const session::TickRecord& r
   }
   return rendering::ToolPose{tool.position, tool.rotation * Eigen::Vector3d::UnitZ(), m_burrRadius,
                              record.drill != 0};
+}
+
+// Its near end is nearest to the line of sight: the axis goes out from the burr.
+bool hidesField(const rendering::ToolPose& tool, const Eigen::Vector3d& eye)
+{
+  using namespace rendering::tool;
+  if (!tool.handpiece || !rendering::tool::isShown(tool))
+    return false;
+  const Eigen::Vector3d sight = eye - tool.center;
+  const Eigen::Vector3d end = kShaftLength * tool.axisToHand.normalized();
+  const double along = end.dot(sight) / sight.squaredNorm(); // fraction of the way to the eye
+  return along > 0.0 && along < 1.0 &&
+         (end - along * sight).norm() < kHandpieceRadius + kFieldRadius * (1.0 - along);
 }
 
 } // namespace petrous::interaction

@@ -283,7 +283,6 @@ void ScenePicture::Implementation::startFrame()
   mapper->SetRestQuality(progressive ? std::optional(quality) : std::nullopt);
   // The light is at the camera, as in the ray caster; a parallel projection has no such position.
   m_lamp->SetPositional(renderer->GetActiveCamera()->GetParallelProjection() ? 0 : 1);
-  tool.setParallel(renderer->GetActiveCamera()->GetParallelProjection() != 0);
   m_timer.begin();
 }
 
@@ -476,11 +475,11 @@ void ScenePicture::maskChanged(std::shared_ptr<const volume::CutMask> mask,
   m_implementation->mapper->MaskChanged(std::move(mask), box);
 }
 
-void ScenePicture::setTool(const std::optional<ToolPose>& tool, bool handpieceFades)
+void ScenePicture::setTool(const std::optional<ToolPose>& tool)
 {
   m_implementation->mapper->ExpectCut(tool.has_value());
   m_implementation->toolPose = tool;
-  m_implementation->tool.setPose(tool, handpieceFades);
+  m_implementation->tool.setPose(tool);
 }
 
 void ScenePicture::setCamera(const core::CameraPose& pose)

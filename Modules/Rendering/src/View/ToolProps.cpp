@@ -1,7 +1,6 @@
 #include "ToolProps.h"
 
 #include <array>
-#include <string>
 
 #include <Eigen/Geometry>
 
@@ -11,12 +10,8 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
-#include <vtkShaderProperty.h>
 #include <vtkSphereSource.h>
-#include <vtkUniforms.h>
 
-#include "HandpieceFadeShader.h"
-#include "ScreenDoorShader.h"
 #include "petrous/Rendering/ToolShape.h"
 
 namespace petrous::rendering
@@ -64,45 +59,7 @@ void ToolProps::removeFrom(vtkRenderer* renderer) const
     renderer->RemoveActor(actor);
 }
 
-void ToolProps::setParallel(bool parallel)
-{
-  if (parallel == m_parallel)
-    return;
-  m_parallel = parallel;
-  vtkShaderProperty* shader = m_actors[2]->GetShaderProperty();
-  if (shader->GetNumberOfShaderReplacements() > 0)
-    shader->GetFragmentCustomUniforms()->SetUniformi("p_parallel", parallel ? 1 : 0);
-}
-
-void ToolProps::setFading(bool fades, double field)
-{
-  vtkShaderProperty* shader = m_actors[2]->GetShaderProperty();
-  vtkUniforms* uniforms = shader->GetFragmentCustomUniforms();
-  const bool faded = shader->GetNumberOfShaderReplacements() > 0;
-  if (fades != faded)
-  {
-    shader->ClearAllFragmentShaderReplacements();
-    uniforms->RemoveAllUniforms();
-  }
-  m_actors[2]->GetProperty()->SetBackfaceCulling(fades ? 1 : 0); // no wall behind the faded one
-  if (!fades)
-    return;
-  if (!faded)
-  {
-    shader->AddFragmentShaderReplacement("//VTK::PositionVC::Dec", true,
-                                         "//VTK::PositionVC::Dec\nuniform mat4 MCVCMatrix;\n",
-                                         false);
-    shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true,
-                                         "//VTK::Light::Impl\n{\n" +
-                                             std::string(kHandpieceFadeShader) +
-                                             std::string(kScreenDoorShader) + "}\n",
-                                         false);
-  }
-  uniforms->SetUniformf("p_field", static_cast<float>(field));
-  uniforms->SetUniformi("p_parallel", m_parallel ? 1 : 0);
-}
-
-void ToolProps::setPose(const std::optional<ToolPose>& tool, bool handpieceFades)
+void ToolProps::setPose(const std::optional<ToolPose>& tool)
 {
   const bool shown = tool && isShown(*tool);
   for (const auto& actor : m_actors)
@@ -111,7 +68,6 @@ void ToolProps::setPose(const std::optional<ToolPose>& tool, bool handpieceFades
     m_actors[2]->SetVisibility(0);
   if (!shown)
     return;
-  setFading(handpieceFades, tool->radius + kField);
   m_burr->SetRadius(tool->radius);
   // VTK's cylinders are centred and along y.
   m_shaft->SetRadius(shaftRadius(*tool));

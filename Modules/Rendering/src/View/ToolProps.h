@@ -25,18 +25,13 @@ public:
 
   void addTo(vtkRenderer* renderer) const;
   void removeFrom(vtkRenderer* renderer) const;
-  /// `handpieceFades`: see ScenePicture::setTool.
-  void setPose(const std::optional<ToolPose>& tool, bool handpieceFades = false);
-  void setParallel(bool parallel); ///< the projection
+  void setPose(const std::optional<ToolPose>& tool);
 
 private:
   vtkNew<vtkSphereSource> m_burr;
   vtkNew<vtkCylinderSource> m_shaft;
   vtkNew<vtkCylinderSource> m_handpiece;
-  void setFading(bool fades, double field);
-
   std::array<vtkSmartPointer<vtkActor>, 3> m_actors;
-  bool m_parallel = false;
 };
 
 } // namespace petrous::rendering

@@ -42,4 +42,9 @@ private:
   vtkNew<vtkActor> m_actor;
 };
 
+/// Whether the handpiece would stand between `eye` (patient LPS mm) and the burr, or the
+/// kFieldRadius around it.
+bool hidesField(const rendering::ToolPose& tool, const Eigen::Vector3d& eye);
+constexpr double kFieldRadius = 5.0; ///< mm
+
 } // namespace petrous::interaction

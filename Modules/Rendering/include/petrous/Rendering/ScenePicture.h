@@ -56,8 +56,7 @@ public:
   void maskChanged(std::shared_ptr<const volume::CutMask> mask, const core::IndexBox& box);
 
   /// With a tool in the scene, the mask's GPU resources are prepared for the first cut.
-  /// `handpieceFades`: towards the line of sight to the burr, where it would hide the field.
-  void setTool(const std::optional<ToolPose>& tool, bool handpieceFades = false);
+  void setTool(const std::optional<ToolPose>& tool);
 
   void setCamera(const core::CameraPose& pose);
   core::CameraPose camera() const;

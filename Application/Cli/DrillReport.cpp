@@ -70,10 +70,7 @@ DrillLog::DrillLog(const std::filesystem::path& file, const scene::Case& value,
 void DrillLog::measure()
 {
   const volume::CutMask& now = m_case.dissection.mask();
-  std::vector<std::size_t> bricks;
-  for (std::size_t n = 0; n < now.brickCount(); ++n)
-    if (now.brick(n) != m_before.brick(n))
-      bricks.push_back(n);
+  const auto bricks = dissection::changedBricks(m_before, now);
   if (bricks.empty())
     return;
   m_removed += dissection::measureRemoved(m_scene.drill().field(), m_before, now, bricks, {}).total;

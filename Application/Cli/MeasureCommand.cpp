@@ -9,6 +9,7 @@
 #include "petrous/Core/InputFile.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Core/OutputFile.h"
+#include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/DissectionDistances.h"
 #include "petrous/Presenters/Measuring.h"
 #include "petrous/Presenters/PointProbe.h"
@@ -341,8 +342,7 @@ void measure(Context& context, const Options& options)
     if (options.along.size() == 3)
       between = {at(1), at(2)};
     Measurement along = presenters::alongStructure(value, options.along.front(), between, progress);
-    along.name = "length of " + core::utf8Prefix(options.along.front(), 80);
-    std::replace(along.name.begin(), along.name.end(), '_', ' ');
+    along.name = presenters::shownName("length of " + core::utf8Prefix(options.along.front(), 80));
     addAll(answer, value, along);
     fresh.push_back(std::move(along));
   }

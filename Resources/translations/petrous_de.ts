@@ -130,6 +130,26 @@
         <source>&lt;h3&gt;Petrous %1&lt;/h3&gt;&lt;p&gt;Rehearsal of operations on the temporal bone and the skull base on the patient&apos;s own images.&lt;/p&gt;&lt;p&gt;For rehearsal and teaching; not a medical device, and no guide for an instrument in a patient.&lt;/p&gt;&lt;p&gt;Apache License 2.0. Made with VTK, ITK, GDCM and Qt.&lt;/p&gt;</source>
         <translation>&lt;h3&gt;Petrous %1&lt;/h3&gt;&lt;p&gt;Probe von Operationen am Felsenbein und an der Schädelbasis an den eigenen Bildern des Patienten.&lt;/p&gt;&lt;p&gt;Für Probe und Lehre; kein Medizinprodukt und keine Führung für ein Instrument im Patienten.&lt;/p&gt;&lt;p&gt;Apache License 2.0. Erstellt mit VTK, ITK, GDCM und Qt.&lt;/p&gt;</translation>
     </message>
+    <message>
+        <source>“%1” is there already. Replace it?</source>
+        <translation>„%1“ gibt es schon. Ersetzen?</translation>
+    </message>
+    <message>
+        <source>%1 are there already. Replace them?</source>
+        <translation>%1 gibt es schon. Ersetzen?</translation>
+    </message>
+    <message>
+        <source>&amp;Replace</source>
+        <translation>&amp;Ersetzen</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>%1 min %2 s</source>
+        <translation>%1 min %2 s</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation</name>
@@ -502,14 +522,6 @@
 <context>
     <name>petrous::workstation::ApproachPanel</name>
     <message>
-        <source>%1 s</source>
-        <translation>%1 s</translation>
-    </message>
-    <message>
-        <source>%1 min %2 s</source>
-        <translation>%1 min %2 s</translation>
-    </message>
-    <message>
         <source>%1 mm %2</source>
         <translation>%1 mm %2</translation>
     </message>
@@ -675,10 +687,6 @@
     <message>
         <source>There is no such folder.</source>
         <translation>Diesen Ordner gibt es nicht.</translation>
-    </message>
-    <message>
-        <source>“%1” is there already. Replace it?</source>
-        <translation>„%1“ gibt es schon. Ersetzen?</translation>
     </message>
 </context>
 <context>
@@ -1564,6 +1572,34 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <source>Name of the new case:</source>
         <translation>Name des neuen Falls:</translation>
     </message>
+    <message>
+        <source>Put the slices of one acquisition of one patient alone into a folder, and open that.</source>
+        <translation>Legen Sie die Schichten einer einzigen Aufnahme eines einzigen Patienten allein in einen Ordner, und öffnen Sie diesen.</translation>
+    </message>
+    <message>
+        <source>Ask for the original thin slices, or open another series of the patient.</source>
+        <translation>Fragen Sie nach den dünnen Originalschichten, oder öffnen Sie eine andere Serie des Patienten.</translation>
+    </message>
+    <message>
+        <source>The scan cannot be used</source>
+        <translation>Die Aufnahme ist nicht verwendbar</translation>
+    </message>
+    <message>
+        <source>“%1” cannot be used: it would mislead.</source>
+        <translation>„%1“ ist nicht verwendbar: Die Aufnahme würde irreführen.</translation>
+    </message>
+    <message>
+        <source>Open &amp;another…</source>
+        <translation>&amp;Anderes öffnen…</translation>
+    </message>
+    <message>
+        <source>Not added: “%1”</source>
+        <translation>Nicht hinzugefügt: „%1“</translation>
+    </message>
+    <message>
+        <source>Copy or send the series again, with all of its slices: Library &gt; Receive fetches it from the archive. Anatomy that is missing is not made up.</source>
+        <translation>Kopieren oder senden Sie die Serie noch einmal, mit allen Schichten: Bibliothek &gt; Empfangen holt sie aus dem Archiv. Fehlende Anatomie wird nicht erfunden.</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::CaseSaver</name>
@@ -1789,10 +1825,6 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     <message>
         <source>both</source>
         <translation>beide</translation>
-    </message>
-    <message>
-        <source>%1 s</source>
-        <translation>%1 s</translation>
     </message>
     <message>
         <source>Strokes, %1 in common</source>
@@ -2580,14 +2612,6 @@ Ohne dies liegt die Fräse auf dem Gewebe und wird mit dem Andruck gedrückt. St
         <source>%1 GB are free there.</source>
         <translation>Dort sind %1 GB frei.</translation>
     </message>
-    <message>
-        <source>%1 is there already. Replace it?</source>
-        <translation>%1 gibt es schon. Ersetzen?</translation>
-    </message>
-    <message>
-        <source>&amp;Replace</source>
-        <translation>&amp;Ersetzen</translation>
-    </message>
 </context>
 <context>
     <name>petrous::workstation::FilmDialog</name>
@@ -3168,6 +3192,10 @@ Ohne dies liegt die Fräse auf dem Gewebe und wird mit dem Andruck gedrückt. St
     <message>
         <source>What could be repaired is; what cases need is missing.</source>
         <translation>Was sich reparieren ließ, ist repariert; was Fälle brauchen, fehlt.</translation>
+    </message>
+    <message>
+        <source>    file: %1</source>
+        <translation>    Datei: %1</translation>
     </message>
 </context>
 <context>
@@ -5270,6 +5298,10 @@ Verletzt: %1, %2</translation>
         <source>The draft is large: the 3D view shows it in cells of %1 voxels along each axis; what is created has all its voxels</source>
         <translation>Der Entwurf ist groß: Die 3D-Ansicht zeigt ihn in Zellen von %1 Voxeln entlang jeder Achse; was erstellt wird, hat alle seine Voxel</translation>
     </message>
+    <message>
+        <source>The structure is created when the preview is done.</source>
+        <translation>Die Struktur wird angelegt, sobald die Vorschau fertig ist.</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::SegmentPanel</name>
@@ -5701,6 +5733,10 @@ Verletzt: %1, %2</translation>
         <source>Upper limit</source>
         <translation>Obere Grenze</translation>
     </message>
+    <message>
+        <source>The preview is being computed.</source>
+        <translation>Die Vorschau wird berechnet.</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::SendDialog</name>
@@ -5879,6 +5915,10 @@ Verletzt: %1, %2</translation>
         <source>No case is open, and one begins with the patient&apos;s CT; tick that, too.</source>
         <translation>Kein Fall ist offen, und einer beginnt mit dem CT des Patienten; kreuzen Sie auch dieses an.</translation>
     </message>
+    <message>
+        <source>structures on the grid of the %1 “%2”</source>
+        <translation>Strukturen auf dem Gitter von %1 „%2“</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::SettingsDialog</name>
@@ -6043,10 +6083,6 @@ Verletzt: %1, %2</translation>
     <message>
         <source>There is no such folder.</source>
         <translation>Diesen Ordner gibt es nicht.</translation>
-    </message>
-    <message>
-        <source>“%1” is there already. Replace it?</source>
-        <translation>„%1“ gibt es schon. Ersetzen?</translation>
     </message>
 </context>
 <context>

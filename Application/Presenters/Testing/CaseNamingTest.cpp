@@ -20,6 +20,14 @@ TEST(CaseNaming, TakesTheFoldersOrFilesName)
   EXPECT_EQ(caseNameFrom("Ohr rechts \xC3\xBC"), "Ohr rechts \xC3\xBC");
 }
 
+TEST(CaseNaming, ShowsBlanksForUnderscoresAndAllElseAsItIs)
+{
+  EXPECT_EQ(presenters::shownName("facial_nerve"), "facial nerve");
+  EXPECT_EQ(presenters::shownName("_A__b-c d_"), " A  b-c d ");
+  EXPECT_EQ(presenters::shownName("Ohr_\xC3\xBC"), "Ohr \xC3\xBC");
+  EXPECT_EQ(presenters::shownName(""), "");
+}
+
 TEST(CaseNaming, AlwaysGivesANameThatACaseMayHave)
 {
   for (const std::string& odd :

@@ -914,7 +914,9 @@ TEST_F(SegmentEditorTest, ANerveIsTracedAnewWhenItsNameSaysHowWideItMayBe)
   EXPECT_TRUE(editor.previewPending());
   EXPECT_NE(editor.whyNotCreate(), "");
   work();
+  EXPECT_NE(editor.note().find("by its name at most 1.30 mm"), std::string::npos) << editor.note();
   set([](SegmentValues& values) { values.tubeRadius = 0.5; });
+  EXPECT_EQ(editor.note().find("by its name"), std::string::npos) << editor.note();
   editor.setName("chorda tympani");
   EXPECT_FALSE(editor.previewPending()) << "the radius is given";
 }
@@ -1027,6 +1029,91 @@ TEST_F(SegmentEditorTest, OnAnMrTheBrightestRegionIsProposed)
   set([](SegmentValues& values) { values.connected = false; });
   EXPECT_TRUE(editor.seeds().empty());
   EXPECT_TRUE(drawn(kBall));
+}
+
+// What a tool proposes by itself is nobody's work: nothing is asked, and it goes with the tool.
+TEST_F(SegmentEditorTest, AProposalIsNoDraftUntilTheUserDoesSomethingAboutIt)
+{
+  open();
+  editor.setTool(Tool::Threshold);
+  work();
+  EXPECT_GT(editor.voxels(), 0U);
+  EXPECT_FALSE(editor.isUnsaved()) << "a range of the CT";
+  set([](SegmentValues& values) { values.lower += 1.0; });
+  EXPECT_TRUE(editor.isUnsaved()) << "entered";
+
+  model.adopt(withMr(ballCase()));
+  editor.caseChanged();
+  editor.setShown({true, "T2"});
+  editor.setSource("T2");
+  editor.setTool(Tool::Threshold);
+  work();
+  const std::uint64_t proposed = editor.voxels();
+  EXPECT_GT(proposed, 0U);
+  EXPECT_FALSE(editor.isUnsaved());
+  editor.setTool(Tool::None);
+  EXPECT_FALSE(editor.hasDraft());
+  EXPECT_TRUE(editor.seeds().empty());
+  EXPECT_FALSE(editor.canUndo());
+  editor.setTool(Tool::Threshold);
+  work();
+  EXPECT_EQ(editor.voxels(), proposed) << "again";
+  editor.setName("tumour");
+  EXPECT_TRUE(editor.isUnsaved());
+  editor.setName({});
+  EXPECT_FALSE(editor.isUnsaved());
+  editor.press(kBall + Vector3d(1, 0, 0), SliceOrientation::Axial);
+  editor.release();
+  work();
+  EXPECT_TRUE(editor.isUnsaved()) << "clicked";
+  editor.setTool(Tool::None);
+  EXPECT_EQ(editor.seeds().size(), 2U) << "the draft stays";
+}
+
+TEST_F(SegmentEditorTest, APointOutsideOfTheImageIsRefused)
+{
+  const Vector3d outside = grid().patientFromVoxel(Vector3d(-3, 20, 20));
+  open();
+  editor.setTool(Tool::Nerve);
+  stroke(outside, outside);
+  EXPECT_TRUE(editor.tubePoints().empty());
+  EXPECT_NE(editor.warning().find("outside of the image"), std::string::npos) << editor.warning();
+  EXPECT_FALSE(editor.hasDraft());
+  const Vector3d inside = kBall + Vector3d(-8, 0, 0);
+  stroke(inside, inside);
+  EXPECT_EQ(editor.warning(), "");
+  stroke(inside, outside);
+  ASSERT_EQ(editor.tubePoints().size(), 1U);
+  EXPECT_EQ(editor.tubePoints().front().patient, inside) << "dragged no farther";
+  editor.moveTubePoint(0, outside);
+  EXPECT_EQ(editor.tubePoints().front().patient, inside);
+  editor.discard();
+  editor.setTool(Tool::Threshold);
+  work();
+  stroke(outside, outside);
+  EXPECT_TRUE(editor.seeds().empty());
+  EXPECT_FALSE(editor.values().connected);
+}
+
+TEST_F(SegmentEditorTest, ARefusalGoesWithWhatItWasAbout)
+{
+  open();
+  editor.setTool(Tool::Threshold);
+  set(
+      [](SegmentValues& values)
+      {
+        values.lower = 2100.0;
+        values.upper = 2200.0;
+      });
+  stroke(kBall, kBall);
+  EXPECT_NE(editor.warning().find("2000"), std::string::npos) << editor.warning();
+  SegmentValues values = editor.values();
+  values.lower = 1950.0;
+  editor.setValues(values);
+  EXPECT_EQ(editor.warning(), "") << "while the preview is due";
+  work();
+  EXPECT_EQ(editor.warning(), "");
+  EXPECT_EQ(editor.voxels(), count(inBall));
 }
 
 TEST_F(SegmentEditorTest, TheSourceIsWhatTheSlicesShowOrSaysThatItIsNot)

@@ -43,14 +43,6 @@ constexpr int kState = Qt::UserRole;
 constexpr int kApproach = Qt::UserRole + 1;
 constexpr int kKind = Qt::UserRole + 2;
 
-QString secondsText(double seconds)
-{
-  return seconds < 60.0 ? ApproachPanel::tr("%1 s").arg(numberText(seconds, 1))
-                        : ApproachPanel::tr("%1 min %2 s")
-                              .arg(static_cast<int>(seconds) / 60)
-                              .arg(static_cast<int>(seconds) % 60);
-}
-
 QString burrText(const dissection::Burr& burr)
 {
   return ApproachPanel::tr("%1 mm %2")
@@ -63,8 +55,7 @@ QString injuryText(const dissection::StrokeInfo& info)
 {
   QStringList lines;
   for (const auto& touched : info.structures)
-    lines += ApproachPanel::tr("of %1 %2")
-                 .arg(words(touched.name).replace('_', ' '), volumeText(touched.volume));
+    lines += ApproachPanel::tr("of %1 %2").arg(shownName(touched.name), volumeText(touched.volume));
   if (!info.startedAt.empty())
     lines.prepend(words(info.startedAt));
   if (info.recovered)
@@ -223,7 +214,7 @@ void ApproachPanel::add(QTreeWidgetItem* above, const ApproachNode& node)
     const bool isPresent = node.approach == present.name;
     item->setText(Stroke, (isPresent ? QString::fromUtf8("▶ ") : QString()) + words(node.approach));
     item->setText(Removed, volumeText(summary.removed));
-    item->setText(Time, secondsText(summary.duration));
+    item->setText(Time, durationText(summary.duration));
     item->setText(Burr,
                   summary.strokes == 1 ? tr("1 stroke") : tr("%1 strokes").arg(summary.strokes));
     if (const auto* branch = value.dissection.history().find(node.approach);
@@ -242,7 +233,7 @@ void ApproachPanel::add(QTreeWidgetItem* above, const ApproachNode& node)
     const dissection::StrokeInfo& info = value.dissection.strokes()[node.state]->info;
     item->setText(Stroke, QString::number(node.number));
     item->setText(Removed, volumeText(info.removed));
-    item->setText(Time, secondsText(info.duration));
+    item->setText(Time, durationText(info.duration));
     item->setText(Burr, burrText(info.burr));
     item->setToolTip(Stroke, injuryText(info));
     if (!info.structures.empty())

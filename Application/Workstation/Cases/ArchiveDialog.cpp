@@ -7,11 +7,11 @@
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QLabel>
-#include <QMessageBox>
 #include <QPlainTextEdit>
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include "AskName.h"
 #include "PathRow.h"
 #include "Theme.h"
 #include "petrous/Library/Attachments.h"
@@ -128,14 +128,8 @@ void ArchiveDialog::update()
 
 void ArchiveDialog::accept()
 {
-  const QString name = QFile::decodeName(file().c_str());
-  if (QFileInfo::exists(name) &&
-      QMessageBox::question(
-          this, windowTitle(),
-          tr("“%1” is there already. Replace it?").arg(QFileInfo(name).fileName()),
-          QMessageBox::Yes | QMessageBox::No, QMessageBox::No) != QMessageBox::Yes)
-    return;
-  QDialog::accept();
+  if (mayReplace(*this, {file()}))
+    QDialog::accept();
 }
 
 } // namespace petrous::workstation

@@ -72,10 +72,42 @@ QString patternsOf(unsigned contents)
   return patterns.join(' ');
 }
 
+// A series by its description, as a folder often holds several.
+template <class Source>
+QString titleOf(const Source& source)
+{
+  return source.description.empty()
+             ? nameOf(source.path)
+             : QString("%1 (%2)").arg(words(source.description), nameOf(source.path));
+}
+
 QString lineOf(const SourceContent& source)
 {
   return CaseDocumentController::tr("%1 “%2”").arg(words(presenters::nameOf(source.content)),
-                                                   nameOf(source.path));
+                                                   titleOf(source));
+}
+
+// What the user can do about a scan that cannot be used.
+QString remedyOf(const std::vector<imaging::Finding>& findings)
+{
+  using Kind = imaging::FindingKind;
+  const auto isAny = [&findings](std::initializer_list<Kind> kinds)
+  {
+    return std::any_of(findings.begin(), findings.end(),
+                       [&](const imaging::Finding& finding) {
+                         return std::find(kinds.begin(), kinds.end(), finding.kind) != kinds.end();
+                       });
+  };
+  if (isAny({Kind::MissingSlice, Kind::UnevenSpacing, Kind::Unreadable, Kind::MissingEnd}))
+    return CaseDocumentController::tr(
+        "Copy or send the series again, with all of its slices: Library > Receive fetches it from "
+        "the archive. Anatomy that is missing is not made up.");
+  if (isAny({Kind::DuplicateSlice, Kind::SideBySide, Kind::OddOrientation, Kind::OddSize,
+             Kind::MixedPatients, Kind::MixedStudies, Kind::MixedAcquisitions}))
+    return CaseDocumentController::tr(
+        "Put the slices of one acquisition of one patient alone into a folder, and open that.");
+  return CaseDocumentController::tr("Ask for the original thin slices, or open another series of "
+                                    "the patient.");
 }
 
 bool isArchive(const fs::path& path)
@@ -342,6 +374,7 @@ void CaseDocumentController::work(const QString& title, BackgroundWork::Work wor
             // Processes events, so the task may end here.
             m_progress->setValue(static_cast<int>(std::lround(1000.0 * fraction)));
           });
+  emit working(title);
   try
   {
     m_work.start(std::move(work));
@@ -361,6 +394,7 @@ void CaseDocumentController::endWork()
   disconnect(&m_work, nullptr, m_progress.get(), nullptr);
   m_progress->cancel(); // hides it, and prevents showing after its minimum duration
   m_progress.release()->deleteLater();
+  emit working({});
 }
 
 // Saves the open case before another one is opened; no tool can be taken up until then.
@@ -441,6 +475,8 @@ bool CaseDocumentController::chooseSeries(const SourceContent& source, const Pur
     item.source.selector = series.selector;
     item.source.content = series.content;
     item.source.name = series.name;
+    if (series.isDicom && series.files.empty())
+      item.source.description = series.description;
     if (series.verdict == imaging::Verdict::Repairable)
       item.source.repair = series.findings;
     if (source.why.empty())
@@ -462,7 +498,7 @@ bool CaseDocumentController::chooseSeries(const SourceContent& source, const Pur
 bool CaseDocumentController::askContent(SourceContent& source)
 {
   QMessageBox box(QMessageBox::Question, tr("What is this?"),
-                  tr("What is “%1”? It %2.").arg(nameOf(source.path), words(source.why)),
+                  tr("What is “%1”? It %2.").arg(titleOf(source), words(source.why)),
                   QMessageBox::NoButton, &m_window);
   box.setTextFormat(Qt::PlainText);
   box.setObjectName("askContent");
@@ -493,10 +529,9 @@ bool CaseDocumentController::askContent(SourceContent& source)
 
 bool CaseDocumentController::askMrAlone(const SourceContent& source)
 {
-  QMessageBox box(
-      QMessageBox::Question, tr("A case without a CT?"),
-      tr("There is no CT here. Begin the case with the MR “%1”?").arg(nameOf(source.path)),
-      QMessageBox::NoButton, &m_window);
+  QMessageBox box(QMessageBox::Question, tr("A case without a CT?"),
+                  tr("There is no CT here. Begin the case with the MR “%1”?").arg(titleOf(source)),
+                  QMessageBox::NoButton, &m_window);
   box.setTextFormat(Qt::PlainText);
   box.setObjectName("askMrAlone");
   box.setInformativeText(tr("Its surface is then where tissue begins, not bone. If there is a CT "
@@ -511,12 +546,41 @@ bool CaseDocumentController::askRepair(const SourceContent& source)
 {
   if (source.repair.empty())
     return true;
-  RepairDialog dialog(source, source.selector, &m_window);
+  RepairDialog dialog(source, titleOf(source), &m_window);
   if (dialog.exec() == QDialog::Accepted)
     return true;
   if (dialog.wantsAnother())
     QTimer::singleShot(0, this, &CaseDocumentController::openFolder);
   return false;
+}
+
+// A scan that would mislead and that no repair can put right.
+void CaseDocumentController::refuseSeries(const SourceContent& source)
+{
+  QMessageBox box(QMessageBox::Warning, tr("The scan cannot be used"),
+                  tr("“%1” cannot be used: it would mislead.").arg(titleOf(source)),
+                  QMessageBox::NoButton, &m_window);
+  box.setTextFormat(Qt::PlainText);
+  box.setTextInteractionFlags(Qt::TextSelectableByMouse);
+  box.setObjectName("seriesRefused");
+  QStringList lines;
+  QStringList details{QFile::decodeName(source.path.c_str()), words(source.selector)};
+  for (const imaging::Finding& finding : source.refused)
+  {
+    lines += QString::fromUtf8("• ") + words(finding.text);
+    details += words(imaging::kindName(finding.kind)) + ": " + words(finding.text);
+  }
+  constexpr int kShown = 4;
+  if (lines.size() > kShown)
+    lines = lines.mid(0, kShown) << QString::fromUtf8("…");
+  lines += "\n" + remedyOf(source.refused);
+  box.setInformativeText(lines.join('\n'));
+  box.setDetailedText(details.join('\n'));
+  const auto* another = box.addButton(tr("Open &another…"), QMessageBox::ActionRole);
+  box.setDefaultButton(box.addButton(QMessageBox::Close));
+  box.exec();
+  if (box.clickedButton() == another)
+    QTimer::singleShot(0, this, &CaseDocumentController::openFolder);
 }
 
 bool CaseDocumentController::askRegion(Item& item)
@@ -540,9 +604,9 @@ bool CaseDocumentController::ask(Item& item, const Purpose& purpose)
     source.content = Content::Mr;
   if (purpose.content && source.content != *purpose.content)
   {
-    refuse(tr("“%1” is no %2: it %3. File > Open takes it for what it is.")
-               .arg(nameOf(source.path), words(presenters::nameOf(*purpose.content)),
-                    words(source.why)));
+    refuse(
+        tr("“%1” is no %2: it %3. File > Open takes it for what it is.")
+            .arg(titleOf(source), words(presenters::nameOf(*purpose.content)), words(source.why)));
     return false;
   }
   if (!askRepair(source) || (source.content == Content::Image && !askContent(source)))
@@ -586,7 +650,7 @@ bool CaseDocumentController::askNames(presenters::CaseSources& sources,
     AddPartsDialog::Part part;
     part.what = lineOf(source);
     if (!source.structures.empty())
-      part.what += ": " + words(scene::listed(source.structures));
+      part.what += ": " + shownName(scene::listed(source.structures));
     part.isPlaced = source.content != Content::Mr;
     if (source.content == Content::Mr)
       part.name = unusedName(source.name.empty() ? "mr" : source.name, proposed);
@@ -701,6 +765,9 @@ void CaseDocumentController::decide(std::vector<Item> items, const Purpose& purp
   presenters::CaseSources sources;
   for (Item& item : items)
   {
+    const bool isPart = items.size() > 1 && item.source.content == Content::Mr;
+    if (!item.source.refused.empty() && !isPart) // the others are added without it
+      return refuseSeries(item.source);
     if (!ask(item, purpose))
       return;
     const SourceContent& source = item.source;
@@ -712,7 +779,7 @@ void CaseDocumentController::decide(std::vector<Item> items, const Purpose& purp
       if (ct)
         return refuse(tr("“%1” and “%2” are both CTs, and a case has one; open them one after the "
                          "other.")
-                          .arg(nameOf(ct->path), nameOf(source.path)));
+                          .arg(titleOf(*ct), titleOf(source)));
       ct = &source;
       sources.ct = source.path;
       sources.series = source.selector;
@@ -722,6 +789,7 @@ void CaseDocumentController::decide(std::vector<Item> items, const Purpose& purp
       continue;
     case Content::Mr:
       sources.parts.mr.push_back({{}, source.path, {}, source.selector, repair});
+      sources.parts.mr.back().description = source.description;
       break;
     case Content::Labels:
       sources.parts.labels.push_back({{}, source.path});
@@ -922,6 +990,7 @@ void CaseDocumentController::tell(const std::vector<presenters::PartFailure>& fa
   presenters::PartSources again; // of all answers: reading one ends the reading of another
   QStringList names;
   QStringList lost;
+  QStringList left; // by the user
   {
     const QScopedValueRollback<bool> asking(m_asking, true);
     for (const presenters::PartFailure& failure : failures)
@@ -934,8 +1003,10 @@ void CaseDocumentController::tell(const std::vector<presenters::PartFailure>& fa
       else if (const auto source = askAgain(failure, target))
       {
         (again.*failure.kind).push_back(*source);
-        names += nameOf(source->path);
+        names += titleOf(*source);
       }
+      else
+        left += titleOf(failure.source);
     }
   }
   if (!names.isEmpty() && !isOpen(target))
@@ -947,6 +1018,8 @@ void CaseDocumentController::tell(const std::vector<presenters::PartFailure>& fa
   else if (!names.isEmpty())
     addParts(again, names.join(", "));
   refuseAll(lost);
+  if (!left.isEmpty())
+    emit statusMessage(tr("Not added: “%1”").arg(left.join("”, “")));
 }
 
 bool CaseDocumentController::isOpen(const Target& target) const
@@ -984,7 +1057,7 @@ void CaseDocumentController::tellStructures(const std::vector<presenters::Struct
     const auto error = one.volumeError();
     // What is empty is said with the notes.
     isWhole = isWhole && one.status != Status::Unread && (!error || std::abs(*error) <= kTolerance);
-    QString line = words(one.name) + ": " + presenters::nameOf(one.status);
+    QString line = shownName(one.name) + ": " + presenters::nameOf(one.status);
     if (one.status == Status::Read)
       line += ", " + QString::number(one.volume, 'f', 1) + " mm³";
     if (one.fileVolume)
@@ -1077,7 +1150,7 @@ std::string CaseDocumentController::askDrawnOn(const presenters::PartFailure& fa
   const QString primary = presenters::primaryName(m_model.value());
   QMessageBox box(QMessageBox::Question, tr("On which image was it drawn?"),
                   tr("“%1” was drawn in another frame of reference than the images of this case.")
-                      .arg(nameOf(failure.source.path)),
+                      .arg(titleOf(failure.source)),
                   QMessageBox::NoButton, &m_window);
   box.setTextFormat(Qt::PlainText);
   box.setObjectName("askDrawnOn");
@@ -1106,7 +1179,7 @@ bool CaseDocumentController::askSkip(const fs::path& path, const std::vector<std
   constexpr std::size_t kShown = 12;
   QStringList names;
   for (const std::string& name : taken)
-    names += words(name).replace('_', ' ');
+    names += shownName(name);
   QMessageBox box(
       QMessageBox::Question, tr("Names that are taken"),
       taken.size() == 1
@@ -1164,7 +1237,7 @@ bool CaseDocumentController::askOtherPatient(const presenters::PartFailure& fail
   QMessageBox box(QMessageBox::Warning, tr("Another patient?"),
                   tr("“%1” states another patient's ID, name or date of birth than the images of "
                      "“%2” do.")
-                      .arg(nameOf(failure.source.path), target.name),
+                      .arg(titleOf(failure.source), target.name),
                   QMessageBox::NoButton, &m_window);
   box.setTextFormat(Qt::PlainText);
   box.setObjectName("askOtherPatient");
@@ -1223,7 +1296,7 @@ bool CaseDocumentController::changeParts(const std::function<void()>& change)
   m_removed.setVisible(!m_model.removedPart().empty());
   m_removed.setText(tr("“%1” was taken out of the case. Until the case is closed it can be put "
                        "back.")
-                        .arg(words(m_model.removedPart())));
+                        .arg(shownName(m_model.removedPart())));
   m_saver.save();
   return true;
 }
@@ -1231,14 +1304,14 @@ bool CaseDocumentController::changeParts(const std::function<void()>& change)
 void CaseDocumentController::removePart(const std::string& name)
 {
   if (changeParts([this, &name] { m_model.removePart(name); }))
-    emit statusMessage(tr("“%1” was taken out of the case").arg(words(name)));
+    emit statusMessage(tr("“%1” was taken out of the case").arg(shownName(name)));
 }
 
 void CaseDocumentController::restorePart()
 {
   const std::string name = m_model.removedPart();
   if (!name.empty() && changeParts([this] { m_model.restorePart(); }))
-    emit statusMessage(tr("“%1” is in the case again").arg(words(name)));
+    emit statusMessage(tr("“%1” is in the case again").arg(shownName(name)));
 }
 
 void CaseDocumentController::renamePart(const std::string& name)
@@ -1256,7 +1329,7 @@ void CaseDocumentController::renamePart(const std::string& name)
   m_asking = false;
   if (!to.empty() && to != name &&
       changeParts([this, &name, &to] { m_model.renamePart(name, to); }))
-    emit statusMessage(tr("“%1” is called “%2” now").arg(words(name), words(to)));
+    emit statusMessage(tr("“%1” is called “%2” now").arg(shownName(name), shownName(to)));
 }
 
 // One at a time. A request during a run cancels and repeats it, without waiting.

@@ -104,6 +104,7 @@ signals:
   void statusMessage(const QString& line); ///< for the status bar
   void ready();                            ///< the case's structures are loaded
   void added(bool onlyImages);             ///< parts came to the open case
+  void working(const QString& title);      ///< on something with progress; empty: it has ended
 
 private:
   bool askOfFace(const std::string& name, scene::ImageMask& mask);
@@ -142,6 +143,7 @@ private:
   bool askContent(presenters::SourceContent& source);
   bool askMrAlone(const presenters::SourceContent& source);
   bool askRepair(const presenters::SourceContent& source);
+  void refuseSeries(const presenters::SourceContent& source);
   bool askRegion(Item& item);
   bool askPlace(Item& item);
   bool askNames(presenters::CaseSources& sources, const std::vector<Item>& others,

@@ -38,11 +38,6 @@ QString colored(const std::array<float, 3>& color, const QString& text)
            text.toHtmlEscaped());
 }
 
-QString nameText(const std::string& structure)
-{
-  return words(structure).replace('_', ' ');
-}
-
 QString found(const std::map<std::string, double>& values, const std::string& name, int decimals,
               const QString& unit)
 {
@@ -259,21 +254,20 @@ void ComparisonWindow::fillTable()
   m_table->setRowCount(0);
   m_table->setHorizontalHeaderLabels({QString(), words(a.name), words(b.name)});
   const auto count = [](std::size_t strokes) { return QString::number(strokes); };
-  const auto seconds = [](double time) { return tr("%1 s").arg(numberText(time, 1)); };
   addRow(tr("Strokes, %1 in common").arg(m_comparison->commonStrokes), count(a.strokes),
          count(b.strokes));
-  addRow(tr("Drilling time"), seconds(a.drilling), seconds(b.drilling));
+  addRow(tr("Drilling time"), durationText(a.drilling), durationText(b.drilling));
   addRow(tr("Removed"), volumeText(a.removed), volumeText(b.removed));
   addRow(tr("Removed there alone"), volumeText(a.only), volumeText(b.only));
   addRow(tr("Removed in both"), volumeText(m_comparison->both), volumeText(m_comparison->both));
   for (const std::string& name : namesOf(a.injured, b.injured))
-    addRow(tr("Removed of %1").arg(nameText(name)), found(a.injured, name, 2, tr("mm³")),
+    addRow(tr("Removed of %1").arg(shownName(name)), found(a.injured, name, 2, tr("mm³")),
            found(b.injured, name, 2, tr("mm³")));
   for (const std::string& name : namesOf(a.exposed, b.exposed))
-    addRow(tr("Exposed of %1").arg(nameText(name)), found(a.exposed, name, 1, tr("mm²")),
+    addRow(tr("Exposed of %1").arg(shownName(name)), found(a.exposed, name, 1, tr("mm²")),
            found(b.exposed, name, 1, tr("mm²")));
   for (const auto& [name, uncertainty] : m_comparison->uncertainties)
-    addRow(tr("Distance to %1").arg(nameText(name)), distanceText(a, name, uncertainty),
+    addRow(tr("Distance to %1").arg(shownName(name)), distanceText(a, name, uncertainty),
            distanceText(b, name, uncertainty),
            tr("From the walls of what was removed to the structure's surface"));
   m_table->resizeRowsToContents();

@@ -13,14 +13,15 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
-#include <QMessageBox>
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QSpinBox>
 #include <QStorageInfo>
 #include <QVBoxLayout>
 
+#include "AskName.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 
@@ -197,10 +198,10 @@ void ExportDialog::whatChanged()
     m_part->addItem(tr("all structures"), QString());
   if (what == "mr")
     for (const auto& [name, registered] : m_mr)
-      m_part->addItem(words(name), words(name));
+      m_part->addItem(shownName(name), words(name));
   else if (what == "labels" || what == "structure")
     for (const std::string& name : what == "labels" ? m_labels : m_surfaces)
-      m_part->addItem(words(name), words(name));
+      m_part->addItem(shownName(name), words(name));
   m_part->setEnabled(m_part->count() > 0);
   m_format->clear();
   for (const std::string_view ending : imaging::writtenEndings(presenters::exportContent(what)))
@@ -294,23 +295,10 @@ void ExportDialog::browse()
 
 void ExportDialog::askAndAccept()
 {
-  QStringList there;
-  if (!isSeries()) // a folder with files in it is refused
-    for (const std::string& file : presenters::exportedFiles(options()))
-      if (QFileInfo::exists(QFile::decodeName(file.c_str())))
-        there += QFileInfo(QFile::decodeName(file.c_str())).fileName();
-  if (!there.isEmpty())
-  {
-    QMessageBox ask(QMessageBox::Question, windowTitle(),
-                    tr("%1 is there already. Replace it?").arg(there.join(", ")),
-                    QMessageBox::Cancel, this);
-    ask.setTextFormat(Qt::PlainText);
-    auto* replace = ask.addButton(tr("&Replace"), QMessageBox::AcceptRole);
-    ask.exec();
-    if (ask.clickedButton() != replace)
-      return;
-  }
-  accept();
+  // A folder with files in it is refused.
+  const auto files = isSeries() ? std::vector<std::string>() : presenters::exportedFiles(options());
+  if (mayReplace(*this, {files.begin(), files.end()}))
+    accept();
 }
 
 } // namespace petrous::workstation

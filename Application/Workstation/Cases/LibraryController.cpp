@@ -36,18 +36,22 @@ QString listed(const std::vector<std::string>& names)
   return list.join(", ");
 }
 
-// A damaged file, the cases that need it, and what is wrong, for each.
+// What is damaged, the cases that need it, and the file, for each.
 QString damageText(const library::Inspection& found)
 {
   QStringList lines;
   for (const auto& one : found.damaged)
   {
-    lines += words(one.object);
+    QString what = windowText(words(one.text));
+    const QString named = words(one.object) + ": "; // the file, which comes last
+    if (const int at = what.indexOf(named); at >= 0)
+      what = what.mid(at + named.size());
+    lines += sentence(what.left(1).toUpper() + what.mid(1));
     lines += LibraryController::tr("    needed by: %1")
                  .arg(one.cases.empty() ? LibraryController::tr("no case") : listed(one.cases));
     if (!one.deletedCases.empty())
       lines += LibraryController::tr("    and by deleted cases: %1").arg(listed(one.deletedCases));
-    lines += "    " + windowText(words(one.text));
+    lines += LibraryController::tr("    file: %1").arg(words(one.object)) + '\n';
   }
   return lines.join('\n') + '\n';
 }
@@ -276,7 +280,7 @@ void LibraryController::collect()
                     "are computed anew when they are needed.");
   if (!m_model.removedPart().empty())
     more += ' ' + tr("What was taken out of the open case (“%1”) cannot be put back any more.")
-                      .arg(words(m_model.removedPart()));
+                      .arg(shownName(m_model.removedPart()));
   box.setInformativeText(more);
   const auto* yes = box.addButton(tr("Clean up"), QMessageBox::DestructiveRole);
   box.setDefaultButton(box.addButton(QMessageBox::Cancel));

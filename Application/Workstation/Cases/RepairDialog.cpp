@@ -1,7 +1,6 @@
 #include "RepairDialog.h"
 
 #include <QDialogButtonBox>
-#include <QFile>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
@@ -42,7 +41,7 @@ QString findingsText(const std::vector<imaging::Finding>& findings)
 
 } // namespace
 
-RepairDialog::RepairDialog(const presenters::SourceContent& source, const std::string& selector,
+RepairDialog::RepairDialog(const presenters::SourceContent& source, const QString& series,
                            QWidget* parent)
   : QDialog(parent)
   , m_remains(plain(tr("The pictures of it before and after are being made. In any case each slice "
@@ -53,11 +52,7 @@ RepairDialog::RepairDialog(const presenters::SourceContent& source, const std::s
   setObjectName("askRepair");
   setWindowTitle(tr("Repair the scan?"));
   resizeOnScreen(*this, {860, 680});
-  const auto path = source.path.lexically_normal();
-  auto* title =
-      plain(tr("“%1” would mislead as it is. What is wrong:")
-                .arg(QFile::decodeName(
-                    (path.has_filename() ? path : path.parent_path()).filename().c_str())));
+  auto* title = plain(tr("“%1” would mislead as it is. What is wrong:").arg(series));
   auto* findings = plain(findingsText(source.repair));
   findings->setObjectName("findings");
   m_remains->setObjectName("remains");
@@ -85,7 +80,7 @@ RepairDialog::RepairDialog(const presenters::SourceContent& source, const std::s
   layout->addWidget(m_remains);
   layout->addWidget(buttons);
 
-  m_progress->start([file = source.path, selector](const core::Progress& progress)
+  m_progress->start([file = source.path, selector = source.selector](const core::Progress& progress)
                     { return presenters::previewRepair(file, selector, progress); },
                     [this](const std::shared_ptr<const presenters::RepairPreview>& preview)
                     { show(*preview); });

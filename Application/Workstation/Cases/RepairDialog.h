@@ -20,8 +20,8 @@ class RepairDialog : public QDialog
 {
   Q_OBJECT
 public:
-  /// `selector`: imaging::chooseSeries.
-  RepairDialog(const presenters::SourceContent& source, const std::string& selector,
+  /// `series`: what the user calls it.
+  RepairDialog(const presenters::SourceContent& source, const QString& series,
                QWidget* parent = nullptr);
 
   bool isPictured() const noexcept { return m_isPictured; }     ///< the pictures are shown

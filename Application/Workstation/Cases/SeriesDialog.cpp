@@ -28,10 +28,10 @@ namespace
 enum Column
 {
   Series,
+  More, // what tells series of one description apart: never scrolled out of sight
   Images,
   Voxel,
   Taken,
-  More,
   VerdictColumn,
   Columns
 };
@@ -59,8 +59,15 @@ QString placeText(const SeriesContent& part, const std::vector<SeriesContent>& a
                                   { return !part.image.empty() && one.selector == part.image; });
   if (image == all.end())
     return SeriesDialog::tr("structures on another grid");
-  return SeriesDialog::tr("structures on the grid of the %1")
-      .arg(image->modality.empty() ? SeriesDialog::tr("image") : words(image->modality));
+  const QString kind = image->modality.empty() ? SeriesDialog::tr("image") : words(image->modality);
+  const bool isOneOfSeveral =
+      std::count_if(all.begin(), all.end(),
+                    [image](const SeriesContent& one)
+                    { return one.files.empty() && one.modality == image->modality; }) > 1;
+  return isOneOfSeveral && !image->description.empty()
+             ? SeriesDialog::tr("structures on the grid of the %1 “%2”")
+                   .arg(kind, words(image->description))
+             : SeriesDialog::tr("structures on the grid of the %1").arg(kind);
 }
 
 QString verdictText(const SeriesContent& series)
@@ -95,16 +102,19 @@ void fillLine(QTreeWidgetItem& line, const SeriesContent& series,
   for (const std::string& one : {series.patientPosition, series.kernel})
     if (!one.empty())
       more += words(one);
-  if (isPart)
-    more += words(series.what);
   if (!series.folder.empty())
     more += (series.isBeside ? SeriesDialog::tr("beside it in “%1”") : SeriesDialog::tr("in “%1”"))
                 .arg(QFile::decodeName(series.folder.c_str()));
+  if (isPart)
+    more += words(series.what);
   line.setText(More, more.join(", "));
   line.setText(VerdictColumn, isPart ? placeText(series, all) : verdictText(series));
   QStringList why;
   for (const imaging::Finding& finding : series.findings)
     why += words(finding.text);
+  constexpr std::size_t kPaths = 6; // in a tool tip
+  for (std::size_t n = 0; n < series.files.size() && n <= kPaths; ++n)
+    why += n == kPaths ? QString::fromUtf8("…") : QFile::decodeName(series.files[n].c_str());
   for (int column = 0; column < Columns; ++column)
     line.setToolTip(column, why.isEmpty() ? line.text(column) : why.join('\n'));
   if (series.verdict == imaging::Verdict::Refused)
@@ -136,8 +146,8 @@ SeriesDialog::SeriesDialog(const presenters::SourceContent& source, bool hasCase
   m_list->setObjectName("series");
   m_list->setRootIsDecorated(false);
   m_list->setAlternatingRowColors(true);
-  m_list->setHeaderLabels({tr("Series"), tr("Images"), tr("Voxel"), tr("Taken"),
-                           tr("Position, kernel, folder"), tr("Geometry")});
+  m_list->setHeaderLabels({tr("Series"), tr("Position, kernel, folder"), tr("Images"), tr("Voxel"),
+                           tr("Taken"), tr("Geometry")});
   for (const SeriesContent& series : m_series)
     fillLine(*new QTreeWidgetItem(m_list), series, m_series);
   constexpr int kWidest = 420; // px, of a column; longer texts are in its tooltip

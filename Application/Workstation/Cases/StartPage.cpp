@@ -96,6 +96,7 @@ StartPage::StartPage(const presenters::WorkstationModel& model, QWidget* parent)
   , m_cases(new CasesModel(this))
   , m_heading(new QLabel(tr("Recent cases")))
   , m_trouble(new QLabel)
+  , m_busy(new QLabel)
   , m_recent(new QListView)
 {
   auto* title = new QLabel(tr("Drop a folder of DICOM here, or choose File > Open DICOM…"));
@@ -150,6 +151,11 @@ StartPage::StartPage(const presenters::WorkstationModel& model, QWidget* parent)
             showCases({});
             tell(tr("The cases cannot be listed: %1").arg(sentence(why)));
           });
+  m_place = place;
+  m_busy->setObjectName("startBusy");
+  m_busy->setAlignment(Qt::AlignCenter);
+  m_busy->setTextFormat(Qt::PlainText);
+  m_busy->hide();
   m_heading->setObjectName("big");
   m_recent->setObjectName("recentCases");
   m_recent->setAccessibleName(tr("Recent cases"));
@@ -172,17 +178,17 @@ StartPage::StartPage(const presenters::WorkstationModel& model, QWidget* parent)
   m_trouble->setWordWrap(true);
   m_trouble->setStyleSheet(kWarningStyle);
   m_trouble->hide();
-  QWidget::setTabOrder(m_recent, folder);
-
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(24, 20, 24, 12);
   layout->setSpacing(12);
   layout->addStretch(1);
   layout->addWidget(place);
+  layout->addWidget(m_busy);
   layout->addWidget(m_heading);
   layout->addWidget(m_trouble);
   layout->addWidget(m_recent, 8);
   layout->addStretch(1);
+  setTabOrder(m_recent, folder);
 }
 
 void StartPage::onSeen(std::function<void(const library::CaseSummary&)> seen)
@@ -227,6 +233,20 @@ void StartPage::open(int row)
                    .arg(words(name), place));
   };
   list();
+}
+
+// The focus waits here, as it would otherwise go on to the window's numbers.
+void StartPage::setBusy(const QString& what)
+{
+  const bool isBusy = !what.isEmpty();
+  m_busy->setText(what);
+  m_busy->setVisible(isBusy);
+  if (isBusy && focusWidget() && focusWidget()->hasFocus())
+    setFocus();
+  m_place->setEnabled(!isBusy);
+  m_recent->setEnabled(!isBusy);
+  if (!isBusy && hasFocus())
+    (m_recent->isHidden() ? m_begin : m_recent)->setFocus();
 }
 
 void StartPage::tell(const QString& trouble)

@@ -32,6 +32,8 @@ public:
   void refresh(); ///< what the library has, when it is next seen
   bool isReading() const noexcept { return m_work.busy(); }
   void pictureDrawn(const std::string& id);
+  /// Something is being read: that is said, and nothing else can be begun. Empty: no longer.
+  void setBusy(const QString& what);
   /// Hears which cases are seen.
   void onSeen(std::function<void(const library::CaseSummary&)> seen);
 
@@ -55,6 +57,8 @@ private:
   CasesModel* m_cases;
   QLabel* m_heading;
   QLabel* m_trouble;
+  QLabel* m_busy;
+  QWidget* m_place = nullptr; ///< the buttons
   QListView* m_recent;
   QWidget* m_begin;               ///< has the focus where there is no case
   bool m_takesFocus = false;      ///< when it is listed

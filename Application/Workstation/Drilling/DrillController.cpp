@@ -41,15 +41,14 @@ QString textOf(const presenters::PlaceReading& reading, const presenters::Intens
   if (reading.hounsfield)
     lines += words(display.text(*reading.hounsfield));
   if (!reading.structure.empty())
-    lines += words(reading.structure).replace('_', ' ');
+    lines += shownName(reading.structure);
   lines += reading.surface
                ? DrillController::tr("%1 mm to the surface").arg(numberText(*reading.surface, 1))
                : DrillController::tr("no surface within %1 mm")
                      .arg(presenters::PointProbe::kReach, 0, 'f', 0);
   if (reading.near)
     lines += DrillController::tr("%1 mm to %2")
-                 .arg(numberText(reading.near->distance, 1),
-                      words(reading.near->name).replace('_', ' '));
+                 .arg(numberText(reading.near->distance, 1), shownName(reading.near->name));
   return lines.join('\n');
 }
 } // namespace
@@ -462,8 +461,7 @@ QString DrillController::whyStalled(const TickRecord& record) const
                                           [&name](const scene::MeshPart& mesh)
                                           { return mesh.name == name && !mesh.look.drillable; });
     if (spared)
-      return tr("The burr lies on %1, which is set not to be drilled")
-          .arg(words(name).replace('_', ' '));
+      return tr("The burr lies on %1, which is set not to be drilled").arg(shownName(name));
   }
   return tr("The burr is pressed and makes no way: what holds it is not taken at this thrust and "
             "speed");

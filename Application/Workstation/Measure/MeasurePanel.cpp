@@ -17,6 +17,7 @@
 #include "Bind.h"
 #include "PanelLayout.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Scene/Placement.h"
 
 namespace petrous::workstation
@@ -254,7 +255,7 @@ void MeasurePanel::fillStructures()
       const std::string kind = scene::kindOfPart(value, name);
       if ((kind != "structure" && kind != "mesh") || !scene::missingPlace(value, name).empty())
         continue;
-      const QString shown = words(name).replace('_', ' ');
+      const QString shown = shownName(name);
       if (m_structure->findData(words(name)) >= 0)
         continue; // both as label and as mesh
       m_structure->addItem(shown, words(name));

@@ -1,21 +1,10 @@
 #include "LandmarkModel.h"
 
 #include "Theme.h"
+#include "petrous/Core/PositionText.h"
 
 namespace petrous::workstation
 {
-
-namespace
-{
-QString pointText(const Eigen::Vector3d& point)
-{
-  const Eigen::Vector3d tenths = (10.0 * point).array().round() + 0.0; // no -0.0
-  return QString("%1, %2, %3")
-      .arg(0.1 * tenths[0], 0, 'f', 1)
-      .arg(0.1 * tenths[1], 0, 'f', 1)
-      .arg(0.1 * tenths[2], 0, 'f', 1);
-}
-} // namespace
 
 LandmarkModel::LandmarkModel(presenters::RegistrationSession& session, QObject* parent)
   : QAbstractTableModel(parent)
@@ -61,9 +50,9 @@ QVariant LandmarkModel::data(const QModelIndex& index, int role) const
   case Number:
     return index.row() + 1;
   case Ct:
-    return pointText(landmark.ct);
+    return words(core::positionText(landmark.ct));
   case Mr:
-    return landmark.mr ? pointText(*landmark.mr) : tr("show it in the MR");
+    return landmark.mr ? words(core::positionText(*landmark.mr)) : tr("show it in the MR");
   case Residual:
     break;
   }

@@ -8,6 +8,7 @@
 #include <QSpinBox>
 
 #include "Theme.h"
+#include "WindowTexts.h"
 
 namespace petrous::workstation
 {
@@ -121,7 +122,7 @@ void RegistrationTargetBox::fillPlaces()
   m_place->addItem(tr("the middle ear"));
   m_place->addItem(tr("the crosshair"));
   for (const QString& name : names)
-    m_place->addItem(QString(name).replace('_', ' '), name);
+    m_place->addItem(shownName(bytes(name)), name);
 }
 
 void RegistrationTargetBox::refresh()

@@ -10,6 +10,7 @@
 
 #include <QAction>
 #include <QActionGroup>
+#include <QApplication>
 #include <QEventLoop>
 #include <QMenu>
 #include <QMessageBox>
@@ -143,9 +144,11 @@ SegmentController::SegmentController(presenters::WorkstationModel& model, SliceC
     const double volume =
         made ? static_cast<double>(made->voxels) * m_model.value().ct.geometry.voxelVolume() : 0.0;
     const QString line = tr("%1 is a structure of the case now, %2; Undo makes it a draft again")
-                             .arg(words(name), volumeText(volume));
+                             .arg(shownName(name), volumeText(volume));
     m_panel->say(line);
     emit statusMessage(line);
+    if (m_panel->isAncestorOf(QApplication::focusWidget()))
+      emit viewFocusAsked(); // keys are those of the next tool
   };
   m_surfaceLater.setSingleShot(true);
   m_surfaceLater.setInterval(kSurfaceAfter);
@@ -228,7 +231,8 @@ void SegmentController::connectPanel()
           [this](const QString& why)
           {
             m_editor.workFailed(bytes(why));
-            m_panel->say(why);
+            if (windowText(words(m_editor.warning())) != why) // else it stands there already
+              m_panel->complain(why);
           });
   connect(m_work.get(), &BackgroundWork::cancelled, this,
           [this]
@@ -243,6 +247,7 @@ void SegmentController::connectSlices()
   connect(&m_slices, &SliceColumn::toolPressed, this,
           [this](const Eigen::Vector3d& patient, presenters::SliceOrientation plane)
           {
+            m_createAs.clear();
             m_panel->say({});
             m_editor.press(patient, m_slices.planes().axes(plane).next);
           });
@@ -253,6 +258,7 @@ void SegmentController::connectSlices()
 
 void SegmentController::caseChanged()
 {
+  m_createAs.clear();
   m_work->drop();
   m_surfaceWork->drop();
   m_editor.caseChanged();
@@ -341,13 +347,14 @@ bool SegmentController::attempt(const std::function<void()>& what)
   }
   catch (const std::exception& error)
   {
-    m_panel->say(toString(error));
+    m_panel->complain(toString(error));
     return false;
   }
 }
 
 void SegmentController::choose(Tool tool)
 {
+  m_createAs.clear();
   m_panel->say({});
   if (tool != Tool::None && m_model.hasCase())
     emit toolTaken(); // before, as putting the drill away leaves the tool of this
@@ -411,6 +418,17 @@ void SegmentController::changed()
   emit stateChanged();
   m_surfaceLater.start();
   askWork();
+  if (!m_createAs.empty() && !m_editor.previewPending() && !m_editor.stepping())
+    QTimer::singleShot(0, this, &SegmentController::createAtLast);
+}
+
+// Return was pressed before the preview was done; what was changed since is not what was meant.
+void SegmentController::createAtLast()
+{
+  const bool isMeant = std::exchange(m_createAs, {}) == m_editor.name() && m_editor.hasDraft();
+  m_panel->say({});
+  if (isMeant)
+    create();
 }
 
 // Clicked points and the path between them.
@@ -452,15 +470,16 @@ void SegmentController::run(SegmentEditor::Work work, bool step)
 
 void SegmentController::step()
 {
+  m_createAs.clear();
   m_panel->say({});
   if (m_editor.stepping())
-    return m_panel->say(tr("A step is under way; wait, or stop it."));
+    return m_panel->complain(tr("A step is under way; wait, or stop it."));
   m_work->drop(); // a preview
   m_editor.workEnded();
   if (auto work = m_editor.stepWork())
     run(std::move(*work), true);
   else
-    m_panel->say(words(m_editor.whyNotStep()));
+    m_panel->complain(words(m_editor.whyNotStep()));
 }
 
 void SegmentController::edit(const std::string& structure)
@@ -473,11 +492,16 @@ void SegmentController::create()
   if (m_asking || !m_model.hasCase())
     return;
   if (m_editor.stepping())
-    return m_panel->say(tr("A step is under way; then the structure can be created."));
+    return m_panel->complain(tr("A step is under way; then the structure can be created."));
   if (m_editor.name().empty() && m_editor.hasDraft())
   {
-    m_panel->say(tr("Give the structure a name."));
+    m_panel->complain(tr("Give the structure a name."));
     return m_panel->focusName();
+  }
+  if (m_editor.previewPending())
+  {
+    m_createAs = m_editor.name();
+    return m_panel->say(tr("The structure is created when the preview is done."));
   }
   attempt([this] { run(m_editor.createWork(), true); });
 }
@@ -486,17 +510,18 @@ void SegmentController::discard()
 {
   if (!m_editor.hasDraft() || m_asking)
     return;
-  if (!m_editor.isUnsaved()) // a structure of the case, not changed
+  m_createAs.clear();
+  if (!m_editor.isUnsaved()) // a structure of the case, not changed, or a proposal
   {
     m_work->drop();
     return m_editor.discard();
   }
   const QScopedValueRollback<bool> asking(m_asking, true);
-  QMessageBox box(
-      QMessageBox::Question, tr("Discard the draft?"),
-      tr("The draft of “%1” is dropped.")
-          .arg(m_editor.name().empty() ? tr("a structure without a name") : words(m_editor.name())),
-      QMessageBox::NoButton, &m_window);
+  QMessageBox box(QMessageBox::Question, tr("Discard the draft?"),
+                  tr("The draft of “%1” is dropped.")
+                      .arg(m_editor.name().empty() ? tr("a structure without a name")
+                                                   : shownName(m_editor.name())),
+                  QMessageBox::NoButton, &m_window);
   box.setTextFormat(Qt::PlainText);
   box.setObjectName("askDiscard");
   auto* drop = box.addButton(tr("Discard"), QMessageBox::DestructiveRole);
@@ -591,6 +616,7 @@ void SegmentController::awaitStep()
 
 bool SegmentController::mayLeave()
 {
+  m_createAs.clear();
   if (!m_editor.isUnsaved())
     return true;
   if (m_asking)
@@ -611,11 +637,11 @@ bool SegmentController::mayLeave()
     m_editor.workEnded();
   }
   const std::string whyNot = m_editor.whyNotCreate();
-  QMessageBox box(
-      QMessageBox::Question, tr("A structure is not finished"),
-      tr("The draft of “%1” is not a structure of the case yet.")
-          .arg(m_editor.name().empty() ? tr("a structure without a name") : words(m_editor.name())),
-      QMessageBox::NoButton, &m_window);
+  QMessageBox box(QMessageBox::Question, tr("A structure is not finished"),
+                  tr("The draft of “%1” is not a structure of the case yet.")
+                      .arg(m_editor.name().empty() ? tr("a structure without a name")
+                                                   : shownName(m_editor.name())),
+                  QMessageBox::NoButton, &m_window);
   box.setTextFormat(Qt::PlainText);
   box.setObjectName("askDraft");
   if (!whyNot.empty())

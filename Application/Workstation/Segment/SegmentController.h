@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <QObject>
@@ -66,6 +67,7 @@ signals:
   void structureCreated(); ///< or changed, or undone: to be saved
   void statusMessage(const QString& line);
   void imageWanted(const QString& image); ///< "ct" or an MR, in the slices
+  void viewFocusAsked();                  ///< a structure was created from the panel
   /// Preview in the 3D view; without triangles: none.
   void surfaceChanged(const petrous::rendering::MeshContents& surface);
 
@@ -86,6 +88,7 @@ private:
   void edit(const std::string& structure);
   void step();
   void create();
+  void createAtLast();
   void discard();
   void escape();
   bool attempt(const std::function<void()>& what);
@@ -104,6 +107,7 @@ private:
   std::unique_ptr<BackgroundWork> m_work;
   std::unique_ptr<BackgroundWork> m_surfaceWork;
   QTimer m_surfaceLater;
+  std::string m_createAs; ///< once the preview is done; empty: not
   bool m_asking = false;
 };
 

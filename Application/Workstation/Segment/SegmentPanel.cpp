@@ -42,6 +42,7 @@ constexpr double kTubeRadius = 0.6;          // mm, until another one is entered
 constexpr int kLeastPointRows = 6;           // of the nerve's list, as many as are usually clicked
 constexpr int kMostPointRows = 12;           // then it scrolls
 constexpr int kNarrowButton = 34;            // px
+constexpr int kPreviewAfter = 300;           // ms; a shorter preview needs no progress
 
 QHBoxLayout* rowOf(std::initializer_list<QWidget*> widgets)
 {
@@ -115,6 +116,14 @@ SegmentPanel::SegmentPanel(SegmentEditor& editor, const std::vector<QAction*>& t
   addPages(*layout);
   layout->addStretch(1);
   layOutPanel(*this, inside, addFoot());
+  m_previewLater.setSingleShot(true);
+  m_previewLater.setInterval(kPreviewAfter);
+  connect(&m_previewLater, &QTimer::timeout, this,
+          [this]
+          {
+            m_showsPreview = true;
+            refresh();
+          });
   say({});
   refresh();
 }
@@ -135,8 +144,8 @@ void SegmentPanel::addHead(QVBoxLayout& layout)
           {
             m_editable->clear();
             for (const std::string& name : m_editor.editable())
-              connect(m_editable->addAction(words(name).replace('_', ' ')), &QAction::triggered,
-                      this, [this, name] { emit editAsked(words(name)); });
+              connect(m_editable->addAction(shownName(name)), &QAction::triggered, this,
+                      [this, name] { emit editAsked(words(name)); });
             if (m_editable->isEmpty())
               m_editable->addAction(tr("The case has no structure on the %1").arg(imageName("ct")))
                   ->setEnabled(false);
@@ -178,7 +187,7 @@ void SegmentPanel::takeSource(const std::string& source)
   }
   catch (const std::exception& error)
   {
-    say(toString(error));
+    complain(toString(error));
   }
 }
 
@@ -533,8 +542,15 @@ void SegmentPanel::setProgress(double fraction, const QString& text)
   m_progress->setFormat(text);
 }
 
+void SegmentPanel::complain(const QString& line)
+{
+  say(line);
+  m_complains = true;
+}
+
 void SegmentPanel::say(const QString& line)
 {
+  m_complains = false;
   m_line->setText(line);
   m_line->setVisible(!line.isEmpty());
 }
@@ -668,7 +684,7 @@ void SegmentPanel::showVolume()
 // that is disabled gives the focus to the next one that is not, which drops the draft.)
 void SegmentPanel::showWork(bool works)
 {
-  m_progress->setVisible(works);
+  m_progress->setVisible(works || m_showsPreview);
   if (works)
   {
     m_cancel->show();
@@ -687,6 +703,8 @@ void SegmentPanel::showWork(bool works)
 
 void SegmentPanel::refresh()
 {
+  if (m_complains) // of what is otherwise now
+    say({});
   showSources();
   showRange();
   showPoints();
@@ -695,6 +713,13 @@ void SegmentPanel::refresh()
     m_name->setText(words(m_editor.name()));
   m_pages->setCurrentIndex(static_cast<int>(m_editor.tool()));
   const bool free = !m_editor.stepping();
+  if (!free || !m_editor.previewPending())
+  {
+    m_previewLater.stop();
+    m_showsPreview = false;
+  }
+  else if (!m_showsPreview && !m_previewLater.isActive())
+    m_previewLater.start();
   showVolume();
   const QString notShown = words(m_editor.notShown());
   m_shown->setText(notShown);
@@ -706,8 +731,8 @@ void SegmentPanel::refresh()
   m_takeShown->setVisible(!instead.empty());
   m_remark->setText(words(m_editor.warning()));
   m_remark->setVisible(!m_editor.warning().empty());
-  m_note->setText(words(m_editor.note()));
-  m_note->setVisible(!m_editor.note().empty());
+  m_note->setText(m_showsPreview ? tr("The preview is being computed.") : words(m_editor.note()));
+  m_note->setVisible(!m_note->text().isEmpty());
   const auto pieces = m_editor.pieces();
   if (pieces)
     m_pieces->setText(tr("%1 pieces, %2 outside the largest")
@@ -742,7 +767,7 @@ void SegmentPanel::refresh()
                                   : tr("Redo %1").arg(words(m_editor.redoText()))));
   const std::string why = m_editor.whyNotCreate();
   m_create->setText(m_editor.edited().empty() ? tr("Create structure") : tr("Save the changes"));
-  m_create->setEnabled(free && why.empty());
+  m_create->setEnabled(free && (why.empty() || m_editor.previewPending())); // then it waits
   m_create->setToolTip(why.empty() ? tr("The draft becomes a structure of the case (Return)")
                                    : words(why));
   m_discard->setEnabled(m_editor.hasDraft());

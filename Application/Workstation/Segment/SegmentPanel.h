@@ -3,6 +3,8 @@
 #include <array>
 #include <functional>
 
+#include <QTimer>
+
 #include "Bind.h"
 #include "Panels.h"
 #include "petrous/Presenters/SegmentEditor.h"
@@ -40,7 +42,8 @@ public:
   void showVolume(); ///< alone, while a stroke is painted
   void setProgress(double fraction, const QString& text);
   void partsChanged() override;
-  void say(const QString& line); ///< a refusal, or what was done; empty: nothing
+  void say(const QString& line);      ///< what was done; empty: nothing
+  void complain(const QString& line); ///< a refusal, which goes with the next change
   void focusName();
 
 signals:
@@ -107,6 +110,9 @@ private:
   QPushButton* m_redo;
   QPushButton* m_create;
   QPushButton* m_discard;
+  QTimer m_previewLater;
+  bool m_showsPreview = false; ///< that one is being computed
+  bool m_complains = false;
   Bindings m_bound;
 };
 

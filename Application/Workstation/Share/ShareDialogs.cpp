@@ -14,13 +14,14 @@
 #include <QFormLayout>
 #include <QLabel>
 #include <QLocale>
-#include <QMessageBox>
 #include <QPushButton>
 #include <QSpinBox>
 #include <QVBoxLayout>
 
+#include "AskName.h"
 #include "PathRow.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Presenters/CameraPaths.h"
 #include "petrous/Presenters/FilmFile.h"
 
@@ -101,18 +102,8 @@ void ShareDialog::check()
 
 void ShareDialog::askAndAccept()
 {
-  for (const std::filesystem::path& one : files())
-  {
-    const QFileInfo there(QFile::decodeName(one.c_str()));
-    if (!there.exists())
-      continue;
-    if (QMessageBox::question(
-            this, windowTitle(), tr("“%1” is there already. Replace it?").arg(there.fileName()),
-            QMessageBox::Yes | QMessageBox::No, QMessageBox::No) != QMessageBox::Yes)
-      return;
-    break;
-  }
-  accept();
+  if (mayReplace(*this, files()))
+    accept();
 }
 
 ReportDialog::ReportDialog(const scene::Case& value, QWidget* parent)
@@ -235,9 +226,9 @@ FilmDialog::FilmDialog(const scene::Case& value, QWidget* parent)
   m_path->addItem(tr("Once around the patient"), QString());
   for (const scene::LabelPart& part : value.labels)
     for (const scene::StructurePart& structure : part.structures)
-      m_path->addItem(tr("Along “%1”").arg(words(structure.name)), words(structure.name));
+      m_path->addItem(tr("Along “%1”").arg(shownName(structure.name)), words(structure.name));
   for (const scene::MeshPart& mesh : value.meshes)
-    m_path->addItem(tr("Along “%1”").arg(words(mesh.name)), words(mesh.name));
+    m_path->addItem(tr("Along “%1”").arg(shownName(mesh.name)), words(mesh.name));
   m_path->setToolTip(tr("A flight goes along the centre line of a canal or nerve, which is not "
                         "drawn then"));
   m_frames->setObjectName("filmFrames");

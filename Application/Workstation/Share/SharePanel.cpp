@@ -10,6 +10,7 @@
 
 #include "Bind.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
@@ -128,7 +129,7 @@ void SharePanel::caseChanged()
     const QString surface = tr("surface");
     add(primary, voxels, "ct");
     for (const scene::ImagePart& mr : value.mr)
-      add(words(mr.name), voxels, "mr", mr.name);
+      add(shownName(mr.name), voxels, "mr", mr.name);
     std::size_t structures = 0;
     for (const scene::LabelPart& one : value.labels)
       structures += one.structures.size();
@@ -136,9 +137,9 @@ void SharePanel::caseChanged()
       add(tr("All structures"), tr("labels, DICOM"), "labels");
     for (const scene::LabelPart& one : value.labels)
       for (const scene::StructurePart& structure : one.structures)
-        add(words(structure.name), surface, "structure", structure.name);
+        add(shownName(structure.name), surface, "structure", structure.name);
     for (const scene::MeshPart& mesh : value.meshes)
-      add(words(mesh.name), surface, "structure", mesh.name);
+      add(shownName(mesh.name), surface, "structure", mesh.name);
     add(tr("%1 after drilling").arg(primary), voxels, "dissected");
     add(tr("Bone after drilling"), surface, "surface");
     add(tr("What is left of each voxel"), tr("mask"), "mask");

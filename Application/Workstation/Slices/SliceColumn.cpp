@@ -4,6 +4,7 @@
 
 #include "SliceView.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 
 namespace petrous::workstation
@@ -121,7 +122,7 @@ void SliceColumn::showReadout()
   QString text = valuesAt(m_model.crosshair());
   const std::string structure = m_model.structureAt(m_model.crosshair());
   if (!structure.empty())
-    text += "  " + QString::fromStdString(structure).replace('_', ' ');
+    text += "  " + shownName(structure);
   for (SliceView* view : m_views)
     view->setReadout(text);
 }

@@ -329,10 +329,9 @@ void AppearancePanel::showParts()
         for (int row = 0; row < static_cast<int>(parts.size()); ++row)
         {
           const AppearanceEditor::Part& part = parts[static_cast<std::size_t>(row)];
-          const QString name = part.name != AppearanceEditor::kBone
-                                   ? words(part.name).replace('_', ' ')
-                               : isOnMr ? tr("Tissue")
-                                        : tr("Bone");
+          const QString name = part.name != AppearanceEditor::kBone ? shownName(part.name)
+                               : isOnMr                             ? tr("Tissue")
+                                                                    : tr("Bone");
           if (row >= m_part->count())
             m_part->addItem(name);
           m_part->setItemText(row, name);

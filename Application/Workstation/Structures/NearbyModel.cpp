@@ -125,7 +125,7 @@ QVariant NearbyModel::data(const QModelIndex& index, int role) const
                                         : QVariant();
   if (role == Qt::ToolTipRole)
     return tr("%1: %2\nIts surface is known to ±%3 mm: %4")
-        .arg(words(row.name).replace('_', ' '))
+        .arg(shownName(row.name))
         .arg(noteOf(row))
         .arg(row.uncertainty.millimetres(), 0, 'f', 2)
         .arg(words(toString(row.uncertainty)));
@@ -138,7 +138,7 @@ QVariant NearbyModel::data(const QModelIndex& index, int role) const
   switch (index.column())
   {
   case Name:
-    return words(row.name).replace('_', ' ');
+    return shownName(row.name);
   case Distance:
     return distanceOf(row);
   default:

@@ -7,6 +7,7 @@
 
 #include "NearbyModel.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 
 namespace petrous::workstation
 {
@@ -83,7 +84,7 @@ void NearbyPanel::showRemoved()
                      .arg(strokes == 1 ? tr("stroke") : tr("strokes"));
   for (const auto& [name, volume] : presenters::injuredVolumes(value, open))
     text += tr("\nInjured: %1, %2")
-                .arg(words(name).replace('_', ' '))
+                .arg(shownName(name))
                 .arg(words(presenters::cubicMillimetres(volume)));
   m_removed->setText(text);
 }

@@ -1,29 +1,12 @@
 #include "ProbeLabel.h"
 
-#include <cmath>
-
 #include "Theme.h"
+#include "WindowTexts.h"
+#include "petrous/Core/PositionText.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 
 namespace petrous::workstation
 {
-
-namespace
-{
-
-// "R 32.1  P 12.0  S 45.3 mm": direction letters relative to the scanner's origin.
-QString positionText(const Eigen::Vector3d& patient)
-{
-  constexpr char towards[3][2] = {{'R', 'L'}, {'A', 'P'}, {'I', 'S'}};
-  QString text;
-  for (int a = 0; a < 3; ++a)
-    text += QString("%1 %2  ")
-                .arg(QLatin1Char(towards[a][patient[a] > 0.0 ? 1 : 0]))
-                .arg(std::abs(patient[a]), 0, 'f', 1);
-  return text.trimmed() + " mm";
-}
-
-} // namespace
 
 ProbeLabel::ProbeLabel(const presenters::WorkstationModel& model, QWidget* parent)
   : QLabel(parent)
@@ -46,12 +29,12 @@ void ProbeLabel::showPlace(const Eigen::Vector3d& patient)
 
 void ProbeLabel::showValues(const Eigen::Vector3d& patient, const QString& values)
 {
-  QString text = positionText(patient);
+  QString text = words(core::positionText(patient));
   if (!values.isEmpty())
     text += "   " + values;
   const std::string structure = m_model.structureAt(patient);
   if (!structure.empty())
-    text += "   " + words(structure).replace('_', ' ');
+    text += "   " + shownName(structure);
   setText(text);
 }
 

@@ -292,7 +292,7 @@ appearance::StructureAppearance StructuresModel::lookAt(const QModelIndex& index
 QString StructuresModel::title(const presenters::StructureRow& row) const
 {
   if (row.kind != StructureKind::Bone)
-    return words(row.part).replace('_', ' ');
+    return shownName(row.part);
   return m_model.hasCase() && m_model.value().ct.modality == scene::Modality::Mr ? tr("Tissue")
                                                                                  : tr("Bone");
 }

@@ -24,6 +24,7 @@
 #include "StructureEditor.h"
 #include "StructuresModel.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 
 namespace petrous::workstation
@@ -484,7 +485,7 @@ void StructuresPanel::offer(const QPoint& position)
     menu.addSeparator();
     thickness = menu.addAction((isOnMr() ? tr("Colour tissue by its thickness over %1")
                                          : tr("Colour bone by its thickness over %1"))
-                                   .arg(QString(name).replace('_', ' ')));
+                                   .arg(shownName(bytes(name))));
     thickness->setCheckable(true);
     thickness->setChecked(m_model.thicknessOver() == bytes(name));
   }

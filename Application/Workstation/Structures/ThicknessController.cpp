@@ -9,6 +9,7 @@
 #include "Theme.h"
 #include "ThicknessLegend.h"
 #include "ThreeDView.h"
+#include "WindowTexts.h"
 
 namespace petrous::workstation
 {
@@ -39,7 +40,7 @@ ThicknessController::ThicknessController(presenters::WorkstationModel& model, Th
           [this](double fraction, const QString&)
           {
             emit statusMessage(tr("The bone over %1 is being measured: %2 % (F6 stops it)")
-                                   .arg(words(m_measured).replace('_', ' '))
+                                   .arg(shownName(m_measured))
                                    .arg(100.0 * fraction, 0, 'f', 0));
           });
   m_followLater.setSingleShot(true);
@@ -120,7 +121,7 @@ void ThicknessController::bringUpToDate()
 {
   if (m_measured.empty())
     m_legend->setProgress(1.0);
-  m_legend->setStructure(words(over()).replace('_', ' '),
+  m_legend->setStructure(shownName(over()),
                          m_model.hasCase() && m_model.value().ct.modality == scene::Modality::Mr);
   m_bound.refresh();
 }

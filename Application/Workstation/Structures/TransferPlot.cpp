@@ -11,6 +11,7 @@
 #include <QToolTip>
 
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Core/NumberText.h"
 
 namespace petrous::workstation
@@ -703,8 +704,7 @@ bool TransferPlot::event(QEvent* event)
     if (const auto point = pointAt(help->pos()))
       tip = pointText(*point);
     else if (const Part* part = curveAt(help->pos()); part && part != m_editor.selected())
-      tip =
-          part->name == AppearanceEditor::kBone ? tr("Bone") : words(part->name).replace('_', ' ');
+      tip = part->name == AppearanceEditor::kBone ? tr("Bone") : shownName(part->name);
     QToolTip::showText(help->globalPos(), tip, this);
     return true;
   }
@@ -741,12 +741,12 @@ void TransferPlot::announce()
   const Part* part = m_editor.selected();
   if (!part)
     return;
-  const QString name = part->name == AppearanceEditor::kBone ? tr("bone") : words(part->name);
+  const QString name = part->name == AppearanceEditor::kBone ? tr("bone") : shownName(part->name);
   const QString text = m_editor.point() ? pointText(*m_editor.point())
                        : part->points.empty()
                            ? tr("One colour at every intensity")
                            : tr("%1 points, none is selected").arg(part->points.size());
-  setAccessibleName(tr("Transfer function of %1").arg(QString(name).replace('_', ' ')));
+  setAccessibleName(tr("Transfer function of %1").arg(name));
   if (text == accessibleDescription())
     return;
   setAccessibleDescription(text);

@@ -214,6 +214,19 @@ TEST_F(CommandsWindow, TheListOfKeysHasTheKeysOfAllActions)
       }
   EXPECT_GT(count, 70);
   EXPECT_EQ(listed("Keys"), QStringList{"F1"});
+  for (const int column : {0, 1, 2}) // the names of menus span all of them
+  {
+    int widest = list.fontMetrics().horizontalAdvance(list.headerItem()->text(column));
+    for (QTreeWidgetItemIterator it(&list); *it; ++it)
+      if ((*it)->parent())
+        widest = std::max(widest, list.fontMetrics().horizontalAdvance((*it)->text(column)));
+    const int beside = 3 * list.indentation() + 30;
+    EXPECT_LE(list.columnWidth(column), column == 2 ? 2000 : widest + beside) << column;
+    if (column < 2)
+    {
+      EXPECT_GE(list.columnWidth(column), widest) << column;
+    }
+  }
 
   QTest::keyClicks(&searchOf(*keys), "burr");
   int shown = 0;

@@ -1284,6 +1284,41 @@ void keepPicture(QWidget& widget, const char* name)
 } // namespace
 
 // One slice of the stack is gone: the page shows it, and so does the case.
+// In words, by the name of the series; what identifies it to a machine is behind a button.
+TEST_F(Import, AScanThatCannotBeUsedIsRefusedWithWhatCanBeDone)
+{
+  writePatient(folder() / "sample");
+  std::vector<fs::path> slices;
+  for (const auto& entry : fs::directory_iterator(folder() / "sample" / "ct"))
+    slices.push_back(entry.path());
+  std::sort(slices.begin(), slices.end());
+  for (std::size_t n = 0; n < 4; ++n)
+    fs::remove(slices[slices.size() / 2 + n]);
+  openWindow();
+  QString text, advice, details;
+  onMessage(
+      [&](QMessageBox& box)
+      {
+        EXPECT_EQ(box.objectName(), "seriesRefused") << box.text().toStdString();
+        text = box.text();
+        advice = box.informativeText();
+        details = box.detailedText();
+        keepPicture(box, "refused");
+        box.reject();
+      });
+  dropPath(folder() / "sample" / "ct");
+  ASSERT_TRUE(waitFor([&] { return !text.isEmpty(); }));
+  EXPECT_TRUE(settled());
+  EXPECT_FALSE(window().model().hasCase());
+  EXPECT_TRUE(text.contains("Temporal bone") && text.contains("ct")) << text.toStdString();
+  EXPECT_TRUE(advice.contains("missing") && advice.contains("Library > Receive"))
+      << advice.toStdString();
+  for (const QString& told : {text, advice})
+    EXPECT_FALSE(told.contains("missing-slice") || told.contains("2.25.")) << told.toStdString();
+  EXPECT_TRUE(details.contains("missing-slice") && details.contains("sample/ct"))
+      << details.toStdString();
+}
+
 TEST_F(Import, TheRepairPageShowsBeforeAndAfterAndTheCaseMarksWhatWasGuessed)
 {
   writePatient(folder() / "sample");

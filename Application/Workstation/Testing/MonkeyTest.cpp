@@ -11,6 +11,7 @@
 #include <QDir>
 #include <QDoubleSpinBox>
 #include <QDrag>
+#include <QElapsedTimer>
 #include <QFileDialog>
 #include <QLineEdit>
 #include <QMenu>
@@ -319,9 +320,29 @@ protected:
                        [this, &answers]
                        {
                          answerSoon(answers);
+                         lookForStandstill();
                          if (m_answers)
                            answer();
                        });
+  }
+
+  /// Events come, but the action does not end: a loop within it waits for what never happens.
+  void lookForStandstill()
+  {
+    constexpr int kStandstill = 300000; // ms
+    if (!m_actionFor.hasExpired(kStandstill))
+      return;
+    const auto nameOf = [](const QWidget* widget)
+    {
+      return widget ? std::string(widget->metaObject()->className()) + " '" +
+                          widget->objectName().toStdString() + "'"
+                    : std::string("none");
+    };
+    std::fprintf(stderr, "standstill: modal %s, popup %s, answered %s, dragging %d, after%s\n",
+                 nameOf(QApplication::activeModalWidget()).c_str(),
+                 nameOf(QApplication::activePopupWidget()).c_str(), nameOf(m_present).c_str(),
+                 m_dragging, lately().c_str());
+    std::abort(); // whose handler prints where
   }
 
   /// Whatever is modal, or pops up. Some rounds of anything, then a way out.
@@ -333,7 +354,7 @@ protected:
     QWidget* present = popup ? popup : QApplication::activeModalWidget();
     if (!present || present == m_present) // an answer may bring another one
       return;
-    const QScopedValueRollback<QWidget*> answering(m_present, present);
+    const QScopedValueRollback<QPointer<QWidget>> answering(m_present, present);
     if (popup)
     {
       if (auto* menu = qobject_cast<QMenu*>(popup); menu && inHundred(50))
@@ -429,10 +450,12 @@ protected:
   void play(int count)
   {
     openAny("ball");
+    m_actionFor.start();
     auto answers = std::make_unique<QObject>();
     answerSoon(*answers);
     for (m_count = 0; m_count < count; ++m_count)
     {
+      m_actionFor.start();
       act();
       QTest::qWait(upTo(12));
       // An exception that nobody expected.
@@ -445,6 +468,7 @@ protected:
       if (!window().isVisible())
         window().show();
     }
+    m_actionFor.start();
     EXPECT_TRUE(waitFor([this] { return !window().busy(); })) << lately();
     m_answers = false;
     for (QWidget* modal = QApplication::activeModalWidget(); modal;
@@ -468,8 +492,9 @@ protected:
   QPointer<QWidget> m_modal;
   QString m_before;
   int m_count = 0;
-  int m_rounds = 0;             // with m_modal
-  QWidget* m_present = nullptr; // is being answered
+  QElapsedTimer m_actionFor;
+  int m_rounds = 0;            // with m_modal
+  QPointer<QWidget> m_present; // is being answered; another one may come to lie where it was
   bool m_dragging = false;
   bool m_answers = true;
 };

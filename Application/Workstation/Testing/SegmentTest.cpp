@@ -98,6 +98,7 @@ protected:
     ADD_FAILURE() << "no button " << text.toStdString();
     box.reject();
   }
+  void trigger(const QString& text) { action(text)->trigger(); }
   bool isDraft() { return find<QPushButton>("segmentDiscard").isEnabled(); }
 };
 
@@ -355,6 +356,55 @@ TEST_F(Segment, ADraftIsNotLostWithoutAQuestion)
   window().close();
   EXPECT_FALSE(window().isVisible());
   EXPECT_EQ(library().open("other").labels.size(), 1U);
+}
+
+// Return counts though the preview is still being computed, and the next key is not typed into the
+// name.
+TEST_F(Segment, ReturnInTheNameCreatesWhenThePreviewIsDoneAndGivesTheKeysBack)
+{
+  saveBall("ball");
+  openWindow("ball");
+  choose(Qt::Key_T);
+  ASSERT_TRUE(waitFor([this] { return volume().contains("mm"); }));
+  setRange(1000.0, 1600.0);
+  auto& line = find<QLineEdit>("segmentName");
+  line.setFocus();
+  name("tumour");
+  click(kBallCenter + Vector3d(6, 0, 0));
+  line.setFocus();
+  QTest::keyClick(&line, Qt::Key_Return); // before the preview is back
+  EXPECT_TRUE(isDraft());
+  EXPECT_TRUE(waitFor([this] { return !isDraft(); }));
+  EXPECT_TRUE(settled());
+  const auto mask = segmentation::connectedThreshold(*window().model().value().ct.volume.get(),
+                                                     {1000.0, 1600.0}, {kBallCenter});
+  const auto* made = scene::findStructure(window().model().value(), "tumour");
+  ASSERT_TRUE(made);
+  EXPECT_EQ(made->voxels, mask.count);
+  ASSERT_TRUE(QApplication::focusWidget());
+  QTest::keyClick(QApplication::focusWidget(), Qt::Key_N, Qt::ShiftModifier);
+  EXPECT_EQ(line.text(), "");
+  EXPECT_TRUE(action("Nerve")->isChecked());
+}
+
+TEST_F(Segment, ARefusalStandsOnceAndGoesWithItsCause)
+{
+  saveBall("ball");
+  openWindow("ball");
+  choose(Qt::Key_T);
+  ASSERT_TRUE(waitFor([this] { return volume().contains("mm"); }));
+  auto& remark = find<QLabel>("segmentRemark");
+  auto& line = find<QLabel>("segmentLine");
+  setRange(1599.0, 1600.0);
+  click(kBallCenter);
+  ASSERT_TRUE(waitFor([&] { return remark.text().contains("at the seed"); }));
+  trigger("Apply the tool");
+  QTest::qWait(300);
+  EXPECT_TRUE(remark.isVisible() && line.isHidden()) << line.text().toStdString();
+  setRange(1000.0, 1600.0);
+  ASSERT_TRUE(waitFor([this] { return volume().contains("voxels"); }));
+  EXPECT_TRUE(waitFor([&] { return remark.isHidden(); })) << remark.text().toStdString();
+  EXPECT_TRUE(line.isHidden()) << line.text().toStdString();
 }
 
 TEST_F(Segment, WhatWasCreatedIsUndoneFromThePanel)

@@ -18,6 +18,7 @@
 #include <QScrollBar>
 #include <QSlider>
 #include <QSpinBox>
+#include <QTabBar>
 #include <QTemporaryDir>
 #include <QToolBar>
 #include <QToolButton>
@@ -62,6 +63,69 @@ TEST_F(Window, ThePanelsKeyRaisesAPanelThatLiesBehindAnother)
   EXPECT_TRUE(waitFor([&] { return picture->isHidden() && inFront(structures); }));
   QTest::keyClick(&window(), Qt::Key_F8);
   EXPECT_TRUE(waitFor([&] { return inFront(picture); }));
+}
+
+TEST_F(Window, TheNamesOfPanelsThatShareAPlaceAreWhole)
+{
+  saveBall("ball");
+  openWindow();
+  for (const PanelEntry& entry : panelEntries())
+    window().findChild<QDockWidget*>(entry.name)->show();
+  QTest::qWait(50);
+  int tabs = 0;
+  for (const auto* bar : window().findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly))
+    for (int n = 0; n < bar->count(); ++n)
+    {
+      ++tabs;
+      EXPECT_LE(bar->fontMetrics().horizontalAdvance(bar->tabText(n)), bar->tabRect(n).width())
+          << bar->tabText(n).toStdString();
+    }
+  EXPECT_GE(tabs, 6);
+}
+
+TEST_F(Window, TheFirstPageSaysWhatIsBeingOpenedAndWaits)
+{
+  openWindow();
+  auto* page = window().findChild<StartPage*>();
+  auto* busy = page->findChild<QLabel*>("startBusy");
+  auto* sample = page->findChild<QPushButton*>("primary");
+  EXPECT_TRUE(busy->isHidden());
+  saveBall("ball");
+  window().begin("ball");
+  EXPECT_TRUE(busy->isVisible());
+  EXPECT_TRUE(busy->text().contains("ball")) << busy->text().toStdString();
+  EXPECT_FALSE(sample->isEnabled());
+  EXPECT_TRUE(settled());
+  EXPECT_TRUE(window().model().hasCase());
+  EXPECT_TRUE(sample->isEnabled() && busy->isHidden()) << "when the page is seen again";
+}
+
+namespace
+{
+QStringList warned; // by Qt
+}
+
+TEST_F(Window, OpensWithoutAWarningOfQt)
+{
+  warned.clear();
+  const auto before = qInstallMessageHandler(
+      [](QtMsgType type, const QMessageLogContext&, const QString& text)
+      {
+        if (type == QtWarningMsg)
+          warned += text;
+      });
+  openWindow();
+  qInstallMessageHandler(before);
+  EXPECT_TRUE(warned.filter("QWidget::").isEmpty()) << warned.join('\n').toStdString();
+}
+
+TEST_F(Window, ADurationIsInSecondsOrMinutesAndSeconds)
+{
+  EXPECT_EQ(durationText(0.0), "0.0 s");
+  EXPECT_EQ(durationText(59.94), "59.9 s");
+  EXPECT_EQ(durationText(59.96), "1 min 0 s") << "not 60.0 s";
+  EXPECT_EQ(durationText(75.0), "1 min 15 s");
+  EXPECT_EQ(durationText(3599.0), "59 min 59 s");
 }
 
 TEST_F(Window, EachPanelOfTheTableHasADockAKeyAndAnEntryInTheMenu)

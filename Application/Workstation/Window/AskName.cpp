@@ -1,8 +1,11 @@
 #include "AskName.h"
 
 #include <QDialogButtonBox>
+#include <QFile>
+#include <QFileInfo>
 #include <QInputDialog>
 #include <QLabel>
+#include <QMessageBox>
 #include <QPushButton>
 
 #include "Application.h"
@@ -44,6 +47,27 @@ QString askName(QWidget& parent, const QString& title, const QString& text, cons
   QObject::connect(&dialog, &QInputDialog::textValueChanged, judge);
   judge(name);
   return dialog.exec() == QDialog::Accepted ? dialog.textValue().trimmed() : QString();
+}
+
+bool mayReplace(QWidget& parent, const std::vector<std::filesystem::path>& files)
+{
+  QStringList there;
+  for (const std::filesystem::path& file : files)
+    if (const QFileInfo info(QFile::decodeName(file.c_str())); info.exists())
+      there += info.fileName();
+  if (there.isEmpty())
+    return true;
+  QMessageBox box(QMessageBox::Question, parent.windowTitle(),
+                  there.size() == 1
+                      ? QObject::tr("“%1” is there already. Replace it?").arg(there.front())
+                      : QObject::tr("%1 are there already. Replace them?").arg(there.join(", ")),
+                  QMessageBox::Cancel, &parent);
+  box.setObjectName("askReplace");
+  box.setTextFormat(Qt::PlainText);
+  const auto* replace = box.addButton(QObject::tr("&Replace"), QMessageBox::AcceptRole);
+  box.setDefaultButton(QMessageBox::Cancel);
+  box.exec();
+  return box.clickedButton() == replace;
 }
 
 } // namespace petrous::workstation

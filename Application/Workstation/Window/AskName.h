@@ -1,7 +1,9 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include <QString>
 
@@ -15,5 +17,8 @@ namespace petrous::workstation
 /// without spaces around it; empty: the user did not want to.
 QString askName(QWidget& parent, const QString& title, const QString& text, const QString& name,
                 const std::function<void(const std::string&)>& check);
+
+/// Asks whether the files may be replaced that are there already; true if none is.
+bool mayReplace(QWidget& parent, const std::vector<std::filesystem::path>& files);
 
 } // namespace petrous::workstation

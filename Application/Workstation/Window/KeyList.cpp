@@ -5,6 +5,7 @@
 #include <QDialogButtonBox>
 #include <QHeaderView>
 #include <QLineEdit>
+#include <QScrollBar>
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
@@ -66,9 +67,7 @@ KeyList::KeyList(const std::vector<Command>& commands, QWidget* parent)
       tr("Where an MR lies over the slice; with Shift by the larger step"));
 
   m_list->expandAll();
-  m_list->header()->setStretchLastSection(true);
-  m_list->header()->setSectionResizeMode(kKeyItself, QHeaderView::ResizeToContents);
-  m_list->header()->setSectionResizeMode(kKeyName, QHeaderView::ResizeToContents);
+  const int wanted = fitColumns();
   connect(m_search, &QLineEdit::textChanged, this, &KeyList::search);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
@@ -77,7 +76,32 @@ KeyList::KeyList(const std::vector<Command>& commands, QWidget* parent)
   layout->addWidget(m_list, 1);
   layout->addWidget(buttons);
   const QSize room = parent ? parent->size() : QSize(900, 700);
-  resize(std::min(860, room.width() - 40), std::min(680, room.height() - 40));
+  const QMargins margins = layout->contentsMargins();
+  resize(std::min(wanted + margins.left() + margins.right(), room.width() - 40),
+         std::min(680, room.height() - 40));
+}
+
+// To what the rows hold; the names of menus and panels span all columns. Returns the list's width
+// in which nothing is cut off.
+int KeyList::fitColumns()
+{
+  constexpr int kPadding = 14; // px
+  int widths[] = {0, 0, 0};
+  for (int n = 0; n < m_list->topLevelItemCount(); ++n)
+    for (int row = 0; row < m_list->topLevelItem(n)->childCount(); ++row)
+      for (const int column : {kKeyItself, kKeyName, kKeyTip})
+        widths[column] =
+            std::max(widths[column], m_list->fontMetrics().horizontalAdvance(
+                                         m_list->topLevelItem(n)->child(row)->text(column)));
+  widths[kKeyItself] += 2 * m_list->indentation();
+  m_list->header()->setStretchLastSection(true);
+  int width = 2 * m_list->frameWidth() + m_list->verticalScrollBar()->sizeHint().width();
+  for (const int column : {kKeyItself, kKeyName, kKeyTip})
+  {
+    m_list->header()->resizeSection(column, widths[column] + kPadding);
+    width += widths[column] + kPadding;
+  }
+  return width;
 }
 
 void KeyList::add(const QString& group, const QString& name, const QString& keys,

@@ -22,6 +22,7 @@ public:
 
 private:
   void add(const QString& group, const QString& name, const QString& keys, const QString& tip);
+  int fitColumns();
   void search();
 
   QLineEdit* m_search;

@@ -24,6 +24,7 @@
 #include <QSpinBox>
 #include <QStackedWidget>
 #include <QStatusBar>
+#include <QTabBar>
 #include <QUrl>
 #include <QVBoxLayout>
 
@@ -83,9 +84,10 @@ namespace petrous::workstation
 
 namespace
 {
-constexpr int kMessage = 8000; // ms
-constexpr int kFileName = 300; // px
-constexpr double kRoll = 5.0;  // degrees
+constexpr int kMessage = 8000;   // ms
+constexpr int kFileName = 300;   // px
+constexpr int kPanelWidth = 500; // px, at first: the list of structures with its usual columns
+constexpr double kRoll = 5.0;    // degrees
 
 QStringList dropped(const QMimeData& data)
 {
@@ -127,7 +129,7 @@ QStringList notesOf(const scene::Case& value)
   const auto add = [&notes](const std::string& part, const std::vector<std::string>& more)
   {
     for (const std::string& note : more)
-      notes += words(part) + ": " + windowText(words(note));
+      notes += shownName(part) + ": " + windowText(words(note));
   };
   add(presenters::primaryName(value), value.ct.notes);
   for (const auto& mr : value.mr)
@@ -147,6 +149,23 @@ WindowOptions safeOptions(WindowOptions options)
   options.drawThumbnailsAfter = -1;
   return options;
 }
+// Of panels that share a place the names are whole, with arrows where there is no room for all.
+class WholeTabs : public QObject
+{
+public:
+  using QObject::QObject;
+  bool eventFilter(QObject*, QEvent* event) override
+  {
+    if (event->type() == QEvent::ChildPolished)
+      if (auto* tabs = qobject_cast<QTabBar*>(static_cast<QChildEvent*>(event)->child()))
+      {
+        tabs->setElideMode(Qt::ElideNone);
+        tabs->setUsesScrollButtons(true);
+      }
+    return false;
+  }
+};
+
 } // namespace
 
 MainWindow::MainWindow(library::Library library, const WindowOptions& wanted)
@@ -255,6 +274,9 @@ MainWindow::~MainWindow()
 
 void MainWindow::layOut()
 {
+  connect(m_keeper, &CaseDocumentController::working, m_start,
+          [this](const QString& title)
+          { m_start->setBusy(title.isEmpty() ? title : title + QString::fromUtf8("…")); });
   connect(m_start, &StartPage::sampleAsked, m_keeper, &CaseDocumentController::makeSample);
   connect(m_start, &StartPage::openFolderAsked, m_keeper, &CaseDocumentController::openFolder);
   connect(m_start, &StartPage::openCaseAsked, this, &MainWindow::showLibrary);
@@ -369,6 +391,7 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event)
 
 void MainWindow::addPanels()
 {
+  installEventFilter(new WholeTabs(this));
   const PanelContext context{m_model,     *m_picture,     *m_registration, *m_segment,
                              *m_library,  *m_attachments, *m_measure,      *m_sliceControl,
                              *m_branches, *m_strokes,     *m_share};
@@ -432,7 +455,7 @@ void MainWindow::showPanels()
   if (!front)
     return;
   front->raise();
-  resizeDocks({front}, {std::min(482, 2 * width() / 5)}, Qt::Horizontal);
+  resizeDocks({front}, {std::min(kPanelWidth, 2 * width() / 5)}, Qt::Horizontal);
 }
 
 // Another case is open, or none is any more.
@@ -716,6 +739,7 @@ void MainWindow::connectSegment()
   connect(m_segment, &SegmentController::structureCreated, this, &MainWindow::showUndo);
   connect(m_segment, &SegmentController::statusMessage, this,
           [this](const QString& line) { statusBar()->showMessage(line, kMessage); });
+  connect(m_segment, &SegmentController::viewFocusAsked, m_view, qOverload<>(&QWidget::setFocus));
   connect(m_segment, &SegmentController::surfaceChanged, m_picture, &PictureController::setDraft);
   m_keeper->mayDropDraft = [this] { return m_segment->mayLeave(); };
   m_segment->addKeysTo(*m_view);

@@ -37,7 +37,7 @@ void showReport(QWidget* parent, const QString& title, const QString& head, cons
   whole->setObjectName("reportText");
   whole->setAccessibleName(title);
   whole->setReadOnly(true);
-  whole->setLineWrapMode(QPlainTextEdit::NoWrap);
+  whole->setWordWrapMode(QTextOption::WrapAtWordBoundaryOrAnywhere);
   whole->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
   auto* outcome = new QLabel;
   outcome->setObjectName("dim");

@@ -85,6 +85,8 @@ QToolButton:hover { background: @hover; }
 QToolButton:pressed { background: @pressed; }
 QToolButton:focus { border-color: @accent; }
 QToolButton:disabled { color: @off; }
+QFileDialog QToolButton { padding: 3px; }
+QTabBar QToolButton { padding: 0; background: @panel; }
 QToolButton#drillButton { border: 1px solid @frame; font-weight: 600; padding: 5px 16px; }
 QToolButton#pointerButton { border: 1px solid @frame; padding: 5px 12px; }
 QToolButton#pointerButton:checked { background: @checked; border-color: @checkedEdge; color: #ffffff; }
@@ -107,11 +109,11 @@ QDockWidget { font-weight: 600; }
 QDockWidget::title { background: @panel; padding: 7px 10px; border-bottom: 1px solid @line; }
 QHeaderView::section { background: @panel; color: @dim; border: 0;
                        border-bottom: 1px solid @line; padding: 4px 6px; }
-QTreeView { border: 0; background: @tree; alternate-background-color: @otherRow; }
+QTreeView { border: 1px solid @tree; background: @tree; alternate-background-color: @otherRow; }
 QTreeView::item { padding: 3px 2px; }
 QTreeView::item:selected { background: @select; color: #ffffff; }
 QTreeView::item:selected:!active { background: @idle; color: @byIdle; }
-QTreeView:focus { border: 1px solid @accent; }
+QTreeView:focus { border-color: @accent; }
 QTreeView::indicator, QCheckBox::indicator { width: 12px; height: 12px; background: @box;
                        border: 1px solid @edgeOfBox; border-radius: 3px; }
 QTreeView::indicator:checked, QCheckBox::indicator:checked { background: @accent;

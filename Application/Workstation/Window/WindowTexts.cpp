@@ -7,6 +7,7 @@
 #include <QObject>
 
 #include "Theme.h"
+#include "petrous/Presenters/CaseNaming.h"
 
 namespace petrous::workstation
 {
@@ -22,6 +23,20 @@ QString volumeText(double volume)
 {
   const int decimals = volume < 100.0 ? 2 : volume < 10000.0 ? 1 : 0;
   return QObject::tr("%1 mm³").arg(volume, 0, 'f', decimals);
+}
+
+QString shownName(const std::string& part)
+{
+  return words(presenters::shownName(part));
+}
+
+QString durationText(double seconds)
+{
+  constexpr double kShown = 0.1; // s
+  if (seconds < 60.0 - 0.5 * kShown)
+    return QObject::tr("%1 s").arg(numberText(seconds, 1));
+  const auto whole = static_cast<long long>(seconds + 0.5 * kShown);
+  return QObject::tr("%1 min %2 s").arg(whole / 60).arg(whole % 60);
 }
 
 QString removedText(const scene::Case& value, bool drilling)
@@ -42,9 +57,8 @@ QString strokeText(const dissection::Stroke* stroke)
     return QObject::tr("Nothing was cut");
   QString text = QObject::tr("Removed %1 mm³").arg(stroke->info.removed, 0, 'f', 2);
   for (const auto& touched : stroke->info.structures)
-    text += QObject::tr("  ·  %1 %2 mm³")
-                .arg(words(touched.name).replace('_', ' '))
-                .arg(touched.volume, 0, 'f', 2);
+    text +=
+        QObject::tr("  ·  %1 %2 mm³").arg(shownName(touched.name)).arg(touched.volume, 0, 'f', 2);
   return text;
 }
 
@@ -61,6 +75,11 @@ QString windowText(const QString& text)
       {"; give one with NAME=FILE", ""},
       {"; 'petrous scan' says what\\.", "."},
       {"; 'petrous scan' lists them, --series takes one\\.", "."},
+      {": series [0-9.]+: ", ": "},
+      {"\\b(gantry-tilt|missing-slice|uneven-spacing|duplicate-slice|side-by-side|odd-orientation|"
+       "odd-size|mixed-rescale|modality-lut|mixed-patients|mixed-studies|mixed-acquisitions|"
+       "no-geometry|localizer-mixed-in|missing-end|multi-frame|not-an-image|unreadable): ",
+       ""},
       {" \\(needs --repair\\)", " (needs repair)"},
       {" Give a series that 'petrous scan' finds ok\\.", ""},
       {" With --repair it is resampled to a straight volume\\.",

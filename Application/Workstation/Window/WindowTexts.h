@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include <QString>
 
 #include "petrous/Presenters/WorkstationModel.h"
@@ -12,6 +14,12 @@ QString numberText(double value, int decimals);
 
 /// "12.34 mm³", with decimals as its size deserves.
 QString volumeText(double cubicMillimetres);
+
+/// A part's name as it is shown everywhere: presenters::shownName.
+QString shownName(const std::string& part);
+
+/// "7.5 s", "1 min 15 s".
+QString durationText(double seconds);
 
 /// What was drilled so far. `drilling`: a stroke is open, whose volume is known when it is closed.
 QString removedText(const scene::Case& value, bool drilling);

@@ -1,4 +1,5 @@
 #include "petrous/Core/NumberText.h"
+#include "petrous/Core/PositionText.h"
 
 #include <cmath>
 #include <cstdint>
@@ -165,6 +166,13 @@ TEST(NumberText, ARangeNamesItselfAndTheValueThatItRefuses)
   EXPECT_FALSE(thrust.contains(0.0));
   EXPECT_EQ(thrust.refusal(0.0), "must lie above 0, up to 20 N, not 0");
   EXPECT_EQ((NumberRange{0.0, 1.0}.refusal(-1.0)), "must lie within 0 to 1, not -1");
+}
+
+// Towards right, anterior and inferior a coordinate in LPS is negative.
+TEST(PositionText, NamesTheDirectionsAndHasNoSigns)
+{
+  EXPECT_EQ(positionText({-40.21, -5.04, -0.04}), "R 40.2  A 5.0  I 0.0 mm");
+  EXPECT_EQ(positionText({3.0, 12.26, 145.0}), "L 3.0  P 12.3  S 145.0 mm");
 }
 
 } // namespace

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "petrous/Dissection/RemovedVolume.h"
@@ -37,6 +39,21 @@ TEST(RemovedVolume, CountsOnlyTissueNotAir)
   const double half = 2.0 / 3.0 * kPi * 8.0;
   EXPECT_NEAR(dissection::measureRemoved(halfSpace(), before, mask, bricks, {}).total / half, 1.0,
               0.005);
+}
+
+TEST(RemovedVolume, ChangedBricksAreThoseThatACutTellsOf)
+{
+  const volume::CutMask untouched(kGrid);
+  volume::CutMask once = untouched;
+  auto first = dissection::cut(once, {{-2, -2, -2}, {-2, -2, -2}, 1.0});
+  std::sort(first.begin(), first.end());
+  EXPECT_EQ(dissection::cutBricks(once), first);
+  EXPECT_EQ(dissection::changedBricks(untouched, once), first);
+  volume::CutMask twice = once;
+  auto second = dissection::cut(twice, {{2, 2, 2}, {2, 2, 2}, 1.0});
+  std::sort(second.begin(), second.end());
+  EXPECT_EQ(dissection::changedBricks(once, twice), second);
+  EXPECT_TRUE(dissection::changedBricks(twice, twice).empty());
 }
 
 TEST(RemovedVolume, IsRightForAShallowCut)

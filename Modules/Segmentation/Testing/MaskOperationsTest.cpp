@@ -445,7 +445,9 @@ TEST(Islands, AreCounted)
   }
   catch (const core::InvalidParameter& error)
   {
-    EXPECT_NE(std::string(error.what()).find("has 24.0 HU at the seed"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("at the seed (L 3.0  P 3.0  S 3.0 mm) has 24 HU"),
+              std::string::npos)
+        << error.what();
     EXPECT_NE(std::string(error.what()).find("between 100 and 200 HU"), std::string::npos);
   }
 }

@@ -333,7 +333,7 @@ void placeSurface(scene::Case& value, scene::Modality wanted, const std::string&
         "An MR shows no bone: its intensities are not Hounsfield units, and bone is as dark as air "
         "in it. The "
         "surface is where tissue begins, put at " +
-        core::generalText(scale.iso) +
+        core::generalText(scale.iso, 4) +
         " by the image's histogram; what is drilled is this tissue, not bone. 'petrous appearance "
         "--iso' moves the surface.");
     return;
@@ -346,7 +346,7 @@ void placeSurface(scene::Case& value, scene::Modality wanted, const std::string&
     image.notes.push_back(otherQuantity +
                           " It is shown as it is: nothing in it is known to be bone, and the "
                           "surface is put at " +
-                          core::generalText(scale.iso) +
+                          core::generalText(scale.iso, 4) +
                           " by the image's histogram; 'petrous appearance --iso' moves it. Build "
                           "the case with --modality CT if it is a CT in Hounsfield units all the "
                           "same.");
@@ -366,8 +366,8 @@ void placeSurface(scene::Case& value, scene::Modality wanted, const std::string&
                           "--modality MR if it is an MR, --modality CT if it is not.");
   image.notes.push_back(
       "The intensities are not Hounsfield units: the surface of bone is put at " +
-      core::generalText(scale.iso) + ", and dense bone taken for " +
-      core::generalText(scale.dense) +
+      core::generalText(scale.iso, 4) + ", and dense bone taken for " +
+      core::generalText(scale.dense, 4) +
       ", by the image's histogram; 'petrous appearance --iso' moves the surface.");
 }
 

@@ -44,6 +44,12 @@ std::string caseNameFrom(const std::filesystem::path& source)
   return name.substr(first, last - first + 1);
 }
 
+std::string shownName(std::string part)
+{
+  std::replace(part.begin(), part.end(), '_', ' ');
+  return part;
+}
+
 std::string freeCaseName(const library::Library& library, const std::string& name)
 {
   return scene::freeName(name, [&library](const std::string& taken)

@@ -17,6 +17,7 @@
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/CaseDicom.h"
 #include "petrous/Presenters/CaseExport.h"
+#include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/IdentityText.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/LeavingImages.h"
@@ -711,7 +712,7 @@ IdentityReport reportOf(scene::Case value, const SendParts& parts,
   if ((parts.labels || parts.scene) && !structures.empty())
     report.leaves.push_back(
         std::string(planOnly ? "the names of structures: " : "structures, by their names: ") +
-        joined(structures));
+        shownName(joined(structures)));
   if (parts.scene)
   {
     report.leaves.push_back(std::string(planOnly ? "the plan" : "the scene") + " by its name '" +
@@ -719,7 +720,7 @@ IdentityReport reportOf(scene::Case value, const SendParts& parts,
     if (!meshes.empty())
       report.leaves.push_back(
           std::string(planOnly ? "the names of meshes: " : "meshes, by their names: ") +
-          joined(meshes));
+          shownName(joined(meshes)));
     if (const auto gone = goneStructures(value); !gone.empty())
       report.leaves.push_back("names of structures that are gone, in strokes that touched them: " +
                               joined(gone));

@@ -8,9 +8,6 @@
 namespace petrous::presenters
 {
 
-/// A part's name in a sentence.
-std::string spoken(std::string name);
-
 /// What a change of appearances is called in the menu.
 struct LookEdit
 {

@@ -246,9 +246,12 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress,
   result.content = contentOf(series.modality);
   result.why = whyOf(series.modality);
   result.name = sequenceName(series.description);
-  if (series.geometry.verdict == imaging::Verdict::Repairable)
+  result.description = series.description;
+  if (readable == 0)
+    result.refused = series.geometry.findings;
+  else if (series.geometry.verdict == imaging::Verdict::Repairable)
     result.repair = series.geometry.findings;
-  if (!uid.empty() || !result.repair.empty())
+  if (!uid.empty() || !result.repair.empty() || !result.refused.empty())
     result.selector = imaging::selectorOf(series);
   return result;
 }

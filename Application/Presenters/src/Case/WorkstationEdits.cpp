@@ -8,6 +8,7 @@
 #include "LookEdits.h"
 #include "Notify.h"
 #include "petrous/Appearance/StructureProperties.h"
+#include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
 // WorkstationModel: threshold and appearances, and undo over all that changes.
@@ -64,12 +65,6 @@ std::string nounOf(const std::set<std::string>& keys)
 
 } // namespace
 
-std::string spoken(std::string name)
-{
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
 LookEdit lookEdit(const std::vector<PartLook>& before, const std::vector<PartLook>& after,
                   const char* bone)
 {
@@ -84,7 +79,7 @@ LookEdit lookEdit(const std::vector<PartLook>& before, const std::vector<PartLoo
       continue;
     ++changed;
     shown += to.shown;
-    name = before[n].part == kBone ? bone : spoken(before[n].part);
+    name = before[n].part == kBone ? bone : shownName(before[n].part);
     const bool isOpacity = before[n].part == kBone && from.opacity != to.opacity &&
                            from.color == to.color && from.shown == to.shown;
     if (isOpacity)

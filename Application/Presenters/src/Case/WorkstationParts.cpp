@@ -6,6 +6,7 @@
 #include "LookEdits.h"
 #include "Notify.h"
 #include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/WorkstationModel.h"
 #include "petrous/Scene/FreeName.h"
 #include "petrous/Scene/Placement.h"
@@ -162,7 +163,7 @@ void WorkstationModel::removePart(const std::string& name)
     return;
   const std::uint64_t removal = ++m_removals;
   takeOut(name, removal);
-  recordEdit({"removal of " + spoken(name),
+  recordEdit({"removal of " + shownName(name),
               {},
               [this, removal] { bringBack(removal); },
               [this, name, removal] { takeOut(name, removal); },
@@ -236,7 +237,7 @@ void WorkstationModel::restorePart()
   const std::string name = m_removed.back().name;
   const std::uint64_t removal = m_removed.back().id;
   bringBack(removal);
-  recordEdit({"return of " + spoken(name),
+  recordEdit({"return of " + shownName(name),
               {},
               [this, name, removal] { takeOut(name, removal); },
               [this, removal] { bringBack(removal); },
@@ -319,7 +320,7 @@ void WorkstationModel::renamePart(const std::string& name, const std::string& to
     return;
   scene::checkNewPartName(*m_case, name, to);
   rename(name, to);
-  recordEdit({"name of " + spoken(to),
+  recordEdit({"name of " + shownName(to),
               {},
               [this, name, to] { rename(to, name); },
               [this, name, to] { rename(name, to); },

@@ -6,6 +6,7 @@
 #include "LookEdits.h"
 #include "petrous/Appearance/DistinctColors.h"
 #include "petrous/Presenters/CaseBuilder.h"
+#include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Scene/Placement.h"
 
 namespace petrous::presenters
@@ -132,8 +133,9 @@ void OnlyThese::toggle(const std::vector<std::string>& parts)
   if (!m_now || m_case != m_model.shownAs() || present != *m_now)
     m_before = present; // else these are shown alone in place of others
   m_case = m_model.shownAs();
-  show(alone(parts), parts.size() == 1 ? "only " + (parts[0] == kBone ? "bone" : spoken(parts[0]))
-                                       : "only " + std::to_string(parts.size()) + " parts");
+  show(alone(parts), parts.size() == 1
+                         ? "only " + (parts[0] == kBone ? "bone" : shownName(parts[0]))
+                         : "only " + std::to_string(parts.size()) + " parts");
   m_now = shown();
 }
 

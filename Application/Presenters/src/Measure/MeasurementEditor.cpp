@@ -6,6 +6,7 @@
 #include "NamedOccupancy.h"
 #include "Notify.h"
 #include "petrous/Core/NumberText.h"
+#include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/Measuring.h"
 #include "petrous/Scene/CaseField.h"
@@ -367,8 +368,7 @@ void MeasurementEditor::add(Measurement measurement)
                            : measurement.kind == Kind::Thickness && !measurement.structure.empty()
                                ? "bone over " + measurement.structure
                                : scene::nameOf(measurement.kind);
-  std::string name = core::utf8Prefix(base, Measurement::kLongestName - 10);
-  std::replace(name.begin(), name.end(), '_', ' ');
+  std::string name = shownName(core::utf8Prefix(base, Measurement::kLongestName - 10));
   if (name == scene::nameOf(measurement.kind))
     name += " 1";
   // "distance 1", "distance 2", ...

@@ -18,15 +18,6 @@ namespace
 constexpr int kCellEdge = 4; // voxels; divides CutMask::kBrickEdge
 } // namespace
 
-std::vector<std::size_t> cutBricks(const volume::CutMask& mask)
-{
-  std::vector<std::size_t> bricks;
-  for (std::size_t n = 0; n < mask.brickCount(); ++n)
-    if (mask.brick(n))
-      bricks.push_back(n);
-  return bricks;
-}
-
 void RemovedTissue::addPoints(const volume::TissueField& tissue, const volume::CutMask& mask,
                               const core::Index3& voxel, std::vector<Eigen::Vector3d>& points)
 {
@@ -63,7 +54,7 @@ void RemovedTissue::addPoints(const volume::TissueField& tissue, const volume::C
 RemovedTissue::RemovedTissue(const volume::TissueField& tissue, const volume::CutMask& mask,
                              const core::Progress& progress)
 {
-  const std::vector<std::size_t> bricks = cutBricks(mask);
+  const std::vector<std::size_t> bricks = dissection::cutBricks(mask);
   std::vector<std::vector<Cell>> found(bricks.size());
   tbb::parallel_for(std::size_t{0}, bricks.size(),
                     [&](std::size_t n)

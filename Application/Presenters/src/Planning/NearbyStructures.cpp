@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "petrous/Core/NumberText.h"
+#include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Scene/Branches.h"
 
 namespace petrous::presenters
@@ -46,8 +47,7 @@ std::string cubicMillimetres(double volume)
 
 std::string toString(const NearbyStructure& structure)
 {
-  std::string text = structure.name;
-  std::replace(text.begin(), text.end(), '_', ' ');
+  std::string text = shownName(structure.name);
   const std::string uncertainty = core::fixedText(structure.uncertainty.millimetres(), 1);
   if (structure.state == NearbyStructure::State::Touched)
     text += " touched (± " + uncertainty + " mm)";

@@ -32,9 +32,11 @@ using Combine = SegmentValues::Combine;
 constexpr std::size_t kLeastTubePoints = 2;
 constexpr char kNotShown[] = "Nothing was done: the slices do not show the image that this tool "
                              "reads.";
-constexpr std::size_t kMostAtOnce = 4'000'000; // voxels; more: in another thread
-constexpr double kDeviations = 2.5;            // of a range around a click
-constexpr int kSurfaceMargin = 2;              // voxels
+constexpr char kNextPoint[] = "Click the next point along the nerve.";
+constexpr char kProposal[] = "proposed region"; // as a step
+constexpr std::size_t kMostAtOnce = 4'000'000;  // voxels; more: in another thread
+constexpr double kDeviations = 2.5;             // of a range around a click
+constexpr int kSurfaceMargin = 2;               // voxels
 constexpr std::uint16_t kInDraft = 1, kStrokeInside = 2, kStrokeBeside = 3; // DraftLayer's
 
 Mask united(const Mask& a, const Mask& b, Combine how)
@@ -202,12 +204,15 @@ std::string millimetres(double value, int decimals)
   return core::fixedText(value, decimals) + " mm";
 }
 
-std::string noteOf(const Tube& tube)
+// `widest`: the limit of an estimated radius that follows from the structure's name.
+std::string noteOf(const Tube& tube, std::optional<double> widest)
 {
   std::string text = millimetres(tube.length, 1) + " long, radius " + millimetres(tube.radius, 2);
   if (tube.largestRadius - tube.smallestRadius > 0.01)
     text += " (" + core::fixedText(tube.smallestRadius, 2) + " to " +
             core::fixedText(tube.largestRadius, 2) + ")";
+  if (widest)
+    text += ", by its name at most " + millimetres(*widest, 2);
   return text + ".";
 }
 
@@ -337,11 +342,13 @@ void SegmentEditor::touched()
   notify(events.changed);
 }
 
-// What the preview was or is being computed from is no longer so.
+// What the preview was or is being computed from is no longer so, nor why there was none.
 void SegmentEditor::outdate()
 {
   m_previewDue = true;
   ++m_inputs;
+  if (!std::exchange(m_refused, {}).empty())
+    m_warning.clear();
 }
 
 void SegmentEditor::forgetImage()
@@ -378,7 +385,7 @@ void SegmentEditor::reset()
 {
   m_draft = std::make_shared<Draft>(m_model.hasCase() ? m_model.value().ct.geometry
                                                       : core::GridGeometry());
-  m_stepping = m_proposeDue = m_previewRunning = false;
+  m_stepping = m_proposeDue = m_proposesAgain = m_previewRunning = false;
   m_frozen.reset();
   m_stepDue.reset();
   m_surface.reset();
@@ -479,9 +486,32 @@ bool SegmentEditor::hasDraft() const
 
 bool SegmentEditor::isUnsaved() const
 {
-  return m_draft->edited.empty() ? hasDraft()
+  return m_draft->edited.empty() ? hasDraft() && !(isProposal() && m_draft->name.empty())
                                  : !m_draft->undo.empty() || !m_draft->points.empty() ||
                                        (m_preview && m_preview->result);
+}
+
+// The threshold has proposed what there is, and the user has done nothing about it.
+bool SegmentEditor::isProposal() const
+{
+  const Draft& draft = *m_draft;
+  const bool isUntouched = draft.undo.empty()
+                               ? draft.seeds.empty()
+                               : draft.undo.size() == 1 && draft.undo.back().what == kProposal;
+  return m_tool == Tool::Threshold && isUntouched && !m_isOwnRange && !m_stepping &&
+         draft.redo.empty() && draft.edited.empty() && draft.points.empty() &&
+         draft.mask.count() == 0;
+}
+
+// It goes with the tool, which proposes it again.
+void SegmentEditor::dropProposal()
+{
+  if (m_draft->seeds.empty() || !isProposal())
+    return;
+  m_draft->seeds.clear();
+  m_draft->undo.clear();
+  m_values.connected = false;
+  m_proposesAgain = true;
 }
 
 const std::string& SegmentEditor::name() const noexcept
@@ -607,11 +637,13 @@ void SegmentEditor::setTool(Tool tool)
   if (tool == m_tool || (tool != Tool::None && !m_model.hasCase()))
     return;
   release();
+  dropProposal();
   followShown();
   m_tool = tool;
   dropPreview();
   followShown();
-  if (tool == Tool::Threshold && m_values.lower == 0.0 && m_values.upper == 0.0)
+  if (tool == Tool::Threshold && ((m_values.lower == 0.0 && m_values.upper == 0.0) ||
+                                  std::exchange(m_proposesAgain, false)))
     m_proposeDue = true;
   if (needsPreview())
     outdate();
@@ -802,6 +834,17 @@ void SegmentEditor::refuse(const std::string& why)
   touched();
 }
 
+// Whether the source image has something there; else that is said.
+bool SegmentEditor::checkWithin(const Eigen::Vector3d& patient)
+{
+  const SourceImage& source = image();
+  const core::GridGeometry& grid = source.own->geometry();
+  if (grid.hullContains(grid.voxelFromPatient(source.ownFromCt * patient)))
+    return true;
+  refuse("Nothing was done: that point lies outside of the image.");
+  return false;
+}
+
 // From the pointer's last place, so that a fast stroke has no gaps.
 void SegmentEditor::dab(const Eigen::Vector3d& from, const Eigen::Vector3d& to)
 {
@@ -868,6 +911,8 @@ void SegmentEditor::press(const Eigen::Vector3d& patient, const Eigen::Vector3d&
     return dab(patient, patient);
   case Tool::Threshold:
   {
+    if (!checkWithin(patient))
+      return;
     m_values.connected = true;
     Draft::Step step;
     step.what = "point";
@@ -907,6 +952,11 @@ void SegmentEditor::press(const Eigen::Vector3d& patient, const Eigen::Vector3d&
       }
     if (draft.gripped)
       return;
+    if (!checkWithin(patient))
+    {
+      draft.stroking = false;
+      return;
+    }
     Tube bare;
     bare.points = draft.points;
     const bool isTraced = m_preview && m_preview->tube && m_preview->tube->points == draft.points;
@@ -928,8 +978,11 @@ void SegmentEditor::drag(const Eigen::Vector3d& patient)
     return;
   if (m_tool == Tool::Nerve)
   {
-    if (draft.gripped)
+    if (draft.gripped && checkWithin(patient))
+    {
+      m_warning.clear();
       draft.points[*draft.gripped] = patient;
+    }
     return touched();
   }
   dab(draft.last, patient);
@@ -1016,7 +1069,7 @@ void SegmentEditor::removeTubePoint(std::size_t index)
 void SegmentEditor::moveTubePoint(std::size_t index, const Eigen::Vector3d& patient)
 {
   Points points = m_draft->points;
-  if (index >= points.size())
+  if (index >= points.size() || !checkWithin(patient))
     return;
   points[index] = patient;
   changePoints("move of a point", std::move(points));
@@ -1134,7 +1187,10 @@ SegmentEditor::Computed SegmentEditor::computed() const
       segment.index = 1;
       const volume::LabelMap labels =
           segmentation::labelTube(tube, base.geometry(), segment, 1.0, progress.part(0.8, 1.0));
-      preview.note = noteOf(tube);
+      preview.note =
+          noteOf(tube, options.radius || options.widest == segmentation::TubeOptions().widest
+                           ? std::nullopt
+                           : std::optional(options.widest));
       preview.warning = warningOf(tube);
       preview.tube = std::make_shared<const Tube>(std::move(tube));
       preview.result = united(base, segmentation::maskOf(labels, 1), Combine::Add);
@@ -1223,10 +1279,12 @@ std::optional<SegmentEditor::Work> SegmentEditor::previewWork()
     m_previewRunning = false;
     dropPreview();
     if (!m_draft->points.empty())
-      m_note = "Click the next point along the nerve.";
+      m_note = kNextPoint;
     touched();
     return std::nullopt;
   }
+  if (m_note == kNextPoint)
+    m_note.clear();
   m_previewRunning = true;
   m_previewOf = m_inputs;
   Computed compute;
@@ -1264,7 +1322,7 @@ std::optional<SegmentEditor::Work> SegmentEditor::previewWork()
       if (preview->seed)
       {
         Draft::Step step;
-        step.what = "proposed region";
+        step.what = kProposal;
         step.seeds = {draft->seeds, Points{*preview->seed}};
         draft->seeds = step.seeds->second;
         draft->did(std::move(step));

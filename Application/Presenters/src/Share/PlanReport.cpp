@@ -9,6 +9,7 @@
 #include "ReportWords.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Dissection/BurrName.h"
+#include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/CasePicture.h"
 #include "petrous/Presenters/DissectionDistances.h"
 #include "petrous/Presenters/IntensityDisplay.h"
@@ -316,13 +317,6 @@ private:
     return volume > 0.0 && volume < 0.005 ? "< 0.01 mm³" : core::fixedText(volume, 2) + " mm³";
   }
 
-  // Underscores in names part no lines.
-  static std::string spaced(std::string name)
-  {
-    std::replace(name.begin(), name.end(), '_', ' ');
-    return name;
-  }
-
   static ReportCell textCell(std::string text)
   {
     ReportCell cell;
@@ -463,7 +457,7 @@ private:
                      { return a.injured > b.injured; });
     for (const DissectionDistance& one : distances)
       if (*one.distance.value <= kNear && places.size() < 3 && !isLumen(one.name))
-        add(say("nearest to") + " " + spaced(one.name) + ": " +
+        add(say("nearest to") + " " + shownName(one.name) + ": " +
                 (*one.distance.value > 0.0 ? textOf(one.distance) : say("reached")),
             one.place);
     for (const scene::Measurement& one : m_value.measurements)
@@ -507,7 +501,7 @@ private:
   {
     std::string text;
     for (const dissection::TouchedStructure& one : touched)
-      text += (text.empty() ? "" : ", ") + spaced(m_withheld.name(one.name, "structure")) + " " +
+      text += (text.empty() ? "" : ", ") + shownName(m_withheld.name(one.name, "structure")) + " " +
               volumeText(one.volume);
     return text;
   }

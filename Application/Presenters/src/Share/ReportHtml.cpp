@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "petrous/Core/NumberText.h"
+#include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/PlanReport.h"
 
 namespace petrous::presenters
@@ -113,10 +114,7 @@ void addPictures(std::string& html, const std::vector<ReportPicture>& pictures)
 
 std::string shownText(const ReportCell& cell)
 {
-  std::string text = cell.text;
-  if (cell.color)
-    std::replace(text.begin(), text.end(), '_', ' ');
-  return text;
+  return cell.color ? shownName(cell.text) : cell.text;
 }
 
 std::string escapedHtml(const std::string& text)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "petrous/Dissection/RemovedVolume.h"
 #include "petrous/Dissection/StrokeCodec.h"
 
 namespace petrous::dissection
@@ -202,13 +203,7 @@ void Dissection::cutAgain(const std::vector<std::uint8_t>& packed)
 
 std::vector<std::size_t> Dissection::openBricks() const
 {
-  std::vector<std::size_t> bricks;
-  if (!m_open)
-    return bricks;
-  for (std::size_t brick = 0; brick < mask().brickCount(); ++brick)
-    if (mask().brick(brick) != m_before->brick(brick))
-      bricks.push_back(brick);
-  return bricks;
+  return m_open ? changedBricks(*m_before, mask()) : std::vector<std::size_t>();
 }
 
 std::shared_ptr<const Stroke> Dissection::endStroke()

@@ -3,6 +3,7 @@
 
 #include "MaskBuilding.h"
 #include "petrous/Core/NumberText.h"
+#include "petrous/Core/PositionText.h"
 #include "petrous/Segmentation/MaskOperations.h"
 
 // Regions that grow from points and strokes.
@@ -17,9 +18,8 @@ core::Index3 seedVoxel(const volume::IntensityVolume& image, const Eigen::Vector
   const core::GridGeometry& grid = image.geometry();
   const Eigen::Vector3d voxel = grid.voxelFromPatient(seed);
   if (!voxel.allFinite() || !grid.hullContains(voxel))
-    throw core::InvalidParameter("the seed at " + core::fixedText(seed[0], 1) + ", " +
-                                 core::fixedText(seed[1], 1) + ", " + core::fixedText(seed[2], 1) +
-                                 " mm lies outside the image; give a point inside the structure");
+    throw core::InvalidParameter("the seed at " + core::positionText(seed) +
+                                 " lies outside the image; give a point inside the structure");
   core::Index3 index;
   for (int a = 0; a < 3; ++a)
     index[static_cast<std::size_t>(a)] = std::clamp(static_cast<int>(std::lround(voxel[a])), 0,
@@ -88,12 +88,11 @@ Mask connectedThreshold(const volume::IntensityVolume& image, const volume::Valu
     const core::Index3 index = seedVoxel(image, seed);
     const double value = image.at(index[0], index[1], index[2]);
     if (!(value >= range.min && value <= range.max) || value == image.padding())
-      throw core::InvalidParameter(
-          "the image has " + core::fixedText(value, 1) + unit + " at the seed (" +
-          core::fixedText(seed[0], 1) + ", " + core::fixedText(seed[1], 1) + ", " +
-          core::fixedText(seed[2], 1) + " mm), which is not between " +
-          core::generalText(range.min) + " and " + core::generalText(range.max) + unit +
-          "; choose a point inside the structure, or other limits");
+      throw core::InvalidParameter("the voxel at the seed (" + core::positionText(seed) + ") has " +
+                                   core::generalText(value) + unit + ", which is not between " +
+                                   core::generalText(range.min) + " and " +
+                                   core::generalText(range.max) + unit +
+                                   "; choose a point inside the structure, or other limits");
     open.push_back(index);
   }
   auto voxels = volume::makeZeroVolume<std::uint8_t>(image.geometry());

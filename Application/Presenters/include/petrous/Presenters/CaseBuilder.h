@@ -41,6 +41,7 @@ struct PartSource
   std::filesystem::path labelNames = {};
   /// Structures: those whose names are taken are left out; otherwise none is added.
   bool skipsTaken = false;
+  std::string description = {}; ///< MR: SourceContent's
 
   /// "NAME=FILE" or "FILE". A string that is the path of an existing file is a FILE.
   static PartSource parse(const std::string& text);

@@ -18,6 +18,10 @@ std::string freeCaseName(const library::Library& library, const std::string& nam
 /// Throws InvalidParameter unless the name is valid for a case and the library has none of it.
 void checkFreeCaseName(const library::Library& library, const std::string& name);
 
+/// The name of a structure, mesh or MR as lists, pictures, messages and reports show it: with
+/// blanks for underscores.
+std::string shownName(std::string part);
+
 /// Whether the library has a case of that name; false also for an invalid name, such as a path.
 bool namesCase(const library::Library& library, const std::string& text);
 

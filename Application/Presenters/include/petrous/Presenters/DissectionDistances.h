@@ -24,9 +24,6 @@ struct DissectionDistance
   Eigen::Vector3d place{0.0, 0.0, 0.0}; ///< of the tissue removed, patient LPS mm
 };
 
-/// The bricks in which something was cut.
-std::vector<std::size_t> cutBricks(const volume::CutMask& mask);
-
 /// The tissue that a mask takes away, as points: the centres of its voxels, and its walls on the
 /// edges between them, where the remaining fraction is one half, linearly. Where the burr was in
 /// air nothing was removed.

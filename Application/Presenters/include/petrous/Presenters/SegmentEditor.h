@@ -94,7 +94,7 @@ public:
   void mrMoved();      ///< the registration of an MR changed
 
   bool hasDraft() const;  ///< something is begun: voxels, strokes, points
-  bool isUnsaved() const; ///< and would be lost
+  bool isUnsaved() const; ///< and would be lost; what a tool proposed by itself is not
   const std::string& name() const noexcept;
   void setName(const std::string& name);
   /// Why the draft cannot become a structure now, one sentence; empty: it can.
@@ -268,6 +268,9 @@ private:
   void changePoints(const char* what, Points points);
   void dab(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
   void refuse(const std::string& why);
+  bool checkWithin(const Eigen::Vector3d& patient);
+  bool isProposal() const;
+  void dropProposal();
   bool readsSource() const;
   void followShown();
   void takeSource(const std::string& name);
@@ -292,6 +295,7 @@ private:
   std::string m_refused; ///< why the tool has no result
   std::array<float, 3> m_color{};
   bool m_proposeDue = false;
+  bool m_proposesAgain = false; ///< the threshold, as it left with what it had proposed
   bool m_isOwnRange = false; ///< the limits were entered, not proposed
   bool m_previewDue = false;
   std::uint64_t m_inputs = 0;    // of previews: changes when one that is under way is outdated

@@ -69,6 +69,9 @@ struct SourceContent
   bool isTooLarge = false; ///< an image file that the memory does not hold: a region of it may do
   /// A file that leaves open which side of the patient is left (imaging::assumedRasOf).
   bool isSideOpen = false;
+  std::string description = {}; ///< of a DICOM series: as SeriesContent's, for local display only
+  /// Of a DICOM series that cannot be used, repaired or not: why. Else empty.
+  std::vector<imaging::Finding> refused = {};
 };
 
 /// Determines the content of `path`: meshes and 3D Slicer segmentations by their file names, DICOM

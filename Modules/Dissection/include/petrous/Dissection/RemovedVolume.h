@@ -25,6 +25,12 @@ struct RemovedVolume
   std::vector<TouchedStructure> structures; ///< those with a removed volume above 0
 };
 
+/// The bricks in which something was cut.
+std::vector<std::size_t> cutBricks(const volume::CutMask& mask);
+
+/// The bricks of which two masks of one grid hold other versions.
+std::vector<std::size_t> changedBricks(const volume::CutMask& before, const volume::CutMask& after);
+
 /// Volume removed from {f > 0} between two masks, by quadrature of the interpolated fields with 4^3
 /// points per cell, each weighted by the occupancy of its sub-cell in tissue and mask
 /// (Documentation/adr/0011). `bricks` are those in which the masks differ. `tissue` is evaluated

@@ -16,9 +16,9 @@ namespace
 
 constexpr double kFarthest = 1e7; // mm: beyond any patient, and squares stay finite
 
-Eigen::Vector3d vectorFrom(const nlohmann::json& json, const char* key)
+Eigen::Vector3d vectorFrom(const nlohmann::json& object, const char* key)
 {
-  const auto v = json.at(key).get<std::array<double, 3>>();
+  const auto v = object.at(key).get<std::array<double, 3>>();
   return {v[0], v[1], v[2]};
 }
 

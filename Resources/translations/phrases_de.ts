@@ -144,6 +144,10 @@
         <translation>%1: %~2 „%3“ ist schon im Fall; geben Sie einen anderen Namen als „%4“, der gleich aussieht</translation>
     </message>
     <message>
+        <source>'%1' is called '%2' here, as the case has a part of this name already</source>
+        <translation>„%1“ heißt hier „%2“, da der Fall schon einen Teil dieses Namens hat</translation>
+    </message>
+    <message>
         <source>has the grid of the MR '%1', which was added later: it was taken to be drawn on that MR, and lies where its registration puts it, no longer in the CT's space; FILE@ct keeps it there</source>
         <translation>hat das Gitter des später hinzugefügten MR „%1“: gilt als auf diesem MR gezeichnet und liegt, wo dessen Registrierung es hinlegt, nicht mehr im Raum des CT; beim Hinzufügen „auf dem CT“ zu wählen belässt es dort</translation>
     </message>
@@ -304,7 +308,7 @@
         <translation>sind Namen von Teilen, die schon im Fall sind</translation>
     </message>
     <message>
-        <source>give its structures other names with NAME=FILE, which puts NAME before each</source>
+        <source>give its structures other names with NAME=FILE, which puts NAME before each, or numbers with --rename-taken</source>
         <translation>benennen Sie erst die des Falls um (F2 in der Liste)</translation>
     </message>
     <message>
@@ -390,6 +394,10 @@
     <message>
         <source>bringing the structures onto one grid</source>
         <translation>Strukturen werden auf ein Gitter gebracht</translation>
+    </message>
+    <message>
+        <source>petrous case %1</source>
+        <translation>Petrous-Fall %1</translation>
     </message>
     <message>
         <source>study</source>
@@ -620,12 +628,20 @@
         <translation>Knoten „%1“: hat keine Szene eines Falls „%2“; wählen Sie die Studie, wenn sie nicht von Petrous gesendet wurde</translation>
     </message>
     <message>
-        <source>node '%1': has %#2 cases named '%3'; give --study UID, which 'petrous send' printed</source>
+        <source>node '%1': has %#2 cases named '%3'; give --study UID, which 'petrous send' printed and 'petrous receive --list' lists</source>
         <translation>Knoten „%1“: hat %#2 Fälle namens „%3“; wählen Sie die Studie</translation>
     </message>
     <message>
         <source>case '%1' is there already in %2; choose another name with --as</source>
         <translation>ein Fall „%1“ ist schon in %2; wählen Sie einen anderen Namen</translation>
+    </message>
+    <message>
+        <source>'%1' (%#2 images, doubtful)</source>
+        <translation>„%1“ (%#2 Bilder, zweifelhaft)</translation>
+    </message>
+    <message>
+        <source>receive: the CT has %#1 volumes; name one by --volume: %2</source>
+        <translation>Empfangen: das CT hat %#1 Volumen; wählen Sie eines: %2</translation>
     </message>
     <message>
         <source>an MR series is left out, as its geometry is doubtful; try --repair</source>
@@ -654,6 +670,10 @@
     <message>
         <source>node '%1': the study has %#2 CT series; name one by --series: %3</source>
         <translation>Knoten „%1“: Die Studie hat %#2 CT-Serien; wählen Sie eine: %3</translation>
+    </message>
+    <message>
+        <source>node '%1' does not describe series %#2, which may hold a later state of the case, but was not read as one: %~3</source>
+        <translation>der Knoten „%1“ beschreibt die Serie %#2 nicht, die ein späterer Stand des Falls sein kann, aber nicht als solcher gelesen wurde: %~3</translation>
     </message>
     <message>
         <source>a later state of the case is at node '%1', but cannot be received: %~2. This is the state before it</source>
@@ -864,16 +884,24 @@
         <translation>Bilder, Strukturen und Netze: Der Plan wird dort wiederhergestellt, wo genau dasselbe CT ist</translation>
     </message>
     <message>
-        <source>name, birth date, numbers and other data of the patient, hospital and physicians, dates and times: the case has none of them. The objects name the patient 'Anonymous'</source>
-        <translation>Name, Geburtsdatum, Nummern und andere Angaben zu Patient, Krankenhaus und Ärzten, Daten und Zeiten: Der Fall hat nichts davon. Die Objekte nennen den Patienten „Anonymous“</translation>
+        <source>name, birth date, numbers and other data of the patient, hospital and physicians, dates and times: the case has none of them</source>
+        <translation>Name, Geburtsdatum, Nummern und andere Angaben zu Patient, Krankenhaus und Ärzten, Daten und Zeiten: Der Fall hat nichts davon</translation>
+    </message>
+    <message>
+        <source>as the patient '%1', ID %2: a pseudonym without the name of the case, which may be a patient's</source>
+        <translation>als Patient „%1“, ID %2: ein Pseudonym ohne den Namen des Falls, der der eines Patienten sein kann</translation>
+    </message>
+    <message>
+        <source>as the patient '%1', ID %2: a pseudonym with the name of the case</source>
+        <translation>als Patient „%1“, ID %2: ein Pseudonym mit dem Namen des Falls</translation>
     </message>
     <message>
         <source>UIDs of the scanner's files: the objects have new ones</source>
         <translation>UIDs der Dateien des Geräts: Die Objekte haben neue</translation>
     </message>
     <message>
-        <source>the name of the case, its strokes, views and description</source>
-        <translation>der Name des Falls, seine Bohrzüge, Ansichten und Beschreibung</translation>
+        <source>strokes, views and description of the case</source>
+        <translation>Bohrzüge, Ansichten und Beschreibung des Falls</translation>
     </message>
     <message>
         <source>name, birth date, numbers and other data of the patient, hospital and physicians, dates and times of the scan: the case has none of them</source>
@@ -882,10 +910,6 @@
     <message>
         <source>UIDs of the scanner's files: the case has none of them</source>
         <translation>UIDs der Dateien des Geräts: Der Fall hat keine davon</translation>
-    </message>
-    <message>
-        <source>petrous case %1</source>
-        <translation>Petrous-Fall %1</translation>
     </message>
     <message>
         <source>lists none of them (yet)</source>
@@ -1310,6 +1334,10 @@
     <message>
         <source>the mouse is not a device that can be opened</source>
         <translation>die Maus ist kein Gerät, das sich öffnen lässt</translation>
+    </message>
+    <message>
+        <source>device limits: a stiffness must be above 0, up to 20 N/mm</source>
+        <translation>Grenzen des Geräts: eine Steifigkeit muss über 0 liegen, bis 20 N/mm</translation>
     </message>
     <message>
         <source>%#1 stroke</source>
@@ -1936,6 +1964,14 @@
         <translation>Nichts geschah: Die Schichten zeigen das Bild nicht, das dieses Werkzeug liest.</translation>
     </message>
     <message>
+        <source>Click the next point along the nerve.</source>
+        <translation>Klicken Sie auf den nächsten Punkt entlang des Nervs.</translation>
+    </message>
+    <message>
+        <source>proposed region</source>
+        <translation>vorgeschlagener Bereich</translation>
+    </message>
+    <message>
         <source>reading the structure</source>
         <translation>die Struktur wird gelesen</translation>
     </message>
@@ -1982,6 +2018,10 @@
     <message>
         <source>%#1 long, radius %#2</source>
         <translation>%#1 lang, Radius %#2</translation>
+    </message>
+    <message>
+        <source>by its name at most %#1</source>
+        <translation>nach ihrem Namen höchstens %#1</translation>
     </message>
     <message>
         <source>The points seem not to be in their order along the structure: %1 would make a much shorter line.</source>
@@ -2072,6 +2112,10 @@
         <translation>Entfernen der Punkte</translation>
     </message>
     <message>
+        <source>Nothing was done: that point lies outside of the image.</source>
+        <translation>Nichts geschah: Dieser Punkt liegt außerhalb des Bildes.</translation>
+    </message>
+    <message>
         <source>A step is under way; wait, or stop it.</source>
         <translation>Ein Schritt läuft; warten Sie, oder halten Sie ihn an.</translation>
     </message>
@@ -2122,14 +2166,6 @@
     <message>
         <source>Click a point of the structure in a slice.</source>
         <translation>Klicken Sie in einer Schicht auf einen Punkt der Struktur.</translation>
-    </message>
-    <message>
-        <source>Click the next point along the nerve.</source>
-        <translation>Klicken Sie auf den nächsten Punkt entlang des Nervs.</translation>
-    </message>
-    <message>
-        <source>proposed region</source>
-        <translation>vorgeschlagener Bereich</translation>
     </message>
     <message>
         <source>Choose a tool first.</source>
@@ -2228,6 +2264,10 @@
         <translation>Bild %#1 von %#2 wird gezeichnet</translation>
     </message>
     <message>
+        <source>writing the film</source>
+        <translation>der Film wird geschrieben</translation>
+    </message>
+    <message>
         <source>Left side</source>
         <translation>Linke Seite</translation>
     </message>
@@ -2256,6 +2296,10 @@
         <translation>Namen und Notiz, wie sie eingegeben wurden</translation>
     </message>
     <message>
+        <source>Left out</source>
+        <translation>Weggelassen</translation>
+    </message>
+    <message>
         <source>drawing slices</source>
         <translation>Schichten werden gezeichnet</translation>
     </message>
@@ -2266,6 +2310,10 @@
     <message>
         <source>yes, by</source>
         <translation>ja, von</translation>
+    </message>
+    <message>
+        <source>texts as they were typed, in which nobody was recognised: %~1; read them yourself</source>
+        <translation>Texte wie eingegeben, in denen niemand erkannt wurde: %~1; lesen Sie sie selbst</translation>
     </message>
     <message>
         <source>report: the dissection of case '%1' is not loaded</source>
@@ -2288,20 +2336,100 @@
         <translation>Ebene: Die Normale muss endlich und länger als 0 sein</translation>
     </message>
     <message>
-        <source>left</source>
-        <translation>links</translation>
+        <source>looking for landmarks that do not fit</source>
+        <translation>nicht passende Landmarken werden gesucht</translation>
     </message>
     <message>
-        <source>right</source>
-        <translation>rechts</translation>
+        <source>open a video first</source>
+        <translation>öffnen Sie erst ein Video</translation>
     </message>
     <message>
-        <source>The side is stated as right, but all of the image lies on the patient's %~1, %#2 to %#3 mm from the scanner's middle. Is the side right? (A patient need not lie in the middle.)</source>
-        <translation>Angegeben ist die rechte Seite, das ganze Bild liegt aber auf der Seite „%~1“ des Patienten, %#2 bis %#3 mm von der Mitte des Geräts. Stimmt die Seite? (Ein Patient muss nicht in der Mitte liegen.)</translation>
+        <source>there is no such bookmark</source>
+        <translation>es gibt kein solches Lesezeichen</translation>
     </message>
     <message>
-        <source>The side is stated as left, but all of the image lies on the patient's %~1, %#2 to %#3 mm from the scanner's middle. Is the side right? (A patient need not lie in the middle.)</source>
-        <translation>Angegeben ist die linke Seite, das ganze Bild liegt aber auf der Seite „%~1“ des Patienten, %#2 bis %#3 mm von der Mitte des Geräts. Stimmt die Seite? (Ein Patient muss nicht in der Mitte liegen.)</translation>
+        <source>bookmark %#1</source>
+        <translation>Lesezeichen %#1</translation>
+    </message>
+    <message>
+        <source>bookmark '%1'</source>
+        <translation>Lesezeichen „%1“</translation>
+    </message>
+    <message>
+        <source>name of bookmark '%1'</source>
+        <translation>Name des Lesezeichens „%1“</translation>
+    </message>
+    <message>
+        <source>place of bookmark '%1'</source>
+        <translation>Stelle des Lesezeichens „%1“</translation>
+    </message>
+    <message>
+        <source>nothing is drilled yet, or the stroke is not saved yet</source>
+        <translation>noch ist nichts gebohrt, oder der Bohrzug ist noch nicht gespeichert</translation>
+    </message>
+    <message>
+        <source>untie bookmark '%1'</source>
+        <translation>Lesezeichen „%1“ lösen</translation>
+    </message>
+    <message>
+        <source>tie bookmark '%1'</source>
+        <translation>Lesezeichen „%1“ binden</translation>
+    </message>
+    <message>
+        <source>removal of bookmark '%1'</source>
+        <translation>Entfernen des Lesezeichens „%1“</translation>
+    </message>
+    <message>
+        <source>click the point in the still first</source>
+        <translation>klicken Sie den Punkt erst im Standbild an</translation>
+    </message>
+    <message>
+        <source>landmark of a still</source>
+        <translation>Landmarke eines Standbilds</translation>
+    </message>
+    <message>
+        <source>the still has no such landmark</source>
+        <translation>das Standbild hat keine solche Landmarke</translation>
+    </message>
+    <message>
+        <source>removal of a landmark</source>
+        <translation>Entfernen einer Landmarke</translation>
+    </message>
+    <message>
+        <source>removal of a still's landmarks</source>
+        <translation>Entfernen der Landmarken eines Standbilds</translation>
+    </message>
+    <message>
+        <source>angle of view</source>
+        <translation>Bildwinkel</translation>
+    </message>
+    <message>
+        <source>opacity of a still</source>
+        <translation>Deckkraft eines Standbilds</translation>
+    </message>
+    <message>
+        <source>on the patient's left, %#1 to %#2 mm from the scanner's middle</source>
+        <translation>links im Patienten, %#1 bis %#2 mm von der Mitte des Geräts</translation>
+    </message>
+    <message>
+        <source>on the patient's right, %#1 to %#2 mm from the scanner's middle</source>
+        <translation>rechts im Patienten, %#1 bis %#2 mm von der Mitte des Geräts</translation>
+    </message>
+    <message>
+        <source>The side is stated as %1, but all of the image lies %2. Is the side right? (A patient need not lie in the middle.)</source>
+        <translation>Als Seite ist %1 angegeben, das ganze Bild liegt aber %2. Stimmt die Seite? (Ein Patient muss nicht in der Mitte liegen.)</translation>
+    </message>
+    <message>
+        <source>This is the %1 ear</source>
+        <translation>Dies ist das Ohr: %1</translation>
+    </message>
+    <message>
+        <source>%1, but the side of the case is stated as %2.</source>
+        <translation>%1, als Seite des Falls ist aber %2 angegeben.</translation>
+    </message>
+    <message>
+        <source>%1, but all of the image lies %2.</source>
+        <translation>%1, das ganze Bild liegt aber %2.</translation>
     </message>
 </context>
 <context>
@@ -2685,6 +2813,166 @@
 <context>
     <name>Devices</name>
     <message>
+        <source>usage: %s</source>
+        <translation>Aufruf: %s</translation>
+    </message>
+    <message>
+        <source>%1 cannot be loaded</source>
+        <translation>%1 lässt sich nicht laden</translation>
+    </message>
+    <message>
+        <source>the vendor's library %1 is not installed; where it lies elsewhere, %2 names it</source>
+        <translation>die Bibliothek %1 des Herstellers ist nicht installiert; liegt sie anderswo, nennt %2 sie</translation>
+    </message>
+    <message>
+        <source>the vendor's library has no function %1</source>
+        <translation>die Bibliothek des Herstellers hat keine Funktion %1</translation>
+    </message>
+    <message>
+        <source>unknown error</source>
+        <translation>unbekannter Fehler</translation>
+    </message>
+    <message>
+        <source>its forces are off: press the force button on the device</source>
+        <translation>seine Kräfte sind aus: drücken Sie die Krafttaste am Gerät</translation>
+    </message>
+    <message>
+        <source>its forces are off, as it was moved too fast: hold it still</source>
+        <translation>seine Kräfte sind aus, da es zu schnell bewegt wurde: halten Sie es still</translation>
+    </message>
+    <message>
+        <source>its forces are off, as it had no command for 30 ms; they return in a second</source>
+        <translation>seine Kräfte sind aus, da es 30 ms keinen Befehl bekam; sie kehren in einer Sekunde zurück</translation>
+    </message>
+    <message>
+        <source>its forces are off: hold the dead man's switch</source>
+        <translation>seine Kräfte sind aus: halten Sie den Totmannschalter</translation>
+    </message>
+    <message>
+        <source>it was unplugged or switched off</source>
+        <translation>es wurde ausgesteckt oder ausgeschaltet</translation>
+    </message>
+    <message>
+        <source>it has no power: switch it on</source>
+        <translation>es hat keinen Strom: schalten Sie es ein</translation>
+    </message>
+    <message>
+        <source>the device reports an error: switch it off and on</source>
+        <translation>das Gerät meldet einen Fehler: schalten Sie es aus und ein</translation>
+    </message>
+    <message>
+        <source>it is not calibrated: run HapticInit of the SDK; a Falcon's grip is pulled out and pushed in once</source>
+        <translation>es ist nicht kalibriert: starten Sie HapticInit des SDK; den Griff eines Falcon zieht man einmal heraus und schiebt ihn hinein</translation>
+    </message>
+    <message>
+        <source>Force Dimension device</source>
+        <translation>Gerät von Force Dimension</translation>
+    </message>
+    <message>
+        <source>Force Dimension %1</source>
+        <translation>Force Dimension %1</translation>
+    </message>
+    <message>
+        <source>no Inverse3 is connected to the Inverse service</source>
+        <translation>kein Inverse3 ist mit dem Inverse-Dienst verbunden</translation>
+    </message>
+    <message>
+        <source>it has no power supply: plug it in; its forces are off</source>
+        <translation>es hat keine Stromversorgung: stecken Sie es ein; seine Kräfte sind aus</translation>
+    </message>
+    <message>
+        <source>it is not calibrated: put the grip into the holder on its base</source>
+        <translation>es ist nicht kalibriert: legen Sie den Griff in die Halterung am Sockel</translation>
+    </message>
+    <message>
+        <source>it is not ready; its forces are off</source>
+        <translation>es ist nicht bereit; seine Kräfte sind aus</translation>
+    </message>
+    <message>
+        <source>the Inverse service does not answer: start haply-inverse-service</source>
+        <translation>der Inverse-Dienst antwortet nicht: starten Sie haply-inverse-service</translation>
+    </message>
+    <message>
+        <source>the Inverse service is slow to answer</source>
+        <translation>der Inverse-Dienst antwortet langsam</translation>
+    </message>
+    <message>
+        <source>the Inverse service has ended</source>
+        <translation>der Inverse-Dienst endete</translation>
+    </message>
+    <message>
+        <source>the Inverse service has not answered for 0.2 s</source>
+        <translation>der Inverse-Dienst antwortet seit 0.2 s nicht</translation>
+    </message>
+    <message>
+        <source>no OpenIGTLink server answers at %1 port %2</source>
+        <translation>kein OpenIGTLink-Server antwortet bei %1, Port %2</translation>
+    </message>
+    <message>
+        <source>OpenIGTLink tracker</source>
+        <translation>OpenIGTLink-Tracker</translation>
+    </message>
+    <message>
+        <source>the OpenIGTLink server has ended</source>
+        <translation>der OpenIGTLink-Server endete</translation>
+    </message>
+    <message>
+        <source>the tracker does not see '%1'</source>
+        <translation>der Tracker sieht „%1“ nicht</translation>
+    </message>
+    <message>
+        <source>the tracker has not sent a pose%1</source>
+        <translation>der Tracker hat keine Lage gesendet%1</translation>
+    </message>
+    <message>
+        <source>the tracker has not sent a pose of '%1'</source>
+        <translation>der Tracker hat keine Lage von „%1“ gesendet</translation>
+    </message>
+    <message>
+        <source>it is being calibrated: hold it still</source>
+        <translation>es wird kalibriert: halten Sie es still</translation>
+    </message>
+    <message>
+        <source>it is not calibrated: put the stylus into the inkwell</source>
+        <translation>es ist nicht kalibriert: stecken Sie den Stift in die Halterung</translation>
+    </message>
+    <message>
+        <source>it is not calibrated: run Touch Diagnostic of the driver</source>
+        <translation>es ist nicht kalibriert: starten Sie Touch Diagnostic des Treibers</translation>
+    </message>
+    <message>
+        <source>OpenHaptics device</source>
+        <translation>OpenHaptics-Gerät</translation>
+    </message>
+    <message>
+        <source>it cannot be opened: %~1; the driver's set-up program must have paired it</source>
+        <translation>es lässt sich nicht öffnen: %~1; das Einrichtungsprogramm des Treibers muss es gekoppelt haben</translation>
+    </message>
+    <message>
+        <source>the vendor's scheduler does not start: %~1</source>
+        <translation>der Scheduler des Herstellers startet nicht: %~1</translation>
+    </message>
+    <message>
+        <source>its motors are hot: let it rest; the forces return by themselves</source>
+        <translation>seine Motoren sind heiß: lassen Sie es ruhen; die Kräfte kehren von selbst zurück</translation>
+    </message>
+    <message>
+        <source>its forces are off: %~1</source>
+        <translation>seine Kräfte sind aus: %~1</translation>
+    </message>
+    <message>
+        <source>it was unplugged or switched off: %~1</source>
+        <translation>es wurde ausgesteckt oder ausgeschaltet: %~1</translation>
+    </message>
+    <message>
+        <source>the SDK reports: %~1</source>
+        <translation>das SDK meldet: %~1</translation>
+    </message>
+    <message>
+        <source>its forces are off: the driver disabled them</source>
+        <translation>seine Kräfte sind aus: der Treiber schaltete sie ab</translation>
+    </message>
+    <message>
         <source>device server '%1': a name has 1 to 48 letters, digits, '.', '-' or '_'</source>
         <translation>Geräteserver „%1“: Ein Name hat 1 bis 48 Buchstaben, Ziffern, „.“, „-“ oder „_“</translation>
     </message>
@@ -2735,6 +3023,38 @@
     <message>
         <source>%1 is plugged in, but %2 cannot be opened</source>
         <translation>%1 ist eingesteckt, aber %2 lässt sich nicht öffnen</translation>
+    </message>
+    <message>
+        <source>device test: %~1</source>
+        <translation>Gerätetest: %~1</translation>
+    </message>
+    <message>
+        <source>the time to wait for the device must be above 0 s</source>
+        <translation>die Wartezeit auf das Gerät muss über 0 s liegen</translation>
+    </message>
+    <message>
+        <source>the time for the workspace must be 0.5 s or more</source>
+        <translation>die Zeit für den Arbeitsraum muss mindestens 0.5 s sein</translation>
+    </message>
+    <message>
+        <source>the step of force must be above 0 N</source>
+        <translation>der Kraftschritt muss über 0 N liegen</translation>
+    </message>
+    <message>
+        <source>the ramp must end between 0.1 and 20 N/mm</source>
+        <translation>die Rampe muss zwischen 0.1 und 20 N/mm enden</translation>
+    </message>
+    <message>
+        <source>the handle was pulled away again and again; hold it lightly where it is</source>
+        <translation>der Griff wurde immer wieder weggezogen; halten Sie ihn leicht, wo er ist</translation>
+    </message>
+    <message>
+        <source>no good reading came from the device</source>
+        <translation>vom Gerät kam keine gute Ablesung</translation>
+    </message>
+    <message>
+        <source>the device was lost</source>
+        <translation>das Gerät ging verloren</translation>
     </message>
     <message>
         <source>%1: has no function %2, which hidapi 0.13 has</source>
@@ -2809,14 +3129,6 @@
         <translation>ist weg</translation>
     </message>
     <message>
-        <source>was not started: nobody opened %1 within %#2</source>
-        <translation>wurde nicht gestartet: Niemand öffnete %1 innerhalb von %#2</translation>
-    </message>
-    <message>
-        <source>is not ready after %#1</source>
-        <translation>ist nach %#1 nicht bereit</translation>
-    </message>
-    <message>
         <source>has no device%~1</source>
         <translation>hat kein Gerät%~1</translation>
     </message>
@@ -2835,6 +3147,22 @@
     <message>
         <source>is in state %#1, which there is not</source>
         <translation>ist im Zustand %#1, den es nicht gibt</translation>
+    </message>
+    <message>
+        <source>waits: %~1</source>
+        <translation>wartet: %~1</translation>
+    </message>
+    <message>
+        <source>was not started: nobody opened %1 within %#2</source>
+        <translation>wurde nicht gestartet: Niemand öffnete %1 innerhalb von %#2</translation>
+    </message>
+    <message>
+        <source>is not ready after %~1</source>
+        <translation>ist nach %~1 nicht bereit</translation>
+    </message>
+    <message>
+        <source>is not ready after %#1: %~2</source>
+        <translation>ist nach %#1 nicht bereit: %~2</translation>
     </message>
     <message>
         <source>hangs: it has not answered for %#1</source>
@@ -3182,6 +3510,14 @@
         <translation>Schichten werden gelesen</translation>
     </message>
     <message>
+        <source>without the copies of the sign that the negative values of %1 have</source>
+        <translation>ohne die Kopien des Vorzeichens, die die negativen Werte von %1 haben</translation>
+    </message>
+    <message>
+        <source>Values whose highest stored bit is set were read as negative, as the header says (signed, Bits Stored %#1); no bit above tells them from positive ones that are too large. Look whether metal shows as air.</source>
+        <translation>Werte mit gesetztem höchstem Bit wurden als negativ gelesen, wie der Header sagt (mit Vorzeichen, Bits Stored %#1); kein Bit darüber unterscheidet sie von zu großen positiven. Sehen Sie nach, ob Metall als Luft erscheint.</translation>
+    </message>
+    <message>
         <source>%1 holds values that are not finite numbers (NaN, infinite or beyond float); give them the value of what lies outside the scanned field, such as -1024 in a CT</source>
         <translation>%1 enthält Werte, die keine endlichen Zahlen sind (NaN, unendlich oder zu groß); geben Sie ihnen den Wert dessen, was außerhalb des Messfeldes liegt, etwa -1024 im CT</translation>
     </message>
@@ -3458,14 +3794,6 @@
         <translation>%1 wurde geändert oder ersetzt, nachdem der Header gelesen war; warten Sie, bis das Kopieren beendet ist, und lesen Sie den Ordner dann neu</translation>
     </message>
     <message>
-        <source>%1 contradicts itself about the bits of a pixel: %#2 pixel has values of more than the %#3 bits that its header states (Bits Stored); export it again, uncompressed and with all bits</source>
-        <translation>%1 widerspricht sich bei den Bits eines Pixels: %#2 Pixel hat einen Wert mit mehr als den %#3 Bit, die der Header nennt (Bits Stored); exportieren Sie neu, unkomprimiert und mit allen Bits</translation>
-    </message>
-    <message>
-        <source>%1 contradicts itself about the bits of a pixel: %#2 pixels have values of more than the %#3 bits that its header states (Bits Stored); export it again, uncompressed and with all bits</source>
-        <translation>%1 widerspricht sich bei den Bits eines Pixels: %#2 Pixel haben Werte mit mehr als den %#3 Bit, die der Header nennt (Bits Stored); exportieren Sie neu, unkomprimiert und mit allen Bits</translation>
-    </message>
-    <message>
         <source>does not say where its compressed frames begin</source>
         <translation>sagt nicht, wo die komprimierten Frames beginnen</translation>
     </message>
@@ -3480,6 +3808,14 @@
     <message>
         <source>does not have one floating-point value of 32 or 64 bits</source>
         <translation>hat nicht einen Gleitkommawert von 32 oder 64 Bit</translation>
+    </message>
+    <message>
+        <source>%1 contradicts itself about the bits of a pixel: %#2 pixel has values of more than the %#3 bits that its header states (Bits Stored)%~4; export it again, uncompressed and with all bits</source>
+        <translation>%1 widerspricht sich bei den Bits eines Pixels: %#2 Pixel hat einen Wert mit mehr als den %#3 Bit, die der Header nennt (Bits Stored)%~4; exportieren Sie neu, unkomprimiert und mit allen Bits</translation>
+    </message>
+    <message>
+        <source>%1 contradicts itself about the bits of a pixel: %#2 pixels have values of more than the %#3 bits that its header states (Bits Stored)%~4; export it again, uncompressed and with all bits</source>
+        <translation>%1 widerspricht sich bei den Bits eines Pixels: %#2 Pixel haben Werte mit mehr als den %#3 Bit, die der Header nennt (Bits Stored)%~4; exportieren Sie neu, unkomprimiert und mit allen Bits</translation>
     </message>
     <message>
         <source>%1 could not be read: the disk or medium was removed or reports an error</source>
@@ -3726,8 +4062,24 @@
         <translation>beiseitegelegt</translation>
     </message>
     <message>
-        <source>centre %#1 mm %~2</source>
-        <translation>Mitte %#1 mm %~2</translation>
+        <source>right</source>
+        <translation>rechts</translation>
+    </message>
+    <message>
+        <source>left</source>
+        <translation>links</translation>
+    </message>
+    <message>
+        <source>farthest %~1</source>
+        <translation>am weitesten %~1</translation>
+    </message>
+    <message>
+        <source>farther %~1</source>
+        <translation>weiter %~1</translation>
+    </message>
+    <message>
+        <source>%#1 of %#2 from the %~3</source>
+        <translation>%#1 von %#2 ab %~3</translation>
     </message>
     <message>
         <source>tilt %1</source>
@@ -4382,6 +4734,10 @@
         <translation>enthält %#1 Volumen von %~2 Voxeln; nötig ist eines: Wählen Sie es nach der Nummer, 1 bis %#3, oder speichern Sie es allein</translation>
     </message>
     <message>
+        <source>holds %#1 volumes of %~2 voxels; one is needed: save each alone, or all as one volume with a value for each structure</source>
+        <translation>enthält %#1 Volumen von %~2 Voxeln; nötig ist eines: Speichern Sie jedes allein, oder alle als ein Volumen mit einem Wert je Struktur</translation>
+    </message>
+    <message>
         <source>its header speaks of %~1 voxels, which the file is too short to hold; copy it again from where it came</source>
         <translation>ihr Header spricht von %~1 Voxeln, für die die Datei zu kurz ist; kopieren Sie sie noch einmal vom Ursprung</translation>
     </message>
@@ -4806,6 +5162,14 @@
         <translation>enthält keine Pixeldaten; kopieren oder exportieren Sie sie neu</translation>
     </message>
     <message>
+        <source>states no spacing of its slices, which are %#1 mm thick; those of the image are %#2 mm apart, which was taken, so that what lies between the slices of the file is empty; check the volumes</source>
+        <translation>nennt keinen Abstand ihrer Schichten, die %#1 mm dick sind; genommen wurde der des Bildes von %#2 mm, sodass zwischen den Schichten der Datei leer ist; prüfen Sie die Volumen</translation>
+    </message>
+    <message>
+        <source>states no spacing of its one slice, which is %#1 mm thick; the slices of the image are %#2 mm apart, which was taken; check the volumes</source>
+        <translation>nennt keinen Abstand ihrer einen Schicht, die %#1 mm dick ist; genommen wurde der Schichtabstand des Bildes von %#2 mm; prüfen Sie die Volumen</translation>
+    </message>
+    <message>
         <source>states no spacing of its one slice, which is %#1 mm thick; that was taken</source>
         <translation>nennt keinen Abstand ihrer einen Schicht, die %#1 mm dick ist; das wurde genommen</translation>
     </message>
@@ -4866,8 +5230,8 @@
         <translation>hat %#1 leere Frames (der erste ist Frame %#2), wo ein anderer desselben Segments liegt, der genommen wurde</translation>
     </message>
     <message>
-        <source>lies where another one does</source>
-        <translation>liegt, wo ein anderer liegt</translation>
+        <source>lies where frame %#1 does, and differs from it</source>
+        <translation>liegt, wo der Frame %#1 liegt, und weicht davon ab</translation>
     </message>
     <message>
         <source>is of segment %#1, which the file does not describe</source>
@@ -5373,12 +5737,16 @@
         <translation>Netz „%1“ des Falls „%2“</translation>
     </message>
     <message>
-        <source>the CT of case '%1'</source>
-        <translation>das CT des Falls „%1“</translation>
-    </message>
-    <message>
         <source>MR '%1' of case '%2'</source>
         <translation>MR „%1“ des Falls „%2“</translation>
+    </message>
+    <message>
+        <source>the MR of case '%1'</source>
+        <translation>das MR des Falls „%1“</translation>
+    </message>
+    <message>
+        <source>the CT of case '%1'</source>
+        <translation>das CT des Falls „%1“</translation>
     </message>
     <message>
         <source>%1: is not what this program wrote; restore it from a copy, or remove it (a new image's frame of reference is then not known to be that of older ones)</source>
@@ -5417,8 +5785,8 @@
         <translation>ein Fall „%1“ ist schon in %2; wählen Sie einen anderen Namen</translation>
     </message>
     <message>
-        <source>case '%1' is there already in %2; choose another name than '%3', which only capitals tell apart</source>
-        <translation>ein Fall „%1“ ist schon in %2; wählen Sie einen anderen Namen als „%3“, den nur Großbuchstaben unterscheiden</translation>
+        <source>case '%1' is there already in %2; choose another name than '%3', which reads the same</source>
+        <translation>ein Fall „%1“ ist schon in %2; wählen Sie einen anderen Namen als „%3“, der gleich aussieht</translation>
     </message>
     <message>
         <source>stroke %#1 of case '%2'</source>
@@ -5571,6 +5939,10 @@
     <message>
         <source>reading cases</source>
         <translation>Fälle werden gelesen</translation>
+    </message>
+    <message>
+        <source>%~1; what case '%2' needs is not known, so nothing was removed: clean up with that version</source>
+        <translation>%~1; was der Fall „%2“ braucht, ist nicht bekannt, daher wurde nichts entfernt: räumen Sie mit jener Version auf</translation>
     </message>
     <message>
         <source>%~1; what case '%2' needs is not known, so nothing was removed: delete the case first, or restore its manifest</source>
@@ -6013,6 +6385,10 @@
         <translation>fehlt</translation>
     </message>
     <message>
+        <source>%~1 is not saved yet</source>
+        <translation>%~1 ist noch nicht gespeichert</translation>
+    </message>
+    <message>
         <source>the linked file is another one than was attached; put the former one back, or remove the attachment and attach this one</source>
         <translation>die verknüpfte Datei ist eine andere als die angehängte; legen Sie die frühere zurück, oder entfernen Sie die Anlage, und hängen Sie diese an</translation>
     </message>
@@ -6039,6 +6415,10 @@
     <message>
         <source>%1: a library's path must be one line</source>
         <translation>%1: der Pfad einer Bibliothek muss eine Zeile sein</translation>
+    </message>
+    <message>
+        <source>%1: a library keeps its own data there; choose that library's folder, or one outside of it</source>
+        <translation>%1: dort hat eine Bibliothek ihre eigenen Daten; wählen Sie deren Ordner, oder einen außerhalb</translation>
     </message>
     <message>
         <source>the library's folder is as it was</source>
@@ -6698,6 +7078,10 @@
         <translation>der Grafiktreiber hat keinen Platz für eine Textur von %#1 x %#2 x %#3 (OpenGL-Fehler %#4)</translation>
     </message>
     <message>
+        <source>the graphics driver adds no pictures in 32-bit colour</source>
+        <translation>der Grafiktreiber addiert keine Bilder in 32-Bit-Farbe</translation>
+    </message>
+    <message>
         <source>a picture of %#1 x %#2 pixels; 1 to %#3 are possible</source>
         <translation>ein Bild von %#1 x %#2 Pixeln; möglich sind 1 bis %#3</translation>
     </message>
@@ -6724,6 +7108,10 @@
     <message>
         <source>a picture of %#1 x %#2 pixels: %#3 to %#4 are possible</source>
         <translation>ein Bild von %#1 x %#2 Pixeln: möglich sind %#3 bis %#4</translation>
+    </message>
+    <message>
+        <source>a picture of %#1 samples a pixel: 1 to %#2 are possible</source>
+        <translation>ein Bild mit %#1 Abtastungen je Pixel: möglich sind 1 bis %#2</translation>
     </message>
     <message>
         <source>drawing the picture</source>
@@ -6835,6 +7223,10 @@
     <message>
         <source>one is embedded and a link</source>
         <translation>eine ist eingebettet und eine Verknüpfung</translation>
+    </message>
+    <message>
+        <source>bookmarks and stills are of a video</source>
+        <translation>Lesezeichen und Standbilder gehören zu einem Video</translation>
     </message>
     <message>
         <source>a link must have the SHA-256 of its file</source>
@@ -7073,12 +7465,20 @@
         <translation>Schichten</translation>
     </message>
     <message>
+        <source>landmarks</source>
+        <translation>Landmarken</translation>
+    </message>
+    <message>
         <source>attachment: one has neither an object nor a link</source>
         <translation>Anlage: eine hat weder ein Objekt noch eine Verknüpfung</translation>
     </message>
     <message>
         <source>case: %1 is not a finite number</source>
         <translation>Fall: %1 ist keine endliche Zahl</translation>
+    </message>
+    <message>
+        <source>%1: written by format %#2; this program reads up to %#3. A newer version of Petrous wrote it; open it with that one, here it is left alone</source>
+        <translation>%1: im Format %#2 geschrieben; dieses Programm liest bis %#3. Eine neuere Version von Petrous schrieb es; öffnen Sie es mit jener, hier bleibt es unberührt</translation>
     </message>
     <message>
         <source>%1: not a whole case manifest; restore it from a copy</source>
@@ -7145,10 +7545,6 @@
         <translation>Transinformation</translation>
     </message>
     <message>
-        <source>landmarks</source>
-        <translation>Landmarken</translation>
-    </message>
-    <message>
         <source>by hand</source>
         <translation>von Hand</translation>
     </message>
@@ -7175,6 +7571,74 @@
     <message>
         <source>structure share</source>
         <translation>Anteil der Struktur</translation>
+    </message>
+    <message>
+        <source>video: %~1</source>
+        <translation>Video: %~1</translation>
+    </message>
+    <message>
+        <source>a still before the beginning</source>
+        <translation>ein Standbild vor dem Anfang</translation>
+    </message>
+    <message>
+        <source>a still has sides of 1 to %#1 pixels</source>
+        <translation>ein Standbild hat Seiten von 1 bis %#1 Pixeln</translation>
+    </message>
+    <message>
+        <source>a still has at most %#1 landmarks</source>
+        <translation>ein Standbild hat höchstens %#1 Landmarken</translation>
+    </message>
+    <message>
+        <source>a landmark has a coordinate that is not a number or out of range</source>
+        <translation>eine Landmarke hat eine Koordinate, die keine Zahl oder außerhalb des Bereichs ist</translation>
+    </message>
+    <message>
+        <source>the angle of view must lie within 0.5 to 120 degrees</source>
+        <translation>der Bildwinkel muss in 0.5 bis 120 Grad liegen</translation>
+    </message>
+    <message>
+        <source>the opacity must lie within 0 to 1</source>
+        <translation>die Deckkraft muss in 0 bis 1 liegen</translation>
+    </message>
+    <message>
+        <source>the camera of a still must be a perspective one, of finite numbers</source>
+        <translation>die Kamera eines Standbilds muss perspektivisch sein, aus endlichen Zahlen</translation>
+    </message>
+    <message>
+        <source>one has at most %#1 bookmarks</source>
+        <translation>eines hat höchstens %#1 Lesezeichen</translation>
+    </message>
+    <message>
+        <source>one has at most %#1 stills</source>
+        <translation>eines hat höchstens %#1 Standbilder</translation>
+    </message>
+    <message>
+        <source>a bookmark's name has 1 to %#1 bytes of UTF-8, without characters that are not seen and without spaces around it</source>
+        <translation>der Name eines Lesezeichens hat 1 bis %#1 Byte UTF-8, ohne unsichtbare Zeichen und ohne Leerzeichen an den Enden</translation>
+    </message>
+    <message>
+        <source>two bookmarks have the name '%1'</source>
+        <translation>zwei Lesezeichen heißen „%1“</translation>
+    </message>
+    <message>
+        <source>bookmark '%1' is before the beginning</source>
+        <translation>das Lesezeichen „%1“ liegt vor dem Anfang</translation>
+    </message>
+    <message>
+        <source>two stills are of one frame</source>
+        <translation>zwei Standbilder sind von einem Bild</translation>
+    </message>
+    <message>
+        <source>there are '%1'</source>
+        <translation>es gibt „%1“</translation>
+    </message>
+    <message>
+        <source>the video has no bookmark '%1'; it has none</source>
+        <translation>das Video hat kein Lesezeichen „%1“; es hat keines</translation>
+    </message>
+    <message>
+        <source>the video has no bookmark '%1'%2</source>
+        <translation>das Video hat kein Lesezeichen „%1“%2</translation>
     </message>
     <message>
         <source>view: %~1</source>
@@ -7248,8 +7712,8 @@
 <context>
     <name>Segmentation</name>
     <message>
-        <source>the seed at %#1, %#2, %#3 mm lies outside the image; give a point inside the structure</source>
-        <translation>der Startpunkt bei %#1, %#2, %#3 mm liegt außerhalb des Bildes; geben Sie einen Punkt in der Struktur</translation>
+        <source>the seed at %~1 lies outside the image; give a point inside the structure</source>
+        <translation>der Startpunkt bei %~1 liegt außerhalb des Bildes; geben Sie einen Punkt in der Struktur</translation>
     </message>
     <message>
         <source>threshold: the lower limit (%~1) is above the upper one (%~2); give them in ascending order</source>
@@ -7260,8 +7724,8 @@
         <translation>Bereich: geben Sie einen Punkt in der Struktur</translation>
     </message>
     <message>
-        <source>the image has %~1 at the seed (%#2, %#3, %#4 mm), which is not between %#5 and %~6; choose a point inside the structure, or other limits</source>
-        <translation>das Bild hat %~1 am Startpunkt (%#2, %#3, %#4 mm), nicht zwischen %#5 und %~6; wählen Sie einen Punkt in der Struktur oder andere Grenzen</translation>
+        <source>the voxel at the seed (%~1) has %~2, which is not between %#3 and %~4; choose a point inside the structure, or other limits</source>
+        <translation>das Voxel am Startpunkt (%~1) hat %~2, nicht zwischen %#3 und %~4; wählen Sie einen Punkt in der Struktur oder andere Grenzen</translation>
     </message>
     <message>
         <source>region: give a number of standard deviations above 0</source>
@@ -7648,6 +8112,53 @@
     </message>
 </context>
 <context>
+    <name>Video</name>
+    <message>
+        <source>GStreamer cannot be started: %~1</source>
+        <translation>GStreamer lässt sich nicht starten: %~1</translation>
+    </message>
+    <message>
+        <source>GStreamer cannot be started</source>
+        <translation>GStreamer lässt sich nicht starten</translation>
+    </message>
+    <message>
+        <source>GStreamer's element '%1' is missing; install Debian's package %2</source>
+        <translation>das GStreamer-Element „%1“ fehlt; installieren Sie das Debian-Paket %2</translation>
+    </message>
+    <message>
+        <source>%1: it cannot be read any more</source>
+        <translation>%1: nicht mehr lesbar</translation>
+    </message>
+    <message>
+        <source>%1: the file is empty</source>
+        <translation>%1: die Datei ist leer</translation>
+    </message>
+    <message>
+        <source>%1: no decoder for it is installed (%~2); install Debian's packages gstreamer1.0-plugins-good and gstreamer1.0-libav</source>
+        <translation>%1: kein Decoder dafür ist installiert (%~2); installieren Sie die Debian-Pakete gstreamer1.0-plugins-good und gstreamer1.0-libav</translation>
+    </message>
+    <message>
+        <source>%1: not a video that can be read; a file such as MP4, MOV, MKV, WebM or AVI is wanted</source>
+        <translation>%1: kein lesbares Video; gewünscht ist eine Datei wie MP4, MOV, MKV, WebM oder AVI</translation>
+    </message>
+    <message>
+        <source>%1: it has sound only, and no picture</source>
+        <translation>%1: hat nur Ton und kein Bild</translation>
+    </message>
+    <message>
+        <source>%1: damaged, or not whole: no frame of it can be decoded; copy it anew</source>
+        <translation>%1: beschädigt oder unvollständig: kein Bild davon lässt sich dekodieren; kopieren Sie es neu</translation>
+    </message>
+    <message>
+        <source>%1: the decoder does not answer; open it again</source>
+        <translation>%1: der Decoder antwortet nicht; öffnen Sie es noch einmal</translation>
+    </message>
+    <message>
+        <source>video support was not built: this program was built without GStreamer (Debian's libgstreamer-plugins-base1.0-dev)</source>
+        <translation>ohne Video: dieses Programm wurde ohne GStreamer gebaut (Debian: libgstreamer-plugins-base1.0-dev)</translation>
+    </message>
+</context>
+<context>
     <name>Volume</name>
     <message>
         <source>no face in this volume: %~1</source>
@@ -7811,6 +8322,14 @@
     <message>
         <source>measuring meshes</source>
         <translation>Netze werden vermessen</translation>
+    </message>
+    <message>
+        <source>the file of '%1' is %~2</source>
+        <translation>die Datei von „%1“ ist %~2</translation>
+    </message>
+    <message>
+        <source>choose the two bookmarks in the list between which it is repeated (Ctrl and a click)</source>
+        <translation>wählen Sie in der Liste die zwei Lesezeichen, zwischen denen wiederholt wird (Strg und Klick)</translation>
     </message>
 </context>
 <context>

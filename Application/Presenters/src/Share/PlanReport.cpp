@@ -468,8 +468,8 @@ private:
     std::string text;
     for (const Absent& one : m_absent)
       if (!inPictures || !one.isDrawn)
-        text += (text.empty() ? say("Left out:") + " " : "; ") + spaced(one.name) + " (" + one.why +
-                ")";
+        text += (text.empty() ? say("Left out:") + " " : "; ") + shownName(one.name) + " (" +
+                one.why + ")";
     return text;
   }
 

@@ -51,8 +51,8 @@ inline bool operator==(const DeviceList& a, const DeviceList& b)
 struct DeviceSources
 {
   std::shared_ptr<const devices::HidLibrary> hid; ///< null: no SpaceMouse, no pedal
-  std::vector<std::filesystem::path> serverFolders;
-  std::filesystem::path limits; ///< of DeviceLimits.h; empty: none are kept
+  std::vector<std::filesystem::path> serverFolders = {};
+  std::filesystem::path limits = {}; ///< of DeviceLimits.h; empty: none are kept
 };
 
 /// The devices available now. Queries the system (some tenths of a second); starts no server.

@@ -7131,7 +7131,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     <name>petrous::workstation::VideoController</name>
     <message>
         <source>Vide&amp;o</source>
-        <translation>Vide&amp;o</translation>
+        <translation>&amp;Video</translation>
     </message>
     <message>
         <source>&amp;Play</source>

@@ -44,7 +44,7 @@ TEST(CaseStamp, AnEarThatTheCaseDoesNotHaveIsDoubtful)
   scene::Case value;
   value.ct.geometry = core::GridGeometry({10, 10, 10}, Eigen::Vector3d::Ones(), {-40, 0, 0});
   EXPECT_EQ(earDoubt(value, Side::Right), "");
-  EXPECT_NE(earDoubt(value, Side::Left).find("on the patient's right, 30.5 to 40.5 mm"),
+  EXPECT_NE(earDoubt(value, Side::Left).find("on the patient's right, 31.0 to 40.0 mm"),
             std::string::npos)
       << earDoubt(value, Side::Left);
   EXPECT_EQ(earDoubt(value, Side::Unknown), "");

@@ -120,9 +120,9 @@ TEST_F(FilmFile, HasTheColourScaleOfTheThickness)
 {
   m_options.width = 320;
   m_options.height = 240;
-  writeFilm(m_folder / "plain.png", m_contents, cameras(1), m_options);
+  writeFilm(m_folder / "plain.png", m_contents, cameras(2), m_options);
   m_options.thickness = "sinus";
-  writeFilm(m_folder / "scale.png", m_contents, cameras(1), m_options);
+  writeFilm(m_folder / "scale.png", m_contents, cameras(2), m_options);
   const auto made = files();
   EXPECT_NE(made.at("plain-0001.png"), made.at("scale-0001.png"));
 }

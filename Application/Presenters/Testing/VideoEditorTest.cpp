@@ -43,6 +43,7 @@ protected:
       value.dissection.endStroke();
     }
     m_model.adopt(std::move(value));
+    std::filesystem::create_directories(m_folder);
     std::ofstream(m_folder / "film", std::ios::binary)
         << std::string("\0\0\0\x18", 4) << "ftypmp42 of the theatre";
     m_model.attach(library::attachmentOf(m_folder / "film", {"film.mp4", {}, {}, false}));

@@ -130,7 +130,7 @@ TEST_F(LanguageTest, WhatPresentersSayIsShownInGerman)
   EXPECT_EQ(shownLanguage(), "de");
   openWindow("ball");
   ASSERT_TRUE(waitFor([this] { return settled(); }));
-  const std::set<QString> names{"nerve", "ball", "main"}; // of the case
+  const std::set<QString> names{"nerve", "ball", "main", "other"}; // of the case, and a preset
   const presenters::Phrasebook& phrases = presenters::germanPhrases();
   int count = 0;
   for (const QString& text : shownTexts())

@@ -705,6 +705,7 @@ json videoOut(const VideoNotes& notes)
 std::shared_ptr<const VideoNotes> videoIn(const json& j)
 {
   VideoNotes notes;
+  j.get_ref<const json::object_t&>(); // throws of what is none
   if (j.contains("bookmarks"))
     for (const json& one : j.at("bookmarks").get_ref<const json::array_t&>())
       notes.bookmarks.push_back({one.at("name").get<std::string>(),

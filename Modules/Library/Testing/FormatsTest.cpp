@@ -208,10 +208,10 @@ TEST_F(Formats, ACaseOfANewerFormatIsRefusedInWordsAndStays)
   EXPECT_TRUE(m_library.verify().damaged.empty());
   const auto found = casesOfNewerVersion(m_library.folder());
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].name, "format-8");
+  EXPECT_EQ(found[0].name, formatName(newer));
   EXPECT_FALSE(found[0].isDeleted);
   EXPECT_NE(found[0].text.find("newer version of Petrous"), std::string::npos) << found[0].text;
-  EXPECT_TRUE(isOfNewerVersion(m_library.folder(), "format-8"));
+  EXPECT_TRUE(isOfNewerVersion(m_library.folder(), formatName(newer)));
   EXPECT_FALSE(isOfNewerVersion(m_library.folder(), "format-7"));
   EXPECT_FALSE(isOfNewerVersion(m_library.folder(), "none"));
   std::ofstream(m_folder.path() / "cases" / "broken.json") << "{";

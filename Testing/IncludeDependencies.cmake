@@ -39,6 +39,8 @@ set(known_modules
 # reserved for the application.
 set(toolkits_Imaging ITK GDCM DCMTK)
 set(toolkits_Imaging_Testing VTK) # writes VTP
+set(toolkits_Devices_Servers Qt) # programs of their own
+set(toolkits_Devices_Testing Qt) # a stand-in, likewise
 set(toolkits_Phantom GDCM)
 set(toolkits_Registration ITK)
 set(toolkits_Segmentation ITK)
@@ -139,6 +141,8 @@ foreach(module IN LISTS PETROUS_MODULES)
       set(permitted ${toolkits_${module}})
       if(file MATCHES "/Testing/")
         list(APPEND permitted ${toolkits_${module}_Testing})
+      elseif(file MATCHES "/Servers/")
+        list(APPEND permitted ${toolkits_${module}_Servers})
       endif()
       if(NOT toolkit IN_LIST permitted)
         violation(${file} "${include}"

@@ -40,7 +40,7 @@ struct VideoCommandOptions
 
 double seconds(std::int64_t nanoseconds)
 {
-  return 1e-9 * static_cast<double>(nanoseconds);
+  return static_cast<double>(nanoseconds) / 1e9;
 }
 
 scene::Attachment& videoOf(scene::Case& value, const std::string& name)

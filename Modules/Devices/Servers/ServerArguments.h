@@ -49,12 +49,19 @@ public:
     const auto [rest, error] = std::from_chars(given.data(), end, value);
     if (error == std::errc() && rest == end && value >= least && value <= most)
       return true;
-    std::fprintf(stderr, "%s %s: must be a number from %g to %g\n", option.c_str(), given.c_str(),
-                 least, most);
+    std::fprintf(stderr, "%s %s: must be a number from %s to %s\n", option.c_str(), given.c_str(),
+                 asText(least).c_str(), asText(most).c_str());
     return false;
   }
 
 private:
+  static std::string asText(double number)
+  {
+    char digits[32] = {};
+    std::to_chars(digits, digits + sizeof digits - 1, number);
+    return digits;
+  }
+
   std::map<std::string, std::string> m_options;
   std::string m_block;
 };

@@ -70,7 +70,7 @@ TEST_F(DescribeCommand, DoubtsASideThatTheImageContradicts)
   {
     const auto outcome = run(arguments);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
-    return outcome.err.find("lies on the patient's left, 19.5 to 27.5 mm") != std::string::npos;
+    return outcome.err.find("lies on the patient's left, 20.0 to 27.0 mm") != std::string::npos;
   };
   EXPECT_TRUE(doubts("describe left --side right"));
   EXPECT_FALSE(doubts("describe left --tag a")) << "nothing was said of the side";

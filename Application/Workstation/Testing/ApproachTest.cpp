@@ -238,7 +238,7 @@ TEST_F(Approaches, AreComparedByOneKey)
   ASSERT_TRUE(comparison());
   ASSERT_TRUE(waitFor([this] { return comparison()->table().rowCount() > 0; }));
   EXPECT_TRUE(cell("Strokes, 1 in common", 1) == "2") << cell("Strokes", 1).toStdString();
-  EXPECT_EQ(cell("Drilling time", 2), "75.0 s");
+  EXPECT_EQ(cell("Drilling time", 2), "1 min 15 s");
   // The nerve is a ball of 4 mm in one of 12: burrs of 3 mm leave 5.
   EXPECT_NEAR(cell("Distance to nerve", 1).section(' ', 0, 0).toDouble(), 5.0, 0.31);
   const auto [first, second] = comparison()->views();

@@ -354,8 +354,11 @@ TEST_F(NodeCommand, ReceivesTheLatestSceneThatIsWhole)
   json("archive later " + quoted(archive));
   petrous::network::SceneDescription description;
   description.studyUid = sent["study"];
-  description.studyId =
-      petrous::network::findStudies(m_server->node(), {description.studyUid, {}}).at(0).studyId;
+  const auto study =
+      petrous::network::findStudies(m_server->node(), {description.studyUid, {}}).at(0);
+  description.studyId = study.studyId;
+  description.patientId = study.patientId;
+  description.patientName = study.patientName;
   description.seriesNumber = 5000; // a later state than that of the revision
   std::filesystem::create_directories(m_folder / "parts");
   auto parts = petrous::network::writeSceneObjects(archive, m_folder / "parts", description, {},

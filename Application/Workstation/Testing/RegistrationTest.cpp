@@ -166,12 +166,14 @@ TEST_F(RegistrationWindow, LoadsNothingOfTheMrUntilItIsShown)
   EXPECT_TRUE(find<QDockWidget>("registrationDock").isVisible());
   EXPECT_EQ(state(), "not registered");
   EXPECT_EQ(mr().volume.peek(), nullptr);
+  ASSERT_TRUE(waitFor([this] { return settled(); }));
   const QImage ct = axial();
   choose(2); // edges
   EXPECT_NE(mr().volume.peek(), nullptr);
   EXPECT_NE(axial(), ct);
   choose(0);
-  EXPECT_EQ(axial(), ct);
+  EXPECT_EQ(axial(), ct) << axial().width() << " x " << axial().height() << ", was " << ct.width()
+                         << " x " << ct.height() << ", share " << differing(axial(), ct);
 }
 
 TEST_F(RegistrationWindow, KeysFlickBetweenCtAndMrAndGoThroughTheWays)

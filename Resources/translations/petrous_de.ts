@@ -7178,7 +7178,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
         <translation>Lese&amp;zeichen setzen</translation>
     </message>
     <message>
-        <source>At the frame that is seen, tied to the stroke after which the bone is now</source>
+        <source>At the frame that is seen, tied to the last stroke</source>
         <translation>Beim Bild, das zu sehen ist, verbunden mit dem Bohrzug, nach dem der Knochen jetzt ist</translation>
     </message>
     <message>
@@ -7313,7 +7313,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
         <translation>Nach Bohrzug</translation>
     </message>
     <message>
-        <source>Return or a double click goes there; where a bookmark is tied to a stroke, the bone is shown as it is after it</source>
+        <source>Return or a double click goes there; where a bookmark is tied to a stroke, the dissection is shown as it is after it</source>
         <translation>Eingabe oder Doppelklick geht dorthin; ist ein Lesezeichen mit einem Bohrzug verbunden, wird der Knochen gezeigt, wie er danach ist</translation>
     </message>
     <message>
@@ -7329,7 +7329,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
         <translation>&amp;Verbinden</translation>
     </message>
     <message>
-        <source>To the stroke after which the bone is now, or from any stroke</source>
+        <source>To the last stroke, or from any stroke</source>
         <translation>Mit dem Bohrzug, nach dem der Knochen jetzt ist, oder mit keinem</translation>
     </message>
     <message>

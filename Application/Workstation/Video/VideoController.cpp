@@ -110,7 +110,7 @@ void VideoController::addActions()
   m_loop->setCheckable(true);
   m_menu->addSeparator();
   m_bookmark = add(tr("Set a book&mark"), Qt::Key_U,
-                   tr("At the frame that is seen, tied to the stroke after which the bone is now"));
+                   tr("At the frame that is seen, tied to the last stroke"));
   m_bookmark->setIconText(tr("Bookmark"));
   m_previousBookmark =
       add(tr("Pre&vious bookmark"), Qt::CTRL + Qt::Key_Up, tr("With the bone as it was then"));

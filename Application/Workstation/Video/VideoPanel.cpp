@@ -135,7 +135,7 @@ void VideoPanel::addBookmarks(QVBoxLayout& layout, const Actions& actions)
   m_bookmarks->setEditTriggers(QAbstractItemView::EditKeyPressed |
                                QAbstractItemView::SelectedClicked);
   m_bookmarks->setToolTip(tr("Return or a double click goes there; where a bookmark is tied to a "
-                             "stroke, the bone is shown as it is after it"));
+                             "stroke, the dissection is shown as it is after it"));
   m_bookmarks->header()->setSectionResizeMode(BookmarkName, QHeaderView::Stretch);
   m_bookmarks->header()->setSectionResizeMode(BookmarkTime, QHeaderView::ResizeToContents);
   m_bookmarks->header()->setSectionResizeMode(BookmarkStroke, QHeaderView::ResizeToContents);
@@ -144,8 +144,7 @@ void VideoPanel::addBookmarks(QVBoxLayout& layout, const Actions& actions)
   keepKeysInEditors(*m_bookmarks);
 
   auto* move = button(tr("&Move here"), "bookmarkMove", tr("To the frame that is seen"));
-  auto* tie = button(tr("&Tie"), "bookmarkTie",
-                     tr("To the stroke after which the bone is now, or from any stroke"));
+  auto* tie = button(tr("&Tie"), "bookmarkTie", tr("To the last stroke, or from any stroke"));
   auto* remove = button(tr("&Remove"), "bookmarkRemove", tr("Takes the bookmark out"));
   m_ofBookmark = {move, tie, remove};
   auto* row = new QHBoxLayout;

@@ -89,7 +89,7 @@ SharePanel::SharePanel(presenters::WorkstationModel& model, QWidget* parent)
   static_cast<QVBoxLayout*>(whole->layout())->addWidget(note);
 
   auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(10, 8, 10, 8);
+  layout->setContentsMargins(10, 7, 10, 7);
   layout->addWidget(group(tr("To look at"), {report, picture, film}));
   layout->addWidget(objects, 1);
   layout->addWidget(whole);

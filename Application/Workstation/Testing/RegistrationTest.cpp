@@ -242,7 +242,7 @@ TEST_F(RegistrationWindow, TheSegmentPanelWorksOnWhatTheSlicesShow)
   EXPECT_NE(axial(), ct);
   EXPECT_TRUE(note.isHidden());
   source.setCurrentIndex(0);
-  EXPECT_EQ(axial(), ct);
+  EXPECT_TRUE(waitFor([&] { return axial() == ct; }));
 
   QTest::keyClick(&window(), Qt::Key_N, Qt::ShiftModifier);
   EXPECT_TRUE(note.isHidden());

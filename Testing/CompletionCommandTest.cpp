@@ -27,7 +27,7 @@ Words inHelp(const std::string& help, const std::regex& what)
 }
 
 const std::regex kOption("^  (?:-h,)?(--[a-z-]+)");
-const std::regex kCommand("^  ([a-z-]+)   ");
+const std::regex kCommand("^  ([a-z][a-z-]*)   ");
 
 class Reference : public CommandLine
 {

@@ -48,6 +48,8 @@ constexpr std::size_t kMaxUidsAsked = 400;      ///< of one request: a UI value 
 constexpr std::size_t kMaxContexts = 128;       ///< PS3.8 9.3.2: odd numbers of one byte
 constexpr std::size_t kMaxAnswers = 100000;     ///< to a query
 constexpr std::chrono::seconds kNegotiation(5); ///< for who connects to send by C-MOVE
+/// From which on a second association is worth its negotiation.
+constexpr std::size_t kManyFiles = 32;
 constexpr int kMaxIdleRounds = 2;            ///< transfers without a new instance before giving up
 constexpr std::size_t kMaxSuperfluous = 100; ///< instances, beyond as many as were asked for
 constexpr std::uintmax_t kMaxInstanceBytes = std::uintmax_t{4} << 30;
@@ -466,6 +468,133 @@ DIC_US sendFile(const Association& association, const OutgoingFile& file, ByteCo
   association.require(result, "sending");
   return response.DimseStatus;
 }
+
+/// What two associations send: the first one takes at the end, the second one at the front.
+struct Outbox
+{
+  std::mutex mutex; ///< of all
+  std::deque<OutgoingFile> waiting;
+  std::size_t inSecondHand = 0; ///< files that are neither waiting nor confirmed: 0 or 1
+  std::size_t warned = 0;       ///< of the confirmed ones
+  std::uintmax_t bytes = 0;     ///< confirmed
+
+  void confirm(const OutgoingFile& file, DIC_US status)
+  {
+    bytes += file.bytes;
+    warned += status == STATUS_Success ? 0 : 1;
+  }
+};
+
+bool isConfirmed(DIC_US status)
+{
+  return status == STATUS_Success || isWarning(status);
+}
+
+/// A second association that sends while the first one does: a node answers to an instance when it
+/// is stored and indexed, and works for one association meanwhile. Where the node refuses it, or
+/// anything else goes wrong with it, it ends and gives its file back, and the first association
+/// meets the fault.
+class SecondSender
+{
+public:
+  SecondSender(const Node& node, std::vector<Context> contexts, const core::Progress& progress,
+               Outbox& outbox)
+    : m_outbox(outbox)
+    , m_thread([this, &node, contexts = std::move(contexts), progress]
+               { run(node, contexts, progress); })
+  {
+  }
+  ~SecondSender()
+  {
+    {
+      const std::lock_guard<std::mutex> lock(m_outbox.mutex);
+      m_stopped = true;
+      if (m_association)
+        m_association->watch().end(ConnectionWatch::End::Cancelled);
+    }
+    m_thread.join();
+  }
+  SecondSender(const SecondSender&) = delete;
+  SecondSender& operator=(const SecondSender&) = delete;
+
+  /// Until its last file is confirmed or given back.
+  void finish()
+  {
+    std::unique_lock<std::mutex> lock(m_outbox.mutex);
+    m_stopped = true;
+    m_ended.wait(lock, [this] { return m_over; });
+  }
+
+private:
+  void run(const Node& node, const std::vector<Context>& contexts, const core::Progress& progress)
+  {
+    std::optional<OutgoingFile> file;
+    try
+    {
+      Association association(node, contexts, progress);
+      ByteCounter counter;
+      counter.watch = &association.watch();
+      counter.progress = &m_silent;
+      {
+        const std::lock_guard<std::mutex> lock(m_outbox.mutex);
+        m_association = &association;
+      }
+      const auto forget = [this]
+      {
+        const std::lock_guard<std::mutex> lock(m_outbox.mutex);
+        m_association = nullptr;
+      };
+      try
+      {
+        while ((file = next()))
+        {
+          const DIC_US status = sendFile(association, *file, counter);
+          if (!isConfirmed(status))
+            break;
+          const std::lock_guard<std::mutex> lock(m_outbox.mutex);
+          m_outbox.confirm(*file, status);
+          m_outbox.inSecondHand = 0;
+          file.reset();
+        }
+        association.release();
+        forget();
+      }
+      catch (...)
+      {
+        forget();
+        throw;
+      }
+    }
+    catch (...)
+    {
+    }
+    const std::lock_guard<std::mutex> lock(m_outbox.mutex);
+    if (file)
+      m_outbox.waiting.push_front(*file);
+    m_outbox.inSecondHand = 0;
+    m_over = true;
+    m_ended.notify_all();
+  }
+
+  /// The last one is the first association's.
+  std::optional<OutgoingFile> next()
+  {
+    const std::lock_guard<std::mutex> lock(m_outbox.mutex);
+    if (m_stopped || m_outbox.waiting.size() < 2)
+      return std::nullopt;
+    OutgoingFile file = m_outbox.waiting.front();
+    m_outbox.waiting.pop_front();
+    m_outbox.inSecondHand = 1;
+    return file;
+  }
+
+  const core::Progress m_silent; ///< the first association reports, for both
+  Outbox& m_outbox;
+  Association* m_association = nullptr;
+  bool m_stopped = false, m_over = false;
+  std::condition_variable m_ended;
+  std::thread m_thread; // last: it uses the others
+};
 
 /// Whether trying again may help.
 bool isTransient(const NetworkError& error)
@@ -1426,7 +1555,9 @@ Transfer store(const Node& node, const std::vector<fs::path>& files, const core:
   prepareToolkit();
   checkNode(node);
   const Clock::time_point start = Clock::now();
-  std::vector<OutgoingFile> all, waiting;
+  std::vector<OutgoingFile> all;
+  Outbox outbox;
+  std::deque<OutgoingFile>& waiting = outbox.waiting;
   std::set<std::string> uids;
   ByteCounter counter;
   for (const fs::path& path : files)
@@ -1449,6 +1580,7 @@ Transfer store(const Node& node, const std::vector<fs::path>& files, const core:
   waiting.assign(all.rbegin(), all.rend()); // sent from its end: in the order of the files
   DIC_US refusal = STATUS_Success;
   std::size_t refused = 0;
+  std::uintmax_t refusedBytes = 0;
   std::size_t fewest = all.size(); // that were missing after a round
   bool counted = false;            // what was there already
   bool listed = false;             // the node said what it has, or cannot
@@ -1482,26 +1614,39 @@ Transfer store(const Node& node, const std::vector<fs::path>& files, const core:
           waiting.erase(end, waiting.end());
         }
       refused = 0;
-      while (!waiting.empty())
+      std::optional<SecondSender> second;
+      if (waiting.size() >= kManyFiles)
+        second.emplace(node, storeContexts(all), progress, outbox);
+      for (;;)
       {
         counted = true;
-        const OutgoingFile file = waiting.back();
-        counter.done = all.size() - waiting.size() - unconfirmed.size();
-        const DIC_US status = sendFile(association, file, counter);
-        waiting.pop_back();
-        counter.before += file.bytes;
-        if (status == STATUS_Success || isWarning(status))
+        std::unique_lock<std::mutex> lock(outbox.mutex);
+        if (waiting.empty() && second)
         {
-          transfer.bytes += file.bytes;
-          transfer.warning += status == STATUS_Success ? 0 : 1;
+          lock.unlock();
+          second->finish(); // may give its file back
+          lock.lock();
         }
+        if (waiting.empty())
+          break;
+        const OutgoingFile file = waiting.back();
+        counter.done = all.size() - waiting.size() - unconfirmed.size() - outbox.inSecondHand;
+        counter.before = outbox.bytes + refusedBytes;
+        lock.unlock();
+        const DIC_US status = sendFile(association, file, counter);
+        lock.lock();
+        waiting.pop_back();
+        if (isConfirmed(status))
+          outbox.confirm(file, status);
         else
         {
           refusal = status;
           ++refused;
+          refusedBytes += file.bytes;
           unconfirmed.push_back(file);
         }
       }
+      second.reset();
       sendAgain();
       // A node may answer Success and not keep it. One that lists none of them has no index of
       // them, or not yet.
@@ -1558,6 +1703,8 @@ Transfer store(const Node& node, const std::vector<fs::path>& files, const core:
               " attempts" +
               (refused > 0 ? ": " + statusText(refusal) : ", although it confirmed them"));
   }
+  transfer.bytes = outbox.bytes;
+  transfer.warning = outbox.warned;
   transfer.completed = all.size();
   transfer.seconds = secondsSince(start);
   return transfer;

@@ -172,7 +172,8 @@ struct Transfer
 
 /// Sends DICOM files (C-STORE) and asks the node which it then has (C-FIND, where it offers that).
 /// Instances that the node has already are not sent again; after a cut, only what the node did not
-/// confirm. Throws InvalidParameter for a file that is not DICOM, NetworkError (Incomplete) if the
+/// confirm. Many files are sent over two associations, where the node accepts a second one.
+/// Throws InvalidParameter for a file that is not DICOM, NetworkError (Incomplete) if the
 /// node refuses one, or lists only some of those that it confirmed, with the number that it has.
 Transfer store(const Node& node, const std::vector<std::filesystem::path>& files,
                const core::Progress& progress = {});

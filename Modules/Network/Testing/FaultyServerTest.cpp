@@ -4,7 +4,10 @@
 #include <csignal>
 #include <functional>
 #include <map>
+#include <mutex>
+#include <optional>
 #include <sstream>
+#include <thread>
 
 #include <dcmtk/config/osconfig.h>
 
@@ -59,6 +62,11 @@ struct Behaviour
   // TLS, if there is a certificate; from a client with one of `client` only, if that is given.
   const Certificate* own = nullptr;
   const Certificate* client = nullptr;
+  /// Associations are served side by side; otherwise the next one waits for the end of the first.
+  bool manyAtOnce = false;
+  /// Answer to the instance `number` (from 0) that comes over the second association; nullopt: it
+  /// is cut.
+  std::function<std::optional<DIC_US>(int number)> second;
   int latestTls = 0; ///< TLS1_1_VERSION; 0: any
   std::string ciphers;
 };
@@ -92,6 +100,8 @@ public:
   {
     m_stop = true;
     m_thread.join();
+    for (std::thread& served : m_served)
+      served.join();
     ASC_dropNetwork(&m_network);
   }
 
@@ -105,6 +115,17 @@ public:
     return node;
   }
   int requests() const { return m_requests; }
+  struct Stored
+  {
+    int association;
+    DIC_US status;
+  };
+  /// By instance, in the order in which they came.
+  std::map<std::string, std::vector<Stored>> stored() const
+  {
+    const std::lock_guard<std::mutex> lock(m_storedMutex);
+    return m_stored;
+  }
   int associations() const
   {
     return m_associations;
@@ -152,16 +173,32 @@ private:
                                  m_layer ? OFTrue : OFFalse)
               .good())
       {
-        ++m_associations;
-        serve(association);
+        const int number = m_associations++;
+        if (m_behaviour.manyAtOnce)
+        {
+          m_served.emplace_back(
+              [this, association, number]
+              {
+                serve(association, number);
+                drop(association);
+              });
+          continue;
+        }
+        serve(association, number);
       }
-      ASC_dropSCPAssociation(association, 0);
-      ASC_destroyAssociation(&association);
+      drop(association);
     }
   }
 
-  void serve(T_ASC_Association* association)
+  static void drop(T_ASC_Association* association)
   {
+    ASC_dropSCPAssociation(association, 0);
+    ASC_destroyAssociation(&association);
+  }
+
+  void serve(T_ASC_Association* association, int number)
+  {
+    int stored = 0;
     for (int n = 0; n < ASC_countPresentationContexts(association->params); ++n)
     {
       T_ASC_PresentationContext context;
@@ -203,7 +240,17 @@ private:
           return;
       }
       else if (message.CommandField == DIMSE_C_STORE_RQ)
-        store(association, id, message.msg.CStoreRQ);
+      {
+        const auto status = number == 1 && m_behaviour.second
+                                ? m_behaviour.second(stored++)
+                                : std::optional<DIC_US>(m_behaviour.storeStatus);
+        if (!status)
+        {
+          ASC_abortAssociation(association);
+          return;
+        }
+        store(association, id, message.msg.CStoreRQ, number, *status);
+      }
     }
   }
 
@@ -361,13 +408,17 @@ private:
   }
 
   void store(T_ASC_Association* association, T_ASC_PresentationContextID id,
-             const T_DIMSE_C_StoreRQ& request)
+             const T_DIMSE_C_StoreRQ& request, int number, DIC_US status)
   {
     query(association);
+    {
+      const std::lock_guard<std::mutex> lock(m_storedMutex);
+      m_stored[request.AffectedSOPInstanceUID].push_back({number, status});
+    }
     T_DIMSE_C_StoreRSP response{};
     response.MessageIDBeingRespondedTo = request.MessageID;
     response.DataSetType = DIMSE_DATASET_NULL;
-    response.DimseStatus = m_behaviour.storeStatus;
+    response.DimseStatus = status;
     DIMSE_sendStoreResponse(association, id, &request, &response, nullptr);
   }
 
@@ -377,6 +428,9 @@ private:
   std::atomic<bool> m_stop{false};
   std::atomic<int> m_requests{0}, m_associations{0};
   int m_queries = 0; ///< of instances
+  mutable std::mutex m_storedMutex;
+  std::map<std::string, std::vector<Stored>> m_stored;
+  std::vector<std::thread> m_served;
   std::unique_ptr<DcmTLSTransportLayer> m_layer;
   std::thread m_thread;
 };
@@ -393,9 +447,10 @@ protected:
   }
 
   std::vector<fs::path> series(const std::string& role, const std::string& patient,
-                               const std::string& study = {})
+                               const std::string& study = {}, int count = 10)
   {
-    const core::GridGeometry grid({16, 16, 10}, Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero());
+    const core::GridGeometry grid({16, 16, count}, Eigen::Vector3d::Ones(),
+                                  Eigen::Vector3d::Zero());
     imaging::SeriesDescription description;
     description.studyUid = study.empty() ? m_study : study;
     description.seriesUid = imaging::deterministicUid(8, role);
@@ -644,6 +699,119 @@ TEST_F(FaultyNode, ThatConfirmsWhatItDoesNotKeepIsNotBelieved)
   EXPECT_NE(std::string(error.what()).find("6 of 10 instances"), std::string::npos) << error.what();
   EXPECT_NE(std::string(error.what()).find("although it confirmed"), std::string::npos)
       << error.what();
+}
+
+class BusyNode : public FaultyNode
+{
+protected:
+  void SetUp() override
+  {
+    FaultyNode::SetUp();
+    m_files = series("MANY", "P1", {}, 60);
+    m_behaviour.lists = [this](int query)
+    { return query == 0 ? std::vector<fs::path>() : m_files; };
+  }
+
+  /// Each instance once with success, and how many over the second association.
+  static int overTheSecond(const FaultyServer& server)
+  {
+    int count = 0;
+    const auto stored = server.stored();
+    EXPECT_EQ(stored.size(), 60U);
+    for (const auto& [uid, times] : stored)
+    {
+      int confirmed = 0;
+      for (const auto& time : times)
+      {
+        confirmed += time.status == STATUS_Success ? 1 : 0;
+        count += time.status == STATUS_Success && time.association == 1 ? 1 : 0;
+      }
+      EXPECT_EQ(confirmed, 1);
+    }
+    return count;
+  }
+};
+
+TEST_F(BusyNode, IsSentToOverTwoAssociations)
+{
+  m_behaviour.manyAtOnce = true;
+  const FaultyServer server(m_behaviour);
+  const Transfer sent = store(server.node(), m_files);
+  EXPECT_EQ(sent.completed, 60U);
+  EXPECT_EQ(sent.asked, 1U);
+  EXPECT_EQ(sent.warning, 0U);
+  std::uintmax_t bytes = 0;
+  for (const fs::path& file : m_files)
+    bytes += fs::file_size(file);
+  EXPECT_EQ(sent.bytes, bytes);
+  EXPECT_EQ(server.associations(), 2);
+  EXPECT_GT(overTheSecond(server), 5);
+}
+
+TEST_F(BusyNode, ThatServesOneAssociationAtATimeGetsAllOverIt)
+{
+  const FaultyServer server(m_behaviour);
+  const Transfer sent = store(server.node(), m_files);
+  EXPECT_EQ(sent.completed, 60U);
+  EXPECT_EQ(sent.asked, 1U);
+  EXPECT_TRUE(sent.verified);
+  EXPECT_EQ(overTheSecond(server), 0);
+}
+
+TEST_F(BusyNode, ThatCutsTheSecondAssociationGetsTheRestOverTheFirst)
+{
+  m_behaviour.manyAtOnce = true;
+  m_behaviour.second = [](int number)
+  { return number < 3 ? std::optional<DIC_US>(STATUS_Success) : std::nullopt; };
+  const FaultyServer server(m_behaviour);
+  const Transfer sent = store(server.node(), m_files);
+  EXPECT_EQ(sent.completed, 60U);
+  EXPECT_EQ(sent.asked, 1U);
+  EXPECT_EQ(overTheSecond(server), 3);
+}
+
+TEST_F(BusyNode, ThatRefusesOverTheSecondAssociationIsAskedOverTheFirst)
+{
+  m_behaviour.manyAtOnce = true;
+  m_behaviour.second = [](int number)
+  { return std::optional<DIC_US>(number == 0 ? 0xB000 : 0xA700); };
+  const FaultyServer server(m_behaviour);
+  const Transfer sent = store(server.node(), m_files);
+  EXPECT_EQ(sent.completed, 60U);
+  EXPECT_EQ(sent.warning, 1U);
+  const auto stored = server.stored();
+  const auto refused =
+      std::count_if(stored.begin(), stored.end(),
+                    [](const auto& instance) { return instance.second.front().status == 0xA700; });
+  EXPECT_EQ(refused, 1) << "the second association goes on";
+}
+
+TEST_F(BusyNode, ThatRefusesEverythingIsNamed)
+{
+  m_behaviour.manyAtOnce = true;
+  m_behaviour.storeStatus = 0xA700;
+  m_behaviour.lists = [](int) { return std::vector<fs::path>(); };
+  const FaultyServer server(m_behaviour);
+  const NetworkError error = failure([&] { store(server.node(), m_files); });
+  EXPECT_EQ(error.reason, Reason::Incomplete);
+  EXPECT_NE(std::string(error.what()).find("0 of 60"), std::string::npos) << error.what();
+  EXPECT_NE(std::string(error.what()).find("A700"), std::string::npos) << error.what();
+}
+
+TEST_F(BusyNode, IsLeftWhenTheUserCancels)
+{
+  m_behaviour.manyAtOnce = true;
+  const FaultyServer server(m_behaviour);
+  const auto token = std::make_shared<core::CancelToken>();
+  const core::Progress progress(
+      [&token](double fraction, const std::string&)
+      {
+        if (fraction > 0.3)
+          token->cancel();
+      },
+      token);
+  EXPECT_THROW(store(server.node(), m_files, progress), core::CancelledError);
+  EXPECT_LT(server.stored().size(), 60U);
 }
 
 TEST_F(FaultyNode, ThatIsNoDicomServerIsNamed)

@@ -497,73 +497,50 @@ bool isConfirmed(DIC_US status)
 class SecondSender
 {
 public:
-  SecondSender(const Node& node, std::vector<Context> contexts, const core::Progress& progress,
-               Outbox& outbox)
+  SecondSender(const Node& node, std::vector<Context> contexts, Outbox& outbox)
     : m_outbox(outbox)
-    , m_thread([this, &node, contexts = std::move(contexts), progress]
-               { run(node, contexts, progress); })
+    , m_thread([this, &node, contexts = std::move(contexts)] { run(node, contexts); })
   {
   }
   ~SecondSender()
   {
-    {
-      const std::lock_guard<std::mutex> lock(m_outbox.mutex);
-      m_stopped = true;
-      if (m_association)
-        m_association->watch().end(ConnectionWatch::End::Cancelled);
-    }
+    m_token->cancel();
     m_thread.join();
   }
   SecondSender(const SecondSender&) = delete;
   SecondSender& operator=(const SecondSender&) = delete;
 
-  /// Until its last file is confirmed or given back.
+  /// Takes no more files; returns when its last one is confirmed or given back.
   void finish()
   {
     std::unique_lock<std::mutex> lock(m_outbox.mutex);
-    m_stopped = true;
-    m_ended.wait(lock, [this] { return m_over; });
+    m_finished = true;
+    m_idle.wait(lock, [this] { return m_outbox.inSecondHand == 0; });
   }
 
 private:
-  void run(const Node& node, const std::vector<Context>& contexts, const core::Progress& progress)
+  void run(const Node& node, const std::vector<Context>& contexts)
   {
+    const core::Progress progress({}, m_token); // the first association reports, for both
     std::optional<OutgoingFile> file;
     try
     {
       Association association(node, contexts, progress);
       ByteCounter counter;
       counter.watch = &association.watch();
-      counter.progress = &m_silent;
+      counter.progress = &progress;
+      while ((file = next()))
       {
+        const DIC_US status = sendFile(association, *file, counter);
+        if (!isConfirmed(status))
+          break;
         const std::lock_guard<std::mutex> lock(m_outbox.mutex);
-        m_association = &association;
+        m_outbox.confirm(*file, status);
+        file.reset();
+        setIdle();
       }
-      const auto forget = [this]
-      {
-        const std::lock_guard<std::mutex> lock(m_outbox.mutex);
-        m_association = nullptr;
-      };
-      try
-      {
-        while ((file = next()))
-        {
-          const DIC_US status = sendFile(association, *file, counter);
-          if (!isConfirmed(status))
-            break;
-          const std::lock_guard<std::mutex> lock(m_outbox.mutex);
-          m_outbox.confirm(*file, status);
-          m_outbox.inSecondHand = 0;
-          file.reset();
-        }
+      if (!file)
         association.release();
-        forget();
-      }
-      catch (...)
-      {
-        forget();
-        throw;
-      }
     }
     catch (...)
     {
@@ -571,16 +548,14 @@ private:
     const std::lock_guard<std::mutex> lock(m_outbox.mutex);
     if (file)
       m_outbox.waiting.push_front(*file);
-    m_outbox.inSecondHand = 0;
-    m_over = true;
-    m_ended.notify_all();
+    setIdle();
   }
 
   /// The last one is the first association's.
   std::optional<OutgoingFile> next()
   {
     const std::lock_guard<std::mutex> lock(m_outbox.mutex);
-    if (m_stopped || m_outbox.waiting.size() < 2)
+    if (m_finished || m_outbox.waiting.size() < 2)
       return std::nullopt;
     OutgoingFile file = m_outbox.waiting.front();
     m_outbox.waiting.pop_front();
@@ -588,11 +563,16 @@ private:
     return file;
   }
 
-  const core::Progress m_silent; ///< the first association reports, for both
+  void setIdle()
+  {
+    m_outbox.inSecondHand = 0;
+    m_idle.notify_all();
+  }
+
+  const std::shared_ptr<core::CancelToken> m_token = std::make_shared<core::CancelToken>();
   Outbox& m_outbox;
-  Association* m_association = nullptr;
-  bool m_stopped = false, m_over = false;
-  std::condition_variable m_ended;
+  bool m_finished = false;
+  std::condition_variable m_idle;
   std::thread m_thread; // last: it uses the others
 };
 
@@ -1605,7 +1585,7 @@ Transfer store(const Node& node, const std::vector<fs::path>& files, const core:
       Association association(node, storeContexts(all), progress);
       counter.watch = &association.watch();
       if (!waiting.empty())
-        if (const auto held = heldThere(association, waiting))
+        if (const auto held = heldThere(association, {waiting.begin(), waiting.end()}))
         {
           const auto isHeld = [&](const OutgoingFile& file) { return held->count(file.uid) != 0; };
           const auto end = std::remove_if(waiting.begin(), waiting.end(), isHeld);
@@ -1616,7 +1596,7 @@ Transfer store(const Node& node, const std::vector<fs::path>& files, const core:
       refused = 0;
       std::optional<SecondSender> second;
       if (waiting.size() >= kManyFiles)
-        second.emplace(node, storeContexts(all), progress, outbox);
+        second.emplace(node, storeContexts(all), outbox);
       for (;;)
       {
         counted = true;

@@ -97,6 +97,64 @@ TEST_F(WorkstationModelTest, OpensSavesAndFindsTheStrokeAgain)
   EXPECT_EQ(library.open("block").dissection.strokes().size(), 1u);
 }
 
+// What was felt of a copy before the stroke does not bring the bone back that the stroke removed.
+TEST_F(WorkstationModelTest, AToolThatIsPreparedApartFeelsWhatWasDrilledMeanwhile)
+{
+  WorkstationModel model{library::Library(folder)};
+  model.adopt(block("block"));
+  model.prepareNow();
+  session::TouchTool tool;
+  EXPECT_FALSE(model.toolReady(tool));
+  const auto preparation = model.toolPreparation(tool);
+  stroke(model);
+  EXPECT_TRUE(model.toolReady(tool)) << "prepared by the stroke itself";
+  model.undo();
+  model.redo();
+  const auto before = model.surfaceAt(line());
+  ASSERT_TRUE(before);
+  ASSERT_LT(before->z(), 5.5) << "nothing was removed";
+
+  PreparedTool done = preparation({});
+  ASSERT_TRUE(done.felt);
+  ASSERT_TRUE(done.shell);
+  scene::Case value = model.value();
+  session::DrillSession drill(value);
+  const session::TouchScene stale(value, drill, std::move(*done.felt));
+  const session::TouchScene fresh(value, drill);
+  const volume::MaskState* a = stale.mask()->acquire();
+  const volume::MaskState* b = fresh.mask()->acquire();
+  EXPECT_EQ(stale.mask()->number(), 1U) << "one state more: what was drilled since";
+  for (std::size_t n = 0; n < value.dissection.mask().brickCount(); ++n)
+    EXPECT_EQ(stale.mask()->brick(n), fresh.mask()->brick(n));
+  EXPECT_NE(a, nullptr);
+  EXPECT_NE(b, nullptr);
+  stale.mask()->release();
+  fresh.mask()->release();
+}
+
+TEST_F(WorkstationModelTest, ATissueThatHasChangedIsNotTakenFromAnEarlierPreparation)
+{
+  WorkstationModel model{library::Library(folder)};
+  model.adopt(block("block"));
+  model.prepareNow();
+  const session::TouchTool tool;
+  const auto preparation = model.toolPreparation(tool);
+  model.setIso(700.0);
+  model.prepareNow();
+  model.toolPrepared(preparation({}));
+  EXPECT_FALSE(model.toolReady(tool));
+  model.toolPrepared(model.toolPreparation(tool)({}));
+  EXPECT_TRUE(model.toolReady(tool));
+  session::TouchTool wider = tool;
+  wider.burr.diameter = tool.burr.diameter + 1.0;
+  EXPECT_FALSE(model.toolReady(wider)) << "its points are not made";
+  const PreparedTool other = model.toolPreparation(wider)({});
+  EXPECT_FALSE(other.felt) << "felt once";
+  EXPECT_TRUE(other.shell);
+  wider.mode = session::TouchTool::Mode::ThreeDof;
+  EXPECT_TRUE(model.toolReady(wider)) << "needs no points";
+}
+
 // One after another they lead a copy of the case to the same dissection.
 TEST_F(WorkstationModelTest, RecordsEachSessionToAFileOfItsOwnUntilAnotherCaseIsOpen)
 {

@@ -62,6 +62,12 @@ DrillController::DrillController(presenters::WorkstationModel& model, ThreeDView
   , m_devices(devices)
   , m_driver(model, view, devices)
 {
+  connect(&m_preparation, &BackgroundWork::failed, this,
+          [this](const QString& why)
+          {
+            releaseTool();
+            emit statusMessage(why);
+          });
   m_frames.setInterval(kFrame);
   connect(&m_frames, &QTimer::timeout, this, &DrillController::frame);
   m_anew.setSingleShot(true);
@@ -233,6 +239,37 @@ void DrillController::bringHere()
   takeTool();
 }
 
+session::TouchTool DrillController::toolChosen() const
+{
+  session::TouchTool tool;
+  tool.burr = m_bar.burr();
+  if (m_tool == Tool::Pointer)
+  {
+    tool.burr.diameter = 2.0 * kPointerRadius;
+    tool.mode = session::TouchTool::Mode::ThreeDof; // its shaft must not collide
+  }
+  return tool;
+}
+
+void DrillController::prepareTool(const session::TouchTool& tool)
+{
+  if (m_preparation.busy()) // the tool chosen by then is looked at when it ends
+    return;
+  emit statusMessage(m_tool == Tool::Burr ? tr("Taking up the burr…")
+                                          : tr("Taking up the pointer…"));
+  m_preparation.start(
+      [this, make = m_model.toolPreparation(tool)](
+          const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        const auto done = std::make_shared<presenters::PreparedTool>(make(progress));
+        return [this, done]
+        {
+          m_model.toolPrepared(std::move(*done));
+          tissueCame();
+        };
+      });
+}
+
 bool DrillController::takeTool()
 {
   if (m_model.touching())
@@ -245,20 +282,17 @@ bool DrillController::takeTool()
     return false;
   }
   putAway(); // a session ended by a change of the tissue
-  emit statusMessage(m_tool == Tool::Burr ? tr("Taking up the burr…")
-                                          : tr("Taking up the pointer…"));
-  QApplication::setOverrideCursor(Qt::WaitCursor);
+  if (const session::TouchTool tool = toolChosen(); !m_model.toolReady(tool))
+  {
+    prepareTool(tool);
+    return false;
+  }
   QString why;
   try
   {
     session::TouchSession::Setup setup;
-    setup.tool.burr = m_bar.burr();
+    setup.tool = toolChosen();
     setup.cuts = m_tool == Tool::Burr;
-    if (m_tool == Tool::Pointer)
-    {
-      setup.tool.burr.diameter = 2.0 * kPointerRadius;
-      setup.tool.mode = session::TouchTool::Mode::ThreeDof; // its shaft must not collide
-    }
     haptics::Device& device = m_driver.prepare(setup);
     m_model.startTouch(device, setup);
   }
@@ -270,7 +304,6 @@ bool DrillController::takeTool()
   {
     why = tr("The tool cannot be taken up: the computer has no room for it. Close other programs.");
   }
-  QApplication::restoreOverrideCursor();
   if (!why.isEmpty())
   {
     releaseTool();

@@ -7,6 +7,7 @@
 #include <QObject>
 #include <QTimer>
 
+#include "BackgroundWork.h"
 #include "ToolDriver.h"
 #include "petrous/Session/StallWatch.h"
 
@@ -63,6 +64,8 @@ private:
   void putAway();
   void restartTool();
   void takeAtPointer();
+  session::TouchTool toolChosen() const;
+  void prepareTool(const session::TouchTool& tool); // then it is taken up
   void applyBar();
   void deviceCame();
   void frame();
@@ -80,6 +83,7 @@ private:
   DrillBar& m_bar;
   ActiveDeviceController& m_devices;
   ToolDriver m_driver;
+  BackgroundWork m_preparation;         // of the tool
   std::optional<Eigen::Vector3d> m_tip; // last one probed
   QTimer m_frames;
   QTimer m_anew;

@@ -89,11 +89,42 @@ TEST_F(Drill, TheSpaceBarDrillsWithoutAMouse)
   leave();
   QTest::keyClick(&view(), Qt::Key_D);
   QTest::keyPress(&view(), Qt::Key_Space);
+  EXPECT_TRUE(waitFor([this] { return window().model().drilling(); }));
   QTest::qWait(500);
   QTest::keyRelease(&view(), Qt::Key_Space);
   EXPECT_TRUE(strokeEnds());
   ASSERT_EQ(window().model().value().dissection.strokes().size(), 1u);
   EXPECT_GT(window().model().value().removedVolume(), 0.0);
+}
+
+// The burr is made in another thread; who presses before it comes need not press again.
+TEST_F(Drill, ABurrThatComesUnderTheHeldButtonDrills)
+{
+  saveBall("ball");
+  openWindow();
+  const QPoint middle = view().rect().center();
+  QTest::mouseMove(&view(), middle);
+  QTest::keyClick(&view(), Qt::Key_D);
+  EXPECT_FALSE(window().model().touching()) << "the window waited for it";
+  QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, middle);
+  EXPECT_TRUE(waitFor([this] { return window().model().drilling(); }));
+  QTest::qWait(300);
+  QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, middle);
+  EXPECT_TRUE(strokeEnds());
+  EXPECT_EQ(window().model().value().dissection.strokes().size(), 1U);
+
+  // Released before it came: it comes and does not drill.
+  auto* size = window().findChild<QDoubleSpinBox*>("burrDiameter");
+  ASSERT_NE(size, nullptr);
+  size->setValue(5.5);
+  ASSERT_TRUE(waitFor([this] { return !window().model().touching(); }));
+  QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, middle);
+  QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, middle);
+  QTest::mouseMove(&view(), middle + QPoint(1, 0));
+  EXPECT_TRUE(waitFor([this] { return window().model().touching(); }));
+  QTest::qWait(200);
+  EXPECT_FALSE(window().model().drilling());
+  EXPECT_EQ(window().model().value().dissection.strokes().size(), 1U);
 }
 
 TEST_F(Drill, TheStatusBarKnowsOfAStrokeThatIsOpen)
@@ -371,7 +402,8 @@ TEST_F(Drill, SaysWhereTheBurrIsAwaitedIfThePointerIsElsewhere)
   saveBall("ball");
   openWindow();
   QTest::keyClick(&view(), Qt::Key_D);
-  EXPECT_TRUE(window().statusBar()->currentMessage().contains("3D view"))
+  EXPECT_TRUE(waitFor([this]
+                      { return window().statusBar()->currentMessage().contains("3D view"); }))
       << window().statusBar()->currentMessage().toStdString();
   EXPECT_FALSE(view().display().tool());
 }

@@ -163,7 +163,8 @@ void vtkPetrousToolInteraction::SetEnabled(int enabling)
 
 void vtkPetrousToolInteraction::SetPointer(PointerToolController* aim, PointerDevice* device)
 {
-  this->Unpress();
+  if (this->Device || !device) // a tool that comes under a held button is pressed: PointAgain
+    this->Unpress();
   this->PedalHeld = false;
   this->Aim = aim;
   this->Device = device;
@@ -522,8 +523,10 @@ void vtkPetrousToolInteraction::Point()
 
 void vtkPetrousToolInteraction::PointAgain()
 {
-  if (this->From().Pointer)
+  if (this->From().Pointer || this->Pressed())
     this->Point();
+  if (this->Pressed())
+    this->Press();
 }
 
 void vtkPetrousToolInteraction::Press()

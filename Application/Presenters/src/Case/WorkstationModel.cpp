@@ -403,6 +403,7 @@ void WorkstationModel::forgetTissue()
   stopTouch();
   forgetReader();
   m_scene.reset();
+  m_felt.reset();
   m_session.reset();
   ++m_tissue;
 }
@@ -446,6 +447,60 @@ std::optional<Eigen::Vector3d> WorkstationModel::surfaceAt(const interaction::Pi
   return hit ? std::optional<Eigen::Vector3d>(line.at(*hit)) : std::nullopt;
 }
 
+namespace
+{
+
+bool needsShell(const session::TouchTool& tool)
+{
+  return tool.mode == session::TouchTool::Mode::SixDof;
+}
+
+} // namespace
+
+bool WorkstationModel::toolReady(const session::TouchTool& tool) const
+{
+  if (!m_case || !(m_scene || m_felt))
+    return false;
+  return !needsShell(tool) ||
+         m_shells.count({tool.burr.diameter, m_case->ct.geometry.minSpacing()}) > 0;
+}
+
+std::function<PreparedTool(const core::Progress&)>
+WorkstationModel::toolPreparation(const session::TouchTool& tool)
+{
+  PreparedTool wanted;
+  wanted.burr = tool.burr;
+  wanted.voxel = m_case->ct.geometry.minSpacing();
+  wanted.tissue = m_tissue;
+  const bool shell = needsShell(tool) && m_shells.count({tool.burr.diameter, wanted.voxel}) == 0;
+  std::shared_ptr<const scene::Case> value;
+  std::optional<volume::TissueField> field;
+  if (!m_scene && !m_felt)
+  {
+    value = std::make_shared<const scene::Case>(*m_case);
+    field = session().field();
+  }
+  return
+      [wanted, shell, value, field, geometry = m_case->ct.geometry](const core::Progress& progress)
+  {
+    PreparedTool done = wanted;
+    if (value)
+      done.felt = session::feltTissue(*value, *field, progress.part(0.0, 0.8));
+    progress.check("making the tool");
+    if (shell)
+      done.shell = session::shellOf(wanted.burr, geometry);
+    return done;
+  };
+}
+
+void WorkstationModel::toolPrepared(PreparedTool done)
+{
+  if (done.shell)
+    m_shells[{done.burr.diameter, done.voxel}] = done.shell;
+  if (done.felt && done.tissue == m_tissue && m_case && !m_scene)
+    m_felt = std::move(done.felt);
+}
+
 void WorkstationModel::startTouch(haptics::Device& device,
                                   const session::TouchSession::Setup& setup)
 {
@@ -462,8 +517,17 @@ void WorkstationModel::startTouch(haptics::Device& device,
   if (!m_scene)
   {
     m_reader.reset();
-    m_scene = std::make_unique<session::TouchScene>(*m_case, session());
+    m_scene = m_felt ? std::make_unique<session::TouchScene>(*m_case, session(), std::move(*m_felt))
+                     : std::make_unique<session::TouchScene>(*m_case, session());
+    m_felt.reset();
     m_session.reset();
+  }
+  if (needsShell(setup.tool))
+  {
+    auto& shell = m_shells[{setup.tool.burr.diameter, m_case->ct.geometry.minSpacing()}];
+    if (!shell)
+      shell = session::shellOf(setup.tool.burr, m_case->ct.geometry);
+    m_scene->giveShell(setup.tool.burr, shell);
   }
   session::TouchSession::Setup whole = setup;
   whole.catalogues = dissection::Catalogues::in(m_library.folder());

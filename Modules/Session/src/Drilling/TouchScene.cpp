@@ -20,6 +20,31 @@ haptics::ProxyParameters couplingFor(TouchTool::Mode mode, std::optional<double>
   return ConstantThrust::coupling(*thrust);
 }
 
+FeltTissue feltTissue(const scene::Case& value, const volume::TissueField& whole,
+                      const core::Progress& progress, std::uint64_t firstState)
+{
+  progress.check("feeling the tissue");
+  FeltTissue felt;
+  felt.mask = std::make_shared<volume::PublishedMask>(value.dissection.mask(), firstState);
+  scene::TouchTissue tissue = scene::touchTissue(value, whole, progress);
+  std::vector<haptics::SoftStructure> soft;
+  for (scene::SoftSolid& solid : tissue.soft)
+    soft.push_back({std::move(solid.depth), solid.stiffness});
+  felt.field = std::make_shared<const haptics::HapticField>(
+      tissue.rigid, felt.mask, std::move(soft),
+      haptics::KeptField{tissue.key ? value.derived : nullptr, tissue.key.value_or("")});
+  return felt;
+}
+
+std::shared_ptr<const haptics::PointShell> shellOf(const dissection::Burr& burr,
+                                                   const core::GridGeometry& geometry)
+{
+  haptics::BurrShape shape;
+  shape.radius = 0.5 * burr.diameter;
+  return std::make_shared<const haptics::PointShell>(
+      haptics::makeBurrShell(shape, geometry.minSpacing()));
+}
+
 TouchScene::TouchScene(scene::Case& value, const core::Progress& progress, std::uint64_t firstState,
                        bool regional)
   : TouchScene(value, DrillSession(value, {}, regional), progress, firstState)
@@ -28,18 +53,25 @@ TouchScene::TouchScene(scene::Case& value, const core::Progress& progress, std::
 
 TouchScene::TouchScene(scene::Case& value, const DrillSession& drill,
                        const core::Progress& progress, std::uint64_t firstState)
-  : m_case(value)
-  , m_drill(drill)
-  , m_mask(std::make_shared<volume::PublishedMask>(value.dissection.mask(), firstState))
+  : TouchScene(value, drill, feltTissue(value, drill.field(), progress, firstState))
 {
-  progress.check("feeling the tissue");
-  scene::TouchTissue tissue = scene::touchTissue(value, m_drill.field(), progress);
-  std::vector<haptics::SoftStructure> soft;
-  for (scene::SoftSolid& solid : tissue.soft)
-    soft.push_back({std::move(solid.depth), solid.stiffness});
-  m_field = std::make_shared<const haptics::HapticField>(
-      tissue.rigid, m_mask, std::move(soft),
-      haptics::KeptField{tissue.key ? value.derived : nullptr, tissue.key.value_or("")});
+}
+
+TouchScene::TouchScene(scene::Case& value, const DrillSession& drill, FeltTissue felt)
+  : m_case(value)
+  , m_drill(value, drill)
+  , m_mask(std::move(felt.mask))
+  , m_field(std::move(felt.field))
+{
+  const volume::CutMask& mask = value.dissection.mask();
+  if (!sameGrid(m_mask->geometry(), mask.geometry()))
+    throw core::InvalidParameter("touch: the tissue is of another case");
+  std::vector<std::size_t> changed;
+  for (std::size_t n = 0; n < mask.brickCount(); ++n)
+    if (m_mask->brick(n) != mask.brick(n))
+      changed.push_back(n);
+  if (!changed.empty())
+    publish(changed);
 }
 
 std::shared_ptr<const core::LockedMemory> TouchScene::lockedMemory() const
@@ -60,13 +92,16 @@ void TouchScene::publish(const std::vector<std::size_t>& bricks)
 
 const haptics::PointShell& TouchScene::shellOf(const TouchTool& tool) const
 {
-  const auto known = m_shells.find(tool.burr.diameter);
-  if (known != m_shells.end())
-    return known->second;
-  haptics::BurrShape shape;
-  shape.radius = 0.5 * tool.burr.diameter;
-  return m_shells.emplace(tool.burr.diameter, haptics::makeBurrShell(shape, m_field->voxel()))
-      .first->second;
+  auto& known = m_shells[tool.burr.diameter];
+  if (!known)
+    known = session::shellOf(tool.burr, m_field->geometry());
+  return *known;
+}
+
+void TouchScene::giveShell(const dissection::Burr& burr,
+                           std::shared_ptr<const haptics::PointShell> shell)
+{
+  m_shells[burr.diameter] = std::move(shell);
 }
 
 std::unique_ptr<haptics::Proxy> TouchScene::proxyOf(const TouchTool& tool) const

@@ -2,9 +2,11 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "petrous/Interaction/PickRay.h"
@@ -62,6 +64,17 @@ struct PreparedCase
   LeftOut leftOut;          ///< missing or damaged
   std::uint64_t parts = 0;  // of the model when it was copied
   std::uint64_t tissue = 0; // likewise
+};
+
+/// What a tool needs before it can be taken up at once: made in any thread from a copy of the case,
+/// see WorkstationModel::toolPreparation.
+struct PreparedTool
+{
+  std::optional<session::FeltTissue> felt;
+  dissection::Burr burr;
+  std::shared_ptr<const haptics::PointShell> shell; ///< nullptr: the tool needs none
+  double voxel = 0.0;                               // mm, for which it was made
+  std::uint64_t tissue = 0;                         // of the model when it was copied
 };
 
 /// The thickness of bone over a structure, measured in any thread from a copy of the case, see
@@ -315,8 +328,16 @@ public:
   /// The same as a point, patient LPS mm.
   std::optional<Eigen::Vector3d> surfaceAt(const interaction::PickRay& line);
 
-  /// Starts a touch session, ending the present one first. Reads the CT on first use (about a
-  /// second for 512^3). The device must outlive the session. Throws as TouchSession does.
+  /// Whether `startTouch` takes this tool up at once; otherwise it does what `toolPreparation` does
+  /// first.
+  bool toolReady(const session::TouchTool& tool) const;
+  /// For another thread; the case must be ready.
+  std::function<PreparedTool(const core::Progress&)>
+  toolPreparation(const session::TouchTool& tool);
+  /// Kept for `startTouch`, as far as the tissue is still the same.
+  void toolPrepared(PreparedTool done);
+  /// Starts a touch session, ending the present one first. The device must outlive the session.
+  /// Throws as TouchSession does.
   void startTouch(haptics::Device& device, const session::TouchSession::Setup& setup);
   bool touching() const noexcept { return m_touch != nullptr; }
   /// For operations that do not change the tissue; nullptr without a session. Another case, another
@@ -406,6 +427,9 @@ private:
   std::optional<session::DrillSession> m_session; ///< made on demand, until there is m_scene
   std::shared_ptr<JournalThread> m_journal;       ///< shared with the removal thread
   std::optional<library::SavedState> m_saved;     ///< none before the case is in the library
+  std::optional<session::FeltTissue> m_felt;      ///< for m_scene
+  std::map<std::pair<double, double>, std::shared_ptr<const haptics::PointShell>>
+      m_shells; ///< by diameter and voxel, mm
   std::unique_ptr<session::TouchScene> m_scene;
   std::unique_ptr<session::TouchSession> m_touch; ///< after m_scene, which it uses
   std::unique_ptr<PointProbe> m_reader;           ///< made on demand; likewise

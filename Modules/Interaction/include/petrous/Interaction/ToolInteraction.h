@@ -71,7 +71,8 @@ public:
   vtkPetrousToolInteraction(const vtkPetrousToolInteraction&) = delete;
   void operator=(const vtkPetrousToolInteraction&) = delete;
 
-  /// Without a device, input is taken and no tool follows it. Stops the drill; the freeze key stays
+  /// Without a device, input is taken and no tool follows it. Stops the drill, unless it is the
+  /// first tool that comes while the button is held, which PointAgain presses; the freeze key stays
   /// held.
   void SetPointer(petrous::interaction::PointerToolController* aim,
                   petrous::interaction::PointerDevice* device);
@@ -114,7 +115,8 @@ public:
   /// pointer is elsewhere.
   const petrous::interaction::PickRay& GetPickRay() const { return this->Ray; }
 
-  /// Aims the tool at the pointer, if it is over the window, without waiting for its next move.
+  /// Aims the tool at the pointer, if it is over the window, without waiting for its next move, and
+  /// presses it if button or key are held.
   void PointAgain();
 
   /// Sets the application's own parameters (gains, buttons, pause); throws InvalidParameter.

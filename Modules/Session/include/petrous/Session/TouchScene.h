@@ -35,6 +35,26 @@ struct TouchTool
 /// device's displacement.
 haptics::ProxyParameters couplingFor(TouchTool::Mode mode, std::optional<double> thrust) noexcept;
 
+/// What is felt of a case, whatever the tool: the part of a TouchScene that takes long.
+struct FeltTissue
+{
+  std::shared_ptr<volume::PublishedMask> mask;
+  std::shared_ptr<const haptics::HapticField> field;
+};
+
+/// Reads the CT once (about a second for 512^3), and computes the distance fields of soft
+/// structures (some seconds each). `whole` is the case's scene::tissueField. For a thread of its
+/// own with a copy of the case: what is drilled meanwhile is taken over by TouchScene. `firstState`
+/// is the number of the mask's state as seen by the servo: a replay continues the recorded
+/// numbering. Throws CancelledError.
+FeltTissue feltTissue(const scene::Case& value, const volume::TissueField& whole,
+                      const core::Progress& progress = {}, std::uint64_t firstState = 0);
+
+/// Burr, shaft and handpiece as points for the voxels of a case: up to a second. Throws
+/// InvalidParameter.
+std::shared_ptr<const haptics::PointShell> shellOf(const dissection::Burr& burr,
+                                                   const core::GridGeometry& geometry);
+
 /// A case prepared for touch: its tissue field as sampled by a servo, and the mask as seen by the
 /// servo. Made once for a case and its touchable structures; tools come and go.
 ///
@@ -43,15 +63,17 @@ haptics::ProxyParameters couplingFor(TouchTool::Mode mode, std::optional<double>
 class TouchScene
 {
 public:
-  /// Reads the CT once (about a second for 512^3), and computes the distance fields of soft
-  /// structures. `firstState` is the number of the mask's state as seen by the servo: a replay
-  /// continues the recorded numbering. regional: see DrillSession. Throws CancelledError.
+  /// By `feltTissue`, with its parameters. regional: see DrillSession. Throws CancelledError.
   explicit TouchScene(scene::Case& value, const core::Progress& progress = {},
                       std::uint64_t firstState = 0, bool regional = false);
 
   /// The same, reusing what is known of the case.
   TouchScene(scene::Case& value, const DrillSession& drill, const core::Progress& progress = {},
              std::uint64_t firstState = 0);
+
+  /// The same, with what was felt of the case, or of a copy with the same structures and threshold
+  /// on which less or more was drilled.
+  TouchScene(scene::Case& value, const DrillSession& drill, FeltTissue felt);
 
   DrillSession& drill() noexcept { return m_drill; }
   const std::shared_ptr<volume::PublishedMask>& mask() const noexcept { return m_mask; }
@@ -63,9 +85,10 @@ public:
   /// Publishes to the servo bricks changed by other means than drilling: undo, redo.
   void publish(const std::vector<std::size_t>& bricks);
 
-  /// Point shell of the tool for this scene's voxels, cached per burr (about a second on first
-  /// use). Throws InvalidParameter.
+  /// Point shell of the tool for this scene's voxels, kept per burr; made on first use, unless it
+  /// was given. Throws InvalidParameter.
   const haptics::PointShell& shellOf(const TouchTool& tool) const;
+  void giveShell(const dissection::Burr& burr, std::shared_ptr<const haptics::PointShell> shell);
 
   /// The tool's proxy. Throws InvalidParameter naming the first bad value.
   std::unique_ptr<haptics::Proxy> proxyOf(const TouchTool& tool) const;
@@ -102,7 +125,7 @@ private:
   std::shared_ptr<volume::PublishedMask> m_mask;
   std::shared_ptr<const haptics::HapticField> m_field;
   mutable std::weak_ptr<const core::LockedMemory> m_locked;
-  mutable std::map<double, haptics::PointShell> m_shells; // by diameter, mm
+  mutable std::map<double, std::shared_ptr<const haptics::PointShell>> m_shells; // by diameter, mm
 };
 
 } // namespace petrous::session

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <cmath>
 #include <cstring>
 
 namespace petrous::devices
@@ -36,6 +38,29 @@ std::string text(const unsigned char* bytes, std::size_t most)
   return {bytes, end};
 }
 
+constexpr double kOff = 0.1; // of a rotation's products of columns, a quaternion's norm
+
+// Right-handed, columns orthonormal to kOff.
+bool isRotation(const double m[3][3])
+{
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j <= i; ++j)
+    {
+      const double product = m[0][i] * m[0][j] + m[1][i] * m[1][j] + m[2][i] * m[2][j];
+      if (!(std::abs(product - (i == j ? 1.0 : 0.0)) < kOff))
+        return false;
+    }
+  const double determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                             m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+                             m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+  return determinant > 0.0;
+}
+
+bool finite(const double v[3])
+{
+  return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+}
+
 // Three columns of the rotation, then the translation.
 bool transform(const unsigned char* content, std::uint64_t size, TrackedPose& pose)
 {
@@ -45,7 +70,7 @@ bool transform(const unsigned char* content, std::uint64_t size, TrackedPose& po
     for (int row = 0; row < 3; ++row)
       (column < 3 ? pose.rotation[row][column] : pose.position[row]) =
           real(content + 4 * (3 * column + row));
-  return true;
+  return isRotation(pose.rotation) && finite(pose.position);
 }
 
 // Position, then a quaternion x, y, z, w, which may be left out.
@@ -58,16 +83,50 @@ bool position(const unsigned char* content, std::uint64_t size, TrackedPose& pos
     pose.position[i] = real(content + 4 * i);
   for (int i = 0; i < 4 && size >= 28; ++i)
     q[i] = real(content + 12 + 4 * i);
-  const double x = q[0];
-  const double y = q[1];
-  const double z = q[2];
-  const double w = q[3];
+  const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  if (!(std::abs(norm - 1.0) < kOff) || !finite(pose.position))
+    return false;
+  const double x = q[0] / norm;
+  const double y = q[1] / norm;
+  const double z = q[2] / norm;
+  const double w = q[3] / norm;
   const double matrix[3][3] = {
       {w * w + x * x - y * y - z * z, 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)},
       {2.0 * (x * y + w * z), w * w - x * x + y * y - z * z, 2.0 * (y * z - w * x)},
       {2.0 * (x * z - w * y), 2.0 * (y * z + w * x), w * w - x * x - y * y + z * z}};
   std::memcpy(pose.rotation, matrix, sizeof matrix);
   return true;
+}
+
+bool isWord(const std::string& value, const char* word)
+{
+  return std::equal(value.begin(), value.end(), word, word + std::strlen(word),
+                    [](unsigned char a, unsigned char b)
+                    { return std::toupper(a) == std::toupper(b); });
+}
+
+// Whether metadata say that the tracker does not see the tool: a count of entries, 8 bytes each
+// with the sizes of key and value, in `header`; keys and values in `content`.
+bool missingBy(const unsigned char* header, std::uint64_t headerSize, const unsigned char* content,
+               std::uint64_t size)
+{
+  const std::uint64_t count = headerSize >= 2 ? integer(header, 2) : 0;
+  bool missing = false;
+  for (std::uint64_t i = 0; i < count && 2 + 8 * (i + 1) <= headerSize; ++i)
+  {
+    const unsigned char* entry = header + 2 + 8 * i;
+    const std::uint64_t keySize = integer(entry, 2);
+    const std::uint64_t valueSize = integer(entry + 4, 4);
+    if (keySize + valueSize > size)
+      break;
+    const std::string key(content, content + keySize);
+    const std::string value(content + keySize, content + keySize + valueSize);
+    missing = missing || (key == "TransformStatus" && !isWord(value, "OK")) ||
+              (key == "TransformValid" && (isWord(value, "false") || value == "0"));
+    content += keySize + valueSize;
+    size -= keySize + valueSize;
+  }
+  return missing;
 }
 
 } // namespace
@@ -122,22 +181,27 @@ void OpenIgtLinkStream::take(const unsigned char* bytes, std::size_t count,
     const unsigned char* content = header + kHeader;
     std::uint64_t contentSize = size;
     bool good = integer(header + 50, 8) == checksum(content, length);
+    bool missing = false;
     if (good && version >= 2) // an extended header before, metadata behind
     {
       const std::uint64_t extended = size >= 12 ? integer(content, 2) : size + 1;
-      const std::uint64_t metadata =
-          size >= 12 ? integer(content + 2, 2) + integer(content + 4, 4) : 0;
+      const std::uint64_t metadataHeader = size >= 12 ? integer(content + 2, 2) : 0;
+      const std::uint64_t metadata = metadataHeader + (size >= 12 ? integer(content + 4, 4) : 0);
       good = extended >= 12 && extended + metadata <= size;
       if (good)
       {
+        const unsigned char* behind = content + (size - metadata);
+        missing =
+            missingBy(behind, metadataHeader, behind + metadataHeader, metadata - metadataHeader);
         content += extended;
         contentSize -= extended + metadata;
       }
     }
     TrackedPose pose{};
     pose.tool = text(header + 14, 20);
-    if (good && (type == "TRANSFORM" ? transform(content, contentSize, pose)
-                                     : position(content, contentSize, pose)))
+    pose.missing = missing;
+    if (good && (missing || (type == "TRANSFORM" ? transform(content, contentSize, pose)
+                                                 : position(content, contentSize, pose))))
       poses.push_back(pose);
     else
       ++m_refused;

@@ -12,13 +12,16 @@ namespace petrous::devices
 struct TrackedPose
 {
   std::string tool;      ///< the message's device name
+  bool missing;          ///< the tracker says that it does not see the tool; the rest is void
   double position[3];    ///< mm
   double rotation[3][3]; ///< tool to tracker
 };
 
 /// Takes the bytes of an OpenIGTLink stream (protocol versions 1 to 3: header of 58 bytes, big
 /// endian, CRC-64 of ECMA-182 over the body) and yields poses. Other messages are skipped, whatever
-/// their size; those with a wrong checksum or impossible size are counted and left out.
+/// their size; those with a wrong checksum, an impossible size or no rotation are counted and left
+/// out. A tool is missing by the metadata of version 2, as the PLUS Toolkit writes them:
+/// TransformValid, TransformStatus.
 class OpenIgtLinkStream
 {
 public:

@@ -35,6 +35,7 @@ using petrous::devices::TrackedPose;
 
 constexpr int kConnectFor = 2000;              // ms
 constexpr std::int64_t kUnseenFor = 500000000; // ns
+constexpr std::size_t kMostAtOnce = 64 << 20;  // bytes read in one step
 
 struct Axes
 {
@@ -56,6 +57,7 @@ struct Device
   std::string followed;
   std::int64_t seenAt = 0;
   bool seen = false;
+  bool missing = false; // by the tracker's last word
 };
 
 // "+x-z+y": right-handed, each axis once.
@@ -123,6 +125,7 @@ std::uint32_t openDevice(void* data, petrous_device_server* server)
   device.stream = OpenIgtLinkStream();
   device.seenAt = petrous_device_now();
   device.seen = false;
+  device.missing = false;
   petrous_device_description description{};
   description.name = "OpenIGTLink tracker";
   description.flags = PETROUS_SENSES_ROTATION;
@@ -147,26 +150,40 @@ std::uint32_t step(void* data, petrous_device_server* server, const petrous_devi
                    petrous_device_pose* pose)
 {
   Device& device = *static_cast<Device*>(data);
+  // All that is there: behind images, which are skipped, poses would grow old.
   unsigned char bytes[65536];
-  const ssize_t count = ::recv(device.socket, bytes, sizeof bytes, 0);
-  const std::int64_t now = petrous_device_now();
-  if (count == 0 || (count < 0 && errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR))
-    return explained(server, PETROUS_SERVER_NO_DEVICE, "the OpenIGTLink server has ended");
   device.poses.clear();
-  if (count > 0)
+  for (std::size_t read = 0; read < kMostAtOnce;)
+  {
+    const ssize_t count = ::recv(device.socket, bytes, sizeof bytes, 0);
+    if (count < 0 && errno == EINTR)
+      continue;
+    if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK))
+      break;
+    if (count <= 0)
+      return explained(server, PETROUS_SERVER_NO_DEVICE, "the OpenIGTLink server has ended");
     device.stream.take(bytes, static_cast<std::size_t>(count), device.poses);
+    read += static_cast<std::size_t>(count);
+  }
+  const std::int64_t now = petrous_device_now();
   for (const TrackedPose& tracked : device.poses)
   {
     if (device.followed.empty() && device.tool.empty())
       device.followed = tracked.tool;
     if (tracked.tool != (device.tool.empty() ? device.followed : device.tool))
       continue;
-    device.seenAt = now;
+    device.missing = tracked.missing;
     device.seen = true;
+    if (tracked.missing)
+    {
+      pose->time_ns = 0;
+      continue;
+    }
+    device.seenAt = now;
     convert(device, tracked, *pose);
     pose->time_ns = static_cast<std::uint64_t>(now);
   }
-  if (now - device.seenAt <= kUnseenFor)
+  if (!device.missing && now - device.seenAt <= kUnseenFor)
     return PETROUS_SERVER_READY;
   const std::string& tool = device.tool.empty() ? device.followed : device.tool;
   return explained(server, PETROUS_SERVER_FAULT,

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <arpa/inet.h>
@@ -56,13 +58,24 @@ void put(Bytes& bytes, std::size_t at, std::uint64_t value, int count)
 
 // The message with header version 2: an extended header before its content (sizes of it and of the
 // metadata, number of the message) and metadata behind.
-Bytes withMetadata(const Bytes& message)
+Bytes withMetadata(const Bytes& message,
+                   const std::vector<std::pair<std::string, std::string>>& entries = {{"k", "vv"}})
 {
-  const Bytes metadata = {0, 1, 0, 1, 0, 3, 0, 0, 0, 2, 'k', 'v', 'v'};
+  Bytes metadata(2 + 8 * entries.size());
+  put(metadata, 0, entries.size(), 2);
   Bytes extended(12);
   put(extended, 0, 12, 2);
-  put(extended, 2, 10, 2);
-  put(extended, 4, 3, 4);
+  put(extended, 2, metadata.size(), 2);
+  for (std::size_t i = 0; i < entries.size(); ++i)
+  {
+    const auto& [key, value] = entries[i];
+    put(metadata, 2 + 8 * i, key.size(), 2);
+    put(metadata, 4 + 8 * i, 3, 2);
+    put(metadata, 6 + 8 * i, value.size(), 4);
+    metadata.insert(metadata.end(), key.begin(), key.end());
+    metadata.insert(metadata.end(), value.begin(), value.end());
+  }
+  put(extended, 4, metadata.size() - 2 - 8 * entries.size(), 4);
   put(extended, 8, 7, 4);
   Bytes bytes = message;
   bytes.insert(bytes.begin() + 58, extended.begin(), extended.end());
@@ -70,6 +83,31 @@ Bytes withMetadata(const Bytes& message)
   put(bytes, 0, 2, 2);
   put(bytes, 42, bytes.size() - 58, 8);
   put(bytes, 50, OpenIgtLinkStream::checksum(bytes.data() + 58, bytes.size() - 58), 8);
+  return bytes;
+}
+
+// The message with these numbers, from number `first` of its body on.
+Bytes with(const Bytes& message, std::size_t first, const std::vector<float>& numbers)
+{
+  Bytes bytes = message;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &numbers[i], sizeof bits);
+    put(bytes, 58 + 4 * (first + i), bits, 4);
+  }
+  put(bytes, 50, OpenIgtLinkStream::checksum(bytes.data() + 58, bytes.size() - 58), 8);
+  return bytes;
+}
+
+// A message of another type with a body of zeros.
+Bytes image(std::size_t size)
+{
+  Bytes bytes(58 + size);
+  put(bytes, 0, 1, 2);
+  const std::string type = "IMAGE";
+  std::copy(type.begin(), type.end(), bytes.begin() + 2);
+  put(bytes, 42, size, 8);
   return bytes;
 }
 
@@ -204,6 +242,101 @@ TEST(OpenIgtLinkStream, LeavesOutEveryMessageWithAnAlteredByteInItsBody)
     EXPECT_EQ(stream.refused(), 1U);
     EXPECT_EQ(posesIn(stream, good).size(), 1U) << "the stream goes on";
   }
+}
+
+TEST(OpenIgtLinkStream, NormalisesAQuaternionAndRefusesOneThatIsNone)
+{
+  const Bytes message = bytesOf(kPosition);
+  OpenIgtLinkStream stream;
+  const auto scaled = [&](float scale)
+  {
+    const float half = 0.70710678F * scale;
+    return posesIn(stream, with(message, 3, {0.0F, 0.0F, half, half}));
+  };
+  for (const float scale : {0.92F, 1.0F, 1.08F, -1.0F})
+  {
+    const auto poses = scaled(scale);
+    ASSERT_EQ(poses.size(), 1U) << scale;
+    expectPose(poses.front(), 1.5, -2.5, 3.5);
+  }
+  EXPECT_EQ(stream.refused(), 0U);
+  for (const float scale : {0.0F, 0.7F, 2.0F, std::nanf("")})
+    EXPECT_TRUE(scaled(scale).empty()) << scale;
+  EXPECT_TRUE(posesIn(stream, with(message, 0, {std::nanf("")})).empty());
+  EXPECT_EQ(stream.refused(), 5U);
+}
+
+TEST(OpenIgtLinkStream, RefusesATransformThatIsNoRotation)
+{
+  const Bytes message = bytesOf(kTransform);
+  const std::vector<std::vector<float>> bad = {{0, 0, 0, 0, 0, 0, 0, 0, 0},    // none
+                                               {2, 0, 0, 0, 2, 0, 0, 0, 2},    // scaled
+                                               {1, 0, 0, 0, 1, 0, 0, 0, -1},   // left-handed
+                                               {1, 0, 0, 0.5F, 1, 0, 0, 0, 1}, // sheared
+                                               {std::nanf(""), 0, 0, 0, 1, 0, 0, 0, 1}};
+  OpenIgtLinkStream stream;
+  for (const auto& columns : bad)
+    EXPECT_TRUE(posesIn(stream, with(message, 0, columns)).empty());
+  EXPECT_EQ(stream.refused(), bad.size());
+  EXPECT_EQ(posesIn(stream, with(message, 0, {1, 0, 0, 0, 1, 0, 0, 0, 1})).size(), 1U);
+}
+
+TEST(OpenIgtLinkStream, TakesAToolAsMissingWhereItsMetadataSaySo)
+{
+  const Bytes message = bytesOf(kTransform);
+  OpenIgtLinkStream stream;
+  const auto missing = [&](const std::vector<std::pair<std::string, std::string>>& entries)
+  {
+    const auto poses = posesIn(stream, withMetadata(message, entries));
+    return poses.size() == 1U && poses.front().missing;
+  };
+  EXPECT_TRUE(missing({{"TransformValid", "False"}, {"TransformStatus", "MISSING"}}));
+  EXPECT_TRUE(missing({{"other", "x"}, {"TransformStatus", "OUT_OF_VIEW"}}));
+  EXPECT_TRUE(missing({{"TransformValid", "0"}}));
+  EXPECT_FALSE(missing({{"TransformValid", "True"}, {"TransformStatus", "OK"}}));
+  EXPECT_FALSE(missing({}));
+  EXPECT_EQ(stream.refused(), 0U);
+}
+
+TEST(TrackerServer, ShowsTheNewestPoseBehindImages)
+{
+  FakeTracker tracker;
+  ServedDevice device(tracker.options("images"));
+  const auto isAt = [&](double x)
+  { return eventually([&] { return device.read(steadySeconds()).pose.position.x() == x; }); };
+  tracker.send(with(bytesOf(kTransform), 9, {1.0F, 2.0F, 3.0F}));
+  ASSERT_TRUE(isAt(1.0));
+  Bytes burst;
+  for (int i = 2; i <= 5; ++i)
+  {
+    const Bytes picture = image(3000000);
+    const Bytes pose = with(bytesOf(kTransform), 9, {static_cast<float>(i), 2.0F, 3.0F});
+    burst.insert(burst.end(), picture.begin(), picture.end());
+    burst.insert(burst.end(), pose.begin(), pose.end());
+  }
+  tracker.send(burst);
+  EXPECT_TRUE(isAt(5.0));
+}
+
+TEST(TrackerServer, SaysAtOnceThatTheTrackerReportsTheToolMissing)
+{
+  FakeTracker tracker;
+  ServedDevice device(tracker.options("missing"));
+  const auto sends = [&](const char* status, DeviceHealth health)
+  {
+    return eventually(
+        [&]
+        {
+          tracker.send(withMetadata(bytesOf(kTransform), {{"TransformStatus", status}}));
+          return healthOf(device) == health;
+        });
+  };
+  ASSERT_TRUE(sends("OK", DeviceHealth::Good));
+  EXPECT_TRUE(sends("MISSING", DeviceHealth::Faulty));
+  EXPECT_TRUE(eventually(
+      [&] { return device.status().fault.find("does not see 'Stylus'") != std::string::npos; }))
+      << device.status().fault;
+  EXPECT_TRUE(sends("OK", DeviceHealth::Good));
 }
 
 TEST(TrackerServer, IsAHandWithoutForcesInTheAxesItIsTold)

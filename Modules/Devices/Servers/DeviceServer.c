@@ -209,6 +209,9 @@ static void* supervise(void* argument)
 {
   struct petrous_device_server* server = argument;
   struct petrous_device_block* block = server->block;
+  /* Where Petrous itself started the server, its death is seen at once. */
+  const pid_t parent = getppid();
+  const int child = (uint32_t)parent == __atomic_load_n(&block->petrous_pid, __ATOMIC_RELAXED);
   uint64_t beat = 0;
   int64_t heard_ns = petrous_device_now();
   int64_t ended_ns = 0;
@@ -219,7 +222,7 @@ static void* supervise(void* argument)
     if (petrous != beat)
       heard_ns = now;
     beat = petrous;
-    if (asked_to_end || now - heard_ns > alone_ns ||
+    if (asked_to_end || now - heard_ns > alone_ns || (child && getppid() != parent) ||
         __atomic_load_n(&block->petrous_state, __ATOMIC_ACQUIRE) != PETROUS_RUNNING)
       __atomic_store_n(&server->ending, 1, __ATOMIC_RELEASE);
     if (__atomic_load_n(&server->ending, __ATOMIC_ACQUIRE))
@@ -247,6 +250,16 @@ static void* supervise(void* argument)
     sleep_until(now + look_ns);
   }
   return NULL;
+}
+
+/* No force while the device waits for its calibration: `open` need not send any. */
+static void release(struct petrous_device_server* server)
+{
+  struct petrous_device_wrench zero;
+  struct petrous_device_pose pose;
+  memset(&zero, 0, sizeof zero);
+  memset(&pose, 0, sizeof pose);
+  server->driver->step(server->driver->device, server, &zero, &pose);
 }
 
 /* Steps until the device is lost or is to be closed; the state that ended it. */
@@ -290,6 +303,8 @@ static void serve(struct petrous_device_server* server)
       publish(server, state);
       __atomic_store_n(&server->open, 1, __ATOMIC_RELEASE);
       state = run(server);
+      if (state == PETROUS_SERVER_STARTING && !driver->own_thread)
+        release(server);
       __atomic_store_n(&server->open, 0, __ATOMIC_RELEASE);
     }
     if (__atomic_load_n(&server->ending, __ATOMIC_ACQUIRE))

@@ -43,7 +43,8 @@ extern "C"
     /* Once per tick: drives the motors with `wrench`, which is within the limits, and reads the
      * pose with its time. Returns
      *   READY      the pose is valid, or `time_ns` is still 0: no new one
-     *   STARTING   calibration was lost: open is called again (not from an own thread)
+     *   STARTING   calibration was lost: after one more step with zero, open is called again (not
+     *              from an own thread)
      *   FAULT      no force is possible (emergency switch, hot motors); step goes on with zero
      *   NO_DEVICE  unplugged: close, then open again */
     uint32_t (*step)(void* device, struct petrous_device_server* server,
@@ -57,8 +58,8 @@ extern "C"
     int own_thread;
   };
 
-  /* Serves until Petrous closes, has been silent for 5 s, or a signal asks to end. Returns the exit
-   * status of the server. One server per process. */
+  /* Serves until Petrous closes, has died, has been silent for 5 s, or a signal asks to end.
+   * Returns the exit status of the server. One server per process. */
   int petrous_device_serve(const struct petrous_device_driver* driver, const char* block_name);
 
   /* From open. */

@@ -48,6 +48,7 @@ struct DhdApi
   int (*getPose)(double* x, double* y, double* z, double matrix[3][3], char id) = nullptr;
   int (*setForceAndTorque)(double fx, double fy, double fz, double tx, double ty, double tz,
                            char id) = nullptr;
+  int (*getSerialNumber)(unsigned short* number, char id) = nullptr; ///< not in every version
   // Of the expert API; not in every version.
   int (*enableExpertMode)() = nullptr;
   int (*disableExpertMode)() = nullptr;
@@ -71,6 +72,7 @@ struct DhdApi
     library.load("dhdGetButtonMask", getButtonMask);
     library.load("dhdGetPositionAndOrientationFrame", getPose);
     library.load("dhdSetForceAndTorque", setForceAndTorque);
+    library.load("dhdGetSerialNumber", getSerialNumber, false);
     library.load("dhdEnableExpertMode", enableExpertMode, false);
     library.load("dhdDisableExpertMode", disableExpertMode, false);
     library.load("dhdSetWatchdog", setWatchdog, false);

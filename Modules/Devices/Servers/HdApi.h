@@ -33,6 +33,7 @@ struct HdApi
     kButtons = 0x2000,
     kTransform = 0x2052, ///< 16 doubles, column-major, stylus to device
     kModelType = 0x2501,
+    kSerialNumber = 0x2504,
     kCalibrationStyle = 0x2555,
     kMaxStiffness = 0x2602, ///< N/mm
     kMaxForce = 0x2603,     ///< N

@@ -56,6 +56,7 @@ struct Device
   bool senses = false;  // rotation
   bool torques = false; // active wrist
   int steps = 0;
+  bool userSwitchedOff = false; // by the button or the dead man's switch
   std::int64_t enabledAt = 0;
   std::uint32_t state = PETROUS_SERVER_NO_DEVICE; // by the last look
 };
@@ -94,45 +95,64 @@ const char* whyForceIsOff(int cause)
   }
 }
 
-// The state by dhdGetStatus, with a message unless READY.
+void setZero(const DhdApi& api)
+{
+  api.setForceAndTorque(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, kFirst);
+}
+
+// The motors hold the last force until another comes, also those of a device that has lost its
+// calibration.
+void setOff(const DhdApi& api)
+{
+  setZero(api);
+  api.enableForce(0, kFirst);
+}
+
+// The state by dhdGetStatus, with a message unless READY; then the motors have no force.
 std::uint32_t look(Device& device, petrous_device_server* server)
 {
   int status[DhdApi::kStatusRoom] = {};
   if (device.api.getStatus(status, kFirst) < 0 || !status[DhdApi::kConnected])
   {
     petrous_device_explain(server, "it was unplugged or switched off");
+    setOff(device.api);
     return PETROUS_SERVER_NO_DEVICE;
   }
   if (!status[DhdApi::kPower])
   {
     petrous_device_explain(server, "it has no power: switch it on");
+    setOff(device.api);
     return PETROUS_SERVER_FAULT;
   }
   if (status[DhdApi::kError])
   {
     petrous_device_explain(server, "the device reports an error: switch it off and on");
+    setOff(device.api);
     return PETROUS_SERVER_FAULT;
   }
   if (!status[DhdApi::kReset])
   {
     petrous_device_explain(server, "it is not calibrated: run HapticInit of the SDK; a Falcon's "
                                    "grip is pulled out and pushed in once");
+    setOff(device.api);
     return PETROUS_SERVER_STARTING;
   }
   if (!status[DhdApi::kForce])
   {
     const int cause = status[DhdApi::kForceOffCause];
     petrous_device_explain(server, whyForceIsOff(cause));
+    setZero(device.api); // they are off already; switching them off anew would hide the cause
+    device.userSwitchedOff = cause == DhdApi::kButton || cause == DhdApi::kDeadman;
     const std::int64_t now = petrous_device_now();
     // Whoever pressed the button or let go of the switch decides when the forces return.
-    if (cause != DhdApi::kButton && cause != DhdApi::kDeadman &&
-        now - device.enabledAt > kEnableEvery)
+    if (!device.userSwitchedOff && now - device.enabledAt > kEnableEvery)
     {
       device.enabledAt = now;
       device.api.enableForce(1, kFirst);
     }
     return PETROUS_SERVER_FAULT;
   }
+  device.userSwitchedOff = false;
   return PETROUS_SERVER_READY;
 }
 
@@ -143,7 +163,10 @@ void describe(Device& device, petrous_device_server* server)
   const Model model = modelOf(name);
   device.senses = device.api.hasWrist(kFirst);
   device.torques = device.api.hasActiveWrist(kFirst);
-  const std::string title = name == "Force Dimension device" ? name : "Force Dimension " + name;
+  std::string title = name == "Force Dimension device" ? name : "Force Dimension " + name;
+  unsigned short number = 0;
+  if (device.api.getSerialNumber && device.api.getSerialNumber(&number, kFirst) >= 0 && number != 0)
+    title += " " + std::to_string(number);
   petrous_device_description description{};
   description.name = title.c_str();
   description.flags = PETROUS_GIVES_FORCE;
@@ -201,12 +224,12 @@ std::uint32_t openDevice(void* data, petrous_device_server* server)
       api.emulateButton(1, kFirst); // closing the gripper is button 0
     setWatchdog(api);
   }
+  setZero(api); // before anything enables the motors
   device.state = look(device, server);
   if (device.state != PETROUS_SERVER_FAULT && device.state != PETROUS_SERVER_READY)
     return device.state;
-  // Motors start at zero; forces that are off are reported by the steps.
-  api.setForceAndTorque(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, kFirst);
-  if (api.enableForce(1, kFirst) < 0)
+  // Forces that are off are reported by the steps.
+  if (!device.userSwitchedOff && api.enableForce(1, kFirst) < 0)
   {
     petrous_device_explain(server, ("its forces cannot be enabled: " + lastError(device)).c_str());
     return PETROUS_SERVER_NO_DEVICE;
@@ -263,8 +286,7 @@ void closeDevice(void* data)
   Device& device = *static_cast<Device*>(data);
   if (!device.open)
     return;
-  device.api.setForceAndTorque(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, kFirst);
-  device.api.enableForce(0, kFirst);
+  setOff(device.api);
   device.api.setBrakes(1, kFirst);
   device.api.close(kFirst);
   device.open = false;

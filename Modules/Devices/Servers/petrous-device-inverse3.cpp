@@ -2,8 +2,9 @@
 // Inverse service: a WebSocket on this machine that answers each message with the state of all
 // devices, as JSON. Versions 3.1 to 3.5 of its format.
 //
-//   petrous-device-inverse3 [--url URL] [--max-force N] [--max-stiffness N/MM] BLOCK
+//   petrous-device-inverse3 [--url URL] [--device ID] [--max-force N] [--max-stiffness N/MM] BLOCK
 //
+// --device is the service's id of an Inverse3; without it the first that is seen, from then on.
 // The service's axes are x right, y forward, z up, right-handed, metres and newtons:
 // v_D = (x, z, -y); orientations R_D = P R P^T, with which a grip that points forward has its +z to
 // the wrist. Forces apply to the message's tick only, so that silence is zero there as well.
@@ -51,7 +52,11 @@ struct Device
   bool owed = false;  // an answer is
   std::int64_t answeredAt = 0;
 
-  std::string id;
+  std::string id;    // empty: the first
+  bool told = false; // the status below
+  bool powered = false;
+  bool calibrated = false;
+  bool ready = false;
   bool senses = false;        // has a grip
   bool vectorCommand = false; // format 3.5
   double rotation[4] = {1.0, 0.0, 0.0, 0.0};
@@ -76,6 +81,16 @@ const json& first(const json& object, const char* key)
   const json& list = at(object, key);
   static const json kNull;
   return list.is_array() && !list.empty() ? list.front() : kNull;
+}
+
+// Of the list's devices that with this id, or null.
+const json& withId(const json& object, const char* key, const std::string& id)
+{
+  static const json kNull;
+  for (const json& device : at(object, key))
+    if (at(device, "device_id") == id)
+      return device;
+  return kNull;
 }
 
 double number(const json& object, const char* key)
@@ -125,19 +140,30 @@ void sendForce(Device& device, const double force[3])
   device.socket->flush();
 }
 
-std::uint32_t stateOf(const json& inverse, petrous_device_server* server)
+// What the service does not tell is not so.
+std::uint32_t stateOf(Device& device, const json& inverse, petrous_device_server* server)
 {
   if (inverse.is_null())
     return explained(server, PETROUS_SERVER_NO_DEVICE,
-                     "no Inverse3 is connected to the Inverse service");
-  const json& status = at(inverse, "status");
-  if (!says(status, "power_supply", true))
+                     "its Inverse3 is not connected to the Inverse service");
+  // A message without changes may leave the status out.
+  if (const json& status = at(inverse, "status"); status.is_object())
+  {
+    device.told = true;
+    device.powered = says(status, "power_supply", false);
+    device.calibrated = says(status, "calibrated", false);
+    device.ready = says(status, "ready", false);
+  }
+  if (!device.told)
+    return explained(server, PETROUS_SERVER_STARTING,
+                     "the Inverse service does not tell whether it is ready");
+  if (!device.powered)
     return explained(server, PETROUS_SERVER_FAULT,
                      "it has no power supply: plug it in; its forces are off");
-  if (!says(status, "calibrated", true))
+  if (!device.calibrated)
     return explained(server, PETROUS_SERVER_STARTING,
                      "it is not calibrated: put the grip into the holder on its base");
-  if (!says(status, "ready", true))
+  if (!device.ready)
     return explained(server, PETROUS_SERVER_FAULT, "it is not ready; its forces are off");
   return PETROUS_SERVER_READY;
 }
@@ -184,16 +210,21 @@ std::uint32_t openDevice(void* data, petrous_device_server* server)
       return explained(server, PETROUS_SERVER_NO_DEVICE,
                        "the Inverse service does not answer: start haply-inverse-service");
     const json state = parsed(device);
-    const json& inverse = first(state, "inverse3");
+    const json& inverse =
+        device.id.empty() ? first(state, "inverse3") : withId(state, "inverse3", device.id);
     const json& id = at(inverse, "device_id");
     if (!id.is_string())
       return explained(server, PETROUS_SERVER_NO_DEVICE,
-                       "no Inverse3 is connected to the Inverse service");
+                       device.id.empty() ? "no Inverse3 is connected to the Inverse service"
+                                         : "its Inverse3 is not connected to the Inverse service");
     device.id = id.get<std::string>();
+    device.told = false;
     device.vectorCommand = !at(state, "session_id").is_null();
     device.senses = !gripOf(state).is_null();
     petrous_device_description description{};
-    description.name = device.senses ? "Haply Inverse3 with VerseGrip" : "Haply Inverse3";
+    const std::string name =
+        "Haply Inverse3 " + device.id + (device.senses ? " with VerseGrip" : "");
+    description.name = name.c_str();
     description.flags = PETROUS_GIVES_FORCE;
     if (device.senses)
       description.flags |= PETROUS_SENSES_ROTATION;
@@ -209,7 +240,7 @@ std::uint32_t openDevice(void* data, petrous_device_server* server)
                ? explained(server, PETROUS_SERVER_STARTING, "the Inverse service is slow to answer")
                : explained(server, PETROUS_SERVER_NO_DEVICE, "the Inverse service has ended");
   const json state = parsed(device);
-  return stateOf(first(state, "inverse3"), server);
+  return stateOf(device, withId(state, "inverse3", device.id), server);
 }
 
 void takeGrip(Device& device, const json& grip, petrous_device_pose& pose)
@@ -248,14 +279,14 @@ std::uint32_t step(void* data, petrous_device_server* server, const petrous_devi
                : std::uint32_t{PETROUS_SERVER_READY};
   }
   const json state = parsed(device);
-  const json& inverse = first(state, "inverse3");
+  const json& inverse = withId(state, "inverse3", device.id);
   const json& position = at(at(inverse, "state"), "cursor_position");
   pose->position[0] = 1000.0 * number(position, "x");
   pose->position[1] = 1000.0 * number(position, "z");
   pose->position[2] = -1000.0 * number(position, "y");
   pose->time_ns = static_cast<std::uint64_t>(device.answeredAt);
   takeGrip(device, gripOf(state), *pose);
-  return stateOf(inverse, server);
+  return stateOf(device, inverse, server);
 }
 
 void closeDevice(void* data)
@@ -281,12 +312,15 @@ int main(int argc, char** argv)
 {
   Device device;
   ServerArguments arguments;
-  if (!arguments.parse(
-          argc, argv,
-          {{"--url", "ws://127.0.0.1:10001"}, {"--max-force", "0"}, {"--max-stiffness", "0"}}) ||
+  if (!arguments.parse(argc, argv,
+                       {{"--url", "ws://127.0.0.1:10001"},
+                        {"--device", ""},
+                        {"--max-force", "0"},
+                        {"--max-stiffness", "0"}}) ||
       !arguments.number("--max-force", 0.0, 20.0, device.maxForce) ||
       !arguments.number("--max-stiffness", 0.0, 20.0, device.maxStiffness))
     return 2;
+  device.id = arguments.text("--device");
   device.url = QUrl(QString::fromStdString(arguments.text("--url")));
   QCoreApplication application(argc, argv);
   const petrous_device_driver driver = {

@@ -94,8 +94,11 @@ void describe(const Device& device, petrous_device_server* server)
   double stiffness = 0.0;
   api.getDoubles(HdApi::kMaxForce, &force);
   api.getDoubles(HdApi::kMaxStiffness, &stiffness);
+  const char* number = api.getString(HdApi::kSerialNumber);
   api.getError(); // a driver without these numbers leaves an error
-  const std::string title = model && *model ? model : "OpenHaptics device";
+  std::string title = model && *model ? model : "OpenHaptics device";
+  if (number && *number)
+    title += std::string(" ") + number;
   petrous_device_description description{};
   description.name = title.c_str();
   description.flags = PETROUS_SENSES_ROTATION | PETROUS_GIVES_FORCE;
@@ -220,11 +223,10 @@ std::uint32_t step(void* data, petrous_device_server* server, const petrous_devi
     return state;
   if (now < device.restUntil)
     return PETROUS_SERVER_FAULT; // the message stands
+  // The driver had a reason: they return when the user asks for them.
   if (off)
-  {
-    api.enable(HdApi::kForceOutput); // with zero force until the next step
-    return explained(server, PETROUS_SERVER_FAULT, "its forces are off: the driver disabled them");
-  }
+    return explained(server, PETROUS_SERVER_FAULT,
+                     "its forces are off: the driver disabled them; choose the device again");
   // The frames go on while the user puts the stylus into the inkwell.
   if (device.frames++ % kCalibrationEvery == 0)
     device.calibrated = calibration(device, server) == PETROUS_SERVER_READY;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <gtest/gtest.h>
@@ -206,6 +207,61 @@ TEST(TouchServer, ReadsTheColumnMajorTransformInMillimetres)
                         }));
 }
 
+TEST(ForceDimensionServer, LeavesForcesOffThatTheButtonSwitchedOffDuringCalibration)
+{
+  Bench bench(kForceDimension);
+  ServedDevice device(bench.options("fd-button"));
+  ASSERT_TRUE(becomes(device, DeviceHealth::Good));
+  bench->calibrated = 0;
+  ASSERT_TRUE(becomes(device, DeviceHealth::NotReady));
+  bench->forceOff = 1;
+  bench->calibrated = 1;
+  ASSERT_TRUE(becomes(device, DeviceHealth::Faulty));
+  EXPECT_TRUE(eventually(
+      [&] { return device.status().fault.find("press the force button") != std::string::npos; }))
+      << device.status().fault;
+  EXPECT_EQ(bench->enabled, 0);
+}
+
+TEST(VendorServerName, TellsDevicesOfOneModelApart)
+{
+  for (const Vendor& vendor : {kForceDimension, kTouch})
+  {
+    Bench bench(vendor);
+    bench->serial = 4711;
+    const ServedDevice device(bench.options("serial"));
+    EXPECT_NE(device.description().name.find(" 4711"), std::string::npos)
+        << device.description().name;
+  }
+}
+
+TEST(TouchServer, LeavesForcesOffThatTheDriverDisabledUntilItIsChosenAgain)
+{
+  Bench bench(kTouch);
+  {
+    ServedDevice device(bench.options("touch-disabled"));
+    ASSERT_TRUE(becomes(device, DeviceHealth::Good));
+    bench->enabled = 0;
+    ASSERT_TRUE(pushUntil(device, {1.0, 0.0, 0.0},
+                          [](const DeviceReading& reading)
+                          { return reading.health == DeviceHealth::Faulty; }));
+    const std::uint64_t since = bench->commands;
+    EXPECT_TRUE(pushUntil(device, {1.0, 0.0, 0.0},
+                          [&](const DeviceReading& reading)
+                          {
+                            EXPECT_EQ(reading.health, DeviceHealth::Faulty);
+                            return bench->commands > since + 200;
+                          }));
+    EXPECT_EQ(bench->enabled, 0);
+    EXPECT_TRUE(bench.forceIs(0.0, 0.0, 0.0));
+    EXPECT_TRUE(eventually(
+        [&] { return device.status().fault.find("choose the device again") != std::string::npos; }))
+        << device.status().fault;
+  }
+  ServedDevice again(bench.options("touch-again"));
+  EXPECT_TRUE(becomes(again, DeviceHealth::Good));
+}
+
 TEST(TouchServer, RestsWithHotMotors)
 {
   Bench bench(kTouch);
@@ -234,7 +290,7 @@ TEST(Inverse3Server, ConvertsAxesAndUnitsInBothFormatsOfTheService)
     bench->rotation[3] = kHalf;
     bench->buttons = 6;
     ServedDevice device(bench.options("inverse3-axes"));
-    EXPECT_EQ(device.description().name, "Haply Inverse3 with VerseGrip");
+    EXPECT_EQ(device.description().name, "Haply Inverse3 049D with VerseGrip");
     EXPECT_TRUE(pushUntil(device, {0.5, 1.0, 1.5},
                           [&](const DeviceReading& reading)
                           {
@@ -244,6 +300,57 @@ TEST(Inverse3Server, ConvertsAxesAndUnitsInBothFormatsOfTheService)
                           }))
         << format;
   }
+}
+
+TEST(Inverse3Server, StaysWithItsDeviceWhereThereAreTwo)
+{
+  Bench bench(kInverse3);
+  bench->place(0.01, 0.02, 0.03);
+  ServedDevice device(bench.options("inverse3-two"));
+  ASSERT_TRUE(becomes(device, DeviceHealth::Good));
+  bench->another = 1;
+  const std::uint64_t since = bench->commands;
+  EXPECT_TRUE(pushUntil(device, {0.5, 0.0, 0.0},
+                        [&](const DeviceReading& reading)
+                        {
+                          EXPECT_TRUE(isAt(reading, 10.0, 30.0, -20.0));
+                          return bench->commands > since + 50;
+                        }));
+  bench->plugged = 0;
+  EXPECT_TRUE(becomes(device, DeviceHealth::Disconnected)) << "not the other";
+  EXPECT_TRUE(
+      eventually([&] { return device.status().fault.find("its Inverse3") != std::string::npos; }))
+      << device.status().fault;
+  bench->plugged = 1;
+  EXPECT_TRUE(becomes(device, DeviceHealth::Good));
+  EXPECT_TRUE(isAt(device.read(steadySeconds()), 10.0, 30.0, -20.0));
+}
+
+TEST(Inverse3Server, IsNotReadyWhereTheServiceDoesNotSaySo)
+{
+  Bench bench(kInverse3);
+  bench->untold = 8;
+  ServedDevice::Options options = bench.options("inverse3-untold");
+  std::string advice;
+  options.waits = [&](const std::string& text)
+  {
+    advice = text;
+    bench->untold = 0;
+  };
+  ServedDevice device(options);
+  EXPECT_NE(advice.find("does not tell"), std::string::npos) << advice;
+  ASSERT_TRUE(becomes(device, DeviceHealth::Good));
+  for (const int bit : {1, 2, 4})
+  {
+    bench->untold = bit;
+    EXPECT_TRUE(eventually([&] { return healthOf(device) != DeviceHealth::Good; })) << bit;
+    bench->untold = 0;
+    EXPECT_TRUE(becomes(device, DeviceHealth::Good)) << bit;
+  }
+  bench->untold = 8;
+  const std::uint64_t since = bench->commands;
+  EXPECT_TRUE(eventually([&] { return bench->commands > since + 50; }));
+  EXPECT_EQ(healthOf(device), DeviceHealth::Good) << "a message without a status changes nothing";
 }
 
 TEST(Inverse3Server, NamesTheServiceThatDoesNotAnswer)
@@ -327,6 +434,29 @@ TEST_P(VendorServer, GivesNoForceWhileForcesAreSwitchedOffAndSaysWhy)
   EXPECT_TRUE(bench.forceIs(0.0, 0.0, 0.0));
   (*bench.operator->()).*vendor.forces = 1 - vendor.off;
   EXPECT_TRUE(becomes(device, DeviceHealth::Good));
+}
+
+TEST_P(VendorServer, ReleasesTheMotorsOfADeviceThatLostItsCalibrationInContact)
+{
+  Bench bench(GetParam());
+  ServedDevice device(bench.options("uncalibrated"));
+  const auto pushed = [&](const DeviceReading&) { return !bench.forceIs(0.0, 0.0, 0.0); };
+  ASSERT_TRUE(pushUntil(device, {1.0, 0.0, 0.0}, pushed));
+  bench->calibrated = 0;
+  ASSERT_TRUE(pushUntil(device, {1.0, 0.0, 0.0},
+                        [](const DeviceReading& reading)
+                        { return reading.health != DeviceHealth::Good; }));
+  EXPECT_TRUE(pushUntil(device, {1.0, 0.0, 0.0},
+                        [&](const DeviceReading&) { return bench.forceIs(0.0, 0.0, 0.0); }));
+  for (int i = 0; i < 200; ++i)
+  {
+    pushUntil(device, {1.0, 0.0, 0.0}, [](const DeviceReading&) { return true; });
+    EXPECT_TRUE(bench.forceIs(0.0, 0.0, 0.0));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  bench->calibrated = 1;
+  ASSERT_TRUE(becomes(device, DeviceHealth::Good));
+  EXPECT_TRUE(pushUntil(device, {1.0, 0.0, 0.0}, pushed));
 }
 
 TEST_P(VendorServer, GivesNoForceToAPoseThatIsNoNumber)
@@ -424,6 +554,38 @@ TEST_P(VendorServer, LimitsForcesByItselfAndStopsThemOnSilenceAndSigterm)
   EXPECT_TRUE(process.waitForEnd(20.0));
   EXPECT_EQ(strength(), 0.0);
   EXPECT_EQ(bench->enabled, 0);
+}
+
+// Its death is seen although wrenches and heartbeats still come, and although nobody has reaped it.
+TEST_P(VendorServer, TurnsTheMotorsOffAtOnceWhenPetrousIsKilled)
+{
+  Bench bench(GetParam());
+  DeviceBlock block("test-killed-" + std::to_string(::getpid()));
+  const std::vector<std::string> command = bench.command();
+  const pid_t petrous = ::fork();
+  if (petrous == 0)
+  {
+    __atomic_store_n(&block->petrous_pid, static_cast<std::uint32_t>(::getpid()), __ATOMIC_RELEASE);
+    ServerProcess process;
+    process.start(command, block.path());
+    for (;;)
+      ::pause();
+  }
+  ASSERT_GT(petrous, 0);
+  petrous_device_wrench wrench{};
+  const auto pushUnless = [&](bool off)
+  {
+    ++wrench.tick;
+    wrench.force[0] = 1.0;
+    petrous_device_put(&block->wrench_sequence, block->wrench, &wrench);
+    __atomic_add_fetch(&block->petrous_beat, 1, __ATOMIC_RELEASE);
+    return bench.forceIs(0.0, 0.0, 0.0) == off;
+  };
+  EXPECT_TRUE(eventually([&] { return pushUnless(false); }));
+  ::kill(petrous, SIGKILL);
+  EXPECT_TRUE(eventually([&] { return pushUnless(true) && bench->closed == 1; }));
+  EXPECT_EQ(bench->enabled, 0);
+  ::waitpid(petrous, nullptr, 0);
 }
 
 TEST_P(VendorServer, EndsOnSigtermEvenWhileTheSdkHangs)

@@ -32,6 +32,10 @@ struct StandInDevice
   std::atomic<int> error;    ///< of the next call that can report one, by the SDK's numbers
   std::atomic<int> stall;    ///< ms that each reading takes
   std::atomic<int> format;   ///< of a service's messages: 31 or 35
+  std::atomic<int> serial;   ///< number; 0: none is told
+  std::atomic<int> another;  ///< a second device, elsewhere, is listed first
+  std::atomic<int> untold;   ///< bits of a service's status that it leaves out: 1 calibrated,
+                             ///< 2 powered, 4 ready; 8: all of it
 
   // Seen by the stand-in.
   std::atomic<double> force[3];

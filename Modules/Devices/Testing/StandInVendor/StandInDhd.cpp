@@ -38,6 +38,11 @@ extern "C"
   {
     return "sigma.7";
   }
+  int dhdGetSerialNumber(unsigned short* number, char)
+  {
+    *number = static_cast<unsigned short>(standIn().serial);
+    return standIn().serial ? 0 : -1;
+  }
   bool dhdHasWrist(char)
   {
     return true;

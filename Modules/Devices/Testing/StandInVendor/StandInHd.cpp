@@ -2,6 +2,7 @@
 // servo thread of its own.
 
 #include <chrono>
+#include <string>
 
 #include "StandInDevice.h"
 
@@ -131,9 +132,11 @@ extern "C"
       standIn().force[i] = standIn().enabled && standIn().plugged ? values[i] : 0.0;
   }
 
-  const char* hdGetString(unsigned int)
+  const char* hdGetString(unsigned int name)
   {
-    return "Touch";
+    static std::string number;
+    number = standIn().serial ? std::to_string(standIn().serial) : "";
+    return name == 0x2504 ? number.c_str() : "Touch";
   }
   unsigned int hdCheckCalibration()
   {

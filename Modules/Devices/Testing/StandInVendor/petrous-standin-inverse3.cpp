@@ -2,6 +2,7 @@
 // each message with the state of all. Ends with its parent's pipe on stdin.
 
 #include <cmath>
+#include <utility>
 
 #include <QtCore/QCoreApplication>
 #include <QtCore/QSocketNotifier>
@@ -33,15 +34,26 @@ std::string state(bool inventory)
   const auto& p = standIn().position;
   const auto& q = standIn().rotation;
   message["inverse3"] = json::array();
-  if (standIn().plugged)
+  json status = {{"calibrated", standIn().calibrated != 0},
+                 {"power_supply", standIn().powered != 0},
+                 {"ready", true}};
+  if (standIn().another)
     message["inverse3"].push_back(
-        {{"device_id", "049D"},
-         {"state",
-          {{"cursor_position", {{"x", number(p[0])}, {"y", number(p[1])}, {"z", number(p[2])}}}}},
-         {"status",
-          {{"calibrated", standIn().calibrated != 0},
-           {"power_supply", standIn().powered != 0},
-           {"ready", true}}}});
+        {{"device_id", "0001"},
+         {"state", {{"cursor_position", {{"x", 0.09}, {"y", 0.09}, {"z", 0.09}}}}},
+         {"status", status}});
+  const int untold = standIn().untold;
+  for (const auto& [bit, key] : {std::pair(1, "calibrated"), {2, "power_supply"}, {4, "ready"}})
+    if ((untold & bit) != 0)
+      status.erase(key);
+  json device = {
+      {"device_id", "049D"},
+      {"state",
+       {{"cursor_position", {{"x", number(p[0])}, {"y", number(p[1])}, {"z", number(p[2])}}}}}};
+  if ((untold & 8) == 0)
+    device["status"] = status;
+  if (standIn().plugged)
+    message["inverse3"].push_back(device);
   message["wireless_verse_grip"] = {
       {{"device_id", "61548"},
        {"state",

@@ -1,6 +1,8 @@
 // Servers that do not do what they say: a service provider on DCMTK's low level, told how to fail;
 // and a storage provider of an implementation of its own (CTN).
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <csignal>
 #include <functional>
 #include <map>
@@ -19,6 +21,8 @@
 #include <openssl/ssl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <gtest/gtest.h>
@@ -28,6 +32,20 @@
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Network/DicomNode.h"
+
+namespace
+{
+
+std::atomic<int> g_syncDelay{0}; // ms for which each fsync takes longer: of a slow disk
+
+}
+
+extern "C" int fsync(int descriptor)
+{
+  if (const int delay = g_syncDelay)
+    std::this_thread::sleep_for(std::chrono::milliseconds(delay));
+  return static_cast<int>(::syscall(SYS_fsync, descriptor));
+}
 
 namespace petrous::network
 {
@@ -954,7 +972,7 @@ TEST_F(FaultyNode, ThatAnswersWithoutEndIsLeft)
   m_behaviour.answers = 100001;
   const FaultyServer server(m_behaviour);
   const NetworkError error = failure([&] { findStudies(server.node(), {m_study, {}}); });
-  EXPECT_EQ(error.reason, Reason::Protocol);
+  EXPECT_EQ(error.reason, Reason::TooMany);
   EXPECT_NE(std::string(error.what()).find("100000 times"), std::string::npos) << error.what();
 }
 
@@ -989,6 +1007,57 @@ TEST_F(FaultyNode, IsNotBlamedForAFullDisk)
     EXPECT_TRUE(fs::is_empty(folder)) << most;
   }
   std::signal(SIGXFSZ, ignored);
+}
+
+// Of what arrived until then a slow disk gets no more than it can write in a moment.
+TEST_F(FaultyNode, IsLeftSoonAlthoughTheDiskIsSlow)
+{
+  constexpr std::size_t kFiles = 50, kReceived = 45;
+  m_files = series("MANY", "P1", {}, static_cast<int>(kFiles));
+  m_behaviour.files = m_files;
+  const FaultyServer server(m_behaviour);
+  const auto token = std::make_shared<core::CancelToken>();
+  const fs::path folder = m_folder.path() / "back";
+  const core::Progress progress(
+      [&](double fraction, const std::string&)
+      {
+        if (fraction >= static_cast<double>(kReceived) / static_cast<double>(kFiles))
+          token->cancel();
+      },
+      token);
+  g_syncDelay = 300; // 13 s for all
+  EXPECT_THROW(retrieve(server.node(), m_study, {}, folder, progress), core::CancelledError);
+  g_syncDelay = 0;
+  const auto kept = static_cast<std::size_t>(
+      std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+  EXPECT_GT(kept, 0U);
+  EXPECT_LT(kept, kReceived / 2);
+  for (const auto& entry : fs::directory_iterator(folder))
+    EXPECT_EQ(entry.path().extension(), kInstanceEnding);
+  EXPECT_EQ(retrieve(server.node(), m_study, {}, folder).present, kept);
+}
+
+// What a killed program was receiving is a patient's.
+TEST_F(FaultyNode, PartsOfADeadProgramAreRemoved)
+{
+  const pid_t dead = ::fork();
+  if (dead == 0)
+    ::_exit(0);
+  ASSERT_GT(dead, 0);
+  ::waitpid(dead, nullptr, 0);
+  const fs::path folder = m_folder.path() / "back";
+  fs::create_directories(folder);
+  const std::string left = "part-" + std::to_string(dead) + "-3.tmp";
+  const std::string another = "part-" + std::to_string(::getppid()) + "-3.tmp";
+  const std::vector<std::string> others{another, "part-x-3.tmp", left + ".txt", "notes.tmp"};
+  std::ofstream(folder / left) << "a patient's";
+  for (const std::string& name : others)
+    std::ofstream(folder / name) << "mine";
+  const FaultyServer server(m_behaviour);
+  EXPECT_EQ(retrieve(server.node(), m_study, {}, folder).completed, m_files.size());
+  EXPECT_FALSE(fs::exists(folder / left));
+  for (const std::string& name : others)
+    EXPECT_TRUE(fs::exists(folder / name)) << name;
 }
 
 TEST_F(FaultyNode, WhatTheListenerThrowsArrivesAtTheCaller)

@@ -5,6 +5,8 @@
 #include <atomic>
 #include <cerrno>
 #include <condition_variable>
+#include <csignal>
+#include <cstdio>
 #include <deque>
 #include <functional>
 #include <limits>
@@ -156,7 +158,7 @@ void onFindAnswer(void* data, T_DIMSE_C_FindRQ*, int, T_DIMSE_C_FindRSP*, DcmDat
   try // nothing through DCMTK
   {
     if (++call.answers > kMaxAnswers)
-      throw NetworkError(Reason::Protocol,
+      throw NetworkError(Reason::TooMany,
                          place(call.association->node()) + ": answers a query more than " +
                              std::to_string(kMaxAnswers) + " times; narrow the search");
     if (answer)
@@ -630,10 +632,11 @@ public:
     {
       const std::lock_guard lock(m_mutex);
       m_ended = true;
+      m_end = Clock::now() + kLongestEnd;
     }
     m_changed.notify_all();
     if (m_thread.joinable())
-      m_thread.join(); // what was received is kept for the next time
+      m_thread.join(); // what was received is kept for the next time, as far as the disk keeps up
   }
   Keeper(const Keeper&) = delete;
   Keeper& operator=(const Keeper&) = delete;
@@ -650,15 +653,23 @@ public:
   }
 
   /// Waits until all are on the disk. Returns errno of the first that is not, or 0.
-  int settle()
+  int settle(const core::Progress& progress)
   {
+    constexpr std::chrono::milliseconds kStep(100);
     std::unique_lock lock(m_mutex);
-    m_changed.wait(lock, [this] { return m_waiting.empty() && !m_isAtWork; });
+    while (!m_changed.wait_for(lock, kStep, [this] { return m_waiting.empty() && !m_isAtWork; }))
+    {
+      lock.unlock();
+      progress.check("bringing to the disk");
+      lock.lock();
+    }
     return std::exchange(m_error, 0);
   }
 
 private:
   static constexpr std::size_t kMaxWaiting = 64;
+  /// For which a transfer that ended early is kept waiting by a slow disk.
+  static constexpr std::chrono::seconds kLongestEnd{2};
 
   static int sync(const fs::path& file)
   {
@@ -672,6 +683,7 @@ private:
 
   void run()
   {
+    bool isFolderSynced = true;
     std::unique_lock lock(m_mutex);
     for (;;)
     {
@@ -682,7 +694,7 @@ private:
       m_waiting.pop_front();
       m_isAtWork = true;
       const bool isLast = m_waiting.empty();
-      const bool failed = m_error != 0;
+      const bool failed = m_error != 0 || (m_ended && Clock::now() > m_end);
       lock.unlock();
       std::error_code fault;
       int error = failed ? EIO : sync(received);
@@ -693,8 +705,13 @@ private:
       }
       if (error != 0)
         fs::remove(received, fault);
-      else if (isLast)
+      else
+        isFolderSynced = false;
+      if (isLast && !isFolderSynced)
+      {
         core::syncFolder(m_folder);
+        isFolderSynced = true;
+      }
       lock.lock();
       m_error = m_error == 0 ? error : m_error;
       m_isAtWork = false;
@@ -709,8 +726,32 @@ private:
   int m_error = 0;
   bool m_isAtWork = false;
   bool m_ended = false;
+  Clock::time_point m_end{};
   std::thread m_thread;
 };
+
+// Files on their way, "part-PID-N.tmp"; those of a program that was killed hold a patient's data.
+fs::path partFile(const fs::path& folder, std::size_t n)
+{
+  return folder / ("part-" + std::to_string(::getpid()) + '-' + std::to_string(n) + ".tmp");
+}
+
+void removePartsOfTheDead(const fs::path& folder) noexcept
+{
+  std::error_code fault;
+  for (fs::directory_iterator file(folder, fault), end; !fault && file != end;
+       file.increment(fault))
+  {
+    int pid = 0, count = 0;
+    unsigned number = 0;
+    const std::string name = file->path().filename().string();
+    std::error_code ignored;
+    if (std::sscanf(name.c_str(), "part-%9d-%9u.tmp%n", &pid, &number, &count) == 2 &&
+        static_cast<std::size_t>(count) == name.size() && pid > 0 && ::kill(pid, 0) != 0 &&
+        errno == ESRCH)
+      fs::remove(file->path(), ignored);
+  }
+}
 
 /// What is asked for, and what of it has arrived.
 class Reception
@@ -767,6 +808,7 @@ public:
   /// Takes what an earlier transfer left.
   void resume()
   {
+    removePartsOfTheDead(m_folder);
     for (const auto& [uid, instance] : m_expected)
     {
       const fs::path file = m_folder / fileNameOf(uid);
@@ -800,17 +842,13 @@ public:
   }
 
   /// Name of the file to be received next.
-  fs::path nextPart()
-  {
-    return m_folder /
-           ("part-" + std::to_string(::getpid()) + '-' + std::to_string(m_parts++) + ".tmp");
-  }
+  fs::path nextPart() { return partFile(m_folder, m_parts++); }
 
   /// Waits until what has arrived is on the disk; what is not counts as missing. Returns errno of
   /// the first that is not, or 0.
-  int settle()
+  int settle(const core::Progress& progress)
   {
-    const int error = m_keeper.settle();
+    const int error = m_keeper.settle(progress);
     std::error_code ignored;
     for (auto uid = m_arrived.begin(); error != 0 && uid != m_arrived.end();)
       uid = fs::is_regular_file(m_folder / fileNameOf(*uid), ignored) ? std::next(uid)
@@ -1755,7 +1793,7 @@ Transfer retrieve(const Node& node, const std::string& studyUid,
   counter.of = reception.expected();
   const auto settle = [&]
   {
-    if (const int error = reception.settle())
+    if (const int error = reception.settle(progress))
       core::throwOutputError(error, folder);
   };
   for (int idle = 0; reception.arrived() < reception.expected();)

@@ -30,7 +30,8 @@ struct NetworkError : core::Error
     Incomplete,  ///< instances are still missing after they were asked for again
     Foreign,     ///< the node sent instances of another patient, study or series
     NotFound,    ///< the node has no such study
-    Protocol     ///< what it answers is not DICOM
+    Protocol,    ///< what it answers is not DICOM
+    TooMany      ///< it has more answers to a query than are read
   };
   NetworkError(Reason why, const std::string& message)
     : Error(why == Reason::NotFound ? core::Fault::BadInput : core::Fault::Refused, message)

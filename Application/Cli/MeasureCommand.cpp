@@ -84,7 +84,9 @@ std::vector<Measurement> readMeasurements(const fs::path& path)
     throw core::InvalidParameter(file + ": is empty; the first row names the columns");
   std::map<std::string, std::size_t> columns;
   for (std::size_t n = 0; n < header->cells.size(); ++n)
-    columns.emplace(scene::lowerCase(header->cells[n]), n);
+    if (const std::string column = scene::lowerCase(header->cells[n]);
+        !columns.emplace(column, n).second && !column.empty())
+      refuse(file, header->line, "column '" + core::utf8Prefix(column, 40) + "' is there twice");
   for (const char* needed : {"x_mm", "y_mm", "z_mm"})
     if (columns.count(needed) == 0)
       refuse(file, header->line, std::string("there is no column ") + needed);

@@ -49,6 +49,8 @@ TEST(CsvTable, NamesTheLineAndTheColumnThatAreWrong)
   EXPECT_NE(complaint("a,b\n1\n").find("line 2: 'b'"), std::string::npos);
   EXPECT_NE(complaint("a\n1\n").find("no column 'b'"), std::string::npos);
   EXPECT_NE(complaint("a,b\n").find("no row"), std::string::npos);
+  EXPECT_NE(complaint("a,a,b\n1,2,3\n").find("column 'a' is there twice"), std::string::npos);
+  EXPECT_EQ(complaint("a,b,note,note\n1,2,x,y\n"), "") << "of no interest";
   EXPECT_NE(complaint("").find("path.csv"), std::string::npos);
 }
 

@@ -75,7 +75,9 @@ Header readHeader(const std::string& line, const std::string& name, char delimit
   std::map<std::string, std::size_t> there;
   const auto names = split(marked ? line.substr(3) : line, delimiter);
   for (std::size_t c = 0; c < names.size(); ++c)
-    there.emplace(names[c], c);
+    if (!there.emplace(names[c], c).second &&
+        std::find(columns.begin(), columns.end(), names[c]) != columns.end())
+      throw InvalidParameter(name + ", line 1: column '" + names[c] + "' is there twice");
   Header header{countOf(names), {}};
   for (const std::string& column : columns)
   {

@@ -227,6 +227,45 @@ TEST(EnhancedCt, LiesWhereItsFramesSayInAnyOrderAndGrouping)
         }
 }
 
+// A functional group stands either for all frames or for each (PS3.3 C.7.6.16.1.1).
+TEST(EnhancedCt, WhatIsStatedTwiceAndDiffersIsRefused)
+{
+  struct Contradiction
+  {
+    DcmTagKey group, value;
+    const char* same;
+    const char* other;
+  };
+  const Contradiction all[] = {
+      {DCM_PlaneOrientationSequence, DCM_ImageOrientationPatient, "1.0\\0\\0\\0\\1\\0",
+       "-1\\0\\0\\0\\1\\0"},
+      {DCM_PixelValueTransformationSequence, DCM_RescaleIntercept, "-100.0", "-1024"}};
+  for (const Contradiction& one : all)
+    for (const bool differs : {false, true})
+    {
+      MultiFrame file;
+      file.order = inOrder(6);
+      file.sharesPlane = false;
+      const TemporaryFolder folder;
+      const fs::path path = folder.path() / "ct.dcm";
+      file.write(path);
+      DcmFileFormat whole;
+      ASSERT_TRUE(whole.loadFile(path.c_str()).good());
+      DcmItem* shared = nullptr;
+      ASSERT_TRUE(whole.getDataset()
+                      ->findOrCreateSequenceItem(DCM_SharedFunctionalGroupsSequence, shared)
+                      .good());
+      DcmItem* group = nullptr;
+      ASSERT_TRUE(shared->findOrCreateSequenceItem(one.group, group).good());
+      group->putAndInsertString(one.value, differs ? one.other : one.same);
+      ASSERT_TRUE(whole.saveFile(path.c_str(), EXS_LittleEndianExplicit).good());
+      const ScanResult result = scanDicom(folder.path(), {});
+      ASSERT_EQ(result.series.size(), 1U);
+      EXPECT_EQ(result.series.front().geometry.verdict == Verdict::Ok, !differs)
+          << one.value.toString();
+    }
+}
+
 TEST(EnhancedCt, LegacyConvertedAndXRay3dAreReadAlike)
 {
   const std::pair<std::string, std::string> kinds[] = {

@@ -351,6 +351,25 @@ TEST(ImageFile, NotesWhenQformAndSformDisagree)
   EXPECT_EQ(image.volume->geometry().origin()[2], 0.0);
 }
 
+TEST(ImageFile, RefusesTwoPlacesThatAreMirrorImages)
+{
+  const TestFolder folder;
+  TestNifti nifti = shortNifti();
+  nifti.qform = 1;
+  nifti.pixdim[0] = nifti.pixdim[0] < 0.0F ? 1.0F : -1.0F; // qfac: the third axis turned round
+  expectRefused(refusalOf([&] { readImageFile(putFile(folder / "a.nii", nifti.bytes())); }),
+                Reason::NoGeometry, "mirror images");
+}
+
+TEST(ImageFile, RefusesAxesOfDifferentUnits)
+{
+  const TestFolder folder;
+  std::string text = nrrd("short", bytesOf(counting<std::int16_t>(24)));
+  text.insert(text.find('\n') + 1, "space units: \"mm\" \"m\" \"mm\"\n");
+  expectRefused(refusalOf([&] { readImageFile(putFile(folder / "a.nrrd", text)); }),
+                Reason::NoGeometry, "different units");
+}
+
 TEST(ImageFile, NotesAMissingPlaceAndUnit)
 {
   const TestFolder folder;

@@ -176,6 +176,10 @@ TEST(LabelTable, RefusesWithTheLineThatIsWrong)
       {"index,name\n1,incus\n2,\n", "line 3 gives index 2 no name"},
       {"index,name,color\n1,incus,#ff0000\n2,stapes,crimson\n", "line 3 gives a colour"},
       {"index,name,r,g,b\n1,incus,1,2,3\n2,stapes,0,256,0\n", "line 3 gives a colour"},
+      {"id,label,name\n1,2,right\n2,1,left\n",
+       "line 2 gives the index 1 in column 'id' and 2 in column 'label'"},
+      {"index,value,name\n1,1,left\n2,7,right\n",
+       "line 3 gives the index 2 in column 'index' and 7 in column 'value'"},
       {"# c\n1 incus 1 2 3 255\n1 stapes 1 2 3 255\n", "line 3 gives index 1 a second name (the "
                                                        "first is in line 2)"},
       {"1 incus 1 2 3 255\n-4 stapes 1 2 3 255\n", "line 2 gives the index -4"},
@@ -230,6 +234,22 @@ std::string namesOf(const LoadedLabels& loaded)
 }
 
 } // namespace
+
+TEST(LabelTable, TakesTheColumnThatIsMeantWhereRowsAreNumbered)
+{
+  const TestFolder folder;
+  for (const char* text : {"nr,label value,name\n1,4,incus\n2,9,stapes\n", // by its title
+                           "id,label,name\n4,4,incus\n9,9,stapes\n",       // the same
+                           "id,label,name\n4,bone,incus\n9,8,stapes\n",    // no index
+                           "id,label\n4,incus\n9,stapes\n"})
+  {
+    const LabelTable table = readLabelTable(putFile(folder / "names.csv", text));
+    ASSERT_EQ(table.segments.size(), 2U) << text;
+    EXPECT_EQ(table.segments[0].index, 4) << text;
+    EXPECT_EQ(table.segments[1].index, 9) << text;
+    EXPECT_EQ(table.segments[1].name, "stapes") << text;
+  }
+}
 
 TEST(LabelTable, NamesALabelFileAndTellsWhatItDoesNot)
 {

@@ -38,6 +38,24 @@ TEST(PatientKey, ThePatientOfACaseIsNobody)
   }
 }
 
+// Beside such an ID a name and a date of birth are somebody's all the same.
+TEST(PatientKey, OfACaseKeepsWhatElseIsStated)
+{
+  const std::string one = casePatientId(1), two = casePatientId(2);
+  const PatientKey key = patientKey(one, "", "Alpha^Ann", "19500101");
+  EXPECT_EQ(key.id, 0U);
+  EXPECT_EQ(key.name, patientKey("", "", "Alpha^Ann", "").name);
+  EXPECT_FALSE(samePatient(key, patientKey(two, "", "Beta^Eve", "")));
+  EXPECT_FALSE(samePatient(key, patientKey(two, "", "", "19990101")));
+  EXPECT_TRUE(samePatient(key, patientKey("4711", "", "Alpha^Ann", "19500101")));
+  const auto pseudonym = [](const std::string& id)
+  { return patientKey(id, "", "Petrous^" + id, "").nameParts[0]; };
+  EXPECT_NE(pseudonym(one), 0U);
+  EXPECT_NE(pseudonym(one), pseudonym(two));
+  EXPECT_EQ(pseudonym(one), patientKey(one, "", "PETROUS^another name", "").nameParts[0]);
+  EXPECT_NE(patientKey(one, "", "Petrousson^Eve", "").name, 0U);
+}
+
 TEST(PatientKey, AnyThatDiffersMakesAnotherPatient)
 {
   const PatientKey key = patientKey("17", "CLINIC", "Doe^Jane", "19630412");

@@ -125,6 +125,7 @@ struct TestSegmentation
   double spacing = 2.0;    ///< 0: not declared
   double thickness = 0.0;  ///< 0: not stated
   bool sharesPlane = true; ///< orientation and spacing in the shared groups, else in each frame's
+  std::string sharedOrientation; ///< beside that of each frame, without sharesPlane; empty: none
   bool undefinedLength = false;
   std::string orientation = "1\\0\\0\\0\\1\\0";
   std::string segments; ///< items
@@ -212,7 +213,11 @@ struct TestSegmentation
             item((thickness > 0.0 ? element(0x00180050, "DS", core::fixedText(thickness, 3)) : "") +
                  (spacing > 0.0 ? element(0x00180088, "DS", core::fixedText(spacing, 3)) : "") +
                  element(0x00280030, "DS", "0.5\\0.4")));
-    out += sequence(0x52009229, item(sharesPlane ? plane : ""));
+    const std::string beside =
+        sharedOrientation.empty()
+            ? std::string()
+            : sequence(0x00209116, item(element(0x00200037, "DS", sharedOrientation)));
+    out += sequence(0x52009229, item(sharesPlane ? plane : beside));
     std::string groups;
     for (const Frame& frame : frames)
       groups += item(
@@ -324,6 +329,21 @@ TEST(DicomSegmentation, RefusesWhatDoesNotFitTheMemory)
         EXPECT_NE(std::string(error.what()).find("seg.dcm"), std::string::npos);
       }
     }
+}
+
+TEST(DicomSegmentation, APlaceThatIsStatedTwiceAndDiffersIsRefused)
+{
+  const TestFolder folder;
+  TestSegmentation file;
+  file.sharesPlane = false;
+  file.addSegment(1, "chorda");
+  for (const double z : {0.0, 2.0})
+    file.frames.push_back({1, z, [](int i, int) { return i % 2; }});
+  file.sharedOrientation = "1.0\\0\\0\\0\\1\\0";
+  EXPECT_EQ(loadLabels(putFile(folder / "a.dcm", file.bytes())).maps.size(), 1U);
+  file.sharedOrientation = "-1\\0\\0\\0\\1\\0";
+  expectRefused(refusalOf([&] { loadLabels(putFile(folder / "b.dcm", file.bytes())); }),
+                Reason::NoGeometry, "states its place twice");
 }
 
 TEST(DicomSegmentation, PlacesFramesByPositionAndLeavesGapsEmpty)

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/DicomReader.h"
 
 namespace petrous::imaging
@@ -403,6 +404,29 @@ const std::string* DicomElements::find(Tag tag) const
       return value;
   }
   return find(m_values, tag);
+}
+
+bool DicomElements::contradictsShared(Tag tag) const
+{
+  if (m_frame >= m_frames.size() || m_shared.empty())
+    return false;
+  const std::string* shared = find(m_shared.front(), tag);
+  const std::string* own = find(m_frames[m_frame], tag);
+  if (!shared || !own || *shared == *own)
+    return false;
+  const auto numbersOf = [](const std::string& value)
+  {
+    std::vector<double> numbers;
+    std::string_view rest = value;
+    while (!rest.empty())
+    {
+      const std::size_t end = std::min(rest.find('\\'), rest.size());
+      numbers.push_back(core::parseDouble(std::string(rest.substr(0, end))).value_or(std::nan("")));
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    return numbers;
+  };
+  return numbersOf(*shared) != numbersOf(*own);
 }
 
 std::string DicomElements::bytes(Tag tag) const

@@ -75,6 +75,9 @@ public:
   /// From now on values are those of this frame: its functional groups take precedence over the
   /// shared ones, and these over the top level.
   void selectFrame(std::size_t frame) noexcept { m_frame = frame; }
+  /// Whether that frame's functional groups state another value than the shared ones do; a group is
+  /// either shared or stands for each frame (PS3.3 C.7.6.16.1.1).
+  bool contradictsShared(Tag tag) const;
 
   /// Without padding and control characters, safe for a terminal or a JSON parser.
   std::string text(Tag tag) const;

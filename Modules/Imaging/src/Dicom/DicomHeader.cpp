@@ -418,6 +418,10 @@ void readFrames(DicomElements& elements, FileHeader& header, bool isMap)
     readPlace(elements, slice);
     readTraits(elements, slice);
     slice.damage = isMap ? readMapping(elements, slice) : readRescale(elements, slice);
+    // Position, orientation, pixel spacing, rescale intercept and slope.
+    for (const Tag tag : {0x00200032U, 0x00200037U, 0x00280030U, 0x00281052U, 0x00281053U})
+      if (elements.contradictsShared(tag))
+        slice.damage = "states place or values twice, for all frames and for one, and they differ";
     if (const auto type = elements.words(0x00089007); !type.empty())
       slice.imageType = type;
     if (const auto acquisition = elements.integer(0x00209156))

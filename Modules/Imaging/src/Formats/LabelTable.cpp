@@ -290,6 +290,10 @@ struct Columns
   char delimiter = '\0'; ///< 0: not such a table
   bool hasHeader = false;
   std::size_t index = kMissing, name = kMissing, color = kMissing;
+  /// Another column that may be the index just as well, as where rows are numbered; and both
+  /// titles.
+  std::size_t otherIndex = kMissing;
+  std::string indexTitle, otherTitle;
   std::array<std::size_t, 3> channels{kMissing, kMissing, kMissing};
 };
 
@@ -359,9 +363,12 @@ bool readHeader(const std::vector<std::string>& cells, Columns& columns)
 {
   std::vector<std::string> header;
   std::transform(cells.begin(), cells.end(), std::back_inserter(header), plainHeader);
-  columns.index =
-      columnNamed(header, {"index", "labelvalue", "labelindex", "labelid", "value", "id", "idx",
-                           "number", "labelnumber", "no", "nr", "#", "key"});
+  columns.index = columnNamed(header, {"labelvalue", "labelindex", "labelid", "labelnumber"});
+  const bool isNamed = columns.index != kMissing;
+  const std::initializer_list<const char*> numbers{"index", "value", "id", "idx", "number",
+                                                   "no",    "nr",    "#",  "key"};
+  if (!isNamed)
+    columns.index = columnNamed(header, numbers);
   columns.name = columnNamed(header, {"name", "labelname", "structure", "structurename", "segment",
                                       "segmentname", "anatomy", "description", "text"});
   const std::size_t label = columnNamed(header, {"label"});
@@ -369,6 +376,15 @@ bool readHeader(const std::vector<std::string>& cells, Columns& columns)
     columns.index = label;
   else if (columns.name == kMissing)
     columns.name = label;
+  if (!isNamed && columns.index != kMissing)
+    for (std::size_t n = 0; n < header.size() && columns.otherIndex == kMissing; ++n)
+      if (n != columns.index && n != columns.name &&
+          (n == label || columnNamed({header[n]}, numbers) == 0))
+      {
+        columns.otherIndex = n;
+        columns.indexTitle = cells[columns.index];
+        columns.otherTitle = cells[n];
+      }
   columns.channels = {columnNamed(header, {"r", "red", "colorr"}),
                       columnNamed(header, {"g", "green", "colorg"}),
                       columnNamed(header, {"b", "blue", "colorb"})};
@@ -460,6 +476,8 @@ void readRows(std::string_view text, const Columns& columns, Entries& entries, L
   std::vector<std::array<double, 3>> colors; // of the segments added, as written
   double largest = 0.0;
   bool isFirst = columns.hasHeader;
+  bool areNumbers = columns.otherIndex != kMissing; // the cells of that column
+  std::optional<std::pair<std::size_t, std::string>> contradiction;
   for (std::size_t number = 1; !text.empty(); ++number)
   {
     std::string_view line = takeLine(text);
@@ -495,6 +513,16 @@ void readRows(std::string_view text, const Columns& columns, Entries& entries, L
       entries.problem(first, "gives an index that is not a whole number from 0 to 65535");
       continue;
     }
+    if (columns.otherIndex != kMissing)
+    {
+      const auto other = parseInteger(cell(columns.otherIndex));
+      areNumbers = areNumbers && other;
+      if (other && *other != *index && !contradiction)
+        contradiction = {first, "gives the index " + std::to_string(*index) + " in column '" +
+                                    columns.indexTitle + "' and " + std::to_string(*other) +
+                                    " in column '" + columns.otherTitle +
+                                    "'; keep the one that the voxels have"};
+    }
     volume::Segment segment;
     segment.name = cell(columns.name);
     std::array<double, 3> color{};
@@ -525,6 +553,8 @@ void readRows(std::string_view text, const Columns& columns, Entries& entries, L
     colors.push_back(color);
     largest = std::max({largest, color[0], color[1], color[2]});
   }
+  if (areNumbers && contradiction)
+    entries.problem(contradiction->first, contradiction->second);
   const double scale = largest > 1.0 ? 255.0 : 1.0;
   for (std::size_t n = 0; n < colors.size(); ++n)
     for (std::size_t c = 0; c < 3; ++c)

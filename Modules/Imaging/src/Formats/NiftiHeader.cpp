@@ -242,6 +242,10 @@ void readPlacement(const std::filesystem::path& path, const Fields& fields, Nift
                               "rotation; the sform is used");
     return;
   }
+  if (header.linear.determinant() * qLinear->determinant() < 0.0)
+    fail(FileError::Reason::NoGeometry, path,
+         "places itself twice (sform and qform), and the two are mirror images of each other: left "
+         "and right cannot be told; export it again with one of them");
   double apart = 0.0;
   for (int corner = 0; corner < 8; ++corner)
   {

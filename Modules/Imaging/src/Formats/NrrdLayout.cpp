@@ -223,6 +223,10 @@ void readPlacement(const Path& path, const NrrdHeader& header, std::size_t first
                    NrrdLayout& layout)
 {
   const Eigen::Vector3d scale = unitsOf(header, layout.notes);
+  if (scale.minCoeff() != scale.maxCoeff())
+    fail(FileError::Reason::NoGeometry, path,
+         "its header gives the axes different units of length ('space units'), which cannot be "
+         "meant; export it again with its geometry");
   const auto directions = axisWords(header.field("space directions"));
   const auto spacings = axisWords(header.field("spacings"));
   if (directions.empty() && spacings.empty())

@@ -101,6 +101,13 @@ DicomItem groupOf(const DicomItem& own, const DicomItem& shared, Tag group)
   return own.has(group) ? own.item(group) : shared.item(group);
 }
 
+/// A functional group is either shared or stands for each frame (PS3.3 C.7.6.16.1.1).
+bool isContradicted(const DicomItem& own, const DicomItem& shared, Tag group, Tag value)
+{
+  return own.has(group) && shared.has(group) &&
+         own.item(group).numbers(value) != shared.item(group).numbers(value);
+}
+
 Type typeOf(const std::filesystem::path& path, const DicomItem& data)
 {
   const std::string type = data.text(0x00620001);
@@ -128,6 +135,12 @@ void readFrame(Segmentation& file, const DicomItem& own, const DicomItem& shared
   const auto axes = groupOf(own, shared, 0x00209116).numbers(0x00200037);
   const DicomItem measures = groupOf(own, shared, 0x00289110);
   const auto spacing = measures.numbers(0x00280030);
+  if (isContradicted(own, shared, 0x00209113, 0x00200032) ||
+      isContradicted(own, shared, 0x00209116, 0x00200037) ||
+      isContradicted(own, shared, 0x00289110, 0x00280030) ||
+      isContradicted(own, shared, 0x00289110, 0x00180088))
+    failFrame(file.path, frame.number,
+              "states its place twice, for itself and for all frames, and they differ");
   if (position.size() != 3)
     failFrame(file.path, frame.number, "states no position");
   if (axes.size() != 6 || spacing.size() != 2)

@@ -163,7 +163,7 @@ void vtkPetrousToolInteraction::SetEnabled(int enabling)
 
 void vtkPetrousToolInteraction::SetPointer(PointerToolController* aim, PointerDevice* device)
 {
-  if (this->Device || !device) // a tool that comes under a held button is pressed: PointAgain
+  if (this->Device) // else a button is held for the tool that comes: PointAgain
     this->Unpress();
   this->PedalHeld = false;
   this->Aim = aim;

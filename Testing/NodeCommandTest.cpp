@@ -34,6 +34,7 @@ protected:
     json(node);
     json(node + other());
     makePatient();
+    namePatient("Kowalczyk^Jan");
     json("new ear --ct " + quoted(m_folder / "patient/ct") +
          " --mr T2=" + quoted(m_folder / "patient/mr") + " --labels " +
          quoted(m_folder / "patient/labels.seg.nrrd"));
@@ -46,6 +47,23 @@ protected:
     std::array<double, 3> outside = centre;
     outside[0] += 25.0;
     json("drill ear --path " + quoted(writePath(outside, centre)) + " --diameter 6");
+  }
+
+  // Of the sample, which is of nobody: a case tells its name where that is known not to be his.
+  void namePatient(const std::string& name) const
+  {
+    const std::string key("\x10\x00\x10\x00PN\x10\x00", 8); // of 16 bytes
+    std::string padded = name;
+    padded.resize(16, ' ');
+    for (const char* series : {"patient/ct", "patient/mr"})
+      for (const auto& entry : std::filesystem::directory_iterator(m_folder / series))
+      {
+        std::string bytes = textOf(entry.path());
+        const std::size_t at = bytes.find(key);
+        ASSERT_NE(at, bytes.npos);
+        bytes.replace(at + key.size(), padded.size(), padded);
+        std::ofstream(entry.path(), std::ios::binary) << bytes;
+      }
   }
 
   std::string other() const { return " --library " + quoted(m_folder / "other"); }
@@ -227,7 +245,8 @@ TEST_F(NodeCommand, ListsCasesByTheirNamesAsPatientsOfTheirOwn)
   EXPECT_EQ(names(other()), (Names{"?", "ear", "\xc3\xb6hr 2"}));
   EXPECT_EQ(names("--case EA" + other()), Names{"ear"});
   EXPECT_EQ(names("--case \"\xc3\xb6h*2\"" + other()), Names{"\xc3\xb6hr 2"});
-  EXPECT_EQ(names("--case \"Jane Doeberg\"" + other()), Names{"?"}) << "by its hash";
+  EXPECT_EQ(names("--case \"Jane Doeberg\""), Names{"Jane Doeberg"}) << "by this library's salt";
+  EXPECT_EQ(names("--case \"Jane Doeberg\"" + other()), Names{}) << "nor can it be guessed";
   EXPECT_EQ(names("--case nobody" + other()), Names{});
   expectRefused("receive --from pacs --list --as x", 2, "--list");
 
@@ -243,6 +262,93 @@ TEST_F(NodeCommand, ListsCasesByTheirNamesAsPatientsOfTheirOwn)
   EXPECT_EQ(names("--case \"former ear\"" + other()), Names{"?"});
   EXPECT_EQ(names(other()).size(), 4U);
   EXPECT_EQ(json("receive --from pacs --case \"former ear\" --as was" + other())["scene"], true);
+}
+
+// Fail closed: in another library nothing is known of the patient's name, and of one of two letters
+// no hash is kept.
+TEST_F(NodeCommand, WithholdsANameThatIsNotKnownToBeNobodys)
+{
+  if (!servers::Orthanc::installed())
+    GTEST_SKIP() << "Orthanc (package orthanc) is not installed";
+  start(false);
+  const auto studyOf = [this](const nlohmann::json& sent)
+  {
+    return petrous::network::findStudies(m_server->node(), {sent["study"].get<std::string>(), {}})
+        .at(0);
+  };
+  const auto sent = [&](const std::string& name, const std::string& library = {})
+  {
+    const Outcome outcome = run("--json send \"" + name + "\" --to pacs --what labels" + library);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const auto answer = nlohmann::json::parse(outcome.out);
+    const bool isHidden =
+        answer["patient_name"] == "Petrous^" + answer["patient_id"].get<std::string>();
+    EXPECT_EQ(isHidden,
+              outcome.err.find("is not the patient's name at node 'pacs'") != std::string::npos)
+        << outcome.err;
+    EXPECT_EQ(studyOf(answer).patientName, answer["patient_name"].get<std::string>());
+    return answer;
+  };
+  const auto isHidden = [&](const nlohmann::json& answer)
+  { return answer["patient_name"] == "Petrous^" + answer["patient_id"].get<std::string>(); };
+
+  json("library copy ear \"Kowalczyk left\"");
+  const auto own = sent("Kowalczyk left");
+  EXPECT_TRUE(isHidden(own));
+  EXPECT_FALSE(isHidden(sent("ear")));
+  const std::string guessed = "72747bacb70ffd04"; // sha256sum of "petrous case Kowalczyk left"
+  EXPECT_NE(studyOf(own).studyId, guessed);
+  const auto again = sent("Kowalczyk left");
+  EXPECT_EQ(again["study"], own["study"]);
+  EXPECT_EQ(again["present"], again["instances"]);
+
+  json("archive \"Kowalczyk left\" " + quoted(m_folder / "left.petrous"));
+  json("restore " + quoted(m_folder / "left.petrous") + other());
+  const auto foreign = sent("Kowalczyk left", other());
+  EXPECT_TRUE(isHidden(foreign));
+  EXPECT_NE(studyOf(foreign).studyId, guessed);
+  EXPECT_NE(studyOf(foreign).studyId, studyOf(own).studyId);
+  json("send \"Kowalczyk left\" --to pacs --what scene" + other());
+  json("receive --from pacs --case \"Kowalczyk left\" --as back" + other());
+  expectRefused("receive --from pacs --case \"Kowalczyk left\" --as back --library " +
+                    quoted(m_folder / "third"),
+                3, "");
+
+  namePatient("Ng^Bo");
+  json("new \"Ng ear\" --ct " + quoted(m_folder / "patient/ct") + " --labels " +
+       quoted(m_folder / "patient/labels.seg.nrrd"));
+  EXPECT_TRUE(isHidden(sent("Ng ear")));
+}
+
+// A study that states the hash of a case's name need not be that case's; and what a node answers
+// need not be text.
+TEST_F(NodeCommand, ListsTheNodesOwnNamesBesideAndNoControlCharacters)
+{
+  if (!servers::Orthanc::installed())
+    GTEST_SKIP() << "Orthanc (package orthanc) is not installed";
+  start(false);
+  json("archive ear " + quoted(m_folder / "ear.petrous"));
+  int number = 0;
+  for (const char* name : {"Petrous^another", "Petrous^a\tb"})
+  {
+    petrous::network::SceneDescription description;
+    description.patientId = "PETROUS-000000000000000" + std::to_string(++number);
+    description.patientName = name;
+    description.studyUid = "2.25.81" + std::to_string(number);
+    description.studyId = number == 1 ? "5e0064845753a76d" : "1"; // sha256sum of "petrous case ear"
+    const auto folder = m_folder / std::to_string(number);
+    std::filesystem::create_directories(folder);
+    petrous::network::store(m_server->node(), petrous::network::writeSceneObjects(
+                                                  m_folder / "ear.petrous", folder, description));
+  }
+  const auto cases = json("receive --from pacs --list")["cases"];
+  ASSERT_EQ(cases.size(), 2U);
+  EXPECT_EQ(cases[0]["case"], "ear");
+  EXPECT_EQ(cases[0]["patient_name"], "Petrous^another");
+  const Outcome listed = run("receive --from pacs --list");
+  EXPECT_NE(listed.out.find("'ear', there of patient 'Petrous^another'"), std::string::npos)
+      << listed.out;
+  EXPECT_NE(listed.out.find("'a?b'"), std::string::npos) << listed.out;
 }
 
 TEST_F(NodeCommand, BuildsACaseOfImages)

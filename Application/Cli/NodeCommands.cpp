@@ -6,6 +6,7 @@
 #include "Commands.h"
 #include "MaskOptions.h"
 #include "Numbers.h"
+#include "petrous/Core/InputFile.h"
 #include "petrous/Network/NodeList.h"
 #include "petrous/Presenters/CaseTransfer.h"
 
@@ -176,9 +177,12 @@ void send(const Context& context, const SendOptions& options)
                 "': " + transferText(done.transfer));
   context.print("patient '" + done.patient.name + "', ID " + done.patient.id + ", study " +
                 done.studyUid +
-                (parts.scene ? "; to bring it back: petrous receive --from " + options.node +
-                                   " --case \"" + options.caseName + '"'
-                             : std::string()));
+                (!parts.scene ? std::string()
+                              : "; to bring it back: petrous receive --from " + options.node +
+                                    " --case \"" + options.caseName + '"' +
+                                    (done.patient.isNameHidden
+                                         ? ", from another library --study " + done.studyUid
+                                         : std::string())));
   nlohmann::json answer = transferJson(done.transfer);
   answer["case"] = options.caseName;
   answer["node"] = options.node;
@@ -202,18 +206,25 @@ void listCases(const Context& context, const ReceiveOptions& options)
   const library::Library library = context.openLibrary();
   presenters::StudySearch search;
   search.caseName = options.request.caseName;
-  std::vector<std::string> names;
-  for (const auto& one : library.list())
-    names.push_back(one.name);
   nlohmann::json cases = nlohmann::json::array();
-  for (const auto& found : presenters::searchStudies(
-           network::NodeList(library.folder()).at(options.node), search, names, context.progress()))
+  const auto found = presenters::searchStudies(network::NodeList(library.folder()).at(options.node),
+                                               search, library, context.progress());
+  for (const std::string& note : found.notes)
+    context.warn(core::printable(note));
+  for (const auto& one : found.studies)
   {
-    context.print((found.caseName.empty() ? "(name not told)" : "'" + found.caseName + "'") +
-                  ", patient ID " + found.study.patientId + ", study " + found.study.uid);
-    nlohmann::json one = {{"patient_id", found.study.patientId}, {"study", found.study.uid}};
-    one["case"] = found.caseName.empty() ? nlohmann::json() : nlohmann::json(found.caseName);
-    cases.push_back(std::move(one));
+    const network::Study& study = one.study;
+    context.print(
+        (one.caseName.empty() ? "(name not told)" : "'" + core::printable(one.caseName) + "'") +
+        (one.otherName.empty() ? ""
+                               : ", there of patient '" + core::printable(one.otherName) + "'") +
+        ", patient ID " + core::printable(study.patientId) + ", study " +
+        core::printable(study.uid));
+    nlohmann::json listed = {{"patient_id", study.patientId}, {"study", study.uid}};
+    listed["case"] = one.caseName.empty() ? nlohmann::json() : nlohmann::json(one.caseName);
+    if (!one.otherName.empty())
+      listed["patient_name"] = one.otherName;
+    cases.push_back(std::move(listed));
   }
   if (cases.empty())
     context.print("node '" + options.node + "' has no such case of Petrous");

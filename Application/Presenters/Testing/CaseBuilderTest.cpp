@@ -4,6 +4,7 @@
 #include <locale>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -265,6 +266,56 @@ TEST_F(CaseBuilder, TellsImagesOfOneFrameOfReferenceWithoutItsUid)
   EXPECT_NE(value.mr[0].frameOfReference, value.mr[2].frameOfReference);
   EXPECT_EQ(scene::toManifest(value).find(uid), std::string::npos);
   EXPECT_EQ(value.ct.frameOfReference, "") << "of a NRRD file nothing is known";
+}
+
+// What Petrous wrote for two cases may be of two patients; beside an ID of a hospital it says
+// nothing.
+TEST_F(CaseBuilder, AsksBeforeAnMrOfAnotherPseudonymJoins)
+{
+  const auto scan = std::make_shared<const volume::Volume<std::int16_t>>(
+      core::GridGeometry({8, 8, 8}, Vector3d::Ones(), Vector3d::Zero()), std::int16_t{40});
+  const auto write = [&](const std::string& file, const std::string& id, const std::string& name)
+  {
+    imaging::SeriesDescription series;
+    series.modality = file == "ct" ? imaging::SeriesDescription::Modality::Ct
+                                   : imaging::SeriesDescription::Modality::Mr;
+    series.patientId = id;
+    series.patientName = name;
+    series.studyUid = imaging::deterministicUid(2, file);
+    series.seriesUid = imaging::deterministicUid(1, file);
+    series.frameOfReferenceUid = imaging::deterministicUid(3, file);
+    imaging::writeDicomSeries(m_folder / file, volume::IntensityVolume(scan), series);
+    return PartSource{file, m_folder / file};
+  };
+  const std::string one = "PETROUS-0000000000000001", two = "PETROUS-0000000000000002";
+  const auto salted = [](const std::string& hash) { return "salt " + hash; };
+  for (const bool isSaved : {false, true})
+    for (const auto& [ofCt, ofMr, isRefused] :
+         {std::tuple(std::pair(one, "Petrous^left ear"), std::pair(two, "Petrous^left ear"), true),
+          std::tuple(std::pair(one, "Petrous^left ear"), std::pair(one, "Petrous^now"), false),
+          std::tuple(std::pair(one, "Alpha^Ann"), std::pair(two, "Beta^Eve"), true),
+          std::tuple(std::pair(one, "Petrous^x"), std::pair(std::string("4711"), "Doe^J"), false),
+          std::tuple(std::pair(one, "Petrous^x"), std::pair(std::string(), ""), false)})
+    {
+      m_sources.ct = write("ct", ofCt.first, ofCt.second).path;
+      auto value = presenters::buildCase("ear", m_sources, {});
+      presenters::PartSources parts;
+      if (isSaved)
+      {
+        scene::saltIdentity(value.ct, salted);
+        value = scene::fromManifest(scene::toManifest(value), "case");
+        parts.salted = salted;
+      }
+      parts.mr = {write("mr", ofMr.first, ofMr.second)};
+      const std::string what = ofCt.second + std::string(", ") + ofMr.second;
+      if (isRefused)
+        EXPECT_THROW(presenters::addParts(value, parts, {}), presenters::OtherPatient) << what;
+      else
+        EXPECT_NO_THROW(presenters::addParts(value, parts, {})) << what;
+      parts.mr[0].isOtherPatient = true;
+      parts.mr[0].name = "again";
+      EXPECT_NO_THROW(presenters::addParts(value, parts, {})) << what;
+    }
 }
 
 TEST_F(CaseBuilder, AsksBeforeAnMrOfAnotherPatientJoins)

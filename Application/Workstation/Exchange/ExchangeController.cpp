@@ -69,8 +69,8 @@ QString foundText(const std::string& name, const presenters::CasePatient& patien
   return (patient.isNameHidden
               ? ExchangeController::tr(
                     "There it is the patient %1, without the case's name, which may be a "
-                    "patient's. Receive finds it by the whole name “%2”, and by "
-                    "that ID.")
+                    "patient's. Receive finds it by the whole name “%2” from this library, and by "
+                    "that ID from any.")
               : ExchangeController::tr("There it is the patient %1. Receive finds it by the case "
                                        "“%2”."))
       .arg(words(patient.id), words(name));
@@ -200,10 +200,7 @@ void ExchangeController::receive()
   const auto all = nodes();
   if (all.empty())
     return;
-  std::vector<std::string> cases;
-  for (const auto& one : m_model.library().list())
-    cases.push_back(one.name);
-  ReceiveDialog dialog(all, cases, &m_window);
+  ReceiveDialog dialog(all, m_model.library(), &m_window);
   if (dialog.exec() != QDialog::Accepted)
     return;
   const ReceiveDialog::Choice choice = dialog.choice();

@@ -51,10 +51,10 @@ QString countText(int count)
 } // namespace
 
 ReceiveDialog::ReceiveDialog(const std::vector<network::Node>& nodes,
-                             const std::vector<std::string>& cases, QWidget* parent)
+                             const library::Library& library, QWidget* parent)
   : QDialog(parent)
   , m_nodes(nodes)
-  , m_cases(cases)
+  , m_library(library)
   , m_node(new QComboBox)
   , m_case(new QLineEdit)
   , m_id(new QLineEdit)
@@ -209,15 +209,16 @@ void ReceiveDialog::search()
   m_found->clear();
   begin(tr("Asking “%1”…").arg(words(node().name)),
         [this, node = node(), search,
-         cases = m_cases](const core::Progress& progress) -> BackgroundWork::Reply
+         library = m_library](const core::Progress& progress) -> BackgroundWork::Reply
         {
-          return [this, studies = presenters::searchStudies(node, search, cases, progress)]
-          { show(studies); };
+          return [this, found = presenters::searchStudies(node, search, library, progress)]
+          { show(found); };
         });
 }
 
-void ReceiveDialog::show(const std::vector<presenters::FoundStudy>& studies)
+void ReceiveDialog::show(const presenters::FoundStudies& found)
 {
+  const std::vector<presenters::FoundStudy>& studies = found.studies;
   std::vector<presenters::FoundStudy> latest = studies;
   std::stable_sort(latest.begin(), latest.end(),
                    [](const presenters::FoundStudy& a, const presenters::FoundStudy& b) {
@@ -226,11 +227,14 @@ void ReceiveDialog::show(const std::vector<presenters::FoundStudy>& studies)
                    });
   latest.resize(std::min(latest.size(), kMaxShown));
   QList<QTreeWidgetItem*> items;
-  for (const auto& [study, isCase, caseName] : latest)
+  for (const auto& [study, isCase, caseName, otherName] : latest)
   {
-    const QString who = !caseName.empty() ? tr("Case “%1”").arg(words(caseName))
-                        : isCase          ? tr("Case, name not told")
-                                          : nameText(study.patientName);
+    const QString who =
+        !otherName.empty()
+            ? tr("Case “%1”, there of the patient %2").arg(words(caseName), nameText(otherName))
+        : !caseName.empty() ? tr("Case “%1”").arg(words(caseName))
+        : isCase            ? tr("Case, name not told")
+                            : nameText(study.patientName);
     auto* item = new QTreeWidgetItem(
         QStringList{who, words(study.patientId), dateText(study.date), words(study.description),
                     words(study.modalities).replace('\\', ", "), countText(study.instances)});
@@ -240,13 +244,17 @@ void ReceiveDialog::show(const std::vector<presenters::FoundStudy>& studies)
     items += item;
   }
   m_found->addTopLevelItems(items);
-  say(studies.empty() ? tr("“%1” has no such study.").arg(words(node().name))
+  QString outcome =
+      studies.empty() ? tr("“%1” has no such study.").arg(words(node().name))
       : studies.size() > kMaxShown
           ? tr("%1 studies; the latest %2 are shown. Give more of the patient, or fewer days.")
                 .arg(studies.size())
                 .arg(kMaxShown)
       : studies.size() == 1 ? tr("1 study")
-                            : tr("%1 studies").arg(studies.size()));
+                            : tr("%1 studies").arg(studies.size());
+  for (const std::string& note : found.notes)
+    outcome += '\n' + phrase(note);
+  say(outcome);
   if (studies.size() == 1)
     m_found->topLevelItem(0)->setExpanded(true);
 }
@@ -272,14 +280,16 @@ void ReceiveDialog::listSeries(QTreeWidgetItem* study)
               return;
             const QSignalBlocker blocked(m_found); // each change looks at all rows
             above->setData(0, kIsListed, true);
-            const auto latest = network::latestScene(series);
-            const bool hasScene = latest != series.end();
+            const auto scenes = network::scenesAmong(series);
+            const bool hasScene = !scenes.empty();
             for (const network::Series& one : series)
             {
-              const bool isScene = network::isScene(one);
+              const bool isScene = std::any_of(scenes.begin(), scenes.end(),
+                                               [&one](const network::Series& scene)
+                                               { return scene.uid == one.uid; });
               const bool isImage =
                   one.modality == "CT" || one.modality == "MR" || one.modality == "SEG";
-              if (isScene && one.number != latest->number)
+              if (isScene && one.number != scenes.front().number)
                 continue; // replaced by a later one
               auto* item = new QTreeWidgetItem(
                   above, {isScene ? tr("Petrous case") : tr("Series %1").arg(one.number),

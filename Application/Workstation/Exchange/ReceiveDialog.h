@@ -35,8 +35,7 @@ public:
     bool scene = false;              ///< the case that was sent with its scene
   };
 
-  /// `cases`: the names of those of the library.
-  ReceiveDialog(const std::vector<network::Node>& nodes, const std::vector<std::string>& cases,
+  ReceiveDialog(const std::vector<network::Node>& nodes, const library::Library& library,
                 QWidget* parent = nullptr);
   ~ReceiveDialog() override;
 
@@ -47,13 +46,13 @@ private:
   network::Node node() const;
   void search();
   void listSeries(QTreeWidgetItem* study);
-  void show(const std::vector<presenters::FoundStudy>& studies);
+  void show(const presenters::FoundStudies& found);
   void update();
   void begin(const QString& text, BackgroundWork::Work work);
   void say(const QString& text);
 
   std::vector<network::Node> m_nodes;
-  std::vector<std::string> m_cases;
+  library::Library m_library;
   QComboBox* m_node;
   QLineEdit* m_case;
   QLineEdit* m_id;

@@ -191,7 +191,10 @@ TEST_F(Exchange, ACaseGoesToANodeAndComesBack)
 {
   if (!network::test::Orthanc::installed())
     GTEST_SKIP() << "Orthanc (package orthanc) is not installed";
-  saveBall("ball");
+  scene::Case ball = ballCase("ball");
+  ball.ct.patient.name = std::string(64, 'a'); // of a patient who is not called Ball
+  ball.ct.patient.nameParts = {std::string(64, 'b')};
+  library().save(ball);
   const network::test::Orthanc orthanc(folder(), {});
   network::NodeList(libraryFolder()).add(orthanc.node());
   openWindow("ball");

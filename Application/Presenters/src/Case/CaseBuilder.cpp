@@ -128,14 +128,24 @@ scene::PatientHash patientOf(const imaging::DicomSeries& series)
   return patientHash(all);
 }
 
+// Of an image that states but the pseudonym of a case (imaging/CasePatient.h).
+bool isOfCase(const scene::PatientHash& patient)
+{
+  return patient.id.empty() && patient.name.empty() && patient.nameParts.size() == 1;
+}
+
 // Whether the images state different patients; false if that cannot be told.
 bool isOtherPatient(const scene::ImagePart& image, scene::ImagePart added,
                     const std::function<std::string(const std::string&)>& salted)
 {
-  if (image.patient.empty() || added.patient.empty() || (image.isFrameSalted && !salted))
+  if (image.isFrameSalted && !salted)
     return false;
   if (image.isFrameSalted)
     scene::saltIdentity(added, salted);
+  if (isOfCase(image.patient) && isOfCase(added.patient))
+    return image.patient.nameParts != added.patient.nameParts;
+  if (image.patient.empty() || added.patient.empty())
+    return false;
   return !imaging::samePatient(image.patient, added.patient);
 }
 
@@ -573,11 +583,12 @@ bool liesOutside(const core::GridGeometry& ct, const core::GridGeometry& grid,
   return !hull.intersects(boxOn(ct, grid, box));
 }
 
-// Notes structures that will be neither visible nor touchable.
-void noteOutside(const scene::Case& value, scene::LabelPart& part, const volume::LabelMap& map)
+// Notes structures that will be neither visible nor touchable, and returns their names.
+std::vector<std::string> noteOutside(const scene::Case& value, scene::LabelPart& part,
+                                     const volume::LabelMap& map)
 {
   if (part.drawnOn && !part.drawnOn->empty())
-    return; // through the registration of an MR, which may change
+    return {}; // through the registration of an MR, which may change
   const auto boxes = volume::boxesOf(map);
   std::vector<std::string> names;
   for (std::size_t s = 0; s < map.segments.size(); ++s)
@@ -595,6 +606,7 @@ void noteOutside(const scene::Case& value, scene::LabelPart& part, const volume:
                               : " lie wholly outside the " + image +
                                     ", so nothing of them is seen or felt; check that they are "
                                     "this patient's"));
+  return names;
 }
 
 // A DICOM segmentation states the frame of reference in which it was drawn: that of the CT, or of
@@ -950,7 +962,9 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
       continue;
     part.provenance = provenance;
     part.drawnOn = drawnOn(value, source, map.voxels->geometry());
-    noteOutside(value, part, map);
+    for (const std::string& name : noteOutside(value, part, map))
+      for (StructureReport& one : reports)
+        one.isOutside = one.isOutside || one.name == name;
     part.labels = std::make_shared<const volume::LabelMap>(std::move(map));
     value.labels.push_back(std::move(part));
   }

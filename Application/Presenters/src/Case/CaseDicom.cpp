@@ -1,6 +1,7 @@
 #include "petrous/Presenters/CaseDicom.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "petrous/Imaging/CasePatient.h"
 #include "petrous/Imaging/DicomWriter.h"
 #include "petrous/Imaging/FileFormats.h"
+#include "petrous/Library/FrameSalt.h"
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/IdentityText.h"
@@ -139,6 +141,33 @@ std::string givenName(std::string text)
   return text;
 }
 
+// Whether the name of a case may leave as a patient's. That it is not the patient's own is known
+// only where the words of that name are, and those of less than three letters are often none of the
+// hashes.
+bool mayNamePatient(const scene::Case& value, const library::Library& library)
+{
+  const scene::PatientHash& patient = value.ct.patient;
+  if (patient.name.empty() || patient.nameParts.empty())
+    return true;
+  const IdentityText identity(value, library);
+  if (identity.mayIdentify(value.name))
+    return true;
+  constexpr std::size_t kShort = 3; // letters
+  const auto isLetter = [](unsigned char c) { return std::isalpha(c) != 0 || c >= 0x80; };
+  for (auto begin = value.name.begin(); begin != value.name.end();)
+  {
+    begin = std::find_if(begin, value.name.end(), isLetter);
+    const auto end = std::find_if_not(begin, value.name.end(), isLetter);
+    const std::string word(begin, end);
+    const auto letters =
+        std::count_if(word.begin(), word.end(), [](unsigned char c) { return (c & 0xC0) != 0x80; });
+    if (letters > 0 && static_cast<std::size_t>(letters) < kShort && !identity.isOfField(word))
+      return true;
+    begin = end;
+  }
+  return false;
+}
+
 } // namespace
 
 std::optional<std::size_t> padToOneGrid(std::vector<PlacedLabels>& placed,
@@ -212,6 +241,16 @@ std::string studyIdOf(const std::string& caseName)
       .substr(0, kStudyIdLength);
 }
 
+std::string hiddenStudyIdOf(const library::Library& library, const std::string& caseName)
+{
+  return library::saltedFrame(library, "study of case " + caseName).substr(0, kStudyIdLength);
+}
+
+std::string toldName(const std::string& caseName)
+{
+  return givenName(caseName);
+}
+
 bool isStudyId(const std::string& text)
 {
   return text.size() == kStudyIdLength &&
@@ -245,7 +284,7 @@ CasePatient CaseIdentifiers::patient(const library::Library& library) const
   all.add(what.data(), what.size());
   CasePatient patient;
   patient.id = imaging::casePatientId(all.value());
-  patient.isNameHidden = IdentityText(m_value, library).mayIdentify(m_value.name);
+  patient.isNameHidden = mayNamePatient(m_value, library);
   patient.name = std::string(imaging::kCaseFamilyName) + "^" +
                  (patient.isNameHidden ? patient.id : givenName(m_value.name));
   return patient;
@@ -272,7 +311,8 @@ CaseDicomOptions dicomOptionsOf(const scene::Case& value, const library::Library
 {
   CaseDicomOptions options;
   options.patient = CaseIdentifiers(value).patient(library);
-  options.studyId = studyIdOf(value.name);
+  options.studyId =
+      options.patient.isNameHidden ? hiddenStudyIdOf(library, value.name) : studyIdOf(value.name);
   return options;
 }
 

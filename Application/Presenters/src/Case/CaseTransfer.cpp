@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 
+#include "petrous/Core/InputFile.h"
 #include "petrous/Imaging/CasePatient.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Library/Archive.h"
@@ -290,19 +291,24 @@ std::string studyOf(const library::Library& library, const network::Node& node,
 {
   if (!request.studyUid.empty())
     return request.studyUid;
-  auto studies = network::findStudies(node, {{}, studyIdOf(request.caseName)}, progress);
+  std::vector<network::Study> studies;
+  for (const std::string& id :
+       {studyIdOf(request.caseName), hiddenStudyIdOf(library, request.caseName)})
+    for (network::Study& study : network::findStudies(node, {{}, id}, progress))
+      if (std::none_of(studies.begin(), studies.end(),
+                       [&study](const network::Study& one) { return one.uid == study.uid; }))
+        studies.push_back(std::move(study));
   // Of several only those count that hold a scene: images alone are no case.
   const auto lacksScene = [&](const network::Study& study)
-  {
-    const auto series = network::findSeries(node, study.uid, progress);
-    return std::none_of(series.begin(), series.end(), network::isScene);
-  };
+  { return network::scenesAmong(network::findSeries(node, study.uid, progress)).empty(); };
   if (studies.size() > 1)
     studies.erase(std::remove_if(studies.begin(), studies.end(), lacksScene), studies.end());
   if (studies.empty())
     throw NetworkError(NetworkError::Reason::NotFound,
                        "node '" + node.name + "': has no scene of a case '" + request.caseName +
-                           "'; give --study UID for a study that was not sent by Petrous");
+                           "'; give --study UID for a study that was not sent by Petrous, or by "
+                           "another library without the name of the case ('petrous receive --list' "
+                           "lists those)");
   if (studies.size() == 1)
     return studies.front().uid;
   if (library.contains(request.caseName)) // the one of this very case
@@ -320,29 +326,48 @@ std::string studyOf(const library::Library& library, const network::Node& node,
 }
 
 constexpr const char* kFormerPatientId = "ANONYMOUS"; // of all cases
+constexpr const char* kFormerPatientName = "Anonymous";
 
-// `cases`: names of those of the library.
-FoundStudy foundStudy(network::Study study, const std::vector<std::string>& cases)
+// Name of each case of the library, by the study IDs that it may have at a node.
+std::map<std::string, std::string> casesByStudyId(const library::Library& library)
+{
+  std::map<std::string, std::string> cases;
+  for (const auto& one : library.list())
+  {
+    cases[studyIdOf(one.name)] = one.name;
+    cases[hiddenStudyIdOf(library, one.name)] = one.name;
+  }
+  return cases;
+}
+
+// `cases`: casesByStudyId.
+FoundStudy foundStudy(network::Study study, const std::map<std::string, std::string>& cases)
 {
   FoundStudy found;
   const bool isFormer = study.patientId == kFormerPatientId && isStudyId(study.studyId);
   found.isCase = isFormer || imaging::isCasePatientId(study.patientId);
   const std::string family = std::string(imaging::kCaseFamilyName) + "^";
-  if (found.isCase && !isFormer && study.patientName.compare(0, family.size(), family) == 0 &&
-      !imaging::isCasePatientId(study.patientName.substr(family.size())))
-    found.caseName = study.patientName.substr(family.size());
-  if (found.isCase)
-    for (const std::string& name : cases)
-      if (studyIdOf(name) == study.studyId)
-        found.caseName = name;
+  const bool isOurs = study.patientName.compare(0, family.size(), family) == 0;
+  const std::string given = isOurs ? study.patientName.substr(family.size()) : std::string();
+  const bool isTold = isOurs && !imaging::isCasePatientId(given);
+  if (found.isCase && !isFormer && isTold)
+    found.caseName = given;
+  if (const auto own = cases.find(study.studyId); found.isCase && own != cases.end())
+  {
+    found.caseName = own->second;
+    const bool isNobody = study.patientName.empty() || (isOurs && !isTold) ||
+                          (isFormer && study.patientName == kFormerPatientName);
+    if (!isNobody && (!isTold || given != toldName(own->second)))
+      found.otherName = study.patientName;
+  }
   found.study = std::move(study);
   return found;
 }
 
-// `part`: as StudySearch::caseName.
-bool hasName(const FoundStudy& found, const std::string& part)
+// `part`: as StudySearch::caseName; `hiddenId`: hiddenStudyIdOf it.
+bool hasName(const FoundStudy& found, const std::string& part, const std::string& hiddenId)
 {
-  if (found.study.studyId == studyIdOf(part))
+  if (found.study.studyId == studyIdOf(part) || found.study.studyId == hiddenId)
     return true;
   const std::string name = scene::lowerCase(found.caseName);
   const std::string wanted = scene::lowerCase(part);
@@ -387,9 +412,11 @@ void refuseTakenScene(const library::Library& library, const network::Node& node
                       const std::string& study, const core::Progress& progress)
 {
   for (const auto& found : network::findStudies(node, {study, {}}, progress))
-    for (const auto& there : library.list())
-      if (studyIdOf(there.name) == found.studyId)
-        freeName(library, there.name);
+  {
+    const auto cases = casesByStudyId(library);
+    if (const auto there = cases.find(found.studyId); there != cases.end())
+      freeName(library, there->second);
+  }
 }
 
 /// Without the volume of a series with several; empty: any CT.
@@ -406,7 +433,7 @@ void refuseVolumes(const std::vector<const imaging::DicomSeries*>& cts)
     return;
   std::string volumes;
   for (const imaging::DicomSeries* ct : cts)
-    volumes += (volumes.empty() ? "'" : ", '") + ct->volume + "' (" +
+    volumes += (volumes.empty() ? "'" : ", '") + core::printable(ct->volume) + "' (" +
                std::to_string(ct->geometry.slices.size()) + " images" +
                (ct->geometry.verdict == imaging::Verdict::Ok ? ")" : ", doubtful)");
   throw core::InvalidParameter("receive: the CT has " + std::to_string(cts.size()) +
@@ -540,7 +567,7 @@ void refuseSeveralCts(const network::Node& node, const std::vector<network::Seri
     if (one.modality == "CT" && (one.instances < 0 || one.instances > kScout))
     {
       ++cts;
-      counts += (counts.empty() ? "" : ", ") + one.uid +
+      counts += (counts.empty() ? "" : ", ") + core::printable(one.uid) +
                 (one.instances >= 0 ? " (" + std::to_string(one.instances) + " images)" : "");
     }
   if (cts > 1 && seriesUidOf(request.series).empty())
@@ -961,7 +988,8 @@ IdentityReport identityReport(const scene::Case& value, const SendParts& parts,
     report.leaves.push_back(
         "as the patient '" + patient.name + "', ID " + patient.id +
         (patient.isNameHidden
-             ? ": a pseudonym without the name of the case, which may be a patient's"
+             ? ": a pseudonym without the name of the case, which may be a patient's, or is not "
+               "known to be none"
              : ": a pseudonym with the name of the case"));
   }
   report.stays.push_back("UIDs of the scanner's files: the objects have new ones");
@@ -1040,6 +1068,10 @@ SendSummary sendCase(const library::Library& library, const std::string& name,
   summary.notes.insert(summary.notes.end(), outgoing.notes().begin(), outgoing.notes().end());
   summary.studyUid = CaseIdentifiers(value).study();
   summary.patient = CaseIdentifiers(value).patient(library);
+  if (summary.patient.isNameHidden)
+    summary.notes.push_back("the name of the case is not the patient's name at node '" + node.name +
+                            "': it may be a patient's, or nothing is known of the patient's name "
+                            "with which to compare it");
   library.checkVoxels(value, progress);
   summary.transfer = network::store(node, files, progress.part(0.4, 1.0));
   if (std::string note = supersededSegmentations(node, summary.studyUid, files, progress);
@@ -1048,16 +1080,19 @@ SendSummary sendCase(const library::Library& library, const std::string& name,
   return summary;
 }
 
-std::vector<FoundStudy> searchStudies(const network::Node& node, const StudySearch& search,
-                                      const std::vector<std::string>& cases,
-                                      const core::Progress& progress)
+FoundStudies searchStudies(const network::Node& node, const StudySearch& search,
+                           const library::Library& library, const core::Progress& progress)
 {
+  FoundStudies result;
+  const auto cases = casesByStudyId(library);
+  const std::string hiddenId =
+      cases.empty() ? std::string() : hiddenStudyIdOf(library, search.caseName);
   std::map<std::string, FoundStudy> found;
   const auto ask = [&](const network::StudyFilter& filter, bool onlyCases)
   {
     for (network::Study& study : network::findStudies(node, filter, progress))
       if (FoundStudy one = foundStudy(std::move(study), cases);
-          !onlyCases || (one.isCase && hasName(one, search.caseName)))
+          !onlyCases || (one.isCase && hasName(one, search.caseName, hiddenId)))
         found.emplace(one.study.uid, std::move(one));
   };
   network::StudyFilter filter = search.filter;
@@ -1066,19 +1101,37 @@ std::vector<FoundStudy> searchStudies(const network::Node& node, const StudySear
   if (search.caseName.empty() && (isOfPatient || isDated))
     ask(filter, false);
   if (search.caseName.empty() && isOfPatient && !isDated)
-    return valuesOf(std::move(found));
+  {
+    result.studies = valuesOf(std::move(found));
+    return result;
+  }
   filter.from.clear();
   filter.to.clear();
   if (search.caseName.empty() && isOfPatient)
     ask(filter, true);
   else
-    for (const char* id : {imaging::kCasePatientIds, kFormerPatientId})
+  {
+    filter.patientName.clear();
+    filter.patientId = imaging::kCasePatientIds;
+    ask(filter, true);
+    // An ID that other programs give, too: of those a node may have more than it is to list.
+    filter.patientId = kFormerPatientId;
+    try
     {
-      filter.patientId = id;
-      filter.patientName.clear();
       ask(filter, true);
     }
-  return valuesOf(std::move(found));
+    catch (const NetworkError& error)
+    {
+      if (error.reason != NetworkError::Reason::TooMany &&
+          error.reason != NetworkError::Reason::Failed)
+        throw;
+      result.notes.push_back(
+          "cases that were sent by the program's first version are not listed: " +
+          std::string(error.what()));
+    }
+  }
+  result.studies = valuesOf(std::move(found));
+  return result;
 }
 
 ReceiveSummary receiveCase(library::Library& library, const network::Node& node,

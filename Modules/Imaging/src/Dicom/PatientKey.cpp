@@ -129,11 +129,18 @@ std::size_t namePartKey(const std::string& word)
 PatientKey patientKey(const std::string& id, const std::string& issuer, const std::string& name,
                       const std::string& birthDate)
 {
-  if (isCasePatientId(plain(id)))
-    return {};
   const std::size_t alphabetic = name.find('=');
   const std::string first = alphabetic == 0 ? name.substr(1) : name.substr(0, alphabetic);
   PatientKey key{hashOf(id), hashOf(issuer), hashOf(first), hashOf(birthDate)};
+  if (isCasePatientId(plain(id)))
+  {
+    const std::string family = plain(kCaseFamilyName) + " ";
+    key.id = key.issuer = 0;
+    if (plain(first).compare(0, family.size(), family) == 0)
+      key.name = 0;
+    if (key.name == 0)
+      key.nameParts[0] = hashOf(id);
+  }
   if (key.name != 0)
     key.nameParts = namePartsOf(first);
   return key;

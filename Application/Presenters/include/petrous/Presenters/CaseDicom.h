@@ -19,15 +19,22 @@ namespace petrous::presenters
 /// Study ID (0020,0010) of DICOM objects of a case of this name: a hash, by which a node finds the
 /// case whatever the patient is called there.
 std::string studyIdOf(const std::string& caseName);
+/// The same of a case whose name does not leave: only this library, by its salt, can tell whether a
+/// name is behind it.
+std::string hiddenStudyIdOf(const library::Library& library, const std::string& caseName);
+/// The name of a case as CasePatient::name states it: without '^' and '=', and cut.
+std::string toldName(const std::string& caseName);
 /// Whether it has the form of one.
 bool isStudyId(const std::string& text);
 
 /// Whom DICOM objects name as the patient.
 struct CasePatient
 {
-  std::string id;            ///< (0010,0020) imaging::casePatientId
-  std::string name;          ///< (0010,0010) "Petrous^" and the case's name, or the ID
-  bool isNameHidden = false; ///< the case's name may identify the patient (IdentityText)
+  std::string id;   ///< (0010,0020) imaging::casePatientId
+  std::string name; ///< (0010,0010) "Petrous^" and the case's name, or the ID
+  /// The case's name may be the patient's: it has what looks like one (IdentityText), or nothing is
+  /// known of the patient's name with which it could be compared, as in a case that was restored.
+  bool isNameHidden = false;
 };
 
 /// Identifiers of DICOM files that are written of a case: derived from the case's ID and name and

@@ -93,15 +93,24 @@ struct FoundStudy
   network::Study study;
   bool isCase = false;  ///< sent, or exported, by Petrous
   std::string caseName; ///< empty: not known, as it may identify the patient
+  /// Where `caseName` is that of a case of the library and the node has another patient's name
+  /// than that case is sent under: that name.
+  std::string otherName;
+};
+
+/// What a search found.
+struct FoundStudies
+{
+  std::vector<FoundStudy> studies;
+  std::vector<std::string> notes; ///< for the user: what was not looked for, and why
 };
 
 /// The studies that a search finds at a node. Cases of Petrous state no date: those that are not
-/// excluded otherwise are found by every range of dates. `cases`: of the library, known also where
-/// the node does not tell their names, and where the former version of the program sent them.
-/// Throws NetworkError, CancelledError.
-std::vector<FoundStudy> searchStudies(const network::Node& node, const StudySearch& search,
-                                      const std::vector<std::string>& cases,
-                                      const core::Progress& progress = {});
+/// excluded otherwise are found by every range of dates. The cases of the library are known also
+/// where the node does not tell their names, and where the former version of the program sent them.
+/// Throws NetworkError, LibraryError, CancelledError.
+FoundStudies searchStudies(const network::Node& node, const StudySearch& search,
+                           const library::Library& library, const core::Progress& progress = {});
 
 struct ReceiveRequest
 {

@@ -333,6 +333,14 @@ TEST_F(RenderCommand, TurnsTheBallOnceAround)
   const auto shorter = run("render ball --view anterior --size 64x48 --turntable 2 --out " + out);
   EXPECT_NE(shorter.err.find("2 frames of an earlier"), std::string::npos) << shorter.err;
   EXPECT_FALSE(std::filesystem::exists(m_folder / "turn-0003.png"));
+  for (const char* name : {"turn-0003.png", "turn-0004.png"})
+    std::ofstream(m_folder / name) << "mine";
+  const auto beside = run("render ball --view anterior --size 64x48 --turntable 2 --out " + out);
+  EXPECT_EQ(beside.code, 0) << beside.err;
+  EXPECT_NE(beside.err.find("turn-0003.png and 1 behind it: not known"), std::string::npos)
+      << beside.err;
+  EXPECT_EQ(textOf(m_folder / "turn-0003.png"), "mine");
+  EXPECT_EQ(textOf(m_folder / "turn-0004.png"), "mine");
   expectRefused("render ball --out " + quoted(m_folder / "one.mp4"), 2, "--turntable");
   expectRefused("render ball --turntable 1 --out " + out, 2, "2");
   expectRefused("render ball --turntable 4 --dpi 100 --out " + out, 2, "film");

@@ -529,6 +529,13 @@ void writeFilm(const Context& context, const RenderOptions& options, const Shot&
   if (removed > 0)
     context.warn(std::to_string(removed) +
                  " frames of an earlier, longer film of this name were removed");
+  const auto beyond = presenters::framesBeyond(options.out, static_cast<std::size_t>(frames));
+  if (!beyond.empty())
+    context.warn(
+        core::printable(beyond.front()) +
+        (beyond.size() == 1 ? "" : " and " + std::to_string(beyond.size() - 1) + " behind it") +
+        ": not known to be of an earlier film, so it stays; a player may take it for a "
+        "frame of this one");
   nlohmann::json path = nlohmann::json::array();
   for (const core::CameraPose& camera : cameras)
     path.push_back(cameraJson(camera));
@@ -540,6 +547,7 @@ void writeFilm(const Context& context, const RenderOptions& options, const Shot&
                      {"cameras", std::move(path)},
                      {"files", outputsOf(options)},
                      {"removed_frames", removed},
+                     {"frames_beyond", beyond.size()},
                      {"thickness", thicknessJson(options)},
                      {"left_out", leftOutJson(value, leftOut)},
                      {"out", options.out}});

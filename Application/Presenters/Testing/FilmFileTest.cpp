@@ -95,6 +95,7 @@ TEST_F(FilmFile, RemovesTheFramesOfALongerOne)
        {"F-0001.png", "F-0002.png", "F-0003.png", "F-0004.png", "F-0006.png", "G-0003.png"})
     write(name, "another's");
   EXPECT_EQ(framesBeyond(m_folder / "F.png", 2).size(), 2U);
+  m_options.removesAnyBeyond = true;
   EXPECT_EQ(writeFilm(m_folder / "F.png", m_contents, cameras(2), m_options), 2U);
   const auto after = files();
   ASSERT_EQ(after.size(), 4U);
@@ -103,6 +104,31 @@ TEST_F(FilmFile, RemovesTheFramesOfALongerOne)
   EXPECT_EQ(after.at("F-0006.png"), "another's") << "no player goes on to it";
   EXPECT_EQ(after.at("G-0003.png"), "another's");
   EXPECT_TRUE(framesBeyond(m_folder / "F.mp4", 2).empty());
+}
+
+// What follows is removed as far as it is a film's, without having asked.
+TEST_F(FilmFile, LeavesWhatIsNotKnownToBeAFrame)
+{
+  EXPECT_EQ(writeFilm(m_folder / "F.png", m_contents, cameras(6), m_options), 0U);
+  const auto film = files();
+  const std::string signature("\x89PNG\r\n\x1a\n", 8);
+  write("F-0004.png", signature + "another's");
+  write("F-0005.png", film.at("F-0006.png"));
+  EXPECT_EQ(writeFilm(m_folder / "F.png", m_contents, cameras(2), m_options), 1U);
+  const auto after = files();
+  EXPECT_EQ(after.count("F-0003.png"), 0U);
+  EXPECT_EQ(after.at("F-0004.png"), signature + "another's");
+  EXPECT_EQ(after.count("F-0005.png"), 1U) << "no player goes on to it";
+}
+
+// A chunk of text, behind the header: length, type, content, CRC-32 [PNG, 2nd edition, 11.3.4.3].
+TEST_F(FilmFile, NamesTheProgramInItsFrames)
+{
+  writeFilm(m_folder / "F.png", m_contents, cameras(2), m_options);
+  const std::string frame = files().at("F-0001.png");
+  const std::string chunk("\0\0\0\x15tEXtSoftware\0Petrous film\x8e\x47\x7a\x10", 33);
+  EXPECT_EQ(frame.find("IHDR"), 12U);
+  EXPECT_EQ(frame.find(chunk), 33U);
 }
 
 TEST_F(FilmFile, IsNotBegunWhereAFrameCannotStand)

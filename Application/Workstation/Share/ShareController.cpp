@@ -165,7 +165,8 @@ void ShareController::printPicture()
     return;
   m_keeper.run(
       tr("Drawing the picture"),
-      [this, value = shown(), size = dialog.size(), samples = dialog.samples(), file = dialog.file(),
+      [this, value = shown(), size = dialog.size(), samples = dialog.samples(),
+       file = dialog.file(),
        library = m_model.library()](const core::Progress& progress) -> BackgroundWork::Reply
       {
         constexpr int kTile = 1024; // pixels
@@ -205,6 +206,7 @@ void ShareController::film()
             along.empty() ? presenters::turntable(*value.camera, frames)
                           : presenters::flightAlong(value, along, frames, progress.part(0.0, 0.05));
         presenters::FilmOptions film;
+        film.removesAnyBeyond = true; // FilmDialog::files, which the user was asked about
         film.lines = {presenters::sideText(value.description.side)};
         for (const std::string& line : presenters::interpolatedTexts(value))
           film.lines.push_back(line);

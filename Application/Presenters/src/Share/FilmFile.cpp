@@ -6,6 +6,7 @@
 #include <cstring>
 #include <memory>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include <fcntl.h>
@@ -15,6 +16,7 @@
 #include <unistd.h>
 
 #include "petrous/Core/Error.h"
+#include "petrous/Core/InputFile.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Presenters/BoneThickness.h"
@@ -174,6 +176,33 @@ fs::path frameFile(const fs::path& file, std::size_t n)
   return one;
 }
 
+// By which a frame is known again: a text of the PNG (tEXt), whole with its length and checksum.
+constexpr std::string_view kMark("\0\0\0\x15tEXtSoftware\0Petrous film\x8e\x47\x7a\x10", 33);
+constexpr std::size_t kMarkPlace = 8 + 25; // bytes: behind the signature and the header (IHDR)
+
+void mark(const fs::path& frame)
+{
+  std::string png = core::readFile(frame);
+  png.insert(kMarkPlace, kMark);
+  core::OutputFile out(frame);
+  out.write(png);
+  out.commit();
+}
+
+bool isMarked(const fs::path& frame)
+{
+  try
+  {
+    const core::InputFile file(frame);
+    return file.size() >= kMarkPlace + kMark.size() &&
+           file.read(kMarkPlace + kMark.size()).substr(kMarkPlace) == kMark;
+  }
+  catch (const core::Error&)
+  {
+    return false;
+  }
+}
+
 std::string endingOf(const fs::path& file)
 {
   return scene::lowerCase(file.extension().string());
@@ -263,6 +292,7 @@ std::size_t writeFilm(const fs::path& file, const rendering::SceneContents& cont
     {
       unfinished.files.push_back(core::temporaryBeside(targets[n]));
       rendering::writePng(unfinished.files.back(), frame);
+      mark(unfinished.files.back());
     }
   }
   if (video)
@@ -276,11 +306,16 @@ std::size_t writeFilm(const fs::path& file, const rendering::SceneContents& cont
       core::throwOutputError(error.value(), targets[n]);
   }
   unfinished.files.clear();
-  const auto beyond = framesBeyond(file, cameras.size());
-  for (const fs::path& one : beyond)
+  std::size_t removed = 0;
+  for (const fs::path& one : framesBeyond(file, cameras.size()))
+  {
+    if (!options.removesAnyBeyond && !isMarked(one))
+      break;
     if (!fs::remove(one, error) && error)
       core::throwOutputError(error.value(), one);
-  return beyond.size();
+    ++removed;
+  }
+  return removed;
 }
 
 } // namespace petrous::presenters

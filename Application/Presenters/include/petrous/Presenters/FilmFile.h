@@ -19,6 +19,9 @@ struct FilmOptions
   double framesPerSecond = 25.0;       ///< of a video
   std::vector<std::string> lines = {}; ///< upper left of each frame
   std::string thickness = {}; ///< structure over which bone is coloured: with the colour scale
+  /// The user was asked: all framesBeyond are removed, else only those that are known to be of a
+  /// film of this program, and none behind one that is not.
+  bool removesAnyBeyond = false;
 };
 
 /// Whether a film of this name is a video (.mp4), else one PNG a frame (.png).
@@ -36,7 +39,7 @@ std::vector<std::filesystem::path> framesBeyond(const std::filesystem::path& fil
                                                 std::size_t frames);
 
 /// Draws a scene from one camera after the other, off-screen, on any thread: complete, in place of
-/// an earlier film and of its framesBeyond, or not at all. A video is encoded by ffmpeg (H.264).
+/// an earlier film and of its framesBeyond (FilmOptions::removesAnyBeyond), or not at all. A video is encoded by ffmpeg (H.264).
 /// Throws InvalidParameter for a name that is neither or without ffmpeg, core::Error (Refused)
 /// where that fails, RenderingError, core::OutputFileError, CancelledError. Returns how many
 /// framesBeyond were removed.

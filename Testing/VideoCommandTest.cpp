@@ -143,6 +143,18 @@ TEST_F(VideoCommand, FindsTheCameraOfAStillAndDrawsItOverTheScene)
   EXPECT_EQ(run("library verify").code, 0);
 }
 
+// Bookmarks and landmarks belong to the film in which they were set.
+TEST_F(VideoCommand, NamesAFileOfTheSameSizeThatIsAnother)
+{
+  EXPECT_TRUE(json("video ear")["videos"][0]["problem"].is_null());
+  std::string bytes = textOf(m_folder / "film.mkv");
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  std::ofstream(m_folder / "film.mkv", std::ios::binary) << bytes;
+  EXPECT_NE(json("video ear")["videos"][0]["problem"].dump().find("its file is changed"),
+            std::string::npos);
+  expectRefused("video ear --at 0.2 --bookmark x", 3, "its file is changed");
+}
+
 TEST_F(VideoCommand, NamesAFileThatIsGoneOrNone)
 {
   std::filesystem::remove(m_folder / "film.mkv");

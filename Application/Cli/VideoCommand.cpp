@@ -72,9 +72,12 @@ scene::Attachment& videoOf(scene::Case& value, const std::string& name)
                                     : "several videos: " + names + "; say which with --video"));
 }
 
-video::VideoFile openVideo(const library::Library& library, const scene::Attachment& one)
+// What landmarks and bookmarks were set in, to its last byte.
+video::VideoFile openVideo(const Context& context, const library::Library& library,
+                           const scene::Attachment& one)
 {
-  if (const auto problem = library::attachmentProblem(library, one); !problem.empty())
+  if (const auto problem = library::attachmentChange(library, one, context.progress());
+      !problem.empty())
     throw core::InvalidParameter("attachment '" + one.name + "': its file is " + problem);
   return video::VideoFile(library::attachmentFile(library, one), one.name);
 }
@@ -121,7 +124,7 @@ nlohmann::json videoJson(const Context& context, const library::Library& library
   nlohmann::json problem = nullptr;
   try
   {
-    const video::VideoFile opened = openVideo(library, one);
+    const video::VideoFile opened = openVideo(context, library, one);
     const video::VideoInfo& info = opened.info();
     file = {{"width", info.width},
             {"height", info.height},
@@ -256,7 +259,7 @@ void run(const Context& context, const VideoCommandOptions& options)
                             static_cast<std::ptrdiff_t>(scene::findBookmark(notes, name)));
     if (options.isOfFrame())
     {
-      video::VideoFile file = openVideo(library, one);
+      video::VideoFile file = openVideo(context, library, one);
       const video::Frame frame =
           file.seek(video::Time(static_cast<std::int64_t>(std::llround(1e9 * *options.at))));
       answer["frame_time_s"] = seconds(frame.time.count());

@@ -360,9 +360,23 @@ TEST_F(Attachments, OfALinkAreCheckedAgainstItsHash)
 {
   add("far.mp4", kVideo, true);
   EXPECT_EQ(extracted(m_library, "ear", "far.mp4"), kVideo);
+  EXPECT_EQ(attachmentChange(m_library, m_value.attachments.front()), "");
+  EXPECT_TRUE(m_library.verify().damaged.empty());
   std::string other = kVideo;
   other.back() = '!';
   write(m_folder.path() / "far.mp4", other); // as long
+  EXPECT_EQ(attachmentProblem(m_library, m_value.attachments.front()), "") << "unread";
+  EXPECT_EQ(attachmentChange(m_library, m_value.attachments.front()), "changed");
+  const auto damaged = m_library.verify().damaged;
+  ASSERT_EQ(damaged.size(), 1U);
+  EXPECT_NE(damaged[0].text.find("far.mp4"), std::string::npos);
+  EXPECT_EQ(damaged[0].cases, std::vector<std::string>{"ear"});
+  ArchiveOptions options;
+  options.withVideos = true;
+  const auto archived = archiveCase(m_library, "ear", m_folder.path() / "ear.petrous", options);
+  EXPECT_TRUE(std::any_of(archived.notes.begin(), archived.notes.end(),
+                          [](const std::string& note)
+                          { return note.find("its file is changed") != note.npos; }));
   EXPECT_EQ(refusal([&] { extracted(m_library, "ear", "far.mp4"); }).first, Reason::Damaged);
   fs::remove(m_folder.path() / "far.mp4");
   fs::create_symlink("/dev/zero", m_folder.path() / "far.mp4");

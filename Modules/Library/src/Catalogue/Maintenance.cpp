@@ -465,6 +465,7 @@ Inspection Library::verify(const core::Progress& progress) const
   Inspection result;
   std::map<std::string, Use> uses;
   std::vector<std::pair<std::string, std::string>> ids; // of cases, with their names
+  std::vector<std::pair<std::string, scene::Attachment>> links;
   const auto damaged =
       [&result](const std::string& object, const std::vector<Use::By>& by, const std::string& text)
   {
@@ -490,6 +491,9 @@ Inspection Library::verify(const core::Progress& progress) const
       const scene::Case value = manifestIn(path, name);
       if (!isDeleted)
         ids.emplace_back(value.id, name);
+      for (const scene::Attachment& one : value.attachments)
+        if (!isDeleted && !one.link.empty())
+          links.emplace_back(name, one);
       for (const ObjectUse& use : objectsOf(value))
         uses[use.object].all.push_back({path, name, isDeleted, use.what});
     }
@@ -555,6 +559,13 @@ Inspection Library::verify(const core::Progress& progress) const
       damaged(object, use.all, error.what() + needText(use));
     }
   }
+  // That a linked file is not there is no damage: its disk may be elsewhere.
+  for (const auto& [name, one] : links)
+    if (attachmentChange(*this, one, progress.part(1.0, 1.0)) == "changed")
+      damaged(one.link, {Use::By{{}, name, false, {}}},
+              core::printable(one.link) + ": attachment '" + one.name + "' of case '" + name +
+                  "': the linked file is another one than was attached; put the former one back, "
+                  "or remove the attachment and attach this one");
   return result;
 }
 

@@ -128,13 +128,13 @@ std::uint32_t number(const std::uint8_t* from)
 // Copies the file to `write`, block by block; returns its hash.
 std::string copied(const core::InputFile& file,
                    const std::function<void(const char*, std::size_t)>& write,
-                   const core::Progress& progress)
+                   const core::Progress& progress, const char* task = "copying")
 {
   Sha256 hash;
   std::vector<char> block(kBlock);
   for (std::uintmax_t done = 0; done < file.size();)
   {
-    progress.report(static_cast<double>(done) / static_cast<double>(file.size()), "copying");
+    progress.report(static_cast<double>(done) / static_cast<double>(file.size()), task);
     const ssize_t got =
         ::pread(file.descriptor(), block.data(), block.size(), static_cast<off_t>(done));
     if (got < 0 && errno == EINTR)
@@ -352,6 +352,27 @@ catch (const core::InputFileError& error)
 catch (const LibraryError&)
 {
   return "missing";
+}
+
+std::string attachmentChange(const Library& library, const Attachment& attachment,
+                             const core::Progress& progress)
+try
+{
+  if (const std::string problem = attachmentProblem(library, attachment); !problem.empty())
+    return problem;
+  const std::string& known = attachment.link.empty() ? attachment.object : attachment.sha256;
+  const std::string hash = copied(
+      core::InputFile(attachmentFile(library, attachment)), [](const char*, std::size_t) {},
+      progress, "comparing with what was attached");
+  return known.compare(0, hash.size(), hash) == 0 ? std::string() : "changed";
+}
+catch (const core::InputFileError& error)
+{
+  return error.reason == core::InputFileError::Reason::NotFound ? "missing" : "unreadable";
+}
+catch (const LibraryError&)
+{
+  return "unreadable";
 }
 
 fs::path attachmentFile(const Library& library, const Attachment& attachment)

@@ -48,6 +48,11 @@ std::vector<std::uint8_t> cleanedPng(const std::vector<std::uint8_t>& png);
 /// size. Empty: nothing.
 std::string attachmentProblem(const Library& library, const scene::Attachment& attachment);
 
+/// The same after all of it is read: also another content of the same size is "changed". Throws
+/// CancelledError.
+std::string attachmentChange(const Library& library, const scene::Attachment& attachment,
+                             const core::Progress& progress = {});
+
 /// Where its content lies: in the library, where it is linked, or, not yet saved, where it comes
 /// from. Throws InvalidParameter naming it if that is nowhere yet.
 std::filesystem::path attachmentFile(const Library& library, const scene::Attachment& attachment);

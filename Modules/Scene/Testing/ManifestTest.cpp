@@ -302,6 +302,28 @@ TEST(Manifest, RefusesANumberOfAStructureThatIsOutOfItsRange)
   }
 }
 
+// Not as what is left of it in the bits of its type.
+TEST(Manifest, RefusesAnIntegerThatIsTooLarge)
+{
+  const auto good = nlohmann::json::parse(scene::toManifest(fullCase()));
+  EXPECT_EQ(scene::fromManifest(good.dump(), "m").ct.geometry.dims(),
+            fullCase().ct.geometry.dims());
+  for (const auto& [place, wrong] :
+       {std::pair("/ct/grid/dims/0", "4294967297"), std::pair("/ct/grid/dims/0", "-4294967295"),
+        std::pair("/labels/0/structures/0/index", "65537"),
+        std::pair("/labels/0/structures/0/index", "1.5"),
+        std::pair("/labels/0/structures/0/voxels", "-1")})
+  {
+    auto j = good;
+    ASSERT_TRUE(j.contains(nlohmann::json::json_pointer(place))) << place;
+    j[nlohmann::json::json_pointer(place)] = nlohmann::json::parse(wrong);
+    EXPECT_NE(refusalOf(j).find("out of its range"), std::string::npos) << place << ", " << wrong;
+  }
+  auto j = good;
+  j["petrous_case"] = 4294967297;
+  EXPECT_NE(refusalOf(j).find("written by format 4294967297"), std::string::npos);
+}
+
 // Appearances as in the first manifests: no bone, no transfer functions.
 TEST(Manifest, OpensOneWithoutTransferFunctionsAsItLookedBefore)
 {

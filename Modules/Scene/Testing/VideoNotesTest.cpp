@@ -1,6 +1,7 @@
 #include "petrous/Scene/VideoNotes.h"
 
 #include <functional>
+#include <limits>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -98,6 +99,8 @@ TEST(VideoNotes, AreCheckedWhereTheyComeIn)
       [](VideoNotes& n) { n.bookmarks[0].name = std::string(101, 'a'); },
       [](VideoNotes& n) { n.bookmarks[0].name = "INCUS"; },
       [](VideoNotes& n) { n.bookmarks[0].time = -1; },
+      [](VideoNotes& n) { n.bookmarks[0].time = std::numeric_limits<std::int64_t>::max(); },
+      [](VideoNotes& n) { n.stills[0].time = 2592000000000001; }, // 30 days and 1 ns
       [](VideoNotes& n) { n.bookmarks.resize(1001, n.bookmarks[0]); },
       [](VideoNotes& n) { n.stills.push_back(n.stills[0]); },
       [](VideoNotes& n) { n.stills[0].time = -1; },
@@ -136,6 +139,13 @@ TEST(VideoNotes, AreCheckedWhereTheyComeIn)
   auto j = nlohmann::json::parse(toManifest(value));
   j["attachments"][0]["video"]["bookmarks"][0]["time_ns"] = -5;
   EXPECT_THROW(fromManifest(j.dump(), "m"), ManifestError);
+  j["attachments"][0]["video"]["bookmarks"][0]["time_ns"] = 5;
+  EXPECT_NO_THROW(fromManifest(j.dump(), "m"));
+  for (const std::int64_t side : {std::int64_t{4294967297}, std::int64_t{-4294967295}})
+  {
+    j["attachments"][0]["video"]["stills"][0]["size"][0] = side; // 1 in 32 bits
+    EXPECT_THROW(fromManifest(j.dump(), "m"), ManifestError) << side;
+  }
   j["attachments"][0]["video"] = 7;
   EXPECT_THROW(fromManifest(j.dump(), "m"), ManifestError);
 }

@@ -1,7 +1,10 @@
 #include "petrous/Scene/Manifest.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include <nlohmann/json.hpp>
 
@@ -22,6 +25,32 @@ core::RigidTransform poseIn(const nlohmann::json& j);
 
 namespace
 {
+
+// json's own conversion lets what is too large for the type wrap around.
+template <class Number>
+Number integerIn(const nlohmann::json& j)
+{
+  using Limits = std::numeric_limits<Number>;
+  const bool isNegative =
+      j.is_number_integer() && j.get<std::int64_t>() < 0 && !j.is_number_unsigned();
+  const bool isWithin =
+      isNegative
+          ? Limits::is_signed && j.get<std::int64_t>() >= static_cast<std::int64_t>(Limits::min())
+          : j.is_number_integer() &&
+                j.get<std::uint64_t>() <= static_cast<std::uint64_t>(Limits::max());
+  if (!isWithin)
+    throw core::InvalidParameter("a number is no integer, or out of its range");
+  return j.get<Number>();
+}
+
+template <std::size_t count>
+std::array<int, count> integersIn(const nlohmann::json& j)
+{
+  std::array<int, count> all{};
+  for (std::size_t n = 0; n < count; ++n)
+    all[n] = integerIn<int>(j.at(n));
+  return all;
+}
 
 std::vector<std::string> plainTextsIn(const nlohmann::json& j)
 {
@@ -161,8 +190,8 @@ core::GridGeometry gridIn(const json& j)
   const auto d = j.at("direction").get<std::array<double, 9>>();
   Eigen::Matrix3d direction;
   direction << d[0], d[1], d[2], d[3], d[4], d[5], d[6], d[7], d[8];
-  return {j.at("dims").get<core::Index3>(), vectorIn(j.at("spacing_mm")),
-          vectorIn(j.at("origin_mm")), direction};
+  return {integersIn<3>(j.at("dims")), vectorIn(j.at("spacing_mm")), vectorIn(j.at("origin_mm")),
+          direction};
 }
 
 using Hash = std::string PatientHash::*;
@@ -227,7 +256,7 @@ volume::ImageProvenance provenanceIn(const json& j, int slices)
   if (j.contains("interpolated_slices"))
     for (const json& range : j.at("interpolated_slices").get_ref<const json::array_t&>())
     {
-      const auto [first, last] = range.get<std::array<int, 2>>();
+      const auto [first, last] = integersIn<2>(range);
       const int after = provenance.interpolated.empty() ? 0 : provenance.interpolated.back().last;
       if (range.size() != 2 || first < 1 || last < first || last > slices ||
           (!provenance.interpolated.empty() && first - 1 <= after + 1))
@@ -393,8 +422,8 @@ LabelPart labelsIn(const json& j, const appearance::StructurePresets& presets)
     part.provenance = labelProvenanceFromNotes(part.notes);
   for (const json& s : j.at("structures"))
     part.structures.push_back(
-        {s.at("name").get<std::string>(), s.at("index").get<std::uint16_t>(),
-         s.at("voxels").get<std::uint64_t>(), s.at("volume_mm3").get<double>(),
+        {s.at("name").get<std::string>(), integerIn<std::uint16_t>(s.at("index")),
+         integerIn<std::uint64_t>(s.at("voxels")), s.at("volume_mm3").get<double>(),
          lookIn(s.at("look"), presets),
          s.contains("codes") ? codesIn(s.at("codes")) : volume::SegmentCodes()});
   return part;
@@ -673,8 +702,8 @@ json stillOut(const VideoNotes::Still& still)
 VideoNotes::Still stillIn(const json& j)
 {
   VideoNotes::Still still;
-  still.time = j.at("time_ns").get<std::int64_t>();
-  still.size = j.at("size").get<std::array<int, 2>>();
+  still.time = integerIn<std::int64_t>(j.at("time_ns"));
+  still.size = integersIn<2>(j.at("size"));
   still.opacity = j.at("opacity").get<double>();
   for (const json& one : j.at("landmarks").get_ref<const json::array_t&>())
   {
@@ -709,7 +738,7 @@ std::shared_ptr<const VideoNotes> videoIn(const json& j)
   if (j.contains("bookmarks"))
     for (const json& one : j.at("bookmarks").get_ref<const json::array_t&>())
       notes.bookmarks.push_back({one.at("name").get<std::string>(),
-                                 one.at("time_ns").get<std::int64_t>(),
+                                 integerIn<std::int64_t>(one.at("time_ns")),
                                  one.value("stroke", std::string())});
   if (j.contains("stills"))
     for (const json& one : j.at("stills").get_ref<const json::array_t&>())
@@ -743,7 +772,7 @@ Attachment attachmentIn(const json& j)
   Attachment attachment;
   attachment.kind = attachmentKindFrom(j.at("kind").get<std::string>());
   attachment.name = j.at("name").get<std::string>();
-  attachment.bytes = j.at("bytes").get<std::uint64_t>();
+  attachment.bytes = integerIn<std::uint64_t>(j.at("bytes"));
   attachment.date = j.value("date", std::string());
   attachment.note = j.value("note", std::string());
   attachment.stroke = j.value("stroke", std::string());
@@ -816,7 +845,7 @@ Case caseIn(const json& j)
   Case value;
   value.name = j.at("name").get<std::string>();
   value.id = j.value("id", std::string());
-  value.revision = j.at("revision").get<std::uint64_t>();
+  value.revision = integerIn<std::uint64_t>(j.at("revision"));
   value.iso = j.at("iso_hu").get<double>();
   value.denseBone = j.value("dense_bone_hu", value.denseBone);
   value.ct = imageIn(j.at("ct"));
@@ -839,7 +868,7 @@ Case caseIn(const json& j)
     MeshPart mesh;
     mesh.name = m.at("name").get<std::string>();
     mesh.object = m.at("object").get<std::string>();
-    mesh.triangles = m.at("triangles").get<std::size_t>();
+    mesh.triangles = integerIn<std::size_t>(m.at("triangles"));
     mesh.notes = plainTextsIn(m.at("notes"));
     mesh.look = lookIn(m.at("look"), presets);
     mesh.drawnOn = m.value("drawn_on", std::string());
@@ -868,7 +897,7 @@ Case caseIn(const json& j)
     strokes.push_back(std::make_shared<const dissection::Stroke>(strokeIn(stroke)));
   const auto history =
       j.at("petrous_case").get<int>() < kFirstFormatWithBranches
-          ? dissection::History::line(strokes.size(), drilled.at("applied").get<std::size_t>())
+          ? dissection::History::line(strokes.size(), integerIn<std::size_t>(drilled.at("applied")))
           : historyIn(drilled.at("history"));
   value.dissection = dissection::Dissection(std::move(strokes), history);
   checkCaseName(value.name);
@@ -957,7 +986,7 @@ auto readManifest(std::string_view text, const std::string& source,
   try
   {
     const json j = json::parse(text, wanted);
-    const int format = j.at("petrous_case").get<int>();
+    const auto format = integerIn<std::int64_t>(j.at("petrous_case"));
     if (format > kManifestFormat)
       throw ManifestError(Reason::NewerFormat,
                           source + ": written by format " + std::to_string(format) +

@@ -17,6 +17,7 @@ namespace
 
 constexpr double kFarthestPoint = 1e5; // mm
 constexpr double kFarthestPixel = 1e6;
+constexpr std::int64_t kLongestVideo = std::int64_t{30} * 24 * 3600 * 1000000000; // ns
 
 void requireOfVideo(bool holds, const std::string& what)
 {
@@ -33,6 +34,7 @@ bool isWithin(const Vector& v, double limit)
 void checkStill(const VideoNotes::Still& still)
 {
   requireOfVideo(still.time >= 0, "a still before the beginning");
+  requireOfVideo(still.time <= kLongestVideo, "a still later than 30 days");
   for (const int side : still.size)
     requireOfVideo(side >= 1 && side <= VideoNotes::kLargestSide,
                    "a still has sides of 1 to " + std::to_string(VideoNotes::kLargestSide) +
@@ -120,6 +122,7 @@ void checkVideoNotes(const VideoNotes& notes)
     requireOfVideo(names.insert(lowerCase(one.name)).second,
                    "two bookmarks have the name '" + one.name + "'");
     requireOfVideo(one.time >= 0, "bookmark '" + one.name + "' is before the beginning");
+    requireOfVideo(one.time <= kLongestVideo, "bookmark '" + one.name + "' is later than 30 days");
   }
   std::set<std::int64_t> times;
   for (const VideoNotes::Still& one : notes.stills)

@@ -58,10 +58,10 @@ AttachmentsController::AttachmentsController(presenters::WorkstationModel& model
   connect(&m_work, &BackgroundWork::failed, this, &AttachmentsController::statusMessage);
 }
 
-void AttachmentsController::attach()
+bool AttachmentsController::attach()
 {
   if (!m_model.hasCase())
-    return;
+    return false;
   const QString files = "(*.ticks *.png *.pdf *.mp4 *.m4v *.mov *.mkv *.webm *.avi *.mpg *.mpeg "
                         "*.ts *.mts *.wmv *.flv *.ogv *.ogg *.mp3 *.wav *.flac)";
   const QString embedded = tr("Recordings, PNG, PDF, video %1").arg(files);
@@ -71,15 +71,18 @@ void AttachmentsController::attach()
   dialog.setFileMode(QFileDialog::ExistingFile);
   dialog.setNameFilters({embedded, linked, tr("All files (*)")});
   dialog.setDirectory(QDir::homePath());
-  if (dialog.exec() == QDialog::Accepted)
-    take(pathOf(dialog.selectedFiles().first()), dialog.selectedNameFilter() == linked);
+  return dialog.exec() == QDialog::Accepted &&
+         take(pathOf(dialog.selectedFiles().first()), dialog.selectedNameFilter() == linked);
 }
 
 // A link is read as a whole, for its hash: in the background.
-void AttachmentsController::take(const std::filesystem::path& file, bool isLink)
+bool AttachmentsController::take(const std::filesystem::path& file, bool isLink)
 {
   if (m_work.busy())
-    return emit statusMessage(tr("One at a time: a file is being read already"));
+  {
+    emit statusMessage(tr("One at a time: a file is being read already"));
+    return false;
+  }
   library::AttachOptions options;
   options.link = isLink;
   m_work.start(
@@ -93,6 +96,7 @@ void AttachmentsController::take(const std::filesystem::path& file, bool isLink)
             add(attachment);
         };
       });
+  return true;
 }
 
 void AttachmentsController::add(scene::Attachment attachment)

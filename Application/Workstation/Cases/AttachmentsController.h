@@ -26,7 +26,8 @@ public:
 
   AttachmentsPanel* panel() const { return m_panel; } ///< owned by the window that takes it
 
-  void attach(); ///< a file, or a link to one, that the user chooses
+  /// A file, or a link to one, that the user chooses. False: none was chosen.
+  bool attach();
 
 signals:
   void changed(); ///< the case has other attachments and is unsaved
@@ -34,7 +35,7 @@ signals:
   void statusMessage(const QString& line);
 
 private:
-  void take(const std::filesystem::path& file, bool isLink);
+  bool take(const std::filesystem::path& file, bool isLink);
   void add(scene::Attachment attachment);
   void attachScreenshot();
   void attachRecording();

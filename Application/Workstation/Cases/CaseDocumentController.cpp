@@ -604,9 +604,9 @@ bool CaseDocumentController::ask(Item& item, const Purpose& purpose)
     source.content = Content::Mr;
   if (purpose.content && source.content != *purpose.content)
   {
-    refuse(
-        tr("“%1” is no %2: it %3. File > Open takes it for what it is.")
-            .arg(titleOf(source), phrase(presenters::nameOf(*purpose.content)), phrase(source.why)));
+    refuse(tr("“%1” is no %2: it %3. File > Open takes it for what it is.")
+               .arg(titleOf(source), phrase(presenters::nameOf(*purpose.content)),
+                    phrase(source.why)));
     return false;
   }
   if (!askRepair(source) || (source.content == Content::Image && !askContent(source)))
@@ -962,14 +962,19 @@ void CaseDocumentController::addParts(const presenters::PartSources& parts, cons
         const bool onlyImages = parts.labels.empty() && parts.meshes.empty();
         const bool isAny =
             failures.size() < parts.mr.size() + parts.labels.size() + parts.meshes.size();
-        return [this, value, before, what, shownAs, onlyImages, isAny, failures, report, earlier]
+        const bool onlyLabels = parts.mr.empty() && parts.meshes.empty();
+        return [this, value, before, what, shownAs, onlyImages, onlyLabels, isAny, failures, report,
+                earlier]
         {
           endWork();
           const Target target{shownAs, words(before.name)};
+          const bool isLeft = isAny && onlyLabels && !askOutside(report, what);
           if (!isOpen(target))
             return refuse(
                 tr("%1 was not added: the case “%2” is not open any more.").arg(what, target.name));
-          if (isAny)
+          if (isLeft)
+            emit statusMessage(tr("Not added: “%1”").arg(what));
+          else if (isAny)
           {
             const QString name = words(m_model.value().name);
             m_model.takeParts(before, std::move(*value));
@@ -985,6 +990,39 @@ void CaseDocumentController::addParts(const presenters::PartSources& parts, cons
           tell(failures, all, target);
         };
       });
+}
+
+// Whether structures are wanted of which none lies in the image: those of another patient, or of
+// another place. Also where some lie in it, which are seen then.
+bool CaseDocumentController::askOutside(const std::vector<presenters::StructureReport>& report,
+                                        const QString& what)
+{
+  using Status = presenters::StructureReport::Status;
+  int read = 0;
+  for (const presenters::StructureReport& one : report)
+  {
+    if (one.status == Status::Read && !one.isOutside)
+      return true;
+    read += one.status == Status::Read ? 1 : 0;
+  }
+  if (read == 0)
+    return true;
+  const QScopedValueRollback<bool> asking(m_asking, true);
+  QMessageBox box(QMessageBox::Warning, tr("Another place?"),
+                  tr("No structure of “%1” lies in the image of this case (%n of them): nothing of "
+                     "them will be seen or felt.",
+                     nullptr, read)
+                      .arg(what),
+                  QMessageBox::NoButton, &m_window);
+  box.setObjectName("askOutside");
+  box.setTextFormat(Qt::PlainText);
+  box.setInformativeText(tr("They may be another patient's, or of another scan."));
+  auto* leave = box.addButton(tr("Do &not add"), QMessageBox::RejectRole);
+  box.addButton(tr("&Add anyway"), QMessageBox::AcceptRole);
+  box.setDefaultButton(leave);
+  box.setEscapeButton(leave);
+  box.exec();
+  return box.clickedButton() != leave;
 }
 
 // What did not come into the case, and structures that are not as their file says. Parts are added

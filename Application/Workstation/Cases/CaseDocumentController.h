@@ -151,6 +151,7 @@ private:
   void makeCase(const std::string& name,
                 std::function<presenters::CaseSources(const core::Progress&)> sources,
                 scene::Side side = scene::Side::Unknown);
+  bool askOutside(const std::vector<presenters::StructureReport>& report, const QString& what);
   void addParts(const presenters::PartSources& parts, const QString& what,
                 const std::vector<presenters::StructureReport>& earlier = {});
   void tell(const std::vector<presenters::PartFailure>& failures,

@@ -147,6 +147,8 @@ void NodesDialog::layOut()
     return button;
   };
   m_keep = add("keepNode", tr("&Add"), tr("Keeps the node in the library, without any secret"));
+  m_keep->setDefault(true); // Return in a field
+  buttons->button(QDialogButtonBox::Close)->setAutoDefault(false);
   m_test = add("testNode", tr("Te&st"), tr("Calls the node (C-ECHO), kept or not"));
   m_remove = add("removeNode", tr("&Remove"), tr("Takes the node out of the list"));
   connect(m_keep, &QPushButton::clicked, this, &NodesDialog::keep);

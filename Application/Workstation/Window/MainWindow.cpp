@@ -569,6 +569,7 @@ void MainWindow::connectModel()
   connect(m_drill, &DrillController::tissueWanted, m_keeper,
           &CaseDocumentController::prepareUnlessUnderWay);
   connect(m_viewState, &ViewStateController::statusMessage, this, showMessage);
+  connect(m_stamps, &CaseStamps::answered, this, &MainWindow::sideAnswered);
   connect(m_stamps, &CaseStamps::answered, m_saver, &CaseSaver::save);
   connect(m_branches, &BranchController::changed, m_saver, &CaseSaver::save);
   connect(m_branches, &BranchController::comparisonAsked, m_comparison,
@@ -1092,6 +1093,21 @@ void MainWindow::showView(rendering::StandardView view)
       presenters::earDoubt(m_model.value(), isLeft ? scene::Side::Left : scene::Side::Right);
   if (!doubt.empty())
     statusBar()->showMessage(phrase(doubt));
+}
+
+// A view from the other side would stand under the name of this one.
+void MainWindow::sideAnswered()
+{
+  using scene::Side;
+  const Side side = m_model.value().description.side;
+  if (side != Side::Left && side != Side::Right)
+    return;
+  const core::CameraPose camera = m_view->picture().camera();
+  const Eigen::Vector3d from = (camera.position - camera.focalPoint).normalized(); // LPS
+  constexpr double kFromTheSide = 0.5;
+  if (side == Side::Left ? from.x() < -kFromTheSide : from.x() > kFromTheSide)
+    showView(side == Side::Left ? rendering::StandardView::SurgicalLeft
+                                : rendering::StandardView::SurgicalRight);
 }
 
 // The plane through the crosshair, facing the viewer; a box that is shown alone stays.

@@ -113,6 +113,7 @@ private:
   bool undoesMeasure() const;
   void notice(const QString& text);
   void showView(rendering::StandardView view);
+  void sideAnswered();
   void clipHere();
   void stepped(bool back); // by an undo or a redo
   void addPanels();

@@ -141,10 +141,54 @@ void WorkstationModel::takeParts(const scene::Case& before, scene::Case with)
       rename(structure.name);
   for (std::size_t n = before.meshes.size(); n < with.meshes.size(); ++n)
     rename(with.meshes[n].name);
+  std::vector<std::string> added;
+  for (std::size_t n = before.mr.size(); n < with.mr.size(); ++n)
+    added.push_back(with.mr[n].name);
+  for (std::size_t n = before.labels.size(); n < with.labels.size(); ++n)
+    for (const scene::StructurePart& structure : with.labels[n].structures)
+      added.push_back(structure.name);
+  for (std::size_t n = before.meshes.size(); n < with.meshes.size(); ++n)
+    added.push_back(with.meshes[n].name);
   append(m_case->mr, with.mr, before.mr.size());
   append(m_case->labels, with.labels, before.labels.size());
   append(m_case->meshes, with.meshes, before.meshes.size());
   partsMoved();
+  recordAddition(added);
+}
+
+// What was drawn on an added MR goes before it, and comes back after it.
+void WorkstationModel::recordAddition(const std::vector<std::string>& names)
+{
+  if (names.empty())
+    return;
+  const auto removals = std::make_shared<std::vector<std::uint64_t>>();
+  recordEdit({names.size() == 1 ? "addition of " + shownName(names.front())
+                                : "addition of " + std::to_string(names.size()) + " parts",
+              {},
+              [this, names, removals]
+              {
+                removals->clear();
+                try
+                {
+                  for (auto name = names.rbegin(); name != names.rend(); ++name)
+                  {
+                    takeOut(*name, m_removals + 1);
+                    removals->push_back(++m_removals);
+                  }
+                }
+                catch (const core::Error&) // without effect
+                {
+                  for (auto removal = removals->rbegin(); removal != removals->rend(); ++removal)
+                    bringBack(*removal);
+                  throw;
+                }
+              },
+              [this, removals]
+              {
+                for (auto removal = removals->rbegin(); removal != removals->rend(); ++removal)
+                  bringBack(*removal);
+              },
+              true});
 }
 
 // The case's parts are others; what was derived from its tissue is gone.

@@ -152,6 +152,7 @@ struct StructureReport
   std::optional<double> fileVolume = std::nullopt; ///< mm^3, by the file's own contours or frames
   std::size_t layer = 0;                           ///< of its source's overlapping structures
   std::string why = {};                            ///< of Unread: "it holds ..", if known
+  bool isOutside = false;                          ///< wholly outside the primary image
 
   /// How far the voxels' volume is from the file's, in parts of the file's (0.01: 1 % more);
   /// nullopt if the file encloses none.

@@ -133,7 +133,7 @@ public:
 
   /// Takes over the parts that `with` has in addition to `before`, the copy of the open case to
   /// which they were added (see addParts). What was drilled, set and made since then stays; a part
-  /// whose name is taken by now gets a number.
+  /// whose name is taken by now gets a number. Can be undone.
   void takeParts(const scene::Case& before, scene::Case with);
 
   /// Adds structures made in this program (addStructures). The one called `replaced`, if that is
@@ -408,6 +408,7 @@ private:
   session::TouchSession::News hear(session::TouchSession::News news);
   void step(bool back);
   void recordEdit(EditHistory::Edit edit);
+  void recordAddition(const std::vector<std::string>& names);
   void applyIso(double hounsfield);
   void applyLooks(const std::vector<PartLook>& looks);
   void takeOut(const std::string& name, std::uint64_t removal);

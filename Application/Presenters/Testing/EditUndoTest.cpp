@@ -129,6 +129,43 @@ TEST_F(EditUndoTest, TheSideIsKeptWithTheCaseAndCanBeUndone)
   EXPECT_EQ(model->value().description.side, scene::Side::Left);
 }
 
+TEST_F(EditUndoTest, WhatWasAddedIsTakenBackAsOneStepAndComesAgain)
+{
+  open();
+  model->setSide(scene::Side::Left);
+  const scene::Case before = model->value();
+  scene::Case with = before;
+  scene::ImagePart mr = with.ct;
+  mr.name = "T2";
+  with.mr.push_back(mr);
+  scene::LabelPart part = with.labels.front();
+  auto map = *part.labels.get();
+  part.labels = std::make_shared<const volume::LabelMap>(std::move(map));
+  part.drawnOn = "T2";
+  part.structures.resize(2);
+  part.structures[0].name = "cochlea";
+  part.structures[1].name = "vestibule";
+  with.labels.push_back(part);
+  model->takeParts(before, std::move(with));
+  EXPECT_EQ(model->undoText(), "addition of 3 parts");
+  for (int n = 0; n < 2; ++n)
+  {
+    model->undo();
+    EXPECT_FALSE(scene::findMr(model->value(), "T2"));
+    EXPECT_FALSE(scene::findStructure(model->value(), "cochlea"));
+    EXPECT_EQ(model->value().labels.size(), before.labels.size());
+    EXPECT_EQ(model->value().description.side, scene::Side::Left) << "an older change";
+    model->redo();
+    ASSERT_TRUE(scene::findMr(model->value(), "T2"));
+    ASSERT_TRUE(scene::findStructure(model->value(), "vestibule"));
+    EXPECT_EQ(model->value().labels.size(), before.labels.size() + 1);
+    EXPECT_EQ(model->value().labels.back().structures.front().name, "cochlea");
+    EXPECT_EQ(model->value().labels.back().drawnOn, "T2");
+  }
+  model->undo();
+  EXPECT_EQ(model->undoText(), "side");
+}
+
 TEST_F(EditUndoTest, TakesEachChangeBackInTheOrderInWhichItWasMade)
 {
   open();

@@ -144,7 +144,8 @@ TEST_F(Exchange, NodesAreKeptWithTheLibrary)
         button(dialog, "keepNode").click();
         EXPECT_TRUE(told().contains("without a port")) << told().toStdString();
         type(dialog, "nodeHost", "127.0.0.1");
-        button(dialog, "keepNode").click();
+        QTest::keyClick(dialog.findChild<QLineEdit*>("nodeHost"), Qt::Key_Return);
+        EXPECT_TRUE(dialog.isVisible());
         EXPECT_EQ(network::NodeList(libraryFolder()).at("pacs").port, port);
 
         button(dialog, "testNode").click();

@@ -427,8 +427,27 @@ TEST_F(Import, LabelsThatLieOutsideTheCtAreToldInALine)
   vein.index = 1;
   imaging::writeLabelFile(folder() / "other.seg.nrrd", volume::makeLabelMap(voxels, {vein}));
   openWindow();
-  answered([this](const auto& react) { onDialog(react); }, "Add to",
-           [this] { dropPath(folder() / "other.seg.nrrd"); });
+  const auto drop = [this](bool wanted)
+  {
+    bool isAsked = false;
+    answered([this](const auto& react) { onDialog(react); }, "Add to",
+             [this] { dropPath(folder() / "other.seg.nrrd"); });
+    onMessage(
+        [&](QMessageBox& box)
+        {
+          isAsked = box.objectName() == "askOutside" && box.text().contains("other.seg.nrrd");
+          if (!wanted)
+            return box.reject();
+          for (QAbstractButton* one : box.buttons())
+            if (box.buttonRole(one) == QMessageBox::AcceptRole)
+              return one->click();
+        });
+    EXPECT_TRUE(waitFor([&] { return isAsked; }));
+    EXPECT_TRUE(settled());
+  };
+  drop(false);
+  EXPECT_EQ(window().model().value().labels.size(), 1U);
+  drop(true);
   ASSERT_TRUE(waitFor([this] { return window().model().value().labels.size() == 2; }));
   EXPECT_TRUE(settled());
   QTest::qWait(100);

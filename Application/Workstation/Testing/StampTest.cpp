@@ -72,6 +72,26 @@ TEST_F(Stamps, ALongNameIsElidedInTheSlicesAndTheSideIsNot)
   }
 }
 
+// Not a left ear under the word "right".
+TEST_F(Stamps, TheViewTurnsToTheSideThatIsAnswered)
+{
+  saveSide("ball", scene::Side::Unknown);
+  openWindow("ball");
+  const auto from = [this]
+  {
+    const core::CameraPose camera = view().picture().camera();
+    return (camera.position - camera.focalPoint).normalized().x();
+  };
+  action("Left")->trigger();
+  ASSERT_GT(from(), 0.9);
+  answer("sideRight");
+  EXPECT_LT(from(), -0.5);
+  action("Anterior")->trigger();
+  const double front = from();
+  action("Side: left")->trigger();
+  EXPECT_EQ(from(), front) << "both sides are seen";
+}
+
 TEST_F(Stamps, TheSideIsAskedForOnceAndKept)
 {
   saveSide("ball", scene::Side::Unknown);

@@ -1,12 +1,19 @@
 #include "petrous/Presenters/Phrasebook.h"
 
 #include <set>
+#include <string>
 
 #include <gtest/gtest.h>
 
+#include "petrous/Presenters/CaseStamp.h"
+
+using petrous::presenters::earDoubt;
 using petrous::presenters::germanPhraseList;
 using petrous::presenters::germanPhrases;
 using petrous::presenters::Phrasebook;
+using petrous::presenters::sideDoubt;
+namespace core = petrous::core;
+namespace scene = petrous::scene;
 
 namespace
 {
@@ -69,6 +76,40 @@ TEST(Phrasebook, APhraseInAPhraseIsTranslatedAndANameThatReadsAsOneIsNot)
   EXPECT_EQ(few().text("'nothing' cannot be sent: the disk is full"),
             "„nothing“ lässt sich nicht senden: der Datenträger ist voll");
   EXPECT_EQ(few().text("'a' cannot be sent: nothing"), "„a“ lässt sich nicht senden: nichts");
+}
+
+TEST(GermanPhrases, NameTheSideInGermanAndNoPartOfTheCaseByAnotherName)
+{
+  scene::Case value;
+  value.ct.geometry =
+      core::GridGeometry({10, 10, 10}, {1.0, 1.0, 1.0}, {20.0, 0.0, 0.0}); // on the left
+  value.description.side = scene::Side::Right;
+  for (const std::string& english :
+       {sideDoubt(value), earDoubt(value, scene::Side::Left), earDoubt(value, scene::Side::Right)})
+  {
+    const std::string german = germanPhrases().text(english);
+    for (const char* word : {"left", "right", "stated", "patient's"})
+      EXPECT_EQ(german.find(word), std::string::npos) << german;
+    EXPECT_NE(german.find("rechts"), std::string::npos) << german;
+  }
+  const std::string name = "MR 'left, right' is not in the case";
+  EXPECT_EQ(Phrasebook({{"MR '%1' is not in the case", "Die MR „%1“ ist nicht im Fall"},
+                        {"left, right", "links, rechts"}})
+                .text(name),
+            "Die MR „left, right“ ist nicht im Fall");
+}
+
+// The number of parts that are looked up, not a time: this took minutes.
+TEST(GermanPhrases, ALongListIsLookedUpAtOnce)
+{
+  std::string list = "Repaired: slices 1";
+  for (int n = 2; n < 400; ++n)
+    list += ", " + std::to_string(n);
+  std::string names = "ab";
+  for (int n = 0; n < 450; ++n)
+    names += ", ab";
+  EXPECT_FALSE(germanPhrases().text(list + " were interpolated").empty());
+  EXPECT_EQ(germanPhrases().text(names), names);
 }
 
 TEST(Phrasebook, ThePhraseWithTheMostWordsOfItsOwnIsTaken)

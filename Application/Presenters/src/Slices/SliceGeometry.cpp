@@ -34,8 +34,9 @@ SliceAxes axesOf(SliceOrientation orientation)
 
 const char* nameOf(SliceOrientation orientation)
 {
-  constexpr const char* names[] = {"Axial", "Coronal", "Sagittal"};
-  return names[static_cast<std::size_t>(orientation)];
+  return orientation == SliceOrientation::Axial     ? "Axial"
+         : orientation == SliceOrientation::Coronal ? "Coronal"
+                                                    : "Sagittal";
 }
 
 SliceGeometry::SliceGeometry(SliceOrientation orientation, const Eigen::Vector3d& center,

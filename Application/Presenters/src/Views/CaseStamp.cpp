@@ -17,6 +17,15 @@ CaseStamp stampOf(const scene::Case& value)
 namespace
 {
 
+// A phrase of its own (Phrasebook), as the texts that it stands in are no names.
+std::string sideText(scene::Side side)
+{
+  return side == scene::Side::Left    ? "left"
+         : side == scene::Side::Right ? "right"
+         : side == scene::Side::Both  ? "both"
+                                      : "not stated";
+}
+
 // "on the patient's left, 12.0 to 40.0 mm from the scanner's middle", if all of the image lies on
 // the other side than this one; else empty.
 std::string oppositePlace(const scene::Case& value, scene::Side side)
@@ -43,7 +52,7 @@ std::string sideDoubt(const scene::Case& value)
   const scene::Side side = value.description.side;
   const std::string place = oppositePlace(value, side);
   return place.empty() ? place
-                       : std::string("The side is stated as ") + scene::nameOf(side) +
+                       : std::string("The side is stated as ") + sideText(side) +
                              ", but all of the image lies " + place +
                              ". Is the side right? (A patient need not lie in the middle.)";
 }
@@ -53,9 +62,9 @@ std::string earDoubt(const scene::Case& value, scene::Side ear)
   const scene::Side side = value.description.side;
   if (ear != scene::Side::Left && ear != scene::Side::Right)
     return {};
-  const std::string seen = std::string("This is the ") + scene::nameOf(ear) + " ear";
+  const std::string seen = std::string("This is the ") + sideText(ear) + " ear";
   if ((side == scene::Side::Left || side == scene::Side::Right) && side != ear)
-    return seen + ", but the side of the case is stated as " + scene::nameOf(side) + ".";
+    return seen + ", but the side of the case is stated as " + sideText(side) + ".";
   const std::string place = oppositePlace(value, ear);
   return place.empty() ? place : seen + ", but all of the image lies " + place + ".";
 }

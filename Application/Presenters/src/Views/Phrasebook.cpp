@@ -16,7 +16,9 @@ namespace
 // is no phrase would be found as one.
 constexpr std::size_t kFewLetters = 12;
 constexpr std::size_t kFewestLetters = 4;
-constexpr std::size_t kLongestLine = 2000;  // bytes; a longer one is no message
+constexpr std::size_t kLongestLine = 2000; // bytes; a longer one is no message
+// A list of more is one of names or numbers: each of its parts would be looked up with each other.
+constexpr std::ptrdiff_t kLongestList = 16;
 constexpr std::string_view kEnds = " ,;:."; // about a phrase, of the sentence that it stands in
 
 bool isLatinLetter(char c) noexcept
@@ -45,6 +47,14 @@ bool startsWith(std::string_view text, std::string_view with)
 bool endsWith(std::string_view text, std::string_view with)
 {
   return text.size() >= with.size() && text.substr(text.size() - with.size()) == with;
+}
+
+std::ptrdiff_t countOf(std::string_view mark, std::string_view text) noexcept
+{
+  std::ptrdiff_t count = 0;
+  for (std::size_t at = text.find(mark); at != text.npos; at = text.find(mark, at + mark.size()))
+    ++count;
+  return count;
 }
 
 bool hasLetters(std::string_view text) noexcept
@@ -180,15 +190,15 @@ std::optional<Phrasebook::Found> Phrasebook::lookUp(std::string_view part, Memor
   if (known != memory.end())
     return known->second;
   auto found = whole(middle, memory);
+  if (!found || !found->isWhole)
+    if (auto parts = divided(middle, memory); parts && (parts->isWhole || !found))
+      found = std::move(parts);
   if (found)
   {
     const auto begin = static_cast<std::size_t>(middle.data() - part.data());
     found->text = std::string(part.substr(0, begin)) + found->text +
                   std::string(part.substr(begin + middle.size()));
   }
-  if (!found || !found->isWhole)
-    if (auto parts = divided(part, memory); parts && (parts->isWhole || !found))
-      found = std::move(parts);
   memory[{part.data(), part.size()}] = found;
   return found;
 }
@@ -240,8 +250,11 @@ std::optional<Phrasebook::Found> Phrasebook::matched(const Entry& entry, std::st
       continue;
     }
     const bool isSeveral = value.find(' ') != std::string_view::npos && !isNumber(value);
+    // What stands in quotes is a name, whatever it reads as.
+    const bool isQuoted =
+        !pieces[n].isPhrase && endsWith(pieces[n].words, "'") && startsWith(next, "'");
     std::optional<Found> other;
-    if (!value.empty() && (pieces[n].isPhrase || isSeveral))
+    if (!value.empty() && !isQuoted && (pieces[n].isPhrase || isSeveral))
       other = lookUp(value, memory);
     if (other && other->isWhole)
       values[pieces[n].place] = other->text;
@@ -273,6 +286,9 @@ std::optional<Phrasebook::Found> Phrasebook::divided(std::string_view part, Memo
 {
   std::optional<Found> best;
   for (const std::string_view mark : {". ", "; ", ": ", " (", ", "})
+  {
+    if (countOf(mark, part) > kLongestList)
+      continue;
     for (std::size_t at = part.find(mark); at != std::string_view::npos;
          at = part.find(mark, at + 1))
     {
@@ -303,6 +319,7 @@ std::optional<Phrasebook::Found> Phrasebook::divided(std::string_view part, Memo
       if (!best)
         best = std::move(found);
     }
+  }
   return best;
 }
 

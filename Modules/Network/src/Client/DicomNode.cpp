@@ -400,7 +400,7 @@ struct ByteCounter
   ConnectionWatch* watch = nullptr;
   ConnectionWatch* receiver = nullptr; ///< of what comes on a connection of its own (C-MOVE)
   const core::Progress* progress = nullptr;
-  std::string task;
+  bool sends = false;
   std::uintmax_t total = 0; ///< 0: unknown
   std::size_t done = 0, of = 0;
   std::uintmax_t before = 0;
@@ -418,8 +418,9 @@ struct ByteCounter
                                      : 0.0;
     try // nothing through DCMTK
     {
-      progress->report(std::min(fraction, 1.0),
-                       task + ", " + std::to_string(done) + " of " + std::to_string(of));
+      progress->report(std::min(fraction, 1.0), (sends ? "sending, " : "receiving, ") +
+                                                    std::to_string(done) + " of " +
+                                                    std::to_string(of));
     }
     catch (const core::CancelledError&)
     {
@@ -1593,7 +1594,7 @@ Transfer store(const Node& node, const std::vector<fs::path>& files, const core:
     return transfer;
   transfer.listed = Transfer::Listed::Unanswered;
   counter.progress = &progress;
-  counter.task = "sending";
+  counter.sends = true;
   counter.of = all.size();
   waiting.assign(all.rbegin(), all.rend()); // sent from its end: in the order of the files
   DIC_US refusal = STATUS_Success;
@@ -1789,7 +1790,6 @@ Transfer retrieve(const Node& node, const std::string& studyUid,
   transfer.asked = 0;
   ByteCounter counter;
   counter.progress = &progress;
-  counter.task = "receiving";
   counter.of = reception.expected();
   const auto settle = [&]
   {

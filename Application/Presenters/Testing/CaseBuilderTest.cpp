@@ -765,6 +765,41 @@ TEST_F(CaseBuilder, SaysThatAnMrIsACt)
   EXPECT_FALSE(saysCt(value.mr.at(1)));
 }
 
+TEST_F(CaseBuilder, SaysThatAnMrLooksLikeALabelMap)
+{
+  scene::Case value = presenters::buildCase("ear", m_sources, {});
+  const core::GridGeometry& grid = value.ct.geometry;
+  const auto note = [&](const char* name, const std::function<int(const Vector3d&, int)>& at)
+  {
+    auto voxels = std::make_shared<volume::Volume<std::int16_t>>(
+        core::GridGeometry({40, 40, 40}, Vector3d::Ones(), grid.origin()));
+    std::uint32_t noise = 1;
+    for (int k = 0; k < 40; ++k)
+      for (int j = 0; j < 40; ++j)
+        for (int i = 0; i < 40; ++i)
+        {
+          noise = noise * 1664525U + 1013904223U;
+          voxels->at(i, j, k) =
+              static_cast<std::int16_t>(at(Vector3d(i, j, k), static_cast<int>(noise >> 28)));
+        }
+    const auto file = m_folder / (std::string(name) + ".nrrd");
+    imaging::writeVolume(
+        file, volume::IntensityVolume(std::shared_ptr<const volume::Volume<std::int16_t>>(voxels)));
+    presenters::PartSources parts;
+    parts.mr = {{name, file}};
+    presenters::addParts(value, parts, {});
+    const auto& notes = scene::findMr(value, name)->notes;
+    return std::any_of(notes.begin(), notes.end(),
+                       [](const std::string& one)
+                       { return one.find("label map") != std::string::npos; });
+  };
+  const auto shells = [](const Vector3d& p)
+  { return std::max(0, 5 - static_cast<int>((p - Vector3d::Constant(20.0)).norm()) / 4); };
+  EXPECT_TRUE(note("labels", [&](const Vector3d& p, int) { return shells(p); }));
+  EXPECT_FALSE(
+      note("image", [&](const Vector3d& p, int noise) { return 100 * shells(p) + noise; }));
+}
+
 TEST_F(CaseBuilder, ChoosesAnMrFromAFolderOfSeveralSeries)
 {
   for (const int value : {40, 50})

@@ -180,17 +180,18 @@ void BranchController::start()
 {
   if (!m_model.hasCase())
     return;
-  const std::string chosen = bytes(askName(
-      m_window, tr("New approach"),
-      tr("Name of the approach that begins here, after %1 strokes:").arg(m_model.value().applied()),
-      {},
-      [this](const std::string& name)
-      {
-        scene::checkBranchName(name);
-        if (m_model.hasCase() && m_model.value().dissection.history().find(name))
-          throw core::InvalidParameter("there is an approach '" + name +
-                                       "' already; take another name");
-      }));
+  const std::string chosen =
+      bytes(askName(m_window, tr("New approach"),
+                    tr("Name of the approach that begins here, after %n stroke(s):", nullptr,
+                       static_cast<int>(m_model.value().applied())),
+                    {},
+                    [this](const std::string& name)
+                    {
+                      scene::checkBranchName(name);
+                      if (m_model.hasCase() && m_model.value().dissection.history().find(name))
+                        throw core::InvalidParameter("there is an approach '" + name +
+                                                     "' already; take another name");
+                    }));
   if (!chosen.empty() && m_model.hasCase() &&
       change([this, &chosen] { m_model.startBranch(chosen); }))
     emit statusMessage(tr("On the new approach %1").arg(words(chosen)));

@@ -304,9 +304,8 @@ void RegistrationPanel::refresh()
   m_bound.refresh();
   m_state->setText(m_session.part() ? phrase(m_session.stateText())
                    : m_session.primary() != "CT"
-                       ? tr("The case has no other MR; add one with File > Open DICOM… or Open "
-                            "files…")
-                       : tr("The case has no MR; add one with File > Open DICOM… or Open files…"));
+                       ? tr("The case has no other MR; add one with Case > Add MR…")
+                       : tr("The case has no MR; add one with Case > Add MR…"));
   m_state->setStyleSheet(stateStyle(m_session.part()));
   m_error->setText(m_session.part() ? errorText(*m_session.part()) : QString());
   m_error->setVisible(!m_error->text().isEmpty());

@@ -454,6 +454,35 @@ void placeOn(scene::Case& value, const scene::ImagePart& mr)
   }
 }
 
+// In a label map neighbours within a structure have the same whole number; noise and texture of an
+// image make that rare, but for saturated ones.
+bool readsAsLabels(const volume::IntensityVolume& image)
+{
+  constexpr double kShare = 0.9;        // of the neighbours
+  constexpr std::size_t kMost = 256;    // values
+  constexpr std::size_t kFewest = 1000; // pairs that tell anything
+  const core::Index3& dims = image.geometry().dims();
+  const int step = std::max(1, dims[2] / 16);
+  std::set<double> values;
+  std::size_t pairs = 0;
+  std::size_t equal = 0;
+  for (int k = step / 2; k < dims[2]; k += step)
+    for (int j = 0; j < dims[1]; ++j)
+      for (int i = 1; i < dims[0]; ++i)
+      {
+        const double value = image.at(i, j, k);
+        if (value == 0.0)
+          continue;
+        if (value != std::round(value) || (values.insert(value).second && values.size() > kMost))
+          return false;
+        const double before = image.at(i - 1, j, k);
+        pairs += before != 0.0;
+        equal += before == value;
+      }
+  return values.size() > 2 && pairs >= kFewest &&
+         static_cast<double>(equal) > kShare * static_cast<double>(pairs);
+}
+
 void addMr(scene::Case& value, const PartSource& source,
            const std::function<std::string(const std::string&)>& salted,
            const core::Progress& progress)
@@ -485,6 +514,10 @@ void addMr(scene::Case& value, const PartSource& source,
     part.notes.push_back("The file says that it is a CT; it was added as an MR, as asked. If it is "
                          "the patient's CT, begin a case with it (petrous new --ct).");
   part.modality = scene::Modality::Unknown;
+  if (const auto image = part.volume.get(); image && readsAsLabels(*image))
+    part.notes.push_back("It looks like a label map and not like an image: neighbouring voxels "
+                         "have the same whole numbers. If it is one, remove it and add it as "
+                         "labels.");
   placeOn(value, part);
   value.mr.push_back(std::move(part));
 }

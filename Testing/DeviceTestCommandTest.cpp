@@ -65,7 +65,15 @@ TEST_F(DeviceTestCommand, StopsAtTheLimitCycleAndKeepsHalfOfWhatWasStable)
   EXPECT_TRUE(answer["kept"]);
   const auto kept = nlohmann::json::parse(
       petrous::testing::textOf(m_folder / "config/petrous/device-limits.json"));
-  EXPECT_DOUBLE_EQ(kept["spring"]["max_stiffness_n_per_mm"].get<double>(), 0.05);
+  EXPECT_DOUBLE_EQ(kept["spring"]["Petrous example device"]["max_stiffness_n_per_mm"].get<double>(),
+                   0.05);
+}
+
+TEST_F(DeviceTestCommand, DrivesNoSpringAgainstTheHandAndKeepsNothing)
+{
+  install("wrong", "--radius 0 --compliance -5");
+  expectRefused("device-test --workspace 0.5 --keep", 3, "against the force along x");
+  EXPECT_FALSE(fs::exists(m_folder / "config/petrous/device-limits.json"));
 }
 
 TEST_F(DeviceTestCommand, WithoutForceMeasuresTheWorkspace)

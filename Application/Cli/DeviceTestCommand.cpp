@@ -1,11 +1,9 @@
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <thread>
 
 #include "Commands.h"
 #include "Numbers.h"
@@ -13,6 +11,7 @@
 #include "petrous/Devices/ServedDevice.h"
 #include "petrous/Devices/ServerCatalogue.h"
 #include "petrous/Presenters/DeviceLimits.h"
+#include "petrous/Presenters/DeviceTestRun.h"
 
 namespace petrous::cli
 {
@@ -24,8 +23,6 @@ using devices::DeviceCheck;
 using Stage = DeviceCheck::Stage;
 
 constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
-constexpr auto kTick = std::chrono::milliseconds(1);
-constexpr int kReportEvery = 100; // ticks
 
 struct Choice
 {
@@ -67,26 +64,6 @@ devices::ServedDevice::Options serverFor(const Choice& choice)
   return options;
 }
 
-std::string instruction(const DeviceCheck& check)
-{
-  switch (check.stage())
-  {
-  case Stage::Ready:
-    return "waiting for the device";
-  case Stage::Workspace:
-    return "move the handle through all of its workspace, and press its buttons";
-  case Stage::ForceStep:
-    return "hold the handle lightly in the middle: a short push along each axis";
-  case Stage::Stiffness:
-    return std::string("hold it lightly: spring along ") +
-           kAxes[static_cast<std::size_t>(std::min(check.axis(), 2))] + ", " +
-           fixed(check.stiffness(), 2) + " N/mm";
-  case Stage::Done:
-    break;
-  }
-  return "done";
-}
-
 // s; the q-quantile of the round trips, 0 if there are none.
 double quantile(std::vector<double> values, double q)
 {
@@ -100,31 +77,21 @@ double quantile(std::vector<double> values, double q)
 DeviceCheck::Result run(Context& context, devices::ServedDevice& device,
                         const DeviceCheck::Options& options)
 {
-  using Clock = std::chrono::steady_clock;
-  DeviceCheck check(device.description(), options);
   const core::Progress progress = context.progress();
   std::optional<Stage> told;
-  auto wake = Clock::now();
-  const auto begin = wake;
-  for (int n = 0; check.stage() != Stage::Done; ++n)
-  {
-    const auto clock = Clock::now();
-    const double now = std::chrono::duration<double>(clock - begin).count();
-    const haptics::DeviceReading reading = device.read(now);
-    device.send(check.tick(reading, now, device.exchange().roundTrip));
-    if (check.stage() != told && check.stage() != Stage::Done)
-    {
-      told = check.stage();
-      context.print(instruction(check));
-    }
-    // Cancelled: the device is closed with its forces off.
-    if (n % kReportEvery == 0)
-      progress.report(check.progress(), instruction(check));
-    wake = clock - wake > std::chrono::milliseconds(100) ? clock : wake + kTick;
-    std::this_thread::sleep_until(wake);
-  }
-  device.send({});
-  return check.result();
+  return presenters::testDevice(
+      device, options,
+      [&](const DeviceCheck& check)
+      {
+        // Not anew for each axis, while it rests.
+        if (check.stage() != told && check.stage() != Stage::Done &&
+            !(check.stage() == Stage::Rest && told == Stage::ForceStep))
+        {
+          told = check.stage();
+          context.print(presenters::deviceTestAdvice(check));
+        }
+        progress.report(check.progress(), presenters::deviceTestAdvice(check)); // or cancelled
+      });
 }
 
 nlohmann::json vectorJson(const Eigen::Vector3d& v)
@@ -136,6 +103,7 @@ nlohmann::json answer(const devices::ServedDevice& device, const DeviceCheck::Re
                       bool forces, const std::vector<std::string>& asked, bool kept)
 {
   const haptics::DeviceDescription& description = device.description();
+  const double proposed = presenters::boundedStiffness(result.proposed, description.maxStiffness);
   nlohmann::json axes = nlohmann::json::array();
   for (std::size_t i = 0; i < 3 && forces; ++i)
   {
@@ -147,6 +115,7 @@ nlohmann::json answer(const devices::ServedDevice& device, const DeviceCheck::Re
                     {"stable_n_per_mm", axis.stable},
                     {"limit_n_per_mm",
                      axis.limit > 0.0 ? nlohmann::json(axis.limit) : nlohmann::json(nullptr)},
+                    {"limit_by_fault", axis.faulted},
                     {"limit_cycle_hz",
                      axis.hertz > 0.0 ? nlohmann::json(axis.hertz) : nlohmann::json(nullptr)}});
   }
@@ -162,6 +131,7 @@ nlohmann::json answer(const devices::ServedDevice& device, const DeviceCheck::Re
       {"asked", asked},
       {"problem", text(result.problem)},
       {"last_fault", text(device.status().lastFault)},
+      {"faults", result.faults},
       {"workspace_mm", {{"min", vectorJson(result.lowest)}, {"max", vectorJson(result.highest)}}},
       {"turned_rad", result.turned},
       {"buttons", result.buttons},
@@ -174,7 +144,7 @@ nlohmann::json answer(const devices::ServedDevice& device, const DeviceCheck::Re
         {"max", 1000.0 * quantile(result.roundTrips, 1.0)}}},
       {"axes", std::move(axes)},
       {"proposed_stiffness_n_per_mm",
-       result.proposed > 0.0 ? nlohmann::json(result.proposed) : nlohmann::json(nullptr)},
+       proposed > 0.0 ? nlohmann::json(proposed) : nlohmann::json(nullptr)},
       {"kept", kept}};
 }
 
@@ -193,15 +163,20 @@ void printResult(const Context& context, const DeviceCheck::Result& result, bool
   for (std::size_t i = 0; i < 3; ++i)
   {
     const DeviceCheck::Axis& axis = result.axes[i];
-    context.print(std::string("axis ") + kAxes[i] + "      " +
-                  (axis.follows
-                       ? "follows the force after " + fixed(1000.0 * axis.latency, 1) + " ms"
-                       : "does NOT follow the force: it moved by " + fixed(axis.moved.x(), 1) +
-                             ", " + fixed(axis.moved.y(), 1) + ", " + fixed(axis.moved.z(), 1) +
-                             " mm") +
-                  "; stable up to " + fixed(axis.stable, 2) + " N/mm" +
-                  (axis.limit > 0.0 ? ", oscillates at " + fixed(axis.limit, 2) : ""));
+    const std::string title = std::string("axis ") + kAxes[i] + "      ";
+    if (!axis.follows)
+      context.print(title + "does NOT follow the force: it moved by " + fixed(axis.moved.x(), 1) +
+                    ", " + fixed(axis.moved.y(), 1) + ", " + fixed(axis.moved.z(), 1) +
+                    " mm; no spring was tried");
+    else
+      context.print(title + "follows the force after " + fixed(1000.0 * axis.latency, 1) +
+                    " ms; stable up to " + fixed(axis.stable, 2) + " N/mm" +
+                    (axis.limit > 0.0 ? (axis.faulted ? ", a fault at " : ", oscillates at ") +
+                                            fixed(axis.limit, 2)
+                                      : ""));
   }
+  if (result.faults > 0)
+    context.print("faults      " + std::to_string(result.faults) + ", as the device reported");
 }
 
 void deviceTest(Context& context, const Choice& choice)
@@ -229,20 +204,25 @@ void deviceTest(Context& context, const Choice& choice)
 
   const bool follows = std::all_of(result.axes.begin(), result.axes.end(),
                                    [](const DeviceCheck::Axis& axis) { return axis.follows; });
-  const bool keep = choice.keep && result.problem.empty() && forces && follows;
+  const double described = device.description().maxStiffness;
+  const double proposed = presenters::boundedStiffness(result.proposed, described);
+  const bool keep = choice.keep && result.problem.empty() && proposed > 0.0;
   if (keep)
     presenters::keepStiffness(presenters::deviceLimitsFile(), server.name,
-                              device.description().name, result.proposed);
+                              device.description().name, proposed);
   printResult(context, result, forces && result.problem.empty());
-  if (forces && result.problem.empty())
+  if (proposed > 0.0 && result.problem.empty())
     context.print(
-        "proposed    a stiffness of " + fixed(result.proposed, 2) + " N/mm" +
+        "proposed    a stiffness of " + fixed(proposed, 2) + " N/mm" +
+        (proposed < result.proposed ? ", twice what its server describes" : "") +
         (keep ? ", kept for '" + server.name + "'" : "; --keep has the workstation use it"));
   if (choice.keep && !keep)
-    context.warn("nothing was kept: " + (!result.problem.empty() ? result.problem
-                                         : !forces
-                                             ? std::string("no forces were tested")
-                                             : std::string("not every axis follows its force")));
+    context.warn("nothing was kept: " +
+                 (!result.problem.empty() ? result.problem
+                  : !forces               ? std::string("no forces were tested")
+                  : !follows              ? std::string("not every axis follows its force")
+                  : described <= 0.0      ? std::string("its server describes no stiffness")
+                                          : std::string("no stiffness was stable")));
   context.printJson(answer(device, result, forces, asked, keep));
   if (!result.problem.empty())
     throw core::InvalidParameter("device server '" + server.name + "': " + result.problem);

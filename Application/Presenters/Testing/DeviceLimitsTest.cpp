@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <iterator>
 
 #include <gtest/gtest.h>
 
@@ -12,18 +13,31 @@
 using namespace petrous;
 using namespace petrous::presenters;
 
-TEST(DeviceLimits, KeepsOneStiffnessForEachServerAndItsDevice)
+namespace
+{
+
+constexpr double kDescribed = 5.0; // N/mm
+
+std::optional<double> kept(const std::filesystem::path& file, const char* server,
+                           const char* device)
+{
+  return keptStiffness(file, server, device, kDescribed);
+}
+
+} // namespace
+
+TEST(DeviceLimits, KeepsOneStiffnessForEachDeviceOfAServer)
 {
   const std::filesystem::path folder =
       std::filesystem::path(::testing::TempDir()) / ("device-limits-" + std::to_string(::getpid()));
   const std::filesystem::path file = folder / "petrous" / "device-limits.json";
-  EXPECT_FALSE(keptStiffness(file, "touch", "Touch"));
+  EXPECT_FALSE(kept(file, "touch", "Touch"));
   keepStiffness(file, "touch", "Touch", 0.35);
   keepStiffness(file, "omega", "omega.7", 2.0);
   keepStiffness(file, "touch", "Touch", 0.45);
-  EXPECT_EQ(keptStiffness(file, "touch", "Touch"), 0.45);
-  EXPECT_EQ(keptStiffness(file, "omega", "omega.7"), 2.0);
-  EXPECT_FALSE(keptStiffness(file, "touch", "Touch X")) << "another device at the same server";
+  EXPECT_EQ(kept(file, "touch", "Touch"), 0.45);
+  EXPECT_EQ(kept(file, "omega", "omega.7"), 2.0);
+  EXPECT_FALSE(kept(file, "touch", "Touch X")) << "another device at the same server";
   for (const double bad : {0.0, -1.0, 21.0, std::nan("")})
     EXPECT_THROW(keepStiffness(file, "touch", "Touch", bad), core::InvalidParameter);
 
@@ -31,9 +45,55 @@ TEST(DeviceLimits, KeepsOneStiffnessForEachServerAndItsDevice)
                            "{\"touch\": {\"device\": \"Touch\", \"max_stiffness_n_per_mm\": 1e9}}"})
   {
     std::ofstream(file, std::ios::trunc) << text;
-    EXPECT_FALSE(keptStiffness(file, "touch", "Touch")) << text;
+    EXPECT_FALSE(kept(file, "touch", "Touch")) << text;
   }
   keepStiffness(file, "touch", "Touch", 0.5);
-  EXPECT_EQ(keptStiffness(file, "touch", "Touch"), 0.5);
+  keepStiffness(file, "touch", "Touch 4711", 0.7);
+  EXPECT_EQ(kept(file, "touch", "Touch"), 0.5);
+  EXPECT_EQ(kept(file, "touch", "Touch 4711"), 0.7) << "another of that model";
+  std::filesystem::remove_all(folder);
+}
+
+TEST(DeviceLimits, RaisesWhatTheServerDescribesToTwiceAtMost)
+{
+  const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) /
+                                     ("device-bound-" + std::to_string(::getpid()) + ".json");
+  keepStiffness(file, "touch", "Touch", 8.0);
+  EXPECT_EQ(keptStiffness(file, "touch", "Touch", 5.0), 8.0);
+  EXPECT_EQ(keptStiffness(file, "touch", "Touch", 0.4), 0.8);
+  EXPECT_EQ(keptStiffness(file, "touch", "Touch", 0.0), 0.0);
+  EXPECT_EQ(boundedStiffness(0.2, 0.4), 0.2);
+  std::filesystem::remove(file);
+}
+
+TEST(DeviceLimits, ReadsTheFormerFormatAndKeepsItsEntry)
+{
+  const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) /
+                                     ("device-former-" + std::to_string(::getpid()) + ".json");
+  std::ofstream(file) << R"({"touch": {"device": "Touch", "max_stiffness_n_per_mm": 0.3}})";
+  EXPECT_EQ(kept(file, "touch", "Touch"), 0.3);
+  EXPECT_FALSE(kept(file, "touch", "device"));
+  keepStiffness(file, "touch", "Touch X", 0.6);
+  EXPECT_EQ(kept(file, "touch", "Touch"), 0.3);
+  EXPECT_EQ(kept(file, "touch", "Touch X"), 0.6);
+  std::filesystem::remove(file);
+}
+
+TEST(DeviceLimits, PutsADamagedFileAsideBeforeItWritesAnother)
+{
+  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) /
+                                       ("device-damaged-" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  const std::filesystem::path file = folder / "device-limits.json";
+  for (const char* name : {"device-limits.json.damaged", "device-limits.json.damaged-2"})
+  {
+    const std::string damaged = std::string("{\"omega\": ") + name;
+    std::ofstream(file, std::ios::trunc) << damaged;
+    keepStiffness(file, "touch", "Touch", 0.5);
+    std::ifstream aside(folder / name);
+    std::string text((std::istreambuf_iterator<char>(aside)), {});
+    EXPECT_EQ(text, damaged);
+    EXPECT_EQ(kept(file, "touch", "Touch"), 0.5);
+  }
   std::filesystem::remove_all(folder);
 }

@@ -1,5 +1,6 @@
 #include "petrous/Devices/DeviceCheck.h"
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -30,7 +31,13 @@ struct Transmission
   double quantum = 0.0;  // mm, of the encoders
   int dropEvery = 0;     // ticks: every so many is not read
   bool crossed = false;  // x and y of the force are exchanged
+  double sign = 1.0;     // of the force
+  double cutAbove = 1e9; // N: the driver reports a fault for 1 s
+  int readEvery = 1;     // ticks
+  int faultAt = -1;      // tick: a fault of 20 ms
 };
+
+double largestForce = 0.0; // N, in the last check
 
 Pose still(double)
 {
@@ -51,19 +58,32 @@ DeviceCheck::Result examined(SimulatedDevice& device, const Transmission& way = 
   DeviceCheck check(device.description(), options);
   std::deque<Wrench> underway(way.delay);
   DeviceReading reading;
+  int cutUntil = 0; // tick
+  largestForce = 0.0;
   for (int n = 0; n < 400000 && check.stage() != Stage::Done; ++n)
   {
     DeviceReading fresh = device.read(kTick * n);
     if (way.quantum > 0.0)
       for (int i = 0; i < 3; ++i)
         fresh.pose.position[i] = way.quantum * std::round(fresh.pose.position[i] / way.quantum);
+    if (n % way.readEvery != 0)
+      fresh = reading;
     if (n == 0 || way.dropEvery == 0 || n % way.dropEvery != 0)
       reading = fresh;
+    reading.health = n < cutUntil ? haptics::DeviceHealth::Faulty : fresh.health;
     underway.push_back(check.tick(reading, kTick * n, 0.002));
     Wrench wrench = underway.front();
     underway.pop_front();
+    largestForce = std::max(largestForce, wrench.linear.norm());
+    if (n >= cutUntil && wrench.linear.norm() > way.cutAbove)
+      cutUntil = n + 1000;
+    if (n == way.faultAt)
+      cutUntil = n + 20;
+    if (n < cutUntil)
+      wrench = {};
     if (way.crossed)
       std::swap(wrench.linear[0], wrench.linear[1]);
+    wrench.linear *= way.sign;
     device.send(wrench);
   }
   EXPECT_EQ(check.stage(), Stage::Done);
@@ -166,6 +186,132 @@ TEST(DeviceCheck, StepsShowDirectionAndLatencyOfTheForce)
   EXPECT_FALSE(crossed.axes[1].follows);
   EXPECT_GT(crossed.axes[0].moved.y(), 0.05) << "a force to the right moved it up";
   EXPECT_TRUE(crossed.axes[2].follows);
+  for (const int axis : {0, 1})
+  {
+    EXPECT_EQ(crossed.axes[static_cast<std::size_t>(axis)].stable, 0.0) << "no spring was tried";
+    EXPECT_EQ(crossed.axes[static_cast<std::size_t>(axis)].limit, 0.0);
+  }
+  EXPECT_GT(crossed.axes[2].stable, 0.0);
+  EXPECT_EQ(crossed.proposed, 0.0);
+}
+
+TEST(DeviceCheck, EndsAtOnceWhereTheHandleMovesAgainstTheForce)
+{
+  for (const double stiffness : {0.3, 1.0}) // N/mm, of the hand
+  {
+    SimulatedDevice::Hand hand;
+    hand.stiffness = stiffness;
+    SimulatedDevice device(still, hand, {});
+    Transmission way;
+    way.sign = -1.0;
+    const auto result = examined(device, way);
+    EXPECT_NE(result.problem.find("against the force along x"), std::string::npos)
+        << result.problem;
+    EXPECT_LE(largestForce, 0.5);
+    EXPECT_LT(device.pose().position.norm(), 5.0) << "mm";
+    EXPECT_EQ(result.proposed, 0.0);
+  }
+}
+
+TEST(DeviceCheck, EndsAStepThatIsTooFast)
+{
+  SimulatedDevice::Hand hand;
+  hand.mass = 0.02;
+  hand.stiffness = 0.0;
+  hand.damping = 0.0;
+  SimulatedDevice device(still, hand, {});
+  DeviceCheck check(device.description(), quick());
+  double fastest = 0.0;
+  for (int n = 0; n < 3000; ++n)
+  {
+    device.send(check.tick(device.read(kTick * n), kTick * n));
+    fastest = std::max(fastest, device.velocity().linear.norm());
+  }
+  EXPECT_GT(fastest, 500.0);
+  EXPECT_LT(fastest, 750.0) << "mm/s, of 3700 after the whole step";
+}
+
+TEST(DeviceCheck, PushesOnlyAHandleThatRests)
+{
+  SimulatedDevice::Hand stiff;
+  stiff.stiffness = 30.0;
+  stiff.damping = 0.05;
+  // To the middle with 60 mm/s, until 2 s after the workspace stage.
+  const auto coming = [](double t) {
+    return Pose{{60.0 * std::max(0.0, 2.5 - t), 0.0, 0.0}, Eigen::Quaterniond::Identity()};
+  };
+  SimulatedDevice device(coming, stiff, {});
+  DeviceCheck check(device.description(), quick());
+  double pushedAt = 0.0;
+  for (int n = 0; n < 6000 && pushedAt == 0.0; ++n)
+  {
+    const Wrench wrench = check.tick(device.read(kTick * n), kTick * n);
+    device.send(wrench);
+    if (wrench.linear.norm() > 0.0)
+      pushedAt = kTick * n;
+  }
+  EXPECT_GT(pushedAt, 3.45);
+  EXPECT_LT(pushedAt, 3.6);
+
+  const auto restless = [](double t) {
+    return Pose{{3.0 * std::sin(6.0 * t), 0.0, 0.0}, Eigen::Quaterniond::Identity()};
+  };
+  SimulatedDevice other(restless, stiff, {});
+  EXPECT_NE(examined(other).problem.find("does not rest"), std::string::npos);
+  EXPECT_EQ(largestForce, 0.0);
+}
+
+TEST(DeviceCheck, TakesAFaultWithinTheRampAsItsLimit)
+{
+  SimulatedDevice::Hand hand;
+  hand.damping = 0.02;
+  SimulatedDevice device(still, hand, {});
+  Transmission way;
+  way.cutAbove = 0.6; // N, which only the spring reaches
+  const auto result = examined(device, way);
+  EXPECT_EQ(result.problem, "");
+  EXPECT_EQ(result.faults, 3);
+  for (const auto& axis : result.axes)
+  {
+    EXPECT_TRUE(axis.faulted);
+    EXPECT_GT(axis.limit, 0.0);
+    EXPECT_LT(axis.stable, axis.limit);
+    EXPECT_LT(axis.limit, 10.0);
+  }
+  EXPECT_LT(result.proposed, 0.5 * result.axes[0].limit);
+}
+
+TEST(DeviceCheck, RepeatsAStepInWhichTheDeviceReportedAFault)
+{
+  SimulatedDevice device(still);
+  const auto straight = examined(device);
+  SimulatedDevice other(still);
+  Transmission way;
+  way.faultAt = 1560; // 60 ms into the first step
+  const auto result = examined(other, way);
+  EXPECT_EQ(result.faults, 1);
+  EXPECT_TRUE(result.axes[0].follows);
+  EXPECT_NEAR(result.axes[0].latency, straight.axes[0].latency, 0.002);
+  EXPECT_FALSE(result.axes[0].faulted);
+}
+
+// At 100 Hz a hand that sways with 60 mm/s goes 0.6 mm from one tick to the next, every tenth tick.
+TEST(DeviceCheck, TakesTheSpeedByTheReadingsTimes)
+{
+  SimulatedDevice::Hand hand;
+  hand.damping = 0.02;
+  const auto swaying = [](double t)
+  {
+    const double since = std::max(0.0, t - 5.0); // in the ramps
+    return Pose{{5.0 * std::sin(12.0 * since), 0.0, 0.0}, Eigen::Quaterniond::Identity()};
+  };
+  SimulatedDevice device(swaying, hand, {});
+  Transmission way;
+  way.readEvery = 10;
+  const auto result = examined(device, way);
+  EXPECT_EQ(result.problem, "");
+  for (const auto& axis : result.axes)
+    EXPECT_FALSE(axis.limit > 0.0 && axis.hertz == 0.0) << "taken as faster than 500 mm/s";
 }
 
 TEST(DeviceCheck, MeasuresWorkspaceRateAndTrips)

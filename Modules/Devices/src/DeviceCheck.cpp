@@ -17,14 +17,25 @@ namespace
 
 constexpr double kPi = 3.14159265358979323846;
 
-constexpr double kLostFor = 0.5; // s without a good reading
+constexpr double kLostFor = 0.5;  // s without a good reading
+constexpr double kFaultFor = 5.0; // s of a fault: forces that a driver cut return in up to 3 s
+
+// Speed, by two readings at least so far apart that it does not matter when they came.
+constexpr double kTooFast = 500.0;      // mm/s
+constexpr double kSpeedWindow = 0.0045; // s
+
+// Rest before a step.
+constexpr double kRest = 1.0;       // s
+constexpr double kRestWithin = 1.0; // mm
+constexpr double kRestLimit = 20.0; // s to wait for it
 
 // Step of force.
-constexpr double kRest = 0.3;   // s before it
-constexpr double kRise = 0.02;  // s
-constexpr double kHold = 0.15;  // s, with the rise
-constexpr double kMoved = 0.05; // mm
-constexpr double kMain = 0.7;   // of the motion, along the axis
+constexpr double kRise = 0.02;        // s
+constexpr double kHold = 0.15;        // s, with the rise
+constexpr double kMoved = 0.05;       // mm
+constexpr double kMain = 0.7;         // of the motion, along the axis
+constexpr double kAgainst = 2.0;      // mm against the force: ends the check
+constexpr double kAgainstAtEnd = 0.3; // mm, likewise; a tremor would be as large in between
 
 // Ramp.
 constexpr double kLeast = 0.1;      // N/mm
@@ -37,9 +48,8 @@ constexpr double kCorner = 25.0;    // Hz, of the high-passes
 constexpr double kCycle = 0.05;     // N
 constexpr double kDecay = 0.85;     // of the first half's amplitude
 constexpr int kChanges = 3;         // of sign in half the time
-constexpr double kTooFast = 500.0;  // mm/s
 constexpr double kPulledFor = 0.1;  // s at the cap
-constexpr int kMaxRestarts = 20;    // of one axis
+constexpr int kMaxRestarts = 20;    // of one axis, also of its step
 constexpr double kLargestCap = 3.0; // N
 constexpr double kCapShare = 0.6;   // of the device's maximum
 constexpr double kMargin = 0.5;     // proposed stiffness / largest that was stable
@@ -84,6 +94,7 @@ double DeviceCheck::progress() const noexcept
     return 0.0;
   case Stage::Workspace:
     return 0.2 * std::min(1.0, (m_lastTime - m_since) / m_options.workspaceTime);
+  case Stage::Rest:
   case Stage::ForceStep:
     return 0.2 + 0.1 * m_axis / 3.0;
   case Stage::Stiffness:
@@ -100,41 +111,87 @@ void DeviceCheck::end(const std::string& problem) noexcept
   m_stage = Stage::Done;
 }
 
-void DeviceCheck::enter(Stage stage, double now) noexcept
+void DeviceCheck::enter(Stage stage, int axis, double now) noexcept
 {
+  if (stage == Stage::Stiffness || (stage == Stage::Rest && axis != m_axis))
+    m_restarts = 0;
   m_stage = stage;
-  m_since = now;
-  m_axis = 0;
+  m_axis = axis;
+  m_since = m_restSince = now;
   m_anchor = m_last;
+  if (stage == Stage::ForceStep)
+    m_result.axes[static_cast<std::size_t>(axis)].latency = 0.0;
   if (stage == Stage::Stiffness)
   {
     m_stiffness = kLeast;
-    m_restarts = 0;
     beginLevel(now);
   }
 }
 
 void DeviceCheck::nextAxis(double now) noexcept
 {
-  m_since = now;
-  m_anchor = m_last;
-  if (++m_axis < 3)
-  {
-    m_stiffness = kLeast;
-    m_restarts = 0;
-    if (m_stage == Stage::Stiffness)
-      beginLevel(now);
-  }
-  else if (m_stage == Stage::ForceStep)
-    enter(Stage::Stiffness, now);
+  int next = m_axis + 1;
+  if (m_stage == Stage::ForceStep && next < 3)
+    return enter(Stage::Rest, next, now);
+  if (m_stage == Stage::ForceStep)
+    next = 0;
+  // A spring on an axis whose force goes elsewhere drives the handle away.
+  while (next < 3 && !m_result.axes[static_cast<std::size_t>(next)].follows)
+    ++next;
+  if (next < 3)
+    return enter(Stage::Stiffness, next, now);
+  double least = m_options.maxStiffness;
+  for (const Axis& axis : m_result.axes)
+    least = std::min(least, axis.stable);
+  m_result.proposed = kMargin * least;
+  m_axis = next;
+  m_stage = Stage::Done;
+}
+
+// At its beginning.
+void DeviceCheck::fault(double now) noexcept
+{
+  if (m_stage == Stage::Ready)
+    return;
+  ++m_result.faults;
+  if (m_stage != Stage::Stiffness)
+    return;
+  Axis& axis = m_result.axes[static_cast<std::size_t>(m_axis)];
+  axis.limit = m_stiffness;
+  axis.faulted = true;
+  nextAxis(now);
+}
+
+// What was measured meanwhile, or without force, is void.
+void DeviceCheck::comeBack(const DeviceReading& reading, double now) noexcept
+{
+  m_last = m_anchor = m_speedAt = reading.pose.position;
+  m_speedTime = reading.time;
+  m_lastTime = now;
+  if (m_stage == Stage::Ready)
+    return enter(Stage::Workspace, 0, now);
+  if (m_stage == Stage::Workspace)
+    return;
+  if (++m_restarts > kMaxRestarts)
+    return end("the device's readings stopped again and again");
+  if (m_stage == Stage::Stiffness)
+    beginLevel(now);
   else
-  {
-    double least = m_options.maxStiffness;
-    for (const Axis& axis : m_result.axes)
-      least = std::min(least, axis.stable);
-    m_result.proposed = kMargin * least;
-    m_stage = Stage::Done;
-  }
+    enter(Stage::Rest, m_axis, now);
+}
+
+bool DeviceCheck::tooFast(const DeviceReading& reading) noexcept
+{
+  const double dt = reading.time - m_speedTime;
+  if (dt < kSpeedWindow)
+    return false;
+  // A spring does not answer for what another axis still does.
+  const Eigen::Vector3d moved = reading.pose.position - m_speedAt;
+  const double way = m_stage == Stage::Stiffness ? std::abs(moved[m_axis]) : moved.norm();
+  const bool fast = way > kTooFast * dt;
+  m_speedAt = reading.pose.position;
+  m_speedTime = reading.time;
+  return fast;
 }
 
 // Extent, rate and buttons, in every stage without force.
@@ -164,27 +221,42 @@ void DeviceCheck::roam(const DeviceReading& reading, double now) noexcept
   const double time = m_lastReading - m_firstReading;
   m_result.rate = time > 0.0 ? (m_readings - 1) / time : 0.0;
   if (m_options.force && m_description.givesForce)
-    enter(Stage::ForceStep, now);
+    enter(Stage::Rest, 0, now);
   else
     m_stage = Stage::Done;
 }
 
-// N along the present axis.
-double DeviceCheck::step(const Eigen::Vector3d& position, double now) noexcept
+void DeviceCheck::rest(const Eigen::Vector3d& position, double now) noexcept
 {
-  const double time = now - m_since - kRest;
-  if (time < 0.0)
+  if ((position - m_anchor).norm() > kRestWithin)
   {
     m_anchor = position;
-    return 0.0;
+    m_restSince = now;
   }
+  if (now - m_restSince >= kRest)
+    enter(Stage::ForceStep, m_axis, now);
+  else if (now - m_since > kRestLimit)
+    end("the handle does not rest; hold it lightly in the middle, and keep it still");
+}
+
+// N along the present axis.
+double DeviceCheck::step(const DeviceReading& reading, double now) noexcept
+{
+  const double time = now - m_since;
   Axis& axis = m_result.axes[static_cast<std::size_t>(m_axis)];
-  const Eigen::Vector3d moved = position - m_anchor;
+  const Eigen::Vector3d moved = reading.pose.position - m_anchor;
+  const bool ends = tooFast(reading) || time >= kHold;
+  axis.moved = moved;
   if (axis.latency == 0.0 && std::abs(moved[m_axis]) > kMoved)
     axis.latency = time;
-  if (time < kHold)
+  if (moved[m_axis] < (ends ? -kAgainstAtEnd : -kAgainst) && -moved[m_axis] > kMain * moved.norm())
+  {
+    end(std::string("the handle moved against the force along ") + "xyz"[m_axis] +
+        ": do not use the device");
+    return 0.0;
+  }
+  if (!ends)
     return m_stepForce * std::min(1.0, time / kRise);
-  axis.moved = moved;
   axis.follows = moved[m_axis] > kMoved && moved[m_axis] > kMain * moved.norm();
   nextAxis(now);
   return 0.0;
@@ -222,10 +294,11 @@ void DeviceCheck::judgeLevel(double now) noexcept
   beginLevel(now);
 }
 
-double DeviceCheck::spring(const Eigen::Vector3d& position, double now) noexcept
+double DeviceCheck::spring(const DeviceReading& reading, double now) noexcept
 {
+  const Eigen::Vector3d& position = reading.pose.position;
   const double dt = now - m_lastTime;
-  m_fast = dt > 0.0 && std::abs(position[m_axis] - m_last[m_axis]) > kTooFast * dt;
+  m_fast = tooFast(reading);
   if (m_fast || now - m_since >= kLevel)
   {
     const int axis = m_axis;
@@ -283,20 +356,26 @@ Wrench DeviceCheck::tick(const DeviceReading& reading, double now, double roundT
   }
   Wrench wrench;
   const bool good = reading.health == DeviceHealth::Good && reading.pose.finite();
+  const bool faulty = reading.health == DeviceHealth::Faulty;
+  if (faulty && !m_faulty)
+    fault(now);
+  if (m_stage != Stage::Ready && (good || faulty != m_faulty))
+    m_lastGood = now;
+  m_faulty = faulty;
+  const bool back = good && !m_good;
+  m_good = good;
   if (!good)
   {
-    const double most = m_stage == Stage::Ready ? m_options.readyTime : kLostFor;
-    if (now - m_lastGood > most)
+    const double most = m_stage == Stage::Ready ? m_options.readyTime
+                        : faulty                ? kFaultFor
+                                                : kLostFor;
+    if (m_stage != Stage::Done && now - m_lastGood > most)
       end(m_stage == Stage::Ready ? "no good reading came from the device" : "the device was lost");
     return wrench;
   }
+  if (back)
+    comeBack(reading, now);
   m_lastGood = now;
-  if (m_stage == Stage::Ready)
-  {
-    m_last = reading.pose.position;
-    m_lastTime = now;
-    enter(Stage::Workspace, now);
-  }
   if (roundTrip > 0.0 && m_result.roundTrips.size() < kTrips)
     m_result.roundTrips.push_back(roundTrip);
   const int axis = std::min(m_axis, 2);
@@ -305,12 +384,15 @@ Wrench DeviceCheck::tick(const DeviceReading& reading, double now, double roundT
   case Stage::Workspace:
     roam(reading, now);
     break;
+  case Stage::Rest:
+    rest(reading.pose.position, now);
+    break;
   // The axis of this force, whichever is next.
   case Stage::ForceStep:
-    wrench.linear[axis] = step(reading.pose.position, now);
+    wrench.linear[axis] = step(reading, now);
     break;
   case Stage::Stiffness:
-    wrench.linear[axis] = spring(reading.pose.position, now);
+    wrench.linear[axis] = spring(reading, now);
     break;
   case Stage::Ready:
   case Stage::Done:

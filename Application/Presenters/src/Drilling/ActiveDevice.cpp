@@ -124,7 +124,8 @@ ActiveDevice::ActiveDevice(const DeviceSources& sources, const InputDevice& inpu
   // What was measured on this device goes before what its server assumes.
   if (const auto kept = sources.limits.empty()
                             ? std::nullopt
-                            : keptStiffness(sources.limits, input.name, m_description.name);
+                            : keptStiffness(sources.limits, input.name, m_description.name,
+                                            m_description.maxStiffness);
       kept && m_description.givesForce)
     m_description.maxStiffness = *kept;
   if (endless() || !m_device->description().sensesRotation)

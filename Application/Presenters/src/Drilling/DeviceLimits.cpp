@@ -1,6 +1,8 @@
 #include "petrous/Presenters/DeviceLimits.h"
 
+#include <algorithm>
 #include <fstream>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -22,11 +24,44 @@ bool sound(double stiffness)
   return stiffness > 0.0 && stiffness <= kLargest;
 }
 
+constexpr double kMostOfDescribed = 2.0;
+
+// Null if it is no such file.
 nlohmann::json entriesOf(const std::filesystem::path& path)
 {
   std::ifstream file(path, std::ios::binary);
   nlohmann::json entries = nlohmann::json::parse(file, nullptr, false);
-  return entries.is_object() ? entries : nlohmann::json::object();
+  return entries.is_object() ? entries : nlohmann::json();
+}
+
+// A server's devices, also of the former format.
+nlohmann::json devicesOf(const nlohmann::json& entries, const std::string& server)
+{
+  const auto entry = entries.find(server);
+  if (entry == entries.end() || !entry->is_object())
+    return nlohmann::json::object();
+  const auto device = entry->find("device");
+  if (device == entry->end() || !device->is_string())
+    return *entry;
+  const auto stiffness = entry->find(kKey);
+  return stiffness == entry->end()
+             ? nlohmann::json::object()
+             : nlohmann::json{{device->get<std::string>(), {{kKey, *stiffness}}}};
+}
+
+void putAside(const std::filesystem::path& file)
+{
+  std::error_code error; // writing then says what is wrong
+  if (std::filesystem::file_size(file, error) == 0 || error)
+    return;
+  std::filesystem::path aside = file;
+  aside += ".damaged";
+  for (int i = 2; std::filesystem::exists(aside, error); ++i)
+  {
+    aside = file;
+    aside += ".damaged-" + std::to_string(i);
+  }
+  std::filesystem::rename(file, aside, error);
 }
 
 } // namespace
@@ -37,19 +72,22 @@ std::filesystem::path deviceLimitsFile()
   return beside.empty() ? beside : beside.parent_path() / "device-limits.json";
 }
 
-std::optional<double> keptStiffness(const std::filesystem::path& file, const std::string& server,
-                                    const std::string& device)
+double boundedStiffness(double measured, double described) noexcept
 {
-  const nlohmann::json entries = entriesOf(file);
-  const auto entry = entries.find(server);
-  if (entry == entries.end() || !entry->is_object())
+  return std::max(0.0, std::min(measured, kMostOfDescribed * described));
+}
+
+std::optional<double> keptStiffness(const std::filesystem::path& file, const std::string& server,
+                                    const std::string& device, double described)
+{
+  const nlohmann::json devices = devicesOf(entriesOf(file), server);
+  const auto entry = devices.find(device);
+  if (entry == devices.end() || !entry->is_object())
     return std::nullopt;
-  const auto name = entry->find("device");
   const auto stiffness = entry->find(kKey);
-  if (name == entry->end() || *name != device || stiffness == entry->end() ||
-      !stiffness->is_number() || !sound(stiffness->get<double>()))
+  if (stiffness == entry->end() || !stiffness->is_number() || !sound(stiffness->get<double>()))
     return std::nullopt;
-  return stiffness->get<double>();
+  return boundedStiffness(stiffness->get<double>(), described);
 }
 
 void keepStiffness(const std::filesystem::path& file, const std::string& server,
@@ -58,7 +96,14 @@ void keepStiffness(const std::filesystem::path& file, const std::string& server,
   if (!sound(stiffness))
     throw core::InvalidParameter("device limits: a stiffness must be above 0, up to 20 N/mm");
   nlohmann::json entries = entriesOf(file);
-  entries[server] = {{"device", device}, {kKey, stiffness}};
+  if (entries.is_null())
+  {
+    putAside(file);
+    entries = nlohmann::json::object();
+  }
+  nlohmann::json devices = devicesOf(entries, server);
+  devices[device] = {{kKey, stiffness}};
+  entries[server] = std::move(devices);
   std::error_code ignored; // writing then says what is wrong
   std::filesystem::create_directories(file.parent_path(), ignored);
   // A device's name is whatever its server sends.

@@ -9,18 +9,24 @@ namespace petrous::presenters
 
 /// The largest stiffness of a coupling that this user's devices bear, as measured by
 /// `petrous device-test --keep`: a JSON file of this machine,
-/// {"SERVER": {"device": NAME, "max_stiffness_n_per_mm": K}}.
+/// {"SERVER": {DEVICE: {"max_stiffness_n_per_mm": K}}}. DEVICE is the name that the server
+/// describes, with the serial number where it knows one. Before, {"SERVER": {"device": DEVICE,
+/// ...}}.
 
 /// $XDG_CONFIG_HOME/petrous/device-limits.json, else below ~/.config; empty: no home folder.
 std::filesystem::path deviceLimitsFile();
 
-/// N/mm, felt at the device; nothing where the file has none for this server and device, or cannot
-/// be read.
-std::optional<double> keptStiffness(const std::filesystem::path& file, const std::string& server,
-                                    const std::string& device);
+/// N/mm, at most twice `described`, the server's limit: a measurement of a minute in one hand must
+/// not undo it. 0 where the server describes none.
+double boundedStiffness(double measured, double described) noexcept;
 
-/// Other entries stay; a file that is not one of these is replaced. Throws core::OutputFileError,
-/// or InvalidParameter unless 0 < stiffness <= 20.
+/// N/mm, felt at the device, bounded; nothing where the file has none for this server and device,
+/// or cannot be read.
+std::optional<double> keptStiffness(const std::filesystem::path& file, const std::string& server,
+                                    const std::string& device, double described);
+
+/// Other entries stay; a file that is not one of these is put aside as "FILE.damaged". Throws
+/// core::OutputFileError, or InvalidParameter unless 0 < stiffness <= 20.
 void keepStiffness(const std::filesystem::path& file, const std::string& server,
                    const std::string& device, double stiffness);
 

@@ -11,8 +11,9 @@ namespace petrous::devices
 {
 
 /// Examines a haptic device tick by tick: workspace and rate while the user moves the handle, then,
-/// with the handle held lightly, a step of force along each axis and a spring of rising stiffness
-/// that ends at the first sign of a limit cycle.
+/// with the handle held lightly and once it rests, a step of force along each axis and, along those
+/// axes that followed it, a spring of rising stiffness that ends at the first sign of a limit
+/// cycle. A handle that moves against its step ends the check at once.
 ///
 /// Spring of one axis, at stiffness k, for a level of 0.4 s:
 ///
@@ -23,8 +24,9 @@ namespace petrous::devices
 ///
 /// F is high-passed (two poles of 25 Hz). A limit cycle is an oscillation that from 0.12 s on does
 /// not decay: in the second half of that time at least 3 changes of sign, 0.05 N, and 0.85 of the
-/// first half's amplitude; or the handle faster than 500 mm/s at any time. A stable spring decays
-/// faster than that up to about 0.75 of the stability limit. k rises by 15 % a level.
+/// first half's amplitude; or the handle faster than 500 mm/s at any time, by the readings' own
+/// times; or a fault of the device. A stable spring decays faster than that up to about 0.75 of the
+/// stability limit. k rises by 15 % a level.
 ///
 /// Not thread-safe; `tick` does not throw.
 class DeviceCheck
@@ -43,6 +45,7 @@ public:
   {
     Ready,     ///< waits for the device
     Workspace, ///< the user moves the handle through all of its workspace
+    Rest,      ///< waits until the handle stays within 1 mm for 1 s, before each step
     ForceStep, ///< the user holds it lightly
     Stiffness, ///< likewise
     Done
@@ -55,14 +58,16 @@ public:
     double latency = 0.0;                 ///< s until the handle moved by 0.05 mm; 0: it did not
     bool follows = false;                 ///< it moved mainly along +axis
     // Ramp.
-    double stable = 0.0; ///< N/mm, the largest that was; 0: none
-    double limit = 0.0;  ///< N/mm at which a limit cycle began; 0: none up to maxStiffness
-    double hertz = 0.0;  ///< of the limit cycle
+    double stable = 0.0;  ///< N/mm, the largest that was; 0: none
+    double limit = 0.0;   ///< N/mm at which a limit cycle began; 0: none up to maxStiffness
+    bool faulted = false; ///< the limit is where the device reported a fault
+    double hertz = 0.0;   ///< of the limit cycle
   };
 
   struct Result
   {
     std::string problem; ///< why the check ended early; empty if it did not
+    int faults = 0;      ///< that the device reported from the workspace stage on
     Eigen::Vector3d lowest{0.0, 0.0, 0.0};
     Eigen::Vector3d highest{0.0, 0.0, 0.0}; ///< mm, of the workspace
     double turned = 0.0;                    ///< rad, the largest rotation from the first pose
@@ -72,7 +77,8 @@ public:
     double worstGap = 0.0;                  ///< s between two readings
     std::vector<double> roundTrips;         ///< s, of wrenches, unsorted
     std::array<Axis, 3> axes;
-    double proposed = 0.0; ///< N/mm: half of the smallest `stable`; 0: no forces were tested
+    /// N/mm: half of the smallest `stable`; 0: no forces were tested, or not on every axis.
+    double proposed = 0.0;
   };
 
   /// Throws InvalidParameter naming the first invalid option.
@@ -83,19 +89,23 @@ public:
                        double roundTrip = 0.0) noexcept;
 
   Stage stage() const noexcept { return m_stage; }
-  int axis() const noexcept { return m_axis; }              ///< 0 to 2, of the present step or ramp
+  int axis() const noexcept { return m_axis; } ///< 0 to 2, of the present step or ramp; 3: none
   double stiffness() const noexcept { return m_stiffness; } ///< N/mm, of the ramp; at present
   double progress() const noexcept;                         ///< 0 to 1, roughly
   const Result& result() const noexcept { return m_result; }
 
 private:
-  void enter(Stage stage, double now) noexcept;
+  void enter(Stage stage, int axis, double now) noexcept;
   void nextAxis(double now) noexcept;
   void beginLevel(double now) noexcept;
   void end(const std::string& problem) noexcept;
   void roam(const haptics::DeviceReading& reading, double now) noexcept;
-  double step(const Eigen::Vector3d& position, double now) noexcept;
-  double spring(const Eigen::Vector3d& position, double now) noexcept;
+  void fault(double now) noexcept;
+  void comeBack(const haptics::DeviceReading& reading, double now) noexcept;
+  bool tooFast(const haptics::DeviceReading& reading) noexcept;
+  void rest(const Eigen::Vector3d& position, double now) noexcept;
+  double step(const haptics::DeviceReading& reading, double now) noexcept;
+  double spring(const haptics::DeviceReading& reading, double now) noexcept;
   void judgeLevel(double now) noexcept;
 
   haptics::DeviceDescription m_description;
@@ -107,7 +117,9 @@ private:
 
   double m_since = 0.0; ///< s, begin of the stage, axis or level
   bool m_started = false;
-  double m_lastGood = 0.0;    ///< s
+  bool m_good = false;        ///< the last reading
+  bool m_faulty = false;      ///< likewise
+  double m_lastGood = 0.0;    ///< s, or when it became faulty
   double m_lastReading = 0.0; ///< s, time of the last reading
   double m_firstReading = 0.0;
   int m_readings = 0;
@@ -115,10 +127,14 @@ private:
   Eigen::Vector3d m_last{0.0, 0.0, 0.0}; ///< mm, the last position
   double m_lastTime = 0.0;               ///< s
 
+  double m_restSince = 0.0;                 ///< s
+  Eigen::Vector3d m_speedAt{0.0, 0.0, 0.0}; ///< mm, where the speed is taken from
+  double m_speedTime = 0.0;                 ///< s, likewise
+
   int m_axis = 0;
   Eigen::Vector3d m_anchor{0.0, 0.0, 0.0};
   double m_stiffness = 0.0;
-  int m_restarts = 0;
+  int m_restarts = 0;                    ///< of an axis
   double m_pulledSince = 0.0;            ///< s; 0: not pulled away
   std::array<double, 2> m_low{0.0, 0.0}; ///< states of the two high-passes
   double m_amplitudes[2] = {0.0, 0.0};   ///< N, of the halves

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "petrous/Core/Error.h"
 
@@ -119,6 +120,7 @@ void DeviceCheck::enter(Stage stage, int axis, double now) noexcept
   m_axis = axis;
   m_since = m_restSince = now;
   m_anchor = m_last;
+  m_wasFast = false;
   if (stage == Stage::ForceStep)
     m_result.axes[static_cast<std::size_t>(axis)].latency = 0.0;
   if (stage == Stage::Stiffness)
@@ -167,6 +169,7 @@ void DeviceCheck::comeBack(const DeviceReading& reading, double now) noexcept
 {
   m_last = m_anchor = m_speedAt = reading.pose.position;
   m_speedTime = reading.time;
+  m_wasFast = false;
   m_lastTime = now;
   if (m_stage == Stage::Ready)
     return enter(Stage::Workspace, 0, now);
@@ -188,10 +191,11 @@ bool DeviceCheck::tooFast(const DeviceReading& reading) noexcept
   // A spring does not answer for what another axis still does.
   const Eigen::Vector3d moved = reading.pose.position - m_speedAt;
   const double way = m_stage == Stage::Stiffness ? std::abs(moved[m_axis]) : moved.norm();
-  const bool fast = way > kTooFast * dt;
+  // Twice: one late reading makes a jump of what came before it.
+  const bool before = std::exchange(m_wasFast, way > kTooFast * dt);
   m_speedAt = reading.pose.position;
   m_speedTime = reading.time;
-  return fast;
+  return before && m_wasFast;
 }
 
 // Extent, rate and buttons, in every stage without force.

@@ -130,6 +130,7 @@ private:
   double m_restSince = 0.0;                 ///< s
   Eigen::Vector3d m_speedAt{0.0, 0.0, 0.0}; ///< mm, where the speed is taken from
   double m_speedTime = 0.0;                 ///< s, likewise
+  bool m_wasFast = false;
 
   int m_axis = 0;
   Eigen::Vector3d m_anchor{0.0, 0.0, 0.0};

@@ -3,7 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include <QAction>
+#include <QCoreApplication>
+
+#include "DeviceTestDialog.h"
 #include "DeviceToolBar.h"
+#include "Manual.h"
 #include "Theme.h"
 #include "WindowSettings.h"
 #include "WindowTexts.h"
@@ -26,6 +31,14 @@ ActiveDeviceController::ActiveDeviceController(DeviceWatcher& finder, DeviceTool
   connect(&finder, &DeviceWatcher::failed, this, &ActiveDeviceController::giveUp);
   connect(&finder, &DeviceWatcher::waits, this, &ActiveDeviceController::statusMessage);
   connect(&bar, &DeviceToolBar::chosen, this, &ActiveDeviceController::choose);
+  connect(bar.testAction(), &QAction::triggered, this, &ActiveDeviceController::test);
+  connect(bar.connectAction(), &QAction::triggered, this,
+          [this]
+          {
+            const QString why = openManual(QCoreApplication::applicationDirPath(),
+                                           QDesktopServices::openUrl, "devices.html");
+            emit statusMessage(why.isEmpty() ? tr("The manual is in the browser") : why);
+          });
   connect(&bar, &DeviceToolBar::mappingChanged, this,
           [this]
           {
@@ -92,6 +105,17 @@ void ActiveDeviceController::take()
   m_bar.showMapping(&device, scale, std::clamp(limit, 0.0, device.maxForce));
   emit statusMessage(tr("%1 is there").arg(words(device.name)));
   emit came();
+}
+
+// The test has the device for itself; afterwards it is taken up with what was kept.
+void ActiveDeviceController::test()
+{
+  const InputDevice input = m_input;
+  choose(InputDevice());
+  auto* dialog = new DeviceTestDialog(m_watcher.sources(), input, m_bar.window());
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  connect(dialog, &QObject::destroyed, this, [this, input] { choose(input); });
+  dialog->open();
 }
 
 void ActiveDeviceController::giveUp(const QString& why)

@@ -47,6 +47,7 @@ signals:
 
 private:
   void take();
+  void test();
   void showDevices();
   void notifyAdvice();
 

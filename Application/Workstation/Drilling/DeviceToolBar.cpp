@@ -6,8 +6,10 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QLabel>
+#include <QMenu>
 #include <QSignalBlocker>
 #include <QStandardItemModel>
+#include <QToolButton>
 
 #include "Bind.h"
 #include "Theme.h"
@@ -42,6 +44,8 @@ DeviceToolBar::DeviceToolBar(QWidget* parent)
   , m_limit(numberBox("forceLimit", tr("The strongest force that the device may give, N"),
                       {0.0, 200.0, tr(" N"), 1, 0.1}))
   , m_here(new QAction(tr("Bring the tool &here"), this))
+  , m_test(new QAction(tr("&Test the device…"), this))
+  , m_connect(new QAction(tr("&Connect a device…"), this))
 {
   setObjectName("deviceBar");
   setMovable(false);
@@ -59,6 +63,20 @@ DeviceToolBar::DeviceToolBar(QWidget* parent)
     return std::vector<QAction*>{addWidget(label), addWidget(widget)};
   };
   add(tr("Device"), m_choice);
+  m_test->setToolTip(tr("Workspace, directions of the forces, and the stiffness that it bears"));
+  m_connect->setToolTip(tr("Opens the manual in the browser: which devices there are, and how they "
+                           "come into this list"));
+  auto* more = new QToolButton;
+  more->setObjectName("deviceMore");
+  more->setText("…");
+  more->setToolTip(tr("Connect or test a device"));
+  more->setAccessibleName(more->toolTip());
+  more->setPopupMode(QToolButton::InstantPopup);
+  auto* menu = new QMenu(more);
+  menu->setToolTipsVisible(true);
+  menu->addActions({m_connect, m_test});
+  more->setMenu(menu);
+  addWidget(more);
   m_scaleParts = add(tr("Scale"), m_scale);
   m_limitParts = add(tr("At most"), m_limit);
   connect(m_choice, qOverload<int>(&QComboBox::activated), this,
@@ -83,6 +101,11 @@ void DeviceToolBar::showDevices(const presenters::DeviceList& found, const std::
   if (std::none_of(devices.begin(), devices.end(), is) && before != m_devices.end())
     devices.push_back(*before);
   m_devices = std::move(devices);
+  m_test->setEnabled(std::any_of(m_devices.begin(), m_devices.end(),
+                                 [&](const InputDevice& input) {
+                                   return is(input) && input.kind == InputDevice::Kind::Server &&
+                                          input.advice.empty();
+                                 }));
 
   const QSignalBlocker quiet(m_choice);
   m_choice->clear();

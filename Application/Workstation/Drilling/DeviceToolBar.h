@@ -29,6 +29,8 @@ public:
   double forceLimit() const; ///< N
 
   QAction* hereAction() const noexcept { return m_here; }
+  QAction* testAction() const noexcept { return m_test; }       ///< of a device behind a server
+  QAction* connectAction() const noexcept { return m_connect; } ///< says how
 
 signals:
   void chosen(const petrous::presenters::InputDevice& input); ///< by the user
@@ -42,6 +44,8 @@ private:
   std::vector<QAction*> m_scaleParts;
   std::vector<QAction*> m_limitParts;
   QAction* m_here;
+  QAction* m_test;
+  QAction* m_connect;
 };
 
 } // namespace petrous::workstation

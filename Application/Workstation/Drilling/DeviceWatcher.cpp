@@ -5,6 +5,7 @@
 
 #include "Application.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Core/Error.h"
 #include "petrous/Core/Log.h"
 
@@ -96,7 +97,7 @@ void DeviceWatcher::open(const InputDevice& input)
         const auto advise = [this, name = words(input.name)](const std::string& text)
         {
           QMetaObject::invokeMethod(
-              this, [this, line = name + ": " + words(text)] { emit waits(line); },
+              this, [this, name, text] { emit waits(name + ": " + phrase(text)); },
               Qt::QueuedConnection);
         };
         if (!wanted())

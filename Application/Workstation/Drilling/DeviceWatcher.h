@@ -25,6 +25,7 @@ public:
   DeviceWatcher(presenters::DeviceSources sources, int lookEvery, QObject* parent = nullptr);
   ~DeviceWatcher() override; ///< waits for a device being opened
 
+  const presenters::DeviceSources& sources() const noexcept { return m_sources; }
   const presenters::DeviceList& found() const noexcept { return m_found; }
 
   /// The pedal that is, or was, connected; nullptr until there was one.

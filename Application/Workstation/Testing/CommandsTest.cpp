@@ -173,6 +173,16 @@ TEST_F(CommandsWindow, TheManualIsOpenedWhereItIsInstalledOrBuilt)
   }
   starts = false;
   EXPECT_TRUE(open("usr/bin").contains("usr/share/doc/petrous/manual/index.html")) << "no browser";
+  QUrl page;
+  openManual(
+      top.filePath("usr/bin"),
+      [&page](const QUrl& url)
+      {
+        page = url;
+        return true;
+      },
+      "devices.html");
+  EXPECT_TRUE(page.path().endsWith("usr/share/doc/petrous/manual/devices.html"));
 }
 
 TEST_F(CommandsWindow, ShiftF1SaysThatTheManualIsNotInstalled)

@@ -1,4 +1,6 @@
 #include "DeviceTest.h"
+#include "DeviceTestDialog.h"
+#include "DeviceToolBar.h"
 
 #include <csignal>
 #include <iterator>
@@ -6,6 +8,9 @@
 
 #include <QDoubleSpinBox>
 #include <QLabel>
+#include <QPushButton>
+
+#include "petrous/Presenters/DeviceLimits.h"
 
 using namespace petrous;
 using namespace petrous::workstation;
@@ -61,6 +66,15 @@ protected:
     served.emplace(serverName(), describe);
     QTest::keyClick(&view(), Qt::Key_D);
     ASSERT_TRUE(hasTool());
+  }
+
+  /// Installs the example server with these options.
+  void installExample(const std::string& options)
+  {
+    const auto program = servers() / serverName();
+    std::ofstream(program) << "#!/bin/sh\nexec '" << PETROUS_EXAMPLE_SERVER << "' " << options
+                           << " \"$@\"\n";
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
   }
 
   /// Drills by the cap until bone is gone, with Space still held when it is unplugged.
@@ -407,4 +421,83 @@ TEST_F(InputDevices, AServerThatIsKilledComesBackAndEndsWithTheWindow)
   closeWindow();
   EXPECT_EQ(processOf(serverName()), 0);
   openWindow();
+}
+
+// The example's handle goes by 9.3 mm for each newton, at once: it oscillates beyond 0.1075 N/mm.
+TEST_F(InputDevices, TheTestOfADeviceShowsWhatItBearsAndKeepsIt)
+{
+  installExample("--radius 0 --compliance 9.3");
+  presenters::DeviceSources sources;
+  sources.limits = folder() / "device-limits.json";
+  presenters::InputDevice input;
+  input.kind = presenters::InputDevice::Kind::Server;
+  input.name = serverName();
+  input.program = servers() / serverName();
+  devices::DeviceCheck::Options options;
+  options.workspaceTime = 0.5;
+  DeviceTestDialog dialog(sources, input, nullptr, options);
+  dialog.show();
+  auto& start = *dialog.findChild<QPushButton*>("deviceTestStart");
+  auto& keep = *dialog.findChild<QPushButton*>("deviceTestKeep");
+  const auto result = [&] { return dialog.findChild<QLabel*>("deviceTestResult")->text(); };
+  EXPECT_FALSE(keep.isEnabled());
+  start.click();
+  EXPECT_EQ(start.text(), "&Stop");
+  const auto& advice = *dialog.findChild<QLabel*>("deviceTestAdvice");
+  EXPECT_TRUE(waitFor([&] { return advice.text().contains("keep it still"); }));
+  ASSERT_TRUE(waitFor([&] { return keep.isEnabled(); })) << result().toStdString();
+  EXPECT_EQ(start.text(), "S&tart");
+  EXPECT_TRUE(result().contains("Up: stable up to 0.10 N/mm, oscillates at 0.1"))
+      << result().toStdString();
+  EXPECT_TRUE(result().contains("Proposed: 0.05 N/mm")) << result().toStdString();
+  keep.click();
+  EXPECT_EQ(presenters::keptStiffness(sources.limits, input.name, "Petrous example device", 0.4),
+            0.05);
+}
+
+TEST_F(InputDevices, ADeviceIsLentToItsTestAndComesBack)
+{
+  saveBall("ball");
+  installExample("--radius 0");
+  openWindow();
+  auto& bar = *window().findChild<DeviceToolBar*>("deviceBar");
+  EXPECT_FALSE(bar.testAction()->isEnabled()) << "the mouse has no forces";
+  choose(QString::fromStdString(serverName()));
+  ASSERT_TRUE(waitFor([this] { return message().contains("is there"); }));
+  ASSERT_TRUE(bar.testAction()->isEnabled());
+  bar.testAction()->trigger();
+  auto* dialog = window().findChild<QDialog*>("deviceTest");
+  ASSERT_TRUE(dialog);
+  EXPECT_EQ(choice().currentText(), "Mouse");
+  dialog->findChild<QPushButton*>("deviceTestStart")->click();
+  const auto& advice = *dialog->findChild<QLabel*>("deviceTestAdvice");
+  ASSERT_TRUE(waitFor([&] { return advice.text().contains("move the handle"); }))
+      << dialog->findChild<QLabel*>("deviceTestResult")->text().toStdString();
+  dialog->reject();
+  EXPECT_TRUE(
+      waitFor([this] { return choice().currentText() == QString::fromStdString(serverName()); }));
+  EXPECT_TRUE(waitFor([this] { return message().contains("is there"); }));
+}
+
+TEST_F(InputDevices, WhatADeviceWaitsForIsSaidWithTheWindowsWords)
+{
+  saveBall("ball");
+  installServer(serverName());
+  openWindow();
+  choose(QString::fromStdString(serverName()));
+  ASSERT_TRUE(waitFor([this] { return started(serverName()); }));
+  std::atomic<bool> done{false};
+  served.emplace(serverName(),
+                 [&](petrous_device_block& block)
+                 {
+                   describe(block);
+                   petrous_device_text(block.error, sizeof block.error, "it needs 1 mm3 of room");
+                   __atomic_store_n(&block.server_state, std::uint32_t{PETROUS_SERVER_STARTING},
+                                    __ATOMIC_RELEASE);
+                   devices::testing::eventually([&] { return done.load(); });
+                 });
+  EXPECT_TRUE(waitFor([this] { return message().contains("needs 1 mm³ of room"); }))
+      << message().toStdString();
+  done = true;
+  EXPECT_TRUE(waitFor([this] { return message().contains("is there"); }));
 }

@@ -19,9 +19,11 @@ QString manualFile(const QString& programs)
   return {};
 }
 
-QString openManual(const QString& programs, const std::function<bool(const QUrl&)>& open)
+QString openManual(const QString& programs, const std::function<bool(const QUrl&)>& open,
+                   const QString& page)
 {
-  const QString file = manualFile(programs);
+  const QString first = manualFile(programs);
+  const QString file = first.isEmpty() ? first : QFileInfo(first).dir().filePath(page);
   if (file.isEmpty())
     return QObject::tr("The manual is not installed here. The package petrous has it; in a build "
                        "tree 'ninja manual' makes it (needs python3-sphinx and "

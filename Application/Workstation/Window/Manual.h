@@ -13,9 +13,10 @@ namespace petrous::workstation
 /// it is neither.
 QString manualFile(const QString& programs);
 
-/// Opens it in the desktop's browser. Returns what is to be said if that cannot be done; empty if
-/// it was.
+/// Opens it, or another of its pages, in the desktop's browser. Returns what is to be said if that
+/// cannot be done; empty if it was.
 QString openManual(const QString& programs,
-                   const std::function<bool(const QUrl&)>& open = QDesktopServices::openUrl);
+                   const std::function<bool(const QUrl&)>& open = QDesktopServices::openUrl,
+                   const QString& page = "index.html");
 
 } // namespace petrous::workstation

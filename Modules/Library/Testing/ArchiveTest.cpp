@@ -346,6 +346,34 @@ TEST_F(Archives, ArePackedInSeveralMembers)
   EXPECT_EQ(other.open("large too").ct.object, m_library.open("large").ct.object);
 }
 
+// Also where the library has all of it already: the archive may be the copy for another one.
+TEST_F(Archives, ThatAreDamagedAreRefusedWhereEverythingIsThere)
+{
+  archiveCase(m_library, "ear", m_file);
+  const std::string whole = bytesOf(m_file);
+  std::size_t refusals = 0;
+  constexpr std::size_t kPlaces = 40;
+  for (std::size_t n = 0; n < kPlaces; ++n)
+  {
+    std::string spoilt = whole;
+    spoilt[(2 * n + 1) * spoilt.size() / (2 * kPlaces)] ^= 0x10;
+    write(spoilt);
+    const std::string name = "copy" + std::to_string(n);
+    try
+    {
+      restoreCase(m_library, m_file, {name, ""});
+    }
+    catch (const core::Error&)
+    {
+      ++refusals;
+      EXPECT_FALSE(m_library.contains(name));
+    }
+  }
+  EXPECT_GE(refusals, kPlaces * 2 / 3) << "of headers some bits mean nothing";
+  write(whole);
+  EXPECT_EQ(restoreCase(m_library, m_file, {"sound", ""}).newParts, 0U);
+}
+
 TEST_F(Archives, ATakenNameIsRefused)
 {
   archiveCase(m_library, "ear", m_file);

@@ -367,6 +367,19 @@ TEST(Library, SaltsWhatTellsFramesOfReferenceApart)
   std::filesystem::rename(folder.path() / "salt", folder.path() / "a" / "salt");
   EXPECT_EQ(std::filesystem::status(folder.path() / "a" / "salt").permissions(),
             std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+
+  const Library library(folder.path() / "a");
+  EXPECT_TRUE(library.verify().damaged.empty());
+  for (const bool isCut : {true, false})
+  {
+    std::filesystem::remove(folder.path() / "a" / "salt");
+    if (isCut)
+      std::ofstream(folder.path() / "a" / "salt") << std::string(63, '0');
+    const auto damaged = library.verify().damaged;
+    ASSERT_EQ(damaged.size(), 1U) << isCut;
+    EXPECT_EQ(damaged[0].object, "salt");
+    EXPECT_EQ(damaged[0].cases, (std::vector<std::string>{"ear", "other ear"}));
+  }
 }
 
 namespace

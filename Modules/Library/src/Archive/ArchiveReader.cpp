@@ -295,6 +295,23 @@ void unpackImage(ZipReader::Stream& in, core::OutputFile& out, std::uint64_t byt
   }
 }
 
+/// Reads an entry to its end, where its checksum is: what the library has already is told to be
+/// damaged in the archive, too, from which another library may be restored.
+void readThrough(ZipReader::Stream& in, std::uint64_t bytes, const fs::path& file,
+                 const std::string& entry, const core::Progress& progress)
+{
+  constexpr std::uint64_t kPacking = std::uint64_t{1} << 20; // that it may add
+  std::vector<char> block(kBlock);
+  std::uint64_t done = 0;
+  for (std::size_t got = block.size(); got == block.size(); done += got)
+  {
+    progress.check("checking");
+    got = in.read(block.data(), block.size());
+    if (got > bytes + bytes / 64 + kPacking - done)
+      throwUnsound(file, "'" + entry + "' is larger than stated");
+  }
+}
+
 /// Adds the objects that the store lacks; returns their number.
 std::size_t addObjects(const Archive& archive, ObjectStore& store, const core::Progress& progress)
 {
@@ -309,16 +326,22 @@ std::size_t addObjects(const Archive& archive, ObjectStore& store, const core::P
         progress.part(from, static_cast<double>(done) /
                                 static_cast<double>(std::max<std::uint64_t>(archive.bytes, 1)));
     part.report(0.0, "restoring");
+    bool isSound = false; // here; else replaced by the archive's
     if (store.contains(object))
       try
       {
         checkObject(store.path(object), "an object", part);
-        continue;
+        isSound = true;
       }
       catch (const LibraryError&)
       {
-        // damaged here: replaced by the archive's
       }
+    if (isSound)
+    {
+      ZipReader::Stream in = archive.zip.open(one->file);
+      readThrough(in, one->bytes, archive.file, one->file, part);
+      continue;
+    }
     constexpr std::size_t kDot = 65;
     const std::string name =
         store.add(object.substr(kDot),

@@ -460,12 +460,38 @@ bool isStillNeeded(const std::string& object, const Use::By& by)
 
 } // namespace
 
+namespace
+{
+
+constexpr std::size_t kDigitsOfSalt = 64; // saltOf, Library.cpp
+constexpr std::size_t kMostOfSalt = 128;
+
+bool isSalted(const scene::ImagePart& image)
+{
+  return image.isFrameSalted && (!image.frameOfReference.empty() || !image.patient.empty());
+}
+
+bool hasSalt(const fs::path& library)
+{
+  try
+  {
+    return core::readFile(library / "salt", kMostOfSalt).size() == kDigitsOfSalt;
+  }
+  catch (const core::InputFileError&)
+  {
+    return false;
+  }
+}
+
+} // namespace
+
 Inspection Library::verify(const core::Progress& progress) const
 {
   Inspection result;
   std::map<std::string, Use> uses;
   std::vector<std::pair<std::string, std::string>> ids; // of cases, with their names
   std::vector<std::pair<std::string, scene::Attachment>> links;
+  std::vector<Use::By> salted;
   const auto damaged =
       [&result](const std::string& object, const std::vector<Use::By>& by, const std::string& text)
   {
@@ -491,6 +517,8 @@ Inspection Library::verify(const core::Progress& progress) const
       const scene::Case value = manifestIn(path, name);
       if (!isDeleted)
         ids.emplace_back(value.id, name);
+      if (isSalted(value.ct) || std::any_of(value.mr.begin(), value.mr.end(), isSalted))
+        salted.push_back({path, name, isDeleted, {}});
       for (const scene::Attachment& one : value.attachments)
         if (!isDeleted && !one.link.empty())
           links.emplace_back(name, one);
@@ -524,6 +552,11 @@ Inspection Library::verify(const core::Progress& progress) const
               core::printable(path) + ": the thumbnail of case '" + name +
                   "' is damaged; make it anew: petrous describe '" + name + "' --thumbnail");
   }
+  if (!salted.empty() && !hasSalt(m_folder))
+    damaged("salt", salted,
+            core::printable(m_folder / "salt") +
+                ": is missing, or not what this program wrote; restore it from a copy: without it "
+                "nothing tells whether a new image is of the patient of an older one");
   const ObjectStore store(objectFolder());
   std::map<std::string, std::uintmax_t> sizes;
   std::uintmax_t total = 1;

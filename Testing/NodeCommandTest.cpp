@@ -215,6 +215,10 @@ TEST_F(NodeCommand, ListsCasesByTheirNamesAsPatientsOfTheirOwn)
   if (!servers::Orthanc::installed())
     GTEST_SKIP() << "Orthanc (package orthanc) is not installed";
   start(false);
+  const Outcome renamed = run("library rename ear first");
+  EXPECT_NE(renamed.out.find("it is another patient and study there"), std::string::npos)
+      << renamed.out;
+  json("library rename first ear");
   json("library copy ear \"\xc3\xb6hr 2\"");
   json("library copy ear \"Jane Doeberg\"");
   std::set<std::string> patients;

@@ -7,6 +7,7 @@
 #include "petrous/Library/DefaultFolder.h"
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Library/NewerVersion.h"
+#include "petrous/Network/NodeList.h"
 
 namespace petrous::cli
 {
@@ -221,6 +222,9 @@ void run(const Context& context, const Options& options)
     names(2, "rename A B");
     library.rename(options.names[0], options.names[1]);
     context.print("case '" + options.names[0] + "' is now '" + options.names[1] + "'");
+    if (!network::NodeList(library.folder()).nodes().empty())
+      context.print("a node to which it was sent keeps it as it was; sent again, it is another "
+                    "patient and study there");
     context.printJson({{"case", options.names[1]}, {"was", options.names[0]}});
   }
   else if (action == "copy")

@@ -30,6 +30,10 @@ constexpr Kind kRawMatroska{"raw.mkv", "video/x-raw,format=I420", "matroskamux"}
 constexpr Kind kFfv1{"ffv1.mkv", "avenc_ffv1", "matroskamux"};
 // Key frames far apart.
 constexpr Kind kVp8{"vp8.webm", "vp8enc deadline=1 keyframe-max-dist=80", "webmmux"};
+constexpr Kind kVp8Keys{"keys.webm", "vp8enc deadline=1 keyframe-max-dist=10", "webmmux"};
+// AVI has no times, and stores frames in another order than they are shown.
+constexpr Kind kMpeg4Avi{"mpeg4.avi", "avenc_mpeg4 max-bframes=2 gop-size=12 bitrate=2000000",
+                         "avimux"};
 constexpr Kind kTheora{"theora.ogg", "theoraenc keyframe-auto=false keyframe-force=64", "oggmux"};
 // As cameras write it: frames are stored in another order than they are shown. By ffmpeg, as
 // GStreamer's encoder is in a package of its own.
@@ -44,11 +48,16 @@ inline bool has(const char* factory)
   return found != nullptr;
 }
 
+inline bool hasFfmpeg()
+{
+  return std::system("ffmpeg -version >/dev/null 2>&1") == 0;
+}
+
 inline bool canMake(const Kind& kind)
 {
   const std::string encoder(kind.encoder);
   if (encoder == "ffmpeg")
-    return std::system("ffmpeg -version >/dev/null 2>&1") == 0 && has("avdec_h264");
+    return hasFfmpeg() && has("avdec_h264");
   return has(kind.muxer) &&
          (encoder.rfind("video/", 0) == 0 || has(encoder.substr(0, encoder.find(' ')).c_str()));
 }
@@ -92,7 +101,8 @@ struct Options
   std::string sound; ///< elements into the muxer "m."
 };
 
-inline void writeByFfmpeg(const std::string& file, const Options& options)
+inline void writeByFfmpeg(const std::string& file, const Options& options,
+                          const std::string& encoder = "-c:v libx264 -bf 3 -g 60 -pix_fmt yuv420p")
 {
   std::ofstream raw(file + ".raw", std::ios::binary);
   for (int n = 0; n < options.frames; ++n)
@@ -102,10 +112,9 @@ inline void writeByFfmpeg(const std::string& file, const Options& options)
               static_cast<std::streamsize>(pixels.size()));
   }
   raw.close();
-  const std::string line =
-      "ffmpeg -loglevel error -y -f rawvideo -pix_fmt rgb24 -s " + std::to_string(options.width) +
-      "x" + std::to_string(options.height) + " -r 25 -i '" + file +
-      ".raw' -c:v libx264 -bf 3 -g 60 -pix_fmt yuv420p '" + file + "' </dev/null";
+  const std::string line = "ffmpeg -loglevel error -y -f rawvideo -pix_fmt rgb24 -s " +
+                           std::to_string(options.width) + "x" + std::to_string(options.height) +
+                           " -r 25 -i '" + file + ".raw' " + encoder + " '" + file + "' </dev/null";
   ASSERT_EQ(std::system(line.c_str()), 0) << line;
 }
 

@@ -81,7 +81,7 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(All, EveryKind,
                          testing::Values(made::kRawAvi, made::kRawMatroska, made::kFfv1, made::kVp8,
-                                         made::kTheora, made::kH264),
+                                         made::kTheora, made::kMpeg4Avi, made::kH264),
                          [](const auto& kind)
                          {
                            std::string name = kind.param.name;
@@ -261,11 +261,164 @@ TEST_F(VideoFiles, ThatBreaksOffIsShownUpToThere)
     EXPECT_EQ(numberOf(video.current()), ++last);
   EXPECT_GT(last, 20);
   EXPECT_LT(last, 90);
+  ASSERT_TRUE(video.gap()) << "it ends before its time";
+  EXPECT_EQ(video.gap()->begin, video.current().time);
+  EXPECT_FALSE(video.gap()->end);
   EXPECT_EQ(numberOf(video.seek(milliseconds(3900))), last);
   EXPECT_EQ(numberOf(video.seek(milliseconds(405))), 10);
   EXPECT_TRUE(video.previous());
   EXPECT_EQ(numberOf(video.current()), 9);
   refusal(withBytes("stump.webm", whole.substr(0, 300)), VideoError::Reason::Damaged);
+}
+
+// Whatever was played before.
+TEST_F(VideoFiles, GoesOnBeyondADamagedPart)
+{
+  if (!made::canMake(made::kVp8Keys))
+    GTEST_SKIP() << "vp8enc is not installed";
+  made::Options options;
+  options.frames = 200;
+  std::string bytes = bytesOf(written(made::kVp8Keys, options));
+  bytes.replace(bytes.size() * 4 / 10, bytes.size() / 10, bytes.size() / 10, '\xff');
+  const std::string hole = withBytes("hole.webm", bytes);
+  VideoFile video(hole);
+  std::vector<Gap> gaps;
+  std::vector<Time> times{video.current().time};
+  do
+  {
+    if (const auto gap = video.gap())
+      gaps.push_back(*gap);
+    EXPECT_GE(video.current().time, times.back());
+    EXPECT_EQ(numberOf(video.current()),
+              (video.current().time + milliseconds(1)) / milliseconds(40));
+    times.push_back(video.current().time);
+  } while (video.next());
+  EXPECT_EQ(numberOf(video.current()), 199);
+  ASSERT_EQ(gaps.size(), 1U);
+  ASSERT_TRUE(gaps[0].end);
+  EXPECT_GT(*gaps[0].end, gaps[0].begin + milliseconds(100));
+  for (int at = 200; at < 8000; at += 650)
+  {
+    VideoFile fresh(hole);
+    fresh.seek(milliseconds(at));
+    video.seek(gaps[0].begin);
+    EXPECT_EQ(video.seek(milliseconds(at)).time, fresh.current().time) << at;
+    video.seek(Time(0));
+    while (video.nextTime() && *video.nextTime() <= milliseconds(at))
+      video.next();
+    EXPECT_EQ(numberOf(video.seek(milliseconds(at))), numberOf(fresh.current())) << at;
+  }
+}
+
+// As recordings have it that were not closed. A demultiplexer itself may stop seeks at the end that
+// is stated, until it was passed.
+TEST_F(VideoFiles, LongerThanTheyStateAreReadToTheirEnd)
+{
+  std::string bytes = bytesOf(written(made::kRawMatroska));
+  const std::size_t at = bytes.find("\x44\x89\x88");
+  ASSERT_NE(at, std::string::npos);
+  bytes.replace(at + 3, 8, std::string("\x40\x8f\x40\0\0\0\0\0", 8)); // 1000 ms
+  VideoFile video(withBytes("short.mkv", bytes));
+  EXPECT_EQ(video.info().duration, milliseconds(1000));
+  int last = 0;
+  while (video.next())
+    last = numberOf(video.current());
+  EXPECT_EQ(last, 99);
+  EXPECT_EQ(numberOf(video.seek(Time(0))), 0);
+  EXPECT_EQ(numberOf(video.seek(milliseconds(3500))), 87);
+  EXPECT_EQ(numberOf(video.seek(Time::max())), 99);
+  EXPECT_FALSE(video.gap());
+  EXPECT_EQ(numberOf(video.seek(milliseconds(900))), 22);
+}
+
+TEST_F(VideoFiles, AreGivenUpWhereThatIsAsked)
+{
+  const std::string file = written(made::kRawMatroska);
+  bool isStopped = false;
+  VideoFile video(file, {}, [&isStopped] { return isStopped; });
+  isStopped = true;
+  try
+  {
+    video.seek(milliseconds(2000));
+    FAIL() << "it went on";
+  }
+  catch (const VideoError& error)
+  {
+    EXPECT_EQ(error.reason, VideoError::Reason::Interrupted);
+  }
+  isStopped = false;
+  EXPECT_EQ(numberOf(video.seek(milliseconds(2000))), 50);
+}
+
+TEST_F(VideoFiles, ThatReferToOtherPlacesAreRefused)
+{
+  const std::string list = "#EXTM3U\n#EXT-X-VERSION:3\n#EXT-X-TARGETDURATION:10\n"
+                           "#EXT-X-MEDIA-SEQUENCE:0\n#EXTINF:9.0,\nhttp://127.0.0.1:9/a.ts\n"
+                           "#EXT-X-ENDLIST\n";
+  refusal(withBytes("list.mp4", list), VideoError::Reason::NotAVideo);
+  refusal(withBytes("dash.mp4", "<?xml version=\"1.0\"?>\n<MPD "
+                                "xmlns=\"urn:mpeg:dash:schema:mpd:2011\" type=\"static\"></MPD>"),
+          VideoError::Reason::NotAVideo);
+  refusal(withBytes("session.mp4", "v=0\r\no=- 1 1 IN IP4 127.0.0.1\r\ns=a\r\nt=0 0\r\n"
+                                   "m=video 9 RTP/AVP 96\r\na=rtpmap:96 H264/90000\r\n"),
+          VideoError::Reason::NotAVideo);
+}
+
+// Elements of a package that is not installed, whatever of it is.
+class Hidden
+{
+public:
+  explicit Hidden(std::initializer_list<const char*> names)
+  {
+    for (const char* name : names)
+      if (GstPluginFeature* one = gst_registry_lookup_feature(gst_registry_get(), name))
+      {
+        m_removed.push_back(one);
+        gst_registry_remove_feature(gst_registry_get(), one);
+      }
+  }
+  ~Hidden()
+  {
+    for (GstPluginFeature* one : m_removed)
+    {
+      gst_registry_add_feature(gst_registry_get(), one);
+      gst_object_unref(one);
+    }
+  }
+
+private:
+  std::vector<GstPluginFeature*> m_removed;
+};
+
+TEST_F(VideoFiles, NameThePackageThatTheyNeed)
+{
+  {
+    const Hidden hidden({"videoflip"}); // a phone's would be shown lying
+    const std::string why = refusal(written(made::kRawMatroska), VideoError::Reason::MissingCodec);
+    EXPECT_NE(why.find("gstreamer1.0-plugins-good"), std::string::npos) << why;
+  }
+  if (!made::hasFfmpeg())
+    GTEST_SKIP() << "ffmpeg is not installed";
+  made::Options options;
+  options.frames = 10;
+  const struct
+  {
+    const char* name;
+    const char* encoder;
+    const char* package;
+  } kinds[] = {{"a.mts", "-c:v libx264 -f mpegts", "gstreamer1.0-plugins-bad"},
+               {"b.mpg", "-c:v mpeg2video", "gstreamer1.0-plugins-bad"},
+               {"c.wmv", "-c:v wmv2", "gstreamer1.0-plugins-ugly"},
+               {"d.avi", "-c:v libx264", "gstreamer1.0-plugins-bad"}};
+  const Hidden hidden(
+      {"tsdemux", "mpegpsdemux", "asfdemux", "h264parse", "avdec_h264", "mpegvideoparse"});
+  for (const auto& kind : kinds)
+  {
+    made::writeByFfmpeg(path(kind.name), options, kind.encoder);
+    const std::string why = refusal(path(kind.name), VideoError::Reason::MissingCodec);
+    EXPECT_NE(why.find(kind.package), std::string::npos) << why;
+    EXPECT_EQ(why.find("plugins-good"), std::string::npos) << why;
+  }
 }
 
 TEST_F(VideoFiles, NamesTheDecoderThatIsMissing)

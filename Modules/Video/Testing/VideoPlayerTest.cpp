@@ -37,18 +37,38 @@ protected:
   VideoPlayer::Events events()
   {
     VideoPlayer::Events events;
-    events.opened = [this](const VideoInfo&) { heard([this] { ++m_opened; }); };
-    events.shown = [this](const Frame& frame)
+    events.opened = [this](VideoPlayer::Opening of, const VideoInfo&)
+    {
+      heard(
+          [&]
+          {
+            ++m_opened;
+            m_of.push_back(of);
+          });
+    };
+    events.shown = [this](VideoPlayer::Opening of, const Frame& frame)
     {
       heard(
           [&]
           {
             m_thread = std::this_thread::get_id();
             m_numbers.push_back(numberOf(frame));
+            m_of.push_back(of);
           });
     };
-    events.playing = [this](bool on) { heard([&] { m_playing.push_back(on); }); };
-    events.failed = [this](const std::string& why) { heard([&] { m_why = why; }); };
+    events.playing = [this](VideoPlayer::Opening, bool on)
+    { heard([&] { m_playing.push_back(on); }); };
+    events.gap = [this](VideoPlayer::Opening, const Gap& gap)
+    { heard([&] { m_gaps.push_back(gap); }); };
+    events.failed = [this](VideoPlayer::Opening of, const std::string& why)
+    {
+      heard(
+          [&]
+          {
+            m_why = why;
+            m_of.push_back(of);
+          });
+    };
     return events;
   }
 
@@ -69,6 +89,8 @@ protected:
   int m_opened = 0;
   std::vector<int> m_numbers;
   std::vector<bool> m_playing;
+  std::vector<Gap> m_gaps;
+  std::vector<VideoPlayer::Opening> m_of; // of what was opened, shown, or failed
   std::string m_why;
   std::thread::id m_thread;
 
@@ -148,6 +170,42 @@ TEST_F(Player, SaysWhyItCannot)
   player.open(m_file);
   ASSERT_TRUE(shows(0));
   player.close();
+}
+
+TEST_F(Player, SaysOfWhichVideoItTells)
+{
+  const fs::path text = m_file.string() + ".txt";
+  std::ofstream(text) << "a text";
+  VideoPlayer player(events());
+  EXPECT_EQ(player.open(m_file), 1U);
+  ASSERT_TRUE(shows(0));
+  EXPECT_EQ(player.open(text), 2U);
+  ASSERT_TRUE(waitFor([this] { return !m_why.empty(); }));
+  EXPECT_EQ(m_of.back(), 2U);
+  for (int n = 3; n < 20; ++n) // all but the last are given up
+    EXPECT_EQ(player.open(n % 2 == 0 ? text : m_file), static_cast<VideoPlayer::Opening>(n));
+  EXPECT_EQ(player.open(m_file), 20U);
+  player.seek(milliseconds(410));
+  ASSERT_TRUE(shows(10));
+  fs::remove(text);
+  EXPECT_EQ(m_of.back(), 20U);
+  EXPECT_TRUE(std::is_sorted(m_of.begin(), m_of.end()));
+}
+
+TEST_F(Player, SaysWhereAFileBreaksOff)
+{
+  made::Options options;
+  options.frames = 100;
+  made::write(m_file, made::kRawMatroska, options);
+  fs::resize_file(m_file, fs::file_size(m_file) / 2);
+  VideoPlayer player(events());
+  player.open(m_file);
+  player.seek(milliseconds(1600));
+  player.play(true);
+  ASSERT_TRUE(waitFor([this] { return m_playing.size() == 2; }));
+  ASSERT_EQ(m_gaps.size(), 1U);
+  EXPECT_FALSE(m_gaps[0].end);
+  EXPECT_NEAR(static_cast<double>(m_gaps[0].begin.count()), 2e9, 0.2e9);
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <initializer_list>
 #include <mutex>
+#include <set>
 #include <utility>
 
 #include <gst/app/gstappsink.h>
@@ -23,7 +24,11 @@ namespace
 using Reason = VideoError::Reason;
 
 constexpr GstClockTime kPatience = 20 * GST_SECOND; // for one frame
+constexpr GstClockTime kTurn = 20 * GST_MSECOND;    // between questions whether to stop
 constexpr Time kLeastBack{200'000'000};             // see seek
+constexpr Time kLeastGap{100'000'000};              // the first step over a damaged part
+constexpr Time kEndsEarly{1'000'000'000};           // before the duration that is stated
+constexpr Time kLongest = std::chrono::hours(10'000);
 
 struct Unref
 {
@@ -57,11 +62,11 @@ void startGStreamer()
                  });
 }
 
-GstElement* make(const char* factory, const char* package)
+GstElement* make(const std::string& name, const char* factory, const char* package)
 {
   if (GstElement* element = gst_element_factory_make(factory, nullptr))
     return element;
-  throw VideoError(Reason::MissingCodec, std::string("GStreamer's element '") + factory +
+  throw VideoError(Reason::MissingCodec, name + ": GStreamer's element '" + factory +
                                              "' is missing; install Debian's package " + package);
 }
 
@@ -79,13 +84,131 @@ bool isAny(const GstCaps* caps, std::initializer_list<const char*> media)
                      { return std::strncmp(of, one, std::strlen(one)) == 0; });
 }
 
+bool isInstalled(const char* factory)
+{
+  GstElementFactory* found = gst_element_factory_find(factory);
+  if (found)
+    gst_object_unref(found);
+  return found != nullptr;
+}
+
+// The media type, told apart where that matters for what reads it.
+std::string kindOf(const GstCaps* caps)
+{
+  std::string kind = mediaOf(caps);
+  if (kind.empty())
+    return kind;
+  const GstStructure* of = gst_caps_get_structure(caps, 0);
+  gint version = 0;
+  gboolean isSystem = FALSE;
+  if (kind == "video/mpeg" && gst_structure_get_boolean(of, "systemstream", &isSystem) != FALSE &&
+      isSystem != FALSE)
+    return "video/mpeg-system";
+  if (kind == "video/mpeg" && gst_structure_get_int(of, "mpegversion", &version) != FALSE &&
+      version == 4)
+    return "video/mpeg-4";
+  return kind;
+}
+
+// Which of Debian's packages has what is missing for streams of that kind.
+std::string packagesFor(const GstCaps* caps, bool isAvi)
+{
+  struct Need
+  {
+    const char* kind;
+    const char* element;
+    const char* package;
+  };
+  constexpr const char* kBad = "gstreamer1.0-plugins-bad";
+  constexpr const char* kUgly = "gstreamer1.0-plugins-ugly";
+  constexpr const char* kLibav = "gstreamer1.0-libav";
+  const Need needs[] = {{"video/mpegts", "tsdemux", kBad},
+                        {"video/mpegts", "h264parse", kBad},
+                        {"video/mpegts", "avdec_h264", kLibav},
+                        {"video/mpeg-system", "mpegpsdemux", kBad},
+                        {"video/mpeg-system", "mpegvideoparse", kBad},
+                        {"video/mpeg-system", "avdec_mpeg2video", kLibav},
+                        {"video/mpeg", "mpegvideoparse", kBad},
+                        {"video/mpeg", "avdec_mpeg2video", kLibav},
+                        {"video/mpeg-4", "avdec_mpeg4", kLibav},
+                        {"video/x-h264", "avdec_h264", kLibav},
+                        {"video/x-h264-avi", "h264parse", kBad},
+                        {"video/x-h264-avi", "avdec_h264", kLibav},
+                        {"video/x-h265", "avdec_h265", kLibav},
+                        {"video/x-h265-avi", "h265parse", kBad},
+                        {"video/x-h265-avi", "avdec_h265", kLibav},
+                        {"video/x-ms-asf", "asfdemux", kUgly},
+                        {"video/x-ms-asf", "avdec_wmv3", kLibav},
+                        {"video/x-wmv", "avdec_wmv3", kLibav},
+                        {"application/mxf", "mxfdemux", kBad},
+                        {"video/x-av1", "av1dec", kBad}};
+  const std::string kind = kindOf(caps) + (isAvi && isAny(caps, {"video/x-h26"}) ? "-avi" : "");
+  std::set<std::string> packages;
+  for (const Need& need : needs)
+    if (kind == need.kind && !isInstalled(need.element))
+      packages.insert(need.package);
+  if (packages.empty())
+    packages = {kLibav, "gstreamer1.0-plugins-good"};
+  std::string text;
+  for (const std::string& one : packages)
+    text += (text.empty() ? "" : " and ") + one;
+  return (packages.size() > 1 ? "packages " : "package ") + text;
+}
+
+enum class Coding
+{
+  Mpeg2,
+  Mpeg4,
+  H264
+};
+
+// Whether the first picture of a packet may be shown before the one that was stored before it, from
+// its coding type [ISO 13818-2, 6.3.9; ISO 14496-2, 6.2.5; ITU-T H.264, 7.3.3].
+bool isBidirectional(const std::uint8_t* data, std::size_t size, Coding coding)
+{
+  for (std::size_t n = 0; n + 5 < size; ++n)
+  {
+    if (data[n] != 0 || data[n + 1] != 0 || data[n + 2] != 1)
+      continue;
+    const std::uint8_t code = data[n + 3];
+    if (coding == Coding::Mpeg2 && code == 0)
+      return (data[n + 5] >> 3 & 7) == 3;
+    if (coding == Coding::Mpeg4 && code == 0xb6)
+      return data[n + 4] >> 6 == 2;
+    if (coding != Coding::H264 || ((code & 0x1f) != 1 && (code & 0x1f) != 5))
+      continue;
+    std::size_t bit = 8 * (n + 4);
+    const auto take = [&]
+    {
+      const unsigned one = bit < 8 * size ? data[bit / 8] >> (7 - bit % 8) & 1U : 1U;
+      ++bit;
+      return one;
+    };
+    const auto number = [&] // Exp-Golomb
+    {
+      int zeros = 0;
+      while (take() == 0 && zeros < 31)
+        ++zeros;
+      unsigned value = 1;
+      for (int k = 0; k < zeros; ++k)
+        value = 2 * value + take();
+      return value - 1;
+    };
+    number(); // first_mb_in_slice
+    return number() % 5 == 1;
+  }
+  return false;
+}
+
 } // namespace
 
 class VideoFile::Implementation
 {
 public:
-  Implementation(const std::filesystem::path& file, std::string name)
+  Implementation(const std::filesystem::path& file, std::string name,
+                 std::function<bool()> isStopped)
     : m_name(std::move(name))
+    , m_isStopped(std::move(isStopped))
   {
     checkReadable(file);
     startGStreamer();
@@ -98,10 +221,10 @@ public:
       fail();
     m_frame = *first;
     m_first = first->time;
-    m_ahead = pull();
     gint64 duration = 0;
     if (gst_element_query_duration(m_pipeline.get(), GST_FORMAT_TIME, &duration) != FALSE)
       info.duration = Time(std::max<gint64>(duration, 0));
+    lookAhead();
     info.width = m_frame.width;
     info.height = m_frame.height;
     info.hasSound = m_hasSound;
@@ -117,12 +240,19 @@ public:
     return m_ahead ? std::optional<Time>(m_ahead->time) : std::nullopt;
   }
 
+  std::optional<Gap> gap() const noexcept
+  {
+    if (!m_hasGap)
+      return std::nullopt;
+    return Gap{m_frame.time, nextTime()};
+  }
+
   bool next()
   {
     if (!m_ahead)
       return false;
     m_frame = std::move(*m_ahead);
-    m_ahead = pull();
+    lookAhead();
     return true;
   }
 
@@ -135,26 +265,30 @@ public:
   }
 
   // A decoder clips the first frame after a seek: it then begins where the seek went, and not where
-  // it does. So a seek goes some frames back, and frames are counted from there.
+  // it does. So a seek goes some frames back, and frames are counted from there. Beyond the end
+  // that the file states it is read on, as that may be wrong.
   void seek(Time time)
   {
-    if (info.duration > Time(0))
-      time = std::min(time, info.duration);
-    time = std::max(time, m_first);
-    if (!m_isLost && time >= m_frame.time && (!m_ahead || time < m_ahead->time))
+    time = std::clamp(time, m_first, std::max(m_first, kLongest));
+    if (!m_isLost && time >= m_frame.time && isKnownUpTo(time))
       return;
     // Not far ahead it is quicker to go on than to decode anew from a key frame.
-    if (m_ahead && time >= m_ahead->time && time < m_ahead->time + kLeastBack)
-      return advance(time);
+    if (m_ahead && !m_hasGap && time >= m_ahead->time && time < m_ahead->time + kLeastBack)
+    {
+      advance(time);
+      if (isKnownUpTo(time))
+        return;
+    }
+    const Time near = info.duration > Time(0) ? std::min(time, info.duration) : time;
     for (Time back = kLeastBack;; back *= 4)
     {
-      const Time from = time > back ? time - back : Time(0);
+      const Time from = near > back ? near - back : Time(0);
       const bool isStart = from == Time(0);
       if (jump(from))
       {
         const Time landed = m_frame.time;
         advance(time);
-        if (m_frame.time > landed || isStart)
+        if ((m_frame.time > landed && m_frame.time <= time) || isStart)
           return;
       }
       else if (isStart)
@@ -181,25 +315,23 @@ private:
   void build(const std::filesystem::path& file)
   {
     m_pipeline.reset(GST_ELEMENT(gst_object_ref_sink(gst_pipeline_new(nullptr))));
-    GstElement* source = add(make("filesrc", "libgstreamer1.0-0"));
-    GstElement* decoder = add(make("decodebin", "gstreamer1.0-plugins-base"));
+    GstElement* source = add(make(m_name, "filesrc", "libgstreamer1.0-0"));
+    GstElement* decoder = add(make(m_name, "decodebin", "gstreamer1.0-plugins-base"));
     g_object_set(source, "location", file.c_str(), nullptr);
     gst_element_link(source, decoder);
 
-    m_convert = add(make("videoconvert", "gstreamer1.0-plugins-base"));
+    m_convert = add(make(m_name, "videoconvert", "gstreamer1.0-plugins-base"));
     GstElement* latest = m_convert;
     const auto append = [this, &latest](GstElement* next)
     {
       gst_element_link(latest, add(next));
       latest = next;
     };
-    if (GstElement* flip = gst_element_factory_make("videoflip", nullptr)) // of plugins-good
-    {
-      gst_util_set_object_arg(G_OBJECT(flip), "video-direction", "auto"); // as a phone was held
-      append(flip);
-    }
-    append(make("videoscale", "gstreamer1.0-plugins-base")); // to square pixels
-    m_sink = make("appsink", "gstreamer1.0-plugins-base");
+    GstElement* flip = make(m_name, "videoflip", "gstreamer1.0-plugins-good");
+    gst_util_set_object_arg(G_OBJECT(flip), "video-direction", "auto"); // as a phone was held
+    append(flip);
+    append(make(m_name, "videoscale", "gstreamer1.0-plugins-base")); // to square pixels
+    m_sink = make(m_name, "appsink", "gstreamer1.0-plugins-base");
     const Owned<GstCaps> caps(
         gst_caps_from_string("video/x-raw, format=RGB, pixel-aspect-ratio=1/1"));
     g_object_set(m_sink, "caps", caps.get(), "sync", FALSE, "max-buffers", 3U, nullptr);
@@ -217,13 +349,15 @@ private:
     return element;
   }
 
-  // Sound and subtitles are left as they are: their decoders need not be installed.
-  static gboolean continues(GstElement* /*bin*/, GstPad* /*pad*/, GstCaps* caps, gpointer /*self*/)
+  // Sound and subtitles are left as they are: their decoders need not be installed. Nothing but
+  // containers and pictures is opened: playlists and descriptions of streams lead into networks.
+  static gboolean continues(GstElement* /*bin*/, GstPad* /*pad*/, GstCaps* caps, gpointer self)
   {
-    return isAny(caps, {"audio/", "text/", "subpicture/", "closedcaption/",
-                        "application/x-subtitle", "application/x-ssa", "application/x-ass"})
-               ? FALSE
-               : TRUE;
+    if (isAny(caps, {"video/", "image/", "application/ogg", "application/mxf"}))
+      return TRUE;
+    if (!isAny(caps, {"audio/", "text/", "subpicture/", "closedcaption/"}))
+      static_cast<Implementation*>(self)->m_isRefused = true;
+    return FALSE;
   }
 
   // The first picture is shown. In a thread of GStreamer.
@@ -254,6 +388,59 @@ private:
   static void elementAdded(GstBin* /*bin*/, GstElement* element, gpointer self)
   {
     g_signal_connect(element, "no-more-pads", G_CALLBACK(&Implementation::partsKnown), self);
+    const GstElementFactory* factory = gst_element_get_factory(element);
+    if (factory && std::strcmp(GST_OBJECT_NAME(factory), "avidemux") == 0)
+    {
+      static_cast<Implementation*>(self)->m_isAvi = true;
+      g_signal_connect(element, "pad-added", G_CALLBACK(&Implementation::partOfAvi), self);
+    }
+  }
+
+  // AVI has no times of its frames: they follow from their places. avidemux gives key frames those
+  // of the order in which they are stored, which leads the decoder astray. Without, it hands them
+  // out by their order. Frames that are stored after a key frame and shown before it cannot be
+  // decoded after a seek: it counts too few by them.
+  static void partOfAvi(GstElement* /*demultiplexer*/, GstPad* pad, gpointer self)
+  {
+    const Owned<GstCaps> caps(gst_pad_get_current_caps(pad));
+    auto* me = static_cast<Implementation*>(self);
+    const std::string kind = kindOf(caps.get());
+    const bool isMpeg4 =
+        isAny(caps.get(), {"video/x-divx", "video/x-xvid"}) || kind == "video/mpeg-4";
+    const bool isH264 = isAny(caps.get(), {"video/x-h264"});
+    me->m_coding = isMpeg4 ? Coding::Mpeg4 : isH264 ? Coding::H264 : Coding::Mpeg2;
+    if (isMpeg4 || isH264 || kind == "video/mpeg")
+      gst_pad_add_probe(
+          pad,
+          static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_EVENT_FLUSH),
+          &Implementation::packetOfAvi, self, nullptr);
+  }
+
+  static GstPadProbeReturn packetOfAvi(GstPad* /*pad*/, GstPadProbeInfo* info, gpointer self)
+  {
+    auto* me = static_cast<Implementation*>(self);
+    if (!(GST_PAD_PROBE_INFO_TYPE(info) & GST_PAD_PROBE_TYPE_BUFFER))
+    {
+      me->m_references = 0;
+      me->m_leading = 0;
+      return GST_PAD_PROBE_OK;
+    }
+    GstBuffer* buffer = gst_buffer_make_writable(GST_PAD_PROBE_INFO_BUFFER(info));
+    GST_PAD_PROBE_INFO_DATA(info) = buffer;
+    if (GST_BUFFER_DTS_IS_VALID(buffer))
+      GST_BUFFER_PTS(buffer) = GST_CLOCK_TIME_NONE;
+    GstMapInfo bytes;
+    if (gst_buffer_map(buffer, &bytes, GST_MAP_READ) == FALSE)
+      return GST_PAD_PROBE_OK;
+    const bool isB = isBidirectional(bytes.data, bytes.size, me->m_coding);
+    gst_buffer_unmap(buffer, &bytes);
+    if (!isB)
+      ++me->m_references;
+    else if (me->m_coding == Coding::H264)
+      me->m_isReordered = true;
+    else if (me->m_references == 1 && GST_BUFFER_DURATION_IS_VALID(buffer))
+      me->m_leading += static_cast<Time::rep>(GST_BUFFER_DURATION(buffer));
+    return GST_PAD_PROBE_OK;
   }
 
   static void partsKnown(GstElement* element, gpointer self)
@@ -279,8 +466,13 @@ private:
       if (gst_is_missing_plugin_message(message.get()))
       {
         const Owned<gchar> what(gst_missing_plugin_message_get_description(message.get()));
+        GstCaps* caps = nullptr;
+        gst_structure_get(gst_message_get_structure(message.get()), "detail", GST_TYPE_CAPS, &caps,
+                          nullptr);
+        const Owned<GstCaps> owned(caps);
         if (what)
           m_missing = what.get();
+        m_remedy = packagesFor(caps, m_isAvi);
       }
       if (GST_MESSAGE_TYPE(message.get()) != GST_MESSAGE_ERROR)
         continue;
@@ -299,11 +491,9 @@ private:
   {
     hear();
     if (!m_missing.empty() && !m_hasPicture)
-      throw VideoError(Reason::MissingCodec,
-                       m_name + ": no decoder for it is installed (" + m_missing +
-                           "); install Debian's packages gstreamer1.0-plugins-good and "
-                           "gstreamer1.0-libav");
-    if (m_isForeign)
+      throw VideoError(Reason::MissingCodec, m_name + ": no decoder for it is installed (" +
+                                                 m_missing + "); install Debian's " + m_remedy);
+    if (m_isForeign || (m_isRefused && !m_hasPicture && !m_hasSound))
       throw VideoError(Reason::NotAVideo, m_name + ": not a video that can be read; a file such as "
                                                    "MP4, MOV, MKV, WebM or AVI is wanted");
     if (m_hasSound && !m_hasPicture)
@@ -313,13 +503,23 @@ private:
                          ": damaged, or not whole: no frame of it can be decoded; copy it anew");
   }
 
-  // None at the end, or where it cannot be decoded any more.
+  void checkStopped() const
+  {
+    if (m_isStopped && m_isStopped())
+      throw VideoError(Reason::Interrupted, m_name + ": interrupted");
+  }
+
+  // None at the end, or where it cannot be decoded any more (m_isBroken).
   std::optional<Frame> pull()
   {
-    constexpr GstClockTime kTurn = 20 * GST_MSECOND;
     for (GstClockTime waited = 0; waited < kPatience; waited += kTurn)
     {
+      checkStopped();
       const Owned<GstSample> sample(gst_app_sink_try_pull_sample(GST_APP_SINK(m_sink), kTurn));
+      if (m_isReordered)
+        throw VideoError(Reason::NotExact,
+                         m_name + ": AVI does not tell when the frames of such an H.264 video are "
+                                  "shown; convert it to MP4 (ffmpeg -i video.avi video.mp4)");
       if (sample)
       {
         auto frame = frameOf(*sample);
@@ -329,6 +529,11 @@ private:
           continue;
         }
         m_latest = frame->time;
+        const GstClockTime lasts = GST_BUFFER_DURATION(gst_sample_get_buffer(sample.get()));
+        m_latestEnd =
+            frame->time + Time(GST_CLOCK_TIME_IS_VALID(lasts) ? static_cast<Time::rep>(lasts) : 0);
+        if (info.duration > Time(0)) // which may be stated too short
+          info.duration = std::max(info.duration, m_latestEnd);
         return frame;
       }
       hear();
@@ -337,6 +542,38 @@ private:
         return std::nullopt;
     }
     throw VideoError(Reason::Stalled, m_name + ": the decoder does not answer; open it again");
+  }
+
+  // Whether m_frame is the one of that time, or any before the next.
+  bool isKnownUpTo(Time time) const
+  {
+    return m_ahead ? time < m_ahead->time && !m_hasGap : m_isAtEnd;
+  }
+
+  // The frame after m_frame. Damage ends what comes from the source, with an error or without: then
+  // it is gone on beyond.
+  void lookAhead()
+  {
+    m_ahead.reset();
+    m_hasGap = m_isAtEnd = false;
+    m_ahead = pull();
+    if (m_ahead)
+      return;
+    m_hasGap = m_isBroken || info.duration > m_latestEnd + kEndsEarly;
+    m_isAtEnd = !m_hasGap;
+    if (m_isAtEnd)
+      return;
+    for (Time over = kLeastGap; m_frame.time + over < info.duration; over *= 2)
+    {
+      m_latest.reset();
+      // The first frame after a seek is clipped.
+      if (!go(m_frame.time + over) || !pull())
+        continue;
+      m_latest = std::max(*m_latest, m_frame.time);
+      m_ahead = pull();
+      if (m_ahead)
+        return;
+    }
   }
 
   std::optional<Frame> frameOf(GstSample& sample)
@@ -364,7 +601,7 @@ private:
     const GstClockTime stamp = gst_segment_to_stream_time(gst_sample_get_segment(&sample),
                                                           GST_FORMAT_TIME, GST_BUFFER_PTS(buffer));
     if (GST_BUFFER_PTS_IS_VALID(buffer) && GST_CLOCK_TIME_IS_VALID(stamp))
-      frame.time = Time(static_cast<Time::rep>(stamp));
+      frame.time = Time(static_cast<Time::rep>(stamp) + m_leading);
     else if (m_latest) // by the rate, where the file gives no times
       frame.time =
           *m_latest +
@@ -378,30 +615,46 @@ private:
       next();
   }
 
-  // False where no frame comes any more.
-  bool jump(Time from)
+  // False where it cannot be gone to.
+  bool go(Time to)
   {
     if (m_isBroken) // an error stops the source
     {
       gst_element_set_state(m_pipeline.get(), GST_STATE_READY);
+      hear();
       m_isBroken = false;
       gst_element_set_state(m_pipeline.get(), GST_STATE_PAUSED);
-      gst_element_get_state(m_pipeline.get(), nullptr, nullptr, kPatience);
+      for (GstClockTime waited = 0; waited < kPatience; waited += kTurn)
+      {
+        checkStopped();
+        if (gst_element_get_state(m_pipeline.get(), nullptr, nullptr, kTurn) !=
+            GST_STATE_CHANGE_ASYNC)
+          break;
+      }
       gst_element_set_state(m_pipeline.get(), GST_STATE_PLAYING);
     }
+    // In AVI frames are counted from the key frame on, so that none may be clipped.
+    const int how = m_isAvi ? GST_SEEK_FLAG_KEY_UNIT | GST_SEEK_FLAG_SNAP_BEFORE
+                            : static_cast<int>(GST_SEEK_FLAG_ACCURATE);
+    return gst_element_seek_simple(m_pipeline.get(), GST_FORMAT_TIME,
+                                   static_cast<GstSeekFlags>(GST_SEEK_FLAG_FLUSH | how),
+                                   to.count()) != FALSE;
+  }
+
+  // False where no frame comes any more.
+  bool jump(Time from)
+  {
     m_latest.reset();
     m_ahead.reset();
+    m_hasGap = m_isAtEnd = false;
     m_isLost = true;
-    if (gst_element_seek_simple(
-            m_pipeline.get(), GST_FORMAT_TIME,
-            static_cast<GstSeekFlags>(GST_SEEK_FLAG_FLUSH | GST_SEEK_FLAG_ACCURATE),
-            from.count()) == FALSE)
+    if (!go(from))
       return false;
     auto frame = pull();
     if (!frame)
       return false;
     m_frame = std::move(*frame);
-    m_ahead = pull();
+    lookAhead();
     m_isLost = false;
     return true;
   }
@@ -416,18 +669,28 @@ private:
   };
 
   std::string m_name; // in messages
+  std::function<bool()> m_isStopped;
   std::unique_ptr<GstElement, Stopped> m_pipeline;
   GstElement* m_convert = nullptr; // these two are the pipeline's
   GstElement* m_sink = nullptr;
   Frame m_frame;
   std::optional<Frame> m_ahead; // the one after it
   std::optional<Time> m_latest; // of what was pulled since the last jump
+  Time m_latestEnd{0};
   Time m_first{0};
   std::string m_missing; // decoder
+  std::string m_remedy;  // packages
   bool m_isBroken = false;
-  bool m_isLost = false; // a jump led nowhere
+  bool m_isAtEnd = false; // m_frame is the last one, and nothing is missing
+  bool m_hasGap = false;  // after m_frame
+  bool m_isLost = false;  // a jump led nowhere
   bool m_isForeign = false;
   std::atomic<bool> m_hasPicture{false}, m_hasSound{false}, m_allPads{false}, m_isEmpty{false};
+  std::atomic<bool> m_isRefused{false}; // a part of it, or all
+  std::atomic<bool> m_isAvi{false}, m_isReordered{false};
+  std::atomic<Coding> m_coding{Coding::Mpeg4}; // in AVI
+  std::atomic<int> m_references{0};            // pictures that others refer to, since the last seek
+  std::atomic<Time::rep> m_leading{0};         // of the first of them, in AVI
 };
 
 bool isSupported() noexcept
@@ -435,9 +698,10 @@ bool isSupported() noexcept
   return true;
 }
 
-VideoFile::VideoFile(const std::filesystem::path& file, const std::string& name)
-  : m_implementation(
-        std::make_unique<Implementation>(file, name.empty() ? file.filename().string() : name))
+VideoFile::VideoFile(const std::filesystem::path& file, const std::string& name,
+                     std::function<bool()> isStopped)
+  : m_implementation(std::make_unique<Implementation>(
+        file, name.empty() ? file.filename().string() : name, std::move(isStopped)))
 {
 }
 
@@ -458,6 +722,11 @@ const Frame& VideoFile::current() const noexcept
 std::optional<Time> VideoFile::nextTime() const noexcept
 {
   return m_implementation->nextTime();
+}
+
+std::optional<Gap> VideoFile::gap() const noexcept
+{
+  return m_implementation->gap();
 }
 
 const Frame& VideoFile::seek(Time time)

@@ -16,7 +16,8 @@ bool isSupported() noexcept
   return false;
 }
 
-VideoFile::VideoFile(const std::filesystem::path& /*file*/, const std::string& /*name*/)
+VideoFile::VideoFile(const std::filesystem::path& /*file*/, const std::string& /*name*/,
+                     std::function<bool()> /*isStopped*/)
 {
   throw VideoError(VideoError::Reason::NotBuilt,
                    "video support was not built: this program was built without GStreamer "
@@ -38,6 +39,11 @@ const Frame& VideoFile::current() const noexcept
 }
 
 std::optional<Time> VideoFile::nextTime() const noexcept
+{
+  return std::nullopt;
+}
+
+std::optional<Gap> VideoFile::gap() const noexcept
 {
   return std::nullopt;
 }

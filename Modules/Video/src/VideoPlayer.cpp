@@ -20,8 +20,9 @@ constexpr int kMostLeftOut = 5;       // frames in a row
 class VideoPlayer::Session
 {
 public:
-  explicit Session(const Events& events)
-    : m_events(events)
+  explicit Session(VideoPlayer& player)
+    : m_player(player)
+    , m_events(player.m_events)
   {
   }
 
@@ -31,6 +32,8 @@ public:
   Clock::time_point due() const
   {
     const auto next = m_file->nextTime();
+    if (m_file->gap()) // that is not waited for
+      return Clock::now();
     return next ? m_origin + std::chrono::duration_cast<Clock::duration>(*next) : Clock::now();
   }
 
@@ -42,9 +45,10 @@ public:
       leave();
     if (wanted.file)
     {
-      m_file.emplace(wanted.file->first, wanted.file->second);
+      m_opening = wanted.opening;
+      m_file.emplace(wanted.file->first, wanted.file->second, [this] { return m_player.isLeft(); });
       if (m_events.opened)
-        m_events.opened(m_file->info());
+        m_events.opened(m_opening, m_file->info());
       show();
     }
     if (!m_file)
@@ -58,7 +62,7 @@ public:
     {
       setPlaying(false);
       bool moved = true;
-      for (int n = std::abs(wanted.steps); n > 0 && moved; --n)
+      for (int n = std::abs(wanted.steps); n > 0 && moved && !m_player.isElsewhere(); --n)
         moved = wanted.steps > 0 ? m_file->next() : m_file->previous();
       show();
     }
@@ -73,14 +77,23 @@ public:
     if (m_isPlaying && Clock::now() >= due())
       goOn();
   }
+  catch (const VideoError& error)
+  {
+    fail(error.what(), error.reason == VideoError::Reason::Interrupted);
+  }
   catch (const std::exception& error)
   {
-    leave();
-    if (m_events.failed)
-      m_events.failed(error.what());
+    fail(error.what(), false);
   }
 
 private:
+  void fail(const std::string& why, bool isMeant)
+  {
+    leave();
+    if (m_events.failed && !isMeant)
+      m_events.failed(m_opening, why);
+  }
+
   void goOn()
   {
     const auto next = m_file->nextTime();
@@ -92,13 +105,14 @@ private:
     if (!next)
       return setPlaying(false);
     const auto now = Clock::now();
+    const bool isGap = m_file->gap().has_value();
     m_file->next();
-    for (int n = 0; n < kMostLeftOut && now >= due() && m_file->nextTime() &&
+    for (int n = 0; n < kMostLeftOut && now >= due() && m_file->nextTime() && !m_file->gap() &&
                     !(m_loop && *m_file->nextTime() >= m_loop->end);
          ++n)
       m_file->next();
     const bool isLate = Clock::now() - due() > kTooLate;
-    show(isLate);
+    show(isLate || isGap);
   }
 
   // `anew`: time runs from this frame on.
@@ -108,23 +122,31 @@ private:
     if (anew)
       m_origin = Clock::now() - std::chrono::duration_cast<Clock::duration>(frame.time);
     if (m_events.shown)
-      m_events.shown(frame);
+      m_events.shown(m_opening, frame);
+    const auto gap = m_file->gap();
+    if (gap && gap->begin != m_told && m_events.gap)
+      m_events.gap(m_opening, *gap);
+    m_told = gap ? std::optional<Time>(gap->begin) : std::nullopt;
   }
 
   void setPlaying(bool on)
   {
     if (std::exchange(m_isPlaying, on) != on && m_events.playing)
-      m_events.playing(on);
+      m_events.playing(m_opening, on);
   }
 
   void leave()
   {
     m_file.reset();
+    m_told.reset();
     setPlaying(false);
   }
 
+  VideoPlayer& m_player;
   const Events& m_events;
+  Opening m_opening = 0;
   std::optional<VideoFile> m_file;
+  std::optional<Time> m_told; // the gap
   std::optional<Loop> m_loop;
   Clock::time_point m_origin{}; // when the video's beginning would have been shown
   bool m_isPlaying = false;
@@ -155,16 +177,31 @@ void VideoPlayer::want(const std::function<void(Wanted&)>& what)
   m_changed.notify_one();
 }
 
-void VideoPlayer::open(const std::filesystem::path& file, const std::string& name)
+bool VideoPlayer::isLeft()
 {
+  const std::lock_guard<std::mutex> lock(m_mutex);
+  return m_ends || m_wanted.isClosed || m_wanted.file;
+}
+
+bool VideoPlayer::isElsewhere()
+{
+  const std::lock_guard<std::mutex> lock(m_mutex);
+  return m_ends || m_wanted.isClosed || m_wanted.file || m_wanted.place;
+}
+
+VideoPlayer::Opening VideoPlayer::open(const std::filesystem::path& file, const std::string& name)
+{
+  Opening opening = 0;
   want(
       [&](Wanted& wanted)
       {
         wanted = {};
         wanted.file.emplace(file, name);
+        opening = wanted.opening = ++m_opening;
       });
   if (!m_thread.joinable())
     m_thread = std::thread([this] { run(); });
+  return opening;
 }
 
 void VideoPlayer::close()
@@ -210,7 +247,7 @@ void VideoPlayer::setLoop(std::optional<Loop> loop)
 
 void VideoPlayer::run()
 {
-  Session session(m_events);
+  Session session(*this);
   std::unique_lock<std::mutex> lock(m_mutex);
   const auto isWanted = [this] { return m_ends || m_wanted.any(); };
   while (true)

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,8 +25,10 @@ struct VideoError : core::Error
     NotAVideo,    ///< no container that is known
     NoPicture,    ///< sound only
     MissingCodec, ///< a decoder is not installed; the message names it
+    NotExact,     ///< its frames have no times that hold for playing and seeking alike
     Damaged,      ///< no frame of it can be decoded
-    Stalled       ///< the decoder does not answer
+    Stalled,      ///< the decoder does not answer
+    Interrupted   ///< as the caller asked
   };
   VideoError(Reason r, const std::string& message);
   Reason reason;
@@ -53,15 +56,26 @@ struct VideoInfo
   bool hasSound = false;  ///< which is neither decoded nor played
 };
 
+/// A part without frames: damaged, or missing at the end.
+struct Gap
+{
+  Time begin{0};           ///< of the last frame before
+  std::optional<Time> end; ///< of the first frame after; none: there is none
+};
+
 /// The frames of a video, by their exact times. Decoding takes as long as it takes: use it in a
 /// thread of its own (VideoPlayer). Sound is not decoded, and no tag of the file is read.
 ///
-/// All throw VideoError. A frame that cannot be decoded amid others is passed over.
+/// All throw VideoError. A part that cannot be decoded amid others is passed over (gap). Files that
+/// refer to other places, as playlists do, are refused.
 class VideoFile
 {
 public:
   /// Decodes the first frame. `name`: of the file in messages; empty: its own, without the folder.
-  explicit VideoFile(const std::filesystem::path& file, const std::string& name = {});
+  /// `isStopped`: asked while a frame is waited for; then Interrupted is thrown, after which only
+  /// `seek` and destruction are left. Called in this thread.
+  explicit VideoFile(const std::filesystem::path& file, const std::string& name = {},
+                     std::function<bool()> isStopped = {});
   ~VideoFile();
   VideoFile(VideoFile&& other) noexcept;
   VideoFile& operator=(VideoFile&& other) noexcept;
@@ -69,6 +83,9 @@ public:
   const VideoInfo& info() const noexcept;
   const Frame& current() const noexcept;
   std::optional<Time> nextTime() const noexcept; ///< of the frame after; none at the last one
+  /// Between the present frame and the next one; at the last one, if the file breaks off there or
+  /// ends before the duration that it states.
+  std::optional<Gap> gap() const noexcept;
 
   /// The frame that is shown at a time: the last one that does not begin after it; the first frame
   /// before its time, the last one beyond the end.

@@ -19,13 +19,16 @@ namespace petrous::video
 class VideoPlayer
 {
 public:
-  /// Called in the player's thread, in order; each may be empty.
+  using Opening = std::uint64_t; ///< the number that `open` gave to it
+
+  /// Called in the player's thread, in order, with the number of the video; each may be empty.
   struct Events
   {
-    std::function<void(const VideoInfo&)> opened;   ///< before its first frame
-    std::function<void(const Frame&)> shown;        ///< another frame, or one that was asked for
-    std::function<void(bool)> playing;              ///< it begins or ends, also of itself
-    std::function<void(const std::string&)> failed; ///< the video is closed then
+    std::function<void(Opening, const VideoInfo&)> opened;   ///< before its first frame
+    std::function<void(Opening, const Frame&)> shown;        ///< another frame, or one asked for
+    std::function<void(Opening, bool)> playing;              ///< it begins or ends, also of itself
+    std::function<void(Opening, const Gap&)> gap;            ///< after the frame that is shown
+    std::function<void(Opening, const std::string&)> failed; ///< the video is closed then
   };
 
   /// A part that is repeated: from the frame at `begin` to the last one before `end`.
@@ -36,21 +39,24 @@ public:
   };
 
   explicit VideoPlayer(Events events);
-  ~VideoPlayer(); ///< waits for the frame that is being decoded
+  ~VideoPlayer(); ///< a frame that is waited for is given up
   VideoPlayer(const VideoPlayer&) = delete;
   VideoPlayer& operator=(const VideoPlayer&) = delete;
 
-  void open(const std::filesystem::path& file, const std::string& name = {});
+  /// A video that is still being opened is given up, and so it is by `close`.
+  Opening open(const std::filesystem::path& file, const std::string& name = {});
   void close();
   void play(bool on); ///< from the beginning, if it is at the end
   void seek(Time time);
-  void step(int frames);                  ///< forth, or back below 0; pauses
+  /// Forth, or back below 0; pauses. A place that is asked for meanwhile ends it.
+  void step(int frames);
   void setLoop(std::optional<Loop> loop); ///< empty or backwards: none
 
 private:
   struct Wanted
   {
     bool isClosed = false;
+    Opening opening = 0; // of the file
     std::optional<std::pair<std::filesystem::path, std::string>> file;
     std::optional<Time> place;
     int steps = 0; ///< after that
@@ -61,6 +67,8 @@ private:
 
   void want(const std::function<void(Wanted&)>& what);
   void run();
+  bool isLeft();      // the video that is open
+  bool isElsewhere(); // or another place is wanted
 
   class Session;
   const Events m_events;
@@ -68,6 +76,7 @@ private:
   std::condition_variable m_changed;
   Wanted m_wanted;
   std::optional<Loop> m_loop;
+  Opening m_opening = 0; // the latest
   bool m_ends = false;
   std::thread m_thread;
 };

@@ -219,6 +219,32 @@ TEST(StillCamera, NamesTheLandmarksThatDoNotFit)
   }
 }
 
+// As many are left then as determine a camera, and fit whichever was left out.
+TEST(StillCamera, BlamesNoLandmarkWhereNoneIsLeftToContradict)
+{
+  const core::CameraPose camera = cameraAt({-40.0, 5.0, 3.0}, {-0.8, 0.35, 0.45}, 110.0, 25.0);
+  for (unsigned seed = 1; seed <= 20; ++seed)
+    for (const bool given : {true, false})
+    {
+      Still still = exact(camera, given ? 6 : 7, seed);
+      if (given)
+        still.viewAngle = 25.0;
+      still.landmarks[2].still += Vector2d(80.0, 50.0);
+      if (given)
+        still.landmarks[4].still += Vector2d(-70.0, 40.0);
+      try
+      {
+        const StillFit fit = fitStill(still);
+        EXPECT_TRUE(fit.isPoor) << seed;
+        EXPECT_TRUE(fit.bad.empty()) << seed;
+      }
+      catch (const core::InvalidParameter&)
+      {
+        // or no camera at all
+      }
+    }
+}
+
 TEST(StillCamera, ReadsPairs)
 {
   std::istringstream csv("u_px;v_px;x_mm;y_mm;z_mm;who\n1.5;2;-3;4;5e1;a\n6;7;8;9;10;b\n");

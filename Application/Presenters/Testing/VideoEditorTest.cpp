@@ -202,6 +202,18 @@ TEST_F(Videos, AStillHasACameraOnceThereAreEnoughLandmarks)
   EXPECT_TRUE(m_editor.fit());
 }
 
+TEST_F(Videos, TakesNoPointOfThePatientTwiceInAStill)
+{
+  m_editor.showFrame(kStill, kSecond);
+  addPair(microscope(), kPoints[0]);
+  EXPECT_THROW(addPair(microscope(), kPoints[0], {50.0, 20.0}), core::InvalidParameter);
+  EXPECT_EQ(m_editor.still()->landmarks.size(), 1U);
+  EXPECT_TRUE(m_editor.mark()) << "for when the crosshair is moved";
+  m_editor.showFrame(kStill, 2 * kSecond);
+  addPair(microscope(), kPoints[0]); // which another still shows, too
+  EXPECT_EQ(m_editor.still()->landmarks.size(), 1U);
+}
+
 TEST_F(Videos, SaysWhyThereIsNoCamera)
 {
   m_editor.showFrame(kStill, kSecond);
@@ -217,6 +229,8 @@ TEST_F(Videos, SeekTheirCameraInTheBackground)
 {
   VideoEditor::Work work;
   int dropped = 0;
+  int found = 0;
+  m_editor.cameraFound = [&found] { ++found; };
   m_editor.inBackground = [&](VideoEditor::Work wanted)
   {
     dropped += wanted ? 0 : 1;
@@ -234,7 +248,9 @@ TEST_F(Videos, SeekTheirCameraInTheBackground)
   apply(); // of what is no more
   EXPECT_TRUE(m_editor.isFitting());
   EXPECT_FALSE(m_editor.still()->camera);
+  EXPECT_EQ(found, 0);
   work({})();
+  EXPECT_EQ(found, 1);
   EXPECT_FALSE(m_editor.isFitting());
   EXPECT_TRUE(m_editor.still()->camera);
 }

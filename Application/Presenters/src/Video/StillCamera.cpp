@@ -97,7 +97,9 @@ StillFit fitStill(const Still& still, const core::Progress& progress)
   StillFit fit;
   const double good = residualOfGoodClicks(still.size[1]);
   const std::size_t count = still.landmarks.size();
-  const std::size_t spare = count - std::min(count, landmarksNeeded(still));
+  // One more than needed must be left: where as many are left as are needed, the rest fits whatever
+  // is left out.
+  const std::size_t spare = count - std::min(count, landmarksNeeded(still) + 1);
   std::optional<core::InvalidParameter> refusal;
   try
   {

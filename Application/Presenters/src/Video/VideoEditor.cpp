@@ -14,6 +14,8 @@ namespace
 using core::InvalidParameter;
 using dissection::History;
 
+constexpr double kApart = 1e-3; // mm, two landmarks
+
 // What the camera is found from.
 bool isAlike(const scene::VideoNotes::Still& a, const scene::VideoNotes::Still& b)
 {
@@ -284,6 +286,12 @@ void VideoEditor::addPair(const Eigen::Vector3d& patient)
 {
   if (!m_mark)
     throw InvalidParameter("click the point in the still first");
+  if (const auto* const one = still();
+      one && std::any_of(one->landmarks.begin(), one->landmarks.end(),
+                         [&patient](const Notes::Landmark& other)
+                         { return (other.patient - patient).norm() < kApart; }))
+    throw InvalidParameter("the crosshair is still at another landmark of this still; click the "
+                           "point of the patient in the 3D view or a slice first");
   const Notes::Landmark pair{patient, *m_mark};
   m_mark.reset();
   changeStill([&pair](Notes::Still& one) { one.landmarks.push_back(pair); }, "landmark of a still");
@@ -379,6 +387,8 @@ void VideoEditor::fitted(const Notes::Still& of, const std::optional<StillFit>& 
     if (each.time == of.time)
       each.camera = fit->pose.camera;
   set(next, {}); // which follows from the landmarks: no step of its own
+  if (cameraFound)
+    cameraFound();
 }
 
 } // namespace petrous::presenters

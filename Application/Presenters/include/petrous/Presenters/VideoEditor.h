@@ -26,7 +26,8 @@ public:
   VideoEditor(const VideoEditor&) = delete;
   VideoEditor& operator=(const VideoEditor&) = delete;
 
-  std::function<void()> changed; ///< anything that is shown
+  std::function<void()> changed;     ///< anything that is shown
+  std::function<void()> cameraFound; ///< and kept: to be saved, though there is no edit
   /// Runs a search; the latest counts. Unless set, searches run at once. None: drop the one before.
   std::function<void(Work)> inBackground;
 

@@ -1,6 +1,8 @@
 #include "GuiTest.h"
 
+#include <chrono>
 #include <fstream>
+#include <thread>
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -8,8 +10,11 @@
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QPushButton>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QSlider>
 #include <QTableWidget>
+#include <QToolButton>
 #include <QTreeWidget>
 
 #ifdef PETROUS_GSTREAMER
@@ -32,8 +37,10 @@ constexpr int kFrames = 25, kWide = 320, kHigh = 200;
 class VideoPanels : public GuiTest
 {
 protected:
-  // A case with a video of a second.
-  void openCase(const std::string& bytes = {})
+  static std::string stump() { return std::string("\0\0\0\x18", 4) + "ftypmp42 and no more"; }
+
+  // A case with a video of a second, and perhaps one that is damaged.
+  void openCase(const std::string& bytes = {}, bool withDamaged = false)
   {
     const auto film = folder() / "film.mkv";
     if (!bytes.empty())
@@ -51,6 +58,12 @@ protected:
     saveBall("ball");
     scene::Case value = library().open("ball");
     library::attach(value, library::attachmentOf(film, {"film.mkv", {}, {}, true}));
+    if (withDamaged)
+    {
+      std::ofstream(folder() / "damaged.mp4", std::ios::binary) << stump();
+      library::attach(
+          value, library::attachmentOf(folder() / "damaged.mp4", {"damaged.mp4", {}, {}, true}));
+    }
     library::Library(library()).save(value);
     openWindow("ball");
     dock().show();
@@ -113,12 +126,15 @@ protected:
 
 TEST_F(VideoPanels, SayWhatAFileIsThatIsNoVideo)
 {
-  openCase(std::string("\0\0\0\x18", 4) + "ftypmp42 and no more");
+  openCase(stump());
   if (!video::isSupported())
   {
     EXPECT_FALSE(child<QComboBox>("videoChoice").isEnabled());
     return;
   }
+  for (const char* name : {"bookmarkAdd", "bookmarkMove", "bookmarkTie", "bookmarkRemove",
+                           "videoLoop", "pairAdd", "pairRemove", "stillRemove"})
+    EXPECT_FALSE(child<QToolButton>(name).isEnabled()) << name;
   EXPECT_FALSE(action("Play")->isEnabled());
   choose(1);
   ASSERT_TRUE(waitFor([this] { return child<QLabel>("videoFault").isVisibleTo(&dock()); }));
@@ -173,6 +189,86 @@ TEST_F(VideoPanels, StepSeekAndSetBookmarksThatUndoTakesBack)
   EXPECT_EQ(bookmarks().topLevelItemCount(), 0);
   choose(0);
   EXPECT_TRUE(video().frame().isNull());
+}
+
+TEST_F(VideoPanels, TakeNothingFromTheVideoBefore)
+{
+  openCase({}, true);
+  auto& box = child<QComboBox>("videoChoice");
+  const int film = box.findText("film.mkv");
+  const int damaged = box.findText("damaged.mp4");
+  ASSERT_GT(damaged, 0);
+  for (int round = 0; round < 4; ++round)
+  {
+    choose(damaged);
+    if (round % 2 == 1) // its failure is on its way
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    choose(film);
+    ASSERT_TRUE(shows(0));
+    EXPECT_FALSE(waitFor([&] { return box.currentIndex() != film; }, 300));
+    EXPECT_FALSE(child<QLabel>("videoFault").isVisibleTo(&dock()));
+  }
+}
+
+TEST_F(VideoPanels, StepNoFurtherThanIsSeen)
+{
+  openCase();
+  choose(1);
+  ASSERT_TRUE(shows(0));
+  for (int n = 0; n < 20; ++n) // a key that is held while nothing can be shown
+    action("Step forward")->trigger();
+  ASSERT_TRUE(shows(4));
+  EXPECT_FALSE(waitFor([this] { return child<QSlider>("videoPlace").value() > 160; }, 300));
+}
+
+TEST_F(VideoPanels, SayThatAFileBreaksOffUntilSomethingElseIsDone)
+{
+  video::made::Options options;
+  options.frames = kFrames;
+  options.width = kWide;
+  options.height = kHigh;
+  options.caps = "framerate=5/1";
+  options.millisecond = [](int n) { return 200 * n; };
+  const auto whole = folder() / "whole.mkv";
+  video::made::write(whole, video::made::kRawMatroska, options);
+  std::ifstream in(whole, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  openCase(bytes.substr(0, bytes.size() / 2));
+  choose(1);
+  ASSERT_TRUE(shows(0));
+  auto& fault = child<QLabel>("videoFault");
+  EXPECT_FALSE(fault.isVisibleTo(&dock()));
+  action("Play")->trigger();
+  ASSERT_TRUE(waitFor([&] { return fault.isVisibleTo(&dock()); }, 20000));
+  EXPECT_TRUE(fault.text().contains("00:02.")) << fault.text().toStdString();
+  action("Step back")->trigger();
+  action("Step back")->trigger();
+  ASSERT_TRUE(shows(9) || shows(10));
+  EXPECT_TRUE(fault.isVisibleTo(&dock()));
+  action("Set a bookmark")->trigger();
+  EXPECT_FALSE(fault.isVisibleTo(&dock()));
+}
+
+// The picture gives way to the controls.
+TEST_F(VideoPanels, FitALowAndNarrowScreen)
+{
+  openCase();
+  window().resize(1280, 720);
+  choose(1);
+  ASSERT_TRUE(shows(0));
+  auto* scroll = child<QToolButton>("videoPlay").parentWidget()->parentWidget()->parentWidget();
+  auto* area = qobject_cast<QScrollArea*>(scroll);
+  ASSERT_TRUE(area);
+  EXPECT_LE(area->widget()->minimumSizeHint().width(), 400);
+  EXPECT_TRUE(settled());
+  EXPECT_EQ(area->horizontalScrollBar()->maximum(), 0);
+  for (const char* name : {"videoAttach", "videoPlay", "bookmarkAdd", "videoLoop"})
+  {
+    const auto& one = child<QToolButton>(name);
+    const QPoint end = one.mapTo(area->viewport(), one.rect().bottomRight());
+    EXPECT_LE(end.x(), area->viewport()->width()) << name;
+    EXPECT_LE(end.y(), area->viewport()->height()) << name;
+  }
 }
 
 TEST_F(VideoPanels, GoWithTheBoneAndTheBoneWithThem)
@@ -236,6 +332,8 @@ TEST_F(VideoPanels, FindTheViewOfAStillAndLayItOverTheScene)
   EXPECT_TRUE(child<QLabel>("stillCamera").text().contains("Uncertainty"));
   ASSERT_EQ(notes().stills.size(), 1U);
   EXPECT_LT((notes().stills[0].camera->position - truth.position).norm(), 0.2);
+  ASSERT_TRUE(settled());
+  EXPECT_TRUE(library().open("ball").attachments[0].video->stills[0].camera) << "saved, too";
 
   auto& overlay = child<QWidget>("stillOverlay");
   EXPECT_FALSE(overlay.isVisibleTo(&view()));

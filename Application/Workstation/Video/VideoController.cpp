@@ -26,6 +26,8 @@ namespace petrous::workstation
 namespace
 {
 
+constexpr int kMostSteps = 4; // that wait: a key that is held does not run on
+
 // Shares the pixels.
 QImage imageOf(const video::Frame& frame)
 {
@@ -74,8 +76,9 @@ VideoController::VideoController(presenters::WorkstationModel& model, ThreeDView
       return m_work->abandon();
     m_work->replace(
         [this, work = std::move(work)](const core::Progress& progress) -> BackgroundWork::Reply
-        { return [this, apply = work(progress)] { attempt(apply); }; });
+        { return [this, apply = work(progress)] { follow(apply); }; });
   };
+  m_editor.cameraFound = [this] { emit changed(); };
   connect(m_overlay, &StillOverlay::overChanged, this, &VideoController::refresh);
   refresh();
 }
@@ -83,7 +86,7 @@ VideoController::VideoController(presenters::WorkstationModel& model, ThreeDView
 VideoController::~VideoController()
 {
   m_player.reset();
-  m_editor.changed = {};
+  m_editor.changed = m_editor.cameraFound = {};
   m_editor.inBackground = {};
   m_panel->onCaseChanged = m_panel->onStateChanged = m_panel->onAttachmentsChanged = {};
 }
@@ -127,8 +130,8 @@ void VideoController::addActions()
   const auto on = [this](QAction* action, auto what)
   { connect(action, &QAction::triggered, this, what); };
   on(m_play, [this] { player().play(!m_isPlaying); });
-  on(m_back, [this] { player().step(-1); });
-  on(m_forth, [this] { player().step(1); });
+  on(m_back, [this] { step(-1); });
+  on(m_forth, [this] { step(1); });
   on(m_loop, [this](bool isOn) { setLoop(isOn); });
   on(m_bookmark,
      [this]
@@ -161,7 +164,8 @@ void VideoController::connectPanel()
           [this]
           {
             m_awaited = m_editor.videos().size() + 1;
-            m_attachments.attach();
+            if (!m_attachments.attach())
+              m_awaited = 0;
           });
   connect(m_panel, &VideoPanel::seekAsked, this,
           [this](qint64 at) { player().seek(std::chrono::milliseconds(at)); });
@@ -209,32 +213,40 @@ video::VideoPlayer& VideoController::player()
   const auto here = [this](const std::function<void()>& what)
   { QMetaObject::invokeMethod(this, what, Qt::QueuedConnection); };
   video::VideoPlayer::Events events;
-  events.opened = [this, here, mail = m_mail](const video::VideoInfo& info)
+  // What comes of a video that was left is dropped.
+  using Opening = video::VideoPlayer::Opening;
+  const auto of = [this, here](Opening opening, const std::function<void()>& what)
   {
-    {
-      const std::lock_guard<std::mutex> lock(mail->mutex);
-      mail->frame.reset(); // of the video before
-    }
-    here([this, info] { opened(info); });
+    here(
+        [this, opening, what]
+        {
+          if (opening == m_opening)
+            what();
+        });
   };
-  events.shown = [this, here, mail = m_mail](const video::Frame& frame)
+  events.opened = [this, of](Opening opening, const video::VideoInfo& info)
+  { of(opening, [this, info] { opened(info); }); };
+  events.shown = [this, here, mail = m_mail](Opening opening, const video::Frame& frame)
   {
     const std::lock_guard<std::mutex> lock(mail->mutex);
     mail->frame = frame;
+    mail->opening = opening;
     if (!std::exchange(mail->isPosted, true))
       here([this] { takeFrame(); });
   };
-  events.playing = [this, here](bool on)
+  events.playing = [this, of](Opening opening, bool on)
   {
-    here(
-        [this, on]
-        {
-          m_isPlaying = on;
-          refresh();
-        });
+    of(opening,
+       [this, on]
+       {
+         m_isPlaying = on;
+         refresh();
+       });
   };
-  events.failed = [this, here](const std::string& why)
-  { here([this, why = words(why)] { failed(why); }); };
+  events.gap = [this, of](Opening opening, const video::Gap& gap)
+  { of(opening, [this, gap] { tellGap(gap); }); };
+  events.failed = [this, of](Opening opening, const std::string& why)
+  { of(opening, [this, why = words(why)] { failed(why); }); };
   m_player = std::make_unique<video::VideoPlayer>(std::move(events));
   return *m_player;
 }
@@ -249,7 +261,7 @@ void VideoController::caseChanged()
 void VideoController::attachmentsChanged()
 {
   const std::string before = m_editor.video();
-  attempt([this] { m_editor.refresh(); });
+  follow([this] { m_editor.refresh(); });
   if (!before.empty() && m_editor.video().empty())
     closeVideo();
   // One that was attached from here is shown here.
@@ -262,6 +274,8 @@ void VideoController::attachmentsChanged()
                      {
                        emit panelWanted();
                        choose(name);
+                       m_panel->say(tr("A video may show or name the patient. It stays here when "
+                                       "the case is archived or sent, unless asked."));
                      });
 }
 
@@ -297,8 +311,8 @@ void VideoController::choose(const std::string& name)
         m_editor.choose(name);
         const auto file = m_editor.file();
         m_isOpening = true;
-        player().open(file, name);
-        m_panel->picture().setText(tr("The video is being opened…"));
+        m_panel->setOpening(true);
+        m_opening = player().open(file, name);
       });
 }
 
@@ -306,9 +320,12 @@ void VideoController::closeVideo()
 {
   if (m_player)
     m_player->close();
+  m_opening = 0;
+  m_steps = 0;
   m_isOpening = false;
   m_isPlaying = false;
   m_frame = {};
+  m_panel->setOpening(false);
   m_panel->say({});
   m_panel->picture().setFrame({});
   attempt([this] { m_editor.choose({}); });
@@ -316,8 +333,8 @@ void VideoController::closeVideo()
 
 void VideoController::opened(const video::VideoInfo& info)
 {
-  if (!std::exchange(m_isOpening, false))
-    return;
+  m_isOpening = false;
+  m_panel->setOpening(false);
   m_panel->setDuration(info.duration.count() / 1000000);
   takeFrame();
 }
@@ -329,22 +346,45 @@ void VideoController::failed(const QString& why)
   emit statusMessage(sentence(why));
 }
 
+void VideoController::tellGap(const video::Gap& gap)
+{
+  const auto text = [](video::Time time) { return words(presenters::timeText(time.count())); };
+  const QString line =
+      gap.end
+          ? tr("The file is damaged after %1; it goes on at %2")
+                .arg(text(gap.begin), text(*gap.end))
+          : tr("The file is damaged or not whole: its last picture is at %1").arg(text(gap.begin));
+  m_panel->say(sentence(line));
+  emit statusMessage(line);
+}
+
+void VideoController::step(int by)
+{
+  if (m_steps >= kMostSteps)
+    return;
+  ++m_steps;
+  player().step(by);
+}
+
 void VideoController::takeFrame()
 {
   std::optional<video::Frame> frame;
   {
     const std::lock_guard<std::mutex> lock(m_mail->mutex);
     m_mail->isPosted = false;
-    if (m_isOpening) // of the video before, or it comes with `opened`
+    if (m_isOpening) // it comes with `opened`
       return;
     frame.swap(m_mail->frame);
+    if (m_mail->opening != m_opening)
+      frame.reset();
   }
   if (!frame || m_editor.video().empty())
     return;
+  m_steps = 0;
   m_frame = imageOf(*frame);
   m_panel->picture().setFrame(m_frame);
   m_panel->setPlace(frame->time.count());
-  attempt([&] { m_editor.showFrame({frame->width, frame->height}, frame->time.count()); });
+  follow([&] { m_editor.showFrame({frame->width, frame->height}, frame->time.count()); });
 }
 
 void VideoController::goToBookmark(std::size_t bookmark)
@@ -458,6 +498,11 @@ bool VideoController::attempt(const std::function<void()>& what)
   if (m_model.hasCase() && m_model.edits().last() != before)
     emit changed();
   return why.isEmpty();
+}
+
+void VideoController::follow(const std::function<void()>& what)
+{
+  guarded(what, [this](const QString& why) { m_panel->say(sentence(why)); });
 }
 
 } // namespace petrous::workstation

@@ -54,6 +54,7 @@ private:
   {
     std::mutex mutex;
     std::optional<video::Frame> frame; // the latest
+    video::VideoPlayer::Opening opening = 0;
     bool isPosted = false;
   };
 
@@ -66,6 +67,8 @@ private:
   void closeVideo();
   void opened(const video::VideoInfo& info);
   void failed(const QString& why);
+  void tellGap(const video::Gap& gap);
+  void step(int by);
   void takeFrame();
   void goToBookmark(std::size_t bookmark);
   void stepBookmark(int by);
@@ -74,6 +77,7 @@ private:
   void showView(bool on);
   void refresh();
   bool attempt(const std::function<void()>& what);
+  void follow(const std::function<void()>& what); // what is said stays, as nobody asked for it
 
   presenters::WorkstationModel& m_model;
   ThreeDView& m_view;
@@ -87,7 +91,9 @@ private:
   StillOverlay* m_overlay;
   std::shared_ptr<Mail> m_mail;
   QImage m_frame;
-  std::size_t m_awaited = 0; // videos, once one that is being attached is there
+  std::size_t m_awaited = 0;                 // videos, once one that is being attached is there
+  video::VideoPlayer::Opening m_opening = 0; // of the chosen video; 0: none
+  int m_steps = 0;                           // that were asked for, and not shown yet
   bool m_isOpening = false;
   bool m_isPlaying = false;
   bool m_goesAlong = false; // to a bookmark's stroke: the video is there already

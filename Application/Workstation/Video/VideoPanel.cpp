@@ -48,6 +48,17 @@ QToolButton* buttonOf(QAction* action, const char* name)
   return button;
 }
 
+// Narrower than a push button.
+QToolButton* narrow(const QString& text, const char* name, const QString& tip)
+{
+  auto* button = new QToolButton;
+  button->setText(text);
+  button->setObjectName(name);
+  button->setToolTip(tip);
+  button->setFocusPolicy(Qt::TabFocus);
+  return button;
+}
+
 QString number(double value, int decimals)
 {
   return QString::number(value, 'f', decimals);
@@ -71,8 +82,10 @@ VideoPanel::VideoPanel(const presenters::WorkstationModel& model, presenters::Vi
   , m_overlay(new QCheckBox(tr("&Over the 3D view")))
   , m_opacity(percentSlider("stillOpacity", tr("Opacity of the still over the 3D view")))
 {
-  auto* attach = button(tr("&Attach…"), "videoAttach",
+  auto* attach = narrow(tr("&Attach…"), "videoAttach",
                         tr("A video goes with the case, copied or linked (Case > Attach…)"));
+  m_videos->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  m_videos->setMinimumContentsLength(8);
   auto* top = new QHBoxLayout;
   top->addWidget(m_videos, 1);
   top->addWidget(attach);
@@ -111,7 +124,7 @@ VideoPanel::VideoPanel(const presenters::WorkstationModel& model, presenters::Vi
   addBookmarks(*layout, actions);
   addStill(*layout, actions);
 
-  connect(attach, &QPushButton::clicked, this, &VideoPanel::attachAsked);
+  connect(attach, &QToolButton::clicked, this, &VideoPanel::attachAsked);
   connect(m_videos, qOverload<int>(&QComboBox::activated), this,
           [this](int at) { emit videoChosen(m_videos->itemData(at).toString()); });
   connect(m_place, &QSlider::valueChanged, this,
@@ -143,13 +156,13 @@ void VideoPanel::addBookmarks(QVBoxLayout& layout, const Actions& actions)
   m_bookmarks->setMinimumHeight(70);
   keepKeysInEditors(*m_bookmarks);
 
-  auto* move = button(tr("&Move here"), "bookmarkMove", tr("To the frame that is seen"));
-  auto* tie = button(tr("&Tie"), "bookmarkTie", tr("To the last stroke, or from any stroke"));
-  auto* remove = button(tr("&Remove"), "bookmarkRemove", tr("Takes the bookmark out"));
+  auto* move = narrow(tr("&Move here"), "bookmarkMove", tr("To the frame that is seen"));
+  auto* tie = narrow(tr("&Tie"), "bookmarkTie", tr("To the last stroke, or from any stroke"));
+  auto* remove = narrow(tr("&Remove"), "bookmarkRemove", tr("Takes the bookmark out"));
   m_ofBookmark = {move, tie, remove};
   auto* row = new QHBoxLayout;
   row->addWidget(buttonOf(actions.bookmark, "bookmarkAdd"));
-  for (QPushButton* one : m_ofBookmark)
+  for (QToolButton* one : m_ofBookmark)
     row->addWidget(one);
   row->addWidget(buttonOf(actions.loop, "videoLoop"));
   row->addStretch(1);
@@ -158,17 +171,12 @@ void VideoPanel::addBookmarks(QVBoxLayout& layout, const Actions& actions)
 
   const auto chosen = [this]
   { return m_bookmarks->indexOfTopLevelItem(m_bookmarks->currentItem()); };
-  connect(move, &QPushButton::clicked, this, [=] { emit moveAsked(chosen()); });
-  connect(tie, &QPushButton::clicked, this, [=] { emit tieAsked(chosen()); });
-  connect(remove, &QPushButton::clicked, this, [=] { emit bookmarkRemovalAsked(chosen()); });
+  connect(move, &QToolButton::clicked, this, [=] { emit moveAsked(chosen()); });
+  connect(tie, &QToolButton::clicked, this, [=] { emit tieAsked(chosen()); });
+  connect(remove, &QToolButton::clicked, this, [=] { emit bookmarkRemovalAsked(chosen()); });
   connect(m_bookmarks, &QTreeWidget::itemActivated, this,
           [=] { emit bookmarkActivated(chosen()); });
-  connect(m_bookmarks, &QTreeWidget::itemSelectionChanged, this,
-          [this]
-          {
-            for (QPushButton* one : m_ofBookmark)
-              one->setEnabled(chosenBookmarks().size() == 1);
-          });
+  connect(m_bookmarks, &QTreeWidget::itemSelectionChanged, this, &VideoPanel::enableBookmarks);
   connect(m_bookmarks, &QTreeWidget::itemChanged, this,
           [this](QTreeWidgetItem* item, int column)
           {
@@ -195,8 +203,8 @@ void VideoPanel::addStill(QVBoxLayout& layout, const Actions& actions)
   m_pairs->setSelectionMode(QAbstractItemView::SingleSelection);
   m_pairs->setEditTriggers(QAbstractItemView::NoEditTriggers);
   m_pairs->setMinimumHeight(70);
-  m_removePair = button(tr("Re&move"), "pairRemove", tr("The landmark that is chosen"));
-  m_removeStill = button(tr("Remove all"), "stillRemove", tr("All landmarks of this still"));
+  m_removePair = narrow(tr("Re&move"), "pairRemove", tr("The landmark that is chosen"));
+  m_removeStill = narrow(tr("Remove all"), "stillRemove", tr("All landmarks of this still"));
   auto* angle = m_bound.add(
       numberBox("stillAngle",
                 tr("Vertical angle of view, if it is known: then four landmarks are enough"),
@@ -240,9 +248,9 @@ void VideoPanel::addStill(QVBoxLayout& layout, const Actions& actions)
   within->addLayout(third);
   layout.addWidget(box, 1);
 
-  connect(m_removePair, &QPushButton::clicked, this,
+  connect(m_removePair, &QToolButton::clicked, this,
           [this] { emit pairRemovalAsked(m_pairs->currentRow()); });
-  connect(m_removeStill, &QPushButton::clicked, this, &VideoPanel::stillRemovalAsked);
+  connect(m_removeStill, &QToolButton::clicked, this, &VideoPanel::stillRemovalAsked);
   connect(m_overlay, &QCheckBox::toggled, this,
           [this](bool on)
           {
@@ -278,12 +286,20 @@ void VideoPanel::setDuration(qint64 milliseconds)
 
 void VideoPanel::setPlace(std::int64_t nanoseconds)
 {
+  if (m_duration > 0 && nanoseconds / 1000000 > m_duration) // it states too little
+    setDuration(nanoseconds / 1000000);
   const QSignalBlocker quiet(m_place);
   if (!m_place->isSliderDown())
     m_place->setValue(static_cast<int>(nanoseconds / 1000000));
   m_time->setText(
       words(presenters::timeText(nanoseconds)) +
       (m_duration > 0 ? " / " + words(presenters::timeText(m_duration * 1000000)) : QString()));
+}
+
+void VideoPanel::setOpening(bool isOpening)
+{
+  m_isOpening = isOpening;
+  refresh();
 }
 
 void VideoPanel::say(const QString& text)
@@ -342,6 +358,8 @@ void VideoPanel::refreshVideos()
   if (!video::isSupported())
     m_picture->setText(
         tr("Video support was not built: this program was built without GStreamer."));
+  else if (m_isOpening)
+    m_picture->setText(tr("The video is being opened…"));
   else
     m_picture->setText(names.empty() ? tr("Attach a video of the operation, copied or as a link.")
                                      : tr("Choose a video above."));
@@ -366,7 +384,7 @@ void VideoPanel::refreshBookmarks()
               here == n ? "here" : ""};
   }
   if (shown == m_bookmarksShown)
-    return;
+    return enableBookmarks();
   m_bookmarksShown = shown;
   m_bookmarks->clear();
   for (std::size_t n = 0; n < all.size(); ++n)
@@ -387,8 +405,14 @@ void VideoPanel::refreshBookmarks()
   if (!chosen.empty() && chosen.back() < all.size())
     m_bookmarks->setCurrentItem(m_bookmarks->topLevelItem(static_cast<int>(chosen.back())), 0,
                                 QItemSelectionModel::Current);
-  for (QPushButton* one : m_ofBookmark)
-    one->setEnabled(chosenBookmarks().size() == 1);
+  enableBookmarks();
+}
+
+void VideoPanel::enableBookmarks()
+{
+  const bool isOne = m_editor.time() && chosenBookmarks().size() == 1;
+  for (QToolButton* one : m_ofBookmark)
+    one->setEnabled(isOne);
 }
 
 void VideoPanel::refreshStill()

@@ -15,6 +15,7 @@ class QComboBox;
 class QLabel;
 class QSlider;
 class QTableWidget;
+class QToolButton;
 class QTreeWidget;
 class QVBoxLayout;
 
@@ -44,6 +45,7 @@ public:
   VideoPicture& picture() noexcept { return *m_picture; }
   void setDuration(qint64 milliseconds); ///< 0: it is not known
   void setPlace(std::int64_t nanoseconds);
+  void setOpening(bool isOpening);
   void say(const QString& text); ///< what went wrong; empty: nothing
   void setOver(bool isOver);     ///< the 3D view is the still's
   void refresh();
@@ -77,6 +79,7 @@ private:
   void addStill(QVBoxLayout& layout, const Actions& actions);
   void refreshVideos();
   void refreshBookmarks();
+  void enableBookmarks();
   void refreshStill();
   QString stillText() const;
 
@@ -88,16 +91,17 @@ private:
   QLabel* m_time;
   QLabel* m_fault;
   QTreeWidget* m_bookmarks;
-  std::vector<QPushButton*> m_ofBookmark;
+  std::vector<QToolButton*> m_ofBookmark;
   QTableWidget* m_pairs;
-  QPushButton* m_removePair;
-  QPushButton* m_removeStill;
+  QToolButton* m_removePair;
+  QToolButton* m_removeStill;
   QLabel* m_camera;
   QCheckBox* m_overlay;
   QSlider* m_opacity;
   Bindings m_bound;
   QStringList m_namesShown, m_bookmarksShown; // lists are made anew where they differ
   qint64 m_duration = 0;                      // ms
+  bool m_isOpening = false;
   bool m_refreshing = false;
 };
 

@@ -48,21 +48,14 @@ VideoPicture::VideoPicture(QWidget* parent)
   setAccessibleName(tr("Video"));
   setFocusPolicy(Qt::StrongFocus);
   setMinimumSize(160, 90);
-  QSizePolicy policy(QSizePolicy::Expanding, QSizePolicy::Expanding);
-  policy.setHeightForWidth(true);
-  setSizePolicy(policy);
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding); // it shrinks first
 }
 
 QSize VideoPicture::sizeHint() const
 {
-  return {420, heightForWidth(420)};
-}
-
-int VideoPicture::heightForWidth(int width) const
-{
   const double ratio =
       m_frame.isNull() ? 9.0 / 16.0 : static_cast<double>(m_frame.height()) / m_frame.width();
-  return static_cast<int>(width * std::min(ratio, 1.0));
+  return {420, static_cast<int>(420 * std::min(ratio, 1.0))};
 }
 
 void VideoPicture::setFrame(const QImage& frame)

@@ -34,8 +34,6 @@ public:
   const QImage& frame() const noexcept { return m_frame; }
 
   QSize sizeHint() const override;
-  bool hasHeightForWidth() const override { return true; }
-  int heightForWidth(int width) const override;
 
 signals:
   void pointed(const Eigen::Vector2d& pixel);

@@ -232,6 +232,10 @@
         <source>%1. The mouse leads the tool.</source>
         <translation>%1. Die Maus führt das Werkzeug.</translation>
     </message>
+    <message>
+        <source>The manual is in the browser</source>
+        <translation>Das Handbuch ist im Browser</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::AddPartsDialog</name>
@@ -945,10 +949,6 @@
         <translation>Neuer Zugang</translation>
     </message>
     <message>
-        <source>Name of the approach that begins here, after %1 strokes:</source>
-        <translation>Name des Zugangs, der hier beginnt, nach %1 Bohrzügen:</translation>
-    </message>
-    <message>
         <source>On the new approach %1</source>
         <translation>Auf dem neuen Zugang %1</translation>
     </message>
@@ -971,6 +971,13 @@
     <message>
         <source>Approach</source>
         <translation>Zugang</translation>
+    </message>
+    <message numerus="yes">
+        <source>Name of the approach that begins here, after %n stroke(s):</source>
+        <translation>
+            <numerusform>Name des Zugangs, der hier nach %n Bohrzug beginnt:</numerusform>
+            <numerusform>Name des Zugangs, der hier nach %n Bohrzügen beginnt:</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -1628,6 +1635,29 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <source>Copy or send the series again, with all of its slices: Library &gt; Receive fetches it from the archive. Anatomy that is missing is not made up.</source>
         <translation>Kopieren oder senden Sie die Serie noch einmal, mit allen Schichten: Bibliothek &gt; Empfangen holt sie aus dem Archiv. Fehlende Anatomie wird nicht erfunden.</translation>
     </message>
+    <message>
+        <source>Another place?</source>
+        <translation>Ein anderer Ort?</translation>
+    </message>
+    <message numerus="yes">
+        <source>No structure of “%1” lies in the image of this case (%n of them): nothing of them will be seen or felt.</source>
+        <translation>
+            <numerusform>Die Struktur aus „%1“ liegt nicht im Bild dieses Falls: Nichts von ihr wird zu sehen oder zu fühlen sein.</numerusform>
+            <numerusform>Keine der %n Strukturen aus „%1“ liegt im Bild dieses Falls: Nichts von ihnen wird zu sehen oder zu fühlen sein.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>They may be another patient&apos;s, or of another scan.</source>
+        <translation>Sie gehören vielleicht zu einem anderen Patienten oder zu einer anderen Aufnahme.</translation>
+    </message>
+    <message>
+        <source>Do &amp;not add</source>
+        <translation>&amp;Nicht hinzufügen</translation>
+    </message>
+    <message>
+        <source>&amp;Add anyway</source>
+        <translation>Trotzdem &amp;hinzufügen</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::CaseSaver</name>
@@ -2149,6 +2179,92 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     </message>
 </context>
 <context>
+    <name>petrous::workstation::DeviceTestDialog</name>
+    <message>
+        <source>%1: the handle does not follow the force. Do not use the device.</source>
+        <translation>%1: Der Griff folgt der Kraft nicht. Benutzen Sie das Gerät nicht.</translation>
+    </message>
+    <message>
+        <source>%1: stable up to %2 N/mm, a fault at %3</source>
+        <translation>%1: stabil bis %2 N/mm, Fehler bei %3</translation>
+    </message>
+    <message>
+        <source>%1: stable up to %2 N/mm, oscillates at %3</source>
+        <translation>%1: stabil bis %2 N/mm, schwingt bei %3</translation>
+    </message>
+    <message>
+        <source>%1: stable up to %2 N/mm</source>
+        <translation>%1: stabil bis %2 N/mm</translation>
+    </message>
+    <message>
+        <source>&amp;Keep this stiffness</source>
+        <translation>Diese Steifigkeit &amp;behalten</translation>
+    </message>
+    <message>
+        <source>Test of %1</source>
+        <translation>Test von %1</translation>
+    </message>
+    <message>
+        <source>This takes about a minute. First move the handle through all of its workspace and press its buttons. Then hold it lightly in the middle and keep it still: it is pushed along each axis, with 0.5 N, and held by a spring that becomes stiffer.</source>
+        <translation>Das dauert etwa eine Minute. Führen Sie den Griff zuerst durch seinen ganzen Arbeitsraum und drücken Sie seine Tasten. Halten Sie ihn dann locker und ruhig in der Mitte: Er wird entlang jeder Achse mit 0,5 N gestoßen und von einer Feder gehalten, die steifer wird.</translation>
+    </message>
+    <message>
+        <source>Bone is then rendered with at most that stiffness on this device</source>
+        <translation>Knochen ist an diesem Gerät dann höchstens so steif</translation>
+    </message>
+    <message>
+        <source>Stopped</source>
+        <translation>Angehalten</translation>
+    </message>
+    <message>
+        <source>&amp;Stop</source>
+        <translation>An&amp;halten</translation>
+    </message>
+    <message>
+        <source>S&amp;tart</source>
+        <translation>&amp;Starten</translation>
+    </message>
+    <message>
+        <source>Workspace %1 × %2 × %3 mm, %4 readings/s</source>
+        <translation>Arbeitsraum %1 × %2 × %3 mm, %4 Messungen/s</translation>
+    </message>
+    <message numerus="yes">
+        <source>The device reported a fault %n time(s)</source>
+        <translation>
+            <numerusform>Das Gerät meldete %n Fehler</numerusform>
+            <numerusform>Das Gerät meldete %n Fehler</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>It gives no force.</source>
+        <translation>Es gibt keine Kraft.</translation>
+    </message>
+    <message>
+        <source>Right</source>
+        <translation>Rechts</translation>
+    </message>
+    <message>
+        <source>Up</source>
+        <translation>Oben</translation>
+    </message>
+    <message>
+        <source>To the user</source>
+        <translation>Zum Benutzer</translation>
+    </message>
+    <message>
+        <source>Proposed: %1 N/mm</source>
+        <translation>Vorschlag: %1 N/mm</translation>
+    </message>
+    <message>
+        <source>No stiffness is proposed.</source>
+        <translation>Keine Steifigkeit wird vorgeschlagen.</translation>
+    </message>
+    <message>
+        <source>Kept for this device</source>
+        <translation>Für dieses Gerät behalten</translation>
+    </message>
+</context>
+<context>
     <name>petrous::workstation::DeviceToolBar</name>
     <message>
         <source>Mouse</source>
@@ -2195,6 +2311,26 @@ X oder die zweite Taste des Geräts, gehalten: Nur die Hand bewegt sich.</transl
     <message>
         <source>At most</source>
         <translation>Höchstens</translation>
+    </message>
+    <message>
+        <source>&amp;Test the device…</source>
+        <translation>Gerät &amp;testen …</translation>
+    </message>
+    <message>
+        <source>&amp;Connect a device…</source>
+        <translation>Gerät &amp;anschließen …</translation>
+    </message>
+    <message>
+        <source>Workspace, directions of the forces, and the stiffness that it bears</source>
+        <translation>Arbeitsraum, Richtungen der Kräfte und die Steifigkeit, die es verträgt</translation>
+    </message>
+    <message>
+        <source>Opens the manual in the browser: which devices there are, and how they come into this list</source>
+        <translation>Öffnet das Handbuch im Browser: welche Geräte es gibt und wie sie in diese Liste kommen</translation>
+    </message>
+    <message>
+        <source>Connect or test a device</source>
+        <translation>Gerät anschließen oder testen</translation>
     </message>
 </context>
 <context>
@@ -2534,8 +2670,8 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
         <translation>Dort ist er der Patient %1. „Empfangen“ findet ihn unter dem Fall „%2“.</translation>
     </message>
     <message>
-        <source>There it is the patient %1, without the case&apos;s name, which may be a patient&apos;s. Receive finds it by the whole name “%2”, and by that ID.</source>
-        <translation>Dort ist er der Patient %1, ohne den Namen des Falls, der der eines Patienten sein kann. „Empfangen“ findet ihn unter dem ganzen Namen „%2“ und unter dieser ID.</translation>
+        <source>There it is the patient %1, without the case&apos;s name, which may be a patient&apos;s. Receive finds it by the whole name “%2” from this library, and by that ID from any.</source>
+        <translation>Dort ist er der Patient %1, ohne den Namen des Falls, der der eines Patienten sein kann. „Empfangen“ findet ihn aus dieser Bibliothek unter dem ganzen Namen „%2“, aus jeder anderen unter dieser ID.</translation>
     </message>
 </context>
 <context>
@@ -4727,6 +4863,10 @@ Verletzt: %1, %2</translation>
         <source>Case, name not told</source>
         <translation>Fall, Name nicht genannt</translation>
     </message>
+    <message>
+        <source>Case “%1”, there of the patient %2</source>
+        <translation>Fall „%1“, dort vom Patienten %2</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::RegionDialog</name>
@@ -5044,16 +5184,16 @@ Verletzt: %1, %2</translation>
         <translation>Kanten des %1 über dem MR</translation>
     </message>
     <message>
-        <source>The case has no other MR; add one with File &gt; Open DICOM… or Open files…</source>
-        <translation>Der Fall hat kein anderes MR; fügen Sie eines hinzu: Datei &gt; DICOM öffnen… oder Dateien öffnen…</translation>
-    </message>
-    <message>
-        <source>The case has no MR; add one with File &gt; Open DICOM… or Open files…</source>
-        <translation>Der Fall hat kein MR; fügen Sie eines hinzu: Datei &gt; DICOM öffnen… oder Dateien öffnen…</translation>
-    </message>
-    <message>
         <source>The MR that is registered and shown over the slices</source>
         <translation>Das MR, das registriert und über den Schichten gezeigt wird</translation>
+    </message>
+    <message>
+        <source>The case has no other MR; add one with Case &gt; Add MR…</source>
+        <translation>Der Fall hat keine andere MR; fügen Sie eine mit Fall &gt; MR hinzufügen … hinzu</translation>
+    </message>
+    <message>
+        <source>The case has no MR; add one with Case &gt; Add MR…</source>
+        <translation>Der Fall hat keine MR; fügen Sie eine mit Fall &gt; MR hinzufügen … hinzu</translation>
     </message>
 </context>
 <context>
@@ -7222,10 +7362,6 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
         <translation>Seine Sicht</translation>
     </message>
     <message>
-        <source>The video is being opened…</source>
-        <translation>Das Video wird geöffnet …</translation>
-    </message>
-    <message>
         <source>No bookmark comes after this frame</source>
         <translation>Nach diesem Bild kommt kein Lesezeichen</translation>
     </message>
@@ -7268,6 +7404,18 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     <message>
         <source>“%1” is set, tied to no stroke: nothing is drilled, or it is not saved yet</source>
         <translation>„%1“ ist gesetzt, mit keinem Bohrzug verbunden: Es ist nichts gebohrt oder noch nicht gesichert</translation>
+    </message>
+    <message>
+        <source>A video may show or name the patient. It stays here when the case is archived or sent, unless asked.</source>
+        <translation>Ein Video kann den Patienten zeigen oder nennen. Es bleibt hier, wenn der Fall archiviert oder gesendet wird, außer auf Wunsch.</translation>
+    </message>
+    <message>
+        <source>The file is damaged after %1; it goes on at %2</source>
+        <translation>Die Datei ist nach %1 beschädigt; es geht bei %2 weiter</translation>
+    </message>
+    <message>
+        <source>The file is damaged or not whole: its last picture is at %1</source>
+        <translation>Die Datei ist beschädigt oder nicht vollständig: Ihr letztes Bild ist bei %1</translation>
     </message>
 </context>
 <context>
@@ -7455,6 +7603,10 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     <message>
         <source>Another view explains the landmarks nearly as well: add landmarks of other depth, and look whether the still fits.</source>
         <translation>Eine andere Sicht erklärt die Landmarken fast ebenso gut: Setzen Sie Landmarken in anderer Tiefe, und sehen Sie nach, ob das Standbild passt.</translation>
+    </message>
+    <message>
+        <source>The video is being opened…</source>
+        <translation>Das Video wird geöffnet …</translation>
     </message>
 </context>
 <context>

@@ -164,6 +164,10 @@
         <translation>Laut Datei ein CT; wie gewünscht als MR hinzugefügt. Ist es das CT des Patienten, beginnen Sie einen Fall damit (Datei &gt; DICOM öffnen).</translation>
     </message>
     <message>
+        <source>It looks like a label map and not like an image: neighbouring voxels have the same whole numbers. If it is one, remove it and add it as labels.</source>
+        <translation>Sie sieht wie eine Segmentierung und nicht wie ein Bild aus: Benachbarte Voxel haben dieselben ganzen Zahlen. Wenn sie eine ist, entfernen Sie sie und fügen Sie sie als Segmentierung hinzu.</translation>
+    </message>
+    <message>
         <source>%1: case '%2' has no MR '%3' on which it was drawn; it has %4</source>
         <translation>%1: Der Fall „%2“ hat kein MR „%3“, auf dem gezeichnet wurde; er hat %4</translation>
     </message>
@@ -400,6 +404,10 @@
         <translation>Petrous-Fall %1</translation>
     </message>
     <message>
+        <source>study of case %1</source>
+        <translation>Studie des Falls %1</translation>
+    </message>
+    <message>
         <source>study</source>
         <translation>Studie</translation>
     </message>
@@ -624,8 +632,8 @@
         <translation>der Knoten „%1“ hat noch %#2 Segmentierungen eines früheren Standes dieses Falls; lassen Sie das Überholte dort löschen</translation>
     </message>
     <message>
-        <source>node '%1': has no scene of a case '%2'; give --study UID for a study that was not sent by Petrous</source>
-        <translation>Knoten „%1“: hat keine Szene eines Falls „%2“; wählen Sie die Studie, wenn sie nicht von Petrous gesendet wurde</translation>
+        <source>node '%1': has no scene of a case '%2'; give --study UID for a study that was not sent by Petrous, or by another library without the name of the case ('petrous receive --list' lists those)</source>
+        <translation>Knoten „%1“: hat keine Szene eines Falls „%2“; geben Sie --study UID an für eine Studie, die nicht von Petrous gesendet wurde oder von einer anderen Bibliothek ohne den Namen des Falls („petrous receive --list“ listet sie auf)</translation>
     </message>
     <message>
         <source>node '%1': has %#2 cases named '%3'; give --study UID, which 'petrous send' printed and 'petrous receive --list' lists</source>
@@ -888,8 +896,8 @@
         <translation>Name, Geburtsdatum, Nummern und andere Angaben zu Patient, Krankenhaus und Ärzten, Daten und Zeiten: Der Fall hat nichts davon</translation>
     </message>
     <message>
-        <source>as the patient '%1', ID %2: a pseudonym without the name of the case, which may be a patient's</source>
-        <translation>als Patient „%1“, ID %2: ein Pseudonym ohne den Namen des Falls, der der eines Patienten sein kann</translation>
+        <source>as the patient '%1', ID %2: a pseudonym without the name of the case, which may be a patient's, or is not known to be none</source>
+        <translation>als der Patient „%1“, ID %2: ein Pseudonym ohne den Namen des Falls, der der eines Patienten sein kann, oder von dem nicht bekannt ist, dass er es nicht ist</translation>
     </message>
     <message>
         <source>as the patient '%1', ID %2: a pseudonym with the name of the case</source>
@@ -922,6 +930,14 @@
     <message>
         <source>offers no queries</source>
         <translation>bietet keine Abfragen</translation>
+    </message>
+    <message>
+        <source>the name of the case is not the patient's name at node '%1': it may be a patient's, or nothing is known of the patient's name with which to compare it</source>
+        <translation>der Name des Falls ist am Knoten „%1“ nicht der Name des Patienten: Er kann der eines Patienten sein, oder vom Namen des Patienten ist nichts bekannt, womit er zu vergleichen wäre</translation>
+    </message>
+    <message>
+        <source>cases that were sent by the program's first version are not listed: %~1</source>
+        <translation>Fälle, die die erste Version des Programms gesendet hat, sind nicht aufgeführt: %~1</translation>
     </message>
     <message>
         <source>node '%1': has no such study; check the UID, or ask the node's administrator whether it was deleted</source>
@@ -1248,6 +1264,10 @@
         <translation>Entfernen der Ansicht</translation>
     </message>
     <message>
+        <source>making the tool</source>
+        <translation>Werkzeug wird hergestellt</translation>
+    </message>
+    <message>
         <source>Another case is being opened; then the tool can be taken up.</source>
         <translation>Ein anderer Fall wird geöffnet; dann lässt sich das Werkzeug aufnehmen.</translation>
     </message>
@@ -1262,6 +1282,14 @@
     <message>
         <source>Nothing is recorded: %~1.</source>
         <translation>Nichts wird aufgezeichnet: %~1.</translation>
+    </message>
+    <message>
+        <source>addition of %1</source>
+        <translation>Hinzufügen von %1</translation>
+    </message>
+    <message>
+        <source>addition of %#1 parts</source>
+        <translation>Hinzufügen von %#1 Teilen</translation>
     </message>
     <message>
         <source>removal of %1</source>
@@ -1338,6 +1366,26 @@
     <message>
         <source>device limits: a stiffness must be above 0, up to 20 N/mm</source>
         <translation>Grenzen des Geräts: eine Steifigkeit muss über 0 liegen, bis 20 N/mm</translation>
+    </message>
+    <message>
+        <source>waiting for the device</source>
+        <translation>es wird auf das Gerät gewartet</translation>
+    </message>
+    <message>
+        <source>move the handle through all of its workspace, and press its buttons</source>
+        <translation>führen Sie den Griff durch seinen ganzen Arbeitsraum, und drücken Sie seine Tasten</translation>
+    </message>
+    <message>
+        <source>hold the handle lightly in the middle, and keep it still</source>
+        <translation>halten Sie den Griff locker in der Mitte, und halten Sie ihn ruhig</translation>
+    </message>
+    <message>
+        <source>hold it lightly: a short push along %1</source>
+        <translation>halten Sie ihn locker: ein kurzer Stoß entlang %1</translation>
+    </message>
+    <message>
+        <source>hold it lightly: spring along %1, %#2 N/mm</source>
+        <translation>halten Sie ihn locker: Feder entlang %1, %#2 N/mm</translation>
     </message>
     <message>
         <source>%#1 stroke</source>
@@ -2384,6 +2432,10 @@
         <translation>klicken Sie den Punkt erst im Standbild an</translation>
     </message>
     <message>
+        <source>the crosshair is still at another landmark of this still; click the point of the patient in the 3D view or a slice first</source>
+        <translation>das Fadenkreuz ist noch an einer anderen Landmarke dieses Standbilds; klicken Sie zuerst den Punkt des Patienten in der 3D-Ansicht oder einer Schicht an</translation>
+    </message>
+    <message>
         <source>landmark of a still</source>
         <translation>Landmarke eines Standbilds</translation>
     </message>
@@ -2408,6 +2460,18 @@
         <translation>Deckkraft eines Standbilds</translation>
     </message>
     <message>
+        <source>left</source>
+        <translation>links</translation>
+    </message>
+    <message>
+        <source>right</source>
+        <translation>rechts</translation>
+    </message>
+    <message>
+        <source>not stated</source>
+        <translation>nicht angegeben</translation>
+    </message>
+    <message>
         <source>on the patient's left, %#1 to %#2 mm from the scanner's middle</source>
         <translation>links im Patienten, %#1 bis %#2 mm von der Mitte des Geräts</translation>
     </message>
@@ -2416,16 +2480,16 @@
         <translation>rechts im Patienten, %#1 bis %#2 mm von der Mitte des Geräts</translation>
     </message>
     <message>
-        <source>The side is stated as %1, but all of the image lies %2. Is the side right? (A patient need not lie in the middle.)</source>
-        <translation>Als Seite ist %1 angegeben, das ganze Bild liegt aber %2. Stimmt die Seite? (Ein Patient muss nicht in der Mitte liegen.)</translation>
+        <source>The side is stated as %~1, but all of the image lies %2. Is the side right? (A patient need not lie in the middle.)</source>
+        <translation>Als Seite ist %~1 angegeben, das ganze Bild liegt aber %2. Stimmt die Seite? (Ein Patient muss nicht in der Mitte liegen.)</translation>
     </message>
     <message>
-        <source>This is the %1 ear</source>
-        <translation>Dies ist das Ohr: %1</translation>
+        <source>This is the %~1 ear</source>
+        <translation>Dies ist das Ohr: %~1</translation>
     </message>
     <message>
-        <source>%1, but the side of the case is stated as %2.</source>
-        <translation>%1, als Seite des Falls ist aber %2 angegeben.</translation>
+        <source>%1, but the side of the case is stated as %~2.</source>
+        <translation>%1, als Seite des Falls ist aber %~2 angegeben.</translation>
     </message>
     <message>
         <source>%1, but all of the image lies %2.</source>
@@ -2617,6 +2681,10 @@
 </context>
 <context>
     <name>Core</name>
+    <message>
+        <source>%1, line 1: column '%2' is there twice</source>
+        <translation>%1, Zeile 1: Die Spalte „%2“ gibt es zweimal</translation>
+    </message>
     <message>
         <source>%1, line 1: there is no column '%2'; the first line must name the columns</source>
         <translation>%1, Zeile 1: Es gibt keine Spalte „%2“; die erste Zeile muss die Spalten benennen</translation>
@@ -2873,8 +2941,12 @@
         <translation>Force Dimension %1</translation>
     </message>
     <message>
-        <source>no Inverse3 is connected to the Inverse service</source>
-        <translation>kein Inverse3 ist mit dem Inverse-Dienst verbunden</translation>
+        <source>its Inverse3 is not connected to the Inverse service</source>
+        <translation>sein Inverse3 ist nicht mit dem Inverse-Dienst verbunden</translation>
+    </message>
+    <message>
+        <source>the Inverse service does not tell whether it is ready</source>
+        <translation>der Inverse-Dienst sagt nicht, ob es bereit ist</translation>
     </message>
     <message>
         <source>it has no power supply: plug it in; its forces are off</source>
@@ -2891,6 +2963,10 @@
     <message>
         <source>the Inverse service does not answer: start haply-inverse-service</source>
         <translation>der Inverse-Dienst antwortet nicht: starten Sie haply-inverse-service</translation>
+    </message>
+    <message>
+        <source>no Inverse3 is connected to the Inverse service</source>
+        <translation>kein Inverse3 ist mit dem Inverse-Dienst verbunden</translation>
     </message>
     <message>
         <source>the Inverse service is slow to answer</source>
@@ -2969,8 +3045,8 @@
         <translation>das SDK meldet: %~1</translation>
     </message>
     <message>
-        <source>its forces are off: the driver disabled them</source>
-        <translation>seine Kräfte sind aus: der Treiber schaltete sie ab</translation>
+        <source>its forces are off: the driver disabled them; choose the device again</source>
+        <translation>seine Kräfte sind aus: Der Treiber hat sie abgeschaltet; wählen Sie das Gerät neu</translation>
     </message>
     <message>
         <source>device server '%1': a name has 1 to 48 letters, digits, '.', '-' or '_'</source>
@@ -3043,6 +3119,18 @@
     <message>
         <source>the ramp must end between 0.1 and 20 N/mm</source>
         <translation>die Rampe muss zwischen 0.1 und 20 N/mm enden</translation>
+    </message>
+    <message>
+        <source>the device's readings stopped again and again</source>
+        <translation>die Messungen des Geräts setzten immer wieder aus</translation>
+    </message>
+    <message>
+        <source>the handle does not rest; hold it lightly in the middle, and keep it still</source>
+        <translation>der Griff ruht nicht; halten Sie ihn locker in der Mitte, und halten Sie ihn ruhig</translation>
+    </message>
+    <message>
+        <source>the handle moved against the force along %~1: do not use the device</source>
+        <translation>der Griff bewegte sich gegen die Kraft entlang %~1: Benutzen Sie das Gerät nicht</translation>
     </message>
     <message>
         <source>the handle was pulled away again and again; hold it lightly where it is</source>
@@ -3476,6 +3564,10 @@
     <message>
         <source>says in several ways what its values mean (real world value mappings)</source>
         <translation>sagt auf mehrere Weisen, was die Werte bedeuten (Real World Value Mappings)</translation>
+    </message>
+    <message>
+        <source>states place or values twice, for all frames and for one, and they differ</source>
+        <translation>gibt Ort oder Werte zweimal an, für alle Bilder und für eines, und sie sind verschieden</translation>
     </message>
     <message>
         <source>is cut short or damaged</source>
@@ -4062,14 +4154,6 @@
         <translation>beiseitegelegt</translation>
     </message>
     <message>
-        <source>right</source>
-        <translation>rechts</translation>
-    </message>
-    <message>
-        <source>left</source>
-        <translation>links</translation>
-    </message>
-    <message>
         <source>farthest %~1</source>
         <translation>am weitesten %~1</translation>
     </message>
@@ -4370,6 +4454,10 @@
         <translation>gibt einen Index, der keine ganze Zahl von 0 bis 65535 ist</translation>
     </message>
     <message>
+        <source>gives the index %#1 in column '%2' and %#3 in column '%4'; keep the one that the voxels have</source>
+        <translation>gibt den Index %#1 in Spalte „%2“ an und %#3 in Spalte „%4“; behalten Sie den, den die Voxel haben</translation>
+    </message>
+    <message>
         <source>gives a colour that is neither three numbers from 0 to 255 (or 0 to 1) nor #rrggbb</source>
         <translation>gibt eine Farbe, die weder drei Zahlen von 0 bis 255 (oder 0 bis 1) noch #rrggbb ist</translation>
     </message>
@@ -4506,6 +4594,10 @@
         <translation>nennt ihre Lage zweimal, einmal mit einem Quaternion (qform), das keine Drehung ist; die sform gilt</translation>
     </message>
     <message>
+        <source>places itself twice (sform and qform), and the two are mirror images of each other: left and right cannot be told; export it again with one of them</source>
+        <translation>gibt ihren Ort zweimal an (sform und qform), und beide sind Spiegelbilder voneinander: Links und rechts lassen sich nicht unterscheiden; exportieren Sie sie neu mit einem davon</translation>
+    </message>
+    <message>
         <source>places itself twice (sform and qform), up to %#1 mm apart; the sform is used, as the NIfTI standard says</source>
         <translation>nennt ihre Lage zweimal (sform und qform), bis zu %#1 mm auseinander; die sform gilt, wie der NIfTI-Standard sagt</translation>
     </message>
@@ -4620,6 +4712,10 @@
     <message>
         <source>its header gives no valid '%~1' in three dimensions; export it again with its geometry</source>
         <translation>ihr Header nennt kein gültiges „%~1“ in drei Dimensionen; exportieren Sie sie mit ihrer Geometrie neu</translation>
+    </message>
+    <message>
+        <source>its header gives the axes different units of length ('space units'), which cannot be meant; export it again with its geometry</source>
+        <translation>ihr Kopf gibt den Achsen verschiedene Längeneinheiten („space units“), was nicht gemeint sein kann; exportieren Sie sie neu mit ihrer Geometrie</translation>
     </message>
     <message>
         <source>its header gives no voxel size ('space directions'); export it again with its geometry</source>
@@ -5120,6 +5216,10 @@
     <message>
         <source>its frame %#1 %~2; export the segmentation again</source>
         <translation>ihr Frame %#1 %~2; exportieren Sie die Segmentierung neu</translation>
+    </message>
+    <message>
+        <source>states its place twice, for itself and for all frames, and they differ</source>
+        <translation>gibt seinen Ort zweimal an, für sich und für alle Bilder, und sie sind verschieden</translation>
     </message>
     <message>
         <source>states no position</source>
@@ -5937,6 +6037,14 @@
         <translation>%1: das Vorschaubild des Falls „%2“ ist beschädigt; erstellen Sie das von „%3“ neu (Bibliothek &gt; Vorschaubilder zeichnen)</translation>
     </message>
     <message>
+        <source>%~1: is missing, or not what this program wrote; restore it from a copy: without it nothing tells whether a new image is of the patient of an older one</source>
+        <translation>%~1: fehlt oder ist nicht, was dieses Programm geschrieben hat; stellen Sie es aus einer Kopie wieder her: Ohne es ist nicht zu erkennen, ob ein neues Bild vom Patienten eines älteren ist</translation>
+    </message>
+    <message>
+        <source>%1: attachment '%2' of case '%3': the linked file is another one than was attached; put the former one back, or remove the attachment and attach this one</source>
+        <translation>%1: Anhang „%2“ des Falls „%3“: Die verknüpfte Datei ist eine andere als die angehängte; legen Sie die frühere zurück, oder entfernen Sie den Anhang und hängen Sie diese an</translation>
+    </message>
+    <message>
         <source>reading cases</source>
         <translation>Fälle werden gelesen</translation>
     </message>
@@ -6385,6 +6493,10 @@
         <translation>fehlt</translation>
     </message>
     <message>
+        <source>comparing with what was attached</source>
+        <translation>Vergleich mit dem, was angehängt wurde</translation>
+    </message>
+    <message>
         <source>%~1 is not saved yet</source>
         <translation>%~1 ist noch nicht gespeichert</translation>
     </message>
@@ -6688,8 +6800,20 @@
         <translation>DICOM: zu viele Arten von Objekten für eine Übertragung; senden Sie weniger</translation>
     </message>
     <message>
+        <source>sending, %#1 of %#2</source>
+        <translation>Senden, %#1 von %#2</translation>
+    </message>
+    <message>
+        <source>receiving, %#1 of %#2</source>
+        <translation>Empfangen, %#1 von %#2</translation>
+    </message>
+    <message>
         <source>%1: cannot be read any more</source>
         <translation>%1: ist nicht mehr lesbar</translation>
+    </message>
+    <message>
+        <source>bringing to the disk</source>
+        <translation>Schreiben auf den Datenträger</translation>
     </message>
     <message>
         <source>%1: sent an instance of another patient, study or series than was asked for; the transfer was ended</source>
@@ -7429,6 +7553,10 @@
         <translation>das MR „%1“ ist nicht registriert, und der Bereich gehört zum Raum des CT; registrieren oder entfernen Sie es erst</translation>
     </message>
     <message>
+        <source>a number is no integer, or out of its range</source>
+        <translation>eine Zahl ist keine ganze oder außerhalb ihres Bereichs</translation>
+    </message>
+    <message>
         <source>registration: an error below 0 mm</source>
         <translation>Registrierung: ein Fehler unter 0 mm</translation>
     </message>
@@ -7581,6 +7709,10 @@
         <translation>ein Standbild vor dem Anfang</translation>
     </message>
     <message>
+        <source>a still later than 30 days</source>
+        <translation>ein Standbild nach mehr als 30 Tagen</translation>
+    </message>
+    <message>
         <source>a still has sides of 1 to %#1 pixels</source>
         <translation>ein Standbild hat Seiten von 1 bis %#1 Pixeln</translation>
     </message>
@@ -7623,6 +7755,10 @@
     <message>
         <source>bookmark '%1' is before the beginning</source>
         <translation>das Lesezeichen „%1“ liegt vor dem Anfang</translation>
+    </message>
+    <message>
+        <source>bookmark '%1' is later than 30 days</source>
+        <translation>das Lesezeichen „%1“ liegt nach mehr als 30 Tagen</translation>
     </message>
     <message>
         <source>two stills are of one frame</source>
@@ -7923,6 +8059,10 @@
         <translation>das Gewebe wird fühlbar gemacht</translation>
     </message>
     <message>
+        <source>touch: the tissue is of another case</source>
+        <translation>Tastsinn: Das Gewebe ist von einem anderen Fall</translation>
+    </message>
+    <message>
         <source>live session</source>
         <translation>laufende Sitzung</translation>
     </message>
@@ -8122,8 +8262,20 @@
         <translation>GStreamer lässt sich nicht starten</translation>
     </message>
     <message>
-        <source>GStreamer's element '%1' is missing; install Debian's package %2</source>
-        <translation>das GStreamer-Element „%1“ fehlt; installieren Sie das Debian-Paket %2</translation>
+        <source>%1: GStreamer's element '%2' is missing; install Debian's package %3</source>
+        <translation>%1: GStreamers Element „%2“ fehlt; installieren Sie Debians Paket %3</translation>
+    </message>
+    <message>
+        <source>and %1</source>
+        <translation>und %1</translation>
+    </message>
+    <message>
+        <source>packages %~1</source>
+        <translation>die Pakete %~1</translation>
+    </message>
+    <message>
+        <source>package %~1</source>
+        <translation>das Paket %~1</translation>
     </message>
     <message>
         <source>%1: it cannot be read any more</source>
@@ -8134,8 +8286,8 @@
         <translation>%1: die Datei ist leer</translation>
     </message>
     <message>
-        <source>%1: no decoder for it is installed (%~2); install Debian's packages gstreamer1.0-plugins-good and gstreamer1.0-libav</source>
-        <translation>%1: kein Decoder dafür ist installiert (%~2); installieren Sie die Debian-Pakete gstreamer1.0-plugins-good und gstreamer1.0-libav</translation>
+        <source>%1: no decoder for it is installed (%~2); install Debian's %~3</source>
+        <translation>%1: Kein Decoder dafür ist installiert (%~2); installieren Sie von Debian %~3</translation>
     </message>
     <message>
         <source>%1: not a video that can be read; a file such as MP4, MOV, MKV, WebM or AVI is wanted</source>
@@ -8148,6 +8300,10 @@
     <message>
         <source>%1: damaged, or not whole: no frame of it can be decoded; copy it anew</source>
         <translation>%1: beschädigt oder unvollständig: kein Bild davon lässt sich dekodieren; kopieren Sie es neu</translation>
+    </message>
+    <message>
+        <source>%1: AVI does not tell when the frames of such an H.264 video are shown; convert it to MP4 (ffmpeg -i video.avi video.mp4)</source>
+        <translation>%1: AVI sagt nicht, wann die Bilder eines solchen H.264-Videos gezeigt werden; wandeln Sie es in MP4 um (ffmpeg -i video.avi video.mp4)</translation>
     </message>
     <message>
         <source>%1: the decoder does not answer; open it again</source>
@@ -8306,6 +8462,10 @@
     <message>
         <source>looking for strokes that were not saved</source>
         <translation>nicht gespeicherte Bohrzüge werden gesucht</translation>
+    </message>
+    <message>
+        <source>device test</source>
+        <translation>Gerätetest</translation>
     </message>
     <message>
         <source>The case keeps %#1 views, and no more; type the name of one to replace it, or remove one first</source>

@@ -4050,6 +4050,10 @@
         <translation>Die Lagen der Schichten ergeben kein Gitter.</translation>
     </message>
     <message>
+        <source>unreadable</source>
+        <translation>nicht lesbar</translation>
+    </message>
+    <message>
         <source>ok</source>
         <translation>in Ordnung</translation>
     </message>
@@ -5659,6 +5663,10 @@
     <message>
         <source>larger than can be embedded</source>
         <translation>größer, als eingebettet werden kann</translation>
+    </message>
+    <message>
+        <source>changed</source>
+        <translation>verändert</translation>
     </message>
     <message>
         <source>damaged</source>
@@ -8485,7 +8493,7 @@
     </message>
     <message>
         <source>the file of '%1' is %~2</source>
-        <translation>die Datei von „%1“ ist %~2</translation>
+        <translation>die Datei von „%1“: %~2</translation>
     </message>
     <message>
         <source>choose the two bookmarks in the list between which it is repeated (Ctrl and a click)</source>

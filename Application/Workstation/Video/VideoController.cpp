@@ -61,6 +61,7 @@ VideoController::VideoController(presenters::WorkstationModel& model, ThreeDView
   , m_attachments(attachments)
   , m_editor(model)
   , m_work(std::make_unique<BackgroundWork>())
+  , m_check(std::make_unique<BackgroundWork>())
   , m_menu(new QMenu(tr("Vide&o"), &window))
   , m_overlay(new StillOverlay(view))
   , m_mail(std::make_shared<Mail>())
@@ -313,11 +314,30 @@ void VideoController::choose(const std::string& name)
         m_isOpening = true;
         m_panel->setOpening(true);
         m_opening = player().open(file, name);
+        if (!one.link.empty())
+          checkLinked(one);
+      });
+}
+
+// Another file may be as large; it is read while the video is shown.
+void VideoController::checkLinked(const scene::Attachment& one)
+{
+  m_check->replace(
+      [this, one, library = m_model.library(),
+       opening = m_opening](const core::Progress& progress) -> BackgroundWork::Reply
+      {
+        const std::string problem = library::attachmentChange(library, one, progress);
+        return [this, problem, opening, name = one.name]
+        {
+          if (!problem.empty() && opening == m_opening)
+            failed(phrase("the file of '" + name + "' is " + problem));
+        };
       });
 }
 
 void VideoController::closeVideo()
 {
+  m_check->abandon();
   if (m_player)
     m_player->close();
   m_opening = 0;

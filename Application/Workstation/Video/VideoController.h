@@ -65,6 +65,7 @@ private:
   void attachmentsChanged();
   void choose(const std::string& name);
   void closeVideo();
+  void checkLinked(const petrous::scene::Attachment& one);
   void opened(const video::VideoInfo& info);
   void failed(const QString& why);
   void tellGap(const video::Gap& gap);
@@ -83,7 +84,8 @@ private:
   ThreeDView& m_view;
   AttachmentsController& m_attachments;
   presenters::VideoEditor m_editor;
-  std::unique_ptr<BackgroundWork> m_work; // seeks cameras
+  std::unique_ptr<BackgroundWork> m_work;  // seeks cameras
+  std::unique_ptr<BackgroundWork> m_check; // that a linked file is what was attached
   QMenu* m_menu;
   QAction *m_play, *m_back, *m_forth, *m_nextBookmark, *m_previousBookmark, *m_loop, *m_bookmark,
       *m_pair, *m_showView;

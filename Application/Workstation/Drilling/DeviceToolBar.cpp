@@ -76,7 +76,7 @@ DeviceToolBar::DeviceToolBar(QWidget* parent)
   menu->setToolTipsVisible(true);
   menu->addActions({m_connect, m_test});
   more->setMenu(menu);
-  addWidget(more);
+  m_more = addWidget(more); // both stand in the Drill menu, too
   m_scaleParts = add(tr("Scale"), m_scale);
   m_limitParts = add(tr("At most"), m_limit);
   connect(m_choice, qOverload<int>(&QComboBox::activated), this,
@@ -132,6 +132,7 @@ void DeviceToolBar::showMapping(const haptics::DeviceDescription* device, double
     part->setVisible(device != nullptr);
   for (QAction* part : m_limitParts)
     part->setVisible(force);
+  m_more->setVisible(device == nullptr); // its scale and force need the room
   m_here->setEnabled(device != nullptr);
   m_scale->setValue(scale);
   if (!force)

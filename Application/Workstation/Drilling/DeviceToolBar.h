@@ -46,6 +46,7 @@ private:
   QAction* m_here;
   QAction* m_test;
   QAction* m_connect;
+  QAction* m_more = nullptr; // the button that offers these two
 };
 
 } // namespace petrous::workstation

@@ -252,8 +252,7 @@ TEST_F(Approaches, AreComparedByOneKey)
   EXPECT_EQ(first->picture().camera().position, camera.position);
 
   auto* slice = window().findChild<SliceColumn*>()->views()[0];
-  QTest::qWait(300);
-  const QImage before = slice->grab().toImage();
+  const QImage before = steady([&] { return slice->grab().toImage(); });
   comparison()->findChild<QCheckBox*>("showDifference")->click();
   EXPECT_FALSE(second->isVisible());
   QTest::qWait(700);

@@ -673,6 +673,7 @@ TEST_F(Drill, NoStrokeWaitsForTheDisk)
     const QPoint place = view().rect().center() + QPoint(at, 0);
     QTest::mouseMove(&view(), place);
     QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, place);
+    EXPECT_TRUE(waitFor([this] { return window().model().drilling(); }));
     QTest::qWait(400);
     QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, place);
     EXPECT_TRUE(end());

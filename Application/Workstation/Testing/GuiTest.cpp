@@ -109,7 +109,8 @@ void GuiTest::openWindow(const QString& what)
 
 void GuiTest::closeWindow()
 {
-  m_window->close();
+  if (m_window)
+    m_window->close();
   m_window.reset();
 }
 
@@ -292,6 +293,19 @@ void GuiTest::onDialog(const std::function<bool(QDialog&)>& react)
                      *busy = false;
                    });
   poll->start(20);
+}
+
+QImage GuiTest::steady(const std::function<QImage()>& picture)
+{
+  QImage last = picture();
+  for (int unchanged = 0; unchanged < 4;)
+  {
+    QTest::qWait(100);
+    QImage next = picture();
+    unchanged = next == last ? unchanged + 1 : 0;
+    last = std::move(next);
+  }
+  return last;
 }
 
 bool GuiTest::waitFor(const std::function<bool()>& done, int milliseconds)

@@ -71,6 +71,8 @@ protected:
   /// Polls `react` with the dialog that is open, until it returns true. Progress is no dialog here.
   void onDialog(const std::function<bool(QDialog&)>& react);
   static bool waitFor(const std::function<bool()>& done, int milliseconds = 60000);
+  /// What is shown once it has not changed for 400 ms: panels, banners and text come later.
+  static QImage steady(const std::function<QImage()>& picture);
 
 private:
   QTemporaryDir m_folder;

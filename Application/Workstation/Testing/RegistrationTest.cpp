@@ -167,7 +167,7 @@ TEST_F(RegistrationWindow, LoadsNothingOfTheMrUntilItIsShown)
   EXPECT_EQ(state(), "not registered");
   EXPECT_EQ(mr().volume.peek(), nullptr);
   ASSERT_TRUE(waitFor([this] { return settled(); }));
-  const QImage ct = axial();
+  const QImage ct = steady([this] { return axial(); });
   choose(2); // edges
   EXPECT_NE(mr().volume.peek(), nullptr);
   EXPECT_NE(axial(), ct);

@@ -201,6 +201,7 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   drill->addAction(drillBar.pointerAction());
   drill->addAction(drillBar.wheelAction());
   drill->addAction(deviceBar.hereAction());
+  drill->addActions({deviceBar.connectAction(), deviceBar.testAction()});
   smallerBurr = make(drill, tr("&Smaller burr"), Qt::Key_BracketLeft,
                      tr("The next smaller one that is sold"));
   largerBurr =

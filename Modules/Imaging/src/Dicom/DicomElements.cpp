@@ -414,14 +414,18 @@ bool DicomElements::contradictsShared(Tag tag) const
   const std::string* own = find(m_frames[m_frame], tag);
   if (!shared || !own || *shared == *own)
     return false;
-  const auto numbersOf = [](const std::string& value)
+  const auto numbersOf = [](std::string_view rest)
   {
+    constexpr std::string_view kPadding(" \0", 2);
     std::vector<double> numbers;
-    std::string_view rest = value;
     while (!rest.empty())
     {
       const std::size_t end = std::min(rest.find('\\'), rest.size());
-      numbers.push_back(core::parseDouble(std::string(rest.substr(0, end))).value_or(std::nan("")));
+      std::string_view word = rest.substr(0, end);
+      word.remove_prefix(std::min(word.find_first_not_of(kPadding), word.size()));
+      word = word.substr(0, word.find_last_not_of(kPadding) + 1);
+      word.remove_prefix(!word.empty() && word.front() == '+' ? 1 : 0);
+      numbers.push_back(core::parseDouble(std::string(word)).value_or(0.0));
       rest.remove_prefix(std::min(end + 1, rest.size()));
     }
     return numbers;

@@ -215,6 +215,7 @@ void DrillController::restartTool()
   applyBar();
   if (m_devices.device())
     m_anew.start();
+  prepareAhead();
 }
 
 void DrillController::renewTool()
@@ -228,6 +229,14 @@ void DrillController::tissueCame()
 {
   if (m_tool != Tool::None)
     m_devices.device() ? void(takeTool()) : takeAtPointer();
+  prepareAhead();
+}
+
+// So that the tool is there at once when it is wanted.
+void DrillController::prepareAhead()
+{
+  if (m_model.hasCase() && m_model.ready() && !m_model.toolReady(toolChosen()))
+    prepareTool(toolChosen());
 }
 
 void DrillController::bringHere()
@@ -253,10 +262,11 @@ session::TouchTool DrillController::toolChosen() const
 
 void DrillController::prepareTool(const session::TouchTool& tool)
 {
+  if (m_tool != Tool::None)
+    emit statusMessage(m_tool == Tool::Burr ? tr("Taking up the burr…")
+                                            : tr("Taking up the pointer…"));
   if (m_preparation.busy()) // the tool chosen by then is looked at when it ends
     return;
-  emit statusMessage(m_tool == Tool::Burr ? tr("Taking up the burr…")
-                                          : tr("Taking up the pointer…"));
   m_preparation.start(
       [this, make = m_model.toolPreparation(tool)](
           const core::Progress& progress) -> BackgroundWork::Reply

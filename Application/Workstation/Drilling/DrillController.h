@@ -65,6 +65,7 @@ private:
   void restartTool();
   void takeAtPointer();
   session::TouchTool toolChosen() const;
+  void prepareAhead();
   void prepareTool(const session::TouchTool& tool); // then it is taken up
   void applyBar();
   void deviceCame();

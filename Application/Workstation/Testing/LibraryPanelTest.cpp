@@ -578,8 +578,7 @@ TEST_F(LibraryWindow, PicturesAreDrawnInTheBackground)
   EXPECT_TRUE(action("Drill")->isChecked());
   QTest::keyClick(&view(), Qt::Key_D); // the tool is put away
   ASSERT_TRUE(waitFor([&] { return has("ball"); }));
-  EXPECT_FALSE(has("other"));
-  showPanel();
+  showPanel(); // the first page has shown the other one, too, if it was there long enough
   ASSERT_TRUE(waitFor([&] { return has("other"); }));
   const auto shown = [&](int row)
   {

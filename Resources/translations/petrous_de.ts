@@ -972,12 +972,13 @@
         <source>Approach</source>
         <translation>Zugang</translation>
     </message>
-    <message numerus="yes">
-        <source>Name of the approach that begins here, after %n stroke(s):</source>
-        <translation>
-            <numerusform>Name des Zugangs, der hier nach %n Bohrzug beginnt:</numerusform>
-            <numerusform>Name des Zugangs, der hier nach %n Bohrzügen beginnt:</numerusform>
-        </translation>
+    <message>
+        <source>Name of the approach that begins here, after one stroke:</source>
+        <translation>Name des Zugangs, der hier nach einem Bohrzug beginnt:</translation>
+    </message>
+    <message>
+        <source>Name of the approach that begins here, after %1 strokes:</source>
+        <translation>Name des Zugangs, der hier nach %1 Bohrzügen beginnt:</translation>
     </message>
 </context>
 <context>
@@ -1639,13 +1640,6 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <source>Another place?</source>
         <translation>Ein anderer Ort?</translation>
     </message>
-    <message numerus="yes">
-        <source>No structure of “%1” lies in the image of this case (%n of them): nothing of them will be seen or felt.</source>
-        <translation>
-            <numerusform>Die Struktur aus „%1“ liegt nicht im Bild dieses Falls: Nichts von ihr wird zu sehen oder zu fühlen sein.</numerusform>
-            <numerusform>Keine der %n Strukturen aus „%1“ liegt im Bild dieses Falls: Nichts von ihnen wird zu sehen oder zu fühlen sein.</numerusform>
-        </translation>
-    </message>
     <message>
         <source>They may be another patient&apos;s, or of another scan.</source>
         <translation>Sie gehören vielleicht zu einem anderen Patienten oder zu einer anderen Aufnahme.</translation>
@@ -1657,6 +1651,14 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     <message>
         <source>&amp;Add anyway</source>
         <translation>Trotzdem &amp;hinzufügen</translation>
+    </message>
+    <message>
+        <source>The structure of “%1” lies outside the image of this case: nothing of it will be seen or felt.</source>
+        <translation>Die Struktur aus „%1“ liegt außerhalb des Bilds dieses Falls: Nichts von ihr wird zu sehen oder zu fühlen sein.</translation>
+    </message>
+    <message>
+        <source>None of the %2 structures of “%1” lies in the image of this case: nothing of them will be seen or felt.</source>
+        <translation>Keine der %2 Strukturen aus „%1“ liegt im Bild dieses Falls: Nichts von ihnen wird zu sehen oder zu fühlen sein.</translation>
     </message>
 </context>
 <context>
@@ -2228,13 +2230,6 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <source>Workspace %1 × %2 × %3 mm, %4 readings/s</source>
         <translation>Arbeitsraum %1 × %2 × %3 mm, %4 Messungen/s</translation>
     </message>
-    <message numerus="yes">
-        <source>The device reported a fault %n time(s)</source>
-        <translation>
-            <numerusform>Das Gerät meldete %n Fehler</numerusform>
-            <numerusform>Das Gerät meldete %n Fehler</numerusform>
-        </translation>
-    </message>
     <message>
         <source>It gives no force.</source>
         <translation>Es gibt keine Kraft.</translation>
@@ -2262,6 +2257,14 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     <message>
         <source>Kept for this device</source>
         <translation>Für dieses Gerät behalten</translation>
+    </message>
+    <message>
+        <source>The device reported a fault once</source>
+        <translation>Das Gerät meldete einen Fehler</translation>
+    </message>
+    <message>
+        <source>The device reported a fault %1 times</source>
+        <translation>Das Gerät meldete %1 Fehler</translation>
     </message>
 </context>
 <context>

@@ -182,8 +182,10 @@ void BranchController::start()
     return;
   const std::string chosen =
       bytes(askName(m_window, tr("New approach"),
-                    tr("Name of the approach that begins here, after %n stroke(s):", nullptr,
-                       static_cast<int>(m_model.value().applied())),
+                    m_model.value().applied() == 1
+                        ? tr("Name of the approach that begins here, after one stroke:")
+                        : tr("Name of the approach that begins here, after %1 strokes:")
+                              .arg(m_model.value().applied()),
                     {},
                     [this](const std::string& name)
                     {

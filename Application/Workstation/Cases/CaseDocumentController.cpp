@@ -1009,10 +1009,14 @@ bool CaseDocumentController::askOutside(const std::vector<presenters::StructureR
     return true;
   const QScopedValueRollback<bool> asking(m_asking, true);
   QMessageBox box(QMessageBox::Warning, tr("Another place?"),
-                  tr("No structure of “%1” lies in the image of this case (%n of them): nothing of "
-                     "them will be seen or felt.",
-                     nullptr, read)
-                      .arg(what),
+                  read == 1
+                      ? tr("The structure of “%1” lies outside the image of this case: nothing "
+                           "of it will be seen or felt.")
+                            .arg(what)
+                      : tr("None of the %2 structures of “%1” lies in the image of this case: "
+                           "nothing of them will be seen or felt.")
+                            .arg(what)
+                            .arg(read),
                   QMessageBox::NoButton, &m_window);
   box.setObjectName("askOutside");
   box.setTextFormat(Qt::PlainText);

@@ -177,7 +177,8 @@ void DeviceTestDialog::showOutcome(const Outcome& outcome)
                .arg(numberText(size.x(), 0), numberText(size.y(), 0), numberText(size.z(), 0),
                     numberText(result.rate, 0));
   if (result.faults > 0)
-    lines << tr("The device reported a fault %n time(s)", nullptr, result.faults);
+    lines << (result.faults == 1 ? tr("The device reported a fault once")
+                                 : tr("The device reported a fault %1 times").arg(result.faults));
   if (!result.problem.empty())
     lines << sentence(phrase(result.problem));
   else if (!description.givesForce)

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 
@@ -98,11 +97,15 @@ bool position(const unsigned char* content, std::uint64_t size, TrackedPose& pos
   return true;
 }
 
+char upper(char c) noexcept
+{
+  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+}
+
 bool isWord(const std::string& value, const char* word)
 {
   return std::equal(value.begin(), value.end(), word, word + std::strlen(word),
-                    [](unsigned char a, unsigned char b)
-                    { return std::toupper(a) == std::toupper(b); });
+                    [](char a, char b) { return upper(a) == upper(b); });
 }
 
 // Whether metadata say that the tracker does not see the tool: a count of entries, 8 bytes each

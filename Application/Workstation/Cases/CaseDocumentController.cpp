@@ -1022,11 +1022,11 @@ bool CaseDocumentController::askOutside(const std::vector<presenters::StructureR
   box.setTextFormat(Qt::PlainText);
   box.setInformativeText(tr("They may be another patient's, or of another scan."));
   auto* leave = box.addButton(tr("Do &not add"), QMessageBox::RejectRole);
-  box.addButton(tr("&Add anyway"), QMessageBox::AcceptRole);
+  auto* add = box.addButton(tr("&Add anyway"), QMessageBox::AcceptRole);
   box.setDefaultButton(leave);
   box.setEscapeButton(leave);
   box.exec();
-  return box.clickedButton() != leave;
+  return box.clickedButton() == add;
 }
 
 // What did not come into the case, and structures that are not as their file says. Parts are added

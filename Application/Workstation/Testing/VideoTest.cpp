@@ -259,7 +259,7 @@ TEST_F(VideoPanels, FitALowAndNarrowScreen)
   auto* scroll = child<QToolButton>("videoPlay").parentWidget()->parentWidget()->parentWidget();
   auto* area = qobject_cast<QScrollArea*>(scroll);
   ASSERT_TRUE(area);
-  EXPECT_LE(area->widget()->minimumSizeHint().width(), 400);
+  EXPECT_LE(area->widget()->minimumSizeHint().width(), 460);
   EXPECT_TRUE(settled());
   EXPECT_EQ(area->horizontalScrollBar()->maximum(), 0);
   for (const char* name : {"videoAttach", "videoPlay", "bookmarkAdd", "videoLoop"})

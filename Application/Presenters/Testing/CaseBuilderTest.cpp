@@ -52,6 +52,24 @@ protected:
   }
   void TearDown() override { std::filesystem::remove_all(m_folder); }
 
+  /// A CT (`file` is "ct") or MR series of this patient.
+  PartSource writeSeriesOf(const std::string& file, const std::string& id,
+                           const std::string& name) const
+  {
+    const auto scan = std::make_shared<const volume::Volume<std::int16_t>>(
+        core::GridGeometry({8, 8, 8}, Vector3d::Ones(), Vector3d::Zero()), std::int16_t{40});
+    imaging::SeriesDescription series;
+    series.modality = file == "ct" ? imaging::SeriesDescription::Modality::Ct
+                                   : imaging::SeriesDescription::Modality::Mr;
+    series.patientId = id;
+    series.patientName = name;
+    series.studyUid = imaging::deterministicUid(2, file);
+    series.seriesUid = imaging::deterministicUid(1, file);
+    series.frameOfReferenceUid = imaging::deterministicUid(3, file);
+    imaging::writeDicomSeries(m_folder / file, volume::IntensityVolume(scan), series);
+    return PartSource{file, m_folder / file};
+  }
+
   /// One structure, of index 1.
   void writeSegmentation(const std::string& file,
                          std::shared_ptr<const volume::Volume<std::uint16_t>> voxels,
@@ -272,21 +290,6 @@ TEST_F(CaseBuilder, TellsImagesOfOneFrameOfReferenceWithoutItsUid)
 // nothing.
 TEST_F(CaseBuilder, AsksBeforeAnMrOfAnotherPseudonymJoins)
 {
-  const auto scan = std::make_shared<const volume::Volume<std::int16_t>>(
-      core::GridGeometry({8, 8, 8}, Vector3d::Ones(), Vector3d::Zero()), std::int16_t{40});
-  const auto write = [&](const std::string& file, const std::string& id, const std::string& name)
-  {
-    imaging::SeriesDescription series;
-    series.modality = file == "ct" ? imaging::SeriesDescription::Modality::Ct
-                                   : imaging::SeriesDescription::Modality::Mr;
-    series.patientId = id;
-    series.patientName = name;
-    series.studyUid = imaging::deterministicUid(2, file);
-    series.seriesUid = imaging::deterministicUid(1, file);
-    series.frameOfReferenceUid = imaging::deterministicUid(3, file);
-    imaging::writeDicomSeries(m_folder / file, volume::IntensityVolume(scan), series);
-    return PartSource{file, m_folder / file};
-  };
   const std::string one = "PETROUS-0000000000000001", two = "PETROUS-0000000000000002";
   const auto salted = [](const std::string& hash) { return "salt " + hash; };
   for (const bool isSaved : {false, true})
@@ -297,7 +300,7 @@ TEST_F(CaseBuilder, AsksBeforeAnMrOfAnotherPseudonymJoins)
           std::tuple(std::pair(one, "Petrous^x"), std::pair(std::string("4711"), "Doe^J"), false),
           std::tuple(std::pair(one, "Petrous^x"), std::pair(std::string(), ""), false)})
     {
-      m_sources.ct = write("ct", ofCt.first, ofCt.second).path;
+      m_sources.ct = writeSeriesOf("ct", ofCt.first, ofCt.second).path;
       auto value = presenters::buildCase("ear", m_sources, {});
       presenters::PartSources parts;
       if (isSaved)
@@ -306,7 +309,7 @@ TEST_F(CaseBuilder, AsksBeforeAnMrOfAnotherPseudonymJoins)
         value = scene::fromManifest(scene::toManifest(value), "case");
         parts.salted = salted;
       }
-      parts.mr = {write("mr", ofMr.first, ofMr.second)};
+      parts.mr = {writeSeriesOf("mr", ofMr.first, ofMr.second)};
       const std::string what = ofCt.second + std::string(", ") + ofMr.second;
       if (isRefused)
         EXPECT_THROW(presenters::addParts(value, parts, {}), presenters::OtherPatient) << what;
@@ -320,22 +323,7 @@ TEST_F(CaseBuilder, AsksBeforeAnMrOfAnotherPseudonymJoins)
 
 TEST_F(CaseBuilder, AsksBeforeAnMrOfAnotherPatientJoins)
 {
-  const auto scan = std::make_shared<const volume::Volume<std::int16_t>>(
-      core::GridGeometry({8, 8, 8}, Vector3d::Ones(), Vector3d::Zero()), std::int16_t{40});
-  const auto write = [&](const std::string& file, const std::string& id, const std::string& name)
-  {
-    imaging::SeriesDescription series;
-    series.modality = file == "ct" ? imaging::SeriesDescription::Modality::Ct
-                                   : imaging::SeriesDescription::Modality::Mr;
-    series.patientId = id;
-    series.patientName = name;
-    series.studyUid = imaging::deterministicUid(2, file);
-    series.seriesUid = imaging::deterministicUid(1, file);
-    series.frameOfReferenceUid = imaging::deterministicUid(3, file);
-    imaging::writeDicomSeries(m_folder / file, volume::IntensityVolume(scan), series);
-    return PartSource{file, m_folder / file};
-  };
-  m_sources.ct = write("ct", "4711", "Doe^Jane").path;
+  m_sources.ct = writeSeriesOf("ct", "4711", "Doe^Jane").path;
   auto value = presenters::buildCase("ear", m_sources, {});
   const auto before = scene::toManifest(value);
   const auto add = [&](PartSource source)
@@ -344,7 +332,7 @@ TEST_F(CaseBuilder, AsksBeforeAnMrOfAnotherPatientJoins)
     parts.mr = {std::move(source)};
     presenters::addParts(value, parts, {});
   };
-  PartSource other = write("T1", "4712", "Roe^Jane");
+  PartSource other = writeSeriesOf("T1", "4712", "Roe^Jane");
   try
   {
     add(other);
@@ -360,13 +348,13 @@ TEST_F(CaseBuilder, AsksBeforeAnMrOfAnotherPatientJoins)
   }
   EXPECT_EQ(scene::toManifest(value), before);
   presenters::PartSources both;
-  both.mr = {other, write("T2", "4711", "DOE JANE^^^")}; // spelled otherwise
+  both.mr = {other, writeSeriesOf("T2", "4711", "DOE JANE^^^")}; // spelled otherwise
   const auto failures = presenters::addSoundParts(value, both, {});
   ASSERT_EQ(failures.size(), 1u);
   EXPECT_TRUE(failures[0].isOtherPatient);
   ASSERT_EQ(value.mr.size(), 1u);
   EXPECT_TRUE(value.mr[0].notes.empty());
-  add(write("T3", "ANONYMOUS", "")); // states none
+  add(writeSeriesOf("T3", "ANONYMOUS", "")); // states none
   other.isOtherPatient = true;
   add(other);
   ASSERT_EQ(value.mr.size(), 3u);

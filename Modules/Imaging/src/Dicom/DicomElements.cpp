@@ -7,7 +7,6 @@
 #include <cstring>
 #include <string_view>
 
-#include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/DicomReader.h"
 
 namespace petrous::imaging
@@ -406,46 +405,14 @@ const std::string* DicomElements::find(Tag tag) const
   return find(m_values, tag);
 }
 
-bool DicomElements::contradictsShared(Tag tag) const
+namespace
 {
-  if (m_frame >= m_frames.size() || m_shared.empty())
-    return false;
-  const std::string* shared = find(m_shared.front(), tag);
-  const std::string* own = find(m_frames[m_frame], tag);
-  if (!shared || !own || *shared == *own)
-    return false;
-  const auto numbersOf = [](std::string_view rest)
-  {
-    constexpr std::string_view kPadding(" \0", 2);
-    std::vector<double> numbers;
-    while (!rest.empty())
-    {
-      const std::size_t end = std::min(rest.find('\\'), rest.size());
-      std::string_view word = rest.substr(0, end);
-      word.remove_prefix(std::min(word.find_first_not_of(kPadding), word.size()));
-      word = word.substr(0, word.find_last_not_of(kPadding) + 1);
-      word.remove_prefix(!word.empty() && word.front() == '+' ? 1 : 0);
-      numbers.push_back(core::parseDouble(std::string(word)).value_or(0.0));
-      rest.remove_prefix(std::min(end + 1, rest.size()));
-    }
-    return numbers;
-  };
-  return numbersOf(*shared) != numbersOf(*own);
-}
 
-std::string DicomElements::bytes(Tag tag) const
+/// Without padding and control characters.
+std::string textOf(const std::string& value)
 {
-  const std::string* value = find(tag);
-  return value ? *value : std::string();
-}
-
-std::string DicomElements::text(Tag tag) const
-{
-  const std::string* found = find(tag);
   std::string result;
-  if (!found)
-    return result;
-  for (const char c : *found)
+  for (const char c : value)
     if (static_cast<unsigned char>(c) >= 0x20 && c != 0x7f)
       result += c;
   result.erase(result.find_last_not_of(' ') + 1);
@@ -453,10 +420,10 @@ std::string DicomElements::text(Tag tag) const
   return result;
 }
 
-std::vector<std::string> DicomElements::words(Tag tag) const
+/// The values of a text, which backslashes divide.
+std::vector<std::string> wordsOf(std::string rest)
 {
   std::vector<std::string> result;
-  std::string rest = text(tag);
   while (!rest.empty())
   {
     const std::size_t end = std::min(rest.find('\\'), rest.size());
@@ -469,13 +436,11 @@ std::vector<std::string> DicomElements::words(Tag tag) const
   return result;
 }
 
-std::vector<double> DicomElements::numbers(Tag tag, std::size_t count) const
+/// Decimal strings; empty if one is malformed.
+std::vector<double> numbersOf(const std::vector<std::string>& parts)
 {
-  const std::vector<std::string> parts = words(tag);
-  if (parts.size() != count)
-    return {};
-  std::vector<double> result(count);
-  for (std::size_t i = 0; i < count; ++i)
+  std::vector<double> result(parts.size());
+  for (std::size_t i = 0; i < parts.size(); ++i)
   {
     const char* first = parts[i].data();
     const char* last = first + parts[i].size();
@@ -486,6 +451,43 @@ std::vector<double> DicomElements::numbers(Tag tag, std::size_t count) const
       return {};
   }
   return result;
+}
+
+} // namespace
+
+bool DicomElements::contradictsShared(Tag tag) const
+{
+  if (m_frame >= m_frames.size() || m_shared.empty())
+    return false;
+  const std::string* shared = find(m_shared.front(), tag);
+  const std::string* own = find(m_frames[m_frame], tag);
+  if (!shared || !own || *shared == *own)
+    return false;
+  const std::vector<double> ofAll = numbersOf(wordsOf(textOf(*shared)));
+  return ofAll.empty() || ofAll != numbersOf(wordsOf(textOf(*own)));
+}
+
+std::string DicomElements::bytes(Tag tag) const
+{
+  const std::string* value = find(tag);
+  return value ? *value : std::string();
+}
+
+std::string DicomElements::text(Tag tag) const
+{
+  const std::string* found = find(tag);
+  return found ? textOf(*found) : std::string();
+}
+
+std::vector<std::string> DicomElements::words(Tag tag) const
+{
+  return wordsOf(text(tag));
+}
+
+std::vector<double> DicomElements::numbers(Tag tag, std::size_t count) const
+{
+  const std::vector<std::string> parts = words(tag);
+  return parts.size() == count ? numbersOf(parts) : std::vector<double>();
 }
 
 std::optional<double> DicomElements::number(Tag tag) const

@@ -39,10 +39,10 @@ std::vector<std::filesystem::path> framesBeyond(const std::filesystem::path& fil
                                                 std::size_t frames);
 
 /// Draws a scene from one camera after the other, off-screen, on any thread: complete, in place of
-/// an earlier film and of its framesBeyond (FilmOptions::removesAnyBeyond), or not at all. A video is encoded by ffmpeg (H.264).
-/// Throws InvalidParameter for a name that is neither or without ffmpeg, core::Error (Refused)
-/// where that fails, RenderingError, core::OutputFileError, CancelledError. Returns how many
-/// framesBeyond were removed.
+/// an earlier film and of its framesBeyond (FilmOptions::removesAnyBeyond), or not at all. A video
+/// is encoded by ffmpeg (H.264). Throws InvalidParameter for a name that is neither or without
+/// ffmpeg, core::Error (Refused) where that fails, RenderingError, core::OutputFileError,
+/// CancelledError. Returns how many framesBeyond were removed.
 std::size_t writeFilm(const std::filesystem::path& file, const rendering::SceneContents& contents,
                       const std::vector<core::CameraPose>& cameras, const FilmOptions& options,
                       const core::Progress& progress = {});

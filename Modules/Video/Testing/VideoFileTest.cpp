@@ -370,6 +370,7 @@ class Hidden
 public:
   explicit Hidden(std::initializer_list<const char*> names)
   {
+    gst_init(nullptr, nullptr); // without it the registry is empty
     for (const char* name : names)
       if (GstPluginFeature* one = gst_registry_lookup_feature(gst_registry_get(), name))
       {

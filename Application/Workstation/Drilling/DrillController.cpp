@@ -305,6 +305,7 @@ bool DrillController::takeTool()
     setup.cuts = m_tool == Tool::Burr;
     haptics::Device& device = m_driver.prepare(setup);
     m_model.startTouch(device, setup);
+    m_model.touch()->setCamera(m_view.picture().camera()); // a held button drills at once
   }
   catch (const core::Error& error)
   {

@@ -35,6 +35,7 @@ struct petrous_device_server
   int ending;           /* the device is to be closed */
   int told;             /* `text` is published */
   int64_t exchanged_ns; /* end of the last exchange, or when opening began */
+  pid_t parent;         /* which started the server */
   uint32_t result;      /* of the last step */
   char text[128];       /* of petrous_device_explain; read by the thread that writes it */
 };
@@ -210,8 +211,8 @@ static void* supervise(void* argument)
   struct petrous_device_server* server = argument;
   struct petrous_device_block* block = server->block;
   /* Where Petrous itself started the server, its death is seen at once. */
-  const pid_t parent = getppid();
-  const int child = (uint32_t)parent == __atomic_load_n(&block->petrous_pid, __ATOMIC_RELAXED);
+  const int child =
+      (uint32_t)server->parent == __atomic_load_n(&block->petrous_pid, __ATOMIC_RELAXED);
   uint64_t beat = 0;
   int64_t heard_ns = petrous_device_now();
   int64_t ended_ns = 0;
@@ -222,7 +223,7 @@ static void* supervise(void* argument)
     if (petrous != beat)
       heard_ns = now;
     beat = petrous;
-    if (asked_to_end || now - heard_ns > alone_ns || (child && getppid() != parent) ||
+    if (asked_to_end || now - heard_ns > alone_ns || (child && getppid() != server->parent) ||
         __atomic_load_n(&block->petrous_state, __ATOMIC_ACQUIRE) != PETROUS_RUNNING)
       __atomic_store_n(&server->ending, 1, __ATOMIC_RELEASE);
     if (__atomic_load_n(&server->ending, __ATOMIC_ACQUIRE))
@@ -330,6 +331,7 @@ int petrous_device_serve(const struct petrous_device_driver* driver, const char*
   sigaction(SIGTERM, &action, NULL);
   sigaction(SIGINT, &action, NULL);
 
+  server.parent = getppid(); /* the thread that watches it may begin when it is gone */
   server.driver = driver;
   server.block = open_block(driver->program, block_name);
   if (!server.block)

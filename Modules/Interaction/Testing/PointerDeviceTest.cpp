@@ -216,6 +216,51 @@ TEST(PointerDevice, ReleasesButtonsOfAWindowThatHangs)
   EXPECT_EQ(device.read(now += 0.001).buttons, PointerDevice::kDrill | PointerDevice::kFreeze);
 }
 
+// A tap leaps and presses at once: nothing must be drilled between the old place and the new one.
+TEST(PointerDevice, ADrillPressedOnTheWayIsOnWhereItArrives)
+{
+  PointerDevice device(kCenter);
+  Hand hand(device);
+  device.want({kCenter, kHeading});
+  hand.run(30);
+  const Pose there{kCenter + Vector3d(40.0, 0.0, 0.0), kHeading};
+  device.want(there);
+  device.setButtons(PointerDevice::kDrill | PointerDevice::kFreeze);
+  for (int n = 0; n < 300; ++n)
+  {
+    hand.tick();
+    EXPECT_TRUE(hand.record.input.buttons & PointerDevice::kFreeze);
+    const double way = (hand.tool().position - there.position).norm();
+    EXPECT_EQ((hand.record.input.buttons & PointerDevice::kDrill) != 0, way <= 0.5) << way;
+  }
+  expectAt(hand.tool(), there);
+  device.want({kCenter, kHeading}); // a drag: it drills all the way
+  for (int n = 0; n < 300; ++n)
+  {
+    hand.tick();
+    EXPECT_TRUE(hand.record.input.buttons & PointerDevice::kDrill);
+  }
+}
+
+TEST(PointerDevice, ADrillPressedUnderAMovingPointerIsOnOnceItIsFollowed)
+{
+  PointerDevice device(kCenter);
+  Hand hand(device);
+  device.want({kCenter, kHeading});
+  hand.run(30);
+  device.setButtons(PointerDevice::kDrill);
+  device.want({kCenter + Vector3d(20.0, 0.0, 0.0), kHeading});
+  int off = 0;
+  for (int n = 0; n < 400; ++n) // 100 mm/s from a leap of 20 mm: 1 mm ahead of the tool
+  {
+    device.want({kCenter + Vector3d(20.0 + 0.1 * n, 0.0, 0.0), kHeading});
+    hand.tick();
+    off += (hand.record.input.buttons & PointerDevice::kDrill) == 0;
+  }
+  EXPECT_GT(off, 40); // 20 mm at 500 mm/s
+  EXPECT_LT(off, 100);
+}
+
 TEST(PointerDevice, StaysInPlaceOverASleepAndABackwardClock)
 {
   PointerDevice device(kCenter);

@@ -20,6 +20,8 @@ namespace
 constexpr double kMaxStep = 0.05;     // s, max. time step after a pause of the servo
 constexpr double kSamePlace = 1e-6;   // mm
 constexpr double kSameHeading = 1e-6; // rad
+constexpr double kArrived = 0.5;      // mm from the wanted pose
+constexpr double kSettled = 5.0;      // time constants: under a pointer that goes on moving
 
 void check(bool holds, const char* what)
 {
@@ -124,12 +126,23 @@ haptics::DeviceReading PointerDevice::read(double now) noexcept
   haptics::DeviceReading reading;
   reading.time = now;
   reading.pose = m_pose;
-  if (now - m_heardAt <= m_limits.silence)
-  {
-    reading.buttons = m_heard.buttons;
-  }
+  reading.buttons = buttonsNow(now);
   reading.health = m_placed ? haptics::DeviceHealth::Good : haptics::DeviceHealth::NotReady;
   return reading;
+}
+
+std::uint32_t PointerDevice::buttonsNow(double now) noexcept
+{
+  const std::uint32_t held = now - m_heardAt <= m_limits.silence ? m_heard.buttons : 0U;
+  const bool pressed = (held & kDrill) != 0;
+  if (pressed && !m_pressed)
+    m_pressedAt = now;
+  m_pressed = pressed;
+  const double way = (m_heard.pose.pose().position - m_pose.position).norm();
+  const bool follows = way <= m_limits.speed * m_limits.settle &&
+                       now - m_pressedAt > kSettled * m_limits.settle;
+  m_arrived = pressed && (m_arrived || way <= kArrived || follows);
+  return pressed && !m_arrived ? held & ~kDrill : held;
 }
 
 void PointerDevice::glide(double dt) noexcept

@@ -105,6 +105,46 @@ TEST(DissectionLoop, RemovesNothingForTheTimeInWhichTheServoStoodStill)
   EXPECT_EQ(scene.work.mask().sample(grid.voxelFromPatient({0.0, 0.0, -2.0})), 1.0);
 }
 
+// On a busy machine the servo misses ticks, and a reading may be lost.
+TEST(DissectionLoop, AFaultWhileTheDrillIsHeldDoesNotDivideTheStroke)
+{
+  LoopScene scene;
+  DissectionLoop loop(scene.work, *scene.mask, scene.removalModel);
+  double time = 1.0;
+  const auto drill = [&](ServoFault fault, bool held)
+  {
+    TickRecord record =
+        pressed(time += 0.001, {0.0, 0.0, 1.0}, 1.0, held && fault == ServoFault::None);
+    record.fault = static_cast<std::uint8_t>(fault);
+    record.input.parameters.drillButtons = 2;
+    record.input.buttons = held ? 2 : 0;
+    return loop.step(record);
+  };
+  EXPECT_FALSE(drill(ServoFault::Stalled, true));
+  EXPECT_FALSE(scene.work.strokeOpen()); // it has not begun
+  bool cuts = false;
+  for (int n = 0; n < 100; ++n)
+  {
+    const ServoFault fault = n == 40  ? ServoFault::Stalled
+                             : n > 60 ? ServoFault::Device
+                                      : ServoFault::None;
+    const bool cut = drill(n < 90 ? fault : ServoFault::None, true);
+    EXPECT_FALSE(cut && fault != ServoFault::None && n < 90);
+    cuts = cuts || cut;
+    EXPECT_TRUE(scene.work.strokeOpen()) << n;
+  }
+  EXPECT_TRUE(cuts);
+  drill(ServoFault::Stalled, false);
+  EXPECT_FALSE(scene.work.strokeOpen());
+  EXPECT_EQ(scene.work.strokes().size(), 1u);
+  // Undone while it is held: it waits for the drill to be switched on anew, also over a fault.
+  drill(ServoFault::None, true);
+  loop.undo();
+  drill(ServoFault::Stalled, true);
+  EXPECT_FALSE(drill(ServoFault::None, true));
+  EXPECT_FALSE(scene.work.strokeOpen());
+}
+
 TEST(DissectionLoop, DoesNotCutWhatCameBackByTicksFromBefore)
 {
   LoopScene scene;

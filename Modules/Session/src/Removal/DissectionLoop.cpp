@@ -42,18 +42,23 @@ double DissectionLoop::secondsOf(const TickRecord& record)
   return past > 0.0 ? std::min(past, kMaxTick) : 0.0; // 0 for NaN
 }
 
-// Opens and closes strokes as the drill is switched; returns whether it is on.
+// Opens and closes strokes as the drill is switched; returns whether it cuts. A tick with a fault (a
+// machine that stood still, a reading that was lost) does not divide what is drilled with the drill
+// held down.
 bool DissectionLoop::follow(const TickRecord& record)
 {
-  m_on = record.drill != 0;
+  const bool interrupted = record.fault != static_cast<std::uint8_t>(ServoFault::None) &&
+                           record.input.drillWanted() && m_on;
+  m_on = record.drill != 0 || interrupted;
   m_untilOff = m_untilOff && m_on;
-  const bool drill = m_on && !m_untilOff && record.time() > m_ignoreUntil;
+  const bool drill = record.drill != 0 && !m_untilOff && record.time() > m_ignoreUntil;
   if (drill)
     open();
   else
   {
     m_removalModel.release();
-    endStroke();
+    if (!interrupted)
+      endStroke();
   }
   return drill;
 }

@@ -19,7 +19,6 @@ namespace
 {
 
 constexpr double kMaxStep = 0.01; // s, maximum per tick
-constexpr double kPedalDown = 0.5;
 
 // Distances for relocating a tool, mm from its target towards the camera: the last is beyond any
 // scan.
@@ -367,7 +366,7 @@ const TickRecord& Servo::tick(const TickInput& input) noexcept
   m_record.fault = static_cast<std::uint8_t>(fault);
 
   giveForce(step, m_record.wrench.wrench(), anew);
-  const bool wanted = p.drill || input.pedal >= kPedalDown || (input.buttons & p.drillButtons) != 0;
+  const bool wanted = input.drillWanted();
   awaitArrival(step, wanted, tick.pose.position - before);
   const bool waits = step.pointer && !m_arrived;
   m_record.drill = wanted && !waits && m_giving && !step.clutch && fault == ServoFault::None;

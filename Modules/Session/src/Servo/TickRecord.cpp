@@ -35,6 +35,12 @@ haptics::DeviceReading TickInput::reading() const noexcept
   return reading;
 }
 
+bool TickInput::drillWanted() const noexcept
+{
+  constexpr double down = 0.5; // of the pedal
+  return parameters.drill || pedal >= down || (buttons & parameters.drillButtons) != 0;
+}
+
 bool isHeldOff(const TickRecord& record) noexcept
 {
   const double force = record.wrench.wrench().linear.norm();

@@ -17,7 +17,8 @@ namespace petrous::interaction
 /// 1, scale 1) and whose origin is `center`. A mouse at rest does not make the device stale: each
 /// reading's time is `now`. Between the window's updates, about 60 per second, the pose moves
 /// smoothly and never faster than `Limits`, so that a jump of the pointer is not a jump of the
-/// device (haptics::DeviceGuard).
+/// device (haptics::DeviceGuard). A drill that is pressed before the pose has arrived is reported
+/// when it has, since it must not drill on the way.
 ///
 /// The servo may re-anchor the tool where it is (clutch, restored tissue, a stall); `see` detects
 /// this from its records, so that the tool returns under the pointer.
@@ -69,6 +70,7 @@ private:
   };
   void say() noexcept;
   void glide(double dt) noexcept;
+  std::uint32_t buttonsNow(double now) noexcept;
 
   haptics::DeviceDescription m_description;
   Limits m_limits;
@@ -86,7 +88,10 @@ private:
   std::uint64_t m_count = 0;
   double m_heardAt = 0.0; // s
   double m_time = 0.0;    // s
+  double m_pressedAt = 0.0; // s, the drill
   bool m_placed = false;
+  bool m_pressed = false; // the drill is held
+  bool m_arrived = false; // since it is, at the wanted pose
 };
 
 } // namespace petrous::interaction

@@ -25,6 +25,8 @@ struct TickInput
   static TickInput of(double now, const haptics::DeviceReading& reading,
                       const ServoParameters& parameters) noexcept;
   haptics::DeviceReading reading() const noexcept;
+  /// By parameter, pedal or button, whether or not the burr may cut in this tick.
+  bool drillWanted() const noexcept;
 };
 
 /// Why a tick renders no force, or less than wanted.

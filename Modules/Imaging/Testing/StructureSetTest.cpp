@@ -66,6 +66,7 @@ struct TestSet
 {
   TestSlice code;
   std::string rois, contours, observations;
+  std::string ofContours, ofRois; ///< further elements of each
 
   std::string element(std::uint32_t tag, const char* vr, const std::string& value) const
   {
@@ -88,9 +89,10 @@ struct TestSet
                  element(0x30060024, "UI", frame) + element(0x30060026, "LO", name));
     std::string sequence;
     for (const std::string& text : points)
-      sequence += item(element(0x30060042, "CS", type) + element(0x30060050, "DS", text));
+      sequence +=
+          item(element(0x30060042, "CS", type) + ofContours + element(0x30060050, "DS", text));
     contours += item(element(0x3006002a, "IS", "255\\128\\0") +
-                     (points.empty() ? "" : element(0x30060040, "SQ", sequence)) +
+                     (points.empty() ? "" : element(0x30060040, "SQ", sequence)) + ofRois +
                      element(0x30060084, "IS", std::to_string(number)));
     observations += item(element(0x30060084, "IS", std::to_string(number)) +
                          element(0x300600a4, "CS", "ORGAN"));
@@ -581,6 +583,95 @@ TEST(StructureSet, WhatMakesNoSenseIsRefusedInOneLine)
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
     }
   }
+}
+
+// Squares of 10 x 10 mm at z = 10 and 11; PS3.3-2019 C.8.8.6.2: the central plane of a slab is "the
+// set of points offset from Contour Data by the value of Contour Offset Vector", and this is zero
+// without a valid thickness.
+TEST(StructureSet, ASlabLiesWhereItsContourOffsetVectorPutsIt)
+{
+  const TemporaryFolder folder;
+  const auto squareAt = [](const std::string& z)
+  { return "0\\-10\\" + z + "\\10\\-10\\" + z + "\\10\\0\\" + z + "\\0\\0\\" + z; };
+  const auto written = [&](const std::string& thickness, const std::string& offset)
+  {
+    TestSet file;
+    file.ofContours = (thickness.empty() ? "" : file.element(0x30060044, "DS", thickness)) +
+                      file.element(0x30060045, "DS", offset);
+    file.add(1, "box", {squareAt("10"), squareAt("11")});
+    return file.write(folder);
+  };
+  const auto lowest = [](const std::filesystem::path& path)
+  {
+    const StructureSet set = readStructureSet(path);
+    return set.rois.front().contours.front().front().z();
+  };
+  const auto notesOf = [](const std::filesystem::path& path)
+  {
+    std::string all;
+    for (const std::string& note : imaging::labelsOf(readStructureSet(path), grid(), path).notes)
+      all += note + "\n";
+    return all;
+  };
+  EXPECT_EQ(lowest(written("1", "0\\0\\2.5")), 12.5);
+  EXPECT_NE(notesOf(written("1", "0\\0\\2.5")).find("2 contours were moved by 2.5 mm"),
+            std::string::npos);
+  EXPECT_EQ(lowest(written("1", "0\\0\\-3")), 7.0);
+  EXPECT_EQ(lowest(written("1", "0\\0\\0")), 10.0);
+  EXPECT_EQ(notesOf(written("1", "0\\0\\0")), "");
+  EXPECT_EQ(lowest(written("", "0\\0\\2.5")), 10.0);
+  EXPECT_NE(notesOf(written("", "0\\0\\2.5")).find("nothing was moved"), std::string::npos);
+  EXPECT_NE(refusal(written("1", "2\\0\\0")).find("within its plane"), std::string::npos);
+  EXPECT_NE(refusal(written("1", "2\\0")).find("not three numbers"), std::string::npos);
+}
+
+TEST(StructureSet, AnotherNumberOfPointsThanStatedIsRefused)
+{
+  const TemporaryFolder folder;
+  const auto stated = [&](const std::string& count)
+  {
+    TestSet file;
+    file.ofContours = file.element(0x30060046, "IS", count);
+    file.add(1, "a", {"1\\2\\3\\4\\2\\3\\4\\6\\3"});
+    return refusal(file.write(folder));
+  };
+  EXPECT_EQ(stated("3"), "");
+  EXPECT_EQ(stated(""), "");
+  for (const std::string wrong : {"2", "4", "9", "many"})
+    EXPECT_NE(stated(wrong).find("contour of 3 points"), std::string::npos) << wrong;
+}
+
+// One square of 10 x 10 mm, or two 2 mm apart, on slices 1 mm apart.
+TEST(StructureSet, SlabsAndPlanesThatTheFileStatesCount)
+{
+  Roi one = named("box", {square(0.25, 10.25, -10.25, -0.25, 12.0)});
+  EXPECT_NEAR(contourVolume(one, grid()), 100.0, 1e-6);
+  one.slabThickness = 3.0;
+  EXPECT_NEAR(contourVolume(one, grid()), 300.0, 1e-6);
+  Roi two = one;
+  two.contours.push_back(square(0.25, 10.25, -10.25, -0.25, 14.0));
+  two.slabThickness = 0.0;
+  EXPECT_NEAR(contourVolume(two, grid()), 400.0, 1e-6);
+  two.planeSpacing = 1.0; // the plane between has no contour: PS3.3 C.8.8.6.4
+  EXPECT_NEAR(contourVolume(two, grid()), 200.0, 1e-6);
+  two.planeSpacing = 1.3; // not so
+  EXPECT_NEAR(contourVolume(two, grid()), 400.0, 1e-6);
+  two.planeSpacing = 0.0;
+  two.slabThickness = 1.0;
+  StructureSet set;
+  set.rois = {two};
+  const LoadedLabels loaded = imaging::labelsOf(set, grid(), "set.dcm");
+  EXPECT_TRUE(std::any_of(loaded.notes.begin(), loaded.notes.end(),
+                          [](const std::string& note)
+                          { return note.find("slabs of 1 mm") != std::string::npos; }));
+  const TemporaryFolder folder;
+  TestSet file;
+  file.ofContours = file.element(0x30060044, "DS", "2.5");
+  file.ofRois = file.element(0x3006004a, "SQ", file.item(file.element(0x00180088, "DS", "0.5")));
+  file.add(1, "a", {"1\\2\\3\\4\\2\\3\\4\\6\\3"});
+  const StructureSet read = readStructureSet(file.write(folder));
+  EXPECT_EQ(read.rois.front().slabThickness, 2.5);
+  EXPECT_EQ(read.rois.front().planeSpacing, 0.5);
 }
 
 } // namespace petrous::imaging

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -76,6 +77,12 @@ std::vector<Eigen::Vector3d> readPoints(const DicomItem& contour, const std::fil
   if (values.empty() || values.size() % 3 != 0)
     fail(Reason::Unreadable, path,
          "has a contour whose points are not numbers, three a point; export it again");
+  if (!contour.text(0x30060046).empty() &&
+      contour.number(0x30060046) != static_cast<double>(values.size() / 3))
+    fail(Reason::Unreadable, path,
+         "has a contour of " + std::to_string(values.size() / 3) +
+             " points that states another number of them (Number of Contour Points): points are "
+             "missing or too many; export it again");
   for (std::size_t n = 0; n < values.size(); n += 3)
   {
     if (n % (3 * kChecked) == 0)
@@ -91,6 +98,54 @@ std::vector<Eigen::Vector3d> readPoints(const DicomItem& contour, const std::fil
   while (points.size() > 1 && points.back() == points.front())
     points.pop_back();
   return points;
+}
+
+/// Puts a contour into the central plane of its slab, by Contour Offset Vector (PS3.3-2019
+/// C.8.8.6.2: "the set of points offset from Contour Data"; retired in 2020).
+void applyOffset(const DicomItem& contour, const std::filesystem::path& path,
+                 StructureSet::Roi& roi, std::vector<Eigen::Vector3d>& points)
+{
+  constexpr double kAside = 0.05; // mm, or of a distance: by which it may miss the normal
+  if (contour.text(0x30060045).empty())
+    return;
+  const std::vector<double> values = contour.numbers(0x30060045);
+  if (values.size() != 3)
+    fail(
+        Reason::Unreadable, path,
+        "has a contour whose offset (Contour Offset Vector) is not three numbers; export it again");
+  const Eigen::Vector3d offset(values[0], values[1], values[2]);
+  const double length = offset.norm();
+  if (!(length > 0.0))
+    return;
+  if (!(contour.number(0x30060044).value_or(0.0) > 0.0))
+  {
+    ++roi.ignoredOffsets;
+    return;
+  }
+  if (length > kFarthest || std::any_of(points.begin(), points.end(),
+                                        [&](const Eigen::Vector3d& p)
+                                        {
+                                          const Eigen::Vector3d side = p - points.front();
+                                          return std::abs(side.dot(offset)) / length >
+                                                 kAside * (1.0 + side.norm());
+                                        }))
+    fail(Reason::Unreadable, path,
+         "has a contour that is to be moved within its plane (Contour Offset Vector), where DICOM "
+         "lets it be moved across only; export it again, without an offset");
+  for (Eigen::Vector3d& p : points)
+    p += offset;
+  ++roi.movedContours;
+  roi.movedBy = std::max(roi.movedBy, length);
+}
+
+/// Of Contour Slab Thickness.
+void noteThickness(const DicomItem& contour, StructureSet::Roi& roi)
+{
+  const double thickness = contour.number(0x30060044).value_or(0.0);
+  if (roi.contours.size() == 1)
+    roi.slabThickness = thickness > 0.0 ? thickness : 0.0;
+  else if (std::abs(thickness - roi.slabThickness) > kPlanar * thickness)
+    roi.slabThickness = std::numeric_limits<double>::quiet_NaN();
 }
 
 /// Axes of the grid: contours lie in planes across `normal`.
@@ -218,6 +273,21 @@ double planeWidth(const std::vector<double>& sorted)
   return kSamePlane;
 }
 
+/// How far apart the planes of a structure are, or how thick its one slab is, as the file states
+/// it, in slices; 0: not stated, or not so.
+///
+/// steps  of neighbouring planes, slices
+double statedStep(const StructureSet::Roi& roi, double spacing, const std::vector<double>& steps)
+{
+  // A section without a contour on one of these planes has none there (PS3.3 C.8.8.6.4).
+  const double planes = roi.planeSpacing / spacing;
+  const auto isWhole = [planes](double step)
+  { return std::abs(step / planes - std::round(step / planes)) <= kPlanar; };
+  if (planes > kSamePlane && std::all_of(steps.begin(), steps.end(), isWhole))
+    return planes;
+  return steps.empty() && roi.slabThickness > 0.0 ? roi.slabThickness / spacing : 0.0;
+}
+
 /// The contours of a structure as slabs on the grid; nullopt if they lie across none of its axes.
 std::optional<Placed> place(const StructureSet::Roi& roi, const core::GridGeometry& grid,
                             const core::Progress& progress = {})
@@ -300,6 +370,8 @@ std::optional<Placed> place(const StructureSet::Roi& roi, const core::GridGeomet
                        steps.end());
       placed.step = steps[steps.size() / 2];
     }
+    if (const double stated = statedStep(roi, grid.spacing()[axis], steps); stated > 0.0)
+      placed.step = stated;
     for (std::size_t n = 0; n < placed.planes.size(); ++n)
     {
       Plane& plane = placed.planes[n];
@@ -732,6 +804,33 @@ std::size_t keepSmall(const Placed& placed, const Shares& shares, std::vector<ch
   return kept;
 }
 
+/// What the file states of slabs beside their contours, where that moved them or is not followed.
+void noteGeometry(const StructureSet::Roi& roi, const std::string& name, const Placed& placed,
+                  const core::GridGeometry& grid, std::vector<std::string>& notes)
+{
+  if (roi.movedContours > 0)
+    notes.push_back("'" + name + "': " + std::to_string(roi.movedContours) +
+                    (roi.movedContours == 1 ? " contour was" : " contours were") + " moved by " +
+                    roughText(roi.movedBy) +
+                    " mm across its plane, as the file states (Contour Offset Vector); programs "
+                    "that ignore this show the structure elsewhere");
+  if (roi.ignoredOffsets > 0)
+    notes.push_back("'" + name + "': " + std::to_string(roi.ignoredOffsets) +
+                    (roi.ignoredOffsets == 1 ? " contour has" : " contours have") +
+                    " an offset (Contour Offset Vector) without a slab to which it would apply; "
+                    "nothing was moved");
+  const double apart = placed.step * grid.spacing()[static_cast<int>(placed.axes.normal)];
+  if (std::isnan(roi.slabThickness))
+    notes.push_back("'" + name +
+                    "': its contours state slabs of several thicknesses (Contour Slab Thickness); "
+                    "each stands for " +
+                    roughText(apart) + " mm, as far as they lie apart; check its volume");
+  else if (roi.slabThickness > 0.0 && std::abs(roi.slabThickness - apart) > kPlanar * apart)
+    notes.push_back("'" + name + "': its contours state slabs of " + roughText(roi.slabThickness) +
+                    " mm (Contour Slab Thickness); each stands for " + roughText(apart) +
+                    " mm, as far as they lie apart; check its volume");
+}
+
 } // namespace
 
 bool isStructureSetClass(const std::string& sopClass)
@@ -813,6 +912,7 @@ StructureSet readStructureSet(const std::filesystem::path& path, const core::Pro
     if (color.size() == 3)
       for (std::size_t c = 0; c < 3; ++c)
         roi.color[c] = static_cast<float>(std::clamp(color[c] / 255.0, 0.0, 1.0));
+    roi.planeSpacing = item.item(0x3006004a).number(0x00180088).value_or(0.0);
     for (const DicomItem& contour : item.items(0x30060040))
     {
       checkDamage(contour);
@@ -824,9 +924,13 @@ StructureSet readStructureSet(const std::filesystem::path& path, const core::Pro
       }
       std::vector<Eigen::Vector3d> points = readPoints(contour, path, progress);
       if (points.size() < 3)
+      {
         ++roi.otherContours;
-      else
-        roi.contours.push_back(std::move(points));
+        continue;
+      }
+      applyOffset(contour, path, roi, points);
+      roi.contours.push_back(std::move(points));
+      noteThickness(contour, roi);
     }
   }
   return set;
@@ -889,8 +993,9 @@ LoadedLabels labelsOf(const StructureSet& set, const core::GridGeometry& grid,
         loaded.unread.push_back({name, label, false});
         continue;
       }
-      if (placed->step > kGap)
+      if (placed->step > kGap && placed->planes.size() > 1)
         coarse.push_back("'" + name + "'");
+      noteGeometry(roi, name, *placed, grid, loaded.notes);
       if (placed->twice > 0)
         loaded.notes.push_back("'" + name + "': " + std::to_string(placed->twice) +
                                (placed->twice == 1 ? " contour that is" : " contours that are") +

@@ -273,6 +273,36 @@ TEST(EnhancedCt, WhatIsStatedTwiceAndDiffersIsRefused)
     }
 }
 
+// A curved reformat: its pixels lie where no position and orientation says (PS3.3 C.8.16.2.1.2).
+TEST(EnhancedCt, AGridThatIsStatedToBeDistortedIsRefused)
+{
+  for (const char* properties : {"VOLUME", "DISTORTED"})
+  {
+    MultiFrame file;
+    file.order = inOrder(6);
+    const TemporaryFolder folder;
+    const fs::path path = folder.path() / "ct.dcm";
+    file.write(path);
+    DcmFileFormat whole;
+    ASSERT_TRUE(whole.loadFile(path.c_str()).good());
+    DcmItem* shared = nullptr;
+    DcmItem* type = nullptr;
+    ASSERT_TRUE(whole.getDataset()
+                    ->findOrCreateSequenceItem(DCM_SharedFunctionalGroupsSequence, shared)
+                    .good());
+    ASSERT_TRUE(shared->findOrCreateSequenceItem(DCM_CTImageFrameTypeSequence, type).good());
+    type->putAndInsertString(DCM_VolumetricProperties, properties);
+    ASSERT_TRUE(whole.saveFile(path.c_str(), EXS_LittleEndianExplicit).good());
+    const ScanResult result = scanDicom(folder.path(), {});
+    ASSERT_EQ(result.series.size(), 1U);
+    const SeriesGeometry& geometry = result.series.front().geometry;
+    EXPECT_EQ(geometry.verdict == Verdict::Ok, std::string(properties) == "VOLUME") << properties;
+    if (geometry.verdict != Verdict::Ok)
+      EXPECT_NE(geometry.findings.front().text.find("no straight grid"), std::string::npos)
+          << geometry.findings.front().text;
+  }
+}
+
 TEST(EnhancedCt, LegacyConvertedAndXRay3dAreReadAlike)
 {
   const std::pair<std::string, std::string> kinds[] = {

@@ -455,16 +455,21 @@ std::vector<double> numbersOf(const std::vector<std::string>& parts)
 
 } // namespace
 
+bool contradict(const std::string& ofFrame, const std::string& ofAll)
+{
+  if (ofFrame.empty() || ofAll.empty() || ofFrame == ofAll)
+    return false;
+  const std::vector<double> numbers = numbersOf(wordsOf(ofFrame));
+  return numbers.empty() || numbers != numbersOf(wordsOf(ofAll));
+}
+
 bool DicomElements::contradictsShared(Tag tag) const
 {
   if (m_frame >= m_frames.size() || m_shared.empty())
     return false;
   const std::string* shared = find(m_shared.front(), tag);
   const std::string* own = find(m_frames[m_frame], tag);
-  if (!shared || !own || *shared == *own)
-    return false;
-  const std::vector<double> ofAll = numbersOf(wordsOf(textOf(*shared)));
-  return ofAll.empty() || ofAll != numbersOf(wordsOf(textOf(*own)));
+  return shared && own && contradict(textOf(*own), textOf(*shared));
 }
 
 std::string DicomElements::bytes(Tag tag) const

@@ -23,6 +23,11 @@ constexpr Tag kExtendedOffsets = 0x7fe00001;
 /// In the functional groups of a frame; kept is the number of its items.
 constexpr Tag kRealWorldMapping = 0x00409096;
 
+/// Whether the texts that a frame's functional group and the shared one state for an element are
+/// not the same text or numbers; a group is either shared or stands for each frame (PS3.3
+/// C.7.6.16.1.1). An empty text states nothing.
+bool contradict(const std::string& ofFrame, const std::string& ofAll);
+
 /// The short top-level elements of a DICOM file up to its pixel data (PS3.5 section 7, PS3.10).
 ///
 /// Used instead of gdcm::Reader, which as built by Debian has assertions enabled: a damaged file
@@ -75,8 +80,7 @@ public:
   /// From now on values are those of this frame: its functional groups take precedence over the
   /// shared ones, and these over the top level.
   void selectFrame(std::size_t frame) noexcept { m_frame = frame; }
-  /// Whether that frame's functional groups state another value than the shared ones do; a group is
-  /// either shared or stands for each frame (PS3.3 C.7.6.16.1.1).
+  /// Whether that frame's functional groups and the shared ones contradict each other.
   bool contradictsShared(Tag tag) const;
 
   /// Without padding and control characters, safe for a terminal or a JSON parser.

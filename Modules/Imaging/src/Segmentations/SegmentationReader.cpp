@@ -95,17 +95,16 @@ std::size_t pixelsPerFrame(const Segmentation& file)
   return static_cast<std::size_t>(file.rows) * static_cast<std::size_t>(file.columns);
 }
 
-/// A functional group of one frame: its own, or the one that all frames share.
-DicomItem groupOf(const DicomItem& own, const DicomItem& shared, Tag group)
+/// The functional group that states a value of one frame: its own, else the one that all share.
+DicomItem groupOf(const DicomItem& own, const DicomItem& shared, Tag group, Tag value)
 {
-  return own.has(group) ? own.item(group) : shared.item(group);
+  DicomItem item = own.item(group);
+  return item.has(value) ? item : shared.item(group);
 }
 
-/// A functional group is either shared or stands for each frame (PS3.3 C.7.6.16.1.1).
 bool isContradicted(const DicomItem& own, const DicomItem& shared, Tag group, Tag value)
 {
-  return own.has(group) && shared.has(group) &&
-         own.item(group).numbers(value) != shared.item(group).numbers(value);
+  return contradict(own.item(group).text(value), shared.item(group).text(value));
 }
 
 Type typeOf(const std::filesystem::path& path, const DicomItem& data)
@@ -131,10 +130,13 @@ Type typeOf(const std::filesystem::path& path, const DicomItem& data)
 
 void readFrame(Segmentation& file, const DicomItem& own, const DicomItem& shared, Frame& frame)
 {
-  const auto position = groupOf(own, shared, 0x00209113).numbers(0x00200032);
-  const auto axes = groupOf(own, shared, 0x00209116).numbers(0x00200037);
-  const DicomItem measures = groupOf(own, shared, 0x00289110);
-  const auto spacing = measures.numbers(0x00280030);
+  const auto numbers = [&](Tag group, Tag value)
+  { return groupOf(own, shared, group, value).numbers(value); };
+  const auto number = [&](Tag group, Tag value)
+  { return groupOf(own, shared, group, value).number(value).value_or(0.0); };
+  const auto position = numbers(0x00209113, 0x00200032);
+  const auto axes = numbers(0x00209116, 0x00200037);
+  const auto spacing = numbers(0x00289110, 0x00280030);
   if (isContradicted(own, shared, 0x00209113, 0x00200032) ||
       isContradicted(own, shared, 0x00209116, 0x00200037) ||
       isContradicted(own, shared, 0x00289110, 0x00280030) ||
@@ -154,15 +156,15 @@ void readFrame(Segmentation& file, const DicomItem& own, const DicomItem& shared
     file.row = row;
     file.column = column;
     file.pixelSpacing = pixel;
-    file.sliceSpacing = std::abs(measures.number(0x00180088).value_or(0.0));
-    file.thickness = measures.number(0x00180050).value_or(0.0);
+    file.sliceSpacing = std::abs(number(0x00289110, 0x00180088));
+    file.thickness = number(0x00289110, 0x00180050);
   }
   else if ((row - file.row).norm() > kMaxTurn || (column - file.column).norm() > kMaxTurn ||
            (pixel - file.pixelSpacing).norm() > kMaxTurn)
     failFrame(file.path, frame.number,
               "has another orientation or pixel spacing than the first, which is not read");
   if (file.type != Type::Labelmap)
-    frame.segment = groupOf(own, shared, 0x0062000a).integer(0x0062000b).value_or(0);
+    frame.segment = groupOf(own, shared, 0x0062000a, 0x0062000b).integer(0x0062000b).value_or(0);
   if (file.type != Type::Labelmap && frame.segment == 0)
     fail(Reason::Unreadable, file.path,
          "its frame " + std::to_string(frame.number + 1) +

@@ -35,6 +35,7 @@ struct PartOptions
   std::string mrRoi;
   std::string labelsFrame;
   bool repair = false;
+  std::string bits;
   bool otherPatient = false;
   bool skipTaken = false;
   bool renameTaken = false;
@@ -58,6 +59,11 @@ struct PartOptions
         ->type_name("x0,x1,y0,y1,z0,z1");
     command.add_flag("--repair", repair,
                      "Resample tilted, uneven or gapped DICOM slices to a straight volume");
+    command
+        .add_option("--bits", bits,
+                    "Of DICOM pixels with bits beside those stored that nothing explains: stored "
+                    "leaves these out, allocated keeps them (else they are refused)")
+        ->check(oneOf({"stored", "allocated"}));
     command.add_flag("--other-patient", otherPatient,
                      "Add an MR or structures whose files state another patient than the case's "
                      "images");
@@ -98,6 +104,13 @@ struct PartOptions
         ->check(oneOf({"mm", "cm", "m", "inch"}));
   }
 
+  imaging::UndeclaredBits undeclaredBits() const
+  {
+    return bits == "stored"      ? imaging::UndeclaredBits::LeaveOut
+           : bits == "allocated" ? imaging::UndeclaredBits::Keep
+                                 : imaging::UndeclaredBits::Refuse;
+  }
+
   presenters::PartSources sources() const
   {
     if (!labelNames.empty() && labels.empty())
@@ -129,6 +142,7 @@ struct PartOptions
     {
       result.mr.push_back(presenters::PartSource::parseSeries(text));
       result.mr.back().repair = repair;
+      result.mr.back().undeclaredBits = undeclaredBits();
       if (!mrFrame.empty())
         result.mr.back().assumeRas = mrFrame == "ras";
       if (!mrRoi.empty())
@@ -348,6 +362,7 @@ void addNew(CLI::App& app, Context& context)
         if (!options->volume.empty())
           sources.series += "#" + options->volume;
         sources.repair = options->parts.repair;
+        sources.undeclaredBits = options->parts.undeclaredBits();
         sources.modality = options->modality == "MR"   ? scene::Modality::Mr
                            : options->modality == "CT" ? scene::Modality::Ct
                                                        : scene::Modality::Unknown;

@@ -27,6 +27,7 @@
 #include "SeriesDialog.h"
 #include "Theme.h"
 #include "WindowTexts.h"
+#include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Library/Archive.h"
 #include "petrous/Library/FrameSalt.h"
@@ -877,8 +878,28 @@ void CaseDocumentController::makeCase(
          auto from = sources(first);
          const presenters::PartSources parts = std::exchange(from.parts, {});
          const double image = reached + 0.5 * (1.0 - reached);
-         const auto value = std::make_shared<scene::Case>(
-             presenters::buildCase(name, from, progress.part(reached, image)));
+         auto value = std::make_shared<scene::Case>();
+         try
+         {
+           *value = presenters::buildCase(name, from, progress.part(reached, image));
+         }
+         catch (const imaging::DicomError& error)
+         {
+           if (error.reason() != imaging::DicomError::Reason::BitsUnclear)
+             throw;
+           from.parts = parts;
+           // `sources` keeps what was received until it is read.
+           return [this, name, side, sources, from, why = std::string(error.what())]() mutable
+           {
+             endWork();
+             const auto bits = askBits(why);
+             if (!bits)
+               return reopen();
+             from.undeclaredBits = *bits;
+             makeCase(
+                 name, [from, sources](const core::Progress&) { return from; }, side);
+           };
+         }
          value->description.side = side;
          std::vector<presenters::StructureReport> report;
          const auto failures =
@@ -1046,7 +1067,7 @@ void CaseDocumentController::tell(const std::vector<presenters::PartFailure>& fa
     {
       const bool isQuestion = !failure.likely.empty() || failure.isOtherPatient ||
                               failure.isSideUnclear || failure.isFrameUnclear ||
-                              !failure.taken.empty();
+                              failure.isBitsUnclear || !failure.taken.empty();
       if (!isQuestion || !isOpen(target))
         lost += phrase(failure.why);
       else if (const auto source = askAgain(failure, target))
@@ -1147,6 +1168,13 @@ CaseDocumentController::askAgain(const presenters::PartFailure& failure, const T
     if (!source.assumeRas)
       return std::nullopt;
   }
+  else if (failure.isBitsUnclear)
+  {
+    const auto bits = askBits(failure.why);
+    if (!bits)
+      return std::nullopt;
+    source.undeclaredBits = *bits;
+  }
   else if (failure.isFrameUnclear)
   {
     source.drawnOn = askDrawnOn(failure);
@@ -1167,6 +1195,31 @@ CaseDocumentController::askAgain(const presenters::PartFailure& failure, const T
     source.unit = space->mm;
   }
   return source;
+}
+
+// What becomes of bits that nothing explains; nullopt: the user does not know.
+std::optional<imaging::UndeclaredBits> CaseDocumentController::askBits(const std::string& why)
+{
+  const QScopedValueRollback<bool> asking(m_asking, true);
+  QMessageBox box(QMessageBox::Warning, tr("What are these bits?"),
+                  tr("The scan contradicts itself about the bits of a pixel."),
+                  QMessageBox::NoButton, &m_window);
+  box.setTextFormat(Qt::PlainText);
+  box.setTextInteractionFlags(Qt::TextSelectableByMouse);
+  box.setObjectName("askBits");
+  box.setInformativeText(
+      sentence(phrase(why)) + "\n\n" +
+      tr("A wrong answer shows metal as tissue, or tissue as metal, where these pixels are. Answer "
+         "only if the values tell; otherwise export the scan again."));
+  const auto* left = box.addButton(tr("&Leave the bits out"), QMessageBox::ActionRole);
+  const auto* kept = box.addButton(tr("&Keep the bits"), QMessageBox::ActionRole);
+  box.setDefaultButton(box.addButton(QMessageBox::Cancel));
+  box.exec();
+  if (box.clickedButton() == left)
+    return imaging::UndeclaredBits::LeaveOut;
+  if (box.clickedButton() == kept)
+    return imaging::UndeclaredBits::Keep;
+  return std::nullopt;
 }
 
 // Whether the axes of a file that leaves it open are RAS; nullopt: the user does not know.

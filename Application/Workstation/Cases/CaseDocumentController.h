@@ -162,6 +162,7 @@ private:
   std::optional<presenters::PartSource> askAgain(const presenters::PartFailure& failure,
                                                  const Target& target);
   std::optional<bool> askSide(const std::filesystem::path& path);
+  std::optional<imaging::UndeclaredBits> askBits(const std::string& why);
   std::string askDrawnOn(const presenters::PartFailure& failure);
   bool askNewNames(presenters::PartSource& source, const std::vector<std::string>& taken,
                    std::size_t others);

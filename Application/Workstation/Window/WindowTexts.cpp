@@ -134,7 +134,7 @@ QString windowText(const QString& text)
       {"name its series \\(--series, 'petrous scan' lists them\\)", "choose its series"},
       {", needs --repair\\)", ", needs repair)"},
       {"begin a case with it \\(petrous new --ct\\)", "begin a case with it (File > Open DICOM)"},
-      {" \\((--replace|--roi)\\)", ""},
+      {" \\((--replace|--roi|--bits stored|--bits allocated)\\)", ""},
       {"\\bmm3\\b", "mm³"},
   };
   QString result = text;

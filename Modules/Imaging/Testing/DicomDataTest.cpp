@@ -256,14 +256,14 @@ TEST_F(DicomData, ColoursAreRefusedInWords)
   EXPECT_TRUE(findingOf(result.series.front(), FindingKind::NotAnImage));
 }
 
-TEST_F(DicomData, ValuesOfMoreThanTheBitsStoredAreRefused)
+TEST_F(DicomData, ValuesOfMoreThanTheBitsStoredAreReadAsTheUserSays)
 {
   const fs::path folder = part("dicom_odd/dcm_qa_12bit/dcm_qa_12bit/In");
   PETROUS_NEEDS(folder);
   // Three files at one position: each is read as a stack of its own, with a shifted copy.
   DicomSeries series = only(folder);
   ASSERT_EQ(series.geometry.slices.size(), 3U);
-  const auto rangeOf = [&](const std::string& name)
+  const auto imageOf = [&](const std::string& name, UndeclaredBits undeclared)
   {
     DicomSeries two = series;
     std::vector<SliceHeader> slices;
@@ -274,14 +274,20 @@ TEST_F(DicomData, ValuesOfMoreThanTheBitsStoredAreRefused)
     const Eigen::Vector3d normal = slices[0].rowDirection->cross(*slices[0].columnDirection);
     *slices[1].position += 5.0 * normal;
     two.geometry = assess(slices);
-    return readSeries(two, {}, {}).range();
+    ReadOptions options;
+    options.undeclaredBits = undeclared;
+    return readSeries(two, options, {});
   };
-  // Stripes with bits above 12: values of 16 bits, or rubbish, which nobody can tell.
-  for (const char* odd :
-       {"12bitUnsigned.dcm", "12bitUnsigned_0x0F0F.dcm", "12bitSigned_0x0F0F.dcm"})
+  // Mosaics with stripes of bits above 12: values of 16 bits, or rubbish, which nobody can tell.
+  // dcm2niix leaves them out.
+  const std::pair<const char*, const char*> all[] = {{"12bitUnsigned.dcm", "2.nii"},
+                                                     {"12bitUnsigned_0x0F0F.dcm", "3.nii"},
+                                                     {"12bitSigned_0x0F0F.dcm", "4.nii"}};
+  for (const auto& [odd, reference] : all)
+  {
     try
     {
-      rangeOf(odd);
+      imageOf(odd, UndeclaredBits::Refuse);
       ADD_FAILURE() << odd << " was read";
     }
     catch (const DicomError& error)
@@ -289,6 +295,21 @@ TEST_F(DicomData, ValuesOfMoreThanTheBitsStoredAreRefused)
       EXPECT_NE(std::string(error.what()).find("more than the 12 bits"), std::string::npos)
           << error.what();
     }
+    const auto image = imageOf(odd, UndeclaredBits::LeaveOut);
+    std::ifstream file(folder.parent_path() / "Ref" / reference, std::ios::binary);
+    file.seekg(352); // its header
+    int differing = 0;
+    for (int k = 0; k < 35; ++k)
+      for (int j = 63; j >= 0; --j) // rows from below
+        for (int i = 0; i < 64; ++i)
+        {
+          std::int16_t value = 0;
+          file.read(reinterpret_cast<char*>(&value), 2);
+          differing += image.at(k % 6 * 64 + i, k / 6 * 64 + j, 0) == value ? 0 : 1;
+        }
+    EXPECT_TRUE(file.good());
+    EXPECT_EQ(differing, 0) << odd;
+  }
 }
 
 TEST_F(DicomData, OddFilesNeverCrashAndNeverSpeak)

@@ -379,7 +379,7 @@ TEST(PixelForms, EqualTheExplicitLittleEndianSeriesToTheBit)
 }
 
 // Metal of 3976 HU stored as 5000 in a series that states 12 bits would become soft tissue.
-TEST(PixelForms, AValueOfMoreThanTheBitsStoredIsRefused)
+TEST(PixelForms, AValueOfMoreThanTheBitsStoredIsRefusedOrReadAsTheUserSays)
 {
   for (const bool isBigEndian : {false, true})
     for (const bool isSigned : {false, true})
@@ -422,10 +422,33 @@ TEST(PixelForms, AValueOfMoreThanTheBitsStoredIsRefused)
         }
         catch (const DicomError& error)
         {
-          EXPECT_NE(std::string(error.what()).find("1 pixel has values of more than the 12 bits"),
+          const std::string why = error.what();
+          EXPECT_EQ(error.reason(), DicomError::Reason::BitsUnclear);
+          EXPECT_NE(why.find("2 pixels have values of more than the 12 bits"), std::string::npos)
+              << why;
+          EXPECT_NE(why.find("in 2 slices"), std::string::npos) << why;
+          EXPECT_NE(why.find("(--bits stored), the values are 904;"), std::string::npos) << why;
+          EXPECT_NE(why.find("(--bits allocated), they are 5000;"), std::string::npos) << why;
+          EXPECT_NE(why.find(isSigned ? "beside them lies -256 " : "beside them lies 100 "),
                     std::string::npos)
-              << error.what();
+              << why;
         }
+        // 5000 = 4096 + 904: as the user says.
+        const auto metalAs = [&](UndeclaredBits undeclared)
+        {
+          const ScanResult scan = scanDicom(folder.path() / "metal", {});
+          ReadOptions options;
+          options.undeclaredBits = undeclared;
+          std::vector<std::string> notes;
+          const IntensityVolume image = readSeries(scan.series.at(0), options, {}, &notes);
+          EXPECT_EQ(notes.size(), 1U);
+          EXPECT_NE(notes.at(0).find("2 pixels have bits beside those stored"), std::string::npos)
+              << notes.at(0);
+          EXPECT_EQ(image.at(2, 2, 0), isSigned ? -256.0 : 100.0);
+          return image.at(3, 2, 0);
+        };
+        EXPECT_EQ(metalAs(UndeclaredBits::LeaveOut), 904.0);
+        EXPECT_EQ(metalAs(UndeclaredBits::Keep), 5000.0);
       }
 }
 
@@ -580,7 +603,7 @@ TEST(PixelForms, BitsBelowTheStoredOnesAreRefused)
     }
     catch (const DicomError& error)
     {
-      EXPECT_NE(std::string(error.what()).find("6 pixels have values of more than the 12 bits"),
+      EXPECT_NE(std::string(error.what()).find("12 pixels have values of more than the 12 bits"),
                 std::string::npos)
           << error.what();
     }

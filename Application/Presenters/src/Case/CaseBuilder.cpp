@@ -261,16 +261,26 @@ void requireSide(const fs::path& path, const std::optional<bool>& assumeRas,
     throw ImageSideUnclear(path, option);
 }
 
+imaging::ReadOptions optionsOf(bool repair, const std::optional<core::PatientBox>& roi,
+                               imaging::UndeclaredBits undeclared)
+{
+  imaging::ReadOptions options;
+  options.repair = repair;
+  options.roi = roi;
+  options.undeclaredBits = undeclared;
+  return options;
+}
+
 // `isPrimary`: of a case. `assumeRas`: as CaseSources.
-ReadImage readImage(const fs::path& path, const std::string& selector, bool repair,
-                    const std::optional<core::PatientBox>& roi, bool isPrimary,
+ReadImage readImage(const fs::path& path, const std::string& selector,
+                    const imaging::ReadOptions& options, bool isPrimary,
                     const std::optional<bool>& assumeRas, const core::Progress& progress)
 {
   ReadImage read;
   scene::ImagePart& part = read.part;
   if (!fs::is_directory(path) && imaging::isReadAs(path, imaging::kImage | imaging::kLabels))
   {
-    auto image = imaging::readImageFile(path, roi, progress, assumeRas,
+    auto image = imaging::readImageFile(path, options.roi, progress, assumeRas,
                                         imaging::volumeNumber(path, selector));
     part.volume = image.volume;
     part.notes = std::move(image.notes);
@@ -282,9 +292,6 @@ ReadImage readImage(const fs::path& path, const std::string& selector, bool repa
     const auto& series = imaging::chooseSeries(scan, path, selector);
     if (isPrimary && selector.empty() && series.modality == "MR")
       refuseMrBesideCt(scan, path);
-    imaging::ReadOptions options;
-    options.roi = roi;
-    options.repair = repair;
     std::vector<std::string> notes = series.geometry.notes;
     for (const imaging::Finding& finding : series.geometry.findings) // accepted
       if (finding.kind != imaging::FindingKind::Unreadable)          // these name files
@@ -495,7 +502,8 @@ void addMr(scene::Case& value, const PartSource& source,
   const std::string name = askedName(value, source, wanted, {}, notes);
   checkNewName(value, source.path, name, wanted);
   requireSide(source.path, source.assumeRas, "--mr-frame");
-  ReadImage read = readImage(source.path, source.series, source.repair, source.roi, false,
+  ReadImage read = readImage(source.path, source.series,
+                             optionsOf(source.repair, source.roi, source.undeclaredBits), false,
                              source.assumeRas, progress);
   scene::ImagePart& part = read.part;
   if (!read.otherQuantity.empty())
@@ -1213,9 +1221,9 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
   scene::Case value;
   value.name = name;
   requireSide(sources.ct, sources.assumeRas, "--ct-frame");
-  ReadImage read = readImage(sources.ct, sources.series, sources.repair, sources.roi,
-                             sources.modality != scene::Modality::Mr, sources.assumeRas,
-                             progress.part(0.0, 0.7));
+  ReadImage read = readImage(
+      sources.ct, sources.series, optionsOf(sources.repair, sources.roi, sources.undeclaredBits),
+      sources.modality != scene::Modality::Mr, sources.assumeRas, progress.part(0.0, 0.7));
   value.ct = std::move(read.part);
   value.ct.name = "ct";
   placeSurface(value, sources.modality, read.otherQuantity);
@@ -1401,6 +1409,11 @@ std::vector<PartFailure> addSoundParts(scene::Case& value, const PartSources& pa
         failures.push_back({source, taken.what()});
         failures.back().taken = taken.names;
         failures.back().others = taken.others;
+      }
+      catch (const imaging::DicomError& error)
+      {
+        failures.push_back({source, error.what()});
+        failures.back().isBitsUnclear = error.reason() == imaging::DicomError::Reason::BitsUnclear;
       }
       catch (const core::Error& error)
       {

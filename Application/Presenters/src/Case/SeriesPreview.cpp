@@ -105,6 +105,7 @@ ScanPreview previewScan(const fs::path& path, const std::string& selector, bool 
   const auto& series = imaging::chooseSeries(scan, path, selector);
   imaging::ReadOptions options;
   options.repair = repair;
+  options.undeclaredBits = imaging::UndeclaredBits::LeaveOut; // asked when it is read for good
   const bool isSound = series.geometry.verdict == imaging::Verdict::Ok;
   auto image =
       imaging::readSeries(isSound ? thinnedOut(series) : series, options, progress.part(0.3, 1.0));
@@ -123,6 +124,7 @@ RepairPreview previewRepair(const fs::path& path, const std::string& selector,
   imaging::ReadOptions options;
   options.roi = slabOf(grid, preview.orientation);
   options.acceptDefects = true;
+  options.undeclaredBits = imaging::UndeclaredBits::LeaveOut; // asked when it is read for good
   preview.before = previewOf(imaging::readSeries(series, options, progress.part(0.2, 0.5)), grid);
   options.acceptDefects = false;
   options.repair = true;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <numeric>
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -106,21 +107,40 @@ class SeriesReader
 {
 public:
   /// `require` throws if the volume does not fit the memory with so many bytes a voxel.
-  SeriesReader(const DicomSeries& series, const IndexBox& box,
+  SeriesReader(const DicomSeries& series, const IndexBox& box, UndeclaredBits undeclared,
                const std::function<void(std::size_t)>& require, const core::Progress& progress)
     : m_slices(series.geometry.slices)
     , m_modality(series.modality)
     , m_geometry(series.geometry.grid->cropped(box))
     , m_box(box)
+    , m_undeclared(undeclared)
     , m_require(require)
     , m_progress(progress)
     , m_signs(m_slices.size())
+    , m_undeclaredPixels(m_slices.size(), 0)
   {
   }
 
   IntensityVolume read(std::vector<std::string>* notes)
   {
     m_notes = notes;
+    try
+    {
+      IntensityVolume result = read();
+      noteUndeclared();
+      return result;
+    }
+    catch (const DicomError& error)
+    {
+      if (error.reason() != DicomError::Reason::BitsUnclear)
+        throw;
+      failUndeclared();
+    }
+  }
+
+private:
+  IntensityVolume read()
+  {
     Span declared;
     bool whole = true;
     for (int k = m_box.lower[2]; k < m_box.upper[2]; ++k)
@@ -128,7 +148,8 @@ public:
       const SliceHeader& slice = m_slices[static_cast<std::size_t>(k)];
       const PixelFormat& pixels = slice.pixels;
       whole = whole && !pixels.isReal && isWhole(slice.slope) && isWhole(slice.intercept);
-      const double count = std::ldexp(1.0, pixels.bitsStored);
+      const bool isKept = m_undeclared == UndeclaredBits::Keep && !pixels.isReal;
+      const double count = std::ldexp(1.0, isKept ? pixels.bitsAllocated : pixels.bitsStored);
       declared.add(rescaled(slice, pixels.isSigned ? -0.5 * count : 0.0));
       declared.add(rescaled(slice, pixels.isSigned ? 0.5 * count - 1.0 : count - 1.0));
     }
@@ -146,7 +167,6 @@ public:
     return *tryRead<float>();
   }
 
-private:
   /// nullopt if a real value does not fit T; the memory is freed then.
   template <class T>
   std::optional<IntensityVolume> tryRead()
@@ -212,20 +232,101 @@ private:
       if (k >= m_box.lower[2] && k < m_box.upper[2])
         continue; // read already
       m_progress.check("reading slices");
-      decodePixels(sliceOf(n), pixels);
+      decodePixels(sliceOf(n), pixels, m_undeclared);
       copies = pixels.signs.any ? n : copies;
     }
     const SliceHeader& slice = sliceOf(bare);
     if (copies != m_signs.end())
-      failBitsStored(slice, bare->none,
-                     ": without the copies of the sign that the negative values of " +
-                         sliceOf(copies).file.filename().string() + " have");
+      throw DicomError(DicomError::Reason::Unreadable,
+                       bitsStoredText(slice, bare->none,
+                                      ": without the copies of the sign that the negative values "
+                                      "of " +
+                                          sliceOf(copies).file.filename().string() + " have") +
+                           "; export it again, uncompressed and with all bits");
     note(
         "Values whose highest stored bit is set were read as negative, as the header says (signed, "
         "Bits Stored " +
         std::to_string(slice.pixels.bitsStored) +
         "); no bit above tells them from positive ones that are too large. Look whether metal "
         "shows as air.");
+  }
+
+  void noteUndeclared()
+  {
+    const std::size_t count =
+        std::accumulate(m_undeclaredPixels.begin(), m_undeclaredPixels.end(), std::size_t{0});
+    if (count > 0)
+      note(std::to_string(count) + (count == 1 ? " pixel has" : " pixels have") +
+           " bits beside those stored that the file does not declare (Bits Stored); they were " +
+           (m_undeclared == UndeclaredBits::Keep
+                ? "kept, as if stored, as asked. Look whether air or tissue shows as metal there."
+                : "left out, as asked. Look whether metal shows as tissue there."));
+  }
+
+  /// What leaving the bits out gives and what keeping them does, for the user to choose.
+  [[noreturn]] void failUndeclared()
+  {
+    Span left;
+    Span kept;
+    double beside = 0.0;
+    std::size_t besideCount = 0;
+    std::size_t pixels = 0;
+    std::size_t slices = 0;
+    const SliceHeader* first = nullptr;
+    StoredPixels without;
+    StoredPixels with;
+    bool canKeep = true;
+    for (int k = m_box.lower[2]; k < m_box.upper[2]; ++k)
+    {
+      m_progress.check("reading slices");
+      const SliceHeader& slice = m_slices[static_cast<std::size_t>(k)];
+      decodePixels(slice, without, UndeclaredBits::LeaveOut);
+      if (without.undeclared == 0)
+        continue;
+      canKeep = canKeep && slice.pixels.highBit + 1 == slice.pixels.bitsStored;
+      if (canKeep)
+        decodePixels(slice, with, UndeclaredBits::Keep);
+      first = first ? first : &slice;
+      pixels += without.undeclared;
+      ++slices;
+      const auto isUndeclared = [&](std::size_t n) { return without.at(n) != with.at(n); };
+      for (std::size_t n = 0; canKeep && n < without.size(); ++n)
+      {
+        if (!isUndeclared(n))
+          continue;
+        left.add(rescaled(slice, without.at(n)));
+        kept.add(rescaled(slice, with.at(n)));
+        const auto column = n % static_cast<std::size_t>(slice.columns);
+        for (const bool isNext : {false, true})
+          if (isNext ? column + 1 < static_cast<std::size_t>(slice.columns) : column > 0)
+            if (const std::size_t other = isNext ? n + 1 : n - 1; !isUndeclared(other))
+            {
+              beside += rescaled(slice, without.at(other));
+              ++besideCount;
+            }
+      }
+    }
+    std::string text = bitsStoredText(
+        *first, pixels, slices > 1 ? ", in " + std::to_string(slices) + " slices" : std::string());
+    if (canKeep && !left.empty())
+      text += ", and nothing says what they are. Left out, as DICOM says of bits that are not "
+              "stored (--bits stored), the values are " +
+              rangeText(left) + "; kept, for metal in a file whose header is wrong (--bits " +
+              "allocated), they are " + rangeText(kept);
+    else
+      text += ", and nothing says what they are. Bits that are not stored can be left out, as "
+              "DICOM says (--bits stored)";
+    if (besideCount > 0)
+      text += "; beside them lies " + decimals(beside / static_cast<double>(besideCount), 0) +
+              " on average";
+    throw DicomError(DicomError::Reason::BitsUnclear,
+                     text + ". Or export it again, uncompressed and with all bits");
+  }
+
+  static std::string rangeText(const Span& span)
+  {
+    return decimals(span.min, 0) +
+           (span.max > span.min ? " to " + decimals(span.max, 0) : std::string());
   }
 
   const SliceHeader& sliceOf(std::vector<SignCopies>::const_iterator signs) const
@@ -286,8 +387,9 @@ private:
   void fillSlice(int k, Volume<T>& voxels, T stand, bool usePadding, StoredPixels& pixels)
   {
     const SliceHeader& slice = m_slices[static_cast<std::size_t>(m_box.lower[2] + k)];
-    decodePixels(slice, pixels);
+    decodePixels(slice, pixels, m_undeclared);
     m_signs[static_cast<std::size_t>(m_box.lower[2] + k)] = pixels.signs;
+    m_undeclaredPixels[static_cast<std::size_t>(m_box.lower[2] + k)] = pixels.undeclared;
     if (pixels.isReal())
       fillRows(k, slice, pixels.reals, voxels, stand, usePadding);
     else
@@ -417,11 +519,13 @@ private:
   const std::string& m_modality;
   GridGeometry m_geometry;
   IndexBox m_box;
+  UndeclaredBits m_undeclared;
   const std::function<void(std::size_t)>& m_require;
   const core::Progress& m_progress;
   std::vector<std::string>* m_notes = nullptr;
-  std::vector<SignCopies> m_signs; ///< of each slice; none outside of the box
-  bool m_needsRange = true;        ///< whether the range of the real values is needed
+  std::vector<SignCopies> m_signs;             ///< of each slice; none outside of the box
+  std::vector<std::size_t> m_undeclaredPixels; ///< likewise
+  bool m_needsRange = true;                    ///< whether the range of the real values is needed
   std::mutex m_mutex;
   Contents m_contents;
 };
@@ -508,7 +612,7 @@ IntensityVolume readSeries(const DicomSeries& series, const ReadOptions& options
       provenance->interpolated = before;
       provenance->pixels = pixelFaults(geometry.slices);
     }
-    return SeriesReader(series, box, require, progress).read(notes);
+    return SeriesReader(series, box, options.undeclaredBits, require, progress).read(notes);
   }
   const SeriesRepair repair(geometry);
   const IndexBox box = boxToRead(repair.grid(), options);
@@ -516,7 +620,8 @@ IntensityVolume readSeries(const DicomSeries& series, const ReadOptions& options
   { requireMemory(series, repair.grid(), box, true, options, bytes); };
   const core::Progress reading = progress.part(0.0, 0.7);
   const IntensityVolume stacked =
-      SeriesReader(series, geometry.grid->fullBox(), require, reading).read(notes);
+      SeriesReader(series, geometry.grid->fullBox(), options.undeclaredBits, require, reading)
+          .read(notes);
   if (notes)
     for (std::string& note : repair.notes(box))
       notes->push_back(std::move(note));

@@ -35,6 +35,8 @@ namespace
                                                        "came from");
 }
 
+constexpr const char* kExportBits = "; export it again, uncompressed and with all bits";
+
 [[noreturn]] void failChanged(const SliceHeader& slice)
 {
   throw DicomError(DicomError::Reason::Unreadable,
@@ -284,7 +286,8 @@ std::uint64_t overlayBits(const std::filesystem::path& file)
 
 /// Unpacks `scratch`. Cut to the bits that the header says are stored, larger values would turn
 /// into smaller ones: metal into soft tissue.
-void unpackWithin(const SliceHeader& slice, bool swap, StoredPixels& pixels)
+void unpackWithin(const SliceHeader& slice, bool swap, StoredPixels& pixels,
+                  UndeclaredBits undeclared)
 {
   const PixelFormat& format = slice.pixels;
   OutsideBits outside = outsideBits(slice, pixels.scratch, swap);
@@ -292,9 +295,22 @@ void unpackWithin(const SliceHeader& slice, bool swap, StoredPixels& pixels)
   { return outside.beyond + (outside.signs.any ? outside.signs.none : std::size_t{0}); };
   if (beyond() > 0)
     outside = outsideBits(slice, pixels.scratch, swap, overlayBits(slice.file));
-  if (beyond() > 0)
-    failBitsStored(slice, beyond());
-  pixels.signs = outside.signs;
+  pixels.undeclared = beyond();
+  if (pixels.undeclared > 0 && undeclared == UndeclaredBits::Refuse)
+    throw DicomError(DicomError::Reason::BitsUnclear,
+                     bitsStoredText(slice, pixels.undeclared) + kExportBits);
+  if (pixels.undeclared > 0 && undeclared == UndeclaredBits::Keep)
+  {
+    if (format.highBit + 1 != format.bitsStored) // the bits below are of no value
+      throw DicomError(DicomError::Reason::Unreadable,
+                       bitsStoredText(slice, pixels.undeclared) + kExportBits);
+    unpackCells(slice, format.bitsAllocated,
+                bitField(format.bitsAllocated, format.bitsAllocated - 1, format.isSigned), swap,
+                pixels);
+    return;
+  }
+  if (pixels.undeclared == 0)
+    pixels.signs = outside.signs;
   unpackCells(slice, format.bitsAllocated,
               bitField(format.bitsStored, format.highBit, format.isSigned), swap, pixels);
   if (outside.isPadded)
@@ -496,9 +512,11 @@ void requireWholePixels(const SliceHeader& slice)
 }
 
 void decodeFrame(ByteSource& source, const SliceHeader& slice,
-                 const std::vector<Fragment>& fragments, StoredPixels& pixels)
+                 const std::vector<Fragment>& fragments, StoredPixels& pixels,
+                 UndeclaredBits undeclared)
 {
   pixels.signs = {};
+  pixels.undeclared = 0;
   requireWholePixels(slice);
   if (slice.pixels.bitsAllocated % 8 != 0)
     fail(slice, "has a damaged compressed image");
@@ -523,7 +541,7 @@ void decodeFrame(ByteSource& source, const SliceHeader& slice,
     pixels.scratch.assign(pixels.values.size() * bytes, 0);
     if (!decodeRle(codestream, bytes, pixels.scratch))
       fail(slice, "has a damaged compressed image");
-    unpackWithin(slice, false, pixels);
+    unpackWithin(slice, false, pixels, undeclared);
     return;
   }
   if (isJpeg(format.transferSyntax))
@@ -534,7 +552,7 @@ void decodeFrame(ByteSource& source, const SliceHeader& slice,
         !decodeJpeg(codestream, precision, pixels.scratch))
       fail(slice, "has a damaged compressed image");
     if (isWider)
-      unpackWithin(slice, false, pixels);
+      unpackWithin(slice, false, pixels, undeclared);
     else
       unpackCells(slice, format.bitsAllocated,
                   bitField(format.bitsStored, format.highBit, format.isSigned), false, pixels);
@@ -580,7 +598,7 @@ void decodeFrame(ByteSource& source, const SliceHeader& slice,
       real.GetBitsAllocated() != format.bitsAllocated)
     fail(slice, "has a damaged compressed image");
   if (isWider)
-    unpackWithin(slice, false, pixels);
+    unpackWithin(slice, false, pixels, undeclared);
   else
     unpackCells(
         slice, format.bitsAllocated,
@@ -598,7 +616,8 @@ void requireBytes(const ByteSource& source, const SliceHeader& slice, std::uint6
     fail(slice, "is cut short");
 }
 
-void decodeUnchecked(ByteSource& source, const SliceHeader& slice, StoredPixels& pixels)
+void decodeUnchecked(ByteSource& source, const SliceHeader& slice, StoredPixels& pixels,
+                     UndeclaredBits undeclared)
 {
   const PixelFormat& format = slice.pixels;
   const std::size_t count =
@@ -628,7 +647,7 @@ void decodeUnchecked(ByteSource& source, const SliceHeader& slice, StoredPixels&
   pixels.signs = {};
   if (format.isEncapsulated)
   {
-    decodeFrame(source, slice, readFragments(source, slice), pixels);
+    decodeFrame(source, slice, readFragments(source, slice), pixels, undeclared);
     return;
   }
   requireBytes(source, slice, (count * bits + 7) / 8);
@@ -641,24 +660,23 @@ void decodeUnchecked(ByteSource& source, const SliceHeader& slice, StoredPixels&
     fail(slice, "is cut short");
   for (std::size_t at = 0; isPaired && at + 1 < pixels.scratch.size(); at += 2)
     std::swap(pixels.scratch[at], pixels.scratch[at + 1]);
-  unpackWithin(slice, format.isBigEndian, pixels);
+  unpackWithin(slice, format.isBigEndian, pixels, undeclared);
 }
 
 } // namespace
 
-void failBitsStored(const SliceHeader& slice, std::size_t count, const std::string& why)
+std::string bitsStoredText(const SliceHeader& slice, std::size_t count, const std::string& why)
 {
-  throw DicomError(DicomError::Reason::Unreadable,
-                   slice.file.filename().string() +
-                       " contradicts itself about the bits of a pixel: " + std::to_string(count) +
-                       (count == 1 ? " pixel has" : " pixels have") + " values of more than the " +
-                       std::to_string(slice.pixels.bitsStored) +
-                       " bits that its header states (Bits Stored)" + why +
-                       "; export it again, uncompressed and with all bits");
+  return slice.file.filename().string() +
+         " contradicts itself about the bits of a pixel: " + std::to_string(count) +
+         (count == 1 ? " pixel has" : " pixels have") + " values of more than the " +
+         std::to_string(slice.pixels.bitsStored) + " bits that its header states (Bits Stored)" +
+         why;
 }
 
-void decodePixels(const SliceHeader& slice, StoredPixels& pixels)
+void decodePixels(const SliceHeader& slice, StoredPixels& pixels, UndeclaredBits undeclared)
 {
+  pixels.undeclared = 0;
   ByteSource source(slice.file);
   if (!source.isOpen())
     fail(slice, "cannot be opened");
@@ -668,7 +686,7 @@ void decodePixels(const SliceHeader& slice, StoredPixels& pixels)
     failChanged(slice);
   try
   {
-    decodeUnchecked(source, slice, pixels);
+    decodeUnchecked(source, slice, pixels, undeclared);
   }
   catch (const DicomError&)
   {

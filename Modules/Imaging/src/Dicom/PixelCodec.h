@@ -25,6 +25,7 @@ struct StoredPixels
   std::vector<double> reals;        ///< floating point, and unsigned ones beyond 2^31 - 1; or empty
   std::vector<unsigned char> scratch;
   SignCopies signs;
+  std::size_t undeclared = 0; ///< pixels with bits that UndeclaredBits is about
 
   bool isReal() const noexcept { return !reals.empty(); }
   std::size_t size() const noexcept { return isReal() ? reals.size() : values.size(); }
@@ -52,7 +53,8 @@ std::vector<char> readCodestream(ByteSource& source, const SliceHeader& slice,
 /// Decodes the slice's frame of an encapsulated file, whose fragments are known: for many frames of
 /// one file. Throws DicomError (Unreadable).
 void decodeFrame(ByteSource& source, const SliceHeader& slice,
-                 const std::vector<Fragment>& fragments, StoredPixels& pixels);
+                 const std::vector<Fragment>& fragments, StoredPixels& pixels,
+                 UndeclaredBits undeclared = UndeclaredBits::Refuse);
 
 /// Reads and decodes the pixels that `slice` describes.
 ///
@@ -60,13 +62,13 @@ void decodeFrame(ByteSource& source, const SliceHeader& slice,
 /// file declares (of old scanners), which are left out: values that need them are refused, but for
 /// the declared padding, which keeps the value that the header gives it. Whether a positive value
 /// was taken for a negative one only the slices together tell (StoredPixels::signs). Thread-safe.
-/// Throws DicomError (Unreadable), naming the file; also if it was changed or replaced since its
-/// header was read (SliceHeader::stamp).
-void decodePixels(const SliceHeader& slice, StoredPixels& pixels);
+/// Throws DicomError (Unreadable, BitsUnclear), naming the file; also if it was changed or replaced
+/// since its header was read (SliceHeader::stamp).
+void decodePixels(const SliceHeader& slice, StoredPixels& pixels,
+                  UndeclaredBits undeclared = UndeclaredBits::Refuse);
 
-/// Throws DicomError (Unreadable): so many pixels of the slice have values of more than the bits
-/// stored. `why`: what tells, in brackets after a blank; or empty.
-[[noreturn]] void failBitsStored(const SliceHeader& slice, std::size_t count,
-                                 const std::string& why = {});
+/// That so many pixels of the slice have values of more than the bits stored. `why`: what tells.
+std::string bitsStoredText(const SliceHeader& slice, std::size_t count,
+                           const std::string& why = {});
 
 } // namespace petrous::imaging

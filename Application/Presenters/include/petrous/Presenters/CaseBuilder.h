@@ -11,6 +11,7 @@
 #include "petrous/Imaging/ImageFile.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
+#include "petrous/Imaging/SeriesGeometry.h"
 #include "petrous/Scene/Case.h"
 
 namespace petrous::presenters
@@ -26,7 +27,8 @@ struct PartSource
   std::string drawnOn = {};
   /// MR: which series and volume of a DICOM folder (imaging::chooseSeries); empty: automatic.
   std::string series = {};
-  bool repair = false; ///< MR: as CaseSources
+  bool repair = false;                                                      ///< MR: as CaseSources
+  imaging::UndeclaredBits undeclaredBits = imaging::UndeclaredBits::Refuse; ///< likewise
   /// MR: crops it on load, patient LPS mm of the MR itself.
   std::optional<core::PatientBox> roi = std::nullopt;
   /// MR, DICOM SEG, RT structure set: whether it may state another patient than the case's images
@@ -181,6 +183,7 @@ struct CaseSources
   scene::Modality modality = scene::Modality::Unknown;
   std::string series;  ///< which of a folder (imaging::chooseSeries); empty: chosen automatically
   bool repair = false; ///< resamples what imaging::ReadOptions::repair can
+  imaging::UndeclaredBits undeclaredBits = imaging::UndeclaredBits::Refuse; ///< likewise
   std::optional<core::PatientBox> roi; ///< crops the CT on load
   /// A primary image whose file leaves open which side of the patient is left: whether its axes
   /// are taken as RAS (else LPS); nullopt: it is refused.
@@ -220,6 +223,7 @@ struct PartFailure
   std::vector<imaging::MeshSpace> likely = {};          ///< of MeshSpaceUnclear
   bool isOtherPatient = false;                          ///< OtherPatient
   bool isSideUnclear = false;                           ///< ImageSideUnclear
+  bool isBitsUnclear = false;                           ///< imaging::DicomError, BitsUnclear
   bool isFrameUnclear = false;                          ///< FrameUnclear
   std::vector<std::string> taken = {};                  ///< NamesTaken
   std::size_t others = 0;                               ///< likewise

@@ -30,6 +30,9 @@ struct ReadOptions
   /// display.
   bool acceptDefects = false;
 
+  /// Refuse: throws DicomError (BitsUnclear), which says what each of the others gives.
+  UndeclaredBits undeclaredBits = UndeclaredBits::Refuse;
+
   /// Bytes that the voxels may take while they are read; 0: what the machine has left.
   std::uint64_t memory = 0;
 };
@@ -43,7 +46,7 @@ struct ReadOptions
 ///
 /// provenance  what repair guessed and moved, and what the headers state of the pixels
 ///
-/// Throws DicomError (Misleading, Unreadable, Unsupported, OutsideRoi, TooLarge) and
+/// Throws DicomError (Misleading, Unreadable, BitsUnclear, Unsupported, OutsideRoi, TooLarge) and
 /// CancelledError.
 volume::IntensityVolume readSeries(const DicomSeries& series, const ReadOptions& options,
                                    const core::Progress& progress,

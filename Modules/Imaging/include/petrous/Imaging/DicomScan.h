@@ -24,6 +24,7 @@ struct DicomError : core::Error
     Ambiguous,    ///< several series, none requested
     Misleading,   ///< the geometry verdict is not Ok
     Unreadable,   ///< a file is damaged, or has disappeared since the scan
+    BitsUnclear,  ///< values of more than the bits stored: ReadOptions::undeclaredBits
     Unsupported,  ///< colour, palette, or an unknown compression
     OutsideRoi,   ///< the requested box does not intersect the volume
     TooLarge      ///< more than fits the memory that is free

@@ -38,6 +38,16 @@ struct PixelFormat
   std::uint64_t length = 0;      ///< bytes; up to the end of the file if encapsulated
 };
 
+/// What becomes of bits of a pixel beside those that the header says are stored, which neither an
+/// overlay nor the sign explains. PS3.5 8.1.1 lets them be anything; but metal that needs more bits
+/// than a careless header states has them too, and would be soft tissue without them.
+enum class UndeclaredBits
+{
+  Refuse,
+  LeaveOut, ///< as DICOM says
+  Keep      ///< as if all bits allocated were stored
+};
+
 /// What distinguishes slices of one series at the same place. Absent or malformed: nullopt.
 struct SliceTraits
 {

@@ -23,6 +23,15 @@ namespace petrous::cli
 namespace
 {
 
+double millimetresOf(const std::string& unit)
+{
+  return unit == "um"     ? 0.001
+         : unit == "cm"   ? 10.0
+         : unit == "m"    ? 1000.0
+         : unit == "inch" ? 25.4
+                          : 1.0;
+}
+
 struct PartOptions
 {
   std::vector<std::string> mr;
@@ -32,6 +41,8 @@ struct PartOptions
   std::string meshFrame;
   std::string meshUnit;
   std::string mrFrame;
+  std::string mrUnit;
+  std::string labelsUnit;
   std::string mrRoi;
   std::string labelsFrame;
   bool repair = false;
@@ -100,8 +111,16 @@ struct PartOptions
         .add_option("--mesh-frame", meshFrame,
                     "Coordinate system of the meshes: lps (DICOM, ITK) or ras (Slicer, NIfTI)")
         ->check(oneOf({"lps", "ras"}));
-    command.add_option("--mesh-unit", meshUnit, "Unit of the meshes: mm, cm, m or inch (mm)")
-        ->check(oneOf({"mm", "cm", "m", "inch"}));
+    command.add_option("--mesh-unit", meshUnit, "Unit of the meshes: mm, cm, m, um or inch (mm)")
+        ->check(oneOf({"mm", "cm", "m", "um", "inch"}));
+    command
+        .add_option("--mr-unit", mrUnit,
+                    "Unit of length of MR files of voxels, instead of what they state")
+        ->check(oneOf({"mm", "cm", "m", "um"}));
+    command
+        .add_option("--labels-unit", labelsUnit,
+                    "Unit of length of label files, instead of what they state")
+        ->check(oneOf({"mm", "cm", "m", "um"}));
   }
 
   imaging::UndeclaredBits undeclaredBits() const
@@ -120,6 +139,10 @@ struct PartOptions
       throw UsageError("--other-patient goes with --mr or --labels");
     if (!mrFrame.empty() && mr.empty())
       throw UsageError("--mr-frame goes with --mr");
+    if (!mrUnit.empty() && mr.empty())
+      throw UsageError("--mr-unit goes with --mr");
+    if (!labelsUnit.empty() && labels.empty())
+      throw UsageError("--labels-unit goes with --labels");
     if (!mrRoi.empty() && mr.empty())
       throw UsageError("--mr-roi goes with --mr");
     if (skipTaken && labels.empty())
@@ -145,6 +168,8 @@ struct PartOptions
       result.mr.back().undeclaredBits = undeclaredBits();
       if (!mrFrame.empty())
         result.mr.back().assumeRas = mrFrame == "ras";
+      if (!mrUnit.empty())
+        result.mr.back().unit = millimetresOf(mrUnit);
       if (!mrRoi.empty())
         result.mr.back().roi = parseBox(mrRoi, "--mr-roi");
       result.mr.back().isOtherPatient = otherPatient;
@@ -154,6 +179,8 @@ struct PartOptions
       result.labels.push_back(presenters::PartSource::parseDrawn(text));
       if (!labelsFrame.empty())
         result.labels.back().assumeRas = labelsFrame == "ras";
+      if (!labelsUnit.empty())
+        result.labels.back().unit = millimetresOf(labelsUnit);
       result.labels.back().isOtherPatient = otherPatient;
       result.labels.back().skipsTaken = skipTaken;
       result.labels.back().numbersTaken = renameTaken;
@@ -170,10 +197,7 @@ struct PartOptions
       if (!meshFrame.empty())
         result.meshes.back().isRas = meshFrame == "ras";
       if (!meshUnit.empty())
-        result.meshes.back().unit = meshUnit == "cm"     ? 10.0
-                                    : meshUnit == "m"    ? 1000.0
-                                    : meshUnit == "inch" ? 25.4
-                                                         : 1.0;
+        result.meshes.back().unit = millimetresOf(meshUnit);
     }
     return result;
   }
@@ -348,7 +372,7 @@ void addNew(CLI::App& app, Context& context)
 {
   struct Options
   {
-    std::string name, ct, series, volume, roi, modality, frame;
+    std::string name, ct, series, volume, roi, modality, frame, unit;
     PartOptions parts;
   };
   auto options = std::make_shared<Options>();
@@ -368,6 +392,8 @@ void addNew(CLI::App& app, Context& context)
                                                        : scene::Modality::Unknown;
         if (!options->frame.empty())
           sources.assumeRas = options->frame == "ras";
+        if (!options->unit.empty())
+          sources.unit = millimetresOf(options->unit);
         if (!options->roi.empty())
           sources.roi = parseBox(options->roi, "--roi");
         sources.parts = options->parts.sources();
@@ -399,6 +425,10 @@ void addNew(CLI::App& app, Context& context)
       ->add_option("--ct-frame", options->frame,
                    "Axes of an image file that does not say which side is left: lps or ras")
       ->check(oneOf({"lps", "ras"}));
+  command
+      ->add_option("--ct-unit", options->unit,
+                   "Unit of length of a CT file of voxels, instead of what it states")
+      ->check(oneOf({"mm", "cm", "m", "um"}));
   command->add_option("--series", options->series, "Which series of the folder")->type_name("UID");
   command
       ->add_option("--volume", options->volume,

@@ -529,6 +529,40 @@ TEST_F(CaseBuilder, AsksWhichSideIsLeft)
 }
 
 // A CT without a header and what was drawn on it, exported by the same tool.
+// The same image whose file calls its millimetres micrometres.
+TEST_F(CaseBuilder, AnImageWhoseUnitMakesNoSenseIsAskedAbout)
+{
+  const core::GridGeometry grid = presenters::buildCase("ear", m_sources, {}).ct.geometry;
+  std::ifstream in(m_folder / "ct.nrrd", std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  const std::string said = "\"mm\" \"mm\" \"mm\"";
+  ASSERT_NE(bytes.find(said), std::string::npos);
+  bytes.replace(bytes.find(said), said.size(), "\"um\" \"um\" \"um\"");
+  m_sources.ct = m_folder / "um.nrrd";
+  std::ofstream(m_sources.ct, std::ios::binary) << bytes;
+  try
+  {
+    presenters::buildCase("ear", m_sources, {});
+    ADD_FAILURE() << "was read";
+  }
+  catch (const presenters::ImageUnitUnclear& unclear)
+  {
+    EXPECT_TRUE(unclear.doubt.isStated);
+    EXPECT_EQ(std::count(unclear.doubt.likely.begin(), unclear.doubt.likely.end(), 1.0), 1);
+    EXPECT_NE(std::string(unclear.what()).find("--ct-unit"), std::string::npos) << unclear.what();
+  }
+  m_sources.unit = 1.0;
+  scene::Case value = presenters::buildCase("ear", m_sources, {});
+  EXPECT_TRUE(core::sameGrid(value.ct.geometry, grid));
+  presenters::PartSources parts;
+  parts.mr = {{"T2", m_sources.ct}};
+  const auto failures = presenters::addSoundParts(value, parts, {});
+  ASSERT_EQ(failures.size(), 1U);
+  EXPECT_FALSE(failures[0].unitDoubt.likely.empty()) << failures[0].why;
+  parts.mr[0].unit = 1.0;
+  EXPECT_TRUE(presenters::addSoundParts(value, parts, {}).empty());
+}
+
 TEST_F(CaseBuilder, PartsOfAHeaderlessExportLieWhereTheCtDoes)
 {
   const core::GridGeometry grid({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3));
@@ -1428,6 +1462,9 @@ TEST_F(CaseBuilder, AsksHowAMeshCountsWhereItWouldLieElsewhere)
   writeBall(center, 0.001 * ras, "");
   EXPECT_NE(refusal().find("as RAS m it would lie inside"), std::string::npos) << refusal();
   expectCentered(add(true, 1000.0), center);
+  writeBall(center, 1000.0 * lps, "");
+  EXPECT_NE(refusal().find("as LPS \xc2\xb5m it would lie inside"), std::string::npos) << refusal();
+  expectCentered(add({}, 0.001), center);
   writeBall(center, 0.1 * lps, "# SPACE=LPS\n");
   EXPECT_NE(refusal().find("as LPS cm"), std::string::npos) << refusal();
   // What the file states may be wrong; what the user gives counts.

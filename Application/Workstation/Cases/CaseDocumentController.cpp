@@ -589,7 +589,7 @@ bool CaseDocumentController::askRegion(Item& item)
   if (!item.region && !item.source.isTooLarge)
     return true;
   RegionDialog dialog(item.source.path, item.source.selector, !item.source.repair.empty(),
-                      item.assumeRas, &m_window);
+                      item.assumeRas, item.unit, &m_window);
   dialog.setWindowTitle(tr("Region of the %1").arg(lineOf(item.source)));
   if (dialog.exec() != QDialog::Accepted)
     return false;
@@ -624,6 +624,12 @@ bool CaseDocumentController::askPlace(Item& item)
   {
     item.assumeRas = askSide(item.source.path);
     if (!item.assumeRas)
+      return false;
+  }
+  if (!item.source.unitDoubt.likely.empty())
+  {
+    item.unit = askUnit(item.source.path, item.source.unitDoubt);
+    if (!item.unit)
       return false;
   }
   return askRegion(item);
@@ -791,6 +797,7 @@ void CaseDocumentController::decide(std::vector<Item> items, const Purpose& purp
       sources.repair = repair;
       sources.roi = item.roi;
       sources.assumeRas = item.assumeRas;
+      sources.unit = item.unit;
       continue;
     case Content::Mr:
       sources.parts.mr.push_back({{}, source.path, {}, source.selector, repair});
@@ -822,6 +829,7 @@ void CaseDocumentController::decide(std::vector<Item> items, const Purpose& purp
     if (!askPlace(*mr))
       return;
     sources.assumeRas = mr->assumeRas;
+    sources.unit = mr->unit;
     sources.roi = mr->roi;
     ct = &mr->source;
     sources.modality = scene::Modality::Mr;
@@ -845,6 +853,7 @@ void CaseDocumentController::decide(std::vector<Item> items, const Purpose& purp
         return;
       part.roi = item.roi;
       part.assumeRas = item.assumeRas;
+      part.unit = item.unit;
     }
   const std::string name =
       ct ? presenters::freeCaseName(m_model.library(), presenters::caseNameFrom(ct->path))
@@ -1067,7 +1076,8 @@ void CaseDocumentController::tell(const std::vector<presenters::PartFailure>& fa
     {
       const bool isQuestion = !failure.likely.empty() || failure.isOtherPatient ||
                               failure.isSideUnclear || failure.isFrameUnclear ||
-                              failure.isBitsUnclear || !failure.taken.empty();
+                              failure.isBitsUnclear || !failure.unitDoubt.likely.empty() ||
+                              !failure.taken.empty();
       if (!isQuestion || !isOpen(target))
         lost += phrase(failure.why);
       else if (const auto source = askAgain(failure, target))
@@ -1168,6 +1178,12 @@ CaseDocumentController::askAgain(const presenters::PartFailure& failure, const T
     if (!source.assumeRas)
       return std::nullopt;
   }
+  else if (!failure.unitDoubt.likely.empty())
+  {
+    source.unit = askUnit(source.path, failure.unitDoubt);
+    if (!source.unit)
+      return std::nullopt;
+  }
   else if (failure.isBitsUnclear)
   {
     const auto bits = askBits(failure.why);
@@ -1195,6 +1211,42 @@ CaseDocumentController::askAgain(const presenters::PartFailure& failure, const T
     source.unit = space->mm;
   }
   return source;
+}
+
+// The unit of length (mm) of a file in whose own one it makes no sense; nullopt: the user does not
+// know.
+std::optional<double> CaseDocumentController::askUnit(const fs::path& path,
+                                                      const imaging::UnitDoubt& doubt)
+{
+  const QScopedValueRollback<bool> asking(m_asking, true);
+  const QString edge = QString::number(doubt.edge, 'g', 3);
+  QMessageBox box(QMessageBox::Question, tr("How large is it?"),
+                  doubt.isStated ? tr("By the unit of length that “%1” states, it is %2 mm long: "
+                                      "no head, ear or specimen.")
+                                       .arg(nameOf(path), edge)
+                                 : tr("“%1” states no unit of length, and in millimetres it is %2 "
+                                      "mm long: no head, ear or "
+                                      "specimen.")
+                                       .arg(nameOf(path), edge),
+                  QMessageBox::NoButton, &m_window);
+  box.setTextFormat(Qt::PlainText);
+  box.setObjectName("askUnit");
+  box.setInformativeText(tr("In which unit are its numbers? Every distance, tool and thickness "
+                            "follows this answer. Export the file again with its unit if you do "
+                            "not know it."));
+  std::vector<std::pair<const QAbstractButton*, double>> units;
+  for (const double unit : doubt.likely)
+    units.emplace_back(box.addButton(tr("In %1: %2 mm long")
+                                         .arg(words(presenters::unitName(unit)))
+                                         .arg(doubt.edge * unit / doubt.unit, 0, 'g', 3),
+                                     QMessageBox::ActionRole),
+                       unit);
+  box.setDefaultButton(box.addButton(QMessageBox::Cancel));
+  box.exec();
+  for (const auto& [button, unit] : units)
+    if (box.clickedButton() == button)
+      return unit;
+  return std::nullopt;
 }
 
 // What becomes of bits that nothing explains; nullopt: the user does not know.

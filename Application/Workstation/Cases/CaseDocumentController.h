@@ -122,6 +122,7 @@ private:
     bool region = false;
     std::optional<core::PatientBox> roi = {};
     std::optional<bool> assumeRas = {}; ///< presenters::CaseSources
+    std::optional<double> unit = {};    ///< likewise
     bool isSeen = true; ///< false: chosen by name, and presenters::lookAt has more to say
   };
   /// The case to which parts come, as it is open now.
@@ -162,6 +163,7 @@ private:
   std::optional<presenters::PartSource> askAgain(const presenters::PartFailure& failure,
                                                  const Target& target);
   std::optional<bool> askSide(const std::filesystem::path& path);
+  std::optional<double> askUnit(const std::filesystem::path& path, const imaging::UnitDoubt& doubt);
   std::optional<imaging::UndeclaredBits> askBits(const std::string& why);
   std::string askDrawnOn(const presenters::PartFailure& failure);
   bool askNewNames(presenters::PartSource& source, const std::vector<std::string>& taken,

@@ -157,7 +157,8 @@ void RegionView::mouseReleaseEvent(QMouseEvent* event)
 }
 
 RegionDialog::RegionDialog(const std::filesystem::path& path, const std::string& selector,
-                           bool repair, const std::optional<bool>& assumeRas, QWidget* parent)
+                           bool repair, const std::optional<bool>& assumeRas,
+                           const std::optional<double>& unit, QWidget* parent)
   : QDialog(parent)
   , m_views{new RegionView(SliceOrientation::Axial), new RegionView(SliceOrientation::Coronal),
             new RegionView(SliceOrientation::Sagittal)}
@@ -235,8 +236,8 @@ RegionDialog::RegionDialog(const std::filesystem::path& path, const std::string&
   layout->addWidget(buttons);
 
   m_progress->start(
-      [path, selector, repair, assumeRas](const core::Progress& progress)
-      { return presenters::previewScan(path, selector, repair, progress, assumeRas); },
+      [path, selector, repair, assumeRas, unit](const core::Progress& progress)
+      { return presenters::previewScan(path, selector, repair, progress, assumeRas, unit); },
       [this](std::shared_ptr<const presenters::ScanPreview> preview) { show(std::move(preview)); });
 }
 

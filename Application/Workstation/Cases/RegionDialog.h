@@ -55,9 +55,10 @@ class RegionDialog : public QDialog
 {
   Q_OBJECT
 public:
-  /// `selector`: imaging::chooseSeries; `assumeRas`: presenters::CaseSources.
+  /// `selector`: imaging::chooseSeries; `assumeRas`, `unit`: presenters::CaseSources.
   RegionDialog(const std::filesystem::path& path, const std::string& selector, bool repair,
-               const std::optional<bool>& assumeRas = {}, QWidget* parent = nullptr);
+               const std::optional<bool>& assumeRas = {}, const std::optional<double>& unit = {},
+               QWidget* parent = nullptr);
 
   /// Patient LPS mm; nullopt: all of it.
   std::optional<core::PatientBox> region() const;

@@ -106,6 +106,7 @@ QString windowText(const QString& text)
       {"; give its structures other names with NAME=FILE, which puts NAME before each, or numbers "
        "with --rename-taken(, or leave .* with --skip-taken)?",
        "; rename those of the case first (F2 in the list)"},
+      {" Export it again with its unit, or say it with --(ct|mr|labels)-unit", ""},
       {", and say --other-patient if it is to be added all the same", ""},
       {"labels on the grid of the whole image lie on it only as FILE@.*\\.$",
        "when labels on the grid of the whole image are added, choose it as the one on which they "

@@ -13,6 +13,7 @@
 
 #include "petrous/Core/InputFile.h"
 #include "petrous/Core/Log.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/MeshFile.h"
 #include "petrous/Imaging/VolumeFile.h"
@@ -262,30 +263,109 @@ TEST(ImageFile, AppliesTheRescaleOfNifti)
                 Reason::Unreadable, "slope");
 }
 
+/// The same image, 4 x 3 x 2 voxels of 0.5 mm from 10, 20, 30 mm, in units of `unit` mm; `said`:
+/// what the file calls it.
+std::string niftiIn(double unit, char said)
+{
+  TestNifti nifti = shortNifti();
+  const auto of = [unit](double mm) { return static_cast<float>(mm / unit); };
+  nifti.srow = {of(-0.5), 0.0F,      0.0F, of(-10.0), 0.0F,    of(-0.5),
+                0.0F,     of(-20.0), 0.0F, 0.0F,      of(0.5), of(30.0)}; // RAS
+  nifti.units = said;
+  return nifti.bytes();
+}
+std::string textOf(double value)
+{
+  return core::generalText(value, 12);
+}
+std::string nrrdIn(double unit, const std::string& said)
+{
+  const std::string h = textOf(0.5 / unit);
+  std::string text =
+      nrrd("short", bytesOf(counting<std::int16_t>(24)),
+           "(" + h + ",0,0) (0," + h + ",0) (0,0," + h + ")",
+           said.empty() ? "" : "space units: \"" + said + "\" \"" + said + "\" \"" + said + "\"\n");
+  const std::string origin =
+      "(" + textOf(10.0 / unit) + "," + textOf(20.0 / unit) + "," + textOf(30.0 / unit) + ")";
+  return text.replace(text.find("(10,20,30)"), 10, origin);
+}
+std::string metaIn(double unit, const std::string& said)
+{
+  const std::string h = textOf(0.5 / unit) + " ";
+  return "ObjectType = Image\nNDims = 3\nBinaryData = True\nTransformMatrix = 1 0 0 0 1 0 0 0 1\n"
+         "Offset = " +
+         textOf(10.0 / unit) + " " + textOf(20.0 / unit) + " " + textOf(30.0 / unit) +
+         "\nElementSpacing = " + h + h + h + "\nDimSize = 4 3 2\n" +
+         (said.empty() ? "" : "DistanceUnits = " + said + "\n") +
+         "ElementType = MET_SHORT\nElementDataFile = LOCAL\n" + bytesOf(counting<std::int16_t>(24));
+}
+
 TEST(ImageFile, TurnsUnitsIntoMillimetresAndNotesThem)
 {
   const TestFolder folder;
-  TestNifti nifti = shortNifti();
-  nifti.srow = {0.5F, 0.0F, 0.0F, 1.0F, 0.0F, 0.5F, 0.0F, 2.0F, 0.0F, 0.0F, 0.5F, 4.0F};
-  nifti.units = 0;
-  const auto unknown = readImageFile(putFile(folder / "a.nii", nifti.bytes()));
-  EXPECT_TRUE(noted(unknown, "taken as mm"));
-  EXPECT_NEAR(unknown.volume->geometry().spacing()[0], 0.5, 1e-9);
-  nifti.units = 1;
-  const auto metres = readImageFile(putFile(folder / "b.nii", nifti.bytes()));
-  EXPECT_TRUE(noted(metres, "metres"));
-  EXPECT_NEAR(metres.volume->geometry().spacing()[0], 500.0, 1e-9);
-  EXPECT_NEAR(metres.volume->geometry().origin()[2], 4000.0, 1e-9);
-  nifti.units = 3;
-  const auto micro = readImageFile(putFile(folder / "c.nii", nifti.bytes()));
-  EXPECT_TRUE(noted(micro, "micrometres"));
-  EXPECT_NEAR(micro.volume->geometry().spacing()[1], 0.0005, 1e-12);
-  const auto nrrdMetres =
-      readImageFile(putFile(folder / "d.nrrd", nrrd("short", bytesOf(counting<std::int16_t>(24)),
-                                                    "(0.0005,0,0) (0,0.0005,0) (0,0,0.0005)",
-                                                    "space units: \"m\" \"m\" \"m\"\n")));
-  EXPECT_NEAR(nrrdMetres.volume->geometry().spacing()[2], 0.5, 1e-12);
-  EXPECT_NEAR(nrrdMetres.volume->geometry().origin()[0], 10000.0, 1e-9);
+  const core::GridGeometry truth({4, 3, 2}, {0.5, 0.5, 0.5}, {10.0, 20.0, 30.0});
+  const auto expectTruth = [&](const std::filesystem::path& path, const char* word)
+  {
+    const LoadedImage image = readImageFile(path);
+    EXPECT_TRUE(core::sameGrid(image.volume->geometry(), truth, 1e-4)) << path << word;
+    EXPECT_TRUE(noted(image, word)) << path << word;
+    EXPECT_TRUE(unitDoubtOf(path).likely.empty()) << path << word;
+  };
+  expectTruth(putFile(folder / "0.nii", niftiIn(1.0, 0)), "taken as mm");
+  expectTruth(putFile(folder / "1.nii", niftiIn(1000.0, 1)), "metres");
+  expectTruth(putFile(folder / "3.nii", niftiIn(0.001, 3)), "micrometres");
+  expectTruth(putFile(folder / "no.nrrd", nrrdIn(1.0, "")), "taken as mm");
+  expectTruth(putFile(folder / "m.nrrd", nrrdIn(1000.0, "m")), "is in m;");
+  expectTruth(putFile(folder / "um.nrrd", nrrdIn(0.001, "um")), "is in um;");
+  expectTruth(putFile(folder / "cm.nrrd", nrrdIn(10.0, "cm")), "is in cm;");
+  expectTruth(putFile(folder / "no.mha", metaIn(1.0, "")), "taken as mm");
+  expectTruth(putFile(folder / "um.mha", metaIn(0.001, "um")), "is in um;");
+  expectTruth(putFile(folder / "m.mha", metaIn(1000.0, "m")), "is in m;");
+}
+
+// Half a millimetre is 500 micrometres, and 0.0005 metres.
+TEST(ImageFile, AsksForTheUnitWhereTheSizeMakesNoSense)
+{
+  const TestFolder folder;
+  const core::GridGeometry truth({4, 3, 2}, {0.5, 0.5, 0.5}, {10.0, 20.0, 30.0});
+  struct Case
+  {
+    std::filesystem::path path;
+    double real;   ///< mm
+    double stated; ///< mm; taken, if it is not stated
+    bool isStated;
+  };
+  for (const Case& one : {Case{putFile(folder / "a.nii", niftiIn(0.001, 0)), 0.001, 1.0, false},
+                          {putFile(folder / "b.nii", niftiIn(1000.0, 0)), 1000.0, 1.0, false},
+                          {putFile(folder / "c.nii", niftiIn(1.0, 3)), 1.0, 0.001, true},
+                          {putFile(folder / "d.nii", niftiIn(1.0, 1)), 1.0, 1000.0, true},
+                          {putFile(folder / "a.nrrd", nrrdIn(0.001, "")), 0.001, 1.0, false},
+                          {putFile(folder / "b.nrrd", nrrdIn(1.0, "um")), 1.0, 0.001, true},
+                          {putFile(folder / "a.mha", metaIn(0.001, "")), 0.001, 1.0, false},
+                          {putFile(folder / "b.mha", metaIn(1000.0, "mm")), 1000.0, 1.0, true}})
+  {
+    SCOPED_TRACE(one.path.filename());
+    const UnitDoubt doubt = unitDoubtOf(one.path);
+    EXPECT_EQ(doubt.unit, one.stated);
+    EXPECT_EQ(doubt.isStated, one.isStated);
+    EXPECT_NEAR(doubt.edge, 2.0 * one.stated / one.real, 1e-6 * doubt.edge);
+    EXPECT_EQ(std::count(doubt.likely.begin(), doubt.likely.end(), one.real), 1);
+    const LoadedImage image = readImageFile(one.path, {}, {}, {}, 0, one.real);
+    EXPECT_TRUE(core::sameGrid(image.volume->geometry(), truth, 1e-4));
+    EXPECT_TRUE(noted(image, "as asked"));
+    // The grid of the image of which they are settles it for labels.
+    const LoadedLabels alone = loadLabels(one.path);
+    EXPECT_FALSE(alone.unitDoubt.likely.empty());
+    const LoadedLabels beside = loadLabels(one.path, {}, {}, {truth});
+    EXPECT_TRUE(beside.unitDoubt.likely.empty());
+    EXPECT_TRUE(core::sameGrid(beside.maps.front().voxels->geometry(), truth, 1e-4));
+  }
+  // A micro-CT of 5 micrometres, and a whole body.
+  TestNifti specimen = shortNifti();
+  specimen.srow = {-0.005F, 0.0F, 0.0F, 0.0F, 0.0F, -0.005F, 0.0F, 0.0F, 0.0F, 0.0F, 5.0F, 0.0F};
+  EXPECT_TRUE(unitDoubtOf(putFile(folder / "specimen.nii", specimen.bytes())).likely.empty());
+  specimen.srow = {-4.0F, 0.0F, 0.0F, 0.0F, 0.0F, -4.0F, 0.0F, 0.0F, 0.0F, 0.0F, 900.0F, 0.0F};
+  EXPECT_TRUE(unitDoubtOf(putFile(folder / "body.nii", specimen.bytes())).likely.empty());
 }
 
 TEST(ImageFile, RefusesShearWithTheMillimetresAtStake)

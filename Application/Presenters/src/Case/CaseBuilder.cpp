@@ -261,6 +261,16 @@ void requireSide(const fs::path& path, const std::optional<bool>& assumeRas,
     throw ImageSideUnclear(path, option);
 }
 
+// Likewise.
+void requireUnit(const fs::path& path, const std::optional<double>& unit, const std::string& option)
+{
+  if (unit || fs::is_directory(path) ||
+      !imaging::isReadAs(path, imaging::kImage | imaging::kLabels))
+    return;
+  if (const imaging::UnitDoubt doubt = imaging::unitDoubtOf(path); !doubt.likely.empty())
+    throw ImageUnitUnclear(path, doubt, option);
+}
+
 imaging::ReadOptions optionsOf(bool repair, const std::optional<core::PatientBox>& roi,
                                imaging::UndeclaredBits undeclared)
 {
@@ -274,14 +284,15 @@ imaging::ReadOptions optionsOf(bool repair, const std::optional<core::PatientBox
 // `isPrimary`: of a case. `assumeRas`: as CaseSources.
 ReadImage readImage(const fs::path& path, const std::string& selector,
                     const imaging::ReadOptions& options, bool isPrimary,
-                    const std::optional<bool>& assumeRas, const core::Progress& progress)
+                    const std::optional<bool>& assumeRas, const std::optional<double>& unit,
+                    const core::Progress& progress)
 {
   ReadImage read;
   scene::ImagePart& part = read.part;
   if (!fs::is_directory(path) && imaging::isReadAs(path, imaging::kImage | imaging::kLabels))
   {
     auto image = imaging::readImageFile(path, options.roi, progress, assumeRas,
-                                        imaging::volumeNumber(path, selector));
+                                        imaging::volumeNumber(path, selector), unit);
     part.volume = image.volume;
     part.notes = std::move(image.notes);
     part.provenance.assumedRas = image.assumedRas;
@@ -502,9 +513,10 @@ void addMr(scene::Case& value, const PartSource& source,
   const std::string name = askedName(value, source, wanted, {}, notes);
   checkNewName(value, source.path, name, wanted);
   requireSide(source.path, source.assumeRas, "--mr-frame");
+  requireUnit(source.path, source.unit, "--mr-unit");
   ReadImage read = readImage(source.path, source.series,
                              optionsOf(source.repair, source.roi, source.undeclaredBits), false,
-                             source.assumeRas, progress);
+                             source.assumeRas, source.unit, progress);
   scene::ImagePart& part = read.part;
   if (!read.otherQuantity.empty())
     part.notes.push_back(read.otherQuantity);
@@ -846,7 +858,10 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     std::vector<imaging::ImageGrid> images{gridOf(value.ct)};
     for (const scene::ImagePart& mr : value.mr)
       images.push_back(gridOf(mr));
-    loaded = imaging::loadLabels(source.path, progress, naming, images, source.assumeRas);
+    loaded = imaging::loadLabels(source.path, progress, naming, images, source.assumeRas, 0,
+                                 source.unit);
+    if (!loaded.unitDoubt.likely.empty())
+      throw ImageUnitUnclear(source.path, loaded.unitDoubt, "--labels-unit");
     if (loaded.isSideOpen)
       throw ImageSideUnclear(source.path, "--labels-frame");
     if (imaging::isDicomSegmentation(source.path))
@@ -1102,6 +1117,35 @@ ImageSideUnclear::ImageSideUnclear(const fs::path& file, const std::string& opti
 {
 }
 
+std::string unitName(double unit)
+{
+  return unit == 1e-3 ? "\xc2\xb5m" : unit == 10.0 ? "cm" : unit == 1e3 ? "m" : "mm";
+}
+
+namespace
+{
+
+std::string unitDoubtText(const imaging::UnitDoubt& doubt)
+{
+  std::string others;
+  for (const double unit : doubt.likely)
+    others += (others.empty() ? "" : ", ") + core::generalText(doubt.edge * unit / doubt.unit, 3) +
+              " mm if its numbers are in " + unitName(unit);
+  return core::generalText(doubt.edge, 3) + " mm long " +
+         (doubt.isStated ? "by the unit that it states" : "in mm, as it states no unit of length") +
+         ", which is no head, ear or specimen; it is " + others;
+}
+
+} // namespace
+
+ImageUnitUnclear::ImageUnitUnclear(const fs::path& file, const imaging::UnitDoubt& of,
+                                   const std::string& option)
+  : core::InvalidParameter(file.string() + ": is " + unitDoubtText(of) +
+                           ". Export it again with its unit, or say it with " + option)
+  , doubt(of)
+{
+}
+
 namespace
 {
 
@@ -1221,9 +1265,11 @@ scene::Case buildCase(const std::string& name, const CaseSources& sources,
   scene::Case value;
   value.name = name;
   requireSide(sources.ct, sources.assumeRas, "--ct-frame");
-  ReadImage read = readImage(
-      sources.ct, sources.series, optionsOf(sources.repair, sources.roi, sources.undeclaredBits),
-      sources.modality != scene::Modality::Mr, sources.assumeRas, progress.part(0.0, 0.7));
+  requireUnit(sources.ct, sources.unit, "--ct-unit");
+  ReadImage read = readImage(sources.ct, sources.series,
+                             optionsOf(sources.repair, sources.roi, sources.undeclaredBits),
+                             sources.modality != scene::Modality::Mr, sources.assumeRas,
+                             sources.unit, progress.part(0.0, 0.7));
   value.ct = std::move(read.part);
   value.ct.name = "ct";
   placeSurface(value, sources.modality, read.otherQuantity);
@@ -1398,6 +1444,11 @@ std::vector<PartFailure> addSoundParts(scene::Case& value, const PartSources& pa
       {
         failures.push_back({source, unclear.what()});
         failures.back().isSideUnclear = true;
+      }
+      catch (const ImageUnitUnclear& unclear)
+      {
+        failures.push_back({source, unclear.what()});
+        failures.back().unitDoubt = unclear.doubt;
       }
       catch (const FrameUnclear& unclear)
       {

@@ -19,11 +19,11 @@ namespace
 using Eigen::Vector3d;
 using imaging::MeshSpace;
 
-constexpr std::array<double, 4> kUnits{1.0, 10.0, 25.4, 1000.0}; // mm
-constexpr double kSmallest = 1.0;                                // mm, the diagonal of a structure
-constexpr double kMostlyInside = 0.5;                            // of the vertices
-constexpr double kFollows = 0.75;                                // of the edges; 0.5 is chance
-constexpr double kClearlyBetter = 0.2;                           // of the edges
+constexpr std::array<double, 5> kUnits{1.0, 10.0, 25.4, 1000.0, 0.001}; // mm
+constexpr double kSmallest = 1.0;      // mm, the diagonal of a structure
+constexpr double kMostlyInside = 0.5;  // of the vertices
+constexpr double kFollows = 0.75;      // of the edges; 0.5 is chance
+constexpr double kClearlyBetter = 0.2; // of the edges
 constexpr std::size_t kSamples = 4000;
 
 struct Candidate
@@ -100,9 +100,9 @@ double edgesOf(const core::TriangleMesh& mesh, const MeshSpace& space,
   return all > 0.0 ? across / all : 0.0;
 }
 
-const char* unitOf(const MeshSpace& space)
+std::string unitOf(const MeshSpace& space)
 {
-  return space.mm == 1.0 ? "mm" : space.mm == 10.0 ? "cm" : space.mm == 25.4 ? "inch" : "m";
+  return space.mm == 25.4 ? "inch" : unitName(space.mm);
 }
 
 std::string percent(double share)

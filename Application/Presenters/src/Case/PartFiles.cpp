@@ -42,7 +42,7 @@ struct PartFile
   Kind kind = Kind::None;
   std::size_t structures = 0; ///< of a .seg.nrrd
   std::optional<core::GridGeometry> grid = {};
-  bool isSideOpen = false;
+  bool isSideOpen = false; ///< or the unit of length
 };
 
 bool isPartName(const fs::path& path)
@@ -136,7 +136,7 @@ bool readHead(PartFile& file)
   }
   const imaging::ImageHeader header = imaging::readImageHeader(file.path);
   file.grid = header.grid;
-  file.isSideOpen = header.assumedRas.has_value();
+  file.isSideOpen = header.assumedRas.has_value() || !header.unitDoubt.likely.empty();
   if (format.reads == imaging::kLabels)
   {
     file.kind = Kind::Map;

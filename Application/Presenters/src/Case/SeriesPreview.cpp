@@ -93,12 +93,13 @@ std::size_t ScanPreview::voxelsIn(const core::PatientBox& box) const
 }
 
 ScanPreview previewScan(const fs::path& path, const std::string& selector, bool repair,
-                        const core::Progress& progress, const std::optional<bool>& assumeRas)
+                        const core::Progress& progress, const std::optional<bool>& assumeRas,
+                        const std::optional<double>& unit)
 {
   if (!fs::is_directory(path) && imaging::isReadAs(path, imaging::kImage | imaging::kLabels))
   {
     const auto image = imaging::previewImageFile(path, kSlices, progress, assumeRas, 0,
-                                                 imaging::volumeNumber(path, selector));
+                                                 imaging::volumeNumber(path, selector), unit);
     return previewOf(*image.volume, image.grid);
   }
   const auto scan = imaging::scanDicom(path, progress.part(0.0, 0.3), library::scanCache().get());

@@ -430,6 +430,7 @@ SourceContent lookAt(const fs::path& path, const core::Progress& progress,
       expected ? *expected
                : contentOfFile(path, isSeries ? 1 : 0, result.isTooLarge, progress.part(0.0, 0.8));
   result.isSideOpen = header.assumedRas.has_value();
+  result.unitDoubt = header.unitDoubt;
   if (isSeries)
   {
     if (result.content == Content::Labels) // which have one volume

@@ -86,23 +86,49 @@ core::GridGeometry gridFromAffine(const std::filesystem::path& path,
   return {size, spacing, origin, axes};
 }
 
-double unitInMillimetres(std::string name, std::vector<std::string>& notes)
+LengthUnit namedUnit(std::string name, std::vector<std::string>& notes)
 {
   name.erase(std::remove(name.begin(), name.end(), '"'), name.end());
   const std::string unit(trimmed(name));
-  if (unit == "mm" || unit == "millimeter" || unit == "millimeters" || unit == "millimetre")
-    return 1.0;
+  for (const char* known : {"mm", "millimeter", "millimeters", "millimetre", "millimetres"})
+    if (unit == known)
+      return {1.0, true};
   for (const auto& [known, scale] :
-       {std::pair("um", 1e-3), std::pair("\xc2\xb5m", 1e-3), std::pair("micron", 1e-3),
-        std::pair("microns", 1e-3), std::pair("cm", 10.0), std::pair("m", 1e3)})
+       {std::pair("um", 1e-3), std::pair("\xc2\xb5m", 1e-3), std::pair("\xce\xbcm", 1e-3),
+        std::pair("micron", 1e-3), std::pair("microns", 1e-3), std::pair("micrometer", 1e-3),
+        std::pair("micrometers", 1e-3), std::pair("micrometre", 1e-3), std::pair("nm", 1e-6),
+        std::pair("cm", 10.0), std::pair("centimeter", 10.0), std::pair("inch", 25.4),
+        std::pair("m", 1e3), std::pair("meter", 1e3), std::pair("meters", 1e3),
+        std::pair("metre", 1e3)})
     if (unit == known)
     {
       notes.push_back("is in " + unit + "; converted to mm");
-      return scale;
+      return {scale, true};
     }
   notes.emplace_back(unit.empty() ? "states no unit of length; taken as mm"
                                   : "states a unit of length that is not known; taken as mm");
-  return 1.0;
+  return {};
+}
+
+double longestEdge(const std::vector<std::uint64_t>& dims, const Eigen::Matrix3d& linear)
+{
+  double longest = 0.0;
+  for (std::size_t a = 0; a < 3; ++a)
+    longest = std::max(longest, static_cast<double>(dims[a]) *
+                                    linear.col(static_cast<Eigen::Index>(a)).norm());
+  return longest;
+}
+
+bool isPlausibleSize(const std::vector<std::uint64_t>& dims, const Eigen::Matrix3d& linear)
+{
+  constexpr double kSmallest = 1.0;   // mm, the longest edge
+  constexpr double kFinest = 0.01;    // mm; a tiny file of ordinary voxels is a test or a cut-out
+  constexpr double kLargest = 1500.0; // mm
+  constexpr double kCoarse = 4.5;     // mm; whole bodies are scanned in finer or as coarse voxels
+  const double longest = longestEdge(dims, linear);
+  const auto voxel = linear.colwise().norm();
+  return !(longest < kSmallest && voxel.maxCoeff() < kFinest) &&
+         !(longest > kLargest && voxel.minCoeff() > kCoarse);
 }
 
 } // namespace petrous::imaging

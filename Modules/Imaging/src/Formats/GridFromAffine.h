@@ -20,8 +20,21 @@ core::GridGeometry gridFromAffine(const std::filesystem::path& path,
                                   const Eigen::Matrix3d& linear, const Eigen::Vector3d& origin,
                                   std::vector<std::string>& notes);
 
-/// Millimetres per unit as named by NRRD and MetaImage ("mm", "um", "m"), with or without quotes;
-/// units other than mm, and unknown or empty ones, which are taken as mm, are noted.
-double unitInMillimetres(std::string name, std::vector<std::string>& notes);
+/// The unit of length of a file.
+struct LengthUnit
+{
+  double mm = 1.0;
+  bool isStated = false; ///< false: mm is assumed
+};
+
+/// As named by NRRD and MetaImage ("mm", "um", "m"), with or without quotes; units other than mm,
+/// and unknown or empty ones, which are taken as mm, are noted.
+LengthUnit namedUnit(std::string name, std::vector<std::string>& notes);
+
+/// Whether voxels of these axes (mm) are those of a head, an ear or a specimen of one: neither is
+/// all of it below a millimetre, nor is it metres of coarse voxels, as of a whole body.
+bool isPlausibleSize(const std::vector<std::uint64_t>& dims, const Eigen::Matrix3d& linear);
+/// Its longest edge, mm.
+double longestEdge(const std::vector<std::uint64_t>& dims, const Eigen::Matrix3d& linear);
 
 } // namespace petrous::imaging

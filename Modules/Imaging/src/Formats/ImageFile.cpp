@@ -170,10 +170,12 @@ void requireImage(const std::filesystem::path& path, VoxelSource& source, std::s
 LoadedImage readImageFile(const std::filesystem::path& path,
                           const std::optional<core::PatientBox>& roi,
                           const core::Progress& progress, const std::optional<bool>& isRas,
-                          std::size_t volume)
+                          std::size_t volume, const std::optional<double>& unit)
 {
   progress.report(0.0, "reading image");
   VoxelSource source(path);
+  if (unit)
+    source.settleUnit(unit, {});
   if (isRas)
     source.settleSide(isRas, {});
   requireImage(path, source, volume);
@@ -201,9 +203,12 @@ LoadedImage readImageFile(const std::filesystem::path& path,
 
 ImagePreview previewImageFile(const std::filesystem::path& path, std::size_t slices,
                               const core::Progress& progress, const std::optional<bool>& isRas,
-                              std::uint64_t memory, std::size_t volume)
+                              std::uint64_t memory, std::size_t volume,
+                              const std::optional<double>& unit)
 {
   VoxelSource source(path);
+  if (unit)
+    source.settleUnit(unit, {});
   if (isRas)
     source.settleSide(isRas, {});
   requireImage(path, source, volume);
@@ -272,7 +277,8 @@ ImageHeader readImageHeader(const std::filesystem::path& path,
   VoxelSource source(path);
   if (volume)
     requireImage(path, source, *volume);
-  return {source.geometry(), source.components(), source.volumes(), source.assumedRas()};
+  return {source.geometry(), source.components(), source.volumes(), source.assumedRas(),
+          source.unitDoubt()};
 }
 
 std::size_t volumeNumber(const std::filesystem::path& path, const std::string& selector)
@@ -295,6 +301,11 @@ std::size_t volumeNumber(const std::filesystem::path& path, const std::string& s
 std::optional<bool> assumedRasOf(const std::filesystem::path& path)
 {
   return VoxelSource(path).assumedRas();
+}
+
+UnitDoubt unitDoubtOf(const std::filesystem::path& path)
+{
+  return VoxelSource(path).unitDoubt();
 }
 
 } // namespace petrous::imaging

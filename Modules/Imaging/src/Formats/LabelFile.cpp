@@ -209,7 +209,7 @@ constexpr const char* kTableUnused =
 LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
                         const core::Progress& progress, const LabelNaming& naming,
                         const std::vector<ImageGrid>& images, const std::optional<bool>& isRas,
-                        std::uint64_t memory)
+                        std::uint64_t memory, const std::optional<double>& unit)
 {
   progress.report(0.0, "reading labels");
   if (isDicomSegmentation(path))
@@ -222,6 +222,7 @@ LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
     return loaded;
   }
   VoxelSource source(path);
+  source.settleUnit(unit, images);
   const bool isSideKnown = source.settleSide(isRas, images);
   const bool named = hasSegments(source);
   if (!named || source.components() == 1) // else the layers of a segmentation
@@ -236,6 +237,7 @@ LoadedLabels readLayers(const std::filesystem::path& path, bool oneOnly,
   LoadedLabels loaded;
   loaded.notes = source.notes();
   loaded.isSideOpen = !isSideKnown;
+  loaded.unitDoubt = source.unitDoubt();
   loaded.assumedRas = source.assumedRas();
   if (named)
     for (const std::string& name : segmentsWithoutLayer(*source.nrrd(), source.components()))
@@ -286,17 +288,18 @@ bool isDicomSegmentation(const std::filesystem::path& path)
 
 LoadedLabels loadLabels(const std::filesystem::path& path, const core::Progress& progress,
                         const LabelNaming& naming, const std::vector<ImageGrid>& images,
-                        const std::optional<bool>& isRas, std::uint64_t memory)
+                        const std::optional<bool>& isRas, std::uint64_t memory,
+                        const std::optional<double>& unit)
 {
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
-    return readLabelFolder(path, progress, images, isRas);
-  return readLayers(path, false, progress, naming, images, isRas, memory);
+    return readLabelFolder(path, progress, images, isRas, unit);
+  return readLayers(path, false, progress, naming, images, isRas, memory, unit);
 }
 
 volume::LabelMap readLabelFile(const std::filesystem::path& path, const core::Progress& progress)
 {
-  return std::move(readLayers(path, true, progress, {}, {}, {}, 0).maps.front());
+  return std::move(readLayers(path, true, progress, {}, {}, {}, 0, {}).maps.front());
 }
 
 std::vector<volume::Segment> readSegments(const std::filesystem::path& path)

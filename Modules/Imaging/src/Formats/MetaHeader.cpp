@@ -177,7 +177,8 @@ void readPlacement(const std::filesystem::path& path, const Fields& fields, Meta
 {
   const std::size_t n = header.dims.size();
   const std::string* units = valueOf(fields, {"DistanceUnits"});
-  const double unit = unitInMillimetres(units ? *units : "", header.notes);
+  header.unit = namedUnit(units ? *units : "", header.notes);
+  const double unit = header.unit.mm;
   const auto spacing = numbersOf(valueOf(fields, {"ElementSpacing", "ElementSize"}));
   const std::string* place = valueOf(fields, {"Offset", "Position", "Origin"});
   const std::string* axes = valueOf(fields, {"TransformMatrix", "Rotation", "Orientation"});

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "Component.h"
+#include "GridFromAffine.h"
 
 namespace petrous::imaging
 {
@@ -20,7 +21,8 @@ struct MetaHeader
   Component component = Component::Int16;
   Eigen::Matrix3d linear; ///< d patient / d voxel of the first three axes, LPS mm
   Eigen::Vector3d origin; ///< LPS mm
-  double slope = 1.0;     ///< rescale of the stored values (ElementToIntensityFunction)
+  LengthUnit unit;
+  double slope = 1.0; ///< rescale of the stored values (ElementToIntensityFunction)
   double intercept = 0.0;
   std::string comment;
   bool isSideAssumed = false; ///< it states no axes in the patient, and LPS is taken

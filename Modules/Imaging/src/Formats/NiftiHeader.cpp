@@ -257,26 +257,27 @@ void readPlacement(const std::filesystem::path& path, const Fields& fields, Nift
     const double d = ((header.linear - *qLinear) * index + header.origin - qOrigin).norm();
     apart = std::max(apart, d);
   }
+  apart *= header.unit.mm;
   if (apart > kPlacementsDiffer)
     header.notes.push_back("places itself twice (sform and qform), up to " + roughText(apart) +
                            " mm apart; the sform is used, as the NIfTI standard says");
 }
 
-double unitInMillimetres(int code, std::vector<std::string>& notes)
+LengthUnit unitOf(int code, std::vector<std::string>& notes)
 {
   switch (code & 7)
   {
   case 1:
     notes.emplace_back("is in metres; converted to mm");
-    return 1e3;
+    return {1e3, true};
   case 2:
-    return 1.0;
+    return {1.0, true};
   case 3:
     notes.emplace_back("is in micrometres; converted to mm");
-    return 1e-3;
+    return {1e-3, true};
   default:
     notes.emplace_back("states no unit of length; taken as mm");
-    return 1.0;
+    return {};
   }
 }
 
@@ -341,10 +342,10 @@ NiftiHeader readNiftiHeader(const std::filesystem::path& given)
   if (!std::isfinite(header.slope) || !std::isfinite(header.intercept))
     fail(FileError::Reason::Unreadable, path,
          "its rescale slope or intercept is not a number; export it again from where it came");
+  header.unit = unitOf(fields.units(), header.notes);
   readPlacement(path, fields, header);
-  const double unit = unitInMillimetres(fields.units(), header.notes);
-  header.linear = unit * kLpsFromRas.asDiagonal() * header.linear;
-  header.origin = unit * kLpsFromRas.cwiseProduct(header.origin);
+  header.linear = header.unit.mm * kLpsFromRas.asDiagonal() * header.linear;
+  header.origin = header.unit.mm * kLpsFromRas.cwiseProduct(header.origin);
   return header;
 }
 

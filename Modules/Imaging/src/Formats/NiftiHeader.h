@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "GridFromAffine.h"
 #include "petrous/Core/GridGeometry.h"
 
 namespace petrous::imaging
@@ -24,6 +25,7 @@ struct NiftiHeader
   double intercept = 0.0;
   Eigen::Matrix3d linear; ///< d patient / d voxel, LPS mm
   Eigen::Vector3d origin; ///< LPS mm
+  LengthUnit unit;
   std::string description;
   bool isSideAssumed = false; ///< it states no place in the patient, and RAS is taken
   std::vector<std::string> notes;

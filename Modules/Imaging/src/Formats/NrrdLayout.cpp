@@ -161,22 +161,30 @@ Eigen::Vector3d lpsFromSpace(const Path& path, const NrrdHeader& header, NrrdLay
   return {1.0, 1.0, 1.0};
 }
 
-/// Millimetres per unit along each axis of the file's frame.
-Eigen::Vector3d unitsOf(const NrrdHeader& header, std::vector<std::string>& notes)
+/// The unit of all axes of the file's frame. `firstAxis`: the first of the file's own that is one
+/// of space.
+LengthUnit unitOf(const Path& path, const NrrdHeader& header, std::size_t firstAxis,
+                  std::vector<std::string>& notes)
 {
-  const std::string* text = header.field("space units");
+  const std::string* text = header.field("space units"); // of the frame; "units" are of all axes
+  const std::size_t first = text ? 0 : firstAxis;
   const auto words = axisWords(text ? text : header.field("units"));
-  Eigen::Vector3d scale;
+  LengthUnit unit;
   for (std::size_t a = 0; a < 3; ++a)
   {
     std::vector<std::string> said;
-    scale[static_cast<Eigen::Index>(a)] =
-        unitInMillimetres(a < words.size() ? words[a] : std::string(), said);
+    const LengthUnit one =
+        namedUnit(first + a < words.size() ? words[first + a] : std::string(), said);
+    if (a > 0 && one.mm != unit.mm)
+      fail(FileError::Reason::NoGeometry, path,
+           "its header gives the axes different units of length ('space units'), which cannot be "
+           "meant; export it again with its geometry");
+    unit = {one.mm, one.isStated && (a == 0 || unit.isStated)};
     for (std::string& note : said)
       if (std::find(notes.begin(), notes.end(), note) == notes.end())
         notes.push_back(std::move(note));
   }
-  return scale;
+  return unit;
 }
 
 std::vector<std::uint64_t> sizesOf(const Path& path, const NrrdHeader& header)
@@ -222,11 +230,8 @@ std::vector<bool> rangeAxes(const NrrdHeader& header, std::size_t count)
 void readPlacement(const Path& path, const NrrdHeader& header, std::size_t firstAxis,
                    NrrdLayout& layout)
 {
-  const Eigen::Vector3d scale = unitsOf(header, layout.notes);
-  if (scale.minCoeff() != scale.maxCoeff())
-    fail(FileError::Reason::NoGeometry, path,
-         "its header gives the axes different units of length ('space units'), which cannot be "
-         "meant; export it again with its geometry");
+  layout.unit = unitOf(path, header, firstAxis, layout.notes);
+  const double scale = layout.unit.mm;
   const auto directions = axisWords(header.field("space directions"));
   const auto spacings = axisWords(header.field("spacings"));
   if (directions.empty() && spacings.empty())
@@ -247,11 +252,11 @@ void readPlacement(const Path& path, const NrrdHeader& header, std::size_t first
       if (!size)
         failGeometry(path, "spacings");
       const auto axis = static_cast<Eigen::Index>(a);
-      layout.linear(axis, axis) = *size * scale[axis];
+      layout.linear(axis, axis) = *size * scale;
     }
     return;
   }
-  toLps = lpsFromSpace(path, header, layout).cwiseProduct(scale);
+  toLps = scale * lpsFromSpace(path, header, layout);
   for (std::size_t a = 0; a < 3; ++a)
   {
     double time = 0.0;

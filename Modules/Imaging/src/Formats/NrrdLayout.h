@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "Component.h"
+#include "GridFromAffine.h"
 #include "NrrdHeader.h"
 #include "VoxelStream.h"
 
@@ -24,8 +25,9 @@ struct NrrdLayout
   std::size_t components = 1; ///< numbers per voxel: the leading non-spatial axes
   bool isList = false;        ///< these are one axis of kind "list" or "time": of volumes
   Component component = Component::Int16;
-  Eigen::Matrix3d linear;     ///< d patient / d voxel of the first three axes, LPS mm
-  Eigen::Vector3d origin;     ///< LPS mm
+  Eigen::Matrix3d linear; ///< d patient / d voxel of the first three axes, LPS mm
+  Eigen::Vector3d origin; ///< LPS mm
+  LengthUnit unit;
   bool isSideAssumed = false; ///< it states no frame of a patient, and LPS is taken
   std::vector<std::string> notes;
 

@@ -13,6 +13,7 @@
 #include "MetaHeader.h"
 #include "NiftiHeader.h"
 #include "NrrdLayout.h"
+#include "petrous/Core/NumberText.h"
 #include "petrous/Imaging/FileFormats.h"
 
 namespace petrous::imaging
@@ -168,9 +169,67 @@ void VoxelSource::openNifti()
   m_place.packing = header.packed ? Packing::Zlib : Packing::None;
   m_swapped = header.swapped;
   checkRoom();
-  m_geometry = gridFromAffine(m_path, header.dims, header.linear, header.origin, m_notes);
+  place(header.linear, header.origin, header.unit);
   if (header.isSideAssumed)
     m_assumedRas = true;
+}
+
+/// Places the voxels; in the likeliest unit, where that of the file makes no sense.
+void VoxelSource::place(const Eigen::Matrix3d& linear, const Eigen::Vector3d& origin,
+                        const LengthUnit& unit)
+{
+  constexpr double kUnits[] = {1.0, 1e-3, 1e3, 10.0}; // mm
+  m_unit = unit.mm;
+  if (m_dims.size() >= 3 && linear.allFinite() && !isPlausibleSize(m_dims, linear))
+  {
+    m_unitDoubt = {unit.mm, unit.isStated, longestEdge(m_dims, linear), {}};
+    for (const double other : kUnits)
+      if (other != unit.mm && isPlausibleSize(m_dims, other / unit.mm * linear))
+        m_unitDoubt.likely.push_back(other);
+    if (!m_unitDoubt.likely.empty())
+      m_unit = m_unitDoubt.likely.front();
+  }
+  const double scale = m_unit / unit.mm;
+  m_geometry = gridFromAffine(m_path, m_dims, scale * linear, scale * origin, m_notes);
+}
+
+void VoxelSource::scaleTo(double unit)
+{
+  const core::GridGeometry& grid = *m_geometry;
+  const double scale = unit / std::exchange(m_unit, unit);
+  m_geometry = core::GridGeometry(grid.dims(), scale * grid.spacing(), scale * grid.origin(),
+                                  grid.direction());
+}
+
+bool VoxelSource::settleUnit(const std::optional<double>& unit,
+                             const std::vector<ImageGrid>& images)
+{
+  const auto note = [this](const char* why)
+  {
+    m_notes.push_back("was taken in a unit of length of " + core::generalText(m_unit) + " mm" +
+                      why);
+    m_unitDoubt = {};
+  };
+  if (unit)
+  {
+    scaleTo(*unit);
+    note(", as asked");
+    return true;
+  }
+  if (m_unitDoubt.likely.empty() || images.empty())
+    return m_unitDoubt.likely.empty();
+  for (const double likely : std::vector<double>(m_unitDoubt.likely))
+  {
+    scaleTo(likely);
+    if (std::any_of(images.begin(), images.end(),
+                    [this](const ImageGrid& grid) { return core::sameGrid(grid, *m_geometry); }))
+    {
+      note(", as its grid is then that of an image of the case");
+      return true;
+    }
+  }
+  scaleTo(m_unitDoubt.likely.front());
+  return false;
 }
 
 void VoxelSource::assume(bool isRas)
@@ -241,7 +300,7 @@ void VoxelSource::openNrrd()
   m_swapped = layout.swapped;
   m_isText = layout.isText;
   checkRoom();
-  m_geometry = gridFromAffine(m_path, m_dims, layout.linear, layout.origin, m_notes);
+  place(layout.linear, layout.origin, layout.unit);
   if (layout.isSideAssumed)
     m_assumedRas = false;
 }
@@ -269,7 +328,7 @@ void VoxelSource::openMeta()
       voxelBytes() !=
           static_cast<long double>(m_dataBytes) - static_cast<long double>(header.offset))
     failMetaKind(m_path);
-  m_geometry = gridFromAffine(m_path, m_dims, header.linear, header.origin, m_notes);
+  place(header.linear, header.origin, header.unit);
   if (header.isSideAssumed)
     m_assumedRas = false;
 }

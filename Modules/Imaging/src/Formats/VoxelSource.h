@@ -13,8 +13,10 @@
 #include "petrous/Core/Progress.h"
 
 #include "Component.h"
+#include "GridFromAffine.h"
 #include "NrrdHeader.h"
 #include "VoxelStream.h"
+#include "petrous/Imaging/ImageFile.h"
 #include "petrous/Imaging/ImageGrid.h"
 
 namespace petrous::imaging
@@ -51,6 +53,11 @@ public:
   /// Settles a side that is left open: as `isRas` says, else as loadLabels; notes it. Whether it is
   /// settled, or was stated.
   bool settleSide(const std::optional<bool>& isRas, const std::vector<ImageGrid>& images);
+  /// The unit of length, if what the file states or leaves open makes it no head, ear or specimen.
+  const UnitDoubt& unitDoubt() const noexcept { return m_unitDoubt; }
+  /// Settles it: as `unit` (mm) says, which a file without doubt follows too, else by the grid of
+  /// an image; notes it. Whether it is settled. Before the side.
+  bool settleUnit(const std::optional<double>& unit, const std::vector<ImageGrid>& images);
   /// The value of voxels outside the scanned field, as this program's files keep it.
   const std::optional<double>& padding() const noexcept { return m_padding; }
   /// The text header of a NRRD; nullopt for other formats.
@@ -73,6 +80,8 @@ public:
 
 private:
   void countVolumes();
+  void place(const Eigen::Matrix3d& linear, const Eigen::Vector3d& origin, const LengthUnit& unit);
+  void scaleTo(double unit);
   long double voxelBytes() const;
   void checkRoom();
   void readText(const core::IndexBox& box, void* out, const core::Progress& progress) const;
@@ -94,6 +103,8 @@ private:
   std::size_t m_listed = 1;            ///< volumes whose voxels are interleaved, if one is selected
   double m_slope = 0.0;                ///< 0: no rescaling
   double m_intercept = 0.0;
+  double m_unit = 1.0; ///< mm, in which the geometry was taken
+  UnitDoubt m_unitDoubt;
   std::optional<bool> m_assumedRas;
   std::optional<double> m_padding;
   std::vector<std::string> m_notes;

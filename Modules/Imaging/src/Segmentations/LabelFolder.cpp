@@ -47,6 +47,7 @@ struct Mask
   std::string why; ///< why it is not a mask; empty: it is one
   bool isDamaged = false;
   bool isSideOpen = false; ///< LoadedLabels
+  UnitDoubt unitDoubt;     ///< likewise
   std::optional<bool> assumedRas;
 };
 
@@ -97,9 +98,11 @@ bool addSlice(const T* values, std::uint64_t count, std::uint64_t first, T& labe
 }
 
 void readMask(Mask& mask, const core::Progress& progress, const std::vector<ImageGrid>& images,
-              const std::optional<bool>& isRas)
+              const std::optional<bool>& isRas, const std::optional<double>& unit)
 {
   VoxelSource source(mask.path);
+  source.settleUnit(unit, images);
+  mask.unitDoubt = source.unitDoubt();
   mask.isSideOpen = !source.settleSide(isRas, images);
   mask.assumedRas = source.assumedRas();
   mask.grid = source.geometry();
@@ -231,7 +234,8 @@ struct Layer
 } // namespace
 
 LoadedLabels readLabelFolder(const fs::path& folder, const core::Progress& progress,
-                             const std::vector<ImageGrid>& images, const std::optional<bool>& isRas)
+                             const std::vector<ImageGrid>& images, const std::optional<bool>& isRas,
+                             const std::optional<double>& unit)
 {
   progress.report(0.0, "reading labels");
   LoadedLabels loaded;
@@ -246,7 +250,7 @@ LoadedLabels readLabelFolder(const fs::path& folder, const core::Progress& progr
         Mask& mask = masks[n];
         try
         {
-          readMask(mask, reading, images, isRas);
+          readMask(mask, reading, images, isRas, unit);
         }
         catch (const FileError& error)
         {
@@ -293,6 +297,8 @@ LoadedLabels readLabelFolder(const fs::path& folder, const core::Progress& progr
       loaded.notes.emplace_back(kAlike);
     segment.index = ++index;
     loaded.isSideOpen = loaded.isSideOpen || mask.isSideOpen;
+    if (loaded.unitDoubt.likely.empty())
+      loaded.unitDoubt = mask.unitDoubt;
     if (!loaded.assumedRas)
       loaded.assumedRas = mask.assumedRas;
     for (const std::string& note : mask.notes)

@@ -35,7 +35,7 @@ struct PartSource
   /// do.
   bool isOtherPatient = false;
   /// Meshes: whether the file is in RAS (else LPS), and its unit in mm; nullopt: as it states,
-  /// else LPS mm if that fits the image.
+  /// else LPS mm if that fits the image. The unit also of other files of voxels.
   std::optional<bool> isRas = std::nullopt;
   std::optional<double> unit = std::nullopt;
   /// MR and structures whose file leaves open which side of the patient is left: as CaseSources.
@@ -111,6 +111,17 @@ struct ImageSideUnclear : core::InvalidParameter
   /// `option`: of the command, that says it.
   ImageSideUnclear(const std::filesystem::path& file, const std::string& option);
 };
+
+/// A file of voxels whose unit of length makes no sense (imaging::UnitDoubt): the user has to say.
+struct ImageUnitUnclear : core::InvalidParameter
+{
+  /// `option`: of the command, that says it.
+  ImageUnitUnclear(const std::filesystem::path& file, const imaging::UnitDoubt& doubt,
+                   const std::string& option);
+  imaging::UnitDoubt doubt;
+};
+/// Of a length in mm: "µm", "mm", "cm" or "m".
+std::string unitName(double unit);
 
 /// Structures that state another frame of reference than each image of the case: the user has to
 /// say on which image they were drawn.
@@ -188,6 +199,8 @@ struct CaseSources
   /// A primary image whose file leaves open which side of the patient is left: whether its axes
   /// are taken as RAS (else LPS); nullopt: it is refused.
   std::optional<bool> assumeRas = std::nullopt;
+  /// Of its file of voxels, mm; nullopt: as it states, and if that is in doubt, it is refused.
+  std::optional<double> unit = std::nullopt;
   PartSources parts;
 };
 
@@ -223,6 +236,7 @@ struct PartFailure
   std::vector<imaging::MeshSpace> likely = {};          ///< of MeshSpaceUnclear
   bool isOtherPatient = false;                          ///< OtherPatient
   bool isSideUnclear = false;                           ///< ImageSideUnclear
+  imaging::UnitDoubt unitDoubt = {};                    ///< ImageUnitUnclear
   bool isBitsUnclear = false;                           ///< imaging::DicomError, BitsUnclear
   bool isFrameUnclear = false;                          ///< FrameUnclear
   std::vector<std::string> taken = {};                  ///< NamesTaken

@@ -25,10 +25,11 @@ struct ScanPreview
 };
 
 /// Reads a scan with every few of its slices; one that needs repair as a whole. `selector`:
-/// imaging::chooseSeries. `assumeRas`: as CaseSources. Throws as buildCase does.
+/// imaging::chooseSeries. `assumeRas`, `unit`: as CaseSources. Throws as buildCase does.
 ScanPreview previewScan(const std::filesystem::path& path, const std::string& selector, bool repair,
                         const core::Progress& progress,
-                        const std::optional<bool>& assumeRas = std::nullopt);
+                        const std::optional<bool>& assumeRas = std::nullopt,
+                        const std::optional<double>& unit = std::nullopt);
 
 /// A series as its slices lie in the files, evenly and straight above each other, and as repair
 /// puts them: both a slab of a few millimetres through the middle, for a picture of `orientation`,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "petrous/Core/Progress.h"
+#include "petrous/Imaging/ImageFile.h"
 #include "petrous/Imaging/SeriesGeometry.h"
 #include "petrous/Volume/IntensityVolume.h"
 
@@ -69,6 +70,7 @@ struct SourceContent
   bool isTooLarge = false; ///< an image file that the memory does not hold: a region of it may do
   /// A file that leaves open which side of the patient is left (imaging::assumedRasOf).
   bool isSideOpen = false;
+  imaging::UnitDoubt unitDoubt = {}; ///< of a file of voxels
   std::string description = {}; ///< of a DICOM series: as SeriesContent's, for local display only
   /// Of a DICOM series that cannot be used, repaired or not: why. Else empty.
   std::vector<imaging::Finding> refused = {};

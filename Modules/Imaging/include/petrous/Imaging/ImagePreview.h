@@ -25,10 +25,11 @@ struct ImagePreview
 ///
 /// memory  bytes that it may take; 0: what the machine has left
 ///
-/// `isRas`, `volume` and what is thrown: as readImageFile.
+/// `isRas`, `volume`, `unit` and what is thrown: as readImageFile.
 ImagePreview previewImageFile(const std::filesystem::path& path, std::size_t slices,
                               const core::Progress& progress = {},
                               const std::optional<bool>& isRas = std::nullopt,
-                              std::uint64_t memory = 0, std::size_t volume = 0);
+                              std::uint64_t memory = 0, std::size_t volume = 0,
+                              const std::optional<double>& unit = std::nullopt);
 
 } // namespace petrous::imaging

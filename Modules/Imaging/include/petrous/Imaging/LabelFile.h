@@ -9,6 +9,7 @@
 
 #include "petrous/Core/Progress.h"
 #include "petrous/Imaging/FileError.h"
+#include "petrous/Imaging/ImageFile.h"
 #include "petrous/Imaging/ImageGrid.h"
 #include "petrous/Imaging/PatientKey.h"
 #include "petrous/Volume/LabelMap.h"
@@ -39,6 +40,8 @@ struct LoadedLabels
   /// Whether RAS (true) or LPS (false) axes were taken where a file leaves that open; of a folder,
   /// of the first that does. nullopt: it is stated.
   std::optional<bool> assumedRas = {};
+  /// Likewise of the unit of length (unitDoubtOf), which the grid of an image settles, too.
+  UnitDoubt unitDoubt = {};
   bool isNamedAfterFile = false; ///< structures are named only by the names of their files
   /// DICOM: what structures are, by the codes of the file; by name. An appearance may be chosen by
   /// it where the name says nothing.
@@ -80,7 +83,7 @@ bool isDicomSegmentation(const std::filesystem::path& path);
 /// how its axes count. Without it they count so that its grid is that of one of `images`, if only
 /// one side gives such a grid, and if it tells a side: the file states an origin beside the middle,
 /// or the image's own file left its side open, too. Any two files from 0, 0, 0 of one size share
-/// their grid.
+/// their grid. `unit`: of length, in mm, instead of the file's.
 ///
 /// Names and colours are taken from the file itself (3D Slicer's .seg.nrrd), else from the table
 /// given in `naming`, else from a table in the same folder that has the same base name (.ctbl,
@@ -101,7 +104,8 @@ bool isDicomSegmentation(const std::filesystem::path& path);
 /// without a structure. CancelledError.
 LoadedLabels loadLabels(const std::filesystem::path& path, const core::Progress& progress = {},
                         const LabelNaming& naming = {}, const std::vector<ImageGrid>& images = {},
-                        const std::optional<bool>& isRas = std::nullopt, std::uint64_t memory = 0);
+                        const std::optional<bool>& isRas = std::nullopt, std::uint64_t memory = 0,
+                        const std::optional<double>& unit = std::nullopt);
 
 /// Like loadLabels, without the notes, for a file whose structures do not overlap. Throws FileError
 /// (Unsupported) for several layers.

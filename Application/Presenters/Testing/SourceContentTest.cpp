@@ -2,6 +2,7 @@
 #include <fstream>
 #include <iterator>
 #include <random>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -156,6 +157,7 @@ TEST_F(SourceContent, CountsTheStructuresOfALabelMapThatNothingNames)
                            {});
   imaging::writeLabelFile(m_folder / "ear.nii.gz", map);
   EXPECT_EQ(presenters::lookAt(m_folder / "ear.nii.gz", {}).unnamed, 2U);
+  EXPECT_EQ(presenters::lookAt(m_folder / "ear.nii.gz", {}).structureCount, 2U);
   imaging::writeLabelFile(m_folder / "cochlea.nii.gz", map);
   EXPECT_EQ(presenters::lookAt(m_folder / "cochlea.nii.gz", {}).unnamed, 2U);
   std::ofstream(m_folder / "ear.csv") << "index,name\n3,cochlea\n";
@@ -201,6 +203,34 @@ TEST_F(SourceContent, OfAFolderWithCtAndMrTheUserSaysWhich)
   EXPECT_EQ(found.series[1].folder, "mr");
   EXPECT_EQ(found.series[0].taken, "20200101 1200"); // as written by the test
   EXPECT_EQ(found.series[0].patientPosition, "HFS");
+}
+
+// Two visits whose series lie in folders of one name, and two series of one folder.
+TEST_F(SourceContent, SeriesAreToldApartByTheirPlaces)
+{
+  phantom::SampleOptions options;
+  options.spacing = 3.0;
+  petrous::testing::writeSharedSample(m_folder, options);
+  const auto put = [this](const char* from, const std::filesystem::path& to)
+  {
+    std::filesystem::create_directories(to.parent_path());
+    std::filesystem::copy(m_folder / from, to, std::filesystem::copy_options::recursive);
+  };
+  const auto all = m_folder / "junk";
+  put("ct", all / "first" / "dicom" / "001");
+  put("mr", all / "second" / "dicom" / "001");
+  const auto foldersOf = [&]
+  {
+    std::set<std::string> folders;
+    for (const presenters::SeriesContent& one : presenters::lookAt(all, {}).series)
+      folders.insert(one.folder);
+    return folders;
+  };
+  EXPECT_EQ(foldersOf(), (std::set<std::string>{"first/dicom/001", "second/dicom/001"}));
+  std::filesystem::rename(all / "second" / "dicom", all / "second" / "mr");
+  EXPECT_EQ(foldersOf(), (std::set<std::string>{"dicom/001", "mr/001"}));
+  std::filesystem::rename(all / "second" / "mr" / "001", all / "second" / "mr" / "002");
+  EXPECT_EQ(foldersOf(), (std::set<std::string>{"001", "002"}));
 }
 
 // The elements of an RT structure set that tell what it is (PS3.3 A.19), explicit little endian.

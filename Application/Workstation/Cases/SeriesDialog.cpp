@@ -10,6 +10,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QScrollBar>
+#include <QSignalBlocker>
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
@@ -91,7 +92,9 @@ void fillLine(QTreeWidgetItem& line, const SeriesContent& series,
   const bool isPart = !series.files.empty();
   const auto spacing = [&series](Eigen::Index axis)
   { return QString::number(series.spacing[axis], 'g', 3); };
-  line.setText(Series, (words(series.modality) + "  " + words(series.description)).trimmed());
+  const QString description = series.description.empty() ? SeriesDialog::tr("without a description")
+                                                         : words(series.description);
+  line.setText(Series, (words(series.modality) + "  " + description).trimmed());
   if (!isPart)
     line.setText(Images, QString::number(series.slices));
   line.setTextAlignment(Images, Qt::AlignRight | Qt::AlignVCenter);
@@ -164,7 +167,12 @@ SeriesDialog::SeriesDialog(const presenters::SourceContent& source, bool hasCase
   m_open = buttons->button(QDialogButtonBox::Open);
   connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
-  connect(m_list, &QTreeWidget::itemChanged, this, &SeriesDialog::check);
+  connect(m_list, &QTreeWidget::itemChanged, this,
+          [this](QTreeWidgetItem* item)
+          {
+            keepOneCt(*item);
+            check();
+          });
   connect(m_list, &QTreeWidget::itemDoubleClicked, this,
           [this](QTreeWidgetItem* item)
           {
@@ -228,6 +236,20 @@ bool SeriesDialog::wantsRegion() const
   return m_region->isEnabled() && m_region->isChecked();
 }
 
+// A tick at a CT takes it from another one.
+void SeriesDialog::keepOneCt(QTreeWidgetItem& changed)
+{
+  const auto isCt = [this](int row)
+  { return m_series[static_cast<std::size_t>(row)].content == Content::Ct; };
+  const int row = m_list->indexOfTopLevelItem(&changed);
+  if (row < 0 || !isCt(row) || changed.checkState(Series) != Qt::Checked)
+    return;
+  const QSignalBlocker quiet(m_list);
+  for (int n = 0; n < m_list->topLevelItemCount(); ++n)
+    if (auto* other = m_list->topLevelItem(n); n != row && isCt(n) && !other->isDisabled())
+      other->setCheckState(Series, Qt::Unchecked);
+}
+
 void SeriesDialog::check()
 {
   const auto all = chosen();
@@ -240,10 +262,9 @@ void SeriesDialog::check()
   const auto cts = count(Content::Ct);
   QString advice;
   if (all.empty())
-    advice = tr("Tick what is to be opened. Why a series cannot be used, or what its repair would "
-                "change, is in its tooltip.");
-  else if (cts > 1)
-    advice = tr("A case has one CT; open the other one afterwards.");
+    advice =
+        tr("Nothing is ticked: tick what is to be opened. Why a series cannot be used, or what "
+           "its repair would change, is in its tooltip.");
   else if (cts == 0 && count(Content::Image) == 0 && !m_hasCase)
     advice = tr("No case is open, and one begins with the patient's CT; tick that, too.");
   m_advice->setText(advice);

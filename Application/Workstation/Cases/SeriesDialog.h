@@ -10,6 +10,7 @@ class QCheckBox;
 class QLabel;
 class QPushButton;
 class QTreeWidget;
+class QTreeWidgetItem;
 
 namespace petrous::workstation
 {
@@ -28,6 +29,7 @@ public:
 
 private:
   void proposeTicks();
+  void keepOneCt(QTreeWidgetItem& changed);
   void check();
 
   std::vector<presenters::SeriesContent> m_series;

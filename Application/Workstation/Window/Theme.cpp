@@ -117,7 +117,7 @@ QTreeView:focus { border-color: @accent; }
 QTreeView::indicator, QCheckBox::indicator { width: 12px; height: 12px; background: @box;
                        border: 1px solid @edgeOfBox; border-radius: 3px; }
 QTreeView::indicator:checked, QCheckBox::indicator:checked { background: @accent;
-                       border-color: @edgeOfOn; }
+                       border-color: @edgeOfOn; image: url(:/icons/tick.png); }
 QTreeView::indicator:indeterminate, QCheckBox::indicator:indeterminate { background: @off;
                        border-color: @dim; }
 QTreeView::indicator:selected { border-color: @strong; }

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdint>
+#include <set>
 #include <string_view>
 #include <vector>
 
@@ -130,7 +131,8 @@ SeriesContent contentOf(const imaging::DicomSeries& series)
   result.taken = first.taken;
   result.patientPosition = first.patientPosition;
   result.kernel = first.kernel;
-  result.folder = first.file.parent_path().filename().string();
+  result.place = first.file.parent_path();
+  result.first = first.file.filename();
   result.verdict = series.geometry.grid ? series.geometry.verdict : imaging::Verdict::Refused;
   result.findings = series.geometry.findings;
   return result;
@@ -147,7 +149,7 @@ std::vector<SeriesContent> segmentationsOf(const imaging::ScanResult& scan)
       segmentation.content = Content::Labels;
       segmentation.modality = series.modality;
       segmentation.description = file.filename().string();
-      segmentation.folder = file.parent_path().filename().string();
+      segmentation.place = file.parent_path();
       segmentation.files = {file};
       segmentation.what = series.kind == imaging::SeriesKind::StructureSet ? "RT structure set"
                                                                            : "DICOM segmentation";
@@ -176,8 +178,7 @@ std::vector<SeriesContent> partsOf(const fs::path& path, const imaging::ScanResu
       part.modality = format->name;
     const bool isFile = files.paths.size() == 1;
     part.description = (isFile ? first : first.parent_path()).filename().string();
-    part.folder =
-        (isFile ? first.parent_path() : first.parent_path().parent_path()).filename().string();
+    part.place = isFile ? first.parent_path() : first.parent_path().parent_path();
     part.files = files.paths;
     part.slices = files.count;
     part.what = files.text;
@@ -187,6 +188,45 @@ std::vector<SeriesContent> partsOf(const fs::path& path, const imaging::ScanResu
     found.push_back(std::move(part));
   }
   return found;
+}
+
+// The last `count` names of a path.
+fs::path endOf(const fs::path& path, std::ptrdiff_t count)
+{
+  auto at = path.end();
+  for (; count > 0 && at != path.begin(); --count)
+    --at;
+  fs::path result;
+  for (; at != path.end(); ++at)
+    result /= *at;
+  return result;
+}
+
+// Names folders so that different ones differ.
+void nameFolders(std::vector<SeriesContent>& series)
+{
+  std::vector<fs::path> places;
+  for (const SeriesContent& one : series)
+    places.push_back(fs::absolute(one.place).lexically_normal());
+  const std::set<fs::path> all(places.begin(), places.end());
+  for (std::size_t n = 0; n < series.size(); ++n)
+  {
+    const auto depth = std::distance(places[n].begin(), places[n].end());
+    std::ptrdiff_t count = 1;
+    const auto isShared = [&](const fs::path& other)
+    { return other != places[n] && endOf(other, count) == endOf(places[n], count); };
+    while (count < depth && std::any_of(all.begin(), all.end(), isShared))
+      ++count;
+    fs::path folder = endOf(places[n], count);
+    const auto looksAlike = [&](const SeriesContent& other)
+    {
+      return &other != &series[n] && other.place == series[n].place &&
+             other.modality == series[n].modality && other.description == series[n].description;
+    };
+    if (series[n].files.empty() && std::any_of(series.begin(), series.end(), looksAlike))
+      folder /= series[n].first;
+    series[n].folder = folder.string();
+  }
 }
 
 // `uid`: this series alone; empty: all. `offersParts`: beside images also what is not DICOM.
@@ -239,6 +279,7 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress,
         result.series.push_back(contentOf(series));
     result.series.insert(result.series.end(), segmentations.begin(), segmentations.end());
     result.series.insert(result.series.end(), parts.begin(), parts.end());
+    nameFolders(result.series);
     return result;
   }
   // If none is readable, the reader reports why.
@@ -297,6 +338,7 @@ void listVolumes(const imaging::ImageHeader& header, SourceContent& result)
     volume.slices = static_cast<std::size_t>(header.grid.dims()[2]);
     volume.spacing = header.grid.spacing();
     volume.folder = result.path.parent_path().filename().string();
+    volume.place = result.path.parent_path();
     volume.isDicom = false;
     result.series.push_back(std::move(volume));
   }
@@ -422,6 +464,8 @@ SourceContent lookAt(const fs::path& path, const core::Progress& progress,
   {
     result.content = Content::Labels;
     result.why = "is a segmentation of 3D Slicer";
+    if (imaging::readImageHeader(path).components == 1) // else overlapping, in layers
+      result.structureCount = imaging::readSegments(path).size();
     return result;
   }
   const imaging::ImageHeader header = imaging::readImageHeader(path);
@@ -448,6 +492,8 @@ SourceContent lookAt(const fs::path& path, const core::Progress& progress,
       const imaging::LoadedLabels labels = imaging::loadLabels(path, progress.part(0.8, 1.0));
       result.isNameless = !isWhole && labels.isNamedAfterFile;
       result.unnamed = unnamedIn(labels);
+      for (const volume::LabelMap& map : labels.maps)
+        result.structureCount += map.segments.size();
     }
     catch (const imaging::FileError&)
     {

@@ -34,10 +34,14 @@ struct SeriesContent
   std::size_t slices = 0;
   Eigen::Vector3d spacing = Eigen::Vector3d::Zero(); ///< mm
   // These distinguish series of the same description; likewise for local display only.
-  std::string taken;                               ///< imaging::SliceHeader
-  std::string patientPosition;                     ///< likewise
-  std::string kernel;                              ///< reconstruction kernel; may be empty
-  std::string folder;                              ///< name of its first slice's folder
+  std::string taken;           ///< imaging::SliceHeader
+  std::string patientPosition; ///< likewise
+  std::string kernel;          ///< reconstruction kernel; may be empty
+  std::filesystem::path place; ///< folder of its first slice
+  std::filesystem::path first; ///< name of that slice's file
+  /// The end of its place, as long as it takes to tell it from the others', and its first slice
+  /// where that does not.
+  std::string folder;
   imaging::Verdict verdict = imaging::Verdict::Ok; ///< Refused: cannot be chosen
   std::vector<imaging::Finding> findings;          ///< the reasons for it
   std::string name;                                ///< see sequenceName
@@ -66,6 +70,7 @@ struct SourceContent
   std::vector<SeriesContent> series = {};
   /// Structures of a label map that neither it nor a table beside it names.
   std::size_t unnamed = 0;
+  std::size_t structureCount = 0;           ///< of a label map; 0: not known
   std::vector<std::string> structures = {}; ///< of a folder of masks (maskNames)
   bool isTooLarge = false; ///< an image file that the memory does not hold: a region of it may do
   /// A file that leaves open which side of the patient is left (imaging::assumedRasOf).

@@ -64,7 +64,11 @@ AddPartsDialog::AddPartsDialog(const QString& title, const QString& more, const 
     else if (part.unnamed > 0)
       grid->addWidget(tableChoice(m_rows.size(), part), row, 1);
     else
-      grid->addWidget(plain(tr("named by the file")), row, 1);
+      grid->addWidget(plain(part.count == 0 ? tr("named by the file")
+                            : part.count == 1
+                                ? tr("1 structure, named by the file")
+                                : tr("%1 structures, named by the file").arg(part.count)),
+                      row, 1);
     if (part.isPlaced)
     {
       widgets.place = new QComboBox;
@@ -105,12 +109,27 @@ AddPartsDialog::AddPartsDialog(const QString& title, const QString& more, const 
   check();
 }
 
-// How many structures have no name, and the table that has them.
+namespace
+{
+
+QString unnamedText(const AddPartsDialog::Part& part)
+{
+  if (part.count <= part.unnamed)
+    return part.unnamed == 1
+               ? AddPartsDialog::tr("1 structure, without a name")
+               : AddPartsDialog::tr("%1 structures, none with a name").arg(part.unnamed);
+  return part.unnamed == 1 ? AddPartsDialog::tr("%1 structures, 1 without a name").arg(part.count)
+                           : AddPartsDialog::tr("%1 structures, %2 without a name")
+                                 .arg(part.count)
+                                 .arg(part.unnamed);
+}
+
+} // namespace
+
+// How many structures there are and have no name, and the table that has them.
 QWidget* AddPartsDialog::tableChoice(std::size_t row, const Part& part)
 {
-  auto* state =
-      new QLabel(part.unnamed == 1 ? tr("1 structure without a name")
-                                   : tr("%1 structures without a name").arg(part.unnamed));
+  auto* state = new QLabel(unnamedText(part));
   state->setObjectName("namesState");
   state->setTextFormat(Qt::PlainText);
   state->setWordWrap(true);

@@ -25,7 +25,8 @@ public:
     std::string name;        ///< proposed; may be empty
     bool isNamed = true;     ///< by the user; else the file names its structures
     bool isPlaced = false;   ///< structures and meshes: in the space of the CT or an MR
-    std::size_t unnamed = 0; ///< structures of the file without a name: a table can name them
+    std::size_t count = 0;   ///< structures of the file; 0: not known
+    std::size_t unnamed = 0; ///< those of them without a name: a table can name them
     QString folder;          ///< where such a table may be
   };
   struct Answer

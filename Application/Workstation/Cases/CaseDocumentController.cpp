@@ -672,6 +672,7 @@ bool CaseDocumentController::askNames(presenters::CaseSources& sources,
     {
       part.isNamed = false;
       part.unnamed = source.unnamed;
+      part.count = source.structureCount;
       part.folder = QFile::decodeName(source.path.parent_path().c_str());
       isNameless = isNameless || source.unnamed > 0;
     }
@@ -917,10 +918,15 @@ void CaseDocumentController::makeCase(
          const bool isPatients = presenters::IdentityText(*value).mayIdentify(name);
          if (isPatients)
            value->name = presenters::freeCaseName(library, "case");
-         return [this, value, failures, report, isPatients]
+         QStringList labels;
+         for (const presenters::PartSource& part : parts.labels)
+           labels += nameOf(part.path);
+         return [this, value, failures, report, isPatients, what = labels.join("”, “")]() mutable
          {
            endWork();
            const QString named = words(value->name);
+           if (askOutside(report, what) != Outside::Added)
+             presenters::leaveOutside(*value, report);
            const bool isShown = adopt(std::move(*value));
            if (isPatients)
              emit statusMessage(tr("The case is called “%1”, since the name of its folder may be "
@@ -994,11 +1000,14 @@ void CaseDocumentController::addParts(const presenters::PartSources& parts, cons
             failures.size() < parts.mr.size() + parts.labels.size() + parts.meshes.size();
         const bool onlyLabels = parts.mr.empty() && parts.meshes.empty();
         return [this, value, before, what, shownAs, onlyImages, onlyLabels, isAny, failures, report,
-                earlier]
+                earlier]() mutable
         {
           endWork();
           const Target target{shownAs, words(before.name)};
-          const bool isLeft = isAny && onlyLabels && !askOutside(report, what);
+          const Outside outside = isAny ? askOutside(report, what) : Outside::Added;
+          const bool isLeft = outside == Outside::AllLeft && onlyLabels;
+          if (outside != Outside::Added)
+            presenters::leaveOutside(*value, report);
           if (!isOpen(target))
             return refuse(
                 tr("%1 was not added: the case “%2” is not open any more.").arg(what, target.name));
@@ -1022,41 +1031,59 @@ void CaseDocumentController::addParts(const presenters::PartSources& parts, cons
       });
 }
 
-// Whether structures are wanted of which none lies in the image: those of another patient, or of
-// another place. Also where some lie in it, which are seen then.
-bool CaseDocumentController::askOutside(const std::vector<presenters::StructureReport>& report,
-                                        const QString& what)
+// What becomes of structures that lie wholly outside of the image: of another patient, or another
+// place. `what`: their files.
+CaseDocumentController::Outside
+CaseDocumentController::askOutside(const std::vector<presenters::StructureReport>& report,
+                                   const QString& what)
 {
   using Status = presenters::StructureReport::Status;
+  constexpr int kNamed = 8;
   int read = 0;
+  QStringList outside;
   for (const presenters::StructureReport& one : report)
   {
-    if (one.status == Status::Read && !one.isOutside)
-      return true;
     read += one.status == Status::Read ? 1 : 0;
+    if (one.status == Status::Read && one.isOutside)
+      outside += shownName(one.name);
   }
-  if (read == 0)
-    return true;
+  if (outside.isEmpty())
+    return Outside::Added;
+  const bool isAll = outside.size() == read;
   const QScopedValueRollback<bool> asking(m_asking, true);
-  QMessageBox box(QMessageBox::Warning, tr("Another place?"),
-                  read == 1
-                      ? tr("The structure of “%1” lies outside the image of this case: nothing "
-                           "of it will be seen or felt.")
-                            .arg(what)
-                      : tr("None of the %2 structures of “%1” lies in the image of this case: "
-                           "nothing of them will be seen or felt.")
-                            .arg(what)
-                            .arg(read),
-                  QMessageBox::NoButton, &m_window);
+  QMessageBox box(
+      QMessageBox::Warning, tr("Another place?"),
+      read == 1
+          ? tr("The structure of “%1” lies outside the image of this case: nothing of it will "
+               "be seen or felt.")
+                .arg(what)
+      : isAll ? tr("None of the %2 structures of “%1” lies in the image of this case: nothing of "
+                   "them will be seen or felt.")
+                    .arg(what, QString::number(read))
+      : outside.size() == 1
+          ? tr("1 of the %2 structures of “%1” lies outside the image of this case: nothing of it "
+               "will be seen or felt.")
+                .arg(what, QString::number(read))
+          : tr("%3 of the %2 structures of “%1” lie outside the image of this case: nothing of "
+               "them "
+               "will be seen or felt.")
+                .arg(what, QString::number(read), QString::number(outside.size())),
+      QMessageBox::NoButton, &m_window);
   box.setObjectName("askOutside");
   box.setTextFormat(Qt::PlainText);
-  box.setInformativeText(tr("They may be another patient's, or of another scan."));
-  auto* leave = box.addButton(tr("Do &not add"), QMessageBox::RejectRole);
-  auto* add = box.addButton(tr("&Add anyway"), QMessageBox::AcceptRole);
+  QString more = tr("They may be another patient's, or of another scan.");
+  if (!isAll)
+    more = outside.mid(0, kNamed).join(", ") +
+           (outside.size() > kNamed ? QString::fromUtf8(" …") : QString()) + "\n\n" + more;
+  box.setInformativeText(more);
+  auto* leave = isAll ? box.addButton(tr("Do &not add"), QMessageBox::RejectRole)
+                      : box.addButton(tr("Add the &others only"), QMessageBox::RejectRole);
+  auto* add = isAll ? box.addButton(tr("&Add anyway"), QMessageBox::AcceptRole)
+                    : box.addButton(tr("&Add all"), QMessageBox::AcceptRole);
   box.setDefaultButton(leave);
   box.setEscapeButton(leave);
   box.exec();
-  return box.clickedButton() == add;
+  return box.clickedButton() == add ? Outside::Added : isAll ? Outside::AllLeft : Outside::Left;
 }
 
 // What did not come into the case, and structures that are not as their file says. Parts are added

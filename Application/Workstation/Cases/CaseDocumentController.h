@@ -152,7 +152,13 @@ private:
   void makeCase(const std::string& name,
                 std::function<presenters::CaseSources(const core::Progress&)> sources,
                 scene::Side side = scene::Side::Unknown);
-  bool askOutside(const std::vector<presenters::StructureReport>& report, const QString& what);
+  enum class Outside
+  {
+    Added,  ///< as the others, or there are none
+    Left,   ///< they are to be left out
+    AllLeft ///< and they are all
+  };
+  Outside askOutside(const std::vector<presenters::StructureReport>& report, const QString& what);
   void addParts(const presenters::PartSources& parts, const QString& what,
                 const std::vector<presenters::StructureReport>& earlier = {});
   void tell(const std::vector<presenters::PartFailure>& failures,

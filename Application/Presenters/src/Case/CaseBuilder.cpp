@@ -636,6 +636,16 @@ bool liesOutside(const core::GridGeometry& ct, const core::GridGeometry& grid,
   return !hull.intersects(boxOn(ct, grid, box));
 }
 
+std::string outsideNote(const std::vector<std::string>& names, const std::string& image)
+{
+  return scene::listed(names) +
+         (names.size() == 1
+              ? " lies wholly outside the " + image +
+                    ", so nothing of it is seen or felt; check that it is this patient's"
+              : " lie wholly outside the " + image +
+                    ", so nothing of them is seen or felt; check that they are this patient's");
+}
+
 // Notes structures that will be neither visible nor touchable, and returns their names.
 std::vector<std::string> noteOutside(const scene::Case& value, scene::LabelPart& part,
                                      const volume::LabelMap& map)
@@ -649,16 +659,8 @@ std::vector<std::string> noteOutside(const scene::Case& value, scene::LabelPart&
       if (structure.index == map.segments[s].index &&
           liesOutside(value.ct.geometry, map.voxels->geometry(), boxes[s]))
         names.push_back(structure.name);
-  const std::string image = primaryName(value);
   if (!names.empty())
-    part.notes.push_back(scene::listed(names) +
-                         (names.size() == 1
-                              ? " lies wholly outside the " + image +
-                                    ", so nothing of it is seen or felt; check that it is this "
-                                    "patient's"
-                              : " lie wholly outside the " + image +
-                                    ", so nothing of them is seen or felt; check that they are "
-                                    "this patient's"));
+    part.notes.push_back(outsideNote(names, primaryName(value)));
   return names;
 }
 
@@ -1131,8 +1133,9 @@ std::string unitDoubtText(const imaging::UnitDoubt& doubt)
   for (const double unit : doubt.likely)
     others += (others.empty() ? "" : ", ") + core::generalText(doubt.edge * unit / doubt.unit, 3) +
               " mm if its numbers are in " + unitName(unit);
-  return core::generalText(doubt.edge, 3) + " mm long " +
-         (doubt.isStated ? "by the unit that it states" : "in mm, as it states no unit of length") +
+  return core::generalText(doubt.edge, 3) +
+         (doubt.isStated ? " mm long by the unit of length that it states"
+                         : " mm long, as it states no unit of length and mm was taken") +
          ", which is no head, ear or specimen; it is " + others;
 }
 
@@ -1401,6 +1404,30 @@ void addParts(scene::Case& value, const PartSources& parts, const core::Progress
   value = std::move(next);
   if (report)
     report->insert(report->end(), reports.begin(), reports.end());
+}
+
+void leaveOutside(scene::Case& value, std::vector<StructureReport>& reports)
+{
+  std::set<std::string> outside;
+  for (StructureReport& one : reports)
+    if (one.status == StructureReport::Status::Read && one.isOutside)
+    {
+      outside.insert(one.name);
+      one.status = StructureReport::Status::Skipped;
+      one.why = "it lies wholly outside of the image";
+    }
+  for (scene::LabelPart& part : value.labels)
+  {
+    std::vector<std::string> noted;
+    for (const scene::StructurePart& structure : part.structures)
+      if (outside.count(structure.name) > 0)
+        noted.push_back(structure.name);
+    part.notes.erase(
+        std::remove(part.notes.begin(), part.notes.end(), outsideNote(noted, primaryName(value))),
+        part.notes.end());
+  }
+  for (const std::string& name : outside)
+    scene::removePart(value, name);
 }
 
 std::vector<PartFailure> addSoundParts(scene::Case& value, const PartSources& parts,

@@ -155,7 +155,7 @@ struct StructureReport
   {
     Read,
     Empty,   ///< no voxel
-    Skipped, ///< its name is taken (PartSource::skipsTaken)
+    Skipped, ///< its name is taken (PartSource::skipsTaken), or it lies outside (leaveOutside)
     Unread   ///< what describes it is damaged or not read here; the part's notes say why
   };
   std::string name;
@@ -174,6 +174,10 @@ struct StructureReport
 
 /// "read", "empty", "skipped" or "unread"
 const char* nameOf(StructureReport::Status status);
+
+/// Takes the structures that a report says lie wholly outside of the primary image out of the case
+/// again; their reports are then Skipped.
+void leaveOutside(scene::Case& value, std::vector<StructureReport>& reports);
 
 /// Counts over the structures of files.
 struct StructureSummary

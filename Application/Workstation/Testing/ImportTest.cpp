@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <locale>
+#include <set>
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -23,6 +24,7 @@
 #include "CaseDocumentController.h"
 #include "RegionDialog.h"
 #include "RepairDialog.h"
+#include "SeriesDialog.h"
 #include "SharedSample.h"
 #include "StartPage.h"
 #include "WindowTexts.h"
@@ -39,6 +41,7 @@ using namespace petrous::workstation;
 
 namespace fs = std::filesystem;
 using Import = GuiTest;
+using presenters::Content;
 
 TEST_F(Import, ADroppedFileIsOnTheScreenAndInTheLibrary)
 {
@@ -594,6 +597,263 @@ TEST_F(Import, NamesThatAreTakenAreAskedAboutAtOnce)
   add("one.seg.nrrd", false, "nerve, second reader");
   ASSERT_TRUE(waitFor([&] { return names().size() == 5; })) << names().join(", ").toStdString();
   EXPECT_TRUE(names().contains("nerve, second reader"));
+}
+
+namespace
+{
+
+/// An RT structure set in explicit VR little endian (PS3.5 7.1.2, PS3.3 C.8.8.5, C.8.8.6): names
+/// and a contour each.
+std::string structureSet(const std::vector<std::pair<std::string, std::string>>& rois)
+{
+  const auto number = [](std::size_t value, int bytes)
+  {
+    std::string out;
+    for (int b = 0; b < bytes; ++b)
+      out += static_cast<char>(value >> 8 * b & 0xff);
+    return out;
+  };
+  const auto element = [&](std::uint32_t tag, const std::string& vr, std::string value)
+  {
+    if (value.size() % 2 != 0)
+      value += vr == "UI" ? '\0' : ' ';
+    const std::string head = number(tag >> 16, 2) + number(tag & 0xffff, 2) + vr;
+    return head + (vr == "SQ" ? number(0, 2) + number(value.size(), 4) : number(value.size(), 2)) +
+           value;
+  };
+  const auto item = [&](const std::string& content)
+  { return number(0xfffe, 2) + number(0xe000, 2) + number(content.size(), 4) + content; };
+  std::string described;
+  std::string drawn;
+  for (std::size_t n = 0; n < rois.size(); ++n)
+  {
+    const std::string id = std::to_string(n + 1);
+    described += item(element(0x30060022, "IS", id) + element(0x30060024, "UI", "1.2.3.9") +
+                      element(0x30060026, "LO", rois[n].first));
+    drawn += item(element(0x30060040, "SQ",
+                          item(element(0x30060042, "CS", "CLOSED_PLANAR") +
+                               element(0x30060050, "DS", rois[n].second))) +
+                  element(0x30060084, "IS", id));
+  }
+  return std::string(128, '\0') + "DICM" + element(0x00020010, "UI", "1.2.840.10008.1.2.1") +
+         element(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.481.3") +
+         element(0x00080060, "CS", "RTSTRUCT") + element(0x30060020, "SQ", described) +
+         element(0x30060039, "SQ", drawn);
+}
+
+} // namespace
+
+// The same of a structure set, two of whose structures have one name, and of one alone.
+TEST_F(Import, NamesOfAStructureSetThatAreTakenAreAskedAbout)
+{
+  saveBall("ball"); // with a "nerve"
+  const core::GridGeometry grid = ballCase("x").ct.geometry;
+  const auto squareAt = [&](double i)
+  {
+    QStringList all;
+    for (const auto& [x, y] : {std::pair(0.0, 0.0), {3.0, 0.0}, {3.0, 3.0}, {0.0, 3.0}})
+    {
+      const Eigen::Vector3d p = grid.patientFromVoxel(Eigen::Vector3d(i + x, 2.0 + y, 3.0));
+      for (const double one : {p[0], p[1], p[2]})
+        all += QString::number(one);
+    }
+    return all.join('\\').toStdString();
+  };
+  std::ofstream(folder() / "set.dcm", std::ios::binary)
+      << structureSet({{"nerve", squareAt(2)}, {"nerve", squareAt(6)}, {"vein", squareAt(10)}});
+  std::ofstream(folder() / "one.dcm", std::ios::binary) << structureSet({{"nerve", squareAt(2)}});
+  openWindow();
+  const auto names = [this]
+  {
+    std::set<std::string> all;
+    for (const scene::LabelPart& part : window().model().value().labels)
+      for (const scene::StructurePart& structure : part.structures)
+        all.insert(structure.name);
+    return all;
+  };
+  const auto add = [&](const char* file, const QString& newName)
+  {
+    bool isAsked = false;
+    onDialog(
+        [&](QDialog& dialog)
+        {
+          if (auto* into = buttonOf(dialog, "Add to"))
+          {
+            into->click();
+            return false;
+          }
+          if (dialog.objectName() != "askNewNames")
+            return false;
+          isAsked = true;
+          if (newName.isEmpty())
+            buttonOf(dialog, "Add the others")->click();
+          else
+          {
+            dialog.findChild<QLineEdit*>("partName")->setText(newName);
+            buttonOf(dialog, "Add under")->click();
+          }
+          return true;
+        });
+    dropPath(folder() / file);
+    EXPECT_TRUE(waitFor([&] { return isAsked; })) << file;
+    EXPECT_TRUE(settled());
+  };
+  add("set.dcm", {});
+  ASSERT_TRUE(waitFor([&] { return names().size() == 3; }));
+  EXPECT_EQ(names(), (std::set<std::string>{"nerve", "nerve 2", "vein"}));
+  add("one.dcm", "cochlear nerve");
+  ASSERT_TRUE(waitFor([&] { return names().size() == 4; }));
+  EXPECT_EQ(names().count("cochlear nerve"), 1U);
+}
+
+TEST_F(Import, ATickAtACtTakesItFromAnother)
+{
+  presenters::SourceContent source;
+  source.path = folder();
+  for (const Content content : {Content::Ct, Content::Ct, Content::Mr})
+  {
+    presenters::SeriesContent one;
+    one.selector = "1.2." + std::to_string(source.series.size());
+    one.content = content;
+    one.modality = content == Content::Mr ? "MR" : "CT";
+    one.slices = 40;
+    source.series.push_back(one);
+  }
+  SeriesDialog dialog(source, false);
+  auto* list = dialog.findChild<QTreeWidget*>("series");
+  auto* open = dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Open);
+  const auto ticks = [&]
+  {
+    std::string all;
+    for (int n = 0; n < list->topLevelItemCount(); ++n)
+      all += list->topLevelItem(n)->checkState(0) == Qt::Checked ? '1' : '0';
+    return all;
+  };
+  EXPECT_EQ(ticks(), "000") << "of two CTs none is meant";
+  EXPECT_FALSE(open->isEnabled());
+  const auto* advice = dialog.findChild<QLabel*>("dim");
+  EXPECT_TRUE(advice->text().startsWith("Nothing is ticked")) << advice->text().toStdString();
+  list->topLevelItem(0)->setCheckState(0, Qt::Checked);
+  list->topLevelItem(2)->setCheckState(0, Qt::Checked);
+  EXPECT_EQ(ticks(), "101");
+  EXPECT_TRUE(open->isEnabled());
+  list->topLevelItem(1)->setCheckState(0, Qt::Checked);
+  EXPECT_EQ(ticks(), "011");
+  EXPECT_EQ(dialog.chosen().size(), 2U);
+  const QString pictures = qEnvironmentVariable("PETROUS_GUI_PICTURES");
+  if (!pictures.isEmpty())
+    dialog.grab().save(pictures + "/series-ticks.png");
+}
+
+// One of two structures lies in the image.
+TEST_F(Import, StructuresOutsideOfTheCtAreAskedAboutBeforeTheyAreAdded)
+{
+  saveBall("ball");
+  const core::GridGeometry ct = ballCase("x").ct.geometry;
+  const core::GridGeometry grid({60, 2, 2}, Eigen::Vector3d(10.0, 1.0, 1.0), ct.center());
+  auto voxels = volume::makeZeroVolume<std::uint16_t>(grid);
+  voxels->at(0, 0, 0) = 1;
+  voxels->at(50, 0, 0) = 2;
+  imaging::writeLabelFile(folder() / "two.seg.nrrd",
+                          volume::makeLabelMap(voxels, {{"vein", 1, {}, 0}, {"artery", 2, {}, 0}}));
+  openWindow();
+  const auto drop = [this](const char* answer)
+  {
+    QString asked;
+    answered([this](const auto& react) { onDialog(react); }, "Add to",
+             [this] { dropPath(folder() / "two.seg.nrrd"); });
+    onMessage(
+        [&](QMessageBox& box)
+        {
+          EXPECT_EQ(window().model().value().labels.size(), 1U) << "before they are added";
+          asked = box.text() + box.informativeText();
+          for (QAbstractButton* one : box.buttons())
+            if (one->text().remove('&').contains(answer))
+              return one->click();
+        });
+    EXPECT_TRUE(waitFor([&] { return !asked.isEmpty(); }));
+    EXPECT_TRUE(settled());
+    return asked;
+  };
+  const auto names = [this]
+  {
+    std::set<std::string> all;
+    for (const scene::LabelPart& part : window().model().value().labels)
+      for (const scene::StructurePart& structure : part.structures)
+        all.insert(structure.name);
+    return all;
+  };
+  const QString asked = drop("others only");
+  EXPECT_TRUE(asked.contains("1 of the 2 structures") && asked.contains("artery"))
+      << asked.toStdString();
+  ASSERT_TRUE(waitFor([&] { return names().size() == 2; }));
+  EXPECT_EQ(names(), (std::set<std::string>{"nerve", "vein"}));
+  for (const scene::LabelPart& part : window().model().value().labels)
+    for (const std::string& note : part.notes)
+      EXPECT_EQ(note.find("outside"), std::string::npos) << note;
+}
+
+// A scan whose header states 12 bits of 16, with a pixel of 5000; and an image whose file calls its
+// millimetres micrometres.
+TEST_F(Import, BitsAndUnitsThatMakeNoSenseAreAskedAbout)
+{
+  auto voxels = std::make_shared<volume::Volume<std::int16_t>>(
+      core::GridGeometry({16, 16, 6}, Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero()),
+      std::int16_t{40});
+  voxels->at(5, 5, 3) = 5000;
+  imaging::SeriesDescription series;
+  series.studyUid = "1.2.3";
+  series.seriesUid = "1.2.3.4";
+  series.frameOfReferenceUid = "1.2.3.9";
+  const std::shared_ptr<const volume::Volume<std::int16_t>> image = voxels;
+  imaging::writeDicomSeries(folder() / "odd", volume::IntensityVolume(image), series);
+  for (const auto& entry : fs::directory_iterator(folder() / "odd"))
+  {
+    std::ifstream in(entry.path(), std::ios::binary);
+    std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+    for (const auto& [element, value] : {std::pair('\x01', 12), {'\x02', 11}})
+    {
+      const std::size_t at =
+          bytes.find(std::string("\x28\x00", 2) + element + "\x01US" + std::string("\x02\x00", 2));
+      ASSERT_NE(at, std::string::npos);
+      bytes[at + 8] = static_cast<char>(value);
+    }
+    std::ofstream(entry.path(), std::ios::binary) << bytes;
+  }
+  openWindow();
+  const auto answer = [this](const char* box, const char* button, const char* what)
+  {
+    bool isAsked = false;
+    onMessage(
+        [&](QMessageBox& asked)
+        {
+          isAsked = asked.objectName() == box;
+          for (QAbstractButton* one : asked.buttons())
+            if (one->text().remove('&').contains(QString::fromUtf8(button)))
+              return one->click();
+          asked.reject();
+        });
+    dropPath(folder() / what);
+    EXPECT_TRUE(waitFor([&] { return isAsked; })) << what;
+    EXPECT_TRUE(settled());
+  };
+  answer("askBits", "Cancel", "odd");
+  EXPECT_FALSE(window().model().hasCase());
+  answer("askBits", "Keep the bits", "odd");
+  ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
+  EXPECT_EQ(window().model().value().ct.range.max, 5000.0);
+
+  imaging::writeVolume(folder() / "ct.nrrd", *ballCase("x").ct.volume.get());
+  std::ifstream in(folder() / "ct.nrrd", std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  const std::string said = "\"mm\" \"mm\" \"mm\"";
+  ASSERT_NE(bytes.find(said), std::string::npos);
+  bytes.replace(bytes.find(said), said.size(), "\"um\" \"um\" \"um\"");
+  std::ofstream(folder() / "small.nrrd", std::ios::binary) << bytes;
+  answer("askUnit", "In mm:", "small.nrrd");
+  ASSERT_TRUE(waitFor([this] { return window().model().value().name == "small"; }));
+  EXPECT_TRUE(
+      core::sameGrid(window().model().value().ct.geometry, ballCase("x").ct.geometry, 1e-6));
 }
 
 TEST_F(Import, WithoutACaseAnMrAndLabelsSayWhatIsNeeded)

@@ -306,21 +306,27 @@ private:
             }
       }
     }
-    std::string text = bitsStoredText(
-        *first, pixels, slices > 1 ? ", in " + std::to_string(slices) + " slices" : std::string());
-    if (canKeep && !left.empty())
-      text += ", and nothing says what they are. Left out, as DICOM says of bits that are not "
-              "stored (--bits stored), the values are " +
-              rangeText(left) + "; kept, for metal in a file whose header is wrong (--bits " +
-              "allocated), they are " + rangeText(kept);
-    else
-      text += ", and nothing says what they are. Bits that are not stored can be left out, as "
-              "DICOM says (--bits stored)";
-    if (besideCount > 0)
-      text += "; beside them lies " + decimals(beside / static_cast<double>(besideCount), 0) +
-              " on average";
-    throw DicomError(DicomError::Reason::BitsUnclear,
-                     text + ". Or export it again, uncompressed and with all bits");
+    const std::string choice =
+        canKeep && !left.empty()
+            ? "Left out, as DICOM says of bits that are not stored (--bits stored), the values "
+              "are " +
+                  rangeText(left) +
+                  "; kept, for metal in a file whose header is wrong (--bits allocated), they "
+                  "are " +
+                  rangeText(kept)
+            : std::string(
+                  "Bits that are not stored can be left out, as DICOM says (--bits stored)");
+    const std::string others = besideCount == 0
+                                   ? std::string()
+                                   : "; beside them lies " +
+                                         decimals(beside / static_cast<double>(besideCount), 0) +
+                                         " on average";
+    throw DicomError(
+        DicomError::Reason::BitsUnclear,
+        bitsStoredText(*first, pixels,
+                       slices > 1 ? ", in " + std::to_string(slices) + " slices" : std::string()) +
+            ", and nothing says what they are. " + choice + others +
+            ". Or export it again, uncompressed and with all bits");
   }
 
   static std::string rangeText(const Span& span)

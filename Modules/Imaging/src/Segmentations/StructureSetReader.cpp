@@ -812,8 +812,8 @@ void noteGeometry(const StructureSet::Roi& roi, const std::string& name, const P
     notes.push_back("'" + name + "': " + std::to_string(roi.movedContours) +
                     (roi.movedContours == 1 ? " contour was" : " contours were") + " moved by " +
                     roughText(roi.movedBy) +
-                    " mm across its plane, as the file states (Contour Offset Vector); programs "
-                    "that ignore this show the structure elsewhere");
+                    " mm, as the file states (Contour Offset Vector); programs that ignore this "
+                    "show the structure elsewhere");
   if (roi.ignoredOffsets > 0)
     notes.push_back("'" + name + "': " + std::to_string(roi.ignoredOffsets) +
                     (roi.ignoredOffsets == 1 ? " contour has" : " contours have") +

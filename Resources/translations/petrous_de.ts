@@ -268,14 +268,6 @@
         <translation>Das Bild, auf dem es gezeichnet wurde</translation>
     </message>
     <message>
-        <source>1 structure without a name</source>
-        <translation>1 Struktur ohne Namen</translation>
-    </message>
-    <message>
-        <source>%1 structures without a name</source>
-        <translation>%1 Strukturen ohne Namen</translation>
-    </message>
-    <message>
         <source>&amp;Names from a table…</source>
         <translation>&amp;Namen aus einer Tabelle…</translation>
     </message>
@@ -302,6 +294,30 @@
     <message>
         <source>“%1” is taken; give another name.</source>
         <translation>„%1“ ist vergeben; wählen Sie einen anderen Namen.</translation>
+    </message>
+    <message>
+        <source>1 structure, named by the file</source>
+        <translation>1 Struktur, von der Datei benannt</translation>
+    </message>
+    <message>
+        <source>%1 structures, named by the file</source>
+        <translation>%1 Strukturen, von der Datei benannt</translation>
+    </message>
+    <message>
+        <source>1 structure, without a name</source>
+        <translation>1 Struktur, ohne Namen</translation>
+    </message>
+    <message>
+        <source>%1 structures, none with a name</source>
+        <translation>%1 Strukturen, keine mit Namen</translation>
+    </message>
+    <message>
+        <source>%1 structures, 1 without a name</source>
+        <translation>%1 Strukturen, 1 ohne Namen</translation>
+    </message>
+    <message>
+        <source>%1 structures, %2 without a name</source>
+        <translation>%1 Strukturen, %2 ohne Namen</translation>
     </message>
 </context>
 <context>
@@ -1659,6 +1675,62 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     <message>
         <source>None of the %2 structures of “%1” lies in the image of this case: nothing of them will be seen or felt.</source>
         <translation>Keine der %2 Strukturen aus „%1“ liegt im Bild dieses Falls: Nichts von ihnen wird zu sehen oder zu fühlen sein.</translation>
+    </message>
+    <message>
+        <source>1 of the %2 structures of “%1” lies outside the image of this case: nothing of it will be seen or felt.</source>
+        <translation>1 der %2 Strukturen aus „%1“ liegt außerhalb des Bildes dieses Falls: Nichts von ihr wird zu sehen oder zu fühlen sein.</translation>
+    </message>
+    <message>
+        <source>%3 of the %2 structures of “%1” lie outside the image of this case: nothing of them will be seen or felt.</source>
+        <translation>%3 der %2 Strukturen aus „%1“ liegen außerhalb des Bildes dieses Falls: Nichts von ihnen wird zu sehen oder zu fühlen sein.</translation>
+    </message>
+    <message>
+        <source>Add the &amp;others only</source>
+        <translation>Nur die &amp;anderen hinzufügen</translation>
+    </message>
+    <message>
+        <source>&amp;Add all</source>
+        <translation>A&amp;lle hinzufügen</translation>
+    </message>
+    <message>
+        <source>How large is it?</source>
+        <translation>Wie groß ist es?</translation>
+    </message>
+    <message>
+        <source>By the unit of length that “%1” states, it is %2 mm long: no head, ear or specimen.</source>
+        <translation>Nach der Längeneinheit, die „%1“ nennt, ist es %2 mm lang: kein Kopf, Ohr oder Präparat.</translation>
+    </message>
+    <message>
+        <source>“%1” states no unit of length, and in millimetres it is %2 mm long: no head, ear or specimen.</source>
+        <translation>„%1“ nennt keine Längeneinheit und ist in Millimetern %2 mm lang: kein Kopf, Ohr oder Präparat.</translation>
+    </message>
+    <message>
+        <source>In which unit are its numbers? Every distance, tool and thickness follows this answer. Export the file again with its unit if you do not know it.</source>
+        <translation>In welcher Einheit sind die Zahlen? Alle Abstände, Werkzeuge und Dicken richten sich nach dieser Antwort. Exportieren Sie die Datei mit ihrer Einheit neu, wenn Sie es nicht wissen.</translation>
+    </message>
+    <message>
+        <source>In %1: %2 mm long</source>
+        <translation>In %1: %2 mm lang</translation>
+    </message>
+    <message>
+        <source>What are these bits?</source>
+        <translation>Was sind diese Bits?</translation>
+    </message>
+    <message>
+        <source>The scan contradicts itself about the bits of a pixel.</source>
+        <translation>Die Aufnahme widerspricht sich bei den Bits eines Pixels.</translation>
+    </message>
+    <message>
+        <source>A wrong answer shows metal as tissue, or tissue as metal, where these pixels are. Answer only if the values tell; otherwise export the scan again.</source>
+        <translation>Eine falsche Antwort zeigt an diesen Pixeln Metall als Gewebe oder Gewebe als Metall. Antworten Sie nur, wenn die Werte es verraten; exportieren Sie die Aufnahme sonst neu.</translation>
+    </message>
+    <message>
+        <source>&amp;Leave the bits out</source>
+        <translation>Bits &amp;weglassen</translation>
+    </message>
+    <message>
+        <source>&amp;Keep the bits</source>
+        <translation>Bits &amp;behalten</translation>
     </message>
 </context>
 <context>
@@ -6163,20 +6235,20 @@ Verletzt: %1, %2</translation>
         <translation>Nur dieser Ausschnitt wird gelesen: Ein ganzer Kopf braucht dann nicht mehr Speicher als das Ohr allein</translation>
     </message>
     <message>
-        <source>Tick what is to be opened. Why a series cannot be used, or what its repair would change, is in its tooltip.</source>
-        <translation>Kreuzen Sie an, was geöffnet werden soll. Warum eine Serie nicht verwendbar ist oder was ihre Reparatur änderte, steht in ihrem Tooltip.</translation>
-    </message>
-    <message>
-        <source>A case has one CT; open the other one afterwards.</source>
-        <translation>Ein Fall hat ein CT; öffnen Sie das andere danach.</translation>
-    </message>
-    <message>
         <source>No case is open, and one begins with the patient&apos;s CT; tick that, too.</source>
         <translation>Kein Fall ist offen, und einer beginnt mit dem CT des Patienten; kreuzen Sie auch dieses an.</translation>
     </message>
     <message>
         <source>structures on the grid of the %1 “%2”</source>
         <translation>Strukturen auf dem Gitter von %1 „%2“</translation>
+    </message>
+    <message>
+        <source>without a description</source>
+        <translation>ohne Beschreibung</translation>
+    </message>
+    <message>
+        <source>Nothing is ticked: tick what is to be opened. Why a series cannot be used, or what its repair would change, is in its tooltip.</source>
+        <translation>Nichts ist angehakt: Haken Sie an, was geöffnet werden soll. Warum eine Serie unbrauchbar ist oder was ihre Reparatur ändern würde, steht in ihrem Tooltip.</translation>
     </message>
 </context>
 <context>

@@ -300,6 +300,22 @@
         <translation>%1: sagt nicht, welche Seite des Patienten links ist (NIfTI: qform oder sform, NRRD: space, MetaImage: TransformMatrix), die Anatomie könnte gespiegelt sein; exportieren Sie die Datei mit ihrer Geometrie neu (%2)</translation>
     </message>
     <message>
+        <source>%#1 mm if its numbers are in %~2</source>
+        <translation>%#1 mm, wenn die Zahlen in %~2 sind</translation>
+    </message>
+    <message>
+        <source>%#1 mm long by the unit of length that it states, which is no head, ear or specimen; it is %~2</source>
+        <translation>nach der Längeneinheit, die sie nennt, %#1 mm lang, was kein Kopf, Ohr oder Präparat ist; sie ist %~2</translation>
+    </message>
+    <message>
+        <source>%#1 mm long, as it states no unit of length and mm was taken, which is no head, ear or specimen; it is %~2</source>
+        <translation>%#1 mm lang, da sie keine Längeneinheit nennt und mm angenommen wurde, was kein Kopf, Ohr oder Präparat ist; sie ist %~2</translation>
+    </message>
+    <message>
+        <source>%1: is %~2. Export it again with its unit, or say it with %3</source>
+        <translation>%1: ist %~2. Exportieren Sie die Datei mit ihrer Einheit neu, oder nennen Sie sie mit %3</translation>
+    </message>
+    <message>
         <source>and '%1'</source>
         <translation>und „%1“</translation>
     </message>
@@ -386,6 +402,10 @@
     <message>
         <source>structure '%1' has no voxel yet</source>
         <translation>Struktur „%1“ hat noch kein Voxel</translation>
+    </message>
+    <message>
+        <source>it lies wholly outside of the image</source>
+        <translation>sie liegt ganz außerhalb des Bildes</translation>
     </message>
     <message>
         <source>series</source>
@@ -3570,6 +3590,10 @@
         <translation>gibt Ort oder Werte zweimal an, für alle Bilder und für eines, und sie sind verschieden</translation>
     </message>
     <message>
+        <source>says that its pixels lie on no straight grid (Volumetric Properties), as of a curved reformat</source>
+        <translation>sagt, dass ihre Pixel auf keinem geraden Gitter liegen (Volumetric Properties), wie bei einer gekrümmten Rekonstruktion</translation>
+    </message>
+    <message>
         <source>is cut short or damaged</source>
         <translation>ist abgeschnitten oder beschädigt</translation>
     </message>
@@ -3602,6 +3626,10 @@
         <translation>Schichten werden gelesen</translation>
     </message>
     <message>
+        <source>%~1; export it again, uncompressed and with all bits</source>
+        <translation>%~1; exportieren Sie neu, unkomprimiert und mit allen Bits</translation>
+    </message>
+    <message>
         <source>without the copies of the sign that the negative values of %1 have</source>
         <translation>ohne die Kopien des Vorzeichens, die die negativen Werte von %1 haben</translation>
     </message>
@@ -3610,12 +3638,48 @@
         <translation>Werte mit gesetztem höchstem Bit wurden als negativ gelesen, wie der Header sagt (mit Vorzeichen, Bits Stored %#1); kein Bit darüber unterscheidet sie von zu großen positiven. Sehen Sie nach, ob Metall als Luft erscheint.</translation>
     </message>
     <message>
-        <source>%1 holds values that are not finite numbers (NaN, infinite or beyond float); give them the value of what lies outside the scanned field, such as -1024 in a CT</source>
-        <translation>%1 enthält Werte, die keine endlichen Zahlen sind (NaN, unendlich oder zu groß); geben Sie ihnen den Wert dessen, was außerhalb des Messfeldes liegt, etwa -1024 im CT</translation>
+        <source>%#1 pixel has bits beside those stored that the file does not declare (Bits Stored); they were kept, as if stored, as asked. Look whether air or tissue shows as metal there.</source>
+        <translation>%#1 Pixel hat Bits neben den gespeicherten, die die Datei nicht erklärt (Bits Stored); sie wurden wie verlangt behalten, als wären sie gespeichert. Sehen Sie nach, ob dort Luft oder Gewebe als Metall erscheint.</translation>
+    </message>
+    <message>
+        <source>%#1 pixel has bits beside those stored that the file does not declare (Bits Stored); they were left out, as asked. Look whether metal shows as tissue there.</source>
+        <translation>%#1 Pixel hat Bits neben den gespeicherten, die die Datei nicht erklärt (Bits Stored); sie wurden wie verlangt weggelassen. Sehen Sie nach, ob dort Metall als Gewebe erscheint.</translation>
+    </message>
+    <message>
+        <source>%#1 pixels have bits beside those stored that the file does not declare (Bits Stored); they were kept, as if stored, as asked. Look whether air or tissue shows as metal there.</source>
+        <translation>%#1 Pixel haben Bits neben den gespeicherten, die die Datei nicht erklärt (Bits Stored); sie wurden wie verlangt behalten, als wären sie gespeichert. Sehen Sie nach, ob dort Luft oder Gewebe als Metall erscheint.</translation>
+    </message>
+    <message>
+        <source>%#1 pixels have bits beside those stored that the file does not declare (Bits Stored); they were left out, as asked. Look whether metal shows as tissue there.</source>
+        <translation>%#1 Pixel haben Bits neben den gespeicherten, die die Datei nicht erklärt (Bits Stored); sie wurden wie verlangt weggelassen. Sehen Sie nach, ob dort Metall als Gewebe erscheint.</translation>
+    </message>
+    <message>
+        <source>Left out, as DICOM says of bits that are not stored (--bits stored), the values are %~1; kept, for metal in a file whose header is wrong (--bits allocated), they are %~2</source>
+        <translation>Ohne sie, wie DICOM es für nicht gespeicherte Bits vorsieht, sind die Werte %~1; mit ihnen, für Metall in einer Datei mit falschem Header, sind sie %~2</translation>
+    </message>
+    <message>
+        <source>Bits that are not stored can be left out, as DICOM says (--bits stored)</source>
+        <translation>Bits, die nicht gespeichert sind, kann man weglassen, wie DICOM es vorsieht</translation>
+    </message>
+    <message>
+        <source>beside them lies %#1 on average</source>
+        <translation>daneben liegt im Mittel %#1</translation>
+    </message>
+    <message>
+        <source>%~1, and nothing says what they are. %~2. Or export it again, uncompressed and with all bits</source>
+        <translation>%~1, und nichts sagt, was sie sind. %~2. Oder exportieren Sie neu, unkomprimiert und mit allen Bits</translation>
+    </message>
+    <message>
+        <source>in %#1 slices</source>
+        <translation>in %#1 Schichten</translation>
     </message>
     <message>
         <source>%#1 to %#2</source>
         <translation>%#1 bis %#2</translation>
+    </message>
+    <message>
+        <source>%1 holds values that are not finite numbers (NaN, infinite or beyond float); give them the value of what lies outside the scanned field, such as -1024 in a CT</source>
+        <translation>%1 enthält Werte, die keine endlichen Zahlen sind (NaN, unendlich oder zu groß); geben Sie ihnen den Wert dessen, was außerhalb des Messfeldes liegt, etwa -1024 im CT</translation>
     </message>
     <message>
         <source>the box asked for (%~1 mm) does not meet the image (%~2 mm, patient LPS)</source>
@@ -3882,6 +3946,10 @@
         <translation>%1 %~2; kopieren Sie es noch einmal vom Ursprung</translation>
     </message>
     <message>
+        <source>export it again, uncompressed and with all bits</source>
+        <translation>exportieren Sie neu, unkomprimiert und mit allen Bits</translation>
+    </message>
+    <message>
         <source>%1 was changed or replaced after its header was read; wait until the copying is done, then read the folder again</source>
         <translation>%1 wurde geändert oder ersetzt, nachdem der Header gelesen war; warten Sie, bis das Kopieren beendet ist, und lesen Sie den Ordner dann neu</translation>
     </message>
@@ -3902,12 +3970,12 @@
         <translation>hat nicht einen Gleitkommawert von 32 oder 64 Bit</translation>
     </message>
     <message>
-        <source>%1 contradicts itself about the bits of a pixel: %#2 pixel has values of more than the %#3 bits that its header states (Bits Stored)%~4; export it again, uncompressed and with all bits</source>
-        <translation>%1 widerspricht sich bei den Bits eines Pixels: %#2 Pixel hat einen Wert mit mehr als den %#3 Bit, die der Header nennt (Bits Stored)%~4; exportieren Sie neu, unkomprimiert und mit allen Bits</translation>
+        <source>%1 contradicts itself about the bits of a pixel: %#2 pixel has values of more than the %#3 bits that its header states (Bits Stored)%~4</source>
+        <translation>%1 widerspricht sich bei den Bits eines Pixels: %#2 Pixel hat einen Wert mit mehr als den %#3 Bit, die der Header nennt (Bits Stored)%~4</translation>
     </message>
     <message>
-        <source>%1 contradicts itself about the bits of a pixel: %#2 pixels have values of more than the %#3 bits that its header states (Bits Stored)%~4; export it again, uncompressed and with all bits</source>
-        <translation>%1 widerspricht sich bei den Bits eines Pixels: %#2 Pixel haben Werte mit mehr als den %#3 Bit, die der Header nennt (Bits Stored)%~4; exportieren Sie neu, unkomprimiert und mit allen Bits</translation>
+        <source>%1 contradicts itself about the bits of a pixel: %#2 pixels have values of more than the %#3 bits that its header states (Bits Stored)%~4</source>
+        <translation>%1 widerspricht sich bei den Bits eines Pixels: %#2 Pixel haben Werte mit mehr als den %#3 Bit, die der Header nennt (Bits Stored)%~4</translation>
     </message>
     <message>
         <source>%1 could not be read: the disk or medium was removed or reports an error</source>
@@ -4710,16 +4778,16 @@
         <translation>ihr Header nennt ein Bezugssystem („space“), das NRRD nicht kennt; exportieren Sie sie in left-posterior-superior</translation>
     </message>
     <message>
+        <source>its header gives the axes different units of length ('space units'), which cannot be meant; export it again with its geometry</source>
+        <translation>ihr Kopf gibt den Achsen verschiedene Längeneinheiten („space units“), was nicht gemeint sein kann; exportieren Sie sie neu mit ihrer Geometrie</translation>
+    </message>
+    <message>
         <source>its header gives no valid dimensions (dimension, sizes); export it again</source>
         <translation>ihr Header nennt keine gültigen Abmessungen (dimension, sizes); exportieren Sie sie neu</translation>
     </message>
     <message>
         <source>its header gives no valid '%~1' in three dimensions; export it again with its geometry</source>
         <translation>ihr Header nennt kein gültiges „%~1“ in drei Dimensionen; exportieren Sie sie mit ihrer Geometrie neu</translation>
-    </message>
-    <message>
-        <source>its header gives the axes different units of length ('space units'), which cannot be meant; export it again with its geometry</source>
-        <translation>ihr Kopf gibt den Achsen verschiedene Längeneinheiten („space units“), was nicht gemeint sein kann; exportieren Sie sie neu mit ihrer Geometrie</translation>
     </message>
     <message>
         <source>its header gives no voxel size ('space directions'); export it again with its geometry</source>
@@ -4798,12 +4866,8 @@
         <translation>ihre Voxel sind von einem nicht lesbaren Typ (Farben, komplex oder long double); speichern Sie sie als ganze oder Gleitkommazahlen</translation>
     </message>
     <message>
-        <source>does not say which side of the patient is left; its axes were taken as RAS%~1</source>
-        <translation>sagt nicht, welche Seite des Patienten links ist; die Achsen wurden als RAS genommen%~1</translation>
-    </message>
-    <message>
-        <source>does not say which side of the patient is left; its axes were taken as LPS%~1</source>
-        <translation>sagt nicht, welche Seite des Patienten links ist; die Achsen wurden als LPS genommen%~1</translation>
+        <source>was taken in a unit of length of %#1 mm%~2</source>
+        <translation>wurde in einer Längeneinheit von %#1 mm gelesen%~2</translation>
     </message>
     <message>
         <source>as asked</source>
@@ -4812,6 +4876,14 @@
     <message>
         <source>as its grid is then that of an image of the case</source>
         <translation>da das Gitter dann das eines Bildes des Falls ist</translation>
+    </message>
+    <message>
+        <source>does not say which side of the patient is left; its axes were taken as RAS%~1</source>
+        <translation>sagt nicht, welche Seite des Patienten links ist; die Achsen wurden als RAS genommen%~1</translation>
+    </message>
+    <message>
+        <source>does not say which side of the patient is left; its axes were taken as LPS%~1</source>
+        <translation>sagt nicht, welche Seite des Patienten links ist; die Achsen wurden als LPS genommen%~1</translation>
     </message>
     <message>
         <source>holds %~1 voxels; volumes of 3 dimensions are needed, at most one after the other along a fourth</source>
@@ -5382,8 +5454,44 @@
         <translation>hat eine Kontur, deren Punkte nicht je drei Zahlen sind; exportieren Sie sie neu</translation>
     </message>
     <message>
+        <source>has a contour of %#1 points that states another number of them (Number of Contour Points): points are missing or too many; export it again</source>
+        <translation>hat eine Kontur aus %#1 Punkten, die eine andere Zahl nennt (Number of Contour Points): Punkte fehlen oder sind zu viel; exportieren Sie neu</translation>
+    </message>
+    <message>
         <source>has a contour with a point more than 10 m from the origin; contours are in mm within the patient: look for a coordinate without its decimal point, and export it again</source>
         <translation>hat eine Kontur mit einem Punkt mehr als 10 m vom Ursprung; Konturen sind in mm im Patienten: Suchen Sie eine Koordinate ohne Dezimalpunkt, und exportieren Sie sie neu</translation>
+    </message>
+    <message>
+        <source>has a contour whose offset (Contour Offset Vector) is not three numbers; export it again</source>
+        <translation>hat eine Kontur, deren Verschiebung (Contour Offset Vector) nicht aus drei Zahlen besteht; exportieren Sie neu</translation>
+    </message>
+    <message>
+        <source>has a contour that is to be moved within its plane (Contour Offset Vector), where DICOM lets it be moved across only; export it again, without an offset</source>
+        <translation>hat eine Kontur, die in ihrer Ebene verschoben werden soll (Contour Offset Vector), was DICOM nur quer dazu vorsieht; exportieren Sie neu, ohne Verschiebung</translation>
+    </message>
+    <message>
+        <source>'%1': %#2 contour was moved by %#3 mm, as the file states (Contour Offset Vector); programs that ignore this show the structure elsewhere</source>
+        <translation>'%1': %#2 Kontur wurde um %#3 mm verschoben, wie die Datei es angibt (Contour Offset Vector); Programme, die das übergehen, zeigen die Struktur anderswo</translation>
+    </message>
+    <message>
+        <source>'%1': %#2 contours were moved by %#3 mm, as the file states (Contour Offset Vector); programs that ignore this show the structure elsewhere</source>
+        <translation>'%1': %#2 Konturen wurden um %#3 mm verschoben, wie die Datei es angibt (Contour Offset Vector); Programme, die das übergehen, zeigen die Struktur anderswo</translation>
+    </message>
+    <message>
+        <source>'%1': %#2 contour has an offset (Contour Offset Vector) without a slab to which it would apply; nothing was moved</source>
+        <translation>'%1': %#2 Kontur hat eine Verschiebung (Contour Offset Vector) ohne eine Scheibe, für die sie gälte; nichts wurde verschoben</translation>
+    </message>
+    <message>
+        <source>'%1': %#2 contours have an offset (Contour Offset Vector) without a slab to which it would apply; nothing was moved</source>
+        <translation>'%1': %#2 Konturen haben eine Verschiebung (Contour Offset Vector) ohne eine Scheibe, für die sie gälte; nichts wurde verschoben</translation>
+    </message>
+    <message>
+        <source>'%1': its contours state slabs of several thicknesses (Contour Slab Thickness); each stands for %#2 mm, as far as they lie apart; check its volume</source>
+        <translation>'%1': Die Konturen nennen Scheiben verschiedener Dicke (Contour Slab Thickness); jede steht für %#2 mm, so weit sie auseinander liegen; prüfen Sie das Volumen</translation>
+    </message>
+    <message>
+        <source>'%1': its contours state slabs of %#2 mm (Contour Slab Thickness); each stands for %#3 mm, as far as they lie apart; check its volume</source>
+        <translation>'%1': Die Konturen nennen Scheiben von %#2 mm (Contour Slab Thickness); jede steht für %#3 mm, so weit sie auseinander liegen; prüfen Sie das Volumen</translation>
     </message>
     <message>
         <source>describes a structure without a number, or two of one number; export it again</source>

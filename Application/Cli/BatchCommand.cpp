@@ -438,13 +438,18 @@ private:
 };
 
 // What would be read; throws what reading it would throw, as far as headers tell.
+//
+// option  column that says its unit
 std::string lookAtImage(const fs::path& path, const std::string& selector, bool repair,
+                        const std::optional<double>& unit, const std::string& option,
                         const core::Progress& progress)
 {
   if (!fs::is_directory(path) && imaging::isReadAs(path, imaging::kImage | imaging::kLabels))
   {
     const core::InputFile opens(path);
-    imaging::readImageHeader(path, imaging::volumeNumber(path, selector));
+    const auto header = imaging::readImageHeader(path, imaging::volumeNumber(path, selector));
+    if (!unit && !header.unitDoubt.likely.empty())
+      throw presenters::ImageUnitUnclear(path, header.unitDoubt, option);
     return "an image file of " + fixed(1e-6 * static_cast<double>(opens.size()), 1) + " MB";
   }
   const auto scan = imaging::scanDicom(path, progress, library::scanCache().get());
@@ -649,9 +654,10 @@ private:
     const presenters::CaseSources& sources = *row.sources;
     if (m_options.dryRun)
     {
-      step.text = lookAtImage(sources.ct, sources.series, sources.repair, progress.part(0.0, 0.7));
+      step.text = lookAtImage(sources.ct, sources.series, sources.repair, sources.unit, "ct_unit",
+                              progress.part(0.0, 0.7));
       for (const presenters::PartSource& mr : sources.parts.mr)
-        lookAtImage(mr.path, mr.series, mr.repair, progress.part(0.7, 1.0));
+        lookAtImage(mr.path, mr.series, mr.repair, mr.unit, "mr_unit", progress.part(0.7, 1.0));
       for (const auto* list : {&sources.parts.labels, &sources.parts.meshes})
         for (const presenters::PartSource& part : *list)
           lookAtFile(part.path);

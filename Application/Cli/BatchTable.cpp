@@ -42,7 +42,7 @@ struct Column
   const char* text;
 };
 
-constexpr std::array<Column, 29> kColumns{{
+constexpr std::array<Column, 33> kColumns{{
     {"name", Step::None, "the case's name (needed)"},
     {"folder", Step::Build, "CT: DICOM folder or image file; blank: the case is there already"},
     {"series", Step::Build, "which series of the folder: UID or UID#VOLUME; of a file #VOLUME"},
@@ -51,6 +51,10 @@ constexpr std::array<Column, 29> kColumns{{
     {"mr_frame", Step::Build, "likewise, of the MR"},
     {"mr_roi", Step::Build, "x0,x1,y0,y1,z0,z1 in LPS mm of each MR"},
     {"labels_frame", Step::Build, "likewise, of the labels that do not have the CT's grid"},
+    {"ct_unit", Step::Build, "mm, cm, m or um, if an image file states none or a wrong one"},
+    {"mr_unit", Step::Build, "likewise, of the MR"},
+    {"labels_unit", Step::Build, "likewise, of the labels"},
+    {"bits", Step::Build, "stored or allocated, where bits of DICOM pixels are not declared"},
     {"roi", Step::Build, "x0,x1,y0,y1,z0,z1 in patient LPS mm"},
     {"repair", Step::Build, "yes or no: resample tilted, uneven or gapped slices"},
     {"mr", Step::Build, "[NAME=]PATH[#UID[#VOLUME]], several with |"},
@@ -232,6 +236,27 @@ private:
     return text.empty() ? std::nullopt : std::optional<bool>(text == "ras");
   }
 
+  // Of several texts one; empty: it is blank.
+  std::string oneOf(const std::string& column, const std::vector<std::string>& texts) const
+  {
+    const std::string text = lower(cell(column));
+    if (!text.empty() && std::find(texts.begin(), texts.end(), text) == texts.end())
+    {
+      std::string all;
+      for (const std::string& one : texts)
+        all += (all.empty() ? "" : one == texts.back() ? " or " : ", ") + one;
+      throw core::InvalidParameter("'" + column + "' is " + all + ", not '" + cell(column) + "'");
+    }
+    return text;
+  }
+
+  // A unit of length in mm.
+  std::optional<double> unit(const std::string& column) const
+  {
+    const std::string text = oneOf(column, {"mm", "cm", "m", "um"});
+    return text.empty() ? std::nullopt : std::optional<double>(millimetresOf(text));
+  }
+
   // A box in mm; nullopt: the column is blank.
   std::optional<core::PatientBox> box(const std::string& column) const
   {
@@ -260,6 +285,8 @@ private:
                        : modality == "ct" ? scene::Modality::Ct
                                           : scene::Modality::Unknown;
     sources.assumeRas = frame("ct_frame");
+    sources.unit = unit("ct_unit");
+    sources.undeclaredBits = undeclaredBitsOf(oneOf("bits", {"stored", "allocated"}));
     sources.roi = box("roi");
     sources.parts.mr = parts("mr", presenters::PartSource::parseSeries);
     for (presenters::PartSource& mr : sources.parts.mr)
@@ -267,12 +294,15 @@ private:
       mr.repair = sources.repair;
       mr.roi = box("mr_roi");
       mr.assumeRas = frame("mr_frame");
+      mr.unit = unit("mr_unit");
+      mr.undeclaredBits = sources.undeclaredBits;
       mr.isOtherPatient = isYes("other_patient", cell("other_patient"));
     }
     sources.parts.labels = parts("labels", presenters::PartSource::parseDrawn);
     for (presenters::PartSource& labels : sources.parts.labels)
     {
       labels.assumeRas = frame("labels_frame");
+      labels.unit = unit("labels_unit");
       labels.isOtherPatient = isYes("other_patient", cell("other_patient"));
       labels.skipsTaken = isYes("skip_taken", cell("skip_taken"));
       labels.numbersTaken = isYes("rename_taken", cell("rename_taken"));

@@ -23,15 +23,6 @@ namespace petrous::cli
 namespace
 {
 
-double millimetresOf(const std::string& unit)
-{
-  return unit == "um"     ? 0.001
-         : unit == "cm"   ? 10.0
-         : unit == "m"    ? 1000.0
-         : unit == "inch" ? 25.4
-                          : 1.0;
-}
-
 struct PartOptions
 {
   std::vector<std::string> mr;
@@ -123,13 +114,6 @@ struct PartOptions
         ->check(oneOf({"mm", "cm", "m", "um"}));
   }
 
-  imaging::UndeclaredBits undeclaredBits() const
-  {
-    return bits == "stored"      ? imaging::UndeclaredBits::LeaveOut
-           : bits == "allocated" ? imaging::UndeclaredBits::Keep
-                                 : imaging::UndeclaredBits::Refuse;
-  }
-
   presenters::PartSources sources() const
   {
     if (!labelNames.empty() && labels.empty())
@@ -165,7 +149,7 @@ struct PartOptions
     {
       result.mr.push_back(presenters::PartSource::parseSeries(text));
       result.mr.back().repair = repair;
-      result.mr.back().undeclaredBits = undeclaredBits();
+      result.mr.back().undeclaredBits = undeclaredBitsOf(bits);
       if (!mrFrame.empty())
         result.mr.back().assumeRas = mrFrame == "ras";
       if (!mrUnit.empty())
@@ -386,7 +370,7 @@ void addNew(CLI::App& app, Context& context)
         if (!options->volume.empty())
           sources.series += "#" + options->volume;
         sources.repair = options->parts.repair;
-        sources.undeclaredBits = options->parts.undeclaredBits();
+        sources.undeclaredBits = undeclaredBitsOf(options->parts.bits);
         sources.modality = options->modality == "MR"   ? scene::Modality::Mr
                            : options->modality == "CT" ? scene::Modality::Ct
                                                        : scene::Modality::Unknown;

@@ -151,4 +151,20 @@ std::string fixed(double value, int digits)
   return core::fixedText(value, digits);
 }
 
+double millimetresOf(const std::string& unit)
+{
+  return unit == "um"     ? 0.001
+         : unit == "cm"   ? 10.0
+         : unit == "m"    ? 1000.0
+         : unit == "inch" ? 25.4
+                          : 1.0;
+}
+
+imaging::UndeclaredBits undeclaredBitsOf(const std::string& bits)
+{
+  return bits == "stored"      ? imaging::UndeclaredBits::LeaveOut
+         : bits == "allocated" ? imaging::UndeclaredBits::Keep
+                               : imaging::UndeclaredBits::Refuse;
+}
+
 } // namespace petrous::cli

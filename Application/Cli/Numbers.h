@@ -11,6 +11,7 @@
 
 #include "petrous/Core/NumberText.h"
 #include "petrous/Core/PatientBox.h"
+#include "petrous/Imaging/SeriesGeometry.h"
 
 namespace petrous::cli
 {
@@ -59,5 +60,11 @@ std::pair<int, int> parseSize(const std::string& text);
 
 /// A number as text with `digits` decimals.
 std::string fixed(double value, int digits);
+
+/// Millimetres of "mm", "cm", "m", "um" or "inch".
+double millimetresOf(const std::string& unit);
+
+/// What "stored", "allocated" or nothing says of --bits.
+imaging::UndeclaredBits undeclaredBitsOf(const std::string& bits);
 
 } // namespace petrous::cli

@@ -150,7 +150,9 @@ nlohmann::json imagesJson(const std::vector<ImageFile>& images)
   json list = json::array();
   for (const ImageFile& image : images)
   {
-    json entry{{"path", core::printable(image.path)}, {"volumes", image.header.volumes}};
+    json entry{{"path", core::printable(image.path)},
+               {"volumes", image.header.volumes},
+               {"unit_unclear", !image.header.unitDoubt.likely.empty()}};
     entry.update(gridJson(image.header.grid));
     list.push_back(std::move(entry));
   }
@@ -167,6 +169,10 @@ void printImage(const Context& context, const ImageFile& image)
                 std::to_string(n[1]) + " x " + std::to_string(n[2]) + ", " +
                 fixed(grid.spacing()[0], 3) + " x " + fixed(grid.spacing()[1], 3) + " x " +
                 fixed(grid.spacing()[2], 3) + " mm  " + core::printable(image.path));
+  if (!image.header.unitDoubt.likely.empty())
+    context.print("    in the unit that it states, or in mm if none, it is " +
+                  fixed(image.header.unitDoubt.edge, 3) +
+                  " mm long; say another unit with --ct-unit, --mr-unit or --labels-unit");
   if (volumes > 1)
     context.print("    volumes '1' to '" + std::to_string(volumes) +
                   "', of which --ct FILE --volume N takes one, or --mr FILE##N");

@@ -146,11 +146,8 @@ std::string givenName(std::string text)
 // hashes.
 bool mayNamePatient(const scene::Case& value, const library::Library& library)
 {
-  const scene::PatientHash& patient = value.ct.patient;
-  if (patient.name.empty() || patient.nameParts.empty())
-    return true;
   const IdentityText identity(value, library);
-  if (identity.mayIdentify(value.name))
+  if (!identity.knowsName() || identity.mayIdentify(value.name))
     return true;
   constexpr std::size_t kShort = 3; // letters
   const auto isLetter = [](unsigned char c) { return std::isalpha(c) != 0 || c >= 0x80; };

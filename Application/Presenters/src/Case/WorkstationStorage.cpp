@@ -228,6 +228,7 @@ void WorkstationModel::stored(const StoreTask& done)
     image.frameOfReference = from.frameOfReference;
     image.patient = from.patient;
     image.isFrameSalted = from.isFrameSalted;
+    image.saltId = from.saltId;
   };
   if (done.source) // what was removed before is in the other library
   {

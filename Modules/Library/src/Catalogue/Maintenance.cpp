@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 
@@ -9,8 +10,10 @@
 #include "JournalFile.h"
 #include "LibraryFolder.h"
 #include "ManifestFile.h"
+#include "Salt.h"
 #include "Thumbnail.h"
 #include "petrous/Library/Attachments.h"
+#include "petrous/Library/FrameSalt.h"
 #include "petrous/Library/Library.h"
 #include "petrous/Library/LibraryFiles.h"
 #include "petrous/Library/ObjectStore.h"
@@ -463,25 +466,16 @@ bool isStillNeeded(const std::string& object, const Use::By& by)
 namespace
 {
 
-constexpr std::size_t kDigitsOfSalt = 64; // saltOf, Library.cpp
-constexpr std::size_t kMostOfSalt = 128;
-
-bool isSalted(const scene::ImagePart& image)
+bool isSalted(const scene::Case& value)
 {
-  return image.isFrameSalted && (!image.frameOfReference.empty() || !image.patient.empty());
+  return scene::hasSaltedIdentity(value.ct) ||
+         std::any_of(value.mr.begin(), value.mr.end(), scene::hasSaltedIdentity);
 }
 
-bool hasSalt(const fs::path& library)
-{
-  try
-  {
-    return core::readFile(library / "salt", kMostOfSalt).size() == kDigitsOfSalt;
-  }
-  catch (const core::InputFileError&)
-  {
-    return false;
-  }
-}
+constexpr const char* kLostSalt =
+    "the salt with which its marks of patient and frame of reference were made is lost; restore it "
+    "from a copy, or import the images again: until then nothing tells whether a new image is of "
+    "the same patient, and names that may be the patient's are withheld where the case leaves";
 
 } // namespace
 
@@ -491,7 +485,10 @@ Inspection Library::verify(const core::Progress& progress) const
   std::map<std::string, Use> uses;
   std::vector<std::pair<std::string, std::string>> ids; // of cases, with their names
   std::vector<std::pair<std::string, scene::Attachment>> links;
-  std::vector<Use::By> salted;
+  std::vector<Use::By> salted, ofLostSalt;
+  std::optional<scene::IdentitySalt> salt; // none is drawn here
+  if (hasSalt(m_folder))
+    salt = frameSalter(*this);
   const auto damaged =
       [&result](const std::string& object, const std::vector<Use::By>& by, const std::string& text)
   {
@@ -517,8 +514,10 @@ Inspection Library::verify(const core::Progress& progress) const
       const scene::Case value = manifestIn(path, name);
       if (!isDeleted)
         ids.emplace_back(value.id, name);
-      if (isSalted(value.ct) || std::any_of(value.mr.begin(), value.mr.end(), isSalted))
+      if (isSalted(value))
         salted.push_back({path, name, isDeleted, {}});
+      if (salt && hasLostSalt(value, *salt))
+        ofLostSalt.push_back({path, name, isDeleted, {}});
       for (const scene::Attachment& one : value.attachments)
         if (!isDeleted && !one.link.empty())
           links.emplace_back(name, one);
@@ -552,7 +551,9 @@ Inspection Library::verify(const core::Progress& progress) const
               core::printable(path) + ": the thumbnail of case '" + name +
                   "' is damaged; make it anew: petrous describe '" + name + "' --thumbnail");
   }
-  if (!salted.empty() && !hasSalt(m_folder))
+  if (!ofLostSalt.empty())
+    damaged("salt", ofLostSalt, core::printable(m_folder / "salt") + ": " + kLostSalt);
+  if (!salted.empty() && !salt)
     damaged("salt", salted,
             core::printable(m_folder / "salt") +
                 ": is missing, or not what this program wrote; restore it from a copy: without it "
@@ -693,13 +694,17 @@ Repaired Library::repair(const core::Progress& progress)
   quiet.onNotice([&done](const std::string& words) { done.push_back(words); });
   const std::vector<std::string> names = namesIn(m_folder / "cases");
   std::vector<Catalogue::Entry> entries; // made before the library is locked: others may save
+  const scene::IdentitySalt salt = frameSalter(*this);
   std::size_t read = 0;
   for (const std::string& name : names)
     try
     {
       progress.report(static_cast<double>(read++) / static_cast<double>(names.size()), "repairing");
-      for (std::string& words : lost(quiet.open(name)))
+      const scene::Case value = quiet.open(name);
+      for (std::string& words : lost(value))
         result.lost.push_back(std::move(words));
+      if (isSalted(value) && (!hasSalt(m_folder) || hasLostSalt(value, salt)))
+        result.lost.push_back("case '" + name + "': " + kLostSalt);
       if (const auto state = stateOf(manifestPath(name)))
         entries.push_back(entryOf(readManifest(name), *state));
     }

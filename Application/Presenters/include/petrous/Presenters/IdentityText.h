@@ -32,6 +32,8 @@ public:
   /// Whether words of the patient's name are known: that a text is not the patient's name is not
   /// known otherwise.
   bool knowsName() const noexcept { return m_knowsName; }
+  /// library::hasLostSalt.
+  bool isSaltLost() const noexcept { return m_isSaltLost; }
 
   /// The same of a sentence that the program wrote, in which numbers and capitals say nothing.
   bool mayIdentifySentence(const std::string& text) const;

@@ -30,6 +30,7 @@
 #include "petrous/Library/FrameSalt.h"
 #include "petrous/Library/LibraryFiles.h"
 #include "petrous/Library/ObjectStore.h"
+#include "petrous/Library/OpenMark.h"
 #include "petrous/Scene/FreeName.h"
 #include "petrous/Scene/Manifest.h"
 #include "petrous/Volume/VolumeBytes.h"
@@ -214,6 +215,20 @@ Library::Library(fs::path folder)
 void Library::onWait(std::function<void(double)> waiting)
 {
   m_state->waiting = std::move(waiting);
+}
+
+void Library::noticeOpeners()
+{
+  m_state->noticesOpeners = true;
+}
+
+void Library::noticeOpenersOf(const std::string& name, const std::string& id) const
+{
+  if (!m_notice || !m_state->noticesOpeners)
+    return;
+  if (const std::string openers = toString(openersOf(m_folder, id)); !openers.empty())
+    m_notice("case '" + name + "' is open in Petrous elsewhere (" + openers +
+             "); what is changed there is not saved over this: open it there again");
 }
 
 core::FileLock Library::lockForWriting(const core::Progress& progress) const
@@ -733,6 +748,8 @@ void Library::save(scene::Case& value, const core::Progress& progress)
   if (isFirst && m_notice)
     for (const std::string& words : goneWithAnother(value))
       m_notice("case '" + value.name + "' is saved, but not all of it is there: " + words);
+  if (!isFirst)
+    noticeOpenersOf(value.name, value.id);
 }
 
 // What the case shares with one that another program removed for good meanwhile. What other cases

@@ -17,6 +17,7 @@
 #include "petrous/Library/Library.h"
 #include "petrous/Library/LibraryFiles.h"
 #include "petrous/Library/ObjectStore.h"
+#include "petrous/Library/OpenMark.h"
 #include "petrous/Scene/Manifest.h"
 
 // Operations on the whole library, and on cases as files.
@@ -185,6 +186,24 @@ bool writeName(const fs::path& manifest, const std::string& from, const std::str
 
 } // namespace
 
+namespace
+{
+
+// Of a case that may be damaged.
+std::string idIn(const fs::path& manifest, const std::string& name)
+{
+  try
+  {
+    return manifestIn(manifest, name).id;
+  }
+  catch (const core::Error&)
+  {
+    return {};
+  }
+}
+
+} // namespace
+
 void Library::rename(const std::string& from, const std::string& to)
 {
   scene::checkCaseName(from);
@@ -244,6 +263,7 @@ void Library::rename(const std::string& from, const std::string& to)
   }
   if (!onDisk && m_notice)
     m_notice("case '" + to + "' is renamed, but the disk reported an error; check the disk");
+  noticeOpenersOf(to, idIn(manifestPath(to), to));
 }
 
 void Library::remove(const std::string& name)
@@ -255,6 +275,7 @@ void Library::remove(const std::string& name)
   std::error_code error;
   if (fs::is_directory(fs::symlink_status(path, error)))
     throw LibraryError(Reason::Damaged, core::printable(path) + ": is a folder; remove it by hand");
+  const std::string id = idIn(path, name);
   const std::string ending = deletedEnding(unusedDeletionNumber(m_folder / "cases"));
   // The manifest first: a kill then leaves journals that are set aside when the name is used again,
   // or are still in place when the case is brought back.
@@ -271,6 +292,7 @@ void Library::remove(const std::string& name)
   Catalogue(m_folder / kIndex).remove(name);
   if (!onDisk && m_notice)
     m_notice("case '" + name + "' is deleted, but the disk reported an error; check the disk");
+  noticeOpenersOf(name, id);
 }
 
 std::vector<DeletedCase> Library::deleted() const
@@ -679,6 +701,7 @@ Collected Library::collectGarbage(const core::Progress& progress)
       result.bytes += bytes;
     }
   core::syncFolder(objectFolder());
+  removeStaleMarks(m_folder);
   removeLeftovers(m_folder / kThumbnailFolder);
   for (const std::string& id : thumbnailIds(m_folder))
     if (ids.count(id) == 0)

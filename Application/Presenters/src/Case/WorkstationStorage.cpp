@@ -41,11 +41,11 @@ void WorkstationModel::markOpen(const library::SavedState& saved)
   if (m_mark && m_mark->id() == saved.id)
     return;
   m_mark.reset();
-  if (const std::string openers =
+  if (const std::string openersText =
           library::toString(library::openersOf(m_library.folder(), saved.id));
-      !openers.empty())
+      !openersText.empty())
     notify(events.noticed, "case '" + saved.name + "' is open in another window of Petrous, too (" +
-                               openers +
+                               openersText +
                                "): look at it as you like, but what is changed in both can be "
                                "saved in one of them only");
   m_mark = std::make_unique<library::OpenMark>(m_library.folder(), saved.id);

@@ -226,8 +226,8 @@ void Library::noticeOpenersOf(const std::string& name, const std::string& id) co
 {
   if (!m_notice || !m_state->noticesOpeners)
     return;
-  if (const std::string openers = toString(openersOf(m_folder, id)); !openers.empty())
-    m_notice("case '" + name + "' is open in Petrous elsewhere (" + openers +
+  if (const std::string openersText = toString(openersOf(m_folder, id)); !openersText.empty())
+    m_notice("case '" + name + "' is open in Petrous elsewhere (" + openersText +
              "); what is changed there is not saved over this: open it there again");
 }
 

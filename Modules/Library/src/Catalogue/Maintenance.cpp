@@ -494,7 +494,7 @@ bool isSalted(const scene::Case& value)
          std::any_of(value.mr.begin(), value.mr.end(), scene::hasSaltedIdentity);
 }
 
-constexpr const char* kLostSalt =
+constexpr const char* kLostSaltText =
     "the salt with which its marks of patient and frame of reference were made is lost; restore it "
     "from a copy, or import the images again: until then nothing tells whether a new image is of "
     "the same patient, and names that may be the patient's are withheld where the case leaves";
@@ -574,7 +574,7 @@ Inspection Library::verify(const core::Progress& progress) const
                   "' is damaged; make it anew: petrous describe '" + name + "' --thumbnail");
   }
   if (!ofLostSalt.empty())
-    damaged("salt", ofLostSalt, core::printable(m_folder / "salt") + ": " + kLostSalt);
+    damaged("salt", ofLostSalt, core::printable(m_folder / "salt") + ": " + kLostSaltText);
   if (!salted.empty() && !salt)
     damaged("salt", salted,
             core::printable(m_folder / "salt") +
@@ -727,7 +727,7 @@ Repaired Library::repair(const core::Progress& progress)
       for (std::string& words : lost(value))
         result.lost.push_back(std::move(words));
       if (isSalted(value) && (!hasSalt(m_folder) || hasLostSalt(value, salt)))
-        result.lost.push_back("case '" + name + "': " + kLostSalt);
+        result.lost.push_back("case '" + name + "': " + kLostSaltText);
       if (const auto state = stateOf(manifestPath(name)))
         entries.push_back(entryOf(readManifest(name), *state));
     }

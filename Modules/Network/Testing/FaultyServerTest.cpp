@@ -28,6 +28,7 @@
 #include <gtest/gtest.h>
 
 #include "../src/Client/Association.h"
+#include "../src/Client/PduChecker.h"
 #include "TestServers.h"
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Imaging/DicomWriter.h"
@@ -906,15 +907,51 @@ TEST_F(FaultyNode, ThatIsNoDicomServerIsNamed)
         {pdu(3, 0x7FFFFFFF, ""), "states 2147483647 bytes"},
         {pdu(4, 0x10000000, ""), "states 268435456 bytes"},
         {pdu(2, fields + item + "short"), "longer than it is"},
-        {pdu(2, fields + "\x10"), "bytes behind its last part"},
-        {pdu(4, std::string("\0\0\0\1\1\3", 6)), "a data value of 1 bytes"},
-        {pdu(4, std::string("\0\0\1\0\1\3", 6)), "longer than it is"}})
+        {pdu(2, fields + "\x10"), "bytes behind its last part"}})
   {
     const Chatterer server(bytes);
     const NetworkError error = failure([node = server.node()] { echo(node); });
     EXPECT_EQ(error.reason, Reason::Protocol) << told;
     EXPECT_NE(std::string(error.what()).find(told), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("is not valid DICOM"), std::string::npos);
+  }
+}
+
+// In whatever pieces the bytes come.
+TEST(PduChecker, FollowsAConnectionFromPduToPdu)
+{
+  const auto faultOf = [](const std::string& bytes, std::size_t piece)
+  {
+    PduChecker checker;
+    for (std::size_t at = 0; at < bytes.size(); at += piece)
+      if (std::string fault = checker.take(reinterpret_cast<const std::uint8_t*>(bytes.data()) + at,
+                                           std::min(piece, bytes.size() - at));
+          !fault.empty())
+        return fault;
+    return std::string();
+  };
+  const auto value = [](std::uint32_t length, std::size_t bytes)
+  { return pdu(0, length, std::string(bytes, '\3')).substr(2); };
+  const std::string fields(68, '\0');
+  const std::string item("\x10\0\0\x03", 4);
+  const std::string sound = pdu(2, fields + item + "abc" + item + "def") + pdu(2, fields) +
+                            pdu(4, value(5, 5) + value(2, 2)) + pdu(4, value(100, 100)) +
+                            pdu(5, std::string(4, '\0')) + pdu(6, std::string(4, '\0')) +
+                            pdu(7, std::string(4, '\0')) + pdu(3, std::string(4, '\0'));
+  for (const std::size_t piece : {1, 2, 3, 7, 64, 100000})
+  {
+    EXPECT_EQ(faultOf(sound, piece), "") << piece;
+    for (const auto& [bytes, told] :
+         {std::pair(pdu(4, value(1, 1) + value(1, 1)), "a data value of 1 bytes"),
+          {pdu(4, value(6, 5)), "longer than it is"},
+          {pdu(4, value(0xFFFFFFFF, 5)), "longer than it is"},
+          {pdu(4, value(5, 5) + "abc"), "bytes behind its last part"},
+          {pdu(4, 131073, ""), "states 131073 bytes"},
+          {pdu(4, 5, ""), "states 5 bytes"},
+          {pdu(5, 5, ""), "states 5 bytes"},
+          {pdu(8, 4, ""), "type 8"}})
+      EXPECT_NE(faultOf(sound + bytes, piece).find(told), std::string::npos)
+          << told << ", " << piece;
   }
 }
 

@@ -291,6 +291,8 @@ TEST_F(NodeCommand, WithholdsANameThatIsNotKnownToBeNobodys)
               outcome.err.find("is not the patient's name at node 'pacs'") != std::string::npos)
         << outcome.err;
     EXPECT_EQ(studyOf(answer).patientName, answer["patient_name"].get<std::string>());
+    const std::string notes = answer["notes"].dump();
+    EXPECT_EQ(isHidden, notes.find("it goes along where") != std::string::npos) << notes;
     return answer;
   };
   const auto isHidden = [&](const nlohmann::json& answer)
@@ -300,6 +302,14 @@ TEST_F(NodeCommand, WithholdsANameThatIsNotKnownToBeNobodys)
   const auto own = sent("Kowalczyk left");
   EXPECT_TRUE(isHidden(own));
   EXPECT_FALSE(isHidden(sent("ear")));
+  // What is exported as DICOM, likewise.
+  const auto exported =
+      json("export \"Kowalczyk left\" --what labels --out " + quoted(m_folder / "left.dcm"));
+  EXPECT_TRUE(isHidden(exported));
+  EXPECT_NE(exported["notes"].dump().find("where the case is renamed"), std::string::npos);
+  const auto named = json("export ear --what labels --out " + quoted(m_folder / "ear.dcm"));
+  EXPECT_EQ(named["patient_name"], "Petrous^ear");
+  EXPECT_EQ(named["notes"].dump().find("is not the patient's name"), std::string::npos);
   const std::string guessed = "72747bacb70ffd04"; // sha256sum of "petrous case Kowalczyk left"
   EXPECT_NE(studyOf(own).studyId, guessed);
   const auto again = sent("Kowalczyk left");
@@ -312,7 +322,17 @@ TEST_F(NodeCommand, WithholdsANameThatIsNotKnownToBeNobodys)
   EXPECT_TRUE(isHidden(foreign));
   EXPECT_NE(studyOf(foreign).studyId, guessed);
   EXPECT_NE(studyOf(foreign).studyId, studyOf(own).studyId);
-  json("send \"Kowalczyk left\" --to pacs --what scene" + other());
+  const auto scene = json("send \"Kowalczyk left\" --to pacs --what scene" + other());
+  // By what `send` names, a third library finds it.
+  const std::string study = scene["study"];
+  EXPECT_NE(scene["notes"].dump().find("receives the study " + study), std::string::npos)
+      << scene["notes"];
+  EXPECT_EQ(json("receive --from pacs --study " + study + " --as left --library " +
+                 quoted(m_folder / "by study"))["scene"],
+            true);
+  const auto listed = json("receive --from pacs --list --library " + quoted(m_folder / "by study"));
+  for (const auto& one : listed["cases"])
+    EXPECT_TRUE(one["study"] != study || one["instances"].get<int>() >= 2) << one;
   json("receive --from pacs --case \"Kowalczyk left\" --as back" + other());
   expectRefused("receive --from pacs --case \"Kowalczyk left\" --as back --library " +
                     quoted(m_folder / "third"),

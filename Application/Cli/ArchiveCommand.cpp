@@ -1,3 +1,5 @@
+#include <optional>
+
 #include "CaseJson.h"
 #include "Commands.h"
 #include "MaskOptions.h"
@@ -15,7 +17,7 @@ namespace
 struct ArchiveCommandOptions
 {
   std::string caseName, file;
-  int level = library::ArchiveOptions{}.level;
+  std::optional<int> level;
   bool planOnly = false, keepIdentity = false, withoutNotes = false, withVideos = false,
        withDocuments = false;
   bool dryRun = false;
@@ -114,9 +116,10 @@ void addArchiveCommands(CLI::App& app, Context& context)
   command->add_flag("--dry-run", out->dryRun,
                     "Only say what of the case would be in the file, and what may identify the "
                     "patient; nothing is written");
-  command->add_option("--level", out->level, "Compression of images, 1 (fast) to 12 (small)")
-      ->check(CLI::Range(1, 12))
-      ->capture_default_str();
+  command
+      ->add_option("--level", out->level,
+                   "Compression of images, 1 (fast) to 12 (small); default: between 1 and 2")
+      ->check(CLI::Range(1, 12));
 
   auto in = std::make_shared<RestoreCommandOptions>();
   command = context.addCommand(app, "restore", "Add the case of an archive to the library",

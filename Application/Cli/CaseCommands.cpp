@@ -439,8 +439,7 @@ void addAdd(CLI::App& app, Context& context)
         if (sources.mr.empty() && sources.labels.empty() && sources.meshes.empty())
           throw UsageError("add: nothing to add; give --mr, --labels or --mesh");
         library::Library library = context.openLibrary();
-        sources.salted = [&library](const std::string& frame)
-        { return library::saltedFrame(library, frame); };
+        sources.salted = library::frameSalter(library);
         scene::Case value = library.open(options->name);
         const PartCounts before(value);
         std::vector<presenters::StructureReport> structures;

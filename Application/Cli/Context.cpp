@@ -205,6 +205,7 @@ library::Library Context::openLibrary() const
               "is changed)");
         core::Progress(nullptr, interruptToken()).check("waiting for the library");
       });
+  library.noticeOpeners();
   m_opened = library;
   return library;
 }

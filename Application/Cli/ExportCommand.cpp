@@ -23,7 +23,8 @@ struct Options : presenters::ExportOptions
 };
 
 void printSummary(const Context& context, const scene::Case& value, const Options& options,
-                  const presenters::ExportSummary& done, const presenters::LeftOut& leftOut)
+                  const presenters::ExportSummary& done, const presenters::LeftOut& leftOut,
+                  const std::vector<std::string>& notes)
 {
   nlohmann::json json{{"case", value.name}, {"what", options.what}, {"out", options.out}};
   const auto give = [&json](const char* key, const auto& number)
@@ -59,6 +60,12 @@ void printSummary(const Context& context, const scene::Case& value, const Option
   context.print(options.out + ": " + options.what + " of '" + value.name + "'" + done.words + "; " +
                 presenters::coordinatesOf(options));
   json["left_out"] = leftOutJson(value, leftOut);
+  if (done.patient)
+  {
+    json["patient_id"] = done.patient->id;
+    json["patient_name"] = done.patient->name;
+  }
+  json["notes"] = notes;
   context.printJson(json);
 }
 
@@ -74,10 +81,16 @@ void exportCase(const Context& context, Options options)
     // Labels that are written are read, and thus checked; the surface is that of all structures.
     if (options.what == "surface" || (options.what == "labels" && options.withoutDamaged))
       leftOut = leaveOutDamaged(context, library, value, options.withoutDamaged);
+    std::vector<std::string> notes;
     const auto done = presenters::exportCase(
         library, value, options, leftOut,
-        [&context](const std::string& line) { context.warn(line); }, context.progress());
-    printSummary(context, value, options, done, leftOut);
+        [&](const std::string& line)
+        {
+          notes.push_back(line);
+          context.warn(line);
+        },
+        context.progress());
+    printSummary(context, value, options, done, leftOut, notes);
   }
   catch (const presenters::ExportChoiceError& error)
   {

@@ -180,7 +180,7 @@ void send(const Context& context, const SendOptions& options)
                 (!parts.scene ? std::string()
                               : "; to bring it back: petrous receive --from " + options.node +
                                     " --case \"" + options.caseName + '"' +
-                                    (done.patient.isNameHidden
+                                    (done.patient.isNameHidden()
                                          ? ", from another library --study " + done.studyUid
                                          : std::string())));
   nlohmann::json answer = transferJson(done.transfer);
@@ -190,6 +190,7 @@ void send(const Context& context, const SendOptions& options)
   answer["patient_id"] = done.patient.id;
   answer["patient_name"] = done.patient.name;
   answer["verified"] = done.transfer.verified;
+  answer["notes"] = done.notes;
   context.printJson(answer);
 }
 
@@ -219,8 +220,14 @@ void listCases(const Context& context, const ReceiveOptions& options)
         (one.otherName.empty() ? ""
                                : ", there of patient '" + core::printable(one.otherName) + "'") +
         ", patient ID " + core::printable(study.patientId) + ", study " +
-        core::printable(study.uid));
-    nlohmann::json listed = {{"patient_id", study.patientId}, {"study", study.uid}};
+        core::printable(study.uid) +
+        (study.modalities.empty() ? "" : ", " + core::printable(study.modalities)) +
+        (study.instances < 0 ? "" : ", " + std::to_string(study.instances) + " instances"));
+    nlohmann::json listed = {
+        {"patient_id", study.patientId},
+        {"study", study.uid},
+        {"modalities", study.modalities},
+        {"instances", study.instances < 0 ? nlohmann::json() : nlohmann::json(study.instances)}};
     listed["case"] = one.caseName.empty() ? nlohmann::json() : nlohmann::json(one.caseName);
     if (!one.otherName.empty())
       listed["patient_name"] = one.otherName;

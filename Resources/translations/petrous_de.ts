@@ -2745,8 +2745,8 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
         <translation>Dort ist er der Patient %1. „Empfangen“ findet ihn unter dem Fall „%2“.</translation>
     </message>
     <message>
-        <source>There it is the patient %1, without the case&apos;s name, which may be a patient&apos;s. Receive finds it by the whole name “%2” from this library, and by that ID from any.</source>
-        <translation>Dort ist er der Patient %1, ohne den Namen des Falls, der der eines Patienten sein kann. „Empfangen“ findet ihn aus dieser Bibliothek unter dem ganzen Namen „%2“, aus jeder anderen unter dieser ID.</translation>
+        <source>There it is the patient %1, without the case&apos;s name, which may be a patient&apos;s. Receive finds it by the whole name “%2” from this library, and by that ID from any; “petrous receive” finds it by the study %3.</source>
+        <translation>Dort ist es der Patient %1, ohne den Namen des Falls, der der eines Patienten sein kann. „Empfangen“ findet ihn aus dieser Bibliothek unter dem ganzen Namen „%2“ und aus jeder unter dieser ID; „petrous receive“ findet ihn unter der Studie %3.</translation>
     </message>
 </context>
 <context>
@@ -3495,6 +3495,10 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
     <message>
         <source>    file: %1</source>
         <translation>    Datei: %1</translation>
+    </message>
+    <message>
+        <source>The case is called “%1”. A node to which it was sent keeps it as it was; sent again, it is another patient and study there.</source>
+        <translation>Der Fall heißt „%1“. Ein Knoten, an den er gesendet wurde, behält ihn, wie er war; erneut gesendet, ist er dort ein anderer Patient und eine andere Studie.</translation>
     </message>
 </context>
 <context>

@@ -52,6 +52,10 @@
         <translation>Wählen Sie eine Serie, die als in Ordnung gilt.</translation>
     </message>
     <message>
+        <source>Whether it is of the patient of the case's images is not known: the library's salt, with which their patients' hashes were made, was lost; look whether it is</source>
+        <translation>Ob es vom Patienten der Bilder des Falls ist, ist nicht bekannt: Das Salt der Bibliothek, mit dem die Hashes ihrer Patienten gebildet wurden, ging verloren; sehen Sie nach, ob es so ist</translation>
+    </message>
+    <message>
         <source>%1: its CT cannot be used Only an MR can; name its series (--series, 'petrous scan' lists them) for a case of the MR alone</source>
         <translation>%1: Das CT darin ist nicht verwendbar; nur ein MR ist es. Wählen Sie dessen Serie für einen Fall allein mit dem MR</translation>
     </message>
@@ -416,6 +420,22 @@
         <translation>nicht aufgezeichnet</translation>
     </message>
     <message>
+        <source>the library's salt was lost, so it cannot be compared with the patient's name; it goes along where that salt is restored from a copy, or the images are imported again</source>
+        <translation>das Salt der Bibliothek ging verloren, daher lässt er sich nicht mit dem Patientennamen vergleichen; er geht mit, wenn dieses Salt aus einer Kopie wiederhergestellt ist oder die Bilder neu importiert sind</translation>
+    </message>
+    <message>
+        <source>nothing is known of the patient's name with which to compare it; it goes along where the case was made of DICOM files that state the patient's name, in this library</source>
+        <translation>vom Namen des Patienten, mit dem er verglichen werden könnte, ist nichts bekannt; er geht mit, wenn der Fall in dieser Bibliothek aus DICOM-Dateien entstand, die den Patientennamen angeben</translation>
+    </message>
+    <message>
+        <source>it may be the patient's name, number or date; it goes along where the case is renamed</source>
+        <translation>er kann Name, Nummer oder Datum des Patienten sein; er geht mit, wenn der Fall umbenannt ist</translation>
+    </message>
+    <message>
+        <source>a word of one or two letters cannot be compared with the patient's name; it goes along where the case is renamed to one without</source>
+        <translation>ein Wort von einem oder zwei Buchstaben lässt sich nicht mit dem Patientennamen vergleichen; er geht mit, wenn der Fall in einen ohne ein solches umbenannt ist</translation>
+    </message>
+    <message>
         <source>bringing the structures onto one grid</source>
         <translation>Strukturen werden auf ein Gitter gebracht</translation>
     </message>
@@ -562,6 +582,10 @@
     <message>
         <source>export structure: give --part NAME</source>
         <translation>Struktur exportieren: Wählen Sie eine</translation>
+    </message>
+    <message>
+        <source>the name of the case is not the patient's name in the files, but the ID '%1': %~2</source>
+        <translation>Der Name des Falls ist in den Dateien nicht der Patientenname, sondern die ID „%1“: %~2</translation>
     </message>
     <message>
         <source>not decimated</source>
@@ -924,6 +948,14 @@
         <translation>als Patient „%1“, ID %2: ein Pseudonym mit dem Namen des Falls</translation>
     </message>
     <message>
+        <source>the name of the case as a patient's: %~1. It is within the scene</source>
+        <translation>der Name des Falls als Name eines Patienten: %~1. In der Szene steht er</translation>
+    </message>
+    <message>
+        <source>the name of the case as a patient's: %~1</source>
+        <translation>der Name des Falls als Name eines Patienten: %~1</translation>
+    </message>
+    <message>
         <source>UIDs of the scanner's files: the objects have new ones</source>
         <translation>UIDs der Dateien des Geräts: Die Objekte haben neue</translation>
     </message>
@@ -952,8 +984,12 @@
         <translation>bietet keine Abfragen</translation>
     </message>
     <message>
-        <source>the name of the case is not the patient's name at node '%1': it may be a patient's, or nothing is known of the patient's name with which to compare it</source>
-        <translation>der Name des Falls ist am Knoten „%1“ nicht der Name des Patienten: Er kann der eines Patienten sein, oder vom Namen des Patienten ist nichts bekannt, womit er zu vergleichen wäre</translation>
+        <source>the name of the case is not the patient's name at node '%1': %~2</source>
+        <translation>Der Name des Falls ist am Knoten „%1“ nicht der Patientenname: %~2</translation>
+    </message>
+    <message>
+        <source>another library does not find it there by its name: it receives the study %1, of the patient ID %2</source>
+        <translation>eine andere Bibliothek findet ihn dort nicht unter seinem Namen: Sie empfängt die Studie %1 mit der Patienten-ID %2</translation>
     </message>
     <message>
         <source>cases that were sent by the program's first version are not listed: %~1</source>
@@ -1362,6 +1398,10 @@
     <message>
         <source>The structures are still being loaded.</source>
         <translation>Die Strukturen werden noch geladen.</translation>
+    </message>
+    <message>
+        <source>case '%1' is open in another window of Petrous, too (%~2): look at it as you like, but what is changed in both can be saved in one of them only</source>
+        <translation>Der Fall „%1“ ist auch in einem anderen Fenster von Petrous geöffnet (%~2): Sie können ihn ansehen; was aber in beiden geändert wird, lässt sich nur in einem speichern</translation>
     </message>
     <message>
         <source>opening %1</source>
@@ -5965,16 +6005,16 @@
         <translation>das CT des Falls „%1“</translation>
     </message>
     <message>
-        <source>%1: is not what this program wrote; restore it from a copy, or remove it (a new image's frame of reference is then not known to be that of older ones)</source>
-        <translation>%1: ist nicht, was dieses Programm schrieb; stellen Sie sie aus einer Kopie wieder her, oder entfernen Sie sie (vom Bezugssystem eines neuen Bildes ist dann nicht bekannt, ob es das älterer ist)</translation>
-    </message>
-    <message>
         <source>labels %#1 %2</source>
         <translation>Labels %#1 %2</translation>
     </message>
     <message>
         <source>listing the cases</source>
         <translation>Fälle werden aufgelistet</translation>
+    </message>
+    <message>
+        <source>case '%1' is open in Petrous elsewhere (%~2); what is changed there is not saved over this: open it there again</source>
+        <translation>Der Fall „%1“ ist anderswo in Petrous geöffnet (%~2); was dort geändert wird, überschreibt dies nicht: Öffnen Sie ihn dort neu</translation>
     </message>
     <message>
         <source>no case '%1' in %2; the library is empty</source>
@@ -6145,6 +6185,10 @@
         <translation>gebraucht von: „%1“</translation>
     </message>
     <message>
+        <source>the salt with which its marks of patient and frame of reference were made is lost; restore it from a copy, or import the images again: until then nothing tells whether a new image is of the same patient, and names that may be the patient's are withheld where the case leaves</source>
+        <translation>das Salt, mit dem seine Kennzeichen von Patient und Bezugssystem gebildet wurden, ist verloren; stellen Sie es aus einer Kopie wieder her oder importieren Sie die Bilder neu: Bis dahin sagt nichts, ob ein neues Bild vom selben Patienten ist, und Namen, die die des Patienten sein können, werden zurückgehalten, wo der Fall das Haus verlässt</translation>
+    </message>
+    <message>
         <source>%~1; deleted case '%2' cannot be brought back</source>
         <translation>%~1; der gelöschte Fall „%2“ lässt sich nicht zurückholen</translation>
     </message>
@@ -6181,6 +6225,10 @@
         <translation>entfernt wird, was kein Fall braucht</translation>
     </message>
     <message>
+        <source>case '%1': %~2</source>
+        <translation>Fall „%1“: %~2</translation>
+    </message>
+    <message>
         <source>the index holds %#1 of %#2 cases</source>
         <translation>das Verzeichnis enthält %#1 von %#2 Fällen</translation>
     </message>
@@ -6191,6 +6239,10 @@
     <message>
         <source>case '%1' was removed, and another process is still drilling in it; end that first</source>
         <translation>der Fall „%1“ wurde entfernt, und ein anderer Prozess bohrt noch darin; beenden Sie diesen erst</translation>
+    </message>
+    <message>
+        <source>%1: is not what this program wrote; restore it from a copy, or remove it (a new image's frame of reference is then not known to be that of older ones)</source>
+        <translation>%1: ist nicht, was dieses Programm schrieb; stellen Sie sie aus einer Kopie wieder her, oder entfernen Sie sie (vom Bezugssystem eines neuen Bildes ist dann nicht bekannt, ob es das älterer ist)</translation>
     </message>
     <message>
         <source>libsodium cannot be initialised</source>
@@ -6705,6 +6757,10 @@
         <translation>%1: lässt sich nicht lesen; prüfen Sie die Rechte</translation>
     </message>
     <message>
+        <source>process %#1 on '%2'</source>
+        <translation>Prozess %#1 auf „%2“</translation>
+    </message>
+    <message>
         <source>%1: cannot be created; is the disk full, or TMPDIR wrong?</source>
         <translation>%1: lässt sich nicht anlegen; ist der Datenträger voll oder TMPDIR falsch?</translation>
     </message>
@@ -6727,6 +6783,10 @@
 </context>
 <context>
     <name>Network</name>
+    <message>
+        <source>%1: what it answers is not valid DICOM (%~2); the connection was ended; is it a DICOM node?</source>
+        <translation>%1: Was er antwortet, ist kein gültiges DICOM (%~2); die Verbindung wurde beendet; ist es ein DICOM-Knoten?</translation>
+    </message>
     <message>
         <source>node '%1': %~2</source>
         <translation>Knoten „%1“: %~2</translation>
@@ -7106,6 +7166,26 @@
     <message>
         <source>a DICOM node '%1' is there already; remove it first, or choose another name</source>
         <translation>ein DICOM-Knoten „%1“ ist schon da; entfernen Sie ihn erst, oder wählen Sie einen anderen Namen</translation>
+    </message>
+    <message>
+        <source>a data value of %#1 bytes</source>
+        <translation>ein Datenwert von %#1 Bytes</translation>
+    </message>
+    <message>
+        <source>a PDU of type %#1 with a part that is longer than it is</source>
+        <translation>eine PDU des Typs %#1 mit einem Teil, der länger ist als sie</translation>
+    </message>
+    <message>
+        <source>a PDU of type %#1 with bytes behind its last part</source>
+        <translation>eine PDU des Typs %#1 mit Bytes hinter ihrem letzten Teil</translation>
+    </message>
+    <message>
+        <source>a PDU of type %#1</source>
+        <translation>eine PDU des Typs %#1</translation>
+    </message>
+    <message>
+        <source>a PDU of type %#1 that states %#2 bytes</source>
+        <translation>eine PDU des Typs %#1, die %#2 Bytes angibt</translation>
     </message>
     <message>
         <source>the scene's DICOM objects: %~1; have it sent again</source>

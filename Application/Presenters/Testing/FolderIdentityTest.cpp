@@ -226,6 +226,31 @@ TEST(IdentityOfACase, ThePatientsOwnNameAndNumberAreFoundByTheirHashes)
   EXPECT_FALSE(IdentityText(value).mayIdentify("plain sharp")) << "without the salt";
 }
 
+// Words that match no hash of a lost salt are not known to be none of the patient's.
+TEST(IdentityOfACase, NothingIsKnownOfThePatientWhereTheSaltWasLost)
+{
+  scene::Case value = describedCase();
+  const std::string hash(64, 'a');
+  value.ct.patient = {hash, "", hash, "", {hash}};
+  const auto saltOf = [](const std::string& id)
+  {
+    return scene::IdentitySalt([id](const std::string& text) { return id + text; },
+                               [id] { return id; });
+  };
+  EXPECT_TRUE(IdentityText(value, saltOf("one")).knowsName()) << "not salted yet";
+  scene::saltIdentity(value.ct, saltOf("one"));
+  EXPECT_TRUE(IdentityText(value, saltOf("one")).knowsName());
+  EXPECT_FALSE(IdentityText(value, saltOf("one")).mayIdentify("sharp"));
+  const IdentityText lost(value, saltOf("two"));
+  EXPECT_FALSE(lost.knowsName());
+  EXPECT_TRUE(lost.mayIdentify("sharp"));
+  EXPECT_FALSE(lost.mayIdentify("facial nerve, left"));
+  EXPECT_FALSE(IdentityText(value).knowsName());
+  value.ct.saltId.clear(); // as an earlier version saved it
+  EXPECT_TRUE(IdentityText(value, saltOf("")).knowsName());
+  EXPECT_FALSE(IdentityText(value, saltOf("two")).knowsName());
+}
+
 // As import keeps them: a surname alone is found, in any case, and with a number behind it.
 TEST(IdentityOfACase, ThePatientsSurnameAloneIsFound)
 {

@@ -9,11 +9,13 @@
 #include <thread>
 
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "HeldTool.h"
 #include "petrous/Library/FrameSalt.h"
 #include "petrous/Library/LibraryError.h"
+#include "petrous/Library/OpenMark.h"
 #include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/RecordingPlayer.h"
 #include "petrous/Presenters/WorkstationModel.h"
@@ -74,6 +76,59 @@ protected:
 };
 
 } // namespace
+
+// Told by who comes second; a look at the case stays possible.
+TEST_F(WorkstationModelTest, ACaseThatIsOpenElsewhereIsToldOf)
+{
+  library::Library library(folder);
+  scene::Case value = block("block");
+  library.save(value);
+  const auto marks = [this]
+  {
+    std::error_code error;
+    return std::distance(std::filesystem::directory_iterator(folder / "open", error), {});
+  };
+  std::vector<std::string> noticed;
+  WorkstationModel model(library);
+  model.events.noticed = [&noticed](const std::string& words) { noticed.push_back(words); };
+  model.open("block");
+  EXPECT_TRUE(noticed.empty());
+  EXPECT_EQ(marks(), 1);
+  model.open("block"); // again
+  EXPECT_TRUE(noticed.empty());
+  EXPECT_EQ(marks(), 1);
+  model.close();
+  EXPECT_EQ(marks(), 0);
+
+  int ready[2];
+  ASSERT_EQ(::pipe(ready), 0);
+  const pid_t other = ::fork();
+  if (other == 0)
+  {
+    const library::OpenMark mark(folder, value.id);
+    [[maybe_unused]] const ssize_t told = ::write(ready[1], "x", 1);
+    for (;;)
+      ::pause();
+  }
+  char byte = 0;
+  EXPECT_EQ(::read(ready[0], &byte, 1), 1);
+  model.open("block");
+  ASSERT_EQ(noticed.size(), 1U);
+  EXPECT_NE(noticed[0].find("is open in another window of Petrous, too (process " +
+                            std::to_string(other) + " on "),
+            std::string::npos)
+      << noticed[0];
+  model.setIso(400.0);
+  EXPECT_NO_THROW(model.save());
+  EXPECT_EQ(noticed.size(), 1U) << "once";
+  ::kill(other, SIGKILL);
+  ::waitpid(other, nullptr, 0);
+  model.close();
+  model.open("block");
+  EXPECT_EQ(noticed.size(), 1U);
+  ::close(ready[0]);
+  ::close(ready[1]);
+}
 
 TEST_F(WorkstationModelTest, OpensSavesAndFindsTheStrokeAgain)
 {

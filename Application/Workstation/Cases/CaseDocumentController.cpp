@@ -991,8 +991,7 @@ void CaseDocumentController::addParts(const presenters::PartSources& parts, cons
        shownAs = m_model.shownAs()](const core::Progress& progress) -> BackgroundWork::Reply
       {
         presenters::PartSources sources = parts;
-        sources.salted = [&library](const std::string& frame)
-        { return library::saltedFrame(library, frame); };
+        sources.salted = library::frameSalter(library);
         std::vector<presenters::StructureReport> report;
         const auto failures = presenters::addSoundParts(*value, sources, progress, &report);
         const bool onlyImages = parts.labels.empty() && parts.meshes.empty();

@@ -15,6 +15,7 @@
 #include "WindowTexts.h"
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Library/NewerVersion.h"
+#include "petrous/Network/NodeList.h"
 #include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/CasePicture.h"
 #include "petrous/Presenters/CaseStamp.h"
@@ -151,7 +152,14 @@ void LibraryController::rename(const std::string& name)
   m_keeper.changeCase(
       tr("Renaming %1").arg(words(name)), name, to,
       [name, to](library::Library& library) { library.rename(name, to); },
-      [this, to] { m_panel->select(to); });
+      [this, to]
+      {
+        m_panel->select(to);
+        if (!network::NodeList(m_model.library().folder()).nodes().empty())
+          emit statusMessage(tr("The case is called “%1”. A node to which it was sent keeps it as "
+                                "it was; sent again, it is another patient and study there.")
+                                 .arg(words(to)));
+      });
 }
 
 void LibraryController::copy(const std::string& name)

@@ -64,16 +64,17 @@ QString listedText(network::Transfer::Listed listed)
 }
 
 // How it is found again.
-QString foundText(const std::string& name, const presenters::CasePatient& patient)
+QString foundText(const std::string& name, const presenters::CasePatient& patient,
+                  const std::string& study)
 {
-  return (patient.isNameHidden
-              ? ExchangeController::tr(
-                    "There it is the patient %1, without the case's name, which may be a "
-                    "patient's. Receive finds it by the whole name “%2” from this library, and by "
-                    "that ID from any.")
-              : ExchangeController::tr("There it is the patient %1. Receive finds it by the case "
-                                       "“%2”."))
-      .arg(words(patient.id), words(name));
+  if (!patient.isNameHidden())
+    return ExchangeController::tr("There it is the patient %1. Receive finds it by the case “%2”.")
+        .arg(words(patient.id), words(name));
+  return ExchangeController::tr(
+             "There it is the patient %1, without the case's name, which may be a patient's. "
+             "Receive finds it by the whole name “%2” from this library, and by that ID from any; "
+             "“petrous receive” finds it by the study %3.")
+      .arg(words(patient.id), words(name), words(study));
 }
 
 QString lines(const std::vector<std::string>& all)
@@ -189,7 +190,7 @@ void ExchangeController::offer(const scene::Case& value, const std::vector<netwo
           QString head =
               tr("“%1” is at “%2”: %3.").arg(words(name), place, transferText(done.transfer));
           head += ' ' + listedText(done.transfer.listed);
-          head += ' ' + foundText(name, done.patient);
+          head += ' ' + foundText(name, done.patient, done.studyUid);
           showReport(&m_window, tr("Send"), head, lines(done.notes), "petrous-send.txt");
         };
       });

@@ -206,6 +206,11 @@ void OutputFile::write(const void* bytes, std::size_t count)
   }
 }
 
+void OutputFile::startSync() noexcept
+{
+  ::sync_file_range(m_descriptor, 0, 0, SYNC_FILE_RANGE_WRITE); // whether it can or not
+}
+
 bool OutputFile::commit()
 {
   if (::fsync(m_descriptor) != 0 && errno != EINVAL)

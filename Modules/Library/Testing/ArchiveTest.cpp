@@ -760,6 +760,8 @@ TEST_F(Archives, OfOnePatientHaveNothingInCommonButForTheirLibrary)
   ASSERT_EQ(here.ct.patient.id, m_library.open("second").ct.patient.id);
   for (const std::string& hash : all(first["ct"]))
     EXPECT_TRUE(seen.insert(hash).second) << "another than at home";
+  EXPECT_NE(first["ct"]["salt_id"], here.ct.saltId) << "which would tell whose library it is";
+  EXPECT_NE(first["ct"]["salt_id"], second["ct"]["salt_id"]);
   for (const std::string& hash : all(second["ct"]))
     EXPECT_TRUE(seen.insert(hash).second) << "another than in the first";
 
@@ -771,6 +773,7 @@ TEST_F(Archives, OfOnePatientHaveNothingInCommonButForTheirLibrary)
   EXPECT_EQ(again.ct.patient.name, here.ct.patient.name);
   EXPECT_EQ(again.ct.patient.nameParts, here.ct.patient.nameParts);
   EXPECT_EQ(again.mr[0].frameOfReference, here.ct.frameOfReference);
+  EXPECT_EQ(again.ct.saltId, here.ct.saltId);
   Library other(m_folder.path() / "other");
   savedWith(other);
   const auto notes = restoreCase(other, m_file).notes;

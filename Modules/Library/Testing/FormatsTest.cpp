@@ -4,6 +4,7 @@
 
 #include "TestCase.h"
 #include "petrous/Library/Archive.h"
+#include "petrous/Library/FrameSalt.h"
 #include "petrous/Library/NewerVersion.h"
 #include "petrous/Scene/Manifest.h"
 #include "petrous/Scene/Placement.h"
@@ -219,6 +220,23 @@ TEST_F(Formats, ACaseOfANewerFormatIsRefusedInWordsAndStays)
   EXPECT_FALSE(isOfNewerVersion(m_library.folder(), "broken"));
   EXPECT_EQ(m_library.verify().damaged.size(), 1U);
   EXPECT_EQ(manifestOf(formatName(newer)), before);
+}
+
+// Their hashes name no salt: they are of the library's if that is of the form of these programs.
+TEST_F(Formats, HashesWithoutAnIdAreOfASaltOfThatTime)
+{
+  bring(7);
+  const std::string name = formatName(7);
+  std::ofstream(m_folder.path() / "salt") << std::string(64, '0');
+  const scene::IdentitySalt former = frameSalter(m_library);
+  EXPECT_EQ(former.id(), "");
+  EXPECT_FALSE(hasLostSalt(m_library.open(name), former));
+  EXPECT_TRUE(m_library.repair().lost.empty());
+  fs::remove(m_folder.path() / "salt"); // lost, and another one drawn
+  const scene::IdentitySalt drawn = frameSalter(m_library);
+  EXPECT_EQ(drawn.id().size(), 16U);
+  EXPECT_TRUE(hasLostSalt(m_library.open(name), drawn));
+  EXPECT_EQ(m_library.verify().damaged.size(), 1U);
 }
 
 // The first programs' journals named neither the CT nor the history.

@@ -382,6 +382,47 @@ TEST(Library, SaltsWhatTellsFramesOfReferenceApart)
   }
 }
 
+// Hashes of a salt that was lost would match nothing, and so seem to be of other patients.
+TEST(Library, KnowsTheHashesOfASaltThatWasLost)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  const auto saved = [&library](const std::string& name)
+  {
+    scene::Case value = smallCase(name);
+    value.ct.patient.id = std::string(64, 'a');
+    library.save(value);
+    return library.open(name);
+  };
+  const scene::Case before = saved("before");
+  EXPECT_EQ(before.ct.saltId.size(), 16U);
+  EXPECT_EQ(saved("beside").ct.saltId, before.ct.saltId);
+  scene::Case unstated = smallCase("of nobody");
+  library.save(unstated);
+  EXPECT_EQ(unstated.ct.saltId, "");
+  EXPECT_FALSE(hasLostSalt(library.open("before"), frameSalter(library)));
+  EXPECT_TRUE(library.repair().lost.empty());
+
+  std::filesystem::rename(folder.path() / "salt", folder.path() / "kept");
+  const scene::Case after = saved("after");
+  EXPECT_NE(after.ct.saltId, before.ct.saltId);
+  const scene::IdentitySalt salt = frameSalter(library);
+  EXPECT_TRUE(hasLostSalt(library.open("before"), salt));
+  EXPECT_FALSE(hasLostSalt(library.open("of nobody"), salt));
+  EXPECT_FALSE(hasLostSalt(library.open("after"), salt));
+  scene::Case again = library.open("before");
+  library.save(again); // salts nothing twice, and does not call it another salt's
+  EXPECT_EQ(library.open("before").ct.saltId, before.ct.saltId);
+  const auto damaged = library.verify().damaged;
+  ASSERT_EQ(damaged.size(), 1U);
+  EXPECT_EQ(damaged[0].object, "salt");
+  EXPECT_EQ(damaged[0].cases, (std::vector<std::string>{"before", "beside"}));
+  EXPECT_EQ(library.repair().lost.size(), 2U);
+
+  std::filesystem::rename(folder.path() / "kept", folder.path() / "salt");
+  EXPECT_FALSE(hasLostSalt(library.open("before"), frameSalter(library)));
+}
+
 namespace
 {
 

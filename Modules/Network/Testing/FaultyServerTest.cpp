@@ -28,6 +28,7 @@
 #include <gtest/gtest.h>
 
 #include "../src/Client/Association.h"
+#include "../src/Client/PduChecker.h"
 #include "TestServers.h"
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Imaging/DicomWriter.h"
@@ -832,29 +833,139 @@ TEST_F(BusyNode, IsLeftWhenTheUserCancels)
   EXPECT_LT(server.stored().size(), 60U);
 }
 
+namespace
+{
+
+/// Takes one connection, sends these bytes and says nothing more until the other side ends it.
+class Chatterer
+{
+public:
+  explicit Chatterer(std::string bytes)
+    : m_listener(listenOn(0, m_port))
+    , m_thread(
+          [this, bytes = std::move(bytes)]
+          {
+            const int client = ::accept(m_listener, nullptr, nullptr);
+            [[maybe_unused]] const ssize_t sent =
+                ::send(client, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+            pollfd closed{client, POLLRDHUP, 0};
+            ::poll(&closed, 1, 30000);
+            ::close(client);
+          })
+  {
+  }
+  ~Chatterer()
+  {
+    m_thread.join();
+    ::close(m_listener);
+  }
+  Node node() const
+  {
+    Node node;
+    node.name = "faulty";
+    node.host = "127.0.0.1";
+    node.port = m_port;
+    node.aeTitle = "WEB";
+    node.timeouts.reply = node.timeouts.accept = std::chrono::hours(1);
+    return node;
+  }
+
+private:
+  int m_port = 0;
+  int m_listener;
+  std::thread m_thread;
+};
+
+// PS3.8 Table 9-11 and its items, as far as they go.
+std::string pdu(int type, std::uint32_t length, const std::string& body)
+{
+  std::string all{static_cast<char>(type), 0};
+  for (int shift = 24; shift >= 0; shift -= 8)
+    all += static_cast<char>(length >> shift & 0xFF);
+  return all + body;
+}
+
+std::string pdu(int type, const std::string& body)
+{
+  return pdu(type, static_cast<std::uint32_t>(body.size()), body);
+}
+
+} // namespace
+
+// Refused when it comes and not when the time is up, which is an hour here.
 TEST_F(FaultyNode, ThatIsNoDicomServerIsNamed)
 {
-  int port = 0;
-  const int listener = listenOn(0, port);
-  std::thread server(
-      [listener]
-      {
-        const int client = ::accept(listener, nullptr, nullptr);
-        const std::string answer = "HTTP/1.1 400 Bad Request\r\n\r\n";
-        [[maybe_unused]] const ssize_t sent =
-            ::send(client, answer.data(), answer.size(), MSG_NOSIGNAL);
-        pollfd closed{client, POLLRDHUP, 0};
-        ::poll(&closed, 1, 10000);
-        ::close(client);
-      });
-  Node node;
-  node.name = "faulty";
-  node.host = "127.0.0.1";
-  node.port = port;
-  node.aeTitle = "WEB";
-  EXPECT_EQ(failure([&] { echo(node); }).reason, Reason::Protocol);
-  server.join();
-  ::close(listener);
+  const std::string fields(68, '\0');
+  const std::string item("\x10\0\0\x15", 4);
+  for (const auto& [bytes, told] :
+       {std::pair<std::string, std::string>("HTTP/1.1 400 Bad Request\r\n\r\n", "type 72"),
+        {"220 mail.example ESMTP\r\n", "type 50"},
+        {std::string(64, '\0'), "type 0"},
+        {"\xFF\xFF\xFF\xFF\xFF\xFF", "type 255"},
+        {pdu(2, 0xFFFFFFFF, ""), "states 4294967295 bytes"},
+        {pdu(2, 4, "\1\2\3\4"), "states 4 bytes"},
+        {pdu(3, 0x7FFFFFFF, ""), "states 2147483647 bytes"},
+        {pdu(4, 0x10000000, ""), "states 268435456 bytes"},
+        {pdu(2, fields + item + "short"), "longer than it is"},
+        {pdu(2, fields + "\x10"), "bytes behind its last part"}})
+  {
+    const Chatterer server(bytes);
+    const NetworkError error = failure([node = server.node()] { echo(node); });
+    EXPECT_EQ(error.reason, Reason::Protocol) << told;
+    EXPECT_NE(std::string(error.what()).find(told), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("is not valid DICOM"), std::string::npos);
+  }
+}
+
+// In whatever pieces the bytes come.
+TEST(PduChecker, FollowsAConnectionFromPduToPdu)
+{
+  const auto faultOf = [](const std::string& bytes, std::size_t piece)
+  {
+    PduChecker checker;
+    for (std::size_t at = 0; at < bytes.size(); at += piece)
+      if (std::string fault = checker.take(reinterpret_cast<const std::uint8_t*>(bytes.data()) + at,
+                                           std::min(piece, bytes.size() - at));
+          !fault.empty())
+        return fault;
+    return std::string();
+  };
+  const auto value = [](std::uint32_t length, std::size_t bytes)
+  { return pdu(0, length, std::string(bytes, '\3')).substr(2); };
+  const std::string fields(68, '\0');
+  const std::string item("\x10\0\0\x03", 4);
+  const std::string sound = pdu(2, fields + item + "abc" + item + "def") + pdu(2, fields) +
+                            pdu(4, value(5, 5) + value(2, 2)) + pdu(4, value(100, 100)) +
+                            pdu(5, std::string(4, '\0')) + pdu(6, std::string(4, '\0')) +
+                            pdu(7, std::string(4, '\0')) + pdu(3, std::string(4, '\0'));
+  for (const std::size_t piece : {1, 2, 3, 7, 64, 100000})
+  {
+    EXPECT_EQ(faultOf(sound, piece), "") << piece;
+    for (const auto& [bytes, told] :
+         {std::pair(pdu(4, value(1, 1) + value(1, 1)), "a data value of 1 bytes"),
+          {pdu(4, value(6, 5)), "longer than it is"},
+          {pdu(4, value(0xFFFFFFFF, 5)), "longer than it is"},
+          {pdu(4, value(5, 5) + "abc"), "bytes behind its last part"},
+          {pdu(4, 131073, ""), "states 131073 bytes"},
+          {pdu(4, 5, ""), "states 5 bytes"},
+          {pdu(5, 5, ""), "states 5 bytes"},
+          {pdu(8, 4, ""), "type 8"}})
+      EXPECT_NE(faultOf(sound + bytes, piece).find(told), std::string::npos)
+          << told << ", " << piece;
+  }
+}
+
+// What may still become a PDU is waited for.
+TEST_F(FaultyNode, ThatStopsWithinAPduIsLeftWhenTheTimeIsUp)
+{
+  const std::string whole = pdu(2, 1000, std::string(500, '\0'));
+  for (const std::size_t size : {std::size_t(3), std::size_t(6), std::size_t(40)})
+  {
+    const Chatterer server(whole.substr(0, size));
+    Node node = server.node();
+    node.timeouts.accept = std::chrono::milliseconds(300);
+    EXPECT_EQ(failure([&] { echo(node); }).reason, Reason::TimedOut) << size;
+  }
 }
 
 // --- What is counted ---

@@ -170,6 +170,7 @@ constexpr int kFormatWithoutVideoNotes = 7;
 constexpr const char* kPlanes[] = {"axial", "coronal", "sagittal"};
 constexpr const char* kFrame = "frame_of_reference_salted_sha256";
 constexpr const char* kPatient = "patient_salted_sha256";
+constexpr const char* kSalt = "salt_id";      // absent: of a salt that has none, or no hashes
 constexpr const char* kModality = "modality"; // "CT" or "MR"; absent: not known
 constexpr const char* kUnsaltedFrame = "frame_of_reference_sha256"; // written by older programs
 
@@ -303,6 +304,8 @@ json imageOut(const ImagePart& image)
         j[kPatient][key] = image.patient.*hash;
   if (image.isFrameSalted && !image.patient.nameParts.empty())
     j[kPatient][kNameParts] = image.patient.nameParts;
+  if (hasSaltedIdentity(image) && !image.saltId.empty())
+    j[kSalt] = image.saltId;
   j[kProvenance] = provenanceOut(image.provenance);
   if (image.modality != Modality::Unknown)
     j[kModality] = image.modality == Modality::Mr ? "MR" : "CT";
@@ -327,6 +330,8 @@ ImagePart imageIn(const json& j)
       image.patient.*hash = j.at(kPatient).value(key, std::string());
   if (j.contains(kPatient))
     image.patient.nameParts = j.at(kPatient).value(kNameParts, std::vector<std::string>());
+  if (hasSaltedIdentity(image))
+    image.saltId = j.value(kSalt, std::string());
   const std::string modality = j.value(kModality, std::string());
   image.modality = modality == "MR"   ? Modality::Mr
                    : modality == "CT" ? Modality::Ct

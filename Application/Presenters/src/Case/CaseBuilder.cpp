@@ -24,6 +24,7 @@
 #include "petrous/Imaging/LabelFile.h"
 #include "petrous/Imaging/StructureSet.h"
 #include "petrous/Library/DerivedCache.h"
+#include "petrous/Library/FrameSalt.h"
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/FreeName.h"
@@ -136,9 +137,9 @@ bool isOfCase(const scene::PatientHash& patient)
 
 // Whether the images state different patients; false if that cannot be told.
 bool isOtherPatient(const scene::ImagePart& image, scene::ImagePart added,
-                    const std::function<std::string(const std::string&)>& salted)
+                    const scene::IdentitySalt& salted)
 {
-  if (image.isFrameSalted && !salted)
+  if (!scene::isComparable(image, salted))
     return false;
   if (image.isFrameSalted)
     scene::saltIdentity(added, salted);
@@ -152,8 +153,7 @@ bool isOtherPatient(const scene::ImagePart& image, scene::ImagePart added,
 // Whether what is added states another patient than an image of the case; refused unless its source
 // allows it.
 bool isOfOtherPatient(const scene::Case& value, const PartSource& source,
-                      const scene::PatientHash& patient,
-                      const std::function<std::string(const std::string&)>& salted)
+                      const scene::PatientHash& patient, const scene::IdentitySalt& salted)
 {
   scene::ImagePart added;
   added.patient = patient;
@@ -163,6 +163,15 @@ bool isOfOtherPatient(const scene::Case& value, const PartSource& source,
   if (isAny && !source.isOtherPatient)
     throw OtherPatient(source.path);
   return isAny;
+}
+
+void noteLostSalt(const scene::Case& value, const scene::PatientHash& patient,
+                  const scene::IdentitySalt& salted, std::vector<std::string>& notes)
+{
+  if (!patient.empty() && salted && library::hasLostSalt(value, salted))
+    notes.push_back("Whether it is of the patient of the case's images is not known: the library's "
+                    "salt, with which their patients' hashes were made, was lost; look whether it "
+                    "is");
 }
 
 // An MR is not taken silently in the place of a CT that cannot be used.
@@ -501,8 +510,7 @@ bool readsAsLabels(const volume::IntensityVolume& image)
          static_cast<double>(equal) > kShare * static_cast<double>(pairs);
 }
 
-void addMr(scene::Case& value, const PartSource& source,
-           const std::function<std::string(const std::string&)>& salted,
+void addMr(scene::Case& value, const PartSource& source, const scene::IdentitySalt& salted,
            const core::Progress& progress)
 {
   const std::string wanted =
@@ -526,6 +534,7 @@ void addMr(scene::Case& value, const PartSource& source,
     part.notes.push_back("Only a region of it was read, as asked; labels on the grid of the whole "
                          "image lie on it only as FILE@" +
                          name + ".");
+  noteLostSalt(value, part.patient, salted, part.notes);
   if (isOfOtherPatient(value, source, part.patient, salted))
     part.notes.push_back("Its files state another patient's ID, name or date of birth than those "
                          "of the case's other images; it was added as asked.");
@@ -668,15 +677,14 @@ std::vector<std::string> noteOutside(const scene::Case& value, scene::LabelPart&
 // an MR. Of a stored case only salted hashes are known. What cannot be compared is noted, unless
 // the grid shows it. Returns LabelProvenance::isFrameAssumed.
 bool settleFrame(const scene::Case& value, PartSource& source, const std::string& frameUid,
-                 const core::GridGeometry* grid,
-                 const std::function<std::string(const std::string&)>& salted,
+                 const core::GridGeometry* grid, const scene::IdentitySalt& salted,
                  std::vector<std::string>& notes)
 {
   const std::string frame = withoutIdentity(frameUid);
   const auto isExported = [&](const std::string& mr)
   { return frame == withoutIdentity(exportedFrame(value, mr)); };
   const auto isKnown = [&salted](const scene::ImagePart& image)
-  { return !image.frameOfReference.empty() && (!image.isFrameSalted || salted); };
+  { return !image.frameOfReference.empty() && scene::isComparable(image, salted); };
   const auto isOf = [&](const scene::ImagePart& image)
   { return image.frameOfReference == (image.isFrameSalted ? salted(frame) : frame); };
   if (!source.drawnOn.empty())
@@ -743,7 +751,7 @@ bool settleFrame(const scene::Case& value, PartSource& source, const std::string
 
 // An RT structure set becomes voxels of the image on which it was drawn.
 imaging::LoadedLabels loadStructureSet(const scene::Case& value, PartSource& source,
-                                       const std::function<std::string(const std::string&)>& salted,
+                                       const scene::IdentitySalt& salted,
                                        const core::Progress& progress, bool& isFrameAssumed)
 {
   const imaging::StructureSet set = imaging::readStructureSet(source.path, progress.part(0.0, 0.3));
@@ -873,6 +881,7 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
     provenance.assumedRas = loaded.assumedRas;
   }
   std::vector<std::string> notes = std::move(loaded.notes);
+  noteLostSalt(value, patientHash(loaded.patient), salted, notes);
   if (isOfOtherPatient(value, source, patientHash(loaded.patient), salted))
     notes.push_back("states another patient's ID, name or date of birth than the case's images; it "
                     "was added as asked");

@@ -141,17 +141,20 @@ std::string givenName(std::string text)
   return text;
 }
 
-// Whether the name of a case may leave as a patient's. That it is not the patient's own is known
+// Why the name of a case may not leave as a patient's. That it is not the patient's own is known
 // only where the words of that name are, and those of less than three letters are often none of the
 // hashes.
-bool mayNamePatient(const scene::Case& value, const library::Library& library)
+std::string whyNameHidden(const scene::Case& value, const library::Library& library)
 {
-  const scene::PatientHash& patient = value.ct.patient;
-  if (patient.name.empty() || patient.nameParts.empty())
-    return true;
   const IdentityText identity(value, library);
+  if (identity.isSaltLost())
+    return "the library's salt was lost, so it cannot be compared with the patient's name; it goes "
+           "along where that salt is restored from a copy, or the images are imported again";
+  if (!identity.knowsName())
+    return "nothing is known of the patient's name with which to compare it; it goes along where "
+           "the case was made of DICOM files that state the patient's name, in this library";
   if (identity.mayIdentify(value.name))
-    return true;
+    return "it may be the patient's name, number or date; it goes along where the case is renamed";
   constexpr std::size_t kShort = 3; // letters
   const auto isLetter = [](unsigned char c) { return std::isalpha(c) != 0 || c >= 0x80; };
   for (auto begin = value.name.begin(); begin != value.name.end();)
@@ -162,10 +165,11 @@ bool mayNamePatient(const scene::Case& value, const library::Library& library)
     const auto letters =
         std::count_if(word.begin(), word.end(), [](unsigned char c) { return (c & 0xC0) != 0x80; });
     if (letters > 0 && static_cast<std::size_t>(letters) < kShort && !identity.isOfField(word))
-      return true;
+      return "a word of one or two letters cannot be compared with the patient's name; it goes "
+             "along where the case is renamed to one without";
     begin = end;
   }
-  return false;
+  return {};
 }
 
 } // namespace
@@ -284,9 +288,9 @@ CasePatient CaseIdentifiers::patient(const library::Library& library) const
   all.add(what.data(), what.size());
   CasePatient patient;
   patient.id = imaging::casePatientId(all.value());
-  patient.isNameHidden = mayNamePatient(m_value, library);
+  patient.whyNameHidden = whyNameHidden(m_value, library);
   patient.name = std::string(imaging::kCaseFamilyName) + "^" +
-                 (patient.isNameHidden ? patient.id : givenName(m_value.name));
+                 (patient.isNameHidden() ? patient.id : givenName(m_value.name));
   return patient;
 }
 
@@ -312,7 +316,7 @@ CaseDicomOptions dicomOptionsOf(const scene::Case& value, const library::Library
   CaseDicomOptions options;
   options.patient = CaseIdentifiers(value).patient(library);
   options.studyId =
-      options.patient.isNameHidden ? hiddenStudyIdOf(library, value.name) : studyIdOf(value.name);
+      options.patient.isNameHidden() ? hiddenStudyIdOf(library, value.name) : studyIdOf(value.name);
   return options;
 }
 

@@ -475,6 +475,12 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
          maskLeavingImages(library, value, options.mask, progress.part(0.0, 0.1)))
       warn(note);
   }
+  ExportSummary summary;
+  if (isSegmentation(options) || isSeries(options))
+    summary.patient = CaseIdentifiers(value).patient(library);
+  if (summary.patient && summary.patient->isNameHidden())
+    warn("the name of the case is not the patient's name in the files, but the ID '" +
+         summary.patient->id + "': " + summary.patient->whyNameHidden);
   // Voxels mapped for the file must be what was stored.
   const auto checked = [&](const scene::ImagePart& image)
   {
@@ -487,7 +493,6 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
     library.loadDissection(value);
     return value.dissection.mask();
   };
-  ExportSummary summary;
   const auto warnOfGuesses = [&](const scene::ImagePart& part)
   {
     if (const std::string guessed = guessedNote(part); !guessed.empty())

@@ -987,10 +987,13 @@ IdentityReport identityReport(const scene::Case& value, const SendParts& parts,
     const CasePatient patient = CaseIdentifiers(value).patient(*library);
     report.leaves.push_back(
         "as the patient '" + patient.name + "', ID " + patient.id +
-        (patient.isNameHidden
+        (patient.isNameHidden()
              ? ": a pseudonym without the name of the case, which may be a patient's, or is not "
                "known to be none"
              : ": a pseudonym with the name of the case"));
+    if (patient.isNameHidden())
+      report.stays.push_back("the name of the case as a patient's: " + patient.whyNameHidden +
+                             (parts.scene ? ". It is within the scene" : ""));
   }
   report.stays.push_back("UIDs of the scanner's files: the objects have new ones");
   if (!parts.scene)
@@ -1068,10 +1071,13 @@ SendSummary sendCase(const library::Library& library, const std::string& name,
   summary.notes.insert(summary.notes.end(), outgoing.notes().begin(), outgoing.notes().end());
   summary.studyUid = CaseIdentifiers(value).study();
   summary.patient = CaseIdentifiers(value).patient(library);
-  if (summary.patient.isNameHidden)
+  if (summary.patient.isNameHidden())
     summary.notes.push_back("the name of the case is not the patient's name at node '" + node.name +
-                            "': it may be a patient's, or nothing is known of the patient's name "
-                            "with which to compare it");
+                            "': " + summary.patient.whyNameHidden);
+  if (summary.patient.isNameHidden() && parts.scene)
+    summary.notes.push_back("another library does not find it there by its name: it receives the "
+                            "study " +
+                            summary.studyUid + ", of the patient ID " + summary.patient.id);
   library.checkVoxels(value, progress);
   summary.transfer = network::store(node, files, progress.part(0.4, 1.0));
   if (std::string note = supersededSegmentations(node, summary.studyUid, files, progress);

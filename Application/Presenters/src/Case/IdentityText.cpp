@@ -122,11 +122,14 @@ bool isClinical(std::string word)
 
 } // namespace
 
-IdentityText::IdentityText(const scene::Case& value, Salted salted)
-  : m_salted(std::move(salted))
+IdentityText::IdentityText(const scene::Case& value, scene::IdentitySalt salt)
+  : m_salt(std::move(salt))
 {
   const auto add = [this](const scene::ImagePart& image)
   {
+    m_isSaltLost = m_isSaltLost || (m_salt && !scene::isComparable(image, m_salt));
+    if (!scene::isComparable(image, m_salt))
+      return;
     for (const std::string* hash : {&image.patient.name, &image.patient.id})
       if (!hash->empty())
         (image.isFrameSalted ? m_salts : m_unsalted).insert(*hash);
@@ -135,6 +138,8 @@ IdentityText::IdentityText(const scene::Case& value, Salted salted)
   };
   add(value.ct);
   std::for_each(value.mr.begin(), value.mr.end(), add);
+  m_knowsName = !m_isSaltLost && scene::isComparable(value.ct, m_salt) &&
+                !value.ct.patient.name.empty() && !value.ct.patient.nameParts.empty();
 }
 
 IdentityText::IdentityText(const scene::Case& value, const library::Library& library)
@@ -145,7 +150,8 @@ IdentityText::IdentityText(const scene::Case& value, const library::Library& lib
 bool IdentityText::mayIdentify(const std::string& text) const
 {
   static const std::regex kNumbered(kNumbersAndTitles);
-  return mayIdentifySentence(text) || std::regex_search(text, kNumbered) || hasName(text);
+  return mayIdentifySentence(text) || std::regex_search(text, kNumbered) || hasName(text) ||
+         (m_isSaltLost && !isOfField(text));
 }
 
 bool IdentityText::mayIdentifySentence(const std::string& text) const
@@ -164,13 +170,13 @@ bool IdentityText::mayIdentifyPath(const std::filesystem::path& path) const
 
 bool IdentityText::isOfPatient(const std::string& text) const
 {
-  if (m_unsalted.empty() && (m_salts.empty() || !m_salted))
+  if (m_unsalted.empty() && (m_salts.empty() || !m_salt))
     return false;
   const auto isHis = [this](std::size_t key)
   {
     const std::string hash = patientHash({key}).id;
     return !hash.empty() && (m_unsalted.count(hash) > 0 ||
-                             (m_salted && !m_salts.empty() && m_salts.count(m_salted(hash)) > 0));
+                             (m_salt && !m_salts.empty() && m_salts.count(m_salt(hash)) > 0));
   };
   for (const std::string& words : candidatesIn(text))
     if (isHis(imaging::patientKey(words, {}, {}, {}).id))

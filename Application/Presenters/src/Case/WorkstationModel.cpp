@@ -36,6 +36,7 @@ void WorkstationModel::show(std::unique_ptr<scene::Case> next, bool unsaved)
   record({}); // it replays on one case
   m_journal.reset();
   m_saved.reset();
+  m_mark.reset();
   m_nearby.reset();
   m_assembly = {}; // its cache is of the previous case
   m_leftOut.clear();

@@ -20,6 +20,7 @@ void WorkstationModel::listen()
 void WorkstationModel::keepJournal(const library::SavedState& saved, bool another)
 {
   m_saved = saved;
+  markOpen(saved);
   try
   {
     if (!m_journal)
@@ -33,6 +34,21 @@ void WorkstationModel::keepJournal(const library::SavedState& saved, bool anothe
   {
     notify(events.noticed, std::string(error.what()));
   }
+}
+
+void WorkstationModel::markOpen(const library::SavedState& saved)
+{
+  if (m_mark && m_mark->id() == saved.id)
+    return;
+  m_mark.reset();
+  if (const std::string openersText =
+          library::toString(library::openersOf(m_library.folder(), saved.id));
+      !openersText.empty())
+    notify(events.noticed, "case '" + saved.name + "' is open in another window of Petrous, too (" +
+                               openersText +
+                               "): look at it as you like, but what is changed in both can be "
+                               "saved in one of them only");
+  m_mark = std::make_unique<library::OpenMark>(m_library.folder(), saved.id);
 }
 
 ReadCase ReadCase::from(const library::Library& library, const std::string& name,
@@ -143,6 +159,7 @@ void WorkstationModel::close()
   m_assembly = {};
   m_case.reset();
   m_saved.reset();
+  m_mark.reset();
   m_unsaved = m_leaving = false;
   m_loaded = m_drawable = m_feelable = m_checked = true;
   m_leftOut.clear();
@@ -228,6 +245,7 @@ void WorkstationModel::stored(const StoreTask& done)
     image.frameOfReference = from.frameOfReference;
     image.patient = from.patient;
     image.isFrameSalted = from.isFrameSalted;
+    image.saltId = from.saltId;
   };
   if (done.source) // what was removed before is in the other library
   {

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <future>
 #include <map>
 #include <optional>
 #include <set>
@@ -13,6 +15,7 @@
 #include "GzipMembers.h"
 #include "LibraryFolder.h"
 #include "ManifestFile.h"
+#include "Sha256.h"
 #include "Thumbnail.h"
 #include "ZipEntries.h"
 #include "petrous/Dissection/StrokeCodec.h"
@@ -38,7 +41,7 @@ namespace
 constexpr std::uint64_t kLargestIndex = 64U << 20;
 constexpr std::uint64_t kLargestManifest = 256U << 20;
 constexpr std::size_t kLongestHeader = 1U << 20;
-constexpr std::size_t kBatch = 16; // members unpacked at once, 64 MiB
+constexpr std::size_t kBatch = 8; // members unpacked at once, 32 MiB, while as many are written
 constexpr std::uint64_t kBlock = 1U << 20;
 
 /// Whether a name is that of an object whose content can be what `use` needs.
@@ -220,9 +223,10 @@ void copyEntry(ZipReader::Stream& in, core::OutputFile& out, std::uint64_t bytes
 }
 
 /// Writes the NRRD that was packed (PackedImage in ArchiveWriter.cpp). At most `bytes` bytes are
-/// written; the hash tells whether they are the right ones.
-void unpackImage(ZipReader::Stream& in, core::OutputFile& out, std::uint64_t bytes,
-                 const fs::path& file, const std::string& entry, const core::Progress& progress)
+/// written; the hash, which is returned, tells whether they are the right ones.
+std::string unpackImage(ZipReader::Stream& in, core::OutputFile& out, std::uint64_t bytes,
+                        const fs::path& file, const std::string& entry,
+                        const core::Progress& progress)
 {
   const std::string damaged = "'" + entry + "' is damaged";
   std::string head;
@@ -243,11 +247,21 @@ void unpackImage(ZipReader::Stream& in, core::OutputFile& out, std::uint64_t byt
   std::string packed = head.substr(end + 2);
   head.resize(end + 2);
   head.replace(encoding, kGzip.size(), "\nencoding: raw\n");
-  out.write(head);
-  std::uint64_t written = head.size();
+  Sha256 hash;
+  std::uint64_t written = 0;
+  const auto write = [&out, &hash](const char* from, std::size_t count)
+  {
+    out.write(from, count);
+    out.startSync();
+    hash.add(from, count);
+  };
+  write(head.data(), head.size());
+  written += head.size();
 
-  std::vector<char> raw;
-  for (bool more = true; more;)
+  std::array<std::vector<char>, 2> buffers; // one is filled while the other is written
+  std::future<void> writing;                // after them: it uses one
+  std::size_t turn = 0;
+  for (bool more = true; more; turn = 1 - turn)
   {
     progress.report(static_cast<double>(written) /
                         static_cast<double>(std::max<std::uint64_t>(bytes, 1)),
@@ -285,14 +299,19 @@ void unpackImage(ZipReader::Stream& in, core::OutputFile& out, std::uint64_t byt
       members.push_back(std::string_view(packed).substr(from, to - from));
       from = to;
     }
+    std::vector<char>& raw = buffers[turn];
     if (!unpackMembers(members, raw))
       throwUnsound(file, damaged);
     written += raw.size();
     if (written > bytes)
       throwUnsound(file, "'" + entry + "' is larger than stated");
-    out.write(raw.data(), raw.size());
     packed.erase(0, from);
+    if (writing.valid())
+      writing.get();
+    writing = std::async(std::launch::async, [&write, &raw] { write(raw.data(), raw.size()); });
   }
+  writing.get();
+  return hash.hexadecimal();
 }
 
 /// Reads an entry to its end, where its checksum is: what the library has already is told to be
@@ -344,17 +363,19 @@ std::size_t addObjects(const Archive& archive, ObjectStore& store, const core::P
     }
     constexpr std::size_t kDot = 65;
     const std::string name =
-        store.add(object.substr(kDot),
-                  [&, one = one](const fs::path& path)
-                  {
-                    ZipReader::Stream in = archive.zip.open(one->file);
-                    core::OutputFile out(path);
-                    if (one->packed)
-                      unpackImage(in, out, one->bytes, archive.file, one->file, part);
-                    else
-                      copyEntry(in, out, one->bytes, archive.file, one->file, part);
-                    out.commit();
-                  });
+        store.addHashed(object.substr(kDot),
+                        [&, one = one](const fs::path& path)
+                        {
+                          ZipReader::Stream in = archive.zip.open(one->file);
+                          core::OutputFile out(path);
+                          std::string hash;
+                          if (one->packed)
+                            hash = unpackImage(in, out, one->bytes, archive.file, one->file, part);
+                          else
+                            copyEntry(in, out, one->bytes, archive.file, one->file, part);
+                          out.commit();
+                          return one->packed ? hash : sha256OfFile(path);
+                        });
     if (name != object)
       throwUnsound(archive.file, "'" + one->file + "' is not what its hash says");
     ++added;

@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <future>
 #include <optional>
 #include <set>
 #include <utility>
@@ -41,7 +42,7 @@ namespace
 {
 
 constexpr std::size_t kLongestHeader = 1U << 20;
-constexpr std::size_t kBatch = 16; // members packed at once, 64 MiB
+constexpr std::size_t kBatch = 12; // members packed at once, 48 MiB
 
 /// The parts of a producer's bytes that do not fit the reader's buffer wait here.
 Produce fromMemory(std::vector<std::uint8_t> bytes)
@@ -58,12 +59,12 @@ Produce fromMemory(std::vector<std::uint8_t> bytes)
   };
 }
 
-/// An NRRD object with gzip encoding, its voxels packed as they are read; verified against its
-/// hash.
+/// An NRRD object with gzip encoding, its voxels packed as they are read, in another thread than
+/// that which writes them; verified against its hash.
 class PackedImage
 {
 public:
-  PackedImage(fs::path path, std::string what, int level)
+  PackedImage(fs::path path, std::string what, std::optional<int> level)
     : m_file(path)
     , m_what(std::move(what))
     , m_level(level)
@@ -91,16 +92,13 @@ public:
     if (m_given == m_pending.size())
     {
       m_given = 0;
-      m_pending.clear();
-      std::string raw = std::move(m_carried);
-      m_carried.clear();
-      const std::size_t wanted = kBatch * kMemberBytes;
-      if (raw.size() < wanted)
-        raw += next(std::min<std::uintmax_t>(wanted - raw.size(), m_file.size() - m_read));
-      if (raw.empty())
+      if (!m_coming.valid())
+        pack();
+      m_pending = m_coming.get();
+      if (m_pending.empty())
         check();
-      const std::vector<char> packed = packMembers(raw, m_level);
-      m_pending.assign(packed.begin(), packed.end());
+      else
+        pack(); // while this is written
     }
     const std::size_t count = std::min(room, m_pending.size() - m_given);
     std::memcpy(buffer, m_pending.data() + m_given, count);
@@ -109,6 +107,20 @@ public:
   }
 
 private:
+  void pack()
+  {
+    m_coming = std::async(
+        std::launch::async,
+        [this]
+        {
+          std::string raw = std::exchange(m_carried, {});
+          const std::size_t wanted = kBatch * kMemberBytes;
+          if (raw.size() < wanted)
+            raw += next(std::min<std::uintmax_t>(wanted - raw.size(), m_file.size() - m_read));
+          return packMembers(raw, m_level);
+        });
+  }
+
   std::string next(std::uintmax_t count)
   {
     std::string bytes(count, '\0');
@@ -142,13 +154,14 @@ private:
 
   core::InputFile m_file;
   std::string m_what;
-  int m_level;
+  std::optional<int> m_level;
   Sha256 m_hash;
   std::uintmax_t m_read = 0;
   std::string m_carried; ///< read, not packed
   std::string m_pending; ///< packed, not given
   std::size_t m_given = 0;
   bool m_checked = false;
+  std::future<std::string> m_coming; ///< packed; last: it uses the others
 };
 
 /// An object as it is, verified against its hash.
@@ -522,7 +535,7 @@ ArchiveSummary archiveCase(const Library& library, const std::string& name, cons
                            const ArchiveOptions& options, const core::Progress& progress)
 try
 {
-  if (options.level < 1 || options.level > 12)
+  if (options.level && (*options.level < 1 || *options.level > 12))
     throw core::InvalidParameter("archive: the level of compression is 1 to 12");
   refuseOverwriting(file, library.folder());
   scene::Case value = library.open(name); // recovers unsaved drilling

@@ -57,15 +57,17 @@ std::vector<char> packed(std::string_view bytes, int level)
 
 } // namespace
 
-std::vector<char> packMembers(std::string_view bytes, int level)
+std::string packMembers(std::string_view bytes, std::optional<int> level)
 {
+  const auto levelOf = [level](std::size_t n) { return level ? *level : n % 3 == 2 ? 4 : 1; };
   std::vector<std::vector<char>> members((bytes.size() + kMemberBytes - 1) / kMemberBytes);
   tbb::parallel_for(std::size_t{0}, members.size(),
-                    [&](std::size_t n)
-                    { members[n] = packed(bytes.substr(n * kMemberBytes, kMemberBytes), level); });
-  std::vector<char> all;
+                    [&](std::size_t n) {
+                      members[n] = packed(bytes.substr(n * kMemberBytes, kMemberBytes), levelOf(n));
+                    });
+  std::string all;
   for (const auto& member : members)
-    all.insert(all.end(), member.begin(), member.end());
+    all.append(member.data(), member.size());
   return all;
 }
 

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -17,8 +19,9 @@ constexpr std::size_t kMemberBytes = std::size_t{4} << 20; ///< of a member, unp
 /// Bytes that state a member's length: the fixed header and the extra field.
 constexpr std::size_t kMemberHead = 20;
 
-/// Packs bytes into members of kMemberBytes, in parallel. Level 1 to 12 (libdeflate).
-std::vector<char> packMembers(std::string_view bytes, int level);
+/// Packs bytes into members of kMemberBytes, in parallel. Level 1 to 12 (libdeflate);
+/// ArchiveOptions::level.
+std::string packMembers(std::string_view bytes, std::optional<int> level);
 
 /// Length of the member that begins so; 0 if this is no member of packMembers. `head`: kMemberHead
 /// bytes.

@@ -2,16 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <ctime>
 #include <iterator>
 #include <optional>
-#include <random>
 #include <set>
 #include <sstream>
 #include <string_view>
-
-#include <sys/stat.h>
 
 #include "AttachmentFiles.h"
 #include "Catalogue.h"
@@ -21,6 +17,7 @@
 #include "LibraryState.h"
 #include "ManifestFile.h"
 #include "Recovery.h"
+#include "Salt.h"
 #include "Thumbnail.h"
 #include "petrous/Core/Log.h"
 #include "petrous/Core/NumberText.h"
@@ -33,6 +30,7 @@
 #include "petrous/Library/FrameSalt.h"
 #include "petrous/Library/LibraryFiles.h"
 #include "petrous/Library/ObjectStore.h"
+#include "petrous/Library/OpenMark.h"
 #include "petrous/Scene/FreeName.h"
 #include "petrous/Scene/Manifest.h"
 #include "petrous/Volume/VolumeBytes.h"
@@ -84,14 +82,6 @@ void storeParts(const Library& library, scene::Case& value, ObjectStore& store,
   storeAttachments(value, store, progress);
 }
 
-std::string randomId()
-{
-  std::random_device random;
-  char text[33];
-  std::snprintf(text, sizeof text, "%08x%08x%08x%08x", random(), random(), random(), random());
-  return text;
-}
-
 std::string labelsText(const scene::Case& value, const scene::LabelPart& part)
 {
   constexpr std::size_t kMaxNamed = 3;
@@ -130,57 +120,10 @@ void refuse(const std::vector<std::string>& damage)
   throw LibraryError(Reason::Damaged, all);
 }
 
-constexpr std::size_t kSaltDigits = 64; // 256 bits
-
-/// The library's secret salt, generated once. The library must be locked.
-std::string saltOf(const fs::path& folder)
-{
-  const fs::path path = folder / "salt";
-  std::error_code fault;
-  if (fs::symlink_status(path, fault).type() == fs::file_type::not_found)
-  {
-    core::OutputFile out(path);
-    if (::fchmod(out.descriptor(), 0600) != 0)
-      core::throwOutputError(errno, path);
-    out.write(randomId() + randomId()); // from the system's random generator
-    out.commit();
-  }
-  std::string salt;
-  try
-  {
-    salt = core::readFile(path, 2 * kSaltDigits);
-  }
-  catch (const core::InputFileError& error)
-  {
-    throw libraryError(error);
-  }
-  if (salt.size() != kSaltDigits)
-    throw LibraryError(Reason::Damaged,
-                       path.string() + ": is not what this program wrote; restore it from a copy, "
-                                       "or remove it (a new image's frame of reference is then "
-                                       "not known to be that of older ones)");
-  return salt;
-}
-
-// A plain hash would allow anyone who knows a hospital's UIDs to test them against it.
-std::string saltedHash(const std::string& salt, const std::string& frame)
-{
-  const std::string text = salt + frame;
-  return sha256Of(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
-}
-
-std::string withSalt(const std::string& frame, const fs::path& folder)
-{
-  return saltedHash(saltOf(folder), frame);
-}
-
 void saltFrames(scene::Case& value, const fs::path& folder)
 {
-  const auto salted = [&folder](scene::ImagePart& image)
-  {
-    scene::saltIdentity(image,
-                        [&folder](const std::string& hash) { return withSalt(hash, folder); });
-  };
+  const scene::IdentitySalt salt = identitySalt([&folder] { return saltOf(folder); });
+  const auto salted = [&salt](scene::ImagePart& image) { scene::saltIdentity(image, salt); };
   salted(value.ct);
   std::for_each(value.mr.begin(), value.mr.end(), salted);
 }
@@ -272,6 +215,20 @@ Library::Library(fs::path folder)
 void Library::onWait(std::function<void(double)> waiting)
 {
   m_state->waiting = std::move(waiting);
+}
+
+void Library::noticeOpeners()
+{
+  m_state->noticesOpeners = true;
+}
+
+void Library::noticeOpenersOf(const std::string& name, const std::string& id) const
+{
+  if (!m_notice || !m_state->noticesOpeners)
+    return;
+  if (const std::string openersText = toString(openersOf(m_folder, id)); !openersText.empty())
+    m_notice("case '" + name + "' is open in Petrous elsewhere (" + openersText +
+             "); what is changed there is not saved over this: open it there again");
 }
 
 core::FileLock Library::lockForWriting(const core::Progress& progress) const
@@ -668,14 +625,14 @@ std::string saltedFrame(const Library& library, const std::string& frameOfRefere
   return frameSalter(library)(frameOfReference);
 }
 
-std::function<std::string(const std::string&)> frameSalter(const Library& library)
+scene::IdentitySalt frameSalter(const Library& library)
 {
   struct Salt
   {
     std::mutex mutex;
     std::string text; ///< empty: not read yet
   };
-  return [folder = library.folder(), salt = std::make_shared<Salt>()](const std::string& frame)
+  const auto read = [folder = library.folder(), salt = std::make_shared<Salt>()]
   {
     const std::lock_guard<std::mutex> guard(salt->mutex);
     std::error_code error;
@@ -687,8 +644,16 @@ std::function<std::string(const std::string&)> frameSalter(const Library& librar
       const core::FileLock lock = lockFolder(folder);
       salt->text = saltOf(folder);
     }
-    return saltedHash(salt->text, frame);
+    return salt->text;
   };
+  return identitySalt(read);
+}
+
+bool hasLostSalt(const scene::Case& value, const scene::IdentitySalt& salt)
+{
+  const auto isLost = [&salt](const scene::ImagePart& image)
+  { return !scene::isComparable(image, salt); };
+  return isLost(value.ct) || std::any_of(value.mr.begin(), value.mr.end(), isLost);
 }
 
 namespace
@@ -718,11 +683,13 @@ void sealIdentity(const Library& library, scene::Case& value)
   {
     if (!hash.empty())
       hash = exclusiveOr(
-          hash, saltedFrame(library, std::string("leaving ") + field + " " + value.ct.object));
+          hash, saltedFrame(library, std::string("leaving ") + field + " " + value.ct.object)
+                    .substr(0, hash.size()));
   };
   const auto sealAll = [&seal](scene::ImagePart& image)
   {
     seal("frame", image.frameOfReference);
+    seal("salt", image.saltId);
     seal("id", image.patient.id);
     seal("issuer", image.patient.issuer);
     seal("name", image.patient.name);
@@ -781,6 +748,8 @@ void Library::save(scene::Case& value, const core::Progress& progress)
   if (isFirst && m_notice)
     for (const std::string& words : goneWithAnother(value))
       m_notice("case '" + value.name + "' is saved, but not all of it is there: " + words);
+  if (!isFirst)
+    noticeOpenersOf(value.name, value.id);
 }
 
 // What the case shares with one that another program removed for good meanwhile. What other cases
@@ -856,7 +825,7 @@ void Library::saveWith(scene::Case& value,
     scene::Case next = value;
     storeObjects(next, store);
     if (next.revision == 0)
-      next.id = randomId();
+      next.id = drawnId();
     saltFrames(next, m_folder);
     ++next.revision;
     progress.report(0.95, "saving");

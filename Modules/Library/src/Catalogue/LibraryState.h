@@ -20,6 +20,7 @@ struct LibraryState
   /// Shared by the cases that were opened, too.
   std::shared_ptr<ObjectChecks> checks = std::make_shared<ObjectChecks>();
   std::function<void(double)> waiting; ///< Library::onWait
+  bool noticesOpeners = false;         ///< Library::noticeOpeners
   std::mutex mutex;                    ///< of what follows
   StandIns standIns;                   ///< Library::standInForCt
 };

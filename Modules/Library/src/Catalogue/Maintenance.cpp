@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 
@@ -9,11 +10,14 @@
 #include "JournalFile.h"
 #include "LibraryFolder.h"
 #include "ManifestFile.h"
+#include "Salt.h"
 #include "Thumbnail.h"
 #include "petrous/Library/Attachments.h"
+#include "petrous/Library/FrameSalt.h"
 #include "petrous/Library/Library.h"
 #include "petrous/Library/LibraryFiles.h"
 #include "petrous/Library/ObjectStore.h"
+#include "petrous/Library/OpenMark.h"
 #include "petrous/Scene/Manifest.h"
 
 // Operations on the whole library, and on cases as files.
@@ -182,6 +186,24 @@ bool writeName(const fs::path& manifest, const std::string& from, const std::str
 
 } // namespace
 
+namespace
+{
+
+// Of a case that may be damaged.
+std::string idIn(const fs::path& manifest, const std::string& name)
+{
+  try
+  {
+    return manifestIn(manifest, name).id;
+  }
+  catch (const core::Error&)
+  {
+    return {};
+  }
+}
+
+} // namespace
+
 void Library::rename(const std::string& from, const std::string& to)
 {
   scene::checkCaseName(from);
@@ -241,6 +263,7 @@ void Library::rename(const std::string& from, const std::string& to)
   }
   if (!onDisk && m_notice)
     m_notice("case '" + to + "' is renamed, but the disk reported an error; check the disk");
+  noticeOpenersOf(to, idIn(manifestPath(to), to));
 }
 
 void Library::remove(const std::string& name)
@@ -252,6 +275,7 @@ void Library::remove(const std::string& name)
   std::error_code error;
   if (fs::is_directory(fs::symlink_status(path, error)))
     throw LibraryError(Reason::Damaged, core::printable(path) + ": is a folder; remove it by hand");
+  const std::string id = idIn(path, name);
   const std::string ending = deletedEnding(unusedDeletionNumber(m_folder / "cases"));
   // The manifest first: a kill then leaves journals that are set aside when the name is used again,
   // or are still in place when the case is brought back.
@@ -268,6 +292,7 @@ void Library::remove(const std::string& name)
   Catalogue(m_folder / kIndex).remove(name);
   if (!onDisk && m_notice)
     m_notice("case '" + name + "' is deleted, but the disk reported an error; check the disk");
+  noticeOpenersOf(name, id);
 }
 
 std::vector<DeletedCase> Library::deleted() const
@@ -463,25 +488,16 @@ bool isStillNeeded(const std::string& object, const Use::By& by)
 namespace
 {
 
-constexpr std::size_t kDigitsOfSalt = 64; // saltOf, Library.cpp
-constexpr std::size_t kMostOfSalt = 128;
-
-bool isSalted(const scene::ImagePart& image)
+bool isSalted(const scene::Case& value)
 {
-  return image.isFrameSalted && (!image.frameOfReference.empty() || !image.patient.empty());
+  return scene::hasSaltedIdentity(value.ct) ||
+         std::any_of(value.mr.begin(), value.mr.end(), scene::hasSaltedIdentity);
 }
 
-bool hasSalt(const fs::path& library)
-{
-  try
-  {
-    return core::readFile(library / "salt", kMostOfSalt).size() == kDigitsOfSalt;
-  }
-  catch (const core::InputFileError&)
-  {
-    return false;
-  }
-}
+constexpr const char* kLostSaltText =
+    "the salt with which its marks of patient and frame of reference were made is lost; restore it "
+    "from a copy, or import the images again: until then nothing tells whether a new image is of "
+    "the same patient, and names that may be the patient's are withheld where the case leaves";
 
 } // namespace
 
@@ -491,7 +507,10 @@ Inspection Library::verify(const core::Progress& progress) const
   std::map<std::string, Use> uses;
   std::vector<std::pair<std::string, std::string>> ids; // of cases, with their names
   std::vector<std::pair<std::string, scene::Attachment>> links;
-  std::vector<Use::By> salted;
+  std::vector<Use::By> salted, ofLostSalt;
+  std::optional<scene::IdentitySalt> salt; // none is drawn here
+  if (hasSalt(m_folder))
+    salt = frameSalter(*this);
   const auto damaged =
       [&result](const std::string& object, const std::vector<Use::By>& by, const std::string& text)
   {
@@ -517,8 +536,10 @@ Inspection Library::verify(const core::Progress& progress) const
       const scene::Case value = manifestIn(path, name);
       if (!isDeleted)
         ids.emplace_back(value.id, name);
-      if (isSalted(value.ct) || std::any_of(value.mr.begin(), value.mr.end(), isSalted))
+      if (isSalted(value))
         salted.push_back({path, name, isDeleted, {}});
+      if (salt && hasLostSalt(value, *salt))
+        ofLostSalt.push_back({path, name, isDeleted, {}});
       for (const scene::Attachment& one : value.attachments)
         if (!isDeleted && !one.link.empty())
           links.emplace_back(name, one);
@@ -552,7 +573,9 @@ Inspection Library::verify(const core::Progress& progress) const
               core::printable(path) + ": the thumbnail of case '" + name +
                   "' is damaged; make it anew: petrous describe '" + name + "' --thumbnail");
   }
-  if (!salted.empty() && !hasSalt(m_folder))
+  if (!ofLostSalt.empty())
+    damaged("salt", ofLostSalt, core::printable(m_folder / "salt") + ": " + kLostSaltText);
+  if (!salted.empty() && !salt)
     damaged("salt", salted,
             core::printable(m_folder / "salt") +
                 ": is missing, or not what this program wrote; restore it from a copy: without it "
@@ -678,6 +701,7 @@ Collected Library::collectGarbage(const core::Progress& progress)
       result.bytes += bytes;
     }
   core::syncFolder(objectFolder());
+  removeStaleMarks(m_folder);
   removeLeftovers(m_folder / kThumbnailFolder);
   for (const std::string& id : thumbnailIds(m_folder))
     if (ids.count(id) == 0)
@@ -693,13 +717,17 @@ Repaired Library::repair(const core::Progress& progress)
   quiet.onNotice([&done](const std::string& words) { done.push_back(words); });
   const std::vector<std::string> names = namesIn(m_folder / "cases");
   std::vector<Catalogue::Entry> entries; // made before the library is locked: others may save
+  const scene::IdentitySalt salt = frameSalter(*this);
   std::size_t read = 0;
   for (const std::string& name : names)
     try
     {
       progress.report(static_cast<double>(read++) / static_cast<double>(names.size()), "repairing");
-      for (std::string& words : lost(quiet.open(name)))
+      const scene::Case value = quiet.open(name);
+      for (std::string& words : lost(value))
         result.lost.push_back(std::move(words));
+      if (isSalted(value) && (!hasSalt(m_folder) || hasLostSalt(value, salt)))
+        result.lost.push_back("case '" + name + "': " + kLostSaltText);
       if (const auto state = stateOf(manifestPath(name)))
         entries.push_back(entryOf(readManifest(name), *state));
     }

@@ -22,7 +22,7 @@ bool isOfLibrary(const fs::path& file, const fs::path& folder)
   const fs::path below = resolvedPath(file).lexically_relative(resolvedPath(folder));
   const std::string first = below.empty() ? "" : below.begin()->string();
   for (const char* own :
-       {"cases", "objects", "thumbnails", "derived", "salt", ".lock", "materials.json",
+       {"cases", "objects", "thumbnails", "derived", "open", "salt", ".lock", "materials.json",
         "burrs.json", "nodes.json", ".nodes.lock", "presets.json", ".presets.lock"})
     if (first == own)
       return true;

@@ -143,11 +143,21 @@ ObjectStore::ObjectStore(fs::path folder)
 std::string ObjectStore::add(const std::string& ending,
                              const std::function<void(const fs::path&)>& write)
 {
+  return addHashed(ending,
+                   [&write](const fs::path& path)
+                   {
+                     write(path);
+                     return sha256OfFile(path);
+                   });
+}
+
+std::string ObjectStore::addHashed(const std::string& ending,
+                                   const std::function<std::string(const fs::path&)>& write)
+{
   makeFolder(m_folder);
   // Writers choose the format by the file extension.
   const TemporaryFile temporary{core::temporaryBeside(m_folder / ending).string() + "." + ending};
-  write(temporary.path);
-  const std::string name = sha256OfFile(temporary.path) + "." + ending;
+  const std::string name = write(temporary.path) + "." + ending;
   if (makeRoom(name))
     settle(moveFile(temporary.path, m_folder / name));
   return name;

@@ -1,5 +1,6 @@
 #include "Association.h"
 
+#include <cerrno>
 #include <filesystem>
 #include <future>
 #include <system_error>
@@ -17,6 +18,7 @@
 #include <dcmtk/dcmnet/dimse.h>
 #include <dcmtk/dcmtls/tlslayer.h>
 
+#include "PduChecker.h"
 #include "petrous/Core/InputFile.h"
 
 namespace petrous::network
@@ -26,15 +28,74 @@ namespace
 
 using Reason = NetworkError::Reason;
 
+/// Ends with what is no PDU.
+class CheckedConnection : public DcmTransportConnection
+{
+public:
+  CheckedConnection(DcmNativeSocketType socket, std::unique_ptr<DcmTransportConnection> connection,
+                    std::function<void(const std::string&)> refuse)
+    : DcmTransportConnection(socket)
+    , m_connection(std::move(connection))
+    , m_refuse(std::move(refuse))
+  {
+  }
+
+  ssize_t read(void* bytes, size_t count) override
+  {
+    const ssize_t got = m_connection->read(bytes, count);
+    if (got <= 0)
+      return got;
+    const std::string fault =
+        m_checker.take(static_cast<const std::uint8_t*>(bytes), static_cast<std::size_t>(got));
+    if (fault.empty())
+      return got;
+    m_refuse(fault);
+    ::shutdown(getSocket(), SHUT_RDWR);
+    errno = EPROTO;
+    return -1;
+  }
+
+  OFCondition serverSideHandshake() override { return m_connection->serverSideHandshake(); }
+  OFCondition clientSideHandshake() override { return m_connection->clientSideHandshake(); }
+  OFCondition renegotiate(const char* suite) override { return m_connection->renegotiate(suite); }
+  ssize_t write(void* bytes, size_t count) override { return m_connection->write(bytes, count); }
+  void close() override { m_connection->close(); }
+  void closeTransportConnection() override { m_connection->closeTransportConnection(); }
+  unsigned long getPeerCertificateLength() override
+  {
+    return m_connection->getPeerCertificateLength();
+  }
+  unsigned long getPeerCertificate(void* bytes, unsigned long count) override
+  {
+    return m_connection->getPeerCertificate(bytes, count);
+  }
+  OFBool networkDataAvailable(int timeout) override
+  {
+    return m_connection->networkDataAvailable(timeout);
+  }
+  OFBool isTransparentConnection() override { return m_connection->isTransparentConnection(); }
+  OFString& dumpConnectionParameters(OFString& text) override
+  {
+    return m_connection->dumpConnectionParameters(text);
+  }
+
+private:
+  std::unique_ptr<DcmTransportConnection> m_connection;
+  std::function<void(const std::string&)> m_refuse;
+  PduChecker m_checker;
+};
+
 /// Nagle's algorithm costs 40 ms an instance: DIMSE answers each message.
 template <class Layer>
 class WatchedLayer : public Layer
 {
 public:
   template <class... Arguments>
-  explicit WatchedLayer(ConnectionWatch& watch, Admission admits, Arguments... arguments)
+  explicit WatchedLayer(ConnectionWatch& watch, const Node& node, Admission admits,
+                        Arguments... arguments)
     : Layer(arguments...)
     , m_watch(watch)
+    , m_place(place(node))
     , m_admits(std::move(admits))
   {
   }
@@ -46,11 +107,25 @@ public:
     m_watch.watch(socket);
     if (m_admits && !m_admits(socket))
       ::shutdown(socket, SHUT_RDWR);
-    return Layer::createConnection(socket, secure);
+    std::unique_ptr<DcmTransportConnection> connection(Layer::createConnection(socket, secure));
+    if (!connection)
+      return nullptr;
+    return new CheckedConnection(socket, std::move(connection),
+                                 [this](const std::string& fault) { refuse(fault); });
   }
 
 private:
+  // A stranger that calls this program ends his own connection only.
+  void refuse(const std::string& fault) const
+  {
+    if (!m_admits)
+      m_watch.fail(std::make_exception_ptr(NetworkError(
+          Reason::Protocol, m_place + ": what it answers is not valid DICOM (" + fault +
+                                "); the connection was ended; is it a DICOM node?")));
+  }
+
   ConnectionWatch& m_watch;
+  std::string m_place;
   Admission m_admits;
 };
 
@@ -145,7 +220,7 @@ std::unique_ptr<WatchedLayer<DcmTLSTransportLayer>>
 tlsLayer(const Node& node, ConnectionWatch& watch, const Admission& admits, T_ASC_NetworkRole role)
 {
   auto layer = std::make_unique<WatchedLayer<DcmTLSTransportLayer>>(
-      watch, admits, role, static_cast<const char*>(nullptr), OFFalse);
+      watch, node, admits, role, static_cast<const char*>(nullptr), OFFalse);
   useTlsFiles(*layer, node);
   if (node.tls->authority.empty() && !SSL_CTX_set_default_verify_paths(layer->getNativeHandle()))
     refuseTls(node,
@@ -252,7 +327,7 @@ std::unique_ptr<DcmTransportLayer> transportLayer(const Node& node, ConnectionWa
                                                   const Admission& admits)
 {
   if (!node.tls)
-    return std::make_unique<WatchedLayer<DcmTransportLayer>>(watch, admits);
+    return std::make_unique<WatchedLayer<DcmTransportLayer>>(watch, node, admits);
   auto layer = tlsLayer(node, watch, admits, admits ? NET_ACCEPTOR : NET_REQUESTOR);
   SSL_CTX* context = layer->getNativeHandle();
   SSL_CTX_set_ex_data(context, watchIndex(), &watch);

@@ -84,7 +84,7 @@ struct PartSources
   /// A hash of a frame of reference or patient as the library of a stored case keeps it
   /// (library::saltedFrame), so that a new file's can be compared with it; empty: only cases that
   /// are not stored are compared.
-  std::function<std::string(const std::string&)> salted = {};
+  scene::IdentitySalt salted = {};
 };
 
 /// A mesh that probably counts otherwise than it was read: the user has to say how.

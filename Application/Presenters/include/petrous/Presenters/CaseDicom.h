@@ -32,9 +32,12 @@ struct CasePatient
 {
   std::string id;   ///< (0010,0020) imaging::casePatientId
   std::string name; ///< (0010,0010) "Petrous^" and the case's name, or the ID
-  /// The case's name may be the patient's: it has what looks like one (IdentityText), or nothing is
-  /// known of the patient's name with which it could be compared, as in a case that was restored.
-  bool isNameHidden = false;
+  /// Why the case's name does not leave, and what would allow it: it has what looks like a
+  /// patient's (IdentityText), or nothing is known of the patient's name with which it could be
+  /// compared, as in a case that was restored. Empty: it leaves.
+  std::string whyNameHidden;
+
+  bool isNameHidden() const { return !whyNameHidden.empty(); }
 };
 
 /// Identifiers of DICOM files that are written of a case: derived from the case's ID and name and

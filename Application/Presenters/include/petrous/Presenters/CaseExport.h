@@ -8,6 +8,7 @@
 
 #include "petrous/Core/Progress.h"
 #include "petrous/Library/Library.h"
+#include "petrous/Presenters/CaseDicom.h"
 #include "petrous/Presenters/LeftOut.h"
 #include "petrous/Scene/ImageMask.h"
 
@@ -66,6 +67,7 @@ struct ExportSummary
   std::string words;                         ///< ", 12 DICOM files": after a file's name
   std::optional<std::size_t> instances = {}; ///< of a DICOM series
   std::optional<std::size_t> segments = {};  ///< of a DICOM segmentation
+  std::optional<CasePatient> patient = {};   ///< of DICOM files
   std::optional<std::size_t> layers = {};    ///< of label maps
   std::vector<Resampled> resampled = {};     ///< labels
   std::optional<std::string> names = {};     ///< the file with the labels' names

@@ -11,6 +11,7 @@
 
 #include "petrous/Interaction/PickRay.h"
 #include "petrous/Library/Library.h"
+#include "petrous/Library/OpenMark.h"
 #include "petrous/Presenters/EditHistory.h"
 #include "petrous/Presenters/JournalThread.h"
 #include "petrous/Presenters/LeftOut.h"
@@ -419,11 +420,13 @@ private:
   void setUnsaved(bool unsaved);
   void setRecording(const std::filesystem::path& file, const std::string& fault = {});
   /// `another`: under another name or in another library.
+  void markOpen(const library::SavedState& saved);
   void keepJournal(const library::SavedState& saved, bool another = false);
   void storeNow(StoreTask task);
 
   library::Library m_library;
   std::unique_ptr<scene::Case> m_case;
+  std::unique_ptr<library::OpenMark> m_mark; ///< of the case as it is in the library
   SceneAssembly m_assembly;
   std::optional<session::DrillSession> m_session; ///< made on demand, until there is m_scene
   std::shared_ptr<JournalThread> m_journal;       ///< shared with the removal thread

@@ -52,6 +52,9 @@ public:
   void write(const void* bytes, std::size_t count); ///< throws OutputFileError
   void write(std::string_view bytes) { write(bytes.data(), bytes.size()); }
 
+  /// Lets the system begin with what was written, which `commit` then need not wait for.
+  void startSync() noexcept;
+
   /// Throws OutputFileError; the target is then unchanged. Returns false if the file is in place
   /// but syncing the directory failed, so that a power failure may undo it.
   bool commit();

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,8 +16,12 @@ class Library;
 /// the caller).
 std::string saltedFrame(const Library& library, const std::string& frameOfReference);
 
-/// The same of many: the salt is read once, by the first call. Thread-safe.
-std::function<std::string(const std::string&)> frameSalter(const Library& library);
+/// The same of many, and which salt it is: the salt is read once, by the first call. Thread-safe.
+scene::IdentitySalt frameSalter(const Library& library);
+
+/// Whether images of the case have hashes with another salt than `salt`: the library's was lost and
+/// another one drawn since.
+bool hasLostSalt(const scene::Case& value, const scene::IdentitySalt& salt);
 
 /// Changes the salted hashes of the images' frames of reference and patients, exclusive or with
 /// what only this library knows and another CT changes. So they leave in an archive: this library

@@ -117,6 +117,10 @@ public:
   /// Called with one sentence that the user should know about a case that was opened.
   void onNotice(std::function<void(const std::string&)> notice) { m_notice = std::move(notice); }
 
+  /// After a case was saved, renamed or removed, tells by the notice who has it open (OpenMark):
+  /// what is changed there is then refused. Of all copies.
+  void noticeOpeners();
+
   /// Called ten times a second while another program has the library's lock, with the time waited,
   /// s; what it throws ends the wait and what was to be done. Of all copies.
   void onWait(std::function<void(double)> waiting);
@@ -244,6 +248,7 @@ private:
   scene::Case readManifest(const std::string& name) const;
   void attach(scene::Case& value) const;
   std::vector<std::string> goneWithAnother(const scene::Case& value) const;
+  void noticeOpenersOf(const std::string& name, const std::string& id) const;
   core::FileLock lockForWriting(const core::Progress& progress = {}) const;
   std::vector<std::pair<std::filesystem::path, std::string>>
   mappedImages(const scene::Case& value) const;

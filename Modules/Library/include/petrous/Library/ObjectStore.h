@@ -28,6 +28,9 @@ public:
   /// LibraryError and core::OutputFileError; leaves nothing behind then.
   std::string add(const std::string& ending,
                   const std::function<void(const std::filesystem::path&)>& write);
+  /// The same; `write` returns the file's SHA-256, which it has computed as it wrote it.
+  std::string addHashed(const std::string& ending,
+                        const std::function<std::string(const std::filesystem::path&)>& write);
 
   std::string add(const std::string& ending, const std::vector<std::uint8_t>& bytes);
 

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "petrous/Core/Lazy.h"
@@ -59,10 +60,43 @@ struct ImagePart
   /// Whether both were hashed again with the library's secret salt, as Library::save does;
   /// comparable with another image's only if its are or neither's.
   bool isFrameSalted = false;
+  std::string saltId; ///< IdentitySalt::id of that salt
 };
 
-/// Hashes frame of reference and patient again by `salted`, unless they are already.
-void saltIdentity(ImagePart& image, const std::function<std::string(const std::string&)>& salted);
+/// A library's secret salt, as the function that hashes with it.
+class IdentitySalt
+{
+public:
+  using Hash = std::function<std::string(const std::string&)>;
+
+  IdentitySalt() = default;
+  template <class Function>
+  IdentitySalt(Function hash, std::function<std::string()> id = {})
+    : m_hash(std::move(hash))
+    , m_id(std::move(id))
+  {
+  }
+
+  explicit operator bool() const { return static_cast<bool>(m_hash); }
+  std::string operator()(const std::string& hash) const { return m_hash(hash); }
+  /// Tells salts apart without telling anything of them. Empty: a salt of the program's versions
+  /// that did not write which one it was, and that had one form; those since have another.
+  std::string id() const { return m_id ? m_id() : std::string(); }
+
+private:
+  Hash m_hash;
+  std::function<std::string()> m_id;
+};
+
+/// Hashes frame of reference and patient again by `salt`, unless they are already.
+void saltIdentity(ImagePart& image, const IdentitySalt& salt);
+
+/// Whether hashes with `salt`, or plain ones, can be compared with those of the image. Those of a
+/// salt that was lost say nothing any more.
+bool isComparable(const ImagePart& image, const IdentitySalt& salt);
+
+/// Whether the image has hashes that were salted.
+bool hasSaltedIdentity(const ImagePart& image);
 
 /// Forgets frame of reference and patient, which another library salted.
 void forgetIdentity(ImagePart& image);

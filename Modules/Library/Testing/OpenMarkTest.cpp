@@ -1,0 +1,143 @@
+#include <csignal>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include <sys/wait.h>
+
+#include "TestCase.h"
+#include "petrous/Library/OpenMark.h"
+
+using namespace petrous;
+using namespace petrous::library;
+using test::TemporaryFolder;
+
+namespace
+{
+
+/// Another process that has a case open until it is killed.
+class OtherProcess
+{
+public:
+  OtherProcess(const std::filesystem::path& library, const std::string& id)
+  {
+    int ready[2];
+    if (::pipe(ready) != 0)
+      throw std::runtime_error("pipe");
+    m_process = ::fork();
+    if (m_process == 0)
+    {
+      const OpenMark mark(library, id);
+      [[maybe_unused]] const ssize_t told = ::write(ready[1], "x", 1);
+      for (;;)
+        ::pause();
+    }
+    char byte = 0;
+    [[maybe_unused]] const ssize_t got = ::read(ready[0], &byte, 1);
+    ::close(ready[0]);
+    ::close(ready[1]);
+  }
+  ~OtherProcess() { kill(); }
+  OtherProcess(const OtherProcess&) = delete;
+  OtherProcess& operator=(const OtherProcess&) = delete;
+
+  pid_t process() const { return m_process; }
+  void kill()
+  {
+    if (m_process <= 0)
+      return;
+    ::kill(m_process, SIGKILL);
+    ::waitpid(m_process, nullptr, 0);
+    m_process = 0;
+  }
+
+private:
+  pid_t m_process = 0;
+};
+
+std::size_t marksIn(const std::filesystem::path& library)
+{
+  std::error_code error;
+  std::size_t count = 0;
+  for (std::filesystem::directory_iterator entry(library / "open", error), end; entry != end;
+       entry.increment(error))
+    ++count;
+  return count;
+}
+
+} // namespace
+
+TEST(OpenMark, TellsOfOtherProcessesUntilTheyEndHoweverTheyEnd)
+{
+  const TemporaryFolder folder;
+  EXPECT_TRUE(openersOf(folder.path(), "abc").empty());
+  {
+    const OpenMark own(folder.path(), "abc");
+    EXPECT_TRUE(openersOf(folder.path(), "abc").empty()) << "one's own";
+    OtherProcess other(folder.path(), "abc");
+    OtherProcess second(folder.path(), "abc");
+    OtherProcess elsewhere(folder.path(), "abd");
+    const std::vector<Opener> openers = openersOf(folder.path(), "abc");
+    ASSERT_EQ(openers.size(), 2U);
+    EXPECT_TRUE(openers[0].process == other.process() || openers[1].process == other.process());
+    char computer[256] = {};
+    ::gethostname(computer, sizeof computer - 1);
+    EXPECT_EQ(openers[0].computer, computer);
+    EXPECT_EQ(marksIn(folder.path()), 4U);
+    second.kill();
+    EXPECT_EQ(toString(openersOf(folder.path(), "abc")),
+              "process " + std::to_string(other.process()) + " on '" + computer + "'");
+    other.kill();
+    EXPECT_TRUE(openersOf(folder.path(), "abc").empty());
+    EXPECT_EQ(openersOf(folder.path(), "abd").size(), 1U);
+    EXPECT_EQ(marksIn(folder.path()), 2U) << "those of killed ones are removed";
+  }
+  EXPECT_EQ(marksIn(folder.path()), 1U);
+  removeStaleMarks(folder.path());
+  EXPECT_EQ(marksIn(folder.path()), 0U);
+}
+
+// Whatever a file is that lies there, and where nothing can be written.
+TEST(OpenMark, NeverStandsInTheWay)
+{
+  const TemporaryFolder folder;
+  const OpenMark none(folder.path() / "no such folder", "abc");
+  EXPECT_TRUE(openersOf(folder.path() / "no such folder", "abc").empty());
+  std::filesystem::create_directory(folder.path() / "open");
+  std::ofstream(folder.path() / "open/abc.broken") << "{ no JSON";
+  std::filesystem::create_directory(folder.path() / "open/abc.folder");
+  EXPECT_TRUE(openersOf(folder.path(), "abc").empty());
+  const OpenMark unsaved(folder.path(), "");
+  EXPECT_TRUE(openersOf(folder.path(), "").empty());
+}
+
+TEST(OpenMark, WhoSavesRenamesOrDeletesIsToldOnceHeAsks)
+{
+  const TemporaryFolder folder;
+  Library library(folder.path());
+  std::vector<std::string> notices;
+  library.onNotice([&notices](const std::string& words) { notices.push_back(words); });
+  scene::Case value = test::savedCase(library);
+  const OtherProcess window(folder.path(), value.id);
+  library.save(value);
+  EXPECT_TRUE(notices.empty());
+  library.noticeOpeners();
+  const auto expectTold = [&](const std::string& name)
+  {
+    ASSERT_EQ(notices.size(), 1U);
+    EXPECT_EQ(notices[0].rfind("case '" + name + "' is open in Petrous elsewhere (process " +
+                                   std::to_string(window.process()),
+                               0),
+              0U)
+        << notices[0];
+    notices.clear();
+  };
+  library.save(value);
+  expectTold("ear");
+  library.rename("ear", "left");
+  expectTold("left");
+  library.copy("left", "another");
+  EXPECT_TRUE(notices.empty());
+  library.remove("left");
+  expectTold("left");
+}

@@ -1,0 +1,173 @@
+#include "petrous/Library/OpenMark.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <nlohmann/json.hpp>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "petrous/Core/InputFile.h"
+#include "petrous/Core/OutputFile.h"
+
+namespace petrous::library
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+constexpr const char* kFolder = "open";
+constexpr std::size_t kLongest = 4096; // bytes of a mark
+
+std::string thisComputer()
+{
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+}
+
+bool isIn(const fs::path& path, int descriptor)
+{
+  struct stat opened = {}, found = {};
+  return ::fstat(descriptor, &opened) == 0 && ::lstat(path.c_str(), &found) == 0 &&
+         opened.st_ino == found.st_ino && opened.st_dev == found.st_dev;
+}
+
+Opener openerIn(int descriptor)
+{
+  Opener opener;
+  std::string text(kLongest, '\0');
+  const ssize_t got = ::pread(descriptor, text.data(), text.size(), 0);
+  text.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
+  const nlohmann::json mark = nlohmann::json::parse(text, nullptr, false);
+  if (!mark.is_object())
+    return opener;
+  if (const auto process = mark.find("process"); process != mark.end() && process->is_number())
+    opener.process = process->get<long>();
+  if (const auto computer = mark.find("computer"); computer != mark.end() && computer->is_string())
+    opener.computer = computer->get<std::string>();
+  return opener;
+}
+
+// Who has this mark; nullopt, and it is gone, if he was killed.
+std::optional<Opener> openerAt(const fs::path& path)
+{
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0)
+    return std::nullopt;
+  const bool isLocked = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+  const int error = isLocked ? 0 : errno;
+  Opener opener = openerIn(descriptor);
+  // Where a file system has no locks, a process of this computer can still be asked for.
+  const bool isGone =
+      isLocked || (error != EWOULDBLOCK && opener.computer == thisComputer() &&
+                   ::kill(static_cast<pid_t>(opener.process), 0) != 0 && errno == ESRCH);
+  if (isGone && isIn(path, descriptor))
+    ::unlink(path.c_str());
+  ::close(descriptor);
+  return isGone ? std::nullopt : std::optional(std::move(opener));
+}
+
+std::vector<fs::path> marksIn(const fs::path& library, const std::string& start)
+{
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (fs::directory_iterator entry(library / kFolder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (entry->path().filename().string().rfind(start, 0) == 0)
+      found.push_back(entry->path());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+} // namespace
+
+OpenMark::OpenMark(const fs::path& library, std::string id)
+  : m_id(std::move(id))
+{
+  constexpr int kAttempts = 10;
+  const fs::path folder = library / kFolder;
+  std::error_code error;
+  if (m_id.empty() || m_id.find('/') != std::string::npos || !fs::is_directory(library, error))
+    return;
+  fs::create_directory(folder, error);
+  for (int n = 0; n < kAttempts && m_descriptor < 0; ++n)
+  {
+    m_path = folder / (m_id + core::temporaryBeside(folder).filename().string());
+    m_descriptor = ::open(m_path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (m_descriptor < 0)
+    {
+      if (errno != EEXIST)
+        return;
+      continue;
+    }
+    // Who looks at it just now has it locked for a moment, and may take it for a killed one's.
+    ::flock(m_descriptor, LOCK_EX);
+    if (!isIn(m_path, m_descriptor))
+    {
+      ::close(m_descriptor);
+      m_descriptor = -1;
+    }
+  }
+  if (m_descriptor < 0)
+    return;
+  const std::string text =
+      nlohmann::json{{"process", ::getpid()}, {"computer", thisComputer()}}.dump(
+          -1, ' ', false, nlohmann::json::error_handler_t::replace) +
+      "\n";
+  [[maybe_unused]] const ssize_t written = ::pwrite(m_descriptor, text.data(), text.size(), 0);
+}
+
+OpenMark::~OpenMark()
+{
+  if (m_descriptor < 0)
+    return;
+  if (isIn(m_path, m_descriptor))
+    ::unlink(m_path.c_str());
+  ::close(m_descriptor);
+}
+
+std::vector<Opener> openersOf(const fs::path& library, const std::string& id)
+{
+  std::vector<Opener> openers;
+  if (id.empty())
+    return openers;
+  const std::string computer = thisComputer();
+  for (const fs::path& path : marksIn(library, id))
+    if (std::optional<Opener> opener = openerAt(path);
+        opener && (opener->process != ::getpid() || opener->computer != computer))
+      openers.push_back(std::move(*opener));
+  return openers;
+}
+
+std::string toString(const std::vector<Opener>& openers)
+{
+  std::string text;
+  for (const Opener& one : openers)
+    text += (text.empty() ? "" : ", ") + ("process " + std::to_string(one.process)) + " on '" +
+            core::printable(one.computer) + "'";
+  return text;
+}
+
+void removeStaleMarks(const fs::path& library) noexcept
+{
+  try
+  {
+    for (const fs::path& path : marksIn(library, ""))
+      openerAt(path);
+  }
+  catch (const std::exception&)
+  {
+    // they are looked at again when their cases are opened
+  }
+}
+
+} // namespace petrous::library

@@ -3671,10 +3671,6 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
         <translation>Petrous (abgesicherter Modus)</translation>
     </message>
     <message>
-        <source>Petrous</source>
-        <translation>Petrous</translation>
-    </message>
-    <message>
         <source>Stroke %1 undone</source>
         <translation>Bohrzug %1 rückgängig</translation>
     </message>
@@ -3721,6 +3717,10 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
     <message>
         <source>%1 Drilling goes on.</source>
         <translation>%1 Das Bohren geht weiter.</translation>
+    </message>
+    <message>
+        <source>Note on the case</source>
+        <translation>Hinweis zum Fall</translation>
     </message>
 </context>
 <context>

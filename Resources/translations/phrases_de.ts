@@ -6437,12 +6437,12 @@
         <translation>das Journal einer Sitzung, die ohne Speichern endete, passt nicht (%~1)</translation>
     </message>
     <message>
-        <source>%~1the last session ended without saving; %~2 came back, on branch '%3', as another program had changed the case</source>
-        <translation>%~1die letzte Sitzung endete ohne Speichern; %~2 kam zurück, auf dem Zugang „%3“, da ein anderes Programm den Fall geändert hatte</translation>
+        <source>the last session with case '%1' ended without saving; %~2 came back, on branch '%3', as another program had changed the case</source>
+        <translation>die letzte Sitzung mit dem Fall „%1“ endete ohne Speichern; %~2 kam zurück, auf dem Zugang „%3“, da ein anderes Programm den Fall geändert hatte</translation>
     </message>
     <message>
-        <source>%~1the last session ended without saving; %~2 came back</source>
-        <translation>%~1die letzte Sitzung endete ohne Speichern; %~2 kam zurück</translation>
+        <source>the last session with case '%1' ended without saving; %~2 came back</source>
+        <translation>die letzte Sitzung mit dem Fall „%1“ endete ohne Speichern; %~2 kam zurück</translation>
     </message>
     <message>
         <source>case '%1': %2 holds what a session drilled and did not save, and could not be brought back now: %~3; it stays there for the next time</source>

@@ -516,7 +516,7 @@ void MainWindow::connectModel()
   };
   m_model.events.recordingChanged = [this](const std::string& fault)
   { showRecording(phrase(fault)); };
-  m_model.events.noticed = [this](const std::string& text) { notice(phrase(text)); };
+  m_model.events.noticed = [this](const std::string& text) { notice(capitalized(sentence(phrase(text)))); };
   connect(m_registration, &RegistrationController::sceneStale, this,
           [this] { m_model.events.appearanceChanged(); });
   connect(m_slices, &SliceColumn::pointed, m_place,
@@ -880,7 +880,7 @@ void MainWindow::begin(const QString& what)
   if (m_options.isSafe)
     return;
   std::optional<std::string> latest;
-  guarded([&] { latest = m_model.latestCase(); }, [](const QString&) {}); // the first page says why
+  guarded([&] { latest = m_model.latestCase(m_settings->lastCase()); }, [](const QString&) {}); // the first page says why
   if (latest)
     m_keeper->open({words(*latest)});
 }
@@ -1051,6 +1051,8 @@ void MainWindow::stateChanged()
   for (const auto& [entry, panel] : m_panels)
     panel->stateChanged();
   const scene::Case& value = m_model.value();
+  if (value.id != m_settings->lastCase())
+    m_settings->keepLastCase(value.id);
   setWindowTitle(
       (m_model.unsaved() || m_model.beingStored() ? QString::fromUtf8("• ") : QString()) +
       words(value.name) + QString::fromUtf8(" — ") + program);
@@ -1074,7 +1076,8 @@ void MainWindow::saveLater()
 // Returns at once: the case is shown behind it.
 void MainWindow::notice(const QString& text)
 {
-  auto* box = new QMessageBox(QMessageBox::Information, tr("Petrous"), text, QMessageBox::Ok, this);
+  auto* box = new QMessageBox(QMessageBox::Information, tr("Note on the case"), text,
+                              QMessageBox::Ok, this);
   box->setAttribute(Qt::WA_DeleteOnClose);
   box->setTextFormat(Qt::PlainText);
   box->open();

@@ -151,6 +151,11 @@ QString phrase(const std::string& text)
   return windowText(words(text));
 }
 
+QString capitalized(const QString& text)
+{
+  return text.left(1).toUpper() + text.mid(1);
+}
+
 QString sentence(const QString& text)
 {
   static const QString ends(".!?…");

@@ -35,6 +35,8 @@ QString windowText(const QString& text);
 /// words().
 QString phrase(const std::string& text);
 
+/// With a capital letter at its beginning.
+QString capitalized(const QString& text);
 /// Adds a full stop if there is none.
 QString sentence(const QString& text);
 

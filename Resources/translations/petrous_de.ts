@@ -1946,6 +1946,38 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <source>reached, uncertainty unknown</source>
         <translation>erreicht, Unsicherheit unbekannt</translation>
     </message>
+    <message>
+        <source>&amp;Compare again</source>
+        <translation>&amp;Noch einmal vergleichen</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Compares the two approaches once more</source>
+        <translation>Vergleicht die beiden Zugänge noch einmal</translation>
+    </message>
+    <message>
+        <source>Stops comparing; the approaches stay as they are</source>
+        <translation>Hält den Vergleich an; die Zugänge bleiben, wie sie sind</translation>
+    </message>
+    <message>
+        <source>Quantity</source>
+        <translation>Größe</translation>
+    </message>
+    <message>
+        <source>Comparing was stopped.</source>
+        <translation>Der Vergleich wurde angehalten.</translation>
+    </message>
+    <message>
+        <source>Comparing; the picture comes after that</source>
+        <translation>Wird verglichen; danach kommt das Bild</translation>
+    </message>
+    <message>
+        <source>Not compared</source>
+        <translation>Nicht verglichen</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::DecimalPoint</name>

@@ -592,6 +592,14 @@
         <translation>die Bibliothek hat schon einen Fall „%1“; wählen Sie einen anderen Namen</translation>
     </message>
     <message>
+        <source>Cut away for the view, not drilled</source>
+        <translation>Für die Ansicht weggeschnitten, nicht gebohrt</translation>
+    </message>
+    <message>
+        <source>Only a part of the image is shown</source>
+        <translation>Nur ein Teil des Bildes wird gezeigt</translation>
+    </message>
+    <message>
         <source>drawing a thumbnail</source>
         <translation>Vorschaubild wird gezeichnet</translation>
     </message>

@@ -103,27 +103,6 @@ QStringList dropped(const QMimeData& data)
   return what;
 }
 
-// Over a picture of the case: which slices repair interpolated.
-void showInterpolated(QWidget& view, const scene::Case& value)
-{
-  constexpr int kMargin = 10;
-  QStringList lines;
-  for (const std::string& line : presenters::interpolatedTexts(value))
-    lines += phrase(line);
-  auto* label = view.findChild<QLabel*>("guessed");
-  if (!label)
-  {
-    label = new QLabel(&view);
-    label->setObjectName("guessed");
-    label->setTextFormat(Qt::PlainText);
-    label->setAttribute(Qt::WA_TransparentForMouseEvents);
-    label->move(kMargin, kMargin);
-  }
-  label->setText(lines.join('\n'));
-  label->adjustSize();
-  label->setVisible(!lines.isEmpty());
-}
-
 // What was assumed or left out when the parts of a case were read, by part.
 QStringList notesOf(const scene::Case& value)
 {
@@ -1001,7 +980,6 @@ void MainWindow::warnOfSides()
 // What was assumed or left out when files were read, until it is acknowledged.
 void MainWindow::notifyNotes()
 {
-  showInterpolated(*m_view, m_model.value());
   const QStringList notes = notesOf(m_model.value());
   QStringList fresh;
   for (const QString& note : notes)

@@ -505,10 +505,16 @@ private:
         scene.setContents(contents);
         rendering::Picture picture = rendering::renderTiled(scene, camera, width, height, part);
         const double magnified = width / 600.0;
-        addLines(picture, {say(sideText(m_value.description.side))}, magnified);
+        std::vector<std::string> lines{say(sideText(m_value.description.side))};
+        for (const std::string& line : clippingTexts(clipping))
+          lines.push_back(say(line));
+        addLines(picture, lines, magnified);
         addScaleBar(picture, rendering::millimetresPerPixel(camera, height),
                     camera.parallelScale ? "" : say("in the focal plane"), magnified);
-        views.pictures.push_back({caption, rendering::pngOf(picture), width, height, 2});
+        std::string text = caption;
+        for (std::size_t n = 1; n < lines.size(); ++n)
+          text += " (" + lines[n] + ")";
+        views.pictures.push_back({text, rendering::pngOf(picture), width, height, 2});
       };
       add(say("3D view as saved"), currentCamera(m_value), m_value.view.clipping,
           progress.part(0.4, 0.7));

@@ -34,6 +34,8 @@ const std::map<std::string, std::string>& germanTexts()
        "Registrierung gelten."},
       {"Views", "Ansichten"},
       {"3D view as saved", "3D-Ansicht wie gespeichert"},
+      {"Cut away for the view, not drilled", "Für die Ansicht weggeschnitten, nicht gebohrt"},
+      {"Only a part of the image is shown", "Nur ein Teil des Bildes wird gezeigt"},
       {"Surgical position, left ear", "Operationslage, linkes Ohr"},
       {"Surgical position, right ear", "Operationslage, rechtes Ohr"},
       {"Surgical position; the side is taken from where the image lies",

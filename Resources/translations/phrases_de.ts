@@ -2376,6 +2376,22 @@
         <translation>Bericht: Das Präparat des Falls „%1“ ist nicht geladen</translation>
     </message>
     <message>
+        <source>Axial</source>
+        <translation>Axial</translation>
+    </message>
+    <message>
+        <source>Coronal</source>
+        <translation>Koronar</translation>
+    </message>
+    <message>
+        <source>Sagittal</source>
+        <translation>Sagittal</translation>
+    </message>
+    <message>
+        <source>slice: a picture of %#1 x %#2 pixels of %#3 mm; all must be above 0</source>
+        <translation>Schicht: ein Bild von %#1 x %#2 Pixeln zu %#3 mm; alle müssen über 0 liegen</translation>
+    </message>
+    <message>
         <source>Across the tool</source>
         <translation>Quer zum Werkzeug</translation>
     </message>

@@ -78,10 +78,10 @@ private:
   vtkNew<vtkPetrousToolInteraction> m_tool;
   std::array<QLabel*, 4> m_letters; // left, right, top, bottom
   QLabel* m_stamp;
-  QLabel* m_notes;
   bool m_wheelPresses = false;
   QString m_stampText;              // whole
   std::optional<QPointF> m_clicked; // where the left button went down, until the pointer leaves
+  QLabel* m_notes;
 };
 
 } // namespace petrous::workstation

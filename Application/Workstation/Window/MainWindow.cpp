@@ -405,7 +405,7 @@ QDockWidget* MainWindow::addDock(const PanelEntry& entry, Panel* panel)
   auto* dock = new QDockWidget(entry.title, this);
   dock->setObjectName(entry.name);
   dock->setFeatures(QDockWidget::DockWidgetClosable | QDockWidget::DockWidgetMovable);
-  dock->setWidget(panel);
+  dock->setWidget(scrolledPanel(panel));
   addDockWidget(entry.area, dock);
   dock->toggleViewAction()->setShortcut(entry.key);
   m_actions->addPanelToggle(dock->toggleViewAction(), entry.needsCase);
@@ -495,7 +495,8 @@ void MainWindow::connectModel()
   };
   m_model.events.recordingChanged = [this](const std::string& fault)
   { showRecording(phrase(fault)); };
-  m_model.events.noticed = [this](const std::string& text) { notice(capitalized(sentence(phrase(text)))); };
+  m_model.events.noticed = [this](const std::string& text)
+  { notice(capitalized(sentence(phrase(text)))); };
   connect(m_registration, &RegistrationController::sceneStale, this,
           [this] { m_model.events.appearanceChanged(); });
   connect(m_slices, &SliceColumn::pointed, m_place,
@@ -859,7 +860,8 @@ void MainWindow::begin(const QString& what)
   if (m_options.isSafe)
     return;
   std::optional<std::string> latest;
-  guarded([&] { latest = m_model.latestCase(m_settings->lastCase()); }, [](const QString&) {}); // the first page says why
+  guarded([&] { latest = m_model.latestCase(m_settings->lastCase()); },
+          [](const QString&) {}); // the first page says why
   if (latest)
     m_keeper->open({words(*latest)});
 }
@@ -1263,7 +1265,7 @@ void MainWindow::closeEvent(QCloseEvent* event)
     return;
   if (m_model.hasCase())
     for (const auto& [entry, panel] : m_panels)
-      m_settings->keepPanelShown(entry.name, !panel->parentWidget()->isHidden());
+      m_settings->keepPanelShown(entry.name, !findChild<QDockWidget*>(entry.name)->isHidden());
   m_picture->closeSurgeonWindow();
   m_comparison->close();
 }

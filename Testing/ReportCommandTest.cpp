@@ -145,7 +145,7 @@ TEST_F(ReportCommand, WritesAPdfThatOtherProgramsRead)
   outputOf("qpdf --check " + quoted(file));
   const std::string text = outputOf("pdftotext -layout " + quoted(file) + " -");
   EXPECT_NE(text.find("Operationsplan"), std::string::npos);
-  EXPECT_NE(text.find("2026-12-24"), std::string::npos);
+  EXPECT_NE(text.find("24.12.2026"), std::string::npos);
   EXPECT_NE(text.find("Linke Seite"), std::string::npos);
   for (const Json& row : section(report, "distances").at("rows"))
   {

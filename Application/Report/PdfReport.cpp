@@ -14,6 +14,8 @@
 #include <QTextBlock>
 #include <QTextCursor>
 #include <QTextDocument>
+#include <QTextLayout>
+#include <QTextTable>
 #include <QUrl>
 
 #include "petrous/Core/Error.h"
@@ -37,7 +39,8 @@ constexpr double kMargin = 16.0 * kMillimetre;
 constexpr double kHead = 20.0 * kMillimetre; // above the text, with the stamp
 constexpr double kFoot = 18.0 * kMillimetre; // below it, with the page's number
 constexpr double kTextWidth = kPageWidth - 2.0 * kMargin;
-constexpr double kTextHeight = kPageHeight - kHead - kFoot;
+// A whole number: Qt lays out in 64ths, and a line on top of the next page would touch this one.
+constexpr double kTextHeight = static_cast<int>(kPageHeight - kHead - kFoot);
 constexpr int kResolution = 1200; // dots per inch, of coordinates
 
 const char* const kInk = "#1a2430";
@@ -208,26 +211,71 @@ void fill(QTextDocument& document, const presenters::PlanReport& report)
   document.setHtml(html);
 }
 
-// A heading stands with what follows it.
-void keepHeadings(QTextDocument& document)
+int pageOf(double height)
+{
+  return static_cast<int>(std::floor(height / kTextHeight));
+}
+
+// Of one that fits on a page.
+bool isParted(const QTextBlock& block)
+{
+  constexpr double kRounding = 0.5;
+  const QRectF rect = block.document()->documentLayout()->blockBoundingRect(block);
+  const QTextLayout& lines = *block.layout();
+  if (lines.lineCount() == 0 || rect.height() > 0.5 * kTextHeight)
+    return false;
+  const auto lineBottom = lines.lineAt(lines.lineCount() - 1).rect().bottom();
+  return pageOf(rect.top()) < pageOf(rect.top() + lineBottom - kRounding);
+}
+
+bool isInTable(const QTextBlock& block)
+{
+  return QTextCursor(block).currentTable() != nullptr;
+}
+
+// A heading stands with what follows it, and the lines of a paragraph together: of one on two pages
+// Qt draws a line on either.
+bool belongsOnNextPage(const QTextBlock& block)
 {
   constexpr double kRoom = 30.0 * kMillimetre;
+  if (isInTable(block))
+    return false;
+  if (isParted(block))
+    return true;
+  const QTextBlock next = block.next();
+  if (block.blockFormat().headingLevel() == 0 || !next.isValid())
+    return false;
+  const QAbstractTextDocumentLayout& layout = *block.document()->documentLayout();
+  const double top = layout.blockBoundingRect(block).top();
+  const int page = pageOf(top);
+  return top - page * kTextHeight > kTextHeight - kRoom ||
+         pageOf(layout.blockBoundingRect(next).top()) > page ||
+         (!isInTable(next) && isParted(next));
+}
+
+bool addBreaks(QTextDocument& document)
+{
+  QTextBlockFormat format;
+  format.setPageBreakPolicy(QTextFormat::PageBreak_AlwaysBefore);
+  bool any = false;
   for (QTextBlock block = document.begin(); block.isValid(); block = block.next())
+    if (block.blockFormat().pageBreakPolicy() == QTextFormat::PageBreak_Auto &&
+        belongsOnNextPage(block))
+    {
+      QTextCursor(block).mergeBlockFormat(format);
+      any = true;
+    }
+  // Else what follows the last break may have no lines yet: Qt lays out when it is idle.
+  document.markContentsDirty(0, document.characterCount());
+  document.documentLayout()->documentSize();
+  return any;
+}
+
+void breakPages(QTextDocument& document)
+{
+  constexpr int kRounds = 4; // a break may move what comes before it by a little
+  for (int n = 0; n < kRounds && addBreaks(document); ++n)
   {
-    if (block.blockFormat().headingLevel() == 0)
-      continue;
-    const QTextBlock next = block.next();
-    const double top = document.documentLayout()->blockBoundingRect(block).top();
-    const double page = std::floor(top / kTextHeight);
-    const bool isLow = top - page * kTextHeight > kTextHeight - kRoom;
-    const bool isParted =
-        next.isValid() &&
-        std::floor(document.documentLayout()->blockBoundingRect(next).top() / kTextHeight) > page;
-    if (!isLow && !isParted)
-      continue;
-    QTextBlockFormat format;
-    format.setPageBreakPolicy(QTextFormat::PageBreak_AlwaysBefore);
-    QTextCursor(block).mergeBlockFormat(format);
   }
 }
 
@@ -267,7 +315,7 @@ std::string pdfOf(const presenters::PlanReport& report, const core::Progress& pr
   document.setDocumentMargin(0.0);
   fill(document, report);
   document.setPageSize({kTextWidth, kTextHeight});
-  keepHeadings(document);
+  breakPages(document);
 
   QByteArray bytes;
   QBuffer buffer(&bytes);
@@ -291,7 +339,8 @@ std::string pdfOf(const presenters::PlanReport& report, const core::Progress& pr
       painter.save();
       painter.translate(kMargin, kHead - page * kTextHeight);
       QAbstractTextDocumentLayout::PaintContext context;
-      context.clip = QRectF(0.0, page * kTextHeight, kTextWidth, kTextHeight);
+      constexpr double kApart = 0.25; // what only touches the page is another one's
+      context.clip = QRectF(0.0, page * kTextHeight + kApart, kTextWidth, kTextHeight - 2 * kApart);
       context.palette.setColor(QPalette::Text, QColor(kInk));
       painter.setClipRect(context.clip);
       document.documentLayout()->draw(&painter, context);

@@ -550,6 +550,62 @@
         <source>Transfer functions (*.json)</source>
         <translation>Transferfunktionen (*.json)</translation>
     </message>
+    <message>
+        <source>cholesteatoma</source>
+        <translation>Cholesteatom</translation>
+    </message>
+    <message>
+        <source>tumour</source>
+        <translation>Tumor</translation>
+    </message>
+    <message>
+        <source>ossicle</source>
+        <translation>Gehörknöchelchen</translation>
+    </message>
+    <message>
+        <source>air-cells</source>
+        <translation>Luftzellen</translation>
+    </message>
+    <message>
+        <source>ear-canal</source>
+        <translation>Gehörgang</translation>
+    </message>
+    <message>
+        <source>vein</source>
+        <translation>Vene</translation>
+    </message>
+    <message>
+        <source>artery</source>
+        <translation>Arterie</translation>
+    </message>
+    <message>
+        <source>nerve</source>
+        <translation>Nerv</translation>
+    </message>
+    <message>
+        <source>inner-ear</source>
+        <translation>Innenohr</translation>
+    </message>
+    <message>
+        <source>dura</source>
+        <translation>Dura</translation>
+    </message>
+    <message>
+        <source>muscle</source>
+        <translation>Muskel</translation>
+    </message>
+    <message>
+        <source>bone</source>
+        <translation>Knochen</translation>
+    </message>
+    <message>
+        <source>bone-translucent</source>
+        <translation>Knochen, durchscheinend</translation>
+    </message>
+    <message>
+        <source>other</source>
+        <translation>Sonstiges</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::ApproachPanel</name>
@@ -957,10 +1013,6 @@
         <translation>Zugang %1</translation>
     </message>
     <message>
-        <source>Approach %1, after %2 of %3 strokes</source>
-        <translation>Zugang %1, nach %2 von %3 Bohrzügen</translation>
-    </message>
-    <message>
         <source>New approach</source>
         <translation>Neuer Zugang</translation>
     </message>
@@ -995,6 +1047,10 @@
     <message>
         <source>Name of the approach that begins here, after %1 strokes:</source>
         <translation>Name des Zugangs, der hier nach %1 Bohrzügen beginnt:</translation>
+    </message>
+    <message>
+        <source>Approach %1, strokes drilled: %2 of %3</source>
+        <translation>Zugang %1, gebohrte Bohrzüge: %2 von %3</translation>
     </message>
 </context>
 <context>
@@ -1853,6 +1909,10 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <source>%1: was written by a newer version of Petrous; open it with that one. Here it is left alone.</source>
         <translation>%1: wurde von einer neueren Version von Petrous geschrieben; öffnen Sie den Fall mit dieser. Hier bleibt er unberührt.</translation>
     </message>
+    <message>
+        <source>1 stroke, %1 mm³ removed</source>
+        <translation>1 Bohrzug, %1 mm³ abgetragen</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::ColorChooser</name>
@@ -2017,6 +2077,38 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     <message>
         <source>reached, uncertainty unknown</source>
         <translation>erreicht, Unsicherheit unbekannt</translation>
+    </message>
+    <message>
+        <source>&amp;Compare again</source>
+        <translation>&amp;Noch einmal vergleichen</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Compares the two approaches once more</source>
+        <translation>Vergleicht die beiden Zugänge noch einmal</translation>
+    </message>
+    <message>
+        <source>Stops comparing; the approaches stay as they are</source>
+        <translation>Hält den Vergleich an; die Zugänge bleiben, wie sie sind</translation>
+    </message>
+    <message>
+        <source>Quantity</source>
+        <translation>Größe</translation>
+    </message>
+    <message>
+        <source>Comparing was stopped.</source>
+        <translation>Der Vergleich wurde angehalten.</translation>
+    </message>
+    <message>
+        <source>Comparing; the picture comes after that</source>
+        <translation>Wird verglichen; danach kommt das Bild</translation>
+    </message>
+    <message>
+        <source>Not compared</source>
+        <translation>Nicht verglichen</translation>
     </message>
 </context>
 <context>
@@ -3500,6 +3592,10 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
         <source>The case is called “%1”. A node to which it was sent keeps it as it was; sent again, it is another patient and study there.</source>
         <translation>Der Fall heißt „%1“. Ein Knoten, an den er gesendet wurde, behält ihn, wie er war; erneut gesendet, ist er dort ein anderer Patient und eine andere Studie.</translation>
     </message>
+    <message>
+        <source>1 stroke was drilled in it. </source>
+        <translation>In ihm wurde 1 Bohrzug gebohrt. </translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::LibraryPanel</name>
@@ -3747,10 +3843,6 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
         <translation>Petrous (abgesicherter Modus)</translation>
     </message>
     <message>
-        <source>Petrous</source>
-        <translation>Petrous</translation>
-    </message>
-    <message>
         <source>Stroke %1 undone</source>
         <translation>Bohrzug %1 rückgängig</translation>
     </message>
@@ -3797,6 +3889,10 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
     <message>
         <source>%1 Drilling goes on.</source>
         <translation>%1 Das Bohren geht weiter.</translation>
+    </message>
+    <message>
+        <source>Note on the case</source>
+        <translation>Hinweis zum Fall</translation>
     </message>
 </context>
 <context>
@@ -5582,14 +5678,6 @@ Verletzt: %1, %2</translation>
         <translation>Geben Sie der Struktur einen Namen.</translation>
     </message>
     <message>
-        <source>Discard the draft?</source>
-        <translation>Entwurf verwerfen?</translation>
-    </message>
-    <message>
-        <source>The draft of “%1” is dropped.</source>
-        <translation>Der Entwurf von „%1“ ist verworfen.</translation>
-    </message>
-    <message>
         <source>a structure without a name</source>
         <translation>eine Struktur ohne Namen</translation>
     </message>
@@ -5636,6 +5724,14 @@ Verletzt: %1, %2</translation>
     <message>
         <source>The structure is created when the preview is done.</source>
         <translation>Die Struktur wird angelegt, sobald die Vorschau fertig ist.</translation>
+    </message>
+    <message>
+        <source>Discard the draft</source>
+        <translation>Entwurf verwerfen</translation>
+    </message>
+    <message>
+        <source>Discard the draft of “%1”?</source>
+        <translation>Den Entwurf von „%1“ verwerfen?</translation>
     </message>
 </context>
 <context>
@@ -8399,6 +8495,18 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     <message>
         <source>Open a case first</source>
         <translation>Öffnen Sie zuerst einen Fall</translation>
+    </message>
+    <message>
+        <source>Sta&amp;ndard views</source>
+        <translation>Sta&amp;ndardansichten</translation>
+    </message>
+    <message>
+        <source>Grey &amp;window of the slices</source>
+        <translation>Grau&amp;fenster der Schichten</translation>
+    </message>
+    <message>
+        <source>&amp;Panels</source>
+        <translation>&amp;Bereiche</translation>
     </message>
 </context>
 </TS>

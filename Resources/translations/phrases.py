@@ -292,7 +292,7 @@ WITHOUT = set("""
     Pedal PedalledDevice Phantom PhantomShapes PixelRays PointProxy PointerDevice
     PointerToolController RateControl RayCaster RayShader RayView ReferenceRayCaster
     RemovalDepthSolver RemovalLaw RenderQuality ReportHtml ReportWords SamplePatient SceneCheck
-    SegmentationWriter Servo ServoParameters ServoThread SliceGeometry SnapshotBuffer SpscRing
+    SegmentationWriter Servo ServoParameters ServoThread SnapshotBuffer SpscRing
     Stereo StructurePresets SurfaceDistance SurfaceGeometry SweptSphereCut
     TissueBricks TissueField TissueOptics TissueResistance ToolInteraction ToolView
     ViewArrangement Volume VolumeMapper VtkVolume

@@ -636,6 +636,14 @@
         <translation>die Bibliothek hat schon einen Fall „%1“; wählen Sie einen anderen Namen</translation>
     </message>
     <message>
+        <source>Cut away for the view, not drilled</source>
+        <translation>Für die Ansicht weggeschnitten, nicht gebohrt</translation>
+    </message>
+    <message>
+        <source>Only a part of the image is shown</source>
+        <translation>Nur ein Teil des Bildes wird gezeigt</translation>
+    </message>
+    <message>
         <source>drawing a thumbnail</source>
         <translation>Vorschaubild wird gezeichnet</translation>
     </message>
@@ -2426,6 +2434,22 @@
     <message>
         <source>report: the dissection of case '%1' is not loaded</source>
         <translation>Bericht: Das Präparat des Falls „%1“ ist nicht geladen</translation>
+    </message>
+    <message>
+        <source>Axial</source>
+        <translation>Axial</translation>
+    </message>
+    <message>
+        <source>Coronal</source>
+        <translation>Koronar</translation>
+    </message>
+    <message>
+        <source>Sagittal</source>
+        <translation>Sagittal</translation>
+    </message>
+    <message>
+        <source>slice: a picture of %#1 x %#2 pixels of %#3 mm; all must be above 0</source>
+        <translation>Schicht: ein Bild von %#1 x %#2 Pixeln zu %#3 mm; alle müssen über 0 liegen</translation>
     </message>
     <message>
         <source>Across the tool</source>
@@ -6597,12 +6621,12 @@
         <translation>das Journal einer Sitzung, die ohne Speichern endete, passt nicht (%~1)</translation>
     </message>
     <message>
-        <source>%~1the last session ended without saving; %~2 came back, on branch '%3', as another program had changed the case</source>
-        <translation>%~1die letzte Sitzung endete ohne Speichern; %~2 kam zurück, auf dem Zugang „%3“, da ein anderes Programm den Fall geändert hatte</translation>
+        <source>the last session with case '%1' ended without saving; %~2 came back, on branch '%3', as another program had changed the case</source>
+        <translation>die letzte Sitzung mit dem Fall „%1“ endete ohne Speichern; %~2 kam zurück, auf dem Zugang „%3“, da ein anderes Programm den Fall geändert hatte</translation>
     </message>
     <message>
-        <source>%~1the last session ended without saving; %~2 came back</source>
-        <translation>%~1die letzte Sitzung endete ohne Speichern; %~2 kam zurück</translation>
+        <source>the last session with case '%1' ended without saving; %~2 came back</source>
+        <translation>die letzte Sitzung mit dem Fall „%1“ endete ohne Speichern; %~2 kam zurück</translation>
     </message>
     <message>
         <source>case '%1': %2 holds what a session drilled and did not save, and could not be brought back now: %~3; it stays there for the next time</source>

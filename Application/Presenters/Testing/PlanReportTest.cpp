@@ -1,6 +1,7 @@
 #include "petrous/Presenters/PlanReport.h"
 
 #include <algorithm>
+#include <map>
 #include <tuple>
 
 #include <gtest/gtest.h>
@@ -297,6 +298,50 @@ TEST(PlanReport, WithholdsNamesThatTellWhoThePatientIs)
   EXPECT_EQ(htmlOf(planReport(value, options)).find("Mustermann"), std::string::npos);
 }
 
+// As the language writes numbers and dates; the values beside them stay as they are.
+TEST(PlanReport, WritesGermanNumbersAndDates)
+{
+  scene::Case value = planned();
+  value.description.date = "2026-11-27";
+  ReportOptions options = small();
+  options.made = "2026-11-20";
+  const PlanReport english = planReport(value, options);
+  options.language = ReportLanguage::German;
+  const PlanReport german = planReport(value, options);
+  const auto comma = [](std::string text)
+  {
+    std::replace(text.begin(), text.end(), '.', ',');
+    return text;
+  };
+  ASSERT_EQ(german.sections.size(), english.sections.size());
+  int numbers = 0;
+  for (std::size_t n = 0; n < german.sections.size(); ++n)
+  {
+    const ReportTable& one = german.sections[n].table;
+    const ReportTable& other = english.sections[n].table;
+    ASSERT_EQ(one.rows.size(), other.rows.size());
+    for (std::size_t row = 0; row < one.rows.size(); ++row)
+      for (std::size_t column = 0; column < one.rows[row].size(); ++column)
+      {
+        const ReportCell& cell = one.rows[row][column];
+        EXPECT_EQ(cell.value, other.rows[row][column].value);
+        if (!cell.isNumber || !cell.value)
+          continue;
+        EXPECT_EQ(cell.text.find('.'), std::string::npos) << cell.text;
+        const std::string number = comma(other.rows[row][column].text);
+        EXPECT_EQ(cell.text.substr(0, cell.text.find(' ')), number.substr(0, number.find(' ')));
+        ++numbers;
+      }
+  }
+  EXPECT_GT(numbers, 5);
+  const auto factsOf = [](const PlanReport& report)
+  { return std::map<std::string, std::string>(report.facts.begin(), report.facts.end()); };
+  EXPECT_EQ(factsOf(german).at("Geplant für"), "27.11.2026");
+  EXPECT_EQ(factsOf(german).at("Bericht vom"), "20.11.2026");
+  EXPECT_EQ(factsOf(english).at("Planned for"), "2026-11-27");
+  EXPECT_NE(german.stamp.find("27.11.2026"), std::string::npos);
+}
+
 TEST(PlanReport, SpeaksGerman)
 {
   ReportOptions options = small();
@@ -306,7 +351,7 @@ TEST(PlanReport, SpeaksGerman)
   EXPECT_EQ(report.side, "Linke Seite");
   EXPECT_EQ(find(report, "import")->table.rows[0][1].text,
             "Schichten 4-5 von 32 zwischen Nachbarn interpoliert");
-  EXPECT_EQ(find(report, "strokes")->table.rows[0][1].text, "4.0 mm, Diamant");
+  EXPECT_EQ(find(report, "strokes")->table.rows[0][1].text, "4,0 mm, Diamant");
   // No cell, remark or caption is a phrase of the program in English.
   const auto expectGerman = [](const std::string& text)
   { EXPECT_EQ(germanPhrases().text(text), text) << "not German"; };

@@ -159,7 +159,7 @@ void BranchController::goToState(std::string name, std::size_t state)
     {
       return emit statusMessage(toString(fault));
     }
-  emit statusMessage(tr("Approach %1, after %2 of %3 strokes")
+  emit statusMessage(tr("Approach %1, strokes drilled: %2 of %3")
                          .arg(words(name))
                          .arg(history.applied())
                          .arg(history.applied() + history.ahead()));

@@ -371,7 +371,7 @@ void CaseDocumentController::work(const QString& title, BackgroundWork::Work wor
           [this](double fraction, const QString& text)
           {
             if (!text.isEmpty())
-              m_progress->setLabelText(text.left(1).toUpper() + text.mid(1) + "…");
+              m_progress->setLabelText(capitalized(text) + "…");
             // Processes events, so the task may end here.
             m_progress->setValue(static_cast<int>(std::lround(1000.0 * fraction)));
           });

@@ -10,6 +10,7 @@
 
 #include "DescriptionDialog.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Library/NewerVersion.h"
 
 namespace petrous::workstation
@@ -23,7 +24,9 @@ constexpr std::size_t kMostWanted = 64; // what was scrolled past is asked for a
 
 QString localTime(const std::string& utc)
 {
-  return QDateTime::fromString(words(utc), Qt::ISODate).toLocalTime().toString("yyyy-MM-dd HH:mm");
+  return QDateTime::fromString(words(utc), Qt::ISODate)
+      .toLocalTime()
+      .toString(dateFormat() + " HH:mm");
 }
 
 CasesModel::CasesModel(QObject* parent)
@@ -40,7 +43,7 @@ CasesModel::CasesModel(QObject* parent)
 QString operationText(const library::CaseSummary& one)
 {
   const QString side = sideText(one.description.side);
-  const QString date = words(one.description.date);
+  const QString date = dateText(one.description.date);
   const QString planned = date.isEmpty() ? date : CasesModel::tr("planned %1").arg(date);
   return side.isEmpty() || planned.isEmpty() ? side + planned : side + ", " + planned;
 }
@@ -200,7 +203,7 @@ QString textOf(const library::CaseSummary& one, int column, bool isNewer = false
   case CasesModel::Side:
     return sideText(one.description.side);
   case CasesModel::Planned:
-    return words(one.description.date);
+    return dateText(one.description.date);
   case CasesModel::Tags:
     return tagsText(one);
   case CasesModel::Structures:
@@ -231,8 +234,10 @@ QString tipOf(const library::CaseSummary& one, bool open, bool isNewer)
   lines += CasesModel::tr("%1 voxels, %2 structures")
                .arg(textOf(one, CasesModel::Voxels))
                .arg(one.structures);
-  lines +=
-      CasesModel::tr("%1 strokes, %2 mm³ removed").arg(one.strokes).arg(one.removed, 0, 'f', 1);
+  const QString removed = numberText(one.removed, 1);
+  lines += one.strokes == 1
+               ? CasesModel::tr("1 stroke, %1 mm³ removed").arg(removed)
+               : CasesModel::tr("%1 strokes, %2 mm³ removed").arg(one.strokes).arg(removed);
   const QString what = words(one.description.diagnosis);
   const QString how = words(one.description.procedure);
   if (!what.isEmpty() || !how.isEmpty())
@@ -336,9 +341,10 @@ void CasesModel::sortCases()
     {
     case Diagnosis:
     case Side:
-    case Planned:
     case Tags:
       return textOf(a, m_column).localeAwareCompare(textOf(b, m_column)) < 0;
+    case Planned:
+      return a.description.date < b.description.date;
     case Changed:
       return a.modified < b.modified;
     case Structures:

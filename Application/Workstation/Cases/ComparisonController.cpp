@@ -30,6 +30,12 @@ ComparisonController::ComparisonController(presenters::WorkstationModel& model, 
             if (m_window)
               m_window->setProgress(fraction);
           });
+  connect(&m_work, &BackgroundWork::cancelled, this,
+          [this]
+          {
+            if (m_window)
+              m_window->stop();
+          });
   connect(&m_work, &BackgroundWork::failed, this,
           [this](const QString& why)
           {
@@ -58,6 +64,8 @@ void ComparisonController::compare(const std::string& first, const std::string& 
     connect(m_window, &ComparisonWindow::approachesChosen, this,
             [this](const QString& one, const QString& other)
             { compare(bytes(one), bytes(other)); });
+    connect(m_window, &ComparisonWindow::cancelAsked, &m_work, &BackgroundWork::cancel);
+    connect(m_window, &ComparisonWindow::againAsked, this, &ComparisonController::start);
     connect(m_window, &ComparisonWindow::differenceToggled, this,
             &ComparisonController::showInSlices);
     connect(m_window, &ComparisonWindow::closed, this,

@@ -11,6 +11,7 @@
 #include <QKeyEvent>
 #include <QLabel>
 #include <QProgressBar>
+#include <QPushButton>
 #include <QScopedValueRollback>
 #include <QSignalBlocker>
 #include <QSplitter>
@@ -80,7 +81,9 @@ ComparisonWindow::ComparisonWindow(QWidget* parent)
   , m_difference(new QCheckBox(tr("&Difference in colours")))
   , m_legend(new QLabel)
   , m_fault(new QLabel)
+  , m_again(new QPushButton(tr("&Compare again")))
   , m_progress(new QProgressBar)
+  , m_cancel(new QPushButton(tr("Cancel")))
   , m_table(new QTableWidget)
 {
   setObjectName("comparison");
@@ -116,9 +119,14 @@ ComparisonWindow::ComparisonWindow(QWidget* parent)
   m_fault->setTextFormat(Qt::PlainText);
   m_fault->setWordWrap(true);
   m_fault->setStyleSheet(kWarningStyle);
-  m_fault->hide();
+  m_again->setObjectName("compareAgain");
+  m_again->setToolTip(tr("Compares the two approaches once more"));
+  connect(m_again, &QPushButton::clicked, this, &ComparisonWindow::againAsked);
   m_progress->setRange(0, 100);
   m_progress->setFormat(tr("Comparing, %p %"));
+  m_cancel->setObjectName("cancelComparison");
+  m_cancel->setToolTip(tr("Stops comparing; the approaches stay as they are"));
+  connect(m_cancel, &QPushButton::clicked, this, &ComparisonWindow::cancelAsked);
   m_table->setObjectName("comparisonTable");
   m_table->setAccessibleName(tr("The approaches in numbers"));
   m_table->setColumnCount(3);
@@ -137,7 +145,11 @@ ComparisonWindow::ComparisonWindow(QWidget* parent)
   head->addWidget(m_difference);
   head->addWidget(m_legend);
   head->addStretch(1);
-  head->addWidget(m_progress);
+  auto* work = new QHBoxLayout;
+  work->addWidget(m_fault, 1);
+  work->addWidget(m_again);
+  work->addWidget(m_progress, 1);
+  work->addWidget(m_cancel);
   auto* pictures = new QSplitter(Qt::Horizontal);
   pictures->setChildrenCollapsible(false);
   auto* whole = new QSplitter(Qt::Vertical);
@@ -152,8 +164,9 @@ ComparisonWindow::ComparisonWindow(QWidget* parent)
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(8, 8, 8, 8);
   layout->addLayout(head);
-  layout->addWidget(m_fault);
+  layout->addLayout(work);
   layout->addWidget(whole, 1);
+  showWork(false, {});
   resizeOnScreen(*this, {1240, 860});
 }
 
@@ -166,6 +179,7 @@ void ComparisonWindow::setApproaches(const QStringList& names, const std::array<
     m_choices[n]->addItems(names);
     m_choices[n]->setCurrentIndex(static_cast<int>(names.indexOf(chosen[n])));
   }
+  m_table->setHorizontalHeaderLabels({tr("Quantity"), chosen[0], chosen[1]});
 }
 
 void ComparisonWindow::setStamp(const QString& text)
@@ -181,26 +195,43 @@ void ComparisonWindow::setCamera(const core::CameraPose& camera)
 
 void ComparisonWindow::setProgress(double fraction)
 {
-  m_fault->hide();
   m_progress->setValue(percent(fraction));
-  m_progress->show();
+  showWork(true, {});
 }
 
 void ComparisonWindow::fail(const QString& why)
 {
-  m_progress->hide();
-  m_fault->setText(why);
-  m_fault->show();
+  showWork(false, why);
+}
+
+void ComparisonWindow::stop()
+{
+  showWork(false, tr("Comparing was stopped."));
+}
+
+// Views without a picture yet say why they are black.
+void ComparisonWindow::showWork(bool working, const QString& fault)
+{
+  m_progress->setVisible(working);
+  m_cancel->setVisible(working);
+  m_fault->setText(fault);
+  m_fault->setVisible(!fault.isEmpty());
+  m_again->setVisible(!fault.isEmpty());
+  QStringList notes;
+  if (!m_comparison)
+    notes += working ? tr("Comparing; the picture comes after that") : tr("Not compared");
+  for (ThreeDView* view : m_views)
+    view->setNotes(notes);
 }
 
 void ComparisonWindow::setComparison(
     const rendering::SceneContents& contents,
     const std::shared_ptr<const presenters::ApproachComparison>& comparison)
 {
-  m_progress->hide();
   m_contents = contents;
   m_contents.tool.reset();
   m_comparison = comparison;
+  showWork(false, {});
   draw();
   fillTable();
 }
@@ -257,7 +288,7 @@ void ComparisonWindow::fillTable()
 {
   const auto& [a, b] = m_comparison->sides;
   m_table->setRowCount(0);
-  m_table->setHorizontalHeaderLabels({QString(), words(a.name), words(b.name)});
+  m_table->setHorizontalHeaderLabels({tr("Quantity"), words(a.name), words(b.name)});
   const auto count = [](std::size_t strokes) { return QString::number(strokes); };
   addRow(tr("Strokes, %1 in common").arg(m_comparison->commonStrokes), count(a.strokes),
          count(b.strokes));

@@ -11,6 +11,7 @@ class QCheckBox;
 class QComboBox;
 class QLabel;
 class QProgressBar;
+class QPushButton;
 class QTableWidget;
 
 namespace petrous::workstation
@@ -32,6 +33,7 @@ public:
   void setCamera(const core::CameraPose& camera);
   void setProgress(double fraction); ///< of comparing
   void fail(const QString& why);
+  void stop(); ///< comparing was cancelled
   /// `contents`: the scene of the case; its mask is not used.
   void setComparison(const rendering::SceneContents& contents,
                      const std::shared_ptr<const presenters::ApproachComparison>& comparison);
@@ -41,6 +43,8 @@ public:
   QTableWidget& table() noexcept { return *m_table; }
 
 signals:
+  void cancelAsked();
+  void againAsked();
   void approachesChosen(const QString& first, const QString& second);
   void differenceToggled(bool on);
   void closed();
@@ -50,6 +54,7 @@ protected:
   void closeEvent(QCloseEvent* event) override;
 
 private:
+  void showWork(bool working, const QString& fault);
   void draw();
   void fillTable();
   void addRow(const QString& what, const QString& first, const QString& second,
@@ -60,7 +65,9 @@ private:
   QCheckBox* m_difference;
   QLabel* m_legend;
   QLabel* m_fault;
+  QPushButton* m_again; // beside the fault
   QProgressBar* m_progress;
+  QPushButton* m_cancel; // beside the progress
   QTableWidget* m_table;
   rendering::SceneContents m_contents;
   std::shared_ptr<const presenters::ApproachComparison> m_comparison;

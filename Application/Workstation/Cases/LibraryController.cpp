@@ -210,7 +210,9 @@ void LibraryController::remove(const std::string& name)
   box.setObjectName("askDelete");
   const std::size_t strokes = m_panel->strokes();
   box.setInformativeText(
-      (strokes > 0 ? tr("%1 strokes were drilled in it. ").arg(strokes) : QString()) +
+      (strokes == 0   ? QString()
+       : strokes == 1 ? tr("1 stroke was drilled in it. ")
+                      : tr("%1 strokes were drilled in it. ").arg(strokes)) +
       tr("It can be brought back (Bring back, below the list) until the library is cleaned up."));
   const auto* yes = box.addButton(tr("Delete"), QMessageBox::DestructiveRole);
   box.setDefaultButton(box.addButton(QMessageBox::Cancel));

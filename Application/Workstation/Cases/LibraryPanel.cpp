@@ -8,6 +8,7 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDateEdit>
+#include <QGridLayout>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QKeyEvent>
@@ -25,6 +26,7 @@
 #include "CasesModel.h"
 #include "DescriptionDialog.h"
 #include "Theme.h"
+#include "WindowTexts.h"
 #include "petrous/Library/CaseSearch.h"
 #include "petrous/Presenters/WorkstationModel.h"
 
@@ -33,7 +35,8 @@ namespace petrous::workstation
 
 namespace
 {
-constexpr int kNameWidth = 205;   // px
+constexpr int kNameWidth = 205; // px
+constexpr int kButtonsInRow = 3;
 constexpr int kSampledLines = 50; // for the widths of columns
 
 // A picture keeps its colours where its row is selected.
@@ -122,7 +125,7 @@ LibraryPanel::LibraryPanel(const presenters::WorkstationModel& model, QWidget* p
   m_undelete->setPopupMode(QToolButton::InstantPopup);
   m_undelete->setToolTip(tr("Deleted cases, the last one first"));
 
-  auto* buttons = new QHBoxLayout;
+  auto* buttons = new QGridLayout;
   addButtons(*buttons);
   auto* foot = new QHBoxLayout;
   foot->addWidget(m_count, 1);
@@ -134,7 +137,6 @@ LibraryPanel::LibraryPanel(const presenters::WorkstationModel& model, QWidget* p
   layout->addLayout(buttons);
   layout->addWidget(m_list, 1);
   layout->addLayout(foot);
-  setMinimumWidth(340);
 }
 
 // Beside the text: side, tag, notes, planned date.
@@ -163,7 +165,7 @@ void LibraryPanel::addFilters(QBoxLayout& layout)
   m_to->setObjectName("searchTo");
   for (QDateEdit* date : {m_from, m_to})
   {
-    date->setDisplayFormat("yyyy-MM-dd");
+    date->setDisplayFormat(dateFormat());
     date->setCalendarPopup(true);
     date->setEnabled(false);
     date->setAccessibleName(date == m_from ? tr("Planned from") : tr("Planned to"));
@@ -216,7 +218,7 @@ void LibraryPanel::listTags(const std::set<std::string>& tags)
 }
 
 // Each is a button, an entry of the list's context menu and a key of the list.
-void LibraryPanel::addButtons(QLayout& layout)
+void LibraryPanel::addButtons(QGridLayout& layout)
 {
   const auto add = [&](const char* name, const QString& text, const QKeySequence& key,
                        const QString& tip, Asked asked, bool ofDamaged)
@@ -241,7 +243,9 @@ void LibraryPanel::addButtons(QLayout& layout)
     button->setDefaultAction(action);
     button->setText(QString(text).remove('&').remove(QString::fromUtf8("…")));
     button->setObjectName(name);
-    layout.addWidget(button);
+    button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    const int place = layout.count();
+    layout.addWidget(button, place / kButtonsInRow, place % kButtonsInRow);
     return action;
   };
   auto* open = add("openThisCase", tr("&Open"), Qt::Key_Return, tr("Opens the case"),
@@ -264,7 +268,6 @@ void LibraryPanel::addButtons(QLayout& layout)
       &LibraryPanel::archiveAsked, false);
   add(nullptr, tr("&Send the case…"), {}, tr("The case to a DICOM node"), &LibraryPanel::sendAsked,
       false);
-  static_cast<QHBoxLayout&>(layout).addStretch();
 }
 
 void LibraryPanel::showEvent(QShowEvent* event)

@@ -12,6 +12,7 @@ class QBoxLayout;
 class QCheckBox;
 class QComboBox;
 class QDateEdit;
+class QGridLayout;
 class QLabel;
 class QLineEdit;
 class QMenu;
@@ -74,7 +75,7 @@ protected:
 private:
   using Asked = void (LibraryPanel::*)(const QString&);
   bool isFiltered() const;
-  void addButtons(QLayout& layout);
+  void addButtons(QGridLayout& layout);
   void addFilters(QBoxLayout& layout);
   library::CaseFilter filter() const;
   struct Found

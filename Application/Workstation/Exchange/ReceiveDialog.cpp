@@ -37,10 +37,10 @@ QString nameText(const std::string& name)
   return words(name).replace('^', ' ').simplified();
 }
 
-QString dateText(const std::string& date)
+QString dayText(const std::string& date)
 {
   const QDate day = QDate::fromString(words(date), "yyyyMMdd");
-  return day.isValid() ? day.toString("yyyy-MM-dd") : words(date);
+  return day.isValid() ? day.toString(dateFormat()) : words(date);
 }
 
 QString countText(int count)
@@ -82,7 +82,7 @@ ReceiveDialog::ReceiveDialog(const std::vector<network::Node>& nodes,
   m_dated->setObjectName("receiveDated");
   for (QDateEdit* date : {m_from, m_to})
   {
-    date->setDisplayFormat("yyyy-MM-dd");
+    date->setDisplayFormat(dateFormat());
     date->setCalendarPopup(true);
     date->setEnabled(false);
     connect(m_dated, &QCheckBox::toggled, date, &QWidget::setEnabled);
@@ -236,7 +236,7 @@ void ReceiveDialog::show(const presenters::FoundStudies& found)
         : isCase            ? tr("Case, name not told")
                             : nameText(study.patientName);
     auto* item = new QTreeWidgetItem(
-        QStringList{who, words(study.patientId), dateText(study.date), words(study.description),
+        QStringList{who, words(study.patientId), dayText(study.date), words(study.description),
                     words(study.modalities).replace('\\', ", "), countText(study.instances)});
     item->setData(0, kUid, words(study.uid));
     item->setChildIndicatorPolicy(QTreeWidgetItem::ShowIndicator);

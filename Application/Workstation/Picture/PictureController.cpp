@@ -13,9 +13,11 @@
 #include "ThreeDView.h"
 #include "WindowActions.h"
 #include "WindowSettings.h"
+#include "WindowTexts.h"
 #include "petrous/Core/Error.h"
 #include "petrous/Interaction/ToolInteraction.h"
 #include "petrous/Presenters/CasePicture.h"
+#include "petrous/Presenters/ProvenanceText.h"
 
 namespace petrous::workstation
 {
@@ -116,9 +118,18 @@ void PictureController::showScene()
       contents.meshes.push_back(m_draft);
     // What a tool lies on must be seen: it knows no clipping.
     const scene::Case& value = m_model.value();
+    std::vector<std::string> notes = presenters::interpolatedTexts(value);
     if (!m_view.tool().GetDrillMode() && !m_view.tool().GetProbeMode())
+    {
       presenters::clip(contents, value.view.clipping, value.ct.geometry);
+      for (const std::string& line : presenters::clippingTexts(value.view.clipping))
+        notes.push_back(line);
+    }
     m_view.display().setContents(contents);
+    QStringList lines;
+    for (const std::string& line : notes)
+      lines += phrase(line);
+    m_view.setNotes(lines);
   }
   catch (const core::Error& error) // too much to draw; the slices still show it
   {

@@ -48,6 +48,12 @@ ThreeDView::ThreeDView(QWidget* parent)
   m_stamp->setObjectName("caseStamp");
   m_stamp->setTextFormat(Qt::PlainText);
   m_stamp->setAttribute(Qt::WA_TransparentForMouseEvents);
+  m_notes = new QLabel(this);
+  m_notes->setObjectName("guessed");
+  m_notes->setTextFormat(Qt::PlainText);
+  m_notes->setAttribute(Qt::WA_TransparentForMouseEvents);
+  m_notes->move(kLetterMargin, kLetterMargin);
+  m_notes->hide();
   observe();
 }
 
@@ -116,6 +122,13 @@ void ThreeDView::setStamp(const QString& text)
   m_stampText = text;
   placeLetters();
   emit stampChanged(text);
+}
+
+void ThreeDView::setNotes(const QStringList& lines)
+{
+  m_notes->setText(lines.join('\n'));
+  m_notes->adjustSize();
+  m_notes->setVisible(!lines.isEmpty());
 }
 
 // Below the letter at the top where there is no room beside it. What it ends with counts most.

@@ -38,6 +38,9 @@ public:
   void setStamp(const QString& text);
   const QString& stamp() const noexcept { return m_stampText; }
 
+  /// What must be known of the picture, a line each, in the upper left corner.
+  void setNotes(const QStringList& lines);
+
   /// Pick ray through the pixel at a position in the widget; side by side, of the eye whose half
   /// contains it. None: through the centre of the view.
   interaction::PickRay sightLine(const std::optional<QPointF>& position) const;
@@ -78,6 +81,7 @@ private:
   bool m_wheelPresses = false;
   QString m_stampText;              // whole
   std::optional<QPointF> m_clicked; // where the left button went down, until the pointer leaves
+  QLabel* m_notes;
 };
 
 } // namespace petrous::workstation

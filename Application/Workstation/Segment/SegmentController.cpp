@@ -517,8 +517,8 @@ void SegmentController::discard()
     return m_editor.discard();
   }
   const QScopedValueRollback<bool> asking(m_asking, true);
-  QMessageBox box(QMessageBox::Question, tr("Discard the draft?"),
-                  tr("The draft of “%1” is dropped.")
+  QMessageBox box(QMessageBox::Question, tr("Discard the draft"),
+                  tr("Discard the draft of “%1”?")
                       .arg(m_editor.name().empty() ? tr("a structure without a name")
                                                    : shownName(m_editor.name())),
                   QMessageBox::NoButton, &m_window);

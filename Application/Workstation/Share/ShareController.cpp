@@ -44,6 +44,18 @@ rendering::SceneContents contentsOf(const scene::Case& value, const core::Progre
   return contents;
 }
 
+// Into a picture: the side, and what must be known of it.
+std::vector<std::string> linesOf(const scene::Case& value)
+{
+  std::vector<std::string> lines{presenters::sideText(value.description.side)};
+  for (const auto& more : {presenters::interpolatedTexts(value),
+                           presenters::clippingTexts(value.view.clipping)})
+    lines.insert(lines.end(), more.begin(), more.end());
+  for (std::string& line : lines)
+    line = bytes(phrase(line));
+  return lines;
+}
+
 } // namespace
 
 ShareController::ShareController(presenters::WorkstationModel& model,
@@ -177,7 +189,7 @@ void ShareController::printPicture()
             rendering::renderTiled(scene, *value.camera, size.width(), size.height(),
                                    progress.part(0.1, 0.95), kTile, samples);
         const double magnified = std::max(size.height() / 600.0, 1.0);
-        presenters::addLines(picture, {presenters::sideText(value.description.side)}, magnified);
+        presenters::addLines(picture, linesOf(value), magnified);
         presenters::addScaleBar(picture,
                                 rendering::millimetresPerPixel(*value.camera, size.height()),
                                 value.camera->parallelScale ? "" : "in the focal plane", magnified);
@@ -207,9 +219,7 @@ void ShareController::film()
                           : presenters::flightAlong(value, along, frames, progress.part(0.0, 0.05));
         presenters::FilmOptions film;
         film.removesAnyBeyond = true; // FilmDialog::files, which the user was asked about
-        film.lines = {presenters::sideText(value.description.side)};
-        for (const std::string& line : presenters::interpolatedTexts(value))
-          film.lines.push_back(line);
+        film.lines = linesOf(value);
         const rendering::SceneContents contents = contentsOf(value, progress.part(0.05, 0.1));
         library.checkVoxels(value, progress); // before the first frame is there
         presenters::writeFilm(file, contents, cameras, film, progress.part(0.1, 1.0));

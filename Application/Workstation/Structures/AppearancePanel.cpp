@@ -93,7 +93,6 @@ AppearancePanel::AppearancePanel(presenters::WorkstationModel& model, QWidget* p
   m_note->setTextFormat(Qt::PlainText);
   m_note->setWordWrap(true);
   layout->addWidget(m_note);
-  setMinimumWidth(300);
 
   connect(m_plot, &TransferPlot::changed, this,
           [this]
@@ -455,6 +454,27 @@ void AppearancePanel::attempt(const std::function<void()>& action)
   count();
 }
 
+namespace
+{
+// Of Resources/structures.json, for the translation.
+[[maybe_unused]] constexpr const char* kPresets[] = {
+    QT_TRANSLATE_NOOP("petrous::workstation::AppearancePanel", "cholesteatoma"),
+    QT_TRANSLATE_NOOP("petrous::workstation::AppearancePanel", "tumour"),
+    QT_TRANSLATE_NOOP("petrous::workstation::AppearancePanel", "ossicle"),
+    QT_TRANSLATE_NOOP("petrous::workstation::AppearancePanel", "air-cells"),
+    QT_TRANSLATE_NOOP("petrous::workstation::AppearancePanel", "ear-canal"),
+    QT_TRANSLATE_NOOP("petrous::workstation::AppearancePanel", "vein"),
+    QT_TRANSLATE_NOOP("petrous::workstation::AppearancePanel", "artery"),
+    QT_TRANSLATE_NOOP("petrous::workstation::AppearancePanel", "nerve"),
+    QT_TRANSLATE_NOOP("petrous::workstation::AppearancePanel", "inner-ear"),
+    QT_TRANSLATE_NOOP("petrous::workstation::AppearancePanel", "dura"),
+    QT_TRANSLATE_NOOP("petrous::workstation::AppearancePanel", "muscle"),
+    QT_TRANSLATE_NOOP("petrous::workstation::AppearancePanel", "bone"),
+    QT_TRANSLATE_NOOP("petrous::workstation::AppearancePanel", "bone-translucent"),
+    QT_TRANSLATE_NOOP("petrous::workstation::AppearancePanel", "other"),
+};
+} // namespace
+
 void AppearancePanel::fillPresets(QMenu& menu)
 {
   menu.clear();
@@ -470,7 +490,7 @@ void AppearancePanel::fillPresets(QMenu& menu)
       menu.addSection(tr("Of this library"));
     wasOwn = preset.isOwn;
     const QString name = words(preset.look.preset);
-    const QString shown = QString(name).replace('&', "&&");
+    const QString shown = (preset.isOwn ? name : tr(preset.look.preset.c_str())).replace('&', "&&");
     QAction* action = menu.addAction(swatch(toColor(preset.look.color)), shown);
     action->setCheckable(true);
     action->setChecked(preset.look.preset == present);

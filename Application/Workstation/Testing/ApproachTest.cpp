@@ -9,6 +9,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
+#include <QProgressBar>
 #include <QPushButton>
 #include <QScreen>
 #include <QSlider>
@@ -277,6 +278,42 @@ TEST_F(Approaches, AreComparedByOneKey)
   EXPECT_TRUE(
       waitFor([&] { return differentPixels(before, slice->grab().toImage(), kSmoothing) == 0; }))
       << "its colours went with it";
+}
+
+TEST_F(Approaches, AComparisonSaysWhatItDoesAndIsStoppedAndBegunAgain)
+{
+  saveApproaches();
+  openWindow();
+  QTest::keyClick(&window(), Qt::Key_D, Qt::ControlModifier);
+  ASSERT_TRUE(comparison());
+  const auto heading = [this](int column)
+  { return comparison()->table().horizontalHeaderItem(column)->text(); };
+  EXPECT_EQ(heading(0), "Quantity");
+  EXPECT_EQ(heading(1), "main");
+  auto* cancel = comparison()->findChild<QPushButton*>("cancelComparison");
+  auto* again = comparison()->findChild<QPushButton*>("compareAgain");
+  auto* bar = comparison()->findChild<QProgressBar*>();
+  ASSERT_TRUE(cancel->isVisible());
+  EXPECT_FALSE(again->isVisible());
+  EXPECT_GT(bar->width(), bar->fontMetrics().horizontalAdvance("Comparing, 100 %"));
+  for (ThreeDView* view : comparison()->views())
+    EXPECT_EQ(view->findChild<QLabel*>("guessed")->text(),
+              "Comparing; the picture comes after that");
+  cancel->click();
+  const auto isCompared = [this] { return comparison()->table().rowCount() > 0; };
+  ASSERT_TRUE(waitFor([&] { return again->isVisible() || isCompared(); }));
+  if (again->isVisible()) // else it was faster
+  {
+    EXPECT_FALSE(cancel->isVisible());
+    EXPECT_FALSE(isCompared());
+    again->click();
+    EXPECT_TRUE(cancel->isVisible());
+  }
+  ASSERT_TRUE(waitFor(isCompared));
+  EXPECT_FALSE(cancel->isVisible());
+  EXPECT_FALSE(again->isVisible());
+  for (ThreeDView* view : comparison()->views())
+    EXPECT_FALSE(view->findChild<QLabel*>("guessed")->isVisible());
 }
 
 TEST_F(Approaches, AComparisonFollowsWhatIsUndone)

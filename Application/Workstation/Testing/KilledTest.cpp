@@ -40,7 +40,8 @@ protected:
            m_victim.state() == QProcess::Running;
   }
 
-  // Opens the case and returns the message shown; empty if there is none.
+  // Opens a window as without a case on the command line, and returns the message shown; empty if
+  // there is none.
   QString reopened()
   {
     QString told;
@@ -51,7 +52,7 @@ protected:
           told = box.text();
           box.accept();
         });
-    window().begin("ball");
+    window().begin({});
     EXPECT_TRUE(settled());
     QTest::qWait(100);
     return told;
@@ -98,8 +99,13 @@ TEST_F(Killed, AWindowLosesOnlyWhatItsJournalDoesNotHoldYet)
   ASSERT_TRUE(waitForVictim([&] { return journalled() > before + head; })) << output.toStdString();
   m_victim.kill(); // SIGKILL
   m_victim.waitForFinished();
+  saveBall("saved later");
   const QString told = reopened();
-  EXPECT_TRUE(told.contains("ended without saving")) << told.toStdString();
+  EXPECT_TRUE(told.startsWith("The last session with case 'ball' ended without saving"))
+      << told.toStdString();
+  EXPECT_TRUE(told.endsWith(" came back.")) << told.toStdString();
+  ASSERT_TRUE(window().model().hasCase());
+  EXPECT_EQ(window().model().value().name, "ball") << "not the one that was saved last";
   const auto strokes = library().open("ball").dissection.strokes();
   ASSERT_EQ(strokes.size(), 2u);
   EXPECT_FALSE(strokes[0]->info.recovered);
@@ -112,5 +118,7 @@ TEST_F(Killed, AWindowLosesOnlyWhatItsJournalDoesNotHoldYet)
   EXPECT_EQ(window().model().value().applied(), 1u);
   EXPECT_GT(differentPixels(drilled, picture(), 12), 50);
   closeWindow();
+  saveBall("saved last");
   EXPECT_EQ(reopened(), "");
+  EXPECT_EQ(window().model().value().name, "ball") << "it was open last";
 }

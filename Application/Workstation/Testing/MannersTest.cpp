@@ -14,16 +14,20 @@
 #include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QHeaderView>
+#include <QLabel>
 #include <QLineEdit>
 #include <QPointer>
 #include <QPushButton>
 #include <QScrollBar>
 #include <QTabBar>
 #include <QTextEdit>
+#include <QTranslator>
 #include <QTreeView>
 
 #include "Banner.h"
 #include "EventLoopWatchdog.h"
+#include "Language.h"
+#include "Panels.h"
 #include "StructuresModel.h"
 #include "WindowSettings.h"
 #include "petrous/Imaging/VolumeFile.h"
@@ -173,6 +177,51 @@ protected:
           !widget->toolTip().isEmpty() || (line && !line->placeholderText().isEmpty());
       EXPECT_TRUE(hasTip || !isControl) << described(*widget).toStdString() << " has no tip";
     }
+  }
+  /// Texts that do not fit into their widgets, and widgets that are cut off at a side.
+  static QStringList cutTexts(QWidget& within)
+  {
+    QStringList cut;
+    const auto add = [&cut](const QWidget& widget, const QString& text, int wanted, int has)
+    {
+      cut += QString("“%1” needs %2 px and has %3: %4")
+                 .arg(text)
+                 .arg(wanted)
+                 .arg(has)
+                 .arg(described(widget));
+    };
+    for (QWidget* widget : within.findChildren<QWidget*>())
+    {
+      if (!widget->isVisible() || widget->objectName().startsWith("qt_"))
+        continue;
+      const auto* label = qobject_cast<QLabel*>(widget);
+      const auto* button = qobject_cast<QAbstractButton*>(widget);
+      if (const auto* header = qobject_cast<QHeaderView*>(widget))
+      {
+        for (int n = 0; n < header->count(); ++n)
+          if (const QString text = header->model()->headerData(n, header->orientation()).toString();
+              !header->isSectionHidden(n) && header->orientation() == Qt::Horizontal &&
+              header->fontMetrics().horizontalAdvance(text) > header->sectionSize(n))
+            add(*header, text, header->fontMetrics().horizontalAdvance(text),
+                header->sectionSize(n));
+        continue;
+      }
+      const QString text = label ? label->text() : button ? button->text() : QString();
+      if (text.isEmpty())
+        continue;
+      if (label && label->wordWrap())
+      {
+        if (label->heightForWidth(label->width()) > label->height())
+          add(*label, text, label->heightForWidth(label->width()), label->height());
+      }
+      else if (widget->sizeHint().width() > widget->width())
+        add(*widget, text, widget->sizeHint().width(), widget->width());
+      // What scrolls may be cut off above and below.
+      const QRegion seen = widget->visibleRegion();
+      if (!seen.isEmpty() && seen.boundingRect().width() < widget->width())
+        add(*widget, text, widget->width(), seen.boundingRect().width());
+    }
+    return cut;
   }
   std::vector<QDockWidget*> docks()
   {
@@ -484,6 +533,37 @@ TEST_F(Manners, NoPanelIsLargerThanTheSmallestScreen)
     if (dock->objectName() != "nearbyDock") // stands beside the others
       dock->hide();
   }
+}
+
+TEST_F(Manners, NoTextIsCutOffOnTheSmallestScreenInGerman)
+{
+  if (!hasLanguage("de"))
+    GTEST_SKIP() << "built without lrelease";
+  QTranslator german;
+  ASSERT_TRUE(german.load(":/translations/petrous_de.qm"));
+  QApplication::installTranslator(&german);
+  saveMany("sixty", 24, 3, true);
+  openWindow("sixty");
+  const auto expectWhole = [](QWidget& within, const QString& where)
+  {
+    const QStringList cut = cutTexts(within);
+    EXPECT_TRUE(cut.isEmpty()) << where.toStdString() << ":\n" << cut.join('\n').toStdString();
+  };
+  for (QDockWidget* dock : docks())
+  {
+    dock->show();
+    dock->raise();
+    window().resize(1280, 680);
+    QTest::qWait(50);
+    expectWhole(*dock, dock->objectName());
+    if (dock->objectName() != "nearbyDock") // stands beside the others
+      dock->hide();
+  }
+  for (const char* entry : {"E&xportieren…", "Archi&vieren…", "E&instellungen…"})
+  {
+    Q_UNUSED(entry);
+  }
+  QApplication::removeTranslator(&german);
 }
 
 TEST_F(Manners, TabGoesThroughAllOfAPanel)

@@ -8,10 +8,13 @@
 #include <QDoubleSpinBox>
 #include <QImage>
 #include <QLineEdit>
+#include <QProcess>
 #include <QPushButton>
 #include <QSpinBox>
+#include <QStandardPaths>
 #include <QTreeWidget>
 
+#include "PdfReport.h"
 #include "ShareController.h"
 
 using namespace petrous;
@@ -176,4 +179,42 @@ TEST_F(ShareWindow, ExportsTheObjectThatIsChosen)
       });
   QTest::mouseClick(window().findChild<QPushButton*>("shareArchive"), Qt::LeftButton);
   EXPECT_FALSE(asked) << "the archive's dialog, with the identity report";
+}
+
+// Wherever the page ends, as poppler reads it.
+TEST(PdfReport, HasEachLineOnOnePage)
+{
+  if (QStandardPaths::findExecutable("pdftotext").isEmpty())
+    GTEST_SKIP() << "pdftotext is not installed";
+  for (std::size_t rows = 14; rows < 90; ++rows)
+  {
+    presenters::PlanReport report;
+    report.title = "Operation plan";
+    report.pageOf = "Page %1 of %2";
+    report.colophon = "colophon.";
+    presenters::ReportSection section;
+    section.title = "heading";
+    section.table.columns = {"Stroke"};
+    for (std::size_t n = 0; n < rows; ++n)
+      section.table.rows.push_back({{"row" + std::to_string(n) + "."}});
+    section.remarks = {"begins. Resolved: two voxels or more across at the narrowest of its "
+                       "extents. Of what is thinner, volume and distances say little, and this "
+                       "goes on into the second line, where it ends.",
+                       "another."};
+    report.sections = {section, section};
+    QTemporaryDir folder;
+    QFile file(folder.filePath("plan.pdf"));
+    ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+    file.write(QByteArray::fromStdString(report::pdfOf(report)));
+    file.close();
+    QProcess reader;
+    reader.start("pdftotext", {"-layout", file.fileName(), "-"});
+    ASSERT_TRUE(reader.waitForFinished());
+    const QString text = QString::fromUtf8(reader.readAllStandardOutput());
+    for (const char* word : {"heading", "begins.", "ends.", "another."})
+      EXPECT_EQ(text.count(word), 2) << word << ", " << rows << " rows";
+    EXPECT_EQ(text.count("colophon."), 1) << rows << " rows";
+    for (std::size_t n = 0; n < rows; ++n)
+      EXPECT_EQ(text.count(QString("row%1.").arg(n)), 2) << n << " of " << rows << " rows";
+  }
 }

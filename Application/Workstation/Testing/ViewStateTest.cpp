@@ -7,6 +7,7 @@
 
 #include <QComboBox>
 #include <QDoubleSpinBox>
+#include <QLabel>
 #include <QSlider>
 #include <QSpinBox>
 
@@ -176,6 +177,9 @@ TEST_F(ViewStates, CutsAwayBeforeTheCrosshairUntilAToolIsTakenUp)
   action("Cut away to the crosshair")->trigger();
   const QImage cut = picture();
   EXPECT_GT(differentPixels(whole, cut), 1000);
+  const auto note = [this] { return view().findChild<QLabel*>("guessed"); };
+  EXPECT_EQ(note()->text(), "Cut away for the view, not drilled");
+  EXPECT_TRUE(note()->isVisible());
   ASSERT_EQ(value().view.clipping.planes.size(), 1U);
   EXPECT_EQ(value().view.clipping.planes.front().point, window().model().crosshair());
   EXPECT_TRUE(window().model().unsaved());
@@ -186,6 +190,12 @@ TEST_F(ViewStates, CutsAwayBeforeTheCrosshairUntilAToolIsTakenUp)
   closeWindow();
   openWindow("ball");
   EXPECT_LT(differentPixels(picture(), cut), 50);
+  EXPECT_TRUE(note()->isVisible());
+  QTest::keyClick(&view(), Qt::Key_D); // the tool meets all of the bone
+  EXPECT_TRUE(waitFor([&] { return !note()->isVisible(); }));
+  QTest::keyClick(&view(), Qt::Key_Escape);
+  EXPECT_TRUE(waitFor([&] { return note()->isVisible(); }));
   action("Show what was cut away")->trigger();
+  EXPECT_FALSE(note()->isVisible());
   EXPECT_LT(differentPixels(picture(), whole), 50);
 }

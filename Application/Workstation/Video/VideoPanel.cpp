@@ -11,7 +11,6 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QPushButton>
-#include <QScrollArea>
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QTableWidget>
@@ -20,6 +19,7 @@
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
+#include "PanelLayout.h"
 #include "Theme.h"
 #include "VideoPicture.h"
 #include "WindowTexts.h"
@@ -107,14 +107,7 @@ VideoPanel::VideoPanel(const presenters::WorkstationModel& model, presenters::Vi
   m_fault->setTextFormat(Qt::PlainText);
   m_fault->hide();
 
-  auto* scroll = new QScrollArea; // on a low screen
   auto* whole = new QWidget;
-  scroll->setWidget(whole);
-  scroll->setWidgetResizable(true);
-  scroll->setFrameShape(QFrame::NoFrame);
-  auto* around = new QVBoxLayout(this);
-  around->setContentsMargins(0, 0, 0, 0);
-  around->addWidget(scroll);
   auto* layout = new QVBoxLayout(whole);
   layout->setContentsMargins(10, 8, 10, 8);
   layout->addLayout(top);
@@ -123,6 +116,7 @@ VideoPanel::VideoPanel(const presenters::WorkstationModel& model, presenters::Vi
   layout->addWidget(m_fault);
   addBookmarks(*layout, actions);
   addStill(*layout, actions);
+  layOutPanel(*this, whole, new QWidget);
 
   connect(attach, &QToolButton::clicked, this, &VideoPanel::attachAsked);
   connect(m_videos, qOverload<int>(&QComboBox::activated), this,

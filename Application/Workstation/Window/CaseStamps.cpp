@@ -46,7 +46,7 @@ QString stampText(const presenters::CaseStamp& stamp)
     parts += words(stamp.name);
   parts += sideOfStamp(stamp.side);
   if (!stamp.planned.empty())
-    parts += CaseStamps::tr("planned %1").arg(words(stamp.planned));
+    parts += CaseStamps::tr("planned %1").arg(dateText(stamp.planned));
   return parts.join(QString::fromUtf8(" · "));
 }
 

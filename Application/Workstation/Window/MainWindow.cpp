@@ -103,27 +103,6 @@ QStringList dropped(const QMimeData& data)
   return what;
 }
 
-// Over a picture of the case: which slices repair interpolated.
-void showInterpolated(QWidget& view, const scene::Case& value)
-{
-  constexpr int kMargin = 10;
-  QStringList lines;
-  for (const std::string& line : presenters::interpolatedTexts(value))
-    lines += phrase(line);
-  auto* label = view.findChild<QLabel*>("guessed");
-  if (!label)
-  {
-    label = new QLabel(&view);
-    label->setObjectName("guessed");
-    label->setTextFormat(Qt::PlainText);
-    label->setAttribute(Qt::WA_TransparentForMouseEvents);
-    label->move(kMargin, kMargin);
-  }
-  label->setText(lines.join('\n'));
-  label->adjustSize();
-  label->setVisible(!lines.isEmpty());
-}
-
 // What was assumed or left out when the parts of a case were read, by part.
 QStringList notesOf(const scene::Case& value)
 {
@@ -426,7 +405,7 @@ QDockWidget* MainWindow::addDock(const PanelEntry& entry, Panel* panel)
   auto* dock = new QDockWidget(entry.title, this);
   dock->setObjectName(entry.name);
   dock->setFeatures(QDockWidget::DockWidgetClosable | QDockWidget::DockWidgetMovable);
-  dock->setWidget(panel);
+  dock->setWidget(scrolledPanel(panel));
   addDockWidget(entry.area, dock);
   dock->toggleViewAction()->setShortcut(entry.key);
   m_actions->addPanelToggle(dock->toggleViewAction(), entry.needsCase);
@@ -516,7 +495,8 @@ void MainWindow::connectModel()
   };
   m_model.events.recordingChanged = [this](const std::string& fault)
   { showRecording(phrase(fault)); };
-  m_model.events.noticed = [this](const std::string& text) { notice(phrase(text)); };
+  m_model.events.noticed = [this](const std::string& text)
+  { notice(capitalized(sentence(phrase(text)))); };
   connect(m_registration, &RegistrationController::sceneStale, this,
           [this] { m_model.events.appearanceChanged(); });
   connect(m_slices, &SliceColumn::pointed, m_place,
@@ -880,7 +860,8 @@ void MainWindow::begin(const QString& what)
   if (m_options.isSafe)
     return;
   std::optional<std::string> latest;
-  guarded([&] { latest = m_model.latestCase(); }, [](const QString&) {}); // the first page says why
+  guarded([&] { latest = m_model.latestCase(m_settings->lastCase()); },
+          [](const QString&) {}); // the first page says why
   if (latest)
     m_keeper->open({words(*latest)});
 }
@@ -1001,7 +982,6 @@ void MainWindow::warnOfSides()
 // What was assumed or left out when files were read, until it is acknowledged.
 void MainWindow::notifyNotes()
 {
-  showInterpolated(*m_view, m_model.value());
   const QStringList notes = notesOf(m_model.value());
   QStringList fresh;
   for (const QString& note : notes)
@@ -1051,6 +1031,8 @@ void MainWindow::stateChanged()
   for (const auto& [entry, panel] : m_panels)
     panel->stateChanged();
   const scene::Case& value = m_model.value();
+  if (value.id != m_settings->lastCase())
+    m_settings->keepLastCase(value.id);
   setWindowTitle(
       (m_model.unsaved() || m_model.beingStored() ? QString::fromUtf8("• ") : QString()) +
       words(value.name) + QString::fromUtf8(" — ") + program);
@@ -1074,7 +1056,8 @@ void MainWindow::saveLater()
 // Returns at once: the case is shown behind it.
 void MainWindow::notice(const QString& text)
 {
-  auto* box = new QMessageBox(QMessageBox::Information, tr("Petrous"), text, QMessageBox::Ok, this);
+  auto* box = new QMessageBox(QMessageBox::Information, tr("Note on the case"), text,
+                              QMessageBox::Ok, this);
   box->setAttribute(Qt::WA_DeleteOnClose);
   box->setTextFormat(Qt::PlainText);
   box->open();
@@ -1282,7 +1265,7 @@ void MainWindow::closeEvent(QCloseEvent* event)
     return;
   if (m_model.hasCase())
     for (const auto& [entry, panel] : m_panels)
-      m_settings->keepPanelShown(entry.name, !panel->parentWidget()->isHidden());
+      m_settings->keepPanelShown(entry.name, !findChild<QDockWidget*>(entry.name)->isHidden());
   m_picture->closeSurgeonWindow();
   m_comparison->close();
 }

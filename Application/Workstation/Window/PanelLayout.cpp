@@ -25,6 +25,7 @@ public:
   {
     QSize size = QScrollArea::minimumSizeHint();
     const int inside = widget() ? widget()->minimumSizeHint().width() : 0;
+    verticalScrollBar()->ensurePolished(); // a style may make it wider
     size.setWidth(std::max(kNarrowest, inside + verticalScrollBar()->sizeHint().width()));
     return size;
   }
@@ -38,7 +39,55 @@ public:
   }
 };
 
+QSize roomFor(const QWidget& widget)
+{
+  const QScreen* screen = widget.screen() ? widget.screen() : QGuiApplication::primaryScreen();
+  return screen ? screen->availableSize() : QSize(1920, 1080);
+}
+
+// As large as the panel needs, unless the screen is too small for that: then it scrolls.
+class WholePanel : public QScrollArea
+{
+public:
+  explicit WholePanel(QWidget* panel)
+  {
+    setWidgetResizable(true);
+    setFrameShape(QFrame::NoFrame);
+    setFocusPolicy(Qt::NoFocus);
+    setWidget(panel);
+  }
+
+  QSize minimumSizeHint() const override
+  {
+    const QSize room = roomFor(*this);
+    return least().boundedTo({room.width() / 2, room.height() / 3});
+  }
+
+  QSize sizeHint() const override { return widget()->sizeHint().expandedTo(least()); }
+
+  bool eventFilter(QObject* watched, QEvent* event) override
+  {
+    if (watched == widget() && event->type() == QEvent::LayoutRequest)
+      updateGeometry();
+    return QScrollArea::eventFilter(watched, event);
+  }
+
+private:
+  QSize least() const { return widget()->minimumSizeHint().expandedTo(widget()->minimumSize()); }
+};
+
 } // namespace
+
+QWidget* scrolledPanel(QWidget* panel)
+{
+  return new WholePanel(panel);
+}
+
+QSize leastOfScreen(const QWidget& widget, const QSize& wanted)
+{
+  const QSize room = roomFor(widget);
+  return wanted.boundedTo({2 * room.width() / 5, 2 * room.height() / 5});
+}
 
 void layOutPanel(QWidget& panel, QWidget* inside, QWidget* foot)
 {

@@ -10,6 +10,12 @@ namespace petrous::workstation
 /// below it is always visible. The dock is never narrower than `inside` needs.
 void layOutPanel(QWidget& panel, QWidget* inside, QWidget* foot);
 
+/// What a dock holds: the panel, which scrolls where the screen is too small for it.
+QWidget* scrolledPanel(QWidget* panel);
+
+/// This size, or less on a small screen.
+QSize leastOfScreen(const QWidget& widget, const QSize& wanted);
+
 /// Gives a window or dialog this size, or what fits on the screen: with large type or at 200 % a
 /// screen may have no more than 960 × 540 px.
 void resizeOnScreen(QWidget& window, const QSize& wanted);

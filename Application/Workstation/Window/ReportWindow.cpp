@@ -74,13 +74,15 @@ void showReport(QWidget* parent, const QString& title, const QString& head, cons
   {
     whole->hide();
     save->hide();
-    dialog->resize(460, 120);
   }
   auto* layout = new QVBoxLayout(dialog);
   layout->addWidget(first);
   layout->addWidget(whole, 1);
   layout->addWidget(outcome);
   layout->addWidget(buttons);
+  constexpr int kWidthOfHead = 460; // px
+  if (text.isEmpty())
+    dialog->resize(kWidthOfHead, layout->totalHeightForWidth(kWidthOfHead));
   dialog->show();
 }
 

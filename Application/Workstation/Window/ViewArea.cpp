@@ -5,6 +5,7 @@
 #include <QApplication>
 #include <QMouseEvent>
 
+#include "PanelLayout.h"
 #include "SliceColumn.h"
 #include "SliceView.h"
 #include "ThreeDView.h"
@@ -35,7 +36,7 @@ ViewArea::ViewArea(ThreeDView& view, SliceColumn& slices, QWidget* parent)
   , m_slices(slices)
 {
   setObjectName("viewArea");
-  setMinimumSize(kLeastWidth, kLeastHeight);
+  setMinimumSize(leastOfScreen(*this, {kLeastWidth, kLeastHeight}));
   m_slices.setParent(this);
   m_slices.show();
   m_view.setParent(this); // above the slices' widget, which covers the whole area

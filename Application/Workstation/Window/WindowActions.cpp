@@ -155,22 +155,23 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   m_view = window.menuBar()->addMenu(tr("&View"));
   int number = 1;
   auto* viewMenu = new QMenu(&window);
+  QMenu* standardViews = m_view->addMenu(tr("Sta&ndard views"));
   for (const ViewEntry& entry : kViews)
   {
     QAction* action =
-        make(m_view, tr(entry.name), QKeySequence(QString::number(number++)), tr(entry.tip));
+        make(standardViews, tr(entry.name), QKeySequence(QString::number(number++)), tr(entry.tip));
     connect(action, &QAction::triggered, this,
             [this, view = entry.view] { emit viewChosen(view); });
     m_needCase.push_back(action);
     viewMenu->addAction(action);
   }
-  rollLeft = make(m_view, tr("Roll counterclock&wise"), Qt::Key_Comma,
+  standardViews->addSeparator();
+  rollLeft = make(standardViews, tr("Roll counterclock&wise"), Qt::Key_Comma,
                   tr("Turns the 3D picture about its middle, by 5 degrees"));
-  rollRight = make(m_view, tr("Roll clockwi&se"), Qt::Key_Period,
+  rollRight = make(standardViews, tr("Roll clockwi&se"), Qt::Key_Period,
                    tr("Turns the 3D picture about its middle, by 5 degrees"));
-  m_view->addSeparator();
   QMenu* layoutMenu = addLayouts();
-  m_view->addSeparator();
+  m_layout = layoutMenu->menuAction();
   centerView = make(m_view, tr("&Centre on the crosshair"), Qt::Key_C,
                     tr("The 3D view turns and zooms about the crosshair from now on"));
   boneThickness = make(m_view, {}, Qt::Key_F6, {});
@@ -180,9 +181,10 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   clipOff = make(m_view, tr("Show what was cut &away"), Qt::CTRL + Qt::SHIFT + Qt::Key_C,
                  tr("Also where the case was saved with a part of the picture only"));
   m_view->addSeparator();
-  boneWindow = make(m_view, {}, Qt::Key_B, {});
-  softWindow = make(m_view, {}, Qt::Key_T, {});
-  temporalWindow = make(m_view, tr("Temporal bo&ne window"), Qt::SHIFT + Qt::Key_B,
+  m_greyWindows = m_view->addMenu(tr("Grey &window of the slices"));
+  boneWindow = make(m_greyWindows, {}, Qt::Key_B, {});
+  softWindow = make(m_greyWindows, {}, Qt::Key_T, {});
+  temporalWindow = make(m_greyWindows, tr("Temporal bo&ne window"), Qt::SHIFT + Qt::Key_B,
                         tr("Grey from -800 to 2000 HU"));
   setOnMr(false);
   fitSlices = make(m_view, tr("&Fit slices"), Qt::Key_F, tr("Whole slices again"));
@@ -195,6 +197,7 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
   viewMenu->addMenu(addStereo(quadBuffer));
   viewMenu->addAction(surgeonWindow);
   m_view->addSeparator();
+  m_panels = m_view->addMenu(tr("&Panels"));
 
   QMenu* drill = window.menuBar()->addMenu(tr("&Drill"));
   drill->addAction(drillBar.drillAction());
@@ -366,19 +369,19 @@ QMenu* WindowActions::addStereo(bool quadBuffer)
 
 void WindowActions::addSavedViews(QMenu* menu)
 {
-  m_view->insertMenu(rollLeft, menu);
+  m_view->insertMenu(m_layout, menu);
   m_viewButton->insertMenu(m_viewButton->actions().at(static_cast<int>(std::size(kViews))), menu);
   m_needCase.push_back(menu->menuAction());
 }
 
 void WindowActions::addSliceMenu(QMenu* menu)
 {
-  m_view->insertMenu(boneWindow, menu);
+  m_view->insertMenu(m_greyWindows->menuAction(), menu);
 }
 
 void WindowActions::addPanelToggle(QAction* action, bool needsCase)
 {
-  m_view->addAction(action);
+  m_panels->addAction(action);
   if (needsCase)
     m_needCase.push_back(action);
 }

@@ -97,7 +97,10 @@ private:
   void addSides();
 
   QMenu* m_view = nullptr;
-  QMenu* m_viewButton = nullptr; ///< in the tool bar
+  QMenu* m_panels = nullptr;      ///< in it
+  QMenu* m_greyWindows = nullptr; ///< in it
+  QAction* m_layout = nullptr;    ///< of its menu in it
+  QMenu* m_viewButton = nullptr;  ///< in the tool bar
   std::vector<QAction*> m_needCase;
 };
 

@@ -255,6 +255,18 @@ void WindowSettings::keepTheme(const Theme& theme)
   m_file.setValue("look/font_scale", theme.fontScale);
 }
 
+std::string WindowSettings::lastCase() const
+{
+  return m_file.value("library/last_case").toString().toStdString();
+}
+
+// At once: a program that is killed opens it again.
+void WindowSettings::keepLastCase(const std::string& id)
+{
+  m_file.setValue("library/last_case", QString::fromStdString(id));
+  m_file.sync();
+}
+
 bool WindowSettings::thumbnails() const
 {
   return m_file.value("library/thumbnails").toString() != "off";

@@ -67,6 +67,11 @@ public:
   Theme theme() const;
   void keepTheme(const Theme& theme);
 
+  /// Identifier of the case that was open last (scene::Case::id), which is no patient data; empty:
+  /// none.
+  std::string lastCase() const;
+  void keepLastCase(const std::string& id);
+
   /// Whether thumbnails of cases are drawn in the background.
   bool thumbnails() const;
   void keepThumbnails(bool drawn);

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include <QRegularExpression>
-
+#include <QDate>
 #include <QObject>
+#include <QRegularExpression>
 
 #include "Language.h"
 #include "Theme.h"
@@ -150,6 +150,22 @@ QString windowText(const QString& text)
 QString phrase(const std::string& text)
 {
   return windowText(words(text));
+}
+
+QString dateFormat()
+{
+  return shownLanguage() == "de" ? "dd.MM.yyyy" : "yyyy-MM-dd";
+}
+
+QString dateText(const std::string& iso)
+{
+  const QDate date = QDate::fromString(words(iso), Qt::ISODate);
+  return date.isValid() ? date.toString(dateFormat()) : words(iso);
+}
+
+QString capitalized(const QString& text)
+{
+  return text.left(1).toUpper() + text.mid(1);
 }
 
 QString sentence(const QString& text)

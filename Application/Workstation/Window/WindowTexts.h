@@ -35,6 +35,13 @@ QString windowText(const QString& text);
 /// words().
 QString phrase(const std::string& text);
 
+/// How dates are written: as ISO 8601 writes them, or as the window's language does.
+QString dateFormat();
+/// A date of ISO 8601 so; what is no date stays as it is.
+QString dateText(const std::string& iso);
+
+/// With a capital letter at its beginning.
+QString capitalized(const QString& text);
 /// Adds a full stop if there is none.
 QString sentence(const QString& text);
 

@@ -92,8 +92,11 @@ TEST(Journal, BringsBackStrokesThatWereNotSaved)
   drillLine(value, journal, 6, 4);
 
   Killed killed(library);
+  EXPECT_EQ(killed.library.unrecovered(), std::vector<std::string>{"ear"});
   const scene::Case back = killed.open();
   EXPECT_EQ(voxelsOf(back), voxelsOf(value));
+  EXPECT_EQ(library.unrecovered(), std::vector<std::string>()) << "its program runs";
+  EXPECT_EQ(killed.library.unrecovered(), std::vector<std::string>()) << "it is recovered";
   EXPECT_EQ(back.dissection.strokes().size(), 3u);
   EXPECT_EQ(back.applied(), 2u);
   EXPECT_TRUE(back.dissection.history().find("main~1"));

@@ -63,6 +63,16 @@ void clip(rendering::SceneContents& contents, const scene::ViewState::Clipping& 
     contents.crop = inside;
 }
 
+std::vector<std::string> clippingTexts(const scene::ViewState::Clipping& clipping)
+{
+  std::vector<std::string> lines;
+  if (!clipping.planes.empty())
+    lines.push_back("Cut away for the view, not drilled");
+  if (clipping.crop)
+    lines.push_back("Only a part of the image is shown");
+  return lines;
+}
+
 namespace
 {
 

@@ -21,13 +21,27 @@ WorkstationModel::WorkstationModel(library::Library library)
   listen();
 }
 
-std::optional<std::string> WorkstationModel::latestCase() const
+std::optional<std::string> WorkstationModel::latestCase(const std::string& lastOpened) const
 {
-  std::optional<library::CaseSummary> latest;
-  for (const auto& summary : m_library.list())
-    if (!summary.damaged && (!latest || summary.modified > latest->modified))
-      latest = summary;
-  return latest ? std::optional(latest->name) : std::nullopt;
+  std::vector<library::CaseSummary> cases = m_library.list();
+  cases.erase(std::remove_if(cases.begin(), cases.end(),
+                             [](const auto& summary) { return summary.damaged; }),
+              cases.end());
+  const auto found = [&cases](const auto& isIt) -> std::optional<std::string>
+  {
+    const auto at = std::find_if(cases.begin(), cases.end(), isIt);
+    return at == cases.end() ? std::nullopt : std::optional(at->name);
+  };
+  for (const std::string& killed : m_library.unrecovered())
+    if (const auto name = found([&](const auto& summary) { return summary.name == killed; }))
+      return name;
+  if (!lastOpened.empty())
+    if (const auto name = found([&](const auto& summary) { return summary.id == lastOpened; }))
+      return name;
+  const auto latest =
+      std::max_element(cases.begin(), cases.end(),
+                       [](const auto& a, const auto& b) { return a.modified < b.modified; });
+  return latest == cases.end() ? std::nullopt : std::optional(latest->name);
 }
 
 void WorkstationModel::show(std::unique_ptr<scene::Case> next, bool unsaved)

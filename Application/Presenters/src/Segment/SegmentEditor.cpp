@@ -486,7 +486,7 @@ bool SegmentEditor::hasDraft() const
 
 bool SegmentEditor::isUnsaved() const
 {
-  return m_draft->edited.empty() ? hasDraft() && !(isProposal() && m_draft->name.empty())
+  return m_draft->edited.empty() ? hasDraft() && !isProposal() // a name alone is no work
                                  : !m_draft->undo.empty() || !m_draft->points.empty() ||
                                        (m_preview && m_preview->result);
 }
@@ -642,8 +642,8 @@ void SegmentEditor::setTool(Tool tool)
   m_tool = tool;
   dropPreview();
   followShown();
-  if (tool == Tool::Threshold && ((m_values.lower == 0.0 && m_values.upper == 0.0) ||
-                                  std::exchange(m_proposesAgain, false)))
+  if (tool == Tool::Threshold &&
+      ((m_values.lower == 0.0 && m_values.upper == 0.0) || std::exchange(m_proposesAgain, false)))
     m_proposeDue = true;
   if (needsPreview())
     outdate();

@@ -225,6 +225,13 @@ private:
     return reportText(m_options.language, english);
   }
 
+  std::string number(double value, int decimals) const
+  {
+    return reportNumber(m_options.language, core::fixedText(value, decimals));
+  }
+
+  std::string date(const std::string& iso) const { return reportDate(m_options.language, iso); }
+
   ReportSection& section(const char* id, const std::string& title)
   {
     ReportSection next;
@@ -292,7 +299,7 @@ private:
     m_report.stamp = m_report.name + "  ·  " + m_report.side;
     m_report.colophon =
         "Petrous" + (m_options.version.empty() ? "" : " " + m_options.version) +
-        (m_options.made.empty() ? "" : ", " + m_options.made) + ". " +
+        (m_options.made.empty() ? "" : ", " + date(m_options.made)) + ". " +
         say("A plan, not a measurement of the patient: distances hold as far as the images and "
             "their registration do.");
     const auto fact = [this](const char* name, const std::string& text)
@@ -304,8 +311,8 @@ private:
     fact("Side", sideName());
     if (m_options.withDate && !description.date.empty())
     {
-      fact("Planned for", description.date);
-      m_report.stamp += "  ·  " + description.date;
+      fact("Planned for", date(description.date));
+      m_report.stamp += "  ·  " + date(description.date);
       m_report.mayIdentify.emplace_back("the date of the planned operation: who has the list of "
                                         "that day's operations knows the patient by it");
     }
@@ -316,7 +323,7 @@ private:
                       " x " + std::to_string(grid.dims()[1]) + " x " +
                       std::to_string(grid.dims()[2]) + ", " + voxelText(grid.spacing()));
     fact("Approach", m_approach);
-    fact("Report of", m_options.made);
+    fact("Report of", date(m_options.made));
     if (m_options.keepIdentity)
     {
       fact("Note", m_value.description.note);
@@ -324,15 +331,15 @@ private:
     }
   }
 
-  static std::string voxelText(const Vector3d& spacing)
+  std::string voxelText(const Vector3d& spacing) const
   {
-    return core::fixedText(spacing[0], 2) + " x " + core::fixedText(spacing[1], 2) + " x " +
-           core::fixedText(spacing[2], 2) + " mm";
+    return number(spacing[0], 2) + " x " + number(spacing[1], 2) + " x " + number(spacing[2], 2) +
+           " mm";
   }
 
   std::string textOf(const Quantity& quantity) const
   {
-    std::string text = toString(quantity);
+    std::string text = reportNumber(m_options.language, toString(quantity));
     for (const char* english : {"uncertainty unknown", "unknown"})
     {
       const std::string tail = english;
@@ -353,18 +360,19 @@ private:
     return cell;
   }
 
-  static ReportCell numberCell(double value, int decimals, const std::string& unit)
+  ReportCell numberCell(double value, int decimals, const std::string& unit) const
   {
     ReportCell cell;
-    cell.text = core::fixedText(value, decimals) + (unit.empty() ? "" : " " + unit);
+    cell.text = number(value, decimals) + (unit.empty() ? "" : " " + unit);
     cell.value = value;
     cell.isNumber = true;
     return cell;
   }
 
-  static std::string volumeText(double volume)
+  std::string volumeText(double volume) const
   {
-    return volume > 0.0 && volume < 0.005 ? "< 0.01 mm³" : core::fixedText(volume, 2) + " mm³";
+    return volume > 0.0 && volume < 0.005 ? "< " + number(0.01, 2) + " mm³"
+                                          : number(volume, 2) + " mm³";
   }
 
   static ReportCell textCell(std::string text)
@@ -505,10 +513,16 @@ private:
         scene.setContents(contents);
         rendering::Picture picture = rendering::renderTiled(scene, camera, width, height, part);
         const double magnified = width / 600.0;
-        addLines(picture, {say(sideText(m_value.description.side))}, magnified);
+        std::vector<std::string> lines{say(sideText(m_value.description.side))};
+        for (const std::string& line : clippingTexts(clipping))
+          lines.push_back(say(line));
+        addLines(picture, lines, magnified);
         addScaleBar(picture, rendering::millimetresPerPixel(camera, height),
                     camera.parallelScale ? "" : say("in the focal plane"), magnified);
-        views.pictures.push_back({caption, rendering::pngOf(picture), width, height, 2});
+        std::string text = caption;
+        for (std::size_t n = 1; n < lines.size(); ++n)
+          text += " (" + lines[n] + ")";
+        views.pictures.push_back({text, rendering::pngOf(picture), width, height, 2});
       };
       add(say("3D view as saved"), currentCamera(m_value), m_value.view.clipping,
           progress.part(0.4, 0.7));
@@ -689,10 +703,9 @@ private:
         break;
       }
       const dissection::StrokeInfo& info = m_value.dissection.strokes()[n]->info;
-      ReportCell number = numberCell(static_cast<double>(n + 1), 0, "");
       table.table.rows.push_back(
-          {number,
-           textCell(core::fixedText(info.burr.diameter, 1) + " mm, " +
+          {numberCell(static_cast<double>(n + 1), 0, ""),
+           textCell(number(info.burr.diameter, 1) + " mm, " +
                     say(dissection::nameOf(info.burr.kind))),
            numberCell(info.burr.rpm, 0, "/min"), numberCell(info.duration, 1, "s"),
            numberCell(info.removed, 2, "mm³"), textCell(touchedText(info.structures))});
@@ -768,7 +781,7 @@ private:
       row.push_back(narrowest ? cellOf(*narrowest) : textCell(say("unknown")));
       row.push_back(numberCell(voxel.maxCoeff(), 2, "mm"));
       if (voxel.minCoeff() < voxel.maxCoeff() - 0.005)
-        row.back().text = core::fixedText(voxel.minCoeff(), 2) + "–" + row.back().text;
+        row.back().text = number(voxel.minCoeff(), 2) + "–" + row.back().text;
       const bool isResolved = narrowest && *narrowest->value >= 2.0 * voxel.maxCoeff();
       row.push_back(textCell(say(isResolved ? "yes" : "no")));
       row.back().isWarning = !isResolved;
@@ -846,11 +859,10 @@ private:
                              volume::toString(provenance.interpolated), std::to_string(slices)));
     if (provenance.tilt != 0.0)
       texts.push_back(filled(say("gantry tilt of %1 degrees undone, slices shifted by up to %2 mm"),
-                             core::fixedText(provenance.tilt, 1),
-                             core::fixedText(provenance.shift, 1)));
+                             number(provenance.tilt, 1), number(provenance.shift, 1)));
     else if (provenance.shift != 0.0)
-      texts.push_back(filled(say("slices shifted sideways by up to %1 mm"),
-                             core::fixedText(provenance.shift, 2)));
+      texts.push_back(
+          filled(say("slices shifted sideways by up to %1 mm"), number(provenance.shift, 2)));
     if (provenance.isFaceMasked)
       texts.push_back(say(provenance.areEarsMasked ? "face and auricles masked" : "face masked"));
     if (provenance.isCropped)
@@ -860,7 +872,7 @@ private:
     if (provenance.pixels.isLossy)
       texts.push_back(say("compressed with loss") +
                       (provenance.pixels.lossyRatio
-                           ? " (1/" + core::fixedText(*provenance.pixels.lossyRatio, 1) + ")"
+                           ? " (1/" + number(*provenance.pixels.lossyRatio, 1) + ")"
                            : ""));
     if (provenance.pixels.burnedIn != volume::BurnedInText::None)
       texts.push_back(say(provenance.pixels.burnedIn == volume::BurnedInText::Stated

@@ -1,6 +1,8 @@
 #include "ReportWords.h"
 
+#include <algorithm>
 #include <map>
+#include <string_view>
 
 #include "petrous/Presenters/Phrasebook.h"
 
@@ -34,6 +36,8 @@ const std::map<std::string, std::string>& germanTexts()
        "Registrierung gelten."},
       {"Views", "Ansichten"},
       {"3D view as saved", "3D-Ansicht wie gespeichert"},
+      {"Cut away for the view, not drilled", "Für die Ansicht weggeschnitten, nicht gebohrt"},
+      {"Only a part of the image is shown", "Nur ein Teil des Bildes wird gezeigt"},
       {"Surgical position, left ear", "Operationslage, linkes Ohr"},
       {"Surgical position, right ear", "Operationslage, rechtes Ohr"},
       {"Surgical position; the side is taken from where the image lies",
@@ -189,6 +193,28 @@ std::string reportText(ReportLanguage language, const std::string& english)
     return english;
   const auto found = germanTexts().find(english);
   return found == germanTexts().end() ? germanPhrases().text(english) : found->second;
+}
+
+std::string reportNumber(ReportLanguage language, std::string text)
+{
+  const auto isDigit = [&text](std::size_t at)
+  { return at < text.size() && text[at] >= '0' && text[at] <= '9'; };
+  if (language == ReportLanguage::German)
+    for (std::size_t at = 1; at < text.size(); ++at)
+      if (text[at] == '.' && isDigit(at - 1) && isDigit(at + 1))
+        text[at] = ',';
+  return text;
+}
+
+std::string reportDate(ReportLanguage language, const std::string& date)
+{
+  constexpr std::string_view kForm = "dddd-dd-dd";
+  const auto fits = [](char form, char c)
+  { return form == 'd' ? c >= '0' && c <= '9' : c == form; };
+  if (language == ReportLanguage::English || date.size() != kForm.size() ||
+      !std::equal(kForm.begin(), kForm.end(), date.begin(), fits))
+    return date;
+  return date.substr(8, 2) + "." + date.substr(5, 2) + "." + date.substr(0, 4);
 }
 
 } // namespace petrous::presenters

@@ -131,6 +131,30 @@ bool isDrilled(const fs::path& library, const std::string& name)
 
 } // namespace
 
+std::vector<std::string> Library::unrecovered() const
+{
+  constexpr std::string_view kEnding = ".journal";
+  std::vector<std::pair<fs::file_time_type, std::string>> found;
+  std::error_code error;
+  for (fs::directory_iterator entry(m_folder / "cases", error), end; !error && entry != end;
+       entry.increment(error))
+  {
+    const std::string file = entry->path().filename().string();
+    if (entry->path().extension() != kEnding)
+      continue;
+    const std::string name = file.substr(0, file.size() - kEnding.size());
+    std::error_code unknown;
+    const auto written = fs::last_write_time(entry->path(), unknown);
+    if (!unknown && fs::exists(manifestPath(name), unknown) && !isDrilled(m_folder, name))
+      found.emplace_back(written, name);
+  }
+  std::sort(found.rbegin(), found.rend());
+  std::vector<std::string> names;
+  for (auto& [written, name] : found)
+    names.push_back(std::move(name));
+  return names;
+}
+
 void Library::refuseWhereDrilled(const std::string& name) const
 {
   if (isDrilled(m_folder, name))

@@ -25,6 +25,9 @@ core::CameraPose currentCamera(const scene::Case& value);
 void clip(rendering::SceneContents& contents, const scene::ViewState::Clipping& clipping,
           const core::GridGeometry& grid);
 
+/// What a picture that is clipped so must say, or what is not shown is taken for drilled.
+std::vector<std::string> clippingTexts(const scene::ViewState::Clipping& clipping);
+
 /// The case as its thumbnail shows it, without a face: bone and structures, in their own colours.
 /// The surface is not below that of bone (less 100 HU), and the bone's transfer function is a
 /// preset's, so that no skin shows; an MR as primary image is not shown at all, since it has no

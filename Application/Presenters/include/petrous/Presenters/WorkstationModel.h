@@ -112,8 +112,9 @@ public:
     return *m_case;
   }
 
-  /// The most recently saved case; none in an empty library.
-  std::optional<std::string> latestCase() const;
+  /// The case to begin with: the one with drilling that a program which was killed did not save,
+  /// else `lastOpened` (Case::id), else the most recently saved one; none in an empty library.
+  std::optional<std::string> latestCase(const std::string& lastOpened = {}) const;
 
   /// Opens a case of the library; on an exception the present one stays.
   void open(const std::string& name);

@@ -199,6 +199,10 @@ public:
   /// DiskFull, Unwritable) and ManifestError.
   void setThumbnail(const std::string& name, const std::vector<std::uint8_t>& png);
 
+  /// Cases with drilling that a program which was killed did not save, and `open` brings back: the
+  /// one drilled last first.
+  std::vector<std::string> unrecovered() const;
+
   /// Throws LibraryError (Conflict) if another process is drilling in the case.
   void refuseWhereDrilled(const std::string& name) const;
 

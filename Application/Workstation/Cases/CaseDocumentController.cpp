@@ -1261,7 +1261,9 @@ std::optional<double> CaseDocumentController::askUnit(const fs::path& path,
                             "follows this answer. Export the file again with its unit if you do "
                             "not know it."));
   std::vector<std::pair<const QAbstractButton*, double>> units;
-  for (const double unit : doubt.likely)
+  std::vector<double> choices = doubt.likely;
+  choices.push_back(doubt.unit); // a phantom may be of any size
+  for (const double unit : choices)
     units.emplace_back(box.addButton(tr("In %1: %2 mm long")
                                          .arg(words(presenters::unitName(unit)))
                                          .arg(doubt.edge * unit / doubt.unit, 0, 'g', 3),

@@ -353,6 +353,9 @@ TEST(ImageFile, AsksForTheUnitWhereTheSizeMakesNoSense)
     const LoadedImage image = readImageFile(one.path, {}, {}, {}, 0, one.real);
     EXPECT_TRUE(core::sameGrid(image.volume->geometry(), truth, 1e-4));
     EXPECT_TRUE(noted(image, "as asked"));
+    // Nothing is scaled without being asked: the library's own files are read so, too.
+    const core::GridGeometry asStated = readImageFile(one.path).volume->geometry();
+    EXPECT_TRUE(asStated.spacing().isApprox(one.stated / one.real * truth.spacing(), 1e-6));
     // The grid of the image of which they are settles it for labels.
     const LoadedLabels alone = loadLabels(one.path);
     EXPECT_FALSE(alone.unitDoubt.likely.empty());

@@ -107,6 +107,8 @@ TEST(OpenMark, NeverStandsInTheWay)
   std::ofstream(folder.path() / "open/abc.broken") << "{ no JSON";
   std::filesystem::create_directory(folder.path() / "open/abc.folder");
   EXPECT_TRUE(openersOf(folder.path(), "abc").empty());
+  removeStaleMarks(folder.path());
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "open/abc.broken")) << "it is no mark";
   const OpenMark unsaved(folder.path(), "");
   EXPECT_TRUE(openersOf(folder.path(), "").empty());
 }

@@ -135,6 +135,7 @@ public:
       if (error.reason() != DicomError::Reason::BitsUnclear)
         throw;
       failUndeclared();
+      throw; // the file was changed meanwhile
     }
   }
 
@@ -232,7 +233,9 @@ private:
       if (k >= m_box.lower[2] && k < m_box.upper[2])
         continue; // read already
       m_progress.check("reading slices");
-      decodePixels(sliceOf(n), pixels, m_undeclared);
+      // What lies outside of the box tells signs alone.
+      decodePixels(sliceOf(n), pixels,
+                   m_undeclared == UndeclaredBits::Refuse ? UndeclaredBits::LeaveOut : m_undeclared);
       copies = pixels.signs.any ? n : copies;
     }
     const SliceHeader& slice = sliceOf(bare);
@@ -264,7 +267,7 @@ private:
   }
 
   /// What leaving the bits out gives and what keeping them does, for the user to choose.
-  [[noreturn]] void failUndeclared()
+  void failUndeclared()
   {
     Span left;
     Span kept;
@@ -283,7 +286,7 @@ private:
       decodePixels(slice, without, UndeclaredBits::LeaveOut);
       if (without.undeclared == 0)
         continue;
-      canKeep = canKeep && slice.pixels.highBit + 1 == slice.pixels.bitsStored;
+      canKeep = canKeep && without.canKeep;
       if (canKeep)
         decodePixels(slice, with, UndeclaredBits::Keep);
       first = first ? first : &slice;
@@ -306,6 +309,8 @@ private:
             }
       }
     }
+    if (!first)
+      return;
     const std::string choice =
         canKeep && !left.empty()
             ? "Left out, as DICOM says of bits that are not stored (--bits stored), the values "

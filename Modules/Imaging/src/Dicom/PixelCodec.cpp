@@ -299,9 +299,13 @@ void unpackWithin(const SliceHeader& slice, bool swap, StoredPixels& pixels,
   if (pixels.undeclared > 0 && undeclared == UndeclaredBits::Refuse)
     throw DicomError(DicomError::Reason::BitsUnclear,
                      bitsStoredText(slice, pixels.undeclared) + kExportBits);
+  // Bits below the value are none of it, and negative values without copies of their sign would
+  // become positive.
+  pixels.canKeep = format.highBit + 1 == format.bitsStored &&
+                   (!format.isSigned || outside.signs.any || outside.signs.none == 0);
   if (pixels.undeclared > 0 && undeclared == UndeclaredBits::Keep)
   {
-    if (format.highBit + 1 != format.bitsStored) // the bits below are of no value
+    if (!pixels.canKeep)
       throw DicomError(DicomError::Reason::Unreadable,
                        bitsStoredText(slice, pixels.undeclared) + kExportBits);
     unpackCells(slice, format.bitsAllocated,

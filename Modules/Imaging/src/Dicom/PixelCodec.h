@@ -26,6 +26,7 @@ struct StoredPixels
   std::vector<unsigned char> scratch;
   SignCopies signs;
   std::size_t undeclared = 0; ///< pixels with bits that UndeclaredBits is about
+  bool canKeep = false;       ///< UndeclaredBits::Keep, where there are such
 
   bool isReal() const noexcept { return !reals.empty(); }
   std::size_t size() const noexcept { return isReal() ? reals.size() : values.size(); }

@@ -125,9 +125,10 @@ bool isPlausibleSize(const std::vector<std::uint64_t>& dims, const Eigen::Matrix
   constexpr double kFinest = 0.01;    // mm; a tiny file of ordinary voxels is a test or a cut-out
   constexpr double kLargest = 1500.0; // mm
   constexpr double kCoarse = 4.5;     // mm; whole bodies are scanned in finer or as coarse voxels
+  constexpr double kTallest = 2500.0; // mm, of whatever voxels
   const double longest = longestEdge(dims, linear);
   const auto voxel = linear.colwise().norm();
-  return !(longest < kSmallest && voxel.maxCoeff() < kFinest) &&
+  return longest <= kTallest && !(longest < kSmallest && voxel.maxCoeff() < kFinest) &&
          !(longest > kLargest && voxel.minCoeff() > kCoarse);
 }
 

@@ -174,29 +174,26 @@ void VoxelSource::openNifti()
     m_assumedRas = true;
 }
 
-/// Places the voxels; in the likeliest unit, where that of the file makes no sense.
+/// Places the voxels in the file's unit, whether or not that makes sense.
 void VoxelSource::place(const Eigen::Matrix3d& linear, const Eigen::Vector3d& origin,
                         const LengthUnit& unit)
 {
   constexpr double kUnits[] = {1.0, 1e-3, 1e3, 10.0}; // mm
   m_unit = unit.mm;
+  m_geometry = m_stated = gridFromAffine(m_path, m_dims, linear, origin, m_notes);
   if (m_dims.size() >= 3 && linear.allFinite() && !isPlausibleSize(m_dims, linear))
   {
     m_unitDoubt = {unit.mm, unit.isStated, longestEdge(m_dims, linear), {}};
     for (const double other : kUnits)
       if (other != unit.mm && isPlausibleSize(m_dims, other / unit.mm * linear))
         m_unitDoubt.likely.push_back(other);
-    if (!m_unitDoubt.likely.empty())
-      m_unit = m_unitDoubt.likely.front();
   }
-  const double scale = m_unit / unit.mm;
-  m_geometry = gridFromAffine(m_path, m_dims, scale * linear, scale * origin, m_notes);
 }
 
 void VoxelSource::scaleTo(double unit)
 {
-  const core::GridGeometry& grid = *m_geometry;
-  const double scale = unit / std::exchange(m_unit, unit);
+  const core::GridGeometry& grid = *m_stated;
+  const double scale = unit / m_unit;
   m_geometry = core::GridGeometry(grid.dims(), scale * grid.spacing(), scale * grid.origin(),
                                   grid.direction());
 }
@@ -204,31 +201,29 @@ void VoxelSource::scaleTo(double unit)
 bool VoxelSource::settleUnit(const std::optional<double>& unit,
                              const std::vector<ImageGrid>& images)
 {
-  const auto note = [this](const char* why)
+  const auto settle = [this](double taken, const char* why)
   {
-    m_notes.push_back("was taken in a unit of length of " + core::generalText(m_unit) + " mm" +
-                      why);
+    m_notes.push_back("was taken in a unit of length of " + core::generalText(taken) + " mm" + why);
     m_unitDoubt = {};
+    return true;
   };
   if (unit)
   {
     scaleTo(*unit);
-    note(", as asked");
-    return true;
+    return settle(*unit, ", as asked");
   }
   if (m_unitDoubt.likely.empty() || images.empty())
     return m_unitDoubt.likely.empty();
-  for (const double likely : std::vector<double>(m_unitDoubt.likely))
+  std::vector<double> units = {m_unit};
+  units.insert(units.end(), m_unitDoubt.likely.begin(), m_unitDoubt.likely.end());
+  for (const double one : units)
   {
-    scaleTo(likely);
+    scaleTo(one);
     if (std::any_of(images.begin(), images.end(),
                     [this](const ImageGrid& grid) { return core::sameGrid(grid, *m_geometry); }))
-    {
-      note(", as its grid is then that of an image of the case");
-      return true;
-    }
+      return settle(one, ", as its grid is then that of an image of the case");
   }
-  scaleTo(m_unitDoubt.likely.front());
+  m_geometry = m_stated;
   return false;
 }
 

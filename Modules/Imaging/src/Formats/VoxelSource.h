@@ -103,7 +103,8 @@ private:
   std::size_t m_listed = 1;            ///< volumes whose voxels are interleaved, if one is selected
   double m_slope = 0.0;                ///< 0: no rescaling
   double m_intercept = 0.0;
-  double m_unit = 1.0; ///< mm, in which the geometry was taken
+  double m_unit = 1.0; ///< mm, of the file
+  std::optional<core::GridGeometry> m_stated; ///< in that unit
   UnitDoubt m_unitDoubt;
   std::optional<bool> m_assumedRas;
   std::optional<double> m_padding;

@@ -41,15 +41,21 @@ bool isIn(const fs::path& path, int descriptor)
          opened.st_ino == found.st_ino && opened.st_dev == found.st_dev;
 }
 
-Opener openerIn(int descriptor)
+// nullopt: it is no mark, but some file that lies there. One that was not written is one.
+std::optional<Opener> openerIn(int descriptor)
 {
   Opener opener;
+  struct stat status = {};
+  if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode))
+    return std::nullopt;
   std::string text(kLongest, '\0');
   const ssize_t got = ::pread(descriptor, text.data(), text.size(), 0);
   text.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
+  if (text.empty())
+    return opener;
   const nlohmann::json mark = nlohmann::json::parse(text, nullptr, false);
   if (!mark.is_object())
-    return opener;
+    return std::nullopt;
   if (const auto process = mark.find("process"); process != mark.end() && process->is_number())
     opener.process = process->get<long>();
   if (const auto computer = mark.find("computer"); computer != mark.end() && computer->is_string())
@@ -60,20 +66,28 @@ Opener openerIn(int descriptor)
 // Who has this mark; nullopt, and it is gone, if he was killed.
 std::optional<Opener> openerAt(const fs::path& path)
 {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  constexpr int flags = O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
+  int descriptor = ::open(path.c_str(), O_RDWR | flags); // NFS locks only what can be written
+  if (descriptor < 0)
+    descriptor = ::open(path.c_str(), O_RDONLY | flags);
   if (descriptor < 0)
     return std::nullopt;
+  std::optional<Opener> opener = openerIn(descriptor);
+  if (!opener)
+  {
+    ::close(descriptor);
+    return std::nullopt;
+  }
   const bool isLocked = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
   const int error = isLocked ? 0 : errno;
-  Opener opener = openerIn(descriptor);
   // Where a file system has no locks, a process of this computer can still be asked for.
   const bool isGone =
-      isLocked || (error != EWOULDBLOCK && opener.computer == thisComputer() &&
-                   ::kill(static_cast<pid_t>(opener.process), 0) != 0 && errno == ESRCH);
+      isLocked || (error != EWOULDBLOCK && opener->computer == thisComputer() &&
+                   ::kill(static_cast<pid_t>(opener->process), 0) != 0 && errno == ESRCH);
   if (isGone && isIn(path, descriptor))
     ::unlink(path.c_str());
   ::close(descriptor);
-  return isGone ? std::nullopt : std::optional(std::move(opener));
+  return isGone ? std::nullopt : opener;
 }
 
 std::vector<fs::path> marksIn(const fs::path& library, const std::string& start)

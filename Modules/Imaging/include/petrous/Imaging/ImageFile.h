@@ -40,8 +40,8 @@ struct LoadedImage
 /// int16, uint16 and float are kept; 8-bit integers become int16; wider types become int16 or
 /// uint16 if all values are integral and fit, else float. With `roi`, only the smallest voxel box
 /// whose hull covers it is kept. Positions are converted to patient LPS mm by the unit of length
-/// that the file states, or `unit` (mm); one that is not stated is taken as mm and noted, and where
-/// there is a doubt (unitDoubtOf) the likeliest is taken. Of a file that leaves open which side of
+/// that the file states, or `unit` (mm); one that is not stated is taken as mm and noted; a
+/// doubtful one (unitDoubtOf) is taken all the same. Of a file that leaves open which side of
 /// the patient is left (NIfTI without qform and sform, NRRD without a patient's 'space', MetaImage
 /// without TransformMatrix) `isRas` says how its axes count. Of a file of several volumes (a fourth
 /// axis; of a NRRD also a first one of kind "list" or "time") `volume` is the number of the one

@@ -3654,8 +3654,8 @@
         <translation>gibt Ort oder Werte zweimal an, für alle Bilder und für eines, und sie sind verschieden</translation>
     </message>
     <message>
-        <source>says that its pixels lie on no straight grid (Volumetric Properties), as of a curved reformat</source>
-        <translation>sagt, dass ihre Pixel auf keinem geraden Gitter liegen (Volumetric Properties), wie bei einer gekrümmten Rekonstruktion</translation>
+        <source>is a curved reformat (Volume Based Calculation Technique), whose pixels lie on no straight grid</source>
+        <translation>ist eine gekrümmte Rekonstruktion (Volume Based Calculation Technique), deren Pixel auf keinem geraden Gitter liegen</translation>
     </message>
     <message>
         <source>is cut short or damaged</source>

@@ -422,11 +422,11 @@ void readFrames(DicomElements& elements, FileHeader& header, bool isMap)
     for (const Tag tag : {0x00200032U, 0x00200037U, 0x00280030U, 0x00281052U, 0x00281053U})
       if (elements.contradictsShared(tag))
         slice.damage = "states place or values twice, for all frames and for one, and they differ";
-    // Volumetric Properties, Volume Based Calculation Technique: a curved reformat, say.
-    if (elements.text(0x00089206) == "DISTORTED" || elements.text(0x00089207) == "CURVED_MPR")
+    // Not Volumetric Properties: Siemens calls echo-planar MR that lies on a grid DISTORTED.
+    if (elements.text(0x00089207) == "CURVED_MPR") // Volume Based Calculation Technique
       slice.damage =
-          "says that its pixels lie on no straight grid (Volumetric Properties), as of a "
-          "curved reformat";
+          "is a curved reformat (Volume Based Calculation Technique), whose pixels lie on "
+          "no straight grid";
     if (const auto type = elements.words(0x00089007); !type.empty())
       slice.imageType = type;
     if (const auto acquisition = elements.integer(0x00209156))

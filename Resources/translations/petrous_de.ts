@@ -5042,6 +5042,10 @@ Verletzt: %1, %2</translation>
         <source>Case “%1”, there of the patient %2</source>
         <translation>Fall „%1“, dort vom Patienten %2</translation>
     </message>
+    <message>
+        <source>Study %1</source>
+        <translation>Studie %1</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::RegionDialog</name>

@@ -239,6 +239,7 @@ void ReceiveDialog::show(const presenters::FoundStudies& found)
         QStringList{who, words(study.patientId), dayText(study.date), words(study.description),
                     words(study.modalities).replace('\\', ", "), countText(study.instances)});
     item->setData(0, kUid, words(study.uid));
+    item->setToolTip(0, tr("Study %1").arg(words(study.uid))); // as who sent it was told
     item->setChildIndicatorPolicy(QTreeWidgetItem::ShowIndicator);
     item->setFlags(item->flags() & ~Qt::ItemIsUserCheckable);
     items += item;

@@ -35,7 +35,7 @@ struct ArchiveOptions
   /// restored where the very same CT is.
   bool planOnly = false;
   /// Of the images' compression, 1 (fast) to 12 (small). nullopt: level 1 and, for every third
-  /// piece, 4: together not larger than gzip -6 makes them.
+  /// piece, 4: together about as large as by gzip -6.
   std::optional<int> level = {};
   bool withoutNotes = false; ///< Description::note stays here
   /// Dates, times (of the operation, attachments and strokes) and who signed registrations go

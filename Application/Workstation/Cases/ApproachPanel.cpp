@@ -5,6 +5,7 @@
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
+#include <QPainter>
 #include <QScopedValueRollback>
 #include <QScrollBar>
 #include <QSignalBlocker>
@@ -49,6 +50,17 @@ QString burrText(const dissection::Burr& burr)
       .arg(numberText(burr.diameter, 1), burr.kind == dissection::Burr::Kind::Diamond
                                              ? ApproachPanel::tr("diamond")
                                              : ApproachPanel::tr("cutting"));
+}
+
+// In place of a picture that is not drawn yet: nothing that could be taken for one.
+QPixmap waitingPicture(const QSize& size, const QPalette& palette)
+{
+  QPixmap picture(size);
+  picture.fill(palette.color(QPalette::AlternateBase));
+  QPainter painter(&picture);
+  painter.setPen(palette.color(QPalette::Disabled, QPalette::WindowText));
+  painter.drawText(picture.rect(), Qt::AlignCenter, QString::fromUtf8("…"));
+  return picture;
 }
 
 QString injuryText(const dissection::StrokeInfo& info)
@@ -243,10 +255,9 @@ void ApproachPanel::add(QTreeWidgetItem* above, const ApproachNode& node)
   }
   if (node.kind != Kind::Approach)
   {
-    QPixmap empty(m_tree->iconSize());
-    empty.fill(QColor(16, 19, 23));
     const QImage drawn = m_thumbnails.of(node.state);
-    item->setIcon(Stroke, drawn.isNull() ? empty : QPixmap::fromImage(drawn));
+    item->setIcon(Stroke, drawn.isNull() ? waitingPicture(m_tree->iconSize(), palette())
+                                         : QPixmap::fromImage(drawn));
     if (!node.applied)
       for (int column = 0; column < Columns; ++column)
         item->setForeground(column, palette().color(QPalette::Disabled, QPalette::WindowText));

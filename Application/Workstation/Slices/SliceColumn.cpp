@@ -6,6 +6,7 @@
 #include "Theme.h"
 #include "WindowTexts.h"
 #include "petrous/Presenters/IntensityDisplay.h"
+#include "petrous/Volume/TissueExtent.h"
 
 namespace petrous::workstation
 {
@@ -74,6 +75,31 @@ void SliceColumn::caseChanged()
   boneWindow();
   appearanceChanged();
   crosshairMoved();
+  frameTissue();
+}
+
+// Of a head in a wide reconstruction the slices begin with the head. What is not calibrated has no
+// value of air. Apart, as all of the image is read.
+void SliceColumn::frameTissue()
+{
+  constexpr double kAir = -500.0;     // HU, above
+  constexpr double kOutliers = 0.025; // the ends of a table, beside the head
+  m_framing.abandon();
+  const scene::Case& value = m_model.value();
+  if (value.view.slices || !presenters::displayOf(value).hounsfield)
+    return;
+  m_framing.replace(
+      [this, volume = value.ct.volume.get(),
+       crosshair = m_model.crosshair()](const core::Progress&) -> BackgroundWork::Reply
+      {
+        core::PatientBox box = volume::tissueBox(*volume, kAir, kOutliers);
+        box.extend(crosshair);
+        return [this, box]
+        {
+          for (SliceView* view : m_views)
+            view->frame(box);
+        };
+      });
 }
 
 void SliceColumn::appearanceChanged()
@@ -98,6 +124,7 @@ void SliceColumn::appearanceChanged()
 
 void SliceColumn::clear()
 {
+  m_framing.abandon();
   m_presenter.reset();
   for (SliceView* view : m_views)
     view->setPresenter(nullptr, {});

@@ -8,6 +8,7 @@
 
 #include <QWidget>
 
+#include "BackgroundWork.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Presenters/SlicePlanes.h"
 #include "petrous/Presenters/SlicePresenter.h"
@@ -105,6 +106,7 @@ signals:
   void handleReleased();
 
 private:
+  void frameTissue();
   void setGreyWindow(const presenters::GreyWindow& window);
   void showReadout();
   void passTool();
@@ -124,6 +126,7 @@ private:
   bool m_isZoomTogether = false;
   std::string m_suggestedOf; ///< the MR of which m_suggested is the window at first
   presenters::GreyWindow m_suggested;
+  BackgroundWork m_framing;
 };
 
 } // namespace petrous::workstation

@@ -74,6 +74,25 @@ void SliceView::fit()
   stale();
 }
 
+void SliceView::frame(const core::PatientBox& box)
+{
+  constexpr double kMuchSmaller = 1.5;
+  constexpr double kMargin = 1.1;
+  if (!m_presenter || m_zoom != 1.0)
+    return;
+  const presenters::SliceGeometry whole = slice();
+  const Eigen::Vector3d sizes = kMargin * box.sizes();
+  const double mmPerPixel = std::max(sizes.dot(axes().right.cwiseAbs()) / whole.width(),
+                                     sizes.dot(axes().down.cwiseAbs()) / whole.height());
+  const double zoom = whole.mmPerPixel() / mmPerPixel;
+  if (!(zoom >= kMuchSmaller))
+    return;
+  m_zoom = std::min(zoom, kMaxZoom);
+  const Eigen::Vector3d off = box.center() - m_grid.patientBounds().center();
+  m_offset = off - axes().next.dot(off) * axes().next;
+  stale();
+}
+
 void SliceView::setPlane(const scene::ViewState::Slices::Plane& plane)
 {
   m_zoom = std::clamp(plane.zoom, 1.0, kMaxZoom);

@@ -490,7 +490,8 @@ void AppearancePanel::fillPresets(QMenu& menu)
       menu.addSection(tr("Of this library"));
     wasOwn = preset.isOwn;
     const QString name = words(preset.look.preset);
-    const QString shown = (preset.isOwn ? name : tr(preset.look.preset.c_str())).replace('&', "&&");
+    const QString shown =
+        QString(preset.isOwn ? name : tr(preset.look.preset.c_str())).replace('&', "&&");
     QAction* action = menu.addAction(swatch(toColor(preset.look.color)), shown);
     action->setCheckable(true);
     action->setChecked(preset.look.preset == present);

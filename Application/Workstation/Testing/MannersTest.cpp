@@ -559,10 +559,6 @@ TEST_F(Manners, NoTextIsCutOffOnTheSmallestScreenInGerman)
     if (dock->objectName() != "nearbyDock") // stands beside the others
       dock->hide();
   }
-  for (const char* entry : {"E&xportieren…", "Archi&vieren…", "E&instellungen…"})
-  {
-    Q_UNUSED(entry);
-  }
   QApplication::removeTranslator(&german);
 }
 

@@ -193,7 +193,7 @@ TEST_F(ViewStates, CutsAwayBeforeTheCrosshairUntilAToolIsTakenUp)
   EXPECT_TRUE(note()->isVisible());
   QTest::keyClick(&view(), Qt::Key_D); // the tool meets all of the bone
   EXPECT_TRUE(waitFor([&] { return !note()->isVisible(); }));
-  QTest::keyClick(&view(), Qt::Key_Escape);
+  action("Drill")->trigger();
   EXPECT_TRUE(waitFor([&] { return note()->isVisible(); }));
   action("Show what was cut away")->trigger();
   EXPECT_FALSE(note()->isVisible());

@@ -17,6 +17,14 @@ namespace
 
 constexpr int kNarrowest = 340; // px
 
+// That a scroll bar takes: a style may make it wider, and leaves some pixels beside it.
+int widthOf(QScrollBar& bar)
+{
+  constexpr int kBeside = 4; // px
+  bar.ensurePolished();
+  return bar.sizeHint().width() + kBeside;
+}
+
 class Area : public QScrollArea
 {
 public:
@@ -25,8 +33,7 @@ public:
   {
     QSize size = QScrollArea::minimumSizeHint();
     const int inside = widget() ? widget()->minimumSizeHint().width() : 0;
-    verticalScrollBar()->ensurePolished(); // a style may make it wider
-    size.setWidth(std::max(kNarrowest, inside + verticalScrollBar()->sizeHint().width()));
+    size.setWidth(std::max(kNarrowest, inside + widthOf(*verticalScrollBar())));
     return size;
   }
 
@@ -73,7 +80,11 @@ public:
   }
 
 private:
-  QSize least() const { return widget()->minimumSizeHint().expandedTo(widget()->minimumSize()); }
+  QSize least() const
+  {
+    const QSize size = widget()->minimumSizeHint().expandedTo(widget()->minimumSize());
+    return size + QSize(widthOf(*verticalScrollBar()), 0);
+  }
 };
 
 } // namespace

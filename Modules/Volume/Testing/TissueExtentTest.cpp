@@ -33,6 +33,18 @@ TEST(TissueExtent, FramesTheTissueAndNotASpeckFarOff)
   }
 }
 
+TEST(TissueExtent, BoxesTheTissueWithoutWhatIsBesideIt)
+{
+  for (const bool speck : {false, true})
+  {
+    const auto box = volume::tissueBox(cubeWithSpeck(speck, 1000), 300, 0.01);
+    EXPECT_LT((box.min() - Vector3d(20, 30, 40)).norm(), 1e-9);
+    EXPECT_LT((box.max() - Vector3d(30, 40, 50)).norm(), 1e-9);
+  }
+  const auto whole = volume::tissueBox(cubeWithSpeck(false, 0), 300, 0.01);
+  EXPECT_LT((whole.max() - Vector3d(59.5, 69.5, 79.5)).norm(), 1e-9);
+}
+
 TEST(TissueExtent, FramesTheWholeGridWhereThereIsNoTissue)
 {
   const auto extent = volume::tissueExtent(cubeWithSpeck(false, 0), 300);

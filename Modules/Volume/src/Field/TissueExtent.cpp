@@ -80,22 +80,49 @@ double quantile(const std::vector<std::uint64_t>& counts, double share)
 
 } // namespace
 
-TissueExtent tissueExtent(const IntensityVolume& image, double iso)
+namespace
 {
-  const core::GridGeometry& grid = image.geometry();
+
+struct VoxelRange
+{
+  Eigen::Vector3d lower, upper; ///< indices
+};
+
+VoxelRange tissueRange(const IntensityVolume& image, double iso, double outliers)
+{
+  const core::Index3& dims = image.geometry().dims();
   const Counts counts = image.visit([iso](const auto& v) { return countPlanes(v, iso); });
-  Eigen::Vector3d lower = Eigen::Vector3d::Zero();
-  Eigen::Vector3d upper(grid.dims()[0] - 1.0, grid.dims()[1] - 1.0, grid.dims()[2] - 1.0);
+  VoxelRange range{Eigen::Vector3d::Zero(), {dims[0] - 1.0, dims[1] - 1.0, dims[2] - 1.0}};
   if (std::accumulate(counts[0].begin(), counts[0].end(), std::uint64_t{0}) > 0)
     for (int axis = 0; axis < 3; ++axis)
     {
       const auto& planes = counts[static_cast<std::size_t>(axis)];
-      lower[axis] = quantile(planes, kOutliers);
-      upper[axis] = quantile(planes, 1.0 - kOutliers);
+      range.lower[axis] = quantile(planes, outliers);
+      range.upper[axis] = quantile(planes, 1.0 - outliers);
     }
+  return range;
+}
+
+} // namespace
+
+TissueExtent tissueExtent(const IntensityVolume& image, double iso)
+{
+  const core::GridGeometry& grid = image.geometry();
+  const auto [lower, upper] = tissueRange(image, iso, kOutliers);
   const double halfDiagonal = 0.5 * (upper - lower).cwiseProduct(grid.spacing()).norm();
   return {grid.patientFromVoxel(0.5 * (lower + upper)),
           std::max(kMargin * halfDiagonal, grid.minSpacing())};
+}
+
+core::PatientBox tissueBox(const IntensityVolume& image, double iso, double outliers)
+{
+  const auto [lower, upper] = tissueRange(image, iso, outliers);
+  core::PatientBox box;
+  for (const double i : {lower[0], upper[0]})
+    for (const double j : {lower[1], upper[1]})
+      for (const double k : {lower[2], upper[2]})
+        box.extend(image.geometry().patientFromVoxel(Eigen::Vector3d(i, j, k)));
+  return box;
 }
 
 int openSide(const IntensityVolume& image, double air)

@@ -18,6 +18,11 @@ struct TissueExtent
 /// voxel per axis.
 TissueExtent tissueExtent(const IntensityVolume& image, double iso);
 
+/// The box that contains the voxels above `iso` except for the outermost `outliers` of them at each
+/// end of each axis of the grid; of all of the image if there are none. Patient LPS mm. Reads every
+/// second voxel per axis.
+core::PatientBox tissueBox(const IntensityVolume& image, double iso, double outliers);
+
 /// The patient's side on which an image of one ear opens into the air around the head: 1 left, -1
 /// right. The one of the outer sixths along the left-right axis of which more lies below `air`, if
 /// that is a tenth of it or more; 0: neither. Reads every second voxel per axis.

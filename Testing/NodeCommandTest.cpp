@@ -1,4 +1,7 @@
+#include <fstream>
+#include <memory>
 #include <set>
+#include <utility>
 
 #include "DicomValidator.h"
 #include "TestServers.h"
@@ -469,6 +472,52 @@ TEST_F(NodeCommand, BuildsACaseOfImages)
   const auto box = json("info one" + other())["ct"];
   EXPECT_EQ(box["dims"][2], 20);
   EXPECT_EQ(box["origin_mm"][0], 30.0);
+}
+
+// Of 12 bits stored by its header, with a voxel of 5000.
+TEST_F(NodeCommand, ReceivesBitsThatAreNotDeclaredAsTheUserSays)
+{
+  if (!servers::Orthanc::installed())
+    GTEST_SKIP() << "Orthanc (package orthanc) is not installed";
+  start(false);
+  using Voxels = petrous::volume::Volume<std::int16_t>;
+  const auto voxels = std::make_shared<Voxels>(
+      petrous::core::GridGeometry({16, 16, 6}, Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero()),
+      std::int16_t{40});
+  voxels->at(5, 5, 3) = 5000;
+  petrous::imaging::SeriesDescription series;
+  series.studyUid = "2.25.80";
+  series.seriesUid = "2.25.81";
+  series.frameOfReferenceUid = "2.25.82";
+  petrous::imaging::writeDicomSeries(
+      m_folder / "odd", petrous::volume::IntensityVolume(std::shared_ptr<const Voxels>(voxels)),
+      series);
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(m_folder / "odd"))
+  {
+    std::string bytes = textOf(entry.path());
+    for (const auto& [element, value] :
+         {std::pair('\x01', 12), {'\x02', 11}}) // Bits Stored, High Bit
+    {
+      const std::size_t at =
+          bytes.find(std::string("\x28\x00", 2) + element + "\x01US" + std::string("\x02\x00", 2));
+      ASSERT_NE(at, std::string::npos);
+      bytes[at + 8] = static_cast<char>(value);
+    }
+    std::ofstream(entry.path(), std::ios::binary) << bytes;
+    files.push_back(entry.path());
+  }
+  petrous::network::store(m_server->node(), files);
+  const std::string odd = "receive --from pacs --study 2.25.80 --as ";
+  expectRefused(odd + "none" + other(), 3, "--bits stored");
+  expectRefused(odd + "none --bits both" + other(), 2, "--bits");
+  expectRefused("receive --from pacs --list --bits stored" + other(), 2, "--list");
+  json(odd + "cut --bits stored" + other());
+  json(odd + "whole --bits allocated" + other());
+  for (const char* name : {"cut", "whole"})
+    json(std::string("export ") + name + " --what ct --out " +
+         quoted(m_folder / (std::string(name) + ".nrrd")) + other());
+  EXPECT_NE(textOf(m_folder / "cut.nrrd"), textOf(m_folder / "whole.nrrd"));
 }
 
 // A send that was cut leaves parts of a scene; the one before it can still be received.

@@ -194,6 +194,34 @@ TEST_F(RenderCommand, CutsByPlanesAndBoxes)
   expectRefused(render("--roi 0,1,0,1,0,1 --crop 0,31,0,31,0,31"), 2, "not both");
 }
 
+// Also where the plane lies beside all bone.
+TEST_F(RenderCommand, SaysInThePictureThatItIsCut)
+{
+  const auto drawn = [this](const std::string& options)
+  {
+    json("render ball --view anterior --size 400x300 --out " + quoted(m_folder / "p.png") + " " +
+         options);
+    return textOf(m_folder / "p.png");
+  };
+  const auto filmed = [this](const std::string& options)
+  {
+    json("render ball --view anterior --size 400x300 --turntable 2 --out " +
+         quoted(m_folder / "f.png") + " " + options);
+    return textOf(m_folder / "f-0001.png");
+  };
+  const std::string print = " --width-mm 100 --dpi 100";
+  const std::string whole = drawn(""), printed = drawn(print), film = filmed("");
+  json("view ball --clip 0,-1000,0,0,1,0"); // far beside the ball
+  const std::string said = drawn("");
+  EXPECT_NE(said, whole);
+  EXPECT_NE(drawn(print), printed);
+  EXPECT_NE(filmed(""), film);
+  EXPECT_EQ(drawn("--plain"), whole);
+  EXPECT_EQ(drawn("--plain" + print), printed);
+  EXPECT_EQ(filmed("--plain"), film);
+  EXPECT_EQ(drawn("--clip 0,-1000,0,0,1,0 --plain"), said);
+}
+
 TEST_F(RenderCommand, TheLampHasAMicroscopesLook)
 {
   const auto drawn = [this](const std::string& options)

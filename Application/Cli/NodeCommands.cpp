@@ -198,7 +198,7 @@ struct ReceiveOptions
 {
   std::string node;
   presenters::ReceiveRequest request;
-  std::string volume, partial;
+  std::string volume, bits, partial;
   bool isList = false;
 };
 
@@ -242,10 +242,11 @@ void receive(const Context& context, const ReceiveOptions& options)
 {
   presenters::ReceiveRequest request = options.request;
   request.partial = options.partial;
+  request.undeclaredBits = undeclaredBitsOf(options.bits);
   if (options.isList)
   {
     if (!request.studyUid.empty() || !request.as.empty() || !request.series.empty() ||
-        request.repair || !options.partial.empty())
+        request.repair || !options.bits.empty() || !options.partial.empty())
       throw UsageError("receive: --list goes with --from and --case alone");
     return listCases(context, options);
   }
@@ -364,6 +365,11 @@ void addNodeCommands(CLI::App& app, Context& context)
       ->type_name("NAME");
   command->add_flag("--repair", in->request.repair,
                     "Resample tilted, uneven or gapped slices to a straight volume");
+  command
+      ->add_option("--bits", in->bits,
+                   "Of DICOM pixels with bits beside those stored that nothing explains: stored "
+                   "leaves these out, allocated keeps them (else they are refused)")
+      ->check(oneOf({"stored", "allocated"}));
   command
       ->add_option("--partial", in->partial,
                    "Keeps what arrives in this folder, and goes on from what is there")

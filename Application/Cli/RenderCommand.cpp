@@ -28,7 +28,6 @@
 #include "petrous/Presenters/ProvenanceText.h"
 #include "petrous/Presenters/SceneAssembly.h"
 #include "petrous/Rendering/OffscreenView.h"
-#include "petrous/Rendering/PictureText.h"
 #include "petrous/Rendering/PixelSamples.h"
 #include "petrous/Rendering/PrintPicture.h"
 #include "petrous/Rendering/ReferenceRayCaster.h"
@@ -158,7 +157,15 @@ void takeView(RenderOptions& options, Shot& shot, const scene::ViewState& saved)
     throw UsageError("--size: side by side needs an even width, not " + std::to_string(shot.width));
 }
 
-// The case's scene, with the options' lamp, planes and box; without those, the case's.
+// The options' planes and box; without those, the case's.
+scene::ViewState::Clipping clippingOf(const RenderOptions& options, const scene::Case& value)
+{
+  if (!options.clip.empty() || !options.crop.empty() || !options.roi.empty())
+    return {parsePlanes(options.clip), parseCrop(options.crop, options.roi, value.ct.geometry)};
+  return options.plain ? scene::ViewState::Clipping() : value.view.clipping;
+}
+
+// The case's scene, with the options' lamp.
 rendering::SceneContents renderContents(const RenderOptions& options, const scene::Case& value)
 {
   presenters::SceneAssembly assembly;
@@ -166,12 +173,7 @@ rendering::SceneContents renderContents(const RenderOptions& options, const scen
   rendering::SceneContents contents = assembly.contents(value);
   contents.light.falloff = options.falloff.value_or(0.0);
   contents.light.wetness = options.wetness.value_or(0.0);
-  scene::ViewState::Clipping clipping;
-  if (!options.plain)
-    clipping = value.view.clipping;
-  if (!options.clip.empty() || !options.crop.empty() || !options.roi.empty())
-    clipping = {parsePlanes(options.clip), parseCrop(options.crop, options.roi, value.ct.geometry)};
-  presenters::clip(contents, clipping, value.ct.geometry);
+  presenters::clip(contents, value.view.clipping, value.ct.geometry);
   return contents;
 }
 
@@ -449,7 +451,7 @@ Result drawForPrint(const Context& context, const RenderOptions& options, const 
   const double elapsed =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   const double magnified = std::max(shot.height / 600.0, 1.0);
-  presenters::addLines(result.picture, {presenters::sideText(value.description.side)}, magnified);
+  presenters::addLines(result.picture, presenters::pictureLines(value), magnified);
   presenters::addScaleBar(result.picture, rendering::millimetresPerPixel(shot.camera, shot.height),
                           shot.camera.parallelScale ? "" : "in the focal plane", magnified);
   const rendering::RenderStatistics statistics = picture.statistics();
@@ -517,9 +519,7 @@ void writeFilm(const Context& context, const RenderOptions& options, const Shot&
   film.width = shot.width;
   film.height = shot.height;
   film.framesPerSecond = options.framesPerSecond;
-  film.lines = {presenters::sideText(value.description.side)};
-  for (const std::string& line : presenters::interpolatedTexts(value))
-    film.lines.push_back(line);
+  film.lines = presenters::pictureLines(value);
   film.thickness = options.thickness;
   const rendering::SceneContents contents = renderContents(options, value);
   context.refuseDamaged(); // the images are read
@@ -568,6 +568,7 @@ void render(const Context& context, RenderOptions options)
   scene::Case value = library.open(options.caseName);
   takeView(options, shot, value.view);
   shot.camera = chooseCamera(options, value);
+  value.view.clipping = clippingOf(options, value); // what is drawn is what the picture says
   warnOfView(context, value, options.view);
   nlohmann::json stereo = nullptr;
   shot.eyes = {shot.camera};
@@ -600,15 +601,8 @@ void render(const Context& context, RenderOptions options)
   if (!options.thickness.empty())
     rendering::drawThicknessLegend(result.picture, options.thickness,
                                    presenters::kFarthestThickness);
-  constexpr int kMargin = 8; // pixels
-  constexpr int kLine = 14;
-  double row = options.isPrint() ? kMargin + 2.0 * kLine : kMargin; // beneath the side
-  for (const std::string& line : presenters::interpolatedTexts(value))
-  {
-    rendering::writeText(result.picture, line, {double(kMargin), row, 0.0, 0.0}, kLine,
-                         {255, 140, 43});
-    row += 1.5 * kLine;
-  }
+  if (!options.isPrint()) // that has them beneath the side
+    presenters::addLines(result.picture, presenters::pictureNotes(value));
   warnInterpolated(context, value);
   context.refuseDamaged();
   if (options.isPrint())

@@ -8,6 +8,7 @@
 #include "petrous/Core/InputFile.h"
 #include "petrous/Library/Attachments.h"
 #include "petrous/Presenters/CasePicture.h"
+#include "petrous/Presenters/LabelledPicture.h"
 #include "petrous/Presenters/StillCamera.h"
 #include "petrous/Rendering/OffscreenView.h"
 #include "petrous/Scene/VideoNotes.h"
@@ -230,9 +231,10 @@ void writeOverlay(const scene::Case& value, const VideoNotes::Still& still,
   picture.setContents(contents);
   picture.setCamera(*still.camera);
   rendering::OffscreenView view(width, height);
-  rendering::writePng(
-      options.overlay,
-      presenters::overlaid(view.render(picture), frame, options.opacity.value_or(still.opacity)));
+  rendering::Picture drawn =
+      presenters::overlaid(view.render(picture), frame, options.opacity.value_or(still.opacity));
+  presenters::addLines(drawn, presenters::pictureNotes(value));
+  rendering::writePng(options.overlay, drawn);
 }
 
 void run(const Context& context, const VideoCommandOptions& options)

@@ -1788,6 +1788,10 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <source>&amp;Keep the bits</source>
         <translation>Bits &amp;behalten</translation>
     </message>
+    <message>
+        <source>In %1, as the file says: %2 mm long</source>
+        <translation>In %1, wie die Datei sagt: %2 mm lang</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::CaseSaver</name>

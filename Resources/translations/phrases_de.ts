@@ -3914,6 +3914,10 @@
         <translation>%#1 beschädigte Dateien blieben weg: Dieselbe Schicht ist unversehrt da.</translation>
     </message>
     <message>
+        <source>Slices at one place cannot be compared, so none of them can be left out: %~1</source>
+        <translation>Schichten am selben Ort lassen sich nicht vergleichen, daher kann keine davon weggelassen werden: %~1</translation>
+    </message>
+    <message>
         <source>Its slices need more memory than is free, even one by one.</source>
         <translation>Ihre Schichten brauchen mehr Speicher, als frei ist, selbst einzeln.</translation>
     </message>
@@ -5550,8 +5554,32 @@
         <translation>'%1': %#2 Konturen haben eine Verschiebung (Contour Offset Vector) ohne eine Scheibe, für die sie gälte; nichts wurde verschoben</translation>
     </message>
     <message>
+        <source>'%1': the file states that its one plane stands for %#2 mm, which cannot be so on slices of %#3 mm; it stands for one slice; check its volume</source>
+        <translation>'%1': Nach der Datei steht die einzige Ebene für %#2 mm, was bei Schichten von %#3 mm nicht sein kann; sie steht für eine Schicht; prüfen Sie das Volumen</translation>
+    </message>
+    <message>
+        <source>'%1': its one plane stands for %#2 mm, as the file states, and not for one slice of %#3 mm; check its volume</source>
+        <translation>'%1': Die einzige Ebene steht für %#2 mm, wie die Datei sagt, und nicht für eine Schicht von %#3 mm; prüfen Sie das Volumen</translation>
+    </message>
+    <message>
+        <source>'%1': the file states planes %#2 mm apart (Spacing Between Slices), but its contours lie otherwise; each stands for %#3 mm, as far as they lie apart; check its volume</source>
+        <translation>'%1': Die Datei nennt Ebenen im Abstand von %#2 mm (Spacing Between Slices), doch die Konturen liegen anders; jede steht für %#3 mm, so weit sie auseinander liegen; prüfen Sie das Volumen</translation>
+    </message>
+    <message>
+        <source>'%1': its contours lie %#2 mm apart, but the file states planes %#3 mm apart (Spacing Between Slices); at the ends and beside gaps each stands for %#4 mm; check its volume</source>
+        <translation>'%1': Die Konturen liegen %#2 mm auseinander, doch die Datei nennt Ebenen im Abstand von %#3 mm (Spacing Between Slices); an den Enden und neben Lücken steht jede für %#4 mm; prüfen Sie das Volumen</translation>
+    </message>
+    <message>
+        <source>'%1': its contours state slabs of several thicknesses (Contour Slab Thickness); each stands for %#2 mm; check its volume</source>
+        <translation>'%1': Die Konturen nennen Scheiben verschiedener Dicke (Contour Slab Thickness); jede steht für %#2 mm; prüfen Sie das Volumen</translation>
+    </message>
+    <message>
         <source>'%1': its contours state slabs of several thicknesses (Contour Slab Thickness); each stands for %#2 mm, as far as they lie apart; check its volume</source>
         <translation>'%1': Die Konturen nennen Scheiben verschiedener Dicke (Contour Slab Thickness); jede steht für %#2 mm, so weit sie auseinander liegen; prüfen Sie das Volumen</translation>
+    </message>
+    <message>
+        <source>'%1': its contours state slabs of %#2 mm (Contour Slab Thickness); each stands for %#3 mm; check its volume</source>
+        <translation>'%1': Die Konturen nennen Scheiben von %#2 mm (Contour Slab Thickness); jede steht für %#3 mm; prüfen Sie das Volumen</translation>
     </message>
     <message>
         <source>'%1': its contours state slabs of %#2 mm (Contour Slab Thickness); each stands for %#3 mm, as far as they lie apart; check its volume</source>

@@ -528,7 +528,6 @@ TEST_F(CaseBuilder, AsksWhichSideIsLeft)
       Vector3d(-there[0], -there[1], there[2])));
 }
 
-// A CT without a header and what was drawn on it, exported by the same tool.
 // The same image whose file calls its millimetres micrometres.
 TEST_F(CaseBuilder, AnImageWhoseUnitMakesNoSenseIsAskedAbout)
 {
@@ -563,6 +562,17 @@ TEST_F(CaseBuilder, AnImageWhoseUnitMakesNoSenseIsAskedAbout)
   EXPECT_TRUE(presenters::addSoundParts(value, parts, {}).empty());
 }
 
+// Those that the readers of files know, none called by another's name.
+TEST_F(CaseBuilder, NamesEveryUnitOfLength)
+{
+  for (const auto& [unit, name] :
+       {std::pair(1e-6, "nm"), std::pair(1e-3, "\xc2\xb5m"), std::pair(1.0, "mm"),
+        std::pair(10.0, "cm"), std::pair(25.4, "inch"), std::pair(1e3, "m")})
+    EXPECT_EQ(presenters::unitName(unit), name);
+  EXPECT_EQ(presenters::unitName(2.0), "2 mm");
+}
+
+// A CT without a header and what was drawn on it, exported by the same tool.
 TEST_F(CaseBuilder, PartsOfAHeaderlessExportLieWhereTheCtDoes)
 {
   const core::GridGeometry grid({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3));
@@ -1148,6 +1158,39 @@ TEST_F(CaseBuilder, SaysWhatOfLabelsIsEmptyOrOutsideTheCt)
             value.labels[1].notes);
   m_sources.parts.labels = {{"", m_folder / "none.seg.nrrd"}};
   EXPECT_THROW(presenters::buildCase("ear", m_sources, {}), core::InvalidParameter);
+}
+
+TEST_F(CaseBuilder, WhatIsNotedOfAFileStaysWithWhatIsLeftOfIt)
+{
+  const core::GridGeometry grid({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3));
+  scene::Case value = presenters::buildCase("ear", m_sources, {});
+  std::vector<presenters::StructureReport> reports;
+  for (const char* name : {"incus", "drum"}) // two maps of one file
+  {
+    scene::LabelPart part;
+    scene::StructurePart structure;
+    structure.name = name;
+    structure.index = 1;
+    part.structures.push_back(structure);
+    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
+    part.labels = std::make_shared<const volume::LabelMap>(volume::makeLabelMap(voxels, {}));
+    value.labels.push_back(std::move(part));
+    presenters::StructureReport report{name};
+    report.file = "set.dcm";
+    report.isOutside = reports.empty();
+    reports.push_back(report);
+  }
+  value.labels[0].notes = {
+      "states another patient's ID",
+      "'incus' lies wholly outside the CT, so nothing of it is seen or felt; check that it is this "
+      "patient's"};
+  value.labels[1].notes = {"its own"};
+  presenters::leaveOutside(value, reports);
+  ASSERT_EQ(value.labels.size(), 1U);
+  EXPECT_EQ(value.labels[0].structures.front().name, "drum");
+  EXPECT_EQ(value.labels[0].notes,
+            (std::vector<std::string>{"states another patient's ID", "its own"}));
+  EXPECT_EQ(reports[0].status, presenters::StructureReport::Status::Skipped);
 }
 
 TEST_F(CaseBuilder, KnowsTheFrameOfReferenceOfWhatItsCaseExports)

@@ -57,6 +57,27 @@ TEST(CasePicture, AnImageWithoutAPlaceIsSeenFromWhereItOpensIntoAir)
   EXPECT_EQ(sideOf(moved), -1);
 }
 
+// In window and command alike.
+TEST(CasePicture, APictureSaysWhatIsNotShownAndWhatWasInterpolated)
+{
+  scene::Case value = earAt(Vector3d(20, -30, 0), false);
+  value.description.side = scene::Side::Left;
+  EXPECT_TRUE(presenters::pictureNotes(value).empty());
+  EXPECT_EQ(presenters::pictureLines(value), std::vector<std::string>{"Left side"});
+  value.view.clipping.planes.push_back({Vector3d::Zero(), Vector3d::UnitX()});
+  value.view.clipping.crop = core::IndexBox{{0, 0, 0}, {20, 20, 20}};
+  value.ct.provenance.interpolated = {{3, 4}};
+  const std::vector<std::string> notes = presenters::pictureNotes(value);
+  ASSERT_EQ(notes.size(), 3U);
+  EXPECT_NE(notes[0].find("interpolated"), std::string::npos);
+  EXPECT_EQ(notes[1], "Cut away for the view, not drilled");
+  EXPECT_EQ(notes[2], "Only a part of the image is shown");
+  const std::vector<std::string> lines = presenters::pictureLines(value);
+  ASSERT_EQ(lines.size(), 4U);
+  EXPECT_EQ(lines[0], "Left side");
+  EXPECT_TRUE(std::equal(notes.begin(), notes.end(), lines.begin() + 1));
+}
+
 TEST(CasePicture, TheSideOfTheCaseComesFirst)
 {
   scene::Case value = earAt(Vector3d::Zero(), true);

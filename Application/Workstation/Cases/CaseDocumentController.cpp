@@ -1264,7 +1264,9 @@ std::optional<double> CaseDocumentController::askUnit(const fs::path& path,
   std::vector<double> choices = doubt.likely;
   choices.push_back(doubt.unit); // a phantom may be of any size
   for (const double unit : choices)
-    units.emplace_back(box.addButton(tr("In %1: %2 mm long")
+    units.emplace_back(box.addButton((doubt.isStated && unit == doubt.unit
+                                          ? tr("In %1, as the file says: %2 mm long")
+                                          : tr("In %1: %2 mm long"))
                                          .arg(words(presenters::unitName(unit)))
                                          .arg(doubt.edge * unit / doubt.unit, 0, 'g', 3),
                                      QMessageBox::ActionRole),
@@ -1277,7 +1279,6 @@ std::optional<double> CaseDocumentController::askUnit(const fs::path& path,
   return std::nullopt;
 }
 
-// What becomes of bits that nothing explains; nullopt: the user does not know.
 std::optional<imaging::UndeclaredBits> CaseDocumentController::askBits(const std::string& why)
 {
   const QScopedValueRollback<bool> asking(m_asking, true);

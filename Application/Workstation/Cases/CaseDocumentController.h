@@ -52,6 +52,8 @@ public:
 
   /// A structure, a mesh or an MR of the open case.
   void removePart(const std::string& name);
+  /// What becomes of bits that nothing explains; nullopt: the user does not know.
+  std::optional<imaging::UndeclaredBits> askBits(const std::string& why);
   void restorePart();                       ///< the one that was removed last
   void renamePart(const std::string& name); ///< with a dialog
 
@@ -170,7 +172,6 @@ private:
                                                  const Target& target);
   std::optional<bool> askSide(const std::filesystem::path& path);
   std::optional<double> askUnit(const std::filesystem::path& path, const imaging::UnitDoubt& doubt);
-  std::optional<imaging::UndeclaredBits> askBits(const std::string& why);
   std::string askDrawnOn(const presenters::PartFailure& failure);
   bool askNewNames(presenters::PartSource& source, const std::vector<std::string>& taken,
                    std::size_t others);

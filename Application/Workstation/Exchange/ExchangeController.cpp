@@ -18,6 +18,7 @@
 #include "SendDialog.h"
 #include "Theme.h"
 #include "WindowTexts.h"
+#include "petrous/Imaging/DicomScan.h"
 #include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/CaseTransfer.h"
 
@@ -219,11 +220,13 @@ QString ExchangeController::arriving(const std::string& study)
   return QFile::decodeName(folder->path().c_str());
 }
 
-void ExchangeController::receiveScene(const ReceiveDialog::Choice& choice, const std::string& name)
+void ExchangeController::receiveScene(const ReceiveDialog::Choice& choice, const std::string& name,
+                                      imaging::UndeclaredBits bits)
 {
   presenters::ReceiveRequest request;
   request.studyUid = choice.study;
   request.as = name;
+  request.undeclaredBits = bits;
   request.partial = QFile::encodeName(arriving(choice.study)).toStdString();
   m_keeper.run(
       tr("Receiving from %1").arg(words(choice.node.name)),
@@ -238,6 +241,16 @@ void ExchangeController::receiveScene(const ReceiveDialog::Choice& choice, const
         catch (const presenters::NameTakenError& error)
         {
           return [this, choice, taken = error.name] { receiveUnderOtherName(choice, taken); };
+        }
+        catch (const imaging::DicomError& error)
+        {
+          if (error.reason() != imaging::DicomError::Reason::BitsUnclear)
+            throw;
+          return [this, choice, as = request.as, why = std::string(error.what())]
+          {
+            if (const auto answer = m_keeper.askBits(why))
+              receiveScene(choice, as, *answer);
+          };
         }
         return [this, done, study = request.studyUid]
         {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "ReceiveDialog.h"
+#include "petrous/Imaging/SeriesGeometry.h"
 #include "petrous/Library/ScratchFolder.h"
 #include "petrous/Presenters/WorkstationModel.h"
 #include <QObject>
@@ -36,8 +37,10 @@ private:
   void editNodes();
   void offer(const scene::Case& value, const std::vector<network::Node>& nodes); ///< to send it
   void receive();
-  /// `name`: of the new case; empty: that of the scene. Asked for where it is taken.
-  void receiveScene(const ReceiveDialog::Choice& choice, const std::string& name);
+  /// `name`: of the new case; empty: that of the scene. Asked for where it is taken. `bits`: of a
+  /// study whose images a case is built of after all; asked for where they are unclear.
+  void receiveScene(const ReceiveDialog::Choice& choice, const std::string& name,
+                    imaging::UndeclaredBits bits = imaging::UndeclaredBits::Refuse);
   void receiveUnderOtherName(const ReceiveDialog::Choice& choice, const std::string& taken);
   void receiveImages(const ReceiveDialog::Choice& choice);
   QString arriving(const std::string& study);

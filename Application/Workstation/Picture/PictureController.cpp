@@ -118,22 +118,20 @@ void PictureController::showScene()
       contents.meshes.push_back(m_draft);
     // What a tool lies on must be seen: it knows no clipping.
     const scene::Case& value = m_model.value();
-    std::vector<std::string> notes = presenters::interpolatedTexts(value);
-    if (!m_view.tool().GetDrillMode() && !m_view.tool().GetProbeMode())
-    {
+    const bool isWhole = m_view.tool().GetDrillMode() || m_view.tool().GetProbeMode();
+    if (!isWhole)
       presenters::clip(contents, value.view.clipping, value.ct.geometry);
-      for (const std::string& line : presenters::clippingTexts(value.view.clipping))
-        notes.push_back(line);
-    }
     m_view.display().setContents(contents);
     QStringList lines;
-    for (const std::string& line : notes)
+    for (const std::string& line :
+         isWhole ? presenters::interpolatedTexts(value) : presenters::pictureNotes(value))
       lines += phrase(line);
     m_view.setNotes(lines);
   }
   catch (const core::Error& error) // too much to draw; the slices still show it
   {
     m_view.display().setContents({});
+    m_view.setNotes({});
     emit statusMessage(toString(error));
   }
 }

@@ -46,6 +46,8 @@ void SurgeonWindow::addView()
   connect(m_view, &ThreeDView::cameraMoved, &m_main, &ThreeDView::setCamera);
   m_view->setStamp(m_main.stamp());
   connect(&m_main, &ThreeDView::stampChanged, m_view, &ThreeDView::setStamp);
+  m_view->setNotes(m_main.notes());
+  connect(&m_main, &ThreeDView::notesChanged, m_view, &ThreeDView::setNotes);
 }
 
 void SurgeonWindow::addStereoView()

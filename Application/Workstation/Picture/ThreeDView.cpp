@@ -129,6 +129,10 @@ void ThreeDView::setNotes(const QStringList& lines)
   m_notes->setText(lines.join('\n'));
   m_notes->adjustSize();
   m_notes->setVisible(!lines.isEmpty());
+  if (lines == m_noteLines)
+    return;
+  m_noteLines = lines;
+  emit notesChanged(lines);
 }
 
 // Below the letter at the top where there is no room beside it. What it ends with counts most.

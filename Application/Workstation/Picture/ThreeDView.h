@@ -40,6 +40,7 @@ public:
 
   /// What must be known of the picture, a line each, in the upper left corner.
   void setNotes(const QStringList& lines);
+  const QStringList& notes() const noexcept { return m_noteLines; }
 
   /// Pick ray through the pixel at a position in the widget; side by side, of the eye whose half
   /// contains it. None: through the centre of the view.
@@ -56,6 +57,7 @@ signals:
   void toolModeSet();  ///< drills, probes, or neither
   void cameraMoved(const petrous::core::CameraPose& pose);
   void stampChanged(const QString& text);
+  void notesChanged(const QStringList& lines);
 
 protected:
   bool event(QEvent* event) override;
@@ -82,6 +84,7 @@ private:
   QString m_stampText;              // whole
   std::optional<QPointF> m_clicked; // where the left button went down, until the pointer leaves
   QLabel* m_notes;
+  QStringList m_noteLines;
 };
 
 } // namespace petrous::workstation

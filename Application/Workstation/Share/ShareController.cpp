@@ -23,7 +23,6 @@
 #include "petrous/Presenters/IdentityText.h"
 #include "petrous/Presenters/LabelledPicture.h"
 #include "petrous/Presenters/PlanReport.h"
-#include "petrous/Presenters/ProvenanceText.h"
 
 namespace petrous::workstation
 {
@@ -44,13 +43,9 @@ rendering::SceneContents contentsOf(const scene::Case& value, const core::Progre
   return contents;
 }
 
-// Into a picture: the side, and what must be known of it.
 std::vector<std::string> linesOf(const scene::Case& value)
 {
-  std::vector<std::string> lines{presenters::sideText(value.description.side)};
-  for (const auto& more : {presenters::interpolatedTexts(value),
-                           presenters::clippingTexts(value.view.clipping)})
-    lines.insert(lines.end(), more.begin(), more.end());
+  std::vector<std::string> lines = presenters::pictureLines(value);
   for (std::string& line : lines)
     line = bytes(phrase(line));
   return lines;
@@ -175,29 +170,28 @@ void ShareController::printPicture()
                      static_cast<double>(m_view.height()) / std::max(m_view.width(), 1), &m_window);
   if (dialog.exec() != QDialog::Accepted || !m_model.hasCase())
     return;
-  m_keeper.run(
-      tr("Drawing the picture"),
-      [this, value = shown(), size = dialog.size(), samples = dialog.samples(),
-       file = dialog.file(),
-       library = m_model.library()](const core::Progress& progress) -> BackgroundWork::Reply
-      {
-        constexpr int kTile = 1024; // pixels
-        library::refuseOverwriting(file);
-        rendering::ScenePicture scene;
-        scene.setContents(contentsOf(value, progress.part(0.0, 0.1)));
-        rendering::Picture picture =
-            rendering::renderTiled(scene, *value.camera, size.width(), size.height(),
-                                   progress.part(0.1, 0.95), kTile, samples);
-        const double magnified = std::max(size.height() / 600.0, 1.0);
-        presenters::addLines(picture, linesOf(value), magnified);
-        presenters::addScaleBar(picture,
-                                rendering::millimetresPerPixel(*value.camera, size.height()),
-                                value.camera->parallelScale ? "" : "in the focal plane", magnified);
-        library.checkVoxels(value, progress);
-        const auto png = rendering::pngOf(picture, size.dotsPerInch);
-        core::writeFile(file, {reinterpret_cast<const char*>(png.data()), png.size()});
-        return [this, file] { done(file, tr("The picture is written"), false); };
-      });
+  m_keeper.run(tr("Drawing the picture"),
+               [this, value = shown(), size = dialog.size(), samples = dialog.samples(),
+                file = dialog.file(), library = m_model.library()](
+                   const core::Progress& progress) -> BackgroundWork::Reply
+               {
+                 constexpr int kTile = 1024; // pixels
+                 library::refuseOverwriting(file);
+                 rendering::ScenePicture scene;
+                 scene.setContents(contentsOf(value, progress.part(0.0, 0.1)));
+                 rendering::Picture picture =
+                     rendering::renderTiled(scene, *value.camera, size.width(), size.height(),
+                                            progress.part(0.1, 0.95), kTile, samples);
+                 const double magnified = std::max(size.height() / 600.0, 1.0);
+                 presenters::addLines(picture, linesOf(value), magnified);
+                 presenters::addScaleBar(
+                     picture, rendering::millimetresPerPixel(*value.camera, size.height()),
+                     value.camera->parallelScale ? "" : "in the focal plane", magnified);
+                 library.checkVoxels(value, progress);
+                 const auto png = rendering::pngOf(picture, size.dotsPerInch);
+                 core::writeFile(file, {reinterpret_cast<const char*>(png.data()), png.size()});
+                 return [this, file] { done(file, tr("The picture is written"), false); };
+               });
 }
 
 void ShareController::film()

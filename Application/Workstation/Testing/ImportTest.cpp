@@ -850,6 +850,19 @@ TEST_F(Import, BitsAndUnitsThatMakeNoSenseAreAskedAbout)
   ASSERT_NE(bytes.find(said), std::string::npos);
   bytes.replace(bytes.find(said), said.size(), "\"um\" \"um\" \"um\"");
   std::ofstream(folder() / "small.nrrd", std::ios::binary) << bytes;
+  QString stated;
+  onMessage(
+      [&stated](QMessageBox& asked)
+      {
+        for (const QAbstractButton* one : asked.buttons())
+          if (one->text().contains("as the file says"))
+            stated += one->text();
+        asked.reject();
+      });
+  dropPath(folder() / "small.nrrd");
+  ASSERT_TRUE(waitFor([&stated] { return !stated.isEmpty(); }));
+  EXPECT_TRUE(settled());
+  EXPECT_TRUE(stated.startsWith(QString::fromUtf8("In \xc2\xb5m,"))) << stated.toStdString();
   answer("askUnit", "In mm:", "small.nrrd");
   ASSERT_TRUE(waitFor([this] { return window().model().value().name == "small"; }));
   EXPECT_TRUE(

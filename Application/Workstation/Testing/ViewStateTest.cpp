@@ -191,10 +191,26 @@ TEST_F(ViewStates, CutsAwayBeforeTheCrosshairUntilAToolIsTakenUp)
   openWindow("ball");
   EXPECT_LT(differentPixels(picture(), cut), 50);
   EXPECT_TRUE(note()->isVisible());
+  // The surgeon's own window says the same.
+  action("Surgeon's window")->trigger();
+  const auto surgeons = []
+  {
+    for (QWidget* widget : QApplication::topLevelWidgets())
+      if (auto* found = widget->findChild<ThreeDView*>("surgeonView"))
+        return found->findChild<QLabel*>("guessed");
+    return static_cast<QLabel*>(nullptr);
+  };
+  ASSERT_TRUE(surgeons());
+  EXPECT_EQ(surgeons()->text(), "Cut away for the view, not drilled");
+  EXPECT_FALSE(surgeons()->isHidden());
   QTest::keyClick(&view(), Qt::Key_D); // the tool meets all of the bone
   EXPECT_TRUE(waitFor([&] { return !note()->isVisible(); }));
+  EXPECT_TRUE(surgeons()->isHidden());
   action("Drill")->trigger();
   EXPECT_TRUE(waitFor([&] { return note()->isVisible(); }));
+  EXPECT_FALSE(surgeons()->isHidden());
+  action("Surgeon's window")->trigger();
+  EXPECT_TRUE(waitFor([&] { return !surgeons(); }));
   action("Show what was cut away")->trigger();
   EXPECT_FALSE(note()->isVisible());
   EXPECT_LT(differentPixels(picture(), whole), 50);

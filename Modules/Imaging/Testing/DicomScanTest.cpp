@@ -1109,6 +1109,41 @@ TEST(DicomScan, RefusesSlicesOfOnePlaceThatShowDifferentThings)
       << other.findings[0].text; // one row of 8
 }
 
+// Of two slices at one place that differ in bits which the header calls not stored, none is left
+// out: kept as the user may say, they are different values.
+TEST(DicomScan, ComparesSlicesAtOnePlaceWithTheirUndeclaredBits)
+{
+  for (const bool isOther : {false, true})
+  {
+    const TemporaryFolder folder;
+    writeSeries(folder.path(), 21,
+                [isOther](int k, TestSlice& slice)
+                {
+                  const int at = k == 20 ? 4 : k; // again slice 4
+                  slice.z = 0.5 * at;
+                  slice.bitsStored = 12;
+                  slice.isSigned = false;
+                  slice.cell = [=](int i, int j)
+                  {
+                    const unsigned metal = isOther && k == 20 ? 0x2000U : 0x1000U;
+                    return static_cast<std::uint32_t>(i + 8 * j + at) |
+                           (at == 4 && i == 3 && j == 2 ? metal : 0U);
+                  };
+                  putNumber(slice, at + 1);
+                  slice.element(slice.extra, 0x00200011, "IS", "3");
+                  if (k == 20)
+                    slice.element(slice.extra, 0x00204000, "LT", "again");
+                });
+    const SeriesGeometry geometry = scanDicom(folder.path(), {}).series.front().geometry;
+    EXPECT_EQ(geometry.verdict, isOther ? Verdict::Refused : Verdict::Repairable);
+    if (isOther)
+    {
+      EXPECT_NE(geometry.findings.at(0).text.find("in up to 1 of 48 voxels"), std::string::npos)
+          << geometry.findings.at(0).text;
+    }
+  }
+}
+
 TEST(DicomScan, SaysThatPixelsWereCompressedWithLoss)
 {
   const auto notes = [](const std::function<void(TestSlice&)>& change)

@@ -491,6 +491,96 @@ TEST(PixelForms, OverlaysThatAreDeclaredAreLeftOut)
     }
 }
 
+TEST(PixelForms, OverlaysThatAreDeclaredAreNoValuesWhereBitsAreKept)
+{
+  for (const bool isSigned : {false, true})
+  {
+    const TemporaryFolder folder;
+    writeSeries(folder.path(), 2,
+                [isSigned](int, TestSlice& s)
+                {
+                  s.bitsStored = 12;
+                  s.isSigned = isSigned;
+                  s.cell = [isSigned](int i, int j)
+                  {
+                    const unsigned value = isSigned && i == 1 ? 0xFFFFU // -1
+                                           : i == 3           ? 0x2100U // 8448, undeclared
+                                                              : 100U;
+                    return i == j ? value | 0x1000U : value & ~0x1000U;
+                  };
+                  s.number(s.extraPixel, 0x60000100U, 16);
+                  s.number(s.extraPixel, 0x60000102U, 12);
+                });
+    const ScanResult scan = scanDicom(folder.path(), {});
+    ReadOptions options;
+    options.undeclaredBits = UndeclaredBits::Keep;
+    std::vector<std::string> notes;
+    const IntensityVolume image = readSeries(scan.series.at(0), options, {}, &notes);
+    for (int j = 0; j < 6; ++j)
+      for (int i = 0; i < 8; ++i)
+        EXPECT_EQ(image.at(i, j, 1), isSigned && i == 1 ? -1.0
+                                     : i == 3           ? 8448.0
+                                                        : 100.0)
+            << isSigned << i << j;
+    ASSERT_EQ(notes.size(), 1U);
+    EXPECT_EQ(notes[0].find("12 pixels have bits beside those stored"), 0U) << notes[0];
+  }
+}
+
+// Metal of 3000 in a slice without air has the bits of -1096; the copies of the sign that air has
+// tell, also in a slice whose own metal has undeclared bits, and outside of what is read.
+TEST(PixelForms, SlicesWithUndeclaredBitsTellWhatTheSignIs)
+{
+  const TemporaryFolder folder;
+  const auto write = [&](bool hasCopies)
+  {
+    writeSeries(folder.path(), 4,
+                [hasCopies](int k, TestSlice& s)
+                {
+                  s.bitsStored = 12;
+                  s.isSigned = true;
+                  s.cell = [k, hasCopies](int i, int j)
+                  {
+                    if (i == 3 && j == 2)
+                      return k < 2 ? 5000U : 3000U;
+                    return k < 2 ? static_cast<unsigned>(-1000) & (hasCopies ? 0xFFFFU : 0xFFFU)
+                                 : 100U;
+                  };
+                });
+    return scanDicom(folder.path(), {}).series.at(0);
+  };
+  const auto refusalOf = [](const DicomSeries& series, UndeclaredBits bits, bool isPart)
+  {
+    ReadOptions options;
+    options.undeclaredBits = bits;
+    if (isPart) // the slices of undeclared bits are outside of it
+      options.roi = series.geometry.grid->cropped({{0, 0, 2}, {8, 6, 4}}).patientBounds();
+    try
+    {
+      readSeries(series, options, {});
+    }
+    catch (const DicomError& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const DicomSeries copied = write(true);
+  for (const UndeclaredBits bits : {UndeclaredBits::LeaveOut, UndeclaredBits::Keep})
+    for (const bool isPart : {false, true})
+    {
+      const std::string why = refusalOf(copied, bits, isPart);
+      EXPECT_NE(why.find("without the copies of the sign"), std::string::npos) << why << isPart;
+    }
+  EXPECT_NE(refusalOf(copied, UndeclaredBits::Refuse, true), "");
+  // Without copies bits cannot be kept; outside of the region nobody asks for that.
+  const DicomSeries bare = write(false);
+  for (const UndeclaredBits bits :
+       {UndeclaredBits::Refuse, UndeclaredBits::LeaveOut, UndeclaredBits::Keep})
+    EXPECT_EQ(refusalOf(bare, bits, true), "");
+  EXPECT_NE(refusalOf(bare, UndeclaredBits::Keep, false), "");
+}
+
 // 12 bits with a sign: 3000 has the bits of -1096 but for the copies of the sign that -1000 has.
 TEST(PixelForms, APositiveValueIsNotTakenForANegativeOne)
 {

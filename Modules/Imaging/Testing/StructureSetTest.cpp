@@ -674,4 +674,45 @@ TEST(StructureSet, SlabsAndPlanesThatTheFileStatesCount)
   EXPECT_EQ(read.rois.front().planeSpacing, 0.5);
 }
 
+// A structure set that was resampled to thinner slices states those of before: slabs that thick
+// would reach far beyond its ends, and far thinner ones would leave next to nothing of it.
+TEST(StructureSet, StatedPlanesThatCannotBeAreNotFollowed)
+{
+  const auto noteOf = [](const Roi& roi)
+  {
+    StructureSet set;
+    set.rois = {roi};
+    std::string all;
+    for (const std::string& note : imaging::labelsOf(set, grid(), "set.dcm").notes)
+      all += note + "\n";
+    return all;
+  };
+  Roi three = named("nerve", {square(0.25, 10.25, -10.25, -0.25, 12.0),
+                              square(0.25, 10.25, -10.25, -0.25, 13.0),
+                              square(0.25, 10.25, -10.25, -0.25, 14.0)});
+  EXPECT_EQ(noteOf(three), "");
+  for (const double wrong : {10.0, 30.0, 1000.0, 0.1})
+  {
+    three.planeSpacing = wrong;
+    EXPECT_NEAR(contourVolume(three, grid()), 300.0, 1e-6) << wrong;
+    EXPECT_NE(noteOf(three).find("but its contours lie otherwise"), std::string::npos) << wrong;
+  }
+  three.planeSpacing = 0.5; // not wrong, but to be looked at
+  EXPECT_NEAR(contourVolume(three, grid()), 150.0, 1e-6);
+  EXPECT_NE(noteOf(three).find("its contours lie 1 mm apart"), std::string::npos) << noteOf(three);
+
+  Roi one = named("nerve", {square(0.25, 10.25, -10.25, -0.25, 12.0)});
+  for (double Roi::*stated : {&Roi::planeSpacing, &Roi::slabThickness})
+  {
+    Roi thick = one;
+    thick.*stated = 30.0;
+    EXPECT_NEAR(contourVolume(thick, grid()), 100.0, 1e-6);
+    EXPECT_NE(noteOf(thick).find("cannot be so"), std::string::npos) << noteOf(thick);
+    thick.*stated = 3.0;
+    EXPECT_NEAR(contourVolume(thick, grid()), 300.0, 1e-6);
+    EXPECT_NE(noteOf(thick).find("stands for 3 mm, as the file states"), std::string::npos)
+        << noteOf(thick);
+  }
+}
+
 } // namespace petrous::imaging

@@ -135,13 +135,11 @@ std::uint32_t PointerDevice::buttonsNow(double now) noexcept
 {
   const std::uint32_t held = now - m_heardAt <= m_limits.silence ? m_heard.buttons : 0U;
   const bool pressed = (held & kDrill) != 0;
-  if (pressed && !m_pressed)
-    m_pressedAt = now;
-  m_pressed = pressed;
   const double way = (m_heard.pose.pose().position - m_pose.position).norm();
-  const bool follows = way <= m_limits.speed * m_limits.settle &&
-                       now - m_pressedAt > kSettled * m_limits.settle;
-  m_arrived = pressed && (m_arrived || way <= kArrived || follows);
+  if (pressed && !m_pressed)
+    m_due = now + way / m_limits.speed + kSettled * m_limits.settle;
+  m_pressed = pressed;
+  m_arrived = pressed && (m_arrived || way <= kArrived || now > m_due);
   return pressed && !m_arrived ? held & ~kDrill : held;
 }
 

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include "TestCase.h"
 #include "petrous/Library/OpenMark.h"
@@ -111,6 +114,58 @@ TEST(OpenMark, NeverStandsInTheWay)
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "open/abc.broken")) << "it is no mark";
   const OpenMark unsaved(folder.path(), "");
   EXPECT_TRUE(openersOf(folder.path(), "").empty());
+}
+
+// LIBRARY/open may be a folder of the user's: any folder can be named as library.
+TEST(OpenMark, OnlyWhatHasAMarksNameAndTextIsOne)
+{
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "open");
+  const auto write = [&folder](const std::string& name, const std::string& text)
+  { std::ofstream(folder.path() / "open" / name) << text; };
+  const std::string mark = R"({"computer":"no such computer","process":4711})";
+  const std::string end = ".petrous-0123456789abcdef";
+  const std::vector<std::pair<std::string, std::string>> others{
+      {"notes.json", "{}"},
+      {"scan.json", mark},
+      {"empty", ""},
+      {"abc.petrous-0123", ""},
+      {"abc" + end + "0", mark},
+      {"abc.petrous-0123456789abcdeF", mark},
+      {end, mark},
+      {"abc" + end + ".txt", mark},
+      {"abc" + end, "{}"},
+      {"abd" + end, R"({"process":"4711"})"},
+      {"abe" + end, "[4711]"},
+  };
+  for (const auto& [name, text] : others)
+    write(name, text);
+  write("left" + end, mark);
+  write("unwritten" + end, "");
+  for (const char* id : {"abc", "abd", "abe", "notes", "scan", "empty"})
+    EXPECT_TRUE(openersOf(folder.path(), id).empty()) << id;
+  removeStaleMarks(folder.path());
+  for (const auto& [name, text] : others)
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "open" / name)) << name;
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / ("open/left" + end)));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / ("open/unwritten" + end)));
+}
+
+// As on a network drive whose locks keep others from reading: nobody can be named.
+TEST(OpenMark, AMarkThatCannotBeReadNamesNobody)
+{
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "open");
+  const std::filesystem::path path = folder.path() / "open/abc.petrous-0123456789abcdef";
+  const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  ASSERT_GE(descriptor, 0);
+  ASSERT_EQ(::flock(descriptor, LOCK_EX | LOCK_NB), 0);
+  EXPECT_EQ(toString(openersOf(folder.path(), "abc")), "");
+  removeStaleMarks(folder.path());
+  EXPECT_TRUE(std::filesystem::exists(path)) << "somebody has it";
+  ::close(descriptor);
+  removeStaleMarks(folder.path());
+  EXPECT_FALSE(std::filesystem::exists(path));
 }
 
 TEST(OpenMark, WhoSavesRenamesOrDeletesIsToldOnceHeAsks)

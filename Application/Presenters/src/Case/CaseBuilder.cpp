@@ -1019,6 +1019,7 @@ void addLabels(scene::Case& value, PartSource source, const PartSources& parts,
           found != loaded.fileVolumes.end())
         one.fileVolume = found->second;
       one.layer = layer;
+      one.file = source.path;
       reports.push_back(std::move(one));
       if (loaded.isNamedAfterFile)
         segment.name = structure.name; // the map is stored, and a file's name may be a patient's
@@ -1130,7 +1131,13 @@ ImageSideUnclear::ImageSideUnclear(const fs::path& file, const std::string& opti
 
 std::string unitName(double unit)
 {
-  return unit == 1e-3 ? "\xc2\xb5m" : unit == 10.0 ? "cm" : unit == 1e3 ? "m" : "mm";
+  constexpr std::array<std::pair<double, const char*>, 6> kUnits{
+      {{1e-6, "nm"}, {1e-3, "\xc2\xb5m"}, {1.0, "mm"}, {10.0, "cm"}, {25.4, "inch"}, {1e3, "m"}}};
+  constexpr double kRounding = 1e-6; // relative
+  for (const auto& [size, name] : kUnits)
+    if (std::abs(unit - size) <= kRounding * size)
+      return name;
+  return core::generalText(unit, 3) + " mm";
 }
 
 namespace
@@ -1418,13 +1425,28 @@ void addParts(scene::Case& value, const PartSources& parts, const core::Progress
 void leaveOutside(scene::Case& value, std::vector<StructureReport>& reports)
 {
   std::set<std::string> outside;
+  std::map<std::string, fs::path> files; // by the structure that was read from it
   for (StructureReport& one : reports)
+  {
+    if (one.status == StructureReport::Status::Read)
+      files[one.name] = one.file;
     if (one.status == StructureReport::Status::Read && one.isOutside)
     {
       outside.insert(one.name);
       one.status = StructureReport::Status::Skipped;
       one.why = "it lies wholly outside of the image";
     }
+  }
+  const auto remainsOf = [&](const scene::LabelPart& part, const fs::path& file)
+  {
+    return std::any_of(part.structures.begin(), part.structures.end(),
+                       [&](const scene::StructurePart& structure)
+                       {
+                         const auto of = files.find(structure.name);
+                         return of != files.end() && of->second == file &&
+                                outside.count(structure.name) == 0;
+                       });
+  };
   for (scene::LabelPart& part : value.labels)
   {
     std::vector<std::string> noted;
@@ -1434,6 +1456,15 @@ void leaveOutside(scene::Case& value, std::vector<StructureReport>& reports)
     part.notes.erase(
         std::remove(part.notes.begin(), part.notes.end(), outsideNote(noted, primaryName(value))),
         part.notes.end());
+    if (noted.empty() || noted.size() < part.structures.size())
+      continue;
+    // The first map of a file has the notes about all of it.
+    const fs::path file = files[noted.front()];
+    const auto next = std::find_if(value.labels.begin(), value.labels.end(),
+                                   [&](const scene::LabelPart& other)
+                                   { return &other != &part && remainsOf(other, file); });
+    if (next != value.labels.end())
+      next->notes.insert(next->notes.begin(), part.notes.begin(), part.notes.end());
   }
   for (const std::string& name : outside)
     scene::removePart(value, name);

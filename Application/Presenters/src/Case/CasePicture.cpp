@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <utility>
 
 #include "petrous/Appearance/StructurePresets.h"
 #include "petrous/Library/Library.h"
+#include "petrous/Presenters/LabelledPicture.h"
+#include "petrous/Presenters/ProvenanceText.h"
 #include "petrous/Presenters/SceneAssembly.h"
 #include "petrous/Presenters/SlicePlanes.h"
 #include "petrous/Rendering/OffscreenView.h"
@@ -70,6 +73,22 @@ std::vector<std::string> clippingTexts(const scene::ViewState::Clipping& clippin
     lines.push_back("Cut away for the view, not drilled");
   if (clipping.crop)
     lines.push_back("Only a part of the image is shown");
+  return lines;
+}
+
+std::vector<std::string> pictureNotes(const scene::Case& value)
+{
+  std::vector<std::string> lines = interpolatedTexts(value);
+  for (std::string& line : clippingTexts(value.view.clipping))
+    lines.push_back(std::move(line));
+  return lines;
+}
+
+std::vector<std::string> pictureLines(const scene::Case& value)
+{
+  std::vector<std::string> lines{sideText(value.description.side)};
+  for (std::string& line : pictureNotes(value))
+    lines.push_back(std::move(line));
   return lines;
 }
 

@@ -449,6 +449,7 @@ scene::Case builtCase(const fs::path& folder, const std::string& name,
   CaseSources sources;
   sources.ct = folder;
   sources.repair = request.repair;
+  sources.undeclaredBits = request.undeclaredBits;
   sources.series = request.series;
   if (sources.series == seriesUidOf(sources.series)) // without a volume
   {
@@ -479,6 +480,7 @@ scene::Case builtCase(const fs::path& folder, const std::string& name,
       mr.path = folder;
       mr.series = imaging::selectorOf(one);
       mr.repair = request.repair;
+      mr.undeclaredBits = request.undeclaredBits;
       sources.parts.mr.push_back(std::move(mr));
     }
   scene::Case value = buildCase(name, sources, progress.part(0.2, 1.0));

@@ -100,11 +100,6 @@ double edgesOf(const core::TriangleMesh& mesh, const MeshSpace& space,
   return all > 0.0 ? across / all : 0.0;
 }
 
-std::string unitOf(const MeshSpace& space)
-{
-  return space.mm == 25.4 ? "inch" : unitName(space.mm);
-}
-
 std::string percent(double share)
 {
   return core::fixedText(100.0 * share, 0) + " %";
@@ -114,12 +109,13 @@ std::string percent(double share)
 
 std::string textOf(const imaging::MeshSpace& space)
 {
-  return std::string(space.isRas ? "RAS " : "LPS ") + unitOf(space);
+  return std::string(space.isRas ? "RAS " : "LPS ") + unitName(space.mm);
 }
 
 std::string coordinatesOf(const imaging::MeshSpace& space)
 {
-  return std::string(space.isRas ? "RAS (Slicer, NIfTI), " : "LPS (DICOM, ITK), ") + unitOf(space);
+  return std::string(space.isRas ? "RAS (Slicer, NIfTI), " : "LPS (DICOM, ITK), ") +
+         unitName(space.mm);
 }
 
 MeshSpaceUnclear::MeshSpaceUnclear(std::filesystem::path file, const std::string& problem,

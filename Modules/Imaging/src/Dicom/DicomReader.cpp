@@ -220,8 +220,9 @@ private:
   /// too large; the others of the series can.
   void judgeSigns()
   {
+    // Where one slice has both, they are undeclared bits, and read as the user said.
     const auto bare = std::find_if(m_signs.begin(), m_signs.end(),
-                                   [](const SignCopies& s) { return s.none > 0; });
+                                   [](const SignCopies& s) { return s.none > 0 && !s.any; });
     if (bare == m_signs.end())
       return;
     const auto has = [](const SignCopies& signs) { return signs.any; };
@@ -234,8 +235,7 @@ private:
         continue; // read already
       m_progress.check("reading slices");
       // What lies outside of the box tells signs alone.
-      decodePixels(sliceOf(n), pixels,
-                   m_undeclared == UndeclaredBits::Refuse ? UndeclaredBits::LeaveOut : m_undeclared);
+      decodePixels(sliceOf(n), pixels, UndeclaredBits::LeaveOut);
       copies = pixels.signs.any ? n : copies;
     }
     const SliceHeader& slice = sliceOf(bare);

@@ -712,25 +712,42 @@ void compareEnds(std::vector<DicomSeries>& volumes, const Numbering& numbering)
            0.0});
 }
 
-/// The number of pixels in which two slices differ, as rescaled. `first`: the decoded ones of
-/// `one`, or empty.
+/// Whether equal cells of two slices have equal bits in StoredPixels::scratch.
+bool sameCells(const PixelFormat& one, const PixelFormat& other)
+{
+  return one.bitsAllocated == other.bitsAllocated && one.bitsAllocated % 8 == 0 &&
+         one.bitsStored == other.bitsStored && one.highBit == other.highBit &&
+         one.isSigned == other.isSigned && one.isEncapsulated == other.isEncapsulated &&
+         one.isBigEndian == other.isBigEndian;
+}
+
+/// The number of pixels in which two slices differ, as rescaled, or in bits that may be theirs
+/// (UndeclaredBits). `first`: the decoded ones of `one`, or empty.
 std::uint64_t differingPixels(const SliceHeader& one, const SliceHeader& other,
                               std::optional<StoredPixels>& first)
 {
   if (!first)
   {
     first.emplace();
-    decodePixels(one, *first);
+    decodePixels(one, *first, UndeclaredBits::LeaveOut);
   }
   StoredPixels second;
-  decodePixels(other, second);
+  decodePixels(other, second, UndeclaredBits::LeaveOut);
   const std::size_t count = std::min(first->size(), second.size());
+  const bool hasUndeclared = first->undeclared > 0 || second.undeclared > 0;
+  const bool hasCells = sameCells(one.pixels, other.pixels);
+  const auto bytes = static_cast<std::size_t>(one.pixels.bitsAllocated / 8);
+  const auto differs = [&](std::size_t p)
+  {
+    if (one.slope * first->at(p) + one.intercept != other.slope * second.at(p) + other.intercept)
+      return true;
+    return hasUndeclared &&
+           (!hasCells || std::memcmp(first->scratch.data() + p * bytes,
+                                     second.scratch.data() + p * bytes, bytes) != 0);
+  };
   std::uint64_t differing = 0;
   for (std::size_t p = 0; p < count; ++p)
-    differing +=
-        one.slope * first->at(p) + one.intercept != other.slope * second.at(p) + other.intercept
-            ? 1
-            : 0;
+    differing += differs(p) ? 1 : 0;
   return differing;
 }
 
@@ -875,8 +892,18 @@ MadeSeries makeSeries(const std::vector<FileHeader*>& members, const Doubts& dou
     {
       compareDuplicates(one.geometry, comparisons);
     }
-    catch (const DicomError&) // read again, it says so
+    catch (const DicomError& error)
     {
+      // Read again, a slice that is used says so; one that is left out would not.
+      if (one.geometry.verdict == Verdict::Repairable)
+      {
+        findings.push_back({FindingKind::Unreadable,
+                            std::string("Slices at one place cannot be compared, so none of them "
+                                        "can be left out: ") +
+                                error.what(),
+                            0.0});
+        one.geometry.verdict = Verdict::Refused;
+      }
     }
     catch (const std::bad_alloc&)
     {

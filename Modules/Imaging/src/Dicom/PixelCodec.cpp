@@ -284,6 +284,25 @@ std::uint64_t overlayBits(const std::filesystem::path& file)
   return bits;
 }
 
+/// Takes bits that are overlays out of values that were unpacked with all bits allocated: above the
+/// highest other bit of a signed value they are copies of it.
+void removeOverlays(const PixelFormat& format, std::uint64_t overlays, StoredPixels& pixels)
+{
+  const std::uint64_t whole = ~std::uint64_t{0} >> (64 - format.bitsAllocated);
+  const auto others = static_cast<std::uint32_t>(overlays & whole);
+  std::uint32_t top = 0; // bit of the sign
+  for (int bit = format.bitsAllocated - 1; format.isSigned && top == 0 && bit >= 0; --bit)
+    if (const auto one = std::uint32_t{1} << bit; (others & one) == 0)
+      top = one;
+  const std::uint32_t copies = top == 0 ? 0 : ~(top - 1);
+  const auto without = [=](std::uint32_t bits)
+  { return (bits & top) != 0 ? bits | others | copies : bits & ~(others | copies); };
+  for (std::int32_t& value : pixels.values)
+    value = static_cast<std::int32_t>(without(static_cast<std::uint32_t>(value)));
+  for (double& value : pixels.reals) // unsigned
+    value = without(static_cast<std::uint32_t>(value));
+}
+
 /// Unpacks `scratch`. Cut to the bits that the header says are stored, larger values would turn
 /// into smaller ones: metal into soft tissue.
 void unpackWithin(const SliceHeader& slice, bool swap, StoredPixels& pixels,
@@ -293,9 +312,11 @@ void unpackWithin(const SliceHeader& slice, bool swap, StoredPixels& pixels,
   OutsideBits outside = outsideBits(slice, pixels.scratch, swap);
   const auto beyond = [&outside]
   { return outside.beyond + (outside.signs.any ? outside.signs.none : std::size_t{0}); };
+  const std::uint64_t overlays = beyond() > 0 ? overlayBits(slice.file) : 0;
   if (beyond() > 0)
-    outside = outsideBits(slice, pixels.scratch, swap, overlayBits(slice.file));
+    outside = outsideBits(slice, pixels.scratch, swap, overlays);
   pixels.undeclared = beyond();
+  pixels.signs = outside.signs;
   if (pixels.undeclared > 0 && undeclared == UndeclaredBits::Refuse)
     throw DicomError(DicomError::Reason::BitsUnclear,
                      bitsStoredText(slice, pixels.undeclared) + kExportBits);
@@ -311,10 +332,12 @@ void unpackWithin(const SliceHeader& slice, bool swap, StoredPixels& pixels,
     unpackCells(slice, format.bitsAllocated,
                 bitField(format.bitsAllocated, format.bitsAllocated - 1, format.isSigned), swap,
                 pixels);
+    if (overlays != 0)
+      removeOverlays(format, overlays, pixels);
+    if (outside.isPadded)
+      restorePadding(slice, swap, pixels);
     return;
   }
-  if (pixels.undeclared == 0)
-    pixels.signs = outside.signs;
   unpackCells(slice, format.bitsAllocated,
               bitField(format.bitsStored, format.highBit, format.isSigned), swap, pixels);
   if (outside.isPadded)

@@ -24,7 +24,7 @@ struct StoredPixels
   std::vector<std::int32_t> values; ///< empty: see `reals`
   std::vector<double> reals;        ///< floating point, and unsigned ones beyond 2^31 - 1; or empty
   std::vector<unsigned char> scratch;
-  SignCopies signs;
+  SignCopies signs;           ///< also of pixels that are `undeclared`
   std::size_t undeclared = 0; ///< pixels with bits that UndeclaredBits is about
   bool canKeep = false;       ///< UndeclaredBits::Keep, where there are such
 

@@ -34,6 +34,7 @@ constexpr double kPlanar = 0.1;     // slices, by which a contour may leave its 
 constexpr double kSamePlane = 0.02; // slices, between contours of one plane at least
 constexpr double kThinVoxels = 4.0; // volume from which on a shape is judged
 constexpr double kGap = 1.5;        // of the usual distance of planes: a part of its own
+constexpr double kFewSlices = 5.0;  // a stated thickness beyond is another image's
 constexpr int kLines = 32;          // in a row of voxels
 constexpr const char* kTask = "reading contours";
 constexpr std::size_t kChecked = 65536; // points between two checks
@@ -174,7 +175,10 @@ struct Placed
   Axes axes;
   std::vector<Plane> planes; ///< ascending
   double step = 1.0;         ///< slices, between neighbouring planes
-  std::size_t twice = 0;     ///< contours that are another one of their plane again
+  double usual = 1.0;        ///< slices, between most of them; of one: a slice
+  double stated = 0.0;       ///< slices, by the file, and then `step` if it is so; 0: not stated
+  bool isAsStated = false;
+  std::size_t twice = 0; ///< contours that are another one of their plane again
 };
 
 using Contour = std::vector<Eigen::Vector2d>; ///< voxel coordinates
@@ -273,19 +277,42 @@ double planeWidth(const std::vector<double>& sorted)
   return kSamePlane;
 }
 
-/// How far apart the planes of a structure are, or how thick its one slab is, as the file states
-/// it, in slices; 0: not stated, or not so.
+/// Takes what the file states of how far apart the planes of a structure are, or of how thick its
+/// one slab is, where it can be so: the step is then also that of the ends.
 ///
 /// steps  of neighbouring planes, slices
-double statedStep(const StructureSet::Roi& roi, double spacing, const std::vector<double>& steps)
+void followStated(const StructureSet::Roi& roi, double spacing, const std::vector<double>& steps,
+                  Placed& placed)
 {
-  // A section without a contour on one of these planes has none there (PS3.3 C.8.8.6.4).
+  const auto take = [&placed](double stated, bool isSo)
+  {
+    if (placed.isAsStated || !(stated > 0.0)) // NaN too
+      return;
+    placed.stated = stated;
+    placed.isAsStated = isSo;
+    placed.step = isSo ? stated : placed.step;
+  };
   const double planes = roi.planeSpacing / spacing;
+  if (steps.empty())
+  {
+    const auto canBe = [](double slices)
+    { return slices >= 1.0 / kFewSlices && slices <= kFewSlices; };
+    const double slab = roi.slabThickness / spacing;
+    take(planes, canBe(planes));
+    take(slab, canBe(slab));
+    return;
+  }
+  // A section without a contour on one of these planes has none there (PS3.3 C.8.8.6.4). But some
+  // are neighbours or nearly so: contours that were drawn or resampled elsewhere may state the
+  // slices of an image of before.
   const auto isWhole = [planes](double step)
-  { return std::abs(step / planes - std::round(step / planes)) <= kPlanar; };
-  if (planes > kSamePlane && std::all_of(steps.begin(), steps.end(), isWhole))
-    return planes;
-  return steps.empty() && roi.slabThickness > 0.0 ? roi.slabThickness / spacing : 0.0;
+  {
+    const double count = std::round(step / planes);
+    return count >= 1.0 && std::abs(step / planes - count) <= kPlanar;
+  };
+  take(planes,
+       planes > kSamePlane && std::all_of(steps.begin(), steps.end(), isWhole) &&
+           std::round(*std::min_element(steps.begin(), steps.end()) / planes) <= kFewSlices);
 }
 
 /// The contours of a structure as slabs on the grid; nullopt if they lie across none of its axes.
@@ -368,10 +395,9 @@ std::optional<Placed> place(const StructureSet::Roi& roi, const core::GridGeomet
     {
       std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
                        steps.end());
-      placed.step = steps[steps.size() / 2];
+      placed.step = placed.usual = steps[steps.size() / 2];
     }
-    if (const double stated = statedStep(roi, grid.spacing()[axis], steps); stated > 0.0)
-      placed.step = stated;
+    followStated(roi, grid.spacing()[axis], steps, placed);
     for (std::size_t n = 0; n < placed.planes.size(); ++n)
     {
       Plane& plane = placed.planes[n];
@@ -819,16 +845,43 @@ void noteGeometry(const StructureSet::Roi& roi, const std::string& name, const P
                     (roi.ignoredOffsets == 1 ? " contour has" : " contours have") +
                     " an offset (Contour Offset Vector) without a slab to which it would apply; "
                     "nothing was moved");
-  const double apart = placed.step * grid.spacing()[static_cast<int>(placed.axes.normal)];
+  const double slice = grid.spacing()[static_cast<int>(placed.axes.normal)];
+  const double apart = placed.step * slice;
+  const double usual = placed.usual * slice;
+  const double stated = placed.stated * slice;
+  const bool isOne = placed.planes.size() == 1;
+  if (isOne && placed.stated > 0.0 && !placed.isAsStated)
+  {
+    notes.push_back("'" + name + "': the file states that its one plane stands for " +
+                    roughText(stated) + " mm, which cannot be so on slices of " + roughText(slice) +
+                    " mm; it stands for one slice; check its volume");
+    return;
+  }
+  if (isOne && placed.isAsStated && std::abs(stated - slice) > kPlanar * slice)
+    notes.push_back("'" + name + "': its one plane stands for " + roughText(stated) +
+                    " mm, as the file states, and not for one slice of " + roughText(slice) +
+                    " mm; check its volume");
+  else if (!isOne && placed.stated > 0.0 && !placed.isAsStated)
+    notes.push_back("'" + name + "': the file states planes " + roughText(stated) +
+                    " mm apart (Spacing Between Slices), but its contours lie otherwise; each "
+                    "stands for " +
+                    roughText(usual) + " mm, as far as they lie apart; check its volume");
+  else if (!isOne && placed.isAsStated && std::abs(stated - usual) > kPlanar * usual)
+    notes.push_back("'" + name + "': its contours lie " + roughText(usual) +
+                    " mm apart, but the file states planes " + roughText(stated) +
+                    " mm apart (Spacing Between Slices); at the ends and beside gaps each stands "
+                    "for " +
+                    roughText(stated) + " mm; check its volume");
   if (std::isnan(roi.slabThickness))
     notes.push_back("'" + name +
                     "': its contours state slabs of several thicknesses (Contour Slab Thickness); "
                     "each stands for " +
-                    roughText(apart) + " mm, as far as they lie apart; check its volume");
+                    roughText(apart) + (isOne ? " mm" : " mm, as far as they lie apart") +
+                    "; check its volume");
   else if (roi.slabThickness > 0.0 && std::abs(roi.slabThickness - apart) > kPlanar * apart)
     notes.push_back("'" + name + "': its contours state slabs of " + roughText(roi.slabThickness) +
                     " mm (Contour Slab Thickness); each stands for " + roughText(apart) +
-                    " mm, as far as they lie apart; check its volume");
+                    (isOne ? " mm" : " mm, as far as they lie apart") + "; check its volume");
 }
 
 } // namespace

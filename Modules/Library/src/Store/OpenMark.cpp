@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <optional>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include <fcntl.h>
@@ -41,7 +43,21 @@ bool isIn(const fs::path& path, int descriptor)
          opened.st_ino == found.st_ino && opened.st_dev == found.st_dev;
 }
 
-// nullopt: it is no mark, but some file that lies there. One that was not written is one.
+// Of which case a file of this name is the mark (OpenMark::OpenMark); empty: of none.
+std::string idOf(const fs::path& path)
+{
+  constexpr std::size_t kDigits = 16; // core::temporaryBeside
+  const std::string name = path.filename().string();
+  const std::size_t dot = name.rfind('.');
+  if (dot == std::string::npos || !core::isLeftover(name.substr(dot)))
+    return {};
+  const std::size_t digits = name.find_last_not_of("0123456789abcdef") + 1;
+  const bool isWhole = name.size() - digits == kDigits && name[digits - 1] == '-';
+  return isWhole ? name.substr(0, dot) : std::string();
+}
+
+// nullopt: it is no mark, but some file that lies there. One that was not written yet is one, and
+// one that another computer's lock keeps from being read; of both the process stays 0.
 std::optional<Opener> openerIn(int descriptor)
 {
   Opener opener;
@@ -50,14 +66,16 @@ std::optional<Opener> openerIn(int descriptor)
     return std::nullopt;
   std::string text(kLongest, '\0');
   const ssize_t got = ::pread(descriptor, text.data(), text.size(), 0);
-  text.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
-  if (text.empty())
+  if (got <= 0)
     return opener;
+  text.resize(static_cast<std::size_t>(got));
   const nlohmann::json mark = nlohmann::json::parse(text, nullptr, false);
   if (!mark.is_object())
     return std::nullopt;
-  if (const auto process = mark.find("process"); process != mark.end() && process->is_number())
-    opener.process = process->get<long>();
+  const auto process = mark.find("process");
+  if (process == mark.end() || !process->is_number_integer())
+    return std::nullopt;
+  opener.process = process->get<long>();
   if (const auto computer = mark.find("computer"); computer != mark.end() && computer->is_string())
     opener.computer = computer->get<std::string>();
   return opener;
@@ -82,24 +100,40 @@ std::optional<Opener> openerAt(const fs::path& path)
   const int error = isLocked ? 0 : errno;
   // Where a file system has no locks, a process of this computer can still be asked for.
   const bool isGone =
-      isLocked || (error != EWOULDBLOCK && opener->computer == thisComputer() &&
-                   ::kill(static_cast<pid_t>(opener->process), 0) != 0 && errno == ESRCH);
+      isLocked ||
+      (error != EWOULDBLOCK && opener->process > 0 && opener->computer == thisComputer() &&
+       ::kill(static_cast<pid_t>(opener->process), 0) != 0 && errno == ESRCH);
   if (isGone && isIn(path, descriptor))
     ::unlink(path.c_str());
   ::close(descriptor);
   return isGone ? std::nullopt : opener;
 }
 
-std::vector<fs::path> marksIn(const fs::path& library, const std::string& start)
+// Of the case of this ID; empty: of all.
+std::vector<fs::path> marksIn(const fs::path& library, const std::string& id)
 {
   std::vector<fs::path> found;
   std::error_code error;
   for (fs::directory_iterator entry(library / kFolder, error), end; !error && entry != end;
        entry.increment(error))
-    if (entry->path().filename().string().rfind(start, 0) == 0)
+    if (const std::string of = idOf(entry->path()); !of.empty() && (id.empty() || of == id))
       found.push_back(entry->path());
   std::sort(found.begin(), found.end());
   return found;
+}
+
+// false: who looks at it has it locked. Where there are no locks, it is as good as locked.
+bool lockMark(int descriptor)
+{
+  constexpr int kTries = 100;
+  constexpr std::chrono::milliseconds kPause{1};
+  for (int n = 0; n < kTries; ++n)
+  {
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 || (errno != EWOULDBLOCK && errno != EINTR))
+      return true;
+    std::this_thread::sleep_for(kPause);
+  }
+  return false;
 }
 
 } // namespace
@@ -124,9 +158,12 @@ OpenMark::OpenMark(const fs::path& library, std::string id)
       continue;
     }
     // Who looks at it just now has it locked for a moment, and may take it for a killed one's.
-    ::flock(m_descriptor, LOCK_EX);
-    if (!isIn(m_path, m_descriptor))
+    const bool isLocked = lockMark(m_descriptor);
+    const bool isThere = isIn(m_path, m_descriptor);
+    if (!isLocked || !isThere)
     {
+      if (isThere)
+        ::unlink(m_path.c_str());
       ::close(m_descriptor);
       m_descriptor = -1;
     }
@@ -155,9 +192,11 @@ std::vector<Opener> openersOf(const fs::path& library, const std::string& id)
   if (id.empty())
     return openers;
   const std::string computer = thisComputer();
+  // One without a process cannot be told from one's own.
   for (const fs::path& path : marksIn(library, id))
     if (std::optional<Opener> opener = openerAt(path);
-        opener && (opener->process != ::getpid() || opener->computer != computer))
+        opener && opener->process > 0 &&
+        (opener->process != ::getpid() || opener->computer != computer))
       openers.push_back(std::move(*opener));
   return openers;
 }

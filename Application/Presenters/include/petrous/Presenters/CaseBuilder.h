@@ -120,7 +120,7 @@ struct ImageUnitUnclear : core::InvalidParameter
                    const std::string& option);
   imaging::UnitDoubt doubt;
 };
-/// Of a length in mm: "µm", "mm", "cm" or "m".
+/// Of a length in mm: "nm", "µm", "mm", "cm", "inch" or "m"; of another, the length: "2 mm".
 std::string unitName(double unit);
 
 /// Structures that state another frame of reference than each image of the case: the user has to
@@ -166,6 +166,7 @@ struct StructureReport
   std::size_t layer = 0;                           ///< of its source's overlapping structures
   std::string why = {};                            ///< of Unread: "it holds ..", if known
   bool isOutside = false;                          ///< wholly outside the primary image
+  std::filesystem::path file = {};                 ///< of Read
 
   /// How far the voxels' volume is from the file's, in parts of the file's (0.01: 1 % more);
   /// nullopt if the file encloses none.
@@ -176,7 +177,7 @@ struct StructureReport
 const char* nameOf(StructureReport::Status status);
 
 /// Takes the structures that a report says lie wholly outside of the primary image out of the case
-/// again; their reports are then Skipped.
+/// again; their reports are then Skipped. What was noted of a file stays with what is left of it.
 void leaveOutside(scene::Case& value, std::vector<StructureReport>& reports);
 
 /// Counts over the structures of files.

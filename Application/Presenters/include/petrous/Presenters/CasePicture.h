@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "petrous/Core/Progress.h"
@@ -27,6 +28,12 @@ void clip(rendering::SceneContents& contents, const scene::ViewState::Clipping& 
 
 /// What a picture that is clipped so must say, or what is not shown is taken for drilled.
 std::vector<std::string> clippingTexts(const scene::ViewState::Clipping& clipping);
+
+/// What must be known of a picture of the case: interpolated slices, and clippingTexts of its view.
+std::vector<std::string> pictureNotes(const scene::Case& value);
+
+/// What is written into a picture for print and into a film: the side, and pictureNotes.
+std::vector<std::string> pictureLines(const scene::Case& value);
 
 /// The case as its thumbnail shows it, without a face: bone and structures, in their own colours.
 /// The surface is not below that of bone (less 100 HU), and the bone's transfer function is a

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "petrous/Core/Progress.h"
+#include "petrous/Imaging/SeriesGeometry.h"
 #include "petrous/Library/Archive.h"
 #include "petrous/Library/Library.h"
 #include "petrous/Network/DicomNode.h"
@@ -119,6 +120,7 @@ struct ReceiveRequest
   std::string series;   ///< of a study without a scene: the CT; empty: chosen
   std::string as;       ///< name of the new case; empty: that of the scene
   bool repair = false;  ///< as CaseSources
+  imaging::UndeclaredBits undeclaredBits = imaging::UndeclaredBits::Refuse; ///< likewise
   /// Keeps what arrives, and takes from there what arrived before; empty: a folder of its own,
   /// which is removed. DICOM files of a hospital's study hold the patient's identity.
   std::filesystem::path partial;

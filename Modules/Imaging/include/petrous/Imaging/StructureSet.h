@@ -55,12 +55,14 @@ StructureSet readStructureSet(const std::filesystem::path& path,
 /// file in errors.
 ///
 /// A contour stands for a slab: as thick as the structure's contours are apart, and where there is
-/// one plane only, as the file states, else one slice. Contours of one plane enclose what an odd
-/// number of them surrounds. The share of each voxel that lies within is computed (32 lines a row
-/// of voxels, exact along them), and as many voxels as the shares amount to, those with the
-/// largest, are the structure: its volume is that of its contours to half a voxel. A contour that
-/// encloses less than a voxel keeps the one with the largest share. Overlapping structures lie in
-/// several maps.
+/// one plane only, as the file states (`planeSpacing`, else `slabThickness`; a fifth of a slice to
+/// five), else one slice. Beside gaps and at the ends `planeSpacing` counts, if the distances of
+/// the planes are whole multiples of it, and the least is five of it at most. Contours of one plane
+/// enclose what an odd number of them surrounds. The share of each voxel that lies within is
+/// computed (32 lines a row of voxels, exact along them), and as many voxels as the shares amount
+/// to, those with the largest, are the structure: its volume is that of its contours to half a
+/// voxel. A contour that encloses less than a voxel keeps the one with the largest share.
+/// Overlapping structures lie in several maps.
 ///
 /// Planes may be across any axis of the grid. Throws FileError (Unsupported) if all structures with
 /// contours are oblique to it, or if none has a contour, Unreadable if the voxels need more than

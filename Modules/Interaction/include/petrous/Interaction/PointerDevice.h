@@ -88,7 +88,7 @@ private:
   std::uint64_t m_count = 0;
   double m_heardAt = 0.0; // s
   double m_time = 0.0;    // s
-  double m_pressedAt = 0.0; // s, the drill
+  double m_due = 0.0;     // s, until when it has arrived if the pointer rests
   bool m_placed = false;
   bool m_pressed = false; // the drill is held
   bool m_arrived = false; // since it is, at the wanted pose

@@ -3,6 +3,7 @@
 #include <functional>
 #include <iterator>
 #include <map>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -143,6 +144,17 @@ protected:
   library::Library m_library{std::filesystem::temp_directory_path() / "petrous-export-nothing"};
   scene::Case m_case;
   std::map<std::string, Extent> m_truth;
+  /// But for the one on the name of the case, of whose patient nothing is known here.
+  std::string otherWarnings() const
+  {
+    std::string others;
+    std::istringstream lines(m_warnings);
+    for (std::string line; std::getline(lines, line);)
+      if (line.rfind("the name of the case is not the patient's", 0) != 0)
+        others += line + '\n';
+    return others;
+  }
+
   std::string m_warnings;
 };
 
@@ -182,7 +194,7 @@ TEST_F(CaseExport, DicomStatesWhatIsKnownToBeWrongWithTheImage)
   EXPECT_NE(clean.find(removed), std::string::npos);
   EXPECT_EQ(clean.find(element(0x0028, 0x0301, "CS", "").substr(0, 6)), std::string::npos);
   EXPECT_EQ(clean.find(element(0x0028, 0x2110, "CS", "").substr(0, 6)), std::string::npos);
-  EXPECT_EQ(m_warnings, "");
+  EXPECT_EQ(otherWarnings(), "");
 
   volume::ImageProvenance& provenance = m_case.ct.provenance;
   for (const auto kind : {imaging::BurnedInText::Stated, imaging::BurnedInText::Suspected})
@@ -238,7 +250,7 @@ TEST_F(CaseExport, BringsLabelsOnPartsOfTheCtsGridOntoIt)
   for (const std::string file : kFiles)
   {
     write(file);
-    EXPECT_EQ(m_warnings, "") << file;
+    EXPECT_EQ(otherWarnings(), "") << file;
     expectAll(file);
     core::GridGeometry grid;
     read(file, grid);

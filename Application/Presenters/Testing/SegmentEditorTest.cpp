@@ -1039,8 +1039,6 @@ TEST_F(SegmentEditorTest, AProposalIsNoDraftUntilTheUserDoesSomethingAboutIt)
   work();
   EXPECT_GT(editor.voxels(), 0U);
   EXPECT_FALSE(editor.isUnsaved()) << "a range of the CT";
-  editor.setName("bone");
-  EXPECT_FALSE(editor.isUnsaved()) << "a name alone";
   set([](SegmentValues& values) { values.lower += 1.0; });
   EXPECT_TRUE(editor.isUnsaved()) << "entered";
 

@@ -486,7 +486,7 @@ bool SegmentEditor::hasDraft() const
 
 bool SegmentEditor::isUnsaved() const
 {
-  return m_draft->edited.empty() ? hasDraft() && !isProposal() // a name alone is no work
+  return m_draft->edited.empty() ? hasDraft() && !(isProposal() && m_draft->name.empty())
                                  : !m_draft->undo.empty() || !m_draft->points.empty() ||
                                        (m_preview && m_preview->result);
 }

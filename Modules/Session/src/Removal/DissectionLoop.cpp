@@ -21,6 +21,15 @@ bool together(const TickRecord& record, const TickRecord& next)
              DissectionLoop::kTogether;
 }
 
+// The machine stood still, or a reading was lost.
+bool isInterruption(const TickRecord& record)
+{
+  const auto fault = static_cast<ServoFault>(record.fault);
+  return (fault == ServoFault::Stalled || fault == ServoFault::Device ||
+          fault == ServoFault::Clock) &&
+         record.input.drillWanted();
+}
+
 } // namespace
 
 DissectionLoop::DissectionLoop(dissection::Dissection& dissection, volume::PublishedMask& mask,
@@ -42,13 +51,11 @@ double DissectionLoop::secondsOf(const TickRecord& record)
   return past > 0.0 ? std::min(past, kMaxTick) : 0.0; // 0 for NaN
 }
 
-// Opens and closes strokes as the drill is switched; returns whether it cuts. A tick with a fault (a
-// machine that stood still, a reading that was lost) does not divide what is drilled with the drill
-// held down.
+// Opens and closes strokes as the drill is switched; returns whether it cuts. An interruption does
+// not divide what is drilled with the drill held down.
 bool DissectionLoop::follow(const TickRecord& record)
 {
-  const bool interrupted = record.fault != static_cast<std::uint8_t>(ServoFault::None) &&
-                           record.input.drillWanted() && m_on;
+  const bool interrupted = m_on && isInterruption(record);
   m_on = record.drill != 0 || interrupted;
   m_untilOff = m_untilOff && m_on;
   const bool drill = record.drill != 0 && !m_untilOff && record.time() > m_ignoreUntil;

@@ -326,7 +326,9 @@ TEST_F(NodeCommand, WithholdsANameThatIsNotKnownToBeNobodys)
   EXPECT_NE(studyOf(foreign).studyId, guessed);
   EXPECT_NE(studyOf(foreign).studyId, studyOf(own).studyId);
   const auto scene = json("send \"Kowalczyk left\" --to pacs --what scene" + other());
-  // By what `send` names, a third library finds it.
+  // By what `send` names, a third library finds it, which knows the node.
+  json("nodes add pacs --host 127.0.0.1 --aet ORTHANC --port " +
+       std::to_string(m_server->node().port) + " --library " + quoted(m_folder / "by study"));
   const std::string study = scene["study"];
   EXPECT_NE(scene["notes"].dump().find("receives the study " + study), std::string::npos)
       << scene["notes"];

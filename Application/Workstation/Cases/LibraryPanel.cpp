@@ -137,6 +137,7 @@ LibraryPanel::LibraryPanel(const presenters::WorkstationModel& model, QWidget* p
   layout->addLayout(buttons);
   layout->addWidget(m_list, 1);
   layout->addLayout(foot);
+  setMinimumWidth(340);
 }
 
 // Beside the text: side, tag, notes, planned date.

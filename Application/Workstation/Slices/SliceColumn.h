@@ -32,6 +32,9 @@ public:
   explicit SliceColumn(presenters::WorkstationModel& model, QWidget* parent = nullptr);
   ~SliceColumn() override;
 
+  /// What the slices begin with is being looked for.
+  bool isFraming() const noexcept { return m_framing.busy(); }
+
   const std::array<SliceView*, 3>& views() const noexcept { return m_views; }
 
   void caseChanged();

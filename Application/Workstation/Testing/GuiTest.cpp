@@ -18,6 +18,7 @@
 #include <QTreeView>
 
 #include "Application.h"
+#include "SliceColumn.h"
 #include "StructuresModel.h"
 #include "Theme.h"
 
@@ -221,7 +222,8 @@ bool GuiTest::strokeEnds()
 
 bool GuiTest::settled()
 {
-  return waitFor([this] { return !m_window->busy(); });
+  const auto* slices = m_window->findChild<SliceColumn*>();
+  return waitFor([&] { return !m_window->busy() && !slices->isFraming(); });
 }
 
 std::filesystem::path GuiTest::record()

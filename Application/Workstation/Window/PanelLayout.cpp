@@ -15,12 +15,12 @@ namespace petrous::workstation
 namespace
 {
 
-constexpr int kNarrowest = 340; // px
+constexpr int kNarrowest = 356; // px
 
-// That a scroll bar takes: a style may make it wider, and leaves some pixels beside it.
+// That a scroll bar takes: a style may make it wider, and leaves pixels beside it and at the frame.
 int widthOf(QScrollBar& bar)
 {
-  constexpr int kBeside = 4; // px
+  constexpr int kBeside = 20; // px
   bar.ensurePolished();
   return bar.sizeHint().width() + kBeside;
 }
@@ -91,7 +91,8 @@ private:
 
 QWidget* scrolledPanel(QWidget* panel)
 {
-  return new WholePanel(panel);
+  constexpr int kLow = 700; // px
+  return roomFor(*panel).height() < kLow ? new WholePanel(panel) : panel;
 }
 
 QSize leastOfScreen(const QWidget& widget, const QSize& wanted)

@@ -10,7 +10,7 @@ namespace petrous::workstation
 /// below it is always visible. The dock is never narrower than `inside` needs.
 void layOutPanel(QWidget& panel, QWidget* inside, QWidget* foot);
 
-/// What a dock holds: the panel, which scrolls where the screen is too small for it.
+/// What a dock holds: the panel, which scrolls as a whole on a low screen.
 QWidget* scrolledPanel(QWidget* panel);
 
 /// This size, or less on a small screen.

@@ -478,9 +478,6 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
   ExportSummary summary;
   if (isSegmentation(options) || isSeries(options))
     summary.patient = CaseIdentifiers(value).patient(library);
-  if (summary.patient && summary.patient->isNameHidden())
-    warn("the name of the case is not the patient's name in the files, but the ID '" +
-         summary.patient->id + "': " + summary.patient->whyNameHidden);
   // Voxels mapped for the file must be what was stored.
   const auto checked = [&](const scene::ImagePart& image)
   {
@@ -621,6 +618,9 @@ ExportSummary exportCase(const library::Library& library, scene::Case& value,
         rendering::extractSurface(field, field.geometry().fullBox(), progress.part(0.0, 0.7)),
         value.boneLook.color);
   }
+  if (summary.patient && summary.patient->isNameHidden()) // in files that were written
+    warn("the name of the case is not the patient's name in the files, but the ID '" +
+         summary.patient->id + "': " + summary.patient->whyNameHidden);
   return summary;
 }
 

@@ -93,7 +93,7 @@ AppearancePanel::AppearancePanel(presenters::WorkstationModel& model, QWidget* p
   m_note->setTextFormat(Qt::PlainText);
   m_note->setWordWrap(true);
   layout->addWidget(m_note);
-  setMinimumWidth(356);
+  setMinimumWidth(340);
 
   connect(m_plot, &TransferPlot::changed, this,
           [this]

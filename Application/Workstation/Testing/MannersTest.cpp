@@ -181,6 +181,7 @@ protected:
   /// Texts that do not fit into their widgets, and widgets that are cut off at a side.
   static QStringList cutTexts(QWidget& within)
   {
+    constexpr int kMargin = 3; // px, about a text
     QStringList cut;
     const auto add = [&cut](const QWidget& widget, const QString& text, int wanted, int has)
     {
@@ -214,11 +215,11 @@ protected:
         if (label->heightForWidth(label->width()) > label->height())
           add(*label, text, label->heightForWidth(label->width()), label->height());
       }
-      else if (widget->sizeHint().width() > widget->width())
+      else if (widget->sizeHint().width() > widget->width() + kMargin)
         add(*widget, text, widget->sizeHint().width(), widget->width());
       // What scrolls may be cut off above and below.
       const QRegion seen = widget->visibleRegion();
-      if (!seen.isEmpty() && seen.boundingRect().width() < widget->width())
+      if (!seen.isEmpty() && seen.boundingRect().width() < widget->width() - kMargin)
         add(*widget, text, widget->width(), seen.boundingRect().width());
     }
     return cut;

@@ -181,6 +181,7 @@ def manifest(petrous, name):
     for image in [whole["ct"], *whole["mr"]]:
         image.pop("frame_of_reference_salted_sha256", None)
         image.pop("patient_salted_sha256", None)
+        image.pop("salt_id", None)
     whole["attachments"] = [one for one in whole["attachments"] if one["kind"] != "video"]
     for one in whole["attachments"]:
         one.pop("date", None)

@@ -53,9 +53,9 @@ public:
   /// Another case, or another appearance of it. nullptr: nothing to show.
   void setPresenter(std::shared_ptr<const presenters::SlicePresenter> presenter,
                     const core::GridGeometry& grid);
-  void fit();
+  void fit(); ///< the whole slice
   /// Zooms in on a box of the patient that is much smaller than the image, unless that was done.
-  void frame(const core::PatientBox& box);                     ///< the whole slice
+  void frame(const core::PatientBox& box);
   void setPlane(const scene::ViewState::Slices::Plane& plane); ///< zoom, at most 40, and offset
   scene::ViewState::Slices::Plane plane() const { return {m_zoom, m_offset}; }
   const presenters::GreyWindow& greyWindow() const noexcept { return m_window; } ///< of the CT

@@ -360,6 +360,23 @@ QAbstractButton* buttonOf(const QDialog& dialog, const QString& text)
   return nullptr;
 }
 
+bool clicked(const QDialog& dialog, const QString& text)
+{
+  auto* button = buttonOf(dialog, text);
+  if (button)
+    button->click();
+  return button;
+}
+
+std::set<std::string> structureNames(const scene::Case& value)
+{
+  std::set<std::string> all;
+  for (const scene::LabelPart& part : value.labels)
+    for (const scene::StructurePart& structure : part.structures)
+      all.insert(structure.name);
+  return all;
+}
+
 // Clicks the button of the next dialog whose text contains `button`; returns the dialog's text.
 QString answered(const OnDialog& onDialog, const QString& button, const std::function<void()>& act)
 {
@@ -549,11 +566,8 @@ TEST_F(Import, NamesThatAreTakenAreAskedAboutAtOnce)
     onDialog(
         [&asked, skips, &newName](QDialog& dialog)
         {
-          if (auto* into = buttonOf(dialog, "Add to"))
-          {
-            into->click();
+          if (clicked(dialog, "Add to"))
             return false;
-          }
           if (dialog.objectName() != "askNewNames")
             return false;
           asked = textOf(dialog);
@@ -663,25 +677,15 @@ TEST_F(Import, NamesOfAStructureSetThatAreTakenAreAskedAbout)
       << structureSet({{"nerve", squareAt(2)}, {"nerve", squareAt(6)}, {"vein", squareAt(10)}});
   std::ofstream(folder() / "one.dcm", std::ios::binary) << structureSet({{"nerve", squareAt(2)}});
   openWindow();
-  const auto names = [this]
-  {
-    std::set<std::string> all;
-    for (const scene::LabelPart& part : window().model().value().labels)
-      for (const scene::StructurePart& structure : part.structures)
-        all.insert(structure.name);
-    return all;
-  };
+  const auto names = [this] { return structureNames(window().model().value()); };
   const auto add = [&](const char* file, const QString& newName)
   {
     bool isAsked = false;
     onDialog(
         [&](QDialog& dialog)
         {
-          if (auto* into = buttonOf(dialog, "Add to"))
-          {
-            into->click();
+          if (clicked(dialog, "Add to"))
             return false;
-          }
           if (dialog.objectName() != "askNewNames")
             return false;
           isAsked = true;
@@ -775,14 +779,7 @@ TEST_F(Import, StructuresOutsideOfTheCtAreAskedAboutBeforeTheyAreAdded)
     EXPECT_TRUE(settled());
     return asked;
   };
-  const auto names = [this]
-  {
-    std::set<std::string> all;
-    for (const scene::LabelPart& part : window().model().value().labels)
-      for (const scene::StructurePart& structure : part.structures)
-        all.insert(structure.name);
-    return all;
-  };
+  const auto names = [this] { return structureNames(window().model().value()); };
   const QString asked = drop("others only");
   EXPECT_TRUE(asked.contains("1 of the 2 structures") && asked.contains("artery"))
       << asked.toStdString();
@@ -1301,11 +1298,8 @@ TEST_F(Import, AnMrOfAnotherPatientIsAskedAbout)
     onDialog(
         [&](QDialog& dialog)
         {
-          if (auto* add = buttonOf(dialog, "Add to"))
-          {
-            add->click();
+          if (clicked(dialog, "Add to"))
             return false;
-          }
           if (dialog.objectName() != "askOtherPatient")
             return false;
           asked = textOf(dialog);
@@ -1378,11 +1372,8 @@ TEST_F(Import, ASegmentationOfAnotherFrameIsAskedAbout)
     onDialog(
         [&](QDialog& dialog)
         {
-          if (auto* add = buttonOf(dialog, "Add to"))
-          {
-            add->click();
+          if (clicked(dialog, "Add to"))
             return false;
-          }
           if (dialog.objectName() != "askDrawnOn")
             return false;
           asked = textOf(dialog);

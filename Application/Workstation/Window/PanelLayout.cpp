@@ -15,7 +15,7 @@ namespace petrous::workstation
 namespace
 {
 
-constexpr int kNarrowest = 356; // px
+constexpr int kNarrowest = 340; // px
 
 // That a scroll bar takes: a style may make it wider, and leaves pixels beside it and at the frame.
 int widthOf(QScrollBar& bar)

@@ -245,7 +245,7 @@ private:
                                       ": without the copies of the sign that the negative values "
                                       "of " +
                                           sliceOf(copies).file.filename().string() + " have") +
-                           kExportBits);
+                           "; export it again, uncompressed and with all bits");
     note(
         "Values whose highest stored bit is set were read as negative, as the header says (signed, "
         "Bits Stored " +

@@ -35,6 +35,8 @@ namespace
                                                        "came from");
 }
 
+constexpr const char* kExportBits = "; export it again, uncompressed and with all bits";
+
 [[noreturn]] void failChanged(const SliceHeader& slice)
 {
   throw DicomError(DicomError::Reason::Unreadable,

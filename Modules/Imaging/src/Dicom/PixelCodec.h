@@ -68,8 +68,6 @@ void decodeFrame(ByteSource& source, const SliceHeader& slice,
 void decodePixels(const SliceHeader& slice, StoredPixels& pixels,
                   UndeclaredBits undeclared = UndeclaredBits::Refuse);
 
-inline constexpr const char* kExportBits = "; export it again, uncompressed and with all bits";
-
 /// That so many pixels of the slice have values of more than the bits stored. `why`: what tells.
 std::string bitsStoredText(const SliceHeader& slice, std::size_t count,
                            const std::string& why = {});

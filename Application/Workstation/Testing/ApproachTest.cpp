@@ -274,7 +274,6 @@ TEST_F(Approaches, AreComparedByOneKey)
   EXPECT_GT(blue, 100);
   QTest::keyClick(comparison(), Qt::Key_Escape);
   EXPECT_TRUE(waitFor([this] { return !comparison(); }));
-  constexpr int kSmoothing = 8; // of letters, which are drawn anew; its colours are far from these
   EXPECT_TRUE(
       waitFor([&] { return differentPixels(before, slice->grab().toImage(), kSmoothing) == 0; }))
       << "its colours went with it";

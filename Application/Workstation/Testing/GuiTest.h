@@ -95,6 +95,9 @@ public:
 
 /// Pixels that differ by more than `tolerance` in a channel.
 int differentPixels(const QImage& a, const QImage& b, int tolerance = 2);
+/// Of letters, whose outlines Qt smooths a little differently each time: a tolerance for pictures
+/// that are to be equal, far below any colour that counts.
+constexpr int kSmoothing = 8;
 int pixelsUnlikeTheCorner(const QImage& image);
 
 } // namespace petrous::workstation

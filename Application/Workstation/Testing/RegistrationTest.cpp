@@ -111,6 +111,10 @@ protected:
   const scene::ImagePart& mr() { return window().model().value().mr.front(); }
   QString state() { return find<QLabel>("registrationState").text(); }
   QImage axial() { return find<SliceView>("axialView").grab().toImage(); }
+  static bool same(const QImage& a, const QImage& b)
+  {
+    return differentPixels(a, b, kSmoothing) == 0;
+  }
   static double differing(const QImage& a, const QImage& b) // share of pixels
   {
     if (a.size() != b.size())
@@ -172,7 +176,7 @@ TEST_F(RegistrationWindow, LoadsNothingOfTheMrUntilItIsShown)
   EXPECT_NE(mr().volume.peek(), nullptr);
   EXPECT_NE(axial(), ct);
   choose(0);
-  EXPECT_TRUE(waitFor([&] { return axial() == ct; }));
+  EXPECT_TRUE(waitFor([&] { return same(axial(), ct); }));
 }
 
 TEST_F(RegistrationWindow, KeysFlickBetweenCtAndMrAndGoThroughTheWays)
@@ -185,10 +189,10 @@ TEST_F(RegistrationWindow, KeysFlickBetweenCtAndMrAndGoThroughTheWays)
   const QImage ctAlone = axial();
   EXPECT_NE(ctAlone, mrAlone);
   QTest::keyClick(&view(), Qt::Key_V);
-  EXPECT_EQ(axial(), mrAlone);
+  EXPECT_TRUE(same(axial(), mrAlone));
   picture();
   QTest::keyClick(&view(), Qt::Key_O); // back to the initial mode
-  EXPECT_EQ(axial(), ct);
+  EXPECT_TRUE(same(axial(), ct));
   std::vector<QImage> ways;
   for (int n = 0; n < 3; ++n)
   {
@@ -199,7 +203,7 @@ TEST_F(RegistrationWindow, KeysFlickBetweenCtAndMrAndGoThroughTheWays)
   EXPECT_NE(ways[0], ways[1]);
   EXPECT_NE(ways[1], ways[2]);
   QTest::keyClick(&view(), Qt::Key_O);
-  EXPECT_EQ(axial(), ct);
+  EXPECT_TRUE(same(axial(), ct));
 }
 
 TEST_F(RegistrationWindow, RegistersWithProgressAndStatesTheError)
@@ -242,7 +246,7 @@ TEST_F(RegistrationWindow, TheSegmentPanelWorksOnWhatTheSlicesShow)
   EXPECT_NE(axial(), ct);
   EXPECT_TRUE(note.isHidden());
   source.setCurrentIndex(0);
-  EXPECT_TRUE(waitFor([&] { return axial() == ct; }));
+  EXPECT_TRUE(waitFor([&] { return same(axial(), ct); }));
 
   QTest::keyClick(&window(), Qt::Key_N, Qt::ShiftModifier);
   EXPECT_TRUE(note.isHidden());
@@ -358,7 +362,7 @@ TEST_F(RegistrationWindow, TheSlicesShowTheRegionThatCountsWhileThePanelIsOpen)
   EXPECT_NEAR(changed.center().x(), middle.x(), 3.0);
   EXPECT_NEAR(changed.center().y(), middle.y(), 3.0);
   showPanel(); // hides it
-  EXPECT_TRUE(waitFor([&] { return axial() == whole; }, 5000));
+  EXPECT_TRUE(waitFor([&] { return same(axial(), whole); }, 5000));
 }
 
 TEST_F(RegistrationWindow, TheHandMovesTheMrByKeyAndButtonAndCanBeUndone)

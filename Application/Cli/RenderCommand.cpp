@@ -56,6 +56,7 @@ struct RenderOptions
   std::vector<std::string> clip;
   std::optional<double> eyeSeparation, convergence;
   std::optional<double> falloff, wetness;
+  bool shadows = false;
   std::optional<double> widthMillimetres, dotsPerInch;
   std::string along;
   int turntable = 0, frames = 0; ///< 0: not given
@@ -166,6 +167,7 @@ rendering::SceneContents renderContents(const RenderOptions& options, const scen
   rendering::SceneContents contents = assembly.contents(value);
   contents.light.falloff = options.falloff.value_or(0.0);
   contents.light.wetness = options.wetness.value_or(0.0);
+  contents.light.setShadows(options.shadows);
   scene::ViewState::Clipping clipping;
   if (!options.plain)
     clipping = value.view.clipping;
@@ -247,6 +249,8 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
       .add_option("--wetness", options.wetness,
                   "Specular gloss of a wet surface, 0 to 1 (as saved)")
       ->check(within({0.0, 1.0}));
+  command.add_flag("--shadows", options.shadows,
+                   "Darken cavities, and throw the soft shadow of a lamp above the view axis");
   command
       .add_option("--thickness", options.thickness,
                   "Colour bone by its thickness over a structure, 0 to 5 mm")

@@ -166,7 +166,7 @@ TEST_P(ShadowPicture, SeesAboutAsMuchOfTheSkyAsManyRays)
   EXPECT_LE(error.rms, 0.06);
   EXPECT_LE(std::abs(error.mean), 0.03);
   contents.light.shadows = false;
-  EXPECT_GT(errorOf(shoot(contents, above(), {}, kColumns, kRows), truth).rms, 2.0 * 0.06);
+  EXPECT_GT(errorOf(shoot(contents, above(), {}, kColumns, kRows), truth).rms, 2.0 * error.rms);
 }
 
 TEST_P(ShadowPicture, SeesAboutAsMuchOfTheLampAsManyRays)

@@ -233,6 +233,8 @@ TEST_F(RenderCommand, TheLampHasAMicroscopesLook)
   EXPECT_EQ(drawn("--light-falloff 0 --wetness 0"), plain);
   EXPECT_NE(drawn("--light-falloff 60"), plain);
   EXPECT_NE(drawn("--wetness 1"), plain);
+  EXPECT_NE(drawn("--shadows"), plain);
+  EXPECT_EQ(drawn("--no-shadows"), plain);
   expectRefused(render("--wetness 1.5"), 2, "--wetness");
   expectRefused(render("--light-falloff -1"), 2, "mm");
   expectRefused(render("--light-falloff nan"), 2, "--light-falloff");

@@ -43,7 +43,7 @@ TEST_F(ViewCommand, RenderAndSliceShowWhatIsSaved)
   };
   const std::string at = std::to_string(center(0)) + "," + std::to_string(center(1) + 5.0) + "," +
                          std::to_string(center(2));
-  const std::string render = "--view superior --light-falloff 150 --wetness 0.5 --stereo "
+  const std::string render = "--view superior --light-falloff 150 --wetness 0.5 --shadows --stereo "
                              "anaglyph --eye-separation 20 --clip " +
                              at + ",0,0,-1 --crop 0,47,0,40,0,44";
   const std::string plain = drawn("render ear");
@@ -59,6 +59,10 @@ TEST_F(ViewCommand, RenderAndSliceShowWhatIsSaved)
                 .at("stereo"),
             nullptr);
 
+  EXPECT_EQ(set.at("light").at("shadows"), true);
+  EXPECT_EQ(json("view ear --no-shadows").at("light").at("shadows"), false);
+  EXPECT_NE(drawn("render ear"), wanted);
+  EXPECT_EQ(drawn("render ear --shadows"), wanted);
   EXPECT_EQ(set.at("tool").at("burr"), "diamond");
   EXPECT_EQ(set.at("clipping").at("crop"), Json({0, 47, 0, 40, 0, 44}));
   const Json slice =

@@ -55,6 +55,7 @@ struct RenderOptions
   std::vector<std::string> clip;
   std::optional<double> eyeSeparation, convergence;
   std::optional<double> falloff, wetness;
+  std::optional<bool> shadows;
   std::optional<double> widthMillimetres, dotsPerInch;
   std::string along;
   int turntable = 0, frames = 0; ///< 0: not given
@@ -150,6 +151,8 @@ void takeView(RenderOptions& options, Shot& shot, const scene::ViewState& saved)
     options.falloff = view.light->falloff;
   if (view.light && !options.wetness)
     options.wetness = view.light->wetness;
+  if (view.light && !options.shadows)
+    options.shadows = view.light->shadows;
   if (options.isPrint() || options.isFilm())
     options.stereo = "none";
   shot.stereo = *rendering::parseStereoMode(options.stereo);
@@ -171,8 +174,9 @@ rendering::SceneContents renderContents(const RenderOptions& options, const scen
   presenters::SceneAssembly assembly;
   assembly.showThickness(options.thickness);
   rendering::SceneContents contents = assembly.contents(value);
-  contents.light.falloff = options.falloff.value_or(0.0);
-  contents.light.wetness = options.wetness.value_or(0.0);
+  presenters::illuminate(contents, scene::ViewState::Light{options.falloff.value_or(0.0),
+                                                           options.wetness.value_or(0.0),
+                                                           options.shadows.value_or(false)});
   presenters::clip(contents, value.view.clipping, value.ct.geometry);
   return contents;
 }
@@ -249,6 +253,9 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
       .add_option("--wetness", options.wetness,
                   "Specular gloss of a wet surface, 0 to 1 (as saved)")
       ->check(within({0.0, 1.0}));
+  command.add_flag("--shadows,!--no-shadows", options.shadows,
+                   "Darken cavities, and throw the soft shadow of a lamp above the view axis (as "
+                   "saved)");
   command
       .add_option("--thickness", options.thickness,
                   "Colour bone by its thickness over a structure, 0 to 5 mm")

@@ -27,6 +27,7 @@ struct ViewCommandOptions
   std::string caseName, view, camera, at, window, stereo, crop, roi, overlay, mode, burr;
   std::string show, saveAs;
   std::vector<std::string> clip, zoom, cleared, removed;
+  std::optional<bool> shadows;
   std::optional<double> falloff, wetness, eyeSeparation, convergence, opacity, diameter, rpm,
       thrust;
 };
@@ -128,12 +129,13 @@ void change(scene::Case& value, const ViewCommandOptions& options)
   if (!options.view.empty())
     value.camera = presenters::standardCamera(value, *rendering::parseView(options.view));
   changeSlices(value, options);
-  if (options.falloff || options.wetness)
+  if (options.falloff || options.wetness || options.shadows)
   {
     if (!view.light)
       view.light.emplace();
     view.light->falloff = options.falloff.value_or(view.light->falloff);
     view.light->wetness = options.wetness.value_or(view.light->wetness);
+    view.light->shadows = options.shadows.value_or(view.light->shadows);
   }
   if (!options.stereo.empty() || options.eyeSeparation || options.convergence)
   {
@@ -223,7 +225,9 @@ nlohmann::json viewJson(const scene::Case& value)
     branches[name] = cameraJson(camera);
   nlohmann::json light = nullptr;
   if (view.light)
-    light = {{"falloff_mm", view.light->falloff}, {"wetness", view.light->wetness}};
+    light = {{"falloff_mm", view.light->falloff},
+             {"wetness", view.light->wetness},
+             {"shadows", view.light->shadows}};
   nlohmann::json stereo = nullptr;
   if (view.stereo)
     stereo = {{"mode", view.stereo->mode},
@@ -309,6 +313,8 @@ void addViewCommand(CLI::App& app, Context& context)
       ->check(within({0.0, 10000.0, "mm"}));
   command->add_option("--wetness", options->wetness, "Specular gloss of a wet surface, 0 to 1")
       ->check(within({0.0, 1.0}));
+  command->add_flag("--shadows,!--no-shadows", options->shadows,
+                    "Darker cavities, and the soft shadow of a lamp above the view axis");
   command->add_option("--stereo", options->stereo, "none, side-by-side, interleaved or anaglyph")
       ->check(oneOf({"none", "side-by-side", "interleaved", "anaglyph"}));
   command->add_option("--eye-separation", options->eyeSeparation, "Distance between the eyes")

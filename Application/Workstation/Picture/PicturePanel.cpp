@@ -1,5 +1,6 @@
 #include "PicturePanel.h"
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QFormLayout>
@@ -63,6 +64,15 @@ PicturePanel::PicturePanel(presenters::WorkstationModel& model, presenters::View
                  percentSlider("wetness", tr("Gloss of a wet surface")),
                  [this] { return percent(m_settings.light().wetness); },
                  [this](int percent) { m_settings.setWetness(0.01 * percent); }));
+  auto* shadows = new QCheckBox(tr("&Shadows"));
+  shadows->setObjectName("shadows");
+  shadows->setToolTip(
+      tr("Cavities are darker than what is open, and a lamp somewhat above the line "
+         "of sight throws a soft shadow"));
+  m_bound.add(
+      shadows, [this] { return m_settings.light().shadows; },
+      [this](bool on) { m_settings.setShadows(on); });
+  form->addRow(QString(), shadows);
   addStereo(form, quadBuffer);
   settingsChanged();
 }

@@ -34,11 +34,7 @@ namespace
 rendering::SceneContents contentsOf(const scene::Case& value, const core::Progress& progress)
 {
   rendering::SceneContents contents = presenters::sceneContents(value, progress);
-  if (value.view.light)
-  {
-    contents.light.falloff = value.view.light->falloff;
-    contents.light.wetness = value.view.light->wetness;
-  }
+  presenters::illuminate(contents, value.view.light);
   presenters::clip(contents, value.view.clipping, value.ct.geometry);
   return contents;
 }

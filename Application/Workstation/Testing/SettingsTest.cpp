@@ -38,6 +38,7 @@ TEST_F(Settings, HandAndPictureComeBackInTheNextWindow)
   widget<QDoubleSpinBox>("thrust").setValue(2.5);
   widget<QDoubleSpinBox>("lightFalloff").setValue(120.0);
   widget<QSlider>("wetness").setValue(40);
+  widget<QAbstractButton>("shadows").click();
   widget<QDoubleSpinBox>("eyeSeparation").setValue(22.0);
   auto& stereo = widget<QComboBox>("stereoMode");
   stereo.setCurrentIndex(stereo.findText("Anaglyph (red-cyan)"));
@@ -51,6 +52,7 @@ TEST_F(Settings, HandAndPictureComeBackInTheNextWindow)
   EXPECT_EQ(widget<QDoubleSpinBox>("thrust").value(), 2.5);
   EXPECT_EQ(widget<QDoubleSpinBox>("lightFalloff").value(), 120.0);
   EXPECT_EQ(widget<QSlider>("wetness").value(), 40);
+  EXPECT_TRUE(widget<QAbstractButton>("shadows").isChecked());
   EXPECT_EQ(widget<QDoubleSpinBox>("eyeSeparation").value(), 22.0);
   EXPECT_EQ(widget<QDoubleSpinBox>("convergence").value(), 0.0);
   EXPECT_EQ(widget<QComboBox>("stereoMode").currentText(), "Anaglyph (red-cyan)");

@@ -58,6 +58,7 @@ void WindowSettings::restore(presenters::ViewSettings& view, bool quadBuffer) co
     view.setFalloff(*falloff);
   if (const auto wetness = number("light/wetness"))
     view.setWetness(*wetness);
+  view.setShadows(m_file.value("light/shadows").toBool());
   view.setEyeSeparation(number("stereo/eye_separation_mm"));
   view.setConvergence(number("stereo/convergence_mm"));
   const QString mode = m_file.value("stereo/mode").toString();
@@ -70,6 +71,7 @@ void WindowSettings::keep(const presenters::ViewSettings& view)
 {
   m_file.setValue("light/falloff_mm", view.light().falloff);
   m_file.setValue("light/wetness", view.light().wetness);
+  m_file.setValue("light/shadows", view.light().shadows);
   for (const auto& [value, name] : kModes)
     if (value == view.stereo())
       m_file.setValue("stereo/mode", name);

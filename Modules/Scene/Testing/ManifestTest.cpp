@@ -744,7 +744,7 @@ scene::Case viewedCase()
   view.slices->planes.emplace();
   (*view.slices->planes)[2] = {10.0 / 3.0, Vector3d(0.1, 0.2, 0.30000000000000004)};
   view.slices->overlay = scene::ViewState::Slices::Overlay{"T2", "checker", 1.0 / 3.0};
-  view.light = scene::ViewState::Light{1000.0 / 3.0, 0.1};
+  view.light = scene::ViewState::Light{1000.0 / 3.0, 0.1, true};
   view.stereo = scene::ViewState::Stereo{"interleaved", 22.2, std::nullopt};
   view.clipping.planes = {{Vector3d(0.1, 0.2, 0.3), Vector3d(0.0, 0.6, 0.8)}};
   view.clipping.crop = core::IndexBox{{1, 2, 3}, {4, 5, 6}};
@@ -881,6 +881,7 @@ TEST(Manifest, RefusesAHostileViewOrAttachment)
   refused("/view/slices/overlay/mode", "sparkle");
   refused("/view/light/wetness", 2.0);
   refused("/view/light/falloff_mm", -1.0);
+  refused("/view/light/shadows", 1);
   refused("/view/stereo/mode", "holographic");
   refused("/view/stereo/eye_separation_mm", 1e9);
   refused("/view/clipping/planes/0/normal", {0, 0, 0});

@@ -619,7 +619,11 @@ json viewOut(const Case& value)
   if (view.slices)
     j["slices"] = slicesOut(*view.slices);
   if (view.light)
+  {
     j["light"] = {{"falloff_mm", view.light->falloff}, {"wetness", view.light->wetness}};
+    if (view.light->shadows)
+      j["light"]["shadows"] = true;
+  }
   if (view.stereo)
     j["stereo"] = stereoOut(*view.stereo);
   if (!view.clipping.empty())
@@ -646,7 +650,7 @@ ViewState viewIn(const json& j)
     view.slices = slicesIn(j.at("slices"));
   if (j.contains("light"))
     view.light = {j.at("light").at("falloff_mm").get<double>(),
-                  j.at("light").at("wetness").get<double>()};
+                  j.at("light").at("wetness").get<double>(), j.at("light").value("shadows", false)};
   if (j.contains("stereo"))
     view.stereo = stereoIn(j.at("stereo"));
   if (j.contains("clipping"))

@@ -110,7 +110,7 @@ bool operator==(const Slices& a, const Slices& b)
 
 bool operator==(const ViewState::Light& a, const ViewState::Light& b)
 {
-  return a.falloff == b.falloff && a.wetness == b.wetness;
+  return std::tie(a.falloff, a.wetness, a.shadows) == std::tie(b.falloff, b.wetness, b.shadows);
 }
 
 bool operator==(const ViewState::Stereo& a, const ViewState::Stereo& b)

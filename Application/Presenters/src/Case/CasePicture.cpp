@@ -66,6 +66,15 @@ void clip(rendering::SceneContents& contents, const scene::ViewState::Clipping& 
     contents.crop = inside;
 }
 
+void illuminate(rendering::SceneContents& contents,
+                const std::optional<scene::ViewState::Light>& light)
+{
+  const scene::ViewState::Light given = light.value_or(scene::ViewState::Light());
+  contents.light.falloff = given.falloff;
+  contents.light.wetness = given.wetness;
+  contents.light.setShadows(given.shadows);
+}
+
 std::vector<std::string> clippingTexts(const scene::ViewState::Clipping& clipping)
 {
   std::vector<std::string> lines;

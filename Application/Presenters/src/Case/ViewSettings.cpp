@@ -47,6 +47,15 @@ void ViewSettings::setWetness(double wetness)
   change(m_light.wetness, held(wetness, 0.0, 1.0), events.lightChanged);
 }
 
+void ViewSettings::setShadows(bool on)
+{
+  if (m_light.shadows == on)
+    return;
+  m_light.setShadows(on);
+  if (events.lightChanged)
+    events.lightChanged();
+}
+
 void ViewSettings::setStereo(rendering::StereoMode mode)
 {
   change(m_stereo, mode, events.stereoChanged);
@@ -72,6 +81,7 @@ void ViewSettings::take(const scene::ViewState& view, bool quadBuffer)
   {
     setFalloff(view.light->falloff);
     setWetness(view.light->wetness);
+    setShadows(view.light->shadows);
   }
   if (!view.stereo)
     return;
@@ -87,6 +97,7 @@ void ViewSettings::take(const ViewSettings& other)
 {
   setFalloff(other.m_light.falloff);
   setWetness(other.m_light.wetness);
+  setShadows(other.m_light.shadows);
   setEyeSeparation(other.m_rig.eyeSeparation);
   setConvergence(other.m_rig.convergence);
   setStereo(other.m_stereo);
@@ -94,7 +105,7 @@ void ViewSettings::take(const ViewSettings& other)
 
 scene::ViewState::Light ViewSettings::lightState() const
 {
-  return {m_light.falloff, m_light.wetness};
+  return {m_light.falloff, m_light.wetness, m_light.shadows};
 }
 
 scene::ViewState::Stereo ViewSettings::stereoState() const

@@ -498,11 +498,7 @@ private:
         views.paragraphs.push_back(say("Nothing of the case is shown in 3D."));
         return;
       }
-      if (m_value.view.light)
-      {
-        contents.light.falloff = m_value.view.light->falloff;
-        contents.light.wetness = m_value.view.light->wetness;
-      }
+      illuminate(contents, m_value.view.light);
       const auto add = [&](const std::string& caption, const core::CameraPose& camera,
                            const scene::ViewState::Clipping& clipping, const core::Progress& part)
       {

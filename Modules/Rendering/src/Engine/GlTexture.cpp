@@ -1,5 +1,6 @@
 #include "GlTexture.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,24 @@ void GlTexture::create(const TexelFormat& format, int width, int height, const v
   make(GL_TEXTURE_2D, format, {width, height, 1}, data, filter);
 }
 
+void GlTexture::createPyramid(const TexelFormat& format, const core::Index3& dims, int levels)
+{
+  make(GL_TEXTURE_3D, format, dims, nullptr, GL_LINEAR);
+  glBindTexture(m_target, m_name);
+  glTexParameteri(m_target, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+  glTexParameteri(m_target, GL_TEXTURE_MAX_LEVEL, levels - 1);
+  core::Index3 size = dims;
+  for (int level = 1; level < levels; ++level)
+  {
+    for (int& edge : size)
+      edge = std::max(edge / 2, 1);
+    glTexImage3D(m_target, level, format.internal, size[0], size[1], size[2], 0, format.layout,
+                 format.type, nullptr);
+    m_bytes += count(size) * format.bytes;
+  }
+  glBindTexture(m_target, 0);
+}
+
 void GlTexture::make(GLenum target, const TexelFormat& format, const core::Index3& dims,
                      const void* data, GLint filter)
 {
@@ -99,13 +118,13 @@ void GlTexture::make(GLenum target, const TexelFormat& format, const core::Index
   }
 }
 
-void GlTexture::update(const core::IndexBox& box, const void* data)
+void GlTexture::update(const core::IndexBox& box, const void* data, int level)
 {
   const core::Index3 size = box.size();
   const PlainUpload plain;
   glBindTexture(m_target, m_name);
-  glTexSubImage3D(m_target, 0, box.lower[0], box.lower[1], box.lower[2], size[0], size[1], size[2],
-                  m_format.layout, m_format.type, data);
+  glTexSubImage3D(m_target, level, box.lower[0], box.lower[1], box.lower[2], size[0], size[1],
+                  size[2], m_format.layout, m_format.type, data);
   glBindTexture(m_target, 0);
 }
 

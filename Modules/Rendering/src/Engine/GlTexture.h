@@ -25,6 +25,7 @@ constexpr TexelFormat kByte{GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1};
 constexpr TexelFormat kShort{GL_R16_SNORM, GL_RED, GL_SHORT, 2};
 constexpr TexelFormat kUnsignedShort{GL_R16, GL_RED, GL_UNSIGNED_SHORT, 2};
 constexpr TexelFormat kFloat{GL_R32F, GL_RED, GL_FLOAT, 4};
+constexpr TexelFormat kBytePair{GL_RG8, GL_RG, GL_UNSIGNED_BYTE, 2};
 constexpr TexelFormat kIndex{GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, 1};
 constexpr TexelFormat kIndexPair{GL_RG8UI, GL_RG_INTEGER, GL_UNSIGNED_BYTE, 2};
 constexpr TexelFormat kBrick{GL_RGBA8UI, GL_RGBA_INTEGER, GL_UNSIGNED_BYTE, 4};
@@ -48,10 +49,13 @@ public:
   /// (Re)creates the texture; `data` may be null. filter: GL_LINEAR or GL_NEAREST. Clamped to edge.
   /// Throws RenderingError NoOpenGL if the driver runs out of memory.
   void create(const TexelFormat& format, const core::Index3& dims, const void* data, GLint filter);
+  /// With `levels` of half the texels of the one before along each axis, linear within each; filled
+  /// by `update`.
+  void createPyramid(const TexelFormat& format, const core::Index3& dims, int levels);
   void create(const TexelFormat& format, int width, int height, const void* data, GLint filter);
 
   /// Uploads a box of texels, first axis fastest.
-  void update(const core::IndexBox& box, const void* data);
+  void update(const core::IndexBox& box, const void* data, int level = 0);
 
   /// Sets all texels to one value in the format's memory layout.
   void fill(const void* texel);

@@ -196,6 +196,33 @@ bool sameMaterials(const std::vector<appearance::Material>& a,
                     });
 }
 
+// The texels of a box, first axis fastest.
+template <class T>
+std::vector<T> boxOf(const std::vector<T>& texels, const core::Index3& dims,
+                     const core::IndexBox& box)
+{
+  std::vector<T> part;
+  part.reserve(box.count());
+  for (int k = box.lower[2]; k < box.upper[2]; ++k)
+    for (int j = box.lower[1]; j < box.upper[1]; ++j)
+    {
+      const auto row =
+          texels.begin() + box.lower[0] +
+          static_cast<std::ptrdiff_t>(dims[0]) * (j + static_cast<std::ptrdiff_t>(dims[1]) * k);
+      part.insert(part.end(), row, row + box.size()[0]);
+    }
+  return part;
+}
+
+// Of surfaces, which decide what light they stop.
+bool sameOpacities(const std::vector<appearance::Material>& a,
+                   const std::vector<appearance::Material>& b)
+{
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const appearance::Material& x, const appearance::Material& y)
+                    { return x.surfaceOpacity == y.surfaceOpacity && x.lumen == y.lumen; });
+}
+
 bool sameRules(const OccupancyGrid::Rules& a, const OccupancyGrid::Rules& b)
 {
   return a.iso == b.iso && a.bone == b.bone && a.interior == b.interior &&
@@ -248,6 +275,7 @@ void RayCaster::setContents(const SceneContents& contents)
   const OccupancyGrid::Rules before =
       m_contents.materials.empty() ? OccupancyGrid::Rules{} : rules();
   m_newMaterials |= !sameMaterials(contents.materials, m_contents.materials);
+  m_newOpacities |= !sameOpacities(contents.materials, m_contents.materials);
   m_newRules |= mask != m_contents.mask || !sameCt || m_newLabels;
   if (mask != m_contents.mask || !sameCt)
     m_mask.reset(mask, m_quality.maskBits, m_quality.largestTexture);
@@ -259,7 +287,10 @@ void RayCaster::setContents(const SceneContents& contents)
     m_contents.materials.emplace_back();
   m_newRules |= !sameRules(before, rules());
   if (!sameCt)
+  {
     m_occupancy.reset();
+    m_opacities.reset();
+  }
 }
 
 void RayCaster::setQuality(const RenderQuality& quality)
@@ -292,7 +323,12 @@ void RayCaster::maskChanged(std::shared_ptr<const volume::CutMask> mask, const c
   else
     m_mask.changed(mask, box);
   if (m_occupancy && !m_newRules)
+  {
     m_dirtyBricks = m_dirtyBricks.united(m_occupancy->maskChanged(mask.get(), box));
+    if (m_opacities && !m_newOpacities)
+      m_dirtyOpacities =
+          m_dirtyOpacities.united(m_opacities->maskChanged(lightStoppers(), *m_occupancy, box));
+  }
 }
 
 void RayCaster::expectCut(bool expected)
@@ -325,6 +361,7 @@ RayFeatures RayCaster::features() const
   features.interior = translucent(m_contents.materials);
   features.thickness = static_cast<bool>(m_contents.thickness.distance);
   features.clip = !m_contents.clipping.empty();
+  features.shadows = m_contents.light.shadows;
   features.exact = m_statistics.filterBits < RenderQuality::kExactFilterBits;
   features.rounded = features.exact && m_quality.filterBits > 0;
   return features;
@@ -343,7 +380,47 @@ OccupancyGrid::Rules RayCaster::rules() const
   return rules;
 }
 
+OpacityPyramid::Scene RayCaster::lightStoppers() const
+{
+  return {*m_contents.ct,       m_contents.labels.get(), m_contents.mask.get(),
+          m_contents.materials, m_contents.iso,          m_contents.boneShown};
+}
+
 // ---- textures
+
+// After the bricks.
+void RayCaster::uploadOpacities()
+{
+  if (!m_contents.light.shadows)
+  {
+    m_opacities.reset();
+    m_opacityTexture.release();
+    return;
+  }
+  core::IndexBox dirty = m_dirtyOpacities;
+  if (!m_opacities || m_newOpacities || m_newRules || m_newLabels || m_newCt)
+  {
+    if (!m_opacities)
+      m_opacities = std::make_unique<OpacityPyramid>(m_contents.ct->geometry());
+    m_opacities->rebuild(lightStoppers(), *m_occupancy);
+    dirty = {{0, 0, 0}, m_opacities->levels().front().dims};
+  }
+  const std::vector<OpacityPyramid::Level>& levels = m_opacities->levels();
+  if (!m_opacityTexture || m_opacityTexture.dims() != levels.front().dims)
+  {
+    m_opacityTexture.createPyramid(texel::kBytePair, levels.front().dims,
+                                   static_cast<int>(levels.size()));
+    dirty = {{0, 0, 0}, levels.front().dims};
+  }
+  if (dirty.empty())
+    return;
+  for (std::size_t n = 0; n < levels.size(); ++n)
+  {
+    const core::IndexBox box = OpacityPyramid::boxAt(n, dirty);
+    m_opacityTexture.update(box, boxOf(levels[n].texels, levels[n].dims, box).data(),
+                            static_cast<int>(n));
+  }
+}
 
 void RayCaster::upload()
 {
@@ -395,26 +472,18 @@ void RayCaster::upload()
     m_bricks.create(texel::kBrick, m_occupancy->dims(), m_occupancy->texels().data(), GL_NEAREST);
   else if (!m_dirtyBricks.empty())
   {
-    const core::Index3 size = m_dirtyBricks.size();
-    const core::Index3& dims = m_occupancy->dims();
-    std::vector<OccupancyGrid::Texel> texels;
-    texels.reserve(m_dirtyBricks.count());
-    for (int k = m_dirtyBricks.lower[2]; k < m_dirtyBricks.upper[2]; ++k)
-      for (int j = m_dirtyBricks.lower[1]; j < m_dirtyBricks.upper[1]; ++j)
-      {
-        const auto row =
-            m_occupancy->texels().begin() + m_dirtyBricks.lower[0] +
-            static_cast<std::ptrdiff_t>(dims[0]) * (j + static_cast<std::ptrdiff_t>(dims[1]) * k);
-        texels.insert(texels.end(), row, row + size[0]);
-      }
+    const auto texels = boxOf(m_occupancy->texels(), m_occupancy->dims(), m_dirtyBricks);
     m_bricks.update(m_dirtyBricks, texels.data());
   }
   m_dirtyBricks = {};
+  uploadOpacities();
+  m_dirtyOpacities = {};
   if (edited)
     m_statistics.editMilliseconds =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 
-  m_newCt = m_newLabels = m_newMaterials = m_newSecond = m_newRules = m_newThickness = false;
+  m_newCt = m_newLabels = m_newMaterials = m_newSecond = m_newRules = m_newThickness =
+      m_newOpacities = false;
   m_statistics.notes.clear();
   if (m_ct.reduction != core::Index3{1, 1, 1})
     note("the CT", m_ct.reduction);
@@ -434,6 +503,7 @@ void RayCaster::upload()
   add("labels.texture", m_labels.occupancy.bytes() + m_labels.index.bytes());
   add("labels.thickness", m_thickness.texture.bytes());
   add("mr.texture", m_second.texture.bytes());
+  add("light.opacities", m_opacities ? m_opacityTexture.bytes() + m_opacities->bytes() : 0);
 }
 
 // ---- one frame
@@ -488,6 +558,7 @@ void RayCaster::draw(const Frame& frame, bool count)
   bindTextures(shader, frame);
   setRays(shader, frame);
   setVolume(shader);
+  setShadows(shader, frame);
   castRays(tissueOnScreen(frame, width, height));
   if (frame.fovea && !count)
     drawFovea(frame);
@@ -548,6 +619,7 @@ void RayCaster::drawPart(const Frame& frame, const RenderQuality& quality,
   bindTextures(shader, frame);
   setRays(shader, frame);
   setVolume(shader);
+  setShadows(shader, frame);
   castRays(part);
 }
 
@@ -604,6 +676,7 @@ void RayCaster::releaseData()
   m_thickness.texture.release();
   m_materials.release();
   m_bricks.release();
+  m_opacityTexture.release();
 }
 
 void RayCaster::releasePicture()

@@ -10,6 +10,8 @@
 
 #include "GlProgram.h"
 #include "GlTexture.h"
+#include "OpacityPyramid.h"
+#include "OpticalModel.h"
 #include "RayShader.h"
 #include "RayView.h"
 #include "SceneTextures.h"
@@ -75,6 +77,7 @@ public:
     int width = 0; ///< of the viewport, pixels
     int height = 0;
     GLuint opaque = 0;
+    optics::Lamp lamp = {};  ///< in patient mm
     bool everywhere = false; ///< also cast rays that cannot meet tissue
     std::optional<Fovea> fovea = std::nullopt;
   };
@@ -124,7 +127,9 @@ private:
   std::shared_ptr<const volume::CutMask> maskInUse() const;
   RayFeatures features() const;
   OccupancyGrid::Rules rules() const;
+  OpacityPyramid::Scene lightStoppers() const;
   void upload();
+  void uploadOpacities();
   void findTissue(const core::IndexBox& bricks);
   void drawFovea(const Frame& frame);
   GlProgram& program(bool count);
@@ -132,6 +137,7 @@ private:
   void bindTextures(GlProgram& program, const Frame& frame) const;
   void setRays(GlProgram& program, const Frame& frame) const;
   void setVolume(GlProgram& program) const;
+  void setShadows(GlProgram& program, const Frame& frame) const;
   void castRays(const core::IndexBox& pixels);
   GlProgram& presenting();
 
@@ -141,11 +147,14 @@ private:
   RenderQuality m_quality;
   RenderStatistics m_statistics;
   std::unique_ptr<OccupancyGrid> m_occupancy;
+  std::unique_ptr<OpacityPyramid> m_opacities; // only with shadows
 
   bool m_newCt = false, m_newLabels = false, m_newMaterials = false, m_newSecond = false;
   bool m_newThickness = false;
   bool m_newRules = false;
+  bool m_newOpacities = false;
   core::IndexBox m_dirtyBricks;
+  core::IndexBox m_dirtyOpacities;
   core::IndexBox m_tissueBricks; // bounding box of all visible tissue
   volume::ValueRange m_ctRange, m_secondRange;
 
@@ -155,6 +164,7 @@ private:
   ThicknessTexture m_thickness;
   MaterialTables m_materials;
   GlTexture m_bricks;
+  GlTexture m_opacityTexture;
   RayTarget m_target;
   RayTarget m_foveaTarget;
   std::optional<Fovea> m_fovea; // of the last frame

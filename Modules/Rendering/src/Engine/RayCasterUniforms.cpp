@@ -31,7 +31,8 @@ enum Unit : int
   IndexUnit,
   SecondUnit,
   ThicknessUnit,
-  DepthUnit
+  DepthUnit,
+  OpacityUnit
 };
 
 } // namespace
@@ -59,6 +60,8 @@ void RayCaster::bindTextures(GlProgram& program, const Frame& frame) const
     bind(m_second.texture, SecondUnit, "secondTexture");
   if (m_thickness.texture)
     bind(m_thickness.texture, ThicknessUnit, "thicknessTexture");
+  if (m_opacityTexture)
+    bind(m_opacityTexture, OpacityUnit, "opacityTexture");
   glActiveTexture(GL_TEXTURE0 + OpaqueUnit);
   glBindTexture(GL_TEXTURE_2D, frame.opaque);
   program.set("opaqueTexture", int{OpaqueUnit});
@@ -177,6 +180,45 @@ void RayCaster::setVolume(GlProgram& program) const
     program.set("secondScale", m_second.map.scale);
     program.set("secondOffset", m_second.map.offset);
   }
+}
+
+void RayCaster::setShadows(GlProgram& program, const Frame& frame) const
+{
+  if (!m_opacities)
+    return;
+  const core::GridGeometry& grid = m_contents.ct->geometry();
+  const core::Index3& factor = m_opacities->factor();
+  core::Index3 voxels = m_opacities->levels().front().dims;
+  for (std::size_t a = 0; a < 3; ++a)
+    voxels[a] *= factor[a];
+  const TextureMap map = textureMap(voxels, factor);
+  program.set("opacityScale", map.scale);
+  program.set("opacityOffset", map.offset);
+  const Eigen::Vector3d blocks(factor[0], factor[1], factor[2]);
+  const Eigen::Matrix3d edges = grid.patientFromVoxelLinear() * blocks.asDiagonal();
+  const double edge = edges.colwise().norm().mean();
+  program.set("opacityEdges", edges);
+  program.set("mmPerVoxel",
+              Eigen::Vector3d(grid.voxelFromPatientLinear().rowwise().norm().cwiseInverse()));
+  program.set("opacityEdge", edge);
+  program.set("opacityLevels", static_cast<int>(m_opacities->levels().size()));
+
+  // Each look-up stands for the distances up to half a step, on a logarithmic scale, before and
+  // behind it; the last of them is the reach.
+  constexpr double kNearest = 1.2; // texels
+  const double last = optics::kOcclusionReach / std::sqrt(kSliceGrowth);
+  const int before = std::max(
+      0, static_cast<int>(std::floor(std::log(last / (kNearest * edge)) / std::log(kSliceGrowth))));
+  program.set("nearestSlice", last / std::pow(kSliceGrowth, before));
+  program.set("slices", before + 1);
+
+  const optics::Lamp& lamp = frame.lamp;
+  Eigen::Vector4d at;
+  at << lamp.at - (lamp.isFar ? Eigen::Vector3d::Zero().eval() : frame.view.origin),
+      lamp.isFar ? 0.0 : 1.0;
+  program.set("lamp", at);
+  program.set("pictureUp", lamp.up);
+  program.set("pictureRight", lamp.right);
 }
 
 // Adds the bricks of a box that contain tissue. Bricks emptied by an edit remain until the next

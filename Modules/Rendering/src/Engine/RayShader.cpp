@@ -9,6 +9,7 @@
 #include "RayMarchShader.h"
 #include "RayOpticsShader.h"
 #include "RaySceneShader.h"
+#include "RayShadowsShader.h"
 #include "petrous/Core/NumberText.h"
 #include "petrous/Rendering/ThicknessColor.h"
 #include "petrous/Volume/LabelBorders.h"
@@ -36,6 +37,7 @@ constexpr Part kParts[] = {
     {&RayFeatures::interior, "PETROUS_INTERIOR", "interior"},
     {&RayFeatures::clip, "PETROUS_CLIP", "clipping"},
     {&RayFeatures::thickness, "PETROUS_THICKNESS", "thickness"},
+    {&RayFeatures::shadows, "PETROUS_SHADOWS", "shadows"},
     {&RayFeatures::count, "PETROUS_COUNT", nullptr},
     {&RayFeatures::exact, "PETROUS_EXACT", nullptr},
     {&RayFeatures::rounded, "PETROUS_ROUNDED", nullptr},
@@ -49,7 +51,11 @@ std::string constants()
       {"kWetShininess", optics::kWetShininess},
       {"kOccupancyThreshold", optics::kOccupancyThreshold},
       {"kSmoothOpacity", optics::kSmoothOpacity},
-      {"kMarginPerDepth", volume::kMarginPerDepth}};
+      {"kMarginPerDepth", volume::kMarginPerDepth},
+      {"kOcclusionReach", optics::kOcclusionReach},
+      {"kShadowReach", optics::kShadowReach},
+      {"kLampTangent", optics::kLampTangent},
+      {"kSliceGrowth", kSliceGrowth}};
   for (const auto& [name, value] : reals)
   {
     text += std::string("const float ") + name + " = float(" + core::generalText(value, 9) + ");\n";
@@ -101,6 +107,7 @@ std::string rayFragmentShader(const RayFeatures& features)
   text += constants();
   return text.append(kRaySceneShader)
       .append(kRayClipShader)
+      .append(kRayShadowsShader)
       .append(kRayOpticsShader)
       .append(kRayMarchShader)
       .append(kRayCastShader);

@@ -8,6 +8,7 @@ namespace petrous::rendering
 {
 
 constexpr std::size_t kMaxPlanes = 6; ///< max. number of clipping planes
+constexpr double kSliceGrowth = 2.5;  ///< of the distances along a cone of the sky
 
 /// Compile-time features of a variant of the ray caster's shader.
 struct RayFeatures
@@ -21,6 +22,7 @@ struct RayFeatures
   bool interior = false;  ///< translucent tissue
   bool clip = false;      ///< clipping planes
   bool thickness = false; ///< bone is coloured by its distance to a structure
+  bool shadows = false;   ///< ambient occlusion, and the lamp's shadow
   bool count = false;     ///< texture fetches and samples are counted
   bool exact = false;     ///< values by a filter of our own: the card's rounds its weights
   bool rounded = false;   ///< the card's filter is made to round its weights

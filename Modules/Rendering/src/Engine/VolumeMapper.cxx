@@ -112,6 +112,19 @@ std::optional<RayCaster::Fovea> foveaOf(const vtkPetrousVolumeMapper::Fovea& wan
   return fovea;
 }
 
+optics::Lamp lampIn(const Eigen::Matrix4d& worldFromPatient, const core::CameraPose& camera)
+{
+  optics::Lamp lamp = optics::lampOf(camera);
+  const Eigen::Matrix4d patientFromWorld = worldFromPatient.inverse();
+  const Eigen::Matrix3d turn = patientFromWorld.topLeftCorner<3, 3>();
+  lamp.at = turn * lamp.at;
+  if (!lamp.isFar)
+    lamp.at += patientFromWorld.topRightCorner<3, 1>();
+  lamp.up = turn * lamp.up;
+  lamp.right = turn * lamp.right;
+  return lamp;
+}
+
 // A depth blit requires identical source and destination formats.
 GLint depthFormat()
 {
@@ -255,6 +268,7 @@ public:
   petrous::rendering::RenderQuality quality;
   std::optional<petrous::rendering::RenderQuality> restQuality;
   std::optional<vtkPetrousVolumeMapper::Fovea> fovea;
+  std::optional<petrous::core::CameraPose> lampCamera;
 
   /// The picture at rest of one eye, with the depth at which its rays end.
   struct Rest
@@ -460,6 +474,10 @@ void vtkPetrousVolumeMapper::DrawRays(vtkRenderer* renderer, vtkVolume* volume)
       petrous::rendering::raysOf(renderer->GetActiveCamera(), renderer->GetTiledAspectRatio(),
                                  petrous::rendering::toEigen(volume->GetMatrix()));
 
+  frame.lamp = petrous::rendering::lampIn(
+      petrous::rendering::toEigen(volume->GetMatrix()),
+      my.lampCamera.value_or(petrous::rendering::poseOf(renderer->GetActiveCamera())));
+
   vtkOpenGLState* state = window->GetState();
   // Before copying the depth, which a scissor would clip as well.
   const petrous::rendering::PlainDrawing plain(window);
@@ -529,6 +547,11 @@ void vtkPetrousVolumeMapper::SetRestQuality(
     const std::optional<petrous::rendering::RenderQuality>& quality)
 {
   this->Internal->restQuality = quality;
+}
+
+void vtkPetrousVolumeMapper::SetLampCamera(const std::optional<petrous::core::CameraPose>& camera)
+{
+  this->Internal->lampCamera = camera;
 }
 
 void vtkPetrousVolumeMapper::SetFovea(const std::optional<Fovea>& fovea)

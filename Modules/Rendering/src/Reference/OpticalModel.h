@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "petrous/Appearance/Material.h"
+#include "petrous/Core/CameraPose.h"
 #include "petrous/Rendering/SceneContents.h"
 
 namespace petrous::rendering
@@ -44,6 +45,15 @@ namespace petrous::rendering
 /// a lumen, and the distance d to the structure there (trilinear, ThicknessOverlay) is below
 /// `farthest`, thicknessColor(d / farthest) replaces the transfer function's colour; light and
 /// highlight stay.
+///
+/// Shadows (LightSettings::shadows; record 33): a surface that a ray in air meets, and that is not
+/// such a face, with the normal n towards the camera, sees
+///   sky     1 - 1/pi integral over the hemisphere of n of (n . w) b(w) (1 - (d / r)^2) dw
+///   lamp    1 - mean over the lamp's disc of b(w)
+/// where b(w) is the fraction that tissue stops of what comes from direction w, and d the distance
+/// at which it does, up to r = kOcclusionReach; for the lamp up to kShadowReach. A surface that a
+/// ray in air enters stops the opacity of its material. All other surfaces see all. Meshes and the
+/// tool neither cast shadows nor lie in any.
 namespace optics
 {
 
@@ -64,14 +74,45 @@ constexpr double kOccupancyThreshold = 0.5 - 1e-3;
 /// visible on more transparent surfaces, and a ray meets many of those.
 constexpr double kSmoothOpacity = 0.5;
 
+/// Distance, mm, up to which tissue keeps the light of the sky from a surface, and that of the
+/// lamp.
+constexpr double kOcclusionReach = 12.0;
+constexpr double kShadowReach = 25.0;
+
+/// Tangents of the angle between the lamp and the view axis, towards the picture's upper edge (8
+/// degrees), and of the angular radius of its disc.
+constexpr double kLampTilt = 0.14054083;
+constexpr double kLampTangent = 0.1;
+
+/// Fractions that reach a surface: of the light from all around, and of the lamp's.
+struct Seen
+{
+  double sky = 1.0;
+  double lamp = 1.0;
+};
+
+/// The lamp of shadows, beside the camera of a frame or of both eyes.
+struct Lamp
+{
+  Eigen::Vector3d at{0.0, 0.0, 0.0}; ///< mm; `isFar`: unit vector towards it
+  bool isFar = false;
+  Eigen::Vector3d up{0.0, 0.0, 1.0}; ///< unit, of the picture
+  Eigen::Vector3d right{1.0, 0.0, 0.0};
+
+  Eigen::Vector3d from(const Eigen::Vector3d& point) const; ///< unit, towards it
+};
+/// At the camera's distance from the focal point; of a parallel projection, far away.
+Lamp lampOf(const core::CameraPose& camera);
+
 /// Light arriving at a distance (mm) from the light source at the camera: intensity / (1 + (d /
 /// falloff)^2), or intensity if falloff is 0.
 double lightAt(const LightSettings& light, double distance);
 
-/// light (c (ambient + (1 - ambient) facing) + k_s specular facing^shininess
-///        + wetness facing^kWetShininess), clamped to 0..1; k_s of the transfer function.
+/// light (c (ambient sky + (1 - ambient) facing lamp) + lamp (k_s specular facing^shininess
+///        + wetness facing^kWetShininess)), clamped to 0..1; k_s of the transfer function.
 Eigen::Vector3d surfaceColor(const appearance::TransferFunction::Optics& optics, double shininess,
-                             double cosine, const LightSettings& light, double distance);
+                             double cosine, const LightSettings& light, double distance,
+                             const Seen& seen = {});
 
 /// light c (ambient + (1 - ambient) kInteriorFacing), clamped to 0..1.
 Eigen::Vector3d interiorColor(const Eigen::Vector3d& color, const LightSettings& light,

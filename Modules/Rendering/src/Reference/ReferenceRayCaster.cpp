@@ -55,34 +55,35 @@ public:
       m_tissue.emplace(contents, step);
   }
 
-  Pixel see(const PixelRay& ray) const;
+  Pixel see(const PixelRay& ray, const optics::Lamp& lamp) const;
 
 private:
-  GatheredLight gather(const PixelRay& ray, double end) const;
+  GatheredLight gather(const PixelRay& ray, double end, const optics::Lamp& lamp) const;
 
   SurfaceGeometry m_shapes;
   std::optional<TissueRay> m_tissue;
 };
 
-GatheredLight ReferenceRayCaster::Implementation::gather(const PixelRay& ray, double end) const
+GatheredLight ReferenceRayCaster::Implementation::gather(const PixelRay& ray, double end,
+                                                         const optics::Lamp& lamp) const
 {
-  return m_tissue ? m_tissue->cast(ray, end) : GatheredLight();
+  return m_tissue ? m_tissue->cast(ray, end, lamp) : GatheredLight();
 }
 
 ReferenceRayCaster::Implementation::Pixel
-ReferenceRayCaster::Implementation::see(const PixelRay& ray) const
+ReferenceRayCaster::Implementation::see(const PixelRay& ray, const optics::Lamp& lamp) const
 {
   Eigen::Vector3d color = Eigen::Vector3d::Zero();
   double visible = 1.0; // fraction of the pixels not yet covered by a screen door
   for (const SurfaceGeometry::Hit& hit : m_shapes.along(ray))
   {
-    const GatheredLight light = gather(ray, hit.distance);
+    const GatheredLight light = gather(ray, hit.distance, lamp);
     color += visible * hit.opacity * (light.color + light.transmittance * hit.color);
     visible *= 1.0 - hit.opacity;
     if (!(visible > 0.0))
       return {color, light.depth};
   }
-  const GatheredLight light = gather(ray, std::numeric_limits<double>::infinity());
+  const GatheredLight light = gather(ray, std::numeric_limits<double>::infinity(), lamp);
   const Eigen::Vector3d background(optics::kBackground[0], optics::kBackground[1],
                                    optics::kBackground[2]);
   return {color + visible * (light.color + light.transmittance * background), light.depth};
@@ -108,6 +109,7 @@ ReferencePicture ReferenceRayCaster::render(const core::CameraPose& camera, int 
                                                               " x " + std::to_string(height) +
                                                               " pixels; at least 1 x 1 is needed");
   const PixelRays rays(camera, width, height);
+  const optics::Lamp lamp = optics::lampOf(camera);
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   ReferencePicture result;
   result.picture = {width, height, std::vector<std::uint8_t>(3 * pixels)};
@@ -118,7 +120,7 @@ ReferencePicture ReferenceRayCaster::render(const core::CameraPose& camera, int 
   {
     const std::size_t index = static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
                               static_cast<std::size_t>(column);
-    const Implementation::Pixel pixel = m_implementation->see(rays.through(column, row));
+    const Implementation::Pixel pixel = m_implementation->see(rays.through(column, row), lamp);
     result.depth.millimetres[index] = static_cast<float>(pixel.depth);
     for (std::size_t channel = 0; channel < 3; ++channel)
     {

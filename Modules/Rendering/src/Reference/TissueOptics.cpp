@@ -191,30 +191,37 @@ std::optional<std::array<double, 3>> TissueOptics::overlayAt(const Eigen::Vector
   return fraction < 1.0 ? std::optional(thicknessColor(fraction)) : std::nullopt;
 }
 
+const appearance::Material& TissueOptics::surfaceMaterial(const Eigen::Vector3d& patient,
+                                                          State from, State to) const
+{
+  return from > kBone && to > kBone ? materialOf(to) : surfaceMaterial(patient);
+}
+
+Eigen::Vector3d TissueOptics::normalAt(const Eigen::Vector3d& patient, State from, State to) const
+{
+  if (from > kBone && to > kBone)
+    return borderNormal(patient, static_cast<std::size_t>(to - kBone - 1));
+  if (from == kBone && to > kBone)
+    return occupancyNormal(patient);
+  const bool smooth = double{surfaceMaterial(patient).surfaceOpacity} >= optics::kSmoothOpacity;
+  return smooth ? m_field.smoothNormal(patient) : m_field.normal(patient);
+}
+
 TissueOptics::Surface TissueOptics::surfaceAt(const PixelRay& ray, double t, State from, State to,
-                                              const std::optional<Eigen::Vector3d>& face) const
+                                              const std::optional<Eigen::Vector3d>& face,
+                                              const optics::Seen& seen) const
 {
   const Eigen::Vector3d point = ray.origin + t * ray.direction;
-  const bool between = from > kBone && to > kBone;
-  const appearance::Material& material = between ? materialOf(to) : surfaceMaterial(point);
-  Eigen::Vector3d normal;
+  const appearance::Material& material = surfaceMaterial(point, from, to);
+  const Eigen::Vector3d normal = face ? *face : normalAt(point, from, to);
   Eigen::Vector3d below = point;
-  if (face)
-    normal = *face;
-  else
-  {
-    const bool smooth = double{material.surfaceOpacity} >= optics::kSmoothOpacity;
-    normal = between ? borderNormal(point, static_cast<std::size_t>(to - kBone - 1))
-             : from == kBone && to > kBone ? occupancyNormal(point)
-             : smooth                      ? m_field.smoothNormal(point)
-                                           : m_field.normal(point);
+  if (!face)
     below -= optics::kColorDepth * m_ct->geometry().minSpacing() * normal;
-  }
   const double cosine = normal.norm() > 0.0 ? normal.dot(ray.direction) : 1.0;
   auto look = material.transfer.at(intensity(material, below));
   if (!face && (&material == &m_materials.front() || material.lumen))
     look.color = overlayAt(point).value_or(look.color);
-  return {optics::surfaceColor(look, material.shininess, cosine, m_light, t),
+  return {optics::surfaceColor(look, material.shininess, cosine, m_light, t, seen),
           material.surfaceOpacity};
 }
 

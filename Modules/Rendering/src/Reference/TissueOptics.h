@@ -50,10 +50,14 @@ public:
   /// Input of a material's transfer function at a point.
   double intensity(const appearance::Material& material, const Eigen::Vector3d& patient) const;
 
+  /// Normal of the surface at the transition between two states; zero: facing the camera.
+  Eigen::Vector3d normalAt(const Eigen::Vector3d& patient, State from, State to) const;
+
   /// Surface at distance t along the ray, at the transition between two states. `face`: normal of
   /// the face that cuts the tissue off there; zero: facing the camera.
   Surface surfaceAt(const PixelRay& ray, double t, State from, State to,
-                    const std::optional<Eigen::Vector3d>& face) const;
+                    const std::optional<Eigen::Vector3d>& face,
+                    const optics::Seen& seen = {}) const;
 
   const volume::TissueField& field() const noexcept { return m_field; }
   const LightSettings& light() const noexcept { return m_light; }
@@ -65,6 +69,8 @@ private:
   volume::StructureChoice structureAt(const Eigen::Vector3d& patient) const;
   std::size_t indexOfVoxel(const Eigen::Vector3d& voxel) const;
   const appearance::Material& surfaceMaterial(const Eigen::Vector3d& patient) const;
+  const appearance::Material& surfaceMaterial(const Eigen::Vector3d& patient, State from,
+                                              State to) const;
   std::optional<std::array<double, 3>> overlayAt(const Eigen::Vector3d& patient) const;
   Eigen::Vector3d occupancyNormal(const Eigen::Vector3d& patient) const;
   Eigen::Vector3d borderNormal(const Eigen::Vector3d& patient, std::size_t index) const;

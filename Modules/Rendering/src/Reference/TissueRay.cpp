@@ -17,6 +17,7 @@ const double kGauss = 0.5 / std::sqrt(3.0); // relative to the segment's length,
 struct TissueRay::Walk
 {
   const PixelRay& ray;
+  const optics::Lamp& lamp;
   GatheredLight light;
   TissueOptics::State state = TissueOptics::kAir;
   double t = 0.0;          // up to which tissue is accumulated
@@ -35,14 +36,15 @@ struct TissueRay::Sample
 TissueRay::TissueRay(const SceneContents& contents, double step)
   : m_optics(contents)
   , m_drawn(contents.ct->geometry(), contents.crop, contents.clipping)
+  , m_shadows(m_optics, m_drawn)
   , m_step(step * contents.ct->geometry().minSpacing())
   , m_tolerance(kTolerance * contents.ct->geometry().minSpacing())
 {
 }
 
-GatheredLight TissueRay::cast(const PixelRay& ray, double end) const
+GatheredLight TissueRay::cast(const PixelRay& ray, double end, const optics::Lamp& lamp) const
 {
-  Walk walk{ray, {}};
+  Walk walk{ray, lamp, {}};
   const RaySpan span = m_drawn.clip(ray);
   const double last = std::min(span.last, end);
   if (!(last > span.first))
@@ -144,7 +146,15 @@ void TissueRay::walkTo(Walk& walk, const Sample& target) const
 void TissueRay::addSurface(Walk& walk, double t, TissueOptics::State to,
                            const std::optional<Eigen::Vector3d>& face) const
 {
-  const TissueOptics::Surface surface = m_optics.surfaceAt(walk.ray, t, walk.state, to, face);
+  optics::Seen seen;
+  if (m_optics.light().shadows && !face && walk.state == TissueOptics::kAir)
+  {
+    const Eigen::Vector3d point = walk.at(t);
+    const Eigen::Vector3d normal = m_optics.normalAt(point, walk.state, to);
+    const bool turned = normal.dot(walk.ray.direction) > 0.0;
+    seen = m_shadows.at(point, turned ? -normal : normal, walk.lamp);
+  }
+  const TissueOptics::Surface surface = m_optics.surfaceAt(walk.ray, t, walk.state, to, face, seen);
   if (std::isnan(walk.light.depth))
     walk.light.depth = t;
   walk.light.color += walk.light.transmittance * surface.opacity * surface.color;

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "ClippedRegion.h"
+#include "SurfaceShadows.h"
 #include "TissueOptics.h"
 
 namespace petrous::rendering
@@ -27,8 +28,11 @@ public:
   /// step: relative to the smallest spacing. Throws RenderingError BadContents.
   TissueRay(const SceneContents& contents, double step);
 
-  /// Up to `end` mm, e.g. an opaque hit.
-  GatheredLight cast(const PixelRay& ray, double end) const;
+  TissueRay(const TissueRay&) = delete;
+  TissueRay& operator=(const TissueRay&) = delete;
+
+  /// Up to `end` mm, e.g. an opaque hit. `lamp`: of the shadows, if the scene has any.
+  GatheredLight cast(const PixelRay& ray, double end, const optics::Lamp& lamp) const;
 
 private:
   struct Walk;
@@ -43,6 +47,7 @@ private:
 
   TissueOptics m_optics;
   ClippedRegion m_drawn;
+  SurfaceShadows m_shadows;
   double m_step;      // mm
   double m_tolerance; // mm
 };

@@ -23,6 +23,18 @@ void aimCamera(vtkCamera* camera, const core::CameraPose& pose)
     camera->SetParallelScale(*pose.parallelScale);
 }
 
+core::CameraPose poseOf(vtkCamera* camera)
+{
+  core::CameraPose pose;
+  camera->GetPosition(pose.position.data());
+  camera->GetFocalPoint(pose.focalPoint.data());
+  camera->GetViewUp(pose.viewUp.data());
+  pose.viewAngle = camera->GetViewAngle();
+  if (camera->GetParallelProjection())
+    pose.parallelScale = camera->GetParallelScale();
+  return pose;
+}
+
 void shiftLens(vtkRenderer* renderer, const core::CameraPose& pose)
 {
   renderer->GetActiveCamera()->SetWindowCenter(pose.lensShift / renderer->GetTiledAspectRatio(),

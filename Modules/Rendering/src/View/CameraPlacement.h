@@ -17,6 +17,9 @@ struct PictureTile;
 /// Sets VTK's camera from a pose, except for the lens shift.
 void aimCamera(vtkCamera* camera, const core::CameraPose& pose);
 
+/// Without the lens shift.
+core::CameraPose poseOf(vtkCamera* camera);
+
 /// Sets the lens shift of the renderer's camera; to be repeated when the aspect ratio changes.
 void shiftLens(vtkRenderer* renderer, const core::CameraPose& pose);
 

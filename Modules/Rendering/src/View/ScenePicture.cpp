@@ -275,6 +275,9 @@ void ScenePicture::Implementation::startFrame()
     aimAtTile(renderer, pose, *tile);
   else
     shiftLens(renderer, pose);
+  core::CameraPose lampCamera = poseOf(renderer->GetActiveCamera()); // not yet that of an eye
+  lampCamera.head = pose.head;
+  mapper->SetLampCamera(lampCamera);
   foveated.reset();
   drawn = quality;
   if (interactive || progressive)
@@ -496,17 +499,12 @@ void ScenePicture::setTile(const std::optional<PictureTile>& tile)
 
 core::CameraPose ScenePicture::camera() const
 {
-  core::CameraPose pose = m_implementation->pose;
+  const core::CameraPose& given = m_implementation->pose;
   if (!m_implementation->renderer)
-    return pose;
-  vtkCamera* camera = m_implementation->renderer->GetActiveCamera();
-  camera->GetPosition(pose.position.data());
-  camera->GetFocalPoint(pose.focalPoint.data());
-  camera->GetViewUp(pose.viewUp.data());
-  pose.viewAngle = camera->GetViewAngle();
-  pose.parallelScale.reset();
-  if (camera->GetParallelProjection())
-    pose.parallelScale = camera->GetParallelScale();
+    return given;
+  core::CameraPose pose = poseOf(m_implementation->renderer->GetActiveCamera());
+  pose.lensShift = given.lensShift;
+  pose.head = given.head;
   return pose;
 }
 

@@ -97,6 +97,7 @@ EyePair eyesOf(const core::CameraPose& camera, const StereoGeometry& geometry)
   const auto eye = [&](double side)
   {
     core::CameraPose pose = camera;
+    pose.head = {camera.position, camera.focalPoint};
     if (camera.parallelScale)
     {
       const Eigen::Vector3d pivot = camera.position + geometry.convergence * forward;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,10 @@ core::CameraPose currentCamera(const scene::Case& value);
 /// Cuts away from the scene what the view does not show; a box beyond the CT's is none.
 void clip(rendering::SceneContents& contents, const scene::ViewState::Clipping& clipping,
           const core::GridGeometry& grid);
+
+/// Lights the scene as a view was saved; nullopt: by the defaults.
+void illuminate(rendering::SceneContents& contents,
+                const std::optional<scene::ViewState::Light>& light);
 
 /// What a picture that is clipped so must say, or what is not shown is taken for drilled.
 std::vector<std::string> clippingTexts(const scene::ViewState::Clipping& clipping);

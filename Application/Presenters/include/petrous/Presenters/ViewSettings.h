@@ -28,6 +28,7 @@ public:
   const rendering::LightSettings& light() const noexcept { return m_light; }
   void setFalloff(double millimetres); ///< 0: none; clamped to 0 to kFarthestFalloff
   void setWetness(double wetness);     ///< clamped to 0 to 1
+  void setShadows(bool on);
 
   rendering::StereoMode stereo() const noexcept { return m_stereo; }
   const rendering::StereoRig& rig() const noexcept { return m_rig; }

@@ -38,12 +38,25 @@ struct ToolPose
 /// The light source is at the camera, as in a microscope.
 struct LightSettings
 {
+  static constexpr double kAmbient = 0.16;
+  static constexpr double kAmbientWithShadows = 0.4; ///< which only then differs between places
+
   double intensity = 1.0;
-  double ambient = 0.16;   ///< ambient fraction of the surface colour
-  double specular = 0.18;  ///< strength of the highlight, 0 to 1
-  double shininess = 18.0; ///< of meshes and tools; tissues of the volume have their own
-  double falloff = 0.0;    ///< mm from the light to half its intensity; 0: no attenuation
-  double wetness = 0.0;    ///< intensity of the narrow highlight of a wet surface, 0 to 1; 0: dry
+  double ambient = kAmbient; ///< ambient fraction of the surface colour
+  double specular = 0.18;    ///< strength of the highlight, 0 to 1
+  double shininess = 18.0;   ///< of meshes and tools; tissues of the volume have their own
+  double falloff = 0.0;      ///< mm from the light to half its intensity; 0: no attenuation
+  double wetness = 0.0;      ///< intensity of the narrow highlight of a wet surface, 0 to 1; 0: dry
+  /// Tissue keeps ambient light out of cavities, and throws a soft shadow of a lamp somewhat above
+  /// the view axis (record 33).
+  bool shadows = false;
+
+  /// With the ambient light that goes with it.
+  void setShadows(bool on)
+  {
+    shadows = on;
+    ambient = on ? kAmbientWithShadows : kAmbient;
+  }
 };
 
 /// A second image in the same scene, sampled by the materials that ask for it.

@@ -6,6 +6,7 @@
 
 #include <vtkVolumeMapper.h>
 
+#include "petrous/Core/CameraPose.h"
 #include "petrous/Core/GridGeometry.h"
 #include "petrous/Rendering/Picture.h"
 #include "petrous/Rendering/RenderQuality.h"
@@ -70,6 +71,10 @@ public:
     petrous::rendering::RenderQuality quality;
   };
   void SetFovea(const std::optional<Fovea>& fovea);
+
+  /// The camera (world) beside which the lamp of shadows is, e.g. that between both eyes; null: the
+  /// one that draws.
+  void SetLampCamera(const std::optional<petrous::core::CameraPose>& camera);
 
   /// Counts texture fetches and samples of subsequent frames, which slows them down.
   vtkSetMacro(Counting, bool);

@@ -8,7 +8,7 @@
 // the first centre), distances from the camera in mm.
 //
 // Last part of the fragment shader, after RayScene.glsl (textures, uniforms, features),
-// RayClip.glsl, RayOptics.glsl and RayMarch.glsl.
+// RayClip.glsl, RayShadows.glsl, RayOptics.glsl and RayMarch.glsl.
 
 // Bracket of a change of state.
 struct Bracket
@@ -192,6 +192,12 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
   vec4 overlay = bony ? overlayAt(v) : vec4(0.0);
   float size = length(slopeMm);
   vec3 below = v;
+  Seen seen = Seen(1.0, 1.0);
+#ifdef PETROUS_SHADOWS
+  bool shadowed = facing < 0.0 && ray.state == kAir && size > 1e-12;
+  vec3 normal = shadowed ? slopeMm / (along > 0.0 ? -size : size) : -ray.unit;
+  seen = seenAt(v, normal, ray.unit, hit, shadowed);
+#endif
   if (facing < 0.0)
   {
     facing = 1.0; // zero gradient: facing the camera
@@ -202,7 +208,7 @@ void shade(inout Ray ray, vec3 v, float hit, float facing)
     }
   }
   vec3 lit = surfaceColor(ray.material, ray.row, intensityAt(below, ray.more), facing, hit,
-                          overlay);
+                          overlay, seen);
   ray.color += ray.transmittance * ray.row.z * lit;
 #ifdef PETROUS_INTERIOR
   ray.lit += ray.transmittance * ray.row.z * reaches(ray.gathering, hit / stepLength);
@@ -317,6 +323,9 @@ void main()
   vec3 origin = originCenter + ndc.x * originX + ndc.y * originY;
   Ray ray;
   ray.direction = (directionCenter + ndc.x * directionX + ndc.y * directionY) / toMm;
+#ifdef PETROUS_SHADOWS
+  ray.unit = view / toMm;
+#endif
   Span span = clipRay(origin, ray.direction);
   ray.first = span.first;
   float last = min(span.last, opaqueEnd(toMm));

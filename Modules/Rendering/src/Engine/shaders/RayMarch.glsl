@@ -1,4 +1,4 @@
-// March of a ray from one change of state to the next. Fourth part of the ray caster's fragment
+// March of a ray from one change of state to the next. Fifth part of the ray caster's fragment
 // shader; see RayCast.frag.glsl.
 //
 // Positions on a ray (s) are in steps from its entry; samples lie on whole steps, also after
@@ -7,6 +7,9 @@
 struct Ray
 {
   vec3 direction; // voxels per mm
+#ifdef PETROUS_SHADOWS
+  vec3 unit; // the same in mm, of length 1
+#endif
   Way voxel;      // voxels of the CT
   Way brick;      // bricks
   vec3 perBrick;  // steps from wall to wall

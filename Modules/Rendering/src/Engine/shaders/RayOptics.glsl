@@ -1,5 +1,5 @@
 // Tissue appearance as defined in OpticalModel.h: light, surfaces, and the integral along a segment
-// of one tissue. Third part of the ray caster's fragment shader; see RayCast.frag.glsl.
+// of one tissue. Fourth part of the ray caster's fragment shader; see RayCast.frag.glsl.
 
 float lightAt(float t)
 {
@@ -47,17 +47,18 @@ vec4 overlayAt(vec3 v)
 #endif
 }
 
-// `overlay`: see overlayAt.
-vec3 surfaceColor(int material, vec4 row, float value, float facing, float t, vec4 overlay)
+// `overlay`: see overlayAt; `seen`: of the surface.
+vec3 surfaceColor(int material, vec4 row, float value, float facing, float t, vec4 overlay,
+                  Seen seen)
 {
   COUNT(1);
   float width = float(textureSize(lookTexture, 0).x);
   float u = clamp((value - row.x) * row.y, 0.0, 1.0) * (1.0 - 1.0 / width) + 0.5 / width;
   vec4 look = texture(lookTexture, vec2(u, rowCoordinate(material)));
   look.rgb = mix(look.rgb, overlay.rgb, overlay.a);
-  float diffuse = light.y + (1.0 - light.y) * facing;
+  float diffuse = light.y * seen.sky + (1.0 - light.y) * facing * seen.lamp;
   float highlight = look.a * light.z * pow(facing, row.w) + light.w * pow(facing, kWetShininess);
-  return clamp(lightAt(t) * (look.rgb * diffuse + highlight), 0.0, 1.0);
+  return clamp(lightAt(t) * (look.rgb * diffuse + seen.lamp * highlight), 0.0, 1.0);
 }
 
 #ifdef PETROUS_INTERIOR

@@ -7,11 +7,13 @@
 //   BORDERS    touching structures            NESTED   translucent structures
 //   INTERIOR   translucent tissue             CLIP     clipping planes
 //   THICKNESS  bone is coloured by its distance to a structure
+//   SHADOWS    surfaces see less of the sky and of the lamp where tissue is in the way
 //   COUNT      fetches and samples are counted
 //   EXACT      the card's filter rounds: values come from one of our own
 //   ROUNDED    the card's filter is made to round its weights, for tests on one that does not
 // Preceded by the constants that the C++ code defines (RayShader.cpp): kMaxPlanes,
 // kInteriorFacing, kWetShininess, kOccupancyThreshold, kSmoothOpacity (OpticalModel.h),
+// kOcclusionReach, kShadowReach, kLampTangent, kSliceGrowth (OpticalModel.h, OpacityPyramid.h),
 // kThicknessColors (ThicknessColor.h), kMixed, kLabels, kBorder (OccupancyGrid.h), kMeeting,
 // kDeepest, kMarginPerDepth (LabelBorders.h).
 //

@@ -67,6 +67,7 @@ struct ViewState
   {
     double falloff = 0.0; ///< mm from the lamp to half its intensity; 0: none
     double wetness = 0.0; ///< 0 to 1
+    bool shadows = false; ///< ambient occlusion, and the lamp's shadow
   };
 
   struct Stereo

@@ -1,0 +1,172 @@
+#include "OpacityPyramid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "petrous/Core/CameraPose.h"
+
+#include "PictureScenes.h"
+#include "RandomScenes.h"
+
+using namespace petrous;
+using namespace petrous::rendering;
+using namespace petrous::rendering::synthetic;
+namespace strokes = petrous::rendering::testing;
+
+namespace
+{
+
+struct Built
+{
+  SceneContents contents;
+  OccupancyGrid grid;
+  OpacityPyramid pyramid;
+
+  explicit Built(SceneContents scene)
+    : contents(std::move(scene))
+    , grid(*contents.ct, 4)
+    , pyramid(contents.ct->geometry())
+  {
+    OccupancyGrid::Rules rules;
+    rules.iso = contents.iso;
+    grid.rebuild(rules, contents.labels.get(), contents.mask.get());
+    pyramid.rebuild(scene_(), grid);
+  }
+
+  OpacityPyramid::Scene scene_() const
+  {
+    return {*contents.ct,       contents.labels.get(), contents.mask.get(),
+            contents.materials, contents.iso,          contents.boneShown};
+  }
+
+  OpacityPyramid::Texel at(std::size_t level, int i, int j, int k) const
+  {
+    const OpacityPyramid::Level& l = pyramid.levels()[level];
+    return l.texels[static_cast<std::size_t>(i + l.dims[0] * (j + l.dims[1] * k))];
+  }
+
+  // What the texel that holds a point stops.
+  double near(const Vector& patient) const
+  {
+    const Vector voxel = contents.ct->geometry().voxelFromPatient(patient);
+    const auto texel = [&](int a)
+    { return static_cast<int>(voxel[a] + 0.5) / pyramid.factor()[static_cast<std::size_t>(a)]; };
+    return at(0, texel(0), texel(1), texel(2)).stopped / 255.0;
+  }
+};
+
+} // namespace
+
+TEST(OpacityPyramid, HoldsTheShareOfEachTexelBelowAPlane)
+{
+  const Vector normal = Vector(0.3, -0.8, 0.5).normalized();
+  const core::GridGeometry grid = cube(64, 0.25, oblique());
+  const Built built(
+      boneScene(ct<std::int16_t>(grid, [&](const Vector& p) { return 0.4 - p.dot(normal); })));
+  ASSERT_EQ(built.pyramid.factor(), (core::Index3{2, 2, 2}));
+  for (std::size_t level = 0; level < 3; ++level)
+  {
+    const int voxels = 2 << level;
+    double farthest = 0.0;
+    strokes::forEach(
+        {{4, 4, 4}, {32 >> level, 32 >> level, 32 >> level}},
+        [&](int i, int j, int k)
+        {
+          constexpr int kFine = 16; // points of the texel along each axis
+          int below = 0;
+          strokes::forEach({{0, 0, 0}, {kFine, kFine, kFine}},
+                           [&](int x, int y, int z)
+                           {
+                             const Vector voxel =
+                                 Vector(i, j, k) * voxels +
+                                 (Vector(x, y, z).array() + 0.5).matrix() * voxels / kFine -
+                                 Vector::Constant(0.5);
+                             below += grid.patientFromVoxel(voxel).dot(normal) < 0.4 ? 1 : 0;
+                           });
+          const double share = below / std::pow(1.0 * kFine, 3);
+          farthest = std::max(farthest, std::abs(built.at(level, i, j, k).tissue / 255.0 - share));
+        });
+    EXPECT_LE(farthest, level == 0 ? 0.06 : 0.03) << level;
+  }
+}
+
+TEST(OpacityPyramid, StopsWhatTheMaterialsSurfacesDo)
+{
+  SceneContents contents = labelledBall(cube(64, 0.35, obliqueMirrored()), 0.4F);
+  contents.materials[1].surfaceOpacity = 0.8F;
+  const Built translucent(contents);
+  EXPECT_NEAR(translucent.near({-6.0, 2.0, 0.0}), 0.4, 0.01); // bone
+  EXPECT_NEAR(translucent.near({0.0, -1.0, 0.0}), 0.8, 0.01); // the rod
+  EXPECT_NEAR(translucent.near({4.0, -1.5, 2.0}), 0.5, 0.01); // the red ball
+  EXPECT_EQ(translucent.near({4.0, -6.0, 3.0}), 0.0);         // the bite
+  contents.materials[1].lumen = true;
+  EXPECT_NEAR(Built(contents).near({0.0, -1.0, 0.0}), 0.4, 0.01);
+  contents.boneShown = false;
+  EXPECT_EQ(Built(contents).near({-6.0, 2.0, 0.0}), 0.0);
+}
+
+TEST(OpacityPyramid, TakesVoxelsWithoutAValueForAir)
+{
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const Built built(boneScene(image(cube(32, 0.5), [nan](const Vector& p)
+                                    { return p.x() < 0.0 ? static_cast<double>(nan) : 900.0; })));
+  EXPECT_EQ(built.near({-3.0, 0.0, 0.0}), 0.0);
+  EXPECT_EQ(built.near({3.0, 0.0, 0.0}), 1.0);
+}
+
+TEST(OpacityPyramid, AnEditEqualsARebuild)
+{
+  strokes::Random random(5);
+  for (const SceneContents& scene :
+       {cutBall(0.35F), labelledBall(cube(64, 0.35, obliqueMirrored())),
+        hollowBall(oblique(), 0.25)})
+  {
+    Built built(scene);
+    const core::GridGeometry& grid = built.contents.ct->geometry();
+    auto mask = built.contents.mask ? std::make_shared<volume::CutMask>(*built.contents.mask)
+                                    : std::make_shared<volume::CutMask>(grid);
+    built.contents.mask = mask;
+    for (int stroke = 0; stroke < 20; ++stroke)
+    {
+      core::Index3 at;
+      for (std::size_t a = 0; a < 3; ++a)
+        at[a] = strokes::below(random, grid.dims()[a]);
+      const core::IndexBox box =
+          strokes::brush(*mask, at, 2.0 + strokes::below(random, 6), stroke % 3 == 2);
+      const auto before = built.pyramid.levels();
+      built.grid.maskChanged(mask.get(), box);
+      const core::IndexBox changed = built.pyramid.maskChanged(built.scene_(), built.grid, box);
+      for (std::size_t level = 0; level < before.size(); ++level)
+      {
+        const core::IndexBox own = OpacityPyramid::boxAt(level, changed);
+        const core::Index3& dims = before[level].dims;
+        strokes::forEach({{0, 0, 0}, dims},
+                         [&](int i, int j, int k)
+                         {
+                           const auto n = static_cast<std::size_t>(i + dims[0] * (j + dims[1] * k));
+                           if (!own.contains({i, j, k}))
+                           {
+                             ASSERT_TRUE(before[level].texels[n] ==
+                                         built.pyramid.levels()[level].texels[n]);
+                           }
+                         });
+      }
+    }
+    const Built fresh(built.contents);
+    for (std::size_t level = 0; level < fresh.pyramid.levels().size(); ++level)
+      EXPECT_TRUE(fresh.pyramid.levels()[level].texels == built.pyramid.levels()[level].texels)
+          << level;
+  }
+}
+
+TEST(OpacityPyramid, HasTexelsOfAboutHalfAMillimetreOfAnyVoxels)
+{
+  const OpacityPyramid fine(core::GridGeometry({90, 60, 40}, {0.1, 0.2, 0.9}, {0.0, 0.0, 0.0}));
+  EXPECT_EQ(fine.factor(), (core::Index3{5, 3, 1})); // rounded half up: 2.5 to 3
+  for (std::size_t level = 1; level < fine.levels().size(); ++level)
+    for (std::size_t a = 0; a < 3; ++a)
+      EXPECT_EQ(2 * fine.levels()[level].dims[a], fine.levels()[level - 1].dims[a]);
+  EXPECT_GE(fine.levels().front().dims[0] * fine.factor()[0], 90);
+}

@@ -1,0 +1,303 @@
+#include <algorithm>
+#include <functional>
+#include <ostream>
+
+#include "PictureComparison.h"
+#include "PictureScenes.h"
+#include "RandomScenes.h"
+#include "petrous/Rendering/ScenePicture.h"
+
+using namespace petrous;
+using namespace petrous::rendering;
+using namespace petrous::rendering::synthetic;
+namespace strokes = petrous::rendering::testing;
+
+namespace
+{
+
+constexpr int kColumns = 64;
+constexpr int kRows = 48;
+
+// White without highlight: of a light that is all ambient the picture is the sky that is seen, of
+// one that is not at all, the lamp's part times the cosine.
+SceneContents white(SceneContents contents, double ambient)
+{
+  for (appearance::Material& material : contents.materials)
+    material.transfer = appearance::TransferFunction::constant({1.0F, 1.0F, 1.0F}, 1.0F, 0.0F);
+  contents.light.shadows = true;
+  contents.light.ambient = ambient;
+  return contents;
+}
+
+// Bone behind y = -9, in which `hole(patient)` is the distance from what is missing; drilled, or so
+// in the CT.
+SceneContents holed(const std::function<double(const Vector&)>& hole, bool drilled,
+                    const core::GridGeometry& grid)
+{
+  const auto block = [](const Vector& p) { return 9.0 + p.y(); };
+  SceneContents contents;
+  if (drilled)
+  {
+    contents = boneScene(ct<std::int16_t>(grid, block));
+    contents.mask = cut(grid, hole);
+  }
+  else
+    contents = boneScene(
+        ct<std::int16_t>(grid, [&](const Vector& p) { return std::min(block(p), hole(p)); }));
+  return contents;
+}
+
+// Two burr holes and a cavity between them, in the surface y = -9.
+double holes(const Vector& p)
+{
+  return std::min({(p - Vector(0.0, -9.0, 0.0)).norm() - 6.0,
+                   (p - Vector(8.5, -9.0, 3.0)).norm() - 2.0,
+                   (p - Vector(-8.5, -8.0, -3.0)).norm() - 2.5});
+}
+
+// A shaft of 8 mm, 14 mm deep, widened at its floor.
+double shaft(const Vector& p)
+{
+  const double aside = std::hypot(p.x(), p.z());
+  return std::min(std::max(aside - 4.0, p.y() - 5.0), (p - Vector(0.0, 3.0, 2.0)).norm() - 5.0);
+}
+
+core::CameraPose above()
+{
+  core::CameraPose pose = from({10.0, -80.0, 14.0}, {0.0, -5.0, 0.0}, 20.0);
+  return pose;
+}
+
+struct Error
+{
+  double rms = 0.0;
+  double mean = 0.0;
+  int pixels = 0;
+};
+
+Error errorOf(const Shot& shot, const ReferencePicture& truth)
+{
+  Error error;
+  for (std::size_t p = 0; p < truth.depth.millimetres.size(); ++p)
+  {
+    if (!(std::abs(shot.depth.millimetres[p] - truth.depth.millimetres[p]) < 0.1F))
+      continue;
+    const double difference =
+        shot.picture.rgb[3 * p] / 255.0 - static_cast<double>(truth.rgb[3 * p]);
+    error.rms += difference * difference;
+    error.mean += difference;
+    ++error.pixels;
+  }
+  error.rms = std::sqrt(error.rms / std::max(error.pixels, 1));
+  error.mean /= std::max(error.pixels, 1);
+  return error;
+}
+
+struct Case
+{
+  const char* name;
+  std::function<SceneContents()> make;
+};
+
+std::ostream& operator<<(std::ostream& os, const Case& value)
+{
+  return os << value.name;
+}
+
+std::vector<Case> cases()
+{
+  return {
+      {"Holes", [] { return holed(holes, false, cube(56, 0.5)); }},
+      {"DrilledHoles", [] { return holed(holes, true, cube(56, 0.5, oblique())); }},
+      {"DrilledShaft", [] { return holed(shaft, true, cube(56, 0.5)); }},
+      {"AnisotropicGrid",
+       []
+       {
+         return holed(holes, true,
+                      core::GridGeometry({90, 90, 31}, {0.3, 0.3, 0.9}, {-13.35, -13.35, -13.5}));
+       }},
+      {"Structures", [] { return labelledBall(cube(64, 0.35, obliqueMirrored()), 1.0F); }},
+      {"TranslucentStructure",
+       []
+       {
+         SceneContents contents = labelledBall(cube(64, 0.35, obliqueMirrored()), 1.0F);
+         contents.materials[2].surfaceOpacity = 0.4F;
+         return contents;
+       }},
+      {"TranslucentBone",
+       []
+       {
+         SceneContents contents = holed(holes, true, cube(56, 0.5));
+         contents.materials = {boneMaterial(0.6F)};
+         return contents;
+       }},
+      {"ClippingPlane",
+       []
+       {
+         SceneContents contents = holed(holes, true, cube(56, 0.5));
+         contents.clipping = {{{2.0, 0.0, 0.0}, Vector(-0.8, 0.0, 0.6)}};
+         return contents;
+       }},
+      {"CropBox",
+       []
+       {
+         SceneContents contents = holed(holes, true, cube(56, 0.5));
+         contents.crop = core::IndexBox{{0, 0, 0}, {56, 56, 30}};
+         return contents;
+       }},
+  };
+}
+
+} // namespace
+
+class ShadowPicture : public ::testing::TestWithParam<Case>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ShadowPicture, ::testing::ValuesIn(cases()),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST_P(ShadowPicture, SeesAboutAsMuchOfTheSkyAsManyRays)
+{
+  SceneContents contents = white(GetParam().make(), 1.0);
+  const ReferencePicture truth = truthOf(contents, above(), kColumns, kRows);
+  const Error error = errorOf(shoot(contents, above(), {}, kColumns, kRows), truth);
+  EXPECT_GT(error.pixels, 500);
+  EXPECT_LE(error.rms, 0.06);
+  EXPECT_LE(std::abs(error.mean), 0.03);
+  contents.light.shadows = false;
+  EXPECT_GT(errorOf(shoot(contents, above(), {}, kColumns, kRows), truth).rms, 2.0 * error.rms);
+}
+
+TEST_P(ShadowPicture, SeesAboutAsMuchOfTheLampAsManyRays)
+{
+  SceneContents contents = white(GetParam().make(), 0.0);
+  const ReferencePicture truth = truthOf(contents, above(), kColumns, kRows);
+  const Shot shot = shoot(contents, above(), {}, kColumns, kRows);
+  const Error error = errorOf(shot, truth);
+  EXPECT_LE(error.rms, 0.04);
+  EXPECT_LE(std::abs(error.mean), 0.01);
+  contents.light.shadows = false;
+  const Shot plain = shoot(contents, above(), {}, kColumns, kRows);
+  double drawn = 0.0; // where there is shadow
+  double without = 0.0;
+  for (std::size_t p = 0; p < truth.depth.millimetres.size(); ++p)
+  {
+    const double wanted = 255.0 * static_cast<double>(truth.rgb[3 * p]);
+    if (std::isnan(truth.depth.millimetres[p]) || plain.picture.rgb[3 * p] - wanted < 20.0)
+      continue;
+    drawn += std::abs(shot.picture.rgb[3 * p] - wanted);
+    without += plain.picture.rgb[3 * p] - wanted;
+  }
+  EXPECT_LE(drawn, 0.5 * without);
+}
+
+TEST(ShadowPicture, APlaneIsDrawnAsWithoutShadowsToTheBit)
+{
+  strokes::Random random(11);
+  for (int n = 0; n < 12; ++n)
+  {
+    Vector normal(strokes::between(random, -1.0, 1.0), strokes::between(random, -1.0, 1.0),
+                  strokes::between(random, -1.0, 1.0));
+    if (n == 0)
+      normal = {0.0, 0.0, 1.0};
+    if (n == 1)
+      normal = {1.0, 1.0, 1.0};
+    normal.normalize();
+    const double level = strokes::between(random, -1.0, 1.0);
+    const double spacing = n % 2 == 0 ? 0.5 : 0.3;
+    SceneContents contents =
+        boneScene(ct<std::int16_t>(cube(static_cast<int>(28.0 / spacing), spacing),
+                                   [&](const Vector& p) { return level - p.dot(normal); }));
+    const Vector aside = normal.unitOrthogonal();
+    core::CameraPose pose = from(60.0 * (normal + 0.5 * aside), {0.0, 0.0, 0.0}, 12.0);
+    pose.viewUp = normal.cross(aside);
+    const Picture plain = shoot(contents, pose, {}, kColumns, kRows).picture;
+    contents.light.shadows = true;
+    EXPECT_EQ(countDifferentPixels(plain, shoot(contents, pose, {}, kColumns, kRows).picture), 0U)
+        << n;
+  }
+}
+
+// The closed form of SurfaceShadowsTest.
+TEST(ShadowPicture, AtTheBottomOfAPitTheSkyIsThatOfTheClosedForm)
+{
+  for (const double a : {2.0, 4.0, 6.0})
+  {
+    SceneContents contents =
+        white(holed([=](const Vector& p) { return (p - Vector(0.0, -9.0, 0.0)).norm() - a; }, true,
+                    cube(112, 0.25)),
+              1.0);
+    core::CameraPose pose = from({0.0, -80.0, 0.0}, {0.0, 0.0, 0.0}, 1.0);
+    pose.viewUp = {0.0, 0.0, 1.0};
+    const Shot shot = shoot(contents, pose, {}, 8, 8);
+    ASSERT_NEAR(shot.depth.at(4, 4), 71.0 + a, 0.1);
+    const double reach = 0.5 * a / optics::kOcclusionReach;
+    EXPECT_NEAR(shot.picture.pixel(4, 4)[0] / 255.0, 0.5 + 2.0 * reach * reach, 0.14) << a;
+  }
+}
+
+TEST(ShadowPicture, FollowsTheCutAndItsUndoToTheBit)
+{
+  SceneContents contents = holed(holes, true, cube(56, 0.5));
+  contents.light.setShadows(true);
+  const auto first = contents.mask;
+  const auto second =
+      cut(contents.ct->geometry(), [](const Vector& p) { return std::min(holes(p), shaft(p)); });
+  ScenePicture scene;
+  scene.setContents(contents);
+  scene.setCamera(above());
+  OffscreenView view(kColumns, kRows);
+  const Picture before = view.render(scene);
+  const core::GridGeometry& grid = contents.ct->geometry();
+  // In parts, as strokes come.
+  const core::IndexBox left{{0, 0, 0}, {20, 56, 56}};
+  const core::IndexBox right{{20, 0, 0}, {56, 56, 56}};
+  scene.maskChanged(second, left);
+  scene.maskChanged(second, right);
+  const Picture after = view.render(scene);
+  EXPECT_GT(countDifferentPixels(before, after), 100U);
+  SceneContents fresh = contents;
+  fresh.mask = second;
+  EXPECT_EQ(countDifferentPixels(after, shoot(fresh, above(), {}, kColumns, kRows).picture), 0U);
+  scene.maskChanged(first, grid.fullBox());
+  EXPECT_EQ(countDifferentPixels(before, view.render(scene)), 0U);
+  fresh.mask = first;
+  fresh.iso += 200.0; // and what is solid
+  scene.setContents(fresh);
+  EXPECT_EQ(
+      countDifferentPixels(view.render(scene), shoot(fresh, above(), {}, kColumns, kRows).picture),
+      0U);
+}
+
+TEST(ShadowPicture, TakesNothingWhereThereAreNone)
+{
+  SceneContents contents = holed(holes, true, cube(56, 0.5));
+  const auto hasShadows = [](const Shot& shot)
+  {
+    const auto& names = shot.statistics.variant;
+    const bool compiled = std::count(names.begin(), names.end(), "shadows") > 0;
+    EXPECT_EQ(shot.statistics.resources.count("light.opacities") > 0, compiled);
+    return compiled;
+  };
+  ScenePicture scene;
+  scene.setCamera(above());
+  OffscreenView view(kColumns, kRows);
+  for (const bool on : {false, true, false})
+  {
+    contents.light.shadows = on;
+    scene.setContents(contents);
+    EXPECT_EQ(hasShadows(shoot(view, scene)), on);
+  }
+}
+
+// The border of what is drawn is none of the patient's.
+TEST(ShadowPicture, DoesNotDarkenAFaceOfAClippingPlane)
+{
+  SceneContents contents = hollowBall();
+  contents.clipping = {{{0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}}}; // seen from -y: one face
+  const core::CameraPose pose = from({0.0, -60.0, 0.0}, {0.0, 0.0, 0.0}, 8.0);
+  const Picture plain = shoot(contents, pose, {}, kColumns, kRows).picture;
+  contents.light.shadows = true;
+  EXPECT_EQ(countDifferentPixels(plain, shoot(contents, pose, {}, kColumns, kRows).picture), 0U);
+}

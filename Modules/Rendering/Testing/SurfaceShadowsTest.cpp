@@ -1,0 +1,142 @@
+#include "SurfaceShadows.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "PictureScenes.h"
+#include "petrous/Rendering/Stereo.h"
+
+using namespace petrous;
+using namespace petrous::rendering;
+using namespace petrous::rendering::synthetic;
+
+namespace
+{
+
+struct Seer
+{
+  TissueOptics optics;
+  ClippedRegion drawn;
+  SurfaceShadows shadows;
+
+  explicit Seer(const SceneContents& contents)
+    : optics(contents)
+    , drawn(contents.ct->geometry(), contents.crop, contents.clipping)
+    , shadows(optics, drawn)
+  {
+  }
+};
+
+// The surface at a point of it that is known but for the interpolation.
+Vector surfaceNear(const Seer& seer, const Vector& point, const Vector& normal)
+{
+  const Vector start = point + 0.3 * normal;
+  return start - seer.optics.field().firstHit(start, point - 0.3 * normal).value_or(0.3) * normal;
+}
+
+// A far lamp.
+optics::Lamp towards(const Vector& direction)
+{
+  optics::Lamp lamp;
+  lamp.at = direction.normalized();
+  lamp.isFar = true;
+  return lamp;
+}
+
+// Bone below z = 0, with the part of a ball of radius `a` missing that reaches `depth` below it.
+SceneContents pit(double a, double depth, double spacing = 0.25)
+{
+  return boneScene(ct<std::int16_t>(
+      cube(static_cast<int>(24.0 / spacing), spacing, oblique()), [=](const Vector& p)
+      { return std::min(-p.z(), (p - Vector(0.0, 0.0, a - depth)).norm() - a); }));
+}
+
+} // namespace
+
+TEST(SurfaceShadows, OfAPlaneThereAreNone)
+{
+  const Vector normal = Vector(0.3, -0.8, 0.5).normalized();
+  const Seer seer(boneScene(
+      ct<std::int16_t>(cube(48, 0.5, oblique()), [&](const Vector& p) { return -p.dot(normal); })));
+  const optics::Seen seen = seer.shadows.at({0.0, 0.0, 0.0}, normal, towards(normal));
+  EXPECT_EQ(seen.sky, 1.0);
+  EXPECT_EQ(seen.lamp, 1.0);
+  EXPECT_NEAR(seer.shadows.at({0.0, 0.0, 0.0}, normal, towards(normal.unitOrthogonal())).lamp, 0.5,
+              0.05); // half of the disc is below the horizon
+}
+
+// From the bottom, the rim is at cos^2 = depth / 2a off the axis, and what is seen at an angle t is
+// 2a cos t away: 1 - s0 + 2 (a s0 / r)^2.
+TEST(SurfaceShadows, AtTheBottomOfABallShapedPitTheSkyIsThatOfTheClosedForm)
+{
+  for (const double a : {2.0, 4.0})
+    for (const double depth : {0.5 * a, a, 1.5 * a})
+    {
+      const Seer seer(pit(a, depth));
+      const double rim = 0.5 * depth / a;
+      const double reach = a * rim / optics::kOcclusionReach;
+      const Vector up(0.0, 0.0, 1.0);
+      EXPECT_NEAR(seer.shadows.at(surfaceNear(seer, -depth * up, up), up, towards(up)).sky,
+                  1.0 - rim + 2.0 * reach * reach, 0.045) // the rim is rounded by voxels
+          << a << " " << depth;
+    }
+}
+
+// The form factor of any part of a sphere, from anywhere on it, is its share of the sphere's area.
+TEST(SurfaceShadows, EveryPlaceOfASmallPitSeesTheSameSky)
+{
+  constexpr double kRadius = 2.0;
+  const Seer seer(pit(kRadius, kRadius));
+  for (const double angle : {0.3, 0.8, 1.2})
+  {
+    const Vector out(std::sin(angle) * 0.6, std::sin(angle) * 0.8, -std::cos(angle));
+    const Vector place = surfaceNear(seer, kRadius * out, -out);
+    const double sky = seer.shadows.at(place, -out, towards({0.0, 0.0, 1.0})).sky;
+    EXPECT_GE(sky, 0.5 - 0.03) << angle;
+    EXPECT_LE(sky, 0.5 + 2.0 * std::pow(kRadius / optics::kOcclusionReach, 2.0) + 0.03) << angle;
+  }
+}
+
+TEST(SurfaceShadows, AnEdgeHidesHalfOfALampBehindIt)
+{
+  // A floor at z = -6 beside a wall up to z = 4.
+  SceneContents contents = boneScene(
+      ct<std::int16_t>(cube(120, 0.2), [](const Vector& p)
+                       { return std::max(-6.0 - p.z(), std::min(-p.x(), 4.0 - p.z())); }));
+  const Vector up(0.0, 0.0, 1.0);
+  const auto lampAt = [&](double x, const SceneContents& scene) {
+    return Seer(scene).shadows.at({x, 0.0, -6.0}, up, towards({-0.3, 0.0, 1.0})).lamp;
+  };
+  EXPECT_NEAR(lampAt(3.0, contents), 0.5, 0.06);          // 10 mm below the edge, at a slope of 0.3
+  const double half = 10.0 * 1.09 * optics::kLampTangent; // of the penumbra
+  EXPECT_EQ(lampAt(3.0 + 1.1 * half, contents), 1.0);
+  EXPECT_EQ(lampAt(3.0 - 1.1 * half, contents), 0.0);
+  contents.materials = {boneMaterial(0.3F)};
+  EXPECT_NEAR(lampAt(1.0, contents), 0.7, 1e-6);
+  contents.materials = {boneMaterial()};
+  contents.clipping = {{{0.3, 0.0, 0.0}, {1.0, 0.0, 0.0}}};
+  EXPECT_EQ(lampAt(3.0, contents), 1.0); // the wall is not drawn
+}
+
+TEST(SurfaceShadows, BothEyesHaveTheSameLamp)
+{
+  core::CameraPose camera = from({30.0, -200.0, 60.0}, {1.0, 2.0, 3.0}, 12.0);
+  for (const bool parallel : {false, true})
+  {
+    if (parallel)
+      camera.parallelScale = 20.0;
+    const optics::Lamp own = optics::lampOf(camera);
+    const EyePair eyes = eyesOf(camera, {40.0, 180.0});
+    for (const core::CameraPose& eye : {eyes.left, eyes.right})
+    {
+      const optics::Lamp lamp = optics::lampOf(eye);
+      EXPECT_TRUE(lamp.at.isApprox(own.at, 1e-12));
+      EXPECT_EQ(lamp.isFar, parallel);
+    }
+    const Vector view = (camera.focalPoint - camera.position).normalized();
+    const double angle = std::acos(-view.dot(own.from(camera.focalPoint)));
+    EXPECT_NEAR(angle, 8.0 * 3.14159265358979 / 180.0, 1e-6);
+    EXPECT_GT(own.from(camera.focalPoint).dot(camera.viewUp), 0.0);
+  }
+}

@@ -1,0 +1,142 @@
+// How much of the sky and of the lamp a surface sees: cones through a pyramid of opacities
+// [Crassin2011, 4.2], as defined in OpticalModel.h. Third part of the ray caster's fragment
+// shader; see RayCast.frag.glsl.
+
+struct Seen
+{
+  float sky;
+  float lamp;
+};
+
+#ifdef PETROUS_SHADOWS
+uniform sampler3D opacityTexture; // RG8: OpacityPyramid, linear within a level
+uniform vec3 opacityScale, opacityOffset; // voxel -> texture coordinate
+uniform mat3 opacityEdges; // of a texel of the first level, mm; one a column
+uniform float opacityEdge; // their mean length
+uniform int opacityLevels;
+uniform float nearestSlice; // mm; the first look-up along a cone of the sky
+uniform int slices;         // look-ups along it, each kSliceGrowth times as far as the last
+uniform vec4 lamp; // w = 1: from the rays' common origin, mm; w = 0: towards it
+uniform vec3 pictureUp, pictureRight;
+uniform vec3 mmPerVoxel; // between the planes of voxels
+
+// Four cones around one along the normal, each 60 degrees wide, for the hemisphere; sin^2 30 of its
+// light, weighted by the cosine, comes from the middle one.
+const float kConeTangent = 0.57735027;
+const float kMiddleShare = 0.25;
+// Above what the tangent plane explains, for the 8 bits of a texel and of the filter.
+const float kSlack = 0.02;
+const float kLampStride = 2.0; // texels from look-up to look-up towards the lamp
+const float kDark = 0.005;
+
+// Largest mean that a half space can have in a texel whose centre is `height` above it, in widths
+// of the texel along the normal, over all its places in the grid: trilinear interpolation of means
+// over blocks.
+float ofHalfSpace(float height)
+{
+  float part = clamp(0.75 - 0.5 * height, 0.0, 1.0);
+  return part * part;
+}
+
+// Fraction of a ball of that width, mm, that is drawn: neither cropped nor clipped.
+float drawnAt(vec3 v, float width)
+{
+  vec3 part = clamp(0.5 + min(v - boxLower, boxUpper - v) * mmPerVoxel / width, 0.0, 1.0);
+  float drawn = part.x * part.y * part.z;
+#ifdef PETROUS_CLIP
+  for (int i = 0; i < planeCount; ++i)
+    drawn *= clamp(0.5 + (dot(planes[i].xyz, v) + planes[i].w) / width, 0.0, 1.0);
+#endif
+  return drawn;
+}
+
+// Level with texels of about that width, mm, and what the tangent plane explains there at a height.
+// `texel`: width of a texel of the first level along the normal, mm.
+float levelOf(float width)
+{
+  return clamp(floor(log2(width / opacityEdge) + 0.5), 0.0, float(opacityLevels - 1));
+}
+
+float ownOf(float height, float level, float texel)
+{
+  return kSlack + ofHalfSpace(height / (texel * exp2(level)));
+}
+
+// Share of tissue around a point beyond `own`, and the mean of what it stops.
+vec2 tissueAt(vec3 v, float level, float own)
+{
+  COUNT(1);
+  vec2 look = textureLod(opacityTexture, v * opacityScale + opacityOffset, level).rg;
+  float share = look.x * drawnAt(v, opacityEdge * exp2(level));
+  return vec2(clamp((share - own) / max(1.0 - own, 0.05), 0.0, 1.0), look.y / max(look.x, 0.004));
+}
+
+// Of the light from all around, within kOcclusionReach.
+float skyAt(vec3 v, vec3 normal, float texel, bool wanted)
+{
+  vec3 aside = cross(normal, pictureUp);
+  aside = dot(aside, aside) > 1e-6 ? normalize(aside) : pictureRight;
+  vec3 ahead = cross(normal, aside);
+  vec3 middle = voxelFromMm * normal;
+  vec3 across = 0.8660254 * (voxelFromMm * aside);
+  vec3 along = 0.8660254 * (voxelFromMm * ahead);
+  float sky = 1.0;
+  float left = kMiddleShare;
+  vec4 leftAside = vec4(0.25 * (1.0 - kMiddleShare));
+  float far = nearestSlice;
+  int turns = wanted ? slices : 0;
+  for (int slice = 0; slice < turns; ++slice)
+  {
+    float level = levelOf(far * kConeTangent);
+    float ratio = far / kOcclusionReach;
+    float weight = 1.0 - ratio * ratio;
+    vec2 front = tissueAt(v + far * middle, level, ownOf(far, level, texel));
+    float own = ownOf(0.5 * far, level, texel);
+    vec3 center = v + 0.5 * far * middle;
+    vec2 a = tissueAt(center + far * across, level, own);
+    vec2 b = tissueAt(center + far * along, level, own);
+    vec2 c = tissueAt(center - far * across, level, own);
+    vec2 d = tissueAt(center - far * along, level, own);
+    float passes = (1.0 - front.x) * (1.0 - front.x);
+    vec4 passAside = 1.0 - vec4(a.x, b.x, c.x, d.x);
+    passAside *= passAside;
+    sky -= weight * (left * (1.0 - passes) * front.y +
+                     dot(leftAside * (1.0 - passAside), vec4(a.y, b.y, c.y, d.y)));
+    left *= passes;
+    leftAside *= passAside;
+    far *= kSliceGrowth;
+  }
+  return clamp(sky, 0.0, 1.0);
+}
+
+// Of the lamp's disc, `way` being the direction to its centre.
+float lampAt(vec3 v, vec3 normal, vec3 way, float texel, bool wanted)
+{
+  float rise = dot(way, normal);
+  float left = clamp(0.5 + 0.5 * rise / kLampTangent, 0.0, 1.0); // above the tangent plane
+  float seen = left;
+  vec3 by = voxelFromMm * way;
+  float far = wanted ? 1.2 * opacityEdge : kShadowReach;
+  while (far < kShadowReach && left > kDark)
+  {
+    float width = max(far * kLampTangent, opacityEdge);
+    float level = levelOf(width);
+    vec2 tissue = tissueAt(v + far * by, level, ownOf(far * rise, level, texel));
+    float passes = 1.0 - tissue.x;
+    passes *= passes * passes;
+    seen -= left * (1.0 - passes) * tissue.y;
+    left *= passes;
+    far += kLampStride * width;
+  }
+  return wanted ? max(seen, 0.0) : 1.0;
+}
+
+// `normal`: in mm, unit, towards the camera; `ray`: its direction in mm, unit; `hit`: mm.
+Seen seenAt(vec3 v, vec3 normal, vec3 ray, float hit, bool wanted)
+{
+  vec3 across = abs(normal * opacityEdges);
+  float texel = across.x + across.y + across.z;
+  vec3 way = normalize(lamp.xyz - lamp.w * hit * ray);
+  return Seen(skyAt(v, normal, texel, wanted), lampAt(v, normal, way, texel, wanted));
+}
+#endif

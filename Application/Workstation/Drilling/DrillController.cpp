@@ -145,6 +145,18 @@ double DrillController::toolRadius() const
   return m_tool == Tool::Pointer ? kPointerRadius : 0.5 * m_bar.burr().diameter;
 }
 
+rendering::ToolPose DrillController::toolForm() const
+{
+  using rendering::BurrFinish;
+  rendering::ToolPose form;
+  form.radius = toolRadius();
+  form.handpiece = m_tool != Tool::Pointer;
+  if (form.handpiece)
+    form.finish = m_bar.burr().kind == dissection::Burr::Kind::Diamond ? BurrFinish::Gritted
+                                                                       : BurrFinish::Fluted;
+  return form;
+}
+
 void DrillController::applyBar()
 {
   using Mode = interaction::AimSettings::Mode;
@@ -398,7 +410,7 @@ void DrillController::show(const session::TouchSession::News& news)
   if (!m_model.drilling()) // for a stroke that may begin
     m_model.touch()->setCamera(m_view.picture().camera());
   m_driver.see(record);
-  m_view.display().setTouch(record, toolRadius(), m_tool != Tool::Pointer);
+  m_view.display().setTouch(record, toolForm());
   if (m_tool == Tool::Pointer && isPlaced(record))
     read(record);
   showFault(news);

@@ -78,6 +78,7 @@ private:
   QString whyLost() const;
   bool isLost(const session::TickRecord& record);
   double toolRadius() const;
+  rendering::ToolPose toolForm() const; ///< without a place
 
   presenters::WorkstationModel& m_model;
   ThreeDView& m_view;

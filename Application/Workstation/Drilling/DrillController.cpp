@@ -162,6 +162,7 @@ void DrillController::applyBar()
   using Mode = interaction::AimSettings::Mode;
   const bool wheel = m_bar.wheelAction()->isChecked() && !m_devices.device();
   interaction::AimSettings settings;
+  m_sound.setBurr(m_bar.burr());
   settings.burrRadius = toolRadius();
   settings.thrust = m_bar.thrust();
   settings.mode = wheel && m_tool != Tool::Pointer ? Mode::Depth : Mode::Surface;
@@ -315,6 +316,7 @@ bool DrillController::takeTool()
     session::TouchSession::Setup setup;
     setup.tool = toolChosen();
     setup.cuts = m_tool == Tool::Burr;
+    setup.heard = m_sound.listener();
     haptics::Device& device = m_driver.prepare(setup);
     m_model.startTouch(device, setup);
     m_model.touch()->setCamera(m_view.picture().camera()); // a held button drills at once
@@ -349,6 +351,7 @@ void DrillController::putAway()
   m_frames.stop();
   const auto news = m_model.stopTouch();
   m_view.display().endTouch();
+  m_sound.toolGone();
   emit burrGone();
   if (!m_fault.isEmpty())
     emit faulted({});
@@ -411,6 +414,7 @@ void DrillController::show(const session::TouchSession::News& news)
     m_model.touch()->setCamera(m_view.picture().camera());
   m_driver.see(record);
   m_view.display().setTouch(record, toolForm());
+  m_sound.show(record, toolRadius());
   if (m_tool == Tool::Pointer && isPlaced(record))
     read(record);
   showFault(news);

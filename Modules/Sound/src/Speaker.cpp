@@ -1,6 +1,7 @@
 #include "petrous/Sound/Speaker.h"
 
 #include <cstdlib>
+#include <mutex>
 
 #include <dlfcn.h>
 
@@ -32,6 +33,8 @@ using PaCallback = int (*)(const void*, void*, unsigned long, const void*, unsig
 constexpr unsigned long kFloat32 = 1;
 constexpr int kContinue = 0;
 constexpr double kWantedRate = 48000.0;
+
+std::mutex calls; // PortAudio's own are not thread-safe, but for the callback
 
 const char* const kUsual = "libportaudio.so.2";
 
@@ -86,6 +89,7 @@ SpeakerError::SpeakerError(const std::string& message)
 
 Speaker::Speaker(const std::function<Fill(double rate)>& fill)
 {
+  const std::lock_guard<std::mutex> lock(calls);
   const char* named = std::getenv("PETROUS_PORTAUDIO");
   const std::string name = named && *named ? named : kUsual;
   m_library = ::dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
@@ -135,6 +139,7 @@ void Speaker::open(const Functions& functions, const std::function<Fill(double r
 
 Speaker::~Speaker()
 {
+  const std::lock_guard<std::mutex> lock(calls);
   const Functions functions(m_library, kUsual); // was complete before
   functions.abortStream(m_stream);
   functions.closeStream(m_stream);

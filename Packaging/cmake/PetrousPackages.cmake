@@ -49,7 +49,7 @@ set(CPACK_DEBIAN_PETROUS_PACKAGE_SECTION science)
 # Loaded at run time, so that automatic dependencies do not include them.
 set(CPACK_DEBIAN_PETROUS_PACKAGE_DEPENDS "libegl1, libopengl0, libgl1-mesa-dri | libgl1-nvidia-glvnd-glx")
 set(CPACK_DEBIAN_PETROUS_PACKAGE_RECOMMENDS "libhidapi-hidraw0, fonts-dejavu-core, qttranslations5-l10n, gstreamer1.0-plugins-base, gstreamer1.0-plugins-good, gstreamer1.0-libav") # a font for reports; Qt in German; videos
-set(CPACK_DEBIAN_PETROUS_PACKAGE_SUGGESTS "petrous-bench, ffmpeg, gstreamer1.0-plugins-bad, gstreamer1.0-plugins-ugly") # films; videos of AVCHD and MPEG, of WMV
+set(CPACK_DEBIAN_PETROUS_PACKAGE_SUGGESTS "petrous-bench, ffmpeg, gstreamer1.0-plugins-bad, gstreamer1.0-plugins-ugly, libportaudio2") # films; videos of AVCHD and MPEG, of WMV; sound of the drill
 set(CPACK_COMPONENT_PETROUS_DESCRIPTION
   "rehearsal of temporal bone surgery on the patient's own CT and MR
  Builds a scene from DICOM, shows every structure in its own colours, and lets

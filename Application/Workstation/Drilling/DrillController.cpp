@@ -145,11 +145,24 @@ double DrillController::toolRadius() const
   return m_tool == Tool::Pointer ? kPointerRadius : 0.5 * m_bar.burr().diameter;
 }
 
+rendering::ToolPose DrillController::toolForm() const
+{
+  using rendering::BurrFinish;
+  rendering::ToolPose form;
+  form.radius = toolRadius();
+  form.handpiece = m_tool != Tool::Pointer;
+  if (form.handpiece)
+    form.finish = m_bar.burr().kind == dissection::Burr::Kind::Diamond ? BurrFinish::Gritted
+                                                                       : BurrFinish::Fluted;
+  return form;
+}
+
 void DrillController::applyBar()
 {
   using Mode = interaction::AimSettings::Mode;
   const bool wheel = m_bar.wheelAction()->isChecked() && !m_devices.device();
   interaction::AimSettings settings;
+  m_sound.setBurr(m_bar.burr());
   settings.burrRadius = toolRadius();
   settings.thrust = m_bar.thrust();
   settings.mode = wheel && m_tool != Tool::Pointer ? Mode::Depth : Mode::Surface;
@@ -303,6 +316,7 @@ bool DrillController::takeTool()
     session::TouchSession::Setup setup;
     setup.tool = toolChosen();
     setup.cuts = m_tool == Tool::Burr;
+    setup.heard = m_sound.listener();
     haptics::Device& device = m_driver.prepare(setup);
     m_model.startTouch(device, setup);
     m_model.touch()->setCamera(m_view.picture().camera()); // a held button drills at once
@@ -337,6 +351,7 @@ void DrillController::putAway()
   m_frames.stop();
   const auto news = m_model.stopTouch();
   m_view.display().endTouch();
+  m_sound.toolGone();
   emit burrGone();
   if (!m_fault.isEmpty())
     emit faulted({});
@@ -398,7 +413,8 @@ void DrillController::show(const session::TouchSession::News& news)
   if (!m_model.drilling()) // for a stroke that may begin
     m_model.touch()->setCamera(m_view.picture().camera());
   m_driver.see(record);
-  m_view.display().setTouch(record, toolRadius(), m_tool != Tool::Pointer);
+  m_view.display().setTouch(record, toolForm());
+  m_sound.show(record, toolRadius());
   if (m_tool == Tool::Pointer && isPlaced(record))
     read(record);
   showFault(news);

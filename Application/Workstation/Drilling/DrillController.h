@@ -8,6 +8,7 @@
 #include <QTimer>
 
 #include "BackgroundWork.h"
+#include "DrillSound.h"
 #include "ToolDriver.h"
 #include "petrous/Session/StallWatch.h"
 
@@ -35,6 +36,7 @@ public:
   void renewTool();                  ///< puts the tool away and takes it up again
   void tissueCame();                 ///< the case's structures are loaded
   void bringHere();                  ///< moves a device's tool in front of the view's centre
+  DrillSound& sound() noexcept { return m_sound; }
 
 signals:
   void pointed(const Eigen::Vector3d& patient); ///< the surface under the pointer, or the tool
@@ -78,12 +80,14 @@ private:
   QString whyLost() const;
   bool isLost(const session::TickRecord& record);
   double toolRadius() const;
+  rendering::ToolPose toolForm() const; ///< without a place
 
   presenters::WorkstationModel& m_model;
   ThreeDView& m_view;
   DrillBar& m_bar;
   ActiveDeviceController& m_devices;
   ToolDriver m_driver;
+  DrillSound m_sound;
   BackgroundWork m_preparation;         // of the tool
   std::optional<Eigen::Vector3d> m_tip; // last one probed
   QTimer m_frames;

@@ -47,11 +47,10 @@ bool say(vtkTextActor& actor, std::string& present, const std::string& text)
 }
 } // namespace
 
-TouchOverlay::TouchOverlay(vtkRenderer& renderer, double burrRadius, bool handpiece)
+TouchOverlay::TouchOverlay(vtkRenderer& renderer, const rendering::ToolPose& form)
   : m_renderer(&renderer)
-  , m_burrRadius(burrRadius)
-  , m_handpiece(handpiece)
-  , m_view(burrRadius)
+  , m_form(form)
+  , m_view(form.radius, form.finish)
 {
   m_view.addTo(&renderer);
   m_force.addTo(&renderer);
@@ -82,6 +81,12 @@ TouchOverlay::~TouchOverlay()
   m_renderer->RemoveViewProp(m_warning);
 }
 
+bool TouchOverlay::shows(const rendering::ToolPose& form) const noexcept
+{
+  return m_form.radius == form.radius && m_form.handpiece == form.handpiece &&
+         m_form.finish == form.finish;
+}
+
 bool TouchOverlay::setReading(const std::string& text)
 {
   return say(*m_reading, m_text, text);
@@ -104,7 +109,7 @@ bool TouchOverlay::update(const session::TickRecord& record)
   {
     const double* eye = m_renderer->GetActiveCamera()->GetPosition();
     // It gives way to what is drilled.
-    tool->handpiece = m_handpiece && !interaction::hidesField(*tool, {eye[0], eye[1], eye[2]});
+    tool->handpiece = m_form.handpiece && !interaction::hidesField(*tool, {eye[0], eye[1], eye[2]});
   }
   m_force.update(record);
   const auto same = [](double a, double b, double tolerance)

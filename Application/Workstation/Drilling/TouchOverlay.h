@@ -20,14 +20,13 @@ namespace petrous::workstation
 class TouchOverlay
 {
 public:
-  /// `burrRadius` in mm; `handpiece`: false for a pointer, which has none.
-  TouchOverlay(vtkRenderer& renderer, double burrRadius, bool handpiece);
+  /// `form`: the tool; only its radius, handpiece (a pointer has none) and finish count.
+  TouchOverlay(vtkRenderer& renderer, const rendering::ToolPose& form);
   ~TouchOverlay();
   TouchOverlay(const TouchOverlay&) = delete;
   TouchOverlay& operator=(const TouchOverlay&) = delete;
 
-  double burrRadius() const noexcept { return m_burrRadius; }
-  bool handpiece() const noexcept { return m_handpiece; }
+  bool shows(const rendering::ToolPose& form) const noexcept; ///< a tool of this form
   const std::optional<rendering::ToolPose>& tool() const noexcept { return m_tool; }
 
   /// Returns true if the picture changed.
@@ -40,8 +39,7 @@ public:
 
 private:
   vtkSmartPointer<vtkRenderer> m_renderer;
-  double m_burrRadius;
-  bool m_handpiece;
+  rendering::ToolPose m_form;
   interaction::ToolView m_view;
   interaction::ForceDisplay m_force;
   vtkNew<vtkTextActor> m_reading;

@@ -128,13 +128,13 @@ void SceneDisplay::setTool(const std::optional<rendering::ToolPose>& tool)
   redraw(true);
 }
 
-void SceneDisplay::setTouch(const session::TickRecord& record, double burrRadius, bool handpiece)
+void SceneDisplay::setTouch(const session::TickRecord& record, const rendering::ToolPose& form)
 {
   if (m_follower)
-    m_follower->setTouch(record, burrRadius, handpiece);
-  if (!m_touch || m_touch->burrRadius() != burrRadius || m_touch->handpiece() != handpiece)
+    m_follower->setTouch(record, form);
+  if (!m_touch || !m_touch->shows(form))
   {
-    m_touch.reset(new TouchOverlay(*m_renderer, burrRadius, handpiece));
+    m_touch.reset(new TouchOverlay(*m_renderer, form));
     m_touch->setCovered(m_covered);
     m_touch->setWarning(bytes(m_warning));
   }

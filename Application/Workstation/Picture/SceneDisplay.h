@@ -61,7 +61,7 @@ public:
   void setTool(const std::optional<rendering::ToolPose>& tool);
   const std::optional<rendering::ToolPose>& tool() const noexcept { return m_contents.tool; }
   /// The tool with its force, from the servo; redrawn if it changed.
-  void setTouch(const session::TickRecord& record, double burrRadius, bool handpiece = true);
+  void setTouch(const session::TickRecord& record, const rendering::ToolPose& form);
   /// What a pointer reads, several lines; after setTouch.
   void setReading(const QString& text);
   const QString& reading() const noexcept { return m_reading; }

@@ -1,5 +1,10 @@
 #include "GuiTest.h"
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
@@ -80,6 +85,56 @@ TEST_F(Drill, AFreshWindowShowsTheSameHole)
   openWindow("ball");
   ASSERT_EQ(window().model().value().applied(), 1u);
   EXPECT_EQ(differentPixels(before, picture()), 0);
+}
+
+TEST_F(Drill, IsHeardWhereTheUserWantsItAndOnlyWhileItRuns)
+{
+  void* library = ::dlopen(PETROUS_STANDIN_PORTAUDIO, RTLD_NOW | RTLD_LOCAL);
+  ASSERT_NE(library, nullptr);
+  qputenv("PETROUS_PORTAUDIO", PETROUS_STANDIN_PORTAUDIO);
+  const auto next = reinterpret_cast<unsigned long (*)(float*)>(::dlsym(library, "standin_play"));
+  float loudest = 0.0F;
+  const auto plays = [&](int blocks) // some of the card's
+  {
+    std::vector<float> samples(4096);
+    loudest = 0.0F;
+    unsigned long count = 0;
+    for (int n = 0; n < blocks; ++n)
+    {
+      count = next(samples.data());
+      for (unsigned long i = 0; i < count; ++i)
+        loudest = std::max(loudest, std::abs(samples[i]));
+    }
+    return count > 0;
+  };
+  saveBall("ball");
+  openWindow();
+  EXPECT_FALSE(action("Sound of the drill")->isChecked());
+  EXPECT_FALSE(plays(1)) << "nothing is loaded before it is wanted";
+  action("Sound of the drill")->trigger();
+  ASSERT_TRUE(waitFor([&] { return plays(1); }));
+  EXPECT_EQ(loudest, 0.0F);
+  leave();
+  QTest::keyClick(&view(), Qt::Key_D);
+  QTest::keyPress(&view(), Qt::Key_Space);
+  EXPECT_TRUE(waitFor([this] { return window().model().drilling(); }));
+  EXPECT_TRUE(waitFor([&] { return plays(20) && loudest > 0.1F; }));
+  QTest::keyRelease(&view(), Qt::Key_Space);
+  EXPECT_TRUE(strokeEnds());
+  EXPECT_TRUE(waitFor([&] { return plays(400) && loudest == 0.0F; })) << "it runs down";
+  closeWindow();
+  EXPECT_FALSE(plays(1));
+  openWindow();
+  EXPECT_TRUE(action("Sound of the drill")->isChecked()) << "as the user left it";
+  EXPECT_TRUE(waitFor([&] { return plays(1); }));
+  action("Sound of the drill")->trigger();
+  EXPECT_FALSE(plays(1));
+  qputenv("PETROUS_PORTAUDIO", "/nowhere/libportaudio.so");
+  action("Sound of the drill")->trigger();
+  EXPECT_TRUE(waitFor([this] { return !action("Sound of the drill")->isChecked(); }));
+  EXPECT_TRUE(window().statusBar()->currentMessage().contains("libportaudio2"));
+  qunsetenv("PETROUS_PORTAUDIO");
+  ::dlclose(library);
 }
 
 TEST_F(Drill, TheSpaceBarDrillsWithoutAMouse)

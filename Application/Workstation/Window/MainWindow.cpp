@@ -514,6 +514,8 @@ void MainWindow::connectModel()
   connect(m_drill, &DrillController::burrMoved, warnings, &BurrWarnings::burrMoved);
   connect(m_drill, &DrillController::burrGone, warnings, &BurrWarnings::burrGone);
   connect(warnings, &BurrWarnings::warned, &m_view->display(), &SceneDisplay::setWarning);
+  connect(warnings, &BurrWarnings::warned, &m_drill->sound(),
+          [this](const QString& lines) { m_drill->sound().setWarning(!lines.isEmpty()); });
   connect(m_drill, &DrillController::strokeEnded, this, &MainWindow::strokeEnded);
   connect(m_drill, &DrillController::faulted, m_touch, &QLabel::setText);
   const auto say = [this](const QString& line)
@@ -667,7 +669,26 @@ void MainWindow::connectActions()
       m_actions->record, [this] { return !m_model.recording().empty(); },
       [this](bool chosen) { record(chosen); });
   connect(m_actions->slicesFollow, &QAction::toggled, m_drill, &DrillController::setSlicesFollow);
+  connectSound();
   connect(m_actions, &WindowActions::viewChosen, this, &MainWindow::showView);
+}
+
+void MainWindow::connectSound()
+{
+  QAction* action = m_actions->drillSound;
+  connect(action, &QAction::toggled, this,
+          [this](bool on)
+          {
+            m_settings->keepDrillSound(on);
+            m_drill->sound().setOn(on);
+          });
+  connect(&m_drill->sound(), &DrillSound::failed, this,
+          [this, action](const QString& why)
+          {
+            action->setChecked(false);
+            statusBar()->showMessage(why, kMessage);
+          });
+  action->setChecked(m_settings->drillSound());
 }
 
 void MainWindow::connectViews()
@@ -1186,9 +1207,10 @@ void MainWindow::findCommand()
 
 void MainWindow::showSettings()
 {
-  auto* dialog = new SettingsDialog(
-      *m_settings, m_model.library().folder(),
-      {m_library->drawThumbnails(), m_actions->strokeCamera, m_actions->slicesFollow}, this);
+  auto* dialog = new SettingsDialog(*m_settings, m_model.library().folder(),
+                                    {m_library->drawThumbnails(), m_actions->strokeCamera,
+                                     m_actions->slicesFollow, m_actions->drillSound},
+                                    this);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->open();
 }

@@ -92,6 +92,7 @@ private:
   void layOut();
   void connectModel();
   void connectActions();
+  void connectSound();
   void connectViews();
   void connectSegment();
   void connectMeasure();

@@ -216,6 +216,10 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                       tr("The crosshair goes along while the drill is on"));
   slicesFollow->setCheckable(true);
   slicesFollow->setChecked(true);
+  drillSound = make(drill, tr("S&ound of the drill"), {},
+                    tr("Spindle and teeth, louder in bone and brighter where the wall is thin; a "
+                       "tone while a warning is shown"));
+  drillSound->setCheckable(true);
   drill->addSeparator();
   record =
       make(drill, tr("&Record session…"), Qt::CTRL + Qt::SHIFT + Qt::Key_R,

@@ -76,6 +76,7 @@ public:
   QActionGroup* stereo;   ///< checkable; each one's data is its StereoMode
   QAction* surgeonWindow; ///< checkable
   QAction* slicesFollow;  ///< checkable
+  QAction* drillSound;    ///< checkable
   QAction* strokeCamera;  ///< checkable
   QAction* smallerBurr;
   QAction* largerBurr;

@@ -279,6 +279,16 @@ void WindowSettings::keepThumbnails(bool drawn)
   m_file.setValue("library/thumbnails", drawn ? "on" : "off");
 }
 
+bool WindowSettings::drillSound() const
+{
+  return m_file.value("sound/drill").toString() == "on";
+}
+
+void WindowSettings::keepDrillSound(bool heard)
+{
+  m_file.setValue("sound/drill", heard ? "on" : "off");
+}
+
 void WindowSettings::keepPanelShown(const QString& panel, bool shown)
 {
   m_file.setValue("panels/" + panel, shown ? "shown" : "hidden");

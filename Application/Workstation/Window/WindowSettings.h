@@ -76,6 +76,9 @@ public:
   bool thumbnails() const;
   void keepThumbnails(bool drawn);
 
+  bool drillSound() const; ///< whether the drill is heard
+  void keepDrillSound(bool heard);
+
 private:
   std::optional<double> number(const QString& key) const;
   mutable QSettings m_file;

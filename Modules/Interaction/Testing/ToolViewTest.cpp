@@ -64,6 +64,20 @@ TEST(ToolView, TheHandpieceHidesTheFieldOnlyBetweenItAndTheEye)
   EXPECT_FALSE(seenFrom(0.0, 300.0));
 }
 
+TEST(ToolView, TurnsABurrThatDrills)
+{
+  ToolView view(1.5, rendering::BurrFinish::Fluted);
+  TickRecord record = recordOf({1.0, 2.0, 3.0}, {1.0, 2.0, 3.0});
+  EXPECT_EQ(view.update(record)->finish, rendering::BurrFinish::Fluted);
+  EXPECT_EQ(view.update(record)->turn, 0.0);
+  record.drill = 1;
+  const double first = view.update(record)->turn;
+  EXPECT_NE(view.update(record)->turn, first);
+  record.drill = 0;
+  const double last = view.update(record)->turn;
+  EXPECT_EQ(view.update(record)->turn, last);
+}
+
 TEST(ToolView, ShowsTheProxyNotTheHand)
 {
   ToolView view(1.5);

@@ -1,5 +1,7 @@
 #include "petrous/Interaction/ToolView.h"
 
+#include <cmath>
+
 #include <vtkActor.h>
 #include <vtkLineSource.h>
 #include <vtkPolyDataMapper.h>
@@ -12,8 +14,14 @@
 namespace petrous::interaction
 {
 
-ToolView::ToolView(double burrRadius)
+namespace
+{
+constexpr double kGoldenTurn = 2.39996322972865332; // rad; no two pictures in a row are alike
+} // namespace
+
+ToolView::ToolView(double burrRadius, rendering::BurrFinish finish)
   : m_burrRadius(burrRadius)
+  , m_finish(finish)
 {
   if (!(burrRadius > 0.0 && burrRadius <= 100.0))
     throw core::InvalidParameter("tool view: the burr's radius must lie within 0 to 100 mm");
@@ -58,8 +66,16 @@ std::optional<rendering::ToolPose> ToolView::update(const session::TickRecord& r
     m_line->SetPoint1(tool.position.x(), tool.position.y(), tool.position.z());
     m_line->SetPoint2(hand.x(), hand.y(), hand.z());
   }
-  return rendering::ToolPose{tool.position, tool.rotation * Eigen::Vector3d::UnitZ(), m_burrRadius,
-                             record.drill != 0};
+  rendering::ToolPose pose;
+  pose.center = tool.position;
+  pose.axisToHand = tool.rotation * Eigen::Vector3d::UnitZ();
+  pose.radius = m_burrRadius;
+  pose.drilling = record.drill != 0;
+  pose.finish = m_finish;
+  if (pose.drilling)
+    m_turn = std::fmod(m_turn + kGoldenTurn, 2.0 * 3.14159265358979323846);
+  pose.turn = m_turn;
+  return pose;
 }
 
 // Its near end is nearest to the line of sight: the axis goes out from the burr.

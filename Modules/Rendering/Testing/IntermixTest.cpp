@@ -149,3 +149,29 @@ TEST(Intermix, HidesAToolInsideOpaqueBone)
       for (int c = 0; c < 3; ++c)
         ASSERT_EQ(hidden.pixel(column, row)[c], without.pixel(column, row)[c]);
 }
+
+// The silhouette and the depth of a burr do not depend on how it is shaded.
+TEST(Intermix, ABurrsFinishKeepsTheBallThatIsFelt)
+{
+  SceneContents contents = hollowBall();
+  const core::CameraPose pose = from({0.0, -60.0, 0.0}, {0.0, -20.0, 0.0}, 8.0);
+  contents.tool = tool({0.0, -20.0, 0.0}, Vector(0.4, 0.2, 1.0), 3.0);
+  const Picture smooth = shoot(contents, pose, {}, 96, 96).picture;
+  for (const BurrFinish finish : {BurrFinish::Fluted, BurrFinish::Gritted})
+  {
+    contents.tool->finish = finish;
+    contents.tool->turn = 0.0;
+    const Picture shaded = shoot(contents, pose, {}, 96, 96).picture;
+    contents.tool->turn = 0.3;
+    const Picture turned = shoot(contents, pose, {}, 96, 96).picture;
+    EXPECT_GT(countDifferentPixels(shaded, smooth), 200U);
+    EXPECT_GT(countDifferentPixels(shaded, turned), 200U);
+    SceneContents without = contents;
+    without.tool.reset();
+    const Picture empty = shoot(without, pose, {}, 96, 96).picture;
+    const auto covered = [&empty](const Picture& picture)
+    { return countDifferentPixels(picture, empty); };
+    EXPECT_NEAR(static_cast<double>(covered(shaded)), static_cast<double>(covered(smooth)),
+                0.01 * static_cast<double>(covered(smooth)));
+  }
+}

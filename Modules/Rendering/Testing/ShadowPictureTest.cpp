@@ -62,6 +62,22 @@ double shaft(const Vector& p)
   return std::min(std::max(aside - 4.0, p.y() - 5.0), (p - Vector(0.0, 3.0, 2.0)).norm() - 5.0);
 }
 
+// A burr that touches the surface y = -9 beside the holes, or stands over it or in the shaft.
+ToolPose tool(const Vector& center, double radius = 2.0)
+{
+  ToolPose pose;
+  pose.center = center;
+  pose.radius = radius;
+  pose.axisToHand = Vector(0.6, -1.0, -0.2);
+  return pose;
+}
+
+SceneContents with(SceneContents contents, const ToolPose& pose)
+{
+  contents.tool = pose;
+  return contents;
+}
+
 core::CameraPose above()
 {
   core::CameraPose pose = from({10.0, -80.0, 14.0}, {0.0, -5.0, 0.0}, 20.0);
@@ -137,6 +153,18 @@ std::vector<Case> cases()
          SceneContents contents = holed(holes, true, cube(56, 0.5));
          contents.clipping = {{{2.0, 0.0, 0.0}, Vector(-0.8, 0.0, 0.6)}};
          return contents;
+       }},
+      {"BurrOnTheSurface",
+       [] {
+         return with(holed(holes, true, cube(56, 0.5)), tool({0.0, -11.0, 9.0}, 2.0));
+       }},
+      {"BurrAboveTheSurface",
+       [] {
+         return with(holed(holes, true, cube(56, 0.5, oblique())), tool({-6.0, -14.0, 6.0}, 3.0));
+       }},
+      {"BurrInAShaft",
+       [] {
+         return with(holed(shaft, true, cube(56, 0.5)), tool({0.0, 1.0, 0.0}, 1.5));
        }},
       {"CropBox",
        []
@@ -268,6 +296,29 @@ TEST(ShadowPicture, FollowsTheCutAndItsUndoToTheBit)
   EXPECT_EQ(
       countDifferentPixels(view.render(scene), shoot(fresh, above(), {}, kColumns, kRows).picture),
       0U);
+}
+
+TEST(ShadowPicture, FollowsTheToolInTheSameFrame)
+{
+  SceneContents contents = holed(holes, true, cube(56, 0.5));
+  contents.light.setShadows(true);
+  ScenePicture scene;
+  scene.setContents(contents);
+  scene.setCamera(above());
+  OffscreenView view(kColumns, kRows);
+  const Picture without = view.render(scene);
+  for (const Vector& center : {Vector(0.0, -11.0, 9.0), Vector(4.0, -12.0, 6.0)})
+  {
+    scene.setTool(tool(center));
+    const Picture picture = view.render(scene);
+    EXPECT_GT(countDifferentPixels(without, picture), 300U);
+    EXPECT_EQ(
+        countDifferentPixels(
+            picture, shoot(with(contents, tool(center)), above(), {}, kColumns, kRows).picture),
+        0U);
+  }
+  scene.setTool(std::nullopt);
+  EXPECT_EQ(countDifferentPixels(without, view.render(scene)), 0U);
 }
 
 TEST(ShadowPicture, TakesNothingWhereThereAreNone)

@@ -23,7 +23,7 @@ struct Seer
   explicit Seer(const SceneContents& contents)
     : optics(contents)
     , drawn(contents.ct->geometry(), contents.crop, contents.clipping)
-    , shadows(optics, drawn)
+    , shadows(optics, drawn, contents.tool)
   {
   }
 };
@@ -139,4 +139,58 @@ TEST(SurfaceShadows, BothEyesHaveTheSameLamp)
     EXPECT_NEAR(angle, 8.0 * 3.14159265358979 / 180.0, 1e-6);
     EXPECT_GT(own.from(camera.focalPoint).dot(camera.viewUp), 0.0);
   }
+}
+
+// By the integral over the polar angle a: d(a) is the distance to the ball.
+TEST(SurfaceShadows, ABallOverAPlaneStopsThePartOfItsCap)
+{
+  const Vector normal = Vector(0.3, -0.8, 0.5).normalized();
+  for (const auto& [radius, height] :
+       {std::pair(2.0, 2.0), std::pair(2.0, 3.0), std::pair(4.0, 7.0)})
+  {
+    SceneContents contents = boneScene(ct<std::int16_t>(
+        cube(64, 0.4, oblique()), [&](const Vector& p) { return -p.dot(normal); }));
+    const Vector at = surfaceNear(Seer(contents), Vector::Zero(), normal);
+    ToolPose tool;
+    tool.center = at + (height + 1e-3) * normal;
+    tool.axisToHand = normal; // behind the ball
+    tool.radius = radius;
+    contents.tool = tool;
+    double stopped = 0.0;
+    const double last = std::asin(radius / (height + 1e-3));
+    constexpr int kSteps = 2000;
+    for (int n = 0; n < kSteps; ++n)
+    {
+      const double a = last * (n + 0.5) / kSteps;
+      const double away = height * std::sin(a);
+      const double d =
+          (height * std::cos(a) - std::sqrt(std::max(0.0, radius * radius - away * away))) /
+          optics::kOcclusionReach;
+      stopped += 2.0 * std::sin(a) * std::cos(a) * std::max(0.0, 1.0 - d * d) * last / kSteps;
+    }
+    EXPECT_NEAR(Seer(contents).shadows.at(at, normal, towards(normal.unitOrthogonal())).sky,
+                1.0 - stopped, 0.015)
+        << radius << " " << height;
+  }
+}
+
+TEST(SurfaceShadows, ABallHidesALampBehindIt)
+{
+  const Vector normal(0.0, 0.0, 1.0);
+  SceneContents contents =
+      boneScene(ct<std::int16_t>(cube(48, 0.5), [&](const Vector& p) { return -p.dot(normal); }));
+  const Vector at = surfaceNear(Seer(contents), Vector::Zero(), normal);
+  ToolPose tool;
+  tool.center = at + Vector(0.0, 6.0, 6.0);
+  tool.axisToHand = Vector(1.0, 0.0, 0.0);
+  tool.radius = 2.0;
+  contents.tool = tool;
+  const Seer seer(contents);
+  EXPECT_EQ(seer.shadows.at(at, normal, towards({0.0, 1.0, 1.0})).lamp, 0.0);
+  EXPECT_EQ(seer.shadows.at(at, normal, towards({0.0, -1.0, 1.0})).lamp, 1.0);
+  // Its rim halves the disc.
+  const double rim = std::asin(2.0 / std::sqrt(72.0));
+  const Vector beside(0.0, std::sin(0.25 * 3.14159265358979 - rim),
+                      std::cos(0.25 * 3.14159265358979 - rim));
+  EXPECT_NEAR(seer.shadows.at(at, normal, towards(beside)).lamp, 0.5, 0.1);
 }

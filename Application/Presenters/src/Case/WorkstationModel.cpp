@@ -456,6 +456,26 @@ std::optional<double> WorkstationModel::tissueAlong(const interaction::PickRay& 
   return interaction::firstTissue(session().field(), line);
 }
 
+// The place may be a little before the surface: what is air there is not the other side.
+double WorkstationModel::wallBehind(const Eigen::Vector3d& surface,
+                                    const Eigen::Vector3d& direction)
+{
+  constexpr double kStep = 0.1; // mm
+  constexpr double kLead = 0.5; // mm in which the surface must come
+  const volume::TissueField& field = session().field();
+  double first = 0.0;
+  while (first < kLead && field.value(surface + first * direction) <= 0.0)
+    first += kStep;
+  double wall = 0.0;
+  for (; wall < kThickWall; wall += kStep)
+  {
+    const Eigen::Vector3d at = surface + (first + wall) * direction;
+    if (field.value(at) <= 0.0 || !structureAt(at).empty())
+      break;
+  }
+  return std::min(wall, kThickWall);
+}
+
 std::optional<Eigen::Vector3d> WorkstationModel::surfaceAt(const interaction::PickRay& line)
 {
   const auto hit = tissueAlong(line);

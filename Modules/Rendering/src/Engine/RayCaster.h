@@ -77,8 +77,9 @@ public:
     int width = 0; ///< of the viewport, pixels
     int height = 0;
     GLuint opaque = 0;
-    optics::Lamp lamp = {};  ///< in patient mm
-    bool everywhere = false; ///< also cast rays that cannot meet tissue
+    optics::Lamp lamp = {};                      ///< in patient mm
+    std::optional<ToolPose> tool = std::nullopt; ///< that casts shadows, in patient mm
+    bool everywhere = false;                     ///< also cast rays that cannot meet tissue
     std::optional<Fovea> fovea = std::nullopt;
   };
 

@@ -10,6 +10,7 @@
 #include <Eigen/LU>
 
 #include "OpticalModel.h"
+#include "petrous/Rendering/ToolShape.h"
 
 namespace petrous::rendering
 {
@@ -219,6 +220,21 @@ void RayCaster::setShadows(GlProgram& program, const Frame& frame) const
   program.set("lamp", at);
   program.set("pictureUp", lamp.up);
   program.set("pictureRight", lamp.right);
+
+  Eigen::Vector4d ball = Eigen::Vector4d::Zero();
+  if (frame.tool && tool::isShown(*frame.tool))
+  {
+    const ToolPose& pose = *frame.tool;
+    ball << grid.voxelFromPatient(pose.center), pose.radius;
+    const Eigen::Quaterniond turn =
+        Eigen::Quaterniond::FromTwoVectors(pose.axisToHand, Eigen::Vector3d::UnitZ());
+    program.set("toolFromVoxel",
+                Eigen::Matrix3d(turn.toRotationMatrix() * grid.patientFromVoxelLinear()));
+    program.set("toolParts", Eigen::Vector4d(tool::shaftRadius(pose), tool::kShaftLength,
+                                             pose.handpiece ? tool::kHandpieceRadius : 0.0,
+                                             tool::kShaftLength + tool::kHandpieceLength));
+  }
+  program.set("toolBall", ball);
 }
 
 // Adds the bricks of a box that contain tissue. Bricks emptied by an edit remain until the next

@@ -125,6 +125,15 @@ optics::Lamp lampIn(const Eigen::Matrix4d& worldFromPatient, const core::CameraP
   return lamp;
 }
 
+// Rotation and translation alone keep its size.
+ToolPose toolIn(const Eigen::Matrix4d& worldFromPatient, ToolPose tool)
+{
+  const Eigen::Matrix4d patientFromWorld = worldFromPatient.inverse();
+  tool.center = (patientFromWorld * tool.center.homogeneous()).head<3>();
+  tool.axisToHand = patientFromWorld.topLeftCorner<3, 3>() * tool.axisToHand;
+  return tool;
+}
+
 // A depth blit requires identical source and destination formats.
 GLint depthFormat()
 {
@@ -269,6 +278,7 @@ public:
   std::optional<petrous::rendering::RenderQuality> restQuality;
   std::optional<vtkPetrousVolumeMapper::Fovea> fovea;
   std::optional<petrous::core::CameraPose> lampCamera;
+  std::optional<petrous::rendering::ToolPose> tool; // world
 
   /// The picture at rest of one eye, with the depth at which its rays end.
   struct Rest
@@ -473,10 +483,12 @@ void vtkPetrousVolumeMapper::DrawRays(vtkRenderer* renderer, vtkVolume* volume)
   frame.view =
       petrous::rendering::raysOf(renderer->GetActiveCamera(), renderer->GetTiledAspectRatio(),
                                  petrous::rendering::toEigen(volume->GetMatrix()));
-
   frame.lamp = petrous::rendering::lampIn(
       petrous::rendering::toEigen(volume->GetMatrix()),
       my.lampCamera.value_or(petrous::rendering::poseOf(renderer->GetActiveCamera())));
+  if (my.tool)
+    frame.tool =
+        petrous::rendering::toolIn(petrous::rendering::toEigen(volume->GetMatrix()), *my.tool);
 
   vtkOpenGLState* state = window->GetState();
   // Before copying the depth, which a scissor would clip as well.
@@ -552,6 +564,12 @@ void vtkPetrousVolumeMapper::SetRestQuality(
 void vtkPetrousVolumeMapper::SetLampCamera(const std::optional<petrous::core::CameraPose>& camera)
 {
   this->Internal->lampCamera = camera;
+}
+
+void vtkPetrousVolumeMapper::SetShadowingTool(
+    const std::optional<petrous::rendering::ToolPose>& tool)
+{
+  this->Internal->tool = tool;
 }
 
 void vtkPetrousVolumeMapper::SetFovea(const std::optional<Fovea>& fovea)

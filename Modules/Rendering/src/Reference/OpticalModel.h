@@ -50,10 +50,10 @@ namespace petrous::rendering
 /// such a face, with the normal n towards the camera, sees
 ///   sky     1 - 1/pi integral over the hemisphere of n of (n . w) b(w) (1 - (d / r)^2) dw
 ///   lamp    1 - mean over the lamp's disc of b(w)
-/// where b(w) is the fraction that tissue stops of what comes from direction w, and d the distance
-/// at which it does, up to r = kOcclusionReach; for the lamp up to kShadowReach. A surface that a
-/// ray in air enters stops the opacity of its material. All other surfaces see all. Meshes and the
-/// tool neither cast shadows nor lie in any.
+/// where b(w) is the fraction that tissue and the tool stop of what comes from direction w, and d
+/// the distance at which they do, up to r = kOcclusionReach; for the lamp up to kShadowReach. A
+/// surface that a ray in air enters stops the opacity of its material, the tool (ToolShape.h) all.
+/// All other surfaces see all. Meshes cast no shadows, and neither they nor the tool lie in any.
 namespace optics
 {
 

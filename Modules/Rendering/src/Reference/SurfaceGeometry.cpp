@@ -103,6 +103,23 @@ Eigen::Vector3d lit(const Eigen::Vector3d& color, const ShapeHit& hit, const Pix
                               hit.normal.dot(ray.direction), light, hit.distance);
 }
 
+struct ToolHits
+{
+  Hit burr, shaft, handpiece;
+};
+
+ToolHits meetTool(const ToolPose& tool, const PixelRay& ray)
+{
+  const Eigen::Vector3d axis = tool.axisToHand.normalized();
+  ToolHits hits;
+  hits.burr = meetSphere(ray, tool.center, tool.radius);
+  hits.shaft = meetCylinder(ray, tool.center, axis, tool::kShaftLength, tool::shaftRadius(tool));
+  if (tool.handpiece)
+    hits.handpiece = meetCylinder(ray, tool.center + tool::kShaftLength * axis, axis,
+                                  tool::kHandpieceLength, tool::kHandpieceRadius);
+  return hits;
+}
+
 void addTool(const ToolPose& tool, const LightSettings& lamp, const PixelRay& ray,
              std::vector<SurfaceGeometry::Hit>& hits)
 {
@@ -111,23 +128,28 @@ void addTool(const ToolPose& tool, const LightSettings& lamp, const PixelRay& ra
   light.ambient = tool::kAmbient;
   light.specular = tool::kSpecular;
   light.shininess = tool::kShininess;
-  const Eigen::Vector3d axis = tool.axisToHand.normalized();
   const auto add = [&](const Hit& hit, const std::array<double, 3>& color)
   {
     if (hit)
       hits.push_back({hit->distance, lit({color[0], color[1], color[2]}, *hit, ray, light), 1.0});
   };
-  add(meetSphere(ray, tool.center, tool.radius),
-      tool.drilling ? tool::kDrillingColor : tool::kBurrColor);
-  add(meetCylinder(ray, tool.center, axis, tool::kShaftLength, tool::shaftRadius(tool)),
-      tool::kShaftColor);
-  if (tool.handpiece)
-    add(meetCylinder(ray, tool.center + tool::kShaftLength * axis, axis, tool::kHandpieceLength,
-                     tool::kHandpieceRadius),
-        tool::kHandpieceColor);
+  const ToolHits met = meetTool(tool, ray);
+  add(met.burr, tool.drilling ? tool::kDrillingColor : tool::kBurrColor);
+  add(met.shaft, tool::kShaftColor);
+  add(met.handpiece, tool::kHandpieceColor);
 }
 
 } // namespace
+
+std::optional<double> toolAlong(const ToolPose& tool, const PixelRay& ray)
+{
+  const ToolHits met = meetTool(tool, ray);
+  std::optional<double> nearest;
+  for (const Hit& hit : {met.burr, met.shaft, met.handpiece})
+    if (hit && !(nearest && *nearest <= hit->distance))
+      nearest = hit->distance;
+  return nearest;
+}
 
 SurfaceGeometry::SurfaceGeometry(const SceneContents& contents)
   : m_light(contents.light)

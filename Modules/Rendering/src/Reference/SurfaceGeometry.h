@@ -11,6 +11,9 @@
 namespace petrous::rendering
 {
 
+/// Distance along a ray, mm, to the tool; nullopt: it misses. From inside, to where it leaves.
+std::optional<double> toolAlong(const ToolPose& tool, const PixelRay& ray);
+
 /// Ray intersection with the meshes and the tool of a scene, shaded as tissue surfaces; the tool
 /// has its own highlight.
 class SurfaceGeometry

@@ -5,6 +5,9 @@
 
 #include <Eigen/Geometry>
 
+#include "SurfaceGeometry.h"
+#include "petrous/Rendering/ToolShape.h"
+
 namespace petrous::rendering
 {
 
@@ -33,19 +36,25 @@ struct Disc
 
 } // namespace
 
-SurfaceShadows::SurfaceShadows(const TissueOptics& optics, const ClippedRegion& drawn)
+SurfaceShadows::SurfaceShadows(const TissueOptics& optics, const ClippedRegion& drawn,
+                               const std::optional<ToolPose>& tool)
   : m_optics(optics)
   , m_drawn(drawn)
   , m_step(kStep * optics.field().geometry().minSpacing())
 {
+  if (tool && tool::isShown(*tool))
+    m_tool = tool;
 }
 
-// The fraction that tissue stops on a ray, each part weighted by the distance where it does.
+// The fraction that tissue and tool stop on a ray, each part weighted by the distance where it
+// does.
 template <class Weight>
 double SurfaceShadows::stopped(const PixelRay& ray, double reach, const Weight& weight) const
 {
   const RaySpan span = m_drawn.clip(ray);
-  const double last = std::min(span.last, reach);
+  const auto tool = m_tool ? toolAlong(*m_tool, ray) : std::nullopt;
+  const double end = std::min(reach, tool.value_or(reach));
+  const double last = std::min(span.last, end);
   double left = 1.0;
   double sum = 0.0;
   TissueOptics::State before = TissueOptics::kAir;
@@ -60,6 +69,8 @@ double SurfaceShadows::stopped(const PixelRay& ray, double reach, const Weight& 
     }
     before = state;
   }
+  if (tool && *tool < reach)
+    sum += left * weight(*tool);
   return sum;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "ClippedRegion.h"
 #include "OpticalModel.h"
 #include "TissueOptics.h"
@@ -7,15 +9,16 @@
 namespace petrous::rendering
 {
 
-/// What a surface sees of the sky and of the lamp, by many rays through the tissue field. Pure and
-/// thread-safe; refers to its arguments.
+/// What a surface sees of the sky and of the lamp, by many rays through the tissue field and past
+/// the tool. Pure and thread-safe; refers to its arguments.
 class SurfaceShadows
 {
 public:
   static constexpr int kSkyRays = 256; ///< distributed by the cosine
   static constexpr int kLampRays = 64;
 
-  SurfaceShadows(const TissueOptics& optics, const ClippedRegion& drawn);
+  SurfaceShadows(const TissueOptics& optics, const ClippedRegion& drawn,
+                 const std::optional<ToolPose>& tool = std::nullopt);
 
   /// `normal`: unit, towards the camera; zero: everything is seen.
   optics::Seen at(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
@@ -27,7 +30,8 @@ private:
 
   const TissueOptics& m_optics;
   const ClippedRegion& m_drawn;
-  double m_step; // mm
+  std::optional<ToolPose> m_tool; // that is shown
+  double m_step;                  // mm
 };
 
 } // namespace petrous::rendering

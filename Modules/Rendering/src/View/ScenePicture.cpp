@@ -482,6 +482,7 @@ void ScenePicture::setTool(const std::optional<ToolPose>& tool)
 {
   m_implementation->mapper->ExpectCut(tool.has_value());
   m_implementation->toolPose = tool;
+  m_implementation->mapper->SetShadowingTool(tool);
   m_implementation->tool.setPose(tool);
 }
 

@@ -10,6 +10,7 @@
 
 class vtkActor;
 class vtkCylinderSource;
+class vtkPolyData;
 class vtkRenderer;
 class vtkSphereSource;
 
@@ -28,7 +29,10 @@ public:
   void setPose(const std::optional<ToolPose>& tool);
 
 private:
-  vtkNew<vtkSphereSource> m_burr;
+  void shapeBurr(const ToolPose& tool);
+
+  vtkNew<vtkSphereSource> m_burr;                   // smooth
+  vtkSmartPointer<vtkPolyData> m_fluted, m_gritted; // of radius 1; made when first needed
   vtkNew<vtkCylinderSource> m_shaft;
   vtkNew<vtkCylinderSource> m_handpiece;
   std::array<vtkSmartPointer<vtkActor>, 3> m_actors;

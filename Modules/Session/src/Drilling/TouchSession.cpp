@@ -79,6 +79,7 @@ TouchSession::TouchSession(scene::Case& value, TouchScene& scene, haptics::Devic
   , m_scene(scene)
   , m_burr(setup.tool.burr)
   , m_journal(setup.journal)
+  , m_heard(setup.heard)
   , m_locked(scene.lockedMemory())
   , m_proxy(scene.proxyOf(setup.tool))
   , m_servo(*m_proxy, setupOf(scene, setup))
@@ -95,6 +96,8 @@ TouchSession::TouchSession(scene::Case& value, TouchScene& scene, haptics::Devic
                           m_reporter.note(record);
                           if (m_recorder)
                             m_recorder->add(&record, 1);
+                          if (m_heard)
+                            m_heard(record);
                         },
                         [this] { passUpdates(); }},
                        setup.cuts)

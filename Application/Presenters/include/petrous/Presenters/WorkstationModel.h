@@ -325,6 +325,11 @@ public:
   bool measuresNearby() const noexcept { return m_nearby != nullptr; }
   void forgetNearby(); ///< releases the memory of the distance fields
 
+  /// Bone behind a place on the tissue's surface (patient LPS mm) along a unit direction, up to air
+  /// or a structure: mm, at most kThickWall. Requires a ready case.
+  double wallBehind(const Eigen::Vector3d& surface, const Eigen::Vector3d& direction);
+  static constexpr double kThickWall = 5.0; ///< mm
+
   /// Distance from the ray's origin to tissue, mm.
   std::optional<double> tissueAlong(const interaction::PickRay& line);
   /// The same as a point, patient LPS mm.

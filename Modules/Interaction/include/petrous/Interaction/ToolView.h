@@ -22,20 +22,23 @@ public:
   static constexpr double kLag = 1.0; ///< mm
 
   /// burrRadius  mm, > 0; throws InvalidParameter
-  explicit ToolView(double burrRadius);
+  explicit ToolView(double burrRadius,
+                    rendering::BurrFinish finish = rendering::BurrFinish::Smooth);
   ~ToolView();
 
   void addTo(vtkRenderer* renderer) const; ///< the line
   void removeFrom(vtkRenderer* renderer) const;
 
   /// For ScenePicture::setTool; nullopt until the servo has had a valid reading and placed the
-  /// tool.
+  /// tool. A burr that drills is turned elsewhere each time: it is too fast for any picture.
   std::optional<rendering::ToolPose> update(const session::TickRecord& record);
 
   double lag() const noexcept { return m_lag; } ///< mm, of the last record
 
 private:
   double m_burrRadius = 2.0;
+  rendering::BurrFinish m_finish;
+  double m_turn = 0.0; // rad
   double m_lag = 0.0;
   bool m_placed = false;
   vtkNew<vtkLineSource> m_line;

@@ -25,6 +25,14 @@ struct MeshContents
   appearance::StructureAppearance look;
 };
 
+/// How a burr's ball is shaded; its shape is the ball in any case, as it is felt.
+enum class BurrFinish
+{
+  Smooth,
+  Fluted, ///< a cutting burr
+  Gritted ///< a diamond burr
+};
+
 /// The tool in the scene, patient LPS mm.
 struct ToolPose
 {
@@ -33,6 +41,8 @@ struct ToolPose
   double radius = 2.0;                       ///< of the burr
   bool drilling = false;                     ///< drawn brighter
   bool handpiece = true;                     ///< false: ball and shaft only, as for a pointer
+  BurrFinish finish = BurrFinish::Smooth;
+  double turn = 0.0; ///< rad about the axis, of the finish
 };
 
 /// The light source is at the camera, as in a microscope.

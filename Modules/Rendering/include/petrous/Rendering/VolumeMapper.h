@@ -76,6 +76,9 @@ public:
   /// one that draws.
   void SetLampCamera(const std::optional<petrous::core::CameraPose>& camera);
 
+  /// Casts shadows, if there are any (world); null: none does. Drawn elsewhere.
+  void SetShadowingTool(const std::optional<petrous::rendering::ToolPose>& tool);
+
   /// Counts texture fetches and samples of subsequent frames, which slows them down.
   vtkSetMacro(Counting, bool);
   vtkGetMacro(Counting, bool);

@@ -19,6 +19,9 @@ uniform int slices;         // look-ups along it, each kSliceGrowth times as far
 uniform vec4 lamp; // w = 1: from the rays' common origin, mm; w = 0: towards it
 uniform vec3 pictureUp, pictureRight;
 uniform vec3 mmPerVoxel; // between the planes of voxels
+uniform vec4 toolBall;   // centre, voxels, and radius, mm; radius 0: no tool
+uniform mat3 toolFromVoxel; // mm; z along the shaft
+uniform vec4 toolParts; // radius and end of the shaft, radius (0: none) and end of the handpiece, mm
 
 // Four cones around one along the normal, each 60 degrees wide, for the hemisphere; sin^2 30 of its
 // light, weighted by the cosine, comes from the middle one.
@@ -62,13 +65,38 @@ float ownOf(float height, float level, float texel)
   return kSlack + ofHalfSpace(height / (texel * exp2(level)));
 }
 
-// Share of tissue around a point beyond `own`, and the mean of what it stops.
-vec2 tissueAt(vec3 v, float level, float own)
+// `at`: from the axis and along it.
+float cylinderAt(vec2 at, float radius, float first, float last)
+{
+  vec2 beyond = vec2(at.x - radius, max(first - at.y, at.y - last));
+  return min(max(beyond.x, beyond.y), 0.0) + length(max(beyond, 0.0));
+}
+
+// Signed distance from the tool, mm.
+float toolAt(vec3 v)
+{
+  vec3 at = toolFromVoxel * (v - toolBall.xyz);
+  vec2 aside = vec2(length(at.xy), at.z);
+  float distance = min(length(at) - toolBall.w, cylinderAt(aside, toolParts.x, 0.0, toolParts.y));
+  if (toolParts.z > 0.0)
+    distance = min(distance, cylinderAt(aside, toolParts.z, toolParts.y, toolParts.w));
+  return distance;
+}
+
+// Share of tissue around a point beyond `own`, and the mean of what it stops; with the tool's part
+// of a ball of `width`, mm.
+vec2 stoppersAt(vec3 v, float level, float own, float width)
 {
   COUNT(1);
   vec2 look = textureLod(opacityTexture, v * opacityScale + opacityOffset, level).rg;
   float share = look.x * drawnAt(v, opacityEdge * exp2(level));
-  return vec2(clamp((share - own) / max(1.0 - own, 0.05), 0.0, 1.0), look.y / max(look.x, 0.004));
+  vec2 tissue =
+      vec2(clamp((share - own) / max(1.0 - own, 0.05), 0.0, 1.0), look.y / max(look.x, 0.004));
+  if (toolBall.w <= 0.0)
+    return tissue;
+  float tool = clamp(0.5 - toolAt(v) / width, 0.0, 1.0);
+  float both = tool + (1.0 - tool) * tissue.x;
+  return vec2(both, (tool + (1.0 - tool) * tissue.x * tissue.y) / max(both, 1e-6));
 }
 
 // Of the light from all around, within kOcclusionReach.
@@ -90,13 +118,14 @@ float skyAt(vec3 v, vec3 normal, float texel, bool wanted)
     float level = levelOf(far * kConeTangent);
     float ratio = far / kOcclusionReach;
     float weight = 1.0 - ratio * ratio;
-    vec2 front = tissueAt(v + far * middle, level, ownOf(far, level, texel));
+    float width = far * kConeTangent;
+    vec2 front = stoppersAt(v + far * middle, level, ownOf(far, level, texel), width);
     float own = ownOf(0.5 * far, level, texel);
     vec3 center = v + 0.5 * far * middle;
-    vec2 a = tissueAt(center + far * across, level, own);
-    vec2 b = tissueAt(center + far * along, level, own);
-    vec2 c = tissueAt(center - far * across, level, own);
-    vec2 d = tissueAt(center - far * along, level, own);
+    vec2 a = stoppersAt(center + far * across, level, own, width);
+    vec2 b = stoppersAt(center + far * along, level, own, width);
+    vec2 c = stoppersAt(center - far * across, level, own, width);
+    vec2 d = stoppersAt(center - far * along, level, own, width);
     float passes = (1.0 - front.x) * (1.0 - front.x);
     vec4 passAside = 1.0 - vec4(a.x, b.x, c.x, d.x);
     passAside *= passAside;
@@ -121,10 +150,10 @@ float lampAt(vec3 v, vec3 normal, vec3 way, float texel, bool wanted)
   {
     float width = max(far * kLampTangent, opacityEdge);
     float level = levelOf(width);
-    vec2 tissue = tissueAt(v + far * by, level, ownOf(far * rise, level, texel));
-    float passes = 1.0 - tissue.x;
+    vec2 stopped = stoppersAt(v + far * by, level, ownOf(far * rise, level, texel), width);
+    float passes = 1.0 - stopped.x;
     passes *= passes * passes;
-    seen -= left * (1.0 - passes) * tissue.y;
+    seen -= left * (1.0 - passes) * stopped.y;
     left *= passes;
     far += kLampStride * width;
   }

@@ -48,6 +48,9 @@ public:
     /// `advance`: at each history step, and every kJournal in an open stroke. May be empty; an
     /// exception ends removal.
     std::function<void(const dissection::Dissection&)> journal;
+    /// Called with each tick, some milliseconds after it, in the thread of removal, which it must
+    /// not hold up. May be empty.
+    std::function<void(const TickRecord&)> heard;
   };
 
   static constexpr double kJournal = 0.05; ///< s
@@ -113,6 +116,7 @@ private:
   TouchScene& m_scene;
   const dissection::Burr m_burr;
   const std::function<void(const dissection::Dissection&)> m_journal;
+  const std::function<void(const TickRecord&)> m_heard;
   std::shared_ptr<const core::LockedMemory> m_locked; // what the servo reads
   std::unique_ptr<haptics::Proxy> m_proxy;
   Servo m_servo;

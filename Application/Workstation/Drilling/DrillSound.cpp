@@ -1,0 +1,88 @@
+#include "DrillSound.h"
+
+#include "WindowTexts.h"
+#include "petrous/Sound/Speaker.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+
+constexpr int kFlutes = 8; // of a cutting burr
+
+Eigen::Vector3d forceOf(const session::TickRecord& record)
+{
+  return {record.burrForce[0], record.burrForce[1], record.burrForce[2]};
+}
+
+} // namespace
+
+DrillSound::DrillSound(presenters::WorkstationModel& model, QObject* parent)
+  : QObject(parent)
+  , m_model(model)
+  , m_signal(std::make_shared<sound::DrillSignal>())
+{
+  connect(&m_opening, &BackgroundWork::failed, this, &DrillSound::failed);
+}
+
+DrillSound::~DrillSound() = default;
+
+void DrillSound::setOn(bool on)
+{
+  m_opening.abandon();
+  m_speaker.reset();
+  if (!on)
+    return;
+  m_opening.replace(
+      [this](const core::Progress&)
+      {
+        const auto fill = [signal = m_signal](double rate)
+        {
+          return
+              [signal, voice = sound::DrillVoice(rate)](float* samples, std::size_t count) mutable
+          { voice.render(signal->now(), samples, count); };
+        };
+        auto speaker = std::make_shared<std::unique_ptr<sound::Speaker>>(
+            std::make_unique<sound::Speaker>(fill));
+        return BackgroundWork::Reply([this, speaker] { m_speaker = std::move(*speaker); });
+      });
+}
+
+std::function<void(const session::TickRecord&)> DrillSound::listener() const
+{
+  return [signal = m_signal](const session::TickRecord& record)
+  {
+    signal->running = record.drill != 0;
+    signal->load = forceOf(record).norm();
+  };
+}
+
+void DrillSound::setBurr(const dissection::Burr& burr)
+{
+  m_signal->flutes = burr.kind == dissection::Burr::Kind::Cutting ? kFlutes : 0;
+  m_signal->rpm = burr.rpm;
+}
+
+void DrillSound::show(const session::TickRecord& record, double burrRadius)
+{
+  const Eigen::Vector3d force = forceOf(record);
+  if (!isOn() || record.drill == 0 || !(force.norm() > 0.0) || !m_model.ready())
+    return;
+  const Eigen::Vector3d into = -force.normalized();
+  m_signal->wall = m_model.wallBehind(record.proxy.pose().position + burrRadius * into, into);
+}
+
+void DrillSound::setWarning(bool warned)
+{
+  m_signal->warning = warned;
+}
+
+void DrillSound::toolGone()
+{
+  m_signal->running = false;
+  m_signal->load = 0.0;
+  m_signal->warning = false;
+}
+
+} // namespace petrous::workstation

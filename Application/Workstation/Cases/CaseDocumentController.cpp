@@ -27,6 +27,7 @@
 #include "SeriesDialog.h"
 #include "Theme.h"
 #include "WindowTexts.h"
+#include "petrous/Imaging/DicomReader.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Library/Archive.h"
@@ -893,16 +894,14 @@ void CaseDocumentController::makeCase(
          {
            *value = presenters::buildCase(name, from, progress.part(reached, image));
          }
-         catch (const imaging::DicomError& error)
+         catch (const imaging::BitsUnclearError& error)
          {
-           if (error.reason() != imaging::DicomError::Reason::BitsUnclear)
-             throw;
            from.parts = parts;
-           // `sources` keeps what was received until it is read.
-           return [this, name, side, sources, from, why = std::string(error.what())]() mutable
+           // `sources` keeps the folder of what it made until that is read.
+           return [this, name, side, sources, from, error]() mutable
            {
              endWork();
-             const auto bits = askBits(why);
+             const auto bits = askBits(error.what(), error.canKeep);
              if (!bits)
                return reopen();
              from.undeclaredBits = *bits;
@@ -1212,7 +1211,7 @@ CaseDocumentController::askAgain(const presenters::PartFailure& failure, const T
   }
   else if (failure.isBitsUnclear)
   {
-    const auto bits = askBits(failure.why);
+    const auto bits = askBits(failure.why, failure.canKeepBits);
     if (!bits)
       return std::nullopt;
     source.undeclaredBits = *bits;
@@ -1279,7 +1278,8 @@ std::optional<double> CaseDocumentController::askUnit(const fs::path& path,
   return std::nullopt;
 }
 
-std::optional<imaging::UndeclaredBits> CaseDocumentController::askBits(const std::string& why)
+std::optional<imaging::UndeclaredBits> CaseDocumentController::askBits(const std::string& why,
+                                                                       bool canKeep)
 {
   const QScopedValueRollback<bool> asking(m_asking, true);
   QMessageBox box(QMessageBox::Warning, tr("What are these bits?"),
@@ -1293,7 +1293,8 @@ std::optional<imaging::UndeclaredBits> CaseDocumentController::askBits(const std
       tr("A wrong answer shows metal as tissue, or tissue as metal, where these pixels are. Answer "
          "only if the values tell; otherwise export the scan again."));
   const auto* left = box.addButton(tr("&Leave the bits out"), QMessageBox::ActionRole);
-  const auto* kept = box.addButton(tr("&Keep the bits"), QMessageBox::ActionRole);
+  auto* kept = box.addButton(tr("&Keep the bits"), QMessageBox::ActionRole);
+  kept->setEnabled(canKeep); // `why` says why not
   box.setDefaultButton(box.addButton(QMessageBox::Cancel));
   box.exec();
   if (box.clickedButton() == left)

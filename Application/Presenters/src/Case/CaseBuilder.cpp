@@ -1528,10 +1528,11 @@ std::vector<PartFailure> addSoundParts(scene::Case& value, const PartSources& pa
         failures.back().taken = taken.names;
         failures.back().others = taken.others;
       }
-      catch (const imaging::DicomError& error)
+      catch (const imaging::BitsUnclearError& unclear)
       {
-        failures.push_back({source, error.what()});
-        failures.back().isBitsUnclear = error.reason() == imaging::DicomError::Reason::BitsUnclear;
+        failures.push_back({source, unclear.what()});
+        failures.back().isBitsUnclear = true;
+        failures.back().canKeepBits = unclear.canKeep;
       }
       catch (const core::Error& error)
       {

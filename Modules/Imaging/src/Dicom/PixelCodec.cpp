@@ -320,13 +320,10 @@ void unpackWithin(const SliceHeader& slice, bool swap, StoredPixels& pixels,
   if (pixels.undeclared > 0 && undeclared == UndeclaredBits::Refuse)
     throw DicomError(DicomError::Reason::BitsUnclear,
                      bitsStoredText(slice, pixels.undeclared) + kExportBits);
-  // Bits below the value are none of it, and negative values without copies of their sign would
-  // become positive.
-  pixels.canKeep = format.highBit + 1 == format.bitsStored &&
-                   (!format.isSigned || outside.signs.any || outside.signs.none == 0);
-  if (pixels.undeclared > 0 && undeclared == UndeclaredBits::Keep)
+  pixels.hasBitsBelow = format.highBit + 1 != format.bitsStored;
+  if (undeclared == UndeclaredBits::Keep && (pixels.undeclared > 0 || outside.signs.none > 0))
   {
-    if (!pixels.canKeep)
+    if (pixels.hasBitsBelow)
       throw DicomError(DicomError::Reason::Unreadable,
                        bitsStoredText(slice, pixels.undeclared) + kExportBits);
     unpackCells(slice, format.bitsAllocated,

@@ -242,7 +242,8 @@ struct PartFailure
   bool isOtherPatient = false;                          ///< OtherPatient
   bool isSideUnclear = false;                           ///< ImageSideUnclear
   imaging::UnitDoubt unitDoubt = {};                    ///< ImageUnitUnclear
-  bool isBitsUnclear = false;                           ///< imaging::DicomError, BitsUnclear
+  bool isBitsUnclear = false;                           ///< imaging::BitsUnclearError
+  bool canKeepBits = false;                             ///< likewise
   bool isFrameUnclear = false;                          ///< FrameUnclear
   std::vector<std::string> taken = {};                  ///< NamesTaken
   std::size_t others = 0;                               ///< likewise

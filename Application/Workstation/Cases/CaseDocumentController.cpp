@@ -1244,7 +1244,7 @@ std::optional<double> CaseDocumentController::askUnit(const fs::path& path,
                                                       const imaging::UnitDoubt& doubt)
 {
   const QScopedValueRollback<bool> asking(m_asking, true);
-  const QString edge = QString::number(doubt.edge, 'g', 3);
+  const QString edge = words(presenters::lengthText(doubt.edge));
   QMessageBox box(QMessageBox::Question, tr("How large is it?"),
                   doubt.isStated ? tr("By the unit of length that “%1” states, it is %2 mm long: "
                                       "no head, ear or specimen.")
@@ -1263,13 +1263,14 @@ std::optional<double> CaseDocumentController::askUnit(const fs::path& path,
   std::vector<double> choices = doubt.likely;
   choices.push_back(doubt.unit); // a phantom may be of any size
   for (const double unit : choices)
-    units.emplace_back(box.addButton((doubt.isStated && unit == doubt.unit
-                                          ? tr("In %1, as the file says: %2 mm long")
-                                          : tr("In %1: %2 mm long"))
-                                         .arg(words(presenters::unitName(unit)))
-                                         .arg(doubt.edge * unit / doubt.unit, 0, 'g', 3),
-                                     QMessageBox::ActionRole),
-                       unit);
+    units.emplace_back(
+        box.addButton((doubt.isStated && unit == doubt.unit
+                           ? tr("In %1, as the file says: %2 mm long")
+                           : tr("In %1: %2 mm long"))
+                          .arg(words(presenters::unitName(unit)))
+                          .arg(words(presenters::lengthText(doubt.edge * unit / doubt.unit))),
+                      QMessageBox::ActionRole),
+        unit);
   box.setDefaultButton(box.addButton(QMessageBox::Cancel));
   box.exec();
   for (const auto& [button, unit] : units)

@@ -179,7 +179,7 @@ TEST(OpenMark, WhoSavesRenamesOrDeletesIsToldOnceHeAsks)
   library.save(value);
   EXPECT_TRUE(notices.empty());
   library.noticeOpeners();
-  const auto expectTold = [&](const std::string& name)
+  const auto expectTold = [&](const std::string& name, const std::string& advice)
   {
     ASSERT_EQ(notices.size(), 1U);
     EXPECT_EQ(notices[0].rfind("case '" + name + "' is open in Petrous elsewhere (process " +
@@ -187,14 +187,15 @@ TEST(OpenMark, WhoSavesRenamesOrDeletesIsToldOnceHeAsks)
                                0),
               0U)
         << notices[0];
+    EXPECT_NE(notices[0].find(advice), std::string::npos) << notices[0];
     notices.clear();
   };
   library.save(value);
-  expectTold("ear");
+  expectTold("ear", "open it there again");
   library.rename("ear", "left");
-  expectTold("left");
+  expectTold("left", "open it there again");
   library.copy("left", "another");
   EXPECT_TRUE(notices.empty());
   library.remove("left");
-  expectTold("left");
+  expectTold("left", "cannot be saved unless the case is brought back");
 }

@@ -298,7 +298,7 @@ private:
            " bits beside those stored that the file does not declare (Bits Stored); they were " +
            (m_undeclared == UndeclaredBits::Keep
                 ? "kept, as if stored, as asked. Look whether air or tissue shows as metal there."
-                : "left out, as asked. Look whether metal shows as tissue or air there."));
+                : "left out, as DICOM says. Look whether metal shows as tissue or air there."));
   }
 
   /// The pixels of the box that UndeclaredBits is about.

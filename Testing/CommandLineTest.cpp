@@ -1030,6 +1030,51 @@ TEST_F(CommandLine, TakesAVolumeOfAFourDimensionalFile)
       << info;
 }
 
+// Of voxels of 500, the file says nothing more: half a millimetre in micrometres.
+TEST_F(CommandLine, ScanSaysInWhichUnitTheGridIsWhereNoneMakesSense)
+{
+  const auto write = [this](const std::string& name, const std::string& unit)
+  {
+    std::ofstream(m_folder / name, std::ios::binary)
+        << "NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 4 3 8\n"
+           "space directions: (500,0,0) (0,500,0) (0,0,500)\nendian: little\nencoding: raw\n"
+        << unit << "space origin: (0,0,0)\n\n"
+        << std::string(2 * 4 * 3 * 8, '\0');
+    return m_folder / name;
+  };
+  const auto none = json("scan " + quoted(write("none.nrrd", "")))["images"][0];
+  EXPECT_EQ(none["unit_unclear"], true);
+  EXPECT_EQ(none["unit_mm"], 1.0);
+  EXPECT_EQ(none["unit_stated"], false);
+  EXPECT_EQ(none["spacing_mm"][0], 500.0);
+  EXPECT_NE(none["units_likely_mm"].dump().find("0.001"), std::string::npos) << none;
+  const std::filesystem::path stated = write("m.nrrd", "space units: \"m\" \"m\" \"m\"\n");
+  std::string text = run("scan " + quoted(m_folder / "none.nrrd")).out;
+  EXPECT_NE(text.find("this is in mm, as it states no unit: 4000 mm long"), std::string::npos)
+      << text;
+  EXPECT_NE(run("scan " + quoted(stated)).code, 0) << "no voxel is 500 m large";
+  const auto micro =
+      json("scan " + quoted(write("um.nrrd", "space units: \"um\" \"um\" \"um\"\n")));
+  EXPECT_EQ(micro["images"][0]["unit_unclear"], false);
+  EXPECT_FALSE(micro["images"][0].contains("unit_mm"));
+}
+
+TEST_F(CommandLine, OptionsThatDecideNothingAreWrongUsage)
+{
+  makePatient("--dims 32,32,30 --spacing 2.0");
+  const std::string ct = " --ct " + quoted(m_folder / "patient/ct");
+  const std::string labels = " --labels " + quoted(m_folder / "patient/labels.seg.nrrd");
+  expectRefused("new none --ct-unit um" + ct, 2, "--ct-unit goes with a CT file of voxels");
+  expectRefused("new none --mr-unit um --mr " + quoted(m_folder / "patient/mr") + ct, 2,
+                "--mr-unit goes with MR files of voxels");
+  json("new ear" + ct);
+  expectRefused("add ear --bits stored" + labels, 2, "--bits goes with --mr");
+  json("add ear" + labels);
+  json("export ear --what labels --out " + quoted(m_folder / "seg.dcm"));
+  expectRefused("new none --labels-unit um --labels " + quoted(m_folder / "seg.dcm") + ct, 2,
+                "--labels-unit goes with label files");
+}
+
 TEST_F(CommandLine, SaysWhichStructuresLieWithTheSlices)
 {
   makePatient("--dims 32,32,30 --spacing 2.0");

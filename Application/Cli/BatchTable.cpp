@@ -253,7 +253,7 @@ private:
   // A unit of length in mm.
   std::optional<double> unit(const std::string& column) const
   {
-    const std::string text = oneOf(column, {"mm", "cm", "m", "um"});
+    const std::string text = oneOf(column, {"mm", "cm", "m", "um", "nm", "inch"});
     return text.empty() ? std::nullopt : std::optional<double>(millimetresOf(text));
   }
 

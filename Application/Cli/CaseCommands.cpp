@@ -7,6 +7,9 @@
 #include "Numbers.h"
 #include "petrous/Core/InputFile.h"
 #include "petrous/Imaging/DicomScan.h"
+#include "petrous/Imaging/FileFormats.h"
+#include "petrous/Imaging/LabelFile.h"
+#include "petrous/Imaging/StructureSet.h"
 #include "petrous/Library/DerivedCache.h"
 #include "petrous/Library/FrameSalt.h"
 #include "petrous/Library/LibraryFiles.h"
@@ -22,6 +25,31 @@ namespace petrous::cli
 
 namespace
 {
+
+// DICOM states its lengths in millimetres, and no option says otherwise.
+bool isDicomImage(const std::filesystem::path& path)
+{
+  std::error_code error;
+  return std::filesystem::is_directory(path, error) ||
+         (std::filesystem::exists(path, error) &&
+          !imaging::isReadAs(path, imaging::kImage | imaging::kLabels));
+}
+
+bool isDicomLabels(const std::filesystem::path& path)
+{
+  std::error_code error;
+  return std::filesystem::is_regular_file(path, error) &&
+         (imaging::isDicomSegmentation(path) || imaging::isStructureSet(path));
+}
+
+// Whether there are parts, and each `isDicom`.
+bool areAll(const std::vector<presenters::PartSource>& parts,
+            bool (*isDicom)(const std::filesystem::path&))
+{
+  return !parts.empty() &&
+         std::all_of(parts.begin(), parts.end(),
+                     [isDicom](const presenters::PartSource& part) { return isDicom(part.path); });
+}
 
 struct PartOptions
 {
@@ -107,11 +135,11 @@ struct PartOptions
     command
         .add_option("--mr-unit", mrUnit,
                     "Unit of length of MR files of voxels, instead of what they state")
-        ->check(oneOf({"mm", "cm", "m", "um"}));
+        ->check(oneOf({"mm", "cm", "m", "um", "nm", "inch"}));
     command
         .add_option("--labels-unit", labelsUnit,
                     "Unit of length of label files, instead of what they state")
-        ->check(oneOf({"mm", "cm", "m", "um"}));
+        ->check(oneOf({"mm", "cm", "m", "um", "nm", "inch"}));
   }
 
   presenters::PartSources sources() const
@@ -170,6 +198,10 @@ struct PartOptions
       result.labels.back().numbersTaken = renameTaken;
       result.labels.back().newNames = newNames;
     }
+    if (!mrUnit.empty() && areAll(result.mr, isDicomImage))
+      throw UsageError("--mr-unit goes with MR files of voxels; DICOM states its lengths in mm");
+    if (!labelsUnit.empty() && areAll(result.labels, isDicomLabels))
+      throw UsageError("--labels-unit goes with label files; DICOM states its lengths in mm");
     result.labelNames = labelNames;
     if (meshes.empty() && !(meshFrame.empty() && meshUnit.empty()))
       throw UsageError("--mesh-frame and --mesh-unit go with --mesh");
@@ -377,7 +409,12 @@ void addNew(CLI::App& app, Context& context)
         if (!options->frame.empty())
           sources.assumeRas = options->frame == "ras";
         if (!options->unit.empty())
+        {
+          if (isDicomImage(options->ct))
+            throw UsageError("--ct-unit goes with a CT file of voxels; DICOM states its lengths in "
+                             "mm");
           sources.unit = millimetresOf(options->unit);
+        }
         if (!options->roi.empty())
           sources.roi = parseBox(options->roi, "--roi");
         sources.parts = options->parts.sources();
@@ -412,7 +449,7 @@ void addNew(CLI::App& app, Context& context)
   command
       ->add_option("--ct-unit", options->unit,
                    "Unit of length of a CT file of voxels, instead of what it states")
-      ->check(oneOf({"mm", "cm", "m", "um"}));
+      ->check(oneOf({"mm", "cm", "m", "um", "nm", "inch"}));
   command->add_option("--series", options->series, "Which series of the folder")->type_name("UID");
   command
       ->add_option("--volume", options->volume,
@@ -436,6 +473,8 @@ void addAdd(CLI::App& app, Context& context)
       [options, &context]
       {
         auto sources = options->parts.sources();
+        if (!options->parts.bits.empty() && sources.mr.empty())
+          throw UsageError("--bits goes with --mr");
         if (sources.mr.empty() && sources.labels.empty() && sources.meshes.empty())
           throw UsageError("add: nothing to add; give --mr, --labels or --mesh");
         library::Library library = context.openLibrary();

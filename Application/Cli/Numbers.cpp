@@ -153,7 +153,8 @@ std::string fixed(double value, int digits)
 
 double millimetresOf(const std::string& unit)
 {
-  return unit == "um"     ? 0.001
+  return unit == "nm"     ? 1e-6
+         : unit == "um"   ? 0.001
          : unit == "cm"   ? 10.0
          : unit == "m"    ? 1000.0
          : unit == "inch" ? 25.4

@@ -10,6 +10,7 @@
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Imaging/ImageFile.h"
 #include "petrous/Library/DerivedCache.h"
+#include "petrous/Presenters/CaseBuilder.h"
 #include "petrous/Presenters/PartFiles.h"
 
 namespace petrous::cli
@@ -153,6 +154,12 @@ nlohmann::json imagesJson(const std::vector<ImageFile>& images)
     json entry{{"path", core::printable(image.path)},
                {"volumes", image.header.volumes},
                {"unit_unclear", !image.header.unitDoubt.likely.empty()}};
+    if (const imaging::UnitDoubt& doubt = image.header.unitDoubt; !doubt.likely.empty())
+    {
+      entry["unit_mm"] = doubt.unit; // in which the grid is given
+      entry["unit_stated"] = doubt.isStated;
+      entry["units_likely_mm"] = doubt.likely;
+    }
     entry.update(gridJson(image.header.grid));
     list.push_back(std::move(entry));
   }
@@ -169,10 +176,12 @@ void printImage(const Context& context, const ImageFile& image)
                 std::to_string(n[1]) + " x " + std::to_string(n[2]) + ", " +
                 fixed(grid.spacing()[0], 3) + " x " + fixed(grid.spacing()[1], 3) + " x " +
                 fixed(grid.spacing()[2], 3) + " mm  " + core::printable(image.path));
-  if (!image.header.unitDoubt.likely.empty())
-    context.print("    in the unit that it states, or in mm if none, it is " +
-                  fixed(image.header.unitDoubt.edge, 3) +
-                  " mm long; say another unit with --ct-unit, --mr-unit or --labels-unit");
+  if (const imaging::UnitDoubt& doubt = image.header.unitDoubt; !doubt.likely.empty())
+    context.print("    this is in " + presenters::unitName(doubt.unit) +
+                  (doubt.isStated ? ", as it states" : ", as it states no unit") + ": " +
+                  presenters::lengthText(doubt.edge) +
+                  " mm long, which makes no sense; say another unit with --ct-unit, --mr-unit or "
+                  "--labels-unit");
   if (volumes > 1)
     context.print("    volumes '1' to '" + std::to_string(volumes) +
                   "', of which --ct FILE --volume N takes one, or --mr FILE##N");

@@ -4616,6 +4616,14 @@ Verletzt: %1, %2</translation>
         <source>Below 100 % the inside of the tissue and the structures in it shine through</source>
         <translation>Unter 100 % scheinen das Innere des Gewebes und die Strukturen darin durch</translation>
     </message>
+    <message>
+        <source>&amp;Shadows</source>
+        <translation>&amp;Schatten</translation>
+    </message>
+    <message>
+        <source>Cavities are darker than what is open, and a lamp somewhat above the line of sight throws a soft shadow</source>
+        <translation>Hohlräume sind dunkler als Offenes, und eine Lampe etwas über der Blickrichtung wirft einen weichen Schatten</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::PreviewBar</name>

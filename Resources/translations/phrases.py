@@ -32,11 +32,11 @@ TEXT_OF_PROGRAM = re.compile(
     r"[tT]oString|verdict|fault|field|doubts|remedy|about|instead|decimation|goesOn|^is$|primary|kSides|^ours$|"
     r"^others$|^code$")
 NOT_TEXT = re.compile(
-    r"^(to_string|fixedText|generalText|exactText|string|filename|size|name|path|pathText|"
-    r"hexText)$")
+    r"^(to_string|fixedText|generalText|lengthText|exactText|string|filename|size|name|path|"
+    r"pathText|hexText)$")
 # Functions that give a number, perhaps with its unit.
-NUMBERS = {"to_string", "fixedText", "generalText", "exactText", "decimals", "fixed", "percent",
-           "millimetres", "gigabytes", "seconds", "roughText"}
+NUMBERS = {"to_string", "fixedText", "generalText", "lengthText", "exactText", "decimals", "fixed",
+           "percent", "millimetres", "gigabytes", "seconds", "roughText"}
 
 
 def unescaped(literal):

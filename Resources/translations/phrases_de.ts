@@ -584,10 +584,6 @@
         <translation>Struktur exportieren: Wählen Sie eine</translation>
     </message>
     <message>
-        <source>the name of the case is not the patient's name in the files, but the ID '%1': %~2</source>
-        <translation>Der Name des Falls ist in den Dateien nicht der Patientenname, sondern die ID „%1“: %~2</translation>
-    </message>
-    <message>
         <source>not decimated</source>
         <translation>nicht verkleinert</translation>
     </message>
@@ -626,6 +622,10 @@
     <message>
         <source>mask</source>
         <translation>Maske</translation>
+    </message>
+    <message>
+        <source>the name of the case is not the patient's name in the files, but the ID '%1': %~2</source>
+        <translation>Der Name des Falls ist in den Dateien nicht der Patientenname, sondern die ID „%1“: %~2</translation>
     </message>
     <message>
         <source>case</source>
@@ -3686,56 +3686,60 @@
         <translation>Das Padding hatte den Wert %1, der als Gewebe gälte; er wurde durch %#2 ersetzt.</translation>
     </message>
     <message>
-        <source>reading slices</source>
-        <translation>Schichten werden gelesen</translation>
-    </message>
-    <message>
-        <source>%~1; export it again, uncompressed and with all bits</source>
-        <translation>%~1; exportieren Sie neu, unkomprimiert und mit allen Bits</translation>
-    </message>
-    <message>
-        <source>without the copies of the sign that the negative values of %1 have</source>
-        <translation>ohne die Kopien des Vorzeichens, die die negativen Werte von %1 haben</translation>
-    </message>
-    <message>
         <source>Values whose highest stored bit is set were read as negative, as the header says (signed, Bits Stored %#1); no bit above tells them from positive ones that are too large. Look whether metal shows as air.</source>
         <translation>Werte mit gesetztem höchstem Bit wurden als negativ gelesen, wie der Header sagt (mit Vorzeichen, Bits Stored %#1); kein Bit darüber unterscheidet sie von zu großen positiven. Sehen Sie nach, ob Metall als Luft erscheint.</translation>
+    </message>
+    <message>
+        <source>reading slices</source>
+        <translation>Schichten werden gelesen</translation>
     </message>
     <message>
         <source>%#1 pixel has bits beside those stored that the file does not declare (Bits Stored); they were kept, as if stored, as asked. Look whether air or tissue shows as metal there.</source>
         <translation>%#1 Pixel hat Bits neben den gespeicherten, die die Datei nicht erklärt (Bits Stored); sie wurden wie verlangt behalten, als wären sie gespeichert. Sehen Sie nach, ob dort Luft oder Gewebe als Metall erscheint.</translation>
     </message>
     <message>
-        <source>%#1 pixel has bits beside those stored that the file does not declare (Bits Stored); they were left out, as asked. Look whether metal shows as tissue there.</source>
-        <translation>%#1 Pixel hat Bits neben den gespeicherten, die die Datei nicht erklärt (Bits Stored); sie wurden wie verlangt weggelassen. Sehen Sie nach, ob dort Metall als Gewebe erscheint.</translation>
+        <source>%#1 pixel has bits beside those stored that the file does not declare (Bits Stored); they were left out, as DICOM says. Look whether metal shows as tissue or air there.</source>
+        <translation>%#1 Pixel hat Bits neben den gespeicherten, die die Datei nicht erklärt (Bits Stored); sie wurden weggelassen, wie DICOM es vorsieht. Sehen Sie nach, ob dort Metall als Gewebe oder Luft erscheint.</translation>
     </message>
     <message>
         <source>%#1 pixels have bits beside those stored that the file does not declare (Bits Stored); they were kept, as if stored, as asked. Look whether air or tissue shows as metal there.</source>
         <translation>%#1 Pixel haben Bits neben den gespeicherten, die die Datei nicht erklärt (Bits Stored); sie wurden wie verlangt behalten, als wären sie gespeichert. Sehen Sie nach, ob dort Luft oder Gewebe als Metall erscheint.</translation>
     </message>
     <message>
-        <source>%#1 pixels have bits beside those stored that the file does not declare (Bits Stored); they were left out, as asked. Look whether metal shows as tissue there.</source>
-        <translation>%#1 Pixel haben Bits neben den gespeicherten, die die Datei nicht erklärt (Bits Stored); sie wurden wie verlangt weggelassen. Sehen Sie nach, ob dort Metall als Gewebe erscheint.</translation>
+        <source>%#1 pixels have bits beside those stored that the file does not declare (Bits Stored); they were left out, as DICOM says. Look whether metal shows as tissue or air there.</source>
+        <translation>%#1 Pixel haben Bits neben den gespeicherten, die die Datei nicht erklärt (Bits Stored); sie wurden weggelassen, wie DICOM es vorsieht. Sehen Sie nach, ob dort Metall als Gewebe oder Luft erscheint.</translation>
     </message>
     <message>
         <source>Left out, as DICOM says of bits that are not stored (--bits stored), the values are %~1; kept, for metal in a file whose header is wrong (--bits allocated), they are %~2</source>
         <translation>Ohne sie, wie DICOM es für nicht gespeicherte Bits vorsieht, sind die Werte %~1; mit ihnen, für Metall in einer Datei mit falschem Header, sind sie %~2</translation>
     </message>
     <message>
-        <source>Bits that are not stored can be left out, as DICOM says (--bits stored)</source>
-        <translation>Bits, die nicht gespeichert sind, kann man weglassen, wie DICOM es vorsieht</translation>
+        <source>They can be left out, as DICOM says of bits that are not stored (--bits stored), but not kept: no copies of the sign tell negative values, such as air, from metal, and air would turn into metal</source>
+        <translation>Man kann sie weglassen, wie DICOM es bei nicht gespeicherten Bits vorsieht, aber nicht behalten: keine Kopien des Vorzeichens unterscheiden negative Werte, etwa Luft, von Metall, und Luft würde zu Metall</translation>
+    </message>
+    <message>
+        <source>They can be left out, as DICOM says of bits that are not stored (--bits stored), but not kept: unused bits lie below the values</source>
+        <translation>Man kann sie weglassen, wie DICOM es bei nicht gespeicherten Bits vorsieht, aber nicht behalten: unter den Werten liegen unbenutzte Bits</translation>
     </message>
     <message>
         <source>beside them lies %#1 on average</source>
         <translation>daneben liegt im Mittel %#1</translation>
     </message>
     <message>
-        <source>%~1, and nothing says what they are. %~2. Or export it again, uncompressed and with all bits</source>
-        <translation>%~1, und nichts sagt, was sie sind. %~2. Oder exportieren Sie neu, unkomprimiert und mit allen Bits</translation>
-    </message>
-    <message>
         <source>in %#1 slices</source>
         <translation>in %#1 Schichten</translation>
+    </message>
+    <message>
+        <source>without the copies of the sign that the negative values of %1 have</source>
+        <translation>ohne die Kopien des Vorzeichens, die die negativen Werte von %1 haben</translation>
+    </message>
+    <message>
+        <source>some without the copies of the sign that the negative values of %1 have</source>
+        <translation>einige ohne die Kopien des Vorzeichens, die die negativen Werte von %1 haben</translation>
+    </message>
+    <message>
+        <source>%~1, and nothing says what they are. %~2. Or export it again, uncompressed and with all bits</source>
+        <translation>%~1, und nichts sagt, was sie sind. %~2. Oder exportieren Sie neu, unkomprimiert und mit allen Bits</translation>
     </message>
     <message>
         <source>%#1 to %#2</source>
@@ -4014,12 +4018,12 @@
         <translation>%1 %~2; kopieren Sie es noch einmal vom Ursprung</translation>
     </message>
     <message>
-        <source>export it again, uncompressed and with all bits</source>
-        <translation>exportieren Sie neu, unkomprimiert und mit allen Bits</translation>
-    </message>
-    <message>
         <source>%1 was changed or replaced after its header was read; wait until the copying is done, then read the folder again</source>
         <translation>%1 wurde geändert oder ersetzt, nachdem der Header gelesen war; warten Sie, bis das Kopieren beendet ist, und lesen Sie den Ordner dann neu</translation>
+    </message>
+    <message>
+        <source>%~1; export it again, uncompressed and with all bits</source>
+        <translation>%~1; exportieren Sie neu, unkomprimiert und mit allen Bits</translation>
     </message>
     <message>
         <source>does not say where its compressed frames begin</source>
@@ -4738,10 +4742,6 @@
         <translation>gibt ihren Ort zweimal an (sform und qform), und beide sind Spiegelbilder voneinander: Links und rechts lassen sich nicht unterscheiden; exportieren Sie sie neu mit einem davon</translation>
     </message>
     <message>
-        <source>places itself twice (sform and qform), up to %#1 mm apart; the sform is used, as the NIfTI standard says</source>
-        <translation>nennt ihre Lage zweimal (sform und qform), bis zu %#1 mm auseinander; die sform gilt, wie der NIfTI-Standard sagt</translation>
-    </message>
-    <message>
         <source>is in metres; converted to mm</source>
         <translation>ist in Metern; in mm umgerechnet</translation>
     </message>
@@ -4932,6 +4932,10 @@
     <message>
         <source>its voxels are of a type that is not read (colours, complex or long double); save them as whole numbers or float</source>
         <translation>ihre Voxel sind von einem nicht lesbaren Typ (Farben, komplex oder long double); speichern Sie sie als ganze oder Gleitkommazahlen</translation>
+    </message>
+    <message>
+        <source>places itself twice (sform and qform), up to %#1 mm apart; the sform is used, as the NIfTI standard says</source>
+        <translation>nennt ihre Lage zweimal (sform und qform), bis zu %#1 mm auseinander; die sform gilt, wie der NIfTI-Standard sagt</translation>
     </message>
     <message>
         <source>was taken in a unit of length of %#1 mm%~2</source>
@@ -6187,6 +6191,10 @@
     <message>
         <source>case '%1' is deleted, but the disk reported an error; check the disk</source>
         <translation>der Fall „%1“ ist gelöscht, aber der Datenträger meldete einen Fehler; prüfen Sie ihn</translation>
+    </message>
+    <message>
+        <source>case '%1' is open in Petrous elsewhere (%~2), and deleted all the same; what is changed there cannot be saved unless the case is brought back</source>
+        <translation>Der Fall „%1“ ist anderswo in Petrous geöffnet (%~2) und wurde trotzdem gelöscht; was dort geändert wird, kann nicht gespeichert werden, außer der Fall wird zurückgeholt</translation>
     </message>
     <message>
         <source>no case '%1' was deleted here</source>
@@ -7450,6 +7458,10 @@
         <translation>der Grafiktreiber hat keinen Platz für eine Textur von %#1 x %#2 x %#3 (OpenGL-Fehler %#4)</translation>
     </message>
     <message>
+        <source>slices</source>
+        <translation>Schichten</translation>
+    </message>
+    <message>
         <source>the graphics driver adds no pictures in 32-bit colour</source>
         <translation>der Grafiktreiber addiert keine Bilder in 32-Bit-Farbe</translation>
     </message>
@@ -7835,10 +7847,6 @@
     <message>
         <source>view: a burr must be cutting or diamond</source>
         <translation>Ansicht: eine Fräse muss schneidend oder Diamant sein</translation>
-    </message>
-    <message>
-        <source>slices</source>
-        <translation>Schichten</translation>
     </message>
     <message>
         <source>landmarks</source>

@@ -570,6 +570,16 @@ TEST_F(CaseBuilder, NamesEveryUnitOfLength)
         std::pair(10.0, "cm"), std::pair(25.4, "inch"), std::pair(1e3, "m")})
     EXPECT_EQ(presenters::unitName(unit), name);
   EXPECT_EQ(presenters::unitName(2.0), "2 mm");
+  for (const auto& [mm, text] :
+       {std::pair(153600.4, "153600"), std::pair(1536.0, "1536"), std::pair(15.36, "15.4"),
+        std::pair(0.0154, "0.0154"), std::pair(2e-5, "0.000020")})
+    EXPECT_EQ(presenters::lengthText(mm), text);
+  const imaging::UnitDoubt doubt{1.0, false, 153600.0, {1e-3}};
+  const presenters::ImageUnitUnclear unclear("ear.nii", doubt, "--ct-unit");
+  EXPECT_EQ(std::string(unclear.what()).find("ear.nii: is 153600 mm long"), 0U) << unclear.what();
+  EXPECT_NE(std::string(unclear.what()).find("154 mm if its numbers are in \xc2\xb5m"),
+            std::string::npos)
+      << unclear.what();
 }
 
 // A CT without a header and what was drawn on it, exported by the same tool.
@@ -1158,6 +1168,52 @@ TEST_F(CaseBuilder, SaysWhatOfLabelsIsEmptyOrOutsideTheCt)
             value.labels[1].notes);
   m_sources.parts.labels = {{"", m_folder / "none.seg.nrrd"}};
   EXPECT_THROW(presenters::buildCase("ear", m_sources, {}), core::InvalidParameter);
+}
+
+// Of one map two structures are left out again, and with them their note; the note of a part that
+// was there before stays.
+TEST_F(CaseBuilder, TheNoteGoesWithTheStructuresThatLieOutside)
+{
+  const core::GridGeometry grid({16, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3));
+  const auto write = [this](const char* name, const core::GridGeometry& where,
+                            const std::vector<std::string>& names)
+  {
+    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(where, std::uint16_t{0});
+    std::vector<volume::Segment> segments;
+    for (const std::string& one : names)
+    {
+      volume::Segment segment;
+      segment.name = one;
+      segment.index = static_cast<std::uint16_t>(9 - segments.size()); // as 3D Slicer reorders them
+      const bool isInside = one == "drum";
+      voxels->at(isInside ? 1 : where.dims()[0] - 4 + static_cast<int>(segments.size()), 1, 1) =
+          segment.index;
+      segments.push_back(std::move(segment));
+    }
+    imaging::writeLabelFile(m_folder / name, volume::makeLabelMap(voxels, std::move(segments)));
+  };
+  const core::GridGeometry wide({42, 12, 10}, Vector3d::Ones(), Vector3d(-8, 2, 3));
+  const core::GridGeometry away({16, 12, 10}, Vector3d::Ones(), Vector3d(90, 2, 3));
+  write("before.seg.nrrd", away, {"incus"});
+  write("new.seg.nrrd", wide, {"vein", "drum", "artery"});
+  m_sources.parts.labels = {{"", m_folder / "before.seg.nrrd"}};
+  scene::Case value = presenters::buildCase("ear", m_sources, {});
+  ASSERT_EQ(value.labels.size(), 1U);
+  const std::vector<std::string> before = value.labels[0].notes;
+  ASSERT_EQ(before.size(), 1U);
+  presenters::PartSources parts;
+  parts.labels = {{"", m_folder / "new.seg.nrrd"}};
+  std::vector<presenters::StructureReport> reports;
+  presenters::addParts(value, parts, {}, &reports);
+  ASSERT_EQ(value.labels.size(), 2U);
+  ASSERT_EQ(value.labels[1].notes.size(), 1U);
+  EXPECT_NE(value.labels[1].notes[0].find("lie wholly outside"), std::string::npos)
+      << value.labels[1].notes[0];
+  presenters::leaveOutside(value, reports);
+  ASSERT_EQ(value.labels.size(), 2U);
+  EXPECT_EQ(value.labels[0].notes, before);
+  EXPECT_EQ(value.labels[1].structures.size(), 1U);
+  EXPECT_TRUE(value.labels[1].notes.empty()) << value.labels[1].notes[0];
 }
 
 TEST_F(CaseBuilder, WhatIsNotedOfAFileStaysWithWhatIsLeftOfIt)

@@ -76,6 +76,20 @@ TEST(CasePicture, APictureSaysWhatIsNotShownAndWhatWasInterpolated)
   ASSERT_EQ(lines.size(), 4U);
   EXPECT_EQ(lines[0], "Left side");
   EXPECT_TRUE(std::equal(notes.begin(), notes.end(), lines.begin() + 1));
+
+  // A box that leaves nothing out, and one beyond the image, which is none.
+  value.view.clipping.planes.clear();
+  value.ct.provenance.interpolated.clear();
+  for (const core::IndexBox& box :
+       {value.ct.geometry.fullBox(), core::IndexBox{{-5, -5, -5}, {90, 90, 90}},
+        core::IndexBox{{50, 50, 50}, {60, 60, 60}}})
+  {
+    value.view.clipping.crop = box;
+    EXPECT_TRUE(presenters::pictureNotes(value).empty()) << box.lower[0];
+    rendering::SceneContents contents;
+    presenters::clip(contents, value.view.clipping, value.ct.geometry);
+    EXPECT_FALSE(contents.crop.has_value()) << box.lower[0];
+  }
 }
 
 TEST(CasePicture, TheSideOfTheCaseComesFirst)

@@ -8,6 +8,7 @@
 
 #include <unistd.h>
 
+#include "../../../Modules/Imaging/Testing/TestDicom.h"
 #include "SharedSample.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/LabelFile.h"
@@ -408,6 +409,61 @@ TEST_F(SourceContent, OffersStructuresAndMeshesThatLieWithTheSlices)
   // An MR or labels were asked for: nothing else is offered.
   for (const auto& one : presenters::lookAt(visit, {}, Content::Mr).series)
     EXPECT_TRUE(one.files.empty());
+}
+
+TEST_F(SourceContent, ARelativeFolderIsLookedAtLikeAnAbsoluteOne)
+{
+  namespace fs = std::filesystem;
+  const fs::path visit = m_folder / "visit";
+  phantom::SampleOptions options;
+  options.spacing = 1.5;
+  petrous::testing::writeSharedSample(visit, options);
+  const auto foldersIn = [](const fs::path& path)
+  {
+    std::vector<std::string> folders;
+    for (const presenters::SeriesContent& one : presenters::lookAt(path, {}).series)
+      folders.push_back(one.folder);
+    return folders;
+  };
+  const std::vector<std::string> folders = foldersIn(visit);
+  ASSERT_GT(folders.size(), 2U);
+  struct WorkingFolder
+  {
+    fs::path before = fs::current_path();
+    ~WorkingFolder()
+    {
+      std::error_code error;
+      fs::current_path(before, error);
+    }
+  } const restored;
+  fs::current_path(m_folder);
+  EXPECT_EQ(foldersIn("visit"), folders);
+  fs::current_path(visit);
+  EXPECT_EQ(foldersIn(".").size(), folders.size());
+  fs::create_directory(m_folder / "gone");
+  fs::current_path(m_folder / "gone");
+  fs::remove(m_folder / "gone");
+  EXPECT_EQ(foldersIn(visit), folders);
+}
+
+// The preview leaves undeclared bits out before anybody is asked about them.
+TEST_F(SourceContent, APreviewOfARepairClaimsNoAnswer)
+{
+  imaging::test::writeSeries(m_folder / "gap", 24,
+                             [](int k, imaging::test::TestSlice& slice)
+                             {
+                               slice.z = 0.5 * (k < 12 ? k : k + 1); // one slice is missing
+                               slice.bitsStored = 12;
+                               slice.isSigned = false;
+                               slice.cell = [](int i, int j)
+                               { return i == 3 || j == 3 ? 0x1064U : 40U; };
+                             });
+  const auto preview = presenters::previewRepair(m_folder / "gap", {}, {});
+  std::string notes;
+  for (const std::string& note : preview.notes)
+    notes += note + "\n";
+  EXPECT_NE(notes.find("left out, as DICOM says"), std::string::npos) << notes;
+  EXPECT_EQ(notes.find("as asked"), std::string::npos) << notes;
 }
 
 TEST(SequenceName, KeepsOnlyWhatNamesASequence)

@@ -27,6 +27,7 @@
 #include "SeriesDialog.h"
 #include "Theme.h"
 #include "WindowTexts.h"
+#include "petrous/Imaging/DicomReader.h"
 #include "petrous/Imaging/DicomScan.h"
 #include "petrous/Imaging/FileFormats.h"
 #include "petrous/Library/Archive.h"
@@ -893,16 +894,14 @@ void CaseDocumentController::makeCase(
          {
            *value = presenters::buildCase(name, from, progress.part(reached, image));
          }
-         catch (const imaging::DicomError& error)
+         catch (const imaging::BitsUnclearError& error)
          {
-           if (error.reason() != imaging::DicomError::Reason::BitsUnclear)
-             throw;
            from.parts = parts;
-           // `sources` keeps what was received until it is read.
-           return [this, name, side, sources, from, why = std::string(error.what())]() mutable
+           // `sources` keeps the folder of what it made until that is read.
+           return [this, name, side, sources, from, error]() mutable
            {
              endWork();
-             const auto bits = askBits(why);
+             const auto bits = askBits(error.what(), error.canKeep);
              if (!bits)
                return reopen();
              from.undeclaredBits = *bits;
@@ -1212,7 +1211,7 @@ CaseDocumentController::askAgain(const presenters::PartFailure& failure, const T
   }
   else if (failure.isBitsUnclear)
   {
-    const auto bits = askBits(failure.why);
+    const auto bits = askBits(failure.why, failure.canKeepBits);
     if (!bits)
       return std::nullopt;
     source.undeclaredBits = *bits;
@@ -1245,7 +1244,7 @@ std::optional<double> CaseDocumentController::askUnit(const fs::path& path,
                                                       const imaging::UnitDoubt& doubt)
 {
   const QScopedValueRollback<bool> asking(m_asking, true);
-  const QString edge = QString::number(doubt.edge, 'g', 3);
+  const QString edge = words(presenters::lengthText(doubt.edge));
   QMessageBox box(QMessageBox::Question, tr("How large is it?"),
                   doubt.isStated ? tr("By the unit of length that “%1” states, it is %2 mm long: "
                                       "no head, ear or specimen.")
@@ -1264,13 +1263,14 @@ std::optional<double> CaseDocumentController::askUnit(const fs::path& path,
   std::vector<double> choices = doubt.likely;
   choices.push_back(doubt.unit); // a phantom may be of any size
   for (const double unit : choices)
-    units.emplace_back(box.addButton((doubt.isStated && unit == doubt.unit
-                                          ? tr("In %1, as the file says: %2 mm long")
-                                          : tr("In %1: %2 mm long"))
-                                         .arg(words(presenters::unitName(unit)))
-                                         .arg(doubt.edge * unit / doubt.unit, 0, 'g', 3),
-                                     QMessageBox::ActionRole),
-                       unit);
+    units.emplace_back(
+        box.addButton((doubt.isStated && unit == doubt.unit
+                           ? tr("In %1, as the file says: %2 mm long")
+                           : tr("In %1: %2 mm long"))
+                          .arg(words(presenters::unitName(unit)))
+                          .arg(words(presenters::lengthText(doubt.edge * unit / doubt.unit))),
+                      QMessageBox::ActionRole),
+        unit);
   box.setDefaultButton(box.addButton(QMessageBox::Cancel));
   box.exec();
   for (const auto& [button, unit] : units)
@@ -1279,7 +1279,8 @@ std::optional<double> CaseDocumentController::askUnit(const fs::path& path,
   return std::nullopt;
 }
 
-std::optional<imaging::UndeclaredBits> CaseDocumentController::askBits(const std::string& why)
+std::optional<imaging::UndeclaredBits> CaseDocumentController::askBits(const std::string& why,
+                                                                       bool canKeep)
 {
   const QScopedValueRollback<bool> asking(m_asking, true);
   QMessageBox box(QMessageBox::Warning, tr("What are these bits?"),
@@ -1293,7 +1294,8 @@ std::optional<imaging::UndeclaredBits> CaseDocumentController::askBits(const std
       tr("A wrong answer shows metal as tissue, or tissue as metal, where these pixels are. Answer "
          "only if the values tell; otherwise export the scan again."));
   const auto* left = box.addButton(tr("&Leave the bits out"), QMessageBox::ActionRole);
-  const auto* kept = box.addButton(tr("&Keep the bits"), QMessageBox::ActionRole);
+  auto* kept = box.addButton(tr("&Keep the bits"), QMessageBox::ActionRole);
+  kept->setEnabled(canKeep); // `why` says why not
   box.setDefaultButton(box.addButton(QMessageBox::Cancel));
   box.exec();
   if (box.clickedButton() == left)

@@ -53,7 +53,7 @@ public:
   /// A structure, a mesh or an MR of the open case.
   void removePart(const std::string& name);
   /// What becomes of bits that nothing explains; nullopt: the user does not know.
-  std::optional<imaging::UndeclaredBits> askBits(const std::string& why);
+  std::optional<imaging::UndeclaredBits> askBits(const std::string& why, bool canKeep);
   void restorePart();                       ///< the one that was removed last
   void renamePart(const std::string& name); ///< with a dialog
 

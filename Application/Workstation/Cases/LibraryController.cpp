@@ -138,6 +138,24 @@ void LibraryController::connectPanel()
           });
 }
 
+namespace
+{
+
+// Also of a list that cannot be read, which is told where a node is asked for.
+bool mayHaveNodes(const std::filesystem::path& library)
+{
+  try
+  {
+    return !network::NodeList(library).nodes().empty();
+  }
+  catch (const std::exception&)
+  {
+    return true;
+  }
+}
+
+} // namespace
+
 void LibraryController::rename(const std::string& name)
 {
   const std::string to = bytes(askName(m_window, tr("Rename the case"),
@@ -155,7 +173,7 @@ void LibraryController::rename(const std::string& name)
       [this, to]
       {
         m_panel->select(to);
-        if (!network::NodeList(m_model.library().folder()).nodes().empty())
+        if (mayHaveNodes(m_model.library().folder()))
           emit statusMessage(tr("The case is called “%1”. A node to which it was sent keeps it as "
                                 "it was; sent again, it is another patient and study there.")
                                  .arg(words(to)));

@@ -18,7 +18,7 @@
 #include "SendDialog.h"
 #include "Theme.h"
 #include "WindowTexts.h"
-#include "petrous/Imaging/DicomScan.h"
+#include "petrous/Imaging/DicomReader.h"
 #include "petrous/Presenters/CaseNaming.h"
 #include "petrous/Presenters/CaseTransfer.h"
 
@@ -242,13 +242,11 @@ void ExchangeController::receiveScene(const ReceiveDialog::Choice& choice, const
         {
           return [this, choice, taken = error.name] { receiveUnderOtherName(choice, taken); };
         }
-        catch (const imaging::DicomError& error)
+        catch (const imaging::BitsUnclearError& error)
         {
-          if (error.reason() != imaging::DicomError::Reason::BitsUnclear)
-            throw;
-          return [this, choice, as = request.as, why = std::string(error.what())]
+          return [this, choice, as = request.as, error]
           {
-            if (const auto answer = m_keeper.askBits(why))
+            if (const auto answer = m_keeper.askBits(error.what(), error.canKeep))
               receiveScene(choice, as, *answer);
           };
         }

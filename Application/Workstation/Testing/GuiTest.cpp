@@ -1,6 +1,8 @@
 #include "GuiTest.h"
 
 #include <csignal>
+#include <fstream>
+#include <stdexcept>
 
 #include <execinfo.h>
 #include <unistd.h>
@@ -21,6 +23,7 @@
 #include "SliceColumn.h"
 #include "StructuresModel.h"
 #include "Theme.h"
+#include "petrous/Imaging/DicomWriter.h"
 
 namespace petrous::workstation
 {
@@ -84,6 +87,41 @@ void GuiTest::saveBall(const std::string& name)
 {
   scene::Case value = ballCase(name);
   library().save(value);
+}
+
+std::vector<std::filesystem::path> GuiTest::writeUndeclaredBits(const std::filesystem::path& folder,
+                                                                bool hasAir)
+{
+  auto voxels = std::make_shared<volume::Volume<std::int16_t>>(
+      core::GridGeometry({16, 16, 6}, Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero()),
+      std::int16_t{40});
+  voxels->at(5, 5, 3) = 5000;
+  if (hasAir)
+    voxels->at(8, 8, 3) = -1000 & 0xFFF;
+  imaging::SeriesDescription series;
+  series.studyUid = "1.2.3";
+  series.seriesUid = "1.2.3.4";
+  series.frameOfReferenceUid = "1.2.3.9";
+  const std::shared_ptr<const volume::Volume<std::int16_t>> image = voxels;
+  imaging::writeDicomSeries(folder, volume::IntensityVolume(image), series);
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+  {
+    std::ifstream in(entry.path(), std::ios::binary);
+    std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+    for (const auto& [element, value] :
+         {std::pair('\x01', 12), {'\x02', 11}}) // Bits Stored, High Bit
+    {
+      const std::size_t at =
+          bytes.find(std::string("\x28\x00", 2) + element + "\x01US" + std::string("\x02\x00", 2));
+      if (at == std::string::npos)
+        throw std::runtime_error("no bits stated in " + entry.path().string());
+      bytes[at + 8] = static_cast<char>(value);
+    }
+    std::ofstream(entry.path(), std::ios::binary) << bytes;
+    files.push_back(entry.path());
+  }
+  return files;
 }
 
 void GuiTest::openWindow(const QString& what)

@@ -38,6 +38,10 @@ protected:
   library::Library library() const;
   static scene::Case ballCase(const std::string& name);
   void saveBall(const std::string& name); ///< into the library
+  /// A CT whose headers state 12 bits of 16, of 40 with a pixel of 5000; `hasAir`: and with one of
+  /// -1000 whose sign has no copies in the other bits. Returns its files.
+  static std::vector<std::filesystem::path> writeUndeclaredBits(const std::filesystem::path& folder,
+                                                                bool hasAir = false);
 
   presenters::DeviceSources devices;         ///< of windows opened later; initially none
   int drawThumbnailsAfter = -1;              ///< ms, see WindowOptions; of windows opened later

@@ -790,33 +790,12 @@ TEST_F(Import, StructuresOutsideOfTheCtAreAskedAboutBeforeTheyAreAdded)
       EXPECT_EQ(note.find("outside"), std::string::npos) << note;
 }
 
-// A scan whose header states 12 bits of 16, with a pixel of 5000; and an image whose file calls its
-// millimetres micrometres.
+// A scan whose header states 12 bits of 16, with a pixel of 5000; one of which these bits cannot be
+// kept; and an image whose file calls its millimetres micrometres.
 TEST_F(Import, BitsAndUnitsThatMakeNoSenseAreAskedAbout)
 {
-  auto voxels = std::make_shared<volume::Volume<std::int16_t>>(
-      core::GridGeometry({16, 16, 6}, Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero()),
-      std::int16_t{40});
-  voxels->at(5, 5, 3) = 5000;
-  imaging::SeriesDescription series;
-  series.studyUid = "1.2.3";
-  series.seriesUid = "1.2.3.4";
-  series.frameOfReferenceUid = "1.2.3.9";
-  const std::shared_ptr<const volume::Volume<std::int16_t>> image = voxels;
-  imaging::writeDicomSeries(folder() / "odd", volume::IntensityVolume(image), series);
-  for (const auto& entry : fs::directory_iterator(folder() / "odd"))
-  {
-    std::ifstream in(entry.path(), std::ios::binary);
-    std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-    for (const auto& [element, value] : {std::pair('\x01', 12), {'\x02', 11}})
-    {
-      const std::size_t at =
-          bytes.find(std::string("\x28\x00", 2) + element + "\x01US" + std::string("\x02\x00", 2));
-      ASSERT_NE(at, std::string::npos);
-      bytes[at + 8] = static_cast<char>(value);
-    }
-    std::ofstream(entry.path(), std::ios::binary) << bytes;
-  }
+  writeUndeclaredBits(folder() / "odd");
+  writeUndeclaredBits(folder() / "bare", true);
   openWindow();
   const auto answer = [this](const char* box, const char* button, const char* what)
   {
@@ -839,6 +818,27 @@ TEST_F(Import, BitsAndUnitsThatMakeNoSenseAreAskedAbout)
   answer("askBits", "Keep the bits", "odd");
   ASSERT_TRUE(waitFor([this] { return window().model().hasCase() && !window().busy(); }));
   EXPECT_EQ(window().model().value().ct.range.max, 5000.0);
+
+  bool canKeep = true;
+  QString why;
+  onMessage(
+      [&](QMessageBox& asked)
+      {
+        why = asked.informativeText();
+        for (QAbstractButton* one : asked.buttons())
+          if (one->text().remove('&').contains("Keep the bits"))
+            canKeep = one->isEnabled();
+        for (QAbstractButton* one : asked.buttons())
+          if (one->text().remove('&').contains("Leave the bits out"))
+            return one->click();
+        asked.reject();
+      });
+  dropPath(folder() / "bare");
+  ASSERT_TRUE(waitFor([&] { return window().model().value().name == "bare" && !window().busy(); }));
+  EXPECT_FALSE(canKeep);
+  EXPECT_TRUE(why.contains("but not kept")) << why.toStdString();
+  EXPECT_EQ(window().model().value().ct.range.max, 904.0);
+  EXPECT_EQ(window().model().value().ct.range.min, -1000.0);
 
   imaging::writeVolume(folder() / "ct.nrrd", *ballCase("x").ct.volume.get());
   std::ifstream in(folder() / "ct.nrrd", std::ios::binary);

@@ -173,6 +173,20 @@ TEST_F(LibraryWindow, CasesAreRenamedAndDeletedWhereTheyAreListed)
   EXPECT_TRUE(library().contains("second"));
 }
 
+// That a node may have it under its old name is said as if there were some.
+TEST_F(LibraryWindow, ARenamedCaseIsOpenAgainAlsoWhereTheNodesCannotBeRead)
+{
+  saveBall("first");
+  openWindow("first");
+  std::ofstream(folder() / "library/nodes.json") << "{";
+  showPanel();
+  ASSERT_TRUE(select("first"));
+  answerName("third");
+  button("renameCase");
+  ASSERT_TRUE(isOpen("third"));
+  EXPECT_TRUE(library().contains("third"));
+}
+
 TEST_F(LibraryWindow, ACopyIsListedAndTheOriginalStaysOpen)
 {
   saveBall("ball");

@@ -371,6 +371,48 @@ TEST(ImageFile, AsksForTheUnitWhereTheSizeMakesNoSense)
   EXPECT_TRUE(unitDoubtOf(putFile(folder / "body.nii", specimen.bytes())).likely.empty());
 }
 
+// The library keeps such files, too: labels of a cut-out of a micro-CT, and of a phantom.
+TEST(ImageFile, AFileOfThisProgramIsReadInMillimetresWhateverItsSize)
+{
+  const TestFolder folder;
+  for (const double spacing : {0.001, 400.0})
+  {
+    const core::GridGeometry grid({8, 8, 8}, Eigen::Vector3d::Constant(spacing),
+                                  {10.0, 20.0, 30.0});
+    auto voxels = std::make_shared<volume::Volume<std::uint16_t>>(grid, std::uint16_t{0});
+    voxels->at(1, 2, 3) = 1;
+    volume::Segment nerve;
+    nerve.name = "nerve";
+    nerve.index = 1;
+    const auto path = folder / "labels.seg.nrrd";
+    writeLabelFile(path, volume::makeLabelMap(voxels, {nerve}));
+    EXPECT_FALSE(unitDoubtOf(path).likely.empty()) << "no head, ear or specimen";
+    const core::GridGeometry read = readLabelFile(path).voxels->geometry();
+    EXPECT_TRUE(read.spacing().isApprox(grid.spacing(), 1e-6)) << spacing;
+    EXPECT_TRUE(read.origin().isApprox(grid.origin(), 1e-6)) << spacing;
+  }
+}
+
+// 0.4 mm, whatever unit the file states.
+TEST(ImageFile, NotesOfItsPlaceAreInTheUnitThatWasTaken)
+{
+  const TestFolder folder;
+  TestNifti nifti = shortNifti();
+  nifti.units = 0;
+  nifti.qform = 1;
+  nifti.pixdim = {1.0F, 500.0F, 500.0F, 500.0F, 1.0F, 1.0F, 1.0F, 1.0F};
+  nifti.srow = {500.0F, 0.0F, 0.0F, 0.0F, 0.0F, 500.0F, 0.0F, 0.0F, 0.0F, 0.0F, 500.0F, 0.0F};
+  nifti.offset = {400.0F, 0.0F, 0.0F};
+  const auto path = putFile(folder / "a.nii", nifti.bytes());
+  const auto asked = readImageFile(path, {}, {}, {}, 0, 0.001);
+  EXPECT_TRUE(noted(asked, "up to 0.4 mm apart"));
+  EXPECT_FALSE(noted(asked, "up to 400 mm apart"));
+  EXPECT_TRUE(noted(readImageFile(path), "up to 400 mm apart"));
+  nifti.offset = {40.0F, 0.0F, 0.0F}; // 0.04 mm are not worth a note
+  EXPECT_FALSE(noted(readImageFile(putFile(folder / "b.nii", nifti.bytes()), {}, {}, {}, 0, 0.001),
+                     "places itself twice"));
+}
+
 TEST(ImageFile, RefusesShearWithTheMillimetresAtStake)
 {
   const TestFolder folder;

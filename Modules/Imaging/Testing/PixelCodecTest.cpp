@@ -529,7 +529,7 @@ TEST(PixelForms, OverlaysThatAreDeclaredAreNoValuesWhereBitsAreKept)
 
 // Metal of 3000 in a slice without air has the bits of -1096; the copies of the sign that air has
 // tell, also in a slice whose own metal has undeclared bits, and outside of what is read.
-TEST(PixelForms, SlicesWithUndeclaredBitsTellWhatTheSignIs)
+TEST(PixelForms, SlicesTogetherTellWhatUndeclaredBitsAre)
 {
   const TemporaryFolder folder;
   const auto write = [&](bool hasCopies)
@@ -549,36 +549,112 @@ TEST(PixelForms, SlicesWithUndeclaredBitsTellWhatTheSignIs)
                 });
     return scanDicom(folder.path(), {}).series.at(0);
   };
-  const auto refusalOf = [](const DicomSeries& series, UndeclaredBits bits, bool isPart)
+  std::vector<std::string> notes;
+  const auto optionsOf = [&notes](const DicomSeries& series, UndeclaredBits bits, bool isPart)
   {
+    notes.clear();
     ReadOptions options;
     options.undeclaredBits = bits;
-    if (isPart) // the slices of undeclared bits are outside of it
+    if (isPart) // the slices with air are outside of it
       options.roi = series.geometry.grid->cropped({{0, 0, 2}, {8, 6, 4}}).patientBounds();
+    return options;
+  };
+  const auto refusalOf = [&](const DicomSeries& series, UndeclaredBits bits, bool canKeep)
+  {
     try
     {
-      readSeries(series, options, {});
+      readSeries(series, optionsOf(series, bits, false), {});
     }
-    catch (const DicomError& error)
+    catch (const BitsUnclearError& error)
     {
+      EXPECT_EQ(error.canKeep, canKeep) << error.what();
       return std::string(error.what());
     }
     return std::string();
   };
+  const auto imageOf = [&](const DicomSeries& series, UndeclaredBits bits, bool isPart)
+  { return readSeries(series, optionsOf(series, bits, isPart), {}, &notes); };
+
   const DicomSeries copied = write(true);
-  for (const UndeclaredBits bits : {UndeclaredBits::LeaveOut, UndeclaredBits::Keep})
-    for (const bool isPart : {false, true})
-    {
-      const std::string why = refusalOf(copied, bits, isPart);
-      EXPECT_NE(why.find("without the copies of the sign"), std::string::npos) << why << isPart;
-    }
-  EXPECT_NE(refusalOf(copied, UndeclaredBits::Refuse, true), "");
-  // Without copies bits cannot be kept; outside of the region nobody asks for that.
+  const std::string asked = refusalOf(copied, UndeclaredBits::Refuse, true);
+  for (const char* said :
+       {"s0.dcm contradicts itself", "4 pixels have values of more than the 12 bits",
+        "in 4 slices: some without the copies of the sign that the negative values of s0.dcm have",
+        "(--bits stored), the values are -1096 to 904;",
+        "(--bits allocated), they are 3000 to 5000;", "beside them lies -450 on average"})
+    EXPECT_NE(asked.find(said), std::string::npos) << asked;
+  const auto left = imageOf(copied, UndeclaredBits::LeaveOut, false);
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_EQ(notes[0].find("4 pixels have bits beside those stored"), 0U) << notes[0];
+  const auto kept = imageOf(copied, UndeclaredBits::Keep, false);
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_EQ(notes[0].find("4 pixels have bits beside those stored"), 0U) << notes[0];
+  for (int k = 0; k < 4; ++k)
+  {
+    EXPECT_EQ(left.at(3, 2, k), k < 2 ? 904.0 : -1096.0) << k;
+    EXPECT_EQ(kept.at(3, 2, k), k < 2 ? 5000.0 : 3000.0) << k;
+    for (const IntensityVolume* image : {&left, &kept})
+      EXPECT_EQ(image->at(0, 0, k), k < 2 ? -1000.0 : 100.0) << k;
+  }
+  EXPECT_THROW(imageOf(copied, UndeclaredBits::Refuse, true), BitsUnclearError);
+  EXPECT_EQ(imageOf(copied, UndeclaredBits::LeaveOut, true).at(3, 2, 0), -1096.0);
+  EXPECT_EQ(imageOf(copied, UndeclaredBits::Keep, true).at(3, 2, 0), 3000.0);
+
+  // Where no slice has copies, metal of 3000 and air cannot be told apart, nor bits be kept: that
+  // is said with the question.
   const DicomSeries bare = write(false);
+  for (const UndeclaredBits bits : {UndeclaredBits::Refuse, UndeclaredBits::Keep})
+  {
+    const std::string why = refusalOf(bare, bits, false);
+    EXPECT_NE(why.find("2 pixels have values of more than the 12 bits"), std::string::npos) << why;
+    EXPECT_NE(why.find("(--bits stored), but not kept: no copies of the sign"), std::string::npos)
+        << why;
+    EXPECT_EQ(why.find("--bits allocated"), std::string::npos) << why;
+  }
+  const auto cut = imageOf(bare, UndeclaredBits::LeaveOut, false);
+  EXPECT_EQ(notes.size(), 2U);
+  EXPECT_EQ(cut.at(0, 0, 0), -1000.0);
+  EXPECT_EQ(cut.at(3, 2, 0), 904.0);
+  EXPECT_EQ(cut.at(3, 2, 3), -1096.0);
+  // Outside of the region nobody asks for that.
   for (const UndeclaredBits bits :
        {UndeclaredBits::Refuse, UndeclaredBits::LeaveOut, UndeclaredBits::Keep})
-    EXPECT_EQ(refusalOf(bare, bits, true), "");
-  EXPECT_NE(refusalOf(bare, UndeclaredBits::Keep, false), "");
+  {
+    EXPECT_EQ(imageOf(bare, bits, true).at(3, 2, 0), -1096.0);
+    ASSERT_EQ(notes.size(), 1U);
+    EXPECT_NE(notes[0].find("Look whether metal shows as air"), std::string::npos) << notes[0];
+  }
+}
+
+TEST(PixelForms, BitsBelowTheValuesAreNotKept)
+{
+  const TemporaryFolder folder;
+  writeSeries(folder.path(), 2,
+              [](int, TestSlice& s)
+              {
+                s.bitsStored = 12;
+                s.highBit = 14; // of 0 to 15: three unused bits below, one above
+                s.isSigned = false;
+                s.cell = [](int i, int j) { return i == 3 && j == 2 ? 0x8008U : 100U << 3; };
+              });
+  const DicomSeries series = scanDicom(folder.path(), {}).series.at(0);
+  ReadOptions options;
+  for (const UndeclaredBits bits : {UndeclaredBits::Refuse, UndeclaredBits::Keep})
+    try
+    {
+      options.undeclaredBits = bits;
+      readSeries(series, options, {});
+      ADD_FAILURE() << "read";
+    }
+    catch (const BitsUnclearError& error)
+    {
+      EXPECT_FALSE(error.canKeep);
+      EXPECT_NE(std::string(error.what()).find("not kept: unused bits lie below the values"),
+                std::string::npos)
+          << error.what();
+    }
+  options.undeclaredBits = UndeclaredBits::LeaveOut;
+  EXPECT_EQ(readSeries(series, options, {}).at(3, 2, 1), 1.0);
 }
 
 // 12 bits with a sign: 3000 has the bits of -1096 but for the copies of the sign that -1000 has.
@@ -644,13 +720,14 @@ TEST(PixelForms, CopiesOfTheSignInAnySliceTellPositiveValuesFromNegativeOnes)
       readSeries(series, options, {});
       ADD_FAILURE() << "read";
     }
-    catch (const DicomError& error)
+    catch (const BitsUnclearError& error)
     {
       const std::string text = error.what();
-      const std::string file = options.roi ? "" : "s6.dcm contradicts";
-      EXPECT_NE(text.find(file), std::string::npos) << text;
-      EXPECT_NE(text.find("1 pixel has values of more than the 12 bits"), std::string::npos)
-          << text;
+      EXPECT_TRUE(error.canKeep);
+      const std::string first = options.roi
+                                    ? "s8.dcm contradicts itself about the bits of a pixel: 4"
+                                    : "s6.dcm contradicts itself about the bits of a pixel: 6";
+      EXPECT_EQ(text.find(first + " pixels have values of more than the 12 bits"), 0U) << text;
       EXPECT_NE(text.find("negative values of s0.dcm"), std::string::npos) << text;
     }
 }

@@ -1,5 +1,7 @@
+#include <chrono>
 #include <csignal>
 #include <fstream>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -8,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "../src/Store/OpenedLock.h"
 #include "TestCase.h"
 #include "petrous/Library/OpenMark.h"
 
@@ -168,6 +171,36 @@ TEST(OpenMark, AMarkThatCannotBeReadNamesNobody)
   EXPECT_FALSE(std::filesystem::exists(path));
 }
 
+TEST(OpenedLock, WaitsForAnotherAsLongAsItIsTold)
+{
+  using namespace std::chrono_literals;
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "file";
+  const int first = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  const int second = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+  ASSERT_GE(first, 0);
+  ASSERT_GE(second, 0);
+  EXPECT_EQ(lockOpened(first), LockState::Ours);
+  EXPECT_EQ(lockOpened(first), LockState::Ours) << "again";
+  EXPECT_EQ(lockOpened(second), LockState::Anothers);
+  EXPECT_EQ(lockOpened(second, 20ms), LockState::Anothers);
+  std::thread ends(
+      [first]
+      {
+        std::this_thread::sleep_for(20ms);
+        ::close(first);
+      });
+  EXPECT_EQ(lockOpened(second, 60s), LockState::Ours);
+  ends.join();
+  EXPECT_TRUE(isOpenedAt(second, path));
+  std::filesystem::remove(path);
+  EXPECT_FALSE(isOpenedAt(second, path));
+  std::ofstream(path) << "another";
+  EXPECT_FALSE(isOpenedAt(second, path));
+  ::close(second);
+  EXPECT_EQ(lockOpened(second), LockState::NoLocks) << "nothing is open";
+}
+
 TEST(OpenMark, WhoSavesRenamesOrDeletesIsToldOnceHeAsks)
 {
   const TemporaryFolder folder;
@@ -179,7 +212,7 @@ TEST(OpenMark, WhoSavesRenamesOrDeletesIsToldOnceHeAsks)
   library.save(value);
   EXPECT_TRUE(notices.empty());
   library.noticeOpeners();
-  const auto expectTold = [&](const std::string& name)
+  const auto expectTold = [&](const std::string& name, const std::string& advice)
   {
     ASSERT_EQ(notices.size(), 1U);
     EXPECT_EQ(notices[0].rfind("case '" + name + "' is open in Petrous elsewhere (process " +
@@ -187,14 +220,15 @@ TEST(OpenMark, WhoSavesRenamesOrDeletesIsToldOnceHeAsks)
                                0),
               0U)
         << notices[0];
+    EXPECT_NE(notices[0].find(advice), std::string::npos) << notices[0];
     notices.clear();
   };
   library.save(value);
-  expectTold("ear");
+  expectTold("ear", "open it there again");
   library.rename("ear", "left");
-  expectTold("left");
+  expectTold("left", "open it there again");
   library.copy("left", "another");
   EXPECT_TRUE(notices.empty());
   library.remove("left");
-  expectTold("left");
+  expectTold("left", "cannot be saved unless the case is brought back");
 }

@@ -662,9 +662,9 @@ std::vector<std::string> noteOutside(const scene::Case& value, scene::LabelPart&
   if (part.drawnOn && !part.drawnOn->empty())
     return {}; // through the registration of an MR, which may change
   const auto boxes = volume::boxesOf(map);
-  std::vector<std::string> names;
-  for (std::size_t s = 0; s < map.segments.size(); ++s)
-    for (const auto& structure : part.structures)
+  std::vector<std::string> names; // in the order in which leaveOutside looks for the note
+  for (const auto& structure : part.structures)
+    for (std::size_t s = 0; s < map.segments.size(); ++s)
       if (structure.index == map.segments[s].index &&
           liesOutside(value.ct.geometry, map.voxels->geometry(), boxes[s]))
         names.push_back(structure.name);
@@ -1140,6 +1140,15 @@ std::string unitName(double unit)
   return core::generalText(unit, 3) + " mm";
 }
 
+std::string lengthText(double mm)
+{
+  constexpr double kWithDigits = 100.0; // from here on three digits are a whole number
+  constexpr double kFinest = 1e-3;      // below, generalText needs an exponent
+  return mm >= kWithDigits ? core::fixedText(mm, 0)
+         : mm < kFinest    ? core::fixedText(mm, 6)
+                           : core::generalText(mm, 3);
+}
+
 namespace
 {
 
@@ -1147,9 +1156,9 @@ std::string unitDoubtText(const imaging::UnitDoubt& doubt)
 {
   std::string others;
   for (const double unit : doubt.likely)
-    others += (others.empty() ? "" : ", ") + core::generalText(doubt.edge * unit / doubt.unit, 3) +
+    others += (others.empty() ? "" : ", ") + lengthText(doubt.edge * unit / doubt.unit) +
               " mm if its numbers are in " + unitName(unit);
-  return core::generalText(doubt.edge, 3) +
+  return lengthText(doubt.edge) +
          (doubt.isStated ? " mm long by the unit of length that it states"
                          : " mm long, as it states no unit of length and mm was taken") +
          ", which is no head, ear or specimen; it is " + others;
@@ -1453,10 +1462,12 @@ void leaveOutside(scene::Case& value, std::vector<StructureReport>& reports)
     for (const scene::StructurePart& structure : part.structures)
       if (outside.count(structure.name) > 0)
         noted.push_back(structure.name);
+    if (noted.empty())
+      continue;
     part.notes.erase(
         std::remove(part.notes.begin(), part.notes.end(), outsideNote(noted, primaryName(value))),
         part.notes.end());
-    if (noted.empty() || noted.size() < part.structures.size())
+    if (noted.size() < part.structures.size())
       continue;
     // The first map of a file has the notes about all of it.
     const fs::path file = files[noted.front()];
@@ -1528,10 +1539,11 @@ std::vector<PartFailure> addSoundParts(scene::Case& value, const PartSources& pa
         failures.back().taken = taken.names;
         failures.back().others = taken.others;
       }
-      catch (const imaging::DicomError& error)
+      catch (const imaging::BitsUnclearError& unclear)
       {
-        failures.push_back({source, error.what()});
-        failures.back().isBitsUnclear = error.reason() == imaging::DicomError::Reason::BitsUnclear;
+        failures.push_back({source, unclear.what()});
+        failures.back().isBitsUnclear = true;
+        failures.back().canKeepBits = unclear.canKeep;
       }
       catch (const core::Error& error)
       {

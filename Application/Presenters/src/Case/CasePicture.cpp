@@ -52,18 +52,27 @@ core::CameraPose currentCamera(const scene::Case& value)
   return value.camera ? *value.camera : standardCamera(value, rendering::StandardView::Lateral);
 }
 
+namespace
+{
+
+// What a view shows of the grid; nullopt: all of it.
+std::optional<core::IndexBox> cropOf(const scene::ViewState::Clipping& clipping,
+                                     const core::GridGeometry& grid)
+{
+  const core::IndexBox whole = grid.fullBox();
+  const core::IndexBox inside = clipping.crop ? clipping.crop->intersected(whole) : whole;
+  return inside.empty() || inside == whole ? std::nullopt : std::optional(inside);
+}
+
+} // namespace
+
 void clip(rendering::SceneContents& contents, const scene::ViewState::Clipping& clipping,
           const core::GridGeometry& grid)
 {
   contents.clipping.clear();
-  contents.crop.reset();
   for (const scene::ViewState::Clipping::Plane& plane : clipping.planes)
     contents.clipping.push_back({plane.point, plane.normal});
-  if (!clipping.crop)
-    return;
-  const core::IndexBox inside = clipping.crop->intersected(grid.fullBox());
-  if (!inside.empty())
-    contents.crop = inside;
+  contents.crop = cropOf(clipping, grid);
 }
 
 void illuminate(rendering::SceneContents& contents,
@@ -75,12 +84,13 @@ void illuminate(rendering::SceneContents& contents,
   contents.light.setShadows(given.shadows);
 }
 
-std::vector<std::string> clippingTexts(const scene::ViewState::Clipping& clipping)
+std::vector<std::string> clippingTexts(const scene::ViewState::Clipping& clipping,
+                                       const core::GridGeometry& grid)
 {
   std::vector<std::string> lines;
   if (!clipping.planes.empty())
     lines.push_back("Cut away for the view, not drilled");
-  if (clipping.crop)
+  if (cropOf(clipping, grid))
     lines.push_back("Only a part of the image is shown");
   return lines;
 }
@@ -88,7 +98,7 @@ std::vector<std::string> clippingTexts(const scene::ViewState::Clipping& clippin
 std::vector<std::string> pictureNotes(const scene::Case& value)
 {
   std::vector<std::string> lines = interpolatedTexts(value);
-  for (std::string& line : clippingTexts(value.view.clipping))
+  for (std::string& line : clippingTexts(value.view.clipping, value.ct.geometry))
     lines.push_back(std::move(line));
   return lines;
 }

@@ -202,12 +202,20 @@ fs::path endOf(const fs::path& path, std::ptrdiff_t count)
   return result;
 }
 
+// Where there is no working folder any more, a relative path stays one.
+fs::path wholePath(const fs::path& path)
+{
+  std::error_code error;
+  const fs::path whole = path.empty() ? fs::current_path(error) : fs::absolute(path, error);
+  return error ? path : whole;
+}
+
 // Names folders so that different ones differ.
 void nameFolders(std::vector<SeriesContent>& series)
 {
   std::vector<fs::path> places;
   for (const SeriesContent& one : series)
-    places.push_back(fs::absolute(one.place).lexically_normal());
+    places.push_back(wholePath(one.place).lexically_normal());
   const std::set<fs::path> all(places.begin(), places.end());
   for (std::size_t n = 0; n < series.size(); ++n)
   {
@@ -253,7 +261,7 @@ SourceContent lookAtDicom(const fs::path& path, const core::Progress& progress,
   if (!sound && fs::is_regular_file(path) && scan.series.size() == 1 &&
       !scan.series.front().uid.empty() && scan.series.front().geometry.slices.size() == 1 &&
       scan.series.front().geometry.slices.front().pixels.frameCount == 1)
-    return lookAtDicom(fs::absolute(path).parent_path(), progress.part(0.1, 1.0),
+    return lookAtDicom(wholePath(path).parent_path(), progress.part(0.1, 1.0),
                        scan.series.front().uid);
   const auto readable = std::count_if(scan.series.begin(), scan.series.end(), wanted);
   const auto segmentations = uid.empty() ? segmentationsOf(scan) : std::vector<SeriesContent>();

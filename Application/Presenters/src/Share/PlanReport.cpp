@@ -510,7 +510,7 @@ private:
         rendering::Picture picture = rendering::renderTiled(scene, camera, width, height, part);
         const double magnified = width / 600.0;
         std::vector<std::string> lines{say(sideText(m_value.description.side))};
-        for (const std::string& line : clippingTexts(clipping))
+        for (const std::string& line : clippingTexts(clipping, m_value.ct.geometry))
           lines.push_back(say(line));
         addLines(picture, lines, magnified);
         addScaleBar(picture, rendering::millimetresPerPixel(camera, height),

@@ -8,7 +8,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
-#include <numeric>
+#include <optional>
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -124,6 +124,8 @@ public:
   IntensityVolume read(std::vector<std::string>* notes)
   {
     m_notes = notes;
+    if (m_undeclared == UndeclaredBits::Keep)
+      judgeKeep();
     try
     {
       IntensityVolume result = read();
@@ -134,7 +136,8 @@ public:
     {
       if (error.reason() != DicomError::Reason::BitsUnclear)
         throw;
-      failUndeclared();
+      if (const BitsFound found = lookAtBits(); found.pixels > 0)
+        failUndeclared(found);
       throw; // the file was changed meanwhile
     }
   }
@@ -217,16 +220,41 @@ private:
   }
 
   /// One slice without copies of the sign cannot tell a negative value from a positive one that is
-  /// too large; the others of the series can.
+  /// too large; the others of the series can. Kept, they are told apart already.
   void judgeSigns()
   {
-    // Where one slice has both, they are undeclared bits, and read as the user said.
-    const auto bare = std::find_if(m_signs.begin(), m_signs.end(),
-                                   [](const SignCopies& s) { return s.none > 0 && !s.any; });
-    if (bare == m_signs.end())
+    const auto bare = bareSigns();
+    if (bare == m_signs.end() || m_undeclared == UndeclaredBits::Keep)
       return;
-    const auto has = [](const SignCopies& signs) { return signs.any; };
-    auto copies = std::find_if(m_signs.begin(), m_signs.end(), has);
+    const SliceHeader& slice = sliceOf(bare);
+    if (!copiesOfSign())
+      return note("Values whose highest stored bit is set were read as negative, as the header "
+                  "says (signed, Bits Stored " +
+                  std::to_string(slice.pixels.bitsStored) +
+                  "); no bit above tells them from positive ones that are too large. Look whether "
+                  "metal shows as air.");
+    if (m_undeclared == UndeclaredBits::Refuse)
+      throw DicomError(DicomError::Reason::BitsUnclear, bitsStoredText(slice, bare->none));
+  }
+
+  /// The first slice of the box whose negative values, if they are, have no copies of the sign.
+  /// Where a slice has both, StoredPixels::undeclared counts them.
+  std::vector<SignCopies>::const_iterator bareSigns() const
+  {
+    return std::find_if(m_signs.begin(), m_signs.end(),
+                        [](const SignCopies& s) { return isBare(s); });
+  }
+
+  static bool isBare(const SignCopies& signs) { return signs.none > 0 && !signs.any; }
+
+  /// The first slice found whose negative values have copies of the sign, in the box or outside of
+  /// it; null: none has. For when the slices of the box are known.
+  const SliceHeader* copiesOfSign()
+  {
+    if (m_copies)
+      return *m_copies;
+    auto copies = std::find_if(m_signs.begin(), m_signs.end(),
+                               [](const SignCopies& signs) { return signs.any; });
     StoredPixels pixels;
     for (auto n = m_signs.begin(); copies == m_signs.end() && n != m_signs.end(); ++n)
     {
@@ -238,62 +266,108 @@ private:
       decodePixels(sliceOf(n), pixels, UndeclaredBits::LeaveOut);
       copies = pixels.signs.any ? n : copies;
     }
-    const SliceHeader& slice = sliceOf(bare);
-    if (copies != m_signs.end())
-      throw DicomError(DicomError::Reason::Unreadable,
-                       bitsStoredText(slice, bare->none,
-                                      ": without the copies of the sign that the negative values "
-                                      "of " +
-                                          sliceOf(copies).file.filename().string() + " have") +
-                           "; export it again, uncompressed and with all bits");
-    note(
-        "Values whose highest stored bit is set were read as negative, as the header says (signed, "
-        "Bits Stored " +
-        std::to_string(slice.pixels.bitsStored) +
-        "); no bit above tells them from positive ones that are too large. Look whether metal "
-        "shows as air.");
+    m_copies = copies == m_signs.end() ? nullptr : &sliceOf(copies);
+    return *m_copies;
+  }
+
+  /// Pixels of a slice of the box that UndeclaredBits is about, by what all slices tell.
+  std::size_t undeclaredIn(std::size_t slice)
+  {
+    const SignCopies& signs = m_signs[slice];
+    return m_undeclaredPixels[slice] + (isBare(signs) && copiesOfSign() ? signs.none : 0);
+  }
+
+  /// Bits are kept in all slices or in none, and where the sign of each value is known: what is
+  /// negative would turn positive without copies of the sign.
+  void judgeKeep()
+  {
+    const BitsFound found = lookAtBits();
+    if (found.pixels == 0)
+      m_undeclared = UndeclaredBits::Refuse;
+    else if (!found.canKeep())
+      failUndeclared(found);
   }
 
   void noteUndeclared()
   {
-    const std::size_t count =
-        std::accumulate(m_undeclaredPixels.begin(), m_undeclaredPixels.end(), std::size_t{0});
+    std::size_t count = 0;
+    for (std::size_t n = 0; n < m_slices.size(); ++n)
+      count += undeclaredIn(n);
     if (count > 0)
       note(std::to_string(count) + (count == 1 ? " pixel has" : " pixels have") +
            " bits beside those stored that the file does not declare (Bits Stored); they were " +
            (m_undeclared == UndeclaredBits::Keep
                 ? "kept, as if stored, as asked. Look whether air or tissue shows as metal there."
-                : "left out, as asked. Look whether metal shows as tissue there."));
+                : "left out, as DICOM says. Look whether metal shows as tissue or air there."));
+  }
+
+  /// The pixels of the box that UndeclaredBits is about.
+  struct BitsFound
+  {
+    const SliceHeader* first = nullptr; ///< of the slices that have some
+    std::size_t pixels = 0;
+    std::size_t slices = 0;
+    std::size_t bare = 0;         ///< pixels without the copies of the sign that others have
+    bool hasBitsBelow = false;    ///< in one of the slices
+    bool areSignsUnclear = false; ///< a value may be negative without copies of its sign
+    bool canKeep() const { return !hasBitsBelow && !areSignsUnclear; }
+  };
+
+  BitsFound lookAtBits()
+  {
+    std::vector<char> below(m_slices.size(), 0);
+    tbb::enumerable_thread_specific<StoredPixels> buffers;
+    tbb::parallel_for(tbb::blocked_range<int>(m_box.lower[2], m_box.upper[2], 1),
+                      [&](const tbb::blocked_range<int>& r)
+                      {
+                        StoredPixels& pixels = buffers.local();
+                        for (int k = r.begin(); k != r.end(); ++k)
+                        {
+                          m_progress.check("reading slices");
+                          const auto n = static_cast<std::size_t>(k);
+                          pixels.hasBitsBelow = false;
+                          decodePixels(m_slices[n], pixels, UndeclaredBits::LeaveOut);
+                          m_signs[n] = pixels.signs;
+                          m_undeclaredPixels[n] = pixels.undeclared;
+                          below[n] = pixels.hasBitsBelow ? 1 : 0;
+                        }
+                      });
+    BitsFound found;
+    found.areSignsUnclear = bareSigns() != m_signs.end() && !copiesOfSign();
+    for (int k = m_box.lower[2]; k < m_box.upper[2]; ++k)
+    {
+      const auto n = static_cast<std::size_t>(k);
+      const std::size_t pixels = undeclaredIn(n);
+      if (pixels == 0)
+        continue;
+      found.first = found.first ? found.first : &m_slices[n];
+      found.pixels += pixels;
+      ++found.slices;
+      found.bare += pixels - m_undeclaredPixels[n];
+      found.hasBitsBelow = found.hasBitsBelow || below[n] != 0;
+    }
+    return found;
   }
 
   /// What leaving the bits out gives and what keeping them does, for the user to choose.
-  void failUndeclared()
+  void failUndeclared(const BitsFound& found)
   {
     Span left;
     Span kept;
     double beside = 0.0;
     std::size_t besideCount = 0;
-    std::size_t pixels = 0;
-    std::size_t slices = 0;
-    const SliceHeader* first = nullptr;
     StoredPixels without;
     StoredPixels with;
-    bool canKeep = true;
-    for (int k = m_box.lower[2]; k < m_box.upper[2]; ++k)
+    for (int k = m_box.lower[2]; found.canKeep() && k < m_box.upper[2]; ++k)
     {
       m_progress.check("reading slices");
       const SliceHeader& slice = m_slices[static_cast<std::size_t>(k)];
-      decodePixels(slice, without, UndeclaredBits::LeaveOut);
-      if (without.undeclared == 0)
+      if (undeclaredIn(static_cast<std::size_t>(k)) == 0)
         continue;
-      canKeep = canKeep && without.canKeep;
-      if (canKeep)
-        decodePixels(slice, with, UndeclaredBits::Keep);
-      first = first ? first : &slice;
-      pixels += without.undeclared;
-      ++slices;
+      decodePixels(slice, without, UndeclaredBits::LeaveOut);
+      decodePixels(slice, with, UndeclaredBits::Keep);
       const auto isUndeclared = [&](std::size_t n) { return without.at(n) != with.at(n); };
-      for (std::size_t n = 0; canKeep && n < without.size(); ++n)
+      for (std::size_t n = 0; n < without.size(); ++n)
       {
         if (!isUndeclared(n))
           continue;
@@ -309,29 +383,37 @@ private:
             }
       }
     }
-    if (!first)
-      return;
     const std::string choice =
-        canKeep && !left.empty()
+        !left.empty()
             ? "Left out, as DICOM says of bits that are not stored (--bits stored), the values "
               "are " +
                   rangeText(left) +
                   "; kept, for metal in a file whose header is wrong (--bits allocated), they "
                   "are " +
                   rangeText(kept)
-            : std::string(
-                  "Bits that are not stored can be left out, as DICOM says (--bits stored)");
+        : found.areSignsUnclear
+            ? std::string("They can be left out, as DICOM says of bits that are not stored (--bits "
+                          "stored), but not kept: no copies of the sign tell negative values, "
+                          "such as air, from metal, and air would turn into metal")
+            : std::string("They can be left out, as DICOM says of bits that are not stored (--bits "
+                          "stored), but not kept: unused bits lie below the values");
     const std::string others = besideCount == 0
                                    ? std::string()
                                    : "; beside them lies " +
                                          decimals(beside / static_cast<double>(besideCount), 0) +
                                          " on average";
-    throw DicomError(
-        DicomError::Reason::BitsUnclear,
-        bitsStoredText(*first, pixels,
-                       slices > 1 ? ", in " + std::to_string(slices) + " slices" : std::string()) +
-            ", and nothing says what they are. " + choice + others +
-            ". Or export it again, uncompressed and with all bits");
+    std::string where =
+        found.slices > 1 ? ", in " + std::to_string(found.slices) + " slices" : std::string();
+    if (found.bare > 0)
+      where += (found.bare == found.pixels ? ": without the copies of the sign that the negative "
+                                             "values of "
+                                           : ": some without the copies of the sign that the "
+                                             "negative values of ") +
+               (*m_copies)->file.filename().string() + " have";
+    throw BitsUnclearError(bitsStoredText(*found.first, found.pixels, where) +
+                               ", and nothing says what they are. " + choice + others +
+                               ". Or export it again, uncompressed and with all bits",
+                           !left.empty());
   }
 
   static std::string rangeText(const Span& span)
@@ -535,7 +617,8 @@ private:
   const core::Progress& m_progress;
   std::vector<std::string>* m_notes = nullptr;
   std::vector<SignCopies> m_signs;             ///< of each slice; none outside of the box
-  std::vector<std::size_t> m_undeclaredPixels; ///< likewise
+  std::vector<std::size_t> m_undeclaredPixels; ///< likewise, as each slice tells
+  std::optional<const SliceHeader*> m_copies;  ///< copiesOfSign, where it was asked
   bool m_needsRange = true;                    ///< whether the range of the real values is needed
   std::mutex m_mutex;
   Contents m_contents;

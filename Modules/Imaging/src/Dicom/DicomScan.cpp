@@ -373,7 +373,7 @@ public:
   {
     const auto nameOf = [](const SliceHeader& slice)
     { return slice.file.native() + "\n" + std::to_string(slice.pixels.frame); };
-    return *result("pixels\n" + nameOf(one) + "\n" + nameOf(other),
+    return *result("cells\n" + nameOf(one) + "\n" + nameOf(other),
                    [&]
                    {
                      m_progress.report(1.0, "comparing slices");
@@ -734,7 +734,10 @@ std::uint64_t differingPixels(const SliceHeader& one, const SliceHeader& other,
   StoredPixels second;
   decodePixels(other, second, UndeclaredBits::LeaveOut);
   const std::size_t count = std::min(first->size(), second.size());
-  const bool hasUndeclared = first->undeclared > 0 || second.undeclared > 0;
+  // Kept, a sign without copies beside signs with them is a bit of a positive value.
+  const bool hasUndeclared =
+      first->undeclared > 0 || second.undeclared > 0 ||
+      ((first->signs.none > 0 || second.signs.none > 0) && (first->signs.any || second.signs.any));
   const bool hasCells = sameCells(one.pixels, other.pixels);
   const auto bytes = static_cast<std::size_t>(one.pixels.bitsAllocated / 8);
   const auto differs = [&](std::size_t p)

@@ -35,8 +35,6 @@ namespace
                                                        "came from");
 }
 
-constexpr const char* kExportBits = "; export it again, uncompressed and with all bits";
-
 [[noreturn]] void failChanged(const SliceHeader& slice)
 {
   throw DicomError(DicomError::Reason::Unreadable,
@@ -319,16 +317,15 @@ void unpackWithin(const SliceHeader& slice, bool swap, StoredPixels& pixels,
   pixels.signs = outside.signs;
   if (pixels.undeclared > 0 && undeclared == UndeclaredBits::Refuse)
     throw DicomError(DicomError::Reason::BitsUnclear,
-                     bitsStoredText(slice, pixels.undeclared) + kExportBits);
-  // Bits below the value are none of it, and negative values without copies of their sign would
-  // become positive.
-  pixels.canKeep = format.highBit + 1 == format.bitsStored &&
-                   (!format.isSigned || outside.signs.any || outside.signs.none == 0);
-  if (pixels.undeclared > 0 && undeclared == UndeclaredBits::Keep)
+                     bitsStoredText(slice, pixels.undeclared) +
+                         "; export it again, uncompressed and with all bits");
+  pixels.hasBitsBelow = format.highBit + 1 != format.bitsStored;
+  if (undeclared == UndeclaredBits::Keep && (pixels.undeclared > 0 || outside.signs.none > 0))
   {
-    if (!pixels.canKeep)
+    if (pixels.hasBitsBelow)
       throw DicomError(DicomError::Reason::Unreadable,
-                       bitsStoredText(slice, pixels.undeclared) + kExportBits);
+                       bitsStoredText(slice, pixels.undeclared) +
+                           "; export it again, uncompressed and with all bits");
     unpackCells(slice, format.bitsAllocated,
                 bitField(format.bitsAllocated, format.bitsAllocated - 1, format.isSigned), swap,
                 pixels);

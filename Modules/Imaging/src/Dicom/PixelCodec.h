@@ -26,7 +26,7 @@ struct StoredPixels
   std::vector<unsigned char> scratch;
   SignCopies signs;           ///< also of pixels that are `undeclared`
   std::size_t undeclared = 0; ///< pixels with bits that UndeclaredBits is about
-  bool canKeep = false;       ///< UndeclaredBits::Keep, where there are such
+  bool hasBitsBelow = false;  ///< unused bits below the values, which are never kept
 
   bool isReal() const noexcept { return !reals.empty(); }
   std::size_t size() const noexcept { return isReal() ? reals.size() : values.size(); }
@@ -62,9 +62,10 @@ void decodeFrame(ByteSource& source, const SliceHeader& slice,
 /// Bits outside of the stored ones must be none, copies of the sign, or those of overlays that the
 /// file declares (of old scanners), which are left out: values that need them are refused, but for
 /// the declared padding, which keeps the value that the header gives it. Whether a positive value
-/// was taken for a negative one only the slices together tell (StoredPixels::signs). Thread-safe.
-/// Throws DicomError (Unreadable, BitsUnclear), naming the file; also if it was changed or replaced
-/// since its header was read (SliceHeader::stamp).
+/// was taken for a negative one only the slices together tell (StoredPixels::signs); Keep takes
+/// each highest stored bit without its copies for one of a positive value. Thread-safe. Throws
+/// DicomError (Unreadable, BitsUnclear), naming the file; also if it was changed or replaced since
+/// its header was read (SliceHeader::stamp).
 void decodePixels(const SliceHeader& slice, StoredPixels& pixels,
                   UndeclaredBits undeclared = UndeclaredBits::Refuse);
 

@@ -27,8 +27,7 @@ constexpr std::size_t kDataOffset = 352;
 constexpr std::size_t kDataOffset2 = 544;
 constexpr double kLargestOffset = 1e9;
 constexpr const char* kGzipStart = "\x1f\x8b";
-constexpr double kMaxQuaternion = 1.001;  // squared norm; float32 and few digits round by less
-constexpr double kPlacementsDiffer = 0.1; // mm between sform and qform; noted if exceeded
+constexpr double kMaxQuaternion = 1.001; // squared norm; float32 and few digits round by less
 // NIfTI uses right, anterior, superior; the patient frame is left, posterior, superior.
 const Eigen::Vector3d kLpsFromRas(-1.0, -1.0, 1.0);
 
@@ -246,7 +245,6 @@ void readPlacement(const std::filesystem::path& path, const Fields& fields, Nift
     fail(FileError::Reason::NoGeometry, path,
          "places itself twice (sform and qform), and the two are mirror images of each other: left "
          "and right cannot be told; export it again with one of them");
-  double apart = 0.0;
   for (int corner = 0; corner < 8; ++corner)
   {
     Eigen::Vector3d index;
@@ -255,12 +253,8 @@ void readPlacement(const std::filesystem::path& path, const Fields& fields, Nift
                      ? static_cast<double>(header.dims[static_cast<std::size_t>(a)]) - 1
                      : 0.0;
     const double d = ((header.linear - *qLinear) * index + header.origin - qOrigin).norm();
-    apart = std::max(apart, d);
+    header.apart = std::max(header.apart, header.unit.mm * d);
   }
-  apart *= header.unit.mm;
-  if (apart > kPlacementsDiffer)
-    header.notes.push_back("places itself twice (sform and qform), up to " + roughText(apart) +
-                           " mm apart; the sform is used, as the NIfTI standard says");
 }
 
 LengthUnit unitOf(int code, std::vector<std::string>& notes)

@@ -25,6 +25,7 @@ struct NiftiHeader
   double intercept = 0.0;
   Eigen::Matrix3d linear; ///< d patient / d voxel, LPS mm
   Eigen::Vector3d origin; ///< LPS mm
+  double apart = 0.0;     ///< mm, by which the qform places a corner elsewhere than the sform
   LengthUnit unit;
   std::string description;
   bool isSideAssumed = false; ///< it states no place in the patient, and RAS is taken

@@ -169,18 +169,21 @@ void VoxelSource::openNifti()
   m_place.packing = header.packed ? Packing::Zlib : Packing::None;
   m_swapped = header.swapped;
   checkRoom();
-  place(header.linear, header.origin, header.unit);
+  place(header.linear, header.origin, header.unit, header.apart);
   if (header.isSideAssumed)
     m_assumedRas = true;
 }
 
 /// Places the voxels in the file's unit, whether or not that makes sense.
 void VoxelSource::place(const Eigen::Matrix3d& linear, const Eigen::Vector3d& origin,
-                        const LengthUnit& unit)
+                        const LengthUnit& unit, double apart)
 {
-  constexpr double kUnits[] = {1.0, 1e-3, 1e3, 10.0}; // mm
+  constexpr double kUnits[] = {1.0, 1e-3, 1e3, 10.0, 1e-6, 25.4}; // mm, as namedUnit
   m_unit = unit.mm;
-  m_geometry = m_stated = gridFromAffine(m_path, m_dims, linear, origin, m_notes);
+  m_linear = linear;
+  m_origin = origin;
+  m_apart = apart;
+  scaleTo(m_unit);
   if (m_dims.size() >= 3 && linear.allFinite() && !isPlausibleSize(m_dims, linear))
   {
     m_unitDoubt = {unit.mm, unit.isStated, longestEdge(m_dims, linear), {}};
@@ -192,10 +195,21 @@ void VoxelSource::place(const Eigen::Matrix3d& linear, const Eigen::Vector3d& or
 
 void VoxelSource::scaleTo(double unit)
 {
-  const core::GridGeometry& grid = *m_stated;
+  constexpr double kPlacementsDiffer = 0.1; // mm between sform and qform; noted if exceeded
   const double scale = unit / m_unit;
-  m_geometry = core::GridGeometry(grid.dims(), scale * grid.spacing(), scale * grid.origin(),
-                                  grid.direction());
+  std::vector<std::string> notes; // in the millimetres of this unit
+  if (scale * m_apart > kPlacementsDiffer)
+    notes.push_back("places itself twice (sform and qform), up to " + roughText(scale * m_apart) +
+                    " mm apart; the sform is used, as the NIfTI standard says");
+  m_geometry = gridFromAffine(m_path, m_dims, scale * m_linear, scale * m_origin, notes);
+  m_placeNotes = std::move(notes);
+}
+
+std::vector<std::string> VoxelSource::notes() const
+{
+  std::vector<std::string> all = m_notes;
+  all.insert(all.end(), m_placeNotes.begin(), m_placeNotes.end());
+  return all;
 }
 
 bool VoxelSource::settleUnit(const std::optional<double>& unit,
@@ -218,12 +232,19 @@ bool VoxelSource::settleUnit(const std::optional<double>& unit,
   units.insert(units.end(), m_unitDoubt.likely.begin(), m_unitDoubt.likely.end());
   for (const double one : units)
   {
-    scaleTo(one);
+    try
+    {
+      scaleTo(one);
+    }
+    catch (const FileError&)
+    {
+      continue; // no size or place that can be true
+    }
     if (std::any_of(images.begin(), images.end(),
                     [this](const ImageGrid& grid) { return core::sameGrid(grid, *m_geometry); }))
       return settle(one, ", as its grid is then that of an image of the case");
   }
-  m_geometry = m_stated;
+  scaleTo(m_unit);
   return false;
 }
 

@@ -44,7 +44,7 @@ public:
   std::size_t components() const noexcept { return m_components; }
   /// Whether integers were converted to float by a rescale slope and intercept.
   bool rescaled() const noexcept { return m_slope != 0.0; }
-  const std::vector<std::string>& notes() const noexcept { return m_notes; }
+  std::vector<std::string> notes() const;
   /// Whether the file leaves open which side of the patient is left, so that RAS (true) or LPS
   /// (false) axes were assumed; nullopt: it states it.
   const std::optional<bool>& assumedRas() const noexcept { return m_assumedRas; }
@@ -80,7 +80,8 @@ public:
 
 private:
   void countVolumes();
-  void place(const Eigen::Matrix3d& linear, const Eigen::Vector3d& origin, const LengthUnit& unit);
+  void place(const Eigen::Matrix3d& linear, const Eigen::Vector3d& origin, const LengthUnit& unit,
+             double apart = 0.0);
   void scaleTo(double unit);
   long double voxelBytes() const;
   void checkRoom();
@@ -104,11 +105,15 @@ private:
   double m_slope = 0.0;                ///< 0: no rescaling
   double m_intercept = 0.0;
   double m_unit = 1.0; ///< mm, of the file
-  std::optional<core::GridGeometry> m_stated; ///< in that unit
+  /// As GridFromAffine.h, in that unit.
+  Eigen::Matrix3d m_linear = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d m_origin = Eigen::Vector3d::Zero();
+  double m_apart = 0.0; ///< NiftiHeader::apart, in that unit
   UnitDoubt m_unitDoubt;
   std::optional<bool> m_assumedRas;
   std::optional<double> m_padding;
   std::vector<std::string> m_notes;
+  std::vector<std::string> m_placeNotes; ///< by the unit that was taken
   std::optional<NrrdHeader> m_nrrd;
   std::uintmax_t m_dataBytes = 0; ///< bytes on disk that hold the voxels
 };

@@ -128,7 +128,8 @@ void saltFrames(scene::Case& value, const fs::path& folder)
   std::for_each(value.mr.begin(), value.mr.end(), salted);
 }
 
-// Incremented with every change of readLabelFile's result, or of the bytes of a label map.
+// Incremented with every change of what readLabelFile makes of a file of the library, which states
+// mm and its side, or of the bytes of a label map.
 constexpr int kUnpackedLabelsVersion = 2;
 
 // Decompressing a label file takes longer than most uses of it.

@@ -9,6 +9,7 @@
 #include "Catalogue.h"
 #include "JournalFile.h"
 #include "LibraryFolder.h"
+#include "LibraryState.h"
 #include "ManifestFile.h"
 #include "Salt.h"
 #include "Thumbnail.h"
@@ -316,7 +317,12 @@ void Library::remove(const std::string& name)
   Catalogue(m_folder / kIndex).remove(name);
   if (!onDisk && m_notice)
     m_notice("case '" + name + "' is deleted, but the disk reported an error; check the disk");
-  noticeOpenersOf(name, id);
+  if (!m_notice || !m_state->noticesOpeners)
+    return;
+  if (const std::string openersText = toString(openersOf(m_folder, id)); !openersText.empty())
+    m_notice("case '" + name + "' is open in Petrous elsewhere (" + openersText +
+             "), and deleted all the same; what is changed there cannot be saved unless the case "
+             "is brought back");
 }
 
 std::vector<DeletedCase> Library::deleted() const

@@ -9,13 +9,13 @@
 #include <tuple>
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
 #include <sodium.h>
 
+#include "OpenedLock.h"
 #include "petrous/Core/InputFile.h"
 #include "petrous/Core/OutputFile.h"
 #include "petrous/Library/OwnerLock.h"
@@ -113,7 +113,7 @@ PseudonymMap::PseudonymMap(const std::filesystem::path& path, const std::string&
     core::throwOutputError(errno, lock);
   try
   {
-    if (::flock(m_lock, LOCK_EX | LOCK_NB) != 0)
+    if (lockOpened(m_lock) != LockState::Ours)
       throw PseudonymMapError(PseudonymMapError::Reason::InUse,
                               core::printable(m_path) +
                                   ": is in use by another program; try again when that has ended");

@@ -3,16 +3,15 @@
 #include <cerrno>
 #include <chrono>
 #include <limits>
-#include <thread>
 #include <utility>
 
 #include <fcntl.h>
 #include <nlohmann/json.hpp>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "LibraryFolder.h"
+#include "OpenedLock.h"
 #include "petrous/Library/LibraryError.h"
 #include "petrous/Library/ObjectStore.h"
 #include "petrous/Scene/HistoryText.h"
@@ -121,14 +120,8 @@ bool endsInHead(std::string_view bytes)
 // Brief locks are waited for, or an inspecting process would be taken for a drilling one.
 bool lockSoon(int descriptor)
 {
-  constexpr int kTries = 20;
-  for (int n = 0; ::flock(descriptor, LOCK_EX | LOCK_NB) != 0; ++n)
-  {
-    if (n == kTries || (errno != EWOULDBLOCK && errno != EINTR))
-      return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  return true;
+  constexpr std::chrono::milliseconds kPatience{100};
+  return lockOpened(descriptor, kPatience) == LockState::Ours;
 }
 
 } // namespace
@@ -238,9 +231,7 @@ JournalFile::JournalFile(const fs::path& path, const JournalHead& head)
                              "' is being drilled by another process; end that first");
     if (m_descriptor < 0)
       throwForErrno(errno, path);
-    while (::flock(m_descriptor, LOCK_EX) != 0 && errno == EINTR)
-    {
-    }
+    lockOpened(m_descriptor, std::chrono::hours(1)); // who looks at it has it for a moment
   } while (::fstat(m_descriptor, &info) == 0 && info.st_nlink == 0);
   m_held = true;
   try

@@ -7,15 +7,14 @@
 #include <csignal>
 #include <optional>
 #include <system_error>
-#include <thread>
 #include <utility>
 
 #include <fcntl.h>
 #include <nlohmann/json.hpp>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "OpenedLock.h"
 #include "petrous/Core/InputFile.h"
 #include "petrous/Core/OutputFile.h"
 
@@ -34,13 +33,6 @@ std::string thisComputer()
 {
   std::array<char, 256> name{};
   return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
-}
-
-bool isIn(const fs::path& path, int descriptor)
-{
-  struct stat opened = {}, found = {};
-  return ::fstat(descriptor, &opened) == 0 && ::lstat(path.c_str(), &found) == 0 &&
-         opened.st_ino == found.st_ino && opened.st_dev == found.st_dev;
 }
 
 // Of which case a file of this name is the mark (OpenMark::OpenMark); empty: of none.
@@ -96,14 +88,13 @@ std::optional<Opener> openerAt(const fs::path& path)
     ::close(descriptor);
     return std::nullopt;
   }
-  const bool isLocked = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
-  const int error = isLocked ? 0 : errno;
+  const LockState lock = lockOpened(descriptor);
   // Where a file system has no locks, a process of this computer can still be asked for.
   const bool isGone =
-      isLocked ||
-      (error != EWOULDBLOCK && opener->process > 0 && opener->computer == thisComputer() &&
+      lock == LockState::Ours ||
+      (lock == LockState::NoLocks && opener->process > 0 && opener->computer == thisComputer() &&
        ::kill(static_cast<pid_t>(opener->process), 0) != 0 && errno == ESRCH);
-  if (isGone && isIn(path, descriptor))
+  if (isGone && isOpenedAt(descriptor, path))
     ::unlink(path.c_str());
   ::close(descriptor);
   return isGone ? std::nullopt : opener;
@@ -122,26 +113,13 @@ std::vector<fs::path> marksIn(const fs::path& library, const std::string& id)
   return found;
 }
 
-// false: who looks at it has it locked. Where there are no locks, it is as good as locked.
-bool lockMark(int descriptor)
-{
-  constexpr int kTries = 100;
-  constexpr std::chrono::milliseconds kPause{1};
-  for (int n = 0; n < kTries; ++n)
-  {
-    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 || (errno != EWOULDBLOCK && errno != EINTR))
-      return true;
-    std::this_thread::sleep_for(kPause);
-  }
-  return false;
-}
-
 } // namespace
 
 OpenMark::OpenMark(const fs::path& library, std::string id)
   : m_id(std::move(id))
 {
   constexpr int kAttempts = 10;
+  constexpr std::chrono::milliseconds kPatience{100};
   const fs::path folder = library / kFolder;
   std::error_code error;
   if (m_id.empty() || m_id.find('/') != std::string::npos || !fs::is_directory(library, error))
@@ -158,8 +136,9 @@ OpenMark::OpenMark(const fs::path& library, std::string id)
       continue;
     }
     // Who looks at it just now has it locked for a moment, and may take it for a killed one's.
-    const bool isLocked = lockMark(m_descriptor);
-    const bool isThere = isIn(m_path, m_descriptor);
+    // Where there are no locks, it is as good as locked.
+    const bool isLocked = lockOpened(m_descriptor, kPatience) != LockState::Anothers;
+    const bool isThere = isOpenedAt(m_descriptor, m_path);
     if (!isLocked || !isThere)
     {
       if (isThere)
@@ -181,7 +160,7 @@ OpenMark::~OpenMark()
 {
   if (m_descriptor < 0)
     return;
-  if (isIn(m_path, m_descriptor))
+  if (isOpenedAt(m_descriptor, m_path))
     ::unlink(m_path.c_str());
   ::close(m_descriptor);
 }

@@ -4,34 +4,23 @@
 #include <vector>
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "OpenedLock.h"
 
 namespace petrous::library
 {
 
 namespace fs = std::filesystem;
 
-namespace
-{
-
-bool isAt(int descriptor, const fs::path& path)
-{
-  struct stat opened = {}, found = {};
-  return ::fstat(descriptor, &opened) == 0 && ::lstat(path.c_str(), &found) == 0 &&
-         opened.st_ino == found.st_ino && opened.st_dev == found.st_dev;
-}
-
-} // namespace
-
 OwnerLock::OwnerLock(const fs::path& folder)
   : m_descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC))
 {
   if (m_descriptor < 0)
     return;
-  ::flock(m_descriptor, LOCK_EX | LOCK_NB);
-  m_isThere = isAt(m_descriptor, folder);
+  lockOpened(m_descriptor);
+  m_isThere = isOpenedAt(m_descriptor, folder);
 }
 
 OwnerLock::~OwnerLock()
@@ -55,7 +44,7 @@ void removeAbandoned(const fs::path& folder, const std::function<bool(const fs::
       continue;
     struct stat status = {};
     if (::fstat(descriptor, &status) == 0 && status.st_uid == ::geteuid() &&
-        ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 && isAt(descriptor, path))
+        lockOpened(descriptor) == LockState::Ours && isOpenedAt(descriptor, path))
       fs::remove_all(path, error);
     ::close(descriptor);
   }

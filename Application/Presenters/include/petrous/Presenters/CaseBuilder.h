@@ -122,6 +122,8 @@ struct ImageUnitUnclear : core::InvalidParameter
 };
 /// Of a length in mm: "nm", "µm", "mm", "cm", "inch" or "m"; of another, the length: "2 mm".
 std::string unitName(double unit);
+/// A length in mm of about three digits, without an exponent.
+std::string lengthText(double mm);
 
 /// Structures that state another frame of reference than each image of the case: the user has to
 /// say on which image they were drawn.
@@ -242,7 +244,8 @@ struct PartFailure
   bool isOtherPatient = false;                          ///< OtherPatient
   bool isSideUnclear = false;                           ///< ImageSideUnclear
   imaging::UnitDoubt unitDoubt = {};                    ///< ImageUnitUnclear
-  bool isBitsUnclear = false;                           ///< imaging::DicomError, BitsUnclear
+  bool isBitsUnclear = false;                           ///< imaging::BitsUnclearError
+  bool canKeepBits = false;                             ///< likewise
   bool isFrameUnclear = false;                          ///< FrameUnclear
   std::vector<std::string> taken = {};                  ///< NamesTaken
   std::size_t others = 0;                               ///< likewise

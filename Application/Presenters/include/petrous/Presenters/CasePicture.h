@@ -32,7 +32,8 @@ void illuminate(rendering::SceneContents& contents,
                 const std::optional<scene::ViewState::Light>& light);
 
 /// What a picture that is clipped so must say, or what is not shown is taken for drilled.
-std::vector<std::string> clippingTexts(const scene::ViewState::Clipping& clipping);
+std::vector<std::string> clippingTexts(const scene::ViewState::Clipping& clipping,
+                                       const core::GridGeometry& grid);
 
 /// What must be known of a picture of the case: interpolated slices, and clippingTexts of its view.
 std::vector<std::string> pictureNotes(const scene::Case& value);

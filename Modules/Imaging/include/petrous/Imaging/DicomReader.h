@@ -14,6 +14,17 @@
 namespace petrous::imaging
 {
 
+/// DicomError of the reason BitsUnclear. The message says what each way gives.
+struct BitsUnclearError : DicomError
+{
+  BitsUnclearError(const std::string& message, bool canBeKept)
+    : DicomError(Reason::BitsUnclear, message)
+    , canKeep(canBeKept)
+  {
+  }
+  bool canKeep; ///< UndeclaredBits::Keep is possible; LeaveOut always is
+};
+
 struct ReadOptions
 {
   /// Only slices that intersect the box are read, and only the box is stored. The grid is the
@@ -30,7 +41,8 @@ struct ReadOptions
   /// display.
   bool acceptDefects = false;
 
-  /// Refuse: throws DicomError (BitsUnclear), which says what each of the others gives.
+  /// Refuse: throws BitsUnclearError, which says what each of the others gives. Keep throws it
+  /// where the bits cannot be kept.
   UndeclaredBits undeclaredBits = UndeclaredBits::Refuse;
 
   /// Bytes that the voxels may take while they are read; 0: what the machine has left.
@@ -46,8 +58,8 @@ struct ReadOptions
 ///
 /// provenance  what repair guessed and moved, and what the headers state of the pixels
 ///
-/// Throws DicomError (Misleading, Unreadable, BitsUnclear, Unsupported, OutsideRoi, TooLarge) and
-/// CancelledError.
+/// Throws DicomError (Misleading, Unreadable, Unsupported, OutsideRoi, TooLarge), BitsUnclearError
+/// and CancelledError.
 volume::IntensityVolume readSeries(const DicomSeries& series, const ReadOptions& options,
                                    const core::Progress& progress,
                                    std::vector<std::string>* notes = nullptr,

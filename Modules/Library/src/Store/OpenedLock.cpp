@@ -1,0 +1,36 @@
+#include "OpenedLock.h"
+
+#include <cerrno>
+#include <thread>
+
+#include <sys/file.h>
+#include <sys/stat.h>
+
+namespace petrous::library
+{
+
+LockState lockOpened(int descriptor, std::chrono::milliseconds patience) noexcept
+{
+  constexpr std::chrono::milliseconds kPause{2};
+  const auto begun = std::chrono::steady_clock::now();
+  while (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
+  {
+    if (errno == EINTR)
+      continue;
+    if (errno != EWOULDBLOCK)
+      return LockState::NoLocks;
+    if (std::chrono::steady_clock::now() - begun >= patience)
+      return LockState::Anothers;
+    std::this_thread::sleep_for(kPause);
+  }
+  return LockState::Ours;
+}
+
+bool isOpenedAt(int descriptor, const std::filesystem::path& path) noexcept
+{
+  struct stat opened = {}, found = {};
+  return ::fstat(descriptor, &opened) == 0 && ::lstat(path.c_str(), &found) == 0 &&
+         opened.st_ino == found.st_ino && opened.st_dev == found.st_dev;
+}
+
+} // namespace petrous::library

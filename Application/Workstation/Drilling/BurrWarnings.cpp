@@ -26,7 +26,10 @@ void BurrWarnings::burrMoved(const Eigen::Vector3d& center, double radius)
   {
     const auto warnings = m_model.warnings(center, radius);
     // The user must know that there can be no warnings yet.
-    warn(warnings ? phrase(*warnings) : tr("no warnings yet: structures are being measured"));
+    if (warnings)
+      warn(phrase(*warnings), !warnings->empty());
+    else
+      warn(tr("no warnings yet: structures are being measured"));
   }
   catch (const std::exception&) // out of memory, a missing file; the panel shows which
   {
@@ -40,8 +43,10 @@ void BurrWarnings::burrGone()
   warn({});
 }
 
-void BurrWarnings::warn(const QString& lines)
+void BurrWarnings::warn(const QString& lines, bool near)
 {
+  if (near != m_alarmed)
+    emit alarmed(m_alarmed = near);
   if (lines != m_warned)
     emit warned(m_warned = lines);
 }

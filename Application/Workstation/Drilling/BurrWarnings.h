@@ -24,13 +24,15 @@ signals:
   /// Lines of text (presenters::warningsOf), or why there are none; empty: nothing. Emitted on
   /// change.
   void warned(const QString& lines);
+  void alarmed(bool near); ///< whether they are of a structure; on change
 
 private:
-  void warn(const QString& lines);
+  void warn(const QString& lines, bool near = false);
 
   presenters::WorkstationModel& m_model;
   QElapsedTimer m_sinceAsked;
   QString m_warned;
+  bool m_alarmed = false;
 };
 
 } // namespace petrous::workstation

@@ -61,6 +61,7 @@ DrillController::DrillController(presenters::WorkstationModel& model, ThreeDView
   , m_bar(bar)
   , m_devices(devices)
   , m_driver(model, view, devices)
+  , m_sound(model)
 {
   connect(&m_preparation, &BackgroundWork::failed, this,
           [this](const QString& why)
@@ -316,7 +317,8 @@ bool DrillController::takeTool()
     session::TouchSession::Setup setup;
     setup.tool = toolChosen();
     setup.cuts = m_tool == Tool::Burr;
-    setup.heard = m_sound.listener();
+    if (setup.cuts)
+      setup.heard = m_sound.listener();
     haptics::Device& device = m_driver.prepare(setup);
     m_model.startTouch(device, setup);
     m_model.touch()->setCamera(m_view.picture().camera()); // a held button drills at once
@@ -414,7 +416,8 @@ void DrillController::show(const session::TouchSession::News& news)
     m_model.touch()->setCamera(m_view.picture().camera());
   m_driver.see(record);
   m_view.display().setTouch(record, toolForm());
-  m_sound.show(record, toolRadius());
+  if (m_tool == Tool::Burr)
+    m_sound.show(record, toolRadius());
   if (m_tool == Tool::Pointer && isPlaced(record))
     read(record);
   showFault(news);

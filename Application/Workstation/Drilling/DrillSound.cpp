@@ -1,6 +1,5 @@
 #include "DrillSound.h"
 
-#include "WindowTexts.h"
 #include "petrous/Sound/Speaker.h"
 
 namespace petrous::workstation
@@ -9,7 +8,8 @@ namespace petrous::workstation
 namespace
 {
 
-constexpr int kFlutes = 8; // of a cutting burr
+constexpr int kFlutes = 8;   // of a cutting burr
+constexpr int kWatch = 1000; // ms
 
 Eigen::Vector3d forceOf(const session::TickRecord& record)
 {
@@ -24,6 +24,15 @@ DrillSound::DrillSound(presenters::WorkstationModel& model, QObject* parent)
   , m_signal(std::make_shared<sound::DrillSignal>())
 {
   connect(&m_opening, &BackgroundWork::failed, this, &DrillSound::failed);
+  m_watch.setInterval(kWatch);
+  connect(&m_watch, &QTimer::timeout, this,
+          [this]
+          {
+            if (m_speaker && m_speaker->plays())
+              return;
+            setOn(false);
+            emit failed(tr("The sound output is gone; the drill is not heard any more"));
+          });
 }
 
 DrillSound::~DrillSound() = default;
@@ -31,11 +40,12 @@ DrillSound::~DrillSound() = default;
 void DrillSound::setOn(bool on)
 {
   m_opening.abandon();
+  m_watch.stop();
   m_speaker.reset();
   if (!on)
     return;
   m_opening.replace(
-      [this](const core::Progress&)
+      [this](const core::Progress& progress)
       {
         const auto fill = [signal = m_signal](double rate)
         {
@@ -45,7 +55,13 @@ void DrillSound::setOn(bool on)
         };
         auto speaker = std::make_shared<std::unique_ptr<sound::Speaker>>(
             std::make_unique<sound::Speaker>(fill));
-        return BackgroundWork::Reply([this, speaker] { m_speaker = std::move(*speaker); });
+        progress.check("sound"); // else it ends here, in this thread
+        return BackgroundWork::Reply(
+            [this, speaker]
+            {
+              m_speaker = std::move(*speaker);
+              m_watch.start();
+            });
       });
 }
 
@@ -67,10 +83,13 @@ void DrillSound::setBurr(const dissection::Burr& burr)
 void DrillSound::show(const session::TickRecord& record, double burrRadius)
 {
   const Eigen::Vector3d force = forceOf(record);
+  if (record.drill == 0 || !(force.norm() > 0.0))
+    m_signal->wall = sound::DrillVoice::kThick; // until the next contact
   if (!isOn() || record.drill == 0 || !(force.norm() > 0.0) || !m_model.ready())
     return;
   const Eigen::Vector3d into = -force.normalized();
-  m_signal->wall = m_model.wallBehind(record.proxy.pose().position + burrRadius * into, into);
+  if (const auto wall = m_model.wallBehind(record.proxy.pose().position + burrRadius * into, into))
+    m_signal->wall = *wall;
 }
 
 void DrillSound::setWarning(bool warned)
@@ -82,6 +101,7 @@ void DrillSound::toolGone()
 {
   m_signal->running = false;
   m_signal->load = 0.0;
+  m_signal->wall = sound::DrillVoice::kThick;
   m_signal->warning = false;
 }
 

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include <QObject>
+#include <QTimer>
 
 #include "BackgroundWork.h"
 #include "petrous/Presenters/WorkstationModel.h"
@@ -45,6 +46,7 @@ private:
   presenters::WorkstationModel& m_model;
   std::shared_ptr<sound::DrillSignal> m_signal;
   std::unique_ptr<sound::Speaker> m_speaker;
+  QTimer m_watch; // that it still plays
   BackgroundWork m_opening;
 };
 

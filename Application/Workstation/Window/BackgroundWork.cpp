@@ -81,13 +81,14 @@ void BackgroundWork::end(Reply what)
 {
   QMetaObject::invokeMethod(
       this,
-      [this, number = m_number, what = std::move(what)]
+      [this, number = m_number, what = std::move(what)]() mutable
       {
         if (number != m_number)
           return;
         m_busy = false;
         if (!std::exchange(m_isAbandoned, false))
           return what();
+        what = {}; // with what it holds, before the next one begins
         if (Work next = std::exchange(m_next, {}))
           start(std::move(next));
       },

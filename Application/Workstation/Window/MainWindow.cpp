@@ -514,8 +514,7 @@ void MainWindow::connectModel()
   connect(m_drill, &DrillController::burrMoved, warnings, &BurrWarnings::burrMoved);
   connect(m_drill, &DrillController::burrGone, warnings, &BurrWarnings::burrGone);
   connect(warnings, &BurrWarnings::warned, &m_view->display(), &SceneDisplay::setWarning);
-  connect(warnings, &BurrWarnings::warned, &m_drill->sound(),
-          [this](const QString& lines) { m_drill->sound().setWarning(!lines.isEmpty()); });
+  connect(warnings, &BurrWarnings::alarmed, &m_drill->sound(), &DrillSound::setWarning);
   connect(m_drill, &DrillController::strokeEnded, this, &MainWindow::strokeEnded);
   connect(m_drill, &DrillController::faulted, m_touch, &QLabel::setText);
   const auto say = [this](const QString& line)
@@ -676,12 +675,9 @@ void MainWindow::connectActions()
 void MainWindow::connectSound()
 {
   QAction* action = m_actions->drillSound;
-  connect(action, &QAction::toggled, this,
-          [this](bool on)
-          {
-            m_settings->keepDrillSound(on);
-            m_drill->sound().setOn(on);
-          });
+  connect(action, &QAction::toggled, &m_drill->sound(), &DrillSound::setOn);
+  // Not when it fails: the user's wish stays.
+  connect(action, &QAction::triggered, this, [this](bool on) { m_settings->keepDrillSound(on); });
   connect(&m_drill->sound(), &DrillSound::failed, this,
           [this, action](const QString& why)
           {

@@ -170,3 +170,21 @@ TEST(OpacityPyramid, HasTexelsOfAboutHalfAMillimetreOfAnyVoxels)
       EXPECT_EQ(2 * fine.levels()[level].dims[a], fine.levels()[level - 1].dims[a]);
   EXPECT_GE(fine.levels().front().dims[0] * fine.factor()[0], 90);
 }
+
+TEST(OpacityPyramid, AMaskInWhichNothingIsCutChangesNothing)
+{
+  SceneContents contents = boneScene(ct<std::int16_t>(cube(48, 0.4, oblique()), [](const Vector& p)
+                                                      { return 3.0 * (6.0 - p.norm()); }));
+  const Built without(contents);
+  contents.mask = cut(contents.ct->geometry(), [](const Vector&) { return 1.0; });
+  const Built with(contents);
+  for (std::size_t level = 0; level < with.pyramid.levels().size(); ++level)
+  {
+    const auto& texels = with.pyramid.levels()[level].texels;
+    for (std::size_t n = 0; n < texels.size(); ++n)
+    {
+      ASSERT_EQ(texels[n].tissue, without.pyramid.levels()[level].texels[n].tissue);
+      ASSERT_EQ(texels[n].stopped, without.pyramid.levels()[level].texels[n].stopped);
+    }
+  }
+}

@@ -209,14 +209,17 @@ TEST_P(ShadowPicture, SeesAboutAsMuchOfTheLampAsManyRays)
   const Shot plain = shoot(contents, above(), {}, kColumns, kRows);
   double drawn = 0.0; // where there is shadow
   double without = 0.0;
+  int shadowed = 0;
   for (std::size_t p = 0; p < truth.depth.millimetres.size(); ++p)
   {
     const double wanted = 255.0 * static_cast<double>(truth.rgb[3 * p]);
     if (std::isnan(truth.depth.millimetres[p]) || plain.picture.rgb[3 * p] - wanted < 20.0)
       continue;
+    ++shadowed;
     drawn += std::abs(shot.picture.rgb[3 * p] - wanted);
     without += plain.picture.rgb[3 * p] - wanted;
   }
+  EXPECT_GT(shadowed, 0);
   EXPECT_LE(drawn, 0.6 * without);
 }
 

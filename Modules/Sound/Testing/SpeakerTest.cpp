@@ -79,6 +79,7 @@ TEST_F(SpeakerTest, PlaysWhatTheSignalSaysInTheNextBlocks)
     const Speaker speaker([this](double rate) { return fillFor(rate); });
     EXPECT_EQ(function<double()>("standin_rate")(), 48000.0);
     EXPECT_EQ(play(), 0.0);
+    EXPECT_TRUE(speaker.plays());
     m_signal.running = true;
     for (int block = 0; block < 100; ++block)
       play();
@@ -88,6 +89,8 @@ TEST_F(SpeakerTest, PlaysWhatTheSignalSaysInTheNextBlocks)
     m_signal.wall = 0.5;
     play();
     EXPECT_GT(play(), 2.0 * inAir) << "10.7 ms after contact";
+    ::setenv("PETROUS_STANDIN_SOUND_FAULT", "gone", 1);
+    EXPECT_FALSE(speaker.plays());
   }
   EXPECT_LT(play(), 0.0);
   EXPECT_EQ(function<int()>("standin_initialized")(), 0);

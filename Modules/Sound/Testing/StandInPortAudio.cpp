@@ -88,6 +88,11 @@ extern "C"
     return 0;
   }
 
+  int Pa_IsStreamActive(void*)
+  {
+    return running && !fails("gone") ? 1 : 0;
+  }
+
   int Pa_AbortStream(void*)
   {
     running = false;

@@ -80,7 +80,9 @@ double DrillVoice::tone(const DrillState& state) noexcept
   m_phase -= std::floor(m_phase);
   if (!(hertz > 0.0))
     return 0.0;
-  const int count = static_cast<int>(std::min<double>(kMostHarmonics, kHighest * m_rate / hertz));
+  // The last one fades in, so that none comes or goes with a click as the speed changes.
+  const double most = std::min<double>(kMostHarmonics, kHighest * m_rate / hertz);
+  const int count = static_cast<int>(std::ceil(most));
   const int flutes = std::clamp(state.flutes, 0, 64);
   const double angle = 2.0 * kPi * m_phase;
   const double twice = 2.0 * std::cos(angle);
@@ -92,7 +94,7 @@ double DrillVoice::tone(const DrillState& state) noexcept
     double level = (0.05 + 0.15 * m_load) / k;
     if (flutes > 0 && k % flutes == 0)
       level += 0.4 * m_load * flutes / k;
-    sum += level * sine;
+    sum += std::min(1.0, most - (k - 1)) * level * sine;
     const double next = twice * sine - last;
     last = sine;
     sine = next;

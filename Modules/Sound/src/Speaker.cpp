@@ -56,6 +56,7 @@ struct Speaker::Functions
   int (*openStream)(void**, const PaParameters*, const PaParameters*, double, unsigned long,
                     unsigned long, PaCallback, void*) = nullptr;
   int (*startStream)(void*) = nullptr;
+  int (*isActive)(void*) = nullptr;
   int (*abortStream)(void*) = nullptr;
   int (*closeStream)(void*) = nullptr;
 
@@ -68,6 +69,7 @@ struct Speaker::Functions
     find(library, name, "Pa_IsFormatSupported", isSupported);
     find(library, name, "Pa_OpenStream", openStream);
     find(library, name, "Pa_StartStream", startStream);
+    find(library, name, "Pa_IsStreamActive", isActive);
     find(library, name, "Pa_AbortStream", abortStream);
     find(library, name, "Pa_CloseStream", closeStream);
   }
@@ -135,6 +137,12 @@ void Speaker::open(const Functions& functions, const std::function<Fill(double r
     functions.closeStream(m_stream);
     throw SpeakerError("There is no sound: the sound output does not start");
   }
+}
+
+bool Speaker::plays() const
+{
+  const std::lock_guard<std::mutex> lock(calls);
+  return Functions(m_library, kUsual).isActive(m_stream) == 1;
 }
 
 Speaker::~Speaker()

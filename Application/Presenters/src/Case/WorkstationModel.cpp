@@ -457,8 +457,8 @@ std::optional<double> WorkstationModel::tissueAlong(const interaction::PickRay& 
 }
 
 // The place may be a little before the surface: what is air there is not the other side.
-double WorkstationModel::wallBehind(const Eigen::Vector3d& surface,
-                                    const Eigen::Vector3d& direction)
+std::optional<double> WorkstationModel::wallBehind(const Eigen::Vector3d& surface,
+                                                   const Eigen::Vector3d& direction)
 {
   constexpr double kStep = 0.1; // mm
   constexpr double kLead = 0.5; // mm in which the surface must come
@@ -466,14 +466,51 @@ double WorkstationModel::wallBehind(const Eigen::Vector3d& surface,
   double first = 0.0;
   while (first < kLead && field.value(surface + first * direction) <= 0.0)
     first += kStep;
-  double wall = 0.0;
-  for (; wall < kThickWall; wall += kStep)
+  if (first >= kLead)
+    return std::nullopt;
+
+  struct Warned
   {
-    const Eigen::Vector3d at = surface + (first + wall) * direction;
-    if (field.value(at) <= 0.0 || !structureAt(at).empty())
-      break;
+    std::shared_ptr<const volume::LabelMap> labels;
+    std::vector<std::uint16_t> indices;
+  };
+  std::vector<Warned> warned;
+  for (const auto& part : m_case->labels)
+  {
+    Warned these;
+    for (const auto& structure : part.structures)
+      if (structure.look.warning > 0.0)
+        these.indices.push_back(structure.index);
+    if (!these.indices.empty() && part.labels.peek())
+      these.labels = scene::labelsOnCt(*m_case, part);
+    if (these.labels)
+      warned.push_back(std::move(these));
   }
-  return std::min(wall, kThickWall);
+  const auto isWarned = [&warned](const Eigen::Vector3d& at)
+  {
+    return std::any_of(warned.begin(), warned.end(),
+                       [&at](const Warned& these)
+                       {
+                         const auto& voxels = *these.labels->voxels;
+                         const Eigen::Vector3d voxel = voxels.geometry().voxelFromPatient(at);
+                         core::Index3 nearest{};
+                         for (std::size_t a = 0; a < 3; ++a)
+                           nearest[a] = static_cast<int>(
+                               std::floor(voxel[static_cast<Eigen::Index>(a)] + 0.5));
+                         if (!voxels.geometry().fullBox().contains(nearest))
+                           return false;
+                         const std::uint16_t index = voxels.at(nearest[0], nearest[1], nearest[2]);
+                         return std::find(these.indices.begin(), these.indices.end(), index) !=
+                                these.indices.end();
+                       });
+  };
+  for (int step = 0; step * kStep < kThickWall; ++step)
+  {
+    const Eigen::Vector3d at = surface + (first + step * kStep) * direction;
+    if (field.value(at) <= 0.0 || isWarned(at))
+      return step * kStep;
+  }
+  return kThickWall;
 }
 
 std::optional<Eigen::Vector3d> WorkstationModel::surfaceAt(const interaction::PickRay& line)

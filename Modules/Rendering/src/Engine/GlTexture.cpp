@@ -37,6 +37,15 @@ std::size_t count(const core::Index3& dims)
          static_cast<std::size_t>(dims[2]);
 }
 
+[[noreturn]] void noRoom(const core::Index3& dims, GLenum error)
+{
+  throw RenderingError(RenderingError::Reason::NoOpenGL,
+                       "the graphics driver has no room for a texture of " +
+                           std::to_string(dims[0]) + " x " + std::to_string(dims[1]) + " x " +
+                           std::to_string(dims[2]) + " (OpenGL error " + std::to_string(error) +
+                           ")");
+}
+
 } // namespace
 
 bool GlTexture::fits(const TexelFormat& format, const core::Index3& dims)
@@ -68,6 +77,7 @@ void GlTexture::createPyramid(const TexelFormat& format, const core::Index3& dim
   glBindTexture(m_target, m_name);
   glTexParameteri(m_target, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
   glTexParameteri(m_target, GL_TEXTURE_MAX_LEVEL, levels - 1);
+  const PlainUpload plain;
   core::Index3 size = dims;
   for (int level = 1; level < levels; ++level)
   {
@@ -77,7 +87,13 @@ void GlTexture::createPyramid(const TexelFormat& format, const core::Index3& dim
                  format.type, nullptr);
     m_bytes += count(size) * format.bytes;
   }
+  const GLenum error = glGetError();
   glBindTexture(m_target, 0);
+  if (error != GL_NO_ERROR)
+  {
+    release();
+    noRoom(dims, error);
+  }
 }
 
 void GlTexture::make(GLenum target, const TexelFormat& format, const core::Index3& dims,
@@ -110,11 +126,7 @@ void GlTexture::make(GLenum target, const TexelFormat& format, const core::Index
   if (error != GL_NO_ERROR)
   {
     release();
-    throw RenderingError(RenderingError::Reason::NoOpenGL,
-                         "the graphics driver has no room for a texture of " +
-                             std::to_string(dims[0]) + " x " + std::to_string(dims[1]) + " x " +
-                             std::to_string(dims[2]) + " (OpenGL error " + std::to_string(error) +
-                             ")");
+    noRoom(dims, error);
   }
 }
 

@@ -62,10 +62,12 @@ public:
     Value value{static_cast<float>(bone), m_scene.materials.front().surfaceOpacity};
     if (labelled)
       addStructure(m_linear * Eigen::Vector3d(i, j, k) + m_offset, value);
-    if (m_scene.mask)
-      value.f = std::min(
-          value.f,
-          static_cast<float>(m_scene.mask->at(i, j, k)) / volume::CutMask::kUntouched - 0.5F);
+    // Uncut is 0.5, also without a mask, so that one in which nothing is cut changes nothing.
+    const float uncut =
+        m_scene.mask ? static_cast<float>(m_scene.mask->at(i, j, k)) / volume::CutMask::kUntouched
+                     : 1.0F;
+    if (value.f > uncut - 0.5F)
+      value.f = uncut - 0.5F;
     if (!std::isfinite(value.f)) // written so that NaN is air
       value.f = value.f > 0.0F ? 1.0F : -1.0F;
     return value;

@@ -26,6 +26,7 @@ public:
     std::uint64_t contents = 0; ///< RayCaster::changes
     std::uint64_t opaque = 0;   ///< of the polygons at which rays end
     RenderQuality quality;
+    std::optional<Eigen::Vector3d> lamp = std::nullopt; ///< of shadows
   };
 
   /// Samples a pixel of the picture that can be shown: 0 (none yet), 1, 4, 8 or 16.

@@ -504,7 +504,8 @@ void vtkPetrousVolumeMapper::DrawRays(vtkRenderer* renderer, vtkVolume* volume)
            frame.height,
            my.caster.changes(),
            petrous::rendering::opaqueState(renderer),
-           *my.restQuality};
+           *my.restQuality,
+           my.contents.light.shadows ? std::optional(frame.lamp.at) : std::nullopt};
   try
   {
     if (rest && rest->picture.shows(key))

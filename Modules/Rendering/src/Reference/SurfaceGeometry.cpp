@@ -154,6 +154,7 @@ std::optional<double> toolAlong(const ToolPose& tool, const PixelRay& ray)
 SurfaceGeometry::SurfaceGeometry(const SceneContents& contents)
   : m_light(contents.light)
 {
+  m_light.ambient = m_light.ambientOfMeshes();
   for (const MeshContents& mesh : contents.meshes)
   {
     if (!mesh.mesh)

@@ -102,8 +102,9 @@ void SurfaceActor::setLook(const appearance::StructureAppearance& look, const Li
   vtkProperty* property = m_actor->GetProperty();
   property->SetColor(look.color[0], look.color[1], look.color[2]);
   property->SetInterpolationToPhong();
-  property->SetAmbient(light.ambient * light.intensity);
-  property->SetDiffuse((1.0 - light.ambient) * light.intensity);
+  const double ambient = light.ambientOfMeshes();
+  property->SetAmbient(ambient * light.intensity);
+  property->SetDiffuse((1.0 - ambient) * light.intensity);
   property->SetSpecular(light.specular * light.intensity);
   property->SetSpecularPower(kHighlight * light.shininess);
 

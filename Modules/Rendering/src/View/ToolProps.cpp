@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
+#include <vector>
 
 #include <Eigen/Geometry>
 
 #include <vtkActor.h>
 #include <vtkCylinderSource.h>
-#include <vtkFloatArray.h>
 #include <vtkMatrix4x4.h>
-#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>

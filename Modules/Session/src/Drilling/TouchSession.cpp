@@ -215,6 +215,8 @@ TouchSession::News TouchSession::stop()
   if (ran)
     logEnd();
   m_dissectionThread.stop();
+  if (ran && m_heard)
+    m_heard(TickRecord());
   if (m_recorder)
   {
     m_recorder->close();

@@ -325,9 +325,11 @@ public:
   bool measuresNearby() const noexcept { return m_nearby != nullptr; }
   void forgetNearby(); ///< releases the memory of the distance fields
 
-  /// Bone behind a place on the tissue's surface (patient LPS mm) along a unit direction, up to air
-  /// or a structure: mm, at most kThickWall. Requires a ready case.
-  double wallBehind(const Eigen::Vector3d& surface, const Eigen::Vector3d& direction);
+  /// Tissue behind a place on its surface (patient LPS mm) along a unit direction, up to air or a
+  /// structure on the CT's grid that is warned of: mm, at most kThickWall; nullopt if there is no
+  /// surface within 0.5 mm. Requires a ready case.
+  std::optional<double> wallBehind(const Eigen::Vector3d& surface,
+                                   const Eigen::Vector3d& direction);
   static constexpr double kThickWall = 5.0; ///< mm
 
   /// Distance from the ray's origin to tissue, mm.

@@ -30,7 +30,7 @@ public:
   void removeFrom(vtkRenderer* renderer) const;
 
   /// For ScenePicture::setTool; nullopt until the servo has had a valid reading and placed the
-  /// tool. A burr that drills is turned elsewhere each time: it is too fast for any picture.
+  /// tool. A burr that drills has turned elsewhere each time: it is too fast for any picture.
   std::optional<rendering::ToolPose> update(const session::TickRecord& record);
 
   double lag() const noexcept { return m_lag; } ///< mm, of the last record

@@ -61,6 +61,9 @@ struct LightSettings
   /// the view axis (record 33).
   bool shadows = false;
 
+  /// Meshes lie in no shadow, and look the same with and without.
+  double ambientOfMeshes() const noexcept { return shadows ? kAmbient : ambient; }
+
   /// With the ambient light that goes with it.
   void setShadows(bool on)
   {

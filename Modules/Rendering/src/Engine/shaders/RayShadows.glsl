@@ -53,13 +53,14 @@ float drawnAt(vec3 v, float width)
   return drawn;
 }
 
-// Level with texels of about that width, mm, and what the tangent plane explains there at a height.
-// `texel`: width of a texel of the first level along the normal, mm.
+// Level with texels of about that width, mm.
 float levelOf(float width)
 {
   return clamp(floor(log2(width / opacityEdge) + 0.5), 0.0, float(opacityLevels - 1));
 }
 
+// What the tangent plane explains there at a height, mm; `texel`: width of a texel of the first
+// level along the normal, mm.
 float ownOf(float height, float level, float texel)
 {
   return kSlack + ofHalfSpace(height / (texel * exp2(level)));

@@ -49,7 +49,7 @@ public:
     /// exception ends removal.
     std::function<void(const dissection::Dissection&)> journal;
     /// Called with each tick, some milliseconds after it, in the thread of removal, which it must
-    /// not hold up. May be empty.
+    /// not hold up; with an empty one when the session stops. May be empty.
     std::function<void(const TickRecord&)> heard;
   };
 

@@ -32,6 +32,9 @@ public:
   Speaker(const Speaker&) = delete;
   Speaker& operator=(const Speaker&) = delete;
 
+  /// False once the output has gone: a headset pulled out, a sound server that ended.
+  bool plays() const;
+
   /// Samples that are asked for at once: 5.3 ms at 48 kHz.
   static constexpr unsigned long kBlock = 256;
 

@@ -584,10 +584,6 @@
         <translation>Struktur exportieren: Wählen Sie eine</translation>
     </message>
     <message>
-        <source>the name of the case is not the patient's name in the files, but the ID '%1': %~2</source>
-        <translation>Der Name des Falls ist in den Dateien nicht der Patientenname, sondern die ID „%1“: %~2</translation>
-    </message>
-    <message>
         <source>not decimated</source>
         <translation>nicht verkleinert</translation>
     </message>
@@ -626,6 +622,10 @@
     <message>
         <source>mask</source>
         <translation>Maske</translation>
+    </message>
+    <message>
+        <source>the name of the case is not the patient's name in the files, but the ID '%1': %~2</source>
+        <translation>Der Name des Falls ist in den Dateien nicht der Patientenname, sondern die ID „%1“: %~2</translation>
     </message>
     <message>
         <source>case</source>
@@ -746,6 +746,10 @@
     <message>
         <source>May identify the patient</source>
         <translation>Kann den Patienten erkennen lassen</translation>
+    </message>
+    <message>
+        <source>Goes along</source>
+        <translation>Geht mit</translation>
     </message>
     <message>
         <source>Stays here</source>
@@ -7450,6 +7454,10 @@
         <translation>der Grafiktreiber hat keinen Platz für eine Textur von %#1 x %#2 x %#3 (OpenGL-Fehler %#4)</translation>
     </message>
     <message>
+        <source>slices</source>
+        <translation>Schichten</translation>
+    </message>
+    <message>
         <source>the graphics driver adds no pictures in 32-bit colour</source>
         <translation>der Grafiktreiber addiert keine Bilder in 32-Bit-Farbe</translation>
     </message>
@@ -7835,10 +7843,6 @@
     <message>
         <source>view: a burr must be cutting or diamond</source>
         <translation>Ansicht: eine Fräse muss schneidend oder Diamant sein</translation>
-    </message>
-    <message>
-        <source>slices</source>
-        <translation>Schichten</translation>
     </message>
     <message>
         <source>landmarks</source>

@@ -297,7 +297,7 @@ protected:
     const auto look = [&](QDialog& dialog)
     {
       if (&dialog == last)
-        return;
+        return dialog.reject();
       last = &dialog;
       if (!qobject_cast<QFileDialog*>(&dialog)) // Qt's own
       {
@@ -339,7 +339,8 @@ protected:
       action->trigger();
       QTest::qWait(30); // one that returns at once
       for (QWidget* top : QApplication::topLevelWidgets())
-        if (auto* dialog = qobject_cast<QDialog*>(top); dialog && dialog->isVisible())
+        if (auto* dialog = qobject_cast<QDialog*>(top);
+            dialog && dialog->isVisible() && !qobject_cast<QProgressDialog*>(dialog))
           look(*dialog);
       EXPECT_TRUE(
           waitFor([this] { return !window().busy() && !QApplication::activeModalWidget(); }))

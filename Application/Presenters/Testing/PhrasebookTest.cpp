@@ -73,9 +73,10 @@ TEST(Phrasebook, PutsNamesAndNumbersWhereTheOtherLanguageHasThem)
 
 TEST(Phrasebook, TheLinesOfAListAreTranslatedBehindTheirDashes)
 {
-  EXPECT_EQ(Phrasebook({{"the note stays", "die Notiz bleibt"}})
-                .text("Ear:\n  - the note stays\n  - ear\n"),
-            "Ear:\n  - die Notiz bleibt\n  - ear\n");
+  EXPECT_EQ(
+      Phrasebook({{"the note stays", "die Notiz bleibt"}, {"the date stays", "das Datum bleibt"}})
+          .text("Ear:\n  - the note stays\n  - ear\n"),
+      "Ear:\n  - die Notiz bleibt\n  - ear\n");
 }
 
 TEST(Phrasebook, APhraseInAPhraseIsTranslatedAndANameThatReadsAsOneIsNot)

@@ -122,6 +122,7 @@ int main(int argc, char** argv)
   }
   QSurfaceFormat::setDefaultFormat(workstation::surfaceFormat());
   QApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
+  QApplication::setAttribute(Qt::AA_UseHighDpiPixmaps); // icons of as many pixels as the screen has
   workstation::Application application(argc, argv);
   QApplication::setApplicationName("petrous-workstation");
   QApplication::setApplicationVersion(PETROUS_VERSION);

@@ -3613,7 +3613,7 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
     </message>
     <message>
         <source>Search names, structures, tags, diagnoses</source>
-        <translation>Namen, Strukturen, Schlagwörter, Diagnosen suchen</translation>
+        <translation>Name, Struktur, Schlagwort, Diagnose</translation>
     </message>
     <message>
         <source>Cases that have each of these words in their name or in that of a structure, MR or mesh, in a tag, the diagnosis or the procedure (%1)</source>
@@ -4369,7 +4369,7 @@ Verletzt: %1, %2</translation>
     </message>
     <message>
         <source>none; only if the node wants one</source>
-        <translation>keines; nur wenn der Knoten eines verlangt</translation>
+        <translation>keines; nur auf Verlangen</translation>
     </message>
     <message>
         <source>PEM, without a passphrase</source>
@@ -4618,11 +4618,11 @@ Verletzt: %1, %2</translation>
     </message>
     <message>
         <source>&amp;Shadows</source>
-        <translation>&amp;Schatten</translation>
+        <translation>Sc&amp;hatten</translation>
     </message>
     <message>
         <source>Cavities are darker than what is open, and a lamp somewhat above the line of sight throws a soft shadow</source>
-        <translation>Hohlräume sind dunkler als Offenes, und eine Lampe etwas über der Blickrichtung wirft einen weichen Schatten</translation>
+        <translation>Vertiefungen sind dunkler als das, was offen liegt, und eine Lampe etwas über der Blickrichtung wirft einen weichen Schatten</translation>
     </message>
 </context>
 <context>
@@ -4693,6 +4693,10 @@ Verletzt: %1, %2</translation>
     <message>
         <source>&amp;Smoothness:</source>
         <translation>&amp;Glättung:</translation>
+    </message>
+    <message>
+        <source>1 ray a pixel</source>
+        <translation>1 Strahl je Pixel</translation>
     </message>
 </context>
 <context>
@@ -7278,7 +7282,7 @@ Nichts verlässt diesen Rechner.</translation>
     <name>petrous::workstation::StructuresPanel</name>
     <message>
         <source>Search names, presets and kinds (/)</source>
-        <translation>Namen, Vorgaben und Arten suchen (/)</translation>
+        <translation>Name, Vorgabe, Art (/)</translation>
     </message>
     <message>
         <source>Search structures</source>

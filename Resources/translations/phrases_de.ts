@@ -748,6 +748,10 @@
         <translation>Kann den Patienten erkennen lassen</translation>
     </message>
     <message>
+        <source>Goes along</source>
+        <translation>Geht mit</translation>
+    </message>
+    <message>
         <source>Stays here</source>
         <translation>Bleibt hier</translation>
     </message>

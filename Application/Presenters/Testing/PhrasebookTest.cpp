@@ -71,6 +71,14 @@ TEST(Phrasebook, PutsNamesAndNumbersWhereTheOtherLanguageHasThem)
             "1 Schicht fehlt; kopieren Sie die Serie neu");
 }
 
+TEST(Phrasebook, TheLinesOfAListAreTranslatedBehindTheirDashes)
+{
+  EXPECT_EQ(
+      Phrasebook({{"the note stays", "die Notiz bleibt"}, {"the date stays", "das Datum bleibt"}})
+          .text("Ear:\n  - the note stays\n  - ear\n"),
+      "Ear:\n  - die Notiz bleibt\n  - ear\n");
+}
+
 TEST(Phrasebook, APhraseInAPhraseIsTranslatedAndANameThatReadsAsOneIsNot)
 {
   EXPECT_EQ(few().text("'nothing' cannot be sent: the disk is full"),

@@ -1,5 +1,6 @@
 #include "TouchOverlay.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <vtkCamera.h>
@@ -7,6 +8,8 @@
 #include <vtkRenderer.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
+
+#include "PixelsPerPoint.h"
 
 namespace petrous::workstation
 {
@@ -17,7 +20,7 @@ namespace
 constexpr double kPlace = 0.02;   // mm
 constexpr double kHeading = 1e-3; // rad
 constexpr double kForce = 0.03;   // N
-// Pixels: right of the force bar and its number, above the letter at the lower edge.
+// Points: right of the force bar and its number, above the letter at the lower edge.
 constexpr double kReadingLeft = 76.0;
 constexpr double kReadingBottom = 48.0;
 constexpr int kReadingSize = 17;
@@ -36,6 +39,13 @@ void setLook(vtkTextActor& actor)
   look->SetLineSpacing(1.2);
 }
 
+interaction::ForceLook forceLook(vtkRenderer& renderer)
+{
+  interaction::ForceLook look;
+  look.pixels = std::clamp(pixelsPerPoint(renderer), 0.25, 8.0);
+  return look;
+}
+
 bool say(vtkTextActor& actor, std::string& present, const std::string& text)
 {
   if (text == present)
@@ -51,11 +61,13 @@ TouchOverlay::TouchOverlay(vtkRenderer& renderer, const rendering::ToolPose& for
   : m_renderer(&renderer)
   , m_form(form)
   , m_view(form.radius, form.finish)
+  , m_force(forceLook(renderer))
 {
   m_view.addTo(&renderer);
   m_force.addTo(&renderer);
   setLook(*m_reading);
-  m_reading->SetPosition(kReadingLeft, kReadingBottom);
+  const double scale = pixelsPerPoint(renderer);
+  m_reading->SetPosition(scale * kReadingLeft, scale * kReadingBottom);
   setLook(*m_warning);
   vtkTextProperty* warning = m_warning->GetTextProperty();
   warning->SetColor(1.0, 0.78, 0.35);

@@ -17,6 +17,7 @@
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 
+#include "PixelsPerPoint.h"
 #include "Theme.h"
 
 namespace petrous::workstation
@@ -25,10 +26,13 @@ namespace petrous::workstation
 namespace
 {
 
+// Where a point is one pixel.
 constexpr int kLabelSize = 15;     // px
 constexpr double kAway = 9.0;      // px, of a label from its handle
 constexpr double kLine = 22.0;     // px, from label to label
 constexpr double kPerLetter = 8.0; // px, about
+constexpr double kLineWidth = 2.0; // px
+constexpr double kDot = 7.0;       // px, of a handle
 
 bool same(const DrawnMeasure& a, const DrawnMeasure& b)
 {
@@ -101,7 +105,6 @@ bool MeasureOverlay::set(const std::vector<DrawnMeasure>& measures)
     one->line->SetLines(edges);
     one->handles->SetPoints(ends);
     one->handles->SetVerts(dots);
-    const double wide = measure.chosen ? 1.0 : 0.0;
     for (std::size_t n = 0; n < one->actors.size(); ++n)
     {
       const bool isHalo = n % 2 == 0;
@@ -113,8 +116,6 @@ bool MeasureOverlay::set(const std::vector<DrawnMeasure>& measures)
       auto actor = vtkSmartPointer<vtkActor2D>::New();
       actor->SetMapper(mapper);
       setColor(*actor, isHalo ? QColor(0, 0, 0) : measure.color, isHalo ? 0.75 : 1.0);
-      actor->GetProperty()->SetLineWidth(static_cast<float>((isHalo ? 4.0 : 2.0) + wide));
-      actor->GetProperty()->SetPointSize(static_cast<float>((isHalo ? 10.0 : 7.0) + 2.0 * wide));
       actor->PickableOff();
       m_renderer->AddViewProp(actor);
       one->actors[n] = actor;
@@ -171,9 +172,20 @@ void MeasureOverlay::place()
     double left, right, low, high;
   };
   std::vector<Box> taken;
+  const double scale = pixelsPerPoint(*m_renderer); // another one on another screen
+  const double away = scale * kAway;
+  const double line = scale * kLine;
   for (std::size_t n = 0; n < m_drawn.size(); ++n)
   {
     Drawn& one = *m_drawn[n];
+    const double wide = m_measures[n].chosen ? 1.0 : 0.0;
+    for (std::size_t part = 0; part < one.actors.size(); ++part)
+    {
+      const double halo = part % 2 == 0 ? 1.0 : 0.0;
+      vtkProperty2D* look = one.actors[part]->GetProperty();
+      look->SetLineWidth(static_cast<float>(scale * (kLineWidth + 2.0 * halo + wide)));
+      look->SetPointSize(static_cast<float>(scale * (kDot + 3.0 * halo + 2.0 * wide)));
+    }
     const bool seen =
         std::all_of(m_measures[n].points.begin(), m_measures[n].points.end(),
                     [this](const Eigen::Vector3d& point) { return pixelOf(point).has_value(); });
@@ -183,12 +195,12 @@ void MeasureOverlay::place()
     if (!seen)
       continue;
     const auto at = *pixelOf(one.at);
-    const double width = kPerLetter * m_measures[n].label.size();
+    const double width = scale * kPerLetter * m_measures[n].label.size();
     // At the right of its handle, but within the view.
-    const double left = std::min(at[0] + kAway, std::max(m_renderer->GetSize()[0] - width, 0.0));
-    double up = kAway;
+    const double left = std::min(at[0] + away, std::max(m_renderer->GetSize()[0] - width, 0.0));
+    double up = away;
     const auto boxOf = [&](double raised) {
-      return Box{left, left + width, at[1] - raised - kLine, at[1] - raised};
+      return Box{left, left + width, at[1] - raised - line, at[1] - raised};
     };
     for (std::size_t other = 0; other < taken.size(); ++other)
     {

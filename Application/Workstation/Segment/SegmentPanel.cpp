@@ -652,6 +652,7 @@ void SegmentPanel::showPoints()
     m_points->setCurrentItem(m_points->topLevelItem(m_points->topLevelItemCount() - 1));
   m_points->resizeColumnToContents(0);
   m_points->resizeColumnToContents(1);
+  m_points->setMinimumWidth(wholeWidthOf(*m_points));
   const int rows = std::clamp(m_points->topLevelItemCount(), kLeastPointRows, kMostPointRows);
   const int row = m_points->topLevelItemCount() > 0
                       ? m_points->visualItemRect(m_points->topLevelItem(0)).height()

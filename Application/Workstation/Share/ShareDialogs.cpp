@@ -195,6 +195,7 @@ PrintDialog::PrintDialog(const scene::Case& value, double heightToWidth, QWidget
   m_samples->setObjectName("printSamples");
   m_samples->setRange(1, rendering::kPixelSamples);
   m_samples->setSuffix(tr(" rays a pixel"));
+  m_samples->setSpecialValueText(tr("1 ray a pixel")); // the least
   m_samples->setToolTip(tr("More smooth the edges and take as much longer"));
   m_form->addRow(tr("&Resolution:"), m_dots);
   m_form->addRow(tr("&Smoothness:"), m_samples);

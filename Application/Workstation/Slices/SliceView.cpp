@@ -274,10 +274,24 @@ double SliceView::samplesOf(const presenters::SliceGeometry& picture) const
                            .size());
 }
 
+// In the screen's own pixels, which are finer than Qt's, unless those are too many to be drawn at
+// once.
+presenters::SliceGeometry SliceView::sharpSlice() const
+{
+  const auto picture = slice();
+  const double most = kAtOnce / (static_cast<double>(picture.width()) * picture.height());
+  const double ratio = std::min(devicePixelRatioF(), std::sqrt(most));
+  if (!(ratio > 1.0))
+    return picture;
+  const auto finer = [ratio](int size) { return static_cast<int>(std::ceil(ratio * size)); };
+  return {picture.orientation(),        picture.axes(),         picture.center(),
+          picture.mmPerPixel() / ratio, finer(picture.width()), finer(picture.height())};
+}
+
 // Pixels so large that a picture is drawn at once.
 void SliceView::drawCoarse()
 {
-  const auto whole = slice();
+  const auto whole = sharpSlice();
   const double samples = samplesOf(whole);
   const int edge = m_slab.thickness > 0.0 && m_presenter->image()
                        ? static_cast<int>(std::ceil(std::sqrt(std::max(samples / kAtOnce, 1.0))))
@@ -386,7 +400,8 @@ void SliceView::paintEvent(QPaintEvent*)
     drawCoarse();
   if (m_isPale)
     draw();
-  painter.setRenderHint(QPainter::SmoothPixmapTransform, m_image.size() != size());
+  const QSizeF onScreen = devicePixelRatioF() * m_imageRect.size();
+  painter.setRenderHint(QPainter::SmoothPixmapTransform, m_image.size() != onScreen.toSize());
   painter.drawImage(m_imageRect, m_image);
   painter.setRenderHint(QPainter::Antialiasing);
   if (m_region > 0.0)

@@ -136,6 +136,7 @@ private:
   void stale();
   void recolour(); // of the same samples
   void draw();
+  presenters::SliceGeometry sharpSlice() const; // slice() in pixels of the screen
   void drawCoarse();
   void refine();
   double samplesOf(const presenters::SliceGeometry& picture) const; // that a picture takes

@@ -1,11 +1,14 @@
 #include "StructuresModel.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include <QApplication>
 #include <QColor>
 #include <QPainter>
 #include <QPixmap>
+#include <QPixmapCache>
 
 #include "Theme.h"
 #include "WindowTexts.h"
@@ -26,13 +29,24 @@ QColor colorOf(const appearance::StructureAppearance& look)
 
 QPixmap swatch(const appearance::StructureAppearance& look)
 {
-  QPixmap pixmap(12, 12);
+  // A view asks for it whenever it measures or draws the row.
+  constexpr int kSize = 12; // px
+  const qreal scale = qApp->devicePixelRatio();
+  QPixmap pixmap;
+  const QString key =
+      QString("petrous-swatch-%1-%2").arg(colorOf(look).name()).arg(std::lround(100.0 * scale));
+  if (QPixmapCache::find(key, &pixmap))
+    return pixmap;
+  pixmap = QPixmap(QSize(kSize, kSize) * scale);
+  pixmap.setDevicePixelRatio(scale);
   pixmap.fill(Qt::transparent);
   QPainter painter(&pixmap);
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setPen(QColor(0, 0, 0, 160));
   painter.setBrush(colorOf(look));
-  painter.drawRoundedRect(QRectF(0.5, 0.5, 11.0, 11.0), 3.0, 3.0);
+  painter.drawRoundedRect(QRectF(0.5, 0.5, kSize - 1.0, kSize - 1.0), 3.0, 3.0);
+  painter.end();
+  QPixmapCache::insert(key, pixmap);
   return pixmap;
 }
 

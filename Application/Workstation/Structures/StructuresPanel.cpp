@@ -16,6 +16,7 @@
 #include <QMenu>
 #include <QMouseEvent>
 #include <QScopedValueRollback>
+#include <QSet>
 #include <QSlider>
 #include <QToolButton>
 #include <QTreeView>
@@ -434,13 +435,16 @@ void StructuresPanel::fitColumns()
   QHeaderView* header = m_list->header();
   for (int column = StructuresModel::VolumeColumn; column < m_structures->columnCount(); ++column)
   {
-    const QString title =
-        m_structures->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
-    int width = header->fontMetrics().horizontalAdvance(title) + 2 * kPadding;
+    int width = header->sectionSizeHint(column);
+    QSet<QString> texts; // what reads the same is as wide, and check boxes read nothing
     for (int top = 0; top < m_structures->rowCount(); ++top)
       for (int row = 0; row < m_structures->rowCount(m_structures->index(top, 0)); ++row)
       {
         const QModelIndex cell = m_structures->index(row, column, m_structures->index(top, 0));
+        const QString text = cell.data().toString();
+        if (texts.contains(text))
+          continue;
+        texts.insert(text);
         width = std::max(width, m_list->sizeHintForIndex(cell).width());
       }
     header->resizeSection(column, width);

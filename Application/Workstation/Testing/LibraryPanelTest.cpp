@@ -369,17 +369,17 @@ TEST_F(LibraryWindow, AnArchiveIsWrittenAsTheDialogSays)
         };
         if (step == 0)
         {
-          EXPECT_TRUE(below("Leaves:", "the note"));
+          EXPECT_TRUE(below("Goes along:", "the note"));
           EXPECT_TRUE(below("Stays here:", "planned date"));
           dialog.findChild<QCheckBox*>("archiveNote")->click();
           EXPECT_TRUE(below("Stays here:", "the note"));
           dialog.findChild<QCheckBox*>("archiveDate")->setChecked(true);
-          EXPECT_TRUE(below("Leaves:", "planned date"));
+          EXPECT_TRUE(below("Goes along:", "planned date"));
           EXPECT_TRUE(below("May identify", "planned date"));
           dialog.findChild<QCheckBox*>("archivePlan")->setChecked(true);
-          EXPECT_FALSE(below("Leaves:", "voxels"));
+          EXPECT_FALSE(below("Goes along:", "voxels"));
           dialog.findChild<QCheckBox*>("archivePlan")->setChecked(false);
-          EXPECT_TRUE(below("Leaves:", "voxels"));
+          EXPECT_TRUE(below("Goes along:", "voxels"));
           auto* line = dialog.findChild<QLineEdit*>("archiveFile");
           line->setText(QString::fromStdString((folder() / "nowhere" / "x").string()));
           EXPECT_FALSE(dialog.findChild<QPushButton*>("primary")->isEnabled());

@@ -13,12 +13,17 @@
 #include <QComboBox>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
+#include <QFileDialog>
+#include <QGroupBox>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPointer>
+#include <QProgressDialog>
 #include <QPushButton>
+#include <QScreen>
 #include <QScrollBar>
+#include <QStyleOption>
 #include <QTabBar>
 #include <QTextEdit>
 #include <QTranslator>
@@ -31,6 +36,7 @@
 #include "StructuresModel.h"
 #include "WindowSettings.h"
 #include "petrous/Imaging/VolumeFile.h"
+#include "petrous/Network/NodeList.h"
 
 using namespace petrous;
 using namespace petrous::workstation;
@@ -178,10 +184,25 @@ protected:
       EXPECT_TRUE(hasTip || !isControl) << described(*widget).toStdString() << " has no tip";
     }
   }
+  /// Of the space about a button's text, that the text may take.
+  static int marginOf(const QWidget& widget)
+  {
+    return widget.style()->pixelMetric(QStyle::PM_ButtonMargin, nullptr, &widget) / 2;
+  }
+  /// Without the arrow of a list that is sorted.
+  static int wholeTitle(const QHeaderView& header, int section, const QString& text)
+  {
+    return header.isSortIndicatorShown() ? header.fontMetrics().horizontalAdvance(text)
+                                         : header.sectionSizeHint(section);
+  }
+  /// One that is narrower than its entries on purpose, such as the names of files.
+  static bool isElided(const QComboBox& choice)
+  {
+    return choice.sizeAdjustPolicy() == QComboBox::AdjustToMinimumContentsLengthWithIcon;
+  }
   /// Texts that do not fit into their widgets, and widgets that are cut off at a side.
   static QStringList cutTexts(QWidget& within)
   {
-    constexpr int kMargin = 3; // px, about a text
     QStringList cut;
     const auto add = [&cut](const QWidget& widget, const QString& text, int wanted, int has)
     {
@@ -202,9 +223,42 @@ protected:
         for (int n = 0; n < header->count(); ++n)
           if (const QString text = header->model()->headerData(n, header->orientation()).toString();
               !header->isSectionHidden(n) && header->orientation() == Qt::Horizontal &&
-              header->fontMetrics().horizontalAdvance(text) > header->sectionSize(n))
-            add(*header, text, header->fontMetrics().horizontalAdvance(text),
-                header->sectionSize(n));
+              wholeTitle(*header, n, text) > header->sectionSize(n))
+            add(*header, text, wholeTitle(*header, n, text), header->sectionSize(n));
+        continue;
+      }
+      if (const auto* choice = qobject_cast<QComboBox*>(widget))
+      {
+        const QString chosen = choice->currentText();
+        QStyleOptionComboBox option;
+        option.initFrom(choice);
+        option.editable = choice->isEditable();
+        const int has =
+            choice->style()
+                ->subControlRect(QStyle::CC_ComboBox, &option, QStyle::SC_ComboBoxEditField, choice)
+                .width();
+        const int wanted = choice->fontMetrics().horizontalAdvance(chosen);
+        if (!isElided(*choice) && wanted > has)
+          add(*choice, chosen, wanted, has);
+        continue;
+      }
+      if (const auto* line = qobject_cast<QLineEdit*>(widget))
+      {
+        const QString hint = line->text().isEmpty() ? line->placeholderText() : QString();
+        QStyleOptionFrame option;
+        option.initFrom(line);
+        const int has =
+            line->style()->subElementRect(QStyle::SE_LineEditContents, &option, line).width();
+        const int wanted = line->fontMetrics().horizontalAdvance(hint);
+        if (wanted > has)
+          add(*line, hint, wanted, has);
+        continue;
+      }
+      if (const auto* box = qobject_cast<QGroupBox*>(widget))
+      {
+        const int wanted = box->fontMetrics().size(Qt::TextShowMnemonic, box->title()).width();
+        if (wanted > box->width())
+          add(*box, box->title(), wanted, box->width());
         continue;
       }
       const QString text = label ? label->text() : button ? button->text() : QString();
@@ -215,14 +269,85 @@ protected:
         if (label->heightForWidth(label->width()) > label->height())
           add(*label, text, label->heightForWidth(label->width()), label->height());
       }
-      else if (widget->sizeHint().width() > widget->width() + kMargin)
+      else if (widget->sizeHint().width() > widget->width() + (button ? marginOf(*button) : 0))
         add(*widget, text, widget->sizeHint().width(), widget->width());
       // What scrolls may be cut off above and below.
       const QRegion seen = widget->visibleRegion();
-      if (!seen.isEmpty() && seen.boundingRect().width() < widget->width() - kMargin)
+      if (!seen.isEmpty() && seen.boundingRect().width() < widget->width() - marginOf(*widget))
         add(*widget, text, widget->width(), seen.boundingRect().width());
     }
     return cut;
+  }
+  static void expectWhole(QWidget& within, const QString& where)
+  {
+    const QStringList cut = cutTexts(within);
+    EXPECT_TRUE(cut.isEmpty()) << where.toStdString() << ":\n" << cut.join('\n').toStdString();
+  }
+  static bool opensDialog(const QAction& action)
+  {
+    return !action.menu() && (action.text().endsWith(QString::fromUtf8("…")) ||
+                              action.shortcut() == QKeySequence(Qt::Key_F1));
+  }
+  /// Looks at each dialog that the menus open, and gives it up. Returns their names.
+  std::set<QString> lookAtDialogs(const QString& language)
+  {
+    std::set<QString> seen;
+    QPointer<QDialog> last;
+    QString entry;
+    const auto look = [&](QDialog& dialog)
+    {
+      if (&dialog == last)
+        return dialog.reject();
+      last = &dialog;
+      if (!qobject_cast<QFileDialog*>(&dialog)) // Qt's own
+      {
+        seen.insert(dialog.objectName());
+        QTest::qWait(50);
+        expectWhole(dialog, language + ", " + entry + ", dialog “" + dialog.objectName() + "”");
+        const QSize room = dialog.screen()->availableSize();
+        EXPECT_LE(dialog.width(), room.width()) << dialog.objectName().toStdString();
+        EXPECT_LE(dialog.height(), room.height()) << dialog.objectName().toStdString();
+        const QString pictures = qEnvironmentVariable("PETROUS_GUI_PICTURES");
+        if (!pictures.isEmpty())
+          dialog.grab().save(QString("%1/%2-%3.png").arg(pictures, dialog.objectName(), language));
+      }
+      dialog.reject();
+    };
+    QTimer poll;
+    bool looks = false; // it waits, and so comes here again
+    QObject::connect(&poll, &QTimer::timeout, &poll,
+                     [&]
+                     {
+                       auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
+                       if (looks || !dialog || qobject_cast<QProgressDialog*>(dialog))
+                         return;
+                       looks = true;
+                       look(*dialog);
+                       looks = false;
+                     });
+    poll.start(10);
+    QList<QPointer<QAction>> entries;
+    for (QAction* action : window().findChildren<QAction*>())
+      if (opensDialog(*action))
+        entries += action;
+    for (const QPointer<QAction>& action : entries)
+    {
+      if (!action || !action->isEnabled())
+        continue;
+      entry = QString(action->text()).remove('&');
+      last.clear();
+      action->trigger();
+      QTest::qWait(30); // one that returns at once
+      for (QWidget* top : QApplication::topLevelWidgets())
+        if (auto* dialog = qobject_cast<QDialog*>(top);
+            dialog && dialog->isVisible() && !qobject_cast<QProgressDialog*>(dialog))
+          look(*dialog);
+      EXPECT_TRUE(
+          waitFor([this] { return !window().busy() && !QApplication::activeModalWidget(); }))
+          << entry.toStdString();
+      QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+    }
+    return seen;
   }
   std::vector<QDockWidget*> docks()
   {
@@ -545,11 +670,6 @@ TEST_F(Manners, NoTextIsCutOffOnTheSmallestScreenInGerman)
   QApplication::installTranslator(&german);
   saveMany("sixty", 24, 3, true);
   openWindow("sixty");
-  const auto expectWhole = [](QWidget& within, const QString& where)
-  {
-    const QStringList cut = cutTexts(within);
-    EXPECT_TRUE(cut.isEmpty()) << where.toStdString() << ":\n" << cut.join('\n').toStdString();
-  };
   for (QDockWidget* dock : docks())
   {
     dock->show();
@@ -561,6 +681,36 @@ TEST_F(Manners, NoTextIsCutOffOnTheSmallestScreenInGerman)
       dock->hide();
   }
   QApplication::removeTranslator(&german);
+}
+
+// All that the menus open, without a network.
+TEST_F(Manners, NoTextOfADialogIsCutOffInEnglishAndGerman)
+{
+  saveMany("sixty", 24, 3, true);
+  network::Node node; // without one, that is asked for instead of what is sent
+  node.name = "radiology";
+  node.host = "pacs.hospital.example";
+  node.aeTitle = "ARCHIVE";
+  network::NodeList(folder() / "library").add(node);
+  for (const QString language : {"en", "de"})
+  {
+    if (!hasLanguage(language))
+      continue;
+    QTranslator texts;
+    if (language != "en")
+    {
+      ASSERT_TRUE(texts.load(":/translations/petrous_" + language + ".qm"));
+      QApplication::installTranslator(&texts);
+    }
+    openWindow("sixty");
+    ASSERT_TRUE(opened("sixty"));
+    const std::set<QString> seen = lookAtDialogs(language);
+    for (const char* name : {"settings", "keyList", "commandPalette", "exportCase", "archiveCase",
+                             "nodes", "sendCase", "receive", "deidentify", "pseudonyms"})
+      EXPECT_TRUE(seen.count(name)) << name << ": " << language.toStdString();
+    closeWindow();
+    QApplication::removeTranslator(&texts);
+  }
 }
 
 TEST_F(Manners, TabGoesThroughAllOfAPanel)

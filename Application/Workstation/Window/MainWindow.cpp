@@ -130,8 +130,9 @@ WindowOptions safeOptions(WindowOptions options)
   options.drawThumbnailsAfter = -1;
   return options;
 }
-// Of panels that share a place the names are whole, with arrows where there is no room for all.
-class WholeTabs : public QObject
+// The names of panels that share a place are cut where there is no room for all, and whole in tips;
+// arrows, which hide names, come only where not even their beginnings fit.
+class FittingTabs : public QObject
 {
 public:
   using QObject::QObject;
@@ -140,7 +141,7 @@ public:
     if (event->type() == QEvent::ChildPolished)
       if (auto* tabs = qobject_cast<QTabBar*>(static_cast<QChildEvent*>(event)->child()))
       {
-        tabs->setElideMode(Qt::ElideNone);
+        tabs->setElideMode(Qt::ElideRight);
         tabs->setUsesScrollButtons(true);
       }
     return false;
@@ -377,7 +378,7 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event)
 
 void MainWindow::addPanels()
 {
-  installEventFilter(new WholeTabs(this));
+  installEventFilter(new FittingTabs(this));
   const PanelContext context{m_model,     *m_picture,     *m_registration, *m_segment,
                              *m_library,  *m_attachments, *m_measure,      *m_sliceControl,
                              *m_branches, *m_strokes,     *m_share,        *m_video};

@@ -4,9 +4,12 @@
 
 #include <QEvent>
 #include <QGuiApplication>
+#include <QHeaderView>
 #include <QScreen>
 #include <QScrollArea>
 #include <QScrollBar>
+#include <QStyle>
+#include <QTreeView>
 #include <QVBoxLayout>
 
 namespace petrous::workstation
@@ -17,12 +20,18 @@ namespace
 
 constexpr int kNarrowest = 340; // px
 
-// That a scroll bar takes: a style may make it wider, and leaves pixels beside it and at the frame.
-int widthOf(QScrollBar& bar)
+// What an area takes of the width that it has, with its scroll bar. Some styles leave a gap between
+// the bar and a frame that is about the contents only.
+int besides(const QAbstractScrollArea& area)
 {
-  constexpr int kBeside = 20; // px
-  bar.ensurePolished();
-  return bar.sizeHint().width() + kBeside;
+  const QScrollBar* bar = area.verticalScrollBar();
+  bar->ensurePolished(); // a style may make it wider
+  const QStyle* style = area.style();
+  const bool hasGap =
+      style->styleHint(QStyle::SH_ScrollView_FrameOnlyAroundContents, nullptr, &area);
+  const int gap =
+      hasGap ? style->pixelMetric(QStyle::PM_ScrollView_ScrollBarSpacing, nullptr, &area) : 0;
+  return bar->sizeHint().width() + std::max(gap, 0) + 2 * area.frameWidth();
 }
 
 class Area : public QScrollArea
@@ -33,7 +42,7 @@ public:
   {
     QSize size = QScrollArea::minimumSizeHint();
     const int inside = widget() ? widget()->minimumSizeHint().width() : 0;
-    size.setWidth(std::max(kNarrowest, inside + widthOf(*verticalScrollBar())));
+    size.setWidth(std::max(kNarrowest, inside + besides(*this)));
     return size;
   }
 
@@ -83,7 +92,7 @@ private:
   QSize least() const
   {
     const QSize size = widget()->minimumSizeHint().expandedTo(widget()->minimumSize());
-    return size + QSize(widthOf(*verticalScrollBar()), 0);
+    return size + QSize(besides(*this), 0);
   }
 };
 
@@ -99,6 +108,16 @@ QSize leastOfScreen(const QWidget& widget, const QSize& wanted)
 {
   const QSize room = roomFor(widget);
   return wanted.boundedTo({2 * room.width() / 5, 2 * room.height() / 5});
+}
+
+int wholeWidthOf(const QTreeView& tree)
+{
+  const QHeaderView& header = *tree.header();
+  const int last = header.count() - 1;
+  int width = besides(tree) + header.sectionSizeHint(last);
+  for (int column = 0; column < last; ++column)
+    width += header.sectionSize(column);
+  return width;
 }
 
 void layOutPanel(QWidget& panel, QWidget* inside, QWidget* foot)

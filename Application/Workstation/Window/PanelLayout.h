@@ -1,6 +1,7 @@
 #pragma once
 
 class QSize;
+class QTreeView;
 class QWidget;
 
 namespace petrous::workstation
@@ -9,6 +10,10 @@ namespace petrous::workstation
 /// Lays out a panel of a dock: `inside` scrolls up and down if the dock is too low for it, `foot`
 /// below it is always visible. The dock is never narrower than `inside` needs.
 void layOutPanel(QWidget& panel, QWidget* inside, QWidget* foot);
+
+/// With which a tree whose last column stretches shows that column's title as well; by itself it
+/// becomes narrower.
+int wholeWidthOf(const QTreeView& tree);
 
 /// What a dock holds: the panel, which scrolls as a whole on a low screen.
 QWidget* scrolledPanel(QWidget* panel);

@@ -1,7 +1,9 @@
 #include "WindowTexts.h"
 
 #include <cmath>
+#include <vector>
 
+#include <QCache>
 #include <QDate>
 #include <QObject>
 #include <QRegularExpression>
@@ -64,14 +66,24 @@ QString strokeText(const dissection::Stroke* stroke)
   return text;
 }
 
-QString windowText(const QString& text)
+namespace
 {
-  struct Hint
+
+struct Hint
+{
+  QRegularExpression command;
+  QString window;
+};
+
+// What the command's sentences advise, and what the window's do instead.
+const std::vector<Hint>& hints()
+{
+  struct Text
   {
     const char* command; ///< a regular expression
     const char* window;
   };
-  static constexpr Hint kHints[] = {
+  static constexpr Text kTexts[] = {
       {"; NAME=FILE gives another name", "; F2 in the list gives it another name"},
       {"; give it another name with NAME=FILE", "; give it another name"},
       {"; give one with NAME=FILE", ""},
@@ -138,12 +150,41 @@ QString windowText(const QString& text)
       {" \\((--replace|--roi|--bits stored|--bits allocated)\\)", ""},
       {"\\bmm3\\b", "mm³"},
   };
+  static const std::vector<Hint> kHints = []
+  {
+    std::vector<Hint> made;
+    for (const Text& text : kTexts)
+      made.push_back({QRegularExpression(text.command), QString::fromUtf8(text.window)});
+    return made;
+  }();
+  return kHints;
+}
+
+QString translatedText(const QString& text)
+{
   QString result = text;
   if (shownLanguage() == "de")
     if (const auto german = presenters::germanPhrases().find(bytes(text)))
       result = words(*german);
-  for (const Hint& hint : kHints)
-    result.replace(QRegularExpression(hint.command), QString::fromUtf8(hint.window));
+  for (const Hint& hint : hints())
+    result.replace(hint.command, hint.window);
+  return result;
+}
+
+} // namespace
+
+// Panels ask for the same sentences at each change of the case.
+QString windowText(const QString& text)
+{
+  if (text.isEmpty())
+    return text;
+  constexpr int kKept = 256;
+  thread_local QCache<QString, QString> known(kKept);
+  const QString key = shownLanguage() + '\n' + text;
+  if (const QString* found = known.object(key))
+    return *found;
+  const QString result = translatedText(text);
+  known.insert(key, new QString(result));
   return result;
 }
 

@@ -20,10 +20,12 @@
 #include <vtkPolyDataMapper2D.h>
 #include <vtkProperty.h>
 #include <vtkProperty2D.h>
+#include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkShaderProperty.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
+#include <vtkWeakPointer.h>
 
 #include "petrous/Core/Error.h"
 #include "petrous/Core/NumberText.h"
@@ -151,6 +153,7 @@ private:
   std::array<vtkNew<vtkPoints>, kParts> m_corners;
   std::array<vtkNew<vtkActor2D>, kParts> m_actors;
   vtkNew<vtkTextActor> m_text;
+  mutable vtkWeakPointer<vtkRenderer> m_renderer;
   std::string m_words;
 };
 
@@ -166,6 +169,7 @@ constexpr double kMarkGap = 2.0;
 constexpr double kMarkLength = 6.0;
 constexpr double kTextGap = 6.0;
 constexpr double kTextSize = 14.0;
+constexpr double kPointsPerInch = 72.0;
 
 constexpr double kEmptyColor[3] = {0.22, 0.24, 0.27};
 constexpr double kMarkColor[3] = {0.85, 0.87, 0.90};
@@ -202,6 +206,7 @@ void ForceBar::addTo(vtkRenderer* renderer) const
   for (const auto& actor : m_actors)
     renderer->AddViewProp(actor);
   renderer->AddViewProp(m_text);
+  m_renderer = renderer;
 }
 
 void ForceBar::removeFrom(vtkRenderer* renderer) const
@@ -248,7 +253,10 @@ void ForceBar::show(double force, double fullScale, double pixels, const Eigen::
     m_words = words;
     m_text->SetInput(words.c_str());
   }
-  m_text->GetTextProperty()->SetFontSize(static_cast<int>(std::lround(pixels * kTextSize)));
+  vtkRenderWindow* window = m_renderer ? m_renderer->GetRenderWindow() : nullptr;
+  const double byVtk = window ? window->GetDPI() / kPointsPerInch : 1.0; // it scales letters itself
+  m_text->GetTextProperty()->SetFontSize(
+      std::max(1, static_cast<int>(std::lround(pixels * kTextSize / byVtk))));
   m_text->SetPosition(left, top + pixels * kTextGap);
 }
 

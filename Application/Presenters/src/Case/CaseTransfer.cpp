@@ -655,7 +655,7 @@ std::string IdentityReport::text() const
       all += "  - " + line + "\n";
   };
   add("May identify the patient:", warnings);
-  add("Leaves:", leaves);
+  add("Goes along:", leaves);
   add("Stays here:", stays);
   return all;
 }

@@ -19,7 +19,8 @@ constexpr std::size_t kFewestLetters = 4;
 constexpr std::size_t kLongestLine = 2000; // bytes; a longer one is no message
 // A list of more is one of names or numbers: each of its parts would be looked up with each other.
 constexpr std::ptrdiff_t kLongestList = 16;
-constexpr std::string_view kEnds = " ,;:."; // about a phrase, of the sentence that it stands in
+constexpr std::string_view kEnds = " ,;:.";  // about a phrase, of the sentence that it stands in
+constexpr std::string_view kBullet = "  - "; // before a line of a list
 
 bool isLatinLetter(char c) noexcept
 {
@@ -165,11 +166,17 @@ std::optional<std::string> Phrasebook::find(std::string_view english) const
   for (std::size_t begin = 0; begin <= english.size();) // no phrase has two lines
   {
     const std::size_t end = std::min(english.find('\n', begin), english.size());
-    const std::string_view line = english.substr(begin, end - begin);
+    std::string_view line = english.substr(begin, end - begin);
+    text += begin == 0 ? "" : "\n";
+    if (startsWith(line, kBullet))
+    {
+      text += kBullet;
+      line.remove_prefix(kBullet.size());
+    }
     Memory memory;
     const auto found = line.size() <= kLongestLine ? lookUp(line, memory) : std::nullopt;
     isFound = isFound || found;
-    text += (begin == 0 ? "" : "\n") + (found ? found->text : std::string(line));
+    text += found ? found->text : std::string(line);
     begin = end + 1;
   }
   return isFound ? std::optional(text) : std::nullopt;

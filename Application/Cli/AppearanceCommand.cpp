@@ -13,7 +13,7 @@
 #include "petrous/Appearance/StructureProperties.h"
 #include "petrous/Core/InputFile.h"
 #include "petrous/Core/OutputFile.h"
-#include "petrous/Dissection/MaterialCatalogue.h"
+#include "petrous/Dissection/Catalogues.h"
 #include "petrous/Presenters/AppearanceEditor.h"
 #include "petrous/Presenters/IntensityDisplay.h"
 #include "petrous/Scene/Case.h"
@@ -408,7 +408,8 @@ void setTissue(const Context& context, scene::Case&, const StructureProperty& pr
 {
   const std::string tissue = text == property.off ? std::string() : text;
   if (!tissue.empty())
-    dissection::MaterialCatalogue::builtIn().material(tissue); // throws for unknown materials
+    dissection::Catalogues::in(context.openLibrary().folder())
+        .materials.material(tissue); // throws for unknown materials
   for (StructureAppearance* look : part.looks)
     look->tissue = tissue;
   if (!tissue.empty() && !part.looks.front()->solid)

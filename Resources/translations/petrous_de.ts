@@ -213,6 +213,10 @@
         <source>Video</source>
         <translation>Video</translation>
     </message>
+    <message>
+        <source>Replay</source>
+        <translation>Wiedergabe</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::ActiveDeviceController</name>
@@ -1919,6 +1923,109 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
     </message>
 </context>
 <context>
+    <name>petrous::workstation::CatalogueDialog</name>
+    <message>
+        <source>Materials</source>
+        <translation>Materialien</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Name</translation>
+    </message>
+    <message>
+        <source>Shown as</source>
+        <translation>Angezeigt als</translation>
+    </message>
+    <message>
+        <source>Cutting energy, GPa</source>
+        <translation>Schnittenergie, GPa</translation>
+    </message>
+    <message>
+        <source>Friction</source>
+        <translation>Reibung</translation>
+    </message>
+    <message>
+        <source>Hardness, HV</source>
+        <translation>Härte, HV</translation>
+    </message>
+    <message>
+        <source>Source, and how certain</source>
+        <translation>Quelle und Sicherheit</translation>
+    </message>
+    <message>
+        <source>Burrs</source>
+        <translation>Fräsen</translation>
+    </message>
+    <message>
+        <source>Burr</source>
+        <translation>Fräse</translation>
+    </message>
+    <message>
+        <source>Rake, °</source>
+        <translation>Spanwinkel, °</translation>
+    </message>
+    <message>
+        <source>Wear coefficient</source>
+        <translation>Verschleißbeiwert</translation>
+    </message>
+    <message>
+        <source>Diameters, mm</source>
+        <translation>Durchmesser, mm</translation>
+    </message>
+    <message>
+        <source>Materials and burrs</source>
+        <translation>Materialien und Fräsen</translation>
+    </message>
+    <message>
+        <source>They hold for all cases of this library, also for the command. The removal laws take the cutting energy and friction for a cutting burr, the hardness for a diamond one.</source>
+        <translation>Sie gelten für alle Fälle dieser Bibliothek, auch für den Befehl. Die Abtragsgesetze nehmen bei einer Schneidfräse Schnittenergie und Reibung, bei einer Diamantfräse die Härte.</translation>
+    </message>
+    <message>
+        <source>&amp;Add</source>
+        <translation>&amp;Hinzufügen</translation>
+    </message>
+    <message>
+        <source>Another material, with the numbers of the one that is selected</source>
+        <translation>Ein weiteres Material, mit den Zahlen des ausgewählten</translation>
+    </message>
+    <message>
+        <source>&amp;Remove</source>
+        <translation>&amp;Entfernen</translation>
+    </message>
+    <message>
+        <source>Takes the selected material out</source>
+        <translation>Nimmt das ausgewählte Material heraus</translation>
+    </message>
+    <message>
+        <source>As &amp;built in</source>
+        <translation>Wie &amp;mitgeliefert</translation>
+    </message>
+    <message>
+        <source>All numbers as they come with the program</source>
+        <translation>Alle Zahlen, wie sie mit dem Programm kommen</translation>
+    </message>
+    <message>
+        <source>&amp;Save</source>
+        <translation>&amp;Speichern</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Bone that nobody labelled goes from “%1” at %2 HU to “%3” at %4 HU.</source>
+        <translation>Knochen, den niemand segmentiert hat, geht von „%1“ bei %2 HU bis „%3“ bei %4 HU.</translation>
+    </message>
+    <message>
+        <source>Cutting</source>
+        <translation>Schneidend</translation>
+    </message>
+    <message>
+        <source>Diamond</source>
+        <translation>Diamant</translation>
+    </message>
+</context>
+<context>
     <name>petrous::workstation::ColorChooser</name>
     <message>
         <source>Colours</source>
@@ -2680,6 +2787,21 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
     <message>
         <source>The burr is pressed and makes no way: what holds it is not taken at this thrust and speed</source>
         <translation>Die Fräse wird gedrückt und kommt nicht voran: Was sie hält, wird bei diesem Andruck und dieser Drehzahl nicht abgetragen</translation>
+    </message>
+    <message>
+        <source>The device turns the handpiece by itself</source>
+        <translation>Das Gerät dreht das Handstück selbst</translation>
+    </message>
+    <message>
+        <source>Handpiece: %1° from the line of sight, at %2° on the screen</source>
+        <translation>Handstück: %1° zur Blickrichtung, bei %2° auf dem Bildschirm</translation>
+    </message>
+</context>
+<context>
+    <name>petrous::workstation::DrillSound</name>
+    <message>
+        <source>The sound output is gone; the drill is not heard any more</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>
@@ -5506,6 +5628,232 @@ Verletzt: %1, %2</translation>
     </message>
 </context>
 <context>
+    <name>petrous::workstation::ReplayController</name>
+    <message>
+        <source>Play</source>
+        <translation>Abspielen</translation>
+    </message>
+    <message>
+        <source>%1, attached</source>
+        <translation>%1, angehängt</translation>
+    </message>
+    <message>
+        <source>Open a recording</source>
+        <translation>Aufzeichnung öffnen</translation>
+    </message>
+    <message>
+        <source>Recordings (*.ticks)</source>
+        <translation>Aufzeichnungen (*.ticks)</translation>
+    </message>
+    <message>
+        <source>All files (*)</source>
+        <translation>Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>The recording is read when the drill is let go.</source>
+        <translation>Die Aufzeichnung wird gelesen, wenn der Bohrer losgelassen ist.</translation>
+    </message>
+    <message>
+        <source>The case is still being prepared; then the recording is read.</source>
+        <translation>Der Fall wird noch vorbereitet; danach wird die Aufzeichnung gelesen.</translation>
+    </message>
+    <message>
+        <source>Reading the recording, and measuring what was drilled in it…</source>
+        <translation>Die Aufzeichnung wird gelesen, und was darin gebohrt wurde, gemessen…</translation>
+    </message>
+    <message>
+        <source>The recording is empty: the tool was never placed.</source>
+        <translation>Die Aufzeichnung ist leer: Das Werkzeug war nie gesetzt.</translation>
+    </message>
+    <message>
+        <source>Choose a recording first, or open one (Drill &gt; Open a recording…)</source>
+        <translation>Wählen Sie zuerst eine Aufzeichnung, oder öffnen Sie eine (Bohren &gt; Aufzeichnung öffnen…)</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>Anhalten</translation>
+    </message>
+    <message>
+        <source>Metrics (*.csv)</source>
+        <translation>Kennzahlen (*.csv)</translation>
+    </message>
+    <message>
+        <source>Export the recording</source>
+        <translation>Aufzeichnung exportieren</translation>
+    </message>
+    <message>
+        <source>Place and force over time (*.csv)</source>
+        <translation>Ort und Kraft über der Zeit (*.csv)</translation>
+    </message>
+    <message>
+        <source>The table is in %1</source>
+        <translation>Die Tabelle ist in %1</translation>
+    </message>
+</context>
+<context>
+    <name>petrous::workstation::ReplayPanel</name>
+    <message>
+        <source>Force on the hand over time, N; the ground is lighter while the burr turned, and the line is the time that is shown</source>
+        <translation>Kraft auf die Hand über der Zeit, N; der Grund ist heller, solange die Fräse lief, und die Linie ist die gezeigte Zeit</translation>
+    </message>
+    <message>
+        <source>Force over time</source>
+        <translation>Kraft über der Zeit</translation>
+    </message>
+    <message>
+        <source>N</source>
+        <translation>N</translation>
+    </message>
+    <message>
+        <source>Recordings of this case: those in the library&apos;s folder, and attached ones</source>
+        <translation>Aufzeichnungen dieses Falls: die im Ordner der Bibliothek und angehängte</translation>
+    </message>
+    <message>
+        <source>How fast it is played</source>
+        <translation>Wie schnell sie abgespielt wird</translation>
+    </message>
+    <message>
+        <source>&amp;Ghost of the tool</source>
+        <translation>Werkzeug als &amp;Geist</translation>
+    </message>
+    <message>
+        <source>&amp;Start with my drill</source>
+        <translation>Mit meinem Bohrer &amp;beginnen</translation>
+    </message>
+    <message>
+        <source>Metrics of the recording</source>
+        <translation>Kennzahlen der Aufzeichnung</translation>
+    </message>
+    <message>
+        <source>Metric</source>
+        <translation>Kennzahl</translation>
+    </message>
+    <message>
+        <source>Value</source>
+        <translation>Wert</translation>
+    </message>
+    <message>
+        <source>Structures in the recording</source>
+        <translation>Strukturen in der Aufzeichnung</translation>
+    </message>
+    <message>
+        <source>Structure</source>
+        <translation>Struktur</translation>
+    </message>
+    <message>
+        <source>Nearest</source>
+        <translation>Nächster</translation>
+    </message>
+    <message>
+        <source>Drilled</source>
+        <translation>Gebohrt</translation>
+    </message>
+    <message>
+        <source>E&amp;xport…</source>
+        <translation>E&amp;xportieren…</translation>
+    </message>
+    <message>
+        <source>Metrics, or place and force over time, as CSV</source>
+        <translation>Kennzahlen, oder Ort und Kraft über der Zeit, als CSV</translation>
+    </message>
+    <message>
+        <source>&amp;Open…</source>
+        <translation>Ö&amp;ffnen…</translation>
+    </message>
+    <message>
+        <source>A recording from a file (*.ticks)</source>
+        <translation>Eine Aufzeichnung aus einer Datei (*.ticks)</translation>
+    </message>
+    <message>
+        <source>Time in the recording</source>
+        <translation>Zeit in der Aufzeichnung</translation>
+    </message>
+    <message>
+        <source>Time in the recording: arrow keys by a second, page keys by ten</source>
+        <translation>Zeit in der Aufzeichnung: Pfeiltasten um eine Sekunde, Bildtasten um zehn</translation>
+    </message>
+    <message>
+        <source>The recorded tool in the 3D view, as a wire frame beside the tool in use</source>
+        <translation>Das aufgezeichnete Werkzeug in der 3D-Ansicht, als Drahtgitter neben dem eigenen</translation>
+    </message>
+    <message>
+        <source>The recording begins as soon as your burr drills: your stroke beside the recorded one</source>
+        <translation>Die Aufzeichnung beginnt, sobald Ihre Fräse bohrt: Ihr Bohrzug neben dem aufgezeichneten</translation>
+    </message>
+    <message>
+        <source>How near the burr came to the structure, 0 where it reached it, and what was drilled of it</source>
+        <translation>Wie nahe die Fräse der Struktur kam, „erreicht“, wo sie diese berührte, und was von ihr gebohrt wurde</translation>
+    </message>
+    <message>
+        <source>Force %1 N, thrust %2 N, drilling</source>
+        <translation>Kraft %1 N, Andruck %2 N, bohrt</translation>
+    </message>
+    <message>
+        <source>Force %1 N, thrust %2 N</source>
+        <translation>Kraft %1 N, Andruck %2 N</translation>
+    </message>
+    <message>
+        <source>Tool</source>
+        <translation>Werkzeug</translation>
+    </message>
+    <message>
+        <source>Time</source>
+        <translation>Zeit</translation>
+    </message>
+    <message>
+        <source>Time drilling</source>
+        <translation>Zeit bohrend</translation>
+    </message>
+    <message>
+        <source>Drill switched on</source>
+        <translation>Bohrer eingeschaltet</translation>
+    </message>
+    <message>
+        <source>Path of the burr</source>
+        <translation>Weg der Fräse</translation>
+    </message>
+    <message>
+        <source>mm</source>
+        <translation>mm</translation>
+    </message>
+    <message>
+        <source>Path drilling</source>
+        <translation>Weg bohrend</translation>
+    </message>
+    <message>
+        <source>Mean force drilling</source>
+        <translation>Mittlere Kraft bohrend</translation>
+    </message>
+    <message>
+        <source>Largest force</source>
+        <translation>Größte Kraft</translation>
+    </message>
+    <message>
+        <source>Largest thrust</source>
+        <translation>Größter Andruck</translation>
+    </message>
+    <message>
+        <source>Strokes</source>
+        <translation>Bohrzüge</translation>
+    </message>
+    <message>
+        <source>Removed</source>
+        <translation>Abgetragen</translation>
+    </message>
+    <message>
+        <source>reached</source>
+        <translation>erreicht</translation>
+    </message>
+    <message>
+        <source>nothing</source>
+        <translation>nichts</translation>
+    </message>
+    <message>
+        <source>What was drilled is not known here: the recording %1</source>
+        <translation>Was gebohrt wurde, ist hier nicht bekannt: Die Aufzeichnung %1</translation>
+    </message>
+</context>
+<context>
     <name>petrous::workstation::ReportDialog</name>
     <message>
         <source>Report of the plan</source>
@@ -8261,10 +8609,6 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
         <translation>Sitzung &amp;aufzeichnen…</translation>
     </message>
     <message>
-        <source>Writes all that tool and drill do to a file, until it is chosen again; the command line can repeat it</source>
-        <translation>Schreibt alles, was Werkzeug und Bohrer tun, in eine Datei, bis es erneut gewählt wird; die Befehlszeile kann es wiederholen</translation>
-    </message>
-    <message>
         <source>&amp;Help</source>
         <translation>&amp;Hilfe</translation>
     </message>
@@ -8527,6 +8871,102 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     <message>
         <source>&amp;Panels</source>
         <translation>&amp;Bereiche</translation>
+    </message>
+    <message>
+        <source>Other &amp;kind of burr</source>
+        <translation>Andere Fräsen&amp;art</translation>
+    </message>
+    <message>
+        <source>Cutting or diamond</source>
+        <translation>Schneidend oder Diamant</translation>
+    </message>
+    <message>
+        <source>Handp&amp;iece</source>
+        <translation>Handst&amp;ück</translation>
+    </message>
+    <message>
+        <source>Turn counterclock&amp;wise</source>
+        <translation>&amp;Gegen den Uhrzeigersinn drehen</translation>
+    </message>
+    <message>
+        <source>About the line of sight, by 5 degrees; Alt with the wheel does so, too</source>
+        <translation>Um die Blickrichtung, um 5 Grad; auch Alt mit dem Rad</translation>
+    </message>
+    <message>
+        <source>Turn clockwi&amp;se</source>
+        <translation>&amp;Im Uhrzeigersinn drehen</translation>
+    </message>
+    <message>
+        <source>Tilt &amp;away from the line of sight</source>
+        <translation>Von der Blickrichtung &amp;weg neigen</translation>
+    </message>
+    <message>
+        <source>By 5 degrees; Alt and Shift with the wheel do so, too</source>
+        <translation>Um 5 Grad; auch Alt und Umschalt mit dem Rad</translation>
+    </message>
+    <message>
+        <source>Tilt to the &amp;line of sight</source>
+        <translation>&amp;Zur Blickrichtung neigen</translation>
+    </message>
+    <message>
+        <source>As at &amp;first</source>
+        <translation>Wie am &amp;Anfang</translation>
+    </message>
+    <message>
+        <source>The usual turn and tilt of the hand</source>
+        <translation>Die übliche Drehung und Neigung der Hand</translation>
+    </message>
+    <message>
+        <source>In the left &amp;hand</source>
+        <translation>In der &amp;linken Hand</translation>
+    </message>
+    <message>
+        <source>The handpiece comes from the left of the screen</source>
+        <translation>Das Handstück kommt von links ins Bild</translation>
+    </message>
+    <message>
+        <source>Only the &amp;burr is felt</source>
+        <translation>Nur die &amp;Fräse wird gefühlt</translation>
+    </message>
+    <message>
+        <source>Three degrees of freedom: shaft and handpiece pass through tissue, and there is no torque</source>
+        <translation>Drei Freiheitsgrade: Schaft und Handstück gehen durch Gewebe, und es gibt kein Drehmoment</translation>
+    </message>
+    <message>
+        <source>Ma&amp;terials and burrs…</source>
+        <translation>Ma&amp;terialien und Fräsen…</translation>
+    </message>
+    <message>
+        <source>The numbers of the removal laws, with their units and sources, and the diameters that the bar offers</source>
+        <translation>Die Zahlen der Abtragsgesetze mit ihren Einheiten und Quellen, und die Durchmesser, die die Leiste anbietet</translation>
+    </message>
+    <message>
+        <source>Writes all that tool and drill do to a file, until it is chosen again; the panel Replay and the command line can repeat it</source>
+        <translation>Schreibt alles, was Werkzeug und Bohrer tun, in eine Datei, bis es erneut gewählt wird; das Panel „Wiedergabe“ und die Befehlszeile können es wiederholen</translation>
+    </message>
+    <message>
+        <source>Op&amp;en a recording…</source>
+        <translation>Aufzeichnung ö&amp;ffnen…</translation>
+    </message>
+    <message>
+        <source>A recorded session is played beside the tool in use, with what it took: time, path, force, distances, volumes</source>
+        <translation>Eine aufgezeichnete Sitzung wird neben dem eigenen Werkzeug abgespielt, mit Zeit, Weg, Kraft, Abständen und Volumen</translation>
+    </message>
+    <message>
+        <source>Pla&amp;y the recording</source>
+        <translation>Aufzeichnung abs&amp;pielen</translation>
+    </message>
+    <message>
+        <source>Plays the recorded tool as a ghost, or pauses it</source>
+        <translation>Spielt das aufgezeichnete Werkzeug als Geist ab, oder hält es an</translation>
+    </message>
+    <message>
+        <source>S&amp;ound of the drill</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Spindle and teeth, louder in bone and brighter where the wall is thin; a tone while a warning is shown</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 </TS>

@@ -1436,6 +1436,30 @@
         <translation>die Maus ist kein Gerät, das sich öffnen lässt</translation>
     </message>
     <message>
+        <source>'%1' cannot be a material's name: it has a to z, 0 to 9 and hyphens, at most 40</source>
+        <translation>„%1“ kann kein Name eines Materials sein: Er besteht aus a bis z, 0 bis 9 und Bindestrichen, höchstens 40</translation>
+    </message>
+    <message>
+        <source>cannot be removed</source>
+        <translation>kann nicht entfernt werden</translation>
+    </message>
+    <message>
+        <source>material '%1' has its name for good: presets give it to structures</source>
+        <translation>Material „%1“ behält seinen Namen: Voreinstellungen geben es Strukturen</translation>
+    </message>
+    <message>
+        <source>material '%1' cannot be removed: presets give it to structures</source>
+        <translation>Material „%1“ kann nicht entfernt werden: Voreinstellungen geben es Strukturen</translation>
+    </message>
+    <message>
+        <source>'%~1' is not a diameter: numbers above 0, up to 10 mm</source>
+        <translation>„%~1“ ist kein Durchmesser: Zahlen über 0, bis 10 mm</translation>
+    </message>
+    <message>
+        <source>a burr needs at least one diameter</source>
+        <translation>eine Fräse braucht mindestens einen Durchmesser</translation>
+    </message>
+    <message>
         <source>device limits: a stiffness must be above 0, up to 20 N/mm</source>
         <translation>Grenzen des Geräts: eine Steifigkeit muss über 0 liegen, bis 20 N/mm</translation>
     </message>
@@ -1476,6 +1500,10 @@
         <translation>holen Sie zurück, was da war (Fall „%1“, %#2)</translation>
     </message>
     <message>
+        <source>was recorded by another version of this program, whose tool had other points</source>
+        <translation>wurde mit einer anderen Version dieses Programms aufgezeichnet, deren Werkzeug andere Punkte hatte</translation>
+    </message>
+    <message>
         <source>was recorded on another %~1 than that of '%2'</source>
         <translation>wurde auf einem anderen %~1 aufgezeichnet als dem von „%2“</translation>
     </message>
@@ -1496,16 +1524,28 @@
         <translation>begann auf einem anderen Präparat (%1), als „%2“ hat (%3)%4</translation>
     </message>
     <message>
-        <source>was recorded by another version of this program, whose tool had other points</source>
-        <translation>wurde mit einer anderen Version dieses Programms aufgezeichnet, deren Werkzeug andere Punkte hatte</translation>
-    </message>
-    <message>
         <source>recording: a tool of %#1 degrees of freedom; this program has tools of 3 and of 6</source>
         <translation>Aufzeichnung: ein Werkzeug mit %#1 Freiheitsgraden; dieses Programm hat Werkzeuge mit 3 und mit 6</translation>
     </message>
     <message>
         <source>%1: cannot be made (no permission or a full disk); choose another place for the recording</source>
         <translation>%1: lässt sich nicht anlegen (keine Berechtigung oder Datenträger voll); wählen Sie einen anderen Ort für die Aufzeichnung</translation>
+    </message>
+    <message>
+        <source>comparing the case with the recording</source>
+        <translation>der Fall wird mit der Aufzeichnung verglichen</translation>
+    </message>
+    <message>
+        <source>playing the recording</source>
+        <translation>die Aufzeichnung wird abgespielt</translation>
+    </message>
+    <message>
+        <source>cuts another dissection here than where it was made</source>
+        <translation>ergibt hier ein anderes Präparat als dort, wo sie gemacht wurde</translation>
+    </message>
+    <message>
+        <source>measuring the structures</source>
+        <translation>die Strukturen werden gemessen</translation>
     </message>
     <message>
         <source>show what was shown before</source>
@@ -8512,6 +8552,37 @@
     </message>
 </context>
 <context>
+    <name>Sound</name>
+    <message>
+        <source>sound: the rate must lie within 8000 to 192000 samples a second</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>%1 has no function %2, which PortAudio 19 has</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>There is no sound: PortAudio (package libportaudio2) is not installed</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>There is no sound: PortAudio finds no sound system</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>There is no sound: the computer has no sound output</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>There is no sound: the sound output cannot be opened; another program may have it</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>There is no sound: the sound output does not start</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
     <name>Video</name>
     <message>
         <source>GStreamer cannot be started: %~1</source>
@@ -8724,6 +8795,14 @@
         <translation>nicht gespeicherte Bohrzüge werden gesucht</translation>
     </message>
     <message>
+        <source>'%~1' is not a number</source>
+        <translation>„%~1“ ist keine Zahl</translation>
+    </message>
+    <message>
+        <source>material '%1' is that of a structure of the open case</source>
+        <translation>Material „%1“ ist das einer Struktur des offenen Falls</translation>
+    </message>
+    <message>
         <source>device test</source>
         <translation>Gerätetest</translation>
     </message>
@@ -8786,24 +8865,56 @@
         <translation>Kompakter Knochen</translation>
     </message>
     <message>
+        <source>energy calibrated; hardness 33 to 44 HV in abstracts on human cortical bone; friction unsure (0.3 to 0.7)</source>
+        <translation>Energie kalibriert; Härte 33 bis 44 HV in Abstracts über menschlichen kompakten Knochen; Reibung unsicher (0.3 bis 0.7)</translation>
+    </message>
+    <message>
         <source>Cellular bone</source>
         <translation>Pneumatisierter Knochen</translation>
+    </message>
+    <message>
+        <source>unsure: a third of cortical bone, about the ratio of their mineral densities</source>
+        <translation>unsicher: ein Drittel von kompaktem Knochen, etwa das Verhältnis ihrer Mineraldichten</translation>
     </message>
     <message>
         <source>Ossicle</source>
         <translation>Gehörknöchelchen</translation>
     </message>
     <message>
+        <source>unsure: as cortical bone</source>
+        <translation>unsicher: wie kompakter Knochen</translation>
+    </message>
+    <message>
         <source>Nerve</source>
         <translation>Nerv</translation>
+    </message>
+    <message>
+        <source>unsure: a tenth of cortical bone, so that an injury is rather overstated than understated</source>
+        <translation>unsicher: ein Zehntel von kompaktem Knochen, sodass eine Verletzung eher zu groß als zu klein angegeben wird</translation>
     </message>
     <message>
         <source>Vessel</source>
         <translation>Gefäß</translation>
     </message>
     <message>
+        <source>unsure: as nerve</source>
+        <translation>unsicher: wie Nerv</translation>
+    </message>
+    <message>
         <source>Implant (titanium)</source>
         <translation>Implantat (Titan)</translation>
+    </message>
+    <message>
+        <source>hardness of titanium alloys 330 to 380 HV in handbooks; energy unsure</source>
+        <translation>Härte von Titanlegierungen 330 bis 380 HV in Handbüchern; Energie unsicher</translation>
+    </message>
+    <message>
+        <source>rake 0 to -30 degrees tested, 0 to -10 best (Krause 1987, abstract)</source>
+        <translation>Spanwinkel 0 bis -30 Grad geprüft, 0 bis -10 am besten (Krause 1987, Abstract)</translation>
+    </message>
+    <message>
+        <source>0.05 to 0.2 [Chan2016] after Misra &amp; Finnie</source>
+        <translation>0.05 bis 0.2 [Chan2016] nach Misra &amp; Finnie</translation>
     </message>
 </context>
 </TS>

@@ -124,6 +124,11 @@ void DrillBar::stepDiameter(int steps)
   m_diameter->stepBy(steps);
 }
 
+void DrillBar::toggleKind()
+{
+  m_kind->setCurrentIndex(1 - m_kind->currentIndex());
+}
+
 dissection::Burr DrillBar::burr() const
 {
   dissection::Burr burr;

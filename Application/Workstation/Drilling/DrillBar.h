@@ -31,6 +31,7 @@ public:
     return m_pointer;
   }
   void stepDiameter(int steps); ///< among those available
+  void toggleKind();            ///< cutting or diamond
   /// The available diameters, per kind.
   void setBurrs(const dissection::BurrCatalogue& burrs);
   dissection::Burr burr() const;

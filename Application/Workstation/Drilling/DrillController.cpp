@@ -120,6 +120,7 @@ void DrillController::connectView()
             m_bar.setThrust(m_bar.thrust() + kThrustPerNotch * notches);
             emit statusMessage(tr("Thrust %1 N").arg(m_bar.thrust(), 0, 'f', 1));
           });
+  connect(&m_view, &ThreeDView::handpieceTurned, this, &DrillController::turnHandpiece);
   connect(&m_view, &ThreeDView::drillPressed, this, &DrillController::press);
 }
 
@@ -166,6 +167,8 @@ void DrillController::applyBar()
   m_sound.setBurr(m_bar.burr());
   settings.burrRadius = toolRadius();
   settings.thrust = m_bar.thrust();
+  settings.turn = m_turn;
+  settings.tilt = m_tilt;
   settings.mode = wheel && m_tool != Tool::Pointer ? Mode::Depth : Mode::Surface;
   if (m_tool == Tool::Pointer)
     settings.lift = 0.0;
@@ -173,6 +176,45 @@ void DrillController::applyBar()
   m_driver.set(settings);
   if (m_model.touching() && !m_model.drilling() && m_driver.outgrown())
     putAway(); // the pointer's next move takes it up
+}
+
+void DrillController::turnHandpiece(double turn, double tilt)
+{
+  if (m_devices.device())
+    return emit statusMessage(tr("The device turns the handpiece by itself"));
+  constexpr double kSteepest = 80.0; // degrees, of AimSettings
+  m_turn = std::remainder(m_turn + turn, 360.0);
+  m_tilt = std::clamp(m_tilt + tilt, 0.0, kSteepest);
+  applyBar();
+  emit statusMessage(tr("Handpiece: %1° from the line of sight, at %2° on the screen")
+                         .arg(numberText(m_tilt, 0), numberText(m_turn, 0)));
+}
+
+void DrillController::holdAsAtFirst()
+{
+  const interaction::AimSettings usual;
+  m_tilt = usual.tilt;
+  m_turn = m_isLeft ? 180.0 - usual.turn : usual.turn;
+  turnHandpiece(0.0, 0.0);
+}
+
+// From the other side of the screen.
+void DrillController::setLeftHand(bool isLeft)
+{
+  if (isLeft == m_isLeft)
+    return;
+  m_isLeft = isLeft;
+  m_turn = std::remainder(180.0 - m_turn, 360.0);
+  applyBar();
+}
+
+void DrillController::setBurrAlone(bool alone)
+{
+  if (alone == m_isBurrAlone)
+    return;
+  m_isBurrAlone = alone;
+  if (m_tool == Tool::Burr)
+    renewTool();
 }
 
 void DrillController::releaseTool()
@@ -266,6 +308,8 @@ session::TouchTool DrillController::toolChosen() const
 {
   session::TouchTool tool;
   tool.burr = m_bar.burr();
+  if (m_isBurrAlone)
+    tool.mode = session::TouchTool::Mode::ThreeDof;
   if (m_tool == Tool::Pointer)
   {
     tool.burr.diameter = 2.0 * kPointerRadius;

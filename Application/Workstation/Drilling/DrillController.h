@@ -38,6 +38,16 @@ public:
   void bringHere();                  ///< moves a device's tool in front of the view's centre
   DrillSound& sound() noexcept { return m_sound; }
 
+  /// Of the handpiece that the mouse leads, relative to the line of sight, degrees:
+  /// counterclockwise on the screen, and away from the line.
+  void turnHandpiece(double turn, double tilt);
+  void holdAsAtFirst(); ///< the usual turn and tilt of the present hand
+  void setLeftHand(bool isLeft);
+  bool leftHand() const noexcept { return m_isLeft; }
+  /// The burr alone is felt (session::TouchTool::Mode::ThreeDof); else shaft and handpiece, too.
+  void setBurrAlone(bool alone);
+  bool burrAlone() const noexcept { return m_isBurrAlone; }
+
 signals:
   void pointed(const Eigen::Vector3d& patient); ///< the surface under the pointer, or the tool
   void pointedNowhere();
@@ -100,6 +110,10 @@ private:
   QString m_fault; // as shown
   Tool m_tool = Tool::None;
   bool m_slicesFollow = true;
+  double m_turn = interaction::AimSettings().turn; // degrees
+  double m_tilt = interaction::AimSettings().tilt;
+  bool m_isLeft = false;
+  bool m_isBurrAlone = false;
 };
 
 } // namespace petrous::workstation

@@ -11,6 +11,7 @@
 #include <vtkRenderer.h>
 
 #include "Application.h"
+#include "GhostOverlay.h"
 #include "MeasureOverlay.h"
 #include "Theme.h"
 #include "TouchOverlay.h"
@@ -84,6 +85,7 @@ void SceneDisplay::release()
   m_shown = [] { return false; };
   m_measures.reset();
   m_touch.reset();
+  m_ghostOverlay.reset();
   m_stereo.reset();
   m_picture.attach(nullptr);
 }
@@ -184,6 +186,22 @@ void SceneDisplay::setMeasures(const std::vector<DrawnMeasure>& measures)
     redraw(m_moving);
 }
 
+void SceneDisplay::setGhost(const std::optional<rendering::ToolPose>& ghost)
+{
+  if (m_follower)
+    m_follower->setGhost(ghost);
+  if (!m_measures || (!ghost && !m_ghost)) // released, or nothing to do
+    return;
+  m_ghost = ghost;
+  if (!ghost)
+    m_ghostOverlay.reset();
+  else if (!m_ghostOverlay)
+    m_ghostOverlay = std::make_unique<GhostOverlay>(*m_renderer);
+  if (ghost)
+    m_ghostOverlay->set(*ghost);
+  redraw(true);
+}
+
 std::optional<std::array<double, 2>> SceneDisplay::pixelOf(const Eigen::Vector3d& patient) const
 {
   return m_measures ? m_measures->pixelOf(patient) : std::nullopt;
@@ -255,6 +273,7 @@ void SceneDisplay::setFollower(SceneDisplay* follower)
   follower->m_warning = m_warning;
   if (m_measures)
     follower->setMeasures(m_measures->measures());
+  follower->setGhost(m_ghost);
   follower->setContents(m_contents);
   follower->setCamera(m_picture.camera());
 }

@@ -26,6 +26,7 @@ struct TickRecord;
 namespace petrous::workstation
 {
 
+class GhostOverlay;
 class MeasureOverlay;
 class TouchOverlay;
 struct DrawnMeasure;
@@ -74,6 +75,9 @@ public:
   void setMeasures(const std::vector<DrawnMeasure>& measures);
   /// Pixels from the upper left of the renderer's viewport, as drawn last; none behind the camera.
   std::optional<std::array<double, 2>> pixelOf(const Eigen::Vector3d& patient) const;
+  /// A recorded tool beside the one in use; none: no ghost.
+  void setGhost(const std::optional<rendering::ToolPose>& ghost);
+  const std::optional<rendering::ToolPose>& ghost() const noexcept { return m_ghost; }
   void endTouch(); ///< no tool, no force, no reading, no warning
   void setCamera(const core::CameraPose& pose);
   void maskChanged(std::shared_ptr<const volume::CutMask> mask, const core::IndexBox& box);
@@ -118,6 +122,8 @@ private:
   rendering::LightSettings m_light;
   std::unique_ptr<MeasureOverlay> m_measures; // destroyed before m_renderer
   std::unique_ptr<TouchOverlay> m_touch;      // while a tool is in use; destroyed before m_renderer
+  std::unique_ptr<GhostOverlay> m_ghostOverlay; // destroyed before m_renderer
+  std::optional<rendering::ToolPose> m_ghost;
   QString m_reading, m_warning;
   double m_covered = 0.0; // fraction of the height, from the top
   QPointer<SceneDisplay> m_follower;

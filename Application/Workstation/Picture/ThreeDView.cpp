@@ -24,6 +24,7 @@ namespace
 {
 constexpr int kLetterMargin = 10; // px
 constexpr double kFine = 0.2;     // of a notch of the wheel, with Shift
+constexpr double kDegreesPerNotch = 5.0;
 } // namespace
 
 ThreeDView::ThreeDView(QWidget* parent)
@@ -311,6 +312,13 @@ void ThreeDView::sendWheel(const QWheelEvent& event)
   const double notches = (delta.y() != 0 ? delta.y() : delta.x()) / 120.0;
   if (notches == 0.0)
     return;
+  if (event.modifiers() & Qt::AltModifier && m_tool->GetPointerHand() &&
+      (m_tool->GetDrillMode() || m_tool->GetProbeMode()))
+  {
+    const double degrees = kDegreesPerNotch * notches;
+    return event.modifiers() & Qt::ShiftModifier ? emit handpieceTurned(0.0, degrees)
+                                                 : emit handpieceTurned(degrees, 0.0);
+  }
   if (m_tool->GetDrilling() && m_wheelPresses && !(event.modifiers() & Qt::ControlModifier))
     return emit thrustTurned(event.modifiers() & Qt::ShiftModifier ? kFine * notches : notches);
   const auto [x, y] = pixelAt(event.position());

@@ -53,6 +53,8 @@ signals:
   void enlargeAsked();                                    ///< double click
   /// The wheel was turned while the tool drills, unless it moves the tool in depth.
   void thrustTurned(double notches);
+  /// Alt and the wheel while the mouse leads the tool, degrees; with Shift it tilts.
+  void handpieceTurned(double turn, double tilt);
   void drillPressed(); ///< before the tool is pressed
   void toolModeSet();  ///< drills, probes, or neither
   void cameraMoved(const petrous::core::CameraPose& pose);

@@ -20,7 +20,8 @@
 #include "Theme.h"
 #include "WindowTexts.h"
 #include "petrous/Appearance/StructureProperties.h"
-#include "petrous/Dissection/MaterialCatalogue.h"
+#include "petrous/Core/Error.h"
+#include "petrous/Dissection/Catalogues.h"
 #include "petrous/Presenters/BoneOpacity.h"
 #include "petrous/Presenters/StructureList.h"
 
@@ -98,6 +99,7 @@ StructureEditor::StructureEditor(presenters::WorkstationModel& model, QWidget* p
   for (const char* key : {"shown", "touchable", "drillable"})
     grid->addWidget(addFlag(key), 3, column++);
   m_materials = addMaterials();
+  offerMaterials();
   addLabel(tr("Dr&illed as"), m_materials, 4, 0);
   grid->addWidget(m_materials, 4, 1, 1, 3);
   QDoubleSpinBox* warning = addNumber("warn_mm", 0.1);
@@ -236,9 +238,6 @@ QComboBox* StructureEditor::addMaterials()
   const StructureProperty& property = propertyOf("tissue");
   QComboBox* box = choiceBox("structureMaterial", phrase(property.option.text));
   box->addItem(tr("Bone, by its density"), QString());
-  const auto catalogue = dissection::MaterialCatalogue::builtIn();
-  for (const auto& material : catalogue.all())
-    box->addItem(phrase(material.title), words(material.name));
   box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   connect(box, qOverload<int>(&QComboBox::activated), this,
           [this, box, &property](int row)
@@ -251,6 +250,29 @@ QComboBox* StructureEditor::addMaterials()
           });
   m_texts.push_back({&property, box});
   return box;
+}
+
+// The library's own and the program's.
+void StructureEditor::offerMaterials()
+{
+  while (m_materials->count() > 1)
+    m_materials->removeItem(1);
+  dissection::MaterialCatalogue catalogue = dissection::MaterialCatalogue::builtIn();
+  try
+  {
+    catalogue = dissection::Catalogues::in(m_model.library().folder()).materials;
+  }
+  catch (const core::Error&) // told when the burr is taken up
+  {
+  }
+  for (const auto& material : catalogue.all())
+    m_materials->addItem(phrase(material.title), words(material.name));
+}
+
+void StructureEditor::materialsChanged()
+{
+  offerMaterials();
+  refresh();
 }
 
 void StructureEditor::change(

@@ -35,7 +35,8 @@ public:
   void setParts(std::vector<std::string> parts, const QString& title);
   const std::vector<std::string>& parts() const noexcept { return m_parts; }
   void refresh();
-  void takeFocus(); ///< by key
+  void materialsChanged(); ///< the library has others
+  void takeFocus();        ///< by key
 
   /// Lets the user choose their colour at this point of the screen, with a live preview.
   void chooseColor(const std::vector<std::string>& parts, const QPoint& global);
@@ -69,6 +70,7 @@ private:
   void addOpacity(QGridLayout& grid, int row);
   QComboBox* addPresets();
   QComboBox* addMaterials();
+  void offerMaterials();
   void change(const std::function<void(const std::string&, appearance::StructureAppearance&)>& to,
               const Property& property);
   std::vector<const appearance::StructureAppearance*> looks(const Property& property) const;

@@ -37,6 +37,7 @@
 #include "CaseDocumentController.h"
 #include "CaseSaver.h"
 #include "CaseStamps.h"
+#include "CatalogueDialog.h"
 #include "CommandPalette.h"
 #include "Commands.h"
 #include "ComparisonController.h"
@@ -55,6 +56,7 @@
 #include "PictureController.h"
 #include "ProbeLabel.h"
 #include "RegistrationController.h"
+#include "ReplayController.h"
 #include "SegmentController.h"
 #include "SettingsDialog.h"
 #include "ShareController.h"
@@ -62,6 +64,7 @@
 #include "SliceController.h"
 #include "StartPage.h"
 #include "StrokeThumbnails.h"
+#include "StructureEditor.h"
 #include "StructuresPanel.h"
 #include "Theme.h"
 #include "ThicknessController.h"
@@ -198,6 +201,7 @@ MainWindow::MainWindow(library::Library library, const WindowOptions& wanted)
                                         *m_bar, *this))
   , m_share(new ShareController(m_model, *m_keeper, *m_exchange, *m_view, *this))
   , m_video(new VideoController(m_model, *m_view, *m_attachments, *this))
+  , m_replay(new ReplayController(m_model, *m_view, *m_actions->playRecording, *this))
 {
   applyTheme(*qApp, m_settings->theme());
   addPanels();
@@ -244,6 +248,7 @@ MainWindow::~MainWindow()
   delete m_segment;       // likewise
   delete m_measure;       // likewise
   delete m_video;         // likewise
+  delete m_replay;        // likewise
   delete m_drill;
   delete m_devices;
   for (const auto& [entry, panel] : m_panels)
@@ -379,9 +384,9 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event)
 void MainWindow::addPanels()
 {
   installEventFilter(new FittingTabs(this));
-  const PanelContext context{m_model,     *m_picture,     *m_registration, *m_segment,
-                             *m_library,  *m_attachments, *m_measure,      *m_sliceControl,
-                             *m_branches, *m_strokes,     *m_share,        *m_video};
+  const PanelContext context{m_model,        *m_picture, *m_registration, *m_segment,  *m_library,
+                             *m_attachments, *m_measure, *m_sliceControl, *m_branches, *m_strokes,
+                             *m_share,       *m_video,   *m_replay};
   std::map<Qt::DockWidgetArea, QDockWidget*> tabs;
   for (const PanelEntry& entry : panelEntries())
   {
@@ -548,6 +553,7 @@ void MainWindow::connectModel()
   connect(m_registration, &RegistrationController::panelWanted, this,
           [this] { raisePanel("registrationDock"); });
   connect(m_keeper, &CaseDocumentController::ready, m_drill, &DrillController::tissueCame);
+  connect(m_keeper, &CaseDocumentController::ready, m_replay, &ReplayController::caseReady);
   connect(m_drill, &DrillController::tissueWanted, m_keeper,
           &CaseDocumentController::prepareUnlessUnderWay);
   connect(m_viewState, &ViewStateController::statusMessage, this, showMessage);
@@ -569,6 +575,8 @@ void MainWindow::connectModel()
   connect(m_attachments, &AttachmentsController::statusMessage, this, showMessage);
   connect(m_attachments, &AttachmentsController::changed, m_saver, &CaseSaver::save);
   connect(m_video, &VideoController::statusMessage, this, showMessage);
+  connect(m_replay, &ReplayController::statusMessage, this, showMessage);
+  connect(m_replay, &ReplayController::panelWanted, this, [this] { raisePanel("replayDock"); });
   connect(m_video, &VideoController::changed, m_saver, &CaseSaver::save);
   connect(m_video, &VideoController::panelWanted, this, [this] { raisePanel("videoDock"); });
   connect(m_attachments, &AttachmentsController::panelWanted, this,
@@ -620,6 +628,8 @@ void MainWindow::connectActions()
        m_keeper->archive();
      });
   on(m_actions->restore, [this] { m_keeper->restore(); });
+  on(m_actions->catalogues, [this] { editCatalogues(); });
+  on(m_actions->openRecording, [this] { m_replay->openFile(); });
   on(m_actions->report, [this] { m_share->report(); });
   on(m_actions->printPicture, [this] { m_share->printPicture(); });
   on(m_actions->film, [this] { m_share->film(); });
@@ -651,6 +661,27 @@ void MainWindow::connectActions()
   on(m_actions->softWindow, [this] { m_slices->softWindow(); });
   on(m_actions->temporalWindow, [this] { m_slices->temporalWindow(); });
   on(m_actions->fitSlices, [this] { m_slices->fit(); });
+  on(m_actions->otherKind, [this] { m_bar->toggleKind(); });
+  constexpr double kTurn = 5.0; // degrees
+  on(m_actions->turnLeft, [this] { m_drill->turnHandpiece(kTurn, 0.0); });
+  on(m_actions->turnRight, [this] { m_drill->turnHandpiece(-kTurn, 0.0); });
+  on(m_actions->tiltMore, [this] { m_drill->turnHandpiece(0.0, kTurn); });
+  on(m_actions->tiltLess, [this] { m_drill->turnHandpiece(0.0, -kTurn); });
+  on(m_actions->holdAsAtFirst, [this] { m_drill->holdAsAtFirst(); });
+  connect(m_actions->leftHand, &QAction::toggled, this,
+          [this](bool isLeft)
+          {
+            m_drill->setLeftHand(isLeft);
+            m_settings->keepLeftHand(isLeft);
+          });
+  connect(m_actions->burrAlone, &QAction::toggled, this,
+          [this](bool alone)
+          {
+            m_drill->setBurrAlone(alone);
+            m_settings->keepBurrAlone(alone);
+          });
+  m_actions->leftHand->setChecked(m_settings->leftHand());
+  m_actions->burrAlone->setChecked(m_settings->burrAlone());
   on(m_actions->smallerBurr,
      [this] { m_segment->hasBrush() ? m_segment->stepBrush(-1) : m_bar->stepDiameter(-1); });
   on(m_actions->largerBurr,
@@ -1018,11 +1049,45 @@ void MainWindow::offerBurrs()
   try
   {
     m_bar->setBurrs(dissection::Catalogues::in(m_model.library().folder()).burrs);
+    if (auto* editor = findChild<StructureEditor*>())
+      editor->materialsChanged();
   }
   catch (const core::Error& fault)
   {
     statusBar()->showMessage(toString(fault)); // and again, in full, when the burr is taken up
   }
+}
+
+// A tool in use is taken up again with them.
+void MainWindow::editCatalogues()
+{
+  const auto isUsed = [this](const std::string& material)
+  {
+    if (!m_model.hasCase())
+      return false;
+    const scene::Case& value = m_model.value();
+    const auto has = [&material](const auto& part) { return part.look.tissue == material; };
+    return std::any_of(value.meshes.begin(), value.meshes.end(), has) ||
+           std::any_of(value.labels.begin(), value.labels.end(),
+                       [&has](const scene::LabelPart& part) {
+                         return std::any_of(part.structures.begin(), part.structures.end(), has);
+                       });
+  };
+  guarded(
+      [&]
+      {
+        auto* dialog = new CatalogueDialog(m_model.library().folder(), isUsed, this);
+        dialog->setAttribute(Qt::WA_DeleteOnClose);
+        connect(dialog, &CatalogueDialog::saved, this,
+                [this]
+                {
+                  offerBurrs();
+                  if (m_model.touching())
+                    m_drill->renewTool();
+                });
+        dialog->open();
+      },
+      [this](const QString& why) { notice(capitalized(sentence(why))); });
 }
 
 void MainWindow::maskChanged(const core::IndexBox& box)

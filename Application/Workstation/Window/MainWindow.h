@@ -40,6 +40,7 @@ class MeasureController;
 class PictureController;
 class ProbeLabel;
 class RegistrationController;
+class ReplayController;
 class SegmentController;
 class ShareController;
 class SliceColumn;
@@ -104,6 +105,7 @@ private:
   void warnOfSides();
   void showFault(const QString& why);
   void offerBurrs();
+  void editCatalogues();
   void maskChanged(const core::IndexBox& box);
   void stateChanged();
   void saveLater();
@@ -179,6 +181,7 @@ private:
   ViewStateController* m_viewState;
   ShareController* m_share;
   VideoController* m_video;
+  ReplayController* m_replay;
   std::vector<std::pair<PanelEntry, Panel*>> m_panels;
   ThicknessController* m_thickness;
   QTimer m_saveLater;

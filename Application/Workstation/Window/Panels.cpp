@@ -16,6 +16,8 @@
 #include "PicturePanel.h"
 #include "RegistrationController.h"
 #include "RegistrationPanel.h"
+#include "ReplayController.h"
+#include "ReplayPanel.h"
 #include "SegmentController.h"
 #include "SegmentPanel.h"
 #include "ShareController.h"
@@ -92,6 +94,8 @@ std::vector<PanelEntry> panelEntries()
        kNeedsCase, [](C c) -> Panel* { return c.share.panel(); }},
       {"videoDock", tr("Video"), Qt::SHIFT + Qt::Key_F7, Qt::LeftDockWidgetArea, kTabbed, kHidden,
        kNeedsCase, [](C c) -> Panel* { return c.video.panel(); }},
+      {"replayDock", tr("Replay"), Qt::SHIFT + Qt::Key_F5, Qt::LeftDockWidgetArea, kTabbed, kHidden,
+       kNeedsCase, [](C c) -> Panel* { return c.replay.panel(); }},
   };
 }
 

@@ -20,6 +20,7 @@ class LibraryController;
 class MeasureController;
 class PictureController;
 class RegistrationController;
+class ReplayController;
 class SegmentController;
 class ShareController;
 class SliceController;
@@ -57,6 +58,7 @@ struct PanelContext
   StrokeThumbnails& strokes;
   ShareController& share;
   VideoController& video;
+  ReplayController& replay;
 };
 
 struct PanelEntry

@@ -209,6 +209,26 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                      tr("The next smaller one that is sold"));
   largerBurr =
       make(drill, tr("&Larger burr"), Qt::Key_BracketRight, tr("The next larger one that is sold"));
+  otherKind = make(drill, tr("Other &kind of burr"), Qt::Key_L, tr("Cutting or diamond"));
+  QMenu* handpiece = drill->addMenu(tr("Handp&iece"));
+  turnLeft = make(handpiece, tr("Turn counterclock&wise"), Qt::ALT + Qt::Key_Left,
+                  tr("About the line of sight, by 5 degrees; Alt with the wheel does so, too"));
+  turnRight = make(handpiece, tr("Turn clockwi&se"), Qt::ALT + Qt::Key_Right,
+                   tr("About the line of sight, by 5 degrees; Alt with the wheel does so, too"));
+  tiltMore = make(handpiece, tr("Tilt &away from the line of sight"), Qt::ALT + Qt::Key_PageUp,
+                  tr("By 5 degrees; Alt and Shift with the wheel do so, too"));
+  tiltLess = make(handpiece, tr("Tilt to the &line of sight"), Qt::ALT + Qt::Key_PageDown,
+                  tr("By 5 degrees; Alt and Shift with the wheel do so, too"));
+  holdAsAtFirst = make(handpiece, tr("As at &first"), Qt::ALT + Qt::Key_Home,
+                       tr("The usual turn and tilt of the hand"));
+  handpiece->addSeparator();
+  leftHand = make(handpiece, tr("In the left &hand"), Qt::SHIFT + Qt::Key_H,
+                  tr("The handpiece comes from the left of the screen"));
+  leftHand->setCheckable(true);
+  burrAlone = make(handpiece, tr("Only the &burr is felt"), Qt::SHIFT + Qt::Key_Q,
+                   tr("Three degrees of freedom: shaft and handpiece pass through tissue, and "
+                      "there is no torque"));
+  burrAlone->setCheckable(true);
   drill->addSeparator();
   drillBar.wheelAction()->setText(tr("Depth &by wheel"));
   drillBar.wheelAction()->setIconText(tr("By wheel"));
@@ -220,12 +240,20 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                     tr("Spindle and teeth, louder in bone and brighter where the wall is thin; a "
                        "tone while a warning is shown"));
   drillSound->setCheckable(true);
+  catalogues = make(drill, tr("Ma&terials and burrs…"), {},
+                    tr("The numbers of the removal laws, with their units and sources, and the "
+                       "diameters that the bar offers"));
   drill->addSeparator();
   record =
       make(drill, tr("&Record session…"), Qt::CTRL + Qt::SHIFT + Qt::Key_R,
-           tr("Writes all that tool and drill do to a file, until it is chosen again; the command "
-              "line can repeat it"));
+           tr("Writes all that tool and drill do to a file, until it is chosen again; the panel "
+              "Replay and the command line can repeat it"));
   record->setCheckable(true);
+  openRecording = make(drill, tr("Op&en a recording…"), Qt::CTRL + Qt::SHIFT + Qt::Key_Y,
+                       tr("A recorded session is played beside the tool in use, with what it "
+                          "took: time, path, force, distances, volumes"));
+  playRecording = make(drill, tr("Pla&y the recording"), Qt::SHIFT + Qt::Key_Y,
+                       tr("Plays the recorded tool as a ghost, or pauses it"));
 
   QMenu* help = window.menuBar()->addMenu(tr("&Help"));
   keyList = make(help, tr("&Keys"), Qt::Key_F1, tr("All keys of the window, with a search"));
@@ -289,7 +317,9 @@ WindowActions::WindowActions(QMainWindow& window, DrillBar& drillBar, DeviceTool
                                        fitSlices,
                                        drillBar.drillAction(),
                                        drillBar.pointerAction(),
-                                       record});
+                                       record,
+                                       openRecording,
+                                       playRecording});
 }
 
 void WindowActions::addSides()

@@ -80,7 +80,18 @@ public:
   QAction* strokeCamera;  ///< checkable
   QAction* smallerBurr;
   QAction* largerBurr;
-  QAction* record; ///< checkable
+  QAction* otherKind;
+  QAction* turnLeft;
+  QAction* turnRight;
+  QAction* tiltMore;
+  QAction* tiltLess;
+  QAction* holdAsAtFirst;
+  QAction* leftHand;  ///< checkable
+  QAction* burrAlone; ///< checkable
+  QAction* record;    ///< checkable
+  QAction* catalogues;
+  QAction* openRecording;
+  QAction* playRecording;
   QAction* settings;
   QAction* keyList;
   QAction* manual;

@@ -86,6 +86,26 @@ std::optional<double> WindowSettings::thrust() const
   return number("hand/thrust_n");
 }
 
+bool WindowSettings::leftHand() const
+{
+  return m_file.value("hand/left", false).toBool();
+}
+
+void WindowSettings::keepLeftHand(bool isLeft)
+{
+  m_file.setValue("hand/left", isLeft);
+}
+
+bool WindowSettings::burrAlone() const
+{
+  return m_file.value("hand/burr_alone", false).toBool();
+}
+
+void WindowSettings::keepBurrAlone(bool alone)
+{
+  m_file.setValue("hand/burr_alone", alone);
+}
+
 void WindowSettings::keepThrust(double newtons)
 {
   m_file.setValue("hand/thrust_n", newtons);

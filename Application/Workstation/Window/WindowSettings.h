@@ -30,6 +30,10 @@ public:
 
   std::optional<double> thrust() const; ///< N
   void keepThrust(double newtons);
+  bool leftHand() const;
+  void keepLeftHand(bool isLeft);
+  bool burrAlone() const;
+  void keepBurrAlone(bool alone);
 
   std::optional<dissection::Burr> burr() const; ///< none unless all of it is valid
   void keepBurr(const dissection::Burr& burr);

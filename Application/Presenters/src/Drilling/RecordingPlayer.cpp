@@ -34,28 +34,10 @@ std::string wayTo(std::uint64_t then, const scene::Case& value)
 void checkFit(const scene::Case& value, const session::TouchScene& scene,
               const session::RecordingSetup& setup, const std::string& name)
 {
-  const session::RecordedScene now = scene.fingerprint();
-  const session::RecordedScene& then = setup.scene;
   const auto refuse = [&name](const std::string& why)
   { throw core::InvalidParameter(name + ": " + why); };
-  if (now.ct != then.ct)
-    refuse(std::string("was recorded on another ") + primaryName(value) + " than that of '" +
-           value.name + "'");
-  if (now.iso != then.iso)
-  {
-    const std::string unit = displayOf(value).suffix();
-    const bool isMr = value.ct.modality == scene::Modality::Mr;
-    refuse(std::string("was recorded with ") + (isMr ? "tissue" : "bone") + " from " +
-           number(then.iso) + unit + " on, '" + value.name + "' has it from " + number(now.iso) +
-           unit + " on: petrous appearance '" + value.name + "' --iso " + number(then.iso));
-  }
-  if (now.tissue != then.tissue)
-    refuse("was recorded with other structures under hand and drill than '" + value.name +
-           "' has; see what is touchable and drillable: petrous appearance '" + value.name +
-           "' --list");
-  if (now.mask != then.mask)
-    refuse("began on another dissection (" + strokes(then.applied) + ") than '" + value.name +
-           "' has (" + strokes(value.applied()) + ")" + wayTo(then.applied, value));
+  if (const std::string why = misfitOf(value, scene.fingerprint(), setup.scene); !why.empty())
+    refuse(why);
   const session::TouchTool tool = toolOf(setup);
   if (scene.servoOf(tool).burrPoints != setup.servo.burrPoints)
     refuse("was recorded by another version of this program, whose tool had other points");
@@ -70,6 +52,30 @@ const session::RecordingSetup& fitting(const scene::Case& value, const session::
 }
 
 } // namespace
+
+std::string misfitOf(const scene::Case& value, const session::RecordedScene& now,
+                     const session::RecordedScene& then)
+{
+  if (now.ct != then.ct)
+    return std::string("was recorded on another ") + primaryName(value) + " than that of '" +
+           value.name + "'";
+  if (now.iso != then.iso)
+  {
+    const std::string unit = displayOf(value).suffix();
+    const bool isMr = value.ct.modality == scene::Modality::Mr;
+    return std::string("was recorded with ") + (isMr ? "tissue" : "bone") + " from " +
+           number(then.iso) + unit + " on, '" + value.name + "' has it from " + number(now.iso) +
+           unit + " on: petrous appearance '" + value.name + "' --iso " + number(then.iso);
+  }
+  if (now.tissue != then.tissue)
+    return "was recorded with other structures under hand and drill than '" + value.name +
+           "' has; see what is touchable and drillable: petrous appearance '" + value.name +
+           "' --list";
+  if (now.mask != then.mask)
+    return "began on another dissection (" + strokes(then.applied) + ") than '" + value.name +
+           "' has (" + strokes(value.applied()) + ")" + wayTo(then.applied, value);
+  return {};
+}
 
 session::TouchTool toolOf(const session::RecordingSetup& setup)
 {

@@ -1,6 +1,8 @@
 #include "petrous/Presenters/Recordings.h"
 
+#include <algorithm>
 #include <ctime>
+#include <string_view>
 
 namespace petrous::presenters
 {
@@ -20,6 +22,29 @@ std::filesystem::path newRecording(const library::Library& library, const scene:
   char when[32];
   std::strftime(when, sizeof when, " %Y-%m-%d %H-%M-%S", &local);
   return unusedName(folder / (value.name + when + ".ticks"));
+}
+
+std::vector<std::filesystem::path> recordingsOf(const library::Library& library,
+                                                const std::string& name)
+{
+  constexpr std::string_view kDate = "0000-00-00 00-00-00";
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(library.folder() / "recordings", error), end;
+       !error && entry != end; entry.increment(error))
+  {
+    const std::string file = entry->path().filename().string();
+    if (file.rfind(name + " ", 0) != 0 || entry->path().extension() != ".ticks" ||
+        file.size() < name.size() + 1 + kDate.size())
+      continue;
+    const bool isDated = std::equal(
+        kDate.begin(), kDate.end(), file.begin() + static_cast<std::ptrdiff_t>(name.size()) + 1,
+        [](char form, char c) { return form == '0' ? c >= '0' && c <= '9' : c == form; });
+    if (isDated)
+      files.push_back(entry->path());
+  }
+  std::sort(files.rbegin(), files.rend());
+  return files;
 }
 
 std::filesystem::path unusedName(const std::filesystem::path& file)

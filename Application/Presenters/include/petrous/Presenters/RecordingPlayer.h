@@ -13,6 +13,11 @@ namespace petrous::presenters
 /// The tool with which a recording was made. Throws InvalidParameter if there is no such tool.
 session::TouchTool toolOf(const session::RecordingSetup& setup);
 
+/// How a case, of which `now` is the fingerprint, differs from its state when a recording began,
+/// and how to restore that; empty: it does not.
+std::string misfitOf(const scene::Case& value, const session::RecordedScene& now,
+                     const session::RecordedScene& then);
+
 /// Replays a recording (of a tool path or of a live session) on its case: tool, force and cuts,
 /// comparing each tick with the record. Strokes are opened and added to the case's history as they
 /// were.

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "petrous/Library/Library.h"
 
@@ -14,6 +16,10 @@ namespace petrous::presenters
 /// The folder is beside the cases, so that a copy of the library includes it but a case's archive
 /// does not. Creates the folder; throws core::Error (Refused) if it cannot.
 std::filesystem::path newRecording(const library::Library& library, const scene::Case& value);
+
+/// The recordings that newRecording named after the case, latest first.
+std::vector<std::filesystem::path> recordingsOf(const library::Library& library,
+                                                const std::string& name);
 
 /// `file`, or if that exists "NAME (2).ticks", "NAME (3).ticks" and so on beside it.
 std::filesystem::path unusedName(const std::filesystem::path& file);

@@ -1,0 +1,129 @@
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include "petrous/Core/Error.h"
+#include "petrous/Presenters/CatalogueEditor.h"
+
+using namespace petrous;
+using namespace petrous::presenters;
+
+namespace
+{
+
+class CatalogueEditorTest : public ::testing::Test
+{
+protected:
+  void SetUp() override { std::filesystem::create_directories(folder); }
+  void TearDown() override { std::filesystem::remove_all(folder); }
+
+  bool hasFile(const char* name) const { return std::filesystem::exists(folder / name); }
+
+  std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("petrous-catalogues-" + std::to_string(::getpid()));
+};
+
+} // namespace
+
+TEST_F(CatalogueEditorTest, BeginsWithTheProgramsOwnInTheirUnits)
+{
+  const CatalogueEditor editor(folder);
+  ASSERT_FALSE(editor.materials().empty());
+  EXPECT_EQ(editor.materials()[0].name, "cortical-bone");
+  EXPECT_DOUBLE_EQ(editor.materials()[0].specificEnergy, 3.0);
+  EXPECT_DOUBLE_EQ(editor.materials()[0].hardness, 42.5);
+  EXPECT_FALSE(editor.materials()[0].source.empty());
+  ASSERT_EQ(editor.burrs().size(), 2u);
+  EXPECT_DOUBLE_EQ(editor.burrs()[0].constant, -10.0);
+  EXPECT_DOUBLE_EQ(editor.burrs()[1].constant, 0.1);
+  EXPECT_FALSE(editor.changed());
+}
+
+TEST_F(CatalogueEditorTest, SavesWhatTheRemovalLawsThenRead)
+{
+  CatalogueEditor editor(folder);
+  const std::size_t row = editor.addMaterial(0);
+  EXPECT_EQ(editor.materials()[row].name, "cortical-bone-2");
+  CatalogueEditor::Material own = editor.materials()[row];
+  own.name = "sclerotic-bone";
+  own.title = "Sclerotic bone";
+  own.hardness = 60.0;
+  editor.setMaterial(row, own);
+  CatalogueEditor::Burr diamond = editor.burrs()[1];
+  diamond.constant = 0.15;
+  diamond.diameters = {2.3, 0.6, 2.3};
+  editor.setBurr(1, diamond);
+  EXPECT_TRUE(editor.changed());
+  editor.save();
+  EXPECT_FALSE(editor.changed());
+
+  const auto read = dissection::Catalogues::in(folder);
+  EXPECT_NEAR(read.materials.material("sclerotic-bone").hardness, 60.0 * 9.807e6, 1.0);
+  const auto& model = read.burrs.model(dissection::Burr::Kind::Diamond);
+  EXPECT_DOUBLE_EQ(model.wearCoefficient, 0.15);
+  EXPECT_EQ(model.diameters, (std::vector<double>{0.6, 2.3}));
+}
+
+TEST_F(CatalogueEditorTest, RefusesWhatTheLawsDoNotAllowAndStaysAsItWas)
+{
+  CatalogueEditor editor(folder);
+  CatalogueEditor::Material bone = editor.materials()[0];
+  bone.hardness = -1.0;
+  EXPECT_THROW(editor.setMaterial(0, bone), core::InvalidParameter);
+  bone = editor.materials()[0];
+  bone.name = "other";
+  EXPECT_THROW(editor.setMaterial(0, bone), core::InvalidParameter) << "presets give it";
+  EXPECT_THROW(editor.removeMaterial(0), core::InvalidParameter);
+  CatalogueEditor::Burr cutting = editor.burrs()[0];
+  cutting.constant = 60.0; // degrees: the chip would not slide
+  EXPECT_THROW(editor.setBurr(0, cutting), core::InvalidParameter);
+  cutting = editor.burrs()[0];
+  cutting.diameters.clear();
+  EXPECT_THROW(editor.setBurr(0, cutting), core::InvalidParameter);
+  const std::size_t row = editor.addMaterial(0);
+  CatalogueEditor::Material own = editor.materials()[row];
+  own.name = "With Capitals";
+  EXPECT_THROW(editor.setMaterial(row, own), core::InvalidParameter);
+  own.name = "nerve";
+  EXPECT_THROW(editor.setMaterial(row, own), core::InvalidParameter) << "taken";
+  editor.removeMaterial(row);
+  EXPECT_FALSE(editor.changed());
+}
+
+TEST_F(CatalogueEditorTest, TheProgramsOwnNeedsNoFile)
+{
+  CatalogueEditor editor(folder);
+  editor.addMaterial(0);
+  editor.save();
+  EXPECT_TRUE(hasFile("materials.json"));
+  EXPECT_FALSE(hasFile("burrs.json"));
+  editor.setBuiltIn();
+  EXPECT_TRUE(editor.changed());
+  editor.save();
+  EXPECT_FALSE(hasFile("materials.json"));
+}
+
+TEST_F(CatalogueEditorTest, NamesTheFileThatCannotBeUnderstood)
+{
+  std::ofstream(folder / "materials.json") << "{";
+  try
+  {
+    const CatalogueEditor editor(folder);
+    ADD_FAILURE() << "was read";
+  }
+  catch (const core::InvalidParameter& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("materials.json"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Diameters, AreWrittenAndReadAsAList)
+{
+  EXPECT_EQ(diametersText({1.0, 2.3, 4.0}), "1, 2.3, 4");
+  EXPECT_EQ(diametersFrom("1, 2.3;4"), (std::vector<double>{1.0, 2.3, 4.0}));
+  for (const char* wrong : {"", "0", "11", "1, x"})
+    EXPECT_THROW(diametersFrom(wrong), core::InvalidParameter) << wrong;
+}

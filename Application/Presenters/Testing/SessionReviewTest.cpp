@@ -1,0 +1,280 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include "BoneCase.h"
+#include "petrous/Core/CsvTable.h"
+#include "petrous/Presenters/Recordings.h"
+#include "petrous/Presenters/SessionReview.h"
+#include "petrous/Session/PathDrill.h"
+
+using namespace petrous;
+using namespace petrous::presenters;
+using namespace petrous::presenters::testing;
+using Eigen::Vector3d;
+
+namespace
+{
+
+session::TickRecord tick(double time, const Vector3d& center, bool drill = false,
+                         double force = 0.0)
+{
+  session::TickRecord record;
+  record.input.now = time;
+  haptics::Pose pose;
+  pose.position = center;
+  record.proxy = session::PoseValues::of(pose);
+  record.drill = drill ? 1 : 0;
+  record.wrench.force[2] = force;
+  record.burrForce[0] = -2.0 * force;
+  return record;
+}
+
+// A block with a structure in it, from 3 mm below the top on.
+scene::Case namedBlock()
+{
+  scene::Case value = block();
+  auto labels = std::make_shared<volume::Volume<std::uint16_t>>(value.ct.geometry);
+  for (int k = 0; k < 10; ++k)
+    for (int j = 10; j < 30; ++j)
+      for (int i = 10; i < 30; ++i)
+        labels->at(i, j, k) = 1;
+  scene::LabelPart part;
+  part.labels = std::make_shared<const volume::LabelMap>(volume::makeLabelMap(labels, {}));
+  scene::StructurePart nerve;
+  nerve.name = "nerve";
+  nerve.index = 1;
+  part.structures.push_back(nerve);
+  value.labels.push_back(part);
+  return value;
+}
+
+class SessionReviewTest : public ::testing::Test
+{
+protected:
+  void SetUp() override { std::filesystem::create_directories(folder); }
+  void TearDown() override { std::filesystem::remove_all(folder); }
+
+  // Two strokes along a path that goes into bone.
+  void drill(scene::Case& value)
+  {
+    session::TouchScene scene(value);
+    session::PathDrill::Options options;
+    options.tool.mode = session::TouchTool::Mode::ThreeDof;
+    options.recording = file;
+    session::PathDrill drill(value, scene, options);
+    for (int n = 0; n < 600; ++n)
+    {
+      const double t = 0.001 * n;
+      dissection::ToolSample sample;
+      sample.time = t;
+      sample.pose =
+          core::RigidTransform(Eigen::Quaterniond::Identity(), {4.0 + 5.0 * t, 6.0, kTop - 1.0});
+      sample.drill = n % 300 < 250;
+      drill.feel(sample);
+      drill.cut(sample);
+    }
+    drill.end();
+  }
+
+  std::filesystem::path folder = std::filesystem::temp_directory_path() /
+                                 ("petrous-session-review-" + std::to_string(::getpid()));
+  std::filesystem::path file = folder / "session.ticks";
+};
+
+} // namespace
+
+TEST(RecordedCourse, MeasuresTimePathAndForceOfAStraightStroke)
+{
+  RecordedCourse course;
+  for (int n = 0; n <= 2000; ++n) // 10 mm/s for two seconds, drilling in the second one with 3 N
+    course.add(tick(5.0 + 0.001 * n, {0.01 * n, 0.0, 0.0}, n >= 1000, n >= 1000 ? 3.0 : 0.0));
+  const SessionMetrics metrics = course.metrics();
+  EXPECT_NEAR(metrics.duration, 2.0, 1e-9);
+  EXPECT_NEAR(metrics.drilling, 1.0, 1e-9);
+  EXPECT_NEAR(metrics.path, 20.0, RecordedCourse::kStep + 1e-9);
+  EXPECT_NEAR(metrics.drillingPath, 10.0, RecordedCourse::kStep + 1e-9);
+  EXPECT_NEAR(metrics.meanForce, 3.0, 1e-9);
+  EXPECT_DOUBLE_EQ(metrics.maxForce, 3.0);
+  EXPECT_DOUBLE_EQ(metrics.maxThrust, 6.0);
+  EXPECT_EQ(metrics.drillStarts, 1u);
+}
+
+TEST(RecordedCourse, CountsNoTremorAsPath)
+{
+  RecordedCourse course;
+  for (int n = 0; n < 5000; ++n)
+    course.add(tick(0.001 * n, {n % 2 == 0 ? 0.0 : 0.02, 0.0, 0.0}));
+  EXPECT_DOUBLE_EQ(course.metrics().path, 0.0);
+}
+
+TEST(RecordedCourse, PassesOverWhatIsBeforeTheToolIsPlaced)
+{
+  RecordedCourse course;
+  session::TickRecord none = tick(0.0, {99.0, 0.0, 0.0});
+  none.fault = static_cast<std::uint8_t>(session::ServoFault::Device);
+  EXPECT_FALSE(course.add(none));
+  EXPECT_TRUE(course.add(tick(1.0, {1.0, 0.0, 0.0})));
+  EXPECT_TRUE(course.add(tick(1.5, {2.0, 0.0, 0.0})));
+  EXPECT_DOUBLE_EQ(course.metrics().duration, 0.5);
+  EXPECT_DOUBLE_EQ(course.metrics().path, 1.0);
+  ASSERT_EQ(course.tools().size(), 2u);
+  EXPECT_DOUBLE_EQ(course.tools()[0].time, 0.0);
+}
+
+TEST(RecordedCourse, IsThinnedButKeepsEachChangeOfTheDrill)
+{
+  RecordedCourse course;
+  for (int n = 0; n < 1000; ++n)
+    course.add(tick(0.001 * n, {0.0, 0.0, 0.0}, n == 503 || n == 504));
+  EXPECT_LE(course.tools().size(), 105u);
+  EXPECT_GE(course.tools().size(), 98u);
+  const auto drills = std::count_if(course.tools().begin(), course.tools().end(),
+                                    [](const RecordedTool& tool) { return tool.drilling; });
+  EXPECT_EQ(drills, 1);
+  EXPECT_NEAR(course.metrics().drilling, 0.002, 1e-9);
+}
+
+TEST(RecordedCourse, TimeNeverRunsBackward)
+{
+  RecordedCourse course;
+  for (const double time : {1.0, 1.1, 0.2, 1.3})
+    course.add(tick(time, {0.0, 0.0, 0.0}));
+  for (std::size_t n = 1; n < course.tools().size(); ++n)
+    EXPECT_GE(course.tools()[n].time, course.tools()[n - 1].time);
+}
+
+TEST(ToolAt, InterpolatesBetweenSamplesAndStandsAtTheEnds)
+{
+  EXPECT_FALSE(toolAt({}, 0.0));
+  std::vector<RecordedTool> course(2);
+  course[0].time = 1.0;
+  course[0].drilling = true;
+  course[1].time = 3.0;
+  course[1].center = {4.0, 0.0, 0.0};
+  course[1].axisToHand = {1.0, 0.0, 0.0};
+  course[1].force = 2.0;
+  EXPECT_EQ(toolAt(course, 0.0)->center, course[0].center);
+  EXPECT_EQ(toolAt(course, 9.0)->center, course[1].center);
+  const RecordedTool middle = *toolAt(course, 2.0);
+  EXPECT_NEAR(middle.center.x(), 2.0, 1e-12);
+  EXPECT_NEAR(middle.axisToHand.norm(), 1.0, 1e-12);
+  EXPECT_NEAR(middle.axisToHand.x(), std::sqrt(0.5), 1e-12);
+  EXPECT_NEAR(middle.force, 1.0, 1e-12);
+  EXPECT_TRUE(middle.drilling);
+}
+
+TEST_F(SessionReviewTest, MeasuresWhatTheRecordedStrokesRemoved)
+{
+  scene::Case value = namedBlock();
+  drill(value);
+  double removed = 0.0;
+  for (const auto& stroke : value.dissection.strokes())
+    removed += stroke->info.removed;
+  ASSERT_GT(removed, 0.0);
+  const SessionReview review = reviewRecording(file, namedBlock());
+  EXPECT_EQ(review.whyUnmeasured, "");
+  EXPECT_EQ(review.warning, "");
+  ASSERT_TRUE(review.removed);
+  EXPECT_DOUBLE_EQ(*review.removed, removed);
+  EXPECT_EQ(review.strokes, value.dissection.strokes().size());
+  EXPECT_NEAR(review.metrics.duration, 0.599, 1e-6);
+  ASSERT_EQ(review.structures.size(), 1u);
+  EXPECT_EQ(review.structures[0].name, "nerve");
+  ASSERT_TRUE(review.structures[0].nearest);
+  EXPECT_GE(*review.structures[0].nearest, 0.0);
+  ASSERT_TRUE(review.structures[0].removed);
+}
+
+// A colleague's copy holds what was drilled, more of it, and perhaps another threshold.
+TEST_F(SessionReviewTest, OpensOnACopyThatWasDrilledAndChangedSince)
+{
+  scene::Case value = namedBlock();
+  drill(value);
+  const SessionReview first = reviewRecording(file, namedBlock());
+  scene::Case copy = value;
+  copy.name = "of a colleague";
+  copy.iso = 450.0;
+  const SessionReview review = reviewRecording(file, copy);
+  EXPECT_EQ(review.whyUnmeasured, "");
+  ASSERT_TRUE(review.removed);
+  EXPECT_DOUBLE_EQ(*review.removed, *first.removed);
+  EXPECT_EQ(copy.applied(), value.applied());
+}
+
+TEST_F(SessionReviewTest, ShowsTheCourseWhereStructuresDifferAndSaysWhyNoVolumeIsKnown)
+{
+  scene::Case value = namedBlock();
+  drill(value);
+  scene::Case copy = namedBlock();
+  copy.labels[0].structures[0].look.drillable = false;
+  const SessionReview review = reviewRecording(file, copy);
+  EXPECT_FALSE(review.course.empty());
+  EXPECT_FALSE(review.removed);
+  EXPECT_NE(review.whyUnmeasured.find("other structures under hand and drill"), std::string::npos)
+      << review.whyUnmeasured;
+}
+
+TEST_F(SessionReviewTest, RefusesAnotherImageAndWhatIsNoRecording)
+{
+  scene::Case value = namedBlock();
+  drill(value);
+  scene::Case other = namedBlock();
+  auto ct = std::make_shared<volume::Volume<std::int16_t>>(other.ct.geometry);
+  other.ct.volume = std::make_shared<const volume::IntensityVolume>(
+      std::shared_ptr<const volume::Volume<std::int16_t>>(ct));
+  EXPECT_THROW(reviewRecording(file, other), core::InvalidParameter);
+  std::ofstream(folder / "text.ticks") << "no recording at all, but long enough to be read";
+  EXPECT_THROW(reviewRecording(folder / "text.ticks", namedBlock()), session::RecordingError);
+  EXPECT_THROW(reviewRecording(folder / "missing.ticks", namedBlock()), session::RecordingError);
+}
+
+TEST_F(SessionReviewTest, ReadsARecordingThatWasNotClosed)
+{
+  scene::Case value = namedBlock();
+  drill(value);
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 1);
+  const SessionReview review = reviewRecording(file, namedBlock());
+  EXPECT_NE(review.warning, "");
+}
+
+TEST_F(SessionReviewTest, TablesHaveTheMetricsAndTheCourse)
+{
+  scene::Case value = namedBlock();
+  drill(value);
+  const SessionReview review = reviewRecording(file, namedBlock());
+  const std::string metrics = metricsCsv(review);
+  EXPECT_EQ(metrics.rfind("quantity,structure,value,unit", 0), 0u) << metrics;
+  EXPECT_NE(metrics.find("nearest_distance,nerve,"), std::string::npos) << metrics;
+  EXPECT_NE(metrics.find("removed_volume,nerve,"), std::string::npos) << metrics;
+  std::istringstream course(courseCsv(review));
+  std::size_t rows = 0;
+  core::readCsv(course, "course", {"t_s", "x_mm", "force_n", "drill"},
+                [&](std::size_t, const std::vector<double>& row)
+                {
+                  EXPECT_NEAR(row[0], review.course[rows].time, 1e-4);
+                  EXPECT_NEAR(row[1], review.course[rows].center.x(), 1e-4);
+                  ++rows;
+                });
+  EXPECT_EQ(rows, review.course.size());
+}
+
+TEST_F(SessionReviewTest, RecordingsOfACaseAreListedLatestFirst)
+{
+  const library::Library library(folder / "library");
+  const auto made = library.folder() / "recordings";
+  std::filesystem::create_directories(made);
+  for (const char* name : {"block 2026-03-01 09-30-00.ticks", "block 2026-03-02 08-00-00.ticks",
+                           "block 2 2026-03-03 08-00-00.ticks", "block notes.ticks"})
+    std::ofstream(made / name) << "recorded";
+  const auto files = recordingsOf(library, "block");
+  ASSERT_EQ(files.size(), 2u);
+  EXPECT_EQ(files[0].filename(), "block 2026-03-02 08-00-00.ticks");
+}

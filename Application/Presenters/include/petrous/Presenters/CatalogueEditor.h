@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "petrous/Dissection/Catalogues.h"
+
+namespace petrous::presenters
+{
+
+/// A library's materials and burrs as tables, in the units of their files. A change that the
+/// removal laws do not allow is refused as a whole.
+class CatalogueEditor
+{
+public:
+  struct Material
+  {
+    std::string name;            ///< in commands and cases: a to z, 0 to 9 and hyphens
+    std::string title;           ///< display name
+    double specificEnergy = 0.0; ///< GPa
+    double friction = 0.0;       ///< -
+    double hardness = 0.0;       ///< HV
+    std::string source;          ///< of the numbers, and how reliable they are
+  };
+
+  struct Burr
+  {
+    dissection::Burr::Kind kind = dissection::Burr::Kind::Cutting;
+    double constant = 0.0;         ///< rake in degrees of a cutting burr, wear coefficient of a
+                                   ///< diamond one
+    std::vector<double> diameters; ///< mm, ascending
+    std::string source;
+  };
+
+  /// Reads the catalogues of a library's folder. Throws as dissection::Catalogues::in.
+  explicit CatalogueEditor(std::filesystem::path folder);
+
+  const std::vector<Material>& materials() const noexcept { return m_now.materials; }
+  const std::vector<Burr>& burrs() const noexcept { return m_now.burrs; } ///< cutting, diamond
+  const dissection::BoneRamp& bone() const noexcept { return m_now.bone; }
+
+  /// Whether presets, or cases by themselves, give that material to structures: it has its name for
+  /// good.
+  bool isBuiltIn(std::size_t material) const;
+
+  // These throw InvalidParameter, without effect.
+  void setMaterial(std::size_t row, const Material& material);
+  std::size_t addMaterial(std::size_t like); ///< a copy under a free name; returns its row
+  void removeMaterial(std::size_t row);
+  void setBurr(std::size_t row, const Burr& burr);
+
+  void setBuiltIn(); ///< all as it comes with the program
+  bool changed() const;
+
+  /// Writes materials.json and burrs.json in the folder; what is as it comes with the program has
+  /// no file there. Throws core::OutputFileError.
+  void save();
+
+private:
+  struct Tables
+  {
+    std::vector<Material> materials;
+    dissection::BoneRamp bone;
+    std::vector<Burr> burrs;
+  };
+  static Tables tablesOf(const dissection::Catalogues& catalogues);
+  static std::string materialsJson(const Tables& tables);
+  static std::string burrsJson(const Tables& tables);
+  void take(Tables next);
+
+  std::filesystem::path m_folder;
+  Tables m_builtIn, m_saved, m_now;
+};
+
+/// "1, 2, 2.3" and back. Throws InvalidParameter unless all are diameters above 0, up to 10 mm.
+std::string diametersText(const std::vector<double>& diameters);
+std::vector<double> diametersFrom(const std::string& text);
+
+} // namespace petrous::presenters

@@ -1,0 +1,243 @@
+#include "petrous/Presenters/CatalogueEditor.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "petrous/Core/Error.h"
+#include "petrous/Core/NumberText.h"
+#include "petrous/Core/OutputFile.h"
+#include "petrous/Dissection/BurrName.h"
+
+namespace petrous::presenters
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kPascalOfGiga = 1e9;
+constexpr double kPascalOfVickers = 9.807e6; // of 1 HV = 1 kgf/mm^2
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr const char* kMaterialsFile = "materials.json";
+constexpr const char* kBurrsFile = "burrs.json";
+
+// Without what conversion to SI and back adds.
+double rounded(double value)
+{
+  return core::parseDouble(core::generalText(value, 12)).value_or(value);
+}
+
+void checkName(const std::string& name)
+{
+  const bool isSound =
+      !name.empty() && name.size() <= 40 &&
+      std::all_of(name.begin(), name.end(),
+                  [](char c)
+                  { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; });
+  if (!isSound)
+    throw core::InvalidParameter("'" + name +
+                                 "' cannot be a material's name: it has a to z, 0 to 9 and "
+                                 "hyphens, at most 40");
+}
+
+// As the file of a library, or no file where it would be the program's own.
+void put(const std::filesystem::path& file, const std::string& text, const std::string& builtIn)
+{
+  if (text != builtIn)
+  {
+    core::writeFile(file, text);
+    return;
+  }
+  std::error_code error;
+  std::filesystem::remove(file, error);
+  if (error)
+    throw core::OutputFileError(core::OutputFileError::Reason::NotPermitted, file,
+                                "cannot be removed");
+}
+
+} // namespace
+
+CatalogueEditor::CatalogueEditor(std::filesystem::path folder)
+  : m_folder(std::move(folder))
+  , m_builtIn(tablesOf(dissection::Catalogues::builtIn()))
+  , m_saved(tablesOf(dissection::Catalogues::in(m_folder)))
+  , m_now(m_saved)
+{
+}
+
+CatalogueEditor::Tables CatalogueEditor::tablesOf(const dissection::Catalogues& catalogues)
+{
+  Tables tables;
+  tables.bone = catalogues.materials.bone();
+  for (const dissection::TissueMaterial& one : catalogues.materials.all())
+    tables.materials.push_back({one.name, one.title, rounded(one.specificEnergy / kPascalOfGiga),
+                                one.friction, rounded(one.hardness / kPascalOfVickers),
+                                one.status});
+  for (const auto kind : {dissection::Burr::Kind::Cutting, dissection::Burr::Kind::Diamond})
+  {
+    const dissection::BurrModel& model = catalogues.burrs.model(kind);
+    tables.burrs.push_back({kind,
+                            kind == dissection::Burr::Kind::Cutting ? rounded(model.rake / kDegree)
+                                                                    : model.wearCoefficient,
+                            model.diameters, model.status});
+  }
+  return tables;
+}
+
+std::string CatalogueEditor::materialsJson(const Tables& tables)
+{
+  Json materials = Json::array();
+  for (const Material& one : tables.materials)
+    materials.push_back({{"name", one.name},
+                         {"title", one.title},
+                         {"specific_cutting_energy_gpa", one.specificEnergy},
+                         {"friction", one.friction},
+                         {"vickers_hardness_hv", one.hardness},
+                         {"status", one.source}});
+  const Json bone{{"cellular", tables.bone.cellular},
+                  {"cortical", tables.bone.cortical},
+                  {"from_hu", tables.bone.low},
+                  {"to_hu", tables.bone.high}};
+  Json root = Json::object();
+  root["materials"] = std::move(materials);
+  root["bone"] = bone;
+  return root.dump(2) + "\n";
+}
+
+std::string CatalogueEditor::burrsJson(const Tables& tables)
+{
+  Json burrs = Json::array();
+  for (const Burr& one : tables.burrs)
+    burrs.push_back({{"kind", dissection::nameOf(one.kind)},
+                     {one.kind == dissection::Burr::Kind::Cutting ? "rake_deg" : "wear_coefficient",
+                      one.constant},
+                     {"diameters_mm", one.diameters},
+                     {"status", one.source}});
+  Json root = Json::object();
+  root["burrs"] = std::move(burrs);
+  return root.dump(2) + "\n";
+}
+
+// The catalogues that these tables would be decide.
+void CatalogueEditor::take(Tables next)
+{
+  const dissection::MaterialCatalogue materials(materialsJson(next), kMaterialsFile);
+  const dissection::BurrCatalogue burrs(burrsJson(next), kBurrsFile);
+  dissection::checkPairs(materials, burrs);
+  m_now = std::move(next);
+}
+
+bool CatalogueEditor::isBuiltIn(std::size_t material) const
+{
+  const std::string& name = m_now.materials.at(material).name;
+  return std::any_of(m_builtIn.materials.begin(), m_builtIn.materials.end(),
+                     [&name](const Material& one) { return one.name == name; });
+}
+
+void CatalogueEditor::setMaterial(std::size_t row, const Material& material)
+{
+  Tables next = m_now;
+  Material& present = next.materials.at(row);
+  if (material.name != present.name)
+  {
+    if (isBuiltIn(row))
+      throw core::InvalidParameter("material '" + present.name +
+                                   "' has its name for good: presets give it to structures");
+    checkName(material.name);
+    for (std::string* end : {&next.bone.cellular, &next.bone.cortical})
+      if (*end == present.name)
+        *end = material.name;
+  }
+  present = material;
+  take(std::move(next));
+}
+
+std::size_t CatalogueEditor::addMaterial(std::size_t like)
+{
+  Tables next = m_now;
+  Material added = next.materials.at(like);
+  const auto isTaken = [&next](const std::string& name)
+  {
+    return std::any_of(next.materials.begin(), next.materials.end(),
+                       [&name](const Material& one) { return one.name == name; });
+  };
+  const std::string base = added.name;
+  for (int n = 2; isTaken(added.name); ++n)
+    added.name = base + "-" + std::to_string(n);
+  next.materials.push_back(std::move(added));
+  take(std::move(next));
+  return m_now.materials.size() - 1;
+}
+
+void CatalogueEditor::removeMaterial(std::size_t row)
+{
+  if (isBuiltIn(row))
+    throw core::InvalidParameter("material '" + m_now.materials[row].name +
+                                 "' cannot be removed: presets give it to structures");
+  Tables next = m_now;
+  next.materials.erase(next.materials.begin() + static_cast<std::ptrdiff_t>(row));
+  take(std::move(next));
+}
+
+void CatalogueEditor::setBurr(std::size_t row, const Burr& burr)
+{
+  Tables next = m_now;
+  const auto kind = next.burrs.at(row).kind;
+  next.burrs[row] = burr;
+  next.burrs[row].kind = kind;
+  auto& diameters = next.burrs[row].diameters;
+  std::sort(diameters.begin(), diameters.end());
+  diameters.erase(std::unique(diameters.begin(), diameters.end()), diameters.end());
+  take(std::move(next));
+}
+
+void CatalogueEditor::setBuiltIn()
+{
+  m_now = m_builtIn;
+}
+
+bool CatalogueEditor::changed() const
+{
+  return materialsJson(m_now) != materialsJson(m_saved) || burrsJson(m_now) != burrsJson(m_saved);
+}
+
+void CatalogueEditor::save()
+{
+  put(m_folder / kMaterialsFile, materialsJson(m_now), materialsJson(m_builtIn));
+  put(m_folder / kBurrsFile, burrsJson(m_now), burrsJson(m_builtIn));
+  m_saved = m_now;
+}
+
+std::string diametersText(const std::vector<double>& diameters)
+{
+  std::string text;
+  for (const double diameter : diameters)
+    text += (text.empty() ? "" : ", ") + core::generalText(diameter);
+  return text;
+}
+
+std::vector<double> diametersFrom(const std::string& text)
+{
+  std::vector<double> diameters;
+  std::string word;
+  for (const char c : text + ",")
+    if (c != ',' && c != ';' && c != ' ')
+      word += c;
+    else if (!word.empty())
+    {
+      const auto diameter = core::parseDouble(word);
+      if (!diameter || !(*diameter > 0.0 && *diameter <= 10.0))
+        throw core::InvalidParameter("'" + word +
+                                     "' is not a diameter: numbers above 0, up to 10 mm");
+      diameters.push_back(*diameter);
+      word.clear();
+    }
+  if (diameters.empty())
+    throw core::InvalidParameter("a burr needs at least one diameter");
+  return diameters;
+}
+
+} // namespace petrous::presenters

@@ -1,0 +1,262 @@
+#include "petrous/Presenters/SessionReview.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "petrous/Presenters/RecordingPlayer.h"
+#include "petrous/Presenters/StructureDistances.h"
+#include "petrous/Scene/Branches.h"
+#include "petrous/Session/DissectionLoop.h"
+#include "petrous/Session/RecordingReader.h"
+#include "petrous/Session/TouchScene.h"
+
+namespace petrous::presenters
+{
+
+namespace
+{
+
+using dissection::History;
+using Volumes = std::map<std::string, double>;
+
+double forceOf(const double (&values)[3])
+{
+  return Eigen::Map<const Eigen::Vector3d>(values).norm();
+}
+
+// The states that have as many strokes as were applied then; the present branch's first.
+std::vector<std::size_t> statesOf(const History& history, std::uint64_t applied)
+{
+  std::vector<std::size_t> states;
+  const auto add = [&](std::size_t tip)
+  {
+    const auto line = history.lineTo(tip);
+    if (line.size() < applied)
+      return;
+    const std::size_t state =
+        applied == 0 ? History::kStart : line[static_cast<std::size_t>(applied) - 1];
+    if (std::find(states.begin(), states.end(), state) == states.end())
+      states.push_back(state);
+  };
+  add(history.branch().tip);
+  for (const History::Branch& branch : history.branches())
+    add(branch.tip);
+  return states;
+}
+
+// A touchable copy of the case in the state in which the recording began, if there is one.
+class State
+{
+public:
+  State(scene::Case& value, const session::RecordingSetup& setup, const std::string& name,
+        const core::Progress& progress)
+  {
+    value.iso = setup.scene.iso;
+    const dissection::Dissection whole = value.dissection;
+    std::vector<std::size_t> states = statesOf(whole.history(), setup.scene.applied);
+    if (states.empty())
+      states.push_back(whole.history().position());
+    for (std::size_t n = 0; n < states.size(); ++n)
+    {
+      progress.check("comparing the case with the recording");
+      value.dissection = whole;
+      value.dissection = scene::dissectionAt(value, states[n]);
+      m_scene.emplace(value, progress, setup.scene.firstState, true);
+      const session::RecordedScene now = m_scene->fingerprint();
+      if (now.ct != setup.scene.ct)
+        throw core::InvalidParameter(name + ": " + misfitOf(value, now, setup.scene));
+      const std::string misfit = misfitOf(value, now, setup.scene);
+      if (n == 0)
+        m_misfit = misfit;
+      if (misfit.empty())
+      {
+        m_misfit.clear();
+        return;
+      }
+      if (now.tissue != setup.scene.tissue) // no state has that
+        return;
+    }
+  }
+
+  session::TouchScene& scene() { return *m_scene; }
+  const std::string& misfit() const { return m_misfit; }
+
+private:
+  std::optional<session::TouchScene> m_scene;
+  std::string m_misfit;
+};
+
+// Of the strokes from `before` on that are applied.
+void addRemoved(const dissection::Dissection& work, std::size_t before, SessionReview& review,
+                Volumes& structures)
+{
+  review.removed = 0.0;
+  for (const std::size_t n : work.history().lineTo(work.history().position()))
+  {
+    if (n < before)
+      continue;
+    const dissection::Stroke& stroke = *work.strokes()[n];
+    ++review.strokes;
+    *review.removed += stroke.info.removed;
+    for (const auto& one : stroke.info.structures)
+      structures[one.name] += one.volume;
+  }
+}
+
+} // namespace
+
+bool RecordedCourse::add(const session::TickRecord& record)
+{
+  using session::ServoFault;
+  const auto fault = static_cast<ServoFault>(record.fault);
+  const bool isSound =
+      fault != ServoFault::Device && fault != ServoFault::Clock && fault != ServoFault::Parameters;
+  const haptics::Pose pose = record.proxy.pose();
+  if (!(m_placed || isSound) || !pose.position.allFinite())
+    return false;
+  RecordedTool tool;
+  tool.center = pose.position;
+  tool.axisToHand = pose.rotation * Eigen::Vector3d::UnitZ();
+  tool.drilling = record.drill != 0;
+  tool.force = forceOf(record.wrench.force);
+  tool.thrust = forceOf(record.burrForce);
+  const bool isFirst = !m_placed;
+  if (isFirst)
+  {
+    m_start = record.time();
+    m_step = m_drillStep = tool.center;
+    m_placed = true;
+  }
+  tool.time = std::max(record.time() - m_start, m_last.time); // the clock may run backward
+
+  const double seconds = isFirst ? 0.0 : tool.time - m_last.time;
+  m_metrics.duration = tool.time;
+  if (m_last.drilling && !isFirst)
+  {
+    m_metrics.drilling += seconds;
+    m_forceSeconds += seconds * m_last.force;
+  }
+  const bool isStart = tool.drilling && (isFirst || !m_last.drilling);
+  m_metrics.drillStarts += isStart;
+  if (const double way = (tool.center - m_step).norm(); way >= kStep)
+  {
+    m_metrics.path += way;
+    m_step = tool.center;
+  }
+  if (!tool.drilling || isStart)
+    m_drillStep = tool.center;
+  else if (const double way = (tool.center - m_drillStep).norm(); way >= kStep)
+  {
+    m_metrics.drillingPath += way;
+    m_drillStep = tool.center;
+  }
+  m_metrics.maxForce = std::max(m_metrics.maxForce, tool.force);
+  m_metrics.maxThrust = std::max(m_metrics.maxThrust, tool.thrust);
+
+  constexpr double kTolerance = 1e-6; // s
+  if (isFirst || tool.drilling != m_last.drilling ||
+      tool.time - m_tools.back().time >= 1.0 / kRate - kTolerance)
+    m_tools.push_back(tool);
+  m_last = tool;
+  return true;
+}
+
+SessionMetrics RecordedCourse::metrics() const
+{
+  SessionMetrics result = m_metrics;
+  if (result.drilling > 0.0)
+    result.meanForce = m_forceSeconds / result.drilling;
+  return result;
+}
+
+std::optional<RecordedTool> toolAt(const std::vector<RecordedTool>& course, double time)
+{
+  if (course.empty())
+    return std::nullopt;
+  const auto after =
+      std::upper_bound(course.begin(), course.end(), time,
+                       [](double at, const RecordedTool& tool) { return at < tool.time; });
+  if (after == course.begin())
+    return course.front();
+  if (after == course.end())
+    return course.back();
+  const RecordedTool& a = *(after - 1);
+  const RecordedTool& b = *after;
+  const double share = (time - a.time) / (b.time - a.time);
+  RecordedTool tool = a;
+  tool.time = time;
+  tool.center += share * (b.center - a.center);
+  const Eigen::Vector3d axis = a.axisToHand + share * (b.axisToHand - a.axisToHand);
+  if (axis.norm() > 0.0)
+    tool.axisToHand = axis.normalized();
+  tool.force += share * (b.force - a.force);
+  tool.thrust += share * (b.thrust - a.thrust);
+  return tool;
+}
+
+SessionReview reviewRecording(const std::filesystem::path& file, scene::Case value,
+                              const core::Progress& progress)
+{
+  const std::string name = file.filename().string();
+  session::RecordingReader reader(file);
+  const session::RecordingSetup setup = reader.setup();
+  toolOf(setup); // throws where this program has no such tool
+  SessionReview review;
+  review.burr = setup.burr;
+  review.tool = toString(setup);
+
+  State state(value, setup, name, progress.part(0.0, 0.5));
+  session::NoRemovalModel recorded; // cuts are repeated as they were
+  std::optional<session::DissectionLoop> loop;
+  if (state.misfit().empty())
+    loop.emplace(value.dissection, *state.scene().mask(), recorded,
+                 state.scene().drill().protectedTissue(),
+                 state.scene().hooksOf(setup.burr, [] { return std::nullopt; }));
+  const std::size_t before = value.dissection.strokes().size();
+  review.whyUnmeasured = state.misfit();
+
+  StructureDistances distances(value, 0.5 * setup.burr.diameter);
+  RecordedCourse course;
+  session::RecordingBlock block;
+  while (reader.next(block))
+  {
+    progress.check("playing the recording");
+    for (const session::TickRecord& record : block.ticks)
+      if (course.add(record))
+        distances.add(record.proxy.pose().position);
+    for (const session::MaskEdit& edit : block.edits)
+      if (loop && !loop->apply(edit))
+      {
+        review.whyUnmeasured = "cuts another dissection here than where it was made";
+        loop.reset();
+      }
+  }
+  review.warning = reader.warning();
+  review.metrics = course.metrics();
+  review.course = course.tools();
+
+  Volumes removed;
+  if (loop)
+  {
+    loop->endStroke();
+    addRemoved(value.dissection, before, review, removed);
+  }
+  progress.check("measuring the structures");
+  std::map<std::string, SessionReview::Structure> structures;
+  if (!review.course.empty())
+    for (const auto& [structure, distance] : distances.smallest())
+      structures[structure].nearest = distance;
+  for (const auto& [structure, volume] : removed)
+    structures[structure];
+  for (auto& [structure, one] : structures)
+  {
+    one.name = structure;
+    if (loop)
+      one.removed = removed.count(structure) > 0 ? removed.at(structure) : 0.0;
+    review.structures.push_back(one);
+  }
+  return review;
+}
+
+} // namespace petrous::presenters

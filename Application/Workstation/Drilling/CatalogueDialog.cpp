@@ -1,0 +1,325 @@
+#include "CatalogueDialog.h"
+
+#include <algorithm>
+
+#include <QDialogButtonBox>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QPushButton>
+#include <QScopedValueRollback>
+#include <QTableWidget>
+#include <QVBoxLayout>
+
+#include "Application.h"
+#include "Bind.h"
+#include "PanelLayout.h"
+#include "Theme.h"
+#include "WindowTexts.h"
+#include "petrous/Core/Error.h"
+#include "petrous/Core/NumberText.h"
+
+namespace petrous::workstation
+{
+
+namespace
+{
+
+enum MaterialColumn
+{
+  Name,
+  Title,
+  Energy,
+  Friction,
+  Hardness,
+  MaterialSource,
+  MaterialColumns
+};
+
+enum BurrColumn
+{
+  Kind,
+  Rake,
+  Wear,
+  Diameters,
+  BurrSource,
+  BurrColumns
+};
+
+QTableWidget* table(const char* name, const QString& accessible, const QStringList& columns)
+{
+  auto* result = new QTableWidget(0, columns.size());
+  result->setObjectName(name);
+  result->setAccessibleName(accessible);
+  result->setHorizontalHeaderLabels(columns);
+  result->verticalHeader()->hide();
+  result->setSelectionBehavior(QAbstractItemView::SelectRows);
+  result->setSelectionMode(QAbstractItemView::SingleSelection);
+  result->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  result->horizontalHeader()->setStretchLastSection(true);
+  keepKeysInEditors(*result);
+  return result;
+}
+
+void put(QTableWidget& table, int row, int column, const QString& text, bool isEditable = true)
+{
+  if (!table.item(row, column)) // one that is being entered must stay
+    table.setItem(row, column, new QTableWidgetItem);
+  QTableWidgetItem* item = table.item(row, column);
+  item->setText(text);
+  item->setToolTip(text);
+  const Qt::ItemFlags usual = Qt::ItemIsSelectable | Qt::ItemIsEnabled;
+  item->setFlags(isEditable ? usual | Qt::ItemIsEditable : usual);
+}
+
+QString number(double value)
+{
+  return words(core::generalText(value));
+}
+
+double numberIn(const QTableWidget& table, int row, int column)
+{
+  const QString text = table.item(row, column)->text().trimmed().replace(',', '.');
+  if (const auto value = core::parseDouble(bytes(text)))
+    return *value;
+  throw core::InvalidParameter("'" + bytes(text) + "' is not a number");
+}
+
+// What was shown in the window's language stays what it was, unless it was typed over.
+std::string textIn(const QTableWidget& table, int row, int column, const std::string& present)
+{
+  const QString text = table.item(row, column)->text().trimmed();
+  return text == phrase(present) ? present : bytes(text);
+}
+
+} // namespace
+
+CatalogueDialog::CatalogueDialog(std::filesystem::path library,
+                                 std::function<bool(const std::string&)> isUsed, QWidget* parent)
+  : QDialog(parent)
+  , m_editor(std::move(library))
+  , m_isUsed(std::move(isUsed))
+  , m_materials(table("materials", tr("Materials"),
+                      {tr("Name"), tr("Shown as"), tr("Cutting energy, GPa"), tr("Friction"),
+                       tr("Hardness, HV"), tr("Source, and how certain")}))
+  , m_burrs(table("burrs", tr("Burrs"),
+                  {tr("Burr"), tr("Rake, °"), tr("Wear coefficient"), tr("Diameters, mm"),
+                   tr("Source, and how certain")}))
+  , m_bone(new QLabel)
+  , m_fault(new QLabel)
+{
+  setObjectName("catalogueDialog");
+  setWindowTitle(tr("Materials and burrs"));
+  auto* intro = new QLabel(tr("They hold for all cases of this library, also for the command. The "
+                              "removal laws take the cutting energy and friction for a cutting "
+                              "burr, the hardness for a diamond one."));
+  intro->setWordWrap(true);
+  m_bone->setObjectName("boneRamp");
+  m_bone->setWordWrap(true);
+  m_fault->setObjectName("catalogueFault");
+  m_fault->setWordWrap(true);
+  m_fault->setTextFormat(Qt::PlainText);
+  m_fault->setStyleSheet(kWarningStyle);
+  m_fault->hide();
+  auto* addOne = button(tr("&Add"), "addMaterial",
+                        tr("Another material, with the numbers of the one that is selected"));
+  m_remove = button(tr("&Remove"), "removeMaterial", tr("Takes the selected material out"));
+  auto* row = new QHBoxLayout;
+  row->addWidget(addOne);
+  row->addWidget(m_remove);
+  row->addStretch(1);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Save | QDialogButtonBox::Cancel);
+  auto* builtIn = buttons->addButton(tr("As &built in"), QDialogButtonBox::ResetRole);
+  builtIn->setObjectName("catalogueBuiltIn");
+  builtIn->setToolTip(tr("All numbers as they come with the program"));
+  buttons->button(QDialogButtonBox::Save)->setText(tr("&Save"));
+  buttons->button(QDialogButtonBox::Save)->setObjectName("catalogueSave");
+  buttons->button(QDialogButtonBox::Cancel)->setText(tr("Cancel"));
+  for (auto* one : buttons->buttons()) // Return enters a cell
+    static_cast<QPushButton*>(one)->setAutoDefault(false);
+  addOne->setAutoDefault(false);
+  m_remove->setAutoDefault(false);
+
+  auto* layout = new QVBoxLayout(this);
+  layout->addWidget(intro);
+  layout->addWidget(m_materials, 3);
+  layout->addLayout(row);
+  layout->addWidget(m_bone);
+  layout->addWidget(m_burrs, 1);
+  layout->addWidget(m_fault);
+  layout->addWidget(buttons);
+
+  connect(m_materials, &QTableWidget::cellChanged, this, [this](int at) { materialEntered(at); });
+  connect(m_burrs, &QTableWidget::cellChanged, this, [this](int at) { burrEntered(at); });
+  connect(m_materials, &QTableWidget::itemSelectionChanged, this,
+          [this]
+          {
+            const int at = m_materials->currentRow();
+            m_remove->setEnabled(at >= 0 && at < static_cast<int>(m_editor.materials().size()) &&
+                                 !m_editor.isBuiltIn(static_cast<std::size_t>(at)));
+          });
+  connect(addOne, &QPushButton::clicked, this, &CatalogueDialog::add);
+  connect(m_remove, &QPushButton::clicked, this, &CatalogueDialog::remove);
+  connect(builtIn, &QPushButton::clicked, this,
+          [this]
+          {
+            m_editor.setBuiltIn();
+            fill();
+          });
+  connect(buttons, &QDialogButtonBox::accepted, this, &CatalogueDialog::save);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  fill();
+  resizeOnScreen(*this, {1000, 560});
+}
+
+void CatalogueDialog::fill()
+{
+  const QScopedValueRollback<bool> filling(m_filling, true);
+  const int count = static_cast<int>(m_editor.materials().size());
+  const int current = m_materials->currentRow();
+  m_materials->setRowCount(count);
+  for (int row = 0; row < count; ++row)
+    fillMaterial(row);
+  m_materials->selectRow(std::clamp(current, 0, count - 1));
+  m_burrs->setRowCount(static_cast<int>(m_editor.burrs().size()));
+  for (int row = 0; row < m_burrs->rowCount(); ++row)
+    fillBurr(row);
+  const auto& bone = m_editor.bone();
+  m_bone->setText(
+      tr("Bone that nobody labelled goes from “%1” at %2 HU to “%3” at %4 HU.")
+          .arg(words(bone.cellular), number(bone.low), words(bone.cortical), number(bone.high)));
+  m_fault->hide();
+}
+
+void CatalogueDialog::fillMaterial(int row)
+{
+  const auto at = static_cast<std::size_t>(row);
+  const auto& one = m_editor.materials()[at];
+  put(*m_materials, row, Name, words(one.name), !m_editor.isBuiltIn(at));
+  put(*m_materials, row, Title, phrase(one.title));
+  put(*m_materials, row, Energy, number(one.specificEnergy));
+  put(*m_materials, row, Friction, number(one.friction));
+  put(*m_materials, row, Hardness, number(one.hardness));
+  put(*m_materials, row, MaterialSource, phrase(one.source));
+}
+
+void CatalogueDialog::fillBurr(int row)
+{
+  const auto& one = m_editor.burrs()[static_cast<std::size_t>(row)];
+  const bool isCutting = one.kind == dissection::Burr::Kind::Cutting;
+  const QString none = QString::fromUtf8("–");
+  put(*m_burrs, row, Kind, isCutting ? tr("Cutting") : tr("Diamond"), false);
+  put(*m_burrs, row, Rake, isCutting ? number(one.constant) : none, isCutting);
+  put(*m_burrs, row, Wear, isCutting ? none : number(one.constant), !isCutting);
+  put(*m_burrs, row, Diameters, words(presenters::diametersText(one.diameters)));
+  put(*m_burrs, row, BurrSource, phrase(one.source));
+}
+
+// What is refused is said, and the table shows what holds.
+void CatalogueDialog::enter(const std::function<void()>& change)
+{
+  QString why;
+  try
+  {
+    change();
+  }
+  catch (const core::Error& error)
+  {
+    why = sentence(capitalized(toString(error)));
+  }
+  fill();
+  m_fault->setText(why);
+  m_fault->setVisible(!why.isEmpty());
+}
+
+void CatalogueDialog::materialEntered(int row)
+{
+  if (m_filling)
+    return;
+  enter(
+      [&]
+      {
+        const auto at = static_cast<std::size_t>(row);
+        auto one = m_editor.materials()[at];
+        const std::string name = bytes(m_materials->item(row, Name)->text().trimmed());
+        if (name != one.name && m_isUsed(one.name))
+          throw core::InvalidParameter("material '" + one.name +
+                                       "' is that of a structure of the open case");
+        one.name = name;
+        one.title = textIn(*m_materials, row, Title, one.title);
+        one.specificEnergy = numberIn(*m_materials, row, Energy);
+        one.friction = numberIn(*m_materials, row, Friction);
+        one.hardness = numberIn(*m_materials, row, Hardness);
+        one.source = textIn(*m_materials, row, MaterialSource, one.source);
+        m_editor.setMaterial(at, one);
+      });
+}
+
+void CatalogueDialog::burrEntered(int row)
+{
+  if (m_filling)
+    return;
+  enter(
+      [&]
+      {
+        const auto at = static_cast<std::size_t>(row);
+        auto one = m_editor.burrs()[at];
+        const bool isCutting = one.kind == dissection::Burr::Kind::Cutting;
+        one.constant = numberIn(*m_burrs, row, isCutting ? Rake : Wear);
+        one.diameters = presenters::diametersFrom(bytes(m_burrs->item(row, Diameters)->text()));
+        one.source = textIn(*m_burrs, row, BurrSource, one.source);
+        m_editor.setBurr(at, one);
+      });
+}
+
+void CatalogueDialog::add()
+{
+  int added = -1;
+  enter(
+      [&]
+      {
+        const auto like = static_cast<std::size_t>(std::max(m_materials->currentRow(), 0));
+        added = static_cast<int>(m_editor.addMaterial(like));
+      });
+  if (added < 0)
+    return;
+  m_materials->setCurrentCell(added, Name);
+  m_materials->setFocus();
+  m_materials->editItem(m_materials->item(added, Name));
+}
+
+void CatalogueDialog::remove()
+{
+  const int row = m_materials->currentRow();
+  if (row < 0)
+    return;
+  enter(
+      [&]
+      {
+        const auto at = static_cast<std::size_t>(row);
+        const std::string name = m_editor.materials()[at].name;
+        if (m_isUsed(name))
+          throw core::InvalidParameter("material '" + name +
+                                       "' is that of a structure of the open case");
+        m_editor.removeMaterial(at);
+      });
+}
+
+void CatalogueDialog::save()
+{
+  if (!m_editor.changed())
+    return reject();
+  bool isSaved = false;
+  enter(
+      [&]
+      {
+        m_editor.save();
+        isSaved = true;
+      });
+  if (!isSaved)
+    return;
+  emit saved();
+  accept();
+}
+
+} // namespace petrous::workstation

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <functional>
+
+#include <QDialog>
+
+#include "petrous/Presenters/CatalogueEditor.h"
+
+class QLabel;
+class QPushButton;
+class QTableWidget;
+
+namespace petrous::workstation
+{
+
+/// The library's materials and burrs as tables, with units and the source of each number.
+class CatalogueDialog : public QDialog
+{
+  Q_OBJECT
+public:
+  /// `isUsed`: whether a structure of the open case is of that material. Throws as
+  /// presenters::CatalogueEditor.
+  CatalogueDialog(std::filesystem::path library, std::function<bool(const std::string&)> isUsed,
+                  QWidget* parent = nullptr);
+
+signals:
+  void saved();
+
+private:
+  void fill();
+  void fillMaterial(int row);
+  void fillBurr(int row);
+  void enter(const std::function<void()>& change);
+  void materialEntered(int row);
+  void burrEntered(int row);
+  void add();
+  void remove();
+  void save();
+
+  presenters::CatalogueEditor m_editor;
+  std::function<bool(const std::string&)> m_isUsed;
+  QTableWidget* m_materials;
+  QTableWidget* m_burrs;
+  QLabel* m_bone;
+  QLabel* m_fault;
+  QPushButton* m_remove;
+  bool m_filling = false;
+};
+
+} // namespace petrous::workstation

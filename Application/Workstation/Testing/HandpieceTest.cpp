@@ -1,0 +1,111 @@
+#include <QComboBox>
+#include <QWheelEvent>
+
+#include "DrillController.h"
+#include "GuiTest.h"
+#include "SceneDisplay.h"
+
+using namespace petrous;
+using namespace petrous::workstation;
+
+namespace
+{
+
+class Handpiece : public GuiTest
+{
+protected:
+  // Takes the burr up in front of the ball.
+  void takeBurr()
+  {
+    saveBall("ball");
+    openWindow("ball");
+    QTest::mouseMove(&view(), view().rect().center());
+    QTest::keyClick(&view(), Qt::Key_D);
+    ASSERT_TRUE(waitFor([this] { return view().display().tool().has_value(); }));
+  }
+
+  // The shaft in the view's axes: right, up, towards the camera.
+  Eigen::Vector3d shaft()
+  {
+    const auto camera = view().picture().camera();
+    const Eigen::Vector3d back = (camera.position - camera.focalPoint).normalized();
+    const Eigen::Vector3d right = camera.viewUp.cross(back).normalized();
+    const Eigen::Vector3d up = back.cross(right);
+    const Eigen::Vector3d axis = view().display().tool()->axisToHand.normalized();
+    return {right.dot(axis), up.dot(axis), back.dot(axis)};
+  }
+
+  bool shaftComesTo(const std::function<bool(const Eigen::Vector3d&)>& place)
+  {
+    return waitFor([&] { return view().display().tool() && place(shaft()); }, 10000);
+  }
+};
+
+} // namespace
+
+TEST_F(Handpiece, TurnsAndTiltsByKey)
+{
+  takeBurr();
+  ASSERT_TRUE(shaftComesTo([](const auto& at) { return at.x() > 0.1 && at.y() < -0.1; }))
+      << "a right hand, from below: " << shaft().transpose();
+  for (int n = 0; n < 18; ++n) // 90 degrees
+    action("Turn counterclockwise")->trigger();
+  EXPECT_TRUE(shaftComesTo([](const auto& at) { return at.x() > 0.1 && at.y() > 0.1; }))
+      << shaft().transpose();
+  for (int n = 0; n < 8; ++n)
+    action("Tilt to the line of sight")->trigger();
+  EXPECT_TRUE(shaftComesTo([](const auto& at) { return at.z() > 0.995; })) << shaft().transpose();
+  action("As at first")->trigger();
+  EXPECT_TRUE(shaftComesTo([](const auto& at) { return at.x() > 0.1 && at.y() < -0.1; }))
+      << shaft().transpose();
+}
+
+TEST_F(Handpiece, TurnsByAltAndTheWheel)
+{
+  takeBurr();
+  ASSERT_TRUE(shaftComesTo([](const auto& at) { return at.y() < -0.1; }));
+  const QPointF at = view().rect().center();
+  for (int n = 0; n < 18; ++n)
+  {
+    QWheelEvent turn(at, view().mapToGlobal(at.toPoint()), {}, {0, 120}, Qt::NoButton,
+                     Qt::AltModifier, Qt::NoScrollPhase, false);
+    QApplication::sendEvent(&view(), &turn);
+  }
+  EXPECT_TRUE(shaftComesTo([](const auto& to) { return to.x() > 0.1 && to.y() > 0.1; }))
+      << shaft().transpose();
+}
+
+TEST_F(Handpiece, ChangesTheHandAndRemembersIt)
+{
+  takeBurr();
+  ASSERT_TRUE(shaftComesTo([](const auto& at) { return at.x() > 0.1; }));
+  action("In the left hand")->trigger();
+  EXPECT_TRUE(shaftComesTo([](const auto& at) { return at.x() < -0.1 && at.y() < -0.1; }))
+      << shaft().transpose();
+  closeWindow();
+  openWindow("ball");
+  EXPECT_TRUE(action("In the left hand")->isChecked());
+  EXPECT_TRUE(window().findChild<DrillController*>()->leftHand());
+}
+
+TEST_F(Handpiece, DrillsWithTheBurrAloneToo)
+{
+  saveBall("ball");
+  openWindow("ball");
+  action("Only the burr is felt")->trigger();
+  EXPECT_TRUE(window().findChild<DrillController*>()->burrAlone());
+  drill(600, 20);
+  EXPECT_GT(window().model().value().removedVolume(), 0.0);
+}
+
+TEST_F(Handpiece, AKeyChangesTheKindOfTheBurr)
+{
+  saveBall("ball");
+  openWindow("ball");
+  auto& kind = *window().findChild<QComboBox*>("burrKind");
+  const int before = kind.currentIndex();
+  QTest::keyClick(&view(), Qt::Key_L);
+  EXPECT_EQ(kind.currentIndex(), 1 - before);
+  QTest::keyClick(&view(), Qt::Key_L);
+  EXPECT_EQ(kind.currentIndex(), before);
+}

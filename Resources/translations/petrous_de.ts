@@ -2801,7 +2801,7 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
     <name>petrous::workstation::DrillSound</name>
     <message>
         <source>The sound output is gone; the drill is not heard any more</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Tonausgabe ist weg; der Bohrer ist nicht mehr zu hören</translation>
     </message>
 </context>
 <context>
@@ -8962,11 +8962,11 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     </message>
     <message>
         <source>S&amp;ound of the drill</source>
-        <translation type="unfinished"></translation>
+        <translation>T&amp;on des Bohrers</translation>
     </message>
     <message>
         <source>Spindle and teeth, louder in bone and brighter where the wall is thin; a tone while a warning is shown</source>
-        <translation type="unfinished"></translation>
+        <translation>Spindel und Schneiden, lauter im Knochen und heller, wo die Wand dünn ist; ein Signalton, solange vor einer Struktur gewarnt wird</translation>
     </message>
 </context>
 </TS>

@@ -8555,31 +8555,31 @@
     <name>Sound</name>
     <message>
         <source>sound: the rate must lie within 8000 to 192000 samples a second</source>
-        <translation type="unfinished"></translation>
+        <translation>Ton: die Abtastrate muss zwischen 8000 und 192000 Werten je Sekunde liegen</translation>
     </message>
     <message>
         <source>%1 has no function %2, which PortAudio 19 has</source>
-        <translation type="unfinished"></translation>
+        <translation>%1 hat keine Funktion %2, die PortAudio 19 hat</translation>
     </message>
     <message>
         <source>There is no sound: PortAudio (package libportaudio2) is not installed</source>
-        <translation type="unfinished"></translation>
+        <translation>Es gibt keinen Ton: PortAudio (Paket libportaudio2) ist nicht installiert</translation>
     </message>
     <message>
         <source>There is no sound: PortAudio finds no sound system</source>
-        <translation type="unfinished"></translation>
+        <translation>Es gibt keinen Ton: PortAudio findet kein Tonsystem</translation>
     </message>
     <message>
         <source>There is no sound: the computer has no sound output</source>
-        <translation type="unfinished"></translation>
+        <translation>Es gibt keinen Ton: der Rechner hat keine Tonausgabe</translation>
     </message>
     <message>
         <source>There is no sound: the sound output cannot be opened; another program may have it</source>
-        <translation type="unfinished"></translation>
+        <translation>Es gibt keinen Ton: die Tonausgabe lässt sich nicht öffnen; vielleicht hat sie ein anderes Programm</translation>
     </message>
     <message>
         <source>There is no sound: the sound output does not start</source>
-        <translation type="unfinished"></translation>
+        <translation>Es gibt keinen Ton: die Tonausgabe beginnt nicht</translation>
     </message>
 </context>
 <context>

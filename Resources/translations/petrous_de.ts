@@ -4373,6 +4373,10 @@ Seine Oberfläche ist auf ±%3 mm bekannt: %4</translation>
         <source>Whether the burr is within the warning distance, and what was taken</source>
         <translation>Ob die Fräse im Warnabstand ist und was abgetragen wurde</translation>
     </message>
+    <message>
+        <source>maybe within %1 mm</source>
+        <translation>vielleicht innerhalb von %1 mm</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::NearbyPanel</name>

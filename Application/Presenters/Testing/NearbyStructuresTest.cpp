@@ -88,31 +88,72 @@ TEST(NearbyStructures, WarnWithinTheDistanceAndTellOfATouch)
     EXPECT_EQ(near.front().name, "facial_nerve");
     return near.front().state;
   };
-  EXPECT_EQ(stateAt(kRadius + 1.0 + 2.3), State::Clear);
-  EXPECT_EQ(stateAt(kRadius + 1.0 + 1.7), State::Warned);
+  // 2 mm, and the 0.4 mm by which the surface may be nearer.
+  EXPECT_EQ(stateAt(kRadius + 1.0 + 2.7), State::Clear);
+  EXPECT_EQ(stateAt(kRadius + 1.0 + 2.1), State::Warned);
   EXPECT_EQ(stateAt(kRadius + 1.0 - 0.3), State::Touched);
   EXPECT_EQ(stateAt(0.0), State::Touched);
   // For warnings only, nothing farther is searched.
   const auto alone = [&](double away)
   { return nearby.around(value, kNerve + Vector3d(0.0, away, 0.0), 1.0, 0.0).size(); };
-  EXPECT_EQ(alone(kRadius + 1.0 + 2.3), 0U);
-  EXPECT_EQ(alone(kRadius + 1.0 + 1.7), 1U);
+  EXPECT_EQ(alone(kRadius + 1.0 + 2.7), 0U);
+  EXPECT_EQ(alone(kRadius + 1.0 + 2.1), 1U);
   EXPECT_EQ(alone(kRadius + 1.0 - 0.3), 1U);
   value.labels[0].structures[0].look.warning = 0.0; // the case's current value is used
-  EXPECT_EQ(stateAt(kRadius + 1.0 + 1.7), State::Clear);
+  EXPECT_EQ(stateAt(kRadius + 1.0 + 0.2), State::Clear) << "without one nothing is warned of";
 }
 
-TEST(NearbyStructures, LeaveOutWhatIsHidden)
+TEST(NearbyStructures, WarnOfWhatARegistrationMayHaveDisplaced)
+{
+  scene::Case value = balls();
+  scene::ImagePart mr;
+  mr.name = "T2";
+  mr.geometry = value.labels[0].labels.get()->voxels->geometry();
+  value.mr.push_back(mr);
+  const auto stateAt = [&](const scene::Registration& how)
+  {
+    scene::applyRegistration(value, "T2", {}, how);
+    NearbyStructures nearby(value);
+    nearby.surfaces();
+    return nearby.around(value, kNerve + Vector3d(0.0, kRadius + 1.0 + 3.2, 0.0), 1.0, 50.0)
+        .front()
+        .state;
+  };
+  scene::Registration how;
+  how.error = scene::RegistrationError{kNerve, "here", 0.1, 0.3, 1};
+  EXPECT_EQ(stateAt(how), State::Clear);
+  how.error->p95 = 1.5;
+  EXPECT_EQ(stateAt(how), State::Warned) << "3.2 mm less 1.55";
+}
+
+TEST(NearbyStructures, WarnOfWhatIsHidden)
 {
   scene::Case value = balls();
   value.labels[0].structures[0].look.shown = false;
+  NearbyStructures nearby(value);
+  nearby.surfaces();
+  const auto at = [&](double away)
+  { return nearby.around(value, kNerve + Vector3d(-away, 0.0, 0.0), 1.0, 50.0); };
+  ASSERT_EQ(at(kRadius + 1.0 + 1.0).size(), 2U);
+  EXPECT_EQ(at(kRadius + 1.0 + 1.0).front().name, "facial_nerve");
+  EXPECT_EQ(at(kRadius + 1.0 + 1.0).front().state, State::Warned);
+  EXPECT_EQ(at(0.0).front().state, State::Touched);
+  ASSERT_EQ(at(kRadius + 1.0 + 5.0).size(), 1U) << "it is not listed otherwise";
+  EXPECT_EQ(at(kRadius + 1.0 + 5.0).front().name, "carotid");
+}
+
+TEST(NearbyStructures, LeaveOutWhatIsHiddenWithoutAWarningDistance)
+{
+  scene::Case value = balls();
+  value.labels[0].structures[0].look.shown = false;
+  value.labels[0].structures[0].look.warning = 0.0;
   NearbyStructures nearby(value);
   nearby.surfaces();
   const auto near = nearby.around(value, kNerve, 1.0, 50.0);
   ASSERT_EQ(near.size(), 1U);
   EXPECT_EQ(near[0].name, "carotid");
   const auto resources = nearby.surfaces().resources();
-  EXPECT_EQ(resources.size(), 1U) << "nobody measures what is not shown";
+  EXPECT_EQ(resources.size(), 1U) << "nobody measures what is neither shown nor warned of";
   EXPECT_GT(resources.at("labels.distance.carotid"), 1000U);
 }
 

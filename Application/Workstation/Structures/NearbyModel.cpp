@@ -78,7 +78,9 @@ QString noteOf(const NearbyStructure& structure)
   if (structure.state == State::Touched)
     notes += NearbyModel::tr("touched");
   else if (structure.state == State::Warned)
-    notes += NearbyModel::tr("within %1 mm").arg(structure.warning, 0, 'f', 1);
+    notes += (structure.distance < structure.warning ? NearbyModel::tr("within %1 mm")
+                                                     : NearbyModel::tr("maybe within %1 mm"))
+                 .arg(numberText(structure.warning, 1));
   else if (!(structure.distance > 0.0)) // a lumen
     notes += NearbyModel::tr("open");
   if (structure.injured > 0.0)

@@ -24,10 +24,11 @@ const appearance::StructureAppearance* lookOf(const scene::Case& value, const st
   return nullptr;
 }
 
-bool shown(const scene::Case& value, const std::string& name)
+// A warning does not depend on whether its structure is shown.
+bool measured(const scene::Case& value, const std::string& name)
 {
   const auto* look = lookOf(value, name);
-  return look && look->shown;
+  return look && (look->shown || look->warning > 0.0);
 }
 
 // A lumen is opened, not injured, and its proximity is reported only if a warning distance is set.
@@ -105,7 +106,7 @@ NearbyStructures::NearbyStructures(const scene::Case& value)
                           {
                             auto surfaces = std::make_shared<StructureSurfaces>(copy);
                             for (std::size_t n = 0; n < surfaces->count(); ++n)
-                              if (shown(copy, surfaces->name(n)))
+                              if (measured(copy, surfaces->name(n)))
                                 surfaces->measure(n, progress);
                             return surfaces;
                           });
@@ -141,23 +142,30 @@ std::vector<NearbyStructure> NearbyStructures::around(const scene::Case& value,
     NearbyStructure structure;
     structure.name = surfaces.name(n);
     const auto* look = lookOf(value, structure.name);
-    if (!look || !look->shown)
+    if (!look || !measured(value, structure.name))
       continue;
+    structure.uncertainty = surfaces.uncertainty(n);
+    const double unsure = structure.uncertainty.millimetres();
     const auto taken = injured.find(structure.name);
     structure.injured = taken == injured.end() ? 0.0 : taken->second;
     const double most =
-        structure.injured > 0.0 ? StructureSurfaces::kFar : std::max(reach, look->warning) + radius;
+        structure.injured > 0.0
+            ? StructureSurfaces::kFar
+            : std::max(reach, look->warning > 0.0 ? look->warning + unsure : 0.0) + radius;
     const double away = surfaces.distance(n, center, most);
     if (!(away < most))
       continue;
     structure.distance = std::max(0.0, away - radius);
     structure.color = look->color;
-    structure.uncertainty = surfaces.uncertainty(n);
     structure.warning = look->warning;
     structure.state = lumen(look) && !(look->warning > 0.0) ? NearbyStructure::State::Clear
                       : away <= radius                      ? NearbyStructure::State::Touched
-                      : structure.distance < look->warning  ? NearbyStructure::State::Warned
-                                                            : NearbyStructure::State::Clear;
+                      : look->warning > 0.0 && structure.distance - unsure < look->warning
+                          ? NearbyStructure::State::Warned
+                          : NearbyStructure::State::Clear;
+    if (!look->shown && structure.state == NearbyStructure::State::Clear &&
+        !(structure.injured > 0.0))
+      continue;
     near.push_back(std::move(structure));
   }
   std::sort(near.begin(), near.end(),

@@ -19,7 +19,8 @@ struct NearbyStructure
   enum class State
   {
     Clear,
-    Warned, ///< the burr is nearer than the structure's warning distance
+    Warned, ///< the burr may be nearer than the structure's warning distance: its distance less
+            ///< the uncertainty is
     Touched ///< the burr touches it; never for a lumen without a warning distance
   };
 
@@ -49,7 +50,8 @@ std::string cubicMillimetres(double volume);
 std::map<std::string, double> injuredVolumes(const scene::Case& value,
                                              const dissection::RemovedVolume& open = {});
 
-/// Distances of a burr from the visible structures of a case, fast enough for every frame.
+/// Distances of a burr from the structures of a case that are visible or have a warning distance,
+/// fast enough for every frame.
 ///
 /// The structures' distance fields are computed in a separate thread; until then there is no
 /// result. Not thread-safe; the case may change meanwhile, except its labels and meshes.
@@ -62,8 +64,9 @@ public:
   /// Whether the distance fields have been computed, or that has failed.
   bool ready() const;
 
-  /// Visible structures of the case, nearest first; injured ones at any distance. Empty until
-  /// `ready`. Throws what made the computation fail.
+  /// Visible structures of the case, nearest first; injured ones at any distance, and hidden ones
+  /// that are warned of, touched or injured and have a warning distance. Empty until `ready`.
+  /// Throws what made the computation fail.
   ///
   /// value   the same case in its current state: appearances, strokes
   /// center  of the burr, patient LPS mm; `radius` mm

@@ -146,7 +146,7 @@ TEST(SurfaceShadows, ABallOverAPlaneStopsThePartOfItsCap)
 {
   const Vector normal = Vector(0.3, -0.8, 0.5).normalized();
   for (const auto& [radius, height] :
-       {std::pair(2.0, 2.0), std::pair(2.0, 3.0), std::pair(4.0, 7.0)})
+       {std::pair(2.0, 2.2), std::pair(2.0, 3.0), std::pair(4.0, 7.0)})
   {
     SceneContents contents = boneScene(ct<std::int16_t>(
         cube(64, 0.4, oblique()), [&](const Vector& p) { return -p.dot(normal); }));

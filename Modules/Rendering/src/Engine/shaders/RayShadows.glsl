@@ -84,15 +84,37 @@ float toolAt(vec3 v)
   return distance;
 }
 
-// Share of tissue around a point beyond `own`, and the mean of what it stops; with the tool's part
-// of a ball of `width`, mm.
-vec2 stoppersAt(vec3 v, float level, float own, float width)
+// Of the lamp's disc past the tool, `by` being the way to its centre, voxels a mm: how far beyond
+// the disc's centre the tool comes, in radii of the disc, where it comes farthest.
+float lampPastTool(vec3 v, vec3 by)
+{
+  float least = 1.0;
+  float far = 0.3;
+  for (int turn = 0; turn < 40; ++turn)
+  {
+    if (far >= kShadowReach || least <= -1.0)
+      break;
+    float distance = toolAt(v + far * by);
+    least = min(least, distance / (far * kLampTangent));
+    far += max(abs(distance), 0.15);
+  }
+  float beyond = clamp(least, -1.0, 1.0);
+  return 0.5 + (beyond * sqrt(1.0 - beyond * beyond) + asin(beyond)) / 3.14159265;
+}
+
+// Share of tissue around a point beyond `own`, and the mean of what it stops.
+vec2 tissueAt(vec3 v, float level, float own)
 {
   COUNT(1);
   vec2 look = textureLod(opacityTexture, v * opacityScale + opacityOffset, level).rg;
   float share = look.x * drawnAt(v, opacityEdge * exp2(level));
-  vec2 tissue =
-      vec2(clamp((share - own) / max(1.0 - own, 0.05), 0.0, 1.0), look.y / max(look.x, 0.004));
+  return vec2(clamp((share - own) / max(1.0 - own, 0.05), 0.0, 1.0), look.y / max(look.x, 0.004));
+}
+
+// The same with the tool's part of a ball of `width`, mm.
+vec2 stoppersAt(vec3 v, float level, float own, float width)
+{
+  vec2 tissue = tissueAt(v, level, own);
   if (toolBall.w <= 0.0)
     return tissue;
   float tool = clamp(0.5 - toolAt(v) / width, 0.0, 1.0);
@@ -151,14 +173,16 @@ float lampAt(vec3 v, vec3 normal, vec3 way, float texel, bool wanted)
   {
     float width = max(far * kLampTangent, opacityEdge);
     float level = levelOf(width);
-    vec2 stopped = stoppersAt(v + far * by, level, ownOf(far * rise, level, texel), width);
-    float passes = 1.0 - stopped.x;
+    vec2 tissue = tissueAt(v + far * by, level, ownOf(far * rise, level, texel));
+    float passes = 1.0 - tissue.x;
     passes *= passes * passes;
-    seen -= left * (1.0 - passes) * stopped.y;
+    seen -= left * (1.0 - passes) * tissue.y;
     left *= passes;
     far += kLampStride * width;
   }
-  return wanted ? max(seen, 0.0) : 1.0;
+  if (!wanted)
+    return 1.0;
+  return max(seen, 0.0) * (toolBall.w > 0.0 ? lampPastTool(v, by) : 1.0);
 }
 
 // `normal`: in mm, unit, towards the camera; `ray`: its direction in mm, unit; `hit`: mm.

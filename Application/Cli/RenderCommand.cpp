@@ -253,9 +253,10 @@ void addRenderOptions(CLI::App& command, RenderOptions& options)
       .add_option("--wetness", options.wetness,
                   "Specular gloss of a wet surface, 0 to 1 (as saved)")
       ->check(within({0.0, 1.0}));
-  command.add_flag("--shadows,!--no-shadows", options.shadows,
-                   "Darken cavities, and throw the soft shadow of a lamp above the view axis (as "
-                   "saved)");
+  command.add_flag_function(
+      "--shadows,!--no-shadows", [&options](std::int64_t times) { options.shadows = times > 0; },
+      "Darken cavities, and throw the soft shadow of a lamp above the view axis (as "
+      "saved)");
   command
       .add_option("--thickness", options.thickness,
                   "Colour bone by its thickness over a structure, 0 to 5 mm")

@@ -313,8 +313,9 @@ void addViewCommand(CLI::App& app, Context& context)
       ->check(within({0.0, 10000.0, "mm"}));
   command->add_option("--wetness", options->wetness, "Specular gloss of a wet surface, 0 to 1")
       ->check(within({0.0, 1.0}));
-  command->add_flag("--shadows,!--no-shadows", options->shadows,
-                    "Darker cavities, and the soft shadow of a lamp above the view axis");
+  command->add_flag_function(
+      "--shadows,!--no-shadows", [options](std::int64_t times) { options->shadows = times > 0; },
+      "Darker cavities, and the soft shadow of a lamp above the view axis");
   command->add_option("--stereo", options->stereo, "none, side-by-side, interleaved or anaglyph")
       ->check(oneOf({"none", "side-by-side", "interleaved", "anaglyph"}));
   command->add_option("--eye-separation", options->eyeSeparation, "Distance between the eyes")

@@ -2024,6 +2024,10 @@ Die Platte meldete einen Fehler; prüfen Sie die Platte.</translation>
         <source>Diamond</source>
         <translation>Diamant</translation>
     </message>
+    <message>
+        <source>Other cases that use “%1” cannot be drilled until it exists again.</source>
+        <translation>Andere Fälle, die „%1“ verwenden, können erst wieder gebohrt werden, wenn es das Material wieder gibt.</translation>
+    </message>
 </context>
 <context>
     <name>petrous::workstation::ColorChooser</name>
@@ -2801,7 +2805,7 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
     <name>petrous::workstation::DrillSound</name>
     <message>
         <source>The sound output is gone; the drill is not heard any more</source>
-        <translation>Die Tonausgabe ist weg; der Bohrer ist nicht mehr zu hören</translation>
+        <translation>Die Tonausgabe ist weg; die Fräse ist nicht mehr zu hören</translation>
     </message>
 </context>
 <context>
@@ -4019,6 +4023,18 @@ Das Rad ändert es, während die Fräse bohrt, 0.5 N je Raste, mit Umschalt ein 
     <message>
         <source>Note on the case</source>
         <translation>Hinweis zum Fall</translation>
+    </message>
+    <message>
+        <source>Materials and burrs</source>
+        <translation>Materialien und Fräsen</translation>
+    </message>
+    <message>
+        <source>Begin with the built-in tables in place of what cannot be read? The file stays as it is until you save, which replaces or removes it.</source>
+        <translation>Mit den eingebauten Tabellen an Stelle dessen beginnen, was nicht gelesen werden kann? Die Datei bleibt, wie sie ist, bis Sie speichern; das ersetzt oder entfernt sie.</translation>
+    </message>
+    <message>
+        <source>Begin with the &amp;built-in tables</source>
+        <translation>Mit den ein&amp;gebauten Tabellen beginnen</translation>
     </message>
 </context>
 <context>
@@ -5634,10 +5650,6 @@ Verletzt: %1, %2</translation>
 <context>
     <name>petrous::workstation::ReplayController</name>
     <message>
-        <source>Play</source>
-        <translation>Abspielen</translation>
-    </message>
-    <message>
         <source>%1, attached</source>
         <translation>%1, angehängt</translation>
     </message>
@@ -5674,10 +5686,6 @@ Verletzt: %1, %2</translation>
         <translation>Wählen Sie zuerst eine Aufzeichnung, oder öffnen Sie eine (Bohren &gt; Aufzeichnung öffnen…)</translation>
     </message>
     <message>
-        <source>Pause</source>
-        <translation>Anhalten</translation>
-    </message>
-    <message>
         <source>Metrics (*.csv)</source>
         <translation>Kennzahlen (*.csv)</translation>
     </message>
@@ -5692,6 +5700,14 @@ Verletzt: %1, %2</translation>
     <message>
         <source>The table is in %1</source>
         <translation>Die Tabelle ist in %1</translation>
+    </message>
+    <message>
+        <source>Play recording</source>
+        <translation>Aufnahme abspielen</translation>
+    </message>
+    <message>
+        <source>Pause recording</source>
+        <translation>Aufnahme anhalten</translation>
     </message>
 </context>
 <context>
@@ -5855,6 +5871,10 @@ Verletzt: %1, %2</translation>
     <message>
         <source>What was drilled is not known here: the recording %1</source>
         <translation>Was gebohrt wurde, ist hier nicht bekannt: Die Aufzeichnung %1</translation>
+    </message>
+    <message>
+        <source>Recording</source>
+        <translation>Aufnahme</translation>
     </message>
 </context>
 <context>
@@ -8966,7 +8986,7 @@ Rad, + und -: zoomen.  Mitte ziehen: bewegen.  0: ganze Achse.</translation>
     </message>
     <message>
         <source>S&amp;ound of the drill</source>
-        <translation>T&amp;on des Bohrers</translation>
+        <translation>T&amp;on der Fräse</translation>
     </message>
     <message>
         <source>Spindle and teeth, louder in bone and brighter where the wall is thin; a tone while a warning is shown</source>

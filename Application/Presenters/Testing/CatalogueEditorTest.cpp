@@ -1,5 +1,7 @@
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -21,6 +23,12 @@ protected:
   void TearDown() override { std::filesystem::remove_all(folder); }
 
   bool hasFile(const char* name) const { return std::filesystem::exists(folder / name); }
+
+  std::string text(const char* name) const
+  {
+    std::ifstream in(folder / name);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  }
 
   std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("petrous-catalogues-" + std::to_string(::getpid()));
@@ -106,6 +114,79 @@ TEST_F(CatalogueEditorTest, TheProgramsOwnNeedsNoFile)
   EXPECT_FALSE(hasFile("materials.json"));
 }
 
+TEST_F(CatalogueEditorTest, AFileWhoseTableHasNotChangedStaysAsItWasWritten)
+{
+  const std::string byHand = R"({"comment": "ours", "burrs": [
+    {"kind": "diamond", "wear_coefficient": 0.2, "diameters_mm": [1]},
+    {"kind": "cutting", "rake_deg": -5, "diameters_mm": [2, 3]}]})";
+  std::ofstream(folder / "burrs.json") << byHand;
+  CatalogueEditor editor(folder);
+  editor.addMaterial(0);
+  editor.save();
+  EXPECT_TRUE(hasFile("materials.json"));
+  EXPECT_EQ(text("burrs.json"), byHand);
+  CatalogueEditor::Burr diamond = editor.burrs()[1];
+  diamond.constant = 0.15;
+  editor.setBurr(1, diamond);
+  editor.save();
+  EXPECT_NE(text("burrs.json"), byHand);
+}
+
+TEST_F(CatalogueEditorTest, BeginsWithTheBuiltInTableInPlaceOfABrokenFile)
+{
+  std::ofstream(folder / "burrs.json") << R"({"burrs": [
+    {"kind": "diamond", "wear_coefficient": 0.2, "diameters_mm": [1]},
+    {"kind": "cutting", "rake_deg": -5, "diameters_mm": [2, 3]}]})";
+  const std::string burrs = text("burrs.json");
+  std::ofstream(folder / "materials.json") << "{";
+  auto editor = CatalogueEditor::repairing(folder);
+  EXPECT_EQ(editor.materials()[0].name, "cortical-bone");
+  EXPECT_DOUBLE_EQ(editor.burrs()[1].constant, 0.2) << "which can be understood";
+  EXPECT_TRUE(editor.changed());
+  editor.save();
+  EXPECT_FALSE(editor.changed());
+  EXPECT_FALSE(hasFile("materials.json"));
+  EXPECT_EQ(text("burrs.json"), burrs);
+
+  CatalogueEditor own(folder);
+  own.addMaterial(0);
+  own.save();
+  const std::string materials = text("materials.json");
+  std::ofstream(folder / "burrs.json") << "{";
+  auto second = CatalogueEditor::repairing(folder);
+  EXPECT_EQ(second.materials().size(), own.materials().size());
+  second.save();
+  EXPECT_FALSE(hasFile("burrs.json"));
+  EXPECT_EQ(text("materials.json"), materials);
+
+  for (const char* name : {"materials.json", "burrs.json"})
+    std::ofstream(folder / name) << "{";
+  auto both = CatalogueEditor::repairing(folder);
+  both.save();
+  EXPECT_FALSE(hasFile("materials.json") || hasFile("burrs.json"));
+}
+
+TEST_F(CatalogueEditorTest, KnowsWhichMaterialsCasesWouldMiss)
+{
+  CatalogueEditor editor(folder);
+  const std::size_t row = editor.addMaterial(0);
+  CatalogueEditor::Material own = editor.materials()[row];
+  own.name = "first";
+  editor.setMaterial(row, own);
+  EXPECT_TRUE(editor.lostMaterials().empty()) << "no case has had it";
+  editor.save();
+  own.name = "second";
+  editor.setMaterial(row, own);
+  EXPECT_EQ(editor.lostMaterials(), std::vector<std::string>{"first"});
+  own.name = "first";
+  editor.setMaterial(row, own);
+  EXPECT_TRUE(editor.lostMaterials().empty());
+  editor.removeMaterial(row);
+  EXPECT_EQ(editor.lostMaterials(), std::vector<std::string>{"first"});
+  editor.save();
+  EXPECT_TRUE(editor.lostMaterials().empty());
+}
+
 TEST_F(CatalogueEditorTest, NamesTheFileThatCannotBeUnderstood)
 {
   std::ofstream(folder / "materials.json") << "{";
@@ -124,6 +205,12 @@ TEST(Diameters, AreWrittenAndReadAsAList)
 {
   EXPECT_EQ(diametersText({1.0, 2.3, 4.0}), "1, 2.3, 4");
   EXPECT_EQ(diametersFrom("1, 2.3;4"), (std::vector<double>{1.0, 2.3, 4.0}));
-  for (const char* wrong : {"", "0", "11", "1, x"})
+  EXPECT_EQ(diametersFrom("2,3"), (std::vector<double>{2.3})) << "a decimal comma";
+  EXPECT_EQ(diametersFrom("2, 3"), (std::vector<double>{2.0, 3.0}));
+  EXPECT_EQ(diametersFrom("2,3, 4,5,"), (std::vector<double>{2.3, 4.5}));
+  EXPECT_EQ(diametersFrom("0,6; 1"), (std::vector<double>{0.6, 1.0}));
+  EXPECT_EQ(diametersFrom("0,6;1,5"), (std::vector<double>{0.6, 1.5}));
+  EXPECT_EQ(diametersFrom("1 2"), (std::vector<double>{1.0, 2.0}));
+  for (const char* wrong : {"", "0", "11", "1, x", "1,2,3", ",", ", "})
     EXPECT_THROW(diametersFrom(wrong), core::InvalidParameter) << wrong;
 }

@@ -33,7 +33,7 @@ session::TickRecord tick(double time, const Vector3d& center, bool drill = false
   record.proxy = session::PoseValues::of(pose);
   record.drill = drill ? 1 : 0;
   record.wrench.force[2] = force;
-  record.burrForce[0] = -2.0 * force;
+  record.thrust = 2.0 * force;
   return record;
 }
 

@@ -1,6 +1,7 @@
 #include "CatalogueDialog.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <QDialogButtonBox>
 #include <QHBoxLayout>
@@ -77,9 +78,12 @@ QString number(double value)
   return words(core::generalText(value));
 }
 
-double numberIn(const QTableWidget& table, int row, int column)
+// One that was not typed over keeps the digits that are not shown.
+double numberIn(const QTableWidget& table, int row, int column, double present)
 {
   const QString text = table.item(row, column)->text().trimmed().replace(',', '.');
+  if (text == number(present))
+    return present;
   if (const auto value = core::parseDouble(bytes(text)))
     return *value;
   throw core::InvalidParameter("'" + bytes(text) + "' is not a number");
@@ -94,10 +98,10 @@ std::string textIn(const QTableWidget& table, int row, int column, const std::st
 
 } // namespace
 
-CatalogueDialog::CatalogueDialog(std::filesystem::path library,
+CatalogueDialog::CatalogueDialog(presenters::CatalogueEditor editor,
                                  std::function<bool(const std::string&)> isUsed, QWidget* parent)
   : QDialog(parent)
-  , m_editor(std::move(library))
+  , m_editor(std::move(editor))
   , m_isUsed(std::move(isUsed))
   , m_materials(table("materials", tr("Materials"),
                       {tr("Name"), tr("Shown as"), tr("Cutting energy, GPa"), tr("Friction"),
@@ -106,6 +110,7 @@ CatalogueDialog::CatalogueDialog(std::filesystem::path library,
                   {tr("Burr"), tr("Rake, °"), tr("Wear coefficient"), tr("Diameters, mm"),
                    tr("Source, and how certain")}))
   , m_bone(new QLabel)
+  , m_lost(new QLabel)
   , m_fault(new QLabel)
 {
   setObjectName("catalogueDialog");
@@ -116,11 +121,15 @@ CatalogueDialog::CatalogueDialog(std::filesystem::path library,
   intro->setWordWrap(true);
   m_bone->setObjectName("boneRamp");
   m_bone->setWordWrap(true);
+  m_lost->setObjectName("catalogueLost");
   m_fault->setObjectName("catalogueFault");
-  m_fault->setWordWrap(true);
-  m_fault->setTextFormat(Qt::PlainText);
-  m_fault->setStyleSheet(kWarningStyle);
-  m_fault->hide();
+  for (QLabel* one : {m_lost, m_fault})
+  {
+    one->setWordWrap(true);
+    one->setTextFormat(Qt::PlainText);
+    one->setStyleSheet(kWarningStyle);
+    one->hide();
+  }
   auto* addOne = button(tr("&Add"), "addMaterial",
                         tr("Another material, with the numbers of the one that is selected"));
   m_remove = button(tr("&Remove"), "removeMaterial", tr("Takes the selected material out"));
@@ -132,8 +141,9 @@ CatalogueDialog::CatalogueDialog(std::filesystem::path library,
   auto* builtIn = buttons->addButton(tr("As &built in"), QDialogButtonBox::ResetRole);
   builtIn->setObjectName("catalogueBuiltIn");
   builtIn->setToolTip(tr("All numbers as they come with the program"));
-  buttons->button(QDialogButtonBox::Save)->setText(tr("&Save"));
-  buttons->button(QDialogButtonBox::Save)->setObjectName("catalogueSave");
+  m_save = buttons->button(QDialogButtonBox::Save);
+  m_save->setText(tr("&Save"));
+  m_save->setObjectName("catalogueSave");
   buttons->button(QDialogButtonBox::Cancel)->setText(tr("Cancel"));
   for (auto* one : buttons->buttons()) // Return enters a cell
     static_cast<QPushButton*>(one)->setAutoDefault(false);
@@ -146,26 +156,16 @@ CatalogueDialog::CatalogueDialog(std::filesystem::path library,
   layout->addLayout(row);
   layout->addWidget(m_bone);
   layout->addWidget(m_burrs, 1);
+  layout->addWidget(m_lost);
   layout->addWidget(m_fault);
   layout->addWidget(buttons);
 
   connect(m_materials, &QTableWidget::cellChanged, this, [this](int at) { materialEntered(at); });
   connect(m_burrs, &QTableWidget::cellChanged, this, [this](int at) { burrEntered(at); });
-  connect(m_materials, &QTableWidget::itemSelectionChanged, this,
-          [this]
-          {
-            const int at = m_materials->currentRow();
-            m_remove->setEnabled(at >= 0 && at < static_cast<int>(m_editor.materials().size()) &&
-                                 !m_editor.isBuiltIn(static_cast<std::size_t>(at)));
-          });
+  connect(m_materials, &QTableWidget::itemSelectionChanged, this, &CatalogueDialog::enableRemove);
   connect(addOne, &QPushButton::clicked, this, &CatalogueDialog::add);
   connect(m_remove, &QPushButton::clicked, this, &CatalogueDialog::remove);
-  connect(builtIn, &QPushButton::clicked, this,
-          [this]
-          {
-            m_editor.setBuiltIn();
-            fill();
-          });
+  connect(builtIn, &QPushButton::clicked, this, &CatalogueDialog::setBuiltIn);
   connect(buttons, &QDialogButtonBox::accepted, this, &CatalogueDialog::save);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   fill();
@@ -177,10 +177,13 @@ void CatalogueDialog::fill()
   const QScopedValueRollback<bool> filling(m_filling, true);
   const int count = static_cast<int>(m_editor.materials().size());
   const int current = m_materials->currentRow();
+  const bool isOther = count != m_materials->rowCount();
   m_materials->setRowCount(count);
   for (int row = 0; row < count; ++row)
     fillMaterial(row);
-  m_materials->selectRow(std::clamp(current, 0, count - 1));
+  if (isOther || current < 0) // goes to the first column, from which Tab would go on
+    m_materials->selectRow(std::clamp(current, 0, count - 1));
+  enableRemove();
   m_burrs->setRowCount(static_cast<int>(m_editor.burrs().size()));
   for (int row = 0; row < m_burrs->rowCount(); ++row)
     fillBurr(row);
@@ -188,7 +191,20 @@ void CatalogueDialog::fill()
   m_bone->setText(
       tr("Bone that nobody labelled goes from “%1” at %2 HU to “%3” at %4 HU.")
           .arg(words(bone.cellular), number(bone.low), words(bone.cortical), number(bone.high)));
+  QStringList lost;
+  for (const std::string& name : m_editor.lostMaterials())
+    lost +=
+        tr("Other cases that use “%1” cannot be drilled until it exists again.").arg(words(name));
+  m_lost->setText(lost.join(' '));
+  m_lost->setVisible(!lost.isEmpty());
   m_fault->hide();
+}
+
+void CatalogueDialog::enableRemove()
+{
+  const int at = m_materials->currentRow();
+  m_remove->setEnabled(at >= 0 && at < static_cast<int>(m_editor.materials().size()) &&
+                       !m_editor.isBuiltIn(static_cast<std::size_t>(at)));
 }
 
 void CatalogueDialog::fillMaterial(int row)
@@ -232,6 +248,13 @@ void CatalogueDialog::enter(const std::function<void()>& change)
   m_fault->setVisible(!why.isEmpty());
 }
 
+void CatalogueDialog::checkUnused(const std::string& material) const
+{
+  if (m_isUsed(material))
+    throw core::InvalidParameter("material '" + material +
+                                 "' is that of a structure of the open case");
+}
+
 void CatalogueDialog::materialEntered(int row)
 {
   if (m_filling)
@@ -242,14 +265,13 @@ void CatalogueDialog::materialEntered(int row)
         const auto at = static_cast<std::size_t>(row);
         auto one = m_editor.materials()[at];
         const std::string name = bytes(m_materials->item(row, Name)->text().trimmed());
-        if (name != one.name && m_isUsed(one.name))
-          throw core::InvalidParameter("material '" + one.name +
-                                       "' is that of a structure of the open case");
+        if (name != one.name)
+          checkUnused(one.name);
         one.name = name;
         one.title = textIn(*m_materials, row, Title, one.title);
-        one.specificEnergy = numberIn(*m_materials, row, Energy);
-        one.friction = numberIn(*m_materials, row, Friction);
-        one.hardness = numberIn(*m_materials, row, Hardness);
+        one.specificEnergy = numberIn(*m_materials, row, Energy, one.specificEnergy);
+        one.friction = numberIn(*m_materials, row, Friction, one.friction);
+        one.hardness = numberIn(*m_materials, row, Hardness, one.hardness);
         one.source = textIn(*m_materials, row, MaterialSource, one.source);
         m_editor.setMaterial(at, one);
       });
@@ -265,8 +287,10 @@ void CatalogueDialog::burrEntered(int row)
         const auto at = static_cast<std::size_t>(row);
         auto one = m_editor.burrs()[at];
         const bool isCutting = one.kind == dissection::Burr::Kind::Cutting;
-        one.constant = numberIn(*m_burrs, row, isCutting ? Rake : Wear);
-        one.diameters = presenters::diametersFrom(bytes(m_burrs->item(row, Diameters)->text()));
+        one.constant = numberIn(*m_burrs, row, isCutting ? Rake : Wear, one.constant);
+        const std::string diameters = bytes(m_burrs->item(row, Diameters)->text().trimmed());
+        if (diameters != presenters::diametersText(one.diameters))
+          one.diameters = presenters::diametersFrom(diameters);
         one.source = textIn(*m_burrs, row, BurrSource, one.source);
         m_editor.setBurr(at, one);
       });
@@ -297,16 +321,29 @@ void CatalogueDialog::remove()
       [&]
       {
         const auto at = static_cast<std::size_t>(row);
-        const std::string name = m_editor.materials()[at].name;
-        if (m_isUsed(name))
-          throw core::InvalidParameter("material '" + name +
-                                       "' is that of a structure of the open case");
+        checkUnused(m_editor.materials()[at].name);
         m_editor.removeMaterial(at);
+      });
+}
+
+void CatalogueDialog::setBuiltIn()
+{
+  enter(
+      [&]
+      {
+        for (std::size_t at = 0; at < m_editor.materials().size(); ++at)
+          if (!m_editor.isBuiltIn(at))
+            checkUnused(m_editor.materials()[at].name);
+        m_editor.setBuiltIn();
       });
 }
 
 void CatalogueDialog::save()
 {
+  m_fault->hide();
+  m_save->setFocus(); // enters what is being typed
+  if (!m_fault->isHidden())
+    return;
   if (!m_editor.changed())
     return reject();
   bool isSaved = false;

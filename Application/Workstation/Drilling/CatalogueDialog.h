@@ -18,10 +18,9 @@ class CatalogueDialog : public QDialog
 {
   Q_OBJECT
 public:
-  /// `isUsed`: whether a structure of the open case is of that material. Throws as
-  /// presenters::CatalogueEditor.
-  CatalogueDialog(std::filesystem::path library, std::function<bool(const std::string&)> isUsed,
-                  QWidget* parent = nullptr);
+  /// `isUsed`: whether a structure of the open case is of that material.
+  CatalogueDialog(presenters::CatalogueEditor editor,
+                  std::function<bool(const std::string&)> isUsed, QWidget* parent = nullptr);
 
 signals:
   void saved();
@@ -30,11 +29,14 @@ private:
   void fill();
   void fillMaterial(int row);
   void fillBurr(int row);
+  void enableRemove();
   void enter(const std::function<void()>& change);
+  void checkUnused(const std::string& material) const;
   void materialEntered(int row);
   void burrEntered(int row);
   void add();
   void remove();
+  void setBuiltIn();
   void save();
 
   presenters::CatalogueEditor m_editor;
@@ -42,8 +44,10 @@ private:
   QTableWidget* m_materials;
   QTableWidget* m_burrs;
   QLabel* m_bone;
+  QLabel* m_lost;
   QLabel* m_fault;
   QPushButton* m_remove;
+  QPushButton* m_save;
   bool m_filling = false;
 };
 

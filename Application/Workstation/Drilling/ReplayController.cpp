@@ -47,7 +47,7 @@ ReplayController::ReplayController(presenters::WorkstationModel& model, ThreeDVi
   , m_window(window)
   , m_panel(new ReplayPanel(play))
 {
-  m_play.setIconText(tr("Play"));
+  m_play.setIconText(tr("Play recording"));
   m_frames.setInterval(kFrame);
   m_frames.setTimerType(Qt::PreciseTimer);
   connect(&m_frames, &QTimer::timeout, this, &ReplayController::frame);
@@ -83,6 +83,7 @@ ReplayController::~ReplayController()
 {
   m_panel->onCaseChanged = m_panel->onPartsChanged = m_panel->onRecordingsChanged =
       m_panel->onBurrMoved = {};
+  m_panel->setReview(nullptr); // the panel lives on
 }
 
 // The library's, the last one where it is elsewhere, those attached, and the one that is open.
@@ -210,7 +211,8 @@ void ReplayController::read(std::filesystem::path file)
 
 void ReplayController::caseReady()
 {
-  if (m_waits && m_model.hasCase() && m_model.ready() && !m_model.drilling())
+  const bool mayBeKnownNow = m_review && !m_review->whyUnmeasured.empty(); // prepared anew
+  if ((m_waits || mayBeKnownNow) && m_model.hasCase() && m_model.ready() && !m_model.drilling())
     read(m_file);
 }
 
@@ -242,10 +244,11 @@ void ReplayController::togglePlay()
 void ReplayController::play(bool on)
 {
   on = on && m_review && !m_review->course.empty();
-  m_play.setIconText(on ? tr("Pause") : tr("Play"));
+  m_play.setIconText(on ? tr("Pause recording") : tr("Play recording"));
   if (!on)
     return m_frames.stop();
-  if (m_time >= m_review->metrics.duration)
+  constexpr double kSlider = 1e-3; // s; to which its end is rounded
+  if (m_time >= m_review->metrics.duration - kSlider)
     goTo(0.0);
   m_sinceFrame.start();
   m_frames.start();
@@ -282,7 +285,7 @@ void ReplayController::showGhost()
   m_view.display().setGhost(ghost);
 }
 
-// Each frame of the tool in use.
+// Each frame of the tool in use, and when it was put away.
 void ReplayController::burrMoved()
 {
   const bool drills = m_model.drilling();

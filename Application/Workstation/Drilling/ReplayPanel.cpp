@@ -10,6 +10,7 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QPainter>
+#include <QPixmap>
 #include <QPushButton>
 #include <QScopedValueRollback>
 #include <QSlider>
@@ -97,6 +98,7 @@ public:
   void setReview(const presenters::SessionReview* review)
   {
     m_review = review;
+    m_curve = {};
     update();
   }
   void setTime(double seconds)
@@ -111,13 +113,33 @@ public:
 protected:
   void paintEvent(QPaintEvent*) override
   {
+    if (m_curve.size() != size() * devicePixelRatioF())
+      drawCurve();
     QPainter painter(this);
+    painter.drawPixmap(0, 0, m_curve);
+    if (!m_review || m_review->course.empty() || m_review->metrics.duration <= 0.0)
+      return;
+    const QRectF area = this->area();
+    const double x = area.left() + area.width() * m_time / m_review->metrics.duration;
+    painter.setPen(QColor("#ffffff"));
+    painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()));
+  }
+
+private:
+  QRectF area() const { return QRectF(rect()).adjusted(4.0, 16.0, -4.0, -4.0); }
+
+  // All but the time that is shown: an hour has 360,000 samples.
+  void drawCurve()
+  {
+    m_curve = QPixmap(size() * devicePixelRatioF());
+    m_curve.setDevicePixelRatio(devicePixelRatioF());
+    QPainter painter(&m_curve);
     painter.fillRect(rect(), QColor("#14171b"));
     painter.setPen(QColor("#2e343c"));
     painter.drawRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5));
     if (!m_review || m_review->course.empty() || m_review->metrics.duration <= 0.0)
       return;
-    const QRectF area = QRectF(rect()).adjusted(4.0, 16.0, -4.0, -4.0);
+    const QRectF area = this->area();
     const double most = std::max(m_review->metrics.maxForce, 0.1); // N
     const auto xOf = [&](double time)
     { return area.left() + area.width() * time / m_review->metrics.duration; };
@@ -142,15 +164,13 @@ protected:
       if (const double high = force[static_cast<std::size_t>(at)]; high > 0.0)
         painter.drawLine(QPointF(area.left() + at, area.bottom()),
                          QPointF(area.left() + at, area.bottom() - area.height() * high / most));
-    painter.setPen(QColor("#ffffff"));
-    painter.drawLine(QPointF(xOf(m_time), area.top()), QPointF(xOf(m_time), area.bottom()));
     painter.setPen(QColor("#9aa4af"));
     painter.drawText(QPointF(6.0, 12.0), fixed(most, 1, ReplayPanel::tr("N")));
   }
 
-private:
   const presenters::SessionReview* m_review = nullptr;
   double m_time = 0.0; // s
+  QPixmap m_curve;
 };
 
 ReplayPanel::ReplayPanel(QAction& play, QWidget* parent)
@@ -173,6 +193,7 @@ ReplayPanel::ReplayPanel(QAction& play, QWidget* parent)
         button(tr("E&xport…"), "replayExport", tr("Metrics, or place and force over time, as CSV")))
 {
   auto* open = button(tr("&Open…"), "replayOpen", tr("A recording from a file (*.ticks)"));
+  m_recordings->setAccessibleName(tr("Recording"));
   m_recordings->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   m_recordings->setMinimumContentsLength(8);
   auto* top = new QHBoxLayout;
@@ -263,6 +284,12 @@ void ReplayPanel::attachmentsChanged()
 }
 
 void ReplayPanel::burrMoved(const Eigen::Vector3d& /*center*/, double /*radius*/)
+{
+  if (onBurrMoved)
+    onBurrMoved();
+}
+
+void ReplayPanel::burrGone()
 {
   if (onBurrMoved)
     onBurrMoved();

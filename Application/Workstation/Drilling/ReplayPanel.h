@@ -42,6 +42,7 @@ public:
   void partsChanged() override;
   void attachmentsChanged() override;
   void burrMoved(const Eigen::Vector3d& center, double radius) override;
+  void burrGone() override;
 
 signals:
   void recordingChosen(int row);

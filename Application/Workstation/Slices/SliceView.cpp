@@ -1,6 +1,7 @@
 #include "SliceView.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -844,6 +845,24 @@ bool SliceView::moveMr(const QKeyEvent& event)
   default:
     return false;
   }
+}
+
+// The keys that move the MR are the slice's while one lies over it, and not an action's.
+bool SliceView::event(QEvent* event)
+{
+  if (event->type() == QEvent::ShortcutOverride && m_overlay)
+  {
+    const auto& key = static_cast<QKeyEvent&>(*event);
+    constexpr std::array<int, 6> kMoves{Qt::Key_Left, Qt::Key_Right,  Qt::Key_Up,
+                                        Qt::Key_Down, Qt::Key_PageUp, Qt::Key_PageDown};
+    if (key.modifiers() & Qt::AltModifier &&
+        std::find(kMoves.begin(), kMoves.end(), key.key()) != kMoves.end())
+    {
+      event->accept();
+      return true;
+    }
+  }
+  return QWidget::event(event);
 }
 
 void SliceView::keyPressEvent(QKeyEvent* event)

@@ -1,8 +1,13 @@
 #include <filesystem>
+#include <fstream>
 
 #include <QComboBox>
 #include <QDoubleSpinBox>
+#include <QFile>
+#include <QJsonArray>
+#include <QJsonDocument>
 #include <QLabel>
+#include <QLineEdit>
 #include <QPushButton>
 #include <QTableWidget>
 
@@ -28,7 +33,33 @@ protected:
   {
     return *within.findChild<QTableWidget*>(name);
   }
+  static bool isShown(QWidget& within, const char* label)
+  {
+    return within.findChild<QLabel*>(label)->isVisible();
+  }
   dissection::Catalogues read() const { return dissection::Catalogues::in(folder() / "library"); }
+  std::filesystem::path materialsFile() const { return folder() / "library" / "materials.json"; }
+
+  /// Cortical bone under that name in the library.
+  void saveOwn(const std::string& name)
+  {
+    presenters::CatalogueEditor editor(folder() / "library");
+    const std::size_t row = editor.addMaterial(0);
+    auto own = editor.materials()[row];
+    own.name = name;
+    editor.setMaterial(row, own);
+    editor.save();
+  }
+
+  /// Opens the editor of a cell of materials; what it shows is `text` then.
+  static QLineEdit& typed(QTableWidget& materials, int row, int column, const QString& text)
+  {
+    materials.setCurrentCell(row, column);
+    materials.editItem(materials.item(row, column));
+    auto& line = *materials.findChildren<QLineEdit*>().last(); // closed ones are deleted later
+    line.setText(text);
+    return line;
+  }
 };
 
 } // namespace
@@ -93,4 +124,140 @@ TEST_F(CatalogueDialogs, DiametersComeToTheDrillBarAndGoBackWithTheProgramsOwn)
   again.findChild<QPushButton*>("catalogueBuiltIn")->click();
   again.findChild<QPushButton*>("catalogueSave")->click();
   EXPECT_FALSE(std::filesystem::exists(folder() / "library" / "burrs.json"));
+}
+
+TEST_F(CatalogueDialogs, AMaterialOfTheOpenCaseStaysWithTheBuiltInTables)
+{
+  scene::Case value = ballCase("ball");
+  value.labels.front().structures.front().look.tissue = "sclerotic-bone";
+  library().save(value);
+  saveOwn("sclerotic-bone");
+  openWindow("ball");
+  auto& edit = dialog();
+  const int rows = table(edit, "materials").rowCount();
+  edit.findChild<QPushButton*>("catalogueBuiltIn")->click();
+  EXPECT_EQ(table(edit, "materials").rowCount(), rows);
+  EXPECT_TRUE(isShown(edit, "catalogueFault"));
+  EXPECT_FALSE(isShown(edit, "catalogueLost"));
+  edit.reject();
+}
+
+TEST_F(CatalogueDialogs, SaysThatOtherCasesMissAMaterial)
+{
+  saveBall("ball");
+  saveOwn("sclerotic-bone");
+  openWindow("ball");
+  auto& edit = dialog();
+  auto& materials = table(edit, "materials");
+  const int row = materials.rowCount() - 1;
+  EXPECT_FALSE(isShown(edit, "catalogueLost"));
+  materials.item(row, 0)->setText("other");
+  EXPECT_TRUE(isShown(edit, "catalogueLost"));
+  EXPECT_TRUE(edit.findChild<QLabel*>("catalogueLost")->text().contains("sclerotic-bone"));
+  materials.item(row, 0)->setText("sclerotic-bone");
+  EXPECT_FALSE(isShown(edit, "catalogueLost"));
+  materials.selectRow(row);
+  edit.findChild<QPushButton*>("removeMaterial")->click();
+  EXPECT_TRUE(isShown(edit, "catalogueLost"));
+  edit.reject();
+}
+
+TEST_F(CatalogueDialogs, TabGoesToTheNextColumn)
+{
+  saveBall("ball");
+  openWindow("ball");
+  auto& edit = dialog();
+  auto& materials = table(edit, "materials");
+  QTest::keyClick(&typed(materials, 2, 3, "0.6"), Qt::Key_Tab);
+  EXPECT_EQ(materials.item(2, 3)->text(), "0.6");
+  EXPECT_EQ(materials.currentRow(), 2);
+  EXPECT_EQ(materials.currentColumn(), 4);
+  edit.reject();
+}
+
+TEST_F(CatalogueDialogs, SavesWhatIsBeingTyped)
+{
+  saveBall("ball");
+  openWindow("ball");
+  auto& edit = dialog();
+  ASSERT_TRUE(waitFor([&] { return edit.isActiveWindow(); }));
+  auto& materials = table(edit, "materials");
+  typed(materials, 0, 4, "-3");
+  edit.findChild<QPushButton*>("catalogueSave")->click(); // as its key: the focus stays
+  EXPECT_TRUE(edit.isVisible()) << "refused";
+  EXPECT_TRUE(isShown(edit, "catalogueFault"));
+  typed(materials, 0, 4, "50");
+  edit.findChild<QPushButton*>("catalogueSave")->click();
+  EXPECT_NEAR(read().materials.material("cortical-bone").hardness, 50.0 * 9.807e6, 1.0);
+}
+
+TEST_F(CatalogueDialogs, NumbersKeepTheDigitsThatAreNotShown)
+{
+  saveBall("ball");
+  {
+    presenters::CatalogueEditor editor(folder() / "library");
+    auto bone = editor.materials()[0];
+    bone.hardness = 42.123456789;
+    editor.setMaterial(0, bone);
+    auto cutting = editor.burrs()[0];
+    cutting.diameters = {2.12345678};
+    editor.setBurr(0, cutting);
+    editor.save();
+  }
+  openWindow("ball");
+  auto& edit = dialog();
+  table(edit, "materials").item(0, 3)->setText("0.55");
+  table(edit, "burrs").item(0, 1)->setText("-12");
+  edit.findChild<QPushButton*>("catalogueSave")->click();
+  EXPECT_DOUBLE_EQ(read().materials.material("cortical-bone").friction, 0.55);
+  EXPECT_NEAR(read().materials.material("cortical-bone").hardness / 9.807e6, 42.123456789, 1e-9);
+  EXPECT_EQ(read().burrs.model(dissection::Burr::Kind::Cutting).diameters,
+            std::vector<double>{2.12345678});
+}
+
+TEST_F(CatalogueDialogs, RemoveIsOfferedForTheRowThatIsThenSelected)
+{
+  saveBall("ball");
+  saveOwn("sclerotic-bone");
+  QFile file(QString::fromStdString(materialsFile().string()));
+  ASSERT_TRUE(file.open(QIODevice::ReadWrite));
+  QJsonObject root = QJsonDocument::fromJson(file.readAll()).object();
+  QJsonArray ordered = root["materials"].toArray();
+  ordered.prepend(ordered.takeAt(ordered.size() - 1));
+  root["materials"] = ordered;
+  file.resize(0);
+  file.write(QJsonDocument(root).toJson());
+  file.close();
+  openWindow("ball");
+  auto& edit = dialog();
+  auto& materials = table(edit, "materials");
+  ASSERT_EQ(materials.item(0, 0)->text(), "sclerotic-bone");
+  auto& remove = *edit.findChild<QPushButton*>("removeMaterial");
+  EXPECT_TRUE(remove.isEnabled());
+  remove.click();
+  EXPECT_EQ(materials.item(0, 0)->text(), "cortical-bone");
+  EXPECT_FALSE(remove.isEnabled());
+  edit.reject();
+}
+
+TEST_F(CatalogueDialogs, ABrokenFileCanBeReplacedByTheBuiltInTable)
+{
+  saveBall("ball");
+  std::ofstream(materialsFile()) << "{";
+  openWindow("ball");
+  QString why;
+  onMessage(
+      [&why](QMessageBox& box)
+      {
+        why = box.text();
+        box.defaultButton()->click();
+      });
+  action(QString::fromUtf8("Materials and burrs…"))->trigger();
+  ASSERT_TRUE(waitFor([this] { return window().findChild<CatalogueDialog*>() != nullptr; }));
+  EXPECT_TRUE(why.contains("materials.json")) << why.toStdString();
+  EXPECT_TRUE(std::filesystem::exists(materialsFile()));
+  auto& edit = *window().findChild<CatalogueDialog*>();
+  EXPECT_EQ(table(edit, "materials").item(0, 0)->text(), "cortical-bone");
+  edit.findChild<QPushButton*>("catalogueSave")->click();
+  EXPECT_FALSE(std::filesystem::exists(materialsFile()));
 }

@@ -1,5 +1,6 @@
 #include "GuiTest.h"
 
+#include <algorithm>
 #include <fstream>
 #include <set>
 
@@ -184,10 +185,13 @@ protected:
       EXPECT_TRUE(hasTip || !isControl) << described(*widget).toStdString() << " has no tip";
     }
   }
-  /// Of the space about a button's text, that the text may take.
+  /// Of the space about a text, that the text may take: a size hint has some pixels more than what
+  /// is painted.
   static int marginOf(const QWidget& widget)
   {
-    return widget.style()->pixelMetric(QStyle::PM_ButtonMargin, nullptr, &widget) / 2;
+    constexpr int kLeast = 3; // px
+    return std::max(kLeast,
+                    widget.style()->pixelMetric(QStyle::PM_ButtonMargin, nullptr, &widget) / 2);
   }
   /// Without the arrow of a list that is sorted.
   static int wholeTitle(const QHeaderView& header, int section, const QString& text)
@@ -269,7 +273,7 @@ protected:
         if (label->heightForWidth(label->width()) > label->height())
           add(*label, text, label->heightForWidth(label->width()), label->height());
       }
-      else if (widget->sizeHint().width() > widget->width() + (button ? marginOf(*button) : 0))
+      else if (widget->sizeHint().width() > widget->width() + marginOf(*widget))
         add(*widget, text, widget->sizeHint().width(), widget->width());
       // What scrolls may be cut off above and below.
       const QRegion seen = widget->visibleRegion();

@@ -91,7 +91,7 @@ namespace
 {
 constexpr int kMessage = 8000;   // ms
 constexpr int kFileName = 300;   // px
-constexpr int kPanelWidth = 500; // px, at first: the list of structures with its usual columns
+constexpr int kPanelWidth = 512; // px, at first: the list of structures with its usual columns
 constexpr double kRoll = 5.0;    // degrees
 
 QStringList dropped(const QMimeData& data)
@@ -1073,19 +1073,52 @@ void MainWindow::editCatalogues()
                          return std::any_of(part.structures.begin(), part.structures.end(), has);
                        });
   };
+  const auto edit = [this, isUsed](presenters::CatalogueEditor editor)
+  {
+    auto* dialog = new CatalogueDialog(std::move(editor), isUsed, this);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    connect(dialog, &CatalogueDialog::saved, this,
+            [this]
+            {
+              offerBurrs();
+              if (m_model.touching())
+                m_drill->renewTool();
+            });
+    dialog->open();
+  };
+  const auto offerRepair = [this, edit](const QString& why)
+  {
+    auto* box = new QMessageBox(QMessageBox::Question, tr("Materials and burrs"),
+                                capitalized(sentence(why)), QMessageBox::Cancel, this);
+    box->setObjectName("catalogueRepair");
+    box->setAttribute(Qt::WA_DeleteOnClose);
+    box->setTextFormat(Qt::PlainText);
+    box->setInformativeText(tr("Begin with the built-in tables in place of what cannot be read? "
+                               "The file stays as it is until you save, which replaces or removes "
+                               "it."));
+    box->setDefaultButton(
+        box->addButton(tr("Begin with the &built-in tables"), QMessageBox::AcceptRole));
+    connect(box, &QMessageBox::finished, this,
+            [this, box, edit]
+            {
+              if (box->buttonRole(box->clickedButton()) == QMessageBox::AcceptRole)
+                edit(presenters::CatalogueEditor::repairing(m_model.library().folder()));
+            });
+    box->open();
+  };
   guarded(
       [&]
       {
-        auto* dialog = new CatalogueDialog(m_model.library().folder(), isUsed, this);
-        dialog->setAttribute(Qt::WA_DeleteOnClose);
-        connect(dialog, &CatalogueDialog::saved, this,
-                [this]
-                {
-                  offerBurrs();
-                  if (m_model.touching())
-                    m_drill->renewTool();
-                });
-        dialog->open();
+        std::optional<presenters::CatalogueEditor> editor;
+        try
+        {
+          editor.emplace(m_model.library().folder());
+        }
+        catch (const core::Error& fault)
+        {
+          return offerRepair(toString(fault));
+        }
+        edit(std::move(*editor));
       },
       [this](const QString& why) { notice(capitalized(sentence(why))); });
 }

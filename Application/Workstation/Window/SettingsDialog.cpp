@@ -11,7 +11,6 @@
 #include <QFile>
 #include <QFileDialog>
 #include <QFormLayout>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QMessageBox>
 #include <QPushButton>
@@ -131,9 +130,9 @@ void SettingsDialog::addLibrary(QFormLayout& form)
   change->setToolTip(tr("From the next start on, for the command too; --library and "
                         "PETROUS_LIBRARY go first. Nothing is moved."));
   connect(change, &QPushButton::clicked, this, &SettingsDialog::changeLibrary);
-  auto* row = new QHBoxLayout;
-  row->addWidget(m_place, 1);
-  row->addWidget(change);
+  auto* row = new QVBoxLayout; // a path has no blanks at which it could be wrapped
+  row->addWidget(m_place);
+  row->addWidget(change, 0, Qt::AlignLeft);
   form.addRow(tr("Library:"), row);
   showLibrary();
 }

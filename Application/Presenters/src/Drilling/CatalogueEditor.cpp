@@ -1,6 +1,7 @@
 #include "petrous/Presenters/CatalogueEditor.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -61,11 +62,47 @@ void put(const std::filesystem::path& file, const std::string& text, const std::
 } // namespace
 
 CatalogueEditor::CatalogueEditor(std::filesystem::path folder)
+  : CatalogueEditor(folder, dissection::Catalogues::in(folder))
+{
+}
+
+CatalogueEditor::CatalogueEditor(std::filesystem::path folder, const dissection::Catalogues& saved)
   : m_folder(std::move(folder))
   , m_builtIn(tablesOf(dissection::Catalogues::builtIn()))
-  , m_saved(tablesOf(dissection::Catalogues::in(m_folder)))
+  , m_saved(tablesOf(saved))
   , m_now(m_saved)
 {
+}
+
+CatalogueEditor CatalogueEditor::repairing(const std::filesystem::path& folder)
+{
+  using dissection::Catalogues;
+  const auto read = [](const auto& from) -> std::optional<Catalogues>
+  {
+    try
+    {
+      return from();
+    }
+    catch (const core::Error&)
+    {
+      return std::nullopt;
+    }
+  };
+  if (const auto sound = read([&] { return Catalogues::in(folder); }))
+    return {folder, *sound};
+  // What was replaced counts as changed.
+  if (const auto burrs = read([&] { return Catalogues::read({}, folder / kBurrsFile); }))
+  {
+    CatalogueEditor editor(folder, *burrs);
+    editor.m_saved.materials.clear();
+    return editor;
+  }
+  const auto materials = read([&] { return Catalogues::read(folder / kMaterialsFile, {}); });
+  CatalogueEditor editor(folder, materials ? *materials : Catalogues::builtIn());
+  editor.m_saved.burrs.clear();
+  if (!materials)
+    editor.m_saved.materials.clear();
+  return editor;
 }
 
 CatalogueEditor::Tables CatalogueEditor::tablesOf(const dissection::Catalogues& catalogues)
@@ -137,6 +174,16 @@ bool CatalogueEditor::isBuiltIn(std::size_t material) const
                      [&name](const Material& one) { return one.name == name; });
 }
 
+std::vector<std::string> CatalogueEditor::lostMaterials() const
+{
+  std::vector<std::string> names;
+  for (const Material& saved : m_saved.materials)
+    if (std::none_of(m_now.materials.begin(), m_now.materials.end(),
+                     [&saved](const Material& one) { return one.name == saved.name; }))
+      names.push_back(saved.name);
+  return names;
+}
+
 void CatalogueEditor::setMaterial(std::size_t row, const Material& material)
 {
   Tables next = m_now;
@@ -206,9 +253,14 @@ bool CatalogueEditor::changed() const
 
 void CatalogueEditor::save()
 {
-  put(m_folder / kMaterialsFile, materialsJson(m_now), materialsJson(m_builtIn));
-  put(m_folder / kBurrsFile, burrsJson(m_now), burrsJson(m_builtIn));
-  m_saved = m_now;
+  // What was written by hand stays if its table has not changed.
+  if (const std::string text = materialsJson(m_now); text != materialsJson(m_saved))
+    put(m_folder / kMaterialsFile, text, materialsJson(m_builtIn));
+  m_saved.materials = m_now.materials;
+  m_saved.bone = m_now.bone;
+  if (const std::string text = burrsJson(m_now); text != burrsJson(m_saved))
+    put(m_folder / kBurrsFile, text, burrsJson(m_builtIn));
+  m_saved.burrs = m_now.burrs;
 }
 
 std::string diametersText(const std::vector<double>& diameters)
@@ -221,14 +273,23 @@ std::string diametersText(const std::vector<double>& diameters)
 
 std::vector<double> diametersFrom(const std::string& text)
 {
+  const bool hasSemicolon = text.find(';') != std::string::npos;
+  const auto separates = [&](std::size_t at)
+  {
+    const bool isLast = at + 1 >= text.size();
+    return at >= text.size() || text[at] == ';' || text[at] == ' ' ||
+           (text[at] == ',' && !hasSemicolon && (isLast || text[at + 1] == ' '));
+  };
   std::vector<double> diameters;
   std::string word;
-  for (const char c : text + ",")
-    if (c != ',' && c != ';' && c != ' ')
-      word += c;
+  for (std::size_t at = 0; at <= text.size(); ++at)
+    if (!separates(at))
+      word += text[at];
     else if (!word.empty())
     {
-      const auto diameter = core::parseDouble(word);
+      std::string number = word;
+      std::replace(number.begin(), number.end(), ',', '.');
+      const auto diameter = core::parseDouble(number);
       if (!diameter || !(*diameter > 0.0 && *diameter <= 10.0))
         throw core::InvalidParameter("'" + word +
                                      "' is not a diameter: numbers above 0, up to 10 mm");

@@ -113,14 +113,14 @@ bool RecordedCourse::add(const session::TickRecord& record)
   const bool isSound =
       fault != ServoFault::Device && fault != ServoFault::Clock && fault != ServoFault::Parameters;
   const haptics::Pose pose = record.proxy.pose();
-  if (!(m_placed || isSound) || !pose.position.allFinite())
+  if (!isSound || !pose.position.allFinite()) // the proxy stands where it was
     return false;
   RecordedTool tool;
   tool.center = pose.position;
   tool.axisToHand = pose.rotation * Eigen::Vector3d::UnitZ();
   tool.drilling = record.drill != 0;
   tool.force = forceOf(record.wrench.force);
-  tool.thrust = forceOf(record.burrForce);
+  tool.thrust = record.thrust;
   const bool isFirst = !m_placed;
   if (isFirst)
   {
@@ -130,7 +130,9 @@ bool RecordedCourse::add(const session::TickRecord& record)
   }
   tool.time = std::max(record.time() - m_start, m_last.time); // the clock may run backward
 
-  const double seconds = isFirst ? 0.0 : tool.time - m_last.time;
+  // What is between two ticks that far apart nobody knows (DissectionLoop counts no more, either).
+  constexpr double kLongest = 0.01; // s
+  const double seconds = isFirst ? 0.0 : std::min(tool.time - m_last.time, kLongest);
   m_metrics.duration = tool.time;
   if (m_last.drilling && !isFirst)
   {

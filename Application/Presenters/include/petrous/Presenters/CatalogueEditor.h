@@ -37,6 +37,10 @@ public:
   /// Reads the catalogues of a library's folder. Throws as dissection::Catalogues::in.
   explicit CatalogueEditor(std::filesystem::path folder);
 
+  /// With the built-in table in place of a file that cannot be understood; save() replaces the
+  /// file.
+  static CatalogueEditor repairing(const std::filesystem::path& folder);
+
   const std::vector<Material>& materials() const noexcept { return m_now.materials; }
   const std::vector<Burr>& burrs() const noexcept { return m_now.burrs; } ///< cutting, diamond
   const dissection::BoneRamp& bone() const noexcept { return m_now.bone; }
@@ -44,6 +48,9 @@ public:
   /// Whether presets, or cases by themselves, give that material to structures: it has its name for
   /// good.
   bool isBuiltIn(std::size_t material) const;
+
+  /// Names of materials that cases may refer to and that would no longer exist once saved.
+  std::vector<std::string> lostMaterials() const;
 
   // These throw InvalidParameter, without effect.
   void setMaterial(std::size_t row, const Material& material);
@@ -54,8 +61,8 @@ public:
   void setBuiltIn(); ///< all as it comes with the program
   bool changed() const;
 
-  /// Writes materials.json and burrs.json in the folder; what is as it comes with the program has
-  /// no file there. Throws core::OutputFileError.
+  /// Writes materials.json and burrs.json in the folder, each only if its table has changed; what
+  /// is as it comes with the program has no file there. Throws core::OutputFileError.
   void save();
 
 private:
@@ -65,6 +72,7 @@ private:
     dissection::BoneRamp bone;
     std::vector<Burr> burrs;
   };
+  CatalogueEditor(std::filesystem::path folder, const dissection::Catalogues& saved);
   static Tables tablesOf(const dissection::Catalogues& catalogues);
   static std::string materialsJson(const Tables& tables);
   static std::string burrsJson(const Tables& tables);
@@ -74,8 +82,11 @@ private:
   Tables m_builtIn, m_saved, m_now;
 };
 
-/// "1, 2, 2.3" and back. Throws InvalidParameter unless all are diameters above 0, up to 10 mm.
+/// "1, 2, 2.3".
 std::string diametersText(const std::vector<double>& diameters);
+/// And back; blanks and semicolons separate. A comma separates where a blank or the end follows and
+/// there is no semicolon; otherwise it is decimal. Throws InvalidParameter unless all are diameters
+/// above 0, up to 10 mm.
 std::vector<double> diametersFrom(const std::string& text);
 
 } // namespace petrous::presenters

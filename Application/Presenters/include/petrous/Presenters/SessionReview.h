@@ -46,7 +46,7 @@ public:
   static constexpr double kRate = 100.0; ///< Hz
   static constexpr double kStep = 0.05;  ///< mm; what trembles within is no path
 
-  /// Ticks before the tool is placed are passed over. True if the tick counts.
+  /// Ticks without a valid reading of the device are passed over. True if the tick counts.
   bool add(const session::TickRecord& record);
 
   const std::vector<RecordedTool>& tools() const noexcept { return m_tools; }

@@ -41,7 +41,7 @@ session::TickRecord tick(double time, const Vector3d& center, bool drill = false
 scene::Case namedBlock()
 {
   scene::Case value = block();
-  auto labels = std::make_shared<volume::Volume<std::uint16_t>>(value.ct.geometry);
+  auto labels = std::make_shared<volume::Volume<std::uint16_t>>(value.ct.geometry, std::uint16_t{0});
   for (int k = 0; k < 10; ++k)
     for (int j = 10; j < 30; ++j)
       for (int i = 10; i < 30; ++i)
@@ -227,7 +227,7 @@ TEST_F(SessionReviewTest, RefusesAnotherImageAndWhatIsNoRecording)
   scene::Case value = namedBlock();
   drill(value);
   scene::Case other = namedBlock();
-  auto ct = std::make_shared<volume::Volume<std::int16_t>>(other.ct.geometry);
+  auto ct = std::make_shared<volume::Volume<std::int16_t>>(other.ct.geometry, std::int16_t{0});
   other.ct.volume = std::make_shared<const volume::IntensityVolume>(
       std::shared_ptr<const volume::Volume<std::int16_t>>(ct));
   EXPECT_THROW(reviewRecording(file, other), core::InvalidParameter);

@@ -435,7 +435,10 @@ void StructuresPanel::fitColumns()
   QHeaderView* header = m_list->header();
   for (int column = StructuresModel::VolumeColumn; column < m_structures->columnCount(); ++column)
   {
-    int width = header->sectionSizeHint(column);
+    constexpr int kBorder = 2; // px, of a section
+    const QString title =
+        m_structures->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
+    int width = header->fontMetrics().horizontalAdvance(title) + 2 * kPadding + kBorder;
     QSet<QString> texts; // what reads the same is as wide, and check boxes read nothing
     for (int top = 0; top < m_structures->rowCount(); ++top)
       for (int row = 0; row < m_structures->rowCount(m_structures->index(top, 0)); ++row)

@@ -407,65 +407,6 @@ TEST_F(Exchange, ReceivingIsCancelledAndGoesOn)
   EXPECT_EQ(window().model().value().ct.geometry.dims(), (core::Index3{64, 64, 64}));
 }
 
-// Images of a study are imported like a folder: what the headers leave open is asked.
-TEST_F(Exchange, BitsThatAReceivedScanDoesNotDeclareAreAskedAbout)
-{
-  skipWithoutOrthanc();
-  if (IsSkipped())
-    return;
-  saveBall("ball");
-  const network::test::Orthanc orthanc(folder(), {});
-  network::NodeList(libraryFolder()).add(orthanc.node());
-  network::store(orthanc.node(), writeUndeclaredBits(folder() / "odd"));
-  openWindow("ball");
-  for (const char* answer : {"Cancel", "Keep the bits"})
-  {
-    QString why;
-    onDialog(
-        [&why, answer](QDialog& dialog)
-        {
-          if (auto* box = qobject_cast<QMessageBox*>(&dialog))
-          {
-            EXPECT_EQ(box->objectName(), "askBits") << box->text().toStdString();
-            why = box->informativeText();
-            for (QAbstractButton* one : box->buttons())
-              if (one->text().remove('&') == answer)
-              {
-                one->click();
-                return true;
-              }
-            ADD_FAILURE() << answer;
-            box->reject();
-            return true;
-          }
-          if (dialog.objectName() != "receive")
-            return false;
-          dialog.findChild<QCheckBox*>("receiveDated")->setChecked(true);
-          button(dialog, "receiveSearch").click();
-          auto* found = dialog.findChild<QTreeWidget*>("receiveFound");
-          EXPECT_TRUE(waitFor(
-              [&] {
-                return found->topLevelItemCount() == 1 && found->topLevelItem(0)->childCount() == 1;
-              }));
-          const bool isProposed = button(dialog, "primary").isEnabled();
-          EXPECT_TRUE(isProposed) << "the only series";
-          isProposed ? button(dialog, "primary").click() : dialog.reject();
-          return !isProposed; // the bits are asked about
-        });
-    menu("receiveCase");
-    ASSERT_TRUE(waitFor([&] { return !why.isEmpty(); })) << answer;
-    ASSERT_TRUE(settled());
-    EXPECT_TRUE(why.contains("904") && why.contains("5000")) << why.toStdString();
-    if (answer == QString("Cancel"))
-    {
-      EXPECT_EQ(library().list().size(), 1U);
-      EXPECT_TRUE(isOpen("ball")) << "as before";
-    }
-  }
-  ASSERT_TRUE(isOpen("received"));
-  EXPECT_EQ(window().model().value().ct.range.max, 5000.0);
-}
-
 // Where the library has a case of its name, another one is asked for; what another node listed is
 // forgotten with it.
 TEST_F(Exchange, AReceivedCaseOfATakenNameGetsAnotherOne)

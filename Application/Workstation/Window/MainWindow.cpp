@@ -91,7 +91,7 @@ namespace
 {
 constexpr int kMessage = 8000;   // ms
 constexpr int kFileName = 300;   // px
-constexpr int kPanelWidth = 512; // px, at first: the list of structures with its usual columns
+constexpr int kPanelWidth = 500; // px, at first: the list of structures with its usual columns
 constexpr double kRoll = 5.0;    // degrees
 
 QStringList dropped(const QMimeData& data)

@@ -62,9 +62,15 @@ volume::IntensityVolume readNamed(const fs::path& path, const imaging::DicomSeri
                                   const core::Progress& progress, std::vector<std::string>& notes,
                                   volume::ImageProvenance& provenance)
 {
+  const auto named = [&path](const std::string& what)
+  { return what.rfind(path.string(), 0) == 0 ? what : path.string() + ": " + what; };
   try
   {
     return imaging::readSeries(series, options, progress, &notes, &provenance);
+  }
+  catch (const imaging::BitsUnclearError& error)
+  {
+    throw imaging::BitsUnclearError(named(error.what()), error.canKeep);
   }
   catch (const imaging::DicomError& error)
   {
@@ -73,8 +79,7 @@ volume::IntensityVolume readNamed(const fs::path& path, const imaging::DicomSeri
       what += series.geometry.verdict == imaging::Verdict::Repairable
                   ? " With --repair it is resampled to a straight volume."
                   : " Give a series that 'petrous scan' finds ok.";
-    const bool named = what.rfind(path.string(), 0) == 0;
-    throw imaging::DicomError(error.reason(), named ? what : path.string() + ": " + what);
+    throw imaging::DicomError(error.reason(), named(what));
   }
 }
 

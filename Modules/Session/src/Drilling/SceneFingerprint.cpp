@@ -60,7 +60,6 @@ RecordedScene TouchScene::fingerprint() const
   // All of it counts, drilled or not.
   const Eigen::Vector3d everywhere = Eigen::Vector3d::Constant(1e9);
   m_drill.protectedTissue().prepare({-everywhere, everywhere});
-  field.prepare({-everywhere, everywhere});
   core::Fingerprint tissue;
   tissue.add(field.parameters().scale);
   for (const auto* structures : {&field.solids(), &m_drill.protectedTissue().occupancies()})

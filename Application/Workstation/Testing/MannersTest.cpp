@@ -193,11 +193,12 @@ protected:
     return std::max(kLeast,
                     widget.style()->pixelMetric(QStyle::PM_ButtonMargin, nullptr, &widget) / 2);
   }
-  /// Without the arrow of a list that is sorted.
-  static int wholeTitle(const QHeaderView& header, int section, const QString& text)
+  /// With some space beside it, but without the arrow of a list that is sorted.
+  static int wholeTitle(const QHeaderView& header, const QString& text)
   {
-    return header.isSortIndicatorShown() ? header.fontMetrics().horizontalAdvance(text)
-                                         : header.sectionSizeHint(section);
+    constexpr int kBeside = 8; // px
+    return header.fontMetrics().horizontalAdvance(text) +
+           (header.isSortIndicatorShown() ? 0 : kBeside);
   }
   /// One that is narrower than its entries on purpose, such as the names of files.
   static bool isElided(const QComboBox& choice)
@@ -227,8 +228,8 @@ protected:
         for (int n = 0; n < header->count(); ++n)
           if (const QString text = header->model()->headerData(n, header->orientation()).toString();
               !header->isSectionHidden(n) && header->orientation() == Qt::Horizontal &&
-              wholeTitle(*header, n, text) > header->sectionSize(n))
-            add(*header, text, wholeTitle(*header, n, text), header->sectionSize(n));
+              wholeTitle(*header, text) > header->sectionSize(n))
+            add(*header, text, wholeTitle(*header, text), header->sectionSize(n));
         continue;
       }
       if (const auto* choice = qobject_cast<QComboBox*>(widget))

@@ -41,7 +41,8 @@ session::TickRecord tick(double time, const Vector3d& center, bool drill = false
 scene::Case namedBlock()
 {
   scene::Case value = block();
-  auto labels = std::make_shared<volume::Volume<std::uint16_t>>(value.ct.geometry, std::uint16_t{0});
+  auto labels =
+      std::make_shared<volume::Volume<std::uint16_t>>(value.ct.geometry, std::uint16_t{0});
   for (int k = 0; k < 10; ++k)
     for (int j = 10; j < 30; ++j)
       for (int i = 10; i < 30; ++i)

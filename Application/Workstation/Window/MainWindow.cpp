@@ -447,7 +447,7 @@ void MainWindow::showPanels()
   if (!front)
     return;
   front->raise();
-  resizeDocks({front}, {std::min(kPanelWidth, 2 * width() / 5)}, Qt::Horizontal);
+  resizeDocks({front}, {std::min(kPanelWidth, 5 * width() / 12)}, Qt::Horizontal);
 }
 
 // Another case is open, or none is any more.

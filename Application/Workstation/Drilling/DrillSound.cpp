@@ -83,9 +83,10 @@ void DrillSound::setBurr(const dissection::Burr& burr)
 void DrillSound::show(const session::TickRecord& record, double burrRadius)
 {
   const Eigen::Vector3d force = forceOf(record);
-  if (record.drill == 0 || !(force.norm() > 0.0))
+  const bool cuts = record.drill != 0 && force.norm() > 0.0;
+  if (!cuts)
     m_signal->wall = sound::DrillVoice::kThick; // until the next contact
-  if (!isOn() || record.drill == 0 || !(force.norm() > 0.0) || !m_model.ready())
+  if (!cuts || !isOn() || !m_model.ready())
     return;
   const Eigen::Vector3d into = -force.normalized();
   if (const auto wall = m_model.wallBehind(record.proxy.pose().position + burrRadius * into, into))

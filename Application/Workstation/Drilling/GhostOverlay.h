@@ -1,23 +1,13 @@
 #pragma once
 
-#include <array>
-#include <optional>
-
-#include <vtkNew.h>
 #include <vtkSmartPointer.h>
 
-#include "petrous/Rendering/SceneContents.h"
-
-class vtkActor;
-class vtkCylinderSource;
-class vtkRenderer;
-class vtkSphereSource;
+#include "petrous/Rendering/ToolProps.h"
 
 namespace petrous::workstation
 {
 
-/// A recorded tool beside one's own: the same burr, shaft and handpiece as a wire frame, which
-/// hides neither bone nor tool. Removed from the renderer on destruction.
+/// A recorded tool beside one's own. Removed from the renderer on destruction.
 class GhostOverlay
 {
 public:
@@ -26,13 +16,11 @@ public:
   GhostOverlay(const GhostOverlay&) = delete;
   GhostOverlay& operator=(const GhostOverlay&) = delete;
 
-  void set(const rendering::ToolPose& tool);
+  void set(const rendering::ToolPose& tool) { m_tool.setPose(tool); }
 
 private:
   vtkSmartPointer<vtkRenderer> m_renderer;
-  vtkNew<vtkSphereSource> m_burr;
-  vtkNew<vtkCylinderSource> m_shaft, m_handpiece;
-  std::array<vtkSmartPointer<vtkActor>, 3> m_actors;
+  rendering::ToolProps m_tool{rendering::ToolProps::Look::Ghost};
 };
 
 } // namespace petrous::workstation

@@ -370,6 +370,24 @@ std::optional<double> WorkstationModel::hounsfieldAt(const Eigen::Vector3d& pati
   return m_case->ct.volume.get()->sample(voxel);
 }
 
+namespace
+{
+
+// Of the nearest voxel; none outside the grid.
+std::optional<std::uint16_t> labelAt(const volume::LabelMap& labels, const Eigen::Vector3d& patient)
+{
+  const auto& voxels = *labels.voxels;
+  const Eigen::Vector3d voxel = voxels.geometry().voxelFromPatient(patient);
+  const core::Index3 nearest{static_cast<int>(std::floor(voxel[0] + 0.5)),
+                             static_cast<int>(std::floor(voxel[1] + 0.5)),
+                             static_cast<int>(std::floor(voxel[2] + 0.5))};
+  if (!voxels.geometry().fullBox().contains(nearest))
+    return std::nullopt;
+  return voxels.at(nearest[0], nearest[1], nearest[2]);
+}
+
+} // namespace
+
 std::string WorkstationModel::structureAt(const Eigen::Vector3d& patient) const
 {
   if (!m_case)
@@ -379,14 +397,7 @@ std::string WorkstationModel::structureAt(const Eigen::Vector3d& patient) const
     const auto labels = part.labels.peek() ? scene::labelsOnCt(*m_case, part) : nullptr;
     if (!labels)
       continue;
-    const auto& voxels = *labels->voxels;
-    const Eigen::Vector3d voxel = voxels.geometry().voxelFromPatient(patient);
-    const core::Index3 nearest{static_cast<int>(std::floor(voxel[0] + 0.5)),
-                               static_cast<int>(std::floor(voxel[1] + 0.5)),
-                               static_cast<int>(std::floor(voxel[2] + 0.5))};
-    if (!voxels.geometry().fullBox().contains(nearest))
-      continue;
-    const std::uint16_t index = voxels.at(nearest[0], nearest[1], nearest[2]);
+    const auto index = labelAt(*labels, patient);
     for (const auto& structure : part.structures)
       if (structure.index == index)
         return structure.name;
@@ -491,17 +502,9 @@ std::optional<double> WorkstationModel::wallBehind(const Eigen::Vector3d& surfac
     return std::any_of(warned.begin(), warned.end(),
                        [&at](const Warned& these)
                        {
-                         const auto& voxels = *these.labels->voxels;
-                         const Eigen::Vector3d voxel = voxels.geometry().voxelFromPatient(at);
-                         core::Index3 nearest{};
-                         for (std::size_t a = 0; a < 3; ++a)
-                           nearest[a] = static_cast<int>(
-                               std::floor(voxel[static_cast<Eigen::Index>(a)] + 0.5));
-                         if (!voxels.geometry().fullBox().contains(nearest))
-                           return false;
-                         const std::uint16_t index = voxels.at(nearest[0], nearest[1], nearest[2]);
-                         return std::find(these.indices.begin(), these.indices.end(), index) !=
-                                these.indices.end();
+                         const auto index = labelAt(*these.labels, at);
+                         return index && std::find(these.indices.begin(), these.indices.end(),
+                                                   *index) != these.indices.end();
                        });
   };
   for (int step = 0; step * kStep < kThickWall; ++step)

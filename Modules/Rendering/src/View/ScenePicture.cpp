@@ -27,11 +27,11 @@
 #include "SceneCheck.h"
 #include "ShadedMesh.h"
 #include "SurfaceActor.h"
-#include "ToolProps.h"
 #include "petrous/Rendering/PixelSamples.h"
 #include "petrous/Rendering/ReferenceRayCaster.h"
 #include "petrous/Rendering/RenderQuality.h"
 #include "petrous/Rendering/RenderingError.h"
+#include "petrous/Rendering/ToolProps.h"
 #include "petrous/Rendering/ToolShape.h"
 #include "petrous/Rendering/VolumeMapper.h"
 

@@ -1,4 +1,4 @@
-#include "ToolProps.h"
+#include "petrous/Rendering/ToolProps.h"
 
 #include <algorithm>
 #include <array>
@@ -30,6 +30,9 @@ namespace
 {
 
 constexpr double kPi = 3.14159265358979323846;
+
+constexpr std::array<double, 3> kGhostColor{0.35, 0.85, 1.0};
+constexpr std::array<double, 3> kGhostDrillingColor{1.0, 0.45, 0.85};
 
 // Relief of a finish over the ball of radius 1: longitude about the axis and latitude from the
 // equator towards the hand, rad. Only its slope is shaded, so that the ball stays the felt one.
@@ -121,12 +124,15 @@ vtkSmartPointer<vtkPolyData> ball(const Relief& relief)
 
 } // namespace
 
-ToolProps::ToolProps()
+ToolProps::ToolProps(Look look)
+  : m_idle(look == Look::Ghost ? kGhostColor : kBurrColor)
+  , m_drilling(look == Look::Ghost ? kGhostDrillingColor : kDrillingColor)
 {
-  m_burr->SetThetaResolution(48);
-  m_burr->SetPhiResolution(32);
-  m_shaft->SetResolution(32);
-  m_handpiece->SetResolution(48);
+  const bool isGhost = look == Look::Ghost;
+  m_burr->SetThetaResolution(isGhost ? 16 : 48);
+  m_burr->SetPhiResolution(isGhost ? 12 : 32);
+  m_shaft->SetResolution(isGhost ? 10 : 32);
+  m_handpiece->SetResolution(isGhost ? 12 : 48);
   vtkAlgorithm* const sources[3] = {m_burr, m_shaft, m_handpiece};
   const std::array<std::array<double, 3>, 3> colors{kBurrColor, kShaftColor, kHandpieceColor};
   for (std::size_t part = 0; part < m_actors.size(); ++part)
@@ -138,6 +144,14 @@ ToolProps::ToolProps()
     m_actors[part]->SetVisibility(0);
     m_actors[part]->PickableOff();
     vtkProperty* property = m_actors[part]->GetProperty();
+    if (isGhost)
+    {
+      property->SetColor(kGhostColor[0], kGhostColor[1], kGhostColor[2]);
+      property->SetRepresentationToWireframe();
+      property->LightingOff();
+      property->SetLineWidth(1.5F);
+      continue;
+    }
     property->SetColor(colors[part][0], colors[part][1], colors[part][2]);
     property->SetInterpolationToPhong();
     property->SetAmbient(kAmbient);
@@ -178,7 +192,7 @@ void ToolProps::setPose(const std::optional<ToolPose>& tool)
   m_handpiece->SetRadius(kHandpieceRadius);
   m_handpiece->SetHeight(kHandpieceLength);
   m_handpiece->SetCenter(0.0, kShaftLength + 0.5 * kHandpieceLength, 0.0);
-  const auto& burr = tool->drilling ? kDrillingColor : kBurrColor;
+  const auto& burr = tool->drilling ? m_drilling : m_idle;
   m_actors[0]->GetProperty()->SetColor(burr[0], burr[1], burr[2]);
 
   const Eigen::Matrix3d turn =

@@ -17,11 +17,17 @@ class vtkSphereSource;
 namespace petrous::rendering
 {
 
-/// The drill: burr, shaft and handpiece.
+/// The drill: burr, shaft and handpiece of ToolShape.h. A ghost is a coarse wire frame without
+/// light, which hides nothing.
 class ToolProps
 {
 public:
-  ToolProps();
+  enum class Look
+  {
+    Solid,
+    Ghost
+  };
+  explicit ToolProps(Look look = Look::Solid);
   ~ToolProps();
 
   void addTo(vtkRenderer* renderer) const;
@@ -36,6 +42,7 @@ private:
   vtkNew<vtkCylinderSource> m_shaft;
   vtkNew<vtkCylinderSource> m_handpiece;
   std::array<vtkSmartPointer<vtkActor>, 3> m_actors;
+  std::array<double, 3> m_idle, m_drilling; // colours of the burr
 };
 
 } // namespace petrous::rendering

@@ -22,6 +22,7 @@ set(allowed_Scene Core Volume Appearance Dissection)
 set(allowed_Session Core Volume Haptics Dissection Scene)
 set(allowed_Library Core Volume Appearance Dissection Scene Imaging)
 set(allowed_Video Core)
+set(allowed_Sound Core)
 set(allowed_Network Core Volume Scene Imaging Library)
 set(allowed_Rendering Core Volume Appearance)
 set(allowed_Interaction
@@ -29,11 +30,11 @@ set(allowed_Interaction
 # The application's view models: built like a module, and independent of Qt (no toolkit below).
 set(allowed_Presenters
   Core Volume Appearance Imaging Phantom Registration Segmentation Haptics Devices Dissection Session Scene
-  Library Video Network Rendering Interaction)
+  Library Video Sound Network Rendering Interaction)
 set(folder_Presenters Application/Presenters)
 set(known_modules
   Core Volume Appearance Imaging Phantom Registration Segmentation Haptics Devices Dissection Session Scene
-  Library Video Network Rendering Interaction Presenters)
+  Library Video Sound Network Rendering Interaction Presenters)
 
 # The toolkits whose headers a module may include; modules not listed here include none. Qt is
 # reserved for the application.

@@ -12,6 +12,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
+#include <QMessageBox>
 #include <QPlainTextEdit>
 #include <QProgressDialog>
 #include <QPushButton>
@@ -28,6 +29,7 @@
 #include "PseudonymsDialog.h"
 #include "Theme.h"
 #include "petrous/Library/PseudonymMap.h"
+#include "petrous/Network/DicomNode.h"
 #include "petrous/Network/NodeList.h"
 #include "petrous/Presenters/CaseTransfer.h"
 
@@ -405,6 +407,50 @@ TEST_F(Exchange, ReceivingIsCancelledAndGoesOn)
       << line.toStdString();
   ASSERT_TRUE(isOpen("received"));
   EXPECT_EQ(window().model().value().ct.geometry.dims(), (core::Index3{64, 64, 64}));
+}
+
+// Received images whose header states 12 bits of 16, with a pixel of 5000: asked as for a folder.
+TEST_F(Exchange, ReceivedBitsThatMakeNoSenseAreAskedAbout)
+{
+  skipWithoutOrthanc();
+  if (IsSkipped())
+    return;
+  const network::test::Orthanc orthanc(folder(), {});
+  network::store(orthanc.node(), writeUndeclaredBits(folder() / "odd"));
+  network::NodeList(libraryFolder()).add(orthanc.node());
+  openWindow();
+  QString why;
+  onDialog(
+      [&](QDialog& dialog)
+      {
+        if (auto* box = qobject_cast<QMessageBox*>(&dialog))
+        {
+          why = box->objectName() + ": " + box->text() + ' ' + box->informativeText();
+          for (QAbstractButton* one : box->buttons())
+            if (one->text().remove('&').contains("Keep the bits"))
+            {
+              one->click();
+              return true;
+            }
+          box->reject();
+          return true;
+        }
+        if (dialog.objectName() != "receive")
+          return false;
+        type(dialog, "receiveId", "PHANTOM");
+        button(dialog, "receiveSearch").click();
+        auto* found = dialog.findChild<QTreeWidget*>("receiveFound");
+        EXPECT_TRUE(waitFor(
+            [&] {
+              return found->topLevelItemCount() == 1 && found->topLevelItem(0)->childCount() == 1;
+            }));
+        button(dialog, "primary").click();
+        return false; // the bits are asked about
+      });
+  menu("receiveCase");
+  ASSERT_TRUE(isOpen("received")) << why.toStdString();
+  EXPECT_TRUE(why.startsWith("askBits")) << why.toStdString();
+  EXPECT_EQ(window().model().value().ct.range.max, 5000.0);
 }
 
 // Where the library has a case of its name, another one is asked for; what another node listed is

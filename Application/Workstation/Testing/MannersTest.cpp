@@ -283,9 +283,15 @@ protected:
     }
     return cut;
   }
+  /// Once the layout has settled, which a loaded machine puts off.
   static void expectWhole(QWidget& within, const QString& where)
   {
-    const QStringList cut = cutTexts(within);
+    QStringList cut = cutTexts(within);
+    for (int tries = 0; !cut.isEmpty() && tries < 20; ++tries)
+    {
+      QTest::qWait(50);
+      cut = cutTexts(within);
+    }
     EXPECT_TRUE(cut.isEmpty()) << where.toStdString() << ":\n" << cut.join('\n').toStdString();
   }
   static bool opensDialog(const QAction& action)
@@ -298,12 +304,14 @@ protected:
   {
     std::set<QString> seen;
     QPointer<QDialog> last;
+    bool found = false;
     QString entry;
     const auto look = [&](QDialog& dialog)
     {
       if (&dialog == last)
         return dialog.reject();
       last = &dialog;
+      found = true;
       if (!qobject_cast<QFileDialog*>(&dialog)) // Qt's own
       {
         seen.insert(dialog.objectName());
@@ -341,12 +349,17 @@ protected:
         continue;
       entry = QString(action->text()).remove('&');
       last.clear();
+      found = false;
       action->trigger();
-      QTest::qWait(30); // one that returns at once
-      for (QWidget* top : QApplication::topLevelWidgets())
-        if (auto* dialog = qobject_cast<QDialog*>(top);
-            dialog && dialog->isVisible() && !qobject_cast<QProgressDialog*>(dialog))
-          look(*dialog);
+      // One that returns at once, or comes after some work.
+      for (int tries = 0; !found && tries < 10; ++tries)
+      {
+        QTest::qWait(30);
+        for (QWidget* top : QApplication::topLevelWidgets())
+          if (auto* dialog = qobject_cast<QDialog*>(top);
+              dialog && dialog->isVisible() && !qobject_cast<QProgressDialog*>(dialog))
+            look(*dialog);
+      }
       EXPECT_TRUE(
           waitFor([this] { return !window().busy() && !QApplication::activeModalWidget(); }))
           << entry.toStdString();
